@@ -1,0 +1,12 @@
+//! Geometry that every stage shares: vectors, triangle meshes, polylines, plane sections, distance fields.
+//!
+//! World frame: metres, origin on the floor between the feet, `x` to the subject's right, `y` to the front, `z` up.
+
+pub mod mesh;
+
+pub use mesh::TriMesh;
+
+/// A point or vector of the plane (pattern pieces), metres.
+pub type V2 = nalgebra::Vector2<f64>;
+/// A point or vector of space, metres.
+pub type V3 = nalgebra::Vector3<f64>;

@@ -1,0 +1,80 @@
+//! Measures (thesis 3.5, 6.2.5): how true a drape stays to its pattern.
+
+use crate::geom::V3;
+use crate::pattern::Garment;
+
+/// One measurement of one drape.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chi {
+    /// Number in the style.
+    pub no: u32,
+    /// Pattern length L2D, m.
+    pub l2d_m: f64,
+    /// Garment length L3D, m.
+    pub l3d_m: f64,
+}
+
+impl Chi {
+    /// Evaluation ratio chi = L3D / L2D [T 3.11].
+    #[must_use]
+    pub fn chi(&self) -> f64 {
+        self.l3d_m / self.l2d_m
+    }
+}
+
+/// Summary over the measurements of one drape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Metrics {
+    /// Number of measurements.
+    pub n: usize,
+    /// E: mean chi.
+    pub e_chi: f64,
+    /// SD: sample standard deviation of chi (n-1).
+    pub sd_chi: f64,
+    /// EI: mean |chi - 1|.
+    pub ei: f64,
+    /// Greatest |chi - 1|.
+    pub max_abs_error: f64,
+}
+
+/// Measures a garment whose vertices are at `positions`.
+///
+/// Each segment of a run stretches by the ratio of its chords; that ratio scales the arc of the drawn curve, so that
+/// chi is exactly 1 for an unstretched garment however coarse its mesh.
+#[must_use]
+pub fn measure(garment: &Garment, positions: &[V3]) -> Vec<Chi> {
+    garment
+        .measurements
+        .iter()
+        .map(|m| {
+            let mut l3d_m = 0.0;
+            for run in &m.runs {
+                for (ends, arc) in run.points.windows(2).zip(&run.arc_m) {
+                    let chord2 = (ends[1].at_rest(&garment.rest) - ends[0].at_rest(&garment.rest)).norm();
+                    let chord3 = (ends[1].at(positions) - ends[0].at(positions)).norm();
+                    l3d_m += arc * chord3 / chord2;
+                }
+            }
+            Chi { no: m.no, l2d_m: m.l2d_m, l3d_m }
+        })
+        .collect()
+}
+
+/// E, SD, EI and the greatest error of a set of measurements; `None` when there are none.
+#[must_use]
+pub fn metrics(chis: &[Chi]) -> Option<Metrics> {
+    if chis.is_empty() {
+        return None;
+    }
+    let n = chis.len() as f64;
+    let mean = chis.iter().map(Chi::chi).sum::<f64>() / n;
+    let squares: f64 = chis.iter().map(|c| (c.chi() - mean).powi(2)).sum();
+    let error = |c: &Chi| (c.chi() - 1.0).abs();
+    Some(Metrics {
+        n: chis.len(),
+        e_chi: mean,
+        sd_chi: if chis.len() > 1 { (squares / (n - 1.0)).sqrt() } else { 0.0 },
+        ei: chis.iter().map(error).sum::<f64>() / n,
+        max_abs_error: chis.iter().map(error).fold(0.0, f64::max),
+    })
+}

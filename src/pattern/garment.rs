@@ -1,0 +1,140 @@
+//! A garment ready to sew: triangulated pieces in their own planes, seams as vertex pairs, measurement paths.
+//!
+//! Every piece is drawn seen from its outside, `v` up towards the neck (against the direction in which the garment
+//! hangs), so that counter-clockwise triangles face outwards once sewn.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use crate::geom::{V2, V3};
+
+/// What a piece is worn as; decides how it is placed about the body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Role {
+    /// Front of the trunk.
+    Front,
+    /// Back of the trunk.
+    Back,
+    /// Sleeve of the subject's right arm.
+    SleeveRight,
+    /// Sleeve of the subject's left arm.
+    SleeveLeft,
+}
+
+/// One triangulated piece: ranges into the garment's arrays.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PieceMesh {
+    /// Identifier within the garment (`front`, `sleeve_right`, ...).
+    pub id: String,
+    /// How it is worn.
+    pub role: Role,
+    /// Its vertices in [`Garment::rest`].
+    pub vertices: Range<usize>,
+    /// Its triangles in [`Garment::triangles`].
+    pub triangles: Range<usize>,
+    /// Unit vector of the warp (grain line) in the piece's plane.
+    pub grain: V2,
+    /// Vertices of the named boundary edges, counter-clockwise, both end corners included.
+    pub edges: BTreeMap<String, Vec<usize>>,
+}
+
+/// A seam: pairs of garment vertices that are one vertex after sewing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SeamMesh {
+    /// Name in the seam file.
+    pub name: String,
+    /// Vertex pairs, in order along the seam.
+    pub pairs: Vec<[usize; 2]>,
+}
+
+/// A point of the cloth: a weighted mean of three vertices of one triangle (weights sum to 1).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MaterialPoint {
+    /// Garment vertices.
+    pub vertices: [usize; 3],
+    /// Their weights.
+    pub weights: [f64; 3],
+}
+
+impl MaterialPoint {
+    /// The point's place when the garment's vertices are at `positions`.
+    #[must_use]
+    pub fn at(&self, positions: &[V3]) -> V3 {
+        (0..3).map(|k| positions[self.vertices[k]] * self.weights[k]).sum()
+    }
+
+    /// The point's place in its piece's plane.
+    #[must_use]
+    pub fn at_rest(&self, rest: &[V2]) -> V2 {
+        (0..3).map(|k| rest[self.vertices[k]] * self.weights[k]).sum()
+    }
+}
+
+/// A connected stretch of cloth along which is measured, within one piece.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// Points in order; at least two.
+    pub points: Vec<MaterialPoint>,
+    /// Pattern length of each segment, m: the arc of the drawn curve, not its chord. One fewer than `points`.
+    pub arc_m: Vec<f64>,
+}
+
+/// Whether a measurement goes once round or from one end to another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MeasurementKind {
+    /// A closed loop round body or limb.
+    ClosedGirth,
+    /// A length with two ends.
+    OpenLength,
+}
+
+/// A measurement of the style, laid on the mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measurement {
+    /// Number in the style (`#1` ...).
+    pub no: u32,
+    /// Name.
+    pub name: String,
+    /// Loop or length.
+    pub kind: MeasurementKind,
+    /// Whether it runs along an edge that no seam holds.
+    pub is_free_edge: bool,
+    /// Pattern length L2D, m: the sum of all arcs.
+    pub l2d_m: f64,
+    /// Where it runs; the lengths of the runs add up.
+    pub runs: Vec<Run>,
+}
+
+/// Girth of the pattern at a body level, from the style's fit-reference measurement.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct FitLevel {
+    /// Body level (`chest`, `hip`, ...).
+    pub level: String,
+    /// Pattern girth there, m.
+    pub girth_m: f64,
+}
+
+/// A sewable garment of one size, meshed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Garment {
+    /// Style name.
+    pub name: String,
+    /// Size name.
+    pub size: String,
+    /// Pieces.
+    pub pieces: Vec<PieceMesh>,
+    /// Vertex positions in their pieces' planes, m.
+    pub rest: Vec<V2>,
+    /// Counter-clockwise triangles.
+    pub triangles: Vec<[usize; 3]>,
+    /// Seams.
+    pub seams: Vec<SeamMesh>,
+    /// Measurements.
+    pub measurements: Vec<Measurement>,
+    /// Pattern girths for the fit.
+    pub fit_levels: Vec<FitLevel>,
+    /// Edge length asked of the mesher, m.
+    pub edge_length_m: f64,
+}

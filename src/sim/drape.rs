@@ -1,0 +1,101 @@
+//! What both simulators return, and how they report while they run.
+
+use crate::geom::V3;
+
+/// Which simulator made a result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Simulator {
+    /// FEM-GS: physics.
+    Fem,
+    /// Hybrid-GS: geometry first, then physics.
+    Hybrid,
+}
+
+impl Simulator {
+    /// Name in the command line and in SQL.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Fem => "fem",
+            Self::Hybrid => "hybrid",
+        }
+    }
+}
+
+/// How far a garment has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Stage {
+    /// Seams closed.
+    Sewn,
+    /// Hybrid-GS: size restored.
+    Popup,
+    /// At rest on the body.
+    Drape,
+}
+
+/// One recorded step of a simulation.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Step {
+    /// Iteration number, over all levels.
+    pub iteration: u32,
+    /// Mesh level, 0 the coarsest.
+    pub level: u32,
+    /// Rms residual force over the mean vertex weight.
+    pub residual: f64,
+    /// Greatest seam gap, m.
+    pub seam_gap_m: f64,
+    /// Mean chi over the measurements.
+    pub e_chi: f64,
+}
+
+/// A sewn garment on a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drape {
+    /// How far it came.
+    pub stage: Stage,
+    /// World position of each garment vertex, m; the vertices of a seam pair coincide.
+    pub positions: Vec<V3>,
+    /// Whether the residual reached its tolerance with all seams closed.
+    pub converged: bool,
+    /// Iterations over all levels.
+    pub iterations: u32,
+    /// Rms residual force over the mean vertex weight.
+    pub residual: f64,
+    /// Deepest penetration of a vertex, edge or face sample into the body, m (0 when none).
+    pub penetration_max_m: f64,
+    /// Greatest distance between the two vertices of a seam pair, m.
+    pub seam_gap_max_m: f64,
+    /// Vertices once sewn (each welded group counts once).
+    pub welded_vertices: usize,
+    /// The run, step by step.
+    pub history: Vec<Step>,
+}
+
+/// What a simulator says while it works.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// What it is doing (`sew`, `drape`, ...).
+    pub phase: &'static str,
+    /// Share done, 0 to 1, as far as it can be told; never falls.
+    pub fraction: f64,
+    /// The latest step.
+    pub step: Step,
+}
+
+/// Receives progress and may ask to stop. Implemented by whoever runs a simulation.
+pub trait Monitor {
+    /// Called after each step; cheap.
+    fn progress(&mut self, progress: &Progress);
+    /// Asked between steps; `true` ends the simulation with an error.
+    fn cancelled(&self) -> bool {
+        false
+    }
+    /// Whether a live picture is wanted now; then [`Monitor::snapshot`] follows.
+    fn wants_snapshot(&mut self) -> bool {
+        false
+    }
+    /// Positions of the garment at this moment.
+    fn snapshot(&mut self, _positions: &[V3]) {}
+}
