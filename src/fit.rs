@@ -1,1 +1,157 @@
-//! Fit (thesis 6.2.3): ease at a level and the fit class it means.
+//! Fit (thesis 6.2.3): ease at a level, the fit class it means, and the simulator the thesis's rule then names.
+
+use crate::pattern::FitLevel;
+use crate::sim::Simulator;
+
+/// Fit class of a garment on a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum FitClass {
+    /// Ease below the lower cut.
+    Tight,
+    /// Ease between the cuts, both included.
+    Just,
+    /// Ease above the upper cut.
+    Loose,
+}
+
+impl FitClass {
+    /// Name in SQL and on screens.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Tight => "tight",
+            Self::Just => "just",
+            Self::Loose => "loose",
+        }
+    }
+
+    /// The simulator the thesis's rule names for this class [T 6.4.2, 6.5]: FEM for loose, Hybrid otherwise.
+    #[must_use]
+    pub fn rule_says(self) -> Simulator {
+        match self {
+            Self::Loose => Simulator::Fem,
+            Self::Tight | Self::Just => Simulator::Hybrid,
+        }
+    }
+}
+
+/// Where the fit classes meet, and the bands around the cuts in which the thesis's own ranges overlap; metres of ease.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Cuts {
+    /// Below it a fit is tight.
+    pub tight_below_m: f64,
+    /// Above it a fit is loose.
+    pub loose_above_m: f64,
+}
+
+impl Default for Cuts {
+    fn default() -> Self {
+        Self { tight_below_m: 0.05, loose_above_m: 0.10 }
+    }
+}
+
+impl Cuts {
+    /// Class of an ease, m.
+    #[must_use]
+    pub fn classify(&self, ease_m: f64) -> FitClass {
+        if ease_m < self.tight_below_m {
+            FitClass::Tight
+        } else if ease_m > self.loose_above_m {
+            FitClass::Loose
+        } else {
+            FitClass::Just
+        }
+    }
+
+    /// Whether an ease lies where the thesis's printed ranges overlap: up to 1 cm under the lower cut, up to 2 cm over the upper.
+    #[must_use]
+    pub fn is_borderline(&self, ease_m: f64) -> bool {
+        (self.tight_below_m - 0.01..self.tight_below_m).contains(&ease_m)
+            || (ease_m > self.loose_above_m && ease_m <= self.loose_above_m + 0.02)
+    }
+}
+
+/// Ease of a garment on a body at one level.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ease {
+    /// Body level (`chest`, `hip`, ...).
+    pub level: String,
+    /// Girth of the pattern there, m.
+    pub pattern_girth_m: f64,
+    /// Girth of the body there, m.
+    pub body_girth_m: f64,
+    /// Fit class of that ease.
+    pub class: FitClass,
+    /// Whether the ease lies in an overlap of the thesis's ranges.
+    pub borderline: bool,
+}
+
+impl Ease {
+    /// Pattern girth minus body girth, m.
+    #[must_use]
+    pub fn ease_m(&self) -> f64 {
+        self.pattern_girth_m - self.body_girth_m
+    }
+
+    /// Whether the pattern is smaller than the body.
+    #[must_use]
+    pub fn is_undersized(&self) -> bool {
+        self.ease_m() < 0.0
+    }
+}
+
+/// Ease at each of a garment's fit levels; levels whose body girth is unknown are left out.
+#[must_use]
+pub fn ease(levels: &[FitLevel], body_girth_m: impl Fn(&str) -> Option<f64>, cuts: &Cuts) -> Vec<Ease> {
+    levels
+        .iter()
+        .filter_map(|level| {
+            let body_girth_m = body_girth_m(&level.level)?;
+            let ease_m = level.girth_m - body_girth_m;
+            Some(Ease {
+                level: level.level.clone(),
+                pattern_girth_m: level.girth_m,
+                body_girth_m,
+                class: cuts.classify(ease_m),
+                borderline: cuts.is_borderline(ease_m),
+            })
+        })
+        .collect()
+}
+
+/// The ease that decides the fit class: the least one.
+#[must_use]
+pub fn deciding(eases: &[Ease]) -> Option<&Ease> {
+    eases.iter().min_by(|a, b| a.ease_m().total_cmp(&b.ease_m()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn classes_follow_the_cuts() {
+        let check = |ease_mm: f64, class: FitClass, borderline: bool| {
+            let cuts = Cuts::default();
+            assert_eq!(cuts.classify(ease_mm * 1e-3), class, "{ease_mm} mm");
+            assert_eq!(cuts.is_borderline(ease_mm * 1e-3), borderline, "{ease_mm} mm");
+        };
+        check(-46.0, FitClass::Tight, false);
+        check(39.9, FitClass::Tight, false);
+        check(45.0, FitClass::Tight, true);
+        check(50.0, FitClass::Just, false);
+        check(100.0, FitClass::Just, false);
+        check(111.1, FitClass::Loose, true);
+        check(121.0, FitClass::Loose, false);
+    }
+
+    #[test]
+    fn the_least_ease_decides() {
+        let levels = [FitLevel { level: "chest".into(), girth_m: 1.0 }, FitLevel { level: "hip".into(), girth_m: 1.0 }];
+        let body = |level: &str| Some(if level == "hip" { 1.02 } else { 0.9 });
+        let eases = ease(&levels, body, &Cuts::default());
+        let least = deciding(&eases).expect("two levels");
+        assert_eq!((least.level.as_str(), least.class, least.is_undersized()), ("hip", FitClass::Tight, true));
+    }
+}
