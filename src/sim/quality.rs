@@ -1,0 +1,24 @@
+//! Checks on a finished drape, made on the meshes themselves and not on what the solver believed.
+
+use crate::body::Body;
+use crate::geom::{Surface, V3};
+use crate::pattern::Garment;
+
+/// Deepest point of the cloth inside the body, m: vertices, edge middles and triangle centres against the exact surface;
+/// 0 when none is inside.
+#[must_use]
+pub fn penetration_m(body: &Body, garment: &Garment, positions: &[V3]) -> f64 {
+    let Ok(surface) = Surface::new(&body.mesh) else { return f64::NAN };
+    let samples = garment.triangles.iter().flat_map(|t| {
+        let [a, b, c] = t.map(|v| positions[v]);
+        [a, b, c, (a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0, (a + b + c) / 3.0]
+    });
+    samples.map(|p| -surface.signed_distance(&p)).fold(0.0, f64::max)
+}
+
+/// Greatest distance between the two vertices of a seam pair, m.
+#[must_use]
+pub fn seam_gap_m(garment: &Garment, positions: &[V3]) -> f64 {
+    let pairs = garment.seams.iter().flat_map(|s| &s.pairs);
+    pairs.map(|&[a, b]| (positions[a] - positions[b]).norm()).fold(0.0, f64::max)
+}
