@@ -10,7 +10,7 @@ use crate::body::Body;
 use crate::geom::{DistanceField, V3};
 use crate::pattern::Garment;
 use crate::sim::cloth::Cloth;
-use crate::sim::contact::BodyContact;
+use crate::sim::contact::{BodyContact, ClothContact};
 use crate::sim::levels::prolong;
 use crate::sim::quality;
 use crate::sim::sewing::{self, Springs};
@@ -99,6 +99,7 @@ fn settle(
     let mut x = cloth.weld(&positions);
     let contact = BodyContact::new(field, params.contact, &cloth.areas);
     let mut system = System::new(&cloth, contact, None);
+    system.self_contact = Some(ClothContact::new(params.self_contact, &cloth.triangles, &cloth.areas));
     let mut residual = run.drape(garment, &mut system, &mut x, Phase::frictionless(params, level, run.levels()))?;
     if level == run.levels() {
         system.contact.set_friction(Some(fabric.friction_body));

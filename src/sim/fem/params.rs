@@ -1,6 +1,6 @@
 //! Parameters of FEM-GS.
 
-use crate::sim::contact::ContactParams;
+use crate::sim::contact::{ClothContactParams, ContactParams};
 use crate::sim::solver::StepParams;
 
 /// How FEM-GS places, sews and drapes.
@@ -38,6 +38,8 @@ pub struct Params {
     pub max_iterations: u32,
     /// Body contact.
     pub contact: ContactParams,
+    /// Contact of the cloth with itself.
+    pub self_contact: ClothContactParams,
     /// Stepping.
     pub step: StepParams,
 }
@@ -61,6 +63,7 @@ impl Default for Params {
             tolerance: 0.01,
             max_iterations: 200,
             contact: ContactParams::default(),
+            self_contact: ClothContactParams::default(),
             step: StepParams::default(),
         }
     }

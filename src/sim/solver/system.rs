@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 use super::operator::Operator;
 use crate::geom::V3;
 use crate::sim::cloth::Cloth;
-use crate::sim::contact::BodyContact;
+use crate::sim::contact::{BodyContact, ClothContact};
 use crate::sim::sewing::Springs;
 
 /// Standard gravity, m/s2.
@@ -19,6 +19,8 @@ pub struct System<'a> {
     pub weights: Vec<f64>,
     /// Contact with the body.
     pub contact: BodyContact<'a>,
+    /// Contact of the cloth with itself.
+    pub self_contact: Option<ClothContact<'a>>,
     /// Seam springs, until the seams are welded.
     pub springs: Option<Springs>,
 }
@@ -31,7 +33,7 @@ impl<'a> System<'a> {
         for &v in springs.iter().flat_map(|s| &s.pairs).flatten() {
             weights[v] = 0.0;
         }
-        Self { cloth, weights, contact, springs }
+        Self { cloth, weights, contact, self_contact: None, springs }
     }
 
     /// Mean weight of a vertex, N: the yardstick of the residual.
@@ -48,6 +50,7 @@ impl<'a> System<'a> {
             + self.cloth.membrane.energy(x)
             + self.cloth.bending.energy(x)
             + self.contact.energy(x)
+            + self.self_contact.as_ref().map_or(0.0, |c| c.energy(x))
             + self.springs.as_ref().map_or(0.0, |s| s.energy(x))
     }
 
@@ -61,6 +64,10 @@ impl<'a> System<'a> {
         cloth.bending.add_forces(x, &mut forces);
         self.contact.assemble(x, &mut forces, &mut diagonal);
         let springs = self.springs.as_ref().map_or_else(Vec::new, |s| s.assemble(x, &mut forces));
+        let contacts = self.self_contact.as_mut().map_or_else(Vec::new, |c| {
+            c.update(x);
+            c.assemble(x, &mut forces)
+        });
         let operator = Operator {
             diagonal,
             membrane_pairs: &cloth.membrane.pairs,
@@ -68,7 +75,7 @@ impl<'a> System<'a> {
             bending_pairs: &cloth.bending.pairs,
             bending: &cloth.bending.entries,
             springs,
-            contacts: Vec::new(),
+            contacts,
         };
         (forces, operator)
     }
