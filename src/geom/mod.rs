@@ -4,6 +4,7 @@
 
 pub mod field;
 pub mod mesh;
+pub mod polyline;
 pub mod shapes;
 pub mod surface;
 
