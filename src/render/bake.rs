@@ -29,6 +29,25 @@ impl Floor {
         Self { z, low: [centre.x - radius, centre.y - radius], cell, openness: vec![0.0; CELLS * CELLS] }
     }
 
+    /// Evens out the steps that single directions leave, and lets the shadow end before the border does.
+    fn soften(&mut self) {
+        for _ in 0..3 {
+            let before = self.openness.clone();
+            for j in 1..CELLS - 1 {
+                for i in 1..CELLS - 1 {
+                    let row = |j: usize| before[j * CELLS + i - 1] + before[j * CELLS + i] + before[j * CELLS + i + 1];
+                    self.openness[j * CELLS + i] = (row(j - 1) + row(j) + row(j + 1)) / 9.0;
+                }
+            }
+        }
+        let from_centre = |k: usize| (2.0 * k as f32 + 1.0) / CELLS as f32 - 1.0;
+        for (k, open) in self.openness.iter_mut().enumerate() {
+            let r = from_centre(k % CELLS).hypot(from_centre(k / CELLS));
+            let fade = ((1.0 - r) / 0.6).clamp(0.0, 1.0);
+            *open = 1.0 - (1.0 - *open) * fade * fade * (3.0 - 2.0 * fade);
+        }
+    }
+
     fn points(&self) -> Vec<Vector3<f32>> {
         let at = |i: usize, axis: usize| self.low[axis] + (i as f32 + 0.5) * self.cell;
         (0..CELLS * CELLS).map(|k| Vector3::new(at(k % CELLS, 0), at(k / CELLS, 1), self.z)).collect()
@@ -99,7 +118,7 @@ pub(super) fn light(scene: &mut Scene, floor_z: f32) {
     // Points stand off their surface by a little more than a map sample, so that a surface does not shadow itself.
     let sample = 2.0 * scene.radius / MAP as f32;
     let (stand_off, bias) = (1.2 * sample, 1.2 * sample);
-    let mut floor = Floor::new(floor_z, scene.centre, scene.radius * 1.5);
+    let mut floor = Floor::new(floor_z, scene.centre, scene.radius * 0.75);
     let floor_points = floor.points();
     let mut seen = vec![[0.0_f32; 2]; scene.positions.len()];
     let mut whole = vec![[0.0_f32; 2]; scene.positions.len()];
@@ -118,12 +137,15 @@ pub(super) fn light(scene: &mut Scene, floor_z: f32) {
                 }
             }
         }
-        floor_whole += towards.z;
+        // High light counts more: the shadow gathers where the subject stands.
+        let weight = towards.z.powi(2);
+        floor_whole += weight;
         for (open, point) in floor.openness.iter_mut().zip(&floor_points) {
-            *open += if map.open(point, true, bias) { towards.z } else { 0.0 };
+            *open += if map.open(point, true, bias) { weight } else { 0.0 };
         }
     }
     floor.openness.iter_mut().for_each(|open| *open /= floor_whole);
+    floor.soften();
     let share = |seen: f32, whole: f32| if whole > 0.0 { seen / whole } else { 1.0 };
     scene.openness = seen.iter().zip(&whole).map(|(s, w)| [share(s[0], w[0]), share(s[1], w[1])]).collect();
     scene.floor = floor;

@@ -7,8 +7,8 @@
 mod bake;
 mod camera;
 mod colour;
-mod relief;
 mod raster;
+mod relief;
 mod scene;
 mod shade;
 mod sheet;
@@ -39,7 +39,9 @@ pub enum RenderError {
         vertices: usize,
     },
     /// A position is not a number.
-    #[error("layer {layer}, vertex {vertex}: position is not finite; every coordinate must be a finite number of metres")]
+    #[error(
+        "layer {layer}, vertex {vertex}: position is not finite; every coordinate must be a finite number of metres"
+    )]
     NotFinite {
         /// Index of the layer.
         layer: usize,

@@ -5,7 +5,7 @@
 pub(super) fn relief(depth: &[f32], width: usize, per_m: f32) -> Vec<f32> {
     let mut gain = vec![1.0_f32; depth.len()];
     // (radius of the surroundings, depth that counts as much, strength), metres.
-    for (radius_m, full_m, strength) in [(0.008, 0.004, 0.20), (0.030, 0.020, 0.26)] {
+    for (radius_m, full_m, strength) in [(0.008, 0.004, 0.24), (0.030, 0.018, 0.32)] {
         let radius = ((radius_m * per_m).round() as usize).clamp(2, width / 2 + 2);
         let surroundings = mean_around(depth, width, radius);
         for ((g, &d), &mean) in gain.iter_mut().zip(depth).zip(&surroundings) {

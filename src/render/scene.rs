@@ -41,26 +41,26 @@ impl Material {
     #[must_use]
     pub fn cloth(front: Rgb) -> Self {
         let grey = (u16::from(front.0) + u16::from(front.1) + u16::from(front.2)) / 3;
-        let dull = |v: u8| ((u16::from(v) * 3 + grey) / 4 * 5 / 9) as u8;
+        let dull = |v: u8| ((u16::from(v) * 3 + grey) / 4 * 3 / 4) as u8;
         Self { front, back: Rgb(dull(front.0), dull(front.1), dull(front.2)), recede_m: 0.0, seams: true }
     }
 
     /// FEM-GS results: green.
     #[must_use]
     pub fn fem() -> Self {
-        Self::cloth(Rgb(0x4f, 0xa3, 0x7c))
+        Self::cloth(Rgb(0x62, 0xb3, 0x8c))
     }
 
     /// Hybrid-GS after pop-up: yellow.
     #[must_use]
     pub fn popup() -> Self {
-        Self::cloth(Rgb(0xe3, 0xb3, 0x3d))
+        Self::cloth(Rgb(0xea, 0xbe, 0x4c))
     }
 
     /// Hybrid-GS after draping: blue.
     #[must_use]
     pub fn hybrid() -> Self {
-        Self::cloth(Rgb(0x4f, 0x86, 0xc0))
+        Self::cloth(Rgb(0x5f, 0x97, 0xd0))
     }
 }
 

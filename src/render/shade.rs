@@ -14,9 +14,23 @@ const FINE: usize = 2;
 /// Samples along a side of the key light's shadow map.
 const SHADOW: usize = 1280;
 /// Where around a point the shadow map is asked, in map samples: a disc, for a soft edge.
-const TAPS: [[f32; 2]; 12] = [
-    [0.0, 0.6], [1.6, 0.3], [-1.5, 0.8], [0.5, -1.7], [-0.7, 2.1], [2.2, 2.0],
-    [-2.6, -0.6], [2.9, -1.2], [-1.2, -2.7], [1.3, 3.3], [-3.0, 2.2], [1.9, -3.2],
+const TAPS: [[f32; 2]; 16] = [
+    [0.4, 0.7],
+    [1.9, -0.6],
+    [-1.6, 1.4],
+    [-1.3, -1.8],
+    [1.5, 2.6],
+    [-3.2, -0.3],
+    [2.9, -2.5],
+    [0.2, -3.7],
+    [-2.4, 3.3],
+    [4.2, 1.0],
+    [-4.0, -2.6],
+    [1.0, 4.9],
+    [4.0, 3.6],
+    [-4.9, 1.6],
+    [-1.8, -4.9],
+    [3.2, -4.3],
 ];
 
 /// Takes a picture of the scene.
@@ -63,7 +77,7 @@ impl ShadowMap {
     fn reaches(&self, point: &Vector3<f32>) -> f32 {
         let [x, y, depth] = self.projection.project(point);
         // A map sample's own tilt would shadow it: forgive what a tap's distance can explain.
-        let bias = 3.0 / self.projection.per_m;
+        let bias = 4.5 / self.projection.per_m;
         let open = TAPS.iter().filter(|tap| {
             let (x, y) = (x + tap[0], y + tap[1]);
             let inside = x >= 0.0 && y >= 0.0 && x < SHADOW as f32 && y < SHADOW as f32;
@@ -180,7 +194,7 @@ impl<'a> Studio<'a> {
         if viewer.z > 0.01 {
             let start = self.projection.unproject(x, y, 0.0);
             let point = start - viewer * ((start.z - self.scene.floor.z) / viewer.z);
-            light = 1.0 - 0.75 * (1.0 - self.scene.floor.openness(point.x, point.y));
+            light = self.scene.floor.openness(point.x, point.y);
         }
         [0, 1, 2].map(|k| (self.backdrop[0][k] * (1.0 - t) + self.backdrop[1][k] * t) * light)
     }
@@ -199,27 +213,30 @@ impl<'a> Studio<'a> {
         let normal = smooth.try_normalize(1e-12).unwrap_or(viewer) * sign;
         let point = a * w[0] + b * w[1] + c * w[2];
         let open = blend(&|v| scene.openness[v][usize::from(back)]);
-        let albedo = self.albedo(triangle, back, blend);
-        let shadow = self.shadow.reaches(&(point + normal * 0.004));
-        self.lit(albedo, &normal, open, shadow)
+        let (albedo, coded) = self.albedo(triangle, back, blend);
+        let lit = self.lit(albedo, &normal, open, self.shadow.reaches(&(point + normal * 0.004)));
+        // A colour that codes a value must stay readable in the shade: half of it shines by itself.
+        if coded { [0, 1, 2].map(|k| 0.5 * lit[k] + 0.42 * albedo[k]) } else { lit }
     }
 
     /// Sky, key, fill and rim light on a matt surface.
     fn lit(&self, albedo: [f32; 3], normal: &Vector3<f32>, open: f32, shadow: f32) -> [f32; 3] {
         let [key, fill, rim] = self.lights.map(|l| normal.dot(&l).max(0.0));
         let facing = normal.dot(&self.projection.axes[2]).clamp(0.0, 1.0);
-        let sky = 0.36 + 0.14 * normal.z;
+        let sky = 0.35 + 0.12 * normal.z;
         let edge = (1.0 - facing).powi(3) * (0.25 + 0.75 * rim);
-        let occlusion = open * open * (1.4 - 0.4 * open);
+        // Cloth and skin pass light on: a hollow keeps a fifth of the sky.
+        let occlusion = 0.2 + 0.8 * open * open * (1.4 - 0.4 * open);
         let warm = [1.04, 1.0, 0.95];
         let cool = [0.97, 1.0, 1.05];
         [0, 1, 2].map(|k| {
-            let matt = cool[k] * (sky * occlusion + 0.16 * fill * open) + warm[k] * 0.80 * key * shadow;
-            albedo[k] * (matt + 0.30 * edge * open) + 0.05 * edge * open
+            let matt = cool[k] * (sky * occlusion + 0.16 * fill * open) + warm[k] * 0.73 * key * shadow;
+            albedo[k] * (matt + 0.26 * edge * open) + 0.04 * edge * open
         })
     }
 
-    fn albedo(&self, triangle: usize, back: bool, blend: impl Fn(&dyn Fn(usize) -> f32) -> f32) -> [f32; 3] {
+    /// Linear colour of a surface point, and whether it stands for a value.
+    fn albedo(&self, triangle: usize, back: bool, blend: impl Fn(&dyn Fn(usize) -> f32) -> f32) -> ([f32; 3], bool) {
         let layer = self.scene.layer_of[triangle];
         let look = &self.scene.looks[layer];
         match &look.field {
@@ -228,9 +245,9 @@ impl<'a> Studio<'a> {
                     Values::Vertices(values) => f64::from(blend(&|v| values[v - look.first_vertex] as f32)),
                     Values::Triangles(values) => values[triangle - look.first_triangle],
                 };
-                field.scale.colour(value).linear()
+                (field.scale.colour(value).linear(), true)
             }
-            _ => self.colours[layer][usize::from(back)],
+            _ => (self.colours[layer][usize::from(back)], false),
         }
     }
 }

@@ -48,7 +48,9 @@ pub fn contact_sheet(title: &str, cells: &[Cell], columns: usize) -> Result<Rgba
 }
 
 fn svg_head(width: u32, height: u32) -> String {
-    format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" font-family=\"DejaVu Sans\">")
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" font-family=\"DejaVu Sans\">"
+    )
 }
 
 fn label(svg: &mut String, x: u32, y: u32, size: u32, attributes: &str, text: &str) {
@@ -70,20 +72,36 @@ pub fn draw_legend(picture: &mut RgbaImage, scale: &Scale) -> Result<(), RenderE
     let (left, top) = (text, text * 2.6);
     let height = top + bar_height + text * 1.2;
     let (width, height) = (f64::from(picture.width()).ceil() as u32, height.ceil() as u32);
+    let unit = if scale.unit.is_empty() { String::new() } else { format!(" [{}]", scale.unit) };
+    let caption = format!("{}{unit}", scale.label);
     let mut svg = svg_head(width, height);
+    let _ = write!(
+        svg,
+        "<rect x=\"{}\" y=\"0\" width=\"{}\" height=\"{height}\" rx=\"{}\" fill=\"#fff\" fill-opacity=\"0.82\"/>",
+        left * 0.4,
+        text * (caption.chars().count() as f64 * 0.62).max(6.5) + text * 1.2,
+        text * 0.5,
+    );
     const STRIPS: u32 = 64;
     for strip in 0..STRIPS {
         let t = 1.0 - (f64::from(strip) + 0.5) / f64::from(STRIPS);
         let (y, h) = (top + bar_height * f64::from(strip) / f64::from(STRIPS), bar_height / f64::from(STRIPS) + 0.6);
         let colour = scale.map.at(t).hex();
-        let _ = write!(svg, "<rect x=\"{left}\" y=\"{y:.2}\" width=\"{bar_width}\" height=\"{h:.2}\" fill=\"{colour}\"/>");
+        let _ =
+            write!(svg, "<rect x=\"{left}\" y=\"{y:.2}\" width=\"{bar_width}\" height=\"{h:.2}\" fill=\"{colour}\"/>");
     }
     let _ = write!(
         svg,
         "<rect x=\"{left}\" y=\"{top}\" width=\"{bar_width}\" height=\"{bar_height}\" fill=\"none\" stroke=\"{INK}\" stroke-width=\"{:.1}\"/>",
         text / 16.0
     );
-    let decimals = if scale.high - scale.low >= 20.0 { 0 } else if scale.high - scale.low >= 1.0 { 1 } else { 2 };
+    let decimals = if scale.high - scale.low >= 20.0 {
+        0
+    } else if scale.high - scale.low >= 1.0 {
+        1
+    } else {
+        2
+    };
     for tick in 0..5 {
         let t = f64::from(tick) / 4.0;
         let (y, value) = (top + bar_height * (1.0 - t), scale.low + t * (scale.high - scale.low));
@@ -101,8 +119,7 @@ pub fn draw_legend(picture: &mut RgbaImage, scale: &Scale) -> Result<(), RenderE
             y + text * 0.36,
         );
     }
-    let unit = if scale.unit.is_empty() { String::new() } else { format!(" [{}]", scale.unit) };
-    label(&mut svg, left as u32, (text * 1.6) as u32, text as u32, "", &format!("{}{unit}", scale.label));
+    label(&mut svg, left as u32, (text * 1.6) as u32, text as u32, "", &caption);
     svg.push_str("</svg>");
     let drawing = rasterise_svg(&svg, 1.0)?;
     let y = i64::from(picture.height()) - i64::from(drawing.height()) - text as i64;

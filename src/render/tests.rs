@@ -38,7 +38,8 @@ fn dressed_capsule() -> (TriMesh, TriMesh) {
         })
         .collect();
     let body = lathe(&profile, 60, |p| p);
-    let tube: Vec<_> = (0..=60).map(|i| (0.145 + 0.09 * (1.0 - f64::from(i) / 60.0), 0.6 + 0.75 * f64::from(i) / 60.0)).collect();
+    let tube: Vec<_> =
+        (0..=60).map(|i| (0.145 + 0.09 * (1.0 - f64::from(i) / 60.0), 0.6 + 0.75 * f64::from(i) / 60.0)).collect();
     let flute = |p: V3| {
         let depth = 0.16 * ((1.35 - p.z) / 0.75);
         let factor = 1.0 + depth * (9.0 * p.y.atan2(p.x)).sin();
@@ -90,7 +91,8 @@ fn light_comes_from_above_left_and_hollows_are_darker() {
     assert!(grey(32, 30) > grey(66, 68) + 60, "{} {}", grey(32, 30), grey(66, 68));
 
     let scene = Scene::new(vec![Layer::new(&body, Material::form()), Layer::new(&cloth, Material::fem())]).unwrap();
-    let under_the_skirt = scene.openness[..body.positions.len()][60 * 24..60 * 25].iter().map(|o| o[0]).sum::<f32>() / 60.0;
+    let under_the_skirt =
+        scene.openness[..body.positions.len()][60 * 24..60 * 25].iter().map(|o| o[0]).sum::<f32>() / 60.0;
     let bare = scene.openness[60 * 55..60 * 56].iter().map(|o| o[0]).sum::<f32>() / 60.0;
     assert!(bare > 0.9 && under_the_skirt < 0.5, "{bare} {under_the_skirt}");
 }
@@ -111,7 +113,9 @@ fn pictures_of_one_frame_share_their_scale() {
 fn fields_colour_the_cloth_and_must_fit_it() {
     let ball = sphere(0.25, V3::zeros());
     let scale = Scale::diverging(1.0, 0.2, "stretch", "");
-    let layer = |n: usize, value: f64| Layer::new(&ball, Material::fem()).with_field(Values::Triangles(vec![value; n]), scale.clone());
+    let layer = |n: usize, value: f64| {
+        Layer::new(&ball, Material::fem()).with_field(Values::Triangles(vec![value; n]), scale.clone())
+    };
     let camera = Camera::new(View::Front, Frame::enclosing([&ball], 1.0));
     let centre = |value| {
         let scene = Scene::new(vec![layer(ball.triangles.len(), value)]).unwrap();
@@ -125,9 +129,15 @@ fn fields_colour_the_cloth_and_must_fit_it() {
 #[test]
 fn broken_meshes_and_sizes_are_refused() {
     let mesh = TriMesh { positions: vec![V3::zeros(); 3], triangles: vec![[0, 1, 7]] };
-    assert!(matches!(Scene::new(vec![Layer::new(&mesh, Material::fem())]), Err(RenderError::NoSuchVertex { vertex: 7, .. })));
+    assert!(matches!(
+        Scene::new(vec![Layer::new(&mesh, Material::fem())]),
+        Err(RenderError::NoSuchVertex { vertex: 7, .. })
+    ));
     let mesh = TriMesh { positions: vec![V3::new(f64::NAN, 0.0, 0.0)], triangles: vec![] };
-    assert!(matches!(Scene::new(vec![Layer::new(&mesh, Material::fem())]), Err(RenderError::NotFinite { vertex: 0, .. })));
+    assert!(matches!(
+        Scene::new(vec![Layer::new(&mesh, Material::fem())]),
+        Err(RenderError::NotFinite { vertex: 0, .. })
+    ));
     let empty = Scene::new(vec![]).unwrap();
     let camera = Camera::new(View::Front, Frame::enclosing([], 1.0));
     assert!(matches!(render(&empty, &camera, 0, 5), Err(RenderError::Size { .. })));
@@ -172,7 +182,8 @@ fn reference_bodies_render() {
     let mut body = TriMesh::default();
     for model in models {
         let first = body.positions.len();
-        body.positions.extend(model.mesh.positions.chunks(3).map(|p| V3::new(p[0].into(), p[1].into(), p[2].into()) * 0.01));
+        body.positions
+            .extend(model.mesh.positions.chunks(3).map(|p| V3::new(p[0].into(), p[1].into(), p[2].into()) * 0.01));
         body.triangles.extend(model.mesh.indices.chunks(3).map(|t| [0, 1, 2].map(|k| t[k] as usize + first)));
     }
     let (low, high) = body.bounds().unwrap();
