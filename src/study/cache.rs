@@ -4,7 +4,7 @@
 use std::any::Any;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex, OnceLock};
+use std::sync::{Arc, Mutex};
 
 use rusqlite::{Connection, OptionalExtension, params};
 
@@ -33,7 +33,7 @@ pub struct Used {
 
 type Product = Arc<dyn Any + Send + Sync>;
 /// Filled by whoever comes first; the others wait for the lock.
-type Slot = Arc<Mutex<OnceLock<Product>>>;
+type Slot = Arc<Mutex<Option<Product>>>;
 
 /// The products of one run, over those of a database.
 pub struct Cache {
@@ -53,12 +53,15 @@ impl Cache {
     /// # Errors
     /// Those of `make`, and of the database.
     pub(crate) fn get<T: Artefact>(
-        &self, stage: StageKind, hash: &str, make: impl FnOnce() -> Result<T>,
+        &self,
+        stage: StageKind,
+        hash: &str,
+        make: impl FnOnce() -> Result<T>,
     ) -> Result<(Arc<T>, Used)> {
         let used = |was_cached| Used { stage, hash: hash.to_owned(), was_cached };
         let slot = lock(&self.slots).entry(hash.to_owned()).or_default().clone();
-        let slot = lock(&slot);
-        if let Some(product) = slot.get().cloned().and_then(|product| product.downcast::<T>().ok()) {
+        let mut slot = lock(&slot);
+        if let Some(product) = slot.clone().and_then(|product| product.downcast::<T>().ok()) {
             return Ok((product, used(true)));
         }
         let connection = store::open(&self.path, Access::Write)?;
@@ -74,7 +77,7 @@ impl Cache {
         };
         let product = Arc::new(product);
         if stage != StageKind::Drape {
-            let _ = slot.set(product.clone());
+            *slot = Some(product.clone());
         }
         Ok((product, used(was_cached)))
     }

@@ -113,7 +113,8 @@ pub(crate) fn subject(transaction: &Transaction<'_>, name: &str, m: &Measurement
     let mut inputs = Inputs::default();
     subject_inputs(&mut inputs, name, m);
     let hash = inputs.hash();
-    if let Some(id) = found(transaction, "SELECT subject_id FROM subject WHERE name = ? AND hash = ?", &[&name, &hash])? {
+    if let Some(id) = found(transaction, "SELECT subject_id FROM subject WHERE name = ? AND hash = ?", &[&name, &hash])?
+    {
         return Ok(id);
     }
     transaction
@@ -180,7 +181,11 @@ pub(crate) fn style(transaction: &Transaction<'_>, name: &str, seams: &SourceFil
 
 /// The revision of a size with this pattern, added where it is new.
 pub(crate) fn size(
-    transaction: &Transaction<'_>, style: &str, name: &str, pattern: &SourceFile, unit: Option<&str>,
+    transaction: &Transaction<'_>,
+    style: &str,
+    name: &str,
+    pattern: &SourceFile,
+    unit: Option<&str>,
 ) -> Result<i64> {
     let mut inputs = Inputs::default();
     inputs.set("pattern", pattern.hash());

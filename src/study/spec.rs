@@ -78,7 +78,12 @@ pub fn jobs(study: &Study) -> Vec<JobSpec> {
 }
 
 fn job(
-    study: &Study, garment: &GarmentEntry, size: &SizeFile, subject: &Subject, simulator: Simulator, repeat: u32,
+    study: &Study,
+    garment: &GarmentEntry,
+    size: &SizeFile,
+    subject: &Subject,
+    simulator: Simulator,
+    repeat: u32,
 ) -> JobSpec {
     let mut inputs = Inputs::default();
     inputs.set("sim.name", simulator.as_str());

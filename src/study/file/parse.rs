@@ -17,13 +17,31 @@ use crate::units::{from_mm, mm};
 const STUDY_KEYS: [&str; 8] =
     ["name", "simulators", "edge_length_mm", "repeats", "fit", "subject", "garment", "fabric"];
 const SUBJECT_KEYS: [&str; 10] = [
-    "id", "like", "sex", "stature_mm", "weight_kg", "chest_girth_mm", "waist_girth_mm", "hip_girth_mm", "neck_girth_mm",
+    "id",
+    "like",
+    "sex",
+    "stature_mm",
+    "weight_kg",
+    "chest_girth_mm",
+    "waist_girth_mm",
+    "hip_girth_mm",
+    "neck_girth_mm",
     "across_shoulder_mm",
 ];
 const GARMENT_KEYS: [&str; 5] = ["name", "seams", "unit", "fabric", "sizes"];
 const FABRIC_KEYS: [&str; 12] = [
-    "name", "density_kg_m2", "thickness_mm", "membrane_warp_n_m", "membrane_weft_n_m", "membrane_coupling_n_m", "shear_n_m",
-    "bending_warp_nm", "bending_weft_nm", "friction_body", "friction_self", "source",
+    "name",
+    "density_kg_m2",
+    "thickness_mm",
+    "membrane_warp_n_m",
+    "membrane_weft_n_m",
+    "membrane_coupling_n_m",
+    "shear_n_m",
+    "bending_warp_nm",
+    "bending_weft_nm",
+    "friction_body",
+    "friction_self",
+    "source",
 ];
 
 /// Plausible girths and widths of a person, mm.
@@ -35,6 +53,9 @@ pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec
     let (document, errors) = DeTable::parse_recoverable(text);
     for error in errors {
         reader.problem(&error.span().unwrap_or_default(), error.message());
+    }
+    if !reader.problems.is_empty() {
+        return Err(reader.problems);
     }
     let top = Place { name: "study".into(), span: 0..0, table: document.get_ref() };
     reader.only(&top, &STUDY_KEYS);
@@ -167,7 +188,10 @@ fn measurements(reader: &mut Reader<'_>, place: &Place<'_>) -> Option<Measuremen
 }
 
 fn garments(
-    reader: &mut Reader<'_>, top: &Place<'_>, folder: &Path, fabrics: &BTreeMap<String, Fabric>,
+    reader: &mut Reader<'_>,
+    top: &Place<'_>,
+    folder: &Path,
+    fabrics: &BTreeMap<String, Fabric>,
 ) -> Vec<GarmentEntry> {
     let places = reader.tables(top, "garment", "garment");
     if places.is_empty() {
@@ -282,7 +306,10 @@ fn unique<'t>(reader: &mut Reader<'_>, names: &mut BTreeSet<&'t str>, name: &Spa
 
 /// An entry by name; a problem with a suggestion where there is none.
 fn lookup<'k, T>(
-    reader: &mut Reader<'_>, known: &'k BTreeMap<String, T>, name: &Spanned<&str>, what: &str,
+    reader: &mut Reader<'_>,
+    known: &'k BTreeMap<String, T>,
+    name: &Spanned<&str>,
+    what: &str,
 ) -> Option<&'k T> {
     let found = known.get(*name.get_ref());
     if found.is_none() {

@@ -56,7 +56,7 @@ impl<'a> Reader<'a> {
     /// Reports a value of the wrong type.
     fn mistyped(&mut self, place: &Place<'_>, key: &str, value: &Spanned<DeValue<'_>>, wanted: &str) {
         let found = value.get_ref().type_str();
-        self.problem(&value.span(), format!("{}: `{key}` is {wanted}, found {found}", place.name));
+        self.problem(&value.span(), format!("{}: `{key}` must be {wanted}, found {found}", place.name));
     }
 
     /// Reports a key that must be there.
