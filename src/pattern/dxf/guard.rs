@@ -12,6 +12,52 @@ use super::tags::{Tag, ValueType, clipped, value_type};
 /// Entities that carry a pattern; `VERTEX` counts those of LWPOLYLINE too.
 pub const KINDS: [&str; 7] = ["POLYLINE", "VERTEX", "LWPOLYLINE", "LINE", "POINT", "TEXT", "INSERT"];
 
+/// Entities of DXF besides [`KINDS`] [DXF reference, ENTITIES section]; anything else is a damaged or foreign file.
+const OTHER_KINDS: [&str; 42] = [
+    "3DFACE",
+    "3DLINE",
+    "3DSOLID",
+    "ACAD_PROXY_ENTITY",
+    "ARC",
+    "ARCALIGNEDTEXT",
+    "ATTDEF",
+    "ATTRIB",
+    "BODY",
+    "CIRCLE",
+    "DGNUNDERLAY",
+    "DIMENSION",
+    "DWFUNDERLAY",
+    "ELLIPSE",
+    "HATCH",
+    "HELIX",
+    "IMAGE",
+    "LEADER",
+    "LIGHT",
+    "MESH",
+    "MLEADER",
+    "MLINE",
+    "MTEXT",
+    "MULTILEADER",
+    "OLE2FRAME",
+    "OLEFRAME",
+    "PDFUNDERLAY",
+    "RAY",
+    "REGION",
+    "RTEXT",
+    "SECTION",
+    "SEQEND",
+    "SHAPE",
+    "SOLID",
+    "SPLINE",
+    "SUN",
+    "SURFACE",
+    "TOLERANCE",
+    "TRACE",
+    "VIEWPORT",
+    "WIPEOUT",
+    "XLINE",
+];
+
 /// Number of entities of each kind.
 pub type Counts = BTreeMap<&'static str, usize>;
 
@@ -170,6 +216,9 @@ impl<'a> Walk<'a, '_> {
                     format!("{} outside all blocks", clipped(head.keyword_static())),
                     "0/BLOCK first",
                 ));
+            }
+            keyword if !KINDS.contains(&keyword) && !OTHER_KINDS.contains(&keyword) => {
+                return Err(self.fail(&head, format!("`{}`", clipped(keyword)), "an entity of DXF"));
             }
             keyword => {
                 self.check_coordinates(keyword, record)?;
