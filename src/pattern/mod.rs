@@ -7,6 +7,7 @@ pub mod inspect;
 pub mod mesh;
 pub mod piece;
 pub mod seams;
+pub mod sheet;
 pub mod style;
 
 pub use garment::{FitLevel, Garment, MaterialPoint, Measurement, MeasurementKind, PieceMesh, Role, Run, SeamMesh};

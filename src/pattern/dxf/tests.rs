@@ -8,7 +8,7 @@ use crate::pattern::inspect::{FileReport, PieceReport};
 fn shared(folder: &str) -> Option<PathBuf> {
     let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/patterns")).join(folder);
     if !path.is_dir() {
-        println!("skipped: {} is not here", path.display());
+        eprintln!("skipped: {} is not here", path.display());
         return None;
     }
     Some(path)
@@ -69,7 +69,7 @@ fn check_folder(folder: &str, allowed_refusals: usize) {
             }
         }
     }
-    println!("{folder}: {blocks} blocks, {refused} refused");
+    eprintln!("{folder}: {blocks} blocks, {refused} refused");
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     assert_eq!(refused, allowed_refusals);
 }
