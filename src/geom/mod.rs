@@ -2,7 +2,10 @@
 //!
 //! World frame: metres, origin on the floor between the feet, `x` to the subject's right, `y` to the front, `z` up.
 
+pub mod contour;
+pub mod hull;
 pub mod mesh;
+pub mod section;
 
 pub use mesh::TriMesh;
 
