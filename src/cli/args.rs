@@ -229,6 +229,14 @@ pub enum Pattern {
         #[arg(long, default_value_t = 15.0, value_name = "MM")]
         edge_length_mm: f64,
     },
+    /// Draw the pieces with their numbered measurements as SVG.
+    Sheet {
+        #[command(flatten)]
+        files: StyleFiles,
+        /// SVG file to write.
+        #[arg(long, short, value_name = "FILE")]
+        output: PathBuf,
+    },
 }
 
 /// Sex of a body.

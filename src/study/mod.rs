@@ -13,6 +13,7 @@ mod file;
 mod inputs;
 mod outcome;
 mod owner;
+mod picture;
 mod pipeline;
 mod queue;
 mod read;
@@ -22,6 +23,7 @@ mod sql;
 mod store;
 #[cfg(test)]
 mod tests;
+pub mod tools;
 mod types;
 mod workspace;
 
@@ -31,6 +33,8 @@ pub use error::{Result, StudyError};
 pub use file::{Problem, Study, study_file};
 pub use inputs::{Change, Inputs, StageKind};
 pub use outcome::{Executor, Measured, Outcome};
+pub use picture::Map;
+pub use pipeline::{Pipeline, SIMULATORS};
 pub use read::JobFilter;
 pub use run::{Run, RunOptions};
 pub use spec::{JobSpec, Selection};
@@ -42,4 +46,5 @@ pub use types::{
 pub use workspace::Workspace;
 
 pub use crate::fit::FitClass;
+pub use crate::render::View;
 pub use crate::sim::{Simulator, Step};

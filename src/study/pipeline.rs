@@ -8,11 +8,12 @@ use super::error::{Result, StudyError};
 use super::inputs::StageKind;
 use super::outcome::{Executor, Measured, Outcome};
 use super::spec::JobSpec;
-use crate::body::{self, Body, Girths};
+use super::tools;
+use crate::body::{Body, Girths};
 use crate::fit::{self, Cuts, Ease};
 use crate::geom::DistanceField;
 use crate::measure;
-use crate::pattern::dxf::{self, Unit, UnitSource};
+use crate::pattern::dxf::Unit;
 use crate::pattern::mesh::EDGE_LENGTH_RANGE_M;
 use crate::pattern::{Garment, Style};
 use crate::sim::{self, Drape, Monitor, SimError, Simulator};
@@ -124,8 +125,7 @@ impl Pipeline {
 
     fn model(&self, spec: &JobSpec) -> Result<(Arc<Model>, Used)> {
         self.cache.get(StageKind::Body, &spec.inputs.stage_hash(StageKind::Body), || {
-            let body = body::build(&spec.measurements).map_err(StudyError::stage("body"))?;
-            let girths = body::measure(&body.mesh, Some(body.sex)).map_err(StudyError::stage("body"))?;
+            let (body, girths) = tools::build_body(&spec.measurements)?;
             Ok(Model { body, girths })
         })
     }
@@ -158,20 +158,12 @@ fn ease(garment: &Garment, model: &Model) -> Vec<Ease> {
 
 /// The style of a job's size.
 pub(super) fn style(spec: &JobSpec) -> Result<Style> {
-    let unit = match spec.unit.as_deref() {
-        Some("cm") => Some(Unit::Cm),
-        Some("in") => Some(Unit::In),
-        Some(_) => Some(Unit::Mm),
-        None => None,
-    };
-    let file = dxf::read(&spec.pattern.bytes, &spec.pattern.name, unit).map_err(StudyError::stage("pattern"))?;
-    if file.unit_source == UnitSource::Assumed {
-        let message = format!("{} names no unit; say `unit = \"mm\"` (or cm, in) with the garment", file.file);
-        return Err(StudyError::Stage { stage: "pattern", message });
-    }
-    let of_size = file.of_size(&spec.size);
-    let pieces = if of_size.is_empty() { &file.pieces } else { &of_size };
-    Style::read(pieces, &spec.seams.bytes, &spec.seams.name).map_err(StudyError::stage("pattern"))
+    let unit = spec.unit.as_deref().map(|unit| match unit {
+        "cm" => Unit::Cm,
+        "in" => Unit::In,
+        _ => Unit::Mm,
+    });
+    tools::read_style(&spec.pattern, &spec.seams, Some(&spec.size), unit)
 }
 
 /// Meshes of a job's garment, coarse to fine.

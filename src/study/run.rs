@@ -10,7 +10,8 @@ use super::engine;
 use super::enqueue::{self, Planned};
 use super::error::{Result, StudyError};
 use super::file::Study;
-use super::outcome::{Executor, Provenance};
+use super::outcome::{self, Executor, Provenance};
+use super::pipeline::Pipeline;
 use super::spec::{self, Selection};
 use super::store;
 use super::workspace::Workspace;
@@ -90,6 +91,37 @@ impl Workspace {
         let planned = enqueue::enqueue(&transaction, study, specs);
         transaction.rollback()?;
         planned
+    }
+
+    /// Queues a study and starts working on it with the real pipeline.
+    ///
+    /// # Errors
+    /// When the workspace is read-only or a selection names what the study does not have.
+    pub fn start(&mut self, study: &Study, options: &RunOptions) -> Result<Run> {
+        let pipeline = Pipeline::new(self.path());
+        self.start_with(study, options, Arc::new(pipeline))
+    }
+
+    /// Finds the ease of every size of a study on every subject, and stores it.
+    ///
+    /// # Errors
+    /// When the workspace is read-only, or a body or a pattern cannot be made.
+    pub fn update_ease(&mut self, study: &Study) -> Result<()> {
+        self.writer()?;
+        let pipeline = Pipeline::new(self.path());
+        let mut found = Vec::new();
+        for spec in spec::jobs(study) {
+            if spec.repeat == 1 && spec.simulator == study.simulators[0] {
+                let eases = pipeline.ease(&spec)?;
+                found.push((spec, eases));
+            }
+        }
+        let transaction = store::write(self.writer()?)?;
+        let study_id = enqueue::store_study(&transaction, study)?;
+        for (spec, eases) in &found {
+            outcome::write_ease(&transaction, study_id, spec, eases)?;
+        }
+        Ok(transaction.commit()?)
     }
 
     /// [`Workspace::start`] with any executor.
