@@ -100,4 +100,5 @@ pub fn jpeg(picture: &RgbaImage) -> Result<Vec<u8>, RenderError> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 mod tests;
