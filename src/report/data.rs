@@ -2,6 +2,7 @@
 
 use crate::fit::{Ease, FitClass};
 use crate::measure::{Chi, Metrics, metrics};
+use crate::render::Scale;
 use crate::sim::Simulator;
 
 /// Everything one report shows.
@@ -53,7 +54,7 @@ pub enum Finding {
 }
 
 impl Finding {
-    /// Name in SQL.
+    /// Name in SQL (`v_recommendation.verdict`).
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
@@ -61,6 +62,17 @@ impl Finding {
             Self::Hybrid => "hybrid",
             Self::NoDifference => "no_difference",
             Self::InsufficientEvidence => "insufficient_evidence",
+        }
+    }
+
+    /// Words on the page.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Fem => "FEM-GS is truer",
+            Self::Hybrid => "Hybrid-GS is truer",
+            Self::NoDifference => "no practical difference",
+            Self::InsufficientEvidence => "insufficient evidence",
         }
     }
 }
@@ -262,6 +274,15 @@ pub struct Picture {
     pub caption: String,
 }
 
+/// A picture coloured by values; the page sets its legend below it.
+#[derive(Clone, Debug)]
+pub struct FieldMap {
+    /// The picture, without a legend of its own.
+    pub picture: Picture,
+    /// What its colours mean.
+    pub scale: Scale,
+}
+
 /// One garment, in one size and fabric, on one subject, by one simulator.
 #[derive(Clone, Debug)]
 pub struct Run {
@@ -300,7 +321,7 @@ pub struct Run {
     /// Front, side, back, quarter.
     pub views: Vec<Picture>,
     /// Strain, gap or other maps.
-    pub maps: Vec<Picture>,
+    pub maps: Vec<FieldMap>,
 }
 
 impl Run {

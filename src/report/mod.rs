@@ -45,4 +45,5 @@ pub fn html(data: &ReportData) -> Result<String, ReportError> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 mod tests;

@@ -100,10 +100,35 @@ impl Image {
             [0xff, 0xd8, 0xff, ..] => "image/jpeg",
             _ => return Err(ReportError::PictureFormat(picture.caption.clone())),
         };
+        Ok(Self { address: address(kind, &picture.bytes), alt: picture.alt.clone(), caption: picture.caption.clone() })
+    }
+}
+
+/// A field map and its legend.
+pub(super) struct MapImage {
+    pub image: Image,
+    pub label: String,
+    pub low: String,
+    pub middle: String,
+    pub high: String,
+    /// Colours of the legend from low to high, as a style sheet writes them.
+    pub ramp: String,
+}
+
+impl MapImage {
+    pub fn new(map: &super::data::FieldMap) -> Result<Self, ReportError> {
+        let scale = &map.scale;
+        let decimals = if scale.high - scale.low >= 20.0 { 0 } else { 2 };
+        let unit = if scale.unit.is_empty() { String::new() } else { format!("\u{a0}{}", scale.unit) };
+        let tick = |t: f64| format!("{}{unit}", number(scale.low + t * (scale.high - scale.low), decimals));
+        let stops: Vec<String> = (0..=12).map(|k| scale.map.at(f64::from(k) / 12.0).hex()).collect();
         Ok(Self {
-            address: address(kind, &picture.bytes),
-            alt: picture.alt.clone(),
-            caption: picture.caption.clone(),
+            image: Image::new(&map.picture)?,
+            label: scale.label.clone(),
+            low: tick(0.0),
+            middle: tick(0.5),
+            high: tick(1.0),
+            ramp: stops.join(","),
         })
     }
 }
@@ -138,9 +163,8 @@ impl<'a> Page<'a> {
 }
 
 fn mean_ei(runs: &[Run], simulator: Simulator) -> Option<f64> {
-    let (mean, _) = mean_sd(
-        runs.iter().filter(|r| r.simulator == simulator).filter_map(|r| r.metrics(|_| true)).map(|m| m.ei),
-    );
+    let (mean, _) =
+        mean_sd(runs.iter().filter(|r| r.simulator == simulator).filter_map(|r| r.metrics(|_| true)).map(|m| m.ei));
     mean.is_finite().then_some(mean)
 }
 
@@ -189,7 +213,7 @@ fn tiles(runs: &[Run]) -> Vec<Tile> {
     let chi = || runs.iter().flat_map(|r| &r.measured).map(|m| m.chi.chi());
     if chi().next().is_some() {
         let (low, high) = chi().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), c| (l.min(c), h.max(c)));
-        tiles.push(tile(format!("{low:.3} – {high:.3}"), "range of chi"));
+        tiles.push(tile(format!("{low:.3}–{high:.3}"), "range of chi"));
     }
     let done = || runs.iter().filter(|r| !matches!(r.outcome, Outcome::Failed(_)));
     let (mean, _) = mean_sd(done().map(|r| r.wall_s));
@@ -216,6 +240,12 @@ fn verdicts(data: &ReportData) -> Vec<Garment> {
 fn by_rule(data: &ReportData, garment: &str, class: FitClass) -> Verdict {
     let fits = |r: &&Run| r.garment == garment && r.ease.as_ref().is_some_and(|e| e.class == class);
     let subjects = distinct(data.runs.iter().filter(fits).map(|r| r.subject.as_str())).len();
+    let ran = distinct(data.runs.iter().filter(fits).map(|r| simulator_name(r.simulator)));
+    let why = match ran.as_slice() {
+        [] => "No run of this study has this fit".into(),
+        [one] => format!("Only {one} ran on this fit, so there is nothing to compare it with"),
+        _ => "The study gives no verdict for this fit".to_owned(),
+    };
     Verdict {
         garment: garment.into(),
         class,
@@ -224,7 +254,7 @@ fn by_rule(data: &ReportData, garment: &str, class: FitClass) -> Verdict {
         finding: Finding::InsufficientEvidence,
         effect: None,
         subjects,
-        reason: "The study gives no verdict for this fit, so the thesis's rule stands.".into(),
+        reason: format!("{why}; the thesis's rule stands."),
         would_settle: "Runs of both simulators on the same subjects with this fit.".into(),
     }
 }
@@ -242,7 +272,7 @@ fn card(verdict: &Verdict) -> Card {
             Basis::Rule => "by the thesis's rule",
             Basis::Evidence => "by this study's evidence",
         },
-        finding: verdict.finding.as_str(),
+        finding: verdict.finding.words(),
         rule_says: simulator_name(verdict.class.rule_says()),
         effect,
         subjects: count(verdict.subjects, "subject"),
@@ -266,7 +296,9 @@ fn audit(data: &ReportData) -> Vec<Note> {
             Outcome::Failed(why) => Some(Note { severity: Severity::Failure, text: format!("{name} failed: {why}") }),
             Outcome::NotConverged => {
                 let residual = percent(run.residual);
-                let text = format!("{name} did not converge (residual {residual} of a vertex's weight); it is shown and counted.");
+                let text = format!(
+                    "{name} did not converge (residual {residual} of a vertex's weight); it is shown and counted."
+                );
                 Some(Note { severity: Severity::Warning, text })
             }
             Outcome::Converged => None,
@@ -309,12 +341,7 @@ fn matrices(data: &ReportData) -> Vec<Matrix<'_>> {
             glyph: fit_glyph(e.class),
             ease: signed_mm(e.ease_m()),
             words: fit_words(e),
-            level: format!(
-                "{}: pattern {} mm, body {} mm",
-                e.level,
-                mm(e.pattern_girth_m),
-                mm(e.body_girth_m)
-            ),
+            level: format!("{}: pattern {} mm, body {} mm", e.level, mm(e.pattern_girth_m), mm(e.body_girth_m)),
         },
         None => Fit {
             class: "unknown",
@@ -327,6 +354,10 @@ fn matrices(data: &ReportData) -> Vec<Matrix<'_>> {
     let row = |(size, cells): (&'_ String, &Vec<Option<Ease>>)| (size.clone(), cells.iter().map(fit).collect());
     data.ease
         .iter()
-        .map(|m| Matrix { garment: &m.garment, subjects: &m.subjects, rows: m.sizes.iter().zip(&m.cells).map(row).collect() })
+        .map(|m| Matrix {
+            garment: &m.garment,
+            subjects: &m.subjects,
+            rows: m.sizes.iter().zip(&m.cells).map(row).collect(),
+        })
         .collect()
 }

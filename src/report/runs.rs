@@ -3,10 +3,9 @@
 use super::ReportError;
 use super::chart::{chi_chart, ei_chart, mean_sd_chart, residual_chart};
 use super::data::{Kind, Measured, Outcome, Run};
-use super::page::Image;
+use super::page::{Image, MapImage};
 use super::text::{duration, fit_glyph, fit_words, mean_sd, mm, number, signed_mm, simulator_name};
 use super::theme;
-use crate::sim::Simulator;
 
 /// One garment in one size.
 pub(super) struct Group {
@@ -16,6 +15,8 @@ pub(super) struct Group {
     pub series: Vec<Series>,
     pub metrics: Vec<MetricsRow>,
     pub heat: Heat,
+    /// Mean chi of each series, where there are several.
+    pub side_by_side: Option<Heat>,
     pub ei_chart: String,
     pub residual_chart: Option<String>,
 }
@@ -27,8 +28,10 @@ pub(super) struct Strip {
     pub class: &'static str,
     pub fit: String,
     pub status: String,
+    /// Why there is no result.
+    pub failure: Option<String>,
     pub images: Vec<Image>,
-    pub maps: Vec<Image>,
+    pub maps: Vec<MapImage>,
 }
 
 /// The runs of one simulator and fabric, measured side by side.
@@ -62,18 +65,19 @@ pub(super) struct ChiCell {
     pub published: Option<String>,
 }
 
-/// Summary numbers of one run.
+/// Summary numbers of one run: how true it is, and how it went.
 pub(super) struct MetricsRow {
     pub label: String,
     pub class: &'static str,
     pub fit: String,
+    pub truth: Vec<String>,
     pub status: String,
-    pub values: Vec<String>,
+    pub course: Vec<String>,
 }
 
-/// chi of all measurements and runs as a coloured table.
+/// chi as a coloured table: measurements down, runs or series across.
 pub(super) struct Heat {
-    pub runs: Vec<String>,
+    pub columns: Vec<String>,
     pub rows: Vec<(String, Vec<Option<HeatCell>>)>,
 }
 
@@ -82,6 +86,13 @@ pub(super) struct HeatCell {
     pub chi: String,
     pub ground: String,
     pub ink: String,
+}
+
+impl HeatCell {
+    fn new(chi: f64) -> Self {
+        let (ground, ink) = theme::chi_cell(chi);
+        Self { chi: number(chi, 3), ground: ground.hex(), ink: ink.hex() }
+    }
 }
 
 /// Groups runs by garment and size, in the order in which they first appear.
@@ -97,7 +108,8 @@ pub(super) fn groups(runs: &[Run]) -> Result<Vec<Group>, ReportError> {
     keys.iter()
         .enumerate()
         .map(|(k, &(garment, size))| {
-            let members: Vec<&Run> = runs.iter().filter(|r| (r.garment.as_str(), r.size.as_str()) == (garment, size)).collect();
+            let members: Vec<&Run> =
+                runs.iter().filter(|r| (r.garment.as_str(), r.size.as_str()) == (garment, size)).collect();
             group(k, format!("{garment}, size {size}"), &members, fabrics > 1)
         })
         .collect()
@@ -117,6 +129,7 @@ fn group(index: usize, title: String, runs: &[&Run], name_fabric: bool) -> Resul
         id: format!("g{}", index + 1),
         strips: runs.iter().map(|r| strip(r)).collect::<Result<_, _>>()?,
         series: series(&title, runs)?,
+        side_by_side: side_by_side(runs),
         metrics: runs.iter().zip(&labels).map(|(r, label)| metrics_row(r, label)).collect(),
         heat: heat(runs, &labels),
         ei_chart: ei_chart(&title, runs, &places)?.inline(),
@@ -125,10 +138,10 @@ fn group(index: usize, title: String, runs: &[&Run], name_fabric: bool) -> Resul
     })
 }
 
+/// Class and words of a run's fit.
 fn fit(run: &Run) -> (&'static str, String) {
     run.ease.as_ref().map_or(("unknown", "fit unknown".into()), |e| {
-        let text = format!("{} {} ({} mm at the {})", fit_glyph(e.class), fit_words(e), signed_mm(e.ease_m()), e.level);
-        (e.class.as_str(), text)
+        (e.class.as_str(), format!("{} {}, {} mm", fit_glyph(e.class), fit_words(e), signed_mm(e.ease_m())))
     })
 }
 
@@ -142,15 +155,18 @@ fn status(run: &Run) -> String {
 
 fn strip(run: &Run) -> Result<Strip, ReportError> {
     let (class, fit) = fit(run);
-    let images = |pictures: &[super::data::Picture]| pictures.iter().map(Image::new).collect::<Result<Vec<_>, _>>();
     Ok(Strip {
         simulator: run.simulator.as_str(),
         title: format!("Subject {}, {}, {}", run.subject, simulator_name(run.simulator), run.fabric),
         class,
         fit,
         status: status(run),
-        images: images(&run.views)?,
-        maps: images(&run.maps)?,
+        failure: match &run.outcome {
+            Outcome::Failed(why) => Some(why.clone()),
+            Outcome::Converged | Outcome::NotConverged => None,
+        },
+        images: run.views.iter().map(Image::new).collect::<Result<_, _>>()?,
+        maps: run.maps.iter().map(MapImage::new).collect::<Result<_, _>>()?,
     })
 }
 
@@ -167,22 +183,10 @@ fn of(run: &Run, no: u32) -> Option<&Measured> {
 }
 
 fn series(title: &str, runs: &[&Run]) -> Result<Vec<Series>, ReportError> {
-    let mut keys: Vec<(Simulator, &str)> = Vec::new();
-    for run in runs {
-        let key = (run.simulator, run.fabric.as_str());
-        if !keys.contains(&key) {
-            keys.push(key);
-        }
-    }
     let mut all = Vec::new();
-    for (simulator, fabric) in keys {
-        let members: Vec<&Run> =
-            runs.iter().copied().filter(|r| (r.simulator, r.fabric.as_str()) == (simulator, fabric)).collect();
+    for (name, members) in by_series(runs) {
         let rows = measurements(&members);
-        if rows.is_empty() {
-            continue;
-        }
-        let title = format!("{title}, {}, {fabric}", simulator_name(simulator));
+        let title = format!("{title}, {name}");
         let subjects: Vec<String> = members.iter().map(|r| r.subject.clone()).collect();
         all.push(Series {
             chi_chart: chi_chart(&title, &members, &subjects)?.inline(),
@@ -195,6 +199,33 @@ fn series(title: &str, runs: &[&Run]) -> Result<Vec<Series>, ReportError> {
         });
     }
     Ok(all)
+}
+
+/// The measured runs by simulator and fabric.
+fn by_series<'a>(runs: &[&'a Run]) -> Vec<(String, Vec<&'a Run>)> {
+    let mut all: Vec<(String, Vec<&Run>)> = Vec::new();
+    for &run in runs.iter().filter(|r| !r.measured.is_empty()) {
+        let name = format!("{}, {}", simulator_name(run.simulator), run.fabric);
+        match all.iter_mut().find(|(n, _)| *n == name) {
+            Some((_, members)) => members.push(run),
+            None => all.push((name, vec![run])),
+        }
+    }
+    all
+}
+
+/// Mean chi of each measurement in each series; `None` where there is only one.
+fn side_by_side(runs: &[&Run]) -> Option<Heat> {
+    let all = by_series(runs);
+    let mean = |members: &[&Run], no: u32| {
+        let (mean, _) = mean_sd(members.iter().filter_map(|r| of(r, no)).map(|m| m.chi.chi()));
+        mean.is_finite().then(|| HeatCell::new(mean))
+    };
+    let row = |m: &&Measured| {
+        (format!("#{} {}", m.chi.no, m.name), all.iter().map(|(_, members)| mean(members, m.chi.no)).collect())
+    };
+    let rows = measurements(runs).iter().map(row).collect();
+    (all.len() > 1).then(|| Heat { columns: all.iter().map(|(name, _)| name.clone()).collect(), rows })
 }
 
 fn chi_row(measured: &Measured, runs: &[&Run]) -> ChiRow {
@@ -252,7 +283,7 @@ fn metrics_row(run: &Run, label: &str) -> MetricsRow {
     let with = |keep: fn(&Measured) -> bool| run.metrics(keep).map_or(f64::NAN, |m| m.ei);
     let all = run.metrics(|_| true);
     let unless_failed = |text: String| if failed { "–".into() } else { text };
-    let values = vec![
+    let truth = vec![
         all.as_ref().map_or("–".into(), |m| m.n.to_string()),
         number(all.as_ref().map_or(f64::NAN, |m| m.e_chi), 3),
         number(all.as_ref().map_or(f64::NAN, |m| m.sd_chi), 3),
@@ -260,26 +291,23 @@ fn metrics_row(run: &Run, label: &str) -> MetricsRow {
         number(with(|m| !m.free_edge), 3),
         number(with(|m| !m.controlled), 3),
         number(all.as_ref().map_or(f64::NAN, |m| m.max_abs_error), 3),
+    ];
+    let course = vec![
         unless_failed(number(run.residual * 100.0, 2)),
         unless_failed(mm(run.penetration_max_m)),
         unless_failed(mm(run.seam_gap_max_m)),
         unless_failed(run.iterations.to_string()),
-        unless_failed(format!("{} / {}", run.vertices, run.faces)),
+        unless_failed(run.vertices.to_string()),
+        unless_failed(run.faces.to_string()),
         unless_failed(duration(run.wall_s)),
     ];
-    MetricsRow { label: label.into(), class, fit, status: status(run), values }
+    MetricsRow { label: label.into(), class, fit, truth, status: status(run), course }
 }
 
 fn heat(runs: &[&Run], labels: &[String]) -> Heat {
-    let cell = |run: &&Run, no: u32| {
-        of(run, no).map(|m| {
-            let (ground, ink) = theme::chi_cell(m.chi.chi());
-            HeatCell { chi: number(m.chi.chi(), 3), ground: ground.hex(), ink: ink.hex() }
-        })
-    };
     let row = |m: &&Measured| {
-        let name = format!("#{} {}", m.chi.no, m.name);
-        (name, runs.iter().map(|r| cell(r, m.chi.no)).collect())
+        let cell = |run: &&Run| of(run, m.chi.no).map(|m| HeatCell::new(m.chi.chi()));
+        (format!("#{} {}", m.chi.no, m.name), runs.iter().map(cell).collect())
     };
-    Heat { runs: labels.to_vec(), rows: measurements(runs).iter().map(row).collect() }
+    Heat { columns: labels.to_vec(), rows: measurements(runs).iter().map(row).collect() }
 }

@@ -16,8 +16,13 @@ pub(super) const BAND: Rgb = Rgb(0xf3, 0xf5, 0xf8);
 pub(super) const PAPER: Rgb = Rgb(0xff, 0xff, 0xff);
 
 /// The neutral colours and the style variables that stand for them on the page.
-pub(super) const VARIABLES: [(Rgb, &str); 5] =
-    [(INK, "var(--ink)"), (MUTED, "var(--muted)"), (GRID, "var(--grid)"), (BAND, "var(--band)"), (PAPER, "var(--paper)")];
+pub(super) const VARIABLES: [(Rgb, &str); 5] = [
+    (INK, "var(--ink)"),
+    (MUTED, "var(--muted)"),
+    (GRID, "var(--grid)"),
+    (BAND, "var(--band)"),
+    (PAPER, "var(--paper)"),
+];
 
 /// Colours of subjects in charts, told apart by colour-blind readers [Okabe & Ito 2008], darkened where too pale for
 /// lines on white.
@@ -42,11 +47,11 @@ pub(super) fn simulator(simulator: Simulator) -> Rgb {
 /// Reach of the chi scale to both sides of 1, the same in every table.
 pub(super) const CHI_REACH: f64 = 0.15;
 
-/// Cell colour of a chi and the text colour that reads on it.
+/// Cell colour of a chi and the text colour that reads on it: black or white, of which one always has a contrast of 4.5.
 pub(super) fn chi_cell(chi: f64) -> (Rgb, Rgb) {
+    const BLACK: Rgb = Rgb(0, 0, 0);
     let ground = ColourMap::Diverging.at(0.5 + (chi - 1.0) / (2.0 * CHI_REACH));
-    let ink = if ground.contrast(INK) >= ground.contrast(PAPER) { INK } else { PAPER };
-    (ground, ink)
+    (ground, if ground.contrast(BLACK) >= ground.contrast(PAPER) { BLACK } else { PAPER })
 }
 
 #[cfg(test)]

@@ -27,14 +27,14 @@ fn axis(values: impl Iterator<Item = f64>) -> Axis {
 }
 
 /// Rows, grid, names and the line at 1, which both charts share.
-fn frame(canvas: &Canvas<'_>, axis: &Axis, rows: &[(u32, String)], top: i32) -> Result<(), ReportError> {
-    let bottom = top + ROW * rows.len() as i32;
+fn frame(canvas: &Canvas<'_>, axis: &Axis, rows: &[(u32, String)], top: i32, row: i32) -> Result<(), ReportError> {
+    let bottom = top + row * rows.len() as i32;
     for (k, (no, name)) in (0..).zip(rows) {
-        let y = top + ROW * k;
+        let y = top + row * k;
         if k % 2 == 0 {
-            canvas.bar((0, y), (WIDTH, y + ROW), theme::BAND)?;
+            canvas.bar((0, y), (WIDTH, y + row), theme::BAND)?;
         }
-        canvas.text((LEFT - 30, y + ROW / 2), &row_label(*no, name), theme::INK, Align::Right, false)?;
+        canvas.text((LEFT - 30, y + row / 2), &row_label(*no, name), theme::INK, Align::Right, false)?;
     }
     axis.grid(canvas, top, bottom)?;
     canvas.line(vec![(axis.at(1.0), top), (axis.at(1.0), bottom)], theme::INK, 4)?;
@@ -53,15 +53,16 @@ pub fn chi_chart(title: &str, runs: &[&Run], labels: &[String]) -> Result<Chart,
     let published = runs.iter().flat_map(|r| &r.measured).filter_map(|m| m.published_chi);
     let axis = axis(runs.iter().flat_map(|r| &r.measured).map(|m| m.chi.chi()).chain(published));
     let top = 100 + (TYPE + 20) * (labels.iter().map(|l| l.chars().count() + 5).sum::<usize>() as i32 / 80);
-    let svg = draw(top + ROW * rows.len() as i32 + 3 * TYPE + 30, |canvas| {
+    let row = ROW.max(14 * runs.len() as i32 + 10);
+    let svg = draw(top + row * rows.len() as i32 + 3 * TYPE + 30, |canvas| {
         canvas.key(labels, 20, 10)?;
-        frame(canvas, &axis, &rows, top)?;
+        frame(canvas, &axis, &rows, top, row)?;
         for (k, (no, _)) in (0..).zip(&rows) {
             for (series, run) in runs.iter().enumerate() {
                 let Some(measured) = of(run, *no) else { continue };
                 // Series sit a little above each other, so that equal values do not hide one another.
-                let spread = (ROW - 26) as f64 * ((series as f64 + 0.5) / runs.len() as f64 - 0.5);
-                let y = top + ROW * k + ROW / 2 + spread.round() as i32;
+                let spread = (row - 26) as f64 * ((series as f64 + 0.5) / runs.len() as f64 - 0.5);
+                let y = top + row * k + row / 2 + spread.round() as i32;
                 if let Some(published) = measured.published_chi {
                     canvas.mark((axis.at(published), y), series, true)?;
                 }
@@ -70,7 +71,8 @@ pub fn chi_chart(title: &str, runs: &[&Run], labels: &[String]) -> Result<Chart,
         }
         Ok(())
     })?;
-    let alt = format!("{title}: chi of {} measurements in {} runs, marks around the line at 1.", rows.len(), runs.len());
+    let alt =
+        format!("{title}: chi of {} measurements in {} runs, marks around the line at 1.", rows.len(), runs.len());
     Ok(Chart { svg, alt })
 }
 
@@ -88,7 +90,7 @@ pub fn mean_sd_chart(title: &str, runs: &[&Run]) -> Result<Chart, ReportError> {
     let top = 20;
     let fill = runs.first().map_or(theme::MUTED, |r| theme::simulator(r.simulator));
     let svg = draw(top + ROW * rows.len() as i32 + 3 * TYPE + 30, |canvas| {
-        frame(canvas, &axis, &rows, top)?;
+        frame(canvas, &axis, &rows, top, ROW)?;
         for (k, (mean, sd)) in (0..).zip(&statistics) {
             let y = top + ROW * k + ROW / 2;
             let (one, end) = (axis.at(1.0), axis.at(*mean));
@@ -101,6 +103,7 @@ pub fn mean_sd_chart(title: &str, runs: &[&Run]) -> Result<Chart, ReportError> {
         }
         Ok(())
     })?;
-    let alt = format!("{title}: mean chi and standard deviation of {} measurements over {} runs.", rows.len(), runs.len());
+    let alt =
+        format!("{title}: mean chi and standard deviation of {} measurements over {} runs.", rows.len(), runs.len());
     Ok(Chart { svg, alt })
 }

@@ -52,15 +52,12 @@ pub fn ei_chart(title: &str, runs: &[&Run], labels: &[String]) -> Result<Chart, 
                 let end = axis.at(ei);
                 canvas.bar((LEFT, upper + 2), (end.max(LEFT + 2), upper + bar - 2), theme::simulator(run.simulator))?;
                 let value = format!("{ei:.3}");
-                let inside = end - LEFT > 140;
-                let (at, ink, align) =
-                    if inside { (end - 12, theme::PAPER, Align::Right) } else { (end + 12, theme::INK, Align::Left) };
-                canvas.text((at, upper + bar / 2), &value, ink, align, inside)?;
+                canvas.text((end + 14, upper + bar / 2), &value, theme::INK, Align::Left, false)?;
             }
             y += height(members.len());
         }
         canvas.line(vec![(LEFT, top), (LEFT, bottom)], theme::INK, 3)?;
-        let caption = "EI = mean |chi - 1|   (shorter is truer to the pattern)";
+        let caption = "EI = mean |chi − 1|   (shorter is truer to the pattern)";
         canvas.text(((LEFT + WIDTH) / 2, bottom + 2 * TYPE + 18), caption, theme::MUTED, Align::Middle, false)
     })?;
     Ok(Chart { svg, alt: format!("{title}: EI of {} runs as bars, the longest {most:.3}.", runs.len()) })

@@ -47,7 +47,8 @@ impl Chart {
     /// The SVG element for the page: neutral colours follow the reader's scheme, the size follows the column.
     pub(super) fn inline(&self) -> String {
         let alt = super::text::escape(&self.alt);
-        let mut svg = self.svg.replacen("<svg ", &format!("<svg class=\"chart\" role=\"img\" aria-label=\"{alt}\" "), 1);
+        let mut svg =
+            self.svg.replacen("<svg ", &format!("<svg class=\"chart\" role=\"img\" aria-label=\"{alt}\" "), 1);
         for (colour, variable) in theme::VARIABLES {
             svg = svg.replace(&colour.hex().to_uppercase(), variable);
         }

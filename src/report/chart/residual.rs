@@ -48,7 +48,13 @@ pub fn residual_chart(title: &str, runs: &[&Run], labels: &[String]) -> Result<C
             (free, room) = (place + step, room - 1);
             let ink = theme::SUBJECTS[series % theme::SUBJECTS.len()];
             canvas.line(vec![(x, y), (axis.right + 18, place)], ink, 1)?;
-            canvas.text((axis.right + 26, place), labels.get(series).map_or("", |l| l), theme::INK, Align::Left, false)?;
+            canvas.text(
+                (axis.right + 26, place),
+                labels.get(series).map_or("", |l| l),
+                theme::INK,
+                Align::Left,
+                false,
+            )?;
         }
         let caption = "iteration   (rms residual force over the mean weight of a vertex, logarithmic)";
         canvas.text(((axis.left + axis.right) / 2, bottom + 2 * TYPE + 18), caption, theme::MUTED, Align::Middle, false)
