@@ -61,8 +61,13 @@ impl Frame {
         let bounds = meshes.into_iter().filter_map(TriMesh::bounds).reduce(|a, b| (a.0.inf(&b.0), a.1.sup(&b.1)));
         let (low, high) = bounds.unwrap_or((V3::new(-0.5, -0.5, 0.0), V3::new(0.5, 0.5, 2.0)));
         let extent = high - low;
-        let across = extent.x.max(extent.y);
-        Self { centre: (low + high) / 2.0, height_m: 1.07 * extent.z.max(across / aspect).max(1e-3) + 0.02 }
+        let mut frame = Self { centre: (low + high) / 2.0, height_m: 0.0 };
+        for view in View::ALL {
+            let [right, up, _] = Camera::new(view, frame).axes();
+            let along = |axis: V3| axis.abs().dot(&extent);
+            frame.height_m = frame.height_m.max(along(up)).max(along(right) / aspect);
+        }
+        Self { height_m: 1.05 * frame.height_m.max(1e-3) + 0.02, ..frame }
     }
 }
 

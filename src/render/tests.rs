@@ -174,7 +174,7 @@ fn sheets_and_legends_draw_text() {
 fn reference_bodies_render() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/bodies/meshes");
     let Ok(bytes) = std::fs::read(format!("{folder}/s01.obj")) else {
-        println!("skipped: {folder} is not here");
+        eprintln!("skipped: {folder} is not here");
         return;
     };
     let options = tobj::LoadOptions { triangulate: true, single_index: true, ..Default::default() };
@@ -187,7 +187,7 @@ fn reference_bodies_render() {
         body.triangles.extend(model.mesh.indices.chunks(3).map(|t| [0, 1, 2].map(|k| t[k] as usize + first)));
     }
     let (low, high) = body.bounds().unwrap();
-    println!("{} vertices from {low:?} to {high:?}", body.positions.len());
+    assert!((1.4..2.1).contains(&(high.z - low.z)), "{low:?} to {high:?}");
     let scene = Scene::new(vec![Layer::new(&body, Material::form())]).unwrap();
     let picture = render(&scene, &Camera::new(View::Front, Frame::enclosing([&body], 0.5)), 100, 200).unwrap();
     let covered = picture.pixels().filter(|p| i32::from(p[0]) - i32::from(p[2]) > 8).count();

@@ -331,6 +331,20 @@ impl Run {
         let chis: Vec<Chi> = self.measured.iter().filter(|m| keep(m)).map(|m| m.chi.clone()).collect();
         metrics(&chis)
     }
+
+    /// Its measurement of a number.
+    #[must_use]
+    pub fn measurement(&self, no: u32) -> Option<&Measured> {
+        self.measured.iter().find(|m| m.chi.no == no)
+    }
+}
+
+/// The measurements that any of the runs has, by number; the first run's description of each.
+pub(super) fn measurements<'a>(runs: &[&'a Run]) -> Vec<&'a Measured> {
+    let mut all: Vec<&Measured> = runs.iter().flat_map(|r| &r.measured).collect();
+    all.sort_by_key(|m| m.chi.no);
+    all.dedup_by_key(|m| m.chi.no);
+    all
 }
 
 /// A file beside the page.

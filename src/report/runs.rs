@@ -2,7 +2,7 @@
 
 use super::ReportError;
 use super::chart::{chi_chart, ei_chart, mean_sd_chart, residual_chart};
-use super::data::{Kind, Measured, Outcome, Run};
+use super::data::{Kind, Measured, Outcome, Run, measurements};
 use super::page::{Image, MapImage};
 use super::text::{duration, fit_glyph, fit_words, mean_sd, mm, number, signed_mm, simulator_name};
 use super::theme;
@@ -170,18 +170,6 @@ fn strip(run: &Run) -> Result<Strip, ReportError> {
     })
 }
 
-/// Measurements that any of the runs has, by number; the first run's description of each.
-fn measurements<'a>(runs: &[&'a Run]) -> Vec<&'a Measured> {
-    let mut all: Vec<&Measured> = runs.iter().flat_map(|r| &r.measured).collect();
-    all.sort_by_key(|m| m.chi.no);
-    all.dedup_by_key(|m| m.chi.no);
-    all
-}
-
-fn of(run: &Run, no: u32) -> Option<&Measured> {
-    run.measured.iter().find(|m| m.chi.no == no)
-}
-
 fn series(title: &str, runs: &[&Run]) -> Result<Vec<Series>, ReportError> {
     let mut all = Vec::new();
     for (name, members) in by_series(runs) {
@@ -218,7 +206,7 @@ fn by_series<'a>(runs: &[&'a Run]) -> Vec<(String, Vec<&'a Run>)> {
 fn side_by_side(runs: &[&Run]) -> Option<Heat> {
     let all = by_series(runs);
     let mean = |members: &[&Run], no: u32| {
-        let (mean, _) = mean_sd(members.iter().filter_map(|r| of(r, no)).map(|m| m.chi.chi()));
+        let (mean, _) = mean_sd(members.iter().filter_map(|r| r.measurement(no)).map(|m| m.chi.chi()));
         mean.is_finite().then(|| HeatCell::new(mean))
     };
     let row = |m: &&Measured| {
@@ -230,7 +218,7 @@ fn side_by_side(runs: &[&Run]) -> Option<Heat> {
 
 fn chi_row(measured: &Measured, runs: &[&Run]) -> ChiRow {
     let no = measured.chi.no;
-    let cell = |run: &&Run| match of(run, no) {
+    let cell = |run: &&Run| match run.measurement(no) {
         Some(m) => ChiCell {
             l3d: mm(m.chi.l3d_m),
             chi: number(m.chi.chi(), 3),
@@ -238,7 +226,7 @@ fn chi_row(measured: &Measured, runs: &[&Run]) -> ChiRow {
         },
         None => ChiCell { l3d: "–".into(), chi: "–".into(), published: None },
     };
-    let (mean, sd) = mean_sd(runs.iter().filter_map(|r| of(r, no)).map(|m| m.chi.chi()));
+    let (mean, sd) = mean_sd(runs.iter().filter_map(|r| r.measurement(no)).map(|m| m.chi.chi()));
     ChiRow {
         no,
         name: measured.name.clone(),
@@ -306,7 +294,7 @@ fn metrics_row(run: &Run, label: &str) -> MetricsRow {
 
 fn heat(runs: &[&Run], labels: &[String]) -> Heat {
     let row = |m: &&Measured| {
-        let cell = |run: &&Run| of(run, m.chi.no).map(|m| HeatCell::new(m.chi.chi()));
+        let cell = |run: &&Run| run.measurement(m.chi.no).map(|m| HeatCell::new(m.chi.chi()));
         (format!("#{} {}", m.chi.no, m.name), runs.iter().map(cell).collect())
     };
     Heat { columns: labels.to_vec(), rows: measurements(runs).iter().map(row).collect() }

@@ -1,24 +1,11 @@
 //! chi by measurement: every run as a mark, or mean and standard deviation over the runs.
 
-use super::super::data::{Measured, Run};
+use super::super::data::{Measured, Run, measurements};
 use super::super::{ReportError, theme};
 use super::canvas::{Align, Axis, Canvas, ROW, TYPE, WIDTH, draw};
 use super::{Chart, row_label};
 
 const LEFT: i32 = 520;
-
-/// The measurements that any of the runs has, by number, with their names.
-fn measurements(runs: &[&Run]) -> Vec<(u32, String)> {
-    let mut all: Vec<(u32, String)> =
-        runs.iter().flat_map(|r| &r.measured).map(|m| (m.chi.no, m.name.clone())).collect();
-    all.sort_by_key(|(no, _)| *no);
-    all.dedup_by_key(|(no, _)| *no);
-    all
-}
-
-fn of<'r>(run: &'r Run, no: u32) -> Option<&'r Measured> {
-    run.measured.iter().find(|m| m.chi.no == no)
-}
 
 /// An axis that holds 1 in its middle and all values.
 fn axis(values: impl Iterator<Item = f64>) -> Axis {
@@ -27,14 +14,14 @@ fn axis(values: impl Iterator<Item = f64>) -> Axis {
 }
 
 /// Rows, grid, names and the line at 1, which both charts share.
-fn frame(canvas: &Canvas<'_>, axis: &Axis, rows: &[(u32, String)], top: i32, row: i32) -> Result<(), ReportError> {
+fn frame(canvas: &Canvas<'_>, axis: &Axis, rows: &[&Measured], top: i32, row: i32) -> Result<(), ReportError> {
     let bottom = top + row * rows.len() as i32;
-    for (k, (no, name)) in (0..).zip(rows) {
+    for (k, m) in (0..).zip(rows) {
         let y = top + row * k;
         if k % 2 == 0 {
             canvas.bar((0, y), (WIDTH, y + row), theme::BAND)?;
         }
-        canvas.text((LEFT - 30, y + row / 2), &row_label(*no, name), theme::INK, Align::Right, false)?;
+        canvas.text((LEFT - 30, y + row / 2), &row_label(m.chi.no, &m.name), theme::INK, Align::Right, false)?;
     }
     axis.grid(canvas, top, bottom)?;
     canvas.line(vec![(axis.at(1.0), top), (axis.at(1.0), bottom)], theme::INK, 4)?;
@@ -57,9 +44,9 @@ pub fn chi_chart(title: &str, runs: &[&Run], labels: &[String]) -> Result<Chart,
     let svg = draw(top + row * rows.len() as i32 + 3 * TYPE + 30, |canvas| {
         canvas.key(labels, 20, 10)?;
         frame(canvas, &axis, &rows, top, row)?;
-        for (k, (no, _)) in (0..).zip(&rows) {
+        for (k, m) in (0..).zip(&rows) {
             for (series, run) in runs.iter().enumerate() {
-                let Some(measured) = of(run, *no) else { continue };
+                let Some(measured) = run.measurement(m.chi.no) else { continue };
                 // Series sit a little above each other, so that equal values do not hide one another.
                 let spread = (row - 26) as f64 * ((series as f64 + 0.5) / runs.len() as f64 - 0.5);
                 let y = top + row * k + row / 2 + spread.round() as i32;
@@ -84,7 +71,8 @@ pub fn mean_sd_chart(title: &str, runs: &[&Run]) -> Result<Chart, ReportError> {
     let rows = measurements(runs);
     let statistics: Vec<(f64, f64)> = rows
         .iter()
-        .map(|(no, _)| super::super::text::mean_sd(runs.iter().filter_map(|r| of(r, *no)).map(|m| m.chi.chi())))
+        .map(|m| runs.iter().filter_map(|r| r.measurement(m.chi.no)))
+        .map(|row| super::super::text::mean_sd(row.map(|m| m.chi.chi())))
         .collect();
     let axis = axis(statistics.iter().flat_map(|(mean, sd)| [mean - sd, mean + sd]));
     let top = 20;
