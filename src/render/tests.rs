@@ -75,7 +75,7 @@ fn cloth_a_millimetre_over_skin_hides_it() {
     let scene = Scene::new(vec![Layer::new(&body, Material::skin()), Layer::new(&cloth, Material::hybrid())]).unwrap();
     let picture = render(&scene, &Camera::new(View::Quarter, Frame::enclosing([&cloth], 1.0)), 200, 200).unwrap();
     let skin = picture.enumerate_pixels().filter(|(x, y, p)| {
-        let inside = (f64::from(*x) - 99.5).hypot(f64::from(*y) - 99.5) < 85.0;
+        let inside = (f64::from(*x) - 99.5).hypot(f64::from(*y) - 99.5) < 82.0;
         inside && p[0] > p[2]
     });
     assert_eq!(skin.count(), 0);
