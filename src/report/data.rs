@@ -237,15 +237,6 @@ pub enum Outcome {
     Failed(String),
 }
 
-/// Closed girth or open length.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// Runs round and closes.
-    ClosedGirth,
-    /// Has two ends.
-    OpenLength,
-}
-
 /// One measurement of one run.
 #[derive(Clone, Debug)]
 pub struct Measured {
@@ -253,8 +244,8 @@ pub struct Measured {
     pub name: String,
     /// Number, pattern and garment length.
     pub chi: Chi,
-    /// Whether it closes.
-    pub kind: Kind,
+    /// Whether it is a closed girth; an open length otherwise.
+    pub closed: bool,
     /// Whether it lies on an edge that nothing is sewn to.
     pub free_edge: bool,
     /// Whether the simulator restores it by construction.

@@ -2,7 +2,7 @@
 
 use super::ReportError;
 use super::chart::{chi_chart, ei_chart, mean_sd_chart, residual_chart};
-use super::data::{Kind, Measured, Outcome, Run, measurements};
+use super::data::{Measured, Outcome, Run, measurements};
 use super::page::{Image, MapImage};
 use super::text::{duration, fit_glyph, fit_words, mean_sd, mm, number, signed_mm, simulator_name};
 use super::theme;
@@ -230,10 +230,7 @@ fn chi_row(measured: &Measured, runs: &[&Run]) -> ChiRow {
     ChiRow {
         no,
         name: measured.name.clone(),
-        kind: match measured.kind {
-            Kind::ClosedGirth => "girth",
-            Kind::OpenLength => "length",
-        },
+        kind: if measured.closed { "girth" } else { "length" },
         free: measured.free_edge,
         controlled: measured.controlled,
         l2d: mm(measured.chi.l2d_m),

@@ -21,7 +21,7 @@ fn measured(no: u32, name: &str, l2d_m: f64, chi: f64, free_edge: bool) -> Measu
     Measured {
         name: name.into(),
         chi: Chi { no, l2d_m, l3d_m: l2d_m * chi },
-        kind: if name.ends_with("girth") { Kind::ClosedGirth } else { Kind::OpenLength },
+        closed: name.ends_with("girth"),
         free_edge,
         controlled: false,
         published_chi: None,
