@@ -114,7 +114,7 @@ fn fields_colour_the_cloth_and_must_fit_it() {
     let ball = sphere(0.25, V3::zeros());
     let scale = Scale::diverging(1.0, 0.2, "stretch", "");
     let layer = |n: usize, value: f64| {
-        Layer::new(&ball, Material::fem()).with_field(Values::Triangles(vec![value; n]), scale.clone())
+        Layer::new(&ball, Material::fem()).painted(Paint::Field(Values::Triangles(vec![value; n]), scale.clone()))
     };
     let camera = Camera::new(View::Front, Frame::enclosing([&ball], 1.0));
     let centre = |value| {
@@ -123,7 +123,7 @@ fn fields_colour_the_cloth_and_must_fit_it() {
     };
     let (short, long) = (centre(0.8), centre(1.2));
     assert!(short[2] > short[0] && long[0] > long[2], "{short:?} {long:?}");
-    assert!(matches!(Scene::new(vec![layer(3, 1.0)]), Err(RenderError::FieldLength { layer: 0, found: 3, .. })));
+    assert!(matches!(Scene::new(vec![layer(3, 1.0)]), Err(RenderError::PaintLength { layer: 0, found: 3, .. })));
 }
 
 #[test]
