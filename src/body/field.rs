@@ -48,7 +48,8 @@ impl Parts {
     pub fn seam(&self, point: V3) -> f64 {
         let right = V3::new(point.x.abs(), point.y, point.z);
         let trunk = self.trunk.sample(right, NEAR).distance;
-        let closeness = |limb: &Loft, reach: f64| (1.0 - (limb.sample(right, NEAR).distance - trunk).abs() / reach).clamp(0.0, 1.0);
+        let closeness =
+            |limb: &Loft, reach: f64| (1.0 - (limb.sample(right, NEAR).distance - trunk).abs() / reach).clamp(0.0, 1.0);
         let share = closeness(&self.arm, ARM_SEAM).max(closeness(&self.leg, LEG_SEAM));
         share * share * (3.0 - 2.0 * share)
     }

@@ -122,7 +122,11 @@ impl<'a> Figure<'a> {
         let heights = self.trunk_heights();
         let mean = |i: usize| self.atlas.trunk[i].girth;
         let course = |at: f64, hip: f64, waist: f64, chest: f64| {
-            let (low, high, a, b) = if at < heights[4] { (heights[1], heights[4], hip, waist) } else { (heights[4], heights[7], waist, chest) };
+            let (low, high, a, b) = if at < heights[4] {
+                (heights[1], heights[4], hip, waist)
+            } else {
+                (heights[4], heights[7], waist, chest)
+            };
             a + (b - a) * ((at - low) / (high - low)).clamp(0.0, 1.0)
         };
         let section = |i: usize| {
@@ -138,7 +142,13 @@ impl<'a> Figure<'a> {
         let excess = (girth / self.stature() - level.girth).clamp(-0.12, 0.25);
         let depth_over_width = level.depth_over_width[0] + level.depth_over_width[1] * excess;
         let forward = (level.centre[0] + level.centre[1] * excess) * self.stature();
-        let raw = Station { at, centre: V2::new(0.0, forward), half_width: 1.0, half_depth: depth_over_width, shape: level.shape };
+        let raw = Station {
+            at,
+            centre: V2::new(0.0, forward),
+            half_width: 1.0,
+            half_depth: depth_over_width,
+            shape: level.shape,
+        };
         raw.with_girth(girth)
     }
 
@@ -146,7 +156,13 @@ impl<'a> Figure<'a> {
     fn perineum(&self, trunk: &[Station]) -> Vec<Station> {
         let at = self.atlas.crotch * self.stature() + 0.004;
         let lowest = &trunk[0];
-        let end = Station { at, centre: lowest.centre, half_width: 0.45 * lowest.half_width, half_depth: 0.5 * lowest.half_depth, shape: ELLIPSE };
+        let end = Station {
+            at,
+            centre: lowest.centre,
+            half_width: 0.45 * lowest.half_width,
+            half_depth: 0.5 * lowest.half_depth,
+            shape: ELLIPSE,
+        };
         vec![end]
     }
 
@@ -222,7 +238,17 @@ impl<'a> Figure<'a> {
             let [up, half_width, front, back] = *row;
             // The jaw narrows towards the chin, the brow is broad: harmonics of the mean heads, halved above the jaw.
             let jaw = (1.0 - up / 0.35).max(0.0);
-            let shape = [-0.01 - 0.05 * jaw, -0.02 - 0.10 * jaw, 0.015 + 0.04 * jaw, 0.015 + 0.07 * jaw, -0.012, 0.0, 0.0, 0.0, 0.0];
+            let shape = [
+                -0.01 - 0.05 * jaw,
+                -0.02 - 0.10 * jaw,
+                0.015 + 0.04 * jaw,
+                0.015 + 0.07 * jaw,
+                -0.012,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+            ];
             Station {
                 at: chin + up * head,
                 centre: V2::new(0.0, (front + back) / 2.0 * head),
@@ -237,7 +263,12 @@ impl<'a> Figure<'a> {
         let rest = h - top.at;
         for share in [0.3_f64, 0.55, 0.75, 0.88, 0.96, 1.0] {
             let factor = (1.0 - share).sqrt().max(0.02);
-            sections.push(Station { at: top.at + rest * share, half_width: top.half_width * factor, half_depth: top.half_depth * factor, ..top });
+            sections.push(Station {
+                at: top.at + rest * share,
+                half_width: top.half_width * factor,
+                half_depth: top.half_depth * factor,
+                ..top
+            });
         }
         sections
     }
@@ -269,7 +300,8 @@ impl<'a> Figure<'a> {
         let [elbow, wrist, tip] = self.arm_lengths();
         let p = self.profile;
         let ring = |at: f64, girth: f64, depth_over_width: f64| {
-            Station { at, centre: V2::zeros(), half_width: 1.0, half_depth: depth_over_width, shape: ELLIPSE }.with_girth(girth)
+            Station { at, centre: V2::zeros(), half_width: 1.0, half_depth: depth_over_width, shape: ELLIPSE }
+                .with_girth(girth)
         };
         let plate = |at: f64, half_width: f64, half_depth: f64| Station {
             at,
@@ -308,7 +340,13 @@ impl<'a> Figure<'a> {
         let along = (down * 0.86 + forward * 0.5).normalize();
         let side = along.cross(&outward);
         let root = self.shoulder_joint() + down * (wrist + 0.012 * h) + forward * 0.010 * h;
-        let ring = |at: f64, radius: f64| Station { at, centre: V2::zeros(), half_width: radius * h, half_depth: radius * h, shape: ELLIPSE };
+        let ring = |at: f64, radius: f64| Station {
+            at,
+            centre: V2::zeros(),
+            half_width: radius * h,
+            half_depth: radius * h,
+            shape: ELLIPSE,
+        };
         let mut stations = vec![ring(0.0, 0.0085), ring(0.025 * h, 0.0080), ring(0.042 * h, 0.0065)];
         let end = stations[2];
         stations.extend(dome(&end, 0.0065 * h, 1.0));
@@ -361,7 +399,8 @@ impl<'a> Figure<'a> {
         };
         let (low, hip) = (&trunk[0], &trunk[1]);
         let inner = 0.1 * crotch_x;
-        let root = Station { shape: [0.0, 0.0, 0.0, 0.0, -0.03, 0.0, 0.0, 0.0, 0.0], ..fill(low.at, low, inner, 0.99, 0.96) };
+        let root =
+            Station { shape: [0.0, 0.0, 0.0, 0.0, -0.03, 0.0, 0.0, 0.0, 0.0], ..fill(low.at, low, inner, 0.99, 0.96) };
         let inside = fill(hip.at, hip, inner, 0.88, 0.75);
         let mut sections = vec![root, inside];
         sections.extend(dome(&inside, 0.03 * self.stature(), 1.0));

@@ -75,7 +75,10 @@ pub(super) fn girths_at(mesh: &TriMesh, sites: &Sites) -> Result<Girths, BodyErr
     let level = |z: f64| mm(z - sites.floor);
     let thigh_level = sites.crotch - THIGH_BELOW_CROTCH;
     let thighs = tape::right_limbs(mesh, thigh_level, sites.middle);
-    let thigh = thighs.iter().min_by(|a, b| a.bounds().0.x.total_cmp(&b.bounds().0.x)).ok_or_else(|| missing("thigh", thigh_level))?;
+    let thigh = thighs
+        .iter()
+        .min_by(|a, b| a.bounds().0.x.total_cmp(&b.bounds().0.x))
+        .ok_or_else(|| missing("thigh", thigh_level))?;
     let [right, left] = sites.shoulder;
     let across_shoulder =
         tape::tape_over(mesh, right, sites.back_neck, left).ok_or_else(|| missing("shoulder", right.z))?;
@@ -123,7 +126,8 @@ fn find_sites(mesh: &TriMesh, sex: Option<Sex>) -> Result<Sites, BodyError> {
     let underbust = underbust_level(mesh, chest, stature, middle);
     let upper = tape::above(mesh, at(0.7));
     let neck = tape::neck(&upper, at(0.83), at(0.90), middle).ok_or_else(|| missing("neck", at(0.87)))?;
-    let back_neck = median_point(&upper, at(CERVICALE), middle, Side::Back).ok_or_else(|| missing("nape", at(CERVICALE)))?;
+    let back_neck =
+        median_point(&upper, at(CERVICALE), middle, Side::Back).ok_or_else(|| missing("nape", at(CERVICALE)))?;
     let shoulder = shoulder_points(&upper, low.z, stature, middle).ok_or_else(|| missing("shoulder", at(0.82)))?;
     let waist = match sex {
         Some(Sex::Male) => at(ISO_WAIST[0]),
@@ -131,15 +135,26 @@ fn find_sites(mesh: &TriMesh, sex: Option<Sex>) -> Result<Sites, BodyError> {
         None => at((ISO_WAIST[0] + ISO_WAIST[1]) / 2.0),
     };
     let upper_arm = upper_arm(mesh, shoulder[0], low.z, stature, middle);
-    Ok(Sites { floor: low.z, crown: high.z, middle, crotch, hip, waist, underbust, chest, neck, shoulder, back_neck, upper_arm })
+    Ok(Sites {
+        floor: low.z,
+        crown: high.z,
+        middle,
+        crotch,
+        hip,
+        waist,
+        underbust,
+        chest,
+        neck,
+        shoulder,
+        back_neck,
+        upper_arm,
+    })
 }
 
 /// Where the trunk ends: the lowest height at which an outline crosses the median plane, by bisection.
 pub(super) fn crotch(mesh: &TriMesh, mut below: f64, mut above: f64, middle: f64) -> Option<f64> {
     let lower = tape::between(mesh, below, above);
-    let joined = |z: f64| {
-        tape::trunk_outline(&lower, z, middle).is_some_and(|outline| tape::girth(&outline) > 0.15)
-    };
+    let joined = |z: f64| tape::trunk_outline(&lower, z, middle).is_some_and(|outline| tape::girth(&outline) > 0.15);
     if joined(below) || !joined(above) {
         return None;
     }
@@ -211,8 +226,9 @@ fn shoulder_points(mesh: &TriMesh, floor: f64, stature: f64, middle: f64) -> Opt
     const TURN: f64 = 0.70;
     let ceiling = floor + 0.86 * stature;
     let point = |sign: f64| {
-        let tops: Vec<V3> =
-            steps(0.075 * stature, 0.16 * stature, 43).filter_map(|x| shoulder_top(mesh, middle + sign * x, ceiling)).collect();
+        let tops: Vec<V3> = steps(0.075 * stature, 0.16 * stature, 43)
+            .filter_map(|x| shoulder_top(mesh, middle + sign * x, ceiling))
+            .collect();
         let fall = |i: usize| (tops[i - 3].z - tops[i + 3].z) / (tops[i + 3].x - tops[i - 3].x).abs();
         let turn = (3..tops.len().checked_sub(3)?).find(|&i| fall(i) > TURN)?;
         Some(tops[turn])
@@ -265,7 +281,10 @@ pub(super) fn bust_point(mesh: &TriMesh, z: f64, sign: f64, stature: f64) -> Opt
     let front = |x: f64| {
         let next = outline.points.iter().cycle().skip(1);
         let crossings = outline.points.iter().zip(next).filter(|(a, b)| (a.x > x) != (b.x > x));
-        crossings.map(|(a, b)| a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x)).max_by(f64::total_cmp).map(|y| V3::new(x, y, z))
+        crossings
+            .map(|(a, b)| a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x))
+            .max_by(f64::total_cmp)
+            .map(|y| V3::new(x, y, z))
     };
     let candidates = steps(sign * RANGE[0] * stature, sign * RANGE[1] * stature, 35).filter_map(front);
     let foremost = candidates.max_by(|a, b| a.y.total_cmp(&b.y))?;

@@ -38,7 +38,15 @@ pub fn ease(context: &Context, arguments: &StudyPath) -> Outcome {
         context.study_name(&workspace, &arguments.study)?
     };
     let columns = [
-        "garment", "size", "subject", "level", "pattern_girth_mm", "body_girth_mm", "ease_mm", "fit_class", "undersized",
+        "garment",
+        "size",
+        "subject",
+        "level",
+        "pattern_girth_mm",
+        "body_girth_mm",
+        "ease_mm",
+        "fit_class",
+        "undersized",
         "borderline",
     ];
     let rows = workspace.ease(&name)?.into_iter().map(|ease| {

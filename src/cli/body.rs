@@ -62,9 +62,20 @@ fn measurements(context: &Context, arguments: &BodyBuild) -> Result<Measurements
         (None, Some(file)) => tools::read_measurements(file)?,
         (None, None) => {
             let (Some(sex), Some(stature_mm)) = (arguments.sex, arguments.stature_mm) else {
-                return Err(CliError::Usage("say --sex and --stature-mm, or a --subject, or --measurements FILE".into()));
+                return Err(CliError::Usage(
+                    "say --sex and --stature-mm, or a --subject, or --measurements FILE".into(),
+                ));
             };
-            Measurements::of(of(sex), from_mm(stature_mm))
+            Measurements {
+                sex: of(sex),
+                stature_m: from_mm(stature_mm),
+                weight_kg: None,
+                chest_girth_m: None,
+                waist_girth_m: None,
+                hip_girth_m: None,
+                neck_girth_m: None,
+                across_shoulder_m: None,
+            }
         }
     };
     known.sex = arguments.sex.map_or(known.sex, of);
@@ -90,6 +101,7 @@ fn print(context: &Context, girths: &Girths) -> Result<(), CliError> {
     }
     let document = serde_json::to_value(girths).map_err(std::io::Error::from)?;
     let tenth = |value: &Json| value.as_f64().map_or(Value::Null, |number| Value::Real((number * 10.0).round() / 10.0));
-    let rows = document.as_object().into_iter().flatten().map(|(name, value)| vec![Value::Text(name.clone()), tenth(value)]);
+    let rows =
+        document.as_object().into_iter().flatten().map(|(name, value)| vec![Value::Text(name.clone()), tenth(value)]);
     context.print(&Table { columns: vec!["measurement".into(), "value".into()], rows: rows.collect() })
 }

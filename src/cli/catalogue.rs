@@ -58,7 +58,10 @@ pub fn run(context: &Context, part: &Part, command: &Catalogue) -> Outcome {
 fn without(table: Table, hidden: &[&str]) -> Table {
     let kept: Vec<usize> = (0..table.columns.len()).filter(|&k| !hidden.contains(&table.columns[k].as_str())).collect();
     let pick = |row: &Vec<Value>| kept.iter().map(|&k| row[k].clone()).collect();
-    Table { columns: kept.iter().map(|&k| table.columns[k].clone()).collect(), rows: table.rows.iter().map(pick).collect() }
+    Table {
+        columns: kept.iter().map(|&k| table.columns[k].clone()).collect(),
+        rows: table.rows.iter().map(pick).collect(),
+    }
 }
 
 /// One column a revision, one row a property.

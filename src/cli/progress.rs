@@ -40,7 +40,8 @@ impl Bars {
             "all jobs {bar:30} {pos}/{len} {elapsed}",
             "all jobs {bar:30.green/dim} {pos}/{len} {elapsed}",
         ));
-        let job = style("{prefix:20} {bar:30} {percent:>3} % {msg}", "{prefix:20} {bar:30.cyan/dim} {percent:>3} % {msg}");
+        let job =
+            style("{prefix:20} {bar:30} {percent:>3} % {msg}", "{prefix:20} {bar:30.cyan/dim} {percent:>3} % {msg}");
         Self { all, total, running: BTreeMap::new(), style: job }
     }
 
@@ -53,7 +54,10 @@ impl Bars {
         });
         bar.set_position((progress.fraction.clamp(0.0, 1.0) * STEPS as f64) as u64);
         let step = &progress.step;
-        bar.set_message(format!("{} {}, residual {:.3}, E {:.3}", progress.phase, step.iteration, step.residual, step.e_chi));
+        bar.set_message(format!(
+            "{} {}, residual {:.3}, E {:.3}",
+            progress.phase, step.iteration, step.residual, step.e_chi
+        ));
     }
 
     fn end(&mut self, job: &JobRow, line: &str) {

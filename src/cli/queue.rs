@@ -56,10 +56,12 @@ fn list(workspace: &Workspace, study: Option<&str>, all: bool) -> Result<Table, 
         workspace.study(study)?;
     }
     let filter = JobFilter { study: study.map(str::to_owned), superseded: all, ..JobFilter::default() };
-    let columns = ["job", "study", "garment", "size", "subject", "sim", "status", "done", "ei", "wall_s", "tries", "error"];
+    let columns =
+        ["job", "study", "garment", "size", "subject", "sim", "status", "done", "ei", "wall_s", "tries", "error"];
     let rows = workspace.jobs(&filter)?.into_iter().map(|job| {
         let real = |number: Option<f64>| number.map_or(Value::Null, Value::Real);
-        let percent = job.progress.as_ref().map(|progress| format!("{:.0} % {}", progress.fraction * 100.0, progress.phase));
+        let percent =
+            job.progress.as_ref().map(|progress| format!("{:.0} % {}", progress.fraction * 100.0, progress.phase));
         vec![
             Value::Integer(job.id.0),
             Value::Text(job.study),

@@ -52,7 +52,11 @@ pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
 
 /// Starts the run and shows how it fares until it ends; says whether it was interrupted.
 fn work(
-    context: &Context, workspace: &mut Workspace, study: &Study, options: &RunOptions, why: bool,
+    context: &Context,
+    workspace: &mut Workspace,
+    study: &Study,
+    options: &RunOptions,
+    why: bool,
 ) -> Result<bool, super::CliError> {
     let interrupted = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {

@@ -6,6 +6,7 @@
 mod actions;
 mod cache;
 mod catalogue;
+mod doctor;
 mod engine;
 mod enqueue;
 mod error;
@@ -17,6 +18,7 @@ mod picture;
 mod pipeline;
 mod queue;
 mod read;
+mod reporting;
 mod run;
 mod spec;
 mod sql;
@@ -28,6 +30,7 @@ mod types;
 mod workspace;
 
 pub use actions::why_no_retry;
+pub use doctor::{Check, checks};
 pub use enqueue::{Planned, Why};
 pub use error::{Result, StudyError};
 pub use file::{Problem, Study, study_file};

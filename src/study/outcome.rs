@@ -100,7 +100,11 @@ impl Provenance {
 /// Ends a job with what came of it, in one transaction; returns its new state, or `None` when it was no longer the
 /// owner's to end (cancelled or taken over meanwhile).
 pub(crate) fn finish(
-    connection: &mut Connection, id: JobId, spec: &JobSpec, owner: &str, outcome: &Result<Outcome>,
+    connection: &mut Connection,
+    id: JobId,
+    spec: &JobSpec,
+    owner: &str,
+    outcome: &Result<Outcome>,
     provenance: &Provenance,
 ) -> Result<Option<Status>> {
     let transaction = store::write(connection)?;
@@ -126,7 +130,11 @@ pub(crate) fn finish(
 }
 
 fn write_result(
-    transaction: &Transaction<'_>, id: JobId, spec: &JobSpec, outcome: &Outcome, provenance: &Provenance,
+    transaction: &Transaction<'_>,
+    id: JobId,
+    spec: &JobSpec,
+    outcome: &Outcome,
+    provenance: &Provenance,
 ) -> Result<()> {
     write_measured(transaction, id, outcome)?;
     let mut statement = transaction.prepare_cached(
@@ -198,9 +206,7 @@ fn write_measured(transaction: &Transaction<'_>, id: JobId, outcome: &Outcome) -
 }
 
 /// Ease of a specification's size on its subject, for a study.
-pub(crate) fn write_ease(
-    transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec, eases: &[Ease],
-) -> Result<()> {
+pub(crate) fn write_ease(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec, eases: &[Ease]) -> Result<()> {
     let mut statement = transaction.prepare_cached(
         "INSERT OR REPLACE INTO ease (study_id, garment, size, subject, level, pattern_girth_mm, body_girth_mm)
         VALUES (?, ?, ?, ?, ?, ?, ?)",

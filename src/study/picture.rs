@@ -10,7 +10,7 @@ use super::types::JobId;
 use super::workspace::Workspace;
 use crate::geom::{DistanceField, TriMesh, V2, V3};
 use crate::pattern::Garment;
-use crate::render::{self, Camera, Frame, Layer, Material, Scale, Scene, Values, View};
+use crate::render::{self, Camera, Frame, Layer, Material, Paint, Scale, Scene, Values, View};
 use crate::sim::{Drape, Simulator};
 use crate::units::mm;
 
@@ -48,65 +48,98 @@ const GAP_REACH_MM: f64 = 60.0;
 /// A result made ready for pictures: lit once, shown from anywhere.
 pub(super) struct Stage {
     scene: Scene,
-    frame_of: [TriMesh; 2],
+    /// Body and cloth.
+    meshes: [TriMesh; 2],
+}
+
+impl Stage {
+    /// The frame that holds body and cloth from every view.
+    fn frame(&self, aspect: f64) -> Frame {
+        Frame::enclosing(&self.meshes, aspect)
+    }
+}
+
+/// A stored result: the body and the garment on it.
+pub(super) struct Dressed {
+    simulator: Simulator,
+    garment: Garment,
+    pub body: TriMesh,
+    pub cloth: TriMesh,
+}
+
+impl Dressed {
+    /// The lit scene of a map and, where values colour the cloth, their scale.
+    pub fn scene(&self, map: Map, gap: impl FnOnce() -> Result<DistanceField>) -> Result<(Scene, Option<Scale>)> {
+        let material = match self.simulator {
+            Simulator::Fem => Material::fem(),
+            Simulator::Hybrid => Material::hybrid(),
+        };
+        let field = match map {
+            Map::Plain => None,
+            Map::Stretch => {
+                let values = stretches(&self.garment, &self.cloth.positions);
+                Some((Values::Triangles(values), Scale::diverging(1.0, STRETCH_REACH, "stretch", "")))
+            }
+            Map::Gap => {
+                let field = gap()?;
+                let gaps = self.cloth.positions.iter().map(|p| mm(field.value_and_gradient(p).0)).collect();
+                Some((Values::Vertices(gaps), Scale::sequential(0.0, GAP_REACH_MM, "gap to the body", "mm")))
+            }
+        };
+        let scale = field.as_ref().map(|(_, scale)| scale.clone());
+        let paint = field.map_or(Paint::Plain, |(values, scale)| Paint::Field(values, scale));
+        let layers = vec![Layer::new(&self.body, Material::form()), Layer::new(&self.cloth, material).painted(paint)];
+        Ok((Scene::new(layers).map_err(StudyError::stage("render"))?, scale))
+    }
 }
 
 impl Workspace {
-    /// A picture of a result.
+    /// A picture of a result. The result last shown is kept ready, so that other views of it come quickly.
     ///
     /// # Errors
     /// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
     pub fn picture(&self, id: JobId, view: View, width: u32, height: u32, map: Map) -> Result<RgbaImage> {
         let mut kept = self.scene.borrow_mut();
-        if !kept.as_ref().is_some_and(|(of, with, _)| (*of, *with) == (id, map)) {
-            *kept = Some((id, map, self.stage(id, map)?));
-        }
-        let Some((_, _, stage)) = kept.as_ref() else {
-            return Err(StudyError::NotFound { what: "result of job", name: id.to_string(), known: vec![] });
+        let stage = match kept.take() {
+            Some((of, with, stage)) if (of, with) == (id, map) => stage,
+            _ => self.stage(id, map)?,
         };
-        let aspect = f64::from(width.max(1)) / f64::from(height.max(1));
-        let camera = Camera::new(view, Frame::enclosing(&stage.frame_of, aspect));
-        render::render(&stage.scene, &camera, width, height).map_err(StudyError::stage("render"))
+        let frame = stage.frame(f64::from(width.max(1)) / f64::from(height.max(1)));
+        let picture = render::render(&stage.scene, &Camera::new(view, frame), width, height);
+        *kept = Some((id, map, stage));
+        picture.map_err(StudyError::stage("render"))
+    }
+
+    /// [`Workspace::picture`] as a PNG file.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn picture_png(&self, id: JobId, view: View, width: u32, height: u32, map: Map) -> Result<Vec<u8>> {
+        render::png(&self.picture(id, view, width, height, map)?).map_err(StudyError::stage("render"))
     }
 
     fn stage(&self, id: JobId, map: Map) -> Result<Stage> {
-        let job = self.job(id)?;
-        let model: Model = self.product(id, StageKind::Body)?;
-        let (garment, drape) = self.drape(id)?;
-        let cloth = TriMesh { positions: drape.positions, triangles: garment.triangles.clone() };
-        let material = match job.simulator {
-            Simulator::Fem => Material::fem(),
-            Simulator::Hybrid => Material::hybrid(),
-        };
-        let layer = Layer::new(&cloth, material);
-        let layer = match map {
-            Map::Plain => layer,
-            Map::Stretch => {
-                let values = Values::Triangles(stretches(&garment, &cloth.positions));
-                layer.with_field(values, Scale::diverging(1.0, STRETCH_REACH, "stretch", ""))
-            }
-            Map::Gap => {
-                let field: DistanceField = self.product(id, StageKind::Field)?;
-                let gaps = cloth.positions.iter().map(|p| mm(field.value_and_gradient(p).0)).collect();
-                layer.with_field(Values::Vertices(gaps), Scale::sequential(0.0, GAP_REACH_MM, "gap to the body", "mm"))
-            }
-        };
-        let scene = Scene::new(vec![Layer::new(&model.body.mesh, Material::form()), layer]);
-        let scene = scene.map_err(StudyError::stage("render"))?;
-        Ok(Stage { scene, frame_of: [model.body.mesh, cloth] })
+        let dressed = self.dressed(id)?;
+        let (scene, _) = dressed.scene(map, || self.product(id, StageKind::Field))?;
+        Ok(Stage { scene, meshes: [dressed.body, dressed.cloth] })
     }
 
-    /// The mesh and the drape of a result.
+    /// A result as stored.
     ///
     /// # Errors
     /// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
-    pub(super) fn drape(&self, id: JobId) -> Result<(Garment, Drape)> {
+    pub(super) fn dressed(&self, id: JobId) -> Result<Dressed> {
+        let job = self.job(id)?;
+        let model: Model = self.product(id, StageKind::Body)?;
         let Meshes(mut meshes) = self.product(id, StageKind::Mesh)?;
         let drape: Drape = self.product(id, StageKind::Drape)?;
-        match meshes.pop() {
-            Some(garment) if garment.rest.len() == drape.positions.len() => Ok((garment, drape)),
-            _ => Err(StudyError::stage("store")(format!("the mesh of job {id} does not fit its drape"))),
-        }
+        let fits = |garment: &Garment| garment.rest.len() == drape.positions.len();
+        let garment = meshes
+            .pop()
+            .filter(fits)
+            .ok_or_else(|| StudyError::stage("store")(format!("the mesh of job {id} does not fit its drape")))?;
+        let cloth = TriMesh { positions: drape.positions, triangles: garment.triangles.clone() };
+        Ok(Dressed { simulator: job.simulator, garment, body: model.body.mesh, cloth })
     }
 
     /// A stored product of a job's stage.

@@ -13,7 +13,6 @@ use crate::body::{Body, Girths};
 use crate::fit::{self, Cuts, Ease};
 use crate::geom::DistanceField;
 use crate::measure;
-use crate::pattern::dxf::Unit;
 use crate::pattern::mesh::EDGE_LENGTH_RANGE_M;
 use crate::pattern::{Garment, Style};
 use crate::sim::{self, Drape, Monitor, SimError, Simulator};
@@ -158,11 +157,7 @@ fn ease(garment: &Garment, model: &Model) -> Vec<Ease> {
 
 /// The style of a job's size.
 pub(super) fn style(spec: &JobSpec) -> Result<Style> {
-    let unit = spec.unit.as_deref().map(|unit| match unit {
-        "cm" => Unit::Cm,
-        "in" => Unit::In,
-        _ => Unit::Mm,
-    });
+    let unit = spec.unit.as_deref().and_then(tools::unit_of);
     tools::read_style(&spec.pattern, &spec.seams, Some(&spec.size), unit)
 }
 

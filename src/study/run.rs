@@ -15,6 +15,7 @@ use super::pipeline::Pipeline;
 use super::spec::{self, Selection};
 use super::store;
 use super::workspace::Workspace;
+use crate::body::Measurements;
 
 /// What to run, and how.
 #[derive(Clone, Debug, Default)]
@@ -79,6 +80,18 @@ impl Workspace {
     /// Everything that is wrong with the file, at once.
     pub fn load_study(&self, path: &Path) -> Result<Study> {
         Study::load(path, &catalogue::known(Some(&self.reader))?)
+    }
+
+    /// A subject of the catalogue, latest revision.
+    ///
+    /// # Errors
+    /// When there is none of that name.
+    pub fn subject(&self, name: &str) -> Result<Measurements> {
+        let mut subjects = catalogue::known(Some(&self.reader))?.subjects;
+        subjects.remove(name).ok_or_else(|| {
+            let known = subjects.into_keys().collect();
+            StudyError::NotFound { what: "subject", name: name.to_owned(), known }
+        })
     }
 
     /// What a run of a study would do; nothing is written.

@@ -6,13 +6,13 @@ use super::error::{Result, StudyError};
 use super::file::SourceFile;
 use crate::body::{self, Body};
 use crate::pattern::dxf;
-use crate::pattern::{Garment, Style, draft, sheet};
+use crate::pattern::{Garment, draft, sheet};
 use crate::render::{self, Camera, Frame, Layer, Material, Scene};
 
 pub use crate::body::{Girths, LengthUnit, Measurements, Sex, write_obj};
-pub use crate::pattern::MeshQuality;
 pub use crate::pattern::dxf::Unit;
 pub use crate::pattern::inspect::{FileReport, PieceReport};
+pub use crate::pattern::{MeshQuality, Style};
 pub use crate::render::View;
 
 /// Writes files into a folder, which is made where it is missing; returns their paths.
@@ -84,9 +84,17 @@ pub fn style(pattern: &Path, seams: &Path, size: Option<&str>, unit: Option<Unit
     read_style(&SourceFile::read(pattern)?, &SourceFile::read(seams)?, size, unit)
 }
 
+/// The unit of a name in a study file.
+pub(super) fn unit_of(name: &str) -> Option<Unit> {
+    [Unit::Mm, Unit::Cm, Unit::In].into_iter().find(|unit| unit.as_str() == name)
+}
+
 /// [`style`] from files already read.
 pub(super) fn read_style(
-    pattern: &SourceFile, seams: &SourceFile, size: Option<&str>, unit: Option<Unit>,
+    pattern: &SourceFile,
+    seams: &SourceFile,
+    size: Option<&str>,
+    unit: Option<Unit>,
 ) -> Result<Style> {
     let fail = |message: String| StudyError::Stage { stage: "pattern", message };
     let file = dxf::read(&pattern.bytes, &pattern.name, unit).map_err(StudyError::stage("pattern"))?;
@@ -128,6 +136,15 @@ pub fn drafted_tshirt() -> Vec<(String, Vec<u8>)> {
     draft::tshirt_files()
 }
 
+/// Measurements from a TOML file with the keys of a study's `[[subject]]`.
+///
+/// # Errors
+/// Everything that is wrong with the file, at once.
+pub fn read_measurements(path: &Path) -> Result<Measurements> {
+    let text = std::fs::read_to_string(path).map_err(StudyError::io(path))?;
+    super::file::measurements(path, &text)
+}
+
 /// A body built from measurements, and what a tape reads on it.
 ///
 /// # Errors
@@ -158,6 +175,7 @@ pub fn measure_body(file: &Path, unit: Option<LengthUnit>, sex: Option<Sex>) -> 
 pub fn body_picture(body: &Body, view: View, width: u32, height: u32) -> Result<Vec<u8>> {
     let scene = Scene::new(vec![Layer::new(&body.mesh, Material::form())]).map_err(StudyError::stage("render"))?;
     let frame = Frame::enclosing([&body.mesh], f64::from(width) / f64::from(height.max(1)));
-    let picture = render::render(&scene, &Camera::new(view, frame), width, height).map_err(StudyError::stage("render"))?;
+    let picture =
+        render::render(&scene, &Camera::new(view, frame), width, height).map_err(StudyError::stage("render"))?;
     render::png(&picture).map_err(StudyError::stage("render"))
 }
