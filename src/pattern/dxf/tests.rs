@@ -52,10 +52,8 @@ fn check_folder(folder: &str, allowed_refusals: usize) {
             };
             let piece = pieces.remove(index);
             let mut expect = |what: &str, found: f64, tolerance: f64| {
-                if let Some(value) = number(what) {
-                    if (found - value).abs() > tolerance {
-                        wrong.push(format!("{name}/{}: {what} {found} for {value}", &row[1]));
-                    }
+                if let Some(value) = number(what).filter(|value| (found - value).abs() > tolerance) {
+                    wrong.push(format!("{name}/{}: {what} {found} for {value}", &row[1]));
                 }
             };
             expect("area_mm2", piece.area_mm2, 1.0);

@@ -1,5 +1,7 @@
+use super::corners::{corner_vertices, mirrored};
 use super::*;
 use crate::pattern::draft::{TSHIRT_SEAMS, TshirtSize, tshirt};
+use crate::pattern::seams::SeamFile;
 
 fn read(seams: &str) -> Result<Style, StyleError> {
     Style::read(&tshirt(TshirtSize::S).pieces, seams.as_bytes(), "a.toml")
