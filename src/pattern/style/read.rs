@@ -70,11 +70,22 @@ impl Reader<'_> {
 
     /// The drawn piece that an entry names by its block, or else by its piece name.
     fn drawn<'p>(&self, id: &str, entry: &PieceEntry, pieces: &'p [Piece]) -> Result<&'p Piece, StyleError> {
-        let by_block = pieces.iter().find(|piece| piece.block == entry.block);
-        by_block.or_else(|| pieces.iter().find(|piece| piece.name == entry.block)).ok_or_else(|| {
-            let blocks: Vec<&str> = pieces.iter().map(|piece| piece.block.as_str()).collect();
-            self.unknown(format!("piece `{id}`"), "block", &entry.block, &blocks)
-        })
+        let place = format!("piece `{id}`");
+        let named = |is: fn(&Piece) -> &str| pieces.iter().filter(|piece| is(piece) == entry.block).collect::<Vec<_>>();
+        let by_block = named(|piece| &piece.block);
+        let found = if by_block.is_empty() { named(|piece| &piece.name) } else { by_block };
+        match found.as_slice() {
+            [only] => Ok(only),
+            [] => {
+                let blocks: Vec<&str> = pieces.iter().map(|piece| piece.block.as_str()).collect();
+                Err(self.unknown(place, "block", &entry.block, &blocks))
+            }
+            several => Err(self.contradiction(
+                place,
+                format!("{} pieces are called `{}`", several.len(), entry.block),
+                "a name that one piece of the size has".to_owned(),
+            )),
+        }
     }
 
     fn piece(&self, id: &str, entry: &PieceEntry, drawn: &Piece) -> Result<StylePiece, StyleError> {
