@@ -240,7 +240,8 @@ mod tests {
 
     #[test]
     fn girths_tell_the_mass() {
-        let known = Measurements { chest_girth_m: Some(1.0587), hip_girth_m: Some(1.0195), ..only_stature(Sex::Male, 1.7562) };
+        let known =
+            Measurements { chest_girth_m: Some(1.0587), hip_girth_m: Some(1.0195), ..only_stature(Sex::Male, 1.7562) };
         assert!((MALE.mass(&known) - 85.5).abs() < 0.5, "{}", MALE.mass(&known));
     }
 

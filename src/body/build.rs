@@ -117,13 +117,15 @@ fn landmarks(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Landmarks
     let base = tape::trunk_outline(mesh, side_height, 0.0).ok_or_else(|| missing("neck base", side_height))?;
     let side = |sign: f64| base.points.iter().max_by(|a, b| (sign * a.x).total_cmp(&(sign * b.x)));
     let side_neck = [1.0, -1.0].map(|sign| side(sign).map_or_else(V3::zeros, |p| V3::new(p.x, p.y, side_height)));
-    let armpit = measure::armpit(mesh, sites.chest, sites.shoulder[0].z, 0.0).ok_or_else(|| missing("armpit", sites.chest))?;
+    let armpit =
+        measure::armpit(mesh, sites.chest, sites.shoulder[0].z, 0.0).ok_or_else(|| missing("armpit", sites.chest))?;
     let bust = |sign: f64| measure::bust_point(mesh, sites.chest, sign, h).ok_or_else(|| missing("bust", sites.chest));
     Ok(Landmarks {
         side_neck,
         shoulder: sites.shoulder,
         back_neck: sites.back_neck,
-        front_neck: measure::median_point(mesh, front_height, 0.0, Side::Front).ok_or_else(|| missing("front neck", front_height))?,
+        front_neck: measure::median_point(mesh, front_height, 0.0, Side::Front)
+            .ok_or_else(|| missing("front neck", front_height))?,
         armpit: [armpit, V3::new(-armpit.x, armpit.y, armpit.z)],
         bust: [bust(1.0)?, bust(-1.0)?],
         crotch: measure::crotch_point(mesh, sites.crotch).ok_or_else(|| missing("crotch", sites.crotch))?,
@@ -140,23 +142,42 @@ fn cuts(mesh: &TriMesh, figure: &Figure, sites: &Sites, landmarks: &Landmarks) -
     let (shoulder, armpit) = (landmarks.shoulder[0], landmarks.armpit[0]);
     // The armscye: through the shoulder point, passing outside the armpit.
     let up = V3::new(shoulder.x - armpit.x - 0.012, 0.0, shoulder.z - armpit.z).normalize();
-    let armscye = Plane { origin: V3::new((shoulder.x + armpit.x) / 2.0 + 0.006, joint.y, (shoulder.z + armpit.z) / 2.0), u: V3::y(), v: up };
+    let armscye = Plane {
+        origin: V3::new((shoulder.x + armpit.x) / 2.0 + 0.006, joint.y, (shoulder.z + armpit.z) / 2.0),
+        u: V3::y(),
+        v: up,
+    };
     let (front, back) = (landmarks.front_neck, landmarks.back_neck);
     let base = (back - front).normalize();
     let neck_lean = V3::new(0.0, sites.neck.lean.sin(), sites.neck.lean.cos());
-    let middle_of = |z: f64| tape::trunk_outline(mesh, z, 0.0).map_or(0.0, |outline| {
-        let (front, back) = tape::depth_range(&outline);
-        (front + back) / 2.0
-    });
+    let middle_of = |z: f64| {
+        tape::trunk_outline(mesh, z, 0.0).map_or(0.0, |outline| {
+            let (front, back) = tape::depth_range(&outline);
+            (front + back) / 2.0
+        })
+    };
     Cuts {
         leg: [0.012 * h, 0.072 * h, atlas.calf * h, atlas.knee * h, 0.80 * sites.crotch, sites.crotch - 0.02],
-        trunk: [sites.hip, (sites.hip + sites.waist) / 2.0, sites.waist, sites.underbust, sites.chest, armpit.z - 0.008],
+        trunk: [
+            sites.hip,
+            (sites.hip + sites.waist) / 2.0,
+            sites.waist,
+            sites.underbust,
+            sites.chest,
+            armpit.z - 0.008,
+        ],
         neck: [
             Plane { origin: (front + back) / 2.0, u: V3::x(), v: -base },
             Plane::normal_to(V3::new(0.0, middle_of(sites.neck.height), sites.neck.height), neck_lean),
         ],
         head: [h * (1.0 - 0.76 * atlas.head_height), h * (1.0 - 0.35 * atlas.head_height)],
-        arm: [armscye, across_arm(0.58 * elbow), across_arm(elbow), across_arm(elbow + 0.2 * (wrist - elbow)), across_arm(wrist)],
+        arm: [
+            armscye,
+            across_arm(0.58 * elbow),
+            across_arm(elbow),
+            across_arm(elbow + 0.2 * (wrist - elbow)),
+            across_arm(wrist),
+        ],
         crown: highest(mesh),
         hand: farthest_along(mesh, joint, along, tip),
     }
@@ -174,7 +195,12 @@ fn farthest_along(mesh: &TriMesh, joint: V3, along: V3, tip: f64) -> V3 {
         t > 0.8 * tip && (*p - joint - along * t).norm() < 0.06
     };
     let reach = |p: &V3| (p - joint).dot(&along);
-    mesh.positions.iter().filter(near_axis).copied().max_by(|a, b| reach(a).total_cmp(&reach(b))).unwrap_or(joint + along * tip)
+    mesh.positions
+        .iter()
+        .filter(near_axis)
+        .copied()
+        .max_by(|a, b| reach(a).total_cmp(&reach(b)))
+        .unwrap_or(joint + along * tip)
 }
 
 #[cfg(test)]

@@ -48,10 +48,15 @@ fn the_study_subjects_measure_as_asked() {
             ("across shoulder", across, girths.across_shoulder_mm, 5.0),
         ];
         let errors = pairs.map(|(_, asked, read, _)| read - asked);
-        eprintln!("subject {i} {took:?} {} triangles {:.1} l: {errors:.2?}", body.mesh.triangles.len(), girths.volume_l);
+        eprintln!(
+            "subject {i} {took:?} {} triangles {:.1} l: {errors:.2?}",
+            body.mesh.triangles.len(),
+            girths.volume_l
+        );
         if let Ok(folder) = std::env::var("TOILE_BODIES") {
             std::fs::write(format!("{folder}/b{i}.obj"), write_obj(&body.mesh)).expect("a folder");
-            let triangles = body.control.faces.iter().flat_map(|f| (2..f.len()).map(|k| [f[0], f[k - 1], f[k]])).collect();
+            let triangles =
+                body.control.faces.iter().flat_map(|f| (2..f.len()).map(|k| [f[0], f[k - 1], f[k]])).collect();
             let control = TriMesh { positions: body.control.positions.clone(), triangles };
             std::fs::write(format!("{folder}/c{i}.obj"), write_obj(&control)).expect("a folder");
             eprintln!("{:.3?}", body.landmarks);
@@ -73,7 +78,9 @@ fn skin_and_control_mesh_are_closed() {
         assert!(control.volume() > 0.9 * body.mesh.volume(), "{} of {}", control.volume(), body.mesh.volume());
         assert_eq!(body.control.ring(Layer::WristLeft).len(), RING);
         let elbow = body.skeleton.at(Joint::ElbowRight);
-        assert!(elbow.x > body.skeleton.at(Joint::ShoulderRight).x && elbow.z < body.skeleton.at(Joint::ShoulderRight).z);
+        assert!(
+            elbow.x > body.skeleton.at(Joint::ShoulderRight).x && elbow.z < body.skeleton.at(Joint::ShoulderRight).z
+        );
     }
 }
 

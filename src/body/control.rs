@@ -83,10 +83,38 @@ impl Layer {
     pub const ALL: [Self; 32] = {
         use Layer::*;
         [
-            FootRight, AnkleRight, CalfRight, KneeRight, MidThighRight, ThighRight, FootLeft, AnkleLeft, CalfLeft, KneeLeft,
-            MidThighLeft, ThighLeft, Hip, Abdomen, Waist, UnderBust, Chest, Axilla, NeckBase, Neck, Mouth, HeadGirth,
-            ArmscyeRight, UpperArmRight, ElbowRight, ForearmRight, WristRight, ArmscyeLeft, UpperArmLeft, ElbowLeft,
-            ForearmLeft, WristLeft,
+            FootRight,
+            AnkleRight,
+            CalfRight,
+            KneeRight,
+            MidThighRight,
+            ThighRight,
+            FootLeft,
+            AnkleLeft,
+            CalfLeft,
+            KneeLeft,
+            MidThighLeft,
+            ThighLeft,
+            Hip,
+            Abdomen,
+            Waist,
+            UnderBust,
+            Chest,
+            Axilla,
+            NeckBase,
+            Neck,
+            Mouth,
+            HeadGirth,
+            ArmscyeRight,
+            UpperArmRight,
+            ElbowRight,
+            ForearmRight,
+            WristRight,
+            ArmscyeLeft,
+            UpperArmLeft,
+            ElbowLeft,
+            ForearmLeft,
+            WristLeft,
         ]
     };
 }
@@ -157,7 +185,8 @@ impl ControlMesh {
     pub fn feature_lines(&self) -> Vec<(&'static str, Vec<usize>)> {
         use Layer::*;
         let trunk = [NeckBase, Axilla, Chest, UnderBust, Waist, Abdomen, Hip];
-        let down = |layers: &[Layer], i: usize| layers.iter().map(|&layer| self.ring_vertex(layer, i)).collect::<Vec<_>>();
+        let down =
+            |layers: &[Layer], i: usize| layers.iter().map(|&layer| self.ring_vertex(layer, i)).collect::<Vec<_>>();
         let right_leg = [ThighRight, MidThighRight, KneeRight, CalfRight, AnkleRight];
         let left_leg = [ThighLeft, MidThighLeft, KneeLeft, CalfLeft, AnkleLeft];
         let side = |i: usize, leg: &[Layer]| [down(&trunk[4..], i), down(leg, i)].concat();
@@ -400,7 +429,11 @@ fn join_shoulders(control: &mut ControlMesh) {
         };
         for r in 0..=YOKE_ROWS {
             for place in 0..YOKE - 1 {
-                add(control, vec![row(r, place), row(r, place + 1), row(r + 1, place + 1), row(r + 1, place)], Region::Shoulders);
+                add(
+                    control,
+                    vec![row(r, place), row(r, place + 1), row(r + 1, place + 1), row(r + 1, place)],
+                    Region::Shoulders,
+                );
             }
         }
     }

@@ -10,15 +10,15 @@ const NEAR: f64 = 0.12;
 const SOLE_EDGE: f64 = 0.006;
 
 /// Reach of the smooth joints between parts, metres.
-const ARM_JOINT: f64 = 0.060;
-const LEG_JOINT: f64 = 0.045;
-const BETWEEN_LEGS: f64 = 0.020;
+const ARM_JOINT: f64 = 0.035;
+const LEG_JOINT: f64 = 0.025;
+const BETWEEN_LEGS: f64 = 0.008;
 const FOOT_JOINT: f64 = 0.045;
 const THUMB_JOINT: f64 = 0.030;
 
 /// Difference of the distances of two parts up to which their joint is smoothed, metres.
-const ARM_SEAM: f64 = 0.045;
-const LEG_SEAM: f64 = 0.045;
+const ARM_SEAM: f64 = 0.040;
+const LEG_SEAM: f64 = 0.035;
 
 /// The lofts of a body; limbs are those of the right side and are mirrored.
 #[derive(Clone, Debug)]
@@ -48,7 +48,8 @@ impl Parts {
     pub fn seam(&self, point: V3) -> f64 {
         let right = V3::new(point.x.abs(), point.y, point.z);
         let trunk = self.trunk.sample(right, NEAR).distance;
-        let closeness = |limb: &Loft, reach: f64| (1.0 - (limb.sample(right, NEAR).distance - trunk).abs() / reach).clamp(0.0, 1.0);
+        let closeness =
+            |limb: &Loft, reach: f64| (1.0 - (limb.sample(right, NEAR).distance - trunk).abs() / reach).clamp(0.0, 1.0);
         let share = closeness(&self.arm, ARM_SEAM).max(closeness(&self.leg, LEG_SEAM));
         share * share * (3.0 - 2.0 * share)
     }

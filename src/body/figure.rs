@@ -122,7 +122,11 @@ impl<'a> Figure<'a> {
         let heights = self.trunk_heights();
         let mean = |i: usize| self.atlas.trunk[i].girth;
         let course = |at: f64, hip: f64, waist: f64, chest: f64| {
-            let (low, high, a, b) = if at < heights[4] { (heights[1], heights[4], hip, waist) } else { (heights[4], heights[7], waist, chest) };
+            let (low, high, a, b) = if at < heights[4] {
+                (heights[1], heights[4], hip, waist)
+            } else {
+                (heights[4], heights[7], waist, chest)
+            };
             a + (b - a) * ((at - low) / (high - low)).clamp(0.0, 1.0)
         };
         let section = |i: usize| {
@@ -138,15 +142,27 @@ impl<'a> Figure<'a> {
         let excess = (girth / self.stature() - level.girth).clamp(-0.12, 0.25);
         let depth_over_width = level.depth_over_width[0] + level.depth_over_width[1] * excess;
         let forward = (level.centre[0] + level.centre[1] * excess) * self.stature();
-        let raw = Station { at, centre: V2::new(0.0, forward), half_width: 1.0, half_depth: depth_over_width, shape: level.shape };
+        let raw = Station {
+            at,
+            centre: V2::new(0.0, forward),
+            half_width: 1.0,
+            half_depth: depth_over_width,
+            shape: level.shape,
+        };
         raw.with_girth(girth)
     }
 
     /// The lower end of the trunk, between the thighs.
     fn perineum(&self, trunk: &[Station]) -> Vec<Station> {
-        let at = self.atlas.crotch * self.stature() + 0.004;
+        let at = self.atlas.crotch * self.stature() + 0.010;
         let lowest = &trunk[0];
-        let end = Station { at, centre: lowest.centre, half_width: 0.45 * lowest.half_width, half_depth: 0.5 * lowest.half_depth, shape: ELLIPSE };
+        let end = Station {
+            at,
+            centre: lowest.centre,
+            half_width: 0.45 * lowest.half_width,
+            half_depth: 0.5 * lowest.half_depth,
+            shape: ELLIPSE,
+        };
         vec![end]
     }
 
@@ -222,12 +238,24 @@ impl<'a> Figure<'a> {
             let [up, half_width, front, back] = *row;
             // The jaw narrows towards the chin, the brow is broad: harmonics of the mean heads, halved above the jaw.
             let jaw = (1.0 - up / 0.35).max(0.0);
-            let shape = [-0.01 - 0.05 * jaw, -0.02 - 0.10 * jaw, 0.015 + 0.04 * jaw, 0.015 + 0.07 * jaw, -0.012, 0.0, 0.0, 0.0, 0.0];
+            let shape = [
+                -0.01 - 0.05 * jaw,
+                -0.02 - 0.10 * jaw,
+                0.015 + 0.04 * jaw,
+                0.015 + 0.07 * jaw,
+                -0.012,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+            ];
+            // A thick neck widens the jaw above it.
+            let size = head * (1.0 + (self.neck_factor().max(0.95) - 1.0) * (1.0 - up / 0.4).max(0.0));
             Station {
                 at: chin + up * head,
                 centre: V2::new(0.0, (front + back) / 2.0 * head),
-                half_width: half_width * head,
-                half_depth: (front - back) / 2.0 * head,
+                half_width: half_width * size,
+                half_depth: (front - back) / 2.0 * size,
                 shape,
             }
         };
@@ -237,7 +265,12 @@ impl<'a> Figure<'a> {
         let rest = h - top.at;
         for share in [0.3_f64, 0.55, 0.75, 0.88, 0.96, 1.0] {
             let factor = (1.0 - share).sqrt().max(0.02);
-            sections.push(Station { at: top.at + rest * share, half_width: top.half_width * factor, half_depth: top.half_depth * factor, ..top });
+            sections.push(Station {
+                at: top.at + rest * share,
+                half_width: top.half_width * factor,
+                half_depth: top.half_depth * factor,
+                ..top
+            });
         }
         sections
     }
@@ -246,11 +279,11 @@ impl<'a> Figure<'a> {
     pub fn shoulder_joint(&self) -> V3 {
         let h = self.stature();
         let radius = self.deltoid_radius();
-        V3::new(self.targets.shoulder_x - 0.45 * radius, -0.014 * h, self.atlas.shoulder * h - 0.97 * radius)
+        V3::new(self.targets.shoulder_x - 0.45 * radius, -0.014 * h, self.atlas.shoulder * h - 0.92 * radius)
     }
 
     fn deltoid_radius(&self) -> f64 {
-        self.profile.upper_arm * 1.04 / std::f64::consts::TAU
+        self.profile.upper_arm * 0.99 / std::f64::consts::TAU
     }
 
     /// Distances from the shoulder joint to elbow, wrist and finger tips.
@@ -269,7 +302,8 @@ impl<'a> Figure<'a> {
         let [elbow, wrist, tip] = self.arm_lengths();
         let p = self.profile;
         let ring = |at: f64, girth: f64, depth_over_width: f64| {
-            Station { at, centre: V2::zeros(), half_width: 1.0, half_depth: depth_over_width, shape: ELLIPSE }.with_girth(girth)
+            Station { at, centre: V2::zeros(), half_width: 1.0, half_depth: depth_over_width, shape: ELLIPSE }
+                .with_girth(girth)
         };
         let plate = |at: f64, half_width: f64, half_depth: f64| Station {
             at,
@@ -278,12 +312,12 @@ impl<'a> Figure<'a> {
             half_depth: half_depth * h,
             shape: [0.0, 0.0, 0.0, 0.0, -0.03, 0.0, 0.0, 0.0, 0.0],
         };
-        let deltoid = ring(0.0, p.upper_arm * 1.04, 1.05);
+        let deltoid = ring(0.0, p.upper_arm * 0.99, 1.08);
         let mut stations = dome(&deltoid, self.deltoid_radius(), -1.0);
         stations.reverse();
         stations.extend([
             deltoid,
-            ring(0.30 * elbow, p.upper_arm * 1.03, 1.10),
+            ring(0.30 * elbow, p.upper_arm * 1.01, 1.10),
             ring(0.58 * elbow, p.upper_arm, 1.10),
             ring(0.85 * elbow, 0.55 * p.upper_arm + 0.45 * p.forearm, 1.0),
             ring(elbow, p.forearm * 0.98, 0.98),
@@ -308,7 +342,13 @@ impl<'a> Figure<'a> {
         let along = (down * 0.86 + forward * 0.5).normalize();
         let side = along.cross(&outward);
         let root = self.shoulder_joint() + down * (wrist + 0.012 * h) + forward * 0.010 * h;
-        let ring = |at: f64, radius: f64| Station { at, centre: V2::zeros(), half_width: radius * h, half_depth: radius * h, shape: ELLIPSE };
+        let ring = |at: f64, radius: f64| Station {
+            at,
+            centre: V2::zeros(),
+            half_width: radius * h,
+            half_depth: radius * h,
+            shape: ELLIPSE,
+        };
         let mut stations = vec![ring(0.0, 0.0085), ring(0.025 * h, 0.0080), ring(0.042 * h, 0.0065)];
         let end = stations[2];
         stations.extend(dome(&end, 0.0065 * h, 1.0));
@@ -324,7 +364,7 @@ impl<'a> Figure<'a> {
         let ring = |at: f64, girth: f64, depth_over_width: f64, centre: V2, shape: Shape| {
             Station { at, centre, half_width: 1.0, half_depth: depth_over_width, shape }.with_girth(girth)
         };
-        let thigh = ring(0.955 * crotch, p.thigh * 0.985, 1.0, V2::new(0.0, 0.007 * h), thigh_shape);
+        let thigh = ring(0.955 * crotch, p.thigh * 0.98, 1.10, V2::new(0.0, 0.007 * h), thigh_shape);
         let hip_x = thigh_x(&trunk[0], &thigh);
         let ankle_x = self.ankle_x(hip_x);
         let x_at = |z: f64| ankle_x + (hip_x - ankle_x) * z / crotch;
@@ -339,8 +379,8 @@ impl<'a> Figure<'a> {
             ring(calf, p.calf, 1.02, at(calf, -0.019), calf_shape),
             ring(0.92 * knee, 0.30 * p.calf + 0.68 * p.knee, 1.04, at(0.90 * knee, -0.010), calf_shape),
             ring(knee, p.knee, 1.06, at(knee, -0.004), [-0.022, -0.025, 0.0, 0.025, 0.004, 0.0, 0.0, 0.0, 0.0]),
-            ring(1.22 * knee, 0.66 * p.knee + 0.34 * p.thigh, 1.05, at(1.22 * knee, 0.003), thigh_shape),
-            ring(0.80 * crotch, 0.13 * p.knee + 0.83 * p.thigh, 1.03, at(0.80 * crotch, 0.006), thigh_shape),
+            ring(1.25 * knee, 0.53 * p.knee + 0.45 * p.thigh, 1.05, at(1.25 * knee, 0.003), thigh_shape),
+            ring(0.82 * crotch, 0.22 * p.knee + 0.76 * p.thigh, 1.06, at(0.82 * crotch, 0.006), thigh_shape),
             Station { centre: at(thigh.at, 0.006), ..thigh },
         ];
         sections.extend(self.leg_roots(trunk, x_at(crotch)));
@@ -361,7 +401,8 @@ impl<'a> Figure<'a> {
         };
         let (low, hip) = (&trunk[0], &trunk[1]);
         let inner = 0.1 * crotch_x;
-        let root = Station { shape: [0.0, 0.0, 0.0, 0.0, -0.03, 0.0, 0.0, 0.0, 0.0], ..fill(low.at, low, inner, 0.99, 0.96) };
+        let root =
+            Station { shape: [0.0, 0.0, 0.0, 0.0, -0.03, 0.0, 0.0, 0.0, 0.0], ..fill(low.at, low, inner, 0.99, 0.96) };
         let inside = fill(hip.at, hip, inner, 0.88, 0.75);
         let mut sections = vec![root, inside];
         sections.extend(dome(&inside, 0.03 * self.stature(), 1.0));
@@ -409,5 +450,5 @@ impl<'a> Figure<'a> {
 
 /// Sideways place of the right thigh below the crotch: its outer side continues the hip's, and the thighs part.
 fn thigh_x(low: &Station, thigh: &Station) -> f64 {
-    (0.97 * low.half_width - thigh.half_width).max(thigh.half_width + 0.004)
+    (0.97 * low.half_width - thigh.half_width).max(thigh.half_width + 0.008)
 }

@@ -109,7 +109,10 @@ fn obj_place(bytes: &[u8]) -> String {
         let (keyword, rest) = (words.next(), words.collect::<Vec<_>>());
         match keyword {
             Some("v") => rest.len() < 3 || rest.iter().take(3).any(|word| word.parse::<f64>().is_err()),
-            Some("f") => rest.len() < 3 || rest.iter().any(|word| word.split('/').next().is_none_or(|i| i.parse::<i64>().is_err())),
+            Some("f") => {
+                rest.len() < 3
+                    || rest.iter().any(|word| word.split('/').next().is_none_or(|i| i.parse::<i64>().is_err()))
+            }
             _ => false,
         }
     };
@@ -143,7 +146,8 @@ fn read_ply(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     for (i, vertex) in ply.payload.get("vertex").into_iter().flatten().enumerate() {
         let coordinate = |name: &str| vertex.get(name).and_then(number);
         let position = coordinate("x").zip(coordinate("y")).zip(coordinate("z"));
-        let ((x, y), z) = position.ok_or_else(|| file_error("PLY", &format!("vertex {}", i + 1), "no numbers x, y, z"))?;
+        let ((x, y), z) =
+            position.ok_or_else(|| file_error("PLY", &format!("vertex {}", i + 1), "no numbers x, y, z"))?;
         mesh.positions.push(V3::new(x, y, z));
     }
     for (i, face) in ply.payload.get("face").into_iter().flatten().enumerate() {

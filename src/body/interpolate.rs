@@ -11,7 +11,8 @@ pub(super) struct Monotone {
 impl Monotone {
     /// The curve through `(at[i], value[i])`; `at` increases strictly.
     pub fn new(at: &[f64], value: &[f64]) -> Self {
-        let secant: Vec<f64> = at.windows(2).zip(value.windows(2)).map(|(x, y)| (y[1] - y[0]) / (x[1] - x[0])).collect();
+        let secant: Vec<f64> =
+            at.windows(2).zip(value.windows(2)).map(|(x, y)| (y[1] - y[0]) / (x[1] - x[0])).collect();
         let inner = |i: usize| {
             let (left, right) = (secant[i - 1], secant[i]);
             if left * right <= 0.0 {
@@ -22,7 +23,15 @@ impl Monotone {
             (w_left + w_right) / (w_left / left + w_right / right)
         };
         let last = at.len() - 1;
-        let slope = (0..=last).map(|i| if i == 0 { secant[0] } else if i == last { secant[last - 1] } else { inner(i) });
+        let slope = (0..=last).map(|i| {
+            if i == 0 {
+                secant[0]
+            } else if i == last {
+                secant[last - 1]
+            } else {
+                inner(i)
+            }
+        });
         Self { slope: slope.collect(), at: at.to_vec(), value: value.to_vec() }
     }
 
@@ -39,7 +48,9 @@ impl Monotone {
         let h = self.at[i + 1] - self.at[i];
         let t = (x - self.at[i]) / h;
         let (s, t2) = (1.0 - t, t * t);
-        (1.0 + 2.0 * t) * s * s * self.value[i] + t * s * s * h * self.slope[i] + t2 * (3.0 - 2.0 * t) * self.value[i + 1]
+        (1.0 + 2.0 * t) * s * s * self.value[i]
+            + t * s * s * h * self.slope[i]
+            + t2 * (3.0 - 2.0 * t) * self.value[i + 1]
             - t2 * s * h * self.slope[i + 1]
     }
 }

@@ -32,7 +32,8 @@ impl Station {
     /// Distance from the centre to the outline in the direction `angle`, radians from the first axis.
     pub fn radius(&self, angle: f64) -> f64 {
         let (sin, cos) = angle.sin_cos();
-        let ellipse = self.half_width * self.half_depth / (self.half_depth * cos).hypot(self.half_width * sin).max(1e-12);
+        let ellipse =
+            self.half_width * self.half_depth / (self.half_depth * cos).hypot(self.half_width * sin).max(1e-12);
         let phi = angle - std::f64::consts::FRAC_PI_2;
         let departure: f64 = self.shape.iter().enumerate().map(|(k, c)| c * (k as f64 * phi).cos()).sum();
         ellipse * (1.0 + departure)
@@ -98,8 +99,10 @@ impl Loft {
         let step = (end - start) / count as f64;
         let curves = Curves::new(stations);
         let sections: Vec<Station> = (0..=count).map(|i| curves.at(start + step * i as f64)).collect();
-        let rows = (0..=count).map(|i| Row::new(&sections[i.saturating_sub(1)..=(i + 1).min(count)], &sections[i])).collect();
-        let greatest_radius = sections.iter().map(|s| s.half_width.max(s.half_depth) * 1.2 + s.centre.norm()).fold(0.0, f64::max);
+        let rows =
+            (0..=count).map(|i| Row::new(&sections[i.saturating_sub(1)..=(i + 1).min(count)], &sections[i])).collect();
+        let greatest_radius =
+            sections.iter().map(|s| s.half_width.max(s.half_depth) * 1.2 + s.centre.norm()).fold(0.0, f64::max);
         Self { origin, axes, start, step, rows, greatest_radius }
     }
 
@@ -160,7 +163,8 @@ impl Row {
         let drift = (after.centre - before.centre) / length;
         let radii = (0..DIRECTIONS).map(|i| {
             let angle = i as f64 / DIRECTIONS as f64 * std::f64::consts::TAU;
-            let slope = (after.radius(angle) - before.radius(angle)) / length + drift.dot(&V2::new(angle.cos(), angle.sin()));
+            let slope =
+                (after.radius(angle) - before.radius(angle)) / length + drift.dot(&V2::new(angle.cos(), angle.sin()));
             [section.radius(angle), slope]
         });
         Self { centre: section.centre, radii: radii.collect() }
@@ -182,12 +186,22 @@ impl Curves {
             3 => s.half_depth,
             k => s.shape[k - 4],
         };
-        Self { numbers: std::array::from_fn(|i| Monotone::new(&at, &stations.iter().map(|s| number(s, i)).collect::<Vec<_>>())) }
+        Self {
+            numbers: std::array::from_fn(|i| {
+                Monotone::new(&at, &stations.iter().map(|s| number(s, i)).collect::<Vec<_>>())
+            }),
+        }
     }
 
     fn at(&self, at: f64) -> Station {
         let n = |i: usize| self.numbers[i].at(at);
-        Station { at, centre: V2::new(n(0), n(1)), half_width: n(2), half_depth: n(3), shape: std::array::from_fn(|k| n(k + 4)) }
+        Station {
+            at,
+            centre: V2::new(n(0), n(1)),
+            half_width: n(2),
+            half_depth: n(3),
+            shape: std::array::from_fn(|k| n(k + 4)),
+        }
     }
 }
 

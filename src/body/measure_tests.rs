@@ -18,9 +18,15 @@ fn the_reference_bodies_measure_as_known() {
     let mut errors: std::collections::BTreeMap<&str, Vec<f64>> = std::collections::BTreeMap::new();
     for row in table.records() {
         let row = row.expect("a row");
-        let known = |name: &str| row[heads.iter().position(|head| head == name).expect("a column")].parse::<f64>().map(|cm| cm * 10.0);
+        let known = |name: &str| {
+            row[heads.iter().position(|head| head == name).expect("a column")].parse::<f64>().map(|cm| cm * 10.0)
+        };
         let id = &row[0];
-        let file = ["obj", "ply"].iter().map(|end| folder.join(format!("meshes/{id}.{end}"))).find(|path| path.exists()).expect("a mesh");
+        let file = ["obj", "ply"]
+            .iter()
+            .map(|end| folder.join(format!("meshes/{id}.{end}")))
+            .find(|path| path.exists())
+            .expect("a mesh");
         let imported = import(&std::fs::read(file).expect("bytes"), None).expect("a body");
         let found = measure(&imported.mesh, None).expect("a standing body");
         let pairs = [

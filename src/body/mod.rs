@@ -39,7 +39,9 @@ pub enum BodyError {
         unit: &'static str,
     },
     /// The mesh has no section where the body part should be.
-    #[error("no {part} found at a height of {height_mm:.0} mm: is this a standing person, z up, with the feet on z = 0?")]
+    #[error(
+        "no {part} found at a height of {height_mm:.0} mm: is this a standing person, z up, with the feet on z = 0?"
+    )]
     MissingPart {
         /// Body part.
         part: &'static str,

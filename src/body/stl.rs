@@ -39,14 +39,21 @@ fn binary_corners(bytes: &[u8]) -> Vec<V3> {
     let facets = bytes[HEADER..].chunks_exact(FACET);
     let number = |b: &[u8]| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]));
     facets
-        .flat_map(|facet| facet[12..48].chunks_exact(12).map(|c| V3::new(number(c), number(&c[4..]), number(&c[8..]))).collect::<Vec<_>>())
+        .flat_map(|facet| {
+            facet[12..48]
+                .chunks_exact(12)
+                .map(|c| V3::new(number(c), number(&c[4..]), number(&c[8..])))
+                .collect::<Vec<_>>()
+        })
         .collect()
 }
 
 fn ascii_corners(bytes: &[u8]) -> Result<Vec<V3>, BodyError> {
     let text = String::from_utf8_lossy(bytes);
     let mut corners = Vec::new();
-    for (line, words) in text.lines().enumerate().filter_map(|(i, line)| Some((i + 1, line.trim().strip_prefix("vertex")?))) {
+    for (line, words) in
+        text.lines().enumerate().filter_map(|(i, line)| Some((i + 1, line.trim().strip_prefix("vertex")?)))
+    {
         let numbers: Vec<f64> = words.split_whitespace().map_while(|word| word.parse().ok()).collect();
         let [x, y, z] = numbers[..] else {
             return Err(file_error("STL", &format!("line {line}"), "a vertex needs three numbers"));

@@ -34,7 +34,8 @@ impl Skin {
         let half = (high.x / spacing).ceil() as usize + 1;
         let count = |from: f64, to: f64| ((to - from) / spacing).ceil() as usize + 3;
         let counts = [2 * half, count(low.y, high.y), count(low.z, high.z)];
-        let grid = Grid { low: V3::new((0.5 - half as f64) * spacing, low.y - spacing, low.z - spacing), spacing, counts };
+        let grid =
+            Grid { low: V3::new((0.5 - half as f64) * spacing, low.y - spacing, low.z - spacing), spacing, counts };
         let mut values = vec![0.0; counts[0] * counts[1] * counts[2]];
         for k in 0..counts[2] {
             for j in 0..counts[1] {

@@ -51,7 +51,8 @@ pub(super) fn tape_over(mesh: &TriMesh, start: V3, middle: V3, end: V3) -> Optio
     let reach = plane.project(end).x;
     let side = plane.project(middle).y.signum();
     let between = |p: &V2| p.x > 0.0 && p.x < reach && p.y * side > 0.0;
-    let mut points: Vec<V2> = section(mesh, &plane).into_iter().flat_map(|outline| outline.points).filter(between).collect();
+    let mut points: Vec<V2> =
+        section(mesh, &plane).into_iter().flat_map(|outline| outline.points).filter(between).collect();
     points.extend([V2::zeros(), V2::new(reach, 0.0), plane.project(middle)]);
     Some(hull::tape_girth(&points) - reach)
 }
@@ -81,7 +82,8 @@ pub(super) fn neck(mesh: &TriMesh, low: f64, high: f64, middle: f64) -> Option<N
     };
     let coarse_step = (high - low) / 12.0;
     let lean_step = 5_f64.to_radians();
-    let mut coarse = (0..=12).flat_map(|i| (0..=6).map(move |j| (low + coarse_step * f64::from(i), lean_step * f64::from(j))));
+    let mut coarse =
+        (0..=12).flat_map(|i| (0..=6).map(move |j| (low + coarse_step * f64::from(i), lean_step * f64::from(j))));
     let best = least(&mut coarse)?;
     let offsets = |i: i32, step: f64| f64::from(i) * step / 3.0;
     let mut fine = (-3..=3).flat_map(|i| {

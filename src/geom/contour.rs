@@ -45,8 +45,7 @@ const EDGES: [(usize, usize); 12] =
     [(0, 1), (2, 3), (4, 5), (6, 7), (0, 2), (1, 3), (4, 6), (5, 7), (0, 4), (1, 5), (2, 6), (3, 7)];
 
 /// Corners of the six faces, in order round the face.
-const FACES: [[usize; 4]; 6] =
-    [[0, 2, 6, 4], [1, 3, 7, 5], [0, 1, 5, 4], [2, 3, 7, 6], [0, 1, 3, 2], [4, 5, 7, 6]];
+const FACES: [[usize; 4]; 6] = [[0, 2, 6, 4], [1, 3, 7, 5], [0, 1, 5, 4], [2, 3, 7, 6], [0, 1, 3, 2], [4, 5, 7, 6]];
 
 /// No vertex at this edge of this cell.
 const NONE: usize = usize::MAX;
@@ -143,7 +142,14 @@ fn join(sheet: &mut [usize; 12], a: usize, b: usize) {
 }
 
 /// Adds the quadrilateral dual to every grid edge along `axis` that changes sign.
-fn emit_quads(grid: &Grid, values: &[f64], axis: usize, cell_slot: &[usize], edge_vertices: &[[usize; 12]], quads: &mut Vec<[usize; 4]>) {
+fn emit_quads(
+    grid: &Grid,
+    values: &[f64],
+    axis: usize,
+    cell_slot: &[usize],
+    edge_vertices: &[[usize; 12]],
+    quads: &mut Vec<[usize; 4]>,
+) {
     let (p, q) = ((axis + 1) % 3, (axis + 2) % 3);
     let step = |at: [usize; 3], axis: usize, by: isize| {
         let mut moved = at;

@@ -54,8 +54,7 @@ impl TriMesh {
     /// Every undirected edge once, as `[lesser, greater]` vertex index, sorted.
     #[must_use]
     pub fn edges(&self) -> Vec<[usize; 2]> {
-        let mut edges: Vec<[usize; 2]> =
-            self.directed_edges().into_iter().map(|[a, b]| [a.min(b), a.max(b)]).collect();
+        let mut edges: Vec<[usize; 2]> = self.directed_edges().into_iter().map(|[a, b]| [a.min(b), a.max(b)]).collect();
         edges.sort_unstable();
         edges.dedup();
         edges

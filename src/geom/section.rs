@@ -114,7 +114,10 @@ pub fn section(mesh: &TriMesh, plane: &Plane) -> Vec<Outline> {
         let share = height[a] / (height[a] - height[b]);
         plane.project(mesh.positions[a] + (mesh.positions[b] - mesh.positions[a]) * share)
     };
-    chain(successor).into_iter().map(|(edges, closed)| Outline { points: edges.iter().map(place).collect(), closed }).collect()
+    chain(successor)
+        .into_iter()
+        .map(|(edges, closed)| Outline { points: edges.iter().map(place).collect(), closed })
+        .collect()
 }
 
 /// Chains cut edges along their successors: open chains first, then loops.
