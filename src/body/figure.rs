@@ -64,6 +64,7 @@ impl<'a> Figure<'a> {
             trunk: Loft::new(V3::zeros(), upright, &core, TABLE_STEP),
             arm: self.arm(),
             thumb: self.thumb(),
+            hand_start: self.hand_start(),
             leg: Loft::new(V3::zeros(), upright, &leg, TABLE_STEP),
             foot: self.foot(leg[0].centre.x),
         }
@@ -275,6 +276,11 @@ impl<'a> Figure<'a> {
         sections
     }
 
+    /// Distance along the arm's axis from the shoulder joint at which the hand begins.
+    pub fn hand_start(&self) -> f64 {
+        self.arm_lengths()[1]
+    }
+
     /// Centre of the shoulder joint of the right arm.
     pub fn shoulder_joint(&self) -> V3 {
         let h = self.stature();
@@ -324,13 +330,13 @@ impl<'a> Figure<'a> {
             ring(elbow + 0.2 * (wrist - elbow), p.forearm, 1.02),
             ring(elbow + 0.6 * (wrist - elbow), 0.55 * p.forearm + 0.45 * p.wrist, 1.10),
             ring(wrist, p.wrist, 1.28),
-            plate(wrist + 0.018 * h, 0.0105, 0.0190),
-            plate(wrist + 0.045 * h, 0.0095, 0.0235),
-            plate(wrist + 0.065 * h, 0.0080, 0.0230),
-            plate(tip - 0.018 * h, 0.0065, 0.0185),
+            plate(wrist + 0.018 * h, 0.0125, 0.0190),
+            plate(wrist + 0.045 * h, 0.0125, 0.0240),
+            plate(wrist + 0.068 * h, 0.0110, 0.0225),
+            plate(tip - 0.020 * h, 0.0090, 0.0165),
         ]);
         let fingers = stations[stations.len() - 1];
-        stations.extend(dome(&fingers, 0.018 * h, 1.0));
+        stations.extend(dome(&fingers, 0.020 * h, 1.0));
         Loft::new(self.shoulder_joint(), self.arm_axes(), &stations, TABLE_STEP)
     }
 
@@ -349,9 +355,9 @@ impl<'a> Figure<'a> {
             half_depth: radius * h,
             shape: ELLIPSE,
         };
-        let mut stations = vec![ring(0.0, 0.0085), ring(0.025 * h, 0.0080), ring(0.042 * h, 0.0065)];
+        let mut stations = vec![ring(0.0, 0.0110), ring(0.025 * h, 0.0100), ring(0.042 * h, 0.0065)];
         let end = stations[2];
-        stations.extend(dome(&end, 0.0065 * h, 1.0));
+        stations.extend(dome(&end, 0.0085 * h, 1.0));
         Loft::new(root, [outward, side, along], &stations, TABLE_STEP)
     }
 
@@ -376,11 +382,10 @@ impl<'a> Figure<'a> {
             ring(0.040 * h, p.ankle * 1.06, 1.35, at(0.040 * h, -0.018), ELLIPSE),
             ring(0.072 * h, p.ankle, 1.30, at(0.072 * h, -0.018), ELLIPSE),
             ring(0.125 * h, 0.60 * p.ankle + 0.40 * p.calf, 1.12, at(0.125 * h, -0.019), calf_shape),
-            ring(calf, p.calf, 1.02, at(calf, -0.019), calf_shape),
-            ring(0.92 * knee, 0.30 * p.calf + 0.68 * p.knee, 1.04, at(0.90 * knee, -0.010), calf_shape),
-            ring(knee, p.knee, 1.06, at(knee, -0.004), [-0.022, -0.025, 0.0, 0.025, 0.004, 0.0, 0.0, 0.0, 0.0]),
-            ring(1.25 * knee, 0.53 * p.knee + 0.45 * p.thigh, 1.05, at(1.25 * knee, 0.003), thigh_shape),
-            ring(0.82 * crotch, 0.22 * p.knee + 0.76 * p.thigh, 1.06, at(0.82 * crotch, 0.006), thigh_shape),
+            ring(calf, p.calf, 1.02, at(calf, -0.0165), calf_shape),
+            ring(knee, p.knee, 1.06, at(knee, -0.0065), [-0.022, -0.025, 0.0, 0.025, 0.004, 0.0, 0.0, 0.0, 0.0]),
+            ring(1.25 * knee, 0.53 * p.knee + 0.45 * p.thigh, 1.05, at(1.25 * knee, -0.001), thigh_shape),
+            ring(0.82 * crotch, 0.22 * p.knee + 0.76 * p.thigh, 1.06, at(0.82 * crotch, 0.004), thigh_shape),
             Station { centre: at(thigh.at, 0.006), ..thigh },
         ];
         sections.extend(self.leg_roots(trunk, x_at(crotch)));
@@ -402,7 +407,7 @@ impl<'a> Figure<'a> {
         let (low, hip) = (&trunk[0], &trunk[1]);
         let inner = 0.1 * crotch_x;
         let root =
-            Station { shape: [0.0, 0.0, 0.0, 0.0, -0.03, 0.0, 0.0, 0.0, 0.0], ..fill(low.at, low, inner, 0.99, 0.96) };
+            Station { shape: [0.0, 0.0, 0.0, 0.0, -0.03, 0.0, 0.0, 0.0, 0.0], ..fill(low.at, low, inner, 0.985, 0.84) };
         let inside = fill(hip.at, hip, inner, 0.88, 0.75);
         let mut sections = vec![root, inside];
         sections.extend(dome(&inside, 0.03 * self.stature(), 1.0));
