@@ -4,7 +4,7 @@
 //! them open:
 //! - The neck is a **V**, as [T 6.2.1] says. The numbers agree: a neckline that leaves the apex along its chord and
 //!   meets the shoulder at a right angle, with a back neck 22 mm deep, gives half neck widths of 80.0, 80.1 and
-//!   80.2 mm for S, M and L, whereas a round neck 176 mm deep would be only 143 mm wide.
+//!   80.2 mm for S, M and L, whereas a round neck 176 mm deep would be only about 142 mm wide.
 //! - **Sleeve length is the underarm seam.** Its published L3D hardly varies (119.1-119.4 mm over four subjects) as a
 //!   hanging seam does, and as a length from the cap top it would leave no room for the cap of a 504 mm armhole.
 //! - Sides are straight and vertical, so the girth at the underarm is the hem girth. Front and back share the shoulder

@@ -294,7 +294,7 @@ fn names_follow_the_code_page() {
 }
 
 proptest::proptest! {
-    #![proptest_config(proptest::prelude::ProptestConfig::with_cases(200))]
+    #![proptest_config(proptest::prelude::ProptestConfig::with_cases(64))]
 
     #[test]
     fn truncated_files_are_refused(share in 0.0..1.0_f64) {
