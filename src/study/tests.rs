@@ -214,6 +214,20 @@ fn a_second_run_has_nothing_to_do_and_a_change_is_named() {
 }
 
 #[test]
+fn what_a_study_no_longer_has_leaves_its_tables_but_not_the_database() {
+    let mut bench = Bench::new();
+    bench.run(&study(0.1), 2, quick);
+    let mut smaller = study(0.1);
+    smaller.subjects.pop();
+    bench.run(&smaller, 2, quick);
+    assert_eq!(bench.workspace.query("SELECT * FROM v_metrics").expect("valid").rows.len(), 2);
+    assert_eq!(bench.workspace.query("SELECT * FROM v_ease").expect("valid").rows.len(), 2);
+    assert_eq!(bench.workspace.query("SELECT * FROM metrics").expect("valid").rows.len(), 4);
+    bench.run(&study(0.1), 2, |_: &JobSpec, _: &mut dyn Monitor| panic!("nothing may run"));
+    assert_eq!(bench.workspace.query("SELECT * FROM v_metrics").expect("valid").rows.len(), 4);
+}
+
+#[test]
 fn planning_writes_nothing() {
     let mut bench = Bench::new();
     let planned = bench.workspace.plan(&study(0.1), &Selection::default()).expect("valid");
