@@ -21,7 +21,7 @@ impl Workspace {
         let mut batch = rusqlite::Batch::new(&self.reader, sql);
         let mut table = Table::default();
         while let Some(mut statement) = batch.next()? {
-            let columns = statement.column_names().into_iter().map(str::to_owned).collect::<Vec<_>>();
+            let columns = statement.column_names().map(str::to_owned).collect::<Vec<_>>();
             let width = columns.len();
             let mut rows = Vec::new();
             let mut found = statement.raw_query();

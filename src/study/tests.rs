@@ -271,7 +271,7 @@ fn jobs_of_a_dead_process_are_taken_over_at_once_and_nothing_runs_twice() {
         )
         .expect("valid");
     // A process of this machine that has ended: same boot, a number that is no process's.
-    let dead = super::owner::Owner::new().as_str().replace(&format!("/{}/", std::process::id()), "/4194305/");
+    let dead = owner::Owner::new().as_str().replace(&format!("/{}/", std::process::id()), "/4194305/");
     let transaction = store::write(&mut connection).expect("idle");
     queue::apply(&transaction, JobId(1), &Event::Claim(&dead), None).expect("queued").expect("queued");
     transaction.commit().expect("idle");
