@@ -9,7 +9,23 @@ use super::error::Result;
 use super::types::{Table, Value};
 use super::workspace::Workspace;
 
+/// Stops a query that another thread waits for.
+pub struct Interrupter(rusqlite::InterruptHandle);
+
+impl Interrupter {
+    /// Makes the query that runs now end with an error; does nothing when none runs.
+    pub fn interrupt(&self) {
+        self.0.interrupt();
+    }
+}
+
 impl Workspace {
+    /// A handle that stops a running [`Workspace::query`] from another thread.
+    #[must_use]
+    pub fn interrupter(&self) -> Interrupter {
+        Interrupter(self.reader.get_interrupt_handle())
+    }
+
     /// Answers a query, or several separated by `;` (the last one's rows). Nothing can be written this way.
     ///
     /// Besides SQLite's own functions there are `median(x)`, `stddev(x)` (sample, n-1) and `quantile(x, p)` (p in 0 to

@@ -345,6 +345,24 @@ fn a_readonly_workspace_reads_and_refuses_to_write() {
 }
 
 #[test]
+fn a_query_can_be_stopped() {
+    let bench = Bench::new();
+    let endless = "WITH RECURSIVE n(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM n) SELECT sum(x) FROM n";
+    let interrupter = bench.workspace.interrupter();
+    let over = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            while !over.load(Ordering::Relaxed) {
+                interrupter.interrupt();
+                std::thread::sleep(Duration::from_millis(2));
+            }
+        });
+        assert!(bench.workspace.query(endless).is_err());
+        over.store(true, Ordering::Relaxed);
+    });
+}
+
+#[test]
 fn every_contract_view_answers() {
     let mut bench = Bench::new();
     bench.run(&study(0.1), 1, quick);
