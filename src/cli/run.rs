@@ -79,6 +79,9 @@ fn work(
         todo.len(),
         run.planned.len() - todo.len()
     ));
+    if workspace.study(&study.name)?.paused {
+        context.say(format_args!("{0} is paused: jobs wait until `toile queue resume {0}`", study.name));
+    }
     let mut progress = Progress::new(context, &study.name, todo);
     while !run.is_finished() {
         if interrupted.load(Ordering::Relaxed) {

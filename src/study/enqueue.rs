@@ -13,6 +13,7 @@ use super::read;
 use super::spec::{self, JobSpec, Selection};
 use super::store::now_ms;
 use super::types::{JobId, Status};
+use super::workspace::Workspace;
 use crate::sim::Simulator;
 use crate::units::mm;
 
@@ -245,6 +246,30 @@ fn insert(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec, hash: &s
         statement.execute(params![id.0, name, value])?;
     }
     Ok(id)
+}
+
+impl Workspace {
+    /// Why a job was not found in the cache: what differs from the latest earlier job of the same cell.
+    ///
+    /// # Errors
+    /// When there is no such job.
+    pub fn why(&self, id: JobId) -> Result<Why> {
+        self.job(id)?;
+        let sql = "SELECT earlier.job_id FROM job JOIN job AS earlier USING (study_id, garment, size, subject, simulator, repeat)
+            WHERE job.job_id = ?1 AND earlier.job_id < ?1 ORDER BY earlier.job_id DESC LIMIT 1";
+        let earlier = self.reader.prepare_cached(sql)?.query_row([id.0], |row| row.get(0).map(JobId)).optional()?;
+        let Some(since) = earlier else { return Ok(Why::New) };
+        let changes = inputs_of(&self.reader, id)?.changes_since(&inputs_of(&self.reader, since)?);
+        Ok(Why::Changed { since, changes })
+    }
+
+    /// The inputs of a job, by name.
+    ///
+    /// # Errors
+    /// When the database cannot be read.
+    pub fn inputs(&self, id: JobId) -> Result<Inputs> {
+        inputs_of(&self.reader, id)
+    }
 }
 
 /// The stored inputs of a job.

@@ -201,6 +201,8 @@ fn a_second_run_has_nothing_to_do_and_a_change_is_named() {
 
     let heavier = bench.run(&study(0.2), 2, quick);
     assert_eq!(heavier[0].why.to_string(), "changed since job 1: fabric.poplin.density_kg_m2: 0.1 -> 0.2");
+    assert_eq!(bench.workspace.why(heavier[0].id).expect("there"), heavier[0].why);
+    assert_eq!(bench.workspace.why(again[0].id).expect("there"), Why::New);
     let count = |sql| match bench.workspace.query(sql).expect("valid").rows[0][0] {
         Value::Integer(n) => n,
         ref other => panic!("a count, not {other}"),
