@@ -58,9 +58,11 @@ impl Context {
         Ok(super::output::table(table, format)?)
     }
 
-    /// The study of a path: its folder or file.
+    /// The study of a path, its folder or file; a bare name is also looked for among the project's studies.
     pub fn study(&self, workspace: &Workspace, path: &Path) -> Result<Study, CliError> {
-        Ok(workspace.load_study(path)?)
+        let in_project = project_folder().map(|project| project.join("studies").join(path));
+        let path = in_project.filter(|folder| !path.exists() && folder.is_dir()).unwrap_or_else(|| path.to_owned());
+        Ok(workspace.load_study(&path)?)
     }
 
     /// Name of a study given by its folder, its file, or its name itself.

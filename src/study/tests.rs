@@ -347,6 +347,21 @@ fn a_readonly_workspace_reads_and_refuses_to_write() {
 }
 
 #[test]
+fn saved_queries_run() {
+    let mut bench = Bench::new();
+    bench.run(&study(0.1), 1, quick);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("db/queries");
+    let mut seen = 0;
+    for entry in std::fs::read_dir(folder).expect("db/queries").flatten() {
+        let sql = std::fs::read_to_string(entry.path()).expect("text");
+        let answer = bench.workspace.query(&sql);
+        assert!(answer.is_ok_and(|table| !table.columns.is_empty()), "{}", entry.path().display());
+        seen += 1;
+    }
+    assert!(seen > 0);
+}
+
+#[test]
 fn a_query_can_be_stopped() {
     let bench = Bench::new();
     let endless = "WITH RECURSIVE n(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM n) SELECT sum(x) FROM n";

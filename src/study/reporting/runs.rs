@@ -12,7 +12,7 @@ use crate::report::data::{FieldMap, Measured, Outcome, Picture, Run};
 use crate::units::mm;
 
 /// Pixels of a picture on the page.
-const PICTURE: (u32, u32) = (420, 620);
+const PICTURE: (u32, u32) = (520, 640);
 
 impl Workspace {
     /// All runs with their pictures, which share one frame; the pictures are also added to `files`.
