@@ -121,7 +121,7 @@ impl Layer {
 
 /// A layered coarse mesh on the skin. Vertices: the rings of [`Layer::ALL`], the yoke's rows (front, then back, from
 /// below), the ends (right and left sole, crown, right and left hand).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ControlMesh {
     /// Vertex positions on the fine mesh, metres.
     pub positions: Vec<V3>,

@@ -1,1 +1,54 @@
-//! study
+//! The study: study files, the SQLite store, the queue and its workers, and everything the two faces may ask for.
+//!
+//! The only owner of SQL, worker threads, the clock and study files. [`Workspace`] is the door: it reads plain rows
+//! (`read`), acts on the queue and starts runs. SI units in rows, millimetres in SQL.
+
+mod actions;
+mod cache;
+mod catalogue;
+mod doctor;
+mod engine;
+mod enqueue;
+mod error;
+mod file;
+mod inputs;
+mod outcome;
+mod owner;
+mod picture;
+mod pipeline;
+mod queue;
+mod read;
+mod reporting;
+mod run;
+mod spec;
+mod sql;
+mod store;
+#[cfg(test)]
+mod tests;
+pub mod tools;
+mod types;
+mod workspace;
+
+pub use actions::why_no_retry;
+pub use doctor::{Check, checks};
+pub use enqueue::{Planned, Why};
+pub use error::{Result, StudyError};
+pub use file::{Problem, Study, study_file};
+pub use inputs::{Change, Inputs, StageKind};
+pub use outcome::{Executor, Measured, Outcome};
+pub use picture::Map;
+pub use pipeline::{Pipeline, SIMULATORS};
+pub use read::JobFilter;
+pub use run::{Run, RunOptions};
+pub use spec::{JobSpec, Selection};
+pub use sql::Interrupter;
+pub use store::now_ms;
+pub use types::{
+    Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, RecommendationRow, StageRow,
+    Status, StudyRow, Table, Value,
+};
+pub use workspace::Workspace;
+
+pub use crate::fit::FitClass;
+pub use crate::render::View;
+pub use crate::sim::{Simulator, Step};

@@ -1,0 +1,345 @@
+-- What the migrations add up to. Written by `TOILE_BLESS=1 cargo test schema_file`.
+
+CREATE TABLE subject (
+    subject_id INTEGER PRIMARY KEY,
+    name TEXT NOT NULL,
+    revision INTEGER NOT NULL,
+    hash TEXT NOT NULL,
+    sex TEXT NOT NULL CHECK (sex IN ('male', 'female')),
+    stature_mm REAL NOT NULL,
+    weight_kg REAL,
+    chest_girth_mm REAL,
+    waist_girth_mm REAL,
+    hip_girth_mm REAL,
+    neck_girth_mm REAL,
+    across_shoulder_mm REAL,
+    created_at INTEGER NOT NULL,
+    UNIQUE (name, revision),
+    UNIQUE (name, hash)
+) STRICT;
+
+CREATE TABLE style (
+    style_id INTEGER PRIMARY KEY,
+    name TEXT NOT NULL,
+    revision INTEGER NOT NULL,
+    hash TEXT NOT NULL,
+    seam_file TEXT NOT NULL,
+    seams TEXT NOT NULL,
+    created_at INTEGER NOT NULL,
+    UNIQUE (name, revision),
+    UNIQUE (name, hash)
+) STRICT;
+
+CREATE TABLE size (
+    size_id INTEGER PRIMARY KEY,
+    style TEXT NOT NULL,
+    name TEXT NOT NULL,
+    revision INTEGER NOT NULL,
+    hash TEXT NOT NULL,
+    pattern_file TEXT NOT NULL,
+    unit TEXT,
+    pattern BLOB NOT NULL,
+    created_at INTEGER NOT NULL,
+    UNIQUE (style, name, revision),
+    UNIQUE (style, name, hash)
+) STRICT;
+
+CREATE TABLE fabric (
+    fabric_id INTEGER PRIMARY KEY,
+    name TEXT NOT NULL,
+    revision INTEGER NOT NULL,
+    hash TEXT NOT NULL,
+    density_kg_m2 REAL NOT NULL,
+    thickness_mm REAL NOT NULL,
+    membrane_warp_n_m REAL NOT NULL,
+    membrane_weft_n_m REAL NOT NULL,
+    membrane_coupling_n_m REAL NOT NULL,
+    shear_n_m REAL NOT NULL,
+    bending_warp_nm REAL NOT NULL,
+    bending_weft_nm REAL NOT NULL,
+    friction_body REAL NOT NULL,
+    friction_self REAL NOT NULL,
+    source TEXT NOT NULL,
+    created_at INTEGER NOT NULL,
+    UNIQUE (name, revision),
+    UNIQUE (name, hash)
+) STRICT;
+
+CREATE TABLE study (
+    study_id INTEGER PRIMARY KEY,
+    name TEXT NOT NULL UNIQUE,
+    path TEXT NOT NULL,
+    tight_below_mm REAL NOT NULL,
+    loose_above_mm REAL NOT NULL,
+    paused INTEGER NOT NULL DEFAULT 0,
+    updated_at INTEGER NOT NULL
+) STRICT;
+
+CREATE TABLE study_axis (
+    study_id INTEGER NOT NULL REFERENCES study,
+    axis TEXT NOT NULL CHECK (axis IN ('garment', 'size', 'subject')),
+    name TEXT NOT NULL,
+    position INTEGER NOT NULL,
+    PRIMARY KEY (study_id, axis, name)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE job (
+    job_id INTEGER PRIMARY KEY,
+    study_id INTEGER NOT NULL REFERENCES study,
+    garment TEXT NOT NULL,
+    size TEXT NOT NULL,
+    subject TEXT NOT NULL,
+    simulator TEXT NOT NULL CHECK (simulator IN ('fem', 'hybrid')),
+    repeat INTEGER NOT NULL DEFAULT 1,
+    input_hash TEXT NOT NULL,
+    is_current INTEGER NOT NULL DEFAULT 1,
+    priority INTEGER NOT NULL DEFAULT 0,
+    status TEXT NOT NULL CHECK (status IN ('queued', 'running', 'done', 'not_converged', 'failed', 'cancelled')),
+    attempts INTEGER NOT NULL DEFAULT 0,
+    error TEXT,
+    owner TEXT,
+    heartbeat_at INTEGER,
+    queued_at INTEGER NOT NULL,
+    started_at INTEGER,
+    finished_at INTEGER,
+    wall_ms INTEGER,
+    subject_id INTEGER NOT NULL REFERENCES subject,
+    style_id INTEGER NOT NULL REFERENCES style,
+    size_id INTEGER NOT NULL REFERENCES size,
+    fabric_id INTEGER NOT NULL REFERENCES fabric,
+    UNIQUE (study_id, garment, size, subject, simulator, repeat, input_hash),
+    CHECK ((status = 'running') = (owner IS NOT NULL)),
+    CHECK (status <> 'running' OR heartbeat_at IS NOT NULL)
+) STRICT;
+
+CREATE UNIQUE INDEX job_current ON job (study_id, garment, size, subject, simulator, repeat) WHERE is_current;
+
+CREATE INDEX job_status ON job (status, priority);
+
+CREATE TABLE job_input (
+    job_id INTEGER NOT NULL REFERENCES job ON DELETE CASCADE,
+    name TEXT NOT NULL,
+    value TEXT NOT NULL,
+    PRIMARY KEY (job_id, name)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE job_progress (
+    job_id INTEGER PRIMARY KEY REFERENCES job ON DELETE CASCADE,
+    phase TEXT NOT NULL,
+    fraction REAL NOT NULL,
+    iteration INTEGER NOT NULL,
+    level INTEGER NOT NULL,
+    residual REAL,
+    seam_gap_mm REAL,
+    e_chi REAL,
+    updated_at INTEGER NOT NULL
+) STRICT;
+
+CREATE TABLE job_log (
+    log_id INTEGER PRIMARY KEY,
+    job_id INTEGER NOT NULL REFERENCES job ON DELETE CASCADE,
+    at INTEGER NOT NULL,
+    level TEXT NOT NULL CHECK (level IN ('info', 'warn', 'error')),
+    text TEXT NOT NULL
+) STRICT;
+
+CREATE INDEX job_log_job ON job_log (job_id);
+
+CREATE TABLE chi (
+    job_id INTEGER NOT NULL REFERENCES job ON DELETE CASCADE,
+    stage TEXT NOT NULL CHECK (stage IN ('sewn', 'popup', 'drape')),
+    measurement_no INTEGER NOT NULL,
+    measurement TEXT NOT NULL,
+    kind TEXT NOT NULL CHECK (kind IN ('closed_girth', 'open_length')),
+    is_free_edge INTEGER NOT NULL,
+    is_controlled INTEGER NOT NULL,
+    l2d_mm REAL NOT NULL,
+    l3d_mm REAL NOT NULL,
+    PRIMARY KEY (job_id, stage, measurement_no)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE metrics (
+    job_id INTEGER PRIMARY KEY REFERENCES job ON DELETE CASCADE,
+    n INTEGER NOT NULL,
+    e_chi REAL NOT NULL,
+    sd_chi REAL NOT NULL,
+    ei REAL NOT NULL,
+    max_abs_error REAL NOT NULL,
+    vertices INTEGER NOT NULL,
+    faces INTEGER NOT NULL,
+    iterations INTEGER NOT NULL,
+    residual REAL NOT NULL,
+    converged INTEGER NOT NULL,
+    penetration_max_mm REAL NOT NULL,
+    seam_gap_max_mm REAL NOT NULL
+) STRICT;
+
+CREATE TABLE history (
+    job_id INTEGER NOT NULL REFERENCES job ON DELETE CASCADE,
+    step INTEGER NOT NULL,
+    iteration INTEGER NOT NULL,
+    level INTEGER NOT NULL,
+    residual REAL,
+    seam_gap_mm REAL,
+    e_chi REAL,
+    PRIMARY KEY (job_id, step)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE ease (
+    study_id INTEGER NOT NULL REFERENCES study,
+    garment TEXT NOT NULL,
+    size TEXT NOT NULL,
+    subject TEXT NOT NULL,
+    level TEXT NOT NULL,
+    pattern_girth_mm REAL NOT NULL,
+    body_girth_mm REAL NOT NULL,
+    PRIMARY KEY (study_id, garment, size, subject, level)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE artefact (
+    hash TEXT PRIMARY KEY,
+    kind TEXT NOT NULL CHECK (kind IN ('body', 'field', 'mesh', 'drape')),
+    bytes BLOB NOT NULL,
+    created_at INTEGER NOT NULL
+) STRICT;
+
+CREATE TABLE job_artefact (
+    job_id INTEGER NOT NULL REFERENCES job ON DELETE CASCADE,
+    kind TEXT NOT NULL,
+    hash TEXT NOT NULL REFERENCES artefact,
+    was_cached INTEGER NOT NULL,
+    PRIMARY KEY (job_id, kind)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE provenance (
+    job_id INTEGER PRIMARY KEY REFERENCES job ON DELETE CASCADE,
+    program_version TEXT NOT NULL,
+    git_commit TEXT,
+    git_dirty INTEGER,
+    machine TEXT NOT NULL,
+    seed INTEGER NOT NULL
+) STRICT;
+
+CREATE VIEW v_jobs AS
+SELECT job_id, study.name AS study, garment, size, subject, simulator, repeat, status, attempts, error,
+    strftime('%Y-%m-%dT%H:%M:%fZ', queued_at / 1000.0, 'unixepoch') AS queued_at,
+    strftime('%Y-%m-%dT%H:%M:%fZ', started_at / 1000.0, 'unixepoch') AS started_at,
+    strftime('%Y-%m-%dT%H:%M:%fZ', finished_at / 1000.0, 'unixepoch') AS finished_at,
+    wall_ms, priority, is_current, phase, fraction
+FROM job JOIN study USING (study_id) LEFT JOIN job_progress USING (job_id);
+
+CREATE VIEW v_chi AS
+SELECT study.name AS study, garment, size, subject, simulator, stage, measurement_no, measurement, kind,
+    is_free_edge, is_controlled, l2d_mm, l3d_mm, l3d_mm / l2d_mm AS chi, repeat, job_id
+FROM chi JOIN job USING (job_id) JOIN study USING (study_id)
+WHERE is_current;
+
+CREATE VIEW v_metrics AS
+SELECT study.name AS study, garment, size, subject, simulator, n, e_chi, sd_chi, ei, max_abs_error, vertices, faces,
+    iterations, residual, converged, penetration_max_mm, seam_gap_max_mm, wall_ms, repeat, job_id
+FROM metrics JOIN job USING (job_id) JOIN study USING (study_id)
+WHERE is_current;
+
+CREATE VIEW v_ease AS
+WITH eased AS (
+    SELECT study.name AS study, garment, size, subject, level, pattern_girth_mm, body_girth_mm,
+        pattern_girth_mm - body_girth_mm AS ease_mm, tight_below_mm, loose_above_mm
+    FROM ease JOIN study USING (study_id)
+)
+SELECT study, garment, size, subject, level, pattern_girth_mm, body_girth_mm, ease_mm,
+    CASE WHEN ease_mm < tight_below_mm THEN 'tight' WHEN ease_mm > loose_above_mm THEN 'loose' ELSE 'just' END AS fit_class,
+    ease_mm < 0 AS undersized,
+    (ease_mm >= tight_below_mm - 10 AND ease_mm < tight_below_mm)
+        OR (ease_mm > loose_above_mm AND ease_mm <= loose_above_mm + 20) AS borderline,
+    ease_mm = min(ease_mm) OVER (PARTITION BY study, garment, size, subject) AS decides
+FROM eased;
+
+CREATE VIEW v_pair AS
+WITH ei AS (
+    SELECT study, garment, size, subject,
+        avg(ei) FILTER (WHERE simulator = 'fem') AS ei_fem,
+        avg(ei) FILTER (WHERE simulator = 'hybrid') AS ei_hybrid
+    FROM v_metrics
+    WHERE converged
+    GROUP BY study, garment, size, subject
+)
+SELECT ei.study, ei.garment, ei.size, ei.subject, fit_class, ease_mm, ei_fem, ei_hybrid, ei_fem - ei_hybrid AS d_ei
+FROM ei JOIN v_ease USING (study, garment, size, subject)
+WHERE decides AND ei_fem IS NOT NULL AND ei_hybrid IS NOT NULL;
+
+CREATE VIEW v_recommendation AS
+WITH present AS (
+    SELECT study, garment, fit_class, count(DISTINCT subject) AS subjects
+    FROM v_ease WHERE decides GROUP BY study, garment, fit_class
+),
+by_subject AS (
+    SELECT study, garment, fit_class, subject, avg(d_ei) AS d_ei FROM v_pair GROUP BY study, garment, fit_class, subject
+),
+paired AS (
+    SELECT study, garment, fit_class, avg(d_ei) AS effect, count(*) AS n_subjects
+    FROM by_subject GROUP BY study, garment, fit_class
+)
+SELECT study, garment, fit_class, rule_says AS recommended, 'rule' AS basis, 'insufficient_evidence' AS verdict,
+    rule_says, effect, CAST(NULL AS REAL) AS ci_low, CAST(NULL AS REAL) AS ci_high,
+    coalesce(n_subjects, 0) AS n_subjects,
+    CASE WHEN n_subjects IS NULL
+        THEN 'No subject has a converged result of both simulators (' || subjects || ' with this fit); the thesis''s rule stands.'
+        ELSE n_subjects || ' subject(s) paired; the difference has not been tested, so the thesis''s rule stands.'
+    END AS reason
+FROM (SELECT *, CASE fit_class WHEN 'loose' THEN 'fem' ELSE 'hybrid' END AS rule_says FROM present)
+LEFT JOIN paired USING (study, garment, fit_class);
+
+CREATE VIEW v_provenance AS
+SELECT job_id, study.name AS study, garment, size, job.subject, simulator, repeat, input_hash,
+    subject.hash AS subject_hash, style.hash AS style_hash, size.hash AS pattern_hash, fabric.hash AS fabric_hash,
+    (SELECT hash FROM job_artefact WHERE job_artefact.job_id = job.job_id AND kind = 'body') AS body_hash,
+    (SELECT hash FROM job_artefact WHERE job_artefact.job_id = job.job_id AND kind = 'field') AS field_hash,
+    (SELECT hash FROM job_artefact WHERE job_artefact.job_id = job.job_id AND kind = 'mesh') AS mesh_hash,
+    (SELECT hash FROM job_artefact WHERE job_artefact.job_id = job.job_id AND kind = 'drape') AS drape_hash,
+    program_version, git_commit, git_dirty, machine, seed
+FROM provenance JOIN job USING (job_id) JOIN study USING (study_id) JOIN subject USING (subject_id)
+    JOIN style USING (style_id) JOIN size USING (size_id) JOIN fabric USING (fabric_id);
+
+CREATE VIEW v_subjects AS
+SELECT name AS subject, revision, sex, stature_mm, weight_kg, chest_girth_mm, waist_girth_mm, hip_girth_mm, neck_girth_mm,
+    across_shoulder_mm, hash, revision = max(revision) OVER (PARTITION BY name) AS is_latest
+FROM subject;
+
+CREATE VIEW v_styles AS
+SELECT name AS style, revision, seam_file, hash, revision = max(revision) OVER (PARTITION BY name) AS is_latest,
+    (SELECT count(DISTINCT size.name) FROM size WHERE size.style = style.name) AS sizes
+FROM style;
+
+CREATE VIEW v_sizes AS
+SELECT style, name AS size, revision, pattern_file, unit, length(pattern) AS bytes, hash,
+    revision = max(revision) OVER (PARTITION BY style, name) AS is_latest
+FROM size;
+
+CREATE VIEW v_fabrics AS
+SELECT name AS fabric, revision, density_kg_m2, thickness_mm, membrane_warp_n_m, membrane_weft_n_m, membrane_coupling_n_m,
+    shear_n_m, bending_warp_nm, bending_weft_nm, friction_body, friction_self, source, hash,
+    revision = max(revision) OVER (PARTITION BY name) AS is_latest
+FROM fabric;
+
+CREATE TABLE published (
+    table_no TEXT NOT NULL,
+    garment TEXT NOT NULL,
+    size TEXT NOT NULL,
+    simulator TEXT NOT NULL,
+    measurement_no INTEGER NOT NULL,
+    measurement TEXT NOT NULL,
+    l2d_mm REAL NOT NULL,
+    l3d_mm TEXT NOT NULL,
+    chi TEXT NOT NULL,
+    chi_mean REAL NOT NULL,
+    chi_sd REAL NOT NULL,
+    PRIMARY KEY (garment, size, simulator, measurement_no)
+) STRICT, WITHOUT ROWID;
+
+CREATE VIEW v_published AS
+SELECT table_no, garment, size, names.value AS subject, simulator, measurement_no, measurement, l2d_mm,
+    lengths.value AS l3d_mm, ratios.value AS chi_printed, lengths.value / l2d_mm AS chi,
+    chi_mean AS chi_mean_printed, chi_sd AS chi_sd_printed
+FROM published, json_each(l3d_mm) AS lengths, json_each(chi) AS ratios,
+    json_each('["i", "ii", "iii", "iv", "v", "vi"]') AS names
+WHERE lengths.key = ratios.key AND lengths.key = names.key;

@@ -1,0 +1,140 @@
+//! What can go wrong between a study file and its results.
+
+use std::path::PathBuf;
+
+use super::file::Problem;
+
+/// An error of the store, the study file, the queue or a stage.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// SQLite refused.
+    #[error("database: {0}")]
+    Database(#[from] rusqlite::Error),
+    /// A database file could not be opened.
+    #[error("{}: cannot open this database: {reason}", path.display())]
+    Open {
+        /// The database file.
+        path: PathBuf,
+        /// Why not.
+        reason: String,
+    },
+    /// The database was written by a newer program.
+    #[error("database has schema version {found}, this program knows versions up to {known}; use the newer program")]
+    TooNew {
+        /// Version found.
+        found: i64,
+        /// Newest version known.
+        known: i64,
+    },
+    /// An action that writes, on a workspace opened read-only.
+    #[error("the workspace is open read-only; start without --readonly to change it")]
+    Readonly,
+    /// A file could not be read or written.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        source: std::io::Error,
+    },
+    /// Everything that is wrong with a study file.
+    #[error("{}", Problem::listing(.0))]
+    File(Vec<Problem>),
+    /// Something was asked for by a name or number that does not exist.
+    #[error("no {what} `{name}`{}", suggestion(.known, .name))]
+    NotFound {
+        /// Kind of thing (`job`, `study`, ...).
+        what: &'static str,
+        /// What was asked for.
+        name: String,
+        /// What there is.
+        known: Vec<String>,
+    },
+    /// A stage refused its input.
+    #[error("{stage}: {message}")]
+    Stage {
+        /// Stage of the pipeline (`body`, `pattern`, `mesh`, `sim`).
+        stage: &'static str,
+        /// What it said.
+        message: String,
+    },
+    /// Stored bytes are not what the program wrote.
+    #[error("artefact {hash}: {message}")]
+    Artefact {
+        /// Content hash.
+        hash: String,
+        /// What is wrong.
+        message: String,
+    },
+    /// The run was asked to stop.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+impl StudyError {
+    /// A file error with its path.
+    pub(crate) fn io(path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.into();
+        move |source| Self::Io { path, source }
+    }
+
+    /// A stage's error as text.
+    pub(crate) fn stage<E: std::fmt::Display>(stage: &'static str) -> impl FnOnce(E) -> Self {
+        move |error| Self::Stage { stage, message: error.to_string() }
+    }
+}
+
+/// Result of a study operation.
+pub type Result<T> = std::result::Result<T, StudyError>;
+
+/// `; did you mean ...?` or `; there are: ...`, as far as it helps.
+fn suggestion(known: &[String], name: &str) -> String {
+    match nearest(name, known.iter().map(String::as_str)) {
+        Some(near) => format!("; did you mean `{near}`?"),
+        None if known.is_empty() => String::new(),
+        None => format!("; there are: {}", known.join(", ")),
+    }
+}
+
+/// The candidate most like a misspelt name, if one is near: at most a third of its letters differ.
+pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    candidates
+        .into_iter()
+        .map(|candidate| (edit_distance(name, candidate), candidate))
+        .filter(|(distance, candidate)| *distance <= candidate.chars().count().max(name.chars().count()) / 3)
+        .min()
+        .map(|(_, candidate)| candidate)
+}
+
+/// Levenshtein distance in characters.
+fn edit_distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, ca) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, cb) in b.iter().enumerate() {
+            let substituted = diagonal + usize::from(ca != *cb);
+            diagonal = row[j + 1];
+            row[j + 1] = substituted.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn near_names_are_suggested_and_far_ones_are_not() {
+        let check = |name: &str, expected: Option<&str>| {
+            assert_eq!(nearest(name, ["cotton_shirting_light", "denim", "rib_knit"]), expected, "{name}");
+        };
+        check("cotton_shirting_ligth", Some("cotton_shirting_light"));
+        check("demin", None);
+        check("denin", Some("denim"));
+        check("silk", None);
+    }
+}

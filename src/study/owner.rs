@@ -1,0 +1,92 @@
+//! Who runs a job: one run of one process of one machine, and whether that process is still alive.
+
+use std::fmt;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Name of one run: `host/boot/pid/start/number`, unique over machines and time.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Owner(String);
+
+impl Owner {
+    /// A name for a new run of this process.
+    pub(crate) fn new() -> Self {
+        static RUNS: AtomicU64 = AtomicU64::new(0);
+        let pid = std::process::id();
+        let start = start_ticks(pid).unwrap_or_default();
+        Self(format!("{}/{}/{pid}/{start}/{}", host(), boot(), RUNS.fetch_add(1, Ordering::Relaxed)))
+    }
+
+    /// As stored.
+    pub(crate) fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+impl fmt::Display for Owner {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&describe(&self.0))
+    }
+}
+
+/// An owner in words.
+pub(crate) fn describe(owner: &str) -> String {
+    let mut parts = owner.split('/');
+    match (parts.next(), parts.nth(1)) {
+        (Some(host), Some(pid)) => format!("process {pid} on {host}"),
+        _ => owner.to_owned(),
+    }
+}
+
+/// Whether an owner's process has ended; `None` where this machine cannot tell, as for another machine's.
+pub(crate) fn is_dead(owner: &str) -> Option<bool> {
+    let mut parts = owner.split('/');
+    let (their_host, their_boot) = (parts.next()?, parts.next()?);
+    let (pid, start): (u32, u64) = (parts.next()?.parse().ok()?, parts.next()?.parse().ok()?);
+    if their_host != host() || their_boot.is_empty() || boot().is_empty() {
+        return None;
+    }
+    Some(their_boot != boot() || start_ticks(pid) != Some(start))
+}
+
+/// Name of this machine.
+pub(crate) fn host() -> String {
+    let kernel = std::fs::read_to_string("/proc/sys/kernel/hostname").ok().filter(|name| !name.trim().is_empty());
+    let name = kernel.or_else(|| std::env::var("HOSTNAME").ok()).unwrap_or_else(|| "localhost".into());
+    name.trim().replace('/', "-")
+}
+
+/// Identifier of this boot of the machine; empty where the system has none.
+fn boot() -> String {
+    std::fs::read_to_string("/proc/sys/kernel/random/boot_id").map(|id| id.trim().to_owned()).unwrap_or_default()
+}
+
+/// When a process started, in clock ticks since boot; `None` when it does not run any more. Tells a process from a
+/// later one of the same number.
+fn start_ticks(pid: u32) -> Option<u64> {
+    let stat = std::fs::read_to_string(format!("/proc/{pid}/stat")).ok()?;
+    let mut fields = stat.rsplit_once(')')?.1.split_whitespace();
+    let state = fields.next()?;
+    if matches!(state, "Z" | "X") {
+        return None;
+    }
+    fields.nth(18)?.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn this_process_lives_and_others_are_told_apart() {
+        let mine = Owner::new();
+        if boot().is_empty() {
+            assert_eq!(is_dead(mine.as_str()), None);
+            return;
+        }
+        assert_eq!(is_dead(mine.as_str()), Some(false));
+        assert_eq!(is_dead(&format!("{}/{}/{}/1/0", host(), boot(), std::process::id())), Some(true), "number reused");
+        assert_eq!(is_dead(&format!("{}/another-boot/1/1/0", host())), Some(true), "machine restarted");
+        assert_eq!(is_dead("another-host/boot/1/1/0"), None);
+        assert_eq!(is_dead("not an owner"), None);
+    }
+}

@@ -1,0 +1,222 @@
+//! The job queue as a pure transition `(state, event) -> state`, and its application to the database.
+//!
+//! A running job has an owner (a run of a process) that renews its heartbeat. Whatever the owner reports is accepted
+//! only while it still is the owner, so that a job taken over or cancelled meanwhile is never finished twice.
+
+use rusqlite::{Connection, OptionalExtension, Transaction, named_params};
+
+use super::error::{Result, StudyError};
+use super::owner::{self, Owner};
+use super::read;
+use super::store::now_ms;
+use super::types::{JobId, Status};
+
+/// A job whose process died this often is failed, lest it kill every process that takes it.
+const MAX_LOST: u32 = 10;
+/// A heartbeat older than this, ms, is a dead owner's, where its process cannot be looked up.
+const LEASE_MS: i64 = 60_000;
+
+/// What the queue knows of a job.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct State {
+    /// Where it is in its life.
+    pub status: Status,
+    /// Times it was started.
+    pub attempts: u32,
+    /// Who runs it; exactly while it runs.
+    pub owner: Option<String>,
+}
+
+/// What can happen to a job.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Event<'a> {
+    /// A worker takes it.
+    Claim(&'a str),
+    /// Its owner has a result.
+    Finish { owner: &'a str, converged: bool },
+    /// Its owner met an error.
+    Fail(&'a str),
+    /// Its owner stops before the end.
+    Release(&'a str),
+    /// Its owner is dead.
+    Lose,
+    /// The user does not want it.
+    Cancel,
+    /// The user wants it again.
+    Retry,
+}
+
+/// The state after an event; `None` where the event does not apply.
+pub(crate) fn next(state: &State, event: &Event<'_>) -> Option<State> {
+    use Status::{Cancelled, Done, Failed, NotConverged, Queued, Running};
+    let ended = |status| Some(State { status, owner: None, ..state.clone() });
+    let owned_by = |owner: &str| state.status == Running && state.owner.as_deref() == Some(owner);
+    match *event {
+        Event::Claim(owner) if state.status == Queued => {
+            Some(State { status: Running, attempts: state.attempts + 1, owner: Some(owner.to_owned()) })
+        }
+        Event::Finish { owner, converged } if owned_by(owner) => ended(if converged { Done } else { NotConverged }),
+        Event::Fail(owner) if owned_by(owner) => ended(Failed),
+        Event::Release(owner) if owned_by(owner) => {
+            Some(State { status: Queued, attempts: state.attempts.saturating_sub(1), owner: None })
+        }
+        Event::Lose if state.status == Running => ended(if state.attempts >= MAX_LOST { Failed } else { Queued }),
+        Event::Cancel if !state.status.is_final() => ended(Cancelled),
+        Event::Retry if matches!(state.status, Failed | Cancelled) => {
+            Some(State { status: Queued, attempts: 0, owner: None })
+        }
+        _ => None,
+    }
+}
+
+/// Applies an event to a stored job; `None` where it does not apply (the job is then unchanged).
+pub(crate) fn apply(
+    transaction: &Transaction<'_>,
+    id: JobId,
+    event: &Event<'_>,
+    error: Option<&str>,
+) -> Result<Option<State>> {
+    let Some(after) = next(&load(transaction, id)?, event) else { return Ok(None) };
+    transaction
+        .prepare_cached(
+            "UPDATE job SET status = :status, attempts = :attempts, owner = :owner, error = :error,
+                heartbeat_at = CASE WHEN :status = 'running' THEN :now END,
+                started_at = CASE WHEN :status = 'running' THEN :now WHEN :status = 'queued' THEN NULL ELSE started_at END,
+                finished_at = CASE WHEN :status IN ('running', 'queued') THEN NULL ELSE :now END,
+                wall_ms = CASE WHEN :status IN ('running', 'queued') THEN NULL ELSE :now - started_at END
+            WHERE job_id = :id",
+        )?
+        .execute(named_params! {
+            ":id": id.0, ":status": after.status.as_str(), ":attempts": after.attempts, ":owner": after.owner,
+            ":error": error, ":now": now_ms(),
+        })?;
+    if after.status != Status::Running {
+        transaction.prepare_cached("DELETE FROM job_progress WHERE job_id = ?")?.execute([id.0])?;
+    }
+    Ok(Some(after))
+}
+
+/// The stored state of a job.
+fn load(connection: &Connection, id: JobId) -> Result<State> {
+    let state = connection
+        .prepare_cached("SELECT status, attempts, owner FROM job WHERE job_id = ?")?
+        .query_row([id.0], |row| Ok(State { status: read::status(row, 0)?, attempts: row.get(1)?, owner: row.get(2)? }))
+        .optional()?;
+    state.ok_or_else(|| StudyError::NotFound { what: "job", name: id.to_string(), known: vec![] })
+}
+
+/// Takes the next queued job among `ids` for `owner`: greatest priority first, then in order of queueing.
+pub(crate) fn claim(transaction: &Transaction<'_>, ids: &[JobId], owner: &Owner) -> Result<Option<JobId>> {
+    take_over(transaction)?;
+    let next = transaction
+        .prepare_cached(
+            "SELECT job_id FROM job JOIN study USING (study_id)
+            WHERE status = 'queued' AND is_current AND NOT paused AND job_id IN (SELECT value FROM json_each(?))
+            ORDER BY priority DESC, job_id LIMIT 1",
+        )?
+        .query_row([ids_json(ids)], |row| row.get(0).map(JobId))
+        .optional()?;
+    if let Some(id) = next {
+        apply(transaction, id, &Event::Claim(owner.as_str()), None)?;
+        log(transaction, id, "info", &format!("started by {owner}"))?;
+    }
+    Ok(next)
+}
+
+/// Puts jobs of dead owners back into the queue.
+fn take_over(transaction: &Transaction<'_>) -> Result<()> {
+    let running: Vec<(JobId, String, i64)> = transaction
+        .prepare_cached("SELECT job_id, owner, heartbeat_at FROM job WHERE status = 'running'")?
+        .query_map([], |row| Ok((JobId(row.get(0)?), row.get(1)?, row.get(2)?)))?
+        .collect::<rusqlite::Result<_>>()?;
+    let now = now_ms();
+    for (id, owner, heartbeat) in running {
+        let dead = owner::is_dead(&owner).unwrap_or(now - heartbeat > LEASE_MS);
+        if !dead {
+            continue;
+        }
+        let message = format!("{} ended before the job did", owner::describe(&owner));
+        if let Some(after) = apply(transaction, id, &Event::Lose, Some(&message))? {
+            let text =
+                format!("{message}; {}", if after.status == Status::Failed { "given up" } else { "queued again" });
+            log(transaction, id, "warn", &text)?;
+        }
+    }
+    Ok(())
+}
+
+/// Number of jobs among `ids` that a worker may still get: queued, or running somewhere.
+pub(crate) fn open_jobs(connection: &Connection, ids: &[JobId]) -> Result<usize> {
+    let sql = "SELECT count(*) FROM job WHERE is_current AND status IN ('queued', 'running')
+        AND job_id IN (SELECT value FROM json_each(?))";
+    let n: i64 = connection.prepare_cached(sql)?.query_row([ids_json(ids)], |row| row.get(0))?;
+    Ok(n as usize)
+}
+
+/// Adds a line to a job's log.
+pub(crate) fn log(connection: &Connection, id: JobId, level: &str, text: &str) -> Result<()> {
+    let sql = "INSERT INTO job_log (job_id, at, level, text) VALUES (?, ?, ?, ?)";
+    connection.prepare_cached(sql)?.execute((id.0, now_ms(), level, text))?;
+    Ok(())
+}
+
+/// Job numbers as a JSON array, for `json_each`.
+fn ids_json(ids: &[JobId]) -> String {
+    serde_json::Value::from_iter(ids.iter().map(|id| id.0)).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn event() -> impl Strategy<Value = Event<'static>> {
+        let owner = prop_oneof![Just("a"), Just("b")];
+        prop_oneof![
+            owner.clone().prop_map(Event::Claim),
+            (owner.clone(), any::<bool>()).prop_map(|(owner, converged)| Event::Finish { owner, converged }),
+            owner.clone().prop_map(Event::Fail),
+            owner.prop_map(Event::Release),
+            Just(Event::Lose),
+            Just(Event::Cancel),
+            Just(Event::Retry),
+        ]
+    }
+
+    proptest! {
+        #[test]
+        fn whatever_happens_a_job_has_an_owner_exactly_while_it_runs(events in prop::collection::vec(event(), 0..60)) {
+            let mut state = State { status: Status::Queued, attempts: 0, owner: None };
+            let mut lost = 0;
+            for event in &events {
+                let Some(after) = next(&state, event) else { continue };
+                prop_assert_eq!(after.status == Status::Running, after.owner.is_some());
+                prop_assert!(!state.status.has_result(), "a result was given up by {:?}", event);
+                match *event {
+                    Event::Finish { owner, .. } | Event::Fail(owner) | Event::Release(owner) => {
+                        prop_assert_eq!(state.owner.as_deref(), Some(owner), "only the owner may report");
+                    }
+                    Event::Claim(_) => prop_assert_eq!(state.status, Status::Queued, "claimed once"),
+                    Event::Lose => lost += 1,
+                    Event::Retry => lost = 0,
+                    Event::Cancel => {}
+                }
+                prop_assert!(lost <= MAX_LOST, "a job that kills its processes is given up");
+                state = after;
+            }
+        }
+    }
+
+    #[test]
+    fn a_job_that_is_lost_too_often_is_failed() {
+        let mut state = State { status: Status::Queued, attempts: 0, owner: None };
+        for _ in 0..MAX_LOST {
+            assert_eq!(state.status, Status::Queued);
+            state = next(&state, &Event::Claim("a")).expect("queued");
+            state = next(&state, &Event::Lose).expect("running");
+        }
+        assert_eq!(state.status, Status::Failed);
+        assert_eq!(next(&state, &Event::Retry).expect("failed").attempts, 0);
+    }
+}
