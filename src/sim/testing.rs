@@ -39,6 +39,42 @@ pub fn sheet(columns: usize, rows: usize, step: f64) -> (Vec<V2>, Vec<[usize; 3]
     (rest, triangles)
 }
 
+/// A flat sheet of near-equilateral triangles, as a mesher makes them: `rows` strips of height `step sqrt(3)/2`, every
+/// other row of vertices shifted by half a step, both sides straight.
+pub fn hexagonal_sheet(columns: usize, rows: usize, step: f64) -> (Vec<V2>, Vec<[usize; 3]>) {
+    let width = columns as f64 * step;
+    let mut rest = Vec::new();
+    let mut starts = Vec::new();
+    for j in 0..=rows {
+        starts.push(rest.len());
+        let y = j as f64 * step * 0.75_f64.sqrt();
+        if j % 2 == 0 {
+            rest.extend((0..=columns).map(|i| V2::new(i as f64 * step, y)));
+        } else {
+            rest.push(V2::new(0.0, y));
+            rest.extend((0..columns).map(|i| V2::new((i as f64 + 0.5) * step, y)));
+            rest.push(V2::new(width, y));
+        }
+    }
+    starts.push(rest.len());
+    let mut triangles = Vec::new();
+    for j in 0..rows {
+        let (mut low, mut high) = (starts[j], starts[j + 1]);
+        while low + 1 < starts[j + 1] || high + 1 < starts[j + 2] {
+            // Advance on the row whose next vertex comes first.
+            let next = |v: usize, end: usize| if v + 1 < end { rest[v + 1].x } else { f64::MAX };
+            if next(low, starts[j + 1]) <= next(high, starts[j + 2]) {
+                triangles.push([low, low + 1, high]);
+                low += 1;
+            } else {
+                triangles.push([low, high + 1, high]);
+                high += 1;
+            }
+        }
+    }
+    (rest, triangles)
+}
+
 /// A repeatable sequence of numbers in -1..1.
 pub fn noise(count: usize, seed: u64) -> Vec<f64> {
     let mut state = seed;

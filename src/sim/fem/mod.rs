@@ -4,7 +4,7 @@ pub mod params;
 pub mod preposition;
 mod run;
 
-pub use params::Params;
+pub use params::{LEVELS, Params};
 
 use crate::body::Body;
 use crate::geom::{DistanceField, V3};

@@ -3,6 +3,9 @@
 use crate::sim::contact::{ClothContactParams, ContactParams};
 use crate::sim::solver::StepParams;
 
+/// Edge lengths of the meshes that FEM-GS goes through, coarse to fine, as multiples of the finest.
+pub const LEVELS: [f64; 3] = [4.0, 2.0, 1.0];
+
 /// How FEM-GS places, sews and drapes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Params {
@@ -56,12 +59,12 @@ impl Default for Params {
             sewing_h_max_s: 0.1,
             sewing_steps: 200,
             weld_gap_m: 2e-3,
-            coarse_tolerance: 0.5,
-            coarse_steps: 60,
+            coarse_tolerance: 0.02,
+            coarse_steps: 300,
             frictionless_tolerance: 0.05,
             frictionless_steps: 80,
             tolerance: 0.01,
-            max_iterations: 200,
+            max_iterations: 400,
             contact: ContactParams::default(),
             self_contact: ClothContactParams::default(),
             step: StepParams::default(),

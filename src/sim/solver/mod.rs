@@ -8,3 +8,6 @@ pub mod system;
 pub use operator::{Contact4, Operator, PairList};
 pub use proximal::{StepInfo, StepParams, Stepper};
 pub use system::System;
+
+#[cfg(test)]
+mod tests;

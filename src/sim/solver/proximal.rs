@@ -35,7 +35,7 @@ impl Default for StepParams {
             h_start_s: 0.05,
             h_max_s: 2.0,
             growth: 1.5,
-            clamp_m: 0.02,
+            clamp_m: 0.01,
             linear_tolerance: 0.1,
             linear_iterations: 300,
             correction_iterations: 30,

@@ -11,6 +11,9 @@ use crate::sim::sewing::Springs;
 /// Standard gravity, m/s2.
 const GRAVITY: f64 = 9.80665;
 
+/// Stiffness that holds a vertex, N/m: beyond that of any fabric by six orders.
+const HELD_STIFFNESS: f64 = 1e10;
+
 /// A cloth with everything that acts on it.
 pub struct System<'a> {
     /// The cloth.
@@ -23,6 +26,8 @@ pub struct System<'a> {
     pub self_contact: Option<ClothContact<'a>>,
     /// Seam springs, until the seams are welded.
     pub springs: Option<Springs>,
+    /// Vertices that do not move.
+    pub held: Vec<usize>,
 }
 
 impl<'a> System<'a> {
@@ -33,7 +38,7 @@ impl<'a> System<'a> {
         for &v in springs.iter().flat_map(|s| &s.pairs).flatten() {
             weights[v] = 0.0;
         }
-        Self { cloth, weights, contact, self_contact: None, springs }
+        Self { cloth, weights, contact, self_contact: None, springs, held: Vec::new() }
     }
 
     /// Mean weight of a vertex, N: the yardstick of the residual.
@@ -67,6 +72,9 @@ impl<'a> System<'a> {
         if let Some(springs) = &self.springs {
             springs.assemble(x, &mut forces);
         }
+        for &v in &self.held {
+            forces[v] = V3::zeros();
+        }
         forces
     }
 
@@ -84,6 +92,10 @@ impl<'a> System<'a> {
             c.update(x);
             c.assemble(x, &mut forces)
         });
+        for &v in &self.held {
+            forces[v] = V3::zeros();
+            diagonal[v] += Matrix3::identity() * HELD_STIFFNESS;
+        }
         let operator = Operator {
             diagonal,
             membrane_pairs: &cloth.membrane.pairs,

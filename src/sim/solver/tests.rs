@@ -1,0 +1,257 @@
+//! Mechanics with known answers: what the solver settles at, whatever way it took.
+
+use crate::geom::{DistanceField, TriMesh, V2, V3, shapes};
+use crate::pattern::{Garment, PieceMesh, Role};
+use crate::sim::cloth::Cloth;
+use crate::sim::contact::{BodyContact, ClothContact, ClothContactParams, ContactParams};
+use crate::sim::sewing::unsewn;
+use crate::sim::solver::{StepParams, Stepper, System};
+use crate::sim::testing::{check_forces, fabric, hexagonal_sheet, shaken, sheet};
+use crate::sim::{Fabric, quality};
+
+const GRAVITY: f64 = 9.80665;
+
+/// A rectangular piece, grain along v, as a garment without seams.
+fn rectangle(columns: usize, rows: usize, step: f64) -> Garment {
+    piece(sheet(columns, rows, step), step)
+}
+
+fn piece((rest, triangles): (Vec<V2>, Vec<[usize; 3]>), step: f64) -> Garment {
+    let piece = PieceMesh {
+        id: "sheet".into(),
+        role: Role::Front,
+        vertices: 0..rest.len(),
+        triangles: 0..triangles.len(),
+        grain: V2::new(0.0, 1.0),
+        edges: Default::default(),
+    };
+    Garment {
+        name: "sheet".into(),
+        size: "one".into(),
+        pieces: vec![piece],
+        rest,
+        triangles,
+        seams: Vec::new(),
+        measurements: Vec::new(),
+        fit_levels: Vec::new(),
+        edge_length_m: step,
+    }
+}
+
+/// A body far away from everything.
+fn nowhere() -> DistanceField {
+    let mut mesh = shapes::sphere(0.05, 8);
+    for p in &mut mesh.positions {
+        p.x += 50.0;
+    }
+    DistanceField::build(&mesh, 0.02).expect("a closed sphere")
+}
+
+fn settle(system: &mut System, x: &mut Vec<V3>, tolerance: f64, steps: usize) -> f64 {
+    let mut stepper =
+        Stepper::new(StepParams { linear_tolerance: 0.01, linear_iterations: 2000, ..StepParams::default() });
+    let mut residual = f64::MAX;
+    for _ in 0..steps {
+        residual = stepper.step(system, x, tolerance).residual;
+        if residual <= tolerance {
+            break;
+        }
+    }
+    residual
+}
+
+#[test]
+fn all_forces_together_are_the_energys() {
+    let garment = rectangle(4, 4, 0.02);
+    let cloth = Cloth::new(&garment, &fabric(), unsewn(&garment)).expect("sound");
+    let field = DistanceField::build(&shapes::sphere(0.06, 24), 0.006).expect("a closed sphere");
+    let mut system = System::new(&cloth, BodyContact::new(&field, ContactParams::default(), &cloth.areas), None);
+    system.contact.set_friction(Some(0.3));
+    let flat: Vec<V3> = garment.rest.iter().map(|p| V3::new(p.x - 0.04, p.y - 0.04, 0.06)).collect();
+    system.assemble(&flat);
+    let x = shaken(&flat, 3e-4, 7);
+    assert!(system.contact.count() > 0);
+    check_forces(|x| system.energy(x), &system.forces(&x), &x, 1e-8, 1e-5);
+}
+
+#[test]
+fn a_hanging_strip_stretches_by_its_own_weight() {
+    // Small strain: top to bottom it grows by w g L^2 / (2 E), E the warp modulus.
+    let (rows, step) = (40, 0.01);
+    let garment = rectangle(4, rows, step);
+    let strip = Fabric { membrane_coupling_n_m: 0.0, ..fabric() };
+    let cloth = Cloth::new(&garment, &strip, unsewn(&garment)).expect("sound");
+    let field = nowhere();
+    let mut system = System::new(&cloth, BodyContact::new(&field, ContactParams::default(), &cloth.areas), None);
+    let mut x: Vec<V3> = garment.rest.iter().map(|p| V3::new(p.x, 0.0, p.y)).collect();
+    let top = rows as f64 * step;
+    system.held = (0..x.len()).filter(|&v| garment.rest[v].y > top - 1e-9).collect();
+    let residual = settle(&mut system, &mut x, 1e-6, 100);
+    assert!(residual <= 1e-6, "residual {residual}");
+    let growth = -x[2].z;
+    let expected = strip.density_kg_m2 * GRAVITY * top * top / (2.0 * strip.membrane_warp_n_m);
+    assert!((growth / expected - 1.0).abs() < 0.02, "{growth} for {expected}");
+}
+
+#[test]
+fn a_clamped_plate_converges_to_the_elastica() {
+    // gamma = w g L^3 / B = 10. The clamp's hinges stand for a whole cell of which half is clamped: an error of first
+    // order in the edge length, which two meshes extrapolate. On equilateral triangles the model's plate has a Poisson
+    // ratio of -1/3: exact for cylindrical bending, and 8/9 as stiff where its sides are free to curl. The plate must lie
+    // between the two.
+    let (length, gamma) = (0.12, 10.0);
+    let drop = |rows: usize| {
+        let step = length / rows as f64 / 0.75_f64.sqrt();
+        let garment = piece(hexagonal_sheet(2 * rows, rows + 1, step), step);
+        let clamp = length / rows as f64;
+        let mut plate = Fabric { membrane_coupling_n_m: 0.0, ..fabric() };
+        plate.bending_warp_nm = plate.density_kg_m2 * GRAVITY * length.powi(3) / gamma;
+        plate.bending_weft_nm = plate.bending_warp_nm;
+        let cloth = Cloth::new(&garment, &plate, unsewn(&garment)).expect("sound");
+        let field = nowhere();
+        let mut system = System::new(&cloth, BodyContact::new(&field, ContactParams::default(), &cloth.areas), None);
+        let mut x: Vec<V3> = garment.rest.iter().map(|p| V3::new(p.x, p.y - clamp, 1.0)).collect();
+        system.held = (0..x.len()).filter(|&v| garment.rest[v].y < clamp + 1e-9).collect();
+        let residual = settle(&mut system, &mut x, 1e-3, 600);
+        assert!(residual <= 1e-3, "residual {residual}");
+        let tip: Vec<f64> =
+            x.iter().zip(&garment.rest).filter(|(_, r)| r.y > length + clamp - 1e-9).map(|(p, _)| 1.0 - p.z).collect();
+        tip.iter().sum::<f64>() / tip.len() as f64 / length
+    };
+    let (coarse, fine) = (drop(10), drop(20));
+    let extrapolated = 2.0 * fine - coarse;
+    let (stiff, soft) = (elastica_drop(gamma), elastica_drop(gamma * 9.0 / 8.0));
+    assert!(
+        (0.99 * stiff..1.01 * soft).contains(&extrapolated),
+        "{coarse}, {fine} -> {extrapolated} for {stiff}..{soft}"
+    );
+}
+
+/// Drop of the tip over the length of a strip clamped level under its weight: theta'' = -gamma (1 - s) cos theta,
+/// theta(0) = 0, theta'(1) = 0, by fourth-order Runge-Kutta and bisection on the clamp curvature.
+fn elastica_drop(gamma: f64) -> f64 {
+    let integrate = |curvature: f64| {
+        let steps = 2000;
+        let h = 1.0 / f64::from(steps);
+        let rate = |s: f64, y: [f64; 3]| [y[1], -gamma * (1.0 - s) * y[0].cos(), y[0].sin()];
+        let mut y = [0.0, curvature, 0.0];
+        for i in 0..steps {
+            let s = f64::from(i) * h;
+            let add = |k: [f64; 3], f: f64| [0, 1, 2].map(|j| y[j] + k[j] * f);
+            let k1 = rate(s, y);
+            let k2 = rate(s + h / 2.0, add(k1, h / 2.0));
+            let k3 = rate(s + h / 2.0, add(k2, h / 2.0));
+            let k4 = rate(s + h, add(k3, h));
+            y = [0, 1, 2].map(|j| y[j] + h / 6.0 * (k1[j] + 2.0 * k2[j] + 2.0 * k3[j] + k4[j]));
+        }
+        y
+    };
+    let (mut low, mut high) = (0.0, gamma);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if integrate(middle)[1] > 0.0 { high = middle } else { low = middle }
+    }
+    integrate(low)[2]
+}
+
+/// A slab whose upper face, through the origin, rises towards +y by `angle`.
+fn incline(angle: f64) -> DistanceField {
+    let (half, depth) = (0.15, 0.1);
+    let turn = nalgebra::Rotation3::from_axis_angle(&V3::x_axis(), angle);
+    let corner = |i: usize| {
+        let sign = |bit: usize| if i & bit == 0 { -half } else { half };
+        turn * V3::new(sign(1), sign(2), if i & 4 == 0 { -depth } else { 0.0 })
+    };
+    let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let triangles = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+    let mesh = TriMesh { positions: (0..8).map(corner).collect(), triangles };
+    DistanceField::build(&mesh, 0.01).expect("a closed slab")
+}
+
+#[test]
+fn friction_holds_below_its_angle_and_lets_go_above() {
+    let slide = |angle: f64| {
+        let garment = rectangle(4, 4, 0.02);
+        let cloth = Cloth::new(&garment, &fabric(), unsewn(&garment)).expect("sound");
+        let field = incline(angle);
+        let mut system = System::new(&cloth, BodyContact::new(&field, ContactParams::default(), &cloth.areas), None);
+        system.contact.set_friction(Some(0.3));
+        let turn = nalgebra::Rotation3::from_axis_angle(&V3::x_axis(), angle);
+        let start: Vec<V3> = garment.rest.iter().map(|p| turn * V3::new(p.x - 0.04, p.y - 0.04, 0.0009)).collect();
+        let mut x = start.clone();
+        let residual = settle(&mut system, &mut x, 1e-3, 60);
+        let moved = x.iter().zip(&start).map(|(p, q)| (p - q).norm()).fold(0.0, f64::max);
+        (residual, moved)
+    };
+    let (residual, moved) = slide(0.9 * 0.3_f64.atan());
+    assert!(residual <= 1e-3 && moved < 1e-3, "below: residual {residual}, moved {moved}");
+    // Above, a tenth of the angle's sine stays unbalanced: the solver may creep, but must not call that equilibrium.
+    let (residual, _) = slide(1.1 * 0.3_f64.atan());
+    assert!(residual > 1e-2, "above: residual {residual}");
+}
+
+#[test]
+fn a_tube_too_small_is_stretched_onto_the_body_and_no_further() {
+    // A tube of 0.9 the girth of a post must end at the post's girth plus the contact offset, and not inside it.
+    let radius = 0.1;
+    let profile = [(0.0, -0.3), (radius, -0.3), (radius, -0.1), (radius, 0.1), (radius, 0.3), (0.0, 0.3)];
+    let post = shapes::revolve(&profile, 96);
+    let field = DistanceField::build(&post, 0.006).expect("a closed post");
+    let columns = 60;
+    let mut garment = rectangle(columns, 6, 0.9 * std::f64::consts::TAU * radius / 60.0);
+    garment.seams = vec![crate::pattern::SeamMesh {
+        name: "back".into(),
+        pairs: (0..=6).map(|j| [j * (columns + 1), j * (columns + 1) + columns]).collect(),
+    }];
+    let light = Fabric { density_kg_m2: 1e-3, membrane_coupling_n_m: 0.0, ..fabric() };
+    let cloth = Cloth::new(&garment, &light, crate::sim::sewing::welded(&garment)).expect("sound");
+    let around = |p: &V2| {
+        let angle = std::f64::consts::TAU * p.x / garment.rest[columns].x;
+        V3::new(1.02 * radius * angle.cos(), 1.02 * radius * angle.sin(), p.y)
+    };
+    let mut x = cloth.weld(&garment.rest.iter().map(around).collect::<Vec<_>>());
+    let params = ContactParams::default();
+    let mut system = System::new(&cloth, BodyContact::new(&field, params, &cloth.areas), None);
+    system.weights.fill(0.0);
+    settle(&mut system, &mut x, 1e-2, 200);
+    let girth: f64 = (0..columns).map(|i| (x[i + 1 - (i + 1) / columns * columns] - x[i]).norm()).sum();
+    let expected = std::f64::consts::TAU * radius;
+    let bias_mm = (girth - expected) * 1e3;
+    // Chords cut the circle by 0.3 mm in all; the offset of 1 mm adds at most 6.3 mm.
+    assert!((-0.5..6.5).contains(&bias_mm), "bias {bias_mm} mm");
+    assert!(x.iter().all(|p| p.xy().norm() > radius - 2e-4));
+}
+
+#[test]
+fn a_vertex_that_slips_through_cloth_is_pushed_back() {
+    // A small sheet over a large one: pushed 1 mm through it, it must come out on its own side again.
+    let (large, small) = (sheet(4, 4, 0.02), sheet(1, 1, 0.005));
+    let count = large.0.len();
+    let mut triangles = large.1;
+    triangles.extend(small.1.iter().map(|t| t.map(|v| v + count)));
+    let areas = vec![1e-4; count + small.0.len()];
+    let at = |height: f64| -> Vec<V3> {
+        let upper = small.0.iter().map(|p| V3::new(p.x + 0.033, p.y + 0.0305, height));
+        large.0.iter().map(|p| V3::new(p.x, p.y, 0.0)).chain(upper).collect()
+    };
+    let mut contact = ClothContact::new(ClothContactParams::default(), &triangles, &areas);
+    contact.update(&at(3e-3));
+    let mut forces = vec![V3::zeros(); areas.len()];
+    assert!(contact.assemble(&at(3e-3), &mut forces).is_empty());
+    contact.update(&at(-1e-3));
+    assert_eq!(contact.assemble(&at(-1e-3), &mut forces).len(), 4);
+    assert!(forces[count..].iter().all(|f| f.z > 0.0));
+    check_forces(|x| contact.energy(x), &forces, &at(-1e-3), 1e-8, 1e-5);
+}
+
+#[test]
+fn crossings_are_counted() {
+    let (rest, triangles) = sheet(1, 1, 0.02);
+    let flat = rest.iter().map(|p| V3::new(p.x, p.y, 0.0));
+    let upright = rest.iter().map(|p| V3::new(0.009, p.y + 0.001, p.x - 0.011));
+    let x: Vec<V3> = flat.chain(upright).collect();
+    let mut both = triangles.clone();
+    both.extend(triangles.iter().map(|t| t.map(|v| v + 4)));
+    assert!(quality::self_crossings(&x, &both) > 0);
+    assert_eq!(quality::self_crossings(&x[..4], &triangles), 0);
+}
