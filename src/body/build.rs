@@ -17,7 +17,7 @@ const FINE_SPACING: f64 = 0.0070;
 
 /// Most rounds of the fit, and the error at which it stops, metres.
 const ROUNDS: usize = 8;
-const FITTED: f64 = 2e-4;
+const FITTED: f64 = 3e-4;
 
 /// Builds a closed, measured mannequin.
 ///
@@ -117,7 +117,8 @@ fn describe(sex: Sex, mesh: TriMesh, figure: &Figure) -> Result<Body, BodyError>
     let sites = sites(&mesh, figure)?;
     let girths = measure::girths_at(&mesh, &sites)?;
     let landmarks = landmarks(&mesh, figure, &sites)?;
-    let control = control_mesh(&mesh, &cuts(&mesh, figure, &sites, &landmarks))?;
+    let mut control = control_mesh(&mesh, &cuts(&mesh, figure, &sites, &landmarks))?;
+    control.snap(&landmarks);
     let levels = Levels {
         chest_m: sites.chest,
         underbust_m: sites.underbust,
@@ -139,7 +140,7 @@ fn landmarks(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Landmarks
     let side = |sign: f64| base.points.iter().max_by(|a, b| (sign * a.x).total_cmp(&(sign * b.x)));
     let side_neck = [1.0, -1.0].map(|sign| side(sign).map_or_else(V3::zeros, |p| V3::new(p.x, p.y, side_height)));
     let armpit =
-        measure::armpit(mesh, sites.chest, sites.shoulder[0].z, 0.0).ok_or_else(|| missing("armpit", sites.chest))?;
+        measure::armpit(mesh, sites.waist, sites.shoulder[0].z, 0.0).ok_or_else(|| missing("armpit", sites.chest))?;
     let bust = |sign: f64| measure::bust_point(mesh, sites.chest, sign, h).ok_or_else(|| missing("bust", sites.chest));
     Ok(Landmarks {
         side_neck,

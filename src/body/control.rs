@@ -2,7 +2,7 @@
 //! Topology and vertex order are the same for every body.
 
 use super::tape;
-use super::{BodyError, Joint, Skeleton};
+use super::{BodyError, Joint, Landmarks, Skeleton};
 use crate::geom::section::{Outline, Plane, section};
 use crate::geom::{TriMesh, V2, V3};
 use crate::units::mm;
@@ -178,6 +178,27 @@ impl ControlMesh {
             ("crown", self.end(2)),
         ]);
         points
+    }
+
+    /// Moves the vertices that stand for landmarks onto them.
+    pub(super) fn snap(&mut self, landmarks: &Landmarks) {
+        use Layer::*;
+        let exact = [
+            (NeckBase, 6, landmarks.front_neck),
+            (NeckBase, 18, landmarks.back_neck),
+            (NeckBase, 0, landmarks.side_neck[0]),
+            (NeckBase, 12, landmarks.side_neck[1]),
+            (Chest, 4, landmarks.bust[0]),
+            (Chest, 8, landmarks.bust[1]),
+            (ArmscyeRight, 16, landmarks.shoulder[0]),
+            (ArmscyeLeft, 16, landmarks.shoulder[1]),
+            (ArmscyeRight, 4, landmarks.armpit[0]),
+            (ArmscyeLeft, 4, landmarks.armpit[1]),
+        ];
+        for (layer, i, point) in exact {
+            let vertex = self.ring_vertex(layer, i);
+            self.positions[vertex] = point;
+        }
     }
 
     /// The feature lines that run along the body: name and vertex indices from above. Girths are the rings.

@@ -13,6 +13,9 @@ pub(super) const ARM_ANGLE: f64 = 38.0 * std::f64::consts::PI / 180.0;
 /// Slope of the shoulder line, radians.
 const SHOULDER_SLOPE: f64 = 20.0 * std::f64::consts::PI / 180.0;
 
+/// Least height of the armpit above the chest level before its fillet, over stature.
+const ARMPIT_ABOVE_CHEST: f64 = 0.030;
+
 /// Spacing of the tables of the lofts, metres.
 const TABLE_STEP: f64 = 0.003;
 
@@ -281,11 +284,18 @@ impl<'a> Figure<'a> {
         self.arm_lengths()[1]
     }
 
-    /// Centre of the shoulder joint of the right arm.
+    /// Centre of the shoulder joint of the right arm: under the shoulder point, as far out as the breadth over the upper
+    /// arms says, and far enough that the armpit stays above the chest.
     pub fn shoulder_joint(&self) -> V3 {
         let h = self.stature();
         let radius = self.deltoid_radius();
-        V3::new(self.targets.shoulder_x - 0.45 * radius, -0.014 * h, self.atlas.shoulder * h - 0.92 * radius)
+        let z = self.atlas.shoulder * h - radius;
+        let (sin, cos) = ARM_ANGLE.sin_cos();
+        let trunk = &self.trunk_sections()[8];
+        // Where the lower edge of the arm meets the side of the trunk, were the joint at x = 0.
+        let meets = z - (trunk.half_width * cos + radius) / sin;
+        let clear = (self.atlas.chest * h + ARMPIT_ABOVE_CHEST * h - meets) * sin / cos;
+        V3::new((self.profile.bideltoid / 2.0 - radius).max(clear), -0.014 * h, z)
     }
 
     fn deltoid_radius(&self) -> f64 {
@@ -333,10 +343,10 @@ impl<'a> Figure<'a> {
             plate(wrist + 0.018 * h, 0.0125, 0.0190),
             plate(wrist + 0.045 * h, 0.0125, 0.0240),
             plate(wrist + 0.068 * h, 0.0110, 0.0225),
-            plate(tip - 0.020 * h, 0.0090, 0.0165),
+            plate(tip - 0.016 * h, 0.0090, 0.0190),
         ]);
         let fingers = stations[stations.len() - 1];
-        stations.extend(dome(&fingers, 0.020 * h, 1.0));
+        stations.extend(dome(&fingers, 0.016 * h, 1.0));
         Loft::new(self.shoulder_joint(), self.arm_axes(), &stations, TABLE_STEP)
     }
 
