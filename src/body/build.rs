@@ -3,7 +3,8 @@
 use super::anthropometry::Profile;
 use super::control::{Cuts, control_mesh};
 use super::figure::Figure;
-use super::measure::{self, Side, Sites};
+use super::landmarks::{self, Side};
+use super::measure::{self, Sites};
 use super::surface::Skin;
 use super::tape;
 use super::{Body, BodyError, Landmarks, Levels, Measurements, Sex};
@@ -89,11 +90,11 @@ fn sites(mesh: &TriMesh, figure: &Figure) -> Result<Sites, BodyError> {
     let (atlas, h) = (figure.atlas, figure.profile.stature);
     let missing = |part, share: f64| BodyError::MissingPart { part, height_mm: share * h * 1e3 };
     let upper = tape::above(mesh, 0.7 * h);
-    let crotch = measure::crotch(mesh, 0.40 * h, 0.52 * h, 0.0).ok_or_else(|| missing("crotch", atlas.crotch))?;
+    let crotch = landmarks::crotch(mesh, 0.40 * h, 0.52 * h, 0.0).ok_or_else(|| missing("crotch", atlas.crotch))?;
     let neck = tape::neck(&upper, 0.845 * h, 0.885 * h, 0.0).ok_or_else(|| missing("neck", 0.87))?;
-    let back_neck = measure::median_point(&upper, figure.back_neck_height(), 0.0, Side::Back);
+    let back_neck = landmarks::median_point(&upper, figure.back_neck_height(), 0.0, Side::Back);
     let chest = atlas.chest * h;
-    let shoulder = |sign: f64| measure::shoulder_top(&upper, sign * figure.targets.shoulder_x, 0.86 * h);
+    let shoulder = |sign: f64| landmarks::shoulder_top(&upper, sign * figure.targets.shoulder_x, 0.86 * h);
     let right = shoulder(1.0).ok_or_else(|| missing("shoulder", atlas.shoulder))?;
     let along = figure.arm_axes()[2];
     Ok(Sites {
@@ -116,7 +117,7 @@ fn sites(mesh: &TriMesh, figure: &Figure) -> Result<Sites, BodyError> {
 fn describe(sex: Sex, mesh: TriMesh, figure: &Figure) -> Result<Body, BodyError> {
     let sites = sites(&mesh, figure)?;
     let girths = measure::girths_at(&mesh, &sites)?;
-    let landmarks = landmarks(&mesh, figure, &sites)?;
+    let landmarks = find_landmarks(&mesh, figure, &sites)?;
     let mut control = control_mesh(&mesh, &cuts(&mesh, figure, &sites, &landmarks))?;
     control.snap(&landmarks);
     let levels = Levels {
@@ -131,7 +132,7 @@ fn describe(sex: Sex, mesh: TriMesh, figure: &Figure) -> Result<Body, BodyError>
     Ok(Body { sex, mesh, skeleton, landmarks, levels, control, girths })
 }
 
-fn landmarks(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Landmarks, BodyError> {
+fn find_landmarks(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Landmarks, BodyError> {
     let h = figure.profile.stature;
     let missing = |part: &'static str, z: f64| BodyError::MissingPart { part, height_mm: z * 1e3 };
     let front_height = figure.front_neck_height();
@@ -140,17 +141,18 @@ fn landmarks(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Landmarks
     let side = |sign: f64| base.points.iter().max_by(|a, b| (sign * a.x).total_cmp(&(sign * b.x)));
     let side_neck = [1.0, -1.0].map(|sign| side(sign).map_or_else(V3::zeros, |p| V3::new(p.x, p.y, side_height)));
     let armpit =
-        measure::armpit(mesh, sites.waist, sites.shoulder[0].z, 0.0).ok_or_else(|| missing("armpit", sites.chest))?;
-    let bust = |sign: f64| measure::bust_point(mesh, sites.chest, sign, h).ok_or_else(|| missing("bust", sites.chest));
+        landmarks::armpit(mesh, sites.waist, sites.shoulder[0].z, 0.0).ok_or_else(|| missing("armpit", sites.chest))?;
+    let bust =
+        |sign: f64| landmarks::bust_point(mesh, sites.chest, sign, h).ok_or_else(|| missing("bust", sites.chest));
     Ok(Landmarks {
         side_neck,
         shoulder: sites.shoulder,
         back_neck: sites.back_neck,
-        front_neck: measure::median_point(mesh, front_height, 0.0, Side::Front)
+        front_neck: landmarks::median_point(mesh, front_height, 0.0, Side::Front)
             .ok_or_else(|| missing("front neck", front_height))?,
         armpit: [armpit, V3::new(-armpit.x, armpit.y, armpit.z)],
         bust: [bust(1.0)?, bust(-1.0)?],
-        crotch: measure::crotch_point(mesh, sites.crotch).ok_or_else(|| missing("crotch", sites.crotch))?,
+        crotch: landmarks::crotch_point(mesh, sites.crotch).ok_or_else(|| missing("crotch", sites.crotch))?,
     })
 }
 

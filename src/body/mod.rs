@@ -8,6 +8,7 @@ mod field;
 mod figure;
 mod import;
 mod interpolate;
+mod landmarks;
 mod loft;
 mod measure;
 mod stl;
