@@ -380,7 +380,7 @@ impl<'a> Figure<'a> {
         let ring = |at: f64, girth: f64, depth_over_width: f64, centre: V2, shape: Shape| {
             Station { at, centre, half_width: 1.0, half_depth: depth_over_width, shape }.with_girth(girth)
         };
-        let thigh = ring(0.955 * crotch, p.thigh * 0.98, 1.10, V2::new(0.0, 0.007 * h), thigh_shape);
+        let thigh = ring(0.955 * crotch, p.thigh * 0.98, 1.10, V2::new(0.0, 0.003 * h), thigh_shape);
         let hip_x = thigh_x(&trunk[0], &thigh);
         let ankle_x = self.ankle_x(hip_x);
         let x_at = |z: f64| ankle_x + (hip_x - ankle_x) * z / crotch;
@@ -395,8 +395,8 @@ impl<'a> Figure<'a> {
             ring(calf, p.calf, 1.02, at(calf, -0.0165), calf_shape),
             ring(knee, p.knee, 1.06, at(knee, -0.0065), [-0.022, -0.025, 0.0, 0.025, 0.004, 0.0, 0.0, 0.0, 0.0]),
             ring(1.25 * knee, 0.53 * p.knee + 0.45 * p.thigh, 1.05, at(1.25 * knee, -0.001), thigh_shape),
-            ring(0.82 * crotch, 0.22 * p.knee + 0.76 * p.thigh, 1.06, at(0.82 * crotch, 0.004), thigh_shape),
-            Station { centre: at(thigh.at, 0.006), ..thigh },
+            ring(0.82 * crotch, 0.22 * p.knee + 0.76 * p.thigh, 1.06, at(0.82 * crotch, 0.002), thigh_shape),
+            Station { centre: at(thigh.at, 0.002), ..thigh },
         ];
         sections.extend(self.leg_roots(trunk, x_at(crotch)));
         sections
@@ -435,8 +435,8 @@ impl<'a> Figure<'a> {
             [0.25, 0.122, 0.300, 0.0],
             [0.45, 0.140, 0.285, -0.005],
             [0.62, 0.172, 0.200, -0.012],
-            [0.76, 0.185, 0.135, -0.015],
-            [0.90, 0.160, 0.095, -0.022],
+            [0.76, 0.185, 0.150, -0.015],
+            [0.90, 0.155, 0.112, -0.022],
         ];
         let section = |&[along, half_width, height, side]: &[f64; 4]| {
             // The ellipse reaches below the floor, which cuts the sole.
