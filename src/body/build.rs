@@ -4,21 +4,29 @@ use super::anthropometry::Profile;
 use super::control::{Cuts, control_mesh};
 use super::figure::Figure;
 use super::landmarks::{self, Side};
-use super::measure::{self, Sites};
+use super::measure::{self, Girths, Sites};
 use super::surface::Skin;
 use super::tape;
 use super::{Body, BodyError, Landmarks, Levels, Measurements, Sex};
 use crate::geom::contour::Grid;
 use crate::geom::section::Plane;
 use crate::geom::{TriMesh, V3};
+use crate::units::from_mm;
 
 /// Grid spacing of the skin, as a share of stature: of the body, and of arms (sideways) and feet (in height).
 const SPACING: f64 = 0.0095;
 const FINE_SPACING: f64 = 0.0070;
 
+/// Height of the ankles over stature.
+const ANKLE: f64 = 0.045;
+
 /// Most rounds of the fit, and the error at which it stops, metres.
 const ROUNDS: usize = 8;
 const FITTED: f64 = 3e-4;
+
+/// Greatest accepted difference of a girth and of the across-shoulder length from what was asked, metres.
+const GIRTH_TOLERANCE: f64 = 2e-3;
+const SHOULDER_TOLERANCE: f64 = 5e-3;
 
 /// Builds a closed, measured mannequin.
 ///
@@ -26,26 +34,74 @@ const FITTED: f64 = 3e-4;
 /// across-shoulder length are fitted until the tape reads them on the fine mesh.
 ///
 /// # Errors
-/// [`BodyError::OutOfRange`] for measurements that no adult has.
+/// [`BodyError::OutOfRange`] for measurements that no adult has, [`BodyError::Inconsistent`] for those that are not of one
+/// body.
 pub fn build(known: &Measurements) -> Result<Body, BodyError> {
     let profile = Profile::new(known)?;
-    let stature = profile.stature;
-    let mut figure = Figure::new(&profile);
-    let mut skin = Skin::new(&figure.parts(), &grid(stature, profile.biacromial / 2.0));
-    let mut mesh = skin.triangles(stature);
-    for _ in 0..ROUNDS {
-        let sites = sites(&mesh, &figure)?;
-        if adjust(&mut figure, &mesh, &sites)? < FITTED {
-            break;
+    fit(known.sex, &profile).map_err(|error| match error {
+        BodyError::MissingPart { part, height_mm } => {
+            BodyError::Inconsistent { reason: format!("no {part} can be formed at a height of {height_mm:.0} mm") }
         }
-        skin.follow(&figure.parts());
-        mesh = skin.triangles(stature);
-    }
-    describe(known.sex, mesh, &figure)
+        other => other,
+    })
 }
 
-/// The grid on which the skin of a body is polygonised: finer beyond the shoulders and below the ankles.
-fn grid(stature: f64, shoulder_x: f64) -> Grid {
+/// Makes the skin of a profile and fits it to the tape.
+fn fit(sex: Sex, profile: &Profile) -> Result<Body, BodyError> {
+    let mut figure = Figure::new(profile);
+    let mut skin = Skin::new(&figure.parts(), &grid(&figure));
+    let mut mesh = skin.triangles(profile.stature);
+    for _ in 0..ROUNDS {
+        let errors = errors(profile, &measure::girths_at(&mesh, &sites(&mesh, &figure)?)?);
+        if errors.iter().all(|error| error.off().abs() < FITTED) {
+            break;
+        }
+        figure.adjust(errors.map(|error| error.asked / error.read));
+        skin.follow(&figure.parts());
+        mesh = skin.triangles(profile.stature);
+    }
+    if !mesh.is_closed_manifold() {
+        return Err(BodyError::Inconsistent { reason: "the skin does not close".to_owned() });
+    }
+    let body = describe(sex, mesh, &figure)?;
+    let unmet = errors(profile, &body.girths).into_iter().find(|error| error.off().abs() > error.tolerance);
+    unmet.map_or(Ok(body), |error| Err(error.refusal()))
+}
+
+/// A fitted measurement: asked for, and read by the tape; metres.
+struct Fitted {
+    name: &'static str,
+    asked: f64,
+    read: f64,
+    tolerance: f64,
+}
+
+impl Fitted {
+    fn off(&self) -> f64 {
+        self.read - self.asked
+    }
+
+    fn refusal(&self) -> BodyError {
+        let Self { name, asked, read, .. } = self;
+        BodyError::Inconsistent { reason: format!("{name} of {asked:.3} m was asked, {read:.3} m is reached") }
+    }
+}
+
+/// Neck, chest, waist and hip girth and the across-shoulder length, asked and read.
+fn errors(asked: &Profile, read: &Girths) -> [Fitted; 5] {
+    let fitted = |name, asked, read_mm, tolerance| Fitted { name, asked, read: from_mm(read_mm), tolerance };
+    [
+        fitted("neck girth", asked.neck, read.neck_girth_mm, GIRTH_TOLERANCE),
+        fitted("chest girth", asked.chest, read.chest_girth_mm, GIRTH_TOLERANCE),
+        fitted("waist girth", asked.waist, read.waist_girth_mm, GIRTH_TOLERANCE),
+        fitted("hip girth", asked.hip, read.hip_girth_mm, GIRTH_TOLERANCE),
+        fitted("across shoulder", asked.across_shoulder, read.across_shoulder_mm, SHOULDER_TOLERANCE),
+    ]
+}
+
+/// The grid on which the skin of a figure is polygonised: finer beyond the shoulders and below the ankles.
+fn grid(figure: &Figure) -> Grid {
+    let stature = figure.profile.stature;
     let walk = |from: f64, to: f64, spacing: &dyn Fn(f64) -> f64| {
         let mut nodes = vec![from];
         let mut at = from;
@@ -55,34 +111,14 @@ fn grid(stature: f64, shoulder_x: f64) -> Grid {
         }
         nodes
     };
-    let sideways = |x: f64| if x > shoulder_x { FINE_SPACING } else { SPACING };
-    let upward = |z: f64| if z < 0.045 * stature { FINE_SPACING } else { SPACING };
-    let right = walk(SPACING * stature / 2.0, 0.43 * stature, &sideways);
+    let (low, high) = figure.extent();
+    let sideways = |x: f64| if x > figure.targets.shoulder_x { FINE_SPACING } else { SPACING };
+    let upward = |z: f64| if z < ANKLE * stature { FINE_SPACING } else { SPACING };
+    let right = walk(SPACING * stature / 2.0, high.x, &sideways);
     let x: Vec<f64> = right.iter().rev().map(|x| -x).chain(right.iter().copied()).collect();
-    let y = walk(-0.19 * stature, 0.23 * stature, &|_| SPACING);
-    let z = walk(-0.012 * stature, 1.01 * stature, &upward);
+    let y = walk(low.y, high.y, &|_| SPACING);
+    let z = walk(low.z, high.z, &upward);
     Grid { axes: [x, y, z] }
-}
-
-/// Changes the figure's targets by what the tape reads too much or too little; returns the greatest error in metres.
-fn adjust(figure: &mut Figure, mesh: &TriMesh, sites: &Sites) -> Result<f64, BodyError> {
-    let read = measure::girths_at(mesh, sites)?;
-    let asked = figure.profile;
-    let targets = &mut figure.targets;
-    let mut greatest: f64 = 0.0;
-    let girths = [
-        (&mut targets.neck, asked.neck, read.neck_girth_mm),
-        (&mut targets.chest, asked.chest, read.chest_girth_mm),
-        (&mut targets.waist, asked.waist, read.waist_girth_mm),
-        (&mut targets.hip, asked.hip, read.hip_girth_mm),
-        (&mut targets.shoulder_x, asked.across_shoulder, read.across_shoulder_mm),
-    ];
-    for (target, asked, read_mm) in girths {
-        let read = read_mm * 1e-3;
-        greatest = greatest.max((read - asked).abs());
-        *target *= (asked / read).clamp(0.85, 1.18);
-    }
-    Ok(greatest)
 }
 
 /// Where the tape is laid on a figure's skin: the levels are known.

@@ -1,5 +1,6 @@
 use super::*;
 use crate::body::{Joint, Layer, RING, write_obj};
+use crate::geom::V2;
 
 /// The study's subjects (thesis tables 6-1 to 6-4): stature, mass, chest, waist, hip, across shoulder, neck; cm and kg.
 const SUBJECTS: [(Sex, [f64; 7]); 12] = [
@@ -140,4 +141,45 @@ fn only_stature(sex: Sex, stature_m: f64) -> Measurements {
 fn the_same_measurements_give_the_same_body() {
     let asked = subject(SUBJECTS[0].0, SUBJECTS[0].1);
     assert_eq!(build(&asked).expect("a subject"), build(&asked).expect("a subject"));
+}
+
+/// Distance of a point from the outlines of the horizontal section through it, metres.
+fn off_skin(mesh: &TriMesh, point: V3) -> f64 {
+    let outlines = crate::geom::section::section(mesh, &Plane::horizontal(point.z));
+    let sides = outlines.iter().flat_map(|outline| outline.points.iter().zip(outline.points.iter().cycle().skip(1)));
+    let distance = |(a, b): (&V2, &V2)| {
+        let (side, from_a) = (b - a, point.xy() - a);
+        let share = (from_a.dot(&side) / side.norm_squared().max(1e-18)).clamp(0.0, 1.0);
+        (from_a - side * share).norm()
+    };
+    sides.map(distance).fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn landmarks_lie_on_the_skin_where_they_belong() {
+    for (sex, numbers) in [SUBJECTS[3], SUBJECTS[6]] {
+        let body = build(&subject(sex, numbers)).expect("a subject");
+        let marks = &body.landmarks;
+        let points = [
+            ("side neck", marks.side_neck[0]),
+            ("shoulder", marks.shoulder[0]),
+            ("left shoulder", marks.shoulder[1]),
+            ("back neck", marks.back_neck),
+            ("front neck", marks.front_neck),
+            ("armpit", marks.armpit[0]),
+            ("bust", marks.bust[0]),
+            ("left bust", marks.bust[1]),
+        ];
+        for (name, point) in points {
+            let off = off_skin(&body.mesh, point);
+            assert!(off < 1e-3, "{name} {point:?} is {:.2} mm off the skin", off * 1e3);
+        }
+        assert!(marks.back_neck.z > marks.side_neck[0].z && marks.side_neck[0].z > marks.shoulder[0].z);
+        assert!(marks.shoulder[0].z > marks.front_neck.z - 0.05 && marks.armpit[0].z > body.levels.chest_m);
+        let slope = (marks.side_neck[0].z - marks.shoulder[0].z).atan2(marks.shoulder[0].x - marks.side_neck[0].x);
+        assert!((12.0..28.0).contains(&slope.to_degrees()), "shoulders slope by {:.1} degrees", slope.to_degrees());
+        for (feature, vertex) in body.control.feature_points() {
+            assert!(body.control.positions[vertex].iter().all(|c| c.is_finite()), "{feature}");
+        }
+    }
 }

@@ -54,6 +54,26 @@ impl<'a> Figure<'a> {
         Self { profile, atlas: Atlas::of(profile.sex), targets }
     }
 
+    /// Multiplies the targets of neck, chest, waist, hip and shoulder; a factor far from one is taken in several steps.
+    pub fn adjust(&mut self, factors: [f64; 5]) {
+        let Targets { neck, chest, waist, hip, shoulder_x } = &mut self.targets;
+        for (target, factor) in [neck, chest, waist, hip, shoulder_x].into_iter().zip(factors) {
+            *target *= factor.clamp(0.85, 1.18);
+        }
+    }
+
+    /// Opposite corners of a box around the figure with room for its fit, metres.
+    pub fn extent(&self) -> (V3, V3) {
+        let h = self.stature();
+        let room = 0.03 * h;
+        let [_, _, tip] = self.arm_lengths();
+        let hand = self.shoulder_joint() + self.arm_axes()[2] * tip;
+        let trunk = self.trunk_sections();
+        let front = trunk.iter().map(|s| s.centre.y + 1.1 * s.half_depth).fold(self.profile.foot_length, f64::max);
+        let back = trunk.iter().map(|s| s.centre.y - 1.1 * s.half_depth).fold(-0.1 * h, f64::min);
+        (V3::new(-hand.x - room, back - room, -0.4 * room), V3::new(hand.x + room, front + room, h + 0.4 * room))
+    }
+
     /// The lofts of all parts.
     pub fn parts(&self) -> Parts {
         let trunk = self.trunk_sections();

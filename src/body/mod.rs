@@ -49,6 +49,12 @@ pub enum BodyError {
         /// Height of the search, mm.
         height_mm: f64,
     },
+    /// Measurements that are possible each, but not of one body.
+    #[error("these measurements do not make one body ({reason}); accepted: girths that one adult has together")]
+    Inconsistent {
+        /// What cannot be formed, or which measurement is not reached.
+        reason: String,
+    },
     /// A mesh file that cannot be read.
     #[error("{format}, {place}: {problem}; accepted: OBJ, PLY or STL with triangles or polygons")]
     File {
