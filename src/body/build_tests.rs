@@ -68,23 +68,6 @@ fn the_study_subjects_measure_as_asked() {
     }
 }
 
-#[test]
-fn skin_and_control_mesh_are_closed() {
-    for (sex, numbers) in [SUBJECTS[1], SUBJECTS[10]] {
-        let body = build(&subject(sex, numbers)).expect("a subject");
-        assert!(body.mesh.is_closed_manifold());
-        let triangles = body.control.faces.iter().flat_map(|f| (2..f.len()).map(|k| [f[0], f[k - 1], f[k]])).collect();
-        let control = TriMesh { positions: body.control.positions.clone(), triangles };
-        assert!(control.is_closed_manifold());
-        assert!(control.volume() > 0.9 * body.mesh.volume(), "{} of {}", control.volume(), body.mesh.volume());
-        assert_eq!(body.control.ring(Layer::WristLeft).len(), RING);
-        let elbow = body.skeleton.at(Joint::ElbowRight);
-        assert!(
-            elbow.x > body.skeleton.at(Joint::ShoulderRight).x && elbow.z < body.skeleton.at(Joint::ShoulderRight).z
-        );
-    }
-}
-
 /// Bodies far from the mean, and bodies of which little is known: thin, heavy, short, tall.
 #[test]
 fn unusual_bodies_can_be_built() {
@@ -143,6 +126,18 @@ fn the_same_measurements_give_the_same_body() {
     assert_eq!(build(&asked).expect("a subject"), build(&asked).expect("a subject"));
 }
 
+fn check_meshes(body: &Body) {
+    assert!(body.mesh.is_closed_manifold());
+    let triangles = body.control.faces.iter().flat_map(|f| (2..f.len()).map(|k| [f[0], f[k - 1], f[k]])).collect();
+    let control = TriMesh { positions: body.control.positions.clone(), triangles };
+    assert!(control.is_closed_manifold());
+    assert!(control.volume() > 0.9 * body.mesh.volume(), "{} of {}", control.volume(), body.mesh.volume());
+    assert_eq!(body.control.faces.len(), body.control.regions.len());
+    assert_eq!(body.control.ring(Layer::WristLeft).len(), RING);
+    let elbow = body.skeleton.at(Joint::ElbowRight);
+    assert!(elbow.x > body.skeleton.at(Joint::ShoulderRight).x && elbow.z < body.skeleton.at(Joint::ShoulderRight).z);
+}
+
 /// Distance of a point from the outlines of the horizontal section through it, metres.
 fn off_skin(mesh: &TriMesh, point: V3) -> f64 {
     let outlines = crate::geom::section::section(mesh, &Plane::horizontal(point.z));
@@ -156,9 +151,10 @@ fn off_skin(mesh: &TriMesh, point: V3) -> f64 {
 }
 
 #[test]
-fn landmarks_lie_on_the_skin_where_they_belong() {
+fn meshes_are_closed_and_landmarks_lie_on_the_skin() {
     for (sex, numbers) in [SUBJECTS[3], SUBJECTS[6]] {
         let body = build(&subject(sex, numbers)).expect("a subject");
+        check_meshes(&body);
         let marks = &body.landmarks;
         let points = [
             ("side neck", marks.side_neck[0]),

@@ -401,6 +401,7 @@ impl<'a> Figure<'a> {
             Station { at, centre, half_width: 1.0, half_depth: depth_over_width, shape }.with_girth(girth)
         };
         let thigh = ring(0.955 * crotch, p.thigh * 0.98, 1.10, V2::new(0.0, 0.003 * h), thigh_shape);
+        let thigh = slimmed(thigh, 0.485 * trunk[0].half_width - 0.002);
         let hip_x = thigh_x(&trunk[0], &thigh);
         let ankle_x = self.ankle_x(hip_x);
         let x_at = |z: f64| ankle_x + (hip_x - ankle_x) * z / crotch;
@@ -481,6 +482,15 @@ impl<'a> Figure<'a> {
     fn ankle_x(&self, hip_x: f64) -> f64 {
         hip_x + 0.022 * self.stature()
     }
+}
+
+/// A section no wider than `half_width`, deeper instead: the girth is kept (that of an ellipse, by its mean square radius).
+fn slimmed(section: Station, half_width: f64) -> Station {
+    if section.half_width <= half_width {
+        return section;
+    }
+    let square = section.half_width.powi(2) + section.half_depth.powi(2) - half_width.powi(2);
+    Station { half_width, half_depth: square.sqrt(), ..section }
 }
 
 /// Sideways place of the right thigh below the crotch: its outer side continues the hip's, and the thighs part.
