@@ -1,7 +1,7 @@
 //! From measurements to a mannequin: figure, skin, the fit of its girths, and what is known of it.
 
 use super::anthropometry::Profile;
-use super::control::{Cuts, control_mesh};
+use super::control_cut::{Cuts, control_mesh};
 use super::figure::Figure;
 use super::landmarks::{self, Side};
 use super::measure::{self, Girths, Sites};
