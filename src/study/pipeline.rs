@@ -28,16 +28,11 @@ const SIM_VERSION: u32 = 1;
 
 /// Spacing of the distance field's nodes, m: the 99th percentile of its error is then about 0.1 mm.
 const FIELD_SPACING_M: f64 = 0.005;
-/// Edge length of each coarser mesh over the next finer one.
-const COARSENING: f64 = 2.0;
-/// Number of meshes, coarse to fine.
-const MESH_LEVELS: i32 = 2;
-
 /// The inputs every job has besides the study's own: versions and parameters of the stages.
 pub(crate) fn versions(simulator: Simulator) -> Vec<(&'static str, String)> {
     let mut versions: Vec<_> = VERSIONS.iter().map(|(name, version)| (*name, version.to_string())).collect();
     versions.push(("field.spacing_mm", (FIELD_SPACING_M * 1e3).to_string()));
-    versions.push(("mesh.levels", MESH_LEVELS.to_string()));
+    versions.push(("mesh.levels", format!("{:?}", sim::fem::LEVELS)));
     versions.push(("sim.version", SIM_VERSION.to_string()));
     if simulator == Simulator::Fem {
         let parameters = format!("{:?}", sim::fem::Params::default());
@@ -164,7 +159,7 @@ pub(super) fn style(spec: &JobSpec) -> Result<Style> {
 /// Meshes of a job's garment, coarse to fine.
 fn mesh(spec: &JobSpec) -> Result<Meshes> {
     let style = style(spec)?;
-    let edges = (0..MESH_LEVELS).rev().map(|level| spec.edge_length_m * COARSENING.powi(level));
+    let edges = sim::fem::LEVELS.map(|level| spec.edge_length_m * level).into_iter();
     let within = edges.filter(|edge| *edge == spec.edge_length_m || EDGE_LENGTH_RANGE_M.contains(edge));
     let meshes = within.map(|edge| style.mesh(edge).map_err(StudyError::stage("mesh")));
     Ok(Meshes(meshes.collect::<Result<_>>()?))
