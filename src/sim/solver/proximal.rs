@@ -138,20 +138,22 @@ impl Stepper {
             let moved = trial.iter().zip(x).zip(inertia).map(|((p, q), m)| 0.5 * m * (p - q).norm_squared());
             system.energy(trial) + moved.sum::<f64>() <= start - SUFFICIENT_DECREASE * share * slope
         };
-        let straight = |share: f64| -> Vec<V3> { x.iter().zip(direction).map(|(p, d)| p + d * share).collect() };
-        let corrected: Vec<V3> = straight(1.0).iter().zip(bend).map(|(p, b)| p + b).collect();
-        if decreases(&corrected, 1.0) {
-            return (1.0, corrected);
-        }
+        // x + t direction + t^2 bend: the correction is of second order.
+        let at = |share: f64, bent: f64| -> Vec<V3> {
+            let point = |((p, d), b): ((&V3, &V3), &V3)| p + d * share + b * (bent * share * share);
+            x.iter().zip(direction).zip(bend).map(point).collect()
+        };
         let mut share = 1.0;
         for _ in 0..MOST_HALVINGS {
-            let trial = straight(share);
-            if decreases(&trial, share) {
-                return (share, trial);
+            for bent in [1.0, 0.0] {
+                let trial = at(share, bent);
+                if decreases(&trial, share) {
+                    return (share, trial);
+                }
             }
             share *= 0.5;
         }
-        (share, straight(share))
+        (share, at(share, 0.0))
     }
 }
 
