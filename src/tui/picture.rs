@@ -1,0 +1,310 @@
+//! Pictures in the terminal: what is asked for, and how pixels become cells.
+//!
+//! Nothing is asked of the terminal: its answer may come late, or take the first key with it (tmux: 1.8 s). What the
+//! environment and the window size say is enough; otherwise half blocks, which every terminal can show.
+
+use image::{DynamicImage, Rgba, RgbaImage, imageops};
+use ratatui::layout::Size;
+use ratatui_image::picker::{Picker, ProtocolType};
+use ratatui_image::protocol::Protocol;
+use ratatui_image::{FontSize, Resize};
+
+use super::theme::Colours;
+use crate::study::JobId;
+
+/// How pictures are shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Images {
+    /// As pixels where the environment says that the terminal can, as half blocks otherwise.
+    #[default]
+    Auto,
+    /// As half blocks.
+    Halfblocks,
+    /// Not at all.
+    Off,
+}
+
+impl std::str::FromStr for Images {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "auto" => Ok(Self::Auto),
+            "halfblocks" => Ok(Self::Halfblocks),
+            "off" => Ok(Self::Off),
+            other => Err(format!("`{other}` is no way to show pictures; there are: auto, halfblocks, off")),
+        }
+    }
+}
+
+/// From where a drape is seen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum View {
+    /// From the front.
+    #[default]
+    Front,
+    /// From the left of the body.
+    Side,
+    /// From behind.
+    Back,
+    /// From between front and side.
+    Quarter,
+}
+
+impl View {
+    /// All views, in the order the picture turns.
+    pub const ALL: [Self; 4] = [Self::Front, Self::Side, Self::Back, Self::Quarter];
+
+    /// Name.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Front => "front",
+            Self::Side => "side",
+            Self::Back => "back",
+            Self::Quarter => "quarter",
+        }
+    }
+
+    /// The view some steps on.
+    #[must_use]
+    pub fn turned(self, steps: isize) -> Self {
+        Self::ALL[(self as isize + steps).rem_euclid(4) as usize]
+    }
+}
+
+/// What the colours of a picture mean.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Map {
+    /// The simulator's colour.
+    #[default]
+    Drape,
+    /// Strain of the cloth.
+    Strain,
+}
+
+impl Map {
+    /// Name.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Drape => "drape",
+            Self::Strain => "strain",
+        }
+    }
+
+    /// The other one.
+    #[must_use]
+    pub fn next(self) -> Self {
+        match self {
+            Self::Drape => Self::Strain,
+            Self::Strain => Self::Drape,
+        }
+    }
+}
+
+/// A picture that is wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shot {
+    /// The job whose drape is shown.
+    pub job: JobId,
+    /// From where.
+    pub view: View,
+    /// In which colours.
+    pub map: Map,
+    /// Width of the pane, cells.
+    pub columns: u16,
+    /// Height of the pane, cells.
+    pub rows: u16,
+}
+
+/// A picture as the terminal shows it.
+pub enum Drawn {
+    /// Pixels or half blocks.
+    Cells(Protocol),
+    /// Letters of growing density, for terminals without colours.
+    Letters(Vec<String>),
+}
+
+impl std::fmt::Debug for Drawn {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Cells(_) => "Cells",
+            Self::Letters(_) => "Letters",
+        })
+    }
+}
+
+/// Turns pictures into cells.
+#[derive(Clone, Debug)]
+pub struct Canvas {
+    picker: Picker,
+    letters: bool,
+}
+
+impl Canvas {
+    /// The best way this terminal can show pictures; `None` where they are off.
+    #[must_use]
+    pub fn new(images: Images, colours: Colours, env: &dyn Fn(&str) -> Option<String>) -> Option<Self> {
+        let letters = colours == Colours::None;
+        let pixels = match images {
+            Images::Off => return None,
+            Images::Auto if !letters => pixel_protocol(env).zip(cell_size()),
+            _ => None,
+        };
+        let picker = pixels.map_or_else(Picker::halfblocks, |(protocol, cell)| picker_of(protocol, cell));
+        Some(Self { picker, letters })
+    }
+
+    /// Pixels to render for a picture, width by height.
+    #[must_use]
+    pub fn pixels(&self, shot: &Shot) -> (u32, u32) {
+        let cell = self.picker.font_size();
+        (u32::from(shot.columns) * u32::from(cell.width), u32::from(shot.rows) * u32::from(cell.height))
+    }
+
+    /// Crops a picture to what it shows and fits it into its pane.
+    ///
+    /// # Errors
+    /// When the picture cannot be encoded for this terminal.
+    pub fn draw(&self, picture: &RgbaImage, shot: &Shot) -> Result<Drawn, String> {
+        let picture = cropped(picture);
+        let size = Size::new(shot.columns, shot.rows);
+        if self.letters {
+            return Ok(Drawn::Letters(letters(&picture, size)));
+        }
+        let resize = Resize::Scale(Some(imageops::FilterType::CatmullRom));
+        let protocol = self.picker.new_protocol(DynamicImage::ImageRgba8(picture), size, resize);
+        protocol.map(Drawn::Cells).map_err(|error| error.to_string())
+    }
+}
+
+/// The protocol of a terminal that names itself; none inside tmux and screen, which pass pixels on only when told to.
+fn pixel_protocol(env: &dyn Fn(&str) -> Option<String>) -> Option<ProtocolType> {
+    let is = |name: &str, value: &str| env(name).is_some_and(|found| found == value);
+    if env("TMUX").is_some() || env("STY").is_some() {
+        return None;
+    }
+    if is("TERM", "xterm-kitty") || is("TERM", "xterm-ghostty") || is("TERM_PROGRAM", "ghostty") {
+        Some(ProtocolType::Kitty)
+    } else if is("TERM_PROGRAM", "iTerm.app") || is("TERM_PROGRAM", "WezTerm") {
+        Some(ProtocolType::Iterm2)
+    } else if is("TERM", "foot") || is("TERM", "mlterm") {
+        Some(ProtocolType::Sixel)
+    } else {
+        None
+    }
+}
+
+/// Pixels of a cell, from the window size the kernel knows.
+fn cell_size() -> Option<FontSize> {
+    let window = crossterm::terminal::window_size().ok()?;
+    let (width, height) = (window.width.checked_div(window.columns)?, window.height.checked_div(window.rows)?);
+    (width > 0 && height > 0).then(|| FontSize::new(width, height))
+}
+
+fn picker_of(protocol: ProtocolType, cell: FontSize) -> Picker {
+    // The constructor's replacement asks the terminal, which this module must not.
+    #[allow(deprecated)]
+    let mut picker = Picker::from_fontsize(cell);
+    picker.set_protocol_type(protocol);
+    picker
+}
+
+/// The part of a picture that differs from its background, the colour of its first corner, with a small margin.
+fn cropped(picture: &RgbaImage) -> RgbaImage {
+    let (width, height) = picture.dimensions();
+    let shown = picture.enumerate_pixels().filter(|(_, _, pixel)| !is_background(picture, pixel));
+    let bounds = shown.fold(None, |bounds: Option<[u32; 4]>, (x, y, _)| {
+        let [left, top, right, bottom] = bounds.unwrap_or([x, y, x, y]);
+        Some([left.min(x), top.min(y), right.max(x), bottom.max(y)])
+    });
+    let Some([left, top, right, bottom]) = bounds else { return picture.clone() };
+    let margin = width.max(height) / 50;
+    let (left, top) = (left.saturating_sub(margin), top.saturating_sub(margin));
+    let (right, bottom) = ((right + margin).min(width - 1), (bottom + margin).min(height - 1));
+    imageops::crop_imm(picture, left, top, right - left + 1, bottom - top + 1).to_image()
+}
+
+/// Whether a pixel is transparent or near the colour of the first corner.
+fn is_background(picture: &RgbaImage, pixel: &Rgba<u8>) -> bool {
+    let corner = picture.get_pixel(0, 0);
+    pixel[3] < 8 || (0..4).all(|k| pixel[k].abs_diff(corner[k]) < 12)
+}
+
+/// A picture as letters: the darker, the denser; background stays empty.
+fn letters(picture: &RgbaImage, size: Size) -> Vec<String> {
+    const RAMP: [char; 4] = ['░', '▒', '▓', '█'];
+    let (width, height) = (f64::from(picture.width()), f64::from(picture.height()) / 2.0);
+    let scale = (f64::from(size.width) / width).min(f64::from(size.height) / height);
+    let (columns, rows) = ((width * scale).max(1.0) as u32, (height * scale).max(1.0) as u32);
+    let small = imageops::resize(picture, columns, rows, imageops::FilterType::Triangle);
+    let letter = |pixel: &Rgba<u8>| {
+        if is_background(picture, pixel) {
+            return ' ';
+        }
+        let light = 0.2126 * f64::from(pixel[0]) + 0.7152 * f64::from(pixel[1]) + 0.0722 * f64::from(pixel[2]);
+        RAMP[((255.0 - light) / 64.0) as usize % RAMP.len()]
+    };
+    small.rows().map(|row| row.map(letter).collect()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A dark cross of a shirt's proportions in the middle of a light picture.
+    fn shirt() -> RgbaImage {
+        RgbaImage::from_fn(200, 200, |x, y| {
+            let body = (80..120).contains(&x) && (60..140).contains(&y);
+            let sleeves = (50..150).contains(&x) && (60..85).contains(&y);
+            if body || sleeves { Rgba([40, 90, 160, 255]) } else { Rgba([240, 240, 240, 255]) }
+        })
+    }
+
+    fn shot(columns: u16, rows: u16) -> Shot {
+        Shot { job: JobId(1), view: View::Front, map: Map::Drape, columns, rows }
+    }
+
+    #[test]
+    fn crops_to_what_is_shown() {
+        let cut = cropped(&shirt());
+        assert_eq!(cut.dimensions(), (108, 88));
+        let empty = RgbaImage::from_pixel(30, 20, Rgba([9, 9, 9, 255]));
+        assert_eq!(cropped(&empty).dimensions(), (30, 20));
+    }
+
+    #[test]
+    fn half_blocks_fill_the_pane_in_one_direction() {
+        let canvas = Canvas::new(Images::Halfblocks, Colours::True, &|_| None).expect("pictures are on");
+        let Ok(Drawn::Cells(protocol)) = canvas.draw(&shirt(), &shot(30, 20)) else { panic!("cells") };
+        assert_eq!(protocol.size().width, 30);
+        assert!(protocol.size().height <= 20);
+    }
+
+    #[test]
+    fn without_colours_letters_show_the_shape() {
+        let canvas = Canvas::new(Images::Auto, Colours::None, &|_| None).expect("pictures are on");
+        let Ok(Drawn::Letters(rows)) = canvas.draw(&shirt(), &shot(22, 9)) else { panic!("letters") };
+        assert_eq!(rows[1].trim().chars().count(), 20, "sleeves span the pane");
+        assert_eq!(rows[6].trim().chars().count(), 8, "the trunk is narrower");
+    }
+
+    #[test]
+    fn protocols_are_taken_only_from_terminals_that_name_themselves() {
+        let check = |vars: &[(&str, &str)], expect: Option<ProtocolType>| {
+            let env = |name: &str| vars.iter().find(|(k, _)| *k == name).map(|(_, v)| (*v).to_owned());
+            assert_eq!(pixel_protocol(&env), expect, "{vars:?}");
+        };
+        check(&[("TERM", "xterm-kitty")], Some(ProtocolType::Kitty));
+        check(&[("TERM", "xterm-kitty"), ("TMUX", "/tmp/x")], None);
+        check(&[("TERM_PROGRAM", "WezTerm")], Some(ProtocolType::Iterm2));
+        check(&[("TERM", "xterm-256color")], None);
+    }
+
+    #[test]
+    fn views_turn_all_round() {
+        assert_eq!(View::Front.turned(-1), View::Quarter);
+        assert_eq!(View::Quarter.turned(1), View::Front);
+    }
+}
