@@ -59,7 +59,7 @@ pub enum Joint {
 }
 
 /// Joint positions in world space, metres, indexed by [`Joint`].
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Skeleton {
     /// One position a joint, in the order of [`Joint`].
     pub joints: [V3; 17],
@@ -74,7 +74,7 @@ impl Skeleton {
 }
 
 /// Feature points on the fine mesh, metres. Pairs are `[right, left]`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Landmarks {
     /// Side neck points: where the shoulder line meets the base of the neck.
     pub side_neck: [V3; 2],
@@ -93,7 +93,7 @@ pub struct Landmarks {
 }
 
 /// Heights above the floor of the girth levels, metres.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Levels {
     /// Chest or bust.
     pub chest_m: f64,
@@ -110,7 +110,7 @@ pub struct Levels {
 }
 
 /// A dressed-ready human model.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Body {
     /// Sex.
     pub sex: Sex,

@@ -3,7 +3,7 @@
 use super::V3;
 
 /// A triangle mesh; triangles are counter-clockwise seen from outside.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct TriMesh {
     /// Vertex positions, metres.
     pub positions: Vec<V3>,

@@ -2,9 +2,15 @@
 //!
 //! World frame: metres, origin on the floor between the feet, `x` to the subject's right, `y` to the front, `z` up.
 
+pub mod field;
 pub mod mesh;
+pub mod polyline;
+pub mod shapes;
+pub mod surface;
 
+pub use field::DistanceField;
 pub use mesh::TriMesh;
+pub use surface::Surface;
 
 /// A point or vector of the plane (pattern pieces), metres.
 pub type V2 = nalgebra::Vector2<f64>;

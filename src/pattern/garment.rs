@@ -23,7 +23,7 @@ pub enum Role {
 }
 
 /// One triangulated piece: ranges into the garment's arrays.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct PieceMesh {
     /// Identifier within the garment (`front`, `sleeve_right`, ...).
     pub id: String,
@@ -40,7 +40,7 @@ pub struct PieceMesh {
 }
 
 /// A seam: pairs of garment vertices that are one vertex after sewing.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct SeamMesh {
     /// Name in the seam file.
     pub name: String,
@@ -49,7 +49,7 @@ pub struct SeamMesh {
 }
 
 /// A point of the cloth: a weighted mean of three vertices of one triangle (weights sum to 1).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MaterialPoint {
     /// Garment vertices.
     pub vertices: [usize; 3],
@@ -72,7 +72,7 @@ impl MaterialPoint {
 }
 
 /// A connected stretch of cloth along which is measured, within one piece.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Run {
     /// Points in order; at least two.
     pub points: Vec<MaterialPoint>,
@@ -91,7 +91,7 @@ pub enum MeasurementKind {
 }
 
 /// A measurement of the style, laid on the mesh.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Measurement {
     /// Number in the style (`#1` ...).
     pub no: u32,
@@ -117,7 +117,7 @@ pub struct FitLevel {
 }
 
 /// A sewable garment of one size, meshed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Garment {
     /// Style name.
     pub name: String,

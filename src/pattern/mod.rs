@@ -1,5 +1,13 @@
 //! The pattern (PDM, thesis 3.3): from DXF and a seam file to a sewable garment mesh and its pattern lengths.
 
+pub mod draft;
 pub mod garment;
+pub mod mesh;
+pub mod piece;
+pub mod seams;
+pub mod style;
 
 pub use garment::{FitLevel, Garment, MaterialPoint, Measurement, MeasurementKind, PieceMesh, Role, Run, SeamMesh};
+pub use mesh::{MeshError, MeshQuality};
+pub use piece::{Notch, Piece};
+pub use style::{Style, StyleError};

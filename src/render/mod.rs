@@ -1,1 +1,103 @@
-//! render
+//! Pictures of meshes without a GPU or a display (GRM, thesis 3.6): a z-buffer, soft light, and drawing colours.
+//!
+//! A [`Scene`] is built once from its layers (body, cloth) and lit once for all views; [`render`] then takes a picture
+//! from a [`Camera`]. All cameras made from one [`Frame`] share their scale. Pixels follow the subject as a facing
+//! person sees it: from the front, the subject's right is at the picture's left.
+
+mod bake;
+mod camera;
+mod colour;
+mod raster;
+mod relief;
+mod scene;
+mod shade;
+mod sheet;
+mod svg;
+
+pub use camera::{Camera, Frame, View};
+pub use colour::{ColourMap, Rgb, Scale};
+pub use scene::{Field, Layer, Material, Scene, Values};
+pub use shade::render;
+pub use sheet::{Cell, contact_sheet, draw_legend};
+pub use svg::rasterise_svg;
+
+use image::RgbaImage;
+
+/// Why a picture could not be made.
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    /// A triangle names a vertex that is not there.
+    #[error("layer {layer}, triangle {triangle}: vertex {vertex} does not exist; the mesh has {vertices} vertices")]
+    NoSuchVertex {
+        /// Index of the layer.
+        layer: usize,
+        /// Index of the triangle in its mesh.
+        triangle: usize,
+        /// The index found.
+        vertex: usize,
+        /// How many there are.
+        vertices: usize,
+    },
+    /// A position is not a number.
+    #[error(
+        "layer {layer}, vertex {vertex}: position is not finite; every coordinate must be a finite number of metres"
+    )]
+    NotFinite {
+        /// Index of the layer.
+        layer: usize,
+        /// Index of the vertex in its mesh.
+        vertex: usize,
+    },
+    /// A scalar field does not fit its mesh.
+    #[error("layer {layer}: the field has {found} values, the mesh needs {needed}")]
+    FieldLength {
+        /// Index of the layer.
+        layer: usize,
+        /// Values found.
+        found: usize,
+        /// Vertices or triangles of the mesh.
+        needed: usize,
+    },
+    /// No picture has this size.
+    #[error("picture of {width} x {height} pixels; each side must be 1 to 8192")]
+    Size {
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+    },
+    /// A drawing could not be read.
+    #[error("SVG drawing: {0}")]
+    Svg(String),
+    /// An encoder refused a picture.
+    #[error("picture encoding: {0}")]
+    Encode(#[from] image::ImageError),
+}
+
+/// The picture as a PNG file.
+///
+/// # Errors
+/// [`RenderError::Encode`] for an empty picture.
+pub fn png(picture: &RgbaImage) -> Result<Vec<u8>, RenderError> {
+    let mut bytes = Vec::new();
+    picture.write_to(&mut std::io::Cursor::new(&mut bytes), image::ImageFormat::Png)?;
+    Ok(bytes)
+}
+
+/// The picture as a JPEG file of quality 88, a quarter of the size of its PNG; transparency turns white.
+///
+/// # Errors
+/// [`RenderError::Encode`] for an empty picture.
+pub fn jpeg(picture: &RgbaImage) -> Result<Vec<u8>, RenderError> {
+    let mut rgb = image::RgbImage::new(picture.width(), picture.height());
+    for (to, from) in rgb.pixels_mut().zip(picture.pixels()) {
+        let alpha = u32::from(from[3]);
+        to.0 = [0, 1, 2].map(|k| ((u32::from(from[k]) * alpha + 255 * (255 - alpha)) / 255) as u8);
+    }
+    let mut bytes = Vec::new();
+    rgb.write_with_encoder(image::codecs::jpeg::JpegEncoder::new_with_quality(&mut bytes, 88))?;
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests;

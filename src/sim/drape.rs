@@ -51,7 +51,7 @@ pub struct Step {
 }
 
 /// A sewn garment on a body.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Drape {
     /// How far it came.
     pub stage: Stage,

@@ -30,3 +30,34 @@ pub struct Fabric {
     /// Where the numbers are from.
     pub source: String,
 }
+
+/// The fabrics known by name.
+///
+/// # Panics
+/// Never: the library is part of the program, and a test reads it.
+#[must_use]
+pub fn library() -> Vec<Fabric> {
+    #[derive(serde::Deserialize)]
+    struct Library {
+        fabric: Vec<Fabric>,
+    }
+    toml::from_str::<Library>(include_str!("fabrics.toml")).expect("the built-in library is valid").fabric
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_library_is_sound() {
+        let library = library();
+        for name in ["cotton_shirting_light", "interlock_tshirt", "thesis_10"] {
+            assert_eq!(library.iter().filter(|f| f.name == name).count(), 1, "{name}");
+        }
+        for f in &library {
+            let numbers = [f.density_kg_m2, f.thickness_m, f.membrane_warp_n_m, f.membrane_weft_n_m, f.shear_n_m];
+            assert!(numbers.iter().all(|n| *n > 0.0), "{}", f.name);
+            assert!(f.membrane_coupling_n_m.powi(2) < f.membrane_warp_n_m * f.membrane_weft_n_m, "{}", f.name);
+        }
+    }
+}

@@ -3,8 +3,19 @@
 //! [`fem`](self) and hybrid never call each other; both return a [`Drape`] made from the cloth energies, contact and
 //! sewing that are siblings here.
 
+pub mod cloth;
+pub mod contact;
 pub mod drape;
+pub mod error;
 pub mod fabric;
+pub mod fem;
+pub mod levels;
+pub mod quality;
+pub mod sewing;
+pub mod solver;
+#[cfg(test)]
+mod testing;
 
 pub use drape::{Drape, Monitor, Progress, Simulator, Stage, Step};
+pub use error::SimError;
 pub use fabric::Fabric;

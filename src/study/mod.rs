@@ -4,19 +4,36 @@
 //! (`read`), acts on the queue and starts runs. SI units in rows, millimetres in SQL.
 
 mod actions;
+mod cache;
+mod catalogue;
+mod engine;
+mod enqueue;
 mod error;
 mod file;
+mod inputs;
+mod outcome;
 mod owner;
+mod pipeline;
 mod queue;
 mod read;
+mod run;
+mod spec;
+mod sql;
 mod store;
+#[cfg(test)]
+mod tests;
 mod types;
 mod workspace;
 
 pub use actions::why_no_retry;
+pub use enqueue::{Planned, Why};
 pub use error::{Result, StudyError};
-pub use file::Problem;
+pub use file::{Problem, Study, study_file};
+pub use inputs::{Change, Inputs, StageKind};
+pub use outcome::{Executor, Measured, Outcome};
 pub use read::JobFilter;
+pub use run::{Run, RunOptions};
+pub use spec::{JobSpec, Selection};
 pub use store::now_ms;
 pub use types::{
     Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, RecommendationRow, StageRow,

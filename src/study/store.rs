@@ -6,6 +6,7 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 use rusqlite::{Connection, OpenFlags, Transaction, TransactionBehavior};
 
 use super::error::{Result, StudyError};
+use super::sql;
 
 /// Schema changes in order, never edited once released: `user_version` counts how many a database has.
 const MIGRATIONS: [&str; 3] = [
@@ -38,6 +39,7 @@ pub(crate) fn open(path: &Path, access: Access) -> Result<Connection> {
         }
         let connection = Connection::open_with_flags(path, flags).map_err(|e| fail(e.to_string()))?;
         connection.busy_timeout(BUSY_TIMEOUT)?;
+        sql::add_functions(&connection)?;
         check_version(&connection, MIGRATIONS.len() as i64)?;
         return Ok(connection);
     }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use rusqlite::Connection;
 
+use super::catalogue;
 use super::error::{Result, StudyError};
 use super::store::{self, Access};
 
@@ -22,7 +23,10 @@ impl Workspace {
     /// # Errors
     /// When the file cannot be opened, is no database, or was written by a newer program.
     pub fn open(path: &Path, readonly: bool) -> Result<Self> {
-        let writer = if readonly { None } else { Some(store::open(path, Access::Write)?) };
+        let mut writer = if readonly { None } else { Some(store::open(path, Access::Write)?) };
+        if let Some(writer) = &mut writer {
+            catalogue::add_builtin(writer)?;
+        }
         let reader = store::open(path, Access::Read)?;
         Ok(Self { path: path.to_owned(), reader, writer })
     }

@@ -1,0 +1,203 @@
+//! A signed distance field on a regular grid: the body as the contact solver sees it.
+//!
+//! Values are exact at every node inside the surface and in a thin shell outside it, and constant beyond. Between nodes
+//! the field is a quadratic B-spline, so that value and gradient are continuous: a vertex that rests in a crease (an
+//! armpit) does not jump between two contact planes. The spline blurs the field by a quarter of the spacing squared,
+//! which lifts a surface of mean curvature `H` by about `spacing^2 H / 4`: 0.1 mm on a neck at 6 mm.
+
+use super::surface::{Surface, SurfaceError};
+use super::{TriMesh, V3};
+
+/// Signed distance on a grid, m; negative inside.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DistanceField {
+    origin: V3,
+    spacing_m: f64,
+    size: [usize; 3],
+    values: Vec<f32>,
+}
+
+/// A field could not be read back.
+#[derive(Debug, thiserror::Error)]
+#[error("the stored distance field is damaged: {0}")]
+pub struct FieldError(&'static str);
+
+/// Width of the exact shell outside the surface, in grid cells.
+const SHELL_CELLS: f64 = 2.5;
+const HEADER_BYTES: usize = 7 * 8;
+
+impl DistanceField {
+    /// Samples the distance to a closed surface at nodes `spacing_m` apart.
+    ///
+    /// # Errors
+    /// When the mesh is empty or does not bound a solid.
+    pub fn build(mesh: &TriMesh, spacing_m: f64) -> Result<Self, SurfaceError> {
+        let surface = Surface::new(mesh)?;
+        let (low, high) = mesh.bounds().unwrap_or_default();
+        let margin = V3::repeat((SHELL_CELLS + 3.0) * spacing_m);
+        let origin = low - margin;
+        let extent = high + margin - origin;
+        let size = [0, 1, 2].map(|k| (extent[k] / spacing_m).ceil() as usize + 1);
+        let far = (SHELL_CELLS * spacing_m) as f32;
+        let mut field = Self { origin, spacing_m, size, values: vec![far; size.iter().product()] };
+        field.sample_shell(mesh, &surface);
+        field.fill_inside(&surface);
+        Ok(field)
+    }
+
+    /// Exact values at the nodes near each triangle.
+    fn sample_shell(&mut self, mesh: &TriMesh, surface: &Surface) {
+        let reach = V3::repeat(SHELL_CELLS * self.spacing_m);
+        let far = SHELL_CELLS * self.spacing_m;
+        let mut done = vec![false; self.values.len()];
+        for triangle in &mesh.triangles {
+            let [a, b, c] = triangle.map(|v| mesh.positions[v]);
+            let low = self.cell(&(a.inf(&b).inf(&c) - reach));
+            let high = self.cell(&(a.sup(&b).sup(&c) + reach));
+            for i in low[0]..=high[0] {
+                for j in low[1]..=high[1] {
+                    for k in low[2]..=high[2] {
+                        let node = self.node(i, j, k);
+                        if !done[node] {
+                            done[node] = true;
+                            let distance = surface.signed_distance(&self.position(i, j, k));
+                            self.values[node] = distance.min(far) as f32;
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Exact values at the nodes deeper inside than the shell: they follow a negative node along x.
+    fn fill_inside(&mut self, surface: &Surface) {
+        let far = (SHELL_CELLS * self.spacing_m) as f32;
+        for k in 0..self.size[2] {
+            for j in 0..self.size[1] {
+                for i in 1..self.size[0] {
+                    let node = self.node(i, j, k);
+                    if self.values[node] == far && self.values[node - 1] < 0.0 {
+                        self.values[node] = surface.signed_distance(&self.position(i, j, k)) as f32;
+                    }
+                }
+            }
+        }
+    }
+
+    fn node(&self, i: usize, j: usize, k: usize) -> usize {
+        i + self.size[0] * (j + self.size[1] * k)
+    }
+
+    fn position(&self, i: usize, j: usize, k: usize) -> V3 {
+        self.origin + V3::new(i as f64, j as f64, k as f64) * self.spacing_m
+    }
+
+    fn cell(&self, p: &V3) -> [usize; 3] {
+        let local = (p - self.origin) / self.spacing_m;
+        [0, 1, 2].map(|k| (local[k].max(0.0) as usize).min(self.size[k] - 1))
+    }
+
+    /// Signed distance (m) and its gradient at a point; beyond the exact shell a positive constant and zero.
+    #[must_use]
+    pub fn value_and_gradient(&self, p: &V3) -> (f64, V3) {
+        let local = (p - self.origin) / self.spacing_m;
+        let mut first = [0_usize; 3];
+        let mut weight = [[0.0; 3]; 3];
+        let mut slope = [[0.0; 3]; 3];
+        for k in 0..3 {
+            let centre = local[k].round();
+            if !(centre >= 1.0 && centre < (self.size[k] - 1) as f64) {
+                return (SHELL_CELLS * self.spacing_m, V3::zeros());
+            }
+            first[k] = centre as usize - 1;
+            let t = local[k] - centre;
+            weight[k] = [0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)];
+            slope[k] = [t - 0.5, -2.0 * t, t + 0.5];
+        }
+        let mut value = 0.0;
+        let mut gradient = V3::zeros();
+        for c in 0..3 {
+            for b in 0..3 {
+                let row = self.node(first[0], first[1] + b, first[2] + c);
+                let [v0, v1, v2] = [0, 1, 2].map(|a| f64::from(self.values[row + a]));
+                let along = v0 * weight[0][0] + v1 * weight[0][1] + v2 * weight[0][2];
+                value += along * weight[1][b] * weight[2][c];
+                gradient.x += (v0 * slope[0][0] + v1 * slope[0][1] + v2 * slope[0][2]) * weight[1][b] * weight[2][c];
+                gradient.y += along * slope[1][b] * weight[2][c];
+                gradient.z += along * weight[1][b] * slope[2][c];
+            }
+        }
+        (value, gradient / self.spacing_m)
+    }
+
+    /// The field as bytes, for a cache.
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = Vec::with_capacity(HEADER_BYTES + 4 * self.values.len());
+        for x in [self.origin.x, self.origin.y, self.origin.z, self.spacing_m] {
+            bytes.extend(x.to_le_bytes());
+        }
+        for n in self.size {
+            bytes.extend((n as u64).to_le_bytes());
+        }
+        for v in &self.values {
+            bytes.extend(v.to_le_bytes());
+        }
+        bytes
+    }
+
+    /// Reads what [`DistanceField::to_bytes`] wrote.
+    ///
+    /// # Errors
+    /// When the length does not fit the header.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, FieldError> {
+        if bytes.len() < HEADER_BYTES {
+            return Err(FieldError("its header is cut off"));
+        }
+        let word = |k: usize| <[u8; 8]>::try_from(&bytes[8 * k..8 * k + 8]).unwrap_or_default();
+        let float = |k: usize| f64::from_le_bytes(word(k));
+        let size = [4, 5, 6].map(|k| usize::try_from(u64::from_le_bytes(word(k))).unwrap_or(0));
+        let nodes = size.iter().try_fold(1_usize, |n, s| n.checked_mul(*s));
+        if nodes.and_then(|n| n.checked_mul(4)) != Some(bytes.len() - HEADER_BYTES) {
+            return Err(FieldError("its length does not match its grid"));
+        }
+        let values = bytes[HEADER_BYTES..]
+            .chunks_exact(4)
+            .map(|c| f32::from_le_bytes(<[u8; 4]>::try_from(c).unwrap_or_default()))
+            .collect();
+        Ok(Self { origin: V3::new(float(0), float(1), float(2)), spacing_m: float(3), size, values })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::shapes::sphere;
+
+    #[test]
+    fn a_sphere_has_its_distance_and_normal() {
+        let radius = 0.1;
+        let field = DistanceField::build(&sphere(radius, 40), 0.005).expect("a closed sphere");
+        let check = |direction: V3, distance: f64| {
+            let p = direction.normalize() * (radius + distance);
+            let (value, gradient) = field.value_and_gradient(&p);
+            assert!((value - distance).abs() < 4e-4, "{value} for {distance}");
+            assert!((gradient - p.normalize()).norm() < 0.03, "{gradient} at {p}");
+        };
+        for d in [-0.05, -0.01, 0.0, 0.003] {
+            check(V3::new(1.0, 0.2, 0.1), d);
+            check(V3::new(-0.3, 0.9, -0.4), d);
+        }
+        let (value, gradient) = field.value_and_gradient(&V3::new(3.0, 0.0, 0.0));
+        assert!(value > 0.01 && gradient == V3::zeros());
+    }
+
+    #[test]
+    fn bytes_come_back_and_damage_is_seen() {
+        let field = DistanceField::build(&sphere(0.05, 12), 0.01).expect("a closed sphere");
+        let bytes = field.to_bytes();
+        assert_eq!(DistanceField::from_bytes(&bytes).expect("intact"), field);
+        assert!(DistanceField::from_bytes(&bytes[..bytes.len() - 1]).is_err());
+        assert!(DistanceField::from_bytes(&bytes[..10]).is_err());
+    }
+}

@@ -1,0 +1,212 @@
+//! From a style to a garment mesh: near-uniform triangles, seam partners matched vertex by vertex.
+
+mod paths;
+mod sampling;
+mod triangulate;
+
+use std::ops::Range;
+
+use self::sampling::{EdgeSamples, sample};
+use self::triangulate::{Triangulation, triangulate};
+use super::garment::{FitLevel, Garment, Measurement, PieceMesh, SeamMesh};
+use super::style::{EdgeRef, Style};
+use crate::geom::V2;
+use crate::units::mm;
+
+/// Least and greatest edge length that can be asked for, m.
+pub const EDGE_LENGTH_RANGE_M: Range<f64> = 1e-3..0.2;
+
+/// Why a style cannot be meshed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MeshError {
+    /// An edge length out of range.
+    #[error("edge length {found_mm} mm; accepted: {least_mm} to {greatest_mm} mm")]
+    EdgeLength {
+        /// Length asked for, mm.
+        found_mm: f64,
+        /// Least accepted, mm.
+        least_mm: f64,
+        /// Greatest accepted, mm.
+        greatest_mm: f64,
+    },
+    /// The outline, sampled at the edge length, is no simple polygon or could not be filled.
+    #[error(
+        "piece `{piece}` at edge length {edge_length_mm} mm: {reason}; accepted: an outline free of crossings, or a shorter edge length"
+    )]
+    Piece {
+        /// Piece.
+        piece: String,
+        /// Edge length asked for, mm.
+        edge_length_mm: f64,
+        /// What is wrong.
+        reason: String,
+    },
+    /// A straight measurement that leaves its piece.
+    #[error(
+        "{place}: the line from {from} to {to} (mm) leaves piece `{piece}`; accepted: points that see each other across the cloth"
+    )]
+    LineLeavesPiece {
+        /// Measurement or fit level.
+        place: String,
+        /// Piece.
+        piece: String,
+        /// First end.
+        from: String,
+        /// Second end.
+        to: String,
+    },
+}
+
+/// How good a garment's triangles are.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct MeshQuality {
+    /// Least angle of any triangle, degrees.
+    pub min_angle_deg: f64,
+    /// Least edge length, m.
+    pub min_edge_m: f64,
+    /// Greatest edge length, m.
+    pub max_edge_m: f64,
+    /// Mean edge length (each edge once a triangle), m.
+    pub mean_edge_m: f64,
+}
+
+impl MeshQuality {
+    /// Quality of a garment's triangles at rest; `None` where there are none.
+    #[must_use]
+    pub fn of(garment: &Garment) -> Option<Self> {
+        let mut lengths = Vec::new();
+        let mut min_angle = f64::INFINITY;
+        for &triangle in &garment.triangles {
+            let corners = triangle.map(|vertex| garment.rest[vertex]);
+            min_angle = min_angle.min(triangulate::min_angle(corners));
+            lengths.extend((0..3).map(|k| (corners[(k + 1) % 3] - corners[k]).norm()));
+        }
+        (!lengths.is_empty()).then(|| Self {
+            min_angle_deg: min_angle.to_degrees(),
+            min_edge_m: lengths.iter().copied().fold(f64::INFINITY, f64::min),
+            max_edge_m: lengths.iter().copied().fold(0.0, f64::max),
+            mean_edge_m: lengths.iter().sum::<f64>() / lengths.len() as f64,
+        })
+    }
+}
+
+impl Style {
+    /// Meshes the style with edges of about `edge_length_m`.
+    ///
+    /// # Errors
+    /// [`MeshError`] when the edge length is out of [`EDGE_LENGTH_RANGE_M`], an outline crosses itself once sampled, or a
+    /// straight measurement leaves its piece.
+    pub fn mesh(&self, edge_length_m: f64) -> Result<Garment, MeshError> {
+        if !EDGE_LENGTH_RANGE_M.contains(&edge_length_m) {
+            return Err(MeshError::EdgeLength {
+                found_mm: mm(edge_length_m),
+                least_mm: mm(EDGE_LENGTH_RANGE_M.start),
+                greatest_mm: mm(EDGE_LENGTH_RANGE_M.end),
+            });
+        }
+        let samples = sample(self, edge_length_m);
+        let mut assembly = Assembly::default();
+        for piece in 0..self.pieces.len() {
+            self.add_piece(piece, &samples.edges[piece], edge_length_m, &mut assembly)?;
+        }
+        let seams = self.seams.iter().zip(&samples.seams).map(|(seam, pairs)| SeamMesh {
+            name: seam.name.clone(),
+            pairs: pairs.iter().map(|[a, b]| [assembly.vertex(a.0, a.1), assembly.vertex(b.0, b.1)]).collect(),
+        });
+        let seams = seams.collect();
+        let mut garment = Garment {
+            name: self.name.clone(),
+            size: self.size.clone(),
+            pieces: assembly.pieces,
+            rest: assembly.rest,
+            triangles: assembly.triangles,
+            seams,
+            measurements: Vec::new(),
+            fit_levels: Vec::new(),
+            edge_length_m,
+        };
+        let layer = paths::Layer::new(self, &samples.edges, &assembly.boundary, &garment);
+        let measurements: Result<Vec<Measurement>, MeshError> = self
+            .measurements
+            .iter()
+            .map(|measurement| {
+                Ok(Measurement {
+                    no: measurement.no,
+                    name: measurement.name.clone(),
+                    kind: measurement.kind,
+                    is_free_edge: measurement.is_free_edge,
+                    l2d_m: measurement.l2d_m,
+                    runs: layer.runs(&format!("measurement {}", measurement.no), &measurement.path)?,
+                })
+            })
+            .collect();
+        garment.measurements = measurements?;
+        garment.fit_levels = self
+            .fit_levels
+            .iter()
+            .map(|(level, path)| FitLevel { level: level.clone(), girth_m: self.path_length_m(path) })
+            .collect();
+        Ok(garment)
+    }
+
+    fn add_piece(
+        &self,
+        piece: usize,
+        edges: &[EdgeSamples],
+        edge_length_m: f64,
+        all: &mut Assembly,
+    ) -> Result<(), MeshError> {
+        let drawn = &self.pieces[piece];
+        let first_vertex = all.rest.len();
+        let mut boundary: Vec<V2> = Vec::new();
+        let mut starts = Vec::new();
+        for (edge, samples) in drawn.edges.iter().zip(edges) {
+            starts.push(boundary.len());
+            boundary.extend(samples.arcs.iter().take(samples.arcs.len() - 1).map(|&arc| edge.line.at(arc)));
+        }
+        // The last vertex of an edge is the first of the next.
+        let vertices: Vec<Vec<usize>> = edges
+            .iter()
+            .zip(&starts)
+            .map(|(samples, start)| {
+                (0..samples.arcs.len()).map(|k| first_vertex + (start + k) % boundary.len()).collect()
+            })
+            .collect();
+        let Triangulation { points, triangles } = triangulate(&boundary, edge_length_m).map_err(|reason| {
+            MeshError::Piece { piece: drawn.id.clone(), edge_length_mm: mm(edge_length_m), reason }
+        })?;
+        let first_triangle = all.triangles.len();
+        all.triangles.extend(triangles.iter().map(|triangle| triangle.map(|vertex| first_vertex + vertex)));
+        all.rest.extend(points);
+        let named = drawn.edges.iter().zip(&vertices).filter_map(|(edge, v)| Some((edge.name.clone()?, v.clone())));
+        all.pieces.push(PieceMesh {
+            id: drawn.id.clone(),
+            role: drawn.role,
+            vertices: first_vertex..all.rest.len(),
+            triangles: first_triangle..all.triangles.len(),
+            grain: drawn.grain,
+            edges: named.collect(),
+        });
+        all.boundary.push(vertices);
+        Ok(())
+    }
+}
+
+/// A garment under construction.
+#[derive(Default)]
+struct Assembly {
+    pieces: Vec<PieceMesh>,
+    rest: Vec<V2>,
+    triangles: Vec<[usize; 3]>,
+    /// Garment vertices of every edge of every piece.
+    boundary: Vec<Vec<Vec<usize>>>,
+}
+
+impl Assembly {
+    fn vertex(&self, edge: EdgeRef, sample: usize) -> usize {
+        self.boundary[edge.piece][edge.edge][sample]
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,206 @@
+//! Where the vertices of the outlines lie: seam partners get as many, at the same shares of their lengths.
+//!
+//! An edge must have a vertex at each of its corners and wherever a straight measurement ends (its *marks*). The marks
+//! of one side of a seam are carried over to the other, and each stretch between marks is divided evenly [T 5.1].
+
+use crate::pattern::style::{EdgeRef, PathPart, Seam, Style};
+
+/// Two marks from different sides of a seam closer than this share of the edge length become one vertex pair.
+const MERGE_SHARE: f64 = 0.25;
+/// Arc lengths closer than this are one, m.
+const SAME_M: f64 = 1e-9;
+
+/// Vertices along one edge.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EdgeSamples {
+    /// Arc lengths, increasing, both ends included.
+    pub arcs: Vec<f64>,
+}
+
+/// Vertices along all edges.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Samples {
+    /// By piece and edge.
+    pub edges: Vec<Vec<EdgeSamples>>,
+    /// By seam: pairs of (edge, index of the sample), in order along the seam.
+    pub seams: Vec<Vec<[(EdgeRef, usize); 2]>>,
+}
+
+/// Divides all edges of a style into lengths of about `h` metres.
+pub fn sample(style: &Style, h: f64) -> Samples {
+    let marks = marks(style);
+    let mut edges: Vec<Vec<EdgeSamples>> =
+        marks.iter().map(|piece| vec![EdgeSamples::default(); piece.len()]).collect();
+    let mut placed_seams = Vec::new();
+    for seam in &style.seams {
+        let pairs = seam_pairs(style, seam, &marks, h);
+        for &(edge, arc) in pairs.iter().flatten() {
+            edges[edge.piece][edge.edge].arcs.push(arc);
+        }
+        placed_seams.push(pairs);
+    }
+    for (piece, piece_edges) in edges.iter_mut().enumerate() {
+        for (edge, samples) in piece_edges.iter_mut().enumerate() {
+            if samples.arcs.is_empty() {
+                samples.arcs = divide(&marks[piece][edge], h);
+            }
+            samples.arcs.sort_by(f64::total_cmp);
+            samples.arcs.dedup_by(|later, earlier| *later - *earlier < SAME_M);
+        }
+    }
+    let index = |(edge, arc): (EdgeRef, f64)| {
+        let arcs = &edges[edge.piece][edge.edge].arcs;
+        (edge, arcs.partition_point(|&a| a < arc - SAME_M))
+    };
+    let seams = placed_seams.into_iter().map(|pairs| pairs.into_iter().map(|pair| pair.map(index)).collect()).collect();
+    Samples { edges, seams }
+}
+
+/// Arc lengths at which each edge must have a vertex, both ends included.
+fn marks(style: &Style) -> Vec<Vec<Vec<f64>>> {
+    let edge_marks = |line: &crate::geom::polyline::Polyline, corners: &[f64]| {
+        let mut marks = vec![0.0];
+        marks.extend(corners);
+        marks.push(line.length());
+        marks
+    };
+    let mut marks: Vec<Vec<Vec<f64>>> = style
+        .pieces
+        .iter()
+        .map(|piece| piece.edges.iter().map(|edge| edge_marks(&edge.line, &edge.corners)).collect())
+        .collect();
+    let paths = style.measurements.iter().map(|m| &m.path).chain(style.fit_levels.iter().map(|(_, path)| path));
+    for part in paths.flatten() {
+        if let PathPart::Line(ends) = part {
+            for end in ends {
+                marks[end.edge.piece][end.edge.edge].push(end.arc_m);
+            }
+        }
+    }
+    for edge in marks.iter_mut().flatten() {
+        edge.sort_by(f64::total_cmp);
+        edge.dedup_by(|later, earlier| *later - *earlier < SAME_M);
+    }
+    marks
+}
+
+/// Even division of the stretches between marks.
+fn divide(marks: &[f64], h: f64) -> Vec<f64> {
+    let mut arcs = vec![marks[0]];
+    for ends in marks.windows(2) {
+        let parts = parts(ends[1] - ends[0], h);
+        arcs.extend((1..=parts).map(|k| ends[0] + (ends[1] - ends[0]) * k as f64 / parts as f64));
+    }
+    arcs
+}
+
+fn parts(length: f64, h: f64) -> usize {
+    ((length / h).round() as usize).max(1)
+}
+
+/// One side of a seam as one line: edges laid end to end in walking order.
+struct Side<'a> {
+    style: &'a Style,
+    chain: &'a [EdgeRef],
+    is_forwards: bool,
+    /// Distance along the side at which each edge begins, and its end.
+    joints: Vec<f64>,
+}
+
+impl<'a> Side<'a> {
+    fn new(style: &'a Style, chain: &'a [EdgeRef], is_forwards: bool) -> Self {
+        let mut joints = vec![0.0];
+        let mut total = 0.0;
+        for &edge in chain {
+            total += style.edge(edge).line.length();
+            joints.push(total);
+        }
+        Self { style, chain, is_forwards, joints }
+    }
+
+    fn length(&self) -> f64 {
+        self.joints[self.joints.len() - 1]
+    }
+
+    /// Distances along the side at which there must be vertices.
+    fn marks(&self, marks: &[Vec<Vec<f64>>]) -> Vec<f64> {
+        let on_edge = |(k, edge): (usize, &EdgeRef)| {
+            let length = self.style.edge(*edge).line.length();
+            let along = move |arc: f64| if self.is_forwards { arc } else { length - arc };
+            marks[edge.piece][edge.edge].iter().map(move |&arc| self.joints[k] + along(arc))
+        };
+        let mut all: Vec<f64> = self.chain.iter().enumerate().flat_map(on_edge).collect();
+        all.sort_by(f64::total_cmp);
+        all.dedup_by(|later, earlier| *later - *earlier < SAME_M);
+        all
+    }
+
+    /// The edge that holds the stretch about `middle`, and the arc length on it of each distance along the side.
+    fn on_edge(&self, middle: f64, distances: &[f64]) -> Vec<(EdgeRef, f64)> {
+        let k = self.joints.partition_point(|&joint| joint <= middle).clamp(1, self.chain.len()) - 1;
+        let edge = self.chain[k];
+        let length = self.style.edge(edge).line.length();
+        let arc = |distance: f64| {
+            let along = (distance - self.joints[k]).clamp(0.0, length);
+            if self.is_forwards { along } else { length - along }
+        };
+        distances.iter().map(|&distance| (edge, arc(distance))).collect()
+    }
+}
+
+/// A place where both sides of a seam have a vertex: distances along them, and whose mark it is.
+#[derive(Clone, Copy)]
+struct Mark {
+    on: [f64; 2],
+    is_of: [bool; 2],
+}
+
+/// Vertex pairs of a seam as (edge, arc length).
+fn seam_pairs(style: &Style, seam: &Seam, marks: &[Vec<Vec<f64>>], h: f64) -> Vec<[(EdgeRef, f64); 2]> {
+    let sides = [Side::new(style, &seam.a, true), Side::new(style, &seam.b, seam.b_forwards)];
+    let mut pairs: Vec<[(EdgeRef, f64); 2]> = Vec::new();
+    let common = common_marks(&sides, marks, h);
+    for ends in common.windows(2) {
+        let stretch = |side: usize| ends[1].on[side] - ends[0].on[side];
+        let parts = parts(stretch(0).max(stretch(1)), h);
+        let placed = [0, 1].map(|side| {
+            let at = |share: f64| ends[0].on[side] + stretch(side) * share;
+            let distances: Vec<f64> = (0..=parts).map(|k| at(k as f64 / parts as f64)).collect();
+            sides[side].on_edge(at(0.5), &distances)
+        });
+        for (&a, &b) in placed[0].iter().zip(&placed[1]) {
+            // The end of one stretch is the start of the next, unless an edge ends there too.
+            if pairs.last().is_none_or(|&[last_a, last_b]| !(is_same(last_a, a) && is_same(last_b, b))) {
+                pairs.push([a, b]);
+            }
+        }
+    }
+    pairs
+}
+
+fn is_same(p: (EdgeRef, f64), q: (EdgeRef, f64)) -> bool {
+    p.0 == q.0 && (p.1 - q.1).abs() < SAME_M
+}
+
+/// Marks of both sides, in order; marks of different sides that nearly meet become one.
+fn common_marks(sides: &[Side<'_>; 2], marks: &[Vec<Vec<f64>>], h: f64) -> Vec<Mark> {
+    let ratio = sides[1].length() / sides[0].length();
+    let of_a = sides[0].marks(marks).into_iter().map(|s| Mark { on: [s, s * ratio], is_of: [true, false] });
+    let of_b = sides[1].marks(marks).into_iter().map(|s| Mark { on: [s / ratio, s], is_of: [false, true] });
+    let mut all: Vec<Mark> = of_a.chain(of_b).collect();
+    all.sort_by(|p, q| p.on[0].total_cmp(&q.on[0]));
+    let mut common: Vec<Mark> = Vec::new();
+    for mark in all {
+        match common.last_mut() {
+            Some(last)
+                if mark.on[0] - last.on[0] < MERGE_SHARE * h && !(0..2).any(|s| mark.is_of[s] && last.is_of[s]) =>
+            {
+                let b = usize::from(mark.is_of[1]);
+                last.on[b] = mark.on[b];
+                last.is_of = [true, true];
+            }
+            _ => common.push(mark),
+        }
+    }
+    common
+}

@@ -1,0 +1,133 @@
+use std::collections::BTreeMap;
+
+use super::*;
+use crate::geom::polyline::signed_area;
+use crate::pattern::draft::{TSHIRT_SEAMS, TshirtSize, tshirt};
+
+fn style(size: TshirtSize) -> Style {
+    Style::read(&tshirt(size).pieces, TSHIRT_SEAMS, "tshirt.seams.toml").expect("the drafted style is whole")
+}
+
+/// All sizes at coarse and working edge lengths.
+fn garments() -> impl Iterator<Item = (Style, Garment)> {
+    let lengths = [0.012, 0.020, 0.040];
+    TshirtSize::ALL
+        .into_iter()
+        .flat_map(move |size| lengths.map(|h| (style(size), style(size).mesh(h).expect("it meshes"))))
+}
+
+#[test]
+fn triangles_are_near_equilateral_counter_clockwise_and_fill_the_outline() {
+    for (style, garment) in garments() {
+        let quality = MeshQuality::of(&garment).expect("there are triangles");
+        let h = garment.edge_length_m;
+        assert!(quality.min_angle_deg > 25.0, "{} at {h}: {quality:?}", garment.size);
+        assert!(quality.min_edge_m > 0.5 * h && quality.max_edge_m < 1.6 * h, "{} at {h}: {quality:?}", garment.size);
+        assert!((quality.mean_edge_m / h - 1.0).abs() < 0.06, "{} at {h}: {quality:?}", garment.size);
+        for (piece, drawn) in garment.pieces.iter().zip(&style.pieces) {
+            let areas =
+                garment.triangles[piece.triangles.clone()].iter().map(|t| signed_area(&t.map(|v| garment.rest[v])));
+            let areas: Vec<f64> = areas.collect();
+            assert!(areas.iter().all(|&area| area > 0.1 * h * h), "{} at {h}", piece.id);
+            // Chords cut the curves of the drawn outline by less than a hundredth of its area.
+            let drawn_area = signed_area(&drawn.outline());
+            assert!((areas.iter().sum::<f64>() / drawn_area - 1.0).abs() < 0.01, "{} at {h}", piece.id);
+        }
+    }
+}
+
+#[test]
+fn named_edges_run_counter_clockwise_round_the_whole_piece() {
+    let (style, garment) = garments().next().expect("a garment");
+    for (piece, drawn) in garment.pieces.iter().zip(&style.pieces) {
+        let edges: Vec<&Vec<usize>> = drawn
+            .edges
+            .iter()
+            .map(|edge| &piece.edges[edge.name.as_ref().expect("the T-shirt names all edges")])
+            .collect();
+        let mut outline = Vec::new();
+        for (k, edge) in edges.iter().enumerate() {
+            assert_eq!(edge.last(), edges[(k + 1) % edges.len()].first(), "{}", piece.id);
+            outline.extend(edge[..edge.len() - 1].iter().map(|&vertex| garment.rest[vertex]));
+        }
+        assert!(signed_area(&outline) > 0.0);
+        assert!(edges.iter().flat_map(|edge| edge.iter()).all(|vertex| piece.vertices.contains(vertex)));
+    }
+}
+
+#[test]
+fn seam_partners_match_length_by_length() {
+    for (_, garment) in garments() {
+        for seam in &garment.seams {
+            for ends in seam.pairs.windows(2) {
+                let step = |side: usize| (garment.rest[ends[1][side]] - garment.rest[ends[0][side]]).norm();
+                let [a, b] = [step(0), step(1)];
+                let is_joint = ends[0][0] == ends[1][0] || ends[0][1] == ends[1][1];
+                assert!(is_joint || (a / b - 1.0).abs() < 0.08, "{} at {}: {a} {b}", seam.name, garment.edge_length_m);
+            }
+        }
+    }
+}
+
+#[test]
+fn seams_weld_consistently_where_they_meet() {
+    for (_, garment) in garments() {
+        // Smallest vertex of each welded group, found by repeated relabelling.
+        let mut label: Vec<usize> = (0..garment.rest.len()).collect();
+        loop {
+            let before = label.clone();
+            for &[a, b] in garment.seams.iter().flat_map(|seam| &seam.pairs) {
+                let least = label[a].min(label[b]);
+                (label[a], label[b]) = (least, least);
+            }
+            if before == label {
+                break;
+            }
+        }
+        let mut groups: BTreeMap<usize, usize> = BTreeMap::new();
+        label.iter().for_each(|&least| *groups.entry(least).or_default() += 1);
+        let of_size = |size: usize| groups.values().filter(|&&count| count == size).count();
+        // Two underarms join front, back and both ends of a sleeve; two shoulder points join front, back and cap.
+        assert_eq!((of_size(4), of_size(3), groups.values().filter(|&&count| count > 4).count()), (2, 2, 0));
+        let sewn_edges =
+            ["side_right", "side_left", "shoulder_right", "shoulder_left", "armhole_right", "armhole_left"];
+        for (edge, piece) in sewn_edges.iter().flat_map(|edge| [(edge, 0), (edge, 1)]) {
+            let vertices = &garment.pieces[piece].edges[*edge];
+            assert!(vertices.iter().all(|&v| groups[&label[v]] >= 2), "{edge} of {}", garment.pieces[piece].id);
+        }
+    }
+}
+
+#[test]
+fn measurements_add_up_to_their_pattern_length() {
+    for (style, garment) in garments() {
+        for measurement in &garment.measurements {
+            let arcs: f64 = measurement.runs.iter().flat_map(|run| &run.arc_m).sum();
+            assert!((arcs - measurement.l2d_m).abs() < 1e-6, "#{}: {arcs} for {}", measurement.no, measurement.l2d_m);
+            for run in &measurement.runs {
+                assert_eq!(run.points.len(), run.arc_m.len() + 1);
+                for (ends, arc) in run.points.windows(2).zip(&run.arc_m) {
+                    let chord = (ends[1].at_rest(&garment.rest) - ends[0].at_rest(&garment.rest)).norm();
+                    assert!(chord > 0.0 && chord <= arc + 1e-9, "#{}: chord {chord}, arc {arc}", measurement.no);
+                }
+            }
+        }
+        let free: Vec<u32> = garment.measurements.iter().filter(|m| m.is_free_edge).map(|m| m.no).collect();
+        assert_eq!(free, [1, 2, 6]);
+        assert_eq!(garment.fit_levels.len(), 1);
+        assert!((garment.fit_levels[0].girth_m - style.measurements[0].l2d_m).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn edge_lengths_out_of_range_are_refused() {
+    for edge_length in [0.0, -0.01, f64::NAN, 1e-4, 0.5] {
+        let error = style(TshirtSize::S).mesh(edge_length).expect_err("out of range");
+        assert!(matches!(error, MeshError::EdgeLength { .. }), "{error}");
+    }
+}
+
+#[test]
+fn meshing_is_deterministic() {
+    assert_eq!(style(TshirtSize::M).mesh(0.02), style(TshirtSize::M).mesh(0.02));
+}

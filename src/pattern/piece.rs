@@ -1,0 +1,68 @@
+//! Pattern pieces as drawn: what a DXF block says, in metres, before anything is sewn.
+
+use crate::geom::V2;
+use crate::geom::polyline::{perimeter, signed_area};
+
+/// A notch: a mark cut into the edge so that partners can be matched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Notch {
+    /// Place on the outline.
+    pub at: V2,
+    /// Depth of the cut, m; `None` where the file does not say.
+    pub depth_m: Option<f64>,
+    /// Direction of the cut, degrees counter-clockwise from +u; `None` where the file does not say.
+    pub angle_deg: Option<f64>,
+}
+
+/// One piece of one size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    /// Name of its block in the file.
+    pub block: String,
+    /// `Piece Name`, or the block's name where none is given.
+    pub name: String,
+    /// Size, where the piece or the file names one.
+    pub size: Option<String>,
+    /// How many are cut, as written (`2`, or `1,1` for left and right).
+    pub quantity: Option<String>,
+    /// The other texts of the block as `(key, value)`; the key is empty for a text without one.
+    pub texts: Vec<(String, String)>,
+    /// Closed outline (cut line where the file has a sew line too), counter-clockwise, first vertex not repeated.
+    pub outline: Vec<V2>,
+    /// Whether the file drew the outline clockwise.
+    pub is_clockwise_in_file: bool,
+    /// Turn points (corners), in the order of the file.
+    pub turn_points: Vec<V2>,
+    /// Curve points, in the order of the file.
+    pub curve_points: Vec<V2>,
+    /// Notches.
+    pub notches: Vec<Notch>,
+    /// Grain line from its first to its second end.
+    pub grain: Option<[V2; 2]>,
+    /// Fold line of a half piece.
+    pub mirror_line: Option<[V2; 2]>,
+    /// Lines drawn inside.
+    pub internal_lines: Vec<Vec<V2>>,
+    /// Closed sew line inside the cut line.
+    pub sew_line: Option<Vec<V2>>,
+}
+
+impl Piece {
+    /// Length of the outline, m.
+    #[must_use]
+    pub fn perimeter_m(&self) -> f64 {
+        perimeter(&self.outline)
+    }
+
+    /// Area within the outline, m2.
+    #[must_use]
+    pub fn area_m2(&self) -> f64 {
+        signed_area(&self.outline).abs()
+    }
+
+    /// The line that is sewn: the sew line where there is one, else the outline (a net piece).
+    #[must_use]
+    pub fn seam_outline(&self) -> &[V2] {
+        self.sew_line.as_deref().unwrap_or(&self.outline)
+    }
+}

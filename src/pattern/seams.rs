@@ -1,0 +1,146 @@
+//! The seam file: how the pieces of a style are named, sewn and measured. TOML, one file for all sizes.
+//!
+//! ```toml
+//! name = "T-shirt"                          # style name
+//! length_tolerance_mm = 1.0                 # greatest difference between the two sides of a seam (optional)
+//!
+//! [piece.front]                             # pieces by the id used below
+//! block = "FRONT"                           # block (or piece name) in the DXF file
+//! role = "front"                            # front, back, sleeve_right, sleeve_left
+//! mirror = false                            # true: worn as the mirror image of what is drawn (optional)
+//! edges.hem = [0, 1]                        # an edge: from corner to corner, counter-clockwise as drawn
+//! edges.side_left = [1, 2]
+//!
+//! [[seam]]
+//! name = "side_left"
+//! a = ["front.side_left"]                   # an edge or a chain of edges, in order along the seam
+//! b = ["back.side_left"]
+//! same_direction = false                    # true: both sides run counter-clockwise (optional)
+//! ease_mm = 0.0                             # length of a less length of b (optional)
+//!
+//! [[measurement]]
+//! no = 3
+//! name = "Front Center Length"
+//! kind = "open_length"                      # or closed_girth
+//! path = [{ line = ["front.hem.mid", "front.neck.start"] }]   # or edges: ["front.hem", "back.hem"]
+//!
+//! [fit.chest]                               # girth of the pattern at a body level, for the fit
+//! path = [{ line = ["front.side_right.start", "front.side_left.end"] }]
+//! ```
+//!
+//! **Corners** are the turn points of the piece, numbered from 0 counter-clockwise along the outline as drawn, starting
+//! at the first turn point in the file. Where a file has no usable turn points, corners are the vertices at which the
+//! outline turns by 30 degrees or more, starting at its first vertex.
+//!
+//! **Directions.** Pieces are drawn seen from outside, so every edge runs counter-clockwise round its piece *as worn*
+//! (a mirrored piece's edges are turned round). The two sides of a seam therefore run against each other: `a` is walked
+//! forwards, `b` backwards, each chain in the order written. **Points** of an edge are `start`, `mid` (half its length)
+//! and `end`, in the direction of the edge as worn.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::garment::{MeasurementKind, Role};
+
+/// Greatest difference of length between the two sides of a seam where the file names none, mm.
+pub const DEFAULT_LENGTH_TOLERANCE_MM: f64 = 1.0;
+
+/// A seam file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SeamFile {
+    /// Style name.
+    pub name: String,
+    /// Greatest difference of length between the two sides of a seam, mm.
+    #[serde(default = "default_tolerance")]
+    pub length_tolerance_mm: f64,
+    /// Pieces by id.
+    pub piece: BTreeMap<String, PieceEntry>,
+    /// Seams.
+    #[serde(default)]
+    pub seam: Vec<SeamEntry>,
+    /// Measurements.
+    #[serde(default)]
+    pub measurement: Vec<MeasurementEntry>,
+    /// Pattern girths at body levels, by level.
+    #[serde(default)]
+    pub fit: BTreeMap<String, FitEntry>,
+}
+
+fn default_tolerance() -> f64 {
+    DEFAULT_LENGTH_TOLERANCE_MM
+}
+
+/// A piece of the style.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PieceEntry {
+    /// Block, or piece name, in the DXF file.
+    pub block: String,
+    /// How it is worn.
+    pub role: Role,
+    /// Worn as the mirror image of what is drawn.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub mirror: bool,
+    /// Edges by name: first and last corner, counter-clockwise as drawn.
+    pub edges: BTreeMap<String, [usize; 2]>,
+}
+
+/// A seam between two chains of edges.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SeamEntry {
+    /// Name.
+    pub name: String,
+    /// One side, `piece.edge` each, in order along the seam.
+    pub a: Vec<String>,
+    /// The other side.
+    pub b: Vec<String>,
+    /// Both sides run counter-clockwise round their pieces.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub same_direction: bool,
+    /// Length of `a` less length of `b`, mm.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub ease_mm: f64,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+/// A measurement of the style.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MeasurementEntry {
+    /// Number.
+    pub no: u32,
+    /// Name.
+    pub name: String,
+    /// Loop or length.
+    pub kind: MeasurementKind,
+    /// Where it runs.
+    pub path: Vec<Stretch>,
+}
+
+/// The girth of the pattern at a body level.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FitEntry {
+    /// Where it runs.
+    pub path: Vec<Stretch>,
+}
+
+/// One stretch of a path.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Stretch {
+    /// Along an edge, `piece.edge`.
+    Edge(String),
+    /// Straight across a piece between two points, `piece.edge.start|mid|end`.
+    Line {
+        /// Its ends.
+        line: [String; 2],
+    },
+}

@@ -1,0 +1,143 @@
+//! Where pictures are taken from: orthographic cameras that share one frame, so that one scale.
+
+use crate::geom::{TriMesh, V3};
+use nalgebra::Vector3;
+
+/// The four views every drape is shown from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum View {
+    /// From `+y`; the subject's right at the picture's left.
+    Front,
+    /// From `+x`, the subject's right side; the subject faces the picture's right.
+    Side,
+    /// From `-y`.
+    Back,
+    /// Between front and side.
+    Quarter,
+}
+
+impl View {
+    /// All four, in the order they are shown.
+    pub const ALL: [Self; 4] = [Self::Front, Self::Side, Self::Back, Self::Quarter];
+
+    /// Name under pictures and in file names.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Front => "front",
+            Self::Side => "side",
+            Self::Back => "back",
+            Self::Quarter => "quarter",
+        }
+    }
+
+    /// Angle about `z` from the front towards the subject's right, degrees.
+    #[must_use]
+    pub fn azimuth_deg(self) -> f64 {
+        match self {
+            Self::Front => 0.0,
+            Self::Quarter => 38.0,
+            Self::Side => 90.0,
+            Self::Back => 180.0,
+        }
+    }
+}
+
+/// What all pictures of a comparison show: a point and how much of the world fits a picture's height.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// World point at the picture's centre, m.
+    pub centre: V3,
+    /// World length that fills the picture from top to bottom, m.
+    pub height_m: f64,
+}
+
+impl Frame {
+    /// The least frame that holds all meshes from every view in pictures of the given width over height, with a margin;
+    /// the origin's surroundings where there are no vertices. Give it every subject of a study for one shared scale, or a
+    /// garment alone for a close view.
+    #[must_use]
+    pub fn enclosing<'a>(meshes: impl IntoIterator<Item = &'a TriMesh>, aspect: f64) -> Self {
+        let bounds = meshes.into_iter().filter_map(TriMesh::bounds).reduce(|a, b| (a.0.inf(&b.0), a.1.sup(&b.1)));
+        let (low, high) = bounds.unwrap_or((V3::new(-0.5, -0.5, 0.0), V3::new(0.5, 0.5, 2.0)));
+        let extent = high - low;
+        let across = extent.x.max(extent.y);
+        Self { centre: (low + high) / 2.0, height_m: 1.07 * extent.z.max(across / aspect).max(1e-3) + 0.02 }
+    }
+}
+
+/// An orthographic camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// What it shows.
+    pub frame: Frame,
+    /// Angle about `z` from the front towards the subject's right, degrees.
+    pub azimuth_deg: f64,
+    /// Angle above the horizon, degrees.
+    pub elevation_deg: f64,
+}
+
+impl Camera {
+    /// The camera of a view, a little above the horizon so that the floor shows.
+    #[must_use]
+    pub fn new(view: View, frame: Frame) -> Self {
+        Self { frame, azimuth_deg: view.azimuth_deg(), elevation_deg: 5.0 }
+    }
+
+    /// Unit vectors of the picture in the world: to its right, up, and towards the viewer.
+    #[must_use]
+    pub fn axes(&self) -> [V3; 3] {
+        let (sin_a, cos_a) = self.azimuth_deg.to_radians().sin_cos();
+        let (sin_e, cos_e) = self.elevation_deg.to_radians().sin_cos();
+        let viewer = V3::new(sin_a * cos_e, cos_a * cos_e, sin_e);
+        let right = V3::new(-cos_a, sin_a, 0.0);
+        [right, viewer.cross(&right), viewer]
+    }
+}
+
+/// A camera with a picture size: world points to samples of the picture and back.
+#[derive(Clone, Copy)]
+pub(super) struct Projection {
+    /// Picture right, up and towards the viewer, in the world.
+    pub axes: [Vector3<f32>; 3],
+    centre: Vector3<f32>,
+    /// Samples per metre.
+    pub per_m: f32,
+    half: [f32; 2],
+}
+
+impl Projection {
+    pub fn new(camera: &Camera, width: usize, height: usize) -> Self {
+        Self {
+            axes: camera.axes().map(|v| v.cast()),
+            centre: camera.frame.centre.cast(),
+            per_m: (height as f64 / camera.frame.height_m) as f32,
+            half: [width as f32 / 2.0, height as f32 / 2.0],
+        }
+    }
+
+    /// Parallel light along `towards` that covers a ball, on a square of `size` samples.
+    pub fn of_light(towards: Vector3<f32>, centre: Vector3<f32>, radius: f32, size: usize) -> Self {
+        let helper = if towards.z.abs() > 0.9 { Vector3::x() } else { Vector3::z() };
+        let right = helper.cross(&towards).normalize();
+        let half = size as f32 / 2.0;
+        Self { axes: [right, towards.cross(&right), towards], centre, per_m: half / radius, half: [half, half] }
+    }
+
+    /// Sample coordinates (x right, y down) and the distance behind the centre plane, m.
+    pub fn project(&self, point: &Vector3<f32>) -> [f32; 3] {
+        let d = point - self.centre;
+        [
+            self.half[0] + self.per_m * d.dot(&self.axes[0]),
+            self.half[1] - self.per_m * d.dot(&self.axes[1]),
+            -d.dot(&self.axes[2]),
+        ]
+    }
+
+    /// The world point of a sample at a depth; inverse of [`Projection::project`].
+    pub fn unproject(&self, x: f32, y: f32, depth: f32) -> Vector3<f32> {
+        self.centre + self.axes[0] * ((x - self.half[0]) / self.per_m)
+            - self.axes[1] * ((y - self.half[1]) / self.per_m)
+            - self.axes[2] * depth
+    }
+}

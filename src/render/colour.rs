@@ -1,0 +1,142 @@
+//! Colours: sRGB for people, linear light for shading, and scales for scalar fields that colour-blind readers can use.
+
+/// A colour in sRGB.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rgb(pub u8, pub u8, pub u8);
+
+impl Rgb {
+    /// As `#rrggbb`.
+    #[must_use]
+    pub fn hex(self) -> String {
+        format!("#{:02x}{:02x}{:02x}", self.0, self.1, self.2)
+    }
+
+    /// Linear light, 0 to 1 [IEC 61966-2-1].
+    pub(super) fn linear(self) -> [f32; 3] {
+        [self.0, self.1, self.2].map(|v| decode(f32::from(v) / 255.0))
+    }
+
+    /// Relative luminance, 0 to 1 [WCAG 2.2].
+    #[must_use]
+    pub fn luminance(self) -> f64 {
+        let [r, g, b] = self.linear().map(f64::from);
+        0.2126 * r + 0.7152 * g + 0.0722 * b
+    }
+
+    /// Contrast ratio of two colours, 1 to 21 [WCAG 2.2].
+    #[must_use]
+    pub fn contrast(self, other: Self) -> f64 {
+        let (a, b) = (self.luminance(), other.luminance());
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+}
+
+fn decode(v: f32) -> f32 {
+    if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
+}
+
+fn encode(v: f32) -> f32 {
+    if v <= 0.003_130_8 { v * 12.92 } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 }
+}
+
+/// Linear light to 8-bit sRGB by table.
+pub(super) struct Encoder(Vec<u8>);
+
+impl Encoder {
+    const STEPS: usize = 4096;
+
+    pub fn new() -> Self {
+        let step = |i: usize| (255.0 * encode(i as f32 / Self::STEPS as f32)).round() as u8;
+        Self((0..=Self::STEPS).map(step).collect())
+    }
+
+    pub fn encode(&self, linear: [f32; 3]) -> [u8; 3] {
+        linear.map(|v| self.0[(v.clamp(0.0, 1.0) * Self::STEPS as f32) as usize])
+    }
+}
+
+/// A run of colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ColourMap {
+    /// Blue, near white in the middle, orange: for values on both sides of a centre.
+    Diverging,
+    /// Dark violet over teal to yellow, even in lightness: for values from little to much.
+    Sequential,
+}
+
+impl ColourMap {
+    fn stops(self) -> &'static [Rgb] {
+        const DIVERGING: [Rgb; 9] = [
+            Rgb(0x0b, 0x3c, 0x7d),
+            Rgb(0x2b, 0x6c, 0xb0),
+            Rgb(0x6f, 0xa3, 0xd4),
+            Rgb(0xb5, 0xd0, 0xea),
+            Rgb(0xf4, 0xf1, 0xea),
+            Rgb(0xf7, 0xcf, 0x9d),
+            Rgb(0xec, 0x9a, 0x4a),
+            Rgb(0xc9, 0x61, 0x12),
+            Rgb(0x85, 0x34, 0x03),
+        ];
+        const SEQUENTIAL: [Rgb; 7] = [
+            Rgb(0x3b, 0x14, 0x5c),
+            Rgb(0x3f, 0x42, 0x87),
+            Rgb(0x2f, 0x6c, 0x8e),
+            Rgb(0x21, 0x91, 0x8c),
+            Rgb(0x44, 0xb5, 0x72),
+            Rgb(0xa5, 0xd4, 0x3a),
+            Rgb(0xfc, 0xe4, 0x3c),
+        ];
+        match self {
+            Self::Diverging => &DIVERGING,
+            Self::Sequential => &SEQUENTIAL,
+        }
+    }
+
+    /// The colour at `t`, 0 to 1; beyond the ends the end colours.
+    #[must_use]
+    pub fn at(self, t: f64) -> Rgb {
+        let stops = self.stops();
+        let place = t.clamp(0.0, 1.0) * (stops.len() - 1) as f64;
+        let below = (place as usize).min(stops.len() - 2);
+        let (a, b, f) = (stops[below], stops[below + 1], place - below as f64);
+        let mix = |a: u8, b: u8| (f64::from(a) + f * (f64::from(b) - f64::from(a))).round() as u8;
+        Rgb(mix(a.0, b.0), mix(a.1, b.1), mix(a.2, b.2))
+    }
+}
+
+/// How values become colours, fixed for a whole study so that pictures compare.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scale {
+    /// The run of colours.
+    pub map: ColourMap,
+    /// Value of the first colour.
+    pub low: f64,
+    /// Value of the last colour.
+    pub high: f64,
+    /// What is shown (`stretch along the warp`).
+    pub label: String,
+    /// Unit in the legend; empty for a ratio.
+    pub unit: String,
+}
+
+impl Scale {
+    /// Blue to orange around `centre`, reaching `reach` to both sides.
+    #[must_use]
+    pub fn diverging(centre: f64, reach: f64, label: impl Into<String>, unit: impl Into<String>) -> Self {
+        let (low, high) = (centre - reach, centre + reach);
+        Self { map: ColourMap::Diverging, low, high, label: label.into(), unit: unit.into() }
+    }
+
+    /// Violet to yellow from `low` to `high`.
+    #[must_use]
+    pub fn sequential(low: f64, high: f64, label: impl Into<String>, unit: impl Into<String>) -> Self {
+        Self { map: ColourMap::Sequential, low, high, label: label.into(), unit: unit.into() }
+    }
+
+    /// Colour of a value; a mid grey where it is not a number.
+    #[must_use]
+    pub fn colour(&self, value: f64) -> Rgb {
+        let t = (value - self.low) / (self.high - self.low);
+        if t.is_finite() { self.map.at(t) } else { Rgb(0x9a, 0x9a, 0x9a) }
+    }
+}

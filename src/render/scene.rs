@@ -1,0 +1,243 @@
+//! What is shown: meshes with materials and, on cloth, scalar fields.
+
+use super::RenderError;
+use super::bake::{self, Floor};
+use super::colour::{Rgb, Scale};
+use crate::geom::{TriMesh, V3};
+use nalgebra::Vector3;
+use std::collections::BTreeMap;
+
+/// How a surface looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Colour of the side its normals point to.
+    pub front: Rgb,
+    /// Colour of the other side.
+    pub back: Rgb,
+    /// How far it is drawn behind where it is, m: skin gives way to cloth that lies on it.
+    pub recede_m: f64,
+    /// Whether the lines along which its pieces meet are drawn.
+    pub seams: bool,
+}
+
+impl Material {
+    /// A matt dress form.
+    #[must_use]
+    pub fn form() -> Self {
+        Self::body(Rgb(0xd9, 0xcd, 0xbf))
+    }
+
+    /// Skin.
+    #[must_use]
+    pub fn skin() -> Self {
+        Self::body(Rgb(0xdc, 0xb0, 0x94))
+    }
+
+    fn body(colour: Rgb) -> Self {
+        Self { front: colour, back: Rgb(0x60, 0x58, 0x52), recede_m: 0.005, seams: false }
+    }
+
+    /// Cloth of a colour, its wrong side darker and greyer.
+    #[must_use]
+    pub fn cloth(front: Rgb) -> Self {
+        let grey = (u16::from(front.0) + u16::from(front.1) + u16::from(front.2)) / 3;
+        let dull = |v: u8| ((u16::from(v) * 3 + grey) / 4 * 3 / 4) as u8;
+        Self { front, back: Rgb(dull(front.0), dull(front.1), dull(front.2)), recede_m: 0.0, seams: true }
+    }
+
+    /// FEM-GS results: green.
+    #[must_use]
+    pub fn fem() -> Self {
+        Self::cloth(Rgb(0x62, 0xb3, 0x8c))
+    }
+
+    /// Hybrid-GS after pop-up: yellow.
+    #[must_use]
+    pub fn popup() -> Self {
+        Self::cloth(Rgb(0xea, 0xbe, 0x4c))
+    }
+
+    /// Hybrid-GS after draping: blue.
+    #[must_use]
+    pub fn hybrid() -> Self {
+        Self::cloth(Rgb(0x5f, 0x97, 0xd0))
+    }
+}
+
+/// One value for each vertex (blended between them) or each triangle (flat).
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    /// One a vertex.
+    Vertices(Vec<f64>),
+    /// One a triangle.
+    Triangles(Vec<f64>),
+}
+
+/// A scalar field on a mesh and the scale that colours it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// The values.
+    pub values: Values,
+    /// Their colours.
+    pub scale: Scale,
+}
+
+/// A mesh with its look.
+#[derive(Clone, Debug)]
+pub struct Layer<'a> {
+    /// The mesh.
+    pub mesh: &'a TriMesh,
+    /// Its look.
+    pub material: Material,
+    /// Values that colour its outer side instead of the material's colour.
+    pub field: Option<Field>,
+}
+
+impl<'a> Layer<'a> {
+    /// A layer in its material's colour.
+    #[must_use]
+    pub fn new(mesh: &'a TriMesh, material: Material) -> Self {
+        Self { mesh, material, field: None }
+    }
+
+    /// The same layer coloured by values.
+    #[must_use]
+    pub fn with_field(self, values: Values, scale: Scale) -> Self {
+        Self { field: Some(Field { values, scale }), ..self }
+    }
+}
+
+/// What a layer adds to a scene besides geometry.
+pub(super) struct Look {
+    pub material: Material,
+    pub field: Option<Field>,
+    pub first_vertex: usize,
+    pub first_triangle: usize,
+}
+
+/// Meshes joined into one, with everything about their light that does not depend on the camera.
+pub struct Scene {
+    pub(super) positions: Vec<Vector3<f32>>,
+    pub(super) normals: Vec<Vector3<f32>>,
+    pub(super) triangles: Vec<[usize; 3]>,
+    /// Layer of each triangle.
+    pub(super) layer_of: Vec<usize>,
+    pub(super) looks: Vec<Look>,
+    /// Vertex pairs joined by a seam line.
+    pub(super) seams: Vec<[usize; 2]>,
+    /// Share of the sky each vertex sees from its front and its back side, 0 to 1.
+    pub(super) openness: Vec<[f32; 2]>,
+    pub(super) floor: Floor,
+    pub(super) centre: Vector3<f32>,
+    pub(super) radius: f32,
+}
+
+impl Scene {
+    /// Joins the layers and computes how much light reaches each vertex from all round (about 0.1 s for a dressed body).
+    ///
+    /// # Errors
+    /// A triangle without its vertices, a position that is not finite, or a field that does not fit its mesh.
+    pub fn new(layers: Vec<Layer<'_>>) -> Result<Self, RenderError> {
+        let mut scene = Self {
+            positions: Vec::new(),
+            normals: Vec::new(),
+            triangles: Vec::new(),
+            layer_of: Vec::new(),
+            looks: Vec::new(),
+            seams: Vec::new(),
+            openness: Vec::new(),
+            floor: Floor::default(),
+            centre: Vector3::zeros(),
+            radius: 1.0,
+        };
+        for (index, layer) in layers.into_iter().enumerate() {
+            check(index, &layer)?;
+            scene.add(layer);
+        }
+        if let Some(&first) = scene.positions.first() {
+            let (low, high) = scene.positions.iter().fold((first, first), |(l, h), p| (l.inf(p), h.sup(p)));
+            scene.centre = (low + high) / 2.0;
+            scene.radius = ((high - low).norm() / 2.0).max(1e-3);
+            bake::light(&mut scene, low.z);
+        }
+        Ok(scene)
+    }
+
+    fn add(&mut self, layer: Layer<'_>) {
+        let (first_vertex, first_triangle) = (self.positions.len(), self.triangles.len());
+        let twins = twins(&layer.mesh.positions);
+        if layer.material.seams {
+            let lines = seam_lines(layer.mesh, &twins);
+            self.seams.extend(lines.into_iter().map(|edge| edge.map(|v| v + first_vertex)));
+        }
+        self.positions.extend(layer.mesh.positions.iter().map(|p| p.cast::<f32>()));
+        self.normals.extend(seamless_normals(layer.mesh, &twins));
+        self.triangles.extend(layer.mesh.triangles.iter().map(|t| t.map(|v| v + first_vertex)));
+        self.layer_of.resize(self.triangles.len(), self.looks.len());
+        self.looks.push(Look { material: layer.material, field: layer.field, first_vertex, first_triangle });
+    }
+
+    /// How far a triangle is drawn behind where it is, m.
+    pub(super) fn recede(&self, triangle: usize) -> f32 {
+        self.looks[self.layer_of[triangle]].material.recede_m as f32
+    }
+}
+
+fn check(index: usize, layer: &Layer<'_>) -> Result<(), RenderError> {
+    let mesh = layer.mesh;
+    let vertices = mesh.positions.len();
+    if let Some(vertex) = mesh.positions.iter().position(|p| p.iter().any(|c| !c.is_finite())) {
+        return Err(RenderError::NotFinite { layer: index, vertex });
+    }
+    for (triangle, corners) in mesh.triangles.iter().enumerate() {
+        if let Some(&vertex) = corners.iter().find(|&&v| v >= vertices) {
+            return Err(RenderError::NoSuchVertex { layer: index, triangle, vertex, vertices });
+        }
+    }
+    let (found, needed) = match layer.field.as_ref().map(|f| &f.values) {
+        Some(Values::Vertices(v)) => (v.len(), vertices),
+        Some(Values::Triangles(v)) => (v.len(), mesh.triangles.len()),
+        None => return Ok(()),
+    };
+    if found == needed { Ok(()) } else { Err(RenderError::FieldLength { layer: index, found, needed }) }
+}
+
+/// For each vertex the first vertex at the same place (to 0.01 mm): the two sides of a sewn seam are one surface.
+fn twins(positions: &[V3]) -> Vec<usize> {
+    let mut first_at = BTreeMap::new();
+    let place = |p: &V3| [p.x, p.y, p.z].map(|c| (c * 1e5).round() as i64);
+    positions.iter().enumerate().map(|(i, p)| *first_at.entry(place(p)).or_insert(i)).collect()
+}
+
+/// Vertex normals that run on across seams; surfaces that touch back to back keep their own.
+fn seamless_normals(mesh: &TriMesh, twins: &[usize]) -> Vec<Vector3<f32>> {
+    let own = mesh.vertex_normals();
+    let mut shared = vec![V3::zeros(); own.len()];
+    for (vertex, normal) in own.iter().enumerate() {
+        if normal.dot(&own[twins[vertex]]) >= 0.0 {
+            shared[twins[vertex]] += normal;
+        }
+    }
+    own.iter()
+        .enumerate()
+        .map(|(vertex, normal)| {
+            let joint = if normal.dot(&own[twins[vertex]]) >= 0.0 { shared[twins[vertex]] } else { *normal };
+            joint.try_normalize(0.0).unwrap_or_else(V3::z).cast()
+        })
+        .collect()
+}
+
+/// Edges along which two boundary edges lie on each other: where pieces were sewn together.
+fn seam_lines(mesh: &TriMesh, twins: &[usize]) -> Vec<[usize; 2]> {
+    let edges = |t: &[usize; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
+    let sorted = |[a, b]: [usize; 2]| if a < b { [a, b] } else { [b, a] };
+    let mut uses: BTreeMap<[usize; 2], u32> = BTreeMap::new();
+    for edge in mesh.triangles.iter().flat_map(edges) {
+        *uses.entry(sorted(edge)).or_default() += 1;
+    }
+    let mut meetings: BTreeMap<[usize; 2], u32> = BTreeMap::new();
+    for (edge, _) in uses.iter().filter(|&(_, &n)| n == 1) {
+        *meetings.entry(sorted(edge.map(|v| twins[v]))).or_default() += 1;
+    }
+    meetings.into_iter().filter(|&(_, n)| n > 1).map(|(edge, _)| edge).collect()
+}

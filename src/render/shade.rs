@@ -1,0 +1,275 @@
+//! From scene and camera to pixels: visibility, three soft lights with a shadow map, occlusion, relief, floor.
+
+use super::RenderError;
+use super::camera::{Camera, Projection};
+use super::colour::{Encoder, Rgb};
+use super::raster::{NOTHING, Visible, cover, weights};
+use super::relief::relief;
+use super::scene::{Scene, Values};
+use image::RgbaImage;
+use nalgebra::Vector3;
+
+/// Samples along a side of each pixel.
+const FINE: usize = 2;
+/// Samples along a side of the key light's shadow map.
+const SHADOW: usize = 1280;
+/// Where around a point the shadow map is asked, in map samples: a disc, for a soft edge.
+const TAPS: [[f32; 2]; 16] = [
+    [0.4, 0.7],
+    [1.9, -0.6],
+    [-1.6, 1.4],
+    [-1.3, -1.8],
+    [1.5, 2.6],
+    [-3.2, -0.3],
+    [2.9, -2.5],
+    [0.2, -3.7],
+    [-2.4, 3.3],
+    [4.2, 1.0],
+    [-4.0, -2.6],
+    [1.0, 4.9],
+    [4.0, 3.6],
+    [-4.9, 1.6],
+    [-1.8, -4.9],
+    [3.2, -4.3],
+];
+
+/// Takes a picture of the scene.
+///
+/// # Errors
+/// [`RenderError::Size`] where a side has no pixels or more than 8192.
+pub fn render(scene: &Scene, camera: &Camera, width: u32, height: u32) -> Result<RgbaImage, RenderError> {
+    if !(1..=8192).contains(&width) || !(1..=8192).contains(&height) {
+        return Err(RenderError::Size { width, height });
+    }
+    let (columns, rows) = (width as usize, height as usize);
+    let studio = Studio::new(scene, camera, columns, rows);
+    let gain = relief(&studio.pixel_depths(columns, rows), columns, studio.projection.per_m / FINE as f32);
+    let encoder = Encoder::new();
+    let mut picture = RgbaImage::new(width, height);
+    for (pixel, (out, gain)) in picture.pixels_mut().zip(gain).enumerate() {
+        let [r, g, b] = encoder.encode(studio.pixel(pixel % columns, pixel / columns, gain));
+        out.0 = [r, g, b, 255];
+    }
+    Ok(picture)
+}
+
+/// Depth along the key light.
+struct ShadowMap {
+    projection: Projection,
+    depth: Vec<f32>,
+}
+
+impl ShadowMap {
+    fn new(scene: &Scene, towards: Vector3<f32>) -> Self {
+        let projection = Projection::of_light(towards, scene.centre, scene.radius * 1.02, SHADOW);
+        let projected: Vec<[f32; 3]> = scene.positions.iter().map(|p| projection.project(p)).collect();
+        let mut depth = vec![f32::INFINITY; SHADOW * SHADOW];
+        for (index, triangle) in scene.triangles.iter().enumerate() {
+            let recede = scene.recede(index);
+            cover(triangle.map(|v| projected[v]), SHADOW, SHADOW, |sample, d| {
+                depth[sample] = depth[sample].min(d + recede);
+            });
+        }
+        Self { projection, depth }
+    }
+
+    /// Share of the light that reaches a point, 0 to 1.
+    fn reaches(&self, point: &Vector3<f32>) -> f32 {
+        let [x, y, depth] = self.projection.project(point);
+        // A map sample's own tilt would shadow it: forgive what a tap's distance can explain.
+        let bias = 4.5 / self.projection.per_m;
+        let open = TAPS.iter().filter(|tap| {
+            let (x, y) = (x + tap[0], y + tap[1]);
+            let inside = x >= 0.0 && y >= 0.0 && x < SHADOW as f32 && y < SHADOW as f32;
+            !inside || depth - bias <= self.depth[y as usize * SHADOW + x as usize]
+        });
+        open.count() as f32 / TAPS.len() as f32
+    }
+}
+
+/// Everything needed to colour a pixel.
+struct Studio<'a> {
+    scene: &'a Scene,
+    projection: Projection,
+    /// Vertices in the picture.
+    projected: Vec<[f32; 3]>,
+    visible: Visible,
+    /// Samples that a seam line passes.
+    stitched: Vec<bool>,
+    shadow: ShadowMap,
+    /// Directions to the key, fill and rim light.
+    lights: [Vector3<f32>; 3],
+    /// Linear front and back colour of each layer.
+    colours: Vec<[[f32; 3]; 2]>,
+    backdrop: [[f32; 3]; 2],
+}
+
+impl<'a> Studio<'a> {
+    fn new(scene: &'a Scene, camera: &Camera, columns: usize, rows: usize) -> Self {
+        let (width, height) = (columns * FINE, rows * FINE);
+        let projection = Projection::new(camera, width, height);
+        let projected: Vec<[f32; 3]> = scene.positions.iter().map(|p| projection.project(p)).collect();
+        let mut visible = Visible::new(width, height);
+        for (index, triangle) in scene.triangles.iter().enumerate() {
+            let recede = scene.recede(index);
+            visible.draw(index, triangle.map(|v| projected[v]).map(|[x, y, d]| [x, y, d + recede]));
+        }
+        let stitched = stitches(scene, &projected, &visible);
+        let [right, up, viewer] = projection.axes;
+        let light = |r: f32, u: f32, v: f32| (right * r + up * u + viewer * v).normalize();
+        let lights = [light(-0.72, 0.62, 0.62), light(0.85, 0.05, 0.6), light(0.75, 0.45, -0.65)];
+        Self {
+            scene,
+            projection,
+            projected,
+            visible,
+            stitched,
+            shadow: ShadowMap::new(scene, lights[0]),
+            lights,
+            colours: scene.looks.iter().map(|l| [l.material.front.linear(), l.material.back.linear()]).collect(),
+            backdrop: [Rgb(0xfa, 0xfa, 0xf9).linear(), Rgb(0xe9, 0xea, 0xec).linear()],
+        }
+    }
+
+    /// Mean depth of the samples of each pixel that show something.
+    fn pixel_depths(&self, columns: usize, rows: usize) -> Vec<f32> {
+        let mut depths = Vec::with_capacity(columns * rows);
+        for pixel in 0..columns * rows {
+            let (mut sum, mut count) = (0.0, 0.0);
+            for sample in self.samples(pixel % columns, pixel / columns) {
+                if self.visible.triangle[sample] != NOTHING {
+                    sum += self.visible.depth[sample];
+                    count += 1.0;
+                }
+            }
+            depths.push(if count > 0.0 { sum / count } else { f32::INFINITY });
+        }
+        depths
+    }
+
+    fn samples(&self, x: usize, y: usize) -> [usize; FINE * FINE] {
+        let corner = y * FINE * self.visible.width + x * FINE;
+        [corner, corner + 1, corner + self.visible.width, corner + self.visible.width + 1]
+    }
+
+    /// Linear colour of a pixel: each triangle it shows is shaded once, at the middle of the samples it covers.
+    fn pixel(&self, x: usize, y: usize, gain: f32) -> [f32; 3] {
+        let samples = self.samples(x, y);
+        let mut colour = [0.0; 3];
+        let mut done = [false; FINE * FINE];
+        for first in 0..samples.len() {
+            if done[first] {
+                continue;
+            }
+            let triangle = self.visible.triangle[samples[first]];
+            let (mut sx, mut sy, mut share, mut stitched) = (0.0, 0.0, 0.0, 0.0);
+            for (k, &sample) in samples.iter().enumerate().skip(first) {
+                if self.visible.triangle[sample] == triangle {
+                    done[k] = true;
+                    sx += (sample % self.visible.width) as f32 + 0.5;
+                    sy += (sample / self.visible.width) as f32 + 0.5;
+                    share += 1.0;
+                    stitched += f32::from(u8::from(self.stitched[sample]));
+                }
+            }
+            let light = if triangle == NOTHING {
+                self.ground(sx / share, sy / share)
+            } else {
+                let gain = gain * (1.0 - 0.38 * stitched / share);
+                self.surface(triangle as usize, sx / share, sy / share).map(|v| v * gain)
+            };
+            for k in 0..3 {
+                colour[k] += light[k] * share / samples.len() as f32;
+            }
+        }
+        colour
+    }
+
+    /// Backdrop and floor: one seamless light sheet, darker where the subject stands.
+    fn ground(&self, x: f32, y: f32) -> [f32; 3] {
+        let rows = (self.visible.depth.len() / self.visible.width) as f32;
+        let t = y / rows;
+        let viewer = self.projection.axes[2];
+        let mut light = 1.0;
+        if viewer.z > 0.01 {
+            let start = self.projection.unproject(x, y, 0.0);
+            let point = start - viewer * ((start.z - self.scene.floor.z) / viewer.z);
+            light = self.scene.floor.openness(point.x, point.y);
+        }
+        [0, 1, 2].map(|k| (self.backdrop[0][k] * (1.0 - t) + self.backdrop[1][k] * t) * light)
+    }
+
+    fn surface(&self, triangle: usize, x: f32, y: f32) -> [f32; 3] {
+        let scene = self.scene;
+        let vertices = scene.triangles[triangle];
+        let corners = vertices.map(|v| self.projected[v]);
+        let w = weights(corners, x, y);
+        let blend = |of: &dyn Fn(usize) -> f32| (0..3).map(|k| w[k] * of(vertices[k])).sum::<f32>();
+        let [a, b, c] = vertices.map(|v| scene.positions[v]);
+        let viewer = self.projection.axes[2];
+        let back = (b - a).cross(&(c - a)).dot(&viewer) < 0.0;
+        let sign = if back { -1.0 } else { 1.0 };
+        let smooth = (0..3).fold(Vector3::zeros(), |sum, k| sum + scene.normals[vertices[k]] * w[k]);
+        let normal = smooth.try_normalize(1e-12).unwrap_or(viewer) * sign;
+        let point = a * w[0] + b * w[1] + c * w[2];
+        let open = blend(&|v| scene.openness[v][usize::from(back)]);
+        let (albedo, coded) = self.albedo(triangle, back, blend);
+        let lit = self.lit(albedo, &normal, open, self.shadow.reaches(&(point + normal * 0.004)));
+        // A colour that codes a value must stay readable in the shade: half of it shines by itself.
+        if coded { [0, 1, 2].map(|k| 0.5 * lit[k] + 0.42 * albedo[k]) } else { lit }
+    }
+
+    /// Sky, key, fill and rim light on a matt surface.
+    fn lit(&self, albedo: [f32; 3], normal: &Vector3<f32>, open: f32, shadow: f32) -> [f32; 3] {
+        let [key, fill, rim] = self.lights.map(|l| normal.dot(&l).max(0.0));
+        let facing = normal.dot(&self.projection.axes[2]).clamp(0.0, 1.0);
+        let sky = 0.35 + 0.12 * normal.z;
+        let edge = (1.0 - facing).powi(3) * (0.25 + 0.75 * rim);
+        // Cloth and skin pass light on: a hollow keeps a fifth of the sky.
+        let occlusion = 0.2 + 0.8 * open * open * (1.4 - 0.4 * open);
+        let warm = [1.04, 1.0, 0.95];
+        let cool = [0.97, 1.0, 1.05];
+        [0, 1, 2].map(|k| {
+            let matt = cool[k] * (sky * occlusion + 0.16 * fill * open) + warm[k] * 0.73 * key * shadow;
+            albedo[k] * (matt + 0.26 * edge * open) + 0.04 * edge * open
+        })
+    }
+
+    /// Linear colour of a surface point, and whether it stands for a value.
+    fn albedo(&self, triangle: usize, back: bool, blend: impl Fn(&dyn Fn(usize) -> f32) -> f32) -> ([f32; 3], bool) {
+        let layer = self.scene.layer_of[triangle];
+        let look = &self.scene.looks[layer];
+        match &look.field {
+            Some(field) if !back => {
+                let value = match &field.values {
+                    Values::Vertices(values) => f64::from(blend(&|v| values[v - look.first_vertex] as f32)),
+                    Values::Triangles(values) => values[triangle - look.first_triangle],
+                };
+                (field.scale.colour(value).linear(), true)
+            }
+            _ => (self.colours[layer][usize::from(back)], false),
+        }
+    }
+}
+
+/// Samples along seam lines that are not hidden.
+fn stitches(scene: &Scene, projected: &[[f32; 3]], visible: &Visible) -> Vec<bool> {
+    let height = visible.depth.len() / visible.width;
+    let mut stitched = vec![false; visible.depth.len()];
+    for &[a, b] in &scene.seams {
+        let (a, b) = (projected[a], projected[b]);
+        let steps = ((b[0] - a[0]).abs().max((b[1] - a[1]).abs()).ceil() as usize).clamp(1, 4096);
+        for step in 0..=steps {
+            let t = step as f32 / steps as f32;
+            let [x, y, depth] = [0, 1, 2].map(|k| a[k] + t * (b[k] - a[k]));
+            for (dx, dy) in [(0.0, 0.0), (-1.0, 0.0), (0.0, -1.0), (-1.0, -1.0)] {
+                let (x, y) = (x + dx + 0.5, y + dy + 0.5);
+                if x >= 0.0 && y >= 0.0 && x < visible.width as f32 && y < height as f32 {
+                    let sample = y as usize * visible.width + x as usize;
+                    stitched[sample] |= depth < visible.depth[sample] + 0.006;
+                }
+            }
+        }
+    }
+    stitched
+}

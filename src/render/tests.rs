@@ -1,0 +1,195 @@
+use super::*;
+use crate::geom::{TriMesh, V3};
+
+/// A closed surface of revolution about `z` through (radius, z) profile points, bottom to top, bent by `shape`.
+fn lathe(profile: &[(f64, f64)], around: usize, shape: impl Fn(V3) -> V3) -> TriMesh {
+    let mut mesh = TriMesh::default();
+    for &(r, z) in profile {
+        for k in 0..around {
+            let (s, c) = (std::f64::consts::TAU * k as f64 / around as f64).sin_cos();
+            mesh.positions.push(shape(V3::new(r * c, r * s, z)));
+        }
+    }
+    for ring in 0..profile.len() - 1 {
+        for k in 0..around {
+            let (a, b) = (ring * around + k, ring * around + (k + 1) % around);
+            mesh.triangles.push([a, b, b + around]);
+            mesh.triangles.push([a, b + around, a + around]);
+        }
+    }
+    mesh
+}
+
+fn sphere(radius: f64, centre: V3) -> TriMesh {
+    let profile: Vec<_> = (0..=32)
+        .map(|i| (std::f64::consts::PI * (f64::from(i) / 32.0 - 0.5)).sin_cos())
+        .map(|(s, c)| (radius * c, radius * s))
+        .collect();
+    lathe(&profile, 64, |p| p + centre)
+}
+
+/// A capsule of a person's size and a flared, fluted tube over it.
+fn dressed_capsule() -> (TriMesh, TriMesh) {
+    let profile: Vec<_> = (0..=60)
+        .map(|i| {
+            let z = 1.7 * f64::from(i) / 60.0;
+            let end = (z.min(1.7 - z) / 0.14).min(1.0);
+            (0.14 * (1.0 - (1.0 - end).powi(2)).sqrt(), z)
+        })
+        .collect();
+    let body = lathe(&profile, 60, |p| p);
+    let tube: Vec<_> =
+        (0..=60).map(|i| (0.145 + 0.09 * (1.0 - f64::from(i) / 60.0), 0.6 + 0.75 * f64::from(i) / 60.0)).collect();
+    let flute = |p: V3| {
+        let depth = 0.16 * ((1.35 - p.z) / 0.75);
+        let factor = 1.0 + depth * (9.0 * p.y.atan2(p.x)).sin();
+        V3::new(p.x * factor, p.y * factor, p.z)
+    };
+    (body, lathe(&tube, 160, flute))
+}
+
+fn rgb(picture: &RgbaImage, x: u32, y: u32) -> [i32; 3] {
+    let p = picture.get_pixel(x, y).0;
+    [i32::from(p[0]), i32::from(p[1]), i32::from(p[2])]
+}
+
+#[test]
+fn the_subjects_right_is_at_the_pictures_left_from_the_front() {
+    let right = sphere(0.2, V3::new(0.5, 0.0, 0.5));
+    let left = sphere(0.2, V3::new(-0.5, 0.0, 0.5));
+    let scene = Scene::new(vec![Layer::new(&right, Material::fem()), Layer::new(&left, Material::hybrid())]).unwrap();
+    let frame = Frame::enclosing([&right, &left], 1.0);
+    let check = |view: View, green_x: u32, blue_x: u32| {
+        let picture = render(&scene, &Camera::new(view, frame), 120, 120).unwrap();
+        let (green, blue) = (rgb(&picture, green_x, 60), rgb(&picture, blue_x, 60));
+        assert!(green[1] > green[2] && blue[2] > blue[1], "{view:?}: {green:?} {blue:?}");
+    };
+    check(View::Front, 22, 98);
+    check(View::Back, 98, 22);
+}
+
+#[test]
+fn cloth_a_millimetre_over_skin_hides_it() {
+    let body = sphere(0.300, V3::zeros());
+    let cloth = sphere(0.301, V3::zeros());
+    let scene = Scene::new(vec![Layer::new(&body, Material::skin()), Layer::new(&cloth, Material::hybrid())]).unwrap();
+    let picture = render(&scene, &Camera::new(View::Quarter, Frame::enclosing([&cloth], 1.0)), 200, 200).unwrap();
+    let skin = picture.enumerate_pixels().filter(|(x, y, p)| {
+        let inside = (f64::from(*x) - 99.5).hypot(f64::from(*y) - 99.5) < 85.0;
+        inside && p[0] > p[2]
+    });
+    assert_eq!(skin.count(), 0);
+}
+
+#[test]
+fn light_comes_from_above_left_and_hollows_are_darker() {
+    let (body, cloth) = dressed_capsule();
+    let ball = sphere(0.3, V3::zeros());
+    let scene = Scene::new(vec![Layer::new(&ball, Material::form())]).unwrap();
+    let picture = render(&scene, &Camera::new(View::Front, Frame::enclosing([&ball], 1.0)), 100, 100).unwrap();
+    let grey = |x, y| rgb(&picture, x, y).iter().sum::<i32>();
+    assert!(grey(32, 30) > grey(66, 68) + 60, "{} {}", grey(32, 30), grey(66, 68));
+
+    let scene = Scene::new(vec![Layer::new(&body, Material::form()), Layer::new(&cloth, Material::fem())]).unwrap();
+    let under_the_skirt =
+        scene.openness[..body.positions.len()][60 * 24..60 * 25].iter().map(|o| o[0]).sum::<f32>() / 60.0;
+    let bare = scene.openness[60 * 55..60 * 56].iter().map(|o| o[0]).sum::<f32>() / 60.0;
+    assert!(bare > 0.9 && under_the_skirt < 0.5, "{bare} {under_the_skirt}");
+}
+
+#[test]
+fn pictures_of_one_frame_share_their_scale() {
+    let ball = sphere(0.25, V3::new(0.0, 0.0, 0.9));
+    let frame = Frame { centre: V3::new(0.0, 0.0, 0.9), height_m: 1.0 };
+    let scene = Scene::new(vec![Layer::new(&ball, Material::fem())]).unwrap();
+    for view in View::ALL {
+        let picture = render(&scene, &Camera::new(view, frame), 200, 200).unwrap();
+        let green = (0..200).filter(|&x| rgb(&picture, x, 100)[1] > rgb(&picture, x, 100)[0] + 12).count();
+        assert!((98..=102).contains(&green), "{view:?}: a ball of half a frame covers {green} of 200 pixels");
+    }
+}
+
+#[test]
+fn fields_colour_the_cloth_and_must_fit_it() {
+    let ball = sphere(0.25, V3::zeros());
+    let scale = Scale::diverging(1.0, 0.2, "stretch", "");
+    let layer = |n: usize, value: f64| {
+        Layer::new(&ball, Material::fem()).with_field(Values::Triangles(vec![value; n]), scale.clone())
+    };
+    let camera = Camera::new(View::Front, Frame::enclosing([&ball], 1.0));
+    let centre = |value| {
+        let scene = Scene::new(vec![layer(ball.triangles.len(), value)]).unwrap();
+        rgb(&render(&scene, &camera, 80, 80).unwrap(), 40, 40)
+    };
+    let (short, long) = (centre(0.8), centre(1.2));
+    assert!(short[2] > short[0] && long[0] > long[2], "{short:?} {long:?}");
+    assert!(matches!(Scene::new(vec![layer(3, 1.0)]), Err(RenderError::FieldLength { layer: 0, found: 3, .. })));
+}
+
+#[test]
+fn broken_meshes_and_sizes_are_refused() {
+    let mesh = TriMesh { positions: vec![V3::zeros(); 3], triangles: vec![[0, 1, 7]] };
+    assert!(matches!(
+        Scene::new(vec![Layer::new(&mesh, Material::fem())]),
+        Err(RenderError::NoSuchVertex { vertex: 7, .. })
+    ));
+    let mesh = TriMesh { positions: vec![V3::new(f64::NAN, 0.0, 0.0)], triangles: vec![] };
+    assert!(matches!(
+        Scene::new(vec![Layer::new(&mesh, Material::fem())]),
+        Err(RenderError::NotFinite { vertex: 0, .. })
+    ));
+    let empty = Scene::new(vec![]).unwrap();
+    let camera = Camera::new(View::Front, Frame::enclosing([], 1.0));
+    assert!(matches!(render(&empty, &camera, 0, 5), Err(RenderError::Size { .. })));
+    assert_eq!(render(&empty, &camera, 5, 7).unwrap().dimensions(), (5, 7));
+    assert!(contact_sheet("none", &[], 4).is_err());
+    assert!(rasterise_svg("<p>", 1.0).is_err());
+}
+
+#[test]
+fn scales_are_monotonic_in_lightness_and_readable_without_colour() {
+    let luminance = |map: ColourMap, i: i32| map.at(f64::from(i) / 20.0).luminance();
+    assert!((1..=20).all(|i| luminance(ColourMap::Sequential, i) > luminance(ColourMap::Sequential, i - 1)));
+    assert!((1..=10).all(|i| luminance(ColourMap::Diverging, i) > luminance(ColourMap::Diverging, i - 1)));
+    assert!((11..=20).all(|i| luminance(ColourMap::Diverging, i) < luminance(ColourMap::Diverging, i - 1)));
+    assert_eq!(Scale::sequential(0.0, 1.0, "", "").colour(f64::NAN), Rgb(0x9a, 0x9a, 0x9a));
+}
+
+#[test]
+fn sheets_and_legends_draw_text() {
+    let blank = RgbaImage::from_pixel(300, 400, image::Rgba([255; 4]));
+    let cell = |label: &str| Cell { picture: blank.clone(), label: label.into() };
+    let sheet = contact_sheet("A < B & C", &[cell("front"), cell("side"), cell("back")], 2).unwrap();
+    assert!(sheet.width() > 600 && sheet.height() > 800);
+    assert!(sheet.pixels().any(|p| p[0] < 80), "labels leave ink");
+    let mut picture = blank;
+    draw_legend(&mut picture, &Scale::sequential(0.0, 30.0, "gap", "mm")).unwrap();
+    let ink = |picture: &RgbaImage| picture.pixels().filter(|p| p.0 != [255; 4]).count();
+    assert!(ink(&picture) > 500);
+    assert_eq!(image::load_from_memory(&png(&picture).unwrap()).unwrap().to_rgba8(), picture);
+    assert_eq!(image::load_from_memory(&jpeg(&picture).unwrap()).unwrap().width(), 300);
+}
+
+#[test]
+fn reference_bodies_render() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/bodies/meshes");
+    let Ok(bytes) = std::fs::read(format!("{folder}/s01.obj")) else {
+        println!("skipped: {folder} is not here");
+        return;
+    };
+    let options = tobj::LoadOptions { triangulate: true, single_index: true, ..Default::default() };
+    let (models, _) = tobj::load_obj_buf(&mut bytes.as_slice(), &options, |_| Ok(Default::default())).unwrap();
+    let mut body = TriMesh::default();
+    for model in models {
+        let first = body.positions.len();
+        body.positions
+            .extend(model.mesh.positions.chunks(3).map(|p| V3::new(p[0].into(), p[1].into(), p[2].into()) * 0.01));
+        body.triangles.extend(model.mesh.indices.chunks(3).map(|t| [0, 1, 2].map(|k| t[k] as usize + first)));
+    }
+    let (low, high) = body.bounds().unwrap();
+    println!("{} vertices from {low:?} to {high:?}", body.positions.len());
+    let scene = Scene::new(vec![Layer::new(&body, Material::form())]).unwrap();
+    let picture = render(&scene, &Camera::new(View::Front, Frame::enclosing([&body], 0.5)), 100, 200).unwrap();
+    let covered = picture.pixels().filter(|p| i32::from(p[0]) - i32::from(p[2]) > 8).count();
+    assert!((2000..12000).contains(&covered), "{covered} of 20000 pixels show the body");
+}

@@ -1,0 +1,125 @@
+//! Cloth: a garment mesh with elastic energies, at whatever state of sewing.
+
+pub mod bending;
+pub mod membrane;
+
+use std::collections::BTreeMap;
+
+use crate::geom::V3;
+use crate::pattern::Garment;
+use crate::sim::{Fabric, SimError};
+
+use bending::{Bending, Flap, Hinge};
+use membrane::{Element, Membrane, Orthotropic};
+
+/// A garment as the solver sees it. *Simulated* vertices are groups of garment vertices that are sewn together.
+#[derive(Clone, Debug)]
+pub struct Cloth {
+    /// Simulated vertex of each garment vertex.
+    pub vertex_of: Vec<usize>,
+    /// Triangles over simulated vertices, in the garment's order.
+    pub triangles: Vec<[usize; 3]>,
+    /// Lumped masses, kg.
+    pub masses: Vec<f64>,
+    /// Rest areas that belong to the vertices, m2.
+    pub areas: Vec<f64>,
+    /// Membrane.
+    pub membrane: Membrane,
+    /// Bending.
+    pub bending: Bending,
+}
+
+impl Cloth {
+    /// Sets up a garment whose vertices are merged as `vertex_of` says (values 0..n without gaps).
+    ///
+    /// # Errors
+    /// When a triangle of the pattern mesh has no area.
+    pub fn new(garment: &Garment, fabric: &Fabric, vertex_of: Vec<usize>) -> Result<Self, SimError> {
+        let count = vertex_of.iter().max().map_or(0, |m| m + 1);
+        let mut elements = Vec::with_capacity(garment.triangles.len());
+        let mut areas = vec![0.0; count];
+        let mut flaps = Flaps::default();
+        for piece in &garment.pieces {
+            for t in piece.triangles.clone() {
+                let corners = garment.triangles[t];
+                let vertices = corners.map(|v| vertex_of[v]);
+                let rest = corners.map(|v| garment.rest[v]);
+                let element = Element::new(vertices, rest, piece.grain)
+                    .ok_or_else(|| SimError::Degenerate { piece: piece.id.clone(), at: rest[0] })?;
+                for v in vertices {
+                    areas[v] += element.area / 3.0;
+                }
+                flaps.add(vertices, rest, piece.grain);
+                elements.push(element);
+            }
+        }
+        Ok(Self {
+            triangles: elements.iter().map(|e| e.vertices).collect(),
+            masses: areas.iter().map(|a| a * fabric.density_kg_m2).collect(),
+            areas,
+            membrane: Membrane::new(Orthotropic::of(fabric), elements),
+            bending: Bending::new(&flaps.hinges(fabric)),
+            vertex_of,
+        })
+    }
+
+    /// Number of simulated vertices.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.masses.len()
+    }
+
+    /// Whether there is nothing to simulate.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.masses.is_empty()
+    }
+
+    /// Positions of the garment's vertices from those of the simulated ones.
+    #[must_use]
+    pub fn unweld(&self, x: &[V3]) -> Vec<V3> {
+        self.vertex_of.iter().map(|&v| x[v]).collect()
+    }
+
+    /// Positions of the simulated vertices: the mean of the garment vertices of each group.
+    #[must_use]
+    pub fn weld(&self, positions: &[V3]) -> Vec<V3> {
+        let mut sums = vec![(V3::zeros(), 0.0); self.len()];
+        for (&v, p) in self.vertex_of.iter().zip(positions) {
+            sums[v].0 += p;
+            sums[v].1 += 1.0;
+        }
+        sums.into_iter().map(|(sum, n)| sum / n).collect()
+    }
+}
+
+/// Triangles by directed edge, until their neighbour turns up.
+#[derive(Default)]
+struct Flaps {
+    open: BTreeMap<[usize; 2], (usize, Flap)>,
+    closed: Vec<([usize; 4], [Flap; 2])>,
+}
+
+impl Flaps {
+    fn add(&mut self, vertices: [usize; 3], rest: [crate::geom::V2; 3], grain: crate::geom::V2) {
+        for k in 0..3 {
+            let order = [k, (k + 1) % 3, (k + 2) % 3];
+            let [a, b, opposite] = order.map(|m| vertices[m]);
+            let [ra, rb, rc] = order.map(|m| rest[m]);
+            match self.open.remove(&[b, a]) {
+                // The neighbour runs along the shared edge the other way.
+                Some((other, flap)) => {
+                    let turned = Flap { rest: [rb, ra, rc], grain };
+                    self.closed.push(([b, a, other, opposite], [flap, turned]));
+                }
+                None => {
+                    self.open.insert([a, b], (opposite, Flap { rest: [ra, rb, rc], grain }));
+                }
+            }
+        }
+    }
+
+    fn hinges(&self, fabric: &Fabric) -> Vec<Hinge> {
+        self.closed.iter().map(|(vertices, flaps)| Hinge::new(*vertices, *flaps, fabric)).collect()
+    }
+}

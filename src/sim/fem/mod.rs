@@ -1,0 +1,109 @@
+//! FEM-GS (chapter 4): preposition, sewing and draping by physics alone.
+
+pub mod params;
+pub mod preposition;
+mod run;
+
+pub use params::Params;
+
+use crate::body::Body;
+use crate::geom::{DistanceField, V3};
+use crate::pattern::Garment;
+use crate::sim::cloth::Cloth;
+use crate::sim::contact::{BodyContact, ClothContact};
+use crate::sim::levels::prolong;
+use crate::sim::quality;
+use crate::sim::sewing::{self, Springs};
+use crate::sim::solver::System;
+use crate::sim::{Drape, Fabric, Monitor, SimError, Stage};
+
+use run::{Phase, Run};
+
+/// Dresses a body in a garment.
+///
+/// `garments` are meshes of the same garment, coarse to fine; the drape is on the last. The coarsest is placed, sewn and
+/// roughly draped, each finer one starts from the one before. All settle without friction first, so that the drape
+/// does not depend on how the seams were closed; only then does friction hold it.
+///
+/// # Errors
+/// When the garment cannot be placed, is degenerate, diverges, or the monitor cancels. Not converging is no error.
+pub fn simulate(
+    body: &Body,
+    field: &DistanceField,
+    garments: &[Garment],
+    fabric: &Fabric,
+    params: &Params,
+    monitor: &mut dyn Monitor,
+) -> Result<Drape, SimError> {
+    let [coarsest, finer @ ..] = garments else {
+        return Err(SimError::NoMesh);
+    };
+    let mut run = Run::new(params, monitor, finer.len());
+    let mut positions = sew(body, field, coarsest, fabric, params, &mut run)?;
+    let mut level = coarsest;
+    let mut last = settle(field, level, fabric, params, positions, &mut run, 0)?;
+    for (index, next) in finer.iter().enumerate() {
+        positions = prolong(level, &last.positions, next);
+        last = settle(field, next, fabric, params, positions, &mut run, index + 1)?;
+        level = next;
+    }
+    Ok(Drape {
+        stage: Stage::Drape,
+        converged: last.residual <= params.tolerance,
+        iterations: run.iterations(),
+        residual: last.residual,
+        penetration_max_m: quality::penetration_m(body, level, &last.positions),
+        seam_gap_max_m: quality::seam_gap_m(level, &last.positions),
+        welded_vertices: last.vertices,
+        positions: last.positions,
+        history: run.into_history(),
+    })
+}
+
+/// Places a garment and draws its seams together; returns garment positions with all seams (nearly) closed.
+fn sew(
+    body: &Body,
+    field: &DistanceField,
+    garment: &Garment,
+    fabric: &Fabric,
+    params: &Params,
+    run: &mut Run,
+) -> Result<Vec<V3>, SimError> {
+    let mut x = preposition::place(body, garment, params);
+    let cloth = Cloth::new(garment, fabric, sewing::unsewn(garment))?;
+    let contact = BodyContact::new(field, params.contact, &cloth.areas);
+    let springs = Springs::new(garment, params.seam_stiffness_n_m, params.seam_cap_n);
+    let mut system = System::new(&cloth, contact, Some(springs));
+    run.sew(garment, &mut system, &mut x)?;
+    Ok(x)
+}
+
+/// A settled level.
+struct Settled {
+    positions: Vec<V3>,
+    residual: f64,
+    vertices: usize,
+}
+
+/// Welds the seams and lets the garment come to rest, without friction and then, on the finest level, with it.
+fn settle(
+    field: &DistanceField,
+    garment: &Garment,
+    fabric: &Fabric,
+    params: &Params,
+    positions: Vec<V3>,
+    run: &mut Run,
+    level: usize,
+) -> Result<Settled, SimError> {
+    let cloth = Cloth::new(garment, fabric, sewing::welded(garment))?;
+    let mut x = cloth.weld(&positions);
+    let contact = BodyContact::new(field, params.contact, &cloth.areas);
+    let mut system = System::new(&cloth, contact, None);
+    system.self_contact = Some(ClothContact::new(params.self_contact, &cloth.triangles, &cloth.areas));
+    let mut residual = run.drape(garment, &mut system, &mut x, Phase::frictionless(params, level, run.levels()))?;
+    if level == run.levels() {
+        system.contact.set_friction(Some(fabric.friction_body));
+        residual = run.drape(garment, &mut system, &mut x, Phase::final_drape(params, level))?;
+    }
+    Ok(Settled { positions: cloth.unweld(&x), residual, vertices: cloth.len() })
+}

@@ -1,0 +1,70 @@
+//! Parameters of FEM-GS.
+
+use crate::sim::contact::{ClothContactParams, ContactParams};
+use crate::sim::solver::StepParams;
+
+/// How FEM-GS places, sews and drapes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Params {
+    /// Offset `mu`: pieces start at `mu H / 2` from the trunk's centre, `H` the body depth (4.18).
+    pub offset_mu: f64,
+    /// Angle over which trunk pieces are bent before sewing, rad (4.6).
+    pub bend_angle_rad: f64,
+    /// Stiffness of a seam spring, N/m.
+    pub seam_stiffness_n_m: f64,
+    /// Force of a seam spring at first, N.
+    pub seam_cap_n: f64,
+    /// Growth of that force after a step that brought the seams no closer.
+    pub seam_cap_growth: f64,
+    /// A step brings the seams closer when the widest gap falls below this share of the least so far.
+    pub sewing_progress: f64,
+    /// Greatest step size while sewing, s.
+    pub sewing_h_max_s: f64,
+    /// Most steps of sewing.
+    pub sewing_steps: u32,
+    /// Gap at which seams are welded, m.
+    pub weld_gap_m: f64,
+    /// Residual at which a coarse level is good enough to start the next.
+    pub coarse_tolerance: f64,
+    /// Most steps on a coarse level.
+    pub coarse_steps: u32,
+    /// Residual at which friction is switched on.
+    pub frictionless_tolerance: f64,
+    /// Most steps before friction is switched on.
+    pub frictionless_steps: u32,
+    /// Residual, rms force over mean vertex weight, at which the drape counts as in equilibrium.
+    pub tolerance: f64,
+    /// Most steps of the last phase, with friction.
+    pub max_iterations: u32,
+    /// Body contact.
+    pub contact: ContactParams,
+    /// Contact of the cloth with itself.
+    pub self_contact: ClothContactParams,
+    /// Stepping.
+    pub step: StepParams,
+}
+
+impl Default for Params {
+    fn default() -> Self {
+        Self {
+            offset_mu: 2.1,
+            bend_angle_rad: std::f64::consts::PI,
+            seam_stiffness_n_m: 50.0,
+            seam_cap_n: 0.05,
+            seam_cap_growth: 1.2,
+            sewing_progress: 0.98,
+            sewing_h_max_s: 0.1,
+            sewing_steps: 200,
+            weld_gap_m: 2e-3,
+            coarse_tolerance: 0.5,
+            coarse_steps: 60,
+            frictionless_tolerance: 0.05,
+            frictionless_steps: 80,
+            tolerance: 0.01,
+            max_iterations: 200,
+            contact: ContactParams::default(),
+            self_contact: ClothContactParams::default(),
+            step: StepParams::default(),
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! The loop that both phases of FEM-GS share: step, record, report, stop.
+
+use crate::geom::V3;
+use crate::measure;
+use crate::pattern::Garment;
+use crate::sim::solver::{StepInfo, StepParams, Stepper, System};
+use crate::sim::{Monitor, Progress, SimError, Step};
+
+use super::params::Params;
+
+/// When a stretch of steps ends, and what it is called.
+#[derive(Clone, Copy, Debug)]
+pub struct Phase {
+    name: &'static str,
+    level: usize,
+    /// Residual that ends it.
+    tolerance: f64,
+    /// Steps that end it at the latest.
+    max_steps: u32,
+    /// Share of the whole work done before and after it, for the progress.
+    share: [f64; 2],
+}
+
+impl Phase {
+    /// Coming to rest without friction on level `level` of `last`; the coarser, the rougher.
+    pub fn frictionless(params: &Params, level: usize, last: usize) -> Self {
+        let at = |l: usize| 0.2 + 0.6 * (l as f64 / (last + 1) as f64).powi(2);
+        let finest = level == last;
+        Self {
+            name: "settle",
+            level,
+            tolerance: if finest { params.frictionless_tolerance } else { params.coarse_tolerance },
+            max_steps: if finest { params.frictionless_steps } else { params.coarse_steps },
+            share: [at(level), at(level + 1)],
+        }
+    }
+
+    /// The end of the drape, with friction.
+    pub fn final_drape(params: &Params, level: usize) -> Self {
+        Self { name: "drape", level, tolerance: params.tolerance, max_steps: params.max_iterations, share: [0.8, 1.0] }
+    }
+}
+
+/// A simulation under way.
+pub struct Run<'a> {
+    params: &'a Params,
+    monitor: &'a mut dyn Monitor,
+    levels: usize,
+    iteration: u32,
+    fraction: f64,
+    history: Vec<Step>,
+}
+
+impl<'a> Run<'a> {
+    /// Starts a run over levels 0 to `levels`.
+    pub fn new(params: &'a Params, monitor: &'a mut dyn Monitor, levels: usize) -> Self {
+        Self { params, monitor, levels, iteration: 0, fraction: 0.0, history: Vec::new() }
+    }
+
+    /// The finest level.
+    pub fn levels(&self) -> usize {
+        self.levels
+    }
+
+    /// Iterations so far.
+    pub fn iterations(&self) -> u32 {
+        self.iteration
+    }
+
+    /// Every recorded step.
+    pub fn into_history(self) -> Vec<Step> {
+        self.history
+    }
+
+    /// Draws the seams together until they can be welded. The springs' cap grows while they do not get closer, so that
+    /// a tight garment is pulled as hard as it needs and a loose one is not torn about.
+    pub fn sew(&mut self, garment: &Garment, system: &mut System, x: &mut Vec<V3>) -> Result<(), SimError> {
+        let mut stepper = Stepper::new(StepParams { h_max_s: self.params.sewing_h_max_s, ..self.params.step });
+        let gap = |system: &System, x: &[V3]| system.springs.as_ref().map_or(0.0, |s| s.gap_m(x));
+        let start = gap(system, x).max(f64::MIN_POSITIVE);
+        let mut least = start;
+        for _ in 0..self.params.sewing_steps {
+            let info = stepper.step(system, x, 0.0);
+            let now = gap(system, x);
+            let done = (1.0 - (now / start).sqrt()).clamp(0.0, 1.0);
+            self.record(garment, x, x, info, "sew", 0, now, 0.2 * done)?;
+            if now <= self.params.weld_gap_m {
+                break;
+            }
+            if now > least * self.params.sewing_progress {
+                if let Some(springs) = &mut system.springs {
+                    springs.cap_n *= self.params.seam_cap_growth;
+                }
+            }
+            least = least.min(now);
+        }
+        Ok(())
+    }
+
+    /// Steps until the residual is reached or the steps are used up; returns the residual.
+    pub fn drape(
+        &mut self,
+        garment: &Garment,
+        system: &mut System,
+        x: &mut Vec<V3>,
+        phase: Phase,
+    ) -> Result<f64, SimError> {
+        let mut stepper = Stepper::new(self.params.step);
+        let mut first = 0.0;
+        let mut residual = f64::MAX;
+        for step in 0..=phase.max_steps {
+            let info = stepper.step(system, x, phase.tolerance);
+            residual = info.residual;
+            if step == 0 {
+                first = residual.max(phase.tolerance * 1.01);
+            }
+            let done = ((first / residual).ln() / (first / phase.tolerance).ln()).clamp(0.0, 1.0);
+            let fraction = phase.share[0] + (phase.share[1] - phase.share[0]) * done;
+            let positions = system.cloth.unweld(x);
+            self.record(garment, x, &positions, info, phase.name, phase.level, 0.0, fraction)?;
+            if residual <= phase.tolerance {
+                break;
+            }
+        }
+        Ok(residual)
+    }
+
+    #[allow(clippy::too_many_arguments)]
+    fn record(
+        &mut self,
+        garment: &Garment,
+        x: &[V3],
+        positions: &[V3],
+        info: StepInfo,
+        phase: &'static str,
+        level: usize,
+        seam_gap_m: f64,
+        fraction: f64,
+    ) -> Result<(), SimError> {
+        self.iteration += 1;
+        if !x.iter().all(|p| p.iter().all(|c| c.is_finite())) {
+            return Err(SimError::Diverged { garment: garment.name.clone(), iteration: self.iteration });
+        }
+        let step = Step {
+            iteration: self.iteration,
+            level: level as u32,
+            residual: info.residual,
+            seam_gap_m,
+            e_chi: measure::metrics(&measure::measure(garment, positions)).map_or(f64::NAN, |m| m.e_chi),
+        };
+        self.history.push(step);
+        self.fraction = self.fraction.max(fraction);
+        self.monitor.progress(&Progress { phase, fraction: self.fraction, step });
+        if self.monitor.wants_snapshot() {
+            self.monitor.snapshot(positions);
+        }
+        if self.monitor.cancelled() { Err(SimError::Cancelled) } else { Ok(()) }
+    }
+}

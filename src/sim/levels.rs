@@ -1,0 +1,101 @@
+//! Coarse to fine: a drape of a coarse mesh as the start for a finer mesh of the same pieces.
+
+use crate::geom::{V2, V3};
+use crate::pattern::Garment;
+
+/// World positions for the vertices of `fine`, by evaluating the drape of `coarse` at their places in the pieces' planes.
+///
+/// Vertices outside the coarse outline (a chord cuts a curve) are extrapolated from the nearest triangle. The two sides
+/// of a seam then differ by a little; welding takes their mean.
+#[must_use]
+pub fn prolong(coarse: &Garment, coarse_positions: &[V3], fine: &Garment) -> Vec<V3> {
+    let mut positions = vec![V3::zeros(); fine.rest.len()];
+    for (piece, source) in fine.pieces.iter().zip(&coarse.pieces) {
+        let locator = Locator::new(coarse, source.triangles.clone());
+        for v in piece.vertices.clone() {
+            let (triangle, weights) = locator.locate(fine.rest[v]);
+            let corners = coarse.triangles[triangle];
+            positions[v] = (0..3).map(|k| coarse_positions[corners[k]] * weights[k]).sum();
+        }
+    }
+    positions
+}
+
+/// Finds triangles of one piece by point, through a uniform grid of buckets.
+struct Locator<'a> {
+    garment: &'a Garment,
+    low: V2,
+    cell: f64,
+    columns: usize,
+    rows: usize,
+    buckets: Vec<Vec<usize>>,
+}
+
+impl<'a> Locator<'a> {
+    fn new(garment: &'a Garment, triangles: std::ops::Range<usize>) -> Self {
+        let corners = || triangles.clone().flat_map(|t| garment.triangles[t]).map(|v| garment.rest[v]);
+        let low = corners().fold(V2::repeat(f64::MAX), |a, b| a.inf(&b));
+        let high = corners().fold(V2::repeat(f64::MIN), |a, b| a.sup(&b));
+        let cell = garment.edge_length_m;
+        let count = |extent: f64| (extent / cell) as usize + 1;
+        let (columns, rows) = (count(high.x - low.x), count(high.y - low.y));
+        let mut locator = Self { garment, low, cell, columns, rows, buckets: vec![Vec::new(); columns * rows] };
+        for t in triangles {
+            let points = garment.triangles[t].map(|v| garment.rest[v]);
+            let (from, to) = (
+                locator.bucket(points[0].inf(&points[1]).inf(&points[2])),
+                locator.bucket(points[0].sup(&points[1]).sup(&points[2])),
+            );
+            for row in from[1]..=to[1] {
+                for column in from[0]..=to[0] {
+                    locator.buckets[row * columns + column].push(t);
+                }
+            }
+        }
+        locator
+    }
+
+    fn bucket(&self, p: V2) -> [usize; 2] {
+        let at = |x: f64, n: usize| ((x / self.cell).max(0.0) as usize).min(n - 1);
+        [at(p.x - self.low.x, self.columns), at(p.y - self.low.y, self.rows)]
+    }
+
+    /// The triangle that contains a point, or else the one it is least outside of, with barycentric weights.
+    fn locate(&self, p: V2) -> (usize, [f64; 3]) {
+        let [column, row] = self.bucket(p);
+        for ring in 0.. {
+            let found = self.best_within(p, column, row, ring);
+            if let Some((triangle, weights, inside)) = found {
+                // A point outside the mesh may be nearer to a triangle of the next bucket: look one ring further.
+                if inside || ring > 0 {
+                    return (triangle, weights);
+                }
+            }
+        }
+        unreachable!("the buckets hold at least one triangle")
+    }
+
+    fn best_within(&self, p: V2, column: usize, row: usize, ring: usize) -> Option<(usize, [f64; 3], bool)> {
+        let mut best: Option<(f64, usize, [f64; 3])> = None;
+        for r in row.saturating_sub(ring)..=(row + ring).min(self.rows - 1) {
+            for c in column.saturating_sub(ring)..=(column + ring).min(self.columns - 1) {
+                for &t in &self.buckets[r * self.columns + c] {
+                    let weights = self.barycentric(t, p);
+                    let outside = -weights.iter().copied().fold(f64::MAX, f64::min);
+                    if best.is_none_or(|(least, ..)| outside < least) {
+                        best = Some((outside, t, weights));
+                    }
+                }
+            }
+        }
+        best.map(|(outside, t, weights)| (t, weights, outside <= 1e-9))
+    }
+
+    fn barycentric(&self, triangle: usize, p: V2) -> [f64; 3] {
+        let [a, b, c] = self.garment.triangles[triangle].map(|v| self.garment.rest[v]);
+        let area = (b - a).perp(&(c - a));
+        let wb = (p - a).perp(&(c - a)) / area;
+        let wc = (b - a).perp(&(p - a)) / area;
+        [1.0 - wb - wc, wb, wc]
+    }
+}

@@ -1,0 +1,95 @@
+//! Sewing: capped springs that draw the two sides of a seam together, then welding.
+
+use crate::geom::V3;
+use crate::pattern::Garment;
+
+/// Simulated vertex of each garment vertex once every seam is closed: groups of paired vertices, numbered by their
+/// smallest member (thesis, Algorithm 5.4).
+#[must_use]
+pub fn welded(garment: &Garment) -> Vec<usize> {
+    let mut leader: Vec<usize> = (0..garment.rest.len()).collect();
+    fn find(leader: &mut [usize], mut v: usize) -> usize {
+        while leader[v] != v {
+            leader[v] = leader[leader[v]];
+            v = leader[v];
+        }
+        v
+    }
+    for &[a, b] in garment.seams.iter().flat_map(|s| &s.pairs) {
+        let (a, b) = (find(&mut leader, a), find(&mut leader, b));
+        leader[a.max(b)] = a.min(b);
+    }
+    let mut number = vec![usize::MAX; leader.len()];
+    let mut count = 0;
+    (0..leader.len())
+        .map(|v| {
+            let group = find(&mut leader, v);
+            if number[group] == usize::MAX {
+                number[group] = count;
+                count += 1;
+            }
+            number[group]
+        })
+        .collect()
+}
+
+/// Every garment vertex on its own: nothing is sewn yet.
+#[must_use]
+pub fn unsewn(garment: &Garment) -> Vec<usize> {
+    (0..garment.rest.len()).collect()
+}
+
+/// Springs between the vertices of seam pairs: `f = k d` up to a cap (4.15, with the cap trials asked for).
+#[derive(Clone, Debug)]
+pub struct Springs {
+    /// Vertex pairs.
+    pub pairs: Vec<[usize; 2]>,
+    /// Stiffness, N/m.
+    pub stiffness_n_m: f64,
+    /// Greatest force, N.
+    pub cap_n: f64,
+}
+
+impl Springs {
+    /// Springs on all seams of a garment that is not welded.
+    #[must_use]
+    pub fn new(garment: &Garment, stiffness_n_m: f64, cap_n: f64) -> Self {
+        Self { pairs: garment.seams.iter().flat_map(|s| s.pairs.iter().copied()).collect(), stiffness_n_m, cap_n }
+    }
+
+    /// Greatest distance of a pair, m.
+    #[must_use]
+    pub fn gap_m(&self, x: &[V3]) -> f64 {
+        self.pairs.iter().map(|&[a, b]| (x[a] - x[b]).norm()).fold(0.0, f64::max)
+    }
+
+    /// Energy, J: quadratic up to the cap, linear beyond.
+    #[must_use]
+    pub fn energy(&self, x: &[V3]) -> f64 {
+        let knee = self.cap_n / self.stiffness_n_m;
+        let of = |&[a, b]: &[usize; 2]| {
+            let d = (x[a] - x[b]).norm();
+            if d <= knee { 0.5 * self.stiffness_n_m * d * d } else { self.cap_n * (d - 0.5 * knee) }
+        };
+        self.pairs.iter().map(of).sum()
+    }
+
+    /// Adds the forces and returns each pair's stiffness: the secant beyond the cap, which bounds the energy from above.
+    pub fn assemble(&self, x: &[V3], forces: &mut [V3]) -> Vec<([usize; 2], f64)> {
+        let stiffness = |&[a, b]: &[usize; 2]| {
+            let d = (x[a] - x[b]).norm();
+            if self.stiffness_n_m * d <= self.cap_n { self.stiffness_n_m } else { self.cap_n / d }
+        };
+        self.pairs
+            .iter()
+            .map(|pair| {
+                let k = stiffness(pair);
+                let [a, b] = *pair;
+                let pull = (x[b] - x[a]) * k;
+                forces[a] += pull;
+                forces[b] -= pull;
+                (*pair, k)
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,132 @@
+//! Proximal Newton: each step minimises `E(x) + |x - x_n|^2_M / (2 h^2)` by one Newton step with a line search.
+//!
+//! There is no inertia: `h` only keeps a step from going further than its linearisation is good for. It grows while
+//! steps succeed, and the limit is static equilibrium.
+
+use nalgebra::Matrix3;
+
+use super::pcg::{self, PcgParams};
+use super::system::System;
+use crate::geom::V3;
+
+/// How to step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepParams {
+    /// First step size, s.
+    pub h_start_s: f64,
+    /// Greatest step size, s.
+    pub h_max_s: f64,
+    /// Growth of the step size after a full step.
+    pub growth: f64,
+    /// Greatest displacement of a vertex in a step, m.
+    pub clamp_m: f64,
+    /// Relative tolerance of the linear solve.
+    pub linear_tolerance: f64,
+    /// Most iterations of the linear solve.
+    pub linear_iterations: usize,
+}
+
+impl Default for StepParams {
+    fn default() -> Self {
+        Self {
+            h_start_s: 0.05,
+            h_max_s: 2.0,
+            growth: 1.5,
+            clamp_m: 0.02,
+            linear_tolerance: 0.1,
+            linear_iterations: 300,
+        }
+    }
+}
+
+/// What a step did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepInfo {
+    /// Rms force over mean vertex weight *before* the step.
+    pub residual: f64,
+    /// Iterations of the linear solve.
+    pub linear_iterations: usize,
+    /// Greatest displacement taken, m.
+    pub moved_m: f64,
+}
+
+/// The state that outlives a step.
+pub struct Stepper {
+    params: StepParams,
+    h_s: f64,
+}
+
+/// Armijo's constant.
+const SUFFICIENT_DECREASE: f64 = 1e-4;
+const MOST_HALVINGS: usize = 12;
+
+impl Stepper {
+    /// Starts at the smallest step.
+    #[must_use]
+    pub fn new(params: StepParams) -> Self {
+        Self { params, h_s: params.h_start_s }
+    }
+
+    /// Takes one step from `x`, unless the residual is already below `tolerance`; says what it did.
+    pub fn step(&mut self, system: &mut System, x: &mut Vec<V3>, tolerance: f64) -> StepInfo {
+        let (forces, mut operator) = system.assemble(x);
+        let residual = rms(&forces) / system.mean_weight();
+        if residual <= tolerance {
+            return StepInfo { residual, linear_iterations: 0, moved_m: 0.0 };
+        }
+        let inertia: Vec<f64> = system.cloth.masses.iter().map(|m| m / (self.h_s * self.h_s)).collect();
+        for (block, m) in operator.diagonal.iter_mut().zip(&inertia) {
+            *block += Matrix3::identity() * *m;
+        }
+        let linear =
+            PcgParams { tolerance: self.params.linear_tolerance, max_iterations: self.params.linear_iterations };
+        let (mut direction, linear_iterations) = pcg::solve(&operator, &forces, &linear);
+        clamp(&mut direction, self.params.clamp_m);
+        let share = self.search(system, x, &direction, &forces, &inertia);
+        let moved_m = share * direction.iter().map(V3::norm).fold(0.0, f64::max);
+        for (p, d) in x.iter_mut().zip(&direction) {
+            *p += d * share;
+        }
+        system.contact.drag_anchors(x);
+        self.h_s = if share == 1.0 {
+            (self.h_s * self.params.growth).min(self.params.h_max_s)
+        } else if share < 0.25 {
+            (self.h_s * 0.5).max(self.params.h_start_s)
+        } else {
+            self.h_s
+        };
+        StepInfo { residual, linear_iterations, moved_m }
+    }
+
+    /// Share of the direction that decreases the proximal energy enough.
+    fn search(&self, system: &System, x: &[V3], direction: &[V3], forces: &[V3], inertia: &[f64]) -> f64 {
+        let start = system.energy(x);
+        let slope: f64 = forces.iter().zip(direction).map(|(f, d)| f.dot(d)).sum();
+        let proximal: f64 = 0.5 * inertia.iter().zip(direction).map(|(m, d)| m * d.norm_squared()).sum::<f64>();
+        let mut share = 1.0;
+        for _ in 0..MOST_HALVINGS {
+            let trial: Vec<V3> = x.iter().zip(direction).map(|(p, d)| p + d * share).collect();
+            let energy = system.energy(&trial) + proximal * share * share;
+            if energy <= start - SUFFICIENT_DECREASE * share * slope {
+                return share;
+            }
+            share *= 0.5;
+        }
+        share
+    }
+}
+
+/// Root mean square length of the vectors.
+#[must_use]
+pub fn rms(vectors: &[V3]) -> f64 {
+    (vectors.iter().map(V3::norm_squared).sum::<f64>() / vectors.len().max(1) as f64).sqrt()
+}
+
+fn clamp(direction: &mut [V3], limit: f64) {
+    for d in direction {
+        let length = d.norm();
+        if length > limit {
+            *d *= limit / length;
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! The forces on a cloth, their energy and their stiffness, gathered from every source.
+
+use nalgebra::Matrix3;
+
+use super::operator::Operator;
+use crate::geom::V3;
+use crate::sim::cloth::Cloth;
+use crate::sim::contact::{BodyContact, ClothContact};
+use crate::sim::sewing::Springs;
+
+/// Standard gravity, m/s2.
+const GRAVITY: f64 = 9.80665;
+
+/// A cloth with everything that acts on it.
+pub struct System<'a> {
+    /// The cloth.
+    pub cloth: &'a Cloth,
+    /// Weight of each vertex, N; zero for those that gravity is kept from.
+    pub weights: Vec<f64>,
+    /// Contact with the body.
+    pub contact: BodyContact<'a>,
+    /// Contact of the cloth with itself.
+    pub self_contact: Option<ClothContact<'a>>,
+    /// Seam springs, until the seams are welded.
+    pub springs: Option<Springs>,
+}
+
+impl<'a> System<'a> {
+    /// A cloth under gravity and body contact; the vertices of open seams carry no weight.
+    #[must_use]
+    pub fn new(cloth: &'a Cloth, contact: BodyContact<'a>, springs: Option<Springs>) -> Self {
+        let mut weights: Vec<f64> = cloth.masses.iter().map(|m| m * GRAVITY).collect();
+        for &v in springs.iter().flat_map(|s| &s.pairs).flatten() {
+            weights[v] = 0.0;
+        }
+        Self { cloth, weights, contact, self_contact: None, springs }
+    }
+
+    /// Mean weight of a vertex, N: the yardstick of the residual.
+    #[must_use]
+    pub fn mean_weight(&self) -> f64 {
+        self.cloth.masses.iter().sum::<f64>() * GRAVITY / self.cloth.len() as f64
+    }
+
+    /// Potential energy, J.
+    #[must_use]
+    pub fn energy(&self, x: &[V3]) -> f64 {
+        let height: f64 = self.weights.iter().zip(x).map(|(w, p)| w * p.z).sum();
+        height
+            + self.cloth.membrane.energy(x)
+            + self.cloth.bending.energy(x)
+            + self.contact.energy(x)
+            + self.self_contact.as_ref().map_or(0.0, |c| c.energy(x))
+            + self.springs.as_ref().map_or(0.0, |s| s.energy(x))
+    }
+
+    /// Forces (N) and stiffness (N/m) at `x`.
+    pub fn assemble(&mut self, x: &[V3]) -> (Vec<V3>, Operator<'a>) {
+        let cloth = self.cloth;
+        let mut forces: Vec<V3> = self.weights.iter().map(|w| V3::new(0.0, 0.0, -w)).collect();
+        let mut diagonal = vec![Matrix3::zeros(); cloth.len()];
+        let mut membrane = Vec::new();
+        cloth.membrane.assemble(x, &mut forces, Some(&mut membrane));
+        cloth.bending.add_forces(x, &mut forces);
+        self.contact.assemble(x, &mut forces, &mut diagonal);
+        let springs = self.springs.as_ref().map_or_else(Vec::new, |s| s.assemble(x, &mut forces));
+        let contacts = self.self_contact.as_mut().map_or_else(Vec::new, |c| {
+            c.update(x);
+            c.assemble(x, &mut forces)
+        });
+        let operator = Operator {
+            diagonal,
+            membrane_pairs: &cloth.membrane.pairs,
+            membrane,
+            bending_pairs: &cloth.bending.pairs,
+            bending: &cloth.bending.entries,
+            springs,
+            contacts,
+        };
+        (forces, operator)
+    }
+}

@@ -1,0 +1,109 @@
+//! What the stages made, kept by the hash of everything it was made from: in memory while a run lasts, in the database
+//! beyond. Two workers that need the same thing at once make it once.
+
+use std::any::Any;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex};
+
+use rusqlite::{Connection, OptionalExtension, params};
+
+use super::error::{Result, StudyError};
+use super::inputs::StageKind;
+use super::store::{self, Access, now_ms};
+
+/// A product that can be stored.
+pub(crate) trait Artefact: Sized + Send + Sync + 'static {
+    /// As bytes.
+    fn encode(&self) -> Result<Vec<u8>>;
+    /// From the bytes of [`Artefact::encode`].
+    fn decode(bytes: &[u8]) -> std::result::Result<Self, String>;
+}
+
+/// One product a job used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Used {
+    /// Stage that made it.
+    pub stage: StageKind,
+    /// Hash of what it was made from, hex.
+    pub hash: String,
+    /// Whether it was there already.
+    pub was_cached: bool,
+}
+
+type Product = Arc<dyn Any + Send + Sync>;
+/// Filled by whoever comes first; the others wait for the lock.
+type Slot = Arc<Mutex<Option<Product>>>;
+
+/// The products of one run, over those of a database.
+pub struct Cache {
+    path: PathBuf,
+    slots: Mutex<BTreeMap<String, Slot>>,
+}
+
+impl Cache {
+    /// The cache of a database.
+    #[must_use]
+    pub fn new(database: PathBuf) -> Self {
+        Self { path: database, slots: Mutex::default() }
+    }
+
+    /// The product of a stage: from memory, from the database, or made now (then stored).
+    ///
+    /// # Errors
+    /// Those of `make`, and of the database.
+    pub(crate) fn get<T: Artefact>(
+        &self,
+        stage: StageKind,
+        hash: &str,
+        make: impl FnOnce() -> Result<T>,
+    ) -> Result<(Arc<T>, Used)> {
+        let used = |was_cached| Used { stage, hash: hash.to_owned(), was_cached };
+        let slot = lock(&self.slots).entry(hash.to_owned()).or_default().clone();
+        let mut slot = lock(&slot);
+        if let Some(product) = slot.clone().and_then(|product| product.downcast::<T>().ok()) {
+            return Ok((product, used(true)));
+        }
+        let connection = store::open(&self.path, Access::Write)?;
+        let stored = load(&connection, hash)?.and_then(|product| T::decode(&product).ok());
+        let was_cached = stored.is_some();
+        let product = match stored {
+            Some(product) => product,
+            None => {
+                let product = make()?;
+                save(&connection, stage, hash, &product.encode()?)?;
+                product
+            }
+        };
+        let product = Arc::new(product);
+        if stage != StageKind::Drape {
+            *slot = Some(product.clone());
+        }
+        Ok((product, used(was_cached)))
+    }
+}
+
+/// Locks; a panic elsewhere while it was held leaves at most an empty slot behind.
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+}
+
+/// The stored bytes of a hash.
+pub(crate) fn load(connection: &Connection, hash: &str) -> Result<Option<Vec<u8>>> {
+    let sql = "SELECT bytes FROM artefact WHERE hash = ?";
+    Ok(connection.prepare_cached(sql)?.query_row([hash], |row| row.get(0)).optional()?)
+}
+
+/// Stores bytes by their hash; unreadable ones of an earlier program are replaced.
+fn save(connection: &Connection, stage: StageKind, hash: &str, bytes: &[u8]) -> Result<()> {
+    let sql = "INSERT OR REPLACE INTO artefact (hash, kind, bytes, created_at) VALUES (?, ?, ?, ?)";
+    connection.execute(sql, params![hash, stage.as_str(), bytes, now_ms()])?;
+    Ok(())
+}
+
+/// A stored product; an error when it is missing or unreadable.
+pub(crate) fn stored<T: Artefact>(connection: &Connection, hash: &str) -> Result<T> {
+    let fail = |message: &str| StudyError::Artefact { hash: hash.to_owned(), message: message.to_owned() };
+    let bytes = load(connection, hash)?.ok_or_else(|| fail("it is not in the database"))?;
+    T::decode(&bytes).map_err(|message| fail(&message))
+}

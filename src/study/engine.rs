@@ -1,0 +1,203 @@
+//! Running jobs: worker threads that claim, execute and finish, and one pump that tells the database how they fare.
+//!
+//! Workers touch the database only to claim and to finish. The pump renews heartbeats and progress a few times a second
+//! and notices when a job is no longer ours, so that cancelling from another process reaches a running simulation.
+//! Results do not depend on the number of workers: a job knows nothing of the others.
+
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+use rusqlite::{Connection, named_params};
+
+use super::enqueue::Planned;
+use super::error::{Result, StudyError};
+use super::outcome::{self, Executor, Outcome, Provenance};
+use super::owner::Owner;
+use super::queue;
+use super::spec::JobSpec;
+use super::store::{self, Access, now_ms};
+use super::types::{JobId, JobProgress};
+use crate::sim::{Monitor, Progress};
+use crate::units::mm;
+
+/// Time between two looks of the pump, and of a worker that waits for jobs of others.
+const TICK: Duration = Duration::from_millis(200);
+
+/// A job in the hands of a worker.
+#[derive(Default)]
+struct Live {
+    progress: Mutex<Option<JobProgress>>,
+    /// Set when the job is no longer ours.
+    lost: AtomicBool,
+}
+
+/// One run of the planned jobs by this process.
+struct Run<'a> {
+    database: &'a Path,
+    specs: BTreeMap<JobId, &'a JobSpec>,
+    ids: Vec<JobId>,
+    executor: &'a dyn Executor,
+    owner: Owner,
+    provenance: Provenance,
+    stop: &'a AtomicBool,
+    live: Mutex<BTreeMap<JobId, Arc<Live>>>,
+    busy_workers: AtomicUsize,
+}
+
+/// Runs jobs until none of them is queued or running any more (jobs of other processes are waited for), or until
+/// `stop`; then what runs goes back into the queue.
+///
+/// # Errors
+/// When the database fails; a failing job is no error here.
+pub(crate) fn run(
+    database: &Path,
+    planned: &[Planned],
+    executor: &dyn Executor,
+    workers: usize,
+    provenance: Provenance,
+    stop: &AtomicBool,
+) -> Result<()> {
+    let run = Run {
+        database,
+        specs: planned.iter().map(|job| (job.id, &job.spec)).collect(),
+        ids: planned.iter().map(|job| job.id).collect(),
+        executor,
+        owner: Owner::new(),
+        provenance,
+        stop,
+        live: Mutex::default(),
+        busy_workers: AtomicUsize::new(workers.max(1)),
+    };
+    thread::scope(|scope| {
+        let handles: Vec<_> = (0..workers.max(1)).map(|_| scope.spawn(|| run.work())).collect();
+        let pumped = run.pump();
+        if pumped.is_err() {
+            run.stop.store(true, Ordering::Relaxed);
+        }
+        let worked = handles.into_iter().map(|handle| match handle.join() {
+            Ok(result) => result,
+            Err(panic) => std::panic::resume_unwind(panic),
+        });
+        worked.fold(pumped, Result::and)
+    })
+}
+
+impl Run<'_> {
+    /// A worker: one job after another.
+    fn work(&self) -> Result<()> {
+        let result = store::open(self.database, Access::Write).and_then(|mut connection| self.work_on(&mut connection));
+        self.busy_workers.fetch_sub(1, Ordering::Release);
+        result
+    }
+
+    fn work_on(&self, connection: &mut Connection) -> Result<()> {
+        while !self.stop.load(Ordering::Relaxed) {
+            let transaction = store::write(connection)?;
+            let claimed = queue::claim(&transaction, &self.ids, &self.owner)?;
+            let open = queue::open_jobs(&transaction, &self.ids)?;
+            transaction.commit()?;
+            match claimed {
+                Some(id) => self.execute(connection, id)?,
+                None if open == 0 => break,
+                None => thread::sleep(TICK),
+            }
+        }
+        Ok(())
+    }
+
+    /// Runs one claimed job and writes what came of it; a panic of a stage is its failure.
+    fn execute(&self, connection: &mut Connection, id: JobId) -> Result<()> {
+        let live = Arc::new(Live::default());
+        lock(&self.live).insert(id, live.clone());
+        let mut reporter = Reporter { live: &live, stop: self.stop };
+        let spec = self.specs[&id];
+        let result = catch_unwind(AssertUnwindSafe(|| self.executor.execute(spec, &mut reporter)))
+            .unwrap_or_else(|panic| Err(StudyError::Stage { stage: "panic", message: panic_text(&*panic) }));
+        let written = self.finish(connection, id, &result);
+        lock(&self.live).remove(&id);
+        written
+    }
+
+    fn finish(&self, connection: &mut Connection, id: JobId, result: &Result<Outcome>) -> Result<()> {
+        outcome::finish(connection, id, self.owner.as_str(), result, &self.provenance).map(drop)
+    }
+
+    /// Tells the database how running jobs fare, until the workers are done.
+    fn pump(&self) -> Result<()> {
+        let mut connection = store::open(self.database, Access::Volatile)?;
+        while self.busy_workers.load(Ordering::Acquire) > 0 {
+            thread::sleep(TICK);
+            let live: Vec<(JobId, Arc<Live>)> = lock(&self.live).iter().map(|(id, live)| (*id, live.clone())).collect();
+            if !live.is_empty() {
+                self.report(&mut connection, &live)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Renews heartbeats and progress of running jobs; marks those that are no longer ours.
+    fn report(&self, connection: &mut Connection, live: &[(JobId, Arc<Live>)]) -> Result<()> {
+        let transaction = store::write(connection)?;
+        for (id, live) in live {
+            let ours = transaction
+                .prepare_cached(
+                    "UPDATE job SET heartbeat_at = ? WHERE job_id = ? AND status = 'running' AND owner = ?",
+                )?
+                .execute((now_ms(), id.0, self.owner.as_str()))?;
+            if ours == 0 {
+                live.lost.store(true, Ordering::Relaxed);
+            } else if let Some(progress) = lock(&live.progress).take() {
+                write_progress(&transaction, *id, &progress)?;
+            }
+        }
+        Ok(transaction.commit()?)
+    }
+}
+
+fn write_progress(connection: &Connection, id: JobId, progress: &JobProgress) -> Result<()> {
+    let step = &progress.step;
+    connection
+        .prepare_cached(
+            "INSERT OR REPLACE INTO job_progress (job_id, phase, fraction, iteration, level, residual, seam_gap_mm, e_chi,
+                updated_at)
+            VALUES (:id, :phase, :fraction, :iteration, :level, :residual, :gap, :e_chi, :now)",
+        )?
+        .execute(named_params! {
+            ":id": id.0, ":phase": progress.phase, ":fraction": progress.fraction, ":iteration": step.iteration,
+            ":level": step.level, ":residual": step.residual, ":gap": mm(step.seam_gap_m), ":e_chi": step.e_chi,
+            ":now": now_ms(),
+        })?;
+    Ok(())
+}
+
+/// The monitor of a running job.
+struct Reporter<'a> {
+    live: &'a Live,
+    stop: &'a AtomicBool,
+}
+
+impl Monitor for Reporter<'_> {
+    fn progress(&mut self, progress: &Progress) {
+        *lock(&self.live.progress) = Some(progress.into());
+    }
+
+    fn cancelled(&self) -> bool {
+        self.stop.load(Ordering::Relaxed) || self.live.lost.load(Ordering::Relaxed)
+    }
+}
+
+/// Locks; the data is a plain value, whole even after a panic elsewhere.
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// What a panic said.
+fn panic_text(panic: &(dyn std::any::Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "a panic without a message".into())
+}

@@ -1,0 +1,211 @@
+//! Bringing the queue in line with a study: a job for every cell whose inputs are new, and the reason for each.
+
+use rusqlite::{OptionalExtension, Transaction, params};
+
+use super::catalogue;
+use super::error::Result;
+use super::file::Study;
+use super::inputs::{Change, Inputs};
+use super::queue::{self, Event};
+use super::read;
+use super::spec::JobSpec;
+use super::store::now_ms;
+use super::types::{JobId, Status};
+use crate::units::mm;
+
+/// Why a job runs, or why it need not.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Why {
+    /// Nothing like it was ever queued.
+    New,
+    /// An input changed since the latest earlier job of the same cell.
+    Changed {
+        /// That job.
+        since: JobId,
+        /// What changed.
+        changes: Vec<Change>,
+    },
+    /// Queued or running already.
+    Waiting,
+    /// Failed or cancelled earlier with the same inputs.
+    Again(Status),
+    /// Has a result of the same inputs.
+    UpToDate(Status),
+}
+
+impl Why {
+    /// Whether the job is still to be run.
+    #[must_use]
+    pub fn will_run(&self) -> bool {
+        !matches!(self, Self::UpToDate(_))
+    }
+}
+
+impl std::fmt::Display for Why {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::New => f.write_str("new"),
+            Self::Changed { since, changes } => {
+                write!(f, "changed since job {since}: ")?;
+                f.write_str(&changes.iter().map(Change::to_string).collect::<Vec<_>>().join("; "))
+            }
+            Self::Waiting => f.write_str("queued already"),
+            Self::Again(status) => write!(f, "{} before, again", status.as_str().replace('_', " ")),
+            Self::UpToDate(status) => write!(f, "up to date ({})", status.as_str().replace('_', " ")),
+        }
+    }
+}
+
+/// A job of the queue for a specification.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Planned {
+    /// Its number.
+    pub id: JobId,
+    /// What it does.
+    pub spec: JobSpec,
+    /// Why it runs, or need not.
+    pub why: Why,
+}
+
+/// Stores a study and queues what is to be run of `specs`; failed and cancelled jobs are queued again.
+pub(crate) fn enqueue(transaction: &Transaction<'_>, study: &Study, specs: Vec<JobSpec>) -> Result<Vec<Planned>> {
+    let study_id = store_study(transaction, study)?;
+    let mut planned = Vec::with_capacity(specs.len());
+    for spec in specs {
+        let (id, why) = enqueue_one(transaction, study_id, &spec)?;
+        planned.push(Planned { id, spec, why });
+    }
+    Ok(planned)
+}
+
+/// Brings the study's own row and the order of its axes up to date.
+pub(crate) fn store_study(transaction: &Transaction<'_>, study: &Study) -> Result<i64> {
+    let path = study.path.canonicalize().unwrap_or_else(|_| study.path.clone());
+    let study_id = transaction.query_row(
+        "INSERT INTO study (name, path, tight_below_mm, loose_above_mm, updated_at) VALUES (?, ?, ?, ?, ?)
+            ON CONFLICT (name) DO UPDATE SET path = excluded.path, tight_below_mm = excluded.tight_below_mm,
+                loose_above_mm = excluded.loose_above_mm, updated_at = excluded.updated_at
+            RETURNING study_id",
+        params![
+            study.name,
+            path.to_string_lossy(),
+            mm(study.cuts.tight_below_m),
+            mm(study.cuts.loose_above_m),
+            now_ms()
+        ],
+        |row| row.get(0),
+    )?;
+    transaction.execute("DELETE FROM study_axis WHERE study_id = ?", [study_id])?;
+    let garments = study.garments.iter().map(|garment| ("garment", &garment.name));
+    let sizes = study.garments.iter().flat_map(|garment| &garment.sizes).map(|size| ("size", &size.name));
+    let subjects = study.subjects.iter().map(|subject| ("subject", &subject.id));
+    for (position, (axis, name)) in garments.chain(sizes).chain(subjects).enumerate() {
+        transaction
+            .prepare_cached("INSERT OR IGNORE INTO study_axis (study_id, axis, name, position) VALUES (?, ?, ?, ?)")?
+            .execute(params![study_id, axis, name, position as i64])?;
+    }
+    Ok(study_id)
+}
+
+fn enqueue_one(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec) -> Result<(JobId, Why)> {
+    let hash = spec.inputs.hash();
+    let same = transaction
+        .prepare_cached(
+            "SELECT job_id, status FROM job WHERE study_id = ? AND garment = ? AND size = ? AND subject = ?
+                AND simulator = ? AND repeat = ? AND input_hash = ?",
+        )?
+        .query_row(
+            params![study_id, spec.garment, spec.size, spec.subject, spec.simulator.as_str(), spec.repeat, hash],
+            |row| Ok((JobId(row.get(0)?), read::status(row, 1)?)),
+        )
+        .optional()?;
+    let earlier = latest_of_cell(transaction, study_id, spec)?;
+    if let Some((id, status)) = same {
+        make_current(transaction, id, earlier)?;
+        let why = match status {
+            Status::Done | Status::NotConverged => Why::UpToDate(status),
+            Status::Queued | Status::Running => Why::Waiting,
+            Status::Failed | Status::Cancelled => {
+                queue::apply(transaction, id, &Event::Retry, None)?;
+                Why::Again(status)
+            }
+        };
+        return Ok((id, why));
+    }
+    let why = match earlier {
+        Some(since) => Why::Changed { since, changes: spec.inputs.changes_since(&inputs_of(transaction, since)?) },
+        None => Why::New,
+    };
+    if let Some(old) = earlier {
+        supersede(transaction, old)?;
+    }
+    let id = insert(transaction, study_id, spec, &hash)?;
+    queue::log(transaction, id, "info", &format!("queued: {why}"))?;
+    Ok((id, why))
+}
+
+/// The current job of a specification's cell.
+fn latest_of_cell(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec) -> Result<Option<JobId>> {
+    let sql = "SELECT job_id FROM job WHERE study_id = ? AND garment = ? AND size = ? AND subject = ? AND simulator = ?
+        AND repeat = ? AND is_current";
+    let cell = params![study_id, spec.garment, spec.size, spec.subject, spec.simulator.as_str(), spec.repeat];
+    Ok(transaction.prepare_cached(sql)?.query_row(cell, |row| row.get(0).map(JobId)).optional()?)
+}
+
+/// Makes a job of earlier inputs its cell's current one.
+fn make_current(transaction: &Transaction<'_>, id: JobId, current: Option<JobId>) -> Result<()> {
+    if let Some(old) = current.filter(|&old| old != id) {
+        supersede(transaction, old)?;
+    }
+    transaction.prepare_cached("UPDATE job SET is_current = 1 WHERE job_id = ?")?.execute([id.0])?;
+    Ok(())
+}
+
+/// Takes a job out of its cell; what has not begun need not run any more.
+fn supersede(transaction: &Transaction<'_>, id: JobId) -> Result<()> {
+    transaction.prepare_cached("UPDATE job SET is_current = 0 WHERE job_id = ?")?.execute([id.0])?;
+    if queue::apply(transaction, id, &Event::Cancel, None)?.is_some() {
+        queue::log(transaction, id, "info", "cancelled: an input of the study changed")?;
+    }
+    Ok(())
+}
+
+fn insert(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec, hash: &str) -> Result<JobId> {
+    let subject = catalogue::subject(transaction, &spec.subject, &spec.measurements)?;
+    let style = catalogue::style(transaction, &spec.garment, &spec.seams)?;
+    let size = catalogue::size(transaction, &spec.garment, &spec.size, &spec.pattern, spec.unit.as_deref())?;
+    let fabric = catalogue::fabric(transaction, &spec.fabric)?;
+    transaction
+        .prepare_cached(
+            "INSERT INTO job (study_id, garment, size, subject, simulator, repeat, input_hash, status, queued_at,
+                subject_id, style_id, size_id, fabric_id)
+            VALUES (?, ?, ?, ?, ?, ?, ?, 'queued', ?, ?, ?, ?, ?)",
+        )?
+        .execute(params![
+            study_id,
+            spec.garment,
+            spec.size,
+            spec.subject,
+            spec.simulator.as_str(),
+            spec.repeat,
+            hash,
+            now_ms(),
+            subject,
+            style,
+            size,
+            fabric
+        ])?;
+    let id = JobId(transaction.last_insert_rowid());
+    let mut statement = transaction.prepare_cached("INSERT INTO job_input (job_id, name, value) VALUES (?, ?, ?)")?;
+    for (name, value) in spec.inputs.iter() {
+        statement.execute(params![id.0, name, value])?;
+    }
+    Ok(id)
+}
+
+/// The stored inputs of a job.
+pub(crate) fn inputs_of(connection: &rusqlite::Connection, id: JobId) -> Result<Inputs> {
+    let mut statement = connection.prepare_cached("SELECT name, value FROM job_input WHERE job_id = ?")?;
+    let inputs = statement.query_map([id.0], |row| Ok((row.get(0)?, row.get(1)?)))?;
+    Ok(inputs.collect::<rusqlite::Result<_>>()?)
+}

@@ -1,0 +1,178 @@
+//! The study file `study.toml`: which subjects wear which garments, in which fabric, by which simulators.
+//!
+//! ```toml
+//! name = "tops"                     # default: the folder's name
+//! simulators = ["fem"]              # default: ["fem"]
+//! edge_length_mm = 15               # of the finest cloth mesh; default 15
+//! repeats = 1                       # default 1
+//! fit = { tight_below_mm = 50, loose_above_mm = 100 }   # default: these
+//!
+//! [[subject]]
+//! id = "ii"                         # its name in results
+//! like = "male-ii"                  # an entry of the catalogue, or its own measurements:
+//! # sex = "male", stature_mm = 1690, weight_kg = 53, chest_girth_mm = 863, waist_girth_mm = 782,
+//! # hip_girth_mm = 914, neck_girth_mm = 378, across_shoulder_mm = 429
+//!
+//! [[garment]]
+//! name = "tshirt"
+//! seams = "patterns/tshirt.seams.toml"
+//! fabric = "cotton_shirting_light"  # of the library, the catalogue, or a [[fabric]] of this file
+//! unit = "mm"                       # only where the DXF files name no unit
+//! sizes = [{ name = "S", pattern = "patterns/tshirt-s.dxf" }]
+//!
+//! [[fabric]]                        # numbers of a cloth of one's own, SI units as in the library
+//! name = "my_poplin"
+//! # density_kg_m2, thickness_mm, membrane_warp_n_m, membrane_weft_n_m, shear_n_m, bending_warp_nm, ...
+//! ```
+//!
+//! Everything is checked before anything runs, and all problems are told at once.
+
+mod parse;
+mod reader;
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::error::{Result, StudyError};
+use crate::body::Measurements;
+use crate::fit::Cuts;
+use crate::sim::{Fabric, Simulator};
+
+/// One thing that is wrong with a study file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// The file.
+    pub file: PathBuf,
+    /// Line, from 1.
+    pub line: Option<usize>,
+    /// What was found, and what would be accepted.
+    pub message: String,
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.line {
+            Some(line) => write!(f, "{}:{line}: {}", self.file.display(), self.message),
+            None => write!(f, "{}: {}", self.file.display(), self.message),
+        }
+    }
+}
+
+impl Problem {
+    /// All problems, one a line.
+    pub(crate) fn listing(problems: &[Self]) -> String {
+        problems.iter().map(Self::to_string).collect::<Vec<_>>().join("\n")
+    }
+}
+
+/// A file that a study brings, as read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SourceFile {
+    /// Name without folders.
+    pub name: String,
+    /// Contents.
+    pub bytes: Arc<[u8]>,
+}
+
+impl SourceFile {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn read(path: &Path) -> Result<Self> {
+        let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Self { name, bytes: bytes.into() })
+    }
+
+    /// BLAKE3 of the contents, hex.
+    #[must_use]
+    pub fn hash(&self) -> String {
+        blake3::hash(&self.bytes).to_hex().to_string()
+    }
+}
+
+/// A subject of a study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Subject {
+    /// Name in results.
+    pub id: String,
+    /// What is known of the body.
+    pub measurements: Measurements,
+}
+
+/// One size of a garment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SizeFile {
+    /// Name (`S`).
+    pub name: String,
+    /// Its pattern.
+    pub pattern: SourceFile,
+}
+
+/// A garment of a study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GarmentEntry {
+    /// Name in results.
+    pub name: String,
+    /// How its pieces are sewn and measured.
+    pub seams: SourceFile,
+    /// Unit of the patterns, where their files name none: `mm`, `cm` or `in`.
+    pub unit: Option<String>,
+    /// The cloth.
+    pub fabric: Fabric,
+    /// Sizes, in order.
+    pub sizes: Vec<SizeFile>,
+}
+
+/// A study, checked and with all its inputs read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Study {
+    /// Name.
+    pub name: String,
+    /// Its file.
+    pub path: PathBuf,
+    /// Subjects, in order.
+    pub subjects: Vec<Subject>,
+    /// Garments, in order.
+    pub garments: Vec<GarmentEntry>,
+    /// Simulators, in order.
+    pub simulators: Vec<Simulator>,
+    /// Edge length of the finest cloth mesh, m.
+    pub edge_length_m: f64,
+    /// Simulations of each cell.
+    pub repeats: u32,
+    /// Where the fit classes meet.
+    pub cuts: Cuts,
+}
+
+/// What a study file may name instead of bringing it.
+#[derive(Clone, Debug, Default)]
+pub struct Known {
+    /// Subjects of the catalogue.
+    pub subjects: BTreeMap<String, Measurements>,
+    /// Fabrics of the catalogue and the library.
+    pub fabrics: BTreeMap<String, Fabric>,
+}
+
+/// The study file of a path that names it or its folder.
+#[must_use]
+pub fn study_file(path: &Path) -> PathBuf {
+    if path.is_dir() { path.join("study.toml") } else { path.to_owned() }
+}
+
+impl Study {
+    /// Reads and checks a study: the file or its folder.
+    ///
+    /// # Errors
+    /// [`StudyError::File`] with everything that is wrong; [`StudyError::Io`] when the file itself cannot be read.
+    pub fn load(path: &Path, known: &Known) -> Result<Self> {
+        let path = study_file(path);
+        let text = std::fs::read_to_string(&path).map_err(StudyError::io(&path))?;
+        parse::study(&path, &text, known).map_err(StudyError::File)
+    }
+}

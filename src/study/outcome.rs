@@ -1,0 +1,213 @@
+//! What a finished job leaves behind, and writing all of it in one transaction.
+
+use rusqlite::{Connection, Transaction, params};
+
+use super::cache::Used;
+use super::error::{Result, StudyError};
+use super::owner::host;
+use super::queue::{self, Event};
+use super::spec::JobSpec;
+use super::store;
+use super::types::{JobId, Status};
+use crate::fit::Ease;
+use crate::measure::{Chi, Metrics};
+use crate::pattern::MeasurementKind;
+use crate::sim::{Monitor, Stage, Step};
+use crate::units::mm;
+
+/// One measurement of a result with what it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// Name.
+    pub name: String,
+    /// Loop or length.
+    pub kind: MeasurementKind,
+    /// Whether it runs along an edge that no seam holds.
+    pub is_free_edge: bool,
+    /// Whether the simulator restores it by construction.
+    pub is_controlled: bool,
+    /// Its lengths.
+    pub chi: Chi,
+}
+
+/// The result of a simulation, measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// How far the garment came.
+    pub stage: Stage,
+    /// Whether the residual reached its tolerance with all seams closed.
+    pub converged: bool,
+    /// Every measurement.
+    pub measured: Vec<Measured>,
+    /// Their summary.
+    pub metrics: Metrics,
+    /// Vertices once sewn.
+    pub vertices: usize,
+    /// Triangles.
+    pub faces: usize,
+    /// Iterations over all levels.
+    pub iterations: u32,
+    /// Rms residual force over the mean vertex weight.
+    pub residual: f64,
+    /// Deepest penetration into the body, m.
+    pub penetration_max_m: f64,
+    /// Greatest seam gap, m.
+    pub seam_gap_max_m: f64,
+    /// The run, step by step.
+    pub history: Vec<Step>,
+    /// Ease at each fit level.
+    pub eases: Vec<Ease>,
+    /// Products of stages it used.
+    pub used: Vec<Used>,
+}
+
+/// Turns a specification into a result; the pipeline in earnest, a closure in tests.
+pub trait Executor: Sync {
+    /// Runs one job. Not converging is an [`Outcome`], not an error.
+    ///
+    /// # Errors
+    /// Those of the stages; [`StudyError::Interrupted`] when the monitor asked to stop.
+    fn execute(&self, spec: &JobSpec, monitor: &mut dyn Monitor) -> Result<Outcome>;
+}
+
+impl<F: Fn(&JobSpec, &mut dyn Monitor) -> Result<Outcome> + Sync> Executor for F {
+    fn execute(&self, spec: &JobSpec, monitor: &mut dyn Monitor) -> Result<Outcome> {
+        self(spec, monitor)
+    }
+}
+
+/// Where results are made: the same for all jobs of a run.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Provenance {
+    /// Commit of the repository the study file lies in, and whether it has uncommitted changes.
+    pub git: Option<(String, bool)>,
+}
+
+impl Provenance {
+    /// Asks git about a study's folder; no repository, or no git, is no error.
+    pub fn of(folder: &std::path::Path) -> Self {
+        let git = |arguments: &[&str]| {
+            let output = std::process::Command::new("git").arg("-C").arg(folder).args(arguments).output().ok()?;
+            output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
+        };
+        let commit = git(&["rev-parse", "HEAD"]);
+        let git =
+            commit.map(|commit| (commit, git(&["status", "--porcelain"]).is_none_or(|changes| !changes.is_empty())));
+        Self { git }
+    }
+}
+
+/// Ends a job with what came of it, in one transaction; returns its new state, or `None` when it was no longer the
+/// owner's to end (cancelled or taken over meanwhile).
+pub(crate) fn finish(
+    connection: &mut Connection,
+    id: JobId,
+    owner: &str,
+    outcome: &Result<Outcome>,
+    provenance: &Provenance,
+) -> Result<Option<Status>> {
+    let transaction = store::write(connection)?;
+    let message = outcome.as_ref().err().map(StudyError::to_string);
+    let event = match outcome {
+        Ok(outcome) => Event::Finish { owner, converged: outcome.converged },
+        Err(StudyError::Interrupted) => Event::Release(owner),
+        Err(_) => Event::Fail(owner),
+    };
+    let error = message.as_deref().filter(|_| matches!(event, Event::Fail(_)));
+    let Some(after) = queue::apply(&transaction, id, &event, error)? else { return Ok(None) };
+    match outcome {
+        Ok(outcome) => {
+            write_result(&transaction, id, outcome, provenance)?;
+            let text = format!("{}: EI {:.4}", after.status.as_str().replace('_', " "), outcome.metrics.ei);
+            queue::log(&transaction, id, if outcome.converged { "info" } else { "warn" }, &text)?;
+        }
+        Err(StudyError::Interrupted) => queue::log(&transaction, id, "info", "stopped; queued again")?,
+        Err(error) => queue::log(&transaction, id, "error", &error.to_string())?,
+    }
+    transaction.commit()?;
+    Ok(Some(after.status))
+}
+
+fn write_result(transaction: &Transaction<'_>, id: JobId, outcome: &Outcome, provenance: &Provenance) -> Result<()> {
+    write_measured(transaction, id, outcome)?;
+    let mut statement = transaction.prepare_cached(
+        "INSERT INTO history (job_id, step, iteration, level, residual, seam_gap_mm, e_chi) VALUES (?, ?, ?, ?, ?, ?, ?)",
+    )?;
+    for (number, step) in outcome.history.iter().enumerate() {
+        let gap_mm = mm(step.seam_gap_m);
+        let number = number as i64;
+        statement.execute(params![id.0, number, step.iteration, step.level, step.residual, gap_mm, step.e_chi])?;
+    }
+    let mut statement =
+        transaction.prepare_cached("INSERT INTO job_artefact (job_id, kind, hash, was_cached) VALUES (?, ?, ?, ?)")?;
+    for used in &outcome.used {
+        statement.execute(params![id.0, used.stage.as_str(), used.hash, used.was_cached])?;
+    }
+    write_ease(transaction, id, &outcome.eases)?;
+    let (commit, dirty) = provenance.git.clone().unzip();
+    transaction
+        .prepare_cached(
+            "INSERT INTO provenance (job_id, program_version, git_commit, git_dirty, machine, seed)
+            SELECT job_id, ?, ?, ?, ?, repeat FROM job WHERE job_id = ?",
+        )?
+        .execute(params![env!("CARGO_PKG_VERSION"), commit, dirty, machine(), id.0])?;
+    Ok(())
+}
+
+fn write_measured(transaction: &Transaction<'_>, id: JobId, outcome: &Outcome) -> Result<()> {
+    let stage = match outcome.stage {
+        Stage::Sewn => "sewn",
+        Stage::Popup => "popup",
+        Stage::Drape => "drape",
+    };
+    let mut statement = transaction.prepare_cached(
+        "INSERT INTO chi (job_id, stage, measurement_no, measurement, kind, is_free_edge, is_controlled, l2d_mm, l3d_mm)
+        VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
+    )?;
+    for m in &outcome.measured {
+        let kind = match m.kind {
+            MeasurementKind::ClosedGirth => "closed_girth",
+            MeasurementKind::OpenLength => "open_length",
+        };
+        let (l2d_mm, l3d_mm) = (mm(m.chi.l2d_m), mm(m.chi.l3d_m));
+        let row = params![id.0, stage, m.chi.no, m.name, kind, m.is_free_edge, m.is_controlled, l2d_mm, l3d_mm];
+        statement.execute(row)?;
+    }
+    let metrics = &outcome.metrics;
+    transaction.prepare_cached("INSERT INTO metrics VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")?.execute(
+        params![
+            id.0,
+            metrics.n as i64,
+            metrics.e_chi,
+            metrics.sd_chi,
+            metrics.ei,
+            metrics.max_abs_error,
+            outcome.vertices as i64,
+            outcome.faces as i64,
+            outcome.iterations,
+            outcome.residual,
+            outcome.converged,
+            mm(outcome.penetration_max_m),
+            mm(outcome.seam_gap_max_m)
+        ],
+    )?;
+    Ok(())
+}
+
+/// Ease of a job's size on its subject, for its study.
+fn write_ease(transaction: &Transaction<'_>, id: JobId, eases: &[Ease]) -> Result<()> {
+    let mut statement = transaction.prepare_cached(
+        "INSERT OR REPLACE INTO ease (study_id, garment, size, subject, level, pattern_girth_mm, body_girth_mm)
+        SELECT study_id, garment, size, subject, ?2, ?3, ?4 FROM job WHERE job_id = ?1",
+    )?;
+    for ease in eases {
+        statement.execute(params![id.0, ease.level, mm(ease.pattern_girth_m), mm(ease.body_girth_m)])?;
+    }
+    Ok(())
+}
+
+/// The machine in words: host, cores, system.
+pub(crate) fn machine() -> String {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    format!("{}, {cores} cores, {} {}", host(), std::env::consts::OS, std::env::consts::ARCH)
+}

@@ -1,0 +1,145 @@
+//! Starting a run of a study: checked, queued, and worked on in the background.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::{self, JoinHandle};
+
+use super::catalogue;
+use super::engine;
+use super::enqueue::{self, Planned};
+use super::error::{Result, StudyError};
+use super::file::Study;
+use super::outcome::{Executor, Provenance};
+use super::spec::{self, Selection};
+use super::store;
+use super::workspace::Workspace;
+
+/// What to run, and how.
+#[derive(Clone, Debug, Default)]
+pub struct RunOptions {
+    /// Which jobs of the study.
+    pub selection: Selection,
+    /// Worker threads, one simulation each; by default as many as there are cores.
+    pub workers: Option<usize>,
+}
+
+/// A run in the background. Dropping it stops it: what runs goes back into the queue.
+pub struct Run {
+    /// Name of the study.
+    pub study: String,
+    /// Its jobs, with the reason for each.
+    pub planned: Vec<Planned>,
+    stop: Arc<AtomicBool>,
+    thread: Option<JoinHandle<Result<()>>>,
+}
+
+impl Run {
+    /// Asks the workers to stop; running jobs go back into the queue. Returns at once.
+    pub fn stop(&self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether all workers are done.
+    #[must_use]
+    pub fn is_finished(&self) -> bool {
+        self.thread.as_ref().is_none_or(JoinHandle::is_finished)
+    }
+
+    /// Waits for the workers.
+    ///
+    /// # Errors
+    /// When the database failed; failed jobs are not errors here.
+    pub fn join(mut self) -> Result<()> {
+        self.wait()
+    }
+
+    fn wait(&mut self) -> Result<()> {
+        match self.thread.take().map(JoinHandle::join) {
+            None => Ok(()),
+            Some(Ok(result)) => result,
+            Some(Err(panic)) => std::panic::resume_unwind(panic),
+        }
+    }
+}
+
+impl Drop for Run {
+    fn drop(&mut self) {
+        self.stop();
+        // An error was for whoever joins; here nobody listens.
+        let _ = self.thread.take().map(JoinHandle::join);
+    }
+}
+
+impl Workspace {
+    /// Reads and checks a study: its file or its folder.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the file, at once.
+    pub fn load_study(&self, path: &Path) -> Result<Study> {
+        Study::load(path, &catalogue::known(Some(&self.reader))?)
+    }
+
+    /// What a run of a study would do; nothing is written.
+    ///
+    /// # Errors
+    /// When the workspace is read-only or a selection names what the study does not have.
+    pub fn plan(&mut self, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
+        let specs = selected(study, selection)?;
+        let transaction = store::write(self.writer()?)?;
+        let planned = enqueue::enqueue(&transaction, study, specs);
+        transaction.rollback()?;
+        planned
+    }
+
+    /// [`Workspace::start`] with any executor.
+    ///
+    /// # Errors
+    /// When the workspace is read-only or a selection names what the study does not have.
+    pub fn start_with(
+        &mut self,
+        study: &Study,
+        options: &RunOptions,
+        executor: Arc<dyn Executor + Send>,
+    ) -> Result<Run> {
+        let specs = selected(study, &options.selection)?;
+        let transaction = store::write(self.writer()?)?;
+        let planned = enqueue::enqueue(&transaction, study, specs)?;
+        transaction.commit()?;
+
+        let stop = Arc::new(AtomicBool::new(false));
+        let workers = options.workers.unwrap_or_else(|| thread::available_parallelism().map_or(1, usize::from));
+        let (database, jobs, stopped) = (self.path().to_owned(), planned.clone(), stop.clone());
+        let folder = study.path.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
+        let work = move || {
+            let provenance = Provenance::of(&folder);
+            engine::run(&database, &jobs, &*executor, workers, provenance, &stopped)
+        };
+        let thread = thread::Builder::new().name("toile-run".into()).spawn(work).map_err(StudyError::io("thread"))?;
+        Ok(Run { study: study.name.clone(), planned, stop, thread: Some(thread) })
+    }
+}
+
+/// The selected jobs of a study; a name that selects nothing is an error.
+fn selected(study: &Study, selection: &Selection) -> Result<Vec<spec::JobSpec>> {
+    let specs = spec::jobs(study);
+    type Name = fn(&spec::JobSpec) -> String;
+    let axes: [(&'static str, &[String], Name); 4] = [
+        ("simulator", &selection.simulators, |spec| spec.simulator.as_str().to_owned()),
+        ("size", &selection.sizes, |spec| spec.size.clone()),
+        ("subject", &selection.subjects, |spec| spec.subject.clone()),
+        ("garment", &selection.garments, |spec| spec.garment.clone()),
+    ];
+    for (what, wanted, name) in axes {
+        let mut known: Vec<String> = Vec::new();
+        for found in specs.iter().map(name) {
+            if !known.contains(&found) {
+                known.push(found);
+            }
+        }
+        if let Some(name) = wanted.iter().find(|wanted| !known.iter().any(|k| k.eq_ignore_ascii_case(wanted))) {
+            return Err(StudyError::NotFound { what, name: name.clone(), known });
+        }
+    }
+    Ok(specs.into_iter().filter(|spec| selection.takes(spec)).collect())
+}

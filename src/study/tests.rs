@@ -1,0 +1,355 @@
+//! The queue and its workers from outside: runs with a small executor, crashes, take-overs, cancelling, explanations.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+use super::file::{GarmentEntry, SizeFile, SourceFile, Subject};
+use super::queue::{self, Event};
+use super::store::{self, Access};
+use super::*;
+use crate::body::{Measurements, Sex};
+use crate::fit::{Cuts, Ease};
+use crate::measure::{Chi, metrics};
+use crate::pattern::MeasurementKind;
+use crate::sim::{Fabric, Monitor, Progress, Stage};
+
+/// A workspace in a folder of its own.
+struct Bench {
+    _folder: tempfile::TempDir,
+    path: PathBuf,
+    workspace: Workspace,
+}
+
+impl Bench {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("toile.sqlite");
+        let workspace = Workspace::open(&path, false).expect("a new database");
+        Self { _folder: folder, path, workspace }
+    }
+
+    /// Runs a study to its end.
+    fn run(&mut self, study: &Study, workers: usize, executor: impl Executor + Send + 'static) -> Vec<Planned> {
+        let options = RunOptions { workers: Some(workers), ..RunOptions::default() };
+        let run = self.workspace.start_with(study, &options, Arc::new(executor)).expect("queued");
+        let planned = run.planned.clone();
+        run.join().expect("the database works");
+        planned
+    }
+
+    fn statuses(&self) -> BTreeMap<i64, Status> {
+        let filter = JobFilter { superseded: true, ..JobFilter::default() };
+        self.workspace.jobs(&filter).expect("readable").into_iter().map(|job| (job.id.0, job.status)).collect()
+    }
+}
+
+fn source(name: &str, text: &str) -> SourceFile {
+    SourceFile { name: name.to_owned(), bytes: text.as_bytes().into() }
+}
+
+/// A study of two sizes on two subjects.
+fn study(density_kg_m2: f64) -> Study {
+    let subject = |id: &str, stature_m: f64| Subject {
+        id: id.to_owned(),
+        measurements: Measurements {
+            sex: Sex::Male,
+            stature_m,
+            weight_kg: None,
+            chest_girth_m: Some(0.9),
+            waist_girth_m: None,
+            hip_girth_m: None,
+            neck_girth_m: None,
+            across_shoulder_m: None,
+        },
+    };
+    let size = |name: &str| SizeFile { name: name.to_owned(), pattern: source(&format!("tee-{name}.dxf"), name) };
+    let fabric = Fabric {
+        name: "poplin".into(),
+        density_kg_m2,
+        thickness_m: 2e-4,
+        membrane_warp_n_m: 3000.0,
+        membrane_weft_n_m: 2000.0,
+        membrane_coupling_n_m: 0.0,
+        shear_n_m: 90.0,
+        bending_warp_nm: 5e-6,
+        bending_weft_nm: 4e-6,
+        friction_body: 0.3,
+        friction_self: 0.5,
+        source: "test".into(),
+    };
+    Study {
+        name: "tops".into(),
+        path: PathBuf::from("study.toml"),
+        subjects: vec![subject("ii", 1.69), subject("v", 1.82)],
+        garments: vec![GarmentEntry {
+            name: "tee".into(),
+            seams: source("tee.seams.toml", "seams"),
+            unit: None,
+            fabric,
+            sizes: vec![size("s"), size("m")],
+        }],
+        simulators: vec![Simulator::Fem],
+        edge_length_m: 0.015,
+        repeats: 1,
+        cuts: Cuts::default(),
+    }
+}
+
+/// A result that depends on the inputs alone.
+fn outcome(spec: &JobSpec) -> Outcome {
+    let stretch = 1.0 + spec.measurements.stature_m / 100.0;
+    let chis = vec![Chi { no: 1, l2d_m: 1.0, l3d_m: stretch }, Chi { no: 2, l2d_m: 0.5, l3d_m: 0.5 }];
+    let measured = |chi: &Chi| Measured {
+        name: format!("length {}", chi.no),
+        kind: MeasurementKind::OpenLength,
+        is_free_edge: false,
+        is_controlled: false,
+        chi: chi.clone(),
+    };
+    let step = Step { iteration: 1, level: 0, residual: 0.5, seam_gap_m: 0.001, e_chi: 1.01 };
+    let ease = Ease {
+        level: "chest".into(),
+        pattern_girth_m: 0.94,
+        body_girth_m: 0.9,
+        class: FitClass::Tight,
+        borderline: true,
+    };
+    Outcome {
+        stage: Stage::Drape,
+        converged: spec.size != "m",
+        measured: chis.iter().map(measured).collect(),
+        metrics: metrics(&chis).expect("two"),
+        vertices: 10,
+        faces: 12,
+        iterations: 1,
+        residual: 0.01,
+        penetration_max_m: 0.0,
+        seam_gap_max_m: 0.0,
+        history: vec![step],
+        eases: vec![ease],
+        used: vec![],
+    }
+}
+
+fn quick(spec: &JobSpec, _monitor: &mut dyn Monitor) -> Result<Outcome> {
+    Ok(outcome(spec))
+}
+
+/// Waits for something another thread does.
+fn until(what: &str, mut holds: impl FnMut() -> bool) {
+    let end = Instant::now() + Duration::from_secs(20);
+    while !holds() {
+        assert!(Instant::now() < end, "waited too long until {what}");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+/// An executor that reports progress until told to stop, or until `open` lets it finish.
+fn patient(open: Arc<AtomicBool>) -> impl Executor + Send {
+    move |spec: &JobSpec, monitor: &mut dyn Monitor| {
+        let step = Step { iteration: 7, level: 0, residual: 0.3, seam_gap_m: 0.002, e_chi: 1.02 };
+        while !open.load(Ordering::Relaxed) {
+            monitor.progress(&Progress { phase: "sew", fraction: 0.25, step });
+            if monitor.cancelled() {
+                return Err(StudyError::Interrupted);
+            }
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        Ok(outcome(spec))
+    }
+}
+
+#[test]
+fn a_run_finishes_every_job_once_whatever_the_number_of_workers() {
+    let results = [1, 3].map(|workers| {
+        let mut bench = Bench::new();
+        let runs = Arc::new(Mutex::new(Vec::new()));
+        let counted = runs.clone();
+        let planned = bench.run(&study(0.1), workers, move |spec: &JobSpec, _: &mut dyn Monitor| {
+            counted.lock().expect("no panic").push((spec.size.clone(), spec.subject.clone()));
+            Ok(outcome(spec))
+        });
+        assert_eq!(planned.len(), 4);
+        let mut runs = runs.lock().expect("no panic").clone();
+        runs.sort();
+        runs.dedup();
+        assert_eq!(runs.len(), 4, "each once");
+        let grid = bench.workspace.grid("tops", "tee").expect("there");
+        assert_eq!(
+            (grid.sizes.as_slice(), grid.subjects.as_slice()),
+            (&["s".into(), "m".into()][..], &["ii".into(), "v".into()][..])
+        );
+        assert_eq!(grid.cells[1][0][0].status, Some(Status::NotConverged));
+        assert_eq!(grid.fits[0][0].map(|fit| (fit.class, fit.borderline)), Some((FitClass::Tight, true)));
+        let chi: Vec<_> = planned.iter().map(|job| bench.workspace.chi(job.id).expect("readable")).collect();
+        assert_eq!(bench.workspace.history(planned[0].id).expect("readable").len(), 1);
+        chi
+    });
+    assert_eq!(results[0], results[1]);
+}
+
+#[test]
+fn a_second_run_has_nothing_to_do_and_a_change_is_named() {
+    let mut bench = Bench::new();
+    bench.run(&study(0.1), 2, quick);
+    let again = bench.run(&study(0.1), 2, |_: &JobSpec, _: &mut dyn Monitor| panic!("nothing may run"));
+    assert!(again.iter().all(|job| !job.why.will_run()));
+    assert_eq!(again[2].why.to_string(), "up to date (not converged)");
+
+    let heavier = bench.run(&study(0.2), 2, quick);
+    assert_eq!(heavier[0].why.to_string(), "changed since job 1: fabric.poplin.density_kg_m2: 0.1 -> 0.2");
+    let count = |sql| match bench.workspace.query(sql).expect("valid").rows[0][0] {
+        Value::Integer(n) => n,
+        ref other => panic!("a count, not {other}"),
+    };
+    assert_eq!(count("SELECT count(*) FROM v_metrics"), 4, "current results only");
+    assert_eq!(count("SELECT count(*) FROM metrics"), 8, "old results are kept");
+    assert_eq!(count("SELECT count(*) FROM v_fabrics WHERE fabric = 'poplin'"), 2);
+
+    let back = bench.run(&study(0.1), 2, |_: &JobSpec, _: &mut dyn Monitor| panic!("nothing may run"));
+    assert_eq!(back[0].id, again[0].id, "the old result is current again");
+}
+
+#[test]
+fn planning_writes_nothing() {
+    let mut bench = Bench::new();
+    let planned = bench.workspace.plan(&study(0.1), &Selection::default()).expect("valid");
+    assert!(planned.iter().all(|job| job.why == Why::New));
+    assert!(bench.statuses().is_empty());
+    let wrong = Selection { sizes: vec!["xl".into()], ..Selection::default() };
+    let error = bench.workspace.plan(&study(0.1), &wrong).expect_err("no such size").to_string();
+    assert_eq!(error, "no size `xl`; there are: s, m");
+}
+
+#[test]
+fn a_failing_job_and_a_panic_are_told_and_can_be_retried() {
+    let mut bench = Bench::new();
+    let planned =
+        bench.run(&study(0.1), 2, |spec: &JobSpec, _: &mut dyn Monitor| match (&*spec.size, &*spec.subject) {
+            ("s", "ii") => Err(StudyError::Stage { stage: "sim", message: "diverged".into() }),
+            ("s", "v") => panic!("index out of range"),
+            _ => Ok(outcome(spec)),
+        });
+    let error = |bench: &Bench, job: &Planned| bench.workspace.job(job.id).expect("there").error;
+    assert_eq!(error(&bench, &planned[0]).as_deref(), Some("sim: diverged"));
+    assert_eq!(error(&bench, &planned[1]).as_deref(), Some("panic: index out of range"));
+    let ids: Vec<JobId> = planned.iter().map(|job| job.id).collect();
+    assert_eq!(bench.workspace.retry(&ids).expect("writable"), 2, "results are kept");
+    bench.run(&study(0.1), 2, quick);
+    assert_eq!(error(&bench, &planned[0]), None);
+    assert!(bench.statuses().values().all(|status| status.has_result()));
+}
+
+#[test]
+fn jobs_of_a_dead_process_are_taken_over_at_once_and_nothing_runs_twice() {
+    let mut bench = Bench::new();
+    let options = RunOptions { workers: Some(1), ..RunOptions::default() };
+    let idle = bench.workspace.start_with(&study(0.1), &options, Arc::new(quick)).expect("queued");
+    idle.join().expect("works");
+    let mut connection = store::open(&bench.path, Access::Write).expect("there");
+    connection
+        .execute_batch(
+            "UPDATE job SET status = 'queued', is_current = 1; DELETE FROM chi; DELETE FROM metrics;
+        DELETE FROM history; DELETE FROM provenance; DELETE FROM job_artefact",
+        )
+        .expect("valid");
+    // A process of this machine that has ended: same boot, a number that is no process's.
+    let dead = super::owner::Owner::new().as_str().replace(&format!("/{}/", std::process::id()), "/4194305/");
+    let transaction = store::write(&mut connection).expect("idle");
+    queue::apply(&transaction, JobId(1), &Event::Claim(&dead), None).expect("queued").expect("queued");
+    transaction.commit().expect("idle");
+
+    let runs = Arc::new(AtomicUsize::new(0));
+    let counted = runs.clone();
+    bench.run(&study(0.1), 2, move |spec: &JobSpec, _: &mut dyn Monitor| {
+        counted.fetch_add(1, Ordering::Relaxed);
+        Ok(outcome(spec))
+    });
+    assert_eq!(runs.load(Ordering::Relaxed), 4);
+    let job = bench.workspace.job(JobId(1)).expect("there");
+    assert_eq!((job.status, job.attempts), (Status::Done, 3));
+    let log = bench.workspace.log(JobId(1)).expect("readable");
+    assert!(log.iter().any(|line| line.level == "warn" && line.text.ends_with("queued again")), "{log:?}");
+
+    let transaction = store::write(&mut connection).expect("idle");
+    let late = Event::Finish { owner: &dead, converged: true };
+    assert_eq!(queue::apply(&transaction, JobId(1), &late, None).expect("there"), None, "too late");
+}
+
+#[test]
+fn progress_is_seen_by_others_and_cancelling_reaches_a_running_job() {
+    let mut bench = Bench::new();
+    let open = Arc::new(AtomicBool::new(false));
+    let options = RunOptions { workers: Some(1), ..RunOptions::default() };
+    let run = bench.workspace.start_with(&study(0.1), &options, Arc::new(patient(open.clone()))).expect("queued");
+    let id = run.planned[0].id;
+    let mut other = Workspace::open(&bench.path, false).expect("shared");
+    let version = other.version().expect("readable");
+    until("progress shows", || other.job(id).expect("there").progress.is_some_and(|p| p.fraction == 0.25));
+    assert_ne!(other.version().expect("readable"), version);
+    assert_eq!(other.cancel(&[id]).expect("writable"), 1);
+    until("the next job runs", || other.job(run.planned[1].id).expect("there").status == Status::Running);
+    open.store(true, Ordering::Relaxed);
+    run.join().expect("works");
+    let statuses: Vec<Status> = bench.statuses().into_values().collect();
+    assert_eq!(statuses, [Status::Cancelled, Status::Done, Status::NotConverged, Status::NotConverged]);
+}
+
+#[test]
+fn stopping_puts_running_jobs_back_and_a_pause_holds_new_ones() {
+    let mut bench = Bench::new();
+    let options = RunOptions { workers: Some(2), ..RunOptions::default() };
+    let closed = Arc::new(AtomicBool::new(false));
+    let run = bench.workspace.start_with(&study(0.1), &options, Arc::new(patient(closed))).expect("queued");
+    until("both work", || bench.statuses().values().filter(|&&s| s == Status::Running).count() == 2);
+    run.stop();
+    run.join().expect("works");
+    assert!(bench.statuses().values().all(|&status| status == Status::Queued));
+
+    bench.workspace.pause("tops").expect("there");
+    let run = bench.workspace.start_with(&study(0.1), &options, Arc::new(quick)).expect("queued");
+    std::thread::sleep(Duration::from_millis(300));
+    assert!(!run.is_finished());
+    assert!(bench.statuses().values().all(|&status| status == Status::Queued));
+    bench.workspace.resume("tops").expect("there");
+    run.join().expect("works");
+    assert!(bench.statuses().values().all(|status| status.has_result()));
+}
+
+#[test]
+fn a_readonly_workspace_reads_and_refuses_to_write() {
+    let mut bench = Bench::new();
+    bench.run(&study(0.1), 1, quick);
+    let mut reader = Workspace::open(&bench.path, true).expect("there");
+    assert_eq!(reader.studies().expect("readable")[0].count(Status::Done), 2);
+    assert!(matches!(reader.cancel(&[JobId(1)]), Err(StudyError::Readonly)));
+    assert!(reader.query("DELETE FROM job").is_err());
+    assert!(Workspace::open(Path::new("/nowhere/toile.sqlite"), true).is_err());
+}
+
+#[test]
+fn every_contract_view_answers() {
+    let mut bench = Bench::new();
+    bench.run(&study(0.1), 1, quick);
+    let check = |view: &str, rows: usize| {
+        let table = bench.workspace.query(&format!("SELECT * FROM {view}")).expect("valid");
+        assert_eq!(table.rows.len(), rows, "{view}");
+    };
+    check("v_jobs", 4);
+    check("v_chi", 8);
+    check("v_metrics", 4);
+    check("v_ease", 4);
+    check("v_pair", 0);
+    check("v_recommendation", 1);
+    check("v_published", 888);
+    check("v_provenance", 4);
+    check("v_subjects", 14);
+    check("v_styles", 1);
+    check("v_sizes", 2);
+    let advice = bench.workspace.recommendations("tops").expect("readable");
+    assert_eq!(advice[0].recommended, Simulator::Hybrid);
+    assert_eq!((advice[0].basis.as_str(), advice[0].verdict.as_str()), ("rule", "insufficient_evidence"));
+}
