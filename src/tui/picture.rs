@@ -211,10 +211,10 @@ fn picker_of(protocol: ProtocolType, cell: FontSize) -> Picker {
     picker
 }
 
-/// The part of a picture that differs from its background, the colour of its first corner, with a small margin.
+/// The part of a picture that differs from its background, with a small margin.
 fn cropped(picture: &RgbaImage) -> RgbaImage {
     let (width, height) = picture.dimensions();
-    let shown = picture.enumerate_pixels().filter(|(_, _, pixel)| !is_background(picture, pixel));
+    let shown = picture.enumerate_pixels().filter(|(_, y, pixel)| !is_background(picture, *y, pixel));
     let bounds = shown.fold(None, |bounds: Option<[u32; 4]>, (x, y, _)| {
         let [left, top, right, bottom] = bounds.unwrap_or([x, y, x, y]);
         Some([left.min(x), top.min(y), right.max(x), bottom.max(y)])
@@ -226,10 +226,10 @@ fn cropped(picture: &RgbaImage) -> RgbaImage {
     imageops::crop_imm(picture, left, top, right - left + 1, bottom - top + 1).to_image()
 }
 
-/// Whether a pixel is transparent or near the colour of the first corner.
-fn is_background(picture: &RgbaImage, pixel: &Rgba<u8>) -> bool {
-    let corner = picture.get_pixel(0, 0);
-    pixel[3] < 8 || (0..4).all(|k| pixel[k].abs_diff(corner[k]) < 12)
+/// Whether a pixel is transparent or near the colour its row begins with: backgrounds may change from top to bottom.
+fn is_background(picture: &RgbaImage, row: u32, pixel: &Rgba<u8>) -> bool {
+    let edge = picture.get_pixel(0, row);
+    pixel[3] < 8 || (0..4).all(|k| pixel[k].abs_diff(edge[k]) < 12)
 }
 
 /// A picture as letters: the darker, the denser; background stays empty.
@@ -239,14 +239,14 @@ fn letters(picture: &RgbaImage, size: Size) -> Vec<String> {
     let scale = (f64::from(size.width) / width).min(f64::from(size.height) / height);
     let (columns, rows) = ((width * scale).max(1.0) as u32, (height * scale).max(1.0) as u32);
     let small = imageops::resize(picture, columns, rows, imageops::FilterType::Triangle);
-    let letter = |pixel: &Rgba<u8>| {
-        if is_background(picture, pixel) {
+    let letter = |row: u32, pixel: &Rgba<u8>| {
+        if is_background(picture, row * picture.height() / rows, pixel) {
             return ' ';
         }
         let light = 0.2126 * f64::from(pixel[0]) + 0.7152 * f64::from(pixel[1]) + 0.0722 * f64::from(pixel[2]);
         RAMP[((255.0 - light) / 64.0) as usize % RAMP.len()]
     };
-    small.rows().map(|row| row.map(letter).collect()).collect()
+    (0..).zip(small.rows()).map(|(y, row)| row.map(|pixel| letter(y, pixel)).collect()).collect()
 }
 
 #[cfg(test)]
