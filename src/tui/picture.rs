@@ -169,12 +169,15 @@ impl Canvas {
     /// When the picture cannot be encoded for this terminal.
     pub fn draw(&self, picture: &RgbaImage, shot: &Shot) -> Result<Drawn, String> {
         let picture = cropped(picture);
-        let size = Size::new(shot.columns, shot.rows);
+        let cell = self.picker.font_size();
+        let size = fitted(&picture, Size::new(shot.columns, shot.rows), cell);
         if self.letters {
             return Ok(Drawn::Letters(letters(&picture, size)));
         }
-        let resize = Resize::Scale(Some(imageops::FilterType::CatmullRom));
-        let protocol = self.picker.new_protocol(DynamicImage::ImageRgba8(picture), size, resize);
+        // Whole cells, so that nothing of the terminal shines through along the edges.
+        let (width, height) = (u32::from(size.width * cell.width), u32::from(size.height * cell.height));
+        let exact = imageops::resize(&picture, width, height, imageops::FilterType::CatmullRom);
+        let protocol = self.picker.new_protocol(DynamicImage::ImageRgba8(exact), size, Resize::Fit(None));
         protocol.map(Drawn::Cells).map_err(|error| error.to_string())
     }
 }
@@ -211,6 +214,15 @@ fn picker_of(protocol: ProtocolType, cell: FontSize) -> Picker {
     picker
 }
 
+/// Cells that a picture fills of a pane when it is scaled to touch two of its sides.
+fn fitted(picture: &RgbaImage, pane: Size, cell: FontSize) -> Size {
+    let columns = f64::from(picture.width()) / f64::from(cell.width);
+    let rows = f64::from(picture.height()) / f64::from(cell.height);
+    let scale = (f64::from(pane.width) / columns).min(f64::from(pane.height) / rows);
+    let cells = |n: f64, most: u16| ((n * scale).round() as u16).clamp(1, most.max(1));
+    Size::new(cells(columns, pane.width), cells(rows, pane.height))
+}
+
 /// The part of a picture that differs from its background, with a small margin.
 fn cropped(picture: &RgbaImage) -> RgbaImage {
     let (width, height) = picture.dimensions();
@@ -235,9 +247,7 @@ fn is_background(picture: &RgbaImage, row: u32, pixel: &Rgba<u8>) -> bool {
 /// A picture as letters: the darker, the denser; background stays empty.
 fn letters(picture: &RgbaImage, size: Size) -> Vec<String> {
     const RAMP: [char; 4] = ['░', '▒', '▓', '█'];
-    let (width, height) = (f64::from(picture.width()), f64::from(picture.height()) / 2.0);
-    let scale = (f64::from(size.width) / width).min(f64::from(size.height) / height);
-    let (columns, rows) = ((width * scale).max(1.0) as u32, (height * scale).max(1.0) as u32);
+    let (columns, rows) = (u32::from(size.width), u32::from(size.height));
     let small = imageops::resize(picture, columns, rows, imageops::FilterType::Triangle);
     let letter = |row: u32, pixel: &Rgba<u8>| {
         if is_background(picture, row * picture.height() / rows, pixel) {

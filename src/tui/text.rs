@@ -39,9 +39,15 @@ pub fn shortened(text: &str, columns: usize) -> String {
             break;
         }
     }
-    if columns > 0 {
-        short.push('…');
+    if columns == 0 {
+        return short;
     }
+    // Whole words where that loses little.
+    match short.rfind(' ') {
+        Some(space) if space * 2 > short.len() => short.truncate(space),
+        _ => {}
+    }
+    short.push('…');
     short
 }
 
@@ -143,10 +149,10 @@ fn resampled(values: &[f64], columns: usize) -> Vec<f64> {
 pub fn why(job: &JobRow, paused: bool) -> String {
     match job.status {
         Status::Failed => job.error.clone().unwrap_or_else(|| "failed".into()),
-        Status::NotConverged => "residual above tolerance".into(),
+        Status::NotConverged => "residual too high".into(),
         Status::Queued if paused => "study is paused".into(),
-        Status::Queued => job.error.clone().unwrap_or_else(|| "waits for a worker".into()),
-        Status::Cancelled => "cancelled by a user".into(),
+        Status::Queued => job.error.clone().unwrap_or_else(|| "waits".into()),
+        Status::Cancelled => "cancelled".into(),
         Status::Running if job.attempts > 1 => format!("attempt {}", job.attempts),
         Status::Running => "in work".into(),
         Status::Done => "converged".into(),
@@ -163,6 +169,8 @@ mod tests {
         check("tee", 5, "tee  ");
         check("shirt", 5, "shirt");
         check("shirts", 5, "shir…");
+        check("sleeve opening girth", 15, "sleeve opening…");
+        check("a pneumonoultramicroscopic", 12, "a pneumonou…");
         check("x", 0, "");
         check("衣服衣服", 5, "衣服…");
         assert_eq!(right("1.5", 5), "  1.5");

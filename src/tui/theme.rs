@@ -78,6 +78,12 @@ impl Theme {
         Style::new().add_modifier(Modifier::DIM)
     }
 
+    /// A legend in a border: of less weight, whatever the border is like.
+    #[must_use]
+    pub fn legend(self) -> Style {
+        Style::reset().add_modifier(Modifier::DIM)
+    }
+
     /// Of more weight.
     #[must_use]
     pub fn bold(self) -> Style {

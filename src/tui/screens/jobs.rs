@@ -29,6 +29,9 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     draw_log(frame, log_area, state);
 }
 
+/// Columns of phase and percent.
+const PROGRESS: usize = 10;
+
 /// Widths of the columns that depend on what is in them and on the room.
 struct Columns {
     garment: usize,
@@ -39,8 +42,8 @@ struct Columns {
 }
 
 impl Columns {
-    /// Columns of number, status, simulator, percent, two times, EI, and gaps.
-    const FIXED: usize = 5 + 2 + 4 + 6 + 7 + 7 + 8 + 4;
+    /// Columns of number, status, simulator, progress, two times, EI, and gaps.
+    const FIXED: usize = 5 + 2 + 4 + PROGRESS + 6 + 7 + 8 + 2 + 4;
 
     fn new(jobs: &[&JobRow], width: usize) -> Self {
         let longest = |field: fn(&JobRow) -> &str, least, most: usize| {
@@ -78,11 +81,8 @@ fn table(state: &State, width: u16, height: u16, focused: bool) -> Vec<Line<'sta
 fn header(state: &State, columns: &Columns) -> Line<'static> {
     let order = state.job_order;
     let name = |title: &str, by: JobOrder| {
-        let mark = match (order.by == by, order.reversed) {
-            (false, _) => "",
-            (true, false) => "▼",
-            (true, true) => "▲",
-        };
+        let rises = (by == JobOrder::Number || by == JobOrder::Status) != order.reversed;
+        let mark = if order.by != by { "" } else if rises { "▲" } else { "▼" };
         format!("{title}{mark}")
     };
     let text = format!(
@@ -93,7 +93,7 @@ fn header(state: &State, columns: &Columns) -> Line<'static> {
         left("size", columns.size),
         left("subj", columns.subject),
         left("sim", 4),
-        left("progress", columns.bar + 7),
+        left("progress", columns.bar + PROGRESS),
         right("ETA", 6),
         right(&name("took", JobOrder::Time), 7),
         right(&name("EI", JobOrder::Ei), 8),
@@ -106,20 +106,14 @@ fn line(state: &State, job: &JobRow, columns: &Columns) -> Line<'static> {
     let now = state.data.as_ref().map_or(0, |data| data.now_ms);
     let is_paused = state.data.as_ref().and_then(|data| data.study()).is_some_and(|study| study.paused);
     let elapsed = job.started_at_ms.filter(|_| job.status == Status::Running).map(|start| now - start);
-    let progress = match &job.progress {
-        Some(progress) => {
-            let bar = text::progress_bar(progress.fraction, columns.bar.saturating_sub(1));
-            let gap = if columns.bar > 0 { " " } else { "" };
-            format!("{bar}{gap}{} {}", left(&progress.phase, 0), format_args!("{:.0}%", progress.fraction * 100.0))
-        }
-        None => String::new(),
-    };
+    let progress = job.progress.as_ref().map_or(String::new(), |progress| {
+        let share = format!("{} {:.0}%", left(&progress.phase, 5), progress.fraction * 100.0);
+        let bar = text::progress_bar(progress.fraction, columns.bar.saturating_sub(1));
+        if columns.bar > 0 { format!("{bar} {share}") } else { share }
+    });
     let time = |ms: Option<i64>| ms.map_or("—".to_owned(), text::duration);
     let status = state.theme.status(job.status);
-    let why = match &job.progress {
-        Some(progress) => progress.phase.clone(),
-        None => text::why(job, is_paused),
-    };
+    let why = text::why(job, is_paused);
     Line::from(vec![
         Span::raw(format!("{} ", right(&job.id.to_string(), 4))),
         Span::styled(left(glyph(job.status), 2), status),
@@ -130,7 +124,7 @@ fn line(state: &State, job: &JobRow, columns: &Columns) -> Line<'static> {
             left(&job.subject, columns.subject),
             left(text::sim(job.simulator), 4)
         )),
-        Span::styled(left(progress.trim_start(), columns.bar + 7), status),
+        Span::styled(left(&progress, columns.bar + PROGRESS), status),
         Span::raw(format!(
             "{}{}{}  ",
             right(&time(job.eta_ms(now)), 6),
@@ -159,7 +153,7 @@ fn draw_log(frame: &mut Frame<'_>, area: Rect, state: &State) {
 fn curves(state: &State, width: usize) -> Vec<Line<'static>> {
     let steps = state.steps();
     let Some(last) = steps.last() else { return vec![] };
-    let room = width.saturating_sub(22);
+    let room = width.saturating_sub(23);
     let residuals: Vec<f64> = steps.iter().map(|step| step.residual.max(1e-300).log10()).collect();
     let chi: Vec<f64> = steps.iter().map(|step| step.e_chi).collect();
     let curve = |name: &str, value: String, values: &[f64]| {

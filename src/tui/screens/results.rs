@@ -73,7 +73,7 @@ fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State) {
         }
         None => "no result".into(),
     };
-    let block = pane(state.theme, title, focused).title_bottom(Line::raw(chi::LEGEND).right_aligned());
+    let block = pane(state.theme, title, focused).title_bottom(Line::styled(chi::LEGEND, state.theme.legend()).right_aligned());
     let inner = block.inner(area);
     if state.chi().is_empty() {
         let paragraph = Paragraph::new(why_empty(state)).wrap(Wrap { trim: true }).block(block);
@@ -102,7 +102,7 @@ fn draw_picture(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let focused = state.in_second_pane() || state.enlarged;
     let title = format!("{} · {}", state.view.as_str(), state.map.as_str());
     let hint = if area.width > 44 { " v or h l turn  m colours  Enter size " } else { " v turn  m colours  ↵ size " };
-    let block = pane(state.theme, title, focused).title_bottom(Line::styled(hint, state.theme.dim()));
+    let block = pane(state.theme, title, focused).title_bottom(Line::styled(hint, state.theme.legend()));
     let inner = block.inner(area);
     frame.render_widget(block, area);
     // While a picture is drawn anew, the one before stays, so that turning does not flicker.

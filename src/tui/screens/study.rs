@@ -12,6 +12,9 @@ use super::super::theme::{fit_glyph, glyph};
 use super::{WIDE, chi, first_shown, is_narrow, pane};
 use crate::study::{Cell, Grid, Status};
 
+/// What the marks of fits mean.
+const FIT_LEGEND: &str = "T tight  J just  L loose  ~ borderline  ! undersized";
+
 pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let Some(grid) = state.grid() else {
         let text = " this study has no sizes or subjects yet: R runs it, which queues its jobs";
@@ -37,7 +40,8 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
 }
 
 fn draw_grid(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
-    let block = pane(state.theme, title(state, grid), !state.in_second_pane());
+    let block = pane(state.theme, title(state, grid), !state.in_second_pane())
+        .title_bottom(Line::styled(FIT_LEGEND, state.theme.legend()).right_aligned());
     let inner = block.inner(area);
     let shown = (usize::from(inner.width).saturating_sub(label_width(grid)) / cell_width(grid)).max(1);
     let first = first_shown(state.place.subject, grid.subjects.len(), shown);
@@ -67,7 +71,7 @@ fn title(state: &State, grid: &Grid) -> String {
     let at = garments.iter().position(|name| *name == grid.garment).unwrap_or(0);
     match garments.len() {
         0 | 1 => grid.garment.clone(),
-        n => format!("{}  garment {} of {n}, [ ] change", grid.garment, at + 1),
+        n => format!("{} · garment {} of {n}, ] next", grid.garment, at + 1),
     }
 }
 
@@ -86,7 +90,7 @@ fn cell_width(grid: &Grid) -> usize {
 
 fn header(state: &State, grid: &Grid, subjects: std::ops::Range<usize>) -> Line<'static> {
     let more = if subjects.start > 0 { "◂" } else { " " };
-    let mut spans = vec![Span::styled(left("size EI", label_width(grid) - 1) + more, state.theme.dim())];
+    let mut spans = vec![Span::styled(left("EI", label_width(grid) - 1) + more, state.theme.dim())];
     let last = subjects.end;
     for subject in subjects {
         let style = if subject == state.place.subject { state.theme.bold() } else { state.theme.dim() };
@@ -151,12 +155,12 @@ fn draw_detail(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
     let job = state.focus.job.map_or(String::new(), |id| format!(" · job {id}"));
     let simulator = grid.simulators.get(place.simulator).map_or("", |sim| text::sim(*sim));
     let title = format!("{} · {} · {simulator}{job}", grid.sizes[place.size], grid.subjects[place.subject]);
-    let block = pane(state.theme, title, state.in_second_pane()).title_bottom(Line::raw(chi::LEGEND).right_aligned());
+    let block = pane(state.theme, title, state.in_second_pane()).title_bottom(Line::styled(chi::LEGEND, state.theme.legend()).right_aligned());
     let inner = block.inner(area);
     frame.render_widget(block, area);
     let is_tall = inner.height >= 24;
     let layout = if is_tall {
-        Layout::vertical([Constraint::Length(11), Constraint::Fill(1)]).spacing(1)
+        Layout::vertical([Constraint::Length(9), Constraint::Fill(1)]).spacing(1)
     } else {
         Layout::horizontal([Constraint::Length((inner.width * 2 / 5).min(34)), Constraint::Fill(1)]).spacing(1)
     };
