@@ -101,10 +101,10 @@ impl State {
         if self.run.is_none() {
             return vec![Effect::Quit];
         }
-        self.ask("A run goes on here. Stop it and leave? Unfinished jobs go back to the queue.", vec![
-            Effect::StopRun,
-            Effect::Quit,
-        ]);
+        self.ask(
+            "A run goes on here. Stop it and leave? Unfinished jobs go back to the queue.",
+            vec![Effect::StopRun, Effect::Quit],
+        );
         vec![]
     }
 

@@ -4,6 +4,8 @@ use std::fmt;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
+use Screen::{Jobs, Results, Study};
+
 /// A screen of the workbench; its number is its key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Screen {
@@ -226,47 +228,73 @@ const fn bind(
     Binding { action, name, keys, screens, hint, help }
 }
 
-use Screen::{Jobs, Results, Study};
-
 /// The table of keys. Ctrl-A, B, S, Q, H, I, J and M stay free: tmux, screen, flow control and the terminal use them.
 pub const BINDINGS: &[Binding] = &[
     bind(Action::Open, "open", &[key(KeyCode::Enter)], &[Study, Jobs], "open", "Open the result of the selected job"),
-    bind(Action::Enlarge, "enlarge", &[key(KeyCode::Enter), ch('z')], &[Results], "enlarge", "Give the picture all the room, or less again"),
-    bind(Action::Pause, "pause", &[ch('p')], &[Study, Jobs], "pause", "Pause or resume the study: no new jobs start, running ones go on"),
-    bind(Action::Cancel, "cancel", &[ch('x')], &[], "cancel", "Cancel the selected job, queued or running (asks)"),
+    bind(
+        Action::Enlarge,
+        "enlarge",
+        &[key(KeyCode::Enter), ch('z')],
+        &[Results],
+        "enlarge",
+        "Give the picture all the room, or less again",
+    ),
+    bind(Action::Pause, "pause", &[ch('p')], &[Study, Jobs], "pause", "Pause or resume the study; running jobs go on"),
+    bind(Action::Cancel, "cancel", &[ch('x')], &[], "cancel", "Cancel the selected queued or running job; asks"),
     bind(Action::Retry, "retry", &[ch('r')], &[], "retry", "Queue the selected failed or cancelled job again"),
-    bind(Action::Run, "run", &[ch('R')], &[], "run", "Run the open jobs of the study here, in the background"),
-    bind(Action::Stop, "stop", &[ch('X')], &[], "", "Stop the run started here; unfinished jobs go back to the queue (asks)"),
+    bind(Action::Run, "run", &[ch('R')], &[], "run", "Run the study here, in the background"),
+    bind(Action::Stop, "stop", &[ch('X')], &[], "", "Stop the run started here; asks"),
     bind(Action::NextView, "view", &[ch('v')], &[Results], "view", "Turn the picture: front, side, back, quarter"),
     bind(Action::NextMap, "map", &[ch('m')], &[Results], "map", "Colour the picture by fabric or by strain"),
-    bind(Action::OtherSimulator, "other-simulator", &[ch('f')], &[], "FEM/HYB", "Same size and subject by the other simulator"),
-    bind(Action::NextStage, "stage", &[ch('t')], &[Results], "stage", "Measurements of the next stage: sewn, popup, drape"),
-    bind(Action::Filter, "filter", &[ch('/')], &[], "filter", "Show only rows, or mark only cells, that contain a text"),
+    bind(
+        Action::OtherSimulator,
+        "other-simulator",
+        &[ch('f')],
+        &[],
+        "FEM/HYB",
+        "Same size and subject by the other simulator",
+    ),
+    bind(Action::NextStage, "stage", &[ch('t')], &[Results], "stage", "Measurements of the next stage: popup, drape"),
+    bind(Action::Filter, "filter", &[ch('/')], &[], "filter", "Show only what contains a text"),
     bind(Action::Sort, "sort", &[ch('s')], &[Jobs, Results], "sort", "Sort by the next column"),
     bind(Action::Reverse, "reverse", &[ch('S')], &[Jobs, Results], "", "Reverse the order"),
     bind(Action::Help, "help", &[ch('?')], &[], "help", "List the keys; type to filter by name or key"),
     bind(Action::Palette, "palette", &[ch(':')], &[], "command", "Run any action by its name; :q quits"),
     bind(Action::Up, "up", &[ch('k'), key(KeyCode::Up)], &[], "", "Select what is above"),
     bind(Action::Down, "down", &[ch('j'), key(KeyCode::Down)], &[], "", "Select what is below"),
-    bind(Action::Left, "left", &[ch('h'), key(KeyCode::Left)], &[], "", "Select what is left; result before; turn the focused picture"),
-    bind(Action::Right, "right", &[ch('l'), key(KeyCode::Right)], &[], "", "Select what is right; next result; turn the focused picture"),
+    bind(
+        Action::Left,
+        "left",
+        &[ch('h'), key(KeyCode::Left)],
+        &[],
+        "",
+        "Left; result before; turn the focused picture",
+    ),
+    bind(
+        Action::Right,
+        "right",
+        &[ch('l'), key(KeyCode::Right)],
+        &[],
+        "",
+        "Right; next result; turn the focused picture",
+    ),
     bind(Action::First, "first", &[ch('g'), key(KeyCode::Home)], &[], "", "Select the first"),
     bind(Action::Last, "last", &[ch('G'), key(KeyCode::End)], &[], "", "Select the last"),
     bind(Action::PageUp, "page-up", &[key(KeyCode::PageUp), ctrl('u')], &[], "", "Go up by a page"),
     bind(Action::PageDown, "page-down", &[key(KeyCode::PageDown), ctrl('d')], &[], "", "Go down by a page"),
     bind(Action::NextPane, "next-pane", &[key(KeyCode::Tab)], &[], "", "Give the focus to the next pane"),
     bind(Action::PreviousPane, "previous-pane", &[key(KeyCode::BackTab)], &[], "", "Give the focus to the pane before"),
-    bind(Action::Show(Study), "study", &[ch('1')], &[], "", "Screen 1: the study as a grid of sizes by subjects"),
+    bind(Action::Show(Study), "study", &[ch('1')], &[], "", "Screen 1: the study, sizes by subjects"),
     bind(Action::Show(Jobs), "jobs", &[ch('4')], &[], "", "Screen 4: the queue, logs and convergence"),
-    bind(Action::Show(Results), "results", &[ch('5')], &[], "", "Screen 5: one result, its measurements and picture"),
+    bind(Action::Show(Results), "results", &[ch('5')], &[], "", "Screen 5: one result, its numbers and picture"),
     bind(Action::NextGarment, "next-garment", &[ch(']')], &[], "", "Next garment of the study"),
     bind(Action::PreviousGarment, "previous-garment", &[ch('[')], &[], "", "Garment before"),
     bind(Action::NextStudy, "next-study", &[ch('}')], &[], "", "Next study"),
     bind(Action::NextMatch, "next-match", &[ch('n')], &[], "", "Next match of the filter"),
     bind(Action::PreviousMatch, "previous-match", &[ch('N')], &[], "", "Match before"),
-    bind(Action::Raise, "raise", &[ch('+')], &[Jobs], "", "Raise the priority of the selected job: it runs earlier"),
-    bind(Action::Lower, "lower", &[ch('-')], &[Jobs], "", "Lower the priority of the selected job: it runs later"),
-    bind(Action::Copy, "copy", &[ch('y')], &[], "", "Copy the row, cell or table (OSC 52: works over SSH)"),
+    bind(Action::Raise, "raise", &[ch('+')], &[Jobs], "", "Have the selected job run earlier"),
+    bind(Action::Lower, "lower", &[ch('-')], &[Jobs], "", "Have the selected job run later"),
+    bind(Action::Copy, "copy", &[ch('y')], &[], "", "Copy the job or the table (OSC 52, works over SSH)"),
     bind(Action::Redraw, "redraw", &[ctrl('l')], &[], "", "Draw everything anew"),
     bind(Action::Back, "back", &[key(KeyCode::Esc)], &[], "", "Close, clear the filter, go back a screen"),
     bind(Action::Leave, "leave", &[ch('q')], &[], "", "Go back; at the top, quit"),
@@ -294,6 +322,7 @@ mod tests {
     fn every_binding_has_a_key_a_unique_name_and_help() {
         for (i, binding) in BINDINGS.iter().enumerate() {
             assert!(!binding.keys.is_empty() && !binding.help.is_empty(), "{}", binding.name);
+            assert!(binding.help.chars().count() <= 52, "{} has to fit 80 columns", binding.name);
             assert!(BINDINGS[..i].iter().all(|b| b.name != binding.name && b.action != binding.action));
             assert_eq!(search(binding.name)[0].name, binding.name, "the palette finds it by its name");
         }

@@ -115,7 +115,8 @@ impl State {
         let Some(grid) = self.grid() else { return vec![] };
         let (sizes, simulators, subjects) = (grid.sizes.len(), grid.simulators.len(), grid.subjects.len());
         let rows = (0..sizes).flat_map(|size| (0..simulators).map(move |simulator| (size, simulator)));
-        rows.flat_map(|(size, simulator)| (0..subjects).map(move |subject| Place { size, simulator, subject })).collect()
+        rows.flat_map(|(size, simulator)| (0..subjects).map(move |subject| Place { size, simulator, subject }))
+            .collect()
     }
 }
 

@@ -11,7 +11,7 @@ use super::overlay::Overlay;
 use super::picture::{Drawn, Map, Shot, View};
 use super::text;
 use super::theme::Theme;
-use crate::study::{Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobRow, Step};
+use crate::study::{Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobRow, Status, Step};
 
 /// How jobs are ordered.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -19,7 +19,7 @@ pub enum JobOrder {
     /// As queued.
     #[default]
     Number,
-    /// By state, in the order of a job's life.
+    /// By state: what runs, what went wrong, what waits, what is done.
     Status,
     /// By EI, the worst first.
     Ei,
@@ -238,7 +238,7 @@ impl State {
         let falling = |value: Option<f64>| value.map_or(f64::INFINITY, |v| -v);
         match self.job_order.by {
             JobOrder::Number => {}
-            JobOrder::Status => jobs.sort_by_key(|job| job.status),
+            JobOrder::Status => jobs.sort_by_key(|job| attention(job.status)),
             JobOrder::Ei => jobs.sort_by(|a, b| falling(a.ei).total_cmp(&falling(b.ei))),
             JobOrder::Time => jobs.sort_by_key(|job| -job.wall_ms.unwrap_or(i64::MIN + 1)),
         }
@@ -252,7 +252,10 @@ impl State {
     #[must_use]
     pub fn stages(&self) -> Vec<&str> {
         let Some(detail) = self.detail() else { return vec![] };
-        ["sewn", "popup", "drape"].into_iter().filter(|stage| detail.chi.iter().any(|row| row.stage == *stage)).collect()
+        ["sewn", "popup", "drape"]
+            .into_iter()
+            .filter(|stage| detail.chi.iter().any(|row| row.stage == *stage))
+            .collect()
     }
 
     /// The stage whose measurements are shown: the one wanted, or the last there is.
@@ -282,7 +285,8 @@ impl State {
     /// The ease that decides the fit of a job.
     #[must_use]
     pub fn ease(&self, job: &JobRow) -> Option<&EaseRow> {
-        let of_job = |ease: &&EaseRow| ease.garment == job.garment && ease.size == job.size && ease.subject == job.subject;
+        let of_job =
+            |ease: &&EaseRow| ease.garment == job.garment && ease.size == job.size && ease.subject == job.subject;
         self.data.as_ref()?.ease.iter().filter(of_job).find(|ease| ease.decides)
     }
 
@@ -320,6 +324,18 @@ impl State {
     /// Says in the status line that something went wrong.
     pub fn complain(&mut self, text: impl Into<String>) {
         self.notice = Some(Notice { text: text.into(), is_error: true });
+    }
+}
+
+/// How soon a user wants to see jobs in a state; the least first.
+fn attention(status: Status) -> u8 {
+    match status {
+        Status::Running => 0,
+        Status::Failed => 1,
+        Status::NotConverged => 2,
+        Status::Queued => 3,
+        Status::Done => 4,
+        Status::Cancelled => 5,
     }
 }
 

@@ -149,7 +149,7 @@ fn resampled(values: &[f64], columns: usize) -> Vec<f64> {
 pub fn why(job: &JobRow, paused: bool) -> String {
     match job.status {
         Status::Failed => job.error.clone().unwrap_or_else(|| "failed".into()),
-        Status::NotConverged => "residual too high".into(),
+        Status::NotConverged => "not at rest".into(),
         Status::Queued if paused => "study is paused".into(),
         Status::Queued => job.error.clone().unwrap_or_else(|| "waits".into()),
         Status::Cancelled => "cancelled".into(),

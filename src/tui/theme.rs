@@ -208,7 +208,8 @@ mod tests {
 
     #[test]
     fn nearest_indexed_colours() {
-        let check = |rgb: (u8, u8, u8), expect| assert_eq!(indexed(Color::Rgb(rgb.0, rgb.1, rgb.2)), Color::Indexed(expect));
+        let check =
+            |rgb: (u8, u8, u8), expect| assert_eq!(indexed(Color::Rgb(rgb.0, rgb.1, rgb.2)), Color::Indexed(expect));
         check((0, 0, 0), 16);
         check((255, 255, 255), 231);
         check((255, 0, 0), 196);

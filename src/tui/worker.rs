@@ -113,10 +113,7 @@ impl Workers {
 }
 
 /// Starts a thread with a way to answer; says so where the system refuses one.
-fn spawn(
-    sender: &Sender<Message>,
-    work: impl FnOnce(&Sender<Message>) + Send + 'static,
-) -> Option<JoinHandle<()>> {
+fn spawn(sender: &Sender<Message>, work: impl FnOnce(&Sender<Message>) + Send + 'static) -> Option<JoinHandle<()>> {
     let own = sender.clone();
     let handle = thread::Builder::new().name("toile-tui".into()).spawn(move || work(&own));
     handle.map_err(|error| sender.send(Message::Failed(format!("no thread could be started: {error}")))).ok()
@@ -163,7 +160,8 @@ fn serve_database(mut workspace: Workspace, asked: &Receiver<Request>, sender: &
                 true
             }
             Ok(Request::Do(act)) => {
-                let message = do_act(&mut workspace, &act).map_or_else(|e| Message::Failed(e.to_string()), Message::Acted);
+                let message =
+                    do_act(&mut workspace, &act).map_or_else(|e| Message::Failed(e.to_string()), Message::Acted);
                 if sender.send(message).is_err() {
                     return;
                 }

@@ -24,7 +24,13 @@ struct Columns {
 
 impl Columns {
     fn new(rows: &[&ChiRow], columns: usize) -> Self {
-        let side = if columns >= 70 { 8 } else if columns >= 56 { 4 } else { 2 };
+        let side = if columns >= 70 {
+            8
+        } else if columns >= 56 {
+            4
+        } else {
+            2
+        };
         let marks = rows.iter().map(|row| marks(row).chars().count()).max().unwrap_or(0);
         Self { name: columns.saturating_sub(FIXED + marks + 2 * side + 1).clamp(6, 40), marks, side }
     }
@@ -41,7 +47,7 @@ pub(super) fn table(state: &State, columns: usize, lines: usize, selected: Optio
         let line = line(state, row, &columns);
         let style = selected.filter(|_| k == state.chi_row).map(|focused| state.theme.selection(focused));
         table.push(match style {
-            Some(style) => line.patch_style(style),
+            Some(style) => super::selected(line, style),
             None => line,
         });
     }
@@ -88,7 +94,10 @@ fn line(state: &State, row: &ChiRow, columns: &Columns) -> Line<'static> {
             right(&mm(row.l2d_m), 7),
             right(&mm(row.l3d_m), 7)
         )),
-        Span::styled(format!("{} {}", right(&format!("{chi:.3}"), 6), chi_bar(chi, columns.side)), state.theme.chi(chi)),
+        Span::styled(
+            format!("{} {}", right(&format!("{chi:.3}"), 6), chi_bar(chi, columns.side)),
+            state.theme.chi(chi),
+        ),
     ])
 }
 
@@ -101,7 +110,11 @@ pub(super) fn numbers(state: &State, columns: usize) -> Vec<Line<'static>> {
     let status = format!("{} {}{share}{wall}", glyph(job.status), text::status(job.status));
     let mut lines = vec![Line::styled(text::shortened(&status, columns), state.theme.status(job.status))];
     if let Some(ease) = state.ease(job) {
-        lines.push(fact("ease", &format!("{} {} mm {}", ease.level, ease_mm(ease.fit.ease_m), fit_words(&ease.fit)), columns));
+        lines.push(fact(
+            "ease",
+            &format!("{} {} mm {}", ease.level, ease_mm(ease.fit.ease_m), fit_words(&ease.fit)),
+            columns,
+        ));
     }
     let error = job.error.as_deref().unwrap_or_default();
     lines.extend(wrapped(error, columns).into_iter().map(|line| Line::styled(line, state.theme.bad())));
@@ -116,6 +129,8 @@ pub(super) fn numbers(state: &State, columns: usize) -> Vec<Line<'static>> {
             .collect();
         lines.push(Line::raw(text.trim_end().to_owned()));
     }
+    let why = detail.log.iter().rev().find_map(|line| line.text.strip_prefix("queued: "));
+    lines.extend(why.map(|why| fact("why run", why, columns)));
     for (word, is_cached) in [("cached", true), ("made", false)] {
         let stages = detail.stages.iter().filter(|stage| stage.was_cached == is_cached);
         let names = stages.map(|stage| stage.stage.as_str()).collect::<Vec<_>>().join(", ");

@@ -8,13 +8,12 @@ use ratatui::widgets::Paragraph;
 use super::super::state::{JobOrder, State};
 use super::super::text::{self, left, right, sparkline};
 use super::super::theme::glyph;
-use super::{first_shown, is_narrow, pane};
+use super::{first_shown, is_narrow, pane, selected as as_selected};
 use crate::study::{JobRow, LogLine, Status};
 
 pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     if is_narrow(area) {
-        let lines = table(state, area.width, area.height, true);
-        frame.render_widget(Paragraph::new(lines), area);
+        frame.render_widget(Paragraph::new(list(state, area)), area);
         return;
     }
     let log_height = (area.height / 3).clamp(7, 16);
@@ -69,10 +68,11 @@ fn table(state: &State, width: u16, height: u16, focused: bool) -> Vec<Line<'sta
     for (k, job) in jobs.iter().enumerate().skip(first).take(height) {
         let line = line(state, job, &columns);
         let is_selected = selected == Some(k);
-        lines.push(if is_selected { line.patch_style(state.theme.selection(focused)) } else { line });
+        lines.push(if is_selected { as_selected(line, state.theme.selection(focused)) } else { line });
     }
     if jobs.is_empty() {
-        let text = if state.filter().is_empty() { "no jobs yet: R runs the study" } else { "no job matches the filter" };
+        let text =
+            if state.filter().is_empty() { "no jobs yet: R runs the study" } else { "no job matches the filter" };
         lines.push(Line::raw(text));
     }
     lines
@@ -82,7 +82,13 @@ fn header(state: &State, columns: &Columns) -> Line<'static> {
     let order = state.job_order;
     let name = |title: &str, by: JobOrder| {
         let rises = (by == JobOrder::Number || by == JobOrder::Status) != order.reversed;
-        let mark = if order.by != by { "" } else if rises { "▲" } else { "▼" };
+        let mark = if order.by != by {
+            ""
+        } else if rises {
+            "▲"
+        } else {
+            "▼"
+        };
         format!("{title}{mark}")
     };
     let text = format!(
@@ -166,7 +172,7 @@ fn curves(state: &State, width: usize) -> Vec<Line<'static>> {
     ]
 }
 
-/// The part of the log that is scrolled to, the error of a failed job always above it.
+/// The part of the log that is scrolled to, the error of a failed job in full above it.
 fn log_lines(state: &State, width: usize, room: usize) -> Vec<Line<'static>> {
     let Some(detail) = state.detail() else { return vec![] };
     let error = state.job().and_then(|job| job.error.as_deref()).unwrap_or_default();
@@ -175,14 +181,31 @@ fn log_lines(state: &State, width: usize, room: usize) -> Vec<Line<'static>> {
         .map(|line| Line::styled(line, state.theme.bad()))
         .take(room.saturating_sub(1))
         .collect();
-    let room = room - lines.len();
-    let end = detail.log.len().saturating_sub(state.log_up);
-    let shown = &detail.log[end.saturating_sub(room)..end];
+    let log: Vec<&LogLine> = detail.log.iter().filter(|line| line.text != error).collect();
+    let end = log.len().saturating_sub(state.log_up);
+    let shown = &log[end.saturating_sub(room - lines.len())..end];
     lines.extend(shown.iter().map(|line| log_line(state, line, width)));
     if detail.log.is_empty() && lines.is_empty() {
         lines.push(Line::styled("nothing logged yet", state.theme.dim()));
     }
     lines
+}
+
+/// The jobs in the fewest columns, where there is no room for the table.
+fn list(state: &State, area: Rect) -> Vec<Line<'static>> {
+    let jobs = state.jobs();
+    let at = jobs.iter().position(|job| Some(job.id) == state.focus.job).unwrap_or(0);
+    let height = usize::from(area.height);
+    let first = first_shown(at, jobs.len(), height);
+    let line = |(k, job): (usize, &&JobRow)| {
+        let share = job.progress.as_ref().map(|progress| format!("{:.0}%", progress.fraction * 100.0));
+        let number = share.or(job.ei.map(|ei| format!("{ei:.4}"))).unwrap_or_default();
+        let cell = format!("{} {} {} {}", job.garment, job.size, job.subject, text::sim(job.simulator));
+        let text = format!("{} {} {} {cell}", right(&job.id.to_string(), 4), glyph(job.status), left(&number, 6));
+        let style = if k == at { state.theme.selected() } else { state.theme.status(job.status) };
+        Line::styled(text::shortened(&text, usize::from(area.width)), style)
+    };
+    jobs.iter().enumerate().skip(first).take(height).map(line).collect()
 }
 
 fn log_line(state: &State, line: &LogLine, width: usize) -> Line<'static> {

@@ -62,6 +62,12 @@ fn pane<'a>(theme: Theme, title: impl Into<String>, focused: bool) -> Block<'a> 
     Block::bordered().border_style(theme.border(focused)).title(Span::styled(title, style))
 }
 
+/// A line as the selected one: one colour all along, so that it reads as one row.
+fn selected(line: Line<'static>, style: Style) -> Line<'static> {
+    let text: String = line.spans.iter().map(|span| span.content.as_ref()).collect();
+    Line::styled(text, style)
+}
+
 /// The first line shown of a list, such that the selected one is near the middle.
 fn first_shown(selected: usize, lines: usize, height: usize) -> usize {
     selected.saturating_sub(height / 2).min(lines.saturating_sub(height))
@@ -74,15 +80,18 @@ fn tabs(state: &State, width: u16) -> Line<'static> {
         spans.push(Span::styled(format!(" {} ", screen.title()), style));
     }
     let used: usize = spans.iter().map(Span::width).sum();
-    let summary = summary(state);
-    let summary_width: usize = summary.iter().map(Span::width).sum();
-    let gap = usize::from(width).saturating_sub(used + summary_width);
-    spans.push(Span::raw(" ".repeat(gap.max(1))));
+    let room = usize::from(width).saturating_sub(used);
+    let columns = |spans: &[Span<'_>]| spans.iter().map(Span::width).sum::<usize>();
+    let mut summary = summary(state);
+    while columns(&summary) >= room && !summary.is_empty() {
+        summary.remove(0);
+    }
+    spans.push(Span::raw(" ".repeat(room - columns(&summary).min(room))));
     spans.extend(summary);
     Line::from(spans)
 }
 
-/// The study and how far it has come.
+/// The study and how far it has come, what may be left out first.
 fn summary(state: &State) -> Vec<Span<'static>> {
     let Some(study) = state.data.as_ref().and_then(|data| data.study()) else { return vec![] };
     let mut spans = vec![Span::styled(study.name.clone(), state.theme.bold())];

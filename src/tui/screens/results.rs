@@ -73,7 +73,8 @@ fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State) {
         }
         None => "no result".into(),
     };
-    let block = pane(state.theme, title, focused).title_bottom(Line::styled(chi::LEGEND, state.theme.legend()).right_aligned());
+    let block =
+        pane(state.theme, title, focused).title_bottom(Line::styled(chi::LEGEND, state.theme.legend()).right_aligned());
     let inner = block.inner(area);
     if state.chi().is_empty() {
         let paragraph = Paragraph::new(why_empty(state)).wrap(Wrap { trim: true }).block(block);
@@ -89,12 +90,9 @@ fn why_empty(state: &State) -> String {
     match state.job() {
         None => "Choose a job on screen 1 or 4 and press Enter.".into(),
         Some(_) if !state.filter().is_empty() => "No measurement matches the filter.".into(),
-        Some(job) => format!(
-            "{} Job {} has no result yet: it is {}.",
-            glyph(job.status),
-            job.id,
-            text::status(job.status)
-        ),
+        Some(job) => {
+            format!("{} Job {} has no result yet: it is {}.", glyph(job.status), job.id, text::status(job.status))
+        }
     }
 }
 

@@ -29,7 +29,8 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let [grid_area, detail_area] = if area.width >= WIDE {
         let needed = (label_width(grid) + grid.subjects.len() * cell_width(grid) + 3) as u16;
         let [left, right] =
-            Layout::horizontal([Constraint::Length(needed.clamp(60, area.width - 60)), Constraint::Fill(1)]).areas(area);
+            Layout::horizontal([Constraint::Length(needed.clamp(60, area.width - 60)), Constraint::Fill(1)])
+                .areas(area);
         [left, right]
     } else {
         let most = (area.height * 3 / 5).max(8);
@@ -102,13 +103,7 @@ fn header(state: &State, grid: &Grid, subjects: std::ops::Range<usize>) -> Line<
     Line::from(spans)
 }
 
-fn row(
-    state: &State,
-    grid: &Grid,
-    subjects: std::ops::Range<usize>,
-    size: usize,
-    simulator: usize,
-) -> Line<'static> {
+fn row(state: &State, grid: &Grid, subjects: std::ops::Range<usize>, size: usize, simulator: usize) -> Line<'static> {
     let name = if simulator == 0 { grid.sizes[size].as_str() } else { "" };
     let is_selected = (size, simulator) == (state.place.size, state.place.simulator);
     let label = format!("{} {} ", left(name, size_width(grid)), text::sim(grid.simulators[simulator]));
@@ -155,7 +150,8 @@ fn draw_detail(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
     let job = state.focus.job.map_or(String::new(), |id| format!(" · job {id}"));
     let simulator = grid.simulators.get(place.simulator).map_or("", |sim| text::sim(*sim));
     let title = format!("{} · {} · {simulator}{job}", grid.sizes[place.size], grid.subjects[place.subject]);
-    let block = pane(state.theme, title, state.in_second_pane()).title_bottom(Line::styled(chi::LEGEND, state.theme.legend()).right_aligned());
+    let block = pane(state.theme, title, state.in_second_pane())
+        .title_bottom(Line::styled(chi::LEGEND, state.theme.legend()).right_aligned());
     let inner = block.inner(area);
     frame.render_widget(block, area);
     let is_tall = inner.height >= 24;
@@ -187,9 +183,8 @@ fn draw_list(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
     let first = first_shown(selected, places.len(), usize::from(area.height));
     let line = |place: &Place| {
         let cell = &grid.cells[place.size][place.subject][place.simulator];
-        let fit = state.fit_at(*place).map_or(String::new(), |fit| {
-            format!("{} {}", fit_glyph(&fit), ease_mm(fit.ease_m))
-        });
+        let fit =
+            state.fit_at(*place).map_or(String::new(), |fit| format!("{} {}", fit_glyph(&fit), ease_mm(fit.ease_m)));
         let style = cell.status.map_or(state.theme.dim(), |status| state.theme.status(status));
         let style = if *place == state.place { style.patch(state.theme.selected()) } else { style };
         let simulator = text::sim(grid.simulators[place.simulator]);
