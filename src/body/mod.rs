@@ -1,6 +1,70 @@
 //! The human model (HMM, thesis 3.2): from measurements to a measured, featured, closed mannequin.
 
+mod anthropometry;
+mod atlas;
+mod build;
+mod control;
+mod field;
+mod figure;
+mod import;
+mod interpolate;
+mod loft;
+mod measure;
+mod stl;
+mod surface;
+mod tape;
+
+pub use build::build;
+pub use control::{ControlMesh, Layer, RING, Region};
+pub use import::{Imported, LengthUnit, import, write_obj};
+pub use measure::{Girths, measure};
+
 use crate::geom::{TriMesh, V3};
+
+/// Why no body could be made or measured.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BodyError {
+    /// A measurement that no adult has.
+    #[error("{name} = {value} {unit} is impossible; accepted: {least} to {greatest} {unit}")]
+    OutOfRange {
+        /// Field of [`Measurements`].
+        name: &'static str,
+        /// What was given.
+        value: f64,
+        /// Least accepted value.
+        least: f64,
+        /// Greatest accepted value.
+        greatest: f64,
+        /// Unit of the numbers.
+        unit: &'static str,
+    },
+    /// The mesh has no section where the body part should be.
+    #[error(
+        "no {part} found at a height of {height_mm:.0} mm: is this a standing person, z up, with the feet on z = 0?"
+    )]
+    MissingPart {
+        /// Body part.
+        part: &'static str,
+        /// Height of the search, mm.
+        height_mm: f64,
+    },
+    /// A mesh file that cannot be read.
+    #[error("{format}, {place}: {problem}; accepted: OBJ, PLY or STL with triangles or polygons")]
+    File {
+        /// Format of the file.
+        format: &'static str,
+        /// Line, vertex or face.
+        place: String,
+        /// What is wrong there.
+        problem: String,
+    },
+    /// A mesh whose size fits a standing adult in no unit.
+    #[error("the body is {extent} high, which is no adult in mm, cm or m; accepted: 1.2 to 2.4 m, or say the unit")]
+    Unit {
+        /// Height in the file's unit.
+        extent: f64,
+    },
+}
 
 /// Sex of the subject, as far as body shape and sizing tables distinguish it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -122,4 +186,8 @@ pub struct Body {
     pub landmarks: Landmarks,
     /// Heights of the girth levels.
     pub levels: Levels,
+    /// Layered coarse mesh on the skin.
+    pub control: ControlMesh,
+    /// What the tape reads on the fine mesh.
+    pub girths: Girths,
 }

@@ -1,1 +1,118 @@
-//! cli
+//! The command line: arguments in, data to standard output, messages and progress to standard error, an exit code out.
+//!
+//! Arguments are parsed once (`args`), resolved once (`context`), and each command is one function that uses
+//! [`crate::study`] only.
+
+mod answers;
+mod args;
+mod body;
+mod catalogue;
+mod context;
+mod health;
+mod output;
+mod pattern;
+mod pictures;
+mod progress;
+mod queue;
+mod run;
+#[cfg(test)]
+mod tests;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser};
+
+use crate::study::StudyError;
+use args::{Arguments, Command};
+use context::Context;
+
+/// How a command ended, as its exit code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum End {
+    /// Done.
+    Done = 0,
+    /// Usage, or unusable input.
+    Unusable = 2,
+    /// A check or tolerance failed.
+    CheckFailed = 3,
+    /// A job failed.
+    JobFailed = 4,
+    /// Interrupted.
+    Interrupted = 130,
+}
+
+/// Why a command could not be done.
+#[derive(Debug, thiserror::Error)]
+enum CliError {
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    #[error("standard output: {0}")]
+    Output(#[from] std::io::Error),
+    #[error("{0}")]
+    Usage(String),
+}
+
+impl CliError {
+    fn end(&self) -> End {
+        match self {
+            Self::Study(StudyError::Interrupted) => End::Interrupted,
+            _ => End::Unusable,
+        }
+    }
+}
+
+/// What a command returns.
+type Outcome = Result<End, CliError>;
+
+/// Runs the program with its arguments (the first is its own name).
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help and version are data, the rest is for standard error; clap knows which. Nobody is left to tell of a
+            // stream that cannot be written.
+            let _ = error.print();
+            return ExitCode::from(if error.use_stderr() { End::Unusable as u8 } else { End::Done as u8 });
+        }
+    };
+    let end = execute(arguments).unwrap_or_else(|error| {
+        eprintln!("toile: {error}");
+        error.end()
+    });
+    ExitCode::from(end as u8)
+}
+
+fn execute(arguments: Arguments) -> Outcome {
+    let context = Context::new(arguments.global)?;
+    match arguments.command {
+        None => workbench(&context),
+        Some(Command::Run(arguments)) => run::run(&context, &arguments),
+        Some(Command::Report(arguments)) => pictures::report(&context, &arguments),
+        Some(Command::Sql(arguments)) => answers::sql(&context, &arguments),
+        Some(Command::Ease(arguments)) => answers::ease(&context, &arguments),
+        Some(Command::Recommend(arguments)) => answers::recommend(&context, &arguments),
+        Some(Command::Pattern(command)) => pattern::run(&context, &command),
+        Some(Command::Body(command)) => body::run(&context, &command),
+        Some(Command::Render(arguments)) => pictures::render(&context, &arguments),
+        Some(Command::Queue(command)) => queue::run(&context, &command),
+        Some(Command::Subject(command)) => catalogue::run(&context, &catalogue::SUBJECTS, &command),
+        Some(Command::Style(command)) => catalogue::run(&context, &catalogue::STYLES, &command),
+        Some(Command::Size(command)) => catalogue::run(&context, &catalogue::SIZES, &command),
+        Some(Command::Fabric(command)) => catalogue::run(&context, &catalogue::FABRICS, &command),
+        Some(Command::Doctor) => health::doctor(&context),
+        Some(Command::Info) => health::info(&context),
+        Some(Command::Completions { shell }) => {
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Arguments::command(), "toile", &mut script);
+            output::text(&String::from_utf8_lossy(&script))?;
+            Ok(End::Done)
+        }
+    }
+}
+
+/// Without a command there is the workbench; until a terminal is there to show it, the help.
+fn workbench(_context: &Context) -> Outcome {
+    output::text(&Arguments::command().render_help().to_string())?;
+    Ok(End::Unusable)
+}

@@ -37,4 +37,74 @@ impl TriMesh {
         let first = *self.positions.first()?;
         Some(self.positions.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p))))
     }
+
+    /// Enclosed volume, cubic metres (divergence theorem; meaningful for closed meshes).
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        let corner = |i: usize| self.positions[i];
+        self.triangles.iter().map(|&[a, b, c]| corner(a).dot(&corner(b).cross(&corner(c)))).sum::<f64>() / 6.0
+    }
+
+    /// Surface area, square metres.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        self.triangle_normals().iter().map(V3::norm).sum::<f64>() / 2.0
+    }
+
+    /// Every undirected edge once, as `[lesser, greater]` vertex index, sorted.
+    #[must_use]
+    pub fn edges(&self) -> Vec<[usize; 2]> {
+        let mut edges: Vec<[usize; 2]> = self.directed_edges().into_iter().map(|[a, b]| [a.min(b), a.max(b)]).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        edges
+    }
+
+    /// Whether the surface is closed, consistently turned and without branching edges: every directed edge occurs once
+    /// and so does its reverse.
+    #[must_use]
+    pub fn is_closed_manifold(&self) -> bool {
+        let mut directed = self.directed_edges();
+        directed.sort_unstable();
+        let once = directed.windows(2).all(|pair| pair[0] != pair[1]);
+        let paired = directed.iter().all(|&[a, b]| a != b && directed.binary_search(&[b, a]).is_ok());
+        once && paired && !self.triangles.is_empty()
+    }
+
+    /// The three directed edges of every triangle.
+    fn directed_edges(&self) -> Vec<[usize; 2]> {
+        self.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tetrahedron() -> TriMesh {
+        let positions = vec![V3::zeros(), V3::x(), V3::y(), V3::z()];
+        TriMesh { positions, triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]] }
+    }
+
+    #[test]
+    fn a_tetrahedron_is_measured() {
+        let mesh = tetrahedron();
+        assert!(mesh.is_closed_manifold());
+        assert!((mesh.volume() - 1.0 / 6.0).abs() < 1e-15);
+        assert!((mesh.area() - (1.5 + 3.0_f64.sqrt() / 2.0)).abs() < 1e-15);
+        assert_eq!(mesh.edges().len(), 6);
+    }
+
+    #[test]
+    fn holes_flips_and_branches_are_seen() {
+        let check = |change: &dyn Fn(&mut TriMesh)| {
+            let mut mesh = tetrahedron();
+            change(&mut mesh);
+            assert!(!mesh.is_closed_manifold());
+        };
+        check(&|mesh| mesh.triangles.clear());
+        check(&|mesh| mesh.triangles.truncate(3));
+        check(&|mesh| mesh.triangles[0].reverse());
+        check(&|mesh| mesh.triangles.push([0, 2, 1]));
+    }
 }

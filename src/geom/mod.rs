@@ -2,9 +2,12 @@
 //!
 //! World frame: metres, origin on the floor between the feet, `x` to the subject's right, `y` to the front, `z` up.
 
+pub mod contour;
 pub mod field;
+pub mod hull;
 pub mod mesh;
 pub mod polyline;
+pub mod section;
 pub mod shapes;
 pub mod surface;
 

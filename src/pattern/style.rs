@@ -479,3 +479,7 @@ fn mirror_edge(edge: &mut Edge) {
     edge.line = Polyline::new(points).expect("as many points as before");
     edge.corners = edge.corners.iter().rev().map(|arc| length - arc).collect();
 }
+
+#[cfg(test)]
+#[path = "style_tests.rs"]
+mod tests;

@@ -7,7 +7,7 @@ use super::scene::Scene;
 use nalgebra::Vector3;
 
 /// Pairs of opposite directions from which the scene is looked at.
-const PAIRS: usize = 40;
+const PAIRS: usize = 32;
 /// Samples along a side of each map.
 const MAP: usize = 400;
 /// Cells along a side of the floor.

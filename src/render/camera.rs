@@ -58,11 +58,18 @@ impl Frame {
     /// garment alone for a close view.
     #[must_use]
     pub fn enclosing<'a>(meshes: impl IntoIterator<Item = &'a TriMesh>, aspect: f64) -> Self {
-        let bounds = meshes.into_iter().filter_map(TriMesh::bounds).reduce(|a, b| (a.0.inf(&b.0), a.1.sup(&b.1)));
-        let (low, high) = bounds.unwrap_or((V3::new(-0.5, -0.5, 0.0), V3::new(0.5, 0.5, 2.0)));
-        let extent = high - low;
-        let across = extent.x.max(extent.y);
-        Self { centre: (low + high) / 2.0, height_m: 1.07 * extent.z.max(across / aspect).max(1e-3) + 0.02 }
+        let meshes: Vec<&TriMesh> = meshes.into_iter().collect();
+        let bounds = meshes.iter().filter_map(|m| m.bounds()).reduce(|a, b| (a.0.inf(&b.0), a.1.sup(&b.1)));
+        let Some((low, high)) = bounds else { return Self { centre: V3::new(0.0, 0.0, 1.0), height_m: 2.0 } };
+        let mut frame = Self { centre: (low + high) / 2.0, height_m: 1e-3 };
+        for view in View::ALL {
+            let [right, up, _] = Camera::new(view, frame).axes();
+            for point in meshes.iter().flat_map(|m| &m.positions) {
+                let d = point - frame.centre;
+                frame.height_m = frame.height_m.max(2.0 * d.dot(&up).abs()).max(2.0 * d.dot(&right).abs() / aspect);
+            }
+        }
+        Self { height_m: 1.06 * frame.height_m, ..frame }
     }
 }
 

@@ -13,13 +13,15 @@ mod scene;
 mod shade;
 mod sheet;
 mod svg;
+mod texture;
 
 pub use camera::{Camera, Frame, View};
 pub use colour::{ColourMap, Rgb, Scale};
-pub use scene::{Field, Layer, Material, Scene, Values};
+pub use scene::{Layer, Material, Paint, Scene, Values};
 pub use shade::render;
 pub use sheet::{Cell, contact_sheet, draw_legend};
 pub use svg::rasterise_svg;
+pub use texture::{Mapping, Texture, texture_coordinates};
 
 use image::RgbaImage;
 
@@ -48,9 +50,9 @@ pub enum RenderError {
         /// Index of the vertex in its mesh.
         vertex: usize,
     },
-    /// A scalar field does not fit its mesh.
-    #[error("layer {layer}: the field has {found} values, the mesh needs {needed}")]
-    FieldLength {
+    /// A scalar field or texture does not fit its mesh.
+    #[error("layer {layer}: {found} values or texture coordinates given, the mesh needs {needed}")]
+    PaintLength {
         /// Index of the layer.
         layer: usize,
         /// Values found.
@@ -100,4 +102,5 @@ pub fn jpeg(picture: &RgbaImage) -> Result<Vec<u8>, RenderError> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 mod tests;

@@ -1,9 +1,10 @@
-//! What is shown: meshes with materials and, on cloth, scalar fields.
+//! What is shown: meshes with materials, painted with scalar fields or textures.
 
 use super::RenderError;
 use super::bake::{self, Floor};
 use super::colour::{Rgb, Scale};
-use crate::geom::{TriMesh, V3};
+use super::texture::Texture;
+use crate::geom::{TriMesh, V2, V3};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
@@ -73,13 +74,15 @@ pub enum Values {
     Triangles(Vec<f64>),
 }
 
-/// A scalar field on a mesh and the scale that colours it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Field {
-    /// The values.
-    pub values: Values,
-    /// Their colours.
-    pub scale: Scale,
+/// What colours the outer side of a layer.
+#[derive(Clone, Debug)]
+pub enum Paint {
+    /// Its material's colour.
+    Plain,
+    /// Values and the scale that colours them.
+    Field(Values, Scale),
+    /// A picture, and where on it each vertex lies.
+    Texture(Texture, Vec<V2>),
 }
 
 /// A mesh with its look.
@@ -89,28 +92,28 @@ pub struct Layer<'a> {
     pub mesh: &'a TriMesh,
     /// Its look.
     pub material: Material,
-    /// Values that colour its outer side instead of the material's colour.
-    pub field: Option<Field>,
+    /// What colours its outer side.
+    pub paint: Paint,
 }
 
 impl<'a> Layer<'a> {
     /// A layer in its material's colour.
     #[must_use]
     pub fn new(mesh: &'a TriMesh, material: Material) -> Self {
-        Self { mesh, material, field: None }
+        Self { mesh, material, paint: Paint::Plain }
     }
 
-    /// The same layer coloured by values.
+    /// The same layer painted.
     #[must_use]
-    pub fn with_field(self, values: Values, scale: Scale) -> Self {
-        Self { field: Some(Field { values, scale }), ..self }
+    pub fn painted(self, paint: Paint) -> Self {
+        Self { paint, ..self }
     }
 }
 
 /// What a layer adds to a scene besides geometry.
 pub(super) struct Look {
     pub material: Material,
-    pub field: Option<Field>,
+    pub paint: Paint,
     pub first_vertex: usize,
     pub first_triangle: usize,
 }
@@ -174,7 +177,7 @@ impl Scene {
         self.normals.extend(seamless_normals(layer.mesh, &twins));
         self.triangles.extend(layer.mesh.triangles.iter().map(|t| t.map(|v| v + first_vertex)));
         self.layer_of.resize(self.triangles.len(), self.looks.len());
-        self.looks.push(Look { material: layer.material, field: layer.field, first_vertex, first_triangle });
+        self.looks.push(Look { material: layer.material, paint: layer.paint, first_vertex, first_triangle });
     }
 
     /// How far a triangle is drawn behind where it is, m.
@@ -194,12 +197,13 @@ fn check(index: usize, layer: &Layer<'_>) -> Result<(), RenderError> {
             return Err(RenderError::NoSuchVertex { layer: index, triangle, vertex, vertices });
         }
     }
-    let (found, needed) = match layer.field.as_ref().map(|f| &f.values) {
-        Some(Values::Vertices(v)) => (v.len(), vertices),
-        Some(Values::Triangles(v)) => (v.len(), mesh.triangles.len()),
-        None => return Ok(()),
+    let (found, needed) = match &layer.paint {
+        Paint::Plain => return Ok(()),
+        Paint::Field(Values::Vertices(values), _) => (values.len(), vertices),
+        Paint::Field(Values::Triangles(values), _) => (values.len(), mesh.triangles.len()),
+        Paint::Texture(_, coordinates) => (coordinates.len(), vertices),
     };
-    if found == needed { Ok(()) } else { Err(RenderError::FieldLength { layer: index, found, needed }) }
+    if found == needed { Ok(()) } else { Err(RenderError::PaintLength { layer: index, found, needed }) }
 }
 
 /// For each vertex the first vertex at the same place (to 0.01 mm): the two sides of a sewn seam are one surface.

@@ -5,7 +5,7 @@ use super::camera::{Camera, Projection};
 use super::colour::{Encoder, Rgb};
 use super::raster::{NOTHING, Visible, cover, weights};
 use super::relief::relief;
-use super::scene::{Scene, Values};
+use super::scene::{Paint, Scene, Values};
 use image::RgbaImage;
 use nalgebra::Vector3;
 
@@ -204,7 +204,6 @@ impl<'a> Studio<'a> {
         let vertices = scene.triangles[triangle];
         let corners = vertices.map(|v| self.projected[v]);
         let w = weights(corners, x, y);
-        let blend = |of: &dyn Fn(usize) -> f32| (0..3).map(|k| w[k] * of(vertices[k])).sum::<f32>();
         let [a, b, c] = vertices.map(|v| scene.positions[v]);
         let viewer = self.projection.axes[2];
         let back = (b - a).cross(&(c - a)).dot(&viewer) < 0.0;
@@ -212,8 +211,8 @@ impl<'a> Studio<'a> {
         let smooth = (0..3).fold(Vector3::zeros(), |sum, k| sum + scene.normals[vertices[k]] * w[k]);
         let normal = smooth.try_normalize(1e-12).unwrap_or(viewer) * sign;
         let point = a * w[0] + b * w[1] + c * w[2];
-        let open = blend(&|v| scene.openness[v][usize::from(back)]);
-        let (albedo, coded) = self.albedo(triangle, back, blend);
+        let open = (0..3).map(|k| w[k] * scene.openness[vertices[k]][usize::from(back)]).sum();
+        let (albedo, coded) = self.albedo(triangle, back, w);
         let lit = self.lit(albedo, &normal, open, self.shadow.reaches(&(point + normal * 0.004)));
         // A colour that codes a value must stay readable in the shade: half of it shines by itself.
         if coded { [0, 1, 2].map(|k| 0.5 * lit[k] + 0.42 * albedo[k]) } else { lit }
@@ -236,16 +235,28 @@ impl<'a> Studio<'a> {
     }
 
     /// Linear colour of a surface point, and whether it stands for a value.
-    fn albedo(&self, triangle: usize, back: bool, blend: impl Fn(&dyn Fn(usize) -> f32) -> f32) -> ([f32; 3], bool) {
+    fn albedo(&self, triangle: usize, back: bool, w: [f32; 3]) -> ([f32; 3], bool) {
         let layer = self.scene.layer_of[triangle];
         let look = &self.scene.looks[layer];
-        match &look.field {
-            Some(field) if !back => {
-                let value = match &field.values {
-                    Values::Vertices(values) => f64::from(blend(&|v| values[v - look.first_vertex] as f32)),
+        let vertices = self.scene.triangles[triangle];
+        let own = vertices.map(|v| v - look.first_vertex);
+        match &look.paint {
+            Paint::Field(values, scale) if !back => {
+                let value = match values {
+                    Values::Vertices(values) => (0..3).map(|k| f64::from(w[k]) * values[own[k]]).sum(),
                     Values::Triangles(values) => values[triangle - look.first_triangle],
                 };
-                (field.scale.colour(value).linear(), true)
+                (scale.colour(value).linear(), true)
+            }
+            Paint::Texture(texture, coordinates) if !back => {
+                let corners = own.map(|v| coordinates[v]);
+                let place = corners[0] * f64::from(w[0]) + corners[1] * f64::from(w[1]) + corners[2] * f64::from(w[2]);
+                // How much of the texture a pixel spans: the ratio of the triangle's two areas.
+                let drawn = (corners[1] - corners[0]).perp(&(corners[2] - corners[0])).abs() as f32;
+                let [a, b, c] = vertices.map(|v| self.scene.positions[v]);
+                let real = (b - a).cross(&(c - a)).norm().max(1e-12);
+                let span = (drawn / real).sqrt() * FINE as f32 / self.projection.per_m;
+                (texture.at(place.x as f32, place.y as f32, span), false)
             }
             _ => (self.colours[layer][usize::from(back)], false),
         }

@@ -8,7 +8,11 @@ use super::file::{Known, SourceFile};
 use super::inputs::Inputs;
 use super::spec::{fabric_inputs, millimetres, sex_name, subject_inputs};
 use super::store::{self, now_ms};
+use super::tools;
+use super::types::JobId;
+use super::workspace::Workspace;
 use crate::body::{Measurements, Sex};
+use crate::pattern::Style;
 use crate::sim::{self, Fabric};
 use crate::units::from_mm;
 
@@ -207,6 +211,27 @@ pub(crate) fn size(
 /// The number of an entry that is there already.
 fn found(transaction: &Transaction<'_>, sql: &str, parameters: &[&dyn ToSql]) -> Result<Option<i64>> {
     Ok(transaction.prepare_cached(sql)?.query_row(parameters, |row| row.get(0)).optional()?)
+}
+
+impl Workspace {
+    /// The style a job was made from.
+    ///
+    /// # Errors
+    /// When there is no such job.
+    pub(super) fn style_of(&self, id: JobId) -> Result<Style> {
+        let sql = "SELECT pattern_file, pattern, seam_file, seams, unit, size.name
+            FROM job JOIN size USING (size_id) JOIN style USING (style_id) WHERE job_id = ?";
+        type Stored = (String, Vec<u8>, String, String, Option<String>, String);
+        let row = |row: &Row<'_>| {
+            Ok::<Stored, _>((row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?, row.get(4)?, row.get(5)?))
+        };
+        let found = self.reader.prepare_cached(sql)?.query_row([id.0], row).optional()?;
+        let missing = || StudyError::NotFound { what: "job", name: id.to_string(), known: vec![] };
+        let (pattern_file, pattern, seam_file, seams, unit, size) = found.ok_or_else(missing)?;
+        let pattern = SourceFile { name: pattern_file, bytes: pattern.into() };
+        let seams = SourceFile { name: seam_file, bytes: seams.into_bytes().into() };
+        tools::read_style(&pattern, &seams, Some(&size), unit.as_deref().and_then(tools::unit_of))
+    }
 }
 
 #[cfg(test)]

@@ -124,7 +124,7 @@ impl Run<'_> {
     }
 
     fn finish(&self, connection: &mut Connection, id: JobId, result: &Result<Outcome>) -> Result<()> {
-        outcome::finish(connection, id, self.owner.as_str(), result, &self.provenance).map(drop)
+        outcome::finish(connection, id, self.specs[&id], self.owner.as_str(), result, &self.provenance).map(drop)
     }
 
     /// Tells the database how running jobs fare, until the workers are done.

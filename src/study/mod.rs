@@ -6,6 +6,7 @@
 mod actions;
 mod cache;
 mod catalogue;
+mod doctor;
 mod engine;
 mod enqueue;
 mod error;
@@ -13,24 +14,30 @@ mod file;
 mod inputs;
 mod outcome;
 mod owner;
+mod picture;
 mod pipeline;
 mod queue;
 mod read;
+mod reporting;
 mod run;
 mod spec;
 mod sql;
 mod store;
 #[cfg(test)]
 mod tests;
+pub mod tools;
 mod types;
 mod workspace;
 
 pub use actions::why_no_retry;
+pub use doctor::{Check, checks};
 pub use enqueue::{Planned, Why};
 pub use error::{Result, StudyError};
 pub use file::{Problem, Study, study_file};
 pub use inputs::{Change, Inputs, StageKind};
 pub use outcome::{Executor, Measured, Outcome};
+pub use picture::Map;
+pub use pipeline::{Pipeline, SIMULATORS};
 pub use read::JobFilter;
 pub use run::{Run, RunOptions};
 pub use spec::{JobSpec, Selection};
@@ -42,4 +49,5 @@ pub use types::{
 pub use workspace::Workspace;
 
 pub use crate::fit::FitClass;
+pub use crate::render::View;
 pub use crate::sim::{Simulator, Step};

@@ -1,6 +1,6 @@
 //! What a finished job leaves behind, and writing all of it in one transaction.
 
-use rusqlite::{Connection, Transaction, params};
+use rusqlite::{Connection, OptionalExtension, Transaction, params};
 
 use super::cache::Used;
 use super::error::{Result, StudyError};
@@ -102,6 +102,7 @@ impl Provenance {
 pub(crate) fn finish(
     connection: &mut Connection,
     id: JobId,
+    spec: &JobSpec,
     owner: &str,
     outcome: &Result<Outcome>,
     provenance: &Provenance,
@@ -117,7 +118,7 @@ pub(crate) fn finish(
     let Some(after) = queue::apply(&transaction, id, &event, error)? else { return Ok(None) };
     match outcome {
         Ok(outcome) => {
-            write_result(&transaction, id, outcome, provenance)?;
+            write_result(&transaction, id, spec, outcome, provenance)?;
             let text = format!("{}: EI {:.4}", after.status.as_str().replace('_', " "), outcome.metrics.ei);
             queue::log(&transaction, id, if outcome.converged { "info" } else { "warn" }, &text)?;
         }
@@ -128,7 +129,13 @@ pub(crate) fn finish(
     Ok(Some(after.status))
 }
 
-fn write_result(transaction: &Transaction<'_>, id: JobId, outcome: &Outcome, provenance: &Provenance) -> Result<()> {
+fn write_result(
+    transaction: &Transaction<'_>,
+    id: JobId,
+    spec: &JobSpec,
+    outcome: &Outcome,
+    provenance: &Provenance,
+) -> Result<()> {
     write_measured(transaction, id, outcome)?;
     let mut statement = transaction.prepare_cached(
         "INSERT INTO history (job_id, step, iteration, level, residual, seam_gap_mm, e_chi) VALUES (?, ?, ?, ?, ?, ?, ?)",
@@ -143,7 +150,11 @@ fn write_result(transaction: &Transaction<'_>, id: JobId, outcome: &Outcome, pro
     for used in &outcome.used {
         statement.execute(params![id.0, used.stage.as_str(), used.hash, used.was_cached])?;
     }
-    write_ease(transaction, id, &outcome.eases)?;
+    let is_current = "SELECT study_id FROM job WHERE job_id = ? AND is_current";
+    let study_id: Option<i64> = transaction.query_row(is_current, [id.0], |row| row.get(0)).optional()?;
+    if let Some(study_id) = study_id {
+        write_ease(transaction, study_id, spec, &outcome.eases)?;
+    }
     let (commit, dirty) = provenance.git.clone().unzip();
     transaction
         .prepare_cached(
@@ -194,14 +205,15 @@ fn write_measured(transaction: &Transaction<'_>, id: JobId, outcome: &Outcome) -
     Ok(())
 }
 
-/// Ease of a job's size on its subject, for its study.
-fn write_ease(transaction: &Transaction<'_>, id: JobId, eases: &[Ease]) -> Result<()> {
+/// Ease of a specification's size on its subject, for a study.
+pub(crate) fn write_ease(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec, eases: &[Ease]) -> Result<()> {
     let mut statement = transaction.prepare_cached(
         "INSERT OR REPLACE INTO ease (study_id, garment, size, subject, level, pattern_girth_mm, body_girth_mm)
-        SELECT study_id, garment, size, subject, ?2, ?3, ?4 FROM job WHERE job_id = ?1",
+        VALUES (?, ?, ?, ?, ?, ?, ?)",
     )?;
     for ease in eases {
-        statement.execute(params![id.0, ease.level, mm(ease.pattern_girth_m), mm(ease.body_girth_m)])?;
+        let (pattern_mm, body_mm) = (mm(ease.pattern_girth_m), mm(ease.body_girth_m));
+        statement.execute(params![study_id, spec.garment, spec.size, spec.subject, ease.level, pattern_mm, body_mm])?;
     }
     Ok(())
 }

@@ -1,22 +1,222 @@
-//! The pipeline in earnest: body, garment meshes, simulation and measuring, each stage through the cache.
+//! The pipeline in earnest: body, distance field, garment meshes, simulation and measuring, each stage through the cache.
 
-use crate::sim::Simulator;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::cache::{Artefact, Cache, Used};
+use super::error::{Result, StudyError};
+use super::inputs::StageKind;
+use super::outcome::{Executor, Measured, Outcome};
+use super::spec::JobSpec;
+use super::tools;
+use crate::body::{Body, Girths};
+use crate::fit::{self, Cuts, Ease};
+use crate::geom::DistanceField;
+use crate::measure;
+use crate::pattern::mesh::EDGE_LENGTH_RANGE_M;
+use crate::pattern::{Garment, Style};
+use crate::sim::{self, Drape, Monitor, SimError, Simulator};
+use crate::units::from_mm;
 
 /// The simulators there are.
 pub const SIMULATORS: [Simulator; 1] = [Simulator::Fem];
 
 /// Versions of the stages, raised whenever one may give other numbers for the same inputs.
 const VERSIONS: [(&str, u32); 3] = [("body.version", 1), ("field.version", 1), ("mesh.version", 1)];
-/// Version of FEM-GS, likewise.
-const FEM_VERSION: u32 = 1;
-/// Version of Hybrid-GS, likewise.
-const HYBRID_VERSION: u32 = 1;
+/// Version of the simulators, likewise; their default parameters count as inputs by themselves.
+const SIM_VERSION: u32 = 1;
 
-/// The versions a simulator's results depend on, as inputs.
-pub(crate) fn versions(simulator: Simulator) -> impl Iterator<Item = (&'static str, u32)> {
-    let own = match simulator {
-        Simulator::Fem => FEM_VERSION,
-        Simulator::Hybrid => HYBRID_VERSION,
-    };
-    VERSIONS.into_iter().chain([("sim.version", own)])
+/// Spacing of the distance field's nodes, m: the 99th percentile of its error is then about 0.1 mm.
+const FIELD_SPACING_M: f64 = 0.005;
+/// Edge length of each coarser mesh over the next finer one.
+const COARSENING: f64 = 2.0;
+/// Number of meshes, coarse to fine.
+const MESH_LEVELS: i32 = 2;
+
+/// The inputs every job has besides the study's own: versions and parameters of the stages.
+pub(crate) fn versions(simulator: Simulator) -> Vec<(&'static str, String)> {
+    let mut versions: Vec<_> = VERSIONS.iter().map(|(name, version)| (*name, version.to_string())).collect();
+    versions.push(("field.spacing_mm", (FIELD_SPACING_M * 1e3).to_string()));
+    versions.push(("mesh.levels", MESH_LEVELS.to_string()));
+    versions.push(("sim.version", SIM_VERSION.to_string()));
+    if simulator == Simulator::Fem {
+        let parameters = format!("{:?}", sim::fem::Params::default());
+        versions.push(("sim.parameters", blake3::hash(parameters.as_bytes()).to_hex().to_string()));
+    }
+    versions
+}
+
+/// A body with its measurements.
+#[derive(serde::Serialize, serde::Deserialize)]
+pub(super) struct Model {
+    /// The human model.
+    pub body: Body,
+    /// What a tape reads on it.
+    pub girths: Girths,
+}
+
+impl Model {
+    /// Girth at a level named in a style's fit references, m.
+    fn girth_m(&self, level: &str) -> Option<f64> {
+        let mm = match level {
+            "neck" => self.girths.neck_girth_mm,
+            "chest" | "bust" => self.girths.chest_girth_mm,
+            "underbust" => self.girths.underbust_girth_mm,
+            "waist" => self.girths.waist_girth_mm,
+            "hip" => self.girths.hip_girth_mm,
+            "thigh" => self.girths.thigh_girth_mm,
+            "upper_arm" => self.girths.upper_arm_girth_mm?,
+            _ => return None,
+        };
+        Some(from_mm(mm))
+    }
+}
+
+/// Meshes of one garment, coarse to fine.
+#[derive(serde::Serialize, serde::Deserialize)]
+pub(super) struct Meshes(pub Vec<Garment>);
+
+impl Meshes {
+    /// The mesh that results are on.
+    pub fn finest(&self) -> Result<&Garment> {
+        self.0.last().ok_or_else(|| StudyError::stage("mesh")("no mesh"))
+    }
+}
+
+/// Stored as JSON: exact for finite numbers, readable by other programs.
+macro_rules! json_artefact {
+    ($($stored:ty),*) => {$(
+        impl Artefact for $stored {
+            fn encode(&self) -> Result<Vec<u8>> {
+                serde_json::to_vec(self).map_err(StudyError::stage("store"))
+            }
+
+            fn decode(bytes: &[u8]) -> std::result::Result<Self, String> {
+                serde_json::from_slice(bytes).map_err(|error| error.to_string())
+            }
+        }
+    )*};
+}
+
+json_artefact!(Model, Meshes, Drape);
+
+impl Artefact for DistanceField {
+    fn encode(&self) -> Result<Vec<u8>> {
+        Ok(self.to_bytes())
+    }
+
+    fn decode(bytes: &[u8]) -> std::result::Result<Self, String> {
+        Self::from_bytes(bytes).map_err(|error| error.to_string())
+    }
+}
+
+/// The stages of one database.
+pub struct Pipeline {
+    cache: Cache,
+}
+
+impl Pipeline {
+    /// Stages whose products are kept in a database.
+    #[must_use]
+    pub fn new(database: &Path) -> Self {
+        Self { cache: Cache::new(database.to_owned()) }
+    }
+
+    fn model(&self, spec: &JobSpec) -> Result<(Arc<Model>, Used)> {
+        self.cache.get(StageKind::Body, &spec.inputs.stage_hash(StageKind::Body), || {
+            let (body, girths) = tools::build_body(&spec.measurements)?;
+            Ok(Model { body, girths })
+        })
+    }
+
+    fn field(&self, spec: &JobSpec, model: &Model) -> Result<(Arc<DistanceField>, Used)> {
+        self.cache.get(StageKind::Field, &spec.inputs.stage_hash(StageKind::Field), || {
+            DistanceField::build(&model.body.mesh, FIELD_SPACING_M).map_err(StudyError::stage("field"))
+        })
+    }
+
+    fn meshes(&self, spec: &JobSpec) -> Result<(Arc<Meshes>, Used)> {
+        self.cache.get(StageKind::Mesh, &spec.inputs.stage_hash(StageKind::Mesh), || mesh(spec))
+    }
+
+    /// Ease of a job's size on its subject at each fit level; needs no simulation.
+    ///
+    /// # Errors
+    /// Those of body and pattern.
+    pub(super) fn ease(&self, spec: &JobSpec) -> Result<Vec<Ease>> {
+        let (model, _) = self.model(spec)?;
+        let (meshes, _) = self.meshes(spec)?;
+        Ok(ease(meshes.finest()?, &model))
+    }
+}
+
+/// Ease at each fit level; a study's own cuts classify it when it is read.
+fn ease(garment: &Garment, model: &Model) -> Vec<Ease> {
+    fit::ease(&garment.fit_levels, |level| model.girth_m(level), &Cuts::default())
+}
+
+/// The style of a job's size.
+pub(super) fn style(spec: &JobSpec) -> Result<Style> {
+    let unit = spec.unit.as_deref().and_then(tools::unit_of);
+    tools::read_style(&spec.pattern, &spec.seams, Some(&spec.size), unit)
+}
+
+/// Meshes of a job's garment, coarse to fine.
+fn mesh(spec: &JobSpec) -> Result<Meshes> {
+    let style = style(spec)?;
+    let edges = (0..MESH_LEVELS).rev().map(|level| spec.edge_length_m * COARSENING.powi(level));
+    let within = edges.filter(|edge| *edge == spec.edge_length_m || EDGE_LENGTH_RANGE_M.contains(edge));
+    let meshes = within.map(|edge| style.mesh(edge).map_err(StudyError::stage("mesh")));
+    Ok(Meshes(meshes.collect::<Result<_>>()?))
+}
+
+impl Executor for Pipeline {
+    fn execute(&self, spec: &JobSpec, monitor: &mut dyn Monitor) -> Result<Outcome> {
+        let (model, used_body) = self.model(spec)?;
+        let (meshes, used_mesh) = self.meshes(spec)?;
+        let (field, used_field) = self.field(spec, &model)?;
+        let garment = meshes.finest()?;
+        let (drape, used_drape) =
+            self.cache.get(StageKind::Drape, &spec.inputs.stage_hash(StageKind::Drape), || match spec.simulator {
+                Simulator::Fem => {
+                    let params = sim::fem::Params::default();
+                    sim::fem::simulate(&model.body, &field, &meshes.0, &spec.fabric, &params, monitor)
+                        .map_err(sim_error)
+                }
+                Simulator::Hybrid => Err(StudyError::stage("sim")("Hybrid-GS is not part of this program")),
+            })?;
+        let chis = measure::measure(garment, &drape.positions);
+        let metrics = measure::metrics(&chis)
+            .ok_or_else(|| StudyError::stage("measure")(format!("{} names no measurement", spec.seams.name)))?;
+        let measured = garment.measurements.iter().zip(chis).map(|(m, chi)| Measured {
+            name: m.name.clone(),
+            kind: m.kind,
+            is_free_edge: m.is_free_edge,
+            is_controlled: false,
+            chi,
+        });
+        Ok(Outcome {
+            stage: drape.stage,
+            converged: drape.converged,
+            measured: measured.collect(),
+            metrics,
+            vertices: drape.welded_vertices,
+            faces: garment.triangles.len(),
+            iterations: drape.iterations,
+            residual: drape.residual,
+            penetration_max_m: drape.penetration_max_m,
+            seam_gap_max_m: drape.seam_gap_max_m,
+            history: drape.history.clone(),
+            eases: ease(garment, &model),
+            used: vec![used_body, used_field, used_mesh, used_drape],
+        })
+    }
+}
+
+/// A simulator's error; being told to stop is an interruption.
+fn sim_error(error: SimError) -> StudyError {
+    match error {
+        SimError::Cancelled => StudyError::Interrupted,
+        other => StudyError::stage("sim")(other),
+    }
 }

@@ -10,10 +10,12 @@ use super::engine;
 use super::enqueue::{self, Planned};
 use super::error::{Result, StudyError};
 use super::file::Study;
-use super::outcome::{Executor, Provenance};
+use super::outcome::{self, Executor, Provenance};
+use super::pipeline::Pipeline;
 use super::spec::{self, Selection};
 use super::store;
 use super::workspace::Workspace;
+use crate::body::Measurements;
 
 /// What to run, and how.
 #[derive(Clone, Debug, Default)]
@@ -80,6 +82,18 @@ impl Workspace {
         Study::load(path, &catalogue::known(Some(&self.reader))?)
     }
 
+    /// A subject of the catalogue, latest revision.
+    ///
+    /// # Errors
+    /// When there is none of that name.
+    pub fn subject(&self, name: &str) -> Result<Measurements> {
+        let mut subjects = catalogue::known(Some(&self.reader))?.subjects;
+        subjects.remove(name).ok_or_else(|| {
+            let known = subjects.into_keys().collect();
+            StudyError::NotFound { what: "subject", name: name.to_owned(), known }
+        })
+    }
+
     /// What a run of a study would do; nothing is written.
     ///
     /// # Errors
@@ -90,6 +104,37 @@ impl Workspace {
         let planned = enqueue::enqueue(&transaction, study, specs);
         transaction.rollback()?;
         planned
+    }
+
+    /// Queues a study and starts working on it with the real pipeline.
+    ///
+    /// # Errors
+    /// When the workspace is read-only or a selection names what the study does not have.
+    pub fn start(&mut self, study: &Study, options: &RunOptions) -> Result<Run> {
+        let pipeline = Pipeline::new(self.path());
+        self.start_with(study, options, Arc::new(pipeline))
+    }
+
+    /// Finds the ease of every size of a study on every subject, and stores it.
+    ///
+    /// # Errors
+    /// When the workspace is read-only, or a body or a pattern cannot be made.
+    pub fn update_ease(&mut self, study: &Study) -> Result<()> {
+        self.writer()?;
+        let pipeline = Pipeline::new(self.path());
+        let mut found = Vec::new();
+        for spec in spec::jobs(study) {
+            if spec.repeat == 1 && spec.simulator == study.simulators[0] {
+                let eases = pipeline.ease(&spec)?;
+                found.push((spec, eases));
+            }
+        }
+        let transaction = store::write(self.writer()?)?;
+        let study_id = enqueue::store_study(&transaction, study)?;
+        for (spec, eases) in &found {
+            outcome::write_ease(&transaction, study_id, spec, eases)?;
+        }
+        Ok(transaction.commit()?)
     }
 
     /// [`Workspace::start`] with any executor.

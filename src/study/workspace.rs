@@ -2,19 +2,24 @@
 //!
 //! Reading and acting use separate connections, so that [`Workspace::version`] also notices this process's own writes.
 
+use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
 use rusqlite::Connection;
 
 use super::catalogue;
 use super::error::{Result, StudyError};
+use super::picture::{Map, Stage};
 use super::store::{self, Access};
+use super::types::JobId;
 
 /// An open database with its studies, jobs and results. `Send`, not `Sync`: one a thread.
 pub struct Workspace {
     path: PathBuf,
     pub(super) reader: Connection,
     pub(super) writer: Option<Connection>,
+    /// The result last shown, ready for more pictures.
+    pub(super) scene: RefCell<Option<(JobId, Map, Stage)>>,
 }
 
 impl Workspace {
@@ -28,7 +33,7 @@ impl Workspace {
             catalogue::add_builtin(writer)?;
         }
         let reader = store::open(path, Access::Read)?;
-        Ok(Self { path: path.to_owned(), reader, writer })
+        Ok(Self { path: path.to_owned(), reader, writer, scene: RefCell::default() })
     }
 
     /// The database file.

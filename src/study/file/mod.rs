@@ -176,3 +176,11 @@ impl Study {
         parse::study(&path, &text, known).map_err(StudyError::File)
     }
 }
+
+/// Measurements from the text of a file with the keys of a `[[subject]]`.
+///
+/// # Errors
+/// [`StudyError::File`] with everything that is wrong.
+pub(super) fn measurements(path: &Path, text: &str) -> Result<Measurements> {
+    parse::measurements_file(path, text).map_err(StudyError::File)
+}

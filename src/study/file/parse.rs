@@ -49,14 +49,7 @@ const GIRTH_MM: std::ops::Range<f64> = 100.0..3000.0;
 
 /// Checks the text of a study file; files it names are looked up beside it.
 pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec<Problem>> {
-    let mut reader = Reader::new(path, text);
-    let (document, errors) = DeTable::parse_recoverable(text);
-    for error in errors {
-        reader.problem(&error.span().unwrap_or_default(), error.message());
-    }
-    if !reader.problems.is_empty() {
-        return Err(reader.problems);
-    }
+    let (mut reader, document) = open(path, text)?;
     let top = Place { name: "study".into(), span: 0..0, table: document.get_ref() };
     reader.only(&top, &STUDY_KEYS);
 
@@ -81,6 +74,27 @@ pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec
     }
     reader.problems.sort_by_key(|problem| problem.line);
     Err(reader.problems)
+}
+
+/// Checks the text of a file with one subject's measurements.
+pub(super) fn measurements_file(path: &Path, text: &str) -> Result<Measurements, Vec<Problem>> {
+    let (mut reader, document) = open(path, text)?;
+    let top = Place { name: "measurements".into(), span: 0..0, table: document.get_ref() };
+    reader.only(&top, &SUBJECT_KEYS[2..]);
+    match measurements(&mut reader, &top) {
+        Some(measurements) if reader.problems.is_empty() => Ok(measurements),
+        _ => Err(reader.problems),
+    }
+}
+
+/// Parses TOML; where it is broken only that is told, since all else would follow from it.
+fn open<'t>(path: &'t Path, text: &'t str) -> Result<(Reader<'t>, Spanned<DeTable<'t>>), Vec<Problem>> {
+    let mut reader = Reader::new(path, text);
+    let (document, errors) = DeTable::parse_recoverable(text);
+    for error in errors {
+        reader.problem(&error.span().unwrap_or_default(), error.message());
+    }
+    if reader.problems.is_empty() { Ok((reader, document)) } else { Err(reader.problems) }
 }
 
 /// Name of the folder a study lies in.

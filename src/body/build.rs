@@ -1,0 +1,208 @@
+//! From measurements to a mannequin: figure, skin, the fit of its girths, and what is known of it.
+
+use super::anthropometry::Profile;
+use super::control::{Cuts, control_mesh};
+use super::figure::Figure;
+use super::measure::{self, Side, Sites};
+use super::surface::Skin;
+use super::tape;
+use super::{Body, BodyError, Landmarks, Levels, Measurements, Sex};
+use crate::geom::section::Plane;
+use crate::geom::{TriMesh, V3};
+
+/// Grid spacing of the skin, as a share of stature.
+const SPACING: f64 = 0.0095;
+
+/// Most rounds of the fit, and the error at which it stops, metres.
+const ROUNDS: usize = 8;
+const FITTED: f64 = 2e-4;
+
+/// Builds a closed, measured mannequin.
+///
+/// Missing measurements are estimated from the ANSUR II survey [Gordon 2014]. Neck, chest, waist and hip girth and the
+/// across-shoulder length are fitted until the tape reads them on the fine mesh.
+///
+/// # Errors
+/// [`BodyError::OutOfRange`] for measurements that no adult has.
+pub fn build(known: &Measurements) -> Result<Body, BodyError> {
+    let profile = Profile::new(known)?;
+    let stature = profile.stature;
+    let mut figure = Figure::new(&profile);
+    let (low, high) = (V3::new(-0.42, -0.18, -0.005) * stature, V3::new(0.42, 0.22, 1.0) * stature);
+    let mut skin = Skin::new(&figure.parts(), low, high, SPACING * stature);
+    let mut mesh = skin.triangles(stature);
+    for _ in 0..ROUNDS {
+        let sites = sites(&mesh, &figure)?;
+        if adjust(&mut figure, &mesh, &sites)? < FITTED {
+            break;
+        }
+        skin.follow(&figure.parts());
+        mesh = skin.triangles(stature);
+    }
+    describe(known.sex, mesh, &figure)
+}
+
+/// Changes the figure's targets by what the tape reads too much or too little; returns the greatest error in metres.
+fn adjust(figure: &mut Figure, mesh: &TriMesh, sites: &Sites) -> Result<f64, BodyError> {
+    let read = measure::girths_at(mesh, sites)?;
+    let asked = figure.profile;
+    let targets = &mut figure.targets;
+    let mut greatest: f64 = 0.0;
+    let girths = [
+        (&mut targets.neck, asked.neck, read.neck_girth_mm),
+        (&mut targets.chest, asked.chest, read.chest_girth_mm),
+        (&mut targets.waist, asked.waist, read.waist_girth_mm),
+        (&mut targets.hip, asked.hip, read.hip_girth_mm),
+        (&mut targets.shoulder_x, asked.across_shoulder, read.across_shoulder_mm),
+    ];
+    for (target, asked, read_mm) in girths {
+        let read = read_mm * 1e-3;
+        greatest = greatest.max((read - asked).abs());
+        *target *= (asked / read).clamp(0.85, 1.18);
+    }
+    Ok(greatest)
+}
+
+/// Where the tape is laid on a figure's skin: the levels are known.
+fn sites(mesh: &TriMesh, figure: &Figure) -> Result<Sites, BodyError> {
+    let (atlas, h) = (figure.atlas, figure.profile.stature);
+    let missing = |part, share: f64| BodyError::MissingPart { part, height_mm: share * h * 1e3 };
+    let upper = tape::above(mesh, 0.7 * h);
+    let crotch = measure::crotch(mesh, 0.40 * h, 0.52 * h, 0.0).ok_or_else(|| missing("crotch", atlas.crotch))?;
+    let neck = tape::neck(&upper, 0.845 * h, 0.885 * h, 0.0).ok_or_else(|| missing("neck", 0.87))?;
+    let back_neck = measure::median_point(&upper, figure.back_neck_height(), 0.0, Side::Back);
+    let chest = atlas.chest * h;
+    let shoulder = |sign: f64| measure::shoulder_top(&upper, sign * figure.targets.shoulder_x, 0.86 * h);
+    let right = shoulder(1.0).ok_or_else(|| missing("shoulder", atlas.shoulder))?;
+    let along = figure.arm_axes()[2];
+    Ok(Sites {
+        floor: 0.0,
+        crown: h,
+        middle: 0.0,
+        crotch,
+        hip: atlas.hip * h,
+        waist: atlas.waist * h,
+        underbust: measure::underbust_level(mesh, chest, h, 0.0),
+        chest,
+        neck,
+        shoulder: [right, shoulder(-1.0).ok_or_else(|| missing("shoulder", atlas.shoulder))?],
+        back_neck: back_neck.ok_or_else(|| missing("nape", 0.86))?,
+        upper_arm: Some((figure.shoulder_joint() + along * 0.088 * h, along)),
+    })
+}
+
+/// Puts together what is known of a finished skin.
+fn describe(sex: Sex, mesh: TriMesh, figure: &Figure) -> Result<Body, BodyError> {
+    let sites = sites(&mesh, figure)?;
+    let girths = measure::girths_at(&mesh, &sites)?;
+    let landmarks = landmarks(&mesh, figure, &sites)?;
+    let control = control_mesh(&mesh, &cuts(&mesh, figure, &sites, &landmarks))?;
+    let levels = Levels {
+        chest_m: sites.chest,
+        underbust_m: sites.underbust,
+        waist_m: sites.waist,
+        hip_m: sites.hip,
+        crotch_m: sites.crotch,
+        neck_m: sites.neck.height,
+    };
+    let skeleton = control.skeleton();
+    Ok(Body { sex, mesh, skeleton, landmarks, levels, control, girths })
+}
+
+fn landmarks(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Landmarks, BodyError> {
+    let h = figure.profile.stature;
+    let missing = |part: &'static str, z: f64| BodyError::MissingPart { part, height_mm: z * 1e3 };
+    let front_height = figure.front_neck_height();
+    let side_height = figure.side_neck_height();
+    let base = tape::trunk_outline(mesh, side_height, 0.0).ok_or_else(|| missing("neck base", side_height))?;
+    let side = |sign: f64| base.points.iter().max_by(|a, b| (sign * a.x).total_cmp(&(sign * b.x)));
+    let side_neck = [1.0, -1.0].map(|sign| side(sign).map_or_else(V3::zeros, |p| V3::new(p.x, p.y, side_height)));
+    let armpit =
+        measure::armpit(mesh, sites.chest, sites.shoulder[0].z, 0.0).ok_or_else(|| missing("armpit", sites.chest))?;
+    let bust = |sign: f64| measure::bust_point(mesh, sites.chest, sign, h).ok_or_else(|| missing("bust", sites.chest));
+    Ok(Landmarks {
+        side_neck,
+        shoulder: sites.shoulder,
+        back_neck: sites.back_neck,
+        front_neck: measure::median_point(mesh, front_height, 0.0, Side::Front)
+            .ok_or_else(|| missing("front neck", front_height))?,
+        armpit: [armpit, V3::new(-armpit.x, armpit.y, armpit.z)],
+        bust: [bust(1.0)?, bust(-1.0)?],
+        crotch: measure::crotch_point(mesh, sites.crotch).ok_or_else(|| missing("crotch", sites.crotch))?,
+    })
+}
+
+/// The planes of the control mesh.
+fn cuts(mesh: &TriMesh, figure: &Figure, sites: &Sites, landmarks: &Landmarks) -> Cuts {
+    let (atlas, h) = (figure.atlas, figure.profile.stature);
+    let [elbow, wrist, tip] = figure.arm_lengths();
+    let [outward, forward, along] = figure.arm_axes();
+    let joint = figure.shoulder_joint();
+    let across_arm = |t: f64| Plane { origin: joint + along * t, u: forward, v: outward };
+    let (shoulder, armpit) = (landmarks.shoulder[0], landmarks.armpit[0]);
+    // The armscye: through the shoulder point, passing outside the armpit.
+    let up = V3::new(shoulder.x - armpit.x - 0.012, 0.0, shoulder.z - armpit.z).normalize();
+    let armscye = Plane {
+        origin: V3::new((shoulder.x + armpit.x) / 2.0 + 0.006, joint.y, (shoulder.z + armpit.z) / 2.0),
+        u: V3::y(),
+        v: up,
+    };
+    let (front, back) = (landmarks.front_neck, landmarks.back_neck);
+    let base = (back - front).normalize();
+    let neck_lean = V3::new(0.0, sites.neck.lean.sin(), sites.neck.lean.cos());
+    let middle_of = |z: f64| {
+        tape::trunk_outline(mesh, z, 0.0).map_or(0.0, |outline| {
+            let (front, back) = tape::depth_range(&outline);
+            (front + back) / 2.0
+        })
+    };
+    Cuts {
+        leg: [0.012 * h, 0.072 * h, atlas.calf * h, atlas.knee * h, 0.80 * sites.crotch, sites.crotch - 0.02],
+        trunk: [
+            sites.hip,
+            (sites.hip + sites.waist) / 2.0,
+            sites.waist,
+            sites.underbust,
+            sites.chest,
+            armpit.z - 0.008,
+        ],
+        neck: [
+            Plane { origin: (front + back) / 2.0, u: V3::x(), v: -base },
+            Plane::normal_to(V3::new(0.0, middle_of(sites.neck.height), sites.neck.height), neck_lean),
+        ],
+        head: [h * (1.0 - 0.76 * atlas.head_height), h * (1.0 - 0.35 * atlas.head_height)],
+        arm: [
+            armscye,
+            across_arm(0.58 * elbow),
+            across_arm(elbow),
+            across_arm(elbow + 0.2 * (wrist - elbow)),
+            across_arm(wrist),
+        ],
+        crown: highest(mesh),
+        hand: farthest_along(mesh, joint, along, tip),
+    }
+}
+
+/// The highest vertex.
+fn highest(mesh: &TriMesh) -> V3 {
+    mesh.positions.iter().copied().max_by(|a, b| a.z.total_cmp(&b.z)).unwrap_or_else(V3::zeros)
+}
+
+/// The vertex of the right hand that reaches farthest along the arm.
+fn farthest_along(mesh: &TriMesh, joint: V3, along: V3, tip: f64) -> V3 {
+    let near_axis = |p: &&V3| {
+        let t = (*p - joint).dot(&along);
+        t > 0.8 * tip && (*p - joint - along * t).norm() < 0.06
+    };
+    let reach = |p: &V3| (p - joint).dot(&along);
+    mesh.positions
+        .iter()
+        .filter(near_axis)
+        .copied()
+        .max_by(|a, b| reach(a).total_cmp(&reach(b)))
+        .unwrap_or(joint + along * tip)
+}
+
+#[cfg(test)]
+#[path = "build_tests.rs"]
+mod tests;

@@ -1,0 +1,111 @@
+//! The skin as one implicit surface: body parts joined smoothly.
+
+use super::loft::{Loft, Sample};
+use crate::geom::V3;
+
+/// Distance beyond which a part is not looked at closely, metres.
+const NEAR: f64 = 0.12;
+
+/// Rounding of the edge between skin and floor, metres.
+const SOLE_EDGE: f64 = 0.006;
+
+/// Reach of the smooth joints between parts, metres.
+const ARM_JOINT: f64 = 0.060;
+const LEG_JOINT: f64 = 0.045;
+const BETWEEN_LEGS: f64 = 0.020;
+const FOOT_JOINT: f64 = 0.045;
+const THUMB_JOINT: f64 = 0.030;
+
+/// Difference of the distances of two parts up to which their joint is smoothed, metres.
+const ARM_SEAM: f64 = 0.045;
+const LEG_SEAM: f64 = 0.045;
+
+/// The lofts of a body; limbs are those of the right side and are mirrored.
+#[derive(Clone, Debug)]
+pub(super) struct Parts {
+    pub trunk: Loft,
+    pub arm: Loft,
+    pub thumb: Loft,
+    pub leg: Loft,
+    pub foot: Loft,
+}
+
+impl Parts {
+    /// The field at a point: about the distance from the skin (negative inside) with its outward direction.
+    pub fn sample(&self, point: V3) -> Sample {
+        let right = V3::new(point.x.abs(), point.y, point.z);
+        let left = V3::new(-right.x, point.y, point.z);
+        let arm = join(self.arm.sample(right, NEAR), self.thumb.sample(right, NEAR), THUMB_JOINT);
+        let near_leg = join(self.leg.sample(right, NEAR), self.foot.sample(right, NEAR), FOOT_JOINT);
+        let far_leg = mirrored(join(self.leg.sample(left, NEAR), self.foot.sample(left, NEAR), FOOT_JOINT));
+        let legs = join(near_leg, far_leg, BETWEEN_LEGS);
+        let lower = join(self.trunk.sample(right, NEAR), legs, LEG_JOINT);
+        let skin = cut_at_floor(join(lower, arm, ARM_JOINT), point.z);
+        if point.x < 0.0 { mirrored(skin) } else { skin }
+    }
+
+    /// How much a point of the skin belongs to a joint between trunk and limb: 1 where both surfaces meet, 0 away from it.
+    pub fn seam(&self, point: V3) -> f64 {
+        let right = V3::new(point.x.abs(), point.y, point.z);
+        let trunk = self.trunk.sample(right, NEAR).distance;
+        let closeness =
+            |limb: &Loft, reach: f64| (1.0 - (limb.sample(right, NEAR).distance - trunk).abs() / reach).clamp(0.0, 1.0);
+        let share = closeness(&self.arm, ARM_SEAM).max(closeness(&self.leg, LEG_SEAM));
+        share * share * (3.0 - 2.0 * share)
+    }
+
+    /// The field alone.
+    pub fn distance(&self, point: V3) -> f64 {
+        self.sample(point).distance
+    }
+
+    /// The nearest point of the skin along the field's gradient, from a point close to it (Newton's method).
+    pub fn project(&self, mut point: V3) -> V3 {
+        const STEPS: usize = 3;
+        const PROBE: f64 = 5e-4;
+        for _ in 0..STEPS {
+            let distance = self.distance(point);
+            if distance.abs() < 1e-7 {
+                break;
+            }
+            let rise = |axis: V3| (self.distance(point + axis * PROBE) - distance) / PROBE;
+            let gradient = V3::new(rise(V3::x()), rise(V3::y()), rise(V3::z()));
+            let steepness = gradient.norm_squared().max(0.04);
+            point -= gradient * (distance / steepness);
+        }
+        point
+    }
+}
+
+fn mirrored(sample: Sample) -> Sample {
+    let outward = V3::new(-sample.outward.x, sample.outward.y, sample.outward.z);
+    Sample { outward, ..sample }
+}
+
+/// Smooth union [Quilez, polynomial smooth minimum] whose reach fades where both surfaces face the same way: limbs that
+/// continue the trunk's outline do not swell it, opposed surfaces (armpit, crotch) get the full fillet.
+fn join(a: Sample, b: Sample, reach: f64) -> Sample {
+    let gap = (a.distance - b.distance).abs();
+    let nearer = if a.distance < b.distance { a } else { b };
+    if gap >= reach {
+        return nearer;
+    }
+    let opposed = (1.0 - a.outward.dot(&b.outward)).clamp(0.0, 1.0);
+    let reach = reach * opposed;
+    if gap >= reach {
+        return nearer;
+    }
+    let share = (reach - gap) / reach;
+    let farther = if a.distance < b.distance { b } else { a };
+    let outward = nearer.outward.lerp(&farther.outward, share / 2.0);
+    let outward = outward.try_normalize(1e-9).unwrap_or(nearer.outward);
+    Sample { distance: nearer.distance - share * share * reach / 4.0, outward }
+}
+
+/// Keeps what is above the floor, with a rounded edge.
+fn cut_at_floor(skin: Sample, z: f64) -> Sample {
+    let share = (SOLE_EDGE - (skin.distance + z).abs()).max(0.0) / SOLE_EDGE;
+    let distance = skin.distance.max(-z) + share * share * SOLE_EDGE / 4.0;
+    let outward = if -z > skin.distance { -V3::z() } else { skin.outward };
+    Sample { distance, outward }
+}

@@ -1,0 +1,105 @@
+use super::*;
+use proptest::prelude::*;
+
+/// A four-sided prism 1.7 m high, in metres, z up.
+fn block() -> TriMesh {
+    let positions = vec![V3::zeros(), V3::new(0.3, 0.0, 0.0), V3::new(0.0, 0.2, 0.0), V3::new(0.1, 0.1, 1.7)];
+    TriMesh { positions, triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]] }
+}
+
+fn scaled(mesh: &TriMesh, factor: f64) -> TriMesh {
+    TriMesh { positions: mesh.positions.iter().map(|p| p * factor).collect(), triangles: mesh.triangles.clone() }
+}
+
+fn ascii_stl(mesh: &TriMesh) -> String {
+    let mut text = "solid body\n".to_owned();
+    for triangle in &mesh.triangles {
+        text.push_str("facet normal 0 0 0\nouter loop\n");
+        for &corner in triangle {
+            let p = mesh.positions[corner];
+            let _ = writeln!(text, "vertex {} {} {}", p.x, p.y, p.z);
+        }
+        text.push_str("endloop\nendfacet\n");
+    }
+    text + "endsolid\n"
+}
+
+fn binary_stl(mesh: &TriMesh) -> Vec<u8> {
+    let mut bytes = vec![0_u8; 80];
+    bytes.extend((mesh.triangles.len() as u32).to_le_bytes());
+    for triangle in &mesh.triangles {
+        bytes.extend([0_u8; 12]);
+        for &corner in triangle {
+            bytes.extend(mesh.positions[corner].iter().flat_map(|&c| (c as f32).to_le_bytes()));
+        }
+        bytes.extend([0_u8; 2]);
+    }
+    bytes
+}
+
+#[test]
+fn every_format_and_unit_gives_the_same_body() {
+    let check = |bytes: &[u8], unit| {
+        let imported = import(bytes, None).expect("a good file");
+        assert_eq!(imported.unit, unit);
+        assert_eq!(imported.mesh.triangles.len(), 4);
+        assert_eq!(imported.mesh.positions.len(), 4);
+        assert!((imported.mesh.volume() - block().volume()).abs() < 1e-7);
+    };
+    check(write_obj(&scaled(&block(), 1000.0)).as_bytes(), LengthUnit::Millimetre);
+    check(write_obj(&scaled(&block(), 100.0)).as_bytes(), LengthUnit::Centimetre);
+    check(ascii_stl(&block()).as_bytes(), LengthUnit::Metre);
+    check(&binary_stl(&scaled(&block(), 1000.0)), LengthUnit::Millimetre);
+    let ply = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+               element face 4\nproperty list uchar int vertex_indices\nend_header\n\
+               0 0 0\n0.3 0 0\n0 0.2 0\n0.1 0.1 1.7\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+    check(ply.as_bytes(), LengthUnit::Metre);
+}
+
+#[test]
+fn turned_and_inverted_bodies_are_righted_and_said() {
+    let mut mesh = block();
+    for p in &mut mesh.positions {
+        *p = V3::new(-p.x, p.z, p.y);
+    }
+    mesh.triangles.iter_mut().for_each(|triangle| triangle.reverse());
+    let imported = import(write_obj(&mesh).as_bytes(), Some(LengthUnit::Metre)).expect("a good file");
+    assert!(imported.mesh.volume() > 0.0);
+    assert!((imported.mesh.bounds().expect("vertices").1.z - 1.7).abs() < 1e-6);
+    assert_eq!(imported.notes.len(), 2, "{:?}", imported.notes);
+}
+
+#[test]
+fn broken_files_are_refused_with_their_place() {
+    let check = |bytes: &[u8], needle: &str| {
+        let error = import(bytes, None).expect_err("a broken file").to_string();
+        assert!(error.contains(needle), "{error}");
+    };
+    check(b"v 0 0 0\nv 1 zero 0\nf 1 2 1\n", "line 2");
+    check(b"solid x\nfacet\nouter loop\nvertex 1 2\nendloop\n", "line 4");
+    check(b"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n", "vertex 1");
+    check(b"", "no faces");
+    check(write_obj(&scaled(&block(), 9.0)).as_bytes(), "no adult");
+}
+
+proptest! {
+    #[test]
+    fn no_bytes_make_an_importer_fail(head in "(ply\nformat ascii 1.0\n|solid |v 1 2 3\nf |)", tail in proptest::collection::vec(any::<u8>(), 0..400)) {
+        let mut bytes = head.into_bytes();
+        bytes.extend(tail);
+        let _ = import(&bytes, None);
+    }
+
+    #[test]
+    fn obj_round_trip(numbers in proptest::collection::vec(-2.0..2.0_f64, 12)) {
+        let mut mesh = block();
+        for (i, (p, n)) in mesh.positions.iter_mut().zip(numbers.chunks_exact(3)).enumerate() {
+            // Apart by more than their spread, so that no two vertices become one.
+            *p = V3::new(n[0] + 5.0 * i as f64, n[1], n[2]);
+        }
+        let back = read(write_obj(&mesh).as_bytes()).expect("our own file");
+        for (a, b) in mesh.positions.iter().zip(&back.positions) {
+            prop_assert!((a - b).norm() < 5e-6);
+        }
+    }
+}

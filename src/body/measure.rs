@@ -1,0 +1,318 @@
+//! Measuring any upright body mesh: the levels are found on the mesh, then the tape is laid.
+
+use super::tape::{self, Neck};
+use super::{BodyError, Sex};
+use crate::geom::section::{Plane, section};
+use crate::geom::{TriMesh, V3};
+use crate::units::mm;
+
+/// Measurements of a body as a tape takes them; the keys of `body measure`. Millimetres and litres.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[allow(missing_docs)]
+pub struct Girths {
+    pub stature_mm: f64,
+    pub neck_girth_mm: f64,
+    pub chest_girth_mm: f64,
+    pub underbust_girth_mm: f64,
+    pub waist_girth_mm: f64,
+    pub hip_girth_mm: f64,
+    pub thigh_girth_mm: f64,
+    /// Absent where the arm cannot be told from the trunk.
+    pub upper_arm_girth_mm: Option<f64>,
+    pub across_shoulder_mm: f64,
+    pub inseam_mm: f64,
+    pub volume_l: f64,
+    pub neck_level_mm: f64,
+    pub chest_level_mm: f64,
+    pub underbust_level_mm: f64,
+    pub waist_level_mm: f64,
+    pub hip_level_mm: f64,
+    pub thigh_level_mm: f64,
+    pub upper_arm_level_mm: Option<f64>,
+    pub shoulder_level_mm: f64,
+    pub crotch_level_mm: f64,
+}
+
+/// Where on a mesh the tape is laid, metres.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Sites {
+    /// Height of the floor and of the crown.
+    pub floor: f64,
+    pub crown: f64,
+    /// Sideways place of the median plane.
+    pub middle: f64,
+    pub crotch: f64,
+    pub hip: f64,
+    pub waist: f64,
+    pub underbust: f64,
+    pub chest: f64,
+    pub neck: Neck,
+    /// Shoulder points, right and left.
+    pub shoulder: [V3; 2],
+    pub back_neck: V3,
+    /// Middle of the right upper arm, and the direction of the arm.
+    pub upper_arm: Option<(V3, V3)>,
+}
+
+/// Heights of the ISO 8559-1 waist over stature, men and women [Gordon 2014]; it has no mark on the skin.
+const ISO_WAIST: [f64; 2] = [0.6212, 0.6299];
+
+/// Height of the back neck point over stature, men and women together [Gordon 2014].
+const CERVICALE: f64 = 0.8617;
+
+/// Measures an upright closed (or nearly closed) body mesh in the world frame; `sex`, where known, places the waist.
+///
+/// # Errors
+/// [`BodyError::MissingPart`] names the part that was not found where a standing body has it.
+pub fn measure(mesh: &TriMesh, sex: Option<Sex>) -> Result<Girths, BodyError> {
+    let sites = find_sites(mesh, sex)?;
+    girths_at(mesh, &sites)
+}
+
+/// Lays the tape at given sites.
+pub(super) fn girths_at(mesh: &TriMesh, sites: &Sites) -> Result<Girths, BodyError> {
+    let trunk = |part, z| tape::trunk_girth(mesh, z, sites.middle).map(mm).ok_or_else(|| missing(part, z));
+    let level = |z: f64| mm(z - sites.floor);
+    let thigh_level = sites.crotch - THIGH_BELOW_CROTCH;
+    let thighs = tape::right_limbs(mesh, thigh_level, sites.middle);
+    let thigh = thighs
+        .iter()
+        .min_by(|a, b| a.bounds().0.x.total_cmp(&b.bounds().0.x))
+        .ok_or_else(|| missing("thigh", thigh_level))?;
+    let [right, left] = sites.shoulder;
+    let across_shoulder =
+        tape::tape_over(mesh, right, sites.back_neck, left).ok_or_else(|| missing("shoulder", right.z))?;
+    let upper_arm = sites.upper_arm.and_then(|(point, along)| Some((tape::girth_round(mesh, point, along)?, point.z)));
+    Ok(Girths {
+        stature_mm: mm(sites.crown - sites.floor),
+        neck_girth_mm: mm(sites.neck.girth),
+        chest_girth_mm: trunk("chest", sites.chest)?,
+        underbust_girth_mm: trunk("underbust", sites.underbust)?,
+        waist_girth_mm: trunk("waist", sites.waist)?,
+        hip_girth_mm: trunk("hip", sites.hip)?,
+        thigh_girth_mm: mm(tape::girth(thigh)),
+        upper_arm_girth_mm: upper_arm.map(|(girth, _)| mm(girth)),
+        across_shoulder_mm: mm(across_shoulder),
+        inseam_mm: level(sites.crotch),
+        volume_l: mesh.volume() * 1e3,
+        neck_level_mm: level(sites.neck.height),
+        chest_level_mm: level(sites.chest),
+        underbust_level_mm: level(sites.underbust),
+        waist_level_mm: level(sites.waist),
+        hip_level_mm: level(sites.hip),
+        thigh_level_mm: level(thigh_level),
+        upper_arm_level_mm: upper_arm.map(|(_, z)| level(z)),
+        shoulder_level_mm: level((right.z + left.z) / 2.0),
+        crotch_level_mm: level(sites.crotch),
+    })
+}
+
+/// The thigh is measured this far below the crotch, metres.
+const THIGH_BELOW_CROTCH: f64 = 0.02;
+
+fn missing(part: &'static str, z: f64) -> BodyError {
+    BodyError::MissingPart { part, height_mm: mm(z) }
+}
+
+/// Finds the places to measure on the mesh itself.
+fn find_sites(mesh: &TriMesh, sex: Option<Sex>) -> Result<Sites, BodyError> {
+    let (low, high) = mesh.bounds().ok_or_else(|| missing("body", 0.0))?;
+    let stature = high.z - low.z;
+    let middle = (low.x + high.x) / 2.0;
+    let at = |share: f64| low.z + share * stature;
+    let crotch = crotch(mesh, at(0.38), at(0.56), middle).ok_or_else(|| missing("crotch", at(0.47)))?;
+    let hip = hip_level(mesh, crotch, stature, middle).ok_or_else(|| missing("hip", at(0.52)))?;
+    let chest = chest_level(mesh, low.z, stature, middle).ok_or_else(|| missing("chest", at(0.73)))?;
+    let underbust = underbust_level(mesh, chest, stature, middle);
+    let upper = tape::above(mesh, at(0.7));
+    let neck = tape::neck(&upper, at(0.83), at(0.90), middle).ok_or_else(|| missing("neck", at(0.87)))?;
+    let back_neck =
+        median_point(&upper, at(CERVICALE), middle, Side::Back).ok_or_else(|| missing("nape", at(CERVICALE)))?;
+    let shoulder = shoulder_points(&upper, low.z, stature, middle).ok_or_else(|| missing("shoulder", at(0.82)))?;
+    let waist = match sex {
+        Some(Sex::Male) => at(ISO_WAIST[0]),
+        Some(Sex::Female) => at(ISO_WAIST[1]),
+        None => at((ISO_WAIST[0] + ISO_WAIST[1]) / 2.0),
+    };
+    let upper_arm = upper_arm(mesh, shoulder[0], low.z, stature, middle);
+    Ok(Sites {
+        floor: low.z,
+        crown: high.z,
+        middle,
+        crotch,
+        hip,
+        waist,
+        underbust,
+        chest,
+        neck,
+        shoulder,
+        back_neck,
+        upper_arm,
+    })
+}
+
+/// Where the trunk ends: the lowest height at which an outline crosses the median plane, by bisection.
+pub(super) fn crotch(mesh: &TriMesh, mut below: f64, mut above: f64, middle: f64) -> Option<f64> {
+    let lower = tape::between(mesh, below, above);
+    let joined = |z: f64| tape::trunk_outline(&lower, z, middle).is_some_and(|outline| tape::girth(&outline) > 0.15);
+    if joined(below) || !joined(above) {
+        return None;
+    }
+    while above - below > 1e-4 {
+        let z = (below + above) / 2.0;
+        if joined(z) { above = z } else { below = z }
+    }
+    Some(above)
+}
+
+/// The level of the greatest buttock protrusion.
+fn hip_level(mesh: &TriMesh, crotch: f64, stature: f64, middle: f64) -> Option<f64> {
+    let heights = steps(crotch + 0.01 * stature, crotch + 0.10 * stature, 48);
+    let back = |z: f64| Some((z, tape::depth_range(&tape::trunk_outline(mesh, z, middle)?).1));
+    heights.filter_map(back).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(z, _)| z)
+}
+
+/// The level of the nipples: where the front outline bends most, over a reach of 4 % of stature to both sides.
+fn chest_level(mesh: &TriMesh, floor: f64, stature: f64, middle: f64) -> Option<f64> {
+    let front = |z: f64| tape::trunk_outline(mesh, z, middle).map(|outline| tape::depth_range(&outline).0);
+    let reach = 0.04 * stature;
+    let standing_out = |z: f64| Some((z, 2.0 * front(z)? - front(z - reach)? - front(z + reach)?));
+    let heights = steps(floor + 0.70 * stature, floor + 0.765 * stature, 40);
+    heights.filter_map(standing_out).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(z, _)| z)
+}
+
+/// The level below the chest where the girth stops falling.
+pub(super) fn underbust_level(mesh: &TriMesh, chest: f64, stature: f64, middle: f64) -> f64 {
+    let girth = |z: f64| tape::trunk_girth(mesh, z, middle);
+    let falling: Vec<(f64, f64)> =
+        steps(chest, chest - 0.075 * stature, 30).map_while(|z| girth(z).map(|girth| (z, girth))).collect();
+    let falls: Vec<f64> = falling.windows(2).map(|pair| pair[0].1 - pair[1].1).collect();
+    let steepest = falls.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
+    let Some((at, &most)) = steepest else { return chest - 0.05 * stature };
+    // Falling has stopped where it is less than half as steep as at its steepest.
+    let stop = (at..falls.len()).find(|&i| falls[i] < 0.5 * most).unwrap_or(falls.len());
+    falling[stop].0
+}
+
+/// Front or back of the body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    Front,
+    Back,
+}
+
+/// The point of the trunk's outline in the median plane at height `z`.
+pub(super) fn median_point(mesh: &TriMesh, z: f64, middle: f64, side: Side) -> Option<V3> {
+    let outline = tape::trunk_outline(mesh, z, middle)?;
+    let next = outline.points.iter().cycle().skip(1);
+    let crossings = outline.points.iter().zip(next).filter(|(a, b)| (a.x > middle) != (b.x > middle));
+    let places = crossings.map(|(a, b)| a.y + (b.y - a.y) * (middle - a.x) / (b.x - a.x));
+    let y = match side {
+        Side::Front => places.max_by(f64::total_cmp),
+        Side::Back => places.min_by(f64::total_cmp),
+    };
+    y.map(|y| V3::new(middle, y, z))
+}
+
+/// The highest point of the shoulder at the distance `x` from the median plane (signed), below the height `ceiling`.
+pub(super) fn shoulder_top(mesh: &TriMesh, x: f64, ceiling: f64) -> Option<V3> {
+    let plane = Plane { origin: V3::new(x, 0.0, 0.0), u: V3::y(), v: V3::z() };
+    let points = section(mesh, &plane).into_iter().flat_map(|outline| outline.points).filter(|p| p.y < ceiling);
+    points.max_by(|a, b| a.y.total_cmp(&b.y)).map(|p| plane.lift(p))
+}
+
+/// Shoulder points: where the line over the shoulder turns from the slope of the trapezius to that of the arm.
+fn shoulder_points(mesh: &TriMesh, floor: f64, stature: f64, middle: f64) -> Option<[V3; 2]> {
+    const TURN: f64 = 0.70;
+    let ceiling = floor + 0.86 * stature;
+    let point = |sign: f64| {
+        let tops: Vec<V3> = steps(0.075 * stature, 0.16 * stature, 43)
+            .filter_map(|x| shoulder_top(mesh, middle + sign * x, ceiling))
+            .collect();
+        let fall = |i: usize| (tops[i - 3].z - tops[i + 3].z) / (tops[i + 3].x - tops[i - 3].x).abs();
+        let turn = (3..tops.len().checked_sub(3)?).find(|&i| fall(i) > TURN)?;
+        Some(tops[turn])
+    };
+    Some([point(1.0)?, point(-1.0)?])
+}
+
+/// The highest point of the gap between trunk and right arm.
+///
+/// Searched by bisection between a height where the arm is free and one where it is joined to the trunk.
+pub(super) fn armpit(mesh: &TriMesh, mut free: f64, mut joined: f64, middle: f64) -> Option<V3> {
+    let around = tape::between(mesh, free, joined);
+    let gap = |z: f64| {
+        let trunk = tape::trunk_outline(&around, z, middle)?;
+        let limbs = tape::right_limbs(&around, z, middle);
+        let arm = limbs.iter().max_by(|a, b| a.bounds().1.x.total_cmp(&b.bounds().1.x))?;
+        let outermost = trunk.points.iter().max_by(|a, b| a.x.total_cmp(&b.x))?;
+        let innermost = arm.points.iter().min_by(|a, b| a.x.total_cmp(&b.x))?;
+        Some((outermost + innermost) / 2.0)
+    };
+    let mut apex = gap(free).map(|p| V3::new(p.x, p.y, free))?;
+    while joined - free > 1e-5 {
+        let z = (free + joined) / 2.0;
+        match gap(z) {
+            Some(p) => {
+                free = z;
+                apex = V3::new(p.x, p.y, z);
+            }
+            None => joined = z,
+        }
+    }
+    Some(apex)
+}
+
+/// The lowest point of the skin between the thighs, in the median plane just above the crotch's height.
+pub(super) fn crotch_point(mesh: &TriMesh, crotch: f64) -> Option<V3> {
+    let outline = tape::trunk_outline(mesh, crotch, 0.0)?;
+    let next = outline.points.iter().cycle().skip(1);
+    let crossings = outline.points.iter().zip(next).filter(|(a, b)| (a.x > 0.0) != (b.x > 0.0));
+    let places: Vec<f64> = crossings.map(|(a, b)| a.y + (b.y - a.y) * (-a.x) / (b.x - a.x)).collect();
+    (!places.is_empty()).then(|| V3::new(0.0, places.iter().sum::<f64>() / places.len() as f64, crotch))
+}
+
+/// The foremost point of one side of the chest at height `z`; where the chest is flat, the usual place of the nipple.
+pub(super) fn bust_point(mesh: &TriMesh, z: f64, sign: f64, stature: f64) -> Option<V3> {
+    /// Usual distance of the nipple from the median plane over stature, and the range searched.
+    const USUAL: f64 = 0.054;
+    const RANGE: [f64; 2] = [0.040, 0.075];
+    let outline = tape::trunk_outline(mesh, z, 0.0)?;
+    let front = |x: f64| {
+        let next = outline.points.iter().cycle().skip(1);
+        let crossings = outline.points.iter().zip(next).filter(|(a, b)| (a.x > x) != (b.x > x));
+        crossings
+            .map(|(a, b)| a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x))
+            .max_by(f64::total_cmp)
+            .map(|y| V3::new(x, y, z))
+    };
+    let candidates = steps(sign * RANGE[0] * stature, sign * RANGE[1] * stature, 35).filter_map(front);
+    let foremost = candidates.max_by(|a, b| a.y.total_cmp(&b.y))?;
+    let at_edge = (foremost.x.abs() - RANGE[0] * stature).abs() < 1e-9;
+    if at_edge { front(sign * USUAL * stature) } else { Some(foremost) }
+}
+
+/// Middle of the right upper arm and the arm's direction, from the outlines of the hanging arm.
+fn upper_arm(mesh: &TriMesh, shoulder: V3, floor: f64, stature: f64, middle: f64) -> Option<(V3, V3)> {
+    let centre = |share: f64| {
+        let z = floor + share * stature;
+        let limbs = tape::right_limbs(mesh, z, middle + 0.08 * stature);
+        let arm = limbs.iter().max_by(|a, b| a.bounds().1.x.total_cmp(&b.bounds().1.x))?;
+        let (low, high) = arm.bounds();
+        Some(V3::new((low.x + high.x) / 2.0, (low.y + high.y) / 2.0, z))
+    };
+    let (high, low) = (centre(0.715)?, centre(0.68)?);
+    let along = (low - high).normalize();
+    let joint = shoulder.z - 0.03 * stature;
+    let root = high + along * ((joint - high.z) / along.z);
+    Some((root + along * 0.088 * stature, along))
+}
+
+/// `count + 1` evenly spaced numbers from `from` to `to`.
+fn steps(from: f64, to: f64, count: u32) -> impl Iterator<Item = f64> + Clone {
+    (0..=count).map(move |i| from + (to - from) * f64::from(i) / f64::from(count))
+}
+
+#[cfg(test)]
+#[path = "measure_tests.rs"]
+mod tests;

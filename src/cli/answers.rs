@@ -1,0 +1,95 @@
+//! Questions to the database: SQL, ease, recommendation.
+
+use std::io::Read;
+
+use super::args::{Format, Recommend, Sql, StudyPath};
+use super::context::Context;
+use super::{CliError, End, Outcome, output};
+use crate::study::{StudyError, Table, Value};
+use crate::units::mm;
+
+/// `toile sql`.
+pub fn sql(context: &Context, arguments: &Sql) -> Outcome {
+    let query = match (&arguments.query, &arguments.file) {
+        (Some(query), _) => query.clone(),
+        (None, Some(file)) if file.as_os_str() == "-" => {
+            let mut text = String::new();
+            std::io::stdin().read_to_string(&mut text)?;
+            text
+        }
+        (None, Some(file)) => {
+            std::fs::read_to_string(file).map_err(|source| StudyError::Io { path: file.clone(), source })?
+        }
+        (None, None) => return Err(CliError::Usage("no query; give one, or a file with -f".into())),
+    };
+    let format = arguments.format.unwrap_or(if context.json { Format::Json } else { Format::Table });
+    output::table(&context.workspace()?.query(&query)?, format)?;
+    Ok(End::Done)
+}
+
+/// `toile ease`.
+pub fn ease(context: &Context, arguments: &StudyPath) -> Outcome {
+    let mut workspace = context.workspace()?;
+    let name = if arguments.study.exists() && !context.readonly {
+        let study = context.study(&workspace, &arguments.study)?;
+        workspace.update_ease(&study)?;
+        study.name
+    } else {
+        context.study_name(&workspace, &arguments.study)?
+    };
+    let columns = [
+        "garment",
+        "size",
+        "subject",
+        "level",
+        "pattern_girth_mm",
+        "body_girth_mm",
+        "ease_mm",
+        "fit_class",
+        "undersized",
+        "borderline",
+    ];
+    let rows = workspace.ease(&name)?.into_iter().map(|ease| {
+        let tenth = |length_m: f64| Value::Real((mm(length_m) * 10.0).round() / 10.0);
+        let mark = |holds: bool| Value::Text(if holds { "yes" } else { "" }.to_owned());
+        vec![
+            Value::Text(ease.garment),
+            Value::Text(ease.size),
+            Value::Text(ease.subject),
+            Value::Text(ease.level),
+            tenth(ease.pattern_girth_m),
+            tenth(ease.body_girth_m),
+            tenth(ease.fit.ease_m),
+            Value::Text(ease.fit.class.as_str().to_owned()),
+            mark(ease.fit.undersized),
+            mark(ease.fit.borderline),
+        ]
+    });
+    let table = Table { columns: columns.map(str::to_owned).to_vec(), rows: rows.collect() };
+    if context.json {
+        let quoted = name.replace('\'', "''");
+        let exact = workspace.query(&format!("SELECT * FROM v_ease WHERE study = '{quoted}'"))?;
+        output::json(&output::rows(&exact))?;
+    } else {
+        context.print(&table)?;
+    }
+    Ok(End::Done)
+}
+
+/// `toile recommend`.
+pub fn recommend(context: &Context, arguments: &Recommend) -> Outcome {
+    let workspace = context.workspace()?;
+    let name = context.study_name(&workspace, &arguments.study)?;
+    let reason = if arguments.explain || context.json { ", rule_says, effect, ci_low, ci_high, reason" } else { "" };
+    let sql = format!(
+        "SELECT garment, fit_class, recommended, basis, verdict, n_subjects{reason}
+        FROM v_recommendation WHERE study = '{}' ORDER BY garment, fit_class",
+        name.replace('\'', "''")
+    );
+    let table = workspace.query(&sql)?;
+    if table.rows.is_empty() {
+        context.say(format_args!("study {name} has no fit classes yet; `toile ease` or `toile run` finds them"));
+    }
+    context.print(&table)?;
+    Ok(End::Done)
+}

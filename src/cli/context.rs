@@ -1,0 +1,95 @@
+//! What all commands share, resolved once from the global flags.
+
+use std::path::{Path, PathBuf};
+
+use super::CliError;
+use super::args::{Format, Global};
+use crate::study::{Study, Table, Workspace};
+
+/// The resolved global flags.
+pub struct Context {
+    /// Database file.
+    pub db: PathBuf,
+    /// Whether nothing may be changed.
+    pub readonly: bool,
+    /// Whether JSON was asked for.
+    pub json: bool,
+    /// Whether only errors are told.
+    pub quiet: bool,
+    /// Whether more is told.
+    pub verbose: bool,
+    /// Whether colours may be used.
+    pub colour: bool,
+}
+
+impl Context {
+    /// Resolves the global flags.
+    pub fn new(global: Global) -> Result<Self, CliError> {
+        let db = match global.db {
+            Some(path) => path,
+            None => default_database()?,
+        };
+        let no_color = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+        Ok(Self {
+            db,
+            readonly: global.readonly,
+            json: global.json,
+            quiet: global.quiet,
+            verbose: global.verbose,
+            colour: !(global.no_color || no_color),
+        })
+    }
+
+    /// Opens the workspace.
+    pub fn workspace(&self) -> Result<Workspace, CliError> {
+        Ok(Workspace::open(&self.db, self.readonly)?)
+    }
+
+    /// Says something on standard error, unless asked to be quiet.
+    pub fn say(&self, message: impl std::fmt::Display) {
+        if !self.quiet {
+            eprintln!("{message}");
+        }
+    }
+
+    /// Prints a table for reading, or as JSON.
+    pub fn print(&self, table: &Table) -> Result<(), CliError> {
+        let format = if self.json { Format::Json } else { Format::Table };
+        Ok(super::output::table(table, format)?)
+    }
+
+    /// The study of a path: its folder or file.
+    pub fn study(&self, workspace: &Workspace, path: &Path) -> Result<Study, CliError> {
+        Ok(workspace.load_study(path)?)
+    }
+
+    /// Name of a study given by its folder, its file, or its name itself.
+    pub fn study_name(&self, workspace: &Workspace, path: &Path) -> Result<String, CliError> {
+        let name = path.to_string_lossy();
+        if !name.contains('/') && workspace.studies()?.iter().any(|study| study.name == name) {
+            return Ok(name.into_owned());
+        }
+        if path.exists() {
+            return Ok(self.study(workspace, path)?.name);
+        }
+        Ok(workspace.study(&name)?.name)
+    }
+}
+
+/// The nearest folder upwards with a `studies` folder in it, if any.
+pub fn project_folder() -> Option<PathBuf> {
+    let here = std::env::current_dir().ok()?;
+    here.ancestors().find(|folder| folder.join("studies").is_dir()).map(Path::to_owned)
+}
+
+/// `db/toile.sqlite` of the project, else of the user's data folder.
+fn default_database() -> Result<PathBuf, CliError> {
+    if let Some(project) = project_folder() {
+        return Ok(project.join("db").join("toile.sqlite"));
+    }
+    let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+    let data = set("XDG_DATA_HOME").or_else(|| set("HOME").map(|home| home.join(".local").join("share")));
+    data.map(|data| data.join("toile").join("toile.sqlite")).ok_or_else(|| {
+        CliError::Usage("no place for a database: HOME is not set; say --db PATH or run beside a studies folder".into())
+    })
+}

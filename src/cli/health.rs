@@ -1,0 +1,42 @@
+//! `toile doctor` and `toile info`.
+
+use super::context::{Context, project_folder};
+use super::{End, Outcome};
+use crate::study::{Check, Status, Table, Value, checks};
+
+/// `toile doctor`: every check with what it found; exit code 3 when one failed.
+pub fn doctor(context: &Context) -> Outcome {
+    let found: Vec<Check> = checks(&context.db, context.readonly);
+    let text = |text: &str| Value::Text(text.to_owned());
+    let rows = found.iter().map(|check| {
+        vec![text(if check.passed { "ok" } else { "FAILED" }), text(check.name), Value::Text(check.found.clone())]
+    });
+    let columns = ["result", "check", "found"].map(str::to_owned).to_vec();
+    context.print(&Table { columns, rows: rows.collect() })?;
+    Ok(if found.iter().all(|check| check.passed) { End::Done } else { End::CheckFailed })
+}
+
+/// `toile info`: version, database, studies.
+pub fn info(context: &Context) -> Outcome {
+    let workspace = context.workspace()?;
+    let mut rows = vec![
+        ("version".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
+        ("database".to_owned(), context.db.display().to_string()),
+        (
+            "project".to_owned(),
+            project_folder().map_or_else(|| "none".to_owned(), |folder| folder.display().to_string()),
+        ),
+    ];
+    for study in workspace.studies()? {
+        let counts = Status::ALL.into_iter().filter(|&status| study.count(status) > 0);
+        let counts: Vec<String> = counts.map(|status| format!("{} {}", study.count(status), status.as_str())).collect();
+        let paused = if study.paused { ", paused" } else { "" };
+        rows.push((
+            format!("study {}", study.name),
+            format!("{}{paused}; {}", counts.join(", "), study.path.display()),
+        ));
+    }
+    let rows = rows.into_iter().map(|(name, value)| vec![Value::Text(name), Value::Text(value)]).collect();
+    context.print(&Table { columns: ["what", "value"].map(str::to_owned).to_vec(), rows })?;
+    Ok(End::Done)
+}

@@ -1,0 +1,141 @@
+//! Standard output: data only, as a table, CSV or JSON. Everything else goes to standard error.
+
+use std::io::{self, Write};
+
+use comfy_table::{CellAlignment, ContentArrangement, Table as Grid, presets};
+use serde_json::{Map, Value as Json};
+
+use super::args::Format;
+use crate::study::{Table, Value};
+
+/// Writes text to standard output; a closed pipe (`| head`) is no error.
+pub fn text(text: &str) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        result => result,
+    }
+}
+
+/// Writes a JSON document.
+pub fn json(value: &impl serde::Serialize) -> io::Result<()> {
+    let mut document = serde_json::to_string_pretty(value)?;
+    document.push('\n');
+    text(&document)
+}
+
+/// Writes a table in a format.
+pub fn table(table: &Table, format: Format) -> io::Result<()> {
+    match format {
+        Format::Table => text(&pretty(table)),
+        Format::Csv => text(&csv(table)?),
+        Format::Json => json(&rows(table)),
+    }
+}
+
+/// A table for reading: numbers to the right, at most six significant digits.
+pub fn pretty(table: &Table) -> String {
+    let mut grid = Grid::new();
+    grid.load_preset(presets::UTF8_HORIZONTAL_ONLY).set_content_arrangement(ContentArrangement::Dynamic);
+    if !console_is_wide() {
+        grid.set_content_arrangement(ContentArrangement::Disabled);
+    }
+    grid.set_header(&table.columns);
+    for row in &table.rows {
+        grid.add_row(row.iter().map(short));
+    }
+    for (index, column) in grid.column_iter_mut().enumerate() {
+        let is_text = |row: &Vec<Value>| matches!(row.get(index), Some(Value::Text(_)));
+        if !table.rows.iter().any(is_text) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+    let mut lines: String = grid.lines().flat_map(|line| [line.trim_end().to_owned(), "\n".to_owned()]).collect();
+    if table.columns.is_empty() {
+        lines.clear();
+    }
+    lines
+}
+
+/// Whether standard output is a terminal whose width tables should keep to.
+fn console_is_wide() -> bool {
+    io::IsTerminal::is_terminal(&io::stdout())
+}
+
+/// A value for reading.
+fn short(value: &Value) -> String {
+    match value {
+        Value::Real(number) => significant(*number),
+        other => other.to_string(),
+    }
+}
+
+/// A number with six significant digits and no trailing zeros.
+fn significant(number: f64) -> String {
+    if number == 0.0 || !number.is_finite() {
+        return number.to_string();
+    }
+    let magnitude = number.abs().log10().floor() as i32;
+    if !(-5..15).contains(&magnitude) {
+        return format!("{number:.5e}");
+    }
+    let decimals = (5 - magnitude).max(0) as usize;
+    let text = format!("{number:.decimals$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+fn csv(table: &Table) -> io::Result<String> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(&table.columns)?;
+    for row in &table.rows {
+        writer.write_record(row.iter().map(Value::to_string))?;
+    }
+    let bytes = writer.into_inner().map_err(|error| error.into_error())?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// Rows as JSON objects, keys in order of the columns.
+pub fn rows(table: &Table) -> Vec<Map<String, Json>> {
+    let cell = |value: &Value| match value {
+        Value::Null => Json::Null,
+        Value::Integer(number) => Json::from(*number),
+        Value::Real(number) => Json::from(*number),
+        Value::Text(text) => Json::from(text.as_str()),
+        Value::Blob(bytes) => Json::from(format!("<{bytes} bytes>")),
+    };
+    table.rows.iter().map(|row| table.columns.iter().cloned().zip(row.iter().map(cell)).collect()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample() -> Table {
+        Table {
+            columns: vec!["size".into(), "ei".into(), "note".into()],
+            rows: vec![
+                vec![Value::Text("S".into()), Value::Real(0.012_345_678), Value::Null],
+                vec![Value::Text("M".into()), Value::Real(974.1), Value::Text("a, \"b\"".into())],
+            ],
+        }
+    }
+
+    #[test]
+    fn numbers_are_short_for_reading() {
+        let check = |number: f64, expected: &str| assert_eq!(significant(number), expected);
+        check(0.0, "0");
+        check(1.0, "1");
+        check(974.1, "974.1");
+        check(0.012_345_678, "0.0123457");
+        check(1_234_567.8, "1234568");
+        check(1.5e-9, "1.50000e-9");
+        check(-0.25, "-0.25");
+    }
+
+    #[test]
+    fn formats_hold_the_same_rows() {
+        insta::assert_snapshot!(pretty(&sample()));
+        insta::assert_snapshot!(csv(&sample()).expect("memory"));
+        insta::assert_snapshot!(serde_json::to_string(&rows(&sample())).expect("plain values"));
+    }
+}

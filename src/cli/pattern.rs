@@ -1,0 +1,139 @@
+//! `toile pattern`: what needs only a pattern.
+
+use super::args::{Pattern, PatternUnit, StyleFiles};
+use super::context::Context;
+use super::{CliError, End, Outcome, output};
+use crate::study::tools::{self, FileReport, Unit};
+use crate::study::{Table, Value};
+use crate::units::{from_mm, mm};
+
+/// Edge length of the mesh a check makes, mm.
+const CHECK_EDGE_MM: f64 = 15.0;
+
+/// Runs a pattern command.
+pub fn run(context: &Context, command: &Pattern) -> Outcome {
+    match command {
+        Pattern::Inspect { path, size, unit } => {
+            let reports = tools::inspect(path, size.as_deref(), unit.map(of))?;
+            inspect(context, &reports)
+        }
+        Pattern::Check(files) => check(context, files),
+        Pattern::Draft { output } => {
+            for path in tools::write_files(output, &tools::drafted_tshirt())? {
+                output::text(&format!("{}\n", path.display()))?;
+            }
+            Ok(End::Done)
+        }
+        Pattern::Mesh { files, edge_length_mm } => mesh(context, files, *edge_length_mm),
+        Pattern::Sheet { files, output } => {
+            let sheet = tools::sheet(&style(files)?);
+            let folder = output.parent().unwrap_or(std::path::Path::new(""));
+            let name = output.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            tools::write_files(folder, &[(name, sheet.into_bytes())])?;
+            context.say(format_args!("wrote {}", output.display()));
+            Ok(End::Done)
+        }
+    }
+}
+
+fn of(unit: PatternUnit) -> Unit {
+    match unit {
+        PatternUnit::Mm => Unit::Mm,
+        PatternUnit::Cm => Unit::Cm,
+        PatternUnit::In => Unit::In,
+    }
+}
+
+fn style(files: &StyleFiles) -> Result<tools::Style, CliError> {
+    Ok(tools::style(&files.file, &files.seams, files.size.as_deref(), files.unit.map(of))?)
+}
+
+/// Prints reports; a file that cannot be read makes the whole unusable.
+fn inspect(context: &Context, reports: &[FileReport]) -> Outcome {
+    if context.json {
+        output::json(&reports)?;
+    } else {
+        context.print(&pieces(reports))?;
+    }
+    for report in reports {
+        for warning in &report.warnings {
+            context.say(format_args!("{}: {warning}", report.file));
+        }
+        for refused in &report.refused {
+            context.say(format_args!("{}, block {}: {}", report.file, refused.block, refused.reason));
+        }
+        if let Some(error) = &report.error {
+            eprintln!("{error}");
+        }
+    }
+    let unreadable = reports.iter().any(|report| report.error.is_some());
+    Ok(if unreadable || reports.is_empty() { End::Unusable } else { End::Done })
+}
+
+fn pieces(reports: &[FileReport]) -> Table {
+    let columns = ["file", "block", "name", "size", "quantity", "perimeter_mm", "area_cm2", "notches", "grain_mm"];
+    let text = |text: &str| Value::Text(text.to_owned());
+    let maybe = |value: Option<Value>| value.unwrap_or(Value::Null);
+    let rows = reports.iter().flat_map(|report| {
+        report.pieces.iter().map(move |piece| {
+            vec![
+                text(&report.file),
+                text(&piece.block),
+                text(&piece.name),
+                maybe(piece.size.as_deref().map(text)),
+                maybe(piece.quantity.as_deref().map(text)),
+                Value::Real((piece.perimeter_mm * 10.0).round() / 10.0),
+                Value::Real((piece.area_mm2 / 10.0).round() / 10.0),
+                Value::Integer(piece.notches as i64),
+                maybe(piece.grain_mm.map(|length| Value::Real((length * 10.0).round() / 10.0))),
+            ]
+        })
+    });
+    Table { columns: columns.map(str::to_owned).to_vec(), rows: rows.collect() }
+}
+
+/// Checks a pattern with its seam file by making everything a simulation needs of it.
+fn check(context: &Context, files: &StyleFiles) -> Outcome {
+    let checked = style(files).and_then(|style| Ok((tools::mesh(&style, from_mm(CHECK_EDGE_MM))?, style)));
+    let ((garment, quality), style) = match checked {
+        Ok(checked) => checked,
+        Err(CliError::Study(error @ crate::study::StudyError::Stage { .. })) => {
+            eprintln!("toile: {error}");
+            return Ok(End::CheckFailed);
+        }
+        Err(error) => return Err(error),
+    };
+    let columns = ["#", "measurement", "l2d_mm", "free edge"].map(str::to_owned).to_vec();
+    let rows = style.measurements.iter().map(|m| {
+        let length = Value::Real((mm(m.l2d_m) * 100.0).round() / 100.0);
+        let free = if m.is_free_edge { "yes" } else { "" };
+        vec![Value::Integer(i64::from(m.no)), Value::Text(m.name.clone()), length, Value::Text(free.to_owned())]
+    });
+    context.print(&Table { columns, rows: rows.collect() })?;
+    context.say(format_args!(
+        "{}: {} pieces, {} seams, {} measurements; at {CHECK_EDGE_MM} mm {} vertices, least angle {:.0} degrees",
+        files.file.display(),
+        garment.pieces.len(),
+        garment.seams.len(),
+        garment.measurements.len(),
+        garment.rest.len(),
+        quality.min_angle_deg
+    ));
+    Ok(End::Done)
+}
+
+fn mesh(context: &Context, files: &StyleFiles, edge_length_mm: f64) -> Outcome {
+    let (garment, quality) = tools::mesh(&style(files)?, from_mm(edge_length_mm))?;
+    let numbers = [
+        ("vertices", Value::Integer(garment.rest.len() as i64)),
+        ("triangles", Value::Integer(garment.triangles.len() as i64)),
+        ("seam_pairs", Value::Integer(garment.seams.iter().map(|seam| seam.pairs.len() as i64).sum())),
+        ("min_angle_deg", Value::Real(quality.min_angle_deg)),
+        ("min_edge_mm", Value::Real(mm(quality.min_edge_m))),
+        ("mean_edge_mm", Value::Real(mm(quality.mean_edge_m))),
+        ("max_edge_mm", Value::Real(mm(quality.max_edge_m))),
+    ];
+    let (columns, row) = numbers.into_iter().map(|(name, value)| (name.to_owned(), value)).unzip();
+    context.print(&Table { columns, rows: vec![row] })?;
+    Ok(End::Done)
+}

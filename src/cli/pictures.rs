@@ -1,0 +1,62 @@
+//! `toile render` and `toile report`: what a run looks like.
+
+use std::path::{Path, PathBuf};
+
+use super::args::{Map as MapArgument, Render, Report, View as ViewArgument};
+use super::context::{Context, project_folder};
+use super::{CliError, End, Outcome, output};
+use crate::study::{JobId, Map, View, Workspace, tools};
+
+/// `toile render`.
+pub fn render(context: &Context, arguments: &Render) -> Outcome {
+    let view = match arguments.view {
+        ViewArgument::Front => View::Front,
+        ViewArgument::Side => View::Side,
+        ViewArgument::Back => View::Back,
+        ViewArgument::Quarter => View::Quarter,
+    };
+    let map = match arguments.map {
+        MapArgument::Plain => Map::Plain,
+        MapArgument::Stretch => Map::Stretch,
+        MapArgument::Gap => Map::Gap,
+    };
+    let workspace = context.workspace()?;
+    let png = workspace.picture_png(JobId(arguments.job), view, arguments.width, arguments.height, map)?;
+    let name = arguments.output.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    tools::write_files(arguments.output.parent().unwrap_or(Path::new("")), &[(name, png)])?;
+    context.say(format_args!("wrote {}", arguments.output.display()));
+    Ok(End::Done)
+}
+
+/// `toile report`.
+pub fn report(context: &Context, arguments: &Report) -> Outcome {
+    let workspace = context.workspace()?;
+    let name = context.study_name(&workspace, &arguments.study)?;
+    write_report(context, &workspace, &name, arguments.output.as_deref())?;
+    Ok(End::Done)
+}
+
+/// Writes a study's report and prints the path of its page.
+pub fn write_report(
+    context: &Context,
+    workspace: &Workspace,
+    study: &str,
+    folder: Option<&Path>,
+) -> Result<(), CliError> {
+    let folder = folder.map_or_else(|| default_folder(context, study), Path::to_owned);
+    let files: Vec<(String, Vec<u8>)> = workspace.report(study)?;
+    tools::write_files(&folder, &files)?;
+    let page = folder.join("index.html");
+    if context.json {
+        context.say(format_args!("report: {}", page.display()));
+    } else {
+        output::text(&format!("report: {}\n", page.display()))?;
+    }
+    Ok(())
+}
+
+/// `reports/STUDY` of the project; without a project, beside the database.
+fn default_folder(context: &Context, study: &str) -> PathBuf {
+    let beside = || context.db.parent().map(Path::to_owned).unwrap_or_default();
+    project_folder().unwrap_or_else(beside).join("reports").join(study)
+}

@@ -1,0 +1,127 @@
+//! Progress on standard error: bars on a terminal, plain lines elsewhere.
+
+use std::collections::BTreeMap;
+use std::io::IsTerminal;
+
+use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+
+use super::context::Context;
+use super::run::label;
+use crate::study::{JobId, JobRow, Result, Status, Workspace};
+
+/// Steps of a job's bar.
+const STEPS: u64 = 1000;
+
+/// Shows how the jobs of a run fare.
+pub struct Progress {
+    jobs: Vec<JobId>,
+    shown: BTreeMap<JobId, Status>,
+    bars: Option<Bars>,
+    quiet: bool,
+}
+
+/// Bars of a terminal.
+struct Bars {
+    all: MultiProgress,
+    total: ProgressBar,
+    running: BTreeMap<JobId, ProgressBar>,
+    style: ProgressStyle,
+}
+
+impl Bars {
+    fn new(jobs: usize, colour: bool) -> Self {
+        let style = |template: &str, coloured: &str| {
+            let style = ProgressStyle::with_template(if colour { coloured } else { template });
+            style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("━╸─")
+        };
+        let all = MultiProgress::new();
+        let total = all.add(ProgressBar::new(jobs as u64));
+        total.set_style(style(
+            "all jobs {bar:30} {pos}/{len} {elapsed}",
+            "all jobs {bar:30.green/dim} {pos}/{len} {elapsed}",
+        ));
+        let job =
+            style("{prefix:20} {bar:30} {percent:>3} % {msg}", "{prefix:20} {bar:30.cyan/dim} {percent:>3} % {msg}");
+        Self { all, total, running: BTreeMap::new(), style: job }
+    }
+
+    fn show(&mut self, job: &JobRow) {
+        let Some(progress) = &job.progress else { return };
+        let bar = self.running.entry(job.id).or_insert_with(|| {
+            let bar = self.all.add(ProgressBar::new(STEPS).with_style(self.style.clone()));
+            bar.set_prefix(label(&job.garment, &job.size, &job.subject));
+            bar
+        });
+        bar.set_position((progress.fraction.clamp(0.0, 1.0) * STEPS as f64) as u64);
+        let step = &progress.step;
+        bar.set_message(format!(
+            "{} {}, residual {:.3}, E {:.3}",
+            progress.phase, step.iteration, step.residual, step.e_chi
+        ));
+    }
+
+    fn end(&mut self, job: &JobRow, line: &str) {
+        if let Some(bar) = self.running.remove(&job.id) {
+            bar.finish_and_clear();
+            self.all.remove(&bar);
+        }
+        self.total.inc(1);
+        // The line is also in the job's log; a terminal that went away need not have it.
+        let _ = self.all.println(line);
+    }
+}
+
+impl Progress {
+    /// Progress of some jobs.
+    pub fn new(context: &Context, jobs: Vec<JobId>) -> Self {
+        let bars = (!context.quiet && !jobs.is_empty() && std::io::stderr().is_terminal())
+            .then(|| Bars::new(jobs.len(), context.colour));
+        Self { jobs, shown: BTreeMap::new(), bars, quiet: context.quiet }
+    }
+
+    /// Looks at the jobs and shows what is new.
+    pub fn show(&mut self, workspace: &Workspace) -> Result<()> {
+        for &id in &self.jobs {
+            if self.shown.get(&id).is_some_and(|status| status.is_final()) {
+                continue;
+            }
+            let job = workspace.job(id)?;
+            let is_new = self.shown.insert(id, job.status) != Some(job.status);
+            if let Some(bars) = &mut self.bars {
+                bars.show(&job);
+            }
+            if is_new && job.status.is_final() {
+                let line = ended(&job);
+                match &mut self.bars {
+                    Some(bars) => bars.end(&job, &line),
+                    None if !self.quiet => eprintln!("{line}"),
+                    None => {}
+                }
+            } else if is_new && job.status == Status::Running && self.bars.is_none() && !self.quiet {
+                eprintln!("job {} {}: started", job.id, label(&job.garment, &job.size, &job.subject));
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes the bars away.
+    pub fn finish(&mut self) {
+        if let Some(bars) = &mut self.bars {
+            bars.running.values().for_each(ProgressBar::finish_and_clear);
+            bars.total.finish_and_clear();
+        }
+    }
+}
+
+/// The line about a job that ended.
+fn ended(job: &JobRow) -> String {
+    let what = label(&job.garment, &job.size, &job.subject);
+    let took = job.wall_ms.map(|ms| format!(" ({:.1} s)", ms as f64 / 1e3)).unwrap_or_default();
+    let how = match (job.status, job.ei, &job.error) {
+        (Status::Done, Some(ei), _) => format!("done, EI {ei:.4}"),
+        (Status::NotConverged, Some(ei), _) => format!("not converged, EI {ei:.4}"),
+        (status, _, Some(error)) => format!("{}: {error}", status.as_str()),
+        (status, ..) => status.as_str().to_owned(),
+    };
+    format!("job {} {what}: {how}{took}", job.id)
+}

@@ -1,0 +1,90 @@
+//! `toile queue`: listing and steering jobs.
+
+use super::args::{Jobs, Queue};
+use super::context::Context;
+use super::{End, Outcome};
+use crate::study::{JobFilter, JobId, StudyError, Table, Value, Workspace, why_no_retry};
+
+/// Runs a queue command.
+pub fn run(context: &Context, command: &Queue) -> Outcome {
+    let mut workspace = context.workspace()?;
+    match command {
+        Queue::Ls { study, all } => context.print(&list(&workspace, study.as_deref(), *all)?)?,
+        Queue::Pause { study } => workspace.pause(study)?,
+        Queue::Resume { study } => workspace.resume(study)?,
+        Queue::Cancel(jobs) => {
+            let ids = ids(&workspace, jobs)?;
+            let changed = workspace.cancel(&ids)?;
+            context.say(format_args!("cancelled {changed} of {} jobs", ids.len()));
+        }
+        Queue::Retry(jobs) => return retry(context, &mut workspace, jobs),
+        Queue::Log { job } => context.print(&log(&workspace, JobId(*job))?)?,
+    }
+    Ok(End::Done)
+}
+
+fn retry(context: &Context, workspace: &mut Workspace, jobs: &Jobs) -> Outcome {
+    let ids = ids(workspace, jobs)?;
+    for &id in &ids {
+        let why = why_no_retry(workspace.job(id)?.status);
+        if let Some(why) = why.filter(|_| !jobs.jobs.is_empty()) {
+            context.say(format_args!("job {id} is left as it is: {why}"));
+        }
+    }
+    let changed = workspace.retry(&ids)?;
+    context.say(format_args!("queued {changed} of {} jobs again; `toile run` works on them", ids.len()));
+    Ok(End::Done)
+}
+
+/// Jobs named one by one, and all current ones of a study.
+fn ids(workspace: &Workspace, jobs: &Jobs) -> Result<Vec<JobId>, StudyError> {
+    let mut ids: Vec<JobId> = jobs.jobs.iter().copied().map(JobId).collect();
+    for &id in &ids {
+        workspace.job(id)?;
+    }
+    if let Some(study) = &jobs.study {
+        workspace.study(study)?;
+        let filter = JobFilter { study: Some(study.clone()), ..JobFilter::default() };
+        ids.extend(workspace.jobs(&filter)?.iter().map(|job| job.id));
+    }
+    Ok(ids)
+}
+
+/// Jobs as a table.
+fn list(workspace: &Workspace, study: Option<&str>, all: bool) -> Result<Table, StudyError> {
+    if let Some(study) = study {
+        workspace.study(study)?;
+    }
+    let filter = JobFilter { study: study.map(str::to_owned), superseded: all, ..JobFilter::default() };
+    let columns =
+        ["job", "study", "garment", "size", "subject", "sim", "status", "done", "ei", "wall_s", "tries", "error"];
+    let rows = workspace.jobs(&filter)?.into_iter().map(|job| {
+        let real = |number: Option<f64>| number.map_or(Value::Null, Value::Real);
+        let percent =
+            job.progress.as_ref().map(|progress| format!("{:.0} % {}", progress.fraction * 100.0, progress.phase));
+        vec![
+            Value::Integer(job.id.0),
+            Value::Text(job.study),
+            Value::Text(job.garment),
+            Value::Text(job.size),
+            Value::Text(job.subject),
+            Value::Text(job.simulator.as_str().to_owned()),
+            Value::Text(job.status.as_str().to_owned()),
+            percent.map_or(Value::Null, Value::Text),
+            real(job.ei),
+            real(job.wall_ms.map(|ms| ms as f64 / 1e3)),
+            Value::Integer(i64::from(job.attempts)),
+            job.error.map_or(Value::Null, Value::Text),
+        ]
+    });
+    Ok(Table { columns: columns.map(str::to_owned).to_vec(), rows: rows.collect() })
+}
+
+/// A job's log as a table; times are seconds since it was queued.
+fn log(workspace: &Workspace, id: JobId) -> Result<Table, StudyError> {
+    let queued = workspace.job(id)?.queued_at_ms;
+    let rows = workspace.log(id)?.into_iter().map(|line| {
+        vec![Value::Real((line.at_ms - queued) as f64 / 1e3), Value::Text(line.level), Value::Text(line.text)]
+    });
+    Ok(Table { columns: ["seconds", "level", "message"].map(str::to_owned).to_vec(), rows: rows.collect() })
+}

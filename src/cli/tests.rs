@@ -1,0 +1,16 @@
+use clap::CommandFactory;
+
+use super::args::Arguments;
+
+#[test]
+fn the_arguments_are_consistent() {
+    Arguments::command().debug_assert();
+}
+
+#[test]
+fn help_is_what_users_were_told() {
+    let mut command = Arguments::command().term_width(100);
+    insta::assert_snapshot!(command.render_help());
+    let run = command.find_subcommand_mut("run").expect("a command").clone();
+    insta::assert_snapshot!(run.term_width(100).render_help());
+}

@@ -1,0 +1,194 @@
+//! Plane sections of triangle meshes.
+
+use super::{TriMesh, V2, V3};
+use std::collections::BTreeMap;
+
+/// A plane with a frame: points of the plane are `origin + u * x + v * y`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    /// A point of the plane, metres.
+    pub origin: V3,
+    /// Unit first axis.
+    pub u: V3,
+    /// Unit second axis.
+    pub v: V3,
+}
+
+impl Plane {
+    /// The horizontal plane at height `z`, its axes those of the world.
+    #[must_use]
+    pub fn horizontal(z: f64) -> Self {
+        Self { origin: V3::new(0.0, 0.0, z), u: V3::x(), v: V3::y() }
+    }
+
+    /// The plane through `origin` with the unit `normal`; the first axis is horizontal.
+    #[must_use]
+    pub fn normal_to(origin: V3, normal: V3) -> Self {
+        let horizontal = V3::new(normal.y, -normal.x, 0.0).try_normalize(1e-9).unwrap_or_else(V3::x);
+        let u = if horizontal.x < 0.0 { -horizontal } else { horizontal };
+        Self { origin, u, v: normal.cross(&u) }
+    }
+
+    /// Unit normal.
+    #[must_use]
+    pub fn normal(&self) -> V3 {
+        self.u.cross(&self.v)
+    }
+
+    /// Signed distance of a point, metres.
+    #[must_use]
+    pub fn distance(&self, point: V3) -> f64 {
+        (point - self.origin).dot(&self.normal())
+    }
+
+    /// Coordinates of a point's foot in the plane.
+    #[must_use]
+    pub fn project(&self, point: V3) -> V2 {
+        let offset = point - self.origin;
+        V2::new(offset.dot(&self.u), offset.dot(&self.v))
+    }
+
+    /// The point of space at plane coordinates `p`.
+    #[must_use]
+    pub fn lift(&self, p: V2) -> V3 {
+        self.origin + self.u * p.x + self.v * p.y
+    }
+}
+
+/// One chained outline of a section.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline {
+    /// Points in plane coordinates, metres; the first is not repeated.
+    pub points: Vec<V2>,
+    /// Whether the outline closes; an open one crosses a hole of the mesh.
+    pub closed: bool,
+}
+
+impl Outline {
+    /// Least and greatest coordinates.
+    #[must_use]
+    pub fn bounds(&self) -> (V2, V2) {
+        let first = self.points.first().copied().unwrap_or_else(V2::zeros);
+        self.points.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)))
+    }
+
+    /// Whether `point` lies inside (even-odd rule; an open outline is closed by a chord).
+    #[must_use]
+    pub fn contains(&self, point: V2) -> bool {
+        let next = self.points.iter().cycle().skip(1);
+        let crossings = self.points.iter().zip(next).filter(|(a, b)| {
+            (a.y > point.y) != (b.y > point.y) && point.x < a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x)
+        });
+        crossings.count() % 2 == 1
+    }
+}
+
+/// Where the plane cuts an edge: the sorted vertex pair.
+type CutEdge = (usize, usize);
+
+/// Outlines in which `plane` cuts `mesh`.
+///
+/// A vertex exactly in the plane counts as above it, so every triangle gives one segment or none and the outlines of
+/// a closed manifold mesh all close.
+#[must_use]
+pub fn section(mesh: &TriMesh, plane: &Plane) -> Vec<Outline> {
+    let normal = plane.normal();
+    let height: Vec<f64> = mesh.positions.iter().map(|p| (p - plane.origin).dot(&normal)).collect();
+    let mut successor: BTreeMap<CutEdge, CutEdge> = BTreeMap::new();
+    for &[a, b, c] in &mesh.triangles {
+        let mut leaving = None;
+        let mut entering = None;
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let edge = (from.min(to), from.max(to));
+            match (height[from] >= 0.0, height[to] >= 0.0) {
+                (true, false) => leaving = Some(edge),
+                (false, true) => entering = Some(edge),
+                _ => {}
+            }
+        }
+        if let (Some(leaving), Some(entering)) = (leaving, entering) {
+            successor.insert(leaving, entering);
+        }
+    }
+    let place = |&(a, b): &CutEdge| {
+        let share = height[a] / (height[a] - height[b]);
+        plane.project(mesh.positions[a] + (mesh.positions[b] - mesh.positions[a]) * share)
+    };
+    chain(successor)
+        .into_iter()
+        .map(|(edges, closed)| Outline { points: edges.iter().map(place).collect(), closed })
+        .collect()
+}
+
+/// Chains cut edges along their successors: open chains first, then loops.
+fn chain(mut successor: BTreeMap<CutEdge, CutEdge>) -> Vec<(Vec<CutEdge>, bool)> {
+    let targets: std::collections::BTreeSet<CutEdge> = successor.values().copied().collect();
+    let heads: Vec<CutEdge> = successor.keys().filter(|edge| !targets.contains(edge)).copied().collect();
+    let mut chains = Vec::new();
+    let mut follow = |start: CutEdge, successor: &mut BTreeMap<CutEdge, CutEdge>| {
+        let mut edges = vec![start];
+        let mut at = start;
+        while let Some(next) = successor.remove(&at) {
+            if next == start {
+                chains.push((edges, true));
+                return;
+            }
+            edges.push(next);
+            at = next;
+        }
+        chains.push((edges, false));
+    };
+    for head in heads {
+        follow(head, &mut successor);
+    }
+    while let Some((&start, _)) = successor.first_key_value() {
+        follow(start, &mut successor);
+    }
+    chains
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn octahedron() -> TriMesh {
+        let positions = vec![V3::x(), V3::y(), -V3::x(), -V3::y(), V3::z(), -V3::z()];
+        let triangles = (0..4).flat_map(|i| [[i, (i + 1) % 4, 4], [(i + 1) % 4, i, 5]]).collect();
+        TriMesh { positions, triangles }
+    }
+
+    #[test]
+    fn an_octahedron_is_cut_in_squares() {
+        let check = |z: f64, half_diagonal: f64| {
+            let outlines = section(&octahedron(), &Plane::horizontal(z));
+            assert_eq!(outlines.len(), 1, "z = {z}");
+            assert!(outlines[0].closed);
+            let girth = crate::geom::hull::tape_girth(&outlines[0].points);
+            assert!((girth - 4.0 * half_diagonal * 2.0_f64.sqrt()).abs() < 1e-12, "z = {z}: {girth}");
+        };
+        check(0.0, 1.0);
+        check(0.25, 0.75);
+        check(-0.5, 0.5);
+    }
+
+    #[test]
+    fn a_missing_triangle_leaves_an_open_outline() {
+        let mut mesh = octahedron();
+        mesh.triangles.remove(0);
+        let outlines = section(&mesh, &Plane::horizontal(0.5));
+        assert_eq!(outlines.len(), 1);
+        assert!(!outlines[0].closed);
+        assert_eq!(outlines[0].points.len(), 4);
+    }
+
+    #[test]
+    fn a_plane_keeps_its_frame() {
+        let normal = V3::new(0.0, 0.3, 0.9).normalize();
+        let plane = Plane::normal_to(V3::new(0.1, 0.2, 0.3), normal);
+        assert!((plane.normal() - normal).norm() < 1e-12);
+        let point = plane.lift(V2::new(0.4, -0.2));
+        assert!(plane.distance(point).abs() < 1e-12);
+        assert!((plane.project(point) - V2::new(0.4, -0.2)).norm() < 1e-12);
+        assert!(plane.u.z.abs() < 1e-12);
+    }
+}

@@ -1,0 +1,326 @@
+//! What a DXF file holds, counted from its tags before the `dxf` crate reads it.
+//!
+//! The crate returns `Ok` while it drops polylines with group codes it does not know (240-269, as some 3D garment CAD
+//! writes them) and vertices whose numbers do not parse. So every number is checked here, the unknown codes are taken
+//! out, and afterwards the crate's entities are counted against these.
+
+use std::collections::BTreeMap;
+
+use super::DxfError;
+use super::tags::{Tag, ValueType, clipped, value_type};
+
+/// Entities that carry a pattern; `VERTEX` counts those of LWPOLYLINE too.
+pub const KINDS: [&str; 7] = ["POLYLINE", "VERTEX", "LWPOLYLINE", "LINE", "POINT", "TEXT", "INSERT"];
+
+/// Entities of DXF besides [`KINDS`] [DXF reference, ENTITIES section]; anything else is a damaged or foreign file.
+const OTHER_KINDS: [&str; 42] = [
+    "3DFACE",
+    "3DLINE",
+    "3DSOLID",
+    "ACAD_PROXY_ENTITY",
+    "ARC",
+    "ARCALIGNEDTEXT",
+    "ATTDEF",
+    "ATTRIB",
+    "BODY",
+    "CIRCLE",
+    "DGNUNDERLAY",
+    "DIMENSION",
+    "DWFUNDERLAY",
+    "ELLIPSE",
+    "HATCH",
+    "HELIX",
+    "IMAGE",
+    "LEADER",
+    "LIGHT",
+    "MESH",
+    "MLEADER",
+    "MLINE",
+    "MTEXT",
+    "MULTILEADER",
+    "OLE2FRAME",
+    "OLEFRAME",
+    "PDFUNDERLAY",
+    "RAY",
+    "REGION",
+    "RTEXT",
+    "SECTION",
+    "SEQEND",
+    "SHAPE",
+    "SOLID",
+    "SPLINE",
+    "SUN",
+    "SURFACE",
+    "TOLERANCE",
+    "TRACE",
+    "VIEWPORT",
+    "WIPEOUT",
+    "XLINE",
+];
+
+/// Number of entities of each kind.
+pub type Counts = BTreeMap<&'static str, usize>;
+
+/// A block and what it holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BlockCount<'a> {
+    /// Name as bytes of the file.
+    pub name: &'a [u8],
+    /// Line of its `0/BLOCK`.
+    pub line: usize,
+    /// Entities.
+    pub counts: Counts,
+}
+
+/// A text value with its line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeaderValue<'a> {
+    /// Value.
+    pub value: &'a str,
+    /// Line.
+    pub line: usize,
+}
+
+/// A DXF file as counted.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Inventory<'a> {
+    /// Header variables that matter here, by name.
+    pub header: BTreeMap<&'a str, HeaderValue<'a>>,
+    /// Blocks in order.
+    pub blocks: Vec<BlockCount<'a>>,
+    /// Entities outside blocks.
+    pub entities: Counts,
+    /// Texts (group code 1 of TEXT) with their lines, as bytes.
+    pub texts: Vec<(&'a [u8], usize)>,
+    /// The tags to hand to the crate: version, blocks and entities, without undefined group codes.
+    pub clean: Vec<Tag<'a>>,
+}
+
+/// Counts what the tags hold.
+///
+/// # Errors
+/// [`DxfError`] where sections or blocks do not nest, a number does not parse, a coordinate is missing, or a group code
+/// is undefined (other than 240-269, which are skipped).
+pub fn take_inventory<'a>(tags: &[Tag<'a>], file: &str) -> Result<Inventory<'a>, DxfError> {
+    let mut walk = Walk { file, section: None, block: None, inventory: Inventory::default() };
+    // Records: a tag of group code 0 with those up to the next.
+    let starts: Vec<usize> = (0..tags.len()).filter(|&i| tags[i].code == 0).collect();
+    if let Some(stray) = tags[..starts.first().copied().unwrap_or(tags.len())].iter().find(|tag| tag.code != 999) {
+        return Err(walk.fail(stray, format!("group code {} before the first section", stray.code), "0/SECTION"));
+    }
+    for (k, &start) in starts.iter().enumerate() {
+        walk.record(&tags[start..starts.get(k + 1).copied().unwrap_or(tags.len())])?;
+    }
+    if walk.inventory.blocks.is_empty() && walk.inventory.entities.is_empty() {
+        let found = "neither blocks nor entities".to_owned();
+        return Err(DxfError::new(
+            file,
+            None,
+            found,
+            "a DXF file with pattern pieces in BLOCKS, or an outline in ENTITIES",
+        ));
+    }
+    Ok(walk.inventory)
+}
+
+struct Walk<'a, 'f> {
+    file: &'f str,
+    /// Name of the section open now.
+    section: Option<&'a str>,
+    /// Whether a block is open: the line of its start.
+    block: Option<usize>,
+    inventory: Inventory<'a>,
+}
+
+impl<'a> Walk<'a, '_> {
+    fn fail(&self, tag: &Tag<'_>, found: String, accepted: &str) -> DxfError {
+        DxfError::new(self.file, Some(tag.line), found, accepted)
+    }
+
+    fn record(&mut self, record: &[Tag<'a>]) -> Result<(), DxfError> {
+        let head = record[0];
+        match (head.keyword_static(), self.section) {
+            ("SECTION", None) => {
+                let name = record.get(1).filter(|tag| tag.code == 2).map(|tag| keyword_of(tag.value));
+                let name = name
+                    .ok_or_else(|| self.fail(&head, "a section without a name".to_owned(), "2/NAME after 0/SECTION"))?;
+                self.section = Some(name);
+                if name == "HEADER" {
+                    self.header(&record[2..]);
+                }
+            }
+            ("ENDSEC", Some(_)) => {
+                if self.block.is_some() {
+                    return Err(self.fail(
+                        &head,
+                        "the section ends inside a block".to_owned(),
+                        "0/ENDBLK before 0/ENDSEC",
+                    ));
+                }
+                self.section = None;
+            }
+            ("EOF", None) => {}
+            (keyword @ ("SECTION" | "EOF"), Some(section)) => {
+                let found = format!("{keyword} inside section {section}: the file is truncated or damaged");
+                return Err(self.fail(&head, found, "0/ENDSEC first"));
+            }
+            (_, Some("BLOCKS" | "ENTITIES")) => return self.content(record),
+            (_, Some(_)) => {}
+            (keyword, None) => {
+                return Err(self.fail(
+                    &head,
+                    format!("`{}` outside all sections", clipped(keyword)),
+                    "0/SECTION or 0/EOF",
+                ));
+            }
+        }
+        let is_kept = matches!(self.section, Some("BLOCKS" | "ENTITIES")) && head.begins("SECTION");
+        if is_kept {
+            self.inventory.clean.extend(record.iter().take(2));
+        } else if head.begins("ENDSEC") && self.inventory.clean.last().is_some_and(|tag| !tag.begins("ENDSEC")) {
+            self.inventory.clean.push(head);
+        }
+        Ok(())
+    }
+
+    fn header(&mut self, tags: &[Tag<'a>]) {
+        for pair in tags.windows(2) {
+            if pair[0].code == 9 {
+                let value = HeaderValue { value: keyword_of(pair[1].value), line: pair[1].line };
+                self.inventory.header.insert(keyword_of(pair[0].value), value);
+            }
+        }
+    }
+
+    /// A record of the sections BLOCKS and ENTITIES.
+    fn content(&mut self, record: &[Tag<'a>]) -> Result<(), DxfError> {
+        let head = record[0];
+        let is_in_blocks = self.section == Some("BLOCKS");
+        self.check_values(record)?;
+        match head.keyword_static() {
+            "BLOCK" if is_in_blocks => {
+                if let Some(line) = self.block.replace(head.line) {
+                    return Err(self.fail(&head, format!("a block inside the block of line {line}"), "0/ENDBLK first"));
+                }
+                let name = record.iter().find(|tag| tag.code == 2).map(|tag| tag.value.trim_ascii());
+                let name = name.ok_or_else(|| self.fail(&head, "a block without a name".to_owned(), "group code 2"))?;
+                self.inventory.blocks.push(BlockCount { name, line: head.line, counts: Counts::new() });
+            }
+            "ENDBLK" if is_in_blocks => {
+                // Some writers close the section's own, never opened block; that holds nothing.
+                self.block = None;
+            }
+            _ if is_in_blocks && self.block.is_none() => {
+                return Err(self.fail(
+                    &head,
+                    format!("{} outside all blocks", clipped(head.keyword_static())),
+                    "0/BLOCK first",
+                ));
+            }
+            keyword if !KINDS.contains(&keyword) && !OTHER_KINDS.contains(&keyword) => {
+                return Err(self.fail(&head, format!("`{}`", clipped(keyword)), "an entity of DXF"));
+            }
+            keyword => {
+                self.check_coordinates(keyword, record)?;
+                self.count(keyword, record);
+            }
+        }
+        self.inventory.clean.extend(record.iter().filter_map(|tag| match value_type(tag.code) {
+            ValueType::Undefined => None,
+            ValueType::Integer(..) => Some(Tag { value: without_zero_decimals(tag.value), ..*tag }),
+            ValueType::Real | ValueType::Text => Some(*tag),
+        }));
+        Ok(())
+    }
+
+    fn count(&mut self, keyword: &str, record: &[Tag<'a>]) {
+        let counts = match self.inventory.blocks.last_mut() {
+            Some(block) if self.block.is_some() => &mut block.counts,
+            _ => &mut self.inventory.entities,
+        };
+        if let Some(kind) = KINDS.into_iter().find(|&kind| kind == keyword) {
+            *counts.entry(kind).or_default() += 1;
+        }
+        if keyword == "LWPOLYLINE" {
+            *counts.entry("VERTEX").or_default() += record.iter().filter(|tag| tag.code == 10).count();
+        }
+        if keyword == "TEXT" {
+            self.inventory.texts.extend(record.iter().filter(|tag| tag.code == 1).map(|tag| (tag.value, tag.line)));
+        }
+    }
+
+    fn check_values(&self, record: &[Tag<'a>]) -> Result<(), DxfError> {
+        for tag in record {
+            let value = String::from_utf8_lossy(tag.value.trim_ascii());
+            let found =
+                || format!("`{}` for group code {} of {}", clipped(&value), tag.code, record[0].keyword_static());
+            match value_type(tag.code) {
+                ValueType::Real if !value.parse::<f64>().is_ok_and(f64::is_finite) => {
+                    return Err(self.fail(tag, found(), "a number with a decimal point, such as 78.88"));
+                }
+                ValueType::Integer(least, greatest)
+                    if !keyword_of(without_zero_decimals(tag.value))
+                        .parse::<i64>()
+                        .is_ok_and(|v| (least..=greatest).contains(&v)) =>
+                {
+                    return Err(self.fail(tag, found(), &format!("an integer from {least} to {greatest}")));
+                }
+                ValueType::Undefined if !(240..=269).contains(&tag.code) => {
+                    return Err(self.fail(
+                        tag,
+                        format!("undefined group code {}", tag.code),
+                        "group codes of DXF (240-269 are skipped)",
+                    ));
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// The crate takes a missing coordinate for zero.
+    fn check_coordinates(&self, keyword: &str, record: &[Tag<'a>]) -> Result<(), DxfError> {
+        let needed: &[i32] = match keyword {
+            "VERTEX" | "POINT" => &[10, 20],
+            "LINE" => &[10, 20, 11, 21],
+            "LWPOLYLINE" => {
+                let count = |code: i32| record.iter().filter(|tag| tag.code == code).count();
+                if count(10) != count(20) {
+                    let found = format!("LWPOLYLINE with {} x and {} y coordinates", count(10), count(20));
+                    return Err(self.fail(&record[0], found, "as many of group code 10 as of 20"));
+                }
+                &[]
+            }
+            _ => &[],
+        };
+        match needed.iter().find(|&&code| !record.iter().any(|tag| tag.code == code)) {
+            Some(code) => Err(self.fail(
+                &record[0],
+                format!("{keyword} without group code {code}"),
+                "both coordinates of every point",
+            )),
+            None => Ok(()),
+        }
+    }
+}
+
+/// An integer without the decimals that some writers give it (`0.000000`); other values as they are.
+fn without_zero_decimals(value: &[u8]) -> &[u8] {
+    match value.iter().position(|&byte| byte == b'.') {
+        Some(point) if point > 0 && value[point + 1..].trim_ascii_end().iter().all(|&byte| byte == b'0') => {
+            &value[..point]
+        }
+        _ => value,
+    }
+}
+
+fn keyword_of(value: &[u8]) -> &str {
+    std::str::from_utf8(value.trim_ascii()).unwrap_or("")
+}
+
+impl<'a> Tag<'a> {
+    /// [`Tag::keyword`] with the lifetime of the file.
+    fn keyword_static(&self) -> &'a str {
+        keyword_of(self.value)
+    }
+}

@@ -1,0 +1,228 @@
+//! Reading and writing AAMA/ASTM DXF: bytes in, pieces out, nothing lost in silence.
+//!
+//! Layers [AAMA-292, ASTM D6673]: 1 boundary, 2 turn points, 3 curve points, 4 notches, 6 mirror line, 7 grain line,
+//! 8 internal lines, 14 sew line. A file is read in three steps: its tags are scanned and counted ([`guard`]), the `dxf`
+//! crate reads them, and its entities are counted against the tags; then each block becomes a piece or is refused.
+
+mod blocks;
+mod guard;
+mod tags;
+mod units;
+mod write;
+
+use dxf::entities::EntityType;
+use dxf::{Block, Drawing};
+
+use self::blocks::Drawn;
+use self::guard::{BlockCount, Counts, Inventory, take_inventory};
+pub use self::units::{Unit, UnitSource};
+pub use self::write::write;
+use super::piece::Piece;
+
+/// Name given to the outline of a file that has no blocks.
+pub const NO_BLOCK: &str = "(no block)";
+
+/// Why a DXF file cannot be read.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}: found {found}; accepted: {accepted}", place(file, *line, block.as_deref()))]
+pub struct DxfError {
+    /// File.
+    pub file: String,
+    /// Line, where one can be named.
+    pub line: Option<usize>,
+    /// Block, where one can be named.
+    pub block: Option<String>,
+    /// What was found.
+    pub found: String,
+    /// What would be accepted.
+    pub accepted: String,
+}
+
+impl DxfError {
+    fn new(file: &str, line: Option<usize>, found: String, accepted: &str) -> Self {
+        Self { file: file.to_owned(), line, block: None, found, accepted: accepted.to_owned() }
+    }
+}
+
+fn place(file: &str, line: Option<usize>, block: Option<&str>) -> String {
+    let line = line.map(|line| format!(", line {line}")).unwrap_or_default();
+    let block = block.map(|block| format!(", block `{block}`")).unwrap_or_default();
+    format!("{file}{line}{block}")
+}
+
+/// A block that is no usable piece.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Refused {
+    /// Block.
+    pub block: String,
+    /// Why, with the place in millimetres.
+    pub reason: String,
+}
+
+/// A pattern file as read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PatternFile {
+    /// File name.
+    pub file: String,
+    /// DXF version (`AC1009`, ...), empty where the file names none.
+    pub version: String,
+    /// Unit of the numbers.
+    pub unit: Unit,
+    /// Where the unit comes from.
+    pub unit_source: UnitSource,
+    /// Texts outside the blocks as `(key, value)`.
+    pub texts: Vec<(String, String)>,
+    /// Pieces in the order of the file.
+    pub pieces: Vec<Piece>,
+    /// Blocks that are no usable pieces.
+    pub refused: Vec<Refused>,
+    /// Things the user should know.
+    pub warnings: Vec<String>,
+}
+
+impl PatternFile {
+    /// Sizes in the order in which they first appear; pieces without one count as the size `""`.
+    #[must_use]
+    pub fn sizes(&self) -> Vec<&str> {
+        let mut sizes = Vec::new();
+        for piece in &self.pieces {
+            let size = piece.size.as_deref().unwrap_or_default();
+            if !sizes.contains(&size) {
+                sizes.push(size);
+            }
+        }
+        sizes
+    }
+
+    /// Pieces of one size; upper and lower case count the same.
+    #[must_use]
+    pub fn of_size(&self, size: &str) -> Vec<Piece> {
+        let is_of = |piece: &&Piece| piece.size.as_deref().unwrap_or_default().eq_ignore_ascii_case(size);
+        self.pieces.iter().filter(is_of).cloned().collect()
+    }
+}
+
+/// Reads a DXF file. `unit` says the unit, whatever the file says; `file_name` is used in messages.
+///
+/// # Errors
+/// [`DxfError`] when the file is empty, binary, truncated or no DXF, holds a number that does not parse, names an unknown
+/// unit or code page, or loses an entity on the way through the reader. A block that is no usable piece is no error: it
+/// is in [`PatternFile::refused`].
+pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<PatternFile, DxfError> {
+    let tags = tags::scan(bytes, file_name)?;
+    let inventory = take_inventory(&tags, file_name)?;
+    let encoding = units::encoding_of(&inventory, file_name)?;
+    let named_unit = match unit {
+        Some(_) => None,
+        None => units::unit_of(&inventory, file_name)?.map(|(unit, _)| unit),
+    };
+    let (unit, unit_source) = match (unit, named_unit) {
+        (Some(unit), _) => (unit, UnitSource::Given),
+        (None, Some(unit)) => (unit, UnitSource::File),
+        (None, None) => (Unit::Mm, UnitSource::Assumed),
+    };
+    let drawing = load(&inventory, encoding, file_name)?;
+    let mut file = PatternFile {
+        file: file_name.to_owned(),
+        version: inventory.header.get("$ACADVER").map(|entry| entry.value.to_owned()).unwrap_or_default(),
+        unit,
+        unit_source,
+        texts: blocks::texts(drawing.entities()),
+        pieces: Vec::new(),
+        refused: Vec::new(),
+        warnings: Vec::new(),
+    };
+    if unit_source == UnitSource::Assumed {
+        file.warnings.push(format!("{file_name} names no unit: millimetres are assumed; say the unit to sew from it"));
+    }
+    let scale = crate::units::from_mm(unit.mm_per_unit());
+    for block in drawing.blocks() {
+        file.add(&block.name, Drawn::collect(block.entities.iter(), scale));
+    }
+    if inventory.blocks.is_empty() {
+        file.add(NO_BLOCK, Drawn::collect(drawing.entities(), scale));
+    }
+    let sample_size =
+        file.texts.iter().find(|(key, _)| key.eq_ignore_ascii_case("size")).map(|(_, value)| value.clone());
+    for piece in &mut file.pieces {
+        piece.size = piece.size.take().or_else(|| sample_size.clone());
+    }
+    Ok(file)
+}
+
+impl PatternFile {
+    fn add(&mut self, block: &str, drawn: Drawn) {
+        if drawn.is_empty() {
+            return;
+        }
+        match drawn.into_piece(block) {
+            Ok(piece) => self.pieces.push(piece),
+            Err(reason) => self.refused.push(Refused { block: block.to_owned(), reason }),
+        }
+    }
+}
+
+/// Has the crate read the clean tags, and compares what it found with what is there.
+fn load(inventory: &Inventory<'_>, encoding: &'static encoding_rs::Encoding, file: &str) -> Result<Drawing, DxfError> {
+    let mut clean = Vec::new();
+    if let Some(version) = inventory.header.get("$ACADVER") {
+        clean.extend(format!("0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\n{}\n0\nENDSEC\n", version.value).into_bytes());
+    }
+    for tag in &inventory.clean {
+        clean.extend(format!("{}\n", tag.code).into_bytes());
+        clean.extend(tag.value);
+        clean.push(b'\n');
+    }
+    clean.extend(b"0\nEOF\n");
+    let drawing = Drawing::load_with_encoding(&mut clean.as_slice(), encoding).map_err(|error| {
+        DxfError::new(file, None, format!("a file that the DXF reader refuses: {error}"), "a DXF file of R12 or later")
+    })?;
+    let blocks: Vec<&Block> = drawing.blocks().collect();
+    if blocks.len() != inventory.blocks.len() {
+        let found = format!("{} blocks, of which the reader kept {}", inventory.blocks.len(), blocks.len());
+        return Err(DxfError::new(file, None, found, "blocks that the DXF reader keeps"));
+    }
+    for (counted, block) in inventory.blocks.iter().zip(blocks) {
+        compare(file, Some(counted), &counted.counts, &counts_of(block.entities.iter()))?;
+    }
+    compare(file, None, &inventory.entities, &counts_of(drawing.entities()))?;
+    Ok(drawing)
+}
+
+fn counts_of<'d>(entities: impl Iterator<Item = &'d dxf::entities::Entity>) -> Counts {
+    let mut counts = Counts::new();
+    for entity in entities {
+        let (kind, vertices) = match &entity.specific {
+            EntityType::Polyline(line) => ("POLYLINE", line.vertices().count()),
+            EntityType::LwPolyline(line) => ("LWPOLYLINE", line.vertices.len()),
+            EntityType::Line(_) => ("LINE", 0),
+            EntityType::ModelPoint(_) => ("POINT", 0),
+            EntityType::Text(_) => ("TEXT", 0),
+            EntityType::Insert(_) => ("INSERT", 0),
+            EntityType::Vertex(_) => ("VERTEX", 0),
+            _ => continue,
+        };
+        *counts.entry(kind).or_default() += 1;
+        *counts.entry("VERTEX").or_default() += vertices;
+    }
+    counts
+}
+
+fn compare(file: &str, block: Option<&BlockCount<'_>>, counted: &Counts, kept: &Counts) -> Result<(), DxfError> {
+    let number = |counts: &Counts, kind: &str| counts.get(kind).copied().unwrap_or(0);
+    for kind in guard::KINDS {
+        if number(counted, kind) != number(kept, kind) {
+            return Err(DxfError {
+                file: file.to_owned(),
+                line: block.map(|block| block.line),
+                block: block.map(|block| String::from_utf8_lossy(block.name).into_owned()),
+                found: format!("{} {kind}, of which the reader kept {}", number(counted, kind), number(kept, kind)),
+                accepted: "entities that the DXF reader keeps".to_owned(),
+            });
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,116 @@
+//! The tag stream of a DXF file: pairs of a group code line and a value line, with line numbers.
+
+use super::DxfError;
+
+/// One pair of lines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tag<'a> {
+    /// Group code.
+    pub code: i32,
+    /// Value without its line end.
+    pub value: &'a [u8],
+    /// Line number of the value, from 1.
+    pub line: usize,
+}
+
+impl Tag<'_> {
+    /// Value as text for comparison with keywords, blanks trimmed; not decoded beyond ASCII.
+    pub fn keyword(&self) -> &str {
+        std::str::from_utf8(self.value.trim_ascii()).unwrap_or("")
+    }
+
+    /// Whether this is the start of something: group code 0 with this value.
+    pub fn begins(&self, keyword: &str) -> bool {
+        self.code == 0 && self.keyword() == keyword
+    }
+}
+
+/// What a group code's value must be [DXF reference, group code value types].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ValueType {
+    /// A real number.
+    Real,
+    /// An integer within these bounds.
+    Integer(i64, i64),
+    /// Text, handles, binary chunks.
+    Text,
+    /// DXF does not define the code.
+    Undefined,
+}
+
+/// Type of the value of a group code.
+pub fn value_type(code: i32) -> ValueType {
+    match code {
+        10..=59 | 110..=149 | 210..=239 | 460..=469 | 1010..=1059 => ValueType::Real,
+        60..=79 | 170..=179 | 270..=299 | 370..=389 | 400..=409 | 1060..=1070 => {
+            ValueType::Integer(i64::from(i16::MIN), i64::from(i16::MAX))
+        }
+        90..=99 | 420..=429 | 440..=459 | 1071 => ValueType::Integer(i64::from(i32::MIN), i64::from(i32::MAX)),
+        160..=169 => ValueType::Integer(i64::MIN, i64::MAX),
+        0..=9 | 100..=102 | 105 | 300..=369 | 390..=399 | 410..=419 | 430..=439 | 470..=481 | 999..=1009 => {
+            ValueType::Text
+        }
+        _ => ValueType::Undefined,
+    }
+}
+
+/// Reads the tags up to and including `0/EOF`.
+///
+/// # Errors
+/// [`DxfError`] for an empty, binary or truncated file, and for a group code that is no integer.
+pub fn scan<'a>(bytes: &'a [u8], file: &str) -> Result<Vec<Tag<'a>>, DxfError> {
+    let fail = |line: Option<usize>, found: String, accepted: &str| Err(DxfError::new(file, line, found, accepted));
+    if bytes.trim_ascii().is_empty() {
+        return fail(None, "an empty file".to_owned(), "a text DXF file");
+    }
+    if bytes.starts_with(b"AutoCAD Binary DXF") || bytes.starts_with(b"AutoCAD DXB") || bytes.contains(&0) {
+        return fail(Some(1), "a binary file".to_owned(), "a text (ASCII) DXF file; export it as such");
+    }
+    let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    let mut lines = text.split(|&byte| byte == b'\n').map(|line| line.strip_suffix(b"\r").unwrap_or(line)).enumerate();
+    let mut tags = Vec::new();
+    let mut last_line = 0;
+    while let Some((index, code_line)) = lines.next() {
+        let code_text = String::from_utf8_lossy(code_line.trim_ascii()).into_owned();
+        let Ok(code) = code_text.parse::<i32>() else {
+            if tags.is_empty() {
+                return fail(Some(index + 1), format!("`{}`: this is not DXF", clipped(&code_text)), "a text DXF file");
+            }
+            if code_text.is_empty() && lines.clone().all(|(_, line)| line.trim_ascii().is_empty()) {
+                break;
+            }
+            return fail(
+                Some(index + 1),
+                format!("`{}` for a group code", clipped(&code_text)),
+                "an integer on every second line",
+            );
+        };
+        let Some((value_index, value)) = lines.next() else {
+            return fail(
+                Some(index + 1),
+                format!("the file ends after group code {code}"),
+                "a whole DXF file, ending in 0/EOF",
+            );
+        };
+        let tag = Tag { code, value, line: value_index + 1 };
+        last_line = tag.line;
+        tags.push(tag);
+        if tag.begins("EOF") {
+            return Ok(tags);
+        }
+    }
+    fail(
+        Some(last_line),
+        "the file ends without 0/EOF: it is truncated".to_owned(),
+        "a whole DXF file, ending in 0/EOF",
+    )
+}
+
+/// The beginning of a text, for messages.
+pub fn clipped(text: &str) -> String {
+    let mut short: String = text.chars().take(40).collect();
+    if short.len() < text.len() {
+        short.push('…');
+    }
+    short
+}

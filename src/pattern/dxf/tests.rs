@@ -1,0 +1,283 @@
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use super::*;
+use crate::pattern::draft::{TshirtSize, tshirt};
+use crate::pattern::inspect::{FileReport, PieceReport};
+
+fn shared(folder: &str) -> Option<PathBuf> {
+    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/patterns")).join(folder);
+    if !path.is_dir() {
+        eprintln!("skipped: {} is not here", path.display());
+        return None;
+    }
+    Some(path)
+}
+
+/// All DXF files of a folder of sample patterns against its table of what they hold.
+fn check_folder(folder: &str, allowed_refusals: usize) {
+    let Some(path) = shared(folder) else { return };
+    let mut rows: BTreeMap<String, Vec<csv::StringRecord>> = BTreeMap::new();
+    let mut table = csv::Reader::from_path(path.join("summary.csv")).expect("the table is there");
+    let headers = table.headers().expect("it has a head").clone();
+    let column = |name: &str| headers.iter().position(|h| h == name).expect("the column is there");
+    for row in table.records() {
+        let row = row.expect("it is CSV");
+        rows.entry(row[0].to_owned()).or_default().push(row);
+    }
+    let (mut blocks, mut refused) = (0, 0);
+    let mut wrong = Vec::new();
+    for (name, rows) in rows {
+        let plain = path.join("plain-lines").join(&name);
+        let (full, unit) = if plain.exists() { (plain, Some(Unit::Cm)) } else { (path.join(&name), None) };
+        let bytes = std::fs::read(full).expect("the file is there");
+        let file = read(&bytes, &name, unit).unwrap_or_else(|error| panic!("{error}"));
+        let mut pieces = FileReport::from(&file).pieces;
+        refused += file.refused.len();
+        for row in rows {
+            blocks += 1;
+            let number = |name: &str| row[column(name)].parse::<f64>().ok();
+            let perimeter = number("perimeter_mm").expect("a number");
+            let distance = |p: &PieceReport| (p.perimeter_mm / perimeter - 1.0).abs();
+            // The table shows the names of the Cyrillic file as if they were Windows-1252.
+            let is_cyrillic = name.contains("cp1251");
+            let nearest = (0..pieces.len())
+                .filter(|&i| is_cyrillic || pieces[i].block == row[1])
+                .min_by(|&i, &j| distance(&pieces[i]).total_cmp(&distance(&pieces[j])));
+            let Some(index) = nearest.filter(|&i| distance(&pieces[i]) < 2e-4) else {
+                if !file.refused.iter().any(|refused| refused.block == row[1]) {
+                    wrong.push(format!("{name}/{}: {perimeter} mm is lost", &row[1]));
+                }
+                continue;
+            };
+            let piece = pieces.remove(index);
+            let mut expect = |what: &str, found: f64, tolerance: f64| {
+                if let Some(value) = number(what) {
+                    if (found - value).abs() > tolerance {
+                        wrong.push(format!("{name}/{}: {what} {found} for {value}", &row[1]));
+                    }
+                }
+            };
+            expect("area_mm2", piece.area_mm2, 1.0);
+            expect("turn_points", piece.turn_points as f64, 0.0);
+            expect("curve_points", piece.curve_points as f64, 0.0);
+            expect("notches", piece.notches as f64, 0.0);
+            expect("grain_mm", piece.grain_mm.unwrap_or(0.0), 0.02);
+            expect("sewline_area_mm2", piece.sew_area_mm2.unwrap_or(0.0), 1.0);
+            if piece.clockwise != (&row[column("direction")] == "cw") {
+                wrong.push(format!("{name}/{}: {piece:?}", &row[1]));
+            }
+        }
+    }
+    eprintln!("{folder}: {blocks} blocks, {refused} refused");
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert_eq!(refused, allowed_refusals);
+}
+
+#[test]
+fn freesewing_files_read_as_their_table_says() {
+    // Two pieces of one file cross themselves (simple_polygon 0 in the table).
+    check_folder("freesewing", 2);
+}
+
+#[test]
+fn valentina_files_read_as_their_table_says() {
+    check_folder("valentina", 0);
+}
+
+#[test]
+fn garmentcode_files_read_as_their_table_says() {
+    check_folder("garmentcode", 0);
+}
+
+#[test]
+fn jblockcreator_files_read_as_their_table_says() {
+    check_folder("jblockcreator", 0);
+}
+
+#[test]
+fn what_is_written_is_read_back() {
+    for size in TshirtSize::ALL {
+        let draft = tshirt(size);
+        let file = read(&write(&draft), "tshirt.dxf", None).expect("our own file reads");
+        assert_eq!((file.unit, file.unit_source), (Unit::Mm, UnitSource::File));
+        assert!(file.refused.is_empty() && file.warnings.is_empty(), "{file:?}");
+        assert_eq!(file.pieces.len(), draft.pieces.len());
+        for (read, drawn) in file.pieces.iter().zip(&draft.pieces) {
+            assert_eq!(
+                (&read.block, &read.name, &read.size, &read.quantity, &read.texts),
+                (&drawn.block, &drawn.name, &drawn.size, &drawn.quantity, &drawn.texts)
+            );
+            let same = |a: &[crate::geom::V2], b: &[crate::geom::V2]| {
+                a.len() == b.len() && a.iter().zip(b).all(|(p, q)| (p - q).norm() < 1e-7)
+            };
+            assert!(same(&read.outline, &drawn.outline));
+            assert!(same(&read.turn_points, &drawn.turn_points) && same(&read.curve_points, &drawn.curve_points));
+            assert_eq!(read.notches.len(), drawn.notches.len());
+            assert!(same(&read.grain.expect("grain"), &drawn.grain.expect("grain")));
+        }
+    }
+}
+
+/// A drafted file with one text replaced, once.
+fn edited(from: &str, to: &str) -> Vec<u8> {
+    let text = String::from_utf8(write(&tshirt(TshirtSize::S))).expect("we write ASCII");
+    assert!(text.contains(from), "`{from}` is in the file");
+    text.replacen(from, to, 1).into_bytes()
+}
+
+#[test]
+fn damaged_files_are_refused_with_line_and_finding() {
+    let whole = write(&tshirt(TshirtSize::S));
+    let truncated = whole[..whole.len() / 2].to_vec();
+    let check = |what: &str, bytes: &[u8], line: Option<usize>, finding: &str| {
+        let error = read(bytes, "a.dxf", None).expect_err(what);
+        let text = error.to_string();
+        assert!(text.starts_with("a.dxf") && text.contains(finding), "{what}: {text}");
+        assert!(line.is_none_or(|line| error.line == Some(line)), "{what}: {text}");
+        assert!(!error.accepted.is_empty(), "{what}");
+    };
+    check("empty", b"", None, "empty");
+    check("blank", b" \r\n\r\n", None, "empty");
+    check("binary", b"AutoCAD Binary DXF\r\n\x1a\x00", Some(1), "binary");
+    check("not DXF", b"%PDF-1.7\nhello\n", Some(1), "not DXF");
+    check("a picture", b"\x89PNG\r\n\x1a\n\x00\x00", Some(1), "binary");
+    check("truncated", &truncated, None, "ends");
+    check("cut before EOF", &whole[..whole.len() - 10], None, "ends");
+    check("a missing line", &edited("BLOCKS\r\n", ""), None, "group code");
+    let line_of = |bytes: &[u8], value: &str| {
+        let text = String::from_utf8_lossy(bytes).into_owned();
+        text.lines().position(|line| line == value).map(|index| index + 1)
+    };
+    let comma = edited("\r\n550.7600\r\n", "\r\n550,7600\r\n");
+    check("decimal comma", &comma, line_of(&comma, "550,7600"), "`550,7600` for group code 20 of VERTEX");
+    let nan = edited("\r\n550.7600\r\n", "\r\nNaN\r\n");
+    check("not a number", &nan, line_of(&nan, "NaN"), "`NaN`");
+    let unit = edited("Units: METRIC", "Units: CUBITS");
+    check("unknown unit", &unit, line_of(&unit, "Units: CUBITS"), "unit `CUBITS`");
+    let integer = edited(" 66\r\n1\r\n", " 66\r\n\r\n");
+    check("empty integer", &integer, None, "`` for group code 66 of POLYLINE");
+    let page = edited("AC1009\r\n", "AC1009\r\n  9\r\n$DWGCODEPAGE\r\n  3\r\nANSI_77\r\n");
+    check("unknown code page", &page, line_of(&page, "ANSI_77"), "ANSI_77");
+    check("an unknown group code", &edited(" 66\r\n1\r\n", "150\r\n1\r\n"), None, "undefined group code 150");
+    let stray = edited("\r\nVERTEX\r\n", "\r\nVORTEX\r\n");
+    check("an unknown entity", &stray, line_of(&stray, "VORTEX"), "`VORTEX`");
+    check("a missing coordinate", &edited(" 20\r\n550.7600\r\n", ""), None, "without group code 20");
+    check("a block without end", &edited("ENDBLK\r\n  8\r\n0\r\n  0\r\n", ""), None, "inside the block");
+}
+
+#[test]
+fn unusable_pieces_are_refused_and_the_others_read() {
+    let check = |what: &str, bytes: &[u8], finding: &str| {
+        let file = read(bytes, "a.dxf", None).unwrap_or_else(|error| panic!("{what}: {error}"));
+        assert_eq!((file.pieces.len(), file.refused.len()), (2, 1), "{what}: {:?}", file.refused);
+        assert!(
+            file.refused[0].block == "FRONT" && file.refused[0].reason.contains(finding),
+            "{what}: {:?}",
+            file.refused
+        );
+    };
+    // The apex of the V-neck thrown down through the hem.
+    check("self-crossing", &edited("\r\n550.7600\r\n", "\r\n-50.0000\r\n"), "crosses itself at (");
+    check("open", &edited(" 70\r\n1\r\n", " 70\r\n0\r\n"), "does not close: 458.95 mm");
+    check("no outline", &edited("POLYLINE\r\n  8\r\n1\r\n", "POLYLINE\r\n  8\r\n99\r\n"), "no outline");
+    check("an arc", &edited(" 20\r\n550.7600\r\n", " 20\r\n550.7600\r\n 42\r\n0.5\r\n"), "bulge");
+    check(
+        "a circle",
+        &edited(
+            "  0\r\nPOLYLINE\r\n",
+            "  0\r\nCIRCLE\r\n  8\r\n1\r\n 10\r\n0\r\n 20\r\n0\r\n 40\r\n9\r\n  0\r\nPOLYLINE\r\n",
+        ),
+        "Circle",
+    );
+}
+
+#[test]
+fn harmless_oddities_are_read() {
+    let whole = read(&write(&tshirt(TshirtSize::S)), "a.dxf", None).expect("our own file reads").pieces;
+    let check = |what: &str, bytes: &[u8]| {
+        let file = read(bytes, "a.dxf", None).unwrap_or_else(|error| panic!("{what}: {error}"));
+        assert_eq!(file.pieces, whole, "{what}");
+    };
+    check("group code 250 on a polyline", &edited(" 66\r\n1\r\n", " 66\r\n1\r\n250\r\n7\r\n"));
+    check("a real for an integer", &edited(" 66\r\n1\r\n", " 66\r\n1.000\r\n"));
+    check("no SEQEND", &edited("  0\r\nSEQEND\r\n  8\r\n1\r\n", ""));
+    check("a comment", &edited("  0\r\nPOLYLINE\r\n", "999\r\nfront\r\n  0\r\nPOLYLINE\r\n"));
+    check("inches by $INSUNITS, metric by text", &edited("AC1009\r\n", "AC1009\r\n  9\r\n$INSUNITS\r\n 70\r\n1\r\n"));
+    let unix = String::from_utf8(write(&tshirt(TshirtSize::S))).expect("ASCII").replace("\r\n", "\n");
+    check("line feeds only", unix.as_bytes());
+}
+
+#[test]
+fn units_come_from_the_user_the_texts_or_the_header() {
+    let check = |bytes: &[u8], given: Option<Unit>, expect: (Unit, UnitSource), report: &str| {
+        let file = read(bytes, "a.dxf", given).expect("it reads");
+        assert_eq!((file.unit, file.unit_source), expect);
+        assert_eq!(FileReport::from(&file).units, report);
+        assert_eq!(file.warnings.is_empty(), expect.1 != UnitSource::Assumed);
+        let front = file.pieces[0].perimeter_m() / expect.0.mm_per_unit();
+        assert!(
+            (front - read(&write(&tshirt(TshirtSize::S)), "a.dxf", None).expect("it reads").pieces[0].perimeter_m())
+                .abs()
+                < 1e-9
+        );
+    };
+    let named = |header: &str| {
+        let text = String::from_utf8(edited("Units: METRIC", "Note: none")).expect("ASCII");
+        text.replacen("AC1009\r\n", &format!("AC1009\r\n{header}"), 1).into_bytes()
+    };
+    check(&edited("METRIC", "ENGLISH"), None, (Unit::In, UnitSource::File), "in");
+    check(&edited("METRIC", "ENGLISH"), Some(Unit::Cm), (Unit::Cm, UnitSource::Given), "cm (given)");
+    check(&named(""), None, (Unit::Mm, UnitSource::Assumed), "none, assumed mm");
+    check(&named("  9\r\n$INSUNITS\r\n 70\r\n5\r\n"), None, (Unit::Cm, UnitSource::File), "cm");
+    check(&named("  9\r\n$MEASUREMENT\r\n 70\r\n0\r\n"), None, (Unit::In, UnitSource::File), "in");
+}
+
+#[test]
+fn names_follow_the_code_page() {
+    let text = String::from_utf8(edited("AC1009\r\n", "AC1009\r\n  9\r\n$DWGCODEPAGE\r\n  3\r\nANSI_1251\r\n"))
+        .expect("ASCII");
+    let text = text.replace("SLEEVE", "Рукав");
+    let (bytes, _, _) = encoding_rs::WINDOWS_1251.encode(&text);
+    let file = read(&bytes, "a.dxf", None).expect("it reads");
+    assert_eq!((file.pieces[2].block.as_str(), file.pieces[2].name.as_str()), ("Рукав", "Рукав"));
+}
+
+proptest::proptest! {
+    #![proptest_config(proptest::prelude::ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn truncated_files_are_refused(share in 0.0..1.0_f64) {
+        let whole = write(&tshirt(TshirtSize::S));
+        let length = (share * (whole.len() - 5) as f64) as usize;
+        proptest::prop_assert!(read(&whole[..length], "a.dxf", None).is_err());
+    }
+
+    #[test]
+    fn mutated_files_never_panic_and_never_lose_a_piece_in_silence(edits in proptest::collection::vec((0.0..1.0_f64, proptest::num::u8::ANY), 1..6)) {
+        let mut bytes = write(&tshirt(TshirtSize::S));
+        for (share, byte) in edits {
+            let index = (share * bytes.len() as f64) as usize;
+            bytes[index] = byte;
+        }
+        if let Ok(file) = read(&bytes, "a.dxf", None) {
+            proptest::prop_assert_eq!(file.pieces.len() + file.refused.len(), 3);
+        }
+    }
+
+    #[test]
+    fn files_with_missing_lines_never_panic_and_never_lose_a_piece_in_silence(gap in 0.0..1.0_f64, count in 1..5_usize) {
+        let text = String::from_utf8(write(&tshirt(TshirtSize::S))).expect("we write ASCII");
+        let mut lines: Vec<&str> = text.lines().collect();
+        let first = (gap * (lines.len() - count) as f64) as usize;
+        lines.drain(first..first + count);
+        if let Ok(file) = read(lines.join("\n").as_bytes(), "a.dxf", None) {
+            proptest::prop_assert_eq!(file.pieces.len() + file.refused.len(), 3);
+        }
+    }
+
+    #[test]
+    fn any_bytes_never_panic(bytes in proptest::collection::vec(proptest::num::u8::ANY, 0..400)) {
+        let _ = read(&bytes, "a.dxf", None);
+    }
+}

@@ -1,0 +1,125 @@
+//! The report of `pattern inspect`: what a pattern file holds, in millimetres.
+
+use serde::Serialize;
+
+use super::dxf::{PatternFile, Refused, UnitSource};
+use super::piece::Piece;
+use crate::geom::V2;
+use crate::geom::polyline::signed_area;
+use crate::units::mm;
+
+/// Square millimetres in a square metre.
+const MM2_PER_M2: f64 = 1e6;
+
+/// One file.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FileReport {
+    /// File name.
+    pub file: String,
+    /// Format and version.
+    pub format: String,
+    /// Unit of the numbers: `mm`, `cm` or `in`, with a remark where the file does not say.
+    pub units: String,
+    /// Millimetres in one unit.
+    pub mm_per_unit: Option<f64>,
+    /// Pieces.
+    pub pieces: Vec<PieceReport>,
+    /// Blocks that are no usable pieces.
+    pub refused: Vec<Refused>,
+    /// Things the user should know.
+    pub warnings: Vec<String>,
+    /// Why the file cannot be read.
+    pub error: Option<String>,
+}
+
+/// One piece, as stored.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PieceReport {
+    /// Block.
+    pub block: String,
+    /// Piece name.
+    pub name: String,
+    /// Size.
+    pub size: Option<String>,
+    /// Number to cut, as written.
+    pub quantity: Option<String>,
+    /// Length of the outline.
+    pub perimeter_mm: f64,
+    /// Area within the outline.
+    pub area_mm2: f64,
+    /// Whether the outline closes (it does; a piece whose outline does not is refused).
+    pub closed: bool,
+    /// Whether the file drew the outline clockwise.
+    pub clockwise: bool,
+    /// Number of turn points.
+    pub turn_points: usize,
+    /// Number of curve points.
+    pub curve_points: usize,
+    /// Number of notches.
+    pub notches: usize,
+    /// Length of the grain line.
+    pub grain_mm: Option<f64>,
+    /// Number of internal lines.
+    pub internal_lines: usize,
+    /// Area within the sew line.
+    pub sew_area_mm2: Option<f64>,
+}
+
+impl From<&PatternFile> for FileReport {
+    fn from(file: &PatternFile) -> Self {
+        let unit = file.unit.as_str();
+        Self {
+            file: file.file.clone(),
+            format: format!("DXF {}", file.version).trim_end().to_owned(),
+            units: match file.unit_source {
+                UnitSource::Given => format!("{unit} (given)"),
+                UnitSource::File => unit.to_owned(),
+                UnitSource::Assumed => format!("none, assumed {unit}"),
+            },
+            mm_per_unit: Some(file.unit.mm_per_unit()),
+            pieces: file.pieces.iter().map(PieceReport::from).collect(),
+            refused: file.refused.clone(),
+            warnings: file.warnings.clone(),
+            error: None,
+        }
+    }
+}
+
+impl FileReport {
+    /// Report of a file that cannot be read.
+    #[must_use]
+    pub fn unreadable(file: &str, error: String) -> Self {
+        Self {
+            file: file.to_owned(),
+            format: String::new(),
+            units: String::new(),
+            mm_per_unit: None,
+            pieces: Vec::new(),
+            refused: Vec::new(),
+            warnings: Vec::new(),
+            error: Some(error),
+        }
+    }
+}
+
+impl From<&Piece> for PieceReport {
+    fn from(piece: &Piece) -> Self {
+        let length = |ends: [V2; 2]| mm((ends[1] - ends[0]).norm());
+        Self {
+            block: piece.block.clone(),
+            name: piece.name.clone(),
+            size: piece.size.clone(),
+            quantity: piece.quantity.clone(),
+            perimeter_mm: mm(piece.perimeter_m()),
+            area_mm2: piece.area_m2() * MM2_PER_M2,
+            closed: true,
+            clockwise: piece.is_clockwise_in_file,
+            turn_points: piece.turn_points.len(),
+            curve_points: piece.curve_points.len(),
+            notches: piece.notches.len(),
+            grain_mm: piece.grain.map(length),
+            internal_lines: piece.internal_lines.len(),
+            sew_area_mm2: piece.sew_line.as_deref().map(|line| signed_area(line).abs() * MM2_PER_M2),
+        }
+    }
+}

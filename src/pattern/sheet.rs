@@ -1,0 +1,233 @@
+//! A drawing of all pieces of a style, with corners, grain, notches and numbered measurements, as SVG in millimetres.
+
+use std::fmt::Write as _;
+
+use super::style::{PathPart, Style, StylePiece};
+use crate::geom::V2;
+use crate::units::mm;
+
+/// Space round pieces and sheet, mm.
+const MARGIN_MM: f64 = 45.0;
+/// Room for the title above a piece, mm.
+const TITLE_MM: f64 = 30.0;
+/// Length of a notch tick, mm.
+const NOTCH_MM: f64 = 9.0;
+/// Distance of corner numbers and measurement numbers from the outline, mm.
+const LABEL_MM: f64 = 17.0;
+/// Where along an edge its number stands: off the middle, where lines across the piece end.
+const EDGE_LABEL_SHARE: f64 = 0.4;
+/// How things look; the accent marks what is measured.
+const CSS: &str = "\
+text{font-family:'DejaVu Sans',sans-serif;fill:#3a3a3a}\
+.piece{fill:#f6f3ec;stroke:#3a3a3a;stroke-width:1.4;stroke-linejoin:round}\
+.free{fill:none;stroke:#3a3a3a;stroke-width:1.4;stroke-dasharray:7 4}\
+.thin{fill:none;stroke:#8a8a8a;stroke-width:1}\
+.measured{fill:none;stroke:#0a6a8a;stroke-width:2.6;stroke-linecap:round;opacity:.75}\
+.across{fill:none;stroke:#0a6a8a;stroke-width:1.4;stroke-dasharray:9 5}\
+.disc{fill:#0a6a8a}\
+.no{fill:#fff;font-size:13px;font-weight:bold;text-anchor:middle}\
+.corner{font-size:11px;fill:#8a8a8a;text-anchor:middle}\
+.title{font-size:19px;font-weight:bold}\
+.note{font-size:15px}";
+
+/// Draws all pieces of a style side by side, with a legend of the measurements below.
+#[must_use]
+pub fn svg(style: &Style) -> String {
+    let layout = Layout::of(style);
+    let legend_height = MARGIN_MM + 24.0 * style.measurements.len().div_ceil(3) as f64;
+    let (width, height) = (layout.size.x, layout.size.y + legend_height);
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{width:.0}\" height=\"{height:.0}\">\n\
+         <style>{CSS}</style>\n<rect width=\"{width:.0}\" height=\"{height:.0}\" fill=\"#fff\"/>\n"
+    );
+    for (index, piece) in style.pieces.iter().enumerate() {
+        let pen = Pen { origin: layout.origins[index] };
+        pen.piece(&mut out, &style.size, piece);
+        pen.measurements(&mut out, style, index);
+    }
+    legend(&mut out, style, layout.size, width);
+    out.push_str("</svg>\n");
+    out
+}
+
+/// Where each piece's own origin lies on the sheet, mm, `y` down.
+struct Layout {
+    origins: Vec<V2>,
+    size: V2,
+}
+
+impl Layout {
+    /// Pieces in the order of their roles; a piece goes below the one before it where the tallest piece leaves room.
+    fn of(style: &Style) -> Self {
+        let boxes: Vec<(V2, V2)> = style.pieces.iter().map(|piece| bounds_mm(&piece.outline())).collect();
+        let box_height = |index: usize| boxes[index].1.y - boxes[index].0.y + TITLE_MM + MARGIN_MM;
+        let tallest = (0..boxes.len()).map(box_height).fold(0.0, f64::max);
+        let mut order: Vec<usize> = (0..boxes.len()).collect();
+        order.sort_by_key(|&index| style.pieces[index].role);
+        let mut origins = vec![V2::zeros(); boxes.len()];
+        let (mut left, mut column_width, mut top) = (MARGIN_MM, 0.0_f64, 0.0);
+        for index in order {
+            if top > 0.0 && top + box_height(index) > tallest + 1.0 {
+                left += column_width + MARGIN_MM;
+                (column_width, top) = (0.0, 0.0);
+            }
+            let (low, high) = boxes[index];
+            origins[index] = V2::new(left - low.x, MARGIN_MM + top + TITLE_MM + high.y);
+            column_width = column_width.max(high.x - low.x);
+            top += box_height(index);
+        }
+        Self { origins, size: V2::new(left + column_width + MARGIN_MM, MARGIN_MM + tallest) }
+    }
+}
+
+fn bounds_mm(points: &[V2]) -> (V2, V2) {
+    let first = points.first().copied().unwrap_or_default();
+    let (low, high) = points.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
+    (low.map(mm), high.map(mm))
+}
+
+/// Draws one piece at its place; takes metres, `v` up.
+struct Pen {
+    origin: V2,
+}
+
+impl Pen {
+    fn at(&self, point: V2) -> V2 {
+        V2::new(self.origin.x + mm(point.x), self.origin.y - mm(point.y))
+    }
+
+    fn path(&self, out: &mut String, class: &str, points: impl IntoIterator<Item = V2>, is_closed: bool) {
+        let _ = write!(out, "<path class=\"{class}\" d=\"");
+        for (k, point) in points.into_iter().enumerate() {
+            let p = self.at(point);
+            let _ = write!(out, "{}{:.2} {:.2}", if k == 0 { 'M' } else { 'L' }, p.x, p.y);
+        }
+        out.push_str(if is_closed { "Z\"/>\n" } else { "\"/>\n" });
+    }
+
+    fn piece(&self, out: &mut String, size: &str, piece: &StylePiece) {
+        let outline = piece.outline();
+        self.path(out, "piece", outline.iter().copied(), true);
+        for notch in &piece.notches {
+            let angle = notch.angle_deg.unwrap_or(90.0).to_radians();
+            let inner = notch.at + V2::new(angle.cos(), angle.sin()) * crate::units::from_mm(NOTCH_MM);
+            self.path(out, "free", [notch.at, inner], false);
+        }
+        self.grain(out, piece, &outline);
+        let (low, high) = bounds_mm(&outline);
+        let title = V2::new(self.origin.x + low.x, self.origin.y - high.y - 14.0);
+        let id = escaped(&piece.id.replace('_', " "));
+        let size = escaped(size);
+        let _ = writeln!(out, "<text class=\"title\" x=\"{:.1}\" y=\"{:.1}\">{id} {size}</text>", title.x, title.y);
+        for (number, &corner) in piece.corners.iter().enumerate() {
+            let p = self.at(corner) + outwards(&outline, corner) * (0.7 * LABEL_MM) + V2::new(0.0, 4.0);
+            let _ = writeln!(out, "<text class=\"corner\" x=\"{:.1}\" y=\"{:.1}\">{number}</text>", p.x, p.y);
+        }
+    }
+
+    /// A double arrow along the grain, beside the middle of the piece.
+    fn grain(&self, out: &mut String, piece: &StylePiece, outline: &[V2]) {
+        let (low, high) = bounds_mm(outline);
+        let middle = V2::new(0.72 * low.x + 0.28 * high.x, 0.5 * (low.y + high.y)) * 1e-3;
+        let half = piece.grain * (0.12e-3 * (high.y - low.y));
+        let side = V2::new(-piece.grain.y, piece.grain.x) * 0.005;
+        let barb = piece.grain * 0.012;
+        for (tip, sign) in [(middle + half, 1.0), (middle - half, -1.0)] {
+            self.path(out, "thin", [tip - barb * sign + side, tip, tip - barb * sign - side], false);
+        }
+        self.path(out, "thin", [middle - half, middle + half], false);
+    }
+
+    fn measurements(&self, out: &mut String, style: &Style, index: usize) {
+        let mut labels = Vec::new();
+        for measurement in &style.measurements {
+            for part in &measurement.path {
+                match *part {
+                    PathPart::Edge(edge) if edge.piece == index => {
+                        let line = &style.edge(edge).line;
+                        self.path(out, "measured", line.points().iter().copied(), false);
+                        let arc = EDGE_LABEL_SHARE * line.length();
+                        let along = line.at(arc + 1e-3) - line.at(arc - 1e-3);
+                        let inwards = V2::new(-along.y, along.x).normalize();
+                        labels.push((self.at(line.at(arc) + inwards * (LABEL_MM * 1e-3)), measurement.no));
+                    }
+                    PathPart::Line(ends) if ends[0].edge.piece == index => {
+                        let [from, to] = ends.map(|end| style.place(end));
+                        self.path(out, "across", [from, to], false);
+                        labels.push((self.at(from.lerp(&to, 0.45)), measurement.no));
+                    }
+                    _ => {}
+                }
+            }
+        }
+        labels.into_iter().for_each(|(place, no)| numbered_disc(out, place, no));
+    }
+}
+
+/// Direction on the sheet that leads away from a piece at a corner of its outline; longer where the gap is narrow.
+fn outwards(outline: &[V2], corner: V2) -> V2 {
+    let n = outline.len();
+    let distance = |i: usize| (outline[i] - corner).norm();
+    let nearest = (0..n).min_by(|&i, &j| distance(i).total_cmp(&distance(j))).unwrap_or(0);
+    let before = (outline[nearest] - outline[(nearest + n - 1) % n]).normalize();
+    let after = (outline[(nearest + 1) % n] - outline[nearest]).normalize();
+    // To the right of a counter-clockwise outline is outside.
+    let right = |along: V2| V2::new(along.y, -along.x);
+    let sum = right(before) + right(after);
+    let normal = sum.try_normalize(1e-9).unwrap_or_else(|| right(after));
+    let is_reflex = before.perp(&after) < 0.0;
+    let reach = if is_reflex { (2.0 / sum.norm()).clamp(1.0, 3.0) } else { 1.0 };
+    V2::new(normal.x, -normal.y) * reach
+}
+
+fn numbered_disc(out: &mut String, place: V2, no: u32) {
+    let _ = writeln!(
+        out,
+        "<circle class=\"disc\" cx=\"{:.1}\" cy=\"{:.1}\" r=\"10.5\"/><text class=\"no\" x=\"{:.1}\" y=\"{:.1}\">{no}</text>",
+        place.x,
+        place.y,
+        place.x,
+        place.y + 4.8
+    );
+}
+
+/// Numbers, names and pattern lengths, in three columns.
+fn legend(out: &mut String, style: &Style, sheet: V2, width: f64) {
+    let rows = style.measurements.len().div_ceil(3).max(1);
+    for (k, measurement) in style.measurements.iter().enumerate() {
+        let x = MARGIN_MM + 10.0 + (width - 2.0 * MARGIN_MM) * (k / rows) as f64 / 3.0;
+        let y = sheet.y + 24.0 * (k % rows) as f64 + 10.0;
+        numbered_disc(out, V2::new(x, y), measurement.no);
+        let name = escaped(&measurement.name);
+        let length = mm(measurement.l2d_m);
+        let _ = writeln!(
+            out,
+            "<text class=\"note\" x=\"{:.1}\" y=\"{:.1}\">{name} {length:.1} mm</text>",
+            x + 18.0,
+            y + 5.5
+        );
+    }
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pattern::draft::{TSHIRT_SEAMS, TshirtSize, tshirt};
+
+    #[test]
+    fn the_sheet_shows_every_piece_corner_and_measurement() {
+        let mut style = Style::read(&tshirt(TshirtSize::M).pieces, TSHIRT_SEAMS, "a.toml").expect("it is a style");
+        style.pieces[0].id = "back <&>".to_owned();
+        let sheet = svg(&style);
+        let count = |what: &str| sheet.matches(what).count();
+        assert_eq!(count("class=\"piece\""), 4);
+        assert_eq!(count("class=\"corner\""), style.pieces.iter().map(|piece| piece.corners.len()).sum());
+        assert_eq!(count("class=\"no\""), 9 + style.measurements.iter().map(|m| m.path.len()).sum::<usize>());
+        assert!(sheet.contains("back &lt;&amp;&gt; M") && sheet.contains("Sleeve Length 130.7 mm"));
+        assert!(!sheet.contains("NaN"));
+    }
+}

@@ -1,0 +1,103 @@
+use super::*;
+use crate::pattern::draft::{TSHIRT_SEAMS, TshirtSize, tshirt};
+
+fn read(seams: &str) -> Result<Style, StyleError> {
+    Style::read(&tshirt(TshirtSize::S).pieces, seams.as_bytes(), "a.toml")
+}
+
+fn seams() -> &'static str {
+    std::str::from_utf8(TSHIRT_SEAMS).expect("it is UTF-8")
+}
+
+#[test]
+fn mistakes_name_their_place_and_what_exists() {
+    let check = |from: &str, to: &str, expect: &[&str]| {
+        assert!(seams().contains(from), "`{from}` is in the file");
+        let text = read(&seams().replacen(from, to, 1)).expect_err(to).to_string();
+        for part in ["a.toml"].iter().chain(expect) {
+            assert!(text.contains(part), "`{part}` in: {text}");
+        }
+    };
+    check("block = \"FRONT\"", "block = \"FRUNT\"", &["piece `front`", "block `FRUNT`", "FRONT, BACK, SLEEVE"]);
+    check("role = \"front\"", "role = \"lapel\"", &["line", "lapel", "sleeve_right"]);
+    check("hem = [0, 1]", "hem = [0, 12]", &["piece `front`", "corner 12", "0 to 8"]);
+    check("hem = [0, 1]", "hem = [0, 2]", &["piece `front`", "edge `hem`", "overlaps"]);
+    check(
+        "a = [\"front.side_right\"]",
+        "a = [\"front.sleeve\"]",
+        &["seam `side_right`", "front.sleeve", "front.side_left"],
+    );
+    check("a = [\"front.side_right\"]", "a = [\"frunt.side\"]", &["piece `frunt`", "sleeve_left, sleeve_right"]);
+    check("a = [\"front.side_right\"]", "a = []", &["seam `side_right`", "without edges"]);
+    check(
+        "a = [\"front.side_right\"]",
+        "a = [\"front.side_left\"]",
+        &["seam `side_left`", "`front.side_left` is sewn twice"],
+    );
+    check(
+        "a = [\"front.side_right\"]",
+        "a = [\"front.hem\"]",
+        &["seam `side_right`", "487.1 mm", "459.0 mm", "ease_mm = 0"],
+    );
+    check("\"front.hem.mid\"", "\"front.hem.middle\"", &["measurement 3", "front.hem.middle", "EDGE.mid"]);
+    check("\"front.hem.mid\"", "\"back.hem.mid\"", &["measurement 3", "one piece"]);
+    check("path = [\"sleeve_right.opening\"]", "path = []", &["measurement 2", "empty path"]);
+    check("[fit.chest]", "[fut.chest]", &["line", "unknown field `fut`"]);
+    check("name = \"Mens T-shirt\"", "name = ", &["line 4"]);
+    assert!(matches!(Style::read(&[], b"\xff\xfe", "a.toml"), Err(StyleError::Syntax { .. })));
+}
+
+#[test]
+fn the_seam_file_survives_a_round_trip() {
+    let file: SeamFile = toml::from_str(seams()).expect("it reads");
+    let written = toml::to_string(&file).expect("it writes");
+    assert_eq!(toml::from_str::<SeamFile>(&written).expect("it reads again"), file);
+    assert_eq!(read(&written), read(seams()));
+}
+
+#[test]
+fn stated_ease_is_accepted_and_no_other() {
+    let eased = |ease: &str| {
+        seams().replacen("a = [\"front.side_right\"]", &format!("a = [\"front.hem\"]\nease_mm = {ease}"), 1)
+    };
+    assert!(read(&eased("28.1")).is_ok());
+    assert!(read(&eased("20.0")).is_err());
+}
+
+#[test]
+fn a_mirrored_piece_is_the_mirror_image_still_counter_clockwise() {
+    let style = read(seams()).expect("it is a style");
+    let piece = |id: &str| style.pieces.iter().find(|piece| piece.id == id).expect("it is there");
+    let (right, left) = (piece("sleeve_right"), piece("sleeve_left"));
+    let area = |piece: &StylePiece| crate::geom::polyline::signed_area(&piece.outline());
+    assert!(area(left) > 0.0 && (area(left) - area(right)).abs() < 1e-12);
+    let edge = |piece: &'static str, name: &str| {
+        let found = style.pieces.iter().find(|p| p.id == piece).expect("it is there");
+        found.edges.iter().find(|edge| edge.name.as_deref() == Some(name)).expect("it is there").clone()
+    };
+    let (cap, mirrored_cap) = (edge("sleeve_right", "cap"), edge("sleeve_left", "cap"));
+    assert_eq!(mirrored_cap.line.at(0.0), mirrored(cap.line.at(cap.line.length())));
+    assert_eq!(mirrored_cap.corners.len(), 1);
+    assert!((mirrored_cap.corners[0] + cap.corners[0] - cap.line.length()).abs() < 1e-12);
+}
+
+#[test]
+fn corners_come_from_turn_points_or_else_from_the_outline() {
+    let square = |turn_points: Vec<V2>| {
+        let mut piece = tshirt(TshirtSize::S).pieces.remove(0);
+        piece.outline = (0..40)
+            .map(|i| {
+                let (side, along) = (i / 10, f64::from(i % 10) / 10.0);
+                let corners = [V2::new(0.0, 0.0), V2::new(1.0, 0.0), V2::new(1.0, 1.0), V2::new(0.0, 1.0)];
+                corners[side as usize].lerp(&corners[(side as usize + 1) % 4], along)
+            })
+            .collect();
+        piece.turn_points = turn_points;
+        corner_vertices(&piece)
+    };
+    let corner = |x: f64, y: f64| V2::new(x, y);
+    assert_eq!(square(vec![corner(1.0, 1.0), corner(0.0, 0.0), corner(0.5, 0.0)]), [20, 0, 5]);
+    // Marks off the outline, as of a cut line when the sew line is sewn, are no marks.
+    assert_eq!(square(vec![corner(2.0, 2.0)]), [0, 10, 20, 30]);
+    assert_eq!(square(Vec::new()), [0, 10, 20, 30]);
+}

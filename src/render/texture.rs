@@ -1,0 +1,151 @@
+//! Cloth with a picture on it (thesis 3.6): texture coordinates from the pattern, and pictures that repeat.
+
+use super::colour::Rgb;
+use crate::geom::V2;
+use image::RgbaImage;
+use std::ops::Range;
+
+/// How the pattern plane becomes texture coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mapping {
+    /// The picture once on each piece: `u = (x - x_min) / R`, `v = (y - y_min) / R`, R the longer side of the piece's
+    /// bounding box [T 3.5-3.9].
+    Piece,
+    /// The fabric as it is woven: one repeat every so many metres, `v` along the grain, the same on every piece.
+    Fabric {
+        /// Length of one repeat, m.
+        repeat_m: f64,
+    },
+}
+
+/// Texture coordinates of every vertex of a pattern.
+///
+/// `rest` are the vertices in their pieces' planes, m; each piece is its range of vertices and the unit vector of its
+/// grain. Vertices of no piece keep `(0, 0)`.
+#[must_use]
+pub fn texture_coordinates(rest: &[V2], pieces: &[(Range<usize>, V2)], mapping: Mapping) -> Vec<V2> {
+    let mut coordinates = vec![V2::zeros(); rest.len()];
+    for (vertices, grain) in pieces {
+        let Some(points) = rest.get(vertices.clone()) else { continue };
+        let Some(&first) = points.first() else { continue };
+        let (low, high) = points.iter().fold((first, first), |(l, h), p| (l.inf(p), h.sup(p)));
+        let longer = (high - low).max().max(f64::MIN_POSITIVE);
+        for (to, p) in coordinates[vertices.clone()].iter_mut().zip(points) {
+            *to = match mapping {
+                Mapping::Piece => (p - low) / longer,
+                Mapping::Fabric { repeat_m } => V2::new(p.dot(&V2::new(grain.y, -grain.x)), p.dot(grain)) / repeat_m,
+            };
+        }
+    }
+    coordinates
+}
+
+/// A picture that repeats in both directions, kept at every halving of its size so that it does not flicker when small.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Texture {
+    levels: Vec<Level>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Level {
+    width: usize,
+    height: usize,
+    /// Linear colour, row by row from the top.
+    texels: Vec<[f32; 3]>,
+}
+
+impl Texture {
+    /// A texture from a picture of one repeat; an empty picture gives white.
+    #[must_use]
+    pub fn new(picture: &RgbaImage) -> Self {
+        let (width, height) = (picture.width().max(1) as usize, picture.height().max(1) as usize);
+        let mut texels: Vec<[f32; 3]> = picture.pixels().map(|p| Rgb(p[0], p[1], p[2]).linear()).collect();
+        texels.resize(width * height, [1.0; 3]);
+        let mut levels = vec![Level { width, height, texels }];
+        while let Some(half) = levels.last().and_then(Level::half) {
+            levels.push(half);
+        }
+        Self { levels }
+    }
+
+    /// A woven check: bands of a colour both ways on a light ground, one band a repeat. It shows the grain and every
+    /// distortion of the cloth.
+    #[must_use]
+    pub fn gingham(colour: Rgb) -> Self {
+        const SIDE: u32 = 64;
+        let pale = |v: u8, coverage: f32| (255.0 - (255.0 - f32::from(v)) * coverage) as u8;
+        Self::new(&RgbaImage::from_fn(SIDE, SIDE, |x, y| {
+            let coverage = match (x < SIDE / 2, y < SIDE / 2) {
+                (true, true) => 1.0,
+                (false, false) => 0.06,
+                _ => 0.5,
+            };
+            image::Rgba([pale(colour.0, coverage), pale(colour.1, coverage), pale(colour.2, coverage), 255])
+        }))
+    }
+
+    /// Linear colour at a place, for a picture sample that spans `span` of a repeat.
+    pub(super) fn at(&self, u: f32, v: f32, span: f32) -> [f32; 3] {
+        let texels = span * self.levels[0].width.max(self.levels[0].height) as f32;
+        let level = (texels.max(1.0).log2().round() as usize).min(self.levels.len() - 1);
+        self.levels[level].at(u, v)
+    }
+}
+
+impl Level {
+    /// Half the size; `None` at a single texel.
+    fn half(&self) -> Option<Self> {
+        if self.width == 1 && self.height == 1 {
+            return None;
+        }
+        let (width, height) = (self.width.div_ceil(2), self.height.div_ceil(2));
+        let texel = |x: usize, y: usize| self.texels[(y % self.height) * self.width + x % self.width];
+        let mean = |x: usize, y: usize| {
+            let four = [texel(x, y), texel(x + 1, y), texel(x, y + 1), texel(x + 1, y + 1)];
+            [0, 1, 2].map(|k| four.iter().map(|t| t[k]).sum::<f32>() / 4.0)
+        };
+        let texels = (0..width * height).map(|k| mean(2 * (k % width), 2 * (k / width))).collect();
+        Some(Self { width, height, texels })
+    }
+
+    /// Blend of the four texels around a place; `v` runs up the picture.
+    fn at(&self, u: f32, v: f32) -> [f32; 3] {
+        let place = |t: f32, n: usize| {
+            let t = (t - t.floor()) * n as f32 - 0.5;
+            let low = t.floor();
+            ((low as isize).rem_euclid(n as isize) as usize, t - low)
+        };
+        let ((x, f), (y, g)) = (place(u, self.width), place(-v, self.height));
+        let (x1, y1) = ((x + 1) % self.width, (y + 1) % self.height);
+        let texel = |x: usize, y: usize| self.texels[y * self.width + x];
+        let (a, b, c, d) = (texel(x, y), texel(x1, y), texel(x, y1), texel(x1, y1));
+        [0, 1, 2].map(|k| (1.0 - g) * ((1.0 - f) * a[k] + f * b[k]) + g * ((1.0 - f) * c[k] + f * d[k]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn coordinates_follow_the_piece_or_the_grain() {
+        let rest = [V2::new(1.0, 2.0), V2::new(1.5, 2.0), V2::new(1.0, 2.25), V2::new(9.0, 9.0)];
+        let pieces = [(0..3, V2::new(0.0, 1.0)), (3..4, V2::new(1.0, 0.0)), (7..9, V2::y())];
+        let piece = texture_coordinates(&rest, &pieces, Mapping::Piece);
+        assert_eq!(piece, [V2::zeros(), V2::new(1.0, 0.0), V2::new(0.0, 0.5), V2::zeros()]);
+        let fabric = texture_coordinates(&rest, &pieces, Mapping::Fabric { repeat_m: 0.5 });
+        assert_eq!(fabric, [V2::new(2.0, 4.0), V2::new(3.0, 4.0), V2::new(2.0, 4.5), V2::new(-18.0, 18.0)]);
+    }
+
+    #[test]
+    fn textures_repeat_and_blur_to_their_mean() {
+        let rows = RgbaImage::from_fn(4, 2, |_, y| image::Rgba(if y == 0 { [255; 4] } else { [0, 0, 0, 255] }));
+        let texture = Texture::new(&rows);
+        let grey = |u: f32, v: f32, span: f32| texture.at(u, v, span)[0];
+        assert!((grey(0.4, 0.75, 0.0) - 1.0).abs() < 1e-5, "the first row is the upper half");
+        assert!(grey(0.4, 0.25, 0.0).abs() < 1e-5);
+        assert!((grey(3.4, -6.25, 0.0) - grey(0.4, 0.75, 0.0)).abs() < 1e-4, "repeats");
+        assert!((grey(0.1, 0.9, 2.0) - 0.5).abs() < 1e-5, "a sample of two repeats sees the mean");
+        assert_eq!(Texture::new(&RgbaImage::new(0, 0)).at(0.3, 0.3, 1.0), [1.0; 3]);
+    }
+}

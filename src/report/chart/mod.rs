@@ -1,0 +1,70 @@
+//! Charts: drawn by plotters as SVG with text as text, and as PNG from the same drawing.
+
+mod canvas;
+mod chi;
+mod ei;
+mod residual;
+
+pub use chi::{chi_chart, mean_sd_chart};
+pub use ei::ei_chart;
+pub use residual::residual_chart;
+
+use super::{ReportError, theme};
+use crate::render::{png, rasterise_svg};
+use image::imageops;
+
+/// A drawn chart.
+#[derive(Clone, Debug)]
+pub struct Chart {
+    svg: String,
+    alt: String,
+}
+
+impl Chart {
+    /// The chart as an SVG file.
+    #[must_use]
+    pub fn svg(&self) -> &str {
+        &self.svg
+    }
+
+    /// What the chart shows, in words.
+    #[must_use]
+    pub fn alt(&self) -> &str {
+        &self.alt
+    }
+
+    /// The chart as a PNG file on white, with the embedded font.
+    ///
+    /// # Errors
+    /// [`ReportError::Picture`] where the drawing cannot be rasterised.
+    pub fn png(&self) -> Result<Vec<u8>, ReportError> {
+        let drawing = rasterise_svg(&self.svg, 1.0)?;
+        let mut picture = image::RgbaImage::from_pixel(drawing.width(), drawing.height(), image::Rgba([255; 4]));
+        imageops::overlay(&mut picture, &drawing, 0, 0);
+        Ok(png(&picture)?)
+    }
+
+    /// The SVG element for the page: neutral colours follow the reader's scheme, the size follows the column.
+    pub(super) fn inline(&self) -> String {
+        let alt = super::text::escape(&self.alt);
+        let mut svg =
+            self.svg.replacen("<svg ", &format!("<svg class=\"chart\" role=\"img\" aria-label=\"{alt}\" "), 1);
+        for (colour, variable) in theme::VARIABLES {
+            svg = svg.replace(&colour.hex().to_uppercase(), variable);
+        }
+        svg.replace("font-family=\"sans-serif\" ", "").replace(" opacity=\"1\"", "").replace(">\n", ">")
+    }
+}
+
+/// Shortens a text to at most `most` characters.
+fn shorten(text: &str, most: usize) -> String {
+    if text.chars().count() <= most {
+        return text.to_owned();
+    }
+    text.chars().take(most - 1).chain(['…']).collect()
+}
+
+/// Where one column of measurements stands in a chart: names on the left, one row each.
+fn row_label(no: u32, name: &str) -> String {
+    format!("#{no} {}", shorten(name, 30))
+}

@@ -1,0 +1,348 @@
+//! What a report is made from: plain values, lengths in metres, times in seconds. The page formats them.
+
+use crate::fit::{Ease, FitClass};
+use crate::measure::{Chi, Metrics, metrics};
+use crate::render::Scale;
+use crate::sim::Simulator;
+
+/// Everything one report shows.
+#[derive(Clone, Debug, Default)]
+pub struct ReportData {
+    /// Name of the study.
+    pub title: String,
+    /// What the study asks, one sentence.
+    pub question: String,
+    /// When and by which program the report was made (`2025-03-01, toile 0.1.0`).
+    pub made: String,
+    /// The answer to "which simulator?" for every garment and fit class.
+    pub verdicts: Vec<Verdict>,
+    /// What does not add up: exclusions, mismatches of inputs. Failed and unconverged runs need not be listed.
+    pub audit: Vec<AuditNote>,
+    /// Program version, git commit, machine, seeds, solver parameters: in the order given.
+    pub provenance: Vec<Fact>,
+    /// Input files and their hashes.
+    pub inputs: Vec<Fact>,
+    /// Numbers of each fabric and where they are from.
+    pub fabrics: Vec<FabricFacts>,
+    /// The subjects.
+    pub subjects: SubjectTable,
+    /// Pattern drawings with numbered measurements.
+    pub drawings: Vec<Drawing>,
+    /// Ease of every subject and size, garment by garment.
+    pub ease: Vec<EaseMatrix>,
+    /// All runs, failed ones too.
+    pub runs: Vec<Run>,
+    /// How it was done, a paragraph each.
+    pub methods: Vec<String>,
+    /// What it does not show, a paragraph each.
+    pub limits: Vec<String>,
+    /// Files with the raw numbers, as addresses relative to the page.
+    pub raw: Vec<RawLink>,
+}
+
+/// What the evidence says of one garment and fit class.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Finding {
+    /// FEM-GS is truer to the pattern.
+    Fem,
+    /// Hybrid-GS is truer to the pattern.
+    Hybrid,
+    /// The two differ by less than the margin.
+    NoDifference,
+    /// Too little data to tell.
+    InsufficientEvidence,
+}
+
+impl Finding {
+    /// Name in SQL (`v_recommendation.verdict`).
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Fem => "fem",
+            Self::Hybrid => "hybrid",
+            Self::NoDifference => "no_difference",
+            Self::InsufficientEvidence => "insufficient_evidence",
+        }
+    }
+
+    /// Words on the page.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Fem => "FEM-GS is truer",
+            Self::Hybrid => "Hybrid-GS is truer",
+            Self::NoDifference => "no practical difference",
+            Self::InsufficientEvidence => "insufficient evidence",
+        }
+    }
+}
+
+/// What a recommendation rests on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Basis {
+    /// The thesis's rule.
+    Rule,
+    /// The study's own numbers.
+    Evidence,
+}
+
+/// One answer to "which simulator?".
+#[derive(Clone, Debug)]
+pub struct Verdict {
+    /// Garment.
+    pub garment: String,
+    /// Fit class.
+    pub class: FitClass,
+    /// The simulator to use.
+    pub recommended: Simulator,
+    /// Why this one.
+    pub basis: Basis,
+    /// What the study's numbers say by themselves.
+    pub finding: Finding,
+    /// Mean EI of FEM less that of Hybrid, and the ends of its interval, where both ran.
+    pub effect: Option<[f64; 3]>,
+    /// Subjects behind the numbers.
+    pub subjects: usize,
+    /// One sentence of explanation.
+    pub reason: String,
+    /// What would settle or flip it.
+    pub would_settle: String,
+}
+
+/// How much a note of the audit weighs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// Results are missing or wrong.
+    Failure,
+    /// Results need care.
+    Warning,
+    /// Worth knowing.
+    Note,
+}
+
+impl Severity {
+    /// Word and style class of a note.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Failure => "failure",
+            Self::Warning => "warning",
+            Self::Note => "note",
+        }
+    }
+
+    /// Sign before a note.
+    #[must_use]
+    pub fn glyph(self) -> &'static str {
+        match self {
+            Self::Failure => "✗",
+            Self::Warning => "!",
+            Self::Note => "i",
+        }
+    }
+}
+
+/// One thing the audit found.
+#[derive(Clone, Debug)]
+pub struct AuditNote {
+    /// Its weight.
+    pub severity: Severity,
+    /// The finding, one or two sentences.
+    pub text: String,
+}
+
+/// A named value.
+#[derive(Clone, Debug)]
+pub struct Fact {
+    /// Name.
+    pub name: String,
+    /// Value with its unit.
+    pub value: String,
+}
+
+/// A fabric's numbers.
+#[derive(Clone, Debug)]
+pub struct FabricFacts {
+    /// Name.
+    pub name: String,
+    /// Its properties with units.
+    pub facts: Vec<Fact>,
+    /// Where they are from.
+    pub source: String,
+}
+
+/// A column of the subject table.
+#[derive(Clone, Debug)]
+pub struct Column {
+    /// Measurement by its ISO 8559-1 name.
+    pub name: String,
+    /// Unit of the values (`mm`, `kg`); they are shown as given.
+    pub unit: String,
+    /// Decimals shown.
+    pub decimals: usize,
+}
+
+/// The subjects and their measurements.
+#[derive(Clone, Debug, Default)]
+pub struct SubjectTable {
+    /// What was measured.
+    pub columns: Vec<Column>,
+    /// Who was measured.
+    pub rows: Vec<Subject>,
+}
+
+/// One subject.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    /// Name in the study.
+    pub name: String,
+    /// Words about the subject (sex, source of the body).
+    pub note: String,
+    /// One value a column; `None` where it is not known.
+    pub values: Vec<Option<f64>>,
+}
+
+/// A drawing of a garment's pattern.
+#[derive(Clone, Debug)]
+pub struct Drawing {
+    /// Garment.
+    pub garment: String,
+    /// Size drawn.
+    pub size: String,
+    /// The drawing as SVG; shown as a picture, so that nothing in it can run.
+    pub svg: String,
+}
+
+/// Ease of one garment.
+#[derive(Clone, Debug)]
+pub struct EaseMatrix {
+    /// Garment.
+    pub garment: String,
+    /// Sizes, one a row.
+    pub sizes: Vec<String>,
+    /// Subjects, one a column.
+    pub subjects: Vec<String>,
+    /// Deciding ease by size, then subject; `None` where a girth is not known.
+    pub cells: Vec<Vec<Option<Ease>>>,
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// Residual within tolerance, seams closed.
+    Converged,
+    /// Stopped before that; measured all the same.
+    NotConverged,
+    /// No result, and why.
+    Failed(String),
+}
+
+/// One measurement of one run.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// Name (`neck girth`).
+    pub name: String,
+    /// Number, pattern and garment length.
+    pub chi: Chi,
+    /// Whether it is a closed girth; an open length otherwise.
+    pub closed: bool,
+    /// Whether it lies on an edge that nothing is sewn to.
+    pub free_edge: bool,
+    /// Whether the simulator restores it by construction.
+    pub controlled: bool,
+    /// The chi the thesis printed for the same case, where there is one.
+    pub published_chi: Option<f64>,
+}
+
+/// A picture file.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// PNG or JPEG; the page tells by the first bytes.
+    pub bytes: Vec<u8>,
+    /// Words in its place for those who cannot see it.
+    pub alt: String,
+    /// The line under it.
+    pub caption: String,
+}
+
+/// A picture coloured by values; the page sets its legend below it.
+#[derive(Clone, Debug)]
+pub struct FieldMap {
+    /// The picture, without a legend of its own.
+    pub picture: Picture,
+    /// What its colours mean.
+    pub scale: Scale,
+}
+
+/// One garment, in one size and fabric, on one subject, by one simulator.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// Garment.
+    pub garment: String,
+    /// Size.
+    pub size: String,
+    /// Subject.
+    pub subject: String,
+    /// Simulator.
+    pub simulator: Simulator,
+    /// Fabric.
+    pub fabric: String,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Ease that decides its fit class.
+    pub ease: Option<Ease>,
+    /// Its measurements; empty when it failed.
+    pub measured: Vec<Measured>,
+    /// Vertices once sewn.
+    pub vertices: usize,
+    /// Triangles.
+    pub faces: usize,
+    /// Iterations over all levels.
+    pub iterations: u32,
+    /// Final rms residual over the mean vertex weight.
+    pub residual: f64,
+    /// Residual by iteration.
+    pub residuals: Vec<(u32, f64)>,
+    /// Deepest penetration, m.
+    pub penetration_max_m: f64,
+    /// Greatest seam gap, m.
+    pub seam_gap_max_m: f64,
+    /// Wall time, s.
+    pub wall_s: f64,
+    /// Front, side, back, quarter.
+    pub views: Vec<Picture>,
+    /// Strain, gap or other maps.
+    pub maps: Vec<FieldMap>,
+}
+
+impl Run {
+    /// E, SD, EI over the measurements that `keep` keeps; `None` when none are left.
+    #[must_use]
+    pub fn metrics(&self, keep: impl Fn(&Measured) -> bool) -> Option<Metrics> {
+        let chis: Vec<Chi> = self.measured.iter().filter(|m| keep(m)).map(|m| m.chi.clone()).collect();
+        metrics(&chis)
+    }
+
+    /// Its measurement of a number.
+    #[must_use]
+    pub fn measurement(&self, no: u32) -> Option<&Measured> {
+        self.measured.iter().find(|m| m.chi.no == no)
+    }
+}
+
+/// The measurements that any of the runs has, by number; the first run's description of each.
+pub(super) fn measurements<'a>(runs: &[&'a Run]) -> Vec<&'a Measured> {
+    let mut all: Vec<&Measured> = runs.iter().flat_map(|r| &r.measured).collect();
+    all.sort_by_key(|m| m.chi.no);
+    all.dedup_by_key(|m| m.chi.no);
+    all
+}
+
+/// A file beside the page.
+#[derive(Clone, Debug)]
+pub struct RawLink {
+    /// Its relative address.
+    pub href: String,
+    /// What it holds.
+    pub label: String,
+}

@@ -1,0 +1,363 @@
+//! The page as its template sees it: every number already a text, every picture already an address.
+
+use super::ReportError;
+use super::data::{Basis, Finding, Outcome, Picture, ReportData, Run, Severity, Verdict};
+use super::runs::{Group, groups};
+use super::text::{count, distinct, duration, fit_glyph, fit_words, mean_sd, mm, number, signed_mm, simulator_name};
+use crate::fit::{Ease, FitClass};
+use crate::sim::Simulator;
+use base64::Engine;
+
+/// What `report.html` is filled from.
+#[derive(askama::Template)]
+#[template(path = "report.html")]
+pub(super) struct Page<'a> {
+    data: &'a ReportData,
+    summary: String,
+    tiles: Vec<Tile>,
+    verdicts: Vec<Garment>,
+    audit: Vec<Note>,
+    subjects: Vec<Row>,
+    subject_statistics: [Row; 2],
+    drawings: Vec<Plan>,
+    ease: Vec<Matrix<'a>>,
+    groups: Vec<Group>,
+}
+
+/// A number worth seeing first.
+struct Tile {
+    value: String,
+    name: String,
+}
+
+/// The answers for one garment.
+struct Garment {
+    name: String,
+    cards: Vec<Card>,
+}
+
+/// One answer to "which simulator?".
+struct Card {
+    class: &'static str,
+    glyph: &'static str,
+    simulator: &'static str,
+    basis: &'static str,
+    finding: &'static str,
+    rule_says: &'static str,
+    effect: String,
+    subjects: String,
+    reason: String,
+    would_settle: String,
+}
+
+/// One finding of the audit.
+struct Note {
+    severity: Severity,
+    text: String,
+}
+
+/// A named row of formatted values.
+struct Row {
+    name: String,
+    note: String,
+    values: Vec<String>,
+}
+
+/// A pattern drawing.
+struct Plan {
+    garment: String,
+    size: String,
+    address: String,
+}
+
+/// Ease of a garment by size and subject.
+struct Matrix<'a> {
+    garment: &'a str,
+    subjects: &'a [String],
+    rows: Vec<(String, Vec<Fit>)>,
+}
+
+/// One cell of an ease matrix.
+struct Fit {
+    class: &'static str,
+    glyph: &'static str,
+    ease: String,
+    words: String,
+    level: String,
+}
+
+/// A picture inside the page.
+pub(super) struct Image {
+    pub address: String,
+    pub alt: String,
+    pub caption: String,
+}
+
+impl Image {
+    pub fn new(picture: &Picture) -> Result<Self, ReportError> {
+        let kind = match picture.bytes.as_slice() {
+            [0x89, b'P', b'N', b'G', ..] => "image/png",
+            [0xff, 0xd8, 0xff, ..] => "image/jpeg",
+            _ => return Err(ReportError::PictureFormat(picture.caption.clone())),
+        };
+        Ok(Self { address: address(kind, &picture.bytes), alt: picture.alt.clone(), caption: picture.caption.clone() })
+    }
+}
+
+/// A field map and its legend.
+pub(super) struct MapImage {
+    pub image: Image,
+    pub label: String,
+    pub low: String,
+    pub middle: String,
+    pub high: String,
+    /// Colours of the legend from low to high, as a style sheet writes them.
+    pub ramp: String,
+}
+
+impl MapImage {
+    pub fn new(map: &super::data::FieldMap) -> Result<Self, ReportError> {
+        let scale = &map.scale;
+        let decimals = if scale.high - scale.low >= 20.0 { 0 } else { 2 };
+        let unit = if scale.unit.is_empty() { String::new() } else { format!("\u{a0}{}", scale.unit) };
+        let tick = |t: f64| format!("{}{unit}", number(scale.low + t * (scale.high - scale.low), decimals));
+        let stops: Vec<String> = (0..=12).map(|k| scale.map.at(f64::from(k) / 12.0).hex()).collect();
+        Ok(Self {
+            image: Image::new(&map.picture)?,
+            label: scale.label.clone(),
+            low: tick(0.0),
+            middle: tick(0.5),
+            high: tick(1.0),
+            ramp: stops.join(","),
+        })
+    }
+}
+
+fn address(kind: &str, bytes: &[u8]) -> String {
+    format!("data:{kind};base64,{}", base64::engine::general_purpose::STANDARD.encode(bytes))
+}
+
+impl<'a> Page<'a> {
+    pub fn new(data: &'a ReportData) -> Result<Self, ReportError> {
+        if let Some(link) = data.raw.iter().find(|l| l.href.contains(':') || l.href.starts_with('/')) {
+            return Err(ReportError::Link(link.href.clone()));
+        }
+        let plan = |d: &super::data::Drawing| Plan {
+            garment: d.garment.clone(),
+            size: d.size.clone(),
+            address: address("image/svg+xml", d.svg.as_bytes()),
+        };
+        Ok(Self {
+            data,
+            summary: summary(&data.runs),
+            tiles: tiles(&data.runs),
+            verdicts: verdicts(data),
+            audit: audit(data),
+            subjects: subjects(data),
+            subject_statistics: subject_statistics(data),
+            drawings: data.drawings.iter().map(plan).collect(),
+            ease: matrices(data),
+            groups: groups(&data.runs)?,
+        })
+    }
+}
+
+fn mean_ei(runs: &[Run], simulator: Simulator) -> Option<f64> {
+    let (mean, _) =
+        mean_sd(runs.iter().filter(|r| r.simulator == simulator).filter_map(|r| r.metrics(|_| true)).map(|m| m.ei));
+    mean.is_finite().then_some(mean)
+}
+
+/// What the study found, in two or three sentences.
+fn summary(runs: &[Run]) -> String {
+    let garments = distinct(runs.iter().map(|r| r.garment.as_str())).join(", ");
+    let subjects = distinct(runs.iter().map(|r| r.subject.as_str())).len();
+    let converged = runs.iter().filter(|r| r.outcome == Outcome::Converged).count();
+    if runs.is_empty() {
+        return "No runs yet.".into();
+    }
+    let mut text = format!("{} of {garments} on {}; ", count(runs.len(), "run"), count(subjects, "subject"));
+    text += &if converged == runs.len() { "all converged.".into() } else { format!("{converged} converged.") };
+    for simulator in [Simulator::Fem, Simulator::Hybrid] {
+        if let Some(ei) = mean_ei(runs, simulator) {
+            let name = simulator_name(simulator);
+            text += &format!(" {name} is off the pattern by {} on average (mean EI {ei:.3}).", percent(ei));
+        }
+    }
+    let error = |m: &super::data::Measured| (m.chi.chi() - 1.0).abs();
+    let worst = runs
+        .iter()
+        .flat_map(|r| r.measured.iter().map(move |m| (r, m)))
+        .max_by(|a, b| error(a.1).total_cmp(&error(b.1)));
+    if let Some((run, m)) = worst {
+        let (chi, no, name) = (m.chi.chi(), m.chi.no, &m.name);
+        let (subject, simulator) = (&run.subject, simulator_name(run.simulator));
+        text += &format!(" The greatest departure is #{no} {name}, chi {chi:.3}, on subject {subject} ({simulator}).");
+    }
+    text
+}
+
+fn percent(share: f64) -> String {
+    format!("{} %", number(share * 100.0, 1))
+}
+
+fn tiles(runs: &[Run]) -> Vec<Tile> {
+    let tile = |value: String, name: &str| Tile { value, name: name.into() };
+    let converged = runs.iter().filter(|r| r.outcome == Outcome::Converged).count();
+    let mut tiles = vec![tile(format!("{converged} / {}", runs.len()), "runs converged")];
+    for simulator in [Simulator::Fem, Simulator::Hybrid] {
+        if let Some(ei) = mean_ei(runs, simulator) {
+            tiles.push(tile(format!("{ei:.3}"), &format!("mean EI, {}", simulator_name(simulator))));
+        }
+    }
+    let chi = || runs.iter().flat_map(|r| &r.measured).map(|m| m.chi.chi());
+    if chi().next().is_some() {
+        let (low, high) = chi().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), c| (l.min(c), h.max(c)));
+        tiles.push(tile(format!("{low:.3}–{high:.3}"), "range of chi"));
+    }
+    let done = || runs.iter().filter(|r| !matches!(r.outcome, Outcome::Failed(_)));
+    let (mean, _) = mean_sd(done().map(|r| r.wall_s));
+    if mean.is_finite() {
+        tiles.push(tile(duration(mean), "mean time of a run"));
+        let deepest = done().map(|r| r.penetration_max_m).fold(0.0, f64::max);
+        tiles.push(tile(format!("{} mm", mm(deepest)), "deepest penetration"));
+    }
+    tiles
+}
+
+/// A card for every garment and fit class: where the study has no answer, the rule's.
+fn verdicts(data: &ReportData) -> Vec<Garment> {
+    let names =
+        distinct(data.verdicts.iter().map(|v| v.garment.as_str()).chain(data.runs.iter().map(|r| r.garment.as_str())));
+    let of = |name: &str, class: FitClass| {
+        let given = data.verdicts.iter().find(|v| v.garment == name && v.class == class);
+        card(given.unwrap_or(&by_rule(data, name, class)))
+    };
+    let classes = [FitClass::Tight, FitClass::Just, FitClass::Loose];
+    names.iter().map(|n| Garment { name: (*n).into(), cards: classes.map(|c| of(n, c)).into() }).collect()
+}
+
+fn by_rule(data: &ReportData, garment: &str, class: FitClass) -> Verdict {
+    let fits = |r: &&Run| r.garment == garment && r.ease.as_ref().is_some_and(|e| e.class == class);
+    let subjects = distinct(data.runs.iter().filter(fits).map(|r| r.subject.as_str())).len();
+    let ran = distinct(data.runs.iter().filter(fits).map(|r| simulator_name(r.simulator)));
+    let why = match ran.as_slice() {
+        [] => "No run of this study has this fit".into(),
+        [one] => format!("Only {one} ran on this fit, so there is nothing to compare it with"),
+        _ => "The study gives no verdict for this fit".to_owned(),
+    };
+    Verdict {
+        garment: garment.into(),
+        class,
+        recommended: class.rule_says(),
+        basis: Basis::Rule,
+        finding: Finding::InsufficientEvidence,
+        effect: None,
+        subjects,
+        reason: format!("{why}; the thesis's rule stands."),
+        would_settle: "Runs of both simulators on the same subjects with this fit.".into(),
+    }
+}
+
+fn card(verdict: &Verdict) -> Card {
+    let effect = verdict.effect.map_or_else(
+        || "not measured".into(),
+        |[mean, low, high]| format!("{} ({} to {})", number(mean, 3), number(low, 3), number(high, 3)),
+    );
+    Card {
+        class: verdict.class.as_str(),
+        glyph: fit_glyph(verdict.class),
+        simulator: simulator_name(verdict.recommended),
+        basis: match verdict.basis {
+            Basis::Rule => "by the thesis's rule",
+            Basis::Evidence => "by this study's evidence",
+        },
+        finding: verdict.finding.words(),
+        rule_says: simulator_name(verdict.class.rule_says()),
+        effect,
+        subjects: count(verdict.subjects, "subject"),
+        reason: verdict.reason.clone(),
+        would_settle: verdict.would_settle.clone(),
+    }
+}
+
+/// Failed and unconverged runs first, then what the study noted.
+fn audit(data: &ReportData) -> Vec<Note> {
+    let of_run = |run: &Run| {
+        let name = format!(
+            "{} {}, subject {}, {}, {}",
+            run.garment,
+            run.size,
+            run.subject,
+            simulator_name(run.simulator),
+            run.fabric
+        );
+        match &run.outcome {
+            Outcome::Failed(why) => Some(Note { severity: Severity::Failure, text: format!("{name} failed: {why}") }),
+            Outcome::NotConverged => {
+                let residual = percent(run.residual);
+                let text = format!(
+                    "{name} did not converge (residual {residual} of a vertex's weight); it is shown and counted."
+                );
+                Some(Note { severity: Severity::Warning, text })
+            }
+            Outcome::Converged => None,
+        }
+    };
+    let given = data.audit.iter().map(|n| Note { severity: n.severity, text: n.text.clone() });
+    let mut notes: Vec<Note> = data.runs.iter().filter_map(of_run).chain(given).collect();
+    notes.sort_by_key(|n| n.severity as u8);
+    notes
+}
+
+fn subjects(data: &ReportData) -> Vec<Row> {
+    let table = &data.subjects;
+    let cell = |value: Option<&Option<f64>>, decimals| number(value.copied().flatten().unwrap_or(f64::NAN), decimals);
+    let row = |s: &super::data::Subject| Row {
+        name: s.name.clone(),
+        note: s.note.clone(),
+        values: table.columns.iter().enumerate().map(|(k, c)| cell(s.values.get(k), c.decimals)).collect(),
+    };
+    table.rows.iter().map(row).collect()
+}
+
+fn subject_statistics(data: &ReportData) -> [Row; 2] {
+    let table = &data.subjects;
+    let statistics = |k: usize| mean_sd(table.rows.iter().filter_map(|s| s.values.get(k).copied().flatten()));
+    let (means, sds) = table
+        .columns
+        .iter()
+        .enumerate()
+        .map(|(k, c)| (statistics(k), c.decimals))
+        .map(|((mean, sd), decimals)| (number(mean, decimals), number(sd, decimals.max(1))))
+        .unzip();
+    [("mean", means), ("SD", sds)].map(|(name, values)| Row { name: name.into(), note: String::new(), values })
+}
+
+fn matrices(data: &ReportData) -> Vec<Matrix<'_>> {
+    let fit = |ease: &Option<Ease>| match ease {
+        Some(e) => Fit {
+            class: e.class.as_str(),
+            glyph: fit_glyph(e.class),
+            ease: signed_mm(e.ease_m()),
+            words: fit_words(e),
+            level: format!("{}: pattern {} mm, body {} mm", e.level, mm(e.pattern_girth_m), mm(e.body_girth_m)),
+        },
+        None => Fit {
+            class: "unknown",
+            glyph: "?",
+            ease: "–".into(),
+            words: "girth not known".into(),
+            level: String::new(),
+        },
+    };
+    let row = |(size, cells): (&'_ String, &Vec<Option<Ease>>)| (size.clone(), cells.iter().map(fit).collect());
+    data.ease
+        .iter()
+        .map(|m| Matrix {
+            garment: &m.garment,
+            subjects: &m.subjects,
+            rows: m.sizes.iter().zip(&m.cells).map(row).collect(),
+        })
+        .collect()
+}

@@ -1,0 +1,220 @@
+use super::data::*;
+use super::{ReportError, chart, html};
+use crate::fit::{Cuts, Ease, FitClass};
+use crate::measure::Chi;
+use crate::render::{Rgb, Scale, png};
+use crate::sim::Simulator;
+
+fn ease(pattern_girth_m: f64, body_girth_m: f64) -> Ease {
+    let cuts = Cuts::default();
+    let ease_m = pattern_girth_m - body_girth_m;
+    Ease {
+        level: "chest".into(),
+        pattern_girth_m,
+        body_girth_m,
+        class: cuts.classify(ease_m),
+        borderline: cuts.is_borderline(ease_m),
+    }
+}
+
+fn measured(no: u32, name: &str, l2d_m: f64, chi: f64, free_edge: bool) -> Measured {
+    Measured {
+        name: name.into(),
+        chi: Chi { no, l2d_m, l3d_m: l2d_m * chi },
+        closed: name.ends_with("girth"),
+        free_edge,
+        controlled: false,
+        published_chi: None,
+    }
+}
+
+fn picture(caption: &str) -> Picture {
+    let pixel = image::RgbaImage::from_pixel(4, 5, image::Rgba([80, 160, 120, 255]));
+    Picture { bytes: png(&pixel).unwrap(), alt: format!("Tee, {caption} view"), caption: caption.into() }
+}
+
+fn run(subject: &str, simulator: Simulator, neck: f64) -> Run {
+    Run {
+        garment: "Tee".into(),
+        size: "S".into(),
+        subject: subject.into(),
+        simulator,
+        fabric: "jersey".into(),
+        outcome: Outcome::Converged,
+        ease: Some(ease(1.004, if subject == "i" { 0.931 } else { 1.020 })),
+        measured: vec![measured(1, "hem girth", 0.9741, 1.002, false), measured(6, "neck girth", 0.5601, neck, true)],
+        vertices: 5334,
+        faces: 10500,
+        iterations: 84,
+        residual: 0.0083,
+        residuals: (0..20).map(|i| (i, 10f64.powf(1.0 - 0.1 * f64::from(i)))).collect(),
+        penetration_max_m: 0.0003,
+        seam_gap_max_m: 0.0,
+        wall_s: 3.4,
+        views: ["front", "side", "back", "quarter"].map(picture).into(),
+        maps: vec![FieldMap {
+            picture: picture("stretch"),
+            scale: Scale::diverging(1.0, 0.1, "stretch across the grain", ""),
+        }],
+    }
+}
+
+fn sample() -> ReportData {
+    ReportData {
+        title: "Men's tops".into(),
+        question: "How true do T-shirts stay?".into(),
+        made: "toile 0.1.0".into(),
+        subjects: SubjectTable {
+            columns: vec![Column { name: "chest girth".into(), unit: "mm".into(), decimals: 1 }],
+            rows: [("i", 931.0), ("ii", 1020.0)]
+                .map(|(name, girth)| Subject { name: name.into(), note: "man".into(), values: vec![Some(girth)] })
+                .into(),
+        },
+        drawings: vec![Drawing {
+            garment: "Tee".into(),
+            size: "S".into(),
+            svg: "<svg xmlns='http://www.w3.org/2000/svg'><script>alert(1)</script></svg>".into(),
+        }],
+        ease: vec![EaseMatrix {
+            garment: "Tee".into(),
+            sizes: vec!["S".into()],
+            subjects: vec!["i".into(), "ii".into(), "iii".into()],
+            cells: vec![vec![Some(ease(1.004, 0.931)), Some(ease(1.004, 1.020)), None]],
+        }],
+        runs: vec![run("i", Simulator::Fem, 1.04), run("ii", Simulator::Fem, 1.06)],
+        raw: vec![RawLink { href: "chi.csv".into(), label: "every measurement".into() }],
+        ..ReportData::default()
+    }
+}
+
+/// The words of a page, one block a line: what a reader without pictures and style gets.
+fn words(page: &str) -> String {
+    let body = page.split_once("<body>").unwrap().1;
+    let mut text = String::new();
+    let mut rest = body;
+    while let Some((before, after)) = rest.split_once('<') {
+        text += before;
+        let (tag, tail) = after.split_once('>').unwrap();
+        let name = tag.trim_start_matches('/').split(' ').next().unwrap();
+        let inline = ["b", "span", "small", "em", "strong", "i", "code"].contains(&name);
+        let cell = ["td", "th", "dd", "dt"].contains(&name);
+        text += if inline {
+            " "
+        } else if cell {
+            " | "
+        } else {
+            "\n"
+        };
+        rest = if name == "svg" && !tag.starts_with('/') { tail.split_once("</svg>").unwrap().1 } else { tail };
+    }
+    let line = |l: &str| {
+        l.split_whitespace().filter(|w| *w != "|" || l.contains(char::is_alphanumeric)).collect::<Vec<_>>().join(" ")
+    };
+    let lines = text.lines().map(line).map(|l| l.replace("| |", "|").trim_matches([' ', '|']).to_owned());
+    lines.filter(|l| !l.is_empty()).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn a_small_page_reads_well() {
+    insta::assert_snapshot!(words(&html(&sample()).unwrap()));
+}
+
+#[test]
+fn the_page_needs_nothing_else() {
+    let page = html(&sample()).unwrap();
+    for forbidden in ["<script", "http://", "https://", "<link", "@import", "onload"] {
+        let found = page.replace("http://www.w3.org/2000/svg", "").contains(forbidden);
+        assert!(!found, "{forbidden} on the page");
+    }
+    let addresses = |key: &str| page.matches(key).count();
+    assert_eq!(addresses("src=\""), addresses("src=\"data:image/"), "every picture is inside the page");
+    assert_eq!(addresses("<img "), addresses(" alt=\""), "every picture has words");
+    assert_eq!(addresses("<th>"), 0, "every header says what it heads");
+    assert_eq!(addresses("<th "), addresses("scope=\""));
+}
+
+#[test]
+fn names_from_outside_are_text_not_markup() {
+    let mut data = sample();
+    let evil = "<b onload=\"x\">&'";
+    data.title = evil.into();
+    data.runs[0].subject = evil.into();
+    data.runs[0].measured[0].name = evil.into();
+    data.runs[1].outcome = Outcome::Failed(evil.into());
+    data.runs[0].fabric = evil.into();
+    let page = html(&data).unwrap();
+    assert!(!page.contains("<b onload"), "markup got through");
+    assert!(page.contains("&lt;b onload") || page.contains("&#60;b onload"));
+}
+
+#[test]
+fn every_fit_class_of_every_garment_has_an_answer() {
+    let page = words(&html(&sample()).unwrap());
+    for class in [FitClass::Tight, FitClass::Just, FitClass::Loose] {
+        assert!(page.contains(&format!("{} fit", class.as_str())), "{}", class.as_str());
+    }
+    assert_eq!(page.matches("insufficient evidence").count(), 3);
+    assert!(page.contains("Only FEM-GS ran on this fit"));
+    let mut data = sample();
+    data.verdicts.push(Verdict {
+        garment: "Tee".into(),
+        class: FitClass::Just,
+        recommended: Simulator::Fem,
+        basis: Basis::Evidence,
+        finding: Finding::Fem,
+        effect: Some([-0.021, -0.034, -0.012]),
+        subjects: 6,
+        reason: "FEM wins.".into(),
+        would_settle: "Three subjects more.".into(),
+    });
+    let page = words(&html(&data).unwrap());
+    assert!(page.contains("\u{2212}0.021 (\u{2212}0.034 to \u{2212}0.012)") && page.contains("FEM-GS is truer"));
+    assert_eq!(page.matches("insufficient evidence").count(), 2);
+}
+
+#[test]
+fn failed_and_unconverged_runs_are_shown() {
+    let mut data = sample();
+    data.runs[0].outcome = Outcome::NotConverged;
+    data.runs[1].outcome = Outcome::Failed("the mesh folded over".into());
+    data.runs[1].measured.clear();
+    data.runs[1].views.clear();
+    let page = words(&html(&data).unwrap());
+    assert!(page.contains("Tee S, subject i, FEM-GS, jersey did not converge (residual 0.8 % of a vertex"));
+    assert!(page.contains("Tee S, subject ii, FEM-GS, jersey failed: the mesh folded over"));
+    assert!(page.contains("No result: the mesh folded over"));
+    assert!(html(&ReportData::default()).unwrap().contains("No runs yet."));
+}
+
+#[test]
+fn what_cannot_be_shown_is_refused() {
+    let mut data = sample();
+    data.raw[0].href = "javascript:alert(1)".into();
+    assert!(matches!(html(&data), Err(ReportError::Link(_))));
+    let mut data = sample();
+    data.runs[0].views[0].bytes = b"GIF89a".to_vec();
+    assert!(matches!(html(&data), Err(ReportError::PictureFormat(_))));
+}
+
+#[test]
+fn charts_place_marks_where_values_are() {
+    let runs = [run("i", Simulator::Fem, 1.04), run("i", Simulator::Hybrid, 0.90)];
+    let runs: Vec<&Run> = runs.iter().collect();
+    let labels = ["i".to_owned(), "i".to_owned()];
+    let chi = chart::chi_chart("Tee", &runs, &labels).unwrap();
+    assert!(chi.svg().contains("#6 neck girth") && chi.svg().contains("\n1.00\n"), "{}", chi.svg());
+    let ei = chart::ei_chart("Tee", &runs, &labels).unwrap();
+    // (0.002 + 0.04) / 2 and (0.002 + 0.10) / 2, in the bars' own labels.
+    assert!(ei.svg().contains("0.021") && ei.svg().contains("0.051"), "{}", ei.svg());
+    let count = |picture: &image::RgbaImage, c: Rgb| picture.pixels().filter(|p| p.0[..3] == [c.0, c.1, c.2]).count();
+    let picture = image::load_from_memory(&ei.png().unwrap()).unwrap().to_rgba8();
+    let [fem, hybrid] = [Simulator::Fem, Simulator::Hybrid].map(|s| count(&picture, super::theme::simulator(s)) as f64);
+    // Beyond the square of the key, the bars' areas are as their values.
+    let square = 28.0 * 28.0;
+    let ratio = (hybrid - square) / (fem - square);
+    assert!((ratio - 0.051 / 0.021).abs() < 0.1, "{ratio}");
+    let residual = chart::residual_chart("Tee", &runs, &labels).unwrap();
+    assert!(residual.svg().contains("<polyline") && !residual.png().unwrap().is_empty());
+    let mean = chart::mean_sd_chart("Tee", &runs).unwrap();
+    assert!(mean.alt().contains("2 measurements over 2 runs"), "{}", mean.alt());
+}

@@ -1,0 +1,181 @@
+//! What needs no study: looking into pattern files, meshing a style, building and measuring bodies.
+
+use std::path::{Path, PathBuf};
+
+use super::error::{Result, StudyError};
+use super::file::SourceFile;
+use crate::body::{self, Body};
+use crate::pattern::dxf;
+use crate::pattern::{Garment, draft, sheet};
+use crate::render::{self, Camera, Frame, Layer, Material, Scene};
+
+pub use crate::body::{Girths, LengthUnit, Measurements, Sex, write_obj};
+pub use crate::pattern::dxf::Unit;
+pub use crate::pattern::inspect::{FileReport, PieceReport};
+pub use crate::pattern::{MeshQuality, Style};
+pub use crate::render::View;
+
+/// Writes files into a folder, which is made where it is missing; returns their paths.
+///
+/// # Errors
+/// When the folder or a file cannot be written.
+pub fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<Vec<PathBuf>> {
+    let mut paths = Vec::new();
+    for (name, bytes) in files {
+        let path = folder.join(name);
+        let parent = path.parent().unwrap_or(folder);
+        std::fs::create_dir_all(parent).map_err(StudyError::io(parent))?;
+        std::fs::write(&path, bytes).map_err(StudyError::io(&path))?;
+        paths.push(path);
+    }
+    Ok(paths)
+}
+
+/// What is in a DXF file, or in every DXF file below a folder, by name. A file that cannot be read has its error in its
+/// report.
+///
+/// # Errors
+/// When the path cannot be read.
+pub fn inspect(path: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<FileReport>> {
+    let files = if path.is_dir() { drawings(path)? } else { vec![path.to_owned()] };
+    files
+        .iter()
+        .map(|file| {
+            let source = SourceFile::read(file)?;
+            let name = file.to_string_lossy();
+            Ok(match dxf::read(&source.bytes, &name, unit) {
+                Err(error) => FileReport::unreadable(&name, error.to_string()),
+                Ok(mut pattern) => {
+                    if let Some(size) = size {
+                        pattern.pieces = pattern.of_size(size);
+                    }
+                    FileReport::from(&pattern)
+                }
+            })
+        })
+        .collect()
+}
+
+/// The DXF files below a folder, by path.
+fn drawings(folder: &Path) -> Result<Vec<PathBuf>> {
+    let mut found = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).map_err(StudyError::io(&folder))? {
+            let entry = entry.map_err(StudyError::io(&folder))?;
+            let kind = entry.file_type().map_err(StudyError::io(entry.path()))?;
+            let is_drawing = entry.path().extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"));
+            match kind {
+                kind if kind.is_dir() => folders.push(entry.path()),
+                _ if is_drawing => found.push(entry.path()),
+                _ => {}
+            }
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// A style from the files of a pattern and its seams; `size` picks one where the pattern holds several.
+///
+/// # Errors
+/// When a file cannot be read, names no unit while none is given, or does not fit the other.
+pub fn style(pattern: &Path, seams: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Style> {
+    read_style(&SourceFile::read(pattern)?, &SourceFile::read(seams)?, size, unit)
+}
+
+/// The unit of a name in a study file.
+pub(super) fn unit_of(name: &str) -> Option<Unit> {
+    [Unit::Mm, Unit::Cm, Unit::In].into_iter().find(|unit| unit.as_str() == name)
+}
+
+/// [`style`] from files already read.
+pub(super) fn read_style(
+    pattern: &SourceFile,
+    seams: &SourceFile,
+    size: Option<&str>,
+    unit: Option<Unit>,
+) -> Result<Style> {
+    let fail = |message: String| StudyError::Stage { stage: "pattern", message };
+    let file = dxf::read(&pattern.bytes, &pattern.name, unit).map_err(StudyError::stage("pattern"))?;
+    if file.unit_source == dxf::UnitSource::Assumed {
+        return Err(fail(format!("{} names no unit; say it: mm, cm or in", file.file)));
+    }
+    let sizes = file.sizes();
+    let wanted = size.filter(|size| sizes.iter().any(|known| known.eq_ignore_ascii_case(size)));
+    let pieces = match (wanted, sizes.len()) {
+        (Some(size), _) => file.of_size(size),
+        (None, 0 | 1) => file.pieces.clone(),
+        (None, _) => {
+            let asked = size.map_or_else(|| "no size is said".to_owned(), |size| format!("there is no size {size}"));
+            return Err(fail(format!("{}: {asked}; it holds: {}", file.file, sizes.join(", "))));
+        }
+    };
+    Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))
+}
+
+/// A style's mesh at an edge length, m, and how good its triangles are.
+///
+/// # Errors
+/// When the edge length is out of range or the outline cannot be meshed.
+pub fn mesh(style: &Style, edge_length_m: f64) -> Result<(Garment, MeshQuality)> {
+    let garment = style.mesh(edge_length_m).map_err(StudyError::stage("mesh"))?;
+    let quality = MeshQuality::of(&garment).ok_or_else(|| StudyError::stage("mesh")("no triangles"))?;
+    Ok((garment, quality))
+}
+
+/// The style's pieces on a sheet, as SVG with numbered measurements.
+#[must_use]
+pub fn sheet(style: &Style) -> String {
+    sheet::svg(style)
+}
+
+/// The files of the drafted men's T-shirt: a DXF a size and the seam file.
+#[must_use]
+pub fn drafted_tshirt() -> Vec<(String, Vec<u8>)> {
+    draft::tshirt_files()
+}
+
+/// Measurements from a TOML file with the keys of a study's `[[subject]]`.
+///
+/// # Errors
+/// Everything that is wrong with the file, at once.
+pub fn read_measurements(path: &Path) -> Result<Measurements> {
+    let text = std::fs::read_to_string(path).map_err(StudyError::io(path))?;
+    super::file::measurements(path, &text)
+}
+
+/// A body built from measurements, and what a tape reads on it.
+///
+/// # Errors
+/// When a measurement is impossible.
+pub fn build_body(measurements: &Measurements) -> Result<(Body, Girths)> {
+    let body = body::build(measurements).map_err(StudyError::stage("body"))?;
+    let girths = body::measure(&body.mesh, Some(body.sex)).map_err(StudyError::stage("body"))?;
+    Ok((body, girths))
+}
+
+/// Measures a body mesh file; also what had to be guessed about it.
+///
+/// # Errors
+/// When the file cannot be read or is no standing person.
+pub fn measure_body(file: &Path, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<(Girths, Vec<String>)> {
+    let source = SourceFile::read(file)?;
+    let name = file.display();
+    let told = |error: body::BodyError| StudyError::Stage { stage: "body", message: format!("{name}: {error}") };
+    let imported = body::import(&source.bytes, unit).map_err(told)?;
+    let girths = body::measure(&imported.mesh, sex).map_err(told)?;
+    Ok((girths, imported.notes))
+}
+
+/// A picture of a body as PNG bytes.
+///
+/// # Errors
+/// When the mesh cannot be drawn.
+pub fn body_picture(body: &Body, view: View, width: u32, height: u32) -> Result<Vec<u8>> {
+    let scene = Scene::new(vec![Layer::new(&body.mesh, Material::form())]).map_err(StudyError::stage("render"))?;
+    let frame = Frame::enclosing([&body.mesh], f64::from(width) / f64::from(height.max(1)));
+    let picture =
+        render::render(&scene, &Camera::new(view, frame), width, height).map_err(StudyError::stage("render"))?;
+    render::png(&picture).map_err(StudyError::stage("render"))
+}
