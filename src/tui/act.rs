@@ -4,6 +4,7 @@ use super::action::{Action, Screen};
 use super::copy;
 use super::message::{Act, Effect, Target};
 use super::overlay::{List, Overlay};
+use super::picture;
 use super::state::{ChiOrder, Place, State};
 use crate::study::{JobId, why_no_retry};
 
@@ -41,8 +42,8 @@ impl State {
             Action::NextStudy => self.next_study(),
             Action::OtherSimulator => self.other_simulator(),
             Action::NextStage => self.next_stage(),
-            Action::NextView => self.view = self.view.turned(1),
-            Action::NextMap => self.map = self.map.next(),
+            Action::NextView => self.view = picture::turned(self.view, 1),
+            Action::NextMap => self.map = picture::next_map(self.map),
             Action::Enlarge => self.enlarged = !self.enlarged,
             Action::Pause => return self.pause(),
             Action::Cancel => return self.cancel(),
@@ -243,6 +244,10 @@ impl State {
     }
 
     fn run(&mut self, target: Target) -> Vec<Effect> {
+        if target == Target::Quickstart && !self.abilities.quickstart {
+            self.complain("the quickstart study is not installed here: run `toile study new NAME`");
+            return vec![];
+        }
         if !self.abilities.run {
             self.complain("this workbench is read-only: start it without --readonly to run a study");
             return vec![];

@@ -2,6 +2,7 @@
 
 use super::act::stepped;
 use super::action::{Action, Screen};
+use super::picture;
 use super::state::{Place, State};
 use crate::study::JobId;
 
@@ -54,7 +55,7 @@ impl State {
                 let subject = self.place.subject.saturating_add_signed(step).min(last);
                 self.go_to(Place { subject, ..self.place });
             }
-            (Screen::Results, true) => self.view = self.view.turned(step),
+            (Screen::Results, true) => self.view = picture::turned(self.view, step),
             (Screen::Results, false) => self.step_result(step),
             (Screen::Jobs, _) => {}
         }

@@ -71,7 +71,7 @@ pub enum Act {
 /// What to run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Target {
-    /// A small study with everything it needs, written to the working folder.
+    /// The study that comes with the program.
     Quickstart,
     /// A study file.
     Study(PathBuf),

@@ -30,11 +30,10 @@ use std::path::PathBuf;
 pub use action::{Action, BINDINGS, Binding, Screen};
 pub use feed::{Focus, Snapshot};
 pub use message::{Act, Effect, Message, Target};
-pub use picture::{Images, Map, Shot, View};
+pub use picture::{Images, Shot};
 pub use state::State;
-pub use worker::{Hooks, PictureFn, StartFn};
 
-use crate::study::{StudyError, Workspace};
+use crate::study::{StudyError, Workspace, study_file};
 use picture::Canvas;
 use state::Abilities;
 use theme::{Colours, Theme};
@@ -50,8 +49,8 @@ pub struct Options {
     pub no_color: bool,
     /// How pictures are shown.
     pub images: Images,
-    /// What the workbench has the study do beside reading and queueing.
-    pub hooks: Hooks,
+    /// A study to start with, offered while the database has none.
+    pub quickstart: Option<PathBuf>,
 }
 
 /// Why the workbench ended.
@@ -75,12 +74,14 @@ pub fn run(options: Options) -> Result<(), TuiError> {
     let env = |name: &str| std::env::var(name).ok();
     let theme = Theme { colours: Colours::detect(options.no_color, &env) };
     let canvas = Canvas::new(options.images, theme.colours, &env);
-    let abilities = Abilities { run: !options.readonly, pictures: canvas.is_some() };
+    let quickstart = options.quickstart.filter(|path| study_file(path).exists());
+    let abilities =
+        Abilities { run: !options.readonly, pictures: canvas.is_some(), quickstart: quickstart.is_some() };
 
     let mut screen = terminal::Screen::enter()?;
     let size = screen.terminal.size()?;
     let state = State::new(theme, abilities, size);
-    let workers = Workers::start(workspace, canvas, options.hooks);
+    let workers = Workers::start(workspace, canvas, quickstart);
     let outcome = event_loop(&mut screen, state, &workers);
     drop(screen);
     workers.finish();

@@ -10,7 +10,7 @@ use ratatui_image::protocol::Protocol;
 use ratatui_image::{FontSize, Resize};
 
 use super::theme::Colours;
-use crate::study::JobId;
+use crate::study::{JobId, Map, View};
 
 /// How pictures are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -37,70 +37,18 @@ impl std::str::FromStr for Images {
     }
 }
 
-/// From where a drape is seen.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum View {
-    /// From the front.
-    #[default]
-    Front,
-    /// From the left of the body.
-    Side,
-    /// From behind.
-    Back,
-    /// From between front and side.
-    Quarter,
+/// The view some steps on, round the drape.
+#[must_use]
+pub fn turned(view: View, steps: isize) -> View {
+    let at = View::ALL.iter().position(|one| *one == view).unwrap_or(0);
+    View::ALL[(at as isize + steps).rem_euclid(View::ALL.len() as isize) as usize]
 }
 
-impl View {
-    /// All views, in the order the picture turns.
-    pub const ALL: [Self; 4] = [Self::Front, Self::Side, Self::Back, Self::Quarter];
-
-    /// Name.
-    #[must_use]
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Front => "front",
-            Self::Side => "side",
-            Self::Back => "back",
-            Self::Quarter => "quarter",
-        }
-    }
-
-    /// The view some steps on.
-    #[must_use]
-    pub fn turned(self, steps: isize) -> Self {
-        Self::ALL[(self as isize + steps).rem_euclid(4) as usize]
-    }
-}
-
-/// What the colours of a picture mean.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Map {
-    /// The simulator's colour.
-    #[default]
-    Drape,
-    /// Strain of the cloth.
-    Strain,
-}
-
-impl Map {
-    /// Name.
-    #[must_use]
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Drape => "drape",
-            Self::Strain => "strain",
-        }
-    }
-
-    /// The other one.
-    #[must_use]
-    pub fn next(self) -> Self {
-        match self {
-            Self::Drape => Self::Strain,
-            Self::Strain => Self::Drape,
-        }
-    }
+/// What the colours mean next.
+#[must_use]
+pub fn next_map(map: Map) -> Map {
+    let at = Map::ALL.iter().position(|one| *one == map).unwrap_or(0);
+    Map::ALL[(at + 1) % Map::ALL.len()]
 }
 
 /// A picture that is wanted.
@@ -273,7 +221,7 @@ mod tests {
     }
 
     fn shot(columns: u16, rows: u16) -> Shot {
-        Shot { job: JobId(1), view: View::Front, map: Map::Drape, columns, rows }
+        Shot { job: JobId(1), view: View::Front, map: Map::Plain, columns, rows }
     }
 
     #[test]
@@ -314,7 +262,9 @@ mod tests {
 
     #[test]
     fn views_turn_all_round() {
-        assert_eq!(View::Front.turned(-1), View::Quarter);
-        assert_eq!(View::Quarter.turned(1), View::Front);
+        assert_eq!(turned(View::Front, -1), View::Quarter);
+        assert_eq!(turned(View::Quarter, 1), View::Front);
+        let seen = std::iter::successors(Some(Map::Plain), |map| Some(next_map(*map))).take(Map::ALL.len());
+        assert!(seen.eq(Map::ALL), "every map has its turn");
     }
 }

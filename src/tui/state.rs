@@ -8,10 +8,10 @@ use super::action::Screen;
 use super::feed::{Detail, Focus, Snapshot};
 use super::message::Target;
 use super::overlay::Overlay;
-use super::picture::{Drawn, Map, Shot, View};
+use super::picture::{Drawn, Shot};
 use super::text;
 use super::theme::Theme;
-use crate::study::{Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobRow, Status, Step};
+use crate::study::{Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobRow, Map, Status, Step, View};
 
 /// How jobs are ordered.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -86,6 +86,8 @@ pub struct Abilities {
     pub run: bool,
     /// Pictures can be shown.
     pub pictures: bool,
+    /// There is a study to start with.
+    pub quickstart: bool,
 }
 
 /// The state of the workbench.
@@ -162,8 +164,8 @@ impl State {
             chi_row: 0,
             stage: None,
             log_up: 0,
-            view: View::default(),
-            map: Map::default(),
+            view: View::Front,
+            map: Map::Plain,
             enlarged: false,
             shot: None,
             picture: None,

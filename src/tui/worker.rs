@@ -1,39 +1,29 @@
 //! The threads behind the screens: keys, signals, the database, pictures and runs, each on its own, all answering with
 //! messages. None of them is waited for while the workbench is used.
 
-use std::path::PathBuf;
+use std::io::{self, IsTerminal};
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-use image::RgbaImage;
+use crossterm::event::{self, Event};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 
 use super::feed::{self, Focus};
 use super::message::{Act, Effect, Message, Target};
 use super::picture::{Canvas, Shot};
-use crate::study::{Run, StudyError, Workspace};
+use crate::study::{RunOptions, StudyError, Workspace};
 
 /// Time between two looks at whether the database has changed; a look costs microseconds.
 const LOOK: Duration = Duration::from_millis(250);
+/// Time between two looks at whether the terminal is still there.
+const TERMINAL_LOOK: Duration = Duration::from_secs(1);
 /// Time between two looks at whether a run has ended or is to stop.
 const RUN_LOOK: Duration = Duration::from_millis(100);
-
-/// Renders a drape: the workspace, what is wanted, width and height in pixels.
-pub type PictureFn = dyn Fn(&Workspace, &Shot, (u32, u32)) -> Result<RgbaImage, StudyError> + Send;
-/// Starts a run in the background.
-pub type StartFn = dyn Fn(&mut Workspace, &Target) -> Result<Run, StudyError> + Send + Sync;
-
-/// What the workbench has the study do beside reading and queueing.
-pub struct Hooks {
-    /// Renders a drape.
-    pub picture: Box<PictureFn>,
-    /// Starts a run.
-    pub start: Arc<StartFn>,
-}
 
 /// What the thread of the database is asked for.
 enum Request {
@@ -49,7 +39,7 @@ pub struct Workers {
     requests: Sender<Request>,
     shots: Sender<Shot>,
     database: PathBuf,
-    start: Arc<StartFn>,
+    quickstart: Option<PathBuf>,
     stop: Arc<AtomicBool>,
     run: Mutex<Option<JoinHandle<()>>>,
 }
@@ -57,22 +47,20 @@ pub struct Workers {
 impl Workers {
     /// Starts all threads but that of runs.
     #[must_use]
-    pub fn start(workspace: Workspace, canvas: Option<Canvas>, hooks: Hooks) -> Self {
+    pub fn start(workspace: Workspace, canvas: Option<Canvas>, quickstart: Option<PathBuf>) -> Self {
         let (sender, messages) = mpsc::channel();
         let (requests, asked) = mpsc::channel();
         let (shots, wanted) = mpsc::channel();
         let database = workspace.path().to_owned();
-        let picture = hooks.picture;
-        let start = hooks.start;
         spawn(&sender, read_keys);
         spawn(&sender, watch_signals);
         spawn(&sender, move |sender| serve_database(workspace, &asked, sender));
         if let Some(canvas) = canvas {
             let database = database.clone();
-            spawn(&sender, move |sender| paint(&database, &canvas, &*picture, &wanted, sender));
+            spawn(&sender, move |sender| paint(&database, &canvas, &wanted, sender));
         }
         let stop = Arc::new(AtomicBool::new(false));
-        Self { messages, sender, requests, shots, database, start, stop, run: Mutex::new(None) }
+        Self { messages, sender, requests, shots, database, quickstart, stop, run: Mutex::new(None) }
     }
 
     /// Has the database read.
@@ -93,10 +81,14 @@ impl Workers {
     }
 
     fn start_run(&self, target: Target) {
+        let path = match target {
+            Target::Study(path) => path,
+            Target::Quickstart => self.quickstart.clone().unwrap_or_default(),
+        };
         self.stop.store(false, Ordering::Relaxed);
-        let (database, start, stop) = (self.database.clone(), self.start.clone(), self.stop.clone());
+        let (database, stop) = (self.database.clone(), self.stop.clone());
         let handle = spawn(&self.sender, move |sender| {
-            let outcome = follow_run(&database, &*start, &target, &stop);
+            let outcome = follow_run(&database, &path, &stop);
             let _ = sender.send(Message::RunEnded(outcome.map_err(|error| error.to_string())));
         });
         *self.run.lock().unwrap_or_else(PoisonError::into_inner) = handle;
@@ -119,15 +111,19 @@ fn spawn(sender: &Sender<Message>, work: impl FnOnce(&Sender<Message>) + Send + 
     handle.map_err(|error| sender.send(Message::Failed(format!("no thread could be started: {error}")))).ok()
 }
 
+/// Reads keys until the terminal is gone. Waiting has an end, because a terminal that hung up stays ready to be read
+/// for ever.
 fn read_keys(sender: &Sender<Message>) {
-    use crossterm::event::{Event, read};
     loop {
-        let message = match read() {
-            Ok(Event::Key(key)) => Message::Key(key),
-            Ok(Event::Resize(width, height)) => Message::Resize(width, height),
-            Ok(_) => continue,
-            // End of input: the terminal is gone, and reading on would spin.
-            Err(_) => Message::Hangup,
+        let message = match event::poll(TERMINAL_LOOK) {
+            Ok(true) => match event::read() {
+                Ok(Event::Key(key)) => Message::Key(key),
+                Ok(Event::Resize(width, height)) => Message::Resize(width, height),
+                Ok(_) => continue,
+                Err(_) => Message::Hangup,
+            },
+            Ok(false) if io::stdin().is_terminal() => continue,
+            Ok(false) | Err(_) => Message::Hangup,
         };
         let is_last = matches!(message, Message::Hangup);
         if sender.send(message).is_err() || is_last {
@@ -211,22 +207,16 @@ fn do_act(workspace: &mut Workspace, act: &Act) -> Result<String, StudyError> {
 }
 
 /// Draws the pictures asked for, the latest only.
-fn paint(
-    database: &std::path::Path,
-    canvas: &Canvas,
-    picture: &PictureFn,
-    wanted: &Receiver<Shot>,
-    sender: &Sender<Message>,
-) {
+fn paint(database: &Path, canvas: &Canvas, wanted: &Receiver<Shot>, sender: &Sender<Message>) {
     let workspace = Workspace::open(database, true);
     while let Ok(shot) = wanted.recv() {
         let shot = wanted.try_iter().last().unwrap_or(shot);
-        let drawn = match &workspace {
-            Ok(workspace) => picture(workspace, &shot, canvas.pixels(&shot))
-                .map_err(|error| error.to_string())
-                .and_then(|picture| canvas.draw(&picture, &shot)),
+        let (width, height) = canvas.pixels(&shot);
+        let picture = match &workspace {
+            Ok(workspace) => workspace.close_up(shot.job, shot.view, width, height, shot.map).map_err(|e| e.to_string()),
             Err(error) => Err(error.to_string()),
         };
+        let drawn = picture.and_then(|picture| canvas.draw(&picture, &shot));
         if sender.send(Message::Picture(shot, drawn)).is_err() {
             return;
         }
@@ -234,15 +224,10 @@ fn paint(
 }
 
 /// Starts a run and waits for its end or for the order to stop it; says how it ended.
-fn follow_run(
-    database: &std::path::Path,
-    start: &StartFn,
-    target: &Target,
-    stop: &AtomicBool,
-) -> Result<String, StudyError> {
+fn follow_run(database: &Path, study: &Path, stop: &AtomicBool) -> Result<String, StudyError> {
     let mut workspace = Workspace::open(database, false)?;
-    let run = start(&mut workspace, target)?;
-    let study = run.study.clone();
+    let study = workspace.load_study(study)?;
+    let run = workspace.start(&study, &RunOptions::default())?;
     while !run.is_finished() {
         if stop.load(Ordering::Relaxed) {
             run.stop();
@@ -252,5 +237,6 @@ fn follow_run(
     }
     let is_stopped = stop.load(Ordering::Relaxed);
     run.join()?;
-    Ok(if is_stopped { format!("the run of {study} is stopped") } else { format!("the run of {study} has ended") })
+    let end = if is_stopped { "is stopped" } else { "has ended" };
+    Ok(format!("the run of {} {end}", study.name))
 }

@@ -131,6 +131,7 @@ fn status_line(state: &State, width: u16) -> Line<'static> {
     }
     // What matters most stands first in the table, but help and palette must always be found.
     let hinted = BINDINGS.iter().filter(|b| !b.hint.is_empty() && b.is_on(state.screen));
+    let hinted = hinted.filter(|b| !state.is_first_start() || matches!(b.name, "open" | "run" | "help" | "palette"));
     let (last, first): (Vec<_>, Vec<_>) = hinted.partition(|b| matches!(b.name, "help" | "palette"));
     let columns = |b: &super::action::Binding| text::width(&b.keys[0].to_string()) + text::width(b.hint) + 3;
     let reserved: usize = last.iter().map(|b| columns(b)).sum();

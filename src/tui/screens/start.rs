@@ -15,12 +15,14 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
         Line::raw("This database has no study yet."),
         Line::raw(""),
     ];
-    lines.extend(match (&state.run, state.abilities.run) {
+    let can_run = state.abilities.run;
+    lines.extend(match (&state.run, can_run && state.abilities.quickstart) {
         (Some(_), _) => vec![Line::styled("▶ The quickstart is being made ready…", state.theme.busy())],
         (None, true) => vec![
             Line::styled("Enter  run the quickstart", bold),
             Line::raw("       A small study with all it needs; results appear here as they come."),
         ],
+        (None, false) if can_run => vec![Line::raw("The quickstart study is not installed here.")],
         (None, false) => vec![Line::raw("It is open read-only: start without --readonly to run a study.")],
     });
     lines.extend([
