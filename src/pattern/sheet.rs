@@ -225,7 +225,7 @@ mod tests {
         let sheet = svg(&style);
         let count = |what: &str| sheet.matches(what).count();
         assert_eq!(count("class=\"piece\""), 4);
-        assert_eq!(count("class=\"corner\""), style.pieces.iter().map(|piece| piece.corners.len()).sum());
+        assert_eq!(count("class=\"corner\""), style.pieces.iter().map(|piece| piece.corners.len()).sum::<usize>());
         assert_eq!(count("class=\"no\""), 9 + style.measurements.iter().map(|m| m.path.len()).sum::<usize>());
         assert!(sheet.contains("back &lt;&amp;&gt; M") && sheet.contains("Sleeve Length 130.7 mm"));
         assert!(!sheet.contains("NaN"));

@@ -32,8 +32,8 @@ impl State {
                 }
             }
             Action::Filter => self.overlay = Some(Overlay::Filter(self.filter().to_owned())),
-            Action::NextMatch => self.to_match(1),
-            Action::PreviousMatch => self.to_match(-1),
+            Action::NextMatch => self.go_to_match(1),
+            Action::PreviousMatch => self.go_to_match(-1),
             Action::Sort => self.sort(),
             Action::Reverse => self.reverse(),
             Action::Copy => return self.copy(),

@@ -79,13 +79,13 @@ impl State {
     }
 
     /// Goes to the next or previous match of the filter.
-    pub(super) fn to_match(&mut self, step: isize) {
+    pub(super) fn go_to_match(&mut self, step: isize) {
         if self.filter().is_empty() {
             self.say("no filter is set; / sets one");
             return;
         }
         match self.screen {
-            Screen::Study => self.to_matching_cell(step),
+            Screen::Study => self.go_to_matching_cell(step),
             Screen::Jobs => {
                 let jobs: Vec<JobId> = self.jobs().iter().map(|job| job.id).collect();
                 let at = jobs.iter().position(|id| Some(*id) == self.focus.job).unwrap_or(0);
@@ -97,7 +97,7 @@ impl State {
         }
     }
 
-    fn to_matching_cell(&mut self, step: isize) {
+    fn go_to_matching_cell(&mut self, step: isize) {
         let places = self.places();
         let at = places.iter().position(|place| *place == self.place).unwrap_or(0);
         let found = (1..=places.len())

@@ -60,7 +60,7 @@ pub enum TuiError {
     #[error(transparent)]
     Study(#[from] StudyError),
     /// The terminal refused.
-    #[error("terminal: {0}; the workbench needs one, `toile --help` lists commands that do not")]
+    #[error("the workbench needs a terminal: {0}; `toile --help` lists commands that do not")]
     Terminal(#[from] io::Error),
 }
 
@@ -75,8 +75,7 @@ pub fn run(options: Options) -> Result<(), TuiError> {
     let theme = Theme { colours: Colours::detect(options.no_color, &env) };
     let canvas = Canvas::new(options.images, theme.colours, &env);
     let quickstart = options.quickstart.filter(|path| study_file(path).exists());
-    let abilities =
-        Abilities { run: !options.readonly, pictures: canvas.is_some(), quickstart: quickstart.is_some() };
+    let abilities = Abilities { run: !options.readonly, pictures: canvas.is_some(), quickstart: quickstart.is_some() };
 
     let mut screen = terminal::Screen::enter()?;
     let size = screen.terminal.size()?;

@@ -1,6 +1,6 @@
 //! The terminal: taken at the start, given back at the end, however that comes.
 
-use std::io::{self, Stdout};
+use std::io::{self, IsTerminal, Stdout};
 use std::panic;
 use std::sync::Once;
 
@@ -23,6 +23,9 @@ impl Screen {
     /// # Errors
     /// When standard input or output is no terminal.
     pub fn enter() -> io::Result<Self> {
+        if !(io::stdin().is_terminal() && io::stdout().is_terminal()) {
+            return Err(io::Error::other("standard input or output is none"));
+        }
         static HOOK: Once = Once::new();
         HOOK.call_once(|| {
             let before = panic::take_hook();

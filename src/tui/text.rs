@@ -120,6 +120,18 @@ pub fn chi_bar(chi: f64, side: usize) -> String {
     }
 }
 
+/// How far an evaluation ratio is from 1, in one column: within 1 %, up or down by up to 3 %, or by more.
+#[must_use]
+pub fn chi_mark(chi: f64) -> &'static str {
+    match chi - 1.0 {
+        error if error.abs() <= 0.01 => "·",
+        error if error > 0.03 => "⇑",
+        error if error > 0.0 => "↑",
+        error if error < -0.03 => "⇓",
+        _ => "↓",
+    }
+}
+
 /// Numbers as a line of eight heights, the latest that fit; numbers that are not finite leave a gap.
 #[must_use]
 pub fn sparkline(values: &[f64], columns: usize) -> String {
@@ -195,6 +207,12 @@ mod tests {
         check(1.05, "    │━━━━");
         check(1.3, "    │━━━▶");
         check(0.7, "◀━━━│    ");
+    }
+
+    #[test]
+    fn chi_marks_agree_with_the_bands_of_the_colours() {
+        let marks: Vec<&str> = [0.9, 0.98, 0.995, 1.0, 1.02, 1.2].into_iter().map(chi_mark).collect();
+        assert_eq!(marks, ["⇓", "↓", "·", "·", "↑", "⇑"]);
     }
 
     #[test]

@@ -181,7 +181,7 @@ fn serve_database(mut workspace: Workspace, asked: &Receiver<Request>, sender: &
 }
 
 /// Acts on the queue; says what was done.
-fn do_act(workspace: &mut Workspace, act: &Act) -> Result<String, StudyError> {
+pub(super) fn do_act(workspace: &mut Workspace, act: &Act) -> Result<String, StudyError> {
     match act {
         Act::Cancel(id) => match workspace.cancel(&[*id])? {
             0 => Ok(format!("job {id} had ended already")),
@@ -213,7 +213,9 @@ fn paint(database: &Path, canvas: &Canvas, wanted: &Receiver<Shot>, sender: &Sen
         let shot = wanted.try_iter().last().unwrap_or(shot);
         let (width, height) = canvas.pixels(&shot);
         let picture = match &workspace {
-            Ok(workspace) => workspace.close_up(shot.job, shot.view, width, height, shot.map).map_err(|e| e.to_string()),
+            Ok(workspace) => {
+                workspace.close_up(shot.job, shot.view, width, height, shot.map).map_err(|e| e.to_string())
+            }
             Err(error) => Err(error.to_string()),
         };
         let drawn = picture.and_then(|picture| canvas.draw(&picture, &shot));

@@ -3,7 +3,7 @@
 use ratatui::text::{Line, Span};
 
 use super::super::state::{ChiOrder, State};
-use super::super::text::{self, chi_bar, ease_mm, left, mm, right};
+use super::super::text::{self, chi_bar, chi_mark, ease_mm, left, mm, right};
 use super::super::theme::glyph;
 use super::first_shown;
 use crate::study::{ChiRow, FitCell, MetricsRow};
@@ -18,18 +18,16 @@ const FIXED: usize = 3 + 7 + 7 + 6 + 1;
 struct Columns {
     name: usize,
     marks: usize,
-    /// Columns of the bar on each side of its middle.
+    /// Columns of the bar on each side of its middle; 0 for a mark instead.
     side: usize,
 }
 
 impl Columns {
     fn new(rows: &[&ChiRow], columns: usize) -> Self {
-        let side = if columns >= 70 {
-            8
-        } else if columns >= 56 {
-            4
-        } else {
-            2
+        let side = match columns {
+            70.. => 8,
+            56.. => 4,
+            _ => 0,
         };
         let marks = rows.iter().map(|row| marks(row).chars().count()).max().unwrap_or(0);
         Self { name: columns.saturating_sub(FIXED + marks + 2 * side + 1).clamp(6, 40), marks, side }
@@ -61,7 +59,7 @@ fn header(state: &State, columns: &Columns) -> Line<'static> {
         (ChiOrder::Error, false) => ("", "▼"),
         (ChiOrder::Error, true) => ("", "▲"),
     };
-    let scale = if columns.side >= 4 {
+    let scale = if columns.side > 0 {
         format!("{}1{}", left("−5%", columns.side), right("+5%", columns.side))
     } else {
         String::new()
@@ -85,6 +83,7 @@ fn marks(row: &ChiRow) -> String {
 
 fn line(state: &State, row: &ChiRow, columns: &Columns) -> Line<'static> {
     let chi = row.chi();
+    let bar = if columns.side > 0 { chi_bar(chi, columns.side) } else { chi_mark(chi).to_owned() };
     Line::from(vec![
         Span::raw(format!(
             "{} {}{}{}{}",
@@ -94,10 +93,7 @@ fn line(state: &State, row: &ChiRow, columns: &Columns) -> Line<'static> {
             right(&mm(row.l2d_m), 7),
             right(&mm(row.l3d_m), 7)
         )),
-        Span::styled(
-            format!("{} {}", right(&format!("{chi:.3}"), 6), chi_bar(chi, columns.side)),
-            state.theme.chi(chi),
-        ),
+        Span::styled(format!("{} {bar}", right(&format!("{chi:.3}"), 6)), state.theme.chi(chi)),
     ])
 }
 
@@ -129,16 +125,19 @@ pub(super) fn numbers(state: &State, columns: usize) -> Vec<Line<'static>> {
             .collect();
         lines.push(Line::raw(text.trim_end().to_owned()));
     }
-    let why = detail.log.iter().rev().find_map(|line| line.text.strip_prefix("queued: "));
-    lines.extend(why.map(|why| fact("why run", why, columns)));
-    for (word, is_cached) in [("cached", true), ("made", false)] {
-        let stages = detail.stages.iter().filter(|stage| stage.was_cached == is_cached);
-        let names = stages.map(|stage| stage.stage.as_str()).collect::<Vec<_>>().join(", ");
-        if !names.is_empty() {
-            lines.push(fact(word, &names, columns));
-        }
-    }
     lines
+}
+
+/// Why the selected job was queued, and which of its stages the cache had.
+pub(super) fn provenance(state: &State) -> Vec<(&'static str, String)> {
+    let Some(detail) = state.detail() else { return vec![] };
+    let why = detail.log.iter().rev().find_map(|line| line.text.strip_prefix("queued: "));
+    let stages = |is_cached: bool| {
+        let stages = detail.stages.iter().filter(|stage| stage.was_cached == is_cached);
+        stages.map(|stage| stage.stage.as_str()).collect::<Vec<_>>().join(", ")
+    };
+    let facts = [("queued", why.unwrap_or_default().to_owned()), ("cached", stages(true)), ("made", stages(false))];
+    facts.into_iter().filter(|(_, value)| !value.is_empty()).collect()
 }
 
 /// Columns of the name of a fact, and of the fact with its name.
@@ -162,7 +161,7 @@ fn facts(m: &MetricsRow) -> Vec<(&'static str, String)> {
     ]
 }
 
-fn fact(name: &str, value: &str, columns: usize) -> Line<'static> {
+pub(super) fn fact(name: &str, value: &str, columns: usize) -> Line<'static> {
     Line::raw(text::shortened(&format!("{}{value}", left(name, NAME_COLUMNS)), columns))
 }
 

@@ -30,7 +30,7 @@ fn panes(area: Rect, state: &State) -> Panes {
     if state.enlarged {
         return Panes { table: None, numbers: None, picture: Some(area) };
     }
-    let table_width = if area.width >= WIDE { area.width * 9 / 20 } else { area.width * 3 / 5 };
+    let table_width = if area.width >= WIDE { area.width * 9 / 20 } else { area.width * 5 / 8 };
     let [left, picture] = Layout::horizontal([Constraint::Length(table_width), Constraint::Fill(1)]).areas(area);
     let numbers_height = if area.height >= 30 { 12 } else { 9 };
     let [table, numbers] = Layout::vertical([Constraint::Fill(1), Constraint::Length(numbers_height)]).areas(left);
@@ -55,7 +55,9 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     }
     if let Some(area) = panes.numbers {
         let block = pane(state.theme, "numbers", false);
-        let lines = chi::numbers(state, usize::from(block.inner(area).width));
+        let columns = usize::from(block.inner(area).width);
+        let mut lines = chi::numbers(state, columns);
+        lines.extend(chi::provenance(state).iter().map(|(name, value)| chi::fact(name, value, columns)));
         frame.render_widget(Paragraph::new(lines).block(block), area);
     }
     if let Some(area) = panes.picture {

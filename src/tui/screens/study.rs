@@ -154,11 +154,16 @@ fn draw_detail(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
         .title_bottom(Line::styled(chi::LEGEND, state.theme.legend()).right_aligned());
     let inner = block.inner(area);
     frame.render_widget(block, area);
+    let [inner, origin] = Layout::vertical([Constraint::Fill(1), Constraint::Length(1)]).areas(inner);
+    let facts = chi::provenance(state).iter().map(|(name, value)| format!("{name} {value}")).collect::<Vec<_>>();
+    let line = text::shortened(&facts.join(" · "), usize::from(origin.width));
+    frame.render_widget(Line::styled(line, state.theme.dim()), origin);
     let is_tall = inner.height >= 24;
     let layout = if is_tall {
-        Layout::vertical([Constraint::Length(9), Constraint::Fill(1)]).spacing(1)
+        Layout::vertical([Constraint::Length(7), Constraint::Fill(1)]).spacing(1)
     } else {
-        Layout::horizontal([Constraint::Length((inner.width * 2 / 5).min(34)), Constraint::Fill(1)]).spacing(1)
+        Layout::horizontal([Constraint::Length(if inner.width < 100 { 28 } else { 44 }), Constraint::Fill(1)])
+            .spacing(1)
     };
     let [numbers_area, table_area] = layout.areas(inner);
     let mut numbers = chi::numbers(state, usize::from(numbers_area.width));
