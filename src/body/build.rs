@@ -7,11 +7,13 @@ use super::measure::{self, Side, Sites};
 use super::surface::Skin;
 use super::tape;
 use super::{Body, BodyError, Landmarks, Levels, Measurements, Sex};
+use crate::geom::contour::Grid;
 use crate::geom::section::Plane;
 use crate::geom::{TriMesh, V3};
 
-/// Grid spacing of the skin, as a share of stature.
+/// Grid spacing of the skin, as a share of stature: of the body, and of arms (sideways) and feet (in height).
 const SPACING: f64 = 0.0095;
+const FINE_SPACING: f64 = 0.0070;
 
 /// Most rounds of the fit, and the error at which it stops, metres.
 const ROUNDS: usize = 8;
@@ -28,8 +30,7 @@ pub fn build(known: &Measurements) -> Result<Body, BodyError> {
     let profile = Profile::new(known)?;
     let stature = profile.stature;
     let mut figure = Figure::new(&profile);
-    let (low, high) = (V3::new(-0.42, -0.18, -0.005) * stature, V3::new(0.42, 0.22, 1.0) * stature);
-    let mut skin = Skin::new(&figure.parts(), low, high, SPACING * stature);
+    let mut skin = Skin::new(&figure.parts(), &grid(stature, profile.biacromial / 2.0));
     let mut mesh = skin.triangles(stature);
     for _ in 0..ROUNDS {
         let sites = sites(&mesh, &figure)?;
@@ -40,6 +41,26 @@ pub fn build(known: &Measurements) -> Result<Body, BodyError> {
         mesh = skin.triangles(stature);
     }
     describe(known.sex, mesh, &figure)
+}
+
+/// The grid on which the skin of a body is polygonised: finer beyond the shoulders and below the ankles.
+fn grid(stature: f64, shoulder_x: f64) -> Grid {
+    let walk = |from: f64, to: f64, spacing: &dyn Fn(f64) -> f64| {
+        let mut nodes = vec![from];
+        let mut at = from;
+        while at < to {
+            at += spacing(at) * stature;
+            nodes.push(at);
+        }
+        nodes
+    };
+    let sideways = |x: f64| if x > shoulder_x { FINE_SPACING } else { SPACING };
+    let upward = |z: f64| if z < 0.045 * stature { FINE_SPACING } else { SPACING };
+    let right = walk(SPACING * stature / 2.0, 0.43 * stature, &sideways);
+    let x: Vec<f64> = right.iter().rev().map(|x| -x).chain(right.iter().copied()).collect();
+    let y = walk(-0.19 * stature, 0.23 * stature, &|_| SPACING);
+    let z = walk(-0.012 * stature, 1.01 * stature, &upward);
+    Grid { axes: [x, y, z] }
 }
 
 /// Changes the figure's targets by what the tape reads too much or too little; returns the greatest error in metres.

@@ -10,15 +10,19 @@ const NEAR: f64 = 0.12;
 const SOLE_EDGE: f64 = 0.006;
 
 /// Reach of the smooth joints between parts, metres.
-const ARM_JOINT: f64 = 0.060;
-const LEG_JOINT: f64 = 0.045;
-const BETWEEN_LEGS: f64 = 0.020;
+const ARM_JOINT: f64 = 0.035;
+const LEG_JOINT: f64 = 0.025;
+const BETWEEN_LEGS: f64 = 0.008;
 const FOOT_JOINT: f64 = 0.045;
 const THUMB_JOINT: f64 = 0.030;
 
 /// Difference of the distances of two parts up to which their joint is smoothed, metres.
-const ARM_SEAM: f64 = 0.045;
-const LEG_SEAM: f64 = 0.045;
+const ARM_SEAM: f64 = 0.040;
+const LEG_SEAM: f64 = 0.065;
+
+/// Distance from the arm up to which skin counts as the hand's, metres, and the share of fairing it gets.
+const HAND_SKIN: f64 = 0.04;
+const HAND_FAIRING: f64 = 0.04;
 
 /// The lofts of a body; limbs are those of the right side and are mirrored.
 #[derive(Clone, Debug)]
@@ -26,6 +30,8 @@ pub(super) struct Parts {
     pub trunk: Loft,
     pub arm: Loft,
     pub thumb: Loft,
+    /// Where along the arm the hand begins, metres from the shoulder joint.
+    pub hand_start: f64,
     pub leg: Loft,
     pub foot: Loft,
 }
@@ -44,14 +50,17 @@ impl Parts {
         if point.x < 0.0 { mirrored(skin) } else { skin }
     }
 
-    /// How much a point of the skin belongs to a joint between trunk and limb: 1 where both surfaces meet, 0 away from it.
-    pub fn seam(&self, point: V3) -> f64 {
+    /// How much the skin at a point is to be faired: 1 where trunk and limb meet, 0 away from there, little on the hands.
+    pub fn fairness(&self, point: V3) -> f64 {
         let right = V3::new(point.x.abs(), point.y, point.z);
         let trunk = self.trunk.sample(right, NEAR).distance;
-        let closeness =
-            |limb: &Loft, reach: f64| (1.0 - (limb.sample(right, NEAR).distance - trunk).abs() / reach).clamp(0.0, 1.0);
-        let share = closeness(&self.arm, ARM_SEAM).max(closeness(&self.leg, LEG_SEAM));
-        share * share * (3.0 - 2.0 * share)
+        let arm = self.arm.sample(right, NEAR).distance;
+        let leg = self.leg.sample(right, NEAR).distance;
+        let closeness = |limb: f64, reach: f64| (1.0 - (limb - trunk).abs() / reach).clamp(0.0, 1.0);
+        let share = closeness(arm, ARM_SEAM).max(closeness(leg, LEG_SEAM));
+        let on_hand =
+            if arm < HAND_SKIN { ((self.arm.along(right) - self.hand_start) / HAND_SKIN).clamp(0.0, 1.0) } else { 0.0 };
+        (share * share * (3.0 - 2.0 * share)).max(HAND_FAIRING * on_hand)
     }
 
     /// The field alone.

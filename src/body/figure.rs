@@ -64,6 +64,7 @@ impl<'a> Figure<'a> {
             trunk: Loft::new(V3::zeros(), upright, &core, TABLE_STEP),
             arm: self.arm(),
             thumb: self.thumb(),
+            hand_start: self.hand_start(),
             leg: Loft::new(V3::zeros(), upright, &leg, TABLE_STEP),
             foot: self.foot(leg[0].centre.x),
         }
@@ -154,7 +155,7 @@ impl<'a> Figure<'a> {
 
     /// The lower end of the trunk, between the thighs.
     fn perineum(&self, trunk: &[Station]) -> Vec<Station> {
-        let at = self.atlas.crotch * self.stature() + 0.004;
+        let at = self.atlas.crotch * self.stature() + 0.010;
         let lowest = &trunk[0];
         let end = Station {
             at,
@@ -249,11 +250,13 @@ impl<'a> Figure<'a> {
                 0.0,
                 0.0,
             ];
+            // A thick neck widens the jaw above it.
+            let size = head * (1.0 + (self.neck_factor().max(0.95) - 1.0) * (1.0 - up / 0.4).max(0.0));
             Station {
                 at: chin + up * head,
                 centre: V2::new(0.0, (front + back) / 2.0 * head),
-                half_width: half_width * head,
-                half_depth: (front - back) / 2.0 * head,
+                half_width: half_width * size,
+                half_depth: (front - back) / 2.0 * size,
                 shape,
             }
         };
@@ -273,15 +276,20 @@ impl<'a> Figure<'a> {
         sections
     }
 
+    /// Distance along the arm's axis from the shoulder joint at which the hand begins.
+    pub fn hand_start(&self) -> f64 {
+        self.arm_lengths()[1]
+    }
+
     /// Centre of the shoulder joint of the right arm.
     pub fn shoulder_joint(&self) -> V3 {
         let h = self.stature();
         let radius = self.deltoid_radius();
-        V3::new(self.targets.shoulder_x - 0.45 * radius, -0.014 * h, self.atlas.shoulder * h - 0.97 * radius)
+        V3::new(self.targets.shoulder_x - 0.45 * radius, -0.014 * h, self.atlas.shoulder * h - 0.92 * radius)
     }
 
     fn deltoid_radius(&self) -> f64 {
-        self.profile.upper_arm * 1.04 / std::f64::consts::TAU
+        self.profile.upper_arm * 0.99 / std::f64::consts::TAU
     }
 
     /// Distances from the shoulder joint to elbow, wrist and finger tips.
@@ -310,25 +318,25 @@ impl<'a> Figure<'a> {
             half_depth: half_depth * h,
             shape: [0.0, 0.0, 0.0, 0.0, -0.03, 0.0, 0.0, 0.0, 0.0],
         };
-        let deltoid = ring(0.0, p.upper_arm * 1.04, 1.05);
+        let deltoid = ring(0.0, p.upper_arm * 0.99, 1.08);
         let mut stations = dome(&deltoid, self.deltoid_radius(), -1.0);
         stations.reverse();
         stations.extend([
             deltoid,
-            ring(0.30 * elbow, p.upper_arm * 1.03, 1.10),
+            ring(0.30 * elbow, p.upper_arm * 1.01, 1.10),
             ring(0.58 * elbow, p.upper_arm, 1.10),
             ring(0.85 * elbow, 0.55 * p.upper_arm + 0.45 * p.forearm, 1.0),
             ring(elbow, p.forearm * 0.98, 0.98),
             ring(elbow + 0.2 * (wrist - elbow), p.forearm, 1.02),
             ring(elbow + 0.6 * (wrist - elbow), 0.55 * p.forearm + 0.45 * p.wrist, 1.10),
             ring(wrist, p.wrist, 1.28),
-            plate(wrist + 0.018 * h, 0.0105, 0.0190),
-            plate(wrist + 0.045 * h, 0.0095, 0.0235),
-            plate(wrist + 0.065 * h, 0.0080, 0.0230),
-            plate(tip - 0.018 * h, 0.0065, 0.0185),
+            plate(wrist + 0.018 * h, 0.0125, 0.0190),
+            plate(wrist + 0.045 * h, 0.0125, 0.0240),
+            plate(wrist + 0.068 * h, 0.0110, 0.0225),
+            plate(tip - 0.020 * h, 0.0090, 0.0165),
         ]);
         let fingers = stations[stations.len() - 1];
-        stations.extend(dome(&fingers, 0.018 * h, 1.0));
+        stations.extend(dome(&fingers, 0.020 * h, 1.0));
         Loft::new(self.shoulder_joint(), self.arm_axes(), &stations, TABLE_STEP)
     }
 
@@ -347,9 +355,9 @@ impl<'a> Figure<'a> {
             half_depth: radius * h,
             shape: ELLIPSE,
         };
-        let mut stations = vec![ring(0.0, 0.0085), ring(0.025 * h, 0.0080), ring(0.042 * h, 0.0065)];
+        let mut stations = vec![ring(0.0, 0.0110), ring(0.025 * h, 0.0100), ring(0.042 * h, 0.0065)];
         let end = stations[2];
-        stations.extend(dome(&end, 0.0065 * h, 1.0));
+        stations.extend(dome(&end, 0.0085 * h, 1.0));
         Loft::new(root, [outward, side, along], &stations, TABLE_STEP)
     }
 
@@ -362,7 +370,7 @@ impl<'a> Figure<'a> {
         let ring = |at: f64, girth: f64, depth_over_width: f64, centre: V2, shape: Shape| {
             Station { at, centre, half_width: 1.0, half_depth: depth_over_width, shape }.with_girth(girth)
         };
-        let thigh = ring(0.955 * crotch, p.thigh * 0.985, 1.0, V2::new(0.0, 0.007 * h), thigh_shape);
+        let thigh = ring(0.955 * crotch, p.thigh * 0.98, 1.10, V2::new(0.0, 0.007 * h), thigh_shape);
         let hip_x = thigh_x(&trunk[0], &thigh);
         let ankle_x = self.ankle_x(hip_x);
         let x_at = |z: f64| ankle_x + (hip_x - ankle_x) * z / crotch;
@@ -374,11 +382,10 @@ impl<'a> Figure<'a> {
             ring(0.040 * h, p.ankle * 1.06, 1.35, at(0.040 * h, -0.018), ELLIPSE),
             ring(0.072 * h, p.ankle, 1.30, at(0.072 * h, -0.018), ELLIPSE),
             ring(0.125 * h, 0.60 * p.ankle + 0.40 * p.calf, 1.12, at(0.125 * h, -0.019), calf_shape),
-            ring(calf, p.calf, 1.02, at(calf, -0.019), calf_shape),
-            ring(0.92 * knee, 0.30 * p.calf + 0.68 * p.knee, 1.04, at(0.90 * knee, -0.010), calf_shape),
-            ring(knee, p.knee, 1.06, at(knee, -0.004), [-0.022, -0.025, 0.0, 0.025, 0.004, 0.0, 0.0, 0.0, 0.0]),
-            ring(1.22 * knee, 0.66 * p.knee + 0.34 * p.thigh, 1.05, at(1.22 * knee, 0.003), thigh_shape),
-            ring(0.80 * crotch, 0.13 * p.knee + 0.83 * p.thigh, 1.03, at(0.80 * crotch, 0.006), thigh_shape),
+            ring(calf, p.calf, 1.02, at(calf, -0.0165), calf_shape),
+            ring(knee, p.knee, 1.06, at(knee, -0.0065), [-0.022, -0.025, 0.0, 0.025, 0.004, 0.0, 0.0, 0.0, 0.0]),
+            ring(1.25 * knee, 0.53 * p.knee + 0.45 * p.thigh, 1.05, at(1.25 * knee, -0.001), thigh_shape),
+            ring(0.82 * crotch, 0.22 * p.knee + 0.76 * p.thigh, 1.06, at(0.82 * crotch, 0.004), thigh_shape),
             Station { centre: at(thigh.at, 0.006), ..thigh },
         ];
         sections.extend(self.leg_roots(trunk, x_at(crotch)));
@@ -400,7 +407,7 @@ impl<'a> Figure<'a> {
         let (low, hip) = (&trunk[0], &trunk[1]);
         let inner = 0.1 * crotch_x;
         let root =
-            Station { shape: [0.0, 0.0, 0.0, 0.0, -0.03, 0.0, 0.0, 0.0, 0.0], ..fill(low.at, low, inner, 0.99, 0.96) };
+            Station { shape: [0.0, 0.0, 0.0, 0.0, -0.03, 0.0, 0.0, 0.0, 0.0], ..fill(low.at, low, inner, 0.985, 0.84) };
         let inside = fill(hip.at, hip, inner, 0.88, 0.75);
         let mut sections = vec![root, inside];
         sections.extend(dome(&inside, 0.03 * self.stature(), 1.0));
@@ -448,5 +455,5 @@ impl<'a> Figure<'a> {
 
 /// Sideways place of the right thigh below the crotch: its outer side continues the hip's, and the thighs part.
 fn thigh_x(low: &Station, thigh: &Station) -> f64 {
-    (0.97 * low.half_width - thigh.half_width).max(thigh.half_width + 0.004)
+    (0.97 * low.half_width - thigh.half_width).max(thigh.half_width + 0.008)
 }

@@ -106,6 +106,11 @@ impl Loft {
         Self { origin, axes, start, step, rows, greatest_radius }
     }
 
+    /// Place of a point along the axis, metres.
+    pub fn along(&self, point: V3) -> f64 {
+        (point - self.origin).dot(&self.axes[2])
+    }
+
     /// Field at a point of space.
     ///
     /// Far from the part, where only the order of magnitude matters, the distance of a bounding cylinder stands in.

@@ -60,7 +60,8 @@ const ISO_WAIST: [f64; 2] = [0.6212, 0.6299];
 /// Height of the back neck point over stature, men and women together [Gordon 2014].
 const CERVICALE: f64 = 0.8617;
 
-/// Measures an upright closed (or nearly closed) body mesh in the world frame; `sex`, where known, places the waist.
+/// Measures an upright closed (or nearly closed) body mesh in the world frame; `sex`, where known, places the waist
+/// (else it is told from neck and hip girth).
 ///
 /// # Errors
 /// [`BodyError::MissingPart`] names the part that was not found where a standing body has it.
@@ -129,10 +130,10 @@ fn find_sites(mesh: &TriMesh, sex: Option<Sex>) -> Result<Sites, BodyError> {
     let back_neck =
         median_point(&upper, at(CERVICALE), middle, Side::Back).ok_or_else(|| missing("nape", at(CERVICALE)))?;
     let shoulder = shoulder_points(&upper, low.z, stature, middle).ok_or_else(|| missing("shoulder", at(0.82)))?;
-    let waist = match sex {
-        Some(Sex::Male) => at(ISO_WAIST[0]),
-        Some(Sex::Female) => at(ISO_WAIST[1]),
-        None => at((ISO_WAIST[0] + ISO_WAIST[1]) / 2.0),
+    let hip_girth = tape::trunk_girth(mesh, hip, middle).ok_or_else(|| missing("hip", hip))?;
+    let waist = match sex.unwrap_or_else(|| likely_sex(neck.girth / stature, hip_girth / stature)) {
+        Sex::Male => at(ISO_WAIST[0]),
+        Sex::Female => at(ISO_WAIST[1]),
     };
     let upper_arm = upper_arm(mesh, shoulder[0], low.z, stature, middle);
     Ok(Sites {
@@ -149,6 +150,12 @@ fn find_sites(mesh: &TriMesh, sex: Option<Sex>) -> Result<Sites, BodyError> {
         back_neck,
         upper_arm,
     })
+}
+
+/// The sex that neck and hip girth over stature suggest: linear discriminant over the 6,068 people of the ANSUR II survey
+/// [Gordon 2014], of whom it tells 96 % rightly. Only the height of the waist depends on it.
+fn likely_sex(neck: f64, hip: f64) -> Sex {
+    if 89.907 * hip - 302.370 * neck > -10.598 { Sex::Female } else { Sex::Male }
 }
 
 /// Where the trunk ends: the lowest height at which an outline crosses the median plane, by bisection.
@@ -172,12 +179,21 @@ fn hip_level(mesh: &TriMesh, crotch: f64, stature: f64, middle: f64) -> Option<f
     heights.filter_map(back).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(z, _)| z)
 }
 
-/// The level of the nipples: where the front outline bends most, over a reach of 4 % of stature to both sides.
+/// The level of the nipples: where the front stands out most from the chord between ribs and collar bones, among the
+/// heights at which the arms are still apart from the trunk.
 fn chest_level(mesh: &TriMesh, floor: f64, stature: f64, middle: f64) -> Option<f64> {
-    let front = |z: f64| tape::trunk_outline(mesh, z, middle).map(|outline| tape::depth_range(&outline).0);
-    let reach = 0.04 * stature;
-    let standing_out = |z: f64| Some((z, 2.0 * front(z)? - front(z - reach)? - front(z + reach)?));
-    let heights = steps(floor + 0.70 * stature, floor + 0.765 * stature, 40);
+    /// A trunk that is wider than this share of its width at the ribs has grown arms.
+    const ARMS_JOINED: f64 = 1.35;
+    let (low, high) = (floor + 0.66 * stature, floor + 0.80 * stature);
+    let extent = |z: f64| tape::trunk_outline(mesh, z, middle).map(|outline| outline.bounds());
+    let ((ribs_low, ribs_high), y_high) = (extent(low)?, extent(high)?.1.y);
+    let standing_out = |z: f64| {
+        let (least, most) = extent(z)?;
+        let free = most.x - least.x < ARMS_JOINED * (ribs_high.x - ribs_low.x);
+        let chord = ribs_high.y + (y_high - ribs_high.y) * (z - low) / (high - low);
+        free.then_some((z, most.y - chord))
+    };
+    let heights = steps(floor + 0.70 * stature, floor + 0.755 * stature, 40);
     heights.filter_map(standing_out).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(z, _)| z)
 }
 

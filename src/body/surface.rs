@@ -8,8 +8,14 @@ use crate::geom::{TriMesh, V3};
 const PASSES: usize = 8;
 
 /// Passes and step of the fairing of joints (steps up to 0.5 are stable).
-const FAIRING_PASSES: usize = 80;
+const FAIRING_PASSES: usize = 120;
 const FAIRING_STEP: f64 = 0.4;
+
+/// Step at which vertices spread evenly within the skin while it is faired.
+const SPREADING_STEP: f64 = 0.3;
+
+/// Share of the fairing that the whole skin gets.
+const BASE_FAIRING: f64 = 0.02;
 
 /// A quadrilateral skin with its vertex neighbours.
 #[derive(Clone, Debug)]
@@ -19,34 +25,29 @@ pub(super) struct Skin {
 }
 
 impl Skin {
-    /// Polygonises the skin of `parts` inside `[-extent, extent]`, at a grid of the given spacing, and evens it out.
-    pub fn new(parts: &Parts, low: V3, high: V3, spacing: f64) -> Self {
-        let mut skin = Self::polygonise(parts, low, high, spacing);
+    /// Polygonises the skin of `parts` on a grid that is its own mirror image in x (and so is the mesh), and evens it out.
+    pub fn new(parts: &Parts, grid: &Grid) -> Self {
+        let mut skin = Self::polygonise(parts, grid);
         for _ in 0..PASSES {
             skin.even_out(parts);
         }
-        skin.fair_seams(parts);
+        skin.fair(parts);
         skin
     }
 
-    fn polygonise(parts: &Parts, low: V3, high: V3, spacing: f64) -> Self {
-        // Nodes at odd multiples of half the spacing: the grid is its own mirror image, and so is the mesh.
-        let half = (high.x / spacing).ceil() as usize + 1;
-        let count = |from: f64, to: f64| ((to - from) / spacing).ceil() as usize + 3;
-        let counts = [2 * half, count(low.y, high.y), count(low.z, high.z)];
-        let grid =
-            Grid { low: V3::new((0.5 - half as f64) * spacing, low.y - spacing, low.z - spacing), spacing, counts };
-        let mut values = vec![0.0; counts[0] * counts[1] * counts[2]];
-        for k in 0..counts[2] {
-            for j in 0..counts[1] {
-                for i in half..counts[0] {
+    fn polygonise(parts: &Parts, grid: &Grid) -> Self {
+        let [nx, ny, nz] = grid.counts();
+        let mut values = vec![0.0; nx * ny * nz];
+        for k in 0..nz {
+            for j in 0..ny {
+                for i in nx / 2..nx {
                     let value = parts.distance(grid.node([i, j, k]));
                     values[grid.index([i, j, k])] = value;
-                    values[grid.index([counts[0] - 1 - i, j, k])] = value;
+                    values[grid.index([nx - 1 - i, j, k])] = value;
                 }
             }
         }
-        let mesh = contour(&grid, &values);
+        let mesh = contour(grid, &values);
         let mut neighbours = vec![Vec::with_capacity(4); mesh.positions.len()];
         for quad in &mesh.quads {
             for i in 0..4 {
@@ -69,18 +70,38 @@ impl Skin {
         for position in &mut self.mesh.positions {
             *position = parts.project(*position);
         }
-        self.fair_seams(parts);
+        self.fair(parts);
     }
 
-    /// Fairs the joints between trunk and limbs as a thin plate, so that no crease is left there.
-    fn fair_seams(&mut self, parts: &Parts) {
-        let weights: Vec<f64> = self.mesh.positions.iter().map(|&p| FAIRING_STEP * parts.seam(p)).collect();
-        for _ in 0..FAIRING_PASSES {
-            let bend = self.laplacian(&self.laplacian(&self.mesh.positions));
-            for (position, (bend, weight)) in self.mesh.positions.iter_mut().zip(bend.iter().zip(&weights)) {
-                *position -= bend * *weight;
+    /// Fairs the skin as a thin plate: much at the joints between trunk and limbs, so that no crease is left there, and
+    /// elsewhere only against facets.
+    fn fair(&mut self, parts: &Parts) {
+        let weights: Vec<f64> = self.mesh.positions.iter().map(|&p| parts.fairness(p).max(BASE_FAIRING)).collect();
+        let mut normals = Vec::new();
+        for pass in 0..FAIRING_PASSES {
+            if pass % 10 == 0 {
+                normals = self.normals();
+            }
+            let to_mean = self.laplacian(&self.mesh.positions);
+            let bend = self.laplacian(&to_mean);
+            for i in 0..normals.len() {
+                let sideways = to_mean[i] - normals[i] * to_mean[i].dot(&normals[i]);
+                self.mesh.positions[i] += (sideways * SPREADING_STEP - bend[i] * FAIRING_STEP) * weights[i];
             }
         }
+    }
+
+    /// Unit normals of the vertices.
+    fn normals(&self) -> Vec<V3> {
+        let mut normals = vec![V3::zeros(); self.mesh.positions.len()];
+        for &[a, b, c, d] in &self.mesh.quads {
+            let at = |i: usize| self.mesh.positions[i];
+            let normal = (at(c) - at(a)).cross(&(at(d) - at(b)));
+            for vertex in [a, b, c, d] {
+                normals[vertex] += normal;
+            }
+        }
+        normals.into_iter().map(|n| n.try_normalize(0.0).unwrap_or_else(V3::zeros)).collect()
     }
 
     /// Difference of the mean of the neighbours and the vertex itself, for every vertex.

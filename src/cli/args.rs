@@ -22,7 +22,7 @@ pub struct Arguments {
 #[command(next_help_heading = "Global options")]
 pub struct Global {
     /// Database file; by default db/toile.sqlite beside the nearest studies folder, else in your data folder.
-    #[arg(long, global = true, env = "TOILE_DB", value_name = "PATH")]
+    #[arg(long, global = true, env = "TOILE_DB", hide_env_values = true, value_name = "PATH")]
     pub db: Option<PathBuf>,
     /// Change nothing in the database.
     #[arg(long, global = true)]

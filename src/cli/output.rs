@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use comfy_table::{CellAlignment, ContentArrangement, Table as Grid, presets};
+use comfy_table::{CellAlignment, ContentArrangement, Table as Grid, TableComponent, presets};
 use serde_json::{Map, Value as Json};
 
 use super::args::Format;
@@ -36,10 +36,13 @@ pub fn table(table: &Table, format: Format) -> io::Result<()> {
 /// A table for reading: numbers to the right, at most six significant digits.
 pub fn pretty(table: &Table) -> String {
     let mut grid = Grid::new();
-    grid.load_preset(presets::UTF8_HORIZONTAL_ONLY).set_content_arrangement(ContentArrangement::Dynamic);
-    if !console_is_wide() {
-        grid.set_content_arrangement(ContentArrangement::Disabled);
+    grid.load_preset(presets::NOTHING);
+    for line in [TableComponent::HeaderLines, TableComponent::MiddleHeaderIntersections] {
+        grid.set_style(line, '─');
     }
+    // A terminal wraps wide tables to its width; a file or a pipe gets them whole.
+    let is_terminal = io::IsTerminal::is_terminal(&io::stdout());
+    grid.set_content_arrangement(if is_terminal { ContentArrangement::Dynamic } else { ContentArrangement::Disabled });
     grid.set_header(&table.columns);
     for row in &table.rows {
         grid.add_row(row.iter().map(short));
@@ -50,16 +53,10 @@ pub fn pretty(table: &Table) -> String {
             column.set_cell_alignment(CellAlignment::Right);
         }
     }
-    let mut lines: String = grid.lines().flat_map(|line| [line.trim_end().to_owned(), "\n".to_owned()]).collect();
     if table.columns.is_empty() {
-        lines.clear();
+        return String::new();
     }
-    lines
-}
-
-/// Whether standard output is a terminal whose width tables should keep to.
-fn console_is_wide() -> bool {
-    io::IsTerminal::is_terminal(&io::stdout())
+    grid.lines().map(|line| format!("{}\n", line.trim_end())).collect()
 }
 
 /// A value for reading.

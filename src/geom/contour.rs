@@ -1,32 +1,34 @@
-//! Polygonising an implicit surface: dual marching cubes on a regular grid.
+//! Polygonising an implicit surface: dual marching cubes on a rectilinear grid.
 //!
 //! Every sheet of the surface inside a cell gets its own vertex, so that close sheets (thighs, armpits) stay apart and
 //! the result is a closed manifold [Nielson 2004, Dual Marching Cubes].
 
 use super::V3;
 
-/// A regular grid of cubes: `counts` nodes along each axis from `low`, `spacing` apart.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A rectilinear grid: node coordinates along each axis, increasing, metres; at least two each.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
-    /// The node with the least coordinates, metres.
-    pub low: V3,
-    /// Distance of neighbouring nodes, metres.
-    pub spacing: f64,
-    /// Nodes along x, y, z; at least two each.
-    pub counts: [usize; 3],
+    /// Coordinates of the nodes along x, y, z.
+    pub axes: [Vec<f64>; 3],
 }
 
 impl Grid {
+    /// Nodes along each axis.
+    #[must_use]
+    pub fn counts(&self) -> [usize; 3] {
+        [self.axes[0].len(), self.axes[1].len(), self.axes[2].len()]
+    }
+
     /// Position of a node, metres.
     #[must_use]
     pub fn node(&self, at: [usize; 3]) -> V3 {
-        self.low + V3::new(at[0] as f64, at[1] as f64, at[2] as f64) * self.spacing
+        V3::new(self.axes[0][at[0]], self.axes[1][at[1]], self.axes[2][at[2]])
     }
 
     /// Place of a node's value in an array that runs through x first.
     #[must_use]
     pub fn index(&self, at: [usize; 3]) -> usize {
-        (at[2] * self.counts[1] + at[1]) * self.counts[0] + at[0]
+        (at[2] * self.axes[1].len() + at[1]) * self.axes[0].len() + at[0]
     }
 }
 
@@ -56,7 +58,7 @@ const NONE: usize = usize::MAX;
 #[must_use]
 pub fn contour(grid: &Grid, values: &[f64]) -> QuadMesh {
     let mut mesh = QuadMesh::default();
-    let [nx, ny, nz] = grid.counts;
+    let [nx, ny, nz] = grid.counts();
     let mut cell_slot = vec![NONE; nx * ny * nz];
     let mut edge_vertices: Vec<[usize; 12]> = Vec::new();
     for k in 0..nz - 1 {
@@ -95,7 +97,8 @@ fn place_vertices(grid: &Grid, cell: [usize; 3], corners: &[f64; 8], positions: 
         for &edge in &members {
             vertices[edge] = positions.len();
         }
-        positions.push(grid.node(cell) + sum * (grid.spacing / members.len() as f64));
+        let (low, high) = (grid.node(cell), grid.node(cell.map(|i| i + 1)));
+        positions.push(low + (high - low).component_mul(&(sum / members.len() as f64)));
     }
     vertices
 }
@@ -156,8 +159,8 @@ fn emit_quads(
         moved[axis] = moved[axis].wrapping_add_signed(by);
         moved
     };
-    let mut limits = grid.counts.map(|count| 1..count - 1);
-    limits[axis] = 0..grid.counts[axis] - 1;
+    let mut limits = grid.counts().map(|count| 1..count - 1);
+    limits[axis] = 0..grid.axes[axis].len() - 1;
     for k in limits[2].clone() {
         for j in limits[1].clone() {
             for i in limits[0].clone() {
@@ -191,7 +194,8 @@ mod tests {
 
     fn sample(spacing: f64, field: impl Fn(V3) -> f64) -> QuadMesh {
         let count = (3.0 / spacing) as usize;
-        let grid = Grid { low: V3::repeat(-1.5), spacing, counts: [count; 3] };
+        let axis: Vec<f64> = (0..count).map(|i| i as f64 * spacing - 1.5).collect();
+        let grid = Grid { axes: [axis.clone(), axis.clone(), axis] };
         let mut values = vec![0.0; count * count * count];
         for k in 0..count {
             for j in 0..count {

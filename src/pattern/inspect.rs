@@ -63,6 +63,9 @@ pub struct PieceReport {
     pub internal_lines: usize,
     /// Area within the sew line.
     pub sew_area_mm2: Option<f64>,
+    /// Whether this is a half piece, opened for sewing; it is measured as stored.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub unfolded: bool,
 }
 
 impl From<&PatternFile> for FileReport {
@@ -120,6 +123,7 @@ impl From<&Piece> for PieceReport {
             grain_mm: piece.grain.map(length),
             internal_lines: piece.internal_lines.len(),
             sew_area_mm2: piece.sew_line.as_deref().map(|line| signed_area(line).abs() * MM2_PER_M2),
+            unfolded: piece.unfolded().is_some(),
         }
     }
 }

@@ -9,6 +9,7 @@ pub mod piece;
 pub mod seams;
 pub mod sheet;
 pub mod style;
+mod unfold;
 
 pub use garment::{FitLevel, Garment, MaterialPoint, Measurement, MeasurementKind, PieceMesh, Role, Run, SeamMesh};
 pub use mesh::{MeshError, MeshQuality};

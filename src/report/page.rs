@@ -42,6 +42,8 @@ struct Card {
     glyph: &'static str,
     simulator: &'static str,
     basis: &'static str,
+    /// The finding by its name in SQL, for programs that read the page.
+    verdict: &'static str,
     finding: &'static str,
     rule_says: &'static str,
     effect: String,
@@ -188,6 +190,7 @@ fn summary(runs: &[Run]) -> String {
     let worst = runs
         .iter()
         .flat_map(|r| r.measured.iter().map(move |m| (r, m)))
+        .filter(|(_, m)| m.chi.chi().is_finite())
         .max_by(|a, b| error(a.1).total_cmp(&error(b.1)));
     if let Some((run, m)) = worst {
         let (chi, no, name) = (m.chi.chi(), m.chi.no, &m.name);
@@ -272,6 +275,7 @@ fn card(verdict: &Verdict) -> Card {
             Basis::Rule => "by the thesis's rule",
             Basis::Evidence => "by this study's evidence",
         },
+        verdict: verdict.finding.as_str(),
         finding: verdict.finding.words(),
         rule_says: simulator_name(verdict.class.rule_says()),
         effect,

@@ -154,6 +154,7 @@ fn every_fit_class_of_every_garment_has_an_answer() {
         assert!(page.contains(&format!("{} fit", class.as_str())), "{}", class.as_str());
     }
     assert_eq!(page.matches("insufficient evidence").count(), 3);
+    assert_eq!(html(&sample()).unwrap().matches("data-verdict=\"insufficient_evidence\"").count(), 3);
     assert!(page.contains("Only FEM-GS ran on this fit"));
     let mut data = sample();
     data.verdicts.push(Verdict {

@@ -91,7 +91,7 @@ impl Workspace {
                 UNION SELECT 'Commit of the study', git_commit || iif(git_dirty, ', with uncommitted changes', '')
                     FROM v_provenance WHERE study = {0} AND git_commit IS NOT NULL
                 UNION SELECT 'Machine', machine FROM v_provenance WHERE study = {0}
-                UNION SELECT name, value FROM job_input JOIN job USING (job_id) JOIN study USING (study_id)
+                UNION SELECT job_input.name, value FROM job_input JOIN job USING (job_id) JOIN study USING (study_id)
                     WHERE study.name = {0} AND is_current AND (job_input.name GLOB '*.version' OR job_input.name GLOB 'mesh.*'
                         OR job_input.name GLOB 'field.*' OR job_input.name = 'sim.parameters')",
                 quoted(study)

@@ -47,7 +47,8 @@ pub fn inspect(path: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Ve
                 Err(error) => FileReport::unreadable(&name, error.to_string()),
                 Ok(mut pattern) => {
                     if let Some(size) = size {
-                        pattern.pieces = pattern.of_size(size);
+                        let is_of = |name: &str| name.eq_ignore_ascii_case(size);
+                        pattern.pieces.retain(|piece| is_of(piece.size.as_deref().unwrap_or_default()));
                     }
                     FileReport::from(&pattern)
                 }
@@ -96,21 +97,10 @@ pub(super) fn read_style(
     size: Option<&str>,
     unit: Option<Unit>,
 ) -> Result<Style> {
-    let fail = |message: String| StudyError::Stage { stage: "pattern", message };
     let file = dxf::read(&pattern.bytes, &pattern.name, unit).map_err(StudyError::stage("pattern"))?;
-    if file.unit_source == dxf::UnitSource::Assumed {
-        return Err(fail(format!("{} names no unit; say it: mm, cm or in", file.file)));
-    }
-    let sizes = file.sizes();
-    let wanted = size.filter(|size| sizes.iter().any(|known| known.eq_ignore_ascii_case(size)));
-    let pieces = match (wanted, sizes.len()) {
-        (Some(size), _) => file.of_size(size),
-        (None, 0 | 1) => file.pieces.clone(),
-        (None, _) => {
-            let asked = size.map_or_else(|| "no size is said".to_owned(), |size| format!("there is no size {size}"));
-            return Err(fail(format!("{}: {asked}; it holds: {}", file.file, sizes.join(", "))));
-        }
-    };
+    // A file of one size need not name it as the study does.
+    let size = size.filter(|_| file.sizes().len() > 1);
+    let pieces = file.to_sew(size).map_err(StudyError::stage("pattern"))?;
     Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))
 }
 

@@ -13,7 +13,7 @@ use super::tags::{Tag, ValueType, clipped, value_type};
 pub const KINDS: [&str; 7] = ["POLYLINE", "VERTEX", "LWPOLYLINE", "LINE", "POINT", "TEXT", "INSERT"];
 
 /// Entities of DXF besides [`KINDS`] [DXF reference, ENTITIES section]; anything else is a damaged or foreign file.
-const OTHER_KINDS: [&str; 42] = [
+const OTHER_KINDS: [&str; 41] = [
     "3DFACE",
     "3DLINE",
     "3DSOLID",
@@ -44,7 +44,6 @@ const OTHER_KINDS: [&str; 42] = [
     "RAY",
     "REGION",
     "RTEXT",
-    "SECTION",
     "SEQEND",
     "SHAPE",
     "SOLID",
@@ -57,6 +56,10 @@ const OTHER_KINDS: [&str; 42] = [
     "WIPEOUT",
     "XLINE",
 ];
+
+/// Sections of a DXF file.
+const SECTIONS: [&str; 8] =
+    ["HEADER", "CLASSES", "TABLES", "BLOCKS", "ENTITIES", "OBJECTS", "THUMBNAILIMAGE", "ACDSDATA"];
 
 /// Number of entities of each kind.
 pub type Counts = BTreeMap<&'static str, usize>;
@@ -92,6 +95,8 @@ pub struct Inventory<'a> {
     pub entities: Counts,
     /// Texts (group code 1 of TEXT) with their lines, as bytes.
     pub texts: Vec<(&'a [u8], usize)>,
+    /// Blocks that are inserted, with the lines that say so.
+    inserted: Vec<(&'a [u8], usize)>,
     /// The tags to hand to the crate: version, blocks and entities, without undefined group codes.
     pub clean: Vec<Tag<'a>>,
 }
@@ -120,6 +125,11 @@ pub fn take_inventory<'a>(tags: &[Tag<'a>], file: &str) -> Result<Inventory<'a>,
             "a DXF file with pattern pieces in BLOCKS, or an outline in ENTITIES",
         ));
     }
+    let is_there = |name: &[u8]| walk.inventory.blocks.iter().any(|block| block.name.eq_ignore_ascii_case(name));
+    if let Some(&(name, line)) = walk.inventory.inserted.iter().find(|(name, _)| !is_there(name)) {
+        let found = format!("block `{}` inserted but not there", clipped(&String::from_utf8_lossy(name)));
+        return Err(DxfError::new(file, Some(line), found, "blocks that the file holds"));
+    }
     Ok(walk.inventory)
 }
 
@@ -144,6 +154,9 @@ impl<'a> Walk<'a, '_> {
                 let name = record.get(1).filter(|tag| tag.code == 2).map(|tag| keyword_of(tag.value));
                 let name = name
                     .ok_or_else(|| self.fail(&head, "a section without a name".to_owned(), "2/NAME after 0/SECTION"))?;
+                if !SECTIONS.contains(&name) {
+                    return Err(self.fail(&head, format!("section `{}`", clipped(name)), &SECTIONS.join(", ")));
+                }
                 self.section = Some(name);
                 if name == "HEADER" {
                     self.header(&record[2..]);
@@ -244,6 +257,10 @@ impl<'a> Walk<'a, '_> {
         if keyword == "LWPOLYLINE" {
             *counts.entry("VERTEX").or_default() += record.iter().filter(|tag| tag.code == 10).count();
         }
+        if keyword == "INSERT" {
+            let names = record.iter().filter(|tag| tag.code == 2).map(|tag| (tag.value.trim_ascii(), tag.line));
+            self.inventory.inserted.extend(names);
+        }
         if keyword == "TEXT" {
             self.inventory.texts.extend(record.iter().filter(|tag| tag.code == 1).map(|tag| (tag.value, tag.line)));
         }
@@ -285,9 +302,10 @@ impl<'a> Walk<'a, '_> {
             "LINE" => &[10, 20, 11, 21],
             "LWPOLYLINE" => {
                 let count = |code: i32| record.iter().filter(|tag| tag.code == code).count();
-                if count(10) != count(20) {
-                    let found = format!("LWPOLYLINE with {} x and {} y coordinates", count(10), count(20));
-                    return Err(self.fail(&record[0], found, "as many of group code 10 as of 20"));
+                let stated = record.iter().find(|tag| tag.code == 90).map_or("none", |tag| keyword_of(tag.value));
+                if count(10) != count(20) || stated.parse() != Ok(count(10)) {
+                    let found = format!("LWPOLYLINE of {stated} vertices with {} x and {} y", count(10), count(20));
+                    return Err(self.fail(&record[0], found, "as many of group codes 10 and 20 as group code 90 says"));
                 }
                 &[]
             }

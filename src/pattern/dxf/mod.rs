@@ -94,11 +94,41 @@ impl PatternFile {
         sizes
     }
 
-    /// Pieces of one size; upper and lower case count the same.
-    #[must_use]
-    pub fn of_size(&self, size: &str) -> Vec<Piece> {
-        let is_of = |piece: &&Piece| piece.size.as_deref().unwrap_or_default().eq_ignore_ascii_case(size);
-        self.pieces.iter().filter(is_of).cloned().collect()
+    /// The pieces of one size, half pieces opened, ready for a seam file. Without a `size` the file must hold only one;
+    /// upper and lower case count the same.
+    ///
+    /// # Errors
+    /// [`DxfError`] when the file names no unit and none was said, or the size is not there or not said.
+    pub fn to_sew(&self, size: Option<&str>) -> Result<Vec<Piece>, DxfError> {
+        if self.unit_source == UnitSource::Assumed {
+            let accepted = "a `Units:` text or $INSUNITS in the file, or --unit mm, cm or in";
+            return Err(DxfError::new(&self.file, None, "no unit".to_owned(), accepted));
+        }
+        let sizes = self.sizes();
+        let wanted = match (size, sizes.as_slice()) {
+            (Some(size), _) => size,
+            (None, [only]) => only,
+            (None, _) => {
+                return Err(DxfError::new(
+                    &self.file,
+                    None,
+                    format!("{} sizes", sizes.len()),
+                    &format!("one of {}", sizes.join(", ")),
+                ));
+            }
+        };
+        let is_of = |piece: &&Piece| piece.size.as_deref().unwrap_or_default().eq_ignore_ascii_case(wanted);
+        let pieces: Vec<Piece> =
+            self.pieces.iter().filter(is_of).map(|piece| piece.unfolded().unwrap_or_else(|| piece.clone())).collect();
+        if pieces.is_empty() {
+            return Err(DxfError::new(
+                &self.file,
+                None,
+                format!("no size `{wanted}`"),
+                &format!("one of {}", sizes.join(", ")),
+            ));
+        }
+        Ok(pieces)
     }
 }
 
@@ -112,13 +142,13 @@ pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<Pattern
     let tags = tags::scan(bytes, file_name)?;
     let inventory = take_inventory(&tags, file_name)?;
     let encoding = units::encoding_of(&inventory, file_name)?;
-    let named_unit = match unit {
-        Some(_) => None,
-        None => units::unit_of(&inventory, file_name)?.map(|(unit, _)| unit),
+    let claims = match unit {
+        Some(_) => Vec::new(),
+        None => units::claims(&inventory, file_name)?,
     };
-    let (unit, unit_source) = match (unit, named_unit) {
+    let (unit, unit_source) = match (unit, claims.first()) {
         (Some(unit), _) => (unit, UnitSource::Given),
-        (None, Some(unit)) => (unit, UnitSource::File),
+        (None, Some(claim)) => (claim.unit, UnitSource::File),
         (None, None) => (Unit::Mm, UnitSource::Assumed),
     };
     let drawing = load(&inventory, encoding, file_name)?;
@@ -130,8 +160,9 @@ pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<Pattern
         texts: blocks::texts(drawing.entities()),
         pieces: Vec::new(),
         refused: Vec::new(),
-        warnings: Vec::new(),
+        warnings: units::contradictions(&claims),
     };
+    file.warnings.extend(drawing.entities().filter_map(scaled_insert));
     if unit_source == UnitSource::Assumed {
         file.warnings.push(format!("{file_name} names no unit: millimetres are assumed; say the unit to sew from it"));
     }
@@ -160,6 +191,14 @@ impl PatternFile {
             Err(reason) => self.refused.push(Refused { block: block.to_owned(), reason }),
         }
     }
+}
+
+/// A warning where a block is inserted at another size than it is stored in.
+fn scaled_insert(entity: &dxf::entities::Entity) -> Option<String> {
+    let EntityType::Insert(insert) = &entity.specific else { return None };
+    let (x, y) = (insert.x_scale_factor, insert.y_scale_factor);
+    (x != 1.0 || y != 1.0)
+        .then(|| format!("block `{}` is inserted {x} x {y} times its size: it is read as stored", insert.name))
 }
 
 /// Has the crate read the clean tags, and compares what it found with what is there.

@@ -52,10 +52,8 @@ fn check_folder(folder: &str, allowed_refusals: usize) {
             };
             let piece = pieces.remove(index);
             let mut expect = |what: &str, found: f64, tolerance: f64| {
-                if let Some(value) = number(what) {
-                    if (found - value).abs() > tolerance {
-                        wrong.push(format!("{name}/{}: {what} {found} for {value}", &row[1]));
-                    }
+                if let Some(value) = number(what).filter(|value| (found - value).abs() > tolerance) {
+                    wrong.push(format!("{name}/{}: {what} {found} for {value}", &row[1]));
                 }
             };
             expect("area_mm2", piece.area_mm2, 1.0);
@@ -162,6 +160,13 @@ fn damaged_files_are_refused_with_line_and_finding() {
     check("an unknown group code", &edited(" 66\r\n1\r\n", "150\r\n1\r\n"), None, "undefined group code 150");
     let stray = edited("\r\nVERTEX\r\n", "\r\nVORTEX\r\n");
     check("an unknown entity", &stray, line_of(&stray, "VORTEX"), "`VORTEX`");
+    check("an unknown section", &edited("\r\nBLOCKS\r\n", "\r\nBLACKS\r\n"), None, "section `BLACKS`");
+    check(
+        "two blocks run into one",
+        &edited("  0\r\nENDBLK\r\n  8\r\n0\r\n  0\r\nBLOCK\r\n", ""),
+        None,
+        "block `BACK` inserted but not there",
+    );
     check("a missing coordinate", &edited(" 20\r\n550.7600\r\n", ""), None, "without group code 20");
     check("a block without end", &edited("ENDBLK\r\n  8\r\n0\r\n  0\r\n", ""), None, "inside the block");
 }
@@ -203,7 +208,6 @@ fn harmless_oddities_are_read() {
     check("a real for an integer", &edited(" 66\r\n1\r\n", " 66\r\n1.000\r\n"));
     check("no SEQEND", &edited("  0\r\nSEQEND\r\n  8\r\n1\r\n", ""));
     check("a comment", &edited("  0\r\nPOLYLINE\r\n", "999\r\nfront\r\n  0\r\nPOLYLINE\r\n"));
-    check("inches by $INSUNITS, metric by text", &edited("AC1009\r\n", "AC1009\r\n  9\r\n$INSUNITS\r\n 70\r\n1\r\n"));
     let unix = String::from_utf8(write(&tshirt(TshirtSize::S))).expect("ASCII").replace("\r\n", "\n");
     check("line feeds only", unix.as_bytes());
 }
@@ -234,6 +238,52 @@ fn units_come_from_the_user_the_texts_or_the_header() {
 }
 
 #[test]
+fn contradictions_and_scaled_blocks_are_warned_of() {
+    let check = |bytes: &[u8], expect: &str| {
+        let warnings = read(bytes, "a.dxf", None).expect("it reads").warnings;
+        assert!(warnings.len() == 1 && warnings[0].contains(expect), "{warnings:?}");
+    };
+    check(
+        &edited("AC1009\r\n", "AC1009\r\n  9\r\n$INSUNITS\r\n 70\r\n1\r\n"),
+        "says mm, $INSUNITS (line 14) says in: mm is taken",
+    );
+    check(&edited("INSERT\r\n", "INSERT\r\n 41\r\n2.0\r\n"), "block `FRONT` is inserted 2 x 1 times");
+}
+
+#[test]
+fn only_a_named_size_in_a_named_unit_is_sewn() {
+    let file = |bytes: &[u8]| read(bytes, "a.dxf", None).expect("it reads");
+    let whole = file(&write(&tshirt(TshirtSize::S)));
+    assert_eq!(whole.to_sew(None).expect("one size").len(), 3);
+    assert_eq!(whole.to_sew(Some("s")), whole.to_sew(Some("S")));
+    let refuse = |file: &PatternFile, size: Option<&str>, expect: &str| {
+        let error = file.to_sew(size).expect_err(expect).to_string();
+        assert!(error.contains(expect), "{error}");
+    };
+    refuse(&whole, Some("XL"), "no size `XL`; accepted: one of S");
+    refuse(&file(&edited("Size: S", "Size: M")), None, "2 sizes; accepted: one of M, S");
+    refuse(&file(&edited("Units: METRIC", "Note: none")), None, "found no unit");
+}
+
+#[test]
+fn graded_half_pieces_open_for_sewing() {
+    let Some(path) = shared("freesewing") else { return };
+    let bytes = std::fs::read(path.join("teagan_nest_aama-inch.dxf")).expect("the file is there");
+    let file = read(&bytes, "nest.dxf", None).expect("it reads");
+    assert_eq!(file.sizes(), ["28", "32", "34", "36", "38", "40", "42", "44"]);
+    let pieces = file.to_sew(Some("36")).expect("size 36 is there");
+    let area = |name: &str| pieces.iter().find(|piece| piece.name == name).expect("it is there").area_m2() * 1e6;
+    // Twice the half front and half back of the table; the sleeve is whole.
+    for (name, expect) in
+        [("TEAGAN FRONT", 2.0 * 147_451.7), ("TEAGAN BACK", 2.0 * 152_646.6), ("TEAGAN SLEEVE", 47_893.1)]
+    {
+        assert!((area(name) - expect).abs() < 1.0, "{name}: {}", area(name));
+    }
+    let unfolded = FileReport::from(&file).pieces.iter().filter(|piece| piece.unfolded).count();
+    assert_eq!(unfolded, 16);
+}
+
+#[test]
 fn names_follow_the_code_page() {
     let text = String::from_utf8(edited("AC1009\r\n", "AC1009\r\n  9\r\n$DWGCODEPAGE\r\n  3\r\nANSI_1251\r\n"))
         .expect("ASCII");
@@ -244,7 +294,7 @@ fn names_follow_the_code_page() {
 }
 
 proptest::proptest! {
-    #![proptest_config(proptest::prelude::ProptestConfig::with_cases(200))]
+    #![proptest_config(proptest::prelude::ProptestConfig::with_cases(64))]
 
     #[test]
     fn truncated_files_are_refused(share in 0.0..1.0_f64) {
@@ -273,6 +323,30 @@ proptest::proptest! {
         lines.drain(first..first + count);
         if let Ok(file) = read(lines.join("\n").as_bytes(), "a.dxf", None) {
             proptest::prop_assert_eq!(file.pieces.len() + file.refused.len(), 3);
+        }
+    }
+
+    #[test]
+    fn damaged_files_of_other_programs_never_lose_a_piece_in_silence(
+        file in 0..4_usize,
+        cuts in proptest::collection::vec((0.0..1.0_f64, 0..40_usize), 1..3),
+    ) {
+        let names = [
+            "freesewing/teagan_cisFemaleAdult36_c3d.dxf",
+            "freesewing/teagan_nest_aama-inch.dxf",
+            "valentina/TShirt_test.v0.7.52.astm-2000.dxf",
+            "valentina/notchbug.v1.1.1.astm-r12.dxf",
+        ];
+        let Some(path) = shared("") else { return Ok(()) };
+        let mut bytes = std::fs::read(path.join(names[file])).expect("the file is there");
+        let blocks = |file: &PatternFile| file.pieces.len() + file.refused.len();
+        let whole = blocks(&read(&bytes, "a.dxf", None).expect("it reads"));
+        for (share, count) in cuts {
+            let first = (share * (bytes.len() - count) as f64) as usize;
+            bytes.drain(first..first + count);
+        }
+        if let Ok(file) = read(&bytes, "a.dxf", None) {
+            proptest::prop_assert_eq!(blocks(&file), whole);
         }
     }
 

@@ -4,6 +4,7 @@ use encoding_rs::Encoding;
 
 use super::DxfError;
 use super::guard::Inventory;
+use super::tags::clipped;
 
 /// Unit of length of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -50,55 +51,74 @@ pub enum UnitSource {
     Assumed,
 }
 
-/// The unit that the file names, with the line that names it; `None` where it names none.
-///
-/// A `Units:` text [AAMA-292] goes before `$INSUNITS`, and that before `$MEASUREMENT`.
+/// A unit that the file names.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Claim {
+    /// Unit.
+    pub unit: Unit,
+    /// What names it.
+    pub by: &'static str,
+    /// Line.
+    pub line: usize,
+}
+
+/// The units that a file names; the first counts: a `Units:` text [AAMA-292] goes before `$INSUNITS`, and that before
+/// `$MEASUREMENT`.
 ///
 /// # Errors
 /// [`DxfError`] for a unit that is not known.
-pub fn unit_of(inventory: &Inventory<'_>, file: &str) -> Result<Option<(Unit, usize)>, DxfError> {
+pub fn claims(inventory: &Inventory<'_>, file: &str) -> Result<Vec<Claim>, DxfError> {
+    let mut claims = Vec::new();
     for &(bytes, line) in &inventory.texts {
         let text = String::from_utf8_lossy(bytes);
         let Some((key, value)) = text.split_once(':') else { continue };
-        if !key.trim().eq_ignore_ascii_case("units") {
+        if key.trim().eq_ignore_ascii_case("units") {
+            let unit = match value.trim().to_ascii_uppercase().as_str() {
+                "METRIC" | "MM" | "MILLIMETERS" | "MILLIMETRES" => Unit::Mm,
+                "ENGLISH" | "IMPERIAL" | "INCH" | "INCHES" | "IN" => Unit::In,
+                "CM" | "CENTIMETERS" | "CENTIMETRES" => Unit::Cm,
+                _ => {
+                    let found = format!("unit `{}`", clipped(value.trim()));
+                    return Err(DxfError::new(file, Some(line), found, "METRIC, MM, CM, ENGLISH, INCH"));
+                }
+            };
+            claims.push(Claim { unit, by: "Units text", line });
+        }
+    }
+    let header = [
+        ("$INSUNITS", &[("1", Unit::In), ("4", Unit::Mm), ("5", Unit::Cm)][..], "0 (none), 1 (inches), 4 (mm), 5 (cm)"),
+        ("$MEASUREMENT", &[("0", Unit::In), ("1", Unit::Mm)][..], "0 (English), 1 (metric)"),
+    ];
+    for (by, units, accepted) in header {
+        let Some(entry) = inventory.header.get(by).filter(|entry| by != "$INSUNITS" || entry.value != "0") else {
             continue;
-        }
-        let unit = match value.trim().to_ascii_uppercase().as_str() {
-            "METRIC" | "MM" | "MILLIMETERS" | "MILLIMETRES" => Unit::Mm,
-            "ENGLISH" | "IMPERIAL" | "INCH" | "INCHES" | "IN" => Unit::In,
-            "CM" | "CENTIMETERS" | "CENTIMETRES" => Unit::Cm,
-            _ => {
-                return Err(DxfError::new(
-                    file,
-                    Some(line),
-                    format!("unit `{}`", value.trim()),
-                    "METRIC, MM, CM, ENGLISH, INCH",
-                ));
-            }
         };
-        return Ok(Some((unit, line)));
-    }
-    if let Some(entry) = inventory.header.get("$INSUNITS").filter(|entry| entry.value != "0") {
-        let unit = match entry.value {
-            "1" => Unit::In,
-            "4" => Unit::Mm,
-            "5" => Unit::Cm,
-            other => {
-                let found = format!("$INSUNITS {}", super::tags::clipped(other));
-                return Err(DxfError::new(file, Some(entry.line), found, "0 (none), 1 (inches), 4 (mm), 5 (cm)"));
+        match units.iter().find(|(value, _)| *value == entry.value) {
+            Some(&(_, unit)) => claims.push(Claim { unit, by, line: entry.line }),
+            None => {
+                return Err(DxfError::new(file, Some(entry.line), format!("{by} {}", clipped(entry.value)), accepted));
             }
-        };
-        return Ok(Some((unit, entry.line)));
-    }
-    match inventory.header.get("$MEASUREMENT").map(|entry| (entry.value, entry.line)) {
-        Some(("0", line)) => Ok(Some((Unit::In, line))),
-        Some(("1", line)) => Ok(Some((Unit::Mm, line))),
-        Some((other, line)) => {
-            let found = format!("$MEASUREMENT {}", super::tags::clipped(other));
-            Err(DxfError::new(file, Some(line), found, "0 (English), 1 (metric)"))
         }
-        None => Ok(None),
     }
+    Ok(claims)
+}
+
+/// Warnings where later claims contradict the first.
+pub fn contradictions(claims: &[Claim]) -> Vec<String> {
+    let Some(first) = claims.first() else { return Vec::new() };
+    let warning = |claim: &Claim| {
+        format!(
+            "{} (line {}) says {}, {} (line {}) says {}: {} is taken",
+            first.by,
+            first.line,
+            first.unit.as_str(),
+            claim.by,
+            claim.line,
+            claim.unit.as_str(),
+            first.unit.as_str()
+        )
+    };
+    claims.iter().filter(|claim| claim.unit != first.unit).map(warning).collect()
 }
 
 /// Encoding of the texts: UTF-8 from AutoCAD 2007 on, else `$DWGCODEPAGE`, else Windows-1252.
@@ -128,7 +148,7 @@ pub fn encoding_of(inventory: &Inventory<'_>, file: &str) -> Result<&'static Enc
         _ => format!("windows-{number}"),
     };
     Encoding::for_label(label.as_bytes()).ok_or_else(|| {
-        let found = format!("$DWGCODEPAGE {}", super::tags::clipped(entry.value));
+        let found = format!("$DWGCODEPAGE {}", clipped(entry.value));
         DxfError::new(file, Some(entry.line), found, "ANSI_1250 to ANSI_1258, 866, 874, 932, 936, 949, 950, UTF-8")
     })
 }

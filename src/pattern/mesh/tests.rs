@@ -131,3 +131,32 @@ fn edge_lengths_out_of_range_are_refused() {
 fn meshing_is_deterministic() {
     assert_eq!(style(TshirtSize::M).mesh(0.02), style(TshirtSize::M).mesh(0.02));
 }
+
+/// Pieces drawn by other programs, with an arbitrary edge named: all mesh, nearly all well.
+#[test]
+fn pieces_of_other_programs_mesh() {
+    let mut angles = Vec::new();
+    for folder in ["freesewing", "valentina", "garmentcode", "jblockcreator"] {
+        let path = format!("{}/../shared/patterns/{folder}", env!("CARGO_MANIFEST_DIR"));
+        let Ok(entries) = std::fs::read_dir(&path) else {
+            eprintln!("skipped: {path} is not here");
+            return;
+        };
+        for file in entries
+            .map(|entry| entry.expect("it can be listed").path())
+            .filter(|p| p.extension().is_some_and(|e| e == "dxf"))
+        {
+            let bytes = std::fs::read(&file).expect("it can be read");
+            for piece in crate::pattern::dxf::read(&bytes, "a.dxf", None).expect("it reads").pieces {
+                let seams =
+                    format!("name = ''\n[piece.p]\nblock = '{}'\nrole = 'front'\nedges.e = [0, 1]", piece.block);
+                let style = Style::read(&[piece], seams.as_bytes(), "a.toml").expect("it is a style");
+                let garment = style.mesh(0.02).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
+                angles.push(MeshQuality::of(&garment).expect("there are triangles").min_angle_deg);
+            }
+        }
+    }
+    angles.sort_by(f64::total_cmp);
+    // The few below have edges of one or two millimetres, which no mesh of 20 mm can follow with good triangles.
+    assert!(angles[0] > 1.0 && angles[angles.len() / 10] > 15.0 && angles[angles.len() / 2] > 25.0, "{angles:?}");
+}

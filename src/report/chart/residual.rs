@@ -18,7 +18,8 @@ pub fn residual_chart(title: &str, runs: &[&Run], labels: &[String]) -> Result<C
     let last = points().map(|p| p.0).fold(1.0, f64::max);
     let (low, high) = points().fold((0.0_f64, 0.0_f64), |(l, h), p| (l.min(p.1), h.max(p.1)));
     let (low, high) = (low.floor(), high.ceil().max(low.floor() + 1.0));
-    let (top, bottom) = (30, 560);
+    let (top, step) = (80, TYPE + 8);
+    let bottom = (top + 520).max(top + step * runs.len() as i32);
     let height_of = |v: f64| bottom - ((v - low) / (high - low) * f64::from(bottom - top)).round() as i32;
     let svg = draw(bottom + 3 * TYPE + 30, |canvas| {
         let widest = labels.iter().map(|l| canvas.text_width(l)).max().unwrap_or(0);
@@ -31,6 +32,8 @@ pub fn residual_chart(title: &str, runs: &[&Run], labels: &[String]) -> Result<C
             canvas.line(vec![(axis.left, y), (axis.right, y)], theme::GRID, 2)?;
             canvas.text((axis.left - 16, y), &decade_name(decade), theme::MUTED, Align::Right, false)?;
         }
+        let title = "residual: rms force over the mean weight of a vertex (logarithmic)";
+        canvas.text((axis.left, top - 48), title, theme::MUTED, Align::Left, false)?;
         let mut ends = Vec::new();
         for (series, curve) in curves.iter().enumerate() {
             let line: Vec<(i32, i32)> = curve.iter().map(|p| (axis.at(p.0), height_of(p.1))).collect();
@@ -42,7 +45,7 @@ pub fn residual_chart(title: &str, runs: &[&Run], labels: &[String]) -> Result<C
         // Names at the ends, pushed apart where curves end together.
         ends.sort_unstable();
         let mut free = top;
-        let (mut room, step) = (ends.len() as i32, TYPE + 8);
+        let mut room = ends.len() as i32;
         for (y, x, series) in ends {
             let place = y.min(bottom - step * (room - 1)).max(free);
             (free, room) = (place + step, room - 1);
@@ -56,8 +59,13 @@ pub fn residual_chart(title: &str, runs: &[&Run], labels: &[String]) -> Result<C
                 false,
             )?;
         }
-        let caption = "iteration   (rms residual force over the mean weight of a vertex, logarithmic)";
-        canvas.text(((axis.left + axis.right) / 2, bottom + 2 * TYPE + 18), caption, theme::MUTED, Align::Middle, false)
+        canvas.text(
+            ((axis.left + axis.right) / 2, bottom + 2 * TYPE + 18),
+            "iteration",
+            theme::MUTED,
+            Align::Middle,
+            false,
+        )
     })?;
     Ok(Chart { svg, alt: format!("{title}: residual by iteration of {} runs.", runs.len()) })
 }

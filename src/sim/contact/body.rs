@@ -99,6 +99,21 @@ impl<'a> BodyContact<'a> {
         energy + self.touching.iter().filter_map(|t| self.friction_at(t, &x[t.vertex])).map(|f| f.energy).sum::<f64>()
     }
 
+    /// Adds the contact forces at `x`; friction's with the normal forces and anchors of the current step.
+    pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
+        for ((p, k), force) in x.iter().zip(&self.stiffness).zip(forces.iter_mut()) {
+            let (depth, gradient) = self.depth(p);
+            if depth > 0.0 {
+                *force += gradient * (k * depth);
+            }
+        }
+        for touch in &self.touching {
+            if let Some(f) = self.friction_at(touch, &x[touch.vertex]) {
+                forces[touch.vertex] += f.force;
+            }
+        }
+    }
+
     /// Finds the touching vertices and adds their forces and stiffness.
     pub fn assemble(&mut self, x: &[V3], forces: &mut [V3], diagonal: &mut [Matrix3<f64>]) {
         self.touching.clear();

@@ -18,17 +18,29 @@ pub struct PcgParams {
 ///
 /// Every iterate descends the quadratic `x.K x / 2 - b.x`, so a run cut short still yields a descent direction.
 #[must_use]
-pub fn solve(operator: &Operator, b: &[V3], params: &PcgParams) -> (Vec<V3>, usize) {
+pub fn solve(operator: &Operator, b: &[V3], start: Option<&[V3]>, params: &PcgParams) -> (Vec<V3>, usize) {
     let inverse: Vec<Matrix3<f64>> =
         operator.diagonal_blocks().iter().map(|d| d.try_inverse().unwrap_or_else(Matrix3::zeros)).collect();
     let n = b.len();
-    let mut x = vec![V3::zeros(); n];
+    let mut x = start.map_or_else(|| vec![V3::zeros(); n], <[V3]>::to_vec);
     let mut r = b.to_vec();
+    let b_norm = dot(b, &precondition(&inverse, b));
+    if start.is_some() {
+        let mut kx = vec![V3::zeros(); n];
+        operator.apply(&x, &mut kx);
+        // The best multiple of the start: never worse than zero.
+        let scale = dot(&x, b) / dot(&x, &kx);
+        let scale = if scale.is_finite() { scale.clamp(0.0, 1.0) } else { 0.0 };
+        for i in 0..n {
+            x[i] *= scale;
+            r[i] -= kx[i] * scale;
+        }
+    }
     let mut z = precondition(&inverse, &r);
     let mut p = z.clone();
     let mut kp = vec![V3::zeros(); n];
     let mut rz = dot(&r, &z);
-    let goal = rz * params.tolerance * params.tolerance;
+    let goal = b_norm * params.tolerance * params.tolerance;
     for iteration in 0..params.max_iterations {
         if rz <= goal || rz <= f64::MIN_POSITIVE {
             return (x, iteration);

@@ -54,6 +54,22 @@ impl<'a> System<'a> {
             + self.springs.as_ref().map_or(0.0, |s| s.energy(x))
     }
 
+    /// Forces at `x`, N, with the contacts and anchors of the last [`System::assemble`].
+    #[must_use]
+    pub fn forces(&self, x: &[V3]) -> Vec<V3> {
+        let mut forces: Vec<V3> = self.weights.iter().map(|w| V3::new(0.0, 0.0, -w)).collect();
+        self.cloth.membrane.assemble(x, &mut forces, None);
+        self.cloth.bending.add_forces(x, &mut forces);
+        self.contact.add_forces(x, &mut forces);
+        if let Some(contact) = &self.self_contact {
+            contact.assemble(x, &mut forces);
+        }
+        if let Some(springs) = &self.springs {
+            springs.assemble(x, &mut forces);
+        }
+        forces
+    }
+
     /// Forces (N) and stiffness (N/m) at `x`.
     pub fn assemble(&mut self, x: &[V3]) -> (Vec<V3>, Operator<'a>) {
         let cloth = self.cloth;

@@ -1,5 +1,7 @@
+use super::corners::{corner_vertices, mirrored};
 use super::*;
 use crate::pattern::draft::{TSHIRT_SEAMS, TshirtSize, tshirt};
+use crate::pattern::seams::SeamFile;
 
 fn read(seams: &str) -> Result<Style, StyleError> {
     Style::read(&tshirt(TshirtSize::S).pieces, seams.as_bytes(), "a.toml")
@@ -44,6 +46,9 @@ fn mistakes_name_their_place_and_what_exists() {
     check("path = [\"sleeve_right.opening\"]", "path = []", &["measurement 2", "empty path"]);
     check("[fit.chest]", "[fut.chest]", &["line", "unknown field `fut`"]);
     check("name = \"Mens T-shirt\"", "name = ", &["line 4"]);
+    let twice = [tshirt(TshirtSize::S).pieces, tshirt(TshirtSize::M).pieces].concat();
+    let error = Style::read(&twice, TSHIRT_SEAMS, "a.toml").expect_err("two sizes at once");
+    assert!(error.to_string().contains("2 pieces are called `BACK`"), "{error}");
     assert!(matches!(Style::read(&[], b"\xff\xfe", "a.toml"), Err(StyleError::Syntax { .. })));
 }
 

@@ -1,0 +1,36 @@
+//! Curves and the solver of the drafts.
+
+use crate::geom::V2;
+
+/// Segments of each drawn curve: chord error below 0.01 mm on the longest.
+pub const CURVE_SEGMENTS: usize = 48;
+
+/// Points of a cubic Bezier curve, evenly spaced in its parameter.
+pub fn bezier(control: [V2; 4]) -> Vec<V2> {
+    let [a, b, c, d] = control;
+    (0..=CURVE_SEGMENTS)
+        .map(|i| {
+            let t = i as f64 / CURVE_SEGMENTS as f64;
+            let s = 1.0 - t;
+            a * (s * s * s) + b * (3.0 * s * s * t) + c * (3.0 * s * t * t) + d * (t * t * t)
+        })
+        .collect()
+}
+
+/// Length of a curve given by its points.
+pub fn length(curve: &[V2]) -> f64 {
+    curve.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum()
+}
+
+/// Root of an increasing function between `low` and `high`, to the last bit worth having.
+pub fn bisect(mut low: f64, mut high: f64, increasing: impl Fn(f64) -> f64) -> f64 {
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if increasing(middle) < 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}

@@ -1,0 +1,210 @@
+//! A style: the pieces of one size, named, sewn and measured as its seam file says.
+
+mod corners;
+mod read;
+
+use self::read::Reader;
+use super::garment::{MeasurementKind, Role};
+use super::piece::{Notch, Piece};
+use super::seams::SeamFile;
+use crate::geom::V2;
+use crate::geom::polyline::Polyline;
+
+/// Why pieces and a seam file do not make a style.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum StyleError {
+    /// The seam file is not the TOML it should be.
+    #[error("{file}: not a seam file: {reason}")]
+    Syntax {
+        /// Seam file.
+        file: String,
+        /// What the TOML reader found, with the line.
+        reason: String,
+    },
+    /// A name that is not there.
+    #[error("{file}: {place}: there is no {what} `{found}`; there is: {accepted}")]
+    Unknown {
+        /// Seam file.
+        file: String,
+        /// Entry of the seam file.
+        place: String,
+        /// Kind of thing named.
+        what: &'static str,
+        /// Name found.
+        found: String,
+        /// Names that exist.
+        accepted: String,
+    },
+    /// An entry that contradicts the pieces or another entry.
+    #[error("{file}: {place}: {found}; accepted: {accepted}")]
+    Contradiction {
+        /// Seam file.
+        file: String,
+        /// Entry of the seam file.
+        place: String,
+        /// What is wrong.
+        found: String,
+        /// What would be accepted.
+        accepted: String,
+    },
+}
+
+/// An edge of a piece, counter-clockwise as worn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Edge {
+    /// Name, unique within the piece; `None` for a stretch of outline that the seam file does not name.
+    pub name: Option<String>,
+    /// The drawn curve.
+    pub line: Polyline,
+    /// Arc lengths of the corners passed between its ends.
+    pub corners: Vec<f64>,
+}
+
+/// A piece as worn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StylePiece {
+    /// Identifier.
+    pub id: String,
+    /// How it is worn.
+    pub role: Role,
+    /// Its edges in counter-clockwise order; together they are the closed outline.
+    pub edges: Vec<Edge>,
+    /// Unit vector of the grain.
+    pub grain: V2,
+    /// Notches.
+    pub notches: Vec<Notch>,
+    /// Corners as worn, by their number in the seam file.
+    pub corners: Vec<V2>,
+}
+
+impl StylePiece {
+    /// Closed outline, counter-clockwise.
+    #[must_use]
+    pub fn outline(&self) -> Vec<V2> {
+        self.edges
+            .iter()
+            .flat_map(|edge| edge.line.points().split_last().map_or(&[][..], |(_, rest)| rest))
+            .copied()
+            .collect()
+    }
+}
+
+/// Reference to an edge: piece index, edge index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct EdgeRef {
+    /// Index into [`Style::pieces`].
+    pub piece: usize,
+    /// Index into [`StylePiece::edges`].
+    pub edge: usize,
+}
+
+/// A point of an edge, by arc length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EdgePoint {
+    /// Edge.
+    pub edge: EdgeRef,
+    /// Arc length from the edge's start, m.
+    pub arc_m: f64,
+}
+
+/// One stretch of a measurement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PathPart {
+    /// A whole edge.
+    Edge(EdgeRef),
+    /// Straight across one piece.
+    Line([EdgePoint; 2]),
+}
+
+/// A seam: `a` walked forwards meets `b` walked as `b_forwards` says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Seam {
+    /// Name.
+    pub name: String,
+    /// One side.
+    pub a: Vec<EdgeRef>,
+    /// The other side.
+    pub b: Vec<EdgeRef>,
+    /// Whether `b` runs counter-clockwise too.
+    pub b_forwards: bool,
+}
+
+/// A measurement on the pieces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StyleMeasurement {
+    /// Number.
+    pub no: u32,
+    /// Name.
+    pub name: String,
+    /// Loop or length.
+    pub kind: MeasurementKind,
+    /// Where it runs.
+    pub path: Vec<PathPart>,
+    /// Pattern length L2D, m.
+    pub l2d_m: f64,
+    /// Whether it runs only along edges that no seam holds.
+    pub is_free_edge: bool,
+}
+
+/// The pieces of one size with their seams and measurements.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Style {
+    /// Style name.
+    pub name: String,
+    /// Size name, empty where the file names none.
+    pub size: String,
+    /// Pieces, in the alphabetical order of their ids.
+    pub pieces: Vec<StylePiece>,
+    /// Seams.
+    pub seams: Vec<Seam>,
+    /// Measurements.
+    pub measurements: Vec<StyleMeasurement>,
+    /// Body level and pattern path.
+    pub fit_levels: Vec<(String, Vec<PathPart>)>,
+}
+
+impl Style {
+    /// Makes a style of the pieces of one size and the bytes of a seam file; `file` is its name for messages.
+    ///
+    /// # Errors
+    /// [`StyleError`] when the bytes are not a seam file, a name is not there, an edge is used twice, or the two sides of
+    /// a seam differ in length by more than the stated ease and tolerance.
+    pub fn read(pieces: &[Piece], seam_bytes: &[u8], file: &str) -> Result<Self, StyleError> {
+        let syntax = |reason: String| StyleError::Syntax { file: file.to_owned(), reason };
+        let text =
+            std::str::from_utf8(seam_bytes).map_err(|error| syntax(format!("{error}; UTF-8 text is accepted")))?;
+        let entries: SeamFile = toml::from_str(text).map_err(|error| syntax(error.to_string()))?;
+        Reader { file, entries: &entries }.style(pieces)
+    }
+
+    /// The curve of an edge.
+    #[must_use]
+    pub fn edge(&self, edge: EdgeRef) -> &Edge {
+        &self.pieces[edge.piece].edges[edge.edge]
+    }
+
+    /// `piece.edge`, for messages.
+    pub(super) fn edge_name(&self, edge: EdgeRef) -> String {
+        format!("{}.{}", self.pieces[edge.piece].id, self.edge(edge).name.as_deref().unwrap_or("(unnamed)"))
+    }
+
+    /// Place of an edge point in its piece's plane.
+    #[must_use]
+    pub fn place(&self, point: EdgePoint) -> V2 {
+        self.edge(point.edge).line.at(point.arc_m)
+    }
+
+    /// Pattern length of a path, m.
+    #[must_use]
+    pub fn path_length_m(&self, path: &[PathPart]) -> f64 {
+        path.iter()
+            .map(|part| match *part {
+                PathPart::Edge(edge) => self.edge(edge).line.length(),
+                PathPart::Line([from, to]) => (self.place(to) - self.place(from)).norm(),
+            })
+            .sum()
+    }
+}
+
+#[cfg(test)]
+mod tests;

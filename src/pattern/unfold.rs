@@ -1,0 +1,138 @@
+//! Opening a half piece at its fold (mirror) line.
+
+use super::piece::{Notch, Piece};
+use crate::geom::V2;
+
+/// Distance within which a vertex lies on the fold line, m.
+const ON_FOLD_M: f64 = 0.1e-3;
+/// Turn of the opened outline at an end of the fold line below which that end is no corner, degrees.
+const CORNER_TURN_DEG: f64 = 10.0;
+
+/// A fold line: reflects points to the other half.
+struct Fold {
+    from: V2,
+    along: V2,
+}
+
+impl Fold {
+    fn of(piece: &Piece) -> Option<Self> {
+        let [from, to] = piece.mirror_line?;
+        Some(Self { from, along: (to - from).try_normalize(0.0)? })
+    }
+
+    fn distance(&self, point: &V2) -> f64 {
+        self.along.perp(&(point - self.from)).abs()
+    }
+
+    fn reflected(&self, point: V2) -> V2 {
+        let offset = point - self.from;
+        self.from + self.along * (2.0 * self.along.dot(&offset)) - offset
+    }
+
+    /// Both halves of a closed outline, or `None` where no side of it lies along the fold.
+    fn opened(&self, outline: &[V2]) -> Option<Vec<V2>> {
+        let n = outline.len();
+        let is_on = |i: usize| self.distance(&outline[i % n]) < ON_FOLD_M;
+        // The fold is one run of vertices; the half piece begins at the run's last vertex and ends at its first.
+        let last = (0..n).find(|&i| is_on(i) && !is_on(i + 1))?;
+        let half_sides = (1..n).find(|&k| is_on(last + k))?;
+        let rest_is_fold = (half_sides..=n).all(|k| is_on(last + k));
+        if half_sides == n || half_sides + 1 > n || !rest_is_fold {
+            return None;
+        }
+        let half: Vec<V2> = (0..=half_sides).map(|k| outline[(last + k) % n]).collect();
+        let other = half[1..half_sides].iter().rev().map(|&p| self.reflected(p));
+        Some(half.iter().copied().chain(other).collect())
+    }
+}
+
+impl Piece {
+    /// The whole piece where this one is half of it: its mirror line (layer 6) is a side of its outline.
+    ///
+    /// Points, notches and lines are mirrored with it; an end of the fold line stays a turn point only where the opened
+    /// outline turns there. `None` for a piece that is whole already.
+    #[must_use]
+    pub fn unfolded(&self) -> Option<Self> {
+        let fold = Fold::of(self)?;
+        let outline = fold.opened(&self.outline)?;
+        let sew_line = match &self.sew_line {
+            Some(line) => Some(fold.opened(line)?),
+            None => None,
+        };
+        let is_off = |point: &&V2| fold.distance(point) >= ON_FOLD_M;
+        let both = |points: &[V2]| -> Vec<V2> {
+            let mirrored = points.iter().filter(is_off).map(|&p| fold.reflected(p));
+            points.iter().copied().chain(mirrored).collect()
+        };
+        let turn_points = both(&self.turn_points);
+        let is_corner = |point: &V2| fold.distance(point) >= ON_FOLD_M || turn_deg(&outline, point) >= CORNER_TURN_DEG;
+        let mirrored_notch = |notch: &Notch| Notch {
+            at: fold.reflected(notch.at),
+            angle_deg: notch.angle_deg.map(|angle| {
+                let fold_angle = fold.along.y.atan2(fold.along.x).to_degrees();
+                (2.0 * fold_angle - angle).rem_euclid(360.0)
+            }),
+            ..*notch
+        };
+        let off_fold = |line: &&Vec<V2>| line.iter().any(|p| is_off(&p));
+        let other_lines =
+            self.internal_lines.iter().filter(off_fold).map(|line| line.iter().map(|&p| fold.reflected(p)).collect());
+        let other_notches = self.notches.iter().filter(|notch| is_off(&&notch.at)).map(mirrored_notch);
+        Some(Self {
+            turn_points: turn_points.into_iter().filter(is_corner).collect(),
+            curve_points: both(&self.curve_points),
+            notches: self.notches.iter().copied().chain(other_notches).collect(),
+            internal_lines: self.internal_lines.iter().cloned().chain(other_lines).collect(),
+            mirror_line: None,
+            outline,
+            sew_line,
+            ..self.clone()
+        })
+    }
+}
+
+/// Turn of an outline at its vertex nearest to a point, degrees; 180 where the point is not on it.
+fn turn_deg(outline: &[V2], point: &V2) -> f64 {
+    let n = outline.len();
+    match (0..n).find(|&i| (outline[i] - point).norm() < ON_FOLD_M) {
+        Some(i) => (outline[i] - outline[(i + n - 1) % n]).angle(&(outline[(i + 1) % n] - outline[i])).to_degrees(),
+        None => 180.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::geom::V2;
+    use crate::geom::polyline::signed_area;
+    use crate::pattern::draft::{TshirtSize, tshirt};
+
+    /// Half of a drafted piece, cut along its centre line.
+    #[test]
+    fn half_a_front_opens_into_the_front() {
+        let whole = tshirt(TshirtSize::S).pieces.remove(0);
+        assert_eq!(whole.unfolded(), None);
+        let mut half = whole.clone();
+        let on_left = |points: &[V2]| -> Vec<V2> { points.iter().copied().filter(|p| p.x > -1e-9).collect() };
+        half.outline = on_left(&whole.outline);
+        half.outline.insert(0, V2::zeros());
+        half.turn_points = on_left(&whole.turn_points);
+        half.turn_points.push(V2::zeros());
+        half.notches.retain(|notch| notch.at.x > -1e-9);
+        half.mirror_line = Some([V2::zeros(), V2::new(0.0, whole.turn_points[5].y)]);
+        let opened = half.unfolded().expect("it is half a piece");
+        assert!((opened.area_m2() - whole.area_m2()).abs() < 1e-12);
+        assert!((opened.perimeter_m() - whole.perimeter_m()).abs() < 1e-12);
+        assert!(signed_area(&opened.outline) > 0.0);
+        // The apex of the V stays a corner; the middle of the hem is none.
+        assert_eq!(opened.turn_points.len(), whole.turn_points.len());
+        assert!(opened.turn_points.contains(&whole.turn_points[5]) && !opened.turn_points.contains(&V2::zeros()));
+        assert_eq!(opened.notches.len(), whole.notches.len());
+    }
+
+    #[test]
+    fn a_fold_line_inside_a_whole_piece_opens_nothing() {
+        let mut piece = tshirt(TshirtSize::S).pieces.remove(0);
+        piece.mirror_line = Some([V2::zeros(), V2::new(0.0, 0.5)]);
+        assert_eq!(piece.unfolded(), None);
+    }
+}
