@@ -89,6 +89,7 @@ pub fn run(options: Options) -> Result<(), TuiError> {
 
 /// Takes messages, changes the state, draws, until it is time to leave.
 fn event_loop(screen: &mut terminal::Screen, mut state: State, workers: &Workers) -> io::Result<()> {
+    let mut silence = None;
     workers.read(Focus::default());
     screen.draw(&state)?;
     while let Ok(message) = workers.messages.recv() {
@@ -103,14 +104,14 @@ fn event_loop(screen: &mut terminal::Screen, mut state: State, workers: &Workers
                 }
             }
         }
-        if state.detached {
-            continue;
+        if !state.detached
+            && let Err(error) = screen.draw(&state)
+            && state.update(Message::Hangup).contains(&Effect::Quit)
+        {
+            return Err(error);
         }
-        if let Err(error) = screen.draw(&state) {
-            // The terminal is gone: nothing to draw on, but perhaps a run to wait for.
-            if state.update(Message::Hangup).contains(&Effect::Quit) {
-                return Err(error);
-            }
+        if state.detached && silence.is_none() {
+            silence = Some(terminal::silence_input()?);
         }
     }
     Ok(())

@@ -1,6 +1,7 @@
 //! The terminal: taken at the start, given back at the end, however that comes.
 
 use std::io::{self, IsTerminal, Stdout};
+use std::os::unix::net::UnixStream;
 use std::panic;
 use std::sync::Once;
 
@@ -59,6 +60,18 @@ impl Drop for Screen {
     fn drop(&mut self) {
         restore();
     }
+}
+
+/// Puts a silent socket in the place of standard input once its terminal is gone: crossterm's reader would otherwise read
+/// the end of it over and over, a whole core's worth. Silence lasts as long as the returned end lives.
+///
+/// # Errors
+/// When the system has no sockets or descriptors left.
+pub fn silence_input() -> io::Result<UnixStream> {
+    let (ours, silent) = UnixStream::pair()?;
+    silent.set_nonblocking(true)?;
+    rustix::stdio::dup2_stdin(&silent)?;
+    Ok(ours)
 }
 
 /// Gives the terminal back, as far as it is still there.

@@ -1,7 +1,6 @@
 //! The threads behind the screens: keys, signals, the database, pictures and runs, each on its own, all answering with
 //! messages. None of them is waited for while the workbench is used.
 
-use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
@@ -20,8 +19,6 @@ use crate::study::{RunOptions, StudyError, Workspace};
 
 /// Time between two looks at whether the database has changed; a look costs microseconds.
 const LOOK: Duration = Duration::from_millis(250);
-/// Time between two looks at whether the terminal is still there.
-const TERMINAL_LOOK: Duration = Duration::from_secs(1);
 /// Time between two looks at whether a run has ended or is to stop.
 const RUN_LOOK: Duration = Duration::from_millis(100);
 
@@ -111,19 +108,13 @@ fn spawn(sender: &Sender<Message>, work: impl FnOnce(&Sender<Message>) + Send + 
     handle.map_err(|error| sender.send(Message::Failed(format!("no thread could be started: {error}")))).ok()
 }
 
-/// Reads keys until the terminal is gone. Waiting has an end, because a terminal that hung up stays ready to be read
-/// for ever.
 fn read_keys(sender: &Sender<Message>) {
     loop {
-        let message = match event::poll(TERMINAL_LOOK) {
-            Ok(true) => match event::read() {
-                Ok(Event::Key(key)) => Message::Key(key),
-                Ok(Event::Resize(width, height)) => Message::Resize(width, height),
-                Ok(_) => continue,
-                Err(_) => Message::Hangup,
-            },
-            Ok(false) if io::stdin().is_terminal() => continue,
-            Ok(false) | Err(_) => Message::Hangup,
+        let message = match event::read() {
+            Ok(Event::Key(key)) => Message::Key(key),
+            Ok(Event::Resize(width, height)) => Message::Resize(width, height),
+            Ok(_) => continue,
+            Err(_) => Message::Hangup,
         };
         let is_last = matches!(message, Message::Hangup);
         if sender.send(message).is_err() || is_last {
