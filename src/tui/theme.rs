@@ -148,15 +148,22 @@ impl Theme {
     }
 }
 
-/// The nearest colour of xterm's cube.
+/// The nearest colour of xterm's 256: of its cube or its greys, whichever is nearer.
 fn indexed(colour: Color) -> Color {
+    const LEVELS: [u8; 6] = [0, 95, 135, 175, 215, 255];
     let Color::Rgb(r, g, b) = colour else { return colour };
-    let level = |v: u8| if v < 48 { 0 } else { (u16::from(v).saturating_sub(35) / 40).min(5) as u8 };
-    let spread = r.max(g).max(b) - r.min(g).min(b);
-    if spread < 10 && (8..=238).contains(&g) {
-        return Color::Indexed(232 + (g - 8) / 10);
+    let level = |v: u8| (0..6).min_by_key(|k| LEVELS[*k].abs_diff(v)).unwrap_or(0);
+    let [i, j, k] = [r, g, b].map(level);
+    let mean = (u16::from(r) + u16::from(g) + u16::from(b)) / 3;
+    let step = (mean.saturating_sub(3) / 10).min(23) as u8;
+    let grey = 8 + 10 * step;
+    let distance =
+        |to: [u8; 3]| -> u32 { [r, g, b].iter().zip(to).map(|(v, to)| u32::from(v.abs_diff(to)).pow(2)).sum() };
+    if distance([grey; 3]) < distance([LEVELS[i], LEVELS[j], LEVELS[k]]) {
+        Color::Indexed(232 + step)
+    } else {
+        Color::Indexed(16 + (36 * i + 6 * j + k) as u8)
     }
-    Color::Indexed(16 + 36 * level(r) + 6 * level(g) + level(b))
 }
 
 /// The glyph of a status.

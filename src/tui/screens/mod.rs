@@ -1,6 +1,7 @@
 //! The screens: pure functions of the state to a frame. Here the frame they share: tabs, panes, status line, overlays.
 
 mod chi;
+mod drape;
 mod jobs;
 mod overlays;
 mod results;
@@ -20,7 +21,7 @@ use super::text;
 use super::theme::{Theme, glyph};
 use crate::study::Status;
 
-pub use results::picture_size;
+pub use drape::picture_size;
 
 /// Terminals with fewer columns or rows than this get lists instead of grids and panes.
 const NARROW: (u16, u16) = (60, 16);

@@ -1,18 +1,14 @@
 //! Screen 5: one result: its measurements, its numbers, and the picture of its drape.
 
 use ratatui::Frame;
-use ratatui::layout::{Alignment, Constraint, Layout, Rect, Size};
+use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::Line;
 use ratatui::widgets::{Paragraph, Wrap};
-use ratatui_image::Image;
 
-use super::super::action::Screen;
-use super::super::picture::Drawn;
 use super::super::state::State;
 use super::super::text;
 use super::super::theme::glyph;
-use super::{WIDE, chi, is_narrow, pane, rows};
-use crate::study::Status;
+use super::{WIDE, chi, drape, is_narrow, pane};
 
 /// The panes: measurements, numbers, picture; those without room are `None`.
 struct Panes {
@@ -37,15 +33,9 @@ fn panes(area: Rect, state: &State) -> Panes {
     Panes { table: Some(table), numbers: Some(numbers), picture: Some(picture) }
 }
 
-/// Room for the picture on the screen shown, in cells; `None` where no picture is shown.
-#[must_use]
-pub fn picture_size(state: &State) -> Option<Size> {
-    if state.screen != Screen::Results || !state.abilities.pictures {
-        return None;
-    }
-    let [_, body, _] = rows(Rect::from((ratatui::layout::Position::ORIGIN, state.size)));
-    let inner = ratatui::widgets::Block::bordered().inner(panes(body, state).picture?);
-    (inner.width >= 4 && inner.height >= 3).then(|| inner.as_size())
+/// The pane of the picture, where there is room for it.
+pub(super) fn picture_pane(area: Rect, state: &State) -> Option<Rect> {
+    panes(area, state).picture
 }
 
 pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
@@ -61,7 +51,10 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
         frame.render_widget(Paragraph::new(lines).block(block), area);
     }
     if let Some(area) = panes.picture {
-        draw_picture(frame, area, state);
+        let focused = state.in_second_pane() || state.enlarged;
+        let keys =
+            if area.width > 44 { " v or h l turn  m colours  Enter size " } else { " v turn  m colours  ↵ size " };
+        drape::draw(frame, area, state, focused, keys);
     }
 }
 
@@ -96,51 +89,4 @@ fn why_empty(state: &State) -> String {
             format!("{} Job {} has no result yet: it is {}.", glyph(job.status), job.id, text::status(job.status))
         }
     }
-}
-
-fn draw_picture(frame: &mut Frame<'_>, area: Rect, state: &State) {
-    let focused = state.in_second_pane() || state.enlarged;
-    let title = format!("{} · {}", state.view.as_str(), state.map.as_str());
-    let hint = if area.width > 44 { " v or h l turn  m colours  Enter size " } else { " v turn  m colours  ↵ size " };
-    let block = pane(state.theme, title, focused).title_bottom(Line::styled(hint, state.theme.legend()));
-    let inner = block.inner(area);
-    frame.render_widget(block, area);
-    // While a picture is drawn anew, the one before stays, so that turning does not flicker.
-    let drawn = state.picture.as_ref().filter(|(shot, _)| {
-        Some(shot.job) == state.focus.job && shot.columns == inner.width && shot.rows == inner.height
-    });
-    let text = match drawn {
-        Some((_, Ok(drawn))) => return draw_cells(frame, inner, drawn, state),
-        Some((_, Err(error))) => format!("no picture: {error}"),
-        None if !state.abilities.pictures => "pictures are off (--images off)".into(),
-        None if state.shot.is_some() => "drawing…".into(),
-        None => match state.job().map(|job| job.status) {
-            Some(Status::Running) => "the drape is shown when the job is done".into(),
-            _ => String::new(),
-        },
-    };
-    frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), inner);
-}
-
-/// The picture in the middle of its pane.
-fn draw_cells(frame: &mut Frame<'_>, area: Rect, drawn: &Drawn, state: &State) {
-    match drawn {
-        Drawn::Cells(protocol) => {
-            let size = protocol.size();
-            let place = centred(area, size);
-            frame.render_widget(Image::new(protocol), place);
-            state.theme.adapt(frame.buffer_mut(), place);
-        }
-        Drawn::Letters(rows) => {
-            let place = centred(area, Size::new(area.width, rows.len() as u16));
-            let lines: Vec<Line<'_>> = rows.iter().map(|row| Line::raw(row.as_str())).collect();
-            frame.render_widget(Paragraph::new(lines).alignment(Alignment::Center), place);
-        }
-    }
-}
-
-fn centred(area: Rect, size: Size) -> Rect {
-    let x = area.x + area.width.saturating_sub(size.width) / 2;
-    let y = area.y + area.height.saturating_sub(size.height) / 2;
-    Rect::new(x, y, size.width, size.height).intersection(area)
 }

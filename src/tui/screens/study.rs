@@ -9,9 +9,11 @@ use ratatui::widgets::Paragraph;
 use super::super::state::{Place, State};
 use super::super::text::{self, ease_mm, left};
 use super::super::theme::{fit_glyph, glyph};
-use super::{WIDE, chi, first_shown, is_narrow, pane};
+use super::{WIDE, chi, drape, first_shown, is_narrow, pane};
 use crate::study::{Cell, Grid, Status};
 
+/// Lines that make a picture below the grid worth while.
+const LEAST_PICTURE: u16 = 14;
 /// What the marks of fits mean.
 const FIT_LEGEND: &str = "T tight  J just  L loose  ~ borderline  ! undersized";
 
@@ -25,19 +27,43 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
         draw_list(frame, area, state, grid);
         return;
     }
-    let height = (3 + grid.sizes.len() * (grid.simulators.len() + 1)) as u16;
-    let [grid_area, detail_area] = if area.width >= WIDE {
-        let needed = (label_width(grid) + grid.subjects.len() * cell_width(grid) + 3) as u16;
-        let [left, right] =
-            Layout::horizontal([Constraint::Length(needed.clamp(60, area.width - 60)), Constraint::Fill(1)])
-                .areas(area);
-        [left, right]
-    } else {
-        let most = (area.height * 3 / 5).max(8);
-        Layout::vertical([Constraint::Length(height.min(most)), Constraint::Fill(1)]).areas(area)
-    };
-    draw_grid(frame, grid_area, state, grid);
-    draw_detail(frame, detail_area, state, grid);
+    let panes = Panes::new(area, grid);
+    draw_grid(frame, panes.grid, state, grid);
+    draw_detail(frame, panes.detail, state, grid);
+    if let Some(area) = panes.picture {
+        drape::draw(frame, area, state, false, "");
+    }
+}
+
+/// The panes; the picture only where the grid leaves room for it.
+struct Panes {
+    grid: Rect,
+    detail: Rect,
+    picture: Option<Rect>,
+}
+
+impl Panes {
+    fn new(area: Rect, grid: &Grid) -> Self {
+        let height = (3 + grid.sizes.len() * (grid.simulators.len() + 1)) as u16;
+        if area.width < WIDE {
+            let height = height.min((area.height * 3 / 5).max(8));
+            let [grid, detail] = Layout::vertical([Constraint::Length(height), Constraint::Fill(1)]).areas(area);
+            return Self { grid, detail, picture: None };
+        }
+        let width = (label_width(grid) + grid.subjects.len() * cell_width(grid) + 3) as u16;
+        let [left, detail] =
+            Layout::horizontal([Constraint::Length(width.clamp(60, area.width - 60)), Constraint::Fill(1)]).areas(area);
+        if left.height < height + LEAST_PICTURE {
+            return Self { grid: left, detail, picture: None };
+        }
+        let [grid, picture] = Layout::vertical([Constraint::Length(height), Constraint::Fill(1)]).areas(left);
+        Self { grid, detail, picture: Some(picture) }
+    }
+}
+
+/// The pane of the picture, where there is room for it.
+pub(super) fn picture_pane(area: Rect, state: &State) -> Option<Rect> {
+    state.grid().filter(|_| !is_narrow(area)).and_then(|grid| Panes::new(area, grid).picture)
 }
 
 fn draw_grid(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
