@@ -1,20 +1,21 @@
 //! Progress on standard error: bars on a terminal, plain lines elsewhere.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::IsTerminal;
 
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
 use super::context::Context;
 use super::run::label;
-use crate::study::{JobId, JobRow, Result, Status, Workspace};
+use crate::study::{JobFilter, JobId, JobRow, Result, Status, Workspace};
 
 /// Steps of a job's bar.
 const STEPS: u64 = 1000;
 
 /// Shows how the jobs of a run fare.
 pub struct Progress {
-    jobs: Vec<JobId>,
+    study: String,
+    jobs: BTreeSet<JobId>,
     shown: BTreeMap<JobId, Status>,
     bars: Option<Bars>,
     quiet: bool,
@@ -72,21 +73,21 @@ impl Bars {
 }
 
 impl Progress {
-    /// Progress of some jobs.
-    pub fn new(context: &Context, jobs: Vec<JobId>) -> Self {
+    /// Progress of some jobs of a study.
+    pub fn new(context: &Context, study: &str, jobs: BTreeSet<JobId>) -> Self {
         let bars = (!context.quiet && !jobs.is_empty() && std::io::stderr().is_terminal())
             .then(|| Bars::new(jobs.len(), context.colour));
-        Self { jobs, shown: BTreeMap::new(), bars, quiet: context.quiet }
+        Self { study: study.to_owned(), jobs, shown: BTreeMap::new(), bars, quiet: context.quiet }
     }
 
     /// Looks at the jobs and shows what is new.
     pub fn show(&mut self, workspace: &Workspace) -> Result<()> {
-        for &id in &self.jobs {
-            if self.shown.get(&id).is_some_and(|status| status.is_final()) {
+        let filter = JobFilter { study: Some(self.study.clone()), ..JobFilter::default() };
+        for job in workspace.jobs(&filter)?.into_iter().filter(|job| self.jobs.contains(&job.id)) {
+            if self.shown.get(&job.id).is_some_and(|status| status.is_final()) {
                 continue;
             }
-            let job = workspace.job(id)?;
-            let is_new = self.shown.insert(id, job.status) != Some(job.status);
+            let is_new = self.shown.insert(job.id, job.status) != Some(job.status);
             if let Some(bars) = &mut self.bars {
                 bars.show(&job);
             }

@@ -1,5 +1,6 @@
 //! `toile run`: queue, work, summarise, report.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -11,7 +12,7 @@ use super::context::Context;
 use super::progress::Progress;
 use super::{End, Outcome, output, pictures};
 use crate::study::{
-    JobFilter, JobRow, Planned, RunOptions, Selection, Status, Study, StudyError, Table, Value, Workspace,
+    JobFilter, JobId, JobRow, Planned, RunOptions, Selection, Status, Study, StudyError, Table, Value, Workspace,
 };
 
 /// Time between two looks at the running jobs.
@@ -70,7 +71,7 @@ fn work(
             context.say(format_args!("{}: {}", label(&job.spec.garment, &job.spec.size, &job.spec.subject), job.why));
         }
     }
-    let todo: Vec<_> = run.planned.iter().filter(|job| job.why.will_run()).map(|job| job.id).collect();
+    let todo: BTreeSet<JobId> = run.planned.iter().filter(|job| job.why.will_run()).map(|job| job.id).collect();
     context.say(format_args!(
         "{}: {} jobs, {} to run, {} up to date",
         study.name,
@@ -78,7 +79,10 @@ fn work(
         todo.len(),
         run.planned.len() - todo.len()
     ));
-    let mut progress = Progress::new(context, todo);
+    if workspace.study(&study.name)?.paused {
+        context.say(format_args!("{0} is paused: jobs wait until `toile queue resume {0}`", study.name));
+    }
+    let mut progress = Progress::new(context, &study.name, todo);
     while !run.is_finished() {
         if interrupted.load(Ordering::Relaxed) {
             run.stop();

@@ -31,6 +31,12 @@ pub struct Used {
     pub was_cached: bool,
 }
 
+impl std::fmt::Display for Used {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} {}", self.stage.as_str(), if self.was_cached { "from the cache" } else { "made" })
+    }
+}
+
 type Product = Arc<dyn Any + Send + Sync>;
 /// Filled by whoever comes first; the others wait for the lock.
 type Slot = Arc<Mutex<Option<Product>>>;
@@ -106,4 +112,67 @@ pub(crate) fn stored<T: Artefact>(connection: &Connection, hash: &str) -> Result
     let fail = |message: &str| StudyError::Artefact { hash: hash.to_owned(), message: message.to_owned() };
     let bytes = load(connection, hash)?.ok_or_else(|| fail("it is not in the database"))?;
     T::decode(&bytes).map_err(|message| fail(&message))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    impl Artefact for String {
+        fn encode(&self) -> Result<Vec<u8>> {
+            Ok(self.clone().into_bytes())
+        }
+
+        fn decode(bytes: &[u8]) -> std::result::Result<Self, String> {
+            Self::from_utf8(bytes.to_vec()).map_err(|error| error.to_string())
+        }
+    }
+
+    fn get(cache: &Cache, stage: StageKind, made: &str) -> (String, bool) {
+        let (product, used) = cache.get(stage, "hash", || Ok(made.to_owned())).expect("the database works");
+        ((*product).clone(), used.was_cached)
+    }
+
+    #[test]
+    fn a_product_is_made_once_and_outlives_the_run() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("toile.sqlite");
+        for stage in [StageKind::Body, StageKind::Drape] {
+            let cache = Cache::new(path.with_extension(stage.as_str()));
+            assert_eq!(get(&cache, stage, "first"), ("first".to_owned(), false));
+            assert_eq!(get(&cache, stage, "second"), ("first".to_owned(), true));
+            let later = Cache::new(path.with_extension(stage.as_str()));
+            assert_eq!(get(&later, stage, "third"), ("first".to_owned(), true));
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_read_is_made_again() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("toile.sqlite");
+        let connection = store::open(&path, Access::Write).expect("a new database");
+        save(&connection, StageKind::Body, "hash", &[0xff]).expect("writable");
+        assert_eq!(get(&Cache::new(path.clone()), StageKind::Body, "again"), ("again".to_owned(), false));
+        assert_eq!(get(&Cache::new(path), StageKind::Body, "more"), ("again".to_owned(), true));
+    }
+
+    #[test]
+    fn workers_that_need_the_same_wait_for_one() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let cache = Cache::new(folder.path().join("toile.sqlite"));
+        let made = std::sync::atomic::AtomicUsize::new(0);
+        std::thread::scope(|scope| {
+            for _ in 0..4 {
+                scope.spawn(|| {
+                    let make = || {
+                        std::thread::sleep(std::time::Duration::from_millis(20));
+                        made.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+                        Ok("body".to_owned())
+                    };
+                    cache.get(StageKind::Body, "hash", make).expect("the database works");
+                });
+            }
+        });
+        assert_eq!(made.into_inner(), 1);
+    }
 }

@@ -1,5 +1,7 @@
 //! Bringing the queue in line with a study: a job for every cell whose inputs are new, and the reason for each.
 
+use std::collections::BTreeSet;
+
 use rusqlite::{OptionalExtension, Transaction, params};
 
 use super::catalogue;
@@ -8,9 +10,11 @@ use super::file::Study;
 use super::inputs::{Change, Inputs};
 use super::queue::{self, Event};
 use super::read;
-use super::spec::JobSpec;
+use super::spec::{self, JobSpec, Selection};
 use super::store::now_ms;
 use super::types::{JobId, Status};
+use super::workspace::Workspace;
+use crate::sim::Simulator;
 use crate::units::mm;
 
 /// Why a job runs, or why it need not.
@@ -67,9 +71,13 @@ pub struct Planned {
     pub why: Why,
 }
 
-/// Stores a study and queues what is to be run of `specs`; failed and cancelled jobs are queued again.
-pub(crate) fn enqueue(transaction: &Transaction<'_>, study: &Study, specs: Vec<JobSpec>) -> Result<Vec<Planned>> {
+/// Stores a study and queues what is to be run of its jobs; failed and cancelled ones are queued again. What the study
+/// no longer has is no longer current.
+pub(crate) fn enqueue(transaction: &Transaction<'_>, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
+    let all = spec::jobs(study);
     let study_id = store_study(transaction, study)?;
+    retire(transaction, study_id, &all)?;
+    let specs: Vec<JobSpec> = all.into_iter().filter(|spec| selection.takes(spec)).collect();
     let mut planned = Vec::with_capacity(specs.len());
     for spec in specs {
         let (id, why) = enqueue_one(transaction, study_id, &spec)?;
@@ -105,6 +113,43 @@ pub(crate) fn store_study(transaction: &Transaction<'_>, study: &Study) -> Resul
             .execute(params![study_id, axis, name, position as i64])?;
     }
     Ok(study_id)
+}
+
+/// Takes jobs and eases of cells that a study no longer has out of it; their results stay in the database.
+fn retire(transaction: &Transaction<'_>, study_id: i64, specs: &[JobSpec]) -> Result<()> {
+    let cells: BTreeSet<Cell> = specs.iter().map(Cell::of).collect();
+    let current: Vec<(JobId, Cell)> = transaction
+        .prepare_cached(
+            "SELECT job_id, garment, size, subject, simulator, repeat FROM job WHERE study_id = ? AND is_current",
+        )?
+        .query_map([study_id], |row| {
+            let cell = Cell(row.get(1)?, row.get(2)?, row.get(3)?, read::simulator(row, 4)?, row.get(5)?);
+            Ok((JobId(row.get(0)?), cell))
+        })?
+        .collect::<rusqlite::Result<_>>()?;
+    for (id, _) in current.iter().filter(|(_, cell)| !cells.contains(cell)) {
+        supersede(transaction, *id)?;
+    }
+    let worn: BTreeSet<[&str; 3]> = specs.iter().map(|spec| [&*spec.garment, &*spec.size, &*spec.subject]).collect();
+    let eased: BTreeSet<[String; 3]> = transaction
+        .prepare_cached("SELECT garment, size, subject FROM ease WHERE study_id = ?")?
+        .query_map([study_id], |row| Ok([row.get(0)?, row.get(1)?, row.get(2)?]))?
+        .collect::<rusqlite::Result<_>>()?;
+    for [garment, size, subject] in eased.iter().filter(|[g, s, who]| !worn.contains(&[&**g, &**s, &**who])) {
+        let sql = "DELETE FROM ease WHERE study_id = ? AND garment = ? AND size = ? AND subject = ?";
+        transaction.prepare_cached(sql)?.execute(params![study_id, garment, size, subject])?;
+    }
+    Ok(())
+}
+
+/// Garment, size, subject, simulator and repeat of a job.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct Cell(String, String, String, Simulator, u32);
+
+impl Cell {
+    fn of(spec: &JobSpec) -> Self {
+        Self(spec.garment.clone(), spec.size.clone(), spec.subject.clone(), spec.simulator, spec.repeat)
+    }
 }
 
 fn enqueue_one(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec) -> Result<(JobId, Why)> {
@@ -201,6 +246,30 @@ fn insert(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec, hash: &s
         statement.execute(params![id.0, name, value])?;
     }
     Ok(id)
+}
+
+impl Workspace {
+    /// Why a job was not found in the cache: what differs from the latest earlier job of the same cell.
+    ///
+    /// # Errors
+    /// When there is no such job.
+    pub fn why(&self, id: JobId) -> Result<Why> {
+        self.job(id)?;
+        let sql = "SELECT earlier.job_id FROM job JOIN job AS earlier USING (study_id, garment, size, subject, simulator, repeat)
+            WHERE job.job_id = ?1 AND earlier.job_id < ?1 ORDER BY earlier.job_id DESC LIMIT 1";
+        let earlier = self.reader.prepare_cached(sql)?.query_row([id.0], |row| row.get(0).map(JobId)).optional()?;
+        let Some(since) = earlier else { return Ok(Why::New) };
+        let changes = inputs_of(&self.reader, id)?.changes_since(&inputs_of(&self.reader, since)?);
+        Ok(Why::Changed { since, changes })
+    }
+
+    /// The inputs of a job, by name.
+    ///
+    /// # Errors
+    /// When the database cannot be read.
+    pub fn inputs(&self, id: JobId) -> Result<Inputs> {
+        inputs_of(&self.reader, id)
+    }
 }
 
 /// The stored inputs of a job.

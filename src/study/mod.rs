@@ -41,6 +41,7 @@ pub use pipeline::{Pipeline, SIMULATORS};
 pub use read::JobFilter;
 pub use run::{Run, RunOptions};
 pub use spec::{JobSpec, Selection};
+pub use sql::Interrupter;
 pub use store::now_ms;
 pub use types::{
     Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, RecommendationRow, StageRow,

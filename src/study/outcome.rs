@@ -119,6 +119,8 @@ pub(crate) fn finish(
     match outcome {
         Ok(outcome) => {
             write_result(&transaction, id, spec, outcome, provenance)?;
+            let stages: Vec<String> = outcome.used.iter().map(Used::to_string).collect();
+            queue::log(&transaction, id, "info", &stages.join(", "))?;
             let text = format!("{}: EI {:.4}", after.status.as_str().replace('_', " "), outcome.metrics.ei);
             queue::log(&transaction, id, if outcome.converged { "info" } else { "warn" }, &text)?;
         }

@@ -220,3 +220,70 @@ fn sim_error(error: SimError) -> StudyError {
         other => StudyError::stage("sim")(other),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::catalogue;
+    use super::super::file::Study;
+    use super::super::spec;
+    use super::*;
+
+    fn quickstart() -> Vec<JobSpec> {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/quickstart");
+        let known = catalogue::known(None).expect("built in");
+        spec::jobs(&Study::load(&folder, &known).expect("a good study"))
+    }
+
+    #[test]
+    fn meshes_are_coarse_to_fine_and_survive_storage_exactly() {
+        let meshes = mesh(&quickstart()[0]).expect("it meshes");
+        let [coarse, fine] = &meshes.0[..] else { panic!("two levels, not {}", meshes.0.len()) };
+        assert!(coarse.rest.len() < fine.rest.len());
+        let lengths = |garment: &Garment| garment.measurements.iter().map(|m| m.l2d_m).collect::<Vec<_>>();
+        assert_eq!(lengths(coarse), lengths(fine));
+        let stored = Meshes::decode(&meshes.encode().expect("finite")).expect("just written");
+        assert_eq!(stored.0, meshes.0);
+    }
+
+    #[test]
+    fn subjects_and_fabrics_are_the_inputs_that_a_reader_would_name() {
+        let jobs = quickstart();
+        let inputs: Vec<(&str, &str)> = jobs[0].inputs.iter().collect();
+        for input in [
+            ("subject.ii.chest_girth_mm", "863"),
+            ("fabric.cotton_shirting_light.density_kg_m2", "0.1036"),
+            ("mesh.edge_length_mm", "15"),
+            ("sim.name", "fem"),
+        ] {
+            assert!(inputs.contains(&input), "{input:?} in {inputs:?}");
+        }
+        let differ = |a: usize, b: usize, stage| jobs[a].inputs.stage_hash(stage) != jobs[b].inputs.stage_hash(stage);
+        assert!(!differ(0, 2, StageKind::Body) && differ(0, 1, StageKind::Body), "the body is the subject's");
+        assert!(!differ(0, 1, StageKind::Mesh) && differ(0, 2, StageKind::Mesh), "the mesh is the size's");
+    }
+
+    #[test]
+    fn ease_is_that_of_the_body_that_is_dressed() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let pipeline = Pipeline::new(&folder.path().join("toile.sqlite"));
+        let jobs = quickstart();
+        let [ii, v] = [&jobs[0], &jobs[1]].map(|job| pipeline.ease(job).expect("it can be made"));
+        assert_eq!(ii[0].level, "chest");
+        assert!((ii[0].pattern_girth_m - 0.9741).abs() < 1e-4, "{}", ii[0].pattern_girth_m);
+        for (ease, chest_m) in [(&ii, 0.863), (&v, 0.956)] {
+            assert!((ease[0].body_girth_m - chest_m).abs() < 0.015 * chest_m, "{}", ease[0].body_girth_m);
+        }
+    }
+
+    #[test]
+    fn a_file_without_a_unit_is_not_sewn() {
+        let mut job = quickstart().swap_remove(0);
+        let text = String::from_utf8_lossy(&job.pattern.bytes).replace("METRIC", "").replace("Units", "Notes");
+        let text = text.replace("$INSUNITS", "$NOTHING").replace("$MEASUREMENT", "$NOTHING");
+        job.pattern.bytes = text.into_bytes().into();
+        let error = style(&job).expect_err("no unit").to_string();
+        assert!(error.contains("no unit"), "{error}");
+        job.unit = Some("mm".into());
+        assert!(style(&job).is_ok());
+    }
+}

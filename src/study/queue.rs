@@ -12,7 +12,7 @@ use super::store::now_ms;
 use super::types::{JobId, Status};
 
 /// A job whose process died this often is failed, lest it kill every process that takes it.
-const MAX_LOST: u32 = 3;
+const MAX_LOST: u32 = 10;
 /// A heartbeat older than this, ms, is a dead owner's, where its process cannot be looked up.
 const LEASE_MS: i64 = 60_000;
 

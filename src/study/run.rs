@@ -13,7 +13,7 @@ use super::file::Study;
 use super::outcome::{self, Executor, Provenance};
 use super::pipeline::Pipeline;
 use super::spec::{self, Selection};
-use super::store;
+use super::store::{self, Access};
 use super::workspace::Workspace;
 use crate::body::Measurements;
 
@@ -99,9 +99,9 @@ impl Workspace {
     /// # Errors
     /// When the workspace is read-only or a selection names what the study does not have.
     pub fn plan(&mut self, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
-        let specs = selected(study, selection)?;
+        check_names(study, selection)?;
         let transaction = store::write(self.writer()?)?;
-        let planned = enqueue::enqueue(&transaction, study, specs);
+        let planned = enqueue::enqueue(&transaction, study, selection);
         transaction.rollback()?;
         planned
     }
@@ -111,8 +111,11 @@ impl Workspace {
     /// # Errors
     /// When the workspace is read-only or a selection names what the study does not have.
     pub fn start(&mut self, study: &Study, options: &RunOptions) -> Result<Run> {
-        let pipeline = Pipeline::new(self.path());
-        self.start_with(study, options, Arc::new(pipeline))
+        let pipeline = Arc::new(Pipeline::new(self.path()));
+        let (database, of_study, stages) = (self.path().to_owned(), study.clone(), pipeline.clone());
+        // Ease is there long before the first drape. What cannot be made fails its own jobs, which then say why.
+        let aside = move || drop(store_ease(&database, &of_study, &stages));
+        self.launch(study, options, pipeline, aside)
     }
 
     /// Finds the ease of every size of a study on every subject, and stores it.
@@ -121,20 +124,7 @@ impl Workspace {
     /// When the workspace is read-only, or a body or a pattern cannot be made.
     pub fn update_ease(&mut self, study: &Study) -> Result<()> {
         self.writer()?;
-        let pipeline = Pipeline::new(self.path());
-        let mut found = Vec::new();
-        for spec in spec::jobs(study) {
-            if spec.repeat == 1 && spec.simulator == study.simulators[0] {
-                let eases = pipeline.ease(&spec)?;
-                found.push((spec, eases));
-            }
-        }
-        let transaction = store::write(self.writer()?)?;
-        let study_id = enqueue::store_study(&transaction, study)?;
-        for (spec, eases) in &found {
-            outcome::write_ease(&transaction, study_id, spec, eases)?;
-        }
-        Ok(transaction.commit()?)
+        store_ease(self.path(), study, &Pipeline::new(self.path()))
     }
 
     /// [`Workspace::start`] with any executor.
@@ -147,9 +137,20 @@ impl Workspace {
         options: &RunOptions,
         executor: Arc<dyn Executor + Send>,
     ) -> Result<Run> {
-        let specs = selected(study, &options.selection)?;
+        self.launch(study, options, executor, || ())
+    }
+
+    /// Queues a study and works on it in a thread, beside `aside`.
+    fn launch(
+        &mut self,
+        study: &Study,
+        options: &RunOptions,
+        executor: Arc<dyn Executor + Send>,
+        aside: impl FnOnce() + Send + 'static,
+    ) -> Result<Run> {
+        check_names(study, &options.selection)?;
         let transaction = store::write(self.writer()?)?;
-        let planned = enqueue::enqueue(&transaction, study, specs)?;
+        let planned = enqueue::enqueue(&transaction, study, &options.selection)?;
         transaction.commit()?;
 
         let stop = Arc::new(AtomicBool::new(false));
@@ -158,15 +159,36 @@ impl Workspace {
         let folder = study.path.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
         let work = move || {
             let provenance = Provenance::of(&folder);
-            engine::run(&database, &jobs, &*executor, workers, provenance, &stopped)
+            thread::scope(|scope| {
+                scope.spawn(aside);
+                engine::run(&database, &jobs, &*executor, workers, provenance, &stopped)
+            })
         };
         let thread = thread::Builder::new().name("toile-run".into()).spawn(work).map_err(StudyError::io("thread"))?;
         Ok(Run { study: study.name.clone(), planned, stop, thread: Some(thread) })
     }
 }
 
-/// The selected jobs of a study; a name that selects nothing is an error.
-fn selected(study: &Study, selection: &Selection) -> Result<Vec<spec::JobSpec>> {
+/// Finds the ease of every size of a study on every subject, and stores it.
+fn store_ease(database: &Path, study: &Study, pipeline: &Pipeline) -> Result<()> {
+    let mut found = Vec::new();
+    for spec in spec::jobs(study) {
+        if spec.repeat == 1 && study.simulators.first() == Some(&spec.simulator) {
+            let eases = pipeline.ease(&spec)?;
+            found.push((spec, eases));
+        }
+    }
+    let mut connection = store::open(database, Access::Write)?;
+    let transaction = store::write(&mut connection)?;
+    let study_id = enqueue::store_study(&transaction, study)?;
+    for (spec, eases) in &found {
+        outcome::write_ease(&transaction, study_id, spec, eases)?;
+    }
+    Ok(transaction.commit()?)
+}
+
+/// Refuses a selection with a name that the study does not have.
+fn check_names(study: &Study, selection: &Selection) -> Result<()> {
     let specs = spec::jobs(study);
     type Name = fn(&spec::JobSpec) -> String;
     let axes: [(&'static str, &[String], Name); 4] = [
@@ -186,5 +208,5 @@ fn selected(study: &Study, selection: &Selection) -> Result<Vec<spec::JobSpec>> 
             return Err(StudyError::NotFound { what, name: name.clone(), known });
         }
     }
-    Ok(specs.into_iter().filter(|spec| selection.takes(spec)).collect())
+    Ok(())
 }

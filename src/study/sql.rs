@@ -9,7 +9,23 @@ use super::error::Result;
 use super::types::{Table, Value};
 use super::workspace::Workspace;
 
+/// Stops a query that another thread waits for.
+pub struct Interrupter(rusqlite::InterruptHandle);
+
+impl Interrupter {
+    /// Makes the query that runs now end with an error; does nothing when none runs.
+    pub fn interrupt(&self) {
+        self.0.interrupt();
+    }
+}
+
 impl Workspace {
+    /// A handle that stops a running [`Workspace::query`] from another thread.
+    #[must_use]
+    pub fn interrupter(&self) -> Interrupter {
+        Interrupter(self.reader.get_interrupt_handle())
+    }
+
     /// Answers a query, or several separated by `;` (the last one's rows). Nothing can be written this way.
     ///
     /// Besides SQLite's own functions there are `median(x)`, `stddev(x)` (sample, n-1) and `quantile(x, p)` (p in 0 to
@@ -21,7 +37,7 @@ impl Workspace {
         let mut batch = rusqlite::Batch::new(&self.reader, sql);
         let mut table = Table::default();
         while let Some(mut statement) = batch.next()? {
-            let columns = statement.column_names().into_iter().map(str::to_owned).collect::<Vec<_>>();
+            let columns = statement.column_names().map(str::to_owned).collect::<Vec<_>>();
             let width = columns.len();
             let mut rows = Vec::new();
             let mut found = statement.raw_query();

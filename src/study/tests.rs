@@ -201,6 +201,8 @@ fn a_second_run_has_nothing_to_do_and_a_change_is_named() {
 
     let heavier = bench.run(&study(0.2), 2, quick);
     assert_eq!(heavier[0].why.to_string(), "changed since job 1: fabric.poplin.density_kg_m2: 0.1 -> 0.2");
+    assert_eq!(bench.workspace.why(heavier[0].id).expect("there"), heavier[0].why);
+    assert_eq!(bench.workspace.why(again[0].id).expect("there"), Why::New);
     let count = |sql| match bench.workspace.query(sql).expect("valid").rows[0][0] {
         Value::Integer(n) => n,
         ref other => panic!("a count, not {other}"),
@@ -211,6 +213,20 @@ fn a_second_run_has_nothing_to_do_and_a_change_is_named() {
 
     let back = bench.run(&study(0.1), 2, |_: &JobSpec, _: &mut dyn Monitor| panic!("nothing may run"));
     assert_eq!(back[0].id, again[0].id, "the old result is current again");
+}
+
+#[test]
+fn what_a_study_no_longer_has_leaves_its_tables_but_not_the_database() {
+    let mut bench = Bench::new();
+    bench.run(&study(0.1), 2, quick);
+    let mut smaller = study(0.1);
+    smaller.subjects.pop();
+    bench.run(&smaller, 2, quick);
+    assert_eq!(bench.workspace.query("SELECT * FROM v_metrics").expect("valid").rows.len(), 2);
+    assert_eq!(bench.workspace.query("SELECT * FROM v_ease").expect("valid").rows.len(), 2);
+    assert_eq!(bench.workspace.query("SELECT * FROM metrics").expect("valid").rows.len(), 4);
+    bench.run(&study(0.1), 2, |_: &JobSpec, _: &mut dyn Monitor| panic!("nothing may run"));
+    assert_eq!(bench.workspace.query("SELECT * FROM v_metrics").expect("valid").rows.len(), 4);
 }
 
 #[test]
@@ -257,7 +273,7 @@ fn jobs_of_a_dead_process_are_taken_over_at_once_and_nothing_runs_twice() {
         )
         .expect("valid");
     // A process of this machine that has ended: same boot, a number that is no process's.
-    let dead = super::owner::Owner::new().as_str().replace(&format!("/{}/", std::process::id()), "/4194305/");
+    let dead = owner::Owner::new().as_str().replace(&format!("/{}/", std::process::id()), "/4194305/");
     let transaction = store::write(&mut connection).expect("idle");
     queue::apply(&transaction, JobId(1), &Event::Claim(&dead), None).expect("queued").expect("queued");
     transaction.commit().expect("idle");
@@ -328,6 +344,24 @@ fn a_readonly_workspace_reads_and_refuses_to_write() {
     assert!(matches!(reader.cancel(&[JobId(1)]), Err(StudyError::Readonly)));
     assert!(reader.query("DELETE FROM job").is_err());
     assert!(Workspace::open(Path::new("/nowhere/toile.sqlite"), true).is_err());
+}
+
+#[test]
+fn a_query_can_be_stopped() {
+    let bench = Bench::new();
+    let endless = "WITH RECURSIVE n(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM n) SELECT sum(x) FROM n";
+    let interrupter = bench.workspace.interrupter();
+    let over = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            while !over.load(Ordering::Relaxed) {
+                interrupter.interrupt();
+                std::thread::sleep(Duration::from_millis(2));
+            }
+        });
+        assert!(bench.workspace.query(endless).is_err());
+        over.store(true, Ordering::Relaxed);
+    });
 }
 
 #[test]

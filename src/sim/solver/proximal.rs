@@ -88,7 +88,7 @@ impl Stepper {
             PcgParams { tolerance: self.params.linear_tolerance, max_iterations: self.params.linear_iterations };
         let (mut direction, linear_iterations) = pcg::solve(&operator, &forces, self.last.as_deref(), &linear);
         clamp(&mut direction, self.params.clamp_m);
-        let (bend, bend_iterations) = self.bend(system, &operator, x, &direction, &inertia);
+        let bend = self.bend(system, &operator, x, &direction, &inertia);
         let (share, next) = self.search(system, x, &direction, &bend, &forces, &inertia);
         let moved_m = next.iter().zip(x.iter()).map(|(p, q)| (p - q).norm()).fold(0.0, f64::max);
         self.last = Some(next.iter().zip(x.iter()).map(|(p, q)| p - q).collect());
@@ -108,14 +108,7 @@ impl Stepper {
     ///
     /// Cloth is a million times softer in bending than in its plane. A step along a soft mode turns triangles and so, in
     /// second order, stretches them; without a correction the line search would cut it to a fraction of a millimetre.
-    fn bend(
-        &self,
-        system: &System,
-        operator: &Operator,
-        x: &[V3],
-        direction: &[V3],
-        inertia: &[f64],
-    ) -> (Vec<V3>, usize) {
+    fn bend(&self, system: &System, operator: &Operator, x: &[V3], direction: &[V3], inertia: &[f64]) -> Vec<V3> {
         let end: Vec<V3> = x.iter().zip(direction).map(|(p, d)| p + d).collect();
         let mut remainder = system.forces(&end);
         for ((r, d), m) in remainder.iter_mut().zip(direction).zip(inertia) {
@@ -123,9 +116,9 @@ impl Stepper {
         }
         let linear =
             PcgParams { tolerance: self.params.linear_tolerance, max_iterations: self.params.correction_iterations };
-        let (mut bend, iterations) = pcg::solve(operator, &remainder, None, &linear);
+        let (mut bend, _) = pcg::solve(operator, &remainder, None, &linear);
         clamp(&mut bend, self.params.clamp_m);
-        (bend, iterations)
+        bend
     }
 
     /// The corrected full step where it decreases the proximal energy enough, else the longest share of the uncorrected

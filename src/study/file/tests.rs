@@ -96,3 +96,30 @@ sizes = [{ name = "S", patern = "tee-s.dxf" }]
 fn broken_toml_names_its_line() {
     insta::assert_snapshot!(load("name = \"a\"\n[[subject]\nid = 1\n").expect_err("bad"));
 }
+
+#[test]
+fn the_quickstart_is_a_good_study() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/quickstart");
+    let study = Study::load(&folder, &known()).expect("good");
+    assert_eq!(super::super::spec::jobs(&study).len(), 6);
+    let thesis = super::super::catalogue::known(None).expect("built in").subjects;
+    for subject in &study.subjects {
+        assert_eq!(subject.measurements, thesis[&format!("male-{}", subject.id)], "{}", subject.id);
+    }
+}
+
+proptest::proptest! {
+    #[test]
+    fn no_text_makes_the_reader_panic(edits in proptest::collection::vec((0usize..GOOD.len(), "[\\[\\]{}=\"a-z0-9.\n -]{0,3}"), 1..6)) {
+        let mut text = GOOD.to_owned();
+        for (at, insert) in edits {
+            let at = (0..=at.min(text.len())).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
+            let end = (at + insert.len()).min(text.len());
+            text.replace_range(at..end, &insert);
+        }
+        let problems = parse::study(Path::new("study.toml"), &text, &known()).err().unwrap_or_default();
+        for problem in problems {
+            proptest::prop_assert!(problem.line.is_some_and(|line| line <= text.lines().count() + 1), "{problem}");
+        }
+    }
+}
