@@ -1,8 +1,8 @@
 //! What the screens show, read from the workspace in one go on a background thread.
 
 use crate::study::{
-    ChiRow, EaseRow, Grid, JobFilter, JobId, JobRow, LogLine, MetricsRow, Result, StageRow, Step, StudyRow, Workspace,
-    now_ms,
+    ChiRow, EaseRow, Grid, JobFilter, JobId, JobRow, LogLine, MetricsRow, Result, StageRow, Step, StudyRow, Why,
+    Workspace, now_ms,
 };
 
 /// What the user looks at; whatever is `None` or gone is chosen by [`snapshot`].
@@ -62,6 +62,8 @@ pub struct Detail {
     pub history: Vec<Step>,
     /// Its log, oldest line first.
     pub log: Vec<LogLine>,
+    /// Why the cache did not have it.
+    pub why: Why,
     /// Where its inputs came from.
     pub stages: Vec<StageRow>,
 }
@@ -94,6 +96,7 @@ fn detail(workspace: &Workspace, job: JobId) -> Result<Detail> {
         metrics: workspace.metrics(job)?,
         history: workspace.history(job)?,
         log: workspace.log(job)?,
+        why: workspace.why(job)?,
         stages: workspace.stages(job)?,
     })
 }

@@ -128,15 +128,14 @@ pub(super) fn numbers(state: &State, columns: usize) -> Vec<Line<'static>> {
     lines
 }
 
-/// Why the selected job was queued, and which of its stages the cache had.
+/// Why the cache did not have the selected job, and which of its stages it had.
 pub(super) fn provenance(state: &State) -> Vec<(&'static str, String)> {
     let Some(detail) = state.detail() else { return vec![] };
-    let why = detail.log.iter().rev().find_map(|line| line.text.strip_prefix("queued: "));
     let stages = |is_cached: bool| {
         let stages = detail.stages.iter().filter(|stage| stage.was_cached == is_cached);
         stages.map(|stage| stage.stage.as_str()).collect::<Vec<_>>().join(", ")
     };
-    let facts = [("queued", why.unwrap_or_default().to_owned()), ("cached", stages(true)), ("made", stages(false))];
+    let facts = [("why", detail.why.to_string()), ("cached", stages(true)), ("made", stages(false))];
     facts.into_iter().filter(|(_, value)| !value.is_empty()).collect()
 }
 

@@ -180,10 +180,13 @@ fn draw_detail(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
         .title_bottom(Line::styled(chi::LEGEND, state.theme.legend()).right_aligned());
     let inner = block.inner(area);
     frame.render_widget(block, area);
-    let [inner, origin] = Layout::vertical([Constraint::Fill(1), Constraint::Length(1)]).areas(inner);
-    let facts = chi::provenance(state).iter().map(|(name, value)| format!("{name} {value}")).collect::<Vec<_>>();
-    let line = text::shortened(&facts.join(" · "), usize::from(origin.width));
-    frame.render_widget(Line::styled(line, state.theme.dim()), origin);
+    let facts = chi::provenance(state).iter().map(|(name, value)| format!("{name}: {value}")).collect::<Vec<_>>();
+    let mut origin = chi::wrapped(&facts.join(" · "), usize::from(inner.width));
+    origin.truncate(if inner.height >= 10 { 2 } else { 1 });
+    let [inner, origin_area] =
+        Layout::vertical([Constraint::Fill(1), Constraint::Length(origin.len() as u16)]).areas(inner);
+    let origin: Vec<Line<'_>> = origin.into_iter().map(|line| Line::styled(line, state.theme.dim())).collect();
+    frame.render_widget(Paragraph::new(origin), origin_area);
     let is_tall = inner.height >= 24;
     let layout = if is_tall {
         Layout::vertical([Constraint::Length(7), Constraint::Fill(1)]).spacing(1)

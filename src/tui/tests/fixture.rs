@@ -2,8 +2,8 @@
 
 use super::super::feed::{Detail, Snapshot};
 use crate::study::{
-    Cell, ChiRow, EaseRow, FitCell, FitClass, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, Simulator,
-    StageRow, Status, Step, StudyRow,
+    Cell, Change, ChiRow, EaseRow, FitCell, FitClass, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, Simulator,
+    StageRow, Status, Step, StudyRow, Why,
 };
 
 /// When it is, ms since 1970: 2023-11-14 22:13:20 UTC.
@@ -166,7 +166,18 @@ pub fn detail(id: JobId) -> Detail {
             seam_gap_max_m: 0.0001,
         }),
         history: if has_result { (1..=100).map(step).collect() } else { vec![] },
-        log: vec![log(0, "info", "queued: fabric.cotton.shear_n_m 97 -> 120"), log(1, "info", "started by process 7")],
+        log: vec![
+            log(0, "info", "queued: changed since job 1: fabric.cotton.shear_n_m: 97 -> 120"),
+            log(1, "info", "started by process 7"),
+        ],
+        why: Why::Changed {
+            since: JobId(1),
+            changes: vec![Change {
+                name: "fabric.cotton.shear_n_m".into(),
+                before: Some("97".into()),
+                after: Some("120".into()),
+            }],
+        },
         stages: if has_result { vec![stage("body", true), stage("drape", false), stage("mesh", true)] } else { vec![] },
     }
 }
