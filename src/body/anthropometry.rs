@@ -51,6 +51,7 @@ struct Equations {
     waist: Line,
     hip: Line,
     biacromial: Line,
+    bideltoid: Line,
     thigh: Line,
     lower_thigh: Line,
     calf: Line,
@@ -72,6 +73,7 @@ const MALE: Equations = Equations {
     waist: Line::new(1024.906, -0.43577, 7.96237),
     hip: Line::new(808.411, -0.14014, 5.34620),
     biacromial: Line::new(204.589, 0.09168, 0.58554),
+    bideltoid: Line::new(433.461, -0.06100, 2.15262),
     thigh: Line::new(594.745, -0.18359, 4.12538),
     lower_thigh: Line::new(344.19, -0.06576, 2.11154),
     calf: Line::new(350.962, -0.06845, 1.88843),
@@ -91,6 +93,7 @@ const FEMALE: Equations = Equations {
     waist: Line::new(1014.124, -0.47172, 9.07584),
     hip: Line::new(846.892, -0.17841, 6.86093),
     biacromial: Line::new(131.989, 0.12829, 0.36067),
+    bideltoid: Line::new(386.785, -0.06265, 2.44346),
     thigh: Line::new(584.014, -0.19423, 5.14231),
     lower_thigh: Line::new(350.163, -0.09112, 2.93581),
     calf: Line::new(305.854, -0.05141, 2.23044),
@@ -105,6 +108,10 @@ const FEMALE: Equations = Equations {
 
 /// Relaxed over flexed girth of the upper arm and of the forearm.
 const RELAXED: [f64; 2] = [0.92, 0.95];
+
+/// Change of the breadth over the upper arms with that of the shoulder points (coefficient of the survey's equations with
+/// girths as further predictors, mean of both sexes).
+const DELTOID_PER_ACROMION: f64 = 0.55;
 
 /// Girth at the middle of the knee over the survey's lower thigh girth just above it.
 const KNEE_OVER_LOWER_THIGH: f64 = 0.93;
@@ -121,6 +128,8 @@ pub(super) struct Profile {
     pub across_shoulder: f64,
     /// Straight distance of the shoulder points that the tape length suggests.
     pub biacromial: f64,
+    /// Breadth over the upper arms at the shoulders.
+    pub bideltoid: f64,
     pub thigh: f64,
     pub knee: f64,
     pub calf: f64,
@@ -144,6 +153,9 @@ impl Profile {
         let estimate = |line: Line| line.at(stature, mass);
         let across_shoulder =
             known.across_shoulder_m.unwrap_or_else(|| estimate(equations.biacromial) * equations.tape_over_biacromial);
+        let biacromial = across_shoulder / equations.tape_over_biacromial;
+        let bideltoid =
+            estimate(equations.bideltoid) + DELTOID_PER_ACROMION * (biacromial - estimate(equations.biacromial));
         Ok(Self {
             sex: known.sex,
             stature,
@@ -152,7 +164,8 @@ impl Profile {
             waist: known.waist_girth_m.unwrap_or_else(|| estimate(equations.waist) * equations.iso_waist_over_navel),
             hip: known.hip_girth_m.unwrap_or_else(|| estimate(equations.hip)),
             across_shoulder,
-            biacromial: across_shoulder / equations.tape_over_biacromial,
+            biacromial,
+            bideltoid,
             thigh: estimate(equations.thigh),
             knee: estimate(equations.lower_thigh) * KNEE_OVER_LOWER_THIGH,
             calf: estimate(equations.calf),

@@ -1,23 +1,32 @@
 //! From measurements to a mannequin: figure, skin, the fit of its girths, and what is known of it.
 
 use super::anthropometry::Profile;
-use super::control::{Cuts, control_mesh};
+use super::control_cut::{Cuts, control_mesh};
 use super::figure::Figure;
-use super::measure::{self, Side, Sites};
+use super::landmarks::{self, Side};
+use super::measure::{self, Girths, Sites};
 use super::surface::Skin;
 use super::tape;
 use super::{Body, BodyError, Landmarks, Levels, Measurements, Sex};
 use crate::geom::contour::Grid;
 use crate::geom::section::Plane;
 use crate::geom::{TriMesh, V3};
+use crate::units::from_mm;
 
 /// Grid spacing of the skin, as a share of stature: of the body, and of arms (sideways) and feet (in height).
 const SPACING: f64 = 0.0095;
 const FINE_SPACING: f64 = 0.0070;
 
+/// Height of the ankles over stature.
+const ANKLE: f64 = 0.045;
+
 /// Most rounds of the fit, and the error at which it stops, metres.
 const ROUNDS: usize = 8;
-const FITTED: f64 = 2e-4;
+const FITTED: f64 = 3e-4;
+
+/// Greatest accepted difference of a girth and of the across-shoulder length from what was asked, metres.
+const GIRTH_TOLERANCE: f64 = 2e-3;
+const SHOULDER_TOLERANCE: f64 = 5e-3;
 
 /// Builds a closed, measured mannequin.
 ///
@@ -25,26 +34,74 @@ const FITTED: f64 = 2e-4;
 /// across-shoulder length are fitted until the tape reads them on the fine mesh.
 ///
 /// # Errors
-/// [`BodyError::OutOfRange`] for measurements that no adult has.
+/// [`BodyError::OutOfRange`] for measurements that no adult has, [`BodyError::Inconsistent`] for those that are not of one
+/// body.
 pub fn build(known: &Measurements) -> Result<Body, BodyError> {
     let profile = Profile::new(known)?;
-    let stature = profile.stature;
-    let mut figure = Figure::new(&profile);
-    let mut skin = Skin::new(&figure.parts(), &grid(stature, profile.biacromial / 2.0));
-    let mut mesh = skin.triangles(stature);
-    for _ in 0..ROUNDS {
-        let sites = sites(&mesh, &figure)?;
-        if adjust(&mut figure, &mesh, &sites)? < FITTED {
-            break;
+    fit(known.sex, &profile).map_err(|error| match error {
+        BodyError::MissingPart { part, height_mm } => {
+            BodyError::Inconsistent { reason: format!("no {part} can be formed at a height of {height_mm:.0} mm") }
         }
-        skin.follow(&figure.parts());
-        mesh = skin.triangles(stature);
-    }
-    describe(known.sex, mesh, &figure)
+        other => other,
+    })
 }
 
-/// The grid on which the skin of a body is polygonised: finer beyond the shoulders and below the ankles.
-fn grid(stature: f64, shoulder_x: f64) -> Grid {
+/// Makes the skin of a profile and fits it to the tape.
+fn fit(sex: Sex, profile: &Profile) -> Result<Body, BodyError> {
+    let mut figure = Figure::new(profile);
+    let mut skin = Skin::new(&figure.parts(), &grid(&figure));
+    let mut mesh = skin.triangles(profile.stature);
+    for _ in 0..ROUNDS {
+        let errors = errors(profile, &measure::girths_at(&mesh, &sites(&mesh, &figure)?)?);
+        if errors.iter().all(|error| error.off().abs() < FITTED) {
+            break;
+        }
+        figure.adjust(errors.map(|error| error.asked / error.read));
+        skin.follow(&figure.parts());
+        mesh = skin.triangles(profile.stature);
+    }
+    if !mesh.is_closed_manifold() {
+        return Err(BodyError::Inconsistent { reason: "the skin does not close".to_owned() });
+    }
+    let body = describe(sex, mesh, &figure)?;
+    let unmet = errors(profile, &body.girths).into_iter().find(|error| error.off().abs() > error.tolerance);
+    unmet.map_or(Ok(body), |error| Err(error.refusal()))
+}
+
+/// A fitted measurement: asked for, and read by the tape; metres.
+struct Fitted {
+    name: &'static str,
+    asked: f64,
+    read: f64,
+    tolerance: f64,
+}
+
+impl Fitted {
+    fn off(&self) -> f64 {
+        self.read - self.asked
+    }
+
+    fn refusal(&self) -> BodyError {
+        let Self { name, asked, read, .. } = self;
+        BodyError::Inconsistent { reason: format!("{name} of {asked:.3} m was asked, {read:.3} m is reached") }
+    }
+}
+
+/// Neck, chest, waist and hip girth and the across-shoulder length, asked and read.
+fn errors(asked: &Profile, read: &Girths) -> [Fitted; 5] {
+    let fitted = |name, asked, read_mm, tolerance| Fitted { name, asked, read: from_mm(read_mm), tolerance };
+    [
+        fitted("neck girth", asked.neck, read.neck_girth_mm, GIRTH_TOLERANCE),
+        fitted("chest girth", asked.chest, read.chest_girth_mm, GIRTH_TOLERANCE),
+        fitted("waist girth", asked.waist, read.waist_girth_mm, GIRTH_TOLERANCE),
+        fitted("hip girth", asked.hip, read.hip_girth_mm, GIRTH_TOLERANCE),
+        fitted("across shoulder", asked.across_shoulder, read.across_shoulder_mm, SHOULDER_TOLERANCE),
+    ]
+}
+
+/// The grid on which the skin of a figure is polygonised: finer beyond the shoulders and below the ankles.
+fn grid(figure: &Figure) -> Grid {
+    let stature = figure.profile.stature;
     let walk = |from: f64, to: f64, spacing: &dyn Fn(f64) -> f64| {
         let mut nodes = vec![from];
         let mut at = from;
@@ -54,34 +111,14 @@ fn grid(stature: f64, shoulder_x: f64) -> Grid {
         }
         nodes
     };
-    let sideways = |x: f64| if x > shoulder_x { FINE_SPACING } else { SPACING };
-    let upward = |z: f64| if z < 0.045 * stature { FINE_SPACING } else { SPACING };
-    let right = walk(SPACING * stature / 2.0, 0.43 * stature, &sideways);
+    let (low, high) = figure.extent();
+    let sideways = |x: f64| if x > figure.targets.shoulder_x { FINE_SPACING } else { SPACING };
+    let upward = |z: f64| if z < ANKLE * stature { FINE_SPACING } else { SPACING };
+    let right = walk(SPACING * stature / 2.0, high.x, &sideways);
     let x: Vec<f64> = right.iter().rev().map(|x| -x).chain(right.iter().copied()).collect();
-    let y = walk(-0.19 * stature, 0.23 * stature, &|_| SPACING);
-    let z = walk(-0.012 * stature, 1.01 * stature, &upward);
+    let y = walk(low.y, high.y, &|_| SPACING);
+    let z = walk(low.z, high.z, &upward);
     Grid { axes: [x, y, z] }
-}
-
-/// Changes the figure's targets by what the tape reads too much or too little; returns the greatest error in metres.
-fn adjust(figure: &mut Figure, mesh: &TriMesh, sites: &Sites) -> Result<f64, BodyError> {
-    let read = measure::girths_at(mesh, sites)?;
-    let asked = figure.profile;
-    let targets = &mut figure.targets;
-    let mut greatest: f64 = 0.0;
-    let girths = [
-        (&mut targets.neck, asked.neck, read.neck_girth_mm),
-        (&mut targets.chest, asked.chest, read.chest_girth_mm),
-        (&mut targets.waist, asked.waist, read.waist_girth_mm),
-        (&mut targets.hip, asked.hip, read.hip_girth_mm),
-        (&mut targets.shoulder_x, asked.across_shoulder, read.across_shoulder_mm),
-    ];
-    for (target, asked, read_mm) in girths {
-        let read = read_mm * 1e-3;
-        greatest = greatest.max((read - asked).abs());
-        *target *= (asked / read).clamp(0.85, 1.18);
-    }
-    Ok(greatest)
 }
 
 /// Where the tape is laid on a figure's skin: the levels are known.
@@ -89,11 +126,11 @@ fn sites(mesh: &TriMesh, figure: &Figure) -> Result<Sites, BodyError> {
     let (atlas, h) = (figure.atlas, figure.profile.stature);
     let missing = |part, share: f64| BodyError::MissingPart { part, height_mm: share * h * 1e3 };
     let upper = tape::above(mesh, 0.7 * h);
-    let crotch = measure::crotch(mesh, 0.40 * h, 0.52 * h, 0.0).ok_or_else(|| missing("crotch", atlas.crotch))?;
+    let crotch = landmarks::crotch(mesh, 0.40 * h, 0.52 * h, 0.0).ok_or_else(|| missing("crotch", atlas.crotch))?;
     let neck = tape::neck(&upper, 0.845 * h, 0.885 * h, 0.0).ok_or_else(|| missing("neck", 0.87))?;
-    let back_neck = measure::median_point(&upper, figure.back_neck_height(), 0.0, Side::Back);
+    let back_neck = landmarks::median_point(&upper, figure.back_neck_height(), 0.0, Side::Back);
     let chest = atlas.chest * h;
-    let shoulder = |sign: f64| measure::shoulder_top(&upper, sign * figure.targets.shoulder_x, 0.86 * h);
+    let shoulder = |sign: f64| landmarks::shoulder_top(&upper, sign * figure.targets.shoulder_x, 0.86 * h);
     let right = shoulder(1.0).ok_or_else(|| missing("shoulder", atlas.shoulder))?;
     let along = figure.arm_axes()[2];
     Ok(Sites {
@@ -116,8 +153,9 @@ fn sites(mesh: &TriMesh, figure: &Figure) -> Result<Sites, BodyError> {
 fn describe(sex: Sex, mesh: TriMesh, figure: &Figure) -> Result<Body, BodyError> {
     let sites = sites(&mesh, figure)?;
     let girths = measure::girths_at(&mesh, &sites)?;
-    let landmarks = landmarks(&mesh, figure, &sites)?;
-    let control = control_mesh(&mesh, &cuts(&mesh, figure, &sites, &landmarks))?;
+    let landmarks = find_landmarks(&mesh, figure, &sites)?;
+    let mut control = control_mesh(&mesh, &cuts(&mesh, figure, &sites, &landmarks))?;
+    control.snap(&landmarks);
     let levels = Levels {
         chest_m: sites.chest,
         underbust_m: sites.underbust,
@@ -130,7 +168,7 @@ fn describe(sex: Sex, mesh: TriMesh, figure: &Figure) -> Result<Body, BodyError>
     Ok(Body { sex, mesh, skeleton, landmarks, levels, control, girths })
 }
 
-fn landmarks(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Landmarks, BodyError> {
+fn find_landmarks(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Landmarks, BodyError> {
     let h = figure.profile.stature;
     let missing = |part: &'static str, z: f64| BodyError::MissingPart { part, height_mm: z * 1e3 };
     let front_height = figure.front_neck_height();
@@ -139,17 +177,18 @@ fn landmarks(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Landmarks
     let side = |sign: f64| base.points.iter().max_by(|a, b| (sign * a.x).total_cmp(&(sign * b.x)));
     let side_neck = [1.0, -1.0].map(|sign| side(sign).map_or_else(V3::zeros, |p| V3::new(p.x, p.y, side_height)));
     let armpit =
-        measure::armpit(mesh, sites.chest, sites.shoulder[0].z, 0.0).ok_or_else(|| missing("armpit", sites.chest))?;
-    let bust = |sign: f64| measure::bust_point(mesh, sites.chest, sign, h).ok_or_else(|| missing("bust", sites.chest));
+        landmarks::armpit(mesh, sites.waist, sites.shoulder[0].z, 0.0).ok_or_else(|| missing("armpit", sites.chest))?;
+    let bust =
+        |sign: f64| landmarks::bust_point(mesh, sites.chest, sign, h).ok_or_else(|| missing("bust", sites.chest));
     Ok(Landmarks {
         side_neck,
         shoulder: sites.shoulder,
         back_neck: sites.back_neck,
-        front_neck: measure::median_point(mesh, front_height, 0.0, Side::Front)
+        front_neck: landmarks::median_point(mesh, front_height, 0.0, Side::Front)
             .ok_or_else(|| missing("front neck", front_height))?,
         armpit: [armpit, V3::new(-armpit.x, armpit.y, armpit.z)],
         bust: [bust(1.0)?, bust(-1.0)?],
-        crotch: measure::crotch_point(mesh, sites.crotch).ok_or_else(|| missing("crotch", sites.crotch))?,
+        crotch: landmarks::crotch_point(mesh, sites.crotch).ok_or_else(|| missing("crotch", sites.crotch))?,
     })
 }
 

@@ -1,24 +1,21 @@
 //! The control mesh (thesis 3.2.2): rings of 24 vertices on the planes of the critical girths, joined by quadrilaterals.
 //! Topology and vertex order are the same for every body.
 
-use super::tape;
-use super::{BodyError, Joint, Skeleton};
-use crate::geom::section::{Outline, Plane, section};
-use crate::geom::{TriMesh, V2, V3};
-use crate::units::mm;
+use super::{Joint, Landmarks, Skeleton};
+use crate::geom::{TriMesh, V3};
 
 /// Vertices of a ring. In horizontal rings vertex 0 is on the subject's right and 6 in front; in those of the arms 4 is
 /// below and 10 in front.
 pub const RING: usize = 24;
 
 /// Vertices of each row of the yoke (front or back).
-const YOKE: usize = 5;
+pub(super) const YOKE: usize = 5;
 
 /// Rows of the yoke between armpit and neck base: they make the edge of the armhole a ring.
-const YOKE_ROWS: usize = 3;
+pub(super) const YOKE_ROWS: usize = 3;
 
 /// First vertex of the front and of the back yoke within a horizontal ring.
-const YOKE_START: [usize; 2] = [4, 16];
+pub(super) const YOKE_START: [usize; 2] = [4, 16];
 
 /// The 14 regions of the body (thesis figure 3-10).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
@@ -132,6 +129,13 @@ pub struct ControlMesh {
 }
 
 impl ControlMesh {
+    /// The same surface in triangles.
+    #[must_use]
+    pub fn triangulated(&self) -> TriMesh {
+        let fans = self.faces.iter().flat_map(|face| (2..face.len()).map(|k| [face[0], face[k - 1], face[k]]));
+        TriMesh { positions: self.positions.clone(), triangles: fans.collect() }
+    }
+
     /// Vertex indices of a girth, in ring order.
     #[must_use]
     pub fn ring(&self, layer: Layer) -> std::ops::Range<usize> {
@@ -155,15 +159,14 @@ impl ControlMesh {
     #[must_use]
     pub fn feature_points(&self) -> Vec<(&'static str, usize)> {
         use Layer::*;
-        let front_back = [(Hip, "hip"), (Waist, "waist"), (Chest, "chest"), (NeckBase, "neck base")];
-        let names = [
-            ["centre front hip", "centre back hip"],
-            ["centre front waist", "centre back waist"],
-            ["centre front chest", "centre back chest"],
-            ["front neck point", "back neck point"],
+        let median = [
+            (Hip, ["centre front hip", "centre back hip"]),
+            (Waist, ["centre front waist", "centre back waist"]),
+            (Chest, ["centre front chest", "centre back chest"]),
+            (NeckBase, ["front neck point", "back neck point"]),
         ];
         let mut points = Vec::new();
-        for ((layer, _), [front, back]) in front_back.into_iter().zip(names) {
+        for (layer, [front, back]) in median {
             points.extend([(front, self.ring_vertex(layer, 6)), (back, self.ring_vertex(layer, 18))]);
         }
         points.extend([
@@ -175,9 +178,30 @@ impl ControlMesh {
             ("left shoulder point", self.ring_vertex(ArmscyeLeft, 16)),
             ("right armpit", self.ring_vertex(ArmscyeRight, 4)),
             ("left armpit", self.ring_vertex(ArmscyeLeft, 4)),
-            ("crown", self.end(2)),
+            ("crown", Self::end(2)),
         ]);
         points
+    }
+
+    /// Moves the vertices that stand for landmarks onto them.
+    pub(super) fn snap(&mut self, landmarks: &Landmarks) {
+        use Layer::*;
+        let exact = [
+            (NeckBase, 6, landmarks.front_neck),
+            (NeckBase, 18, landmarks.back_neck),
+            (NeckBase, 0, landmarks.side_neck[0]),
+            (NeckBase, 12, landmarks.side_neck[1]),
+            (Chest, 4, landmarks.bust[0]),
+            (Chest, 8, landmarks.bust[1]),
+            (ArmscyeRight, 16, landmarks.shoulder[0]),
+            (ArmscyeLeft, 16, landmarks.shoulder[1]),
+            (ArmscyeRight, 4, landmarks.armpit[0]),
+            (ArmscyeLeft, 4, landmarks.armpit[1]),
+        ];
+        for (layer, i, point) in exact {
+            let vertex = self.ring_vertex(layer, i);
+            self.positions[vertex] = point;
+        }
     }
 
     /// The feature lines that run along the body: name and vertex indices from above. Girths are the rings.
@@ -225,254 +249,20 @@ impl ControlMesh {
             (Joint::KneeLeft, KneeLeft),
             (Joint::AnkleLeft, AnkleLeft),
         ];
-        Skeleton { joints: rings.map(|(_, layer)| self.ring_centre(layer)) }
+        let mut joints = [V3::zeros(); 17];
+        for (joint, layer) in rings {
+            joints[joint as usize] = self.ring_centre(layer);
+        }
+        Skeleton { joints }
     }
 
     /// Index of a yoke vertex: side 0 front, 1 back; row from below; place along the row.
-    fn yoke(side: usize, row: usize, place: usize) -> usize {
+    pub(super) fn yoke(side: usize, row: usize, place: usize) -> usize {
         Layer::ALL.len() * RING + (side * YOKE_ROWS + row) * YOKE + place
     }
 
     /// Index of an end vertex: right sole, left sole, crown, right hand, left hand.
-    fn end(&self, i: usize) -> usize {
+    pub(super) fn end(i: usize) -> usize {
         Layer::ALL.len() * RING + 2 * YOKE_ROWS * YOKE + i
-    }
-}
-
-/// Heights and frames at which the rings are cut, metres.
-#[derive(Clone, Debug)]
-pub(super) struct Cuts {
-    /// Foot, ankle, calf, knee, middle of the thigh, thigh.
-    pub leg: [f64; 6],
-    /// Hip, abdomen, waist, underbust, chest, axilla.
-    pub trunk: [f64; 6],
-    /// Neck base, neck.
-    pub neck: [Plane; 2],
-    /// Mouth, head girth.
-    pub head: [f64; 2],
-    /// Right armscye, upper arm, elbow, forearm, wrist: a point inside and the plane, its first axis forward and its
-    /// second upward.
-    pub arm: [Plane; 5],
-    pub crown: V3,
-    /// Tip of the right hand.
-    pub hand: V3,
-}
-
-/// Cuts the rings out of the fine mesh and joins them.
-pub(super) fn control_mesh(mesh: &TriMesh, cuts: &Cuts) -> Result<ControlMesh, BodyError> {
-    let mut positions = Vec::with_capacity(Layer::ALL.len() * RING + 64);
-    let mirror = |points: &[V3], turn: &dyn Fn(usize) -> usize| -> Vec<V3> {
-        (0..RING).map(|i| points[turn(i) % RING]).map(|p| V3::new(-p.x, p.y, p.z)).collect()
-    };
-    let legs = cuts.leg.iter().map(|&z| leg_ring(mesh, z)).collect::<Result<Vec<_>, _>>()?;
-    positions.extend(legs.iter().flatten());
-    // A mirrored horizontal ring starts on its other side, so that 0 stays on the subject's right.
-    positions.extend(legs.iter().flat_map(|ring| mirror(ring, &|i| RING + RING / 2 - i)));
-    let horizontal = |&z: &f64| ring(mesh, &Plane::horizontal(z), 0.0, "trunk");
-    for z in &cuts.trunk {
-        positions.extend(horizontal(z)?);
-    }
-    for plane in &cuts.neck {
-        positions.extend(ring(mesh, plane, 0.0, "neck")?);
-    }
-    for z in &cuts.head {
-        positions.extend(horizontal(z)?);
-    }
-    let arms = cuts.arm.iter().map(|plane| ring(mesh, plane, -std::f64::consts::PI * 5.0 / 6.0, "arm"));
-    let arms = arms.collect::<Result<Vec<_>, _>>()?;
-    positions.extend(arms.iter().flatten());
-    positions.extend(arms.iter().flat_map(|ring| mirror(ring, &|i| i)));
-    add_yoke(mesh, &mut positions);
-    let sole = positions[..RING].iter().sum::<V3>() / RING as f64;
-    let sole = V3::new(sole.x, sole.y, 0.0);
-    let left = |p: V3| V3::new(-p.x, p.y, p.z);
-    positions.extend([sole, left(sole), cuts.crown, cuts.hand, left(cuts.hand)]);
-    let mut control = ControlMesh { positions, faces: Vec::new(), regions: Vec::new() };
-    join_rings(&mut control);
-    Ok(control)
-}
-
-/// The ring in which `plane` cuts the part round its origin; vertex 0 lies at the angle `start` in the plane.
-fn ring(mesh: &TriMesh, plane: &Plane, start: f64, part: &'static str) -> Result<Vec<V3>, BodyError> {
-    let outlines = section(mesh, plane);
-    let inside = outlines.iter().filter(|outline| outline.contains(V2::zeros()));
-    let outline = inside.max_by(|a, b| tape::girth(a).total_cmp(&tape::girth(b)));
-    let outline = outline.ok_or(BodyError::MissingPart { part, height_mm: mm(plane.origin.z) })?;
-    Ok(spokes(outline, start).into_iter().map(|p| plane.lift(p)).collect())
-}
-
-/// The right leg's ring at height `z`, about the middle of its outline.
-fn leg_ring(mesh: &TriMesh, z: f64) -> Result<Vec<V3>, BodyError> {
-    let legs = tape::right_limbs(mesh, z, 0.0);
-    let leg = legs.iter().min_by(|a, b| a.bounds().0.x.total_cmp(&b.bounds().0.x));
-    let (low, high) = leg.ok_or(BodyError::MissingPart { part: "leg", height_mm: mm(z) })?.bounds();
-    let centre = V3::new((low.x + high.x) / 2.0, (low.y + high.y) / 2.0, z);
-    ring(mesh, &Plane { origin: centre, ..Plane::horizontal(z) }, 0.0, "leg")
-}
-
-/// Where 24 rays from the origin of the plane leave an outline.
-fn spokes(outline: &Outline, start: f64) -> Vec<V2> {
-    let hit = |i: usize| {
-        let (sin, cos) = (start + i as f64 / RING as f64 * std::f64::consts::TAU).sin_cos();
-        let (ray, normal) = (V2::new(cos, sin), V2::new(-sin, cos));
-        let next = outline.points.iter().cycle().skip(1);
-        let crossing = |(a, b): (&V2, &V2)| {
-            let (da, db) = (a.dot(&normal), b.dot(&normal));
-            let along = (a + (b - a) * (da / (da - db))).dot(&ray);
-            ((da >= 0.0) != (db >= 0.0) && along > 0.0).then_some(along)
-        };
-        ray * outline.points.iter().zip(next).filter_map(crossing).fold(0.0, f64::max)
-    };
-    (0..RING).map(hit).collect()
-}
-
-/// The yoke's rows: between armpit and neck base on the front and back skin.
-fn add_yoke(mesh: &TriMesh, positions: &mut Vec<V3>) {
-    for start in YOKE_START {
-        for row in 1..=YOKE_ROWS {
-            let share = row as f64 / (YOKE_ROWS + 1) as f64;
-            for place in 0..YOKE {
-                let below = positions[Layer::Axilla as usize * RING + start + place];
-                let above = positions[Layer::NeckBase as usize * RING + start + place];
-                let side = if start == YOKE_START[0] { 1.0 } else { -1.0 };
-                positions.push(on_skin(mesh, below.lerp(&above, share), side));
-            }
-        }
-    }
-}
-
-/// The skin in front of (`side` 1) or behind (-1) a point.
-fn on_skin(mesh: &TriMesh, point: V3, side: f64) -> V3 {
-    let plane = Plane { origin: point, u: V3::y() * side, v: V3::z() };
-    let crossings = section(mesh, &plane).into_iter().flat_map(|outline| {
-        let next = outline.points.clone().into_iter().cycle().skip(1);
-        outline.points.into_iter().zip(next).filter(|(a, b)| (a.y > 0.0) != (b.y > 0.0)).collect::<Vec<_>>()
-    });
-    let places = crossings.map(|(a, b)| a.x + (b.x - a.x) * (-a.y / (b.y - a.y)));
-    places.max_by(f64::total_cmp).map_or(point, |along| plane.lift(V2::new(along, 0.0)))
-}
-
-/// Adds all faces.
-fn join_rings(control: &mut ControlMesh) {
-    use Layer as L;
-    use Region as R;
-    let tubes = [
-        (L::FootRight, L::AnkleRight, R::ShankRight),
-        (L::AnkleRight, L::CalfRight, R::ShankRight),
-        (L::CalfRight, L::KneeRight, R::ShankRight),
-        (L::KneeRight, L::MidThighRight, R::ThighRight),
-        (L::MidThighRight, L::ThighRight, R::ThighRight),
-        (L::FootLeft, L::AnkleLeft, R::ShankLeft),
-        (L::AnkleLeft, L::CalfLeft, R::ShankLeft),
-        (L::CalfLeft, L::KneeLeft, R::ShankLeft),
-        (L::KneeLeft, L::MidThighLeft, R::ThighLeft),
-        (L::MidThighLeft, L::ThighLeft, R::ThighLeft),
-        (L::Hip, L::Abdomen, R::Abdomen),
-        (L::Abdomen, L::Waist, R::Abdomen),
-        (L::Waist, L::UnderBust, R::Chest),
-        (L::UnderBust, L::Chest, R::Chest),
-        (L::Chest, L::Axilla, R::Chest),
-        (L::NeckBase, L::Neck, R::Neck),
-        (L::Neck, L::Mouth, R::Head),
-        (L::Mouth, L::HeadGirth, R::Head),
-        (L::ArmscyeRight, L::UpperArmRight, R::UpperArmRight),
-        (L::UpperArmRight, L::ElbowRight, R::UpperArmRight),
-        (L::ElbowRight, L::ForearmRight, R::ForearmRight),
-        (L::ForearmRight, L::WristRight, R::ForearmRight),
-        (L::WristLeft, L::ForearmLeft, R::ForearmLeft),
-        (L::ForearmLeft, L::ElbowLeft, R::ForearmLeft),
-        (L::ElbowLeft, L::UpperArmLeft, R::UpperArmLeft),
-        (L::UpperArmLeft, L::ArmscyeLeft, R::UpperArmLeft),
-    ];
-    for (below, above, region) in tubes {
-        for i in 0..RING {
-            let at = |layer, i| control.ring_vertex(layer, i);
-            let quad = vec![at(below, i), at(below, i + 1), at(above, i + 1), at(above, i)];
-            add(control, quad, region);
-        }
-    }
-    join_legs(control);
-    join_shoulders(control);
-    close_ends(control);
-}
-
-fn add(control: &mut ControlMesh, face: Vec<usize>, region: Region) {
-    control.faces.push(face);
-    control.regions.push(region);
-}
-
-/// Thighs to hip outside, to each other across the crotch.
-fn join_legs(control: &mut ControlMesh) {
-    use Layer::{Hip, ThighLeft, ThighRight};
-    let right = |i: usize| ThighRight as usize * RING + i % RING;
-    let left = |i: usize| ThighLeft as usize * RING + i % RING;
-    let hip = |i: usize| Hip as usize * RING + i % RING;
-    for i in 18..30 {
-        add(control, vec![right(i), right(i + 1), hip(i + 1), hip(i)], Region::Pelvis);
-    }
-    for i in 6..18 {
-        add(control, vec![left(i), left(i + 1), hip(i + 1), hip(i)], Region::Pelvis);
-        // Vertex i of the right thigh faces its mirror image on the left one.
-        add(control, vec![right(i), right(i + 1), left(36 - i - 1), left(36 - i)], Region::Pelvis);
-    }
-    add(control, vec![hip(6), right(6), left(6)], Region::Pelvis);
-    add(control, vec![hip(18), left(18), right(18)], Region::Pelvis);
-}
-
-/// The yoke between armpit and neck base, and the tops of the shoulders round the armholes.
-fn join_shoulders(control: &mut ControlMesh) {
-    for (side, start) in YOKE_START.into_iter().enumerate() {
-        let row = |row: usize, place: usize| match row {
-            0 => Layer::Axilla as usize * RING + start + place,
-            r if r <= YOKE_ROWS => ControlMesh::yoke(side, r - 1, place),
-            _ => Layer::NeckBase as usize * RING + start + place,
-        };
-        for r in 0..=YOKE_ROWS {
-            for place in 0..YOKE - 1 {
-                add(
-                    control,
-                    vec![row(r, place), row(r, place + 1), row(r + 1, place + 1), row(r + 1, place)],
-                    Region::Shoulders,
-                );
-            }
-        }
-    }
-    for (right, armscye) in [(true, Layer::ArmscyeRight), (false, Layer::ArmscyeLeft)] {
-        let edge = armhole(right);
-        for i in 0..RING {
-            let (j, arm) = ((i + 1) % RING, |i: usize| armscye as usize * RING + i);
-            let face = vec![edge[i], edge[j], arm(j), arm(i)];
-            add(control, if right { face } else { face.into_iter().rev().collect() }, Region::Shoulders);
-        }
-    }
-}
-
-/// The 24 vertices of an armhole's edge: from the back below through the front and over the shoulder.
-fn armhole(right: bool) -> Vec<usize> {
-    // On the right the rings are run through from 20 over 0 to 4; on the left mirrored, from 16 over 12 to 8.
-    let place = |i: usize| if right { (20 + i) % RING } else { 16 - i };
-    let (front, back) = if right { (0, YOKE - 1) } else { (YOKE - 1, 0) };
-    let axilla = (0..9).map(|i| Layer::Axilla as usize * RING + place(i));
-    let up = (0..YOKE_ROWS).map(|row| ControlMesh::yoke(0, row, front));
-    let neck = (0..9).rev().map(|i| Layer::NeckBase as usize * RING + place(i));
-    let down = (0..YOKE_ROWS).rev().map(|row| ControlMesh::yoke(1, row, back));
-    axilla.chain(up).chain(neck).chain(down).collect()
-}
-
-/// Fans that close soles, crown and hands.
-fn close_ends(control: &mut ControlMesh) {
-    let ends = [
-        (Layer::FootRight, Region::ShankRight, false),
-        (Layer::FootLeft, Region::ShankLeft, false),
-        (Layer::HeadGirth, Region::Head, true),
-        (Layer::WristRight, Region::ForearmRight, true),
-        (Layer::WristLeft, Region::ForearmLeft, false),
-    ];
-    for (end, (layer, region, forward)) in ends.into_iter().enumerate() {
-        let tip = control.end(end);
-        for i in 0..RING {
-            let (a, b) = (control.ring_vertex(layer, i), control.ring_vertex(layer, i + 1));
-            add(control, if forward { vec![a, b, tip] } else { vec![b, a, tip] }, region);
-        }
     }
 }

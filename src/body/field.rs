@@ -18,7 +18,7 @@ const THUMB_JOINT: f64 = 0.030;
 
 /// Difference of the distances of two parts up to which their joint is smoothed, metres.
 const ARM_SEAM: f64 = 0.040;
-const LEG_SEAM: f64 = 0.065;
+const LEG_SEAM: f64 = 0.045;
 
 /// Distance from the arm up to which skin counts as the hand's, metres, and the share of fairing it gets.
 const HAND_SKIN: f64 = 0.04;
@@ -68,19 +68,16 @@ impl Parts {
         self.sample(point).distance
     }
 
-    /// The nearest point of the skin along the field's gradient, from a point close to it (Newton's method).
+    /// A point of the skin near to `point`: steps against the outward direction until the skin is met.
     pub fn project(&self, mut point: V3) -> V3 {
-        const STEPS: usize = 3;
-        const PROBE: f64 = 5e-4;
+        const STEPS: usize = 6;
+        const MET: f64 = 1e-5;
         for _ in 0..STEPS {
-            let distance = self.distance(point);
-            if distance.abs() < 1e-7 {
+            let here = self.sample(point);
+            if here.distance.abs() < MET {
                 break;
             }
-            let rise = |axis: V3| (self.distance(point + axis * PROBE) - distance) / PROBE;
-            let gradient = V3::new(rise(V3::x()), rise(V3::y()), rise(V3::z()));
-            let steepness = gradient.norm_squared().max(0.04);
-            point -= gradient * (distance / steepness);
+            point -= here.outward * here.distance;
         }
         point
     }

@@ -210,11 +210,30 @@ fn settle(mut mesh: TriMesh, unit: Option<LengthUnit>) -> Result<Imported, BodyE
     if floor.abs() > 1e-3 {
         notes.push(format!("moved by {:.1} mm onto the floor", -floor * 1e3));
     }
+    if looks_back(&mesh) {
+        for p in &mut mesh.positions {
+            *p = V3::new(-p.x, -p.y, p.z);
+        }
+        notes.push("turned by 180 degrees: the feet pointed backwards".to_owned());
+    }
     if mesh.volume() < 0.0 {
         mesh.triangles.iter_mut().for_each(|triangle| triangle.reverse());
         notes.push("faces turned: they pointed inwards".to_owned());
     }
     Ok(Imported { mesh, unit, notes })
+}
+
+/// Whether the feet point to the back: their vertices lie behind those of the ankles.
+fn looks_back(mesh: &TriMesh) -> bool {
+    let Some((low, high)) = mesh.bounds() else { return false };
+    let stature = high.z - low.z;
+    let middle = |from: f64, to: f64| {
+        let band = mesh.positions.iter().filter(|p| (from..to).contains(&((p.z - low.z) / stature))).map(|p| p.y);
+        let (least, most) = band.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), y| (a.min(y), b.max(y)));
+        (least <= most).then_some((least + most) / 2.0)
+    };
+    let (feet, ankles) = (middle(-0.001, 0.04), middle(0.06, 0.12));
+    feet.zip(ankles).is_some_and(|(feet, ankles)| feet < ankles - 0.01 * stature)
 }
 
 /// The unit in which `height` is that of a standing person.

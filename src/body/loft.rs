@@ -13,6 +13,12 @@ const DIRECTIONS: usize = 96;
 /// Steepest outline slope along the axis that the field still divides by.
 const MAX_SLOPE: f64 = 4.0;
 
+/// Greatest relative change of the radius with the angle that the field still divides by.
+const MAX_TURN: f64 = 2.0;
+
+/// Half of the angle over which that change is taken, radians.
+const TURN_PROBE: f64 = 0.02;
+
 /// One cross-section: an ellipse whose radius is multiplied by `1 + sum shape[k] cos(k phi)`, `phi` from the front.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Station {
@@ -75,8 +81,9 @@ pub(super) struct Sample {
 #[derive(Clone, Debug)]
 struct Row {
     centre: V2,
-    /// Radius and its slope along the axis (the drift of the centre included), for each direction.
-    radii: Vec<[f64; 2]>,
+    /// Radius, its slope along the axis (the drift of the centre included) and its relative change with the angle, for each
+    /// direction.
+    radii: Vec<[f64; 3]>,
 }
 
 /// A body part: sections along an axis, tabulated.
@@ -125,12 +132,14 @@ impl Loft {
         if clearance > near {
             return Sample { distance: clearance, outward: offset.try_normalize(1e-12).unwrap_or(along) };
         }
-        let (radial, radius_dir, slope) = self.radial(local, place.clamp(0.0, last));
-        let side = u * radius_dir.x + v * radius_dir.y;
-        let scale = 1.0 / (1.0 + slope * slope).sqrt();
+        let (radial, normal, slope) = self.radial(local, place.clamp(0.0, last));
+        let side = u * normal.x + v * normal.y;
         if beyond <= 0.0 {
-            return Sample { distance: radial * scale, outward: (side - along * slope) * scale };
+            let gradient = side - along * slope;
+            let steepness = gradient.norm();
+            return Sample { distance: radial / steepness, outward: gradient / steepness };
         }
+        let (side, radial) = (side / normal.norm(), radial / normal.norm());
         let end = if place < 0.0 { -along } else { along };
         if radial <= 0.0 {
             return Sample { distance: beyond, outward: end };
@@ -139,7 +148,8 @@ impl Loft {
         Sample { distance, outward: (side * radial + end * beyond) / distance }
     }
 
-    /// Distance beyond the outline within the section plane, the direction from the centre, and the outline's slope.
+    /// Distance beyond the outline along the ray from the centre, its gradient within the section plane, and the outline's
+    /// slope along the axis.
     fn radial(&self, local: V2, place: f64) -> (f64, V2, f64) {
         let row = (place as usize).min(self.rows.len() - 2);
         let share = place - row as f64;
@@ -156,7 +166,9 @@ impl Loft {
             let at = |row: &Row| row.radii[left][i] + (row.radii[right][i] - row.radii[left][i]) * across;
             at(low) + (at(high) - at(low)) * share
         };
-        (distance - blend(0), direction, blend(1).clamp(-MAX_SLOPE, MAX_SLOPE))
+        let sideways = V2::new(-direction.y, direction.x);
+        let gradient = direction - sideways * blend(2).clamp(-MAX_TURN, MAX_TURN);
+        (distance - blend(0), gradient, blend(1).clamp(-MAX_SLOPE, MAX_SLOPE))
     }
 }
 
@@ -170,7 +182,10 @@ impl Row {
             let angle = i as f64 / DIRECTIONS as f64 * std::f64::consts::TAU;
             let slope =
                 (after.radius(angle) - before.radius(angle)) / length + drift.dot(&V2::new(angle.cos(), angle.sin()));
-            [section.radius(angle), slope]
+            let radius = section.radius(angle);
+            let turn =
+                (section.radius(angle + TURN_PROBE) - section.radius(angle - TURN_PROBE)) / (2.0 * TURN_PROBE * radius);
+            [radius, slope, turn]
         });
         Self { centre: section.centre, radii: radii.collect() }
     }

@@ -1,8 +1,8 @@
 //! Measuring any upright body mesh: the levels are found on the mesh, then the tape is laid.
 
+use super::landmarks::{Side, crotch, median_point, shoulder_top};
 use super::tape::{self, Neck};
 use super::{BodyError, Sex};
-use crate::geom::section::{Plane, section};
 use crate::geom::{TriMesh, V3};
 use crate::units::mm;
 
@@ -158,20 +158,6 @@ fn likely_sex(neck: f64, hip: f64) -> Sex {
     if 89.907 * hip - 302.370 * neck > -10.598 { Sex::Female } else { Sex::Male }
 }
 
-/// Where the trunk ends: the lowest height at which an outline crosses the median plane, by bisection.
-pub(super) fn crotch(mesh: &TriMesh, mut below: f64, mut above: f64, middle: f64) -> Option<f64> {
-    let lower = tape::between(mesh, below, above);
-    let joined = |z: f64| tape::trunk_outline(&lower, z, middle).is_some_and(|outline| tape::girth(&outline) > 0.15);
-    if joined(below) || !joined(above) {
-        return None;
-    }
-    while above - below > 1e-4 {
-        let z = (below + above) / 2.0;
-        if joined(z) { above = z } else { below = z }
-    }
-    Some(above)
-}
-
 /// The level of the greatest buttock protrusion.
 fn hip_level(mesh: &TriMesh, crotch: f64, stature: f64, middle: f64) -> Option<f64> {
     let heights = steps(crotch + 0.01 * stature, crotch + 0.10 * stature, 48);
@@ -182,18 +168,15 @@ fn hip_level(mesh: &TriMesh, crotch: f64, stature: f64, middle: f64) -> Option<f
 /// The level of the nipples: where the front stands out most from the chord between ribs and collar bones, among the
 /// heights at which the arms are still apart from the trunk.
 fn chest_level(mesh: &TriMesh, floor: f64, stature: f64, middle: f64) -> Option<f64> {
-    /// A trunk that is wider than this share of its width at the ribs has grown arms.
-    const ARMS_JOINED: f64 = 1.35;
     let (low, high) = (floor + 0.66 * stature, floor + 0.80 * stature);
-    let extent = |z: f64| tape::trunk_outline(mesh, z, middle).map(|outline| outline.bounds());
-    let ((ribs_low, ribs_high), y_high) = (extent(low)?, extent(high)?.1.y);
+    let front = |z: f64| tape::trunk_outline(mesh, z, middle).map(|outline| tape::depth_range(&outline).0);
+    let arm_apart = |z: f64| !tape::right_limbs(mesh, z, middle).is_empty();
+    let (y_low, y_high, has_arms) = (front(low)?, front(high)?, arm_apart(low));
     let standing_out = |z: f64| {
-        let (least, most) = extent(z)?;
-        let free = most.x - least.x < ARMS_JOINED * (ribs_high.x - ribs_low.x);
-        let chord = ribs_high.y + (y_high - ribs_high.y) * (z - low) / (high - low);
-        free.then_some((z, most.y - chord))
+        let chord = y_low + (y_high - y_low) * (z - low) / (high - low);
+        (arm_apart(z) || !has_arms).then_some((z, front(z)? - chord))
     };
-    let heights = steps(floor + 0.70 * stature, floor + 0.755 * stature, 40);
+    let heights = steps(floor + 0.70 * stature, floor + 0.748 * stature, 40);
     heights.filter_map(standing_out).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(z, _)| z)
 }
 
@@ -210,102 +193,25 @@ pub(super) fn underbust_level(mesh: &TriMesh, chest: f64, stature: f64, middle: 
     falling[stop].0
 }
 
-/// Front or back of the body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
-    Front,
-    Back,
-}
-
-/// The point of the trunk's outline in the median plane at height `z`.
-pub(super) fn median_point(mesh: &TriMesh, z: f64, middle: f64, side: Side) -> Option<V3> {
-    let outline = tape::trunk_outline(mesh, z, middle)?;
-    let next = outline.points.iter().cycle().skip(1);
-    let crossings = outline.points.iter().zip(next).filter(|(a, b)| (a.x > middle) != (b.x > middle));
-    let places = crossings.map(|(a, b)| a.y + (b.y - a.y) * (middle - a.x) / (b.x - a.x));
-    let y = match side {
-        Side::Front => places.max_by(f64::total_cmp),
-        Side::Back => places.min_by(f64::total_cmp),
-    };
-    y.map(|y| V3::new(middle, y, z))
-}
-
-/// The highest point of the shoulder at the distance `x` from the median plane (signed), below the height `ceiling`.
-pub(super) fn shoulder_top(mesh: &TriMesh, x: f64, ceiling: f64) -> Option<V3> {
-    let plane = Plane { origin: V3::new(x, 0.0, 0.0), u: V3::y(), v: V3::z() };
-    let points = section(mesh, &plane).into_iter().flat_map(|outline| outline.points).filter(|p| p.y < ceiling);
-    points.max_by(|a, b| a.y.total_cmp(&b.y)).map(|p| plane.lift(p))
-}
-
-/// Shoulder points: where the line over the shoulder turns from the slope of the trapezius to that of the arm.
+/// Shoulder points: at their usual distance from the median plane, moved by a share of how far off the line over the
+/// shoulder turns from the slope of the trapezius to that of the arm. The bone that defines them does not show on the skin,
+/// and the turn alone was the poorer guide on the reference bodies.
 fn shoulder_points(mesh: &TriMesh, floor: f64, stature: f64, middle: f64) -> Option<[V3; 2]> {
+    /// Mean over stature of the six reference bodies.
+    const USUAL: f64 = 0.1148;
+    /// Fall per distance at the turn, and how much the turn counts.
     const TURN: f64 = 0.70;
+    const SHARE: f64 = 0.25;
     let ceiling = floor + 0.86 * stature;
     let point = |sign: f64| {
-        let tops: Vec<V3> = steps(0.075 * stature, 0.16 * stature, 43)
-            .filter_map(|x| shoulder_top(mesh, middle + sign * x, ceiling))
-            .collect();
+        let at = |x: f64| shoulder_top(mesh, middle + sign * x, ceiling);
+        let tops: Vec<V3> = steps(0.075 * stature, 0.16 * stature, 43).filter_map(at).collect();
         let fall = |i: usize| (tops[i - 3].z - tops[i + 3].z) / (tops[i + 3].x - tops[i - 3].x).abs();
-        let turn = (3..tops.len().checked_sub(3)?).find(|&i| fall(i) > TURN)?;
-        Some(tops[turn])
+        let turn = (3..tops.len().saturating_sub(3)).find(|&i| fall(i) > TURN);
+        let seen = turn.map_or(USUAL * stature, |i| (tops[i].x - middle).abs());
+        at(SHARE * seen + (1.0 - SHARE) * USUAL * stature)
     };
     Some([point(1.0)?, point(-1.0)?])
-}
-
-/// The highest point of the gap between trunk and right arm.
-///
-/// Searched by bisection between a height where the arm is free and one where it is joined to the trunk.
-pub(super) fn armpit(mesh: &TriMesh, mut free: f64, mut joined: f64, middle: f64) -> Option<V3> {
-    let around = tape::between(mesh, free, joined);
-    let gap = |z: f64| {
-        let trunk = tape::trunk_outline(&around, z, middle)?;
-        let limbs = tape::right_limbs(&around, z, middle);
-        let arm = limbs.iter().max_by(|a, b| a.bounds().1.x.total_cmp(&b.bounds().1.x))?;
-        let outermost = trunk.points.iter().max_by(|a, b| a.x.total_cmp(&b.x))?;
-        let innermost = arm.points.iter().min_by(|a, b| a.x.total_cmp(&b.x))?;
-        Some((outermost + innermost) / 2.0)
-    };
-    let mut apex = gap(free).map(|p| V3::new(p.x, p.y, free))?;
-    while joined - free > 1e-5 {
-        let z = (free + joined) / 2.0;
-        match gap(z) {
-            Some(p) => {
-                free = z;
-                apex = V3::new(p.x, p.y, z);
-            }
-            None => joined = z,
-        }
-    }
-    Some(apex)
-}
-
-/// The lowest point of the skin between the thighs, in the median plane just above the crotch's height.
-pub(super) fn crotch_point(mesh: &TriMesh, crotch: f64) -> Option<V3> {
-    let outline = tape::trunk_outline(mesh, crotch, 0.0)?;
-    let next = outline.points.iter().cycle().skip(1);
-    let crossings = outline.points.iter().zip(next).filter(|(a, b)| (a.x > 0.0) != (b.x > 0.0));
-    let places: Vec<f64> = crossings.map(|(a, b)| a.y + (b.y - a.y) * (-a.x) / (b.x - a.x)).collect();
-    (!places.is_empty()).then(|| V3::new(0.0, places.iter().sum::<f64>() / places.len() as f64, crotch))
-}
-
-/// The foremost point of one side of the chest at height `z`; where the chest is flat, the usual place of the nipple.
-pub(super) fn bust_point(mesh: &TriMesh, z: f64, sign: f64, stature: f64) -> Option<V3> {
-    /// Usual distance of the nipple from the median plane over stature, and the range searched.
-    const USUAL: f64 = 0.054;
-    const RANGE: [f64; 2] = [0.040, 0.075];
-    let outline = tape::trunk_outline(mesh, z, 0.0)?;
-    let front = |x: f64| {
-        let next = outline.points.iter().cycle().skip(1);
-        let crossings = outline.points.iter().zip(next).filter(|(a, b)| (a.x > x) != (b.x > x));
-        crossings
-            .map(|(a, b)| a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x))
-            .max_by(f64::total_cmp)
-            .map(|y| V3::new(x, y, z))
-    };
-    let candidates = steps(sign * RANGE[0] * stature, sign * RANGE[1] * stature, 35).filter_map(front);
-    let foremost = candidates.max_by(|a, b| a.y.total_cmp(&b.y))?;
-    let at_edge = (foremost.x.abs() - RANGE[0] * stature).abs() < 1e-9;
-    if at_edge { front(sign * USUAL * stature) } else { Some(foremost) }
 }
 
 /// Middle of the right upper arm and the arm's direction, from the outlines of the hanging arm.
@@ -325,7 +231,7 @@ fn upper_arm(mesh: &TriMesh, shoulder: V3, floor: f64, stature: f64, middle: f64
 }
 
 /// `count + 1` evenly spaced numbers from `from` to `to`.
-fn steps(from: f64, to: f64, count: u32) -> impl Iterator<Item = f64> + Clone {
+pub(super) fn steps(from: f64, to: f64, count: u32) -> impl Iterator<Item = f64> + Clone {
     (0..=count).map(move |i| from + (to - from) * f64::from(i) / f64::from(count))
 }
 

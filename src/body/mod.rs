@@ -4,10 +4,13 @@ mod anthropometry;
 mod atlas;
 mod build;
 mod control;
+mod control_cut;
 mod field;
 mod figure;
 mod import;
 mod interpolate;
+mod landmarks;
+mod limbs;
 mod loft;
 mod measure;
 mod stl;
@@ -47,6 +50,12 @@ pub enum BodyError {
         part: &'static str,
         /// Height of the search, mm.
         height_mm: f64,
+    },
+    /// Measurements that are possible each, but not of one body.
+    #[error("these measurements do not make one body ({reason}); accepted: girths that one adult has together")]
+    Inconsistent {
+        /// What cannot be formed, or which measurement is not reached.
+        reason: String,
     },
     /// A mesh file that cannot be read.
     #[error("{format}, {place}: {problem}; accepted: OBJ, PLY or STL with triangles or polygons")]

@@ -7,15 +7,16 @@ use crate::geom::{TriMesh, V3};
 /// Passes of tangential smoothing.
 const PASSES: usize = 8;
 
-/// Passes and step of the fairing of joints (steps up to 0.5 are stable).
-const FAIRING_PASSES: usize = 120;
+/// Passes of the fairing of joints and of the whole skin, and its step (up to 0.5 is stable).
+const JOINT_PASSES: usize = 110;
+const BASE_PASSES: usize = 6;
 const FAIRING_STEP: f64 = 0.4;
 
 /// Step at which vertices spread evenly within the skin while it is faired.
 const SPREADING_STEP: f64 = 0.3;
 
 /// Share of the fairing that the whole skin gets.
-const BASE_FAIRING: f64 = 0.02;
+const BASE_FAIRING: f64 = 0.4;
 
 /// A quadrilateral skin with its vertex neighbours.
 #[derive(Clone, Debug)]
@@ -59,10 +60,10 @@ impl Skin {
 
     /// One pass: every vertex moves to the mean of its neighbours and back onto the skin.
     pub fn even_out(&mut self, parts: &Parts) {
-        let towards_mean = self.laplacian(&self.mesh.positions);
-        for (position, step) in self.mesh.positions.iter_mut().zip(towards_mean) {
-            *position = parts.project(*position + step);
-        }
+        let targets: Vec<V3> = (0..self.neighbours.len())
+            .map(|i| self.mesh.positions[i] + self.to_mean(&self.mesh.positions, i))
+            .collect();
+        self.mesh.positions = targets.into_iter().map(|target| parts.project(target)).collect();
     }
 
     /// Moves every vertex onto the skin of changed parts.
@@ -73,22 +74,43 @@ impl Skin {
         self.fair(parts);
     }
 
-    /// Fairs the skin as a thin plate: much at the joints between trunk and limbs, so that no crease is left there, and
-    /// elsewhere only against facets.
+    /// Fairs the skin as a thin plate: a little everywhere, against facets, and much at the joints between trunk and limbs,
+    /// so that no crease is left there.
     fn fair(&mut self, parts: &Parts) {
-        let weights: Vec<f64> = self.mesh.positions.iter().map(|&p| parts.fairness(p).max(BASE_FAIRING)).collect();
+        let everywhere = vec![BASE_FAIRING; self.mesh.positions.len()];
+        self.fair_weighted(&everywhere, BASE_PASSES);
+        let joints: Vec<f64> = self.mesh.positions.iter().map(|&p| parts.fairness(p)).collect();
+        self.fair_weighted(&joints, JOINT_PASSES);
+    }
+
+    /// Thin-plate fairing of the vertices of positive weight, which also spread evenly within the skin.
+    fn fair_weighted(&mut self, weights: &[f64], passes: usize) {
+        let moving: Vec<usize> = (0..weights.len()).filter(|&i| weights[i] > 0.0).collect();
+        let mut around = moving.clone();
+        around.extend(moving.iter().flat_map(|&i| &self.neighbours[i]));
+        around.sort_unstable();
+        around.dedup();
+        let mut to_mean = vec![V3::zeros(); weights.len()];
         let mut normals = Vec::new();
-        for pass in 0..FAIRING_PASSES {
-            if pass % 10 == 0 {
+        for pass in 0..passes {
+            if pass % 20 == 0 {
                 normals = self.normals();
             }
-            let to_mean = self.laplacian(&self.mesh.positions);
-            let bend = self.laplacian(&to_mean);
-            for i in 0..normals.len() {
+            for &i in &around {
+                to_mean[i] = self.to_mean(&self.mesh.positions, i);
+            }
+            for &i in &moving {
                 let sideways = to_mean[i] - normals[i] * to_mean[i].dot(&normals[i]);
-                self.mesh.positions[i] += (sideways * SPREADING_STEP - bend[i] * FAIRING_STEP) * weights[i];
+                let bend = self.to_mean(&to_mean, i);
+                self.mesh.positions[i] += (sideways * SPREADING_STEP - bend * FAIRING_STEP) * weights[i];
             }
         }
+    }
+
+    /// From a vertex's value to the mean of its neighbours'.
+    fn to_mean(&self, of: &[V3], i: usize) -> V3 {
+        let around = &self.neighbours[i];
+        around.iter().map(|&j| of[j]).sum::<V3>() / around.len() as f64 - of[i]
     }
 
     /// Unit normals of the vertices.
@@ -102,12 +124,6 @@ impl Skin {
             }
         }
         normals.into_iter().map(|n| n.try_normalize(0.0).unwrap_or_else(V3::zeros)).collect()
-    }
-
-    /// Difference of the mean of the neighbours and the vertex itself, for every vertex.
-    fn laplacian(&self, of: &[V3]) -> Vec<V3> {
-        let mean = |around: &[usize]| around.iter().map(|&i| of[i]).sum::<V3>() / around.len() as f64;
-        self.neighbours.iter().zip(of).map(|(around, own)| mean(around) - own).collect()
     }
 
     /// The skin as triangles, stretched in height so that it stands on the floor and is `stature` tall.

@@ -49,8 +49,9 @@ pub(super) fn tape_over(mesh: &TriMesh, start: V3, middle: V3, end: V3) -> Optio
     let along = (end - start).normalize();
     let plane = Plane { origin: start, u: along, v: normal.cross(&along) };
     let reach = plane.project(end).x;
-    let side = plane.project(middle).y.signum();
-    let between = |p: &V2| p.x > 0.0 && p.x < reach && p.y * side > 0.0;
+    let top = plane.project(middle).y;
+    // Beyond the middle point the plane may cut other parts (the head behind the nape): the tape does not go there.
+    let between = |p: &V2| p.x > 0.0 && p.x < reach && p.y * top > 0.0 && p.y.abs() <= top.abs();
     let mut points: Vec<V2> =
         section(mesh, &plane).into_iter().flat_map(|outline| outline.points).filter(between).collect();
     points.extend([V2::zeros(), V2::new(reach, 0.0), plane.project(middle)]);
