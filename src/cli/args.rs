@@ -13,6 +13,9 @@ use clap_complete::Shell;
 pub struct Arguments {
     #[command(flatten)]
     pub global: Global,
+    /// How the workbench shows pictures.
+    #[arg(long, value_parser = ["auto", "halfblocks", "off"], default_value = "auto")]
+    pub images: String,
     #[command(subcommand)]
     pub command: Option<Command>,
 }

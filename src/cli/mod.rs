@@ -18,7 +18,9 @@ mod run;
 #[cfg(test)]
 mod tests;
 
+use std::error::Error;
 use std::ffi::OsString;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
@@ -65,8 +67,27 @@ impl CliError {
 /// What a command returns.
 type Outcome = Result<End, CliError>;
 
-/// Runs the program with its arguments (the first is its own name).
-pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+/// How the workbench is to be started: what the command line says of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Workbench {
+    /// The database.
+    pub database: PathBuf,
+    /// Whether nothing may be changed.
+    pub readonly: bool,
+    /// Whether colours are off.
+    pub no_color: bool,
+    /// How pictures are shown: `auto`, `halfblocks` or `off`.
+    pub images: String,
+    /// A study to offer while the database has none.
+    pub quickstart: Option<PathBuf>,
+}
+
+/// Runs the program with its arguments (the first is its own name). Without a command `workbench` is called, which this
+/// module must not know.
+pub fn main(
+    arguments: impl IntoIterator<Item = OsString>,
+    workbench: impl FnOnce(Workbench) -> Result<(), Box<dyn Error>>,
+) -> ExitCode {
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(error) => {
@@ -76,17 +97,28 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             return ExitCode::from(if error.use_stderr() { End::Unusable as u8 } else { End::Done as u8 });
         }
     };
-    let end = execute(arguments).unwrap_or_else(|error| {
+    let end = execute(arguments, workbench).unwrap_or_else(|error| {
         eprintln!("toile: {error}");
         error.end()
     });
     ExitCode::from(end as u8)
 }
 
-fn execute(arguments: Arguments) -> Outcome {
+fn execute(arguments: Arguments, workbench: impl FnOnce(Workbench) -> Result<(), Box<dyn Error>>) -> Outcome {
     let context = Context::new(arguments.global)?;
     match arguments.command {
-        None => workbench(&context),
+        None => {
+            let quickstart = context::project_folder().map(|project| project.join("studies").join("quickstart"));
+            workbench(Workbench {
+                database: context.db,
+                readonly: context.readonly,
+                no_color: !context.colour,
+                images: arguments.images,
+                quickstart,
+            })
+            .map_err(|error| CliError::Usage(error.to_string()))?;
+            Ok(End::Done)
+        }
         Some(Command::Run(arguments)) => run::run(&context, &arguments),
         Some(Command::Report(arguments)) => pictures::report(&context, &arguments),
         Some(Command::Sql(arguments)) => answers::sql(&context, &arguments),
@@ -109,10 +141,4 @@ fn execute(arguments: Arguments) -> Outcome {
             Ok(End::Done)
         }
     }
-}
-
-/// Without a command there is the workbench; until a terminal is there to show it, the help.
-fn workbench(_context: &Context) -> Outcome {
-    output::text(&Arguments::command().render_help().to_string())?;
-    Ok(End::Unusable)
 }

@@ -123,8 +123,17 @@ impl Run<'_> {
         written
     }
 
+    /// Writes what came of a job; a result that the schema refuses (not a number, a measurement twice) is a failure.
     fn finish(&self, connection: &mut Connection, id: JobId, result: &Result<Outcome>) -> Result<()> {
-        outcome::finish(connection, id, self.specs[&id], self.owner.as_str(), result, &self.provenance).map(drop)
+        let (spec, owner) = (self.specs[&id], self.owner.as_str());
+        match outcome::finish(connection, id, spec, owner, result, &self.provenance) {
+            Err(StudyError::Database(error)) if result.is_ok() && is_constraint(&error) => {
+                let message = format!("the result cannot be stored: {error}");
+                let failure = Err(StudyError::Stage { stage: "store", message });
+                outcome::finish(connection, id, spec, owner, &failure, &self.provenance).map(drop)
+            }
+            written => written.map(drop),
+        }
     }
 
     /// Tells the database how running jobs fare, until the workers are done.
@@ -157,6 +166,11 @@ impl Run<'_> {
         }
         Ok(transaction.commit()?)
     }
+}
+
+/// Whether SQLite refused a value, not the write as such.
+fn is_constraint(error: &rusqlite::Error) -> bool {
+    error.sqlite_error_code() == Some(rusqlite::ErrorCode::ConstraintViolation)
 }
 
 fn write_progress(connection: &Connection, id: JobId, progress: &JobProgress) -> Result<()> {

@@ -51,4 +51,4 @@ pub use workspace::Workspace;
 
 pub use crate::fit::FitClass;
 pub use crate::render::View;
-pub use crate::sim::{Simulator, Step};
+pub use crate::sim::{Monitor, Simulator, Step};

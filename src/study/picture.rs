@@ -99,12 +99,33 @@ impl Workspace {
     /// # Errors
     /// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
     pub fn picture(&self, id: JobId, view: View, width: u32, height: u32, map: Map) -> Result<RgbaImage> {
+        self.shot(id, view, (width, height), map, Stage::frame)
+    }
+
+    /// [`Workspace::picture`] with the garment as large as it can be, for small pictures: the body is cut off where it
+    /// goes beyond.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn close_up(&self, id: JobId, view: View, width: u32, height: u32, map: Map) -> Result<RgbaImage> {
+        self.shot(id, view, (width, height), map, |stage, aspect| Frame::enclosing(&stage.meshes[1..], aspect))
+    }
+
+    /// A picture of what a frame holds, given the picture's width over height.
+    fn shot(
+        &self,
+        id: JobId,
+        view: View,
+        (width, height): (u32, u32),
+        map: Map,
+        frame: impl Fn(&Stage, f64) -> Frame,
+    ) -> Result<RgbaImage> {
         let mut kept = self.scene.borrow_mut();
         let stage = match kept.take() {
             Some((of, with, stage)) if (of, with) == (id, map) => stage,
             _ => self.stage(id, map)?,
         };
-        let frame = stage.frame(f64::from(width.max(1)) / f64::from(height.max(1)));
+        let frame = frame(&stage, f64::from(width.max(1)) / f64::from(height.max(1)));
         let picture = render::render(&stage.scene, &Camera::new(view, frame), width, height);
         *kept = Some((id, map, stage));
         picture.map_err(StudyError::stage("render"))

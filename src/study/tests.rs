@@ -260,6 +260,23 @@ fn a_failing_job_and_a_panic_are_told_and_can_be_retried() {
 }
 
 #[test]
+fn a_result_that_is_no_number_fails_its_job_and_leaves_nothing_behind() {
+    let mut bench = Bench::new();
+    bench.run(&study(0.1), 2, |spec: &JobSpec, _: &mut dyn Monitor| {
+        let mut result = outcome(spec);
+        if spec.size == "s" {
+            result.residual = f64::NAN;
+        }
+        Ok(result)
+    });
+    let job = bench.workspace.job(JobId(1)).expect("there");
+    assert_eq!(job.status, Status::Failed);
+    assert!(job.error.is_some_and(|error| error.contains("metrics.residual")));
+    assert!(bench.workspace.chi(JobId(1)).expect("readable").is_empty());
+    assert!(bench.workspace.job(JobId(3)).expect("there").status.has_result());
+}
+
+#[test]
 fn jobs_of_a_dead_process_are_taken_over_at_once_and_nothing_runs_twice() {
     let mut bench = Bench::new();
     let options = RunOptions { workers: Some(1), ..RunOptions::default() };

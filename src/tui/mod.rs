@@ -1,1 +1,124 @@
-//! tui
+//! The workbench: screens over a workspace that changes while one looks.
+//!
+//! One event loop takes [`Message`]s one at a time, lets [`State::update`] turn them into a new state and [`Effect`]s,
+//! and draws when the state has changed. Everything that may take time (database, pictures, runs) is done by threads
+//! of `worker` that answer with messages; the loop itself only waits for the next one.
+//!
+//! *Invariant*: this module knows of the rest of the program only what [`crate::study`] shows; no SQL, no simulator.
+
+mod act;
+mod action;
+mod copy;
+mod feed;
+mod go;
+mod message;
+mod overlay;
+mod picture;
+mod screens;
+mod state;
+mod terminal;
+#[cfg(test)]
+mod tests;
+mod text;
+mod theme;
+mod update;
+mod worker;
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+pub use action::{Action, BINDINGS, Binding, Screen};
+pub use feed::{Focus, Snapshot};
+pub use message::{Act, Effect, Message, Target};
+pub use picture::{Images, Shot};
+pub use state::State;
+
+use crate::study::{StudyError, Workspace, study_file};
+use picture::Canvas;
+use state::Abilities;
+use theme::{Colours, Theme};
+use worker::Workers;
+
+/// How the workbench is started.
+pub struct Options {
+    /// The database.
+    pub database: PathBuf,
+    /// Whether nothing may be changed.
+    pub readonly: bool,
+    /// Whether colours are off, whatever the environment says.
+    pub no_color: bool,
+    /// How pictures are shown.
+    pub images: Images,
+    /// A study to start with, offered while the database has none.
+    pub quickstart: Option<PathBuf>,
+}
+
+/// Why the workbench ended.
+#[derive(Debug, thiserror::Error)]
+pub enum TuiError {
+    /// The workspace could not be opened.
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    /// The terminal refused.
+    #[error("the workbench needs a terminal: {0}; `toile --help` lists commands that do not")]
+    Terminal(#[from] io::Error),
+}
+
+/// Runs the workbench until the user leaves it. A run that was started in it is stopped then, its unfinished jobs back
+/// in the queue; when the terminal is lost, the run is waited for instead.
+///
+/// # Errors
+/// When the database cannot be opened or there is no terminal.
+pub fn run(options: Options) -> Result<(), TuiError> {
+    let workspace = Workspace::open(&options.database, options.readonly)?;
+    let env = |name: &str| std::env::var(name).ok();
+    let theme = Theme { colours: Colours::detect(options.no_color, &env) };
+    let canvas = Canvas::new(options.images, theme.colours, &env);
+    let quickstart = options.quickstart.filter(|path| study_file(path).exists());
+    let abilities = Abilities { run: !options.readonly, pictures: canvas.is_some(), quickstart: quickstart.is_some() };
+
+    let mut screen = terminal::Screen::enter()?;
+    let size = screen.terminal.size()?;
+    let state = State::new(theme, abilities, size);
+    let workers = Workers::start(workspace, canvas, quickstart);
+    let outcome = event_loop(&mut screen, state, &workers);
+    drop(screen);
+    workers.finish();
+    Ok(outcome?)
+}
+
+/// Takes messages, changes the state, draws, until it is time to leave.
+fn event_loop(screen: &mut terminal::Screen, mut state: State, workers: &Workers) -> io::Result<()> {
+    let mut silence = None;
+    workers.read(Focus::default());
+    screen.draw(&state)?;
+    while let Ok(message) = workers.messages.recv() {
+        // All that waits is taken in before the next frame, so that a flood of keys or progress costs one frame.
+        for message in std::iter::once(message).chain(workers.messages.try_iter()) {
+            for effect in state.update(message) {
+                match effect {
+                    Effect::Quit => return Ok(()),
+                    Effect::Copy(text) => print_raw(&copy::osc52(&text))?,
+                    Effect::Clear => screen.terminal.clear()?,
+                    other => workers.carry_out(other),
+                }
+            }
+        }
+        if !state.detached
+            && let Err(error) = screen.draw(&state)
+            && state.update(Message::Hangup).contains(&Effect::Quit)
+        {
+            return Err(error);
+        }
+        if state.detached && silence.is_none() {
+            silence = Some(terminal::silence_input()?);
+        }
+    }
+    Ok(())
+}
+
+fn print_raw(sequence: &str) -> io::Result<()> {
+    let mut out = io::stdout();
+    out.write_all(sequence.as_bytes())?;
+    out.flush()
+}

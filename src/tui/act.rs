@@ -1,0 +1,281 @@
+//! What each action does to the state.
+
+use super::action::{Action, Screen};
+use super::copy;
+use super::message::{Act, Effect, Target};
+use super::overlay::{List, Overlay};
+use super::picture;
+use super::state::{ChiOrder, Place, State};
+use crate::study::{JobId, why_no_retry};
+
+impl State {
+    /// Does an action; returns what others have to do.
+    pub fn act(&mut self, action: Action) -> Vec<Effect> {
+        match action {
+            Action::Up | Action::Down | Action::First | Action::Last | Action::PageUp | Action::PageDown => {
+                self.go(action);
+            }
+            Action::Left => self.sideways(-1),
+            Action::Right => self.sideways(1),
+            Action::NextPane | Action::PreviousPane => {
+                let pane = &mut self.second_pane[self.screen as usize];
+                *pane = !*pane;
+            }
+            Action::Show(screen) => self.show(screen),
+            Action::Open => return self.open(),
+            Action::Back => {
+                self.back();
+            }
+            Action::Leave => {
+                if !self.back() {
+                    return self.quit();
+                }
+            }
+            Action::Filter => self.overlay = Some(Overlay::Filter(self.filter().to_owned())),
+            Action::NextMatch => self.go_to_match(1),
+            Action::PreviousMatch => self.go_to_match(-1),
+            Action::Sort => self.sort(),
+            Action::Reverse => self.reverse(),
+            Action::Copy => return self.copy(),
+            Action::NextGarment => self.step_garment(1),
+            Action::PreviousGarment => self.step_garment(-1),
+            Action::NextStudy => self.next_study(),
+            Action::OtherSimulator => self.other_simulator(),
+            Action::NextStage => self.next_stage(),
+            Action::NextView => self.view = picture::turned(self.view, 1),
+            Action::NextMap => self.map = picture::next_map(self.map),
+            Action::Enlarge => self.enlarged = !self.enlarged,
+            Action::Pause => return self.pause(),
+            Action::Cancel => return self.cancel(),
+            Action::Retry => return self.retry(),
+            Action::Raise => return self.prioritise(1),
+            Action::Lower => return self.prioritise(-1),
+            Action::Run => return self.start_run(),
+            Action::Stop => self.stop_run(),
+            Action::Help => self.overlay = Some(Overlay::Help(List::default())),
+            Action::Palette => self.overlay = Some(Overlay::Palette(List::default())),
+            Action::Redraw => return vec![Effect::Clear],
+            Action::Quit => return self.quit(),
+        }
+        vec![]
+    }
+
+    fn show(&mut self, screen: Screen) {
+        if screen == self.screen {
+            return;
+        }
+        match self.trail.iter().position(|seen| *seen == screen) {
+            Some(at) => self.trail.truncate(at),
+            None => self.trail.push(self.screen),
+        }
+        self.screen = screen;
+    }
+
+    fn open(&mut self) -> Vec<Effect> {
+        if self.is_first_start() {
+            return self.run(Target::Quickstart);
+        }
+        if self.focus.job.is_none() {
+            self.say("nothing to open here: this cell has no job yet; R runs the study");
+        } else {
+            self.show(Screen::Results);
+        }
+        vec![]
+    }
+
+    /// Takes back the latest of filter, enlargement and screen; returns whether there was any.
+    fn back(&mut self) -> bool {
+        let filter = &mut self.filters[self.screen as usize];
+        if !filter.is_empty() {
+            filter.clear();
+        } else if self.enlarged && self.screen == Screen::Results {
+            self.enlarged = false;
+        } else if let Some(screen) = self.trail.pop() {
+            self.screen = screen;
+        } else {
+            return false;
+        }
+        true
+    }
+
+    fn quit(&mut self) -> Vec<Effect> {
+        if self.run.is_none() {
+            return vec![Effect::Quit];
+        }
+        self.ask(
+            "A run goes on here. Stop it and leave? Unfinished jobs go back to the queue.",
+            vec![Effect::StopRun, Effect::Quit],
+        );
+        vec![]
+    }
+
+    fn ask(&mut self, text: impl Into<String>, effects: Vec<Effect>) {
+        self.overlay = Some(Overlay::Question { text: text.into(), effects });
+    }
+
+    fn sort(&mut self) {
+        if self.screen == Screen::Jobs {
+            self.job_order.by = self.job_order.by.next();
+        } else {
+            self.chi_order.by = match self.chi_order.by {
+                ChiOrder::Number => ChiOrder::Error,
+                ChiOrder::Error => ChiOrder::Number,
+            };
+        }
+    }
+
+    fn reverse(&mut self) {
+        let reversed =
+            if self.screen == Screen::Jobs { &mut self.job_order.reversed } else { &mut self.chi_order.reversed };
+        *reversed = !*reversed;
+    }
+
+    fn copy(&mut self) -> Vec<Effect> {
+        let Some((text, what)) = copy::selection(self) else {
+            self.say("nothing to copy here");
+            return vec![];
+        };
+        self.say(format!("copied {what}"));
+        vec![Effect::Copy(text)]
+    }
+
+    fn step_garment(&mut self, step: isize) {
+        let Some(garments) = self.data.as_ref().and_then(|data| data.study()).map(|study| &study.garments) else {
+            return;
+        };
+        let at = garments.iter().position(|name| Some(name) == self.focus.garment.as_ref()).unwrap_or(0);
+        let Some(next) = stepped(at, step, garments.len()) else { return };
+        if next != at {
+            self.focus.garment = Some(garments[next].clone());
+            self.focus.job = None;
+        }
+    }
+
+    fn next_study(&mut self) {
+        let Some(data) = &self.data else { return };
+        let Some(next) = stepped(data.study, 1, data.studies.len()) else { return };
+        if next == data.study {
+            self.say("there is one study only");
+            return;
+        }
+        self.focus.study = Some(data.studies[next].name.clone());
+        (self.focus.garment, self.focus.job, self.place) = (None, None, Place::default());
+    }
+
+    fn other_simulator(&mut self) {
+        let Some(job) = self.job() else { return };
+        let is_other = |other: &&crate::study::JobRow| {
+            other.garment == job.garment
+                && other.size == job.size
+                && other.subject == job.subject
+                && other.repeat == job.repeat
+                && other.simulator != job.simulator
+        };
+        match self.data.as_ref().and_then(|data| data.jobs.iter().find(is_other)).map(|other| other.id) {
+            Some(id) => self.focus.job = Some(id),
+            None => self.say("the study has no job of the other simulator here"),
+        }
+    }
+
+    fn next_stage(&mut self) {
+        let stages = self.stages();
+        let at = stages.iter().position(|stage| Some(*stage) == self.stage()).unwrap_or(0);
+        let next = stepped(at, 1, stages.len()).map(|next| stages[next].to_owned());
+        let is_only = stages.len() < 2;
+        self.stage = next.or(self.stage.take());
+        if is_only {
+            self.say("this result was measured at one stage only");
+        }
+    }
+
+    fn pause(&mut self) -> Vec<Effect> {
+        let Some(study) = self.data.as_ref().and_then(|data| data.study()) else { return vec![] };
+        let name = study.name.clone();
+        vec![Effect::Do(if study.paused { Act::Resume(name) } else { Act::Pause(name) })]
+    }
+
+    fn cancel(&mut self) -> Vec<Effect> {
+        let Some(job) = self.job() else { return self.no_job() };
+        if job.status.is_final() {
+            let text = format!("job {} has ended ({}): nothing to cancel", job.id, super::text::status(job.status));
+            self.say(text);
+            return vec![];
+        }
+        let text = format!(
+            "Cancel job {}, {} {} on {} by {}?",
+            job.id,
+            job.garment,
+            job.size,
+            job.subject,
+            super::text::sim(job.simulator)
+        );
+        let effects = vec![Effect::Do(Act::Cancel(job.id))];
+        self.ask(text, effects);
+        vec![]
+    }
+
+    fn retry(&mut self) -> Vec<Effect> {
+        let Some(job) = self.job() else { return self.no_job() };
+        let id = job.id;
+        if let Some(reason) = why_no_retry(job.status) {
+            self.say(format!("job {id} is not run again: {reason}"));
+            return vec![];
+        }
+        vec![Effect::Do(Act::Retry(id))]
+    }
+
+    fn prioritise(&mut self, step: i64) -> Vec<Effect> {
+        let Some(job) = self.job() else { return self.no_job() };
+        vec![Effect::Do(Act::Prioritise(job.id, job.priority + step))]
+    }
+
+    fn no_job(&mut self) -> Vec<Effect> {
+        self.say("no job is selected");
+        vec![]
+    }
+
+    fn start_run(&mut self) -> Vec<Effect> {
+        if self.is_first_start() {
+            return self.run(Target::Quickstart);
+        }
+        let Some(study) = self.data.as_ref().and_then(|data| data.study()) else { return vec![] };
+        let target = Target::Study(study.path.clone());
+        self.run(target)
+    }
+
+    fn run(&mut self, target: Target) -> Vec<Effect> {
+        if target == Target::Quickstart && !self.abilities.quickstart {
+            self.complain("the quickstart study is not installed here: run `toile study new NAME`");
+            return vec![];
+        }
+        if !self.abilities.run {
+            self.complain("this workbench is read-only: start it without --readonly to run a study");
+            return vec![];
+        }
+        if self.run.is_some() {
+            self.say("a run goes on here already; X stops it");
+            return vec![];
+        }
+        self.run = Some(target.clone());
+        self.say("run started; it goes on in the background");
+        vec![Effect::Run(target)]
+    }
+
+    fn stop_run(&mut self) {
+        if self.run.is_none() {
+            self.say("no run goes on here");
+            return;
+        }
+        self.ask("Stop the run? Unfinished jobs go back to the queue.", vec![Effect::StopRun]);
+    }
+
+    /// Selects a job.
+    pub(super) fn select(&mut self, id: JobId) {
+        self.focus.job = Some(id);
+    }
+}
+
+/// An index some steps on, round about; `None` where there is nothing.
+pub(super) fn stepped(index: usize, step: isize, len: usize) -> Option<usize> {
+    (len > 0).then(|| (index as isize + step).rem_euclid(len as isize) as usize)
+}

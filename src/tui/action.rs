@@ -1,0 +1,350 @@
+//! What a user can do, and the one table of keys from which key handling, help and palette are made.
+
+use std::fmt;
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
+use Screen::{Jobs, Results, Study};
+
+/// A screen of the workbench; its number is its key.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Screen {
+    /// The study as a grid of sizes by subjects.
+    Study,
+    /// The queue.
+    Jobs,
+    /// One result: its measurements and its picture.
+    Results,
+}
+
+impl Screen {
+    /// All screens, in order of their numbers.
+    pub const ALL: [Self; 3] = [Self::Study, Self::Jobs, Self::Results];
+
+    /// Number and name, as on its tab.
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Study => "1 Study",
+            Self::Jobs => "4 Jobs",
+            Self::Results => "5 Results",
+        }
+    }
+}
+
+/// Everything a key or the palette can ask for. Handled in one place, `State::act`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Action {
+    /// Selects what is above.
+    Up,
+    /// Selects what is below.
+    Down,
+    /// Selects what is left; turns the picture when it has the focus.
+    Left,
+    /// Selects what is right; turns the picture when it has the focus.
+    Right,
+    /// Selects the first.
+    First,
+    /// Selects the last.
+    Last,
+    /// Goes up by a page.
+    PageUp,
+    /// Goes down by a page.
+    PageDown,
+    /// Gives the focus to the next pane.
+    NextPane,
+    /// Gives the focus to the pane before.
+    PreviousPane,
+    /// Shows a screen.
+    Show(Screen),
+    /// Opens what is selected.
+    Open,
+    /// Goes back, as far as there is anything to go back to.
+    Back,
+    /// Goes back; at the top, quits.
+    Leave,
+    /// Asks for text that rows must contain.
+    Filter,
+    /// Selects the next row or cell that matches the filter.
+    NextMatch,
+    /// Selects the one before.
+    PreviousMatch,
+    /// Sorts by the next column.
+    Sort,
+    /// Reverses the order.
+    Reverse,
+    /// Copies what is selected to the clipboard of the terminal.
+    Copy,
+    /// Shows the next garment of the study.
+    NextGarment,
+    /// Shows the garment before.
+    PreviousGarment,
+    /// Shows the next study.
+    NextStudy,
+    /// Shows the same size and subject by the other simulator.
+    OtherSimulator,
+    /// Shows the measurements of the next stage.
+    NextStage,
+    /// Turns the picture to the next view.
+    NextView,
+    /// Changes what the colours of the picture mean.
+    NextMap,
+    /// Gives the picture all the room, or less again.
+    Enlarge,
+    /// Pauses or resumes the study.
+    Pause,
+    /// Cancels the selected job.
+    Cancel,
+    /// Queues the selected job again.
+    Retry,
+    /// Runs the selected job earlier.
+    Raise,
+    /// Runs the selected job later.
+    Lower,
+    /// Runs the open jobs of the study here.
+    Run,
+    /// Stops the run.
+    Stop,
+    /// Lists the keys.
+    Help,
+    /// Lists the actions.
+    Palette,
+    /// Draws everything anew.
+    Redraw,
+    /// Leaves the program.
+    Quit,
+}
+
+/// A key with its modifiers; Shift is part of a character.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Key {
+    code: KeyCode,
+    ctrl: bool,
+}
+
+impl Key {
+    /// The key of an event.
+    #[must_use]
+    pub fn of(event: &KeyEvent) -> Self {
+        Self { code: event.code, ctrl: event.modifiers.contains(KeyModifiers::CONTROL) }
+    }
+}
+
+impl fmt::Display for Key {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.ctrl {
+            f.write_str("C-")?;
+        }
+        match self.code {
+            KeyCode::Char(' ') => f.write_str("Space"),
+            KeyCode::Char(letter) => write!(f, "{letter}"),
+            KeyCode::Up => f.write_str("↑"),
+            KeyCode::Down => f.write_str("↓"),
+            KeyCode::Left => f.write_str("←"),
+            KeyCode::Right => f.write_str("→"),
+            KeyCode::Enter => f.write_str("↵"),
+            KeyCode::BackTab => f.write_str("S-Tab"),
+            KeyCode::PageUp => f.write_str("PgUp"),
+            KeyCode::PageDown => f.write_str("PgDn"),
+            other => write!(f, "{other}"),
+        }
+    }
+}
+
+/// One row of the table of keys.
+pub struct Binding {
+    /// What it does.
+    pub action: Action,
+    /// Its name in the palette.
+    pub name: &'static str,
+    /// The keys that do it.
+    pub keys: &'static [Key],
+    /// Where; empty means everywhere.
+    pub screens: &'static [Screen],
+    /// Its word in the status line; empty where it is not shown there.
+    pub hint: &'static str,
+    /// What it does, in words.
+    pub help: &'static str,
+}
+
+impl Binding {
+    /// Whether it holds on a screen.
+    #[must_use]
+    pub fn is_on(&self, screen: Screen) -> bool {
+        self.screens.is_empty() || self.screens.contains(&screen)
+    }
+
+    /// Its keys, as help shows them.
+    #[must_use]
+    pub fn keys_text(&self) -> String {
+        self.keys.iter().map(Key::to_string).collect::<Vec<_>>().join(" ")
+    }
+
+    /// Whether its name, keys or help contain a text, whatever the case.
+    #[must_use]
+    pub fn matches(&self, text: &str) -> bool {
+        let text = text.to_lowercase();
+        self.name.contains(&text)
+            || self.help.to_lowercase().contains(&text)
+            || self.keys.iter().any(|key| key.to_string().to_lowercase() == text)
+    }
+}
+
+/// The action of a key on a screen.
+#[must_use]
+pub fn action_of(key: Key, screen: Screen) -> Option<Action> {
+    BINDINGS.iter().find(|binding| binding.is_on(screen) && binding.keys.contains(&key)).map(|binding| binding.action)
+}
+
+/// The actions whose name, keys or help contain a text: those whose name begins with it first.
+#[must_use]
+pub fn search(text: &str) -> Vec<&'static Binding> {
+    let text = text.trim().to_lowercase();
+    let mut found: Vec<&Binding> = BINDINGS.iter().filter(|binding| binding.matches(&text)).collect();
+    found.sort_by_key(|binding| (binding.name != text, !binding.name.starts_with(&text)));
+    found
+}
+
+const fn ch(letter: char) -> Key {
+    Key { code: KeyCode::Char(letter), ctrl: false }
+}
+
+const fn ctrl(letter: char) -> Key {
+    Key { code: KeyCode::Char(letter), ctrl: true }
+}
+
+const fn key(code: KeyCode) -> Key {
+    Key { code, ctrl: false }
+}
+
+const fn bind(
+    action: Action,
+    name: &'static str,
+    keys: &'static [Key],
+    screens: &'static [Screen],
+    hint: &'static str,
+    help: &'static str,
+) -> Binding {
+    Binding { action, name, keys, screens, hint, help }
+}
+
+/// The table of keys. Ctrl-A, B, S, Q, H, I, J and M stay free: tmux, screen, flow control and the terminal use them.
+pub const BINDINGS: &[Binding] = &[
+    bind(Action::Open, "open", &[key(KeyCode::Enter)], &[Study, Jobs], "open", "Open the result of the selected job"),
+    bind(
+        Action::Enlarge,
+        "enlarge",
+        &[key(KeyCode::Enter), ch('z')],
+        &[Results],
+        "enlarge",
+        "Give the picture all the room, or less again",
+    ),
+    bind(Action::Pause, "pause", &[ch('p')], &[Study, Jobs], "pause", "Pause or resume the study; running jobs go on"),
+    bind(Action::Cancel, "cancel", &[ch('x')], &[], "cancel", "Cancel the selected queued or running job; asks"),
+    bind(Action::Retry, "retry", &[ch('r')], &[], "retry", "Queue the selected failed or cancelled job again"),
+    bind(Action::Run, "run", &[ch('R')], &[], "run", "Run the study here, in the background"),
+    bind(Action::Stop, "stop", &[ch('X')], &[], "", "Stop the run started here; asks"),
+    bind(Action::NextView, "view", &[ch('v')], &[Results], "view", "Turn the picture: front, side, back, quarter"),
+    bind(Action::NextMap, "map", &[ch('m')], &[Results], "map", "Colour the picture by fabric or by strain"),
+    bind(
+        Action::OtherSimulator,
+        "other-simulator",
+        &[ch('f')],
+        &[],
+        "FEM/HYB",
+        "Same size and subject by the other simulator",
+    ),
+    bind(Action::NextStage, "stage", &[ch('t')], &[Results], "stage", "Measurements of the next stage: popup, drape"),
+    bind(Action::Filter, "filter", &[ch('/')], &[], "filter", "Show only what contains a text"),
+    bind(Action::Sort, "sort", &[ch('s')], &[Jobs, Results], "sort", "Sort by the next column"),
+    bind(Action::Reverse, "reverse", &[ch('S')], &[Jobs, Results], "", "Reverse the order"),
+    bind(Action::Help, "help", &[ch('?')], &[], "help", "List the keys; type to filter by name or key"),
+    bind(Action::Palette, "palette", &[ch(':')], &[], "command", "Run any action by its name; :q quits"),
+    bind(Action::Up, "up", &[ch('k'), key(KeyCode::Up)], &[], "", "Select what is above"),
+    bind(Action::Down, "down", &[ch('j'), key(KeyCode::Down)], &[], "", "Select what is below"),
+    bind(
+        Action::Left,
+        "left",
+        &[ch('h'), key(KeyCode::Left)],
+        &[],
+        "",
+        "Left; result before; turn the focused picture",
+    ),
+    bind(
+        Action::Right,
+        "right",
+        &[ch('l'), key(KeyCode::Right)],
+        &[],
+        "",
+        "Right; next result; turn the focused picture",
+    ),
+    bind(Action::First, "first", &[ch('g'), key(KeyCode::Home)], &[], "", "Select the first"),
+    bind(Action::Last, "last", &[ch('G'), key(KeyCode::End)], &[], "", "Select the last"),
+    bind(Action::PageUp, "page-up", &[key(KeyCode::PageUp), ctrl('u')], &[], "", "Go up by a page"),
+    bind(Action::PageDown, "page-down", &[key(KeyCode::PageDown), ctrl('d')], &[], "", "Go down by a page"),
+    bind(Action::NextPane, "next-pane", &[key(KeyCode::Tab)], &[], "", "Give the focus to the next pane"),
+    bind(Action::PreviousPane, "previous-pane", &[key(KeyCode::BackTab)], &[], "", "Give the focus to the pane before"),
+    bind(Action::Show(Study), "study", &[ch('1')], &[], "", "Screen 1: the study, sizes by subjects"),
+    bind(Action::Show(Jobs), "jobs", &[ch('4')], &[], "", "Screen 4: the queue, logs and convergence"),
+    bind(Action::Show(Results), "results", &[ch('5')], &[], "", "Screen 5: one result, its numbers and picture"),
+    bind(Action::NextGarment, "next-garment", &[ch(']')], &[], "", "Next garment of the study"),
+    bind(Action::PreviousGarment, "previous-garment", &[ch('[')], &[], "", "Garment before"),
+    bind(Action::NextStudy, "next-study", &[ch('}')], &[], "", "Next study"),
+    bind(Action::NextMatch, "next-match", &[ch('n')], &[], "", "Next match of the filter"),
+    bind(Action::PreviousMatch, "previous-match", &[ch('N')], &[], "", "Match before"),
+    bind(Action::Raise, "raise", &[ch('+')], &[Jobs], "", "Have the selected job run earlier"),
+    bind(Action::Lower, "lower", &[ch('-')], &[Jobs], "", "Have the selected job run later"),
+    bind(Action::Copy, "copy", &[ch('y')], &[], "", "Copy the job or the table (OSC 52, works over SSH)"),
+    bind(Action::Redraw, "redraw", &[ctrl('l')], &[], "", "Draw everything anew"),
+    bind(Action::Back, "back", &[key(KeyCode::Esc)], &[], "", "Close, clear the filter, go back a screen"),
+    bind(Action::Leave, "leave", &[ch('q')], &[], "", "Go back; at the top, quit"),
+    bind(Action::Quit, "quit", &[ctrl('c')], &[], "", "Leave; asks while a run goes on here"),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_key_is_bound_twice_on_a_screen_nor_to_what_terminals_use() {
+        for screen in Screen::ALL {
+            let keys: Vec<Key> =
+                BINDINGS.iter().filter(|b| b.is_on(screen)).flat_map(|b| b.keys.iter().copied()).collect();
+            for (i, key) in keys.iter().enumerate() {
+                assert!(!keys[..i].contains(key), "{key} twice on {}", screen.title());
+                let avoided = "absqhijm".chars().map(ctrl).any(|taken| taken == *key);
+                assert!(!avoided, "{key} is taken by terminals");
+            }
+        }
+    }
+
+    #[test]
+    fn every_binding_has_a_key_a_unique_name_and_help() {
+        for (i, binding) in BINDINGS.iter().enumerate() {
+            assert!(!binding.keys.is_empty() && !binding.help.is_empty(), "{}", binding.name);
+            assert!(binding.help.chars().count() <= 52, "{} has to fit 80 columns", binding.name);
+            assert!(BINDINGS[..i].iter().all(|b| b.name != binding.name && b.action != binding.action));
+            assert_eq!(search(binding.name)[0].name, binding.name, "the palette finds it by its name");
+        }
+    }
+
+    #[test]
+    fn the_palette_puts_names_first() {
+        let check = |text: &str, expect: &str| assert_eq!(search(text)[0].name, expect, "{text}");
+        check("q", "quit");
+        check("quit", "quit");
+        check("can", "cancel");
+        check("queue", "cancel");
+        assert!(search("no such action").is_empty());
+    }
+
+    #[test]
+    fn keys_mean_what_their_screen_says() {
+        let check = |k: Key, screen, expect| assert_eq!(action_of(k, screen), expect, "{k} on {screen:?}");
+        check(key(KeyCode::Enter), Jobs, Some(Action::Open));
+        check(key(KeyCode::Enter), Results, Some(Action::Enlarge));
+        check(ch('v'), Study, None);
+        check(ctrl('c'), Study, Some(Action::Quit));
+        check(ch('c'), Study, None);
+    }
+}

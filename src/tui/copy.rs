@@ -1,0 +1,62 @@
+//! What is copied, and how it reaches the user's clipboard.
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+
+use super::action::Screen;
+use super::state::State;
+use super::text;
+
+/// The text that stands for what is selected, tab-separated, and what it is.
+#[must_use]
+pub fn selection(state: &State) -> Option<(String, &'static str)> {
+    match state.screen {
+        Screen::Results => chi_table(state).map(|table| (table, "the table of measurements")),
+        Screen::Study | Screen::Jobs => job_line(state).map(|line| (line, "the job")),
+    }
+}
+
+fn job_line(state: &State) -> Option<String> {
+    let job = state.job()?;
+    let ei = job.ei.map_or(String::new(), |ei| format!("{ei:.6}"));
+    Some(format!(
+        "{}\t{}\t{}\t{}\t{}\t{}\t{}\t{ei}\t{}",
+        job.id,
+        job.study,
+        job.garment,
+        job.size,
+        job.subject,
+        job.simulator.as_str(),
+        job.status.as_str(),
+        job.error.as_deref().unwrap_or_default()
+    ))
+}
+
+fn chi_table(state: &State) -> Option<String> {
+    let rows = state.chi();
+    if rows.is_empty() {
+        return None;
+    }
+    let mut table = String::from("no\tmeasurement\tl2d_mm\tl3d_mm\tchi\n");
+    for row in rows {
+        let (l2d, l3d) = (text::mm(row.l2d_m), text::mm(row.l3d_m));
+        table += &format!("{}\t{}\t{l2d}\t{l3d}\t{:.6}\n", row.no, row.name, row.chi());
+    }
+    Some(table)
+}
+
+/// The control sequence that puts a text on the clipboard of the terminal, wherever that runs (OSC 52).
+#[must_use]
+pub fn osc52(text: &str) -> String {
+    format!("\x1b]52;c;{}\x07", STANDARD.encode(text))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn clipboard_sequence() {
+        assert_eq!(osc52("toile"), "\x1b]52;c;dG9pbGU=\x07");
+    }
+}

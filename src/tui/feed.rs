@@ -1,0 +1,102 @@
+//! What the screens show, read from the workspace in one go on a background thread.
+
+use crate::study::{
+    ChiRow, EaseRow, Grid, JobFilter, JobId, JobRow, LogLine, MetricsRow, Result, StageRow, Step, StudyRow, Why,
+    Workspace, now_ms,
+};
+
+/// What the user looks at; whatever is `None` or gone is chosen by [`snapshot`].
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Focus {
+    /// Study.
+    pub study: Option<String>,
+    /// Garment.
+    pub garment: Option<String>,
+    /// Job whose details are wanted.
+    pub job: Option<JobId>,
+}
+
+/// Everything the screens show of the database at one moment.
+#[derive(Clone, Debug)]
+pub struct Snapshot {
+    /// When it was read, ms since 1970 (UTC).
+    pub now_ms: i64,
+    /// All studies.
+    pub studies: Vec<StudyRow>,
+    /// The study looked at, an index into `studies`.
+    pub study: usize,
+    /// The garment looked at as a grid.
+    pub grid: Option<Grid>,
+    /// All current jobs of the study.
+    pub jobs: Vec<JobRow>,
+    /// Ease of all sizes on all subjects of the study.
+    pub ease: Vec<EaseRow>,
+    /// The job looked at.
+    pub detail: Option<Detail>,
+}
+
+impl Snapshot {
+    /// The study looked at; `None` where the database has none.
+    #[must_use]
+    pub fn study(&self) -> Option<&StudyRow> {
+        self.studies.get(self.study)
+    }
+
+    /// A job by its number.
+    #[must_use]
+    pub fn job(&self, id: JobId) -> Option<&JobRow> {
+        self.jobs.iter().find(|job| job.id == id)
+    }
+}
+
+/// What is stored of one job.
+#[derive(Clone, Debug)]
+pub struct Detail {
+    /// Its number.
+    pub job: JobId,
+    /// Measurements of all stages.
+    pub chi: Vec<ChiRow>,
+    /// Numbers of its result.
+    pub metrics: Option<MetricsRow>,
+    /// Steps of its simulation.
+    pub history: Vec<Step>,
+    /// Its log, oldest line first.
+    pub log: Vec<LogLine>,
+    /// Why the cache did not have it.
+    pub why: Why,
+    /// Where its inputs came from.
+    pub stages: Vec<StageRow>,
+}
+
+/// Reads what a focus needs.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn snapshot(workspace: &Workspace, focus: &Focus) -> Result<Snapshot> {
+    let studies = workspace.studies()?;
+    let study = studies.iter().position(|study| Some(&study.name) == focus.study.as_ref()).unwrap_or(0);
+    let mut snapshot =
+        Snapshot { now_ms: now_ms(), studies, study, grid: None, jobs: vec![], ease: vec![], detail: None };
+    let Some(row) = snapshot.studies.get(study) else { return Ok(snapshot) };
+    let garment = row.garments.iter().find(|name| Some(*name) == focus.garment.as_ref()).or(row.garments.first());
+    let grid = garment.map(|garment| workspace.grid(&row.name, garment)).transpose()?;
+    snapshot.jobs = workspace.jobs(&JobFilter { study: Some(row.name.clone()), ..JobFilter::default() })?;
+    snapshot.ease = workspace.ease(&row.name)?;
+    snapshot.grid = grid;
+    if let Some(job) = focus.job.filter(|id| snapshot.job(*id).is_some()) {
+        snapshot.detail = Some(detail(workspace, job)?);
+    }
+    Ok(snapshot)
+}
+
+fn detail(workspace: &Workspace, job: JobId) -> Result<Detail> {
+    Ok(Detail {
+        job,
+        chi: workspace.chi(job)?,
+        metrics: workspace.metrics(job)?,
+        history: workspace.history(job)?,
+        log: workspace.log(job)?,
+        why: workspace.why(job)?,
+        stages: workspace.stages(job)?,
+    })
+}

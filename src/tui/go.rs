@@ -1,0 +1,137 @@
+//! Moving about: rows, cells, matches.
+
+use super::act::stepped;
+use super::action::{Action, Screen};
+use super::picture;
+use super::state::{Place, State};
+use crate::study::JobId;
+
+/// Lines that no list has: title, borders, headers, status line.
+const FRAME_LINES: u16 = 8;
+
+impl State {
+    /// Moves up or down in the pane that has the focus.
+    pub(super) fn go(&mut self, action: Action) {
+        let page = usize::from(self.size.height.saturating_sub(FRAME_LINES)).max(2) / 2;
+        match (self.screen, self.in_second_pane()) {
+            (Screen::Study, false) => self.go_in_grid(action, page),
+            (Screen::Jobs, false) => self.go_in_jobs(action, page),
+            (Screen::Jobs, true) => self.go_in_log(action, page),
+            (Screen::Study, true) | (Screen::Results, _) => {
+                self.chi_row = moved(self.chi_row, self.chi().len(), action, page);
+            }
+        }
+    }
+
+    fn go_in_grid(&mut self, action: Action, page: usize) {
+        let Some(grid) = self.grid() else { return };
+        let simulators = grid.simulators.len().max(1);
+        let rows = grid.sizes.len() * simulators;
+        let row = moved(self.place.size * simulators + self.place.simulator, rows, action, page);
+        self.go_to(Place { size: row / simulators, simulator: row % simulators, ..self.place });
+    }
+
+    fn go_in_jobs(&mut self, action: Action, page: usize) {
+        let jobs: Vec<JobId> = self.jobs().iter().map(|job| job.id).collect();
+        let at = jobs.iter().position(|id| Some(*id) == self.focus.job);
+        let next = at.map_or(0, |at| moved(at, jobs.len(), action, page));
+        if let Some(id) = jobs.get(next) {
+            self.select(*id);
+        }
+    }
+
+    fn go_in_log(&mut self, action: Action, page: usize) {
+        let lines = self.detail().map_or(0, |detail| detail.log.len());
+        let from_top = lines.saturating_sub(1 + self.log_up);
+        self.log_up = lines.saturating_sub(1 + moved(from_top, lines, action, page));
+    }
+
+    /// Moves left or right: subjects, results, or round the drape.
+    pub(super) fn sideways(&mut self, step: isize) {
+        match (self.screen, self.in_second_pane()) {
+            (Screen::Study, _) => {
+                let Some(grid) = self.grid() else { return };
+                let last = grid.subjects.len().saturating_sub(1);
+                let subject = self.place.subject.saturating_add_signed(step).min(last);
+                self.go_to(Place { subject, ..self.place });
+            }
+            (Screen::Results, true) => self.view = picture::turned(self.view, step),
+            (Screen::Results, false) => self.step_result(step),
+            (Screen::Jobs, _) => {}
+        }
+    }
+
+    /// Goes to the next or previous job that has a result.
+    fn step_result(&mut self, step: isize) {
+        let is_shown = |job: &&crate::study::JobRow| job.status.has_result() || Some(job.id) == self.focus.job;
+        let Some(data) = &self.data else { return };
+        let jobs: Vec<JobId> = data.jobs.iter().filter(is_shown).map(|job| job.id).collect();
+        let at = jobs.iter().position(|id| Some(*id) == self.focus.job).unwrap_or(0);
+        if let Some(next) = stepped(at, step, jobs.len()) {
+            self.select(jobs[next]);
+        }
+    }
+
+    /// Selects a cell of the grid and its job, if it has one.
+    fn go_to(&mut self, place: Place) {
+        self.place = place;
+        self.focus.job = self.cell_at(place).and_then(|cell| cell.job);
+    }
+
+    /// Goes to the next or previous match of the filter.
+    pub(super) fn go_to_match(&mut self, step: isize) {
+        if self.filter().is_empty() {
+            self.say("no filter is set; / sets one");
+            return;
+        }
+        match self.screen {
+            Screen::Study => self.go_to_matching_cell(step),
+            Screen::Jobs => {
+                let jobs: Vec<JobId> = self.jobs().iter().map(|job| job.id).collect();
+                let at = jobs.iter().position(|id| Some(*id) == self.focus.job).unwrap_or(0);
+                if let Some(next) = stepped(at, step, jobs.len()) {
+                    self.select(jobs[next]);
+                }
+            }
+            Screen::Results => self.chi_row = stepped(self.chi_row, step, self.chi().len()).unwrap_or(0),
+        }
+    }
+
+    fn go_to_matching_cell(&mut self, step: isize) {
+        let places = self.places();
+        let at = places.iter().position(|place| *place == self.place).unwrap_or(0);
+        let found = (1..=places.len())
+            .filter_map(|k| stepped(at, step * k as isize, places.len()))
+            .map(|next| places[next])
+            .find(|place| self.is_match(*place));
+        match found {
+            Some(place) => self.go_to(place),
+            None => self.say("no cell matches the filter"),
+        }
+    }
+
+    /// All places of the grid, row by row.
+    #[must_use]
+    pub fn places(&self) -> Vec<Place> {
+        let Some(grid) = self.grid() else { return vec![] };
+        let (sizes, simulators, subjects) = (grid.sizes.len(), grid.simulators.len(), grid.subjects.len());
+        let rows = (0..sizes).flat_map(|size| (0..simulators).map(move |simulator| (size, simulator)));
+        rows.flat_map(|(size, simulator)| (0..subjects).map(move |subject| Place { size, simulator, subject }))
+            .collect()
+    }
+}
+
+/// An index after a movement in a list.
+fn moved(index: usize, len: usize, action: Action, page: usize) -> usize {
+    let last = len.saturating_sub(1);
+    let next = match action {
+        Action::Up => index.saturating_sub(1),
+        Action::Down => index + 1,
+        Action::PageUp => index.saturating_sub(page),
+        Action::PageDown => index + page,
+        Action::First => 0,
+        Action::Last => last,
+        _ => index,
+    };
+    next.min(last)
+}

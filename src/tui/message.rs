@@ -1,0 +1,78 @@
+//! What arrives at the event loop and what it asks for: two closed sets, so that all of the workbench is
+//! `(state, message) -> (state, effects)`.
+
+use std::path::PathBuf;
+
+use crossterm::event::KeyEvent;
+
+use super::feed::{Focus, Snapshot};
+use super::picture::{Drawn, Shot};
+use crate::study::JobId;
+
+/// Something that happened.
+#[derive(Debug)]
+pub enum Message {
+    /// A key was pressed.
+    Key(KeyEvent),
+    /// The terminal has a new size, columns by rows.
+    Resize(u16, u16),
+    /// The database was read.
+    Data(Box<Snapshot>),
+    /// Something could not be read or done.
+    Failed(String),
+    /// An action on the queue is done.
+    Acted(String),
+    /// A picture is drawn, or could not be.
+    Picture(Shot, Result<Drawn, String>),
+    /// The run started here has ended.
+    RunEnded(Result<String, String>),
+    /// The terminal is gone.
+    Hangup,
+    /// The process is asked to end.
+    Terminate,
+}
+
+/// Something the event loop has others do.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Effect {
+    /// Read what the screens show.
+    Read(Focus),
+    /// Draw a picture.
+    Paint(Shot),
+    /// Act on the queue.
+    Do(Act),
+    /// Run a study in the background.
+    Run(Target),
+    /// Ask the run to stop.
+    StopRun,
+    /// Put a text on the clipboard.
+    Copy(String),
+    /// Draw the whole screen anew.
+    Clear,
+    /// Leave.
+    Quit,
+}
+
+/// An action on the queue.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Act {
+    /// Cancel a job.
+    Cancel(JobId),
+    /// Queue a job again.
+    Retry(JobId),
+    /// Change a job's priority by a step.
+    Prioritise(JobId, i64),
+    /// Pause a study.
+    Pause(String),
+    /// Resume a study.
+    Resume(String),
+}
+
+/// What to run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// The study that comes with the program.
+    Quickstart,
+    /// A study file.
+    Study(PathBuf),
+}

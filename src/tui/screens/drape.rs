@@ -1,0 +1,75 @@
+//! The pane with the picture of a drape.
+
+use ratatui::Frame;
+use ratatui::layout::{Alignment, Position, Rect, Size};
+use ratatui::text::Line;
+use ratatui::widgets::{Block, Paragraph, Wrap};
+use ratatui_image::Image;
+
+use super::super::action::Screen;
+use super::super::picture::Drawn;
+use super::super::state::State;
+use super::{pane, results, rows, study};
+use crate::study::Status;
+
+/// Room for the picture on the screen shown, in cells; `None` where no picture is shown.
+#[must_use]
+pub fn picture_size(state: &State) -> Option<Size> {
+    if !state.abilities.pictures {
+        return None;
+    }
+    let [_, body, _] = rows(Rect::from((Position::ORIGIN, state.size)));
+    let pane = match state.screen {
+        Screen::Study => study::picture_pane(body, state),
+        Screen::Results => results::picture_pane(body, state),
+        Screen::Jobs => None,
+    };
+    let inner = Block::bordered().inner(pane?);
+    (inner.width >= 4 && inner.height >= 3).then(|| inner.as_size())
+}
+
+/// Draws the pane; `keys` are those that change the picture there.
+pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool, keys: &'static str) {
+    let title = format!("{} · {}", state.view.as_str(), state.map.as_str());
+    let block = pane(state.theme, title, focused).title_bottom(Line::styled(keys, state.theme.legend()));
+    let inner = block.inner(area);
+    frame.render_widget(block, area);
+    // While a picture is drawn anew, the one before stays, so that turning does not flicker.
+    let drawn = state.picture.as_ref().filter(|(shot, _)| {
+        Some(shot.job) == state.focus.job && shot.columns == inner.width && shot.rows == inner.height
+    });
+    let text = match drawn {
+        Some((_, Ok(drawn))) => return draw_cells(frame, inner, drawn, state),
+        Some((_, Err(error))) => format!("no picture: {error}"),
+        None if !state.abilities.pictures => "pictures are off (--images off)".into(),
+        None if state.shot.is_some() => "drawing…".into(),
+        None => match state.job().map(|job| job.status) {
+            Some(Status::Running) => "the drape is shown when the job is done".into(),
+            _ => String::new(),
+        },
+    };
+    frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), inner);
+}
+
+/// The picture in the middle of its pane.
+fn draw_cells(frame: &mut Frame<'_>, area: Rect, drawn: &Drawn, state: &State) {
+    match drawn {
+        Drawn::Cells(protocol) => {
+            let size = protocol.size();
+            let place = centred(area, size);
+            frame.render_widget(Image::new(protocol), place);
+            state.theme.adapt(frame.buffer_mut(), place);
+        }
+        Drawn::Letters(rows) => {
+            let place = centred(area, Size::new(area.width, rows.len() as u16));
+            let lines: Vec<Line<'_>> = rows.iter().map(|row| Line::raw(row.as_str())).collect();
+            frame.render_widget(Paragraph::new(lines).alignment(Alignment::Center), place);
+        }
+    }
+}
+
+fn centred(area: Rect, size: Size) -> Rect {
+    let x = area.x + area.width.saturating_sub(size.width) / 2;
+    let y = area.y + area.height.saturating_sub(size.height) / 2;
+    Rect::new(x, y, size.width, size.height).intersection(area)
+}

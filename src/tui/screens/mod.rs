@@ -1,0 +1,150 @@
+//! The screens: pure functions of the state to a frame. Here the frame they share: tabs, panes, status line, overlays.
+
+mod chi;
+mod drape;
+mod jobs;
+mod overlays;
+mod results;
+mod start;
+mod study;
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, Paragraph};
+
+use super::action::{BINDINGS, Screen};
+use super::overlay::Overlay;
+use super::state::State;
+use super::text;
+use super::theme::{Theme, glyph};
+use crate::study::Status;
+
+pub use drape::picture_size;
+
+/// Terminals with fewer columns or rows than this get lists instead of grids and panes.
+const NARROW: (u16, u16) = (60, 16);
+/// Terminals with at least so many columns get panes side by side.
+const WIDE: u16 = 120;
+
+/// Draws the workbench.
+pub fn draw(frame: &mut Frame<'_>, state: &State) {
+    let [top, body, bottom] = rows(frame.area());
+    frame.render_widget(tabs(state, top.width), top);
+    match state.screen {
+        _ if state.data.is_none() => frame.render_widget(Paragraph::new(" reading the database…"), body),
+        _ if state.is_first_start() => start::draw(frame, body, state),
+        Screen::Study => study::draw(frame, body, state),
+        Screen::Jobs => jobs::draw(frame, body, state),
+        Screen::Results => results::draw(frame, body, state),
+    }
+    frame.render_widget(status_line(state, bottom.width), bottom);
+    if let Some(overlay) = &state.overlay {
+        overlays::draw(frame, body, overlay, state);
+    }
+}
+
+/// Tabs, body, status line.
+fn rows(area: Rect) -> [Rect; 3] {
+    Layout::vertical([Constraint::Length(1), Constraint::Fill(1), Constraint::Length(1)]).areas(area)
+}
+
+/// Whether there is only room for lists.
+fn is_narrow(area: Rect) -> bool {
+    area.width < NARROW.0 || area.height < NARROW.1
+}
+
+/// A pane; the one with the focus stands out by colour, weight and a mark in its title.
+fn pane<'a>(theme: Theme, title: impl Into<String>, focused: bool) -> Block<'a> {
+    let title = title.into();
+    let title = if focused { format!(" ▸{title} ") } else { format!(" {title} ") };
+    let style = if focused { theme.bold() } else { Style::new() };
+    Block::bordered().border_style(theme.border(focused)).title(Span::styled(title, style))
+}
+
+/// A line as the selected one: one colour all along, so that it reads as one row.
+fn selected(line: Line<'static>, style: Style) -> Line<'static> {
+    let text: String = line.spans.iter().map(|span| span.content.as_ref()).collect();
+    Line::styled(text, style)
+}
+
+/// The first line shown of a list, such that the selected one is near the middle.
+fn first_shown(selected: usize, lines: usize, height: usize) -> usize {
+    selected.saturating_sub(height / 2).min(lines.saturating_sub(height))
+}
+
+fn tabs(state: &State, width: u16) -> Line<'static> {
+    let mut spans = vec![];
+    for screen in Screen::ALL {
+        let style = if screen == state.screen { state.theme.selected() } else { Style::new() };
+        spans.push(Span::styled(format!(" {} ", screen.title()), style));
+    }
+    let used: usize = spans.iter().map(Span::width).sum();
+    let room = usize::from(width).saturating_sub(used);
+    let columns = |spans: &[Span<'_>]| spans.iter().map(Span::width).sum::<usize>();
+    let mut summary = summary(state);
+    while columns(&summary) >= room && !summary.is_empty() {
+        summary.remove(0);
+    }
+    spans.push(Span::raw(" ".repeat(room - columns(&summary).min(room))));
+    spans.extend(summary);
+    Line::from(spans)
+}
+
+/// The study and how far it has come, what may be left out first.
+fn summary(state: &State) -> Vec<Span<'static>> {
+    let Some(study) = state.data.as_ref().and_then(|data| data.study()) else { return vec![] };
+    let mut spans = vec![Span::styled(study.name.clone(), state.theme.bold())];
+    if study.paused {
+        spans.push(Span::styled(" paused", state.theme.warn()));
+    }
+    if state.run.is_some() {
+        spans.push(Span::styled(" run here", state.theme.busy()));
+    }
+    spans.push(Span::raw(format!("  {} jobs", study.total())));
+    for status in Status::ALL.into_iter().filter(|status| study.count(*status) > 0) {
+        let text = format!(" {}{}", glyph(status), study.count(status));
+        spans.push(Span::styled(text, state.theme.status(status)));
+    }
+    spans.push(Span::raw(" "));
+    spans
+}
+
+/// The filter while it is typed, a message, or the keys that matter here.
+fn status_line(state: &State, width: u16) -> Line<'static> {
+    if matches!(state.overlay, Some(Overlay::Filter(_))) {
+        let hint = Span::styled("  ↵ keep  Esc undo", state.theme.dim());
+        return Line::from(vec![Span::raw(format!("/{}▏", state.filter())), hint]);
+    }
+    if let Some(notice) = &state.notice {
+        let (mark, style) = if notice.is_error { ("✗ ", state.theme.bad()) } else { ("", Style::new()) };
+        let line = notice.text.lines().collect::<Vec<_>>().join("; ");
+        return Line::styled(text::shortened(&format!(" {mark}{line}"), usize::from(width)), style);
+    }
+    let filter = state.filter();
+    let mut spans = vec![];
+    let mut used = 0;
+    if !filter.is_empty() {
+        let text = format!(" filter /{filter}/ Esc clears");
+        used += text::width(&text);
+        spans.push(Span::styled(text, state.theme.warn()));
+    }
+    // What matters most stands first in the table, but help and palette must always be found.
+    let hinted = BINDINGS.iter().filter(|b| !b.hint.is_empty() && b.is_on(state.screen));
+    let hinted = hinted.filter(|b| !state.is_first_start() || matches!(b.name, "open" | "run" | "help" | "palette"));
+    let (last, first): (Vec<_>, Vec<_>) = hinted.partition(|b| matches!(b.name, "help" | "palette"));
+    let columns = |b: &super::action::Binding| text::width(&b.keys[0].to_string()) + text::width(b.hint) + 3;
+    let reserved: usize = last.iter().map(|b| columns(b)).sum();
+    for binding in first.into_iter().chain(last) {
+        let is_last = matches!(binding.name, "help" | "palette");
+        let keep = if is_last { 0 } else { reserved };
+        if used + columns(binding) + keep > usize::from(width) {
+            continue;
+        }
+        used += columns(binding);
+        spans.push(Span::styled(format!(" {}", binding.keys[0]), state.theme.bold()));
+        spans.push(Span::raw(format!(" {} ", binding.hint)));
+    }
+    Line::from(spans)
+}

@@ -1,0 +1,42 @@
+//! What a new user sees: a database without studies.
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::text::Line;
+use ratatui::widgets::{Paragraph, Wrap};
+
+use super::super::state::State;
+
+pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
+    let bold = state.theme.bold();
+    let mut lines = vec![
+        Line::styled("Toile: dress bodies in patterns, measure the drape, choose a simulator", bold),
+        Line::raw(""),
+        Line::raw("This database has no study yet."),
+        Line::raw(""),
+    ];
+    let can_run = state.abilities.run;
+    lines.extend(match (&state.run, can_run && state.abilities.quickstart) {
+        (Some(_), _) => vec![Line::styled("▶ The quickstart is being made ready…", state.theme.busy())],
+        (None, true) => vec![
+            Line::styled("Enter  run the quickstart", bold),
+            Line::raw("       A small study with all it needs; results appear here as they come."),
+        ],
+        (None, false) if can_run => vec![Line::raw("The quickstart study is not installed here.")],
+        (None, false) => vec![Line::raw("It is open read-only: start without --readonly to run a study.")],
+    });
+    lines.extend([
+        Line::raw(""),
+        Line::raw("Or, in another terminal:"),
+        Line::raw("       toile study new NAME    writes a study file to fill in"),
+        Line::raw("       toile run STUDY         runs it; this screen follows"),
+        Line::raw(""),
+        Line::styled("?  keys    :  all actions    q  quit", state.theme.dim()),
+    ]);
+    let height = (lines.len() as u16).min(area.height);
+    let [_, column, _] =
+        Layout::horizontal([Constraint::Fill(1), Constraint::Max(76), Constraint::Fill(1)]).areas(area);
+    let [_, place, _] =
+        Layout::vertical([Constraint::Fill(1), Constraint::Length(height), Constraint::Fill(2)]).areas(column);
+    frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: false }), place);
+}

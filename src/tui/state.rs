@@ -1,0 +1,357 @@
+//! What the workbench knows and where the user is in it. Screens are pure functions of this.
+
+use std::collections::BTreeMap;
+
+use ratatui::layout::Size;
+
+use super::action::Screen;
+use super::feed::{Detail, Focus, Snapshot};
+use super::message::Target;
+use super::overlay::Overlay;
+use super::picture::{Drawn, Shot};
+use super::text;
+use super::theme::Theme;
+use crate::study::{Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobRow, Map, Status, Step, View};
+
+/// How jobs are ordered.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum JobOrder {
+    /// As queued.
+    #[default]
+    Number,
+    /// By state: what runs, what went wrong, what waits, what is done.
+    Status,
+    /// By EI, the worst first.
+    Ei,
+    /// By time taken, the longest first.
+    Time,
+}
+
+impl JobOrder {
+    /// The next one.
+    #[must_use]
+    pub fn next(self) -> Self {
+        match self {
+            Self::Number => Self::Status,
+            Self::Status => Self::Ei,
+            Self::Ei => Self::Time,
+            Self::Time => Self::Number,
+        }
+    }
+}
+
+/// How measurements are ordered.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ChiOrder {
+    /// By number.
+    #[default]
+    Number,
+    /// By distance from 1, the greatest first.
+    Error,
+}
+
+/// An order and whether it is reversed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Order<T> {
+    /// By what.
+    pub by: T,
+    /// Whether it is reversed.
+    pub reversed: bool,
+}
+
+/// Place in the grid: indices of size, simulator and subject.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Place {
+    /// Size.
+    pub size: usize,
+    /// Simulator.
+    pub simulator: usize,
+    /// Subject.
+    pub subject: usize,
+}
+
+/// A message to the user in the status line.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Notice {
+    /// What it says.
+    pub text: String,
+    /// Whether something went wrong.
+    pub is_error: bool,
+}
+
+/// What this session of the workbench can do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Abilities {
+    /// Studies can be run from here.
+    pub run: bool,
+    /// Pictures can be shown.
+    pub pictures: bool,
+    /// There is a study to start with.
+    pub quickstart: bool,
+}
+
+/// The state of the workbench.
+pub struct State {
+    /// Styles.
+    pub theme: Theme,
+    /// What can be done.
+    pub abilities: Abilities,
+    /// Size of the terminal.
+    pub size: Size,
+    /// Screen shown.
+    pub screen: Screen,
+    /// Screens to go back to, the last first.
+    pub trail: Vec<Screen>,
+    /// What was last read; `None` before the first time.
+    pub data: Option<Box<Snapshot>>,
+    /// What is looked at.
+    pub focus: Focus,
+    /// Place in the grid.
+    pub place: Place,
+    /// Whether the second pane of each screen has the focus.
+    pub second_pane: [bool; 3],
+    /// The filter of each screen.
+    pub filters: [String; 3],
+    /// Order of jobs.
+    pub job_order: Order<JobOrder>,
+    /// Order of measurements.
+    pub chi_order: Order<ChiOrder>,
+    /// Measurement selected, a row of the table shown.
+    pub chi_row: usize,
+    /// Stage whose measurements are wanted.
+    pub stage: Option<String>,
+    /// Lines the log is scrolled up from its end.
+    pub log_up: usize,
+    /// From where the drape is seen.
+    pub view: View,
+    /// In which colours.
+    pub map: Map,
+    /// Whether the picture has all the room.
+    pub enlarged: bool,
+    /// The picture asked for.
+    pub shot: Option<Shot>,
+    /// The picture that came last.
+    pub picture: Option<(Shot, Result<Drawn, String>)>,
+    /// Steps of running jobs, as they came.
+    pub traces: BTreeMap<JobId, Vec<Step>>,
+    /// What is open above the screen.
+    pub overlay: Option<Overlay>,
+    /// What the status line says.
+    pub notice: Option<Notice>,
+    /// The run started here, while it goes on.
+    pub run: Option<Target>,
+    /// Whether the terminal is gone and only the run is waited for.
+    pub detached: bool,
+}
+
+impl State {
+    /// The state before anything was read.
+    #[must_use]
+    pub fn new(theme: Theme, abilities: Abilities, size: Size) -> Self {
+        Self {
+            theme,
+            abilities,
+            size,
+            screen: Screen::Study,
+            trail: vec![],
+            data: None,
+            focus: Focus::default(),
+            place: Place::default(),
+            second_pane: [false; 3],
+            filters: Default::default(),
+            job_order: Order::default(),
+            chi_order: Order::default(),
+            chi_row: 0,
+            stage: None,
+            log_up: 0,
+            view: View::Front,
+            map: Map::Plain,
+            enlarged: false,
+            shot: None,
+            picture: None,
+            traces: BTreeMap::new(),
+            overlay: None,
+            notice: None,
+            run: None,
+            detached: false,
+        }
+    }
+
+    /// Whether the database was read and has no study.
+    #[must_use]
+    pub fn is_first_start(&self) -> bool {
+        self.data.as_ref().is_some_and(|data| data.studies.is_empty())
+    }
+
+    /// Whether the second pane of the screen has the focus.
+    #[must_use]
+    pub fn in_second_pane(&self) -> bool {
+        self.second_pane[self.screen as usize]
+    }
+
+    /// The filter of the screen.
+    #[must_use]
+    pub fn filter(&self) -> &str {
+        &self.filters[self.screen as usize]
+    }
+
+    /// The grid.
+    #[must_use]
+    pub fn grid(&self) -> Option<&Grid> {
+        self.data.as_ref()?.grid.as_ref().filter(|grid| !grid.sizes.is_empty() && !grid.subjects.is_empty())
+    }
+
+    /// The cell at a place of the grid.
+    #[must_use]
+    pub fn cell_at(&self, place: Place) -> Option<&Cell> {
+        self.grid()?.cells.get(place.size)?.get(place.subject)?.get(place.simulator)
+    }
+
+    /// The place of a job in the grid, where it is of its garment.
+    #[must_use]
+    pub fn place_of(&self, id: JobId) -> Option<Place> {
+        let grid = self.grid()?;
+        let job = self.data.as_ref()?.job(id).filter(|job| job.garment == grid.garment)?;
+        Some(Place {
+            size: grid.sizes.iter().position(|size| *size == job.size)?,
+            simulator: grid.simulators.iter().position(|simulator| *simulator == job.simulator)?,
+            subject: grid.subjects.iter().position(|subject| *subject == job.subject)?,
+        })
+    }
+
+    /// The selected job.
+    #[must_use]
+    pub fn job(&self) -> Option<&JobRow> {
+        self.data.as_ref()?.job(self.focus.job?)
+    }
+
+    /// What is stored of the selected job, once it was read.
+    #[must_use]
+    pub fn detail(&self) -> Option<&Detail> {
+        self.data.as_ref()?.detail.as_ref().filter(|detail| Some(detail.job) == self.focus.job)
+    }
+
+    /// Jobs that pass the filter of the Jobs screen, in its order.
+    #[must_use]
+    pub fn jobs(&self) -> Vec<&JobRow> {
+        let Some(data) = &self.data else { return vec![] };
+        let filter = self.filters[Screen::Jobs as usize].to_lowercase();
+        let mut jobs: Vec<&JobRow> = data.jobs.iter().filter(|job| words(job).contains(&filter)).collect();
+        let falling = |value: Option<f64>| value.map_or(f64::INFINITY, |v| -v);
+        match self.job_order.by {
+            JobOrder::Number => {}
+            JobOrder::Status => jobs.sort_by_key(|job| attention(job.status)),
+            JobOrder::Ei => jobs.sort_by(|a, b| falling(a.ei).total_cmp(&falling(b.ei))),
+            JobOrder::Time => jobs.sort_by_key(|job| -job.wall_ms.unwrap_or(i64::MIN + 1)),
+        }
+        if self.job_order.reversed {
+            jobs.reverse();
+        }
+        jobs
+    }
+
+    /// Stages of the selected result, in the order they are made.
+    #[must_use]
+    pub fn stages(&self) -> Vec<&str> {
+        let Some(detail) = self.detail() else { return vec![] };
+        ["sewn", "popup", "drape"]
+            .into_iter()
+            .filter(|stage| detail.chi.iter().any(|row| row.stage == *stage))
+            .collect()
+    }
+
+    /// The stage whose measurements are shown: the one wanted, or the last there is.
+    #[must_use]
+    pub fn stage(&self) -> Option<&str> {
+        let stages = self.stages();
+        stages.iter().copied().find(|stage| Some(*stage) == self.stage.as_deref()).or(stages.last().copied())
+    }
+
+    /// Measurements of the selected result that pass the filter of the Results screen, in its order.
+    #[must_use]
+    pub fn chi(&self) -> Vec<&ChiRow> {
+        let (Some(detail), Some(stage)) = (self.detail(), self.stage()) else { return vec![] };
+        let filter = self.filters[Screen::Results as usize].to_lowercase();
+        let matches = |row: &ChiRow| format!("#{} {}", row.no, row.name).to_lowercase().contains(&filter);
+        let mut rows: Vec<&ChiRow> = detail.chi.iter().filter(|row| row.stage == stage && matches(row)).collect();
+        if self.chi_order.by == ChiOrder::Error {
+            let error = |row: &ChiRow| (row.chi() - 1.0).abs();
+            rows.sort_by(|a, b| error(b).total_cmp(&error(a)));
+        }
+        if self.chi_order.reversed {
+            rows.reverse();
+        }
+        rows
+    }
+
+    /// The ease that decides the fit of a job.
+    #[must_use]
+    pub fn ease(&self, job: &JobRow) -> Option<&EaseRow> {
+        let of_job =
+            |ease: &&EaseRow| ease.garment == job.garment && ease.size == job.size && ease.subject == job.subject;
+        self.data.as_ref()?.ease.iter().filter(of_job).find(|ease| ease.decides)
+    }
+
+    /// The fit at a place of the grid.
+    #[must_use]
+    pub fn fit_at(&self, place: Place) -> Option<FitCell> {
+        *self.grid()?.fits.get(place.size)?.get(place.subject)?
+    }
+
+    /// Steps of the selected job: those stored, or those seen while it runs.
+    #[must_use]
+    pub fn steps(&self) -> &[Step] {
+        let stored = self.detail().map(|detail| detail.history.as_slice()).filter(|steps| !steps.is_empty());
+        let seen = || self.focus.job.and_then(|id| self.traces.get(&id)).map(Vec::as_slice);
+        stored.or_else(seen).unwrap_or_default()
+    }
+
+    /// Whether a place of the grid contains the filter of the Study screen.
+    #[must_use]
+    pub fn is_match(&self, place: Place) -> bool {
+        let filter = self.filters[Screen::Study as usize].to_lowercase();
+        let Some(grid) = self.grid() else { return false };
+        let status = self.cell_at(place).and_then(|cell| cell.status).map_or("", text::status);
+        let fit = self.fit_at(place).map_or("", |fit| fit.class.as_str());
+        let sim = grid.simulators.get(place.simulator).map_or("", |sim| text::sim(*sim));
+        let (size, subject) = (&grid.sizes[place.size], &grid.subjects[place.subject]);
+        format!("{size} {subject} {sim} {status} {fit}").to_lowercase().contains(&filter)
+    }
+
+    /// Says something in the status line.
+    pub fn say(&mut self, text: impl Into<String>) {
+        self.notice = Some(Notice { text: text.into(), is_error: false });
+    }
+
+    /// Says in the status line that something went wrong.
+    pub fn complain(&mut self, text: impl Into<String>) {
+        self.notice = Some(Notice { text: text.into(), is_error: true });
+    }
+}
+
+/// How soon a user wants to see jobs in a state; the least first.
+fn attention(status: Status) -> u8 {
+    match status {
+        Status::Running => 0,
+        Status::Failed => 1,
+        Status::NotConverged => 2,
+        Status::Queued => 3,
+        Status::Done => 4,
+        Status::Cancelled => 5,
+    }
+}
+
+/// What a filter looks at in a job.
+fn words(job: &JobRow) -> String {
+    let error = job.error.as_deref().unwrap_or_default();
+    format!(
+        "{} {} {} {} {} {} {error}",
+        job.id,
+        text::status(job.status),
+        job.garment,
+        job.size,
+        job.subject,
+        text::sim(job.simulator)
+    )
+    .to_lowercase()
+}

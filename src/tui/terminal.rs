@@ -1,0 +1,82 @@
+//! The terminal: taken at the start, given back at the end, however that comes.
+
+use std::io::{self, IsTerminal, Stdout};
+use std::os::unix::net::UnixStream;
+use std::panic;
+use std::sync::Once;
+
+use crossterm::{cursor, execute, terminal};
+use ratatui::Terminal;
+use ratatui::backend::CrosstermBackend;
+
+use super::screens;
+use super::state::State;
+
+/// The terminal while the workbench has it; dropping it gives it back.
+pub struct Screen {
+    /// What is drawn on.
+    pub terminal: Terminal<CrosstermBackend<Stdout>>,
+}
+
+impl Screen {
+    /// Takes the terminal: raw keys, the alternate screen, no cursor. A panic gives it back before it is reported.
+    ///
+    /// # Errors
+    /// When standard input or output is no terminal.
+    pub fn enter() -> io::Result<Self> {
+        if !(io::stdin().is_terminal() && io::stdout().is_terminal()) {
+            return Err(io::Error::other("standard input or output is none"));
+        }
+        static HOOK: Once = Once::new();
+        HOOK.call_once(|| {
+            let before = panic::take_hook();
+            panic::set_hook(Box::new(move |info| {
+                restore();
+                before(info);
+            }));
+        });
+        terminal::enable_raw_mode()?;
+        let entered = execute!(io::stdout(), terminal::EnterAlternateScreen, cursor::Hide)
+            .and_then(|()| Terminal::new(CrosstermBackend::new(io::stdout())));
+        match entered {
+            Ok(terminal) => Ok(Self { terminal }),
+            Err(error) => {
+                restore();
+                Err(error)
+            }
+        }
+    }
+
+    /// Draws the state.
+    ///
+    /// # Errors
+    /// When the terminal is gone.
+    pub fn draw(&mut self, state: &State) -> io::Result<()> {
+        self.terminal.draw(|frame| screens::draw(frame, state)).map(|_| ())
+    }
+}
+
+impl Drop for Screen {
+    fn drop(&mut self) {
+        restore();
+    }
+}
+
+/// Puts a silent socket in the place of standard input once its terminal is gone: crossterm's reader would otherwise read
+/// the end of it over and over, a whole core's worth. Silence lasts as long as the returned end lives.
+///
+/// # Errors
+/// When the system has no sockets or descriptors left.
+pub fn silence_input() -> io::Result<UnixStream> {
+    let (ours, silent) = UnixStream::pair()?;
+    silent.set_nonblocking(true)?;
+    rustix::stdio::dup2_stdin(&silent)?;
+    Ok(ours)
+}
+
+/// Gives the terminal back, as far as it is still there.
+fn restore() {
+    // Errors have nowhere to go: the terminal that would show them is what failed.
+    let _ = execute!(io::stdout(), terminal::LeaveAlternateScreen, cursor::Show);
+    let _ = terminal::disable_raw_mode();
+}

@@ -1,0 +1,243 @@
+//! What keys do.
+
+use super::super::action::Screen;
+use super::super::message::{Act, Effect, Message, Target};
+use super::super::overlay::Overlay;
+use super::super::picture::Shot;
+use super::{Bench, fixture};
+use crate::study::{JobId, Map, Status, View};
+
+fn selected(bench: &Bench) -> i64 {
+    bench.state.focus.job.map_or(0, |id| id.0)
+}
+
+#[test]
+fn keys_move_in_the_grid() {
+    let check = |keys: &str, expect: i64| assert_eq!(selected(Bench::example(80, 24).press(keys)), expect, "{keys}");
+    check("", 1);
+    check("j", 2);
+    check("l", 3);
+    check("ll", 5);
+    check("lll", 5);
+    check("jj", 7);
+    check("G", 8);
+    check("Gg", 1);
+    check("h", 1);
+    check("f", 2);
+    check("ff", 1);
+}
+
+#[test]
+fn the_selected_job_is_one_on_all_screens() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("lj4j1");
+    assert_eq!(selected(&bench), 5);
+    assert_eq!((bench.state.place.subject, bench.state.place.simulator), (2, 0));
+    bench.press("5");
+    assert!(bench.screen().contains("tshirt S · iii · FEM"));
+}
+
+#[test]
+fn screens_are_gone_back_to_and_q_quits_at_the_top_only() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("4<Enter>");
+    assert_eq!(bench.state.screen, Screen::Results);
+    bench.press("q");
+    assert_eq!(bench.state.screen, Screen::Jobs);
+    bench.press("<Esc>");
+    assert_eq!(bench.state.screen, Screen::Study);
+    bench.press("<Esc>");
+    assert_eq!(bench.asked(), [], "Escape never quits");
+    bench.press("q");
+    assert_eq!(bench.asked(), [Effect::Quit]);
+    assert_eq!(Bench::example(80, 24).press("4:q<Enter>").asked(), [Effect::Quit]);
+}
+
+#[test]
+fn destructive_actions_ask_and_others_act() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("4jjjjjjx");
+    assert_eq!(bench.asked(), []);
+    assert!(bench.screen().contains("Cancel job 7, tshirt M on i by FEM?"));
+    bench.press("n");
+    assert_eq!(bench.asked(), []);
+    bench.press("xy");
+    assert_eq!(bench.asked(), [Effect::Do(Act::Cancel(JobId(7)))]);
+    bench.press("p");
+    assert_eq!(bench.asked(), [Effect::Do(Act::Pause("men-tops".into()))]);
+    bench.press("kkr");
+    assert_eq!(bench.asked(), [Effect::Do(Act::Retry(JobId(5)))]);
+    bench.press("+");
+    assert_eq!(bench.asked(), [Effect::Do(Act::Prioritise(JobId(5), 1))]);
+}
+
+#[test]
+fn what_cannot_be_done_says_why() {
+    let check = |keys: &str, expect: &str| {
+        let mut bench = Bench::example(120, 24);
+        bench.press(keys);
+        assert_eq!(bench.asked(), [], "{keys}");
+        assert!(bench.status().contains(expect), "{keys}: {}", bench.status());
+    };
+    check("x", "job 1 has ended (done): nothing to cancel");
+    check("r", "job 1 is not run again: it has a result");
+    check("lr", "the same inputs give the same result");
+    check("n", "no filter is set");
+    check("X", "no run goes on here");
+    check("}", "there is one study only");
+    check("5t", "one stage only");
+}
+
+#[test]
+fn a_run_is_started_once_and_asked_about_when_leaving() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("R");
+    assert_eq!(bench.asked(), [Effect::Run(Target::Study("studies/men-tops/study.toml".into()))]);
+    bench.press("R");
+    assert_eq!(bench.asked(), []);
+    bench.press("q");
+    assert!(matches!(bench.state.overlay, Some(Overlay::Question { .. })));
+    bench.press("n:quit<Enter>y");
+    assert_eq!(bench.asked(), [Effect::StopRun, Effect::Quit]);
+    bench.send(Message::RunEnded(Ok("the run has ended".into())));
+    assert_eq!(bench.press("q").asked(), [Effect::Quit]);
+}
+
+#[test]
+fn a_lost_terminal_ends_the_workbench_but_not_its_run() {
+    let mut bench = Bench::example(80, 24);
+    bench.send(Message::Hangup);
+    assert_eq!(bench.asked(), [Effect::Quit]);
+
+    let mut bench = Bench::example(80, 24);
+    bench.press("R").asked();
+    bench.send(Message::Hangup);
+    assert!(bench.asked().is_empty() && bench.state.detached);
+    bench.send(Message::RunEnded(Err("the disk is full".into())));
+    assert_eq!(bench.asked(), [Effect::Quit]);
+
+    bench.send(Message::Terminate);
+    assert_eq!(bench.asked(), [Effect::StopRun, Effect::Quit]);
+}
+
+#[test]
+fn enter_runs_the_quickstart_where_there_is_no_study() {
+    let mut bench = Bench::new(80, 24, fixture::empty());
+    assert_eq!(bench.press("<Enter>").asked(), [Effect::Run(Target::Quickstart)]);
+    assert!(bench.screen().contains("is being made ready"));
+
+    let mut bench = Bench::new(80, 24, fixture::empty());
+    bench.state.abilities.quickstart = false;
+    assert_eq!(bench.press("<Enter>").asked(), []);
+    assert!(bench.status().contains("not installed"));
+}
+
+#[test]
+fn filters_narrow_jobs_and_measurements_and_find_cells() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("4/queued<Enter>");
+    assert_eq!(bench.state.jobs().len(), 4);
+    assert_eq!(selected(&bench), 9, "the selection stays among what is shown");
+    bench.press("nN");
+    assert_eq!(selected(&bench), 9);
+    bench.press("<Esc>");
+    assert_eq!(bench.state.jobs().len(), 12);
+
+    bench.press("g5/neck<Enter>");
+    assert_eq!(bench.state.chi().len(), 1);
+    bench.press("/x<Esc>");
+    assert_eq!(bench.state.chi().len(), 1, "Escape undoes what was typed");
+
+    let mut bench = Bench::example(80, 24);
+    bench.press("/failed<Enter>n");
+    assert_eq!(bench.state.job().map(|job| job.status), Some(Status::Failed));
+}
+
+#[test]
+fn sorting_puts_what_needs_attention_first() {
+    let first = |keys: &str| Bench::example(80, 24).press(keys).state.jobs()[0].id.0;
+    assert_eq!(first("4"), 1);
+    assert_eq!(first("4S"), 12);
+    assert_eq!(first("4s"), 7, "running");
+    assert_eq!(first("4ss"), 1, "greatest EI");
+    assert_eq!(first("4sss"), 6, "longest");
+    let worst = |keys: &str| Bench::example(80, 24).press(keys).state.chi()[0].name.clone();
+    assert_eq!(worst("5s"), "Neck Opening");
+    assert_eq!(worst("5sS"), "Front Center Length");
+}
+
+#[test]
+fn pictures_are_asked_for_when_seen_and_only_then() {
+    let mut bench = Bench::example(80, 24);
+    let shots = |bench: &mut Bench| -> Vec<Shot> {
+        let effects = std::mem::take(&mut bench.effects);
+        effects.into_iter().filter_map(|e| if let Effect::Paint(shot) = e { Some(shot) } else { None }).collect()
+    };
+    assert_eq!(shots(&mut bench), []);
+    bench.press("5");
+    let first = shots(&mut bench);
+    let expect = Shot { job: JobId(1), view: View::Front, map: Map::Plain, columns: 28, rows: 20 };
+    assert_eq!(first, [expect]);
+    bench.press("j");
+    assert_eq!(shots(&mut bench), []);
+    bench.press("v");
+    assert_eq!(shots(&mut bench), [Shot { view: View::Side, ..expect }]);
+    bench.press("<Tab>hm");
+    let turned = shots(&mut bench);
+    assert_eq!(turned.last(), Some(&Shot { map: Map::Stretch, ..expect }));
+    bench.press("<Enter>");
+    assert_eq!(shots(&mut bench)[0].columns, 78);
+    bench.send(Message::Resize(100, 30));
+    assert_eq!(shots(&mut bench)[0].columns, 98);
+    bench.press("<Enter><Tab>1GG5");
+    assert!(shots(&mut bench).iter().all(|shot| shot.job != JobId(8)), "a running job has no drape yet");
+}
+
+#[test]
+fn late_pictures_of_something_else_are_dropped() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("5");
+    let wanted = bench.state.shot.expect("asked for");
+    bench.send(Message::Picture(Shot { view: View::Back, ..wanted }, Err("late".into())));
+    assert!(bench.state.picture.is_none());
+    bench.send(Message::Picture(wanted, Err("artefact is gone".into())));
+    assert!(bench.screen().contains("no picture: artefact"));
+}
+
+#[test]
+fn copies_are_tables() {
+    let copied = |keys: &str| match Bench::example(80, 24).press(keys).asked().as_slice() {
+        [Effect::Copy(text)] => text.clone(),
+        other => panic!("{other:?}"),
+    };
+    assert!(copied("y").starts_with("1\tmen-tops\ttshirt\tS\ti\tfem\tdone\t0.011700\t"));
+    let table = copied("5y");
+    assert_eq!(table.lines().count(), 7);
+    assert_eq!(table.lines().nth(1), Some("1\tHem Circumference\t974.0\t973.5\t0.999500"));
+}
+
+#[test]
+fn running_jobs_leave_a_trace() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("4jjjjjj");
+    assert_eq!(bench.state.steps().len(), 1);
+    let mut next = fixture::snapshot();
+    for job in &mut next.jobs {
+        if let Some(progress) = &mut job.progress {
+            progress.step.iteration += 1;
+        }
+    }
+    next.detail = Some(fixture::detail(JobId(7)));
+    bench.send(Message::Data(Box::new(next.clone())));
+    bench.send(Message::Data(Box::new(next)));
+    assert_eq!(bench.state.steps().len(), 2, "the same step twice is one");
+}
+
+#[test]
+fn data_that_shrinks_leaves_nothing_selected_that_is_gone() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("Gll4");
+    bench.send(Message::Data(Box::new(fixture::empty())));
+    assert!(bench.state.job().is_none());
+    assert!(bench.press("jkGg145q").screen().contains("no study yet"));
+}

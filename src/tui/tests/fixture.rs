@@ -1,0 +1,211 @@
+//! An example study: two sizes of a T-shirt on three subjects by both simulators, in all states a job can have.
+
+use super::super::feed::{Detail, Snapshot};
+use crate::study::{
+    Cell, Change, ChiRow, EaseRow, FitCell, FitClass, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, Simulator,
+    StageRow, Status, Step, StudyRow, Why,
+};
+
+/// When it is, ms since 1970: 2023-11-14 22:13:20 UTC.
+const NOW_MS: i64 = 1_700_000_000_000;
+const SIZES: [&str; 2] = ["S", "M"];
+const SUBJECTS: [&str; 3] = ["i", "ii", "iii"];
+const SIMULATORS: [Simulator; 2] = [Simulator::Fem, Simulator::Hybrid];
+
+/// Ease of each size on each subject, m.
+const EASE_M: [[f64; 3]; 2] = [[0.043, 0.111, -0.012], [0.089, 0.157, 0.066]];
+
+/// States of jobs 1 to 12, in the order of sizes, subjects, simulators.
+const STATES: [Status; 12] = [
+    Status::Done,
+    Status::Done,
+    Status::NotConverged,
+    Status::Done,
+    Status::Failed,
+    Status::Cancelled,
+    Status::Running,
+    Status::Running,
+    Status::Queued,
+    Status::Queued,
+    Status::Queued,
+    Status::Queued,
+];
+
+fn step(iteration: u32) -> Step {
+    let t = f64::from(iteration) / 100.0;
+    let residual = (-5.0 * t).exp();
+    Step { iteration, level: 0, residual, seam_gap_m: 0.01 * (1.0 - t), e_chi: 1.01 - 0.008 * t }
+}
+
+fn job(index: usize) -> JobRow {
+    let status = STATES[index];
+    let started = status != Status::Queued;
+    let wall_ms = (started && status != Status::Running).then_some(8_500 + 1_000 * index as i64);
+    JobRow {
+        id: JobId(index as i64 + 1),
+        study: "men-tops".into(),
+        garment: "tshirt".into(),
+        size: SIZES[index / 6].into(),
+        subject: SUBJECTS[index / 2 % 3].into(),
+        simulator: SIMULATORS[index % 2],
+        repeat: 1,
+        status,
+        is_current: true,
+        priority: 0,
+        attempts: u32::from(started),
+        error: (status == Status::Failed)
+            .then(|| "sim: diverged at level 2, residual 3.1e4 after 812 steps; a coarser mesh may converge".into()),
+        queued_at_ms: NOW_MS - 60_000,
+        started_at_ms: started.then_some(NOW_MS - 12_000),
+        finished_at_ms: wall_ms.map(|_| NOW_MS - 1_000),
+        wall_ms,
+        progress: (status == Status::Running).then(|| JobProgress {
+            phase: "drape".into(),
+            fraction: 0.58,
+            step: step(58),
+        }),
+        ei: status.has_result().then_some(0.0117 / (index + 1) as f64),
+    }
+}
+
+fn fit(size: usize, subject: usize) -> FitCell {
+    let ease_m = EASE_M[size][subject];
+    let class = match ease_m {
+        e if e < 0.05 => FitClass::Tight,
+        e if e > 0.1 => FitClass::Loose,
+        _ => FitClass::Just,
+    };
+    let borderline = (0.04..0.05).contains(&ease_m) || (ease_m > 0.1 && ease_m <= 0.12);
+    FitCell { class, ease_m, undersized: ease_m < 0.0, borderline }
+}
+
+fn ease(size: usize, subject: usize) -> EaseRow {
+    EaseRow {
+        garment: "tshirt".into(),
+        size: SIZES[size].into(),
+        subject: SUBJECTS[subject].into(),
+        level: "chest".into(),
+        pattern_girth_m: 0.974,
+        body_girth_m: 0.974 - EASE_M[size][subject],
+        decides: true,
+        fit: fit(size, subject),
+    }
+}
+
+/// The example study; job 1 is looked at.
+pub fn snapshot() -> Snapshot {
+    let jobs: Vec<JobRow> = (0..STATES.len()).map(job).collect();
+    let cell = |job: &JobRow| Cell {
+        job: Some(job.id),
+        status: Some(job.status),
+        fraction: job.progress.as_ref().map(|progress| progress.fraction),
+        ei: job.ei,
+    };
+    let cells = |size: usize| -> Vec<Vec<Cell>> {
+        (0..3).map(|subject| (0..2).map(|sim| cell(&jobs[size * 6 + subject * 2 + sim])).collect()).collect()
+    };
+    let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
+    let grid = Grid {
+        study: "men-tops".into(),
+        garment: "tshirt".into(),
+        sizes: names(&SIZES),
+        subjects: names(&SUBJECTS),
+        simulators: SIMULATORS.into(),
+        cells: (0..2).map(cells).collect(),
+        fits: (0..2).map(|size| (0..3).map(|subject| Some(fit(size, subject))).collect()).collect(),
+    };
+    let counts = Status::ALL.map(|status| STATES.iter().filter(|s| **s == status).count());
+    let study = StudyRow {
+        name: "men-tops".into(),
+        path: "studies/men-tops/study.toml".into(),
+        paused: false,
+        counts,
+        garments: names(&["tshirt"]),
+    };
+    Snapshot {
+        now_ms: NOW_MS,
+        studies: vec![study],
+        study: 0,
+        grid: Some(grid),
+        ease: (0..6).map(|k| ease(k / 3, k % 3)).collect(),
+        jobs,
+        detail: None,
+    }
+}
+
+/// A database without studies.
+pub fn empty() -> Snapshot {
+    Snapshot { now_ms: NOW_MS, studies: vec![], study: 0, grid: None, jobs: vec![], ease: vec![], detail: None }
+}
+
+/// What is stored of a job of the example study.
+pub fn detail(id: JobId) -> Detail {
+    let status = STATES[id.0 as usize - 1];
+    let has_result = status.has_result();
+    let log = |seconds: i64, level: &str, text: &str| LogLine {
+        at_ms: NOW_MS + 1000 * seconds,
+        level: level.into(),
+        text: text.into(),
+    };
+    let stage = |stage: &str, was_cached| StageRow { stage: stage.into(), hash: "0".into(), was_cached };
+    Detail {
+        job: id,
+        chi: if has_result { chi() } else { vec![] },
+        metrics: has_result.then_some(MetricsRow {
+            n: 6,
+            e_chi: 1.0068,
+            sd_chi: 0.0126,
+            ei: 0.0117,
+            max_abs_error: 0.0297,
+            vertices: 5329,
+            faces: 10_412,
+            iterations: 368,
+            residual: 7.9e-3,
+            converged: status == Status::Done,
+            penetration_max_m: 0.0002,
+            seam_gap_max_m: 0.0001,
+        }),
+        history: if has_result { (1..=100).map(step).collect() } else { vec![] },
+        log: vec![
+            log(0, "info", "queued: changed since job 1: fabric.cotton.shear_n_m: 97 -> 120"),
+            log(1, "info", "started by process 7"),
+        ],
+        why: Why::Changed {
+            since: JobId(1),
+            changes: vec![Change {
+                name: "fabric.cotton.shear_n_m".into(),
+                before: Some("97".into()),
+                after: Some("120".into()),
+            }],
+        },
+        stages: if has_result { vec![stage("body", true), stage("drape", false), stage("mesh", true)] } else { vec![] },
+    }
+}
+
+fn chi() -> Vec<ChiRow> {
+    // Names, pattern lengths and chi are of the kind the thesis's tables have.
+    let rows = [
+        ("Hem Circumference", true, true, false, 0.974, 0.9995),
+        ("Sleeve Opening", true, true, false, 0.3565, 1.0221),
+        ("Front Center Length", false, false, false, 0.5508, 1.0004),
+        ("Armhole Circumference", true, false, true, 0.5037, 0.9889),
+        ("Neck Opening", true, true, false, 0.5601, 1.0610),
+        ("Shoulder Length", false, false, false, 0.1567, 0.9620),
+    ];
+    let row = |(k, (name, is_girth, is_free_edge, is_controlled, l2d_m, chi)): (
+        usize,
+        (&str, bool, bool, bool, f64, f64),
+    )| {
+        ChiRow {
+            stage: "drape".into(),
+            no: k as u32 + 1,
+            name: name.into(),
+            is_girth,
+            is_free_edge,
+            is_controlled,
+            l2d_m,
+            l3d_m: l2d_m * chi,
+        }
+    };
+    rows.into_iter().enumerate().map(row).collect()
+}

@@ -1,0 +1,86 @@
+//! What the screens look like, at 80 by 24 and at 160 by 50.
+
+use image::{Rgba, RgbaImage};
+use insta::assert_snapshot;
+
+use super::super::message::{Effect, Message};
+use super::super::picture::{Canvas, Images};
+use super::super::theme::Colours;
+use super::{Bench, fixture};
+
+/// Compares the screen after some keys with the one kept, in both sizes.
+macro_rules! looks_like {
+    ($name:literal, $keys:literal) => {
+        for (width, height) in [(80, 24), (160, 50)] {
+            let mut bench = Bench::example(width, height);
+            assert_snapshot!(format!("{}_{width}x{height}", $name), bench.press($keys).screen());
+        }
+    };
+}
+
+#[test]
+fn study() {
+    looks_like!("study", "");
+}
+
+#[test]
+fn jobs() {
+    looks_like!("jobs", "4jjjj");
+}
+
+#[test]
+fn results() {
+    looks_like!("results", "5");
+}
+
+#[test]
+fn help() {
+    looks_like!("help", "?job");
+}
+
+#[test]
+fn first_start() {
+    assert_snapshot!("first_start_80x24", Bench::new(80, 24, fixture::empty()).screen());
+}
+
+#[test]
+fn small_terminals_show_lists_and_none_is_refused() {
+    let mut bench = Bench::example(40, 10);
+    assert_snapshot!("study_40x10", bench.screen());
+    assert_snapshot!("jobs_40x10", bench.press("4").screen());
+    for (width, height) in [(1, 1), (3, 2), (12, 4), (59, 15), (60, 16), (119, 20), (250, 90), (80, 3)] {
+        for keys in ["1", "4", "5", "?", "<Esc>:x", "<Esc>4jx", "<Esc>5<Tab><Enter>"] {
+            let mut bench = Bench::example(width, height);
+            assert!(!bench.press(keys).screen().is_empty(), "{width}x{height} {keys}");
+        }
+    }
+}
+
+/// Every line is as wide as the terminal and no column touches its neighbour: numbers stay whole words.
+#[test]
+fn numbers_are_whole_at_80_columns() {
+    let mut bench = Bench::example(80, 24);
+    let results = bench.press("5").screen();
+    for whole in ["Armhole Circumference", " 974.0 ", " 973.5 ", " 1.061 ", "10412"] {
+        assert!(results.contains(whole), "{whole} in\n{results}");
+    }
+}
+
+#[test]
+fn without_colours_glyphs_tell_everything_and_the_shirt_is_seen() {
+    let mut bench = Bench::example(80, 24);
+    bench.state.theme.colours = Colours::None;
+    bench.press("5");
+    let shot = bench.effects.iter().find_map(|e| if let Effect::Paint(shot) = e { Some(*shot) } else { None });
+    let shot = shot.expect("the picture was asked for");
+    let canvas = Canvas::new(Images::Auto, Colours::None, &|_| None).expect("pictures are on");
+    let (width, height) = canvas.pixels(&shot);
+    let picture = RgbaImage::from_fn(width, height, |x, y| {
+        let (x, y) = (f64::from(x) / f64::from(width), f64::from(y) / f64::from(height));
+        let is_trunk = (0.3..0.7).contains(&x) && (0.2..0.8).contains(&y);
+        let is_sleeves = (0.05..0.95).contains(&x) && (0.2..0.4).contains(&y);
+        if is_trunk || is_sleeves { Rgba([60, 150, 110, 255]) } else { Rgba([250, 250, 250, 255]) }
+    });
+    bench.send(Message::Picture(shot, canvas.draw(&picture, &shot)));
+    assert_snapshot!("results_letters_80x24", bench.screen());
+}

@@ -1,0 +1,98 @@
+//! The workbench from outside: keys go in, screens and effects come out; no terminal, no threads.
+
+mod behaviour;
+mod fixture;
+mod looks;
+mod workspace;
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use ratatui::Terminal;
+use ratatui::backend::TestBackend;
+use ratatui::layout::Size;
+
+use super::message::{Effect, Message};
+use super::state::{Abilities, State};
+use super::theme::{Colours, Theme};
+use super::{Snapshot, screens};
+
+/// A workbench without a terminal.
+struct Bench {
+    state: State,
+    /// What it asked for since last looked at.
+    effects: Vec<Effect>,
+}
+
+impl Bench {
+    /// A workbench that has read something.
+    fn new(width: u16, height: u16, data: Snapshot) -> Self {
+        let abilities = Abilities { run: true, pictures: true, quickstart: true };
+        let state = State::new(Theme { colours: Colours::True }, abilities, Size::new(width, height));
+        let mut bench = Self { state, effects: vec![] };
+        bench.send(Message::Data(Box::new(data)));
+        bench
+    }
+
+    /// The workbench of the example study, with the details of whatever job is selected.
+    fn example(width: u16, height: u16) -> Self {
+        Self::new(width, height, fixture::snapshot())
+    }
+
+    /// Sends a message; readers answer at once.
+    fn send(&mut self, message: Message) {
+        let effects = self.state.update(message);
+        for effect in &effects {
+            if let (Effect::Read(focus), Some(data)) = (effect, &self.state.data) {
+                let mut next = data.clone();
+                next.detail = focus.job.map(fixture::detail);
+                assert!(self.state.update(Message::Data(next)).iter().all(|e| !matches!(e, Effect::Read(_))));
+            }
+        }
+        self.effects.extend(effects);
+    }
+
+    /// Presses keys: letters as they are, others by name between angle brackets (`<Enter>`).
+    fn press(&mut self, keys: &str) -> &mut Self {
+        let mut rest = keys;
+        while let Some(first) = rest.chars().next() {
+            let named = rest.strip_prefix('<').and_then(|tail| tail.split_once('>'));
+            let (code, tail) = match named {
+                Some((name, tail)) => (code_of(name), tail),
+                None => (KeyCode::Char(first), &rest[first.len_utf8()..]),
+            };
+            self.send(Message::Key(KeyEvent::new(code, KeyModifiers::NONE)));
+            rest = tail;
+        }
+        self
+    }
+
+    /// What it asked for, reads and pictures left out.
+    fn asked(&mut self) -> Vec<Effect> {
+        let effects = std::mem::take(&mut self.effects);
+        effects.into_iter().filter(|e| !matches!(e, Effect::Read(_) | Effect::Paint(_))).collect()
+    }
+
+    /// The screen as text.
+    fn screen(&self) -> String {
+        let Size { width, height } = self.state.size;
+        let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("a test backend never fails");
+        terminal.draw(|frame| screens::draw(frame, &self.state)).expect("a test backend never fails");
+        terminal.backend().to_string()
+    }
+
+    /// The last line of the screen.
+    fn status(&self) -> String {
+        self.screen().lines().last().unwrap_or_default().trim_matches('"').trim().to_owned()
+    }
+}
+
+fn code_of(name: &str) -> KeyCode {
+    match name {
+        "Enter" => KeyCode::Enter,
+        "Esc" => KeyCode::Esc,
+        "Tab" => KeyCode::Tab,
+        "PgDn" => KeyCode::PageDown,
+        "Left" => KeyCode::Left,
+        "Backspace" => KeyCode::Backspace,
+        other => panic!("no key `{other}`"),
+    }
+}

@@ -1,0 +1,234 @@
+//! Colours: the sixteen of the terminal's own palette, so that light and dark themes both stay readable, or none.
+//! Colour never stands alone: a glyph or a bar beside it says the same.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::{Color, Modifier, Style};
+
+use crate::study::{FitCell, FitClass, Status};
+
+/// How many colours the terminal shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Colours {
+    /// None.
+    None,
+    /// The 256 of xterm.
+    Indexed,
+    /// Red, green and blue of 8 bits.
+    True,
+}
+
+impl Colours {
+    /// What the environment says: `NO_COLOR`, `TERM`, `COLORTERM`.
+    #[must_use]
+    pub fn detect(no_color: bool, env: &dyn Fn(&str) -> Option<String>) -> Self {
+        let term = env("TERM").unwrap_or_default();
+        let says_true = matches!(env("COLORTERM").as_deref(), Some("truecolor" | "24bit"));
+        // tmux turns colours its outer terminal lacks into near ones by itself.
+        let is_known = env("TMUX").is_some() || ["kitty", "ghostty", "direct", "foot"].iter().any(|t| term.contains(t));
+        if no_color || env("NO_COLOR").is_some_and(|value| !value.is_empty()) || term == "dumb" {
+            Self::None
+        } else if says_true || is_known {
+            Self::True
+        } else {
+            Self::Indexed
+        }
+    }
+}
+
+/// The styles of the workbench.
+#[derive(Clone, Copy, Debug)]
+pub struct Theme {
+    /// Colours there are.
+    pub colours: Colours,
+}
+
+impl Theme {
+    fn fg(self, colour: Color) -> Style {
+        if self.colours == Colours::None { Style::new() } else { Style::new().fg(colour) }
+    }
+
+    /// Right or finished.
+    #[must_use]
+    pub fn good(self) -> Style {
+        self.fg(Color::Green)
+    }
+
+    /// Questionable.
+    #[must_use]
+    pub fn warn(self) -> Style {
+        self.fg(Color::Magenta)
+    }
+
+    /// Wrong or failed.
+    #[must_use]
+    pub fn bad(self) -> Style {
+        self.fg(Color::Red)
+    }
+
+    /// Going on.
+    #[must_use]
+    pub fn busy(self) -> Style {
+        self.fg(Color::Cyan)
+    }
+
+    /// Of less weight.
+    #[must_use]
+    pub fn dim(self) -> Style {
+        Style::new().add_modifier(Modifier::DIM)
+    }
+
+    /// A legend in a border: of less weight, whatever the border is like.
+    #[must_use]
+    pub fn legend(self) -> Style {
+        Style::reset().add_modifier(Modifier::DIM)
+    }
+
+    /// Of more weight.
+    #[must_use]
+    pub fn bold(self) -> Style {
+        Style::new().add_modifier(Modifier::BOLD)
+    }
+
+    /// Selected, in the pane that has the focus.
+    #[must_use]
+    pub fn selected(self) -> Style {
+        Style::new().add_modifier(Modifier::REVERSED)
+    }
+
+    /// Selected, in another pane.
+    #[must_use]
+    pub fn marked(self) -> Style {
+        Style::new().add_modifier(Modifier::BOLD | Modifier::UNDERLINED)
+    }
+
+    /// The style of a selection.
+    #[must_use]
+    pub fn selection(self, focused: bool) -> Style {
+        if focused { self.selected() } else { self.marked() }
+    }
+
+    /// The border of a pane.
+    #[must_use]
+    pub fn border(self, focused: bool) -> Style {
+        if focused { self.busy().add_modifier(Modifier::BOLD) } else { self.dim() }
+    }
+
+    /// The style of a status.
+    #[must_use]
+    pub fn status(self, status: Status) -> Style {
+        match status {
+            Status::Done => self.good(),
+            Status::Running => self.busy(),
+            Status::NotConverged => self.warn(),
+            Status::Failed => self.bad(),
+            Status::Queued | Status::Cancelled => self.dim(),
+        }
+    }
+
+    /// The style of an evaluation ratio: how far it is from 1.
+    #[must_use]
+    pub fn chi(self, chi: f64) -> Style {
+        match (chi - 1.0).abs() {
+            error if error <= 0.01 => self.good(),
+            error if error <= 0.03 => self.warn(),
+            _ => self.bad(),
+        }
+    }
+
+    /// Turns colours the terminal lacks, as pictures have them, into the nearest it has.
+    pub fn adapt(self, buffer: &mut Buffer, area: Rect) {
+        if self.colours != Colours::Indexed {
+            return;
+        }
+        for position in area.intersection(buffer.area).positions() {
+            let cell = &mut buffer[position];
+            (cell.fg, cell.bg) = (indexed(cell.fg), indexed(cell.bg));
+        }
+    }
+}
+
+/// The nearest colour of xterm's 256: of its cube or its greys, whichever is nearer.
+fn indexed(colour: Color) -> Color {
+    const LEVELS: [u8; 6] = [0, 95, 135, 175, 215, 255];
+    let Color::Rgb(r, g, b) = colour else { return colour };
+    let level = |v: u8| (0..6).min_by_key(|k| LEVELS[*k].abs_diff(v)).unwrap_or(0);
+    let [i, j, k] = [r, g, b].map(level);
+    let mean = (u16::from(r) + u16::from(g) + u16::from(b)) / 3;
+    let step = (mean.saturating_sub(3) / 10).min(23) as u8;
+    let grey = 8 + 10 * step;
+    let distance =
+        |to: [u8; 3]| -> u32 { [r, g, b].iter().zip(to).map(|(v, to)| u32::from(v.abs_diff(to)).pow(2)).sum() };
+    if distance([grey; 3]) < distance([LEVELS[i], LEVELS[j], LEVELS[k]]) {
+        Color::Indexed(232 + step)
+    } else {
+        Color::Indexed(16 + (36 * i + 6 * j + k) as u8)
+    }
+}
+
+/// The glyph of a status.
+#[must_use]
+pub fn glyph(status: Status) -> &'static str {
+    match status {
+        Status::Queued => "…",
+        Status::Running => "▶",
+        Status::Done => "✓",
+        Status::NotConverged => "≈",
+        Status::Failed => "✗",
+        Status::Cancelled => "⊘",
+    }
+}
+
+/// The glyph of a fit: its class, `!` where undersized, `~` where borderline.
+#[must_use]
+pub fn fit_glyph(fit: &FitCell) -> String {
+    let class = match fit.class {
+        FitClass::Tight => 'T',
+        FitClass::Just => 'J',
+        FitClass::Loose => 'L',
+    };
+    let mark = match (fit.undersized, fit.borderline) {
+        (true, _) => '!',
+        (_, true) => '~',
+        _ => ' ',
+    };
+    format!("{class}{mark}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_follow_the_environment() {
+        let check = |no_color: bool, vars: &[(&str, &str)], expect: Colours| {
+            let env = |name: &str| vars.iter().find(|(k, _)| *k == name).map(|(_, v)| (*v).to_owned());
+            assert_eq!(Colours::detect(no_color, &env), expect, "{vars:?}");
+        };
+        check(false, &[("TERM", "xterm-256color")], Colours::Indexed);
+        check(false, &[("TERM", "xterm"), ("COLORTERM", "truecolor")], Colours::True);
+        check(false, &[("COLORTERM", "truecolor"), ("NO_COLOR", "1")], Colours::None);
+        check(false, &[("COLORTERM", "truecolor"), ("NO_COLOR", "")], Colours::True);
+        check(true, &[("COLORTERM", "truecolor")], Colours::None);
+        check(false, &[("TERM", "dumb")], Colours::None);
+    }
+
+    #[test]
+    fn nearest_indexed_colours() {
+        let check =
+            |rgb: (u8, u8, u8), expect| assert_eq!(indexed(Color::Rgb(rgb.0, rgb.1, rgb.2)), Color::Indexed(expect));
+        check((0, 0, 0), 16);
+        check((255, 255, 255), 231);
+        check((255, 0, 0), 196);
+        check((128, 128, 128), 244);
+        assert_eq!(indexed(Color::Reset), Color::Reset);
+    }
+
+    #[test]
+    fn without_colours_no_style_has_one() {
+        let theme = Theme { colours: Colours::None };
+        for style in [theme.good(), theme.warn(), theme.bad(), theme.busy(), theme.border(true), theme.chi(1.2)] {
+            assert_eq!((style.fg, style.bg), (None, None));
+        }
+    }
+}

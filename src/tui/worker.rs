@@ -1,0 +1,235 @@
+//! The threads behind the screens: keys, signals, the database, pictures and runs, each on its own, all answering with
+//! messages. None of them is waited for while the workbench is used.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::{self, JoinHandle};
+use std::time::Duration;
+
+use crossterm::event::{self, Event};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::iterator::Signals;
+
+use super::feed::{self, Focus};
+use super::message::{Act, Effect, Message, Target};
+use super::picture::{Canvas, Shot};
+use crate::study::{RunOptions, StudyError, Workspace};
+
+/// Time between two looks at whether the database has changed; a look costs microseconds.
+const LOOK: Duration = Duration::from_millis(250);
+/// Time between two looks at whether a run has ended or is to stop.
+const RUN_LOOK: Duration = Duration::from_millis(100);
+
+/// What the thread of the database is asked for.
+enum Request {
+    Read(Focus),
+    Do(Act),
+}
+
+/// The threads, and what they say.
+pub struct Workers {
+    /// What they say.
+    pub messages: Receiver<Message>,
+    sender: Sender<Message>,
+    requests: Sender<Request>,
+    shots: Sender<Shot>,
+    database: PathBuf,
+    quickstart: Option<PathBuf>,
+    stop: Arc<AtomicBool>,
+    run: Mutex<Option<JoinHandle<()>>>,
+}
+
+impl Workers {
+    /// Starts all threads but that of runs.
+    #[must_use]
+    pub fn start(workspace: Workspace, canvas: Option<Canvas>, quickstart: Option<PathBuf>) -> Self {
+        let (sender, messages) = mpsc::channel();
+        let (requests, asked) = mpsc::channel();
+        let (shots, wanted) = mpsc::channel();
+        let database = workspace.path().to_owned();
+        spawn(&sender, read_keys);
+        spawn(&sender, watch_signals);
+        spawn(&sender, move |sender| serve_database(workspace, &asked, sender));
+        if let Some(canvas) = canvas {
+            let database = database.clone();
+            spawn(&sender, move |sender| paint(&database, &canvas, &wanted, sender));
+        }
+        let stop = Arc::new(AtomicBool::new(false));
+        Self { messages, sender, requests, shots, database, quickstart, stop, run: Mutex::new(None) }
+    }
+
+    /// Has the database read.
+    pub fn read(&self, focus: Focus) {
+        self.carry_out(Effect::Read(focus));
+    }
+
+    /// Hands an effect to the thread it concerns; a thread that has ended has said why.
+    pub fn carry_out(&self, effect: Effect) {
+        match effect {
+            Effect::Read(focus) => drop(self.requests.send(Request::Read(focus))),
+            Effect::Do(act) => drop(self.requests.send(Request::Do(act))),
+            Effect::Paint(shot) => drop(self.shots.send(shot)),
+            Effect::Run(target) => self.start_run(target),
+            Effect::StopRun => self.stop.store(true, Ordering::Relaxed),
+            Effect::Copy(_) | Effect::Clear | Effect::Quit => {}
+        }
+    }
+
+    fn start_run(&self, target: Target) {
+        let path = match target {
+            Target::Study(path) => path,
+            Target::Quickstart => self.quickstart.clone().unwrap_or_default(),
+        };
+        self.stop.store(false, Ordering::Relaxed);
+        let (database, stop) = (self.database.clone(), self.stop.clone());
+        let handle = spawn(&self.sender, move |sender| {
+            let outcome = follow_run(&database, &path, &stop);
+            let _ = sender.send(Message::RunEnded(outcome.map_err(|error| error.to_string())));
+        });
+        *self.run.lock().unwrap_or_else(PoisonError::into_inner) = handle;
+    }
+
+    /// Stops a run that still goes on and waits until its jobs are back in the queue.
+    pub fn finish(self) {
+        self.stop.store(true, Ordering::Relaxed);
+        if let Some(run) = self.run.into_inner().unwrap_or_else(PoisonError::into_inner) {
+            // A panic of the run was reported when it happened.
+            let _ = run.join();
+        }
+    }
+}
+
+/// Starts a thread with a way to answer; says so where the system refuses one.
+fn spawn(sender: &Sender<Message>, work: impl FnOnce(&Sender<Message>) + Send + 'static) -> Option<JoinHandle<()>> {
+    let own = sender.clone();
+    let handle = thread::Builder::new().name("toile-tui".into()).spawn(move || work(&own));
+    handle.map_err(|error| sender.send(Message::Failed(format!("no thread could be started: {error}")))).ok()
+}
+
+fn read_keys(sender: &Sender<Message>) {
+    loop {
+        let message = match event::read() {
+            Ok(Event::Key(key)) => Message::Key(key),
+            Ok(Event::Resize(width, height)) => Message::Resize(width, height),
+            Ok(_) => continue,
+            Err(_) => Message::Hangup,
+        };
+        let is_last = matches!(message, Message::Hangup);
+        if sender.send(message).is_err() || is_last {
+            return;
+        }
+    }
+}
+
+fn watch_signals(sender: &Sender<Message>) {
+    let mut signals = match Signals::new([SIGTERM, SIGHUP, SIGINT]) {
+        Ok(signals) => signals,
+        Err(error) => return drop(sender.send(Message::Failed(format!("signals: {error}")))),
+    };
+    for signal in signals.forever() {
+        let message = if signal == SIGHUP { Message::Hangup } else { Message::Terminate };
+        if sender.send(message).is_err() {
+            return;
+        }
+    }
+}
+
+/// Reads what the screens show when asked to and whenever the database has changed, and acts on the queue.
+fn serve_database(mut workspace: Workspace, asked: &Receiver<Request>, sender: &Sender<Message>) {
+    let mut focus = Focus::default();
+    let mut seen = None;
+    loop {
+        let is_wanted = match asked.recv_timeout(LOOK) {
+            Ok(Request::Read(wanted)) => {
+                focus = wanted;
+                true
+            }
+            Ok(Request::Do(act)) => {
+                let message =
+                    do_act(&mut workspace, &act).map_or_else(|e| Message::Failed(e.to_string()), Message::Acted);
+                if sender.send(message).is_err() {
+                    return;
+                }
+                true
+            }
+            Err(RecvTimeoutError::Timeout) => false,
+            Err(RecvTimeoutError::Disconnected) => return,
+        };
+        let message = match workspace.version() {
+            Ok(version) if !is_wanted && seen == Some(version) => continue,
+            Ok(version) => {
+                seen = Some(version);
+                feed::snapshot(&workspace, &focus).map(|data| Message::Data(Box::new(data)))
+            }
+            Err(error) => Err(error),
+        };
+        if sender.send(message.unwrap_or_else(|error| Message::Failed(error.to_string()))).is_err() {
+            return;
+        }
+    }
+}
+
+/// Acts on the queue; says what was done.
+pub(super) fn do_act(workspace: &mut Workspace, act: &Act) -> Result<String, StudyError> {
+    match act {
+        Act::Cancel(id) => match workspace.cancel(&[*id])? {
+            0 => Ok(format!("job {id} had ended already")),
+            _ => Ok(format!("job {id} is cancelled; r queues it again")),
+        },
+        Act::Retry(id) => match workspace.retry(&[*id])? {
+            0 => Ok(format!("job {id} is not run again")),
+            _ => Ok(format!("job {id} is queued again")),
+        },
+        Act::Prioritise(id, priority) => {
+            workspace.set_priority(&[*id], *priority)?;
+            Ok(format!("job {id} has priority {priority}"))
+        }
+        Act::Pause(study) => {
+            workspace.pause(study)?;
+            Ok(format!("{study} is paused: no new jobs start, running ones go on"))
+        }
+        Act::Resume(study) => {
+            workspace.resume(study)?;
+            Ok(format!("{study} goes on"))
+        }
+    }
+}
+
+/// Draws the pictures asked for, the latest only.
+fn paint(database: &Path, canvas: &Canvas, wanted: &Receiver<Shot>, sender: &Sender<Message>) {
+    let workspace = Workspace::open(database, true);
+    while let Ok(shot) = wanted.recv() {
+        let shot = wanted.try_iter().last().unwrap_or(shot);
+        let (width, height) = canvas.pixels(&shot);
+        let picture = match &workspace {
+            Ok(workspace) => {
+                workspace.close_up(shot.job, shot.view, width, height, shot.map).map_err(|e| e.to_string())
+            }
+            Err(error) => Err(error.to_string()),
+        };
+        let drawn = picture.and_then(|picture| canvas.draw(&picture, &shot));
+        if sender.send(Message::Picture(shot, drawn)).is_err() {
+            return;
+        }
+    }
+}
+
+/// Starts a run and waits for its end or for the order to stop it; says how it ended.
+fn follow_run(database: &Path, study: &Path, stop: &AtomicBool) -> Result<String, StudyError> {
+    let mut workspace = Workspace::open(database, false)?;
+    let study = workspace.load_study(study)?;
+    let run = workspace.start(&study, &RunOptions::default())?;
+    while !run.is_finished() {
+        if stop.load(Ordering::Relaxed) {
+            run.stop();
+            break;
+        }
+        thread::sleep(RUN_LOOK);
+    }
+    let is_stopped = stop.load(Ordering::Relaxed);
+    run.join()?;
+    let end = if is_stopped { "is stopped" } else { "has ended" };
+    Ok(format!("the run of {} {end}", study.name))
+}
