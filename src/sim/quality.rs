@@ -3,7 +3,7 @@
 use crate::body::Body;
 use crate::geom::{Surface, V3};
 use crate::pattern::Garment;
-use crate::sim::contact::grid::TriangleGrid;
+use crate::sim::contact::grid::BoxGrid;
 use crate::sim::solver::PairList;
 
 /// Deepest point of the cloth inside the body, m: vertices, edge middles and triangle centres against the exact surface;
@@ -32,7 +32,7 @@ pub fn self_crossings(x: &[V3], triangles: &[[usize; 3]]) -> usize {
     let edges = PairList::new(triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]));
     let length = edges.pairs().iter().map(|&[a, b]| (x[a] - x[b]).norm()).fold(0.0, f64::max);
     // Every point of an edge is within half the greatest length of the edge's middle.
-    let grid = TriangleGrid::new(x, triangles, 0.5 * length, length.max(1e-6));
+    let grid = BoxGrid::new(x, triangles, 0.5 * length, length.max(1e-6));
     let pierces = |&[a, b]: &[usize; 2]| {
         let near = grid.near(&((x[a] + x[b]) / 2.0));
         near.filter(|&t| !triangles[t].contains(&a) && !triangles[t].contains(&b))

@@ -1,13 +1,12 @@
-//! Contact of the cloth with itself: vertices are kept a thickness away from the triangles they face.
+//! Contact of the cloth with itself: vertices are kept a thickness away from triangles, edges from edges.
 //!
-//! A pair is found while its vertex is still clear of the triangle; the side it then lies on is remembered for as long as
-//! the two stay near, so a vertex that slips through is pushed back to where it came from.
+//! A pair is found while its two sides are still clear of each other; which way round they then lie is remembered for
+//! as long as they stay near, so cloth that slips through is pushed back to where it came from. Pairs are sought within a
+//! reach that no step can cross, so none is met unseen.
 
-use std::collections::BTreeMap;
-
-use super::grid::TriangleGrid;
+use super::grid::BoxGrid;
 use crate::geom::V3;
-use crate::sim::solver::Contact4;
+use crate::sim::solver::{Contact4, PairList};
 
 /// Parameters of self-contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,25 +15,45 @@ pub struct ClothContactParams {
     pub thickness_m: f64,
     /// Penalty, N/m3.
     pub stiffness_n_m3: f64,
-    /// Pairs are sought up to this distance, m; it bounds how far cloth may move before they are sought anew.
+    /// Pairs are sought up to this distance, m: at least twice what a vertex moves in a step.
     pub reach_m: f64,
 }
 
 impl Default for ClothContactParams {
     fn default() -> Self {
-        Self { thickness_m: 2e-3, stiffness_n_m3: 1e6, reach_m: 0.012 }
+        Self { thickness_m: 2e-3, stiffness_n_m3: 1e6, reach_m: 0.02 }
     }
+}
+
+/// How far outside its triangle or edge a foot point may lie for a pair to be remembered, as a barycentric weight: it may
+/// slide in before pairs are sought again.
+const MARGIN: f64 = 0.3;
+
+/// Vertices of a pair: `[vertex, triangle]` or `[edge, edge]`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Primitives {
+    VertexTriangle([usize; 4]),
+    EdgeEdge([usize; 4]),
+}
+
+/// A pair that is near, and which way round it lay when it was found.
+#[derive(Clone, Copy, Debug)]
+struct Pair {
+    primitives: Primitives,
+    /// +1 or -1 along the pair's normal.
+    side: f64,
 }
 
 /// Self-contact of one cloth.
 pub struct ClothContact<'a> {
     params: ClothContactParams,
     triangles: &'a [[usize; 3]],
+    edges: PairList,
     areas: &'a [f64],
-    /// Vertices that share a triangle with a vertex, itself included.
+    /// Vertices that share a triangle with a vertex, itself included, sorted.
     ring: Vec<Vec<usize>>,
-    /// Remembered side (+1 along the triangle's normal) of each near pair (vertex, triangle).
-    sides: BTreeMap<(usize, usize), f64>,
+    /// Sorted by primitives.
+    pairs: Vec<Pair>,
     found_at: Vec<V3>,
 }
 
@@ -52,62 +71,98 @@ impl<'a> ClothContact<'a> {
             r.sort_unstable();
             r.dedup();
         }
-        Self { params, triangles, areas, ring, sides: BTreeMap::new(), found_at: Vec::new() }
+        let edges = PairList::new(triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]));
+        Self { params, triangles, edges, areas, ring, pairs: Vec::new(), found_at: Vec::new() }
     }
 
     /// Seeks near pairs anew where cloth has moved so far that one could have been missed.
     pub fn update(&mut self, x: &[V3]) {
-        let slack = 0.5 * (self.params.reach_m - self.params.thickness_m);
+        let slack = 0.25 * self.params.reach_m;
         let moved = |(p, q): (&V3, &V3)| (p - q).norm_squared() > slack * slack;
         if self.found_at.len() == x.len() && !x.iter().zip(&self.found_at).any(moved) {
             return;
         }
-        let grid = TriangleGrid::new(x, self.triangles, self.params.reach_m, 2.0 * self.params.reach_m);
-        let mut sides = BTreeMap::new();
-        for v in 0..x.len() {
-            for t in grid.near(&x[v]) {
-                if self.triangles[t].iter().any(|c| self.ring[v].binary_search(c).is_ok()) {
-                    continue;
-                }
-                if let Some(facing) = Facing::of(x, v, self.triangles[t])
-                    && facing.height.abs() < self.params.reach_m
-                {
-                    let side = self.sides.get(&(v, t)).copied().unwrap_or_else(|| facing.height.signum());
-                    sides.insert((v, t), side);
-                }
+        let mut found = self.vertex_triangle_pairs(x);
+        found.extend(self.edge_edge_pairs(x));
+        found.sort_unstable_by_key(|p| p.primitives);
+        for pair in &mut found {
+            if let Ok(known) = self.pairs.binary_search_by_key(&pair.primitives, |p| p.primitives) {
+                pair.side = self.pairs[known].side;
             }
         }
-        self.sides = sides;
+        self.pairs = found;
         self.found_at = x.to_vec();
     }
 
-    fn active<'s>(&'s self, x: &'s [V3]) -> impl Iterator<Item = (usize, usize, f64, f64, Facing)> + 's {
-        self.sides.iter().filter_map(|(&(v, t), &side)| {
-            let facing = Facing::of(x, v, self.triangles[t])?;
-            let depth = self.params.thickness_m - side * facing.height;
-            (depth > 0.0).then_some((v, t, side, depth, facing))
+    fn vertex_triangle_pairs(&self, x: &[V3]) -> Vec<Pair> {
+        let reach = self.params.reach_m;
+        let grid = BoxGrid::new(x, self.triangles, reach, 2.0 * reach);
+        let mut pairs = Vec::new();
+        for v in 0..x.len() {
+            for t in grid.near(&x[v]) {
+                let [a, b, c] = self.triangles[t];
+                if self.apart(&[v], &[a, b, c]) {
+                    pairs.extend(self.near_pair(x, Primitives::VertexTriangle([v, a, b, c])));
+                }
+            }
+        }
+        pairs
+    }
+
+    fn edge_edge_pairs(&self, x: &[V3]) -> Vec<Pair> {
+        let reach = self.params.reach_m;
+        let edges = self.edges.pairs();
+        let longest = edges.iter().map(|&[a, b]| (x[a] - x[b]).norm()).fold(0.0, f64::max);
+        // Two edges within reach of each other: the middle of one is within that and half its length of the other's box.
+        let grid = BoxGrid::new(x, edges, reach + 0.5 * longest, 2.0 * reach + longest);
+        let mut pairs = Vec::new();
+        for (e, &[a, b]) in edges.iter().enumerate() {
+            for f in grid.near(&((x[a] + x[b]) / 2.0)).filter(|&f| f > e) {
+                let [c, d] = edges[f];
+                if self.apart(&[a, b], &[c, d]) {
+                    pairs.extend(self.near_pair(x, Primitives::EdgeEdge([a, b, c, d])));
+                }
+            }
+        }
+        pairs
+    }
+
+    /// Whether no vertex of one side shares a triangle with one of the other.
+    fn apart(&self, one: &[usize], other: &[usize]) -> bool {
+        one.iter().all(|&v| other.iter().all(|w| self.ring[v].binary_search(w).is_err()))
+    }
+
+    fn near_pair(&self, x: &[V3], primitives: Primitives) -> Option<Pair> {
+        let facing = Facing::of(x, primitives, MARGIN)?;
+        (facing.height.abs() < self.params.reach_m).then(|| Pair { primitives, side: facing.height.signum() })
+    }
+
+    fn active<'s>(&'s self, x: &'s [V3]) -> impl Iterator<Item = (f64, f64, Facing)> + 's {
+        self.pairs.iter().filter_map(|pair| {
+            let facing = Facing::of(x, pair.primitives, 0.0)?;
+            let depth = self.params.thickness_m - pair.side * facing.height;
+            (depth > 0.0).then_some((pair.side, depth, facing))
         })
     }
 
-    fn stiffness(&self, vertex: usize) -> f64 {
-        self.params.stiffness_n_m3 * self.areas[vertex]
+    /// Penalty stiffness of a contact, N/m: by the smallest rest area among its vertices.
+    fn stiffness(&self, facing: &Facing) -> f64 {
+        self.params.stiffness_n_m3 * facing.vertices.iter().map(|&v| self.areas[v]).fold(f64::MAX, f64::min)
     }
 
     /// Contact energy, J.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {
-        self.active(x).map(|(v, _, _, depth, _)| 0.5 * self.stiffness(v) * depth * depth).sum()
+        self.active(x).map(|(_, depth, facing)| 0.5 * self.stiffness(&facing) * depth * depth).sum()
     }
 
     /// Adds the contact forces and returns the stiffness.
     pub fn assemble(&self, x: &[V3], forces: &mut [V3]) -> Vec<Contact4> {
         let mut contacts = Vec::new();
-        for (v, t, side, depth, facing) in self.active(x) {
-            let [a, b, c] = self.triangles[t];
-            let [wa, wb, wc] = facing.weights;
-            let stiffness = self.stiffness(v);
+        for (side, depth, facing) in self.active(x) {
+            let stiffness = self.stiffness(&facing);
             let contact =
-                Contact4 { vertices: [v, a, b, c], weights: [1.0, -wa, -wb, -wc], normal: facing.normal, stiffness };
+                Contact4 { vertices: facing.vertices, weights: facing.weights, normal: facing.normal, stiffness };
             for k in 0..4 {
                 forces[contact.vertices[k]] += facing.normal * (side * stiffness * depth * contact.weights[k]);
             }
@@ -117,29 +172,45 @@ impl<'a> ClothContact<'a> {
     }
 }
 
-/// A vertex above or below a triangle.
+/// Two primitives that face each other: the height of one over the other is `normal . sum w_k x_k`.
 struct Facing {
-    /// Signed height over the triangle's plane, m.
-    height: f64,
-    /// Unit normal of the triangle.
+    vertices: [usize; 4],
+    /// Weights of the vertices; they sum to zero.
+    weights: [f64; 4],
+    /// Unit normal.
     normal: V3,
-    /// Barycentric coordinates of the foot point, none negative.
-    weights: [f64; 3],
+    /// Signed height, m.
+    height: f64,
 }
 
 impl Facing {
-    /// `None` when the foot point lies outside the triangle.
-    fn of(x: &[V3], vertex: usize, triangle: [usize; 3]) -> Option<Self> {
-        let [a, b, c] = triangle.map(|v| x[v]);
-        let cross = (b - a).cross(&(c - a));
-        let area = cross.norm_squared();
-        let d = x[vertex] - a;
-        let wb = d.cross(&(c - a)).dot(&cross) / area;
-        let wc = (b - a).cross(&d).dot(&cross) / area;
-        let wa = 1.0 - wb - wc;
-        (wa >= 0.0 && wb >= 0.0 && wc >= 0.0).then(|| {
-            let normal = cross / area.sqrt();
-            Self { height: d.dot(&normal), normal, weights: [wa, wb, wc] }
-        })
+    /// `None` when a foot point lies more than `margin` outside its primitive, or edges are parallel.
+    fn of(x: &[V3], primitives: Primitives, margin: f64) -> Option<Self> {
+        let (vertices, weights, cross) = match primitives {
+            Primitives::VertexTriangle(vertices) => {
+                let [p, a, b, c] = vertices.map(|v| x[v]);
+                let cross = (b - a).cross(&(c - a));
+                let area = cross.norm_squared();
+                let wb = (p - a).cross(&(c - a)).dot(&cross) / area;
+                let wc = (b - a).cross(&(p - a)).dot(&cross) / area;
+                let wa = 1.0 - wb - wc;
+                (wa >= -margin && wb >= -margin && wc >= -margin).then_some(())?;
+                (vertices, [1.0, -wa, -wb, -wc], cross)
+            }
+            Primitives::EdgeEdge(vertices) => {
+                let [a, b, c, d] = vertices.map(|v| x[v]);
+                let (u, w, between) = (b - a, d - c, c - a);
+                let cross = u.cross(&w);
+                let area = cross.norm_squared();
+                let s = between.cross(&w).dot(&cross) / area;
+                let t = between.cross(&u).dot(&cross) / area;
+                let range = -margin..=1.0 + margin;
+                (range.contains(&s) && range.contains(&t)).then_some(())?;
+                (vertices, [1.0 - s, s, t - 1.0, -t], cross)
+            }
+        };
+        let normal = cross.try_normalize(0.0)?;
+        let height = (0..4).map(|k| weights[k] * normal.dot(&x[vertices[k]])).sum();
+        Some(Self { vertices, weights, normal, height })
     }
 }

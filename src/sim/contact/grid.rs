@@ -1,30 +1,30 @@
-//! Triangles by place: a uniform grid kept as one sorted list, so that its order never depends on a hash.
+//! Things by place: a uniform grid kept as one sorted list, so that its order never depends on a hash.
 
 use crate::geom::V3;
 
-/// Triangles of a cloth by the grid cells their bounding boxes touch.
-pub struct TriangleGrid {
+/// Boxes by the grid cells they touch.
+pub struct BoxGrid {
     cell_m: f64,
-    /// (cell, triangle), sorted.
+    /// (cell, box), sorted.
     entries: Vec<([i32; 3], usize)>,
     /// First entry of each run of equal cells, with that cell.
     cells: Vec<([i32; 3], usize)>,
 }
 
-impl TriangleGrid {
-    /// Sorts triangles, their boxes widened by `reach_m`, into cells of `cell_m`.
+impl BoxGrid {
+    /// Sorts the boxes of point sets, each widened by `reach_m`, into cells of `cell_m`.
     #[must_use]
-    pub fn new(x: &[V3], triangles: &[[usize; 3]], reach_m: f64, cell_m: f64) -> Self {
-        let mut entries = Vec::with_capacity(4 * triangles.len());
-        for (t, corners) in triangles.iter().enumerate() {
-            let [a, b, c] = corners.map(|v| x[v]);
-            let reach = V3::repeat(reach_m);
-            let low = cell_of(&(a.inf(&b).inf(&c) - reach), cell_m);
-            let high = cell_of(&(a.sup(&b).sup(&c) + reach), cell_m);
+    pub fn new<const N: usize>(x: &[V3], sets: &[[usize; N]], reach_m: f64, cell_m: f64) -> Self {
+        let reach = V3::repeat(reach_m);
+        let mut entries = Vec::with_capacity(4 * sets.len());
+        for (index, set) in sets.iter().enumerate() {
+            let low = set.iter().fold(V3::repeat(f64::MAX), |low, &v| low.inf(&x[v])) - reach;
+            let high = set.iter().fold(V3::repeat(f64::MIN), |high, &v| high.sup(&x[v])) + reach;
+            let (low, high) = (cell_of(&low, cell_m), cell_of(&high, cell_m));
             for i in low[0]..=high[0] {
                 for j in low[1]..=high[1] {
                     for k in low[2]..=high[2] {
-                        entries.push(([i, j, k], t));
+                        entries.push(([i, j, k], index));
                     }
                 }
             }
@@ -35,7 +35,7 @@ impl TriangleGrid {
         Self { cell_m, entries, cells }
     }
 
-    /// Triangles whose widened box may hold a point, in increasing order.
+    /// Boxes that may hold a point, in increasing order.
     pub fn near(&self, p: &V3) -> impl Iterator<Item = usize> + '_ {
         let cell = cell_of(p, self.cell_m);
         let found = self.cells.binary_search_by_key(&cell, |c| c.0);
