@@ -121,7 +121,8 @@ fn grid(figure: &Figure) -> Grid {
     Grid { axes: [x, y, z] }
 }
 
-/// Where the tape is laid on a figure's skin: the levels are known.
+/// Where the tape is laid on a figure's skin. Chest and hip are found on the mesh, as on anybody's, so that whoever
+/// measures the mesh reads what was fitted; shoulder and waist are known from the figure.
 fn sites(mesh: &TriMesh, figure: &Figure) -> Result<Sites, BodyError> {
     let (atlas, h) = (figure.atlas, figure.profile.stature);
     let missing = |part, share: f64| BodyError::MissingPart { part, height_mm: share * h * 1e3 };
@@ -129,7 +130,7 @@ fn sites(mesh: &TriMesh, figure: &Figure) -> Result<Sites, BodyError> {
     let crotch = landmarks::crotch(mesh, 0.40 * h, 0.52 * h, 0.0).ok_or_else(|| missing("crotch", atlas.crotch))?;
     let neck = tape::neck(&upper, 0.845 * h, 0.885 * h, 0.0).ok_or_else(|| missing("neck", 0.87))?;
     let back_neck = landmarks::median_point(&upper, figure.back_neck_height(), 0.0, Side::Back);
-    let chest = atlas.chest * h;
+    let chest = measure::chest_level(mesh, 0.0, h, 0.0).unwrap_or(atlas.chest * h);
     let shoulder = |sign: f64| landmarks::shoulder_top(&upper, sign * figure.targets.shoulder_x, 0.86 * h);
     let right = shoulder(1.0).ok_or_else(|| missing("shoulder", atlas.shoulder))?;
     let along = figure.arm_axes()[2];
@@ -138,7 +139,7 @@ fn sites(mesh: &TriMesh, figure: &Figure) -> Result<Sites, BodyError> {
         crown: h,
         middle: 0.0,
         crotch,
-        hip: atlas.hip * h,
+        hip: measure::hip_level(mesh, crotch, h, 0.0).unwrap_or(atlas.hip * h),
         waist: atlas.waist * h,
         underbust: measure::underbust_level(mesh, chest, h, 0.0),
         chest,

@@ -159,7 +159,7 @@ fn likely_sex(neck: f64, hip: f64) -> Sex {
 }
 
 /// The level of the greatest buttock protrusion.
-fn hip_level(mesh: &TriMesh, crotch: f64, stature: f64, middle: f64) -> Option<f64> {
+pub(super) fn hip_level(mesh: &TriMesh, crotch: f64, stature: f64, middle: f64) -> Option<f64> {
     let heights = steps(crotch + 0.01 * stature, crotch + 0.10 * stature, 48);
     let back = |z: f64| Some((z, tape::depth_range(&tape::trunk_outline(mesh, z, middle)?).1));
     heights.filter_map(back).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(z, _)| z)
@@ -167,7 +167,7 @@ fn hip_level(mesh: &TriMesh, crotch: f64, stature: f64, middle: f64) -> Option<f
 
 /// The level of the nipples: where the front stands out most from the chord between ribs and collar bones, among the
 /// heights at which the arms are still apart from the trunk.
-fn chest_level(mesh: &TriMesh, floor: f64, stature: f64, middle: f64) -> Option<f64> {
+pub(super) fn chest_level(mesh: &TriMesh, floor: f64, stature: f64, middle: f64) -> Option<f64> {
     let (low, high) = (floor + 0.66 * stature, floor + 0.80 * stature);
     let front = |z: f64| tape::trunk_outline(mesh, z, middle).map(|outline| tape::depth_range(&outline).0);
     let arm_apart = |z: f64| !tape::right_limbs(mesh, z, middle).is_empty();

@@ -42,8 +42,8 @@ fn of(sex: Sex) -> tools::Sex {
 /// Builds a body and writes its mesh, picture and measurements.
 fn build(context: &Context, arguments: &BodyBuild) -> Result<(), CliError> {
     let measurements = measurements(context, arguments)?;
-    let (body, girths) = tools::build_body(&measurements)?;
-    let document = serde_json::to_string_pretty(&girths).map_err(std::io::Error::from)?;
+    let body = tools::build_body(&measurements)?;
+    let document = serde_json::to_string_pretty(&body.girths).map_err(std::io::Error::from)?;
     let files = [
         ("body.obj".to_owned(), tools::write_obj(&body.mesh).into_bytes()),
         ("body.png".to_owned(), tools::body_picture(&body, View::Quarter, PICTURE.0, PICTURE.1)?),
@@ -52,7 +52,7 @@ fn build(context: &Context, arguments: &BodyBuild) -> Result<(), CliError> {
     for path in tools::write_files(&arguments.output, &files)? {
         context.say(format_args!("wrote {}", path.display()));
     }
-    print(context, &girths)
+    print(context, &body.girths)
 }
 
 /// The measurements of a catalogue entry or a file, with those of the command line over them.

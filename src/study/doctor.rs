@@ -58,8 +58,12 @@ fn body_check() -> Result<String> {
         neck_girth_m: None,
         across_shoulder_m: None,
     };
-    let (body, girths) = tools::build_body(&known)?;
-    Ok(format!("{} triangles; chest asked 900 mm, measured {:.0} mm", body.mesh.triangles.len(), girths.chest_girth_mm))
+    let body = tools::build_body(&known)?;
+    Ok(format!(
+        "{} triangles; chest asked 900 mm, measured {:.0} mm",
+        body.mesh.triangles.len(),
+        body.girths.chest_girth_mm
+    ))
 }
 
 /// Drafts, writes, reads, sews and meshes a T-shirt.

@@ -9,7 +9,7 @@ use super::inputs::StageKind;
 use super::outcome::{Executor, Measured, Outcome};
 use super::spec::JobSpec;
 use super::tools;
-use crate::body::{Body, Girths};
+use crate::body::Body;
 use crate::fit::{self, Cuts, Ease};
 use crate::geom::DistanceField;
 use crate::measure;
@@ -22,9 +22,9 @@ use crate::units::from_mm;
 pub const SIMULATORS: [Simulator; 1] = [Simulator::Fem];
 
 /// Versions of the stages, raised whenever one may give other numbers for the same inputs.
-const VERSIONS: [(&str, u32); 3] = [("body.version", 1), ("field.version", 1), ("mesh.version", 1)];
+const VERSIONS: [(&str, u32); 3] = [("body.version", 2), ("field.version", 1), ("mesh.version", 1)];
 /// Version of the simulators, likewise; their default parameters count as inputs by themselves.
-const SIM_VERSION: u32 = 1;
+const SIM_VERSION: u32 = 2;
 
 /// Spacing of the distance field's nodes, m: the 99th percentile of its error is then about 0.1 mm.
 const FIELD_SPACING_M: f64 = 0.005;
@@ -41,26 +41,24 @@ pub(crate) fn versions(simulator: Simulator) -> Vec<(&'static str, String)> {
     versions
 }
 
-/// A body with its measurements.
+/// A body, as the cache keeps it.
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(super) struct Model {
     /// The human model.
     pub body: Body,
-    /// What a tape reads on it.
-    pub girths: Girths,
 }
 
 impl Model {
     /// Girth at a level named in a style's fit references, m.
     fn girth_m(&self, level: &str) -> Option<f64> {
         let mm = match level {
-            "neck" => self.girths.neck_girth_mm,
-            "chest" | "bust" => self.girths.chest_girth_mm,
-            "underbust" => self.girths.underbust_girth_mm,
-            "waist" => self.girths.waist_girth_mm,
-            "hip" => self.girths.hip_girth_mm,
-            "thigh" => self.girths.thigh_girth_mm,
-            "upper_arm" => self.girths.upper_arm_girth_mm?,
+            "neck" => self.body.girths.neck_girth_mm,
+            "chest" | "bust" => self.body.girths.chest_girth_mm,
+            "underbust" => self.body.girths.underbust_girth_mm,
+            "waist" => self.body.girths.waist_girth_mm,
+            "hip" => self.body.girths.hip_girth_mm,
+            "thigh" => self.body.girths.thigh_girth_mm,
+            "upper_arm" => self.body.girths.upper_arm_girth_mm?,
             _ => return None,
         };
         Some(from_mm(mm))
@@ -119,8 +117,7 @@ impl Pipeline {
 
     fn model(&self, spec: &JobSpec) -> Result<(Arc<Model>, Used)> {
         self.cache.get(StageKind::Body, &spec.inputs.stage_hash(StageKind::Body), || {
-            let (body, girths) = tools::build_body(&spec.measurements)?;
-            Ok(Model { body, girths })
+            Ok(Model { body: tools::build_body(&spec.measurements)? })
         })
     }
 

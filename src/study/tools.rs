@@ -135,14 +135,12 @@ pub fn read_measurements(path: &Path) -> Result<Measurements> {
     super::file::measurements(path, &text)
 }
 
-/// A body built from measurements, and what a tape reads on it.
+/// A body built from measurements.
 ///
 /// # Errors
 /// When a measurement is impossible.
-pub fn build_body(measurements: &Measurements) -> Result<(Body, Girths)> {
-    let body = body::build(measurements).map_err(StudyError::stage("body"))?;
-    let girths = body::measure(&body.mesh, Some(body.sex)).map_err(StudyError::stage("body"))?;
-    Ok((body, girths))
+pub fn build_body(measurements: &Measurements) -> Result<Body> {
+    body::build(measurements).map_err(StudyError::stage("body"))
 }
 
 /// Measures a body mesh file; also what had to be guessed about it.

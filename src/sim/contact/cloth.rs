@@ -96,12 +96,13 @@ impl<'a> ClothContact<'a> {
 
     fn vertex_triangle_pairs(&self, x: &[V3]) -> Vec<Pair> {
         let reach = self.params.reach_m;
+        let longest = self.longest_edge(x);
         let grid = BoxGrid::new(x, self.triangles, reach, 2.0 * reach);
         let mut pairs = Vec::new();
         for v in 0..x.len() {
             for t in grid.near(&x[v]) {
                 let [a, b, c] = self.triangles[t];
-                if self.apart(&[v], &[a, b, c]) {
+                if near(&x[v], &x[a], reach + longest) && self.apart(&[v], &[a, b, c]) {
                     pairs.extend(self.near_pair(x, Primitives::VertexTriangle([v, a, b, c])));
                 }
             }
@@ -112,19 +113,24 @@ impl<'a> ClothContact<'a> {
     fn edge_edge_pairs(&self, x: &[V3]) -> Vec<Pair> {
         let reach = self.params.reach_m;
         let edges = self.edges.pairs();
-        let longest = edges.iter().map(|&[a, b]| (x[a] - x[b]).norm()).fold(0.0, f64::max);
+        let longest = self.longest_edge(x);
         // Two edges within reach of each other: the middle of one is within that and half its length of the other's box.
         let grid = BoxGrid::new(x, edges, reach + 0.5 * longest, 2.0 * reach + longest);
         let mut pairs = Vec::new();
         for (e, &[a, b]) in edges.iter().enumerate() {
-            for f in grid.near(&((x[a] + x[b]) / 2.0)).filter(|&f| f > e) {
+            let middle = (x[a] + x[b]) / 2.0;
+            for f in grid.near(&middle).filter(|&f| f > e) {
                 let [c, d] = edges[f];
-                if self.apart(&[a, b], &[c, d]) {
+                if near(&middle, &((x[c] + x[d]) / 2.0), reach + longest) && self.apart(&[a, b], &[c, d]) {
                     pairs.extend(self.near_pair(x, Primitives::EdgeEdge([a, b, c, d])));
                 }
             }
         }
         pairs
+    }
+
+    fn longest_edge(&self, x: &[V3]) -> f64 {
+        self.edges.pairs().iter().map(|&[a, b]| (x[a] - x[b]).norm()).fold(0.0, f64::max)
     }
 
     /// Whether no vertex of one side shares a triangle with one of the other.
@@ -170,6 +176,10 @@ impl<'a> ClothContact<'a> {
         }
         contacts
     }
+}
+
+fn near(p: &V3, q: &V3, distance_m: f64) -> bool {
+    (p - q).norm_squared() < distance_m * distance_m
 }
 
 /// Two primitives that face each other: the height of one over the other is `normal . sum w_k x_k`.

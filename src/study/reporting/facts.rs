@@ -162,7 +162,7 @@ impl Workspace {
             let name = row[0].to_string();
             let dressed = jobs.iter().find(|job| job.subject == name && job.status.has_result());
             let measured = match dressed {
-                Some(job) => Some(readings(&self.product::<Model>(job.id, StageKind::Body)?.girths)),
+                Some(job) => Some(readings(&self.product::<Model>(job.id, StageKind::Body)?.body.girths)),
                 None => None,
             };
             bodies.push(BodyFacts {
