@@ -3,9 +3,13 @@
 
 use std::any::Any;
 use std::collections::BTreeMap;
+use std::io::{Read, Write};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
+use flate2::Compression;
+use flate2::read::ZlibDecoder;
+use flate2::write::ZlibEncoder;
 use rusqlite::{Connection, OptionalExtension, params};
 
 use super::error::{Result, StudyError};
@@ -94,16 +98,23 @@ fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 
-/// The stored bytes of a hash.
+/// The stored bytes of a hash; damaged ones count as missing.
 pub(crate) fn load(connection: &Connection, hash: &str) -> Result<Option<Vec<u8>>> {
     let sql = "SELECT bytes FROM artefact WHERE hash = ?";
-    Ok(connection.prepare_cached(sql)?.query_row([hash], |row| row.get(0)).optional()?)
+    let packed: Option<Vec<u8>> = connection.prepare_cached(sql)?.query_row([hash], |row| row.get(0)).optional()?;
+    Ok(packed.and_then(|packed| {
+        let mut bytes = Vec::new();
+        ZlibDecoder::new(packed.as_slice()).read_to_end(&mut bytes).ok().map(|_| bytes)
+    }))
 }
 
-/// Stores bytes by their hash; unreadable ones of an earlier program are replaced.
+/// Stores bytes by their hash, packed: most of a distance field is far from the body and constant; unreadable ones of an earlier program are replaced.
 fn save(connection: &Connection, stage: StageKind, hash: &str, bytes: &[u8]) -> Result<()> {
+    let mut packer = ZlibEncoder::new(Vec::new(), Compression::fast());
+    packer.write_all(bytes).map_err(StudyError::stage("store"))?;
+    let packed = packer.finish().map_err(StudyError::stage("store"))?;
     let sql = "INSERT OR REPLACE INTO artefact (hash, kind, bytes, created_at) VALUES (?, ?, ?, ?)";
-    connection.execute(sql, params![hash, stage.as_str(), bytes, now_ms()])?;
+    connection.execute(sql, params![hash, stage.as_str(), packed, now_ms()])?;
     Ok(())
 }
 

@@ -64,7 +64,7 @@ impl Default for Params {
             frictionless_tolerance: 0.05,
             frictionless_steps: 80,
             tolerance: 0.01,
-            max_iterations: 400,
+            max_iterations: 600,
             contact: ContactParams::default(),
             self_contact: ClothContactParams::default(),
             step: StepParams::default(),
