@@ -147,7 +147,8 @@ impl Pipeline {
 
 /// Ease at each fit level; a study's own cuts classify it when it is read.
 fn ease(garment: &Garment, model: &Model) -> Vec<Ease> {
-    fit::ease(&garment.fit_levels, |level| model.girth_m(level), &Cuts::default())
+    let levels = garment.fit_levels.iter().map(|level| (level.level.as_str(), level.girth_m));
+    fit::ease(levels, |level| model.girth_m(level), &Cuts::default())
 }
 
 /// The style of a job's size.
