@@ -1,1 +1,149 @@
-fn main() {}
+//! Times of the stages a simulation goes through, on the drafted T-shirt and the first subject of the quickstart.
+//!
+//! `cargo bench` measures; `cargo bench -- --test` runs each once, to see that it still works.
+
+use std::sync::LazyLock;
+
+use divan::Bencher;
+use toile::body::{self, Body, Measurements, Sex};
+use toile::geom::{DistanceField, TriMesh};
+use toile::measure;
+use toile::pattern::mesh::EDGE_LENGTH_RANGE_M;
+use toile::pattern::{Garment, Style, draft, dxf};
+use toile::render::{self, Camera, Frame, Layer, Material, Scene, View};
+use toile::sim::fem::{self, LEVELS, Params};
+use toile::sim::{Drape, Fabric, Monitor, Progress, fabric};
+use toile::study::{RunOptions, Workspace};
+
+fn main() {
+    divan::main();
+}
+
+/// Edge length of the mesh that results are on, m.
+const FINE_M: f64 = 0.015;
+/// Edge length of a mesh that drapes in a moment, m.
+const COARSE_M: f64 = 0.040;
+/// Spacing of the distance field, m.
+const SPACING_M: f64 = 0.005;
+
+fn subject() -> Measurements {
+    Measurements {
+        sex: Sex::Male,
+        stature_m: 1.690,
+        weight_kg: Some(53.0),
+        chest_girth_m: Some(0.863),
+        waist_girth_m: Some(0.782),
+        hip_girth_m: Some(0.914),
+        neck_girth_m: Some(0.378),
+        across_shoulder_m: Some(0.429),
+    }
+}
+
+static BODY: LazyLock<Body> = LazyLock::new(|| body::build(&subject()).expect("a person that can be"));
+static FIELD: LazyLock<DistanceField> =
+    LazyLock::new(|| DistanceField::build(&BODY.mesh, SPACING_M).expect("a closed mesh"));
+/// Bytes of the drafted T-shirt in size M, and of its seam file.
+static FILES: LazyLock<[Vec<u8>; 2]> = LazyLock::new(|| {
+    let files = draft::tshirt_files();
+    ["tshirt-m.dxf", "tshirt.seams.toml"].map(|wanted| {
+        let file = files.iter().find(|(name, _)| name == wanted);
+        file.unwrap_or_else(|| panic!("no {wanted} is drafted")).1.clone()
+    })
+});
+static STYLE: LazyLock<Style> = LazyLock::new(|| {
+    let file = dxf::read(&FILES[0], "tshirt-m.dxf", None).expect("our own file");
+    Style::read(&file.to_sew(None).expect("one size"), &FILES[1], "tshirt.seams.toml").expect("our own seams")
+});
+static CLOTH: LazyLock<Fabric> = LazyLock::new(|| {
+    fabric::library().into_iter().find(|fabric| fabric.name == "cotton_shirting_light").expect("in the library")
+});
+
+/// Meshes of the levels of a simulation, coarse to fine, as far as the mesher goes.
+fn meshes(edge_m: f64) -> Vec<Garment> {
+    let edges = LEVELS.map(|level| edge_m * level).into_iter().filter(|edge| EDGE_LENGTH_RANGE_M.contains(edge));
+    edges.map(|edge| STYLE.mesh(edge).expect("it meshes")).collect()
+}
+
+/// The mesh that results are on.
+fn finest(garments: &[Garment]) -> &Garment {
+    garments.last().expect("a level")
+}
+
+/// Listens to nothing.
+struct Silent;
+
+impl Monitor for Silent {
+    fn progress(&mut self, _: &Progress) {}
+}
+
+fn drape(garments: &[Garment]) -> Drape {
+    fem::simulate(&BODY, &FIELD, garments, &CLOTH, &Params::default(), &mut Silent).expect("it drapes")
+}
+
+#[divan::bench]
+fn body_build() -> Body {
+    body::build(divan::black_box(&subject())).expect("a person that can be")
+}
+
+#[divan::bench]
+fn body_measure() -> body::Girths {
+    body::measure(divan::black_box(&BODY.mesh), Some(Sex::Male)).expect("a standing person")
+}
+
+#[divan::bench(sample_count = 10)]
+fn distance_field() -> DistanceField {
+    DistanceField::build(divan::black_box(&BODY.mesh), SPACING_M).expect("a closed mesh")
+}
+
+#[divan::bench]
+fn dxf_read() -> dxf::PatternFile {
+    dxf::read(divan::black_box(&FILES[0]), "tshirt-m.dxf", None).expect("our own file")
+}
+
+#[divan::bench]
+fn mesh_15_mm() -> Garment {
+    STYLE.mesh(divan::black_box(FINE_M)).expect("it meshes")
+}
+
+#[divan::bench(args = [40, 15], sample_count = 3, sample_size = 1)]
+fn fem_drape(bencher: Bencher, edge_mm: u32) {
+    let garments = meshes(f64::from(edge_mm) * 1e-3);
+    LazyLock::force(&FIELD);
+    bencher.bench_local(|| drape(divan::black_box(&garments)));
+}
+
+#[divan::bench]
+fn measure_drape(bencher: Bencher) {
+    let garments = meshes(COARSE_M);
+    let drape = drape(&garments);
+    bencher.bench_local(|| measure::measure(finest(&garments), divan::black_box(&drape.positions)));
+}
+
+#[divan::bench(sample_count = 10)]
+fn render_front(bencher: Bencher) {
+    let garments = meshes(COARSE_M);
+    let cloth = TriMesh { positions: drape(&garments).positions, triangles: finest(&garments).triangles.clone() };
+    bencher.bench_local(|| {
+        let layers = vec![Layer::new(&BODY.mesh, Material::form()), Layer::new(&cloth, Material::fem())];
+        let scene = Scene::new(layers).expect("meshes that can be drawn");
+        let frame = Frame::enclosing([&BODY.mesh, &cloth], 0.8);
+        render::render(&scene, &Camera::new(View::Front, frame), 800, 1000).expect("a picture")
+    });
+}
+
+/// Reading all results of a study of three coarse drapes, as the workbench does.
+#[divan::bench]
+fn sql_results(bencher: Bencher) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut workspace = Workspace::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
+    let project = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut study = workspace.load_study(&project.join("studies/quickstart")).expect("the quickstart is right");
+    study.edge_length_m = COARSE_M;
+    study.subjects.truncate(1);
+    workspace.start(&study, &RunOptions::default()).expect("queued").join().expect("the database works");
+    bencher.bench_local(|| {
+        let chi = workspace.query("SELECT * FROM v_chi").expect("a view");
+        assert_eq!(chi.rows.len(), 27);
+        workspace.query("SELECT * FROM v_metrics").expect("a view")
+    });
+}

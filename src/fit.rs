@@ -1,6 +1,5 @@
 //! Fit (thesis 6.2.3): ease at a level, the fit class it means, and the simulator the thesis's rule then names.
 
-use crate::pattern::FitLevel;
 use crate::sim::Simulator;
 
 /// Fit class of a garment on a body.
@@ -101,17 +100,22 @@ impl Ease {
     }
 }
 
-/// Ease at each of a garment's fit levels; levels whose body girth is unknown are left out.
+/// Ease at each of a garment's fit levels, given by name and pattern girth, m; levels whose body girth is unknown are
+/// left out.
 #[must_use]
-pub fn ease(levels: &[FitLevel], body_girth_m: impl Fn(&str) -> Option<f64>, cuts: &Cuts) -> Vec<Ease> {
+pub fn ease<'l>(
+    levels: impl IntoIterator<Item = (&'l str, f64)>,
+    body_girth_m: impl Fn(&str) -> Option<f64>,
+    cuts: &Cuts,
+) -> Vec<Ease> {
     levels
-        .iter()
-        .filter_map(|level| {
-            let body_girth_m = body_girth_m(&level.level)?;
-            let ease_m = level.girth_m - body_girth_m;
+        .into_iter()
+        .filter_map(|(level, pattern_girth_m)| {
+            let body_girth_m = body_girth_m(level)?;
+            let ease_m = pattern_girth_m - body_girth_m;
             Some(Ease {
-                level: level.level.clone(),
-                pattern_girth_m: level.girth_m,
+                level: level.to_owned(),
+                pattern_girth_m,
                 body_girth_m,
                 class: cuts.classify(ease_m),
                 borderline: cuts.is_borderline(ease_m),
@@ -148,9 +152,8 @@ mod tests {
 
     #[test]
     fn the_least_ease_decides() {
-        let levels = [FitLevel { level: "chest".into(), girth_m: 1.0 }, FitLevel { level: "hip".into(), girth_m: 1.0 }];
         let body = |level: &str| Some(if level == "hip" { 1.02 } else { 0.9 });
-        let eases = ease(&levels, body, &Cuts::default());
+        let eases = ease([("chest", 1.0), ("hip", 1.0)], body, &Cuts::default());
         let least = deciding(&eases).expect("two levels");
         assert_eq!((least.level.as_str(), least.class, least.is_undersized()), ("hip", FitClass::Tight, true));
     }

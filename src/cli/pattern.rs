@@ -48,7 +48,7 @@ fn style(files: &StyleFiles) -> Result<tools::Style, CliError> {
     Ok(tools::style(&files.file, &files.seams, files.size.as_deref(), files.unit.map(of))?)
 }
 
-/// Prints reports; a file that cannot be read makes the whole unusable.
+/// Prints reports; a file that cannot be read, or a refused piece, makes the whole unusable.
 fn inspect(context: &Context, reports: &[FileReport]) -> Outcome {
     if context.json {
         output::json(&reports)?;
@@ -60,14 +60,15 @@ fn inspect(context: &Context, reports: &[FileReport]) -> Outcome {
             context.say(format_args!("{}: {warning}", report.file));
         }
         for refused in &report.refused {
-            context.say(format_args!("{}, block {}: {}", report.file, refused.block, refused.reason));
+            let line = refused.line.map(|line| format!(", line {line}")).unwrap_or_default();
+            eprintln!("{}{line}, block `{}`: found {}", report.file, refused.block, refused.reason);
         }
         if let Some(error) = &report.error {
             eprintln!("{error}");
         }
     }
-    let unreadable = reports.iter().any(|report| report.error.is_some());
-    Ok(if unreadable || reports.is_empty() { End::Unusable } else { End::Done })
+    let unusable = reports.iter().any(|report| report.error.is_some() || !report.refused.is_empty());
+    Ok(if unusable || reports.is_empty() { End::Unusable } else { End::Done })
 }
 
 fn pieces(reports: &[FileReport]) -> Table {

@@ -144,7 +144,8 @@ impl Pipeline {
 
 /// Ease at each fit level; a study's own cuts classify it when it is read.
 fn ease(garment: &Garment, model: &Model) -> Vec<Ease> {
-    fit::ease(&garment.fit_levels, |level| model.girth_m(level), &Cuts::default())
+    let levels = garment.fit_levels.iter().map(|level| (level.level.as_str(), level.girth_m));
+    fit::ease(levels, |level| model.girth_m(level), &Cuts::default())
 }
 
 /// The style of a job's size.
@@ -229,10 +230,12 @@ mod tests {
     #[test]
     fn meshes_are_coarse_to_fine_and_survive_storage_exactly() {
         let meshes = mesh(&quickstart()[0]).expect("it meshes");
-        let [coarse, fine] = &meshes.0[..] else { panic!("two levels, not {}", meshes.0.len()) };
-        assert!(coarse.rest.len() < fine.rest.len());
+        assert_eq!(meshes.0.len(), sim::fem::LEVELS.len());
         let lengths = |garment: &Garment| garment.measurements.iter().map(|m| m.l2d_m).collect::<Vec<_>>();
-        assert_eq!(lengths(coarse), lengths(fine));
+        for pair in meshes.0.windows(2) {
+            assert!(pair[0].rest.len() < pair[1].rest.len());
+            assert_eq!(lengths(&pair[0]), lengths(&pair[1]));
+        }
         let stored = Meshes::decode(&meshes.encode().expect("finite")).expect("just written");
         assert_eq!(stored.0, meshes.0);
     }

@@ -9,11 +9,12 @@ use super::catalogue;
 use super::engine;
 use super::enqueue::{self, Planned};
 use super::error::{Result, StudyError};
-use super::file::Study;
+use super::file::{Problem, Study};
 use super::outcome::{self, Executor, Provenance};
 use super::pipeline::Pipeline;
 use super::spec::{self, Selection};
 use super::store::{self, Access};
+use super::tools;
 use super::workspace::Workspace;
 use crate::body::Measurements;
 
@@ -74,12 +75,14 @@ impl Drop for Run {
 }
 
 impl Workspace {
-    /// Reads and checks a study: its file or its folder.
+    /// Reads and checks a study, its file or its folder, and the patterns and seam files it names.
     ///
     /// # Errors
-    /// Everything that is wrong with the file, at once.
+    /// Everything that is wrong with the file, at once; else everything that is wrong with the patterns.
     pub fn load_study(&self, path: &Path) -> Result<Study> {
-        Study::load(path, &catalogue::known(Some(&self.reader))?)
+        let study = Study::load(path, &catalogue::known(Some(&self.reader))?)?;
+        check_patterns(&study)?;
+        Ok(study)
     }
 
     /// A subject of the catalogue, latest revision.
@@ -185,6 +188,21 @@ fn store_ease(database: &Path, study: &Study, pipeline: &Pipeline) -> Result<()>
         outcome::write_ease(&transaction, study_id, spec, eases)?;
     }
     Ok(transaction.commit()?)
+}
+
+/// Refuses a study with a pattern that cannot be sewn, before anything is written for it.
+fn check_patterns(study: &Study) -> Result<()> {
+    let mut problems = Vec::new();
+    for garment in &study.garments {
+        let unit = garment.unit.as_deref().and_then(tools::unit_of);
+        for size in &garment.sizes {
+            if let Err(error) = tools::read_style(&size.pattern, &garment.seams, Some(&size.name), unit) {
+                let message = format!("garment {}, size {}: {error}", garment.name, size.name);
+                problems.push(Problem { file: study.path.clone(), line: None, message });
+            }
+        }
+    }
+    if problems.is_empty() { Ok(()) } else { Err(StudyError::File(problems)) }
 }
 
 /// Refuses a selection with a name that the study does not have.

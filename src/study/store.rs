@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
+use rusqlite::hooks::{AuthAction, AuthContext, Authorization};
 use rusqlite::{Connection, OpenFlags, Transaction, TransactionBehavior};
 
 use super::error::{Result, StudyError};
@@ -37,10 +38,11 @@ pub(crate) fn open(path: &Path, access: Access) -> Result<Connection> {
         if !path.exists() {
             return Err(fail("there is no such file; `toile run STUDY` makes one".into()));
         }
-        let connection = Connection::open_with_flags(path, flags).map_err(|e| fail(e.to_string()))?;
+        let mut connection = Connection::open_with_flags(path, flags).map_err(|e| fail(e.to_string()))?;
         connection.busy_timeout(BUSY_TIMEOUT)?;
         sql::add_functions(&connection)?;
         check_version(&connection, MIGRATIONS.len() as i64)?;
+        connection.authorizer(Some(no_other_files))?;
         return Ok(connection);
     }
     if let Some(folder) = path.parent() {
@@ -53,6 +55,14 @@ pub(crate) fn open(path: &Path, access: Access) -> Result<Connection> {
     connection.pragma_update(None, "foreign_keys", true)?;
     migrate(&mut connection)?;
     Ok(connection)
+}
+
+/// Keeps questions to the one database: ATTACH, and with it VACUUM INTO, could write other files.
+fn no_other_files(context: AuthContext<'_>) -> Authorization {
+    match context.action {
+        AuthAction::Attach { .. } => Authorization::Deny,
+        _ => Authorization::Allow,
+    }
 }
 
 /// Applies the migrations a database does not have yet, all or none.

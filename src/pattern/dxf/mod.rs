@@ -55,6 +55,8 @@ fn place(file: &str, line: Option<usize>, block: Option<&str>) -> String {
 pub struct Refused {
     /// Block.
     pub block: String,
+    /// Line at which the block begins; `None` for a file without blocks.
+    pub line: Option<usize>,
     /// Why, with the place in millimetres.
     pub reason: String,
 }
@@ -98,11 +100,21 @@ impl PatternFile {
     /// upper and lower case count the same.
     ///
     /// # Errors
-    /// [`DxfError`] when the file names no unit and none was said, or the size is not there or not said.
+    /// [`DxfError`] when the file names no unit and none was said, a block was refused (a garment without one of its
+    /// pieces is another garment), or the size is not there or not said.
     pub fn to_sew(&self, size: Option<&str>) -> Result<Vec<Piece>, DxfError> {
         if self.unit_source == UnitSource::Assumed {
             let accepted = "a `Units:` text or $INSUNITS in the file, or --unit mm, cm or in";
             return Err(DxfError::new(&self.file, None, "no unit".to_owned(), accepted));
+        }
+        if let Some(refused) = self.refused.first() {
+            return Err(DxfError {
+                file: self.file.clone(),
+                line: refused.line,
+                block: Some(refused.block.clone()),
+                found: refused.reason.clone(),
+                accepted: "pieces with one closed outline of straight sides that does not cross itself".to_owned(),
+            });
         }
         let sizes = self.sizes();
         let wanted = match (size, sizes.as_slice()) {
@@ -167,11 +179,11 @@ pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<Pattern
         file.warnings.push(format!("{file_name} names no unit: millimetres are assumed; say the unit to sew from it"));
     }
     let scale = crate::units::from_mm(unit.mm_per_unit());
-    for block in drawing.blocks() {
-        file.add(&block.name, Drawn::collect(block.entities.iter(), scale));
+    for (block, counted) in drawing.blocks().zip(&inventory.blocks) {
+        file.add(&block.name, Some(counted.line), Drawn::collect(block.entities.iter(), scale));
     }
     if inventory.blocks.is_empty() {
-        file.add(NO_BLOCK, Drawn::collect(drawing.entities(), scale));
+        file.add(NO_BLOCK, None, Drawn::collect(drawing.entities(), scale));
     }
     let sample_size =
         file.texts.iter().find(|(key, _)| key.eq_ignore_ascii_case("size")).map(|(_, value)| value.clone());
@@ -182,13 +194,13 @@ pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<Pattern
 }
 
 impl PatternFile {
-    fn add(&mut self, block: &str, drawn: Drawn) {
+    fn add(&mut self, block: &str, line: Option<usize>, drawn: Drawn) {
         if drawn.is_empty() {
             return;
         }
         match drawn.into_piece(block) {
             Ok(piece) => self.pieces.push(piece),
-            Err(reason) => self.refused.push(Refused { block: block.to_owned(), reason }),
+            Err(reason) => self.refused.push(Refused { block: block.to_owned(), line, reason }),
         }
     }
 }

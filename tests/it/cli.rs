@@ -1,0 +1,292 @@
+//! The command line: exit codes, what goes to which stream, keys of the JSON that other programs read.
+
+use std::collections::BTreeSet;
+
+use serde_json::Value;
+
+use super::program::{Place, shared};
+
+/// Every command that there is, without its arguments.
+const COMMANDS: [&str; 42] = [
+    "",
+    "run",
+    "report",
+    "sql",
+    "ease",
+    "recommend",
+    "pattern",
+    "pattern inspect",
+    "pattern check",
+    "pattern draft",
+    "pattern mesh",
+    "pattern sheet",
+    "body",
+    "body measure",
+    "body build",
+    "render",
+    "queue",
+    "queue ls",
+    "queue pause",
+    "queue resume",
+    "queue cancel",
+    "queue retry",
+    "queue log",
+    "subject",
+    "subject ls",
+    "subject show",
+    "style",
+    "style ls",
+    "style show",
+    "size",
+    "size ls",
+    "size show",
+    "fabric",
+    "fabric ls",
+    "fabric show",
+    "doctor",
+    "info",
+    "completions",
+    "--version",
+    "body build --json",
+    "run --dry-run",
+    "sql --readonly",
+];
+
+fn has_keys(object: &Value, keys: &[&str]) {
+    let object = object.as_object().expect("an object");
+    for key in keys {
+        assert!(object.contains_key(*key), "no {key} among {:?}", object.keys().collect::<Vec<_>>());
+    }
+}
+
+#[test]
+fn every_command_explains_itself_and_touches_nothing() {
+    let place = Place::new();
+    for command in COMMANDS {
+        let said = place.toile(&format!("{command} --help")).ends_with(0);
+        assert!(!said.out.is_empty() && said.err.is_empty(), "{command}: {}", said.err);
+        assert!(command == "--version" || said.out.contains("Usage: toile"), "{command}: {}", said.out);
+    }
+    assert!(!place.path("toile.sqlite").exists());
+}
+
+#[test]
+fn help_lists_every_command() {
+    let place = Place::new();
+    let listed = |help: &str| -> BTreeSet<String> {
+        let lines = help.lines().skip_while(|line| *line != "Commands:").skip(1).take_while(|line| !line.is_empty());
+        let entries = lines.filter(|line| line.starts_with("  ") && !line.starts_with("   "));
+        entries.filter_map(|line| line.split_whitespace().next().map(str::to_owned)).collect()
+    };
+    for group in ["", "pattern", "body", "queue", "subject", "style", "size", "fabric"] {
+        let help = place.toile(&format!("{group} --help")).ends_with(0).out;
+        for name in listed(&help) {
+            let command = format!("{group} {name}").trim().to_owned();
+            assert!(COMMANDS.contains(&command.as_str()), "`{command}` is not tested");
+        }
+    }
+}
+
+#[test]
+fn wrong_usage_ends_with_2_and_says_what_would_be_right() {
+    let place = Place::new();
+    place.study(&[("tee", 0.1, &["m"])]);
+    let check = |arguments: &str, says: &str| {
+        let said = place.toile(arguments).ends_with(2);
+        assert!(said.err.contains(says) && said.out.is_empty(), "{arguments}: {}{}", said.out, said.err);
+    };
+    check("rum .", "similar subcommand");
+    check("run", "<STUDY>");
+    check("run . --size xl", "no size `xl`; there are: m");
+    check("run . --subject iii", "no subject `iii`");
+    check("run . --sim hybird", "no simulator `hybird`");
+    check("run . --workers 0", "1..=1024");
+    check("run nowhere", "nowhere");
+    check("sql", "<QUERY|--file <FILE>>");
+    check("sql nonsense", "syntax error");
+    check("queue log 99", "no job `99`");
+    check("report nothing", "no study `nothing`");
+    check("fabric show cotton_shirting_ligth", "did you mean `cotton_shirting_light`?");
+    check("body build --sex m --stature-mm 200 -o out", "body");
+    check("pattern mesh patterns/tshirt-m.dxf --seams patterns/tshirt.seams.toml --edge-length-mm -3", "-3");
+    check("run . --readonly", "the workspace is open read-only");
+}
+
+#[test]
+fn a_failed_check_ends_with_3() {
+    let place = Place::new();
+    place.draft();
+    let good = "pattern check patterns/tshirt-m.dxf --seams patterns/tshirt.seams.toml";
+    place.toile(good).ends_with(0);
+    let seams = std::fs::read_to_string(place.path("patterns/tshirt.seams.toml")).expect("drafted");
+    place.write("patterns/tshirt.seams.toml", seams.replace("SLEEVE", "SLEAVE"));
+    let said = place.toile(good).ends_with(3);
+    assert!(said.err.contains("tshirt.seams.toml") && said.err.contains("SLEAVE"), "{}", said.err);
+    place.write("broken.sqlite", "this is not a database, whatever its name says; it is only some text\n");
+    let said = place.toile("doctor --db broken.sqlite").ends_with(3);
+    assert!(said.out.contains("FAILED") && said.out.contains("broken.sqlite"), "{}", said.out);
+    place.toile("info --db broken.sqlite").ends_with(2);
+}
+
+#[test]
+fn a_failed_job_ends_with_4() {
+    let place = Place::new();
+    place.study(&[("tee", 0.1, &["m"])]);
+    let text = std::fs::read_to_string(place.path("study.toml")).expect("written");
+    // A person that cannot be: found when the body is made.
+    place.write("study.toml", text.replace("chest_girth_mm = 863", "chest_girth_mm = 2900"));
+    let said = place.toile("run .").ends_with(4);
+    assert!(said.err.contains("job 1 failed: body:") && said.err.contains("chest"), "{}", said.err);
+    assert_eq!(place.one("SELECT status FROM v_jobs"), "failed");
+}
+
+#[test]
+fn data_and_messages_go_to_different_streams() {
+    let place = Place::new();
+    place.draft();
+    let mesh = "pattern check patterns/tshirt-m.dxf --seams patterns/tshirt.seams.toml";
+    let said = place.toile(mesh).ends_with(0);
+    assert!(said.out.contains("Neck Opening") && said.err.contains("9 measurements"), "{}{}", said.out, said.err);
+    assert!(!said.out.contains("9 measurements"), "{}", said.out);
+    assert!(place.toile(&format!("{mesh} --quiet")).ends_with(0).err.is_empty());
+    let said = place.toile(&format!("{mesh} --json")).ends_with(0);
+    assert_eq!(said.json().as_array().map(Vec::len), Some(9));
+    let said = place.toile("sql --format csv").ends_with(2);
+    assert!(said.out.is_empty());
+}
+
+#[test]
+fn answers_have_no_colours_when_none_are_wanted() {
+    let place = Place::new();
+    for arguments in ["fabric ls", "info", "--help", "nonsense"] {
+        let mut command = assert_cmd::Command::from_std(place.command(arguments));
+        let output = command.env("NO_COLOR", "1").env("CLICOLOR_FORCE", "1").env("TERM", "xterm-256color").output();
+        let output = output.expect("it starts");
+        let bytes = [output.stdout, output.stderr].concat();
+        assert!(!bytes.contains(&0x1b), "{arguments}: {}", String::from_utf8_lossy(&bytes));
+    }
+}
+
+#[test]
+fn formats_hold_the_same() {
+    let place = Place::new();
+    let sql = "SELECT fabric, density_kg_m2, NULL AS absent FROM v_fabrics ORDER BY fabric LIMIT 2";
+    let ask = |format: &str| {
+        place.write("q.sql", sql);
+        place.toile(&format!("sql -f q.sql --format {format}")).ends_with(0)
+    };
+    let rows = ask("json").json();
+    let csv = ask("csv").out;
+    let mut lines = csv.lines();
+    assert_eq!(lines.next(), Some("fabric,density_kg_m2,absent"));
+    for (line, row) in lines.zip(rows.as_array().expect("rows")) {
+        assert_eq!(line, format!("{},{},", row["fabric"].as_str().expect("a name"), row["density_kg_m2"]));
+        assert!(row["absent"].is_null());
+    }
+    assert_eq!(ask("table").out.lines().count(), 4);
+}
+
+#[test]
+fn sql_reads_and_never_writes() {
+    let place = Place::new();
+    place.toile("info").ends_with(0);
+    let before = std::fs::read(place.path("toile.sqlite")).expect("there");
+    for query in [
+        "DELETE FROM fabric",
+        "SELECT 1; DROP TABLE job",
+        "UPDATE fabric SET density_kg_m2 = 1 RETURNING name",
+        "CREATE TABLE mine (x)",
+        "PRAGMA user_version = 99",
+        "ATTACH 'other.sqlite' AS other",
+        "VACUUM INTO 'copy.sqlite'",
+    ] {
+        let mut command = place.command("sql");
+        let output = command.arg(query).output().expect("it starts");
+        assert_eq!(output.status.code(), Some(2), "{query}");
+        assert!(String::from_utf8_lossy(&output.stderr).starts_with("toile: database:"), "{query}");
+    }
+    assert_eq!(std::fs::read(place.path("toile.sqlite")).expect("there"), before);
+    assert!(!place.path("other.sqlite").exists() && !place.path("copy.sqlite").exists());
+}
+
+#[test]
+fn pattern_inspect_has_its_keys() {
+    let place = Place::new();
+    place.draft();
+    let said = place.toile("pattern inspect patterns --json").ends_with(0);
+    let reports = said.json();
+    assert_eq!(reports.as_array().map(Vec::len), Some(3));
+    let report = &reports[0];
+    has_keys(report, &["file", "format", "units", "mm_per_unit", "pieces", "refused", "error"]);
+    assert_eq!((&report["units"], &report["mm_per_unit"]), (&Value::from("mm"), &Value::from(1.0)));
+    let piece = &report["pieces"][0];
+    let keys = [
+        "block",
+        "name",
+        "size",
+        "quantity",
+        "perimeter_mm",
+        "area_mm2",
+        "closed",
+        "clockwise",
+        "turn_points",
+        "curve_points",
+        "notches",
+        "grain_mm",
+        "internal_lines",
+        "sew_area_mm2",
+    ];
+    has_keys(piece, &keys);
+    let one = place.toile("pattern inspect patterns/tshirt-s.dxf --unit in --json").ends_with(0).json();
+    let mm = place.toile("pattern inspect patterns/tshirt-s.dxf --json").ends_with(0).json();
+    let length = |report: &Value| report[0]["pieces"][0]["perimeter_mm"].as_f64().expect("a number");
+    assert!((length(&one) / length(&mm) - 25.4).abs() < 1e-9);
+    let none = place.toile("pattern inspect patterns/tshirt-s.dxf --size XXL --json").ends_with(0).json();
+    assert_eq!(none[0]["pieces"].as_array().map(Vec::len), Some(0));
+}
+
+#[test]
+fn body_measure_has_its_keys_and_reads_what_was_asked_for() {
+    let place = Place::new();
+    let built = place.toile("body build --sex f --stature-mm 1650 --chest-girth-mm 900 -o built --json").ends_with(0);
+    let said = place.toile("body measure built/body.obj --sex f --json").ends_with(0);
+    let measured = said.json();
+    let keys = [
+        "stature_mm",
+        "neck_girth_mm",
+        "chest_girth_mm",
+        "underbust_girth_mm",
+        "waist_girth_mm",
+        "hip_girth_mm",
+        "thigh_girth_mm",
+        "upper_arm_girth_mm",
+        "across_shoulder_mm",
+        "inseam_mm",
+        "volume_l",
+        "waist_level_mm",
+        "hip_level_mm",
+        "chest_level_mm",
+    ];
+    has_keys(&measured, &keys);
+    for (key, asked) in [("stature_mm", 1650.0), ("chest_girth_mm", 900.0)] {
+        let found = measured[key].as_f64().expect("a number");
+        assert!((found / asked - 1.0).abs() < 0.02, "{key}: {found} for {asked}");
+        let of_build = built.json()[key].as_f64().expect("a number");
+        assert!((found - of_build).abs() < 1.0, "{key}: {found} in the file, {of_build} when built");
+    }
+    for name in ["body.obj", "body.png", "measurements.json"] {
+        assert!(place.path("built").join(name).is_file(), "{name}");
+    }
+    assert!(!place.path("toile.sqlite").exists(), "no database is needed to measure");
+}
+
+#[test]
+fn sample_patterns_are_read() {
+    let Some(folder) = shared("patterns/valentina") else { return };
+    let place = Place::new();
+    let mut command = place.command("pattern inspect --json");
+    let output = command.arg(&folder).output().expect("it starts");
+    let reports: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let reports = reports.as_array().expect("files");
+    assert!(!reports.is_empty() && reports.iter().all(|report| report["error"].is_null()));
+}

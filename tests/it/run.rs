@@ -1,0 +1,158 @@
+//! Studies through the real program: results, cache, crashes, workers, report.
+
+use std::process::Stdio;
+use std::time::{Duration, Instant};
+
+use super::program::Place;
+
+/// Contract columns of the views.
+const VIEWS: [(&str, &str); 8] = [
+    (
+        "v_jobs",
+        "job_id study garment size subject simulator status attempts error queued_at started_at finished_at wall_ms",
+    ),
+    (
+        "v_chi",
+        "study garment size subject simulator stage measurement_no measurement kind is_free_edge is_controlled l2d_mm
+        l3d_mm chi",
+    ),
+    (
+        "v_metrics",
+        "study garment size subject simulator n e_chi sd_chi ei max_abs_error vertices faces iterations residual
+        converged penetration_max_mm seam_gap_max_mm wall_ms",
+    ),
+    (
+        "v_ease",
+        "study garment size subject level pattern_girth_mm body_girth_mm ease_mm fit_class undersized borderline",
+    ),
+    ("v_pair", "study garment size subject fit_class ease_mm ei_fem ei_hybrid d_ei"),
+    (
+        "v_recommendation",
+        "study garment fit_class recommended basis verdict rule_says effect ci_low ci_high n_subjects reason",
+    ),
+    ("v_published", "garment size l2d_mm l3d_mm chi"),
+    ("v_provenance", "job_id input_hash program_version git_commit git_dirty machine seed"),
+];
+
+/// Two T-shirts that differ in cloth only.
+fn two_cloths(place: &Place, light: f64) {
+    place.study(&[("light", light, &["m"]), ("heavy", 0.2, &["m"])]);
+}
+
+const LENGTHS: &str = "SELECT garment, size, measurement_no, l3d_mm FROM v_chi ORDER BY 1, 2, 3";
+
+#[test]
+fn a_study_is_run_cached_changed_and_reported() {
+    let place = Place::new();
+    two_cloths(&place, 0.1);
+    let first = place.toile("run . --workers 1").ends_with(0);
+    assert!(first.out.contains("light m, fem: chi = L3D / L2D") && first.out.contains("Neck Opening"), "{}", first.out);
+    assert!(first.err.contains("2 jobs, 2 to run, 0 up to date"), "{}", first.err);
+    results_keep_the_contract(&place);
+    report_is_self_contained(&place, &first.out);
+
+    let lengths = place.sql(LENGTHS);
+    let finished = "SELECT job_id, attempts, started_at, finished_at FROM v_jobs ORDER BY 1";
+    let before = place.sql(finished);
+    let second = place.toile("run . --why").ends_with(0);
+    assert!(second.err.contains("2 jobs, 0 to run, 2 up to date"), "{}", second.err);
+    assert!(second.err.contains("light m ii: up to date (done)"), "{}", second.err);
+    assert_eq!(place.sql(finished), before, "nothing is computed again");
+    assert_eq!(second.out, first.out);
+
+    a_changed_number_recomputes_its_drape(&place);
+
+    let other = Place::new();
+    two_cloths(&other, 0.1);
+    other.toile("run . --workers 2 --no-report").ends_with(0);
+    assert_eq!(other.sql(LENGTHS), lengths, "two workers, bit by bit");
+}
+
+/// Every view has its columns, and the results are numbers that can be.
+fn results_keep_the_contract(place: &Place) {
+    for (view, columns) in VIEWS {
+        let columns = columns.split_whitespace().collect::<Vec<_>>().join(", ");
+        place.write("q.sql", format!("SELECT {columns} FROM {view}"));
+        place.toile("sql -f q.sql").ends_with(0);
+    }
+    assert_eq!(place.one("SELECT count(*) FROM v_metrics WHERE converged AND residual <= 0.01 AND n = 9"), "2");
+    assert_eq!(place.one("SELECT count(*) FROM v_metrics WHERE seam_gap_max_mm = 0"), "2");
+    assert_eq!(place.one("SELECT count(*) FROM v_chi WHERE l2d_mm > 0 AND l3d_mm > 0"), "18");
+    let off = "SELECT count(*) FROM v_chi AS c JOIN v_published AS p ON p.garment = 'male_tshirt'
+        AND p.size = c.size AND p.measurement_no = c.measurement_no WHERE abs(c.l2d_mm - p.l2d_mm)";
+    assert_eq!(place.one(&format!("{off} > 0.1")), "0");
+    assert_ne!(place.one(&format!("{off} <= 0.1")), "0");
+    let wrong = "SELECT count(*) FROM v_metrics AS m WHERE abs(ei -
+        (SELECT avg(abs(chi - 1)) FROM v_chi AS c WHERE c.job_id = m.job_id)) > 1e-9";
+    assert_eq!(place.one(wrong), "0");
+}
+
+/// The report stands alone: pictures in it, no script, nothing loaded.
+fn report_is_self_contained(place: &Place, out: &str) {
+    let path = out.lines().find_map(|line| line.strip_prefix("report: ")).expect("the report's path");
+    let page = std::fs::read_to_string(place.path(path)).expect("the page is there");
+    assert!(page.trim_end().ends_with("</html>") && page.contains("coarse"), "a whole page");
+    assert!(page.contains("data:image/"), "pictures are in the page");
+    let without_names = page.replace("http://www.w3.org/", "");
+    for forbidden in ["<script", "http://", "https://", "<link", "@import", "src=\"/", "javascript:"] {
+        assert!(!without_names.contains(forbidden), "the report holds {forbidden}");
+    }
+}
+
+/// One number of one cloth: its garment is draped anew from the old body, field and mesh; the other is left alone.
+fn a_changed_number_recomputes_its_drape(place: &Place) {
+    two_cloths(place, 0.12);
+    let named = "fabric.poplin_light.density_kg_m2: 0.1 -> 0.12";
+    let jobs = place.one("SELECT count(*) FROM v_jobs");
+    let planned = place.toile("run . --dry-run --json").ends_with(0).json();
+    let why = |garment: &str| {
+        let row = planned.as_array().expect("rows").iter().find(|row| row["garment"] == garment).expect("planned");
+        (row["runs"].clone(), row["why"].as_str().expect("a reason").to_owned())
+    };
+    assert_eq!(why("light"), ("yes".into(), format!("changed since job 1: {named}")));
+    assert_eq!(why("heavy"), ("no".into(), "up to date (done)".into()));
+    assert_eq!(place.one("SELECT count(*) FROM v_jobs"), jobs, "planning writes nothing");
+
+    let run = place.toile("run . --why --no-report").ends_with(0);
+    assert!(run.err.contains(&format!("light m ii: changed since job 1: {named}")), "{}", run.err);
+    assert!(run.err.contains("2 jobs, 1 to run, 1 up to date"), "{}", run.err);
+    let log = place.toile("queue log 3").ends_with(0).out;
+    assert!(log.contains("body from the cache, field from the cache, mesh from the cache, drape made"), "{log}");
+    assert_eq!(place.one("SELECT group_concat(kind, ' ') FROM artefact WHERE kind <> 'drape'").matches(' ').count(), 2);
+
+    two_cloths(place, 0.1);
+    let back = place.toile("run . --no-report").ends_with(0);
+    assert!(back.err.contains("2 jobs, 0 to run, 2 up to date"), "old results are kept: {}", back.err);
+}
+
+#[test]
+fn a_killed_run_goes_on_where_it_stopped() {
+    let place = Place::new();
+    place.study(&[("tee", 0.1, &["s", "m", "l"])]);
+    let mut command = place.command("run . --workers 1 --no-report");
+    let mut run = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts");
+    let state = "SELECT status || ' ' || attempts FROM v_jobs ORDER BY job_id";
+    let end = Instant::now() + Duration::from_secs(60);
+    // The study's first moments come before there is a job to see.
+    while !place.path("toile.sqlite").exists() || place.sql(state) != ["done 1", "running 1", "queued 0"] {
+        assert!(Instant::now() < end && run.try_wait().expect("ours").is_none(), "{:?}", place.sql(state));
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    run.kill().expect("SIGKILL");
+    run.wait().expect("ours");
+    assert_eq!(place.sql(state), ["done 1", "running 1", "queued 0"], "killed in the middle");
+    let first = "SELECT * FROM v_jobs WHERE job_id = 1";
+    let before = place.one(first);
+    let chi = place.sql("SELECT * FROM v_chi ORDER BY job_id, measurement_no");
+    assert_eq!(chi.len(), 9);
+
+    let again = place.toile("run . --workers 1 --no-report --why").ends_with(0);
+    assert!(again.err.contains("3 jobs, 2 to run, 1 up to date"), "{}", again.err);
+    assert_eq!(place.sql(state), ["done 1", "done 2", "done 1"]);
+    assert_eq!(place.one(first), before, "the finished result is as it was");
+    assert_eq!(place.sql("SELECT * FROM v_chi WHERE job_id = 1 ORDER BY measurement_no"), chi);
+    assert_eq!(place.one("SELECT count(*) FROM v_metrics WHERE converged"), "3");
+    assert_eq!(place.one("SELECT count(*) FROM artefact WHERE kind = 'drape'"), "3", "each computed once");
+    let log = place.toile("queue log 2").ends_with(0).out;
+    assert!(log.contains("queued again"), "{log}");
+}
