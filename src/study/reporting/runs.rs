@@ -1,7 +1,6 @@
 //! The runs of a report, with their pictures.
 
 use super::super::error::{Result, StudyError};
-use super::super::inputs::StageKind;
 use super::super::picture::{Dressed, Map};
 use super::super::types::{JobRow, MetricsRow, Status, Value};
 use super::super::workspace::Workspace;
@@ -12,7 +11,16 @@ use crate::report::data::{FieldMap, Measured, Outcome, Picture, Run};
 use crate::units::mm;
 
 /// Pixels of a picture on the page.
-const PICTURE: (u32, u32) = (520, 640);
+const PICTURE: (u32, u32) = (480, 540);
+/// Room around the garments, as a share of the least frame: shoulders, neck and hips belong to a fit.
+const ROOM: f64 = 1.12;
+/// The pictures of a run.
+const SHOTS: [(Map, &[View]); 4] = [
+    (Map::Plain, &View::ALL),
+    (Map::Stretch, &[View::Front]),
+    (Map::Tension, &[View::Front, View::Back]),
+    (Map::Gap, &[View::Front]),
+];
 
 impl Workspace {
     /// All runs with their pictures, which share one frame; the pictures are also added to `files`.
@@ -27,8 +35,9 @@ impl Workspace {
         for job in jobs {
             dressed.push(if job.status.has_result() { Some(self.dressed(job.id)?) } else { None });
         }
-        let meshes = dressed.iter().flatten().flat_map(|worn: &Dressed| [&worn.body, &worn.cloth]);
-        let frame = Frame::enclosing(meshes, f64::from(PICTURE.0) / f64::from(PICTURE.1));
+        let garments = dressed.iter().flatten().map(|worn: &Dressed| &worn.cloth);
+        let least = Frame::enclosing(garments, f64::from(PICTURE.0) / f64::from(PICTURE.1));
+        let frame = Frame { height_m: ROOM * least.height_m, ..least };
         let mut runs = Vec::new();
         for (job, worn) in jobs.iter().zip(&dressed) {
             let outcome = match job.status {
@@ -119,16 +128,20 @@ impl Workspace {
             let png = render::png(&shot).map_err(StudyError::stage("render"))?;
             files.push((format!("pictures/job-{}-{}-{}.png", job.id, view.as_str(), map.as_str()), png));
             let bytes = render::jpeg(&shot).map_err(StudyError::stage("render"))?;
-            let caption = if map == Map::Plain { view.as_str() } else { map.as_str() };
-            Ok(Picture { bytes, alt: format!("{what}, {caption}"), caption: caption.to_owned() })
+            let caption = match map.scale() {
+                None => view.as_str().to_owned(),
+                Some(scale) => format!("{}, {}", scale.label, view.as_str()),
+            };
+            Ok(Picture { bytes, alt: format!("{what}, {caption}"), caption })
         };
-        for map in Map::ALL {
-            let (scene, scale) = worn.scene(map, || self.product(job.id, StageKind::Field))?;
-            match scale {
-                None => {
-                    run.views = View::ALL.into_iter().map(|view| take(&scene, view, map)).collect::<Result<_>>()?;
+        for (map, views) in &SHOTS {
+            let scene = worn.scene(*map)?;
+            for view in *views {
+                let picture = take(&scene, *view, *map)?;
+                match map.scale() {
+                    None => run.views.push(picture),
+                    Some(scale) => run.maps.push(FieldMap { picture, scale }),
                 }
-                Some(scale) => run.maps.push(FieldMap { picture: take(&scene, View::Quarter, map)?, scale }),
             }
         }
         Ok(())
