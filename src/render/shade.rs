@@ -10,7 +10,7 @@ use image::RgbaImage;
 use nalgebra::Vector3;
 
 /// Samples along a side of each pixel.
-const FINE: usize = 2;
+const FINE: usize = 3;
 /// Samples along a side of the key light's shadow map.
 const SHADOW: usize = 1280;
 /// How many places around a point the shadow map is asked at.
@@ -138,7 +138,7 @@ impl<'a> Studio<'a> {
 
     fn samples(&self, x: usize, y: usize) -> [usize; FINE * FINE] {
         let corner = y * FINE * self.visible.width + x * FINE;
-        [corner, corner + 1, corner + self.visible.width, corner + self.visible.width + 1]
+        std::array::from_fn(|k| corner + k / FINE * self.visible.width + k % FINE)
     }
 
     /// Linear colour of a pixel: each triangle it shows is shaded once, at the middle of the samples it covers.
@@ -202,20 +202,22 @@ impl<'a> Studio<'a> {
         let point = a * w[0] + b * w[1] + c * w[2];
         let open = (0..3).map(|k| w[k] * scene.openness[vertices[k]][usize::from(back)]).sum();
         let (albedo, coded) = self.albedo(triangle, back, w);
-        let least = if back { 0.4 } else { 0.2 };
-        let lit = self.lit(albedo, &normal, (open, least), self.shadow.reaches(&(point + normal * 0.004)));
+        let lit = self.lit(albedo, &normal, open, self.shadow.reaches(&(point + normal * 0.004)));
+        // Light from outside shines through cloth: a garment's inside is dark, never black.
+        let through = if back { (0..3).map(|k| w[k] * scene.openness[vertices[k]][0]).sum::<f32>() } else { 0.0 };
+        let lit = [0, 1, 2].map(|k| lit[k] + 0.16 * through * albedo[k]);
         // A colour that codes a value must stay readable in the shade: half of it shines by itself.
         if coded { [0, 1, 2].map(|k| 0.5 * lit[k] + 0.42 * albedo[k]) } else { lit }
     }
 
-    /// Sky, key, fill and rim light on a matt surface that sees a share `open` of the sky and at the `least` gets so much.
-    fn lit(&self, albedo: [f32; 3], normal: &Vector3<f32>, (open, least): (f32, f32), shadow: f32) -> [f32; 3] {
+    /// Sky, key, fill and rim light on a matt surface.
+    fn lit(&self, albedo: [f32; 3], normal: &Vector3<f32>, open: f32, shadow: f32) -> [f32; 3] {
         let [key, fill, rim] = self.lights.map(|l| normal.dot(&l).max(0.0));
         let facing = normal.dot(&self.projection.axes[2]).clamp(0.0, 1.0);
         let sky = 0.35 + 0.12 * normal.z;
         let edge = (1.0 - facing).powi(3) * (0.25 + 0.75 * rim);
-        // Cloth and skin pass light on: a hollow keeps a fifth of the sky, a garment's inside more, which its cloth lets through.
-        let occlusion = least + (1.0 - least) * open * open * (1.4 - 0.4 * open);
+        // Cloth and skin pass light on: a hollow keeps a fifth of the sky.
+        let occlusion = 0.2 + 0.8 * open * open * (1.4 - 0.4 * open);
         let warm = [1.04, 1.0, 0.95];
         let cool = [0.97, 1.0, 1.05];
         [0, 1, 2].map(|k| {

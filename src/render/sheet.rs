@@ -95,7 +95,7 @@ pub fn draw_legend(picture: &mut RgbaImage, scale: &Scale) -> Result<(), RenderE
         "<rect x=\"{left}\" y=\"{top}\" width=\"{bar_width}\" height=\"{bar_height}\" fill=\"none\" stroke=\"{INK}\" stroke-width=\"{:.1}\"/>",
         text / 16.0
     );
-    let decimals = if scale.high - scale.low >= 20.0 {
+    let decimals = if scale.high - scale.low >= 10.0 {
         0
     } else if scale.high - scale.low >= 1.0 {
         1

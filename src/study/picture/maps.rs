@@ -25,7 +25,7 @@ const STRETCH_REACH: f64 = 8.0;
 /// Tension at the end of its colour scale, N/m: a strip 1 cm wide that carries 100 g.
 const TENSION_REACH: f64 = 100.0;
 /// Gap at the end of its colour scale, mm.
-const GAP_REACH_MM: f64 = 60.0;
+const GAP_REACH_MM: f64 = 100.0;
 
 impl Map {
     /// All maps.
