@@ -338,6 +338,8 @@ pub enum Map {
     Plain,
     /// Stretch of the cloth.
     Stretch,
+    /// Tension in the cloth.
+    Tension,
     /// Gap between cloth and body.
     Gap,
 }

@@ -18,6 +18,7 @@ pub fn render(context: &Context, arguments: &Render) -> Outcome {
     let map = match arguments.map {
         MapArgument::Plain => Map::Plain,
         MapArgument::Stretch => Map::Stretch,
+        MapArgument::Tension => Map::Tension,
         MapArgument::Gap => Map::Gap,
     };
     let workspace = context.workspace()?;

@@ -31,7 +31,7 @@ impl Floor {
 
     /// Evens out the steps that single directions leave, and lets the shadow end before the border does.
     fn soften(&mut self) {
-        for _ in 0..3 {
+        for _ in 0..8 {
             let before = self.openness.clone();
             for j in 1..CELLS - 1 {
                 for i in 1..CELLS - 1 {

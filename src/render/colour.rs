@@ -60,6 +60,8 @@ impl Encoder {
 pub enum ColourMap {
     /// Blue, near white in the middle, orange: for values on both sides of a centre.
     Diverging,
+    /// Near white to orange and brown: for values that are mostly nought, and matter where they are not.
+    Rising,
     /// Dark violet over teal to yellow, even in lightness: for values from little to much.
     Sequential,
 }
@@ -88,6 +90,7 @@ impl ColourMap {
         ];
         match self {
             Self::Diverging => &DIVERGING,
+            Self::Rising => &DIVERGING[4..],
             Self::Sequential => &SEQUENTIAL,
         }
     }
@@ -125,6 +128,12 @@ impl Scale {
     pub fn diverging(centre: f64, reach: f64, label: impl Into<String>, unit: impl Into<String>) -> Self {
         let (low, high) = (centre - reach, centre + reach);
         Self { map: ColourMap::Diverging, low, high, label: label.into(), unit: unit.into() }
+    }
+
+    /// Near white to brown from 0 to `high`.
+    #[must_use]
+    pub fn rising(high: f64, label: impl Into<String>, unit: impl Into<String>) -> Self {
+        Self { map: ColourMap::Rising, low: 0.0, high, label: label.into(), unit: unit.into() }
     }
 
     /// Violet to yellow from `low` to `high`.

@@ -25,7 +25,13 @@ impl Material {
     /// A matt dress form.
     #[must_use]
     pub fn form() -> Self {
-        Self::body(Rgb(0xd9, 0xcd, 0xbf))
+        Self::body(Rgb(0xd8, 0xd1, 0xc8))
+    }
+
+    /// A dress form under a map: a mid grey of no colour, darker than cloth whose value is near the middle of its scale.
+    #[must_use]
+    pub fn form_under_map() -> Self {
+        Self::body(Rgb(0x8e, 0x92, 0x98))
     }
 
     /// Skin.
@@ -42,7 +48,7 @@ impl Material {
     #[must_use]
     pub fn cloth(front: Rgb) -> Self {
         let grey = (u16::from(front.0) + u16::from(front.1) + u16::from(front.2)) / 3;
-        let dull = |v: u8| ((u16::from(v) * 3 + grey) / 4 * 3 / 4) as u8;
+        let dull = |v: u8| ((u16::from(v) * 3 + grey) / 4 * 4 / 5) as u8;
         Self { front, back: Rgb(dull(front.0), dull(front.1), dull(front.2)), recede_m: 0.0, seams: true }
     }
 

@@ -10,28 +10,23 @@ use image::RgbaImage;
 use nalgebra::Vector3;
 
 /// Samples along a side of each pixel.
-const FINE: usize = 2;
+const FINE: usize = 3;
 /// Samples along a side of the key light's shadow map.
 const SHADOW: usize = 1280;
-/// Where around a point the shadow map is asked, in map samples: a disc, for a soft edge.
-const TAPS: [[f32; 2]; 16] = [
-    [0.4, 0.7],
-    [1.9, -0.6],
-    [-1.6, 1.4],
-    [-1.3, -1.8],
-    [1.5, 2.6],
-    [-3.2, -0.3],
-    [2.9, -2.5],
-    [0.2, -3.7],
-    [-2.4, 3.3],
-    [4.2, 1.0],
-    [-4.0, -2.6],
-    [1.0, 4.9],
-    [4.0, 3.6],
-    [-4.9, 1.6],
-    [-1.8, -4.9],
-    [3.2, -4.3],
-];
+/// How many places around a point the shadow map is asked at.
+const TAPS: usize = 32;
+/// How far around, in map samples: the width of a shadow's soft edge.
+const SOFT: f32 = 9.0;
+
+/// Offsets of the taps, in map samples, and their distances: a disc filled evenly by a golden-angle spiral [Vogel 1979].
+fn taps() -> [(f32, f32, f32); TAPS] {
+    let golden = std::f32::consts::PI * (3.0 - 5.0_f32.sqrt());
+    std::array::from_fn(|k| {
+        let radius = SOFT * ((k as f32 + 0.5) / TAPS as f32).sqrt();
+        let (sin, cos) = (golden * k as f32).sin_cos();
+        (radius * cos, radius * sin, radius)
+    })
+}
 
 /// Takes a picture of the scene.
 ///
@@ -57,6 +52,7 @@ pub fn render(scene: &Scene, camera: &Camera, width: u32, height: u32) -> Result
 struct ShadowMap {
     projection: Projection,
     depth: Vec<f32>,
+    taps: [(f32, f32, f32); TAPS],
 }
 
 impl ShadowMap {
@@ -70,20 +66,20 @@ impl ShadowMap {
                 depth[sample] = depth[sample].min(d + recede);
             });
         }
-        Self { projection, depth }
+        Self { projection, depth, taps: taps() }
     }
 
     /// Share of the light that reaches a point, 0 to 1.
     fn reaches(&self, point: &Vector3<f32>) -> f32 {
         let [x, y, depth] = self.projection.project(point);
-        // A map sample's own tilt would shadow it: forgive what a tap's distance can explain.
-        let bias = 4.5 / self.projection.per_m;
-        let open = TAPS.iter().filter(|tap| {
-            let (x, y) = (x + tap[0], y + tap[1]);
+        let open = self.taps.iter().filter(|(dx, dy, distance)| {
+            let (x, y) = (x + dx, y + dy);
             let inside = x >= 0.0 && y >= 0.0 && x < SHADOW as f32 && y < SHADOW as f32;
+            // A tilted surface would shadow itself: forgive what the tap's distance can explain.
+            let bias = (1.5 + 0.8 * distance) / self.projection.per_m;
             !inside || depth - bias <= self.depth[y as usize * SHADOW + x as usize]
         });
-        open.count() as f32 / TAPS.len() as f32
+        open.count() as f32 / TAPS as f32
     }
 }
 
@@ -131,25 +127,18 @@ impl<'a> Studio<'a> {
         }
     }
 
-    /// Mean depth of the samples of each pixel that show something.
+    /// Depth of the nearest sample of each pixel, infinite where it shows nothing.
     fn pixel_depths(&self, columns: usize, rows: usize) -> Vec<f32> {
-        let mut depths = Vec::with_capacity(columns * rows);
-        for pixel in 0..columns * rows {
-            let (mut sum, mut count) = (0.0, 0.0);
-            for sample in self.samples(pixel % columns, pixel / columns) {
-                if self.visible.triangle[sample] != NOTHING {
-                    sum += self.visible.depth[sample];
-                    count += 1.0;
-                }
-            }
-            depths.push(if count > 0.0 { sum / count } else { f32::INFINITY });
-        }
-        depths
+        let nearest = |pixel| {
+            let samples = self.samples(pixel % columns, pixel / columns);
+            samples.map(|sample| self.visible.depth[sample]).into_iter().fold(f32::INFINITY, f32::min)
+        };
+        (0..columns * rows).map(nearest).collect()
     }
 
     fn samples(&self, x: usize, y: usize) -> [usize; FINE * FINE] {
         let corner = y * FINE * self.visible.width + x * FINE;
-        [corner, corner + 1, corner + self.visible.width, corner + self.visible.width + 1]
+        std::array::from_fn(|k| corner + k / FINE * self.visible.width + k % FINE)
     }
 
     /// Linear colour of a pixel: each triangle it shows is shaded once, at the middle of the samples it covers.
@@ -214,6 +203,9 @@ impl<'a> Studio<'a> {
         let open = (0..3).map(|k| w[k] * scene.openness[vertices[k]][usize::from(back)]).sum();
         let (albedo, coded) = self.albedo(triangle, back, w);
         let lit = self.lit(albedo, &normal, open, self.shadow.reaches(&(point + normal * 0.004)));
+        // Light from outside shines through cloth: a garment's inside is dark, never black.
+        let through = if back { (0..3).map(|k| w[k] * scene.openness[vertices[k]][0]).sum::<f32>() } else { 0.0 };
+        let lit = [0, 1, 2].map(|k| lit[k] + 0.16 * through * albedo[k]);
         // A colour that codes a value must stay readable in the shade: half of it shines by itself.
         if coded { [0, 1, 2].map(|k| 0.5 * lit[k] + 0.42 * albedo[k]) } else { lit }
     }

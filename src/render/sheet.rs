@@ -95,7 +95,7 @@ pub fn draw_legend(picture: &mut RgbaImage, scale: &Scale) -> Result<(), RenderE
         "<rect x=\"{left}\" y=\"{top}\" width=\"{bar_width}\" height=\"{bar_height}\" fill=\"none\" stroke=\"{INK}\" stroke-width=\"{:.1}\"/>",
         text / 16.0
     );
-    let decimals = if scale.high - scale.low >= 20.0 {
+    let decimals = if scale.high - scale.low >= 10.0 {
         0
     } else if scale.high - scale.low >= 1.0 {
         1
@@ -107,7 +107,7 @@ pub fn draw_legend(picture: &mut RgbaImage, scale: &Scale) -> Result<(), RenderE
         let (y, value) = (top + bar_height * (1.0 - t), scale.low + t * (scale.high - scale.low));
         let right = left + bar_width;
         let bound = match tick {
-            0 => "\u{2264}\u{2009}",
+            0 if scale.low != 0.0 => "\u{2264}\u{2009}",
             4 => "\u{2265}\u{2009}",
             _ => "",
         };

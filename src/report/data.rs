@@ -1,6 +1,6 @@
 //! What a report is made from: plain values, lengths in metres, times in seconds. The page formats them.
 
-use crate::fit::{Ease, FitClass};
+use crate::fit::{Cuts, Ease, FitClass};
 use crate::measure::{Chi, Metrics, metrics};
 use crate::render::Scale;
 use crate::sim::Simulator;
@@ -28,6 +28,8 @@ pub struct ReportData {
     pub subjects: SubjectTable,
     /// Pattern drawings with numbered measurements.
     pub drawings: Vec<Drawing>,
+    /// Ease below which a fit is tight and above which it is loose, m.
+    pub cuts: Cuts,
     /// Ease of every subject and size, garment by garment.
     pub ease: Vec<EaseMatrix>,
     /// All runs, failed ones too.
@@ -259,6 +261,8 @@ pub struct Measured {
 pub struct Picture {
     /// PNG or JPEG; the page tells by the first bytes.
     pub bytes: Vec<u8>,
+    /// The same at full size, a file at this address relative to the page; empty where there is none.
+    pub file: String,
     /// Words in its place for those who cannot see it.
     pub alt: String,
     /// The line under it.

@@ -44,6 +44,20 @@ pub fn html(data: &ReportData) -> Result<String, ReportError> {
     Ok(page::Page::new(data)?.render()?)
 }
 
+/// The files of a report by their relative paths: `index.html` and its charts as SVG and PNG.
+///
+/// # Errors
+/// As [`html`], and where a chart cannot be turned into pixels.
+pub fn files(data: &ReportData) -> Result<Vec<(String, Vec<u8>)>, ReportError> {
+    let page = page::Page::new(data)?;
+    let mut files = vec![("index.html".to_owned(), page.render()?.into_bytes())];
+    for chart in page.charts() {
+        files.push((chart.address("svg"), chart.svg().as_bytes().to_vec()));
+        files.push((chart.address("png"), chart.png()?));
+    }
+    Ok(files)
+}
+
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 mod tests;

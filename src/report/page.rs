@@ -1,6 +1,7 @@
 //! The page as its template sees it: every number already a text, every picture already an address.
 
 use super::ReportError;
+use super::chart::Chart;
 use super::data::{Basis, Finding, Outcome, Picture, ReportData, Run, Severity, Verdict};
 use super::runs::{Group, groups};
 use super::text::{count, distinct, duration, fit_glyph, fit_words, mean_sd, mm, number, signed_mm, simulator_name};
@@ -20,6 +21,9 @@ pub(super) struct Page<'a> {
     subjects: Vec<Row>,
     subject_statistics: [Row; 2],
     drawings: Vec<Plan>,
+    /// Where fit classes meet, mm.
+    tight_below: String,
+    loose_above: String,
     ease: Vec<Matrix<'a>>,
     groups: Vec<Group>,
 }
@@ -85,12 +89,15 @@ struct Fit {
     glyph: &'static str,
     ease: String,
     words: String,
-    level: String,
+    /// The level that decides and the two girths there.
+    girths: String,
 }
 
 /// A picture inside the page.
 pub(super) struct Image {
     pub address: String,
+    /// The full-size file beside the page; empty where there is none.
+    pub file: String,
     pub alt: String,
     pub caption: String,
 }
@@ -102,7 +109,12 @@ impl Image {
             [0xff, 0xd8, 0xff, ..] => "image/jpeg",
             _ => return Err(ReportError::PictureFormat(picture.caption.clone())),
         };
-        Ok(Self { address: address(kind, &picture.bytes), alt: picture.alt.clone(), caption: picture.caption.clone() })
+        Ok(Self {
+            address: address(kind, &picture.bytes),
+            file: picture.file.clone(),
+            alt: picture.alt.clone(),
+            caption: picture.caption.clone(),
+        })
     }
 }
 
@@ -120,7 +132,7 @@ pub(super) struct MapImage {
 impl MapImage {
     pub fn new(map: &super::data::FieldMap) -> Result<Self, ReportError> {
         let scale = &map.scale;
-        let decimals = if scale.high - scale.low >= 20.0 { 0 } else { 2 };
+        let decimals = if scale.high - scale.low >= 10.0 { 0 } else { 2 };
         let unit = if scale.unit.is_empty() { String::new() } else { format!("\u{a0}{}", scale.unit) };
         let tick = |t: f64| format!("{}{unit}", number(scale.low + t * (scale.high - scale.low), decimals));
         let stops: Vec<String> = (0..=12).map(|k| scale.map.at(f64::from(k) / 12.0).hex()).collect();
@@ -140,9 +152,16 @@ fn address(kind: &str, bytes: &[u8]) -> String {
 }
 
 impl<'a> Page<'a> {
+    /// All charts, in the order of the page.
+    pub fn charts(&self) -> impl Iterator<Item = &Chart> {
+        self.groups.iter().flat_map(Group::charts)
+    }
+
     pub fn new(data: &'a ReportData) -> Result<Self, ReportError> {
-        if let Some(link) = data.raw.iter().find(|l| l.href.contains(':') || l.href.starts_with('/')) {
-            return Err(ReportError::Link(link.href.clone()));
+        let pictures = data.runs.iter().flat_map(|r| r.views.iter().chain(r.maps.iter().map(|m| &m.picture)));
+        let links = data.raw.iter().map(|l| &l.href).chain(pictures.map(|p| &p.file));
+        if let Some(link) = links.into_iter().find(|l| l.contains(':') || l.starts_with('/')) {
+            return Err(ReportError::Link(link.clone()));
         }
         let plan = |d: &super::data::Drawing| Plan {
             garment: d.garment.clone(),
@@ -158,6 +177,8 @@ impl<'a> Page<'a> {
             subjects: subjects(data),
             subject_statistics: subject_statistics(data),
             drawings: data.drawings.iter().map(plan).collect(),
+            tight_below: number(data.cuts.tight_below_m * 1e3, 0),
+            loose_above: number(data.cuts.loose_above_m * 1e3, 0),
             ease: matrices(data),
             groups: groups(&data.runs)?,
         })
@@ -345,14 +366,14 @@ fn matrices(data: &ReportData) -> Vec<Matrix<'_>> {
             glyph: fit_glyph(e.class),
             ease: signed_mm(e.ease_m()),
             words: fit_words(e),
-            level: format!("{}: pattern {} mm, body {} mm", e.level, mm(e.pattern_girth_m), mm(e.body_girth_m)),
+            girths: format!("{}: {} \u{2212} {}", e.level, mm(e.pattern_girth_m), mm(e.body_girth_m)),
         },
         None => Fit {
             class: "unknown",
             glyph: "?",
             ease: "–".into(),
             words: "girth not known".into(),
-            level: String::new(),
+            girths: String::new(),
         },
     };
     let row = |(size, cells): (&'_ String, &Vec<Option<Ease>>)| (size.clone(), cells.iter().map(fit).collect());

@@ -1,7 +1,7 @@
 //! The runs of one garment and size: pictures, tables, charts.
 
 use super::ReportError;
-use super::chart::{chi_chart, ei_chart, mean_sd_chart, residual_chart};
+use super::chart::{Chart, chi_chart, ei_chart, mean_sd_chart, residual_chart};
 use super::data::{Measured, Outcome, Run, measurements};
 use super::page::{Image, MapImage};
 use super::text::{duration, fit_glyph, fit_words, mean_sd, mm, number, signed_mm, simulator_name};
@@ -17,8 +17,16 @@ pub(super) struct Group {
     pub heat: Heat,
     /// Mean chi of each series, where there are several.
     pub side_by_side: Option<Heat>,
-    pub ei_chart: String,
-    pub residual_chart: Option<String>,
+    pub ei_chart: Chart,
+    pub residual_chart: Option<Chart>,
+}
+
+impl Group {
+    /// Its charts.
+    pub fn charts(&self) -> impl Iterator<Item = &Chart> {
+        let of_series = self.series.iter().flat_map(|s| [&s.chi_chart].into_iter().chain(&s.mean_chart));
+        of_series.chain([&self.ei_chart]).chain(&self.residual_chart)
+    }
 }
 
 /// The pictures of one run.
@@ -41,8 +49,16 @@ pub(super) struct Series {
     pub rows: Vec<ChiRow>,
     pub summary: Vec<(&'static str, Vec<String>)>,
     pub published: bool,
-    pub chi_chart: String,
-    pub mean_chart: Option<String>,
+    pub chi_chart: Chart,
+    pub mean_chart: Option<Chart>,
+}
+
+impl Series {
+    /// The line under its chart of chi.
+    pub fn chi_words(&self) -> String {
+        let published = if self.published { " Hollow marks are the published values." } else { "" };
+        format!("{}: chi of each measurement and subject.{published}", self.title)
+    }
 }
 
 /// One measurement over the runs of a series.
@@ -132,8 +148,8 @@ fn group(index: usize, title: String, runs: &[&Run], name_fabric: bool) -> Resul
         side_by_side: side_by_side(runs),
         metrics: runs.iter().zip(&labels).map(|(r, label)| metrics_row(r, label)).collect(),
         heat: heat(runs, &labels),
-        ei_chart: ei_chart(&title, runs, &places)?.inline(),
-        residual_chart: if recorded { Some(residual_chart(&title, runs, &labels)?.inline()) } else { None },
+        ei_chart: ei_chart(&title, runs, &places)?,
+        residual_chart: if recorded { Some(residual_chart(&title, runs, &labels)?) } else { None },
         title,
     })
 }
@@ -177,8 +193,8 @@ fn series(title: &str, runs: &[&Run]) -> Result<Vec<Series>, ReportError> {
         let title = format!("{title}, {name}");
         let subjects: Vec<String> = members.iter().map(|r| r.subject.clone()).collect();
         all.push(Series {
-            chi_chart: chi_chart(&title, &members, &subjects)?.inline(),
-            mean_chart: if members.len() > 1 { Some(mean_sd_chart(&title, &members)?.inline()) } else { None },
+            chi_chart: chi_chart(&title, &members, &subjects)?,
+            mean_chart: if members.len() > 1 { Some(mean_sd_chart(&title, &members)?) } else { None },
             rows: rows.iter().map(|m| chi_row(m, &members)).collect(),
             summary: summary(&members),
             published: members.iter().flat_map(|r| &r.measured).any(|m| m.published_chi.is_some()),

@@ -30,7 +30,12 @@ fn measured(no: u32, name: &str, l2d_m: f64, chi: f64, free_edge: bool) -> Measu
 
 fn picture(caption: &str) -> Picture {
     let pixel = image::RgbaImage::from_pixel(4, 5, image::Rgba([80, 160, 120, 255]));
-    Picture { bytes: png(&pixel).unwrap(), alt: format!("Tee, {caption} view"), caption: caption.into() }
+    Picture {
+        bytes: png(&pixel).unwrap(),
+        file: format!("pictures/{caption}.png"),
+        alt: format!("Tee, {caption} view"),
+        caption: caption.into(),
+    }
 }
 
 fn run(subject: &str, simulator: Simulator, neck: f64) -> Run {

@@ -57,6 +57,12 @@ pub fn mm(metres: f64) -> String {
     format!("{:.1}", metres * 1000.0)
 }
 
+/// A whole number with a true minus sign.
+#[must_use]
+pub fn whole(value: f64) -> String {
+    format!("{value:.0}").replace('-', "−")
+}
+
 /// An ease, in whole mm with its sign.
 #[must_use]
 pub fn ease_mm(metres: f64) -> String {

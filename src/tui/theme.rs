@@ -136,6 +136,12 @@ impl Theme {
         }
     }
 
+    /// Whether there are colours at all.
+    #[must_use]
+    pub fn has_colours(self) -> bool {
+        self.colours != Colours::None
+    }
+
     /// Turns colours the terminal lacks, as pictures have them, into the nearest it has.
     pub fn adapt(self, buffer: &mut Buffer, area: Rect) {
         if self.colours != Colours::Indexed {

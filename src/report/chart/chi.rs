@@ -7,10 +7,12 @@ use super::{Chart, row_label};
 
 const LEFT: i32 = 520;
 
-/// An axis that holds 1 in its middle and all values.
+/// An axis that holds 1, a little to both sides of it, and all values.
 fn axis(values: impl Iterator<Item = f64>) -> Axis {
-    let reach = values.filter(|v| v.is_finite()).map(|v| (v - 1.0).abs()).fold(0.02, f64::max) * 1.08;
-    Axis { low: 1.0 - reach, high: 1.0 + reach, left: LEFT, right: WIDTH - 50 }
+    let ends = |(low, high): (f64, f64), v: f64| (low.min(v), high.max(v));
+    let (low, high) = values.filter(|v| v.is_finite()).fold((0.98, 1.02), ends);
+    let margin = 0.05 * (high - low);
+    Axis { low: low - margin, high: high + margin, left: LEFT, right: WIDTH - 50 }
 }
 
 /// Rows, grid, names and the line at 1, which both charts share.
@@ -60,7 +62,7 @@ pub fn chi_chart(title: &str, runs: &[&Run], labels: &[String]) -> Result<Chart,
     })?;
     let alt =
         format!("{title}: chi of {} measurements in {} runs, marks around the line at 1.", rows.len(), runs.len());
-    Ok(Chart { svg, alt })
+    Ok(Chart::new("chi", title, svg, alt))
 }
 
 /// Mean chi by measurement as a bar from 1, with whiskers of one sample standard deviation over the runs.
@@ -93,5 +95,5 @@ pub fn mean_sd_chart(title: &str, runs: &[&Run]) -> Result<Chart, ReportError> {
     })?;
     let alt =
         format!("{title}: mean chi and standard deviation of {} measurements over {} runs.", rows.len(), runs.len());
-    Ok(Chart { svg, alt })
+    Ok(Chart::new("mean", title, svg, alt))
 }

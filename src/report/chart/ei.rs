@@ -60,5 +60,6 @@ pub fn ei_chart(title: &str, runs: &[&Run], labels: &[String]) -> Result<Chart, 
         let caption = "EI = mean |chi − 1|   (shorter is truer to the pattern)";
         canvas.text(((LEFT + WIDTH) / 2, bottom + 2 * TYPE + 18), caption, theme::MUTED, Align::Middle, false)
     })?;
-    Ok(Chart { svg, alt: format!("{title}: EI of {} runs as bars, the longest {most:.3}.", runs.len()) })
+    let alt = format!("{title}: EI of {} runs as bars, the longest {most:.3}.", runs.len());
+    Ok(Chart::new("ei", title, svg, alt))
 }

@@ -16,11 +16,26 @@ use image::imageops;
 /// A drawn chart.
 #[derive(Clone, Debug)]
 pub struct Chart {
+    name: String,
     svg: String,
     alt: String,
 }
 
 impl Chart {
+    /// A chart of a kind (`chi`) under a title.
+    fn new(kind: &str, title: &str, svg: String, alt: String) -> Self {
+        let plain: String =
+            title.to_lowercase().chars().map(|c| if c.is_ascii_alphanumeric() { c } else { ' ' }).collect();
+        let words: Vec<&str> = plain.split_whitespace().chain([kind]).collect();
+        Self { name: words.join("-"), svg, alt }
+    }
+
+    /// Where a report keeps the chart as a file of an extension, relative to its page.
+    #[must_use]
+    pub fn address(&self, extension: &str) -> String {
+        format!("charts/{}.{extension}", self.name)
+    }
+
     /// The chart as an SVG file.
     #[must_use]
     pub fn svg(&self) -> &str {

@@ -32,8 +32,8 @@ pub fn residual_chart(title: &str, runs: &[&Run], labels: &[String]) -> Result<C
             canvas.line(vec![(axis.left, y), (axis.right, y)], theme::GRID, 2)?;
             canvas.text((axis.left - 16, y), &decade_name(decade), theme::MUTED, Align::Right, false)?;
         }
-        let title = "residual: rms force over the mean weight of a vertex (logarithmic)";
-        canvas.text((axis.left, top - 48), title, theme::MUTED, Align::Left, false)?;
+        let caption = "residual: rms force over the mean weight of a vertex (logarithmic)";
+        canvas.text((axis.left, top - 48), caption, theme::MUTED, Align::Left, false)?;
         let mut ends = Vec::new();
         for (series, curve) in curves.iter().enumerate() {
             let line: Vec<(i32, i32)> = curve.iter().map(|p| (axis.at(p.0), height_of(p.1))).collect();
@@ -67,7 +67,8 @@ pub fn residual_chart(title: &str, runs: &[&Run], labels: &[String]) -> Result<C
             false,
         )
     })?;
-    Ok(Chart { svg, alt: format!("{title}: residual by iteration of {} runs.", runs.len()) })
+    let alt = format!("{title}: residual by iteration of {} runs.", runs.len());
+    Ok(Chart::new("residual", title, svg, alt))
 }
 
 /// Iteration and decimal logarithm of the residual, at most [`POINTS`], the last one kept.

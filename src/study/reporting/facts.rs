@@ -8,10 +8,11 @@ use super::super::types::{EaseRow, JobRow, RecommendationRow, Status, Value};
 use super::super::workspace::Workspace;
 use super::quoted;
 use crate::body::Girths;
-use crate::fit::Ease;
+use crate::fit::{Cuts, Ease};
 use crate::report::data::{
     AuditNote, Basis, Column, Drawing, EaseMatrix, FabricFacts, Fact, Finding, Severity, Subject, SubjectTable, Verdict,
 };
+use crate::sim::Simulator;
 
 /// Columns of `v_subjects` on the page: name, heading, unit, decimals.
 const MEASUREMENTS: [(&str, &str, &str, usize); 7] = [
@@ -118,12 +119,10 @@ impl Workspace {
         if cancelled > 0 {
             note(Severity::Warning, format!("{cancelled} jobs were cancelled."));
         }
-        let mut simulators: Vec<&str> = jobs.iter().map(|job| job.simulator.as_str()).collect();
-        simulators.sort_unstable();
-        simulators.dedup();
-        if simulators.len() < 2 {
-            let text = format!("Only {} was run: nothing here compares the two simulators.", simulators.join(", "));
-            note(Severity::Note, text);
+        for (only, name) in [(Simulator::Fem, "FEM-GS"), (Simulator::Hybrid, "Hybrid-GS")] {
+            if !jobs.is_empty() && jobs.iter().all(|job| job.simulator == only) {
+                note(Severity::Note, format!("Only {name} was run: nothing here compares the two simulators."));
+            }
         }
         let mismatches = mismatches(bodies);
         if !mismatches.is_empty() {
@@ -177,11 +176,11 @@ impl Workspace {
 
     pub(super) fn fabric_facts(&self, study: &str) -> Result<Vec<FabricFacts>> {
         let table = self.query(&format!(
-            "SELECT DISTINCT fabric.name, source, density_kg_m2 AS 'Areal density, kg/m2', thickness_mm AS 'Thickness, mm',
+            "SELECT DISTINCT fabric.name, source, round(1000 * density_kg_m2, 1) AS 'Areal density, g/m²', thickness_mm AS 'Thickness, mm',
                 membrane_warp_n_m AS 'Strip modulus, warp, N/m', membrane_weft_n_m AS 'Strip modulus, weft, N/m',
-                shear_n_m AS 'Shear modulus, N/m', bending_warp_nm AS 'Bending rigidity, warp, N m',
-                bending_weft_nm AS 'Bending rigidity, weft, N m', friction_body AS 'Friction on the body',
-                friction_self AS 'Friction on itself'
+                shear_n_m AS 'Shear modulus, N/m', round(1e6 * bending_warp_nm, 3) AS 'Bending rigidity, warp, µN·m',
+                round(1e6 * bending_weft_nm, 3) AS 'Bending rigidity, weft, µN·m',
+                friction_body AS 'Friction coefficient, on the body', friction_self AS 'Friction coefficient, on itself'
             FROM fabric JOIN job USING (fabric_id) JOIN study USING (study_id) WHERE study.name = {} AND is_current",
             quoted(study)
         ))?;
@@ -191,6 +190,19 @@ impl Workspace {
             facts: table.columns.iter().zip(row).skip(2).map(fact).collect(),
         };
         Ok(table.rows.iter().map(facts).collect())
+    }
+
+    /// Where the fit classes of a study meet.
+    pub(super) fn cuts(&self, study: &str) -> Result<Cuts> {
+        let sql =
+            format!("SELECT tight_below_mm / 1000, loose_above_mm / 1000 FROM study WHERE name = {}", quoted(study));
+        let cuts = match self.query(&sql)?.rows.first().map(Vec::as_slice) {
+            Some([Value::Real(tight_below_m), Value::Real(loose_above_m)]) => {
+                Cuts { tight_below_m: *tight_below_m, loose_above_m: *loose_above_m }
+            }
+            _ => Cuts::default(),
+        };
+        Ok(cuts)
     }
 
     /// The first size of each garment, drawn from what its job was made from.

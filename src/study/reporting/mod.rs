@@ -18,7 +18,7 @@ const RAW: [(&str, &str, &str); 4] = [
     ("v_provenance", "provenance.csv", "hashes, versions and machine of every result"),
 ];
 
-const METHODS: [&str; 4] = [
+const METHODS: [&str; 5] = [
     "Each subject's body is built from the measurements given; each size is read from its DXF file, sewn as its seam file \
      says and meshed. FEM-GS drapes the sewn cloth on the body by its weight, membrane, bending, contact and friction until \
      the residual force is a small share of the weight.",
@@ -26,6 +26,9 @@ const METHODS: [&str; 4] = [
      the mean of chi over the measurements, SD its sample standard deviation (n - 1), EI the mean of |chi - 1|.",
     "Ease is the girth of the pattern at a level less the girth of the body there; the least ease of a garment decides its \
      fit class.",
+    "Maps show values averaged at the vertices of the mesh. Stretch is the greatest principal stretch beyond the pattern's own \
+     size, which shear raises too; tension the greatest principal force in the cloth per metre of width, from that strain and \
+     the fabric's stiffness: 100 N/m is a strip 1 cm wide that carries about 100 g. Gap is the distance to the body.",
     "Published values are those of the thesis for the same measurement, size and subject, recomputed from its printed \
      lengths where the pattern length agrees within 0.5 mm.",
 ];
@@ -36,7 +39,7 @@ const LIMITS: [&str; 2] = [
 ];
 
 impl Workspace {
-    /// The files of a study's report by their relative paths: `index.html`, pictures, drawings, CSV.
+    /// The files of a study's report by their relative paths: `index.html`, pictures, charts, drawings, CSV.
     ///
     /// # Errors
     /// When there is no such study, or a stored result cannot be read.
@@ -47,8 +50,7 @@ impl Workspace {
         for (view, file, _) in RAW {
             files.push((file.to_owned(), csv_of(&self.of_study(view, study)?)?));
         }
-        let page = report::html(&data).map_err(StudyError::stage("report"))?;
-        files.insert(0, ("index.html".to_owned(), page.into_bytes()));
+        files.extend(report::files(&data).map_err(StudyError::stage("report"))?);
         Ok(files)
     }
 
@@ -86,6 +88,7 @@ impl Workspace {
             fabrics: self.fabric_facts(study)?,
             subjects: facts::subject_table(&bodies),
             drawings,
+            cuts: self.cuts(study)?,
             ease: self.ease_matrices(study)?,
             runs: self.report_runs(study, &jobs, files)?,
             methods: METHODS.map(str::to_owned).to_vec(),

@@ -1,18 +1,30 @@
 //! The runs of a report, with their pictures.
 
+use image::imageops;
+
 use super::super::error::{Result, StudyError};
-use super::super::inputs::StageKind;
 use super::super::picture::{Dressed, Map};
 use super::super::types::{JobRow, MetricsRow, Status, Value};
 use super::super::workspace::Workspace;
 use super::quoted;
 use crate::measure::Chi;
-use crate::render::{self, Camera, Frame, Scene, View};
+use crate::render::{self, Camera, Frame, View};
 use crate::report::data::{FieldMap, Measured, Outcome, Picture, Run};
 use crate::units::mm;
 
 /// Pixels of a picture on the page.
-const PICTURE: (u32, u32) = (520, 640);
+const PICTURE: (u32, u32) = (480, 540);
+/// Room around the garments, as a share of the least frame: shoulders, neck and hips belong to a fit.
+const ROOM: f64 = 1.12;
+/// Runs whose pictures the page holds at full size within its 3 MB; of more runs they are smaller, the files beside not.
+const FULL_SIZE: usize = 8;
+/// The pictures of a run.
+const SHOTS: [(Map, &[View]); 4] = [
+    (Map::Plain, &View::ALL),
+    (Map::Stretch, &[View::Front]),
+    (Map::Tension, &[View::Front, View::Back]),
+    (Map::Gap, &[View::Front]),
+];
 
 impl Workspace {
     /// All runs with their pictures, which share one frame; the pictures are also added to `files`.
@@ -27,8 +39,11 @@ impl Workspace {
         for job in jobs {
             dressed.push(if job.status.has_result() { Some(self.dressed(job.id)?) } else { None });
         }
-        let meshes = dressed.iter().flatten().flat_map(|worn: &Dressed| [&worn.body, &worn.cloth]);
-        let frame = Frame::enclosing(meshes, f64::from(PICTURE.0) / f64::from(PICTURE.1));
+        let garments = dressed.iter().flatten().map(|worn: &Dressed| &worn.cloth);
+        let least = Frame::enclosing(garments, f64::from(PICTURE.0) / f64::from(PICTURE.1));
+        let frame = Frame { height_m: ROOM * least.height_m, ..least };
+        let shown = dressed.iter().flatten().count().max(FULL_SIZE);
+        let shrink = (FULL_SIZE as f64 / shown as f64).sqrt();
         let mut runs = Vec::new();
         for (job, worn) in jobs.iter().zip(&dressed) {
             let outcome = match job.status {
@@ -43,7 +58,7 @@ impl Workspace {
                 matrix.cells[size][subject].clone()
             });
             if let Some(worn) = worn {
-                self.add_pictures(&mut run, job, worn, frame, files)?;
+                add_pictures(&mut run, job, worn, (frame, shrink), files)?;
             }
             runs.push(run);
         }
@@ -102,35 +117,40 @@ impl Workspace {
             maps: Vec::new(),
         })
     }
+}
 
-    /// The four views and the maps of a run; as JPEG on the page, as PNG beside it.
-    fn add_pictures(
-        &self,
-        run: &mut Run,
-        job: &JobRow,
-        worn: &Dressed,
-        frame: Frame,
-        files: &mut Vec<(String, Vec<u8>)>,
-    ) -> Result<()> {
-        let what = format!("{} {} on {}, {}", job.garment, job.size, job.subject, job.simulator.as_str());
-        let mut take = |scene: &Scene, view: View, map: Map| -> Result<Picture> {
-            let camera = Camera::new(view, frame);
-            let shot = render::render(scene, &camera, PICTURE.0, PICTURE.1).map_err(StudyError::stage("render"))?;
-            let png = render::png(&shot).map_err(StudyError::stage("render"))?;
-            files.push((format!("pictures/job-{}-{}-{}.png", job.id, view.as_str(), map.as_str()), png));
-            let bytes = render::jpeg(&shot).map_err(StudyError::stage("render"))?;
-            let caption = if map == Map::Plain { view.as_str() } else { map.as_str() };
-            Ok(Picture { bytes, alt: format!("{what}, {caption}"), caption: caption.to_owned() })
-        };
-        for map in Map::ALL {
-            let (scene, scale) = worn.scene(map, || self.product(job.id, StageKind::Field))?;
+/// The four views and the maps of a run; as JPEG on the page, shrunk, as PNG beside it.
+fn add_pictures(
+    run: &mut Run,
+    job: &JobRow,
+    worn: &Dressed,
+    (frame, shrink): (Frame, f64),
+    files: &mut Vec<(String, Vec<u8>)>,
+) -> Result<()> {
+    let what = format!("{} {} on {}, {}", job.garment, job.size, job.subject, job.simulator.as_str());
+    let on_page = [PICTURE.0, PICTURE.1].map(|side| (f64::from(side) * shrink).round() as u32);
+    for (map, views) in &SHOTS {
+        let scene = worn.scene(*map)?;
+        for view in *views {
+            let camera = Camera::new(*view, frame);
+            let shot = render::render(&scene, &camera, PICTURE.0, PICTURE.1).map_err(StudyError::stage("render"))?;
+            let file = format!("pictures/job-{}-{}-{}.png", job.id, view.as_str(), map.as_str());
+            let small = imageops::resize(&shot, on_page[0], on_page[1], imageops::FilterType::CatmullRom);
+            let bytes = render::jpeg(&small).map_err(StudyError::stage("render"))?;
+            let mut full = shot;
+            let scale = map.scale();
+            if let Some(scale) = &scale {
+                render::draw_legend(&mut full, scale).map_err(StudyError::stage("render"))?;
+            }
+            files.push((file.clone(), render::png(&full).map_err(StudyError::stage("render"))?));
+            let caption =
+                scale.as_ref().map_or(view.as_str().to_owned(), |s| format!("{}, {}", s.label, view.as_str()));
+            let picture = Picture { bytes, file, alt: format!("{what}, {caption}"), caption };
             match scale {
-                None => {
-                    run.views = View::ALL.into_iter().map(|view| take(&scene, view, map)).collect::<Result<_>>()?;
-                }
-                Some(scale) => run.maps.push(FieldMap { picture: take(&scene, View::Quarter, map)?, scale }),
+                None => run.views.push(picture),
+                Some(scale) => run.maps.push(FieldMap { picture, scale }),
             }
         }
-        Ok(())
     }
+    Ok(())
 }

@@ -29,8 +29,10 @@ impl Columns {
             56.. => 4,
             _ => 0,
         };
-        let marks = rows.iter().map(|row| marks(row).chars().count()).max().unwrap_or(0);
-        Self { name: columns.saturating_sub(FIXED + marks + 2 * side + 1).clamp(6, 40), marks, side }
+        let widest = |of: &dyn Fn(&ChiRow) -> usize| rows.iter().map(|row| of(row)).max().unwrap_or(0);
+        let marks = widest(&|row| marks(row).chars().count());
+        let name = widest(&|row| text::width(&row.name)).max(14) + 2;
+        Self { name: columns.saturating_sub(FIXED + marks + 2 * side + 1).min(name).max(6), marks, side }
     }
 }
 
@@ -107,8 +109,8 @@ pub(super) fn numbers(state: &State, columns: usize) -> Vec<Line<'static>> {
     let mut lines = vec![Line::styled(text::shortened(&status, columns), state.theme.status(job.status))];
     if let Some(ease) = state.ease(job) {
         lines.push(fact(
-            "ease",
-            &format!("{} {} mm {}", ease.level, ease_mm(ease.fit.ease_m), fit_words(&ease.fit)),
+            "ease mm",
+            &format!("{} {} {}", ease.level, ease_mm(ease.fit.ease_m), fit_words(&ease.fit)),
             columns,
         ));
     }

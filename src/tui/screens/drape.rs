@@ -1,14 +1,16 @@
 //! The pane with the picture of a drape.
 
 use ratatui::Frame;
-use ratatui::layout::{Alignment, Position, Rect, Size};
-use ratatui::text::Line;
+use ratatui::layout::{Alignment, Constraint, Layout, Position, Rect, Size};
+use ratatui::style::{Color, Style};
+use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph, Wrap};
 use ratatui_image::Image;
 
 use super::super::action::Screen;
 use super::super::picture::Drawn;
 use super::super::state::State;
+use super::super::text;
 use super::{pane, results, rows, study};
 use crate::study::Status;
 
@@ -24,16 +26,29 @@ pub fn picture_size(state: &State) -> Option<Size> {
         Screen::Results => results::picture_pane(body, state),
         Screen::Jobs => None,
     };
-    let inner = Block::bordered().inner(pane?);
-    (inner.width >= 4 && inner.height >= 3).then(|| inner.as_size())
+    let (picture, _) = parts(Block::bordered().inner(pane?));
+    (picture.width >= 4 && picture.height >= 3).then(|| picture.as_size())
+}
+
+/// Picture and, where there is room, the line below it that says what its colours mean. The line is there for pictures
+/// without a legend too, so that they keep their size when the colours change.
+fn parts(inner: Rect) -> (Rect, Option<Rect>) {
+    if inner.height < 8 || inner.width < 24 {
+        return (inner, None);
+    }
+    let [picture, legend] = Layout::vertical([Constraint::Fill(1), Constraint::Length(1)]).areas(inner);
+    (picture, Some(legend))
 }
 
 /// Draws the pane; `keys` are those that change the picture there.
 pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool, keys: &'static str) {
     let title = format!("{} · {}", state.view.as_str(), state.map.as_str());
     let block = pane(state.theme, title, focused).title_bottom(Line::styled(keys, state.theme.legend()));
-    let inner = block.inner(area);
+    let (inner, legend) = parts(block.inner(area));
     frame.render_widget(block, area);
+    if let Some(legend) = legend {
+        draw_legend(frame, legend, state);
+    }
     // While a picture is drawn anew, the one before stays, so that turning does not flicker.
     let drawn = state.picture.as_ref().filter(|(shot, _)| {
         Some(shot.job) == state.focus.job && shot.columns == inner.width && shot.rows == inner.height
@@ -49,6 +64,24 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bo
         },
     };
     frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), inner);
+}
+
+/// What the colours mean: name, least value, the run of colours, greatest value with its unit.
+fn draw_legend(frame: &mut Frame<'_>, area: Rect, state: &State) {
+    let Some(scale) = state.map.scale() else { return };
+    let before = format!("{} {} ", scale.label, text::whole(scale.low));
+    let after = format!(" {} {}", text::whole(scale.high), scale.unit);
+    let room = usize::from(area.width).saturating_sub(text::width(&before) + text::width(&after));
+    let cells = if state.theme.has_colours() { room.min(48) } else { 0 };
+    let cell = |k: usize| {
+        let colour = scale.map.at((k as f64 + 0.5) / cells as f64);
+        Span::styled("█", Style::new().fg(Color::Rgb(colour.0, colour.1, colour.2)))
+    };
+    let mut line = vec![Span::raw(before)];
+    line.extend(if cells == 0 { vec![Span::raw("to")] } else { (0..cells).map(cell).collect() });
+    line.push(Span::raw(after));
+    frame.render_widget(Paragraph::new(Line::from(line)).alignment(Alignment::Center), area);
+    state.theme.adapt(frame.buffer_mut(), area);
 }
 
 /// The picture in the middle of its pane.

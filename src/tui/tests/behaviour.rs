@@ -176,7 +176,7 @@ fn pictures_are_asked_for_when_seen_and_only_then() {
     assert_eq!(shots(&mut bench), []);
     bench.press("5");
     let first = shots(&mut bench);
-    let expect = Shot { job: JobId(1), view: View::Front, map: Map::Plain, columns: 28, rows: 20 };
+    let expect = Shot { job: JobId(1), view: View::Front, map: Map::Plain, columns: 28, rows: 19 };
     assert_eq!(first, [expect]);
     bench.press("j");
     assert_eq!(shots(&mut bench), []);

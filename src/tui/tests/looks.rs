@@ -34,6 +34,19 @@ fn results() {
 }
 
 #[test]
+fn maps_say_what_their_colours_mean() {
+    let check = |keys: &str, expect: &str, unit: &str| {
+        let screen = Bench::example(80, 24).press(keys).screen();
+        let legend =
+            screen.lines().find(|line| line.contains(expect)).unwrap_or_else(|| panic!("{expect} in {screen}"));
+        assert!(legend.contains("███") && legend.contains(unit), "{legend}");
+    };
+    check("5m", "stretch −8 ", " 8 %");
+    check("5mm", "tension 0 ", " 100 N/m");
+    check("5mmm", "gap to the body 0 ", " 100 mm");
+}
+
+#[test]
 fn help() {
     looks_like!("help", "?job");
 }
