@@ -336,6 +336,8 @@ pub enum View {
 pub enum Map {
     /// The simulator's colour.
     Plain,
+    /// A woven check, which shows the grain and every distortion.
+    Check,
     /// Stretch of the cloth.
     Stretch,
     /// Tension in the cloth.

@@ -17,6 +17,7 @@ pub fn render(context: &Context, arguments: &Render) -> Outcome {
     };
     let map = match arguments.map {
         MapArgument::Plain => Map::Plain,
+        MapArgument::Check => Map::Check,
         MapArgument::Stretch => Map::Stretch,
         MapArgument::Tension => Map::Tension,
         MapArgument::Gap => Map::Gap,

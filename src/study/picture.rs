@@ -14,10 +14,13 @@ use super::types::{JobId, Value};
 use super::workspace::Workspace;
 use crate::geom::{Surface, TriMesh};
 use crate::pattern::Garment;
-use crate::render::{self, Camera, Frame, Layer, Material, Paint, Scene, Values, View};
+use crate::render::{self, Camera, Frame, Layer, Mapping, Material, Paint, Scene, Texture, Values, View};
 use crate::sim::cloth::membrane::Orthotropic;
 use crate::sim::{Drape, Simulator};
 use crate::units::mm;
+
+/// One repeat of the check, m.
+const CHECK_M: f64 = 0.04;
 
 /// A result made ready for pictures: lit once, shown from anywhere.
 pub(super) struct Stage {
@@ -51,7 +54,7 @@ impl Dressed {
         };
         let positions = &self.cloth.positions;
         let values = match map {
-            Map::Plain => vec![],
+            Map::Plain | Map::Check => vec![],
             Map::Stretch => maps::stretches(&self.garment, positions),
             Map::Tension => maps::tensions(&self.garment, &self.fabric, positions),
             Map::Gap => {
@@ -61,6 +64,12 @@ impl Dressed {
             }
         };
         let (form, paint) = match map.scale() {
+            None if map == Map::Check => {
+                let pieces: Vec<_> = self.garment.pieces.iter().map(|p| (p.vertices.clone(), p.grain)).collect();
+                let woven = Mapping::Fabric { repeat_m: CHECK_M };
+                let places = render::texture_coordinates(&self.garment.rest, &pieces, woven);
+                (Material::form(), Paint::Texture(Texture::gingham(material.front), places))
+            }
             None => (Material::form(), Paint::Plain),
             Some(scale) => (Material::form_under_map(), Paint::Field(Values::Vertices(values), scale)),
         };

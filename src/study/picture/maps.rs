@@ -12,6 +12,8 @@ use crate::sim::cloth::membrane::{Element, Orthotropic};
 pub enum Map {
     /// The simulator's own colour.
     Plain,
+    /// A woven check of 4 cm in the simulator's colour: it shows the grain and every distortion.
+    Check,
     /// Stretch: the greatest principal stretch, in percent beyond the pattern's own size.
     Stretch,
     /// Tension: the greatest principal membrane force, N/m.
@@ -29,13 +31,14 @@ const GAP_REACH_MM: f64 = 100.0;
 
 impl Map {
     /// All maps.
-    pub const ALL: [Self; 4] = [Self::Plain, Self::Stretch, Self::Tension, Self::Gap];
+    pub const ALL: [Self; 5] = [Self::Plain, Self::Check, Self::Stretch, Self::Tension, Self::Gap];
 
     /// Name on screens and in the command line.
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Plain => "plain",
+            Self::Check => "check",
             Self::Stretch => "stretch",
             Self::Tension => "tension",
             Self::Gap => "gap",
@@ -46,7 +49,7 @@ impl Map {
     #[must_use]
     pub fn scale(self) -> Option<Scale> {
         match self {
-            Self::Plain => None,
+            Self::Plain | Self::Check => None,
             Self::Stretch => Some(Scale::diverging(0.0, STRETCH_REACH, "stretch", "%")),
             Self::Tension => Some(Scale::rising(TENSION_REACH, "tension", "N/m")),
             Self::Gap => Some(Scale::sequential(0.0, GAP_REACH_MM, "gap to the body", "mm")),

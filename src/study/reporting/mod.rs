@@ -62,6 +62,14 @@ impl Workspace {
             let name = format!("pattern-{}-{}.svg", drawing.garment, drawing.size);
             files.push((name, drawing.svg.clone().into_bytes()));
         }
+        let runs = self.report_runs(study, &jobs, files)?;
+        let link = |(href, label): (&str, &str)| RawLink { href: href.to_owned(), label: label.to_owned() };
+        let raw = RAW.iter().map(|(_, href, label)| link((href, &format!("{href}: {label}"))));
+        let sheet = |(path, _): &(String, Vec<u8>)| {
+            let name = path.strip_prefix(runs::SHEETS)?.strip_suffix(".png")?;
+            Some(link((path, &format!("all try-ons of {name} on one sheet"))))
+        };
+        let sheets: Vec<RawLink> = files.iter().filter_map(sheet).collect();
         let today = self.one("SELECT date('now')")?;
         Ok(ReportData {
             title: study.to_owned(),
@@ -90,10 +98,10 @@ impl Workspace {
             drawings,
             cuts: self.cuts(study)?,
             ease: self.ease_matrices(study)?,
-            runs: self.report_runs(study, &jobs, files)?,
+            runs,
             methods: METHODS.map(str::to_owned).to_vec(),
             limits: LIMITS.map(str::to_owned).to_vec(),
-            raw: RAW.map(|(_, href, label)| RawLink { href: href.to_owned(), label: label.to_owned() }).to_vec(),
+            raw: raw.chain(sheets).collect(),
         })
     }
 

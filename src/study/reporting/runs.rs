@@ -1,5 +1,7 @@
 //! The runs of a report, with their pictures.
 
+use std::collections::BTreeMap;
+
 use image::imageops;
 
 use super::super::error::{Result, StudyError};
@@ -8,12 +10,14 @@ use super::super::types::{JobRow, MetricsRow, Status, Value};
 use super::super::workspace::Workspace;
 use super::quoted;
 use crate::measure::Chi;
-use crate::render::{self, Camera, Frame, View};
+use crate::render::{self, Camera, Cell, Frame, View};
 use crate::report::data::{FieldMap, Measured, Outcome, Picture, Run};
 use crate::units::mm;
 
 /// Pixels of a picture on the page.
 const PICTURE: (u32, u32) = (480, 540);
+/// Where sheets with all try-ons of a garment and size begin.
+pub(super) const SHEETS: &str = "pictures/try-on-";
 /// Room around the garments, as a share of the least frame: shoulders, neck and hips belong to a fit.
 const ROOM: f64 = 1.12;
 /// Runs whose pictures the page holds at full size within its 3 MB; of more runs they are smaller, the files beside not.
@@ -45,6 +49,7 @@ impl Workspace {
         let shown = dressed.iter().flatten().count().max(FULL_SIZE);
         let shrink = (FULL_SIZE as f64 / shown as f64).sqrt();
         let mut runs = Vec::new();
+        let mut cells: BTreeMap<(&str, &str), Vec<Cell>> = BTreeMap::new();
         for (job, worn) in jobs.iter().zip(&dressed) {
             let outcome = match job.status {
                 Status::Done => Outcome::Converged,
@@ -58,9 +63,15 @@ impl Workspace {
                 matrix.cells[size][subject].clone()
             });
             if let Some(worn) = worn {
-                add_pictures(&mut run, job, worn, (frame, shrink), files)?;
+                let shots = add_pictures(&mut run, job, worn, (frame, shrink), files)?;
+                cells.entry((&job.garment, &job.size)).or_default().extend(shots);
             }
             runs.push(run);
+        }
+        for ((garment, size), cells) in cells {
+            let title = format!("{study}: {garment}, size {size}");
+            let sheet = render::contact_sheet(&title, &cells, View::ALL.len()).and_then(|sheet| render::png(&sheet));
+            files.push((format!("{SHEETS}{garment}-{size}.png"), sheet.map_err(StudyError::stage("render"))?));
         }
         Ok(runs)
     }
@@ -119,14 +130,15 @@ impl Workspace {
     }
 }
 
-/// The four views and the maps of a run; as JPEG on the page, shrunk, as PNG beside it.
+/// The four views and the maps of a run; as JPEG on the page, shrunk, as PNG beside it. Returns the four views.
 fn add_pictures(
     run: &mut Run,
     job: &JobRow,
     worn: &Dressed,
     (frame, shrink): (Frame, f64),
     files: &mut Vec<(String, Vec<u8>)>,
-) -> Result<()> {
+) -> Result<Vec<Cell>> {
+    let mut cells = Vec::new();
     let what = format!("{} {} on {}, {}", job.garment, job.size, job.subject, job.simulator.as_str());
     let on_page = [PICTURE.0, PICTURE.1].map(|side| (f64::from(side) * shrink).round() as u32);
     for (map, views) in &SHOTS {
@@ -147,10 +159,14 @@ fn add_pictures(
                 scale.as_ref().map_or(view.as_str().to_owned(), |s| format!("{}, {}", s.label, view.as_str()));
             let picture = Picture { bytes, file, alt: format!("{what}, {caption}"), caption };
             match scale {
-                None => run.views.push(picture),
+                None => {
+                    let label = format!("{} {}, {}", job.subject, job.simulator.as_str(), picture.caption);
+                    cells.push(Cell { picture: full, label });
+                    run.views.push(picture);
+                }
                 Some(scale) => run.maps.push(FieldMap { picture, scale }),
             }
         }
     }
-    Ok(())
+    Ok(cells)
 }

@@ -184,7 +184,7 @@ fn pictures_are_asked_for_when_seen_and_only_then() {
     assert_eq!(shots(&mut bench), [Shot { view: View::Side, ..expect }]);
     bench.press("<Tab>hm");
     let turned = shots(&mut bench);
-    assert_eq!(turned.last(), Some(&Shot { map: Map::Stretch, ..expect }));
+    assert_eq!(turned.last(), Some(&Shot { map: Map::Check, ..expect }));
     bench.press("<Enter>");
     assert_eq!(shots(&mut bench)[0].columns, 78);
     bench.send(Message::Resize(100, 30));

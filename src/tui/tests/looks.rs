@@ -41,9 +41,9 @@ fn maps_say_what_their_colours_mean() {
             screen.lines().find(|line| line.contains(expect)).unwrap_or_else(|| panic!("{expect} in {screen}"));
         assert!(legend.contains("███") && legend.contains(unit), "{legend}");
     };
-    check("5m", "stretch −8 ", " 8 %");
-    check("5mm", "tension 0 ", " 100 N/m");
-    check("5mmm", "gap to the body 0 ", " 100 mm");
+    check("5mm", "stretch −8 ", " 8 %");
+    check("5mmm", "tension 0 ", " 100 N/m");
+    check("5mmmm", "gap to the body 0 ", " 100 mm");
 }
 
 #[test]
