@@ -178,7 +178,8 @@ CREATE TABLE metrics (
     residual REAL NOT NULL,
     converged INTEGER NOT NULL,
     penetration_max_mm REAL NOT NULL,
-    seam_gap_max_mm REAL NOT NULL
+    seam_gap_max_mm REAL NOT NULL,
+    self_crossings INTEGER NOT NULL
 ) STRICT;
 
 CREATE TABLE history (

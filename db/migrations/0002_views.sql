@@ -16,7 +16,7 @@ WHERE is_current;
 
 CREATE VIEW v_metrics AS
 SELECT study.name AS study, garment, size, subject, simulator, n, e_chi, sd_chi, ei, max_abs_error, vertices, faces,
-    iterations, residual, converged, penetration_max_mm, seam_gap_max_mm, wall_ms, repeat, job_id
+    iterations, residual, converged, penetration_max_mm, seam_gap_max_mm, wall_ms, repeat, self_crossings, job_id
 FROM metrics JOIN job USING (job_id) JOIN study USING (study_id)
 WHERE is_current;
 

@@ -67,6 +67,8 @@ pub struct Drape {
     pub penetration_max_m: f64,
     /// Greatest distance between the two vertices of a seam pair, m.
     pub seam_gap_max_m: f64,
+    /// Edges that pierce the garment's own cloth.
+    pub self_crossings: usize,
     /// Vertices once sewn (each welded group counts once).
     pub welded_vertices: usize,
     /// The run, step by step.

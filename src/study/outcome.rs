@@ -53,6 +53,8 @@ pub struct Outcome {
     pub penetration_max_m: f64,
     /// Greatest seam gap, m.
     pub seam_gap_max_m: f64,
+    /// Edges that pierce the garment's own cloth.
+    pub self_crossings: usize,
     /// The run, step by step.
     pub history: Vec<Step>,
     /// Ease at each fit level.
@@ -187,7 +189,7 @@ fn write_measured(transaction: &Transaction<'_>, id: JobId, outcome: &Outcome) -
         statement.execute(row)?;
     }
     let metrics = &outcome.metrics;
-    transaction.prepare_cached("INSERT INTO metrics VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")?.execute(
+    transaction.prepare_cached("INSERT INTO metrics VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")?.execute(
         params![
             id.0,
             metrics.n as i64,
@@ -201,7 +203,8 @@ fn write_measured(transaction: &Transaction<'_>, id: JobId, outcome: &Outcome) -
             outcome.residual,
             outcome.converged,
             mm(outcome.penetration_max_m),
-            mm(outcome.seam_gap_max_m)
+            mm(outcome.seam_gap_max_m),
+            outcome.self_crossings as i64
         ],
     )?;
     Ok(())

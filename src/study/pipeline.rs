@@ -199,6 +199,7 @@ impl Executor for Pipeline {
             residual: drape.residual,
             penetration_max_m: drape.penetration_max_m,
             seam_gap_max_m: drape.seam_gap_max_m,
+            self_crossings: drape.self_crossings,
             history: drape.history.clone(),
             eases: ease(garment, &model),
             used: vec![used_body, used_field, used_mesh, used_drape],

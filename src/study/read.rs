@@ -173,7 +173,7 @@ impl Workspace {
     /// When the database cannot be read.
     pub fn metrics(&self, id: JobId) -> Result<Option<MetricsRow>> {
         let sql = "SELECT n, e_chi, sd_chi, ei, max_abs_error, vertices, faces, iterations, residual, converged,
-                penetration_max_mm, seam_gap_max_mm
+                penetration_max_mm, seam_gap_max_mm, self_crossings
             FROM metrics WHERE job_id = ?";
         let row = |row: &Row<'_>| {
             Ok(MetricsRow {
@@ -189,6 +189,7 @@ impl Workspace {
                 converged: row.get(9)?,
                 penetration_max_m: from_mm(row.get(10)?),
                 seam_gap_max_m: from_mm(row.get(11)?),
+                self_crossings: row.get(12)?,
             })
         };
         Ok(self.reader.prepare_cached(sql)?.query_row([id.0], row).optional()?)

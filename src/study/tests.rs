@@ -127,6 +127,7 @@ fn outcome(spec: &JobSpec) -> Outcome {
         iterations: 1,
         residual: 0.01,
         penetration_max_m: 0.0,
+        self_crossings: 0,
         seam_gap_max_m: 0.0,
         history: vec![step],
         eases: vec![ease],

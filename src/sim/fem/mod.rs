@@ -54,7 +54,8 @@ pub fn simulate(
         residual: last.residual,
         penetration_max_m: quality::penetration_m(body, level, &last.positions),
         seam_gap_max_m: quality::seam_gap_m(level, &last.positions),
-        welded_vertices: last.vertices,
+        self_crossings: quality::self_crossings(&last.sewn, &last.triangles),
+        welded_vertices: last.sewn.len(),
         positions: last.positions,
         history: run.into_history(),
     })
@@ -82,7 +83,9 @@ fn sew(
 struct Settled {
     positions: Vec<V3>,
     residual: f64,
-    vertices: usize,
+    /// Positions and triangles of the sewn vertices.
+    sewn: Vec<V3>,
+    triangles: Vec<[usize; 3]>,
 }
 
 /// Welds the seams and lets the garment come to rest, without friction and then, on the finest level, with it.
@@ -105,5 +108,5 @@ fn settle(
         system.contact.set_friction(Some(fabric.friction_body));
         residual = run.drape(garment, &mut system, &mut x, Phase::final_drape(params, level))?;
     }
-    Ok(Settled { positions: cloth.unweld(&x), residual, vertices: cloth.len() })
+    Ok(Settled { positions: cloth.unweld(&x), residual, sewn: x, triangles: cloth.triangles })
 }
