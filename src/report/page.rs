@@ -1,7 +1,7 @@
 //! The page as its template sees it: every number already a text, every picture already an address.
 
 use super::ReportError;
-use super::chart::Chart;
+use super::chart::{Chart, ease_chart, time_chart};
 use super::data::{Basis, Finding, Outcome, Picture, ReportData, Run, Severity, Verdict};
 use super::runs::{Group, groups};
 use super::text::{count, distinct, duration, fit_glyph, fit_words, mean_sd, mm, number, signed_mm, simulator_name};
@@ -26,6 +26,8 @@ pub(super) struct Page<'a> {
     loose_above: String,
     ease: Vec<Matrix<'a>>,
     groups: Vec<Group>,
+    ease_chart: Option<Chart>,
+    time_chart: Option<Chart>,
 }
 
 /// A number worth seeing first.
@@ -154,7 +156,7 @@ fn address(kind: &str, bytes: &[u8]) -> String {
 impl<'a> Page<'a> {
     /// All charts, in the order of the page.
     pub fn charts(&self) -> impl Iterator<Item = &Chart> {
-        self.groups.iter().flat_map(Group::charts)
+        self.groups.iter().flat_map(Group::charts).chain(&self.ease_chart).chain(&self.time_chart)
     }
 
     pub fn new(data: &'a ReportData) -> Result<Self, ReportError> {
@@ -181,6 +183,8 @@ impl<'a> Page<'a> {
             loose_above: number(data.cuts.loose_above_m * 1e3, 0),
             ease: matrices(data),
             groups: groups(&data.runs)?,
+            ease_chart: ease_chart(&data.runs, &data.cuts)?,
+            time_chart: time_chart(&data.runs)?,
         })
     }
 }

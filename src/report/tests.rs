@@ -139,6 +139,19 @@ fn the_page_needs_nothing_else() {
 }
 
 #[test]
+fn charts_are_files_beside_the_page_and_its_links_lead_to_them() {
+    let files = super::files(&sample()).unwrap();
+    let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
+    let page = String::from_utf8(files[0].1.clone()).unwrap();
+    let links: Vec<&str> = page.split("href=\"charts/").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+    assert!(names[0] == "index.html" && links.len() > 6, "{names:?} {links:?}");
+    assert_eq!(links.len(), names.len() - 1);
+    for link in links {
+        assert!(names.contains(&format!("charts/{link}").as_str()), "{link} is not among {names:?}");
+    }
+}
+
+#[test]
 fn names_from_outside_are_text_not_markup() {
     let mut data = sample();
     let evil = "<b onload=\"x\">&'";
@@ -221,6 +234,11 @@ fn charts_place_marks_where_values_are() {
     assert!((ratio - 0.051 / 0.021).abs() < 0.1, "{ratio}");
     let residual = chart::residual_chart("Tee", &runs, &labels).unwrap();
     assert!(residual.svg().contains("<polyline") && !residual.png().unwrap().is_empty());
+    let all: Vec<Run> = runs.iter().map(|run| (*run).clone()).collect();
+    let ease = chart::ease_chart(&all, &Cuts::default()).unwrap().unwrap();
+    assert!(ease.svg().contains("S i") && ease.svg().contains("just | loose"), "{}", ease.svg());
+    assert_eq!(ease.address("svg"), "charts/ei-against-ease.svg");
+    assert!(chart::time_chart(&[]).unwrap().is_none());
     let mean = chart::mean_sd_chart("Tee", &runs).unwrap();
     assert!(mean.alt().contains("2 measurements over 2 runs"), "{}", mean.alt());
 }

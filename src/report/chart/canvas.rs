@@ -119,6 +119,11 @@ impl Canvas<'_> {
         self.area.draw(&PathElement::new(outline, ink.stroke_width(4))).map_err(refused)
     }
 
+    /// A filled dot.
+    pub fn dot(&self, at: (i32, i32), fill: Rgb) -> Result<(), ReportError> {
+        self.area.draw(&Circle::new(at, 12, colour(fill).filled())).map_err(refused)
+    }
+
     /// A key above a chart: marks and names in lines; returns the height it took.
     pub fn key(&self, names: &[String], left: i32, top: i32) -> Result<i32, ReportError> {
         let (mut x, mut y) = (left, top + TYPE);

@@ -4,10 +4,12 @@ mod canvas;
 mod chi;
 mod ei;
 mod residual;
+mod scatter;
 
 pub use chi::{chi_chart, mean_sd_chart};
 pub use ei::ei_chart;
 pub use residual::residual_chart;
+pub use scatter::{ease_chart, time_chart};
 
 use super::{ReportError, theme};
 use crate::render::{png, rasterise_svg};
