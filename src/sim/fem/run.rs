@@ -87,10 +87,10 @@ impl<'a> Run<'a> {
             if now <= self.params.weld_gap_m {
                 break;
             }
-            if now > least * self.params.sewing_progress {
-                if let Some(springs) = &mut system.springs {
-                    springs.cap_n *= self.params.seam_cap_growth;
-                }
+            if let Some(springs) = &mut system.springs
+                && now > least * self.params.sewing_progress
+            {
+                springs.cap_n *= self.params.seam_cap_growth;
             }
             least = least.min(now);
         }
