@@ -13,7 +13,6 @@ use crate::body::Body;
 use crate::fit::{self, Cuts, Ease};
 use crate::geom::DistanceField;
 use crate::measure;
-use crate::pattern::mesh::EDGE_LENGTH_RANGE_M;
 use crate::pattern::{Garment, Style};
 use crate::sim::{self, Drape, Monitor, SimError, Simulator};
 use crate::units::from_mm;
@@ -22,17 +21,17 @@ use crate::units::from_mm;
 pub const SIMULATORS: [Simulator; 1] = [Simulator::Fem];
 
 /// Versions of the stages, raised whenever one may give other numbers for the same inputs.
-const VERSIONS: [(&str, u32); 3] = [("body.version", 2), ("field.version", 1), ("mesh.version", 1)];
+const VERSIONS: [(&str, u32); 3] = [("body.version", 2), ("field.version", 1), ("mesh.version", 2)];
 /// Version of the simulators, likewise; their default parameters count as inputs by themselves.
-const SIM_VERSION: u32 = 2;
+const SIM_VERSION: u32 = 3;
 
 /// Spacing of the distance field's nodes, m: the 99th percentile of its error is then about 0.1 mm.
 const FIELD_SPACING_M: f64 = 0.005;
+
 /// The inputs every job has besides the study's own: versions and parameters of the stages.
 pub(crate) fn versions(simulator: Simulator) -> Vec<(&'static str, String)> {
     let mut versions: Vec<_> = VERSIONS.iter().map(|(name, version)| (*name, version.to_string())).collect();
     versions.push(("field.spacing_mm", (FIELD_SPACING_M * 1e3).to_string()));
-    versions.push(("mesh.levels", format!("{:?}", sim::fem::LEVELS)));
     versions.push(("sim.version", SIM_VERSION.to_string()));
     if simulator == Simulator::Fem {
         let parameters = format!("{:?}", sim::fem::Params::default());
@@ -157,9 +156,8 @@ pub(super) fn style(spec: &JobSpec) -> Result<Style> {
 /// Meshes of a job's garment, coarse to fine.
 fn mesh(spec: &JobSpec) -> Result<Meshes> {
     let style = style(spec)?;
-    let edges = sim::fem::LEVELS.map(|level| spec.edge_length_m * level).into_iter();
-    let within = edges.filter(|edge| *edge == spec.edge_length_m || EDGE_LENGTH_RANGE_M.contains(edge));
-    let meshes = within.map(|edge| style.mesh(edge).map_err(StudyError::stage("mesh")));
+    let edges = sim::fem::level_edges(spec.edge_length_m).into_iter();
+    let meshes = edges.map(|edge| style.mesh(edge).map_err(StudyError::stage("mesh")));
     Ok(Meshes(meshes.collect::<Result<_>>()?))
 }
 
@@ -231,7 +229,7 @@ mod tests {
     #[test]
     fn meshes_are_coarse_to_fine_and_survive_storage_exactly() {
         let meshes = mesh(&quickstart()[0]).expect("it meshes");
-        assert_eq!(meshes.0.len(), sim::fem::LEVELS.len());
+        assert_eq!(meshes.0.len(), 3);
         let lengths = |garment: &Garment| garment.measurements.iter().map(|m| m.l2d_m).collect::<Vec<_>>();
         for pair in meshes.0.windows(2) {
             assert!(pair[0].rest.len() < pair[1].rest.len());

@@ -4,7 +4,7 @@ pub mod params;
 pub mod preposition;
 mod run;
 
-pub use params::{LEVELS, Params};
+pub use params::{Params, level_edges};
 
 use crate::body::Body;
 use crate::geom::{DistanceField, V3};

@@ -3,8 +3,17 @@
 use crate::sim::contact::{ClothContactParams, ContactParams};
 use crate::sim::solver::StepParams;
 
-/// Edge lengths of the meshes that FEM-GS goes through, coarse to fine, as multiples of the finest.
-pub const LEVELS: [f64; 3] = [4.0, 2.0, 1.0];
+/// Coarsest mesh that still wraps an arm: triangles of longer edges pass through it, m.
+const COARSEST_EDGE_M: f64 = 0.065;
+/// Most meshes that are worth going through.
+const MOST_LEVELS: u32 = 3;
+
+/// Edge lengths (m) of the meshes that FEM-GS goes through, coarse to fine: each half the one before, the last `finest_m`.
+#[must_use]
+pub fn level_edges(finest_m: f64) -> Vec<f64> {
+    let coarser = (1..MOST_LEVELS).rev().map(|level| finest_m * f64::from(1 << level));
+    coarser.filter(|edge| *edge <= COARSEST_EDGE_M).chain([finest_m]).collect()
+}
 
 /// How FEM-GS places, sews and drapes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,5 +78,19 @@ impl Default for Params {
             self_contact: ClothContactParams::default(),
             step: StepParams::default(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levels_halve_and_stay_fine_enough() {
+        let check = |finest: f64, expect: &[f64]| assert_eq!(level_edges(finest), expect);
+        check(0.015, &[0.06, 0.03, 0.015]);
+        check(0.025, &[0.05, 0.025]);
+        check(0.04, &[0.04]);
+        check(0.1, &[0.1]);
     }
 }
