@@ -1,9 +1,9 @@
 //! `toile pattern`: what needs only a pattern.
 
-use super::args::{Pattern, PatternUnit, StyleFiles};
+use super::args::{DraftStyle, Pattern, PatternUnit, StyleFiles};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
-use crate::study::tools::{self, FileReport, Unit};
+use crate::study::tools::{self, FileReport, Model, Unit};
 use crate::study::{Table, Value};
 use crate::units::{from_mm, mm};
 
@@ -18,8 +18,8 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
             inspect(context, &reports)
         }
         Pattern::Check(files) => check(context, files),
-        Pattern::Draft { output } => {
-            for path in tools::write_files(output, &tools::drafted_tshirt())? {
+        Pattern::Draft { style, output } => {
+            for path in tools::write_files(output, &tools::drafted(model(*style)))? {
                 output::text(&format!("{}\n", path.display()))?;
             }
             Ok(End::Done)
@@ -33,6 +33,15 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
             context.say(format_args!("wrote {}", output.display()));
             Ok(End::Done)
         }
+    }
+}
+
+fn model(style: DraftStyle) -> Model {
+    match style {
+        DraftStyle::Tshirt => Model::Tshirt,
+        DraftStyle::Trousers => Model::Trousers,
+        DraftStyle::Teetop => Model::Teetop,
+        DraftStyle::Dress => Model::Dress,
     }
 }
 

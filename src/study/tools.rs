@@ -6,10 +6,11 @@ use super::error::{Result, StudyError};
 use super::file::SourceFile;
 use crate::body::{self, Body};
 use crate::pattern::dxf;
-use crate::pattern::{Garment, draft, sheet};
+use crate::pattern::{Garment, sheet};
 use crate::render::{self, Camera, Frame, Layer, Material, Scene};
 
 pub use crate::body::{Girths, LengthUnit, Measurements, Sex, write_obj};
+pub use crate::pattern::draft::Model;
 pub use crate::pattern::dxf::Unit;
 pub use crate::pattern::inspect::{FileReport, PieceReport};
 pub use crate::pattern::{MeshQuality, Style};
@@ -120,10 +121,10 @@ pub fn sheet(style: &Style) -> String {
     sheet::svg(style)
 }
 
-/// The files of the drafted men's T-shirt: a DXF a size and the seam file.
+/// The files of a drafted style: a DXF a size and the seam file.
 #[must_use]
-pub fn drafted_tshirt() -> Vec<(String, Vec<u8>)> {
-    draft::tshirt_files()
+pub fn drafted(model: Model) -> Vec<(String, Vec<u8>)> {
+    model.files()
 }
 
 /// Measurements from a TOML file with the keys of a study's `[[subject]]`.
