@@ -202,11 +202,11 @@ pub enum DraftStyle {
 /// A pattern with its seam file.
 #[derive(Debug, Args)]
 pub struct StyleFiles {
-    /// DXF file.
+    /// DXF file, or GarmentCode JSON with its seams.
     pub file: PathBuf,
-    /// Seam file.
+    /// Seam file; a DXF file needs one.
     #[arg(long, value_name = "FILE")]
-    pub seams: PathBuf,
+    pub seams: Option<PathBuf>,
     /// Size, where the file holds several.
     #[arg(long, value_name = "NAME")]
     pub size: Option<String>,
@@ -218,7 +218,7 @@ pub struct StyleFiles {
 /// Commands on patterns.
 #[derive(Debug, Subcommand)]
 pub enum Pattern {
-    /// What is in a DXF file, or in every DXF file of a folder.
+    /// What is in a pattern file (DXF, GarmentCode JSON), or in every one of a folder.
     Inspect {
         /// File or folder.
         path: PathBuf,

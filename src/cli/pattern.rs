@@ -54,7 +54,11 @@ fn of(unit: PatternUnit) -> Unit {
 }
 
 fn style(files: &StyleFiles) -> Result<tools::Style, CliError> {
-    Ok(tools::style(&files.file, &files.seams, files.size.as_deref(), files.unit.map(of))?)
+    match &files.seams {
+        Some(seams) => Ok(tools::style(&files.file, seams, files.size.as_deref(), files.unit.map(of))?),
+        None if tools::is_garmentcode(&files.file) => Ok(tools::garmentcode_style(&files.file)?),
+        None => Err(CliError::Usage(format!("{}: a DXF file needs its seam file: --seams FILE", files.file.display()))),
+    }
 }
 
 /// Prints reports; a file that cannot be read, or a refused piece, makes the whole unusable.

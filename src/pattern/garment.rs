@@ -38,6 +38,8 @@ pub enum Role {
     SkirtBack,
     /// Band round the waist.
     Waistband,
+    /// None of these, or not known.
+    Other,
 }
 
 /// One triangulated piece: ranges into the garment's arrays.

@@ -11,10 +11,10 @@
 //! - The neck is round and the back neck 45 mm deep: with less the armhole could not be 438 mm long.
 
 use super::Draft;
-use super::curve::{arc, bisect};
 use super::marks::{mirrored, mirrored_notch, net, notch, notches_along};
 use super::trunk::{FrontNeck, Trunk, TrunkPlan};
 use crate::geom::V2;
+use crate::pattern::curve::{arc, bisect};
 use crate::pattern::piece::{Notch, Piece};
 use crate::units::from_mm;
 

@@ -3,7 +3,6 @@
 //! The pieces are **net**: layer 1 is the sew line, without allowances. What the published numbers leave open is decided,
 //! and the decision explained, in the module of each style.
 
-mod curve;
 mod dress;
 mod marks;
 mod teetop;

@@ -1,9 +1,9 @@
 use std::collections::BTreeMap;
 
-use super::curve::CURVE_SEGMENTS;
 use super::trunk::SHOULDER_SLOPE_DEG;
 use super::*;
 use crate::geom::polyline::self_crossing;
+use crate::pattern::curve::CURVE_SEGMENTS;
 use crate::pattern::{MeshQuality, Style};
 use crate::units::{from_mm, mm};
 
@@ -107,7 +107,7 @@ fn the_pieces_are_whole_and_mesh_well() {
             assert!(piece.edges.iter().all(|edge| edge.name.is_some()), "{model:?} {}: an unnamed edge", piece.id);
             assert!(piece.notches.len() >= 3);
         }
-        let garment = style.mesh(from_mm(20.0)).unwrap_or_else(|error| panic!("{model:?}: {error}"));
+        let garment = style.mesh(from_mm(30.0)).unwrap_or_else(|error| panic!("{model:?}: {error}"));
         let quality = MeshQuality::of(&garment).expect("it has triangles");
         assert!(quality.min_angle_deg > 15.0, "{model:?} {}: {quality:?}", style.size);
     }

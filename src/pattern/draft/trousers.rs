@@ -13,9 +13,9 @@
 //! seen from outside; the right back is the mirror image of such a drawing.
 
 use super::Draft;
-use super::curve::{bezier, bisect, length};
 use super::marks::{DOUBLE_NOTCH_M, mirrored, mirrored_notch, net, notches_along};
 use crate::geom::V2;
+use crate::pattern::curve::{bezier, bisect, length};
 use crate::pattern::piece::Piece;
 use crate::units::from_mm;
 

@@ -1,8 +1,8 @@
 //! The upper body that T-shirt, tee-top and dress share: neck, shoulder, armhole and side, and the sleeve that fits it.
 
-use super::curve::{bezier, bisect, length};
 use super::marks::{DOUBLE_NOTCH_M, mirrored, mirrored_notch, net, notch, notches_along};
 use crate::geom::V2;
+use crate::pattern::curve::{bezier, bisect, length};
 use crate::pattern::piece::{Notch, Piece};
 
 /// Slope of the shoulder line below the horizontal, degrees.

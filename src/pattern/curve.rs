@@ -1,4 +1,4 @@
-//! Curves and the solver of the drafts.
+//! Curves of drafts and of imported panels, and the solver of the drafts.
 
 use crate::geom::V2;
 
