@@ -59,7 +59,7 @@ fn published_table() -> Option<BTreeMap<(String, String, usize), f64>> {
 #[test]
 fn the_lengths_drafted_to_are_those_of_the_tables() {
     let Some(mut table) = published_table() else {
-        println!("skipped: no thesis tables beside the checkout");
+        eprintln!("skipped: no thesis tables beside the checkout");
         return;
     };
     let garments = [
@@ -146,5 +146,32 @@ fn curves_meet_their_neighbours_as_a_pattern_maker_draws_them() {
         assert!(along(&body.back_neck, 0).y.abs() < 0.05, "back neck square to the centre");
         let width = mm(body.front_neck[CURVE_SEGMENTS].x);
         assert!((width - 80.0).abs() < 0.5, "{size:?}: half neck width {width}");
+    }
+}
+
+#[test]
+fn the_legs_join_without_a_peak_at_fork_and_knee() {
+    for (model, style, _) in styles().into_iter().filter(|(model, ..)| *model == Model::Trousers) {
+        for piece in &style.pieces {
+            let edge = |name: &str| {
+                let found = piece.edges.iter().find(|edge| edge.name.as_deref() == Some(name));
+                &found.unwrap_or_else(|| panic!("{}: no {name}", piece.id)).line
+            };
+            let (inseam, crotch) = (edge("inseam"), edge("crotch_lower"));
+            // Directions of both edges away from the fork, which they share.
+            let fork = if inseam.at(0.0) == crotch.at(crotch.length()) {
+                [0.0, crotch.length()]
+            } else {
+                [inseam.length(), 0.0]
+            };
+            let away = |line: &crate::geom::polyline::Polyline, arc: f64| {
+                let near = if arc > 0.0 { arc - 1e-4 } else { 1e-4 };
+                (line.at(near) - line.at(arc)).normalize()
+            };
+            let angle = away(inseam, fork[0]).angle(&away(crotch, fork[1])).to_degrees();
+            assert!((angle - 90.0).abs() < 2.0, "{model:?} {} {}: {angle} degrees at the fork", style.size, piece.id);
+            let turns = inseam.points().windows(3).map(|p| (p[1] - p[0]).angle(&(p[2] - p[1])).to_degrees());
+            assert!(turns.fold(0.0, f64::max) < 3.0, "{}: the inseam has a corner", piece.id);
+        }
     }
 }

@@ -87,7 +87,7 @@ struct Proportions {
 }
 
 const FRONT: Proportions = Proportions { fork_share: 0.047, set_out: 0.5, slant_deg: 3.0, hollow: 0.006 };
-const BACK: Proportions = Proportions { fork_share: 0.118, set_out: 0.40, slant_deg: 5.0, hollow: 0.014 };
+const BACK: Proportions = Proportions { fork_share: 0.115, set_out: 0.46, slant_deg: 5.0, hollow: 0.004 };
 
 /// What a leg piece is drawn from; widths and lengths in m.
 #[derive(Clone, Copy, Debug)]
@@ -170,7 +170,10 @@ impl Leg {
         let upwards = V2::new(-slant.sin(), slant.cos());
         let seat = V2::new(plan.hip - plan.side(), hip_line);
         let rise = seat.y - fork.y;
-        let crotch_lower = bezier([fork, fork - V2::x() * (0.62 * plan.fork), seat - upwards * (0.62 * rise), seat]);
+        // Square to the inseam, so that front and back forks join without a peak.
+        let along_inseam = (fork - inseam[inseam.len() - 2]).normalize();
+        let square = V2::new(-along_inseam.y, along_inseam.x);
+        let crotch_lower = bezier([fork, fork + square * (0.45 * plan.fork), seat - upwards * (0.66 * rise), seat]);
         let centre = seat + upwards * (plan.crotch - length(&crotch_lower));
         let upper = plan.outseam - length(&outseam_lower);
         let outseam = |inset: f64| {

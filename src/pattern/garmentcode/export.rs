@@ -48,7 +48,7 @@ pub fn document(style: &Style) -> Document {
     let free: Vec<EdgeRef> = all_edges(style).filter(|&edge| !is_sewn(edge)).collect();
     for edge in free {
         let whole = Part { edge, arcs: [0.0, style.edge(edge).line.length()] };
-        parts.extend(fitted(style, &[whole]).into_iter().flatten());
+        parts.extend(fitted(style, &[whole], false).into_iter().flatten());
     }
     parts.sort_by(|a, b| a.edge.cmp(&b.edge).then(a.arcs[0].total_cmp(&b.arcs[0])));
     let mut left = 0.0;
@@ -104,7 +104,10 @@ fn seam_parts(style: &Style, seam: &Seam) -> Vec<[Part; 2]> {
         *last = 1.0;
     }
     let pairs = distinct.windows(2).map(|ends| [a.part(ends[0], ends[1]), b.part(ends[0], ends[1])]);
-    pairs.flat_map(|pair| fitted(style, &pair)).filter_map(|pair| <[Part; 2]>::try_from(pair).ok()).collect()
+    pairs
+        .flat_map(|pair| fitted(style, &pair, !seam.b_forwards))
+        .filter_map(|pair| <[Part; 2]>::try_from(pair).ok())
+        .collect()
 }
 
 /// One side of a seam: edges end to end in walking order.
@@ -150,8 +153,9 @@ impl<'a> Side<'a> {
     }
 }
 
-/// Parts that run beside each other, halved together until each is straight, short or a cubic.
-fn fitted(style: &Style, together: &[Part]) -> Vec<Vec<Part>> {
+/// Parts that are sewn together, halved until each is straight, short or a cubic; `is_opposed` where the second runs
+/// against the first.
+fn fitted(style: &Style, together: &[Part], is_opposed: bool) -> Vec<Vec<Part>> {
     let is_fine = |part: &Part| {
         let points = samples(style, *part);
         part.arcs[1] - part.arcs[0] < 2.0 * SHORTEST_M || cubic(&points).1 < TOLERANCE_M
@@ -159,17 +163,20 @@ fn fitted(style: &Style, together: &[Part]) -> Vec<Vec<Part>> {
     if together.iter().all(is_fine) {
         return vec![together.to_vec()];
     }
-    // Which half comes first does not matter: parts are sorted along their edges later. Sides that run against each
-    // other have their first half beside the other's second.
+    // Which half comes first does not matter: parts are sorted along their edges later.
     let half = |k: usize| -> Vec<Part> {
         let of = |(side, part): (usize, &Part)| {
             let middle = 0.5 * (part.arcs[0] + part.arcs[1]);
-            let arcs = if (k + side) % 2 == 0 { [part.arcs[0], middle] } else { [middle, part.arcs[1]] };
+            let arcs = if (k + side * usize::from(is_opposed)).is_multiple_of(2) {
+                [part.arcs[0], middle]
+            } else {
+                [middle, part.arcs[1]]
+            };
             Part { arcs, ..*part }
         };
         together.iter().enumerate().map(of).collect()
     };
-    [half(0), half(1)].iter().flat_map(|half| fitted(style, half)).collect()
+    [half(0), half(1)].iter().flat_map(|half| fitted(style, half, is_opposed)).collect()
 }
 
 /// Points evenly spaced along a part.

@@ -202,7 +202,8 @@ impl Reader<'_> {
                 circle(start, end, radius_m, if *is_left > 0 { turn } else { -turn })
             }
         };
-        if start == end || points.iter().any(|point| !(point.norm() <= 2.0 * GREATEST_M)) {
+        let is_near = |point: &V2| point.norm() <= 10.0 * GREATEST_M;
+        if start == end || !points.iter().all(is_near) {
             return Err(self.error(
                 place,
                 "no length, or an end out of reach".to_owned(),

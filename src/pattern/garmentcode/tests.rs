@@ -12,7 +12,7 @@ fn specifications() -> BTreeMap<String, Specification> {
     let mut all = BTreeMap::new();
     for folder in [FOLDER.to_owned(), format!("{FOLDER}/upstream")] {
         let Ok(entries) = std::fs::read_dir(&folder) else {
-            println!("skipped: no {folder}");
+            eprintln!("skipped: no {folder}");
             continue;
         };
         for entry in entries {
@@ -121,6 +121,25 @@ fn read_specifications_come_back_stitch_by_stitch() {
         for (piece, found) in specification.pieces.iter().zip(&back.pieces) {
             assert_eq!(piece.block, found.block);
             assert!((found.area_m2() / piece.area_m2() - 1.0).abs() < 1e-3, "{garment} {}", piece.block);
+        }
+    }
+}
+
+#[test]
+fn divided_seams_keep_their_direction() {
+    let bow = r#","curvature":{"type":"circle","params":[5.1,0,1]}"#;
+    for (flag, is_same) in [("", false), (r#","right_wrong""#, true)] {
+        let stitch = format!(r#"[{{"panel":"p","edge":0}},{{"panel":"p","edge":2}}{flag}]"#);
+        let text =
+            square(bow, &stitch, "100").replace(r#"{"endpoints":[2,3]}"#, &format!(r#"{{"endpoints":[2,3]{bow}}}"#));
+        let back = there_and_back(&read(text.as_bytes(), "bows").expect("it reads").style());
+        let parts = back.stitches.len();
+        assert!(parts >= 2 && back.edges[0].len() == 2 * parts + 2, "{parts} parts");
+        for stitch in &back.stitches {
+            let [a, b] = stitch.sides.map(|side| side.edge);
+            // Parts of the first bow, the straight side, parts of the second bow.
+            let partner = if is_same { a } else { parts - 1 - a };
+            assert_eq!((b, stitch.same_direction), (parts + 1 + partner, is_same));
         }
     }
 }

@@ -124,3 +124,33 @@ fn arm_radius(body: &Body, shoulder: &V3, axis: &V3) -> f64 {
         })
         .fold(0.0, f64::max)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{self, Measurements, Sex};
+    use crate::pattern::Style;
+    use crate::pattern::draft::Model;
+
+    #[test]
+    fn a_piece_that_cannot_be_placed_is_named() {
+        let measurements = Measurements {
+            sex: Sex::Male,
+            stature_m: 1.75,
+            weight_kg: None,
+            chest_girth_m: None,
+            waist_girth_m: None,
+            hip_girth_m: None,
+            neck_girth_m: None,
+            across_shoulder_m: None,
+        };
+        let body = body::build(&measurements).expect("a body");
+        let placed = |model: Model| {
+            let style = Style::read(&model.drafts()[0].pieces, model.seams(), "seams").expect("a style");
+            place(&body, &style.mesh(0.04).expect("a mesh"), &Params::default())
+        };
+        assert!(placed(Model::Teetop).is_ok());
+        let error = placed(Model::Trousers).expect_err("legs are not placed").to_string();
+        assert!(error.contains("leg_back_left") && error.contains("cannot place role"), "{error}");
+    }
+}
