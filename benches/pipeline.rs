@@ -44,7 +44,7 @@ static FIELD: LazyLock<DistanceField> =
     LazyLock::new(|| DistanceField::build(&BODY.mesh, SPACING_M).expect("a closed mesh"));
 /// Bytes of the drafted T-shirt in size M, and of its seam file.
 static FILES: LazyLock<[Vec<u8>; 2]> = LazyLock::new(|| {
-    let files = draft::tshirt_files();
+    let files = draft::Model::Tshirt.files();
     ["tshirt-m.dxf", "tshirt.seams.toml"].map(|wanted| {
         let file = files.iter().find(|(name, _)| name == wanted);
         file.unwrap_or_else(|| panic!("no {wanted} is drafted")).1.clone()

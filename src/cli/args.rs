@@ -186,14 +186,27 @@ pub enum PatternUnit {
     In,
 }
 
+/// Style that can be drafted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum DraftStyle {
+    /// Men's V-neck T-shirt, sizes S, M and L.
+    Tshirt,
+    /// Men's trousers, sizes S, M and L.
+    Trousers,
+    /// Women's tee-top, sizes M and L.
+    Teetop,
+    /// Women's dress, one size.
+    Dress,
+}
+
 /// A pattern with its seam file.
 #[derive(Debug, Args)]
 pub struct StyleFiles {
-    /// DXF file.
+    /// DXF file, or GarmentCode JSON with its seams.
     pub file: PathBuf,
-    /// Seam file.
+    /// Seam file; a DXF file needs one.
     #[arg(long, value_name = "FILE")]
-    pub seams: PathBuf,
+    pub seams: Option<PathBuf>,
     /// Size, where the file holds several.
     #[arg(long, value_name = "NAME")]
     pub size: Option<String>,
@@ -205,7 +218,7 @@ pub struct StyleFiles {
 /// Commands on patterns.
 #[derive(Debug, Subcommand)]
 pub enum Pattern {
-    /// What is in a DXF file, or in every DXF file of a folder.
+    /// What is in a pattern file (DXF, GarmentCode JSON), or in every one of a folder.
     Inspect {
         /// File or folder.
         path: PathBuf,
@@ -218,8 +231,11 @@ pub enum Pattern {
     },
     /// Whether a pattern and its seam file fit together: seams, measurements, meshes.
     Check(StyleFiles),
-    /// Draft the built-in men's T-shirt in sizes S, M and L, with its seam file.
+    /// Draft a built-in style in all its sizes, with its seam file.
     Draft {
+        /// Style.
+        #[arg(value_enum, default_value = "tshirt")]
+        style: DraftStyle,
         /// Folder to write to.
         #[arg(long, short, value_name = "DIR")]
         output: PathBuf,

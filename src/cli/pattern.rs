@@ -1,9 +1,9 @@
 //! `toile pattern`: what needs only a pattern.
 
-use super::args::{Pattern, PatternUnit, StyleFiles};
+use super::args::{DraftStyle, Pattern, PatternUnit, StyleFiles};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
-use crate::study::tools::{self, FileReport, Unit};
+use crate::study::tools::{self, FileReport, Model, Unit};
 use crate::study::{Table, Value};
 use crate::units::{from_mm, mm};
 
@@ -18,8 +18,8 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
             inspect(context, &reports)
         }
         Pattern::Check(files) => check(context, files),
-        Pattern::Draft { output } => {
-            for path in tools::write_files(output, &tools::drafted_tshirt())? {
+        Pattern::Draft { style, output } => {
+            for path in tools::write_files(output, &tools::drafted(model(*style)))? {
                 output::text(&format!("{}\n", path.display()))?;
             }
             Ok(End::Done)
@@ -36,6 +36,15 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
     }
 }
 
+fn model(style: DraftStyle) -> Model {
+    match style {
+        DraftStyle::Tshirt => Model::Tshirt,
+        DraftStyle::Trousers => Model::Trousers,
+        DraftStyle::Teetop => Model::Teetop,
+        DraftStyle::Dress => Model::Dress,
+    }
+}
+
 fn of(unit: PatternUnit) -> Unit {
     match unit {
         PatternUnit::Mm => Unit::Mm,
@@ -45,7 +54,11 @@ fn of(unit: PatternUnit) -> Unit {
 }
 
 fn style(files: &StyleFiles) -> Result<tools::Style, CliError> {
-    Ok(tools::style(&files.file, &files.seams, files.size.as_deref(), files.unit.map(of))?)
+    match &files.seams {
+        Some(seams) => Ok(tools::style(&files.file, seams, files.size.as_deref(), files.unit.map(of))?),
+        None if tools::is_garmentcode(&files.file) => Ok(tools::garmentcode_style(&files.file)?),
+        None => Err(CliError::Usage(format!("{}: a DXF file needs its seam file: --seams FILE", files.file.display()))),
+    }
 }
 
 /// Prints reports; a file that cannot be read, or a refused piece, makes the whole unusable.

@@ -20,6 +20,26 @@ pub enum Role {
     SleeveRight,
     /// Sleeve of the subject's left arm.
     SleeveLeft,
+    /// Front of the right leg.
+    LegFrontRight,
+    /// Front of the left leg.
+    LegFrontLeft,
+    /// Back of the right leg.
+    LegBackRight,
+    /// Back of the left leg.
+    LegBackLeft,
+    /// Front of a bodice that ends in a seam.
+    BodiceFront,
+    /// Back of a bodice that ends in a seam.
+    BodiceBack,
+    /// Front of a skirt.
+    SkirtFront,
+    /// Back of a skirt.
+    SkirtBack,
+    /// Band round the waist.
+    Waistband,
+    /// None of these, or not known.
+    Other,
 }
 
 /// One triangulated piece: ranges into the garment's arrays.

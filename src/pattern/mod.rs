@@ -1,8 +1,10 @@
 //! The pattern (PDM, thesis 3.3): from DXF and a seam file to a sewable garment mesh and its pattern lengths.
 
+mod curve;
 pub mod draft;
 pub mod dxf;
 pub mod garment;
+pub mod garmentcode;
 pub mod inspect;
 pub mod mesh;
 pub mod piece;

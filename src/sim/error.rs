@@ -1,6 +1,7 @@
 //! What can go wrong before there is a drape. Not converging is not among it: that is a result.
 
 use crate::geom::V2;
+use crate::pattern::Role;
 
 /// Why a simulation gave no drape.
 #[derive(Debug, thiserror::Error)]
@@ -19,6 +20,16 @@ pub enum SimError {
     /// No mesh was given.
     #[error("no garment mesh to simulate")]
     NoMesh,
+    /// A piece that the simulator does not know how to place.
+    #[error("piece {piece:?}: this simulator cannot place role {role:?} yet; it places: {accepted}")]
+    CannotPlace {
+        /// Piece.
+        piece: String,
+        /// How it is worn.
+        role: Role,
+        /// Roles that can be placed.
+        accepted: &'static str,
+    },
     /// Positions stopped being numbers.
     #[error("the simulation of {garment:?} diverged at iteration {iteration}")]
     Diverged {

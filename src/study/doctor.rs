@@ -69,7 +69,7 @@ fn body_check() -> Result<String> {
 /// Drafts, writes, reads, sews and meshes a T-shirt.
 fn pattern_check() -> Result<String> {
     let folder = std::env::temp_dir().join(format!("toile-doctor-{}", std::process::id()));
-    let found = tools::write_files(&folder, &tools::drafted_tshirt()).and_then(|_| {
+    let found = tools::write_files(&folder, &tools::drafted(tools::Model::Tshirt)).and_then(|_| {
         let style = tools::style(&folder.join("tshirt-m.dxf"), &folder.join("tshirt.seams.toml"), None, None)?;
         let (garment, quality) = tools::mesh(&style, 0.02)?;
         let edge = mm(quality.mean_edge_m);

@@ -6,10 +6,11 @@ use super::error::{Result, StudyError};
 use super::file::SourceFile;
 use crate::body::{self, Body};
 use crate::pattern::dxf;
-use crate::pattern::{Garment, draft, sheet};
+use crate::pattern::{Garment, garmentcode, sheet};
 use crate::render::{self, Camera, Frame, Layer, Material, Scene};
 
 pub use crate::body::{Girths, LengthUnit, Measurements, Sex, write_obj};
+pub use crate::pattern::draft::Model;
 pub use crate::pattern::dxf::Unit;
 pub use crate::pattern::inspect::{FileReport, PieceReport};
 pub use crate::pattern::{MeshQuality, Style};
@@ -31,8 +32,8 @@ pub fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<Vec<Pat
     Ok(paths)
 }
 
-/// What is in a DXF file, or in every DXF file below a folder, by name. A file that cannot be read has its error in its
-/// report.
+/// What is in a pattern file (DXF or GarmentCode JSON), or in every one below a folder, by name. A file that cannot be
+/// read has its error in its report.
 ///
 /// # Errors
 /// When the path cannot be read.
@@ -43,6 +44,12 @@ pub fn inspect(path: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Ve
         .map(|file| {
             let source = SourceFile::read(file)?;
             let name = file.to_string_lossy();
+            if is_garmentcode(file) {
+                let read = garmentcode::read(&source.bytes, &name);
+                return Ok(read
+                    .as_ref()
+                    .map_or_else(|error| FileReport::unreadable(&name, error.to_string()), FileReport::from));
+            }
             Ok(match dxf::read(&source.bytes, &name, unit) {
                 Err(error) => FileReport::unreadable(&name, error.to_string()),
                 Ok(mut pattern) => {
@@ -57,7 +64,13 @@ pub fn inspect(path: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Ve
         .collect()
 }
 
-/// The DXF files below a folder, by path.
+/// Whether a file is JSON by its name: a GarmentCode specification.
+#[must_use]
+pub fn is_garmentcode(file: &Path) -> bool {
+    file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"))
+}
+
+/// The DXF files and GarmentCode specifications below a folder, by path.
 fn drawings(folder: &Path) -> Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_owned()];
@@ -65,7 +78,9 @@ fn drawings(folder: &Path) -> Result<Vec<PathBuf>> {
         for entry in std::fs::read_dir(&folder).map_err(StudyError::io(&folder))? {
             let entry = entry.map_err(StudyError::io(&folder))?;
             let kind = entry.file_type().map_err(StudyError::io(entry.path()))?;
-            let is_drawing = entry.path().extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"));
+            let is_dxf = entry.path().extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"));
+            // Other JSON lies beside patterns too; specifications are named so by the program that writes them.
+            let is_drawing = is_dxf || entry.path().to_string_lossy().ends_with("_specification.json");
             match kind {
                 kind if kind.is_dir() => folders.push(entry.path()),
                 _ if is_drawing => found.push(entry.path()),
@@ -83,6 +98,16 @@ fn drawings(folder: &Path) -> Result<Vec<PathBuf>> {
 /// When a file cannot be read, names no unit while none is given, or does not fit the other.
 pub fn style(pattern: &Path, seams: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Style> {
     read_style(&SourceFile::read(pattern)?, &SourceFile::read(seams)?, size, unit)
+}
+
+/// A style from a GarmentCode specification, which holds its own seams.
+///
+/// # Errors
+/// When the file cannot be read or is no such specification.
+pub fn garmentcode_style(file: &Path) -> Result<Style> {
+    let source = SourceFile::read(file)?;
+    let read = garmentcode::read(&source.bytes, &source.name).map_err(StudyError::stage("pattern"))?;
+    Ok(read.style())
 }
 
 /// The unit of a name in a study file.
@@ -120,10 +145,10 @@ pub fn sheet(style: &Style) -> String {
     sheet::svg(style)
 }
 
-/// The files of the drafted men's T-shirt: a DXF a size and the seam file.
+/// The files of a drafted style: a DXF a size and the seam file.
 #[must_use]
-pub fn drafted_tshirt() -> Vec<(String, Vec<u8>)> {
-    draft::tshirt_files()
+pub fn drafted(model: Model) -> Vec<(String, Vec<u8>)> {
+    model.files()
 }
 
 /// Measurements from a TOML file with the keys of a study's `[[subject]]`.

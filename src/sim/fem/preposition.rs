@@ -3,6 +3,7 @@
 use crate::body::{Body, Joint};
 use crate::geom::{V2, V3};
 use crate::pattern::{Garment, PieceMesh, Role};
+use crate::sim::SimError;
 
 use super::params::Params;
 
@@ -14,8 +15,10 @@ const SLEEVE_CLEARANCE_M: f64 = 0.012;
 const SLEEVE_TURN: f64 = 0.95;
 
 /// World positions of all garment vertices before sewing, m.
-#[must_use]
-pub fn place(body: &Body, garment: &Garment, params: &Params) -> Vec<V3> {
+///
+/// # Errors
+/// [`SimError::CannotPlace`] for a piece that is no front, back or sleeve.
+pub fn place(body: &Body, garment: &Garment, params: &Params) -> Result<Vec<V3>, SimError> {
     let mut positions = vec![V3::zeros(); garment.rest.len()];
     for piece in &garment.pieces {
         let frame = PieceFrame::of(piece, garment);
@@ -24,12 +27,16 @@ pub fn place(body: &Body, garment: &Garment, params: &Params) -> Vec<V3> {
             Role::Back => about_trunk(body, &frame, -1.0, params),
             Role::SleeveRight => about_arm(body, &frame, 1.0),
             Role::SleeveLeft => about_arm(body, &frame, -1.0),
+            role => {
+                let accepted = "front, back, sleeve_right, sleeve_left";
+                return Err(SimError::CannotPlace { piece: piece.id.clone(), role, accepted });
+            }
         };
         for v in piece.vertices.clone() {
             positions[v] = place(frame.local(garment.rest[v]));
         }
     }
-    positions
+    Ok(positions)
 }
 
 /// A piece in its own upright frame: `u` to the right seen from outside and 0 in the middle, `v` up along the grain.
@@ -116,4 +123,34 @@ fn arm_radius(body: &Body, shoulder: &V3, axis: &V3) -> f64 {
             (within.contains(&along) && radius < 0.1).then_some(radius)
         })
         .fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{self, Measurements, Sex};
+    use crate::pattern::Style;
+    use crate::pattern::draft::Model;
+
+    #[test]
+    fn a_piece_that_cannot_be_placed_is_named() {
+        let measurements = Measurements {
+            sex: Sex::Male,
+            stature_m: 1.75,
+            weight_kg: None,
+            chest_girth_m: None,
+            waist_girth_m: None,
+            hip_girth_m: None,
+            neck_girth_m: None,
+            across_shoulder_m: None,
+        };
+        let body = body::build(&measurements).expect("a body");
+        let placed = |model: Model| {
+            let style = Style::read(&model.drafts()[0].pieces, model.seams(), "seams").expect("a style");
+            place(&body, &style.mesh(0.04).expect("a mesh"), &Params::default())
+        };
+        assert!(placed(Model::Teetop).is_ok());
+        let error = placed(Model::Trousers).expect_err("legs are not placed").to_string();
+        assert!(error.contains("leg_back_left") && error.contains("cannot place role"), "{error}");
+    }
 }

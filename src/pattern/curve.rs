@@ -1,4 +1,4 @@
-//! Curves and the solver of the drafts.
+//! Curves of drafts and of imported panels, and the solver of the drafts.
 
 use crate::geom::V2;
 
@@ -33,4 +33,12 @@ pub fn bisect(mut low: f64, mut high: f64, increasing: impl Fn(f64) -> f64) -> f
         }
     }
     0.5 * (low + high)
+}
+
+/// Points of a circular arc of a given length, from the origin along `+u`, that has turned by `angle` (radians, upwards
+/// positive, not zero) at its end.
+pub fn arc(length: f64, angle: f64) -> Vec<V2> {
+    let radius = length / angle;
+    let at = |turned: f64| V2::new(radius * turned.sin(), radius * (1.0 - turned.cos()));
+    (0..=CURVE_SEGMENTS).map(|i| at(angle * i as f64 / CURVE_SEGMENTS as f64)).collect()
 }

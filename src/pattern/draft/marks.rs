@@ -1,0 +1,74 @@
+//! What every drafted piece has beside its outline: notches, texts, size.
+
+use crate::geom::V2;
+use crate::geom::polyline::Polyline;
+use crate::pattern::piece::{Notch, Piece};
+
+/// Spacing of a double notch, m.
+pub const DOUBLE_NOTCH_M: f64 = 0.010;
+/// Depth of the notches, m.
+const NOTCH_DEPTH_M: f64 = 0.004;
+
+/// A net piece with an outline only.
+pub fn net(block: &str, quantity: &str, outline: Vec<V2>) -> Piece {
+    Piece {
+        block: block.to_owned(),
+        name: block.to_owned(),
+        size: None,
+        quantity: Some(quantity.to_owned()),
+        texts: Vec::new(),
+        outline,
+        is_clockwise_in_file: false,
+        turn_points: Vec::new(),
+        curve_points: Vec::new(),
+        notches: Vec::new(),
+        grain: None,
+        mirror_line: None,
+        internal_lines: Vec::new(),
+        sew_line: None,
+    }
+}
+
+/// The piece with its size and texts; every vertex that is no turn point is a curve point.
+pub fn finished(mut piece: Piece, size: &str, material: &str) -> Piece {
+    let texts = [("Material", material), ("Annotation", "NET, NO SEAM ALLOWANCE")];
+    piece.texts = texts.map(|(key, value)| (key.to_owned(), value.to_owned())).to_vec();
+    piece.size = Some(size.to_owned());
+    let is_corner = |point: &V2| piece.turn_points.contains(point);
+    piece.curve_points = piece.outline.iter().copied().filter(|point| !is_corner(point)).collect();
+    piece
+}
+
+/// A notch cut in a direction.
+pub fn notch(at: V2, angle_deg: f64) -> Notch {
+    Notch { at, depth_m: Some(NOTCH_DEPTH_M), angle_deg: Some(angle_deg) }
+}
+
+/// Notches at arc lengths along a curve whose inside lies to its left or right, cut at right angles towards `u = 0`.
+pub fn notches_along(curve: &[V2], arcs: &[f64]) -> Vec<Notch> {
+    let Some(line) = Polyline::new(curve.to_vec()) else { return Vec::new() };
+    let step = 1e-3;
+    let cut = |&arc: &f64| {
+        let along = line.at(arc + step) - line.at(arc - step);
+        let mut inwards = V2::new(-along.y, along.x);
+        if inwards.x * line.at(arc).x > 0.0 {
+            inwards = -inwards;
+        }
+        notch(line.at(arc), inwards.y.atan2(inwards.x).to_degrees().rem_euclid(360.0))
+    };
+    arcs.iter().map(cut).collect()
+}
+
+/// Mirrored at the line `u = 0`.
+pub fn mirrored(point: V2) -> V2 {
+    V2::new(-point.x, point.y)
+}
+
+/// A notch mirrored at the line `u = 0`.
+pub fn mirrored_notch(original: Notch) -> Notch {
+    Notch {
+        at: mirrored(original.at),
+        angle_deg: original.angle_deg.map(|angle| (180.0 - angle).rem_euclid(360.0)),
+        ..original
+    }
+}

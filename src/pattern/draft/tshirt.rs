@@ -1,0 +1,85 @@
+//! The men's T-shirt: nine lengths a size.
+//!
+//! Decisions where the numbers leave them open:
+//! - The neck is a **V**, as [T 6.2.1] says. The numbers agree: a neckline that leaves the apex along its chord and
+//!   meets the shoulder at a right angle, with a back neck 22 mm deep, gives half neck widths of 80.0, 80.1 and
+//!   80.2 mm for S, M and L, whereas a round neck 176 mm deep would be only about 142 mm wide.
+//! - **Sleeve length is the underarm seam.** Its published L3D hardly varies (119.1-119.4 mm over four subjects) as a
+//!   hanging seam does, and as a length from the cap top it would leave no room for the cap of a 504 mm armhole.
+//! - Sides are straight and vertical, so the girth at the underarm is the hem girth. Front and back share the shoulder
+//!   line; the front armhole is scooped deeper and 6 mm longer. The cap has no ease: it is as long as the armhole.
+
+use super::Draft;
+use super::trunk::{FrontNeck, Trunk, TrunkPlan};
+use crate::geom::V2;
+use crate::units::from_mm;
+
+/// Depth of the back neck below the side-neck points, m.
+const BACK_NECK_DROP_M: f64 = 0.022;
+/// Cap height over armhole depth.
+const CAP_HEIGHT_SHARE: f64 = 0.56;
+
+/// Seam file of the T-shirt, for all sizes.
+pub const TSHIRT_SEAMS: &[u8] = include_bytes!("tshirt.seams.toml");
+
+/// Sizes of the T-shirt.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TshirtSize {
+    /// Small.
+    S,
+    /// Medium.
+    M,
+    /// Large.
+    L,
+}
+
+impl TshirtSize {
+    /// All sizes, smallest first.
+    pub const ALL: [Self; 3] = [Self::S, Self::M, Self::L];
+
+    /// Its letter.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::S => "S",
+            Self::M => "M",
+            Self::L => "L",
+        }
+    }
+
+    /// Published lengths `#1` to `#9`, mm [T tables 6-5, 6-8, 6-11].
+    #[must_use]
+    pub fn published_mm(self) -> [f64; 9] {
+        match self {
+            Self::S => [974.10, 356.53, 550.76, 704.96, 503.71, 560.09, 458.95, 156.67, 119.18],
+            Self::M => [1034.10, 366.53, 560.76, 719.96, 527.34, 569.46, 463.95, 166.01, 130.68],
+            Self::L => [1094.10, 376.53, 570.76, 734.96, 551.55, 578.89, 468.96, 175.44, 142.55],
+        }
+    }
+}
+
+/// Drafts the men's T-shirt: blocks `FRONT`, `BACK` and `SLEEVE` (the right one; the left is its mirror image).
+#[must_use]
+pub fn tshirt(size: TshirtSize) -> Draft {
+    let lengths = size.published_mm().map(from_mm);
+    let trunk = trunk(&lengths);
+    let sleeve = trunk.sleeve(CAP_HEIGHT_SHARE, lengths[1], lengths[8]);
+    Draft::new("Mens T-shirt", size.as_str(), "JERSEY", vec![trunk.front("FRONT"), trunk.back("BACK"), sleeve])
+}
+
+/// Front and back, hem at `v = 0`.
+pub(super) fn trunk(lengths: &[f64; 9]) -> Trunk {
+    let [hem, _, centre_front, centre_back, armhole, neck, side, shoulder, _] = *lengths;
+    Trunk::solve(TrunkPlan {
+        lower: vec![V2::new(hem / 4.0, 0.0)],
+        underarm: V2::new(hem / 4.0, side),
+        centre: [centre_front, centre_back],
+        back_neck_drop: BACK_NECK_DROP_M,
+        front_neck: FrontNeck::V,
+        neck,
+        shoulder,
+        armhole,
+        armhole_reach: [0.5, 0.6],
+        has_sleeve: true,
+    })
+}

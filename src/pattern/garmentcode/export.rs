@@ -1,0 +1,237 @@
+//! Writing a style as GarmentCode: every seam becomes stitches of whole edges, every curve straight or cubic.
+//!
+//! The format sews one edge to one edge. Both sides of a seam are therefore cut at the joints of either, at the same
+//! shares of their lengths, and cut on in halves until a cubic curve follows each part. Panels are laid in a row: where
+//! they are worn about a body the format says, a style does not.
+
+use std::collections::BTreeMap;
+
+use serde_json::Map;
+
+use super::format::{Curvature, Curve, Document, Panel, PanelEdge, Pattern, Properties, StitchItem};
+use crate::geom::V2;
+use crate::geom::polyline::Polyline;
+use crate::pattern::style::{EdgeRef, Seam, Style};
+
+/// Greatest distance of a drawn curve from the cubic written for it, m.
+const TOLERANCE_M: f64 = 0.05e-3;
+/// Parts shorter than this are written straight, m.
+const SHORTEST_M: f64 = 0.5e-3;
+/// Points of a part that are compared with its cubic.
+const SAMPLES: usize = 33;
+/// Space between panels, m.
+const GAP_M: f64 = 0.05;
+/// Centimetres in a metre: the unit written.
+const UNITS_IN_METER: f64 = 100.0;
+
+/// Part of an edge, from one arc length to another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Part {
+    edge: EdgeRef,
+    arcs: [f64; 2],
+}
+
+/// The document of a style; one that [`super::read`] reads back to the same pieces and seams.
+///
+/// Piece ids become panel names. Names of edges, corners, notches, grain and measurements have no place in the format.
+#[must_use]
+pub fn document(style: &Style) -> Document {
+    let mut parts: Vec<Part> = Vec::new();
+    let mut stitched = Vec::new();
+    for seam in &style.seams {
+        for pair in seam_parts(style, seam) {
+            stitched.push((pair, seam.b_forwards));
+            parts.extend(pair);
+        }
+    }
+    let is_sewn = |edge: EdgeRef| parts.iter().any(|part| part.edge == edge);
+    let free: Vec<EdgeRef> = all_edges(style).filter(|&edge| !is_sewn(edge)).collect();
+    for edge in free {
+        let whole = Part { edge, arcs: [0.0, style.edge(edge).line.length()] };
+        parts.extend(fitted(style, &[whole], false).into_iter().flatten());
+    }
+    parts.sort_by(|a, b| a.edge.cmp(&b.edge).then(a.arcs[0].total_cmp(&b.arcs[0])));
+    let mut left = 0.0;
+    let mut panels = BTreeMap::new();
+    for (index, piece) in style.pieces.iter().enumerate() {
+        let own: Vec<Part> = parts.iter().copied().filter(|part| part.edge.piece == index).collect();
+        panels.insert(piece.id.clone(), panel(style, &own, &mut left));
+    }
+    let side = |part: &Part| {
+        let before = parts.iter().filter(|other| other.edge.piece == part.edge.piece);
+        let edge = before.take_while(|&other| other != part).count();
+        StitchItem::Side { panel: style.pieces[part.edge.piece].id.clone(), edge }
+    };
+    let stitches = stitched.iter().map(|(pair, same_direction)| {
+        let mut items: Vec<StitchItem> = pair.iter().map(side).collect();
+        items.extend(same_direction.then(|| StitchItem::Flag(super::RIGHT_WRONG.to_owned())));
+        items
+    });
+    Document {
+        pattern: Pattern { stitches: stitches.collect(), panel_order: panels.keys().cloned().collect(), panels },
+        parameters: Map::new(),
+        parameter_order: Vec::new(),
+        properties: Properties {
+            curvature_coords: "relative".to_owned(),
+            units_in_meter: UNITS_IN_METER,
+            normalize_panel_translation: false,
+            normalized_edge_loops: true,
+        },
+    }
+}
+
+fn all_edges(style: &Style) -> impl Iterator<Item = EdgeRef> + '_ {
+    let of = |(piece, drawn): (usize, &crate::pattern::style::StylePiece)| {
+        (0..drawn.edges.len()).map(move |edge| EdgeRef { piece, edge })
+    };
+    style.pieces.iter().enumerate().flat_map(of)
+}
+
+/// The parts of both sides that are sewn to each other, in order along the seam.
+fn seam_parts(style: &Style, seam: &Seam) -> Vec<[Part; 2]> {
+    let (a, b) = (Side::new(style, &seam.a, true), Side::new(style, &seam.b, seam.b_forwards));
+    let mut shares: Vec<f64> = a.shares.iter().chain(&b.shares).copied().collect();
+    shares.sort_by(f64::total_cmp);
+    // A joint of both sides is one joint, though rounding may tell them apart.
+    let shortest = SHORTEST_M / a.length.max(b.length);
+    let mut distinct: Vec<f64> = Vec::new();
+    for share in shares {
+        if distinct.last().is_none_or(|last| share - last > shortest) {
+            distinct.push(share);
+        }
+    }
+    if let Some(last) = distinct.last_mut() {
+        *last = 1.0;
+    }
+    let pairs = distinct.windows(2).map(|ends| [a.part(ends[0], ends[1]), b.part(ends[0], ends[1])]);
+    pairs
+        .flat_map(|pair| fitted(style, &pair, !seam.b_forwards))
+        .filter_map(|pair| <[Part; 2]>::try_from(pair).ok())
+        .collect()
+}
+
+/// One side of a seam: edges end to end in walking order.
+struct Side<'a> {
+    style: &'a Style,
+    chain: &'a [EdgeRef],
+    is_forwards: bool,
+    length: f64,
+    /// Shares of the length at which the edges begin, and 1.
+    shares: Vec<f64>,
+}
+
+impl<'a> Side<'a> {
+    fn new(style: &'a Style, chain: &'a [EdgeRef], is_forwards: bool) -> Self {
+        let mut ends = vec![0.0];
+        for &edge in chain {
+            ends.push(ends[ends.len() - 1] + style.edge(edge).line.length());
+        }
+        let length = ends[ends.len() - 1];
+        Self { style, chain, is_forwards, length, shares: ends.into_iter().map(|end| end / length).collect() }
+    }
+
+    /// The part between two shares, which lies in one edge.
+    fn part(&self, from: f64, to: f64) -> Part {
+        let middle = 0.5 * (from + to);
+        let k = self.shares.partition_point(|&share| share <= middle).clamp(1, self.chain.len()) - 1;
+        let edge = self.chain[k];
+        let length = self.style.edge(edge).line.length();
+        let arc = |share: f64| {
+            let along = ((share - self.shares[k]) * self.length).clamp(0.0, length);
+            let along = if self.is_forwards { along } else { length - along };
+            // An end of the edge is that end, not a place next to it.
+            if along < SHORTEST_M {
+                0.0
+            } else if along > length - SHORTEST_M {
+                length
+            } else {
+                along
+            }
+        };
+        let (first, second) = (arc(from), arc(to));
+        Part { edge, arcs: [first.min(second), first.max(second)] }
+    }
+}
+
+/// Parts that are sewn together, halved until each is straight, short or a cubic; `is_opposed` where the second runs
+/// against the first.
+fn fitted(style: &Style, together: &[Part], is_opposed: bool) -> Vec<Vec<Part>> {
+    let is_fine = |part: &Part| {
+        let points = samples(style, *part);
+        part.arcs[1] - part.arcs[0] < 2.0 * SHORTEST_M || cubic(&points).1 < TOLERANCE_M
+    };
+    if together.iter().all(is_fine) {
+        return vec![together.to_vec()];
+    }
+    // Which half comes first does not matter: parts are sorted along their edges later.
+    let half = |k: usize| -> Vec<Part> {
+        let of = |(side, part): (usize, &Part)| {
+            let middle = 0.5 * (part.arcs[0] + part.arcs[1]);
+            let arcs = if (k + side * usize::from(is_opposed)).is_multiple_of(2) {
+                [part.arcs[0], middle]
+            } else {
+                [middle, part.arcs[1]]
+            };
+            Part { arcs, ..*part }
+        };
+        together.iter().enumerate().map(of).collect()
+    };
+    [half(0), half(1)].iter().flat_map(|half| fitted(style, half, is_opposed)).collect()
+}
+
+/// Points evenly spaced along a part.
+fn samples(style: &Style, part: Part) -> Vec<V2> {
+    let line: &Polyline = &style.edge(part.edge).line;
+    let share = |k: usize| k as f64 / (SAMPLES - 1) as f64;
+    (0..SAMPLES).map(|k| line.at(part.arcs[0] + (part.arcs[1] - part.arcs[0]) * share(k))).collect()
+}
+
+/// The cubic curve between the ends of a line that is nearest to it in the least-squares sense, by its inner control
+/// points, and its greatest distance from the line's points.
+fn cubic(points: &[V2]) -> ([V2; 2], f64) {
+    let (start, end) = (points[0], points[points.len() - 1]);
+    let weights = |k: usize| {
+        let t = k as f64 / (points.len() - 1) as f64;
+        let s = 1.0 - t;
+        [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t]
+    };
+    let (mut aa, mut ab, mut bb, mut a, mut b) = (0.0, 0.0, 0.0, V2::zeros(), V2::zeros());
+    for (k, point) in points.iter().enumerate() {
+        let w = weights(k);
+        let rest = point - start * w[0] - end * w[3];
+        (aa, ab, bb) = (aa + w[1] * w[1], ab + w[1] * w[2], bb + w[2] * w[2]);
+        (a, b) = (a + rest * w[1], b + rest * w[2]);
+    }
+    let determinant = aa * bb - ab * ab;
+    let inner = [(a * bb - b * ab) / determinant, (b * aa - a * ab) / determinant];
+    let off = |(k, point): (usize, &V2)| {
+        let w = weights(k);
+        (start * w[0] + inner[0] * w[1] + inner[1] * w[2] + end * w[3] - point).norm()
+    };
+    (inner, points.iter().enumerate().map(off).fold(0.0, f64::max))
+}
+
+/// The panel of a piece's parts, in the order of the outline; `left` is where the row has come to, m.
+fn panel(style: &Style, parts: &[Part], left: &mut f64) -> Panel {
+    let starts: Vec<V2> = parts.iter().map(|part| style.edge(part.edge).line.at(part.arcs[0])).collect();
+    let low = starts.iter().fold(f64::MAX, |low, p| low.min(p.x));
+    let high = starts.iter().fold(f64::MIN, |high, p| high.max(p.x));
+    let translation = [(*left - low) * UNITS_IN_METER, 0.0, 0.0];
+    *left += high - low + GAP_M;
+    let edge = |(k, part): (usize, &Part)| {
+        let points = samples(style, *part);
+        let (start, end) = (points[0], points[SAMPLES - 1]);
+        let chord = end - start;
+        let relative = |p: V2| [(p - start).dot(&chord), chord.perp(&(p - start))].map(|x| x / chord.norm_squared());
+        let is_straight = points.iter().all(|p| (relative(*p)[1] * chord.norm()).abs() < 1e-7);
+        let curvature = (!is_straight).then(|| Curvature::Typed(Curve::Cubic(cubic(&points).0.map(relative))));
+        PanelEdge { endpoints: [k, (k + 1) % parts.len()], curvature, label: None }
+    };
+    Panel {
+        translation,
+        rotation: [0.0; 3],
+        vertices: starts.iter().map(|p| [p.x, p.y].map(|x| x * UNITS_IN_METER)).collect(),
+        edges: parts.iter().enumerate().map(edge).collect(),
+        label: String::new(),
+    }
+}
