@@ -8,10 +8,9 @@ use divan::Bencher;
 use toile::body::{self, Body, Measurements, Sex};
 use toile::geom::{DistanceField, TriMesh};
 use toile::measure;
-use toile::pattern::mesh::EDGE_LENGTH_RANGE_M;
 use toile::pattern::{Garment, Style, draft, dxf};
 use toile::render::{self, Camera, Frame, Layer, Material, Scene, View};
-use toile::sim::fem::{self, LEVELS, Params};
+use toile::sim::fem::{self, Params};
 use toile::sim::{Drape, Fabric, Monitor, Progress, fabric};
 use toile::study::{RunOptions, Workspace};
 
@@ -58,10 +57,9 @@ static CLOTH: LazyLock<Fabric> = LazyLock::new(|| {
     fabric::library().into_iter().find(|fabric| fabric.name == "cotton_shirting_light").expect("in the library")
 });
 
-/// Meshes of the levels of a simulation, coarse to fine, as far as the mesher goes.
+/// Meshes of the levels of a simulation, coarse to fine.
 fn meshes(edge_m: f64) -> Vec<Garment> {
-    let edges = LEVELS.map(|level| edge_m * level).into_iter().filter(|edge| EDGE_LENGTH_RANGE_M.contains(edge));
-    edges.map(|edge| STYLE.mesh(edge).expect("it meshes")).collect()
+    fem::level_edges(edge_m).into_iter().map(|edge| STYLE.mesh(edge).expect("it meshes")).collect()
 }
 
 /// The mesh that results are on.
