@@ -215,6 +215,9 @@ pub enum Pattern {
         /// Unit of the files, where they name none.
         #[arg(long, value_enum)]
         unit: Option<PatternUnit>,
+        /// One row for each file: how many blocks are pieces, how many are refused and why.
+        #[arg(long)]
+        by_file: bool,
     },
     /// Whether a pattern and its seam file fit together: seams, measurements, meshes.
     Check(StyleFiles),

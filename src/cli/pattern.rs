@@ -1,5 +1,8 @@
 //! `toile pattern`: what needs only a pattern.
 
+use std::collections::BTreeSet;
+use std::path::Path;
+
 use super::args::{Pattern, PatternUnit, StyleFiles};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
@@ -13,9 +16,9 @@ const CHECK_EDGE_MM: f64 = 15.0;
 /// Runs a pattern command.
 pub fn run(context: &Context, command: &Pattern) -> Outcome {
     match command {
-        Pattern::Inspect { path, size, unit } => {
+        Pattern::Inspect { path, size, unit, by_file } => {
             let reports = tools::inspect(path, size.as_deref(), unit.map(of))?;
-            inspect(context, &reports)
+            inspect(context, &reports, if *by_file { outcomes } else { pieces })
         }
         Pattern::Check(files) => check(context, files),
         Pattern::Draft { output } => {
@@ -27,7 +30,7 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
         Pattern::Mesh { files, edge_length_mm } => mesh(context, files, *edge_length_mm),
         Pattern::Sheet { files, output } => {
             let sheet = tools::sheet(&style(files)?);
-            let folder = output.parent().unwrap_or(std::path::Path::new(""));
+            let folder = output.parent().unwrap_or(Path::new(""));
             let name = output.file_name().unwrap_or_default().to_string_lossy().into_owned();
             tools::write_files(folder, &[(name, sheet.into_bytes())])?;
             context.say(format_args!("wrote {}", output.display()));
@@ -48,12 +51,12 @@ fn style(files: &StyleFiles) -> Result<tools::Style, CliError> {
     Ok(tools::style(&files.file, &files.seams, files.size.as_deref(), files.unit.map(of))?)
 }
 
-/// Prints reports; a file that cannot be read, or a refused piece, makes the whole unusable.
-fn inspect(context: &Context, reports: &[FileReport]) -> Outcome {
+/// Prints reports, as JSON or as the table that is made of them; a file that cannot be read, or a refused piece, makes the whole unusable.
+fn inspect(context: &Context, reports: &[FileReport], table: fn(&[FileReport]) -> Table) -> Outcome {
     if context.json {
         output::json(&reports)?;
     } else {
-        context.print(&pieces(reports))?;
+        context.print(&table(reports))?;
     }
     for report in reports {
         for warning in &report.warnings {
@@ -91,6 +94,33 @@ fn pieces(reports: &[FileReport]) -> Table {
         })
     });
     Table { columns: columns.map(str::to_owned).to_vec(), rows: rows.collect() }
+}
+
+/// One row for each file.
+fn outcomes(reports: &[FileReport]) -> Table {
+    let columns = ["file", "format", "unit", "pieces", "sizes", "half pieces", "refused", "outcome"];
+    let row = |report: &FileReport| {
+        let sizes: BTreeSet<&str> = report.pieces.iter().filter_map(|piece| piece.size.as_deref()).collect();
+        let file = Path::new(&report.file).file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let reasons = report.refused.iter().map(|refused| format!("{}: {}", refused.block, refused.reason));
+        let outcome = match &report.error {
+            Some(error) => error.clone(),
+            None if report.refused.is_empty() => "read".to_owned(),
+            None => reasons.collect::<Vec<_>>().join("; "),
+        };
+        let count = |number: usize| Value::Integer(number as i64);
+        vec![
+            Value::Text(file),
+            Value::Text(report.format.clone()),
+            Value::Text(report.units.clone()),
+            count(report.pieces.len()),
+            count(sizes.len()),
+            count(report.pieces.iter().filter(|piece| piece.unfolded).count()),
+            count(report.refused.len()),
+            Value::Text(outcome),
+        ]
+    };
+    Table { columns: columns.map(str::to_owned).to_vec(), rows: reports.iter().map(row).collect() }
 }
 
 /// Checks a pattern with its seam file by making everything a simulation needs of it.
