@@ -20,6 +20,9 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
             let reports = tools::inspect(path, size.as_deref(), unit.map(of))?;
             inspect(context, &reports, if *by_file { outcomes } else { pieces })
         }
+        Pattern::Propose { path, size, unit, output } => {
+            propose(context, path, &tools::propose(path, size.as_deref(), unit.map(of))?, output.as_deref())
+        }
         Pattern::Check(files) => check(context, files),
         Pattern::Draft { output } => {
             for path in tools::write_files(output, &tools::drafted_tshirt())? {
@@ -30,13 +33,52 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
         Pattern::Mesh { files, edge_length_mm } => mesh(context, files, *edge_length_mm),
         Pattern::Sheet { files, output } => {
             let sheet = tools::sheet(&style(files)?);
-            let folder = output.parent().unwrap_or(Path::new(""));
-            let name = output.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            tools::write_files(folder, &[(name, sheet.into_bytes())])?;
-            context.say(format_args!("wrote {}", output.display()));
+            write(context, output, sheet)?;
             Ok(End::Done)
         }
     }
+}
+
+fn write(context: &Context, output: &Path, text: String) -> Result<(), CliError> {
+    let folder = output.parent().unwrap_or(Path::new(""));
+    let name = output.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    tools::write_files(folder, &[(name, text.into_bytes())])?;
+    context.say(format_args!("wrote {}", output.display()));
+    Ok(())
+}
+
+/// Shows a proposal, or writes it as a seam file; what a person must decide goes to standard error.
+fn propose(context: &Context, path: &Path, proposal: &tools::Proposal, output: Option<&Path>) -> Outcome {
+    if context.json {
+        output::json(proposal)?;
+    } else {
+        context.print(&seams(proposal))?;
+    }
+    for question in &proposal.questions {
+        context.say(format_args!("{}: {question}", path.display()));
+    }
+    if let Some(output) = output {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        write(context, output, proposal.toml(&name))?;
+    }
+    Ok(if proposal.seams.is_empty() { End::CheckFailed } else { End::Done })
+}
+
+fn seams(proposal: &tools::Proposal) -> Table {
+    let columns = ["seam", "a", "b", "a_mm", "b_mm", "ratio", "confidence"];
+    let round = |value: f64, per: f64| Value::Real((value * per).round() / per);
+    let rows = proposal.seams.iter().map(|seam| {
+        vec![
+            Value::Text(seam.entry.name.clone()),
+            Value::Text(seam.entry.a.join(" ")),
+            Value::Text(seam.entry.b.join(" ")),
+            round(seam.a_mm, 10.0),
+            round(seam.b_mm, 10.0),
+            round(seam.ratio(), 1000.0),
+            round(seam.confidence, 100.0),
+        ]
+    });
+    Table { columns: columns.map(str::to_owned).to_vec(), rows: rows.collect() }
 }
 
 fn of(unit: PatternUnit) -> Unit {
@@ -141,6 +183,9 @@ fn check(context: &Context, files: &StyleFiles) -> Outcome {
         vec![Value::Integer(i64::from(m.no)), Value::Text(m.name.clone()), length, Value::Text(free.to_owned())]
     });
     context.print(&Table { columns, rows: rows.collect() })?;
+    for finding in tools::findings(&files.file, &files.seams, files.size.as_deref(), files.unit.map(of))? {
+        context.say(format_args!("{}: `{}`: {}", finding.kind.as_str(), finding.place, finding.found));
+    }
     context.say(format_args!(
         "{}: {} pieces, {} seams, {} measurements; at {CHECK_EDGE_MM} mm {} vertices, least angle {:.0} degrees",
         files.file.display(),

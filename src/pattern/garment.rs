@@ -20,6 +20,8 @@ pub enum Role {
     SleeveRight,
     /// Sleeve of the subject's left arm.
     SleeveLeft,
+    /// Anything else: it can be checked and meshed, but there is no place about the body for it yet.
+    Other,
 }
 
 /// One triangulated piece: ranges into the garment's arrays.

@@ -1,11 +1,13 @@
 //! The pattern (PDM, thesis 3.3): from DXF and a seam file to a sewable garment mesh and its pattern lengths.
 
+pub mod check;
 pub mod draft;
 pub mod dxf;
 pub mod garment;
 pub mod inspect;
 pub mod mesh;
 pub mod piece;
+pub mod propose;
 pub mod seams;
 pub mod sheet;
 pub mod style;

@@ -19,6 +19,12 @@ pub enum SimError {
     /// No mesh was given.
     #[error("no garment mesh to simulate")]
     NoMesh,
+    /// No place about the body is known for a piece of this role.
+    #[error("piece {piece:?} has the role `other`, which has no place about the body; accepted: front, back, sleeves")]
+    NoPlace {
+        /// Piece.
+        piece: String,
+    },
     /// Positions stopped being numbers.
     #[error("the simulation of {garment:?} diverged at iteration {iteration}")]
     Diverged {

@@ -69,7 +69,7 @@ fn sew(
     params: &Params,
     run: &mut Run,
 ) -> Result<Vec<V3>, SimError> {
-    let mut x = preposition::place(body, garment, params);
+    let mut x = preposition::place(body, garment, params)?;
     let cloth = Cloth::new(garment, fabric, sewing::unsewn(garment))?;
     let contact = BodyContact::new(field, params.contact, &cloth.areas);
     let springs = Springs::new(garment, params.seam_stiffness_n_m, params.seam_cap_n);

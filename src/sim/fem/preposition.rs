@@ -5,6 +5,7 @@ use crate::geom::{V2, V3};
 use crate::pattern::{Garment, PieceMesh, Role};
 
 use super::params::Params;
+use crate::sim::SimError;
 
 /// Half height of the band of the body in which its depth is read, m.
 const LEVEL_BAND_M: f64 = 0.02;
@@ -14,8 +15,10 @@ const SLEEVE_CLEARANCE_M: f64 = 0.012;
 const SLEEVE_TURN: f64 = 0.95;
 
 /// World positions of all garment vertices before sewing, m.
-#[must_use]
-pub fn place(body: &Body, garment: &Garment, params: &Params) -> Vec<V3> {
+///
+/// # Errors
+/// [`SimError::NoPlace`] for a piece that is neither front, back nor sleeve.
+pub fn place(body: &Body, garment: &Garment, params: &Params) -> Result<Vec<V3>, SimError> {
     let mut positions = vec![V3::zeros(); garment.rest.len()];
     for piece in &garment.pieces {
         let frame = PieceFrame::of(piece, garment);
@@ -24,12 +27,13 @@ pub fn place(body: &Body, garment: &Garment, params: &Params) -> Vec<V3> {
             Role::Back => about_trunk(body, &frame, -1.0, params),
             Role::SleeveRight => about_arm(body, &frame, 1.0),
             Role::SleeveLeft => about_arm(body, &frame, -1.0),
+            Role::Other => return Err(SimError::NoPlace { piece: piece.id.clone() }),
         };
         for v in piece.vertices.clone() {
             positions[v] = place(frame.local(garment.rest[v]));
         }
     }
-    positions
+    Ok(positions)
 }
 
 /// A piece in its own upright frame: `u` to the right seen from outside and 0 in the middle, `v` up along the grain.
