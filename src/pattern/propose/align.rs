@@ -184,7 +184,7 @@ fn goodness(stretch: &Stretch, part: &Part, size: V2, total: f64) -> f64 {
     let along = stretch.chord.try_normalize(1e-9).map_or(-1.0, |c| c.dot(&V2::new(direction.cos(), direction.sin())));
     let expect = V2::new(part.at[0] * size.x, part.at[1] * size.y);
     let away = (stretch.middle - expect).norm_squared();
-    let share = (stretch.length / total / part.share).max(1e-3).ln().abs().min(2.0);
+    let share = (stretch.length / total / part.share).max(1e-3).ln().abs().min(4.0);
     let bow = (stretch.bow / FULL_BOW).clamp(-1.0, 1.0);
     let wrong_bow = if part.bow == 0.0 { 0.3 * bow.abs() } else { 0.5 * (1.0 - bow * part.bow) };
     along

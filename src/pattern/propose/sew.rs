@@ -12,6 +12,8 @@ use crate::units::mm;
 const PLAIN_DOUBT: f64 = 0.06;
 /// The same for a sleeve, which is eased into its armhole, and a waist, which may be gathered or open.
 const EASED_DOUBT: f64 = 0.15;
+/// Confidence in a seam at centre front or back.
+const CENTRE_CONFIDENCE: f64 = 0.7;
 /// Least confidence of a seam that is proposed; less sure ones are asked about.
 const LEAST_CONFIDENCE: f64 = 0.25;
 
@@ -57,7 +59,9 @@ impl<'w> Tailor<'w, '_> {
         }
         let difference = (a_mm - b_mm).abs() / a_mm.max(b_mm);
         let sure = pieces.iter().map(|piece| piece.confidence).fold(1.0, f64::min);
-        let confidence = sure / (1.0 + (difference / doubt).powi(2));
+        // Half pieces say nothing of how they are joined in the middle.
+        let known = if name.contains("centre") { CENTRE_CONFIDENCE } else { 1.0 };
+        let confidence = known * sure / (1.0 + (difference / doubt).powi(2));
         if confidence < LEAST_CONFIDENCE {
             self.questions.push(format!(
                 "{name}: sides of {a_mm:.0} and {b_mm:.0} mm look as if they do not belong together; what is sewn there?"
@@ -178,7 +182,11 @@ impl<'w> Tailor<'w, '_> {
             let found = Hand::BOTH.map(|hand| self.find(class, Some(face), hand));
             if let [Some(right), Some(left)] = found.map(|one| one.filter(|one| one.hand.is_some())) {
                 let (a, b) = (right.chain(label, None), left.chain_back(label, None));
-                self.add(format!("{name}_{}", face.as_str()), a, b, &[right, left], PLAIN_DOUBT);
+                let name = format!("{name}_{}", face.as_str());
+                if label == Label::Centre {
+                    self.questions.push(format!("{name}: a seam, a fold, or an opening? A seam is proposed"));
+                }
+                self.add(name, a, b, &[right, left], PLAIN_DOUBT);
             }
         }
     }
