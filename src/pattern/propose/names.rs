@@ -165,7 +165,7 @@ pub fn read(name: &str) -> Named {
         .collect();
     // A part of up to three letters must be a whole word.
     let has = |part: &&str| words.iter().any(|word| word == part || (part.chars().count() > 3 && word.contains(*part)));
-    let has_any = |parts: &&[&str]| parts.iter().any(|part| has(part));
+    let has_any = |parts: &&[&str]| parts.iter().any(has);
     let class = CLASSES.iter().find(|(_, parts)| has_any(parts)).map(|(class, _)| *class);
     let is_initial = |initial: &str| class.is_some() && words.contains(&initial);
     let face = FACES.iter().find(|(_, parts)| has_any(parts)).map(|(face, _)| *face);

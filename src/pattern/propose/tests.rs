@@ -130,6 +130,32 @@ fn what_is_unsure_is_asked_for() {
     assert_eq!(proposal.questions.len(), pieces.len());
 }
 
+#[test]
+fn corners_by_curvature_are_corners_that_the_file_marks() {
+    let (mut marked, mut curved, mut agree) = (0, 0, 0);
+    for file in [
+        "freesewing/teagan_cisFemaleAdult36_aama.dxf",
+        "freesewing/titan_cisFemaleAdult36_aama.dxf",
+        "freesewing/bella_cisFemaleAdult36_aama-net.dxf",
+        "garmentcode/dress_sheath_mean_female.dxf",
+        "garmentcode/fitted_shirt_sleeves_mean_male.dxf",
+        "garmentcode/pants_mean_all.dxf",
+    ] {
+        let Some(pieces) = pieces(file, None) else { return };
+        for piece in pieces {
+            let by_marks = crate::pattern::style::corners::corner_vertices(&piece);
+            let unmarked = Piece { turn_points: Vec::new(), ..piece };
+            let by_curvature = crate::pattern::style::corners::corner_vertices(&unmarked);
+            marked += by_marks.len();
+            curved += by_curvature.len();
+            agree += by_curvature.iter().filter(|corner| by_marks.contains(corner)).count();
+        }
+    }
+    eprintln!("{marked} corners marked, {curved} found by curvature, of which {agree} are marked");
+    assert!(agree * 100 >= 98 * curved, "{agree} of {curved}");
+    assert!(agree * 100 >= 75 * marked, "{agree} of {marked}");
+}
+
 /// A stitch of a GarmentCode file: panel and edge number, twice.
 type Stitch = [(String, usize); 2];
 
@@ -172,7 +198,7 @@ fn score(garment: &str) -> Option<(usize, usize)> {
         let mut before = 0.0;
         for &part in chain {
             let line = &style.edge(part).line;
-            let (id, entry) =
+            let (_, entry) =
                 &proposal.entries[proposal.entries.iter().position(|(id, _)| *id == style.pieces[part.piece].id)?];
             if entry.block == *panel {
                 let arcs = ends(panel, *edge).map(|p| {

@@ -63,7 +63,6 @@ impl Proposal {
 
 fn remark(seam: &ProposedSeam) -> String {
     let ratio = seam.ratio();
-    let ease =
-        if ratio > EASED_RATIO || ratio < 1.0 / EASED_RATIO { format!(", ratio {ratio:.3}") } else { String::new() };
+    let ease = if ratio.max(1.0 / ratio) > EASED_RATIO { format!(", ratio {ratio:.3}") } else { String::new() };
     format!("confidence {:.2}, {:.1} to {:.1} mm{ease}", seam.confidence, seam.a_mm, seam.b_mm)
 }
