@@ -228,6 +228,23 @@ pub enum Pattern {
         /// Unit of the files, where they name none.
         #[arg(long, value_enum)]
         unit: Option<PatternUnit>,
+        /// One row for each file: how many blocks are pieces, how many are refused and why.
+        #[arg(long)]
+        by_file: bool,
+    },
+    /// Propose a seam file: what each piece is and what is sewn to what, with confidences.
+    Propose {
+        /// DXF file, or a folder of them.
+        path: PathBuf,
+        /// Size, where a file holds several.
+        #[arg(long, value_name = "NAME")]
+        size: Option<String>,
+        /// Unit of the files, where they name none.
+        #[arg(long, value_enum)]
+        unit: Option<PatternUnit>,
+        /// Seam file to write, to be read and edited.
+        #[arg(long, short, value_name = "FILE")]
+        output: Option<PathBuf>,
     },
     /// Whether a pattern and its seam file fit together: seams, measurements, meshes.
     Check(StyleFiles),

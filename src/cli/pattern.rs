@@ -1,5 +1,8 @@
 //! `toile pattern`: what needs only a pattern.
 
+use std::collections::BTreeSet;
+use std::path::Path;
+
 use super::args::{DraftStyle, Pattern, PatternUnit, StyleFiles};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
@@ -13,9 +16,12 @@ const CHECK_EDGE_MM: f64 = 15.0;
 /// Runs a pattern command.
 pub fn run(context: &Context, command: &Pattern) -> Outcome {
     match command {
-        Pattern::Inspect { path, size, unit } => {
+        Pattern::Inspect { path, size, unit, by_file } => {
             let reports = tools::inspect(path, size.as_deref(), unit.map(of))?;
-            inspect(context, &reports)
+            inspect(context, &reports, if *by_file { outcomes } else { pieces })
+        }
+        Pattern::Propose { path, size, unit, output } => {
+            propose(context, path, &tools::propose(path, size.as_deref(), unit.map(of))?, output.as_deref())
         }
         Pattern::Check(files) => check(context, files),
         Pattern::Draft { style, output } => {
@@ -27,10 +33,7 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
         Pattern::Mesh { files, edge_length_mm } => mesh(context, files, *edge_length_mm),
         Pattern::Sheet { files, output } => {
             let sheet = tools::sheet(&style(files)?);
-            let folder = output.parent().unwrap_or(std::path::Path::new(""));
-            let name = output.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            tools::write_files(folder, &[(name, sheet.into_bytes())])?;
-            context.say(format_args!("wrote {}", output.display()));
+            write(context, output, sheet)?;
             Ok(End::Done)
         }
     }
@@ -43,6 +46,48 @@ fn model(style: DraftStyle) -> Model {
         DraftStyle::Teetop => Model::Teetop,
         DraftStyle::Dress => Model::Dress,
     }
+}
+
+fn write(context: &Context, output: &Path, text: String) -> Result<(), CliError> {
+    let folder = output.parent().unwrap_or(Path::new(""));
+    let name = output.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    tools::write_files(folder, &[(name, text.into_bytes())])?;
+    context.say(format_args!("wrote {}", output.display()));
+    Ok(())
+}
+
+/// Shows a proposal, or writes it as a seam file; what a person must decide goes to standard error.
+fn propose(context: &Context, path: &Path, proposal: &tools::Proposal, output: Option<&Path>) -> Outcome {
+    if context.json {
+        output::json(proposal)?;
+    } else {
+        context.print(&seams(proposal))?;
+    }
+    for question in &proposal.questions {
+        context.say(format_args!("{}: {question}", path.display()));
+    }
+    if let Some(output) = output {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        write(context, output, proposal.toml(&name))?;
+    }
+    Ok(if proposal.seams.is_empty() { End::CheckFailed } else { End::Done })
+}
+
+fn seams(proposal: &tools::Proposal) -> Table {
+    let columns = ["seam", "a", "b", "a_mm", "b_mm", "ratio", "confidence"];
+    let round = |value: f64, per: f64| Value::Real((value * per).round() / per);
+    let rows = proposal.seams.iter().map(|seam| {
+        vec![
+            Value::Text(seam.entry.name.clone()),
+            Value::Text(seam.entry.a.join(" ")),
+            Value::Text(seam.entry.b.join(" ")),
+            round(seam.a_mm, 10.0),
+            round(seam.b_mm, 10.0),
+            round(seam.ratio(), 1000.0),
+            round(seam.confidence, 100.0),
+        ]
+    });
+    Table { columns: columns.map(str::to_owned).to_vec(), rows: rows.collect() }
 }
 
 fn of(unit: PatternUnit) -> Unit {
@@ -61,12 +106,12 @@ fn style(files: &StyleFiles) -> Result<tools::Style, CliError> {
     }
 }
 
-/// Prints reports; a file that cannot be read, or a refused piece, makes the whole unusable.
-fn inspect(context: &Context, reports: &[FileReport]) -> Outcome {
+/// Prints reports, as JSON or as the table that is made of them; a file that cannot be read, or a refused piece, makes the whole unusable.
+fn inspect(context: &Context, reports: &[FileReport], table: fn(&[FileReport]) -> Table) -> Outcome {
     if context.json {
         output::json(&reports)?;
     } else {
-        context.print(&pieces(reports))?;
+        context.print(&table(reports))?;
     }
     for report in reports {
         for warning in &report.warnings {
@@ -106,6 +151,33 @@ fn pieces(reports: &[FileReport]) -> Table {
     Table { columns: columns.map(str::to_owned).to_vec(), rows: rows.collect() }
 }
 
+/// One row for each file.
+fn outcomes(reports: &[FileReport]) -> Table {
+    let columns = ["file", "format", "unit", "pieces", "sizes", "half pieces", "refused", "outcome"];
+    let row = |report: &FileReport| {
+        let sizes: BTreeSet<&str> = report.pieces.iter().filter_map(|piece| piece.size.as_deref()).collect();
+        let file = Path::new(&report.file).file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let reasons = report.refused.iter().map(|refused| format!("{}: {}", refused.block, refused.reason));
+        let outcome = match &report.error {
+            Some(error) => error.clone(),
+            None if report.refused.is_empty() => "read".to_owned(),
+            None => reasons.collect::<Vec<_>>().join("; "),
+        };
+        let count = |number: usize| Value::Integer(number as i64);
+        vec![
+            Value::Text(file),
+            Value::Text(report.format.clone()),
+            Value::Text(report.units.clone()),
+            count(report.pieces.len()),
+            count(sizes.len()),
+            count(report.pieces.iter().filter(|piece| piece.unfolded).count()),
+            count(report.refused.len()),
+            Value::Text(outcome),
+        ]
+    };
+    Table { columns: columns.map(str::to_owned).to_vec(), rows: reports.iter().map(row).collect() }
+}
+
 /// Checks a pattern with its seam file by making everything a simulation needs of it.
 fn check(context: &Context, files: &StyleFiles) -> Outcome {
     let checked = style(files).and_then(|style| Ok((tools::mesh(&style, from_mm(CHECK_EDGE_MM))?, style)));
@@ -124,6 +196,11 @@ fn check(context: &Context, files: &StyleFiles) -> Outcome {
         vec![Value::Integer(i64::from(m.no)), Value::Text(m.name.clone()), length, Value::Text(free.to_owned())]
     });
     context.print(&Table { columns, rows: rows.collect() })?;
+    if let Some(seams) = &files.seams {
+        for finding in tools::findings(&files.file, seams, files.size.as_deref(), files.unit.map(of))? {
+            context.say(format_args!("{}: `{}`: {}", finding.kind.as_str(), finding.place, finding.found));
+        }
+    }
     context.say(format_args!(
         "{}: {} pieces, {} seams, {} measurements; at {CHECK_EDGE_MM} mm {} vertices, least angle {:.0} degrees",
         files.file.display(),

@@ -35,9 +35,9 @@ pub struct FileReport {
 /// One piece, as stored.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PieceReport {
-    /// Block.
+    /// Name of the block, byte for byte as the file writes it ([`PatternFile::as_written`]).
     pub block: String,
-    /// Piece name.
+    /// Piece name, or the block's name where the file gives none, in the file's code page.
     pub name: String,
     /// Size.
     pub size: Option<String>,
@@ -59,6 +59,8 @@ pub struct PieceReport {
     pub notches: usize,
     /// Length of the grain line.
     pub grain_mm: Option<f64>,
+    /// Number of mirror lines: 1 for a half piece, else 0.
+    pub mirror_lines: usize,
     /// Number of internal lines.
     pub internal_lines: usize,
     /// Area within the sew line.
@@ -80,8 +82,16 @@ impl From<&PatternFile> for FileReport {
                 UnitSource::Assumed => format!("none, assumed {unit}"),
             },
             mm_per_unit: Some(file.unit.mm_per_unit()),
-            pieces: file.pieces.iter().map(PieceReport::from).collect(),
-            refused: file.refused.clone(),
+            pieces: file
+                .pieces
+                .iter()
+                .map(|piece| PieceReport { block: file.as_written(&piece.block), ..PieceReport::from(piece) })
+                .collect(),
+            refused: file
+                .refused
+                .iter()
+                .map(|refused| Refused { block: file.as_written(&refused.block), ..refused.clone() })
+                .collect(),
             warnings: file.warnings.clone(),
             error: None,
         }
@@ -121,6 +131,7 @@ impl From<&Piece> for PieceReport {
             curve_points: piece.curve_points.len(),
             notches: piece.notches.len(),
             grain_mm: piece.grain.map(length),
+            mirror_lines: usize::from(piece.mirror_line.is_some()),
             internal_lines: piece.internal_lines.len(),
             sew_area_mm2: piece.sew_line.as_deref().map(|line| signed_area(line).abs() * MM2_PER_M2),
             unfolded: piece.unfolded().is_some(),

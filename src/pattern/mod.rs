@@ -1,5 +1,6 @@
 //! The pattern (PDM, thesis 3.3): from DXF and a seam file to a sewable garment mesh and its pattern lengths.
 
+pub mod check;
 mod curve;
 pub mod draft;
 pub mod dxf;
@@ -8,6 +9,7 @@ pub mod garmentcode;
 pub mod inspect;
 pub mod mesh;
 pub mod piece;
+pub mod propose;
 pub mod seams;
 pub mod sheet;
 pub mod style;

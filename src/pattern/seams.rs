@@ -5,8 +5,8 @@
 //! length_tolerance_mm = 1.0                 # greatest difference between the two sides of a seam (optional)
 //!
 //! [piece.front]                             # pieces by the id used below
-//! block = "FRONT"                           # block (or piece name) in the DXF file
-//! role = "front"                            # front, back, sleeve_right, sleeve_left
+//! block = "FRONT"                           # block (or piece name) in the DXF file; NAME#2 is the second of that name
+//! role = "front"                            # front, back, sleeve_right, sleeve_left, other
 //! mirror = false                            # true: worn as the mirror image of what is drawn (optional)
 //! edges.hem = [0, 1]                        # an edge: from corner to corner, counter-clockwise as drawn
 //! edges.side_left = [1, 2]

@@ -6,13 +6,15 @@ use super::error::{Result, StudyError};
 use super::file::SourceFile;
 use crate::body::{self, Body};
 use crate::pattern::dxf;
-use crate::pattern::{Garment, garmentcode, sheet};
+use crate::pattern::{Garment, Piece, check, garmentcode, propose, sheet};
 use crate::render::{self, Camera, Frame, Layer, Material, Scene};
 
 pub use crate::body::{Girths, LengthUnit, Measurements, Sex, write_obj};
+pub use crate::pattern::check::Finding;
 pub use crate::pattern::draft::Model;
 pub use crate::pattern::dxf::Unit;
 pub use crate::pattern::inspect::{FileReport, PieceReport};
+pub use crate::pattern::propose::Proposal;
 pub use crate::pattern::{MeshQuality, Style};
 pub use crate::render::View;
 
@@ -108,6 +110,41 @@ pub fn garmentcode_style(file: &Path) -> Result<Style> {
     let source = SourceFile::read(file)?;
     let read = garmentcode::read(&source.bytes, &source.name).map_err(StudyError::stage("pattern"))?;
     Ok(read.style())
+}
+
+/// What a person should know of a pattern and its seams that is no error.
+///
+/// # Errors
+/// As [`style`].
+pub fn findings(pattern: &Path, seams: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<Finding>> {
+    let source = SourceFile::read(seams)?;
+    let pieces = pieces(pattern, size, unit)?;
+    let style = Style::read(&pieces, &source.bytes, &source.name).map_err(StudyError::stage("pattern"))?;
+    let text = String::from_utf8_lossy(&source.bytes);
+    let entries = toml::from_str(&text).map_err(StudyError::stage("pattern"))?;
+    Ok(check::findings(&pieces, &entries, &style))
+}
+
+/// A seam file proposed for the pieces of a DXF file, or of all DXF files below a folder together.
+///
+/// # Errors
+/// When a file cannot be read, or holds several sizes while none is named.
+pub fn propose(path: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Proposal> {
+    let files = if path.is_dir() { drawings(path)? } else { vec![path.to_owned()] };
+    let mut all = Vec::new();
+    for file in files {
+        all.extend(pieces(&file, size, unit)?);
+    }
+    Ok(propose::propose(&all))
+}
+
+/// The pieces of one size of a DXF file.
+fn pieces(pattern: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<Piece>> {
+    let source = SourceFile::read(pattern)?;
+    let file = dxf::read(&source.bytes, &source.name, unit).map_err(StudyError::stage("pattern"))?;
+    // A file of one size need not name it as the study does.
+    let size = size.filter(|_| file.sizes().len() > 1);
+    file.to_sew(size).map_err(StudyError::stage("pattern"))
 }
 
 /// The unit of a name in a study file.

@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 42] = [
+const COMMANDS: [&str; 43] = [
     "",
     "run",
     "report",
@@ -19,6 +19,7 @@ const COMMANDS: [&str; 42] = [
     "pattern check",
     "pattern draft",
     "pattern mesh",
+    "pattern propose",
     "pattern sheet",
     "body",
     "body measure",

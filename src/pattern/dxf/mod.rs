@@ -80,9 +80,21 @@ pub struct PatternFile {
     pub refused: Vec<Refused>,
     /// Things the user should know.
     pub warnings: Vec<String>,
+    /// Encoding of the texts.
+    pub encoding: &'static encoding_rs::Encoding,
 }
 
 impl PatternFile {
+    /// A block's name byte for byte as the file writes it, each byte as the character of that number (Latin-1); the
+    /// name itself in a UTF-8 file. It names the block whatever code page a reader believes in.
+    #[must_use]
+    pub fn as_written(&self, block: &str) -> String {
+        if block == NO_BLOCK || self.encoding == encoding_rs::UTF_8 {
+            return block.to_owned();
+        }
+        self.encoding.encode(block).0.iter().map(|&byte| char::from(byte)).collect()
+    }
+
     /// Sizes in the order in which they first appear; pieces without one count as the size `""`.
     #[must_use]
     pub fn sizes(&self) -> Vec<&str> {
@@ -173,6 +185,7 @@ pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<Pattern
         pieces: Vec::new(),
         refused: Vec::new(),
         warnings: units::contradictions(&claims),
+        encoding,
     };
     file.warnings.extend(drawing.entities().filter_map(scaled_insert));
     if unit_source == UnitSource::Assumed {

@@ -13,7 +13,7 @@ const ON_OUTLINE_M: f64 = 0.5e-3;
 const CORNER_TURN_DEG: f64 = 30.0;
 
 /// Outline vertices that are corners, counter-clockwise from the first turn point in the file.
-pub(super) fn corner_vertices(piece: &Piece) -> Vec<usize> {
+pub(in crate::pattern) fn corner_vertices(piece: &Piece) -> Vec<usize> {
     let outline = piece.seam_outline();
     let nearest = |point: &V2| {
         let distance = |i: &usize| (outline[*i] - point).norm();

@@ -1,6 +1,6 @@
 //! A style: the pieces of one size, named, sewn and measured as its seam file says.
 
-mod corners;
+pub(super) mod corners;
 mod read;
 
 use self::read::Reader;

@@ -73,7 +73,12 @@ impl Reader<'_> {
         let place = format!("piece `{id}`");
         let named = |is: fn(&Piece) -> &str| pieces.iter().filter(|piece| is(piece) == entry.block).collect::<Vec<_>>();
         let by_block = named(|piece| &piece.block);
-        let found = if by_block.is_empty() { named(|piece| &piece.name) } else { by_block };
+        let mut found = if by_block.is_empty() { named(|piece| &piece.name) } else { by_block };
+        if let Some((name, number)) = entry.block.rsplit_once('#').filter(|_| found.is_empty()) {
+            let number = number.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
+            let of_name = pieces.iter().filter(|piece| piece.block == name);
+            found.extend(number.and_then(|number| of_name.clone().nth(number)));
+        }
         match found.as_slice() {
             [only] => Ok(only),
             [] => {

@@ -1,0 +1,190 @@
+//! What a person should know of a pattern and its seam file that is no error: edges left free, pieces left out,
+//! gathers, directions that look turned round.
+
+use std::collections::BTreeSet;
+
+use super::piece::{Notch, Piece};
+use super::seams::SeamFile;
+use super::style::{EdgeRef, Seam, Style};
+use crate::geom::polyline::Polyline;
+use crate::units::mm;
+
+/// Ratio of the sides from which a seam counts as gathered.
+const GATHERED_RATIO: f64 = 1.2;
+/// Distance within which a notch belongs to an edge, m.
+const ON_EDGE_M: f64 = 12e-3;
+/// Least gain, share of the seam, by which the notches must lie better the other way round.
+const TURNED_GAIN: f64 = 0.05;
+
+/// Something to look at.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Finding {
+    /// Kind.
+    pub kind: FindingKind,
+    /// Seam, edge or piece.
+    pub place: String,
+    /// What was found.
+    pub found: String,
+}
+
+/// Kind of a finding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FindingKind {
+    /// An edge that no seam holds.
+    FreeEdge,
+    /// A drawn piece that the seam file does not name.
+    UnusedPiece,
+    /// A seam whose sides differ much in length.
+    Gathered,
+    /// A seam whose sides look turned round.
+    Direction,
+}
+
+impl FindingKind {
+    /// Name for messages.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::FreeEdge => "free edge",
+            Self::UnusedPiece => "unused piece",
+            Self::Gathered => "gathered",
+            Self::Direction => "direction",
+        }
+    }
+}
+
+/// Findings of a style made of `pieces` by the entries of a seam file.
+#[must_use]
+pub fn findings(pieces: &[Piece], entries: &SeamFile, style: &Style) -> Vec<Finding> {
+    let mut findings = unused(pieces, entries);
+    findings.extend(style.seams.iter().filter_map(|seam| gathered(style, seam)));
+    findings.extend(style.seams.iter().filter_map(|seam| turned(style, seam)));
+    let sewn: BTreeSet<EdgeRef> = style.seams.iter().flat_map(|seam| seam.a.iter().chain(&seam.b)).copied().collect();
+    for (piece, worn) in style.pieces.iter().enumerate() {
+        for (edge, line) in worn.edges.iter().enumerate() {
+            let edge = EdgeRef { piece, edge };
+            if !sewn.contains(&edge) {
+                findings.push(Finding {
+                    kind: FindingKind::FreeEdge,
+                    place: style.edge_name(edge),
+                    found: format!("{:.1} mm in no seam", mm(line.line.length())),
+                });
+            }
+        }
+    }
+    findings
+}
+
+fn unused(pieces: &[Piece], entries: &SeamFile) -> Vec<Finding> {
+    let names: BTreeSet<&str> = entries.piece.values().map(|entry| entry.block.as_str()).collect();
+    let is_used = |index: usize, piece: &Piece| {
+        let number = pieces[..=index].iter().filter(|other| other.block == piece.block).count();
+        let numbered = format!("{}#{number}", piece.block);
+        [piece.block.as_str(), &piece.name, &numbered].iter().any(|name| names.contains(name))
+    };
+    let unused = pieces.iter().enumerate().filter(|(index, piece)| !is_used(*index, piece));
+    unused
+        .map(|(_, piece)| Finding {
+            kind: FindingKind::UnusedPiece,
+            place: piece.name.clone(),
+            found: "drawn, but the seam file does not name it".to_owned(),
+        })
+        .collect()
+}
+
+fn length(style: &Style, chain: &[EdgeRef]) -> f64 {
+    chain.iter().map(|&edge| style.edge(edge).line.length()).sum()
+}
+
+fn gathered(style: &Style, seam: &Seam) -> Option<Finding> {
+    let (a, b) = (length(style, &seam.a), length(style, &seam.b));
+    let ratio = (a / b).max(b / a);
+    (ratio > GATHERED_RATIO).then(|| Finding {
+        kind: FindingKind::Gathered,
+        place: seam.name.clone(),
+        found: format!("{:.1} mm to {:.1} mm, ratio {ratio:.2}", mm(a), mm(b)),
+    })
+}
+
+/// Pieces seen from outside meet against each other; notches that match better the other way round say so too.
+fn turned(style: &Style, seam: &Seam) -> Option<Finding> {
+    let found = if seam.b_forwards {
+        "both sides run counter-clockwise: one of the pieces is sewn inside out".to_owned()
+    } else {
+        let a = notch_shares(style, &seam.a, true);
+        let b = notch_shares(style, &seam.b, false);
+        let turned: Vec<f64> = b.iter().rev().map(|share| 1.0 - share).collect();
+        let worst = |other: &[f64]| a.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        if a.is_empty() || a.len() != b.len() || worst(&turned) + TURNED_GAIN > worst(&b) {
+            return None;
+        }
+        format!("{} notches a side match better with b turned round", a.len())
+    };
+    Some(Finding { kind: FindingKind::Direction, place: seam.name.clone(), found })
+}
+
+/// Places of the notches along a side of a seam, as shares of its length in the direction of sewing.
+fn notch_shares(style: &Style, chain: &[EdgeRef], is_forwards: bool) -> Vec<f64> {
+    let total = length(style, chain);
+    let mut shares = Vec::new();
+    let mut before = 0.0;
+    for &edge in chain {
+        let line = &style.edge(edge).line;
+        let on_edge = style.pieces[edge.piece].notches.iter().filter_map(|notch| arc_of(line, notch));
+        let along = |arc: f64| if is_forwards { arc } else { line.length() - arc };
+        shares.extend(on_edge.map(|arc| (before + along(arc)) / total));
+        before += line.length();
+    }
+    shares.sort_by(f64::total_cmp);
+    shares
+}
+
+/// Arc length of the vertex nearest to a notch; `None` for a notch elsewhere.
+fn arc_of(line: &Polyline, notch: &Notch) -> Option<f64> {
+    let distance = |i: &usize| (line.points()[*i] - notch.at).norm();
+    let nearest = (0..line.points().len()).min_by(|i, j| distance(i).total_cmp(&distance(j)))?;
+    let is_end = nearest == 0 || nearest + 1 == line.points().len();
+    (distance(&nearest) < ON_EDGE_M && !is_end).then(|| line.arcs()[nearest])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pattern::draft::{TSHIRT_SEAMS, TshirtSize, tshirt};
+
+    fn of(edit: impl Fn(&str) -> String) -> Vec<Finding> {
+        let text = edit(std::str::from_utf8(TSHIRT_SEAMS).expect("it is UTF-8"));
+        let pieces = tshirt(TshirtSize::S).pieces;
+        let style = Style::read(&pieces, text.as_bytes(), "a.toml").expect("it is a style");
+        findings(&pieces, &toml::from_str(&text).expect("it reads"), &style)
+    }
+
+    #[test]
+    fn a_whole_tshirt_leaves_its_openings_free_and_nothing_else() {
+        let found = of(str::to_owned);
+        assert!(found.iter().all(|finding| finding.kind == FindingKind::FreeEdge), "{found:?}");
+        let places: Vec<&str> = found.iter().map(|finding| finding.place.as_str()).collect();
+        for place in ["front.hem", "front.neck_left", "front.neck_right", "back.hem", "back.neck"] {
+            assert!(places.contains(&place), "{places:?}");
+        }
+        assert_eq!(places.len(), 7);
+    }
+
+    #[test]
+    fn a_seam_turned_round_and_a_piece_left_out_are_found() {
+        let turned = of(|text| {
+            text.replacen("b = [\"back.shoulder_right\"]", "b = [\"back.shoulder_right\"]\nsame_direction = true", 1)
+        });
+        let directions: Vec<&Finding> = turned.iter().filter(|f| f.kind == FindingKind::Direction).collect();
+        assert!(directions.len() == 1 && directions[0].place == "shoulder_right", "{directions:?}");
+        let mut pieces = tshirt(TshirtSize::S).pieces;
+        let style = Style::read(&pieces, TSHIRT_SEAMS, "a.toml").expect("it is a style");
+        let entries = toml::from_str(std::str::from_utf8(TSHIRT_SEAMS).expect("it is UTF-8")).expect("it reads");
+        let collar = Piece { block: "COLLAR".to_owned(), name: "COLLAR".to_owned(), ..pieces[0].clone() };
+        pieces.push(collar);
+        let found = findings(&pieces, &entries, &style);
+        let unused: Vec<&Finding> = found.iter().filter(|f| f.kind == FindingKind::UnusedPiece).collect();
+        assert!(unused.len() == 1 && unused[0].place == "COLLAR", "{unused:?}");
+    }
+}

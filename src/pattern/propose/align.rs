@@ -1,0 +1,195 @@
+//! Laying a template round an outline: which edges are the hem, which the side, and how well the whole fits.
+
+use super::Label;
+use super::shape::{Shape, Stretch};
+use super::templates::{Part, Template};
+use crate::geom::V2;
+
+/// Weight of the distance between where a stretch lies and where its part should lie, squared.
+const PLACE_WEIGHT: f64 = 1.5;
+/// Weight of the turns that a stretch makes at corners inside it, for a right angle.
+const TURN_WEIGHT: f64 = 0.3;
+/// Weight of the natural logarithm of a stretch's share of the length over its part's.
+const SHARE_WEIGHT: f64 = 0.2;
+/// Bow at which a curve counts as fully hollow or bulging (a segment of a circle of about 60 degrees).
+const FULL_BOW: f64 = 0.09;
+/// Weight of bending the wrong way.
+const BOW_WEIGHT: f64 = 0.4;
+/// What a piece that does not stand upright loses.
+const TURNED: f64 = 0.12;
+
+/// A labelled stretch of a piece, as drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Labelled {
+    /// What it is.
+    pub label: Label,
+    /// First corner.
+    pub from: usize,
+    /// Number of edges.
+    pub span: usize,
+    /// Whether it lies on the outer side or the right half as drawn (told of a stretch that the template has twice).
+    pub is_right: bool,
+}
+
+/// A template laid round a piece.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Alignment {
+    /// Template.
+    pub template: Template,
+    /// Whether the template was mirrored: the wearer's outer side is to the left of the drawing.
+    pub is_mirrored: bool,
+    /// Quarter turns, counter-clockwise, that set the piece upright.
+    pub quarter_turns: usize,
+    /// Stretches, counter-clockwise.
+    pub parts: Vec<Labelled>,
+    /// Goodness of fit, at most 1.
+    pub score: f64,
+}
+
+/// The best way to lay one of the templates round a shape.
+#[must_use]
+pub fn align<'t>(shape: &Shape, templates: impl Iterator<Item = &'t Template>) -> Option<Alignment> {
+    let mut best: Option<Alignment> = None;
+    let templates: Vec<&Template> = templates.collect();
+    for quarter_turns in 0..4 {
+        let (framed, size) = shape.framed(quarter_turns);
+        let stretches = Stretches::of(&framed);
+        for template in &templates {
+            for is_mirrored in if template.is_whole { &[false][..] } else { &[false, true] } {
+                let parts = parts_of(template, *is_mirrored);
+                let Some((score, cuts)) = stretches.best(&parts, size) else { continue };
+                let score = score - if quarter_turns == 0 { 0.0 } else { TURNED };
+                if best.as_ref().is_none_or(|best| score > best.score) {
+                    let labelled = (0..parts.len()).map(|k| Labelled {
+                        label: parts[k].label,
+                        from: cuts[k].0,
+                        span: cuts[k].1,
+                        is_right: parts[k].at[0] > 0.5,
+                    });
+                    best = Some(Alignment {
+                        template: **template,
+                        is_mirrored: *is_mirrored,
+                        quarter_turns,
+                        parts: labelled.collect(),
+                        score,
+                    });
+                }
+            }
+        }
+    }
+    best
+}
+
+/// The parts of a template, mirrored left to right where asked, counter-clockwise again.
+fn parts_of(template: &Template, is_mirrored: bool) -> Vec<Part> {
+    let mut parts = template.parts.to_vec();
+    if is_mirrored {
+        parts.reverse();
+        for part in &mut parts {
+            // Seen in a mirror and walked the other way round: u turns twice, v once.
+            part.direction_deg = -part.direction_deg;
+            part.at[0] = 1.0 - part.at[0];
+        }
+    }
+    parts
+}
+
+/// All stretches of a framed shape that do not begin or end inside a dart.
+struct Stretches {
+    edges: usize,
+    /// By first edge, then span less one; `None` where a dart would be cut.
+    table: Vec<Vec<Option<Stretch>>>,
+    total: f64,
+}
+
+impl Stretches {
+    fn of(shape: &Shape) -> Self {
+        let n = shape.len();
+        let is_cut = |corner: usize| shape.apexes().contains(&(corner % n));
+        let row = |from: usize| {
+            let stretch = |span: usize| (!is_cut(from) && !is_cut(from + span)).then(|| shape.stretch(from, span));
+            (1..n).map(stretch).collect()
+        };
+        let total = (0..n).filter(|&edge| !shape.is_leg(edge)).map(|edge| shape.length(edge)).sum();
+        Self { edges: n, table: (0..n).map(row).collect(), total }
+    }
+
+    /// The mean goodness of the best cut of the outline into the parts, with `(first corner, span)` of each.
+    fn best(&self, parts: &[Part], size: V2) -> Option<(f64, Vec<(usize, usize)>)> {
+        let n = self.edges;
+        if n < parts.len() {
+            return None;
+        }
+        let value =
+            |stretch: &Option<Stretch>, part: &Part| stretch.map(|stretch| goodness(&stretch, part, size, self.total));
+        let of_part = |part: &Part| -> Values {
+            self.table.iter().map(|row| row.iter().map(|stretch| value(stretch, part)).collect()).collect()
+        };
+        let values: Vec<Values> = parts.iter().map(of_part).collect();
+        let mut best: Option<(f64, Vec<(usize, usize)>)> = None;
+        for start in 0..n {
+            if let Some((sum, cuts)) = best_from(start, &values) {
+                let mean = sum / parts.len() as f64;
+                if best.as_ref().is_none_or(|(found, _)| mean > *found) {
+                    best = Some((mean, cuts));
+                }
+            }
+        }
+        best
+    }
+}
+
+/// Goodness of every stretch for one part: by first edge, then span less one.
+type Values = Vec<Vec<Option<f64>>>;
+
+/// Dynamic programme over the edges passed since the corner `start`.
+fn best_from(start: usize, values: &[Values]) -> Option<(f64, Vec<(usize, usize)>)> {
+    let n = values.first()?.len();
+    // Best sum with so many edges used, and the span of the last part.
+    let mut sums = vec![None; n + 1];
+    sums[0] = Some(0.0);
+    let mut spans = Vec::new();
+    for values in values {
+        let mut next: Vec<Option<f64>> = vec![None; n + 1];
+        let mut chosen = vec![0; n + 1];
+        for used in 0..n {
+            let Some(sum) = sums[used] else { continue };
+            for span in 1..=(n - used).min(n - 1) {
+                let Some(value) = values[(start + used) % n][span - 1] else { continue };
+                let value = sum + value;
+                if next[used + span].is_none_or(|found| value > found) {
+                    next[used + span] = Some(value);
+                    chosen[used + span] = span;
+                }
+            }
+        }
+        sums = next;
+        spans.push(chosen);
+    }
+    let sum = sums[n]?;
+    let mut cuts = Vec::new();
+    let mut used = n;
+    for chosen in spans.iter().rev() {
+        let span = chosen[used];
+        used -= span;
+        cuts.push(((start + used) % n, span));
+    }
+    cuts.reverse();
+    Some((sum, cuts))
+}
+
+/// How well a stretch does for a part, at most 1.
+fn goodness(stretch: &Stretch, part: &Part, size: V2, total: f64) -> f64 {
+    let direction = part.direction_deg.to_radians();
+    let along = stretch.chord.try_normalize(1e-9).map_or(-1.0, |c| c.dot(&V2::new(direction.cos(), direction.sin())));
+    let expect = V2::new(part.at[0] * size.x, part.at[1] * size.y);
+    let away = (stretch.middle - expect).norm_squared();
+    let share = (stretch.length / total / part.share).max(1e-3).ln().abs().min(4.0);
+    let bow = (stretch.bow / FULL_BOW).clamp(-1.0, 1.0);
+    let wrong_bow = if part.bow == 0.0 { 0.3 * bow.abs() } else { 0.5 * (1.0 - bow * part.bow) };
+    along
+        - PLACE_WEIGHT * away
+        - TURN_WEIGHT * stretch.turn / std::f64::consts::FRAC_PI_2
+        - SHARE_WEIGHT * share
+        - BOW_WEIGHT * wrong_bow
+}

@@ -1,0 +1,232 @@
+//! A seam file proposed for the pieces of one size: what each piece is, and what is sewn to what.
+//!
+//! Names say what they can ([`names`]); the outline of every piece is aligned with templates of pieces ([`align`]), which
+//! tells its edges apart; then edges that belong together are sewn ([`sew`]). Everything carries a confidence, and what
+//! is unsure becomes a question to the person who edits the file.
+
+mod align;
+mod names;
+mod recognise;
+mod sew;
+mod shape;
+mod templates;
+#[cfg(test)]
+mod tests;
+mod worn;
+mod write;
+
+use super::piece::Piece;
+use super::seams::{PieceEntry, SeamEntry};
+
+/// Kind of a piece.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Class {
+    /// Front or back of the trunk.
+    Body,
+    /// Front or back of a leg.
+    Leg,
+    /// Sleeve, or front or back of one.
+    Sleeve,
+    /// Front or back of a skirt.
+    Skirt,
+    /// Waistband.
+    Waistband,
+    /// Cuff.
+    Cuff,
+    /// Anything else: it takes part in no proposal.
+    Other,
+}
+
+/// Front or back.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Face {
+    /// Front.
+    Front,
+    /// Back.
+    Back,
+}
+
+/// Side of the wearer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Hand {
+    /// The wearer's right.
+    Right,
+    /// The wearer's left.
+    Left,
+}
+
+impl Hand {
+    /// Both, the right first.
+    pub const BOTH: [Self; 2] = [Self::Right, Self::Left];
+
+    fn other(self) -> Self {
+        match self {
+            Self::Right => Self::Left,
+            Self::Left => Self::Right,
+        }
+    }
+
+    fn as_str(self) -> &'static str {
+        match self {
+            Self::Right => "right",
+            Self::Left => "left",
+        }
+    }
+}
+
+impl Face {
+    /// Both, the front first.
+    pub const BOTH: [Self; 2] = [Self::Front, Self::Back];
+
+    fn as_str(self) -> &'static str {
+        match self {
+            Self::Front => "front",
+            Self::Back => "back",
+        }
+    }
+}
+
+/// What an edge is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Label {
+    /// Free lower edge, or the lower edge of a bodice.
+    Hem,
+    /// Side seam.
+    Side,
+    /// Armhole.
+    Armhole,
+    /// Shoulder.
+    Shoulder,
+    /// Neckline.
+    Neck,
+    /// Centre front or back.
+    Centre,
+    /// Upper edge of a skirt or leg.
+    Waist,
+    /// Outer side of a leg.
+    Outseam,
+    /// Inner side of a leg.
+    Inseam,
+    /// Seat seam.
+    Crotch,
+    /// Edge of a sleeve that meets the armhole.
+    Cap,
+    /// Lower lengthwise edge of a sleeve.
+    Underarm,
+    /// Upper lengthwise edge of half a sleeve.
+    Top,
+    /// Lower edge of a band.
+    Lower,
+    /// Short edge of a band.
+    End,
+}
+
+impl Label {
+    fn as_str(self) -> &'static str {
+        match self {
+            Self::Hem => "hem",
+            Self::Side => "side",
+            Self::Armhole => "armhole",
+            Self::Shoulder => "shoulder",
+            Self::Neck => "neck",
+            Self::Centre => "centre",
+            Self::Waist => "waist",
+            Self::Outseam => "outseam",
+            Self::Inseam => "inseam",
+            Self::Crotch => "crotch",
+            Self::Cap => "cap",
+            Self::Underarm => "underarm",
+            Self::Top => "top",
+            Self::Lower => "lower",
+            Self::End => "end",
+        }
+    }
+}
+
+/// What a piece was taken for.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct ProposedPiece {
+    /// Identifier in the seam file; `None` where it takes part in no seam.
+    pub id: Option<String>,
+    /// Name in the file.
+    pub name: String,
+    /// Kind; `None` where it was not recognised.
+    pub class: Option<Class>,
+    /// Front or back.
+    pub face: Option<Face>,
+    /// Side of the wearer; `None` for a piece of both sides.
+    pub hand: Option<Hand>,
+    /// 0 (guessed) to 1 (certain).
+    pub confidence: f64,
+}
+
+/// A proposed seam.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct ProposedSeam {
+    /// As the seam file has it.
+    #[serde(flatten)]
+    pub entry: SeamEntry,
+    /// Length of side `a`, mm.
+    pub a_mm: f64,
+    /// Length of side `b`, mm.
+    pub b_mm: f64,
+    /// 0 (guessed) to 1 (certain).
+    pub confidence: f64,
+}
+
+impl ProposedSeam {
+    /// Length of `a` over length of `b`: 1 for a plain seam, more where `a` is eased or gathered.
+    #[must_use]
+    pub fn ratio(&self) -> f64 {
+        self.a_mm / self.b_mm
+    }
+}
+
+/// A proposed seam file.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Proposal {
+    /// What every piece was taken for, in the order of the file; a piece cut twice comes twice.
+    pub pieces: Vec<ProposedPiece>,
+    /// Seams, the surest first of each kind.
+    pub seams: Vec<ProposedSeam>,
+    /// What a person must decide.
+    pub questions: Vec<String>,
+    /// Pieces of the seam file by identifier.
+    #[serde(skip)]
+    entries: Vec<(String, PieceEntry)>,
+}
+
+/// Proposes a seam file for the pieces of one size, half pieces opened ([`super::dxf::PatternFile::to_sew`]).
+#[must_use]
+pub fn propose(pieces: &[Piece]) -> Proposal {
+    let mut questions = Vec::new();
+    let recognised = recognise::recognise(pieces, &mut questions);
+    let worn = worn::worn(pieces, &recognised, &mut questions);
+    let seams = sew::sew(&worn, &mut questions);
+    let mut listed: Vec<ProposedPiece> = Vec::new();
+    for (index, piece) in pieces.iter().enumerate() {
+        let recognised = recognised.iter().find(|found| found.piece == index);
+        let of_this: Vec<_> = worn.iter().filter(|worn| worn.piece == index).collect();
+        let plain = ProposedPiece {
+            id: None,
+            name: piece.name.clone(),
+            class: recognised.map(|found| found.class),
+            face: recognised.and_then(|found| found.face),
+            hand: recognised.and_then(|found| found.hand),
+            confidence: recognised.map_or(0.0, |found| found.confidence),
+        };
+        if of_this.is_empty() {
+            listed.push(plain.clone());
+        }
+        listed.extend(of_this.iter().map(|worn| ProposedPiece {
+            id: Some(worn.id.clone()),
+            hand: worn.hand,
+            ..plain.clone()
+        }));
+    }
+    let entries = worn.iter().map(|worn| (worn.id.clone(), worn.entry.clone())).collect();
+    Proposal { pieces: listed, seams, questions, entries }
+}

@@ -1,0 +1,216 @@
+//! What a piece's name says: English, German, French, Spanish, Italian, Dutch, Portuguese, Polish, Russian, Ukrainian.
+
+use super::{Class, Face, Hand};
+
+/// What is read from a name.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Named {
+    /// Kind of piece.
+    pub class: Option<Class>,
+    /// Front or back.
+    pub face: Option<Face>,
+    /// Side of the wearer.
+    pub hand: Option<Hand>,
+}
+
+/// Parts of words that name a kind of piece; the first that is found counts, so small parts stand before what they are
+/// sewn to (`front pocket bag` is a pocket, `sleeve cuff` a cuff).
+const CLASSES: [(Class, &[&str]); 6] = [
+    (
+        Class::Other,
+        &[
+            "pocket",
+            "tasche",
+            "poche",
+            "bolsillo",
+            "tasca",
+            "bolso",
+            "kiesze",
+            "карман",
+            "кишен",
+            "facing",
+            "beleg",
+            "parementure",
+            "vista",
+            "belegsel",
+            "подборт",
+            "підборт",
+            "interface",
+            "interfacing",
+            "lining",
+            "futter",
+            "placket",
+            "fly",
+            "collar",
+            "kragen",
+            "collo",
+            "cuello",
+            "kraag",
+            "colarinho",
+            "gola",
+            "воротник",
+            "комір",
+            "комир",
+            "yoke",
+            "passe",
+            "empiec",
+            "canesu",
+            "canes",
+            "кокетк",
+            "hood",
+            "kapuze",
+            "capuche",
+            "капюшон",
+            "neckband",
+            "binding",
+            "gusset",
+            "loop",
+        ],
+    ),
+    (
+        Class::Waistband,
+        &["waistband", "bund", "ceinture", "cinturilla", "pretina", "cintura", "tailleband", "pasek", "пояс", "wb"],
+    ),
+    (Class::Cuff, &["cuff", "manschette", "poignet", "puño", "polsino", "manchet", "punho", "mankiet", "манжет"]),
+    (Class::Sleeve, &["sleeve", "ärmel", "aermel", "manche", "manga", "manica", "mouw", "rękaw", "rekaw", "рукав"]),
+    (
+        Class::Leg,
+        &[
+            "trouser",
+            "pant",
+            "hose",
+            "pantalon",
+            "pantalón",
+            "pantaloni",
+            "broek",
+            "spodni",
+            "брюк",
+            "штан",
+            "leg",
+            "jean",
+            "short",
+        ],
+    ),
+    (Class::Skirt, &["skirt", "rock", "jupe", "falda", "gonna", "saia", "spódnic", "spodnic", "юбк", "спідниц"]),
+];
+
+/// Parts of words that say front or back.
+const FACES: [(Face, &[&str]); 2] = [
+    (
+        Face::Front,
+        &[
+            "front",
+            "vorder",
+            "vorne",
+            "devant",
+            "avant",
+            "delantero",
+            "delanter",
+            "davanti",
+            "voorpand",
+            "voor",
+            "frente",
+            "przód",
+            "przod",
+            "перед",
+            "пілочк",
+            "полочк",
+            "пилочк",
+            "ftorso",
+        ],
+    ),
+    (
+        Face::Back,
+        &[
+            "back",
+            "rücken",
+            "ruecken",
+            "hinter",
+            "dos",
+            "derrière",
+            "espalda",
+            "trasero",
+            "dietro",
+            "achterpand",
+            "achter",
+            "rug",
+            "costas",
+            "tył",
+            "tyl",
+            "зад",
+            "спинк",
+            "btorso",
+        ],
+    ),
+];
+
+/// Words that say left or right.
+const HANDS: [(Hand, &[&str]); 2] = [
+    (Hand::Right, &["right", "rechts", "droite", "derecha", "destra", "prawy", "правый", "права", "r"]),
+    (Hand::Left, &["left", "links", "gauche", "izquierda", "sinistra", "lewy", "левый", "ліва", "l"]),
+];
+
+/// Words after which a name tells only of a detail (`front with pocket`).
+const DETAILS: [&str; 13] =
+    ["no", "with", "without", "ohne", "mit", "sans", "avec", "con", "sin", "senza", "met", "zonder", "без"];
+
+/// Reads a name.
+#[must_use]
+pub fn read(name: &str) -> Named {
+    let lower = name.to_lowercase();
+    let words: Vec<&str> = lower
+        .split(|c: char| !c.is_alphabetic())
+        .filter(|word| !word.is_empty())
+        .take_while(|word| !DETAILS.contains(word))
+        .collect();
+    // A part of up to three letters must be a whole word.
+    let has = |part: &&str| words.iter().any(|word| word == part || (part.chars().count() > 3 && word.contains(*part)));
+    let has_any = |parts: &&[&str]| parts.iter().any(has);
+    let class = CLASSES.iter().find(|(_, parts)| has_any(parts)).map(|(class, _)| *class);
+    let is_initial = |initial: &str| class.is_some() && words.contains(&initial);
+    let face = FACES.iter().find(|(_, parts)| has_any(parts)).map(|(face, _)| *face);
+    let face = face.or(if is_initial("f") {
+        Some(Face::Front)
+    } else if is_initial("b") {
+        Some(Face::Back)
+    } else {
+        None
+    });
+    let hand = HANDS.iter().find(|(_, parts)| parts.iter().any(|part| words.contains(part))).map(|(hand, _)| *hand);
+    Named { class, face, hand }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_many_languages_are_read() {
+        let check = |name: &str, class: Option<Class>, face: Option<Face>, hand: Option<Hand>| {
+            assert_eq!(read(name), Named { class, face, hand }, "{name}");
+        };
+        use Class::{Cuff, Leg, Other, Skirt, Sleeve, Waistband};
+        use Face::{Back, Front};
+        check("TEAGAN FRONT", None, Some(Front), None);
+        check("Front_636968_M", None, Some(Front), None);
+        check("BELLA_FRONTSIDEDART_36", None, Some(Front), None);
+        check("FRONT_WITH_POCKET", None, Some(Front), None);
+        check("PACO FRONTPOCKETBAG", Some(Other), Some(Front), None);
+        check("right_btorso", None, Some(Back), Some(Hand::Right));
+        check("pant_f_r", Some(Leg), Some(Front), Some(Hand::Right));
+        check("sl_left_cuff_b", Some(Cuff), Some(Back), Some(Hand::Left));
+        check("wb_front", Some(Waistband), Some(Front), None);
+        check("Vorderhose links", Some(Leg), Some(Front), Some(Hand::Left));
+        check("Rückenteil", None, Some(Back), None);
+        check("manche droite", Some(Sleeve), None, Some(Hand::Right));
+        check("falda delantero", Some(Skirt), Some(Front), None);
+        check("Manica", Some(Sleeve), None, None);
+        check("achterpand", None, Some(Back), None);
+        check("Рукав", Some(Sleeve), None, None);
+        check("Спинка", None, Some(Back), None);
+        check("Полочка", None, Some(Front), None);
+        check("Підборт", Some(Other), None, None);
+        check("?????", None, None, None);
+        check("DETAIL", None, None, None);
+    }
+}

@@ -1,0 +1,163 @@
+//! The outline of a piece as edges between corners, darts taken out.
+
+use crate::geom::V2;
+use crate::pattern::piece::Piece;
+use crate::pattern::style::corners::corner_vertices;
+
+/// Turn to the right at which a corner is the apex of a dart, degrees.
+const APEX_TURN_DEG: f64 = 120.0;
+/// Greatest difference of the two legs of a dart, share of the longer.
+const LEG_DIFFERENCE: f64 = 0.04;
+/// Greatest mouth of a dart, share of its leg: what is wider is a V-neck.
+const WIDEST_MOUTH: f64 = 0.7;
+/// Least leg of a dart, m.
+const LEAST_LEG_M: f64 = 20e-3;
+/// Most corners of a piece that is looked at; more are no pattern's, and alignment takes the square of their number.
+const MOST_CORNERS: usize = 100;
+
+/// The outline that is sewn, cut at its corners.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape {
+    /// Outline, counter-clockwise.
+    outline: Vec<V2>,
+    /// Corners, as [`corner_vertices`] numbers them.
+    corners: Vec<usize>,
+    /// Corners that are the apex of a dart; its legs are the edges before and after.
+    apexes: Vec<usize>,
+}
+
+/// A stretch of outline over some edges, in the frame of a [`Shape::framed`] outline.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    /// From its first to its last point.
+    pub chord: V2,
+    /// The point at half its length.
+    pub middle: V2,
+    /// Length without darts.
+    pub length: f64,
+    /// Area between it and its chord over the square of the chord; positive where it bulges outwards.
+    pub bow: f64,
+    /// Sum of the turns at the corners that it passes, darts left out, radians.
+    pub turn: f64,
+}
+
+impl Shape {
+    /// The shape of a piece; `None` where it has fewer than three corners or more than any pattern.
+    #[must_use]
+    pub fn of(piece: &Piece) -> Option<Self> {
+        let corners = corner_vertices(piece);
+        if !(3..=MOST_CORNERS).contains(&corners.len()) {
+            return None;
+        }
+        let mut shape = Self { outline: piece.seam_outline().to_vec(), corners, apexes: Vec::new() };
+        shape.apexes = (0..shape.corners.len()).filter(|&corner| shape.is_apex(corner)).collect();
+        Some(shape)
+    }
+
+    /// Number of corners, which is the number of edges: edge `k` runs from corner `k` to the next.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.corners.len()
+    }
+
+    /// Corners that are the apex of a dart.
+    #[must_use]
+    pub fn apexes(&self) -> &[usize] {
+        &self.apexes
+    }
+
+    /// Whether an edge is a leg of a dart.
+    #[must_use]
+    pub fn is_leg(&self, edge: usize) -> bool {
+        self.apexes.contains(&edge) || self.apexes.contains(&((edge + 1) % self.len()))
+    }
+
+    /// Points of an edge, both ends included.
+    fn points(&self, edge: usize) -> Vec<V2> {
+        let n = self.outline.len();
+        let (from, to) = (self.corners[edge], self.corners[(edge + 1) % self.len()]);
+        (0..=(to + n - from) % n).map(|k| self.outline[(from + k) % n]).collect()
+    }
+
+    /// Length of an edge, m.
+    #[must_use]
+    pub fn length(&self, edge: usize) -> f64 {
+        self.points(edge).windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum()
+    }
+
+    /// Turn of the outline at a corner, radians, positive to the left.
+    fn turn(&self, corner: usize) -> f64 {
+        let before = self.points((corner + self.len() - 1) % self.len());
+        let after = self.points(corner);
+        let (u, v) = (before[before.len() - 1] - before[before.len() - 2], after[1] - after[0]);
+        u.perp(&v).atan2(u.dot(&v))
+    }
+
+    fn is_apex(&self, corner: usize) -> bool {
+        let legs = [self.length((corner + self.len() - 1) % self.len()), self.length(corner)];
+        let place = |corner: usize| self.outline[self.corners[corner % self.len()]];
+        let mouth = (place(corner + 1) - place(corner + self.len() - 1)).norm();
+        let (short, long) = (legs[0].min(legs[1]), legs[0].max(legs[1]));
+        self.turn(corner).to_degrees() < -APEX_TURN_DEG
+            && short > LEAST_LEG_M
+            && mouth < WIDEST_MOUTH * short
+            && long - short < LEG_DIFFERENCE * long.max(LEAST_LEG_M)
+    }
+
+    /// The least and greatest `v` of a stretch.
+    #[must_use]
+    pub fn heights(&self, from: usize, span: usize) -> [f64; 2] {
+        let points = (0..span).flat_map(|k| self.points((from + k) % self.len()));
+        points.fold([f64::MAX, f64::MIN], |[low, high], p| [low.min(p.y), high.max(p.y)])
+    }
+
+    /// The same shape turned by quarter turns and scaled into the unit square of its bounding box (both axes by the
+    /// longer side, so that angles stay), with the box's width and height.
+    #[must_use]
+    pub fn framed(&self, quarter_turns: usize) -> (Self, V2) {
+        let turned = |p: &V2| match quarter_turns % 4 {
+            0 => *p,
+            1 => V2::new(-p.y, p.x),
+            2 => -*p,
+            _ => V2::new(p.y, -p.x),
+        };
+        let points: Vec<V2> = self.outline.iter().map(turned).collect();
+        let low = points.iter().fold(V2::repeat(f64::MAX), |low, p| low.inf(p));
+        let high = points.iter().fold(V2::repeat(f64::MIN), |high, p| high.sup(p));
+        let scale = (high - low).max().max(f64::MIN_POSITIVE);
+        let outline = points.iter().map(|p| (p - low) / scale).collect();
+        (Self { outline, ..self.clone() }, (high - low) / scale)
+    }
+
+    /// The stretch over `span` edges from the edge `from` on.
+    #[must_use]
+    pub fn stretch(&self, from: usize, span: usize) -> Stretch {
+        let n = self.len();
+        let mut points: Vec<V2> = Vec::new();
+        let (mut turn, mut was_leg) = (0.0, false);
+        for k in 0..span {
+            let edge = (from + k) % n;
+            let is_leg = self.is_leg(edge);
+            if k > 0 && !is_leg && !was_leg {
+                turn += self.turn(edge).abs();
+            }
+            was_leg = is_leg;
+            if !is_leg {
+                points.extend(self.points(edge));
+            }
+        }
+        if points.is_empty() {
+            points = self.points(from % n);
+        }
+        let chord = points[points.len() - 1] - points[0];
+        // The mouth of a dart has no length: it is the step between two points that were put end to end.
+        let mut arcs = vec![0.0];
+        for ends in points.windows(2) {
+            arcs.push(arcs[arcs.len() - 1] + (ends[1] - ends[0]).norm());
+        }
+        let length = arcs[arcs.len() - 1];
+        let half = arcs.partition_point(|&arc| arc < 0.5 * length).min(points.len() - 1);
+        let area = crate::geom::polyline::signed_area(&points);
+        Stretch { chord, middle: points[half], length, bow: area / chord.norm_squared().max(1e-12), turn }
+    }
+}

@@ -1,0 +1,254 @@
+use std::path::{Path, PathBuf};
+
+use super::*;
+use crate::geom::V2;
+use crate::pattern::draft::{TSHIRT_SEAMS, TshirtSize, tshirt};
+use crate::pattern::dxf::{self, Unit};
+use crate::pattern::seams::SeamFile;
+use crate::pattern::style::Style;
+
+fn shared(file: &str) -> Option<PathBuf> {
+    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/patterns")).join(file);
+    if !path.exists() {
+        eprintln!("skipped: {} is not here", path.display());
+        return None;
+    }
+    Some(path)
+}
+
+fn pieces(file: &str, size: Option<&str>) -> Option<Vec<Piece>> {
+    let bytes = std::fs::read(shared(file)?).expect("the file is there");
+    let unit = file.starts_with("valentina").then_some(Unit::Mm);
+    Some(dxf::read(&bytes, file, unit).expect("it reads").to_sew(size).expect("it is whole"))
+}
+
+/// Every proposal must be a seam file that fits its pieces.
+fn style(pieces: &[Piece], proposal: &Proposal) -> Style {
+    let text = proposal.toml("proposed");
+    Style::read(pieces, text.as_bytes(), "proposed.toml").unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+/// Every proposal is a seam file that fits its pieces and meshes; returns it with the number of seams.
+fn proposed(file: &str, size: Option<&str>) -> Option<(Proposal, Style)> {
+    let pieces = pieces(file, size)?;
+    let proposal = propose(&pieces);
+    let style = style(&pieces, &proposal);
+    let garment = style.mesh(15e-3).unwrap_or_else(|error| panic!("{file}: {error}"));
+    assert_eq!(garment.seams.len(), proposal.seams.len(), "{file}");
+    Some((proposal, style))
+}
+
+/// Names of the proposed seams without darts, in order, and how many darts.
+fn check(file: &str, seams: &[&str], darts: usize) {
+    let Some((proposal, _)) = proposed(file, None) else { return };
+    let names: Vec<&str> = proposal.seams.iter().map(|seam| seam.entry.name.as_str()).collect();
+    let mut plain: Vec<&str> = names.iter().copied().filter(|name| !name.contains("dart")).collect();
+    plain.sort_unstable();
+    assert_eq!(plain, seams, "{file}");
+    assert_eq!(names.len() - plain.len(), darts, "{file}");
+}
+
+/// Seams of a garment with whole front, whole back and sleeves.
+const TOP: [&str; 8] = [
+    "armhole_left",
+    "armhole_right",
+    "shoulder_left",
+    "shoulder_right",
+    "side_left",
+    "side_right",
+    "underarm_left",
+    "underarm_right",
+];
+/// Seams of trousers without a waistband.
+const TROUSERS: [&str; 6] =
+    ["crotch_back", "crotch_front", "inseam_left", "inseam_right", "outseam_left", "outseam_right"];
+
+#[test]
+fn freesewing_garments_are_sewn() {
+    let with = |more: &[&'static str]| {
+        let mut all = [&TOP[..], more].concat();
+        all.sort_unstable();
+        all
+    };
+    check("freesewing/teagan_cisFemaleAdult36_aama.dxf", &TOP, 0);
+    check("freesewing/teagan_cisFemaleAdult36_c3d.dxf", &TOP, 0);
+    check("freesewing/brian_cisMaleAdult40_aama.dxf", &TOP, 0);
+    check("freesewing/titan_cisFemaleAdult36_aama.dxf", &TROUSERS, 0);
+    check("freesewing/bella_cisFemaleAdult36_aama-net.dxf", &with(&["centre_back"]), 4);
+    check("valentina/TShirt_test.v1.1.1.aama-r12.dxf", &with(&["centre_back", "centre_front"]), 0);
+    check("valentina/Trousers.v1.1.1.aama-r12.dxf", &TROUSERS, 6);
+}
+
+#[test]
+fn every_size_of_the_nests_is_sewn_and_meshed() {
+    for (file, seams) in [("freesewing/teagan_nest_aama-inch.dxf", 8), ("freesewing/titan_nest_astm-mm.dxf", 6)] {
+        for size in ["28", "32", "34", "36", "38", "40", "42", "44"] {
+            let Some((proposal, style)) = proposed(file, Some(size)) else { return };
+            assert_eq!((proposal.seams.len(), style.size.as_str()), (seams, size), "{file}");
+        }
+    }
+}
+
+#[test]
+fn our_own_tshirt_is_sewn_as_its_seam_file_says() {
+    let pieces = tshirt(TshirtSize::M).pieces;
+    let (found, truth) = (
+        style(&pieces, &propose(&pieces)),
+        Style::read(&pieces, TSHIRT_SEAMS, "tshirt.seams.toml").expect("it is a style"),
+    );
+    let lengths = |style: &Style| {
+        let length = |seam: &crate::pattern::style::Seam| {
+            seam.a.iter().map(|&edge| (style.edge(edge).line.length() * 1e4).round() as i64).sum::<i64>()
+        };
+        let mut lengths: Vec<i64> = style.seams.iter().map(length).collect();
+        lengths.sort_unstable();
+        lengths
+    };
+    assert_eq!(lengths(&found), lengths(&truth));
+}
+
+#[test]
+fn a_proposal_is_the_file_it_writes() {
+    let pieces = tshirt(TshirtSize::M).pieces;
+    let proposal = propose(&pieces);
+    let read: SeamFile = toml::from_str(&proposal.toml("a \"name\"")).expect("it reads");
+    assert_eq!(read, proposal.seam_file("a \"name\""));
+    assert!(proposal.seams.iter().all(|seam| (0.0..=1.0).contains(&seam.confidence)));
+}
+
+#[test]
+fn what_is_unsure_is_asked_for() {
+    let mut pieces = tshirt(TshirtSize::M).pieces;
+    for piece in &mut pieces {
+        piece.name = "?????".to_owned();
+        piece.turn_points.clear();
+        piece.outline =
+            (0..40).map(|k| f64::from(k) / 20.0 * std::f64::consts::PI).map(|a| V2::new(a.cos(), a.sin())).collect();
+    }
+    let proposal = propose(&pieces);
+    assert!(proposal.seams.is_empty());
+    assert_eq!(proposal.questions.len(), pieces.len());
+}
+
+#[test]
+fn corners_by_curvature_are_corners_that_the_file_marks() {
+    let (mut marked, mut curved, mut agree) = (0, 0, 0);
+    for file in [
+        "freesewing/teagan_cisFemaleAdult36_aama.dxf",
+        "freesewing/titan_cisFemaleAdult36_aama.dxf",
+        "freesewing/bella_cisFemaleAdult36_aama-net.dxf",
+        "garmentcode/dress_sheath_mean_female.dxf",
+        "garmentcode/fitted_shirt_sleeves_mean_male.dxf",
+        "garmentcode/pants_mean_all.dxf",
+    ] {
+        let Some(pieces) = pieces(file, None) else { return };
+        for piece in pieces {
+            let by_marks = crate::pattern::style::corners::corner_vertices(&piece);
+            let unmarked = Piece { turn_points: Vec::new(), ..piece };
+            let by_curvature = crate::pattern::style::corners::corner_vertices(&unmarked);
+            marked += by_marks.len();
+            curved += by_curvature.len();
+            agree += by_curvature.iter().filter(|corner| by_marks.contains(corner)).count();
+        }
+    }
+    eprintln!("{marked} corners marked, {curved} found by curvature, of which {agree} are marked");
+    assert!(agree * 100 >= 98 * curved, "{agree} of {curved}");
+    assert!(agree * 100 >= 75 * marked, "{agree} of {marked}");
+}
+
+/// A stitch of a GarmentCode file: panel and edge number, twice.
+type Stitch = [(String, usize); 2];
+
+/// How many stitches of a GarmentCode file the proposal for the DXF file beside it holds: `(true, found)`.
+fn score(garment: &str) -> Option<(usize, usize)> {
+    let file = format!("garmentcode/{garment}.dxf");
+    let drawn = pieces(&file, None)?;
+    let (proposal, style) = proposed(&file, None)?;
+    let text =
+        std::fs::read_to_string(shared(&format!("garmentcode/{garment}_specification.json"))?).expect("it reads");
+    let pattern: serde_json::Value = serde_json::from_str(&text).expect("it is JSON");
+    let pattern = &pattern["pattern"];
+    let ends = |panel: &str, edge: usize| -> [V2; 2] {
+        let panel_json = &pattern["panels"][panel];
+        let point = |v: &serde_json::Value| V2::new(v[0].as_f64().expect("u"), v[1].as_f64().expect("v")) * 0.01;
+        let vertices: Vec<V2> = panel_json["vertices"].as_array().expect("a list").iter().map(point).collect();
+        let piece = drawn.iter().find(|piece| piece.name == panel).expect("a panel is a piece");
+        // The DXF file moves every panel: both hold the same corners.
+        let low = |points: &[V2]| points.iter().fold(V2::repeat(f64::MAX), |low, p| low.inf(p));
+        let move_by = low(&piece.turn_points) - low(&vertices);
+        [0, 1].map(|k| {
+            let index = panel_json["edges"][edge]["endpoints"][k].as_u64().expect("an index") as usize;
+            vertices[index] + move_by
+        })
+    };
+    let stitches: Vec<Stitch> = pattern["stitches"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|stitch| {
+            [0, 1].map(|k| {
+                let side = &stitch[k];
+                (side["panel"].as_str().expect("a name").to_owned(), side["edge"].as_u64().expect("a number") as usize)
+            })
+        })
+        .collect();
+    // Shares of a seam's side that a panel's edge takes, in the direction of sewing.
+    let place = |chain: &[crate::pattern::style::EdgeRef], is_forwards: bool, (panel, edge): &(String, usize)| {
+        let total: f64 = chain.iter().map(|&edge| style.edge(edge).line.length()).sum();
+        let mut before = 0.0;
+        for &part in chain {
+            let line = &style.edge(part).line;
+            let (_, entry) =
+                &proposal.entries[proposal.entries.iter().position(|(id, _)| *id == style.pieces[part.piece].id)?];
+            if entry.block == *panel {
+                let arcs = ends(panel, *edge).map(|p| {
+                    let p = if entry.mirror { V2::new(-p.x, p.y) } else { p };
+                    line.points().iter().position(|q| (q - p).norm() < 0.6e-3).map(|i| line.arcs()[i])
+                });
+                if let [Some(from), Some(to)] = arcs {
+                    let along = |arc: f64| before + if is_forwards { arc } else { line.length() - arc };
+                    return Some([along(from).min(along(to)) / total, along(from).max(along(to)) / total]);
+                }
+            }
+            before += line.length();
+        }
+        None
+    };
+    let is_found = |stitch: &Stitch| {
+        style.seams.iter().any(|seam| {
+            [(0, 1), (1, 0)].iter().any(|&(first, second)| {
+                let (Some(a), Some(b)) = (place(&seam.a, true, &stitch[first]), place(&seam.b, false, &stitch[second]))
+                else {
+                    return false;
+                };
+                (a[0] - b[0]).abs() < 0.08 && (a[1] - b[1]).abs() < 0.08
+            })
+        })
+    };
+    let found = stitches.iter().filter(|stitch| is_found(stitch)).count();
+    for stitch in stitches.iter().filter(|stitch| !is_found(stitch)) {
+        eprintln!("{garment}: not found: {stitch:?}");
+    }
+    Some((stitches.len(), found))
+}
+
+#[test]
+fn the_stitches_of_garmentcode_are_proposed() {
+    for (garment, expect) in [
+        ("tshirt_mean_all", (16, 16)),
+        ("tshirt_mean_female", (16, 16)),
+        // One half sleeve is not told apart: its armhole is asked for.
+        ("longsleeve_shirt_mean_all", (16, 13)),
+        ("fitted_shirt_sleeves_mean_male", (32, 32)),
+        ("fitted_bodice_darts_mean_female", (16, 16)),
+        ("dress_sheath_mean_female", (46, 46)),
+        ("pants_mean_all", (24, 24)),
+        ("pants_mean_female", (28, 28)),
+        // Which side of its symmetric back is the left, nothing in the file says.
+        ("pencil_skirt_mean_female", (20, 14)),
+    ] {
+        let Some(found) = score(garment) else { return };
+        eprintln!("{garment}: {} true stitches, {} found", found.0, found.1);
+        assert_eq!(found, expect, "{garment}");
+    }
+}

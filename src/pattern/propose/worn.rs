@@ -1,0 +1,238 @@
+//! Pieces as worn: which are cut twice, which side of the wearer they are for, and their edges by name.
+
+use std::collections::BTreeMap;
+
+use super::recognise::Recognised;
+use super::{Class, Face, Hand, Label};
+use crate::pattern::garment::Role;
+use crate::pattern::piece::Piece;
+use crate::pattern::seams::PieceEntry;
+
+/// An edge of a piece as worn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WornEdge {
+    /// Name within the piece.
+    pub name: String,
+    /// What it is; `None` for a leg of a dart.
+    pub label: Option<Label>,
+    /// Side of the wearer on which it is, where the piece has it on both; front or back half of a sleeve likewise by
+    /// [`Hand::Right`] for the front of a right sleeve.
+    pub hand: Option<Hand>,
+    /// Length, m.
+    pub length: f64,
+}
+
+/// A piece as worn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Worn {
+    /// Index of the drawn piece.
+    pub piece: usize,
+    /// Identifier in the seam file.
+    pub id: String,
+    /// Kind.
+    pub class: Class,
+    /// Front or back.
+    pub face: Option<Face>,
+    /// Side of the wearer; `None` for both.
+    pub hand: Option<Hand>,
+    /// Whether the whole width is drawn.
+    pub is_whole: bool,
+    /// Edges, counter-clockwise as worn.
+    pub edges: Vec<WornEdge>,
+    /// Names of the two legs of every dart.
+    pub darts: Vec<[String; 2]>,
+    /// Entry of the seam file.
+    pub entry: PieceEntry,
+    /// 0 to 1.
+    pub confidence: f64,
+}
+
+/// The pieces as worn. A second piece for the same place is left out and asked about.
+pub fn worn(pieces: &[Piece], recognised: &[Recognised], questions: &mut Vec<String>) -> Vec<Worn> {
+    let backs_face_inwards = recognised.iter().any(|one| {
+        one.face == Some(Face::Back) && one.hand.is_some_and(|hand| natural_hand(one).is_some_and(|n| n != hand))
+    });
+    let mut all: Vec<Worn> = Vec::new();
+    for one in recognised {
+        let needs_face = matches!(one.class, Class::Body | Class::Leg | Class::Skirt);
+        if needs_face && one.face.is_none() {
+            continue;
+        }
+        for (hand, is_mirror) in copies(one, backs_face_inwards) {
+            let id = id_of(one, hand);
+            if let Some(other) = all.iter().find(|worn| worn.id == id) {
+                if other.piece != one.piece {
+                    questions.push(format!(
+                        "`{}` and `{}` are both {id}: the first is taken",
+                        pieces[other.piece].name, pieces[one.piece].name
+                    ));
+                }
+                break;
+            }
+            all.push(wear(pieces, one, id, hand, is_mirror));
+        }
+        if one.class == Class::Sleeve && one.alignment.template.is_whole && one.hand.is_none() {
+            questions.push(format!(
+                "is piece `{}` as drawn the right sleeve? The front of the cap is taken to be on the right",
+                pieces[one.piece].name
+            ));
+        }
+    }
+    all
+}
+
+/// Side of the wearer for which half a piece is drawn, seen from outside.
+fn natural_hand(one: &Recognised) -> Option<Hand> {
+    let is_outer_right = !one.alignment.is_mirrored;
+    match (one.alignment.template.is_whole, one.face?) {
+        (true, _) => None,
+        (false, Face::Front) => Some(if is_outer_right { Hand::Left } else { Hand::Right }),
+        (false, Face::Back) => Some(if is_outer_right { Hand::Right } else { Hand::Left }),
+    }
+}
+
+/// Copies of a piece: the wearer's side and whether it is worn as the mirror image of what is drawn.
+fn copies(one: &Recognised, backs_face_inwards: bool) -> Vec<(Option<Hand>, bool)> {
+    if one.alignment.template.is_whole {
+        return match (one.class, one.hand) {
+            (Class::Sleeve, None) => vec![(Some(Hand::Right), false), (Some(Hand::Left), true)],
+            (Class::Sleeve | Class::Cuff, Some(hand)) => {
+                vec![(Some(hand), backs_face_inwards && one.face == Some(Face::Back))]
+            }
+            (Class::Cuff, None) => vec![(Some(Hand::Right), false), (Some(Hand::Left), true)],
+            _ => vec![(None, backs_face_inwards && one.face == Some(Face::Back))],
+        };
+    }
+    let natural = natural_hand(one).unwrap_or(Hand::Right);
+    match one.hand {
+        Some(hand) => vec![(Some(hand), hand != natural)],
+        None => vec![(Some(natural), false), (Some(natural.other()), true)],
+    }
+}
+
+fn id_of(one: &Recognised, hand: Option<Hand>) -> String {
+    let class = match one.class {
+        Class::Body | Class::Other => None,
+        Class::Leg => Some("leg"),
+        Class::Sleeve => Some("sleeve"),
+        Class::Skirt => Some("skirt"),
+        Class::Waistband => Some("waistband"),
+        Class::Cuff => Some("cuff"),
+    };
+    let parts = [class, one.face.map(Face::as_str), hand.map(Hand::as_str)];
+    parts.into_iter().flatten().collect::<Vec<_>>().join("_")
+}
+
+fn role_of(class: Class, face: Option<Face>, hand: Option<Hand>) -> Role {
+    match (class, face, hand) {
+        (Class::Body, Some(Face::Front), _) => Role::Front,
+        (Class::Body, Some(Face::Back), _) => Role::Back,
+        (Class::Sleeve, _, Some(Hand::Right)) => Role::SleeveRight,
+        (Class::Sleeve, _, Some(Hand::Left)) => Role::SleeveLeft,
+        _ => Role::Other,
+    }
+}
+
+/// A name that finds this piece alone: its piece name if nothing else has it, then its block's, then with its number.
+fn reference(pieces: &[Piece], index: usize) -> String {
+    let piece = &pieces[index];
+    let is_only = |name: &str| pieces.iter().filter(|p| p.name == name || p.block == name).count() == 1;
+    if is_only(&piece.name) {
+        piece.name.clone()
+    } else if is_only(&piece.block) {
+        piece.block.clone()
+    } else {
+        let number = pieces[..=index].iter().filter(|p| p.block == piece.block).count();
+        format!("{}#{number}", piece.block)
+    }
+}
+
+fn wear(pieces: &[Piece], one: &Recognised, id: String, hand: Option<Hand>, is_mirror: bool) -> Worn {
+    let (shape, n) = (&one.shape, one.shape.len());
+    let mut names: BTreeMap<String, usize> = BTreeMap::new();
+    let mut unique = |base: String| {
+        let count = names.entry(base.clone()).or_default();
+        *count += 1;
+        if *count == 1 { base } else { format!("{base}_{count}") }
+    };
+    let mut edges = Vec::new();
+    let mut corners: BTreeMap<String, [usize; 2]> = BTreeMap::new();
+    let mut legs: BTreeMap<usize, String> = BTreeMap::new();
+    for part in &one.alignment.parts {
+        let is_twice = one.alignment.parts.iter().filter(|other| other.label == part.label).count() == 2;
+        let side = is_twice.then(|| side_of(one, part.is_right, hand, is_mirror));
+        let base = match side {
+            Some(side) => format!("{}_{}", part.label.as_str(), side.as_str()),
+            None => part.label.as_str().to_owned(),
+        };
+        let mut k = 0;
+        while k < part.span {
+            let from = (part.from + k) % n;
+            let is_leg = shape.is_leg(from);
+            let span =
+                if is_leg { 1 } else { (k..part.span).take_while(|&k| !shape.is_leg((part.from + k) % n)).count() };
+            let name = unique(if is_leg { "dart_leg".to_owned() } else { base.clone() });
+            if is_leg {
+                legs.insert(from, name.clone());
+            }
+            corners.insert(name.clone(), [from, (from + span) % n]);
+            let length = (0..span).map(|k| shape.length((from + k) % n)).sum();
+            edges.push(WornEdge { name, label: (!is_leg).then_some(part.label), hand: side, length });
+            k += span;
+        }
+    }
+    if is_mirror {
+        edges.reverse();
+    }
+    let dart = |apex: &usize| Some([legs.get(&((apex + n - 1) % n))?.clone(), legs.get(apex)?.clone()]);
+    Worn {
+        piece: one.piece,
+        id,
+        class: one.class,
+        face: one.face,
+        hand,
+        is_whole: one.alignment.template.is_whole,
+        darts: shape.apexes().iter().filter_map(dart).collect(),
+        entry: PieceEntry {
+            block: reference(pieces, one.piece),
+            role: role_of(one.class, one.face, hand),
+            mirror: is_mirror,
+            edges: corners,
+        },
+        edges,
+        confidence: one.confidence,
+    }
+}
+
+/// Side of the wearer on which one of two like edges lies.
+fn side_of(one: &Recognised, is_right: bool, hand: Option<Hand>, is_mirror: bool) -> Hand {
+    let is_right_as_worn = is_right != is_mirror;
+    let is_back = one.face == Some(Face::Back);
+    // Seen from outside the right of a front is the wearer's left; a sleeve's or band's is named as it lies.
+    match (one.class, hand) {
+        (Class::Sleeve | Class::Cuff, _) => {
+            if is_right_as_worn {
+                Hand::Right
+            } else {
+                Hand::Left
+            }
+        }
+        _ if is_right_as_worn == is_back => Hand::Right,
+        _ => Hand::Left,
+    }
+}
+
+impl Worn {
+    /// Edges with a label, counter-clockwise as worn, of one side where the piece has it on both.
+    pub fn chain(&self, label: Label, hand: Option<Hand>) -> Vec<(String, f64)> {
+        let is_it = |edge: &&WornEdge| {
+            edge.label == Some(label) && (hand.is_none() || edge.hand.is_none() || edge.hand == hand)
+        };
+        self.edges.iter().filter(is_it).map(|edge| (format!("{}.{}", self.id, edge.name), edge.length)).collect()
+    }
+
+    /// [`Worn::chain`] in the order in which the other side of a seam is written: clockwise.
+    pub fn chain_back(&self, label: Label, hand: Option<Hand>) -> Vec<(String, f64)> {
+        self.chain(label, hand).into_iter().rev().collect()
+    }
+}

@@ -1,0 +1,68 @@
+//! A proposal as the text of a seam file that a person can read and edit.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use super::{Proposal, ProposedSeam};
+use crate::pattern::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamFile};
+
+/// Ratio of the sides from which a seam is called eased or gathered.
+const EASED_RATIO: f64 = 1.01;
+
+impl Proposal {
+    /// The seam file.
+    #[must_use]
+    pub fn seam_file(&self, name: &str) -> SeamFile {
+        SeamFile {
+            name: name.to_owned(),
+            length_tolerance_mm: DEFAULT_LENGTH_TOLERANCE_MM,
+            piece: self.entries.iter().cloned().collect(),
+            seam: self.seams.iter().map(|seam| seam.entry.clone()).collect(),
+            measurement: Vec::new(),
+            fit: BTreeMap::new(),
+        }
+    }
+
+    /// The seam file as TOML; comments give every confidence, and every question to the person who edits it.
+    #[must_use]
+    pub fn toml(&self, name: &str) -> String {
+        let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
+        let list = |names: &[String]| names.iter().map(|name| quoted(name)).collect::<Vec<_>>().join(", ");
+        let mut text = String::from("# Proposed from names, outlines and lengths: read it before you sew from it.\n");
+        for question in &self.questions {
+            let _ = writeln!(text, "# ASK: {}", question.replace(['\n', '\r'], " "));
+        }
+        let _ = writeln!(text, "name = {}\nlength_tolerance_mm = {DEFAULT_LENGTH_TOLERANCE_MM:.1}", quoted(name));
+        for (id, entry) in &self.entries {
+            let sure = self.pieces.iter().find(|piece| piece.id.as_deref() == Some(id)).map_or(0.0, |p| p.confidence);
+            let _ = writeln!(text, "\n[piece.{id}]  # confidence {sure:.2}\nblock = {}", quoted(&entry.block));
+            let role = toml::Value::try_from(entry.role).map(|role| role.to_string()).unwrap_or_default();
+            let _ = writeln!(text, "role = {role}");
+            if entry.mirror {
+                text.push_str("mirror = true\n");
+            }
+            let _ = writeln!(text, "[piece.{id}.edges]");
+            let mut edges: Vec<_> = entry.edges.iter().collect();
+            edges.sort_by_key(|(_, corners)| corners[0]);
+            for (name, [from, to]) in edges {
+                let _ = writeln!(text, "{name} = [{from}, {to}]");
+            }
+        }
+        for seam in &self.seams {
+            let entry = &seam.entry;
+            let _ = writeln!(text, "\n[[seam]]  # {}", remark(seam));
+            let _ =
+                writeln!(text, "name = {}\na = [{}]\nb = [{}]", quoted(&entry.name), list(&entry.a), list(&entry.b));
+            if entry.ease_mm != 0.0 {
+                let _ = writeln!(text, "ease_mm = {:.1}", entry.ease_mm);
+            }
+        }
+        text
+    }
+}
+
+fn remark(seam: &ProposedSeam) -> String {
+    let ratio = seam.ratio();
+    let ease = if ratio.max(1.0 / ratio) > EASED_RATIO { format!(", ratio {ratio:.3}") } else { String::new() };
+    format!("confidence {:.2}, {:.1} to {:.1} mm{ease}", seam.confidence, seam.a_mm, seam.b_mm)
+}
