@@ -6,7 +6,7 @@
 //!
 //! [piece.front]                             # pieces by the id used below
 //! block = "FRONT"                           # block (or piece name) in the DXF file; NAME#2 is the second of that name
-//! role = "front"                            # front, back, sleeve_right, sleeve_left, other
+//! role = "front"                            # front, back, sleeve_right, leg_front_left, bodice_front, other ...
 //! mirror = false                            # true: worn as the mirror image of what is drawn (optional)
 //! edges.hem = [0, 1]                        # an edge: from corner to corner, counter-clockwise as drawn
 //! edges.side_left = [1, 2]
