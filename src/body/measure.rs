@@ -162,7 +162,19 @@ fn likely_sex(neck: f64, hip: f64) -> Sex {
 pub(super) fn hip_level(mesh: &TriMesh, crotch: f64, stature: f64, middle: f64) -> Option<f64> {
     let heights = steps(crotch + 0.01 * stature, crotch + 0.10 * stature, 48);
     let back = |z: f64| Some((z, tape::depth_range(&tape::trunk_outline(mesh, z, middle)?).1));
-    heights.filter_map(back).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(z, _)| z)
+    levelled(heights.filter_map(back).collect()).into_iter().min_by(|a, b| a.1.total_cmp(&b.1)).map(|(z, _)| z)
+}
+
+/// Values along the height, each the mean of itself and its neighbours: what remains of a scan's noise must not choose
+/// among the heights of a flat profile.
+fn levelled(profile: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    const REACH: usize = 4;
+    let mean = |i: usize| {
+        let reach = REACH.min(i).min(profile.len() - 1 - i);
+        let around = &profile[i - reach..=i + reach];
+        around.iter().map(|(_, value)| value).sum::<f64>() / around.len() as f64
+    };
+    (0..profile.len()).map(|i| (profile[i].0, mean(i))).collect()
 }
 
 /// The level of the nipples: where the front stands out most from the chord between ribs and collar bones, among the
@@ -177,7 +189,7 @@ pub(super) fn chest_level(mesh: &TriMesh, floor: f64, stature: f64, middle: f64)
         (arm_apart(z) || !has_arms).then_some((z, front(z)? - chord))
     };
     let heights = steps(floor + 0.70 * stature, floor + 0.748 * stature, 40);
-    heights.filter_map(standing_out).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(z, _)| z)
+    levelled(heights.filter_map(standing_out).collect()).into_iter().max_by(|a, b| a.1.total_cmp(&b.1)).map(|(z, _)| z)
 }
 
 /// The level below the chest where the girth stops falling.

@@ -1,8 +1,10 @@
 //! The human model (HMM, thesis 3.2): from measurements to a measured, featured, closed mannequin.
 
+mod align;
 mod anthropometry;
 mod atlas;
 mod build;
+mod clean;
 mod control;
 mod control_cut;
 mod field;
@@ -13,6 +15,8 @@ mod landmarks;
 mod limbs;
 mod loft;
 mod measure;
+mod repair;
+mod scan;
 mod stl;
 mod surface;
 mod tape;
@@ -21,6 +25,7 @@ pub use build::build;
 pub use control::{ControlMesh, Layer, RING, Region};
 pub use import::{Imported, LengthUnit, import, write_obj};
 pub use measure::{Girths, measure};
+pub use scan::{Scan, from_scan};
 
 use crate::geom::{TriMesh, V3};
 

@@ -151,9 +151,8 @@ pub fn measure_body(file: &Path, unit: Option<LengthUnit>, sex: Option<Sex>) -> 
     let source = SourceFile::read(file)?;
     let name = file.display();
     let told = |error: body::BodyError| StudyError::Stage { stage: "body", message: format!("{name}: {error}") };
-    let imported = body::import(&source.bytes, unit).map_err(told)?;
-    let girths = body::measure(&imported.mesh, sex).map_err(told)?;
-    Ok((girths, imported.notes))
+    let scan = body::from_scan(&source.bytes, unit, sex).map_err(told)?;
+    Ok((scan.girths, scan.imported.notes))
 }
 
 /// A picture of a body as PNG bytes.
