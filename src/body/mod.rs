@@ -7,6 +7,7 @@ mod build;
 mod clean;
 mod control;
 mod control_cut;
+mod evaluate;
 mod field;
 mod figure;
 mod import;
@@ -15,16 +16,23 @@ mod landmarks;
 mod limbs;
 mod loft;
 mod measure;
+mod outline;
+mod pictures;
 mod repair;
 mod scan;
+mod sections;
+mod segment;
+mod silhouette;
 mod stl;
 mod surface;
 mod tape;
 
 pub use build::build;
 pub use control::{ControlMesh, Layer, RING, Region};
+pub use evaluate::{Accuracy, Evaluated, Evaluation, evaluate};
 pub use import::{Imported, LengthUnit, import, write_obj};
 pub use measure::{Girths, measure};
+pub use pictures::{Camera, Pictured, PicturedLevel, from_pictures, picture_height};
 pub use scan::{Scan, from_scan};
 
 use crate::geom::{TriMesh, V3};
@@ -70,6 +78,24 @@ pub enum BodyError {
         /// Line, vertex or face.
         place: String,
         /// What is wrong there.
+        problem: String,
+    },
+    /// A table of a folder of bodies.
+    #[error("{path}: {problem}; accepted: CSV tables manifest.csv and measurements.csv with a column id")]
+    Table {
+        /// The table.
+        path: String,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A picture that no body can be read from.
+    #[error(
+        "the {view} picture cannot be used: {problem}; accepted: one standing person, arms off the trunk, wholly seen before a plain background"
+    )]
+    Picture {
+        /// Front or side.
+        view: &'static str,
+        /// What is wrong.
         problem: String,
     },
     /// A mesh whose size fits a standing adult in no unit.

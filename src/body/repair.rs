@@ -7,8 +7,8 @@ use nalgebra::{DMatrix, DVector};
 const SMOOTHING: [f64; 2] = [0.5, -0.53];
 const PASSES: usize = 12;
 
-/// Roughness above which a mesh is smoothed, metres.
-const ROUGH: f64 = 1.5e-4;
+/// Roughness over the mean length of an edge above which a mesh is smoothed; facets alone are less rough.
+const ROUGH: f64 = 0.022;
 
 /// A hole longer than this stays open (a half body, a missing limb), metres.
 const LONGEST_HOLE: f64 = 0.9;
@@ -23,7 +23,7 @@ const LARGEST_PATCH: usize = 900;
 /// Smooths a rough mesh and closes its holes; says what was done.
 pub(super) fn repair(mesh: &mut TriMesh, notes: &mut Vec<String>) {
     let rough = roughness(mesh);
-    if rough > ROUGH {
+    if rough > ROUGH * mean_edge(mesh) {
         smooth(mesh);
         notes.push(format!("smoothed: its surface is rough by {:.2} mm", rough * 1e3));
     }
@@ -31,6 +31,11 @@ pub(super) fn repair(mesh: &mut TriMesh, notes: &mut Vec<String>) {
     if holes > 0 {
         notes.push(format!("{holes} holes closed"));
     }
+}
+
+fn mean_edge(mesh: &TriMesh) -> f64 {
+    let edges = mesh.edges();
+    edges.iter().map(|&[a, b]| (mesh.positions[a] - mesh.positions[b]).norm()).sum::<f64>() / edges.len().max(1) as f64
 }
 
 /// Neighbours of every vertex, sorted.

@@ -9,7 +9,9 @@ use crate::pattern::dxf;
 use crate::pattern::{Garment, draft, sheet};
 use crate::render::{self, Camera, Frame, Layer, Material, Scene};
 
-pub use crate::body::{Girths, LengthUnit, Measurements, Sex, write_obj};
+pub use crate::body::{
+    Accuracy, Evaluation, Girths, LengthUnit, Measurements, Pictured, PicturedLevel, Sex, write_obj,
+};
 pub use crate::pattern::dxf::Unit;
 pub use crate::pattern::inspect::{FileReport, PieceReport};
 pub use crate::pattern::{MeshQuality, Style};
@@ -153,6 +155,46 @@ pub fn measure_body(file: &Path, unit: Option<LengthUnit>, sex: Option<Sex>) -> 
     let told = |error: body::BodyError| StudyError::Stage { stage: "body", message: format!("{name}: {error}") };
     let scan = body::from_scan(&source.bytes, unit, sex).map_err(told)?;
     Ok((scan.girths, scan.imported.notes))
+}
+
+/// Lens of a camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lens {
+    /// Focal length in pixels of the pictures.
+    FocalPx(f64),
+    /// Vertical field of view, degrees.
+    FieldDeg(f64),
+}
+
+/// Reads a body from a front and a side picture, taken from a distance in metres where a lens is given.
+///
+/// # Errors
+/// When a picture cannot be read, or shows no single person wholly.
+pub fn read_pictures(
+    front: &Path,
+    side: &Path,
+    camera: Option<(Lens, f64)>,
+    sex: Sex,
+    stature_m: f64,
+) -> Result<Pictured> {
+    let sources = [SourceFile::read(front)?, SourceFile::read(side)?];
+    let camera = camera.map(|(lens, distance_m)| match lens {
+        Lens::FocalPx(focal_px) => {
+            body::picture_height(&sources[0].bytes).map(|height| body::Camera::of_focal(focal_px, height, distance_m))
+        }
+        Lens::FieldDeg(field_deg) => Ok(body::Camera::of_field(field_deg, distance_m)),
+    });
+    let camera = camera.transpose().map_err(StudyError::stage("body"))?;
+    body::from_pictures(&sources[0].bytes, &sources[1].bytes, camera.as_ref(), sex, stature_m)
+        .map_err(StudyError::stage("body"))
+}
+
+/// How well the bodies of a folder are measured from each of their sources.
+///
+/// # Errors
+/// When the folder lacks its tables.
+pub fn evaluate_bodies(folder: &Path) -> Result<Evaluation> {
+    body::evaluate(folder).map_err(StudyError::stage("body"))
 }
 
 /// A picture of a body as PNG bytes.

@@ -245,14 +245,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Run, "run", &[ch('R')], &[], "run", "Run the study here, in the background"),
     bind(Action::Stop, "stop", &[ch('X')], &[], "", "Stop the run started here; asks"),
     bind(Action::NextView, "view", &[ch('v')], &[Results], "view", "Turn the picture: front, side, back, quarter"),
-    bind(
-        Action::NextMap,
-        "map",
-        &[ch('m')],
-        &[Results],
-        "map",
-        "Colour it: plain, check, stretch, tension, gap",
-    ),
+    bind(Action::NextMap, "map", &[ch('m')], &[Results], "map", "Colour it: plain, check, stretch, tension, gap"),
     bind(
         Action::OtherSimulator,
         "other-simulator",
