@@ -7,6 +7,7 @@ mod build;
 mod clean;
 mod control;
 mod control_cut;
+mod control_file;
 mod evaluate;
 mod field;
 mod figure;
@@ -29,6 +30,7 @@ mod tape;
 
 pub use build::build;
 pub use control::{ControlMesh, Layer, RING, Region};
+pub use control_file::{ControlFile, read_control, write_control};
 pub use evaluate::{Accuracy, Evaluated, Evaluation, evaluate};
 pub use import::{Imported, LengthUnit, import, write_obj};
 pub use measure::{Girths, measure};

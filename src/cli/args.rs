@@ -333,7 +333,7 @@ pub struct BodyBuild {
     /// Vertical field of view of the pictures.
     #[arg(long, value_name = "N", group = "lens", requires = "camera_distance_mm")]
     pub fov_deg: Option<f64>,
-    /// Folder to write body.obj, body.png and measurements.json to.
+    /// Folder to write body.obj, body.png, measurements.json, control.obj and control.json to.
     #[arg(long, short, value_name = "DIR")]
     pub output: PathBuf,
 }

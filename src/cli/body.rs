@@ -71,11 +71,12 @@ fn build(context: &Context, arguments: &BodyBuild) -> Result<(), CliError> {
     let measurements = measurements(context, arguments)?;
     let body = tools::build_body(&measurements)?;
     let document = serde_json::to_string_pretty(&body.girths).map_err(std::io::Error::from)?;
-    let files = [
+    let mut files = vec![
         ("body.obj".to_owned(), tools::write_obj(&body.mesh).into_bytes()),
         ("body.png".to_owned(), tools::body_picture(&body, View::Quarter, PICTURE.0, PICTURE.1)?),
         ("measurements.json".to_owned(), document.into_bytes()),
     ];
+    files.extend(tools::control_files(&body)?);
     for path in tools::write_files(&arguments.output, &files)? {
         context.say(format_args!("wrote {}", path.display()));
     }

@@ -197,6 +197,17 @@ pub fn evaluate_bodies(folder: &Path) -> Result<Evaluation> {
     body::evaluate(folder).map_err(StudyError::stage("body"))
 }
 
+/// The control mesh of a body as files: OBJ of its faces, and JSON with regions, joints, feature points, feature lines and
+/// girths as vertex numbers.
+///
+/// # Errors
+/// When the JSON cannot be written.
+pub fn control_files(body: &Body) -> Result<Vec<(String, Vec<u8>)>> {
+    let json = body::write_control(body).map_err(|error| StudyError::stage("body")(error.to_string()))?;
+    let obj = body.control.write_obj();
+    Ok(vec![("control.obj".to_owned(), obj.into_bytes()), ("control.json".to_owned(), json.into_bytes())])
+}
+
 /// A picture of a body as PNG bytes.
 ///
 /// # Errors
