@@ -19,7 +19,6 @@ const NECK: [f64; 2] = [0.83, 0.90];
 /// A silhouette with its scale.
 #[derive(Clone, Debug)]
 pub(super) struct View {
-    name: &'static str,
     mask: Mask,
     /// First and last row of the person.
     rows: (usize, usize),
@@ -35,7 +34,7 @@ impl View {
         if camera.is_some_and(|camera| !sound(camera)) {
             return Err(refused(name, "the camera given is impossible (distance 0.8 to 100 m)"));
         }
-        Ok(Self { name, mask, rows, camera })
+        Ok(Self { mask, rows, camera })
     }
 
     /// The widest run of a row.

@@ -162,7 +162,7 @@ fn mask(picture: &DynamicImage) -> Option<Mask> {
     if !both || clear * 100 < values.len() * 99 || !is_colourless(picture) {
         return None;
     }
-    let border = |i: usize| i % width == 0 || i % width + 1 == width || i < width || i + width >= values.len();
+    let border = |i: usize| i.is_multiple_of(width) || i % width + 1 == width || i < width || i + width >= values.len();
     let (rim, bright) = (0..values.len())
         .filter(|&i| border(i))
         .fold((0, 0), |(all, bright), i| (all + 1, bright + usize::from(values[i] > 127)));
