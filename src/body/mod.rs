@@ -233,3 +233,12 @@ pub struct Body {
     /// What the tape reads on the fine mesh.
     pub girths: Girths,
 }
+
+impl Body {
+    /// The tapes round chest, underbust, waist and hip, as bands on the skin to be drawn; metres.
+    #[must_use]
+    pub fn tapes(&self) -> TriMesh {
+        let Levels { chest_m, underbust_m, waist_m, hip_m, .. } = self.levels;
+        tape::bands(&self.mesh, &[chest_m, underbust_m, waist_m, hip_m], 0.0)
+    }
+}

@@ -208,12 +208,14 @@ pub fn control_files(body: &Body) -> Result<Vec<(String, Vec<u8>)>> {
     Ok(vec![("control.obj".to_owned(), obj.into_bytes()), ("control.json".to_owned(), json.into_bytes())])
 }
 
-/// A picture of a body as PNG bytes.
+/// A picture of a body with the tapes of its girths as PNG bytes.
 ///
 /// # Errors
 /// When the mesh cannot be drawn.
 pub fn body_picture(body: &Body, view: View, width: u32, height: u32) -> Result<Vec<u8>> {
-    let scene = Scene::new(vec![Layer::new(&body.mesh, Material::form())]).map_err(StudyError::stage("render"))?;
+    let tapes = body.tapes();
+    let layers = vec![Layer::new(&body.mesh, Material::form()), Layer::new(&tapes, Material::hybrid())];
+    let scene = Scene::new(layers).map_err(StudyError::stage("render"))?;
     let frame = Frame::enclosing([&body.mesh], f64::from(width) / f64::from(height.max(1)));
     let picture =
         render::render(&scene, &Camera::new(view, frame), width, height).map_err(StudyError::stage("render"))?;
