@@ -153,7 +153,8 @@ fn find_sites(mesh: &TriMesh, sex: Option<Sex>) -> Result<Sites, BodyError> {
 }
 
 /// The sex that neck, hip and waist girth over stature suggest: linear discriminant over the 6,068 people of the ANSUR II
-/// survey [Gordon 2014], of whom it tells 97 % rightly. Only the height of the waist depends on it.
+/// survey [Gordon 2014]. It tells 97 % of them rightly, which is optimistic: their navel waists were turned into ISO waists by
+/// each sex's own mean factor. Only the height of the waist depends on it.
 fn likely_sex([neck, hip, waist]: [f64; 3]) -> Sex {
     if 127.941 * hip - 256.512 * neck - 40.561 * waist > 1.005 { Sex::Female } else { Sex::Male }
 }
