@@ -140,6 +140,14 @@ fn meshes_are_closed_and_landmarks_lie_on_the_skin() {
     for (sex, numbers) in [SUBJECTS[3], SUBJECTS[6]] {
         let body = build(&subject(sex, numbers)).expect("a subject");
         check_meshes(&body);
+        let tapes = body.tapes();
+        for (z, girth_mm) in
+            [(body.levels.waist_m, body.girths.waist_girth_mm), (body.levels.hip_m, body.girths.hip_girth_mm)]
+        {
+            let band: Vec<V2> = tapes.positions.iter().filter(|p| (p.z - z).abs() < 5e-3).map(|p| p.xy()).collect();
+            let off_mm = crate::geom::hull::tape_girth(&band) * 1e3 - girth_mm;
+            assert!((10.0..25.0).contains(&off_mm), "a tape 3 mm off the skin is {off_mm:.1} mm longer");
+        }
         let marks = &body.landmarks;
         let points = [
             ("side neck", marks.side_neck[0]),

@@ -2,11 +2,14 @@
 //!
 //! Importers take bytes. The unit and the upright axis are given, or guessed from the extents and said in the result.
 
-use super::BodyError;
+use super::{BodyError, align, clean};
 use crate::geom::{TriMesh, V3};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::Cursor;
+
+/// Most triangles of a mesh: more tell nothing of a body that a tape could read.
+const MOST_TRIANGLES: usize = 2_000_000;
 
 /// Unit of the coordinates of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -59,8 +62,7 @@ pub struct Imported {
 /// [`BodyError::File`] names the format, the place and what is wrong; [`BodyError::Unit`] refuses an extent that fits no
 /// unit.
 pub fn import(bytes: &[u8], unit: Option<LengthUnit>) -> Result<Imported, BodyError> {
-    let mesh = read(bytes)?;
-    settle(mesh, unit)
+    settle(&read(bytes)?, unit)
 }
 
 /// Reads the raw mesh of a file.
@@ -74,6 +76,11 @@ fn read(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     };
     if mesh.triangles.is_empty() {
         return Err(file_error("mesh", "whole file", "no faces found"));
+    }
+    if mesh.triangles.len() > MOST_TRIANGLES {
+        let problem =
+            format!("{} triangles, at most {MOST_TRIANGLES} are taken: thin the scan out", mesh.triangles.len());
+        return Err(file_error("mesh", "whole file", &problem));
     }
     let finite = mesh.positions.iter().position(|p| !p.iter().all(|c| c.is_finite()));
     if let Some(vertex) = finite {
@@ -182,18 +189,15 @@ pub(super) fn merge_equal_vertices(mesh: &TriMesh) -> TriMesh {
 }
 
 /// Brings a raw mesh into the world frame.
-fn settle(mut mesh: TriMesh, unit: Option<LengthUnit>) -> Result<Imported, BodyError> {
+fn settle(mesh: &TriMesh, unit: Option<LengthUnit>) -> Result<Imported, BodyError> {
     let mut notes = Vec::new();
-    let extent = |mesh: &TriMesh| mesh.bounds().map_or_else(V3::zeros, |(low, high)| high - low);
-    let size = extent(&mesh);
-    if size.y > size.z {
-        // y up and z to the front, as in most animation software; x then points to the subject's left.
-        for p in &mut mesh.positions {
-            *p = V3::new(-p.x, p.z, p.y);
-        }
-        notes.push("taken as y up, z to the front (the greatest extent is along y)".to_owned());
+    let mut mesh = clean::keep_body(mesh, &mut notes);
+    align::stand_up(&mut mesh, &mut notes);
+    if let Some(lifted) = clean::drop_floor(&mesh, &mut notes) {
+        mesh = lifted;
     }
-    let height = extent(&mesh).z;
+    let (low, high) = mesh.bounds().ok_or_else(|| file_error("mesh", "whole file", "no faces found"))?;
+    let height = high.z - low.z;
     let unit = match unit {
         Some(unit) => unit,
         None => {
@@ -202,15 +206,16 @@ fn settle(mut mesh: TriMesh, unit: Option<LengthUnit>) -> Result<Imported, BodyE
             guess
         }
     };
-    let floor = mesh.bounds().map_or(0.0, |(low, _)| low.z) * unit.metres();
     for p in &mut mesh.positions {
+        p.z -= low.z;
         *p *= unit.metres();
-        p.z -= floor;
     }
+    let floor = low.z * unit.metres();
     if floor.abs() > 1e-3 {
         notes.push(format!("moved by {:.1} mm onto the floor", -floor * 1e3));
     }
-    if looks_back(&mesh) {
+    align::face_front(&mut mesh, &mut notes);
+    if align::looks_back(&mesh) {
         for p in &mut mesh.positions {
             *p = V3::new(-p.x, -p.y, p.z);
         }
@@ -221,19 +226,6 @@ fn settle(mut mesh: TriMesh, unit: Option<LengthUnit>) -> Result<Imported, BodyE
         notes.push("faces turned: they pointed inwards".to_owned());
     }
     Ok(Imported { mesh, unit, notes })
-}
-
-/// Whether the feet point to the back: their vertices lie behind those of the ankles.
-fn looks_back(mesh: &TriMesh) -> bool {
-    let Some((low, high)) = mesh.bounds() else { return false };
-    let stature = high.z - low.z;
-    let middle = |from: f64, to: f64| {
-        let band = mesh.positions.iter().filter(|p| (from..to).contains(&((p.z - low.z) / stature))).map(|p| p.y);
-        let (least, most) = band.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), y| (a.min(y), b.max(y)));
-        (least <= most).then_some((least + most) / 2.0)
-    };
-    let (feet, ankles) = (middle(-0.001, 0.04), middle(0.06, 0.12));
-    feet.zip(ankles).is_some_and(|(feet, ankles)| feet < ankles - 0.01 * stature)
 }
 
 /// The unit in which `height` is that of a standing person.

@@ -61,7 +61,7 @@ const ISO_WAIST: [f64; 2] = [0.6212, 0.6299];
 const CERVICALE: f64 = 0.8617;
 
 /// Measures an upright closed (or nearly closed) body mesh in the world frame; `sex`, where known, places the waist
-/// (else it is told from neck and hip girth).
+/// (else it is told from neck, hip and waist girth).
 ///
 /// # Errors
 /// [`BodyError::MissingPart`] names the part that was not found where a standing body has it.
@@ -131,10 +131,10 @@ fn find_sites(mesh: &TriMesh, sex: Option<Sex>) -> Result<Sites, BodyError> {
         median_point(&upper, at(CERVICALE), middle, Side::Back).ok_or_else(|| missing("nape", at(CERVICALE)))?;
     let shoulder = shoulder_points(&upper, low.z, stature, middle).ok_or_else(|| missing("shoulder", at(0.82)))?;
     let hip_girth = tape::trunk_girth(mesh, hip, middle).ok_or_else(|| missing("hip", hip))?;
-    let waist = match sex.unwrap_or_else(|| likely_sex(neck.girth / stature, hip_girth / stature)) {
-        Sex::Male => at(ISO_WAIST[0]),
-        Sex::Female => at(ISO_WAIST[1]),
-    };
+    let about_waist = at((ISO_WAIST[0] + ISO_WAIST[1]) / 2.0);
+    let waist_girth = tape::trunk_girth(mesh, about_waist, middle).ok_or_else(|| missing("waist", about_waist))?;
+    let seems = likely_sex([neck.girth, hip_girth, waist_girth].map(|girth| girth / stature));
+    let waist = at(ISO_WAIST[usize::from(sex.unwrap_or(seems) == Sex::Female)]);
     let upper_arm = upper_arm(mesh, shoulder[0], low.z, stature, middle);
     Ok(Sites {
         floor: low.z,
@@ -152,17 +152,29 @@ fn find_sites(mesh: &TriMesh, sex: Option<Sex>) -> Result<Sites, BodyError> {
     })
 }
 
-/// The sex that neck and hip girth over stature suggest: linear discriminant over the 6,068 people of the ANSUR II survey
-/// [Gordon 2014], of whom it tells 96 % rightly. Only the height of the waist depends on it.
-fn likely_sex(neck: f64, hip: f64) -> Sex {
-    if 89.907 * hip - 302.370 * neck > -10.598 { Sex::Female } else { Sex::Male }
+/// The sex that neck, hip and waist girth over stature suggest: linear discriminant over the 6,068 people of the ANSUR II
+/// survey [Gordon 2014]. It tells 97 % of them rightly, which is optimistic: their navel waists were turned into ISO waists by
+/// each sex's own mean factor. Only the height of the waist depends on it.
+fn likely_sex([neck, hip, waist]: [f64; 3]) -> Sex {
+    if 127.941 * hip - 256.512 * neck - 40.561 * waist > 1.005 { Sex::Female } else { Sex::Male }
 }
 
 /// The level of the greatest buttock protrusion.
 pub(super) fn hip_level(mesh: &TriMesh, crotch: f64, stature: f64, middle: f64) -> Option<f64> {
     let heights = steps(crotch + 0.01 * stature, crotch + 0.10 * stature, 48);
     let back = |z: f64| Some((z, tape::depth_range(&tape::trunk_outline(mesh, z, middle)?).1));
-    heights.filter_map(back).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(z, _)| z)
+    levelled(heights.filter_map(back).collect(), 2).into_iter().min_by(|a, b| a.1.total_cmp(&b.1)).map(|(z, _)| z)
+}
+
+/// Values along the height, each the mean of itself and `reach` neighbours on both sides: what remains of a scan's noise must not choose
+/// among the heights of a flat profile.
+fn levelled(profile: Vec<(f64, f64)>, reach: usize) -> Vec<(f64, f64)> {
+    let mean = |i: usize| {
+        let reach = reach.min(i).min(profile.len() - 1 - i);
+        let around = &profile[i - reach..=i + reach];
+        around.iter().map(|(_, value)| value).sum::<f64>() / around.len() as f64
+    };
+    (0..profile.len()).map(|i| (profile[i].0, mean(i))).collect()
 }
 
 /// The level of the nipples: where the front stands out most from the chord between ribs and collar bones, among the
@@ -177,7 +189,10 @@ pub(super) fn chest_level(mesh: &TriMesh, floor: f64, stature: f64, middle: f64)
         (arm_apart(z) || !has_arms).then_some((z, front(z)? - chord))
     };
     let heights = steps(floor + 0.70 * stature, floor + 0.748 * stature, 40);
-    heights.filter_map(standing_out).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(z, _)| z)
+    levelled(heights.filter_map(standing_out).collect(), 4)
+        .into_iter()
+        .max_by(|a, b| a.1.total_cmp(&b.1))
+        .map(|(z, _)| z)
 }
 
 /// The level below the chest where the girth stops falling.
@@ -185,6 +200,7 @@ pub(super) fn underbust_level(mesh: &TriMesh, chest: f64, stature: f64, middle: 
     let girth = |z: f64| tape::trunk_girth(mesh, z, middle);
     let falling: Vec<(f64, f64)> =
         steps(chest, chest - 0.075 * stature, 30).map_while(|z| girth(z).map(|girth| (z, girth))).collect();
+    let falling = levelled(falling, 2);
     let falls: Vec<f64> = falling.windows(2).map(|pair| pair[0].1 - pair[1].1).collect();
     let steepest = falls.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
     let Some((at, &most)) = steepest else { return chest - 0.05 * stature };

@@ -1,10 +1,14 @@
 //! The human model (HMM, thesis 3.2): from measurements to a measured, featured, closed mannequin.
 
+mod align;
 mod anthropometry;
 mod atlas;
 mod build;
+mod clean;
 mod control;
 mod control_cut;
+mod control_file;
+mod evaluate;
 mod field;
 mod figure;
 mod import;
@@ -13,14 +17,25 @@ mod landmarks;
 mod limbs;
 mod loft;
 mod measure;
+mod outline;
+mod pictures;
+mod repair;
+mod scan;
+mod sections;
+mod segment;
+mod silhouette;
 mod stl;
 mod surface;
 mod tape;
 
 pub use build::build;
 pub use control::{ControlMesh, Layer, RING, Region};
+pub use control_file::{ControlFile, read_control, write_control};
+pub use evaluate::{Accuracy, Evaluated, Evaluation, evaluate};
 pub use import::{Imported, LengthUnit, import, write_obj};
 pub use measure::{Girths, measure};
+pub use pictures::{Camera, Pictured, PicturedLevel, from_pictures, picture_height};
+pub use scan::{Scan, from_scan};
 
 use crate::geom::{TriMesh, V3};
 
@@ -65,6 +80,24 @@ pub enum BodyError {
         /// Line, vertex or face.
         place: String,
         /// What is wrong there.
+        problem: String,
+    },
+    /// A table of a folder of bodies.
+    #[error("{path}: {problem}; accepted: CSV tables manifest.csv and measurements.csv with a column id")]
+    Table {
+        /// The table.
+        path: String,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A picture that no body can be read from.
+    #[error(
+        "the {view} picture cannot be used: {problem}; accepted: one standing person, arms off the trunk, wholly seen before a plain background"
+    )]
+    Picture {
+        /// Front or side.
+        view: &'static str,
+        /// What is wrong.
         problem: String,
     },
     /// A mesh whose size fits a standing adult in no unit.
@@ -199,4 +232,13 @@ pub struct Body {
     pub control: ControlMesh,
     /// What the tape reads on the fine mesh.
     pub girths: Girths,
+}
+
+impl Body {
+    /// The tapes round chest, underbust, waist and hip, as bands on the skin to be drawn; metres.
+    #[must_use]
+    pub fn tapes(&self) -> TriMesh {
+        let Levels { chest_m, underbust_m, waist_m, hip_m, .. } = self.levels;
+        tape::bands(&self.mesh, &[chest_m, underbust_m, waist_m, hip_m], 0.0)
+    }
 }

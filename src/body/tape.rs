@@ -93,6 +93,31 @@ pub(super) fn neck(mesh: &TriMesh, low: f64, high: f64, middle: f64) -> Option<N
     least(&mut fine)
 }
 
+/// Half of a drawn tape's breadth and how far it lies off the skin, metres.
+const TAPE: [f64; 2] = [0.004, 0.003];
+
+/// Taut tapes round the trunk at some heights, as bands to be drawn.
+pub(super) fn bands(mesh: &TriMesh, heights: &[f64], middle: f64) -> TriMesh {
+    let [half, off] = TAPE;
+    let mut bands = TriMesh::default();
+    for &z in heights {
+        let Some(outline) = trunk_outline(mesh, z, middle) else { continue };
+        let hull = hull::convex_hull(&outline.points);
+        let centre = hull.iter().sum::<V2>() / hull.len().max(1) as f64;
+        let first = bands.positions.len();
+        for p in &hull {
+            let out = p + (p - centre).try_normalize(1e-9).unwrap_or_else(V2::zeros) * off;
+            bands.positions.extend([z - half, z + half].map(|z| V3::new(out.x, out.y, z)));
+        }
+        let count = hull.len();
+        let corner = |i: usize, up: usize| first + 2 * (i % count) + up;
+        bands.triangles.extend((0..count).flat_map(|i| {
+            [[corner(i, 0), corner(i + 1, 0), corner(i + 1, 1)], [corner(i, 0), corner(i + 1, 1), corner(i, 1)]]
+        }));
+    }
+    bands
+}
+
 /// Front and back extent of an outline.
 pub(super) fn depth_range(outline: &Outline) -> (f64, f64) {
     let (low, high) = outline.bounds();

@@ -309,8 +309,13 @@ pub enum Body {
         #[arg(long, value_enum)]
         sex: Option<Sex>,
     },
-    /// Build a body from measurements or from a subject of the catalogue.
-    Build(BodyBuild),
+    /// Build a body from measurements, from a front and a side picture, or from a subject of the catalogue.
+    Build(Box<BodyBuild>),
+    /// How well the bodies of a folder are measured from meshes, scans, silhouettes and photographs.
+    Evaluate {
+        /// Folder with manifest.csv, measurements.csv, and where there are any scans.csv and images.csv.
+        folder: PathBuf,
+    },
 }
 
 /// Arguments of `body build`.
@@ -346,7 +351,22 @@ pub struct BodyBuild {
     /// Width across the shoulders.
     #[arg(long, value_name = "N")]
     pub across_shoulder_mm: Option<f64>,
-    /// Folder to write body.obj, body.png and measurements.json to.
+    /// Front picture (PNG or JPEG): a photograph against a plain background, or a mask.
+    #[arg(long, value_name = "IMAGE", requires = "side", conflicts_with_all = ["subject", "measurements"])]
+    pub front: Option<PathBuf>,
+    /// Side picture, the subject facing its right.
+    #[arg(long, value_name = "IMAGE", requires = "front")]
+    pub side: Option<PathBuf>,
+    /// Distance of the camera from the subject.
+    #[arg(long, value_name = "N", requires = "front", requires = "lens")]
+    pub camera_distance_mm: Option<f64>,
+    /// Focal length in pixels of the pictures.
+    #[arg(long, value_name = "N", group = "lens", requires = "camera_distance_mm")]
+    pub focal_px: Option<f64>,
+    /// Vertical field of view of the pictures.
+    #[arg(long, value_name = "N", group = "lens", requires = "camera_distance_mm")]
+    pub fov_deg: Option<f64>,
+    /// Folder to write body.obj, body.png, measurements.json, control.obj and control.json to.
     #[arg(long, short, value_name = "DIR")]
     pub output: PathBuf,
 }

@@ -1,11 +1,13 @@
 //! `toile body`: building and measuring bodies.
 
+use std::path::Path;
+
 use serde_json::Value as Json;
 
 use super::args::{Body, BodyBuild, MeshUnit, Sex};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
-use crate::study::tools::{self, Girths, LengthUnit, Measurements, View};
+use crate::study::tools::{self, Accuracy, Girths, LengthUnit, Lens, Measurements, View};
 use crate::study::{Table, Value};
 use crate::units::from_mm;
 
@@ -28,6 +30,7 @@ pub fn run(context: &Context, command: &Body) -> Outcome {
             print(context, &girths)?;
         }
         Body::Build(arguments) => build(context, arguments)?,
+        Body::Evaluate { folder } => evaluate(context, folder)?,
     }
     Ok(End::Done)
 }
@@ -39,16 +42,41 @@ fn of(sex: Sex) -> tools::Sex {
     }
 }
 
+/// Prints how well the bodies of a folder are measured.
+fn evaluate(context: &Context, folder: &Path) -> Result<(), CliError> {
+    let found = tools::evaluate_bodies(folder)?;
+    if context.json {
+        return Ok(output::json(&found)?);
+    }
+    for body in &found.bodies {
+        if let Some(error) = &body.error {
+            context.say(format_args!("{} {}: {error}", body.id, body.source));
+        }
+    }
+    let tenth = |number: f64| Value::Real((number * 10.0).round() / 10.0);
+    let row = |source: &str, name: &str, of: &Accuracy| {
+        let words = [source, name].map(|word| Value::Text(word.to_owned()));
+        words
+            .into_iter()
+            .chain([Value::Integer(of.n as i64), tenth(of.mae_mm), tenth(of.max_mm), tenth(of.bias_mm)])
+            .collect()
+    };
+    let rows = found.source.iter().flat_map(|(source, of)| of.iter().map(move |(name, of)| row(source, name, of)));
+    let columns = ["source", "measurement", "n", "mae_mm", "max_mm", "bias_mm"].map(str::to_owned).to_vec();
+    context.print(&Table { columns, rows: rows.collect() })
+}
+
 /// Builds a body and writes its mesh, picture and measurements.
 fn build(context: &Context, arguments: &BodyBuild) -> Result<(), CliError> {
     let measurements = measurements(context, arguments)?;
     let body = tools::build_body(&measurements)?;
     let document = serde_json::to_string_pretty(&body.girths).map_err(std::io::Error::from)?;
-    let files = [
+    let mut files = vec![
         ("body.obj".to_owned(), tools::write_obj(&body.mesh).into_bytes()),
         ("body.png".to_owned(), tools::body_picture(&body, View::Quarter, PICTURE.0, PICTURE.1)?),
         ("measurements.json".to_owned(), document.into_bytes()),
     ];
+    files.extend(tools::control_files(&body)?);
     for path in tools::write_files(&arguments.output, &files)? {
         context.say(format_args!("wrote {}", path.display()));
     }
@@ -66,15 +94,19 @@ fn measurements(context: &Context, arguments: &BodyBuild) -> Result<Measurements
                     "say --sex and --stature-mm, or a --subject, or --measurements FILE".into(),
                 ));
             };
-            Measurements {
-                sex: of(sex),
-                stature_m: from_mm(stature_mm),
-                weight_kg: None,
-                chest_girth_m: None,
-                waist_girth_m: None,
-                hip_girth_m: None,
-                neck_girth_m: None,
-                across_shoulder_m: None,
+            let (sex, stature_m) = (of(sex), from_mm(stature_mm));
+            match (&arguments.front, &arguments.side) {
+                (Some(front), Some(side)) => pictured(context, arguments, [front, side], sex, stature_m)?,
+                _ => Measurements {
+                    sex,
+                    stature_m,
+                    weight_kg: None,
+                    chest_girth_m: None,
+                    waist_girth_m: None,
+                    hip_girth_m: None,
+                    neck_girth_m: None,
+                    across_shoulder_m: None,
+                },
             }
         }
     };
@@ -92,6 +124,33 @@ fn measurements(context: &Context, arguments: &BodyBuild) -> Result<Measurements
         *length = given_mm.map(from_mm).or(*length);
     }
     Ok(known)
+}
+
+/// Measurements read from a front and a side picture.
+fn pictured(
+    context: &Context,
+    arguments: &BodyBuild,
+    [front, side]: [&Path; 2],
+    sex: tools::Sex,
+    stature_m: f64,
+) -> Result<Measurements, CliError> {
+    let lens = match (arguments.focal_px, arguments.fov_deg) {
+        (Some(focal_px), _) => Some(Lens::FocalPx(focal_px)),
+        (None, Some(field_deg)) => Some(Lens::FieldDeg(field_deg)),
+        (None, None) => None,
+    };
+    let camera = lens.zip(arguments.camera_distance_mm.map(from_mm));
+    let found = tools::read_pictures(front, side, camera, sex, stature_m)?;
+    for note in &found.notes {
+        context.say(format_args!("{note}"));
+    }
+    for level in &found.levels {
+        let tools::PicturedLevel { name, level_mm, width_mm, depth_mm, girth_mm } = level;
+        context.say(format_args!(
+            "{name}: {width_mm:.0} mm wide, {depth_mm:.0} mm deep at {level_mm:.0} mm, girth {girth_mm:.0} mm"
+        ));
+    }
+    Ok(found.measurements)
 }
 
 /// Prints measurements: a table for reading, the contract's keys as JSON.

@@ -9,7 +9,9 @@ use crate::pattern::dxf;
 use crate::pattern::{Garment, Piece, check, garmentcode, propose, sheet};
 use crate::render::{self, Camera, Frame, Layer, Material, Scene};
 
-pub use crate::body::{Girths, LengthUnit, Measurements, Sex, write_obj};
+pub use crate::body::{
+    Accuracy, Evaluation, Girths, LengthUnit, Measurements, Pictured, PicturedLevel, Sex, write_obj,
+};
 pub use crate::pattern::check::Finding;
 pub use crate::pattern::draft::Model;
 pub use crate::pattern::dxf::Unit;
@@ -213,17 +215,69 @@ pub fn measure_body(file: &Path, unit: Option<LengthUnit>, sex: Option<Sex>) -> 
     let source = SourceFile::read(file)?;
     let name = file.display();
     let told = |error: body::BodyError| StudyError::Stage { stage: "body", message: format!("{name}: {error}") };
-    let imported = body::import(&source.bytes, unit).map_err(told)?;
-    let girths = body::measure(&imported.mesh, sex).map_err(told)?;
-    Ok((girths, imported.notes))
+    let scan = body::from_scan(&source.bytes, unit, sex).map_err(told)?;
+    Ok((scan.girths, scan.imported.notes))
 }
 
-/// A picture of a body as PNG bytes.
+/// Lens of a camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lens {
+    /// Focal length in pixels of the pictures.
+    FocalPx(f64),
+    /// Vertical field of view, degrees.
+    FieldDeg(f64),
+}
+
+/// Reads a body from a front and a side picture, taken from a distance in metres where a lens is given.
+///
+/// # Errors
+/// When a picture cannot be read, or shows no single person wholly.
+pub fn read_pictures(
+    front: &Path,
+    side: &Path,
+    camera: Option<(Lens, f64)>,
+    sex: Sex,
+    stature_m: f64,
+) -> Result<Pictured> {
+    let sources = [SourceFile::read(front)?, SourceFile::read(side)?];
+    let camera = camera.map(|(lens, distance_m)| match lens {
+        Lens::FocalPx(focal_px) => {
+            body::picture_height(&sources[0].bytes).map(|height| body::Camera::of_focal(focal_px, height, distance_m))
+        }
+        Lens::FieldDeg(field_deg) => Ok(body::Camera::of_field(field_deg, distance_m)),
+    });
+    let camera = camera.transpose().map_err(StudyError::stage("body"))?;
+    body::from_pictures(&sources[0].bytes, &sources[1].bytes, camera.as_ref(), sex, stature_m)
+        .map_err(StudyError::stage("body"))
+}
+
+/// How well the bodies of a folder are measured from each of their sources.
+///
+/// # Errors
+/// When the folder lacks its tables.
+pub fn evaluate_bodies(folder: &Path) -> Result<Evaluation> {
+    body::evaluate(folder).map_err(StudyError::stage("body"))
+}
+
+/// The control mesh of a body as files: OBJ of its faces, and JSON with regions, joints, feature points, feature lines and
+/// girths as vertex numbers.
+///
+/// # Errors
+/// When the JSON cannot be written.
+pub fn control_files(body: &Body) -> Result<Vec<(String, Vec<u8>)>> {
+    let json = body::write_control(body).map_err(|error| StudyError::stage("body")(error.to_string()))?;
+    let obj = body.control.write_obj();
+    Ok(vec![("control.obj".to_owned(), obj.into_bytes()), ("control.json".to_owned(), json.into_bytes())])
+}
+
+/// A picture of a body with the tapes of its girths as PNG bytes.
 ///
 /// # Errors
 /// When the mesh cannot be drawn.
 pub fn body_picture(body: &Body, view: View, width: u32, height: u32) -> Result<Vec<u8>> {
-    let scene = Scene::new(vec![Layer::new(&body.mesh, Material::form())]).map_err(StudyError::stage("render"))?;
+    let tapes = body.tapes();
+    let layers = vec![Layer::new(&body.mesh, Material::form()), Layer::new(&tapes, Material::hybrid())];
+    let scene = Scene::new(layers).map_err(StudyError::stage("render"))?;
     let frame = Frame::enclosing([&body.mesh], f64::from(width) / f64::from(height.max(1)));
     let picture =
         render::render(&scene, &Camera::new(view, frame), width, height).map_err(StudyError::stage("render"))?;

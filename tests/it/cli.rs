@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 43] = [
+const COMMANDS: [&str; 44] = [
     "",
     "run",
     "report",
@@ -24,6 +24,7 @@ const COMMANDS: [&str; 43] = [
     "body",
     "body measure",
     "body build",
+    "body evaluate",
     "render",
     "queue",
     "queue ls",

@@ -1,0 +1,138 @@
+//! Telling a person from a plain background, seeded from the border colour of the picture.
+//!
+//! The background is a smooth surface of colour (uneven light), fitted to the border and refitted to what looks like it. A
+//! pixel is the person's where its colour is off that surface, a shadow on the background excepted: there all channels fall
+//! by about the same factor. Specks are then removed; [`Mask::cleaned`] does the rest.
+
+use super::silhouette::Mask;
+use nalgebra::{SMatrix, SVector};
+
+/// Terms of the background: a cubic surface in `x` and `y`.
+const TERMS: usize = 10;
+
+/// Of so many pixels one is fitted to; no usual picture width is a multiple of it.
+const STRIDE: usize = 31;
+
+/// Rounds of fitting the background and choosing its pixels.
+const ROUNDS: usize = 4;
+
+/// Share of each side that belongs to the border.
+const BORDER: f64 = 0.04;
+
+/// A pixel is off the background when its colour differs by so many times the background's own spread, at least by
+/// [`LEAST`] (log of intensity).
+const OFF: f64 = 5.0;
+const LEAST: f64 = 0.06;
+
+/// A shadow leaves at least this share of the light: on the wall behind the person, and at the feet, where it is darkest:
+/// in the lowest share of the picture's figure.
+const DARKEST: [f64; 2] = [0.62, 0.45];
+const FEET_ZONE: f64 = 0.10;
+
+/// Least difference in hue (log of intensity against the mean of the channels) that is not taken for a shadow.
+const HUE: f64 = 0.08;
+
+/// Spread of the background beyond which it is not plain.
+const PLAIN: f64 = 0.25;
+
+/// Log intensities of a picture, three channels a pixel.
+struct Logs {
+    width: usize,
+    height: usize,
+    values: Vec<[f64; 3]>,
+}
+
+/// The background's colour as a polynomial of the place, each channel, with its spread.
+struct Background {
+    coefficients: [SVector<f64, TERMS>; 3],
+    spread: [f64; 3],
+}
+
+/// The pixels of the person; `None` where the border is not of one plain background.
+pub(super) fn segment(picture: &image::DynamicImage) -> Option<Mask> {
+    let logs = Logs::of(picture);
+    Some(Background::fit(&logs)?.person(&logs))
+}
+
+impl Logs {
+    fn of(picture: &image::DynamicImage) -> Self {
+        let rgb = picture.to_rgb8();
+        let log = |v: u8| (f64::from(v) + 6.0).ln();
+        let values = rgb.pixels().map(|p| [log(p[0]), log(p[1]), log(p[2])]).collect();
+        Self { width: rgb.width() as usize, height: rgb.height() as usize, values }
+    }
+
+    fn place(&self, i: usize) -> [f64; 2] {
+        let scale = |at: usize, size: usize| 2.0 * at as f64 / size as f64 - 1.0;
+        [scale(i % self.width, self.width), scale(i / self.width, self.height)]
+    }
+
+    fn on_border(&self, i: usize) -> bool {
+        self.place(i).iter().any(|c| c.abs() > 1.0 - 2.0 * BORDER)
+    }
+}
+
+impl Background {
+    fn fit(logs: &Logs) -> Option<Self> {
+        let mut fitted: Option<Self> = None;
+        for _ in 0..ROUNDS {
+            let belongs = |i: usize| match &fitted {
+                None => logs.on_border(i),
+                Some(background) => {
+                    background.off(logs, i).iter().zip(background.spread).all(|(o, s)| o.abs() < 3.0 * s)
+                }
+            };
+            let chosen: Vec<usize> = (0..logs.values.len()).step_by(STRIDE).filter(|&i| belongs(i)).collect();
+            fitted = Some(Self::through(logs, &chosen)?);
+        }
+        fitted.filter(|background| background.spread.iter().all(|&spread| spread < PLAIN))
+    }
+
+    fn through(logs: &Logs, chosen: &[usize]) -> Option<Self> {
+        let mut normal = SMatrix::<f64, TERMS, TERMS>::identity() * 1e-6;
+        let mut right = [SVector::<f64, TERMS>::zeros(); 3];
+        for &i in chosen {
+            let terms = terms(logs.place(i));
+            normal += terms * terms.transpose();
+            (0..3).for_each(|channel| right[channel] += terms * logs.values[i][channel]);
+        }
+        let solver = normal.cholesky()?;
+        let mut background = Self { coefficients: right.map(|side| solver.solve(&side)), spread: [0.0; 3] };
+        for channel in 0..3 {
+            let mut off: Vec<f64> = chosen.iter().map(|&i| background.off(logs, i)[channel].abs()).collect();
+            off.sort_by(f64::total_cmp);
+            // The median of the absolute difference, as a standard deviation.
+            background.spread[channel] = 1.4826 * off.get(off.len() / 2).copied()?.max(0.004);
+        }
+        Some(background)
+    }
+
+    /// Difference of a pixel from the background, log of intensity.
+    fn off(&self, logs: &Logs, i: usize) -> [f64; 3] {
+        let terms = terms(logs.place(i));
+        std::array::from_fn(|channel| logs.values[i][channel] - self.coefficients[channel].dot(&terms))
+    }
+
+    fn person(&self, logs: &Logs) -> Mask {
+        let limit = self.spread.map(|spread| (OFF * spread).max(LEAST));
+        let off: Vec<[f64; 3]> = (0..logs.values.len()).map(|i| self.off(logs, i)).collect();
+        let differs = |o: &[f64; 3]| o.iter().zip(limit).any(|(o, limit)| o.abs() > limit);
+        let first = Mask::new(logs.width, logs.height, off.iter().map(differs).collect()).opened();
+        let Some((top, bottom)) = first.cleaned().rows() else { return first };
+        let feet = bottom as f64 - FEET_ZONE * (bottom - top) as f64;
+        // In a shadow the channels fall together; how far apart they may stay.
+        let hue_limit = limit.iter().fold(HUE, |most: f64, limit| most.max(*limit));
+        let is_shadow = |i: usize| {
+            let mean = off[i].iter().sum::<f64>() / 3.0;
+            let hue = off[i].iter().map(|o| (o - mean).abs()).fold(0.0, f64::max);
+            let darkest = DARKEST[usize::from((i / logs.width) as f64 > feet)];
+            mean < 0.0 && mean > darkest.ln() && hue < hue_limit
+        };
+        let kept = (0..off.len()).map(|i| first.bits[i] && !is_shadow(i)).collect();
+        Mask::new(logs.width, logs.height, kept).opened()
+    }
+}
+
+fn terms([x, y]: [f64; 2]) -> SVector<f64, TERMS> {
+    SVector::from([1.0, x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y, y * y * y])
+}
