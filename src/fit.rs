@@ -1,6 +1,25 @@
 //! Fit (thesis 6.2.3): ease at a level, the fit class it means, and the simulator the thesis's rule then names.
 
-use crate::sim::Simulator;
+/// A garment simulator, by name: what a rule or the evidence can recommend.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Simulator {
+    /// FEM-GS: physics.
+    Fem,
+    /// Hybrid-GS: geometry first, then physics.
+    Hybrid,
+}
+
+impl Simulator {
+    /// Name in the command line and in SQL.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Fem => "fem",
+            Self::Hybrid => "hybrid",
+        }
+    }
+}
 
 /// Fit class of a garment on a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]

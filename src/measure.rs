@@ -1,7 +1,7 @@
 //! Measures (thesis 3.5, 6.2.5): how true a drape stays to its pattern.
 
 use crate::geom::V3;
-use crate::pattern::Garment;
+use crate::pattern::{Garment, Measurement};
 
 /// One measurement of one drape.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,26 +38,10 @@ pub struct Metrics {
 }
 
 /// Measures a garment whose vertices are at `positions`.
-///
-/// Each segment of a run stretches by the ratio of its chords; that ratio scales the arc of the drawn curve, so that
-/// chi is exactly 1 for an unstretched garment however coarse its mesh.
 #[must_use]
 pub fn measure(garment: &Garment, positions: &[V3]) -> Vec<Chi> {
-    garment
-        .measurements
-        .iter()
-        .map(|m| {
-            let mut l3d_m = 0.0;
-            for run in &m.runs {
-                for (ends, arc) in run.points.windows(2).zip(&run.arc_m) {
-                    let chord2 = (ends[1].at_rest(&garment.rest) - ends[0].at_rest(&garment.rest)).norm();
-                    let chord3 = (ends[1].at(positions) - ends[0].at(positions)).norm();
-                    l3d_m += arc * chord3 / chord2;
-                }
-            }
-            Chi { no: m.no, l2d_m: m.l2d_m, l3d_m }
-        })
-        .collect()
+    let of = |m: &Measurement| Chi { no: m.no, l2d_m: m.l2d_m, l3d_m: m.length_m(&garment.rest, positions) };
+    garment.measurements.iter().map(of).collect()
 }
 
 /// E, SD, EI and the greatest error of a set of measurements; `None` when there are none.

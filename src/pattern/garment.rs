@@ -127,6 +127,22 @@ pub struct Measurement {
     pub runs: Vec<Run>,
 }
 
+impl Measurement {
+    /// Length L3D (m) when the garment's vertices are at `positions`; `rest` are their places in the pieces' planes.
+    ///
+    /// Each segment of a run stretches by the ratio of its chords; that ratio scales the arc of the drawn curve, so that
+    /// an unstretched garment has its pattern length exactly, however coarse its mesh.
+    #[must_use]
+    pub fn length_m(&self, rest: &[V2], positions: &[V3]) -> f64 {
+        let stretched = |(ends, arc): (&[MaterialPoint], &f64)| {
+            let flat = (ends[1].at_rest(rest) - ends[0].at_rest(rest)).norm();
+            let draped = (ends[1].at(positions) - ends[0].at(positions)).norm();
+            arc * draped / flat
+        };
+        self.runs.iter().flat_map(|run| run.points.windows(2).zip(&run.arc_m)).map(stretched).sum()
+    }
+}
+
 /// Girth of the pattern at a body level, from the style's fit-reference measurement.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct FitLevel {

@@ -1,9 +1,9 @@
 //! What a report is made from: plain values, lengths in metres, times in seconds. The page formats them.
 
+use crate::fit::Simulator;
 use crate::fit::{Cuts, Ease, FitClass};
 use crate::measure::{Chi, Metrics, metrics};
 use crate::render::Scale;
-use crate::sim::Simulator;
 
 /// Everything one report shows.
 #[derive(Clone, Debug, Default)]

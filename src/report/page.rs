@@ -5,8 +5,8 @@ use super::chart::{Chart, ease_chart, time_chart};
 use super::data::{Basis, Finding, Outcome, Picture, ReportData, Run, Severity, Verdict};
 use super::runs::{Group, groups};
 use super::text::{count, distinct, duration, fit_glyph, fit_words, mean_sd, mm, number, signed_mm, simulator_name};
+use crate::fit::Simulator;
 use crate::fit::{Ease, FitClass};
-use crate::sim::Simulator;
 use base64::Engine;
 
 /// What `report.html` is filled from.

@@ -1,9 +1,9 @@
 use super::data::*;
 use super::{ReportError, chart, html};
+use crate::fit::Simulator;
 use crate::fit::{Cuts, Ease, FitClass};
 use crate::measure::Chi;
 use crate::render::{Rgb, Scale, png};
-use crate::sim::Simulator;
 
 fn ease(pattern_girth_m: f64, body_girth_m: f64) -> Ease {
     let cuts = Cuts::default();

@@ -1,7 +1,7 @@
 //! Numbers and names as readers see them, and the two statistics of a row.
 
+use crate::fit::Simulator;
 use crate::fit::{Ease, FitClass};
-use crate::sim::Simulator;
 
 /// Text with the characters replaced that mean something in HTML and SVG.
 pub(super) fn escape(text: &str) -> String {

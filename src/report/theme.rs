@@ -1,8 +1,8 @@
 //! Colours of charts and tables. Charts name them by value; on the page the neutral ones become style variables, so that
 //! a chart follows the reader's light or dark scheme.
 
+use crate::fit::Simulator;
 use crate::render::{ColourMap, Rgb};
-use crate::sim::Simulator;
 
 /// Text and axes.
 pub(super) const INK: Rgb = Rgb(0x1b, 0x24, 0x30);

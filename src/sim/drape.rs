@@ -2,27 +2,6 @@
 
 use crate::geom::V3;
 
-/// Which simulator made a result.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Simulator {
-    /// FEM-GS: physics.
-    Fem,
-    /// Hybrid-GS: geometry first, then physics.
-    Hybrid,
-}
-
-impl Simulator {
-    /// Name in the command line and in SQL.
-    #[must_use]
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Fem => "fem",
-            Self::Hybrid => "hybrid",
-        }
-    }
-}
-
 /// How far a garment has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]

@@ -14,7 +14,7 @@ use super::spec::{self, JobSpec, Selection};
 use super::store::now_ms;
 use super::types::{JobId, Status};
 use super::workspace::Workspace;
-use crate::sim::Simulator;
+use crate::fit::Simulator;
 use crate::units::mm;
 
 /// Why a job runs, or why it need not.

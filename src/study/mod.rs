@@ -50,5 +50,6 @@ pub use types::{
 pub use workspace::Workspace;
 
 pub use crate::fit::FitClass;
+pub use crate::fit::Simulator;
 pub use crate::render::View;
-pub use crate::sim::{Monitor, Simulator, Step};
+pub use crate::sim::{Monitor, Step};

@@ -12,11 +12,12 @@ use super::inputs::StageKind;
 use super::pipeline::{Meshes, Model};
 use super::types::{JobId, Value};
 use super::workspace::Workspace;
+use crate::fit::Simulator;
 use crate::geom::{Surface, TriMesh};
 use crate::pattern::Garment;
 use crate::render::{self, Camera, Frame, Layer, Mapping, Material, Paint, Scene, Texture, Values, View};
+use crate::sim::Drape;
 use crate::sim::cloth::membrane::Orthotropic;
-use crate::sim::{Drape, Simulator};
 use crate::units::mm;
 
 /// One repeat of the check, m.

@@ -10,11 +10,11 @@ use super::outcome::{Executor, Measured, Outcome};
 use super::spec::JobSpec;
 use super::tools;
 use crate::body::Body;
-use crate::fit::{self, Cuts, Ease};
+use crate::fit::{self, Cuts, Ease, Simulator};
 use crate::geom::DistanceField;
 use crate::measure;
 use crate::pattern::{Garment, Style};
-use crate::sim::{self, Drape, Monitor, SimError, Simulator};
+use crate::sim::{self, Drape, Monitor, SimError};
 use crate::units::from_mm;
 
 /// The simulators there are.

@@ -11,7 +11,8 @@ use super::types::{
 };
 use super::workspace::Workspace;
 use crate::fit::FitClass;
-use crate::sim::{Simulator, Step};
+use crate::fit::Simulator;
+use crate::sim::Step;
 use crate::units::from_mm;
 
 /// Which jobs to list; empty fields accept all.

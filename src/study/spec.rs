@@ -4,7 +4,8 @@ use super::file::{GarmentEntry, SizeFile, SourceFile, Study, Subject};
 use super::inputs::Inputs;
 use super::pipeline;
 use crate::body::Measurements;
-use crate::sim::{Fabric, Simulator};
+use crate::fit::Simulator;
+use crate::sim::Fabric;
 use crate::units::mm;
 
 /// One simulation with everything it needs.

@@ -4,7 +4,8 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::fit::FitClass;
-use crate::sim::{Progress, Simulator, Step};
+use crate::fit::Simulator;
+use crate::sim::{Progress, Step};
 
 /// Number of a job in its database.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]

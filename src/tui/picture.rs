@@ -256,7 +256,7 @@ mod tests {
             assert_eq!(pixel_protocol(&env), expect, "{vars:?}");
         };
         check(&[("TERM", "xterm-kitty")], Some(ProtocolType::Kitty));
-        check(&[("TERM", "xterm-kitty"), ("TMUX", "/tmp/x")], None);
+        check(&[("TERM", "xterm-kitty"), ("TMUX", "1")], None);
         check(&[("TERM_PROGRAM", "WezTerm")], Some(ProtocolType::Iterm2));
         check(&[("TERM", "xterm-256color")], None);
     }

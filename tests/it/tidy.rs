@@ -26,13 +26,6 @@ const EVERYWHERE: [&str; 2] = ["units", "geom"];
 /// Parts of one module that never use each other.
 const STRANGERS: [[&str; 2]; 1] = [["sim::fem", "sim::hybrid"]];
 
-/// Where the table is not kept yet: module, what it uses, why. One that is no longer needed fails the test.
-const EXCEPTIONS: [(&str, &str, &str); 3] = [
-    ("fit", "sim::Simulator", "a plain name of a simulator, which the rule answers with"),
-    ("report", "sim::Simulator", "likewise, beside its results"),
-    ("sim::fem", "measure", "E of every step of a drape's history"),
-];
-
 /// Packages that belong to one module.
 const OWNED: [(&str, &str); 1] = [("rusqlite", "study")];
 
@@ -215,22 +208,16 @@ fn forbidden(module: &[String], code: &str) -> Vec<String> {
 
 #[test]
 fn modules_use_only_what_they_may() {
-    let (mut wrong, mut seen, mut needed) = (Vec::new(), BTreeSet::new(), BTreeSet::new());
+    let (mut wrong, mut seen) = (Vec::new(), BTreeSet::new());
     for path in files(&root().join("src"), &["rs"]) {
         let module = module_of(&within(&path));
         let Some(first) = module.first() else { continue };
         seen.insert(first.clone());
         for used in forbidden(&module, &text(&path)) {
-            let is_of =
-                |(who, what, _): &&(&str, &str, &str)| is_within(&module.join("::"), who) && is_within(&used, what);
-            match EXCEPTIONS.iter().find(is_of) {
-                Some(exception) => drop(needed.insert(exception)),
-                None => wrong.push(format!("{}: {used}", within(&path))),
-            }
+            wrong.push(format!("{}: {used}", within(&path)));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    assert_eq!(needed, EXCEPTIONS.iter().collect(), "exceptions that are no longer needed");
     let table: BTreeSet<String> = MAY_USE.iter().map(|(name, _)| (*name).to_owned()).collect();
     assert_eq!(seen, table, "every module is in the table, and the other way round");
 }

@@ -4,7 +4,7 @@ use super::super::data::Run;
 use super::super::{ReportError, theme};
 use super::canvas::{Align, Axis, ROW, TYPE, WIDTH, draw};
 use super::{Chart, shorten};
-use crate::sim::Simulator;
+use crate::fit::Simulator;
 
 const LEFT: i32 = 420;
 

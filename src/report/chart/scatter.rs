@@ -6,7 +6,7 @@ use super::super::{ReportError, theme};
 use super::Chart;
 use super::canvas::{Align, Axis, Canvas, TYPE, WIDTH, draw};
 use crate::fit::Cuts;
-use crate::sim::Simulator;
+use crate::fit::Simulator;
 
 const LEFT: i32 = 170;
 const TOP: i32 = 120;

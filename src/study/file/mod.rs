@@ -40,7 +40,8 @@ use std::sync::Arc;
 use super::error::{Result, StudyError};
 use crate::body::Measurements;
 use crate::fit::Cuts;
-use crate::sim::{Fabric, Simulator};
+use crate::fit::Simulator;
+use crate::sim::Fabric;
 
 /// One thing that is wrong with a study file.
 #[derive(Clone, Debug, PartialEq, Eq)]

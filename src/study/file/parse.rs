@@ -11,7 +11,8 @@ use super::reader::{Place, Reader};
 use super::{GarmentEntry, Known, Problem, SizeFile, SourceFile, Study, Subject};
 use crate::body::{Measurements, Sex};
 use crate::fit::Cuts;
-use crate::sim::{Fabric, Simulator};
+use crate::fit::Simulator;
+use crate::sim::Fabric;
 use crate::units::{from_mm, mm};
 
 const STUDY_KEYS: [&str; 8] =

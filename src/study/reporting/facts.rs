@@ -8,11 +8,11 @@ use super::super::types::{EaseRow, JobRow, RecommendationRow, Status, Value};
 use super::super::workspace::Workspace;
 use super::quoted;
 use crate::body::Girths;
+use crate::fit::Simulator;
 use crate::fit::{Cuts, Ease};
 use crate::report::data::{
     AuditNote, Basis, Column, Drawing, EaseMatrix, FabricFacts, Fact, Finding, Severity, Subject, SubjectTable, Verdict,
 };
-use crate::sim::Simulator;
 
 /// Columns of `v_subjects` on the page: name, heading, unit, decimals.
 const MEASUREMENTS: [(&str, &str, &str, usize); 7] = [
