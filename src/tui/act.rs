@@ -245,7 +245,7 @@ impl State {
 
     fn run(&mut self, target: Target) -> Vec<Effect> {
         if target == Target::Quickstart && !self.abilities.quickstart {
-            self.complain("the quickstart study is not installed here: run `toile study new NAME`");
+            self.complain("the quickstart study is not installed here: give `toile run` a folder with a study.toml");
             return vec![];
         }
         if !self.abilities.run {

@@ -76,11 +76,6 @@ impl<'a> BodyContact<'a> {
         self.touching.len()
     }
 
-    /// Normal force on each vertex at the last [`BodyContact::assemble`], N.
-    pub fn normal_forces(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
-        self.touching.iter().map(|t| (t.vertex, t.force_n))
-    }
-
     fn depth(&self, p: &V3) -> (f64, V3) {
         let (distance, gradient) = self.field.value_and_gradient(p);
         (self.params.offset_m - distance, gradient)

@@ -14,11 +14,11 @@ pub struct PcgParams {
     pub max_iterations: usize,
 }
 
-/// Solves `K x = b` approximately from zero; returns `x` and the iterations taken.
+/// Solves `K x = b` approximately, from the best multiple of `start` (else from zero).
 ///
 /// Every iterate descends the quadratic `x.K x / 2 - b.x`, so a run cut short still yields a descent direction.
 #[must_use]
-pub fn solve(operator: &Operator, b: &[V3], start: Option<&[V3]>, params: &PcgParams) -> (Vec<V3>, usize) {
+pub fn solve(operator: &Operator, b: &[V3], start: Option<&[V3]>, params: &PcgParams) -> Vec<V3> {
     let inverse: Vec<Matrix3<f64>> =
         operator.diagonal_blocks().iter().map(|d| d.try_inverse().unwrap_or_else(Matrix3::zeros)).collect();
     let n = b.len();
@@ -41,14 +41,14 @@ pub fn solve(operator: &Operator, b: &[V3], start: Option<&[V3]>, params: &PcgPa
     let mut kp = vec![V3::zeros(); n];
     let mut rz = dot(&r, &z);
     let goal = b_norm * params.tolerance * params.tolerance;
-    for iteration in 0..params.max_iterations {
+    for _ in 0..params.max_iterations {
         if rz <= goal || rz <= f64::MIN_POSITIVE {
-            return (x, iteration);
+            return x;
         }
         operator.apply(&p, &mut kp);
         let curvature = dot(&p, &kp);
         if curvature <= 0.0 {
-            return (x, iteration);
+            return x;
         }
         let alpha = rz / curvature;
         for i in 0..n {
@@ -63,7 +63,7 @@ pub fn solve(operator: &Operator, b: &[V3], start: Option<&[V3]>, params: &PcgPa
             p[i] = z[i] + p[i] * beta;
         }
     }
-    (x, params.max_iterations)
+    x
 }
 
 fn precondition(inverse: &[Matrix3<f64>], r: &[V3]) -> Vec<V3> {

@@ -48,10 +48,6 @@ impl Default for StepParams {
 pub struct StepInfo {
     /// Rms force over mean vertex weight *before* the step.
     pub residual: f64,
-    /// Iterations of the linear solve.
-    pub linear_iterations: usize,
-    /// Greatest displacement taken, m.
-    pub moved_m: f64,
 }
 
 /// The state that outlives a step.
@@ -78,7 +74,7 @@ impl Stepper {
         let (forces, mut operator) = system.assemble(x);
         let residual = rms(&forces) / system.mean_weight();
         if residual <= tolerance {
-            return StepInfo { residual, linear_iterations: 0, moved_m: 0.0 };
+            return StepInfo { residual };
         }
         let inertia: Vec<f64> = system.cloth.masses.iter().map(|m| m / (self.h_s * self.h_s)).collect();
         for (block, m) in operator.diagonal.iter_mut().zip(&inertia) {
@@ -86,11 +82,10 @@ impl Stepper {
         }
         let linear =
             PcgParams { tolerance: self.params.linear_tolerance, max_iterations: self.params.linear_iterations };
-        let (mut direction, linear_iterations) = pcg::solve(&operator, &forces, self.last.as_deref(), &linear);
+        let mut direction = pcg::solve(&operator, &forces, self.last.as_deref(), &linear);
         clamp(&mut direction, self.params.clamp_m);
         let bend = self.bend(system, &operator, x, &direction, &inertia);
         let (share, next) = self.search(system, x, &direction, &bend, &forces, &inertia);
-        let moved_m = next.iter().zip(x.iter()).map(|(p, q)| (p - q).norm()).fold(0.0, f64::max);
         self.last = Some(next.iter().zip(x.iter()).map(|(p, q)| p - q).collect());
         *x = next;
         system.contact.drag_anchors(x);
@@ -101,7 +96,7 @@ impl Stepper {
         } else {
             self.h_s
         };
-        StepInfo { residual, linear_iterations, moved_m }
+        StepInfo { residual }
     }
 
     /// Second-order correction: what the Newton direction leaves over at its end, through the same stiffness.
@@ -116,7 +111,7 @@ impl Stepper {
         }
         let linear =
             PcgParams { tolerance: self.params.linear_tolerance, max_iterations: self.params.correction_iterations };
-        let (mut bend, _) = pcg::solve(operator, &remainder, None, &linear);
+        let mut bend = pcg::solve(operator, &remainder, None, &linear);
         clamp(&mut bend, self.params.clamp_m);
         bend
     }
