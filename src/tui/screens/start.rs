@@ -28,8 +28,7 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     lines.extend([
         Line::raw(""),
         Line::raw("Or, in another terminal:"),
-        Line::raw("       toile run FOLDER        runs the study.toml in it"),
-        Line::raw("       toile run STUDY         runs it; this screen follows"),
+        Line::raw("       toile run STUDY    runs a folder's study.toml; this screen follows"),
         Line::raw(""),
         Line::styled("?  keys    :  all actions    q  quit", state.theme.dim()),
     ]);
