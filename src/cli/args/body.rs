@@ -1,0 +1,101 @@
+//! Arguments of `toile body`.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand, ValueEnum};
+
+/// Sex of a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Sex {
+    /// Male.
+    M,
+    /// Female.
+    F,
+}
+
+/// Unit of a body mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum MeshUnit {
+    /// Millimetre.
+    Mm,
+    /// Centimetre.
+    Cm,
+    /// Metre.
+    M,
+}
+
+/// Commands on bodies.
+#[derive(Debug, Subcommand)]
+pub enum Body {
+    /// Measure any upright body mesh (OBJ, PLY, STL).
+    Measure {
+        /// Mesh file.
+        file: PathBuf,
+        /// Unit of the file; by default told from its height.
+        #[arg(long, value_enum)]
+        unit: Option<MeshUnit>,
+        /// Sex, where known: places the waist.
+        #[arg(long, value_enum)]
+        sex: Option<Sex>,
+    },
+    /// Build a body from measurements, from a front and a side picture, or from a subject of the catalogue.
+    Build(Box<BodyBuild>),
+    /// How well the bodies of a folder are measured from meshes, scans, silhouettes and photographs.
+    Evaluate {
+        /// Folder with manifest.csv, measurements.csv, and where there are any scans.csv and images.csv.
+        folder: PathBuf,
+    },
+}
+
+/// Arguments of `body build`.
+#[derive(Debug, Args)]
+pub struct BodyBuild {
+    /// Subject of the catalogue to start from.
+    #[arg(long, value_name = "NAME")]
+    pub subject: Option<String>,
+    /// Sex.
+    #[arg(long, value_enum, required_unless_present_any = ["subject", "measurements"])]
+    pub sex: Option<Sex>,
+    /// TOML file with the keys of a study's [[subject]].
+    #[arg(long, value_name = "FILE", conflicts_with = "subject")]
+    pub measurements: Option<PathBuf>,
+    /// Stature.
+    #[arg(long, value_name = "N", required_unless_present_any = ["subject", "measurements"])]
+    pub stature_mm: Option<f64>,
+    /// Body mass.
+    #[arg(long, value_name = "N")]
+    pub weight_kg: Option<f64>,
+    /// Chest or bust girth.
+    #[arg(long, value_name = "N")]
+    pub chest_girth_mm: Option<f64>,
+    /// Waist girth.
+    #[arg(long, value_name = "N")]
+    pub waist_girth_mm: Option<f64>,
+    /// Hip girth.
+    #[arg(long, value_name = "N")]
+    pub hip_girth_mm: Option<f64>,
+    /// Neck girth.
+    #[arg(long, value_name = "N")]
+    pub neck_girth_mm: Option<f64>,
+    /// Width across the shoulders.
+    #[arg(long, value_name = "N")]
+    pub across_shoulder_mm: Option<f64>,
+    /// Front picture (PNG or JPEG): a photograph against a plain background, or a mask.
+    #[arg(long, value_name = "IMAGE", requires = "side", conflicts_with_all = ["subject", "measurements"])]
+    pub front: Option<PathBuf>,
+    /// Side picture, the subject facing its right.
+    #[arg(long, value_name = "IMAGE", requires = "front")]
+    pub side: Option<PathBuf>,
+    /// Distance of the camera from the subject.
+    #[arg(long, value_name = "N", requires = "front", requires = "lens")]
+    pub camera_distance_mm: Option<f64>,
+    /// Focal length in pixels of the pictures.
+    #[arg(long, value_name = "N", group = "lens", requires = "camera_distance_mm")]
+    pub focal_px: Option<f64>,
+    /// Vertical field of view of the pictures.
+    #[arg(long, value_name = "N", group = "lens", requires = "camera_distance_mm")]
+    pub fov_deg: Option<f64>,
+    /// Folder to write body.obj, body.png, measurements.json, control.obj and control.json to.
+    #[arg(long, short, value_name = "DIR")]
+    pub output: PathBuf,
+}

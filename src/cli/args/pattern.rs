@@ -1,0 +1,105 @@
+//! Arguments of `toile pattern`.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand, ValueEnum};
+
+/// Unit of a pattern whose file names none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum PatternUnit {
+    /// Millimetre.
+    Mm,
+    /// Centimetre.
+    Cm,
+    /// Inch.
+    In,
+}
+
+/// Style that can be drafted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum DraftStyle {
+    /// Men's V-neck T-shirt, sizes S, M and L.
+    Tshirt,
+    /// Men's trousers, sizes S, M and L.
+    Trousers,
+    /// Women's tee-top, sizes M and L.
+    Teetop,
+    /// Women's dress, one size.
+    Dress,
+}
+
+/// A pattern with its seam file.
+#[derive(Debug, Args)]
+pub struct StyleFiles {
+    /// DXF file, or GarmentCode JSON with its seams.
+    pub file: PathBuf,
+    /// Seam file; a DXF file needs one.
+    #[arg(long, value_name = "FILE")]
+    pub seams: Option<PathBuf>,
+    /// Size, where the file holds several.
+    #[arg(long, value_name = "NAME")]
+    pub size: Option<String>,
+    /// Unit of the file, where it names none.
+    #[arg(long, value_enum)]
+    pub unit: Option<PatternUnit>,
+}
+
+/// Commands on patterns.
+#[derive(Debug, Subcommand)]
+pub enum Pattern {
+    /// What is in a pattern file (DXF, GarmentCode JSON), or in every one of a folder.
+    Inspect {
+        /// File or folder.
+        path: PathBuf,
+        /// Only pieces of this size.
+        #[arg(long, value_name = "NAME")]
+        size: Option<String>,
+        /// Unit of the files, where they name none.
+        #[arg(long, value_enum)]
+        unit: Option<PatternUnit>,
+        /// One row for each file: how many blocks are pieces, how many are refused and why.
+        #[arg(long)]
+        by_file: bool,
+    },
+    /// Propose a seam file: what each piece is and what is sewn to what, with confidences.
+    Propose {
+        /// DXF file, or a folder of them.
+        path: PathBuf,
+        /// Size, where a file holds several.
+        #[arg(long, value_name = "NAME")]
+        size: Option<String>,
+        /// Unit of the files, where they name none.
+        #[arg(long, value_enum)]
+        unit: Option<PatternUnit>,
+        /// Seam file to write, to be read and edited.
+        #[arg(long, short, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
+    /// Whether a pattern and its seam file fit together: seams, measurements, meshes.
+    Check(StyleFiles),
+    /// Draft a built-in style in all its sizes, with its seam file.
+    Draft {
+        /// Style.
+        #[arg(value_enum, default_value = "tshirt")]
+        style: DraftStyle,
+        /// Folder to write to.
+        #[arg(long, short, value_name = "DIR")]
+        output: PathBuf,
+    },
+    /// Mesh a pattern; says how good the triangles are.
+    Mesh {
+        #[command(flatten)]
+        files: StyleFiles,
+        /// Edge length, mm.
+        #[arg(long, default_value_t = 15.0, value_name = "MM")]
+        edge_length_mm: f64,
+    },
+    /// Draw the pieces with their numbered measurements as SVG.
+    Sheet {
+        #[command(flatten)]
+        files: StyleFiles,
+        /// SVG file to write.
+        #[arg(long, short, value_name = "FILE")]
+        output: PathBuf,
+    },
+}
