@@ -7,13 +7,16 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 44] = [
+const COMMANDS: [&str; 47] = [
     "",
     "run",
     "report",
     "sql",
     "ease",
     "recommend",
+    "audit",
+    "export",
+    "man",
     "pattern",
     "pattern inspect",
     "pattern check",
