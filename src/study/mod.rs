@@ -20,6 +20,7 @@ mod queue;
 mod read;
 mod reporting;
 mod run;
+mod sewing;
 mod spec;
 mod sql;
 mod store;

@@ -31,7 +31,7 @@ pub enum DraftStyle {
 /// A pattern with its seam file.
 #[derive(Debug, Args)]
 pub struct StyleFiles {
-    /// DXF file, or GarmentCode JSON with its seams.
+    /// DXF file, folder of them, or GarmentCode JSON with its seams; `check` also takes a study.
     pub file: PathBuf,
     /// Seam file; a DXF file needs one.
     #[arg(long, value_name = "FILE")]
@@ -75,7 +75,7 @@ pub enum Pattern {
         #[arg(long, short, value_name = "FILE")]
         output: Option<PathBuf>,
     },
-    /// Whether a pattern and its seam file fit together: seams, measurements, meshes.
+    /// Whether a pattern and its seam file fit together: seams, measurements, meshes; of a study, every size.
     Check(StyleFiles),
     /// Draft a built-in style in all its sizes, with its seam file.
     Draft {

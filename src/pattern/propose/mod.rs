@@ -192,6 +192,8 @@ pub struct Proposal {
     pub pieces: Vec<ProposedPiece>,
     /// Seams, the surest first of each kind.
     pub seams: Vec<ProposedSeam>,
+    /// Edges that are taken to stay free: hems, necklines, armholes without a sleeve, waists without a band.
+    pub open: Vec<String>,
     /// What a person must decide.
     pub questions: Vec<String>,
     /// Pieces of the seam file by identifier.
@@ -227,6 +229,7 @@ pub fn propose(pieces: &[Piece]) -> Proposal {
             ..plain.clone()
         }));
     }
+    let open = sew::open(&worn, &seams);
     let entries = worn.iter().map(|worn| (worn.id.clone(), worn.entry.clone())).collect();
-    Proposal { pieces: listed, seams, questions, entries }
+    Proposal { pieces: listed, seams, open, questions, entries }
 }

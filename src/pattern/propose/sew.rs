@@ -37,6 +37,19 @@ pub fn sew(worn: &[Worn], questions: &mut Vec<String>) -> Vec<ProposedSeam> {
     tailor.seams
 }
 
+/// Edges in no seam that may well be openings.
+pub fn open(worn: &[Worn], seams: &[ProposedSeam]) -> Vec<String> {
+    let is_sewn = |name: &String| seams.iter().any(|seam| seam.entry.a.contains(name) || seam.entry.b.contains(name));
+    let may_be_open = |label: Label| {
+        matches!(label, Label::Hem | Label::Neck | Label::Armhole | Label::Waist | Label::Lower | Label::Top)
+    };
+    let edges = worn.iter().flat_map(|one| {
+        let free = one.edges.iter().filter(|edge| edge.label.is_some_and(may_be_open));
+        free.map(|edge| format!("{}.{}", one.id, edge.name))
+    });
+    edges.filter(|name| !is_sewn(name)).collect()
+}
+
 struct Tailor<'w, 'q> {
     worn: &'w [Worn],
     seams: Vec<ProposedSeam>,
