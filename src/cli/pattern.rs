@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::args::{DraftStyle, Pattern, PatternUnit, StyleFiles};
+use super::args::{DraftStyle, Pattern, PatternUnit, SeamCommand, StyleFiles};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
-use crate::study::tools::{self, CHECK_EDGE_MM, FileReport, Finding, Model, SizeCheck, Unit};
+use crate::study::tools::{self, CHECK_EDGE_MM, FileReport, Finding, Model, SeamEdit, SizeCheck, Unit};
 use crate::study::{Table, Value};
 use crate::units::{from_mm, mm};
 
@@ -21,6 +21,7 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
             propose(context, path, &tools::propose(path, size.as_deref(), unit.map(of))?, output.as_deref())
         }
         Pattern::Check(files) => check(context, files),
+        Pattern::Seam(edit) => seam(context, edit),
         Pattern::Draft { style, output } => {
             for path in tools::write_files(output, &tools::drafted(model(*style)))? {
                 output::text(&format!("{}\n", path.display()))?;
@@ -54,9 +55,10 @@ fn write(context: &Context, output: &Path, text: String) -> Result<(), CliError>
 }
 
 /// Shows a proposal, or writes it as a seam file; what a person must decide goes to standard error.
-fn propose(context: &Context, path: &Path, proposal: &tools::Proposal, output: Option<&Path>) -> Outcome {
+fn propose(context: &Context, path: &Path, proposed: &tools::Proposed, output: Option<&Path>) -> Outcome {
+    let proposal = &proposed.proposal;
     if context.json {
-        output::json(proposal)?;
+        output::json(proposed)?;
     } else {
         context.print(&seams(proposal))?;
     }
@@ -68,6 +70,22 @@ fn propose(context: &Context, path: &Path, proposal: &tools::Proposal, output: O
         write(context, output, proposal.toml(&name))?;
     }
     Ok(if proposal.seams.is_empty() { End::CheckFailed } else { End::Done })
+}
+
+/// Edits a seam file in its place.
+fn seam(context: &Context, command: &SeamCommand) -> Outcome {
+    let (files, edit) = match command.clone() {
+        SeamCommand::Add { files, name, eased } => {
+            let edit = SeamEdit::Add { a: files.a.clone(), b: files.b.clone(), name, is_eased: eased };
+            (files, edit)
+        }
+        SeamCommand::Rm { files } => (files.clone(), SeamEdit::Remove { a: files.a, b: files.b }),
+        SeamCommand::Flip { files } => (files.clone(), SeamEdit::Flip { a: files.a, b: files.b }),
+    };
+    let unit = files.unit.map(of);
+    let text = tools::edit_seams(&files.pattern, &files.seams, files.size.as_deref(), unit, &edit)?;
+    write(context, &files.seams, text)?;
+    Ok(End::Done)
 }
 
 fn seams(proposal: &tools::Proposal) -> Table {

@@ -20,6 +20,7 @@ mod queue;
 mod read;
 mod reporting;
 mod run;
+mod seam_desk;
 mod sewing;
 mod spec;
 mod sql;

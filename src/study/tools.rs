@@ -7,9 +7,10 @@ use super::file::SourceFile;
 use super::sewing;
 use crate::body::{self, Body};
 use crate::pattern::dxf;
-use crate::pattern::{Garment, Piece, garmentcode, propose, sheet};
+use crate::pattern::{Garment, Piece, garmentcode, sheet};
 use crate::render::{self, Camera, Frame, Layer, Material, Scene};
 
+pub use super::seam_desk::{Desk, DeskEdge, DeskPiece, DeskSeam, Proposed, desk, edit_seams, propose};
 pub use super::sewing::{CHECK_EDGE_MM, SizeCheck, check_study};
 pub use crate::body::{
     Accuracy, Evaluation, Girths, LengthUnit, Measurements, Pictured, PicturedLevel, Sex, write_obj,
@@ -19,6 +20,7 @@ pub use crate::pattern::draft::Model;
 pub use crate::pattern::dxf::Unit;
 pub use crate::pattern::inspect::{FileReport, PieceReport};
 pub use crate::pattern::propose::Proposal;
+pub use crate::pattern::seam_edit::Edit as SeamEdit;
 pub use crate::pattern::{MeshQuality, Style};
 pub use crate::render::View;
 
@@ -113,14 +115,6 @@ pub fn style(pattern: &Path, seams: Option<&Path>, size: Option<&str>, unit: Opt
 /// As [`style`].
 pub fn findings(pattern: &Path, seams: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<Finding>> {
     sewing::of_files(&SourceFile::read_pattern(pattern)?, &SourceFile::read(seams)?, size, unit)
-}
-
-/// A seam file proposed for the pieces of a DXF file, or of all DXF files in a folder together.
-///
-/// # Errors
-/// When a file cannot be read, or holds several sizes while none is named.
-pub fn propose(path: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Proposal> {
-    Ok(propose::propose(&pieces(&SourceFile::read_pattern(path)?, size, unit)?))
 }
 
 /// The pieces of one size of a DXF file, or of all of a folder.

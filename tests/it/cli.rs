@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 44] = [
+const COMMANDS: [&str; 48] = [
     "",
     "run",
     "report",
@@ -20,6 +20,10 @@ const COMMANDS: [&str; 44] = [
     "pattern draft",
     "pattern mesh",
     "pattern propose",
+    "pattern seam",
+    "pattern seam add",
+    "pattern seam rm",
+    "pattern seam flip",
     "pattern sheet",
     "body",
     "body measure",

@@ -6,6 +6,7 @@
 
 mod align;
 mod names;
+mod pose;
 mod recognise;
 mod sew;
 mod shape;
@@ -15,6 +16,8 @@ mod tests;
 mod worn;
 mod write;
 
+pub(super) use self::pose::{Pose, named_face_and_hand, pose};
+use super::garment::Role;
 use super::piece::Piece;
 use super::seams::{PieceEntry, SeamEntry};
 
@@ -146,6 +149,44 @@ impl Label {
     }
 }
 
+/// What a piece is worn as; a trunk `is_bodice` where something is sewn to its lower edge.
+fn role_of(class: Option<Class>, face: Option<Face>, hand: Option<Hand>, is_bodice: bool) -> Role {
+    match (class, face, hand) {
+        (Some(Class::Body) | None, Some(Face::Front), _) => {
+            if is_bodice {
+                Role::BodiceFront
+            } else {
+                Role::Front
+            }
+        }
+        (Some(Class::Body) | None, Some(Face::Back), _) => {
+            if is_bodice {
+                Role::BodiceBack
+            } else {
+                Role::Back
+            }
+        }
+        (Some(Class::Sleeve), _, Some(Hand::Right)) => Role::SleeveRight,
+        (Some(Class::Sleeve), _, Some(Hand::Left)) => Role::SleeveLeft,
+        (Some(Class::Leg), Some(Face::Front), Some(Hand::Right)) => Role::LegFrontRight,
+        (Some(Class::Leg), Some(Face::Front), Some(Hand::Left)) => Role::LegFrontLeft,
+        (Some(Class::Leg), Some(Face::Back), Some(Hand::Right)) => Role::LegBackRight,
+        (Some(Class::Leg), Some(Face::Back), Some(Hand::Left)) => Role::LegBackLeft,
+        (Some(Class::Skirt), Some(Face::Front), _) => Role::SkirtFront,
+        (Some(Class::Skirt), Some(Face::Back), _) => Role::SkirtBack,
+        (Some(Class::Waistband), ..) => Role::Waistband,
+        _ => Role::Other,
+    }
+}
+
+/// Roles of pieces by their names alone, for files that hold their seams.
+pub(super) fn roles_by_name(names: &[&str]) -> Vec<Role> {
+    let named: Vec<names::Named> = names.iter().map(|name| names::read(name)).collect();
+    let is_below = |one: &names::Named| matches!(one.class, Some(Class::Skirt | Class::Leg | Class::Waistband));
+    let is_bodice = named.iter().any(is_below);
+    named.iter().map(|one| role_of(one.class, one.face, one.hand, is_bodice)).collect()
+}
+
 /// What a piece was taken for.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct ProposedPiece {
@@ -199,6 +240,14 @@ pub struct Proposal {
     /// Pieces of the seam file by identifier.
     #[serde(skip)]
     entries: Vec<(String, PieceEntry)>,
+}
+
+impl Proposal {
+    /// Whether no piece was recognised.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
 }
 
 /// Proposes a seam file for the pieces of one size, half pieces opened ([`super::dxf::PatternFile::to_sew`]).

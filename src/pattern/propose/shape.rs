@@ -45,11 +45,16 @@ impl Shape {
     /// The shape of a piece; `None` where it has fewer than three corners or more than any pattern.
     #[must_use]
     pub fn of(piece: &Piece) -> Option<Self> {
-        let corners = corner_vertices(piece);
+        Self::new(piece.seam_outline().to_vec(), corner_vertices(piece))
+    }
+
+    /// The shape of an outline, counter-clockwise, with the indices of its corners; `None` as [`Shape::of`].
+    #[must_use]
+    pub fn new(outline: Vec<V2>, corners: Vec<usize>) -> Option<Self> {
         if !(3..=MOST_CORNERS).contains(&corners.len()) {
             return None;
         }
-        let mut shape = Self { outline: piece.seam_outline().to_vec(), corners, apexes: Vec::new() };
+        let mut shape = Self { outline, corners, apexes: Vec::new() };
         shape.apexes = (0..shape.corners.len()).filter(|&corner| shape.is_apex(corner)).collect();
         Some(shape)
     }

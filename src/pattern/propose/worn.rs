@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::recognise::Recognised;
-use super::{Class, Face, Hand, Label};
-use crate::pattern::garment::Role;
+use super::{Class, Face, Hand, Label, pose, role_of};
 use crate::pattern::piece::Piece;
 use crate::pattern::seams::PieceEntry;
 
@@ -52,6 +51,8 @@ pub fn worn(pieces: &[Piece], recognised: &[Recognised], questions: &mut Vec<Str
     let backs_face_inwards = recognised.iter().any(|one| {
         one.face == Some(Face::Back) && one.hand.is_some_and(|hand| natural_hand(one).is_some_and(|n| n != hand))
     });
+    // What hangs from a bodice, or the band between them, makes it one.
+    let is_bodice = recognised.iter().any(|one| matches!(one.class, Class::Skirt | Class::Leg | Class::Waistband));
     let mut all: Vec<Worn> = Vec::new();
     for one in recognised {
         let needs_face = matches!(one.class, Class::Body | Class::Leg | Class::Skirt);
@@ -69,7 +70,8 @@ pub fn worn(pieces: &[Piece], recognised: &[Recognised], questions: &mut Vec<Str
                 }
                 break;
             }
-            all.push(wear(pieces, one, id, hand, is_mirror));
+            let role = role_of(Some(one.class), one.face, hand, is_bodice);
+            all.push(wear(pieces, one, id, hand, is_mirror, role));
         }
         if one.class == Class::Sleeve && one.alignment.template.is_whole && one.hand.is_none() {
             questions.push(format!(
@@ -83,12 +85,8 @@ pub fn worn(pieces: &[Piece], recognised: &[Recognised], questions: &mut Vec<Str
 
 /// Side of the wearer for which half a piece is drawn, seen from outside.
 fn natural_hand(one: &Recognised) -> Option<Hand> {
-    let is_outer_right = !one.alignment.is_mirrored;
-    match (one.alignment.template.is_whole, one.face?) {
-        (true, _) => None,
-        (false, Face::Front) => Some(if is_outer_right { Hand::Left } else { Hand::Right }),
-        (false, Face::Back) => Some(if is_outer_right { Hand::Right } else { Hand::Left }),
-    }
+    let face = one.face.filter(|_| !one.alignment.template.is_whole)?;
+    Some(pose::natural_hand(face, one.alignment.is_mirrored))
 }
 
 /// Copies of a piece: the wearer's side and whether it is worn as the mirror image of what is drawn.
@@ -123,16 +121,6 @@ fn id_of(one: &Recognised, hand: Option<Hand>) -> String {
     parts.into_iter().flatten().collect::<Vec<_>>().join("_")
 }
 
-fn role_of(class: Class, face: Option<Face>, hand: Option<Hand>) -> Role {
-    match (class, face, hand) {
-        (Class::Body, Some(Face::Front), _) => Role::Front,
-        (Class::Body, Some(Face::Back), _) => Role::Back,
-        (Class::Sleeve, _, Some(Hand::Right)) => Role::SleeveRight,
-        (Class::Sleeve, _, Some(Hand::Left)) => Role::SleeveLeft,
-        _ => Role::Other,
-    }
-}
-
 /// A name that finds this piece alone: its piece name if nothing else has it, then its block's, then with its number.
 fn reference(pieces: &[Piece], index: usize) -> String {
     let piece = &pieces[index];
@@ -147,7 +135,14 @@ fn reference(pieces: &[Piece], index: usize) -> String {
     }
 }
 
-fn wear(pieces: &[Piece], one: &Recognised, id: String, hand: Option<Hand>, is_mirror: bool) -> Worn {
+fn wear(
+    pieces: &[Piece],
+    one: &Recognised,
+    id: String,
+    hand: Option<Hand>,
+    is_mirror: bool,
+    role: crate::pattern::Role,
+) -> Worn {
     let (shape, n) = (&one.shape, one.shape.len());
     let mut names: BTreeMap<String, usize> = BTreeMap::new();
     let mut unique = |base: String| {
@@ -193,12 +188,7 @@ fn wear(pieces: &[Piece], one: &Recognised, id: String, hand: Option<Hand>, is_m
         hand,
         is_whole: one.alignment.template.is_whole,
         darts: shape.apexes().iter().filter_map(dart).collect(),
-        entry: PieceEntry {
-            block: reference(pieces, one.piece),
-            role: role_of(one.class, one.face, hand),
-            mirror: is_mirror,
-            edges: corners,
-        },
+        entry: PieceEntry { block: reference(pieces, one.piece), role, mirror: is_mirror, edges: corners },
         edges,
         confidence: one.confidence,
     }
