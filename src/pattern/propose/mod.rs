@@ -6,8 +6,10 @@
 
 mod align;
 mod names;
+mod notched;
 mod pose;
 mod recognise;
+mod ring;
 mod sew;
 mod shape;
 mod templates;
@@ -39,6 +41,20 @@ pub enum Class {
     Cuff,
     /// Anything else: it takes part in no proposal.
     Other,
+}
+
+impl Class {
+    fn as_str(self) -> &'static str {
+        match self {
+            Self::Body => "trunk",
+            Self::Leg => "leg",
+            Self::Sleeve => "sleeve",
+            Self::Skirt => "skirt",
+            Self::Waistband => "waistband",
+            Self::Cuff => "cuff",
+            Self::Other => "part",
+        }
+    }
 }
 
 /// Front or back.
@@ -83,6 +99,13 @@ impl Hand {
 impl Face {
     /// Both, the front first.
     pub const BOTH: [Self; 2] = [Self::Front, Self::Back];
+
+    fn other(self) -> Self {
+        match self {
+            Self::Front => Self::Back,
+            Self::Back => Self::Front,
+        }
+    }
 
     fn as_str(self) -> &'static str {
         match self {
@@ -255,7 +278,9 @@ impl Proposal {
 pub fn propose(pieces: &[Piece]) -> Proposal {
     let mut questions = Vec::new();
     let recognised = recognise::recognise(pieces, &mut questions);
-    let worn = worn::worn(pieces, &recognised, &mut questions);
+    // Which sleeve is drawn shows only once its notches are laid beside those of the armhole.
+    let first = worn::worn(pieces, &recognised, None, &mut Vec::new());
+    let worn = worn::worn(pieces, &recognised, notched::drawn_sleeve(&first), &mut questions);
     let seams = sew::sew(&worn, &mut questions);
     let mut listed: Vec<ProposedPiece> = Vec::new();
     for (index, piece) in pieces.iter().enumerate() {
