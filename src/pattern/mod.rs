@@ -1,5 +1,6 @@
 //! The pattern (PDM, thesis 3.3): from DXF and a seam file to a sewable garment mesh and its pattern lengths.
 
+pub mod arrange;
 pub mod check;
 mod curve;
 pub mod draft;
@@ -10,6 +11,7 @@ pub mod inspect;
 pub mod mesh;
 pub mod piece;
 pub mod propose;
+pub mod seam_edit;
 pub mod seams;
 pub mod sheet;
 pub mod style;

@@ -21,6 +21,8 @@ mod queue;
 mod read;
 mod reporting;
 mod run;
+mod seam_desk;
+mod sewing;
 mod spec;
 mod sql;
 mod store;

@@ -150,7 +150,7 @@ fn ease(garment: &Garment, model: &Model) -> Vec<Ease> {
 /// The style of a job's size.
 pub(super) fn style(spec: &JobSpec) -> Result<Style> {
     let unit = spec.unit.as_deref().and_then(tools::unit_of);
-    tools::read_style(&spec.pattern, &spec.seams, Some(&spec.size), unit)
+    tools::read_style(&spec.pattern, spec.seams.as_ref(), Some(&spec.size), unit)
 }
 
 /// Meshes of a job's garment, coarse to fine.
@@ -178,7 +178,7 @@ impl Executor for Pipeline {
             })?;
         let chis = measure::measure(garment, &drape.positions);
         let metrics = measure::metrics(&chis)
-            .ok_or_else(|| StudyError::stage("measure")(format!("{} names no measurement", spec.seams.name)))?;
+            .ok_or_else(|| StudyError::stage("measure")(format!("{} has no measurement", spec.garment)))?;
         let measured = garment.measurements.iter().zip(chis).map(|(m, chi)| Measured {
             name: m.name.clone(),
             kind: m.kind,

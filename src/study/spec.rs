@@ -27,8 +27,8 @@ pub struct JobSpec {
     pub pattern: SourceFile,
     /// Unit of the pattern where its file names none.
     pub unit: Option<String>,
-    /// Seam file.
-    pub seams: SourceFile,
+    /// Seam file; `None` where the pattern holds its own seams.
+    pub seams: Option<SourceFile>,
     /// Cloth.
     pub fabric: Fabric,
     /// Edge length of the finest mesh, m.
@@ -68,7 +68,7 @@ pub fn jobs(study: &Study) -> Vec<JobSpec> {
     let mut jobs = Vec::new();
     for garment in &study.garments {
         for size in &garment.sizes {
-            for subject in &study.subjects {
+            for subject in study.subjects.iter().filter(|subject| garment.subjects.contains(&subject.id)) {
                 for &simulator in &study.simulators {
                     jobs.extend((1..=study.repeats).map(|n| job(study, garment, size, subject, simulator, n)));
                 }
@@ -90,7 +90,9 @@ fn job(
     inputs.set("sim.name", simulator.as_str());
     inputs.set("sim.repeat", repeat);
     inputs.set("mesh.edge_length_mm", millimetres(study.edge_length_m));
-    inputs.set(format!("seams.{}", garment.seams.name), garment.seams.hash());
+    if let Some(seams) = &garment.seams {
+        inputs.set(format!("seams.{}", seams.name), seams.hash());
+    }
     inputs.set(format!("pattern.{}", size.pattern.name), size.pattern.hash());
     if let Some(unit) = &garment.unit {
         inputs.set("pattern.unit", unit);

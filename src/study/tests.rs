@@ -86,7 +86,8 @@ fn study(density_kg_m2: f64) -> Study {
         subjects: vec![subject("ii", 1.69), subject("v", 1.82)],
         garments: vec![GarmentEntry {
             name: "tee".into(),
-            seams: source("tee.seams.toml", "seams"),
+            subjects: vec!["ii".into(), "v".into()],
+            seams: Some(source("tee.seams.toml", "seams")),
             unit: None,
             fabric,
             sizes: vec![size("s"), size("m")],

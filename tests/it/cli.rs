@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 47] = [
+const COMMANDS: [&str; 51] = [
     "",
     "run",
     "report",
@@ -23,6 +23,10 @@ const COMMANDS: [&str; 47] = [
     "pattern draft",
     "pattern mesh",
     "pattern propose",
+    "pattern seam",
+    "pattern seam add",
+    "pattern seam rm",
+    "pattern seam flip",
     "pattern sheet",
     "body",
     "body measure",

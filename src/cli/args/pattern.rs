@@ -31,7 +31,7 @@ pub enum DraftStyle {
 /// A pattern with its seam file.
 #[derive(Debug, Args)]
 pub struct StyleFiles {
-    /// DXF file, or GarmentCode JSON with its seams.
+    /// DXF file, folder of them, or GarmentCode JSON with its seams; `check` also takes a study.
     pub file: PathBuf,
     /// Seam file; a DXF file needs one.
     #[arg(long, value_name = "FILE")]
@@ -42,6 +42,54 @@ pub struct StyleFiles {
     /// Unit of the file, where it names none.
     #[arg(long, value_enum)]
     pub unit: Option<PatternUnit>,
+}
+
+/// A seam file, its pattern, and two edges.
+#[derive(Clone, Debug, Args)]
+pub struct SeamFiles {
+    /// Seam file, changed in its place.
+    pub seams: PathBuf,
+    /// One side: PIECE.EDGE by name, by its number in the sheet (front.3) or its corners (front.3-5); chains with `+`.
+    #[arg(value_name = "PIECE.EDGE")]
+    pub a: String,
+    /// The other side.
+    #[arg(value_name = "PIECE.EDGE")]
+    pub b: String,
+    /// DXF file, or folder of them, that the seam file belongs to.
+    #[arg(long, value_name = "FILE")]
+    pub pattern: PathBuf,
+    /// Size, where the file holds several.
+    #[arg(long, value_name = "NAME")]
+    pub size: Option<String>,
+    /// Unit of the file, where it names none.
+    #[arg(long, value_enum)]
+    pub unit: Option<PatternUnit>,
+}
+
+/// Edits of a seam file; the result is checked against the pattern, and comments stay.
+#[derive(Clone, Debug, Subcommand)]
+pub enum SeamCommand {
+    /// Sew two sides.
+    Add {
+        #[command(flatten)]
+        files: SeamFiles,
+        /// Name of the seam.
+        #[arg(long, value_name = "NAME")]
+        name: Option<String>,
+        /// The difference of their lengths is meant: ease or gathers.
+        #[arg(long)]
+        eased: bool,
+    },
+    /// Open the seam between two edges.
+    Rm {
+        #[command(flatten)]
+        files: SeamFiles,
+    },
+    /// Turn one side of the seam between two edges round.
+    Flip {
+        #[command(flatten)]
+        files: SeamFiles,
+    },
 }
 
 /// Commands on patterns.
@@ -75,8 +123,11 @@ pub enum Pattern {
         #[arg(long, short, value_name = "FILE")]
         output: Option<PathBuf>,
     },
-    /// Whether a pattern and its seam file fit together: seams, measurements, meshes.
+    /// Whether a pattern and its seam file fit together: seams, measurements, meshes; of a study, every size.
     Check(StyleFiles),
+    /// Add, open or turn round a seam of a seam file.
+    #[command(subcommand)]
+    Seam(SeamCommand),
     /// Draft a built-in style in all its sizes, with its seam file.
     Draft {
         /// Style.

@@ -4,8 +4,8 @@
 //! panel's normal looks away from the body); it is mirrored here, so that all pieces are seen from outside. The edges
 //! keep the order of the file, and edge `k` is called `e<k>`.
 //!
-//! The format knows no sizes, notches and grain lines: the grain is the panel's `y`. A panel name says a [`Role`] only
-//! where one panel is the whole of it (`skirt_front`, `pant_b_l`, `wb_back`); any other panel is [`Role::Other`].
+//! The format knows no sizes, notches and grain lines: the grain is the panel's `y`. Panel names say the [`Role`]s, by the
+//! words that proposals know; several panels may have one role.
 
 mod export;
 pub mod format;
@@ -18,6 +18,7 @@ use super::curve::{arc, bezier};
 use super::garment::Role;
 use super::inspect::{FileReport, PieceReport};
 use super::piece::Piece;
+use super::propose::roles_by_name;
 use super::style::{Edge, EdgeRef, Seam, Style, StylePiece};
 use crate::geom::V2;
 use crate::geom::polyline::{Polyline, self_crossing, signed_area};
@@ -280,20 +281,6 @@ fn piece(name: &str, edges: &[Polyline], is_clockwise_in_file: bool) -> Piece {
     }
 }
 
-/// Role of a panel of which there is only one for it, by the names that `pygarment`'s garments use.
-fn role(name: &str) -> Role {
-    match name {
-        "skirt_front" => Role::SkirtFront,
-        "skirt_back" => Role::SkirtBack,
-        "pant_f_r" => Role::LegFrontRight,
-        "pant_f_l" => Role::LegFrontLeft,
-        "pant_b_r" => Role::LegBackRight,
-        "pant_b_l" => Role::LegBackLeft,
-        "wb_front" | "wb_back" => Role::Waistband,
-        _ => Role::Other,
-    }
-}
-
 impl Specification {
     /// The panels, sewn as the stitches say. There are no measurements: the format holds none.
     #[must_use]
@@ -303,9 +290,11 @@ impl Specification {
             line: line.clone(),
             corners: Vec::new(),
         };
-        let style_piece = |(piece, edges): (&Piece, &Vec<Polyline>)| StylePiece {
+        let names: Vec<&str> = self.pieces.iter().map(|piece| piece.block.as_str()).collect();
+        let roles = roles_by_name(&names);
+        let style_piece = |((piece, edges), role): ((&Piece, &Vec<Polyline>), Role)| StylePiece {
             id: piece.block.clone(),
-            role: role(&piece.block),
+            role,
             edges: edges.iter().enumerate().map(edge).collect(),
             grain: V2::y(),
             notches: Vec::new(),
@@ -321,7 +310,7 @@ impl Specification {
         Style {
             name: stem.strip_suffix("_specification").unwrap_or(&stem).to_owned(),
             size: String::new(),
-            pieces: self.pieces.iter().zip(&self.edges).map(style_piece).collect(),
+            pieces: self.pieces.iter().zip(&self.edges).zip(roles).map(style_piece).collect(),
             seams: self.stitches.iter().enumerate().map(seam).collect(),
             measurements: Vec::new(),
             fit_levels: Vec::new(),
