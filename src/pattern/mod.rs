@@ -4,14 +4,18 @@ pub mod check;
 mod curve;
 pub mod draft;
 pub mod dxf;
+pub mod features;
 pub mod garment;
 pub mod garmentcode;
+pub mod grade;
+pub mod info;
 pub mod inspect;
 pub mod mesh;
 pub mod piece;
 pub mod propose;
 pub mod seams;
 pub mod sheet;
+pub mod source;
 pub mod style;
 mod unfold;
 

@@ -14,6 +14,7 @@ mod file;
 mod inputs;
 mod outcome;
 mod owner;
+pub mod pattern_files;
 mod picture;
 mod pipeline;
 mod queue;

@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 44] = [
+const COMMANDS: [&str; 46] = [
     "",
     "run",
     "report",
@@ -21,6 +21,8 @@ const COMMANDS: [&str; 44] = [
     "pattern mesh",
     "pattern propose",
     "pattern sheet",
+    "pattern features",
+    "pattern convert",
     "body",
     "body measure",
     "body build",
