@@ -5,6 +5,8 @@ mod curve;
 pub mod draft;
 pub mod dxf;
 pub mod features;
+#[cfg(test)]
+mod fuzz_tests;
 pub mod garment;
 pub mod garmentcode;
 pub mod grade;
