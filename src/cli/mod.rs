@@ -11,6 +11,7 @@ mod context;
 mod health;
 mod output;
 mod pattern;
+mod pattern_files;
 mod pictures;
 mod progress;
 mod queue;

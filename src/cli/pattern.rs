@@ -5,7 +5,8 @@ use std::path::Path;
 
 use super::args::{DraftStyle, Pattern, PatternUnit, SeamCommand, StyleFiles};
 use super::context::Context;
-use super::{CliError, End, Outcome, output};
+use super::{CliError, End, Outcome, output, pattern_files};
+use crate::study::pattern_files::inspect as inspect_files;
 use crate::study::tools::{self, CHECK_EDGE_MM, FileReport, Finding, Model, SeamEdit, SizeCheck, Unit};
 use crate::study::{Table, Value};
 use crate::units::{from_mm, mm};
@@ -13,8 +14,8 @@ use crate::units::{from_mm, mm};
 /// Runs a pattern command.
 pub fn run(context: &Context, command: &Pattern) -> Outcome {
     match command {
-        Pattern::Inspect { path, size, unit, by_file } => {
-            let reports = tools::inspect(path, size.as_deref(), unit.map(of))?;
+        Pattern::Inspect { path, files, by_file } => {
+            let reports = inspect_files(path, &pattern_files::beside(files))?;
             inspect(context, &reports, if *by_file { outcomes } else { pieces })
         }
         Pattern::Propose { path, size, unit, output } => {
@@ -33,6 +34,10 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
             let sheet = tools::sheet(&style(files)?);
             write(context, output, sheet)?;
             Ok(End::Done)
+        }
+        Pattern::Features { path, files, output } => pattern_files::features(context, path, files, output.as_deref()),
+        Pattern::Convert { path, files, seams, output } => {
+            pattern_files::convert(context, path, seams.as_deref(), files, output)
         }
     }
 }

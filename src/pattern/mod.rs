@@ -5,8 +5,13 @@ pub mod check;
 mod curve;
 pub mod draft;
 pub mod dxf;
+pub mod features;
+#[cfg(test)]
+mod fuzz_tests;
 pub mod garment;
 pub mod garmentcode;
+pub mod grade;
+pub mod info;
 pub mod inspect;
 pub mod mesh;
 pub mod piece;
@@ -14,6 +19,7 @@ pub mod propose;
 pub mod seam_edit;
 pub mod seams;
 pub mod sheet;
+pub mod source;
 pub mod style;
 mod unfold;
 

@@ -15,6 +15,7 @@ mod file;
 mod inputs;
 mod outcome;
 mod owner;
+pub mod pattern_files;
 mod picture;
 mod pipeline;
 mod queue;

@@ -40,46 +40,15 @@ pub fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<Vec<Pat
     Ok(paths)
 }
 
-/// What is in a pattern file (DXF or GarmentCode JSON), or in every one below a folder, by name. A file that cannot be
-/// read has its error in its report.
-///
-/// # Errors
-/// When the path cannot be read.
-pub fn inspect(path: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<FileReport>> {
-    let files = if path.is_dir() { drawings(path)? } else { vec![path.to_owned()] };
-    files
-        .iter()
-        .map(|file| {
-            let source = SourceFile::read(file)?;
-            let name = file.to_string_lossy();
-            if is_garmentcode(file) {
-                let read = garmentcode::read(&source.bytes, &name);
-                return Ok(read
-                    .as_ref()
-                    .map_or_else(|error| FileReport::unreadable(&name, error.to_string()), FileReport::from));
-            }
-            Ok(match dxf::read(&source.bytes, &name, unit) {
-                Err(error) => FileReport::unreadable(&name, error.to_string()),
-                Ok(mut pattern) => {
-                    if let Some(size) = size {
-                        let is_of = |name: &str| name.eq_ignore_ascii_case(size);
-                        pattern.pieces.retain(|piece| is_of(piece.size.as_deref().unwrap_or_default()));
-                    }
-                    FileReport::from(&pattern)
-                }
-            })
-        })
-        .collect()
-}
-
-/// Whether a file is JSON by its name: a GarmentCode specification.
+/// Whether a file is a GarmentCode specification by its name: JSON that is not called `*.features.json`.
 #[must_use]
 pub fn is_garmentcode(file: &Path) -> bool {
-    file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"))
+    let name = file.to_string_lossy().to_ascii_lowercase();
+    name.ends_with(".json") && !name.ends_with(".features.json")
 }
 
 /// The DXF files and GarmentCode specifications below a folder, by path.
-fn drawings(folder: &Path) -> Result<Vec<PathBuf>> {
+pub(super) fn drawings(folder: &Path) -> Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(folder) = folders.pop() {

@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 51] = [
+const COMMANDS: [&str; 53] = [
     "",
     "run",
     "report",
@@ -28,6 +28,8 @@ const COMMANDS: [&str; 51] = [
     "pattern seam rm",
     "pattern seam flip",
     "pattern sheet",
+    "pattern features",
+    "pattern convert",
     "body",
     "body measure",
     "body build",

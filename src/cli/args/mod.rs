@@ -9,7 +9,7 @@ mod body;
 mod pattern;
 
 pub use body::{Body, BodyBuild, MeshUnit, Sex};
-pub use pattern::{DraftStyle, Pattern, PatternUnit, SeamCommand, StyleFiles};
+pub use pattern::{BesideFiles, DraftStyle, Pattern, PatternUnit, SeamCommand, StyleFiles};
 
 /// A fit-study workbench: dress bodies in sewing patterns, measure the drape, say which simulator to trust.
 #[derive(Debug, Parser)]

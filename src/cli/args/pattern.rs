@@ -95,16 +95,12 @@ pub enum SeamCommand {
 /// Commands on patterns.
 #[derive(Debug, Subcommand)]
 pub enum Pattern {
-    /// What is in a pattern file (DXF, GarmentCode JSON), or in every one of a folder.
+    /// What is in a pattern file (DXF, GarmentCode JSON, features), or in every one of a folder.
     Inspect {
         /// File or folder.
         path: PathBuf,
-        /// Only pieces of this size.
-        #[arg(long, value_name = "NAME")]
-        size: Option<String>,
-        /// Unit of the files, where they name none.
-        #[arg(long, value_enum)]
-        unit: Option<PatternUnit>,
+        #[command(flatten)]
+        files: BesideFiles,
         /// One row for each file: how many blocks are pieces, how many are refused and why.
         #[arg(long)]
         by_file: bool,
@@ -153,4 +149,44 @@ pub enum Pattern {
         #[arg(long, short, value_name = "FILE")]
         output: PathBuf,
     },
+    /// The features of the pieces as JSON: outline, corners, edges, grain, notches, points, lines, information.
+    Features {
+        /// DXF file, GarmentCode JSON, or features.
+        path: PathBuf,
+        #[command(flatten)]
+        files: BesideFiles,
+        /// File to write (X.features.json); standard output without it.
+        #[arg(long, short, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
+    /// Write a pattern as AAMA DXF (X.dxf) or, with its seams, as GarmentCode (X.json).
+    Convert {
+        /// DXF file, GarmentCode JSON, or features.
+        path: PathBuf,
+        #[command(flatten)]
+        files: BesideFiles,
+        /// Seam file; GarmentCode needs one unless the pattern holds its seams.
+        #[arg(long, value_name = "FILE")]
+        seams: Option<PathBuf>,
+        /// File to write.
+        #[arg(long, short, value_name = "FILE")]
+        output: PathBuf,
+    },
+}
+
+/// What is said about a pattern beside its file.
+#[derive(Debug, Args)]
+pub struct BesideFiles {
+    /// Only pieces of this size.
+    #[arg(long, value_name = "NAME")]
+    pub size: Option<String>,
+    /// Unit of DXF files, where they name none.
+    #[arg(long, value_enum)]
+    pub unit: Option<PatternUnit>,
+    /// Grade rule table (.rul) of a file that holds the sample size: makes all sizes.
+    #[arg(long, value_name = "FILE")]
+    pub rul: Option<PathBuf>,
+    /// Table of piece information (CSV, XLSX) with a column `piece`: quantity, material, grain_deg, role ...
+    #[arg(long, value_name = "FILE")]
+    pub info: Option<PathBuf>,
 }

@@ -266,18 +266,12 @@ fn piece(name: &str, edges: &[Polyline], is_clockwise_in_file: bool) -> Piece {
     Piece {
         block: name.to_owned(),
         name: name.to_owned(),
-        size: None,
         quantity: Some("1".to_owned()),
-        texts: Vec::new(),
         outline: edges.iter().flat_map(|edge| edge.points()[..edge.points().len() - 1].to_vec()).collect(),
         is_clockwise_in_file,
         turn_points: edges.iter().map(|edge| edge.points()[0]).collect(),
         curve_points: edges.iter().flat_map(inner).collect(),
-        notches: Vec::new(),
-        grain: None,
-        mirror_line: None,
-        internal_lines: Vec::new(),
-        sew_line: None,
+        ..Piece::default()
     }
 }
 
@@ -328,6 +322,7 @@ impl From<&Specification> for FileReport {
             pieces: specification.pieces.iter().map(PieceReport::from).collect(),
             refused: Vec::new(),
             warnings: Vec::new(),
+            unused: Default::default(),
             error: None,
         }
     }
