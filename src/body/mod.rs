@@ -2,6 +2,7 @@
 
 mod align;
 mod anthropometry;
+mod arm;
 mod atlas;
 mod build;
 mod clean;
@@ -21,6 +22,7 @@ mod outline;
 mod pictures;
 mod repair;
 mod scan;
+mod scanned;
 mod sections;
 mod segment;
 mod silhouette;
@@ -100,6 +102,11 @@ pub enum BodyError {
         /// What is wrong.
         problem: String,
     },
+    /// A surface that cannot bound a solid body.
+    #[error(
+        "the surface does not close after its repair (a half body, or parts that cross); accepted: a whole body whose holes are under 0.9 m round"
+    )]
+    Open,
     /// A mesh whose size fits a standing adult in no unit.
     #[error("the body is {extent} high, which is no adult in mm, cm or m; accepted: 1.2 to 2.4 m, or say the unit")]
     Unit {
