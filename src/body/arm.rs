@@ -115,9 +115,8 @@ fn middle(outline: &Outline) -> V2 {
 /// The outline of an arm's girth whose middle is nearest to the origin of the plane.
 fn nearest(mesh: &TriMesh, plane: &Plane, stature: f64) -> Option<Outline> {
     let off = |outline: &Outline| middle(outline).norm();
-    let fits = |outline: &Outline| {
-        ARM_GIRTHS.contains(&(tape::girth(outline) / stature)) && off(outline) < OFF * stature
-    };
+    let fits =
+        |outline: &Outline| ARM_GIRTHS.contains(&(tape::girth(outline) / stature)) && off(outline) < OFF * stature;
     section(mesh, plane).into_iter().filter(fits).min_by(|a, b| off(a).total_cmp(&off(b)))
 }
 

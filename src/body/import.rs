@@ -233,9 +233,7 @@ fn settle(mesh: &TriMesh, unit: Option<LengthUnit>) -> Result<Imported, BodyErro
 
 /// The unit in which `height` is that of a standing person.
 fn guess_unit(height: f64) -> Option<LengthUnit> {
-    LengthUnit::ALL
-        .into_iter()
-        .find(|unit| (1.2..2.4).contains(&(height * unit.metres())))
+    LengthUnit::ALL.into_iter().find(|unit| (1.2..2.4).contains(&(height * unit.metres())))
 }
 
 /// The mesh as Wavefront OBJ text, metres with a tenth of a micrometre.

@@ -52,6 +52,25 @@ impl Girths {
     }
 }
 
+impl Girths {
+    /// The same girths on a body moved down by some metres; stature and inseam are those of the body standing upright.
+    pub(super) fn lower(&mut self, down_m: f64) {
+        let upper_arm = self.upper_arm_level_mm.iter_mut();
+        for level in upper_arm.chain([
+            &mut self.neck_level_mm,
+            &mut self.chest_level_mm,
+            &mut self.underbust_level_mm,
+            &mut self.waist_level_mm,
+            &mut self.hip_level_mm,
+            &mut self.thigh_level_mm,
+            &mut self.shoulder_level_mm,
+            &mut self.crotch_level_mm,
+        ]) {
+            *level -= mm(down_m);
+        }
+    }
+}
+
 /// Where on a mesh the tape is laid, metres.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Sites {

@@ -20,6 +20,7 @@ mod loft;
 mod measure;
 mod outline;
 mod pictures;
+mod pose;
 mod repair;
 mod scan;
 mod scanned;
@@ -29,6 +30,8 @@ mod silhouette;
 mod stl;
 mod surface;
 mod tape;
+#[cfg(test)]
+mod testing;
 
 pub use build::build;
 pub use control::{ControlMesh, Layer, RING, Region};
@@ -37,6 +40,7 @@ pub use evaluate::{Accuracy, Evaluated, Evaluation, evaluate};
 pub use import::{Imported, LengthUnit, import, write_obj};
 pub use measure::{Girths, measure};
 pub use pictures::{Camera, Pictured, PicturedLevel, from_pictures, picture_height};
+pub use pose::{Pose, pose};
 pub use scan::{Scan, from_scan};
 
 use crate::geom::{TriMesh, V3};
@@ -100,6 +104,12 @@ pub enum BodyError {
         /// Front or side.
         view: &'static str,
         /// What is wrong.
+        problem: String,
+    },
+    /// Limbs that cannot be brought where they were asked.
+    #[error("no such pose: {problem}")]
+    Pose {
+        /// What cannot be done, and what can.
         problem: String,
     },
     /// A surface that cannot bound a solid body.

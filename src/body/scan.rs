@@ -1,8 +1,8 @@
 //! Bodies from scans: aligned, cleaned, repaired and measured.
 
 use super::measure::{self, Girths};
-use crate::geom::V3;
 use super::{Body, BodyError, Imported, LengthUnit, Sex, import, repair, scanned};
+use crate::geom::V3;
 
 /// A body scan in the world frame, with what the tape reads on it.
 #[derive(Clone, Debug, PartialEq)]

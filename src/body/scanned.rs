@@ -151,7 +151,11 @@ fn cuts(mesh: &TriMesh, sex: Sex, sites: &Sites, landmarks: &Landmarks, half: &H
     // The armscye: through the shoulder point, passing outside the armpit.
     let up = V3::new(shoulder.x - armpit.x - 0.012, 0.0, shoulder.z - armpit.z).normalize();
     let armscye = Plane {
-        origin: V3::new((shoulder.x + armpit.x) / 2.0 + 0.006, (shoulder.y + armpit.y) / 2.0, (shoulder.z + armpit.z) / 2.0),
+        origin: V3::new(
+            (shoulder.x + armpit.x) / 2.0 + 0.006,
+            (shoulder.y + armpit.y) / 2.0,
+            (shoulder.z + armpit.z) / 2.0,
+        ),
         u: V3::y(),
         v: up,
     };

@@ -23,6 +23,12 @@ pub fn run(context: &Context, command: &Body) -> Outcome {
             print(context, &girths)?;
         }
         Body::Build(arguments) => build(context, arguments)?,
+        Body::Pose { file, arm_deg, leg_deg, unit, sex, output } => {
+            let source = tools::SourceFile::read(file)?;
+            let body = tools::scanned_body(&source, read_scan(context, &source, *unit, *sex)?)?;
+            let posed = tools::pose_body(&body, tools::Pose { arm_deg: *arm_deg, leg_deg: *leg_deg })?;
+            write(context, &posed, output)?;
+        }
         Body::Evaluate { folder } => evaluate(context, folder)?,
     }
     Ok(End::Done)
@@ -69,14 +75,19 @@ fn build(context: &Context, arguments: &BodyBuild) -> Result<(), CliError> {
         }
         None => tools::build_body(&measurements(context, arguments)?)?,
     };
+    write(context, &body, &arguments.output)
+}
+
+/// Writes mesh, picture, measurements and control mesh of a body, and prints the measurements.
+fn write(context: &Context, body: &tools::Body, folder: &Path) -> Result<(), CliError> {
     let document = serde_json::to_string_pretty(&body.girths).map_err(std::io::Error::from)?;
     let mut files = vec![
         ("body.obj".to_owned(), tools::write_obj(&body.mesh).into_bytes()),
-        ("body.png".to_owned(), tools::body_picture(&body, View::Quarter, PICTURE.0, PICTURE.1)?),
+        ("body.png".to_owned(), tools::body_picture(body, View::Quarter, PICTURE.0, PICTURE.1)?),
         ("measurements.json".to_owned(), document.into_bytes()),
     ];
-    files.extend(tools::control_files(&body)?);
-    for path in tools::write_files(&arguments.output, &files)? {
+    files.extend(tools::control_files(body)?);
+    for path in tools::write_files(folder, &files)? {
         context.say(format_args!("wrote {}", path.display()));
     }
     print(context, &body.girths)

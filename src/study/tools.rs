@@ -10,8 +10,7 @@ use crate::pattern::{Garment, Piece, check, garmentcode, propose, sheet};
 use crate::render::{self, Camera, Frame, Layer, Material, Scene};
 
 pub use crate::body::{
-    Accuracy, Body, Evaluation, Girths, LengthUnit, Measurements, Pictured, PicturedLevel, Scan, Sex,
-    write_obj,
+    Accuracy, Body, Evaluation, Girths, LengthUnit, Measurements, Pictured, PicturedLevel, Pose, Scan, Sex, write_obj,
 };
 pub use crate::pattern::check::Finding;
 pub use crate::pattern::draft::Model;
@@ -222,6 +221,14 @@ pub fn read_scan(scan: &SourceFile, unit: Option<LengthUnit>, sex: Option<Sex>) 
 /// When arms or legs are not apart, or the surface does not close.
 pub fn scanned_body(source: &SourceFile, scan: Scan) -> Result<Body> {
     scan.into_body().map_err(of_scan(source))
+}
+
+/// A body in another pose.
+///
+/// # Errors
+/// When its limbs do not reach there, or would touch.
+pub fn pose_body(body: &Body, pose: Pose) -> Result<Body> {
+    body::pose(body, pose).map_err(StudyError::stage("body"))
 }
 
 fn of_scan(scan: &SourceFile) -> impl Fn(body::BodyError) -> StudyError {

@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 44] = [
+const COMMANDS: [&str; 45] = [
     "",
     "run",
     "report",
@@ -25,6 +25,7 @@ const COMMANDS: [&str; 44] = [
     "body measure",
     "body build",
     "body evaluate",
+    "body pose",
     "render",
     "queue",
     "queue ls",

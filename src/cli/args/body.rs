@@ -50,6 +50,26 @@ pub enum Body {
     },
     /// Build a body from measurements, from a front and a side picture, from a scan, or from a subject of the catalogue.
     Build(Box<BodyBuild>),
+    /// Put a body into another pose: arms raised or lowered, legs spread.
+    Pose {
+        /// Scan or mesh (OBJ, PLY, STL), also body.obj of `body build`.
+        file: PathBuf,
+        /// Angle of the upper arms from the vertical, degrees.
+        #[arg(long, value_name = "N", required_unless_present = "leg_deg")]
+        arm_deg: Option<f64>,
+        /// Angle of the thighs from the vertical, degrees.
+        #[arg(long, value_name = "N")]
+        leg_deg: Option<f64>,
+        /// Unit of the file; by default told from its height.
+        #[arg(long, value_enum)]
+        unit: Option<MeshUnit>,
+        /// Sex, where known: places the waist.
+        #[arg(long, value_enum)]
+        sex: Option<Sex>,
+        /// Folder to write the posed body to: the files of `body build`.
+        #[arg(long, short, value_name = "DIR")]
+        output: PathBuf,
+    },
     /// How well the bodies of a folder are measured from meshes, scans, silhouettes and photographs.
     Evaluate {
         /// Folder with manifest.csv, measurements.csv, and where there are any scans.csv and images.csv.
