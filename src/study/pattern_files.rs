@@ -114,7 +114,7 @@ pub fn convert_to_dxf(path: &Path, beside: &Beside<'_>) -> Result<Vec<u8>> {
 pub fn convert_to_garmentcode(path: &Path, seams: Option<&Path>, beside: &Beside<'_>) -> Result<String> {
     let source = SourceFile::read(path)?;
     let style = match (seams, source::kind(&source.bytes)) {
-        (Some(seams), _) => read_style(&source, &SourceFile::read(seams)?, beside.size, beside.unit)?,
+        (Some(seams), _) => read_style(&source, Some(&SourceFile::read(seams)?), beside.size, beside.unit)?,
         (None, Kind::GarmentCode) => {
             garmentcode::read(&source.bytes, &source.name).map_err(StudyError::stage("pattern"))?.style()
         }

@@ -116,7 +116,14 @@ impl Pipeline {
 
     fn model(&self, spec: &JobSpec) -> Result<(Arc<Model>, Used)> {
         self.cache.get(StageKind::Body, &spec.inputs.stage_hash(StageKind::Body), || {
-            Ok(Model { body: tools::build_body(&spec.measurements)? })
+            let body = match &spec.scan {
+                None => tools::build_body(&spec.measurements)?,
+                Some(scan) => {
+                    let read = tools::read_scan(&scan.file, scan.unit, Some(spec.measurements.sex))?;
+                    tools::scanned_body(&scan.file, read)?
+                }
+            };
+            Ok(Model { body })
         })
     }
 

@@ -1,6 +1,6 @@
 //! From a study to its jobs: one specification for every garment, size, subject, simulator and repeat.
 
-use super::file::{GarmentEntry, SizeFile, SourceFile, Study, Subject};
+use super::file::{GarmentEntry, ScanFile, SizeFile, SourceFile, Study, Subject};
 use super::inputs::Inputs;
 use super::pipeline;
 use crate::body::Measurements;
@@ -23,6 +23,8 @@ pub struct JobSpec {
     pub repeat: u32,
     /// What is known of the subject's body.
     pub measurements: Measurements,
+    /// The scan that is the body, where there is one.
+    pub scan: Option<ScanFile>,
     /// Pattern of the size.
     pub pattern: SourceFile,
     /// Unit of the pattern where its file names none.
@@ -98,6 +100,12 @@ fn job(
         inputs.set("pattern.unit", unit);
     }
     subject_inputs(&mut inputs, &subject.id, &subject.measurements);
+    if let Some(scan) = &subject.scan {
+        inputs.set(format!("subject.{}.scan", subject.id), scan.file.hash());
+        if let Some(unit) = scan.unit {
+            inputs.set(format!("subject.{}.scan_unit", subject.id), unit.name());
+        }
+    }
     fabric_inputs(&mut inputs, &garment.fabric);
     for (name, version) in pipeline::versions(simulator) {
         inputs.set(name, version);
@@ -109,6 +117,7 @@ fn job(
         simulator,
         repeat,
         measurements: subject.measurements.clone(),
+        scan: subject.scan.clone(),
         pattern: size.pattern.clone(),
         unit: garment.unit.clone(),
         seams: garment.seams.clone(),

@@ -64,6 +64,7 @@ fn study(density_kg_m2: f64) -> Study {
             neck_girth_m: None,
             across_shoulder_m: None,
         },
+        scan: None,
     };
     let size = |name: &str| SizeFile { name: name.to_owned(), pattern: source(&format!("tee-{name}.dxf"), name) };
     let fabric = Fabric {

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use super::error::{Result, StudyError};
-use super::file::SourceFile;
+pub use super::file::SourceFile;
 use super::sewing;
-use crate::body::{self, Body};
+use crate::body;
 use crate::pattern::dxf;
 use crate::pattern::{Garment, Piece, garmentcode, sheet};
 use crate::render::{self, Camera, Frame, Layer, Material, Scene};
@@ -13,7 +13,7 @@ use crate::render::{self, Camera, Frame, Layer, Material, Scene};
 pub use super::seam_desk::{Desk, DeskEdge, DeskPiece, DeskSeam, Proposed, desk, edit_seams, propose};
 pub use super::sewing::{CHECK_EDGE_MM, SizeCheck, check_study};
 pub use crate::body::{
-    Accuracy, Evaluation, Girths, LengthUnit, Measurements, Pictured, PicturedLevel, Sex, write_obj,
+    Accuracy, Body, Evaluation, Girths, LengthUnit, Measurements, Pictured, PicturedLevel, Pose, Scan, Sex, write_obj,
 };
 pub use crate::pattern::check::{Finding, of_garment as garment_findings};
 pub use crate::pattern::draft::Model;
@@ -170,16 +170,32 @@ pub fn build_body(measurements: &Measurements) -> Result<Body> {
     body::build(measurements).map_err(StudyError::stage("body"))
 }
 
-/// Measures a body mesh file; also what had to be guessed about it.
+/// Reads and measures a body scan, its unit and sex told from it where they are not given.
 ///
 /// # Errors
-/// When the file cannot be read or is no standing person.
-pub fn measure_body(file: &Path, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<(Girths, Vec<String>)> {
-    let source = SourceFile::read(file)?;
-    let name = file.display();
-    let told = |error: body::BodyError| StudyError::Stage { stage: "body", message: format!("{name}: {error}") };
-    let scan = body::from_scan(&source.bytes, unit, sex).map_err(told)?;
-    Ok((scan.girths, scan.imported.notes))
+/// When it cannot be read or is no standing person.
+pub fn read_scan(scan: &SourceFile, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<Scan> {
+    body::from_scan(&scan.bytes, unit, sex).map_err(of_scan(scan))
+}
+
+/// A scan as a body that wears garments.
+///
+/// # Errors
+/// When arms or legs are not apart, or the surface does not close.
+pub fn scanned_body(source: &SourceFile, scan: Scan) -> Result<Body> {
+    scan.into_body().map_err(of_scan(source))
+}
+
+/// A body in another pose.
+///
+/// # Errors
+/// When its limbs do not reach there, or would touch.
+pub fn pose_body(body: &Body, pose: Pose) -> Result<Body> {
+    body::pose(body, pose).map_err(StudyError::stage("body"))
+}
+
+fn of_scan(scan: &SourceFile) -> impl Fn(body::BodyError) -> StudyError {
+    |error| StudyError::Stage { stage: "body", message: format!("{}: {error}", scan.name) }
 }
 
 /// Lens of a camera.

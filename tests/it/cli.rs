@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 53] = [
+const COMMANDS: [&str; 54] = [
     "",
     "run",
     "report",
@@ -34,6 +34,7 @@ const COMMANDS: [&str; 53] = [
     "body measure",
     "body build",
     "body evaluate",
+    "body pose",
     "render",
     "queue",
     "queue ls",

@@ -12,6 +12,7 @@
 //! like = "male-ii"                  # an entry of the catalogue, or its own measurements:
 //! # sex = "male", stature_mm = 1690, weight_kg = 53, chest_girth_mm = 863, waist_girth_mm = 782,
 //! # hip_girth_mm = 914, neck_girth_mm = 378, across_shoulder_mm = 429
+//! # or a scan (OBJ, PLY, STL) that is the body: scan = "scans/ii.ply", sex = "male", unit = "mm"
 //!
 //! [[garment]]
 //! name = "tshirt"
@@ -40,7 +41,7 @@ use std::path::{Path, PathBuf};
 
 pub use self::source::SourceFile;
 use super::error::{Result, StudyError};
-use crate::body::Measurements;
+use crate::body::{LengthUnit, Measurements};
 use crate::fit::Cuts;
 use crate::fit::Simulator;
 use crate::sim::Fabric;
@@ -79,6 +80,17 @@ pub struct Subject {
     pub id: String,
     /// What is known of the body.
     pub measurements: Measurements,
+    /// The scan that is the body, where there is one.
+    pub scan: Option<ScanFile>,
+}
+
+/// A body scan of a study.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ScanFile {
+    /// OBJ, PLY or STL.
+    pub file: SourceFile,
+    /// Unit of the file; told from its height where it is not given.
+    pub unit: Option<LengthUnit>,
 }
 
 /// One size of a garment.

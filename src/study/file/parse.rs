@@ -7,10 +7,10 @@ use toml::Spanned;
 use toml::de::DeTable;
 
 use super::super::error::{StudyError, nearest};
-use super::super::tools::is_garmentcode;
+use super::super::tools::{is_garmentcode, read_scan};
 use super::reader::{Place, Reader};
-use super::{GarmentEntry, Known, Problem, SizeFile, SourceFile, Study, Subject};
-use crate::body::{Measurements, Sex};
+use super::{GarmentEntry, Known, Problem, ScanFile, SizeFile, SourceFile, Study, Subject};
+use crate::body::{LengthUnit, Measurements, Sex};
 use crate::fit::Cuts;
 use crate::fit::Simulator;
 use crate::sim::Fabric;
@@ -18,9 +18,11 @@ use crate::units::{from_mm, mm};
 
 const STUDY_KEYS: [&str; 8] =
     ["name", "simulators", "edge_length_mm", "repeats", "fit", "subject", "garment", "fabric"];
-const SUBJECT_KEYS: [&str; 10] = [
+const SUBJECT_KEYS: [&str; 12] = [
     "id",
     "like",
+    "scan",
+    "unit",
     "sex",
     "stature_mm",
     "weight_kg",
@@ -61,7 +63,7 @@ pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec
         None => folder_name(folder),
     };
     let fabrics = fabrics(&mut reader, &top, &known.fabrics);
-    let subjects = subjects(&mut reader, &top, &known.subjects);
+    let subjects = subjects(&mut reader, &top, folder, &known.subjects);
     let study = Study {
         name,
         path: path.to_owned(),
@@ -83,7 +85,7 @@ pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec
 pub(super) fn measurements_file(path: &Path, text: &str) -> Result<Measurements, Vec<Problem>> {
     let (mut reader, document) = open(path, text)?;
     let top = Place { name: "measurements".into(), span: 0..0, table: document.get_ref() };
-    reader.only(&top, &SUBJECT_KEYS[2..]);
+    reader.only(&top, &SUBJECT_KEYS[4..]);
     match measurements(&mut reader, &top) {
         Some(measurements) if reader.problems.is_empty() => Ok(measurements),
         _ => Err(reader.problems),
@@ -144,7 +146,12 @@ fn cuts(reader: &mut Reader<'_>, top: &Place<'_>) -> Cuts {
     cuts
 }
 
-fn subjects(reader: &mut Reader<'_>, top: &Place<'_>, known: &BTreeMap<String, Measurements>) -> Vec<Subject> {
+fn subjects(
+    reader: &mut Reader<'_>,
+    top: &Place<'_>,
+    folder: &Path,
+    known: &BTreeMap<String, Measurements>,
+) -> Vec<Subject> {
     let places = reader.tables(top, "subject", "subject");
     if places.is_empty() {
         reader.missing(top, "subject", "at least one [[subject]]");
@@ -156,34 +163,71 @@ fn subjects(reader: &mut Reader<'_>, top: &Place<'_>, known: &BTreeMap<String, M
         let Some(id) = reader.need_text(&place, "id", "its name in results") else { continue };
         unique(reader, &mut ids, &id, "subject");
         place.name = format!("subject {}", id.get_ref());
-        let measurements = match reader.text(&place, "like") {
-            Some(name) => {
-                let own = place.table.keys().find(|key| !["id", "like"].contains(&key.get_ref().as_ref()));
-                if let Some(key) = own {
-                    let message = format!("{}: `{}` beside `like`; give one or the other", place.name, key.get_ref());
-                    reader.problem(&key.span(), message);
-                }
-                lookup(reader, known, &name, "subject in the catalogue").cloned()
+        let found = match (reader.text(&place, "like"), reader.text(&place, "scan")) {
+            (Some(name), _) => {
+                alone(reader, &place, &["id", "like"]);
+                lookup(reader, known, &name, "subject in the catalogue").cloned().map(|known| (known, None))
             }
-            None => measurements(reader, &place),
+            (None, Some(file)) => {
+                alone(reader, &place, &["id", "scan", "sex", "unit"]);
+                scanned(reader, &place, &file, folder).map(|(measurements, scan)| (measurements, Some(scan)))
+            }
+            (None, None) => measurements(reader, &place).map(|measurements| (measurements, None)),
         };
-        subjects.extend(measurements.map(|measurements| Subject { id: (*id.get_ref()).to_owned(), measurements }));
+        let id = (*id.get_ref()).to_owned();
+        subjects.extend(found.map(|(measurements, scan)| Subject { id, measurements, scan }));
     }
     subjects
 }
 
+/// Refuses keys beside those of a subject that is named or scanned.
+fn alone(reader: &mut Reader<'_>, place: &Place<'_>, accepted: &[&str]) {
+    if let Some(key) = place.table.keys().find(|key| !accepted.contains(&key.get_ref().as_ref())) {
+        let message = format!("{}: `{}` beside `{}`; give one or the other", place.name, key.get_ref(), accepted[1]);
+        reader.problem(&key.span(), message);
+    }
+}
+
+/// A scan beside the study file, and what is measured on it.
+fn scanned(
+    reader: &mut Reader<'_>,
+    place: &Place<'_>,
+    file: &Spanned<&str>,
+    folder: &Path,
+) -> Option<(Measurements, ScanFile)> {
+    let sex = reader.text(place, "sex").and_then(|text| sex(reader, place, &text));
+    let unit = reader.text(place, "unit").and_then(|text| {
+        let unit = LengthUnit::ALL.into_iter().find(|unit| unit.name() == *text.get_ref());
+        if unit.is_none() {
+            let accepted = LengthUnit::ALL.map(LengthUnit::name).join(", ");
+            reader.problem(&text.span(), format!("{}: unit `{}`; accepted: {accepted}", place.name, text.get_ref()));
+        }
+        unit
+    });
+    let scan = ScanFile { file: source(reader, place, file, folder, SourceFile::read)?, unit };
+    match read_scan(&scan.file, unit, sex) {
+        Ok(found) => Some((found.girths.measurements(found.sex), scan)),
+        Err(error) => {
+            reader.problem(&file.span(), format!("{}: {error}", place.name));
+            None
+        }
+    }
+}
+
+fn sex(reader: &mut Reader<'_>, place: &Place<'_>, text: &Spanned<&str>) -> Option<Sex> {
+    match *text.get_ref() {
+        "male" | "m" | "M" => Some(Sex::Male),
+        "female" | "f" | "F" => Some(Sex::Female),
+        other => {
+            reader.problem(&text.span(), format!("{}: sex `{other}`; accepted: male, female", place.name));
+            None
+        }
+    }
+}
+
 fn measurements(reader: &mut Reader<'_>, place: &Place<'_>) -> Option<Measurements> {
-    let sex = match reader.need_text(place, "sex", "\"male\" or \"female\", or name a catalogue entry with `like`") {
-        Some(text) => match *text.get_ref() {
-            "male" | "m" | "M" => Some(Sex::Male),
-            "female" | "f" | "F" => Some(Sex::Female),
-            other => {
-                reader.problem(&text.span(), format!("{}: sex `{other}`; accepted: male, female", place.name));
-                None
-            }
-        },
-        None => None,
-    };
+    let wanted = "\"male\" or \"female\", or name a catalogue entry with `like`";
+    let sex = reader.need_text(place, "sex", wanted).and_then(|text| sex(reader, place, &text));
     if !place.table.contains_key("stature_mm") {
         reader.missing(place, "stature_mm", "the stature in millimetres");
     }
