@@ -266,7 +266,7 @@ impl Mapper<'_> {
             self.set(inner, neck);
             let arm = &self.form.arms[side];
             let along = arm.further(&self.form.mesh, TOP_OF_ARM, 0.0, seam - line);
-            self.set(outer, arm.at(&self.form.mesh, TOP_OF_ARM, along.min(0.9)));
+            self.set(outer, arm.at(&self.form.mesh, TOP_OF_ARM, along.min(MOST_DROP)));
         }
     }
 
@@ -297,14 +297,16 @@ impl Mapper<'_> {
         let start = match self.place(top) {
             Some(place) => trunk.at_height(mesh, line, place.z),
             None => {
-                let shoulder = chains.iter().zip(keys).find(|(c, key)| {
-                    **key == Some(Key::Shoulder) && self.wearer_side(own, c) == side
-                });
+                let shoulder = chains
+                    .iter()
+                    .zip(keys)
+                    .find(|(c, key)| **key == Some(Key::Shoulder) && self.wearer_side(own, c) == side);
                 let (shoulder, _) = shoulder.ok_or("a side has no shoulder above it")?;
                 let outer = if up { shoulder.first() } else { shoulder.last() };
                 let depth = self.v(outer) - self.v(top);
                 let from = self.place(outer).ok_or("a side has no shoulder above it")?;
-                trunk.at_height(mesh, line, from.z - depth)
+                let axilla = trunk.at(mesh, line, 0.0).z;
+                trunk.at_height(mesh, line, (from.z - depth).max(axilla - MOST_DEPTH_M))
             }
         };
         let end = trunk.further(mesh, line, start, chain.length_m(self.garment));
@@ -364,7 +366,7 @@ impl Mapper<'_> {
             OnTube { line, along: along(line, z) }
         });
         let trunk = self.form.trunk.clone();
-        self.round(&trunk, vertices, points);
+        self.round(&trunk, vertices, &between(points));
         Ok(())
     }
 
@@ -383,17 +385,15 @@ impl Mapper<'_> {
         }
     }
 
-    /// Auxiliary points along a line round a tube, from one point of it to another; ends without a place get theirs.
-    fn round(&mut self, tube: &Tube, vertices: &[usize], [from, to]: [OnTube; 2]) {
+    /// Auxiliary points along a line round a tube, given by share of its length; ends without a place get theirs.
+    fn round(&mut self, tube: &Tube, vertices: &[usize], on_tube: &dyn Fn(f64) -> OnTube) {
         let whole = outline::length_m(self.garment, vertices);
         let point = |share: f64| {
-            let line = (from.line + (to.line - from.line) * share).round() as i32;
-            tube.at(&self.form.mesh, line, from.along + (to.along - from.along) * share)
+            let OnTube { line, along } = on_tube(share);
+            tube.at(&self.form.mesh, line.round() as i32, along)
         };
-        let places: Vec<(f64, V3)> = (0..=AUXILIARY + 1)
-            .map(|k| k as f64 / (AUXILIARY + 1) as f64)
-            .map(|share| (share, point(share)))
-            .collect();
+        let places: Vec<(f64, V3)> =
+            (0..=AUXILIARY + 1).map(|k| k as f64 / (AUXILIARY + 1) as f64).map(|share| (share, point(share))).collect();
         // A line sewn to one that is placed takes its points.
         let inner = &vertices[1..vertices.len() - 1];
         let taken = inner.iter().any(|&v| self.place(v).is_some());
@@ -419,19 +419,27 @@ impl Mapper<'_> {
             (false, true) => (b, a),
             _ => return Err("its underarm seam does not run along both sides of it"),
         };
-        let n = chains.len();
-        let between = |from: usize, to: usize| (1..n).map(move |k| (from + k) % n).take_while(move |&i| i != to);
-        let opening = joined(between(falling, rising).map(|i| &chains[i]));
+        let opening = joined(run(falling, rising, chains));
+        let cap = joined(run(rising, falling, chains));
         let underarm = self.place(chains[rising].last()).ok_or("its underarm is not sewn to a side seam")?;
+        let top = cap.iter().copied().find(|&v| self.place(v).is_some_and(|p| p != underarm));
+        let top = top.ok_or("its cap is not sewn to a shoulder")?;
         let arm = self.form.arms[side].clone();
         let mesh = &self.form.mesh;
         let root = arm.at(mesh, UNDER_ARM, 0.0);
         let left = chains[rising].length_m(self.garment) - (root - underarm).norm();
-        let along = arm.further(mesh, UNDER_ARM, 0.0, left.max(LEAST_SLEEVE_M));
+        let below = arm.further(mesh, UNDER_ARM, 0.0, left.max(LEAST_SLEEVE_M));
+        // Over the top of the arm, from the shoulder by the sleeve's height there.
+        let start = arm.at(mesh, TOP_OF_ARM, 0.0);
+        let shoulder = self.place(top).map_or(0.0, |p| (p - start).norm());
+        let height = self.v(top) - self.v(nth(self.garment, &opening, 0.5 * outline::length_m(self.garment, &opening)));
+        let above = arm.further(mesh, TOP_OF_ARM, 0.0, shoulder + height.max(LEAST_SLEEVE_M));
         // On the right, +u is the front: from below over the back, the top and the front.
         let turn = if side == 0 { -24.0 } else { 24.0 };
-        let start = OnTube { line: f64::from(UNDER_ARM), along };
-        self.round(&arm, &opening, [start, OnTube { line: start.line + turn, along }]);
+        self.round(&arm, &opening, &|share| OnTube {
+            line: f64::from(UNDER_ARM) + turn * share,
+            along: below + (above - below) * 0.5 * (1.0 - (share * std::f64::consts::TAU).cos()),
+        });
         Ok(())
     }
 
@@ -454,18 +462,17 @@ impl Mapper<'_> {
         let inseam = find(&|c| own_leg(c) && up(c) == inseam_rises).ok_or("it has no inseam")?;
         let outseam = find(&|c| own_leg(c) && up(c) != inseam_rises).ok_or("it has no outseam")?;
         let crotch = find(&|c| role_of(c).is_some_and(|r| !is_own_leg(r))).ok_or("it has no crotch seam")?;
-        let n = chains.len();
-        let between = |from: usize, to: usize| (1..n).map(move |k| (from + k) % n).take_while(move |&i| i != to);
         let (hem, waist) = if inseam_rises {
-            (joined(between(outseam, inseam).map(|i| &chains[i])), joined(between(crotch, outseam).map(|i| &chains[i])))
+            (joined(run(outseam, inseam, chains)), joined(run(crotch, outseam, chains)))
         } else {
-            (joined(between(inseam, outseam).map(|i| &chains[i])), joined(between(outseam, crotch).map(|i| &chains[i])))
+            (joined(run(inseam, outseam, chains)), joined(run(outseam, crotch, chains)))
         };
         if hem.len() < 2 || waist.len() < 2 {
             return Err("it has no hem or no waist line");
         }
         let fork = if inseam_rises { chains[inseam].last() } else { chains[inseam].first() };
-        let (centre, outer) = if inseam_rises { (waist[0], waist[waist.len() - 1]) } else { (waist[waist.len() - 1], waist[0]) };
+        let (centre, outer) =
+            if inseam_rises { (waist[0], waist[waist.len() - 1]) } else { (waist[waist.len() - 1], waist[0]) };
         let mesh = &self.form.mesh;
         let tube = self.form.legs[side].clone();
         let inner_line = if side == 0 { 12 } else { 0 };
@@ -490,11 +497,11 @@ impl Mapper<'_> {
         let along = tube.further(mesh, inner_line, 0.0, chains[inseam].length_m(self.garment) - reach);
         self.set(fork, fork_place);
         let waist_ends = if inseam_rises { [at_centre, at_outer] } else { [at_outer, at_centre] };
-        self.round(&trunk, &waist, waist_ends);
+        self.round(&trunk, &waist, &between(waist_ends));
         // Lines 0 to 12 run over the front, 12 to 24 over the back; the hem runs counter-clockwise with them.
         let start = if own == Face::Front { 0.0 } else { 12.0 };
         let hem_ends = [OnTube { line: start, along }, OnTube { line: start + 12.0, along }];
-        self.round(&tube, &hem, hem_ends);
+        self.round(&tube, &hem, &between(hem_ends));
         Ok(())
     }
 }
@@ -503,7 +510,27 @@ impl Mapper<'_> {
 const TOP_OF_ARM: i32 = 16;
 const UNDER_ARM: i32 = 4;
 /// A sleeve reaches onto the arm by this at least, m.
-const LEAST_SLEEVE_M: f64 = 0.02;
+const LEAST_SLEEVE_M: f64 = 0.03;
+/// A shoulder seam that is longer than the shoulder reaches onto the arm, at most by this share of the way from armscye to
+/// the middle of the upper arm: what is longer still the pop-up gives back.
+const MOST_DROP: f64 = 0.25;
+/// An underarm point lies at most this far below the armpit, m: deeper armholes leave no arm for the sleeve, and the
+/// pop-up gives them their depth.
+const MOST_DEPTH_M: f64 = 0.03;
+
+/// A line round a tube from one point of it to another.
+fn between([from, to]: [OnTube; 2]) -> impl Fn(f64) -> OnTube {
+    move |share| OnTube {
+        line: from.line + (to.line - from.line) * share,
+        along: from.along + (to.along - from.along) * share,
+    }
+}
+
+/// The chains that follow one and precede another.
+fn run(from: usize, to: usize, chains: &[Chain]) -> impl Iterator<Item = &Chain> {
+    let n = chains.len();
+    (1..n).map(move |k| (from + k) % n).take_while(move |&i| i != to).map(|i| &chains[i])
+}
 
 /// Groups of chains between key chains, counter-clockwise: key before, those between, key after.
 fn groups(keys: &[Option<Key>], start: usize) -> Vec<(usize, Vec<usize>, usize)> {

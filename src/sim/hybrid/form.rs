@@ -94,16 +94,14 @@ pub struct Form {
 }
 
 /// Layers of the trunk from above.
-const TRUNK: [Layer; 6] =
-    [Layer::Axilla, Layer::Chest, Layer::UnderBust, Layer::Waist, Layer::Abdomen, Layer::Hip];
+const TRUNK: [Layer; 6] = [Layer::Axilla, Layer::Chest, Layer::UnderBust, Layer::Waist, Layer::Abdomen, Layer::Hip];
 
 impl Form {
     /// The form for tops, dresses and skirts.
     #[must_use]
     pub fn hung(body: &Body) -> Self {
         use Region::*;
-        let regions =
-            [Neck, Shoulders, Chest, Abdomen, UpperArmRight, ForearmRight, UpperArmLeft, ForearmLeft];
+        let regions = [Neck, Shoulders, Chest, Abdomen, UpperArmRight, ForearmRight, UpperArmLeft, ForearmLeft];
         let mut form = Self::of(&body.control, &regions);
         form.widen();
         form.add_skirt(&body.control);
@@ -114,7 +112,20 @@ impl Form {
     #[must_use]
     pub fn legs(body: &Body) -> Self {
         use Region::*;
-        Self::of(&body.control, &[Chest, Abdomen, Pelvis, ThighRight, ShankRight, ThighLeft, ShankLeft])
+        let mut form = Self::of(&body.control, &[Chest, Abdomen, Pelvis, ThighRight, ShankRight, ThighLeft, ShankLeft]);
+        form.straighten_feet();
+        form
+    }
+
+    /// Sets the foot's girth straight below the ankle's: trouser legs do not follow the instep.
+    fn straighten_feet(&mut self) {
+        for leg in &self.legs {
+            let [ankle, foot] = [leg.rings.len() - 2, leg.rings.len() - 1].map(|k| leg.rings[k]);
+            for i in 0..RING {
+                let above = self.mesh.positions[ankle[i]];
+                self.mesh.positions[foot[i]] = V3::new(above.x, above.y, SKIRT_END_M);
+            }
+        }
     }
 
     fn of(control: &ControlMesh, kept: &[Region]) -> Self {
@@ -168,8 +179,18 @@ impl Form {
         let hip: Vec<V3> = control.ring(Hip).map(|v| self.mesh.positions[v]).collect();
         let centre = control.ring_centre(Hip);
         let legs = [
-            ThighRight, MidThighRight, KneeRight, CalfRight, AnkleRight, FootRight, ThighLeft, MidThighLeft, KneeLeft,
-            CalfLeft, AnkleLeft, FootLeft,
+            ThighRight,
+            MidThighRight,
+            KneeRight,
+            CalfRight,
+            AnkleRight,
+            FootRight,
+            ThighLeft,
+            MidThighLeft,
+            KneeLeft,
+            CalfLeft,
+            AnkleLeft,
+            FootLeft,
         ];
         let below: Vec<V3> = legs.iter().flat_map(|&l| control.ring(l)).map(|v| control.positions[v]).collect();
         let reach = |points: &[V3], d: V3| points.iter().map(|p| (p - centre).dot(&d)).fold(0.0, f64::max);

@@ -92,8 +92,8 @@ impl Paths<'_> {
         partners: &BTreeMap<[usize; 2], usize>,
     ) -> Result<Outline, &'static str> {
         let ring = &mapped.ring;
-        let whole = outline::length_m(garment, ring)
-            + (garment.rest[ring[0]] - garment.rest[ring[ring.len() - 1]]).norm();
+        let whole =
+            outline::length_m(garment, ring) + (garment.rest[ring[0]] - garment.rest[ring[ring.len() - 1]]).norm();
         let place = |f: &Feature| self.graph.nearest(&f.place, |_| true).ok_or("the form is empty");
         let ends = mapped.features.iter().map(place).collect::<Result<Vec<usize>, _>>()?;
         let at = |vertex: usize| ring.iter().position(|&v| v == vertex).unwrap_or(0);
@@ -213,13 +213,7 @@ fn on_circle(turn: f64) -> V2 {
 }
 
 /// Lays one piece on its patch; returns the number of triangles that look inwards.
-fn lay(
-    garment: &Garment,
-    piece: &PieceMesh,
-    outline: &Outline,
-    patch: &Patch,
-    positions: &mut [V3],
-) -> Option<usize> {
+fn lay(garment: &Garment, piece: &PieceMesh, outline: &Outline, patch: &Patch, positions: &mut [V3]) -> Option<usize> {
     let fixed = patch.boundary.iter().zip(&outline.turns).map(|(&v, &turn)| (v, on_circle(turn))).collect();
     let surface = harmonic::map(&patch.mesh.positions, &patch.mesh.triangles, &fixed)?;
     let first = piece.vertices.start;

@@ -31,7 +31,7 @@ pub fn cut(graph: &PathGraph, nodes: &[usize]) -> Result<Patch, &'static str> {
         }
     }
     let inside = flood(&triangles, &across, &barriers, steps(nodes).filter_map(|step| across.get(&step).copied()));
-    let mut opened = Opened::new(graph, &triangles, &across, &barriers, &inside);
+    let opened = Opened::new(graph, &triangles, &across, &barriers, &inside);
     let boundary = opened.walk(nodes, &triangles, &across, &barriers)?;
     let kept = (0..triangles.len()).filter(|&t| inside[t]);
     let mesh = TriMesh { positions: opened.positions, triangles: kept.clone().map(|t| opened.corners[t]).collect() };

@@ -26,8 +26,7 @@ impl Factor {
         let symbolic =
             factorize_symbolic_cholesky(matrix.symbolic(), Side::Lower, SymmetricOrdering::Amd, params).ok()?;
         let mut values = vec![0.0; symbolic.len_val()];
-        let mut buffer =
-            MemBuffer::new(symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default()));
+        let mut buffer = MemBuffer::new(symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default()));
         symbolic
             .factorize_numeric_llt(
                 &mut values,
