@@ -12,7 +12,7 @@ use super::harmonic;
 use super::locate::Locator;
 use super::outline;
 use super::patch::{self, Patch};
-use super::path::PathGraph;
+use super::path::{PathGraph, Taken};
 use crate::body::{Body, Region};
 use crate::geom::{V2, V3};
 use crate::pattern::{Garment, PieceMesh, Role};
@@ -46,7 +46,7 @@ pub fn map(body: &Body, garment: &Garment) -> Result<OnForm, SimError> {
     };
     let pieces = features::features(body, &form, garment)?;
     let graph = PathGraph::new(&form.mesh, PATH_POINTS);
-    let mut paths = Paths { form: &form, graph: &graph, normals: form.mesh.triangle_normals(), found: BTreeMap::new() };
+    let mut paths = Paths::new(&form, &graph, &pieces);
     let partners = outline::partners(garment);
     let mut mapped = OnForm { positions: vec![V3::zeros(); garment.rest.len()], flips: 0, patches: Vec::new() };
     // Trunk pieces first: sleeves take the armholes' paths from them.
@@ -81,9 +81,20 @@ struct Paths<'a> {
     normals: Vec<V3>,
     /// By the two pieces that meet there and the two nodes.
     found: BTreeMap<([usize; 2], [usize; 2]), Vec<usize>>,
+    taken: Taken,
+    /// Node of each feature of each piece.
+    ends: Vec<Vec<usize>>,
 }
 
-impl Paths<'_> {
+impl<'a> Paths<'a> {
+    fn new(form: &'a Form, graph: &'a PathGraph<'a>, pieces: &[Mapped]) -> Self {
+        let node = |f: &Feature| graph.nearest(&f.place, |_| true).unwrap_or(0);
+        let ends: Vec<Vec<usize>> = pieces.iter().map(|p| p.features.iter().map(node).collect()).collect();
+        let mut taken = Taken::default();
+        ends.iter().flatten().for_each(|&n| taken.add_node(n));
+        Self { form, graph, normals: form.mesh.triangle_normals(), found: BTreeMap::new(), taken, ends }
+    }
+
     fn outline(
         &mut self,
         garment: &Garment,
@@ -94,8 +105,7 @@ impl Paths<'_> {
         let ring = &mapped.ring;
         let whole =
             outline::length_m(garment, ring) + (garment.rest[ring[0]] - garment.rest[ring[ring.len() - 1]]).norm();
-        let place = |f: &Feature| self.graph.nearest(&f.place, |_| true).ok_or("the form is empty");
-        let ends = mapped.features.iter().map(place).collect::<Result<Vec<usize>, _>>()?;
+        let ends = self.ends[piece].clone();
         let at = |vertex: usize| ring.iter().position(|&v| v == vertex).unwrap_or(0);
         let mut outline = Outline { nodes: Vec::new(), turns: Vec::new(), boundary: Vec::new() };
         let mut done = 0.0;
@@ -128,9 +138,13 @@ impl Paths<'_> {
                 let [a, b] = key.1;
                 let path = self
                     .graph
-                    .shortest_within(a, b, |face| self.touches(role, face))
-                    .or_else(|| self.graph.shortest_within(a, b, |face| touches(role, self.form.regions[face])))
+                    .shortest_within(a, b, |face| self.touches(role, face), &self.taken)
+                    .or_else(|| {
+                        let region = |face: usize| touches(role, self.form.regions[face]);
+                        self.graph.shortest_within(a, b, region, &self.taken)
+                    })
                     .ok_or("two of its corners are not connected on the part of the body that it can touch")?;
+                self.taken.add(self.graph, &path);
                 self.found.insert(key, path.clone());
                 path
             }

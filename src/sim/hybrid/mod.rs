@@ -1,9 +1,8 @@
 //! Hybrid-GS (chapter 5): geometry first, then physics; the pattern's size is kept on any body.
 //!
 //! Four phases, each with a result of its own: [`mapping`] lays the pieces on the body, [`sewn`] joins them, [`popup`] gives
-//! them back their size, [`drape`] lets them come to rest on the fine mesh.
+//! them back their size, and a short drape lets them come to rest on the fine mesh.
 
-pub mod drape;
 mod elastic;
 pub mod features;
 pub mod form;
@@ -14,6 +13,7 @@ pub mod outline;
 pub mod patch;
 pub mod path;
 pub mod popup;
+pub mod relax;
 pub mod sewn;
 pub mod sparse;
 
@@ -22,17 +22,29 @@ use crate::geom::{DistanceField, V3};
 use crate::pattern::{Garment, Measurement};
 use crate::sim::{Drape, Fabric, Monitor, Progress, SimError, Stage, Step, quality};
 
-pub use drape::DrapeParams;
 pub use mapping::OnForm;
+pub use relax::RelaxParams;
 pub use sewn::Sewn;
 
+use relax::{Push, Relaxation};
+
 /// Parameters of Hybrid-GS.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Params {
     /// Numbers of measurements that are not controlled: what their chi is without.
     pub uncontrolled: Vec<u32>,
-    /// The drape.
-    pub drape: DrapeParams,
+    /// Pop-up and drape.
+    pub relax: RelaxParams,
+    /// Steps of the drape in which the body pushes without limit.
+    pub push_steps: u32,
+    /// Steps after them, in which it yields.
+    pub yield_steps: u32,
+}
+
+impl Default for Params {
+    fn default() -> Self {
+        Self { uncontrolled: Vec::new(), relax: RelaxParams::default(), push_steps: 15, yield_steps: 20 }
+    }
 }
 
 /// Rms movement in a step below which a drape counts as come to rest, m.
@@ -84,21 +96,21 @@ pub fn phases(
     let mapped = mapping::map(body, garment)?;
     let sewn = Sewn::new(garment, &mapped.positions);
     run.record("sew", 0.2, 0, &sewn.unsewn(&sewn.x), f64::NAN)?;
-    let start = popup::restore_silhouette(garment, &sewn);
+    let mut relaxation = Relaxation::new(field, garment, &sewn, fabric, &controls, params.relax)?;
     let mut done = 0.0;
-    let popped = popup::reconstruct(garment, &sewn, start, &controls, |x| {
+    popup::reconstruct(&mut relaxation, |now| {
         done += 1.0;
-        run.record("popup", 0.2 + 0.4 * done / f64::from(popup::STEPS), 1, &sewn.unsewn(x), f64::NAN)
+        run.record("popup", 0.2 + 0.4 * done / f64::from(popup::STEPS), 1, &sewn.unsewn(&now.x), f64::NAN)
     })?;
-    let popped = popped.ok_or_else(|| SimError::Degenerate { piece: garment.name.clone(), at: garment.rest[0] })?;
-    let steps = f64::from(params.drape.push_steps + params.drape.yield_steps);
-    let mut done = 0.0;
+    let popped = sewn.unsewn(&relaxation.x);
+    let steps = params.push_steps + params.yield_steps;
     let mut last = f64::MAX;
-    let x = drape::drape(field, garment, &sewn, popped.clone(), fabric, &controls, &params.drape, |x, moved| {
-        done += 1.0;
-        last = moved;
-        run.record("drape", 0.6 + 0.4 * done / steps, 2, &sewn.unsewn(x), moved / AT_REST_M)
-    })?;
+    for step in 1..=steps {
+        last = relaxation.step(Push { unlimited: step <= params.push_steps, gravity: 1.0, share: 1.0 });
+        let fraction = 0.6 + 0.4 * f64::from(step) / f64::from(steps);
+        run.record("drape", fraction, 2, &sewn.unsewn(&relaxation.x), last / AT_REST_M)?;
+    }
+    let x = relaxation.x;
     let positions = sewn.unsewn(&x);
     let drape = Drape {
         stage: Stage::Drape,
@@ -112,7 +124,7 @@ pub fn phases(
         positions,
         history: run.history,
     };
-    Ok(Phases { sewn: sewn.unsewn(&sewn.x), popup: sewn.unsewn(&popped), mapped, drape })
+    Ok(Phases { sewn: sewn.unsewn(&sewn.x), popup: popped, mapped, drape })
 }
 
 /// A run under way: what is recorded and reported of each step.

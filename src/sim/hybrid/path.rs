@@ -3,7 +3,7 @@
 //! Within a face a path runs straight from any side to any other, so that even a coarse mesh has nearly geodesic paths.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
 use crate::geom::{TriMesh, V3};
 
@@ -17,6 +17,43 @@ pub struct PathGraph<'a> {
     sides: Vec<[usize; 3]>,
     faces_of_edge: Vec<Vec<usize>>,
     faces_of_vertex: Vec<Vec<usize>>,
+}
+
+/// What later paths keep clear of: the nodes of earlier ones and their ways through faces. Paths that part a surface into
+/// patches meet in their ends only.
+#[derive(Clone, Debug, Default)]
+pub struct Taken {
+    nodes: BTreeSet<usize>,
+    /// Ways through each face, as pairs of nodes.
+    chords: BTreeMap<usize, Vec<[usize; 2]>>,
+}
+
+impl Taken {
+    /// Keeps later paths off a node.
+    pub fn add_node(&mut self, node: usize) {
+        self.nodes.insert(node);
+    }
+
+    /// Keeps later paths off a path.
+    pub fn add(&mut self, graph: &PathGraph, path: &[usize]) {
+        self.nodes.extend(path);
+        for ends in path.windows(2) {
+            if graph.common_edge(ends[0], ends[1]).is_none() {
+                let face = graph.faces(ends[0]).iter().find(|f| graph.faces(ends[1]).contains(f));
+                self.chords.entry(face.copied().unwrap_or(usize::MAX)).or_default().push([ends[0], ends[1]]);
+            }
+        }
+    }
+
+    /// Whether the way from `a` to `b` through a face crosses one that is taken.
+    fn crosses(&self, graph: &PathGraph, face: usize, a: usize, b: usize) -> bool {
+        let Some(chords) = self.chords.get(&face) else { return false };
+        let ring = graph.ring(face);
+        let place = |n: usize| ring.iter().position(|&m| m == n).unwrap_or(0);
+        let (from, to) = (place(a).min(place(b)), place(a).max(place(b)));
+        let between = |n: usize| (from + 1..to).contains(&place(n));
+        chords.iter().any(|&[c, d]| ![c, d].contains(&a) && ![c, d].contains(&b) && between(c) != between(d))
+    }
 }
 
 /// Where a node lies.
@@ -138,15 +175,21 @@ impl<'a> PathGraph<'a> {
     /// The full search [T Algorithm 5.2]: Dijkstra over every face, until `to` is reached.
     #[must_use]
     pub fn shortest(&self, from: usize, to: usize) -> Option<Vec<usize>> {
-        self.search(from, to, |_| true, |_| 0.0)
+        self.search(from, to, |_| true, |_| 0.0, &Taken::default())
     }
 
-    /// The fast, oriented search (5.2.2): only over faces that the piece can touch, and towards the goal, the straight
-    /// distance to it being a lower bound of the way left.
+    /// The fast, oriented search (5.2.2): only over faces that the piece can touch, clear of what is taken, and towards the
+    /// goal, the straight distance to it being a lower bound of the way left.
     #[must_use]
-    pub fn shortest_within(&self, from: usize, to: usize, faces: impl Fn(usize) -> bool) -> Option<Vec<usize>> {
+    pub fn shortest_within(
+        &self,
+        from: usize,
+        to: usize,
+        faces: impl Fn(usize) -> bool,
+        taken: &Taken,
+    ) -> Option<Vec<usize>> {
         let goal = self.position(to);
-        self.search(from, to, faces, |node| (self.position(node) - goal).norm())
+        self.search(from, to, faces, |node| (self.position(node) - goal).norm(), taken)
     }
 
     fn search(
@@ -155,6 +198,7 @@ impl<'a> PathGraph<'a> {
         to: usize,
         allowed: impl Fn(usize) -> bool,
         bound: impl Fn(usize) -> f64,
+        taken: &Taken,
     ) -> Option<Vec<usize>> {
         let mut length = vec![f64::INFINITY; self.len()];
         let mut parent = vec![usize::MAX; self.len()];
@@ -180,11 +224,11 @@ impl<'a> PathGraph<'a> {
             let here = self.position(node);
             for &face in self.faces(node).iter().filter(|&&f| allowed(f)) {
                 self.for_neighbours(face, node, |next| {
-                    if done[next] {
+                    if done[next] || (next != to && taken.nodes.contains(&next)) {
                         return;
                     }
                     let through = length[node] + (self.position(next) - here).norm();
-                    if through < length[next] {
+                    if through < length[next] && !taken.crosses(self, face, node, next) {
                         length[next] = through;
                         parent[next] = node;
                         queue.push(Reverse(((through + bound(next)).to_bits(), next)));
