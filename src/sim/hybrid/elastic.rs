@@ -34,7 +34,7 @@ pub struct Pull<'a> {
     pub targets: &'a [V3],
     /// Load on each sewn vertex over the membrane's stiffness, m.
     pub loads: &'a [V3],
-    /// Pattern lengths of controls, as a share of the way from their first to their rest length.
+    /// What triangles and controls want to be: 0 as they were first, 1 as in the pattern, in between in proportion.
     pub share: f64,
 }
 
@@ -43,7 +43,9 @@ pub struct Elastic {
     count: usize,
     triangles: Vec<Triangle>,
     controls: Vec<Control>,
-    /// Length of each control when it was set up, m.
+    /// Stretch of each triangle when it was set up: the root of `F^T F`.
+    first_stretch: Vec<Matrix2<f64>>,
+    /// Length of each control then, m.
     first_m: Vec<f64>,
     control_weight: f64,
     /// The part of the matrix that does not depend on the targets' weights: lower triangle.
@@ -102,9 +104,20 @@ impl Elastic {
             add(i, i, -value);
             add(j, j, -value);
         }
+        let first_stretch = triangles.iter().map(|t| t.polar(x).1).collect();
         let first_m = controls.iter().map(|c| c.way(x).norm()).collect();
         let factor = factorise(x.len(), &entries, &weights)?;
-        Some(Self { count: x.len(), triangles, controls, first_m, control_weight, entries, weights, factor })
+        Some(Self {
+            count: x.len(),
+            triangles,
+            controls,
+            first_stretch,
+            first_m,
+            control_weight,
+            entries,
+            weights,
+            factor,
+        })
     }
 
     /// Gives the targets other weights.
@@ -117,18 +130,13 @@ impl Elastic {
         }
     }
 
-    /// Weights of the targets.
-    #[must_use]
-    pub fn weights(&self) -> &[f64] {
-        &self.weights
-    }
-
     /// One local and one global step from `x`; returns the new positions.
     #[must_use]
     pub fn step(&mut self, x: &[V3], pull: &Pull) -> Vec<V3> {
         let mut rhs = vec![V3::zeros(); self.count];
-        for t in &self.triangles {
-            let turn = t.turn(x) * t.area_m2;
+        for (t, first) in self.triangles.iter().zip(&self.first_stretch) {
+            let wanted = first * (1.0 - pull.share) + Matrix2::identity() * pull.share;
+            let turn = t.polar(x).0 * wanted * t.area_m2;
             for (&v, g) in t.vertices.iter().zip(&t.gradients) {
                 rhs[v] += turn * g;
             }
@@ -169,15 +177,16 @@ impl Triangle {
         Some(Self { vertices, gradients: [-(g1 + g2), g1, g2], area_m2: 0.5 * edges.determinant().abs() })
     }
 
-    /// The rotation nearest to the deformation gradient `F`: `F (F^T F)^(-1/2)`, in closed form.
-    fn turn(&self, x: &[V3]) -> Matrix3x2<f64> {
+    /// The deformation gradient `F = R S` parted into the rotation nearest to it, `R = F (F^T F)^(-1/2)`, and the
+    /// stretch `S`, in closed form.
+    fn polar(&self, x: &[V3]) -> (Matrix3x2<f64>, Matrix2<f64>) {
         let f: Matrix3x2<f64> = (0..3).map(|k| x[self.vertices[k]] * self.gradients[k].transpose()).sum();
         let c = f.transpose() * f;
         let s = c.determinant().max(1e-12).sqrt();
         let t = (c.trace() + 2.0 * s).sqrt();
         // The root of C is (C + s I) / t.
         let root = (c + Matrix2::identity() * s) / t;
-        root.try_inverse().map_or(f, |inverse| f * inverse)
+        (root.try_inverse().map_or(f, |inverse| f * inverse), root)
     }
 }
 

@@ -100,7 +100,7 @@ pub fn phases(
     let mut done = 0.0;
     popup::reconstruct(&mut relaxation, |now| {
         done += 1.0;
-        run.record("popup", 0.2 + 0.4 * done / f64::from(popup::STEPS), 1, &sewn.unsewn(&now.x), f64::NAN)
+        run.record("popup", 0.2 + 0.4 * done / f64::from(popup::steps()), 1, &sewn.unsewn(&now.x), f64::NAN)
     })?;
     let popped = sewn.unsewn(&relaxation.x);
     let steps = params.push_steps + params.yield_steps;

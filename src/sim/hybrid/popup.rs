@@ -3,13 +3,19 @@
 
 use super::relax::{Push, Relaxation};
 
-/// Steps of the pop-up.
-pub const STEPS: u32 = 20;
+/// Steps in which it grows, and in which it then comes to rest.
+const STEPS: [u32; 2] = [15, 8];
 
-/// Pops a garment up; calls `each` with the positions after every step, which ends it early with an error.
+/// Number of steps of the pop-up.
+#[must_use]
+pub fn steps() -> u32 {
+    STEPS[0] + STEPS[1]
+}
+
+/// Pops a garment up; calls `each` with it after every step, which ends it early with an error.
 ///
-/// The controls get to their lengths halfway, so that the cloth around them can follow. Until then the body pushes the cloth
-/// out, or sleeves would swing through the arms while they grow; then it yields.
+/// Triangles and controls go from the size they were sewn at to that of the pattern in equal steps. Until then the body
+/// pushes the cloth out, or sleeves would swing through the arms while they grow; then it yields.
 ///
 /// # Errors
 /// Those of `each`.
@@ -17,8 +23,8 @@ pub fn reconstruct<E>(
     relaxation: &mut Relaxation,
     mut each: impl FnMut(&Relaxation) -> Result<(), E>,
 ) -> Result<(), E> {
-    for step in 1..=STEPS {
-        let share = 2.0 * f64::from(step) / f64::from(STEPS);
+    for step in 1..=steps() {
+        let share = f64::from(step) / f64::from(STEPS[0]);
         relaxation.step(Push { unlimited: share < 1.0, gravity: 0.0, share: share.min(1.0) });
         each(relaxation)?;
     }

@@ -74,7 +74,7 @@ pub struct Push {
     pub unlimited: bool,
     /// Share of its weight that the cloth has.
     pub gravity: f64,
-    /// Lengths of controls, as a share of the way from their first to their pattern length.
+    /// Size that it wants: 0 as it was sewn, 1 the pattern's.
     pub share: f64,
 }
 
