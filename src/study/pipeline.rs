@@ -18,7 +18,7 @@ use crate::sim::{self, Drape, Monitor, SimError};
 use crate::units::from_mm;
 
 /// The simulators there are.
-pub const SIMULATORS: [Simulator; 1] = [Simulator::Fem];
+pub const SIMULATORS: [Simulator; 2] = [Simulator::Fem, Simulator::Hybrid];
 
 /// Versions of the stages, raised whenever one may give other numbers for the same inputs.
 const VERSIONS: [(&str, u32); 3] = [("body.version", 3), ("field.version", 1), ("mesh.version", 2)];
@@ -33,10 +33,11 @@ pub(crate) fn versions(simulator: Simulator) -> Vec<(&'static str, String)> {
     let mut versions: Vec<_> = VERSIONS.iter().map(|(name, version)| (*name, version.to_string())).collect();
     versions.push(("field.spacing_mm", (FIELD_SPACING_M * 1e3).to_string()));
     versions.push(("sim.version", SIM_VERSION.to_string()));
-    if simulator == Simulator::Fem {
-        let parameters = format!("{:?}", sim::fem::Params::default());
-        versions.push(("sim.parameters", blake3::hash(parameters.as_bytes()).to_hex().to_string()));
-    }
+    let parameters = match simulator {
+        Simulator::Fem => format!("{:?}", sim::fem::Params::default()),
+        Simulator::Hybrid => format!("{:?}", sim::hybrid::Params::default()),
+    };
+    versions.push(("sim.parameters", blake3::hash(parameters.as_bytes()).to_hex().to_string()));
     versions
 }
 
@@ -181,7 +182,11 @@ impl Executor for Pipeline {
                     sim::fem::simulate(&model.body, &field, &meshes.0, &spec.fabric, &params, monitor)
                         .map_err(sim_error)
                 }
-                Simulator::Hybrid => Err(StudyError::stage("sim")("Hybrid-GS is not part of this program")),
+                Simulator::Hybrid => {
+                    let params = sim::hybrid::Params::default();
+                    sim::hybrid::simulate(&model.body, &field, garment, &spec.fabric, &params, monitor)
+                        .map_err(sim_error)
+                }
             })?;
         let chis = measure::measure(garment, &drape.positions);
         let metrics = measure::metrics(&chis)
@@ -190,7 +195,7 @@ impl Executor for Pipeline {
             name: m.name.clone(),
             kind: m.kind,
             is_free_edge: m.is_free_edge,
-            is_controlled: false,
+            is_controlled: spec.simulator == Simulator::Hybrid,
             chi,
         });
         Ok(Outcome {

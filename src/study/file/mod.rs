@@ -2,7 +2,7 @@
 //!
 //! ```toml
 //! name = "tops"                     # default: the folder's name
-//! simulators = ["fem"]              # default: ["fem"]
+//! simulators = ["fem", "hybrid"]    # default: ["fem"]
 //! edge_length_mm = 15               # of the finest cloth mesh; default 15
 //! repeats = 1                       # default 1
 //! fit = { tight_below_mm = 50, loose_above_mm = 100 }   # default: these
