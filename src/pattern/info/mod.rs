@@ -98,7 +98,13 @@ fn csv_rows(bytes: &[u8]) -> Result<Vec<(usize, Vec<String>)>, (Option<usize>, S
         .from_reader(text.as_bytes());
     let mut rows = Vec::new();
     for record in reader.records() {
-        let line = |position: Option<&csv::Position>| position.map(|position| position.line() as usize);
+        // Blank lines before a record belong to it.
+        let line = |position: Option<&csv::Position>| {
+            let position = position?;
+            let rest = text.as_bytes().get(position.byte() as usize..)?;
+            let blank = rest.iter().take_while(|byte| matches!(byte, b'\r' | b'\n')).filter(|&&byte| byte == b'\n');
+            Some(position.line() as usize + blank.count())
+        };
         let record = record.map_err(|error| (line(error.position()), error.to_string()))?;
         let number = line(record.position()).unwrap_or(rows.len() + 1);
         rows.push((number, record.iter().map(str::to_owned).collect()));
