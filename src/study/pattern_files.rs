@@ -5,12 +5,12 @@ use std::path::Path;
 
 use super::error::{Result, StudyError};
 use super::file::SourceFile;
-use super::tools::{drawings, read_style};
+use super::tools::drawings;
 use crate::pattern::dxf::{self, PatternFile, Unit};
 use crate::pattern::features::Features;
 use crate::pattern::inspect::FileReport;
 use crate::pattern::source::{self, Kind};
-use crate::pattern::{garmentcode, grade, info};
+use crate::pattern::{Style, garmentcode, grade, info};
 
 /// What is said about a pattern beside its file.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -117,7 +117,14 @@ pub fn convert_to_dxf(path: &Path, beside: &Beside<'_>) -> Result<Vec<u8>> {
 pub fn convert_to_garmentcode(path: &Path, seams: Option<&Path>, beside: &Beside<'_>) -> Result<String> {
     let source = SourceFile::read(path)?;
     let style = match (seams, source::kind(&source.bytes)) {
-        (Some(seams), _) => read_style(&source, &SourceFile::read(seams)?, beside.size, beside.unit)?,
+        (Some(seams), _) => {
+            let file = beside.usable_pattern(&source)?;
+            // A file of one size is of that size, whatever it is called.
+            let size = beside.size.filter(|_| file.sizes().len() > 1);
+            let pieces = file.to_sew(size).map_err(StudyError::stage("pattern"))?;
+            let seams = SourceFile::read(seams)?;
+            Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?
+        }
         (None, Kind::GarmentCode) => {
             garmentcode::read(&source.bytes, &source.name).map_err(StudyError::stage("pattern"))?.style()
         }
