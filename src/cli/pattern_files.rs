@@ -38,13 +38,7 @@ pub fn convert(context: &Context, path: &Path, seams: Option<&Path>, files: &Bes
     let extension = output.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     let bytes = match extension.as_str() {
         "dxf" => pattern_files::convert_to_dxf(path, &beside(files))?,
-        "json" => {
-            if files.rul.is_some() || files.info.is_some() {
-                let message = "--rul and --info go into a DXF file: convert to DXF first".to_owned();
-                return Err(CliError::Usage(message));
-            }
-            (pattern_files::convert_to_garmentcode(path, seams, &beside(files))? + "\n").into_bytes()
-        }
+        "json" => (pattern_files::convert_to_garmentcode(path, seams, &beside(files))? + "\n").into_bytes(),
         _ => {
             let accepted = "X.dxf (AAMA DXF) or X.json (GarmentCode); SVG is written by `toile pattern sheet`";
             return Err(CliError::Usage(format!("{}: found `.{extension}`; accepted: {accepted}", output.display())));

@@ -63,12 +63,12 @@ impl Random {
         (self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 33) as usize % bound.max(1)
     }
 
-    /// Damages a file in one to four places.
+    /// Damages a file in one to three places.
     fn damage(&mut self, bytes: &mut Vec<u8>) {
-        for _ in 0..1 + self.below(4) {
+        for _ in 0..1 + self.below(3) {
             let at = self.below(bytes.len());
             let to = (at + 1 + self.below(40)).min(bytes.len());
-            match self.below(6) {
+            match self.below(12) {
                 0 if at < bytes.len() => bytes[at] = self.below(256) as u8,
                 1 => drop(bytes.drain(at..to)),
                 2 => {
@@ -77,6 +77,11 @@ impl Random {
                     bytes.splice(there..there, copy);
                 }
                 3 => bytes.truncate(at.max(1)),
+                4..8 => {
+                    if let Some(digit) = bytes[at..].iter_mut().find(|byte| byte.is_ascii_digit()) {
+                        *digit = b'0' + self.below(10) as u8;
+                    }
+                }
                 _ => {
                     let token = TOKENS[self.below(TOKENS.len())];
                     // In half of the cases where a line begins, as tags do.

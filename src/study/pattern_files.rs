@@ -5,12 +5,12 @@ use std::path::Path;
 
 use super::error::{Result, StudyError};
 use super::file::SourceFile;
-use super::tools::{drawings, read_style};
+use super::tools::drawings;
 use crate::pattern::dxf::{self, PatternFile, Unit};
 use crate::pattern::features::Features;
 use crate::pattern::inspect::FileReport;
 use crate::pattern::source::{self, Kind};
-use crate::pattern::{garmentcode, grade, info};
+use crate::pattern::{Style, garmentcode, grade, info};
 
 /// What is said about a pattern beside its file.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,10 +26,8 @@ pub struct Beside<'a> {
 }
 
 impl Beside<'_> {
-    /// The pattern of a file, graded, and told what the table says.
-    fn pattern(&self, bytes: &[u8], name: &str) -> Result<PatternFile> {
-        let stage = StudyError::stage("pattern");
-        let mut pattern = source::read(bytes, name, self.unit).map_err(stage)?;
+    /// A pattern in all its sizes: graded, and told what the table says.
+    fn complete(&self, mut pattern: PatternFile) -> Result<PatternFile> {
         if let Some(path) = self.rules {
             let source = SourceFile::read(path)?;
             let table = grade::read(&source.bytes, &source.name).map_err(StudyError::stage("pattern"))?;
@@ -40,15 +38,28 @@ impl Beside<'_> {
             let table = info::read(&source.bytes, &source.name).map_err(StudyError::stage("pattern"))?;
             table.merge(&mut pattern).map_err(StudyError::stage("pattern"))?;
         }
+        Ok(pattern)
+    }
+
+    /// The pattern of a file, of the size that is asked for, that may be handed on: no piece of it is refused, and its
+    /// unit is known.
+    fn usable_pattern(&self, source: &SourceFile) -> Result<PatternFile> {
+        let read = source::read(&source.bytes, &source.name, self.unit).map_err(StudyError::stage("pattern"))?;
+        let mut pattern = self.complete(read)?;
+        let sizes = pattern.sizes().into_iter().map(str::to_owned).collect::<Vec<_>>();
+        for size in self.size.map_or(sizes, |size| vec![size.to_owned()]) {
+            // A nest is no garment: every size for itself may be sewn.
+            pattern.to_sew(Some(&size)).map_err(StudyError::stage("pattern"))?;
+        }
+        self.keep_size(&mut pattern);
+        Ok(pattern)
+    }
+
+    fn keep_size(&self, pattern: &mut PatternFile) {
         if let Some(size) = self.size {
             let is_of = |name: &str| name.eq_ignore_ascii_case(size);
             pattern.pieces.retain(|piece| is_of(piece.size.as_deref().unwrap_or_default()));
         }
-        Ok(pattern)
-    }
-
-    fn is_plain(&self) -> bool {
-        self.size.or(self.unit.map(Unit::as_str)).is_none() && self.rules.or(self.info).is_none()
     }
 }
 
@@ -59,22 +70,24 @@ impl Beside<'_> {
 /// When the path cannot be read, or a file beside it is wrong.
 pub fn inspect(path: &Path, beside: &Beside<'_>) -> Result<Vec<FileReport>> {
     let files = if path.is_dir() { drawings(path)? } else { vec![path.to_owned()] };
-    let report = |file: &std::path::PathBuf| {
-        let bytes = SourceFile::read(file)?.bytes;
-        let name = file.to_string_lossy();
-        if beside.is_plain() && source::kind(&bytes) == Kind::GarmentCode {
-            let read = garmentcode::read(&bytes, &name);
-            return Ok(read
-                .as_ref()
-                .map_or_else(|error| FileReport::unreadable(&name, error.to_string()), FileReport::from));
-        }
-        // A file that cannot be read by itself is a finding; what lies beside it is the user's to put right.
-        if let Err(error) = source::read(&bytes, &name, beside.unit) {
-            return Ok(FileReport::unreadable(&name, error.to_string()));
-        }
-        Ok(FileReport::from(&beside.pattern(&bytes, &name)?))
+    files.iter().map(|file| report(&SourceFile::read(file)?.bytes, &file.to_string_lossy(), beside)).collect()
+}
+
+fn report(bytes: &[u8], name: &str, beside: &Beside<'_>) -> Result<FileReport> {
+    let is_alone = beside.size.is_none() && beside.rules.is_none() && beside.info.is_none();
+    if is_alone && source::kind(bytes) == Kind::GarmentCode {
+        // The specification knows more of its unit than a pattern does.
+        let read = garmentcode::read(bytes, name);
+        let unreadable = |error: &garmentcode::GarmentCodeError| FileReport::unreadable(name, error.to_string());
+        return Ok(read.as_ref().map_or_else(unreadable, FileReport::from));
+    }
+    // A file that cannot be read by itself is a finding; what lies beside it is the user's to put right.
+    let mut pattern = match source::read(bytes, name, beside.unit) {
+        Ok(read) => beside.complete(read)?,
+        Err(error) => return Ok(FileReport::unreadable(name, error.to_string())),
     };
-    files.iter().map(report).collect()
+    beside.keep_size(&mut pattern);
+    Ok(FileReport::from(&pattern))
 }
 
 /// The features of a pattern's pieces, as JSON.
@@ -83,18 +96,9 @@ pub fn inspect(path: &Path, beside: &Beside<'_>) -> Result<Vec<FileReport>> {
 /// When a file cannot be read, or a piece of it is refused.
 pub fn features(path: &Path, beside: &Beside<'_>) -> Result<String> {
     let source = SourceFile::read(path)?;
-    let pattern = usable(beside.pattern(&source.bytes, &source.name)?)?;
+    let pattern = beside.usable_pattern(&source)?;
     let features = Features::of(&pattern.pieces, &source.name, &pattern.texts);
     serde_json::to_string_pretty(&features).map_err(StudyError::stage("pattern"))
-}
-
-/// A pattern without refused pieces, in a unit that is known.
-fn usable(pattern: PatternFile) -> Result<PatternFile> {
-    // What may be sewn may be handed on; every size for itself, as a nest is no garment.
-    for size in pattern.sizes() {
-        pattern.to_sew(Some(size)).map_err(StudyError::stage("pattern"))?;
-    }
-    Ok(pattern)
 }
 
 /// A pattern as AAMA DXF: all its sizes, half pieces as halves.
@@ -102,8 +106,7 @@ fn usable(pattern: PatternFile) -> Result<PatternFile> {
 /// # Errors
 /// As [`features`].
 pub fn convert_to_dxf(path: &Path, beside: &Beside<'_>) -> Result<Vec<u8>> {
-    let source = SourceFile::read(path)?;
-    let pattern = usable(beside.pattern(&source.bytes, &source.name)?)?;
+    let pattern = beside.usable_pattern(&SourceFile::read(path)?)?;
     Ok(dxf::write_pieces(&pattern.pieces, &pattern.texts))
 }
 
@@ -114,7 +117,14 @@ pub fn convert_to_dxf(path: &Path, beside: &Beside<'_>) -> Result<Vec<u8>> {
 pub fn convert_to_garmentcode(path: &Path, seams: Option<&Path>, beside: &Beside<'_>) -> Result<String> {
     let source = SourceFile::read(path)?;
     let style = match (seams, source::kind(&source.bytes)) {
-        (Some(seams), _) => read_style(&source, Some(&SourceFile::read(seams)?), beside.size, beside.unit)?,
+        (Some(seams), _) => {
+            let file = beside.usable_pattern(&source)?;
+            // A file of one size is of that size, whatever it is called.
+            let size = beside.size.filter(|_| file.sizes().len() > 1);
+            let pieces = file.to_sew(size).map_err(StudyError::stage("pattern"))?;
+            let seams = SourceFile::read(seams)?;
+            Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?
+        }
         (None, Kind::GarmentCode) => {
             garmentcode::read(&source.bytes, &source.name).map_err(StudyError::stage("pattern"))?.style()
         }

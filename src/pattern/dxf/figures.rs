@@ -48,12 +48,11 @@ impl Placement {
     /// # Errors
     /// A sentence where the normal is tilted.
     fn seen_along(&self, normal: &Vector) -> Result<Self, String> {
-        let is_upright = normal.x.abs().max(normal.y.abs()) <= 1e-6 * normal.z.abs();
-        match is_upright {
-            true if normal.z > 0.0 => Ok(*self),
-            true if normal.z < 0.0 => Ok(Self { x: -self.x, ..*self }),
-            _ => Err("in a tilted plane; accepted: drawings in the plane of the sheet".to_owned()),
+        let tilt = normal.x.abs().max(normal.y.abs());
+        if tilt > 1e-6 * normal.z.abs() {
+            return Err("a drawing in a tilted plane; accepted: one in the plane of the sheet".to_owned());
         }
+        Ok(if normal.z < 0.0 { Self { x: -self.x, ..*self } } else { *self })
     }
 
     /// The placement of a block inserted in what this places; `base` is the block's base point.
@@ -121,62 +120,12 @@ pub enum Figure {
 /// A sentence that says what cannot be read and what would be accepted.
 pub fn figure(entity: &Entity, placement: &Placement) -> Result<Figure, String> {
     let tolerance = CHORD_ERROR_M / placement.scale();
-    let in_plane = |normal: &Vector, kind: &str| placement.seen_along(normal).map_err(|why| format!("{kind} {why}"));
-    let flat = |point: &Point| V2::new(point.x, point.y);
-    let line = |placement: &Placement, points: Vec<V2>, is_closed: bool, curves: (usize, &'static str)| {
-        Ok(Figure::Line { points: points.into_iter().map(|p| placement.at(p)).collect(), is_closed, curves })
-    };
     match &entity.specific {
-        EntityType::Line(drawn) => line(placement, vec![flat(&drawn.p1), flat(&drawn.p2)], false, (0, "")),
-        EntityType::Polyline(drawn) => {
-            if drawn.flags & MESH != 0 {
-                return Err("a polygon mesh; accepted: polylines, lines and curves".to_owned());
-            }
-            let vertices = drawn.vertices().filter(|v| v.flags & FRAME_OF_SPLINE == 0);
-            let vertices: Vec<(V2, f64)> = vertices.map(|v| (flat(&v.location), v.bulge)).collect();
-            let is_closed = drawn.flags & CLOSED != 0;
-            let (points, arcs) = with_bulges(&vertices, is_closed, tolerance);
-            line(&in_plane(&drawn.normal, "a polyline")?, points, is_closed, (arcs, "arc"))
-        }
-        EntityType::LwPolyline(drawn) => {
-            let vertices: Vec<(V2, f64)> = drawn.vertices.iter().map(|v| (V2::new(v.x, v.y), v.bulge)).collect();
-            let (points, arcs) = with_bulges(&vertices, drawn.is_closed(), tolerance);
-            line(&in_plane(&drawn.extrusion_direction, "a polyline")?, points, drawn.is_closed(), (arcs, "arc"))
-        }
-        EntityType::Arc(drawn) => {
-            let degrees = [drawn.start_angle, drawn.end_angle];
-            let points = curves::arc(flat(&drawn.center), drawn.radius, degrees, tolerance);
-            line(&in_plane(&drawn.normal, "an arc")?, points, false, (1, "arc"))
-        }
         EntityType::Circle(drawn) => {
-            let placement = in_plane(&drawn.normal, "a circle")?;
+            let placement = placement.seen_along(&drawn.normal)?;
             let points = curves::circle(flat(&drawn.center), drawn.radius, tolerance);
             let points = points.into_iter().map(|p| placement.at(p)).collect();
             Ok(Figure::Circle { centre: placement.at(flat(&drawn.center)), points })
-        }
-        EntityType::Ellipse(drawn) => {
-            let major = V2::new(drawn.major_axis.x, drawn.major_axis.y);
-            // Its axes are those of the world; a normal that points down only turns its parameter round.
-            let side = in_plane(&drawn.normal, "an ellipse").map(|_| drawn.normal.z.signum())?;
-            let ratio = drawn.minor_axis_ratio * side;
-            if !(1e-4..=1e4).contains(&ratio.abs()) {
-                return Err(format!("an ellipse of ratio {}; accepted: 0.0001 to 10000", drawn.minor_axis_ratio));
-            }
-            let parameters = [drawn.start_parameter, drawn.end_parameter];
-            line(
-                placement,
-                curves::ellipse(flat(&drawn.center), major, ratio, parameters, tolerance),
-                false,
-                (1, "ellipse"),
-            )
-        }
-        EntityType::Spline(drawn) => {
-            let control: Vec<V2> = drawn.control_points.iter().map(flat).collect();
-            if control.is_empty() {
-                return Err("a spline of fit points alone; accepted: one with control points and knots".to_owned());
-            }
-            let spline = Spline::new(drawn.degree_of_curve, &drawn.knot_values, &control, &drawn.weight_values)?;
-            line(placement, spline.flattened(tolerance), false, (1, "spline"))
         }
         EntityType::ModelPoint(point) => {
             // A point's place is one of the world, whatever its normal.
@@ -190,8 +139,76 @@ pub fn figure(entity: &Entity, placement: &Placement) -> Result<Figure, String> 
         EntityType::Text(text) => {
             Ok(Figure::Text { at: placement.at(flat(&text.location)), value: text.value.clone() })
         }
-        _ => Ok(Figure::Label),
+        _ => match chain(entity, tolerance)? {
+            None => Ok(Figure::Label),
+            Some(Chain { points, is_closed, curves, normal }) => {
+                let placement = normal.map_or(Ok(*placement), |normal| placement.seen_along(normal))?;
+                let points = points.into_iter().map(|p| placement.at(p)).collect();
+                Ok(Figure::Line { points, is_closed, curves })
+            }
+        },
     }
+}
+
+fn flat(point: &Point) -> V2 {
+    V2::new(point.x, point.y)
+}
+
+/// A chain of points as the entity has them.
+struct Chain<'e> {
+    points: Vec<V2>,
+    is_closed: bool,
+    curves: (usize, &'static str),
+    /// Normal of the plane that they are in; `None` for the world's.
+    normal: Option<&'e Vector>,
+}
+
+/// The chain of an entity that draws a line or a curve.
+fn chain(entity: &Entity, tolerance: f64) -> Result<Option<Chain<'_>>, String> {
+    let of_world = |points: Vec<V2>, curves| Chain { points, is_closed: false, curves, normal: None };
+    Ok(Some(match &entity.specific {
+        EntityType::Line(drawn) => of_world(vec![flat(&drawn.p1), flat(&drawn.p2)], (0, "")),
+        EntityType::Polyline(drawn) => {
+            if drawn.flags & MESH != 0 {
+                return Err("a polygon mesh; accepted: polylines, lines and curves".to_owned());
+            }
+            let vertices = drawn.vertices().filter(|v| v.flags & FRAME_OF_SPLINE == 0);
+            let vertices: Vec<(V2, f64)> = vertices.map(|v| (flat(&v.location), v.bulge)).collect();
+            let is_closed = drawn.flags & CLOSED != 0;
+            let (points, arcs) = with_bulges(&vertices, is_closed, tolerance);
+            Chain { points, is_closed, curves: (arcs, "arc"), normal: Some(&drawn.normal) }
+        }
+        EntityType::LwPolyline(drawn) => {
+            let vertices: Vec<(V2, f64)> = drawn.vertices.iter().map(|v| (V2::new(v.x, v.y), v.bulge)).collect();
+            let is_closed = drawn.is_closed();
+            let (points, arcs) = with_bulges(&vertices, is_closed, tolerance);
+            Chain { points, is_closed, curves: (arcs, "arc"), normal: Some(&drawn.extrusion_direction) }
+        }
+        EntityType::Arc(drawn) => {
+            let degrees = [drawn.start_angle, drawn.end_angle];
+            let points = curves::arc(flat(&drawn.center), drawn.radius, degrees, tolerance);
+            Chain { normal: Some(&drawn.normal), ..of_world(points, (1, "arc")) }
+        }
+        EntityType::Ellipse(drawn) => {
+            let major = V2::new(drawn.major_axis.x, drawn.major_axis.y);
+            // Its axes are those of the world; a normal that points down only turns its parameter round.
+            let ratio = drawn.minor_axis_ratio * if drawn.normal.z < 0.0 { -1.0 } else { 1.0 };
+            if !(1e-4..=1e4).contains(&ratio.abs()) {
+                return Err(format!("an ellipse of ratio {}; accepted: 0.0001 to 10000", drawn.minor_axis_ratio));
+            }
+            let parameters = [drawn.start_parameter, drawn.end_parameter];
+            of_world(curves::ellipse(flat(&drawn.center), major, ratio, parameters, tolerance), (1, "ellipse"))
+        }
+        EntityType::Spline(drawn) => {
+            let control: Vec<V2> = drawn.control_points.iter().map(flat).collect();
+            if control.is_empty() {
+                return Err("a spline of fit points alone; accepted: one with control points and knots".to_owned());
+            }
+            let spline = Spline::new(drawn.degree_of_curve, &drawn.knot_values, &control, &drawn.weight_values)?;
+            of_world(spline.flattened(tolerance), (1, "spline"))
+        }
+        _ => return Ok(None),
+    }))
 }
 
 /// The points of a polyline whose sides bulge, and the number of sides that do.

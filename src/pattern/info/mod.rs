@@ -37,13 +37,15 @@ pub struct InfoError {
     pub accepted: String,
 }
 
+/// The cells of a row, with the row's number in the file.
+type Row = (usize, Vec<String>);
+
 /// A table of piece information.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PieceTable {
     file: String,
     columns: Vec<String>,
-    /// Cells of each row, with the row's number in the file.
-    rows: Vec<(usize, Vec<String>)>,
+    rows: Vec<Row>,
 }
 
 /// Reads a table, XLSX (its first sheet) or CSV (comma, semicolon or tab; UTF-8); `file` is its name for messages.
@@ -85,7 +87,7 @@ pub fn read(bytes: &[u8], file: &str) -> Result<PieceTable, InfoError> {
 }
 
 /// Rows of CSV with their numbers, or the number of the row that is wrong and why.
-fn csv_rows(bytes: &[u8]) -> Result<Vec<(usize, Vec<String>)>, (Option<usize>, String)> {
+fn csv_rows(bytes: &[u8]) -> Result<Vec<Row>, (Option<usize>, String)> {
     let text = std::str::from_utf8(bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes));
     let text = text.map_err(|error| (None, format!("a byte that is no UTF-8 at {}", error.valid_up_to())))?;
     let head = text.lines().next().unwrap_or_default();
@@ -98,7 +100,13 @@ fn csv_rows(bytes: &[u8]) -> Result<Vec<(usize, Vec<String>)>, (Option<usize>, S
         .from_reader(text.as_bytes());
     let mut rows = Vec::new();
     for record in reader.records() {
-        let line = |position: Option<&csv::Position>| position.map(|position| position.line() as usize);
+        // Blank lines before a record belong to it.
+        let line = |position: Option<&csv::Position>| {
+            let position = position?;
+            let rest = text.as_bytes().get(position.byte() as usize..)?;
+            let blank = rest.iter().take_while(|byte| matches!(byte, b'\r' | b'\n')).filter(|&&byte| byte == b'\n');
+            Some(position.line() as usize + blank.count())
+        };
         let record = record.map_err(|error| (line(error.position()), error.to_string()))?;
         let number = line(record.position()).unwrap_or(rows.len() + 1);
         rows.push((number, record.iter().map(str::to_owned).collect()));
@@ -108,8 +116,7 @@ fn csv_rows(bytes: &[u8]) -> Result<Vec<(usize, Vec<String>)>, (Option<usize>, S
 
 impl PieceTable {
     fn column(&self, names: &[&str]) -> Option<usize> {
-        let is = |column: &String| names.iter().any(|name| column.eq_ignore_ascii_case(name));
-        names.iter().find_map(|_| self.columns.iter().position(is))
+        self.columns.iter().position(|column| names.iter().any(|name| column.eq_ignore_ascii_case(name)))
     }
 
     fn error(&self, row: usize, column: usize, found: String, accepted: &str) -> InfoError {
@@ -130,43 +137,35 @@ impl PieceTable {
         let Some(by) = self.column(&PIECE) else { return Ok(()) };
         let size_by = self.column(&["size"]);
         let mut told: Vec<Option<usize>> = vec![None; pattern.pieces.len()];
-        let cell = |cells: &[String], column: usize| cells.get(column).map_or("", String::as_str).to_owned();
         for (row, cells) in &self.rows {
-            let name = cell(cells, by);
-            let size = size_by.map(|column| cell(cells, column)).filter(|size| !size.is_empty());
-            let is_meant = |piece: &Piece| {
-                (piece.block.eq_ignore_ascii_case(&name) || piece.name.eq_ignore_ascii_case(&name))
-                    && size
-                        .as_deref()
-                        .is_none_or(|size| piece.size.as_deref().is_some_and(|s| s.eq_ignore_ascii_case(size)))
-            };
-            let meant: Vec<usize> = (0..pattern.pieces.len()).filter(|&k| is_meant(&pattern.pieces[k])).collect();
-            if meant.is_empty() {
-                let of_size = size.map(|size| format!(" of size `{size}`")).unwrap_or_default();
-                let mut names: Vec<&str> = pattern.pieces.iter().map(|piece| piece.name.as_str()).collect();
-                names.dedup();
-                return Err(self.error(
-                    *row,
-                    by,
-                    format!("piece `{name}`{of_size}"),
-                    &format!("one of {}", names.join(", ")),
-                ));
-            }
-            for index in meant {
+            let cell = |column: usize| cells.get(column).map_or("", String::as_str);
+            for index in self.meant(*row, by, cell(by), size_by.map_or("", cell), &pattern.pieces)? {
                 if let Some(first) = told[index].replace(*row) {
-                    return Err(self.error(
-                        *row,
-                        by,
-                        format!("piece `{name}` again, first in row {first}"),
-                        "each piece once",
-                    ));
+                    let found = format!("piece `{}` again, first in row {first}", cell(by));
+                    return Err(self.error(*row, by, found, "each piece once"));
                 }
                 for column in (0..self.columns.len()).filter(|&column| column != by && Some(column) != size_by) {
-                    self.tell(&mut pattern.pieces[index], *row, column, &cell(cells, column))?;
+                    self.tell(&mut pattern.pieces[index], *row, column, cell(column))?;
                 }
             }
         }
         Ok(())
+    }
+
+    /// The pieces that a row is about, of one size where it names one.
+    fn meant(&self, row: usize, by: usize, name: &str, size: &str, pieces: &[Piece]) -> Result<Vec<usize>, InfoError> {
+        let is_of =
+            |piece: &Piece| size.is_empty() || piece.size.as_deref().is_some_and(|s| s.eq_ignore_ascii_case(size));
+        let is_called = |piece: &Piece| piece.block.eq_ignore_ascii_case(name) || piece.name.eq_ignore_ascii_case(name);
+        let meant: Vec<usize> = (0..pieces.len()).filter(|&k| is_called(&pieces[k]) && is_of(&pieces[k])).collect();
+        if meant.is_empty() {
+            let of_size = if size.is_empty() { String::new() } else { format!(" of size `{size}`") };
+            let mut names: Vec<&str> = pieces.iter().map(|piece| piece.name.as_str()).collect();
+            names.dedup();
+            let accepted = format!("one of {}", names.join(", "));
+            return Err(self.error(row, by, format!("piece `{name}`{of_size}"), &accepted));
+        }
+        Ok(meant)
     }
 
     /// Takes one cell over into a piece.

@@ -8,6 +8,8 @@ use std::io::Read;
 use flate2::read::DeflateDecoder;
 use roxmltree::{Document, Node};
 
+use super::Row;
+
 /// Most bytes of an unpacked part.
 const MOST_UNPACKED: u64 = 64 << 20;
 /// Most columns of a table.
@@ -21,7 +23,7 @@ const END: [u8; 4] = *b"PK\x05\x06";
 ///
 /// # Errors
 /// A sentence that says what is wrong with the workbook.
-pub fn rows(bytes: &[u8]) -> Result<Vec<(usize, Vec<String>)>, String> {
+pub fn rows(bytes: &[u8]) -> Result<Vec<Row>, String> {
     let archive = Archive::open(bytes)?;
     let shared = match archive.find("xl/sharedStrings.xml") {
         Some(entry) => shared_strings(&archive.text(entry)?)?,
