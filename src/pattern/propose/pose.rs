@@ -3,7 +3,7 @@
 use super::align::align;
 use super::names;
 use super::shape::Shape;
-use super::templates::TEMPLATES;
+use super::templates::{TEMPLATES, Template};
 use super::{Class, Face, Hand};
 use crate::pattern::garment::Role;
 use crate::pattern::style::StylePiece;
@@ -53,7 +53,12 @@ pub fn pose(piece: &StylePiece) -> Option<Pose> {
     corners.sort_unstable();
     corners.dedup();
     let shape = Shape::new(outline, corners)?;
-    let alignment = align(&shape, TEMPLATES.iter().filter(|template| template.class == class))?;
+    // As in a proposal, a sleeve that is called front or back is half of one.
+    let is_whole_sleeve = names::read(&piece.id).face.is_none();
+    let fits = |template: &&Template| {
+        template.class == class && (class != Class::Sleeve || template.is_whole == is_whole_sleeve)
+    };
+    let alignment = align(&shape, TEMPLATES.iter().filter(fits))?;
     Some(Pose {
         quarter_turns: alignment.quarter_turns,
         is_whole: alignment.template.is_whole,
