@@ -1,6 +1,6 @@
 //! How a piece of a known role is drawn: which side is up, and which half it is.
 
-use super::align::align;
+use super::align::{TURNED, align};
 use super::names;
 use super::shape::Shape;
 use super::templates::{TEMPLATES, Template};
@@ -58,7 +58,10 @@ pub fn pose(piece: &StylePiece) -> Option<Pose> {
     let fits = |template: &&Template| {
         template.class == class && (class != Class::Sleeve || template.is_whole == is_whole_sleeve)
     };
-    let alignment = align(&shape, TEMPLATES.iter().filter(fits))?;
+    // The grain runs up and down, except along a band.
+    let is_along = |quarter_turns: usize| (piece.grain.x.abs() > piece.grain.y.abs()) == (quarter_turns % 2 == 0);
+    let cost = |quarter_turns| if class != Class::Waistband && is_along(quarter_turns) { TURNED } else { 0.0 };
+    let alignment = align(&shape, TEMPLATES.iter().filter(fits), cost)?;
     Some(Pose {
         quarter_turns: alignment.quarter_turns,
         is_whole: alignment.template.is_whole,
