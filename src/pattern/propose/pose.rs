@@ -59,7 +59,8 @@ pub fn pose(piece: &StylePiece) -> Option<Pose> {
         template.class == class && (class != Class::Sleeve || template.is_whole == is_whole_sleeve)
     };
     // The grain runs up and down, except along a band.
-    let is_along = |quarter_turns: usize| (piece.grain.x.abs() > piece.grain.y.abs()) == (quarter_turns % 2 == 0);
+    let is_along =
+        |quarter_turns: usize| (piece.grain.x.abs() > piece.grain.y.abs()) == quarter_turns.is_multiple_of(2);
     let cost = |quarter_turns| if class != Class::Waistband && is_along(quarter_turns) { TURNED } else { 0.0 };
     let alignment = align(&shape, TEMPLATES.iter().filter(fits), cost)?;
     Some(Pose {
