@@ -1,9 +1,9 @@
 //! How a piece of a known role is drawn: which side is up, and which half it is.
 
-use super::align::align;
+use super::align::{TURNED, align};
 use super::names;
 use super::shape::Shape;
-use super::templates::TEMPLATES;
+use super::templates::{TEMPLATES, Template};
 use super::{Class, Face, Hand};
 use crate::pattern::garment::Role;
 use crate::pattern::style::StylePiece;
@@ -53,7 +53,16 @@ pub fn pose(piece: &StylePiece) -> Option<Pose> {
     corners.sort_unstable();
     corners.dedup();
     let shape = Shape::new(outline, corners)?;
-    let alignment = align(&shape, TEMPLATES.iter().filter(|template| template.class == class))?;
+    // As in a proposal, a sleeve that is called front or back is half of one.
+    let is_whole_sleeve = names::read(&piece.id).face.is_none();
+    let fits = |template: &&Template| {
+        template.class == class && (class != Class::Sleeve || template.is_whole == is_whole_sleeve)
+    };
+    // The grain runs up and down, except along a band.
+    let is_along =
+        |quarter_turns: usize| (piece.grain.x.abs() > piece.grain.y.abs()) == quarter_turns.is_multiple_of(2);
+    let cost = |quarter_turns| if class != Class::Waistband && is_along(quarter_turns) { TURNED } else { 0.0 };
+    let alignment = align(&shape, TEMPLATES.iter().filter(fits), cost)?;
     Some(Pose {
         quarter_turns: alignment.quarter_turns,
         is_whole: alignment.template.is_whole,

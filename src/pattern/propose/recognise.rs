@@ -1,6 +1,6 @@
 //! What each piece is: from its name first, then from its outline, then from the other pieces.
 
-use super::align::{Alignment, align};
+use super::align::{Alignment, TURNED, align};
 use super::names;
 use super::shape::Shape;
 use super::templates::{TEMPLATES, Template};
@@ -100,7 +100,9 @@ fn recognise_one(
         let of_class = |template: &&Template| {
             template.class == class && (class != Class::Sleeve || template.is_whole != is_half_sleeve)
         };
-        align(&shape, TEMPLATES.iter().filter(of_class))
+        // Pieces are mostly drawn upright.
+        let cost = |quarter_turns| if quarter_turns == 0 { 0.0 } else { TURNED };
+        align(&shape, TEMPLATES.iter().filter(of_class), cost)
     };
     if let Some(ring) = ring::read(&shape).filter(|_| named.class == Some(Class::Skirt)) {
         return Ok(Recognised {
