@@ -7,7 +7,7 @@ use toml::Spanned;
 use toml::de::DeTable;
 
 use super::super::error::{StudyError, nearest};
-use super::super::tools::{is_garmentcode, read_scan};
+use super::super::tools::read_scan;
 use super::reader::{Place, Reader};
 use super::{GarmentEntry, Known, Problem, ScanFile, SizeFile, SourceFile, Study, Subject};
 use crate::body::{LengthUnit, Measurements, Sex};
@@ -310,7 +310,7 @@ fn wearers(reader: &mut Reader<'_>, garment: &Place<'_>, top: &Place<'_>, subjec
 
 /// The seam file, which only patterns without seams of their own need.
 fn seams(reader: &mut Reader<'_>, garment: &Place<'_>, folder: &Path, sizes: &[SizeFile]) -> Option<SourceFile> {
-    let holds_seams = !sizes.is_empty() && sizes.iter().all(|size| is_garmentcode(Path::new(&size.pattern.name)));
+    let holds_seams = !sizes.is_empty() && sizes.iter().all(|size| size.pattern.holds_seams());
     if holds_seams && !garment.table.contains_key("seams") {
         return None;
     }
