@@ -39,7 +39,7 @@ impl Default for RelaxParams {
         Self {
             offset_m: 2e-3,
             stiffness_n_m: 500.0,
-            contact: 100.0,
+            contact: 400.0,
             hold: 1.0,
             control_width_m: 0.5,
             yield_stretch: 5e-3,
