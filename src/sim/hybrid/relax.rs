@@ -1,8 +1,10 @@
 //! Steps of a sewn garment against a body: its size, gravity, bending, contact.
 //!
-//! Contact pushes the cloth out of the body, but its pressure can be capped at what a little stretch of the cloth round a
-//! trunk can bear. Where the pattern is large enough, far less is needed and nothing changes; where it is too small the body wins
-//! no more: the cloth goes back to its size and into the body.
+//! Contact pushes the cloth out of the body, but it can be made to yield: where the cloth is stretched by more than a little,
+//! contact weakens step by step until it is not. Where the pattern is large enough nothing changes; where it is too small the
+//! body wins no more: the cloth goes back to its size and into the body.
+
+use nalgebra::Matrix2;
 
 use super::elastic::{Elastic, Pull};
 use super::sewn::Sewn;
@@ -24,10 +26,8 @@ pub struct RelaxParams {
     pub hold: f64,
     /// Weight of a control: that of a strip of cloth this wide along it, m.
     pub control_width_m: f64,
-    /// Stretch that capped contact may cause where the pattern is too small.
+    /// Stretch of the cloth beyond which contact yields.
     pub yield_stretch: f64,
-    /// Radius of the body part at which that holds, m.
-    pub yield_radius_m: f64,
     /// Bending rigidity at least, N m: keeps folds wider than the mesh.
     pub least_bending_nm: f64,
     /// Steps between two looks at who is in contact.
@@ -39,11 +39,10 @@ impl Default for RelaxParams {
         Self {
             offset_m: 2e-3,
             stiffness_n_m: 500.0,
-            contact: 100.0,
+            contact: 400.0,
             hold: 1.0,
             control_width_m: 0.5,
             yield_stretch: 5e-3,
-            yield_radius_m: 0.15,
             least_bending_nm: 5e-5,
             refresh: 4,
         }
@@ -62,6 +61,10 @@ pub struct Relaxation<'a> {
     areas: Vec<f64>,
     /// Weight of each sewn vertex over the membrane's stiffness, m.
     weight: Vec<f64>,
+    /// Garment vertices of each triangle, and sewn vertex of each garment vertex.
+    drawn: (&'a [[usize; 3]], &'a [usize]),
+    /// Greatest depth that contact still pushes against at each sewn vertex, m.
+    most_m: Vec<f64>,
     /// Position of each sewn vertex, m.
     pub x: Vec<V3>,
     steps: u32,
@@ -85,8 +88,8 @@ impl<'a> Relaxation<'a> {
     /// [`SimError::Degenerate`].
     pub fn new(
         field: &'a DistanceField,
-        garment: &Garment,
-        sewn: &Sewn,
+        garment: &'a Garment,
+        sewn: &'a Sewn,
         fabric: &Fabric,
         controls: &[&Measurement],
         params: RelaxParams,
@@ -100,12 +103,14 @@ impl<'a> Relaxation<'a> {
         let pairs = cloth.bending.pairs.pairs().iter().zip(&cloth.bending.entries);
         let bending: Vec<([usize; 2], f64)> =
             pairs.map(|(pair, entry)| (*pair, entry / params.stiffness_n_m)).collect();
-        let weights = weights(field, &params, &cloth.areas, &sewn.x);
-        let elastic =
-            Elastic::new(garment, &sewn.vertex_of, &sewn.x, controls, params.control_width_m, &bending, weights)
-                .ok_or_else(|| SimError::Degenerate { piece: garment.name.clone(), at: garment.rest[0] })?;
+        let x = lifted(field, params.offset_m, &sewn.x);
+        let weights = weights(field, &params, &cloth.areas, &x);
+        let elastic = Elastic::new(garment, &sewn.vertex_of, &x, controls, params.control_width_m, &bending, weights)
+            .ok_or_else(|| SimError::Degenerate { piece: garment.name.clone(), at: garment.rest[0] })?;
         let weight = cloth.masses.iter().map(|m| m * GRAVITY / params.stiffness_n_m).collect();
-        Ok(Self { params, field, elastic, areas: cloth.areas, weight, x: sewn.x.clone(), steps: 0 })
+        let drawn = (garment.triangles.as_slice(), sewn.vertex_of.as_slice());
+        let most_m = vec![f64::MAX; x.len()];
+        Ok(Self { params, field, elastic, areas: cloth.areas, weight, drawn, most_m, x, steps: 0 })
     }
 
     /// Takes one step; returns the rms movement of the vertices, m.
@@ -114,21 +119,84 @@ impl<'a> Relaxation<'a> {
             self.elastic.set_weights(weights(self.field, &self.params, &self.areas, &self.x));
         }
         self.steps += 1;
-        // The depth at which contact bears what the cloth may be stretched by: T / R = weight * depth.
-        let cap_m = self.params.yield_stretch / self.params.yield_radius_m / self.params.contact;
-        let most_m = if push.unlimited { f64::MAX } else { cap_m };
-        let target = |p: &V3| {
-            let (distance, gradient) = self.field.value_and_gradient(p);
-            let depth = (self.params.offset_m - distance).max(0.0);
-            p + gradient.try_normalize(1e-9).unwrap_or_else(V3::zeros) * depth.min(most_m)
-        };
-        let targets: Vec<V3> = self.x.iter().map(target).collect();
+        let contacts: Vec<(f64, V3)> = self.x.iter().map(|p| contact(self.field, self.params.offset_m, p)).collect();
+        if push.unlimited {
+            self.most_m.fill(f64::MAX);
+        } else {
+            self.give_way(&contacts);
+        }
+        let target = |((p, (depth, out)), most): ((&V3, &(f64, V3)), &f64)| p + out * depth.min(*most);
+        let targets: Vec<V3> = self.x.iter().zip(&contacts).zip(&self.most_m).map(target).collect();
         let loads: Vec<V3> = self.weight.iter().map(|w| V3::new(0.0, 0.0, -w * push.gravity)).collect();
         let next = self.elastic.step(&self.x, &Pull { targets: &targets, loads: &loads, share: push.share });
         let moved = next.iter().zip(&self.x).map(|(a, b)| (a - b).norm_squared()).sum::<f64>();
         self.x = next;
         (moved / self.x.len() as f64).sqrt()
     }
+
+    /// Weakens contact where the cloth is stretched too much, and lets it recover where it is not.
+    fn give_way(&mut self, contacts: &[(f64, V3)]) {
+        let stretch = self.greatest_stretch();
+        for (v, (depth, _)) in contacts.iter().enumerate() {
+            let excess = (stretch[v] - self.params.yield_stretch) / self.params.yield_stretch;
+            let now = self.most_m[v].min(depth.max(LEAST_PUSH_M));
+            self.most_m[v] = now * (1.0 - 0.5 * excess).clamp(0.5, 1.2);
+        }
+    }
+
+    /// Greatest principal stretch beyond 1 at each sewn vertex, averaged over its surroundings: single triangles are
+    /// stretched and compressed in turn, which says nothing about the size of the garment.
+    fn greatest_stretch(&self) -> Vec<f64> {
+        let (triangles, vertex_of) = self.drawn;
+        let mean = |sums: Vec<(Matrix2<f64>, f64)>| -> Vec<Matrix2<f64>> {
+            sums.into_iter().map(|(sum, n)| if n > 0.0 { sum / n } else { Matrix2::identity() }).collect()
+        };
+        let mut sums = vec![(Matrix2::zeros(), 0.0); vertex_of.len()];
+        for (t, (stretch, area)) in triangles.iter().zip(self.elastic.stretches(&self.x)) {
+            for &v in t {
+                sums[v].0 += stretch * area;
+                sums[v].1 += area;
+            }
+        }
+        let mut at = mean(sums);
+        for _ in 0..AVERAGINGS {
+            let mut sums = vec![(Matrix2::zeros(), 0.0); at.len()];
+            for t in triangles {
+                let middle = (at[t[0]] + at[t[1]] + at[t[2]]) / 3.0;
+                for &v in t {
+                    sums[v].0 += middle;
+                    sums[v].1 += 1.0;
+                }
+            }
+            at = mean(sums);
+        }
+        let mut greatest = vec![0.0_f64; self.x.len()];
+        for (&v, s) in vertex_of.iter().zip(&at) {
+            let half = 0.5 * s.trace();
+            greatest[v] = greatest[v].max(half + (half * half - s.determinant()).max(0.0).sqrt() - 1.0);
+        }
+        greatest
+    }
+}
+
+/// Times that stretch is averaged over neighbours.
+const AVERAGINGS: u32 = 4;
+/// Contact that has yielded comes back from this, m.
+const LEAST_PUSH_M: f64 = 2e-5;
+
+/// Depth below the offset (m, 0 outside) and the direction out.
+fn contact(field: &DistanceField, offset_m: f64, p: &V3) -> (f64, V3) {
+    let (distance, gradient) = field.value_and_gradient(p);
+    ((offset_m - distance).max(0.0), gradient.try_normalize(1e-9).unwrap_or_else(V3::zeros))
+}
+
+/// Positions lifted out of the body: the control mesh, on which pieces are laid, cuts through the fine one.
+fn lifted(field: &DistanceField, offset_m: f64, x: &[V3]) -> Vec<V3> {
+    let lift = |p: &V3| {
+        let (depth, out) = contact(field, offset_m, p);
+        p + out * depth
+    };
+    x.iter().map(lift).collect()
 }
 
 /// Weights of the vertices' targets: those in contact stay where contact wants them, the others may go.
