@@ -4,8 +4,8 @@
 //! panel's normal looks away from the body); it is mirrored here, so that all pieces are seen from outside. The edges
 //! keep the order of the file, and edge `k` is called `e<k>`.
 //!
-//! The format knows no sizes, notches and grain lines: the grain is the panel's `y`. A panel name says a [`Role`] only
-//! where one panel is the whole of it (`skirt_front`, `pant_b_l`, `wb_back`); any other panel is [`Role::Other`].
+//! The format knows no sizes, notches and grain lines: the grain is the panel's `y`. A panel's name says its [`Role`]
+//! (`skirt_front`, `pant_b_l`, `right_ftorso`); of a half panel it is that of the whole, of an unknown one [`Role::Other`].
 
 mod export;
 pub mod format;
@@ -280,7 +280,7 @@ fn piece(name: &str, edges: &[Polyline], is_clockwise_in_file: bool) -> Piece {
     }
 }
 
-/// Role of a panel of which there is only one for it, by the names that `pygarment`'s garments use.
+/// Role of a panel, by the names that `pygarment`'s garments use.
 fn role(name: &str) -> Role {
     match name {
         "skirt_front" => Role::SkirtFront,
@@ -290,6 +290,10 @@ fn role(name: &str) -> Role {
         "pant_b_r" => Role::LegBackRight,
         "pant_b_l" => Role::LegBackLeft,
         "wb_front" | "wb_back" => Role::Waistband,
+        "right_ftorso" | "left_ftorso" => Role::Front,
+        "right_btorso" | "left_btorso" => Role::Back,
+        "right_sleeve_f" | "right_sleeve_b" => Role::SleeveRight,
+        "left_sleeve_f" | "left_sleeve_b" => Role::SleeveLeft,
         _ => Role::Other,
     }
 }
