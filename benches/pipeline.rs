@@ -12,6 +12,7 @@ use toile::pattern::{Garment, Style, draft, dxf};
 use toile::render::{self, Camera, Frame, Layer, Material, Scene, View};
 use toile::sim::fem::{self, Params};
 use toile::sim::{Drape, Fabric, Monitor, Progress, fabric};
+use toile::study::pattern_files::{Beside, inspect};
 use toile::study::{RunOptions, Workspace};
 
 fn main() {
@@ -96,6 +97,46 @@ fn distance_field() -> DistanceField {
 #[divan::bench]
 fn dxf_read() -> dxf::PatternFile {
     dxf::read(divan::black_box(&FILES[0]), "tshirt-m.dxf", None).expect("our own file")
+}
+
+/// A nest of 15 sizes of the drafted T-shirt, written by the program's own writer.
+fn nest() -> Vec<u8> {
+    let file = dxf::read(&FILES[0], "tshirt-m.dxf", None).expect("our own file");
+    let size = |k: u32| {
+        let grow = 0.9 + 0.015 * f64::from(k);
+        file.pieces.iter().map(move |piece| {
+            let mut piece = piece.clone();
+            let name = 30 + 2 * k;
+            (piece.block, piece.size) = (format!("{}_{name}", piece.block), Some(name.to_string()));
+            let notches = piece.notches.iter_mut().map(|notch| &mut notch.at);
+            let points = piece.outline.iter_mut().chain(&mut piece.turn_points).chain(&mut piece.curve_points);
+            points.chain(notches).chain(piece.grain.iter_mut().flatten()).for_each(|point| *point *= grow);
+            piece
+        })
+    };
+    dxf::write_pieces(&(0..15).flat_map(size).collect::<Vec<_>>(), &file.texts)
+}
+
+/// Opening one size of a nest of 15; to take less than 100 ms.
+#[divan::bench]
+fn dxf_read_nest_of_15(bencher: Bencher) {
+    let bytes = nest();
+    bencher.bench_local(|| {
+        let file = dxf::read(divan::black_box(&bytes), "nest.dxf", None).expect("our own file");
+        assert_eq!(file.sizes().len(), 15);
+        file.to_sew(Some("44")).expect("the size is there")
+    });
+}
+
+/// Every sample pattern that lies beside the checkout, on one core; to take less than 2 s.
+#[divan::bench(sample_count = 5)]
+fn read_all_samples(bencher: Bencher) {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/patterns");
+    bencher.bench_local(|| match inspect(divan::black_box(&folder), &Beside::default()) {
+        Ok(reports) => reports.len(),
+        // Without the folder there is nothing to time.
+        Err(_) => 0,
+    });
 }
 
 #[divan::bench]

@@ -344,3 +344,40 @@ SELECT table_no, garment, size, names.value AS subject, simulator, measurement_n
 FROM published, json_each(l3d_mm) AS lengths, json_each(chi) AS ratios,
     json_each('["i", "ii", "iii", "iv", "v", "vi"]') AS names
 WHERE lengths.key = ratios.key AND lengths.key = names.key;
+
+CREATE TABLE published_metric (
+    table_no TEXT NOT NULL,
+    garment TEXT NOT NULL,
+    size TEXT NOT NULL,
+    simulator TEXT NOT NULL,
+    metric TEXT NOT NULL,
+    by_subject TEXT NOT NULL,
+    average REAL NOT NULL,
+    PRIMARY KEY (garment, size, simulator, metric)
+) STRICT, WITHOUT ROWID;
+
+CREATE VIEW v_published_metrics AS
+SELECT table_no, garment, size, simulator, metric, names.value AS subject, numbers.value AS printed, average AS average_printed
+FROM published_metric, json_each(by_subject) AS numbers, json_each('["i", "ii", "iii", "iv", "v", "vi"]') AS names
+WHERE numbers.key = names.key;
+
+CREATE TABLE published_subjects (
+    table_no TEXT NOT NULL,
+    captioned TEXT NOT NULL,
+    sex TEXT NOT NULL,
+    statistic TEXT NOT NULL,
+    chest_cm REAL NOT NULL,
+    waist_cm REAL NOT NULL,
+    hip_cm REAL NOT NULL,
+    across_shoulder_cm REAL NOT NULL,
+    neck_cm REAL NOT NULL,
+    PRIMARY KEY (sex, statistic)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE published_preposition (
+    bend_deg REAL NOT NULL,
+    measurement TEXT NOT NULL,
+    offset_printed REAL NOT NULL,
+    chi REAL NOT NULL,
+    PRIMARY KEY (bend_deg, measurement, offset_printed)
+) STRICT, WITHOUT ROWID;

@@ -130,7 +130,7 @@ fn sites(mesh: &TriMesh, figure: &Figure) -> Result<Sites, BodyError> {
     let crotch = landmarks::crotch(mesh, 0.40 * h, 0.52 * h, 0.0).ok_or_else(|| missing("crotch", atlas.crotch))?;
     let neck = tape::neck(&upper, 0.845 * h, 0.885 * h, 0.0).ok_or_else(|| missing("neck", 0.87))?;
     let back_neck = landmarks::median_point(&upper, figure.back_neck_height(), 0.0, Side::Back);
-    let chest = measure::chest_level(mesh, 0.0, h, 0.0).unwrap_or(atlas.chest * h);
+    let chest = measure::chest_level(mesh, 0.0, h, crotch, 0.0).unwrap_or(atlas.chest * h);
     let shoulder = |sign: f64| landmarks::shoulder_top(&upper, sign * figure.targets.shoulder_x, 0.86 * h);
     let right = shoulder(1.0).ok_or_else(|| missing("shoulder", atlas.shoulder))?;
     let along = figure.arm_axes()[2];

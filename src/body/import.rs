@@ -24,6 +24,9 @@ pub enum LengthUnit {
 }
 
 impl LengthUnit {
+    /// Every unit.
+    pub const ALL: [Self; 3] = [Self::Millimetre, Self::Centimetre, Self::Metre];
+
     /// Metres in one unit.
     #[must_use]
     pub fn metres(self) -> f64 {
@@ -230,9 +233,7 @@ fn settle(mesh: &TriMesh, unit: Option<LengthUnit>) -> Result<Imported, BodyErro
 
 /// The unit in which `height` is that of a standing person.
 fn guess_unit(height: f64) -> Option<LengthUnit> {
-    [LengthUnit::Millimetre, LengthUnit::Centimetre, LengthUnit::Metre]
-        .into_iter()
-        .find(|unit| (1.2..2.4).contains(&(height * unit.metres())))
+    LengthUnit::ALL.into_iter().find(|unit| (1.2..2.4).contains(&(height * unit.metres())))
 }
 
 /// The mesh as Wavefront OBJ text, metres with a tenth of a micrometre.

@@ -5,10 +5,14 @@ use super::tape;
 use crate::geom::section::{Plane, section};
 use crate::geom::{TriMesh, V3};
 
+/// Least girth of an outline between the legs that belongs to the trunk, metres.
+const LEAST_TRUNK: f64 = 0.03;
+
 /// Where the trunk ends: the lowest height at which an outline crosses the median plane, by bisection.
 pub(super) fn crotch(mesh: &TriMesh, mut below: f64, mut above: f64, middle: f64) -> Option<f64> {
     let lower = tape::between(mesh, below, above);
-    let joined = |z: f64| tape::trunk_outline(&lower, z, middle).is_some_and(|outline| tape::girth(&outline) > 0.15);
+    let joined =
+        |z: f64| tape::trunk_outline(&lower, z, middle).is_some_and(|outline| tape::girth(&outline) > LEAST_TRUNK);
     if joined(below) || !joined(above) {
         return None;
     }

@@ -2,6 +2,7 @@
 
 mod align;
 mod anthropometry;
+mod arm;
 mod atlas;
 mod build;
 mod clean;
@@ -19,14 +20,18 @@ mod loft;
 mod measure;
 mod outline;
 mod pictures;
+mod pose;
 mod repair;
 mod scan;
+mod scanned;
 mod sections;
 mod segment;
 mod silhouette;
 mod stl;
 mod surface;
 mod tape;
+#[cfg(test)]
+mod testing;
 
 pub use build::build;
 pub use control::{ControlMesh, Layer, RING, Region};
@@ -35,6 +40,7 @@ pub use evaluate::{Accuracy, Evaluated, Evaluation, evaluate};
 pub use import::{Imported, LengthUnit, import, write_obj};
 pub use measure::{Girths, measure};
 pub use pictures::{Camera, Pictured, PicturedLevel, from_pictures, picture_height};
+pub use pose::{Pose, pose};
 pub use scan::{Scan, from_scan};
 
 use crate::geom::{TriMesh, V3};
@@ -100,6 +106,17 @@ pub enum BodyError {
         /// What is wrong.
         problem: String,
     },
+    /// Limbs that cannot be brought where they were asked.
+    #[error("no such pose: {problem}")]
+    Pose {
+        /// What cannot be done, and what can.
+        problem: String,
+    },
+    /// A surface that cannot bound a solid body.
+    #[error(
+        "the surface does not close after its repair (a half body, or parts that cross); accepted: a whole body whose holes are under 0.9 m round"
+    )]
+    Open,
     /// A mesh whose size fits a standing adult in no unit.
     #[error("the body is {extent} high, which is no adult in mm, cm or m; accepted: 1.2 to 2.4 m, or say the unit")]
     Unit {

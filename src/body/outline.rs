@@ -1,6 +1,6 @@
 //! Heights, widths and depths of a body from its front and side silhouettes.
 
-use super::measure::steps;
+use super::measure::{CHEST, steps, usual_chest};
 use super::pictures::{Camera, refused};
 use super::sections::{Level, Section};
 use super::silhouette::{Mask, Run};
@@ -15,6 +15,9 @@ const NEARER: f64 = 0.4;
 
 /// Height of a neck's narrowest place over stature, from and to.
 const NECK: [f64; 2] = [0.83, 0.90];
+
+/// Mean height of that place over stature: of the 160 model bodies of [`super::sections`].
+const USUAL_NECK: f64 = 0.8714;
 
 /// A silhouette with its scale.
 #[derive(Clone, Debug)]
@@ -165,8 +168,9 @@ impl Outlines {
             Some(!runs.iter().any(|(start, end)| (*start as f64) < middle && (*end as f64) > middle))
         };
         let heights: Vec<f64> = steps(0.30 * self.stature, 0.60 * self.stature, 300).collect();
-        let first = heights.iter().position(|&height| gap(height) == Some(false))?;
-        (first > 0 && gap(heights[first - 1]) == Some(true)).then(|| heights[first])
+        // The highest gap: below it a shadow may join the legs.
+        let last = heights.iter().rposition(|&height| gap(height) == Some(true))?;
+        heights.get(last + 1).copied()
     }
 
     /// The level of the greatest buttock protrusion.
@@ -178,15 +182,18 @@ impl Outlines {
         middle_of(lows.iter().filter(|(_, y)| *y < least + 1e-3).map(|(z, _)| *z))
     }
 
-    /// The level of the nipples: where the front stands out most from the chord between ribs and collar bones.
+    /// The level of the nipples: half way between where the front stands out most from the chord between ribs and collar
+    /// bones, and where proportions have them.
     fn chest_level(&self) -> Option<f64> {
         let (low, high) = (0.66 * self.stature, 0.80 * self.stature);
         let front = |z: f64| Some(self.profile(z, [0.0; 2])?[0]);
         let (y_low, y_high) = (front(low)?, front(high)?);
         let out = |z: f64| Some((z, front(z)? - y_low - (y_high - y_low) * (z - low) / (high - low)));
-        let outs: Vec<(f64, f64)> = steps(0.70 * self.stature, 0.748 * self.stature, 40).filter_map(out).collect();
+        let [from, to] = CHEST.map(|share| share * self.stature);
+        let outs: Vec<(f64, f64)> = steps(from, to, 40).filter_map(out).collect();
         let most = outs.iter().map(|(_, y)| *y).max_by(f64::total_cmp)?;
-        middle_of(outs.iter().filter(|(_, y)| *y > most - 1e-3).map(|(z, _)| *z))
+        let foremost = middle_of(outs.iter().filter(|(_, y)| *y > most - 1e-3).map(|(z, _)| *z))?;
+        Some((foremost + usual_chest(self.stature, self.crotch)) / 2.0)
     }
 
     /// The narrowest place of the neck: width seen from the front, depth the shortest way through it seen from the side.
@@ -200,6 +207,8 @@ impl Outlines {
             .iter()
             .flat_map(|(z, [front, _])| edges.iter().map(move |(other, [_, back])| (front - back).hypot(z - other)));
         let depth = across.min_by(f64::total_cmp).ok_or_else(|| refused("side", "no neck is found in its outline"))?;
+        // A neck is nearly as narrow over some centimetres: its level is steadied by where necks usually have it.
+        let height = (height + USUAL_NECK * self.stature) / 2.0;
         Ok(Section { level: Level::Neck, height, width, depth, fullness: 1.0 })
     }
 

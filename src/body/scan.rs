@@ -1,13 +1,16 @@
 //! Bodies from scans: aligned, cleaned, repaired and measured.
 
 use super::measure::{self, Girths};
-use super::{BodyError, Imported, LengthUnit, Sex, import, repair};
+use super::{Body, BodyError, Imported, LengthUnit, Sex, import, repair, scanned};
+use crate::geom::V3;
 
 /// A body scan in the world frame, with what the tape reads on it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scan {
     /// The scan: upright, facing `y`, without strays and floor; smoothed where it was rough, its holes closed.
     pub imported: Imported,
+    /// Sex, given or told from neck, hip and waist girth.
+    pub sex: Sex,
     /// Measurements.
     pub girths: Girths,
 }
@@ -20,10 +23,29 @@ pub struct Scan {
 pub fn from_scan(bytes: &[u8], unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<Scan, BodyError> {
     let mut imported = import(bytes, unit)?;
     repair::repair(&mut imported.mesh, &mut imported.notes);
-    let floor = imported.mesh.bounds().map_or(0.0, |(low, _)| low.z);
-    imported.mesh.positions.iter_mut().for_each(|p| p.z -= floor);
-    let girths = measure::measure(&imported.mesh, sex)?;
-    Ok(Scan { imported, girths })
+    let (low, high) = imported.mesh.bounds().unwrap_or((V3::zeros(), V3::zeros()));
+    let middle = measure::median_plane(&imported.mesh, low.z, high.z - low.z);
+    imported.mesh.positions.iter_mut().for_each(|p| *p -= V3::new(middle, 0.0, low.z));
+    let (sites, told) = measure::find_sites(&imported.mesh, sex)?;
+    if sex.is_none() {
+        let name = if told == Sex::Male { "man" } else { "woman" };
+        imported.notes.push(format!("measured as a {name}, by neck, hip and waist girth: the sex was not given"));
+    }
+    let girths = measure::girths_at(&imported.mesh, &sites)?;
+    Ok(Scan { imported, sex: told, girths })
+}
+
+impl Scan {
+    /// The body that wears garments: the cleaned scan as fine mesh, with its features, control mesh and joints.
+    ///
+    /// # Errors
+    /// [`BodyError::MissingPart`] where arms or legs are not apart, [`BodyError::Open`] for a surface that does not close.
+    pub fn into_body(self) -> Result<Body, BodyError> {
+        if !self.imported.mesh.is_closed_manifold() {
+            return Err(BodyError::Open);
+        }
+        scanned::describe(self.sex, self.imported.mesh)
+    }
 }
 
 #[cfg(test)]

@@ -37,9 +37,13 @@ pub(super) fn right_limbs(mesh: &TriMesh, z: f64, x: f64) -> Vec<Outline> {
 /// Girth of the outline round `point` in the plane through it with `normal`, metres: the largest outline that holds
 /// the point (inner ones are throats and other cavities).
 pub(super) fn girth_round(mesh: &TriMesh, point: V3, normal: V3) -> Option<f64> {
-    let plane = Plane::normal_to(point, normal);
+    outline_round(mesh, &Plane::normal_to(point, normal)).map(|outline| girth(&outline))
+}
+
+/// The largest outline that holds the origin of the plane.
+fn outline_round(mesh: &TriMesh, plane: &Plane) -> Option<Outline> {
     let holds = |outline: &Outline| outline.contains(V2::zeros());
-    section(mesh, &plane).iter().filter(|outline| holds(outline)).map(girth).max_by(f64::total_cmp)
+    section(mesh, plane).into_iter().filter(holds).max_by(|a, b| girth(a).total_cmp(&girth(b)))
 }
 
 /// The taut tape from `start` over `middle` to `end`, along the convex hull of the section through the three points:
@@ -63,23 +67,28 @@ pub(super) fn tape_over(mesh: &TriMesh, start: V3, middle: V3, end: V3) -> Optio
 pub(super) struct Neck {
     /// Girth, metres.
     pub girth: f64,
-    /// Height of the tape's centre, metres.
+    /// Middle of the tape, metres.
+    pub centre: V3,
+    /// Height of the tape at the spine, metres.
     pub height: f64,
     /// Lean of the neck forward from the vertical, radians.
     pub lean: f64,
 }
 
+/// How far behind the middle of the neck the spine runs, as a share of its depth: the height of a leaning tape is read there.
+const SPINE: f64 = 0.14;
+
 /// Finds the narrowest girth round the neck, over heights between `low` and `high` and leans of up to 30 degrees.
 pub(super) fn neck(mesh: &TriMesh, low: f64, high: f64, middle: f64) -> Option<Neck> {
     let upper = above(mesh, low - 0.12);
-    let at = |height: f64, lean: f64| {
+    let plane = |height: f64, lean: f64| {
         let (front, back) = depth_range(&trunk_outline(&upper, height, middle)?);
         let centre = V3::new(middle, (front + back) / 2.0, height);
-        let girth = girth_round(&upper, centre, V3::new(0.0, lean.sin(), lean.cos()))?;
-        Some(Neck { girth, height, lean })
+        Some(Plane::normal_to(centre, V3::new(0.0, lean.sin(), lean.cos())))
     };
     let least = |candidates: &mut dyn Iterator<Item = (f64, f64)>| {
-        candidates.filter_map(|(height, lean)| at(height, lean)).min_by(|a, b| a.girth.total_cmp(&b.girth))
+        let at = |(height, lean)| Some((height, lean, girth(&outline_round(&upper, &plane(height, lean)?)?)));
+        candidates.filter_map(at).min_by(|a, b| a.2.total_cmp(&b.2))
     };
     let coarse_step = (high - low) / 12.0;
     let lean_step = 5_f64.to_radians();
@@ -88,9 +97,15 @@ pub(super) fn neck(mesh: &TriMesh, low: f64, high: f64, middle: f64) -> Option<N
     let best = least(&mut coarse)?;
     let offsets = |i: i32, step: f64| f64::from(i) * step / 3.0;
     let mut fine = (-3..=3).flat_map(|i| {
-        (-3..=3).map(move |j| (best.height + offsets(i, coarse_step), (best.lean + offsets(j, lean_step)).max(0.0)))
+        (-3..=3).map(move |j| (best.0 + offsets(i, coarse_step), (best.1 + offsets(j, lean_step)).max(0.0)))
     });
-    least(&mut fine)
+    let (height, lean, girth) = least(&mut fine)?;
+    // The horizontal outline, by which the search goes, reaches under the chin: the tape's own middle lies farther back.
+    let plane = plane(height, lean)?;
+    let (low, high) = outline_round(&upper, &plane)?.bounds();
+    let centre = plane.lift((low + high) / 2.0);
+    let spine = centre - plane.v * (SPINE * (high.y - low.y));
+    Some(Neck { girth, centre, height: spine.z, lean })
 }
 
 /// Half of a drawn tape's breadth and how far it lies off the skin, metres.

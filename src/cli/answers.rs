@@ -2,10 +2,10 @@
 
 use std::io::Read;
 
-use super::args::{Format, Recommend, Sql, StudyPath};
+use super::args::{Audit as AuditArguments, Format, Recommend, Sql, StudyPath};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
-use crate::study::{StudyError, Table, Value};
+use crate::study::{Finding, StudyError, Table, Value};
 use crate::units::mm;
 
 /// `toile sql`.
@@ -25,6 +25,24 @@ pub fn sql(context: &Context, arguments: &Sql) -> Outcome {
     let format = arguments.format.unwrap_or(if context.json { Format::Json } else { Format::Table });
     output::table(&context.workspace()?.query(&query)?, format)?;
     Ok(End::Done)
+}
+
+/// `toile audit`: what does not add up; exit code 3 when that is anything in results of ours. The errors of the thesis are
+/// known and no failure.
+pub fn audit(context: &Context, arguments: &AuditArguments) -> Outcome {
+    let workspace = context.workspace()?;
+    let name = arguments.study.to_string_lossy();
+    let is_study = workspace.studies()?.iter().any(|study| study.name == name);
+    let of_thesis = name == "thesis-published" || (name == "thesis" && !is_study);
+    let audit = if of_thesis {
+        workspace.audit_thesis()?
+    } else {
+        workspace.audit_study(&context.study_name(&workspace, &arguments.study)?)?
+    };
+    context.print(&Finding::table(&audit.findings))?;
+    let found = audit.findings.len();
+    context.say(format_args!("{} numbers and statements checked, {found} findings", audit.recomputed));
+    Ok(if of_thesis || found == 0 { End::Done } else { End::CheckFailed })
 }
 
 /// `toile ease`.

@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 use super::args::{Body, BodyBuild, MeshUnit, Sex};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
-use crate::study::tools::{self, Accuracy, Girths, LengthUnit, Lens, Measurements, View};
+use crate::study::tools::{self, Accuracy, Girths, Lens, Measurements, View};
 use crate::study::{Table, Value};
 use crate::units::from_mm;
 
@@ -18,18 +18,17 @@ const PICTURE: (u32, u32) = (700, 1200);
 pub fn run(context: &Context, command: &Body) -> Outcome {
     match command {
         Body::Measure { file, unit, sex } => {
-            let unit = unit.map(|unit| match unit {
-                MeshUnit::Mm => LengthUnit::Millimetre,
-                MeshUnit::Cm => LengthUnit::Centimetre,
-                MeshUnit::M => LengthUnit::Metre,
-            });
-            let (girths, notes) = tools::measure_body(file, unit, sex.map(of))?;
-            for note in notes {
-                context.say(format_args!("{}: {note}", file.display()));
-            }
+            let source = tools::SourceFile::read(file)?;
+            let girths = read_scan(context, &source, *unit, *sex)?.girths;
             print(context, &girths)?;
         }
         Body::Build(arguments) => build(context, arguments)?,
+        Body::Pose { file, arm_deg, leg_deg, unit, sex, output } => {
+            let source = tools::SourceFile::read(file)?;
+            let body = tools::scanned_body(&source, read_scan(context, &source, *unit, *sex)?)?;
+            let posed = tools::pose_body(&body, tools::Pose { arm_deg: *arm_deg, leg_deg: *leg_deg })?;
+            write(context, &posed, output)?;
+        }
         Body::Evaluate { folder } => evaluate(context, folder)?,
     }
     Ok(End::Done)
@@ -68,19 +67,44 @@ fn evaluate(context: &Context, folder: &Path) -> Result<(), CliError> {
 
 /// Builds a body and writes its mesh, picture and measurements.
 fn build(context: &Context, arguments: &BodyBuild) -> Result<(), CliError> {
-    let measurements = measurements(context, arguments)?;
-    let body = tools::build_body(&measurements)?;
+    let body = match &arguments.scan {
+        Some(file) => {
+            let source = tools::SourceFile::read(file)?;
+            let scan = read_scan(context, &source, arguments.unit, arguments.sex)?;
+            tools::scanned_body(&source, scan)?
+        }
+        None => tools::build_body(&measurements(context, arguments)?)?,
+    };
+    write(context, &body, &arguments.output)
+}
+
+/// Writes mesh, picture, measurements and control mesh of a body, and prints the measurements.
+fn write(context: &Context, body: &tools::Body, folder: &Path) -> Result<(), CliError> {
     let document = serde_json::to_string_pretty(&body.girths).map_err(std::io::Error::from)?;
     let mut files = vec![
         ("body.obj".to_owned(), tools::write_obj(&body.mesh).into_bytes()),
-        ("body.png".to_owned(), tools::body_picture(&body, View::Quarter, PICTURE.0, PICTURE.1)?),
+        ("body.png".to_owned(), tools::body_picture(body, View::Quarter, PICTURE.0, PICTURE.1)?),
         ("measurements.json".to_owned(), document.into_bytes()),
     ];
-    files.extend(tools::control_files(&body)?);
-    for path in tools::write_files(&arguments.output, &files)? {
+    files.extend(tools::control_files(body)?);
+    for path in tools::write_files(folder, &files)? {
         context.say(format_args!("wrote {}", path.display()));
     }
     print(context, &body.girths)
+}
+
+/// Reads a scan; what was guessed or repaired is said.
+fn read_scan(
+    context: &Context,
+    source: &tools::SourceFile,
+    unit: Option<MeshUnit>,
+    sex: Option<Sex>,
+) -> Result<tools::Scan, CliError> {
+    let scan = tools::read_scan(source, unit.map(Into::into), sex.map(of))?;
+    for note in &scan.imported.notes {
+        context.say(format_args!("{}: {note}", source.name));
+    }
+    Ok(scan)
 }
 
 /// The measurements of a catalogue entry or a file, with those of the command line over them.

@@ -11,6 +11,7 @@ mod context;
 mod health;
 mod output;
 mod pattern;
+mod pattern_files;
 mod pictures;
 mod progress;
 mod queue;
@@ -122,11 +123,13 @@ fn execute(arguments: Arguments, workbench: impl FnOnce(Workbench) -> Result<(),
         Some(Command::Run(arguments)) => run::run(&context, &arguments),
         Some(Command::Report(arguments)) => pictures::report(&context, &arguments),
         Some(Command::Sql(arguments)) => answers::sql(&context, &arguments),
+        Some(Command::Audit(arguments)) => answers::audit(&context, &arguments),
         Some(Command::Ease(arguments)) => answers::ease(&context, &arguments),
         Some(Command::Recommend(arguments)) => answers::recommend(&context, &arguments),
         Some(Command::Pattern(command)) => pattern::run(&context, &command),
         Some(Command::Body(command)) => body::run(&context, &command),
         Some(Command::Render(arguments)) => pictures::render(&context, &arguments),
+        Some(Command::Export(arguments)) => pictures::export(&context, &arguments),
         Some(Command::Queue(command)) => queue::run(&context, &command),
         Some(Command::Subject(command)) => catalogue::run(&context, &catalogue::SUBJECTS, &command),
         Some(Command::Style(command)) => catalogue::run(&context, &catalogue::STYLES, &command),
@@ -138,6 +141,12 @@ fn execute(arguments: Arguments, workbench: impl FnOnce(Workbench) -> Result<(),
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "toile", &mut script);
             output::text(&String::from_utf8_lossy(&script))?;
+            Ok(End::Done)
+        }
+        Some(Command::Man) => {
+            let mut page = Vec::new();
+            clap_mangen::Man::new(Arguments::command()).render(&mut page)?;
+            output::text(&String::from_utf8_lossy(&page))?;
             Ok(End::Done)
         }
     }

@@ -3,27 +3,26 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::args::{DraftStyle, Pattern, PatternUnit, StyleFiles};
+use super::args::{DraftStyle, Pattern, PatternUnit, SeamCommand, StyleFiles};
 use super::context::Context;
-use super::{CliError, End, Outcome, output};
-use crate::study::tools::{self, FileReport, Model, Unit};
+use super::{CliError, End, Outcome, output, pattern_files};
+use crate::study::pattern_files::inspect as inspect_files;
+use crate::study::tools::{self, CHECK_EDGE_MM, FileReport, Finding, Model, SeamEdit, SizeCheck, Unit};
 use crate::study::{Table, Value};
 use crate::units::{from_mm, mm};
-
-/// Edge length of the mesh a check makes, mm.
-const CHECK_EDGE_MM: f64 = 15.0;
 
 /// Runs a pattern command.
 pub fn run(context: &Context, command: &Pattern) -> Outcome {
     match command {
-        Pattern::Inspect { path, size, unit, by_file } => {
-            let reports = tools::inspect(path, size.as_deref(), unit.map(of))?;
+        Pattern::Inspect { path, files, by_file } => {
+            let reports = inspect_files(path, &pattern_files::beside(files))?;
             inspect(context, &reports, if *by_file { outcomes } else { pieces })
         }
         Pattern::Propose { path, size, unit, output } => {
             propose(context, path, &tools::propose(path, size.as_deref(), unit.map(of))?, output.as_deref())
         }
         Pattern::Check(files) => check(context, files),
+        Pattern::Seam(edit) => seam(context, edit),
         Pattern::Draft { style, output } => {
             for path in tools::write_files(output, &tools::drafted(model(*style)))? {
                 output::text(&format!("{}\n", path.display()))?;
@@ -35,6 +34,10 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
             let sheet = tools::sheet(&style(files)?);
             write(context, output, sheet)?;
             Ok(End::Done)
+        }
+        Pattern::Features { path, files, output } => pattern_files::features(context, path, files, output.as_deref()),
+        Pattern::Convert { path, files, seams, output } => {
+            pattern_files::convert(context, path, seams.as_deref(), files, output)
         }
     }
 }
@@ -57,9 +60,10 @@ fn write(context: &Context, output: &Path, text: String) -> Result<(), CliError>
 }
 
 /// Shows a proposal, or writes it as a seam file; what a person must decide goes to standard error.
-fn propose(context: &Context, path: &Path, proposal: &tools::Proposal, output: Option<&Path>) -> Outcome {
+fn propose(context: &Context, path: &Path, proposed: &tools::Proposed, output: Option<&Path>) -> Outcome {
+    let proposal = &proposed.proposal;
     if context.json {
-        output::json(proposal)?;
+        output::json(proposed)?;
     } else {
         context.print(&seams(proposal))?;
     }
@@ -71,6 +75,22 @@ fn propose(context: &Context, path: &Path, proposal: &tools::Proposal, output: O
         write(context, output, proposal.toml(&name))?;
     }
     Ok(if proposal.seams.is_empty() { End::CheckFailed } else { End::Done })
+}
+
+/// Edits a seam file in its place.
+fn seam(context: &Context, command: &SeamCommand) -> Outcome {
+    let (files, edit) = match command.clone() {
+        SeamCommand::Add { files, name, eased } => {
+            let edit = SeamEdit::Add { a: files.a.clone(), b: files.b.clone(), name, is_eased: eased };
+            (files, edit)
+        }
+        SeamCommand::Rm { files } => (files.clone(), SeamEdit::Remove { a: files.a, b: files.b }),
+        SeamCommand::Flip { files } => (files.clone(), SeamEdit::Flip { a: files.a, b: files.b }),
+    };
+    let unit = files.unit.map(of);
+    let text = tools::edit_seams(&files.pattern, &files.seams, files.size.as_deref(), unit, &edit)?;
+    write(context, &files.seams, text)?;
+    Ok(End::Done)
 }
 
 fn seams(proposal: &tools::Proposal) -> Table {
@@ -99,11 +119,10 @@ fn of(unit: PatternUnit) -> Unit {
 }
 
 fn style(files: &StyleFiles) -> Result<tools::Style, CliError> {
-    match &files.seams {
-        Some(seams) => Ok(tools::style(&files.file, seams, files.size.as_deref(), files.unit.map(of))?),
-        None if tools::is_garmentcode(&files.file) => Ok(tools::garmentcode_style(&files.file)?),
-        None => Err(CliError::Usage(format!("{}: a DXF file needs its seam file: --seams FILE", files.file.display()))),
+    if files.seams.is_none() && !tools::is_garmentcode(&files.file) {
+        return Err(CliError::Usage(format!("{}: a DXF file needs its seam file: --seams FILE", files.file.display())));
     }
+    Ok(tools::style(&files.file, files.seams.as_deref(), files.size.as_deref(), files.unit.map(of))?)
 }
 
 /// Prints reports, as JSON or as the table that is made of them; a file that cannot be read, or a refused piece, makes the whole unusable.
@@ -180,6 +199,10 @@ fn outcomes(reports: &[FileReport]) -> Table {
 
 /// Checks a pattern with its seam file by making everything a simulation needs of it.
 fn check(context: &Context, files: &StyleFiles) -> Outcome {
+    let is_study = |path: &Path| path.extension().is_some_and(|e| e == "toml") || path.join("study.toml").is_file();
+    if is_study(&files.file) {
+        return check_study(context, &files.file);
+    }
     let checked = style(files).and_then(|style| Ok((tools::mesh(&style, from_mm(CHECK_EDGE_MM))?, style)));
     let ((garment, quality), style) = match checked {
         Ok(checked) => checked,
@@ -196,11 +219,11 @@ fn check(context: &Context, files: &StyleFiles) -> Outcome {
         vec![Value::Integer(i64::from(m.no)), Value::Text(m.name.clone()), length, Value::Text(free.to_owned())]
     });
     context.print(&Table { columns, rows: rows.collect() })?;
+    let mut findings = tools::garment_findings(&garment);
     if let Some(seams) = &files.seams {
-        for finding in tools::findings(&files.file, seams, files.size.as_deref(), files.unit.map(of))? {
-            context.say(format_args!("{}: `{}`: {}", finding.kind.as_str(), finding.place, finding.found));
-        }
+        findings.extend(tools::findings(&files.file, seams, files.size.as_deref(), files.unit.map(of))?);
     }
+    findings.iter().for_each(|finding| eprintln!("{}", told(finding)));
     context.say(format_args!(
         "{}: {} pieces, {} seams, {} measurements; at {CHECK_EDGE_MM} mm {} vertices, least angle {:.0} degrees",
         files.file.display(),
@@ -210,7 +233,49 @@ fn check(context: &Context, files: &StyleFiles) -> Outcome {
         garment.rest.len(),
         quality.min_angle_deg
     ));
-    Ok(End::Done)
+    Ok(if findings.iter().any(|finding| finding.kind.is_problem()) { End::CheckFailed } else { End::Done })
+}
+
+fn told(finding: &Finding) -> String {
+    format!("{}: `{}`: {}", finding.kind.as_str(), finding.place, finding.found)
+}
+
+/// One row for each size of a study.
+fn check_study(context: &Context, path: &Path) -> Outcome {
+    let checks = tools::check_study(path, &context.db)?;
+    if context.json {
+        output::json(&checks)?;
+    } else {
+        context.print(&sizes(&checks))?;
+    }
+    for check in &checks {
+        let whole = check.error.iter().cloned();
+        for line in whole.chain(check.findings.iter().map(told)) {
+            eprintln!("{} {}: {line}", check.garment, check.size);
+        }
+    }
+    Ok(if checks.iter().any(SizeCheck::is_bad) { End::CheckFailed } else { End::Done })
+}
+
+fn sizes(checks: &[SizeCheck]) -> Table {
+    let columns =
+        ["garment", "size", "pieces", "seams", "measurements", "fit_mm", "vertices", "least_angle_deg", "findings"];
+    let row = |check: &SizeCheck| {
+        let count = |number: usize| Value::Integer(number as i64);
+        let levels = check.fit_mm.iter().map(|(level, girth_mm)| format!("{level} {girth_mm:.1}"));
+        vec![
+            Value::Text(check.garment.clone()),
+            Value::Text(check.size.clone()),
+            count(check.pieces),
+            count(check.seams),
+            count(check.measurements),
+            Value::Text(levels.collect::<Vec<_>>().join(", ")),
+            count(check.vertices),
+            Value::Real((check.min_angle_deg * 10.0).round() / 10.0),
+            count(check.findings.len() + usize::from(check.error.is_some())),
+        ]
+    };
+    Table { columns: columns.map(str::to_owned).to_vec(), rows: checks.iter().map(row).collect() }
 }
 
 fn mesh(context: &Context, files: &StyleFiles, edge_length_mm: f64) -> Outcome {

@@ -1,11 +1,11 @@
-//! `toile render` and `toile report`: what a run looks like.
+//! `toile render`, `toile export` and `toile report`: what a run looks like.
 
 use std::path::{Path, PathBuf};
 
-use super::args::{Map as MapArgument, Render, Report, View as ViewArgument};
+use super::args::{Export, Map as MapArgument, MeshFormat as FormatArgument, Render, Report, View as ViewArgument};
 use super::context::{Context, project_folder};
 use super::{CliError, End, Outcome, output};
-use crate::study::{JobId, Map, View, Workspace, tools};
+use crate::study::{JobId, Map, MeshFormat, View, Workspace, tools};
 
 /// `toile render`.
 pub fn render(context: &Context, arguments: &Render) -> Outcome {
@@ -15,18 +15,38 @@ pub fn render(context: &Context, arguments: &Render) -> Outcome {
         ViewArgument::Back => View::Back,
         ViewArgument::Quarter => View::Quarter,
     };
-    let map = match arguments.map {
+    let (workspace, map) = (context.workspace()?, map(arguments.map));
+    let png = workspace.picture_png(JobId(arguments.job), view, arguments.width, arguments.height, map)?;
+    write(context, &arguments.output, png)
+}
+
+/// `toile export`.
+pub fn export(context: &Context, arguments: &Export) -> Outcome {
+    let format = match arguments.format {
+        FormatArgument::Glb => MeshFormat::Glb,
+        FormatArgument::Obj => MeshFormat::Obj,
+        FormatArgument::Ply => MeshFormat::Ply,
+        FormatArgument::Stl => MeshFormat::Stl,
+    };
+    let file = context.workspace()?.mesh_file(JobId(arguments.job), format, map(arguments.map))?;
+    write(context, &arguments.output, file)
+}
+
+fn map(argument: MapArgument) -> Map {
+    match argument {
         MapArgument::Plain => Map::Plain,
         MapArgument::Check => Map::Check,
         MapArgument::Stretch => Map::Stretch,
         MapArgument::Tension => Map::Tension,
         MapArgument::Gap => Map::Gap,
-    };
-    let workspace = context.workspace()?;
-    let png = workspace.picture_png(JobId(arguments.job), view, arguments.width, arguments.height, map)?;
-    let name = arguments.output.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    tools::write_files(arguments.output.parent().unwrap_or(Path::new("")), &[(name, png)])?;
-    context.say(format_args!("wrote {}", arguments.output.display()));
+    }
+}
+
+/// Writes one file and says so.
+fn write(context: &Context, path: &Path, bytes: Vec<u8>) -> Outcome {
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    tools::write_files(path.parent().unwrap_or(Path::new("")), &[(name, bytes)])?;
+    context.say(format_args!("wrote {}", path.display()));
     Ok(End::Done)
 }
 

@@ -1,11 +1,12 @@
 //! What a person should know of a pattern and its seam file that is no error: edges left free, pieces left out,
-//! gathers, directions that look turned round.
+//! gathers, directions that look turned round, girths that do not close, no girth for the fit.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
+use super::garment::{Garment, MeasurementKind};
 use super::piece::{Notch, Piece};
 use super::seams::SeamFile;
-use super::style::{EdgeRef, Seam, Style};
+use super::style::{EdgeRef, PathPart, Seam, Style};
 use crate::geom::polyline::Polyline;
 use crate::units::mm;
 
@@ -31,7 +32,7 @@ pub struct Finding {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FindingKind {
-    /// An edge that no seam holds.
+    /// An edge that no seam holds and that is neither measured nor said to be open.
     FreeEdge,
     /// A drawn piece that the seam file does not name.
     UnusedPiece,
@@ -39,6 +40,10 @@ pub enum FindingKind {
     Gathered,
     /// A seam whose sides look turned round.
     Direction,
+    /// A measurement that is called a girth and does not close, or a length and does.
+    Loop,
+    /// A style without a girth at chest or hip, so that its fit cannot be told.
+    FitLevel,
 }
 
 impl FindingKind {
@@ -50,7 +55,15 @@ impl FindingKind {
             Self::UnusedPiece => "unused piece",
             Self::Gathered => "gathered",
             Self::Direction => "direction",
+            Self::Loop => "loop",
+            Self::FitLevel => "fit level",
         }
+    }
+
+    /// Whether something is wrong; a gather is only shown, and only a study needs a girth for the fit.
+    #[must_use]
+    pub fn is_problem(self) -> bool {
+        !matches!(self, Self::Gathered | Self::FitLevel)
     }
 }
 
@@ -61,10 +74,12 @@ pub fn findings(pieces: &[Piece], entries: &SeamFile, style: &Style) -> Vec<Find
     findings.extend(style.seams.iter().filter_map(|seam| gathered(style, seam)));
     findings.extend(style.seams.iter().filter_map(|seam| turned(style, seam)));
     let sewn: BTreeSet<EdgeRef> = style.seams.iter().flat_map(|seam| seam.a.iter().chain(&seam.b)).copied().collect();
+    let measured: BTreeSet<EdgeRef> = style.measurements.iter().flat_map(|m| edges_of(&m.path)).collect();
     for (piece, worn) in style.pieces.iter().enumerate() {
         for (edge, line) in worn.edges.iter().enumerate() {
             let edge = EdgeRef { piece, edge };
-            if !sewn.contains(&edge) {
+            let is_meant = measured.contains(&edge) || entries.open.contains(&style.edge_name(edge));
+            if !sewn.contains(&edge) && !is_meant {
                 findings.push(Finding {
                     kind: FindingKind::FreeEdge,
                     place: style.edge_name(edge),
@@ -74,6 +89,63 @@ pub fn findings(pieces: &[Piece], entries: &SeamFile, style: &Style) -> Vec<Find
         }
     }
     findings
+}
+
+fn edges_of(path: &[PathPart]) -> impl Iterator<Item = EdgeRef> {
+    path.iter().filter_map(|part| match *part {
+        PathPart::Edge(edge) => Some(edge),
+        PathPart::Line(_) => None,
+    })
+}
+
+/// Findings of a meshed garment: girths that do not close once sewn, and a missing girth for the fit.
+#[must_use]
+pub fn of_garment(garment: &Garment) -> Vec<Finding> {
+    let welded = welded(garment);
+    let mut findings = Vec::new();
+    for measurement in &garment.measurements {
+        // In a closed loop every end of a run meets another.
+        let mut ends: BTreeMap<usize, usize> = BTreeMap::new();
+        for point in measurement.runs.iter().flat_map(|run| [run.points.first(), run.points.last()]).flatten() {
+            let heaviest = (0..3).max_by(|&i, &j| point.weights[i].total_cmp(&point.weights[j])).unwrap_or(0);
+            *ends.entry(welded[point.vertices[heaviest]]).or_default() += 1;
+        }
+        let is_loop = ends.values().all(|count| count % 2 == 0);
+        if is_loop != (measurement.kind == MeasurementKind::ClosedGirth) {
+            let found = if is_loop {
+                "called open_length, but it closes"
+            } else {
+                "called closed_girth, but its ends do not meet"
+            };
+            findings.push(Finding {
+                kind: FindingKind::Loop,
+                place: format!("measurement {}", measurement.no),
+                found: found.to_owned(),
+            });
+        }
+    }
+    if !garment.fit_levels.iter().any(|level| ["chest", "hip"].contains(&level.level.as_str())) {
+        let found = "neither [fit.chest] nor [fit.hip] says its girth".to_owned();
+        findings.push(Finding { kind: FindingKind::FitLevel, place: garment.name.clone(), found });
+    }
+    findings
+}
+
+/// Least vertex that each vertex is sewn to, over any number of seams.
+fn welded(garment: &Garment) -> Vec<usize> {
+    let mut least: Vec<usize> = (0..garment.rest.len()).collect();
+    let pairs = || garment.seams.iter().flat_map(|seam| &seam.pairs);
+    // A vertex is in few seams: the labels settle after as many rounds as seams meet in one point.
+    loop {
+        let before = least.clone();
+        for &[a, b] in pairs() {
+            let both = least[a].min(least[b]);
+            (least[a], least[b]) = (both, both);
+        }
+        if before == least {
+            return least;
+        }
+    }
 }
 
 fn unused(pieces: &[Piece], entries: &SeamFile) -> Vec<Finding> {
@@ -161,14 +233,38 @@ mod tests {
     }
 
     #[test]
-    fn a_whole_tshirt_leaves_its_openings_free_and_nothing_else() {
-        let found = of(str::to_owned);
-        assert!(found.iter().all(|finding| finding.kind == FindingKind::FreeEdge), "{found:?}");
-        let places: Vec<&str> = found.iter().map(|finding| finding.place.as_str()).collect();
-        for place in ["front.hem", "front.neck_left", "front.neck_right", "back.hem", "back.neck"] {
-            assert!(places.contains(&place), "{places:?}");
+    fn edges_that_are_neither_sewn_nor_measured_nor_open_are_found() {
+        let places = |edit: &dyn Fn(&str) -> String| {
+            let found = of(edit);
+            assert!(found.iter().all(|finding| finding.kind == FindingKind::FreeEdge), "{found:?}");
+            found.into_iter().map(|finding| finding.place).collect::<Vec<_>>()
+        };
+        assert!(places(&str::to_owned).is_empty());
+        assert_eq!(places(&|text| text.replace("open = [\"sleeve_left.opening\"]", "")), ["sleeve_left.opening"]);
+        // The seam goes; only one of its edges is measured.
+        let seam = "[[seam]]\nname = \"side_right\"\na = [\"front.side_right\"]\nb = [\"back.side_right\"]\n";
+        assert_eq!(places(&|text| text.replace(seam, "")), ["back.side_right"]);
+    }
+
+    #[test]
+    fn girths_close_and_lengths_do_not() {
+        for model in crate::pattern::draft::Model::ALL {
+            for draft in model.drafts() {
+                let style = Style::read(&draft.pieces, model.seams(), "a.toml").expect("it is a style");
+                assert_eq!(of_garment(&style.mesh(30e-3).expect("it meshes")), [], "{model:?}");
+            }
         }
-        assert_eq!(places.len(), 7);
+        let text = std::str::from_utf8(TSHIRT_SEAMS).expect("it is UTF-8").replacen("closed_girth", "open_length", 1);
+        let text = text.replacen("[fit.chest]", "[fit.waist]", 1).replace(", \"back.neck\"]", "]");
+        let style = Style::read(&tshirt(TshirtSize::S).pieces, text.as_bytes(), "a.toml").expect("it is a style");
+        let found = of_garment(&style.mesh(30e-3).expect("it meshes"));
+        let told: Vec<(FindingKind, &str)> = found.iter().map(|f| (f.kind, f.place.as_str())).collect();
+        let expect = [
+            (FindingKind::Loop, "measurement 1"),
+            (FindingKind::Loop, "measurement 6"),
+            (FindingKind::FitLevel, "Mens T-shirt"),
+        ];
+        assert_eq!(told, expect);
     }
 
     #[test]

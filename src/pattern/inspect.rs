@@ -1,5 +1,7 @@
 //! The report of `pattern inspect`: what a pattern file holds, in millimetres.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 use super::dxf::{PatternFile, Refused, UnitSource};
@@ -28,6 +30,9 @@ pub struct FileReport {
     pub refused: Vec<Refused>,
     /// Things the user should know.
     pub warnings: Vec<String>,
+    /// Number of entities that are not used, by layer.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub unused: BTreeMap<String, usize>,
     /// Why the file cannot be read.
     pub error: Option<String>,
 }
@@ -63,6 +68,10 @@ pub struct PieceReport {
     pub mirror_lines: usize,
     /// Number of internal lines.
     pub internal_lines: usize,
+    /// Number of cut-outs.
+    pub cut_outs: usize,
+    /// Number of drill holes.
+    pub drill_holes: usize,
     /// Area within the sew line.
     pub sew_area_mm2: Option<f64>,
     /// Whether this is a half piece, opened for sewing; it is measured as stored.
@@ -75,7 +84,7 @@ impl From<&PatternFile> for FileReport {
         let unit = file.unit.as_str();
         Self {
             file: file.file.clone(),
-            format: format!("DXF {}", file.version).trim_end().to_owned(),
+            format: file.format.clone(),
             units: match file.unit_source {
                 UnitSource::Given => format!("{unit} (given)"),
                 UnitSource::File => unit.to_owned(),
@@ -93,6 +102,7 @@ impl From<&PatternFile> for FileReport {
                 .map(|refused| Refused { block: file.as_written(&refused.block), ..refused.clone() })
                 .collect(),
             warnings: file.warnings.clone(),
+            unused: file.unused.clone(),
             error: None,
         }
     }
@@ -110,6 +120,7 @@ impl FileReport {
             pieces: Vec::new(),
             refused: Vec::new(),
             warnings: Vec::new(),
+            unused: BTreeMap::new(),
             error: Some(error),
         }
     }
@@ -133,6 +144,8 @@ impl From<&Piece> for PieceReport {
             grain_mm: piece.grain.map(length),
             mirror_lines: usize::from(piece.mirror_line.is_some()),
             internal_lines: piece.internal_lines.len(),
+            cut_outs: piece.cut_outs.len(),
+            drill_holes: piece.drill_holes.len(),
             sew_area_mm2: piece.sew_line.as_deref().map(|line| signed_area(line).abs() * MM2_PER_M2),
             unfolded: piece.unfolded().is_some(),
         }

@@ -1,17 +1,25 @@
 //! The pattern (PDM, thesis 3.3): from DXF and a seam file to a sewable garment mesh and its pattern lengths.
 
+pub mod arrange;
 pub mod check;
 mod curve;
 pub mod draft;
 pub mod dxf;
+pub mod features;
+#[cfg(test)]
+mod fuzz_tests;
 pub mod garment;
 pub mod garmentcode;
+pub mod grade;
+pub mod info;
 pub mod inspect;
 pub mod mesh;
 pub mod piece;
 pub mod propose;
+pub mod seam_edit;
 pub mod seams;
 pub mod sheet;
+pub mod source;
 pub mod style;
 mod unfold;
 

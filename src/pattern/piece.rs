@@ -14,8 +14,17 @@ pub struct Notch {
     pub angle_deg: Option<f64>,
 }
 
+/// A point that grading moves by a rule of a grade rule table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GradePoint {
+    /// Place, on the outline or near it.
+    pub at: V2,
+    /// Number of the rule.
+    pub rule: u32,
+}
+
 /// One piece of one size.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Piece {
     /// Name of its block in the file.
     pub block: String,
@@ -41,8 +50,16 @@ pub struct Piece {
     pub grain: Option<[V2; 2]>,
     /// Fold line of a half piece.
     pub mirror_line: Option<[V2; 2]>,
+    /// Line along which grade rules have their x, from its first to its second end; horizontal without one.
+    pub grade_reference: Option<[V2; 2]>,
+    /// Points that a grade rule table moves.
+    pub grade_points: Vec<GradePoint>,
     /// Lines drawn inside.
     pub internal_lines: Vec<Vec<V2>>,
+    /// Lines cut inside.
+    pub cut_outs: Vec<Vec<V2>>,
+    /// Drill holes.
+    pub drill_holes: Vec<V2>,
     /// Closed sew line inside the cut line.
     pub sew_line: Option<Vec<V2>>,
 }

@@ -3,6 +3,7 @@
 //! ```toml
 //! name = "T-shirt"                          # style name
 //! length_tolerance_mm = 1.0                 # greatest difference between the two sides of a seam (optional)
+//! open = ["back.neck"]                      # edges that stay free besides those that are measured along (optional)
 //!
 //! [piece.front]                             # pieces by the id used below
 //! block = "FRONT"                           # block (or piece name) in the DXF file; NAME#2 is the second of that name
@@ -42,6 +43,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::garment::{MeasurementKind, Role};
+use super::style::StyleError;
 
 /// Greatest difference of length between the two sides of a seam where the file names none, mm.
 pub const DEFAULT_LENGTH_TOLERANCE_MM: f64 = 1.0;
@@ -55,7 +57,11 @@ pub struct SeamFile {
     /// Greatest difference of length between the two sides of a seam, mm.
     #[serde(default = "default_tolerance")]
     pub length_tolerance_mm: f64,
-    /// Pieces by id.
+    /// Edges, `piece.edge`, that are meant to be in no seam; those that a measurement runs along need not be named.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub open: Vec<String>,
+    /// Pieces by id; none in a file that only measures a pattern with its own seams.
+    #[serde(default)]
     pub piece: BTreeMap<String, PieceEntry>,
     /// Seams.
     #[serde(default)]
@@ -66,6 +72,18 @@ pub struct SeamFile {
     /// Pattern girths at body levels, by level.
     #[serde(default)]
     pub fit: BTreeMap<String, FitEntry>,
+}
+
+impl SeamFile {
+    /// Reads the bytes of a seam file; `file` is its name for messages.
+    ///
+    /// # Errors
+    /// [`StyleError::Syntax`] when they are not UTF-8 or not such TOML.
+    pub fn parse(bytes: &[u8], file: &str) -> Result<Self, StyleError> {
+        let syntax = |reason: String| StyleError::Syntax { file: file.to_owned(), reason };
+        let text = std::str::from_utf8(bytes).map_err(|error| syntax(format!("{error}; UTF-8 text is accepted")))?;
+        toml::from_str(text).map_err(|error| syntax(error.to_string()))
+    }
 }
 
 fn default_tolerance() -> f64 {

@@ -1,10 +1,13 @@
-//! A drawing of all pieces of a style, with corners, grain, notches and numbered measurements, as SVG in millimetres.
+//! A drawing of all pieces of a style as they are worn, with numbered corners and edges, grain, notches and numbered
+//! measurements, as SVG in millimetres.
 
 use std::fmt::Write as _;
 
+use super::arrange::arranged;
 use super::style::{PathPart, Style, StylePiece};
 use crate::geom::V2;
-use crate::units::mm;
+use crate::geom::polyline::Polyline;
+use crate::units::{from_mm, mm};
 
 /// Space round pieces and sheet, mm.
 const MARGIN_MM: f64 = 45.0;
@@ -14,8 +17,10 @@ const TITLE_MM: f64 = 30.0;
 const NOTCH_MM: f64 = 9.0;
 /// Distance of corner numbers and measurement numbers from the outline, mm.
 const LABEL_MM: f64 = 17.0;
-/// Where along an edge its number stands: off the middle, where lines across the piece end.
+/// Where along an edge the number of its measurement stands: off the middle, where lines across the piece end.
 const EDGE_LABEL_SHARE: f64 = 0.4;
+/// Where along an edge its own number stands.
+const EDGE_NUMBER_SHARE: f64 = 0.6;
 /// How things look; the accent marks what is measured.
 const CSS: &str = "\
 text{font-family:'DejaVu Sans',sans-serif;fill:#3a3a3a}\
@@ -27,57 +32,30 @@ text{font-family:'DejaVu Sans',sans-serif;fill:#3a3a3a}\
 .disc{fill:#0a6a8a}\
 .no{fill:#fff;font-size:13px;font-weight:bold;text-anchor:middle}\
 .corner{font-size:11px;fill:#8a8a8a;text-anchor:middle}\
+.edge{font-size:13px;font-style:italic;fill:#a04a1a;text-anchor:middle}\
 .title{font-size:19px;font-weight:bold}\
 .note{font-size:15px}";
 
-/// Draws all pieces of a style side by side, with a legend of the measurements below.
+/// Draws all pieces of a style about the head (see [`arrange`](super::arrange)), with a legend of the measurements below.
 #[must_use]
 pub fn svg(style: &Style) -> String {
-    let layout = Layout::of(style);
-    let legend_height = MARGIN_MM + 24.0 * style.measurements.len().div_ceil(3) as f64;
-    let (width, height) = (layout.size.x, layout.size.y + legend_height);
+    let style = &arranged(style);
+    let all: Vec<V2> = style.pieces.iter().flat_map(StylePiece::outline).collect();
+    let (low, high) = bounds_mm(&all);
+    let sheet = high - low + V2::repeat(2.0 * MARGIN_MM) + V2::new(0.0, TITLE_MM);
+    let pen = Pen { origin: V2::new(MARGIN_MM - low.x, MARGIN_MM + TITLE_MM + high.y) };
+    let (width, height) = (sheet.x, sheet.y + MARGIN_MM + 24.0 * style.measurements.len().div_ceil(3) as f64);
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{width:.0}\" height=\"{height:.0}\">\n\
          <style>{CSS}</style>\n<rect width=\"{width:.0}\" height=\"{height:.0}\" fill=\"#fff\"/>\n"
     );
     for (index, piece) in style.pieces.iter().enumerate() {
-        let pen = Pen { origin: layout.origins[index] };
         pen.piece(&mut out, &style.size, piece);
         pen.measurements(&mut out, style, index);
     }
-    legend(&mut out, style, layout.size, width);
+    legend(&mut out, style, sheet, width);
     out.push_str("</svg>\n");
     out
-}
-
-/// Where each piece's own origin lies on the sheet, mm, `y` down.
-struct Layout {
-    origins: Vec<V2>,
-    size: V2,
-}
-
-impl Layout {
-    /// Pieces in the order of their roles; a piece goes below the one before it where the tallest piece leaves room.
-    fn of(style: &Style) -> Self {
-        let boxes: Vec<(V2, V2)> = style.pieces.iter().map(|piece| bounds_mm(&piece.outline())).collect();
-        let box_height = |index: usize| boxes[index].1.y - boxes[index].0.y + TITLE_MM + MARGIN_MM;
-        let tallest = (0..boxes.len()).map(box_height).fold(0.0, f64::max);
-        let mut order: Vec<usize> = (0..boxes.len()).collect();
-        order.sort_by_key(|&index| style.pieces[index].role);
-        let mut origins = vec![V2::zeros(); boxes.len()];
-        let (mut left, mut column_width, mut top) = (MARGIN_MM, 0.0_f64, 0.0);
-        for index in order {
-            if top > 0.0 && top + box_height(index) > tallest + 1.0 {
-                left += column_width + MARGIN_MM;
-                (column_width, top) = (0.0, 0.0);
-            }
-            let (low, high) = boxes[index];
-            origins[index] = V2::new(left - low.x, MARGIN_MM + top + TITLE_MM + high.y);
-            column_width = column_width.max(high.x - low.x);
-            top += box_height(index);
-        }
-        Self { origins, size: V2::new(left + column_width + MARGIN_MM, MARGIN_MM + tallest) }
-    }
 }
 
 fn bounds_mm(points: &[V2]) -> (V2, V2) {
@@ -110,7 +88,7 @@ impl Pen {
         self.path(out, "piece", outline.iter().copied(), true);
         for notch in &piece.notches {
             let angle = notch.angle_deg.unwrap_or(90.0).to_radians();
-            let inner = notch.at + V2::new(angle.cos(), angle.sin()) * crate::units::from_mm(NOTCH_MM);
+            let inner = notch.at + V2::new(angle.cos(), angle.sin()) * from_mm(NOTCH_MM);
             self.path(out, "free", [notch.at, inner], false);
         }
         self.grain(out, piece, &outline);
@@ -123,6 +101,23 @@ impl Pen {
             let p = self.at(corner) + outwards(&outline, corner) * (0.7 * LABEL_MM) + V2::new(0.0, 4.0);
             let _ = writeln!(out, "<text class=\"corner\" x=\"{:.1}\" y=\"{:.1}\">{number}</text>", p.x, p.y);
         }
+        self.edge_numbers(out, piece);
+    }
+
+    /// The number of every edge, from 1 counter-clockwise, by which seams can be edited.
+    fn edge_numbers(&self, out: &mut String, piece: &StylePiece) {
+        for (index, edge) in piece.edges.iter().enumerate() {
+            let p = self.beside(&edge.line, EDGE_NUMBER_SHARE, 0.8 * LABEL_MM) + V2::new(0.0, 4.5);
+            let _ = writeln!(out, "<text class=\"edge\" x=\"{:.1}\" y=\"{:.1}\">{}</text>", p.x, p.y, index + 1);
+        }
+    }
+
+    /// Place on the sheet beside an edge, inside its piece.
+    fn beside(&self, line: &Polyline, share: f64, distance_mm: f64) -> V2 {
+        let arc = share * line.length();
+        let along = line.at(arc + 1e-3) - line.at(arc - 1e-3);
+        let inwards = V2::new(-along.y, along.x).try_normalize(0.0).unwrap_or_else(V2::zeros);
+        self.at(line.at(arc) + inwards * from_mm(distance_mm))
     }
 
     /// A double arrow along the grain, beside the middle of the piece.
@@ -146,10 +141,7 @@ impl Pen {
                     PathPart::Edge(edge) if edge.piece == index => {
                         let line = &style.edge(edge).line;
                         self.path(out, "measured", line.points().iter().copied(), false);
-                        let arc = EDGE_LABEL_SHARE * line.length();
-                        let along = line.at(arc + 1e-3) - line.at(arc - 1e-3);
-                        let inwards = V2::new(-along.y, along.x).normalize();
-                        labels.push((self.at(line.at(arc) + inwards * (LABEL_MM * 1e-3)), measurement.no));
+                        labels.push((self.beside(line, EDGE_LABEL_SHARE, LABEL_MM), measurement.no));
                     }
                     PathPart::Line(ends) if ends[0].edge.piece == index => {
                         let [from, to] = ends.map(|end| style.place(end));
@@ -225,6 +217,7 @@ mod tests {
         let sheet = svg(&style);
         let count = |what: &str| sheet.matches(what).count();
         assert_eq!(count("class=\"piece\""), 4);
+        assert_eq!(count("class=\"edge\""), style.pieces.iter().map(|piece| piece.edges.len()).sum::<usize>());
         assert_eq!(count("class=\"corner\""), style.pieces.iter().map(|piece| piece.corners.len()).sum::<usize>());
         assert_eq!(count("class=\"no\""), 9 + style.measurements.iter().map(|m| m.path.len()).sum::<usize>());
         assert!(sheet.contains("back &lt;&amp;&gt; M") && sheet.contains("Sleeve Length 130.7 mm"));

@@ -75,14 +75,18 @@ impl Piece {
             ..*notch
         };
         let off_fold = |line: &&Vec<V2>| line.iter().any(|p| is_off(&p));
-        let other_lines =
-            self.internal_lines.iter().filter(off_fold).map(|line| line.iter().map(|&p| fold.reflected(p)).collect());
+        let both_lines = |lines: &[Vec<V2>]| -> Vec<Vec<V2>> {
+            let mirrored = lines.iter().filter(off_fold).map(|line| line.iter().map(|&p| fold.reflected(p)).collect());
+            lines.iter().cloned().chain(mirrored).collect()
+        };
         let other_notches = self.notches.iter().filter(|notch| is_off(&&notch.at)).map(mirrored_notch);
         Some(Self {
             turn_points: turn_points.into_iter().filter(is_corner).collect(),
             curve_points: both(&self.curve_points),
             notches: self.notches.iter().copied().chain(other_notches).collect(),
-            internal_lines: self.internal_lines.iter().cloned().chain(other_lines).collect(),
+            internal_lines: both_lines(&self.internal_lines),
+            cut_outs: both_lines(&self.cut_outs),
+            drill_holes: both(&self.drill_holes),
             mirror_line: None,
             outline,
             sew_line,

@@ -7,6 +7,7 @@
 mod bake;
 mod camera;
 mod colour;
+pub mod export;
 mod raster;
 mod relief;
 mod scene;

@@ -14,6 +14,18 @@ pub enum Stage {
     Drape,
 }
 
+impl Stage {
+    /// Name in SQL.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Sewn => "sewn",
+            Self::Popup => "popup",
+            Self::Drape => "drape",
+        }
+    }
+}
+
 /// One recorded step of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Step {

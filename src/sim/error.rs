@@ -30,6 +30,14 @@ pub enum SimError {
         /// Roles that can be placed.
         accepted: &'static str,
     },
+    /// A piece whose outline has no counterpart on the body.
+    #[error("piece {piece:?} cannot be mapped onto the body: {reason}")]
+    CannotMap {
+        /// Piece.
+        piece: String,
+        /// What stands in the way.
+        reason: &'static str,
+    },
     /// Positions stopped being numbers.
     #[error("the simulation of {garment:?} diverged at iteration {iteration}")]
     Diverged {

@@ -1,6 +1,6 @@
 //! The simulators (GSM, thesis 3.4): a body and a garment become a drape.
 //!
-//! [`fem`](self) and hybrid never call each other; both return a [`Drape`] made from the cloth energies, contact and
+//! [`fem`] and [`hybrid`] never call each other; both return a [`Drape`] made from the cloth energies, contact and
 //! sewing that are siblings here.
 
 pub mod cloth;
@@ -9,6 +9,7 @@ pub mod drape;
 pub mod error;
 pub mod fabric;
 pub mod fem;
+pub mod hybrid;
 pub mod levels;
 pub mod quality;
 pub mod sewing;

@@ -167,8 +167,10 @@ pub(crate) fn fabric(transaction: &Transaction<'_>, cloth: &Fabric) -> Result<i6
     Ok(transaction.last_insert_rowid())
 }
 
-/// The revision of a style with this seam file, added where it is new.
-pub(crate) fn style(transaction: &Transaction<'_>, name: &str, seams: &SourceFile) -> Result<i64> {
+/// The revision of a style with this seam file, added where it is new; the name and text of no seam file are empty.
+pub(crate) fn style(transaction: &Transaction<'_>, name: &str, seams: Option<&SourceFile>) -> Result<i64> {
+    let none = SourceFile { name: String::new(), bytes: [].into() };
+    let seams = seams.unwrap_or(&none);
     let hash = seams.hash();
     if let Some(id) = found(transaction, "SELECT style_id FROM style WHERE name = ? AND hash = ?", &[&name, &hash])? {
         return Ok(id);
@@ -229,8 +231,9 @@ impl Workspace {
         let missing = || StudyError::NotFound { what: "job", name: id.to_string(), known: vec![] };
         let (pattern_file, pattern, seam_file, seams, unit, size) = found.ok_or_else(missing)?;
         let pattern = SourceFile { name: pattern_file, bytes: pattern.into() };
-        let seams = SourceFile { name: seam_file, bytes: seams.into_bytes().into() };
-        tools::read_style(&pattern, &seams, Some(&size), unit.as_deref().and_then(tools::unit_of))
+        let seams = Some(SourceFile { name: seam_file, bytes: seams.into_bytes().into() });
+        let seams = seams.filter(|seams| !seams.name.is_empty());
+        tools::read_style(&pattern, seams.as_ref(), Some(&size), unit.as_deref().and_then(tools::unit_of))
     }
 }
 

@@ -70,7 +70,7 @@ fn body_check() -> Result<String> {
 fn pattern_check() -> Result<String> {
     let folder = std::env::temp_dir().join(format!("toile-doctor-{}", std::process::id()));
     let found = tools::write_files(&folder, &tools::drafted(tools::Model::Tshirt)).and_then(|_| {
-        let style = tools::style(&folder.join("tshirt-m.dxf"), &folder.join("tshirt.seams.toml"), None, None)?;
+        let style = tools::style(&folder.join("tshirt-m.dxf"), Some(&folder.join("tshirt.seams.toml")), None, None)?;
         let (garment, quality) = tools::mesh(&style, 0.02)?;
         let edge = mm(quality.mean_edge_m);
         Ok(format!("drafted T-shirt: {} triangles, mean edge {edge:.1} mm", garment.triangles.len()))

@@ -217,7 +217,7 @@ fn supersede(transaction: &Transaction<'_>, id: JobId) -> Result<()> {
 
 fn insert(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec, hash: &str) -> Result<JobId> {
     let subject = catalogue::subject(transaction, &spec.subject, &spec.measurements)?;
-    let style = catalogue::style(transaction, &spec.garment, &spec.seams)?;
+    let style = catalogue::style(transaction, &spec.garment, spec.seams.as_ref())?;
     let size = catalogue::size(transaction, &spec.garment, &spec.size, &spec.pattern, spec.unit.as_deref())?;
     let fabric = catalogue::fabric(transaction, &spec.fabric)?;
     transaction

@@ -4,6 +4,7 @@
 //! (`read`), acts on the queue and starts runs. SI units in rows, millimetres in SQL.
 
 mod actions;
+mod audit;
 mod cache;
 mod catalogue;
 mod doctor;
@@ -14,12 +15,15 @@ mod file;
 mod inputs;
 mod outcome;
 mod owner;
+pub mod pattern_files;
 mod picture;
 mod pipeline;
 mod queue;
 mod read;
 mod reporting;
 mod run;
+mod seam_desk;
+mod sewing;
 mod spec;
 mod sql;
 mod store;
@@ -30,6 +34,7 @@ mod types;
 mod workspace;
 
 pub use actions::why_no_retry;
+pub use audit::{Audit, Finding};
 pub use doctor::{Check, checks};
 pub use enqueue::{Planned, Why};
 pub use error::{Result, StudyError};
@@ -52,4 +57,5 @@ pub use workspace::Workspace;
 pub use crate::fit::FitClass;
 pub use crate::fit::Simulator;
 pub use crate::render::View;
+pub use crate::render::export::MeshFormat;
 pub use crate::sim::{Monitor, Step};

@@ -170,11 +170,7 @@ fn write_result(
 }
 
 fn write_measured(transaction: &Transaction<'_>, id: JobId, outcome: &Outcome) -> Result<()> {
-    let stage = match outcome.stage {
-        Stage::Sewn => "sewn",
-        Stage::Popup => "popup",
-        Stage::Drape => "drape",
-    };
+    let stage = outcome.stage.as_str();
     let mut statement = transaction.prepare_cached(
         "INSERT INTO chi (job_id, stage, measurement_no, measurement, kind, is_free_edge, is_controlled, l2d_mm, l3d_mm)
         VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",

@@ -15,6 +15,7 @@ use super::workspace::Workspace;
 use crate::fit::Simulator;
 use crate::geom::{Surface, TriMesh};
 use crate::pattern::Garment;
+use crate::render::export::{MeshFormat, Part};
 use crate::render::{self, Camera, Frame, Layer, Mapping, Material, Paint, Scene, Texture, Values, View};
 use crate::sim::Drape;
 use crate::sim::cloth::membrane::Orthotropic;
@@ -47,14 +48,18 @@ pub(super) struct Dressed {
 }
 
 impl Dressed {
-    /// The lit scene of a map.
-    pub fn scene(&self, map: Map) -> Result<Scene> {
-        let material = match self.simulator {
+    /// The cloth in its simulator's colour.
+    fn material(&self) -> Material {
+        match self.simulator {
             Simulator::Fem => Material::fem(),
             Simulator::Hybrid => Material::hybrid(),
-        };
+        }
+    }
+
+    /// A map's value at each vertex of the cloth, in the unit of its scale; none where it has none.
+    fn values(&self, map: Map) -> Result<Vec<f64>> {
         let positions = &self.cloth.positions;
-        let values = match map {
+        Ok(match map {
             Map::Plain | Map::Check => vec![],
             Map::Stretch => maps::stretches(&self.garment, positions),
             Map::Tension => maps::tensions(&self.garment, &self.fabric, positions),
@@ -63,7 +68,12 @@ impl Dressed {
                 let surface = Surface::new(&self.body).map_err(StudyError::stage("render"))?;
                 positions.iter().map(|p| mm(surface.signed_distance(p))).collect()
             }
-        };
+        })
+    }
+
+    /// The lit scene of a map.
+    pub fn scene(&self, map: Map) -> Result<Scene> {
+        let (material, values) = (self.material(), self.values(map)?);
         let (form, paint) = match map.scale() {
             None if map == Map::Check => {
                 let pieces: Vec<_> = self.garment.pieces.iter().map(|p| (p.vertices.clone(), p.grain)).collect();
@@ -127,6 +137,33 @@ impl Workspace {
             render::draw_legend(&mut picture, &scale).map_err(StudyError::stage("render"))?;
         }
         render::png(&picture).map_err(StudyError::stage("render"))
+    }
+
+    /// A result's body and garment as a mesh file. The garment's texture coordinates are its places in the pattern, m; a
+    /// map colours it and leaves its values in the formats that can hold them.
+    ///
+    /// # Errors
+    /// As [`Workspace::picture`].
+    pub fn mesh_file(&self, id: JobId, format: MeshFormat, map: Map) -> Result<Vec<u8>> {
+        let dressed = self.dressed(id)?;
+        let values = dressed.values(map)?;
+        let plain = |mesh: &TriMesh, material: Material| vec![material.front; mesh.positions.len()];
+        let scale = map.scale();
+        let colours = match &scale {
+            Some(scale) => values.iter().map(|value| scale.colour(*value)).collect(),
+            None => plain(&dressed.cloth, dressed.material()),
+        };
+        let label = scale.map(|scale| format!("{}, {}", scale.label, scale.unit));
+        let garment = Part {
+            name: "garment",
+            mesh: &dressed.cloth,
+            colours,
+            places: Some(&dressed.garment.rest),
+            values: label.as_deref().map(|label| (label, values.as_slice())),
+        };
+        let colours = plain(&dressed.body, Material::form());
+        let body = Part { name: "body", mesh: &dressed.body, colours, places: None, values: None };
+        Ok(format.write(&[body, garment]))
     }
 
     fn stage(&self, id: JobId, map: Map) -> Result<Stage> {

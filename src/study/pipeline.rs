@@ -18,7 +18,7 @@ use crate::sim::{self, Drape, Monitor, SimError};
 use crate::units::from_mm;
 
 /// The simulators there are.
-pub const SIMULATORS: [Simulator; 1] = [Simulator::Fem];
+pub const SIMULATORS: [Simulator; 2] = [Simulator::Fem, Simulator::Hybrid];
 
 /// Versions of the stages, raised whenever one may give other numbers for the same inputs.
 const VERSIONS: [(&str, u32); 3] = [("body.version", 3), ("field.version", 1), ("mesh.version", 2)];
@@ -33,10 +33,11 @@ pub(crate) fn versions(simulator: Simulator) -> Vec<(&'static str, String)> {
     let mut versions: Vec<_> = VERSIONS.iter().map(|(name, version)| (*name, version.to_string())).collect();
     versions.push(("field.spacing_mm", (FIELD_SPACING_M * 1e3).to_string()));
     versions.push(("sim.version", SIM_VERSION.to_string()));
-    if simulator == Simulator::Fem {
-        let parameters = format!("{:?}", sim::fem::Params::default());
-        versions.push(("sim.parameters", blake3::hash(parameters.as_bytes()).to_hex().to_string()));
-    }
+    let parameters = match simulator {
+        Simulator::Fem => format!("{:?}", sim::fem::Params::default()),
+        Simulator::Hybrid => format!("{:?}", sim::hybrid::Params::default()),
+    };
+    versions.push(("sim.parameters", blake3::hash(parameters.as_bytes()).to_hex().to_string()));
     versions
 }
 
@@ -116,7 +117,14 @@ impl Pipeline {
 
     fn model(&self, spec: &JobSpec) -> Result<(Arc<Model>, Used)> {
         self.cache.get(StageKind::Body, &spec.inputs.stage_hash(StageKind::Body), || {
-            Ok(Model { body: tools::build_body(&spec.measurements)? })
+            let body = match &spec.scan {
+                None => tools::build_body(&spec.measurements)?,
+                Some(scan) => {
+                    let read = tools::read_scan(&scan.file, scan.unit, Some(spec.measurements.sex))?;
+                    tools::scanned_body(&scan.file, read)?
+                }
+            };
+            Ok(Model { body })
         })
     }
 
@@ -150,7 +158,7 @@ fn ease(garment: &Garment, model: &Model) -> Vec<Ease> {
 /// The style of a job's size.
 pub(super) fn style(spec: &JobSpec) -> Result<Style> {
     let unit = spec.unit.as_deref().and_then(tools::unit_of);
-    tools::read_style(&spec.pattern, &spec.seams, Some(&spec.size), unit)
+    tools::read_style(&spec.pattern, spec.seams.as_ref(), Some(&spec.size), unit)
 }
 
 /// Meshes of a job's garment, coarse to fine.
@@ -174,16 +182,20 @@ impl Executor for Pipeline {
                     sim::fem::simulate(&model.body, &field, &meshes.0, &spec.fabric, &params, monitor)
                         .map_err(sim_error)
                 }
-                Simulator::Hybrid => Err(StudyError::stage("sim")("Hybrid-GS is not part of this program")),
+                Simulator::Hybrid => {
+                    let params = sim::hybrid::Params::default();
+                    sim::hybrid::simulate(&model.body, &field, garment, &spec.fabric, &params, monitor)
+                        .map_err(sim_error)
+                }
             })?;
         let chis = measure::measure(garment, &drape.positions);
         let metrics = measure::metrics(&chis)
-            .ok_or_else(|| StudyError::stage("measure")(format!("{} names no measurement", spec.seams.name)))?;
+            .ok_or_else(|| StudyError::stage("measure")(format!("{} has no measurement", spec.garment)))?;
         let measured = garment.measurements.iter().zip(chis).map(|(m, chi)| Measured {
             name: m.name.clone(),
             kind: m.kind,
             is_free_edge: m.is_free_edge,
-            is_controlled: false,
+            is_controlled: spec.simulator == Simulator::Hybrid,
             chi,
         });
         Ok(Outcome {

@@ -85,12 +85,10 @@ impl Workspace {
             .collect();
         let eases: Vec<EaseRow> =
             self.ease(study)?.into_iter().filter(|ease| ease.garment == garment && ease.decides).collect();
-        let subjects = self.axis(study, "subject")?;
-        let sizes: Vec<String> = self
-            .axis(study, "size")?
-            .into_iter()
-            .filter(|size| jobs.iter().any(|job| job.size == *size) || eases.iter().any(|ease| ease.size == *size))
-            .collect();
+        let mut subjects = self.axis(study, "subject")?;
+        subjects.retain(|name| jobs.iter().any(|job| job.subject == *name) || eases.iter().any(|e| e.subject == *name));
+        let mut sizes = self.axis(study, "size")?;
+        sizes.retain(|name| jobs.iter().any(|job| job.size == *name) || eases.iter().any(|ease| ease.size == *name));
         let mut simulators: Vec<Simulator> = jobs.iter().map(|job| job.simulator).collect();
         simulators.sort();
         simulators.dedup();

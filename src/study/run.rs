@@ -196,7 +196,7 @@ fn check_patterns(study: &Study) -> Result<()> {
     for garment in &study.garments {
         let unit = garment.unit.as_deref().and_then(tools::unit_of);
         for size in &garment.sizes {
-            if let Err(error) = tools::read_style(&size.pattern, &garment.seams, Some(&size.name), unit) {
+            if let Err(error) = tools::read_style(&size.pattern, garment.seams.as_ref(), Some(&size.name), unit) {
                 let message = format!("garment {}, size {}: {error}", garment.name, size.name);
                 problems.push(Problem { file: study.path.clone(), line: None, message });
             }

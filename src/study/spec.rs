@@ -1,6 +1,6 @@
 //! From a study to its jobs: one specification for every garment, size, subject, simulator and repeat.
 
-use super::file::{GarmentEntry, SizeFile, SourceFile, Study, Subject};
+use super::file::{GarmentEntry, ScanFile, SizeFile, SourceFile, Study, Subject};
 use super::inputs::Inputs;
 use super::pipeline;
 use crate::body::Measurements;
@@ -23,12 +23,14 @@ pub struct JobSpec {
     pub repeat: u32,
     /// What is known of the subject's body.
     pub measurements: Measurements,
+    /// The scan that is the body, where there is one.
+    pub scan: Option<ScanFile>,
     /// Pattern of the size.
     pub pattern: SourceFile,
     /// Unit of the pattern where its file names none.
     pub unit: Option<String>,
-    /// Seam file.
-    pub seams: SourceFile,
+    /// Seam file; `None` where the pattern holds its own seams.
+    pub seams: Option<SourceFile>,
     /// Cloth.
     pub fabric: Fabric,
     /// Edge length of the finest mesh, m.
@@ -68,7 +70,7 @@ pub fn jobs(study: &Study) -> Vec<JobSpec> {
     let mut jobs = Vec::new();
     for garment in &study.garments {
         for size in &garment.sizes {
-            for subject in &study.subjects {
+            for subject in study.subjects.iter().filter(|subject| garment.subjects.contains(&subject.id)) {
                 for &simulator in &study.simulators {
                     jobs.extend((1..=study.repeats).map(|n| job(study, garment, size, subject, simulator, n)));
                 }
@@ -90,12 +92,20 @@ fn job(
     inputs.set("sim.name", simulator.as_str());
     inputs.set("sim.repeat", repeat);
     inputs.set("mesh.edge_length_mm", millimetres(study.edge_length_m));
-    inputs.set(format!("seams.{}", garment.seams.name), garment.seams.hash());
+    if let Some(seams) = &garment.seams {
+        inputs.set(format!("seams.{}", seams.name), seams.hash());
+    }
     inputs.set(format!("pattern.{}", size.pattern.name), size.pattern.hash());
     if let Some(unit) = &garment.unit {
         inputs.set("pattern.unit", unit);
     }
     subject_inputs(&mut inputs, &subject.id, &subject.measurements);
+    if let Some(scan) = &subject.scan {
+        inputs.set(format!("subject.{}.scan", subject.id), scan.file.hash());
+        if let Some(unit) = scan.unit {
+            inputs.set(format!("subject.{}.scan_unit", subject.id), unit.name());
+        }
+    }
     fabric_inputs(&mut inputs, &garment.fabric);
     for (name, version) in pipeline::versions(simulator) {
         inputs.set(name, version);
@@ -107,6 +117,7 @@ fn job(
         simulator,
         repeat,
         measurements: subject.measurements.clone(),
+        scan: subject.scan.clone(),
         pattern: size.pattern.clone(),
         unit: garment.unit.clone(),
         seams: garment.seams.clone(),

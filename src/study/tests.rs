@@ -64,6 +64,7 @@ fn study(density_kg_m2: f64) -> Study {
             neck_girth_m: None,
             across_shoulder_m: None,
         },
+        scan: None,
     };
     let size = |name: &str| SizeFile { name: name.to_owned(), pattern: source(&format!("tee-{name}.dxf"), name) };
     let fabric = Fabric {
@@ -86,7 +87,8 @@ fn study(density_kg_m2: f64) -> Study {
         subjects: vec![subject("ii", 1.69), subject("v", 1.82)],
         garments: vec![GarmentEntry {
             name: "tee".into(),
-            seams: source("tee.seams.toml", "seams"),
+            subjects: vec!["ii".into(), "v".into()],
+            seams: Some(source("tee.seams.toml", "seams")),
             unit: None,
             fabric,
             sizes: vec![size("s"), size("m")],

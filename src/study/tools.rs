@@ -3,20 +3,24 @@
 use std::path::{Path, PathBuf};
 
 use super::error::{Result, StudyError};
-use super::file::SourceFile;
-use crate::body::{self, Body};
+pub use super::file::SourceFile;
+use super::sewing;
+use crate::body;
 use crate::pattern::dxf;
-use crate::pattern::{Garment, Piece, check, garmentcode, propose, sheet};
+use crate::pattern::{Garment, Piece, garmentcode, sheet};
 use crate::render::{self, Camera, Frame, Layer, Material, Scene};
 
+pub use super::seam_desk::{Desk, DeskEdge, DeskPiece, DeskSeam, Proposed, desk, edit_seams, propose};
+pub use super::sewing::{CHECK_EDGE_MM, SizeCheck, check_study};
 pub use crate::body::{
-    Accuracy, Evaluation, Girths, LengthUnit, Measurements, Pictured, PicturedLevel, Sex, write_obj,
+    Accuracy, Body, Evaluation, Girths, LengthUnit, Measurements, Pictured, PicturedLevel, Pose, Scan, Sex, write_obj,
 };
-pub use crate::pattern::check::Finding;
+pub use crate::pattern::check::{Finding, of_garment as garment_findings};
 pub use crate::pattern::draft::Model;
 pub use crate::pattern::dxf::Unit;
 pub use crate::pattern::inspect::{FileReport, PieceReport};
 pub use crate::pattern::propose::Proposal;
+pub use crate::pattern::seam_edit::Edit as SeamEdit;
 pub use crate::pattern::{MeshQuality, Style};
 pub use crate::render::View;
 
@@ -36,46 +40,15 @@ pub fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<Vec<Pat
     Ok(paths)
 }
 
-/// What is in a pattern file (DXF or GarmentCode JSON), or in every one below a folder, by name. A file that cannot be
-/// read has its error in its report.
-///
-/// # Errors
-/// When the path cannot be read.
-pub fn inspect(path: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<FileReport>> {
-    let files = if path.is_dir() { drawings(path)? } else { vec![path.to_owned()] };
-    files
-        .iter()
-        .map(|file| {
-            let source = SourceFile::read(file)?;
-            let name = file.to_string_lossy();
-            if is_garmentcode(file) {
-                let read = garmentcode::read(&source.bytes, &name);
-                return Ok(read
-                    .as_ref()
-                    .map_or_else(|error| FileReport::unreadable(&name, error.to_string()), FileReport::from));
-            }
-            Ok(match dxf::read(&source.bytes, &name, unit) {
-                Err(error) => FileReport::unreadable(&name, error.to_string()),
-                Ok(mut pattern) => {
-                    if let Some(size) = size {
-                        let is_of = |name: &str| name.eq_ignore_ascii_case(size);
-                        pattern.pieces.retain(|piece| is_of(piece.size.as_deref().unwrap_or_default()));
-                    }
-                    FileReport::from(&pattern)
-                }
-            })
-        })
-        .collect()
-}
-
-/// Whether a file is JSON by its name: a GarmentCode specification.
+/// Whether a file is a GarmentCode specification by its name: JSON that is not called `*.features.json`.
 #[must_use]
 pub fn is_garmentcode(file: &Path) -> bool {
-    file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"))
+    let name = file.to_string_lossy().to_ascii_lowercase();
+    name.ends_with(".json") && !name.ends_with(".features.json")
 }
 
 /// The DXF files and GarmentCode specifications below a folder, by path.
-fn drawings(folder: &Path) -> Result<Vec<PathBuf>> {
+pub(super) fn drawings(folder: &Path) -> Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(folder) = folders.pop() {
@@ -100,18 +73,9 @@ fn drawings(folder: &Path) -> Result<Vec<PathBuf>> {
 ///
 /// # Errors
 /// When a file cannot be read, names no unit while none is given, or does not fit the other.
-pub fn style(pattern: &Path, seams: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Style> {
-    read_style(&SourceFile::read(pattern)?, &SourceFile::read(seams)?, size, unit)
-}
-
-/// A style from a GarmentCode specification, which holds its own seams.
-///
-/// # Errors
-/// When the file cannot be read or is no such specification.
-pub fn garmentcode_style(file: &Path) -> Result<Style> {
-    let source = SourceFile::read(file)?;
-    let read = garmentcode::read(&source.bytes, &source.name).map_err(StudyError::stage("pattern"))?;
-    Ok(read.style())
+pub fn style(pattern: &Path, seams: Option<&Path>, size: Option<&str>, unit: Option<Unit>) -> Result<Style> {
+    let seams = seams.map(SourceFile::read).transpose()?;
+    read_style(&SourceFile::read_pattern(pattern)?, seams.as_ref(), size, unit)
 }
 
 /// What a person should know of a pattern and its seams that is no error.
@@ -119,34 +83,19 @@ pub fn garmentcode_style(file: &Path) -> Result<Style> {
 /// # Errors
 /// As [`style`].
 pub fn findings(pattern: &Path, seams: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<Finding>> {
-    let source = SourceFile::read(seams)?;
-    let pieces = pieces(pattern, size, unit)?;
-    let style = Style::read(&pieces, &source.bytes, &source.name).map_err(StudyError::stage("pattern"))?;
-    let text = String::from_utf8_lossy(&source.bytes);
-    let entries = toml::from_str(&text).map_err(StudyError::stage("pattern"))?;
-    Ok(check::findings(&pieces, &entries, &style))
+    sewing::of_files(&SourceFile::read_pattern(pattern)?, &SourceFile::read(seams)?, size, unit)
 }
 
-/// A seam file proposed for the pieces of a DXF file, or of all DXF files below a folder together.
-///
-/// # Errors
-/// When a file cannot be read, or holds several sizes while none is named.
-pub fn propose(path: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Proposal> {
-    let files = if path.is_dir() { drawings(path)? } else { vec![path.to_owned()] };
-    let mut all = Vec::new();
-    for file in files {
-        all.extend(pieces(&file, size, unit)?);
+/// The pieces of one size of a DXF file, or of all of a folder.
+pub(super) fn pieces(pattern: &SourceFile, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<Piece>> {
+    let mut pieces = Vec::new();
+    for source in pattern.parts() {
+        let file = dxf::read(&source.bytes, &source.name, unit).map_err(StudyError::stage("pattern"))?;
+        // A file of one size need not name it as the study does.
+        let size = size.filter(|_| file.sizes().len() > 1);
+        pieces.extend(file.to_sew(size).map_err(StudyError::stage("pattern"))?);
     }
-    Ok(propose::propose(&all))
-}
-
-/// The pieces of one size of a DXF file.
-fn pieces(pattern: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<Piece>> {
-    let source = SourceFile::read(pattern)?;
-    let file = dxf::read(&source.bytes, &source.name, unit).map_err(StudyError::stage("pattern"))?;
-    // A file of one size need not name it as the study does.
-    let size = size.filter(|_| file.sizes().len() > 1);
-    file.to_sew(size).map_err(StudyError::stage("pattern"))
+    Ok(pieces)
 }
 
 /// The unit of a name in a study file.
@@ -157,15 +106,29 @@ pub(super) fn unit_of(name: &str) -> Option<Unit> {
 /// [`style`] from files already read.
 pub(super) fn read_style(
     pattern: &SourceFile,
-    seams: &SourceFile,
+    seams: Option<&SourceFile>,
     size: Option<&str>,
     unit: Option<Unit>,
 ) -> Result<Style> {
-    let file = dxf::read(&pattern.bytes, &pattern.name, unit).map_err(StudyError::stage("pattern"))?;
-    // A file of one size need not name it as the study does.
-    let size = size.filter(|_| file.sizes().len() > 1);
-    let pieces = file.to_sew(size).map_err(StudyError::stage("pattern"))?;
-    Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))
+    let mut style = if is_garmentcode(Path::new(&pattern.name)) {
+        let read = garmentcode::read(&pattern.bytes, &pattern.name).map_err(StudyError::stage("pattern"))?;
+        let mut style = read.style();
+        if let Some(seams) = seams {
+            style.measure(&seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?;
+        }
+        style
+    } else {
+        let Some(seams) = seams else {
+            let message = format!("{}: a DXF file needs its seam file (`seams`, or --seams FILE)", pattern.name);
+            return Err(StudyError::Stage { stage: "pattern", message });
+        };
+        let pieces = pieces(pattern, size, unit)?;
+        Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?
+    };
+    if style.measurements.is_empty() {
+        style.measure_openings_and_seams();
+    }
+    Ok(style)
 }
 
 /// A style's mesh at an edge length, m, and how good its triangles are.
@@ -207,16 +170,32 @@ pub fn build_body(measurements: &Measurements) -> Result<Body> {
     body::build(measurements).map_err(StudyError::stage("body"))
 }
 
-/// Measures a body mesh file; also what had to be guessed about it.
+/// Reads and measures a body scan, its unit and sex told from it where they are not given.
 ///
 /// # Errors
-/// When the file cannot be read or is no standing person.
-pub fn measure_body(file: &Path, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<(Girths, Vec<String>)> {
-    let source = SourceFile::read(file)?;
-    let name = file.display();
-    let told = |error: body::BodyError| StudyError::Stage { stage: "body", message: format!("{name}: {error}") };
-    let scan = body::from_scan(&source.bytes, unit, sex).map_err(told)?;
-    Ok((scan.girths, scan.imported.notes))
+/// When it cannot be read or is no standing person.
+pub fn read_scan(scan: &SourceFile, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<Scan> {
+    body::from_scan(&scan.bytes, unit, sex).map_err(of_scan(scan))
+}
+
+/// A scan as a body that wears garments.
+///
+/// # Errors
+/// When arms or legs are not apart, or the surface does not close.
+pub fn scanned_body(source: &SourceFile, scan: Scan) -> Result<Body> {
+    scan.into_body().map_err(of_scan(source))
+}
+
+/// A body in another pose.
+///
+/// # Errors
+/// When its limbs do not reach there, or would touch.
+pub fn pose_body(body: &Body, pose: Pose) -> Result<Body> {
+    body::pose(body, pose).map_err(StudyError::stage("body"))
+}
+
+fn of_scan(scan: &SourceFile) -> impl Fn(body::BodyError) -> StudyError {
+    |error| StudyError::Stage { stage: "body", message: format!("{}: {error}", scan.name) }
 }
 
 /// Lens of a camera.

@@ -5,6 +5,7 @@
 
 mod bad_input;
 mod cli;
+mod pattern_files;
 mod program;
 mod run;
 mod tidy;

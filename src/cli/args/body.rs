@@ -24,6 +24,16 @@ pub enum MeshUnit {
     M,
 }
 
+impl From<MeshUnit> for crate::study::tools::LengthUnit {
+    fn from(unit: MeshUnit) -> Self {
+        match unit {
+            MeshUnit::Mm => Self::Millimetre,
+            MeshUnit::Cm => Self::Centimetre,
+            MeshUnit::M => Self::Metre,
+        }
+    }
+}
+
 /// Commands on bodies.
 #[derive(Debug, Subcommand)]
 pub enum Body {
@@ -38,8 +48,28 @@ pub enum Body {
         #[arg(long, value_enum)]
         sex: Option<Sex>,
     },
-    /// Build a body from measurements, from a front and a side picture, or from a subject of the catalogue.
+    /// Build a body from measurements, from a front and a side picture, from a scan, or from a subject of the catalogue.
     Build(Box<BodyBuild>),
+    /// Put a body into another pose: arms raised or lowered, legs spread.
+    Pose {
+        /// Scan or mesh (OBJ, PLY, STL), also body.obj of `body build`.
+        file: PathBuf,
+        /// Angle of the upper arms from the vertical, degrees.
+        #[arg(long, value_name = "N", required_unless_present = "leg_deg")]
+        arm_deg: Option<f64>,
+        /// Angle of the thighs from the vertical, degrees.
+        #[arg(long, value_name = "N")]
+        leg_deg: Option<f64>,
+        /// Unit of the file; by default told from its height.
+        #[arg(long, value_enum)]
+        unit: Option<MeshUnit>,
+        /// Sex, where known: places the waist.
+        #[arg(long, value_enum)]
+        sex: Option<Sex>,
+        /// Folder to write the posed body to: the files of `body build`.
+        #[arg(long, short, value_name = "DIR")]
+        output: PathBuf,
+    },
     /// How well the bodies of a folder are measured from meshes, scans, silhouettes and photographs.
     Evaluate {
         /// Folder with manifest.csv, measurements.csv, and where there are any scans.csv and images.csv.
@@ -54,13 +84,13 @@ pub struct BodyBuild {
     #[arg(long, value_name = "NAME")]
     pub subject: Option<String>,
     /// Sex.
-    #[arg(long, value_enum, required_unless_present_any = ["subject", "measurements"])]
+    #[arg(long, value_enum, required_unless_present_any = ["subject", "measurements", "scan"])]
     pub sex: Option<Sex>,
     /// TOML file with the keys of a study's [[subject]].
     #[arg(long, value_name = "FILE", conflicts_with = "subject")]
     pub measurements: Option<PathBuf>,
     /// Stature.
-    #[arg(long, value_name = "N", required_unless_present_any = ["subject", "measurements"])]
+    #[arg(long, value_name = "N", required_unless_present_any = ["subject", "measurements", "scan"])]
     pub stature_mm: Option<f64>,
     /// Body mass.
     #[arg(long, value_name = "N")]
@@ -86,6 +116,13 @@ pub struct BodyBuild {
     /// Side picture, the subject facing its right.
     #[arg(long, value_name = "IMAGE", requires = "front")]
     pub side: Option<PathBuf>,
+    /// Scan (OBJ, PLY, STL): cleaned, it becomes the body itself.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["subject", "measurements", "front", "stature_mm", "weight_kg",
+        "chest_girth_mm", "waist_girth_mm", "hip_girth_mm", "neck_girth_mm", "across_shoulder_mm"])]
+    pub scan: Option<PathBuf>,
+    /// Unit of the scan; by default told from its height.
+    #[arg(long, value_enum, requires = "scan")]
+    pub unit: Option<MeshUnit>,
     /// Distance of the camera from the subject.
     #[arg(long, value_name = "N", requires = "front", requires = "lens")]
     pub camera_distance_mm: Option<f64>,

@@ -9,7 +9,7 @@ mod body;
 mod pattern;
 
 pub use body::{Body, BodyBuild, MeshUnit, Sex};
-pub use pattern::{DraftStyle, Pattern, PatternUnit, StyleFiles};
+pub use pattern::{BesideFiles, DraftStyle, Pattern, PatternUnit, SeamCommand, StyleFiles};
 
 /// A fit-study workbench: dress bodies in sewing patterns, measure the drape, say which simulator to trust.
 #[derive(Debug, Parser)]
@@ -59,6 +59,8 @@ pub enum Command {
     Report(Report),
     /// Ask the database in SQL (read-only; also median, stddev, quantile).
     Sql(Sql),
+    /// Recompute a study's results, or the thesis's printed tables, and say what does not add up.
+    Audit(Audit),
     /// Ease and fit class of every size on every subject; needs no simulation.
     Ease(StudyPath),
     /// Which simulator to use for which fit.
@@ -71,6 +73,8 @@ pub enum Command {
     Body(Body),
     /// A picture of a result.
     Render(Render),
+    /// A result's body and garment as a mesh file.
+    Export(Export),
     /// The job queue.
     #[command(subcommand)]
     Queue(Queue),
@@ -95,6 +99,8 @@ pub enum Command {
         /// Shell.
         shell: Shell,
     },
+    /// The manual page, as roff.
+    Man,
 }
 
 /// A study by its folder, file or name.
@@ -171,6 +177,14 @@ pub enum Format {
     Json,
 }
 
+/// Arguments of `audit`.
+#[derive(Debug, Args)]
+pub struct Audit {
+    /// Name of the study, its folder, or its study.toml; `thesis-published` (or `thesis`, where there is no study of that
+    /// name) audits the printed tables.
+    pub study: PathBuf,
+}
+
 /// Arguments of `recommend`.
 #[derive(Debug, Args)]
 pub struct Recommend {
@@ -227,6 +241,35 @@ pub struct Render {
     #[arg(long, default_value_t = 1000, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=8192))]
     pub height: u32,
     /// PNG file to write.
+    #[arg(long, short, value_name = "FILE")]
+    pub output: PathBuf,
+}
+
+/// Format of an exported mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum MeshFormat {
+    /// Binary glTF: two objects, with colours, texture coordinates and the map's values.
+    Glb,
+    /// Wavefront: two objects, with colours and texture coordinates.
+    Obj,
+    /// Stanford: one mesh, with colours and the map's values.
+    Ply,
+    /// Stereolithography: one mesh.
+    Stl,
+}
+
+/// Arguments of `export`.
+#[derive(Debug, Args)]
+pub struct Export {
+    /// Number of the job (`toile queue ls`).
+    pub job: i64,
+    /// Format.
+    #[arg(long, value_enum)]
+    pub format: MeshFormat,
+    /// Colours.
+    #[arg(long, value_enum, default_value_t = Map::Plain)]
+    pub map: Map,
+    /// File to write.
     #[arg(long, short, value_name = "FILE")]
     pub output: PathBuf,
 }

@@ -31,7 +31,7 @@ pub enum DraftStyle {
 /// A pattern with its seam file.
 #[derive(Debug, Args)]
 pub struct StyleFiles {
-    /// DXF file, or GarmentCode JSON with its seams.
+    /// DXF file, folder of them, or GarmentCode JSON with its seams; `check` also takes a study.
     pub file: PathBuf,
     /// Seam file; a DXF file needs one.
     #[arg(long, value_name = "FILE")]
@@ -44,19 +44,63 @@ pub struct StyleFiles {
     pub unit: Option<PatternUnit>,
 }
 
+/// A seam file, its pattern, and two edges.
+#[derive(Clone, Debug, Args)]
+pub struct SeamFiles {
+    /// Seam file, changed in its place.
+    pub seams: PathBuf,
+    /// One side: PIECE.EDGE by name, by its number in the sheet (front.3) or its corners (front.3-5); chains with `+`.
+    #[arg(value_name = "PIECE.EDGE")]
+    pub a: String,
+    /// The other side.
+    #[arg(value_name = "PIECE.EDGE")]
+    pub b: String,
+    /// DXF file, or folder of them, that the seam file belongs to.
+    #[arg(long, value_name = "FILE")]
+    pub pattern: PathBuf,
+    /// Size, where the file holds several.
+    #[arg(long, value_name = "NAME")]
+    pub size: Option<String>,
+    /// Unit of the file, where it names none.
+    #[arg(long, value_enum)]
+    pub unit: Option<PatternUnit>,
+}
+
+/// Edits of a seam file; the result is checked against the pattern, and comments stay.
+#[derive(Clone, Debug, Subcommand)]
+pub enum SeamCommand {
+    /// Sew two sides.
+    Add {
+        #[command(flatten)]
+        files: SeamFiles,
+        /// Name of the seam.
+        #[arg(long, value_name = "NAME")]
+        name: Option<String>,
+        /// The difference of their lengths is meant: ease or gathers.
+        #[arg(long)]
+        eased: bool,
+    },
+    /// Open the seam between two edges.
+    Rm {
+        #[command(flatten)]
+        files: SeamFiles,
+    },
+    /// Turn one side of the seam between two edges round.
+    Flip {
+        #[command(flatten)]
+        files: SeamFiles,
+    },
+}
+
 /// Commands on patterns.
 #[derive(Debug, Subcommand)]
 pub enum Pattern {
-    /// What is in a pattern file (DXF, GarmentCode JSON), or in every one of a folder.
+    /// What is in a pattern file (DXF, GarmentCode JSON, features), or in every one of a folder.
     Inspect {
         /// File or folder.
         path: PathBuf,
-        /// Only pieces of this size.
-        #[arg(long, value_name = "NAME")]
-        size: Option<String>,
-        /// Unit of the files, where they name none.
-        #[arg(long, value_enum)]
-        unit: Option<PatternUnit>,
+        #[command(flatten)]
+        files: BesideFiles,
         /// One row for each file: how many blocks are pieces, how many are refused and why.
         #[arg(long)]
         by_file: bool,
@@ -75,8 +119,11 @@ pub enum Pattern {
         #[arg(long, short, value_name = "FILE")]
         output: Option<PathBuf>,
     },
-    /// Whether a pattern and its seam file fit together: seams, measurements, meshes.
+    /// Whether a pattern and its seam file fit together: seams, measurements, meshes; of a study, every size.
     Check(StyleFiles),
+    /// Add, open or turn round a seam of a seam file.
+    #[command(subcommand)]
+    Seam(SeamCommand),
     /// Draft a built-in style in all its sizes, with its seam file.
     Draft {
         /// Style.
@@ -102,4 +149,44 @@ pub enum Pattern {
         #[arg(long, short, value_name = "FILE")]
         output: PathBuf,
     },
+    /// The features of the pieces as JSON: outline, corners, edges, grain, notches, points, lines, information.
+    Features {
+        /// DXF file, GarmentCode JSON, or features.
+        path: PathBuf,
+        #[command(flatten)]
+        files: BesideFiles,
+        /// File to write (X.features.json); standard output without it.
+        #[arg(long, short, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
+    /// Write a pattern as AAMA DXF (X.dxf) or, with its seams, as GarmentCode (X.json).
+    Convert {
+        /// DXF file, GarmentCode JSON, or features.
+        path: PathBuf,
+        #[command(flatten)]
+        files: BesideFiles,
+        /// Seam file; GarmentCode needs one unless the pattern holds its seams.
+        #[arg(long, value_name = "FILE")]
+        seams: Option<PathBuf>,
+        /// File to write.
+        #[arg(long, short, value_name = "FILE")]
+        output: PathBuf,
+    },
+}
+
+/// What is said about a pattern beside its file.
+#[derive(Debug, Args)]
+pub struct BesideFiles {
+    /// Only pieces of this size.
+    #[arg(long, value_name = "NAME")]
+    pub size: Option<String>,
+    /// Unit of DXF files, where they name none.
+    #[arg(long, value_enum)]
+    pub unit: Option<PatternUnit>,
+    /// Grade rule table (.rul) of a file that holds the sample size: makes all sizes.
+    #[arg(long, value_name = "FILE")]
+    pub rul: Option<PathBuf>,
+    /// Table of piece information (CSV, XLSX) with a column `piece`: quantity, material, grain_deg, role ...
+    #[arg(long, value_name = "FILE")]
+    pub info: Option<PathBuf>,
 }

@@ -14,18 +14,9 @@ pub fn net(block: &str, quantity: &str, outline: Vec<V2>) -> Piece {
     Piece {
         block: block.to_owned(),
         name: block.to_owned(),
-        size: None,
         quantity: Some(quantity.to_owned()),
-        texts: Vec::new(),
         outline,
-        is_clockwise_in_file: false,
-        turn_points: Vec::new(),
-        curve_points: Vec::new(),
-        notches: Vec::new(),
-        grain: None,
-        mirror_line: None,
-        internal_lines: Vec::new(),
-        sew_line: None,
+        ..Piece::default()
     }
 }
 

@@ -1,142 +1,227 @@
 //! From the entities of one block to a piece.
 
+use std::collections::BTreeMap;
+
+use dxf::Block;
 use dxf::entities::{Entity, EntityType};
 
+use super::figures::{Figure, Placement, figure};
+use super::guard::Foreign;
+use super::outline::{Line, MOST_LINES, check_simple, counter_clockwise, joined, sew_line, without_copies};
 use crate::geom::V2;
-use crate::geom::polyline::{contains, self_crossing, signed_area};
-use crate::pattern::piece::{Notch, Piece};
+use crate::geom::polyline::signed_area;
+use crate::pattern::piece::{GradePoint, Notch, Piece};
 use crate::units::mm;
 
-/// Greatest gap between the ends of boundary lines that join, m.
-const JOIN_M: f64 = 0.05e-3;
-/// Points closer than this are one, m.
-const SAME_M: f64 = 1e-6;
 /// Least area of a piece, m2.
 const LEAST_AREA_M2: f64 = 1e-6;
-/// Least share of the outline's area that a closed line on layer 8 must enclose to be an old Valentina sew line.
-const SEW_LINE_SHARE: f64 = 0.5;
+/// How deep blocks may be inserted in each other.
+const DEEPEST_INSERT: usize = 8;
+/// Most entities and points of one piece that are looked at.
+const MOST_PARTS: usize = 400_000;
+
+/// The blocks of a file, for those that are inserted in others.
+#[derive(Clone, Debug)]
+pub struct Library<'d>(BTreeMap<String, Vec<&'d Block>>);
+
+impl<'d> Library<'d> {
+    /// The blocks by name, upper and lower case alike.
+    pub fn of(blocks: &[&'d Block]) -> Self {
+        let mut by_name: BTreeMap<String, Vec<&'d Block>> = BTreeMap::new();
+        for block in blocks {
+            by_name.entry(block.name.to_ascii_uppercase()).or_default().push(block);
+        }
+        Self(by_name)
+    }
+
+    fn find(&self, name: &str) -> Result<&'d Block, String> {
+        match self.0.get(&name.to_ascii_uppercase()).map(Vec::as_slice) {
+            Some([block]) => Ok(block),
+            Some(several) => {
+                Err(format!("block `{name}` inserted, of which there are {}; accepted: one", several.len()))
+            }
+            None => Err(format!("block `{name}` inserted but not there; accepted: blocks of the file")),
+        }
+    }
+}
 
 /// What a block draws, by AAMA layer, in metres.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawn {
-    boundary: Vec<Line>,
+    /// Boundary (layer 1).
+    pub boundary: Vec<Line>,
     sew_lines: Vec<Line>,
     internal: Vec<Line>,
+    cut_outs: Vec<Line>,
+    drill_holes: Vec<V2>,
     grain: Vec<Line>,
     mirror: Vec<Line>,
+    grade_reference: Vec<Line>,
     turn_points: Vec<V2>,
     curve_points: Vec<V2>,
     notches: Vec<Notch>,
-    texts: Vec<(String, String)>,
-    /// Boundary entities that are not lines, and bulges: what they are and where.
-    unreadable: Vec<String>,
-    /// Number of entities of any kind but texts.
-    count: usize,
-}
-
-/// A line as drawn.
-#[derive(Clone, Debug, PartialEq)]
-struct Line {
-    points: Vec<V2>,
-    is_closed: bool,
-}
-
-impl Line {
-    fn ends(&self) -> [V2; 2] {
-        [self.points[0], self.points[self.points.len() - 1]]
-    }
+    /// Texts with their places.
+    pub texts: Vec<(V2, String)>,
+    /// What cannot be read on layers 1 and 14, and why.
+    pub unreadable: Vec<String>,
+    /// Curves that were flattened, by kind.
+    pub flattened: BTreeMap<&'static str, usize>,
+    /// Entities that are not used, by layer.
+    pub unused: BTreeMap<String, usize>,
+    /// Lines on the boundary drawn a second time.
+    pub copies: usize,
+    /// Number of entities that are used, texts aside.
+    used: usize,
+    /// Points and entities so far.
+    parts: usize,
 }
 
 impl Drawn {
-    /// Sorts entities by layer; `scale` turns file units into metres.
-    pub fn collect<'e>(entities: impl Iterator<Item = &'e Entity>, scale: f64) -> Self {
+    /// Sorts entities by layer; blocks inserted among them are drawn where they are inserted.
+    pub fn collect<'e>(
+        entities: impl IntoIterator<Item = &'e Entity>,
+        placement: &Placement,
+        library: &Library<'_>,
+    ) -> Self {
         let mut drawn = Self::default();
-        for entity in entities {
-            drawn.add(entity, scale);
+        drawn.add_all(entities, placement, library, None, DEEPEST_INSERT);
+        if drawn.boundary.len() > MOST_LINES {
+            let found = format!("{} boundary lines; accepted: at most {MOST_LINES}", drawn.boundary.len());
+            drawn.unreadable.push(found);
+        } else {
+            (drawn.boundary, drawn.copies) = without_copies(drawn.boundary);
         }
         drawn
     }
 
-    /// Whether the block draws nothing at all (model and paper space of some writers).
+    /// Whether nothing at all is drawn (model and paper space of some writers).
     pub fn is_empty(&self) -> bool {
-        self.count == 0 && self.texts.is_empty()
+        self.is_no_piece() && self.texts.is_empty() && self.unused.is_empty()
     }
 
-    fn add(&mut self, entity: &Entity, scale: f64) {
-        let layer = entity.common.layer.trim();
-        let at = |x: f64, y: f64| V2::new(x, y) * scale;
-        match &entity.specific {
-            EntityType::Text(text) => return self.texts.push(key_and_value(&text.value)),
-            EntityType::Insert(_) => return,
-            _ => self.count += 1,
+    /// Whether nothing is drawn on a layer that a piece is drawn on.
+    pub fn is_no_piece(&self) -> bool {
+        self.used == 0 && self.unreadable.is_empty()
+    }
+
+    fn add_all<'e>(
+        &mut self,
+        entities: impl IntoIterator<Item = &'e Entity>,
+        placement: &Placement,
+        library: &Library<'_>,
+        layer_of_insert: Option<&str>,
+        depth: usize,
+    ) {
+        for entity in entities {
+            self.parts += 1;
+            if self.parts > MOST_PARTS {
+                self.unreadable.push(format!("more than {MOST_PARTS} points; accepted: fewer"));
+                return;
+            }
+            // What a block draws on layer 0 takes the layer of its insertion [DXF reference, BLOCKS].
+            let own = entity.common.layer.trim();
+            let layer = layer_of_insert.filter(|_| own == "0").unwrap_or(own);
+            let EntityType::Insert(insert) = &entity.specific else {
+                self.add(entity, layer, placement);
+                continue;
+            };
+            let inner = library.find(&insert.name).and_then(|block| {
+                if depth == 0 {
+                    return Err(format!(
+                        "blocks inserted in each other more than {DEEPEST_INSERT} deep; accepted: fewer"
+                    ));
+                }
+                Ok((placement.of_insert(insert, &block.base_point)?, block))
+            });
+            match inner {
+                Ok((inner, block)) => self.add_all(&block.entities, &inner, library, Some(layer), depth - 1),
+                Err(reason) => self.unreadable.push(reason),
+            }
         }
-        match &entity.specific {
-            EntityType::ModelPoint(point) => {
-                let place = at(point.location.x, point.location.y);
+    }
+
+    fn add(&mut self, entity: &Entity, layer: &str, placement: &Placement) {
+        let figure = match figure(entity, placement) {
+            Ok(Figure::Text { at, value }) => return self.texts.push((at, value)),
+            Ok(Figure::Label) => return,
+            Ok(_) if !is_used(layer) => return self.leave_out(layer),
+            Ok(figure) => figure,
+            Err(reason) if layer == "1" || layer == "14" => {
+                self.used += 1;
+                return self.unreadable.push(format!("{reason} (on layer {layer})"));
+            }
+            Err(_) => return self.leave_out(layer),
+        };
+        match figure {
+            Figure::Text { .. } | Figure::Label => return,
+            Figure::Line { points, is_closed, curves: (count, kind) } => {
+                self.parts += points.len();
+                if count > 0 {
+                    *self.flattened.entry(kind).or_default() += count;
+                }
+                let Some(line) = Line::new(points, is_closed) else { return };
+                if line.points.len() == 1 && layer != "1" {
+                    return self.leave_out(layer);
+                }
                 match layer {
-                    "2" => self.turn_points.push(place),
-                    "3" => self.curve_points.push(place),
-                    "4" | "80" | "81" | "82" | "83" => self.notches.push(Notch {
-                        at: place,
-                        depth_m: (point.location.z != 0.0).then_some(point.location.z * scale),
-                        angle_deg: Some(point.angle),
-                    }),
-                    _ => {}
+                    "13" => self.drill_holes.push(middle(&line.points)),
+                    "4" | "80" | "81" | "82" | "83" => self.notches.push(notch(&line)),
+                    "2" | "3" => return self.leave_out(layer),
+                    _ => self.lines_of(layer).push(line),
                 }
             }
-            EntityType::Line(line) => {
-                let ends = [at(line.p1.x, line.p1.y), at(line.p2.x, line.p2.y)];
-                self.add_line(layer, Line { points: ends.to_vec(), is_closed: false });
+            Figure::Circle { centre, points } => {
+                self.parts += points.len();
+                match layer {
+                    "13" => self.drill_holes.push(centre),
+                    "1" | "8" | "11" | "14" => {
+                        *self.flattened.entry("circle").or_default() += 1;
+                        self.lines_of(layer).extend(Line::new(points, true));
+                    }
+                    _ => return self.leave_out(layer),
+                }
             }
-            EntityType::Polyline(line) => {
-                let points = line.vertices().map(|v| at(v.location.x, v.location.y)).collect();
-                let bulges = line.vertices().filter(|v| v.bulge != 0.0).map(|v| at(v.location.x, v.location.y));
-                self.note_bulges(layer, bulges);
-                self.add_line(layer, Line { points, is_closed: line.flags & 1 == 1 });
+            Figure::Point { at, depth_m, angle_deg } => match layer {
+                "2" => self.turn_points.push(at),
+                "3" => self.curve_points.push(at),
+                "13" => self.drill_holes.push(at),
+                "4" | "80" | "81" | "82" | "83" => {
+                    let depth_m = (depth_m != 0.0).then_some(depth_m);
+                    self.notches.push(Notch { at, depth_m, angle_deg: Some(angle_deg) });
+                }
+                _ => return self.leave_out(layer),
+            },
+        }
+        self.used += 1;
+    }
+
+    /// Adds what the block draws in kinds of entities that are not read.
+    pub fn add_foreign(&mut self, foreign: &Foreign<'_>) {
+        for (&(layer, kind), &count) in foreign {
+            if layer == b"1" || layer == b"14" {
+                let layer = String::from_utf8_lossy(layer);
+                let accepted = "polylines, lines, arcs, circles, ellipses and splines";
+                self.unreadable.push(format!("{kind} on layer {layer}; accepted: {accepted}"));
+            } else {
+                *self.unused.entry(String::from_utf8_lossy(layer).into_owned()).or_default() += count;
             }
-            EntityType::LwPolyline(line) => {
-                let points = line.vertices.iter().map(|v| at(v.x, v.y)).collect();
-                self.note_bulges(layer, line.vertices.iter().filter(|v| v.bulge != 0.0).map(|v| at(v.x, v.y)));
-                self.add_line(layer, Line { points, is_closed: line.is_closed() });
-            }
-            EntityType::AttributeDefinition(_) | EntityType::Attribute(_) | EntityType::MText(_) => {}
-            other if layer == "1" => {
-                let kind = format!("{other:?}");
-                let kind = kind.split('(').next().unwrap_or_default();
-                self.unreadable.push(format!("a {kind} on layer 1; accepted: polylines and lines"));
-            }
-            _ => {}
         }
     }
 
-    fn note_bulges(&mut self, layer: &str, places: impl Iterator<Item = V2>) {
-        if layer == "1" {
-            let note = |p: V2| format!("an arc (bulge) at {}; accepted: straight sides between vertices", text_mm(&p));
-            self.unreadable.extend(places.map(note));
-        }
+    fn leave_out(&mut self, layer: &str) {
+        *self.unused.entry(layer.to_owned()).or_default() += 1;
     }
 
-    fn add_line(&mut self, layer: &str, mut line: Line) {
-        line.points.dedup_by(|later, earlier| (*later - *earlier).norm() < SAME_M);
-        if line.points.is_empty() || (line.points.len() == 1 && layer != "1") {
-            return;
-        }
+    /// The lines of a layer that holds lines; those of layer 8 for any other.
+    fn lines_of(&mut self, layer: &str) -> &mut Vec<Line> {
         match layer {
-            "1" => self.boundary.push(line),
-            "14" => self.sew_lines.push(line),
-            "8" => self.internal.push(line),
-            "7" => self.grain.push(line),
-            "6" => self.mirror.push(line),
-            "4" | "80" | "81" | "82" | "83" => {
-                let [at, inner] = line.ends();
-                let cut = inner - at;
-                self.notches.push(Notch {
-                    at,
-                    depth_m: Some(cut.norm()),
-                    angle_deg: Some(cut.y.atan2(cut.x).to_degrees().rem_euclid(360.0)),
-                });
-            }
-            _ => {}
+            "1" => &mut self.boundary,
+            "14" => &mut self.sew_lines,
+            "11" => &mut self.cut_outs,
+            "7" => &mut self.grain,
+            "6" => &mut self.mirror,
+            "5" => &mut self.grade_reference,
+            _ => &mut self.internal,
         }
     }
 
@@ -148,40 +233,101 @@ impl Drawn {
         if let Some(reason) = self.unreadable.into_iter().next() {
             return Err(reason);
         }
-        let mut outline = joined(std::mem::take(&mut self.boundary), "outline (layer 1)")?;
+        let mut outline = joined(&self.boundary, "outline (layer 1)")?;
         check_simple(&outline, "outline")?;
         let area = signed_area(&outline);
         if area.abs() < LEAST_AREA_M2 {
             return Err(format!("the outline encloses {:.3} mm2; accepted: an area", area.abs() * 1e6));
         }
-        if area < 0.0 {
-            outline.reverse();
-            // Keep the first vertex first.
-            outline.rotate_right(1);
-        }
+        let is_clockwise_in_file = counter_clockwise(&mut outline);
         let sew_line = sew_line(self.sew_lines, &mut self.internal, &outline)?;
+        let grade_points = self.texts.iter().filter_map(grade_point).collect();
+        let others = self.texts.iter().filter(|text| grade_point(text).is_none());
+        let mut texts: Vec<(String, String)> = others.map(|(_, text)| key_and_value(text)).collect();
         let take = |texts: &mut Vec<(String, String)>, key: &str| {
             let index = texts.iter().position(|(found, value)| found.eq_ignore_ascii_case(key) && !value.is_empty());
             index.map(|index| texts.remove(index).1)
         };
         let ends = |lines: &[Line]| lines.first().map(Line::ends);
+        let points = |lines: Vec<Line>| lines.into_iter().map(|line| line.points).collect();
         Ok(Piece {
             block: block.to_owned(),
-            name: take(&mut self.texts, "piece name").unwrap_or_else(|| block.to_owned()),
-            size: take(&mut self.texts, "size"),
-            quantity: take(&mut self.texts, "quantity"),
-            texts: self.texts,
+            name: take(&mut texts, "piece name").unwrap_or_else(|| block.to_owned()),
+            size: take(&mut texts, "size"),
+            quantity: take(&mut texts, "quantity"),
+            texts,
             outline,
-            is_clockwise_in_file: area < 0.0,
+            is_clockwise_in_file,
             turn_points: self.turn_points,
             curve_points: self.curve_points,
             notches: self.notches,
             grain: ends(&self.grain),
             mirror_line: ends(&self.mirror),
-            internal_lines: self.internal.into_iter().map(|line| line.points).collect(),
+            grade_reference: ends(&self.grade_reference),
+            grade_points,
+            internal_lines: points(self.internal),
+            cut_outs: points(self.cut_outs),
+            drill_holes: self.drill_holes,
             sew_line,
         })
     }
+
+    /// A place of what is drawn; of its first entity where there are several.
+    pub fn place(&self) -> Option<V2> {
+        let lines = [&self.boundary, &self.sew_lines, &self.internal, &self.cut_outs];
+        let more = [&self.grain, &self.mirror, &self.grade_reference];
+        let on_line = lines.into_iter().chain(more).flatten().map(|line| middle(&line.ends()));
+        let points = [&self.turn_points, &self.curve_points, &self.drill_holes].into_iter().flatten().copied();
+        let first_of_boundary = self.boundary.iter().map(|line| line.points[0]);
+        first_of_boundary
+            .chain(on_line)
+            .chain(points)
+            .chain(self.notches.iter().map(|notch| notch.at))
+            .chain(self.texts.iter().map(|(at, _)| *at))
+            .next()
+    }
+
+    /// What a user should know of how the block was read.
+    pub fn remarks(&self, block: &str) -> Vec<String> {
+        let error_mm = mm(super::curves::CHORD_ERROR_M);
+        let mut remarks = Vec::new();
+        if !self.flattened.is_empty() {
+            let count =
+                |(kind, count): (&&str, &usize)| format!("{count} {kind}{}", if *count == 1 { "" } else { "s" });
+            let counts: Vec<String> = self.flattened.iter().map(count).collect();
+            remarks.push(format!("block `{block}`: {} flattened, chords within {error_mm} mm", counts.join(", ")));
+        }
+        if self.copies > 0 {
+            remarks.push(format!("block `{block}`: {} boundary lines are drawn twice and taken once", self.copies));
+        }
+        remarks
+    }
+}
+
+/// Layers that a piece is drawn on.
+fn is_used(layer: &str) -> bool {
+    matches!(layer, "1" | "2" | "3" | "4" | "5" | "6" | "7" | "8" | "11" | "13" | "14" | "80" | "81" | "82" | "83")
+}
+
+/// A notch drawn as a line from the edge inwards.
+fn notch(line: &Line) -> Notch {
+    let [at, inner] = line.ends();
+    let cut = inner - at;
+    let angle_deg = Some(cut.y.atan2(cut.x).to_degrees().rem_euclid(360.0));
+    Notch { at, depth_m: Some(cut.norm()), angle_deg }
+}
+
+/// The middle of points' extent.
+fn middle(points: &[V2]) -> V2 {
+    let low = points.iter().fold(points[0], |low, p| low.inf(p));
+    let high = points.iter().fold(points[0], |high, p| high.sup(p));
+    (low + high) * 0.5
+}
+
+/// The point that a text `# n` gives grade rule `n`.
+fn grade_point((at, text): &(V2, String)) -> Option<GradePoint> {
+    let rule = text.trim().strip_prefix('#')?.trim().parse().ok()?;
+    Some(GradePoint { at: *at, rule })
 }
 
 /// `(key, value)` texts of a set of entities.
@@ -193,81 +339,10 @@ pub fn texts<'e>(entities: impl Iterator<Item = &'e Entity>) -> Vec<(String, Str
     entities.filter_map(text).collect()
 }
 
-fn key_and_value(text: &str) -> (String, String) {
+/// `Key: value` apart; a text without a key has the key `""`.
+pub fn key_and_value(text: &str) -> (String, String) {
     match text.split_once(':') {
         Some((key, value)) => (key.trim().to_owned(), value.trim().to_owned()),
         None => (String::new(), text.trim().to_owned()),
     }
-}
-
-/// Joins lines end to end into one closed polygon without a repeated first vertex.
-fn joined(mut lines: Vec<Line>, what: &str) -> Result<Vec<V2>, String> {
-    if lines.is_empty() {
-        return Err(format!("no {what}; accepted: one closed polyline, or lines that join into one"));
-    }
-    let first = lines.remove(0);
-    let is_closed = first.is_closed;
-    let mut points = first.points;
-    while !is_closed && !lines.is_empty() {
-        let end = points[points.len() - 1];
-        let touches = |line: &Line| line.ends().iter().any(|p| (p - end).norm() < JOIN_M);
-        let Some(next) = lines.iter().position(touches) else { break };
-        let mut next = lines.remove(next).points;
-        if (next[0] - end).norm() >= JOIN_M {
-            next.reverse();
-        }
-        points.extend(next.into_iter().skip(1));
-    }
-    let (start, end) = (points[0], points[points.len() - 1]);
-    let gap = (end - start).norm();
-    if points.len() > 1 && gap < JOIN_M {
-        points.pop();
-    } else if !is_closed {
-        return Err(format!(
-            "the {what} does not close: {:.2} mm from {} to {}",
-            mm(gap),
-            text_mm(&end),
-            text_mm(&start)
-        ));
-    }
-    if let Some(other) = lines.first() {
-        return Err(format!("a second {what} at {}; accepted: one", text_mm(&other.points[0])));
-    }
-    if points.len() < 3 {
-        return Err(format!("the {what} has {} vertices; accepted: at least 3", points.len()));
-    }
-    Ok(points)
-}
-
-fn check_simple(outline: &[V2], what: &str) -> Result<(), String> {
-    match self_crossing(outline) {
-        Some(place) => Err(format!("the {what} crosses itself at {}", text_mm(&place))),
-        None => Ok(()),
-    }
-}
-
-/// The sew line: layer 14, or in files of old Valentina a closed line on layer 8 that holds most of the piece.
-fn sew_line(on_14: Vec<Line>, internal: &mut Vec<Line>, outline: &[V2]) -> Result<Option<Vec<V2>>, String> {
-    let mut line = if on_14.is_empty() {
-        let is_sew_line = |line: &Line| {
-            let ends = line.ends();
-            (line.is_closed || (ends[1] - ends[0]).norm() < JOIN_M)
-                && signed_area(&line.points).abs() > SEW_LINE_SHARE * signed_area(outline)
-                && line.points.iter().all(|p| contains(outline, p))
-        };
-        let Some(index) = internal.iter().position(is_sew_line) else { return Ok(None) };
-        let found = internal.remove(index);
-        joined(vec![Line { is_closed: true, ..found }], "sew line (layer 8)")?
-    } else {
-        joined(on_14, "sew line (layer 14)")?
-    };
-    if signed_area(&line) < 0.0 {
-        line.reverse();
-        line.rotate_right(1);
-    }
-    Ok(Some(line))
-}
-
-fn text_mm(point: &V2) -> String {
-    format!("({:.2}, {:.2}) mm", mm(point.x), mm(point.y))
 }

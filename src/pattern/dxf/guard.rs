@@ -4,30 +4,28 @@
 //! writes them) and vertices whose numbers do not parse. So every number is checked here, the unknown codes are taken
 //! out, and afterwards the crate's entities are counted against these.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::DxfError;
 use super::tags::{Tag, ValueType, clipped, value_type};
 
 /// Entities that carry a pattern; `VERTEX` counts those of LWPOLYLINE too.
-pub const KINDS: [&str; 7] = ["POLYLINE", "VERTEX", "LWPOLYLINE", "LINE", "POINT", "TEXT", "INSERT"];
+pub const KINDS: [&str; 11] =
+    ["POLYLINE", "VERTEX", "LWPOLYLINE", "LINE", "POINT", "TEXT", "INSERT", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"];
 
 /// Entities of DXF besides [`KINDS`] [DXF reference, ENTITIES section]; anything else is a damaged or foreign file.
-const OTHER_KINDS: [&str; 41] = [
+const OTHER_KINDS: [&str; 37] = [
     "3DFACE",
     "3DLINE",
     "3DSOLID",
     "ACAD_PROXY_ENTITY",
-    "ARC",
     "ARCALIGNEDTEXT",
     "ATTDEF",
     "ATTRIB",
     "BODY",
-    "CIRCLE",
     "DGNUNDERLAY",
     "DIMENSION",
     "DWFUNDERLAY",
-    "ELLIPSE",
     "HATCH",
     "HELIX",
     "IMAGE",
@@ -47,7 +45,6 @@ const OTHER_KINDS: [&str; 41] = [
     "SEQEND",
     "SHAPE",
     "SOLID",
-    "SPLINE",
     "SUN",
     "SURFACE",
     "TOLERANCE",
@@ -61,6 +58,12 @@ const OTHER_KINDS: [&str; 41] = [
 const SECTIONS: [&str; 8] =
     ["HEADER", "CLASSES", "TABLES", "BLOCKS", "ENTITIES", "OBJECTS", "THUMBNAILIMAGE", "ACDSDATA"];
 
+/// Entities that draw something that is not read, counted by layer (as bytes of the file) and kind: the crate drops some.
+pub type Foreign<'a> = BTreeMap<(&'a [u8], &'a str), usize>;
+
+/// Kinds besides [`KINDS`] that draw nothing of a piece.
+const LABELS: [&str; 4] = ["ATTDEF", "ATTRIB", "MTEXT", "SEQEND"];
+
 /// Number of entities of each kind.
 pub type Counts = BTreeMap<&'static str, usize>;
 
@@ -73,6 +76,8 @@ pub struct BlockCount<'a> {
     pub line: usize,
     /// Entities.
     pub counts: Counts,
+    /// Entities of other kinds.
+    pub foreign: Foreign<'a>,
 }
 
 /// A text value with its line.
@@ -93,6 +98,8 @@ pub struct Inventory<'a> {
     pub blocks: Vec<BlockCount<'a>>,
     /// Entities outside blocks.
     pub entities: Counts,
+    /// Entities of other kinds outside blocks.
+    pub foreign: Foreign<'a>,
     /// Texts (group code 1 of TEXT) with their lines, as bytes.
     pub texts: Vec<(&'a [u8], usize)>,
     /// Blocks that are inserted, with the lines that say so.
@@ -125,7 +132,8 @@ pub fn take_inventory<'a>(tags: &[Tag<'a>], file: &str) -> Result<Inventory<'a>,
             "a DXF file with pattern pieces in BLOCKS, or an outline in ENTITIES",
         ));
     }
-    let is_there = |name: &[u8]| walk.inventory.blocks.iter().any(|block| block.name.eq_ignore_ascii_case(name));
+    let names: BTreeSet<Vec<u8>> = walk.inventory.blocks.iter().map(|block| block.name.to_ascii_uppercase()).collect();
+    let is_there = |name: &[u8]| names.contains(&name.to_ascii_uppercase());
     if let Some(&(name, line)) = walk.inventory.inserted.iter().find(|(name, _)| !is_there(name)) {
         let found = format!("block `{}` inserted but not there", clipped(&String::from_utf8_lossy(name)));
         return Err(DxfError::new(file, Some(line), found, "blocks that the file holds"));
@@ -217,7 +225,8 @@ impl<'a> Walk<'a, '_> {
                 }
                 let name = record.iter().find(|tag| tag.code == 2).map(|tag| tag.value.trim_ascii());
                 let name = name.ok_or_else(|| self.fail(&head, "a block without a name".to_owned(), "group code 2"))?;
-                self.inventory.blocks.push(BlockCount { name, line: head.line, counts: Counts::new() });
+                let (counts, foreign) = (Counts::new(), Foreign::new());
+                self.inventory.blocks.push(BlockCount { name, line: head.line, counts, foreign });
             }
             "ENDBLK" if is_in_blocks => {
                 // Some writers close the section's own, never opened block; that holds nothing.
@@ -246,11 +255,15 @@ impl<'a> Walk<'a, '_> {
         Ok(())
     }
 
-    fn count(&mut self, keyword: &str, record: &[Tag<'a>]) {
-        let counts = match self.inventory.blocks.last_mut() {
-            Some(block) if self.block.is_some() => &mut block.counts,
-            _ => &mut self.inventory.entities,
+    fn count(&mut self, keyword: &'a str, record: &[Tag<'a>]) {
+        let (counts, foreign) = match self.inventory.blocks.last_mut() {
+            Some(block) if self.block.is_some() => (&mut block.counts, &mut block.foreign),
+            _ => (&mut self.inventory.entities, &mut self.inventory.foreign),
         };
+        if !KINDS.contains(&keyword) && !LABELS.contains(&keyword) {
+            let layer = record.iter().find(|tag| tag.code == 8).map_or(&b"0"[..], |tag| tag.value.trim_ascii());
+            *foreign.entry((layer, keyword)).or_default() += 1;
+        }
         if let Some(kind) = KINDS.into_iter().find(|&kind| kind == keyword) {
             *counts.entry(kind).or_default() += 1;
         }
@@ -295,11 +308,31 @@ impl<'a> Walk<'a, '_> {
         Ok(())
     }
 
+    /// The crate pairs what lists it finds.
+    fn check_spline(&self, record: &[Tag<'a>]) -> Result<(), DxfError> {
+        let count = |code: i32| record.iter().filter(|tag| tag.code == code).count();
+        for (x, y, stated, what) in [(10, 20, 73, "control points"), (11, 21, 74, "fit points"), (40, 40, 72, "knots")]
+        {
+            let says = record.iter().find(|tag| tag.code == stated).map(|tag| keyword_of(tag.value));
+            if count(x) != count(y) || says.is_some_and(|says| says.parse() != Ok(count(x))) {
+                let says = says.unwrap_or("an unstated number of");
+                let found = format!("SPLINE of {says} {what} with {} and {}", count(x), count(y));
+                let accepted = format!("as many of group codes {x} and {y} as group code {stated} says");
+                return Err(self.fail(&record[0], found, &accepted));
+            }
+        }
+        Ok(())
+    }
+
     /// The crate takes a missing coordinate for zero.
     fn check_coordinates(&self, keyword: &str, record: &[Tag<'a>]) -> Result<(), DxfError> {
         let needed: &[i32] = match keyword {
             "VERTEX" | "POINT" => &[10, 20],
             "LINE" => &[10, 20, 11, 21],
+            "CIRCLE" => &[10, 20, 40],
+            "ARC" => &[10, 20, 40, 50, 51],
+            "ELLIPSE" => &[10, 20, 11, 21, 40],
+            "SPLINE" => return self.check_spline(record),
             "LWPOLYLINE" => {
                 let count = |code: i32| record.iter().filter(|tag| tag.code == code).count();
                 let stated = record.iter().find(|tag| tag.code == 90).map_or("none", |tag| keyword_of(tag.value));

@@ -1,22 +1,29 @@
 //! Reading and writing AAMA/ASTM DXF: bytes in, pieces out, nothing lost in silence.
 //!
 //! Layers [AAMA-292, ASTM D6673]: 1 boundary, 2 turn points, 3 curve points, 4 notches, 6 mirror line, 7 grain line,
-//! 8 internal lines, 14 sew line. A file is read in three steps: its tags are scanned and counted ([`guard`]), the `dxf`
+//! 5 grade reference, 8 internal lines, 11 cut-outs, 13 drill holes, 14 sew line; curves are flattened. A file is read in three steps: its tags are scanned and counted ([`guard`]), the `dxf`
 //! crate reads them, and its entities are counted against the tags; then each block becomes a piece or is refused.
 
 mod blocks;
+mod curves;
+mod figures;
 mod guard;
+mod loose;
+mod outline;
 mod tags;
 mod units;
 mod write;
 
-use dxf::entities::EntityType;
+use std::collections::{BTreeMap, BTreeSet};
+
+use dxf::entities::{Entity, EntityType};
 use dxf::{Block, Drawing};
 
-use self::blocks::Drawn;
+use self::blocks::{Drawn, Library};
+use self::figures::Placement;
 use self::guard::{BlockCount, Counts, Inventory, take_inventory};
 pub use self::units::{Unit, UnitSource};
-pub use self::write::write;
+pub use self::write::{write, write_pieces};
 use super::piece::Piece;
 
 /// Name given to the outline of a file that has no blocks.
@@ -66,8 +73,8 @@ pub struct Refused {
 pub struct PatternFile {
     /// File name.
     pub file: String,
-    /// DXF version (`AC1009`, ...), empty where the file names none.
-    pub version: String,
+    /// What kind of file it is, with its version: `DXF AC1009`; `DXF` alone where the file names none.
+    pub format: String,
     /// Unit of the numbers.
     pub unit: Unit,
     /// Where the unit comes from.
@@ -80,6 +87,8 @@ pub struct PatternFile {
     pub refused: Vec<Refused>,
     /// Things the user should know.
     pub warnings: Vec<String>,
+    /// Number of entities that are not used, by layer.
+    pub unused: BTreeMap<String, usize>,
     /// Encoding of the texts.
     pub encoding: &'static encoding_rs::Encoding,
 }
@@ -176,28 +185,24 @@ pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<Pattern
         (None, None) => (Unit::Mm, UnitSource::Assumed),
     };
     let drawing = load(&inventory, encoding, file_name)?;
+    let version = inventory.header.get("$ACADVER").map_or("", |entry| entry.value);
     let mut file = PatternFile {
         file: file_name.to_owned(),
-        version: inventory.header.get("$ACADVER").map(|entry| entry.value.to_owned()).unwrap_or_default(),
+        format: format!("DXF {version}").trim_end().to_owned(),
         unit,
         unit_source,
         texts: blocks::texts(drawing.entities()),
         pieces: Vec::new(),
         refused: Vec::new(),
         warnings: units::contradictions(&claims),
+        unused: BTreeMap::new(),
         encoding,
     };
     file.warnings.extend(drawing.entities().filter_map(scaled_insert));
     if unit_source == UnitSource::Assumed {
         file.warnings.push(format!("{file_name} names no unit: millimetres are assumed; say the unit to sew from it"));
     }
-    let scale = crate::units::from_mm(unit.mm_per_unit());
-    for (block, counted) in drawing.blocks().zip(&inventory.blocks) {
-        file.add(&block.name, Some(counted.line), Drawn::collect(block.entities.iter(), scale));
-    }
-    if inventory.blocks.is_empty() {
-        file.add(NO_BLOCK, None, Drawn::collect(drawing.entities(), scale));
-    }
+    file.add_all(&drawing, &inventory);
     let sample_size =
         file.texts.iter().find(|(key, _)| key.eq_ignore_ascii_case("size")).map(|(_, value)| value.clone());
     for piece in &mut file.pieces {
@@ -207,19 +212,90 @@ pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<Pattern
 }
 
 impl PatternFile {
-    fn add(&mut self, block: &str, line: Option<usize>, drawn: Drawn) {
-        if drawn.is_empty() {
-            return;
+    /// Adds the pieces of all blocks and those outside of blocks.
+    fn add_all(&mut self, drawing: &Drawing, inventory: &Inventory<'_>) {
+        let placement = Placement::scaled(crate::units::from_mm(self.unit.mm_per_unit()));
+        let blocks: Vec<&Block> = drawing.blocks().collect();
+        let library = Library::of(&blocks);
+        let outside = || {
+            let layouts = blocks.iter().filter(|block| is_layout(&block.name)).flat_map(|block| &block.entities);
+            drawing.entities().chain(layouts)
+        };
+        let within = blocks.iter().filter(|block| !is_layout(&block.name)).flat_map(|block| &block.entities);
+        let (on_sheet, in_others) = (inserted(outside()), inserted(within));
+        let mut strange = Vec::new();
+        for (block, counted) in blocks.iter().zip(&inventory.blocks).filter(|(block, _)| !is_layout(&block.name)) {
+            let name = block.name.to_ascii_uppercase();
+            if in_others.contains(&name) && !on_sheet.contains(&name) {
+                self.warnings.push(format!("block `{}` is read as part of the blocks it is inserted in", block.name));
+                continue;
+            }
+            let mut drawn = Drawn::collect(&block.entities, &placement, &library);
+            drawn.add_foreign(&counted.foreign);
+            self.count_unused(&drawn);
+            if drawn.is_no_piece() && !drawn.is_empty() {
+                strange.push((block.name.clone(), counted.line, drawn));
+            } else if !drawn.is_empty() {
+                self.warnings.extend(drawn.remarks(&block.name));
+                self.add(&block.name, Some(counted.line), drawn);
+            }
         }
+        let mut outer = Drawn::default();
+        outer.add_foreign(&inventory.foreign);
+        self.count_unused(&outer);
+        let loose = loose::read(outside(), &placement, &library);
+        self.pieces.extend(loose.pieces);
+        self.refused.extend(loose.refused);
+        self.warnings.extend(loose.remarks);
+        if let Some(rest) = loose.rest {
+            self.count_unused(&rest);
+            // A file without blocks must hold an outline.
+            if inventory.blocks.is_empty() {
+                self.add(NO_BLOCK, None, rest);
+            }
+        }
+        let is_foreign = self.pieces.is_empty() && self.refused.is_empty();
+        for (name, line, drawn) in strange {
+            if is_foreign {
+                self.add(&name, Some(line), drawn);
+            } else {
+                self.warnings
+                    .push(format!("block `{name}` is no piece: it draws on none of the layers 1-8, 11, 13, 14"));
+            }
+        }
+    }
+
+    fn add(&mut self, block: &str, line: Option<usize>, drawn: Drawn) {
         match drawn.into_piece(block) {
             Ok(piece) => self.pieces.push(piece),
             Err(reason) => self.refused.push(Refused { block: block.to_owned(), line, reason }),
         }
     }
+
+    fn count_unused(&mut self, drawn: &Drawn) {
+        for (layer, count) in &drawn.unused {
+            *self.unused.entry(layer.clone()).or_default() += count;
+        }
+    }
+}
+
+/// Whether a block is the sheet itself, as DXF names model and paper space.
+fn is_layout(block: &str) -> bool {
+    let name = block.trim_start_matches(['*', '$']).to_ascii_uppercase();
+    name.len() < block.len() && (name.starts_with("MODEL_SPACE") || name.starts_with("PAPER_SPACE"))
+}
+
+/// Names of the blocks that entities insert, in upper case.
+fn inserted<'e>(entities: impl Iterator<Item = &'e Entity>) -> BTreeSet<String> {
+    let name = |entity: &'e Entity| match &entity.specific {
+        EntityType::Insert(insert) => Some(insert.name.to_ascii_uppercase()),
+        _ => None,
+    };
+    entities.filter_map(name).collect()
 }
 
 /// A warning where a block is inserted at another size than it is stored in.
-fn scaled_insert(entity: &dxf::entities::Entity) -> Option<String> {
+fn scaled_insert(entity: &Entity) -> Option<String> {
     let EntityType::Insert(insert) = &entity.specific else { return None };
     let (x, y) = (insert.x_scale_factor, insert.y_scale_factor);
     (x != 1.0 || y != 1.0)
@@ -253,7 +329,7 @@ fn load(inventory: &Inventory<'_>, encoding: &'static encoding_rs::Encoding, fil
     Ok(drawing)
 }
 
-fn counts_of<'d>(entities: impl Iterator<Item = &'d dxf::entities::Entity>) -> Counts {
+fn counts_of<'d>(entities: impl Iterator<Item = &'d Entity>) -> Counts {
     let mut counts = Counts::new();
     for entity in entities {
         let (kind, vertices) = match &entity.specific {
@@ -263,6 +339,10 @@ fn counts_of<'d>(entities: impl Iterator<Item = &'d dxf::entities::Entity>) -> C
             EntityType::ModelPoint(_) => ("POINT", 0),
             EntityType::Text(_) => ("TEXT", 0),
             EntityType::Insert(_) => ("INSERT", 0),
+            EntityType::Arc(_) => ("ARC", 0),
+            EntityType::Circle(_) => ("CIRCLE", 0),
+            EntityType::Ellipse(_) => ("ELLIPSE", 0),
+            EntityType::Spline(_) => ("SPLINE", 0),
             EntityType::Vertex(_) => ("VERTEX", 0),
             _ => continue,
         };
@@ -288,5 +368,7 @@ fn compare(file: &str, block: Option<&BlockCount<'_>>, counted: &Counts, kept: &
     Ok(())
 }
 
+#[cfg(test)]
+mod shapes_tests;
 #[cfg(test)]
 mod tests;

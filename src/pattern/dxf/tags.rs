@@ -2,6 +2,11 @@
 
 use super::DxfError;
 
+/// Most bytes of a file that is read: a nest of 15 sizes has some megabytes.
+pub const MOST_BYTES: usize = 64 << 20;
+/// Most tags of a file that is read; each costs some 100 bytes of memory on the way.
+const MOST_TAGS: usize = 5_000_000;
+
 /// One pair of lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tag<'a> {
@@ -63,8 +68,12 @@ pub fn scan<'a>(bytes: &'a [u8], file: &str) -> Result<Vec<Tag<'a>>, DxfError> {
     if bytes.trim_ascii().is_empty() {
         return fail(None, "an empty file".to_owned(), "a text DXF file");
     }
-    if bytes.starts_with(b"AutoCAD Binary DXF") || bytes.starts_with(b"AutoCAD DXB") || bytes.contains(&0) {
-        return fail(Some(1), "a binary file".to_owned(), "a text (ASCII) DXF file; export it as such");
+    if bytes.len() > MOST_BYTES {
+        let found = format!("{:.0} MB", bytes.len() as f64 * 1e-6);
+        return fail(None, found, &format!("a file of at most {} MB", MOST_BYTES / 1_000_000));
+    }
+    if let Some(kind) = binary_kind(bytes) {
+        return fail(Some(1), kind.to_owned(), "a text (ASCII) DXF file; export it as such");
     }
     let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     let mut lines = text.split(|&byte| byte == b'\n').map(|line| line.strip_suffix(b"\r").unwrap_or(line)).enumerate();
@@ -95,6 +104,10 @@ pub fn scan<'a>(bytes: &'a [u8], file: &str) -> Result<Vec<Tag<'a>>, DxfError> {
         let tag = Tag { code, value, line: value_index + 1 };
         last_line = tag.line;
         tags.push(tag);
+        if tags.len() > MOST_TAGS {
+            let found = format!("more than {MOST_TAGS} group codes");
+            return fail(Some(last_line), found, "a file of fewer");
+        }
         if tag.begins("EOF") {
             return Ok(tags);
         }
@@ -104,6 +117,22 @@ pub fn scan<'a>(bytes: &'a [u8], file: &str) -> Result<Vec<Tag<'a>>, DxfError> {
         "the file ends without 0/EOF: it is truncated".to_owned(),
         "a whole DXF file, ending in 0/EOF",
     )
+}
+
+/// What a file is that is no text.
+fn binary_kind(bytes: &[u8]) -> Option<&'static str> {
+    let known: [(&[u8], &str); 8] = [
+        (b"AutoCAD Binary DXF", "a binary DXF file"),
+        (b"AutoCAD DXB", "a binary file (DXB)"),
+        (b"AC10", "a binary file (DWG)"),
+        (b"\x89PNG", "a binary file (a PNG picture)"),
+        (b"\xff\xd8\xff", "a binary file (a JPEG picture)"),
+        (b"PK\x03\x04", "a binary file (a ZIP archive)"),
+        (b"\xff\xfe", "a binary file (text in UTF-16)"),
+        (b"\xfe\xff", "a binary file (text in UTF-16)"),
+    ];
+    let kind = known.iter().find(|(start, _)| bytes.starts_with(start)).map(|(_, kind)| *kind);
+    kind.or_else(|| bytes.contains(&0).then_some("a binary file"))
 }
 
 /// The beginning of a text, for messages.

@@ -188,14 +188,18 @@ fn unusable_pieces_are_refused_and_the_others_read() {
     check("self-crossing", &edited("\r\n550.7600\r\n", "\r\n-50.0000\r\n"), "crosses itself at (");
     check("open", &edited(" 70\r\n1\r\n", " 70\r\n0\r\n"), "does not close: 458.95 mm");
     check("no outline", &edited("POLYLINE\r\n  8\r\n1\r\n", "POLYLINE\r\n  8\r\n99\r\n"), "no outline");
-    check("an arc", &edited(" 20\r\n550.7600\r\n", " 20\r\n550.7600\r\n 42\r\n0.5\r\n"), "bulge");
     check(
-        "a circle",
+        "an arc across the neck",
+        &edited(" 20\r\n550.7600\r\n", " 20\r\n550.7600\r\n 42\r\n0.5\r\n"),
+        "crosses itself at (",
+    );
+    check(
+        "a circle besides",
         &edited(
             "  0\r\nPOLYLINE\r\n",
             "  0\r\nCIRCLE\r\n  8\r\n1\r\n 10\r\n0\r\n 20\r\n0\r\n 40\r\n9\r\n  0\r\nPOLYLINE\r\n",
         ),
-        "Circle",
+        "a second outline",
     );
 }
 

@@ -7,41 +7,78 @@ use crate::pattern::draft::Draft;
 use crate::pattern::piece::Piece;
 use crate::units::mm;
 
+/// Code pages that texts are tried in, by their names in `$DWGCODEPAGE`.
+const CODE_PAGES: [(&str, &encoding_rs::Encoding); 4] = [
+    ("ANSI_1252", encoding_rs::WINDOWS_1252),
+    ("ANSI_1250", encoding_rs::WINDOWS_1250),
+    ("ANSI_1251", encoding_rs::WINDOWS_1251),
+    ("ANSI_1253", encoding_rs::WINDOWS_1253),
+];
+
 /// Writes a draft as AAMA DXF in millimetres: boundary, turn and curve points, notches and grain of each piece.
 ///
 /// The bytes depend on the draft only: no date is written.
 #[must_use]
 pub fn write(draft: &Draft) -> Vec<u8> {
-    let mut out = Out(String::new());
-    out.tag(999, "ANSI/AAMA");
-    out.section("HEADER", |out| {
-        out.tag(9, "$ACADVER");
-        out.tag(1, "AC1009");
+    let texts = [("Author", "Toile"), ("Style Name", &draft.style), ("Sample Size", &draft.size)];
+    write_pieces(&draft.pieces, &texts.map(|(key, value)| (key.to_owned(), value.to_owned())))
+}
+
+/// Writes pieces as AAMA DXF in millimetres, with the style's texts outside the blocks.
+///
+/// A file of ASCII texts is plain R12; others name the first code page that has all their letters, or are of the
+/// version of AutoCAD 2007 and in UTF-8 where none has.
+#[must_use]
+pub fn write_pieces(pieces: &[Piece], style: &[(String, String)]) -> Vec<u8> {
+    let body = body(pieces, style);
+    let encoded = CODE_PAGES.iter().find_map(|(page, encoding)| {
+        let (bytes, _, has_unknown) = encoding.encode(&body);
+        (!has_unknown).then(|| (*page, bytes.into_owned()))
     });
-    out.section("BLOCKS", |out| draft.pieces.iter().for_each(|piece| out.block(piece)));
+    let (version, page, bytes) = match encoded {
+        _ if body.is_ascii() => ("AC1009", None, body.into_bytes()),
+        Some((page, bytes)) => ("AC1009", Some(page), bytes),
+        None => ("AC1021", None, body.into_bytes()),
+    };
+    let mut head = Out(String::new());
+    head.tag(999, "ANSI/AAMA");
+    head.section("HEADER", |out| {
+        out.tag(9, "$ACADVER");
+        out.tag(1, version);
+        if let Some(page) = page {
+            out.tag(9, "$DWGCODEPAGE");
+            out.tag(3, page);
+        }
+    });
+    [head.0.into_bytes(), bytes].concat()
+}
+
+/// Blocks and entities.
+fn body(pieces: &[Piece], style: &[(String, String)]) -> String {
+    let mut out = Out(String::new());
+    out.section("BLOCKS", |out| pieces.iter().for_each(|piece| out.block(piece)));
     out.section("ENTITIES", |out| {
-        for (line, (key, value)) in
-            [("Author", "Toile"), ("Style Name", &draft.style), ("Sample Size", &draft.size), ("Units", "METRIC")]
-                .into_iter()
-                .enumerate()
-        {
+        let units = ("Units".to_owned(), "METRIC".to_owned());
+        let style = style.iter().filter(|(key, _)| !key.eq_ignore_ascii_case("units")).chain([&units]);
+        for (line, (key, value)) in style.enumerate() {
             out.text(V2::new(0.0, -0.02 - 0.005 * line as f64), key, value);
         }
-        for piece in &draft.pieces {
+        for piece in pieces {
             out.entity("INSERT", "1");
             out.tag(2, &piece.block);
             out.point(10, &V2::zeros());
         }
     });
     out.tag(0, "EOF");
-    out.0.into_bytes()
+    out.0
 }
 
 struct Out(String);
 
 impl Out {
     fn tag(&mut self, code: i32, value: &str) {
-        // Writing to a string cannot fail.
+        // A line break would end the value. Writing to a string cannot fail.
+        let value = value.replace(|c: char| c.is_control(), " ");
         let _ = write!(self.0, "{code:3}\r\n{value}\r\n");
     }
 
@@ -72,7 +109,10 @@ impl Out {
         self.entity("TEXT", "1");
         self.point(10, &at);
         self.number(40, 3.0);
-        self.tag(1, &format!("{key}: {value}"));
+        match key {
+            "" => self.tag(1, value),
+            _ => self.tag(1, &format!("{key}: {value}")),
+        }
     }
 
     fn block(&mut self, piece: &Piece) {
@@ -88,7 +128,7 @@ impl Out {
         for (line, (key, value)) in texts.into_iter().enumerate() {
             self.text(V2::new(0.02, 0.1 - 0.005 * line as f64), key, value);
         }
-        self.polyline("1", &piece.outline);
+        self.polyline("1", &piece.outline, true);
         self.points("2", &piece.turn_points);
         self.points("3", &piece.curve_points);
         for notch in &piece.notches {
@@ -97,24 +137,34 @@ impl Out {
             self.number(30, mm(notch.depth_m.unwrap_or(0.0)));
             self.number(50, notch.angle_deg.unwrap_or(0.0));
         }
-        for (layer, line) in [("6", piece.mirror_line), ("7", piece.grain)] {
+        for (layer, line) in [("5", piece.grade_reference), ("6", piece.mirror_line), ("7", piece.grain)] {
             if let Some([from, to]) = line {
                 self.entity("LINE", layer);
                 self.point(10, &from);
                 self.point(11, &to);
             }
         }
+        for graded in &piece.grade_points {
+            self.entity("TEXT", "2");
+            self.point(10, &graded.at);
+            self.number(40, 3.0);
+            self.tag(1, &format!("# {}", graded.rule));
+        }
+        for (layer, lines) in [("8", &piece.internal_lines), ("11", &piece.cut_outs)] {
+            lines.iter().for_each(|line| self.polyline(layer, line, false));
+        }
+        self.points("13", &piece.drill_holes);
         if let Some(line) = &piece.sew_line {
-            self.polyline("14", line);
+            self.polyline("14", line, true);
         }
         self.tag(0, "ENDBLK");
         self.tag(8, "0");
     }
 
-    fn polyline(&mut self, layer: &str, points: &[V2]) {
+    fn polyline(&mut self, layer: &str, points: &[V2], is_closed: bool) {
         self.entity("POLYLINE", layer);
         self.tag(66, "1");
-        self.tag(70, "1");
+        self.tag(70, if is_closed { "1" } else { "0" });
         for point in points {
             self.entity("VERTEX", layer);
             self.point(10, point);

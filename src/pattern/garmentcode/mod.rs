@@ -4,8 +4,8 @@
 //! panel's normal looks away from the body); it is mirrored here, so that all pieces are seen from outside. The edges
 //! keep the order of the file, and edge `k` is called `e<k>`.
 //!
-//! The format knows no sizes, notches and grain lines: the grain is the panel's `y`. A panel's name says its [`Role`]
-//! (`skirt_front`, `pant_b_l`, `right_ftorso`); of a half panel it is that of the whole, of an unknown one [`Role::Other`].
+//! The format knows no sizes, notches and grain lines: the grain is the panel's `y`. Panel names say the [`Role`]s, by the
+//! words that proposals know; several panels may have one role.
 
 mod export;
 pub mod format;
@@ -18,6 +18,7 @@ use super::curve::{arc, bezier};
 use super::garment::Role;
 use super::inspect::{FileReport, PieceReport};
 use super::piece::Piece;
+use super::propose::roles_by_name;
 use super::style::{Edge, EdgeRef, Seam, Style, StylePiece};
 use crate::geom::V2;
 use crate::geom::polyline::{Polyline, self_crossing, signed_area};
@@ -265,36 +266,12 @@ fn piece(name: &str, edges: &[Polyline], is_clockwise_in_file: bool) -> Piece {
     Piece {
         block: name.to_owned(),
         name: name.to_owned(),
-        size: None,
         quantity: Some("1".to_owned()),
-        texts: Vec::new(),
         outline: edges.iter().flat_map(|edge| edge.points()[..edge.points().len() - 1].to_vec()).collect(),
         is_clockwise_in_file,
         turn_points: edges.iter().map(|edge| edge.points()[0]).collect(),
         curve_points: edges.iter().flat_map(inner).collect(),
-        notches: Vec::new(),
-        grain: None,
-        mirror_line: None,
-        internal_lines: Vec::new(),
-        sew_line: None,
-    }
-}
-
-/// Role of a panel, by the names that `pygarment`'s garments use.
-fn role(name: &str) -> Role {
-    match name {
-        "skirt_front" => Role::SkirtFront,
-        "skirt_back" => Role::SkirtBack,
-        "pant_f_r" => Role::LegFrontRight,
-        "pant_f_l" => Role::LegFrontLeft,
-        "pant_b_r" => Role::LegBackRight,
-        "pant_b_l" => Role::LegBackLeft,
-        "wb_front" | "wb_back" => Role::Waistband,
-        "right_ftorso" | "left_ftorso" => Role::Front,
-        "right_btorso" | "left_btorso" => Role::Back,
-        "right_sleeve_f" | "right_sleeve_b" => Role::SleeveRight,
-        "left_sleeve_f" | "left_sleeve_b" => Role::SleeveLeft,
-        _ => Role::Other,
+        ..Piece::default()
     }
 }
 
@@ -307,9 +284,11 @@ impl Specification {
             line: line.clone(),
             corners: Vec::new(),
         };
-        let style_piece = |(piece, edges): (&Piece, &Vec<Polyline>)| StylePiece {
+        let names: Vec<&str> = self.pieces.iter().map(|piece| piece.block.as_str()).collect();
+        let roles = roles_by_name(&names);
+        let style_piece = |((piece, edges), role): ((&Piece, &Vec<Polyline>), Role)| StylePiece {
             id: piece.block.clone(),
-            role: role(&piece.block),
+            role,
             edges: edges.iter().enumerate().map(edge).collect(),
             grain: V2::y(),
             notches: Vec::new(),
@@ -325,7 +304,7 @@ impl Specification {
         Style {
             name: stem.strip_suffix("_specification").unwrap_or(&stem).to_owned(),
             size: String::new(),
-            pieces: self.pieces.iter().zip(&self.edges).map(style_piece).collect(),
+            pieces: self.pieces.iter().zip(&self.edges).zip(roles).map(style_piece).collect(),
             seams: self.stitches.iter().enumerate().map(seam).collect(),
             measurements: Vec::new(),
             fit_levels: Vec::new(),
@@ -343,6 +322,7 @@ impl From<&Specification> for FileReport {
             pieces: specification.pieces.iter().map(PieceReport::from).collect(),
             refused: Vec::new(),
             warnings: Vec::new(),
+            unused: Default::default(),
             error: None,
         }
     }

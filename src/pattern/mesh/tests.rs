@@ -132,31 +132,72 @@ fn meshing_is_deterministic() {
     assert_eq!(style(TshirtSize::M).mesh(0.02), style(TshirtSize::M).mesh(0.02));
 }
 
-/// Pieces drawn by other programs, with an arbitrary edge named: all mesh, nearly all well.
+/// Whether the outline itself forces a bad triangle: a sharp corner, a side much shorter than the edge length, or a strip
+/// too narrow for a vertex inside.
+fn is_forced(garment: &Garment, triangle: [usize; 3]) -> bool {
+    let h = garment.edge_length_m;
+    let sides_of = |t: &[usize; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
+    let mut count: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+    for side in garment.triangles.iter().flat_map(sides_of) {
+        *count.entry([side[0].min(side[1]), side[0].max(side[1])]).or_default() += 1;
+    }
+    let boundary: Vec<[usize; 2]> = count.into_iter().filter(|(_, n)| *n == 1).map(|(side, _)| side).collect();
+    let length = |side: &[usize; 2]| (garment.rest[side[1]] - garment.rest[side[0]]).norm();
+    let is_on = |vertex: usize| boundary.iter().any(|side| side.contains(&vertex));
+    let has_short = |vertex: usize| boundary.iter().any(|side| side.contains(&vertex) && length(side) < 0.5 * h);
+    let inner_angle = |vertex: usize| {
+        let of = |t: &[usize; 3]| {
+            let k = t.iter().position(|&v| v == vertex)?;
+            let [p, q, r] = [t[k], t[(k + 1) % 3], t[(k + 2) % 3]].map(|v| garment.rest[v]);
+            Some((q - p).angle(&(r - p)).to_degrees())
+        };
+        garment.triangles.iter().filter_map(of).sum::<f64>()
+    };
+    triangle.iter().all(|&vertex| is_on(vertex))
+        || triangle.iter().any(|&vertex| has_short(vertex) || (is_on(vertex) && inner_angle(vertex) < 45.0))
+}
+
+/// Pieces drawn by other programs, with an arbitrary edge named: all mesh, and well wherever the outline allows.
 #[test]
 fn pieces_of_other_programs_mesh() {
     let mut angles = Vec::new();
+    let mut unforced: Vec<String> = Vec::new();
     for folder in ["freesewing", "valentina", "garmentcode", "jblockcreator"] {
         let path = format!("{}/../shared/patterns/{folder}", env!("CARGO_MANIFEST_DIR"));
         let Ok(entries) = std::fs::read_dir(&path) else {
             eprintln!("skipped: {path} is not here");
             return;
         };
-        for file in entries
-            .map(|entry| entry.expect("it can be listed").path())
-            .filter(|p| p.extension().is_some_and(|e| e == "dxf"))
-        {
+        let files = entries.map(|entry| entry.expect("it can be listed").path());
+        for file in files.filter(|p| p.extension().is_some_and(|e| e == "dxf")) {
             let bytes = std::fs::read(&file).expect("it can be read");
             for piece in crate::pattern::dxf::read(&bytes, "a.dxf", None).expect("it reads").pieces {
                 let seams =
                     format!("name = ''\n[piece.p]\nblock = '{}'\nrole = 'front'\nedges.e = [0, 1]", piece.block);
+                let name = format!("{} {}", file.file_name().unwrap_or_default().to_string_lossy(), piece.block);
                 let style = Style::read(&[piece], seams.as_bytes(), "a.toml").expect("it is a style");
-                let garment = style.mesh(0.02).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
-                angles.push(MeshQuality::of(&garment).expect("there are triangles").min_angle_deg);
+                let garment = style.mesh(0.015).unwrap_or_else(|error| panic!("{name}: {error}"));
+                let angle = MeshQuality::of(&garment).expect("there are triangles").min_angle_deg;
+                angles.push(angle);
+                let is_bad = |t: &&[usize; 3]| triangulate::min_angle(t.map(|v| garment.rest[v])).to_degrees() < 20.0;
+                let bad: Vec<&[usize; 3]> = garment.triangles.iter().filter(is_bad).collect();
+                let free = bad.iter().filter(|triangle| !is_forced(&garment, ***triangle)).count();
+                if free > 0 {
+                    unforced.push(format!("{name}: {free} of {} triangles, least angle {angle:.1}", bad.len()));
+                }
             }
         }
     }
     angles.sort_by(f64::total_cmp);
-    // The few below have edges of one or two millimetres, which no mesh of 20 mm can follow with good triangles.
-    assert!(angles[0] > 1.0 && angles[angles.len() / 10] > 15.0 && angles[angles.len() / 2] > 25.0, "{angles:?}");
+    let share = |below: f64| angles.iter().filter(|&&angle| angle < below).count();
+    eprintln!(
+        "{} pieces; least angle below 5: {}, 10: {}, 20: {}, 25: {} pieces; median {:.1} degrees; not forced: {unforced:#?}",
+        angles.len(),
+        share(5.0),
+        share(10.0),
+        share(20.0),
+        share(25.0),
+        angles[angles.len() / 2]
+    );
+    assert!(unforced.is_empty(), "{unforced:#?}");
 }

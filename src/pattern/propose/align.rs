@@ -15,8 +15,8 @@ const SHARE_WEIGHT: f64 = 0.2;
 const FULL_BOW: f64 = 0.09;
 /// Weight of bending the wrong way.
 const BOW_WEIGHT: f64 = 0.4;
-/// What a piece that does not stand upright loses.
-const TURNED: f64 = 0.12;
+/// What a piece loses that does not stand upright.
+pub const TURNED: f64 = 0.12;
 
 /// A labelled stretch of a piece, as drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,9 +46,13 @@ pub struct Alignment {
     pub score: f64,
 }
 
-/// The best way to lay one of the templates round a shape.
+/// The best way to lay one of the templates round a shape; `cost` is what each number of quarter turns loses.
 #[must_use]
-pub fn align<'t>(shape: &Shape, templates: impl Iterator<Item = &'t Template>) -> Option<Alignment> {
+pub fn align<'t>(
+    shape: &Shape,
+    templates: impl Iterator<Item = &'t Template>,
+    cost: impl Fn(usize) -> f64,
+) -> Option<Alignment> {
     let mut best: Option<Alignment> = None;
     let templates: Vec<&Template> = templates.collect();
     for quarter_turns in 0..4 {
@@ -58,7 +62,7 @@ pub fn align<'t>(shape: &Shape, templates: impl Iterator<Item = &'t Template>) -
             for is_mirrored in if template.is_whole { &[false][..] } else { &[false, true] } {
                 let parts = parts_of(template, *is_mirrored);
                 let Some((score, cuts)) = stretches.best(&parts, size) else { continue };
-                let score = score - if quarter_turns == 0 { 0.0 } else { TURNED };
+                let score = score - cost(quarter_turns);
                 if best.as_ref().is_none_or(|best| score > best.score) {
                     let labelled = (0..parts.len()).map(|k| Labelled {
                         label: parts[k].label,

@@ -6,7 +6,10 @@
 
 mod align;
 mod names;
+mod notched;
+mod pose;
 mod recognise;
+mod ring;
 mod sew;
 mod shape;
 mod templates;
@@ -15,6 +18,8 @@ mod tests;
 mod worn;
 mod write;
 
+pub(super) use self::pose::{Pose, named_face_and_hand, pose};
+use super::garment::Role;
 use super::piece::Piece;
 use super::seams::{PieceEntry, SeamEntry};
 
@@ -36,6 +41,20 @@ pub enum Class {
     Cuff,
     /// Anything else: it takes part in no proposal.
     Other,
+}
+
+impl Class {
+    fn as_str(self) -> &'static str {
+        match self {
+            Self::Body => "trunk",
+            Self::Leg => "leg",
+            Self::Sleeve => "sleeve",
+            Self::Skirt => "skirt",
+            Self::Waistband => "waistband",
+            Self::Cuff => "cuff",
+            Self::Other => "part",
+        }
+    }
 }
 
 /// Front or back.
@@ -80,6 +99,13 @@ impl Hand {
 impl Face {
     /// Both, the front first.
     pub const BOTH: [Self; 2] = [Self::Front, Self::Back];
+
+    fn other(self) -> Self {
+        match self {
+            Self::Front => Self::Back,
+            Self::Back => Self::Front,
+        }
+    }
 
     fn as_str(self) -> &'static str {
         match self {
@@ -146,6 +172,44 @@ impl Label {
     }
 }
 
+/// What a piece is worn as; a trunk `is_bodice` where something is sewn to its lower edge.
+fn role_of(class: Option<Class>, face: Option<Face>, hand: Option<Hand>, is_bodice: bool) -> Role {
+    match (class, face, hand) {
+        (Some(Class::Body) | None, Some(Face::Front), _) => {
+            if is_bodice {
+                Role::BodiceFront
+            } else {
+                Role::Front
+            }
+        }
+        (Some(Class::Body) | None, Some(Face::Back), _) => {
+            if is_bodice {
+                Role::BodiceBack
+            } else {
+                Role::Back
+            }
+        }
+        (Some(Class::Sleeve), _, Some(Hand::Right)) => Role::SleeveRight,
+        (Some(Class::Sleeve), _, Some(Hand::Left)) => Role::SleeveLeft,
+        (Some(Class::Leg), Some(Face::Front), Some(Hand::Right)) => Role::LegFrontRight,
+        (Some(Class::Leg), Some(Face::Front), Some(Hand::Left)) => Role::LegFrontLeft,
+        (Some(Class::Leg), Some(Face::Back), Some(Hand::Right)) => Role::LegBackRight,
+        (Some(Class::Leg), Some(Face::Back), Some(Hand::Left)) => Role::LegBackLeft,
+        (Some(Class::Skirt), Some(Face::Front), _) => Role::SkirtFront,
+        (Some(Class::Skirt), Some(Face::Back), _) => Role::SkirtBack,
+        (Some(Class::Waistband), ..) => Role::Waistband,
+        _ => Role::Other,
+    }
+}
+
+/// Roles of pieces by their names alone, for files that hold their seams.
+pub(super) fn roles_by_name(names: &[&str]) -> Vec<Role> {
+    let named: Vec<names::Named> = names.iter().map(|name| names::read(name)).collect();
+    let is_below = |one: &names::Named| matches!(one.class, Some(Class::Skirt | Class::Leg | Class::Waistband));
+    let is_bodice = named.iter().any(is_below);
+    named.iter().map(|one| role_of(one.class, one.face, one.hand, is_bodice)).collect()
+}
+
 /// What a piece was taken for.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct ProposedPiece {
@@ -192,6 +256,8 @@ pub struct Proposal {
     pub pieces: Vec<ProposedPiece>,
     /// Seams, the surest first of each kind.
     pub seams: Vec<ProposedSeam>,
+    /// Edges that are taken to stay free: hems, necklines, armholes without a sleeve, waists without a band.
+    pub open: Vec<String>,
     /// What a person must decide.
     pub questions: Vec<String>,
     /// Pieces of the seam file by identifier.
@@ -199,12 +265,22 @@ pub struct Proposal {
     entries: Vec<(String, PieceEntry)>,
 }
 
+impl Proposal {
+    /// Whether no piece was recognised.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+}
+
 /// Proposes a seam file for the pieces of one size, half pieces opened ([`super::dxf::PatternFile::to_sew`]).
 #[must_use]
 pub fn propose(pieces: &[Piece]) -> Proposal {
     let mut questions = Vec::new();
     let recognised = recognise::recognise(pieces, &mut questions);
-    let worn = worn::worn(pieces, &recognised, &mut questions);
+    // Which sleeve is drawn shows only once its notches are laid beside those of the armhole.
+    let first = worn::worn(pieces, &recognised, None, &mut Vec::new());
+    let worn = worn::worn(pieces, &recognised, notched::drawn_sleeve(&first), &mut questions);
     let seams = sew::sew(&worn, &mut questions);
     let mut listed: Vec<ProposedPiece> = Vec::new();
     for (index, piece) in pieces.iter().enumerate() {
@@ -227,6 +303,7 @@ pub fn propose(pieces: &[Piece]) -> Proposal {
             ..plain.clone()
         }));
     }
+    let open = sew::open(&worn, &seams);
     let entries = worn.iter().map(|worn| (worn.id.clone(), worn.entry.clone())).collect();
-    Proposal { pieces: listed, seams, questions, entries }
+    Proposal { pieces: listed, seams, open, questions, entries }
 }

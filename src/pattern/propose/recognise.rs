@@ -1,20 +1,29 @@
 //! What each piece is: from its name first, then from its outline, then from the other pieces.
 
-use super::align::{Alignment, align};
+use super::align::{Alignment, TURNED, align};
 use super::names;
 use super::shape::Shape;
-use super::templates::TEMPLATES;
-use super::{Class, Face, Hand, Label};
+use super::templates::{TEMPLATES, Template};
+use super::{Class, Face, Hand, Label, ring};
 use crate::pattern::piece::Piece;
 
 /// Least fit of an outline whose name tells what it is.
 const LEAST_NAMED_FIT: f64 = 0.35;
 /// Least fit of an outline that nothing else tells of.
 const LEAST_UNNAMED_FIT: f64 = 0.6;
+/// Kinds that have templates, in the order in which equal fits count.
+const CLASSES: [Class; 6] = [Class::Body, Class::Leg, Class::Sleeve, Class::Skirt, Class::Waistband, Class::Cuff];
 /// Confidence in front and back told by comparing outlines.
 const COMPARED: f64 = 0.75;
 /// Least difference of two outlines that tells front from back, in units of the piece's longer side.
 const LEAST_DIFFERENCE: f64 = 0.01;
+
+/// How much better the outline must fit another kind of piece before a name is doubted.
+const CONTRADICTED: f64 = 0.25;
+/// Confidence in a name that the outline contradicts, and in a kind that another fits nearly as well.
+const DOUBTED: f64 = 0.5;
+/// Difference of fit below which two kinds of piece are not told apart for sure.
+const CLEAR_MARGIN: f64 = 0.15;
 
 /// A piece with what it was taken for.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +42,8 @@ pub struct Recognised {
     pub alignment: Alignment,
     /// 0 to 1.
     pub confidence: f64,
+    /// The next best reading of an outline whose name says no kind.
+    rival: Option<Alignment>,
 }
 
 /// Recognises pieces; those that are left out have a question each, except what needs no seam of ours.
@@ -40,15 +51,21 @@ pub fn recognise(pieces: &[Piece], questions: &mut Vec<String>) -> Vec<Recognise
     let mut found = Vec::new();
     let has_sleeve = pieces.iter().any(|piece| names::read(&piece.name).class == Some(Class::Sleeve));
     for (index, piece) in pieces.iter().enumerate() {
-        match recognise_one(index, piece, has_sleeve) {
+        match recognise_one(index, piece, has_sleeve, questions) {
             Ok(recognised) => found.push(recognised),
             Err(question) => questions.push(question),
         }
     }
+    reread_lone_legs(pieces, &mut found, questions);
     for class in [Class::Body, Class::Leg] {
         tell_faces(class, &mut found);
     }
+    let skirts = found.iter().filter(|one| one.class == Class::Skirt).count();
     for one in &found {
+        // A single piece may go all round.
+        if one.class == Class::Skirt && skirts == 1 {
+            continue;
+        }
         let needs_face = matches!(one.class, Class::Body | Class::Leg | Class::Skirt);
         if needs_face && one.face.is_none() {
             questions.push(format!("is piece `{}` a front or a back?", pieces[one.piece].name));
@@ -58,7 +75,12 @@ pub fn recognise(pieces: &[Piece], questions: &mut Vec<String>) -> Vec<Recognise
 }
 
 /// A file with a sleeve (`has_sleeve`) holds no legs unless it calls them so.
-fn recognise_one(index: usize, piece: &Piece, has_sleeve: bool) -> Result<Recognised, String> {
+fn recognise_one(
+    index: usize,
+    piece: &Piece,
+    has_sleeve: bool,
+    questions: &mut Vec<String>,
+) -> Result<Recognised, String> {
     let named = names::read(&piece.name);
     let ask = |what: &str| format!("piece `{}`: {what}; it is in no proposed seam", piece.name);
     if named.class == Some(Class::Other) {
@@ -74,17 +96,56 @@ fn recognise_one(index: usize, piece: &Piece, has_sleeve: bool) -> Result<Recogn
     };
     // A sleeve that is called front or back is half of one.
     let is_half_sleeve = named.face.is_some();
-    let candidates = TEMPLATES.iter().filter(|template| {
-        is_candidate(template.class) && (template.class != Class::Sleeve || template.is_whole != is_half_sleeve)
-    });
-    let alignment = align(&shape, candidates).ok_or_else(|| ask("it has too few corners for what it is called"))?;
+    let as_class = |class: Class| {
+        let of_class = |template: &&Template| {
+            template.class == class && (class != Class::Sleeve || template.is_whole != is_half_sleeve)
+        };
+        // Pieces are mostly drawn upright.
+        let cost = |quarter_turns| if quarter_turns == 0 { 0.0 } else { TURNED };
+        align(&shape, TEMPLATES.iter().filter(of_class), cost)
+    };
+    if let Some(ring) = ring::read(&shape).filter(|_| named.class == Some(Class::Skirt)) {
+        return Ok(Recognised {
+            piece: index,
+            class: Class::Skirt,
+            face: named.face,
+            hand: named.hand,
+            shape,
+            alignment: ring,
+            confidence: ring::CONFIDENCE,
+            rival: None,
+        });
+    }
+    let mut readings: Vec<Alignment> =
+        CLASSES.into_iter().filter(|&class| is_candidate(class)).filter_map(as_class).collect();
+    readings.sort_by(|a, b| b.score.total_cmp(&a.score));
+    let mut readings = readings.into_iter();
+    let alignment = readings.next().ok_or_else(|| ask("it has too few corners for what it is called"))?;
+    let rival = readings.next().filter(|rival| rival.score >= LEAST_NAMED_FIT);
     let is_named = named.class.is_some() || named.face.is_some();
     let least = if is_named { LEAST_NAMED_FIT } else { LEAST_UNNAMED_FIT };
     if alignment.score < least {
         return Err(ask("neither its name nor its outline tells what it is"));
     }
     let fit = ((alignment.score - LEAST_NAMED_FIT) / (0.85 - LEAST_NAMED_FIT)).clamp(0.0, 1.0);
-    let confidence = if is_named { 0.6 + 0.4 * fit } else { 0.3 + 0.5 * fit };
+    let mut confidence = if is_named { 0.6 + 0.4 * fit } else { 0.3 + 0.5 * fit };
+    if let Some(rival) = &rival {
+        let margin = ((alignment.score - rival.score) / CLEAR_MARGIN).min(1.0);
+        confidence *= DOUBTED + (1.0 - DOUBTED) * margin;
+    }
+    // Bands and skirts are rectangles, so only what has a shape of its own can contradict a name.
+    let shaped = [Class::Body, Class::Leg, Class::Sleeve];
+    if named.class.is_some_and(|class| shaped.contains(&class)) {
+        let others = shaped.into_iter().filter(|&class| Some(class) != named.class).filter_map(as_class);
+        if let Some(other) = others.max_by(|a, b| a.score.total_cmp(&b.score))
+            && other.score > alignment.score + CONTRADICTED
+        {
+            confidence *= DOUBTED;
+            let (says, looks) = (alignment.template.class.as_str(), other.template.class.as_str());
+            questions
+                .push(format!("piece `{}`: its name says a {says}, its outline a {looks}; which is it?", piece.name));
+        }
+    }
     Ok(Recognised {
         piece: index,
         class: alignment.template.class,
@@ -93,7 +154,28 @@ fn recognise_one(index: usize, piece: &Piece, has_sleeve: bool) -> Result<Recogn
         shape,
         alignment,
         confidence,
+        rival,
     })
+}
+
+/// Legs have a front and a back: what only looks like a leg, without its other half, is read as what else it may be.
+fn reread_lone_legs(pieces: &[Piece], found: &mut [Recognised], questions: &mut Vec<String>) {
+    let has_leg = |face: Face| found.iter().any(|one| one.class == Class::Leg && one.face != Some(face.other()));
+    if Face::BOTH.into_iter().all(has_leg) {
+        return;
+    }
+    for one in found.iter_mut().filter(|one| one.class == Class::Leg) {
+        let Some(rival) = one.rival.take() else { continue };
+        questions.push(format!(
+            "piece `{}`: its outline looks like a leg, but no other piece is its other half; it is taken for a {}",
+            pieces[one.piece].name,
+            rival.template.class.as_str()
+        ));
+        one.class = rival.template.class;
+        let fit = ((rival.score - LEAST_NAMED_FIT) / (0.85 - LEAST_NAMED_FIT)).clamp(0.0, 1.0);
+        one.confidence = DOUBTED * (0.3 + 0.5 * fit);
+        one.alignment = rival;
+    }
 }
 
 /// Tells front from back where exactly two pieces of a kind are told by nothing else: the front neck is cut deeper, and

@@ -3,6 +3,7 @@
 //! Every piece is seen from outside, so both sides of a seam run against each other: `a` is walked counter-clockwise
 //! round its piece, `b` clockwise, and a chain over several pieces is written in the order of the walk.
 
+use super::notched::{self, Evidence};
 use super::worn::Worn;
 use super::{Class, Face, Hand, Label, ProposedSeam};
 use crate::pattern::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamEntry};
@@ -16,6 +17,11 @@ const EASED_DOUBT: f64 = 0.15;
 const CENTRE_CONFIDENCE: f64 = 0.7;
 /// Least confidence of a seam that is proposed; less sure ones are asked about.
 const LEAST_CONFIDENCE: f64 = 0.25;
+
+/// Share of the remaining doubt that matching notches take away.
+const NOTCHED_GAIN: f64 = 0.4;
+/// Confidence in a seam whose notches match better the other way round.
+const NOTCHED_DOUBT: f64 = 0.6;
 
 /// Edges in order with their lengths, m.
 type Chain = Vec<(String, f64)>;
@@ -35,6 +41,19 @@ pub fn sew(worn: &[Worn], questions: &mut Vec<String>) -> Vec<ProposedSeam> {
     }
     tailor.waistband();
     tailor.seams
+}
+
+/// Edges in no seam that may well be openings.
+pub fn open(worn: &[Worn], seams: &[ProposedSeam]) -> Vec<String> {
+    let is_sewn = |name: &String| seams.iter().any(|seam| seam.entry.a.contains(name) || seam.entry.b.contains(name));
+    let may_be_open = |label: Label| {
+        matches!(label, Label::Hem | Label::Neck | Label::Armhole | Label::Waist | Label::Lower | Label::Top)
+    };
+    let edges = worn.iter().flat_map(|one| {
+        let free = one.edges.iter().filter(|edge| edge.label.is_some_and(may_be_open));
+        free.map(|edge| format!("{}.{}", one.id, edge.name))
+    });
+    edges.filter(|name| !is_sewn(name)).collect()
 }
 
 struct Tailor<'w, 'q> {
@@ -61,7 +80,16 @@ impl<'w> Tailor<'w, '_> {
         let sure = pieces.iter().map(|piece| piece.confidence).fold(1.0, f64::min);
         // Half pieces say nothing of how they are joined in the middle.
         let known = if name.contains("centre") { CENTRE_CONFIDENCE } else { 1.0 };
-        let confidence = known * sure / (1.0 + (difference / doubt).powi(2));
+        let mut confidence = known * sure / (1.0 + (difference / doubt).powi(2));
+        match notched::evidence(self.worn, &a, &b) {
+            Evidence::For => confidence += NOTCHED_GAIN * (1.0 - confidence),
+            Evidence::Turned => {
+                confidence *= NOTCHED_DOUBT;
+                self.questions
+                    .push(format!("{name}: its notches match better with one side turned round; which is it?"));
+            }
+            Evidence::None => {}
+        }
         if confidence < LEAST_CONFIDENCE {
             self.questions.push(format!(
                 "{name}: sides of {a_mm:.0} and {b_mm:.0} mm look as if they do not belong together; what is sewn there?"
@@ -223,6 +251,19 @@ impl<'w> Tailor<'w, '_> {
 
     /// A waistband of one piece: where it begins depends on the opening, which a pattern does not say.
     fn waistband(&mut self) {
+        let alone =
+            |class: Class| self.worn.iter().find(|one| one.class == class && one.face.is_none() && one.hand.is_none());
+        let [skirt, band] = [Class::Skirt, Class::Waistband].map(alone);
+        let ends =
+            |one: &Worn, label: Label| (one.chain(label, Some(Hand::Right)), one.chain_back(label, Some(Hand::Left)));
+        if let Some(skirt) = skirt {
+            let (a, b) = ends(skirt, Label::Side);
+            self.add("skirt_side".to_owned(), a, b, &[skirt], PLAIN_DOUBT);
+        }
+        if let (Some(skirt), Some(band)) = (skirt, band) {
+            let (a, b) = (skirt.chain(Label::Waist, None), band.chain_back(Label::Lower, None));
+            self.add("waist".to_owned(), a, b, &[skirt, band], EASED_DOUBT);
+        }
         let band = self.worn.iter().find(|one| one.class == Class::Waistband && one.face.is_none());
         if let Some(band) = band {
             self.questions.push(format!("where does `{}` open, and at which seam does it begin?", band.id));

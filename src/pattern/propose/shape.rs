@@ -45,11 +45,16 @@ impl Shape {
     /// The shape of a piece; `None` where it has fewer than three corners or more than any pattern.
     #[must_use]
     pub fn of(piece: &Piece) -> Option<Self> {
-        let corners = corner_vertices(piece);
+        Self::new(piece.seam_outline().to_vec(), corner_vertices(piece))
+    }
+
+    /// The shape of an outline, counter-clockwise, with the indices of its corners; `None` as [`Shape::of`].
+    #[must_use]
+    pub fn new(outline: Vec<V2>, corners: Vec<usize>) -> Option<Self> {
         if !(3..=MOST_CORNERS).contains(&corners.len()) {
             return None;
         }
-        let mut shape = Self { outline: piece.seam_outline().to_vec(), corners, apexes: Vec::new() };
+        let mut shape = Self { outline, corners, apexes: Vec::new() };
         shape.apexes = (0..shape.corners.len()).filter(|&corner| shape.is_apex(corner)).collect();
         Some(shape)
     }
@@ -73,7 +78,7 @@ impl Shape {
     }
 
     /// Points of an edge, both ends included.
-    fn points(&self, edge: usize) -> Vec<V2> {
+    pub fn points(&self, edge: usize) -> Vec<V2> {
         let n = self.outline.len();
         let (from, to) = (self.corners[edge], self.corners[(edge + 1) % self.len()]);
         (0..=(to + n - from) % n).map(|k| self.outline[(from + k) % n]).collect()
@@ -98,7 +103,10 @@ impl Shape {
         let place = |corner: usize| self.outline[self.corners[corner % self.len()]];
         let mouth = (place(corner + 1) - place(corner + self.len() - 1)).norm();
         let (short, long) = (legs[0].min(legs[1]), legs[0].max(legs[1]));
-        self.turn(corner).to_degrees() < -APEX_TURN_DEG
+        // By the chords of the legs: those of a waist dart are often curved.
+        let into = place(corner) - place(corner + self.len() - 1);
+        let out = place(corner + 1) - place(corner);
+        into.perp(&out).atan2(into.dot(&out)).to_degrees() < -APEX_TURN_DEG
             && short > LEAST_LEG_M
             && mouth < WIDEST_MOUTH * short
             && long - short < LEG_DIFFERENCE * long.max(LEAST_LEG_M)

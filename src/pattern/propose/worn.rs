@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::recognise::Recognised;
-use super::{Class, Face, Hand, Label};
-use crate::pattern::garment::Role;
+use super::{Class, Face, Hand, Label, pose, role_of};
+use crate::geom::V2;
+use crate::geom::polyline::Polyline;
 use crate::pattern::piece::Piece;
 use crate::pattern::seams::PieceEntry;
 
@@ -20,6 +21,8 @@ pub struct WornEdge {
     pub hand: Option<Hand>,
     /// Length, m.
     pub length: f64,
+    /// Arc lengths of its notches, m, as worn.
+    pub notches: Vec<f64>,
 }
 
 /// A piece as worn.
@@ -47,18 +50,30 @@ pub struct Worn {
     pub confidence: f64,
 }
 
-/// The pieces as worn. A second piece for the same place is left out and asked about.
-pub fn worn(pieces: &[Piece], recognised: &[Recognised], questions: &mut Vec<String>) -> Vec<Worn> {
+/// Distance within which a notch belongs to an edge, m.
+const ON_EDGE_M: f64 = 12e-3;
+
+/// The pieces as worn. A second piece for the same place is left out and asked about. `drawn` is the sleeve that a whole
+/// sleeve is drawn as, where that is known.
+pub fn worn(
+    pieces: &[Piece],
+    recognised: &[Recognised],
+    drawn: Option<Hand>,
+    questions: &mut Vec<String>,
+) -> Vec<Worn> {
     let backs_face_inwards = recognised.iter().any(|one| {
         one.face == Some(Face::Back) && one.hand.is_some_and(|hand| natural_hand(one).is_some_and(|n| n != hand))
     });
+    // What hangs from a bodice, or the band between them, makes it one.
+    let is_bodice = recognised.iter().any(|one| matches!(one.class, Class::Skirt | Class::Leg | Class::Waistband));
+    let skirts = recognised.iter().filter(|one| one.class == Class::Skirt).count();
     let mut all: Vec<Worn> = Vec::new();
     for one in recognised {
-        let needs_face = matches!(one.class, Class::Body | Class::Leg | Class::Skirt);
+        let needs_face = matches!(one.class, Class::Body | Class::Leg) || (one.class == Class::Skirt && skirts > 1);
         if needs_face && one.face.is_none() {
             continue;
         }
-        for (hand, is_mirror) in copies(one, backs_face_inwards) {
+        for (hand, is_mirror) in copies(one, backs_face_inwards, drawn) {
             let id = id_of(one, hand);
             if let Some(other) = all.iter().find(|worn| worn.id == id) {
                 if other.piece != one.piece {
@@ -69,9 +84,10 @@ pub fn worn(pieces: &[Piece], recognised: &[Recognised], questions: &mut Vec<Str
                 }
                 break;
             }
-            all.push(wear(pieces, one, id, hand, is_mirror));
+            let role = role_of(Some(one.class), one.face, hand, is_bodice);
+            all.push(wear(pieces, one, id, hand, is_mirror, role));
         }
-        if one.class == Class::Sleeve && one.alignment.template.is_whole && one.hand.is_none() {
+        if one.class == Class::Sleeve && one.alignment.template.is_whole && one.hand.is_none() && drawn.is_none() {
             questions.push(format!(
                 "is piece `{}` as drawn the right sleeve? The front of the cap is taken to be on the right",
                 pieces[one.piece].name
@@ -83,19 +99,16 @@ pub fn worn(pieces: &[Piece], recognised: &[Recognised], questions: &mut Vec<Str
 
 /// Side of the wearer for which half a piece is drawn, seen from outside.
 fn natural_hand(one: &Recognised) -> Option<Hand> {
-    let is_outer_right = !one.alignment.is_mirrored;
-    match (one.alignment.template.is_whole, one.face?) {
-        (true, _) => None,
-        (false, Face::Front) => Some(if is_outer_right { Hand::Left } else { Hand::Right }),
-        (false, Face::Back) => Some(if is_outer_right { Hand::Right } else { Hand::Left }),
-    }
+    let face = one.face.filter(|_| !one.alignment.template.is_whole)?;
+    Some(pose::natural_hand(face, one.alignment.is_mirrored))
 }
 
 /// Copies of a piece: the wearer's side and whether it is worn as the mirror image of what is drawn.
-fn copies(one: &Recognised, backs_face_inwards: bool) -> Vec<(Option<Hand>, bool)> {
+fn copies(one: &Recognised, backs_face_inwards: bool, drawn: Option<Hand>) -> Vec<(Option<Hand>, bool)> {
+    let drawn = drawn.unwrap_or(Hand::Right);
     if one.alignment.template.is_whole {
         return match (one.class, one.hand) {
-            (Class::Sleeve, None) => vec![(Some(Hand::Right), false), (Some(Hand::Left), true)],
+            (Class::Sleeve, None) => vec![(Some(drawn), false), (Some(drawn.other()), true)],
             (Class::Sleeve | Class::Cuff, Some(hand)) => {
                 vec![(Some(hand), backs_face_inwards && one.face == Some(Face::Back))]
             }
@@ -123,16 +136,6 @@ fn id_of(one: &Recognised, hand: Option<Hand>) -> String {
     parts.into_iter().flatten().collect::<Vec<_>>().join("_")
 }
 
-fn role_of(class: Class, face: Option<Face>, hand: Option<Hand>) -> Role {
-    match (class, face, hand) {
-        (Class::Body, Some(Face::Front), _) => Role::Front,
-        (Class::Body, Some(Face::Back), _) => Role::Back,
-        (Class::Sleeve, _, Some(Hand::Right)) => Role::SleeveRight,
-        (Class::Sleeve, _, Some(Hand::Left)) => Role::SleeveLeft,
-        _ => Role::Other,
-    }
-}
-
 /// A name that finds this piece alone: its piece name if nothing else has it, then its block's, then with its number.
 fn reference(pieces: &[Piece], index: usize) -> String {
     let piece = &pieces[index];
@@ -147,7 +150,14 @@ fn reference(pieces: &[Piece], index: usize) -> String {
     }
 }
 
-fn wear(pieces: &[Piece], one: &Recognised, id: String, hand: Option<Hand>, is_mirror: bool) -> Worn {
+fn wear(
+    pieces: &[Piece],
+    one: &Recognised,
+    id: String,
+    hand: Option<Hand>,
+    is_mirror: bool,
+    role: crate::pattern::Role,
+) -> Worn {
     let (shape, n) = (&one.shape, one.shape.len());
     let mut names: BTreeMap<String, usize> = BTreeMap::new();
     let mut unique = |base: String| {
@@ -177,7 +187,11 @@ fn wear(pieces: &[Piece], one: &Recognised, id: String, hand: Option<Hand>, is_m
             }
             corners.insert(name.clone(), [from, (from + span) % n]);
             let length = (0..span).map(|k| shape.length((from + k) % n)).sum();
-            edges.push(WornEdge { name, label: (!is_leg).then_some(part.label), hand: side, length });
+            let mut notches = notches_on(&pieces[one.piece], shape, from, span);
+            if is_mirror {
+                notches.iter_mut().for_each(|arc| *arc = length - *arc);
+            }
+            edges.push(WornEdge { name, label: (!is_leg).then_some(part.label), hand: side, length, notches });
             k += span;
         }
     }
@@ -193,15 +207,28 @@ fn wear(pieces: &[Piece], one: &Recognised, id: String, hand: Option<Hand>, is_m
         hand,
         is_whole: one.alignment.template.is_whole,
         darts: shape.apexes().iter().filter_map(dart).collect(),
-        entry: PieceEntry {
-            block: reference(pieces, one.piece),
-            role: role_of(one.class, one.face, hand),
-            mirror: is_mirror,
-            edges: corners,
-        },
+        entry: PieceEntry { block: reference(pieces, one.piece), role, mirror: is_mirror, edges: corners },
         edges,
         confidence: one.confidence,
     }
+}
+
+/// Arc lengths, m, of the notches along a stretch of outline as drawn; those at its ends mark nothing of it.
+fn notches_on(piece: &Piece, shape: &super::shape::Shape, from: usize, span: usize) -> Vec<f64> {
+    let mut points: Vec<V2> = (0..span).flat_map(|k| shape.points((from + k) % shape.len())).collect();
+    points.dedup();
+    let Some(line) = Polyline::new(points) else { return Vec::new() };
+    let nearest = |at: V2| {
+        let sides = line.points().windows(2).zip(line.arcs()).map(|(ends, arc)| {
+            let along = ends[1] - ends[0];
+            let share = ((at - ends[0]).dot(&along) / along.norm_squared().max(1e-18)).clamp(0.0, 1.0);
+            ((ends[0] + along * share - at).norm(), arc + share * along.norm())
+        });
+        sides.min_by(|p, q| p.0.total_cmp(&q.0))
+    };
+    let is_inside = |arc: &f64| (ON_EDGE_M..line.length() - ON_EDGE_M).contains(arc);
+    let found = piece.notches.iter().filter_map(|notch| nearest(notch.at));
+    found.filter(|(distance, _)| *distance < ON_EDGE_M).map(|(_, arc)| arc).filter(is_inside).collect()
 }
 
 /// Side of the wearer on which one of two like edges lies.

@@ -16,6 +16,7 @@ impl Proposal {
         SeamFile {
             name: name.to_owned(),
             length_tolerance_mm: DEFAULT_LENGTH_TOLERANCE_MM,
+            open: self.open.clone(),
             piece: self.entries.iter().cloned().collect(),
             seam: self.seams.iter().map(|seam| seam.entry.clone()).collect(),
             measurement: Vec::new(),
@@ -33,6 +34,9 @@ impl Proposal {
             let _ = writeln!(text, "# ASK: {}", question.replace(['\n', '\r'], " "));
         }
         let _ = writeln!(text, "name = {}\nlength_tolerance_mm = {DEFAULT_LENGTH_TOLERANCE_MM:.1}", quoted(name));
+        if !self.open.is_empty() {
+            let _ = writeln!(text, "open = [{}]", list(&self.open));
+        }
         for (id, entry) in &self.entries {
             let sure = self.pieces.iter().find(|piece| piece.id.as_deref() == Some(id)).map_or(0.0, |p| p.confidence);
             let _ = writeln!(text, "\n[piece.{id}]  # confidence {sure:.2}\nblock = {}", quoted(&entry.block));

@@ -1,6 +1,7 @@
 //! A style: the pieces of one size, named, sewn and measured as its seam file says.
 
 pub(super) mod corners;
+mod openings;
 mod read;
 
 use self::read::Reader;
@@ -170,11 +171,20 @@ impl Style {
     /// [`StyleError`] when the bytes are not a seam file, a name is not there, an edge is used twice, or the two sides of
     /// a seam differ in length by more than the stated ease and tolerance.
     pub fn read(pieces: &[Piece], seam_bytes: &[u8], file: &str) -> Result<Self, StyleError> {
-        let syntax = |reason: String| StyleError::Syntax { file: file.to_owned(), reason };
-        let text =
-            std::str::from_utf8(seam_bytes).map_err(|error| syntax(format!("{error}; UTF-8 text is accepted")))?;
-        let entries: SeamFile = toml::from_str(text).map_err(|error| syntax(error.to_string()))?;
+        let entries = SeamFile::parse(seam_bytes, file)?;
         Reader { file, entries: &entries }.style(pieces)
+    }
+
+    /// Replaces measurements and fit levels by those of a seam file that names no piece: for a style whose pieces and
+    /// seams come from elsewhere. Edges are called as [`Edge::name`] says.
+    ///
+    /// # Errors
+    /// [`StyleError`] when the bytes are no such file or a name is not there.
+    pub fn measure(&mut self, seam_bytes: &[u8], file: &str) -> Result<(), StyleError> {
+        let entries = SeamFile::parse(seam_bytes, file)?;
+        let reader = Reader { file, entries: &entries };
+        reader.only_measures()?;
+        reader.measure(self)
     }
 
     /// The curve of an edge.

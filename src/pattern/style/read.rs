@@ -50,8 +50,29 @@ impl Reader<'_> {
             }
             style.seams.push(seam);
         }
+        self.measure(&mut style)?;
+        Ok(style)
+    }
+
+    /// Refuses a file that says more than what is measured.
+    pub(super) fn only_measures(&self) -> Result<(), StyleError> {
+        match self.entries.piece.keys().next() {
+            None if self.entries.seam.is_empty() => Ok(()),
+            found => Err(self.contradiction(
+                found.map_or_else(|| "a seam".to_owned(), |id| format!("piece `{id}`")),
+                "pieces or seams beside a pattern that has its own".to_owned(),
+                "[[measurement]] and [fit.*] only".to_owned(),
+            )),
+        }
+    }
+
+    /// Replaces the measurements and fit levels of a style that has its pieces and seams.
+    pub(super) fn measure(&self, style: &mut Style) -> Result<(), StyleError> {
+        let sewn: BTreeSet<EdgeRef> =
+            style.seams.iter().flat_map(|seam| seam.a.iter().chain(&seam.b)).copied().collect();
+        style.measurements.clear();
         for entry in &self.entries.measurement {
-            let path = self.path(&format!("measurement {}", entry.no), &entry.path, &style)?;
+            let path = self.path(&format!("measurement {}", entry.no), &entry.path, style)?;
             style.measurements.push(StyleMeasurement {
                 no: entry.no,
                 name: entry.name.clone(),
@@ -61,11 +82,12 @@ impl Reader<'_> {
                 path,
             });
         }
+        style.fit_levels.clear();
         for (level, entry) in &self.entries.fit {
-            let path = self.path(&format!("fit level `{level}`"), &entry.path, &style)?;
+            let path = self.path(&format!("fit level `{level}`"), &entry.path, style)?;
             style.fit_levels.push((level.clone(), path));
         }
-        Ok(style)
+        Ok(())
     }
 
     /// The drawn piece that an entry names by its block, or else by its piece name.

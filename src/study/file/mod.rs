@@ -2,7 +2,7 @@
 //!
 //! ```toml
 //! name = "tops"                     # default: the folder's name
-//! simulators = ["fem"]              # default: ["fem"]
+//! simulators = ["fem", "hybrid"]    # default: ["fem"]
 //! edge_length_mm = 15               # of the finest cloth mesh; default 15
 //! repeats = 1                       # default 1
 //! fit = { tight_below_mm = 50, loose_above_mm = 100 }   # default: these
@@ -12,13 +12,15 @@
 //! like = "male-ii"                  # an entry of the catalogue, or its own measurements:
 //! # sex = "male", stature_mm = 1690, weight_kg = 53, chest_girth_mm = 863, waist_girth_mm = 782,
 //! # hip_girth_mm = 914, neck_girth_mm = 378, across_shoulder_mm = 429
+//! # or a scan (OBJ, PLY, STL) that is the body: scan = "scans/ii.ply", sex = "male", unit = "mm"
 //!
 //! [[garment]]
 //! name = "tshirt"
-//! seams = "patterns/tshirt.seams.toml"
+//! subjects = ["ii"]                 # who wears it; default: all subjects of the file
+//! seams = "patterns/tshirt.seams.toml"  # not needed for GarmentCode JSON, which holds its own seams
 //! fabric = "cotton_shirting_light"  # of the library, the catalogue, or a [[fabric]] of this file
 //! unit = "mm"                       # only where the DXF files name no unit
-//! sizes = [{ name = "S", pattern = "patterns/tshirt-s.dxf" }]
+//! sizes = [{ name = "S", pattern = "patterns/tshirt-s.dxf" }]   # DXF, a folder of DXF files, or GarmentCode JSON
 //!
 //! [[fabric]]                        # numbers of a cloth of one's own, SI units as in the library
 //! name = "my_poplin"
@@ -29,16 +31,17 @@
 
 mod parse;
 mod reader;
+mod source;
 #[cfg(test)]
 mod tests;
 
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
+pub use self::source::SourceFile;
 use super::error::{Result, StudyError};
-use crate::body::Measurements;
+use crate::body::{LengthUnit, Measurements};
 use crate::fit::Cuts;
 use crate::fit::Simulator;
 use crate::sim::Fabric;
@@ -70,33 +73,6 @@ impl Problem {
     }
 }
 
-/// A file that a study brings, as read.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SourceFile {
-    /// Name without folders.
-    pub name: String,
-    /// Contents.
-    pub bytes: Arc<[u8]>,
-}
-
-impl SourceFile {
-    /// Reads a file.
-    ///
-    /// # Errors
-    /// When it cannot be read.
-    pub fn read(path: &Path) -> Result<Self> {
-        let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Self { name, bytes: bytes.into() })
-    }
-
-    /// BLAKE3 of the contents, hex.
-    #[must_use]
-    pub fn hash(&self) -> String {
-        blake3::hash(&self.bytes).to_hex().to_string()
-    }
-}
-
 /// A subject of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Subject {
@@ -104,6 +80,17 @@ pub struct Subject {
     pub id: String,
     /// What is known of the body.
     pub measurements: Measurements,
+    /// The scan that is the body, where there is one.
+    pub scan: Option<ScanFile>,
+}
+
+/// A body scan of a study.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ScanFile {
+    /// OBJ, PLY or STL.
+    pub file: SourceFile,
+    /// Unit of the file; told from its height where it is not given.
+    pub unit: Option<LengthUnit>,
 }
 
 /// One size of a garment.
@@ -120,8 +107,10 @@ pub struct SizeFile {
 pub struct GarmentEntry {
     /// Name in results.
     pub name: String,
-    /// How its pieces are sewn and measured.
-    pub seams: SourceFile,
+    /// Identifiers of the subjects who wear it, in order.
+    pub subjects: Vec<String>,
+    /// How its pieces are sewn and measured; `None` where the patterns hold their own seams (GarmentCode JSON).
+    pub seams: Option<SourceFile>,
     /// Unit of the patterns, where their files name none: `mm`, `cm` or `in`.
     pub unit: Option<String>,
     /// The cloth.

@@ -6,10 +6,11 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::DeTable;
 
-use super::super::error::nearest;
+use super::super::error::{StudyError, nearest};
+use super::super::tools::{is_garmentcode, read_scan};
 use super::reader::{Place, Reader};
-use super::{GarmentEntry, Known, Problem, SizeFile, SourceFile, Study, Subject};
-use crate::body::{Measurements, Sex};
+use super::{GarmentEntry, Known, Problem, ScanFile, SizeFile, SourceFile, Study, Subject};
+use crate::body::{LengthUnit, Measurements, Sex};
 use crate::fit::Cuts;
 use crate::fit::Simulator;
 use crate::sim::Fabric;
@@ -17,9 +18,11 @@ use crate::units::{from_mm, mm};
 
 const STUDY_KEYS: [&str; 8] =
     ["name", "simulators", "edge_length_mm", "repeats", "fit", "subject", "garment", "fabric"];
-const SUBJECT_KEYS: [&str; 10] = [
+const SUBJECT_KEYS: [&str; 12] = [
     "id",
     "like",
+    "scan",
+    "unit",
     "sex",
     "stature_mm",
     "weight_kg",
@@ -29,7 +32,7 @@ const SUBJECT_KEYS: [&str; 10] = [
     "neck_girth_mm",
     "across_shoulder_mm",
 ];
-const GARMENT_KEYS: [&str; 5] = ["name", "seams", "unit", "fabric", "sizes"];
+const GARMENT_KEYS: [&str; 6] = ["name", "subjects", "seams", "unit", "fabric", "sizes"];
 const FABRIC_KEYS: [&str; 12] = [
     "name",
     "density_kg_m2",
@@ -60,6 +63,7 @@ pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec
         None => folder_name(folder),
     };
     let fabrics = fabrics(&mut reader, &top, &known.fabrics);
+    let subjects = subjects(&mut reader, &top, folder, &known.subjects);
     let study = Study {
         name,
         path: path.to_owned(),
@@ -67,8 +71,8 @@ pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec
         edge_length_m: from_mm(reader.number(&top, "edge_length_mm", 2.0..100.0).unwrap_or(15.0)),
         repeats: reader.number(&top, "repeats", 1.0..100.0).unwrap_or(1.0) as u32,
         cuts: cuts(&mut reader, &top),
-        subjects: subjects(&mut reader, &top, &known.subjects),
-        garments: garments(&mut reader, &top, folder, &fabrics),
+        garments: garments(&mut reader, &top, folder, &subjects, &fabrics),
+        subjects,
     };
     if reader.problems.is_empty() {
         return Ok(study);
@@ -81,7 +85,7 @@ pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec
 pub(super) fn measurements_file(path: &Path, text: &str) -> Result<Measurements, Vec<Problem>> {
     let (mut reader, document) = open(path, text)?;
     let top = Place { name: "measurements".into(), span: 0..0, table: document.get_ref() };
-    reader.only(&top, &SUBJECT_KEYS[2..]);
+    reader.only(&top, &SUBJECT_KEYS[4..]);
     match measurements(&mut reader, &top) {
         Some(measurements) if reader.problems.is_empty() => Ok(measurements),
         _ => Err(reader.problems),
@@ -142,7 +146,12 @@ fn cuts(reader: &mut Reader<'_>, top: &Place<'_>) -> Cuts {
     cuts
 }
 
-fn subjects(reader: &mut Reader<'_>, top: &Place<'_>, known: &BTreeMap<String, Measurements>) -> Vec<Subject> {
+fn subjects(
+    reader: &mut Reader<'_>,
+    top: &Place<'_>,
+    folder: &Path,
+    known: &BTreeMap<String, Measurements>,
+) -> Vec<Subject> {
     let places = reader.tables(top, "subject", "subject");
     if places.is_empty() {
         reader.missing(top, "subject", "at least one [[subject]]");
@@ -154,34 +163,71 @@ fn subjects(reader: &mut Reader<'_>, top: &Place<'_>, known: &BTreeMap<String, M
         let Some(id) = reader.need_text(&place, "id", "its name in results") else { continue };
         unique(reader, &mut ids, &id, "subject");
         place.name = format!("subject {}", id.get_ref());
-        let measurements = match reader.text(&place, "like") {
-            Some(name) => {
-                let own = place.table.keys().find(|key| !["id", "like"].contains(&key.get_ref().as_ref()));
-                if let Some(key) = own {
-                    let message = format!("{}: `{}` beside `like`; give one or the other", place.name, key.get_ref());
-                    reader.problem(&key.span(), message);
-                }
-                lookup(reader, known, &name, "subject in the catalogue").cloned()
+        let found = match (reader.text(&place, "like"), reader.text(&place, "scan")) {
+            (Some(name), _) => {
+                alone(reader, &place, &["id", "like"]);
+                lookup(reader, known, &name, "subject in the catalogue").cloned().map(|known| (known, None))
             }
-            None => measurements(reader, &place),
+            (None, Some(file)) => {
+                alone(reader, &place, &["id", "scan", "sex", "unit"]);
+                scanned(reader, &place, &file, folder).map(|(measurements, scan)| (measurements, Some(scan)))
+            }
+            (None, None) => measurements(reader, &place).map(|measurements| (measurements, None)),
         };
-        subjects.extend(measurements.map(|measurements| Subject { id: (*id.get_ref()).to_owned(), measurements }));
+        let id = (*id.get_ref()).to_owned();
+        subjects.extend(found.map(|(measurements, scan)| Subject { id, measurements, scan }));
     }
     subjects
 }
 
+/// Refuses keys beside those of a subject that is named or scanned.
+fn alone(reader: &mut Reader<'_>, place: &Place<'_>, accepted: &[&str]) {
+    if let Some(key) = place.table.keys().find(|key| !accepted.contains(&key.get_ref().as_ref())) {
+        let message = format!("{}: `{}` beside `{}`; give one or the other", place.name, key.get_ref(), accepted[1]);
+        reader.problem(&key.span(), message);
+    }
+}
+
+/// A scan beside the study file, and what is measured on it.
+fn scanned(
+    reader: &mut Reader<'_>,
+    place: &Place<'_>,
+    file: &Spanned<&str>,
+    folder: &Path,
+) -> Option<(Measurements, ScanFile)> {
+    let sex = reader.text(place, "sex").and_then(|text| sex(reader, place, &text));
+    let unit = reader.text(place, "unit").and_then(|text| {
+        let unit = LengthUnit::ALL.into_iter().find(|unit| unit.name() == *text.get_ref());
+        if unit.is_none() {
+            let accepted = LengthUnit::ALL.map(LengthUnit::name).join(", ");
+            reader.problem(&text.span(), format!("{}: unit `{}`; accepted: {accepted}", place.name, text.get_ref()));
+        }
+        unit
+    });
+    let scan = ScanFile { file: source(reader, place, file, folder, SourceFile::read)?, unit };
+    match read_scan(&scan.file, unit, sex) {
+        Ok(found) => Some((found.girths.measurements(found.sex), scan)),
+        Err(error) => {
+            reader.problem(&file.span(), format!("{}: {error}", place.name));
+            None
+        }
+    }
+}
+
+fn sex(reader: &mut Reader<'_>, place: &Place<'_>, text: &Spanned<&str>) -> Option<Sex> {
+    match *text.get_ref() {
+        "male" | "m" | "M" => Some(Sex::Male),
+        "female" | "f" | "F" => Some(Sex::Female),
+        other => {
+            reader.problem(&text.span(), format!("{}: sex `{other}`; accepted: male, female", place.name));
+            None
+        }
+    }
+}
+
 fn measurements(reader: &mut Reader<'_>, place: &Place<'_>) -> Option<Measurements> {
-    let sex = match reader.need_text(place, "sex", "\"male\" or \"female\", or name a catalogue entry with `like`") {
-        Some(text) => match *text.get_ref() {
-            "male" | "m" | "M" => Some(Sex::Male),
-            "female" | "f" | "F" => Some(Sex::Female),
-            other => {
-                reader.problem(&text.span(), format!("{}: sex `{other}`; accepted: male, female", place.name));
-                None
-            }
-        },
-        None => None,
-    };
+    let wanted = "\"male\" or \"female\", or name a catalogue entry with `like`";
+    let sex = reader.need_text(place, "sex", wanted).and_then(|text| sex(reader, place, &text));
     if !place.table.contains_key("stature_mm") {
         reader.missing(place, "stature_mm", "the stature in millimetres");
     }
@@ -206,6 +252,7 @@ fn garments(
     reader: &mut Reader<'_>,
     top: &Place<'_>,
     folder: &Path,
+    subjects: &[Subject],
     fabrics: &BTreeMap<String, Fabric>,
 ) -> Vec<GarmentEntry> {
     let places = reader.tables(top, "garment", "garment");
@@ -221,17 +268,54 @@ fn garments(
             unique(reader, &mut names, name, "garment");
             place.name = format!("garment {}", name.get_ref());
         }
-        let seams = reader.need_text(&place, "seams", "the file that says how its pieces are sewn");
-        let seams = seams.and_then(|file| source(reader, &place, &file, folder));
+        let subjects = wearers(reader, &place, top, subjects);
+        let sizes = sizes(reader, &place, folder);
+        let seams = seams(reader, &place, folder, &sizes);
         let fabric = reader.need_text(&place, "fabric", "the name of a fabric");
         let fabric = fabric.and_then(|name| lookup(reader, fabrics, &name, "fabric").cloned());
         let unit = unit(reader, &place);
-        let sizes = sizes(reader, &place, folder);
-        if let (Some(name), Some(seams), Some(fabric)) = (name, seams, fabric) {
-            garments.push(GarmentEntry { name: (*name.get_ref()).to_owned(), seams, unit, fabric, sizes });
+        if let (Some(name), Some(fabric)) = (name, fabric) {
+            garments.push(GarmentEntry { name: (*name.get_ref()).to_owned(), subjects, seams, unit, fabric, sizes });
         }
     }
     garments
+}
+
+/// Who wears a garment: the subjects it names, or else all of the file.
+fn wearers(reader: &mut Reader<'_>, garment: &Place<'_>, top: &Place<'_>, subjects: &[Subject]) -> Vec<String> {
+    let Some(names) = reader.texts(garment, "subjects") else {
+        return subjects.iter().map(|subject| subject.id.clone()).collect();
+    };
+    // Subjects that are in the file but wrong are told of once, at their own place.
+    let known: BTreeMap<String, ()> = reader
+        .tables(top, "subject", "subject")
+        .iter()
+        .filter_map(|place| place.table.get("id")?.get_ref().as_str().map(|id| (id.to_owned(), ())))
+        .collect();
+    let mut wearers: Vec<String> = Vec::new();
+    for name in &names {
+        if wearers.iter().any(|wearer| wearer == name.get_ref()) {
+            reader.problem(&name.span(), format!("{}: subject `{}` is named twice", garment.name, name.get_ref()));
+        } else if lookup(reader, &known, name, "[[subject]] with the id").is_some() {
+            wearers.push((*name.get_ref()).to_owned());
+        }
+    }
+    if names.is_empty() {
+        let span = garment.table.get("subjects").map_or(garment.span.clone(), Spanned::span);
+        let message = format!("{}: nobody wears it; name subjects, or leave `subjects` out for all", garment.name);
+        reader.problem(&span, message);
+    }
+    wearers
+}
+
+/// The seam file, which only patterns without seams of their own need.
+fn seams(reader: &mut Reader<'_>, garment: &Place<'_>, folder: &Path, sizes: &[SizeFile]) -> Option<SourceFile> {
+    let holds_seams = !sizes.is_empty() && sizes.iter().all(|size| is_garmentcode(Path::new(&size.pattern.name)));
+    if holds_seams && !garment.table.contains_key("seams") {
+        return None;
+    }
+    let file = reader.need_text(garment, "seams", "the file that says how its pieces are sewn")?;
+    source(reader, garment, &file, folder, SourceFile::read)
 }
 
 fn unit(reader: &mut Reader<'_>, place: &Place<'_>) -> Option<String> {
@@ -255,8 +339,8 @@ fn sizes(reader: &mut Reader<'_>, garment: &Place<'_>, folder: &Path) -> Vec<Siz
         place.name = format!("{}, {}", garment.name, place.name);
         reader.only(&place, &["name", "pattern"]);
         let name = reader.need_text(&place, "name", "the size's name");
-        let pattern = reader.need_text(&place, "pattern", "its DXF file");
-        let pattern = pattern.and_then(|file| source(reader, &place, &file, folder));
+        let pattern = reader.need_text(&place, "pattern", "its DXF file, folder of DXF files, or GarmentCode JSON");
+        let pattern = pattern.and_then(|file| source(reader, &place, &file, folder, SourceFile::read_pattern));
         if let Some(name) = name {
             unique(reader, &mut names, &name, "size");
             sizes.extend(pattern.map(|pattern| SizeFile { name: (*name.get_ref()).to_owned(), pattern }));
@@ -338,9 +422,15 @@ fn lookup<'k, T>(
 }
 
 /// A file beside the study file; a problem with a suggestion where it cannot be read.
-fn source(reader: &mut Reader<'_>, place: &Place<'_>, file: &Spanned<&str>, folder: &Path) -> Option<SourceFile> {
+fn source(
+    reader: &mut Reader<'_>,
+    place: &Place<'_>,
+    file: &Spanned<&str>,
+    folder: &Path,
+    read: fn(&Path) -> Result<SourceFile, StudyError>,
+) -> Option<SourceFile> {
     let path = folder.join(file.get_ref());
-    match SourceFile::read(&path) {
+    match read(&path) {
         Ok(source) => Some(source),
         Err(error) => {
             let wanted = path.file_name().unwrap_or_default().to_string_lossy().into_owned();

@@ -36,6 +36,7 @@ fn known() -> Known {
 fn load(text: &str) -> std::result::Result<Study, String> {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("tee-s.dxf"), "dxf").expect("writable");
+    std::fs::write(folder.path().join("tee.json"), "{}").expect("writable");
     std::fs::write(folder.path().join("tee.seams.toml"), "seams").expect("writable");
     let path = folder.path().join("study.toml");
     std::fs::write(&path, text).expect("writable");
@@ -106,6 +107,45 @@ fn the_quickstart_is_a_good_study() {
     for subject in &study.subjects {
         assert_eq!(subject.measurements, thesis[&format!("male-{}", subject.id)], "{}", subject.id);
     }
+}
+
+#[test]
+fn the_thesis_study_has_its_54_combinations() {
+    let known = super::super::catalogue::known(None).expect("built in");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/thesis");
+    let jobs = super::super::spec::jobs(&Study::load(&folder, &known).expect("good"));
+    let count = |garment: &str, sex: &str| {
+        jobs.iter().filter(|job| job.garment == garment && job.subject.starts_with(sex)).count()
+    };
+    let counts = [("tshirt", "male"), ("trousers", "male"), ("teetop", "female"), ("dress", "female")];
+    assert_eq!(counts.map(|(garment, sex)| count(garment, sex)), [18, 18, 12, 6]);
+    assert_eq!(jobs.len(), 54);
+}
+
+#[test]
+fn garments_are_worn_by_the_subjects_they_name() {
+    let wearers = |subjects: &str| {
+        let text = GOOD.replace("name = \"tee\"", &format!("name = \"tee\"\nsubjects = {subjects}"));
+        load(&text).map(|study| study.garments[0].subjects.join(" "))
+    };
+    assert_eq!(wearers("[\"x\"]").as_deref(), Ok("x"));
+    assert_eq!(load(GOOD).expect("good").garments[0].subjects, ["ii", "x"]);
+    let refused = |subjects: &str, message: &str| assert_eq!(wearers(subjects).expect_err("bad"), message);
+    let twice = "study.toml:12: garment tee: subject `x` is named twice";
+    let unknown = "study.toml:12: no [[subject]] with the id `i`; there are: ii, x";
+    refused("[\"x\", \"x\", \"i\"]", &format!("{twice}\n{unknown}"));
+    refused("[]", "study.toml:12: garment tee: nobody wears it; name subjects, or leave `subjects` out for all");
+    refused("\"x\"", "study.toml:12: garment tee: `subjects` must be a list of texts, found string");
+}
+
+#[test]
+fn a_seam_file_is_needed_unless_the_pattern_holds_seams() {
+    let without = GOOD.replace("seams = \"tee.seams.toml\"\n", "");
+    let expect = "study.toml:10: garment tee: `seams` is missing; give the file that says how its pieces are sewn";
+    assert_eq!(load(&without).expect_err("bad"), expect);
+    // Any file will do: what is in it is read later.
+    let json = load(&without.replace("tee-s.dxf", "tee.json")).expect("good");
+    assert_eq!((json.garments[0].seams.is_none(), json.garments[0].sizes.len()), (true, 1));
 }
 
 proptest::proptest! {

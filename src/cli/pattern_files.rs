@@ -1,0 +1,57 @@
+//! `toile pattern features` and `convert`: patterns as other kinds of file.
+
+use std::path::Path;
+
+use super::args::{BesideFiles, PatternUnit};
+use super::context::Context;
+use super::{CliError, End, Outcome, output};
+use crate::study::pattern_files::{self, Beside};
+use crate::study::tools::{self, Unit};
+
+/// What the arguments say about a pattern beside its file.
+pub fn beside(files: &BesideFiles) -> Beside<'_> {
+    let unit = |unit: PatternUnit| match unit {
+        PatternUnit::Mm => Unit::Mm,
+        PatternUnit::Cm => Unit::Cm,
+        PatternUnit::In => Unit::In,
+    };
+    Beside {
+        size: files.size.as_deref(),
+        unit: files.unit.map(unit),
+        rules: files.rul.as_deref(),
+        info: files.info.as_deref(),
+    }
+}
+
+/// Writes the features of a pattern's pieces, or prints them.
+pub fn features(context: &Context, path: &Path, files: &BesideFiles, output: Option<&Path>) -> Outcome {
+    let json = pattern_files::features(path, &beside(files))? + "\n";
+    match output {
+        Some(output) => write(context, output, json.into_bytes())?,
+        None => output::text(&json)?,
+    }
+    Ok(End::Done)
+}
+
+/// Writes a pattern as the kind of file that the output's name says.
+pub fn convert(context: &Context, path: &Path, seams: Option<&Path>, files: &BesideFiles, output: &Path) -> Outcome {
+    let extension = output.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    let bytes = match extension.as_str() {
+        "dxf" => pattern_files::convert_to_dxf(path, &beside(files))?,
+        "json" => (pattern_files::convert_to_garmentcode(path, seams, &beside(files))? + "\n").into_bytes(),
+        _ => {
+            let accepted = "X.dxf (AAMA DXF) or X.json (GarmentCode); SVG is written by `toile pattern sheet`";
+            return Err(CliError::Usage(format!("{}: found `.{extension}`; accepted: {accepted}", output.display())));
+        }
+    };
+    write(context, output, bytes)?;
+    Ok(End::Done)
+}
+
+fn write(context: &Context, output: &Path, bytes: Vec<u8>) -> Result<(), CliError> {
+    let folder = output.parent().unwrap_or(Path::new(""));
+    let name = output.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    tools::write_files(folder, &[(name, bytes)])?;
+    context.say(format_args!("wrote {}", output.display()));
+    Ok(())
+}

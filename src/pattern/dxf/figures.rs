@@ -1,0 +1,233 @@
+//! What one entity draws: lines with their curves flattened, points, texts, and blocks inserted in others.
+
+use dxf::entities::{Entity, EntityType, Insert};
+use dxf::{Point, Vector};
+
+use super::curves::{self, CHORD_ERROR_M, Spline};
+use crate::geom::V2;
+
+/// Flags of a polyline and of its vertices [DXF reference, POLYLINE, VERTEX].
+const CLOSED: i32 = 1;
+const MESH: i32 = 16 | 64;
+const FRAME_OF_SPLINE: i32 = 16;
+
+/// Where a block's drawing lies: an affine map into the piece, in metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// Image of a unit step along x.
+    x: V2,
+    /// Image of a unit step along y.
+    y: V2,
+    /// Image of the origin.
+    origin: V2,
+}
+
+impl Placement {
+    /// File units turned into metres, nothing moved.
+    pub fn scaled(scale: f64) -> Self {
+        Self { x: V2::new(scale, 0.0), y: V2::new(0.0, scale), origin: V2::zeros() }
+    }
+
+    /// Image of a point.
+    fn at(&self, point: V2) -> V2 {
+        self.origin + self.vector(point)
+    }
+
+    /// Image of a step.
+    fn vector(&self, step: V2) -> V2 {
+        self.x * step.x + self.y * step.y
+    }
+
+    /// How much longer a step becomes at most.
+    fn scale(&self) -> f64 {
+        self.x.norm().max(self.y.norm())
+    }
+
+    /// Seen from behind where the entity's normal points down: its x runs the other way [DXF reference, OCS].
+    ///
+    /// # Errors
+    /// A sentence where the normal is tilted.
+    fn seen_along(&self, normal: &Vector) -> Result<Self, String> {
+        let tilt = normal.x.abs().max(normal.y.abs());
+        if tilt > 1e-6 * normal.z.abs() {
+            return Err("a drawing in a tilted plane; accepted: one in the plane of the sheet".to_owned());
+        }
+        Ok(if normal.z < 0.0 { Self { x: -self.x, ..*self } } else { *self })
+    }
+
+    /// The placement of a block inserted in what this places; `base` is the block's base point.
+    ///
+    /// # Errors
+    /// A sentence for an array of insertions, or a tilted one.
+    pub fn of_insert(&self, insert: &Insert, base: &Point) -> Result<Self, String> {
+        if insert.column_count > 1 || insert.row_count > 1 {
+            return Err(format!(
+                "an array of {} x {} insertions; accepted: one block inserted at a time",
+                insert.column_count, insert.row_count
+            ));
+        }
+        let outer = self.seen_along(&insert.extrusion_direction)?;
+        let (sine, cosine) = insert.rotation.to_radians().sin_cos();
+        let x = outer.vector(V2::new(cosine, sine) * insert.x_scale_factor);
+        let y = outer.vector(V2::new(-sine, cosine) * insert.y_scale_factor);
+        let origin = outer.at(V2::new(insert.location.x, insert.location.y)) - x * base.x - y * base.y;
+        Ok(Self { x, y, origin })
+    }
+}
+
+/// What an entity draws, in metres.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Figure {
+    /// A chain of points; curves in it are flattened.
+    Line {
+        /// Its points.
+        points: Vec<V2>,
+        /// Whether its last point joins its first.
+        is_closed: bool,
+        /// How many curves were flattened, and what they are.
+        curves: (usize, &'static str),
+    },
+    /// A circle: a drill hole, a cut-out or a round outline.
+    Circle {
+        /// Centre.
+        centre: V2,
+        /// Points, the first not repeated.
+        points: Vec<V2>,
+    },
+    /// A point.
+    Point {
+        /// Place.
+        at: V2,
+        /// Its z: the depth of a notch.
+        depth_m: f64,
+        /// Direction, degrees.
+        angle_deg: f64,
+    },
+    /// A text.
+    Text {
+        /// Place.
+        at: V2,
+        /// Text.
+        value: String,
+    },
+    /// Something else: labels, and what [`super::guard`] has counted as not read.
+    Label,
+}
+
+/// What an entity draws at a placement.
+///
+/// # Errors
+/// A sentence that says what cannot be read and what would be accepted.
+pub fn figure(entity: &Entity, placement: &Placement) -> Result<Figure, String> {
+    let tolerance = CHORD_ERROR_M / placement.scale();
+    match &entity.specific {
+        EntityType::Circle(drawn) => {
+            let placement = placement.seen_along(&drawn.normal)?;
+            let points = curves::circle(flat(&drawn.center), drawn.radius, tolerance);
+            let points = points.into_iter().map(|p| placement.at(p)).collect();
+            Ok(Figure::Circle { centre: placement.at(flat(&drawn.center)), points })
+        }
+        EntityType::ModelPoint(point) => {
+            // A point's place is one of the world, whatever its normal.
+            let (sine, cosine) = point.angle.to_radians().sin_cos();
+            let cut = placement.vector(V2::new(cosine, sine));
+            let is_turned = placement.x.y != 0.0 || placement.x.x < 0.0 || placement.y.y < 0.0;
+            let angle_deg = if is_turned { cut.y.atan2(cut.x).to_degrees().rem_euclid(360.0) } else { point.angle };
+            let depth_m = point.location.z * placement.scale();
+            Ok(Figure::Point { at: placement.at(flat(&point.location)), depth_m, angle_deg })
+        }
+        EntityType::Text(text) => {
+            Ok(Figure::Text { at: placement.at(flat(&text.location)), value: text.value.clone() })
+        }
+        _ => match chain(entity, tolerance)? {
+            None => Ok(Figure::Label),
+            Some(Chain { points, is_closed, curves, normal }) => {
+                let placement = normal.map_or(Ok(*placement), |normal| placement.seen_along(normal))?;
+                let points = points.into_iter().map(|p| placement.at(p)).collect();
+                Ok(Figure::Line { points, is_closed, curves })
+            }
+        },
+    }
+}
+
+fn flat(point: &Point) -> V2 {
+    V2::new(point.x, point.y)
+}
+
+/// A chain of points as the entity has them.
+struct Chain<'e> {
+    points: Vec<V2>,
+    is_closed: bool,
+    curves: (usize, &'static str),
+    /// Normal of the plane that they are in; `None` for the world's.
+    normal: Option<&'e Vector>,
+}
+
+/// The chain of an entity that draws a line or a curve.
+fn chain(entity: &Entity, tolerance: f64) -> Result<Option<Chain<'_>>, String> {
+    let of_world = |points: Vec<V2>, curves| Chain { points, is_closed: false, curves, normal: None };
+    Ok(Some(match &entity.specific {
+        EntityType::Line(drawn) => of_world(vec![flat(&drawn.p1), flat(&drawn.p2)], (0, "")),
+        EntityType::Polyline(drawn) => {
+            if drawn.flags & MESH != 0 {
+                return Err("a polygon mesh; accepted: polylines, lines and curves".to_owned());
+            }
+            let vertices = drawn.vertices().filter(|v| v.flags & FRAME_OF_SPLINE == 0);
+            let vertices: Vec<(V2, f64)> = vertices.map(|v| (flat(&v.location), v.bulge)).collect();
+            let is_closed = drawn.flags & CLOSED != 0;
+            let (points, arcs) = with_bulges(&vertices, is_closed, tolerance);
+            Chain { points, is_closed, curves: (arcs, "arc"), normal: Some(&drawn.normal) }
+        }
+        EntityType::LwPolyline(drawn) => {
+            let vertices: Vec<(V2, f64)> = drawn.vertices.iter().map(|v| (V2::new(v.x, v.y), v.bulge)).collect();
+            let is_closed = drawn.is_closed();
+            let (points, arcs) = with_bulges(&vertices, is_closed, tolerance);
+            Chain { points, is_closed, curves: (arcs, "arc"), normal: Some(&drawn.extrusion_direction) }
+        }
+        EntityType::Arc(drawn) => {
+            let degrees = [drawn.start_angle, drawn.end_angle];
+            let points = curves::arc(flat(&drawn.center), drawn.radius, degrees, tolerance);
+            Chain { normal: Some(&drawn.normal), ..of_world(points, (1, "arc")) }
+        }
+        EntityType::Ellipse(drawn) => {
+            let major = V2::new(drawn.major_axis.x, drawn.major_axis.y);
+            // Its axes are those of the world; a normal that points down only turns its parameter round.
+            let ratio = drawn.minor_axis_ratio * if drawn.normal.z < 0.0 { -1.0 } else { 1.0 };
+            if !(1e-4..=1e4).contains(&ratio.abs()) {
+                return Err(format!("an ellipse of ratio {}; accepted: 0.0001 to 10000", drawn.minor_axis_ratio));
+            }
+            let parameters = [drawn.start_parameter, drawn.end_parameter];
+            of_world(curves::ellipse(flat(&drawn.center), major, ratio, parameters, tolerance), (1, "ellipse"))
+        }
+        EntityType::Spline(drawn) => {
+            let control: Vec<V2> = drawn.control_points.iter().map(flat).collect();
+            if control.is_empty() {
+                return Err("a spline of fit points alone; accepted: one with control points and knots".to_owned());
+            }
+            let spline = Spline::new(drawn.degree_of_curve, &drawn.knot_values, &control, &drawn.weight_values)?;
+            of_world(spline.flattened(tolerance), (1, "spline"))
+        }
+        _ => return Ok(None),
+    }))
+}
+
+/// The points of a polyline whose sides bulge, and the number of sides that do.
+fn with_bulges(vertices: &[(V2, f64)], is_closed: bool, tolerance: f64) -> (Vec<V2>, usize) {
+    let n = vertices.len();
+    let sides = if is_closed { n } else { n.saturating_sub(1) };
+    let mut points: Vec<V2> = vertices.first().map(|&(first, _)| first).into_iter().collect();
+    let mut arcs = 0;
+    for k in 0..sides {
+        let ((start, value), (end, _)) = (vertices[k], vertices[(k + 1) % n]);
+        if value == 0.0 {
+            // The side back to the first vertex is drawn by closing.
+            if k + 1 < n {
+                points.push(end);
+            }
+            continue;
+        }
+        arcs += 1;
+        points.extend(curves::bulge(start, end, value, tolerance));
+    }
+    (points, arcs)
+}

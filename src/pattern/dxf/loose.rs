@@ -1,0 +1,99 @@
+//! Pieces drawn outside all blocks: each closed boundary line with what lies within it.
+
+use dxf::entities::{Entity, EntityType};
+
+use super::blocks::{Drawn, Library, key_and_value};
+use super::figures::Placement;
+use super::outline::{Line, chains};
+use super::{NO_BLOCK, Refused};
+use crate::geom::V2;
+use crate::geom::polyline::{boundary_distance, contains};
+use crate::pattern::piece::Piece;
+
+/// Points this near to an outline belong to it, m.
+const NEAR_M: f64 = 1e-3;
+/// Most outlines that are told apart; what lies within which is asked for every pair.
+const MOST_OUTLINES: usize = 500;
+
+/// What is drawn outside all blocks.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Loose {
+    /// Pieces.
+    pub pieces: Vec<Piece>,
+    /// Outlines that are no usable pieces.
+    pub refused: Vec<Refused>,
+    /// What a user should know.
+    pub remarks: Vec<String>,
+    /// What is drawn, where no line of it is a boundary.
+    pub rest: Option<Drawn>,
+}
+
+/// Reads the entities outside all blocks; blocks inserted among them are pieces of their own.
+pub fn read<'e>(entities: impl Iterator<Item = &'e Entity>, placement: &Placement, library: &Library<'_>) -> Loose {
+    let entities: Vec<&Entity> = entities.filter(|e| !matches!(e.specific, EntityType::Insert(_))).collect();
+    let drawn = Drawn::collect(entities.iter().copied(), placement, library);
+    if drawn.boundary.is_empty() && drawn.unreadable.is_empty() {
+        return Loose { rest: Some(drawn), ..Loose::default() };
+    }
+    let outlines = match drawn.boundary.len() {
+        0..=MOST_OUTLINES => outer(chains(&drawn.boundary)),
+        _ => Vec::new(),
+    };
+    let mut loose = Loose { remarks: drawn.remarks(NO_BLOCK), ..Loose::default() };
+    if outlines.len() < 2 {
+        loose.add(drawn);
+        return loose;
+    }
+    let mut outside = 0;
+    let mut parts: Vec<Vec<&Entity>> = vec![Vec::new(); outlines.len()];
+    for entity in entities {
+        let one = Drawn::collect([entity], placement, library);
+        match one.place().and_then(|place| outlines.iter().position(|outline| is_of(outline, &place))) {
+            Some(index) => parts[index].push(entity),
+            None => outside += usize::from(!one.is_no_piece()),
+        }
+    }
+    for part in parts {
+        loose.add(Drawn::collect(part, placement, library));
+    }
+    if outside > 0 {
+        loose.remarks.push(format!("{outside} entities lie outside all outlines and are not used"));
+    }
+    loose
+}
+
+/// The chains that do not lie within another one.
+fn outer(chains: Vec<Line>) -> Vec<Line> {
+    let is_inner = |index: usize| {
+        let within = |(other, outline): (usize, &Line)| {
+            other != index && outline.closes() && contains(&outline.points, &chains[index].points[0])
+        };
+        chains.iter().enumerate().any(within)
+    };
+    (0..chains.len()).filter(|&index| !is_inner(index)).map(|index| chains[index].clone()).collect()
+}
+
+fn is_of(outline: &Line, place: &V2) -> bool {
+    (outline.closes() && contains(&outline.points, place)) || boundary_distance(&outline.points, place) < NEAR_M
+}
+
+impl Loose {
+    /// A piece is called by its `Piece Name`, else by its first text that is no `key: value` and no rule number.
+    fn add(&mut self, drawn: Drawn) {
+        let keyless = |(_, text): &(V2, String)| {
+            let (key, value) = key_and_value(text);
+            (key.is_empty() && !value.is_empty() && !value.starts_with('#')).then_some(value)
+        };
+        let label = drawn.texts.iter().find_map(keyless);
+        match drawn.into_piece(NO_BLOCK) {
+            Ok(mut piece) => {
+                if let Some(label) = label.filter(|_| piece.name == NO_BLOCK) {
+                    piece.texts.retain(|(key, value)| !(key.is_empty() && *value == label));
+                    piece.name = label;
+                }
+                self.pieces.push(piece);
+            }
+            Err(reason) => self.refused.push(Refused { block: NO_BLOCK.to_owned(), line: None, reason }),
+        }
+    }
+}

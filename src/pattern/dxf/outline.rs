@@ -1,0 +1,289 @@
+//! From lines as drawn to closed outlines.
+
+use std::collections::{BTreeSet, HashMap};
+
+use crate::geom::V2;
+use crate::geom::polyline::{contains, self_crossing, signed_area};
+use crate::units::mm;
+
+/// Greatest gap between the ends of boundary lines that join, m.
+pub const JOIN_M: f64 = 0.05e-3;
+/// Points closer than this are one, m.
+const SAME_M: f64 = 1e-6;
+/// Most vertices of an outline that is looked at; a piece has some hundreds.
+const MOST_VERTICES: usize = 20_000;
+/// Most lines that an outline is joined from; drawn side by side it has some hundreds.
+pub const MOST_LINES: usize = 5_000;
+/// Least share of the outline's area that a closed line on layer 8 must enclose to be an old Valentina sew line.
+const SEW_LINE_SHARE: f64 = 0.5;
+
+/// A line as drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// Its points; at least one.
+    pub points: Vec<V2>,
+    /// Whether it is drawn as closed.
+    pub is_closed: bool,
+}
+
+impl Line {
+    /// A line without repeated points; `None` where it has none.
+    pub fn new(mut points: Vec<V2>, is_closed: bool) -> Option<Self> {
+        points.dedup_by(|later, earlier| (*later - *earlier).norm() < SAME_M);
+        (!points.is_empty()).then_some(Self { points, is_closed })
+    }
+
+    /// First and last point.
+    pub fn ends(&self) -> [V2; 2] {
+        [self.points[0], self.points[self.points.len() - 1]]
+    }
+
+    fn gap(&self) -> f64 {
+        let [start, end] = self.ends();
+        (end - start).norm()
+    }
+
+    /// Whether it closes by its flag, or by ending where it begins.
+    pub fn closes(&self) -> bool {
+        self.is_closed || (self.points.len() > 2 && self.gap() < JOIN_M)
+    }
+
+    /// Whether another line has the same points, in this or the other direction.
+    fn is_drawn_again_by(&self, other: &Self) -> bool {
+        let near = |(a, b): (&V2, &V2)| (a - b).norm() < SAME_M;
+        self.points.len() == other.points.len()
+            && (self.points.iter().zip(&other.points).all(near)
+                || self.points.iter().zip(other.points.iter().rev()).all(near))
+    }
+}
+
+/// Lines without those that are drawn a second time, and the number of those.
+pub fn without_copies(lines: Vec<Line>) -> (Vec<Line>, usize) {
+    let count = lines.len();
+    let mut kept: Vec<Line> = Vec::new();
+    let mut seen: HashMap<[i64; 2], Vec<usize>> = HashMap::new();
+    for line in lines {
+        // Copies have the same sum of ends, up to rounding to the next cell.
+        let [start, end] = line.ends();
+        let key = cell(&((start + end) * 0.5));
+        let is_copy = around(key)
+            .filter_map(|key| seen.get(&key))
+            .flatten()
+            .any(|&other: &usize| kept[other].is_drawn_again_by(&line));
+        if !is_copy {
+            seen.entry(key).or_default().push(kept.len());
+            kept.push(line);
+        }
+    }
+    let copies = count - kept.len();
+    (kept, copies)
+}
+
+/// The cell of a grid of [`JOIN_M`] that holds a point.
+fn cell(point: &V2) -> [i64; 2] {
+    [point.x, point.y].map(|x| (x / JOIN_M).floor() as i64)
+}
+
+/// A cell and its neighbours.
+fn around([x, y]: [i64; 2]) -> impl Iterator<Item = [i64; 2]> {
+    (-1..=1).flat_map(move |i: i64| (-1..=1).map(move |j: i64| [x.saturating_add(i), y.saturating_add(j)]))
+}
+
+/// The ends of lines that are not used yet, by place.
+struct Ends<'a> {
+    lines: &'a [Line],
+    by_cell: HashMap<[i64; 2], Vec<usize>>,
+    left: BTreeSet<usize>,
+}
+
+impl<'a> Ends<'a> {
+    fn of(lines: &'a [Line]) -> Self {
+        let mut by_cell: HashMap<[i64; 2], Vec<usize>> = HashMap::new();
+        for (index, line) in lines.iter().enumerate() {
+            for end in line.ends() {
+                by_cell.entry(cell(&end)).or_default().push(index);
+            }
+        }
+        Self { lines, by_cell, left: (0..lines.len()).collect() }
+    }
+
+    /// Takes the line, the first in the file, that begins or ends at a place; its points lead away from there.
+    fn take_at(&mut self, place: &V2) -> Option<Vec<V2>> {
+        let touches = |index: &usize| self.lines[*index].ends().iter().any(|end| (end - place).norm() < JOIN_M);
+        let near = around(cell(place)).filter_map(|key| self.by_cell.get(&key)).flatten().copied();
+        let next = near.filter(|index| self.left.contains(index) && touches(index)).min()?;
+        self.left.remove(&next);
+        let mut points = self.lines[next].points.clone();
+        if (points[0] - place).norm() >= JOIN_M {
+            points.reverse();
+        }
+        Some(points)
+    }
+}
+
+/// Lines joined end to end where they meet, each chain from the first line of the file that is not used yet.
+pub fn chains(lines: &[Line]) -> Vec<Line> {
+    let mut ends = Ends::of(lines);
+    let mut chains = Vec::new();
+    while let Some(first) = ends.left.pop_first() {
+        let mut chain = lines[first].clone();
+        while !chain.closes() {
+            let Some(next) = ends.take_at(&chain.ends()[1]) else { break };
+            chain.points.extend(next.into_iter().skip(1));
+        }
+        // An open chain may go on before the line it was begun with.
+        while !chain.closes() {
+            let Some(next) = ends.take_at(&chain.ends()[0]) else { break };
+            let before = next.into_iter().skip(1).rev();
+            chain.points = before.chain(chain.points.iter().copied()).collect();
+        }
+        chains.push(chain);
+    }
+    chains
+}
+
+/// The one closed polygon that lines draw, without a repeated first vertex.
+///
+/// # Errors
+/// A sentence where there is none, it is open, or there are several.
+pub fn joined(lines: &[Line], what: &str) -> Result<Vec<V2>, String> {
+    let mut chains = chains(lines).into_iter();
+    let Some(first) = chains.next() else {
+        return Err(format!("no {what}; accepted: one closed polyline, or lines that join into one"));
+    };
+    let points = closed(first, what)?;
+    match chains.next() {
+        Some(other) => Err(format!("a second {what} at {}; accepted: one", text_mm(&other.points[0]))),
+        None => Ok(points),
+    }
+}
+
+/// The polygon of a chain, without a repeated first vertex.
+///
+/// # Errors
+/// A sentence where it is open, or has fewer than 3 or more than [`MOST_VERTICES`].
+pub fn closed(chain: Line, what: &str) -> Result<Vec<V2>, String> {
+    let [start, end] = chain.ends();
+    let gap = chain.gap();
+    if !chain.closes() {
+        return Err(format!(
+            "the {what} does not close: {:.2} mm from {} to {}",
+            mm(gap),
+            text_mm(&end),
+            text_mm(&start)
+        ));
+    }
+    let mut points = chain.points;
+    if points.len() > 1 && gap < JOIN_M {
+        points.pop();
+    }
+    match points.len() {
+        0..3 => Err(format!("the {what} has {} vertices; accepted: at least 3", points.len())),
+        3..=MOST_VERTICES => Ok(points),
+        count => Err(format!("the {what} has {count} vertices; accepted: at most {MOST_VERTICES}")),
+    }
+}
+
+/// Refuses an outline that crosses itself.
+///
+/// # Errors
+/// A sentence with the place.
+pub fn check_simple(outline: &[V2], what: &str) -> Result<(), String> {
+    match self_crossing(outline) {
+        Some(place) => Err(format!("the {what} crosses itself at {}", text_mm(&place))),
+        None => Ok(()),
+    }
+}
+
+/// Turns a clockwise polygon round, its first vertex kept; whether it was.
+pub fn counter_clockwise(polygon: &mut [V2]) -> bool {
+    let is_clockwise = signed_area(polygon) < 0.0;
+    if is_clockwise {
+        polygon.reverse();
+        polygon.rotate_right(1);
+    }
+    is_clockwise
+}
+
+/// The sew line: layer 14, or in files of old Valentina a closed line on layer 8 that holds most of the piece.
+///
+/// # Errors
+/// A sentence where layer 14 does not hold one closed line.
+pub fn sew_line(on_14: Vec<Line>, internal: &mut Vec<Line>, outline: &[V2]) -> Result<Option<Vec<V2>>, String> {
+    let mut line = if on_14.is_empty() {
+        let is_sew_line = |line: &Line| {
+            (line.is_closed || line.gap() < JOIN_M)
+                && signed_area(&line.points).abs() > SEW_LINE_SHARE * signed_area(outline)
+                && line.points.iter().all(|p| contains(outline, p))
+        };
+        let Some(index) = internal.iter().position(is_sew_line) else { return Ok(None) };
+        let found = internal.remove(index);
+        closed(Line { is_closed: true, ..found }, "sew line (layer 8)")?
+    } else {
+        joined(&without_copies(on_14).0, "sew line (layer 14)")?
+    };
+    counter_clockwise(&mut line);
+    Ok(Some(line))
+}
+
+/// A place for messages.
+pub fn text_mm(point: &V2) -> String {
+    format!("({:.2}, {:.2}) mm", mm(point.x), mm(point.y))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(points: &[(f64, f64)]) -> Line {
+        let points = points.iter().map(|&(x, y)| V2::new(x, y) * 1e-3).collect();
+        Line::new(points, false).expect("points")
+    }
+
+    #[test]
+    fn lines_join_in_any_order_and_direction_over_tiny_gaps() {
+        // A square of 100 mm whose sides miss each other by 0.01 mm, one turned round, one drawn twice.
+        let sides = vec![
+            line(&[(0.0, 0.0), (100.0, 0.0)]),
+            line(&[(100.0, 100.0), (100.01, 0.0)]),
+            line(&[(0.0, 100.0), (0.0, 0.01)]),
+            line(&[(100.0, 0.0), (0.0, 0.0)]),
+            line(&[(100.0, 100.01), (50.0, 100.0), (50.0, 100.0), (0.0, 100.0)]),
+        ];
+        let (sides, copies) = without_copies(sides);
+        assert_eq!((sides.len(), copies), (4, 1));
+        let mut outline = joined(&sides, "outline").expect("it closes");
+        assert_eq!(outline.len(), 5);
+        assert!((signed_area(&outline) - 0.01).abs() < 1e-6, "{}", signed_area(&outline));
+        assert!(!counter_clockwise(&mut outline));
+    }
+
+    #[test]
+    fn what_does_not_close_says_where() {
+        let open = [
+            line(&[(10.0, 0.0), (100.0, 0.0)]),
+            line(&[(100.0, 0.0), (100.0, 50.0)]),
+            line(&[(0.0, 0.0), (10.0, 0.0)]),
+        ];
+        let reason = joined(&open, "outline").expect_err("a side is missing");
+        assert_eq!(reason, "the outline does not close: 111.80 mm from (100.00, 50.00) mm to (0.00, 0.00) mm");
+        let two = [
+            line(&[(0.0, 0.0), (9.0, 0.0), (0.0, 9.0), (0.0, 0.0)]),
+            line(&[(20.0, 0.0), (29.0, 0.0), (20.0, 9.0), (20.0, 0.0)]),
+        ];
+        let reason = joined(&two, "outline").expect_err("two");
+        assert!(reason.contains("a second outline at (20.00, 0.00) mm"), "{reason}");
+        assert!(joined(&[], "outline").expect_err("none").contains("no outline"));
+    }
+
+    #[test]
+    fn five_thousand_lines_join_at_once() {
+        let corner = |k: usize| {
+            let angle = std::f64::consts::TAU * k as f64 / 5_000.0;
+            (500.0 * angle.cos(), 500.0 * angle.sin())
+        };
+        let mut sides: Vec<Line> = (0..5_000).map(|k| line(&[corner(k), corner(k + 1)])).collect();
+        sides.reverse();
+        assert_eq!(joined(&without_copies(sides).0, "outline").expect("it closes").len(), 5_000);
+    }
+}

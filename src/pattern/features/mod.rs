@@ -1,0 +1,354 @@
+//! The features of pattern pieces as JSON, out and in [Lei, 3.3.2]: outline with corners and edges in the order in which
+//! it is redrawn, grain, reference points, notches, reference lines and piece information.
+//!
+//! Lengths are millimetres, angles degrees counter-clockwise from `+x`, places `[x, y]`. What follows from the rest
+//! (`corners`, `edges`) is written for the reader and not read back.
+
+use serde::{Deserialize, Serialize};
+
+use super::dxf::{PatternFile, Unit, UnitSource};
+use super::piece::{GradePoint, Notch, Piece};
+use super::style::corners::corner_vertices;
+use crate::geom::V2;
+use crate::geom::polyline::{self_crossing, signed_area};
+use crate::units::{from_mm, mm};
+
+/// What the file calls its format.
+const FORMAT: &str = "toile pattern features";
+/// Version of the format that is written and read.
+const VERSION: u32 = 1;
+/// Decimals of a millimetre that are written: a billionth of a metre.
+const PER_MM: f64 = 1e6;
+/// Greatest coordinate, mm.
+const GREATEST_MM: f64 = 100_000.0;
+
+/// Why a file holds no usable pattern features.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{file}: {place}: found {found}; accepted: {accepted}")]
+pub struct FeaturesError {
+    /// File.
+    pub file: String,
+    /// Piece, or where in the text.
+    pub place: String,
+    /// What was found.
+    pub found: String,
+    /// What would be accepted.
+    pub accepted: String,
+}
+
+/// A place, mm.
+type Place = [f64; 2];
+
+/// The file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Features {
+    format: String,
+    version: u32,
+    /// Unit of all lengths; `mm` is the only one.
+    unit: String,
+    /// File that the features were taken from.
+    #[serde(default)]
+    source: String,
+    /// Texts of the style, `[key, value]`.
+    #[serde(default)]
+    style: Vec<[String; 2]>,
+    pieces: Vec<PieceFeatures>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PieceFeatures {
+    information: Information,
+    /// Counter-clockwise, in the order in which it is redrawn; the first vertex is not repeated.
+    outline: Vec<Place>,
+    #[serde(default)]
+    drawn_clockwise: bool,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    sew_line: Option<Vec<Place>>,
+    /// Vertices of the line that is sewn which are corners, in the order of the seam file's numbers.
+    #[serde(default)]
+    corners: Vec<usize>,
+    #[serde(default)]
+    edges: Vec<EdgeFeature>,
+    #[serde(default)]
+    grain: Option<[Place; 2]>,
+    reference_points: ReferencePoints,
+    #[serde(default)]
+    notches: Vec<NotchFeature>,
+    reference_lines: ReferenceLines,
+}
+
+/// Who the piece is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Information {
+    block: String,
+    name: String,
+    #[serde(default)]
+    size: Option<String>,
+    #[serde(default)]
+    quantity: Option<String>,
+    /// Other texts, `[key, value]`.
+    #[serde(default)]
+    texts: Vec<[String; 2]>,
+}
+
+/// An edge between corners.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct EdgeFeature {
+    /// Numbers of its corners, in `corners`.
+    corners: [usize; 2],
+    length_mm: f64,
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ReferencePoints {
+    #[serde(default)]
+    turn_points: Vec<Place>,
+    #[serde(default)]
+    curve_points: Vec<Place>,
+    #[serde(default)]
+    drill_holes: Vec<Place>,
+    /// Points with the number of their grade rule.
+    #[serde(default)]
+    grade_points: Vec<(Place, u32)>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct NotchFeature {
+    at: Place,
+    #[serde(default)]
+    depth_mm: Option<f64>,
+    #[serde(default)]
+    angle_deg: Option<f64>,
+}
+
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ReferenceLines {
+    #[serde(default)]
+    mirror: Option<[Place; 2]>,
+    #[serde(default)]
+    grade_reference: Option<[Place; 2]>,
+    #[serde(default)]
+    internal: Vec<Vec<Place>>,
+    #[serde(default)]
+    cut_outs: Vec<Vec<Place>>,
+}
+
+impl Features {
+    /// The features of a pattern's pieces; `source` and the style's texts are noted.
+    #[must_use]
+    pub fn of(pieces: &[Piece], source: &str, style: &[(String, String)]) -> Self {
+        Self {
+            format: FORMAT.to_owned(),
+            version: VERSION,
+            unit: "mm".to_owned(),
+            source: source.to_owned(),
+            style: pairs(style),
+            pieces: pieces.iter().map(PieceFeatures::of).collect(),
+        }
+    }
+}
+
+fn pairs(texts: &[(String, String)]) -> Vec<[String; 2]> {
+    texts.iter().map(|(key, value)| [key.clone(), value.clone()]).collect()
+}
+
+fn rounded(length_m: f64) -> f64 {
+    // Adding zero turns -0 into 0.
+    (mm(length_m) * PER_MM).round() / PER_MM + 0.0
+}
+
+fn place(point: &V2) -> Place {
+    [rounded(point.x), rounded(point.y)]
+}
+
+fn places(points: &[V2]) -> Vec<Place> {
+    points.iter().map(place).collect()
+}
+
+fn ends(line: Option<[V2; 2]>) -> Option<[Place; 2]> {
+    line.map(|ends| ends.map(|end| place(&end)))
+}
+
+fn point([x, y]: Place) -> V2 {
+    V2::new(from_mm(x), from_mm(y))
+}
+
+fn points(places: &[Place]) -> Vec<V2> {
+    places.iter().copied().map(point).collect()
+}
+
+impl PieceFeatures {
+    fn of(piece: &Piece) -> Self {
+        let corners = corner_vertices(piece);
+        Self {
+            information: Information {
+                block: piece.block.clone(),
+                name: piece.name.clone(),
+                size: piece.size.clone(),
+                quantity: piece.quantity.clone(),
+                texts: pairs(&piece.texts),
+            },
+            outline: places(&piece.outline),
+            drawn_clockwise: piece.is_clockwise_in_file,
+            sew_line: piece.sew_line.as_deref().map(places),
+            edges: edges(piece.seam_outline(), &corners),
+            corners,
+            grain: ends(piece.grain),
+            reference_points: ReferencePoints {
+                turn_points: places(&piece.turn_points),
+                curve_points: places(&piece.curve_points),
+                drill_holes: places(&piece.drill_holes),
+                grade_points: piece.grade_points.iter().map(|graded| (place(&graded.at), graded.rule)).collect(),
+            },
+            notches: piece.notches.iter().map(NotchFeature::of).collect(),
+            reference_lines: ReferenceLines {
+                mirror: ends(piece.mirror_line),
+                grade_reference: ends(piece.grade_reference),
+                internal: piece.internal_lines.iter().map(|line| places(line)).collect(),
+                cut_outs: piece.cut_outs.iter().map(|line| places(line)).collect(),
+            },
+        }
+    }
+
+    fn into_piece(self) -> Piece {
+        let texts = self.information.texts.into_iter().map(|[key, value]| (key, value)).collect();
+        let line = |ends: Option<[Place; 2]>| ends.map(|ends| ends.map(point));
+        let lines = |lines: &[Vec<Place>]| lines.iter().map(|line| points(line)).collect();
+        let graded = |&(at, rule): &(Place, u32)| GradePoint { at: point(at), rule };
+        Piece {
+            block: self.information.block,
+            name: self.information.name,
+            size: self.information.size,
+            quantity: self.information.quantity,
+            texts,
+            outline: points(&self.outline),
+            is_clockwise_in_file: self.drawn_clockwise,
+            turn_points: points(&self.reference_points.turn_points),
+            curve_points: points(&self.reference_points.curve_points),
+            notches: self.notches.iter().map(NotchFeature::notch).collect(),
+            grain: line(self.grain),
+            mirror_line: line(self.reference_lines.mirror),
+            grade_reference: line(self.reference_lines.grade_reference),
+            grade_points: self.reference_points.grade_points.iter().map(graded).collect(),
+            internal_lines: lines(&self.reference_lines.internal),
+            cut_outs: lines(&self.reference_lines.cut_outs),
+            drill_holes: points(&self.reference_points.drill_holes),
+            sew_line: self.sew_line.as_deref().map(points),
+        }
+    }
+
+    /// All places of the piece.
+    fn all_places(&self) -> impl Iterator<Item = &Place> {
+        let marks = &self.reference_points;
+        let lines = &self.reference_lines;
+        let of_ends = [&self.grain, &lines.mirror, &lines.grade_reference].into_iter().flatten().flatten();
+        self.outline
+            .iter()
+            .chain(self.sew_line.iter().flatten())
+            .chain(of_ends)
+            .chain(&marks.turn_points)
+            .chain(&marks.curve_points)
+            .chain(&marks.drill_holes)
+            .chain(marks.grade_points.iter().map(|(at, _)| at))
+            .chain(self.notches.iter().map(|notch| &notch.at))
+            .chain(lines.internal.iter().chain(&lines.cut_outs).flatten())
+    }
+}
+
+impl NotchFeature {
+    fn of(notch: &Notch) -> Self {
+        Self { at: place(&notch.at), depth_mm: notch.depth_m.map(rounded), angle_deg: notch.angle_deg }
+    }
+
+    fn notch(&self) -> Notch {
+        Notch { at: point(self.at), depth_m: self.depth_mm.map(from_mm), angle_deg: self.angle_deg }
+    }
+}
+
+/// The edges between corners of the line that is sewn.
+fn edges(outline: &[V2], corners: &[usize]) -> Vec<EdgeFeature> {
+    let n = outline.len();
+    let length = |from: usize, to: usize| -> f64 {
+        let steps = match (to + n - from) % n {
+            0 => n,
+            steps => steps,
+        };
+        (0..steps).map(|k| (outline[(from + k + 1) % n] - outline[(from + k) % n]).norm()).sum()
+    };
+    let edge = |k: usize| {
+        let next = (k + 1) % corners.len();
+        EdgeFeature { corners: [k, next], length_mm: rounded(length(corners[k], corners[next])) }
+    };
+    (0..corners.len()).map(edge).collect()
+}
+
+/// Whether JSON says that it is of this format.
+#[must_use]
+pub fn is_features(json: &[u8]) -> bool {
+    #[derive(Deserialize)]
+    struct Head {
+        format: String,
+    }
+    serde_json::from_slice::<Head>(json).is_ok_and(|head| head.format == FORMAT)
+}
+
+/// Reads the features of pieces back as a pattern; `file` is its name for messages.
+///
+/// # Errors
+/// [`FeaturesError`] where the JSON is of another format, version or unit, or a piece has no outline round an area that
+/// is free of crossings.
+pub fn read(bytes: &[u8], file: &str) -> Result<PatternFile, FeaturesError> {
+    let fail = |place: &str, found: String, accepted: &str| FeaturesError {
+        file: file.to_owned(),
+        place: place.to_owned(),
+        found,
+        accepted: accepted.to_owned(),
+    };
+    let features: Features = serde_json::from_slice(bytes)
+        .map_err(|error| fail("the file", error.to_string(), "JSON of pattern features"))?;
+    if (features.format.as_str(), features.version, features.unit.as_str()) != (FORMAT, VERSION, "mm") {
+        let found = format!("format `{}`, version {}, unit `{}`", features.format, features.version, features.unit);
+        return Err(fail("the file", found, &format!("`{FORMAT}`, {VERSION}, `mm`")));
+    }
+    let mut pieces = Vec::new();
+    for (k, piece) in features.pieces.into_iter().enumerate() {
+        let at = format!("piece {k} (`{}`)", piece.information.name);
+        if let Some([x, y]) = piece.all_places().find(|place| place.iter().any(|x| x.abs() > GREATEST_MM)) {
+            return Err(fail(&at, format!("a place at ({x}, {y}) mm"), "places within 100 m"));
+        }
+        let piece = piece.into_piece();
+        for outline in [Some(&piece.outline), piece.sew_line.as_ref()].into_iter().flatten() {
+            if outline.len() < 3 || signed_area(outline) <= 0.0 {
+                let found = format!("an outline of {} vertices that encloses no area", outline.len());
+                return Err(fail(&at, found, "a counter-clockwise outline"));
+            }
+        }
+        if let Some(crossing) = self_crossing(&piece.outline) {
+            let [x, y] = place(&crossing);
+            return Err(fail(&at, format!("an outline that crosses itself at ({x:.2}, {y:.2}) mm"), "no crossings"));
+        }
+        pieces.push(piece);
+    }
+    Ok(PatternFile {
+        file: file.to_owned(),
+        format: "pattern features (JSON)".to_owned(),
+        unit: Unit::Mm,
+        unit_source: UnitSource::File,
+        texts: features.style.into_iter().map(|[key, value]| (key, value)).collect(),
+        pieces,
+        refused: Vec::new(),
+        warnings: Vec::new(),
+        unused: Default::default(),
+        encoding: encoding_rs::UTF_8,
+    })
+}
+
+#[cfg(test)]
+mod tests;

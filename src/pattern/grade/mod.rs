@@ -1,0 +1,179 @@
+//! Grading: the pieces of every size from those of the sample size and a grade rule table.
+//!
+//! A text `# n` at a point of the outline gives that point rule `n`. Between two graded points the outline moves by the
+//! mean of both steps, weighted by arc length; what lies inside moves with the nearest place of the outline, unless it
+//! has rules of its own.
+
+mod table;
+
+pub use self::table::{GradeError, GradeTable, read};
+use super::dxf::{PatternFile, Refused};
+use super::piece::{Notch, Piece};
+use crate::geom::V2;
+use crate::geom::polyline::{segment_distance, self_crossing, signed_area};
+use crate::units::mm;
+
+/// Distance within which a grade point lies on the outline, m.
+const ON_OUTLINE_M: f64 = 1e-3;
+/// Slope of a grade reference line up to which it is horizontal.
+const HORIZONTAL: f64 = 0.02;
+
+/// The pieces of all sizes of a table; those of the sample size stay as drawn.
+///
+/// A piece that cannot be graded is refused in the file that is returned, with its reason.
+///
+/// # Errors
+/// [`GradeError`] where the file holds pieces of another size than the sample size, or no piece has a grade point.
+pub fn grade(file: &PatternFile, table: &GradeTable) -> Result<PatternFile, GradeError> {
+    let fail = |found: String, accepted: &str| {
+        Err(GradeError { file: file.file.clone(), line: None, found, accepted: accepted.to_owned() })
+    };
+    let sample = &table.sizes[table.sample];
+    let is_sample = |piece: &Piece| piece.size.as_deref().is_none_or(|size| size.eq_ignore_ascii_case(sample));
+    if let Some(other) = file.pieces.iter().find(|piece| !is_sample(piece)) {
+        let size = other.size.as_deref().unwrap_or_default();
+        return fail(
+            format!("size `{size}` for piece `{}`", other.name),
+            &format!("pieces of the sample size {sample} only"),
+        );
+    }
+    if file.pieces.iter().all(|piece| piece.grade_points.is_empty()) {
+        return fail("no grade point".to_owned(), "texts `# n` at points of the outline, n being a rule of the table");
+    }
+    let mut graded = PatternFile { pieces: Vec::new(), ..file.clone() };
+    for (k, size) in table.sizes.iter().enumerate() {
+        for piece in &file.pieces {
+            let sized = if k == table.sample { Ok(piece.clone()) } else { graded_piece(piece, table, k) };
+            match sized {
+                Ok(sized) => graded.pieces.push(Piece { size: Some(size.clone()), ..sized }),
+                Err(reason) => {
+                    let reason = format!("size {size}: {reason}");
+                    graded.refused.push(Refused { block: piece.block.clone(), line: None, reason });
+                }
+            }
+        }
+    }
+    Ok(graded)
+}
+
+/// One piece in one size.
+fn graded_piece(piece: &Piece, table: &GradeTable, size: usize) -> Result<Piece, String> {
+    if let Some([from, to]) = piece.grade_reference {
+        let along = to - from;
+        if along.y.abs() > HORIZONTAL * along.x.abs() {
+            let angle = along.y.atan2(along.x).to_degrees();
+            return Err(format!(
+                "a grade reference line at {angle:.0} degrees: programs differ on whether rules turn with it; accepted: \
+                 a horizontal one, or none"
+            ));
+        }
+    }
+    let field = Field::of(piece, table, size)?;
+    let moved = |point: &V2| point + field.at(point);
+    let moved_all = |points: &[V2]| -> Vec<V2> { points.iter().map(moved).collect() };
+    let moved_lines = |lines: &[Vec<V2>]| -> Vec<Vec<V2>> { lines.iter().map(|line| moved_all(line)).collect() };
+    let moved_ends = |ends: Option<[V2; 2]>| ends.map(|ends| ends.map(|end| moved(&end)));
+    let outline: Vec<V2> = piece.outline.iter().zip(&field.steps).map(|(point, step)| point + step).collect();
+    if let Some(place) = self_crossing(&outline) {
+        return Err(format!("the graded outline crosses itself at ({:.2}, {:.2}) mm", mm(place.x), mm(place.y)));
+    }
+    if signed_area(&outline) <= 0.0 {
+        return Err("the graded outline encloses no area".to_owned());
+    }
+    Ok(Piece {
+        outline,
+        turn_points: moved_all(&piece.turn_points),
+        curve_points: moved_all(&piece.curve_points),
+        notches: piece.notches.iter().map(|notch| Notch { at: moved(&notch.at), ..*notch }).collect(),
+        grain: moved_ends(piece.grain),
+        mirror_line: moved_ends(piece.mirror_line),
+        grade_reference: moved_ends(piece.grade_reference),
+        grade_points: Vec::new(),
+        internal_lines: moved_lines(&piece.internal_lines),
+        cut_outs: moved_lines(&piece.cut_outs),
+        drill_holes: moved_all(&piece.drill_holes),
+        sew_line: piece.sew_line.as_deref().map(moved_all),
+        ..piece.clone()
+    })
+}
+
+/// How far each vertex of an outline moves, and each point with a rule of its own.
+struct Field<'a> {
+    outline: &'a [V2],
+    steps: Vec<V2>,
+    /// Graded points inside the piece.
+    own: Vec<(V2, V2)>,
+}
+
+impl<'a> Field<'a> {
+    /// # Errors
+    /// A sentence where a rule is missing, two rules meet in one point, or fewer than two points are graded.
+    fn of(piece: &'a Piece, table: &GradeTable, size: usize) -> Result<Self, String> {
+        let outline = &piece.outline;
+        let mut graded: Vec<Option<(u32, V2)>> = vec![None; outline.len()];
+        let mut own: Vec<(V2, V2)> = Vec::new();
+        for point in &piece.grade_points {
+            let Some(steps) = table.rules.get(&point.rule) else {
+                return Err(format!("rule {} at {}, which {} does not hold", point.rule, place(&point.at), table.file));
+            };
+            let distance = |k: &usize| (outline[*k] - point.at).norm();
+            let nearest = (0..outline.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            let Some(vertex) = nearest.filter(|vertex| distance(vertex) < ON_OUTLINE_M) else {
+                own.push((point.at, steps[size]));
+                continue;
+            };
+            match graded[vertex] {
+                Some((rule, step)) if rule != point.rule && step != steps[size] => {
+                    let found = format!("rules {rule} and {} at {}", point.rule, place(&point.at));
+                    return Err(format!("{found}; accepted: one rule a point"));
+                }
+                _ => graded[vertex] = Some((point.rule, steps[size])),
+            }
+        }
+        let known: Vec<(usize, V2)> =
+            graded.iter().enumerate().filter_map(|(vertex, step)| step.map(|(_, step)| (vertex, step))).collect();
+        if known.len() < 2 {
+            return Err(format!("{} graded points on the outline; accepted: at least 2", known.len()));
+        }
+        Ok(Self { outline, steps: between(outline, &known), own })
+    }
+
+    /// How far a point moves: as its own rule says, or as the nearest place of the outline does.
+    fn at(&self, point: &V2) -> V2 {
+        if let Some((_, step)) = self.own.iter().find(|(at, _)| (at - point).norm() < ON_OUTLINE_M) {
+            return *step;
+        }
+        let n = self.outline.len();
+        let distance = |k: &usize| segment_distance(&self.outline[*k], &self.outline[(*k + 1) % n], point);
+        let Some(k) = (0..n).min_by(|a, b| distance(a).total_cmp(&distance(b))) else { return V2::zeros() };
+        let (start, end) = (self.outline[k], self.outline[(k + 1) % n]);
+        let along = end - start;
+        let share = ((point - start).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+        self.steps[k].lerp(&self.steps[(k + 1) % n], share)
+    }
+}
+
+/// Steps of all vertices of a closed outline from those of some, linear in arc length between them.
+fn between(outline: &[V2], known: &[(usize, V2)]) -> Vec<V2> {
+    let n = outline.len();
+    let mut steps = vec![V2::zeros(); n];
+    for (k, &(from, first)) in known.iter().enumerate() {
+        let (to, last) = known[(k + 1) % known.len()];
+        let count = (to + n - from) % n;
+        let side = |i: usize| (outline[(from + i + 1) % n] - outline[(from + i) % n]).norm();
+        let length: f64 = (0..count).map(side).sum();
+        let mut along = 0.0;
+        for i in 0..count {
+            steps[(from + i) % n] = first.lerp(&last, along / length);
+            along += side(i);
+        }
+    }
+    steps
+}
+
+fn place(point: &V2) -> String {
+    format!("({:.1}, {:.1}) mm", mm(point.x), mm(point.y))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,236 @@
+//! Grade rule tables (`.rul`) [AAMA-292, ASTM D6673]: how far each numbered point moves in each size.
+//!
+//! ```text
+//! UNITS: METRIC
+//! GRADE RULE TABLE: TROUSERS
+//! NUMBER OF SIZES: 3
+//! SIZE LIST: 36 38 40
+//! SAMPLE SIZE: 38
+//! RULE: DELTA 1
+//!   -10.00,  -5.00   0.00, 0.00   10.00, 5.00
+//! END
+//! ```
+//!
+//! A rule has one pair of x and y for each size of the list, from the sample size, over as many lines as the writer
+//! likes; the pair of the sample size is zero.
+
+use std::collections::BTreeMap;
+
+use crate::geom::V2;
+use crate::pattern::dxf::Unit;
+use crate::units::from_mm;
+
+/// Most bytes of a table that is read; a large one has some hundred thousand.
+const MOST_BYTES: usize = 8 << 20;
+/// Greatest step of a rule, m.
+const GREATEST_M: f64 = 2.0;
+/// Greatest step of the sample size that is rounding, m.
+const ZERO_M: f64 = 1e-6;
+
+/// Why a grade rule table cannot be read, or not be applied.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{file}{}: found {found}; accepted: {accepted}", line.map(|line| format!(", line {line}")).unwrap_or_default())]
+pub struct GradeError {
+    /// File.
+    pub file: String,
+    /// Line, where one can be named.
+    pub line: Option<usize>,
+    /// What was found.
+    pub found: String,
+    /// What would be accepted.
+    pub accepted: String,
+}
+
+/// A grade rule table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GradeTable {
+    /// File name.
+    pub file: String,
+    /// Sizes in their order.
+    pub sizes: Vec<String>,
+    /// Which of them the pieces are drawn in.
+    pub sample: usize,
+    /// Steps of each rule from the sample size, m: one for each size.
+    pub rules: BTreeMap<u32, Vec<V2>>,
+}
+
+/// Reads a grade rule table; `file` is its name for messages.
+///
+/// # Errors
+/// [`GradeError`] where it is no such table, names no unit, its sizes do not agree, a rule is there twice or has not one
+/// pair for each size, or the sample size moves (the steps are not from the sample size then).
+pub fn read(bytes: &[u8], file: &str) -> Result<GradeTable, GradeError> {
+    let reader = Reader { file };
+    if bytes.len() > MOST_BYTES {
+        return Err(reader.error(None, format!("{} MB", bytes.len() >> 20), "a table of at most 8 MB"));
+    }
+    if bytes.contains(&0) {
+        return Err(reader.error(Some(1), "a binary file".to_owned(), "a text file with RULE: DELTA"));
+    }
+    let text = String::from_utf8_lossy(bytes);
+    let mut head = Head::default();
+    let mut rules: BTreeMap<u32, Rule> = BTreeMap::new();
+    let mut open = Open::Head;
+    for (index, line) in text.lines().enumerate().map(|(index, line)| (index + 1, line.trim())) {
+        let key_value = line.split_once(':').map(|(key, value)| (key.trim().to_ascii_uppercase(), value.trim()));
+        match key_value {
+            _ if line.is_empty() => {}
+            _ if line.eq_ignore_ascii_case("END") => open = Open::Nothing,
+            Some((key, value)) if key == "RULE" => {
+                let number = reader.rule_number(index, value)?;
+                let rule = Rule { line: index, numbers: Vec::new() };
+                if let Some(first) = rules.insert(number, rule) {
+                    let found = format!("rule {number} again, first in line {}", first.line);
+                    return Err(reader.error(Some(index), found, "each rule once"));
+                }
+                open = Open::Rule(number);
+            }
+            Some((key, value)) => {
+                open = if key == "SIZE LIST" { Open::Sizes } else { Open::Head };
+                head.take(&key, value, index);
+            }
+            None => match open {
+                Open::Sizes => head.sizes.1.extend(line.split_whitespace().map(str::to_owned)),
+                Open::Rule(number) => {
+                    let numbers = reader.numbers(index, line)?;
+                    rules.entry(number).and_modify(|rule| rule.numbers.extend(numbers));
+                }
+                Open::Head | Open::Nothing => {}
+            },
+        }
+    }
+    reader.table(head, rules)
+}
+
+/// What a line without a key goes on with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Open {
+    Head,
+    Sizes,
+    Rule(u32),
+    Nothing,
+}
+
+/// Entries before the rules, with their lines.
+#[derive(Clone, Debug, Default)]
+struct Head {
+    unit: Option<(usize, String)>,
+    count: Option<(usize, String)>,
+    sizes: (usize, Vec<String>),
+    sample: Option<(usize, String)>,
+}
+
+impl Head {
+    fn take(&mut self, key: &str, value: &str, line: usize) {
+        let entry = Some((line, value.to_owned()));
+        match key {
+            "UNITS" => self.unit = entry,
+            "NUMBER OF SIZES" => self.count = entry,
+            "SAMPLE SIZE" | "BASE SIZE" => self.sample = entry,
+            "SIZE LIST" => self.sizes = (line, value.split_whitespace().map(str::to_owned).collect()),
+            _ => {}
+        }
+    }
+}
+
+/// A rule as written.
+#[derive(Clone, Debug)]
+struct Rule {
+    line: usize,
+    numbers: Vec<f64>,
+}
+
+/// Reads with the file's name at hand.
+struct Reader<'a> {
+    file: &'a str,
+}
+
+impl Reader<'_> {
+    fn error(&self, line: Option<usize>, found: String, accepted: &str) -> GradeError {
+        GradeError { file: self.file.to_owned(), line, found, accepted: accepted.to_owned() }
+    }
+
+    fn rule_number(&self, line: usize, value: &str) -> Result<u32, GradeError> {
+        let mut words = value.split_whitespace();
+        let number = match (words.next(), words.next(), words.next()) {
+            (Some(kind), Some(number), None) if kind.eq_ignore_ascii_case("DELTA") => number.parse().ok(),
+            _ => None,
+        };
+        number.ok_or_else(|| self.error(Some(line), format!("RULE: {value}"), "RULE: DELTA and a number"))
+    }
+
+    fn numbers(&self, line: usize, text: &str) -> Result<Vec<f64>, GradeError> {
+        let words = text.split(|c: char| c == ',' || c.is_whitespace()).filter(|word| !word.is_empty());
+        let number = |word: &str| match word.parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(number),
+            _ => Err(self.error(
+                Some(line),
+                format!("`{word}`"),
+                "pairs of x and y with decimal points, such as -10.00, 5.00",
+            )),
+        };
+        words.map(number).collect()
+    }
+
+    fn table(&self, head: Head, rules: BTreeMap<u32, Rule>) -> Result<GradeTable, GradeError> {
+        if rules.is_empty() {
+            let found = "no rule".to_owned();
+            return Err(self.error(None, found, "a grade rule table with RULE: DELTA entries"));
+        }
+        let unit = match head.unit {
+            Some((_, unit)) if unit.eq_ignore_ascii_case("METRIC") => Unit::Mm,
+            Some((_, unit)) if unit.eq_ignore_ascii_case("ENGLISH") => Unit::In,
+            Some((line, unit)) => {
+                return Err(self.error(
+                    Some(line),
+                    format!("unit `{unit}`"),
+                    "METRIC (millimetres) or ENGLISH (inches)",
+                ));
+            }
+            None => return Err(self.error(None, "no unit".to_owned(), "UNITS: METRIC or UNITS: ENGLISH")),
+        };
+        let (sizes_line, sizes) = head.sizes;
+        if let Some((line, count)) = head.count.filter(|(_, count)| count.parse() != Ok(sizes.len())) {
+            let found = format!("{count} sizes, and a list of {} in line {sizes_line}", sizes.len());
+            return Err(self.error(Some(line), found, "as many names without blanks as sizes"));
+        }
+        let Some((line, sample)) = head.sample else {
+            return Err(self.error(None, "no sample size".to_owned(), "SAMPLE SIZE: one of the size list"));
+        };
+        let named: Vec<usize> = (0..sizes.len()).filter(|&k| sizes[k].eq_ignore_ascii_case(&sample)).collect();
+        let &[sample] = named.as_slice() else {
+            let found = format!("sample size `{sample}`, {} times in the size list", named.len());
+            return Err(self.error(Some(line), found, &format!("one of {}", sizes.join(", "))));
+        };
+        let scale = from_mm(unit.mm_per_unit());
+        let steps = rules
+            .into_iter()
+            .map(|(number, rule)| Ok((number, self.steps(number, &rule, scale, sizes.len(), sample)?)));
+        let rules = steps.collect::<Result<_, GradeError>>()?;
+        Ok(GradeTable { file: self.file.to_owned(), sizes, sample, rules })
+    }
+
+    /// The steps of one rule, m.
+    fn steps(&self, number: u32, rule: &Rule, scale: f64, sizes: usize, sample: usize) -> Result<Vec<V2>, GradeError> {
+        if rule.numbers.len() != 2 * sizes {
+            let found = format!("{} numbers in rule {number}", rule.numbers.len());
+            return Err(self.error(
+                Some(rule.line),
+                found,
+                &format!("{}: x and y for each of {sizes} sizes", 2 * sizes),
+            ));
+        }
+        let steps: Vec<V2> = rule.numbers.chunks(2).map(|pair| V2::new(pair[0], pair[1]) * scale).collect();
+        if steps[sample].norm() > ZERO_M {
+            let found = format!("rule {number}, which moves the sample size");
+            return Err(self.error(Some(rule.line), found, "steps from the sample size, whose own is zero"));
+        }
+        match steps.iter().find(|step| step.norm() > GREATEST_M) {
+            Some(step) => {
+                let found = format!("a step of {:.1} m in rule {number}", step.norm());
+                Err(self.error(Some(rule.line), found, "steps of at most 2 m"))
+            }
+            None => Ok(steps),
+        }
+    }
+}

@@ -1,0 +1,185 @@
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use super::*;
+use crate::pattern::dxf;
+use crate::pattern::piece::GradePoint;
+
+const TABLE: &str = "ANSI/AAMA VERSION: 1.0.0\r\nAUTHOR: someone\r\nCREATION TIME: 14:03\r\nUNITS: METRIC\r\n\
+GRADE RULE TABLE: BLOUSE\r\nNUMBER OF SIZES: 3\r\nSIZE LIST: S M\r\n  L\r\nSAMPLE SIZE: M\r\nRULE: DELTA  1\r\n\
+   -10.00,   -5.00      0.00,    0.00     10.00,    5.00\r\nRULE: DELTA 2\r\n 0.0, -5.0\r\n 0.0, 0.0\r\n 0.0, 5.0\r\n\
+RULE: DELTA 3\r\n0 0 0 0 0 0\r\nEND\r\n";
+
+/// A square of 100 mm, rule 3 at its lower corners, 1 at the upper right, 2 at the upper left; a vertex half way up each
+/// side has none.
+fn square() -> PatternFile {
+    let line = |layer: &str, ends: [[f64; 2]; 2]| {
+        let [[a, b], [c, d]] = ends;
+        format!("0\nLINE\n8\n{layer}\n10\n{a}\n20\n{b}\n11\n{c}\n21\n{d}\n")
+    };
+    let corners = [[0.0, 0.0], [100.0, 0.0], [100.0, 50.0], [100.0, 100.0], [0.0, 100.0], [0.0, 50.0]];
+    let mut text = "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n8\n0\n2\nP\n".to_owned();
+    for k in 0..6 {
+        text += &line("1", [corners[k], corners[(k + 1) % 6]]);
+    }
+    for (corner, rule) in [(0, 3), (1, 3), (3, 1), (4, 2), (4, 2)] {
+        let [x, y] = corners[corner];
+        write!(text, "0\nTEXT\n8\n2\n10\n{x}\n20\n{y}\n40\n3\n1\n# {rule}\n").expect("a string");
+    }
+    text += &line("5", [[20.0, 50.0], [80.0, 50.0]]);
+    text += "0\nPOINT\n8\n4\n10\n100\n20\n75\n0\nPOINT\n8\n13\n10\n50\n20\n90\n0\nENDBLK\n8\n0\n0\nENDSEC\n";
+    text += "0\nSECTION\n2\nENTITIES\n0\nTEXT\n8\n1\n10\n0\n20\n0\n1\nUnits: METRIC\n0\nENDSEC\n0\nEOF\n";
+    dxf::read(text.as_bytes(), "square.dxf", None).expect("it reads")
+}
+
+fn table() -> GradeTable {
+    read(TABLE.as_bytes(), "blouse.rul").expect("it reads")
+}
+
+#[test]
+fn a_table_has_sizes_and_steps() {
+    let table = table();
+    assert_eq!((table.sizes.join(" "), table.sample), ("S M L".to_owned(), 1));
+    assert_eq!(table.rules[&1], [V2::new(-0.01, -0.005), V2::zeros(), V2::new(0.01, 0.005)]);
+    assert_eq!(table.rules[&2][0], V2::new(0.0, -0.005));
+    let inches = read(TABLE.replace("METRIC", "ENGLISH").as_bytes(), "a.rul").expect("it reads");
+    assert!((inches.rules[&1][2].x - 0.254).abs() < 1e-12);
+}
+
+#[test]
+fn damaged_tables_are_refused_with_line_and_finding() {
+    let check = |from: &str, to: &str, line: Option<usize>, expect: &str| {
+        assert!(TABLE.contains(from), "{from}");
+        let error = read(TABLE.replacen(from, to, 1).as_bytes(), "a.rul").expect_err(expect);
+        assert!(error.found.contains(expect) && error.line == line && !error.accepted.is_empty(), "{error}");
+    };
+    check("METRIC", "CUBITS", Some(4), "unit `CUBITS`");
+    check("UNITS: METRIC\r\n", "", None, "no unit");
+    check("SIZES: 3", "SIZES: 4", Some(6), "4 sizes, and a list of 3 in line 7");
+    check("SAMPLE SIZE: M", "SAMPLE SIZE: XL", Some(9), "`XL`, 0 times");
+    check("SAMPLE SIZE: M\r\n", "", None, "no sample size");
+    check("DELTA  1", "PERCENT 1", Some(10), "PERCENT 1");
+    check("DELTA 2", "DELTA 1", Some(12), "rule 1 again, first in line 10");
+    check("10.00,    5.00", "10.00", Some(10), "5 numbers in rule 1");
+    check("-10.00", "-10;00", Some(11), "`-10;00`");
+    check("-10.00", "NaN", Some(11), "`NaN`");
+    check("-10.00", "-1e9", Some(10), "a step of");
+    check("0.00,    0.00", "1.00,    0.00", Some(10), "moves the sample size");
+    let none = read(b"\x89PNG\x00", "a.rul").expect_err("no table");
+    assert!(none.found.contains("binary"), "{none}");
+    assert!(read(b"", "a.rul").expect_err("empty").found.contains("no rule"));
+}
+
+#[test]
+fn points_move_by_their_rules_and_between_them_by_arc_length() {
+    let graded = grade(&square(), &table()).expect("it grades");
+    assert!(graded.refused.is_empty(), "{:?}", graded.refused);
+    assert_eq!(graded.sizes(), ["S", "M", "L"]);
+    let [small, sample, large] = &graded.pieces[..] else { panic!("{:?}", graded.pieces.len()) };
+    assert_eq!(Piece { size: None, ..sample.clone() }, Piece { size: None, ..square().pieces[0].clone() });
+    let at = |piece: &Piece, k: usize| [piece.outline[k].x * 1e3, piece.outline[k].y * 1e3];
+    let close = |found: [f64; 2], expect: [f64; 2]| {
+        assert!(found.iter().zip(expect).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?} for {expect:?}");
+    };
+    for (piece, sign) in [(small, -1.0), (large, 1.0)] {
+        close(at(piece, 0), [0.0, 0.0]);
+        close(at(piece, 2), [100.0 + sign * 5.0, 50.0 + sign * 2.5]);
+        close(at(piece, 3), [100.0 + sign * 10.0, 100.0 + sign * 5.0]);
+        close(at(piece, 4), [0.0, 100.0 + sign * 5.0]);
+        close(at(piece, 5), [0.0, 50.0 + sign * 2.5]);
+        let notch = piece.notches[0].at * 1e3;
+        close([notch.x, notch.y], [100.0 + sign * 7.5, 75.0 + sign * 3.75]);
+        // Nearest to the middle of the upper side.
+        let hole = piece.drill_holes[0] * 1e3;
+        close([hole.x, hole.y], [50.0 + sign * 5.0, 90.0 + sign * 5.0]);
+    }
+}
+
+#[test]
+fn what_is_ambiguous_is_refused() {
+    let check = |edit: fn(&mut Piece), expect: &str| {
+        let mut file = square();
+        edit(&mut file.pieces[0]);
+        let graded = grade(&file, &table()).expect("the sample size stays");
+        assert_eq!((graded.pieces.len(), graded.refused.len()), (1, 2));
+        assert!(graded.refused[0].reason.contains(expect), "{:?}", graded.refused);
+    };
+    check(|piece| piece.grade_points[0].rule = 7, "rule 7 at (0.0, 0.0) mm, which blouse.rul does not hold");
+    check(|piece| piece.grade_points[4].rule = 1, "rules 2 and 1 at (0.0, 100.0) mm");
+    check(|piece| piece.grade_points.truncate(1), "1 graded points");
+    check(|piece| piece.grade_reference = Some([V2::zeros(), V2::new(0.0, 1.0)]), "line at 90 degrees");
+    let mut file = square();
+    file.pieces[0].grade_points.clear();
+    assert!(grade(&file, &table()).expect_err("none").found.contains("no grade point"));
+    let mut file = square();
+    file.pieces[0].size = Some("XL".to_owned());
+    assert!(grade(&file, &table()).expect_err("size").found.contains("size `XL`"));
+}
+
+/// A nest holds what a table would make of its sample size: the table made of its vertices gives it back. Sizes and
+/// pieces of which every outline has as many vertices are compared.
+#[test]
+fn a_nest_is_what_its_own_rules_make_of_its_sample_size() {
+    const SIZES: [&str; 4] = ["34", "36", "38", "40"];
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/patterns/freesewing/teagan_nest_aama-inch.dxf");
+    let Ok(bytes) = std::fs::read(path) else {
+        eprintln!("skipped: no {path}");
+        return;
+    };
+    let nest = dxf::read(&bytes, "nest.dxf", None).expect("it reads");
+    let drawn = |size: &str| -> Vec<Piece> {
+        let is_compared = |piece: &&Piece| piece.size.as_deref() == Some(size) && !piece.block.contains("SLEEVE");
+        nest.pieces.iter().filter(is_compared).cloned().collect()
+    };
+    let mut sample = PatternFile { pieces: drawn("36"), ..nest.clone() };
+    let mut rules: BTreeMap<u32, Vec<V2>> = BTreeMap::new();
+    for (index, piece) in sample.pieces.iter_mut().enumerate() {
+        piece.grade_reference = None;
+        piece.grade_points.clear();
+        for (vertex, &at) in piece.outline.iter().enumerate() {
+            let rule = 1 + (rules.len() as u32);
+            piece.grade_points.push(GradePoint { at, rule });
+            rules.insert(rule, SIZES.iter().map(|size| drawn(size)[index].outline[vertex] - at).collect());
+        }
+    }
+    let mut text = format!("UNITS: METRIC\nNUMBER OF SIZES: 4\nSIZE LIST: {}\nSAMPLE SIZE: 36\n", SIZES.join(" "));
+    for (rule, steps) in &rules {
+        writeln!(text, "RULE: DELTA {rule}").expect("a string");
+        for step in steps {
+            writeln!(text, "{:10.3},{:9.3}", step.x * 1e3, step.y * 1e3).expect("a string");
+        }
+    }
+    let graded = grade(&sample, &read(text.as_bytes(), "nest.rul").expect("it reads")).expect("it grades");
+    assert!(graded.refused.is_empty() && graded.pieces.len() == 8, "{:?}", graded.refused);
+    for (found, drawn) in graded.pieces.iter().zip(SIZES.iter().flat_map(|size| drawn(size))) {
+        let off_mm = (found.perimeter_m() - drawn.perimeter_m()).abs() * 1e3;
+        assert!(off_mm < 0.02, "{} {:?}: {off_mm} mm", drawn.block, drawn.size);
+    }
+}
+
+proptest::proptest! {
+    #![proptest_config(proptest::prelude::ProptestConfig::with_cases(128))]
+
+    #[test]
+    fn damaged_tables_never_panic_and_never_lose_a_size(edits in proptest::collection::vec((0.0..1.0_f64, proptest::num::u8::ANY), 1..8)) {
+        let mut bytes = TABLE.as_bytes().to_vec();
+        for (share, byte) in edits {
+            let index = (share * bytes.len() as f64) as usize;
+            bytes[index] = byte;
+        }
+        if let Ok(table) = read(&bytes, "a.rul") {
+            proptest::prop_assert!(table.rules.values().all(|steps| steps.len() == table.sizes.len()));
+            let _ = grade(&square(), &table);
+        }
+    }
+
+    #[test]
+    fn graded_outlines_close_and_keep_their_vertices(x in -30.0..30.0_f64, y in -30.0..30.0_f64) {
+        let text = TABLE.replace("10.00,    5.00\r\nRULE", &format!("{x:.3}, {y:.3}\r\nRULE"));
+        let graded = grade(&square(), &read(text.as_bytes(), "a.rul").expect("it reads")).expect("it grades");
+        let large = graded.pieces.last().expect("the largest size");
+        proptest::prop_assert_eq!(large.outline.len(), 6);
+        let corner = (large.outline[3] - V2::new(0.1, 0.1)) * 1e3;
+        proptest::prop_assert!((corner - V2::new(x, y)).norm() < 1e-3);
+    }
+}

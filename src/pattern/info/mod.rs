@@ -1,0 +1,233 @@
+//! Piece information from a table beside the pattern (CSV or XLSX): quantity, material, grain, role and whatever else
+//! a tech pack says of each piece.
+//!
+//! The first row names the columns. `piece` (or `name`, `piece name`, `block`) says which piece a row is about, and
+//! `size`, where there is such a column, of which size; `quantity` is taken for the piece's own, `grain_deg` for its
+//! grain line where it has none; every other column becomes a text of the piece. An empty cell says nothing.
+
+mod xlsx;
+
+use super::dxf::PatternFile;
+use super::garment::Role;
+use super::piece::Piece;
+use crate::geom::V2;
+
+/// Names of the column that says which piece a row is about.
+const PIECE: [&str; 4] = ["piece", "name", "piece name", "block"];
+/// Most bytes of a table that is read.
+const MOST_BYTES: usize = 16 << 20;
+/// Share of a piece's extent along its grain that the grain line of a table takes.
+const GRAIN_SHARE: f64 = 0.5;
+
+/// Why a table of piece information cannot be used.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{file}{}{}: found {found}; accepted: {accepted}",
+    row.map(|row| format!(", row {row}")).unwrap_or_default(),
+    column.as_ref().map(|column| format!(", column `{column}`")).unwrap_or_default())]
+pub struct InfoError {
+    /// File.
+    pub file: String,
+    /// Row, from 1 for the row of column names.
+    pub row: Option<usize>,
+    /// Column.
+    pub column: Option<String>,
+    /// What was found.
+    pub found: String,
+    /// What would be accepted.
+    pub accepted: String,
+}
+
+/// The cells of a row, with the row's number in the file.
+type Row = (usize, Vec<String>);
+
+/// A table of piece information.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PieceTable {
+    file: String,
+    columns: Vec<String>,
+    rows: Vec<Row>,
+}
+
+/// Reads a table, XLSX (its first sheet) or CSV (comma, semicolon or tab; UTF-8); `file` is its name for messages.
+///
+/// # Errors
+/// [`InfoError`] where it is no such table, or has no column for the piece.
+pub fn read(bytes: &[u8], file: &str) -> Result<PieceTable, InfoError> {
+    let fail = |row: Option<usize>, found: String, accepted: &str| InfoError {
+        file: file.to_owned(),
+        row,
+        column: None,
+        found,
+        accepted: accepted.to_owned(),
+    };
+    if bytes.len() > MOST_BYTES {
+        return Err(fail(None, format!("{} MB", bytes.len() >> 20), "a table of at most 16 MB"));
+    }
+    let mut rows = if bytes.starts_with(b"PK") {
+        xlsx::rows(bytes).map_err(|found| fail(None, found, "an XLSX workbook whose first sheet is the table"))?
+    } else {
+        csv_rows(bytes).map_err(|(row, found)| fail(row, found, "CSV in UTF-8, with as many cells in every row"))?
+    };
+    rows.retain(|(_, cells)| cells.iter().any(|cell| !cell.is_empty()));
+    if rows.is_empty() {
+        return Err(fail(None, "an empty table".to_owned(), "a row of column names, and one row a piece"));
+    }
+    let (head, columns) = rows.remove(0);
+    let table = PieceTable { file: file.to_owned(), columns, rows };
+    if table.column(&PIECE).is_none() {
+        let found = format!("columns {}", table.columns.join(", "));
+        return Err(fail(Some(head), found, "one called piece, name, piece name or block"));
+    }
+    for (k, column) in table.columns.iter().enumerate().filter(|(_, column)| !column.is_empty()) {
+        if table.columns[..k].iter().any(|other| other.eq_ignore_ascii_case(column)) {
+            return Err(fail(Some(head), format!("column `{column}` twice"), "each column once"));
+        }
+    }
+    Ok(table)
+}
+
+/// Rows of CSV with their numbers, or the number of the row that is wrong and why.
+fn csv_rows(bytes: &[u8]) -> Result<Vec<Row>, (Option<usize>, String)> {
+    let text = std::str::from_utf8(bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes));
+    let text = text.map_err(|error| (None, format!("a byte that is no UTF-8 at {}", error.valid_up_to())))?;
+    let head = text.lines().next().unwrap_or_default();
+    let count = |delimiter: u8| head.bytes().filter(|&byte| byte == delimiter).count();
+    let delimiter = [b';', b'\t', b','].into_iter().max_by_key(|&delimiter| count(delimiter)).unwrap_or(b',');
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .delimiter(delimiter)
+        .trim(csv::Trim::All)
+        .from_reader(text.as_bytes());
+    let mut rows = Vec::new();
+    for record in reader.records() {
+        // Blank lines before a record belong to it.
+        let line = |position: Option<&csv::Position>| {
+            let position = position?;
+            let rest = text.as_bytes().get(position.byte() as usize..)?;
+            let blank = rest.iter().take_while(|byte| matches!(byte, b'\r' | b'\n')).filter(|&&byte| byte == b'\n');
+            Some(position.line() as usize + blank.count())
+        };
+        let record = record.map_err(|error| (line(error.position()), error.to_string()))?;
+        let number = line(record.position()).unwrap_or(rows.len() + 1);
+        rows.push((number, record.iter().map(str::to_owned).collect()));
+    }
+    Ok(rows)
+}
+
+impl PieceTable {
+    fn column(&self, names: &[&str]) -> Option<usize> {
+        self.columns.iter().position(|column| names.iter().any(|name| column.eq_ignore_ascii_case(name)))
+    }
+
+    fn error(&self, row: usize, column: usize, found: String, accepted: &str) -> InfoError {
+        InfoError {
+            file: self.file.clone(),
+            row: Some(row),
+            column: Some(self.columns[column].clone()),
+            found,
+            accepted: accepted.to_owned(),
+        }
+    }
+
+    /// Adds what the table says to the pieces of a pattern; what the pattern says itself gives way.
+    ///
+    /// # Errors
+    /// [`InfoError`] for a row about no piece of the pattern, two rows about the same one, and a cell that cannot be.
+    pub fn merge(&self, pattern: &mut PatternFile) -> Result<(), InfoError> {
+        let Some(by) = self.column(&PIECE) else { return Ok(()) };
+        let size_by = self.column(&["size"]);
+        let mut told: Vec<Option<usize>> = vec![None; pattern.pieces.len()];
+        for (row, cells) in &self.rows {
+            let cell = |column: usize| cells.get(column).map_or("", String::as_str);
+            for index in self.meant(*row, by, cell(by), size_by.map_or("", cell), &pattern.pieces)? {
+                if let Some(first) = told[index].replace(*row) {
+                    let found = format!("piece `{}` again, first in row {first}", cell(by));
+                    return Err(self.error(*row, by, found, "each piece once"));
+                }
+                for column in (0..self.columns.len()).filter(|&column| column != by && Some(column) != size_by) {
+                    self.tell(&mut pattern.pieces[index], *row, column, cell(column))?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The pieces that a row is about, of one size where it names one.
+    fn meant(&self, row: usize, by: usize, name: &str, size: &str, pieces: &[Piece]) -> Result<Vec<usize>, InfoError> {
+        let is_of =
+            |piece: &Piece| size.is_empty() || piece.size.as_deref().is_some_and(|s| s.eq_ignore_ascii_case(size));
+        let is_called = |piece: &Piece| piece.block.eq_ignore_ascii_case(name) || piece.name.eq_ignore_ascii_case(name);
+        let meant: Vec<usize> = (0..pieces.len()).filter(|&k| is_called(&pieces[k]) && is_of(&pieces[k])).collect();
+        if meant.is_empty() {
+            let of_size = if size.is_empty() { String::new() } else { format!(" of size `{size}`") };
+            let mut names: Vec<&str> = pieces.iter().map(|piece| piece.name.as_str()).collect();
+            names.dedup();
+            let accepted = format!("one of {}", names.join(", "));
+            return Err(self.error(row, by, format!("piece `{name}`{of_size}"), &accepted));
+        }
+        Ok(meant)
+    }
+
+    /// Takes one cell over into a piece.
+    fn tell(&self, piece: &mut Piece, row: usize, column: usize, value: &str) -> Result<(), InfoError> {
+        let key = self.columns[column].trim();
+        if value.is_empty() || key.is_empty() {
+            return Ok(());
+        }
+        match key.to_ascii_lowercase().as_str() {
+            "quantity" | "qty" => {
+                let is_count = |part: &str| part.trim().parse::<u32>().is_ok();
+                if !value.split(',').all(is_count) {
+                    return Err(self.error(
+                        row,
+                        column,
+                        format!("`{value}`"),
+                        "a number, or left and right such as 1,1",
+                    ));
+                }
+                piece.quantity = Some(value.to_owned());
+            }
+            "grain_deg" => {
+                let angle = value.parse::<f64>().ok().filter(|angle| angle.abs() <= 360.0);
+                let Some(angle) = angle else {
+                    return Err(self.error(row, column, format!("`{value}`"), "degrees from +x, such as 90"));
+                };
+                piece.grain = piece.grain.or_else(|| Some(grain(&piece.outline, angle)));
+            }
+            "role" => {
+                let role = serde_json::from_value::<Role>(serde_json::Value::from(value.to_ascii_lowercase()));
+                if let Err(error) = role {
+                    return Err(self.error(row, column, format!("`{value}`"), &accepted_roles(&error)));
+                }
+                set_text(piece, key, value);
+            }
+            _ => set_text(piece, key, value),
+        }
+        Ok(())
+    }
+}
+
+/// The names that serde lists for a role that is none.
+fn accepted_roles(error: &serde_json::Error) -> String {
+    let text = error.to_string();
+    text.split_once("expected one of ").map_or(text.clone(), |(_, names)| names.replace('`', ""))
+}
+
+fn set_text(piece: &mut Piece, key: &str, value: &str) {
+    piece.texts.retain(|(other, _)| !other.eq_ignore_ascii_case(key));
+    piece.texts.push((key.to_owned(), value.to_owned()));
+}
+
+/// A grain line through the middle of an outline.
+fn grain(outline: &[V2], angle_deg: f64) -> [V2; 2] {
+    let (sine, cosine) = angle_deg.to_radians().sin_cos();
+    let along = V2::new(cosine, sine);
+    let low = outline.iter().fold(outline[0], |low, p| low.inf(p));
+    let high = outline.iter().fold(outline[0], |high, p| high.sup(p));
+    let middle = (low + high) * 0.5;
+    let reach = outline.iter().map(|p| (p - middle).dot(&along).abs()).fold(0.0, f64::max);
+    [middle - along * (GRAIN_SHARE * reach), middle + along * (GRAIN_SHARE * reach)]
+}
+
+#[cfg(test)]
+mod tests;

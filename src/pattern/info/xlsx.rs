@@ -1,0 +1,193 @@
+//! The cells of the first sheet of an XLSX workbook [ECMA-376]: a ZIP archive of XML.
+//!
+//! Numbers and texts are read (shared, inline, and results of formulas), styles are not: a date is its number. ZIP64,
+//! encryption and compression other than deflate are refused.
+
+use std::io::Read;
+
+use flate2::read::DeflateDecoder;
+use roxmltree::{Document, Node};
+
+use super::Row;
+
+/// Most bytes of an unpacked part.
+const MOST_UNPACKED: u64 = 64 << 20;
+/// Most columns of a table.
+const MOST_COLUMNS: usize = 200;
+/// Local header, central entry and end of central directory of a ZIP archive [APPNOTE].
+const LOCAL: [u8; 4] = *b"PK\x03\x04";
+const CENTRAL: [u8; 4] = *b"PK\x01\x02";
+const END: [u8; 4] = *b"PK\x05\x06";
+
+/// Rows with their numbers in the sheet.
+///
+/// # Errors
+/// A sentence that says what is wrong with the workbook.
+pub fn rows(bytes: &[u8]) -> Result<Vec<Row>, String> {
+    let archive = Archive::open(bytes)?;
+    let shared = match archive.find("xl/sharedStrings.xml") {
+        Some(entry) => shared_strings(&archive.text(entry)?)?,
+        None => Vec::new(),
+    };
+    let sheet = archive.text(archive.first_sheet()?)?;
+    let document = parse(&sheet)?;
+    let mut rows = Vec::new();
+    for row in document.descendants().filter(|node| node.has_tag_name_in("row")) {
+        let number = row.attribute("r").and_then(|r| r.parse().ok()).unwrap_or(rows.len() + 1);
+        let mut cells = Vec::new();
+        for cell in row.children().filter(|node| node.has_tag_name_in("c")) {
+            let column = cell.attribute("r").map_or(cells.len(), column_of);
+            if column >= MOST_COLUMNS {
+                return Err(format!("row {number} with a cell in column {}", column + 1));
+            }
+            cells.resize(cells.len().max(column + 1), String::new());
+            cells[column] = value(&cell, &shared).map_err(|found| format!("{found} in row {number}"))?;
+        }
+        rows.push((number, cells));
+    }
+    Ok(rows)
+}
+
+/// Looking at names without their namespace.
+trait Named {
+    fn has_tag_name_in(&self, name: &str) -> bool;
+}
+
+impl Named for Node<'_, '_> {
+    fn has_tag_name_in(&self, name: &str) -> bool {
+        self.is_element() && self.tag_name().name() == name
+    }
+}
+
+fn parse(text: &str) -> Result<Document<'_>, String> {
+    Document::parse(text).map_err(|error| format!("a part that is no XML: {error}"))
+}
+
+/// All text below a node, phonetic readings left out.
+fn text_below(node: &Node<'_, '_>) -> String {
+    let is_text = |inner: &Node<'_, '_>| {
+        inner.has_tag_name_in("t") && !inner.ancestors().any(|above| above.has_tag_name_in("rPh"))
+    };
+    node.descendants().filter(is_text).filter_map(|inner| inner.text()).collect()
+}
+
+fn shared_strings(text: &str) -> Result<Vec<String>, String> {
+    let document = parse(text)?;
+    Ok(document.descendants().filter(|node| node.has_tag_name_in("si")).map(|node| text_below(&node)).collect())
+}
+
+/// Index of the column of a cell called `AB12`.
+fn column_of(name: &str) -> usize {
+    let letters = name.bytes().take_while(u8::is_ascii_alphabetic).take(4);
+    letters.fold(0, |index, letter| 26 * index + usize::from(letter.to_ascii_uppercase() - b'A') + 1).saturating_sub(1)
+}
+
+fn value(cell: &Node<'_, '_>, shared: &[String]) -> Result<String, String> {
+    let own = cell.children().find(|node| node.has_tag_name_in("v")).and_then(|node| node.text()).unwrap_or_default();
+    let text = match cell.attribute("t") {
+        Some("s") => {
+            let index = own.trim().parse::<usize>().ok();
+            index.and_then(|index| shared.get(index)).cloned().ok_or_else(|| format!("shared text `{own}`"))?
+        }
+        Some("inlineStr") => text_below(cell),
+        Some("e") => return Err(format!("the error value {own}")),
+        _ => own.to_owned(),
+    };
+    Ok(text.trim().to_owned())
+}
+
+/// A file of an archive.
+#[derive(Clone, Debug)]
+struct Entry {
+    name: String,
+    method: u16,
+    packed: usize,
+    offset: usize,
+}
+
+/// A ZIP archive, by its central directory.
+struct Archive<'a> {
+    bytes: &'a [u8],
+    entries: Vec<Entry>,
+}
+
+impl<'a> Archive<'a> {
+    fn open(bytes: &'a [u8]) -> Result<Self, String> {
+        let cut = || "a ZIP archive that is cut off".to_owned();
+        let end = bytes.windows(END.len()).rposition(|window| window == END).ok_or_else(cut)?;
+        let count = number(bytes, end + 10, 2).ok_or_else(cut)?;
+        let mut at = number(bytes, end + 16, 4).ok_or_else(cut)?;
+        let mut entries = Vec::new();
+        for _ in 0..count {
+            if bytes.get(at..at + 4) != Some(&CENTRAL[..]) {
+                return Err(cut());
+            }
+            let field = |offset: usize, size: usize| number(bytes, at + offset, size).ok_or_else(cut);
+            if field(8, 2)? & 1 == 1 {
+                return Err("an encrypted workbook".to_owned());
+            }
+            let length = field(28, 2)?;
+            let name = bytes.get(at + 46..at + 46 + length).ok_or_else(cut)?;
+            entries.push(Entry {
+                name: String::from_utf8_lossy(name).into_owned(),
+                method: field(10, 2)? as u16,
+                packed: field(20, 4)?,
+                offset: field(42, 4)?,
+            });
+            at += 46 + length + field(30, 2)? + field(32, 2)?;
+        }
+        Ok(Self { bytes, entries })
+    }
+
+    fn find(&self, name: &str) -> Option<&Entry> {
+        self.entries.iter().find(|entry| entry.name.eq_ignore_ascii_case(name))
+    }
+
+    /// The sheet that the workbook lists first.
+    fn first_sheet(&self) -> Result<&Entry, String> {
+        let none = || "an archive without a worksheet".to_owned();
+        let workbook = self.text(self.find("xl/workbook.xml").ok_or_else(none)?)?;
+        let relations = self.text(self.find("xl/_rels/workbook.xml.rels").ok_or_else(none)?)?;
+        let document = parse(&workbook)?;
+        let sheet = document.descendants().find(|node| node.has_tag_name_in("sheet")).ok_or_else(none)?;
+        let id = sheet.attributes().find(|attribute| attribute.name() == "id" && attribute.namespace().is_some());
+        let id = id.map(|attribute| attribute.value()).ok_or_else(none)?;
+        let document = parse(&relations)?;
+        let target = document.descendants().find(|node| node.attribute("Id") == Some(id));
+        let target = target.and_then(|node| node.attribute("Target")).ok_or_else(none)?;
+        let path = match target.strip_prefix('/') {
+            Some(path) => path.to_owned(),
+            None => format!("xl/{target}"),
+        };
+        self.find(&path).ok_or_else(none)
+    }
+
+    fn text(&self, entry: &Entry) -> Result<String, String> {
+        let broken = |why: &str| format!("`{}`, which {why}", entry.name);
+        let header = self.bytes.get(entry.offset..entry.offset.saturating_add(4));
+        if header != Some(&LOCAL[..]) {
+            return Err(broken("is not where the archive says"));
+        }
+        // The local header has lengths of its own for name and extra field.
+        let field = |offset: usize| number(self.bytes, entry.offset + offset, 2).unwrap_or_default();
+        let start = entry.offset + 30 + field(26) + field(28);
+        let packed = self.bytes.get(start..start.saturating_add(entry.packed)).ok_or_else(|| broken("is cut off"))?;
+        let mut unpacked = Vec::new();
+        let read = match entry.method {
+            0 => packed.take(MOST_UNPACKED).read_to_end(&mut unpacked),
+            8 => DeflateDecoder::new(packed).take(MOST_UNPACKED).read_to_end(&mut unpacked),
+            _ => return Err(broken("is packed in another way than deflate")),
+        };
+        read.map_err(|error| broken(&format!("does not unpack: {error}")))?;
+        if unpacked.len() as u64 == MOST_UNPACKED {
+            return Err(broken("is too large"));
+        }
+        String::from_utf8(unpacked).map_err(|_| broken("is no UTF-8"))
+    }
+}
+
+/// A little-endian number of some bytes.
+fn number(bytes: &[u8], at: usize, size: usize) -> Option<usize> {
+    let field = bytes.get(at..at.checked_add(size)?)?;
+    Some(field.iter().rev().fold(0, |value, &byte| value << 8 | usize::from(byte)))
+}

@@ -1,0 +1,107 @@
+//! What notches say: whether two sides belong together, and which way round.
+
+use super::worn::Worn;
+use super::{Class, Face, Hand, Label};
+
+/// Greatest difference of two notches that match, share of the length of the seam.
+const SAME_SHARE: f64 = 0.03;
+/// Difference of agreement that tells one way round from the other.
+const CLEAR: f64 = 0.3;
+
+/// A side of a seam: `piece.edge` with its length, m, in order.
+type Side = [(String, f64)];
+
+/// What the notches of two sides say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Evidence {
+    /// They match as proposed, and not as well the other way round, or all of them match.
+    For,
+    /// They match better with one side turned round.
+    Turned,
+    /// Nothing: there are too few, or they match neither way.
+    None,
+}
+
+/// What the notches of side `a`, walked counter-clockwise, and of side `b`, walked clockwise, say.
+#[must_use]
+pub fn evidence(worn: &[Worn], a: &Side, b: &Side) -> Evidence {
+    let (a, b) = (shares(worn, a, true), shares(worn, b, false));
+    if a.is_empty() || b.is_empty() {
+        return Evidence::None;
+    }
+    let turned: Vec<f64> = b.iter().map(|share| 1.0 - share).collect();
+    let (straight, turned) = (agreement(&a, &b), agreement(&a, &turned));
+    if turned > straight + CLEAR {
+        Evidence::Turned
+    } else if straight > turned + CLEAR || straight > 1.0 - 1e-9 {
+        Evidence::For
+    } else {
+        Evidence::None
+    }
+}
+
+/// Share of the notches of both sides that have a partner, one to one.
+fn agreement(a: &[f64], b: &[f64]) -> f64 {
+    let mut free: Vec<f64> = b.to_vec();
+    let mut matched = 0;
+    for share in a {
+        let nearest = (0..free.len()).min_by(|&i, &j| (free[i] - share).abs().total_cmp(&(free[j] - share).abs()));
+        if let Some(nearest) = nearest.filter(|&i| (free[i] - share).abs() < SAME_SHARE) {
+            free.swap_remove(nearest);
+            matched += 1;
+        }
+    }
+    2.0 * f64::from(matched) / (a.len() + b.len()) as f64
+}
+
+/// Places of the notches along a side, as shares of its length in the direction of the walk.
+fn shares(worn: &[Worn], side: &Side, is_forwards: bool) -> Vec<f64> {
+    let total: f64 = side.iter().map(|(_, length)| length).sum();
+    let mut shares = Vec::new();
+    let mut before = 0.0;
+    for (name, length) in side {
+        let found = name
+            .split_once('.')
+            .and_then(|(id, edge)| worn.iter().find(|one| one.id == id)?.edges.iter().find(|found| found.name == edge));
+        for &arc in found.map_or(&[][..], |edge| &edge.notches) {
+            shares.push((before + if is_forwards { arc } else { length - arc }) / total);
+        }
+        before += length;
+    }
+    shares
+}
+
+/// The sleeve that a whole sleeve without a side is drawn as, by the notches of cap and armhole; `worn` takes it for the
+/// right one.
+#[must_use]
+pub fn drawn_sleeve(worn: &[Worn]) -> Option<Hand> {
+    let right = Some(Hand::Right);
+    let cap = worn.iter().find(|one| one.class == Class::Sleeve && one.is_whole && one.hand == right)?;
+    let body = |face| {
+        worn.iter().find(|one| one.class == Class::Body && one.face == Some(face) && one.hand != Some(Hand::Left))
+    };
+    let armhole: Vec<(String, f64)> =
+        Face::BOTH.into_iter().filter_map(body).flat_map(|one| one.chain_back(Label::Armhole, right)).collect();
+    match evidence(worn, &cap.chain(Label::Cap, None), &armhole) {
+        Evidence::For => Some(Hand::Right),
+        Evidence::Turned => Some(Hand::Left),
+        Evidence::None => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn notches_agree_one_to_one() {
+        for (a, b, expect) in [
+            (&[0.2, 0.5][..], &[0.21, 0.49][..], 1.0),
+            (&[0.2], &[0.8], 0.0),
+            (&[0.2, 0.21], &[0.2], 2.0 / 3.0),
+            (&[0.3, 0.7], &[0.3, 0.9], 0.5),
+        ] {
+            assert!((agreement(a, b) - expect).abs() < 1e-12, "{a:?} {b:?}");
+        }
+    }
+}

@@ -1,0 +1,330 @@
+//! Edits of a seam file that leave everything else of its text as it is, comments included.
+//!
+//! Edges are named as in the file (`front.side_left`), by the number that the sheet shows (`front.3`), or by their
+//! corners (`front.3-5`, counter-clockwise as drawn); an edge that has no name yet gets one. A side of several edges is
+//! written with `+`, in order along the seam.
+
+use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, value};
+
+use super::piece::Piece;
+use super::seams::SeamFile;
+use super::style::{Style, StyleError};
+use crate::units::mm;
+
+/// What is done to a seam file; sides as `PIECE.EDGE` or `PIECE.EDGE+PIECE.EDGE`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Edit {
+    /// Sews two sides.
+    Add {
+        /// One side.
+        a: String,
+        /// The other side.
+        b: String,
+        /// Name of the seam; made of the first edge's where none is given.
+        name: Option<String>,
+        /// Whether a difference of their lengths is meant: it is written as ease.
+        is_eased: bool,
+    },
+    /// Opens the seam between two edges.
+    Remove {
+        /// An edge of one side.
+        a: String,
+        /// An edge of the other side.
+        b: String,
+    },
+    /// Turns one side of the seam between two edges round.
+    Flip {
+        /// An edge of one side.
+        a: String,
+        /// An edge of the other side.
+        b: String,
+    },
+}
+
+/// The text of a seam file after an edit; `file` is its name for messages, `pieces` are those of one size.
+///
+/// # Errors
+/// [`StyleError`] when the edit names what is not there, or when what it makes does not fit the pieces.
+pub fn edited(text: &str, file: &str, pieces: &[Piece], edit: &Edit) -> Result<String, StyleError> {
+    let entries = SeamFile::parse(text.as_bytes(), file)?;
+    let style = Style::read(pieces, text.as_bytes(), file)?;
+    let syntax = |error: toml_edit::TomlError| StyleError::Syntax { file: file.to_owned(), reason: error.to_string() };
+    let document: DocumentMut = text.parse().map_err(syntax)?;
+    let mut editor = Editor { file, entries, style, document };
+    match edit {
+        Edit::Add { a, b, name, is_eased } => editor.add(a, b, name.as_deref(), *is_eased)?,
+        Edit::Remove { a, b } => {
+            let index = editor.between(a, b)?;
+            editor.seams()?.remove(index);
+        }
+        Edit::Flip { a, b } => {
+            let index = editor.between(a, b)?;
+            let is_same = !editor.entries.seam[index].same_direction;
+            if let Some(seam) = editor.seams()?.get_mut(index) {
+                if is_same {
+                    seam["same_direction"] = value(true);
+                } else {
+                    seam.remove("same_direction");
+                }
+            }
+        }
+    }
+    let text = editor.document.to_string();
+    Style::read(pieces, text.as_bytes(), file)?;
+    Ok(text)
+}
+
+struct Editor<'a> {
+    file: &'a str,
+    entries: SeamFile,
+    style: Style,
+    document: DocumentMut,
+}
+
+impl Editor<'_> {
+    fn refused(&self, place: &str, found: String, accepted: &str) -> StyleError {
+        let (place, accepted) = (place.to_owned(), accepted.to_owned());
+        StyleError::Contradiction { file: self.file.to_owned(), place, found, accepted }
+    }
+
+    /// The list of seams of the document, which is made where there is none.
+    fn seams(&mut self) -> Result<&mut ArrayOfTables, StyleError> {
+        let refused = self.refused("seam", "a list in one line".to_owned(), "[[seam]] tables");
+        let seams = self.document.entry("seam").or_insert(Item::ArrayOfTables(ArrayOfTables::new()));
+        seams.as_array_of_tables_mut().ok_or(refused)
+    }
+
+    fn add(&mut self, a: &str, b: &str, name: Option<&str>, is_eased: bool) -> Result<(), StyleError> {
+        let sides = [self.side(a)?, self.side(b)?];
+        let names = sides.clone().map(|side| side.into_iter().map(|(name, _)| name).collect::<Vec<_>>());
+        let [a_mm, b_mm] = sides.map(|side| side.iter().map(|(_, length_mm)| length_mm).sum::<f64>());
+        let name = name.map_or_else(|| self.free_name(&names[0][0]), str::to_owned);
+        let mut seam = Table::new();
+        seam["name"] = value(&name);
+        for (key, names) in ["a", "b"].into_iter().zip(&names) {
+            seam[key] = value(names.iter().collect::<Array>());
+        }
+        let excess = ((a_mm - b_mm) * 10.0).round() / 10.0;
+        if excess.abs() > self.entries.length_tolerance_mm {
+            if !is_eased {
+                let found = format!("sides of {a_mm:.1} and {b_mm:.1} mm");
+                return Err(self.refused(
+                    &format!("seam `{name}`"),
+                    found,
+                    "sides of one length, or --eased where the difference is meant",
+                ));
+            }
+            seam["ease_mm"] = value(excess);
+        }
+        self.seams()?.push(seam);
+        Ok(())
+    }
+
+    /// A name for a seam that begins at an edge.
+    fn free_name(&self, edge: &str) -> String {
+        let base = edge.replace('.', "_");
+        let is_free = |name: &String| !self.entries.seam.iter().any(|seam| seam.name == *name);
+        let numbered = (2..).map(|number| format!("{base}_{number}"));
+        std::iter::once(base.clone()).chain(numbered).find(is_free).unwrap_or(base)
+    }
+
+    /// The edges of a side with their lengths, mm; those without a name are given one in the document.
+    fn side(&mut self, side: &str) -> Result<Vec<(String, f64)>, StyleError> {
+        side.split('+').map(|edge| self.edge(edge.trim())).collect()
+    }
+
+    /// The name of an edge, which is given one where it has none, and its length, mm.
+    fn edge(&mut self, text: &str) -> Result<(String, f64), StyleError> {
+        let (piece, edge) = text.split_once('.').unwrap_or((text, ""));
+        let Some(drawn) = self.style.pieces.iter().find(|drawn| drawn.id == piece) else {
+            let ids: Vec<&str> = self.style.pieces.iter().map(|piece| piece.id.as_str()).collect();
+            return Err(self.unknown("piece", piece, &ids.join(", ")));
+        };
+        let length = |index: usize| mm(drawn.edges[index].line.length());
+        let by_name = drawn.edges.iter().position(|drawn| drawn.name.as_deref() == Some(edge));
+        let by_number = edge.parse::<usize>().ok().and_then(|n| n.checked_sub(1)).filter(|&n| n < drawn.edges.len());
+        if let Some(index) = by_name.or(by_number) {
+            let length_mm = length(index);
+            let name = match &drawn.edges[index].name {
+                Some(name) => name.clone(),
+                None => {
+                    let corners = self.unnamed_corners(piece, index);
+                    self.named(piece, corners)
+                }
+            };
+            return Ok((format!("{piece}.{name}"), length_mm));
+        }
+        let corner = |text: &str| text.parse::<usize>().ok().filter(|&corner| corner < drawn.corners.len());
+        let corners = edge.split_once('-').and_then(|(from, to)| Some([corner(from)?, corner(to)?]));
+        let Some(corners) = corners.filter(|[from, to]| from != to) else {
+            let names: Vec<String> = drawn
+                .edges
+                .iter()
+                .enumerate()
+                .map(|(k, edge)| edge.name.clone().unwrap_or_else(|| (k + 1).to_string()))
+                .collect();
+            let accepted = format!(
+                "{}; a number 1 to {}; corners such as 0-1, of 0 to {}",
+                names.join(", "),
+                names.len(),
+                drawn.corners.len().saturating_sub(1)
+            );
+            return Err(self.unknown("edge", text, &accepted));
+        };
+        let known =
+            self.entries.piece[piece].edges.iter().find(|(_, of)| **of == corners).map(|(name, _)| name.clone());
+        let length_mm = self.length_between(piece, corners);
+        let name = known.unwrap_or_else(|| self.named(piece, corners));
+        Ok((format!("{piece}.{name}"), length_mm))
+    }
+
+    /// Length of the outline between two corners, counter-clockwise as drawn, mm.
+    fn length_between(&self, piece: &str, [from, to]: [usize; 2]) -> f64 {
+        let Some(drawn) = self.style.pieces.iter().find(|drawn| drawn.id == piece) else { return 0.0 };
+        // A mirrored piece is worn the other way round.
+        let is_mirrored = self.entries.piece[piece].mirror;
+        let [from, to] = if is_mirrored { [to, from] } else { [from, to] };
+        let outline = drawn.outline();
+        let place = |corner: usize| {
+            let distance = |i: &usize| (outline[*i] - drawn.corners[corner]).norm();
+            (0..outline.len()).min_by(|i, j| distance(i).total_cmp(&distance(j))).unwrap_or(0)
+        };
+        let (first, last, n) = (place(from), place(to), outline.len());
+        let steps = (last + n - first) % n;
+        (0..steps).map(|k| mm((outline[(first + k + 1) % n] - outline[(first + k) % n]).norm())).sum()
+    }
+
+    /// Corners of an edge that lies between named ones, counter-clockwise as drawn.
+    fn unnamed_corners(&self, piece: &str, index: usize) -> [usize; 2] {
+        let edges = &self.style.pieces.iter().find(|drawn| drawn.id == piece).map_or(&[][..], |drawn| &drawn.edges);
+        let n = edges.len();
+        let corners_of = |index: usize| {
+            let name = edges[index % n].name.as_ref();
+            name.and_then(|name| self.entries.piece[piece].edges.get(name)).copied().unwrap_or_default()
+        };
+        let (before, after) = (corners_of(index + n - 1), corners_of(index + 1));
+        if self.entries.piece[piece].mirror { [after[1], before[0]] } else { [before[1], after[0]] }
+    }
+
+    /// Names a stretch of outline in the document.
+    fn named(&mut self, piece: &str, [from, to]: [usize; 2]) -> String {
+        let name = format!("edge_{from}_{to}");
+        let mut corners = Array::new();
+        corners.push(from as i64);
+        corners.push(to as i64);
+        self.document["piece"][piece]["edges"][&name] = value(corners);
+        name
+    }
+
+    /// The seam that holds one edge on one side and the other on the other.
+    fn between(&self, a: &str, b: &str) -> Result<usize, StyleError> {
+        let full = |text: &str| {
+            let (piece, edge) = text.split_once('.').unwrap_or((text, ""));
+            let drawn = self.style.pieces.iter().find(|drawn| drawn.id == piece);
+            let numbered = edge.parse::<usize>().ok().and_then(|n| drawn?.edges.get(n.checked_sub(1)?)?.name.clone());
+            format!("{piece}.{}", numbered.unwrap_or_else(|| edge.to_owned()))
+        };
+        let (a, b) = (full(a), full(b));
+        let holds = |one: &[String], other: &[String]| one.contains(&a) && other.contains(&b);
+        let found = self.entries.seam.iter().position(|seam| holds(&seam.a, &seam.b) || holds(&seam.b, &seam.a));
+        found.ok_or_else(|| {
+            let seams: Vec<String> =
+                self.entries.seam.iter().map(|seam| format!("{} to {}", seam.a.join("+"), seam.b.join("+"))).collect();
+            self.unknown("seam between", &format!("{a} and {b}"), &seams.join("; "))
+        })
+    }
+
+    fn unknown(&self, what: &'static str, found: &str, accepted: &str) -> StyleError {
+        StyleError::Unknown {
+            file: self.file.to_owned(),
+            place: "edit".to_owned(),
+            what,
+            found: found.to_owned(),
+            accepted: accepted.to_owned(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pattern::draft::{Model, TSHIRT_SEAMS, TshirtSize, tshirt};
+
+    fn text() -> String {
+        String::from_utf8(TSHIRT_SEAMS.to_vec()).expect("it is UTF-8")
+    }
+
+    fn edit(text: &str, edit: &Edit) -> Result<String, StyleError> {
+        edited(text, "a.toml", &tshirt(TshirtSize::S).pieces, edit)
+    }
+
+    fn add(a: &str, b: &str) -> Edit {
+        Edit::Add { a: a.to_owned(), b: b.to_owned(), name: None, is_eased: false }
+    }
+
+    #[test]
+    fn a_seam_that_is_opened_can_be_sewn_again_and_comments_stay() {
+        let [a, b] = ["front.side_right", "back.side_right"].map(str::to_owned);
+        let opened = edit(&text(), &Edit::Remove { a: b.clone(), b: a.clone() }).expect("it is there");
+        assert!(!opened.contains("name = \"side_right\"") && opened.contains("# +u is the wearer's right"));
+        let sewn = edit(&opened, &add(&a, &b)).expect("they fit");
+        let read = |text: &str| {
+            let mut seams = SeamFile::parse(text.as_bytes(), "a.toml").expect("it reads").seam;
+            seams.sort_by(|p, q| (&p.a, &p.b).cmp(&(&q.a, &q.b)));
+            seams.into_iter().map(|seam| (seam.a, seam.b, seam.same_direction)).collect::<Vec<_>>()
+        };
+        assert_eq!(read(&sewn), read(&text()));
+        // By numbers: the sides of front and back are their last and second edges.
+        let numbered = edit(&opened, &add("front.9", "back.2")).expect("they fit");
+        assert_eq!(read(&numbered), read(&text()));
+        let turned = edit(&text(), &Edit::Flip { a: a.clone(), b: b.clone() }).expect("it is there");
+        assert_ne!(read(&turned), read(&text()));
+        assert_eq!(edit(&turned, &Edit::Flip { a, b }).expect("it is there"), text());
+    }
+
+    #[test]
+    fn edges_without_a_name_get_one_and_chains_are_sewn() {
+        let model = Model::Trousers;
+        let pieces = model.drafts().swap_remove(0).pieces;
+        let text = String::from_utf8(model.seams().to_vec()).expect("it is UTF-8");
+        let named = "waist = [4, 5]\noutseam_upper = [5, 6]\noutseam_lower = [6, 0]\n";
+        // Only the left outseam loses its names; the right one is measured.
+        let at = text.rfind(named).expect("it is there");
+        let mut without = format!("{}waist = [4, 5]\n{}", &text[..at], &text[at + named.len()..]);
+        for seam in ["outseam_upper_left", "outseam_lower_left"] {
+            let from = without.find(&format!("[[seam]]\nname = \"{seam}\"")).expect("it is there");
+            let length = without[from + 1..].find("[[").expect("there is more");
+            without.replace_range(from..=from + length, "");
+        }
+        let from = without.find("[fit.hip]").expect("it is there");
+        without.truncate(from);
+        for (a, edge) in [
+            ("leg_front_left.5-0", "edge_5_0 = [5, 0]"),
+            ("leg_front_left.5-6+leg_front_left.6-0", "edge_5_6 = [5, 6]"),
+        ] {
+            let b = "leg_back_left.outseam_upper+leg_back_left.outseam_lower";
+            let sewn = edited(&without, "a.toml", &pieces, &add(a, b)).unwrap_or_else(|error| panic!("{error}"));
+            assert!(sewn.contains(edge), "{sewn}");
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_sewn_is_refused_with_what_could() {
+        let check = |edit_: Edit, expect: &str| {
+            let told = edit(&text(), &edit_).expect_err("it cannot be").to_string();
+            assert!(told.contains(expect), "{told}");
+        };
+        check(add("front.hem", "sleeve_right.opening"), "or --eased");
+        check(add("front.hem", "back.side_right"), "front");
+        check(add("collar.hem", "back.hem"), "no piece `collar`; there is: back, front");
+        check(add("front.99", "back.hem"), "a number 1 to 9; corners such as 0-1, of 0 to 8");
+        check(Edit::Remove { a: "front.hem".to_owned(), b: "back.hem".to_owned() }, "no seam between");
+        let eased = Edit::Add {
+            a: "front.hem".to_owned(),
+            b: "sleeve_right.opening".to_owned(),
+            name: Some("x".to_owned()),
+            is_eased: true,
+        };
+        assert!(edit(&text(), &eased).expect("it is meant").contains("ease_mm = "));
+    }
+}

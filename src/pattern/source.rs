@@ -1,0 +1,108 @@
+//! A pattern file of any kind that is read: DXF, GarmentCode JSON, pattern features as JSON.
+
+use super::dxf::{self, DxfError, PatternFile, Unit, UnitSource};
+use super::features::{self, FeaturesError};
+use super::garmentcode::{self, GarmentCodeError, Specification};
+
+/// Why a pattern file cannot be read.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SourceError {
+    /// As DXF.
+    #[error(transparent)]
+    Dxf(#[from] DxfError),
+    /// As GarmentCode JSON.
+    #[error(transparent)]
+    GarmentCode(#[from] GarmentCodeError),
+    /// As pattern features.
+    #[error(transparent)]
+    Features(#[from] FeaturesError),
+}
+
+/// Kind of a pattern file, as its first bytes tell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// DXF, or nothing that is known.
+    Dxf,
+    /// GarmentCode JSON, with its seams.
+    GarmentCode,
+    /// Pattern features as JSON.
+    Features,
+}
+
+/// What kind of file it is.
+#[must_use]
+pub fn kind(bytes: &[u8]) -> Kind {
+    let text = without_mark(bytes);
+    match text.starts_with(b"{") {
+        true if features::is_features(text) => Kind::Features,
+        true => Kind::GarmentCode,
+        false => Kind::Dxf,
+    }
+}
+
+/// A text without the mark of UTF-8 and blanks before it.
+fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes).trim_ascii_start()
+}
+
+/// The pieces of a pattern file of any kind; `unit` says the unit of a DXF file, whatever it says itself.
+///
+/// # Errors
+/// [`SourceError`] as the reader of that kind says.
+pub fn read(bytes: &[u8], file: &str, unit: Option<Unit>) -> Result<PatternFile, SourceError> {
+    Ok(match kind(bytes) {
+        Kind::Dxf => dxf::read(bytes, file, unit)?,
+        Kind::Features => features::read(without_mark(bytes), file)?,
+        Kind::GarmentCode => garmentcode::read(without_mark(bytes), file)?.into(),
+    })
+}
+
+impl From<Specification> for PatternFile {
+    /// The panels as pieces; their seams are left behind.
+    fn from(specification: Specification) -> Self {
+        Self {
+            file: specification.file,
+            format: "GarmentCode JSON".to_owned(),
+            // The places are metres already; the unit says how the numbers of the file were meant.
+            unit: if specification.mm_per_unit == 10.0 { Unit::Cm } else { Unit::Mm },
+            unit_source: UnitSource::File,
+            texts: Vec::new(),
+            pieces: specification.pieces,
+            refused: Vec::new(),
+            warnings: Vec::new(),
+            unused: Default::default(),
+            encoding: encoding_rs::UTF_8,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pattern::Style;
+    use crate::pattern::draft::{Model, TshirtSize, tshirt};
+
+    #[test]
+    fn every_kind_is_told_by_its_content_and_gives_the_same_pieces() {
+        let draft = tshirt(TshirtSize::M);
+        let dxf = dxf::write(&draft);
+        let features = features::Features::of(&draft.pieces, "tshirt.dxf", &[]);
+        let features = serde_json::to_vec(&features).expect("JSON");
+        let (_, seams) = Model::Tshirt.files().into_iter().find(|(name, _)| name.ends_with(".toml")).expect("seams");
+        let style = Style::read(&draft.pieces, &seams, "seams").expect("our own seams");
+        let mut specification = b"\xEF\xBB\xBF\n".to_vec();
+        specification.extend(serde_json::to_vec(&garmentcode::document(&style)).expect("JSON"));
+        for (bytes, expect) in [(dxf, Kind::Dxf), (features, Kind::Features), (specification, Kind::GarmentCode)] {
+            assert_eq!(kind(&bytes), expect);
+            let file = read(&bytes, "tshirt", None).expect("our own file");
+            let pieces = file.to_sew(None).expect("one size");
+            assert!(pieces.len() >= draft.pieces.len(), "{expect:?}");
+            for drawn in &draft.pieces {
+                let near = |piece: &&crate::pattern::Piece| (piece.area_m2() / drawn.area_m2() - 1.0).abs() < 1e-3;
+                assert!(pieces.iter().any(|piece| near(&piece)), "{expect:?}: {}", drawn.name);
+            }
+        }
+        assert!(matches!(read(b"{\"pattern\"", "a.json", None), Err(SourceError::GarmentCode(_))));
+        assert!(matches!(read(b"", "a.json", None), Err(SourceError::Dxf(_))));
+    }
+}

@@ -1,0 +1,140 @@
+//! What is measured where nobody said it: the free openings and the seams of a style.
+
+use std::collections::BTreeMap;
+
+use super::{EdgeRef, PathPart, Style, StyleMeasurement};
+use crate::pattern::garment::MeasurementKind;
+
+/// One end of an edge: `true` for its last point.
+type EdgeEnd = (EdgeRef, bool);
+
+impl Style {
+    /// Replaces the measurements by one for each opening (a loop of edges that no seam holds, such as a hem, a neckline or
+    /// a sleeve opening) and one for each seam, along its side `a`.
+    pub fn measure_openings_and_seams(&mut self) {
+        let mut found: Vec<(String, MeasurementKind, Vec<EdgeRef>)> = Vec::new();
+        for opening in self.openings() {
+            let name = match opening.as_slice() {
+                &[only] => self.edge_name(only),
+                &[first, second] => format!("{} + {}", self.edge_name(first), self.edge_name(second)),
+                all => format!("{} and {} more", self.edge_name(all[0]), all.len() - 1),
+            };
+            found.push((format!("opening {name}"), MeasurementKind::ClosedGirth, opening));
+        }
+        for seam in &self.seams {
+            found.push((format!("seam {}", seam.name), MeasurementKind::OpenLength, seam.a.clone()));
+        }
+        let measured = found.into_iter().enumerate().map(|(k, (name, kind, edges))| {
+            let path: Vec<PathPart> = edges.into_iter().map(PathPart::Edge).collect();
+            StyleMeasurement {
+                no: k as u32 + 1,
+                name,
+                kind,
+                l2d_m: self.path_length_m(&path),
+                is_free_edge: kind == MeasurementKind::ClosedGirth,
+                path,
+            }
+        });
+        self.measurements = measured.collect();
+    }
+
+    /// Loops of free edges, in the order in which the sewn garment has them; free edges that end in no loop are left out.
+    fn openings(&self) -> Vec<Vec<EdgeRef>> {
+        let partners = self.partners();
+        let mut openings: Vec<Vec<EdgeRef>> = Vec::new();
+        for piece in 0..self.pieces.len() {
+            for edge in 0..self.pieces[piece].edges.len() {
+                let first = EdgeRef { piece, edge };
+                let is_new = !openings.iter().any(|opening| opening.contains(&first));
+                if is_new && !partners.contains_key(&(first, true)) {
+                    openings.extend(self.opening_from(first, &partners));
+                }
+            }
+        }
+        openings
+    }
+
+    /// The loop that a free edge is part of.
+    fn opening_from(&self, first: EdgeRef, partners: &BTreeMap<EdgeEnd, EdgeEnd>) -> Option<Vec<EdgeRef>> {
+        let mut opening = vec![first];
+        // From the end just reached, over the corner to the next edge, and across seams to where an edge is free.
+        let mut at = (first, true);
+        // Every end is passed once at most, or there is no loop.
+        for _ in 0..2 * self.pieces.iter().map(|piece| piece.edges.len()).sum::<usize>() {
+            let next = self.over_corner(at);
+            match partners.get(&next) {
+                Some(&across) => at = across,
+                None if next.0 == first => return Some(opening),
+                None => {
+                    opening.push(next.0);
+                    at = (next.0, !next.1);
+                }
+            }
+        }
+        None
+    }
+
+    /// The end of the neighbouring edge of the same piece that is the same corner.
+    fn over_corner(&self, (EdgeRef { piece, edge }, is_last): EdgeEnd) -> EdgeEnd {
+        let n = self.pieces[piece].edges.len();
+        let edge = if is_last { (edge + 1) % n } else { (edge + n - 1) % n };
+        (EdgeRef { piece, edge }, !is_last)
+    }
+
+    /// Both ends of every sewn edge, with the end that they meet: across the seam, or in the middle of a chain the
+    /// neighbour in the chain.
+    fn partners(&self) -> BTreeMap<EdgeEnd, EdgeEnd> {
+        let mut partners = BTreeMap::new();
+        for seam in &self.seams {
+            // Ends in the order of sewing.
+            let ends = |chain: &[EdgeRef], is_forwards: bool| -> Vec<[EdgeEnd; 2]> {
+                chain.iter().map(|&edge| [(edge, !is_forwards), (edge, is_forwards)]).collect()
+            };
+            let (a, b) = (ends(&seam.a, true), ends(&seam.b, seam.b_forwards));
+            for side in [&a, &b] {
+                for pair in side.windows(2) {
+                    partners.insert(pair[0][1], pair[1][0]);
+                    partners.insert(pair[1][0], pair[0][1]);
+                }
+            }
+            if let ([a_first, ..], [.., a_last], [b_first, ..], [.., b_last]) = (&a[..], &a[..], &b[..], &b[..]) {
+                for (of_a, of_b) in [(a_first[0], b_first[0]), (a_last[1], b_last[1])] {
+                    partners.insert(of_a, of_b);
+                    partners.insert(of_b, of_a);
+                }
+            }
+        }
+        partners
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::pattern::Style;
+    use crate::pattern::draft::Model;
+    use crate::pattern::garment::MeasurementKind;
+    use crate::units::mm;
+
+    #[test]
+    fn openings_of_the_drafted_styles_are_their_free_girths() {
+        let check = |model: Model, expect: &[(usize, usize)]| {
+            // (number of edges, published number of the free girth of that length, 0 for none).
+            let draft = model.drafts().swap_remove(0);
+            let mut style = Style::read(&draft.pieces, model.seams(), "a.toml").expect("it is a style");
+            let published = style.measurements.clone();
+            style.measure_openings_and_seams();
+            let openings: Vec<_> =
+                style.measurements.iter().filter(|m| m.kind == MeasurementKind::ClosedGirth).collect();
+            assert_eq!(openings.len(), expect.len(), "{model:?}: {openings:?}");
+            for (opening, &(edges, no)) in openings.iter().zip(expect) {
+                assert!(opening.is_free_edge && opening.path.len() == edges, "{model:?}: {}", opening.name);
+                let length = mm(published[no - 1].l2d_m);
+                assert!((mm(opening.l2d_m) - length).abs() < 0.1, "{model:?}: {} for #{no}", opening.name);
+            }
+            assert_eq!(style.measurements.len(), openings.len() + style.seams.len());
+        };
+        check(Model::Tshirt, &[(2, 1), (3, 6), (1, 2), (1, 2)]);
+        check(Model::Trousers, &[(4, 5), (2, 6), (2, 6)]);
+        check(Model::Dress, &[(2, 4), (2, 5), (2, 4), (2, 1)]);
+    }
+}

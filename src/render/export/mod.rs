@@ -1,0 +1,55 @@
+//! Meshes as files that other programs open: glTF, OBJ, PLY, STL.
+//!
+//! Lengths are metres. OBJ, PLY and STL keep our axes (`x` to the subject's right, `y` to the front, `z` up); glTF has its
+//! own (`y` up, the subject faces `z`).
+
+mod glb;
+mod text;
+
+use crate::geom::{TriMesh, V2};
+
+use super::Rgb;
+
+/// A mesh with what is known of its vertices.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part<'a> {
+    /// Name of the object (`body`, `garment`).
+    pub name: &'a str,
+    /// Its surface.
+    pub mesh: &'a TriMesh,
+    /// Colour of each vertex.
+    pub colours: Vec<Rgb>,
+    /// Place of each vertex in its pattern piece, m: the texture coordinates.
+    pub places: Option<&'a [V2]>,
+    /// Name of a map and its value at each vertex.
+    pub values: Option<(&'a str, &'a [f64])>,
+}
+
+/// Format of a mesh file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MeshFormat {
+    /// Binary glTF 2.0 [Khronos 2021]: every part, with colours, texture coordinates and values (`_VALUE`).
+    Glb,
+    /// Wavefront OBJ: every part as an object, colours after the coordinates, texture coordinates.
+    Obj,
+    /// Stanford PLY, binary: the parts as one mesh, with colours, values (`value`, NaN without) and the part's number.
+    Ply,
+    /// STL, binary: the parts as one mesh.
+    Stl,
+}
+
+impl MeshFormat {
+    /// The mesh file.
+    #[must_use]
+    pub fn write(self, parts: &[Part<'_>]) -> Vec<u8> {
+        match self {
+            Self::Glb => glb::write(parts),
+            Self::Obj => text::obj(parts).into_bytes(),
+            Self::Ply => text::ply(parts),
+            Self::Stl => text::stl(parts),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

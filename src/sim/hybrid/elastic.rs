@@ -1,0 +1,215 @@
+//! The pattern's size as an energy, lowered by alternating a local and a global step.
+//!
+//! Every triangle wants to be its pattern triangle, turned as it may (as rigid as possible, [Sorkine & Alexa 2007], with the
+//! pattern as rest shape); every control wants its pattern length. Given the turns and directions of the moment, the energy
+//! is quadratic and the same linear system gives all vertices at once [Bouaziz et al. 2014].
+//! Energies are over the membrane's stiffness, so lengths and areas are all that count.
+
+use nalgebra::{Matrix2, Matrix3x2};
+
+use super::sparse::Factor;
+use crate::geom::{V2, V3};
+use crate::pattern::{Garment, Measurement};
+
+/// A triangle: sewn vertices, gradients of their hat functions in the pattern, area.
+#[derive(Clone, Copy, Debug)]
+struct Triangle {
+    vertices: [usize; 3],
+    gradients: [V2; 3],
+    area_m2: f64,
+}
+
+/// A stretch of a controlled measurement between two points of the cloth.
+#[derive(Clone, Debug)]
+struct Control {
+    /// Sewn vertices and weights; their sum is the way from one point to the other.
+    terms: Vec<(usize, f64)>,
+    rest_m: f64,
+}
+
+/// What acts on the cloth besides its own size, for one step.
+#[derive(Clone, Copy, Debug)]
+pub struct Pull<'a> {
+    /// Where each sewn vertex is drawn to, m.
+    pub targets: &'a [V3],
+    /// Load on each sewn vertex over the membrane's stiffness, m.
+    pub loads: &'a [V3],
+    /// What triangles and controls want to be: 0 as they were first, 1 as in the pattern, in between in proportion.
+    pub share: f64,
+}
+
+/// The energy of a sewn garment, ready to be lowered.
+pub struct Elastic {
+    count: usize,
+    triangles: Vec<Triangle>,
+    controls: Vec<Control>,
+    /// Stretch of each triangle when it was set up: the root of `F^T F`.
+    first_stretch: Vec<Matrix2<f64>>,
+    /// Length of each control then, m.
+    first_m: Vec<f64>,
+    control_weight: f64,
+    /// The part of the matrix that does not depend on the targets' weights: lower triangle.
+    entries: Vec<(usize, usize, f64)>,
+    /// Weight of each vertex's target.
+    weights: Vec<f64>,
+    factor: Factor,
+}
+
+impl Elastic {
+    /// Sets up a garment whose vertices are sewn together as `vertex_of` says. `controls` are the measurements to be kept,
+    /// `bending` pairs of sewn vertices with their entry of the bending matrix over the membrane's stiffness, `weights`
+    /// those of the vertices' targets.
+    ///
+    /// `None` when a triangle of the pattern has no area or the weights do not hold the garment anywhere.
+    #[must_use]
+    pub fn new(
+        garment: &Garment,
+        vertex_of: &[usize],
+        x: &[V3],
+        controls: &[&Measurement],
+        control_weight: f64,
+        bending: &[([usize; 2], f64)],
+        weights: Vec<f64>,
+    ) -> Option<Self> {
+        let triangles = garment
+            .triangles
+            .iter()
+            .map(|t| Triangle::new(t.map(|v| vertex_of[v]), t.map(|v| garment.rest[v])))
+            .collect::<Option<Vec<_>>>()?;
+        let controls: Vec<Control> =
+            controls.iter().flat_map(|m| m.runs.iter()).flat_map(|run| Control::of(garment, vertex_of, run)).collect();
+        let mut entries = Vec::new();
+        let mut add = |i: usize, j: usize, value: f64| {
+            if i >= j {
+                entries.push((i, j, value));
+            }
+        };
+        for t in &triangles {
+            for (&i, gi) in t.vertices.iter().zip(&t.gradients) {
+                for (&j, gj) in t.vertices.iter().zip(&t.gradients) {
+                    add(i, j, t.area_m2 * gi.dot(gj));
+                }
+            }
+        }
+        for control in &controls {
+            let weight = control_weight / control.rest_m;
+            for &(i, a) in &control.terms {
+                for &(j, b) in &control.terms {
+                    add(i, j, weight * a * b);
+                }
+            }
+        }
+        for &([i, j], value) in bending {
+            add(i.max(j), i.min(j), value);
+            add(i, i, -value);
+            add(j, j, -value);
+        }
+        let first_stretch = triangles.iter().map(|t| t.polar(x).1).collect();
+        let first_m = controls.iter().map(|c| c.way(x).norm()).collect();
+        let factor = factorise(x.len(), &entries, &weights)?;
+        Some(Self {
+            count: x.len(),
+            triangles,
+            controls,
+            first_stretch,
+            first_m,
+            control_weight,
+            entries,
+            weights,
+            factor,
+        })
+    }
+
+    /// Gives the targets other weights.
+    ///
+    /// Does nothing when the weights do not hold the garment.
+    pub fn set_weights(&mut self, weights: Vec<f64>) {
+        if let Some(factor) = factorise(self.count, &self.entries, &weights) {
+            self.weights = weights;
+            self.factor = factor;
+        }
+    }
+
+    /// One local and one global step from `x`; returns the new positions.
+    #[must_use]
+    pub fn step(&mut self, x: &[V3], pull: &Pull) -> Vec<V3> {
+        let mut rhs = vec![V3::zeros(); self.count];
+        for (t, first) in self.triangles.iter().zip(&self.first_stretch) {
+            let wanted = first * (1.0 - pull.share) + Matrix2::identity() * pull.share;
+            let turn = t.polar(x).0 * wanted * t.area_m2;
+            for (&v, g) in t.vertices.iter().zip(&t.gradients) {
+                rhs[v] += turn * g;
+            }
+        }
+        for (control, first) in self.controls.iter().zip(&self.first_m) {
+            let length = first + (control.rest_m - first) * pull.share;
+            let way = control.way(x);
+            let wanted = way * (length / way.norm().max(1e-9) * self.control_weight / control.rest_m);
+            for &(v, weight) in &control.terms {
+                rhs[v] += wanted * weight;
+            }
+        }
+        for v in 0..self.count {
+            rhs[v] += pull.targets[v] * self.weights[v] + pull.loads[v];
+        }
+        let mut columns = vec![0.0; 3 * self.count];
+        for (v, r) in rhs.iter().enumerate() {
+            for k in 0..3 {
+                columns[k * self.count + v] = r[k];
+            }
+        }
+        self.factor.solve(&mut columns);
+        (0..self.count).map(|v| V3::new(columns[v], columns[self.count + v], columns[2 * self.count + v])).collect()
+    }
+}
+
+fn factorise(count: usize, entries: &[(usize, usize, f64)], weights: &[f64]) -> Option<Factor> {
+    let held = weights.iter().enumerate().map(|(v, w)| (v, v, *w));
+    let all: Vec<_> = entries.iter().copied().chain(held).collect();
+    Factor::new(count, &all)
+}
+
+impl Triangle {
+    fn new(vertices: [usize; 3], rest: [V2; 3]) -> Option<Self> {
+        let edges = Matrix2::from_columns(&[rest[1] - rest[0], rest[2] - rest[0]]);
+        let inverse = edges.try_inverse()?;
+        let [g1, g2] = [0, 1].map(|k| inverse.row(k).transpose());
+        Some(Self { vertices, gradients: [-(g1 + g2), g1, g2], area_m2: 0.5 * edges.determinant().abs() })
+    }
+
+    /// The deformation gradient `F = R S` parted into the rotation nearest to it, `R = F (F^T F)^(-1/2)`, and the
+    /// stretch `S`, in closed form.
+    fn polar(&self, x: &[V3]) -> (Matrix3x2<f64>, Matrix2<f64>) {
+        let f: Matrix3x2<f64> = (0..3).map(|k| x[self.vertices[k]] * self.gradients[k].transpose()).sum();
+        let c = f.transpose() * f;
+        let s = c.determinant().max(1e-12).sqrt();
+        let t = (c.trace() + 2.0 * s).sqrt();
+        // The root of C is (C + s I) / t.
+        let root = (c + Matrix2::identity() * s) / t;
+        (root.try_inverse().map_or(f, |inverse| f * inverse), root)
+    }
+}
+
+impl Control {
+    /// The segments of a run of a measurement.
+    fn of(garment: &Garment, vertex_of: &[usize], run: &crate::pattern::Run) -> Vec<Self> {
+        run.points
+            .windows(2)
+            .map(|ends| {
+                let mut terms: std::collections::BTreeMap<usize, f64> = std::collections::BTreeMap::new();
+                for (point, sign) in [(&ends[0], -1.0), (&ends[1], 1.0)] {
+                    for k in 0..3 {
+                        *terms.entry(vertex_of[point.vertices[k]]).or_default() += sign * point.weights[k];
+                    }
+                }
+                let rest_m = (ends[1].at_rest(&garment.rest) - ends[0].at_rest(&garment.rest)).norm();
+                Self { terms: terms.into_iter().filter(|(_, w)| *w != 0.0).collect(), rest_m }
+            })
+            .filter(|control| control.rest_m > 1e-6)
+            .collect()
+    }
+
+    fn way(&self, x: &[V3]) -> V3 {
+        self.terms.iter().map(|&(v, weight)| x[v] * weight).sum()
+    }
+}

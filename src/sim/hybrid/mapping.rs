@@ -1,0 +1,257 @@
+//! Phase 1: every piece onto the surface of the form (5.2).
+//!
+//! Features, then shortest paths between them, then the patch inside; patch and piece are both mapped harmonically onto a disc
+//! and thereby onto each other (cross-parameterisation, 5.2.3). [T] maps the patch onto the pattern instead; armholes and
+//! necks are concave, and a map onto a concave outline may fold. Onto a disc it cannot.
+
+use std::collections::BTreeMap;
+
+use super::features::{self, Face, Feature, Kind, Mapped};
+use super::form::Form;
+use super::harmonic;
+use super::locate::Locator;
+use super::outline;
+use super::patch::{self, Patch};
+use super::path::{PathGraph, Taken};
+use crate::body::{Body, Region};
+use crate::geom::{V2, V3};
+use crate::pattern::{Garment, PieceMesh, Role};
+use crate::sim::SimError;
+
+/// Points on each edge of the control mesh in path searches. Odd, so that an edge across the median plane has its middle.
+pub const PATH_POINTS: usize = 9;
+
+/// A piece does not run over faces that look the other way by more than this cosine.
+const AWAY: f64 = 0.4;
+
+/// A garment on the surface of a form.
+#[derive(Clone, Debug)]
+pub struct OnForm {
+    /// World position of each garment vertex, m; the two sides of a seam nearly coincide.
+    pub positions: Vec<V3>,
+    /// Triangles whose outside faces the form, before repair.
+    pub flips: usize,
+    /// Patch of each piece on the form.
+    pub patches: Vec<Vec<usize>>,
+}
+
+/// Lays a garment on the form that its kind hangs from.
+///
+/// # Errors
+/// [`SimError::CannotPlace`] and [`SimError::CannotMap`], both before anything is computed that takes long.
+pub fn map(body: &Body, garment: &Garment) -> Result<OnForm, SimError> {
+    let form = match features::kind(garment)? {
+        Kind::Hung => Form::hung(body),
+        Kind::Legs => Form::legs(body),
+    };
+    let pieces = features::features(body, &form, garment)?;
+    let graph = PathGraph::new(&form.mesh, PATH_POINTS);
+    let mut paths = Paths::new(&form, &graph, &pieces);
+    let partners = outline::partners(garment);
+    let mut mapped = OnForm { positions: vec![V3::zeros(); garment.rest.len()], flips: 0, patches: Vec::new() };
+    // Trunk pieces first: sleeves take the armholes' paths from them.
+    let mut order: Vec<usize> = (0..pieces.len()).collect();
+    order.sort_by_key(|&p| features::face(garment.pieces[p].role) == Face::Round);
+    mapped.patches = vec![Vec::new(); pieces.len()];
+    for p in order {
+        let cannot = |reason| SimError::CannotMap { piece: garment.pieces[p].id.clone(), reason };
+        let outline = paths.outline(garment, p, &pieces[p], &partners).map_err(cannot)?;
+        let patch = patch::cut(&graph, &outline.nodes).map_err(cannot)?;
+        mapped.flips += lay(garment, &garment.pieces[p], &outline, &patch, &mut mapped.positions)
+            .ok_or_else(|| cannot("its patch of the body's surface has no harmonic map"))?;
+        mapped.patches[p] = patch.face_of;
+    }
+    Ok(mapped)
+}
+
+/// The closed outline of a piece on the form.
+struct Outline {
+    /// Nodes of the path graph.
+    nodes: Vec<usize>,
+    /// Place of each node on the circle, as a share of the whole turn.
+    turns: Vec<f64>,
+    /// Boundary vertices of the piece with their share and their place, m.
+    boundary: Vec<(usize, f64, V3)>,
+}
+
+/// Paths on the form, each searched once: the two sides of a seam share theirs.
+struct Paths<'a> {
+    form: &'a Form,
+    graph: &'a PathGraph<'a>,
+    normals: Vec<V3>,
+    /// By the two pieces that meet there and the two nodes.
+    found: BTreeMap<([usize; 2], [usize; 2]), Vec<usize>>,
+    taken: Taken,
+    /// Node of each feature of each piece.
+    ends: Vec<Vec<usize>>,
+}
+
+impl<'a> Paths<'a> {
+    fn new(form: &'a Form, graph: &'a PathGraph<'a>, pieces: &[Mapped]) -> Self {
+        let node = |f: &Feature| graph.nearest(&f.place, |_| true).unwrap_or(0);
+        let ends: Vec<Vec<usize>> = pieces.iter().map(|p| p.features.iter().map(node).collect()).collect();
+        let mut taken = Taken::default();
+        ends.iter().flatten().for_each(|&n| taken.add_node(n));
+        Self { form, graph, normals: form.mesh.triangle_normals(), found: BTreeMap::new(), taken, ends }
+    }
+
+    fn outline(
+        &mut self,
+        garment: &Garment,
+        piece: usize,
+        mapped: &Mapped,
+        partners: &BTreeMap<[usize; 2], usize>,
+    ) -> Result<Outline, &'static str> {
+        let ring = &mapped.ring;
+        let whole =
+            outline::length_m(garment, ring) + (garment.rest[ring[0]] - garment.rest[ring[ring.len() - 1]]).norm();
+        let ends = self.ends[piece].clone();
+        let at = |vertex: usize| ring.iter().position(|&v| v == vertex).unwrap_or(0);
+        let mut outline = Outline { nodes: Vec::new(), turns: Vec::new(), boundary: Vec::new() };
+        let mut done = 0.0;
+        for (k, feature) in mapped.features.iter().enumerate() {
+            let next = (k + 1) % ends.len();
+            let (from, to) = (at(feature.vertex), at(mapped.features[next].vertex));
+            let to = if to <= from { to + ring.len() } else { to };
+            let vertices: Vec<usize> = (from..=to).map(|i| ring[i % ring.len()]).collect();
+            let pair = [vertices[0].min(vertices[1]), vertices[0].max(vertices[1])];
+            let partner = partners.get(&pair).copied().unwrap_or(usize::MAX);
+            let path = self.path(garment, [piece, partner], [ends[k], ends[next]])?;
+            if path.len() < 2 {
+                return Err("two of its corners come to lie on one point of the body");
+            }
+            let share = outline::length_m(garment, &vertices) / whole;
+            outline.add(self.graph, garment, &path, &vertices, done, share);
+            done += share;
+        }
+        Ok(outline)
+    }
+
+    /// The path between two nodes that two pieces share.
+    fn path(&mut self, garment: &Garment, pieces: [usize; 2], ends: [usize; 2]) -> Result<Vec<usize>, &'static str> {
+        let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
+        let key = (sorted(pieces), sorted(ends));
+        let path = match self.found.get(&key) {
+            Some(path) => path.clone(),
+            None => {
+                let role = garment.pieces[pieces[0]].role;
+                let [a, b] = key.1;
+                let path = self
+                    .graph
+                    .shortest_within(a, b, |face| self.touches(role, face), &self.taken)
+                    .or_else(|| {
+                        let region = |face: usize| touches(role, self.form.regions[face]);
+                        self.graph.shortest_within(a, b, region, &self.taken)
+                    })
+                    .ok_or("two of its corners are not connected on the part of the body that it can touch")?;
+                self.taken.add(self.graph, &path);
+                self.found.insert(key, path.clone());
+                path
+            }
+        };
+        Ok(if path[0] == ends[0] { path } else { path.into_iter().rev().collect() })
+    }
+
+    /// Whether a piece of a role can touch a face: by region and by the way the face looks.
+    fn touches(&self, role: Role, face: usize) -> bool {
+        let normal = self.normals[face].normalize();
+        touches(role, self.form.regions[face])
+            && match features::face(role) {
+                Face::Front => normal.y > -AWAY,
+                Face::Back => normal.y < AWAY,
+                Face::Round => true,
+            }
+    }
+}
+
+/// Whether a piece of a role can touch a region.
+fn touches(role: Role, region: Region) -> bool {
+    use Region::*;
+    let arm = |right: bool| match region {
+        UpperArmRight | ForearmRight => right,
+        UpperArmLeft | ForearmLeft => !right,
+        ThighRight | ShankRight | ThighLeft | ShankLeft | Head => false,
+        _ => true,
+    };
+    let leg = |right: bool| match region {
+        ThighRight | ShankRight => right,
+        ThighLeft | ShankLeft => !right,
+        Pelvis | Abdomen | Chest => true,
+        _ => false,
+    };
+    match role {
+        Role::SleeveRight => arm(true),
+        Role::SleeveLeft => arm(false),
+        Role::LegFrontRight | Role::LegBackRight => leg(true),
+        Role::LegFrontLeft | Role::LegBackLeft => leg(false),
+        _ => arm(true) || arm(false),
+    }
+}
+
+impl Outline {
+    /// Adds a stretch: `vertices` of the pattern along `path`, which takes the share `share` of the turn after `done`.
+    fn add(&mut self, graph: &PathGraph, garment: &Garment, path: &[usize], vertices: &[usize], done: f64, share: f64) {
+        let places: Vec<V3> = path.iter().map(|&node| graph.position(node)).collect();
+        let arcs = cumulated(places.windows(2).map(|ends| (ends[1] - ends[0]).norm()));
+        let whole = arcs[arcs.len() - 1].max(f64::MIN_POSITIVE);
+        for (node, arc) in path.iter().zip(&arcs).take(path.len() - 1) {
+            self.nodes.push(*node);
+            self.turns.push(done + share * arc / whole);
+        }
+        let rest = cumulated(vertices.windows(2).map(|e| (garment.rest[e[1]] - garment.rest[e[0]]).norm()));
+        let length = rest[rest.len() - 1].max(f64::MIN_POSITIVE);
+        for (vertex, arc) in vertices.iter().zip(&rest).take(vertices.len() - 1) {
+            let along = arc / length * whole;
+            let k = arcs.partition_point(|&a| a <= along).clamp(1, arcs.len() - 1);
+            let t = (along - arcs[k - 1]) / (arcs[k] - arcs[k - 1]).max(f64::MIN_POSITIVE);
+            self.boundary.push((*vertex, done + share * arc / length, places[k - 1].lerp(&places[k], t)));
+        }
+    }
+}
+
+/// Running sums, from 0.
+fn cumulated(lengths: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut sum = 0.0;
+    std::iter::once(0.0)
+        .chain(lengths.map(|l| {
+            sum += l;
+            sum
+        }))
+        .collect()
+}
+
+/// The point of the unit circle after a share of a turn.
+fn on_circle(turn: f64) -> V2 {
+    let (sin, cos) = (turn * std::f64::consts::TAU).sin_cos();
+    V2::new(cos, sin)
+}
+
+/// Lays one piece on its patch; returns the number of triangles that look inwards.
+fn lay(garment: &Garment, piece: &PieceMesh, outline: &Outline, patch: &Patch, positions: &mut [V3]) -> Option<usize> {
+    let fixed = patch.boundary.iter().zip(&outline.turns).map(|(&v, &turn)| (v, on_circle(turn))).collect();
+    let surface = harmonic::map(&patch.mesh.positions, &patch.mesh.triangles, &fixed)?;
+    let first = piece.vertices.start;
+    let flat: Vec<V3> = garment.rest[piece.vertices.clone()].iter().map(|p| V3::new(p.x, p.y, 0.0)).collect();
+    let triangles: Vec<[usize; 3]> =
+        garment.triangles[piece.triangles.clone()].iter().map(|t| t.map(|v| v - first)).collect();
+    let fixed = outline.boundary.iter().map(|&(v, turn, _)| (v - first, on_circle(turn))).collect();
+    let cloth = harmonic::map(&flat, &triangles, &fixed)?;
+    let locator = Locator::new(&surface, &patch.mesh.triangles);
+    let normals = patch.mesh.triangle_normals();
+    let mut outwards = vec![V3::zeros(); flat.len()];
+    for (v, place) in cloth.iter().enumerate() {
+        let (t, weights) = locator.locate(*place)?;
+        let corners = patch.mesh.triangles[t];
+        positions[first + v] = (0..3).map(|k| patch.mesh.positions[corners[k]] * weights[k]).sum();
+        outwards[v] = normals[t].try_normalize(0.0).unwrap_or_else(V3::zeros);
+    }
+    for &(v, _, place) in &outline.boundary {
+        positions[v] = place;
+    }
+    let inwards = |t: &&[usize; 3]| {
+        let [a, b, c] = t.map(|v| positions[first + v]);
+        let out: V3 = t.iter().map(|&v| outwards[v]).sum();
+        (b - a).cross(&(c - a)).dot(&out) <= 0.0
+    };
+    Some(triangles.iter().filter(inwards).count())
+}

@@ -1,0 +1,160 @@
+//! Hybrid-GS (chapter 5): geometry first, then physics; the pattern's size is kept on any body.
+//!
+//! Four phases, each with a result of its own: [`mapping`] lays the pieces on the body, [`sewn`] joins them, [`popup`] gives
+//! them back their size, and a short drape lets them come to rest on the fine mesh.
+
+mod elastic;
+pub mod features;
+pub mod form;
+pub mod harmonic;
+mod locate;
+pub mod mapping;
+pub mod outline;
+pub mod patch;
+pub mod path;
+pub mod popup;
+pub mod relax;
+pub mod sewn;
+pub mod sparse;
+
+use crate::body::Body;
+use crate::geom::{DistanceField, V3};
+use crate::pattern::{Garment, Measurement};
+use crate::sim::{Drape, Fabric, Monitor, Progress, SimError, Stage, Step, quality};
+
+pub use mapping::OnForm;
+pub use relax::RelaxParams;
+pub use sewn::Sewn;
+
+use relax::{Push, Relaxation};
+
+/// Parameters of Hybrid-GS.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Params {
+    /// Numbers of measurements that are not controlled: what their chi is without.
+    pub uncontrolled: Vec<u32>,
+    /// Pop-up and drape.
+    pub relax: RelaxParams,
+    /// Steps of the drape in which the body pushes without limit.
+    pub push_steps: u32,
+    /// Steps after them, in which it yields.
+    pub yield_steps: u32,
+}
+
+impl Default for Params {
+    fn default() -> Self {
+        Self { uncontrolled: Vec::new(), relax: RelaxParams::default(), push_steps: 15, yield_steps: 20 }
+    }
+}
+
+/// Rms movement in a step below which a drape counts as come to rest, m.
+const AT_REST_M: f64 = 1e-3;
+
+/// What each phase left, positions of the garment's vertices in metres.
+#[derive(Clone, Debug)]
+pub struct Phases {
+    /// On the form, piece by piece.
+    pub mapped: OnForm,
+    /// Sewn and smoothed.
+    pub sewn: Vec<V3>,
+    /// Size restored.
+    pub popup: Vec<V3>,
+    /// Draped.
+    pub drape: Drape,
+}
+
+/// Dresses a body in a garment.
+///
+/// # Errors
+/// When a piece cannot be placed or mapped, is degenerate, the positions diverge, or the monitor cancels.
+pub fn simulate(
+    body: &Body,
+    field: &DistanceField,
+    garment: &Garment,
+    fabric: &Fabric,
+    params: &Params,
+    monitor: &mut dyn Monitor,
+) -> Result<Drape, SimError> {
+    phases(body, field, garment, fabric, params, monitor).map(|phases| phases.drape)
+}
+
+/// [`simulate`] with what each phase left.
+///
+/// # Errors
+/// As there.
+pub fn phases(
+    body: &Body,
+    field: &DistanceField,
+    garment: &Garment,
+    fabric: &Fabric,
+    params: &Params,
+    monitor: &mut dyn Monitor,
+) -> Result<Phases, SimError> {
+    let mut run = Run { garment, monitor, history: Vec::new() };
+    let controls: Vec<&Measurement> =
+        garment.measurements.iter().filter(|m| !params.uncontrolled.contains(&m.no)).collect();
+    let mapped = mapping::map(body, garment)?;
+    let sewn = Sewn::new(garment, &mapped.positions);
+    run.record("sew", 0.2, 0, &sewn.unsewn(&sewn.x), f64::NAN)?;
+    let mut relaxation = Relaxation::new(field, garment, &sewn, fabric, &controls, params.relax)?;
+    let mut done = 0.0;
+    popup::reconstruct(&mut relaxation, |now| {
+        done += 1.0;
+        run.record("popup", 0.2 + 0.4 * done / f64::from(popup::steps()), 1, &sewn.unsewn(&now.x), f64::NAN)
+    })?;
+    let popped = sewn.unsewn(&relaxation.x);
+    let steps = params.push_steps + params.yield_steps;
+    let mut last = f64::MAX;
+    for step in 1..=steps {
+        last = relaxation.step(Push { unlimited: step <= params.push_steps, gravity: 1.0, share: 1.0 });
+        let fraction = 0.6 + 0.4 * f64::from(step) / f64::from(steps);
+        run.record("drape", fraction, 2, &sewn.unsewn(&relaxation.x), last / AT_REST_M)?;
+    }
+    let x = relaxation.x;
+    let positions = sewn.unsewn(&x);
+    let drape = Drape {
+        stage: Stage::Drape,
+        converged: last <= AT_REST_M,
+        iterations: run.history.len() as u32,
+        residual: last / AT_REST_M,
+        penetration_max_m: quality::penetration_m(body, garment, &positions),
+        seam_gap_max_m: quality::seam_gap_m(garment, &positions),
+        self_crossings: quality::self_crossings(&x, &sewn.triangles),
+        welded_vertices: x.len(),
+        positions,
+        history: run.history,
+    };
+    Ok(Phases { sewn: sewn.unsewn(&sewn.x), popup: popped, mapped, drape })
+}
+
+/// A run under way: what is recorded and reported of each step.
+struct Run<'a> {
+    garment: &'a Garment,
+    monitor: &'a mut dyn Monitor,
+    history: Vec<Step>,
+}
+
+impl Run<'_> {
+    fn record(
+        &mut self,
+        phase: &'static str,
+        fraction: f64,
+        level: u32,
+        positions: &[V3],
+        residual: f64,
+    ) -> Result<(), SimError> {
+        let iteration = self.history.len() as u32 + 1;
+        if !positions.iter().all(|p| p.iter().all(|c| c.is_finite())) {
+            return Err(SimError::Diverged { garment: self.garment.name.clone(), iteration });
+        }
+        let chi = |m: &Measurement| m.length_m(&self.garment.rest, positions) / m.l2d_m;
+        let e_chi = self.garment.measurements.iter().map(chi).sum::<f64>() / self.garment.measurements.len() as f64;
+        let step = Step { iteration, level, residual, seam_gap_m: 0.0, e_chi };
+        self.history.push(step);
+        self.monitor.progress(&Progress { phase, fraction, step });
+        if self.monitor.wants_snapshot() {
+            self.monitor.snapshot(positions);
+        }
+        if self.monitor.cancelled() { Err(SimError::Cancelled) } else { Ok(()) }
+    }
+}

@@ -1,0 +1,127 @@
+//! The outline of a piece as the mapping sees it: stretches between what they are sewn to.
+
+use std::collections::BTreeMap;
+
+use crate::geom::V2;
+use crate::pattern::{Garment, PieceMesh};
+
+/// What a stretch of outline is sewn to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Partner {
+    /// Nothing.
+    Free,
+    /// A piece, by its index.
+    Piece(usize),
+}
+
+/// A stretch of outline with one partner.
+#[derive(Clone, Debug)]
+pub struct Chain {
+    /// What it is sewn to.
+    pub partner: Partner,
+    /// Garment vertices counter-clockwise, both ends included.
+    pub vertices: Vec<usize>,
+}
+
+impl Chain {
+    /// From its first to its last vertex in the piece's plane, m.
+    #[must_use]
+    pub fn chord(&self, garment: &Garment) -> V2 {
+        garment.rest[self.last()] - garment.rest[self.first()]
+    }
+
+    /// First vertex.
+    #[must_use]
+    pub fn first(&self) -> usize {
+        self.vertices[0]
+    }
+
+    /// Last vertex.
+    #[must_use]
+    pub fn last(&self) -> usize {
+        self.vertices[self.vertices.len() - 1]
+    }
+
+    /// Length in the piece's plane, m.
+    #[must_use]
+    pub fn length_m(&self, garment: &Garment) -> f64 {
+        length_m(garment, &self.vertices)
+    }
+}
+
+/// Length of a line of garment vertices in the piece's plane, m.
+#[must_use]
+pub fn length_m(garment: &Garment, vertices: &[usize]) -> f64 {
+    vertices.windows(2).map(|ends| (garment.rest[ends[1]] - garment.rest[ends[0]]).norm()).sum()
+}
+
+/// Partner piece of each boundary edge of the garment, by its sorted ends.
+#[must_use]
+pub fn partners(garment: &Garment) -> BTreeMap<[usize; 2], usize> {
+    let piece_of = |v: usize| garment.pieces.iter().position(|p| p.vertices.contains(&v)).unwrap_or(usize::MAX);
+    let mut partners = BTreeMap::new();
+    for seam in &garment.seams {
+        for step in seam.pairs.windows(2) {
+            for (own, other) in [(0, 1), (1, 0)] {
+                let [a, b] = [step[0][own], step[1][own]];
+                if a != b {
+                    partners.insert([a.min(b), a.max(b)], piece_of(step[0][other]));
+                }
+            }
+        }
+    }
+    partners
+}
+
+/// Boundary vertices of a piece, counter-clockwise; `None` when its outline is not one loop.
+#[must_use]
+pub fn boundary(garment: &Garment, piece: &PieceMesh) -> Option<Vec<usize>> {
+    // Inner edges are run through once each way and cancel.
+    let mut edges: BTreeMap<[usize; 2], i32> = BTreeMap::new();
+    for t in &garment.triangles[piece.triangles.clone()] {
+        for k in 0..3 {
+            let (a, b) = (t[k], t[(k + 1) % 3]);
+            *edges.entry([a.min(b), a.max(b)]).or_default() += if a < b { 1 } else { -1 };
+        }
+    }
+    let next: BTreeMap<usize, usize> = edges
+        .iter()
+        .filter(|(_, turn)| **turn != 0)
+        .map(|(&[a, b], turn)| if *turn > 0 { (a, b) } else { (b, a) })
+        .collect();
+    let (&start, _) = next.first_key_value()?;
+    let mut ring = vec![start];
+    let mut at = *next.get(&start)?;
+    while at != start {
+        ring.push(at);
+        at = *next.get(&at)?;
+        if ring.len() > next.len() {
+            return None;
+        }
+    }
+    (ring.len() == next.len()).then_some(ring)
+}
+
+/// Stretches of a piece's outline, counter-clockwise.
+#[must_use]
+pub fn chains(ring: &[usize], partners: &BTreeMap<[usize; 2], usize>) -> Vec<Chain> {
+    let n = ring.len();
+    let partner = |i: usize| {
+        let (a, b) = (ring[i % n], ring[(i + 1) % n]);
+        partners.get(&[a.min(b), a.max(b)]).map_or(Partner::Free, |&p| Partner::Piece(p))
+    };
+    let ends = |i: usize| partner(i) != partner(i + n - 1);
+    let Some(start) = (0..n).find(|&i| ends(i)) else {
+        return vec![];
+    };
+    let mut chains: Vec<Chain> = Vec::new();
+    for i in start..start + n {
+        if i == start || ends(i) {
+            chains.push(Chain { partner: partner(i), vertices: vec![ring[i % n]] });
+        }
+        if let Some(chain) = chains.last_mut() {
+            chain.vertices.push(ring[(i + 1) % n]);
+        }
+    }
+    chains
+}

@@ -1,0 +1,94 @@
+//! Phase 2: all seams at once (5.3). The mesher has already given both sides of a seam the same number of vertices
+//! (Algorithm 5.3), so that sewing is merging (Algorithm 5.4) and smoothing the free edges (5.3).
+
+use std::collections::BTreeMap;
+
+use crate::geom::V3;
+use crate::pattern::Garment;
+use crate::sim::sewing;
+
+/// Share of the way to the middle of its neighbours that a vertex goes each time [T 5.3.3].
+const SMOOTHING: f64 = 0.1;
+/// Times [T 5.3.3].
+const TIMES: u32 = 100;
+
+/// A garment as one mesh.
+#[derive(Clone, Debug)]
+pub struct Sewn {
+    /// Sewn vertex of each garment vertex.
+    pub vertex_of: Vec<usize>,
+    /// Triangles over sewn vertices, in the garment's order.
+    pub triangles: Vec<[usize; 3]>,
+    /// Position of each sewn vertex, m.
+    pub x: Vec<V3>,
+    /// Free edges as closed lines of sewn vertices, counter-clockwise about the cloth: hem, neck, sleeve openings.
+    pub loops: Vec<Vec<usize>>,
+}
+
+impl Sewn {
+    /// Merges the vertices of every seam pair, at their mean place, and smooths the free edges.
+    #[must_use]
+    pub fn new(garment: &Garment, positions: &[V3]) -> Self {
+        let vertex_of = sewing::welded(garment);
+        let count = vertex_of.iter().max().map_or(0, |m| m + 1);
+        let mut sums = vec![(V3::zeros(), 0.0); count];
+        for (&v, p) in vertex_of.iter().zip(positions) {
+            sums[v].0 += p;
+            sums[v].1 += 1.0;
+        }
+        let triangles: Vec<[usize; 3]> = garment.triangles.iter().map(|t| t.map(|v| vertex_of[v])).collect();
+        let loops = free_edges(&triangles);
+        let mut sewn = Self { vertex_of, triangles, x: sums.into_iter().map(|(sum, n)| sum / n).collect(), loops };
+        sewn.smooth();
+        sewn
+    }
+
+    /// Positions of the garment's vertices from those of the sewn ones.
+    #[must_use]
+    pub fn unsewn(&self, x: &[V3]) -> Vec<V3> {
+        self.vertex_of.iter().map(|&v| x[v]).collect()
+    }
+
+    /// Laplacian smoothing of the free edges (5.3).
+    fn smooth(&mut self) {
+        for ring in &self.loops {
+            let n = ring.len();
+            for _ in 0..TIMES {
+                let old: Vec<V3> = ring.iter().map(|&v| self.x[v]).collect();
+                for (k, &v) in ring.iter().enumerate() {
+                    let middle = (old[(k + n - 1) % n] + old[(k + 1) % n]) / 2.0;
+                    self.x[v] += (middle - old[k]) * SMOOTHING;
+                }
+            }
+        }
+    }
+}
+
+/// Closed lines of the edges that only one triangle has; lines that meet in a vertex are left out.
+fn free_edges(triangles: &[[usize; 3]]) -> Vec<Vec<usize>> {
+    let mut directed: BTreeMap<[usize; 2], ()> = BTreeMap::new();
+    for t in triangles {
+        for k in 0..3 {
+            let (a, b) = (t[k], t[(k + 1) % 3]);
+            if directed.remove(&[b, a]).is_none() {
+                directed.insert([a, b], ());
+            }
+        }
+    }
+    let mut next: BTreeMap<usize, usize> = directed.keys().map(|&[a, b]| (a, b)).collect();
+    let mut loops = Vec::new();
+    while let Some((start, mut at)) = next.pop_first() {
+        let mut ring = vec![start];
+        while at != start {
+            ring.push(at);
+            match next.remove(&at) {
+                Some(after) => at = after,
+                None => break,
+            }
+        }
+        if at == start {
+            loops.push(ring);
+        }
+    }
+    loops
+}

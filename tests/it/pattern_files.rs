@@ -1,0 +1,88 @@
+//! Patterns as other kinds of file, with what lies beside them.
+
+use serde_json::Value;
+
+use super::program::Place;
+
+/// The drafted front with a grade point at each of two corners, as the sample size.
+fn sample(place: &Place) -> String {
+    let text = std::fs::read_to_string(place.path("patterns/tshirt-m.dxf")).expect("drafted");
+    let lines: Vec<&str> = text.lines().collect();
+    // The first two turn points are POINTs of layer 2: the coordinates stand four and six lines below.
+    let points = lines.windows(8).filter(|tags| tags[1] == "POINT" && tags[3] == "2").take(2);
+    let graded = points.enumerate().map(|(k, tags)| {
+        format!(
+            "  0\r\nTEXT\r\n  8\r\n2\r\n 10\r\n{}\r\n 20\r\n{}\r\n 40\r\n3\r\n  1\r\n# {}\r\n",
+            tags[5],
+            tags[7],
+            k + 1
+        )
+    });
+    let graded: String = graded.collect();
+    text.replacen("  0\r\nENDBLK\r\n", &format!("{graded}  0\r\nENDBLK\r\n"), 1)
+}
+
+const RULES: &str = "UNITS: METRIC\nNUMBER OF SIZES: 3\nSIZE LIST: S M L\nSAMPLE SIZE: M\n\
+RULE: DELTA 1\n-10.0, 0.0  0.0, 0.0  10.0, 0.0\nRULE: DELTA 2\n-10.0, 0.0  0.0, 0.0  10.0, 0.0\nEND\n";
+
+fn perimeters(report: &Value) -> Vec<(String, f64)> {
+    let piece = |piece: &Value| {
+        (piece["size"].as_str().unwrap_or_default().to_owned(), piece["perimeter_mm"].as_f64().expect("a number"))
+    };
+    report["pieces"].as_array().expect("pieces").iter().map(piece).collect()
+}
+
+#[test]
+fn features_and_conversions_come_back_as_the_same_file() {
+    let place = Place::new();
+    place.draft();
+    let drawn = std::fs::read(place.path("patterns/tshirt-m.dxf")).expect("drafted");
+    place.toile("pattern features patterns/tshirt-m.dxf -o t.features.json").ends_with(0);
+    let printed = place.toile("pattern features patterns/tshirt-m.dxf").ends_with(0).json();
+    assert_eq!(
+        printed["pieces"][0]["corners"].as_array().map(Vec::len),
+        printed["pieces"][0]["edges"].as_array().map(Vec::len)
+    );
+    for from in ["patterns/tshirt-m.dxf", "t.features.json"] {
+        place.toile(&format!("pattern convert {from} -o out/again.dxf")).ends_with(0);
+        assert_eq!(std::fs::read(place.path("out/again.dxf")).expect("written"), drawn, "{from}");
+    }
+    place.toile("pattern convert patterns/tshirt-m.dxf --seams patterns/tshirt.seams.toml -o t.json").ends_with(0);
+    place.toile("pattern check t.json").ends_with(0);
+    let pieces = place.toile("pattern inspect t.json --json").ends_with(0).json();
+    assert_eq!(perimeters(&pieces[0]).len(), 4);
+    assert!(place.toile("pattern convert patterns/tshirt-m.dxf -o t.json").ends_with(2).err.contains("--seams"));
+    assert!(place.toile("pattern convert patterns/tshirt-m.dxf -o t.png").ends_with(2).err.contains("found `.png`"));
+}
+
+#[test]
+fn a_sample_size_and_a_grade_rule_table_make_a_nest() {
+    let place = Place::new();
+    place.draft();
+    let sample = sample(&place);
+    // The other pieces have no grade points.
+    place.write("sample.dxf", &sample);
+    place.write("style.rul", RULES);
+    let said = place.toile("pattern inspect sample.dxf --rul style.rul --json").ends_with(2);
+    let report = &said.json()[0];
+    assert_eq!(report["refused"].as_array().map(Vec::len), Some(4), "{}", said.err);
+    let sizes: Vec<String> = perimeters(report).into_iter().map(|(size, _)| size).collect();
+    assert_eq!(sizes, ["S", "M", "M", "M", "L"]);
+    place.write("style.rul", RULES.replace("METRIC", "ELLS"));
+    let said = place.toile("pattern inspect sample.dxf --rul style.rul").ends_with(2);
+    assert!(said.err.contains("style.rul, line 1: found unit `ELLS`"), "{}", said.err);
+}
+
+#[test]
+fn a_table_beside_the_pattern_tells_its_pieces() {
+    let place = Place::new();
+    place.draft();
+    place.write("pieces.csv", "piece,quantity,material\nfront,1,Twill\nsleeve,\"1,1\",Rib\n");
+    let told = place.toile("pattern features patterns/tshirt-m.dxf --info pieces.csv").ends_with(0).json();
+    let texts = told["pieces"][0]["information"]["texts"].as_array().expect("texts").clone();
+    assert!(texts.contains(&serde_json::json!(["material", "Twill"])), "{texts:?}");
+    assert_eq!(told["pieces"][2]["information"]["quantity"], "1,1");
+    place.write("pieces.csv", "piece,quantity\nhood,1\n");
+    let said = place.toile("pattern inspect patterns/tshirt-m.dxf --info pieces.csv").ends_with(2);
+    assert!(said.err.contains("pieces.csv, row 2, column `piece`: found piece `hood`"), "{}", said.err);
+}
