@@ -63,6 +63,18 @@ impl Springs {
         self.pairs.iter().map(|&[a, b]| (x[a] - x[b]).norm()).fold(0.0, f64::max)
     }
 
+    /// Mean distance of the pairs, m.
+    #[must_use]
+    pub fn mean_gap_m(&self, x: &[V3]) -> f64 {
+        self.pairs.iter().map(|&[a, b]| (x[a] - x[b]).norm()).sum::<f64>() / self.pairs.len().max(1) as f64
+    }
+
+    /// Makes the springs stronger: both what far pairs feel and what near ones do.
+    pub fn tighten(&mut self, factor: f64) {
+        self.stiffness_n_m *= factor;
+        self.cap_n *= factor;
+    }
+
     /// Energy, J: quadratic up to the cap, linear beyond.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {

@@ -52,6 +52,8 @@ pub struct ClothContact<'a> {
     areas: &'a [f64],
     /// Vertices that share a triangle with a vertex, itself included, sorted.
     ring: Vec<Vec<usize>>,
+    /// Group of each vertex where only groups are kept apart from each other; 0 belongs to none.
+    groups: Option<Vec<u8>>,
     /// Sorted by primitives.
     pairs: Vec<Pair>,
     found_at: Vec<V3>,
@@ -72,7 +74,27 @@ impl<'a> ClothContact<'a> {
             r.dedup();
         }
         let edges = PairList::new(triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]));
-        Self { params, triangles, edges, areas, ring, pairs: Vec::new(), found_at: Vec::new() }
+        Self { params, triangles, edges, areas, ring, groups: None, pairs: Vec::new(), found_at: Vec::new() }
+    }
+
+    /// Keeps apart only vertices of different groups (0 belongs to none), and those not where `sewn` pairs will join
+    /// them: what two limbs wear must not interlock while it is sewn, all else may still pass through itself.
+    #[must_use]
+    pub fn between(mut self, groups: Vec<u8>, sewn: impl Iterator<Item = [usize; 2]>) -> Self {
+        let unsewn = self.ring.clone();
+        for [a, b] in sewn {
+            for (own, other) in [(a, b), (b, a)] {
+                for &v in &unsewn[own] {
+                    self.ring[v].extend_from_slice(&unsewn[other]);
+                }
+            }
+        }
+        for ring in &mut self.ring {
+            ring.sort_unstable();
+            ring.dedup();
+        }
+        self.groups = Some(groups);
+        self
     }
 
     /// Seeks near pairs anew where cloth has moved so far that one could have been missed.
@@ -135,6 +157,12 @@ impl<'a> ClothContact<'a> {
 
     /// Whether no vertex of one side shares a triangle with one of the other.
     fn apart(&self, one: &[usize], other: &[usize]) -> bool {
+        if let Some(groups) = &self.groups {
+            let (a, b) = (groups[one[0]], groups[other[0]]);
+            if a == b || a == 0 || b == 0 {
+                return false;
+            }
+        }
         one.iter().all(|&v| other.iter().all(|w| self.ring[v].binary_search(w).is_err()))
     }
 

@@ -18,20 +18,27 @@ pub fn level_edges(finest_m: f64) -> Vec<f64> {
 /// How FEM-GS places, sews and drapes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Params {
-    /// Offset `mu`: pieces start at `mu H / 2` from the trunk's centre, `H` the body depth (4.18).
-    pub offset_mu: f64,
-    /// Angle over which trunk pieces are bent before sewing, rad (4.6).
-    pub bend_angle_rad: f64,
+    /// Offset `mu`: the middle of a trunk piece starts `mu H / 2` before the trunk's centre, `H` the body depth (4.18).
+    /// `None`: the least that clears the body all along the piece and brings its sides to the body's sides.
+    pub offset_mu: Option<f64>,
+    /// Angle over which trunk pieces are bent before sewing, rad (4.6). `None`: bent to half an ellipse as wide as the body.
+    pub bend_angle_rad: Option<f64>,
     /// Stiffness of a seam spring, N/m.
     pub seam_stiffness_n_m: f64,
     /// Force of a seam spring at first, N.
     pub seam_cap_n: f64,
-    /// Growth of that force after a step that brought the seams no closer.
-    pub seam_cap_growth: f64,
-    /// A step brings the seams closer when the widest gap falls below this share of the least so far.
+    /// Growth of force and stiffness when the seams come no closer.
+    pub seam_growth: f64,
+    /// The seams come closer when their mean gap falls below this share of the least so far.
     pub sewing_progress: f64,
+    /// Steps without that after which the springs grow.
+    pub sewing_patience: u32,
+    /// Least step size while sewing, s.
+    pub sewing_h_min_s: f64,
     /// Greatest step size while sewing, s.
     pub sewing_h_max_s: f64,
+    /// Greatest displacement of a vertex in a step of sewing, m.
+    pub sewing_clamp_m: f64,
     /// Most steps of sewing.
     pub sewing_steps: u32,
     /// Gap at which seams are welded, m.
@@ -59,14 +66,17 @@ pub struct Params {
 impl Default for Params {
     fn default() -> Self {
         Self {
-            offset_mu: 2.1,
-            bend_angle_rad: std::f64::consts::PI,
+            offset_mu: None,
+            bend_angle_rad: None,
             seam_stiffness_n_m: 50.0,
             seam_cap_n: 0.05,
-            seam_cap_growth: 1.2,
+            seam_growth: 1.5,
             sewing_progress: 0.98,
+            sewing_patience: 3,
+            sewing_h_min_s: 0.02,
+            sewing_clamp_m: 0.01,
             sewing_h_max_s: 0.1,
-            sewing_steps: 200,
+            sewing_steps: 300,
             weld_gap_m: 2e-3,
             coarse_tolerance: 0.02,
             coarse_steps: 300,

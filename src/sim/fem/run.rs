@@ -71,27 +71,40 @@ impl<'a> Run<'a> {
         self.history
     }
 
-    /// Draws the seams together until they can be welded. The springs' cap grows while they do not get closer, so that
-    /// a tight garment is pulled as hard as it needs and a loose one is not torn about.
+    /// Draws the seams together until they can be welded. The springs grow stronger while the seams do not get closer, so
+    /// that a tight garment is pulled as hard as it needs and a loose one is not torn about.
     pub fn sew(&mut self, garment: &Garment, system: &mut System, x: &mut Vec<V3>) -> Result<(), SimError> {
-        let mut stepper = Stepper::new(StepParams { h_max_s: self.params.sewing_h_max_s, ..self.params.step });
-        let gap = |system: &System, x: &[V3]| system.springs.as_ref().map_or(0.0, |s| s.gap_m(x));
-        let start = gap(system, x).max(f64::MIN_POSITIVE);
-        let mut least = start;
-        for _ in 0..self.params.sewing_steps {
+        let params = self.params;
+        let mut stepper = Stepper::new(StepParams {
+            h_start_s: params.sewing_h_min_s,
+            h_max_s: params.sewing_h_max_s,
+            clamp_m: params.sewing_clamp_m,
+            clamps_alike: true,
+            ..params.step
+        });
+        let gaps =
+            |system: &System, x: &[V3]| system.springs.as_ref().map_or((0.0, 0.0), |s| (s.gap_m(x), s.mean_gap_m(x)));
+        let start = gaps(system, x).0.max(f64::MIN_POSITIVE);
+        let (mut least, mut stalled) = (start, 0);
+        for _ in 0..params.sewing_steps {
             let info = stepper.step(system, x, 0.0);
-            let now = gap(system, x);
-            let done = (1.0 - (now / start).sqrt()).clamp(0.0, 1.0);
-            self.record(garment, x, x, info, "sew", 0, now, 0.2 * done)?;
-            if now <= self.params.weld_gap_m {
+            let (widest, mean) = gaps(system, x);
+            let done = (1.0 - (widest / start).sqrt()).clamp(0.0, 1.0);
+            self.record(garment, x, x, info, "sew", 0, widest, 0.2 * done)?;
+            if widest <= params.weld_gap_m {
                 break;
             }
-            if let Some(springs) = &mut system.springs
-                && now > least * self.params.sewing_progress
-            {
-                springs.cap_n *= self.params.seam_cap_growth;
+            if mean < least * params.sewing_progress {
+                (least, stalled) = (mean, 0);
+            } else {
+                stalled += 1;
             }
-            least = least.min(now);
+            if stalled >= params.sewing_patience && info.share >= 0.25 {
+                stalled = 0;
+                if let Some(springs) = &mut system.springs {
+                    springs.tighten(params.seam_growth);
+                }
+            }
         }
         Ok(())
     }

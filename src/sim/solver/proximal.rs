@@ -21,6 +21,8 @@ pub struct StepParams {
     pub growth: f64,
     /// Greatest displacement of a vertex in a step, m.
     pub clamp_m: f64,
+    /// Whether a longer step is shortened for all vertices alike; else only for those that would go too far.
+    pub clamps_alike: bool,
     /// Relative tolerance of the linear solve.
     pub linear_tolerance: f64,
     /// Most iterations of the linear solve.
@@ -36,6 +38,7 @@ impl Default for StepParams {
             h_max_s: 2.0,
             growth: 1.5,
             clamp_m: 0.01,
+            clamps_alike: false,
             linear_tolerance: 0.1,
             linear_iterations: 300,
             correction_iterations: 30,
@@ -48,6 +51,8 @@ impl Default for StepParams {
 pub struct StepInfo {
     /// Rms force over mean vertex weight *before* the step.
     pub residual: f64,
+    /// Share of the full step that was taken.
+    pub share: f64,
 }
 
 /// The state that outlives a step.
@@ -74,7 +79,7 @@ impl Stepper {
         let (forces, mut operator) = system.assemble(x);
         let residual = rms(&forces) / system.mean_weight();
         if residual <= tolerance {
-            return StepInfo { residual };
+            return StepInfo { residual, share: 1.0 };
         }
         let inertia: Vec<f64> = system.cloth.masses.iter().map(|m| m / (self.h_s * self.h_s)).collect();
         for (block, m) in operator.diagonal.iter_mut().zip(&inertia) {
@@ -83,7 +88,7 @@ impl Stepper {
         let linear =
             PcgParams { tolerance: self.params.linear_tolerance, max_iterations: self.params.linear_iterations };
         let mut direction = pcg::solve(&operator, &forces, self.last.as_deref(), &linear);
-        clamp(&mut direction, self.params.clamp_m);
+        self.clamp(&mut direction);
         let bend = self.bend(system, &operator, x, &direction, &inertia);
         let (share, next) = self.search(system, x, &direction, &bend, &forces, &inertia);
         self.last = Some(next.iter().zip(x.iter()).map(|(p, q)| p - q).collect());
@@ -96,7 +101,7 @@ impl Stepper {
         } else {
             self.h_s
         };
-        StepInfo { residual }
+        StepInfo { residual, share }
     }
 
     /// Second-order correction: what the Newton direction leaves over at its end, through the same stiffness.
@@ -112,8 +117,20 @@ impl Stepper {
         let linear =
             PcgParams { tolerance: self.params.linear_tolerance, max_iterations: self.params.correction_iterations };
         let mut bend = pcg::solve(operator, &remainder, None, &linear);
-        clamp(&mut bend, self.params.clamp_m);
+        self.clamp(&mut bend);
         bend
+    }
+
+    /// Shortens a direction so that no vertex moves further than allowed.
+    fn clamp(&self, direction: &mut [V3]) {
+        let limit = self.params.clamp_m;
+        let longest = direction.iter().map(V3::norm).fold(0.0, f64::max);
+        for d in direction.iter_mut() {
+            let length = if self.params.clamps_alike { longest } else { d.norm() };
+            if length > limit {
+                *d *= limit / length;
+            }
+        }
     }
 
     /// The corrected full step where it decreases the proximal energy enough, else the longest share of the uncorrected
@@ -131,7 +148,7 @@ impl Stepper {
         let slope: f64 = forces.iter().zip(direction).map(|(f, d)| f.dot(d)).sum();
         let decreases = |trial: &[V3], share: f64| {
             let moved = trial.iter().zip(x).zip(inertia).map(|((p, q), m)| 0.5 * m * (p - q).norm_squared());
-            system.energy(trial) + moved.sum::<f64>() <= start - SUFFICIENT_DECREASE * share * slope
+            system.energy(trial) + moved.sum::<f64>() <= start - SUFFICIENT_DECREASE * share * slope.max(0.0)
         };
         // x + t direction + t^2 bend: the correction is of second order.
         let at = |share: f64, bent: f64| -> Vec<V3> {
@@ -156,13 +173,4 @@ impl Stepper {
 #[must_use]
 pub fn rms(vectors: &[V3]) -> f64 {
     (vectors.iter().map(V3::norm_squared).sum::<f64>() / vectors.len().max(1) as f64).sqrt()
-}
-
-fn clamp(direction: &mut [V3], limit: f64) {
-    for d in direction {
-        let length = d.norm();
-        if length > limit {
-            *d *= limit / length;
-        }
-    }
 }

@@ -1,0 +1,131 @@
+//! What preposition needs to know of the body: its trunk and legs without the arms, and cylinders about its limbs.
+
+use crate::body::{Body, Joint};
+use crate::geom::{V2, V3};
+
+/// Half height of the band of the body in which its depth is read, m.
+const LEVEL_BAND_M: f64 = 0.02;
+/// Farthest skin of an arm from its bone, m.
+const ARM_REACH_M: f64 = 0.1;
+/// Distance below the shoulder joint from which skin near the bone is the arm's, not the shoulder's, m.
+const SHOULDER_M: f64 = 0.1;
+/// How far a hand reaches beyond the wrist, m.
+const HAND_M: f64 = 0.25;
+
+/// Right (`1.0`) or left (`-1.0`) of the body.
+pub type Hand = f64;
+
+/// A direction of a limb with two directions across it: a cylinder about the limb, unrolled to (angle, height).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axis {
+    pub origin: V3,
+    pub up: V3,
+    /// Where the angle is 0.
+    pub outward: V3,
+}
+
+impl Axis {
+    /// To the right of `outward`, seen from outside: where the angle grows.
+    fn rightward(&self) -> V3 {
+        self.up.cross(&self.outward)
+    }
+
+    /// The point at an angle (rad), a distance from the axis and a height.
+    pub fn point(&self, angle: f64, radius: f64, height: f64) -> V3 {
+        let (sin, cos) = angle.sin_cos();
+        self.origin + self.up * height + (self.outward * cos + self.rightward() * sin) * radius
+    }
+
+    /// Angle (rad, within half a turn), distance from the axis and height of a point.
+    pub fn coordinates(&self, p: &V3) -> (f64, f64, f64) {
+        let d = p - self.origin;
+        let (a, b) = (d.dot(&self.outward), d.dot(&self.rightward()));
+        (b.atan2(a), a.hypot(b), d.dot(&self.up))
+    }
+}
+
+/// The body as preposition sees it.
+pub struct Form<'a> {
+    pub body: &'a Body,
+    /// Skin that is no arm's.
+    pub trunk: Vec<V3>,
+    /// Skin of the arms.
+    pub arms: Vec<V3>,
+}
+
+impl<'a> Form<'a> {
+    /// Tells the arms from the rest.
+    pub fn of(body: &'a Body) -> Self {
+        let (arms, trunk) = body.mesh.positions.iter().partition(|p| is_arm(body, p));
+        Self { body, trunk, arms }
+    }
+
+    /// Least and greatest `y` of the trunk at a height.
+    pub fn depth(&self, height: f64) -> V2 {
+        let near = self.trunk.iter().filter(|p| (p.z - height).abs() < LEVEL_BAND_M);
+        let (back, front) = near.fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p.y), high.max(p.y)));
+        if back <= front { V2::new(back, front) } else { V2::zeros() }
+    }
+
+    /// Greatest distance of the trunk's skin from the median plane between two heights.
+    pub fn half_width(&self, low: f64, high: f64) -> f64 {
+        self.between(low, high).map(|p| p.x.abs()).fold(0.0, f64::max)
+    }
+
+    /// Trunk and legs between two heights.
+    pub fn between(&self, low: f64, high: f64) -> impl Iterator<Item = &V3> {
+        self.trunk.iter().filter(move |p| (low..=high).contains(&p.z))
+    }
+
+    /// Axis of the trunk: vertical, half way between chest and back; angle 0 in front.
+    pub fn trunk_axis(&self) -> Axis {
+        let depth = self.depth(self.body.levels.waist_m);
+        Axis { origin: V3::new(0.0, 0.5 * (depth.x + depth.y), 0.0), up: V3::z(), outward: V3::y() }
+    }
+
+    /// Axis of a leg: vertical through the knee; angle 0 in front.
+    pub fn leg_axis(&self, hand: Hand) -> Axis {
+        let knee = self.body.skeleton.at(if hand > 0.0 { Joint::KneeRight } else { Joint::KneeLeft });
+        Axis { origin: V3::new(knee.x, knee.y, 0.0), up: V3::z(), outward: V3::y() }
+    }
+
+    /// Axis of an arm: along the upper arm's bone, height 0 at the shoulder joint; angle 0 away from the trunk.
+    pub fn arm_axis(&self, hand: Hand) -> Axis {
+        let [shoulder, elbow, _] = arm_bones(self.body, hand);
+        let up = (shoulder - elbow).normalize();
+        let sideways = V3::new(hand, 0.0, 0.0);
+        Axis { origin: shoulder, up, outward: (sideways - up * sideways.dot(&up)).normalize() }
+    }
+
+    /// Height along the arm's axis of the shoulder point.
+    pub fn shoulder_height(&self, hand: Hand) -> f64 {
+        let tip = self.body.landmarks.shoulder[usize::from(hand < 0.0)];
+        self.arm_axis(hand).coordinates(&tip).2
+    }
+}
+
+fn arm_bones(body: &Body, hand: Hand) -> [V3; 3] {
+    let joints = if hand > 0.0 {
+        [Joint::ShoulderRight, Joint::ElbowRight, Joint::WristRight]
+    } else {
+        [Joint::ShoulderLeft, Joint::ElbowLeft, Joint::WristLeft]
+    };
+    joints.map(|joint| body.skeleton.at(joint))
+}
+
+/// Whether a point of the skin belongs to an arm.
+fn is_arm(body: &Body, p: &V3) -> bool {
+    [1.0, -1.0].into_iter().any(|hand| {
+        let [shoulder, elbow, wrist] = arm_bones(body, hand);
+        let tip = wrist + (wrist - elbow).try_normalize(0.0).unwrap_or_default() * HAND_M;
+        let start = shoulder + (elbow - shoulder).try_normalize(0.0).unwrap_or_default() * SHOULDER_M;
+        distance(p, start, elbow).min(distance(p, elbow, tip)) < ARM_REACH_M && p.x * hand > start.x.abs() - 0.03
+    })
+}
+
+/// Distance of a point from a line segment, m.
+fn distance(p: &V3, a: V3, b: V3) -> f64 {
+    let along = b - a;
+    let share = ((p - a).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    (p - a - along * share).norm()
+}

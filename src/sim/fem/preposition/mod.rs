@@ -1,0 +1,248 @@
+//! Automatic preposition (4.2): every piece before, behind or about the limb it is worn on.
+//!
+//! Pieces of one side of the trunk or of a leg are laid out flat as they are sewn ([`sheet`]), then bent as one; sleeves
+//! go about the arms; a piece of no such role follows what it is sewn to ([`follow`]).
+
+mod arm;
+mod ellipse;
+mod follow;
+mod form;
+mod leg;
+mod sheet;
+mod trunk;
+
+use crate::body::Body;
+use crate::geom::{V2, V3};
+use crate::pattern::{Garment, Role};
+use crate::sim::SimError;
+
+use super::params::Params;
+use arm::Sleeve;
+use form::{Axis, Form};
+use leg::Leg;
+use sheet::{Joins, Part, Sheet};
+use trunk::Bent;
+
+/// World positions of all garment vertices before sewing, m.
+///
+/// # Errors
+/// [`SimError::CannotPlace`] for a piece without a role that is sewn to no piece with one.
+pub fn place(body: &Body, garment: &Garment, params: &Params) -> Result<Vec<V3>, SimError> {
+    let mut placing = Placing {
+        form: Form::of(body),
+        joins: Joins::of(garment),
+        positions: vec![V3::zeros(); garment.rest.len()],
+        limb: vec![None; garment.pieces.len()],
+    };
+    placing.trunk(params);
+    placing.legs();
+    placing.arms();
+    placing.followers()?;
+    Ok(placing.positions)
+}
+
+/// A garment half placed.
+struct Placing<'a> {
+    form: Form<'a>,
+    joins: Joins<'a>,
+    positions: Vec<V3>,
+    /// Limb of each piece placed so far.
+    limb: Vec<Option<Axis>>,
+}
+
+impl Placing<'_> {
+    fn put(&mut self, sheet: &Sheet, limb: Axis, at: impl Fn(V2) -> V3) {
+        for (v, p) in sheet.points(self.joins.garment) {
+            self.positions[v] = at(p);
+        }
+        for piece in sheet.pieces() {
+            self.limb[piece] = Some(limb);
+        }
+    }
+
+    fn trunk(&mut self, params: &Params) {
+        let sheets = trunk_sheets(&self.joins);
+        for (k, side) in [1.0, -1.0].into_iter().enumerate() {
+            if sheets[k].parts.is_empty() {
+                continue;
+            }
+            let is_alone = sheets[1 - k].parts.is_empty();
+            let bent = Bent::new(&self.form, &self.joins, &sheets[k], side, is_alone, params);
+            self.put(&sheets[k], self.form.trunk_axis(), |p| bent.at(p));
+        }
+    }
+
+    fn legs(&mut self) {
+        for hand in [1.0, -1.0] {
+            let others = self.joins.worn_as(&leg::roles(-hand));
+            let sheet = |(role, side)| {
+                let parts = self.joins.worn_as(&[role]).into_iter().map(|p| Part::new(p, self.joins.up(p, V2::y())));
+                (Sheet::beside(Sheet::lay(&self.joins, parts.collect()), self.joins.garment), side)
+            };
+            let sheets = leg::roles(hand).into_iter().zip([1.0, -1.0]).map(sheet);
+            let sheets = sheets.filter(|(sheet, _)| !sheet.parts.is_empty());
+            let leg = Leg::new(&self.form, &self.joins, hand, sheets, &others);
+            for (sheet, places) in leg.places() {
+                for (v, place) in places {
+                    self.positions[v] = place;
+                }
+                for piece in sheet.pieces() {
+                    self.limb[piece] = Some(self.form.leg_axis(hand));
+                }
+            }
+        }
+    }
+
+    fn arms(&mut self) {
+        for hand in [1.0, -1.0] {
+            let sleeve = Sleeve::new(&self.form, &self.joins, hand);
+            for (sheet, middle) in &sleeve.parts {
+                self.put(sheet, sleeve.axis, |p| sleeve.at(p, *middle));
+            }
+        }
+    }
+
+    /// Places what is left, each piece by those it is sewn to, the longest seams first.
+    fn followers(&mut self) -> Result<(), SimError> {
+        while let Some(open) = self.limb.iter().position(Option::is_none) {
+            let (joins, limb) = (&self.joins, &self.limb);
+            let placed: Vec<usize> = (0..limb.len()).filter(|&p| limb[p].is_some()).collect();
+            let loose = (0..limb.len()).rev().filter(|&p| limb[p].is_none());
+            let seams = loose.map(|p| (p, joins.to_any(p, &placed)));
+            let longest = seams.max_by_key(|(_, pairs)| pairs.len()).filter(|(_, pairs)| !pairs.is_empty());
+            let Some((piece, pairs)) = longest else {
+                let piece = &joins.garment.pieces[open];
+                let accepted =
+                    "pieces of the trunk, arms and legs by role, any other piece that is sewn to one of these";
+                return Err(SimError::CannotPlace { piece: piece.id.clone(), role: piece.role, accepted });
+            };
+            let mut axes = placed.iter().filter(|&&p| !joins.between(piece, p).is_empty()).filter_map(|&p| limb[p]);
+            // What joins several limbs goes about the trunk.
+            let first = axes.next();
+            let axis = first.filter(|first| axes.all(|axis| axis == *first)).unwrap_or(self.form.trunk_axis());
+            let places = follow::place(&self.form, joins, piece, &pairs, &self.positions, &axis);
+            self.positions[joins.garment.pieces[piece].vertices.clone()].copy_from_slice(&places);
+            self.limb[piece] = Some(axis);
+        }
+        Ok(())
+    }
+}
+
+/// Front and back of the trunk, each laid out as one sheet.
+fn trunk_sheets(joins: &Joins) -> [Sheet; 2] {
+    let [in_front, behind] = [&trunk::FRONTS, &trunk::BACKS].map(|roles| joins.worn_as(roles));
+    let lay = |own: &[usize], other: &[usize]| {
+        // A band between two pieces of this side lies with them.
+        let bands = joins.worn_as(&[Role::Waistband, Role::Other]).into_iter();
+        let is_between = |&band: &usize| {
+            let count = own.iter().filter(|&&p| !joins.between(band, p).is_empty()).count();
+            let is_waist = joins.garment.pieces[band].role == Role::Waistband;
+            count > usize::from(!is_waist) && joins.to_any(band, other).is_empty()
+        };
+        let pieces = own.iter().copied().chain(bands.filter(is_between));
+        Sheet::lay(joins, pieces.map(|p| Part::new(p, joins.up(p, V2::y()))).collect())
+    };
+    let [fronts, backs] = [lay(&in_front, &behind), lay(&behind, &in_front)];
+    // Where one side is in several parts, as open fronts are, its parts lie as their seams to the other side say.
+    let garment = joins.garment;
+    if fronts.len() >= backs.len() {
+        let back = Sheet::beside(backs, garment);
+        [Sheet::beside(ordered(joins, fronts, &back), garment), back]
+    } else {
+        let front = Sheet::beside(fronts, garment);
+        let backs = ordered(joins, backs, &front);
+        [front, Sheet::beside(backs, garment)]
+    }
+}
+
+/// Sheets from left to right as seen from outside, by where they are sewn to the other side.
+fn ordered(joins: &Joins, sheets: Vec<Sheet>, other: &Sheet) -> Vec<Sheet> {
+    let there = other.pieces();
+    let place = |sheet: &Sheet| {
+        let pairs = sheet.parts.iter().flat_map(|part| joins.to_any(part.piece, &there));
+        let opposite = |[_, b]: [usize; 2]| {
+            let part = other.parts.iter().find(|part| part.piece == joins.piece_of[b]);
+            part.map(|part| part.at(joins.garment.rest[b]).x)
+        };
+        let places: Vec<f64> = pairs.filter_map(opposite).collect();
+        places.iter().sum::<f64>() / places.len().max(1) as f64
+    };
+    let mut placed: Vec<(f64, Sheet)> = sheets.into_iter().map(|sheet| (place(&sheet), sheet)).collect();
+    // What is right on one side is left on the other.
+    placed.sort_by(|a, b| b.0.total_cmp(&a.0));
+    placed.into_iter().map(|(_, sheet)| sheet).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{self, Measurements, Sex};
+    use crate::geom::Surface;
+    use crate::pattern::Style;
+    use crate::pattern::draft::Model;
+
+    fn body() -> Body {
+        let measurements = Measurements {
+            sex: Sex::Male,
+            stature_m: 1.75,
+            weight_kg: None,
+            chest_girth_m: None,
+            waist_girth_m: None,
+            hip_girth_m: None,
+            neck_girth_m: None,
+            across_shoulder_m: None,
+        };
+        body::build(&measurements).expect("a body")
+    }
+
+    fn garment(model: Model) -> Garment {
+        let style = Style::read(&model.drafts()[0].pieces, model.seams(), "seams").expect("a style");
+        style.mesh(0.04).expect("a mesh")
+    }
+
+    #[test]
+    fn drafted_garments_start_outside_the_body_with_near_seams() {
+        let body = body();
+        let surface = Surface::new(&body.mesh).expect("a closed body");
+        // Greatest share of vertices inside, and greatest mean gap of the seams.
+        let check = |model: Model, inside: f64, gap_m: f64| {
+            let garment = garment(model);
+            let x = place(&body, &garment, &Params::default()).expect("all roles are known");
+            let count = x.iter().filter(|p| surface.signed_distance(p) < 0.0).count();
+            assert!((count as f64) <= inside * x.len() as f64, "{}: {count} of {} inside", garment.name, x.len());
+            let pairs: Vec<_> = garment.seams.iter().flat_map(|seam| &seam.pairs).collect();
+            let mean = pairs.iter().map(|[a, b]| (x[*a] - x[*b]).norm()).sum::<f64>() / pairs.len() as f64;
+            assert!(mean < gap_m, "{}: mean gap {mean} m", garment.name);
+        };
+        check(Model::Tshirt, 0.03, 0.2);
+        check(Model::Teetop, 0.03, 0.2);
+        check(Model::Dress, 0.03, 0.2);
+        check(Model::Trousers, 0.05, 0.1);
+    }
+
+    #[test]
+    fn legs_start_on_their_own_side() {
+        let garment = garment(Model::Trousers);
+        let x = place(&body(), &garment, &Params::default()).expect("all roles are known");
+        for piece in &garment.pieces {
+            let side = if piece.id.ends_with("right") { 1.0 } else { -1.0 };
+            assert!(piece.vertices.clone().all(|v| x[v].x * side > 0.0), "{}", piece.id);
+        }
+    }
+
+    #[test]
+    fn a_piece_without_a_role_follows_its_seams() {
+        let body = body();
+        let mut garment = garment(Model::Teetop);
+        let known = place(&body, &garment, &Params::default()).expect("all roles are known");
+        let sleeve = garment.pieces.iter().position(|piece| piece.id == "sleeve_right").expect("it has sleeves");
+        garment.pieces[sleeve].role = Role::Other;
+        let followed = place(&body, &garment, &Params::default()).expect("it is sewn to known ones");
+        let vertices = garment.pieces[sleeve].vertices.clone();
+        let mean = |x: &[V3]| x[vertices.clone()].iter().sum::<V3>() / vertices.len() as f64;
+        assert!((mean(&known) - mean(&followed)).norm() < 0.25, "{} {}", mean(&known), mean(&followed));
+        garment.seams.clear();
+        let error = place(&body, &garment, &Params::default()).expect_err("nothing holds it").to_string();
+        assert!(error.contains("sleeve_right") && error.contains("cannot place role"), "{error}");
+    }
+}
