@@ -10,7 +10,8 @@ use crate::pattern::{Garment, Piece, check, garmentcode, propose, sheet};
 use crate::render::{self, Camera, Frame, Layer, Material, Scene};
 
 pub use crate::body::{
-    Accuracy, Body, Evaluation, Girths, LengthUnit, Measurements, Pictured, PicturedLevel, Pose, Scan, Sex, write_obj,
+    Accuracy, Body, Evaluation, Girths, LengthUnit, Measured, Measurements, Pictured, PicturedLevel, Pose, Scan, Sex,
+    write_obj,
 };
 pub use crate::pattern::check::Finding;
 pub use crate::pattern::draft::Model;
@@ -213,6 +214,15 @@ pub fn build_body(measurements: &Measurements) -> Result<Body> {
 /// When it cannot be read or is no standing person.
 pub fn read_scan(scan: &SourceFile, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<Scan> {
     body::from_scan(&scan.bytes, unit, sex).map_err(of_scan(scan))
+}
+
+/// Everything that is measured on a scan.
+///
+/// # Errors
+/// When a part of the body is not found.
+pub fn measured(scan: &Scan) -> Result<Measured> {
+    let lengths = body::lengths(&scan.imported.mesh, Some(scan.sex)).map_err(StudyError::stage("body"))?;
+    Ok(Measured { girths: scan.girths.clone(), lengths })
 }
 
 /// A scan as a body that wears garments.
