@@ -249,7 +249,7 @@ pub(super) fn usual_chest(stature: f64, crotch: f64) -> f64 {
 
 /// The level of the nipples, which leave no mark that a scan keeps: half way between the height at which the front stands out
 /// most from the chord between ribs and collar bones (a hanging breast or a muscle has that elsewhere) and the height that
-/// proportions tell; at most where the arms are still apart from the trunk.
+/// proportions tell, which err alike; at most where the arms are still apart from the trunk.
 pub(super) fn chest_level(mesh: &TriMesh, floor: f64, stature: f64, crotch: f64, middle: f64) -> Option<f64> {
     let (low, high) = (floor + 0.66 * stature, floor + 0.80 * stature);
     let front = |z: f64| tape::trunk_outline(mesh, z, middle).map(|outline| tape::depth_range(&outline).0);

@@ -75,12 +75,6 @@ pub(super) struct Outlines {
 
 impl Outlines {
     pub fn new(front: View, side: View, stature: f64) -> Result<Self, BodyError> {
-        if side.shows_two_legs() {
-            return Err(refused(
-                "side",
-                "two legs are seen apart: it is no side view, or the legs stand one before the other",
-            ));
-        }
         let camera_height = side.camera.map_or(0.0, |(focal, distance)| {
             let rise = (side.mask.height as f64 / 2.0 - side.rows.0 as f64) / focal;
             stature - distance * rise + CROWN * stature * (rise.hypot(1.0) - 1.0)
@@ -96,6 +90,12 @@ impl Outlines {
     pub fn sections(&self, sex: Sex, notes: &mut Vec<String>) -> Result<[Section; 4], BodyError> {
         let waist = WAIST[usize::from(sex == Sex::Female)] * self.stature;
         self.check_arms(waist)?;
+        if self.side.shows_two_legs() {
+            return Err(refused(
+                "side",
+                "two legs are seen apart: it is no side view, or the legs stand one before the other",
+            ));
+        }
         let chest = self.chest_level().ok_or_else(|| refused("side", "no chest is found in its outline"))?;
         let hip = self.hip_level().ok_or_else(|| refused("side", "no buttocks are found in its outline"))?;
         let trunk = |level, height| self.trunk(level, height, bulges(level));
