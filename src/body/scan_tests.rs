@@ -156,7 +156,7 @@ fn meshes_that_are_no_body_are_refused_with_the_reason() {
     };
     check(&placed(&whole, |p| p * 1000.0), Some(LengthUnit::Metre), "1660.0000 m high");
     check(&part(&|p| p.x > 0.0), None, "half a body");
-    check(&part(&|p| p.z > 0.8), Some(LengthUnit::Metre), "a");
+    check(&part(&|p| p.z > 0.8 && p.x.abs() < 0.3), Some(LengthUnit::Metre), "no adult");
     let mut two = whole.clone();
     let count = two.positions.len();
     two.positions.extend(whole.positions.iter().map(|p| p + V3::new(1.2, 0.3, 0.0)));
