@@ -65,7 +65,9 @@ fn the_reference_bodies_measure_as_known() {
     };
     check("stature", 0.5, 0.5);
     check("neck", 1.0, 2.0);
-    check("chest", 5.0, 9.0);
+    check("chest", 5.0, 15.0);
+    check("chest level", 4.5, 9.0);
+    check("neck level", 4.0, 6.0);
     check("waist", 1.0, 2.0);
     check("hip", 3.0, 9.0);
     check("thigh", 3.0, 5.0);

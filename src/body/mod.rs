@@ -15,8 +15,10 @@ mod figure;
 mod import;
 mod interpolate;
 mod landmarks;
+mod lengths;
 mod limbs;
 mod loft;
+mod manifold;
 mod measure;
 mod outline;
 mod pictures;
@@ -38,6 +40,7 @@ pub use control::{ControlMesh, Layer, RING, Region};
 pub use control_file::{ControlFile, read_control, write_control};
 pub use evaluate::{Accuracy, Evaluated, Evaluation, evaluate};
 pub use import::{Imported, LengthUnit, import, write_obj};
+pub use lengths::{Lengths, Measured, lengths};
 pub use measure::{Girths, measure};
 pub use pictures::{Camera, Pictured, PicturedLevel, from_pictures, picture_height};
 pub use pose::{Pose, pose};
@@ -113,10 +116,24 @@ pub enum BodyError {
         problem: String,
     },
     /// A surface that cannot bound a solid body.
+    #[error("the surface does not close: {problem}; accepted: one whole body, its holes under 0.9 m round")]
+    Open {
+        /// What is open.
+        problem: String,
+    },
+    /// More than one body.
     #[error(
-        "the surface does not close after its repair (a half body, or parts that cross); accepted: a whole body whose holes are under 0.9 m round"
+        "two pieces of a like size: several bodies, or halves that are not joined; accepted: one body in one piece"
     )]
-    Open,
+    Several,
+    /// A mesh that is no adult in the unit given.
+    #[error("the body is {extent:.4} {unit} high, which is no adult; accepted: 1.2 to 2.4 m; is the unit right?")]
+    WrongUnit {
+        /// Height in the unit given.
+        extent: f64,
+        /// The unit.
+        unit: &'static str,
+    },
     /// A mesh whose size fits a standing adult in no unit.
     #[error("the body is {extent} high, which is no adult in mm, cm or m; accepted: 1.2 to 2.4 m, or say the unit")]
     Unit {

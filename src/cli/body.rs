@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 use super::args::{Body, BodyBuild, MeshUnit, Sex};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
-use crate::study::tools::{self, Accuracy, Girths, Lens, Measurements, View};
+use crate::study::tools::{self, Accuracy, Lens, Measurements, View};
 use crate::study::{Table, Value};
 use crate::units::from_mm;
 
@@ -19,8 +19,7 @@ pub fn run(context: &Context, command: &Body) -> Outcome {
     match command {
         Body::Measure { file, unit, sex } => {
             let source = tools::SourceFile::read(file)?;
-            let girths = read_scan(context, &source, *unit, *sex)?.girths;
-            print(context, &girths)?;
+            print(context, &tools::measured(&read_scan(context, &source, *unit, *sex)?)?)?;
         }
         Body::Build(arguments) => build(context, arguments)?,
         Body::Pose { file, arm_deg, leg_deg, unit, sex, output } => {
@@ -178,7 +177,7 @@ fn pictured(
 }
 
 /// Prints measurements: a table for reading, the contract's keys as JSON.
-fn print(context: &Context, girths: &Girths) -> Result<(), CliError> {
+fn print(context: &Context, girths: &impl serde::Serialize) -> Result<(), CliError> {
     if context.json {
         return Ok(output::json(girths)?);
     }

@@ -12,7 +12,8 @@ use crate::render::{self, Camera, Frame, Layer, Material, Scene};
 pub use super::seam_desk::{Desk, DeskEdge, DeskPiece, DeskSeam, Proposed, desk, edit_seams, propose};
 pub use super::sewing::{CHECK_EDGE_MM, SizeCheck, check_study};
 pub use crate::body::{
-    Accuracy, Body, Evaluation, Girths, LengthUnit, Measurements, Pictured, PicturedLevel, Pose, Scan, Sex, write_obj,
+    Accuracy, Body, Evaluation, Girths, LengthUnit, Measured, Measurements, Pictured, PicturedLevel, Pose, Scan, Sex,
+    write_obj,
 };
 pub use crate::pattern::check::{Finding, of_garment as garment_findings};
 pub use crate::pattern::draft::Model;
@@ -168,6 +169,15 @@ pub fn build_body(measurements: &Measurements) -> Result<Body> {
 /// When it cannot be read or is no standing person.
 pub fn read_scan(scan: &SourceFile, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<Scan> {
     body::from_scan(&scan.bytes, unit, sex).map_err(of_scan(scan))
+}
+
+/// Everything that is measured on a scan.
+///
+/// # Errors
+/// When a part of the body is not found.
+pub fn measured(scan: &Scan) -> Result<Measured> {
+    let lengths = body::lengths(&scan.imported.mesh, Some(scan.sex)).map_err(StudyError::stage("body"))?;
+    Ok(Measured { girths: scan.girths.clone(), lengths })
 }
 
 /// A scan as a body that wears garments.

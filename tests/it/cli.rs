@@ -289,6 +289,16 @@ fn body_measure_has_its_keys_and_reads_what_was_asked_for() {
     for name in ["body.obj", "body.png", "measurements.json"] {
         assert!(place.path("built").join(name).is_file(), "{name}");
     }
+    let scanned = place.toile("body build --scan built/body.obj --sex f -o scanned --json").ends_with(0).json();
+    let posed = place.toile("body pose built/body.obj --sex f --arm-deg 60 -o posed --json").ends_with(0).json();
+    for body in [scanned, posed] {
+        let (found, of_scan) = (&body["waist_girth_mm"], &measured["waist_girth_mm"]);
+        let off = found.as_f64().zip(of_scan.as_f64()).map(|(a, b)| (a - b).abs());
+        assert!(off.is_some_and(|off| off < 1.0), "{found} for {of_scan}");
+    }
+    for name in ["scanned/control.json", "scanned/body.png", "posed/body.obj"] {
+        assert!(place.path(name).is_file(), "{name}");
+    }
     assert!(!place.path("toile.sqlite").exists(), "no database is needed to measure");
 }
 

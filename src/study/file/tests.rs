@@ -99,6 +99,37 @@ fn broken_toml_names_its_line() {
 }
 
 #[test]
+fn a_subject_may_be_a_scan() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("writable");
+    write("tee-s.dxf", "dxf");
+    write("tee.seams.toml", "seams");
+    let asked = &known().subjects["male-ii"];
+    let body = crate::body::build(asked).expect("an ordinary man");
+    write("ii.obj", &crate::body::write_obj(&body.mesh));
+    let load = |subject: &str| {
+        let at = GOOD.find("like").expect("a subject");
+        let end = at + GOOD[at..].find('\n').expect("a line");
+        write("study.toml", &[&GOOD[..at], subject, &GOOD[end..]].concat());
+        Study::load(folder.path(), &known())
+    };
+    let study = load("scan = \"ii.obj\"\nsex = \"male\"").expect("a scan of a man");
+    let subject = &study.subjects[0];
+    assert!((subject.measurements.stature_m - asked.stature_m).abs() < 2e-3, "{subject:?}");
+    let chest = subject.measurements.chest_girth_m.expect("measured");
+    assert!((chest - 0.863).abs() < 3e-3, "{chest}");
+    let jobs = super::super::spec::jobs(&study);
+    let hash = |name: &str| jobs[0].inputs.iter().find(|(key, _)| *key == name).map(|(_, value)| value.to_owned());
+    let scan = subject.scan.as_ref().expect("a scan");
+    assert_eq!(hash("subject.ii.scan"), Some(scan.file.hash()));
+    let told = |subject: &str| load(subject).expect_err("bad").to_string();
+    assert!(told("scan = \"i.obj\"").contains("did you mean `ii.obj`?"));
+    assert!(told("scan = \"ii.obj\"\nstature_mm = 1700").contains("`stature_mm` beside `scan`"));
+    assert!(told("scan = \"ii.obj\"\nunit = \"mm\"").contains("is the unit right?"));
+    assert!(told("scan = \"tee-s.dxf\"").contains("no faces"));
+}
+
+#[test]
 fn the_quickstart_is_a_good_study() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/quickstart");
     let study = Study::load(&folder, &known()).expect("good");
