@@ -19,6 +19,19 @@ pub struct Girths {
     pub thigh_girth_mm: f64,
     /// Absent where the arm cannot be told from the trunk.
     pub upper_arm_girth_mm: Option<f64>,
+    /// The following five and the arm's length are read where the limbs' axes are known: on bodies built from measurements.
+    #[serde(default)]
+    pub knee_girth_mm: Option<f64>,
+    #[serde(default)]
+    pub calf_girth_mm: Option<f64>,
+    #[serde(default)]
+    pub ankle_girth_mm: Option<f64>,
+    #[serde(default)]
+    pub forearm_girth_mm: Option<f64>,
+    #[serde(default)]
+    pub wrist_girth_mm: Option<f64>,
+    #[serde(default)]
+    pub arm_length_mm: Option<f64>,
     pub across_shoulder_mm: f64,
     pub inseam_mm: f64,
     pub volume_l: f64,
@@ -93,6 +106,12 @@ pub(super) fn girths_at(mesh: &TriMesh, sites: &Sites) -> Result<Girths, BodyErr
         hip_girth_mm: trunk("hip", sites.hip)?,
         thigh_girth_mm: mm(tape::girth(thigh)),
         upper_arm_girth_mm: upper_arm.map(|(girth, _)| mm(girth)),
+        knee_girth_mm: None,
+        calf_girth_mm: None,
+        ankle_girth_mm: None,
+        forearm_girth_mm: None,
+        wrist_girth_mm: None,
+        arm_length_mm: None,
         across_shoulder_mm: mm(across_shoulder),
         inseam_mm: level(sites.crotch),
         volume_l: mesh.volume() * 1e3,

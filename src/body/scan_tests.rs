@@ -3,16 +3,7 @@ use crate::body::{Measurements, build, write_obj};
 use crate::geom::{TriMesh, V3};
 
 fn ordinary() -> TriMesh {
-    let asked = Measurements {
-        sex: Sex::Female,
-        stature_m: 1.66,
-        weight_kg: Some(64.0),
-        chest_girth_m: None,
-        waist_girth_m: None,
-        hip_girth_m: None,
-        neck_girth_m: None,
-        across_shoulder_m: None,
-    };
+    let asked = Measurements { weight_kg: Some(64.0), ..Measurements::of(Sex::Female, 1.66) };
     build(&asked).expect("an ordinary woman").mesh
 }
 

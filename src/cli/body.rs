@@ -80,6 +80,14 @@ fn build(context: &Context, arguments: &BodyBuild) -> Result<(), CliError> {
     for path in tools::write_files(&arguments.output, &files)? {
         context.say(format_args!("wrote {}", path.display()));
     }
+    let judgement = tools::judge_body(&measurements, &body);
+    if context.json {
+        return Ok(output::json(&judgement)?);
+    }
+    for doubt in &judgement.doubts {
+        context.say(format_args!("{doubt}"));
+    }
+    context.say(format_args!("{}", judgement.mass));
     print(context, &body.girths)
 }
 
@@ -97,16 +105,7 @@ fn measurements(context: &Context, arguments: &BodyBuild) -> Result<Measurements
             let (sex, stature_m) = (of(sex), from_mm(stature_mm));
             match (&arguments.front, &arguments.side) {
                 (Some(front), Some(side)) => pictured(context, arguments, [front, side], sex, stature_m)?,
-                _ => Measurements {
-                    sex,
-                    stature_m,
-                    weight_kg: None,
-                    chest_girth_m: None,
-                    waist_girth_m: None,
-                    hip_girth_m: None,
-                    neck_girth_m: None,
-                    across_shoulder_m: None,
-                },
+                _ => Measurements::of(sex, stature_m),
             }
         }
     };
@@ -119,6 +118,17 @@ fn measurements(context: &Context, arguments: &BodyBuild) -> Result<Measurements
         (&mut known.hip_girth_m, arguments.hip_girth_mm),
         (&mut known.neck_girth_m, arguments.neck_girth_mm),
         (&mut known.across_shoulder_m, arguments.across_shoulder_mm),
+        (&mut known.underbust_girth_m, arguments.underbust_girth_mm),
+        (&mut known.thigh_girth_m, arguments.thigh_girth_mm),
+        (&mut known.knee_girth_m, arguments.knee_girth_mm),
+        (&mut known.calf_girth_m, arguments.calf_girth_mm),
+        (&mut known.ankle_girth_m, arguments.ankle_girth_mm),
+        (&mut known.upper_arm_girth_m, arguments.upper_arm_girth_mm),
+        (&mut known.forearm_girth_m, arguments.forearm_girth_mm),
+        (&mut known.wrist_girth_m, arguments.wrist_girth_mm),
+        (&mut known.inseam_m, arguments.inseam_mm),
+        (&mut known.arm_length_m, arguments.arm_length_mm),
+        (&mut known.foot_length_m, arguments.foot_length_mm),
     ];
     for (length, given_mm) in lengths {
         *length = given_mm.map(from_mm).or(*length);

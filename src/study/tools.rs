@@ -10,7 +10,7 @@ use crate::pattern::{Garment, Piece, check, garmentcode, propose, sheet};
 use crate::render::{self, Camera, Frame, Layer, Material, Scene};
 
 pub use crate::body::{
-    Accuracy, Evaluation, Girths, LengthUnit, Measurements, Pictured, PicturedLevel, Sex, write_obj,
+    Accuracy, Doubt, Evaluation, Girths, LengthUnit, Mass, Measurements, Pictured, PicturedLevel, Sex, write_obj,
 };
 pub use crate::pattern::check::Finding;
 pub use crate::pattern::draft::Model;
@@ -205,6 +205,29 @@ pub fn read_measurements(path: &Path) -> Result<Measurements> {
 /// When a measurement is impossible.
 pub fn build_body(measurements: &Measurements) -> Result<Body> {
     body::build(measurements).map_err(StudyError::stage("body"))
+}
+
+/// A built body beside what was asked: the keys of `body measure`, what is doubtful, and its mass.
+#[derive(Debug, serde::Serialize)]
+pub struct Judgement<'a> {
+    /// What the tape reads.
+    #[serde(flatten)]
+    pub girths: &'a Girths,
+    /// Measurements that few people alike have.
+    pub doubts: Vec<Doubt>,
+    /// Mass from the volume.
+    #[serde(flatten)]
+    pub mass: Mass,
+}
+
+/// Judges a built body.
+#[must_use]
+pub fn judge_body<'a>(measurements: &Measurements, body: &'a Body) -> Judgement<'a> {
+    Judgement {
+        girths: &body.girths,
+        doubts: body::plausibility(measurements),
+        mass: Mass::of(body.girths.volume_l, measurements.weight_kg),
+    }
 }
 
 /// Measures a body mesh file; also what had to be guessed about it.

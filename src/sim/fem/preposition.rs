@@ -134,17 +134,7 @@ mod tests {
 
     #[test]
     fn a_piece_that_cannot_be_placed_is_named() {
-        let measurements = Measurements {
-            sex: Sex::Male,
-            stature_m: 1.75,
-            weight_kg: None,
-            chest_girth_m: None,
-            waist_girth_m: None,
-            hip_girth_m: None,
-            neck_girth_m: None,
-            across_shoulder_m: None,
-        };
-        let body = body::build(&measurements).expect("a body");
+        let body = body::build(&Measurements::of(Sex::Male, 1.75)).expect("a body");
         let placed = |model: Model| {
             let style = Style::read(&model.drafts()[0].pieces, model.seams(), "seams").expect("a style");
             place(&body, &style.mesh(0.04).expect("a mesh"), &Params::default())
