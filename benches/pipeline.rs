@@ -28,14 +28,13 @@ const SPACING_M: f64 = 0.005;
 
 fn subject() -> Measurements {
     Measurements {
-        sex: Sex::Male,
-        stature_m: 1.690,
         weight_kg: Some(53.0),
         chest_girth_m: Some(0.863),
         waist_girth_m: Some(0.782),
         hip_girth_m: Some(0.914),
         neck_girth_m: Some(0.378),
         across_shoulder_m: Some(0.429),
+        ..Measurements::of(Sex::Male, 1.690)
     }
 }
 

@@ -20,6 +20,19 @@ pub struct Girths {
     pub thigh_girth_mm: f64,
     /// Absent where the arm cannot be told from the trunk.
     pub upper_arm_girth_mm: Option<f64>,
+    /// The following five and the arm's length are read where the limbs' axes are known: on bodies built from measurements.
+    #[serde(default)]
+    pub knee_girth_mm: Option<f64>,
+    #[serde(default)]
+    pub calf_girth_mm: Option<f64>,
+    #[serde(default)]
+    pub ankle_girth_mm: Option<f64>,
+    #[serde(default)]
+    pub forearm_girth_mm: Option<f64>,
+    #[serde(default)]
+    pub wrist_girth_mm: Option<f64>,
+    #[serde(default)]
+    pub arm_length_mm: Option<f64>,
     pub across_shoulder_mm: f64,
     pub inseam_mm: f64,
     pub volume_l: f64,
@@ -40,14 +53,12 @@ impl Girths {
     pub fn measurements(&self, sex: Sex) -> Measurements {
         let girth = |mm: f64| Some(from_mm(mm));
         Measurements {
-            sex,
-            stature_m: from_mm(self.stature_mm),
-            weight_kg: None,
             chest_girth_m: girth(self.chest_girth_mm),
             waist_girth_m: girth(self.waist_girth_mm),
             hip_girth_m: girth(self.hip_girth_mm),
             neck_girth_m: girth(self.neck_girth_mm),
             across_shoulder_m: girth(self.across_shoulder_mm),
+            ..Measurements::of(sex, from_mm(self.stature_mm))
         }
     }
 }
@@ -131,6 +142,12 @@ pub(super) fn girths_at(mesh: &TriMesh, sites: &Sites) -> Result<Girths, BodyErr
         hip_girth_mm: trunk("hip", sites.hip)?,
         thigh_girth_mm: mm(tape::girth(thigh)),
         upper_arm_girth_mm: upper_arm.map(|(girth, _)| mm(girth)),
+        knee_girth_mm: None,
+        calf_girth_mm: None,
+        ankle_girth_mm: None,
+        forearm_girth_mm: None,
+        wrist_girth_mm: None,
+        arm_length_mm: None,
         across_shoulder_mm: mm(across_shoulder),
         inseam_mm: level(sites.crotch),
         volume_l: mesh.volume() * 1e3,

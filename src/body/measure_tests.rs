@@ -78,16 +78,7 @@ fn the_reference_bodies_measure_as_known() {
 
 #[test]
 fn a_built_body_is_measured_alike_through_any_file() {
-    let asked = Measurements {
-        sex: Sex::Male,
-        stature_m: 1.76,
-        weight_kg: Some(68.0),
-        chest_girth_m: None,
-        waist_girth_m: None,
-        hip_girth_m: None,
-        neck_girth_m: None,
-        across_shoulder_m: None,
-    };
+    let asked = Measurements { weight_kg: Some(68.0), ..Measurements::of(Sex::Male, 1.76) };
     let body = build(&asked).expect("an ordinary man");
     let straight = measure(&body.mesh, Some(Sex::Male)).expect("a standing body");
     let mut turned = body.mesh.clone();

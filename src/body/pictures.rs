@@ -99,14 +99,11 @@ pub fn from_pictures(
     let levels = levels.collect();
     let [neck, chest, waist, hip] = girths.map(Some);
     let measurements = Measurements {
-        sex,
-        stature_m,
-        weight_kg: None,
         chest_girth_m: chest,
         waist_girth_m: waist,
         hip_girth_m: hip,
         neck_girth_m: neck,
-        across_shoulder_m: None,
+        ..Measurements::of(sex, stature_m)
     };
     Ok(Pictured { measurements, levels, crotch_level_mm: mm(outlines.crotch), notes })
 }

@@ -100,16 +100,7 @@ fn silhouettes_of_built_bodies_give_their_girths() {
 }
 
 fn measured(sex: Sex, stature_m: f64, weight_kg: f64) -> Measurements {
-    Measurements {
-        sex,
-        stature_m,
-        weight_kg: Some(weight_kg),
-        chest_girth_m: None,
-        waist_girth_m: None,
-        hip_girth_m: None,
-        neck_girth_m: None,
-        across_shoulder_m: None,
-    }
+    Measurements { weight_kg: Some(weight_kg), ..Measurements::of(sex, stature_m) }
 }
 
 #[test]

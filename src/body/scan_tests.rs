@@ -4,16 +4,7 @@ use crate::body::{Measurements, build, write_obj};
 use crate::geom::{Surface, TriMesh};
 
 fn built(sex: Sex, stature_m: f64, weight_kg: f64) -> Body {
-    let asked = Measurements {
-        sex,
-        stature_m,
-        weight_kg: Some(weight_kg),
-        chest_girth_m: None,
-        waist_girth_m: None,
-        hip_girth_m: None,
-        neck_girth_m: None,
-        across_shoulder_m: None,
-    };
+    let asked = Measurements { weight_kg: Some(weight_kg), ..Measurements::of(sex, stature_m) };
     build(&asked).expect("an ordinary body")
 }
 

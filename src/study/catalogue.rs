@@ -59,15 +59,15 @@ pub(crate) fn known(connection: Option<&Connection>) -> Result<Known> {
 fn subject_row(row: &Row<'_>) -> rusqlite::Result<(String, Measurements)> {
     let sex: String = row.get(1)?;
     let length = |column| row.get::<_, Option<f64>>(column).map(|x| x.map(from_mm));
+    let sex = if sex == "male" { Sex::Male } else { Sex::Female };
     let measurements = Measurements {
-        sex: if sex == "male" { Sex::Male } else { Sex::Female },
-        stature_m: from_mm(row.get(2)?),
         weight_kg: row.get(3)?,
         chest_girth_m: length(4)?,
         waist_girth_m: length(5)?,
         hip_girth_m: length(6)?,
         neck_girth_m: length(7)?,
         across_shoulder_m: length(8)?,
+        ..Measurements::of(sex, from_mm(row.get(2)?))
     };
     Ok((row.get(0)?, measurements))
 }
@@ -98,14 +98,13 @@ fn thesis_subjects() -> Result<Vec<(String, Measurements)>> {
             type Lengths = (f64, f64, f64, f64, f64);
             let (name, sex, stature, weight, girths): (String, Sex, f64, f64, Lengths) = row.map_err(unreadable)?;
             let measurements = Measurements {
-                sex,
-                stature_m: from_mm(stature),
                 weight_kg: Some(weight),
                 chest_girth_m: Some(from_mm(girths.0)),
                 waist_girth_m: Some(from_mm(girths.1)),
                 hip_girth_m: Some(from_mm(girths.2)),
                 neck_girth_m: Some(from_mm(girths.3)),
                 across_shoulder_m: Some(from_mm(girths.4)),
+                ..Measurements::of(sex, from_mm(stature))
             };
             Ok((name, measurements))
         })

@@ -3,7 +3,7 @@
 use super::file::{GarmentEntry, ScanFile, SizeFile, SourceFile, Study, Subject};
 use super::inputs::Inputs;
 use super::pipeline;
-use crate::body::Measurements;
+use crate::body::{Dimension, Measurements};
 use crate::fit::Simulator;
 use crate::sim::Fabric;
 use crate::units::mm;
@@ -130,21 +130,9 @@ fn job(
 /// A subject's measurements as inputs; absent ones are left out.
 pub(super) fn subject_inputs(inputs: &mut Inputs, id: &str, m: &Measurements) {
     inputs.set(format!("subject.{id}.sex"), sex_name(m));
-    let lengths = [
-        ("stature_mm", Some(m.stature_m)),
-        ("chest_girth_mm", m.chest_girth_m),
-        ("waist_girth_mm", m.waist_girth_m),
-        ("hip_girth_mm", m.hip_girth_m),
-        ("neck_girth_mm", m.neck_girth_m),
-        ("across_shoulder_mm", m.across_shoulder_m),
-    ];
-    for (name, length) in lengths {
-        if let Some(length) = length {
-            inputs.set(format!("subject.{id}.{name}"), millimetres(length));
-        }
-    }
-    if let Some(weight) = m.weight_kg {
-        inputs.set(format!("subject.{id}.weight_kg"), weight);
+    for (dimension, value) in m.known() {
+        let value = if dimension == Dimension::Weight { value } else { millimetres(value) };
+        inputs.set(format!("subject.{id}.{}", dimension.key()), value);
     }
 }
 

@@ -12,8 +12,8 @@ use crate::render::{self, Camera, Frame, Layer, Material, Scene};
 pub use super::seam_desk::{Desk, DeskEdge, DeskPiece, DeskSeam, Proposed, desk, edit_seams, propose};
 pub use super::sewing::{CHECK_EDGE_MM, SizeCheck, check_study};
 pub use crate::body::{
-    Accuracy, Body, Evaluation, Girths, LengthUnit, Measured, Measurements, Pictured, PicturedLevel, Pose, Scan, Sex,
-    write_obj,
+    Accuracy, Body, Doubt, Evaluation, Girths, LengthUnit, Mass, Measured, Measurements, Pictured, PicturedLevel, Pose,
+    Scan, Sex, write_obj,
 };
 pub use crate::pattern::check::{Finding, of_garment as garment_findings};
 pub use crate::pattern::draft::Model;
@@ -161,6 +161,29 @@ pub fn read_measurements(path: &Path) -> Result<Measurements> {
 /// When a measurement is impossible.
 pub fn build_body(measurements: &Measurements) -> Result<Body> {
     body::build(measurements).map_err(StudyError::stage("body"))
+}
+
+/// A built body beside what was asked: the keys of `body measure`, what is doubtful, and its mass.
+#[derive(Debug, serde::Serialize)]
+pub struct Judgement<'a> {
+    /// What the tape reads.
+    #[serde(flatten)]
+    pub girths: &'a Girths,
+    /// Measurements that few people alike have.
+    pub doubts: Vec<Doubt>,
+    /// Mass from the volume.
+    #[serde(flatten)]
+    pub mass: Mass,
+}
+
+/// Judges a built body.
+#[must_use]
+pub fn judge_body<'a>(measurements: &Measurements, body: &'a Body) -> Judgement<'a> {
+    Judgement {
+        girths: &body.girths,
+        doubts: body::plausibility(measurements),
+        mass: Mass::of(body.girths.volume_l, measurements.weight_kg),
+    }
 }
 
 /// Reads and measures a body scan, its unit and sex told from it where they are not given.

@@ -10,7 +10,7 @@ use super::super::error::{StudyError, nearest};
 use super::super::tools::read_scan;
 use super::reader::{Place, Reader};
 use super::{GarmentEntry, Known, Problem, ScanFile, SizeFile, SourceFile, Study, Subject};
-use crate::body::{LengthUnit, Measurements, Sex};
+use crate::body::{Dimension, LengthUnit, Measurements, Sex};
 use crate::fit::Cuts;
 use crate::fit::Simulator;
 use crate::sim::Fabric;
@@ -18,20 +18,17 @@ use crate::units::{from_mm, mm};
 
 const STUDY_KEYS: [&str; 8] =
     ["name", "simulators", "edge_length_mm", "repeats", "fit", "subject", "garment", "fabric"];
-const SUBJECT_KEYS: [&str; 12] = [
-    "id",
-    "like",
-    "scan",
-    "unit",
-    "sex",
-    "stature_mm",
-    "weight_kg",
-    "chest_girth_mm",
-    "waist_girth_mm",
-    "hip_girth_mm",
-    "neck_girth_mm",
-    "across_shoulder_mm",
-];
+/// Keys of a subject: who it is, where it comes from, and the measurements by which it is known.
+const SUBJECT_KEYS: [&str; 5 + Dimension::ALL.len()] = {
+    let mut keys = [""; 5 + Dimension::ALL.len()];
+    (keys[0], keys[1], keys[2], keys[3], keys[4]) = ("id", "like", "scan", "unit", "sex");
+    let mut i = 5;
+    while i < keys.len() {
+        keys[i] = Dimension::ALL[i - 5].key();
+        i += 1;
+    }
+    keys
+};
 const GARMENT_KEYS: [&str; 6] = ["name", "subjects", "seams", "unit", "fabric", "sizes"];
 const FABRIC_KEYS: [&str; 12] = [
     "name",
@@ -232,20 +229,16 @@ fn measurements(reader: &mut Reader<'_>, place: &Place<'_>) -> Option<Measuremen
         reader.missing(place, "stature_mm", "the stature in millimetres");
     }
     let stature_m = reader.number(place, "stature_mm", 500.0..2600.0).map(from_mm);
-    let weight_kg = reader.number(place, "weight_kg", 10.0..400.0);
-    let mut girth = |key| reader.number(place, key, GIRTH_MM).map(from_mm);
-    let [chest_girth_m, waist_girth_m, hip_girth_m, neck_girth_m, across_shoulder_m] =
-        ["chest_girth_mm", "waist_girth_mm", "hip_girth_mm", "neck_girth_mm", "across_shoulder_mm"].map(&mut girth);
-    Some(Measurements {
-        sex: sex?,
-        stature_m: stature_m?,
-        weight_kg,
-        chest_girth_m,
-        waist_girth_m,
-        hip_girth_m,
-        neck_girth_m,
-        across_shoulder_m,
-    })
+    let others = Dimension::ALL.into_iter().filter(|dimension| *dimension != Dimension::Stature);
+    let range = |dimension| if dimension == Dimension::Weight { 10.0..400.0 } else { GIRTH_MM };
+    let known: Vec<(Dimension, f64)> = others
+        .filter_map(|dimension| Some((dimension, reader.number(place, dimension.key(), range(dimension))?)))
+        .collect();
+    let mut measurements = Measurements::of(sex?, stature_m?);
+    for (dimension, value) in known {
+        measurements.set(dimension, value / dimension.per_si());
+    }
+    Some(measurements)
 }
 
 fn garments(

@@ -2,16 +2,8 @@ use super::*;
 use crate::body::Sex;
 
 fn known() -> Known {
-    let male_ii = Measurements {
-        sex: Sex::Male,
-        stature_m: 1.69,
-        weight_kg: Some(53.0),
-        chest_girth_m: Some(0.863),
-        waist_girth_m: None,
-        hip_girth_m: None,
-        neck_girth_m: None,
-        across_shoulder_m: None,
-    };
+    let male_ii =
+        Measurements { weight_kg: Some(53.0), chest_girth_m: Some(0.863), ..Measurements::of(Sex::Male, 1.69) };
     let cotton = Fabric {
         name: "cotton_shirting_light".into(),
         density_kg_m2: 0.1036,
