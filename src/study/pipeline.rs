@@ -218,6 +218,7 @@ mod tests {
     use super::super::catalogue;
     use super::super::file::Study;
     use super::super::spec;
+    use super::super::store::{self, Access};
     use super::*;
 
     fn quickstart() -> Vec<JobSpec> {
@@ -259,7 +260,9 @@ mod tests {
     #[test]
     fn ease_is_that_of_the_body_that_is_dressed() {
         let folder = tempfile::tempdir().expect("a folder");
-        let pipeline = Pipeline::new(&folder.path().join("toile.sqlite"));
+        let path = folder.path().join("toile.sqlite");
+        store::open(&path, Access::Create).expect("a new database");
+        let pipeline = Pipeline::new(&path);
         let jobs = quickstart();
         let [ii, v] = [&jobs[0], &jobs[1]].map(|job| pipeline.ease(job).expect("it can be made"));
         assert_eq!(ii[0].level, "chest");
