@@ -3,6 +3,8 @@
 //! Coefficients: least squares over 4,082 men and 1,986 women of the 2012 Anthropometric Survey of U.S. Army Personnel
 //! [Gordon 2014], dimension in millimetres from stature in millimetres and mass in kilograms.
 
+use std::ops::RangeInclusive;
+
 use super::{BodyError, Measurements, Sex};
 use crate::units::from_mm;
 
@@ -16,6 +18,12 @@ const RANGES: [(&str, f64, f64, &str); 7] = [
     ("neck_girth_m", 0.25, 0.55, "m"),
     ("across_shoulder_m", 0.30, 0.56, "m"),
 ];
+
+/// The values of a measurement, named by its field of [`Measurements`] and in its unit, that a body can be built with.
+#[must_use]
+pub fn accepted_range(name: &str) -> Option<RangeInclusive<f64>> {
+    RANGES.iter().find(|(known, ..)| *known == name).map(|(_, least, greatest, _)| *least..=*greatest)
+}
 
 /// A dimension as `constant + per_stature * stature + per_mass * mass` (mm, mm, kg).
 #[derive(Clone, Copy, Debug)]

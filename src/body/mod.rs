@@ -28,6 +28,7 @@ mod stl;
 mod surface;
 mod tape;
 
+pub use anthropometry::accepted_range;
 pub use build::build;
 pub use control::{ControlMesh, Layer, RING, Region};
 pub use control_file::{ControlFile, read_control, write_control};

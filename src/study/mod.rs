@@ -10,6 +10,7 @@ mod doctor;
 mod engine;
 mod enqueue;
 mod error;
+mod figure;
 mod file;
 mod inputs;
 mod outcome;
@@ -30,9 +31,14 @@ mod types;
 mod workspace;
 
 pub use actions::why_no_retry;
+pub use catalogue::{
+    Deed, FABRIC_NUMBERS, Field, Given, MEASUREMENTS, Mode, Part, Removed, Saved, StyleGiven, SubjectRow, doubts,
+    in_words, is_doubtful, percentile, sex,
+};
 pub use doctor::{Check, checks};
 pub use enqueue::{Planned, Why};
 pub use error::{Result, StudyError};
+pub use figure::Figure;
 pub use file::{Problem, Study, study_file};
 pub use inputs::{Change, Inputs, StageKind};
 pub use outcome::{Executor, Measured, Outcome};
@@ -45,7 +51,7 @@ pub use sql::Interrupter;
 pub use store::now_ms;
 pub use types::{
     Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, RecommendationRow, StageRow,
-    Status, StudyRow, Table, Value,
+    Status, StudyRow, SubjectId, Table, Value,
 };
 pub use workspace::Workspace;
 

@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use super::cache::{Artefact, Cache, Used};
 use super::error::{Result, StudyError};
-use super::inputs::StageKind;
+use super::inputs::{Inputs, StageKind};
 use super::outcome::{Executor, Measured, Outcome};
-use super::spec::JobSpec;
+use super::spec::{JobSpec, subject_inputs};
 use super::tools;
-use crate::body::Body;
+use crate::body::{Body, Measurements};
 use crate::fit::{self, Cuts, Ease, Simulator};
 use crate::geom::DistanceField;
 use crate::measure;
@@ -38,6 +38,16 @@ pub(crate) fn versions(simulator: Simulator) -> Vec<(&'static str, String)> {
         versions.push(("sim.parameters", blake3::hash(parameters.as_bytes()).to_hex().to_string()));
     }
     versions
+}
+
+/// The inputs of a subject's body, the same as among those of any job on it.
+pub(super) fn body_inputs(name: &str, measurements: &Measurements) -> Inputs {
+    let mut inputs = Inputs::default();
+    subject_inputs(&mut inputs, name, measurements);
+    for (name, version) in VERSIONS {
+        inputs.set(name, version);
+    }
+    inputs
 }
 
 /// A body, as the cache keeps it.
@@ -252,6 +262,8 @@ mod tests {
         ] {
             assert!(inputs.contains(&input), "{input:?} in {inputs:?}");
         }
+        let body = body_inputs(&jobs[0].subject, &jobs[0].measurements).stage_hash(StageKind::Body);
+        assert_eq!(body, jobs[0].inputs.stage_hash(StageKind::Body), "the catalogue's body is the job's");
         let differ = |a: usize, b: usize, stage| jobs[a].inputs.stage_hash(stage) != jobs[b].inputs.stage_hash(stage);
         assert!(!differ(0, 2, StageKind::Body) && differ(0, 1, StageKind::Body), "the body is the subject's");
         assert!(!differ(0, 1, StageKind::Mesh) && differ(0, 2, StageKind::Mesh), "the mesh is the size's");

@@ -4,13 +4,15 @@ use std::fmt;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use Screen::{Jobs, Results, Study};
+use Screen::{Jobs, Results, Study, Subjects};
 
 /// A screen of the workbench; its number is its key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Screen {
     /// The study as a grid of sizes by subjects.
     Study,
+    /// The subjects of the catalogue.
+    Subjects,
     /// The queue.
     Jobs,
     /// One result: its measurements and its picture.
@@ -19,13 +21,14 @@ pub enum Screen {
 
 impl Screen {
     /// All screens, in order of their numbers.
-    pub const ALL: [Self; 3] = [Self::Study, Self::Jobs, Self::Results];
+    pub const ALL: [Self; 4] = [Self::Study, Self::Subjects, Self::Jobs, Self::Results];
 
     /// Number and name, as on its tab.
     #[must_use]
     pub fn title(self) -> &'static str {
         match self {
             Self::Study => "1 Study",
+            Self::Subjects => "2 Subjects",
             Self::Jobs => "4 Jobs",
             Self::Results => "5 Results",
         }
@@ -91,6 +94,14 @@ pub enum Action {
     NextMap,
     /// Gives the picture all the room, or less again.
     Enlarge,
+    /// Asks for the values of a new subject.
+    AddSubject,
+    /// Asks for other values of the selected subject.
+    EditSubject,
+    /// Asks for a file with subjects.
+    ImportSubjects,
+    /// Removes the selected subject.
+    RemoveSubject,
     /// Pauses or resumes the study.
     Pause,
     /// Cancels the selected job.
@@ -228,6 +239,9 @@ const fn bind(
     Binding { action, name, keys, screens, hint, help }
 }
 
+/// Screens on which a job is selected.
+const RESULTS: &[Screen] = &[Study, Jobs, Results];
+
 /// The table of keys. Ctrl-A, B, S, Q, H, I, J and M stay free: tmux, screen, flow control and the terminal use them.
 pub const BINDINGS: &[Binding] = &[
     bind(Action::Open, "open", &[key(KeyCode::Enter)], &[Study, Jobs], "open", "Open the result of the selected job"),
@@ -239,9 +253,34 @@ pub const BINDINGS: &[Binding] = &[
         "enlarge",
         "Give the picture all the room, or less again",
     ),
+    bind(
+        Action::EditSubject,
+        "edit-subject",
+        &[ch('e'), key(KeyCode::Enter)],
+        &[Subjects],
+        "edit",
+        "Change the selected subject; results keep theirs",
+    ),
+    bind(Action::AddSubject, "add-subject", &[ch('a')], &[Subjects], "add", "Add a subject"),
+    bind(
+        Action::ImportSubjects,
+        "import-subjects",
+        &[ch('i')],
+        &[Subjects],
+        "import",
+        "Add or change the subjects of a CSV or TOML file",
+    ),
+    bind(
+        Action::RemoveSubject,
+        "delete-subject",
+        &[ch('d')],
+        &[Subjects],
+        "delete",
+        "Remove the selected subject; asks",
+    ),
     bind(Action::Pause, "pause", &[ch('p')], &[Study, Jobs], "pause", "Pause or resume the study; running jobs go on"),
-    bind(Action::Cancel, "cancel", &[ch('x')], &[], "cancel", "Cancel the selected queued or running job; asks"),
-    bind(Action::Retry, "retry", &[ch('r')], &[], "retry", "Queue the selected failed or cancelled job again"),
+    bind(Action::Cancel, "cancel", &[ch('x')], RESULTS, "cancel", "Cancel the selected queued or running job; asks"),
+    bind(Action::Retry, "retry", &[ch('r')], RESULTS, "retry", "Queue the selected failed or cancelled job again"),
     bind(Action::Run, "run", &[ch('R')], &[], "run", "Run the study here, in the background"),
     bind(Action::Stop, "stop", &[ch('X')], &[], "", "Stop the run started here; asks"),
     bind(Action::NextView, "view", &[ch('v')], &[Results], "view", "Turn the picture: front, side, back, quarter"),
@@ -250,14 +289,14 @@ pub const BINDINGS: &[Binding] = &[
         Action::OtherSimulator,
         "other-simulator",
         &[ch('f')],
-        &[],
+        RESULTS,
         "FEM/HYB",
         "Same size and subject by the other simulator",
     ),
     bind(Action::NextStage, "stage", &[ch('t')], &[Results], "stage", "Measurements of the next stage: popup, drape"),
     bind(Action::Filter, "filter", &[ch('/')], &[], "filter", "Show only what contains a text"),
-    bind(Action::Sort, "sort", &[ch('s')], &[Jobs, Results], "sort", "Sort by the next column"),
-    bind(Action::Reverse, "reverse", &[ch('S')], &[Jobs, Results], "", "Reverse the order"),
+    bind(Action::Sort, "sort", &[ch('s')], &[Subjects, Jobs, Results], "sort", "Sort by the next column"),
+    bind(Action::Reverse, "reverse", &[ch('S')], &[Subjects, Jobs, Results], "", "Reverse the order"),
     bind(Action::Help, "help", &[ch('?')], &[], "help", "List the keys; type to filter by name or key"),
     bind(Action::Palette, "palette", &[ch(':')], &[], "command", "Run any action by its name; :q quits"),
     bind(Action::Up, "up", &[ch('k'), key(KeyCode::Up)], &[], "", "Select what is above"),
@@ -285,6 +324,14 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::NextPane, "next-pane", &[key(KeyCode::Tab)], &[], "", "Give the focus to the next pane"),
     bind(Action::PreviousPane, "previous-pane", &[key(KeyCode::BackTab)], &[], "", "Give the focus to the pane before"),
     bind(Action::Show(Study), "study", &[ch('1')], &[], "", "Screen 1: the study, sizes by subjects"),
+    bind(
+        Action::Show(Subjects),
+        "subjects",
+        &[ch('2')],
+        &[],
+        "",
+        "Screen 2: the subjects, their bodies and percentiles",
+    ),
     bind(Action::Show(Jobs), "jobs", &[ch('4')], &[], "", "Screen 4: the queue, logs and convergence"),
     bind(Action::Show(Results), "results", &[ch('5')], &[], "", "Screen 5: one result, its numbers and picture"),
     bind(Action::NextGarment, "next-garment", &[ch(']')], &[], "", "Next garment of the study"),
@@ -343,6 +390,8 @@ mod tests {
         let check = |k: Key, screen, expect| assert_eq!(action_of(k, screen), expect, "{k} on {screen:?}");
         check(key(KeyCode::Enter), Jobs, Some(Action::Open));
         check(key(KeyCode::Enter), Results, Some(Action::Enlarge));
+        check(key(KeyCode::Enter), Subjects, Some(Action::EditSubject));
+        check(ch('x'), Subjects, None);
         check(ch('v'), Study, None);
         check(ctrl('c'), Study, Some(Action::Quit));
         check(ch('c'), Study, None);

@@ -10,12 +10,14 @@ mod act;
 mod action;
 mod copy;
 mod feed;
+mod form;
 mod go;
 mod message;
 mod overlay;
 mod picture;
 mod screens;
 mod state;
+mod subjects;
 mod terminal;
 #[cfg(test)]
 mod tests;

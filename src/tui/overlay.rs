@@ -3,6 +3,7 @@
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::action::{Action, BINDINGS, Binding, search};
+use super::form::{Form, PathPrompt};
 use super::message::Effect;
 
 /// What is open.
@@ -14,6 +15,10 @@ pub enum Overlay {
     Palette(List),
     /// The filter line, with the filter to go back to.
     Filter(String),
+    /// The values of a subject.
+    Form(Box<Form>),
+    /// The path of a file to import.
+    Path(PathPrompt),
     /// A question; `y` has the effects happen.
     Question {
         /// What is asked.
@@ -66,6 +71,8 @@ pub enum Outcome {
     Act(Action),
     /// It closes and effects follow.
     Effects(Vec<Effect>),
+    /// It stays open until what it asked for is done.
+    Sent(Vec<Effect>),
 }
 
 impl Overlay {
@@ -81,6 +88,9 @@ impl Overlay {
                 list.edit(event);
                 Outcome::Open
             }
+            Self::Form(_) | Self::Path(_) if leaves => Outcome::Closed,
+            Self::Form(form) => form.key(event),
+            Self::Path(prompt) => prompt.key(event),
             Self::Filter(before) if leaves => {
                 filter.clone_from(before);
                 Outcome::Closed
@@ -103,7 +113,7 @@ fn is_ctrl_c(event: &KeyEvent) -> bool {
 }
 
 /// Edits a line at its end; returns whether it changed.
-fn edit(text: &mut String, event: &KeyEvent) -> bool {
+pub(super) fn edit(text: &mut String, event: &KeyEvent) -> bool {
     let ctrl = event.modifiers.contains(KeyModifiers::CONTROL);
     match event.code {
         KeyCode::Char('u') if ctrl => text.clear(),

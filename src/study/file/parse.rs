@@ -6,10 +6,11 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::DeTable;
 
+use super::super::catalogue::{Entry, keys, sex};
 use super::super::error::nearest;
 use super::reader::{Place, Reader};
-use super::{GarmentEntry, Known, Problem, SizeFile, SourceFile, Study, Subject};
-use crate::body::{Measurements, Sex};
+use super::{GarmentEntry, Known, Placed, Problem, Sewn, SizeFile, SourceFile, Study, Subject};
+use crate::body::Measurements;
 use crate::fit::Cuts;
 use crate::fit::Simulator;
 use crate::sim::Fabric;
@@ -17,37 +18,7 @@ use crate::units::{from_mm, mm};
 
 const STUDY_KEYS: [&str; 8] =
     ["name", "simulators", "edge_length_mm", "repeats", "fit", "subject", "garment", "fabric"];
-const SUBJECT_KEYS: [&str; 10] = [
-    "id",
-    "like",
-    "sex",
-    "stature_mm",
-    "weight_kg",
-    "chest_girth_mm",
-    "waist_girth_mm",
-    "hip_girth_mm",
-    "neck_girth_mm",
-    "across_shoulder_mm",
-];
 const GARMENT_KEYS: [&str; 5] = ["name", "seams", "unit", "fabric", "sizes"];
-const FABRIC_KEYS: [&str; 12] = [
-    "name",
-    "density_kg_m2",
-    "thickness_mm",
-    "membrane_warp_n_m",
-    "membrane_weft_n_m",
-    "membrane_coupling_n_m",
-    "shear_n_m",
-    "bending_warp_nm",
-    "bending_weft_nm",
-    "friction_body",
-    "friction_self",
-    "source",
-];
-
-/// Plausible girths and widths of a person, mm.
-const GIRTH_MM: std::ops::Range<f64> = 100.0..3000.0;
-
 /// Checks the text of a study file; files it names are looked up beside it.
 pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec<Problem>> {
     let (mut reader, document) = open(path, text)?;
@@ -64,24 +35,36 @@ pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec
         name,
         path: path.to_owned(),
         simulators: simulators(&mut reader, &top),
-        edge_length_m: from_mm(reader.number(&top, "edge_length_mm", 2.0..100.0).unwrap_or(15.0)),
-        repeats: reader.number(&top, "repeats", 1.0..100.0).unwrap_or(1.0) as u32,
+        edge_length_m: from_mm(reader.number(&top, "edge_length_mm", 2.0..=100.0).unwrap_or(15.0)),
+        repeats: reader.number(&top, "repeats", 1.0..=100.0).unwrap_or(1.0) as u32,
         cuts: cuts(&mut reader, &top),
-        subjects: subjects(&mut reader, &top, &known.subjects),
+        subjects: subjects(&mut reader, &top, &known.subjects).into_iter().map(|placed| placed.entry).collect(),
         garments: garments(&mut reader, &top, folder, &fabrics),
     };
-    if reader.problems.is_empty() {
-        return Ok(study);
+    if study.subjects.is_empty() && !top.table.contains_key("subject") {
+        reader.missing(&top, "subject", "at least one [[subject]]");
     }
-    reader.problems.sort_by_key(|problem| problem.line);
-    Err(reader.problems)
+    reader.end(study)
+}
+
+/// Entries of one kind from the text of a file with tables like those of a study file.
+pub(super) fn entries<T>(
+    path: &Path,
+    text: &str,
+    read: impl FnOnce(&mut Reader<'_>, &Place<'_>) -> Vec<Placed<T>>,
+) -> Result<Vec<Placed<T>>, Vec<Problem>> {
+    let (mut reader, document) = open(path, text)?;
+    let top = Place { name: "file".into(), span: 0..0, table: document.get_ref() };
+    reader.only(&top, &STUDY_KEYS);
+    let entries = read(&mut reader, &top);
+    reader.end(entries)
 }
 
 /// Checks the text of a file with one subject's measurements.
 pub(super) fn measurements_file(path: &Path, text: &str) -> Result<Measurements, Vec<Problem>> {
     let (mut reader, document) = open(path, text)?;
     let top = Place { name: "measurements".into(), span: 0..0, table: document.get_ref() };
-    reader.only(&top, &SUBJECT_KEYS[2..]);
+    reader.only(&top, &keys::<Measurements>());
     match measurements(&mut reader, &top) {
         Some(measurements) if reader.problems.is_empty() => Ok(measurements),
         _ => Err(reader.problems),
@@ -129,7 +112,7 @@ fn cuts(reader: &mut Reader<'_>, top: &Place<'_>) -> Cuts {
     };
     let place = Place { name: "fit".into(), span: value.span(), table };
     reader.only(&place, &["tight_below_mm", "loose_above_mm"]);
-    let mut cut = |key, otherwise: f64| reader.number(&place, key, -500.0..1000.0).map_or(otherwise, from_mm);
+    let mut cut = |key, otherwise: f64| reader.number(&place, key, -500.0..=1000.0).map_or(otherwise, from_mm);
     let cuts = Cuts {
         tight_below_m: cut("tight_below_mm", default.tight_below_m),
         loose_above_m: cut("loose_above_mm", default.loose_above_m),
@@ -142,15 +125,16 @@ fn cuts(reader: &mut Reader<'_>, top: &Place<'_>) -> Cuts {
     cuts
 }
 
-fn subjects(reader: &mut Reader<'_>, top: &Place<'_>, known: &BTreeMap<String, Measurements>) -> Vec<Subject> {
-    let places = reader.tables(top, "subject", "subject");
-    if places.is_empty() {
-        reader.missing(top, "subject", "at least one [[subject]]");
-    }
+pub(super) fn subjects(
+    reader: &mut Reader<'_>,
+    top: &Place<'_>,
+    known: &BTreeMap<String, Measurements>,
+) -> Vec<Placed<Subject>> {
+    let accepted = [&["id", "like"], &keys::<Measurements>()[..]].concat();
     let mut subjects = Vec::new();
     let mut ids = BTreeSet::new();
-    for mut place in places {
-        reader.only(&place, &SUBJECT_KEYS);
+    for mut place in reader.tables(top, "subject", "subject") {
+        reader.only(&place, &accepted);
         let Some(id) = reader.need_text(&place, "id", "its name in results") else { continue };
         unique(reader, &mut ids, &id, "subject");
         place.name = format!("subject {}", id.get_ref());
@@ -165,41 +149,36 @@ fn subjects(reader: &mut Reader<'_>, top: &Place<'_>, known: &BTreeMap<String, M
             }
             None => measurements(reader, &place),
         };
-        subjects.extend(measurements.map(|measurements| Subject { id: (*id.get_ref()).to_owned(), measurements }));
+        subjects.extend(measurements.map(|measurements| {
+            let subject = Subject { id: (*id.get_ref()).to_owned(), measurements };
+            reader.placed(&id.span(), id.get_ref(), subject)
+        }));
     }
     subjects
 }
 
 fn measurements(reader: &mut Reader<'_>, place: &Place<'_>) -> Option<Measurements> {
-    let sex = match reader.need_text(place, "sex", "\"male\" or \"female\", or name a catalogue entry with `like`") {
-        Some(text) => match *text.get_ref() {
-            "male" | "m" | "M" => Some(Sex::Male),
-            "female" | "f" | "F" => Some(Sex::Female),
-            other => {
-                reader.problem(&text.span(), format!("{}: sex `{other}`; accepted: male, female", place.name));
-                None
-            }
-        },
-        None => None,
-    };
-    if !place.table.contains_key("stature_mm") {
-        reader.missing(place, "stature_mm", "the stature in millimetres");
+    let word = reader.need_text(place, "sex", "\"male\" or \"female\", or name a catalogue entry with `like`");
+    let sex = word.and_then(|word| {
+        let sex = sex(word.get_ref());
+        sex.map_err(|problem| reader.problem(&word.span(), format!("{}: {problem}", place.name))).ok()
+    });
+    let measurements = numbers(reader, place, Measurements::blank(""), "millimetres, as in `toile subject ls`");
+    Some(Measurements { sex: sex?, ..measurements? })
+}
+
+/// Reads the numbers of an entry over a blank one; `None` where one is wrong or missing.
+fn numbers<T: Entry>(reader: &mut Reader<'_>, place: &Place<'_>, mut entry: T, wanted: &str) -> Option<T> {
+    let before = reader.problems.len();
+    for field in T::fields() {
+        if place.table.contains_key(field.key) {
+            let number = reader.checked(place, field.key, |number| field.check(number));
+            field.set(&mut entry, number);
+        } else if field.is_required {
+            reader.missing(place, field.key, wanted);
+        }
     }
-    let stature_m = reader.number(place, "stature_mm", 500.0..2600.0).map(from_mm);
-    let weight_kg = reader.number(place, "weight_kg", 10.0..400.0);
-    let mut girth = |key| reader.number(place, key, GIRTH_MM).map(from_mm);
-    let [chest_girth_m, waist_girth_m, hip_girth_m, neck_girth_m, across_shoulder_m] =
-        ["chest_girth_mm", "waist_girth_mm", "hip_girth_mm", "neck_girth_mm", "across_shoulder_mm"].map(&mut girth);
-    Some(Measurements {
-        sex: sex?,
-        stature_m: stature_m?,
-        weight_kg,
-        chest_girth_m,
-        waist_girth_m,
-        hip_girth_m,
-        neck_girth_m,
-        across_shoulder_m,
-    })
+    (reader.problems.len() == before).then_some(entry)
 }
 
 fn garments(
@@ -215,23 +194,48 @@ fn garments(
     let mut garments = Vec::new();
     let mut names = BTreeSet::new();
     for mut place in places {
-        reader.only(&place, &GARMENT_KEYS);
-        let name = reader.need_text(&place, "name", "its name in results");
-        if let Some(name) = &name {
-            unique(reader, &mut names, name, "garment");
-            place.name = format!("garment {}", name.get_ref());
+        let name = named(reader, &mut place, &mut names);
+        if !place.table.contains_key("seams") {
+            reader.missing(&place, "seams", "the file that says how its pieces are sewn");
         }
-        let seams = reader.need_text(&place, "seams", "the file that says how its pieces are sewn");
-        let seams = seams.and_then(|file| source(reader, &place, &file, folder));
+        let Sewn { seams, unit, sizes } = sewn(reader, &place, folder);
         let fabric = reader.need_text(&place, "fabric", "the name of a fabric");
         let fabric = fabric.and_then(|name| lookup(reader, fabrics, &name, "fabric").cloned());
-        let unit = unit(reader, &place);
-        let sizes = sizes(reader, &place, folder);
         if let (Some(name), Some(seams), Some(fabric)) = (name, seams, fabric) {
             garments.push(GarmentEntry { name: (*name.get_ref()).to_owned(), seams, unit, fabric, sizes });
         }
     }
     garments
+}
+
+/// All garments without their cloth.
+pub(super) fn all_sewn(reader: &mut Reader<'_>, top: &Place<'_>, folder: &Path) -> Vec<Placed<Sewn>> {
+    let mut garments = Vec::new();
+    let mut names = BTreeSet::new();
+    for mut place in reader.tables(top, "garment", "garment") {
+        let name = named(reader, &mut place, &mut names);
+        let sewn = sewn(reader, &place, folder);
+        garments.extend(name.map(|name| reader.placed(&name.span(), name.get_ref(), sewn)));
+    }
+    garments
+}
+
+/// The name of a garment, which its place then bears.
+fn named<'t>(
+    reader: &mut Reader<'_>,
+    place: &mut Place<'t>,
+    names: &mut BTreeSet<&'t str>,
+) -> Option<Spanned<&'t str>> {
+    reader.only(place, &GARMENT_KEYS);
+    let name = reader.need_text(place, "name", "its name in results")?;
+    unique(reader, names, &name, "garment");
+    place.name = format!("garment {}", name.get_ref());
+    Some(name)
+}
+
+fn sewn(reader: &mut Reader<'_>, place: &Place<'_>, folder: &Path) -> Sewn {
+    let seams = reader.text(place, "seams").and_then(|file| source(reader, place, &file, folder));
+    Sewn { seams, unit: unit(reader, place), sizes: sizes(reader, place, folder) }
 }
 
 fn unit(reader: &mut Reader<'_>, place: &Place<'_>) -> Option<String> {
@@ -268,48 +272,26 @@ fn sizes(reader: &mut Reader<'_>, garment: &Place<'_>, folder: &Path) -> Vec<Siz
 /// The known fabrics and those of the file itself, which win.
 fn fabrics(reader: &mut Reader<'_>, top: &Place<'_>, known: &BTreeMap<String, Fabric>) -> BTreeMap<String, Fabric> {
     let mut fabrics = known.clone();
-    let mut names = BTreeSet::new();
-    for mut place in reader.tables(top, "fabric", "fabric") {
-        reader.only(&place, &FABRIC_KEYS);
-        let Some(name) = reader.need_text(&place, "name", "its name") else { continue };
-        unique(reader, &mut names, &name, "fabric");
-        place.name = format!("fabric {}", name.get_ref());
-        if let Some(fabric) = fabric(reader, &place, name.get_ref()) {
-            fabrics.insert(fabric.name.clone(), fabric);
-        }
-    }
+    fabrics.extend(own_fabrics(reader, top).into_iter().map(|placed| (placed.name, placed.entry)));
     fabrics
 }
 
-fn fabric(reader: &mut Reader<'_>, place: &Place<'_>, name: &str) -> Option<Fabric> {
-    let mut need = |key, range| {
-        if !place.table.contains_key(key) {
-            reader.missing(place, key, "a number, SI units as in the library (`toile fabric ls`)");
-        }
-        reader.number(place, key, range)
-    };
-    let density_kg_m2 = need("density_kg_m2", 0.005..5.0);
-    let thickness_mm = need("thickness_mm", 0.01..20.0);
-    let [warp, weft] = ["membrane_warp_n_m", "membrane_weft_n_m"].map(|key| need(key, 1.0..1e6));
-    let shear_n_m = need("shear_n_m", 0.1..1e6);
-    let [bend_warp, bend_weft] = ["bending_warp_nm", "bending_weft_nm"].map(|key| need(key, 1e-9..1e-1));
-    let [friction_body, friction_self] = ["friction_body", "friction_self"].map(|key| need(key, 0.0..5.0));
-    let coupling = reader.number(place, "membrane_coupling_n_m", 0.0..1e6).unwrap_or(0.0);
-    let source = reader.text(place, "source").map_or("study file", Spanned::into_inner).to_owned();
-    Some(Fabric {
-        name: name.to_owned(),
-        density_kg_m2: density_kg_m2?,
-        thickness_m: from_mm(thickness_mm?),
-        membrane_warp_n_m: warp?,
-        membrane_weft_n_m: weft?,
-        membrane_coupling_n_m: coupling,
-        shear_n_m: shear_n_m?,
-        bending_warp_nm: bend_warp?,
-        bending_weft_nm: bend_weft?,
-        friction_body: friction_body?,
-        friction_self: friction_self?,
-        source,
-    })
+/// The fabrics of the file itself.
+pub(super) fn own_fabrics(reader: &mut Reader<'_>, top: &Place<'_>) -> Vec<Placed<Fabric>> {
+    let accepted = [&["name"], &keys::<Fabric>()[..]].concat();
+    let mut fabrics = Vec::new();
+    let mut names = BTreeSet::new();
+    for mut place in reader.tables(top, "fabric", "fabric") {
+        reader.only(&place, &accepted);
+        let Some(name) = reader.need_text(&place, "name", "its name") else { continue };
+        unique(reader, &mut names, &name, "fabric");
+        place.name = format!("fabric {}", name.get_ref());
+        let source = reader.text(&place, "source").map_or("study file", Spanned::into_inner).to_owned();
+        let blank = Fabric { source, ..Fabric::blank(name.get_ref()) };
+        let fabric = numbers(reader, &place, blank, "a number, SI units as in the library (`toile fabric ls`)");
+        fabrics.extend(fabric.map(|fabric| reader.placed(&name.span(), name.get_ref(), fabric)));
+    }
+    fabrics
 }
 
 /// Refuses a second entry of the same name.

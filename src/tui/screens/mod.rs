@@ -2,11 +2,13 @@
 
 mod chi;
 mod drape;
+mod forms;
 mod jobs;
 mod overlays;
 mod results;
 mod start;
 mod study;
+mod subjects;
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -34,6 +36,7 @@ pub fn draw(frame: &mut Frame<'_>, state: &State) {
     frame.render_widget(tabs(state, top.width), top);
     match state.screen {
         _ if state.data.is_none() => frame.render_widget(Paragraph::new(" reading the database…"), body),
+        Screen::Subjects => subjects::draw(frame, body, state),
         _ if state.is_first_start() => start::draw(frame, body, state),
         Screen::Study => study::draw(frame, body, state),
         Screen::Jobs => jobs::draw(frame, body, state),
@@ -132,7 +135,8 @@ fn status_line(state: &State, width: u16) -> Line<'static> {
     }
     // What matters most stands first in the table, but help and palette must always be found.
     let hinted = BINDINGS.iter().filter(|b| !b.hint.is_empty() && b.is_on(state.screen));
-    let hinted = hinted.filter(|b| !state.is_first_start() || matches!(b.name, "open" | "run" | "help" | "palette"));
+    let is_start = state.is_first_start() && state.screen != Screen::Subjects;
+    let hinted = hinted.filter(|b| !is_start || matches!(b.name, "open" | "run" | "help" | "palette"));
     let (last, first): (Vec<_>, Vec<_>) = hinted.partition(|b| matches!(b.name, "help" | "palette"));
     let columns = |b: &super::action::Binding| text::width(&b.keys[0].to_string()) + text::width(b.hint) + 3;
     let reserved: usize = last.iter().map(|b| columns(b)).sum();

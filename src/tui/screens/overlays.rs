@@ -10,7 +10,7 @@ use super::super::overlay::{List, Overlay};
 use super::super::state::State;
 use super::super::text::left;
 use super::super::theme::Theme;
-use super::{first_shown, pane};
+use super::{first_shown, forms, pane};
 
 pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, overlay: &Overlay, state: &State) {
     match overlay {
@@ -22,6 +22,8 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, overlay: &Overlay, state: 
             let title = format!(":{}▏  ↑↓ choose, ↵ does it, Esc closes", list.text);
             draw_list(frame, area, &title, list, state);
         }
+        Overlay::Form(form) => forms::draw_form(frame, area, form, state.theme),
+        Overlay::Path(prompt) => forms::draw_path(frame, area, prompt, state.theme),
         Overlay::Question { text, .. } => draw_question(frame, area, text, state.theme),
         Overlay::Filter(_) => {}
     }
@@ -75,7 +77,7 @@ fn draw_question(frame: &mut Frame<'_>, area: Rect, text: &str, theme: Theme) {
     frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }).block(block), place);
 }
 
-fn middle(area: Rect, width: u16, height: u16) -> Rect {
+pub(super) fn middle(area: Rect, width: u16, height: u16) -> Rect {
     let x = area.x + area.width.saturating_sub(width) / 2;
     let y = area.y + area.height.saturating_sub(height) / 2;
     Rect::new(x, y, width, height).intersection(area)
