@@ -57,8 +57,8 @@ impl State {
             Action::Lower => return self.prioritise(-1),
             Action::Run => return self.start_run(),
             Action::Stop => self.stop_run(),
-            Action::Help => self.overlay = Some(Overlay::Help(List::default())),
-            Action::Palette => self.overlay = Some(Overlay::Palette(List::default())),
+            Action::Help => self.overlay = Some(Overlay::Help(List::of(self.bindings))),
+            Action::Palette => self.overlay = Some(Overlay::Palette(List::of(self.bindings))),
             Action::Redraw => return vec![Effect::Clear],
             Action::Quit => return self.quit(),
         }

@@ -134,6 +134,12 @@ pub struct Key {
 }
 
 impl Key {
+    /// A key, with Ctrl or without.
+    #[must_use]
+    pub const fn new(code: KeyCode, ctrl: bool) -> Self {
+        Self { code, ctrl }
+    }
+
     /// The key of an event.
     #[must_use]
     pub fn of(event: &KeyEvent) -> Self {
@@ -163,6 +169,7 @@ impl fmt::Display for Key {
 }
 
 /// One row of the table of keys.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Binding {
     /// What it does.
     pub action: Action,
@@ -203,29 +210,29 @@ impl Binding {
 
 /// The action of a key on a screen.
 #[must_use]
-pub fn action_of(key: Key, screen: Screen) -> Option<Action> {
-    BINDINGS.iter().find(|binding| binding.is_on(screen) && binding.keys.contains(&key)).map(|binding| binding.action)
+pub fn action_of(bindings: &[Binding], key: Key, screen: Screen) -> Option<Action> {
+    bindings.iter().find(|binding| binding.is_on(screen) && binding.keys.contains(&key)).map(|binding| binding.action)
 }
 
 /// The actions whose name, keys or help contain a text: those whose name begins with it first.
 #[must_use]
-pub fn search(text: &str) -> Vec<&'static Binding> {
+pub fn search(bindings: &'static [Binding], text: &str) -> Vec<&'static Binding> {
     let text = text.trim().to_lowercase();
-    let mut found: Vec<&Binding> = BINDINGS.iter().filter(|binding| binding.matches(&text)).collect();
+    let mut found: Vec<&Binding> = bindings.iter().filter(|binding| binding.matches(&text)).collect();
     found.sort_by_key(|binding| (binding.name != text, !binding.name.starts_with(&text)));
     found
 }
 
 const fn ch(letter: char) -> Key {
-    Key { code: KeyCode::Char(letter), ctrl: false }
+    Key::new(KeyCode::Char(letter), false)
 }
 
 const fn ctrl(letter: char) -> Key {
-    Key { code: KeyCode::Char(letter), ctrl: true }
+    Key::new(KeyCode::Char(letter), true)
 }
 
 const fn key(code: KeyCode) -> Key {
-    Key { code, ctrl: false }
+    Key::new(code, false)
 }
 
 const fn bind(
@@ -242,7 +249,7 @@ const fn bind(
 /// Screens on which a job is selected.
 const RESULTS: &[Screen] = &[Study, Jobs, Results];
 
-/// The table of keys. Ctrl-A, B, S, Q, H, I, J and M stay free: tmux, screen, flow control and the terminal use them.
+/// The table of keys, which a file may change (see `keys`). Ctrl-A, B, S, Q, H, I, J and M stay free: tmux, screen, flow control and the terminal use them.
 pub const BINDINGS: &[Binding] = &[
     bind(Action::Open, "open", &[key(KeyCode::Enter)], &[Study, Jobs], "open", "Open the result of the selected job"),
     bind(
@@ -371,23 +378,23 @@ mod tests {
             assert!(!binding.keys.is_empty() && !binding.help.is_empty(), "{}", binding.name);
             assert!(binding.help.chars().count() <= 52, "{} has to fit 80 columns", binding.name);
             assert!(BINDINGS[..i].iter().all(|b| b.name != binding.name && b.action != binding.action));
-            assert_eq!(search(binding.name)[0].name, binding.name, "the palette finds it by its name");
+            assert_eq!(search(BINDINGS, binding.name)[0].name, binding.name, "the palette finds it by its name");
         }
     }
 
     #[test]
     fn the_palette_puts_names_first() {
-        let check = |text: &str, expect: &str| assert_eq!(search(text)[0].name, expect, "{text}");
+        let check = |text: &str, expect: &str| assert_eq!(search(BINDINGS, text)[0].name, expect, "{text}");
         check("q", "quit");
         check("quit", "quit");
         check("can", "cancel");
         check("queue", "cancel");
-        assert!(search("no such action").is_empty());
+        assert!(search(BINDINGS, "no such action").is_empty());
     }
 
     #[test]
     fn keys_mean_what_their_screen_says() {
-        let check = |k: Key, screen, expect| assert_eq!(action_of(k, screen), expect, "{k} on {screen:?}");
+        let check = |k: Key, screen, expect| assert_eq!(action_of(BINDINGS, k, screen), expect, "{k} on {screen:?}");
         check(key(KeyCode::Enter), Jobs, Some(Action::Open));
         check(key(KeyCode::Enter), Results, Some(Action::Enlarge));
         check(key(KeyCode::Enter), Subjects, Some(Action::EditSubject));

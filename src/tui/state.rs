@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use ratatui::layout::Size;
 
-use super::action::Screen;
+use super::action::{BINDINGS, Binding, Screen};
 use super::feed::{Detail, Focus, Snapshot};
 use super::message::Target;
 use super::overlay::Overlay;
@@ -122,6 +122,8 @@ pub struct Abilities {
 pub struct State {
     /// Styles.
     pub theme: Theme,
+    /// Keys.
+    pub bindings: &'static [Binding],
     /// What can be done.
     pub abilities: Abilities,
     /// Size of the terminal.
@@ -184,6 +186,7 @@ impl State {
     pub fn new(theme: Theme, abilities: Abilities, size: Size) -> Self {
         Self {
             theme,
+            bindings: BINDINGS,
             abilities,
             size,
             screen: Screen::Study,

@@ -73,7 +73,7 @@ impl State {
         }
         let Some(mut overlay) = self.overlay.take() else {
             self.notice = None;
-            return action_of(Key::of(event), self.screen).map_or(vec![], |action| self.act(action));
+            return action_of(self.bindings, Key::of(event), self.screen).map_or(vec![], |action| self.act(action));
         };
         match overlay.key(event, &mut self.filters[self.screen as usize]) {
             Outcome::Open => {
@@ -107,6 +107,7 @@ impl State {
         self.focus.study = snapshot.study().map(|study| study.name.clone());
         self.focus.garment = snapshot.grid.as_ref().map(|grid| grid.garment.clone());
         self.data = Some(snapshot);
+        self.subject = self.subject().map(|row| row.name.clone());
         self.clamp_place();
         self.chi_row = self.chi_row.min(self.chi().len().saturating_sub(1));
         let known = self.focus.job.filter(|id| self.data.as_ref().is_some_and(|data| data.job(*id).is_some()));

@@ -14,8 +14,9 @@ use signal_hook::iterator::Signals;
 
 use super::feed::{self, Focus};
 use super::message::{Act, Effect, Message, Target};
-use super::picture::{Canvas, Shot, Sitter};
-use crate::study::{Deed, Figure, Part, RunOptions, StudyError, SubjectId, Workspace};
+use super::painter;
+use super::picture::{Canvas, Shot};
+use crate::study::{Deed, Part, RunOptions, StudyError, Workspace};
 
 /// Time between two looks at whether the database has changed; a look costs microseconds.
 const LOOK: Duration = Duration::from_millis(250);
@@ -53,7 +54,7 @@ impl Workers {
         spawn(&sender, watch_signals);
         spawn(&sender, move |sender| serve_database(workspace, &asked, sender));
         let (path, readonly) = (database.clone(), workspace_is_readonly);
-        spawn(&sender, move |sender| paint(&path, readonly, canvas.as_ref(), &wanted, sender));
+        spawn(&sender, move |sender| painter::serve(&path, readonly, canvas.as_ref(), &wanted, sender));
         let stop = Arc::new(AtomicBool::new(false));
         Self { messages, sender, requests, shots, database, quickstart, stop, run: Mutex::new(None) }
     }
@@ -213,44 +214,6 @@ pub(super) fn do_act(workspace: &mut Workspace, act: &Act) -> Result<String, Stu
         Act::Resume(study) => {
             workspace.resume(study)?;
             Ok(format!("{study} goes on"))
-        }
-    }
-}
-
-/// Draws the pictures asked for, the latest only. The body shown last is kept ready.
-fn paint(database: &Path, readonly: bool, canvas: Option<&Canvas>, wanted: &Receiver<Shot>, sender: &Sender<Message>) {
-    let workspace = Workspace::open(database, readonly).map_err(|error| error.to_string());
-    let mut ready: Option<(SubjectId, Result<Figure, String>)> = None;
-    while let Ok(shot) = wanted.recv() {
-        let shot = wanted.try_iter().last().unwrap_or(shot);
-        let size = canvas.map_or((0, 0), |canvas| canvas.pixels(&shot));
-        let picture = match (&workspace, shot.of) {
-            (Err(error), _) => Err(error.clone()),
-            (Ok(workspace), Sitter::Drape(job)) => {
-                workspace.close_up(job, shot.view, size.0, size.1, shot.map).map_err(|error| error.to_string())
-            }
-            (Ok(workspace), Sitter::Body(id)) => {
-                if ready.as_ref().is_none_or(|(of, _)| *of != id) {
-                    let figure = workspace.figure(id).map_err(|error| error.to_string());
-                    let girths = figure.as_ref().map(|figure| Box::new(figure.girths().clone()));
-                    if sender.send(Message::Measured(id, girths.map_err(Clone::clone))).is_err() {
-                        return;
-                    }
-                    ready = Some((id, figure));
-                }
-                match &ready {
-                    Some((_, Ok(figure))) if shot.columns > 0 => {
-                        figure.picture(size.0, size.1).map_err(|error| error.to_string())
-                    }
-                    Some((_, Err(error))) => Err(error.clone()),
-                    _ => continue,
-                }
-            }
-        };
-        let Some(canvas) = canvas else { continue };
-        let drawn = picture.and_then(|picture| canvas.draw(&picture, &shot));
-        if sender.send(Message::Picture(shot, drawn)).is_err() {
-            return;
         }
     }
 }

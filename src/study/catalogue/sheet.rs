@@ -7,9 +7,9 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::super::error::nearest;
 use super::super::file::{Placed, Problem};
-use super::Part;
 use super::fields::{Entry, Given, filled, keys};
 use super::import::text_of;
+use super::{Part, check_name};
 
 /// Columns that hold the name of an entry, besides that of its part (`subject`).
 const NAMES: [&str; 2] = ["name", "id"];
@@ -96,6 +96,7 @@ fn row<T: Entry>(part: Part, header: &StringRecord, record: &StringRecord) -> Re
         Some(k) => format!("column {}: {problem}", k + 1),
         None => problem,
     };
+    check_name(name).map_err(|problem| vec![problem])?;
     filled(None, name, &given)
         .map(|entry| (name.to_owned(), entry))
         .map_err(|problems| problems.into_iter().map(placed).collect())

@@ -26,7 +26,12 @@ pub(super) fn draw_form(frame: &mut Frame<'_>, area: Rect, form: &Form, theme: T
     let width = area.width.min(76);
     let columns = usize::from(width.saturating_sub(2));
     let mut lines: Vec<Line<'_>> = (0..form.texts.len()).map(|k| line(form, k, columns, theme)).collect();
-    lines.extend(end(form.is_busy.then_some("building the body…"), form.problem.as_deref(), columns, theme));
+    // The line has little room for what is wrong with its value.
+    let wrong = match form.note(form.at) {
+        Note::Problem(problem) => Some(problem),
+        _ => form.problem.clone(),
+    };
+    lines.extend(end(form.is_busy.then_some("building the body…"), wrong.as_deref(), columns, theme));
     let keys = " Tab ↑↓ line  ↵ save  Esc cancel  empty = not known ";
     draw(frame, area, width, title, keys, lines, theme);
 }

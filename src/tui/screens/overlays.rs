@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Clear, Paragraph, Wrap};
 
-use super::super::action::{BINDINGS, Binding};
+use super::super::action::Binding;
 use super::super::overlay::{List, Overlay};
 use super::super::state::State;
 use super::super::text::left;
@@ -33,7 +33,8 @@ fn draw_list(frame: &mut Frame<'_>, area: Rect, title: &str, list: &List, state:
     let rows = list.rows();
     let height = (rows.len() as u16 + 2).max(3).min(area.height);
     let place = middle(area, area.width.min(100), height);
-    let block = pane(state.theme, title, true);
+    let place_of_keys = " other keys: toile/keys.toml in the config folder, like cancel = \"D\" ";
+    let block = pane(state.theme, title, true).title_bottom(Line::styled(place_of_keys, state.theme.legend()));
     let inner = block.inner(place);
     let first = first_shown(list.row, rows.len(), usize::from(inner.height));
     let line = |(k, binding): (usize, &&Binding)| {
@@ -51,7 +52,7 @@ fn draw_list(frame: &mut Frame<'_>, area: Rect, title: &str, list: &List, state:
 
 /// Keys, name and help of an action; dim where it does nothing on this screen.
 fn line(state: &State, binding: &Binding, columns: usize) -> Line<'static> {
-    let longest = |field: fn(&Binding) -> usize| BINDINGS.iter().map(field).max().unwrap_or(0);
+    let longest = |field: fn(&Binding) -> usize| state.bindings.iter().map(field).max().unwrap_or(0);
     let keys = longest(|b| super::super::text::width(&b.keys_text())) + 1;
     let name = longest(|b| b.name.len()) + 1;
     let help = super::super::text::shortened(binding.help, columns.saturating_sub(keys + name));

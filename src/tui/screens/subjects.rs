@@ -16,6 +16,10 @@ use crate::study::{Figure, MEASUREMENTS, SubjectRow, in_words, is_doubtful, perc
 /// Headings of the first measurements in the list, and their columns.
 const HEADINGS: [(&str, usize); SHOWN] = [("stature", 8), ("kg", 6), ("chest", 6), ("waist", 6), ("hip", 6)];
 
+/// Columns of the sex with the gaps beside it, and the fewest of a name.
+const SEX: usize = 3;
+const LEAST_NAME: usize = 10;
+
 /// Measurements of a body that are not asked for.
 type Reading = fn(&Girths) -> Option<f64>;
 const MORE: [(&str, Reading); 4] = [
@@ -64,15 +68,14 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
 fn list(state: &State, width: u16, height: u16) -> Vec<Line<'static>> {
     let subjects = state.subjects();
     let width = usize::from(width);
-    let numbers: usize = HEADINGS.iter().map(|(_, columns)| columns).sum();
-    let name = width.saturating_sub(numbers + 3).clamp(6, 24);
+    let (name, shown) = columns(width);
     let selected = state.subject().map(|row| row.id);
     let at = subjects.iter().position(|row| Some(row.id) == selected).unwrap_or(0);
     let height = usize::from(height).saturating_sub(1);
     let first = first_shown(at, subjects.len(), height);
-    let mut lines = vec![header(state, name, width)];
+    let mut lines = vec![header(state, name, shown)];
     for (k, row) in subjects.iter().enumerate().skip(first).take(height) {
-        let line = Line::raw(shortened(&list_line(row, name), width));
+        let line = Line::raw(shortened(&list_line(row, name, shown), width));
         lines.push(if k == at { as_selected(line, state.theme.selected()) } else { line });
     }
     if subjects.is_empty() {
@@ -86,7 +89,15 @@ fn list(state: &State, width: u16, height: u16) -> Vec<Line<'static>> {
     lines
 }
 
-fn header(state: &State, name: usize, width: usize) -> Line<'static> {
+/// Columns of the name, and how many measurements there is room for beside it.
+fn columns(width: usize) -> (usize, usize) {
+    let numbers = |shown: usize| HEADINGS.iter().take(shown).map(|(_, columns)| columns).sum::<usize>();
+    let fits = |shown: &usize| LEAST_NAME + SEX + numbers(*shown) <= width;
+    let shown = (0..=SHOWN).rev().find(fits).unwrap_or(0);
+    (width.saturating_sub(SEX + numbers(shown)).clamp(LEAST_NAME, 24), shown)
+}
+
+fn header(state: &State, name: usize, shown: usize) -> Line<'static> {
     let order = state.subject_order;
     let titled = |title: &str, by: SubjectOrder| match (order.by == by, order.reversed) {
         (false, _) => title.to_owned(),
@@ -95,15 +106,15 @@ fn header(state: &State, name: usize, width: usize) -> Line<'static> {
     };
     let mut text = left(&titled("subject", SubjectOrder::Name), name);
     text += &format!(" {}", left(&titled("s", SubjectOrder::Sex), 2));
-    for (k, (title, columns)) in HEADINGS.iter().enumerate() {
+    for (k, (title, columns)) in HEADINGS.iter().take(shown).enumerate() {
         text += &right(&titled(title, SubjectOrder::Measurement(k)), *columns);
     }
-    Line::styled(shortened(&text, width), state.theme.dim())
+    Line::styled(text, state.theme.dim())
 }
 
-fn list_line(row: &SubjectRow, name: usize) -> String {
+fn list_line(row: &SubjectRow, name: usize, shown: usize) -> String {
     let mut text = format!("{} {} ", left(&row.name, name), &text::sex(row)[..1]);
-    for (field, (_, columns)) in MEASUREMENTS.iter().zip(HEADINGS) {
+    for (field, (_, columns)) in MEASUREMENTS.iter().zip(HEADINGS).take(shown) {
         text += &right(&number(field.get(&row.measurements), field.key), columns);
     }
     text

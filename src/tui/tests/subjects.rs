@@ -29,7 +29,7 @@ fn subjects_are_chosen_sorted_and_filtered() {
     check("2j", "male-i");
     check("2jjjj", "male-ii");
     check("2Gg", "anna");
-    check("2S", "male-ii");
+    check("2sssS", "anna");
     check("2/MALE-<Enter>n", "male-ii");
     check("2/female<Enter>", "anna");
     let first = |keys: &str| Bench::example(80, 24).press(keys).state.subjects()[0].name.clone();
