@@ -185,7 +185,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let env = |name: &str| (name == "XDG_CONFIG_HOME").then(|| folder.path().display().to_string());
         let path = place(&env).expect("a place");
-        assert!(std::ptr::eq(read(Some(&path)).expect("none"), BINDINGS));
+        assert_eq!(read(Some(&path)).expect("none"), BINDINGS);
         std::fs::create_dir_all(path.parent().expect("a folder")).expect("writable");
         std::fs::write(&path, "cancel = \"D\"").expect("writable");
         assert!(read(Some(&path)).is_ok());
