@@ -33,7 +33,7 @@ mod workspace;
 pub use actions::why_no_retry;
 pub use catalogue::{
     Deed, FABRIC_NUMBERS, Field, Given, MEASUREMENTS, Mode, Part, Removed, Saved, StyleGiven, SubjectRow, doubts,
-    in_words, is_doubtful, percentile, sex,
+    is_doubtful, percentile, percentile_text, sex,
 };
 pub use doctor::{Check, checks};
 pub use enqueue::{Planned, Why};

@@ -8,7 +8,7 @@ use super::message::{Act, Effect};
 use super::overlay::{Outcome, edit};
 use super::text;
 use crate::study::tools::Sex;
-use crate::study::{Given, MEASUREMENTS, Mode, SubjectRow, in_words, is_doubtful, percentile, sex};
+use crate::study::{Given, MEASUREMENTS, Mode, SubjectRow, is_doubtful, percentile, percentile_text, sex};
 
 /// Lines of a form before its measurements: name and sex.
 const NAME: usize = 0;
@@ -110,8 +110,8 @@ impl Form {
                 let stands = |value: f64| percentile(self.sex()?, field.key, value);
                 field.read(text).map(|value| match value.and_then(stands) {
                     None => Note::None,
-                    Some(percentile) if is_doubtful(percentile) => Note::Doubt(in_words(percentile)),
-                    Some(percentile) => Note::Percentile(in_words(percentile)),
+                    Some(percentile) if is_doubtful(percentile) => Note::Doubt(percentile_text(percentile)),
+                    Some(percentile) => Note::Percentile(percentile_text(percentile)),
                 })
             }
         };

@@ -26,7 +26,7 @@ pub(crate) use fields::{Entry, keys};
 pub use fields::{FABRIC_NUMBERS, Field, Given, MEASUREMENTS, sex};
 pub use known::SubjectRow;
 pub(crate) use known::{add_builtin, known};
-pub use norms::{doubts, in_words, is_doubtful, percentile};
+pub use norms::{doubts, is_doubtful, percentile, percentile_text};
 pub(crate) use revision::{By, fabric, size, style, subject};
 pub use style::StyleGiven;
 

@@ -46,7 +46,7 @@ pub fn is_doubtful(percentile: f64) -> bool {
 
 /// A percentile in at most four characters: `P63`, `<P1`, `>P99`.
 #[must_use]
-pub fn in_words(percentile: f64) -> String {
+pub fn percentile_text(percentile: f64) -> String {
     if percentile < ORDINARY.0 {
         "<P1".to_owned()
     } else if percentile > ORDINARY.1 {
@@ -107,7 +107,7 @@ mod tests {
         assert_eq!(told[0], "stature_mm 1350 is doubtful: less than 1 % of women have less");
         assert_eq!(told[1], "chest_girth_mm 1500 is doubtful: less than 1 % of women have more");
         assert_eq!(told.len(), 2);
-        assert_eq!([0.3, 63.2, 99.7].map(in_words), ["<P1", "P63", ">P99"]);
+        assert_eq!([0.3, 63.2, 99.7].map(percentile_text), ["<P1", "P63", ">P99"]);
     }
 
     #[test]

@@ -11,7 +11,7 @@ use super::super::subjects::SHOWN;
 use super::super::text::{self, left, right, shortened};
 use super::{WIDE, drape, first_shown, is_narrow, pane, selected as as_selected};
 use crate::study::tools::Girths;
-use crate::study::{Figure, MEASUREMENTS, SubjectRow, in_words, is_doubtful, percentile};
+use crate::study::{Figure, MEASUREMENTS, SubjectRow, is_doubtful, percentile, percentile_text};
 
 /// Headings of the first measurements in the list, and their columns.
 const HEADINGS: [(&str, usize); SHOWN] = [("stature", 8), ("kg", 6), ("chest", 6), ("waist", 6), ("hip", 6)];
@@ -157,8 +157,8 @@ fn table(state: &State, subject: &SubjectRow, columns: usize) -> Vec<Line<'stati
         let asked = asked.map_or("—".to_owned(), |value| format!("{value}"));
         let text = format!("{}{}{}  ", left(field.label, 17), right(&asked, 9), right(&read, 10));
         let rare = stands.is_some_and(is_doubtful);
-        let words =
-            stands.map_or(String::new(), |p| format!("{}{}", left(&in_words(p), 4), if rare { "!" } else { " " }));
+        let words = stands
+            .map_or(String::new(), |p| format!("{}{}", left(&percentile_text(p), 4), if rare { "!" } else { " " }));
         let words = format!("{words} {}", stands.map_or(String::new(), |p| place_bar(p, bar)));
         let style = if rare { state.theme.warn() } else { state.theme.dim() };
         lines.push(Line::from(vec![Span::raw(text), Span::styled(words, style)]));
