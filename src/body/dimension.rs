@@ -83,7 +83,7 @@ impl Dimension {
 
     /// Name for people to read.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         self.facts().1
     }
 

@@ -36,9 +36,9 @@ mod stl;
 mod surface;
 mod survey;
 mod tape;
+mod template;
 #[cfg(test)]
 mod testing;
-mod template;
 
 pub use anthropometry::{Doubt, Mass, percentile, plausibility};
 pub use build::build;

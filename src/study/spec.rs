@@ -1,9 +1,10 @@
 //! From a study to its jobs: one specification for every garment, size, subject, simulator and repeat.
 
+use super::catalogue::{FABRIC_NUMBERS, MEASUREMENTS};
 use super::file::{GarmentEntry, ScanFile, SizeFile, SourceFile, Study, Subject};
 use super::inputs::Inputs;
 use super::pipeline;
-use crate::body::{Dimension, Measurements};
+use crate::body::Measurements;
 use crate::fit::Simulator;
 use crate::sim::Fabric;
 use crate::units::mm;
@@ -130,29 +131,20 @@ fn job(
 /// A subject's measurements as inputs; absent ones are left out.
 pub(super) fn subject_inputs(inputs: &mut Inputs, id: &str, m: &Measurements) {
     inputs.set(format!("subject.{id}.sex"), sex_name(m));
-    for (dimension, value) in m.known() {
-        let value = if dimension == Dimension::Weight { value } else { millimetres(value) };
-        inputs.set(format!("subject.{id}.{}", dimension.key()), value);
+    for field in &MEASUREMENTS {
+        if let Some(value) = field.get(m) {
+            inputs.set(format!("subject.{id}.{}", field.key), value);
+        }
     }
 }
 
 /// A fabric's numbers as inputs; where they are from does not matter to a result.
 pub(super) fn fabric_inputs(inputs: &mut Inputs, fabric: &Fabric) {
-    let numbers = [
-        ("density_kg_m2", fabric.density_kg_m2),
-        ("membrane_warp_n_m", fabric.membrane_warp_n_m),
-        ("membrane_weft_n_m", fabric.membrane_weft_n_m),
-        ("membrane_coupling_n_m", fabric.membrane_coupling_n_m),
-        ("shear_n_m", fabric.shear_n_m),
-        ("bending_warp_nm", fabric.bending_warp_nm),
-        ("bending_weft_nm", fabric.bending_weft_nm),
-        ("friction_body", fabric.friction_body),
-        ("friction_self", fabric.friction_self),
-    ];
-    for (name, number) in numbers {
-        inputs.set(format!("fabric.{}.{name}", fabric.name), number);
+    for field in &FABRIC_NUMBERS {
+        if let Some(number) = field.get(fabric) {
+            inputs.set(format!("fabric.{}.{}", fabric.name, field.key), number);
+        }
     }
-    inputs.set(format!("fabric.{}.thickness_mm", fabric.name), millimetres(fabric.thickness_m));
 }
 
 /// Name of a subject's sex in SQL and study files.
