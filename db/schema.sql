@@ -13,7 +13,7 @@ CREATE TABLE subject (
     hip_girth_mm REAL,
     neck_girth_mm REAL,
     across_shoulder_mm REAL,
-    created_at INTEGER NOT NULL,
+    created_at INTEGER NOT NULL, underbust_girth_mm REAL, thigh_girth_mm REAL, knee_girth_mm REAL, calf_girth_mm REAL, ankle_girth_mm REAL, upper_arm_girth_mm REAL, forearm_girth_mm REAL, wrist_girth_mm REAL, inseam_mm REAL, arm_length_mm REAL, foot_length_mm REAL,
     UNIQUE (name, revision),
     UNIQUE (name, hash)
 ) STRICT;
@@ -324,7 +324,6 @@ FROM published, json_each(l3d_mm) AS lengths, json_each(chi) AS ratios,
     json_each('["i", "ii", "iii", "iv", "v", "vi"]') AS names
 WHERE lengths.key = ratios.key AND lengths.key = names.key;
 
-<<<<<<< HEAD
 CREATE TABLE published_metric (
     table_no TEXT NOT NULL,
     garment TEXT NOT NULL,
@@ -361,7 +360,7 @@ CREATE TABLE published_preposition (
     chi REAL NOT NULL,
     PRIMARY KEY (bend_deg, measurement, offset_printed)
 ) STRICT, WITHOUT ROWID;
-=======
+
 CREATE TABLE catalogue_entry (
     part TEXT NOT NULL CHECK (part IN ('subject', 'style', 'size', 'fabric')),
     name TEXT NOT NULL,
@@ -373,7 +372,9 @@ CREATE TABLE catalogue_entry (
 
 CREATE VIEW v_subjects AS
 SELECT name AS subject, subject.revision, sex, stature_mm, weight_kg, chest_girth_mm, waist_girth_mm, hip_girth_mm,
-    neck_girth_mm, across_shoulder_mm, hash, subject.revision = entry.revision AS is_latest, is_retired
+    neck_girth_mm, across_shoulder_mm, underbust_girth_mm, thigh_girth_mm, knee_girth_mm, calf_girth_mm,
+    ankle_girth_mm, upper_arm_girth_mm, forearm_girth_mm, wrist_girth_mm, inseam_mm, arm_length_mm, foot_length_mm,
+    hash, subject.revision = entry.revision AS is_latest, is_retired
 FROM subject JOIN catalogue_entry AS entry USING (name) WHERE part = 'subject';
 
 CREATE VIEW v_styles AS
@@ -391,4 +392,3 @@ SELECT name AS fabric, fabric.revision, density_kg_m2, thickness_mm, membrane_wa
     membrane_coupling_n_m, shear_n_m, bending_warp_nm, bending_weft_nm, friction_body, friction_self, source, hash,
     fabric.revision = entry.revision AS is_latest, is_retired
 FROM fabric JOIN catalogue_entry AS entry USING (name) WHERE part = 'fabric';
->>>>>>> w-subj

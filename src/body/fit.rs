@@ -95,12 +95,8 @@ fn read(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Girths, BodyEr
 fn same_levels(mesh: &TriMesh, figure: &Figure, before: &Sites) -> Result<Sites, BodyError> {
     let mut neck = before.neck;
     let upper = tape::above(mesh, 0.8 * figure.stature());
-    let centre = tape::trunk_outline(&upper, neck.height, 0.0).map(|outline| {
-        let (front, back) = tape::depth_range(&outline);
-        V3::new(0.0, (front + back) / 2.0, neck.height)
-    });
     let across = V3::new(0.0, neck.lean.sin(), neck.lean.cos());
-    neck.girth = centre.and_then(|centre| tape::girth_round(&upper, centre, across)).unwrap_or(neck.girth);
+    neck.girth = tape::girth_round(&upper, neck.centre, across).unwrap_or(neck.girth);
     Ok(Sites { neck, upper_arm: Some(figure.upper_arm()), ..build::moving_sites(mesh, figure, before)? })
 }
 

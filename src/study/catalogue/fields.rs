@@ -325,7 +325,7 @@ mod tests {
             [
                 "sex `woman`; accepted: male, female",
                 "`stature_mm` is `1,65`, which is no number; accepted: 1300 to 2200",
-                "`waist_girth_mm` is 70; accepted: 450 to 1600",
+                "`waist_girth_mm` is 70; accepted: 450 to 1700",
                 "unknown value `wiast_girth_mm`; did you mean `waist_girth_mm`?",
             ]
         );
