@@ -60,7 +60,7 @@ CREATE TABLE fabric (
     friction_body REAL NOT NULL,
     friction_self REAL NOT NULL,
     source TEXT NOT NULL,
-    created_at INTEGER NOT NULL,
+    created_at INTEGER NOT NULL, stretch REAL, stretched_warp_n_m REAL, stretched_weft_n_m REAL,
     UNIQUE (name, revision),
     UNIQUE (name, hash)
 ) STRICT;
@@ -316,12 +316,6 @@ SELECT style, name AS size, revision, pattern_file, unit, length(pattern) AS byt
     revision = max(revision) OVER (PARTITION BY style, name) AS is_latest
 FROM size;
 
-CREATE VIEW v_fabrics AS
-SELECT name AS fabric, revision, density_kg_m2, thickness_mm, membrane_warp_n_m, membrane_weft_n_m, membrane_coupling_n_m,
-    shear_n_m, bending_warp_nm, bending_weft_nm, friction_body, friction_self, source, hash,
-    revision = max(revision) OVER (PARTITION BY name) AS is_latest
-FROM fabric;
-
 CREATE TABLE published (
     table_no TEXT NOT NULL,
     garment TEXT NOT NULL,
@@ -344,3 +338,10 @@ SELECT table_no, garment, size, names.value AS subject, simulator, measurement_n
 FROM published, json_each(l3d_mm) AS lengths, json_each(chi) AS ratios,
     json_each('["i", "ii", "iii", "iv", "v", "vi"]') AS names
 WHERE lengths.key = ratios.key AND lengths.key = names.key;
+
+CREATE VIEW v_fabrics AS
+SELECT name AS fabric, revision, density_kg_m2, thickness_mm, membrane_warp_n_m, membrane_weft_n_m, membrane_coupling_n_m,
+    shear_n_m, bending_warp_nm, bending_weft_nm, friction_body, friction_self, source, hash,
+    revision = max(revision) OVER (PARTITION BY name) AS is_latest,
+    stretch, stretched_warp_n_m, stretched_weft_n_m
+FROM fabric;

@@ -9,6 +9,7 @@ pub mod drape;
 pub mod error;
 pub mod fabric;
 pub mod fem;
+pub mod laboratory;
 pub mod levels;
 pub mod quality;
 pub mod sewing;

@@ -13,6 +13,7 @@ use super::types::JobId;
 use super::workspace::Workspace;
 use crate::body::{Measurements, Sex};
 use crate::pattern::Style;
+use crate::sim::fabric::Stretched;
 use crate::sim::{self, Fabric};
 use crate::units::from_mm;
 
@@ -46,7 +47,8 @@ pub(crate) fn known(connection: Option<&Connection>) -> Result<Known> {
         known.subjects.extend([row?]);
     }
     let sql = "SELECT fabric, density_kg_m2, thickness_mm, membrane_warp_n_m, membrane_weft_n_m, membrane_coupling_n_m,
-            shear_n_m, bending_warp_nm, bending_weft_nm, friction_body, friction_self, source
+            shear_n_m, bending_warp_nm, bending_weft_nm, friction_body, friction_self, source,
+            stretch, stretched_warp_n_m, stretched_weft_n_m
         FROM v_fabrics WHERE is_latest";
     let mut statement = connection.prepare(sql)?;
     for row in statement.query_map([], fabric_row)? {
@@ -86,7 +88,14 @@ fn fabric_row(row: &Row<'_>) -> rusqlite::Result<Fabric> {
         friction_body: row.get(9)?,
         friction_self: row.get(10)?,
         source: row.get(11)?,
+        stretched: stretched([row.get(12)?, row.get(13)?, row.get(14)?]),
     })
+}
+
+/// Moduli under stretch from their three columns, which are set together.
+pub(super) fn stretched(columns: [Option<f64>; 3]) -> Option<Stretched> {
+    let [stretch, warp, weft] = columns;
+    Some(Stretched { stretch: stretch?, membrane_warp_n_m: warp?, membrane_weft_n_m: weft? })
 }
 
 /// The built-in subjects, by name.
@@ -152,9 +161,10 @@ pub(crate) fn fabric(transaction: &Transaction<'_>, cloth: &Fabric) -> Result<i6
         .prepare_cached(
             "INSERT INTO fabric (name, revision, hash, density_kg_m2, thickness_mm, membrane_warp_n_m, membrane_weft_n_m,
                 membrane_coupling_n_m, shear_n_m, bending_warp_nm, bending_weft_nm, friction_body, friction_self, source,
-                created_at)
+                stretch, stretched_warp_n_m, stretched_weft_n_m, created_at)
             VALUES (:name, 1 + (SELECT count(*) FROM fabric WHERE name = :name), :hash, :density, :thickness, :warp, :weft,
-                :coupling, :shear, :bend_warp, :bend_weft, :friction_body, :friction_self, :source, :now)",
+                :coupling, :shear, :bend_warp, :bend_weft, :friction_body, :friction_self, :source,
+                :stretch, :stretched_warp, :stretched_weft, :now)",
         )?
         .execute(named_params! {
             ":name": cloth.name, ":hash": hash, ":density": cloth.density_kg_m2,
@@ -162,6 +172,9 @@ pub(crate) fn fabric(transaction: &Transaction<'_>, cloth: &Fabric) -> Result<i6
             ":weft": cloth.membrane_weft_n_m, ":coupling": cloth.membrane_coupling_n_m, ":shear": cloth.shear_n_m,
             ":bend_warp": cloth.bending_warp_nm, ":bend_weft": cloth.bending_weft_nm,
             ":friction_body": cloth.friction_body, ":friction_self": cloth.friction_self, ":source": cloth.source,
+            ":stretch": cloth.stretched.map(|s| s.stretch),
+            ":stretched_warp": cloth.stretched.map(|s| s.membrane_warp_n_m),
+            ":stretched_weft": cloth.stretched.map(|s| s.membrane_weft_n_m),
             ":now": now_ms(),
         })?;
     Ok(transaction.last_insert_rowid())

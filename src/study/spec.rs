@@ -153,6 +153,16 @@ pub(super) fn fabric_inputs(inputs: &mut Inputs, fabric: &Fabric) {
     for (name, number) in numbers {
         inputs.set(format!("fabric.{}.{name}", fabric.name), number);
     }
+    if let Some(stretched) = fabric.stretched {
+        let numbers = [
+            ("stretch", stretched.stretch),
+            ("stretched_warp_n_m", stretched.membrane_warp_n_m),
+            ("stretched_weft_n_m", stretched.membrane_weft_n_m),
+        ];
+        for (name, number) in numbers {
+            inputs.set(format!("fabric.{}.{name}", fabric.name), number);
+        }
+    }
     inputs.set(format!("fabric.{}.thickness_mm", fabric.name), millimetres(fabric.thickness_m));
 }
 

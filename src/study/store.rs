@@ -10,10 +10,11 @@ use super::error::{Result, StudyError};
 use super::sql;
 
 /// Schema changes in order, never edited once released: `user_version` counts how many a database has.
-const MIGRATIONS: [&str; 3] = [
+const MIGRATIONS: [&str; 4] = [
     include_str!("../../db/migrations/0001_store.sql"),
     include_str!("../../db/migrations/0002_views.sql"),
     include_str!("../../db/migrations/0003_published.sql"),
+    include_str!("../../db/migrations/0004_stretched.sql"),
 ];
 
 /// How long a statement waits for another process's write.

@@ -2,6 +2,7 @@
 
 use nalgebra::Matrix3;
 
+use super::linear::LinearSolver;
 use super::operator::Operator;
 use crate::geom::V3;
 use crate::sim::cloth::Cloth;
@@ -28,6 +29,8 @@ pub struct System<'a> {
     pub springs: Option<Springs>,
     /// Vertices that do not move.
     pub held: Vec<usize>,
+    /// Solver of the linear systems; remembers factors from step to step.
+    pub linear: LinearSolver,
 }
 
 impl<'a> System<'a> {
@@ -38,7 +41,7 @@ impl<'a> System<'a> {
         for &v in springs.iter().flat_map(|s| &s.pairs).flatten() {
             weights[v] = 0.0;
         }
-        Self { cloth, weights, contact, self_contact: None, springs, held: Vec::new() }
+        Self { cloth, weights, contact, self_contact: None, springs, held: Vec::new(), linear: LinearSolver::default() }
     }
 
     /// Mean weight of a vertex, N: the yardstick of the residual.

@@ -13,6 +13,7 @@ use crate::body::{Measurements, Sex};
 use crate::fit::Cuts;
 use crate::fit::Simulator;
 use crate::sim::Fabric;
+use crate::sim::fabric::Stretched;
 use crate::units::{from_mm, mm};
 
 const STUDY_KEYS: [&str; 8] =
@@ -30,7 +31,7 @@ const SUBJECT_KEYS: [&str; 10] = [
     "across_shoulder_mm",
 ];
 const GARMENT_KEYS: [&str; 5] = ["name", "seams", "unit", "fabric", "sizes"];
-const FABRIC_KEYS: [&str; 12] = [
+const FABRIC_KEYS: [&str; 15] = [
     "name",
     "density_kg_m2",
     "thickness_mm",
@@ -43,6 +44,9 @@ const FABRIC_KEYS: [&str; 12] = [
     "friction_body",
     "friction_self",
     "source",
+    "stretch_pct",
+    "stretched_warp_n_m",
+    "stretched_weft_n_m",
 ];
 
 /// Plausible girths and widths of a person, mm.
@@ -295,6 +299,7 @@ fn fabric(reader: &mut Reader<'_>, place: &Place<'_>, name: &str) -> Option<Fabr
     let [bend_warp, bend_weft] = ["bending_warp_nm", "bending_weft_nm"].map(|key| need(key, 1e-9..1e-1));
     let [friction_body, friction_self] = ["friction_body", "friction_self"].map(|key| need(key, 0.0..5.0));
     let coupling = reader.number(place, "membrane_coupling_n_m", 0.0..1e6).unwrap_or(0.0);
+    let stretched = stretched(reader, place);
     let source = reader.text(place, "source").map_or("study file", Spanned::into_inner).to_owned();
     Some(Fabric {
         name: name.to_owned(),
@@ -309,7 +314,22 @@ fn fabric(reader: &mut Reader<'_>, place: &Place<'_>, name: &str) -> Option<Fabr
         friction_body: friction_body?,
         friction_self: friction_self?,
         source,
+        stretched,
     })
+}
+
+/// The moduli of a knit under stretch: three keys or none.
+fn stretched(reader: &mut Reader<'_>, place: &Place<'_>) -> Option<Stretched> {
+    let keys = ["stretch_pct", "stretched_warp_n_m", "stretched_weft_n_m"];
+    if !keys.iter().any(|key| place.table.contains_key(*key)) {
+        return None;
+    }
+    for key in keys.iter().filter(|key| !place.table.contains_key(**key)) {
+        reader.missing(place, key, "a number: a law that stiffens has its stretch and both secant moduli there");
+    }
+    let stretch_pct = reader.number(place, keys[0], 1.0..200.0);
+    let [warp, weft] = [keys[1], keys[2]].map(|key| reader.number(place, key, 1.0..1e6));
+    Some(Stretched { stretch: stretch_pct? / 100.0, membrane_warp_n_m: warp?, membrane_weft_n_m: weft? })
 }
 
 /// Refuses a second entry of the same name.
