@@ -1,5 +1,6 @@
 //! Cloth: a garment mesh with elastic energies, at whatever state of sewing.
 
+pub mod band;
 pub mod bending;
 pub mod membrane;
 
@@ -9,6 +10,7 @@ use crate::geom::{V2, V3};
 use crate::pattern::Garment;
 use crate::sim::{Fabric, SimError};
 
+use band::Bands;
 use bending::{Bending, Flap, Hinge, Plate};
 use membrane::{Element, Membrane, Orthotropic};
 
@@ -27,6 +29,8 @@ pub struct Cloth {
     pub membrane: Membrane,
     /// Bending.
     pub bending: Bending,
+    /// Strengthened edges.
+    pub bands: Bands,
 }
 
 impl Cloth {
@@ -59,6 +63,7 @@ impl Cloth {
             areas,
             membrane: Membrane::new(Orthotropic::of(fabric), elements),
             bending: plates.finish(fabric),
+            bands: Bands::new(garment, &vertex_of),
             vertex_of,
         })
     }

@@ -99,6 +99,7 @@ pub fn garment((rest, triangles): Flat) -> Garment {
         seams: Vec::new(),
         measurements: Vec::new(),
         fit_levels: Vec::new(),
+        reinforcements: Vec::new(),
         edge_length_m,
     }
 }

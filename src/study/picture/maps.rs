@@ -126,6 +126,7 @@ mod tests {
             seams: vec![],
             measurements: vec![],
             fit_levels: vec![],
+            reinforcements: vec![],
             edge_length_m: 1.0,
         }
     }
