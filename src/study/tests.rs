@@ -71,6 +71,7 @@ fn study(density_kg_m2: f64) -> Study {
         friction_body: 0.3,
         friction_self: 0.5,
         source: "test".into(),
+        stretched: None,
     };
     Study {
         name: "tops".into(),

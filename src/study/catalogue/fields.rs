@@ -7,6 +7,7 @@ use super::super::error::nearest;
 use super::super::spec::millimetres;
 use crate::body::{Dimension, Measurements, Sex};
 use crate::sim::Fabric;
+use crate::sim::fabric::Stretched;
 use crate::units::from_mm;
 
 /// One number of an entry of the catalogue, in the unit its key ends with.
@@ -141,7 +142,7 @@ macro_rules! number {
 }
 
 /// The numbers of a fabric.
-pub static FABRIC_NUMBERS: [Field<Fabric>; 10] = [
+pub static FABRIC_NUMBERS: [Field<Fabric>; 13] = [
     number!(density_kg_m2, "density-kg-m2", "areal density", 0.005..=5.0),
     Field {
         key: "thickness_mm",
@@ -168,7 +169,43 @@ pub static FABRIC_NUMBERS: [Field<Fabric>; 10] = [
     number!(bending_weft_nm, "bending-weft-nm", "bending rigidity, weft", 1e-9..=1e-1),
     number!(friction_body, "friction-body", "friction on the body", 0.0..=5.0),
     number!(friction_self, "friction-self", "friction on itself", 0.0..=5.0),
+    Field {
+        key: "stretch_pct",
+        flag: "stretch-pct",
+        label: "elongation at which a knit has the two moduli after it [default: none]",
+        is_required: false,
+        range: || 1.0..=200.0,
+        get: |fabric| fabric.stretched.map(|law| (law.stretch * 1e10).round() / 1e8),
+        set: |fabric, value| set_stretched(fabric, value, |law, value| law.stretch = value / 100.0),
+    },
+    Field {
+        key: "stretched_warp_n_m",
+        flag: "stretched-warp-n-m",
+        label: "secant modulus there, along the grain",
+        is_required: false,
+        range: || 1.0..=1e6,
+        get: |fabric| fabric.stretched.map(|law| law.membrane_warp_n_m),
+        set: |fabric, value| set_stretched(fabric, value, |law, value| law.membrane_warp_n_m = value),
+    },
+    Field {
+        key: "stretched_weft_n_m",
+        flag: "stretched-weft-n-m",
+        label: "secant modulus there, across the grain",
+        is_required: false,
+        range: || 1.0..=1e6,
+        get: |fabric| fabric.stretched.map(|law| law.membrane_weft_n_m),
+        set: |fabric, value| set_stretched(fabric, value, |law, value| law.membrane_weft_n_m = value),
+    },
 ];
+
+/// Sets one of the three numbers of a law that stiffens; one that is taken away takes the law with it.
+fn set_stretched(fabric: &mut Fabric, value: Option<f64>, set: fn(&mut Stretched, f64)) {
+    let unset = Stretched { stretch: f64::NAN, membrane_warp_n_m: f64::NAN, membrane_weft_n_m: f64::NAN };
+    match value {
+        Some(value) => set(fabric.stretched.get_or_insert(unset), value),
+        None => fabric.stretched = None,
+    }
+}
 
 /// The sex of a word.
 ///
@@ -198,6 +235,11 @@ pub(crate) trait Entry: Clone + 'static {
 
     /// Gives it a text.
     fn set_text(&mut self, key: &str, text: &str) -> Result<(), String>;
+
+    /// Whether its numbers go together; else the key with what is wrong.
+    fn check(&self) -> Result<(), Given> {
+        Ok(())
+    }
 }
 
 impl Entry for Measurements {
@@ -238,7 +280,22 @@ impl Entry for Fabric {
             friction_body: f64::NAN,
             friction_self: f64::NAN,
             source: "own".to_owned(),
+            stretched: None,
         }
+    }
+
+    fn check(&self) -> Result<(), Given> {
+        let Some(law) = self.stretched else { return Ok(()) };
+        let numbers = [
+            ("stretch_pct", law.stretch),
+            ("stretched_warp_n_m", law.membrane_warp_n_m),
+            ("stretched_weft_n_m", law.membrane_weft_n_m),
+        ];
+        let missing = numbers.into_iter().find(|(_, number)| number.is_nan());
+        missing.map_or(Ok(()), |(key, _)| {
+            let problem = format!("`{key}` is missing; a knit that stiffens has a stretch and both moduli there");
+            Err((key.to_owned(), problem))
+        })
     }
 
     fn set_text(&mut self, _: &str, text: &str) -> Result<(), String> {
@@ -278,6 +335,7 @@ pub(crate) fn filled<T: Entry>(base: Option<&T>, name: &str, given: &[Given]) ->
         let absent = required.filter(|(key, is_required)| *is_required && !given.iter().any(|(given, _)| given == key));
         problems.extend(absent.map(|(key, _)| (key.to_owned(), format!("`{key}` is missing"))));
     }
+    problems.extend(entry.check().err());
     if problems.is_empty() { Ok(entry) } else { Err(problems) }
 }
 

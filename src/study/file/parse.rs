@@ -134,11 +134,15 @@ pub(super) fn numbers<T: Entry>(reader: &mut Reader<'_>, place: &Place<'_>, mut 
     let before = reader.problems.len();
     for field in T::fields() {
         if place.table.contains_key(field.key) {
-            let number = reader.checked(place, field.key, |number| field.check(number));
-            field.set(&mut entry, number);
+            if let Some(number) = reader.checked(place, field.key, |number| field.check(number)) {
+                field.set(&mut entry, Some(number));
+            }
         } else if field.is_required {
             reader.missing(place, field.key, wanted);
         }
+    }
+    if let Err((_, problem)) = entry.check() {
+        reader.problem(&place.span, format!("{}: {problem}", place.name));
     }
     (reader.problems.len() == before).then_some(entry)
 }

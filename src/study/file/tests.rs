@@ -17,6 +17,7 @@ fn known() -> Known {
         friction_body: 0.31,
         friction_self: 0.5,
         source: "test".into(),
+        stretched: None,
     };
     Known {
         subjects: [("male-ii".to_owned(), male_ii)].into(),
