@@ -101,7 +101,7 @@ fn broken_toml_names_its_line() {
 fn the_quickstart_is_a_good_study() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/quickstart");
     let study = Study::load(&folder, &known()).expect("good");
-    assert_eq!(super::super::spec::jobs(&study).len(), 6);
+    assert_eq!(super::super::spec::jobs(&study).len(), 12);
     let thesis = super::super::catalogue::known(None).expect("built in").subjects;
     for subject in &study.subjects {
         assert_eq!(subject.measurements, thesis[&format!("male-{}", subject.id)], "{}", subject.id);
