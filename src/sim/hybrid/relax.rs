@@ -30,6 +30,9 @@ pub struct RelaxParams {
     pub yield_stretch: f64,
     /// Bending rigidity at least, N m: keeps folds wider than the mesh.
     pub least_bending_nm: f64,
+    /// Share of the last step's movement that the next one begins with: slow modes, such as a whole front coming
+    /// forward, take a few steps instead of dozens.
+    pub momentum: f64,
     /// Steps between two looks at who is in contact.
     pub refresh: u32,
 }
@@ -44,6 +47,7 @@ impl Default for RelaxParams {
             control_width_m: 0.5,
             yield_stretch: 5e-3,
             least_bending_nm: 5e-5,
+            momentum: 0.7,
             refresh: 4,
         }
     }
@@ -67,6 +71,8 @@ pub struct Relaxation<'a> {
     most_m: Vec<f64>,
     /// Position of each sewn vertex, m.
     pub x: Vec<V3>,
+    /// Displacement of the last step, m.
+    last: Vec<V3>,
     steps: u32,
 }
 
@@ -110,7 +116,7 @@ impl<'a> Relaxation<'a> {
         let weight = cloth.masses.iter().map(|m| m * GRAVITY / params.stiffness_n_m).collect();
         let drawn = (garment.triangles.as_slice(), sewn.vertex_of.as_slice());
         let most_m = vec![f64::MAX; x.len()];
-        Ok(Self { params, field, elastic, areas: cloth.areas, weight, drawn, most_m, x, steps: 0 })
+        Ok(Self { params, field, elastic, areas: cloth.areas, weight, drawn, most_m, last: vec![V3::zeros(); x.len()], x, steps: 0 })
     }
 
     /// Takes one step; returns the rms movement of the vertices, m.
@@ -119,19 +125,20 @@ impl<'a> Relaxation<'a> {
             self.elastic.set_weights(weights(self.field, &self.params, &self.areas, &self.x));
         }
         self.steps += 1;
-        let contacts: Vec<(f64, V3)> = self.x.iter().map(|p| contact(self.field, self.params.offset_m, p)).collect();
+        let from: Vec<V3> = self.x.iter().zip(&self.last).map(|(p, d)| p + d * self.params.momentum).collect();
+        let contacts: Vec<(f64, V3)> = from.iter().map(|p| contact(self.field, self.params.offset_m, p)).collect();
         if push.unlimited {
             self.most_m.fill(f64::MAX);
         } else {
             self.give_way(&contacts);
         }
         let target = |((p, (depth, out)), most): ((&V3, &(f64, V3)), &f64)| p + out * depth.min(*most);
-        let targets: Vec<V3> = self.x.iter().zip(&contacts).zip(&self.most_m).map(target).collect();
+        let targets: Vec<V3> = from.iter().zip(&contacts).zip(&self.most_m).map(target).collect();
         let loads: Vec<V3> = self.weight.iter().map(|w| V3::new(0.0, 0.0, -w * push.gravity)).collect();
-        let next = self.elastic.step(&self.x, &Pull { targets: &targets, loads: &loads, share: push.share });
-        let moved = next.iter().zip(&self.x).map(|(a, b)| (a - b).norm_squared()).sum::<f64>();
+        let next = self.elastic.step(&from, &Pull { targets: &targets, loads: &loads, share: push.share });
+        self.last = next.iter().zip(&self.x).map(|(a, b)| a - b).collect();
         self.x = next;
-        (moved / self.x.len() as f64).sqrt()
+        (self.last.iter().map(V3::norm_squared).sum::<f64>() / self.x.len() as f64).sqrt()
     }
 
     /// Weakens contact where the cloth is stretched too much, and lets it recover where it is not.
