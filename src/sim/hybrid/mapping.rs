@@ -1,6 +1,6 @@
 //! Phase 1: every piece onto the surface of the form (5.2).
 //!
-//! Features, then shortest paths between them, then the patch inside; patch and piece are both mapped harmonically onto a disc
+//! Features, then shortest paths between them, then the patch inside; patch and piece are both mapped harmonically onto a disc (a convex polygon on the unit circle)
 //! and thereby onto each other (cross-parameterisation, 5.2.3). [T] maps the patch onto the pattern instead; armholes and
 //! necks are concave, and a map onto a concave outline may fold. Onto a disc it cannot.
 
@@ -53,6 +53,7 @@ pub fn map(body: &Body, garment: &Garment) -> Result<OnForm, SimError> {
     let mut order: Vec<usize> = (0..pieces.len()).collect();
     order.sort_by_key(|&p| features::face(garment.pieces[p].role) == Face::Round);
     mapped.patches = vec![Vec::new(); pieces.len()];
+    paths.find_underarms(garment, &pieces, &partners);
     for p in order {
         let cannot = |reason| SimError::CannotMap { piece: garment.pieces[p].id.clone(), reason };
         let outline = paths.outline(garment, p, &pieces[p], &partners).map_err(cannot)?;
@@ -70,8 +71,8 @@ struct Outline {
     nodes: Vec<usize>,
     /// Place of each node on the circle, as a share of the whole turn.
     turns: Vec<f64>,
-    /// Boundary vertices of the piece with their share and their place, m.
-    boundary: Vec<(usize, f64, V3)>,
+    /// Boundary vertices of the piece with their place in the common domain and on the form, m.
+    boundary: Vec<(usize, V2, V3)>,
 }
 
 /// Paths on the form, each searched once: the two sides of a seam share theirs.
@@ -125,6 +126,22 @@ impl<'a> Paths<'a> {
             done += share;
         }
         Ok(outline)
+    }
+
+    /// Finds the paths of seams that a piece has with itself before all others: an underarm leaves the trunk between the
+    /// two halves of its armhole, which must not have met above it.
+    fn find_underarms(&mut self, garment: &Garment, pieces: &[Mapped], partners: &BTreeMap<[usize; 2], usize>) {
+        for (piece, mapped) in pieces.iter().enumerate() {
+            for (k, feature) in mapped.features.iter().enumerate() {
+                let at = mapped.ring.iter().position(|&v| v == feature.vertex).unwrap_or(0);
+                let (a, b) = (feature.vertex, mapped.ring[(at + 1) % mapped.ring.len()]);
+                if partners.get(&[a.min(b), a.max(b)]) == Some(&piece) {
+                    let ends = [self.ends[piece][k], self.ends[piece][(k + 1) % mapped.features.len()]];
+                    // Where there is none, the piece itself will say so.
+                    let _ = self.path(garment, [piece, piece], ends);
+                }
+            }
+        }
     }
 
     /// The path between two nodes that two pieces share.
@@ -204,7 +221,9 @@ impl Outline {
             let along = arc / length * whole;
             let k = arcs.partition_point(|&a| a <= along).clamp(1, arcs.len() - 1);
             let t = (along - arcs[k - 1]) / (arcs[k] - arcs[k - 1]).max(f64::MIN_POSITIVE);
-            self.boundary.push((*vertex, done + share * arc / length, places[k - 1].lerp(&places[k], t)));
+            // On the chord between two nodes: patch and piece then have the same outline in the domain.
+            let turn = |node: usize| on_circle(done + share * arcs[node] / whole);
+            self.boundary.push((*vertex, turn(k - 1).lerp(&turn(k), t), places[k - 1].lerp(&places[k], t)));
         }
     }
 }
@@ -234,7 +253,7 @@ fn lay(garment: &Garment, piece: &PieceMesh, outline: &Outline, patch: &Patch, p
     let flat: Vec<V3> = garment.rest[piece.vertices.clone()].iter().map(|p| V3::new(p.x, p.y, 0.0)).collect();
     let triangles: Vec<[usize; 3]> =
         garment.triangles[piece.triangles.clone()].iter().map(|t| t.map(|v| v - first)).collect();
-    let fixed = outline.boundary.iter().map(|&(v, turn, _)| (v - first, on_circle(turn))).collect();
+    let fixed = outline.boundary.iter().map(|&(v, place, _)| (v - first, place)).collect();
     let cloth = harmonic::map(&flat, &triangles, &fixed)?;
     let locator = Locator::new(&surface, &patch.mesh.triangles);
     let normals = patch.mesh.triangle_normals();

@@ -14,6 +14,7 @@ pub mod patch;
 pub mod path;
 pub mod popup;
 pub mod relax;
+mod rows;
 pub mod sewn;
 pub mod sparse;
 

@@ -4,9 +4,8 @@
 //! contact weakens step by step until it is not. Where the pattern is large enough nothing changes; where it is too small the
 //! body wins no more: the cloth goes back to its size and into the body.
 
-use nalgebra::Matrix2;
-
 use super::elastic::{Elastic, Pull};
+use super::rows::Rows;
 use super::sewn::Sewn;
 use crate::geom::{DistanceField, V3};
 use crate::pattern::{Garment, Measurement};
@@ -47,7 +46,7 @@ impl Default for RelaxParams {
             control_width_m: 0.5,
             yield_stretch: 5e-3,
             least_bending_nm: 5e-5,
-            momentum: 0.7,
+            momentum: 0.85,
             refresh: 4,
         }
     }
@@ -65,8 +64,7 @@ pub struct Relaxation<'a> {
     areas: Vec<f64>,
     /// Weight of each sewn vertex over the membrane's stiffness, m.
     weight: Vec<f64>,
-    /// Garment vertices of each triangle, and sewn vertex of each garment vertex.
-    drawn: (&'a [[usize; 3]], &'a [usize]),
+    rows: Rows,
     /// Greatest depth that contact still pushes against at each sewn vertex, m.
     most_m: Vec<f64>,
     /// Position of each sewn vertex, m.
@@ -94,8 +92,8 @@ impl<'a> Relaxation<'a> {
     /// [`SimError::Degenerate`].
     pub fn new(
         field: &'a DistanceField,
-        garment: &'a Garment,
-        sewn: &'a Sewn,
+        garment: &Garment,
+        sewn: &Sewn,
         fabric: &Fabric,
         controls: &[&Measurement],
         params: RelaxParams,
@@ -114,9 +112,20 @@ impl<'a> Relaxation<'a> {
         let elastic = Elastic::new(garment, &sewn.vertex_of, &x, controls, params.control_width_m, &bending, weights)
             .ok_or_else(|| SimError::Degenerate { piece: garment.name.clone(), at: garment.rest[0] })?;
         let weight = cloth.masses.iter().map(|m| m * GRAVITY / params.stiffness_n_m).collect();
-        let drawn = (garment.triangles.as_slice(), sewn.vertex_of.as_slice());
+        let rows = Rows::new(garment, sewn);
         let most_m = vec![f64::MAX; x.len()];
-        Ok(Self { params, field, elastic, areas: cloth.areas, weight, drawn, most_m, last: vec![V3::zeros(); x.len()], x, steps: 0 })
+        Ok(Self {
+            params,
+            field,
+            elastic,
+            areas: cloth.areas,
+            weight,
+            rows,
+            most_m,
+            last: vec![V3::zeros(); x.len()],
+            x,
+            steps: 0,
+        })
     }
 
     /// Takes one step; returns the rms movement of the vertices, m.
@@ -143,51 +152,15 @@ impl<'a> Relaxation<'a> {
 
     /// Weakens contact where the cloth is stretched too much, and lets it recover where it is not.
     fn give_way(&mut self, contacts: &[(f64, V3)]) {
-        let stretch = self.greatest_stretch();
+        let stretch = self.rows.stretch(&self.elastic, &self.x);
         for (v, (depth, _)) in contacts.iter().enumerate() {
             let excess = (stretch[v] - self.params.yield_stretch) / self.params.yield_stretch;
             let now = self.most_m[v].min(depth.max(LEAST_PUSH_M));
             self.most_m[v] = now * (1.0 - 0.5 * excess).clamp(0.5, 1.2);
         }
     }
-
-    /// Greatest principal stretch beyond 1 at each sewn vertex, averaged over its surroundings: single triangles are
-    /// stretched and compressed in turn, which says nothing about the size of the garment.
-    fn greatest_stretch(&self) -> Vec<f64> {
-        let (triangles, vertex_of) = self.drawn;
-        let mean = |sums: Vec<(Matrix2<f64>, f64)>| -> Vec<Matrix2<f64>> {
-            sums.into_iter().map(|(sum, n)| if n > 0.0 { sum / n } else { Matrix2::identity() }).collect()
-        };
-        let mut sums = vec![(Matrix2::zeros(), 0.0); vertex_of.len()];
-        for (t, (stretch, area)) in triangles.iter().zip(self.elastic.stretches(&self.x)) {
-            for &v in t {
-                sums[v].0 += stretch * area;
-                sums[v].1 += area;
-            }
-        }
-        let mut at = mean(sums);
-        for _ in 0..AVERAGINGS {
-            let mut sums = vec![(Matrix2::zeros(), 0.0); at.len()];
-            for t in triangles {
-                let middle = (at[t[0]] + at[t[1]] + at[t[2]]) / 3.0;
-                for &v in t {
-                    sums[v].0 += middle;
-                    sums[v].1 += 1.0;
-                }
-            }
-            at = mean(sums);
-        }
-        let mut greatest = vec![0.0_f64; self.x.len()];
-        for (&v, s) in vertex_of.iter().zip(&at) {
-            let half = 0.5 * s.trace();
-            greatest[v] = greatest[v].max(half + (half * half - s.determinant()).max(0.0).sqrt() - 1.0);
-        }
-        greatest
-    }
 }
 
-/// Times that stretch is averaged over neighbours.
-const AVERAGINGS: u32 = 4;
 /// Contact that has yielded comes back from this, m.
 const LEAST_PUSH_M: f64 = 2e-5;
 
