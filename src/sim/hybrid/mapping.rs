@@ -29,7 +29,7 @@ const AWAY: f64 = 0.4;
 pub struct OnForm {
     /// World position of each garment vertex, m; the two sides of a seam nearly coincide.
     pub positions: Vec<V3>,
-    /// Triangles whose outside faces the form, before repair.
+    /// Triangles whose outside faces the form, after repair.
     pub flips: usize,
     /// Patch of each piece on the form.
     pub patches: Vec<Vec<usize>>,
@@ -245,7 +245,7 @@ fn on_circle(turn: f64) -> V2 {
     V2::new(cos, sin)
 }
 
-/// Lays one piece on its patch; returns the number of triangles that look inwards.
+/// Lays one piece on its patch; returns the number of triangles that look inwards even after repair.
 fn lay(garment: &Garment, piece: &PieceMesh, outline: &Outline, patch: &Patch, positions: &mut [V3]) -> Option<usize> {
     let fixed = patch.boundary.iter().zip(&outline.turns).map(|(&v, &turn)| (v, on_circle(turn))).collect();
     let surface = harmonic::map(&patch.mesh.positions, &patch.mesh.triangles, &fixed)?;
@@ -253,24 +253,92 @@ fn lay(garment: &Garment, piece: &PieceMesh, outline: &Outline, patch: &Patch, p
     let flat: Vec<V3> = garment.rest[piece.vertices.clone()].iter().map(|p| V3::new(p.x, p.y, 0.0)).collect();
     let triangles: Vec<[usize; 3]> =
         garment.triangles[piece.triangles.clone()].iter().map(|t| t.map(|v| v - first)).collect();
-    let fixed = outline.boundary.iter().map(|&(v, place, _)| (v - first, place)).collect();
-    let cloth = harmonic::map(&flat, &triangles, &fixed)?;
-    let locator = Locator::new(&surface, &patch.mesh.triangles);
-    let normals = patch.mesh.triangle_normals();
-    let mut outwards = vec![V3::zeros(); flat.len()];
-    for (v, place) in cloth.iter().enumerate() {
-        let (t, weights) = locator.locate(*place)?;
-        let corners = patch.mesh.triangles[t];
-        positions[first + v] = (0..3).map(|k| patch.mesh.positions[corners[k]] * weights[k]).sum();
-        outwards[v] = normals[t].try_normalize(0.0).unwrap_or_else(V3::zeros);
-    }
-    for &(v, _, place) in &outline.boundary {
-        positions[v] = place;
-    }
-    let inwards = |t: &&[usize; 3]| {
-        let [a, b, c] = t.map(|v| positions[first + v]);
-        let out: V3 = t.iter().map(|&v| outwards[v]).sum();
-        (b - a).cross(&(c - a)).dot(&out) <= 0.0
+    let fixed: BTreeMap<usize, V2> = outline.boundary.iter().map(|&(v, place, _)| (v - first, place)).collect();
+    let mut laid = Laid {
+        domain: harmonic::map(&flat, &triangles, &fixed)?,
+        x: vec![V3::zeros(); flat.len()],
+        outwards: vec![V3::zeros(); flat.len()],
     };
-    Some(triangles.iter().filter(inwards).count())
+    let composed = Composed { patch, locator: Locator::new(&surface, &patch.mesh.triangles) };
+    (0..flat.len()).try_for_each(|v| composed.lift(&mut laid, v))?;
+    for &(v, _, place) in &outline.boundary {
+        laid.x[v - first] = place;
+    }
+    let flips = repair(&composed, &mut laid, &triangles, &fixed)?;
+    positions[piece.vertices.clone()].copy_from_slice(&laid.x);
+    Some(flips)
+}
+
+/// A piece under way: its vertices in the domain and on the form.
+struct Laid {
+    domain: Vec<V2>,
+    x: Vec<V3>,
+    /// Unit normal of the form there.
+    outwards: Vec<V3>,
+}
+
+impl Laid {
+    fn looks_inwards(&self, t: &[usize; 3]) -> bool {
+        let [a, b, c] = t.map(|v| self.x[v]);
+        let out: V3 = t.iter().map(|&v| self.outwards[v]).sum();
+        (b - a).cross(&(c - a)).dot(&out) <= 0.0
+    }
+}
+
+/// The way from the domain to the form.
+struct Composed<'a> {
+    patch: &'a Patch,
+    locator: Locator<'a>,
+}
+
+impl Composed<'_> {
+    /// Sets a vertex on the form where it is in the domain.
+    fn lift(&self, laid: &mut Laid, v: usize) -> Option<()> {
+        let (t, weights) = self.locator.locate(laid.domain[v])?;
+        let [a, b, c] = self.patch.mesh.triangles[t].map(|w| self.patch.mesh.positions[w]);
+        laid.x[v] = a * weights[0] + b * weights[1] + c * weights[2];
+        laid.outwards[v] = (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_else(V3::zeros);
+        Some(())
+    }
+}
+
+/// Rounds of repair at most.
+const REPAIRS: u32 = 30;
+
+/// Moves the inner vertices of flipped triangles to the mean of their neighbours in the domain, until none is left or the
+/// rounds are used up. Both maps are bijective; but a piece is laid vertex by vertex, and a narrow triangle over an edge of
+/// the coarse form can still turn over.
+fn repair(
+    composed: &Composed,
+    laid: &mut Laid,
+    triangles: &[[usize; 3]],
+    fixed: &BTreeMap<usize, V2>,
+) -> Option<usize> {
+    let mut around = vec![Vec::new(); laid.x.len()];
+    for t in triangles {
+        for k in 0..3 {
+            around[t[k]].push(t[(k + 1) % 3]);
+        }
+    }
+    let flipped = |laid: &Laid| triangles.iter().filter(|t| laid.looks_inwards(t)).count();
+    let mut flips = flipped(laid);
+    for _ in 0..REPAIRS {
+        if flips == 0 {
+            break;
+        }
+        let moving: Vec<usize> = triangles
+            .iter()
+            .filter(|t| laid.looks_inwards(t))
+            .flatten()
+            .copied()
+            .flat_map(|v| std::iter::once(v).chain(around[v].iter().copied()))
+            .filter(|v| !fixed.contains_key(v))
+            .collect();
+        for v in moving {
+            laid.domain[v] = around[v].iter().map(|&w| laid.domain[w]).sum::<V2>() / around[v].len() as f64;
+            composed.lift(laid, v)?;
+        }
+        flips = flipped(laid);
+    }
+    Some(flips)
 }

@@ -8,7 +8,7 @@ use super::elastic::{Elastic, Pull};
 use super::rows::Rows;
 use super::sewn::Sewn;
 use crate::geom::{DistanceField, V3};
-use crate::pattern::{Garment, Measurement};
+use crate::pattern::{Garment, Measurement, Role};
 use crate::sim::cloth::Cloth;
 use crate::sim::{Fabric, SimError};
 
@@ -65,6 +65,9 @@ pub struct Relaxation<'a> {
     /// Weight of each sewn vertex over the membrane's stiffness, m.
     weight: Vec<f64>,
     rows: Rows,
+    /// 1 for what belongs to the right leg, -1 for the left, 0 for both or neither: legs keep to their side of the median
+    /// plane, so that they do not run through each other.
+    sides: Vec<f64>,
     /// Greatest depth that contact still pushes against at each sewn vertex, m.
     most_m: Vec<f64>,
     /// Position of each sewn vertex, m.
@@ -113,6 +116,7 @@ impl<'a> Relaxation<'a> {
             .ok_or_else(|| SimError::Degenerate { piece: garment.name.clone(), at: garment.rest[0] })?;
         let weight = cloth.masses.iter().map(|m| m * GRAVITY / params.stiffness_n_m).collect();
         let rows = Rows::new(garment, sewn);
+        let sides = legs(garment, sewn);
         let most_m = vec![f64::MAX; x.len()];
         Ok(Self {
             params,
@@ -121,6 +125,7 @@ impl<'a> Relaxation<'a> {
             areas: cloth.areas,
             weight,
             rows,
+            sides,
             most_m,
             last: vec![V3::zeros(); x.len()],
             x,
@@ -142,7 +147,12 @@ impl<'a> Relaxation<'a> {
             self.give_way(&contacts);
         }
         let target = |((p, (depth, out)), most): ((&V3, &(f64, V3)), &f64)| p + out * depth.min(*most);
-        let targets: Vec<V3> = from.iter().zip(&contacts).zip(&self.most_m).map(target).collect();
+        let mut targets: Vec<V3> = from.iter().zip(&contacts).zip(&self.most_m).map(target).collect();
+        for (target, side) in targets.iter_mut().zip(&self.sides) {
+            if target.x * side < self.params.offset_m && *side != 0.0 {
+                target.x = side * self.params.offset_m;
+            }
+        }
         let loads: Vec<V3> = self.weight.iter().map(|w| V3::new(0.0, 0.0, -w * push.gravity)).collect();
         let next = self.elastic.step(&from, &Pull { targets: &targets, loads: &loads, share: push.share });
         self.last = next.iter().zip(&self.x).map(|(a, b)| a - b).collect();
@@ -159,6 +169,24 @@ impl<'a> Relaxation<'a> {
             self.most_m[v] = now * (1.0 - 0.5 * excess).clamp(0.5, 1.2);
         }
     }
+}
+
+/// Which leg each sewn vertex belongs to.
+fn legs(garment: &Garment, sewn: &Sewn) -> Vec<f64> {
+    let mut sums = vec![(0.0, 0.0); sewn.x.len()];
+    for piece in &garment.pieces {
+        let side = match piece.role {
+            Role::LegFrontRight | Role::LegBackRight => 1.0,
+            Role::LegFrontLeft | Role::LegBackLeft => -1.0,
+            _ => 0.0,
+        };
+        for v in piece.vertices.clone() {
+            sums[sewn.vertex_of[v]].0 += side;
+            sums[sewn.vertex_of[v]].1 += 1.0;
+        }
+    }
+    let whole = |(sum, n): (f64, f64)| if sum.abs() == n { sum.signum() } else { 0.0 };
+    sums.into_iter().map(whole).collect()
 }
 
 /// Contact that has yielded comes back from this, m.
