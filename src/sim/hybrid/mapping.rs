@@ -169,16 +169,21 @@ impl<'a> Paths<'a> {
         Ok(if path[0] == ends[0] { path } else { path.into_iter().rev().collect() })
     }
 
-    /// Whether a piece of a role can touch a face: by region and by the way the face looks.
     fn touches(&self, role: Role, face: usize) -> bool {
-        let normal = self.normals[face].normalize();
-        touches(role, self.form.regions[face])
-            && match features::face(role) {
-                Face::Front => normal.y > -AWAY,
-                Face::Back => normal.y < AWAY,
-                Face::Round => true,
-            }
+        can_touch(role, self.form.regions[face], &self.normals[face])
     }
+}
+
+/// Whether a piece of a role can touch a face: by its region and the way it looks (5.2.2, figure 5-12).
+#[must_use]
+pub fn can_touch(role: Role, region: Region, normal: &V3) -> bool {
+    let forward = normal.y / normal.norm();
+    touches(role, region)
+        && match features::face(role) {
+            Face::Front => forward > -AWAY,
+            Face::Back => forward < AWAY,
+            Face::Round => true,
+        }
 }
 
 /// Whether a piece of a role can touch a region.
