@@ -310,8 +310,8 @@ impl Composed<'_> {
 /// Rounds of repair at most.
 const REPAIRS: u32 = 30;
 
-/// Moves the inner vertices of flipped triangles to the mean of their neighbours in the domain, until none is left or the
-/// rounds are used up. Both maps are bijective; but a piece is laid vertex by vertex, and a narrow triangle over an edge of
+/// Moves the inner vertices of flipped triangles to the mean of their neighbours, first in the domain, then in space, until
+/// none is left or the rounds are used up. Both maps are bijective; but a piece is laid vertex by vertex, and a narrow triangle over an edge of
 /// the coarse form can still turn over.
 fn repair(
     composed: &Composed,
@@ -327,7 +327,7 @@ fn repair(
     }
     let flipped = |laid: &Laid| triangles.iter().filter(|t| laid.looks_inwards(t)).count();
     let mut flips = flipped(laid);
-    for _ in 0..REPAIRS {
+    for round in 0..REPAIRS {
         if flips == 0 {
             break;
         }
@@ -340,8 +340,13 @@ fn repair(
             .filter(|v| !fixed.contains_key(v))
             .collect();
         for v in moving {
-            laid.domain[v] = around[v].iter().map(|&w| laid.domain[w]).sum::<V2>() / around[v].len() as f64;
-            composed.lift(laid, v)?;
+            let count = around[v].len() as f64;
+            if round < REPAIRS / 2 {
+                laid.domain[v] = around[v].iter().map(|&w| laid.domain[w]).sum::<V2>() / count;
+                composed.lift(laid, v)?;
+            } else {
+                laid.x[v] = around[v].iter().map(|&w| laid.x[w]).sum::<V3>() / count;
+            }
         }
         flips = flipped(laid);
     }

@@ -47,7 +47,7 @@ impl Default for RelaxParams {
             yield_stretch: 5e-3,
             least_bending_nm: 5e-5,
             momentum: 0.85,
-            refresh: 4,
+            refresh: 5,
         }
     }
 }
@@ -65,9 +65,11 @@ pub struct Relaxation<'a> {
     /// Weight of each sewn vertex over the membrane's stiffness, m.
     weight: Vec<f64>,
     rows: Rows,
-    /// 1 for what belongs to the right leg, -1 for the left, 0 for both or neither: legs keep to their side of the median
-    /// plane, so that they do not run through each other.
-    sides: Vec<f64>,
+    /// Side of the median plane that vertices keep to: 1 for the right leg, -1 for the left, 0 for the seam between
+    /// them, which stays on it. Legs would run through each other otherwise.
+    sides: Vec<Option<f64>>,
+    /// Vertices that had the weight of contact at the last look.
+    touching: Vec<bool>,
     /// Greatest depth that contact still pushes against at each sewn vertex, m.
     most_m: Vec<f64>,
     /// Position of each sewn vertex, m.
@@ -111,12 +113,13 @@ impl<'a> Relaxation<'a> {
         let bending: Vec<([usize; 2], f64)> =
             pairs.map(|(pair, entry)| (*pair, entry / params.stiffness_n_m)).collect();
         let x = lifted(field, params.offset_m, &sewn.x);
-        let weights = weights(field, &params, &cloth.areas, &x);
+        let sides = legs(garment, sewn);
+        let touching = touching(field, params.offset_m, &sides, &x);
+        let weights = weights(&params, &cloth.areas, &touching);
         let elastic = Elastic::new(garment, &sewn.vertex_of, &x, controls, params.control_width_m, &bending, weights)
             .ok_or_else(|| SimError::Degenerate { piece: garment.name.clone(), at: garment.rest[0] })?;
         let weight = cloth.masses.iter().map(|m| m * GRAVITY / params.stiffness_n_m).collect();
         let rows = Rows::new(garment, sewn);
-        let sides = legs(garment, sewn);
         let most_m = vec![f64::MAX; x.len()];
         Ok(Self {
             params,
@@ -126,6 +129,7 @@ impl<'a> Relaxation<'a> {
             weight,
             rows,
             sides,
+            touching,
             most_m,
             last: vec![V3::zeros(); x.len()],
             x,
@@ -136,7 +140,7 @@ impl<'a> Relaxation<'a> {
     /// Takes one step; returns the rms movement of the vertices, m.
     pub fn step(&mut self, push: Push) -> f64 {
         if self.steps > 0 && self.steps.is_multiple_of(self.params.refresh) {
-            self.elastic.set_weights(weights(self.field, &self.params, &self.areas, &self.x));
+            self.look_for_contacts();
         }
         self.steps += 1;
         let from: Vec<V3> = self.x.iter().zip(&self.last).map(|(p, d)| p + d * self.params.momentum).collect();
@@ -149,7 +153,7 @@ impl<'a> Relaxation<'a> {
         let target = |((p, (depth, out)), most): ((&V3, &(f64, V3)), &f64)| p + out * depth.min(*most);
         let mut targets: Vec<V3> = from.iter().zip(&contacts).zip(&self.most_m).map(target).collect();
         for (target, side) in targets.iter_mut().zip(&self.sides) {
-            if target.x * side < self.params.offset_m && *side != 0.0 {
+            if let Some(side) = side.filter(|side| beyond_median(target, *side, self.params.offset_m)) {
                 target.x = side * self.params.offset_m;
             }
         }
@@ -158,6 +162,16 @@ impl<'a> Relaxation<'a> {
         self.last = next.iter().zip(&self.x).map(|(a, b)| a - b).collect();
         self.x = next;
         (self.last.iter().map(V3::norm_squared).sum::<f64>() / self.x.len() as f64).sqrt()
+    }
+
+    /// Gives the vertices their weights anew, where enough of them have come into contact or left it.
+    fn look_for_contacts(&mut self) {
+        let touching = touching(self.field, self.params.offset_m, &self.sides, &self.x);
+        let changed = touching.iter().zip(&self.touching).filter(|(a, b)| a != b).count();
+        if changed as f64 > SAME_CONTACTS * touching.len() as f64 {
+            self.elastic.set_weights(weights(&self.params, &self.areas, &touching));
+            self.touching = touching;
+        }
     }
 
     /// Weakens contact where the cloth is stretched too much, and lets it recover where it is not.
@@ -171,24 +185,31 @@ impl<'a> Relaxation<'a> {
     }
 }
 
-/// Which leg each sewn vertex belongs to.
-fn legs(garment: &Garment, sewn: &Sewn) -> Vec<f64> {
+/// Whether a vertex is on the wrong side of the median plane.
+fn beyond_median(p: &V3, side: f64, offset_m: f64) -> bool {
+    side == 0.0 || p.x * side < offset_m
+}
+
+/// Which leg each sewn vertex belongs to; `None` for vertices of neither.
+fn legs(garment: &Garment, sewn: &Sewn) -> Vec<Option<f64>> {
     let mut sums = vec![(0.0, 0.0); sewn.x.len()];
     for piece in &garment.pieces {
         let side = match piece.role {
             Role::LegFrontRight | Role::LegBackRight => 1.0,
             Role::LegFrontLeft | Role::LegBackLeft => -1.0,
-            _ => 0.0,
+            _ => continue,
         };
         for v in piece.vertices.clone() {
             sums[sewn.vertex_of[v]].0 += side;
             sums[sewn.vertex_of[v]].1 += 1.0;
         }
     }
-    let whole = |(sum, n): (f64, f64)| if sum.abs() == n { sum.signum() } else { 0.0 };
-    sums.into_iter().map(whole).collect()
+    let side = |(sum, n): (f64, f64)| (n > 0.0).then_some(if sum.abs() == n { sum.signum() } else { 0.0 });
+    sums.into_iter().map(side).collect()
 }
 
+/// Share of the vertices whose contact may have changed before the system is factorised again.
+const SAME_CONTACTS: f64 = 0.01;
 /// Contact that has yielded comes back from this, m.
 const LEAST_PUSH_M: f64 = 2e-5;
 
@@ -207,9 +228,15 @@ fn lifted(field: &DistanceField, offset_m: f64, x: &[V3]) -> Vec<V3> {
     x.iter().map(lift).collect()
 }
 
+/// Which vertices contact acts on: those near the body or beyond the median plane.
+fn touching(field: &DistanceField, offset_m: f64, sides: &[Option<f64>], x: &[V3]) -> Vec<bool> {
+    let touches = |(p, side): (&V3, &Option<f64>)| {
+        field.value_and_gradient(p).0 < offset_m || side.is_some_and(|side| beyond_median(p, side, offset_m))
+    };
+    x.iter().zip(sides).map(touches).collect()
+}
+
 /// Weights of the vertices' targets: those in contact stay where contact wants them, the others may go.
-fn weights(field: &DistanceField, params: &RelaxParams, areas: &[f64], x: &[V3]) -> Vec<f64> {
-    let touches = |p: &V3| field.value_and_gradient(p).0 < params.offset_m;
-    let weight = |(p, a): (&V3, &f64)| a * if touches(p) { params.contact } else { params.hold };
-    x.iter().zip(areas).map(weight).collect()
+fn weights(params: &RelaxParams, areas: &[f64], touching: &[bool]) -> Vec<f64> {
+    touching.iter().zip(areas).map(|(touches, a)| a * if *touches { params.contact } else { params.hold }).collect()
 }
