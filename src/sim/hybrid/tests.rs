@@ -13,7 +13,8 @@ use crate::measure;
 use crate::pattern::draft::Model;
 use crate::pattern::garment::PieceMesh;
 use crate::pattern::{Role, Style};
-use crate::sim::{fabric, testing};
+use crate::sim::fabric;
+use crate::sim::laboratory::sheets::{hexagonal_sheet, noise};
 
 struct Silent;
 
@@ -24,14 +25,10 @@ impl Monitor for Silent {
 /// The thesis's men ii and vi: the slimmest and the largest.
 fn man(stature_m: f64, chest_m: f64, waist_m: f64, hip_m: f64) -> Body {
     let measurements = Measurements {
-        sex: Sex::Male,
-        stature_m,
-        weight_kg: None,
         chest_girth_m: Some(chest_m),
         waist_girth_m: Some(waist_m),
         hip_girth_m: Some(hip_m),
-        neck_girth_m: None,
-        across_shoulder_m: None,
+        ..Measurements::of(Sex::Male, stature_m)
     };
     body::build(&measurements).expect("a body")
 }
@@ -115,7 +112,7 @@ fn what_cannot_be_mapped_is_named_with_its_reason() {
 
 /// Numbers from 0 to `below`.
 fn picks(count: usize, below: usize, seed: u64) -> Vec<usize> {
-    testing::noise(count, seed).into_iter().map(|r| (((r + 1.0) / 2.0) * below as f64) as usize % below).collect()
+    noise(count, seed).into_iter().map(|r| (((r + 1.0) / 2.0) * below as f64) as usize % below).collect()
 }
 
 #[test]
@@ -163,7 +160,7 @@ fn a_trouser_back_is_not_led_over_the_front_of_the_leg() {
 #[test]
 fn a_tube_gets_its_length_and_girth_back() {
     // A sheet rolled to three quarters of a turn, at 0.9 of its size.
-    let (rest, triangles) = testing::hexagonal_sheet(24, 16, 0.02);
+    let (rest, triangles) = hexagonal_sheet(24, 16, 0.02);
     let radius = 0.9 * 0.48 / (1.5 * std::f64::consts::PI);
     let rolled = |p: &V2| V3::new(radius * (0.9 * p.x / radius).cos(), radius * (0.9 * p.x / radius).sin(), 0.9 * p.y);
     let x: Vec<V3> = rest.iter().map(rolled).collect();
@@ -184,6 +181,7 @@ fn a_tube_gets_its_length_and_girth_back() {
         measurements: vec![],
         fit_levels: vec![],
         edge_length_m: 0.02,
+        reinforcements: vec![],
     };
     let own: Vec<usize> = (0..x.len()).collect();
     let mut elastic = Elastic::new(&garment, &own, &x, &[], 0.0, &[], vec![1e-6; x.len()]).expect("sound triangles");
