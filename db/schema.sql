@@ -60,7 +60,7 @@ CREATE TABLE fabric (
     friction_body REAL NOT NULL,
     friction_self REAL NOT NULL,
     source TEXT NOT NULL,
-    created_at INTEGER NOT NULL,
+    created_at INTEGER NOT NULL, stretch_pct REAL, stretched_warp_n_m REAL, stretched_weft_n_m REAL,
     UNIQUE (name, revision),
     UNIQUE (name, hash)
 ) STRICT;
@@ -390,5 +390,5 @@ FROM size JOIN catalogue_entry AS entry ON entry.name = size.style || '/' || siz
 CREATE VIEW v_fabrics AS
 SELECT name AS fabric, fabric.revision, density_kg_m2, thickness_mm, membrane_warp_n_m, membrane_weft_n_m,
     membrane_coupling_n_m, shear_n_m, bending_warp_nm, bending_weft_nm, friction_body, friction_self, source, hash,
-    fabric.revision = entry.revision AS is_latest, is_retired
+    fabric.revision = entry.revision AS is_latest, is_retired, stretch_pct, stretched_warp_n_m, stretched_weft_n_m
 FROM fabric JOIN catalogue_entry AS entry USING (name) WHERE part = 'fabric';
