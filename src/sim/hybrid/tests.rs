@@ -66,6 +66,7 @@ fn a_shirt_that_is_large_enough_keeps_its_size_and_stays_out_of_the_body() {
     }
     assert!(mean_edge_error(&garment, &phases.sewn) > 0.1, "the body is not the pattern");
     assert_eq!(phases.drape.self_crossings, 0);
+    assert!(phases.drape.history.iter().all(|step| step.residual.is_finite() && step.e_chi.is_finite()));
     assert!(
         phases.drape.seam_gap_max_m == 0.0 && phases.drape.penetration_max_m < 0.02,
         "{:?}",
