@@ -58,7 +58,7 @@ const AT_REST_M: f64 = 1e-3;
 pub struct Phases {
     /// On the form, piece by piece.
     pub mapped: OnForm,
-    /// Sewn and smoothed.
+    /// Sewn, smoothed and lifted onto the fine mesh.
     pub sewn: Vec<V3>,
     /// Size restored.
     pub popup: Vec<V3>,
@@ -98,12 +98,14 @@ pub fn phases(
         garment.measurements.iter().filter(|m| !params.uncontrolled.contains(&m.no)).collect();
     let mapped = mapping::map(body, garment)?;
     let sewn = Sewn::new(garment, &mapped.positions);
-    run.record("sew", 0.2, 0, &sewn.unsewn(&sewn.x), f64::NAN)?;
     let mut relaxation = Relaxation::new(field, garment, &sewn, fabric, &controls, params.relax)?;
+    let on_skin = sewn.unsewn(&relaxation.x);
+    let lift: f64 = relaxation.x.iter().zip(&sewn.x).map(|(a, b)| (a - b).norm_squared()).sum();
+    run.record("sew", 0.2, 0, &on_skin, (lift / sewn.x.len() as f64).sqrt() / AT_REST_M)?;
     let mut done = 0.0;
-    popup::reconstruct(&mut relaxation, |now| {
+    popup::reconstruct(&mut relaxation, |now, moved| {
         done += 1.0;
-        run.record("popup", 0.2 + 0.4 * done / f64::from(popup::steps()), 1, &sewn.unsewn(&now.x), f64::NAN)
+        run.record("popup", 0.2 + 0.4 * done / f64::from(popup::steps()), 1, &sewn.unsewn(&now.x), moved / AT_REST_M)
     })?;
     let popped = sewn.unsewn(&relaxation.x);
     let steps = params.push_steps + params.yield_steps;
@@ -127,7 +129,7 @@ pub fn phases(
         positions,
         history: run.history,
     };
-    Ok(Phases { sewn: sewn.unsewn(&sewn.x), popup: popped, mapped, drape })
+    Ok(Phases { sewn: on_skin, popup: popped, mapped, drape })
 }
 
 /// A run under way: what is recorded and reported of each step.

@@ -12,7 +12,7 @@ pub fn steps() -> u32 {
     STEPS[0] + STEPS[1]
 }
 
-/// Pops a garment up; calls `each` with it after every step, which ends it early with an error.
+/// Pops a garment up; calls `each` with it and the rms movement (m) after every step, which ends it early with an error.
 ///
 /// Triangles and controls go from the size they were sewn at to that of the pattern in equal steps. Until then the body
 /// pushes the cloth out, or sleeves would swing through the arms while they grow; then it yields.
@@ -21,12 +21,12 @@ pub fn steps() -> u32 {
 /// Those of `each`.
 pub fn reconstruct<E>(
     relaxation: &mut Relaxation,
-    mut each: impl FnMut(&Relaxation) -> Result<(), E>,
+    mut each: impl FnMut(&Relaxation, f64) -> Result<(), E>,
 ) -> Result<(), E> {
     for step in 1..=steps() {
         let share = f64::from(step) / f64::from(STEPS[0]);
-        relaxation.step(Push { unlimited: share < 1.0, gravity: 0.0, share: share.min(1.0) });
-        each(relaxation)?;
+        let moved = relaxation.step(Push { unlimited: share < 1.0, gravity: 0.0, share: share.min(1.0) });
+        each(relaxation, moved)?;
     }
     Ok(())
 }
