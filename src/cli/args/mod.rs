@@ -5,9 +5,11 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
+mod attempt;
 mod body;
 mod pattern;
 
+pub use attempt::{Try, TrySimulator};
 pub use body::{Body, BodyBuild, MeshUnit, Sex};
 pub use pattern::{BesideFiles, DraftStyle, Pattern, PatternUnit, SeamCommand, StyleFiles};
 
@@ -55,6 +57,8 @@ pub struct Global {
 pub enum Command {
     /// Run a study: queue what is new or changed, simulate, measure, report.
     Run(Run),
+    /// Dress one body in one garment, without a study: a picture, a table, the mesh.
+    Try(Box<Try>),
     /// Write a study's report: HTML, PNG, CSV.
     Report(Report),
     /// Ask the database in SQL (read-only; also median, stddev, quantile).
