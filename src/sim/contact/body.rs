@@ -25,11 +25,6 @@ impl Default for ContactParams {
     }
 }
 
-/// The middle of an edge is kept this share of the offset from the skin: on flat skin its ends keep it farther.
-const MIDDLE_SHARE: f64 = 0.5;
-/// Edges with an end farther than this from the offset are not looked at, m.
-const MIDDLE_REACH_M: f64 = 6e-3;
-
 /// Share of the sticking stiffness that a sliding contact keeps in the linear system, so that it stays regular.
 const SLIDING_STIFFNESS_SHARE: f64 = 0.1;
 
@@ -53,10 +48,6 @@ pub struct BodyContact<'a> {
     friction: Option<f64>,
     anchors: Vec<Option<V3>>,
     touching: Vec<Touch>,
-    /// Edges whose middles are kept out too.
-    edges: &'a [[usize; 2]],
-    /// Those of them that were near the skin at the last assembly.
-    near: Vec<[usize; 2]>,
 }
 
 impl<'a> BodyContact<'a> {
@@ -70,24 +61,7 @@ impl<'a> BodyContact<'a> {
             friction: None,
             anchors: vec![None; areas.len()],
             touching: Vec::new(),
-            edges: &[],
-            near: Vec::new(),
         }
-    }
-
-    /// Keeps the middles of edges out of the body too: where the skin curves, the chord of an edge lies deeper than its
-    /// ends. Middles have no friction.
-    #[must_use]
-    pub fn with_edges(mut self, edges: &'a [[usize; 2]]) -> Self {
-        self.edges = edges;
-        self
-    }
-
-    /// Depth, gradient and stiffness of an edge's middle, where it is too near.
-    fn middle(&self, x: &[V3], [a, b]: [usize; 2]) -> Option<(f64, V3, f64)> {
-        let (distance, gradient) = self.field.value_and_gradient(&((x[a] + x[b]) * 0.5));
-        let depth = MIDDLE_SHARE * self.params.offset_m - distance;
-        (depth > 0.0).then(|| (depth, gradient, 0.5 * (self.stiffness[a] + self.stiffness[b])))
     }
 
     /// Switches friction on with a Coulomb coefficient, or off. Anchors are set where the cloth now lies.
@@ -117,8 +91,6 @@ impl<'a> BodyContact<'a> {
                 energy += 0.5 * k * depth * depth;
             }
         }
-        let middles = self.near.iter().filter_map(|&edge| self.middle(x, edge));
-        energy += middles.map(|(depth, _, k)| 0.5 * k * depth * depth).sum::<f64>();
         energy + self.touching.iter().filter_map(|t| self.friction_at(t, &x[t.vertex])).map(|f| f.energy).sum::<f64>()
     }
 
@@ -128,13 +100,6 @@ impl<'a> BodyContact<'a> {
             let (depth, gradient) = self.depth(p);
             if depth > 0.0 {
                 *force += gradient * (k * depth);
-            }
-        }
-        for &[a, b] in &self.near {
-            if let Some((depth, gradient, k)) = self.middle(x, [a, b]) {
-                let half = gradient * (0.5 * k * depth);
-                forces[a] += half;
-                forces[b] += half;
             }
         }
         for touch in &self.touching {
@@ -147,10 +112,8 @@ impl<'a> BodyContact<'a> {
     /// Finds the touching vertices and adds their forces and stiffness.
     pub fn assemble(&mut self, x: &[V3], forces: &mut [V3], diagonal: &mut [Matrix3<f64>]) {
         self.touching.clear();
-        let mut is_near = vec![false; x.len()];
         for vertex in 0..x.len() {
             let (depth, gradient) = self.depth(&x[vertex]);
-            is_near[vertex] = depth > -MIDDLE_REACH_M;
             if depth <= 0.0 {
                 self.anchors[vertex] = None;
                 continue;
@@ -161,18 +124,6 @@ impl<'a> BodyContact<'a> {
             self.touching.push(Touch { vertex, gradient, force_n: k * depth * gradient.norm() });
             if self.friction.is_some() {
                 self.anchors[vertex].get_or_insert(x[vertex]);
-            }
-        }
-        self.near.clear();
-        self.near.extend(self.edges.iter().filter(|[a, b]| is_near[*a] && is_near[*b]));
-        for &[a, b] in &self.near {
-            if let Some((depth, gradient, k)) = self.middle(x, [a, b]) {
-                // The stiffness of the middle couples both ends; half of it at each bounds it from above.
-                let half = gradient * gradient.transpose() * (0.5 * k);
-                for v in [a, b] {
-                    forces[v] += gradient * (0.5 * k * depth);
-                    diagonal[v] += half;
-                }
             }
         }
         for touch in &self.touching {

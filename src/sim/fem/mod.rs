@@ -117,8 +117,7 @@ fn settle(
 ) -> Result<Settled, SimError> {
     let cloth = Cloth::new(garment, fabric, sewing::welded(garment))?;
     let mut x = cloth.weld(&positions);
-    let edges = cloth.membrane.pairs.pairs();
-    let contact = BodyContact::new(field, params.contact, &cloth.areas).with_edges(edges);
+    let contact = BodyContact::new(field, params.contact, &cloth.areas);
     let mut system = System::new(&cloth, contact, None);
     system.self_contact = Some(ClothContact::new(params.self_contact, &cloth.triangles, &cloth.areas));
     let mut residual = run.drape(garment, &mut system, &mut x, Phase::frictionless(params, level, run.levels()))?;
