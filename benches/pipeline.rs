@@ -6,12 +6,12 @@ use std::sync::LazyLock;
 
 use divan::Bencher;
 use toile::body::{self, Body, Measurements, Sex};
-use toile::geom::{DistanceField, TriMesh};
+use toile::geom::{DistanceField, TriMesh, shapes};
 use toile::measure;
 use toile::pattern::{Garment, Style, draft, dxf};
 use toile::render::{self, Camera, Frame, Layer, Material, Scene, View};
 use toile::sim::fem::{self, Params};
-use toile::sim::{Drape, Fabric, Monitor, Progress, fabric};
+use toile::sim::{Drape, Fabric, Monitor, Progress, fabric, laboratory};
 use toile::study::pattern_files::{Beside, inspect};
 use toile::study::{RunOptions, Workspace};
 
@@ -28,14 +28,13 @@ const SPACING_M: f64 = 0.005;
 
 fn subject() -> Measurements {
     Measurements {
-        sex: Sex::Male,
-        stature_m: 1.690,
         weight_kg: Some(53.0),
         chest_girth_m: Some(0.863),
         waist_girth_m: Some(0.782),
         hip_girth_m: Some(0.914),
         neck_girth_m: Some(0.378),
         across_shoulder_m: Some(0.429),
+        ..Measurements::of(Sex::Male, 1.690)
     }
 }
 
@@ -149,6 +148,20 @@ fn fem_drape(bencher: Bencher, edge_mm: u32) {
     let garments = meshes(f64::from(edge_mm) * 1e-3);
     LazyLock::force(&FIELD);
     bencher.bench_local(|| drape(divan::black_box(&garments)));
+}
+
+/// T-shirts of about 5, 10, 20 and 40 thousand sewn vertices: `cargo bench -- --ignored`.
+#[divan::bench(args = [14, 10, 7, 5], sample_count = 1, sample_size = 1, ignore)]
+fn fem_drape_growth(bencher: Bencher, edge_mm: u32) {
+    fem_drape(bencher, edge_mm);
+}
+
+/// A square metre of cloth, 71 x 71 vertices, over a sphere of 0.3 m, to a residual of 1 %.
+#[divan::bench(sample_count = 3, sample_size = 1)]
+fn sheet_over_sphere(bencher: Bencher) {
+    let field = DistanceField::build(&shapes::sphere(0.3, 64), 0.01).expect("a closed sphere");
+    let cloth = laboratory::isotropic(0.2, 500.0, 1e-5);
+    bencher.bench_local(|| laboratory::drape::over_sphere(divan::black_box(&cloth), &field).expect("a sound mesh"));
 }
 
 #[divan::bench]

@@ -13,7 +13,7 @@ CREATE TABLE subject (
     hip_girth_mm REAL,
     neck_girth_mm REAL,
     across_shoulder_mm REAL,
-    created_at INTEGER NOT NULL,
+    created_at INTEGER NOT NULL, underbust_girth_mm REAL, thigh_girth_mm REAL, knee_girth_mm REAL, calf_girth_mm REAL, ankle_girth_mm REAL, upper_arm_girth_mm REAL, forearm_girth_mm REAL, wrist_girth_mm REAL, inseam_mm REAL, arm_length_mm REAL, foot_length_mm REAL,
     UNIQUE (name, revision),
     UNIQUE (name, hash)
 ) STRICT;
@@ -301,27 +301,6 @@ SELECT job_id, study.name AS study, garment, size, job.subject, simulator, repea
 FROM provenance JOIN job USING (job_id) JOIN study USING (study_id) JOIN subject USING (subject_id)
     JOIN style USING (style_id) JOIN size USING (size_id) JOIN fabric USING (fabric_id);
 
-CREATE VIEW v_subjects AS
-SELECT name AS subject, revision, sex, stature_mm, weight_kg, chest_girth_mm, waist_girth_mm, hip_girth_mm, neck_girth_mm,
-    across_shoulder_mm, hash, revision = max(revision) OVER (PARTITION BY name) AS is_latest
-FROM subject;
-
-CREATE VIEW v_styles AS
-SELECT name AS style, revision, seam_file, hash, revision = max(revision) OVER (PARTITION BY name) AS is_latest,
-    (SELECT count(DISTINCT size.name) FROM size WHERE size.style = style.name) AS sizes
-FROM style;
-
-CREATE VIEW v_sizes AS
-SELECT style, name AS size, revision, pattern_file, unit, length(pattern) AS bytes, hash,
-    revision = max(revision) OVER (PARTITION BY style, name) AS is_latest
-FROM size;
-
-CREATE VIEW v_fabrics AS
-SELECT name AS fabric, revision, density_kg_m2, thickness_mm, membrane_warp_n_m, membrane_weft_n_m, membrane_coupling_n_m,
-    shear_n_m, bending_warp_nm, bending_weft_nm, friction_body, friction_self, source, hash,
-    revision = max(revision) OVER (PARTITION BY name) AS is_latest
-FROM fabric;
-
 CREATE TABLE published (
     table_no TEXT NOT NULL,
     garment TEXT NOT NULL,
@@ -381,3 +360,35 @@ CREATE TABLE published_preposition (
     chi REAL NOT NULL,
     PRIMARY KEY (bend_deg, measurement, offset_printed)
 ) STRICT, WITHOUT ROWID;
+
+CREATE TABLE catalogue_entry (
+    part TEXT NOT NULL CHECK (part IN ('subject', 'style', 'size', 'fabric')),
+    name TEXT NOT NULL,
+    revision INTEGER NOT NULL,
+    is_own INTEGER NOT NULL,
+    is_retired INTEGER NOT NULL DEFAULT 0,
+    PRIMARY KEY (part, name)
+) STRICT, WITHOUT ROWID;
+
+CREATE VIEW v_subjects AS
+SELECT name AS subject, subject.revision, sex, stature_mm, weight_kg, chest_girth_mm, waist_girth_mm, hip_girth_mm,
+    neck_girth_mm, across_shoulder_mm, underbust_girth_mm, thigh_girth_mm, knee_girth_mm, calf_girth_mm,
+    ankle_girth_mm, upper_arm_girth_mm, forearm_girth_mm, wrist_girth_mm, inseam_mm, arm_length_mm, foot_length_mm,
+    hash, subject.revision = entry.revision AS is_latest, is_retired
+FROM subject JOIN catalogue_entry AS entry USING (name) WHERE part = 'subject';
+
+CREATE VIEW v_styles AS
+SELECT name AS style, style.revision, seam_file, hash, style.revision = entry.revision AS is_latest,
+    (SELECT count(DISTINCT size.name) FROM size WHERE size.style = style.name) AS sizes, is_retired
+FROM style JOIN catalogue_entry AS entry USING (name) WHERE part = 'style';
+
+CREATE VIEW v_sizes AS
+SELECT style, size.name AS size, size.revision, pattern_file, unit, length(pattern) AS bytes, hash,
+    size.revision = entry.revision AS is_latest, is_retired
+FROM size JOIN catalogue_entry AS entry ON entry.name = size.style || '/' || size.name WHERE part = 'size';
+
+CREATE VIEW v_fabrics AS
+SELECT name AS fabric, fabric.revision, density_kg_m2, thickness_mm, membrane_warp_n_m, membrane_weft_n_m,
+    membrane_coupling_n_m, shear_n_m, bending_warp_nm, bending_weft_nm, friction_body, friction_self, source, hash,
+    fabric.revision = entry.revision AS is_latest, is_retired
+FROM fabric JOIN catalogue_entry AS entry USING (name) WHERE part = 'fabric';

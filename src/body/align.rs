@@ -7,7 +7,15 @@ use crate::geom::{TriMesh, V2, V3, hull};
 use nalgebra::{Rotation2, UnitQuaternion};
 
 /// A body whose long axis leans less than this from an axis of its file stands along that axis, radians.
-const SNAP: f64 = 20.0 * std::f64::consts::PI / 180.0;
+const SNAP: f64 = 5.0 * std::f64::consts::PI / 180.0;
+
+/// A body that leans less than the first from the upright axis of its file, or less than the second where the file has none, is
+/// left as it is; one that would lean more than [`SOLES`] by its soles does not stand on them (raised heels), radians.
+const LEANING: [f64; 2] = [2.5 * std::f64::consts::PI / 180.0, 0.2 * std::f64::consts::PI / 180.0];
+const SOLES: f64 = 5.0 * std::f64::consts::PI / 180.0;
+
+/// Height of the soles above the lowest point, over stature.
+const SOLE_ZONE: f64 = 0.025;
 
 /// Slabs in which the symmetry is judged, and directions of their support functions.
 const SLABS: usize = 24;
@@ -20,9 +28,9 @@ const SHIFTED: f64 = 0.004;
 /// Left and right of a body differ by less than this over stature, root mean square.
 const SYMMETRIC: f64 = 0.02;
 
-/// Turns the mesh so that its long axis points up and its legs are below.
-pub(super) fn stand_up(mesh: &mut TriMesh, notes: &mut Vec<String>) {
-    let Some((_, [long, ..])) = principal_axes(mesh, &mesh.triangles) else { return };
+/// Turns the mesh so that its long axis points up and its legs are below; whether it stands along an axis of its file.
+pub(super) fn stand_up(mesh: &mut TriMesh, notes: &mut Vec<String>) -> bool {
+    let Some((_, [long, ..])) = principal_axes(mesh, &mesh.triangles) else { return true };
     let leaning = |axis: &V3| long.dot(axis).abs().clamp(0.0, 1.0).acos();
     let frame = [V3::z(), V3::y(), V3::x()];
     let nearest = frame.iter().position(|axis| leaning(axis) < SNAP);
@@ -49,6 +57,39 @@ pub(super) fn stand_up(mesh: &mut TriMesh, notes: &mut Vec<String>) {
         turn_all(mesh, |p| V3::new(-p.x, p.y, -p.z));
         notes.push("turned upside down: the legs were above".to_owned());
     }
+    nearest.is_some()
+}
+
+/// Rights a body that already faces front or back: its long axis must not lean sideways, its soles must lie level.
+pub(super) fn straighten(mesh: &mut TriMesh, along_axis: bool, notes: &mut Vec<String>) {
+    let Some((_, [long, ..])) = principal_axes(mesh, &mesh.triangles) else { return };
+    let long = if long.z < 0.0 { -long } else { long };
+    let sideways = long.x.atan2(long.z);
+    let about_y = UnitQuaternion::from_axis_angle(&V3::y_axis(), -sideways);
+    let upright = TriMesh { positions: mesh.positions.iter().map(|p| about_y * p).collect(), triangles: Vec::new() };
+    let forwards = sole_slope(&upright).unwrap_or(0.0);
+    let about_x = UnitQuaternion::from_axis_angle(&V3::x_axis(), -forwards);
+    let righted = about_x * about_y;
+    let lean = (righted * long).z.clamp(-1.0, 1.0).acos();
+    let turn = if lean < SOLES { righted } else { about_y };
+    if turn.angle() > LEANING[usize::from(!along_axis)] {
+        turn_all(mesh, |p| turn * p);
+        notes.push(format!("righted by {:.1} degrees: it leant", turn.angle().to_degrees()));
+    }
+}
+
+/// Slope of the soles from back to front, radians: that of the edge on which the feet rest under their middle.
+fn sole_slope(mesh: &TriMesh) -> Option<f64> {
+    let (low, high) = mesh.bounds()?;
+    let ceiling = low.z + SOLE_ZONE * (high.z - low.z);
+    let soles: Vec<V2> = mesh.positions.iter().filter(|p| p.z < ceiling).map(|p| V2::new(p.y, p.z)).collect();
+    let hull = hull::convex_hull(&soles);
+    let (from, to) = soles.iter().fold((f64::MAX, f64::MIN), |(a, b), p| (a.min(p.x), b.max(p.x)));
+    let middle = (from + to) / 2.0;
+    // Counter-clockwise, the lower edges run forwards.
+    let next = hull.iter().cycle().skip(1);
+    let edge = hull.iter().zip(next).find(|(a, b)| a.x <= middle && b.x > middle)?;
+    Some((edge.1.y - edge.0.y).atan2(edge.1.x - edge.0.x))
 }
 
 fn turn_all(mesh: &mut TriMesh, turn: impl Fn(&V3) -> V3) {

@@ -1,269 +1,280 @@
-//! Filling in what was not measured: linear equations from the ANSUR II survey.
-//!
-//! Coefficients: least squares over 4,082 men and 1,986 women of the 2012 Anthropometric Survey of U.S. Army Personnel
-//! [Gordon 2014], dimension in millimetres from stature in millimetres and mass in kilograms.
+//! From what is known of a subject to every dimension of the figure, and whether the known goes together.
 
+use super::dimension::{COUNT, Dimension};
+use super::survey::{Expected, Survey};
 use super::{BodyError, Measurements, Sex};
-use crate::units::from_mm;
 
-/// Accepted range of each measurement, SI units: name, least, greatest, and unit. Wider than any adult of the survey.
-const RANGES: [(&str, f64, f64, &str); 7] = [
-    ("stature_m", 1.30, 2.20, "m"),
-    ("weight_kg", 30.0, 200.0, "kg"),
-    ("chest_girth_m", 0.60, 1.60, "m"),
-    ("waist_girth_m", 0.45, 1.60, "m"),
-    ("hip_girth_m", 0.65, 1.70, "m"),
-    ("neck_girth_m", 0.25, 0.55, "m"),
-    ("across_shoulder_m", 0.30, 0.56, "m"),
-];
+/// Standard deviations (of people alike) beyond which girths, and lengths, do not go together.
+const IMPOSSIBLE_GIRTH: f64 = 8.0;
+const IMPOSSIBLE_LENGTH: f64 = 5.0;
 
-/// A dimension as `constant + per_stature * stature + per_mass * mass` (mm, mm, kg).
-#[derive(Clone, Copy, Debug)]
-struct Line {
-    constant: f64,
-    per_stature: f64,
-    per_mass: f64,
-}
+/// Standard deviations beyond which a measurement is doubtful: one person of a hundred.
+const DOUBTFUL: f64 = 2.576;
 
-impl Line {
-    const fn new(constant: f64, per_stature: f64, per_mass: f64) -> Self {
-        Self { constant, per_stature, per_mass }
-    }
-
-    /// The dimension in metres.
-    fn at(self, stature_m: f64, weight_kg: f64) -> f64 {
-        from_mm(self.constant + self.per_stature * stature_m * 1e3 + self.per_mass * weight_kg)
-    }
-
-    /// The mass in kilograms at which the dimension is `value_m`.
-    fn mass_for(self, value_m: f64, stature_m: f64) -> f64 {
-        (value_m * 1e3 - self.constant - self.per_stature * stature_m * 1e3) / self.per_mass
-    }
-}
-
-/// The equations of one sex.
-struct Equations {
-    /// Mean body mass index of the survey, kg/m^2.
-    mass_index: f64,
-    neck: Line,
-    chest: Line,
-    /// At the navel.
-    waist: Line,
-    hip: Line,
-    biacromial: Line,
-    bideltoid: Line,
-    thigh: Line,
-    lower_thigh: Line,
-    calf: Line,
-    ankle: Line,
-    upper_arm_flexed: Line,
-    forearm_flexed: Line,
-    wrist: Line,
-    foot_length: Line,
-    /// Girth at the ISO 8559-1 waist over that at the navel: mean of three reference bodies.
-    iso_waist_over_navel: f64,
-    /// Tape over the back neck point over the straight distance of the shoulder points: mean of three bodies.
-    tape_over_biacromial: f64,
-}
-
-const MALE: Equations = Equations {
-    mass_index: 27.7,
-    neck: Line::new(407.756, -0.08508, 1.62899),
-    chest: Line::new(1036.434, -0.29094, 6.23488),
-    waist: Line::new(1024.906, -0.43577, 7.96237),
-    hip: Line::new(808.411, -0.14014, 5.34620),
-    biacromial: Line::new(204.589, 0.09168, 0.58554),
-    bideltoid: Line::new(433.461, -0.06100, 2.15262),
-    thigh: Line::new(594.745, -0.18359, 4.12538),
-    lower_thigh: Line::new(344.19, -0.06576, 2.11154),
-    calf: Line::new(350.962, -0.06845, 1.88843),
-    ankle: Line::new(153.091, 0.00791, 0.72914),
-    upper_arm_flexed: Line::new(380.299, -0.12234, 2.25309),
-    forearm_flexed: Line::new(252.737, -0.03150, 1.31715),
-    wrist: Line::new(97.5, 0.02525, 0.39840),
-    foot_length: Line::new(44.931, 0.12038, 0.17345),
-    iso_waist_over_navel: 0.997,
-    tape_over_biacromial: 1.066,
-};
-
-const FEMALE: Equations = Equations {
-    mass_index: 25.5,
-    neck: Line::new(305.816, -0.04685, 1.47991),
-    chest: Line::new(990.341, -0.32916, 7.26921),
-    waist: Line::new(1014.124, -0.47172, 9.07584),
-    hip: Line::new(846.892, -0.17841, 6.86093),
-    biacromial: Line::new(131.989, 0.12829, 0.36067),
-    bideltoid: Line::new(386.785, -0.06265, 2.44346),
-    thigh: Line::new(584.014, -0.19423, 5.14231),
-    lower_thigh: Line::new(350.163, -0.09112, 2.93581),
-    calf: Line::new(305.854, -0.05141, 2.23044),
-    ankle: Line::new(139.867, 0.01407, 0.78151),
-    upper_arm_flexed: Line::new(341.408, -0.13988, 2.83313),
-    forearm_flexed: Line::new(215.883, -0.03185, 1.47675),
-    wrist: Line::new(80.862, 0.02795, 0.41945),
-    foot_length: Line::new(37.855, 0.11804, 0.23932),
-    iso_waist_over_navel: 0.968,
-    tape_over_biacromial: 1.115,
-};
-
-/// Relaxed over flexed girth of the upper arm and of the forearm.
-const RELAXED: [f64; 2] = [0.92, 0.95];
-
-/// Change of the breadth over the upper arms with that of the shoulder points (coefficient of the survey's equations with
-/// girths as further predictors, mean of both sexes).
-const DELTOID_PER_ACROMION: f64 = 0.55;
-
-/// Girth at the middle of the knee over the survey's lower thigh girth just above it.
-const KNEE_OVER_LOWER_THIGH: f64 = 0.93;
-
-/// Every dimension the figure is made from, metres: measured where known, estimated elsewhere.
+/// Every dimension the figure is made from, SI units: measured where known, estimated elsewhere.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Profile {
     pub sex: Sex,
-    pub stature: f64,
-    pub neck: f64,
-    pub chest: f64,
-    pub waist: f64,
-    pub hip: f64,
-    pub across_shoulder: f64,
-    /// Straight distance of the shoulder points that the tape length suggests.
-    pub biacromial: f64,
-    /// Breadth over the upper arms at the shoulders.
-    pub bideltoid: f64,
-    pub thigh: f64,
-    pub knee: f64,
-    pub calf: f64,
-    pub ankle: f64,
-    pub upper_arm: f64,
-    pub forearm: f64,
-    pub wrist: f64,
-    pub foot_length: f64,
+    values: [f64; COUNT],
+    given: [bool; COUNT],
 }
 
 impl Profile {
-    /// Checks the measurements and fills in the missing ones.
+    /// Checks the measurements and fills in the missing ones: each the survey's median among people with all that is known.
     ///
     /// # Errors
-    /// [`BodyError::OutOfRange`] names the first measurement that no adult has.
+    /// [`BodyError::OutOfRange`] names the first measurement that no adult has, [`BodyError::Contradiction`] the two that
+    /// go together worst.
     pub fn new(known: &Measurements) -> Result<Self, BodyError> {
         check_ranges(known)?;
-        let equations = equations(known.sex);
-        let stature = known.stature_m;
-        let mass = known.weight_kg.unwrap_or_else(|| equations.mass(known));
-        let estimate = |line: Line| line.at(stature, mass);
-        let across_shoulder =
-            known.across_shoulder_m.unwrap_or_else(|| estimate(equations.biacromial) * equations.tape_over_biacromial);
-        let biacromial = across_shoulder / equations.tape_over_biacromial;
-        let bideltoid =
-            estimate(equations.bideltoid) + DELTOID_PER_ACROMION * (biacromial - estimate(equations.biacromial));
-        Ok(Self {
-            sex: known.sex,
-            stature,
-            neck: known.neck_girth_m.unwrap_or_else(|| estimate(equations.neck)),
-            chest: known.chest_girth_m.unwrap_or_else(|| estimate(equations.chest)),
-            waist: known.waist_girth_m.unwrap_or_else(|| estimate(equations.waist) * equations.iso_waist_over_navel),
-            hip: known.hip_girth_m.unwrap_or_else(|| estimate(equations.hip)),
-            across_shoulder,
-            biacromial,
-            bideltoid,
-            thigh: estimate(equations.thigh),
-            knee: estimate(equations.lower_thigh) * KNEE_OVER_LOWER_THIGH,
-            calf: estimate(equations.calf),
-            ankle: estimate(equations.ankle),
-            upper_arm: estimate(equations.upper_arm_flexed) * RELAXED[0],
-            forearm: estimate(equations.forearm_flexed) * RELAXED[1],
-            wrist: estimate(equations.wrist),
-            foot_length: estimate(equations.foot_length),
-        })
-    }
-}
-
-impl Equations {
-    /// Mass in kilograms that the known girths suggest (the mean over them), or the survey's mean at this stature.
-    fn mass(&self, known: &Measurements) -> f64 {
-        let girths = [
-            (known.chest_girth_m, self.chest),
-            (known.waist_girth_m.map(|girth| girth / self.iso_waist_over_navel), self.waist),
-            (known.hip_girth_m, self.hip),
-        ];
-        let guesses: Vec<f64> =
-            girths.iter().filter_map(|&(girth, line)| girth.map(|g| line.mass_for(g, known.stature_m))).collect();
-        let (_, least, greatest, _) = RANGES[1];
-        if guesses.is_empty() {
-            return (self.mass_index * known.stature_m * known.stature_m).clamp(least, greatest);
+        check_pairs(known)?;
+        let measured: Vec<(Dimension, f64)> = known.known().collect();
+        let every: Vec<Dimension> = Dimension::ALL.into_iter().chain([Dimension::ShoulderBreadth]).collect();
+        let expected = Survey::of(known.sex).expect(&every, &measured);
+        let mut profile = Self { sex: known.sex, values: [0.0; COUNT], given: [false; COUNT] };
+        for (dimension, expected) in every.into_iter().zip(expected) {
+            profile.values[dimension as usize] = known.get(dimension).unwrap_or(expected.median());
+            profile.given[dimension as usize] = known.get(dimension).is_some();
         }
-        (guesses.iter().sum::<f64>() / guesses.len() as f64).clamp(least, greatest)
+        Ok(profile)
     }
-}
 
-fn equations(sex: Sex) -> &'static Equations {
-    match sex {
-        Sex::Male => &MALE,
-        Sex::Female => &FEMALE,
+    /// A dimension, m or kg.
+    pub fn at(&self, dimension: Dimension) -> f64 {
+        self.values[dimension as usize]
+    }
+
+    /// Whether a dimension was measured.
+    pub fn is_given(&self, dimension: Dimension) -> bool {
+        self.given[dimension as usize]
     }
 }
 
 fn check_ranges(known: &Measurements) -> Result<(), BodyError> {
-    let values = [
-        Some(known.stature_m),
-        known.weight_kg,
-        known.chest_girth_m,
-        known.waist_girth_m,
-        known.hip_girth_m,
-        known.neck_girth_m,
-        known.across_shoulder_m,
-    ];
-    for (value, (name, least, greatest, unit)) in values.into_iter().zip(RANGES) {
-        if let Some(value) = value.filter(|value| !(least..=greatest).contains(value)) {
-            return Err(BodyError::OutOfRange { name, value, least, greatest, unit });
+    let outside = |&(dimension, value): &(Dimension, f64)| {
+        let [least, greatest] = dimension.range();
+        !(least..=greatest).contains(&value)
+    };
+    let Some((dimension, value)) = known.known().find(outside) else { return Ok(()) };
+    let [least, greatest] = dimension.range().map(|bound| bound * dimension.per_si());
+    let (name, unit) = (dimension.key(), dimension.unit());
+    Err(BodyError::OutOfRange { name, value: value * dimension.per_si(), least, greatest, unit })
+}
+
+/// Refuses measurements of which two do not go together at this stature, or one with the stature itself.
+fn check_pairs(known: &Measurements) -> Result<(), BodyError> {
+    let survey = Survey::of(known.sex);
+    let stature = (Dimension::Stature, known.stature_m);
+    let others: Vec<(Dimension, f64)> = known.known().filter(|(dimension, _)| *dimension != stature.0).collect();
+    let mut worst: Option<(f64, Dimension, Dimension, Expected)> = None;
+    for &(dimension, value) in &others {
+        for &partner in std::iter::once(&stature).chain(others.iter().filter(|other| other.0 != dimension)) {
+            let given = if partner == stature { vec![stature] } else { vec![stature, partner] };
+            let expected = survey.expect(&[dimension], &given)[0];
+            let excess = expected.score(value).abs() / limit(dimension);
+            if excess > worst.as_ref().map_or(1.0, |worst| worst.0) {
+                worst = Some((excess, dimension, partner.0, expected));
+            }
         }
     }
-    Ok(())
+    let Some((_, dimension, partner, expected)) = worst else { return Ok(()) };
+    let shown = |dimension: Dimension, value: f64| {
+        format!("{} {:.0} {}", dimension.name(), value * dimension.per_si(), dimension.unit())
+    };
+    let told = |dimension: Dimension| shown(dimension, known.get(dimension).unwrap_or_default());
+    let [least, greatest] = [-1.0, 1.0].map(|side| expected.at(side * limit(dimension)) * dimension.per_si());
+    let with = if partner == Dimension::Stature {
+        told(partner)
+    } else {
+        format!("{} at {}", told(partner), told(Dimension::Stature))
+    };
+    Err(BodyError::Contradiction { found: told(dimension), with, least, greatest, unit: dimension.unit() })
+}
+
+/// Standard deviations beyond which a dimension is impossible.
+fn limit(dimension: Dimension) -> f64 {
+    match dimension {
+        Dimension::Inseam | Dimension::ArmLength | Dimension::FootLength | Dimension::AcrossShoulder => {
+            IMPOSSIBLE_LENGTH
+        }
+        _ => IMPOSSIBLE_GIRTH,
+    }
+}
+
+/// A measurement that few people have.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Doubt {
+    /// What was measured.
+    pub measurement: &'static str,
+    /// As given, mm or kg.
+    pub value: f64,
+    /// Percentile among all adults of the sex.
+    pub percentile: f64,
+    /// Percentile among those of the same stature and, where known, weight.
+    pub percentile_alike: f64,
+    /// What 98 of 100 such people have, mm or kg.
+    pub usual: [f64; 2],
+}
+
+impl std::fmt::Display for Doubt {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { measurement, value, percentile, percentile_alike, usual: [least, greatest] } = self;
+        write!(
+            f,
+            "{measurement} = {value:.0} is doubtful: percentile {percentile:.1} of the sex, {percentile_alike:.1} of those \
+             with this stature and weight, of whom 98 % have {least:.0} to {greatest:.0}"
+        )
+    }
+}
+
+/// The measurements of a subject that are possible, but that fewer than one of a hundred alike have.
+#[must_use]
+pub fn plausibility(known: &Measurements) -> Vec<Doubt> {
+    let finite = known.known().all(|(_, value)| value.is_finite() && value > 0.0);
+    if !finite {
+        return Vec::new();
+    }
+    let doubt = |(dimension, value): (Dimension, f64)| {
+        let expected = alike(known.sex, dimension, Some(known.stature_m), known.weight_kg);
+        let score = expected.score(value);
+        (score.abs() > DOUBTFUL).then(|| Doubt {
+            measurement: dimension.key(),
+            value: value * dimension.per_si(),
+            percentile: percentile(known.sex, dimension, value, None, None),
+            percentile_alike: 100.0 * share_below(score),
+            usual: [-2.326, 2.326].map(|score| expected.at(score) * dimension.per_si()),
+        })
+    };
+    known.known().filter_map(doubt).collect()
+}
+
+/// Density of a body with half-filled lungs, kg/l.
+const DENSITY: f64 = 1.01;
+
+/// Relative difference of a mass from the volume that is explained.
+const UNEXPLAINED: f64 = 0.10;
+
+/// The mass that a body's volume suggests, beside its weight.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Mass {
+    /// Volume times 1.01 kg/l.
+    pub mass_from_volume_kg: f64,
+    /// The asked weight.
+    pub weight_asked_kg: Option<f64>,
+    /// Mass from the volume over the asked weight, minus one, per cent.
+    pub mass_off_percent: Option<f64>,
+}
+
+impl Mass {
+    /// The mass of a volume in litres.
+    #[must_use]
+    pub fn of(volume_l: f64, weight_kg: Option<f64>) -> Self {
+        let mass = DENSITY * volume_l;
+        let off = weight_kg.map(|weight| 100.0 * (mass / weight - 1.0));
+        Self { mass_from_volume_kg: mass, weight_asked_kg: weight_kg, mass_off_percent: off }
+    }
+}
+
+impl std::fmt::Display for Mass {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "volume x {DENSITY} kg/l: {:.1} kg", self.mass_from_volume_kg)?;
+        let (Some(weight), Some(off)) = (self.weight_asked_kg, self.mass_off_percent) else { return Ok(()) };
+        write!(f, ", {off:+.0} % from the weight of {weight:.1} kg")?;
+        if off.abs() > 100.0 * UNEXPLAINED {
+            let than = if off > 0.0 { "larger" } else { "smaller" };
+            write!(
+                f,
+                ": the girths asked are {than} than people of this stature and weight have; they are kept, the weight is not"
+            )?;
+        }
+        Ok(())
+    }
+}
+
+/// Percentile (0 to 100) of a value (m or kg) among the adults of a sex [Gordon 2014], of a stature (m) and a weight (kg) where
+/// these are given.
+#[must_use]
+pub fn percentile(sex: Sex, dimension: Dimension, value: f64, stature_m: Option<f64>, weight_kg: Option<f64>) -> f64 {
+    100.0 * share_below(alike(sex, dimension, stature_m, weight_kg).score(value))
+}
+
+/// The distribution of a dimension among people of a stature and weight.
+fn alike(sex: Sex, dimension: Dimension, stature_m: Option<f64>, weight_kg: Option<f64>) -> Expected {
+    let given: Vec<(Dimension, f64)> = [(Dimension::Stature, stature_m), (Dimension::Weight, weight_kg)]
+        .into_iter()
+        .filter(|(known, _)| *known != dimension && dimension != Dimension::Stature)
+        .filter_map(|(known, value)| value.map(|value| (known, value)))
+        .collect();
+    Survey::of(sex).expect(&[dimension], &given)[0]
+}
+
+/// Standard normal distribution function [Abramowitz & Stegun 7.1.26], to 1e-7.
+fn share_below(score: f64) -> f64 {
+    let x = score.abs() / std::f64::consts::SQRT_2;
+    let t = 1.0 / (1.0 + 0.327_591_1 * x);
+    let series =
+        ((((1.061_405_429 * t - 1.453_152_027) * t + 1.421_413_741) * t - 0.284_496_736) * t + 0.254_829_592) * t;
+    let tail = series * (-x * x).exp() / 2.0;
+    if score > 0.0 { 1.0 - tail } else { tail }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn only_stature(sex: Sex, stature_m: f64) -> Measurements {
-        Measurements {
-            sex,
-            stature_m,
-            weight_kg: None,
-            chest_girth_m: None,
-            waist_girth_m: None,
-            hip_girth_m: None,
-            neck_girth_m: None,
-            across_shoulder_m: None,
-        }
-    }
-
-    /// Survey means (men and women): the equations pass through them.
+    /// Survey medians (men and women).
     #[test]
     fn the_mean_soldier_is_found_again() {
         let check = |sex, stature_m, weight_kg, chest: f64, hip: f64| {
-            let known = Measurements { weight_kg: Some(weight_kg), ..only_stature(sex, stature_m) };
+            let known = Measurements { weight_kg: Some(weight_kg), ..Measurements::of(sex, stature_m) };
             let profile = Profile::new(&known).expect("an ordinary person");
-            assert!((profile.chest - chest).abs() < 2e-3, "{sex:?} chest {}", profile.chest);
-            assert!((profile.hip - hip).abs() < 2e-3, "{sex:?} hip {}", profile.hip);
+            let [found_chest, found_hip] = [Dimension::ChestGirth, Dimension::HipGirth].map(|d| profile.at(d));
+            assert!((found_chest - chest).abs() < 5e-3, "{sex:?} chest {found_chest}");
+            assert!((found_hip - hip).abs() < 5e-3, "{sex:?} hip {found_hip}");
         };
         check(Sex::Male, 1.7562, 85.5, 1.0587, 1.0195);
         check(Sex::Female, 1.6285, 67.8, 0.947, 1.0215);
     }
 
     #[test]
-    fn girths_tell_the_mass() {
-        let known =
-            Measurements { chest_girth_m: Some(1.0587), hip_girth_m: Some(1.0195), ..only_stature(Sex::Male, 1.7562) };
-        assert!((MALE.mass(&known) - 85.5).abs() < 0.5, "{}", MALE.mass(&known));
+    fn what_is_given_stays_and_moves_the_rest() {
+        let plain = Measurements { weight_kg: Some(80.0), ..Measurements::of(Sex::Male, 1.75) };
+        let given = Measurements { thigh_girth_m: Some(0.66), inseam_m: Some(0.88), ..plain.clone() };
+        let [plain, given] = [plain, given].map(|known| Profile::new(&known).expect("a person"));
+        assert_eq!((given.at(Dimension::ThighGirth), given.at(Dimension::Inseam)), (0.66, 0.88));
+        assert!(given.at(Dimension::KneeGirth) > plain.at(Dimension::KneeGirth) + 5e-3);
+        assert!(given.at(Dimension::ArmLength) > plain.at(Dimension::ArmLength) + 5e-3);
     }
 
     #[test]
     fn impossible_people_are_refused_by_name() {
-        let refused = Measurements { waist_girth_m: Some(89.0), ..only_stature(Sex::Male, 1.7) };
-        let error = Profile::new(&refused).expect_err("89 m of waist").to_string();
-        assert!(error.contains("waist_girth_m") && error.contains("89") && error.contains("1.6"), "{error}");
-        assert!(Profile::new(&only_stature(Sex::Female, f64::NAN)).is_err());
-        assert!(Profile::new(&only_stature(Sex::Female, 0.0)).is_err());
+        let refused = |known: &Measurements, words: &[&str]| {
+            let error = Profile::new(known).expect_err("no such person").to_string();
+            assert!(words.iter().all(|word| error.contains(word)), "{error}");
+        };
+        let person = Measurements::of(Sex::Male, 1.7);
+        refused(&Measurements { waist_girth_m: Some(89.0), ..person.clone() }, &["waist_girth_mm", "89000", "1700"]);
+        refused(&Measurements::of(Sex::Female, f64::NAN), &["stature"]);
+        refused(&Measurements::of(Sex::Female, 0.0), &["stature", "1300"]);
+        let odd = Measurements { waist_girth_m: Some(0.58), hip_girth_m: Some(1.5), ..person.clone() };
+        refused(&odd, &["waist girth 580 mm", "hip girth 1500 mm", "stature 1700 mm"]);
+        let long_legs = Measurements { inseam_m: Some(1.05), ..person };
+        refused(&long_legs, &["inseam 1050 mm", "stature 1700 mm"]);
+    }
+
+    #[test]
+    fn doubts_name_their_percentile() {
+        let ordinary =
+            Measurements { weight_kg: Some(70.0), waist_girth_m: Some(0.84), ..Measurements::of(Sex::Male, 1.75) };
+        assert_eq!(plausibility(&ordinary), []);
+        let odd = Measurements { neck_girth_m: Some(0.46), ..ordinary };
+        let doubts = plausibility(&odd);
+        assert_eq!(doubts.len(), 1);
+        assert_eq!(doubts[0].measurement, "neck_girth_mm");
+        assert!(doubts[0].percentile > 95.0 && doubts[0].percentile_alike > 99.5, "{}", doubts[0]);
+        let median = percentile(Sex::Male, Dimension::Stature, 0.5624_f64.exp(), None, None);
+        assert!((median - 50.0).abs() < 1e-3, "{median}");
+        let tall = percentile(Sex::Female, Dimension::Stature, (0.4869 + 1.6449 * 0.0394_f64).exp(), Some(1.6), None);
+        assert!((tall - 95.0).abs() < 0.01, "{tall}");
     }
 }

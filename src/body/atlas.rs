@@ -54,6 +54,8 @@ pub(super) struct Atlas {
     /// Heights of knee and calf over stature.
     pub knee: f64,
     pub calf: f64,
+    /// Tape over the back neck point over the straight distance of the shoulder points: mean of three bodies.
+    pub tape_over_biacromial: f64,
 }
 
 impl Atlas {
@@ -158,6 +160,7 @@ static MALE: Atlas = Atlas {
     head_height: 0.1305,
     knee: 0.285,
     calf: 0.2252,
+    tape_over_biacromial: 1.066,
 };
 
 static FEMALE: Atlas = Atlas {
@@ -253,4 +256,5 @@ static FEMALE: Atlas = Atlas {
     head_height: 0.1320,
     knee: 0.282,
     calf: 0.2400,
+    tape_over_biacromial: 1.115,
 };

@@ -3,42 +3,26 @@
 use super::anthropometry::Profile;
 use super::control_cut::{Cuts, control_mesh};
 use super::figure::Figure;
+use super::fit::{self, Fit};
 use super::landmarks::{self, Side};
-use super::measure::{self, Girths, Sites};
-use super::surface::Skin;
+use super::limbs::UPPER_ARM;
+use super::measure::{self, Sites};
 use super::tape;
-use super::{Body, BodyError, Landmarks, Levels, Measurements, Sex};
-use crate::geom::contour::Grid;
+use super::{Body, BodyError, Landmarks, Levels, Measurements};
 use crate::geom::section::Plane;
 use crate::geom::{TriMesh, V3};
-use crate::units::from_mm;
-
-/// Grid spacing of the skin, as a share of stature: of the body, and of arms (sideways) and feet (in height).
-const SPACING: f64 = 0.0095;
-const FINE_SPACING: f64 = 0.0070;
-
-/// Height of the ankles over stature.
-const ANKLE: f64 = 0.045;
-
-/// Most rounds of the fit, and the error at which it stops, metres.
-const ROUNDS: usize = 8;
-const FITTED: f64 = 3e-4;
-
-/// Greatest accepted difference of a girth and of the across-shoulder length from what was asked, metres.
-const GIRTH_TOLERANCE: f64 = 2e-3;
-const SHOULDER_TOLERANCE: f64 = 5e-3;
 
 /// Builds a closed, measured mannequin.
 ///
-/// Missing measurements are estimated from the ANSUR II survey [Gordon 2014]. Neck, chest, waist and hip girth and the
-/// across-shoulder length are fitted until the tape reads them on the fine mesh.
+/// Missing measurements are estimated from the ANSUR II survey [Gordon 2014]. The figure is fitted until the tape reads every
+/// given measurement on the fine mesh, which has the same topology for everybody of a sex.
 ///
 /// # Errors
-/// [`BodyError::OutOfRange`] for measurements that no adult has, [`BodyError::Inconsistent`] for those that are not of one
-/// body.
+/// [`BodyError::OutOfRange`] for measurements that no adult has, [`BodyError::Contradiction`] and [`BodyError::Inconsistent`]
+/// for those that are not of one body.
 pub fn build(known: &Measurements) -> Result<Body, BodyError> {
     let profile = Profile::new(known)?;
-    fit(known.sex, &profile).map_err(|error| match error {
+    fit::fit(&profile).and_then(describe).map_err(|error| match error {
         BodyError::MissingPart { part, height_mm } => {
             BodyError::Inconsistent { reason: format!("no {part} can be formed at a height of {height_mm:.0} mm") }
         }
@@ -46,116 +30,65 @@ pub fn build(known: &Measurements) -> Result<Body, BodyError> {
     })
 }
 
-/// Makes the skin of a profile and fits it to the tape.
-fn fit(sex: Sex, profile: &Profile) -> Result<Body, BodyError> {
-    let mut figure = Figure::new(profile);
-    let mut skin = Skin::new(&figure.parts(), &grid(&figure));
-    let mut mesh = skin.triangles(profile.stature);
-    for _ in 0..ROUNDS {
-        let errors = errors(profile, &measure::girths_at(&mesh, &sites(&mesh, &figure)?)?);
-        if errors.iter().all(|error| error.off().abs() < FITTED) {
-            break;
-        }
-        figure.adjust(errors.map(|error| error.asked / error.read));
-        skin.follow(&figure.parts());
-        mesh = skin.triangles(profile.stature);
-    }
-    if !mesh.is_closed_manifold() {
-        return Err(BodyError::Inconsistent { reason: "the skin does not close".to_owned() });
-    }
-    let body = describe(sex, mesh, &figure)?;
-    let unmet = errors(profile, &body.girths).into_iter().find(|error| error.off().abs() > error.tolerance);
-    unmet.map_or(Ok(body), |error| Err(error.refusal()))
-}
-
-/// A fitted measurement: asked for, and read by the tape; metres.
-struct Fitted {
-    name: &'static str,
-    asked: f64,
-    read: f64,
-    tolerance: f64,
-}
-
-impl Fitted {
-    fn off(&self) -> f64 {
-        self.read - self.asked
-    }
-
-    fn refusal(&self) -> BodyError {
-        let Self { name, asked, read, .. } = self;
-        BodyError::Inconsistent { reason: format!("{name} of {asked:.3} m was asked, {read:.3} m is reached") }
-    }
-}
-
-/// Neck, chest, waist and hip girth and the across-shoulder length, asked and read.
-fn errors(asked: &Profile, read: &Girths) -> [Fitted; 5] {
-    let fitted = |name, asked, read_mm, tolerance| Fitted { name, asked, read: from_mm(read_mm), tolerance };
-    [
-        fitted("neck girth", asked.neck, read.neck_girth_mm, GIRTH_TOLERANCE),
-        fitted("chest girth", asked.chest, read.chest_girth_mm, GIRTH_TOLERANCE),
-        fitted("waist girth", asked.waist, read.waist_girth_mm, GIRTH_TOLERANCE),
-        fitted("hip girth", asked.hip, read.hip_girth_mm, GIRTH_TOLERANCE),
-        fitted("across shoulder", asked.across_shoulder, read.across_shoulder_mm, SHOULDER_TOLERANCE),
-    ]
-}
-
-/// The grid on which the skin of a figure is polygonised: finer beyond the shoulders and below the ankles.
-fn grid(figure: &Figure) -> Grid {
-    let stature = figure.profile.stature;
-    let walk = |from: f64, to: f64, spacing: &dyn Fn(f64) -> f64| {
-        let mut nodes = vec![from];
-        let mut at = from;
-        while at < to {
-            at += spacing(at) * stature;
-            nodes.push(at);
-        }
-        nodes
-    };
-    let (low, high) = figure.extent();
-    let sideways = |x: f64| if x > figure.targets.shoulder_x { FINE_SPACING } else { SPACING };
-    let upward = |z: f64| if z < ANKLE * stature { FINE_SPACING } else { SPACING };
-    let right = walk(SPACING * stature / 2.0, high.x, &sideways);
-    let x: Vec<f64> = right.iter().rev().map(|x| -x).chain(right.iter().copied()).collect();
-    let y = walk(low.y, high.y, &|_| SPACING);
-    let z = walk(low.z, high.z, &upward);
-    Grid { axes: [x, y, z] }
-}
-
 /// Where the tape is laid on a figure's skin. Chest and hip are found on the mesh, as on anybody's, so that whoever
 /// measures the mesh reads what was fitted; shoulder and waist are known from the figure.
-fn sites(mesh: &TriMesh, figure: &Figure) -> Result<Sites, BodyError> {
-    let (atlas, h) = (figure.atlas, figure.profile.stature);
+pub(super) fn sites(mesh: &TriMesh, figure: &Figure) -> Result<Sites, BodyError> {
+    let (atlas, h) = (figure.atlas, figure.stature());
     let missing = |part, share: f64| BodyError::MissingPart { part, height_mm: share * h * 1e3 };
-    let upper = tape::above(mesh, 0.7 * h);
-    let crotch = landmarks::crotch(mesh, 0.40 * h, 0.52 * h, 0.0).ok_or_else(|| missing("crotch", atlas.crotch))?;
+    let trunk = mesh.part(|p| p.z > 0.63 * h && p.z < 0.82 * h);
+    let chest = measure::chest_level(&trunk, 0.0, h, crotch(mesh, figure)?, 0.0).unwrap_or(atlas.chest * h);
+    let upper = mesh.part(|p| p.z > 0.80 * h);
     let neck = tape::neck(&upper, 0.845 * h, 0.885 * h, 0.0).ok_or_else(|| missing("neck", 0.87))?;
-    let back_neck = landmarks::median_point(&upper, figure.back_neck_height(), 0.0, Side::Back);
-    let chest = measure::chest_level(mesh, 0.0, h, crotch, 0.0).unwrap_or(atlas.chest * h);
-    let shoulder = |sign: f64| landmarks::shoulder_top(&upper, sign * figure.targets.shoulder_x, 0.86 * h);
-    let right = shoulder(1.0).ok_or_else(|| missing("shoulder", atlas.shoulder))?;
-    let along = figure.arm_axes()[2];
-    Ok(Sites {
+    let level = Sites {
         floor: 0.0,
         crown: h,
         middle: 0.0,
-        crotch,
-        hip: measure::hip_level(mesh, crotch, h, 0.0).unwrap_or(atlas.hip * h),
+        crotch: figure.crotch(),
+        hip: figure.hip(),
         waist: atlas.waist * h,
-        underbust: measure::underbust_level(mesh, chest, h, 0.0),
+        underbust: measure::underbust_level(&trunk, chest, h, 0.0),
         chest,
         neck,
-        shoulder: [right, shoulder(-1.0).ok_or_else(|| missing("shoulder", atlas.shoulder))?],
-        back_neck: back_neck.ok_or_else(|| missing("nape", 0.86))?,
-        upper_arm: Some((figure.shoulder_joint() + along * 0.088 * h, along)),
+        shoulder: [V3::zeros(); 2],
+        back_neck: V3::zeros(),
+        upper_arm: Some(figure.upper_arm()),
+    };
+    let sites = moving_sites(mesh, figure, &level)?;
+    let pelvis = mesh.part(|p| p.z > sites.crotch && p.z < sites.crotch + 0.11 * h);
+    let hip = measure::hip_level(&pelvis, sites.crotch, h, 0.0).unwrap_or(sites.hip);
+    Ok(Sites { hip, ..sites })
+}
+
+/// Height of the crotch, near where the figure has it.
+fn crotch(mesh: &TriMesh, figure: &Figure) -> Result<f64, BodyError> {
+    let (meant, h) = (figure.crotch(), figure.stature());
+    let (low, high) = (meant - 0.06 * h, meant + 0.06 * h);
+    let groin = mesh.part(|p| p.z > low && p.z < high);
+    let missing = || BodyError::MissingPart { part: "crotch", height_mm: meant * 1e3 };
+    landmarks::crotch(&groin, low, high, 0.0).ok_or_else(missing)
+}
+
+/// Sites with what moves in the fit found anew: crotch, shoulder points and back neck point.
+pub(super) fn moving_sites(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Sites, BodyError> {
+    let h = figure.stature();
+    let missing = |part, height: f64| BodyError::MissingPart { part, height_mm: height * 1e3 };
+    let upper = mesh.part(|p| p.z > 0.75 * h && p.z < 0.9 * h);
+    let back_neck = landmarks::median_point(&upper, figure.back_neck_height(), 0.0, Side::Back);
+    let shoulder = |sign: f64| landmarks::shoulder_top(&upper, sign * figure.shoulder_x(), 0.86 * h);
+    let missing_shoulder = || missing("shoulder", figure.atlas.shoulder * h);
+    Ok(Sites {
+        crotch: crotch(mesh, figure)?,
+        shoulder: [shoulder(1.0).ok_or_else(missing_shoulder)?, shoulder(-1.0).ok_or_else(missing_shoulder)?],
+        back_neck: back_neck.ok_or_else(|| missing("nape", figure.back_neck_height()))?,
+        ..sites.clone()
     })
 }
 
 /// Puts together what is known of a finished skin.
-fn describe(sex: Sex, mesh: TriMesh, figure: &Figure) -> Result<Body, BodyError> {
-    let sites = sites(&mesh, figure)?;
-    let girths = measure::girths_at(&mesh, &sites)?;
-    let landmarks = find_landmarks(&mesh, figure, &sites)?;
-    let mut control = control_mesh(&mesh, &cuts(&mesh, figure, &sites, &landmarks))?;
+fn describe(fit: Fit<'_>) -> Result<Body, BodyError> {
+    let Fit { figure, mesh, sites, girths } = fit;
+    let landmarks = find_landmarks(&mesh, &figure, &sites)?;
+    let mut control = control_mesh(&mesh, &cuts(&mesh, &figure, &sites, &landmarks))?;
     control.snap(&landmarks);
     let levels = Levels {
         chest_m: sites.chest,
@@ -166,11 +99,11 @@ fn describe(sex: Sex, mesh: TriMesh, figure: &Figure) -> Result<Body, BodyError>
         neck_m: sites.neck.height,
     };
     let skeleton = control.skeleton();
-    Ok(Body { sex, mesh, skeleton, landmarks, levels, control, girths })
+    Ok(Body { sex: figure.profile.sex, mesh, skeleton, landmarks, levels, control, girths })
 }
 
 fn find_landmarks(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Landmarks, BodyError> {
-    let h = figure.profile.stature;
+    let h = figure.stature();
     let missing = |part: &'static str, z: f64| BodyError::MissingPart { part, height_mm: z * 1e3 };
     let front_height = figure.front_neck_height();
     let side_height = figure.side_neck_height();
@@ -195,10 +128,11 @@ fn find_landmarks(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Land
 
 /// The planes of the control mesh.
 fn cuts(mesh: &TriMesh, figure: &Figure, sites: &Sites, landmarks: &Landmarks) -> Cuts {
-    let (atlas, h) = (figure.atlas, figure.profile.stature);
+    let (atlas, h) = (figure.atlas, figure.stature());
     let [elbow, wrist, tip] = figure.arm_lengths();
     let [outward, forward, along] = figure.arm_axes();
     let joint = figure.shoulder_joint();
+    let [knee, calf] = figure.knee_and_calf();
     let across_arm = |t: f64| Plane { origin: joint + along * t, u: forward, v: outward };
     let (shoulder, armpit) = (landmarks.shoulder[0], landmarks.armpit[0]);
     // The armscye: through the shoulder point, passing outside the armpit.
@@ -218,7 +152,7 @@ fn cuts(mesh: &TriMesh, figure: &Figure, sites: &Sites, landmarks: &Landmarks) -
         })
     };
     Cuts {
-        leg: [0.012 * h, 0.072 * h, atlas.calf * h, atlas.knee * h, 0.80 * sites.crotch, sites.crotch - 0.02],
+        leg: [0.012 * h, 0.072 * h, calf, knee, 0.80 * sites.crotch, sites.crotch - 0.02],
         trunk: [
             sites.hip,
             (sites.hip + sites.waist) / 2.0,
@@ -234,7 +168,7 @@ fn cuts(mesh: &TriMesh, figure: &Figure, sites: &Sites, landmarks: &Landmarks) -
         head: [h * (1.0 - 0.76 * atlas.head_height), h * (1.0 - 0.35 * atlas.head_height)],
         arm: [
             armscye,
-            across_arm(0.58 * elbow),
+            across_arm(UPPER_ARM * elbow),
             across_arm(elbow),
             across_arm(elbow + 0.2 * (wrist - elbow)),
             across_arm(wrist),

@@ -1,6 +1,8 @@
 use super::*;
-use crate::body::{Joint, Layer, RING};
-use crate::geom::V2;
+use crate::body::measure::Girths;
+use crate::body::survey::Survey;
+use crate::body::{Dimension, Joint, Layer, RING, Sex};
+use crate::geom::{V2, crossing};
 
 /// The study's subjects (thesis tables 6-1 to 6-4): stature, mass, chest, waist, hip, across shoulder, neck; cm and kg.
 const SUBJECTS: [(Sex, [f64; 7]); 12] = [
@@ -21,14 +23,13 @@ const SUBJECTS: [(Sex, [f64; 7]); 12] = [
 fn subject(sex: Sex, [stature, mass, chest, waist, hip, across, neck]: [f64; 7]) -> Measurements {
     let metres = |cm: f64| Some(cm / 100.0);
     Measurements {
-        sex,
-        stature_m: stature / 100.0,
         weight_kg: Some(mass),
         chest_girth_m: metres(chest),
         waist_girth_m: metres(waist),
         hip_girth_m: metres(hip),
         neck_girth_m: metres(neck),
         across_shoulder_m: metres(across),
+        ..Measurements::of(sex, stature / 100.0)
     }
 }
 
@@ -54,56 +55,85 @@ fn the_study_subjects_measure_as_asked() {
     }
 }
 
-/// Bodies far from the mean, and bodies of which little is known: thin, heavy, short, tall.
-#[test]
-fn unusual_bodies_can_be_built() {
-    let sexes = [Sex::Male, Sex::Female];
-    let mut state = 1_u64;
+/// A person drawn from the whole range of adults: stature, mass index, and now and then more measurements, each off what the
+/// survey's people alike have by up to two standard deviations.
+fn anybody(state: &mut u64) -> Measurements {
     let mut share = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) as f64 / (1_u64 << 31) as f64
+        *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (*state >> 33) as f64 / (1_u64 << 31) as f64
     };
-    for i in 0..UNUSUAL {
-        let sex = sexes[i % 2];
-        let stature_m = 1.45 + 0.6 * share();
-        let index = 16.5 + 17.0 * share();
-        let asked = Measurements { weight_kg: Some(index * stature_m * stature_m), ..only_stature(sex, stature_m) };
-        let body = build(&asked).unwrap_or_else(|error| panic!("{asked:?}: {error}"));
-        assert!(body.mesh.is_closed_manifold(), "{asked:?}");
-        assert!((body.girths.stature_mm - stature_m * 1e3).abs() < 0.1, "{asked:?}");
-        let found = measure::measure(&body.mesh, Some(sex)).unwrap_or_else(|error| panic!("{asked:?}: {error}"));
-        let pairs = [
-            ("neck", body.girths.neck_girth_mm, found.neck_girth_mm, 1.5),
-            ("chest", body.girths.chest_girth_mm, found.chest_girth_mm, 12.0),
-            ("waist", body.girths.waist_girth_mm, found.waist_girth_mm, 0.5),
-            ("hip", body.girths.hip_girth_mm, found.hip_girth_mm, 12.0),
-        ];
-        let errors = pairs.map(|(_, built, found, _)| found - built);
-        eprintln!(
-            "{sex:?} {stature_m:.3} m, {index:.1} kg/m2: measured minus built {errors:.1?}, volume {:.1} l for {:.1} kg",
-            found.volume_l,
-            index * stature_m * stature_m
-        );
-        for (name, built, found, tolerance) in pairs {
-            assert!((built - found).abs() < tolerance, "{asked:?} {name}: built {built:.1}, found {found:.1}");
+    let sex = if share() < 0.5 { Sex::Male } else { Sex::Female };
+    let stature_m = 1.45 + 0.6 * share();
+    let weight_kg = (16.5 + 23.5 * share()) * stature_m * stature_m;
+    let mut known = Measurements { weight_kg: Some(weight_kg), ..Measurements::of(sex, stature_m) };
+    let chance = [0.0, 0.3, 0.9][(3.0 * share()) as usize];
+    for dimension in Dimension::ALL.into_iter().skip(2) {
+        let (wanted, score) = (share() < chance, 4.0 * share() - 2.0);
+        // A given under-bust girth moves the level at which the tape finds the chest, and is not always reached: left out.
+        if wanted && dimension != Dimension::UnderbustGirth {
+            let given: Vec<(Dimension, f64)> = known.known().collect();
+            known.set(dimension, Survey::of(sex).expect(&[dimension], &given)[0].at(score));
         }
     }
+    known
 }
 
-/// How many unusual bodies are built.
-const UNUSUAL: usize = 4;
-
-fn only_stature(sex: Sex, stature_m: f64) -> Measurements {
-    Measurements {
-        sex,
-        stature_m,
-        weight_kg: None,
-        chest_girth_m: None,
-        waist_girth_m: None,
-        hip_girth_m: None,
-        neck_girth_m: None,
-        across_shoulder_m: None,
+/// Everybody is closed, of one piece without handles, free of crossings, with all joints inside, of one topology, and measures
+/// as asked. `TOILE_BODIES` says how many people are drawn.
+#[test]
+fn anybody_can_be_built() {
+    let count = std::env::var("TOILE_BODIES").ok().and_then(|text| text.parse().ok()).unwrap_or(ANYBODY);
+    let mut state = 1_u64;
+    let control = build(&Measurements::of(Sex::Female, 1.6)).expect("an ordinary woman").control;
+    let mut wrong = Vec::new();
+    for i in 0..count {
+        let asked = anybody(&mut state);
+        match build(&asked) {
+            Ok(body) => {
+                assert_eq!((&body.control.faces, &body.control.regions), (&control.faces, &control.regions), "{i}");
+                wrong.extend(faults(&asked, &body).into_iter().map(|fault| format!("{i}: {fault}: {asked:?}")));
+            }
+            Err(error) => wrong.push(format!("{i}: {error}: {asked:?}")),
+        }
     }
+    assert!(wrong.is_empty(), "{} faults\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// How many people are drawn by default.
+const ANYBODY: usize = 24;
+
+/// What is wrong with a body.
+fn faults(asked: &Measurements, body: &Body) -> Vec<String> {
+    let mesh = &body.mesh;
+    let mut faults = Vec::new();
+    let euler = (mesh.positions.len() + mesh.triangles.len()) as isize - mesh.edges().len() as isize;
+    if !mesh.is_closed_manifold() || euler != 2 {
+        faults.push(format!("not a closed manifold without handles: Euler characteristic {euler}"));
+    }
+    let crossings = crossing::self_crossings(mesh);
+    if let Some(&[triangle, _]) = crossings.first() {
+        let place = mesh.triangles[triangle].iter().map(|&vertex| mesh.positions[vertex]).sum::<V3>() / 3.0;
+        faults.push(format!("{} crossings, one at {place:.3?}", crossings.len()));
+    }
+    for (number, joint) in body.skeleton.joints.iter().enumerate() {
+        if (crossing::winding_number(mesh, *joint) - 1.0).abs() > 1e-6 {
+            faults.push(format!("joint {number} at {joint:.3?} is not inside"));
+        }
+    }
+    for (dimension, asked_m, read_mm) in readings(asked, &body.girths) {
+        let off_mm = read_mm - asked_m * 1e3;
+        if off_mm.abs() > if dimension == Dimension::AcrossShoulder { 5.0 } else { 2.0 } {
+            faults.push(format!("{dimension:?} is off by {off_mm:.1} mm"));
+        }
+    }
+    faults
+}
+
+/// The given dimensions with what the tape reads.
+fn readings(asked: &Measurements, read: &Girths) -> Vec<(Dimension, f64, f64)> {
+    let document = serde_json::to_value(read).expect("numbers");
+    let read = |dimension: Dimension| document.get(dimension.key()).and_then(serde_json::Value::as_f64);
+    asked.known().filter_map(|(dimension, value)| Some((dimension, value, read(dimension)?))).collect()
 }
 
 #[test]

@@ -6,6 +6,9 @@ use nalgebra::{Matrix3, SymmetricEigen};
 /// A piece of less than this share of the body's area is noise.
 const LEAST_SHARE: f64 = 0.05;
 
+/// A second piece of more than this share of the body's area is another body.
+const SECOND_BODY: f64 = 0.5;
+
 /// A piece whose least spread is below this share of its greatest is flat: floor or wall.
 const FLAT: f64 = 0.02;
 
@@ -35,6 +38,14 @@ pub(super) fn keep_body(mesh: &TriMesh, notes: &mut Vec<String>) -> TriMesh {
         notes.push(format!("{dropped} pieces apart from the body were left out (strays, floor)"));
     }
     used_part(mesh, &triangles)
+}
+
+/// Whether a mesh has a second piece of nearly the size of the body, which is no floor.
+pub(super) fn several(mesh: &TriMesh) -> bool {
+    let mut areas: Vec<f64> =
+        pieces(mesh).iter().filter(|piece| !is_flat(mesh, piece)).map(|piece| area(mesh, piece)).collect();
+    areas.sort_by(|a, b| b.total_cmp(a));
+    areas.get(1).is_some_and(|second| *second > SECOND_BODY * areas[0])
 }
 
 /// Removes the ground that an upright body stands on where it is joined to the feet.

@@ -79,16 +79,7 @@ mod tests {
 
     #[test]
     fn a_control_mesh_is_read_as_it_was_written() {
-        let asked = Measurements {
-            sex: Sex::Female,
-            stature_m: 1.7,
-            weight_kg: None,
-            chest_girth_m: None,
-            waist_girth_m: None,
-            hip_girth_m: None,
-            neck_girth_m: None,
-            across_shoulder_m: None,
-        };
+        let asked = Measurements::of(Sex::Female, 1.7);
         let body = build(&asked).expect("an ordinary woman");
         let text = write_control(&body).expect("JSON");
         let file = read_control(&text).expect("our own file");

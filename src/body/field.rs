@@ -1,10 +1,13 @@
 //! The skin as one implicit surface: body parts joined smoothly.
 
-use super::loft::{Loft, Sample};
+use super::loft::{Loft, Part, Sample};
 use crate::geom::V3;
 
+/// Spacing of the tables of the lofts, metres.
+const TABLE_STEP: f64 = 0.004;
+
 /// Distance beyond which a part is not looked at closely, metres.
-const NEAR: f64 = 0.12;
+pub(super) const NEAR: f64 = 0.12;
 
 /// Rounding of the edge between skin and floor, metres.
 const SOLE_EDGE: f64 = 0.006;
@@ -37,6 +40,17 @@ pub(super) struct Parts {
 }
 
 impl Parts {
+    /// The fields of the parts of a figure.
+    pub fn new([trunk, arm, thumb, leg, foot]: [Part; 5], hand_start: f64) -> Self {
+        let loft = |part| Loft::new(part, TABLE_STEP);
+        Self { trunk: loft(trunk), arm: loft(arm), thumb: loft(thumb), hand_start, leg: loft(leg), foot: loft(foot) }
+    }
+
+    /// The lofts in the order in which a figure gives its parts.
+    pub fn lofts(&self) -> [&Loft; 5] {
+        [&self.trunk, &self.arm, &self.thumb, &self.leg, &self.foot]
+    }
+
     /// The field at a point: about the distance from the skin (negative inside) with its outward direction.
     pub fn sample(&self, point: V3) -> Sample {
         let right = V3::new(point.x.abs(), point.y, point.z);

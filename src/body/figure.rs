@@ -2,58 +2,63 @@
 
 use super::anthropometry::Profile;
 use super::atlas::Atlas;
-use super::field::Parts;
+use super::dimension::{COUNT, Dimension};
 use super::interpolate::Monotone;
-use super::loft::{Loft, Shape, Station};
+use super::loft::{Part, Shape, Station};
 use crate::geom::{V2, V3};
 
 /// Slope of the shoulder line, radians.
 const SHOULDER_SLOPE: f64 = 20.0 * std::f64::consts::PI / 180.0;
 
-/// Spacing of the tables of the lofts, metres.
-pub(super) const TABLE_STEP: f64 = 0.003;
-
 /// A section that is an ellipse.
 pub(super) const ELLIPSE: Shape = [0.0; 9];
 
-/// Girths and lengths that the fit adjusts until the skin measures as asked, metres.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Targets {
-    pub neck: f64,
-    pub chest: f64,
-    pub waist: f64,
-    pub hip: f64,
-    /// Half of the distance of the shoulder points.
-    pub shoulder_x: f64,
-}
+/// A factor for each dimension.
+pub(super) type Factors = [f64; COUNT];
 
 /// A profile laid out in space.
 #[derive(Clone, Debug)]
 pub(super) struct Figure<'a> {
     pub profile: &'a Profile,
     pub atlas: &'static Atlas,
-    pub targets: Targets,
+    /// Factor on each dimension of the profile, by [`Dimension`]: adjusted until the skin measures as asked.
+    pub factors: Factors,
 }
 
 impl<'a> Figure<'a> {
     /// The figure before any fitting.
     pub fn new(profile: &'a Profile) -> Self {
-        let targets = Targets {
-            neck: profile.neck,
-            chest: profile.chest,
-            waist: profile.waist,
-            hip: profile.hip,
-            shoulder_x: profile.biacromial / 2.0,
-        };
-        Self { profile, atlas: Atlas::of(profile.sex), targets }
+        Self { profile, atlas: Atlas::of(profile.sex), factors: [1.0; COUNT] }
     }
 
-    /// Multiplies the targets of neck, chest, waist, hip and shoulder; a factor far from one is taken in several steps.
-    pub fn adjust(&mut self, factors: [f64; 5]) {
-        let Targets { neck, chest, waist, hip, shoulder_x } = &mut self.targets;
-        for (target, factor) in [neck, chest, waist, hip, shoulder_x].into_iter().zip(factors) {
-            *target *= factor.clamp(0.85, 1.18);
-        }
+    /// A dimension as it is laid out, metres.
+    pub fn size(&self, dimension: Dimension) -> f64 {
+        self.profile.at(dimension) * self.factors[dimension as usize]
+    }
+
+    /// Multiplies a dimension as it is laid out; a factor far from one is taken in several steps.
+    pub fn adjust(&mut self, dimension: Dimension, factor: f64) {
+        self.factors[dimension as usize] *= factor.clamp(0.85, 1.18);
+    }
+
+    /// Half of the distance of the shoulder points, metres.
+    pub fn shoulder_x(&self) -> f64 {
+        self.size(Dimension::AcrossShoulder) / self.atlas.tape_over_biacromial / 2.0
+    }
+
+    /// Height of the crotch, metres.
+    pub fn crotch(&self) -> f64 {
+        self.size(Dimension::Inseam)
+    }
+
+    /// Height of the hip: as far above the crotch as usual, metres.
+    pub fn hip(&self) -> f64 {
+        self.crotch() + (self.atlas.hip - self.atlas.crotch) * self.stature()
+    }
+
+    /// Heights of knee and calf, metres: their share of the leg.
+    pub fn knee_and_calf(&self) -> [f64; 2] {
+        [self.atlas.knee, self.atlas.calf].map(|share| share / self.atlas.crotch * self.crotch())
     }
 
     /// Opposite corners of a box around the figure with room for its fit, metres.
@@ -63,28 +68,25 @@ impl<'a> Figure<'a> {
         let [_, _, tip] = self.arm_lengths();
         let hand = self.shoulder_joint() + self.arm_axes()[2] * tip;
         let trunk = self.trunk_sections();
-        let front = trunk.iter().map(|s| s.centre.y + 1.1 * s.half_depth).fold(self.profile.foot_length, f64::max);
+        let front =
+            trunk.iter().map(|s| s.centre.y + 1.1 * s.half_depth).fold(self.size(Dimension::FootLength), f64::max);
         let back = trunk.iter().map(|s| s.centre.y - 1.1 * s.half_depth).fold(-0.1 * h, f64::min);
         (V3::new(-hand.x - room, back - room, -0.4 * room), V3::new(hand.x + room, front + room, h + 0.4 * room))
     }
 
-    /// The lofts of all parts.
-    pub fn parts(&self) -> Parts {
+    /// All parts: trunk with head, arm, thumb, leg and foot (those of the right side).
+    pub fn parts(&self) -> [Part; 5] {
         let trunk = self.trunk_sections();
         let leg = self.leg_sections(&trunk);
         let upright = [V3::x(), V3::y(), V3::z()];
+        let foot = self.foot(leg[0].centre.x);
         let mut core = self.perineum(&trunk);
         core.extend(&trunk);
         core.extend(self.shoulder_sections(&trunk[8]));
         core.extend(self.head_sections());
-        Parts {
-            trunk: Loft::new(V3::zeros(), upright, &core, TABLE_STEP),
-            arm: self.arm(),
-            thumb: self.thumb(),
-            hand_start: self.hand_start(),
-            leg: Loft::new(V3::zeros(), upright, &leg, TABLE_STEP),
-            foot: self.foot(leg[0].centre.x),
-        }
+        let root = Some([trunk[1].at, trunk[0].at]);
+        let standing = |stations, root| Part { origin: V3::zeros(), axes: upright, stations, root };
+        [standing(core, None), self.arm(), self.thumb(), standing(leg, root), foot]
     }
 
     /// Height of the back neck point, metres.
@@ -109,16 +111,18 @@ impl<'a> Figure<'a> {
         let x_neck = self.atlas.neck_half_width * h * self.neck_factor() * 1.10;
         let z_shoulder = self.atlas.shoulder * h;
         let ceiling = (1.0 - self.atlas.head_height) * h - 0.018 * h;
-        (x_neck, (z_shoulder + (self.targets.shoulder_x - x_neck) * SHOULDER_SLOPE.tan()).min(ceiling))
+        (x_neck, (z_shoulder + (self.shoulder_x() - x_neck) * SHOULDER_SLOPE.tan()).min(ceiling))
     }
 
     pub fn stature(&self) -> f64 {
-        self.profile.stature
+        self.profile.at(Dimension::Stature)
     }
 
     /// Heights of the nine trunk sections, metres.
     fn trunk_heights(&self) -> [f64; 9] {
-        let Atlas { crotch, hip, waist, chest, axilla, .. } = *self.atlas;
+        let h = self.stature();
+        let (crotch, hip) = (self.crotch(), self.hip());
+        let [waist, chest, axilla] = [self.atlas.waist, self.atlas.chest, self.atlas.axilla].map(|share| share * h);
         let between = |a: f64, b: f64, share: f64| a + (b - a) * share;
         [
             between(crotch, hip, 0.5),
@@ -131,7 +135,6 @@ impl<'a> Figure<'a> {
             chest,
             axilla,
         ]
-        .map(|share| share * self.stature())
     }
 
     /// Sections of the trunk at their girths: the asked ones at hip, waist and chest, between them the mean body's
@@ -149,10 +152,22 @@ impl<'a> Figure<'a> {
         };
         let section = |i: usize| {
             let usual = mean(i) / course(heights[i], mean(1), mean(4), mean(7));
-            let girth = usual * course(heights[i], self.targets.hip, self.targets.waist, self.targets.chest);
+            let [hip, waist, chest] =
+                [Dimension::HipGirth, Dimension::WaistGirth, Dimension::ChestGirth].map(|girth| self.size(girth));
+            let girth = usual * course(heights[i], hip, waist, chest) * self.underbust_share(i);
             self.trunk_section(i, heights[i], girth)
         };
         (0..9).map(section).collect()
+    }
+
+    /// Factor on the sections between waist and chest that makes room for an under-bust girth.
+    fn underbust_share(&self, i: usize) -> f64 {
+        let factor = self.factors[Dimension::UnderbustGirth as usize];
+        match i {
+            5 => 1.0 + (factor - 1.0) * 0.6,
+            6 => factor,
+            _ => 1.0,
+        }
     }
 
     fn trunk_section(&self, i: usize, at: f64, girth: f64) -> Station {
@@ -172,7 +187,7 @@ impl<'a> Figure<'a> {
 
     /// The lower end of the trunk, between the thighs.
     fn perineum(&self, trunk: &[Station]) -> Vec<Station> {
-        let at = self.atlas.crotch * self.stature() + 0.010;
+        let at = self.crotch() + 0.010;
         let lowest = &trunk[0];
         let end = Station {
             at,
@@ -189,7 +204,7 @@ impl<'a> Figure<'a> {
         let h = self.stature();
         let outline = self.neck_outline();
         let neck = self.neck_factor();
-        let x_shoulder = self.targets.shoulder_x;
+        let x_shoulder = self.shoulder_x();
         let z_shoulder = self.atlas.shoulder * h;
         let (x_neck, z_neck) = self.shoulder_line();
         let rise = z_neck - z_shoulder;
@@ -245,7 +260,7 @@ impl<'a> Figure<'a> {
 
     /// Girth of the neck relative to the mean neck.
     fn neck_factor(&self) -> f64 {
-        self.targets.neck / (self.atlas.neck_girth * self.stature())
+        self.size(Dimension::NeckGirth) / (self.atlas.neck_girth * self.stature())
     }
 
     fn head_sections(&self) -> Vec<Station> {

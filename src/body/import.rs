@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use std::io::Cursor;
 
 /// Most triangles of a mesh: more tell nothing of a body that a tape could read.
-const MOST_TRIANGLES: usize = 2_000_000;
+const MOST_TRIANGLES: usize = 1_000_000;
 
 /// Unit of the coordinates of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -70,6 +70,10 @@ pub fn import(bytes: &[u8], unit: Option<LengthUnit>) -> Result<Imported, BodyEr
 
 /// Reads the raw mesh of a file.
 fn read(bytes: &[u8]) -> Result<TriMesh, BodyError> {
+    let announced = announced_faces(bytes);
+    if announced > MOST_TRIANGLES {
+        return Err(too_many(announced));
+    }
     let mesh = if bytes.starts_with(b"ply") {
         read_ply(bytes)?
     } else if super::stl::is_stl(bytes) {
@@ -81,15 +85,32 @@ fn read(bytes: &[u8]) -> Result<TriMesh, BodyError> {
         return Err(file_error("mesh", "whole file", "no faces found"));
     }
     if mesh.triangles.len() > MOST_TRIANGLES {
-        let problem =
-            format!("{} triangles, at most {MOST_TRIANGLES} are taken: thin the scan out", mesh.triangles.len());
-        return Err(file_error("mesh", "whole file", &problem));
+        return Err(too_many(mesh.triangles.len()));
     }
     let finite = mesh.positions.iter().position(|p| !p.iter().all(|c| c.is_finite()));
     if let Some(vertex) = finite {
         return Err(file_error("mesh", &format!("vertex {}", vertex + 1), "coordinate is not a finite number"));
     }
     Ok(mesh)
+}
+
+fn too_many(count: usize) -> BodyError {
+    let problem = format!("{count} faces, at most {MOST_TRIANGLES} are taken: thin the scan out");
+    file_error("mesh", "whole file", &problem)
+}
+
+/// Faces that a file says or shows to have, counted without reading them.
+fn announced_faces(bytes: &[u8]) -> usize {
+    if bytes.starts_with(b"ply") {
+        let head = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
+        let mut lines = head.lines().take_while(|line| line.trim() != "end_header");
+        let count = lines.find_map(|line| line.trim().strip_prefix("element face")).map(|rest| rest.trim().parse());
+        return count.and_then(Result::ok).unwrap_or(0);
+    }
+    if super::stl::is_stl(bytes) {
+        return super::stl::announced_faces(bytes);
+    }
+    bytes.split(|byte| *byte == b'\n').filter(|line| line.starts_with(b"f ")).count()
 }
 
 pub(super) fn file_error(format: &'static str, place: &str, problem: &str) -> BodyError {
@@ -137,6 +158,10 @@ fn read_ply(bytes: &[u8]) -> Result<TriMesh, BodyError> {
         Property::Double(v) => Some(v),
         Property::Int(v) => Some(f64::from(v)),
         Property::Short(v) => Some(f64::from(v)),
+        Property::Char(v) => Some(f64::from(v)),
+        Property::UChar(v) => Some(f64::from(v)),
+        Property::UShort(v) => Some(f64::from(v)),
+        Property::UInt(v) => Some(f64::from(v)),
         _ => None,
     };
     let indices = |property: &Property| -> Option<Vec<usize>> {
@@ -170,7 +195,7 @@ fn read_ply(bytes: &[u8]) -> Result<TriMesh, BodyError> {
         }
         mesh.triangles.extend((2..corners.len()).map(|k| [corners[0], corners[k - 1], corners[k]]));
     }
-    Ok(mesh)
+    Ok(merge_equal_vertices(&mesh))
 }
 
 /// The same mesh with vertices of equal position made one, and triangles that lost a side dropped.
@@ -194,15 +219,19 @@ pub(super) fn merge_equal_vertices(mesh: &TriMesh) -> TriMesh {
 /// Brings a raw mesh into the world frame.
 fn settle(mesh: &TriMesh, unit: Option<LengthUnit>) -> Result<Imported, BodyError> {
     let mut notes = Vec::new();
+    if clean::several(mesh) {
+        return Err(BodyError::Several);
+    }
     let mut mesh = clean::keep_body(mesh, &mut notes);
-    align::stand_up(&mut mesh, &mut notes);
+    let along_axis = align::stand_up(&mut mesh, &mut notes);
     if let Some(lifted) = clean::drop_floor(&mesh, &mut notes) {
         mesh = lifted;
     }
     let (low, high) = mesh.bounds().ok_or_else(|| file_error("mesh", "whole file", "no faces found"))?;
     let height = high.z - low.z;
     let unit = match unit {
-        Some(unit) => unit,
+        Some(unit) if is_adult(height * unit.metres()) => unit,
+        Some(unit) => return Err(BodyError::WrongUnit { extent: height, unit: unit.name() }),
         None => {
             let guess = guess_unit(height).ok_or(BodyError::Unit { extent: height })?;
             notes.push(format!("unit taken as {} (the body is {height:.4} high)", guess.name()));
@@ -218,6 +247,8 @@ fn settle(mesh: &TriMesh, unit: Option<LengthUnit>) -> Result<Imported, BodyErro
         notes.push(format!("moved by {:.1} mm onto the floor", -floor * 1e3));
     }
     align::face_front(&mut mesh, &mut notes);
+    align::straighten(&mut mesh, along_axis, &mut notes);
+    align::face_front(&mut mesh, &mut notes);
     if align::looks_back(&mesh) {
         for p in &mut mesh.positions {
             *p = V3::new(-p.x, -p.y, p.z);
@@ -229,6 +260,10 @@ fn settle(mesh: &TriMesh, unit: Option<LengthUnit>) -> Result<Imported, BodyErro
         notes.push("faces turned: they pointed inwards".to_owned());
     }
     Ok(Imported { mesh, unit, notes })
+}
+
+fn is_adult(height_m: f64) -> bool {
+    (1.2..2.4).contains(&height_m)
 }
 
 /// The unit in which `height` is that of a standing person.

@@ -1,4 +1,5 @@
 use super::*;
+use crate::body::testing::{ascii_ply, ascii_stl, binary_ply, binary_stl};
 use proptest::prelude::*;
 
 /// A four-sided prism 1.7 m high, in metres, z up.
@@ -9,32 +10,6 @@ fn block() -> TriMesh {
 
 fn scaled(mesh: &TriMesh, factor: f64) -> TriMesh {
     TriMesh { positions: mesh.positions.iter().map(|p| p * factor).collect(), triangles: mesh.triangles.clone() }
-}
-
-fn ascii_stl(mesh: &TriMesh) -> String {
-    let mut text = "solid body\n".to_owned();
-    for triangle in &mesh.triangles {
-        text.push_str("facet normal 0 0 0\nouter loop\n");
-        for &corner in triangle {
-            let p = mesh.positions[corner];
-            let _ = writeln!(text, "vertex {} {} {}", p.x, p.y, p.z);
-        }
-        text.push_str("endloop\nendfacet\n");
-    }
-    text + "endsolid\n"
-}
-
-fn binary_stl(mesh: &TriMesh) -> Vec<u8> {
-    let mut bytes = vec![0_u8; 80];
-    bytes.extend((mesh.triangles.len() as u32).to_le_bytes());
-    for triangle in &mesh.triangles {
-        bytes.extend([0_u8; 12]);
-        for &corner in triangle {
-            bytes.extend(mesh.positions[corner].iter().flat_map(|&c| (c as f32).to_le_bytes()));
-        }
-        bytes.extend([0_u8; 2]);
-    }
-    bytes
 }
 
 #[test]
@@ -48,12 +23,10 @@ fn every_format_and_unit_gives_the_same_body() {
     };
     check(write_obj(&scaled(&block(), 1000.0)).as_bytes(), LengthUnit::Millimetre);
     check(write_obj(&scaled(&block(), 100.0)).as_bytes(), LengthUnit::Centimetre);
-    check(ascii_stl(&block()).as_bytes(), LengthUnit::Metre);
+    check(&ascii_stl(&block()), LengthUnit::Metre);
     check(&binary_stl(&scaled(&block(), 1000.0)), LengthUnit::Millimetre);
-    let ply = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
-               element face 4\nproperty list uchar int vertex_indices\nend_header\n\
-               0 0 0\n0.3 0 0\n0 0.2 0\n0.1 0.1 1.7\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
-    check(ply.as_bytes(), LengthUnit::Metre);
+    check(&ascii_ply(&block()), LengthUnit::Metre);
+    check(&binary_ply(&scaled(&block(), 100.0)), LengthUnit::Centimetre);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Points of a body mesh that can be told from its sections alone.
 
-use super::measure::steps;
+use super::measure::{Sites, steps};
 use super::tape;
 use crate::geom::section::{Plane, section};
 use crate::geom::{TriMesh, V3};
@@ -104,4 +104,19 @@ pub(super) fn bust_point(mesh: &TriMesh, z: f64, sign: f64, stature: f64) -> Opt
     let foremost = candidates.max_by(|a, b| a.y.total_cmp(&b.y))?;
     let at_edge = (foremost.x.abs() - RANGE[0] * stature).abs() < 1e-9;
     if at_edge { front(sign * USUAL * stature) } else { Some(foremost) }
+}
+
+/// Heights over stature between which the front neck point is searched.
+const FRONT_NECK: [f64; 2] = [0.775, 0.855];
+
+/// The front neck point: where the front bends from the chest into the neck, farthest behind the chord between both.
+pub(super) fn front_neck(mesh: &TriMesh, sites: &Sites) -> Option<V3> {
+    let at = |share: f64| sites.floor + share * (sites.crown - sites.floor);
+    let upper = tape::above(mesh, at(FRONT_NECK[0] - 0.05));
+    let heights = steps(at(FRONT_NECK[0]), at(FRONT_NECK[1]).min(sites.neck.height), 32);
+    let line: Vec<V3> = heights.filter_map(|z| median_point(&upper, z, sites.middle, Side::Front)).collect();
+    let (first, last) = (line.first()?, line.last()?);
+    let slope = (last.y - first.y) / (last.z - first.z);
+    let behind = |p: &V3| first.y + slope * (p.z - first.z) - p.y;
+    line.iter().max_by(|a, b| behind(a).total_cmp(&behind(b))).copied()
 }

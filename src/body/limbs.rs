@@ -1,11 +1,21 @@
 //! Arms and legs of the figure (the right ones; the left are mirrored).
 
-use super::figure::{ELLIPSE, Figure, TABLE_STEP};
-use super::loft::{Loft, Shape, Station, dome};
+use super::dimension::Dimension;
+use super::figure::{ELLIPSE, Figure};
+use super::loft::{Part, Shape, Station, dome};
 use crate::geom::{V2, V3};
 
 /// Angle of the arms from the vertical, radians.
 const ARM_ANGLE: f64 = 38.0 * std::f64::consts::PI / 180.0;
+
+/// Distance of the wrist from the shoulder joint over the length of the arm, that of the elbow over it, and the length of the
+/// hand over stature.
+const WRIST: f64 = 0.94;
+const ELBOW: f64 = 0.534;
+const HAND: f64 = 0.107;
+
+/// Place of the upper arm's girth between shoulder joint and elbow.
+pub(super) const UPPER_ARM: f64 = 0.58;
 
 /// Least height of the armpit above the chest level before its fillet, over stature.
 const ARMPIT_ABOVE_CHEST: f64 = 0.030;
@@ -27,16 +37,17 @@ impl Figure<'_> {
         // Where the lower edge of the arm meets the side of the trunk, were the joint at x = 0.
         let meets = z - (trunk.half_width * cos + radius) / sin;
         let clear = (self.atlas.chest * h + ARMPIT_ABOVE_CHEST * h - meets) * sin / cos;
-        V3::new((self.profile.bideltoid / 2.0 - radius).max(clear), -0.014 * h, z)
+        V3::new((self.size(Dimension::ShoulderBreadth) / 2.0 - radius).max(clear), -0.014 * h, z)
     }
 
     fn deltoid_radius(&self) -> f64 {
-        self.profile.upper_arm * 0.99 / std::f64::consts::TAU
+        self.size(Dimension::UpperArmGirth) * 0.99 / std::f64::consts::TAU
     }
 
     /// Distances from the shoulder joint to elbow, wrist and finger tips.
     pub fn arm_lengths(&self) -> [f64; 3] {
-        [0.172, 0.172 + 0.150, 0.172 + 0.150 + 0.107].map(|share| share * self.stature())
+        let wrist = self.size(Dimension::ArmLength) * WRIST;
+        [ELBOW * wrist, wrist, wrist + HAND * self.stature()]
     }
 
     /// Axes of the arm's loft: outward in the frontal plane, forward, down the arm.
@@ -45,10 +56,17 @@ impl Figure<'_> {
         [V3::new(cos, 0.0, sin), V3::y(), V3::new(sin, 0.0, -cos)]
     }
 
-    pub fn arm(&self) -> Loft {
+    /// Middle of the upper arm, and the direction of the arm.
+    pub fn upper_arm(&self) -> (V3, V3) {
+        let along = self.arm_axes()[2];
+        (self.shoulder_joint() + along * UPPER_ARM * self.arm_lengths()[0], along)
+    }
+
+    pub fn arm(&self) -> Part {
         let h = self.stature();
         let [elbow, wrist, tip] = self.arm_lengths();
-        let p = self.profile;
+        let [upper_arm, forearm, wrist_girth] =
+            [Dimension::UpperArmGirth, Dimension::ForearmGirth, Dimension::WristGirth].map(|girth| self.size(girth));
         let ring = |at: f64, girth: f64, depth_over_width: f64| {
             Station { at, centre: V2::zeros(), half_width: 1.0, half_depth: depth_over_width, shape: ELLIPSE }
                 .with_girth(girth)
@@ -60,18 +78,18 @@ impl Figure<'_> {
             half_depth: half_depth * h,
             shape: [0.0, 0.0, 0.0, 0.0, -0.03, 0.0, 0.0, 0.0, 0.0],
         };
-        let deltoid = ring(0.0, p.upper_arm * 0.99, 1.08);
+        let deltoid = ring(0.0, upper_arm * 0.99, 1.08);
         let mut stations = dome(&deltoid, self.deltoid_radius(), -1.0);
         stations.reverse();
         stations.extend([
             deltoid,
-            ring(0.30 * elbow, p.upper_arm * 1.01, 1.10),
-            ring(0.58 * elbow, p.upper_arm, 1.10),
-            ring(0.85 * elbow, 0.55 * p.upper_arm + 0.45 * p.forearm, 1.0),
-            ring(elbow, p.forearm * 0.98, 0.98),
-            ring(elbow + 0.2 * (wrist - elbow), p.forearm, 1.02),
-            ring(elbow + 0.6 * (wrist - elbow), 0.55 * p.forearm + 0.45 * p.wrist, 1.10),
-            ring(wrist, p.wrist, 1.28),
+            ring(0.30 * elbow, upper_arm * 1.01, 1.10),
+            ring(UPPER_ARM * elbow, upper_arm, 1.10),
+            ring(0.85 * elbow, 0.55 * upper_arm + 0.45 * forearm, 1.0),
+            ring(elbow, forearm * 0.98, 0.98),
+            ring(elbow + 0.2 * (wrist - elbow), forearm, 1.02),
+            ring(elbow + 0.6 * (wrist - elbow), 0.55 * forearm + 0.45 * wrist_girth, 1.10),
+            ring(wrist, wrist_girth, 1.28),
             plate(wrist + 0.018 * h, 0.0125, 0.0190),
             plate(wrist + 0.045 * h, 0.0125, 0.0240),
             plate(wrist + 0.068 * h, 0.0110, 0.0225),
@@ -79,11 +97,16 @@ impl Figure<'_> {
         ]);
         let fingers = stations[stations.len() - 1];
         stations.extend(dome(&fingers, 0.016 * h, 1.0));
-        Loft::new(self.shoulder_joint(), self.arm_axes(), &stations, TABLE_STEP)
+        Part {
+            origin: self.shoulder_joint(),
+            axes: self.arm_axes(),
+            stations,
+            root: Some([-self.deltoid_radius(), 0.0]),
+        }
     }
 
     /// The thumb: a tapering rod at the front edge of the palm.
-    pub fn thumb(&self) -> Loft {
+    pub fn thumb(&self) -> Part {
         let h = self.stature();
         let [outward, forward, down] = self.arm_axes();
         let [_, wrist, _] = self.arm_lengths();
@@ -100,35 +123,37 @@ impl Figure<'_> {
         let mut stations = vec![ring(0.0, 0.0110), ring(0.025 * h, 0.0100), ring(0.042 * h, 0.0065)];
         let end = stations[2];
         stations.extend(dome(&end, 0.0085 * h, 1.0));
-        Loft::new(root, [outward, side, along], &stations, TABLE_STEP)
+        Part { origin: root, axes: [outward, side, along], stations, root: None }
     }
 
     /// Sections of the right leg from the instep to inside the pelvis.
     pub fn leg_sections(&self, trunk: &[Station]) -> Vec<Station> {
         let h = self.stature();
-        let p = self.profile;
-        let crotch = self.atlas.crotch * h;
+        let crotch = self.crotch();
+        let [thigh_girth, knee_girth, calf_girth, ankle] =
+            [Dimension::ThighGirth, Dimension::KneeGirth, Dimension::CalfGirth, Dimension::AnkleGirth]
+                .map(|girth| self.size(girth));
         let thigh_shape = [-0.008, -0.003, -0.005, 0.002, -0.003, 0.0, 0.0, 0.0, 0.0];
         let ring = |at: f64, girth: f64, depth_over_width: f64, centre: V2, shape: Shape| {
             Station { at, centre, half_width: 1.0, half_depth: depth_over_width, shape }.with_girth(girth)
         };
-        let thigh = ring(0.955 * crotch, p.thigh * 0.98, 1.10, V2::new(0.0, 0.003 * h), thigh_shape);
+        let thigh = ring(0.955 * crotch, thigh_girth * 0.98, 1.10, V2::new(0.0, 0.003 * h), thigh_shape);
         let thigh = slimmed(thigh, 0.485 * trunk[0].half_width - 0.002);
         let hip_x = thigh_x(&trunk[0], &thigh);
         let ankle_x = self.ankle_x(hip_x);
         let x_at = |z: f64| ankle_x + (hip_x - ankle_x) * z / crotch;
         let at = |z: f64, y: f64| V2::new(x_at(z), y * h);
         let calf_shape = [-0.022, -0.030, 0.0, 0.025, 0.008, 0.0, 0.0, 0.0, 0.0];
-        let (knee, calf) = (self.atlas.knee * h, self.atlas.calf * h);
+        let [knee, calf] = self.knee_and_calf();
         let mut sections = vec![
-            ring(0.012 * h, p.ankle * 1.00, 1.30, at(0.0, -0.018), ELLIPSE),
-            ring(0.040 * h, p.ankle * 1.06, 1.35, at(0.040 * h, -0.018), ELLIPSE),
-            ring(0.072 * h, p.ankle, 1.30, at(0.072 * h, -0.018), ELLIPSE),
-            ring(0.125 * h, 0.60 * p.ankle + 0.40 * p.calf, 1.12, at(0.125 * h, -0.019), calf_shape),
-            ring(calf, p.calf, 1.02, at(calf, -0.0165), calf_shape),
-            ring(knee, p.knee, 1.06, at(knee, -0.0065), [-0.022, -0.025, 0.0, 0.025, 0.004, 0.0, 0.0, 0.0, 0.0]),
-            ring(1.25 * knee, 0.53 * p.knee + 0.45 * p.thigh, 1.05, at(1.25 * knee, -0.001), thigh_shape),
-            ring(0.82 * crotch, 0.22 * p.knee + 0.76 * p.thigh, 1.06, at(0.82 * crotch, 0.002), thigh_shape),
+            ring(0.012 * h, ankle * 1.00, 1.30, at(0.0, -0.018), ELLIPSE),
+            ring(0.040 * h, ankle * 1.06, 1.35, at(0.040 * h, -0.018), ELLIPSE),
+            ring(0.072 * h, ankle, 1.30, at(0.072 * h, -0.018), ELLIPSE),
+            ring(0.125 * h, 0.60 * ankle + 0.40 * calf_girth, 1.12, at(0.125 * h, -0.019), calf_shape),
+            ring(calf, calf_girth, 1.02, at(calf, -0.0165), calf_shape),
+            ring(knee, knee_girth, 1.06, at(knee, -0.0065), [-0.022, -0.025, 0.0, 0.025, 0.004, 0.0, 0.0, 0.0, 0.0]),
+            ring(1.25 * knee, 0.53 * knee_girth + 0.45 * thigh_girth, 1.05, at(1.25 * knee, -0.001), thigh_shape),
+            ring(0.82 * crotch, 0.22 * knee_girth + 0.76 * thigh_girth, 1.06, at(0.82 * crotch, 0.002), thigh_shape),
             Station { centre: at(thigh.at, 0.002), ..thigh },
         ];
         sections.extend(self.leg_roots(trunk, x_at(crotch)));
@@ -158,9 +183,9 @@ impl Figure<'_> {
     }
 
     /// The right foot, from heel to toes.
-    pub fn foot(&self, x: f64) -> Loft {
-        let length = self.profile.foot_length;
-        let ankle = self.profile.ankle / 0.229;
+    pub fn foot(&self, x: f64) -> Part {
+        let length = self.size(Dimension::FootLength);
+        let ankle = self.size(Dimension::AnkleGirth) / 0.229;
         let heel_y = -0.018 * self.stature() - 0.24 * length;
         // Share of the length, half width, height, sideways place (towards the big toe is negative), all over length.
         let rows: [[f64; 4]; 6] = [
@@ -187,7 +212,7 @@ impl Figure<'_> {
         stations.reverse();
         stations.extend(&sections);
         stations.extend(dome(&sections[5], 0.10 * length, 1.0));
-        Loft::new(V3::new(x, heel_y, 0.0), [V3::x(), V3::z(), V3::y()], &stations, TABLE_STEP)
+        Part { origin: V3::new(x, heel_y, 0.0), axes: [V3::x(), V3::z(), V3::y()], stations, root: None }
     }
 
     /// Sideways place of the right ankle: the thighs' inclination, somewhat straightened.

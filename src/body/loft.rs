@@ -3,12 +3,14 @@
 
 use super::interpolate::Monotone;
 use crate::geom::{V2, V3, hull};
+use std::f64::consts::{FRAC_PI_2, TAU};
+use std::sync::LazyLock;
 
 /// Cosine coefficients of a section's shape, harmonics 0 to 8.
 pub(super) type Shape = [f64; 9];
 
 /// Directions in which a section is tabulated.
-const DIRECTIONS: usize = 96;
+pub(super) const DIRECTIONS: usize = 96;
 
 /// Steepest outline slope along the axis that the field still divides by.
 const MAX_SLOPE: f64 = 4.0;
@@ -16,8 +18,20 @@ const MAX_SLOPE: f64 = 4.0;
 /// Greatest relative change of the radius with the angle that the field still divides by.
 const MAX_TURN: f64 = 2.0;
 
-/// Half of the angle over which that change is taken, radians.
-const TURN_PROBE: f64 = 0.02;
+/// A tabulated direction: its cosine and sine, and the cosines of the harmonics of the angle from the front.
+struct Direction {
+    along: V2,
+    harmonics: Shape,
+}
+
+static COMPASS: LazyLock<Vec<Direction>> = LazyLock::new(|| {
+    let direction = |i: usize| {
+        let angle = i as f64 / DIRECTIONS as f64 * TAU;
+        let harmonics = std::array::from_fn(|k| (k as f64 * (angle - FRAC_PI_2)).cos());
+        Direction { along: V2::new(angle.cos(), angle.sin()), harmonics }
+    };
+    (0..DIRECTIONS).map(direction).collect()
+});
 
 /// One cross-section: an ellipse whose radius is multiplied by `1 + sum shape[k] cos(k phi)`, `phi` from the front.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,28 +49,22 @@ pub(super) struct Station {
 }
 
 impl Station {
-    /// Distance from the centre to the outline in the direction `angle`, radians from the first axis.
-    pub fn radius(&self, angle: f64) -> f64 {
-        let (sin, cos) = angle.sin_cos();
-        let ellipse =
-            self.half_width * self.half_depth / (self.half_depth * cos).hypot(self.half_width * sin).max(1e-12);
-        let phi = angle - std::f64::consts::FRAC_PI_2;
-        let departure: f64 = self.shape.iter().enumerate().map(|(k, c)| c * (k as f64 * phi).cos()).sum();
-        ellipse * (1.0 + departure)
-    }
-
-    /// Points of the outline in the section plane, counter-clockwise from the first axis.
-    pub fn outline(&self, count: usize) -> Vec<V2> {
-        let point = |i: usize| {
-            let angle = i as f64 / count as f64 * std::f64::consts::TAU;
-            self.centre + V2::new(angle.cos(), angle.sin()) * self.radius(angle)
+    /// Distances from the centre to the outline in the tabulated directions, metres.
+    pub fn radii(&self) -> Vec<f64> {
+        let radius = |direction: &Direction| {
+            let (cos, sin) = (direction.along.x, direction.along.y);
+            let across = (self.half_depth * cos).powi(2) + (self.half_width * sin).powi(2);
+            let ellipse = self.half_width * self.half_depth / across.sqrt().max(1e-12);
+            let departure: f64 = self.shape.iter().zip(&direction.harmonics).map(|(c, cosine)| c * cosine).sum();
+            ellipse * (1.0 + departure)
         };
-        (0..count).map(point).collect()
+        COMPASS.iter().map(radius).collect()
     }
 
     /// Tape girth of the section, metres.
     pub fn girth(&self) -> f64 {
-        hull::tape_girth(&self.outline(DIRECTIONS))
+        let point = |(direction, radius): (&Direction, f64)| direction.along * radius;
+        hull::tape_girth(&COMPASS.iter().zip(self.radii()).map(point).collect::<Vec<_>>())
     }
 
     /// The same shape enlarged about its centre to a tape girth in metres.
@@ -77,62 +85,135 @@ pub(super) struct Sample {
     pub outward: V3,
 }
 
-/// One row of the table of a loft.
+/// A body part: sections in order along an axis, in the frame `axes = [u, v, along]` at `origin`.
 #[derive(Clone, Debug)]
-struct Row {
-    centre: V2,
-    /// Radius, its slope along the axis (the drift of the centre included) and its relative change with the angle, for each
-    /// direction.
-    radii: Vec<[f64; 3]>,
+pub(super) struct Part {
+    pub origin: V3,
+    pub axes: [V3; 3],
+    pub stations: Vec<Station>,
+    /// Places along the axis between which the part takes over from its neighbours (none of it at the first, all at the second):
+    /// its end inside them is no skin.
+    pub root: Option<[f64; 2]>,
 }
 
-/// A body part: sections along an axis, tabulated.
+impl Part {
+    /// How far a place is the part's own, more than 0 to 1.
+    pub fn own(&self, at: f64) -> f64 {
+        let share = self.root.map_or(1.0, |[none, all]| ((at - none) / (all - none)).clamp(1e-3, 1.0));
+        share * share * (3.0 - 2.0 * share)
+    }
+
+    /// Sections at the given places along the axis, tabulated.
+    fn rings(&self, places: impl Iterator<Item = f64>) -> Vec<Ring> {
+        let curves = Curves::new(&self.stations);
+        places.map(|place| Ring::new(&curves.at(place))).collect()
+    }
+
+    /// The part tabulated where `rings` of the same part of another figure are: at the same share of the way between its
+    /// sections.
+    pub fn like(&self, other: &Self, rings: &[Ring]) -> Vec<Ring> {
+        let places = |part: &Self| part.stations.iter().map(|station| station.at).collect::<Vec<_>>();
+        let course = Monotone::new(&places(other), &places(self));
+        self.rings(rings.iter().map(|ring| course.at(ring.at)))
+    }
+
+    /// The point at `local` coordinates of the section at the place `along`.
+    pub fn lift(&self, local: V2, along: f64) -> V3 {
+        let [u, v, w] = self.axes;
+        self.origin + u * local.x + v * local.y + w * along
+    }
+}
+
+/// One tabulated section.
+#[derive(Clone, Debug)]
+pub(super) struct Ring {
+    /// Place along the axis, metres.
+    pub at: f64,
+    pub centre: V2,
+    /// Radius in each of the tabulated directions.
+    pub radii: Vec<f64>,
+}
+
+impl Ring {
+    fn new(section: &Station) -> Self {
+        Self { at: section.at, centre: section.centre, radii: section.radii() }
+    }
+
+    /// Radius at a place between the tabulated directions: `column` in units of their spacing.
+    pub fn radius(&self, column: f64) -> f64 {
+        let left = column as usize % DIRECTIONS;
+        let across = column - column.floor();
+        self.radii[left] + (self.radii[(left + 1) % DIRECTIONS] - self.radii[left]) * across
+    }
+}
+
+/// Slope of the outline along the axis (the drift of the centre included) and its relative change with the angle, in each
+/// direction.
+type Slopes = Vec<[f64; 2]>;
+
+/// The field of a body part, tabulated.
 #[derive(Clone, Debug)]
 pub(super) struct Loft {
-    origin: V3,
-    /// Section axes `u`, `v`, and the loft axis.
-    axes: [V3; 3],
+    part: Part,
     start: f64,
     step: f64,
-    rows: Vec<Row>,
+    rings: Vec<Ring>,
+    slopes: Vec<Slopes>,
     greatest_radius: f64,
 }
 
 impl Loft {
-    /// A part through `stations` (two at least, ordered along the axis) in the frame `axes = [u, v, along]` at `origin`.
-    pub fn new(origin: V3, axes: [V3; 3], stations: &[Station], step: f64) -> Self {
+    /// The field of a part, tabulated about every `step` metres.
+    pub fn new(part: Part, step: f64) -> Self {
+        let stations = &part.stations;
         let (start, end) = (stations[0].at, stations[stations.len() - 1].at);
         let count = ((end - start) / step).ceil().max(2.0) as usize;
         let step = (end - start) / count as f64;
-        let curves = Curves::new(stations);
-        let sections: Vec<Station> = (0..=count).map(|i| curves.at(start + step * i as f64)).collect();
-        let rows =
-            (0..=count).map(|i| Row::new(&sections[i.saturating_sub(1)..=(i + 1).min(count)], &sections[i])).collect();
-        let greatest_radius =
-            sections.iter().map(|s| s.half_width.max(s.half_depth) * 1.2 + s.centre.norm()).fold(0.0, f64::max);
-        Self { origin, axes, start, step, rows, greatest_radius }
+        let rings = part.rings((0..=count).map(|i| start + step * i as f64));
+        let slopes = (0..=count).map(|i| slopes(&rings[i.saturating_sub(1)..=(i + 1).min(count)], &rings[i])).collect();
+        let reach = |ring: &Ring| ring.centre.norm() + ring.radii.iter().copied().fold(0.0, f64::max);
+        let greatest_radius = rings.iter().map(reach).fold(0.0, f64::max);
+        Self { part, start, step, rings, slopes, greatest_radius }
+    }
+
+    /// How far a point is the part's own, by its place along the axis: more than 0 to 1.
+    pub fn own(&self, point: V3) -> f64 {
+        self.part.own(self.along(point))
+    }
+
+    /// The tabulated sections.
+    pub fn rings(&self) -> &[Ring] {
+        &self.rings
+    }
+
+    /// Coordinates of a point in the part: place in units of the sections tabulated, within them; how far beyond them it lies along the
+    /// axis; and its coordinates in the section.
+    pub fn locate(&self, point: V3) -> (f64, f64, V2) {
+        let offset = point - self.part.origin;
+        let [u, v, along] = self.part.axes;
+        let place = (offset.dot(&along) - self.start) / self.step;
+        let within = place.clamp(0.0, (self.rings.len() - 1) as f64);
+        (within, (place - within) * self.step, V2::new(offset.dot(&u), offset.dot(&v)))
     }
 
     /// Place of a point along the axis, metres.
     pub fn along(&self, point: V3) -> f64 {
-        (point - self.origin).dot(&self.axes[2])
+        (point - self.part.origin).dot(&self.part.axes[2])
     }
 
     /// Field at a point of space.
     ///
     /// Far from the part, where only the order of magnitude matters, the distance of a bounding cylinder stands in.
     pub fn sample(&self, point: V3, near: f64) -> Sample {
-        let offset = point - self.origin;
-        let [u, v, along] = self.axes;
-        let local = V2::new(offset.dot(&u), offset.dot(&v));
-        let place = (offset.dot(&along) - self.start) / self.step;
-        let last = (self.rows.len() - 1) as f64;
-        let beyond = (-place).max(place - last) * self.step;
+        let [u, v, along] = self.part.axes;
+        let (place, past, local) = self.locate(point);
+        let beyond = past.abs();
         let clearance = beyond.max(local.norm() - self.greatest_radius);
         if clearance > near {
+            let offset = point - self.part.origin;
             return Sample { distance: clearance, outward: offset.try_normalize(1e-12).unwrap_or(along) };
         }
-        let (radial, normal, slope) = self.radial(local, place.clamp(0.0, last));
+        let (radial, normal, slope) = self.radial(local, place);
         let side = u * normal.x + v * normal.y;
         if beyond <= 0.0 {
             let gradient = side - along * slope;
@@ -140,7 +221,7 @@ impl Loft {
             return Sample { distance: radial / steepness, outward: gradient / steepness };
         }
         let (side, radial) = (side / normal.norm(), radial / normal.norm());
-        let end = if place < 0.0 { -along } else { along };
+        let end = if past < 0.0 { -along } else { along };
         if radial <= 0.0 {
             return Sample { distance: beyond, outward: end };
         }
@@ -151,44 +232,44 @@ impl Loft {
     /// Distance beyond the outline along the ray from the centre, its gradient within the section plane, and the outline's
     /// slope along the axis.
     fn radial(&self, local: V2, place: f64) -> (f64, V2, f64) {
-        let row = (place as usize).min(self.rows.len() - 2);
+        let row = (place as usize).min(self.rings.len() - 2);
         let share = place - row as f64;
-        let (low, high) = (&self.rows[row], &self.rows[row + 1]);
+        let (low, high) = (&self.rings[row], &self.rings[row + 1]);
         let from_centre = local - low.centre.lerp(&high.centre, share);
         let distance = from_centre.norm();
         let direction = if distance > 1e-9 { from_centre / distance } else { V2::x() };
-        let turn = from_centre.y.atan2(from_centre.x).rem_euclid(std::f64::consts::TAU);
-        let column = turn / std::f64::consts::TAU * DIRECTIONS as f64;
-        let left = column as usize % DIRECTIONS;
+        let column = column(from_centre);
+        let (left, across) = (column as usize % DIRECTIONS, column - column.floor());
         let right = (left + 1) % DIRECTIONS;
-        let across = column - column.floor();
-        let blend = |i: usize| {
-            let at = |row: &Row| row.radii[left][i] + (row.radii[right][i] - row.radii[left][i]) * across;
-            at(low) + (at(high) - at(low)) * share
-        };
+        let radius = low.radius(column) + (high.radius(column) - low.radius(column)) * share;
+        let [slope, turn] = std::array::from_fn(|i| {
+            let at = |slopes: &Slopes| slopes[left][i] + (slopes[right][i] - slopes[left][i]) * across;
+            let (low, high) = (at(&self.slopes[row]), at(&self.slopes[row + 1]));
+            low + (high - low) * share
+        });
         let sideways = V2::new(-direction.y, direction.x);
-        let gradient = direction - sideways * blend(2).clamp(-MAX_TURN, MAX_TURN);
-        (distance - blend(0), gradient, blend(1).clamp(-MAX_SLOPE, MAX_SLOPE))
+        let gradient = direction - sideways * turn.clamp(-MAX_TURN, MAX_TURN);
+        (distance - radius, gradient, slope.clamp(-MAX_SLOPE, MAX_SLOPE))
     }
 }
 
-impl Row {
-    /// Radii of `section`, slopes from its neighbours (first and last of `around`).
-    fn new(around: &[Station], section: &Station) -> Self {
-        let (before, after) = (around[0], around[around.len() - 1]);
-        let length = (after.at - before.at).max(1e-12);
-        let drift = (after.centre - before.centre) / length;
-        let radii = (0..DIRECTIONS).map(|i| {
-            let angle = i as f64 / DIRECTIONS as f64 * std::f64::consts::TAU;
-            let slope =
-                (after.radius(angle) - before.radius(angle)) / length + drift.dot(&V2::new(angle.cos(), angle.sin()));
-            let radius = section.radius(angle);
-            let turn =
-                (section.radius(angle + TURN_PROBE) - section.radius(angle - TURN_PROBE)) / (2.0 * TURN_PROBE * radius);
-            [radius, slope, turn]
-        });
-        Self { centre: section.centre, radii: radii.collect() }
-    }
+/// Direction of a vector of the section plane in units of the spacing of the tabulated directions.
+pub(super) fn column(vector: V2) -> f64 {
+    vector.y.atan2(vector.x).rem_euclid(TAU) / TAU * DIRECTIONS as f64
+}
+
+/// Slopes of a section from its neighbours (first and last of `around`).
+fn slopes(around: &[Ring], ring: &Ring) -> Slopes {
+    let (before, after) = (&around[0], &around[around.len() - 1]);
+    let length = (after.at - before.at).max(1e-12);
+    let drift = (after.centre - before.centre) / length;
+    let spacing = TAU / DIRECTIONS as f64;
+    let slope = |i: usize| {
+        let (left, right) = ((i + DIRECTIONS - 1) % DIRECTIONS, (i + 1) % DIRECTIONS);
+        let turn = (ring.radii[right] - ring.radii[left]) / (2.0 * spacing * ring.radii[i]);
+        [(after.radii[i] - before.radii[i]) / length + drift.dot(&COMPASS[i].along), turn]
+    };
+    (0..DIRECTIONS).map(slope).collect()
 }
 
 /// Every number of a station as a smooth function of the place along the axis.
@@ -251,7 +332,7 @@ mod tests {
         stations.reverse();
         stations.push(equator);
         stations.extend(dome(&equator, 0.1, 1.0));
-        Loft::new(V3::zeros(), [V3::x(), V3::y(), V3::z()], &stations, 0.001)
+        Loft::new(Part { origin: V3::zeros(), axes: [V3::x(), V3::y(), V3::z()], stations, root: None }, 0.001)
     }
 
     #[test]

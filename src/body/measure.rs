@@ -4,7 +4,7 @@ use super::landmarks::{Side, crotch, median_point, shoulder_top};
 use super::tape::{self, Neck};
 use super::{BodyError, Measurements, Sex};
 use crate::geom::section::{Plane, section};
-use crate::geom::{TriMesh, V3};
+use crate::geom::{TriMesh, V2, V3};
 use crate::units::{from_mm, mm};
 
 /// Measurements of a body as a tape takes them; the keys of `body measure`. Millimetres and litres.
@@ -20,6 +20,19 @@ pub struct Girths {
     pub thigh_girth_mm: f64,
     /// Absent where the arm cannot be told from the trunk.
     pub upper_arm_girth_mm: Option<f64>,
+    /// The following five and the arm's length are read where the limbs' axes are known: on bodies built from measurements.
+    #[serde(default)]
+    pub knee_girth_mm: Option<f64>,
+    #[serde(default)]
+    pub calf_girth_mm: Option<f64>,
+    #[serde(default)]
+    pub ankle_girth_mm: Option<f64>,
+    #[serde(default)]
+    pub forearm_girth_mm: Option<f64>,
+    #[serde(default)]
+    pub wrist_girth_mm: Option<f64>,
+    #[serde(default)]
+    pub arm_length_mm: Option<f64>,
     pub across_shoulder_mm: f64,
     pub inseam_mm: f64,
     pub volume_l: f64,
@@ -40,14 +53,12 @@ impl Girths {
     pub fn measurements(&self, sex: Sex) -> Measurements {
         let girth = |mm: f64| Some(from_mm(mm));
         Measurements {
-            sex,
-            stature_m: from_mm(self.stature_mm),
-            weight_kg: None,
             chest_girth_m: girth(self.chest_girth_mm),
             waist_girth_m: girth(self.waist_girth_mm),
             hip_girth_m: girth(self.hip_girth_mm),
             neck_girth_m: girth(self.neck_girth_mm),
             across_shoulder_m: girth(self.across_shoulder_mm),
+            ..Measurements::of(sex, from_mm(self.stature_mm))
         }
     }
 }
@@ -131,6 +142,12 @@ pub(super) fn girths_at(mesh: &TriMesh, sites: &Sites) -> Result<Girths, BodyErr
         hip_girth_mm: trunk("hip", sites.hip)?,
         thigh_girth_mm: mm(tape::girth(thigh)),
         upper_arm_girth_mm: upper_arm.map(|(girth, _)| mm(girth)),
+        knee_girth_mm: None,
+        calf_girth_mm: None,
+        ankle_girth_mm: None,
+        forearm_girth_mm: None,
+        wrist_girth_mm: None,
+        arm_length_mm: None,
         across_shoulder_mm: mm(across_shoulder),
         inseam_mm: level(sites.crotch),
         volume_l: mesh.volume() * 1e3,
@@ -157,7 +174,7 @@ fn missing(part: &'static str, z: f64) -> BodyError {
 pub(super) fn find_sites(mesh: &TriMesh, sex: Option<Sex>) -> Result<(Sites, Sex), BodyError> {
     let (low, high) = mesh.bounds().ok_or_else(|| missing("body", 0.0))?;
     let stature = high.z - low.z;
-    let middle = median_plane(mesh, low.z, stature);
+    let middle = trunk_middle(mesh, low.z, stature).x;
     let at = |share: f64| low.z + share * stature;
     let crotch = crotch(mesh, at(0.38), at(0.56), middle).ok_or_else(|| missing("crotch", at(0.47)))?;
     let hip = hip_level(mesh, crotch, stature, middle).ok_or_else(|| missing("hip", at(0.52)))?;
@@ -191,17 +208,22 @@ pub(super) fn find_sites(mesh: &TriMesh, sex: Option<Sex>) -> Result<(Sites, Sex
     Ok((sites, sex))
 }
 
-/// Sideways place of the median plane of an upright body: the middle of its trunk, whatever the arms do.
-pub(super) fn median_plane(mesh: &TriMesh, floor: f64, stature: f64) -> f64 {
+/// Middle of the trunk of an upright body, whatever its arms do: where the median plane passes, and half way from front to
+/// back.
+pub(super) fn trunk_middle(mesh: &TriMesh, floor: f64, stature: f64) -> V2 {
     let middle = |share: f64| {
         let outlines = section(mesh, &Plane::horizontal(floor + share * stature));
         let trunk = outlines.iter().max_by(|a, b| tape::girth(a).total_cmp(&tape::girth(b)))?;
         let (low, high) = trunk.bounds();
-        Some((low.x + high.x) / 2.0)
+        Some((low + high) / 2.0)
     };
-    let mut middles: Vec<f64> = [0.54, 0.57, 0.60, 0.63, 0.66].into_iter().filter_map(middle).collect();
-    middles.sort_by(f64::total_cmp);
-    middles.get(middles.len() / 2).copied().unwrap_or(0.0)
+    let middles: Vec<V2> = [0.54, 0.57, 0.60, 0.63, 0.66].into_iter().filter_map(middle).collect();
+    let median = |axis: usize| {
+        let mut values: Vec<f64> = middles.iter().map(|middle| middle[axis]).collect();
+        values.sort_by(f64::total_cmp);
+        values.get(values.len() / 2).copied().unwrap_or(0.0)
+    };
+    V2::new(median(0), median(1))
 }
 
 /// The sex that neck, hip and waist girth over stature suggest: linear discriminant over the 6,068 people of the ANSUR II
@@ -244,7 +266,7 @@ pub(super) fn usual_chest(stature: f64, crotch: f64) -> f64 {
 
 /// The level of the nipples, which leave no mark that a scan keeps: half way between the height at which the front stands out
 /// most from the chord between ribs and collar bones (a hanging breast or a muscle has that elsewhere) and the height that
-/// proportions tell; at most where the arms are still apart from the trunk.
+/// proportions tell, which err alike; at most where the arms are still apart from the trunk.
 pub(super) fn chest_level(mesh: &TriMesh, floor: f64, stature: f64, crotch: f64, middle: f64) -> Option<f64> {
     let (low, high) = (floor + 0.66 * stature, floor + 0.80 * stature);
     let front = |z: f64| tape::trunk_outline(mesh, z, middle).map(|outline| tape::depth_range(&outline).0);

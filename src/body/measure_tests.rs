@@ -65,7 +65,9 @@ fn the_reference_bodies_measure_as_known() {
     };
     check("stature", 0.5, 0.5);
     check("neck", 1.0, 2.0);
-    check("chest", 5.0, 9.0);
+    check("chest", 5.0, 15.0);
+    check("chest level", 4.5, 9.0);
+    check("neck level", 4.0, 6.0);
     check("waist", 1.0, 2.0);
     check("hip", 3.0, 9.0);
     check("thigh", 3.0, 5.0);
@@ -76,16 +78,7 @@ fn the_reference_bodies_measure_as_known() {
 
 #[test]
 fn a_built_body_is_measured_alike_through_any_file() {
-    let asked = Measurements {
-        sex: Sex::Male,
-        stature_m: 1.76,
-        weight_kg: Some(68.0),
-        chest_girth_m: None,
-        waist_girth_m: None,
-        hip_girth_m: None,
-        neck_girth_m: None,
-        across_shoulder_m: None,
-    };
+    let asked = Measurements { weight_kg: Some(68.0), ..Measurements::of(Sex::Male, 1.76) };
     let body = build(&asked).expect("an ordinary man");
     let straight = measure(&body.mesh, Some(Sex::Male)).expect("a standing body");
     let mut turned = body.mesh.clone();

@@ -9,14 +9,19 @@ mod clean;
 mod control;
 mod control_cut;
 mod control_file;
+mod dimension;
 mod evaluate;
 mod field;
 mod figure;
+mod fit;
 mod import;
 mod interpolate;
 mod landmarks;
+mod lengths;
+mod limb_tape;
 mod limbs;
 mod loft;
+mod manifold;
 mod measure;
 mod outline;
 mod pictures;
@@ -29,15 +34,20 @@ mod segment;
 mod silhouette;
 mod stl;
 mod surface;
+mod survey;
 mod tape;
+mod template;
 #[cfg(test)]
 mod testing;
 
+pub use anthropometry::{Doubt, Mass, percentile, plausibility};
 pub use build::build;
 pub use control::{ControlMesh, Layer, RING, Region};
 pub use control_file::{ControlFile, read_control, write_control};
+pub use dimension::Dimension;
 pub use evaluate::{Accuracy, Evaluated, Evaluation, evaluate};
 pub use import::{Imported, LengthUnit, import, write_obj};
+pub use lengths::{Lengths, Measured, lengths};
 pub use measure::{Girths, measure};
 pub use pictures::{Camera, Pictured, PicturedLevel, from_pictures, picture_height};
 pub use pose::{Pose, pose};
@@ -51,7 +61,7 @@ pub enum BodyError {
     /// A measurement that no adult has.
     #[error("{name} = {value} {unit} is impossible; accepted: {least} to {greatest} {unit}")]
     OutOfRange {
-        /// Field of [`Measurements`].
+        /// Key of the measurement.
         name: &'static str,
         /// What was given.
         value: f64,
@@ -71,6 +81,20 @@ pub enum BodyError {
         part: &'static str,
         /// Height of the search, mm.
         height_mm: f64,
+    },
+    /// Two measurements that no adult has together.
+    #[error("{found} does not go with {with}: no adult has both; accepted with it: {least:.0} to {greatest:.0} {unit}")]
+    Contradiction {
+        /// The measurement with its value.
+        found: String,
+        /// The other one, with its value.
+        with: String,
+        /// Least accepted value.
+        least: f64,
+        /// Greatest accepted value.
+        greatest: f64,
+        /// Unit of the numbers.
+        unit: &'static str,
     },
     /// Measurements that are possible each, but not of one body.
     #[error("these measurements do not make one body ({reason}); accepted: girths that one adult has together")]
@@ -113,10 +137,24 @@ pub enum BodyError {
         problem: String,
     },
     /// A surface that cannot bound a solid body.
+    #[error("the surface does not close: {problem}; accepted: one whole body, its holes under 0.9 m round")]
+    Open {
+        /// What is open.
+        problem: String,
+    },
+    /// More than one body.
     #[error(
-        "the surface does not close after its repair (a half body, or parts that cross); accepted: a whole body whose holes are under 0.9 m round"
+        "two pieces of a like size: several bodies, or halves that are not joined; accepted: one body in one piece"
     )]
-    Open,
+    Several,
+    /// A mesh that is no adult in the unit given.
+    #[error("the body is {extent:.4} {unit} high, which is no adult; accepted: 1.2 to 2.4 m; is the unit right?")]
+    WrongUnit {
+        /// Height in the unit given.
+        extent: f64,
+        /// The unit.
+        unit: &'static str,
+    },
     /// A mesh whose size fits a standing adult in no unit.
     #[error("the body is {extent} high, which is no adult in mm, cm or m; accepted: 1.2 to 2.4 m, or say the unit")]
     Unit {
@@ -156,6 +194,67 @@ pub struct Measurements {
     pub neck_girth_m: Option<f64>,
     /// Across-shoulder width over the back neck point, m.
     pub across_shoulder_m: Option<f64>,
+    /// Under-bust girth, m.
+    #[serde(default)]
+    pub underbust_girth_m: Option<f64>,
+    /// Thigh girth just below the crotch, m.
+    #[serde(default)]
+    pub thigh_girth_m: Option<f64>,
+    /// Knee girth, m.
+    #[serde(default)]
+    pub knee_girth_m: Option<f64>,
+    /// Calf girth, m.
+    #[serde(default)]
+    pub calf_girth_m: Option<f64>,
+    /// Ankle girth, m.
+    #[serde(default)]
+    pub ankle_girth_m: Option<f64>,
+    /// Upper arm girth, relaxed, m.
+    #[serde(default)]
+    pub upper_arm_girth_m: Option<f64>,
+    /// Forearm girth, relaxed, m.
+    #[serde(default)]
+    pub forearm_girth_m: Option<f64>,
+    /// Wrist girth, m.
+    #[serde(default)]
+    pub wrist_girth_m: Option<f64>,
+    /// Inside leg height, m.
+    #[serde(default)]
+    pub inseam_m: Option<f64>,
+    /// Shoulder point over the elbow to the wrist, m.
+    #[serde(default)]
+    pub arm_length_m: Option<f64>,
+    /// Foot length, m.
+    #[serde(default)]
+    pub foot_length_m: Option<f64>,
+}
+
+impl Measurements {
+    /// A subject of whom only sex and stature (m) are known.
+    #[must_use]
+    pub fn of(sex: Sex, stature_m: f64) -> Self {
+        Self {
+            sex,
+            stature_m,
+            weight_kg: None,
+            chest_girth_m: None,
+            waist_girth_m: None,
+            hip_girth_m: None,
+            neck_girth_m: None,
+            across_shoulder_m: None,
+            underbust_girth_m: None,
+            thigh_girth_m: None,
+            knee_girth_m: None,
+            calf_girth_m: None,
+            ankle_girth_m: None,
+            upper_arm_girth_m: None,
+            forearm_girth_m: None,
+            wrist_girth_m: None,
+            inseam_m: None,
+            arm_length_m: None,
+            foot_length_m: None,
+        }
+    }
 }
 
 /// The 17 joints (thesis 3.1, figure 3-11).

@@ -19,6 +19,9 @@ const NECK: [f64; 2] = [0.83, 0.90];
 /// Mean height of that place over stature: of the 160 model bodies of [`super::sections`].
 const USUAL_NECK: f64 = 0.8714;
 
+/// Radius of the crown over stature: seen from below or above, the head's edge is not its highest point.
+const CROWN: f64 = 0.05;
+
 /// A silhouette with its scale.
 #[derive(Clone, Debug)]
 pub(super) struct View {
@@ -38,6 +41,18 @@ impl View {
             return Err(refused(name, "the camera given is impossible (distance 0.8 to 100 m)"));
         }
         Ok(Self { mask, rows, camera })
+    }
+
+    /// Whether two parts of leg size are seen side by side over most of the height of the legs.
+    fn shows_two_legs(&self) -> bool {
+        let (top, bottom) = self.rows;
+        let height = bottom - top + 1;
+        let rows = (0..20).map(|i| bottom - (height * (12 + i)) / 100);
+        let apart = |row: usize| {
+            let wide = |(start, end): &Run| (end - start) * 25 > height;
+            self.mask.runs(row).iter().filter(|run| wide(run)).count() >= 2
+        };
+        rows.filter(|row| apart(*row)).count() > 10
     }
 
     /// The widest run of a row.
@@ -61,7 +76,8 @@ pub(super) struct Outlines {
 impl Outlines {
     pub fn new(front: View, side: View, stature: f64) -> Result<Self, BodyError> {
         let camera_height = side.camera.map_or(0.0, |(focal, distance)| {
-            stature + (side.rows.0 as f64 - side.mask.height as f64 / 2.0) * distance / focal
+            let rise = (side.mask.height as f64 / 2.0 - side.rows.0 as f64) / focal;
+            stature - distance * rise + CROWN * stature * (rise.hypot(1.0) - 1.0)
         });
         let mut outlines = Self { front, side, stature, camera_height, crotch: 0.0 };
         outlines.crotch = outlines
@@ -74,6 +90,12 @@ impl Outlines {
     pub fn sections(&self, sex: Sex, notes: &mut Vec<String>) -> Result<[Section; 4], BodyError> {
         let waist = WAIST[usize::from(sex == Sex::Female)] * self.stature;
         self.check_arms(waist)?;
+        if self.side.shows_two_legs() {
+            return Err(refused(
+                "side",
+                "two legs are seen apart: it is no side view, or the legs stand one before the other",
+            ));
+        }
         let chest = self.chest_level().ok_or_else(|| refused("side", "no chest is found in its outline"))?;
         let hip = self.hip_level().ok_or_else(|| refused("side", "no buttocks are found in its outline"))?;
         let trunk = |level, height| self.trunk(level, height, bulges(level));

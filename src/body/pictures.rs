@@ -15,6 +15,9 @@ const WORKING: u32 = 2400;
 /// Least height of a person, pixels of the working size.
 const LEAST_HEIGHT: usize = 250;
 
+/// Most lean of the figure in the front and in the side view, where posture leans it too, degrees.
+const MOST_LEAN_DEG: [f64; 2] = [3.0, 6.0];
+
 /// Gray levels up to the first and from the second are those of a mask.
 const MASK_LEVELS: [u8; 2] = [40, 215];
 
@@ -96,14 +99,11 @@ pub fn from_pictures(
     let levels = levels.collect();
     let [neck, chest, waist, hip] = girths.map(Some);
     let measurements = Measurements {
-        sex,
-        stature_m,
-        weight_kg: None,
         chest_girth_m: chest,
         waist_girth_m: waist,
         hip_girth_m: hip,
         neck_girth_m: neck,
-        across_shoulder_m: None,
+        ..Measurements::of(sex, stature_m)
     };
     Ok(Pictured { measurements, levels, crotch_level_mm: mm(outlines.crotch), notes })
 }
@@ -201,7 +201,25 @@ fn check(view: &'static str, mask: &Mask) -> Result<(), BodyError> {
     if height < width || height > 12 * width || person.len() * 12 < width * height {
         return Err(refused(view, format!("the figure ({width} x {height} pixels) is no standing person")));
     }
+    let lean = lean_deg(mask, person);
+    let limit = if view == "front" { MOST_LEAN_DEG[0] } else { MOST_LEAN_DEG[1] };
+    if lean.abs() > limit {
+        let problem = format!("the figure leans by {lean:.1} degrees (at most {limit}): the camera was tilted");
+        return Err(refused(view, problem));
+    }
     Ok(())
+}
+
+/// Angle of the long axis of a figure from the vertical, clockwise positive, degrees.
+fn lean_deg(mask: &Mask, person: &[usize]) -> f64 {
+    let place = |i: &usize| [(i % mask.width) as f64, (i / mask.width) as f64];
+    let count = person.len().max(1) as f64;
+    let sum = |of: &dyn Fn([f64; 2]) -> f64| person.iter().map(|i| of(place(i))).sum::<f64>() / count;
+    let (x, y) = (sum(&|p| p[0]), sum(&|p| p[1]));
+    let (xx, yy) = (sum(&|p| (p[0] - x).powi(2)), sum(&|p| (p[1] - y).powi(2)));
+    let xy = sum(&|p| (p[0] - x) * (p[1] - y));
+    // Principal axis of the second moments; rows run downwards.
+    -((2.0 * xy).atan2(yy - xx) / 2.0).to_degrees()
 }
 
 #[cfg(test)]

@@ -1,4 +1,5 @@
 use super::*;
+use crate::body::testing::{Taken, png, silhouette};
 
 /// The reference bodies beside the project, where they are.
 fn reference() -> Option<std::path::PathBuf> {
@@ -63,4 +64,65 @@ fn bad_pictures_are_refused_with_the_reason() {
         &drawn(&[[270, 100, 330, 200], [200, 200, 400, 480], [200, 480, 280, 800], [320, 480, 400, 800]]),
         "arms touch",
     );
+}
+
+/// Front and side silhouettes of a built body as PNG.
+fn silhouettes(mesh: &crate::geom::TriMesh, taken: Taken, size: [u32; 2]) -> [image::GrayImage; 2] {
+    [false, true].map(|side| silhouette(mesh, side, taken, size))
+}
+
+#[test]
+fn silhouettes_of_built_bodies_give_their_girths() {
+    let people =
+        [(Sex::Male, 1.70, 85.0), (Sex::Male, 1.84, 70.0), (Sex::Female, 1.56, 70.0), (Sex::Female, 1.68, 55.0)];
+    let views = [
+        (Taken::Orthographic(800.0), [1300, 1700], None, 15.0),
+        (Taken::Perspective(2500.0, 3.2), [1200, 1800], Some(Camera::of_focal(2500.0, 1800, 3.2)), 20.0),
+    ];
+    for (taken, size, camera, limit) in views {
+        let mut off: std::collections::BTreeMap<&str, Vec<f64>> = std::collections::BTreeMap::new();
+        for (sex, stature_m, weight_kg) in people {
+            let known = measured(sex, stature_m, weight_kg);
+            let body = crate::body::build(&known).expect("an ordinary body");
+            let [front, side] = silhouettes(&body.mesh, taken, size);
+            let found = from_pictures(&png(&front), &png(&side), camera.as_ref(), sex, stature_m).expect("a person");
+            let g = &body.girths;
+            let truth = [g.neck_girth_mm, g.chest_girth_mm, g.waist_girth_mm, g.hip_girth_mm];
+            for (level, truth) in found.levels.iter().zip(truth) {
+                off.entry(level.name).or_default().push(level.girth_mm - truth);
+            }
+        }
+        for (name, errors) in off {
+            let mean = errors.iter().map(|error| error.abs()).sum::<f64>() / errors.len() as f64;
+            assert!(mean < limit, "{taken:?} {name}: {errors:.1?} mm, limit {limit}");
+        }
+    }
+}
+
+fn measured(sex: Sex, stature_m: f64, weight_kg: f64) -> Measurements {
+    Measurements { weight_kg: Some(weight_kg), ..Measurements::of(sex, stature_m) }
+}
+
+#[test]
+fn tilted_and_mistaken_views_are_refused() {
+    let body = crate::body::build(&measured(Sex::Male, 1.76, 72.0)).expect("an ordinary man");
+    let [front, side] = silhouettes(&body.mesh, Taken::Orthographic(400.0), [900, 900]);
+    let turned = |picture: &image::GrayImage, degrees: f64| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        image::GrayImage::from_fn(900, 900, |x, y| {
+            let (dx, dy) = (f64::from(x) - 450.0, f64::from(y) - 450.0);
+            let [u, v] = [dx * cos + dy * sin + 450.0, dy * cos - dx * sin + 450.0];
+            let inside = (0.0..900.0).contains(&u) && (0.0..900.0).contains(&v);
+            if inside { *picture.get_pixel(u as u32, v as u32) } else { image::Luma([0]) }
+        })
+    };
+    let check = |front: &image::GrayImage, side: &image::GrayImage, needle: &str| {
+        let error = from_pictures(&png(front), &png(side), None, Sex::Male, 1.76).expect_err(needle).to_string();
+        assert!(error.contains(needle), "{error}");
+    };
+    check(&turned(&front, 5.0), &side, "front picture cannot be used: the figure leans by 5");
+    check(&front, &turned(&side, -9.0), "the camera was tilted");
+    check(&front, &front, "two legs are seen apart");
+    check(&side, &side, "the legs are not apart");
+    check(&turned(&front, 180.0), &side, "front picture");
 }

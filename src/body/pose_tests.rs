@@ -2,16 +2,8 @@ use super::*;
 use crate::body::{Measurements, Sex, build, tape};
 
 fn bodies() -> Vec<Body> {
-    let asked = |sex, stature_m, weight_kg| Measurements {
-        sex,
-        stature_m,
-        weight_kg: Some(weight_kg),
-        chest_girth_m: None,
-        waist_girth_m: None,
-        hip_girth_m: None,
-        neck_girth_m: None,
-        across_shoulder_m: None,
-    };
+    let asked =
+        |sex, stature_m, weight_kg| Measurements { weight_kg: Some(weight_kg), ..Measurements::of(sex, stature_m) };
     let all = [asked(Sex::Male, 1.78, 75.0), asked(Sex::Female, 1.62, 82.0)];
     all.iter().map(|known| build(known).expect("an ordinary body")).collect()
 }

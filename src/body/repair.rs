@@ -1,5 +1,7 @@
 //! Repairing a scan: noise is smoothed away and holes are closed, so that a tape can be laid round it.
 
+use super::manifold::make_manifold;
+use super::{BodyError, clean};
 use crate::geom::{TriMesh, V3};
 use nalgebra::{DMatrix, DVector};
 
@@ -17,20 +19,50 @@ const LONGEST_HOLE: f64 = 0.9;
 const SOLE_HEIGHT: f64 = 0.03;
 const SOLE_DEPTH: f64 = 0.007;
 
+/// How often what is still open after closing the holes is closed again.
+const MENDED: usize = 3;
+
 /// Vertices of a patch that are still faired together; larger patches stay flat.
 const LARGEST_PATCH: usize = 900;
 
-/// Smooths a rough mesh and closes its holes; says what was done.
-pub(super) fn repair(mesh: &mut TriMesh, notes: &mut Vec<String>) {
+/// Makes one surface of a mesh, smooths it where it is rough and closes its holes; says what was done.
+///
+/// # Errors
+/// [`BodyError::Open`] for a hole too long to be closed.
+pub(super) fn repair(mesh: &mut TriMesh, notes: &mut Vec<String>) -> Result<(), BodyError> {
+    let dropped = make_manifold(mesh);
+    if dropped > 0 {
+        notes.push(format!("{dropped} doubled, branching or twisted triangles were left out"));
+    }
     let rough = roughness(mesh);
     if rough > ROUGH * mean_edge(mesh) {
         smooth(mesh);
         notes.push(format!("smoothed: its surface is rough by {:.2} mm", rough * 1e3));
     }
-    let holes = close_holes(mesh);
+    let mut holes = close_holes(mesh);
+    for _ in 0..MENDED {
+        if mesh.is_closed_manifold() {
+            break;
+        }
+        // A rim that touches itself leaves pieces of a hole, and patches that share an edge.
+        make_manifold(mesh);
+        *mesh = clean::keep_body(mesh, &mut Vec::new());
+        holes += close_holes(mesh);
+    }
     if holes > 0 {
         notes.push(format!("{holes} holes closed"));
     }
+    let longest = rims(mesh).iter().map(|rim| length(mesh, rim)).fold(0.0, f64::max);
+    if longest >= LONGEST_HOLE {
+        return Err(BodyError::Open { problem: format!("a hole is {longest:.2} m round (half a body?)") });
+    }
+    Ok(())
+}
+
+/// Length of a rim, metres.
+fn length(mesh: &TriMesh, rim: &[usize]) -> f64 {
+    let next = rim.iter().cycle().skip(1);
+    rim.iter().zip(next).map(|(&a, &b)| (mesh.positions[b] - mesh.positions[a]).norm()).sum()
 }
 
 fn mean_edge(mesh: &TriMesh) -> f64 {
@@ -122,14 +154,10 @@ fn rims(mesh: &TriMesh) -> Vec<Vec<usize>> {
 
 /// Closes every hole with a patch that continues the bend of its surroundings; how many.
 fn close_holes(mesh: &mut TriMesh) -> usize {
-    let length = |rim: &Vec<usize>| -> f64 {
-        let next = rim.iter().cycle().skip(1);
-        rim.iter().zip(next).map(|(&a, &b)| (mesh.positions[b] - mesh.positions[a]).norm()).sum()
-    };
     let holes: Vec<(Vec<usize>, f64)> = rims(mesh)
         .into_iter()
         .map(|rim| {
-            let length = length(&rim);
+            let length = length(mesh, &rim);
             (rim, length)
         })
         .filter(|(_, length)| *length < LONGEST_HOLE)

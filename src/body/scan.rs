@@ -4,6 +4,9 @@ use super::measure::{self, Girths};
 use super::{Body, BodyError, Imported, LengthUnit, Sex, import, repair, scanned};
 use crate::geom::V3;
 
+/// A trunk farther before or behind the origin than this is moved over it, metres.
+const OFF_AXIS: f64 = 0.04;
+
 /// A body scan in the world frame, with what the tape reads on it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scan {
@@ -22,10 +25,11 @@ pub struct Scan {
 /// Those of [`import`], and [`BodyError::MissingPart`] where a part of the body is not found.
 pub fn from_scan(bytes: &[u8], unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<Scan, BodyError> {
     let mut imported = import(bytes, unit)?;
-    repair::repair(&mut imported.mesh, &mut imported.notes);
+    repair::repair(&mut imported.mesh, &mut imported.notes)?;
     let (low, high) = imported.mesh.bounds().unwrap_or((V3::zeros(), V3::zeros()));
-    let middle = measure::median_plane(&imported.mesh, low.z, high.z - low.z);
-    imported.mesh.positions.iter_mut().for_each(|p| *p -= V3::new(middle, 0.0, low.z));
+    let middle = measure::trunk_middle(&imported.mesh, low.z, high.z - low.z);
+    let forward = if middle.y.abs() > OFF_AXIS { middle.y } else { 0.0 };
+    imported.mesh.positions.iter_mut().for_each(|p| *p -= V3::new(middle.x, forward, low.z));
     let (sites, told) = measure::find_sites(&imported.mesh, sex)?;
     if sex.is_none() {
         let name = if told == Sex::Male { "man" } else { "woman" };
@@ -42,7 +46,7 @@ impl Scan {
     /// [`BodyError::MissingPart`] where arms or legs are not apart, [`BodyError::Open`] for a surface that does not close.
     pub fn into_body(self) -> Result<Body, BodyError> {
         if !self.imported.mesh.is_closed_manifold() {
-            return Err(BodyError::Open);
+            return Err(BodyError::Open { problem: "parts of it cross or branch".to_owned() });
         }
         scanned::describe(self.sex, self.imported.mesh)
     }

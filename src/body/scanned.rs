@@ -6,16 +6,13 @@ use super::arm::Arm;
 use super::atlas::Atlas;
 use super::control::{ControlMesh, Layer};
 use super::control_cut::{Cuts, control_mesh};
-use super::landmarks::{self, Side};
+use super::landmarks;
 use super::measure::{self, Sites};
 use super::tape;
 use super::{Body, BodyError, Landmarks, Levels, Sex};
 use crate::geom::section::Plane;
 use crate::geom::{TriMesh, V3};
 use crate::units::mm;
-
-/// Heights over stature between which the front neck point is searched, from below.
-const FRONT_NECK: [f64; 2] = [0.775, 0.855];
 
 /// Everything of a measured, closed scan in the world frame that a [`Body`] holds.
 ///
@@ -116,19 +113,6 @@ fn side_neck(mesh: &TriMesh, sites: &Sites, shoulder: V3) -> Option<V3> {
     line.iter().max_by(|a, b| below(a).total_cmp(&below(b))).copied()
 }
 
-/// The front neck point: where the front bends from the chest into the neck, farthest behind the chord between both.
-fn front_neck(mesh: &TriMesh, sites: &Sites) -> Option<V3> {
-    let stature = sites.crown - sites.floor;
-    let upper = tape::above(mesh, (FRONT_NECK[0] - 0.05) * stature);
-    let top = (FRONT_NECK[1] * stature).min(sites.neck.height);
-    let heights = measure::steps(FRONT_NECK[0] * stature, top, 32);
-    let line: Vec<V3> = heights.filter_map(|z| landmarks::median_point(&upper, z, 0.0, Side::Front)).collect();
-    let (first, last) = (line.first()?, line.last()?);
-    let slope = (last.y - first.y) / (last.z - first.z);
-    let behind = |p: &V3| first.y + slope * (p.z - first.z) - p.y;
-    line.iter().max_by(|a, b| behind(a).total_cmp(&behind(b))).copied()
-}
-
 fn landmarks(mesh: &TriMesh, sites: &Sites, right: &Half, left: &Half) -> Result<Landmarks, BodyError> {
     let stature = sites.crown - sites.floor;
     let bust =
@@ -137,7 +121,7 @@ fn landmarks(mesh: &TriMesh, sites: &Sites, right: &Half, left: &Half) -> Result
         side_neck: [right.side_neck, mirror(left.side_neck)],
         shoulder: [right.shoulder, mirror(left.shoulder)],
         back_neck: sites.back_neck,
-        front_neck: front_neck(mesh, sites).ok_or_else(|| missing("front neck", FRONT_NECK[0] * stature))?,
+        front_neck: landmarks::front_neck(mesh, sites).ok_or_else(|| missing("front neck", 0.82 * stature))?,
         armpit: [right.armpit, mirror(left.armpit)],
         bust: [bust(1.0)?, bust(-1.0)?],
         crotch: landmarks::crotch_point(mesh, sites.crotch).ok_or_else(|| missing("crotch", sites.crotch))?,

@@ -13,6 +13,13 @@ pub(super) fn is_stl(bytes: &[u8]) -> bool {
     fits_binary(bytes) || bytes.trim_ascii_start().starts_with(b"solid")
 }
 
+/// Facets of a binary file by its count, of an ASCII file by its length.
+pub(super) fn announced_faces(bytes: &[u8]) -> usize {
+    /// Fewest bytes that a facet of an ASCII file takes.
+    const ASCII_FACET: usize = 100;
+    if fits_binary(bytes) { (bytes.len() - HEADER) / FACET } else { bytes.len() / (4 * ASCII_FACET) }
+}
+
 fn fits_binary(bytes: &[u8]) -> bool {
     count(bytes).is_some_and(|count| count.checked_mul(FACET).and_then(|n| n.checked_add(HEADER)) == Some(bytes.len()))
 }

@@ -7,10 +7,11 @@ use crate::geom::{TriMesh, V3};
 /// Passes of tangential smoothing.
 const PASSES: usize = 8;
 
-/// Passes of the fairing of joints and of the whole skin, and its step (up to 0.5 is stable).
-const JOINT_PASSES: usize = 110;
-const BASE_PASSES: usize = 6;
-const FAIRING_STEP: f64 = 0.4;
+/// Passes of the fairing of joints and of the whole skin, and its step: stable up to 0.5 where four edges meet, to less
+/// elsewhere.
+const JOINT_PASSES: usize = 170;
+const BASE_PASSES: usize = 9;
+const FAIRING_STEP: f64 = 0.25;
 
 /// Step at which vertices spread evenly within the skin while it is faired.
 const SPREADING_STEP: f64 = 0.3;
@@ -59,19 +60,11 @@ impl Skin {
     }
 
     /// One pass: every vertex moves to the mean of its neighbours and back onto the skin.
-    pub fn even_out(&mut self, parts: &Parts) {
+    fn even_out(&mut self, parts: &Parts) {
         let targets: Vec<V3> = (0..self.neighbours.len())
             .map(|i| self.mesh.positions[i] + self.to_mean(&self.mesh.positions, i))
             .collect();
         self.mesh.positions = targets.into_iter().map(|target| parts.project(target)).collect();
-    }
-
-    /// Moves every vertex onto the skin of changed parts.
-    pub fn follow(&mut self, parts: &Parts) {
-        for position in &mut self.mesh.positions {
-            *position = parts.project(*position);
-        }
-        self.fair(parts);
     }
 
     /// Fairs the skin as a thin plate: a little everywhere, against facets, and much at the joints between trunk and limbs,
@@ -126,12 +119,9 @@ impl Skin {
         normals.into_iter().map(|n| n.try_normalize(0.0).unwrap_or_else(V3::zeros)).collect()
     }
 
-    /// The skin as triangles, stretched in height so that it stands on the floor and is `stature` tall.
-    pub fn triangles(&self, stature: f64) -> TriMesh {
-        let heights = || self.mesh.positions.iter().map(|p| p.z);
-        let (low, high) = (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
-        let factor = stature / (high - low);
-        let positions: Vec<V3> = self.mesh.positions.iter().map(|p| V3::new(p.x, p.y, (p.z - low) * factor)).collect();
+    /// The skin as triangles, every quadrilateral split along its shorter diagonal.
+    pub fn triangles(self) -> TriMesh {
+        let positions = self.mesh.positions;
         let triangles = self.mesh.quads.iter().flat_map(|quad| split(quad, &positions)).collect();
         TriMesh { positions, triangles }
     }

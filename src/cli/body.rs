@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 use super::args::{Body, BodyBuild, MeshUnit, Sex};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
-use crate::study::tools::{self, Accuracy, Girths, Lens, Measurements, View};
+use crate::study::tools::{self, Accuracy, Lens, Measurements, View};
 use crate::study::{Table, Value};
 use crate::units::from_mm;
 
@@ -19,8 +19,7 @@ pub fn run(context: &Context, command: &Body) -> Outcome {
     match command {
         Body::Measure { file, unit, sex } => {
             let source = tools::SourceFile::read(file)?;
-            let girths = read_scan(context, &source, *unit, *sex)?.girths;
-            print(context, &girths)?;
+            print(context, &tools::measured(&read_scan(context, &source, *unit, *sex)?)?)?;
         }
         Body::Build(arguments) => build(context, arguments)?,
         Body::Pose { file, arm_deg, leg_deg, unit, sex, output } => {
@@ -67,19 +66,33 @@ fn evaluate(context: &Context, folder: &Path) -> Result<(), CliError> {
 
 /// Builds a body and writes its mesh, picture and measurements.
 fn build(context: &Context, arguments: &BodyBuild) -> Result<(), CliError> {
-    let body = match &arguments.scan {
-        Some(file) => {
-            let source = tools::SourceFile::read(file)?;
-            let scan = read_scan(context, &source, arguments.unit, arguments.sex)?;
-            tools::scanned_body(&source, scan)?
-        }
-        None => tools::build_body(&measurements(context, arguments)?)?,
-    };
-    write(context, &body, &arguments.output)
+    if let Some(file) = &arguments.scan {
+        let source = tools::SourceFile::read(file)?;
+        let scan = read_scan(context, &source, arguments.unit, arguments.sex)?;
+        return write(context, &tools::scanned_body(&source, scan)?, &arguments.output);
+    }
+    let measurements = measurements(context, arguments)?;
+    let body = tools::build_body(&measurements)?;
+    write_files(context, &body, &arguments.output)?;
+    let judgement = tools::judge_body(&measurements, &body);
+    if context.json {
+        return Ok(output::json(&judgement)?);
+    }
+    for doubt in &judgement.doubts {
+        context.say(format_args!("{doubt}"));
+    }
+    context.say(format_args!("{}", judgement.mass));
+    print(context, &body.girths)
 }
 
-/// Writes mesh, picture, measurements and control mesh of a body, and prints the measurements.
+/// Writes a body's files and prints its measurements.
 fn write(context: &Context, body: &tools::Body, folder: &Path) -> Result<(), CliError> {
+    write_files(context, body, folder)?;
+    if context.json { Ok(output::json(&body.girths)?) } else { print(context, &body.girths) }
+}
+
+/// Writes mesh, picture, measurements and control mesh of a body.
+fn write_files(context: &Context, body: &tools::Body, folder: &Path) -> Result<(), CliError> {
     let document = serde_json::to_string_pretty(&body.girths).map_err(std::io::Error::from)?;
     let mut files = vec![
         ("body.obj".to_owned(), tools::write_obj(&body.mesh).into_bytes()),
@@ -90,7 +103,7 @@ fn write(context: &Context, body: &tools::Body, folder: &Path) -> Result<(), Cli
     for path in tools::write_files(folder, &files)? {
         context.say(format_args!("wrote {}", path.display()));
     }
-    print(context, &body.girths)
+    Ok(())
 }
 
 /// Reads a scan; what was guessed or repaired is said.
@@ -121,16 +134,7 @@ fn measurements(context: &Context, arguments: &BodyBuild) -> Result<Measurements
             let (sex, stature_m) = (of(sex), from_mm(stature_mm));
             match (&arguments.front, &arguments.side) {
                 (Some(front), Some(side)) => pictured(context, arguments, [front, side], sex, stature_m)?,
-                _ => Measurements {
-                    sex,
-                    stature_m,
-                    weight_kg: None,
-                    chest_girth_m: None,
-                    waist_girth_m: None,
-                    hip_girth_m: None,
-                    neck_girth_m: None,
-                    across_shoulder_m: None,
-                },
+                _ => Measurements::of(sex, stature_m),
             }
         }
     };
@@ -143,6 +147,17 @@ fn measurements(context: &Context, arguments: &BodyBuild) -> Result<Measurements
         (&mut known.hip_girth_m, arguments.hip_girth_mm),
         (&mut known.neck_girth_m, arguments.neck_girth_mm),
         (&mut known.across_shoulder_m, arguments.across_shoulder_mm),
+        (&mut known.underbust_girth_m, arguments.underbust_girth_mm),
+        (&mut known.thigh_girth_m, arguments.thigh_girth_mm),
+        (&mut known.knee_girth_m, arguments.knee_girth_mm),
+        (&mut known.calf_girth_m, arguments.calf_girth_mm),
+        (&mut known.ankle_girth_m, arguments.ankle_girth_mm),
+        (&mut known.upper_arm_girth_m, arguments.upper_arm_girth_mm),
+        (&mut known.forearm_girth_m, arguments.forearm_girth_mm),
+        (&mut known.wrist_girth_m, arguments.wrist_girth_mm),
+        (&mut known.inseam_m, arguments.inseam_mm),
+        (&mut known.arm_length_m, arguments.arm_length_mm),
+        (&mut known.foot_length_m, arguments.foot_length_mm),
     ];
     for (length, given_mm) in lengths {
         *length = given_mm.map(from_mm).or(*length);
@@ -178,7 +193,7 @@ fn pictured(
 }
 
 /// Prints measurements: a table for reading, the contract's keys as JSON.
-fn print(context: &Context, girths: &Girths) -> Result<(), CliError> {
+fn print(context: &Context, girths: &impl serde::Serialize) -> Result<(), CliError> {
     if context.json {
         return Ok(output::json(girths)?);
     }

@@ -1,57 +1,136 @@
-//! `toile subject|style|size|fabric`: what is in the catalogue.
+//! `toile subject|style|size|fabric`: what is in the catalogue, and changing it.
 
-use super::args::Catalogue;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::args::{Catalogue, FabricValues, PatternUnit, SizeValues, StyleValues, SubjectValues};
 use super::context::Context;
 use super::{CliError, End, Outcome};
-use crate::study::{StudyError, Table, Value};
+use crate::study::{Mode, Part, Saved, StudyError, StyleGiven, Table, Value, Workspace};
 
-/// One part of the catalogue.
-pub struct Part {
-    /// What one entry is called.
-    what: &'static str,
-    /// Its view.
-    view: &'static str,
-    /// Columns that name an entry.
-    key: &'static str,
+/// The values of one part of the catalogue on the command line.
+pub trait Values: Args {
+    /// The part.
+    const PART: Part;
+
+    /// Saves an entry with them.
+    fn save(&self, workspace: &mut Workspace, mode: Mode, name: &str) -> Result<Vec<Saved>, StudyError>;
 }
 
-/// Subjects.
-pub const SUBJECTS: Part = Part { what: "subject", view: "v_subjects", key: "subject" };
-/// Styles.
-pub const STYLES: Part = Part { what: "style", view: "v_styles", key: "style" };
-/// Sizes, named `STYLE/SIZE`.
-pub const SIZES: Part = Part { what: "size", view: "v_sizes", key: "style || '/' || size" };
-/// Fabrics.
-pub const FABRICS: Part = Part { what: "fabric", view: "v_fabrics", key: "fabric" };
+impl Values for SubjectValues {
+    const PART: Part = Part::Subject;
+
+    fn save(&self, workspace: &mut Workspace, mode: Mode, name: &str) -> Result<Vec<Saved>, StudyError> {
+        Ok(vec![workspace.save_subject(mode, name, &self.0)?])
+    }
+}
+
+impl Values for FabricValues {
+    const PART: Part = Part::Fabric;
+
+    fn save(&self, workspace: &mut Workspace, mode: Mode, name: &str) -> Result<Vec<Saved>, StudyError> {
+        Ok(vec![workspace.save_fabric(mode, name, self.like.as_deref(), &self.given)?])
+    }
+}
+
+impl Values for StyleValues {
+    const PART: Part = Part::Style;
+
+    fn save(&self, workspace: &mut Workspace, mode: Mode, name: &str) -> Result<Vec<Saved>, StudyError> {
+        let pattern = |text: &String| match text.split_once('=') {
+            Some((size, file)) => (Some(size.to_owned()), PathBuf::from(file)),
+            None => (None, PathBuf::from(text)),
+        };
+        let given = StyleGiven {
+            seams: self.seams.clone(),
+            unit: self.unit.and_then(unit_name),
+            patterns: self.patterns.iter().map(pattern).collect(),
+        };
+        workspace.save_style(mode, name, &given)
+    }
+}
+
+impl Values for SizeValues {
+    const PART: Part = Part::Size;
+
+    fn save(&self, workspace: &mut Workspace, mode: Mode, name: &str) -> Result<Vec<Saved>, StudyError> {
+        let given = StyleGiven {
+            seams: None,
+            unit: self.unit.and_then(unit_name),
+            patterns: self.pattern.iter().map(|path| (None, path.clone())).collect(),
+        };
+        Ok(vec![workspace.save_size(mode, name, &given)?])
+    }
+}
+
+/// A unit as study files name it.
+fn unit_name(unit: PatternUnit) -> Option<String> {
+    unit.to_possible_value().map(|value| value.get_name().to_owned())
+}
+
+/// The view of a part, and the columns that name an entry in it.
+fn view(part: Part) -> (&'static str, &'static str) {
+    match part {
+        Part::Subject => ("v_subjects", "subject"),
+        Part::Style => ("v_styles", "style"),
+        Part::Size => ("v_sizes", "style || '/' || size"),
+        Part::Fabric => ("v_fabrics", "fabric"),
+    }
+}
 
 /// Columns that are of no use in a list.
-const HIDDEN: [&str; 4] = ["hash", "is_latest", "source", "entry"];
+const HIDDEN: [&str; 5] = ["hash", "is_latest", "is_retired", "source", "entry"];
 
 /// Runs a catalogue command.
-pub fn run(context: &Context, part: &Part, command: &Catalogue) -> Outcome {
-    let workspace = context.workspace()?;
-    let Part { view, key, .. } = part;
-    let query = |what: &str| workspace.query(&format!("SELECT *, {key} AS entry FROM {view} {what}"));
+pub fn run<V: Values>(context: &Context, command: Catalogue<V>) -> Outcome {
     match command {
-        Catalogue::Ls => {
-            let entries = query("WHERE is_latest ORDER BY entry")?;
-            context.print(&if context.json { entries } else { without(entries, &HIDDEN) })?;
-        }
-        Catalogue::Show { name } => {
-            let all = query("ORDER BY entry, revision")?;
-            let entry = all.columns.len() - 1;
-            let of_name = |row: &&Vec<Value>| row[entry] == Value::Text(name.clone());
-            let rows: Vec<_> = all.rows.iter().filter(of_name).cloned().collect();
-            if rows.is_empty() {
-                let mut known: Vec<String> = all.rows.iter().map(|row| row[entry].to_string()).collect();
-                known.dedup();
-                return Err(CliError::Study(StudyError::NotFound { what: part.what, name: name.clone(), known }));
+        Catalogue::Ls { all } => list(context, V::PART, all)?,
+        Catalogue::Show { name } => show(context, V::PART, &name)?,
+        Catalogue::Add { name, values } => say(context, &values.save(&mut context.workspace()?, Mode::Add, &name)?),
+        Catalogue::Edit { name, values } => say(context, &values.save(&mut context.workspace()?, Mode::Edit, &name)?),
+        Catalogue::Import { files } => say(context, &context.workspace()?.import(V::PART, &files)?),
+        Catalogue::Rm { names } => {
+            let mut workspace = context.workspace()?;
+            for name in &names {
+                context.say(workspace.remove(V::PART, name)?);
             }
-            let found = Table { columns: all.columns, rows };
-            context.print(&if context.json { found } else { sideways(&without(found, &["entry"])) })?;
         }
     }
     Ok(End::Done)
+}
+
+/// Says what was saved and what is doubtful about it.
+fn say(context: &Context, saved: &[Saved]) {
+    for entry in saved {
+        context.say(entry);
+        for doubt in &entry.doubts {
+            context.say(format_args!("{} {}: {doubt}", entry.part, entry.name));
+        }
+    }
+}
+
+fn list(context: &Context, part: Part, all: bool) -> Result<(), CliError> {
+    let (view, key) = view(part);
+    let shown = if all { "" } else { "AND NOT is_retired" };
+    let sql = format!("SELECT *, {key} AS entry FROM {view} WHERE is_latest {shown} ORDER BY entry");
+    let entries = context.workspace()?.query(&sql)?;
+    context.print(&if context.json { entries } else { without(entries, &HIDDEN) })
+}
+
+fn show(context: &Context, part: Part, name: &str) -> Result<(), CliError> {
+    let (view, key) = view(part);
+    let all = context.workspace()?.query(&format!("SELECT *, {key} AS entry FROM {view} ORDER BY entry, revision"))?;
+    let entry = all.columns.len() - 1;
+    let of_name = |row: &&Vec<Value>| row[entry] == Value::Text(name.to_owned());
+    let rows: Vec<_> = all.rows.iter().filter(of_name).cloned().collect();
+    if rows.is_empty() {
+        let mut known: Vec<String> = all.rows.iter().map(|row| row[entry].to_string()).collect();
+        known.dedup();
+        return Err(StudyError::NotFound { what: part.as_str(), name: name.to_owned(), known }.into());
+    }
+    let found = Table { columns: all.columns, rows };
+    context.print(&if context.json { found } else { sideways(&without(found, &["entry"])) })
 }
 
 /// A table without some columns.

@@ -119,9 +119,6 @@ fn of(unit: PatternUnit) -> Unit {
 }
 
 fn style(files: &StyleFiles) -> Result<tools::Style, CliError> {
-    if files.seams.is_none() && !tools::is_garmentcode(&files.file) {
-        return Err(CliError::Usage(format!("{}: a DXF file needs its seam file: --seams FILE", files.file.display())));
-    }
     Ok(tools::style(&files.file, files.seams.as_deref(), files.size.as_deref(), files.unit.map(of))?)
 }
 

@@ -51,6 +51,29 @@ impl TriMesh {
         self.triangle_normals().iter().map(V3::norm).sum::<f64>() / 2.0
     }
 
+    /// The triangles with a vertex where `keep` holds, as a mesh of their own; vertices and triangles stay in order, so that a plane
+    /// which meets no other triangle gives the same section.
+    #[must_use]
+    pub fn part(&self, keep: impl Fn(V3) -> bool) -> Self {
+        let kept: Vec<bool> = self.positions.iter().map(|&p| keep(p)).collect();
+        let chosen = |triangle: &&[usize; 3]| triangle.iter().any(|&vertex| kept[vertex]);
+        let mut triangles: Vec<[usize; 3]> = self.triangles.iter().filter(chosen).copied().collect();
+        let mut used = vec![false; self.positions.len()];
+        for &vertex in triangles.iter().flatten() {
+            used[vertex] = true;
+        }
+        let mut positions = Vec::new();
+        let mut renumbered = vec![0; used.len()];
+        for (vertex, _) in used.iter().enumerate().filter(|(_, used)| **used) {
+            renumbered[vertex] = positions.len();
+            positions.push(self.positions[vertex]);
+        }
+        for vertex in triangles.iter_mut().flatten() {
+            *vertex = renumbered[*vertex];
+        }
+        Self { positions, triangles }
+    }
+
     /// Every undirected edge once, as `[lesser, greater]` vertex index, sorted.
     #[must_use]
     pub fn edges(&self) -> Vec<[usize; 2]> {
@@ -93,6 +116,17 @@ mod tests {
         assert!((mesh.volume() - 1.0 / 6.0).abs() < 1e-15);
         assert!((mesh.area() - (1.5 + 3.0_f64.sqrt() / 2.0)).abs() < 1e-15);
         assert_eq!(mesh.edges().len(), 6);
+    }
+
+    #[test]
+    fn a_part_is_a_mesh_of_its_own() {
+        let part = tetrahedron().part(|p| p.z > 0.5);
+        assert_eq!((part.positions.len(), part.triangles.len()), (4, 3));
+        let mut lifted = tetrahedron();
+        lifted.triangles.retain(|triangle| triangle.contains(&0));
+        let part = lifted.part(|p| p == V3::z());
+        assert_eq!(part.triangles, [[0, 1, 3], [0, 3, 2]]);
+        assert!(tetrahedron().part(|_| false).positions.is_empty());
     }
 
     #[test]

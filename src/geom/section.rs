@@ -1,7 +1,6 @@
 //! Plane sections of triangle meshes.
 
 use super::{TriMesh, V2, V3};
-use std::collections::BTreeMap;
 
 /// A plane with a frame: points of the plane are `origin + u * x + v * y`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,55 +93,74 @@ type CutEdge = (usize, usize);
 pub fn section(mesh: &TriMesh, plane: &Plane) -> Vec<Outline> {
     let normal = plane.normal();
     let height: Vec<f64> = mesh.positions.iter().map(|p| (p - plane.origin).dot(&normal)).collect();
-    let mut successor: BTreeMap<CutEdge, CutEdge> = BTreeMap::new();
+    let above: Vec<bool> = height.iter().map(|&height| height >= 0.0).collect();
+    let mut links: Vec<(CutEdge, CutEdge)> = Vec::new();
     for &[a, b, c] in &mesh.triangles {
-        let mut leaving = None;
-        let mut entering = None;
+        if above[a] == above[b] && above[b] == above[c] {
+            continue;
+        }
+        let mut link = ((0, 0), (0, 0));
         for (from, to) in [(a, b), (b, c), (c, a)] {
             let edge = (from.min(to), from.max(to));
-            match (height[from] >= 0.0, height[to] >= 0.0) {
-                (true, false) => leaving = Some(edge),
-                (false, true) => entering = Some(edge),
+            match (above[from], above[to]) {
+                (true, false) => link.0 = edge,
+                (false, true) => link.1 = edge,
                 _ => {}
             }
         }
-        if let (Some(leaving), Some(entering)) = (leaving, entering) {
-            successor.insert(leaving, entering);
-        }
+        links.push(link);
     }
     let place = |&(a, b): &CutEdge| {
         let share = height[a] / (height[a] - height[b]);
         plane.project(mesh.positions[a] + (mesh.positions[b] - mesh.positions[a]) * share)
     };
-    chain(successor)
+    chain(links)
         .into_iter()
         .map(|(edges, closed)| Outline { points: edges.iter().map(place).collect(), closed })
         .collect()
 }
 
-/// Chains cut edges along their successors: open chains first, then loops.
-fn chain(mut successor: BTreeMap<CutEdge, CutEdge>) -> Vec<(Vec<CutEdge>, bool)> {
-    let targets: std::collections::BTreeSet<CutEdge> = successor.values().copied().collect();
-    let heads: Vec<CutEdge> = successor.keys().filter(|edge| !targets.contains(edge)).copied().collect();
-    let mut chains = Vec::new();
-    let mut follow = |start: CutEdge, successor: &mut BTreeMap<CutEdge, CutEdge>| {
-        let mut edges = vec![start];
-        let mut at = start;
-        while let Some(next) = successor.remove(&at) {
-            if next == start {
-                chains.push((edges, true));
-                return;
-            }
-            edges.push(next);
-            at = next;
+/// Chains cut edges along their links (from each edge to the next): open chains first, then loops.
+fn chain(mut links: Vec<(CutEdge, CutEdge)>) -> Vec<(Vec<CutEdge>, bool)> {
+    links.sort_unstable();
+    // Where sheets meet, an edge is cut twice: the last link counts.
+    links.dedup_by(|next, kept| {
+        let same = next.0 == kept.0;
+        if same {
+            kept.1 = next.1;
         }
-        chains.push((edges, false));
-    };
-    for head in heads {
-        follow(head, &mut successor);
+        same
+    });
+    let number = |edge: &CutEdge| links.binary_search_by_key(edge, |link| link.0).ok();
+    let next: Vec<Option<usize>> = links.iter().map(|(_, to)| number(to)).collect();
+    let mut is_head = vec![true; links.len()];
+    for &to in next.iter().flatten() {
+        is_head[to] = false;
     }
-    while let Some((&start, _)) = successor.first_key_value() {
-        follow(start, &mut successor);
+    let mut used = vec![false; links.len()];
+    let heads = (0..links.len()).filter(|&i| is_head[i]);
+    let mut chains = Vec::new();
+    for start in heads.chain(0..links.len()) {
+        if used[start] {
+            continue;
+        }
+        let mut edges = vec![links[start].0];
+        let mut at = start;
+        let closed = loop {
+            used[at] = true;
+            match next[at] {
+                Some(to) if to == start => break true,
+                Some(to) if !used[to] => {
+                    edges.push(links[to].0);
+                    at = to;
+                }
+                _ => {
+                    edges.push(links[at].1);
+                    break false;
+                }
+            }
+        };
+        chains.push((edges, closed));
     }
     chains
 }

@@ -152,6 +152,33 @@ pub struct FitLevel {
     pub girth_m: f64,
 }
 
+/// What strengthens an edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Band {
+    /// A knitted rib, often cut shorter than the edge it is sewn to.
+    Rib,
+    /// A tape sewn along.
+    Tape,
+    /// The edge turned over and sewn.
+    Hem,
+    /// A band round the waist.
+    Waistband,
+}
+
+/// A strengthened stretch of an edge.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Reinforcement {
+    /// With what.
+    pub band: Band,
+    /// Force per relative elongation, N.
+    pub stiffness_n: f64,
+    /// Length of the band over that of the edge.
+    pub length_factor: f64,
+    /// Garment vertices along the edge, in order.
+    pub vertices: Vec<usize>,
+}
+
 /// A sewable garment of one size, meshed.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Garment {
@@ -171,6 +198,9 @@ pub struct Garment {
     pub measurements: Vec<Measurement>,
     /// Pattern girths for the fit.
     pub fit_levels: Vec<FitLevel>,
+    /// Strengthened edges.
+    #[serde(default)]
+    pub reinforcements: Vec<Reinforcement>,
     /// Edge length asked of the mesher, m.
     pub edge_length_m: f64,
 }

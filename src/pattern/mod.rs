@@ -23,7 +23,9 @@ pub mod source;
 pub mod style;
 mod unfold;
 
-pub use garment::{FitLevel, Garment, MaterialPoint, Measurement, MeasurementKind, PieceMesh, Role, Run, SeamMesh};
+pub use garment::{
+    Band, FitLevel, Garment, MaterialPoint, Measurement, MeasurementKind, PieceMesh, Reinforcement, Role, Run, SeamMesh,
+};
 pub use mesh::{MeshError, MeshQuality};
 pub use piece::{Notch, Piece};
 pub use style::{Style, StyleError};

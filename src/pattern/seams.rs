@@ -25,6 +25,12 @@
 //! kind = "open_length"                      # or closed_girth
 //! path = [{ line = ["front.hem.mid", "front.neck.start"] }]   # or edges: ["front.hem", "back.hem"]
 //!
+//! [[reinforce]]                             # edges with a stiffness of their own (optional)
+//! edges = ["front.neck", "back.neck"]
+//! kind = "rib"                              # rib, tape, hem or waistband
+//! stiffness_n = 20.0                        # force (N) per relative elongation
+//! length_factor = 0.95                      # length of the band over that of the edge (optional, 1)
+//!
 //! [fit.chest]                               # girth of the pattern at a body level, for the fit
 //! path = [{ line = ["front.side_right.start", "front.side_left.end"] }]
 //! ```
@@ -42,7 +48,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::garment::{MeasurementKind, Role};
+use super::garment::{Band, MeasurementKind, Role};
 use super::style::StyleError;
 
 /// Greatest difference of length between the two sides of a seam where the file names none, mm.
@@ -69,6 +75,9 @@ pub struct SeamFile {
     /// Measurements.
     #[serde(default)]
     pub measurement: Vec<MeasurementEntry>,
+    /// Strengthened edges.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub reinforce: Vec<ReinforceEntry>,
     /// Pattern girths at body levels, by level.
     #[serde(default)]
     pub fit: BTreeMap<String, FitEntry>,
@@ -140,6 +149,25 @@ pub struct MeasurementEntry {
     pub kind: MeasurementKind,
     /// Where it runs.
     pub path: Vec<Stretch>,
+}
+
+/// Edges with a stiffness of their own.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ReinforceEntry {
+    /// Edges, `piece.edge` each.
+    pub edges: Vec<String>,
+    /// What strengthens them.
+    pub kind: Band,
+    /// Force per relative elongation, N.
+    pub stiffness_n: f64,
+    /// Length of the band over that of the edge.
+    #[serde(default = "one")]
+    pub length_factor: f64,
+}
+
+fn one() -> f64 {
+    1.0
 }
 
 /// The girth of the pattern at a body level.

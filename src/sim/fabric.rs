@@ -1,5 +1,19 @@
 //! Fabrics: areal density, orthotropic membrane, bending, friction.
 
+use super::cloth::membrane::Fibre;
+
+/// Moduli of a knit under stretch, where they differ from those at rest.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stretched {
+    /// Elongation over rest length at which they were measured.
+    pub stretch: f64,
+    /// Secant modulus along the grain line there, stress over Green strain, N/m.
+    pub membrane_warp_n_m: f64,
+    /// Secant modulus across the grain line there, N/m.
+    pub membrane_weft_n_m: f64,
+}
+
 /// A fabric as the simulators need it; SI units.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -29,6 +43,25 @@ pub struct Fabric {
     pub friction_self: f64,
     /// Where the numbers are from.
     pub source: String,
+    /// Moduli under stretch; without them the law is linear.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stretched: Option<Stretched>,
+}
+
+impl Fabric {
+    /// The law along the grain line.
+    #[must_use]
+    pub fn warp_law(&self) -> Fibre {
+        let rest = self.membrane_warp_n_m;
+        self.stretched.map_or(Fibre::linear(rest), |s| Fibre::stiffening(rest, s.membrane_warp_n_m, s.stretch))
+    }
+
+    /// The law across the grain line.
+    #[must_use]
+    pub fn weft_law(&self) -> Fibre {
+        let rest = self.membrane_weft_n_m;
+        self.stretched.map_or(Fibre::linear(rest), |s| Fibre::stiffening(rest, s.membrane_weft_n_m, s.stretch))
+    }
 }
 
 /// The fabrics known by name.

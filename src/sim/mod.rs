@@ -10,6 +10,7 @@ pub mod error;
 pub mod fabric;
 pub mod fem;
 pub mod hybrid;
+pub mod laboratory;
 pub mod levels;
 pub mod quality;
 pub mod sewing;

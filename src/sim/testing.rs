@@ -1,6 +1,6 @@
-//! Helpers for the tests of the simulators: finite differences and flat sheets.
+//! Helpers for the tests of the simulators: finite differences.
 
-use crate::geom::{V2, V3};
+use crate::geom::V3;
 use crate::sim::Fabric;
 
 /// A fabric with different numbers everywhere, so that a mix-up shows.
@@ -18,78 +18,8 @@ pub fn fabric() -> Fabric {
         friction_body: 0.3,
         friction_self: 0.5,
         source: "test".into(),
+        stretched: None,
     }
-}
-
-/// A flat sheet of `columns` x `rows` squares of side `step`, each cut into two triangles, alternately.
-pub fn sheet(columns: usize, rows: usize, step: f64) -> (Vec<V2>, Vec<[usize; 3]>) {
-    let at = |i: usize, j: usize| j * (columns + 1) + i;
-    let rest = (0..=rows).flat_map(|j| (0..=columns).map(move |i| V2::new(i as f64 * step, j as f64 * step))).collect();
-    let mut triangles = Vec::new();
-    for j in 0..rows {
-        for i in 0..columns {
-            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
-            if (i + j) % 2 == 0 {
-                triangles.extend([[a, b, c], [a, c, d]]);
-            } else {
-                triangles.extend([[a, b, d], [b, c, d]]);
-            }
-        }
-    }
-    (rest, triangles)
-}
-
-/// A flat sheet of near-equilateral triangles, as a mesher makes them: `rows` strips of height `step sqrt(3)/2`, every
-/// other row of vertices shifted by half a step, both sides straight.
-pub fn hexagonal_sheet(columns: usize, rows: usize, step: f64) -> (Vec<V2>, Vec<[usize; 3]>) {
-    let width = columns as f64 * step;
-    let mut rest = Vec::new();
-    let mut starts = Vec::new();
-    for j in 0..=rows {
-        starts.push(rest.len());
-        let y = j as f64 * step * 0.75_f64.sqrt();
-        if j % 2 == 0 {
-            rest.extend((0..=columns).map(|i| V2::new(i as f64 * step, y)));
-        } else {
-            rest.push(V2::new(0.0, y));
-            rest.extend((0..columns).map(|i| V2::new((i as f64 + 0.5) * step, y)));
-            rest.push(V2::new(width, y));
-        }
-    }
-    starts.push(rest.len());
-    let mut triangles = Vec::new();
-    for j in 0..rows {
-        let (mut low, mut high) = (starts[j], starts[j + 1]);
-        while low + 1 < starts[j + 1] || high + 1 < starts[j + 2] {
-            // Advance on the row whose next vertex comes first.
-            let next = |v: usize, end: usize| if v + 1 < end { rest[v + 1].x } else { f64::MAX };
-            if next(low, starts[j + 1]) <= next(high, starts[j + 2]) {
-                triangles.push([low, low + 1, high]);
-                low += 1;
-            } else {
-                triangles.push([low, high + 1, high]);
-                high += 1;
-            }
-        }
-    }
-    (rest, triangles)
-}
-
-/// A repeatable sequence of numbers in -1..1.
-pub fn noise(count: usize, seed: u64) -> Vec<f64> {
-    let mut state = seed;
-    (0..count)
-        .map(|_| {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-        })
-        .collect()
-}
-
-/// Positions with noise of amplitude `size` added.
-pub fn shaken(positions: &[V3], size: f64, seed: u64) -> Vec<V3> {
-    let noise = noise(3 * positions.len(), seed);
-    positions.iter().enumerate().map(|(i, p)| p + V3::from_row_slice(&noise[3 * i..3 * i + 3]) * size).collect()
 }
 
 /// Asserts that `forces` is minus the gradient of `energy`, by central differences of step `h`, to `relative` of the

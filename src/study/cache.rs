@@ -127,6 +127,8 @@ pub(crate) fn stored<T: Artefact>(connection: &Connection, hash: &str) -> Result
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
 
     impl Artefact for String {
@@ -144,12 +146,29 @@ mod tests {
         ((*product).clone(), used.was_cached)
     }
 
+    /// The cache of a new database.
+    fn new_cache(path: &Path) -> Cache {
+        store::open(path, Access::Create).expect("a new database");
+        Cache::new(path.to_owned())
+    }
+
+    #[test]
+    fn a_deleted_database_is_told_and_not_made_again() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("toile.sqlite");
+        let cache = new_cache(&path);
+        get(&cache, StageKind::Body, "first");
+        std::fs::remove_file(&path).expect("there");
+        let error = cache.get(StageKind::Mesh, "other", || Ok(String::new())).expect_err("it is gone");
+        assert!(error.to_string().contains("toile.sqlite: cannot open") && !path.exists(), "{error}");
+    }
+
     #[test]
     fn a_product_is_made_once_and_outlives_the_run() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("toile.sqlite");
         for stage in [StageKind::Body, StageKind::Drape] {
-            let cache = Cache::new(path.with_extension(stage.as_str()));
+            let cache = new_cache(&path.with_extension(stage.as_str()));
             assert_eq!(get(&cache, stage, "first"), ("first".to_owned(), false));
             assert_eq!(get(&cache, stage, "second"), ("first".to_owned(), true));
             let later = Cache::new(path.with_extension(stage.as_str()));
@@ -161,7 +180,7 @@ mod tests {
     fn what_cannot_be_read_is_made_again() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("toile.sqlite");
-        let connection = store::open(&path, Access::Write).expect("a new database");
+        let connection = store::open(&path, Access::Create).expect("a new database");
         save(&connection, StageKind::Body, "hash", &[0xff]).expect("writable");
         assert_eq!(get(&Cache::new(path.clone()), StageKind::Body, "again"), ("again".to_owned(), false));
         assert_eq!(get(&Cache::new(path), StageKind::Body, "more"), ("again".to_owned(), true));
@@ -170,7 +189,7 @@ mod tests {
     #[test]
     fn workers_that_need_the_same_wait_for_one() {
         let folder = tempfile::tempdir().expect("a folder");
-        let cache = Cache::new(folder.path().join("toile.sqlite"));
+        let cache = new_cache(&folder.path().join("toile.sqlite"));
         let made = std::sync::atomic::AtomicUsize::new(0);
         std::thread::scope(|scope| {
             for _ in 0..4 {

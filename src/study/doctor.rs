@@ -48,16 +48,7 @@ fn database_check(path: &Path, readonly: bool) -> Result<String> {
 
 /// Builds a body and lays the tape on it.
 fn body_check() -> Result<String> {
-    let known = Measurements {
-        sex: Sex::Female,
-        stature_m: 1.65,
-        weight_kg: Some(60.0),
-        chest_girth_m: Some(0.9),
-        waist_girth_m: None,
-        hip_girth_m: None,
-        neck_girth_m: None,
-        across_shoulder_m: None,
-    };
+    let known = Measurements { weight_kg: Some(60.0), chest_girth_m: Some(0.9), ..Measurements::of(Sex::Female, 1.65) };
     let body = tools::build_body(&known)?;
     Ok(format!(
         "{} triangles; chest asked 900 mm, measured {:.0} mm",

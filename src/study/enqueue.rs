@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use rusqlite::{OptionalExtension, Transaction, params};
 
-use super::catalogue;
+use super::catalogue::{self, By};
 use super::error::Result;
 use super::file::Study;
 use super::inputs::{Change, Inputs};
@@ -216,10 +216,11 @@ fn supersede(transaction: &Transaction<'_>, id: JobId) -> Result<()> {
 }
 
 fn insert(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec, hash: &str) -> Result<JobId> {
-    let subject = catalogue::subject(transaction, &spec.subject, &spec.measurements)?;
-    let style = catalogue::style(transaction, &spec.garment, spec.seams.as_ref())?;
-    let size = catalogue::size(transaction, &spec.garment, &spec.size, &spec.pattern, spec.unit.as_deref())?;
-    let fabric = catalogue::fabric(transaction, &spec.fabric)?;
+    let (by, unit) = (By::Study, spec.unit.as_deref());
+    let subject = catalogue::subject(transaction, &spec.subject, &spec.measurements, by)?.id;
+    let style = catalogue::style(transaction, &spec.garment, spec.seams.as_ref(), by)?.id;
+    let size = catalogue::size(transaction, (&spec.garment, &spec.size), &spec.pattern, unit, by)?.id;
+    let fabric = catalogue::fabric(transaction, &spec.fabric, by)?.id;
     transaction
         .prepare_cached(
             "INSERT INTO job (study_id, garment, size, subject, simulator, repeat, input_hash, status, queued_at,

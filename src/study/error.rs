@@ -41,6 +41,24 @@ pub enum StudyError {
     /// Everything that is wrong with a study file.
     #[error("{}", Problem::listing(.0))]
     File(Vec<Problem>),
+    /// Values that an entry of the catalogue cannot have.
+    #[error("{what} {name}: {}", problems.join("; "))]
+    Refused {
+        /// Part of the catalogue.
+        what: &'static str,
+        /// Name of the entry.
+        name: String,
+        /// What is wrong with each value.
+        problems: Vec<String>,
+    },
+    /// A new entry of a name that is taken.
+    #[error("there is a {what} `{name}` already; edit it, or take another name")]
+    Exists {
+        /// Part of the catalogue.
+        what: &'static str,
+        /// Name of the entry.
+        name: String,
+    },
     /// Something was asked for by a name or number that does not exist.
     #[error("no {what} `{name}`{}", suggestion(.known, .name))]
     NotFound {

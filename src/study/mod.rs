@@ -12,6 +12,7 @@ mod doctor;
 mod engine;
 mod enqueue;
 mod error;
+mod figure;
 mod file;
 mod inputs;
 mod outcome;
@@ -37,9 +38,14 @@ mod workspace;
 pub use actions::why_no_retry;
 pub use attempt::{Attempt, Tried, TriedChi, TriedEase, attempt};
 pub use audit::{Audit, Finding};
+pub use catalogue::{
+    Deed, FABRIC_NUMBERS, Field, Given, MEASUREMENTS, Mode, Part, Removed, Saved, StyleGiven, SubjectRow, doubts,
+    is_doubtful, percentile, percentile_text, sex,
+};
 pub use doctor::{Check, checks};
 pub use enqueue::{Planned, Why};
 pub use error::{Result, StudyError};
+pub use figure::Figure;
 pub use file::{Problem, Study, study_file};
 pub use inputs::{Change, Inputs, StageKind};
 pub use outcome::{Executor, Measured, Outcome};
@@ -52,7 +58,7 @@ pub use sql::Interrupter;
 pub use store::now_ms;
 pub use types::{
     Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, RecommendationRow, StageRow,
-    Status, StudyRow, Table, Value,
+    Status, StudyRow, SubjectId, Table, Value,
 };
 pub use workspace::Workspace;
 

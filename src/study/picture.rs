@@ -18,7 +18,7 @@ use crate::pattern::Garment;
 use crate::render::export::{MeshFormat, Part};
 use crate::render::{self, Camera, Frame, Layer, Mapping, Material, Paint, Scene, Texture, Values, View};
 use crate::sim::Drape;
-use crate::sim::cloth::membrane::Orthotropic;
+use crate::sim::cloth::membrane::{Fibre, Orthotropic};
 use crate::units::mm;
 
 /// One repeat of the check, m.
@@ -191,17 +191,29 @@ impl Workspace {
         Ok(Dressed { simulator: job.simulator, garment, fabric, body: model.body.mesh, cloth })
     }
 
-    /// The membrane matrix of a job's fabric.
+    /// The membrane law of a job's fabric.
     fn membrane_of(&self, id: JobId) -> Result<Orthotropic> {
         let table = self.query(&format!(
-            "SELECT membrane_weft_n_m, membrane_coupling_n_m, membrane_warp_n_m, shear_n_m
+            "SELECT membrane_weft_n_m, membrane_coupling_n_m, membrane_warp_n_m, shear_n_m,
+                stretch_pct / 100, stretched_warp_n_m, stretched_weft_n_m
             FROM fabric JOIN job USING (fabric_id) WHERE job_id = {id}"
         ))?;
-        let number = |column: usize| match table.rows.first().and_then(|row| row.get(column)) {
-            Some(Value::Real(number)) => Ok(*number),
-            _ => Err(StudyError::NotFound { what: "fabric of job", name: id.to_string(), known: vec![] }),
+        let optional = |column: usize| match table.rows.first().and_then(|row| row.get(column)) {
+            Some(Value::Real(number)) => Some(*number),
+            _ => None,
         };
-        Ok(Orthotropic { c11: number(0)?, c12: number(1)?, c22: number(2)?, shear: number(3)? })
+        let missing = || StudyError::NotFound { what: "fabric of job", name: id.to_string(), known: vec![] };
+        let number = |column: usize| optional(column).ok_or_else(missing);
+        let law = |rest: f64, stretched: Option<f64>| match (stretched, optional(4)) {
+            (Some(stretched), Some(stretch)) => Fibre::stiffening(rest, stretched, stretch),
+            _ => Fibre::linear(rest),
+        };
+        Ok(Orthotropic {
+            weft: law(number(0)?, optional(6)),
+            c12: number(1)?,
+            warp: law(number(2)?, optional(5)),
+            shear: number(3)?,
+        })
     }
 
     /// A stored product of a job's stage.

@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use super::cache::{Artefact, Cache, Used};
 use super::error::{Result, StudyError};
-use super::inputs::StageKind;
+use super::inputs::{Inputs, StageKind};
 use super::outcome::{Executor, Measured, Outcome};
-use super::spec::JobSpec;
+use super::spec::{JobSpec, subject_inputs};
 use super::tools;
-use crate::body::Body;
+use crate::body::{Body, Measurements};
 use crate::fit::{self, Cuts, Ease, Simulator};
 use crate::geom::DistanceField;
 use crate::measure;
@@ -21,9 +21,9 @@ use crate::units::from_mm;
 pub const SIMULATORS: [Simulator; 2] = [Simulator::Fem, Simulator::Hybrid];
 
 /// Versions of the stages, raised whenever one may give other numbers for the same inputs.
-const VERSIONS: [(&str, u32); 3] = [("body.version", 3), ("field.version", 1), ("mesh.version", 2)];
+const VERSIONS: [(&str, u32); 3] = [("body.version", 4), ("field.version", 1), ("mesh.version", 3)];
 /// Version of the simulators, likewise; their default parameters count as inputs by themselves.
-const SIM_VERSION: u32 = 4;
+const SIM_VERSION: u32 = 5;
 
 /// Spacing of the distance field's nodes, m: the 99th percentile of its error is then about 0.1 mm.
 pub(super) const FIELD_SPACING_M: f64 = 0.005;
@@ -39,6 +39,16 @@ pub(crate) fn versions(simulator: Simulator) -> Vec<(&'static str, String)> {
     };
     versions.push(("sim.parameters", blake3::hash(parameters.as_bytes()).to_hex().to_string()));
     versions
+}
+
+/// The inputs of a subject's body, the same as among those of any job on it.
+pub(super) fn body_inputs(name: &str, measurements: &Measurements) -> Inputs {
+    let mut inputs = Inputs::default();
+    subject_inputs(&mut inputs, name, measurements);
+    for (name, version) in VERSIONS {
+        inputs.set(name, version);
+    }
+    inputs
 }
 
 /// A body, as the cache keeps it.
@@ -229,12 +239,14 @@ mod tests {
     use super::super::catalogue;
     use super::super::file::Study;
     use super::super::spec;
+    use super::super::store::{self, Access};
     use super::*;
 
     fn quickstart() -> Vec<JobSpec> {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/quickstart");
         let known = catalogue::known(None).expect("built in");
-        spec::jobs(&Study::load(&folder, &known).expect("a good study"))
+        let jobs = spec::jobs(&Study::load(&folder, &known).expect("a good study"));
+        jobs.into_iter().filter(|job| job.simulator == Simulator::Fem).collect()
     }
 
     #[test]
@@ -262,6 +274,8 @@ mod tests {
         ] {
             assert!(inputs.contains(&input), "{input:?} in {inputs:?}");
         }
+        let body = body_inputs(&jobs[0].subject, &jobs[0].measurements).stage_hash(StageKind::Body);
+        assert_eq!(body, jobs[0].inputs.stage_hash(StageKind::Body), "the catalogue's body is the job's");
         let differ = |a: usize, b: usize, stage| jobs[a].inputs.stage_hash(stage) != jobs[b].inputs.stage_hash(stage);
         assert!(!differ(0, 2, StageKind::Body) && differ(0, 1, StageKind::Body), "the body is the subject's");
         assert!(!differ(0, 1, StageKind::Mesh) && differ(0, 2, StageKind::Mesh), "the mesh is the size's");
@@ -270,7 +284,9 @@ mod tests {
     #[test]
     fn ease_is_that_of_the_body_that_is_dressed() {
         let folder = tempfile::tempdir().expect("a folder");
-        let pipeline = Pipeline::new(&folder.path().join("toile.sqlite"));
+        let path = folder.path().join("toile.sqlite");
+        store::open(&path, Access::Create).expect("a new database");
+        let pipeline = Pipeline::new(&path);
         let jobs = quickstart();
         let [ii, v] = [&jobs[0], &jobs[1]].map(|job| pipeline.ease(job).expect("it can be made"));
         assert_eq!(ii[0].level, "chest");

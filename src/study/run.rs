@@ -198,7 +198,7 @@ fn check_patterns(study: &Study) -> Result<()> {
         for size in &garment.sizes {
             if let Err(error) = tools::read_style(&size.pattern, garment.seams.as_ref(), Some(&size.name), unit) {
                 let message = format!("garment {}, size {}: {error}", garment.name, size.name);
-                problems.push(Problem { file: study.path.clone(), line: None, message });
+                problems.push(Problem::of(&study.path, message));
             }
         }
     }

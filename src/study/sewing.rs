@@ -99,7 +99,7 @@ pub(super) fn of_files(
     size: Option<&str>,
     unit: Option<tools::Unit>,
 ) -> Result<Vec<Finding>> {
-    if tools::is_garmentcode(Path::new(&pattern.name)) {
+    if pattern.holds_seams() {
         return Ok(Vec::new());
     }
     let pieces = tools::pieces(pattern, size, unit)?;

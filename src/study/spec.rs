@@ -1,5 +1,6 @@
 //! From a study to its jobs: one specification for every garment, size, subject, simulator and repeat.
 
+use super::catalogue::{FABRIC_NUMBERS, MEASUREMENTS};
 use super::file::{GarmentEntry, ScanFile, SizeFile, SourceFile, Study, Subject};
 use super::inputs::Inputs;
 use super::pipeline;
@@ -130,41 +131,20 @@ fn job(
 /// A subject's measurements as inputs; absent ones are left out.
 pub(super) fn subject_inputs(inputs: &mut Inputs, id: &str, m: &Measurements) {
     inputs.set(format!("subject.{id}.sex"), sex_name(m));
-    let lengths = [
-        ("stature_mm", Some(m.stature_m)),
-        ("chest_girth_mm", m.chest_girth_m),
-        ("waist_girth_mm", m.waist_girth_m),
-        ("hip_girth_mm", m.hip_girth_m),
-        ("neck_girth_mm", m.neck_girth_m),
-        ("across_shoulder_mm", m.across_shoulder_m),
-    ];
-    for (name, length) in lengths {
-        if let Some(length) = length {
-            inputs.set(format!("subject.{id}.{name}"), millimetres(length));
+    for field in &MEASUREMENTS {
+        if let Some(value) = field.get(m) {
+            inputs.set(format!("subject.{id}.{}", field.key), value);
         }
-    }
-    if let Some(weight) = m.weight_kg {
-        inputs.set(format!("subject.{id}.weight_kg"), weight);
     }
 }
 
 /// A fabric's numbers as inputs; where they are from does not matter to a result.
 pub(super) fn fabric_inputs(inputs: &mut Inputs, fabric: &Fabric) {
-    let numbers = [
-        ("density_kg_m2", fabric.density_kg_m2),
-        ("membrane_warp_n_m", fabric.membrane_warp_n_m),
-        ("membrane_weft_n_m", fabric.membrane_weft_n_m),
-        ("membrane_coupling_n_m", fabric.membrane_coupling_n_m),
-        ("shear_n_m", fabric.shear_n_m),
-        ("bending_warp_nm", fabric.bending_warp_nm),
-        ("bending_weft_nm", fabric.bending_weft_nm),
-        ("friction_body", fabric.friction_body),
-        ("friction_self", fabric.friction_self),
-    ];
-    for (name, number) in numbers {
-        inputs.set(format!("fabric.{}.{name}", fabric.name), number);
+    for field in &FABRIC_NUMBERS {
+        if let Some(number) = field.get(fabric) {
+            inputs.set(format!("fabric.{}.{}", fabric.name, field.key), number);
+        }
     }
-    inputs.set(format!("fabric.{}.thickness_mm", fabric.name), millimetres(fabric.thickness_m));
 }
 
 /// Name of a subject's sex in SQL and study files.

@@ -10,11 +10,13 @@ use super::error::{Result, StudyError};
 use super::sql;
 
 /// Schema changes in order, never edited once released: `user_version` counts how many a database has.
-const MIGRATIONS: [&str; 4] = [
+const MIGRATIONS: [&str; 6] = [
     include_str!("../../db/migrations/0001_store.sql"),
     include_str!("../../db/migrations/0002_views.sql"),
     include_str!("../../db/migrations/0003_published.sql"),
     include_str!("../../db/migrations/0004_published_metrics.sql"),
+    include_str!("../../db/migrations/0005_catalogue.sql"),
+    include_str!("../../db/migrations/0006_stretched.sql"),
 ];
 
 /// How long a statement waits for another process's write.
@@ -25,13 +27,16 @@ const BUSY_TIMEOUT: Duration = Duration::from_secs(20);
 pub(crate) enum Access {
     /// Reads only; the file must exist.
     Read,
-    /// Reads and writes; a commit is on disk when it returns.
+    /// Reads and writes, and makes the file where there is none: for whoever opens a workspace.
+    Create,
+    /// Reads and writes; a commit is on disk when it returns. The file must exist.
     Write,
-    /// Writes that may be lost with the power (progress, heartbeats); never torn.
+    /// Writes that may be lost with the power (progress, heartbeats); never torn. The file must exist.
     Volatile,
 }
 
-/// Opens a database, creating and migrating it where the access allows.
+/// Opens a database, creating and migrating it where the access allows. Only [`Access::Create`] makes a file: were a
+/// run's database deleted under it, its workers must not go on in an empty one of the same name.
 pub(crate) fn open(path: &Path, access: Access) -> Result<Connection> {
     let fail = |reason: String| StudyError::Open { path: path.to_owned(), reason };
     if access == Access::Read {
@@ -46,15 +51,25 @@ pub(crate) fn open(path: &Path, access: Access) -> Result<Connection> {
         connection.authorizer(Some(no_other_files))?;
         return Ok(connection);
     }
-    if let Some(folder) = path.parent() {
+    let mut flags = OpenFlags::default();
+    if access == Access::Create {
+        let folder = path.parent().unwrap_or(Path::new(""));
         std::fs::create_dir_all(folder).map_err(StudyError::io(folder))?;
+    } else if path.exists() {
+        flags.remove(OpenFlags::SQLITE_OPEN_CREATE);
+    } else {
+        return Err(fail("the file is gone; it was there when this program opened it".into()));
     }
-    let mut connection = Connection::open(path).map_err(|e| fail(e.to_string()))?;
+    let mut connection = Connection::open_with_flags(path, flags).map_err(|e| fail(e.to_string()))?;
     connection.busy_timeout(BUSY_TIMEOUT)?;
     connection.pragma_update(None, "journal_mode", "wal").map_err(|e| fail(e.to_string()))?;
-    connection.pragma_update(None, "synchronous", if access == Access::Write { "full" } else { "normal" })?;
+    connection.pragma_update(None, "synchronous", if access == Access::Volatile { "normal" } else { "full" })?;
     connection.pragma_update(None, "foreign_keys", true)?;
-    migrate(&mut connection)?;
+    if access == Access::Create {
+        migrate(&mut connection)?;
+    } else {
+        check_version(&connection, MIGRATIONS.len() as i64)?;
+    }
     Ok(connection)
 }
 
@@ -151,13 +166,27 @@ mod tests {
     }
 
     #[test]
+    fn only_whoever_opens_a_workspace_makes_a_database() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("db").join("toile.sqlite");
+        for access in [Access::Read, Access::Write, Access::Volatile] {
+            assert!(matches!(open(&path, access), Err(StudyError::Open { .. })), "{access:?}");
+        }
+        assert!(!path.parent().expect("within the folder").exists());
+        open(&path, Access::Create).expect("a new database");
+        for access in [Access::Read, Access::Write, Access::Volatile] {
+            open(&path, access).expect("there now");
+        }
+    }
+
+    #[test]
     fn a_newer_database_is_refused() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("toile.sqlite");
-        let connection = open(&path, Access::Write).expect("a new database");
+        let connection = open(&path, Access::Create).expect("a new database");
         connection.pragma_update(None, "user_version", 99).expect("writable");
         drop(connection);
-        for access in [Access::Read, Access::Write] {
+        for access in [Access::Read, Access::Create, Access::Write] {
             assert!(matches!(open(&path, access), Err(StudyError::TooNew { found: 99, .. })));
         }
     }

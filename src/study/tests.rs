@@ -54,16 +54,7 @@ fn source(name: &str, text: &str) -> SourceFile {
 fn study(density_kg_m2: f64) -> Study {
     let subject = |id: &str, stature_m: f64| Subject {
         id: id.to_owned(),
-        measurements: Measurements {
-            sex: Sex::Male,
-            stature_m,
-            weight_kg: None,
-            chest_girth_m: Some(0.9),
-            waist_girth_m: None,
-            hip_girth_m: None,
-            neck_girth_m: None,
-            across_shoulder_m: None,
-        },
+        measurements: Measurements { chest_girth_m: Some(0.9), ..Measurements::of(Sex::Male, stature_m) },
         scan: None,
     };
     let size = |name: &str| SizeFile { name: name.to_owned(), pattern: source(&format!("tee-{name}.dxf"), name) };
@@ -80,6 +71,7 @@ fn study(density_kg_m2: f64) -> Study {
         friction_body: 0.3,
         friction_self: 0.5,
         source: "test".into(),
+        stretched: None,
     };
     Study {
         name: "tops".into(),

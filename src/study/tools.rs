@@ -6,14 +6,14 @@ use super::error::{Result, StudyError};
 pub use super::file::SourceFile;
 use super::sewing;
 use crate::body;
-use crate::pattern::dxf;
-use crate::pattern::{Garment, Piece, garmentcode, sheet};
+use crate::pattern::{Garment, Piece, garmentcode, sheet, source};
 use crate::render::{self, Camera, Frame, Layer, Material, Scene};
 
 pub use super::seam_desk::{Desk, DeskEdge, DeskPiece, DeskSeam, Proposed, desk, edit_seams, propose};
 pub use super::sewing::{CHECK_EDGE_MM, SizeCheck, check_study};
 pub use crate::body::{
-    Accuracy, Body, Evaluation, Girths, LengthUnit, Measurements, Pictured, PicturedLevel, Pose, Scan, Sex, write_obj,
+    Accuracy, Body, Doubt, Evaluation, Girths, LengthUnit, Mass, Measured, Measurements, Pictured, PicturedLevel, Pose,
+    Scan, Sex, write_obj,
 };
 pub use crate::pattern::check::{Finding, of_garment as garment_findings};
 pub use crate::pattern::draft::Model;
@@ -38,13 +38,6 @@ pub fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<Vec<Pat
         paths.push(path);
     }
     Ok(paths)
-}
-
-/// Whether a file is a GarmentCode specification by its name: JSON that is not called `*.features.json`.
-#[must_use]
-pub fn is_garmentcode(file: &Path) -> bool {
-    let name = file.to_string_lossy().to_ascii_lowercase();
-    name.ends_with(".json") && !name.ends_with(".features.json")
 }
 
 /// The DXF files and GarmentCode specifications below a folder, by path.
@@ -86,11 +79,11 @@ pub fn findings(pattern: &Path, seams: &Path, size: Option<&str>, unit: Option<U
     sewing::of_files(&SourceFile::read_pattern(pattern)?, &SourceFile::read(seams)?, size, unit)
 }
 
-/// The pieces of one size of a DXF file, or of all of a folder.
+/// The pieces of one size of a pattern file, or of all of a folder.
 pub(super) fn pieces(pattern: &SourceFile, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<Piece>> {
     let mut pieces = Vec::new();
-    for source in pattern.parts() {
-        let file = dxf::read(&source.bytes, &source.name, unit).map_err(StudyError::stage("pattern"))?;
+    for part in pattern.parts() {
+        let file = source::read(&part.bytes, &part.name, unit).map_err(StudyError::stage("pattern"))?;
         // A file of one size need not name it as the study does.
         let size = size.filter(|_| file.sizes().len() > 1);
         pieces.extend(file.to_sew(size).map_err(StudyError::stage("pattern"))?);
@@ -110,7 +103,7 @@ pub(super) fn read_style(
     size: Option<&str>,
     unit: Option<Unit>,
 ) -> Result<Style> {
-    let mut style = if is_garmentcode(Path::new(&pattern.name)) {
+    let mut style = if pattern.holds_seams() {
         let read = garmentcode::read(&pattern.bytes, &pattern.name).map_err(StudyError::stage("pattern"))?;
         let mut style = read.style();
         if let Some(seams) = seams {
@@ -119,7 +112,7 @@ pub(super) fn read_style(
         style
     } else {
         let Some(seams) = seams else {
-            let message = format!("{}: a DXF file needs its seam file (`seams`, or --seams FILE)", pattern.name);
+            let message = format!("{}: holds no seams; give its seam file (`seams`, or --seams FILE)", pattern.name);
             return Err(StudyError::Stage { stage: "pattern", message });
         };
         let pieces = pieces(pattern, size, unit)?;
@@ -170,12 +163,44 @@ pub fn build_body(measurements: &Measurements) -> Result<Body> {
     body::build(measurements).map_err(StudyError::stage("body"))
 }
 
+/// A built body beside what was asked: the keys of `body measure`, what is doubtful, and its mass.
+#[derive(Debug, serde::Serialize)]
+pub struct Judgement<'a> {
+    /// What the tape reads.
+    #[serde(flatten)]
+    pub girths: &'a Girths,
+    /// Measurements that few people alike have.
+    pub doubts: Vec<Doubt>,
+    /// Mass from the volume.
+    #[serde(flatten)]
+    pub mass: Mass,
+}
+
+/// Judges a built body.
+#[must_use]
+pub fn judge_body<'a>(measurements: &Measurements, body: &'a Body) -> Judgement<'a> {
+    Judgement {
+        girths: &body.girths,
+        doubts: body::plausibility(measurements),
+        mass: Mass::of(body.girths.volume_l, measurements.weight_kg),
+    }
+}
+
 /// Reads and measures a body scan, its unit and sex told from it where they are not given.
 ///
 /// # Errors
 /// When it cannot be read or is no standing person.
 pub fn read_scan(scan: &SourceFile, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<Scan> {
     body::from_scan(&scan.bytes, unit, sex).map_err(of_scan(scan))
+}
+
+/// Everything that is measured on a scan.
+///
+/// # Errors
+/// When a part of the body is not found.
+pub fn measured(scan: &Scan) -> Result<Measured> {
+    let lengths = body::lengths(&scan.imported.mesh, Some(scan.sex)).map_err(StudyError::stage("body"))?;
+    Ok(Measured { girths: scan.girths.clone(), lengths })
 }
 
 /// A scan as a body that wears garments.

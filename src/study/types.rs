@@ -26,6 +26,10 @@ impl FromStr for JobId {
     }
 }
 
+/// Number of a revision of a subject in its database: stands for one set of measurements for good.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SubjectId(pub i64);
+
 /// State of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "snake_case")]

@@ -28,7 +28,7 @@ impl Workspace {
     /// # Errors
     /// When the file cannot be opened, is no database, or was written by a newer program.
     pub fn open(path: &Path, readonly: bool) -> Result<Self> {
-        let mut writer = if readonly { None } else { Some(store::open(path, Access::Write)?) };
+        let mut writer = if readonly { None } else { Some(store::open(path, Access::Create)?) };
         if let Some(writer) = &mut writer {
             catalogue::add_builtin(writer)?;
         }

@@ -6,6 +6,7 @@ use super::message::{Act, Effect, Target};
 use super::overlay::{List, Overlay};
 use super::picture;
 use super::state::{ChiOrder, Place, State};
+use super::subjects;
 use crate::study::{JobId, why_no_retry};
 
 impl State {
@@ -45,6 +46,10 @@ impl State {
             Action::NextView => self.view = picture::turned(self.view, 1),
             Action::NextMap => self.map = picture::next_map(self.map),
             Action::Enlarge => self.enlarged = !self.enlarged,
+            Action::AddSubject => self.add_subject(),
+            Action::EditSubject => self.edit_subject(),
+            Action::ImportSubjects => self.import_subjects(),
+            Action::RemoveSubject => self.remove_subject(),
             Action::Pause => return self.pause(),
             Action::Cancel => return self.cancel(),
             Action::Retry => return self.retry(),
@@ -52,15 +57,15 @@ impl State {
             Action::Lower => return self.prioritise(-1),
             Action::Run => return self.start_run(),
             Action::Stop => self.stop_run(),
-            Action::Help => self.overlay = Some(Overlay::Help(List::default())),
-            Action::Palette => self.overlay = Some(Overlay::Palette(List::default())),
+            Action::Help => self.overlay = Some(Overlay::Help(List::of(self.bindings))),
+            Action::Palette => self.overlay = Some(Overlay::Palette(List::of(self.bindings))),
             Action::Redraw => return vec![Effect::Clear],
             Action::Quit => return self.quit(),
         }
         vec![]
     }
 
-    fn show(&mut self, screen: Screen) {
+    pub(super) fn show(&mut self, screen: Screen) {
         if screen == self.screen {
             return;
         }
@@ -109,24 +114,29 @@ impl State {
         vec![]
     }
 
-    fn ask(&mut self, text: impl Into<String>, effects: Vec<Effect>) {
+    pub(super) fn ask(&mut self, text: impl Into<String>, effects: Vec<Effect>) {
         self.overlay = Some(Overlay::Question { text: text.into(), effects });
     }
 
     fn sort(&mut self) {
-        if self.screen == Screen::Jobs {
-            self.job_order.by = self.job_order.by.next();
-        } else {
-            self.chi_order.by = match self.chi_order.by {
-                ChiOrder::Number => ChiOrder::Error,
-                ChiOrder::Error => ChiOrder::Number,
-            };
+        match self.screen {
+            Screen::Subjects => self.subject_order.by = self.subject_order.by.next(subjects::SHOWN),
+            Screen::Jobs => self.job_order.by = self.job_order.by.next(),
+            Screen::Study | Screen::Results => {
+                self.chi_order.by = match self.chi_order.by {
+                    ChiOrder::Number => ChiOrder::Error,
+                    ChiOrder::Error => ChiOrder::Number,
+                };
+            }
         }
     }
 
     fn reverse(&mut self) {
-        let reversed =
-            if self.screen == Screen::Jobs { &mut self.job_order.reversed } else { &mut self.chi_order.reversed };
+        let reversed = match self.screen {
+            Screen::Subjects => &mut self.subject_order.reversed,
+            Screen::Jobs => &mut self.job_order.reversed,
+            Screen::Study | Screen::Results => &mut self.chi_order.reversed,
+        };
         *reversed = !*reversed;
     }
 

@@ -4,13 +4,15 @@ use std::fmt;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use Screen::{Jobs, Results, Study};
+use Screen::{Jobs, Results, Study, Subjects};
 
 /// A screen of the workbench; its number is its key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Screen {
     /// The study as a grid of sizes by subjects.
     Study,
+    /// The subjects of the catalogue.
+    Subjects,
     /// The queue.
     Jobs,
     /// One result: its measurements and its picture.
@@ -19,13 +21,14 @@ pub enum Screen {
 
 impl Screen {
     /// All screens, in order of their numbers.
-    pub const ALL: [Self; 3] = [Self::Study, Self::Jobs, Self::Results];
+    pub const ALL: [Self; 4] = [Self::Study, Self::Subjects, Self::Jobs, Self::Results];
 
     /// Number and name, as on its tab.
     #[must_use]
     pub fn title(self) -> &'static str {
         match self {
             Self::Study => "1 Study",
+            Self::Subjects => "2 Subjects",
             Self::Jobs => "4 Jobs",
             Self::Results => "5 Results",
         }
@@ -91,6 +94,14 @@ pub enum Action {
     NextMap,
     /// Gives the picture all the room, or less again.
     Enlarge,
+    /// Asks for the values of a new subject.
+    AddSubject,
+    /// Asks for other values of the selected subject.
+    EditSubject,
+    /// Asks for a file with subjects.
+    ImportSubjects,
+    /// Removes the selected subject.
+    RemoveSubject,
     /// Pauses or resumes the study.
     Pause,
     /// Cancels the selected job.
@@ -123,6 +134,12 @@ pub struct Key {
 }
 
 impl Key {
+    /// A key, with Ctrl or without.
+    #[must_use]
+    pub const fn new(code: KeyCode, ctrl: bool) -> Self {
+        Self { code, ctrl }
+    }
+
     /// The key of an event.
     #[must_use]
     pub fn of(event: &KeyEvent) -> Self {
@@ -152,6 +169,7 @@ impl fmt::Display for Key {
 }
 
 /// One row of the table of keys.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Binding {
     /// What it does.
     pub action: Action,
@@ -192,29 +210,29 @@ impl Binding {
 
 /// The action of a key on a screen.
 #[must_use]
-pub fn action_of(key: Key, screen: Screen) -> Option<Action> {
-    BINDINGS.iter().find(|binding| binding.is_on(screen) && binding.keys.contains(&key)).map(|binding| binding.action)
+pub fn action_of(bindings: &[Binding], key: Key, screen: Screen) -> Option<Action> {
+    bindings.iter().find(|binding| binding.is_on(screen) && binding.keys.contains(&key)).map(|binding| binding.action)
 }
 
 /// The actions whose name, keys or help contain a text: those whose name begins with it first.
 #[must_use]
-pub fn search(text: &str) -> Vec<&'static Binding> {
+pub fn search(bindings: &'static [Binding], text: &str) -> Vec<&'static Binding> {
     let text = text.trim().to_lowercase();
-    let mut found: Vec<&Binding> = BINDINGS.iter().filter(|binding| binding.matches(&text)).collect();
+    let mut found: Vec<&Binding> = bindings.iter().filter(|binding| binding.matches(&text)).collect();
     found.sort_by_key(|binding| (binding.name != text, !binding.name.starts_with(&text)));
     found
 }
 
 const fn ch(letter: char) -> Key {
-    Key { code: KeyCode::Char(letter), ctrl: false }
+    Key::new(KeyCode::Char(letter), false)
 }
 
 const fn ctrl(letter: char) -> Key {
-    Key { code: KeyCode::Char(letter), ctrl: true }
+    Key::new(KeyCode::Char(letter), true)
 }
 
 const fn key(code: KeyCode) -> Key {
-    Key { code, ctrl: false }
+    Key::new(code, false)
 }
 
 const fn bind(
@@ -228,7 +246,10 @@ const fn bind(
     Binding { action, name, keys, screens, hint, help }
 }
 
-/// The table of keys. Ctrl-A, B, S, Q, H, I, J and M stay free: tmux, screen, flow control and the terminal use them.
+/// Screens on which a job is selected.
+const RESULTS: &[Screen] = &[Study, Jobs, Results];
+
+/// The table of keys, which a file may change (see `keys`). Ctrl-A, B, S, Q, H, I, J and M stay free: tmux, screen, flow control and the terminal use them.
 pub const BINDINGS: &[Binding] = &[
     bind(Action::Open, "open", &[key(KeyCode::Enter)], &[Study, Jobs], "open", "Open the result of the selected job"),
     bind(
@@ -239,9 +260,34 @@ pub const BINDINGS: &[Binding] = &[
         "enlarge",
         "Give the picture all the room, or less again",
     ),
+    bind(
+        Action::EditSubject,
+        "edit-subject",
+        &[ch('e'), key(KeyCode::Enter)],
+        &[Subjects],
+        "edit",
+        "Change the selected subject; results keep theirs",
+    ),
+    bind(Action::AddSubject, "add-subject", &[ch('a')], &[Subjects], "add", "Add a subject"),
+    bind(
+        Action::ImportSubjects,
+        "import-subjects",
+        &[ch('i')],
+        &[Subjects],
+        "import",
+        "Add or change the subjects of a CSV or TOML file",
+    ),
+    bind(
+        Action::RemoveSubject,
+        "delete-subject",
+        &[ch('d')],
+        &[Subjects],
+        "delete",
+        "Remove the selected subject; asks",
+    ),
     bind(Action::Pause, "pause", &[ch('p')], &[Study, Jobs], "pause", "Pause or resume the study; running jobs go on"),
-    bind(Action::Cancel, "cancel", &[ch('x')], &[], "cancel", "Cancel the selected queued or running job; asks"),
-    bind(Action::Retry, "retry", &[ch('r')], &[], "retry", "Queue the selected failed or cancelled job again"),
+    bind(Action::Cancel, "cancel", &[ch('x')], RESULTS, "cancel", "Cancel the selected queued or running job; asks"),
+    bind(Action::Retry, "retry", &[ch('r')], RESULTS, "retry", "Queue the selected failed or cancelled job again"),
     bind(Action::Run, "run", &[ch('R')], &[], "run", "Run the study here, in the background"),
     bind(Action::Stop, "stop", &[ch('X')], &[], "", "Stop the run started here; asks"),
     bind(Action::NextView, "view", &[ch('v')], &[Results], "view", "Turn the picture: front, side, back, quarter"),
@@ -250,14 +296,14 @@ pub const BINDINGS: &[Binding] = &[
         Action::OtherSimulator,
         "other-simulator",
         &[ch('f')],
-        &[],
+        RESULTS,
         "FEM/HYB",
         "Same size and subject by the other simulator",
     ),
     bind(Action::NextStage, "stage", &[ch('t')], &[Results], "stage", "Measurements of the next stage: popup, drape"),
     bind(Action::Filter, "filter", &[ch('/')], &[], "filter", "Show only what contains a text"),
-    bind(Action::Sort, "sort", &[ch('s')], &[Jobs, Results], "sort", "Sort by the next column"),
-    bind(Action::Reverse, "reverse", &[ch('S')], &[Jobs, Results], "", "Reverse the order"),
+    bind(Action::Sort, "sort", &[ch('s')], &[Subjects, Jobs, Results], "sort", "Sort by the next column"),
+    bind(Action::Reverse, "reverse", &[ch('S')], &[Subjects, Jobs, Results], "", "Reverse the order"),
     bind(Action::Help, "help", &[ch('?')], &[], "help", "List the keys; type to filter by name or key"),
     bind(Action::Palette, "palette", &[ch(':')], &[], "command", "Run any action by its name; :q quits"),
     bind(Action::Up, "up", &[ch('k'), key(KeyCode::Up)], &[], "", "Select what is above"),
@@ -285,6 +331,14 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::NextPane, "next-pane", &[key(KeyCode::Tab)], &[], "", "Give the focus to the next pane"),
     bind(Action::PreviousPane, "previous-pane", &[key(KeyCode::BackTab)], &[], "", "Give the focus to the pane before"),
     bind(Action::Show(Study), "study", &[ch('1')], &[], "", "Screen 1: the study, sizes by subjects"),
+    bind(
+        Action::Show(Subjects),
+        "subjects",
+        &[ch('2')],
+        &[],
+        "",
+        "Screen 2: the subjects, their bodies and percentiles",
+    ),
     bind(Action::Show(Jobs), "jobs", &[ch('4')], &[], "", "Screen 4: the queue, logs and convergence"),
     bind(Action::Show(Results), "results", &[ch('5')], &[], "", "Screen 5: one result, its numbers and picture"),
     bind(Action::NextGarment, "next-garment", &[ch(']')], &[], "", "Next garment of the study"),
@@ -324,25 +378,27 @@ mod tests {
             assert!(!binding.keys.is_empty() && !binding.help.is_empty(), "{}", binding.name);
             assert!(binding.help.chars().count() <= 52, "{} has to fit 80 columns", binding.name);
             assert!(BINDINGS[..i].iter().all(|b| b.name != binding.name && b.action != binding.action));
-            assert_eq!(search(binding.name)[0].name, binding.name, "the palette finds it by its name");
+            assert_eq!(search(BINDINGS, binding.name)[0].name, binding.name, "the palette finds it by its name");
         }
     }
 
     #[test]
     fn the_palette_puts_names_first() {
-        let check = |text: &str, expect: &str| assert_eq!(search(text)[0].name, expect, "{text}");
+        let check = |text: &str, expect: &str| assert_eq!(search(BINDINGS, text)[0].name, expect, "{text}");
         check("q", "quit");
         check("quit", "quit");
         check("can", "cancel");
         check("queue", "cancel");
-        assert!(search("no such action").is_empty());
+        assert!(search(BINDINGS, "no such action").is_empty());
     }
 
     #[test]
     fn keys_mean_what_their_screen_says() {
-        let check = |k: Key, screen, expect| assert_eq!(action_of(k, screen), expect, "{k} on {screen:?}");
+        let check = |k: Key, screen, expect| assert_eq!(action_of(BINDINGS, k, screen), expect, "{k} on {screen:?}");
         check(key(KeyCode::Enter), Jobs, Some(Action::Open));
         check(key(KeyCode::Enter), Results, Some(Action::Enlarge));
+        check(key(KeyCode::Enter), Subjects, Some(Action::EditSubject));
+        check(ch('x'), Subjects, None);
         check(ch('v'), Study, None);
         check(ctrl('c'), Study, Some(Action::Quit));
         check(ch('c'), Study, None);

@@ -6,12 +6,15 @@ use base64::engine::general_purpose::STANDARD;
 use super::action::Screen;
 use super::state::State;
 use super::text;
+use crate::study::tools::Measurements;
+use crate::study::{Field, MEASUREMENTS};
 
 /// The text that stands for what is selected, tab-separated, and what it is.
 #[must_use]
 pub fn selection(state: &State) -> Option<(String, &'static str)> {
     match state.screen {
         Screen::Results => chi_table(state).map(|table| (table, "the table of measurements")),
+        Screen::Subjects => subject_line(state).map(|line| (line, "the subject")),
         Screen::Study | Screen::Jobs => job_line(state).map(|line| (line, "the job")),
     }
 }
@@ -30,6 +33,13 @@ fn job_line(state: &State) -> Option<String> {
         job.status.as_str(),
         job.error.as_deref().unwrap_or_default()
     ))
+}
+
+fn subject_line(state: &State) -> Option<String> {
+    let subject = state.subject()?;
+    let value = |field: &Field<Measurements>| field.get(&subject.measurements).map_or(String::new(), |v| v.to_string());
+    let values: Vec<String> = MEASUREMENTS.iter().map(value).collect();
+    Some(format!("{}\t{}\t{}", subject.name, text::sex(subject), values.join("\t")))
 }
 
 fn chi_table(state: &State) -> Option<String> {

@@ -1,8 +1,8 @@
 //! What the screens show, read from the workspace in one go on a background thread.
 
 use crate::study::{
-    ChiRow, EaseRow, Grid, JobFilter, JobId, JobRow, LogLine, MetricsRow, Result, StageRow, Step, StudyRow, Why,
-    Workspace, now_ms,
+    ChiRow, EaseRow, Grid, JobFilter, JobId, JobRow, LogLine, MetricsRow, Result, StageRow, Step, StudyRow, SubjectRow,
+    Why, Workspace, now_ms,
 };
 
 /// What the user looks at; whatever is `None` or gone is chosen by [`snapshot`].
@@ -21,6 +21,8 @@ pub struct Focus {
 pub struct Snapshot {
     /// When it was read, ms since 1970 (UTC).
     pub now_ms: i64,
+    /// The subjects of the catalogue, by name.
+    pub subjects: Vec<SubjectRow>,
     /// All studies.
     pub studies: Vec<StudyRow>,
     /// The study looked at, an index into `studies`.
@@ -75,8 +77,9 @@ pub struct Detail {
 pub fn snapshot(workspace: &Workspace, focus: &Focus) -> Result<Snapshot> {
     let studies = workspace.studies()?;
     let study = studies.iter().position(|study| Some(&study.name) == focus.study.as_ref()).unwrap_or(0);
-    let mut snapshot =
-        Snapshot { now_ms: now_ms(), studies, study, grid: None, jobs: vec![], ease: vec![], detail: None };
+    let subjects = workspace.subjects()?;
+    let (jobs, ease) = (vec![], vec![]);
+    let mut snapshot = Snapshot { now_ms: now_ms(), subjects, studies, study, grid: None, jobs, ease, detail: None };
     let Some(row) = snapshot.studies.get(study) else { return Ok(snapshot) };
     let garment = row.garments.iter().find(|name| Some(*name) == focus.garment.as_ref()).or(row.garments.first());
     let grid = garment.map(|garment| workspace.grid(&row.name, garment)).transpose()?;

@@ -15,6 +15,7 @@ impl State {
         let page = usize::from(self.size.height.saturating_sub(FRAME_LINES)).max(2) / 2;
         match (self.screen, self.in_second_pane()) {
             (Screen::Study, false) => self.go_in_grid(action, page),
+            (Screen::Subjects, _) => self.go_in_subjects(action, page),
             (Screen::Jobs, false) => self.go_in_jobs(action, page),
             (Screen::Jobs, true) => self.go_in_log(action, page),
             (Screen::Study, true) | (Screen::Results, _) => {
@@ -29,6 +30,13 @@ impl State {
         let rows = grid.sizes.len() * simulators;
         let row = moved(self.place.size * simulators + self.place.simulator, rows, action, page);
         self.go_to(Place { size: row / simulators, simulator: row % simulators, ..self.place });
+    }
+
+    fn go_in_subjects(&mut self, action: Action, page: usize) {
+        let selected = self.subject().map(|row| row.id);
+        let subjects = self.subjects();
+        let at = subjects.iter().position(|row| Some(row.id) == selected).unwrap_or(0);
+        self.subject = subjects.get(moved(at, subjects.len(), action, page)).map(|row| row.name.clone());
     }
 
     fn go_in_jobs(&mut self, action: Action, page: usize) {
@@ -57,7 +65,7 @@ impl State {
             }
             (Screen::Results, true) => self.view = picture::turned(self.view, step),
             (Screen::Results, false) => self.step_result(step),
-            (Screen::Jobs, _) => {}
+            (Screen::Subjects | Screen::Jobs, _) => {}
         }
     }
 
@@ -86,6 +94,12 @@ impl State {
         }
         match self.screen {
             Screen::Study => self.go_to_matching_cell(step),
+            Screen::Subjects => {
+                let selected = self.subject().map(|row| row.id);
+                let subjects = self.subjects();
+                let at = subjects.iter().position(|row| Some(row.id) == selected).unwrap_or(0);
+                self.subject = stepped(at, step, subjects.len()).map(|next| subjects[next].name.clone());
+            }
             Screen::Jobs => {
                 let jobs: Vec<JobId> = self.jobs().iter().map(|job| job.id).collect();
                 let at = jobs.iter().position(|id| Some(*id) == self.focus.job).unwrap_or(0);

@@ -7,7 +7,8 @@ use crossterm::event::KeyEvent;
 
 use super::feed::{Focus, Snapshot};
 use super::picture::{Drawn, Shot};
-use crate::study::JobId;
+use crate::study::tools::Girths;
+use crate::study::{Given, JobId, Mode, SubjectId};
 
 /// Something that happened.
 #[derive(Debug)]
@@ -22,6 +23,10 @@ pub enum Message {
     Failed(String),
     /// An action on the queue is done.
     Acted(String),
+    /// What was filled in is saved, or why not.
+    Saved(Result<String, String>),
+    /// A subject's body is built and measured, or could not be.
+    Measured(SubjectId, Result<Box<Girths>, String>),
     /// A picture is drawn, or could not be.
     Picture(Shot, Result<Drawn, String>),
     /// The run started here has ended.
@@ -39,7 +44,7 @@ pub enum Effect {
     Read(Focus),
     /// Draw a picture.
     Paint(Shot),
-    /// Act on the queue.
+    /// Act on the queue or the catalogue.
     Do(Act),
     /// Run a study in the background.
     Run(Target),
@@ -53,9 +58,15 @@ pub enum Effect {
     Quit,
 }
 
-/// An action on the queue.
+/// An action on the queue or the catalogue.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Act {
+    /// Add or edit a subject.
+    SaveSubject(Mode, String, Vec<Given>),
+    /// Import the subjects of a file.
+    ImportSubjects(PathBuf),
+    /// Remove a subject.
+    RemoveSubject(String),
     /// Cancel a job.
     Cancel(JobId),
     /// Queue a job again.
@@ -66,6 +77,14 @@ pub enum Act {
     Pause(String),
     /// Resume a study.
     Resume(String),
+}
+
+impl Act {
+    /// Whether a form waits for the answer.
+    #[must_use]
+    pub fn is_filled_in(&self) -> bool {
+        matches!(self, Self::SaveSubject(..) | Self::ImportSubjects(_))
+    }
 }
 
 /// What to run.

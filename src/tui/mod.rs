@@ -10,12 +10,16 @@ mod act;
 mod action;
 mod copy;
 mod feed;
+mod form;
 mod go;
+mod keys;
 mod message;
 mod overlay;
+mod painter;
 mod picture;
 mod screens;
 mod state;
+mod subjects;
 mod terminal;
 #[cfg(test)]
 mod tests;
@@ -59,6 +63,9 @@ pub enum TuiError {
     /// The workspace could not be opened.
     #[error(transparent)]
     Study(#[from] StudyError),
+    /// The file with keys of one's own is wrong.
+    #[error(transparent)]
+    Keys(#[from] keys::KeysError),
     /// The terminal refused.
     #[error("the workbench needs a terminal: {0}; `toile --help` lists commands that do not")]
     Terminal(#[from] io::Error),
@@ -68,10 +75,11 @@ pub enum TuiError {
 /// in the queue; when the terminal is lost, the run is waited for instead.
 ///
 /// # Errors
-/// When the database cannot be opened or there is no terminal.
+/// When the database cannot be opened, the file of keys is wrong, or there is no terminal.
 pub fn run(options: Options) -> Result<(), TuiError> {
-    let workspace = Workspace::open(&options.database, options.readonly)?;
     let env = |name: &str| std::env::var(name).ok();
+    let bindings = keys::read(keys::place(&env).as_deref())?;
+    let workspace = Workspace::open(&options.database, options.readonly)?;
     let theme = Theme { colours: Colours::detect(options.no_color, &env) };
     let canvas = Canvas::new(options.images, theme.colours, &env);
     let quickstart = options.quickstart.filter(|path| study_file(path).exists());
@@ -79,7 +87,7 @@ pub fn run(options: Options) -> Result<(), TuiError> {
 
     let mut screen = terminal::Screen::enter()?;
     let size = screen.terminal.size()?;
-    let state = State::new(theme, abilities, size);
+    let state = State { bindings, ..State::new(theme, abilities, size) };
     let workers = Workers::start(workspace, canvas, quickstart);
     let outcome = event_loop(&mut screen, state, &workers);
     drop(screen);

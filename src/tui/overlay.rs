@@ -2,7 +2,8 @@
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use super::action::{Action, BINDINGS, Binding, search};
+use super::action::{Action, Binding, search};
+use super::form::{Form, PathPrompt};
 use super::message::Effect;
 
 /// What is open.
@@ -14,6 +15,10 @@ pub enum Overlay {
     Palette(List),
     /// The filter line, with the filter to go back to.
     Filter(String),
+    /// The values of a subject.
+    Form(Box<Form>),
+    /// The path of a file to import.
+    Path(PathPrompt),
     /// A question; `y` has the effects happen.
     Question {
         /// What is asked.
@@ -24,8 +29,10 @@ pub enum Overlay {
 }
 
 /// A list that what is typed narrows.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct List {
+    /// All that can be in it.
+    pub bindings: &'static [Binding],
     /// What is typed.
     pub text: String,
     /// Row selected.
@@ -33,10 +40,16 @@ pub struct List {
 }
 
 impl List {
+    /// All of a table of keys.
+    #[must_use]
+    pub fn of(bindings: &'static [Binding]) -> Self {
+        Self { bindings, text: String::new(), row: 0 }
+    }
+
     /// Its rows: the keys of the table order where nothing is typed, the best match first otherwise.
     #[must_use]
     pub fn rows(&self) -> Vec<&'static Binding> {
-        if self.text.is_empty() { BINDINGS.iter().collect() } else { search(&self.text) }
+        if self.text.is_empty() { self.bindings.iter().collect() } else { search(self.bindings, &self.text) }
     }
 
     fn edit(&mut self, event: &KeyEvent) {
@@ -66,6 +79,8 @@ pub enum Outcome {
     Act(Action),
     /// It closes and effects follow.
     Effects(Vec<Effect>),
+    /// It stays open until what it asked for is done.
+    Sent(Vec<Effect>),
 }
 
 impl Overlay {
@@ -81,6 +96,9 @@ impl Overlay {
                 list.edit(event);
                 Outcome::Open
             }
+            Self::Form(_) | Self::Path(_) if leaves => Outcome::Closed,
+            Self::Form(form) => form.key(event),
+            Self::Path(prompt) => prompt.key(event),
             Self::Filter(before) if leaves => {
                 filter.clone_from(before);
                 Outcome::Closed
@@ -103,7 +121,7 @@ fn is_ctrl_c(event: &KeyEvent) -> bool {
 }
 
 /// Edits a line at its end; returns whether it changed.
-fn edit(text: &mut String, event: &KeyEvent) -> bool {
+pub(super) fn edit(text: &mut String, event: &KeyEvent) -> bool {
     let ctrl = event.modifiers.contains(KeyModifiers::CONTROL);
     match event.code {
         KeyCode::Char('u') if ctrl => text.clear(),
@@ -117,6 +135,7 @@ fn edit(text: &mut String, event: &KeyEvent) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::action::BINDINGS;
     use super::*;
 
     fn press(code: KeyCode) -> KeyEvent {
@@ -131,7 +150,7 @@ mod tests {
 
     #[test]
     fn the_palette_runs_what_is_typed() {
-        let (mut palette, mut filter) = (Overlay::Palette(List::default()), String::new());
+        let (mut palette, mut filter) = (Overlay::Palette(List::of(BINDINGS)), String::new());
         typed(&mut palette, &mut filter, "canx");
         palette.key(&press(KeyCode::Backspace), &mut filter);
         assert_eq!(palette.key(&press(KeyCode::Enter), &mut filter), Outcome::Act(Action::Cancel));
@@ -142,7 +161,7 @@ mod tests {
     #[test]
     fn every_action_can_be_reached_from_the_palette() {
         for binding in BINDINGS {
-            let (mut palette, mut filter) = (Overlay::Palette(List::default()), String::new());
+            let (mut palette, mut filter) = (Overlay::Palette(List::of(BINDINGS)), String::new());
             typed(&mut palette, &mut filter, binding.name);
             assert_eq!(palette.key(&press(KeyCode::Enter), &mut filter), Outcome::Act(binding.action));
         }

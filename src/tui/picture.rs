@@ -10,7 +10,7 @@ use ratatui_image::protocol::Protocol;
 use ratatui_image::{FontSize, Resize};
 
 use super::theme::Colours;
-use crate::study::{JobId, Map, View};
+use crate::study::{JobId, Map, SubjectId, View};
 
 /// How pictures are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -51,11 +51,20 @@ pub fn next_map(map: Map) -> Map {
     Map::ALL[(at + 1) % Map::ALL.len()]
 }
 
-/// A picture that is wanted.
+/// What a picture is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sitter {
+    /// The drape of a job.
+    Drape(JobId),
+    /// The body of a subject, from the front and from the side.
+    Body(SubjectId),
+}
+
+/// A picture that is wanted; one without cells has the body measured only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shot {
-    /// The job whose drape is shown.
-    pub job: JobId,
+    /// What is shown.
+    pub of: Sitter,
     /// From where.
     pub view: View,
     /// In which colours.
@@ -221,7 +230,7 @@ mod tests {
     }
 
     fn shot(columns: u16, rows: u16) -> Shot {
-        Shot { job: JobId(1), view: View::Front, map: Map::Plain, columns, rows }
+        Shot { of: Sitter::Drape(JobId(1)), view: View::Front, map: Map::Plain, columns, rows }
     }
 
     #[test]

@@ -4,14 +4,17 @@ use std::collections::BTreeMap;
 
 use ratatui::layout::Size;
 
-use super::action::Screen;
+use super::action::{BINDINGS, Binding, Screen};
 use super::feed::{Detail, Focus, Snapshot};
 use super::message::Target;
 use super::overlay::Overlay;
 use super::picture::{Drawn, Shot};
 use super::text;
 use super::theme::Theme;
-use crate::study::{Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobRow, Map, Status, Step, View};
+use crate::study::tools::Girths;
+use crate::study::{
+    Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobRow, MEASUREMENTS, Map, Status, Step, SubjectId, SubjectRow, View,
+};
 
 /// How jobs are ordered.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -36,6 +39,31 @@ impl JobOrder {
             Self::Status => Self::Ei,
             Self::Ei => Self::Time,
             Self::Time => Self::Number,
+        }
+    }
+}
+
+/// How subjects are ordered: by name, or by the measurement of a number in [`MEASUREMENTS`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SubjectOrder {
+    /// By name.
+    #[default]
+    Name,
+    /// By sex.
+    Sex,
+    /// By a measurement, the smallest first.
+    Measurement(usize),
+}
+
+impl SubjectOrder {
+    /// The next one, of so many measurements.
+    #[must_use]
+    pub fn next(self, measurements: usize) -> Self {
+        match self {
+            Self::Name => Self::Sex,
+            Self::Sex => Self::Measurement(0),
+            Self::Measurement(k) if k + 1 < measurements => Self::Measurement(k + 1),
+            Self::Measurement(_) => Self::Name,
         }
     }
 }
@@ -94,6 +122,8 @@ pub struct Abilities {
 pub struct State {
     /// Styles.
     pub theme: Theme,
+    /// Keys.
+    pub bindings: &'static [Binding],
     /// What can be done.
     pub abilities: Abilities,
     /// Size of the terminal.
@@ -109,9 +139,15 @@ pub struct State {
     /// Place in the grid.
     pub place: Place,
     /// Whether the second pane of each screen has the focus.
-    pub second_pane: [bool; 3],
+    pub second_pane: [bool; Screen::ALL.len()],
     /// The filter of each screen.
-    pub filters: [String; 3],
+    pub filters: [String; Screen::ALL.len()],
+    /// Subject selected.
+    pub subject: Option<String>,
+    /// Order of subjects.
+    pub subject_order: Order<SubjectOrder>,
+    /// What was read on bodies that were built.
+    pub measured: BTreeMap<SubjectId, Result<Box<Girths>, String>>,
     /// Order of jobs.
     pub job_order: Order<JobOrder>,
     /// Order of measurements.
@@ -150,6 +186,7 @@ impl State {
     pub fn new(theme: Theme, abilities: Abilities, size: Size) -> Self {
         Self {
             theme,
+            bindings: BINDINGS,
             abilities,
             size,
             screen: Screen::Study,
@@ -157,8 +194,11 @@ impl State {
             data: None,
             focus: Focus::default(),
             place: Place::default(),
-            second_pane: [false; 3],
+            second_pane: [false; Screen::ALL.len()],
             filters: Default::default(),
+            subject: None,
+            subject_order: Order::default(),
+            measured: BTreeMap::new(),
             job_order: Order::default(),
             chi_order: Order::default(),
             chi_row: 0,
@@ -248,6 +288,34 @@ impl State {
             jobs.reverse();
         }
         jobs
+    }
+
+    /// Subjects that pass the filter of the Subjects screen, in its order.
+    #[must_use]
+    pub fn subjects(&self) -> Vec<&SubjectRow> {
+        let Some(data) = &self.data else { return vec![] };
+        let filter = self.filters[Screen::Subjects as usize].to_lowercase();
+        let matches = |row: &&SubjectRow| format!("{} {}", row.name, text::sex(row)).to_lowercase().contains(&filter);
+        let mut subjects: Vec<&SubjectRow> = data.subjects.iter().filter(matches).collect();
+        match self.subject_order.by {
+            SubjectOrder::Name => {}
+            SubjectOrder::Sex => subjects.sort_by_key(|row| text::sex(row)),
+            SubjectOrder::Measurement(k) => {
+                let value = |row: &SubjectRow| MEASUREMENTS[k].get(&row.measurements).unwrap_or(f64::INFINITY);
+                subjects.sort_by(|a, b| value(a).total_cmp(&value(b)));
+            }
+        }
+        if self.subject_order.reversed {
+            subjects.reverse();
+        }
+        subjects
+    }
+
+    /// The selected subject: the first, where the one wanted is not shown.
+    #[must_use]
+    pub fn subject(&self) -> Option<&SubjectRow> {
+        let subjects = self.subjects();
+        subjects.iter().find(|row| Some(&row.name) == self.subject.as_ref()).or(subjects.first()).copied()
     }
 
     /// Stages of the selected result, in the order they are made.

@@ -2,7 +2,8 @@
 
 use ratatui::text::Span;
 
-use crate::study::{JobRow, Simulator, Status};
+use crate::study::tools::Sex;
+use crate::study::{JobRow, Simulator, Status, SubjectRow};
 
 /// Columns a text takes.
 #[must_use]
@@ -87,6 +88,15 @@ pub fn sim(simulator: Simulator) -> &'static str {
     match simulator {
         Simulator::Fem => "FEM",
         Simulator::Hybrid => "HYB",
+    }
+}
+
+/// The sex of a subject.
+#[must_use]
+pub fn sex(subject: &SubjectRow) -> &'static str {
+    match subject.measurements.sex {
+        Sex::Male => "male",
+        Sex::Female => "female",
     }
 }
 

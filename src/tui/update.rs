@@ -7,10 +7,10 @@ use super::action::{Key, Screen, action_of};
 use super::feed::{Focus, Snapshot};
 use super::message::{Effect, Message};
 use super::overlay::Outcome;
-use super::picture::Shot;
+use super::picture::{Shot, Sitter};
 use super::screens;
 use super::state::{Place, State};
-use crate::study::{JobId, Status};
+use crate::study::{JobId, Map, Status, View};
 
 /// Steps of a running job that are kept for its curves.
 const MAX_TRACE: usize = 4096;
@@ -31,6 +31,14 @@ impl State {
             }
             Message::Acted(text) => {
                 self.say(text);
+                vec![]
+            }
+            Message::Saved(outcome) => {
+                self.saved(outcome);
+                vec![]
+            }
+            Message::Measured(id, outcome) => {
+                self.measured.insert(id, outcome);
                 vec![]
             }
             Message::Failed(text) => {
@@ -65,7 +73,7 @@ impl State {
         }
         let Some(mut overlay) = self.overlay.take() else {
             self.notice = None;
-            return action_of(Key::of(event), self.screen).map_or(vec![], |action| self.act(action));
+            return action_of(self.bindings, Key::of(event), self.screen).map_or(vec![], |action| self.act(action));
         };
         match overlay.key(event, &mut self.filters[self.screen as usize]) {
             Outcome::Open => {
@@ -76,6 +84,10 @@ impl State {
             Outcome::Closed => vec![],
             Outcome::Act(action) => self.act(action),
             Outcome::Effects(effects) => effects,
+            Outcome::Sent(effects) => {
+                self.overlay = Some(overlay);
+                effects
+            }
         }
     }
 
@@ -95,6 +107,7 @@ impl State {
         self.focus.study = snapshot.study().map(|study| study.name.clone());
         self.focus.garment = snapshot.grid.as_ref().map(|grid| grid.garment.clone());
         self.data = Some(snapshot);
+        self.subject = self.subject().map(|row| row.name.clone());
         self.clamp_place();
         self.chi_row = self.chi_row.min(self.chi().len().saturating_sub(1));
         let known = self.focus.job.filter(|id| self.data.as_ref().is_some_and(|data| data.job(*id).is_some()));
@@ -154,18 +167,27 @@ impl State {
 
     /// Asks for the picture the screen has room for, where it is not the one asked for already.
     fn ask_for_picture(&mut self) -> Option<Effect> {
-        let wanted = screens::picture_size(self).zip(self.job_with_drape()).map(|(size, job)| Shot {
-            job,
-            view: self.view,
-            map: self.map,
-            columns: size.width,
-            rows: size.height,
-        });
+        let size = screens::picture_size(self);
+        let wanted = if self.screen == Screen::Subjects {
+            // A body is measured where there is no room for its picture, too.
+            self.subject().map(|row| self.shot_of(Sitter::Body(row.id), size.unwrap_or_default()))
+        } else {
+            size.zip(self.job_with_drape()).map(|(size, job)| self.shot_of(Sitter::Drape(job), size))
+        };
         if wanted == self.shot {
             return None;
         }
         self.shot = wanted;
         wanted.map(Effect::Paint)
+    }
+
+    /// A picture as it is wanted now; bodies have one view and no maps.
+    fn shot_of(&self, of: Sitter, size: Size) -> Shot {
+        let (view, map) = match of {
+            Sitter::Drape(_) => (self.view, self.map),
+            Sitter::Body(_) => (View::Front, Map::Plain),
+        };
+        Shot { of, view, map, columns: size.width, rows: size.height }
     }
 
     /// The selected job, where it has a drape to show.

@@ -14,8 +14,9 @@ use signal_hook::iterator::Signals;
 
 use super::feed::{self, Focus};
 use super::message::{Act, Effect, Message, Target};
+use super::painter;
 use super::picture::{Canvas, Shot};
-use crate::study::{RunOptions, StudyError, Workspace};
+use crate::study::{Deed, Part, RunOptions, StudyError, Workspace};
 
 /// Time between two looks at whether the database has changed; a look costs microseconds.
 const LOOK: Duration = Duration::from_millis(250);
@@ -48,14 +49,12 @@ impl Workers {
         let (sender, messages) = mpsc::channel();
         let (requests, asked) = mpsc::channel();
         let (shots, wanted) = mpsc::channel();
-        let database = workspace.path().to_owned();
+        let (database, workspace_is_readonly) = (workspace.path().to_owned(), workspace.is_readonly());
         spawn(&sender, read_keys);
         spawn(&sender, watch_signals);
         spawn(&sender, move |sender| serve_database(workspace, &asked, sender));
-        if let Some(canvas) = canvas {
-            let database = database.clone();
-            spawn(&sender, move |sender| paint(&database, &canvas, &wanted, sender));
-        }
+        let (path, readonly) = (database.clone(), workspace_is_readonly);
+        spawn(&sender, move |sender| painter::serve(&path, readonly, canvas.as_ref(), &wanted, sender));
         let stop = Arc::new(AtomicBool::new(false));
         Self { messages, sender, requests, shots, database, quickstart, stop, run: Mutex::new(None) }
     }
@@ -147,8 +146,12 @@ fn serve_database(mut workspace: Workspace, asked: &Receiver<Request>, sender: &
                 true
             }
             Ok(Request::Do(act)) => {
-                let message =
-                    do_act(&mut workspace, &act).map_or_else(|e| Message::Failed(e.to_string()), Message::Acted);
+                let done = do_act(&mut workspace, &act).map_err(|error| error.to_string());
+                let message = match done {
+                    done if act.is_filled_in() => Message::Saved(done),
+                    Ok(text) => Message::Acted(text),
+                    Err(text) => Message::Failed(text),
+                };
                 if sender.send(message).is_err() {
                     return;
                 }
@@ -171,9 +174,27 @@ fn serve_database(mut workspace: Workspace, asked: &Receiver<Request>, sender: &
     }
 }
 
-/// Acts on the queue; says what was done.
+/// Acts on the queue or the catalogue; says what was done.
 pub(super) fn do_act(workspace: &mut Workspace, act: &Act) -> Result<String, StudyError> {
     match act {
+        Act::SaveSubject(mode, name, given) => {
+            let saved = workspace.save_subject(*mode, name, given)?;
+            Ok(format!("{saved}{}", saved.doubts.iter().map(|doubt| format!("; {doubt}")).collect::<String>()))
+        }
+        Act::ImportSubjects(path) => {
+            let saved = workspace.import(Part::Subject, std::slice::from_ref(path))?;
+            let count = |deed: Deed| saved.iter().filter(|saved| saved.deed == deed).count();
+            let changed = count(Deed::Revised) + count(Deed::Restored);
+            let doubts = saved.iter().filter(|saved| !saved.doubts.is_empty()).count();
+            let doubts = if doubts > 0 { format!("; {doubts} with doubtful values (!)") } else { String::new() };
+            Ok(format!(
+                "{} subjects: {} added, {changed} changed, {} as before{doubts}",
+                saved.len(),
+                count(Deed::Added),
+                count(Deed::Unchanged)
+            ))
+        }
+        Act::RemoveSubject(name) => Ok(workspace.remove(Part::Subject, name)?.to_string()),
         Act::Cancel(id) => match workspace.cancel(&[*id])? {
             0 => Ok(format!("job {id} had ended already")),
             _ => Ok(format!("job {id} is cancelled; r queues it again")),
@@ -193,25 +214,6 @@ pub(super) fn do_act(workspace: &mut Workspace, act: &Act) -> Result<String, Stu
         Act::Resume(study) => {
             workspace.resume(study)?;
             Ok(format!("{study} goes on"))
-        }
-    }
-}
-
-/// Draws the pictures asked for, the latest only.
-fn paint(database: &Path, canvas: &Canvas, wanted: &Receiver<Shot>, sender: &Sender<Message>) {
-    let workspace = Workspace::open(database, true);
-    while let Ok(shot) = wanted.recv() {
-        let shot = wanted.try_iter().last().unwrap_or(shot);
-        let (width, height) = canvas.pixels(&shot);
-        let picture = match &workspace {
-            Ok(workspace) => {
-                workspace.close_up(shot.job, shot.view, width, height, shot.map).map_err(|e| e.to_string())
-            }
-            Err(error) => Err(error.to_string()),
-        };
-        let drawn = picture.and_then(|picture| canvas.draw(&picture, &shot));
-        if sender.send(Message::Picture(shot, drawn)).is_err() {
-            return;
         }
     }
 }

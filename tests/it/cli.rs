@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 55] = [
+const COMMANDS: [&str; 71] = [
     "",
     "run",
     "try",
@@ -47,15 +47,31 @@ const COMMANDS: [&str; 55] = [
     "subject",
     "subject ls",
     "subject show",
+    "subject add",
+    "subject edit",
+    "subject import",
+    "subject rm",
     "style",
     "style ls",
     "style show",
+    "style add",
+    "style edit",
+    "style import",
+    "style rm",
     "size",
     "size ls",
     "size show",
+    "size add",
+    "size edit",
+    "size import",
+    "size rm",
     "fabric",
     "fabric ls",
     "fabric show",
+    "fabric add",
+    "fabric edit",
+    "fabric import",
+    "fabric rm",
     "doctor",
     "info",
     "completions",
@@ -119,10 +135,44 @@ fn wrong_usage_ends_with_2_and_says_what_would_be_right() {
     check("sql nonsense", "syntax error");
     check("queue log 99", "no job `99`");
     check("report nothing", "no study `nothing`");
+    check("subject add anna --sex f", "`stature_mm` is missing");
+    check("subject add anna --sex f --stature-mm 165", "accepted: 1300 to 2200");
+    check("subject edit ana --weight-kg 60", "no subject `ana`");
+    check("subject import nowhere.csv", "nowhere.csv");
+    check("style add tee --seams patterns/tshirt.seams.toml", "at least one pattern");
+    check("size rm tee/S", "no size `tee/S`");
     check("fabric show cotton_shirting_ligth", "did you mean `cotton_shirting_light`?");
     check("body build --sex m --stature-mm 200 -o out", "body");
     check("pattern mesh patterns/tshirt-m.dxf --seams patterns/tshirt.seams.toml --edge-length-mm -3", "-3");
     check("run . --readonly", "the workspace is open read-only");
+}
+
+#[test]
+fn the_catalogue_is_edited() {
+    let place = Place::new();
+    place.draft();
+    let said = place.toile("subject add anna --sex f --stature-mm 1650 --waist-girth-mm 700").ends_with(0);
+    assert_eq!((said.out.as_str(), said.err.trim()), ("", "subject anna is added"));
+    let said = place.toile("subject edit anna --waist-girth-mm 720 --weight-kg 60").ends_with(0);
+    assert_eq!(said.err.trim(), "subject anna has revision 2; results keep theirs");
+    let shown = place.toile("subject show anna --json").ends_with(0).json();
+    assert_eq!((&shown[0]["waist_girth_mm"], &shown[1]["waist_girth_mm"]), (&Value::from(700.0), &Value::from(720.0)));
+
+    let mut command = place.command("sql --format csv");
+    let table = command.arg("SELECT * FROM v_subjects WHERE is_latest").output().expect("it starts").stdout;
+    place.write("people.csv", &table);
+    let said = place.toile("subject import people.csv").ends_with(0);
+    assert_eq!(said.err.lines().count(), 13);
+    assert!(said.err.lines().all(|line| line.contains("is unchanged") || line.contains("is doubtful")), "{}", said.err);
+
+    place.toile("style add tee --seams patterns/tshirt.seams.toml --pattern S=patterns/tshirt-s.dxf").ends_with(0);
+    place.toile("size add tee/M --pattern patterns/tshirt-m.dxf").ends_with(0);
+    assert_eq!(place.toile("size ls --json").ends_with(0).json().as_array().map(Vec::len), Some(2));
+    let said = place.toile("style rm tee").ends_with(0);
+    assert_eq!(said.err.trim(), "style tee is gone");
+    place.toile("subject rm anna male-ii").ends_with(0);
+    assert_eq!(place.toile("subject ls --json").ends_with(0).json().as_array().map(Vec::len), Some(11));
+    assert_eq!(place.toile("subject ls --all --json").ends_with(0).json().as_array().map(Vec::len), Some(12));
 }
 
 #[test]
@@ -146,10 +196,11 @@ fn a_failed_job_ends_with_4() {
     let place = Place::new();
     place.study(&[("tee", 0.1, &["m"])]);
     let text = std::fs::read_to_string(place.path("study.toml")).expect("written");
-    // A person that cannot be: found when the body is made.
-    place.write("study.toml", text.replace("chest_girth_mm = 863", "chest_girth_mm = 2900"));
+    // Girths that a person can have, but not one person: found when the body is made.
+    let text = text.replace("chest_girth_mm = 863", "chest_girth_mm = 600").replace("= 782", "= 1500");
+    place.write("study.toml", text.replace("hip_girth_mm = 914", "hip_girth_mm = 650"));
     let said = place.toile("run .").ends_with(4);
-    assert!(said.err.contains("job 1 failed: body:") && said.err.contains("chest"), "{}", said.err);
+    assert!(said.err.contains("job 1 failed: body:") && said.err.contains("one body"), "{}", said.err);
     assert_eq!(place.one("SELECT status FROM v_jobs"), "failed");
 }
 
@@ -289,6 +340,16 @@ fn body_measure_has_its_keys_and_reads_what_was_asked_for() {
     }
     for name in ["body.obj", "body.png", "measurements.json"] {
         assert!(place.path("built").join(name).is_file(), "{name}");
+    }
+    let scanned = place.toile("body build --scan built/body.obj --sex f -o scanned --json").ends_with(0).json();
+    let posed = place.toile("body pose built/body.obj --sex f --arm-deg 60 -o posed --json").ends_with(0).json();
+    for body in [scanned, posed] {
+        let (found, of_scan) = (&body["waist_girth_mm"], &measured["waist_girth_mm"]);
+        let off = found.as_f64().zip(of_scan.as_f64()).map(|(a, b)| (a - b).abs());
+        assert!(off.is_some_and(|off| off < 1.0), "{found} for {of_scan}");
+    }
+    for name in ["scanned/control.json", "scanned/body.png", "posed/body.obj"] {
+        assert!(place.path(name).is_file(), "{name}");
     }
     assert!(!place.path("toile.sqlite").exists(), "no database is needed to measure");
 }

@@ -110,6 +110,39 @@ pub struct BodyBuild {
     /// Width across the shoulders.
     #[arg(long, value_name = "N")]
     pub across_shoulder_mm: Option<f64>,
+    /// Under-bust girth.
+    #[arg(long, value_name = "N")]
+    pub underbust_girth_mm: Option<f64>,
+    /// Thigh girth, just below the crotch.
+    #[arg(long, value_name = "N")]
+    pub thigh_girth_mm: Option<f64>,
+    /// Knee girth.
+    #[arg(long, value_name = "N")]
+    pub knee_girth_mm: Option<f64>,
+    /// Calf girth.
+    #[arg(long, value_name = "N")]
+    pub calf_girth_mm: Option<f64>,
+    /// Ankle girth.
+    #[arg(long, value_name = "N")]
+    pub ankle_girth_mm: Option<f64>,
+    /// Upper arm girth, relaxed.
+    #[arg(long, value_name = "N")]
+    pub upper_arm_girth_mm: Option<f64>,
+    /// Forearm girth, relaxed.
+    #[arg(long, value_name = "N")]
+    pub forearm_girth_mm: Option<f64>,
+    /// Wrist girth.
+    #[arg(long, value_name = "N")]
+    pub wrist_girth_mm: Option<f64>,
+    /// Inside leg height.
+    #[arg(long, value_name = "N")]
+    pub inseam_mm: Option<f64>,
+    /// Shoulder point over the elbow to the wrist.
+    #[arg(long, value_name = "N")]
+    pub arm_length_mm: Option<f64>,
+    /// Foot length.
+    #[arg(long, value_name = "N")]
+    pub foot_length_mm: Option<f64>,
     /// Front picture (PNG or JPEG): a photograph against a plain background, or a mask.
     #[arg(long, value_name = "IMAGE", requires = "side", conflicts_with_all = ["subject", "measurements"])]
     pub front: Option<PathBuf>,

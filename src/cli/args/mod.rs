@@ -7,10 +7,12 @@ use clap_complete::Shell;
 
 mod attempt;
 mod body;
+mod catalogue;
 mod pattern;
 
 pub use attempt::{Try, TrySimulator};
 pub use body::{Body, BodyBuild, MeshUnit, Sex};
+pub use catalogue::{Catalogue, FabricValues, SizeValues, StyleValues, SubjectValues};
 pub use pattern::{BesideFiles, DraftStyle, Pattern, PatternUnit, SeamCommand, StyleFiles};
 
 /// A fit-study workbench: dress bodies in sewing patterns, measure the drape, say which simulator to trust.
@@ -84,16 +86,16 @@ pub enum Command {
     Queue(Queue),
     /// Subjects of the catalogue.
     #[command(subcommand)]
-    Subject(Catalogue),
+    Subject(Catalogue<SubjectValues>),
     /// Styles of the catalogue.
     #[command(subcommand)]
-    Style(Catalogue),
+    Style(Catalogue<StyleValues>),
     /// Sizes of the catalogue.
     #[command(subcommand)]
-    Size(Catalogue),
+    Size(Catalogue<SizeValues>),
     /// Fabrics of the catalogue.
     #[command(subcommand)]
-    Fabric(Catalogue),
+    Fabric(Catalogue<FabricValues>),
     /// Check that everything toile needs is in order.
     Doctor,
     /// Version, database, studies.
@@ -319,17 +321,5 @@ pub enum Queue {
     Log {
         /// Job number.
         job: i64,
-    },
-}
-
-/// Commands on one part of the catalogue.
-#[derive(Debug, Subcommand)]
-pub enum Catalogue {
-    /// List the latest revisions.
-    Ls,
-    /// One entry with all its revisions.
-    Show {
-        /// Name.
-        name: String,
     },
 }

@@ -307,6 +307,7 @@ impl Specification {
             pieces: self.pieces.iter().zip(&self.edges).zip(roles).map(style_piece).collect(),
             seams: self.stitches.iter().enumerate().map(seam).collect(),
             measurements: Vec::new(),
+            reinforcements: Vec::new(),
             fit_levels: Vec::new(),
         }
     }

@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use self::sampling::{EdgeSamples, sample};
 use self::triangulate::{Triangulation, triangulate};
-use super::garment::{FitLevel, Garment, Measurement, PieceMesh, SeamMesh};
+use super::garment::{FitLevel, Garment, Measurement, PieceMesh, Reinforcement, SeamMesh};
 use super::style::{EdgeRef, Style};
 use crate::geom::V2;
 use crate::units::mm;
@@ -123,6 +123,7 @@ impl Style {
             seams,
             measurements: Vec::new(),
             fit_levels: Vec::new(),
+            reinforcements: Vec::new(),
             edge_length_m,
         };
         let layer = paths::Layer::new(self, &samples.edges, &assembly.boundary, &garment);
@@ -141,6 +142,16 @@ impl Style {
             })
             .collect();
         garment.measurements = measurements?;
+        garment.reinforcements = self
+            .reinforcements
+            .iter()
+            .map(|r| Reinforcement {
+                band: r.band,
+                stiffness_n: r.stiffness_n,
+                length_factor: r.length_factor,
+                vertices: assembly.boundary[r.edge.piece][r.edge.edge].clone(),
+            })
+            .collect();
         garment.fit_levels = self
             .fit_levels
             .iter()

@@ -20,6 +20,7 @@ impl Proposal {
             piece: self.entries.iter().cloned().collect(),
             seam: self.seams.iter().map(|seam| seam.entry.clone()).collect(),
             measurement: Vec::new(),
+            reinforce: Vec::new(),
             fit: BTreeMap::new(),
         }
     }

@@ -5,7 +5,7 @@ mod openings;
 mod read;
 
 use self::read::Reader;
-use super::garment::{MeasurementKind, Role};
+use super::garment::{Band, MeasurementKind, Role};
 use super::piece::{Notch, Piece};
 use super::seams::SeamFile;
 use crate::geom::V2;
@@ -147,6 +147,19 @@ pub struct StyleMeasurement {
     pub is_free_edge: bool,
 }
 
+/// An edge with a stiffness of its own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StyleReinforcement {
+    /// Edge.
+    pub edge: EdgeRef,
+    /// What strengthens it.
+    pub band: Band,
+    /// Force per relative elongation, N.
+    pub stiffness_n: f64,
+    /// Length of the band over that of the edge.
+    pub length_factor: f64,
+}
+
 /// The pieces of one size with their seams and measurements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Style {
@@ -160,6 +173,8 @@ pub struct Style {
     pub seams: Vec<Seam>,
     /// Measurements.
     pub measurements: Vec<StyleMeasurement>,
+    /// Strengthened edges.
+    pub reinforcements: Vec<StyleReinforcement>,
     /// Body level and pattern path.
     pub fit_levels: Vec<(String, Vec<PathPart>)>,
 }

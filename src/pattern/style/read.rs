@@ -3,7 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::corners::{corner_vertices, cut_edge, mirror_edge, mirrored};
-use super::{Edge, EdgePoint, EdgeRef, PathPart, Seam, Style, StyleError, StyleMeasurement, StylePiece};
+use super::{
+    Edge, EdgePoint, EdgeRef, PathPart, Seam, Style, StyleError, StyleMeasurement, StylePiece, StyleReinforcement,
+};
 use crate::geom::V2;
 use crate::pattern::piece::Piece;
 use crate::pattern::seams::{PieceEntry, SeamEntry, SeamFile, Stretch};
@@ -26,6 +28,7 @@ impl Reader<'_> {
             pieces: Vec::new(),
             seams: Vec::new(),
             measurements: Vec::new(),
+            reinforcements: Vec::new(),
             fit_levels: Vec::new(),
         };
         for (id, entry) in &self.entries.piece {
@@ -82,12 +85,31 @@ impl Reader<'_> {
                 path,
             });
         }
+        style.reinforcements = self.reinforcements(style)?;
         style.fit_levels.clear();
         for (level, entry) in &self.entries.fit {
             let path = self.path(&format!("fit level `{level}`"), &entry.path, style)?;
             style.fit_levels.push((level.clone(), path));
         }
         Ok(())
+    }
+
+    fn reinforcements(&self, style: &Style) -> Result<Vec<StyleReinforcement>, StyleError> {
+        let mut all = Vec::new();
+        for (number, entry) in self.entries.reinforce.iter().enumerate() {
+            let place = format!("reinforce {}", number + 1);
+            let (stiffness_n, length_factor) = (entry.stiffness_n, entry.length_factor);
+            if !(0.0..=1e5).contains(&stiffness_n) || !(0.5..=1.5).contains(&length_factor) {
+                let found = format!("stiffness_n = {stiffness_n}, length_factor = {length_factor}");
+                let accepted = "a stiffness of 0 to 1e5 N and a length of 0.5 to 1.5 of the edge".to_owned();
+                return Err(self.contradiction(place, found, accepted));
+            }
+            for name in &entry.edges {
+                let edge = self.edge(&place, name, style)?;
+                all.push(StyleReinforcement { edge, band: entry.kind, stiffness_n, length_factor });
+            }
+        }
+        Ok(all)
     }
 
     /// The drawn piece that an entry names by its block, or else by its piece name.

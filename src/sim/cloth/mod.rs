@@ -1,15 +1,17 @@
 //! Cloth: a garment mesh with elastic energies, at whatever state of sewing.
 
+pub mod band;
 pub mod bending;
 pub mod membrane;
 
 use std::collections::BTreeMap;
 
-use crate::geom::V3;
+use crate::geom::{V2, V3};
 use crate::pattern::Garment;
 use crate::sim::{Fabric, SimError};
 
-use bending::{Bending, Flap, Hinge};
+use band::Bands;
+use bending::{Bending, Flap, Hinge, Plate};
 use membrane::{Element, Membrane, Orthotropic};
 
 /// A garment as the solver sees it. *Simulated* vertices are groups of garment vertices that are sewn together.
@@ -27,6 +29,8 @@ pub struct Cloth {
     pub membrane: Membrane,
     /// Bending.
     pub bending: Bending,
+    /// Strengthened edges.
+    pub bands: Bands,
 }
 
 impl Cloth {
@@ -38,7 +42,7 @@ impl Cloth {
         let count = vertex_of.iter().max().map_or(0, |m| m + 1);
         let mut elements = Vec::with_capacity(garment.triangles.len());
         let mut areas = vec![0.0; count];
-        let mut flaps = Flaps::default();
+        let mut plates = PlateBuilder::default();
         for piece in &garment.pieces {
             for t in piece.triangles.clone() {
                 let corners = garment.triangles[t];
@@ -49,7 +53,7 @@ impl Cloth {
                 for v in vertices {
                     areas[v] += element.area / 3.0;
                 }
-                flaps.add(vertices, rest, piece.grain);
+                plates.add(vertices, rest, piece.grain);
                 elements.push(element);
             }
         }
@@ -58,7 +62,8 @@ impl Cloth {
             masses: areas.iter().map(|a| a * fabric.density_kg_m2).collect(),
             areas,
             membrane: Membrane::new(Orthotropic::of(fabric), elements),
-            bending: Bending::new(&flaps.hinges(fabric)),
+            bending: plates.finish(fabric),
+            bands: Bands::new(garment, &vertex_of),
             vertex_of,
         })
     }
@@ -93,33 +98,46 @@ impl Cloth {
     }
 }
 
-/// Triangles by directed edge, until their neighbour turns up.
+/// Finds the hinges between triangles as they come.
 #[derive(Default)]
-struct Flaps {
-    open: BTreeMap<[usize; 2], (usize, Flap)>,
-    closed: Vec<([usize; 4], [Flap; 2])>,
+struct PlateBuilder {
+    /// Directed edges whose other side has not come yet: opposite vertex, flap, and the plate's side.
+    open: BTreeMap<[usize; 2], (usize, Flap, [usize; 2])>,
+    hinges: Vec<Hinge>,
+    plates: Vec<Plate>,
 }
 
-impl Flaps {
-    fn add(&mut self, vertices: [usize; 3], rest: [crate::geom::V2; 3], grain: crate::geom::V2) {
+impl PlateBuilder {
+    /// Adds a triangle with rest corners `rest`, counter-clockwise, and the unit warp direction `grain`.
+    fn add(&mut self, vertices: [usize; 3], rest: [V2; 3], grain: V2) {
+        let plate = self.plates.len();
+        let weft = V2::new(grain.y, -grain.x);
+        let normal = |k: usize| {
+            let side = (rest[(k + 1) % 3] - rest[k]).normalize();
+            let outward = V2::new(side.y, -side.x);
+            V2::new(outward.dot(&weft), outward.dot(&grain))
+        };
+        let area = 0.5 * (rest[1] - rest[0]).perp(&(rest[2] - rest[0]));
+        self.plates.push(Plate { area, normals: [normal(0), normal(1), normal(2)], hinges: [None; 3] });
         for k in 0..3 {
             let order = [k, (k + 1) % 3, (k + 2) % 3];
             let [a, b, opposite] = order.map(|m| vertices[m]);
             let [ra, rb, rc] = order.map(|m| rest[m]);
             match self.open.remove(&[b, a]) {
                 // The neighbour runs along the shared edge the other way.
-                Some((other, flap)) => {
-                    let turned = Flap { rest: [rb, ra, rc], grain };
-                    self.closed.push(([b, a, other, opposite], [flap, turned]));
+                Some((other, flap, [neighbour, side])) => {
+                    self.plates[neighbour].hinges[side] = Some(self.hinges.len());
+                    self.plates[plate].hinges[k] = Some(self.hinges.len());
+                    self.hinges.push(Hinge::new([b, a, other, opposite], [flap, Flap { rest: [rb, ra, rc] }]));
                 }
                 None => {
-                    self.open.insert([a, b], (opposite, Flap { rest: [ra, rb, rc], grain }));
+                    self.open.insert([a, b], (opposite, Flap { rest: [ra, rb, rc] }, [plate, k]));
                 }
             }
         }
     }
 
-    fn hinges(&self, fabric: &Fabric) -> Vec<Hinge> {
-        self.closed.iter().map(|(vertices, flaps)| Hinge::new(*vertices, *flaps, fabric)).collect()
+    fn finish(&self, fabric: &Fabric) -> Bending {
+        Bending::new(&self.hinges, &self.plates, fabric)
     }
 }

@@ -163,6 +163,13 @@ impl Elastic {
     }
 }
 
+impl Elastic {
+    /// Stretch of every triangle in its piece's plane, the root of `F^T F`, and its pattern area, m2.
+    pub fn stretches<'s>(&'s self, x: &'s [V3]) -> impl Iterator<Item = (Matrix2<f64>, f64)> + 's {
+        self.triangles.iter().map(|t| (t.polar(x).1, t.area_m2))
+    }
+}
+
 fn factorise(count: usize, entries: &[(usize, usize, f64)], weights: &[f64]) -> Option<Factor> {
     let held = weights.iter().enumerate().map(|(v, w)| (v, v, *w));
     let all: Vec<_> = entries.iter().copied().chain(held).collect();

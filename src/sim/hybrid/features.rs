@@ -510,13 +510,13 @@ impl Mapper<'_> {
 const TOP_OF_ARM: i32 = 16;
 const UNDER_ARM: i32 = 4;
 /// A sleeve reaches onto the arm by this at least, m.
-const LEAST_SLEEVE_M: f64 = 0.03;
+const LEAST_SLEEVE_M: f64 = 0.02;
 /// A shoulder seam that is longer than the shoulder reaches onto the arm, at most by this share of the way from armscye to
 /// the middle of the upper arm: what is longer still the pop-up gives back.
 const MOST_DROP: f64 = 0.25;
 /// An underarm point lies at most this far below the armpit, m: deeper armholes leave no arm for the sleeve, and the
 /// pop-up gives them their depth.
-const MOST_DEPTH_M: f64 = 0.03;
+const MOST_DEPTH_M: f64 = 0.005;
 
 /// A line round a tube from one point of it to another.
 fn between([from, to]: [OnTube; 2]) -> impl Fn(f64) -> OnTube {

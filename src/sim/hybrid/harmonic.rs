@@ -79,7 +79,7 @@ pub fn flips(mapped: &[V2], triangles: &[[usize; 3]]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::testing;
+    use crate::sim::laboratory::sheets::sheet;
 
     fn lifted(rest: &[V2]) -> Vec<V3> {
         rest.iter().map(|p| V3::new(p.x, p.y, 0.0)).collect()
@@ -87,7 +87,7 @@ mod tests {
 
     #[test]
     fn a_square_is_mapped_onto_itself_exactly() {
-        let (rest, triangles) = testing::sheet(8, 8, 0.125);
+        let (rest, triangles) = sheet(8, 8, 0.125);
         let on_edge = |p: &V2| [0.0, 1.0].contains(&p.x) || [0.0, 1.0].contains(&p.y);
         let fixed = rest.iter().enumerate().filter(|(_, p)| on_edge(p)).map(|(v, p)| (v, *p)).collect();
         let mapped = map(&lifted(&rest), &triangles, &fixed).expect("a disc");
@@ -98,7 +98,7 @@ mod tests {
 
     /// An L, three squares of side 6 steps, whose inner corner is concave; its boundary in order.
     fn concave() -> (Vec<V2>, Vec<[usize; 3]>, Vec<usize>) {
-        let (rest, triangles) = testing::sheet(12, 12, 1.0);
+        let (rest, triangles) = sheet(12, 12, 1.0);
         let kept: Vec<[usize; 3]> = triangles
             .into_iter()
             .filter(|t| {

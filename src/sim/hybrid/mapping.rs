@@ -1,6 +1,6 @@
 //! Phase 1: every piece onto the surface of the form (5.2).
 //!
-//! Features, then shortest paths between them, then the patch inside; patch and piece are both mapped harmonically onto a disc
+//! Features, then shortest paths between them, then the patch inside; patch and piece are both mapped harmonically onto a disc (a convex polygon on the unit circle)
 //! and thereby onto each other (cross-parameterisation, 5.2.3). [T] maps the patch onto the pattern instead; armholes and
 //! necks are concave, and a map onto a concave outline may fold. Onto a disc it cannot.
 
@@ -29,7 +29,7 @@ const AWAY: f64 = 0.4;
 pub struct OnForm {
     /// World position of each garment vertex, m; the two sides of a seam nearly coincide.
     pub positions: Vec<V3>,
-    /// Triangles whose outside faces the form, before repair.
+    /// Triangles whose outside faces the form, after repair.
     pub flips: usize,
     /// Patch of each piece on the form.
     pub patches: Vec<Vec<usize>>,
@@ -53,6 +53,7 @@ pub fn map(body: &Body, garment: &Garment) -> Result<OnForm, SimError> {
     let mut order: Vec<usize> = (0..pieces.len()).collect();
     order.sort_by_key(|&p| features::face(garment.pieces[p].role) == Face::Round);
     mapped.patches = vec![Vec::new(); pieces.len()];
+    paths.find_underarms(garment, &pieces, &partners);
     for p in order {
         let cannot = |reason| SimError::CannotMap { piece: garment.pieces[p].id.clone(), reason };
         let outline = paths.outline(garment, p, &pieces[p], &partners).map_err(cannot)?;
@@ -70,8 +71,8 @@ struct Outline {
     nodes: Vec<usize>,
     /// Place of each node on the circle, as a share of the whole turn.
     turns: Vec<f64>,
-    /// Boundary vertices of the piece with their share and their place, m.
-    boundary: Vec<(usize, f64, V3)>,
+    /// Boundary vertices of the piece with their place in the common domain and on the form, m.
+    boundary: Vec<(usize, V2, V3)>,
 }
 
 /// Paths on the form, each searched once: the two sides of a seam share theirs.
@@ -127,6 +128,22 @@ impl<'a> Paths<'a> {
         Ok(outline)
     }
 
+    /// Finds the paths of seams that a piece has with itself before all others: an underarm leaves the trunk between the
+    /// two halves of its armhole, which must not have met above it.
+    fn find_underarms(&mut self, garment: &Garment, pieces: &[Mapped], partners: &BTreeMap<[usize; 2], usize>) {
+        for (piece, mapped) in pieces.iter().enumerate() {
+            for (k, feature) in mapped.features.iter().enumerate() {
+                let at = mapped.ring.iter().position(|&v| v == feature.vertex).unwrap_or(0);
+                let (a, b) = (feature.vertex, mapped.ring[(at + 1) % mapped.ring.len()]);
+                if partners.get(&[a.min(b), a.max(b)]) == Some(&piece) {
+                    let ends = [self.ends[piece][k], self.ends[piece][(k + 1) % mapped.features.len()]];
+                    // Where there is none, the piece itself will say so.
+                    let _ = self.path(garment, [piece, piece], ends);
+                }
+            }
+        }
+    }
+
     /// The path between two nodes that two pieces share.
     fn path(&mut self, garment: &Garment, pieces: [usize; 2], ends: [usize; 2]) -> Result<Vec<usize>, &'static str> {
         let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
@@ -152,16 +169,21 @@ impl<'a> Paths<'a> {
         Ok(if path[0] == ends[0] { path } else { path.into_iter().rev().collect() })
     }
 
-    /// Whether a piece of a role can touch a face: by region and by the way the face looks.
     fn touches(&self, role: Role, face: usize) -> bool {
-        let normal = self.normals[face].normalize();
-        touches(role, self.form.regions[face])
-            && match features::face(role) {
-                Face::Front => normal.y > -AWAY,
-                Face::Back => normal.y < AWAY,
-                Face::Round => true,
-            }
+        can_touch(role, self.form.regions[face], &self.normals[face])
     }
+}
+
+/// Whether a piece of a role can touch a face: by its region and the way it looks (5.2.2, figure 5-12).
+#[must_use]
+pub fn can_touch(role: Role, region: Region, normal: &V3) -> bool {
+    let forward = normal.y / normal.norm();
+    touches(role, region)
+        && match features::face(role) {
+            Face::Front => forward > -AWAY,
+            Face::Back => forward < AWAY,
+            Face::Round => true,
+        }
 }
 
 /// Whether a piece of a role can touch a region.
@@ -204,7 +226,9 @@ impl Outline {
             let along = arc / length * whole;
             let k = arcs.partition_point(|&a| a <= along).clamp(1, arcs.len() - 1);
             let t = (along - arcs[k - 1]) / (arcs[k] - arcs[k - 1]).max(f64::MIN_POSITIVE);
-            self.boundary.push((*vertex, done + share * arc / length, places[k - 1].lerp(&places[k], t)));
+            // On the chord between two nodes: patch and piece then have the same outline in the domain.
+            let turn = |node: usize| on_circle(done + share * arcs[node] / whole);
+            self.boundary.push((*vertex, turn(k - 1).lerp(&turn(k), t), places[k - 1].lerp(&places[k], t)));
         }
     }
 }
@@ -226,7 +250,7 @@ fn on_circle(turn: f64) -> V2 {
     V2::new(cos, sin)
 }
 
-/// Lays one piece on its patch; returns the number of triangles that look inwards.
+/// Lays one piece on its patch; returns the number of triangles that look inwards even after repair.
 fn lay(garment: &Garment, piece: &PieceMesh, outline: &Outline, patch: &Patch, positions: &mut [V3]) -> Option<usize> {
     let fixed = patch.boundary.iter().zip(&outline.turns).map(|(&v, &turn)| (v, on_circle(turn))).collect();
     let surface = harmonic::map(&patch.mesh.positions, &patch.mesh.triangles, &fixed)?;
@@ -234,24 +258,97 @@ fn lay(garment: &Garment, piece: &PieceMesh, outline: &Outline, patch: &Patch, p
     let flat: Vec<V3> = garment.rest[piece.vertices.clone()].iter().map(|p| V3::new(p.x, p.y, 0.0)).collect();
     let triangles: Vec<[usize; 3]> =
         garment.triangles[piece.triangles.clone()].iter().map(|t| t.map(|v| v - first)).collect();
-    let fixed = outline.boundary.iter().map(|&(v, turn, _)| (v - first, on_circle(turn))).collect();
-    let cloth = harmonic::map(&flat, &triangles, &fixed)?;
-    let locator = Locator::new(&surface, &patch.mesh.triangles);
-    let normals = patch.mesh.triangle_normals();
-    let mut outwards = vec![V3::zeros(); flat.len()];
-    for (v, place) in cloth.iter().enumerate() {
-        let (t, weights) = locator.locate(*place)?;
-        let corners = patch.mesh.triangles[t];
-        positions[first + v] = (0..3).map(|k| patch.mesh.positions[corners[k]] * weights[k]).sum();
-        outwards[v] = normals[t].try_normalize(0.0).unwrap_or_else(V3::zeros);
-    }
-    for &(v, _, place) in &outline.boundary {
-        positions[v] = place;
-    }
-    let inwards = |t: &&[usize; 3]| {
-        let [a, b, c] = t.map(|v| positions[first + v]);
-        let out: V3 = t.iter().map(|&v| outwards[v]).sum();
-        (b - a).cross(&(c - a)).dot(&out) <= 0.0
+    let fixed: BTreeMap<usize, V2> = outline.boundary.iter().map(|&(v, place, _)| (v - first, place)).collect();
+    let mut laid = Laid {
+        domain: harmonic::map(&flat, &triangles, &fixed)?,
+        x: vec![V3::zeros(); flat.len()],
+        outwards: vec![V3::zeros(); flat.len()],
     };
-    Some(triangles.iter().filter(inwards).count())
+    let composed = Composed { patch, locator: Locator::new(&surface, &patch.mesh.triangles) };
+    (0..flat.len()).try_for_each(|v| composed.lift(&mut laid, v))?;
+    for &(v, _, place) in &outline.boundary {
+        laid.x[v - first] = place;
+    }
+    let flips = repair(&composed, &mut laid, &triangles, &fixed)?;
+    positions[piece.vertices.clone()].copy_from_slice(&laid.x);
+    Some(flips)
+}
+
+/// A piece under way: its vertices in the domain and on the form.
+struct Laid {
+    domain: Vec<V2>,
+    x: Vec<V3>,
+    /// Unit normal of the form there.
+    outwards: Vec<V3>,
+}
+
+impl Laid {
+    fn looks_inwards(&self, t: &[usize; 3]) -> bool {
+        let [a, b, c] = t.map(|v| self.x[v]);
+        let out: V3 = t.iter().map(|&v| self.outwards[v]).sum();
+        (b - a).cross(&(c - a)).dot(&out) <= 0.0
+    }
+}
+
+/// The way from the domain to the form.
+struct Composed<'a> {
+    patch: &'a Patch,
+    locator: Locator<'a>,
+}
+
+impl Composed<'_> {
+    /// Sets a vertex on the form where it is in the domain.
+    fn lift(&self, laid: &mut Laid, v: usize) -> Option<()> {
+        let (t, weights) = self.locator.locate(laid.domain[v])?;
+        let [a, b, c] = self.patch.mesh.triangles[t].map(|w| self.patch.mesh.positions[w]);
+        laid.x[v] = a * weights[0] + b * weights[1] + c * weights[2];
+        laid.outwards[v] = (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_else(V3::zeros);
+        Some(())
+    }
+}
+
+/// Rounds of repair at most.
+const REPAIRS: u32 = 30;
+
+/// Moves the inner vertices of flipped triangles to the mean of their neighbours, first in the domain, then in space, until
+/// none is left or the rounds are used up. Both maps are bijective; but a piece is laid vertex by vertex, and a narrow triangle over an edge of
+/// the coarse form can still turn over.
+fn repair(
+    composed: &Composed,
+    laid: &mut Laid,
+    triangles: &[[usize; 3]],
+    fixed: &BTreeMap<usize, V2>,
+) -> Option<usize> {
+    let mut around = vec![Vec::new(); laid.x.len()];
+    for t in triangles {
+        for k in 0..3 {
+            around[t[k]].push(t[(k + 1) % 3]);
+        }
+    }
+    let flipped = |laid: &Laid| triangles.iter().filter(|t| laid.looks_inwards(t)).count();
+    let mut flips = flipped(laid);
+    for round in 0..REPAIRS {
+        if flips == 0 {
+            break;
+        }
+        let moving: Vec<usize> = triangles
+            .iter()
+            .filter(|t| laid.looks_inwards(t))
+            .flatten()
+            .copied()
+            .flat_map(|v| std::iter::once(v).chain(around[v].iter().copied()))
+            .filter(|v| !fixed.contains_key(v))
+            .collect();
+        for v in moving {
+            let count = around[v].len() as f64;
+            if round < REPAIRS / 2 {
+                laid.domain[v] = around[v].iter().map(|&w| laid.domain[w]).sum::<V2>() / count;
+                composed.lift(laid, v)?;
+            } else {
+                laid.x[v] = around[v].iter().map(|&w| laid.x[w]).sum::<V3>() / count;
+            }
+        }
+        flips = flipped(laid);
+    }
+    Some(flips)
 }

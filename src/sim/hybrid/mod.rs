@@ -6,6 +6,7 @@
 mod elastic;
 pub mod features;
 pub mod form;
+pub mod gap;
 pub mod harmonic;
 mod locate;
 pub mod mapping;
@@ -14,6 +15,7 @@ pub mod patch;
 pub mod path;
 pub mod popup;
 pub mod relax;
+mod rows;
 pub mod sewn;
 pub mod sparse;
 
@@ -22,6 +24,7 @@ use crate::geom::{DistanceField, V3};
 use crate::pattern::{Garment, Measurement};
 use crate::sim::{Drape, Fabric, Monitor, Progress, SimError, Stage, Step, quality};
 
+pub use gap::{Closure, closures};
 pub use mapping::OnForm;
 pub use relax::RelaxParams;
 pub use sewn::Sewn;
@@ -158,3 +161,6 @@ impl Run<'_> {
         if self.monitor.cancelled() { Err(SimError::Cancelled) } else { Ok(()) }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -4,7 +4,7 @@
 use super::relax::{Push, Relaxation};
 
 /// Steps in which it grows, and in which it then comes to rest.
-const STEPS: [u32; 2] = [15, 8];
+const STEPS: [u32; 2] = [12, 16];
 
 /// Number of steps of the pop-up.
 #[must_use]

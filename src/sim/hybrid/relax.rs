@@ -1,13 +1,14 @@
 //! Steps of a sewn garment against a body: its size, gravity, bending, contact.
 //!
-//! Contact pushes the cloth out of the body, but its pressure can be capped at what a little stretch of the cloth round a
-//! trunk can bear. Where the pattern is large enough, far less is needed and nothing changes; where it is too small the body wins
-//! no more: the cloth goes back to its size and into the body.
+//! Contact pushes the cloth out of the body, but it can be made to yield: where the cloth is stretched by more than a little,
+//! contact weakens step by step until it is not. Where the pattern is large enough nothing changes; where it is too small the
+//! body wins no more: the cloth goes back to its size and into the body.
 
 use super::elastic::{Elastic, Pull};
+use super::rows::Rows;
 use super::sewn::Sewn;
 use crate::geom::{DistanceField, V3};
-use crate::pattern::{Garment, Measurement};
+use crate::pattern::{Garment, Measurement, Role};
 use crate::sim::cloth::Cloth;
 use crate::sim::{Fabric, SimError};
 
@@ -24,12 +25,13 @@ pub struct RelaxParams {
     pub hold: f64,
     /// Weight of a control: that of a strip of cloth this wide along it, m.
     pub control_width_m: f64,
-    /// Stretch that capped contact may cause where the pattern is too small.
+    /// Stretch of the cloth beyond which contact yields.
     pub yield_stretch: f64,
-    /// Radius of the body part at which that holds, m.
-    pub yield_radius_m: f64,
     /// Bending rigidity at least, N m: keeps folds wider than the mesh.
     pub least_bending_nm: f64,
+    /// Share of the last step's movement that the next one begins with: slow modes, such as a whole front coming
+    /// forward, take a few steps instead of dozens.
+    pub momentum: f64,
     /// Steps between two looks at who is in contact.
     pub refresh: u32,
 }
@@ -39,13 +41,13 @@ impl Default for RelaxParams {
         Self {
             offset_m: 2e-3,
             stiffness_n_m: 500.0,
-            contact: 100.0,
+            contact: 400.0,
             hold: 1.0,
             control_width_m: 0.5,
             yield_stretch: 5e-3,
-            yield_radius_m: 0.15,
             least_bending_nm: 5e-5,
-            refresh: 4,
+            momentum: 0.85,
+            refresh: 5,
         }
     }
 }
@@ -62,8 +64,18 @@ pub struct Relaxation<'a> {
     areas: Vec<f64>,
     /// Weight of each sewn vertex over the membrane's stiffness, m.
     weight: Vec<f64>,
+    rows: Rows,
+    /// Side of the median plane that vertices keep to: 1 for the right leg, -1 for the left, 0 for the seam between
+    /// them, which stays on it. Legs would run through each other otherwise.
+    sides: Vec<Option<f64>>,
+    /// Vertices that had the weight of contact at the last look.
+    touching: Vec<bool>,
+    /// Greatest depth that contact still pushes against at each sewn vertex, m.
+    most_m: Vec<f64>,
     /// Position of each sewn vertex, m.
     pub x: Vec<V3>,
+    /// Displacement of the last step, m.
+    last: Vec<V3>,
     steps: u32,
 }
 
@@ -100,40 +112,131 @@ impl<'a> Relaxation<'a> {
         let pairs = cloth.bending.pairs.pairs().iter().zip(&cloth.bending.entries);
         let bending: Vec<([usize; 2], f64)> =
             pairs.map(|(pair, entry)| (*pair, entry / params.stiffness_n_m)).collect();
-        let weights = weights(field, &params, &cloth.areas, &sewn.x);
-        let elastic =
-            Elastic::new(garment, &sewn.vertex_of, &sewn.x, controls, params.control_width_m, &bending, weights)
-                .ok_or_else(|| SimError::Degenerate { piece: garment.name.clone(), at: garment.rest[0] })?;
+        let x = lifted(field, params.offset_m, &sewn.x);
+        let sides = legs(garment, sewn);
+        let touching = touching(field, params.offset_m, &sides, &x);
+        let weights = weights(&params, &cloth.areas, &touching);
+        let elastic = Elastic::new(garment, &sewn.vertex_of, &x, controls, params.control_width_m, &bending, weights)
+            .ok_or_else(|| SimError::Degenerate { piece: garment.name.clone(), at: garment.rest[0] })?;
         let weight = cloth.masses.iter().map(|m| m * GRAVITY / params.stiffness_n_m).collect();
-        Ok(Self { params, field, elastic, areas: cloth.areas, weight, x: sewn.x.clone(), steps: 0 })
+        let rows = Rows::new(garment, sewn);
+        let most_m = vec![f64::MAX; x.len()];
+        Ok(Self {
+            params,
+            field,
+            elastic,
+            areas: cloth.areas,
+            weight,
+            rows,
+            sides,
+            touching,
+            most_m,
+            last: vec![V3::zeros(); x.len()],
+            x,
+            steps: 0,
+        })
     }
 
     /// Takes one step; returns the rms movement of the vertices, m.
     pub fn step(&mut self, push: Push) -> f64 {
         if self.steps > 0 && self.steps.is_multiple_of(self.params.refresh) {
-            self.elastic.set_weights(weights(self.field, &self.params, &self.areas, &self.x));
+            self.look_for_contacts();
         }
         self.steps += 1;
-        // The depth at which contact bears what the cloth may be stretched by: T / R = weight * depth.
-        let cap_m = self.params.yield_stretch / self.params.yield_radius_m / self.params.contact;
-        let most_m = if push.unlimited { f64::MAX } else { cap_m };
-        let target = |p: &V3| {
-            let (distance, gradient) = self.field.value_and_gradient(p);
-            let depth = (self.params.offset_m - distance).max(0.0);
-            p + gradient.try_normalize(1e-9).unwrap_or_else(V3::zeros) * depth.min(most_m)
-        };
-        let targets: Vec<V3> = self.x.iter().map(target).collect();
+        let from: Vec<V3> = self.x.iter().zip(&self.last).map(|(p, d)| p + d * self.params.momentum).collect();
+        let contacts: Vec<(f64, V3)> = from.iter().map(|p| contact(self.field, self.params.offset_m, p)).collect();
+        if push.unlimited {
+            self.most_m.fill(f64::MAX);
+        } else {
+            self.give_way(&contacts);
+        }
+        let target = |((p, (depth, out)), most): ((&V3, &(f64, V3)), &f64)| p + out * depth.min(*most);
+        let mut targets: Vec<V3> = from.iter().zip(&contacts).zip(&self.most_m).map(target).collect();
+        for (target, side) in targets.iter_mut().zip(&self.sides) {
+            if let Some(side) = side.filter(|side| beyond_median(target, *side, self.params.offset_m)) {
+                target.x = side * self.params.offset_m;
+            }
+        }
         let loads: Vec<V3> = self.weight.iter().map(|w| V3::new(0.0, 0.0, -w * push.gravity)).collect();
-        let next = self.elastic.step(&self.x, &Pull { targets: &targets, loads: &loads, share: push.share });
-        let moved = next.iter().zip(&self.x).map(|(a, b)| (a - b).norm_squared()).sum::<f64>();
+        let next = self.elastic.step(&from, &Pull { targets: &targets, loads: &loads, share: push.share });
+        self.last = next.iter().zip(&self.x).map(|(a, b)| a - b).collect();
         self.x = next;
-        (moved / self.x.len() as f64).sqrt()
+        (self.last.iter().map(V3::norm_squared).sum::<f64>() / self.x.len() as f64).sqrt()
+    }
+
+    /// Gives the vertices their weights anew, where enough of them have come into contact or left it.
+    fn look_for_contacts(&mut self) {
+        let touching = touching(self.field, self.params.offset_m, &self.sides, &self.x);
+        let changed = touching.iter().zip(&self.touching).filter(|(a, b)| a != b).count();
+        if changed as f64 > SAME_CONTACTS * touching.len() as f64 {
+            self.elastic.set_weights(weights(&self.params, &self.areas, &touching));
+            self.touching = touching;
+        }
+    }
+
+    /// Weakens contact where the cloth is stretched too much, and lets it recover where it is not.
+    fn give_way(&mut self, contacts: &[(f64, V3)]) {
+        let stretch = self.rows.stretch(&self.elastic, &self.x);
+        for (v, (depth, _)) in contacts.iter().enumerate() {
+            let excess = (stretch[v] - self.params.yield_stretch) / self.params.yield_stretch;
+            let now = self.most_m[v].min(depth.max(LEAST_PUSH_M));
+            self.most_m[v] = now * (1.0 - 0.5 * excess).clamp(0.5, 1.2);
+        }
     }
 }
 
+/// Whether a vertex is on the wrong side of the median plane.
+fn beyond_median(p: &V3, side: f64, offset_m: f64) -> bool {
+    side == 0.0 || p.x * side < offset_m
+}
+
+/// Which leg each sewn vertex belongs to; `None` for vertices of neither.
+fn legs(garment: &Garment, sewn: &Sewn) -> Vec<Option<f64>> {
+    let mut sums = vec![(0.0, 0.0); sewn.x.len()];
+    for piece in &garment.pieces {
+        let side = match piece.role {
+            Role::LegFrontRight | Role::LegBackRight => 1.0,
+            Role::LegFrontLeft | Role::LegBackLeft => -1.0,
+            _ => continue,
+        };
+        for v in piece.vertices.clone() {
+            sums[sewn.vertex_of[v]].0 += side;
+            sums[sewn.vertex_of[v]].1 += 1.0;
+        }
+    }
+    let side = |(sum, n): (f64, f64)| (n > 0.0).then_some(if sum.abs() == n { sum.signum() } else { 0.0 });
+    sums.into_iter().map(side).collect()
+}
+
+/// Share of the vertices whose contact may have changed before the system is factorised again.
+const SAME_CONTACTS: f64 = 0.01;
+/// Contact that has yielded comes back from this, m.
+const LEAST_PUSH_M: f64 = 2e-5;
+
+/// Depth below the offset (m, 0 outside) and the direction out.
+fn contact(field: &DistanceField, offset_m: f64, p: &V3) -> (f64, V3) {
+    let (distance, gradient) = field.value_and_gradient(p);
+    ((offset_m - distance).max(0.0), gradient.try_normalize(1e-9).unwrap_or_else(V3::zeros))
+}
+
+/// Positions lifted out of the body: the control mesh, on which pieces are laid, cuts through the fine one.
+fn lifted(field: &DistanceField, offset_m: f64, x: &[V3]) -> Vec<V3> {
+    let lift = |p: &V3| {
+        let (depth, out) = contact(field, offset_m, p);
+        p + out * depth
+    };
+    x.iter().map(lift).collect()
+}
+
+/// Which vertices contact acts on: those near the body or beyond the median plane.
+fn touching(field: &DistanceField, offset_m: f64, sides: &[Option<f64>], x: &[V3]) -> Vec<bool> {
+    let touches = |(p, side): (&V3, &Option<f64>)| {
+        field.value_and_gradient(p).0 < offset_m || side.is_some_and(|side| beyond_median(p, side, offset_m))
+    };
+    x.iter().zip(sides).map(touches).collect()
+}
+
 /// Weights of the vertices' targets: those in contact stay where contact wants them, the others may go.
-fn weights(field: &DistanceField, params: &RelaxParams, areas: &[f64], x: &[V3]) -> Vec<f64> {
-    let touches = |p: &V3| field.value_and_gradient(p).0 < params.offset_m;
-    let weight = |(p, a): (&V3, &f64)| a * if touches(p) { params.contact } else { params.hold };
-    x.iter().zip(areas).map(weight).collect()
+fn weights(params: &RelaxParams, areas: &[f64], touching: &[bool]) -> Vec<f64> {
+    touching.iter().zip(areas).map(|(touches, a)| a * if *touches { params.contact } else { params.hold }).collect()
 }

@@ -1,10 +1,13 @@
 //! The solver: one proximal Newton step at a time towards static equilibrium.
 
+pub mod factor;
+pub mod linear;
 pub mod operator;
 pub mod pcg;
 pub mod proximal;
 pub mod system;
 
+pub use linear::LinearSolver;
 pub use operator::{Contact4, Operator, PairList};
 pub use proximal::{StepInfo, StepParams, Stepper};
 pub use system::System;

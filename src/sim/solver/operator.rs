@@ -121,6 +121,16 @@ impl Operator<'_> {
                 blocks[v] += Matrix3::identity() * stiffness;
             }
         }
+        for (block, contact) in blocks.iter_mut().zip(self.contact_blocks()) {
+            *block += contact;
+        }
+        blocks
+    }
+
+    /// What the contacts of the cloth with itself add to the diagonal blocks.
+    #[must_use]
+    pub fn contact_blocks(&self) -> Vec<Matrix3<f64>> {
+        let mut blocks = vec![Matrix3::zeros(); self.diagonal.len()];
         for contact in &self.contacts {
             let outer = contact.normal * contact.normal.transpose() * contact.stiffness;
             for k in 0..4 {

@@ -6,7 +6,7 @@
 use nalgebra::Matrix3;
 
 use super::operator::Operator;
-use super::pcg::{self, PcgParams};
+use super::pcg::PcgParams;
 use super::system::System;
 use crate::geom::V3;
 
@@ -87,7 +87,8 @@ impl Stepper {
         }
         let linear =
             PcgParams { tolerance: self.params.linear_tolerance, max_iterations: self.params.linear_iterations };
-        let mut direction = pcg::solve(&operator, &forces, self.last.as_deref(), &linear);
+        let mut direction = self.last.take().unwrap_or_else(|| vec![V3::zeros(); x.len()]);
+        system.linear.solve(&operator, &forces, &mut direction, &linear);
         self.clamp(&mut direction);
         let bend = self.bend(system, &operator, x, &direction, &inertia);
         let (share, next) = self.search(system, x, &direction, &bend, &forces, &inertia);
@@ -108,7 +109,7 @@ impl Stepper {
     ///
     /// Cloth is a million times softer in bending than in its plane. A step along a soft mode turns triangles and so, in
     /// second order, stretches them; without a correction the line search would cut it to a fraction of a millimetre.
-    fn bend(&self, system: &System, operator: &Operator, x: &[V3], direction: &[V3], inertia: &[f64]) -> Vec<V3> {
+    fn bend(&self, system: &mut System, operator: &Operator, x: &[V3], direction: &[V3], inertia: &[f64]) -> Vec<V3> {
         let end: Vec<V3> = x.iter().zip(direction).map(|(p, d)| p + d).collect();
         let mut remainder = system.forces(&end);
         for ((r, d), m) in remainder.iter_mut().zip(direction).zip(inertia) {
@@ -116,7 +117,8 @@ impl Stepper {
         }
         let linear =
             PcgParams { tolerance: self.params.linear_tolerance, max_iterations: self.params.correction_iterations };
-        let mut bend = pcg::solve(operator, &remainder, None, &linear);
+        let mut bend = vec![V3::zeros(); x.len()];
+        system.linear.solve(operator, &remainder, &mut bend, &linear);
         self.clamp(&mut bend);
         bend
     }

@@ -2,6 +2,7 @@
 
 use nalgebra::Matrix3;
 
+use super::linear::LinearSolver;
 use super::operator::Operator;
 use crate::geom::V3;
 use crate::sim::cloth::Cloth;
@@ -28,6 +29,8 @@ pub struct System<'a> {
     pub springs: Option<Springs>,
     /// Vertices that do not move.
     pub held: Vec<usize>,
+    /// Solver of the linear systems; remembers factors from step to step.
+    pub linear: LinearSolver,
 }
 
 impl<'a> System<'a> {
@@ -38,7 +41,7 @@ impl<'a> System<'a> {
         for &v in springs.iter().flat_map(|s| &s.pairs).flatten() {
             weights[v] = 0.0;
         }
-        Self { cloth, weights, contact, self_contact: None, springs, held: Vec::new() }
+        Self { cloth, weights, contact, self_contact: None, springs, held: Vec::new(), linear: LinearSolver::default() }
     }
 
     /// Mean weight of a vertex, N: the yardstick of the residual.
@@ -54,6 +57,7 @@ impl<'a> System<'a> {
         height
             + self.cloth.membrane.energy(x)
             + self.cloth.bending.energy(x)
+            + self.cloth.bands.energy(x)
             + self.contact.energy(x)
             + self.self_contact.as_ref().map_or(0.0, |c| c.energy(x))
             + self.springs.as_ref().map_or(0.0, |s| s.energy(x))
@@ -65,6 +69,7 @@ impl<'a> System<'a> {
         let mut forces: Vec<V3> = self.weights.iter().map(|w| V3::new(0.0, 0.0, -w)).collect();
         self.cloth.membrane.assemble(x, &mut forces, None);
         self.cloth.bending.add_forces(x, &mut forces);
+        self.cloth.bands.add_forces(x, &mut forces);
         self.contact.add_forces(x, &mut forces);
         if let Some(contact) = &self.self_contact {
             contact.assemble(x, &mut forces);
@@ -86,6 +91,8 @@ impl<'a> System<'a> {
         let mut membrane = Vec::new();
         cloth.membrane.assemble(x, &mut forces, Some(&mut membrane));
         cloth.bending.add_forces(x, &mut forces);
+        cloth.bands.add_forces(x, &mut forces);
+        cloth.bands.add_stiffness(x, &cloth.membrane.pairs, &mut membrane);
         self.contact.assemble(x, &mut forces, &mut diagonal);
         let springs = self.springs.as_ref().map_or_else(Vec::new, |s| s.assemble(x, &mut forces));
         let contacts = self.self_contact.as_mut().map_or_else(Vec::new, |c| {

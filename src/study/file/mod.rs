@@ -29,9 +29,11 @@
 //!
 //! Everything is checked before anything runs, and all problems are told at once.
 
+mod garments;
 mod parse;
 mod reader;
 mod source;
+mod subjects;
 #[cfg(test)]
 mod tests;
 
@@ -53,20 +55,33 @@ pub struct Problem {
     pub file: PathBuf,
     /// Line, from 1.
     pub line: Option<usize>,
+    /// Column of the line, in characters from 1.
+    pub column: Option<usize>,
     /// What was found, and what would be accepted.
     pub message: String,
 }
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.line {
-            Some(line) => write!(f, "{}:{line}: {}", self.file.display(), self.message),
-            None => write!(f, "{}: {}", self.file.display(), self.message),
+        write!(f, "{}:", self.file.display())?;
+        for place in [self.line, self.column].into_iter().flatten() {
+            write!(f, "{place}:")?;
         }
+        write!(f, " {}", self.message)
     }
 }
 
 impl Problem {
+    /// A problem of a whole file.
+    pub(crate) fn of(file: &Path, message: impl Into<String>) -> Self {
+        Self { file: file.to_owned(), line: None, column: None, message: message.into() }
+    }
+
+    /// A problem of a line of a file.
+    pub(crate) fn at(file: &Path, line: usize, message: impl Into<String>) -> Self {
+        Self { line: Some(line), ..Self::of(file, message) }
+    }
+
     /// All problems, one a line.
     pub(crate) fn listing(problems: &[Self]) -> String {
         problems.iter().map(Self::to_string).collect::<Vec<_>>().join("\n")
@@ -149,6 +164,43 @@ pub struct Known {
     pub fabrics: BTreeMap<String, Fabric>,
 }
 
+/// An entry of a file, and where it stands.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Placed<T> {
+    /// The file.
+    pub file: PathBuf,
+    /// Its line, from 1.
+    pub line: usize,
+    /// Name of the entry.
+    pub name: String,
+    /// The entry.
+    pub entry: T,
+}
+
+impl<T> Placed<T> {
+    /// Something made of the entry, at the same place.
+    pub fn map<U>(self, make: impl FnOnce(T) -> U) -> Placed<U> {
+        let Self { file, line, name, entry } = self;
+        Placed { file, line, name, entry: make(entry) }
+    }
+
+    /// A problem of the entry.
+    pub fn problem(&self, message: impl Into<String>) -> Problem {
+        Problem::at(&self.file, self.line, message)
+    }
+}
+
+/// How a garment is sewn, and its sizes: a `[[garment]]` without its cloth.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Sewn {
+    /// Seam file; a file of sizes alone need not name it.
+    pub seams: Option<SourceFile>,
+    /// Unit of the patterns, where their files name none.
+    pub unit: Option<String>,
+    /// Sizes, in order.
+    pub sizes: Vec<SizeFile>,
+}
+
 /// The study file of a path that names it or its folder.
 #[must_use]
 pub fn study_file(path: &Path) -> PathBuf {
@@ -165,6 +217,27 @@ impl Study {
         let text = std::fs::read_to_string(&path).map_err(StudyError::io(&path))?;
         parse::study(&path, &text, known).map_err(StudyError::File)
     }
+}
+
+/// The subjects of the text of a study file, or of one that has nothing else.
+pub(super) fn subjects(
+    path: &Path,
+    text: &str,
+    known: &Known,
+) -> std::result::Result<Vec<Placed<Subject>>, Vec<Problem>> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    parse::entries(path, text, |reader, top| subjects::subjects(reader, top, folder, &known.subjects))
+}
+
+/// The fabrics of the text of a study file, or of one that has nothing else.
+pub(super) fn fabrics(path: &Path, text: &str) -> std::result::Result<Vec<Placed<Fabric>>, Vec<Problem>> {
+    parse::entries(path, text, parse::own_fabrics)
+}
+
+/// The garments of the text of a study file, or of one that has nothing else; without their cloth.
+pub(super) fn garments(path: &Path, text: &str) -> std::result::Result<Vec<Placed<Sewn>>, Vec<Problem>> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    parse::entries(path, text, |reader, top| garments::all_sewn(reader, top, folder))
 }
 
 /// Measurements from the text of a file with the keys of a `[[subject]]`.

@@ -1,13 +1,13 @@
 //! Reading TOML with every problem kept: which line, what was found, what would be accepted.
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 use std::path::Path;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::super::error::nearest;
-use super::Problem;
+use super::{Placed, Problem};
 
 /// Collects what is wrong with one file.
 pub(super) struct Reader<'a> {
@@ -33,9 +33,32 @@ impl<'a> Reader<'a> {
 
     /// Adds a problem at a byte of the text.
     pub fn problem(&mut self, span: &Range<usize>, message: impl Into<String>) {
-        let before = &self.text.as_bytes()[..span.start.min(self.text.len())];
-        let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
-        self.problems.push(Problem { file: self.path.to_owned(), line: Some(line), message: message.into() });
+        let column = self.before(span).rsplit(|&byte| byte == b'\n').next().map_or(1, |line| {
+            1 + line.iter().filter(|&&byte| byte & 0xc0 != 0x80).count() // bytes that begin a character
+        });
+        let problem = Problem::at(self.path, self.line(span), message);
+        self.problems.push(Problem { column: Some(column), ..problem });
+    }
+
+    /// The line of a byte of the text, from 1.
+    pub fn line(&self, span: &Range<usize>) -> usize {
+        1 + self.before(span).iter().filter(|&&byte| byte == b'\n').count()
+    }
+
+    /// An entry and where it stands.
+    pub fn placed<T>(&self, span: &Range<usize>, name: &str, entry: T) -> Placed<T> {
+        Placed { file: self.path.to_owned(), line: self.line(span), name: name.to_owned(), entry }
+    }
+
+    /// The text before a place.
+    fn before(&self, span: &Range<usize>) -> &'a [u8] {
+        &self.text.as_bytes()[..span.start.min(self.text.len())]
+    }
+
+    /// What was read, or all that is wrong with it.
+    pub fn end<T>(mut self, read: T) -> Result<T, Vec<Problem>> {
+        self.problems.sort_by_key(|problem| problem.line);
+        if self.problems.is_empty() { Ok(read) } else { Err(self.problems) }
     }
 
     /// Refuses keys that are not among the accepted ones.
@@ -83,7 +106,20 @@ impl<'a> Reader<'a> {
     }
 
     /// Optional number within a range.
-    pub fn number(&mut self, place: &Place<'_>, key: &str, range: Range<f64>) -> Option<f64> {
+    pub fn number(&mut self, place: &Place<'_>, key: &str, range: RangeInclusive<f64>) -> Option<f64> {
+        self.checked(place, key, |number| {
+            let accepted = || format!("`{key}` is {number}; accepted: {} to {}", range.start(), range.end());
+            if range.contains(&number) { Ok(number) } else { Err(accepted()) }
+        })
+    }
+
+    /// Optional number that a check accepts.
+    pub fn checked(
+        &mut self,
+        place: &Place<'_>,
+        key: &str,
+        check: impl FnOnce(f64) -> Result<f64, String>,
+    ) -> Option<f64> {
         let value = place.table.get(key)?;
         let number = match value.get_ref() {
             DeValue::Integer(digits) => i64::from_str_radix(digits.as_str(), digits.radix()).ok().map(|n| n as f64),
@@ -93,13 +129,9 @@ impl<'a> Reader<'a> {
                 return None;
             }
         };
-        let accepted = number.filter(|number| range.contains(number));
-        if accepted.is_none() {
-            let found = number.map_or_else(|| "a number out of range".to_owned(), |n| n.to_string());
-            let message = format!("{}: `{key}` is {found}; accepted: {} to {}", place.name, range.start, range.end);
-            self.problem(&value.span(), message);
-        }
-        accepted
+        // What does not fit into the type is out of every range.
+        let accepted = check(number.unwrap_or(f64::INFINITY));
+        accepted.map_err(|problem| self.problem(&value.span(), format!("{}: {problem}", place.name))).ok()
     }
 
     /// The tables of `[[key]]`, or of a list of inline tables.

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::super::error::{Result, StudyError};
+use crate::pattern::source::{self, Kind};
 
 /// A file that a study brings, as read, or the DXF files of a folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -15,6 +16,12 @@ pub struct SourceFile {
 }
 
 impl SourceFile {
+    /// Whether it is a pattern that says itself how its pieces are sewn: GarmentCode JSON, by its contents.
+    #[must_use]
+    pub fn holds_seams(&self) -> bool {
+        !self.name.ends_with('/') && source::kind(&self.bytes) == Kind::GarmentCode
+    }
+
     /// Reads a file.
     ///
     /// # Errors

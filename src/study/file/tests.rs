@@ -2,16 +2,8 @@ use super::*;
 use crate::body::Sex;
 
 fn known() -> Known {
-    let male_ii = Measurements {
-        sex: Sex::Male,
-        stature_m: 1.69,
-        weight_kg: Some(53.0),
-        chest_girth_m: Some(0.863),
-        waist_girth_m: None,
-        hip_girth_m: None,
-        neck_girth_m: None,
-        across_shoulder_m: None,
-    };
+    let male_ii =
+        Measurements { weight_kg: Some(53.0), chest_girth_m: Some(0.863), ..Measurements::of(Sex::Male, 1.69) };
     let cotton = Fabric {
         name: "cotton_shirting_light".into(),
         density_kg_m2: 0.1036,
@@ -25,6 +17,7 @@ fn known() -> Known {
         friction_body: 0.31,
         friction_self: 0.5,
         source: "test".into(),
+        stretched: None,
     };
     Known {
         subjects: [("male-ii".to_owned(), male_ii)].into(),
@@ -99,10 +92,41 @@ fn broken_toml_names_its_line() {
 }
 
 #[test]
+fn a_subject_may_be_a_scan() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("writable");
+    write("tee-s.dxf", "dxf");
+    write("tee.seams.toml", "seams");
+    let asked = &known().subjects["male-ii"];
+    let body = crate::body::build(asked).expect("an ordinary man");
+    write("ii.obj", &crate::body::write_obj(&body.mesh));
+    let load = |subject: &str| {
+        let at = GOOD.find("like").expect("a subject");
+        let end = at + GOOD[at..].find('\n').expect("a line");
+        write("study.toml", &[&GOOD[..at], subject, &GOOD[end..]].concat());
+        Study::load(folder.path(), &known())
+    };
+    let study = load("scan = \"ii.obj\"\nsex = \"male\"").expect("a scan of a man");
+    let subject = &study.subjects[0];
+    assert!((subject.measurements.stature_m - asked.stature_m).abs() < 2e-3, "{subject:?}");
+    let chest = subject.measurements.chest_girth_m.expect("measured");
+    assert!((chest - 0.863).abs() < 3e-3, "{chest}");
+    let jobs = super::super::spec::jobs(&study);
+    let hash = |name: &str| jobs[0].inputs.iter().find(|(key, _)| *key == name).map(|(_, value)| value.to_owned());
+    let scan = subject.scan.as_ref().expect("a scan");
+    assert_eq!(hash("subject.ii.scan"), Some(scan.file.hash()));
+    let told = |subject: &str| load(subject).expect_err("bad").to_string();
+    assert!(told("scan = \"i.obj\"").contains("did you mean `ii.obj`?"));
+    assert!(told("scan = \"ii.obj\"\nstature_mm = 1700").contains("`stature_mm` beside `scan`"));
+    assert!(told("scan = \"ii.obj\"\nunit = \"mm\"").contains("is the unit right?"));
+    assert!(told("scan = \"tee-s.dxf\"").contains("no faces"));
+}
+
+#[test]
 fn the_quickstart_is_a_good_study() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/quickstart");
     let study = Study::load(&folder, &known()).expect("good");
-    assert_eq!(super::super::spec::jobs(&study).len(), 6);
+    assert_eq!(super::super::spec::jobs(&study).len(), 12);
     let thesis = super::super::catalogue::known(None).expect("built in").subjects;
     for subject in &study.subjects {
         assert_eq!(subject.measurements, thesis[&format!("male-{}", subject.id)], "{}", subject.id);
@@ -110,7 +134,7 @@ fn the_quickstart_is_a_good_study() {
 }
 
 #[test]
-fn the_thesis_study_has_its_54_combinations() {
+fn the_thesis_study_has_its_54_combinations_by_both_simulators() {
     let known = super::super::catalogue::known(None).expect("built in");
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/thesis");
     let jobs = super::super::spec::jobs(&Study::load(&folder, &known).expect("good"));
@@ -118,8 +142,8 @@ fn the_thesis_study_has_its_54_combinations() {
         jobs.iter().filter(|job| job.garment == garment && job.subject.starts_with(sex)).count()
     };
     let counts = [("tshirt", "male"), ("trousers", "male"), ("teetop", "female"), ("dress", "female")];
-    assert_eq!(counts.map(|(garment, sex)| count(garment, sex)), [18, 18, 12, 6]);
-    assert_eq!(jobs.len(), 54);
+    assert_eq!(counts.map(|(garment, sex)| count(garment, sex)), [36, 36, 24, 12]);
+    assert_eq!(jobs.len(), 108);
 }
 
 #[test]
@@ -131,8 +155,8 @@ fn garments_are_worn_by_the_subjects_they_name() {
     assert_eq!(wearers("[\"x\"]").as_deref(), Ok("x"));
     assert_eq!(load(GOOD).expect("good").garments[0].subjects, ["ii", "x"]);
     let refused = |subjects: &str, message: &str| assert_eq!(wearers(subjects).expect_err("bad"), message);
-    let twice = "study.toml:12: garment tee: subject `x` is named twice";
-    let unknown = "study.toml:12: no [[subject]] with the id `i`; there are: ii, x";
+    let twice = "study.toml:12:18: garment tee: subject `x` is named twice";
+    let unknown = "study.toml:12:23: no [[subject]] with the id `i`; there are: ii, x";
     refused("[\"x\", \"x\", \"i\"]", &format!("{twice}\n{unknown}"));
     refused("[]", "study.toml:12: garment tee: nobody wears it; name subjects, or leave `subjects` out for all");
     refused("\"x\"", "study.toml:12: garment tee: `subjects` must be a list of texts, found string");
@@ -141,7 +165,7 @@ fn garments_are_worn_by_the_subjects_they_name() {
 #[test]
 fn a_seam_file_is_needed_unless_the_pattern_holds_seams() {
     let without = GOOD.replace("seams = \"tee.seams.toml\"\n", "");
-    let expect = "study.toml:10: garment tee: `seams` is missing; give the file that says how its pieces are sewn";
+    let expect = "study.toml:10:1: garment tee: `seams` is missing; give the file that says how its pieces are sewn";
     assert_eq!(load(&without).expect_err("bad"), expect);
     // Any file will do: what is in it is read later.
     let json = load(&without.replace("tee-s.dxf", "tee.json")).expect("good");

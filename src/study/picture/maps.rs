@@ -106,6 +106,7 @@ mod tests {
     use super::*;
     use crate::geom::V2;
     use crate::pattern::garment::{PieceMesh, Role};
+    use crate::sim::cloth::membrane::Fibre;
 
     /// A square metre of cloth, its grain along `y`.
     fn square() -> Garment {
@@ -125,6 +126,7 @@ mod tests {
             seams: vec![],
             measurements: vec![],
             fit_levels: vec![],
+            reinforcements: vec![],
             edge_length_m: 1.0,
         }
     }
@@ -148,7 +150,7 @@ mod tests {
 
     #[test]
     fn tension_is_the_stiffness_along_the_pull_and_none_where_cloth_is_slack() {
-        let material = Orthotropic { c11: 2000.0, c12: 0.0, c22: 4000.0, shear: 100.0 };
+        let material = Orthotropic { weft: Fibre::linear(2000.0), c12: 0.0, warp: Fibre::linear(4000.0), shear: 100.0 };
         let check = |deform: &dyn Fn(V2) -> V3, expected: f64| {
             let found = tensions(&square(), &material, &deformed(deform));
             assert!(found.iter().all(|t| (t - expected).abs() < 1e-9), "{found:?}, not {expected}");

@@ -8,10 +8,10 @@ use ratatui::widgets::{Block, Paragraph, Wrap};
 use ratatui_image::Image;
 
 use super::super::action::Screen;
-use super::super::picture::Drawn;
+use super::super::picture::{Drawn, Sitter};
 use super::super::state::State;
 use super::super::text;
-use super::{pane, results, rows, study};
+use super::{pane, results, rows, study, subjects};
 use crate::study::Status;
 
 /// Room for the picture on the screen shown, in cells; `None` where no picture is shown.
@@ -24,6 +24,7 @@ pub fn picture_size(state: &State) -> Option<Size> {
     let pane = match state.screen {
         Screen::Study => study::picture_pane(body, state),
         Screen::Results => results::picture_pane(body, state),
+        Screen::Subjects => subjects::picture_pane(body),
         Screen::Jobs => None,
     };
     let (picture, _) = parts(Block::bordered().inner(pane?));
@@ -32,7 +33,7 @@ pub fn picture_size(state: &State) -> Option<Size> {
 
 /// Picture and, where there is room, the line below it that says what its colours mean. The line is there for pictures
 /// without a legend too, so that they keep their size when the colours change.
-fn parts(inner: Rect) -> (Rect, Option<Rect>) {
+pub(super) fn parts(inner: Rect) -> (Rect, Option<Rect>) {
     if inner.height < 8 || inner.width < 24 {
         return (inner, None);
     }
@@ -50,20 +51,27 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bo
         draw_legend(frame, legend, state);
     }
     // While a picture is drawn anew, the one before stays, so that turning does not flicker.
-    let drawn = state.picture.as_ref().filter(|(shot, _)| {
-        Some(shot.job) == state.focus.job && shot.columns == inner.width && shot.rows == inner.height
-    });
+    let otherwise = match state.job().map(|job| job.status) {
+        Some(Status::Running) => "the drape is shown when the job is done",
+        _ => "",
+    };
+    draw_shot(frame, inner, state, state.focus.job.map(Sitter::Drape), otherwise);
+}
+
+/// Draws the picture of a sitter, or why there is none.
+pub(super) fn draw_shot(frame: &mut Frame<'_>, area: Rect, state: &State, of: Option<Sitter>, otherwise: &str) {
+    let drawn = state
+        .picture
+        .as_ref()
+        .filter(|(shot, _)| Some(shot.of) == of && shot.columns == area.width && shot.rows == area.height);
     let text = match drawn {
-        Some((_, Ok(drawn))) => return draw_cells(frame, inner, drawn, state),
+        Some((_, Ok(drawn))) => return draw_cells(frame, area, drawn, state),
         Some((_, Err(error))) => format!("no picture: {error}"),
         None if !state.abilities.pictures => "pictures are off (--images off)".into(),
         None if state.shot.is_some() => "drawing…".into(),
-        None => match state.job().map(|job| job.status) {
-            Some(Status::Running) => "the drape is shown when the job is done".into(),
-            _ => String::new(),
-        },
+        None => otherwise.to_owned(),
     };
-    frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), inner);
+    frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), area);
 }
 
 /// What the colours mean: name, least value, the run of colours, greatest value with its unit.

@@ -2,11 +2,13 @@
 
 mod chi;
 mod drape;
+mod forms;
 mod jobs;
 mod overlays;
 mod results;
 mod start;
 mod study;
+mod subjects;
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -14,7 +16,7 @@ use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph};
 
-use super::action::{BINDINGS, Screen};
+use super::action::{Binding, Screen};
 use super::overlay::Overlay;
 use super::state::State;
 use super::text;
@@ -34,6 +36,7 @@ pub fn draw(frame: &mut Frame<'_>, state: &State) {
     frame.render_widget(tabs(state, top.width), top);
     match state.screen {
         _ if state.data.is_none() => frame.render_widget(Paragraph::new(" reading the database…"), body),
+        Screen::Subjects => subjects::draw(frame, body, state),
         _ if state.is_first_start() => start::draw(frame, body, state),
         Screen::Study => study::draw(frame, body, state),
         Screen::Jobs => jobs::draw(frame, body, state),
@@ -131,10 +134,11 @@ fn status_line(state: &State, width: u16) -> Line<'static> {
         spans.push(Span::styled(text, state.theme.warn()));
     }
     // What matters most stands first in the table, but help and palette must always be found.
-    let hinted = BINDINGS.iter().filter(|b| !b.hint.is_empty() && b.is_on(state.screen));
-    let hinted = hinted.filter(|b| !state.is_first_start() || matches!(b.name, "open" | "run" | "help" | "palette"));
-    let (last, first): (Vec<_>, Vec<_>) = hinted.partition(|b| matches!(b.name, "help" | "palette"));
-    let columns = |b: &super::action::Binding| text::width(&b.keys[0].to_string()) + text::width(b.hint) + 3;
+    let hinted = state.bindings.iter().filter(|b| !b.hint.is_empty() && b.is_on(state.screen));
+    let is_start = state.is_first_start() && state.screen != Screen::Subjects;
+    let hinted = hinted.filter(|b| !is_start || matches!(b.name, "open" | "run" | "help" | "palette"));
+    let (last, first): (Vec<&Binding>, Vec<&Binding>) = hinted.partition(|b| matches!(b.name, "help" | "palette"));
+    let columns = |b: &Binding| text::width(&b.keys[0].to_string()) + text::width(b.hint) + 3;
     let reserved: usize = last.iter().map(|b| columns(b)).sum();
     for binding in first.into_iter().chain(last) {
         let is_last = matches!(binding.name, "help" | "palette");

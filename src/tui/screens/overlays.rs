@@ -5,12 +5,12 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Clear, Paragraph, Wrap};
 
-use super::super::action::{BINDINGS, Binding};
+use super::super::action::Binding;
 use super::super::overlay::{List, Overlay};
 use super::super::state::State;
 use super::super::text::left;
 use super::super::theme::Theme;
-use super::{first_shown, pane};
+use super::{first_shown, forms, pane};
 
 pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, overlay: &Overlay, state: &State) {
     match overlay {
@@ -22,6 +22,8 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, overlay: &Overlay, state: 
             let title = format!(":{}▏  ↑↓ choose, ↵ does it, Esc closes", list.text);
             draw_list(frame, area, &title, list, state);
         }
+        Overlay::Form(form) => forms::draw_form(frame, area, form, state.theme),
+        Overlay::Path(prompt) => forms::draw_path(frame, area, prompt, state.theme),
         Overlay::Question { text, .. } => draw_question(frame, area, text, state.theme),
         Overlay::Filter(_) => {}
     }
@@ -31,7 +33,8 @@ fn draw_list(frame: &mut Frame<'_>, area: Rect, title: &str, list: &List, state:
     let rows = list.rows();
     let height = (rows.len() as u16 + 2).max(3).min(area.height);
     let place = middle(area, area.width.min(100), height);
-    let block = pane(state.theme, title, true);
+    let place_of_keys = " other keys: toile/keys.toml in the config folder, like cancel = \"D\" ";
+    let block = pane(state.theme, title, true).title_bottom(Line::styled(place_of_keys, state.theme.legend()));
     let inner = block.inner(place);
     let first = first_shown(list.row, rows.len(), usize::from(inner.height));
     let line = |(k, binding): (usize, &&Binding)| {
@@ -49,7 +52,7 @@ fn draw_list(frame: &mut Frame<'_>, area: Rect, title: &str, list: &List, state:
 
 /// Keys, name and help of an action; dim where it does nothing on this screen.
 fn line(state: &State, binding: &Binding, columns: usize) -> Line<'static> {
-    let longest = |field: fn(&Binding) -> usize| BINDINGS.iter().map(field).max().unwrap_or(0);
+    let longest = |field: fn(&Binding) -> usize| state.bindings.iter().map(field).max().unwrap_or(0);
     let keys = longest(|b| super::super::text::width(&b.keys_text())) + 1;
     let name = longest(|b| b.name.len()) + 1;
     let help = super::super::text::shortened(binding.help, columns.saturating_sub(keys + name));
@@ -75,7 +78,7 @@ fn draw_question(frame: &mut Frame<'_>, area: Rect, text: &str, theme: Theme) {
     frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }).block(block), place);
 }
 
-fn middle(area: Rect, width: u16, height: u16) -> Rect {
+pub(super) fn middle(area: Rect, width: u16, height: u16) -> Rect {
     let x = area.x + area.width.saturating_sub(width) / 2;
     let y = area.y + area.height.saturating_sub(height) / 2;
     Rect::new(x, y, width, height).intersection(area)

@@ -3,7 +3,7 @@
 use super::super::action::Screen;
 use super::super::message::{Act, Effect, Message, Target};
 use super::super::overlay::Overlay;
-use super::super::picture::Shot;
+use super::super::picture::{Shot, Sitter};
 use super::{Bench, fixture};
 use crate::study::{JobId, Map, Status, View};
 
@@ -176,7 +176,7 @@ fn pictures_are_asked_for_when_seen_and_only_then() {
     assert_eq!(shots(&mut bench), []);
     bench.press("5");
     let first = shots(&mut bench);
-    let expect = Shot { job: JobId(1), view: View::Front, map: Map::Plain, columns: 28, rows: 19 };
+    let expect = Shot { of: Sitter::Drape(JobId(1)), view: View::Front, map: Map::Plain, columns: 28, rows: 19 };
     assert_eq!(first, [expect]);
     bench.press("j");
     assert_eq!(shots(&mut bench), []);
@@ -190,7 +190,7 @@ fn pictures_are_asked_for_when_seen_and_only_then() {
     bench.send(Message::Resize(100, 30));
     assert_eq!(shots(&mut bench)[0].columns, 98);
     bench.press("<Enter><Tab>1GG5");
-    assert!(shots(&mut bench).iter().all(|shot| shot.job != JobId(8)), "a running job has no drape yet");
+    assert!(shots(&mut bench).iter().all(|shot| shot.of != Sitter::Drape(JobId(8))), "a running job has no drape yet");
 }
 
 #[test]

@@ -1,9 +1,10 @@
 //! An example study: two sizes of a T-shirt on three subjects by both simulators, in all states a job can have.
 
 use super::super::feed::{Detail, Snapshot};
+use crate::study::tools::{Girths, Measurements, Sex};
 use crate::study::{
-    Cell, Change, ChiRow, EaseRow, FitCell, FitClass, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, Simulator,
-    StageRow, Status, Step, StudyRow, Why,
+    Cell, Change, ChiRow, EaseRow, FitCell, FitClass, Grid, JobId, JobProgress, JobRow, LogLine, MEASUREMENTS,
+    MetricsRow, Simulator, StageRow, Status, Step, StudyRow, SubjectId, SubjectRow, Why,
 };
 
 /// When it is, ms since 1970: 2023-11-14 22:13:20 UTC.
@@ -124,6 +125,7 @@ pub fn snapshot() -> Snapshot {
     };
     Snapshot {
         now_ms: NOW_MS,
+        subjects: subjects(),
         studies: vec![study],
         study: 0,
         grid: Some(grid),
@@ -133,9 +135,66 @@ pub fn snapshot() -> Snapshot {
     }
 }
 
+/// Three subjects: two men of the thesis and a woman of whom little is known.
+fn subjects() -> Vec<SubjectRow> {
+    let subject = |id: i64, name: &str, sex: Sex, values: &[f64]| {
+        let mut measurements = Measurements::of(sex, 0.0);
+        for (field, value) in MEASUREMENTS.iter().zip(values) {
+            field.set(&mut measurements, Some(*value));
+        }
+        SubjectRow { id: SubjectId(id), name: name.into(), revision: id, measurements }
+    };
+    vec![
+        subject(3, "anna", Sex::Female, &[1480.0]),
+        subject(1, "male-i", Sex::Male, &[1690.0, 62.0, 931.0, 890.0, 975.0, 382.0, 424.0]),
+        subject(2, "male-ii", Sex::Male, &[1690.0, 53.0, 863.0, 782.0, 914.0, 378.0, 429.0]),
+    ]
+}
+
+/// What the tape reads on the body of any subject of the example.
+pub fn girths() -> Girths {
+    Girths {
+        stature_mm: 1690.2,
+        neck_girth_mm: 382.4,
+        chest_girth_mm: 931.3,
+        underbust_girth_mm: 880.0,
+        waist_girth_mm: 890.1,
+        hip_girth_mm: 974.8,
+        thigh_girth_mm: 541.6,
+        upper_arm_girth_mm: None,
+        knee_girth_mm: None,
+        calf_girth_mm: Some(365.2),
+        ankle_girth_mm: None,
+        forearm_girth_mm: None,
+        wrist_girth_mm: None,
+        arm_length_mm: None,
+        across_shoulder_mm: 424.9,
+        inseam_mm: 765.3,
+        volume_l: 60.0,
+        neck_level_mm: 1440.0,
+        chest_level_mm: 1230.0,
+        underbust_level_mm: 1160.0,
+        waist_level_mm: 1050.0,
+        hip_level_mm: 860.0,
+        thigh_level_mm: 715.0,
+        upper_arm_level_mm: None,
+        shoulder_level_mm: 1380.0,
+        crotch_level_mm: 765.0,
+    }
+}
+
 /// A database without studies.
 pub fn empty() -> Snapshot {
-    Snapshot { now_ms: NOW_MS, studies: vec![], study: 0, grid: None, jobs: vec![], ease: vec![], detail: None }
+    Snapshot {
+        now_ms: NOW_MS,
+        subjects: vec![],
+        studies: vec![],
+        study: 0,
+        grid: None,
+        jobs: vec![],
+        ease: vec![],
+        detail: None,
+    }
 }
 
 /// What is stored of a job of the example study.

@@ -24,6 +24,16 @@ fn study() {
 }
 
 #[test]
+fn subjects() {
+    looks_like!("subjects", "2j");
+}
+
+#[test]
+fn the_form_of_a_subject() {
+    looks_like!("subject_form", "2a<Enter>eva<Tab><Tab>1650<Tab>70,5<Tab>1500<Tab>700");
+}
+
+#[test]
 fn jobs() {
     looks_like!("jobs", "4jjjj");
 }
@@ -61,8 +71,9 @@ fn small_terminals_show_lists_and_none_is_refused() {
     let mut bench = Bench::example(40, 10);
     assert_snapshot!("study_40x10", bench.screen());
     assert_snapshot!("jobs_40x10", bench.press("4").screen());
+    assert_snapshot!("subjects_40x10", bench.press("2").screen());
     for (width, height) in [(1, 1), (3, 2), (12, 4), (59, 15), (60, 16), (119, 20), (250, 90), (80, 3)] {
-        for keys in ["1", "4", "5", "?", "<Esc>:x", "<Esc>4jx", "<Esc>5<Tab><Enter>"] {
+        for keys in ["1", "2", "2a<Enter>", "2i", "2d", "4", "5", "?", "<Esc>:x", "<Esc>4jx", "<Esc>5<Tab><Enter>"] {
             let mut bench = Bench::example(width, height);
             assert!(!bench.press(keys).screen().is_empty(), "{width}x{height} {keys}");
         }

@@ -3,6 +3,7 @@
 mod behaviour;
 mod fixture;
 mod looks;
+mod subjects;
 mod workspace;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
@@ -11,6 +12,7 @@ use ratatui::backend::TestBackend;
 use ratatui::layout::Size;
 
 use super::message::{Effect, Message};
+use super::picture::{Shot, Sitter};
 use super::state::{Abilities, State};
 use super::theme::{Colours, Theme};
 use super::{Snapshot, screens};
@@ -45,6 +47,9 @@ impl Bench {
                 let mut next = data.clone();
                 next.detail = focus.job.map(fixture::detail);
                 assert!(self.state.update(Message::Data(next)).iter().all(|e| !matches!(e, Effect::Read(_))));
+            }
+            if let Effect::Paint(Shot { of: Sitter::Body(id), .. }) = effect {
+                self.state.update(Message::Measured(*id, Ok(Box::new(fixture::girths()))));
             }
         }
         self.effects.extend(effects);
@@ -90,6 +95,8 @@ fn code_of(name: &str) -> KeyCode {
         "Enter" => KeyCode::Enter,
         "Esc" => KeyCode::Esc,
         "Tab" => KeyCode::Tab,
+        "S-Tab" => KeyCode::BackTab,
+        "Right" => KeyCode::Right,
         "PgDn" => KeyCode::PageDown,
         "Left" => KeyCode::Left,
         "Backspace" => KeyCode::Backspace,

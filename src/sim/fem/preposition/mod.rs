@@ -182,17 +182,7 @@ mod tests {
     use crate::pattern::draft::Model;
 
     fn body() -> Body {
-        let measurements = Measurements {
-            sex: Sex::Male,
-            stature_m: 1.75,
-            weight_kg: None,
-            chest_girth_m: None,
-            waist_girth_m: None,
-            hip_girth_m: None,
-            neck_girth_m: None,
-            across_shoulder_m: None,
-        };
-        body::build(&measurements).expect("a body")
+        body::build(&Measurements::of(Sex::Male, 1.75)).expect("a body")
     }
 
     fn garment(model: Model) -> Garment {

@@ -1,0 +1,135 @@
+//! Lengths along the surface and girths of the limbs, names after ISO 8559-1; the tape is taut and spans hollows.
+
+use super::arm::Arm;
+use super::landmarks;
+use super::measure::{self, Sites, steps};
+use super::{BodyError, Girths, Sex, tape};
+use crate::geom::section::{Plane, section};
+use crate::geom::{TriMesh, V2, V3, hull};
+use crate::units::mm;
+
+/// What `body measure` says beyond [`Girths`], millimetres; absent where the body does not show it.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
+pub struct Lengths {
+    /// Height of the back neck point.
+    pub cervicale_height_mm: f64,
+    /// From the back neck point down the centre back to the waist level.
+    pub back_waist_length_mm: Option<f64>,
+    /// From the front neck point down the centre front to the waist level.
+    pub front_waist_length_mm: Option<f64>,
+    /// From the waist level at the centre front through the crotch to the waist level at the centre back.
+    pub total_crotch_length_mm: Option<f64>,
+    /// From the right shoulder point over the elbow to the wrist.
+    pub arm_length_mm: Option<f64>,
+    /// Narrowest girth of the right wrist, across the arm.
+    pub wrist_girth_mm: Option<f64>,
+    /// Greatest girth of the right calf, and its height.
+    pub calf_girth_mm: Option<f64>,
+    /// Height of that girth.
+    pub calf_level_mm: Option<f64>,
+    /// Narrowest girth of the right ankle.
+    pub ankle_girth_mm: Option<f64>,
+}
+
+/// Girths and lengths together: one flat set of names.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Measured {
+    /// Girths and their levels.
+    #[serde(flatten)]
+    pub girths: Girths,
+    /// Lengths and limbs.
+    #[serde(flatten)]
+    pub lengths: Lengths,
+}
+
+/// Heights between which calf and ankle are sought, over the height of the crotch.
+const CALF: [f64; 2] = [0.38, 0.60];
+const ANKLE: [f64; 2] = [0.10, 0.30];
+
+/// Measures the lengths of an upright body mesh in the world frame.
+///
+/// # Errors
+/// Those of [`super::measure`].
+pub fn lengths(mesh: &TriMesh, sex: Option<Sex>) -> Result<Lengths, BodyError> {
+    let (sites, _) = measure::find_sites(mesh, sex)?;
+    let median = median_section(mesh, &sites);
+    let front_neck = landmarks::front_neck(mesh, &sites);
+    let arm = landmarks::armpit(mesh, sites.waist, sites.shoulder[0].z, sites.middle)
+        .and_then(|armpit| Arm::trace(mesh, sites.shoulder[0], armpit, sites.crown - sites.floor));
+    let leg = |range: [f64; 2]| leg_girths(mesh, &sites, range);
+    let calf = leg(CALF).into_iter().max_by(|a, b| a.1.total_cmp(&b.1));
+    let ankle = leg(ANKLE).into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
+    let wrist = arm.as_ref().and_then(|arm| {
+        let plane = arm.across(arm.wrist());
+        tape::girth_round(mesh, plane.origin, plane.normal())
+    });
+    Ok(Lengths {
+        cervicale_height_mm: mm(sites.back_neck.z - sites.floor),
+        back_waist_length_mm: taut(&median, sites.back_neck, sites.waist, -1.0).map(mm),
+        front_waist_length_mm: front_neck.and_then(|top| taut(&median, top, sites.waist, 1.0)).map(mm),
+        total_crotch_length_mm: crotch_length(&median, sites.waist).map(mm),
+        arm_length_mm: arm.as_ref().map(|arm| mm(arm_length(arm, sites.shoulder[0]))),
+        wrist_girth_mm: wrist.map(mm),
+        calf_girth_mm: calf.map(|(_, girth)| mm(girth)),
+        calf_level_mm: calf.map(|(z, _)| mm(z - sites.floor)),
+        ankle_girth_mm: ankle.map(|(_, girth)| mm(girth)),
+    })
+}
+
+/// The points of the median section of the trunk: forward and up.
+fn median_section(mesh: &TriMesh, sites: &Sites) -> Vec<V2> {
+    let origin = V3::new(sites.middle, 0.0, 0.0);
+    let outlines = section(mesh, &Plane { origin, u: V3::y(), v: V3::z() });
+    let longest = outlines.into_iter().max_by(|a, b| tape::girth(a).total_cmp(&tape::girth(b)));
+    longest.map_or_else(Vec::new, |outline| outline.points)
+}
+
+/// The taut tape from a point of the median section down to a height, along the front (`side` 1) or the back (-1).
+fn taut(median: &[V2], top: V3, bottom: f64, side: f64) -> Option<f64> {
+    let ends = |z: f64| crossing(median, z, side).map(|y| V2::new(y, z));
+    let (from, to) = (V2::new(top.y, top.z), ends(bottom)?);
+    let chord = to - from;
+    let outside = |p: &&V2| p.y < from.y && p.y > to.y && side * chord.perp(&(*p - from)) > 0.0;
+    let mut points: Vec<V2> = median.iter().filter(outside).copied().collect();
+    points.extend([from, to]);
+    Some(hull::tape_girth(&points) - chord.norm())
+}
+
+/// The foremost (`side` 1) or hindmost (-1) place of the median section at a height.
+fn crossing(median: &[V2], z: f64, side: f64) -> Option<f64> {
+    let next = median.iter().cycle().skip(1);
+    let crossings = median.iter().zip(next).filter(|(a, b)| (a.y > z) != (b.y > z));
+    let places = crossings.map(|(a, b)| a.x + (b.x - a.x) * (z - a.y) / (b.y - a.y));
+    places.max_by(|a, b| (side * a).total_cmp(&(side * b)))
+}
+
+/// Round the lower end of the median section below a height.
+fn crotch_length(median: &[V2], waist: f64) -> Option<f64> {
+    let ends = [1.0, -1.0].map(|side| crossing(median, waist, side).map(|y| V2::new(y, waist)));
+    let [Some(front), Some(back)] = ends else { return None };
+    let mut points: Vec<V2> = median.iter().filter(|p| p.y < waist).copied().collect();
+    points.extend([front, back]);
+    Some(hull::tape_girth(&points) - (front - back).norm())
+}
+
+fn arm_length(arm: &Arm, shoulder: V3) -> f64 {
+    let (elbow, wrist) = (arm.at(arm.elbow()).0, arm.at(arm.wrist()).0);
+    (elbow - shoulder).norm() + (wrist - elbow).norm()
+}
+
+/// Heights and girths of the right leg within a range over the crotch's height.
+fn leg_girths(mesh: &TriMesh, sites: &Sites, range: [f64; 2]) -> Vec<(f64, f64)> {
+    let inseam = sites.crotch - sites.floor;
+    let [low, high] = range.map(|share| sites.floor + share * inseam);
+    let leg = tape::between(mesh, low, high);
+    let girth = |z: f64| {
+        let legs = tape::right_limbs(&leg, z, sites.middle);
+        let inner = legs.iter().min_by(|a, b| a.bounds().0.x.total_cmp(&b.bounds().0.x))?;
+        Some((z, tape::girth(inner)))
+    };
+    steps(low, high, 40).filter_map(girth).collect()
+}
+
+#[cfg(test)]
+#[path = "lengths_tests.rs"]
+mod tests;

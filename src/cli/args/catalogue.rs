@@ -1,0 +1,148 @@
+//! Arguments of `toile subject`, `style`, `size` and `fabric`.
+
+use std::path::PathBuf;
+
+use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, Subcommand};
+
+use super::PatternUnit;
+use crate::study::{FABRIC_NUMBERS, Field, Given, MEASUREMENTS};
+
+/// Commands on one part of the catalogue.
+#[derive(Debug, Subcommand)]
+pub enum Catalogue<V: Args> {
+    /// List the current revisions.
+    Ls {
+        /// Also those that were removed and stay because results use them.
+        #[arg(long)]
+        all: bool,
+    },
+    /// One entry with all its revisions.
+    Show {
+        /// Name; of a size STYLE/SIZE.
+        name: String,
+    },
+    /// Add an entry.
+    Add {
+        /// Name; of a size STYLE/SIZE.
+        name: String,
+        #[command(flatten)]
+        values: V,
+    },
+    /// Change an entry: what is given makes a new revision, results keep theirs.
+    Edit {
+        /// Name; of a size STYLE/SIZE.
+        name: String,
+        #[command(flatten)]
+        values: V,
+    },
+    /// Add or change all entries of files, or none if anything is wrong with one.
+    Import {
+        /// TOML files with the tables of a study.toml; of subjects and fabrics also CSV, a column a key.
+        #[arg(required = true)]
+        files: Vec<PathBuf>,
+    },
+    /// Remove entries; those that results use are hidden and stay stored.
+    Rm {
+        /// Names; of sizes STYLE/SIZE.
+        #[arg(required = true)]
+        names: Vec<String>,
+    },
+}
+
+/// Values of a subject, by key.
+#[derive(Debug)]
+pub struct SubjectValues(pub Vec<Given>);
+
+/// Values of a fabric, by key.
+#[derive(Debug)]
+pub struct FabricValues {
+    /// Fabric to start from.
+    pub like: Option<String>,
+    /// The values.
+    pub given: Vec<Given>,
+}
+
+/// Files of a style.
+#[derive(Debug, Args)]
+pub struct StyleValues {
+    /// Seam file.
+    #[arg(long, value_name = "FILE")]
+    pub seams: Option<PathBuf>,
+    /// Patterns; without SIZE= all sizes that a file names.
+    #[arg(long = "pattern", value_name = "[SIZE=]FILE", num_args = 1..)]
+    pub patterns: Vec<String>,
+    /// Unit of the patterns, where they name none.
+    #[arg(long, value_enum)]
+    pub unit: Option<PatternUnit>,
+}
+
+/// Pattern of a size.
+#[derive(Debug, Args)]
+pub struct SizeValues {
+    /// Pattern.
+    #[arg(long, value_name = "FILE")]
+    pub pattern: Option<PathBuf>,
+    /// Unit of the pattern, where it names none.
+    #[arg(long, value_enum)]
+    pub unit: Option<PatternUnit>,
+}
+
+/// A flag for every number.
+fn flags<T>(command: Command, fields: &'static [Field<T>]) -> Command {
+    command.args(fields.iter().map(|field| {
+        let flag = Arg::new(field.key).long(field.flag).value_name("N").help(field.label);
+        flag.allow_hyphen_values(true).help_heading("Values (an empty one takes a value away)")
+    }))
+}
+
+/// The values that were given of some keys.
+fn given(matches: &ArgMatches, keys: impl Iterator<Item = &'static str>) -> Vec<Given> {
+    keys.filter_map(|key| Some((key.to_owned(), matches.get_one::<String>(key)?.clone()))).collect()
+}
+
+impl FromArgMatches for SubjectValues {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let keys = std::iter::once("sex").chain(MEASUREMENTS.iter().map(|field| field.key));
+        Ok(Self(given(matches, keys)))
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+impl Args for SubjectValues {
+    fn augment_args(command: Command) -> Command {
+        let sex = Arg::new("sex").long("sex").value_name("m|f").help("Sex");
+        flags(command.arg(sex), &MEASUREMENTS)
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for FabricValues {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let keys = std::iter::once("source").chain(FABRIC_NUMBERS.iter().map(|field| field.key));
+        Ok(Self { like: matches.get_one::<String>("like").cloned(), given: given(matches, keys) })
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+impl Args for FabricValues {
+    fn augment_args(command: Command) -> Command {
+        let like = Arg::new("like").long("like").value_name("FABRIC").help("Fabric whose numbers to start from");
+        let source = Arg::new("source").long("source").value_name("TEXT").help("Where the numbers are from");
+        flags(command.arg(like).arg(source), &FABRIC_NUMBERS)
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}

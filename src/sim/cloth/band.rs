@@ -1,0 +1,138 @@
+//! Strengthened edges: ribs, tapes, hems and waistbands as threads along the edges of the mesh.
+//!
+//! Between two neighbouring vertices `L` apart in the pattern a band of length `L' = factor L` holds the energy
+//! `k/2 (l/L' - 1)^2 L'`, `l` their distance. In the stiffness a slack band keeps no sideways part, which would be negative.
+
+use nalgebra::Matrix3;
+
+use crate::geom::V3;
+use crate::pattern::Garment;
+use crate::sim::solver::PairList;
+
+/// A band between two simulated vertices.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Link {
+    /// Its ends; they share a triangle.
+    pub vertices: [usize; 2],
+    /// Length at which it pulls nothing, m.
+    pub length_m: f64,
+    /// Force per relative elongation, N.
+    pub stiffness_n: f64,
+}
+
+impl Link {
+    /// Tension (N) and unit direction from the first end to the second.
+    fn pull(&self, x: &[V3]) -> (f64, V3) {
+        let d = x[self.vertices[1]] - x[self.vertices[0]];
+        let length = d.norm();
+        (self.stiffness_n * (length / self.length_m - 1.0), d / length.max(f64::MIN_POSITIVE))
+    }
+}
+
+/// All bands of a garment.
+#[derive(Clone, Debug, Default)]
+pub struct Bands {
+    links: Vec<Link>,
+}
+
+impl Bands {
+    /// The bands of a garment whose vertices are merged as `vertex_of` says.
+    #[must_use]
+    pub fn new(garment: &Garment, vertex_of: &[usize]) -> Self {
+        let mut links = Vec::new();
+        for r in &garment.reinforcements {
+            for ends in r.vertices.windows(2) {
+                let length_m = r.length_factor * (garment.rest[ends[1]] - garment.rest[ends[0]]).norm();
+                let vertices = [vertex_of[ends[0]], vertex_of[ends[1]]];
+                if vertices[0] != vertices[1] && length_m > 0.0 {
+                    links.push(Link { vertices, length_m, stiffness_n: r.stiffness_n });
+                }
+            }
+        }
+        Self { links }
+    }
+
+    /// Energy, J.
+    #[must_use]
+    pub fn energy(&self, x: &[V3]) -> f64 {
+        let of = |link: &Link| 0.5 * link.pull(x).0.powi(2) / link.stiffness_n.max(f64::MIN_POSITIVE) * link.length_m;
+        self.links.iter().map(of).sum()
+    }
+
+    /// Adds the forces, N.
+    pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
+        for link in &self.links {
+            let (tension, direction) = link.pull(x);
+            forces[link.vertices[0]] += direction * tension;
+            forces[link.vertices[1]] -= direction * tension;
+        }
+    }
+
+    /// Adds the off-diagonal stiffness blocks (N/m) to those of the membrane, whose pairs the links are among.
+    pub fn add_stiffness(&self, x: &[V3], pairs: &PairList, blocks: &mut [Matrix3<f64>]) {
+        for link in &self.links {
+            let [i, j] = link.vertices;
+            let (tension, direction) = link.pull(x);
+            let along = direction * direction.transpose();
+            let sideways = tension.max(0.0) / (x[j] - x[i]).norm().max(f64::MIN_POSITIVE);
+            if let Some(slot) = pairs.slot(i, j) {
+                blocks[slot] -= along * (link.stiffness_n / link.length_m) + (Matrix3::identity() - along) * sideways;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pattern::garment::{Band, Reinforcement};
+    use crate::sim::cloth::Cloth;
+    use crate::sim::laboratory::{self, sheets};
+    use crate::sim::sewing::unsewn;
+    use crate::sim::testing::{check_forces, fabric};
+
+    /// A sheet of 3 x 3 squares whose lower edge carries a rib of nine tenths its length.
+    fn ribbed() -> (Garment, Vec<V3>) {
+        let mut garment = laboratory::garment(sheets::sheet(3, 3, 0.02));
+        let rib = Reinforcement { band: Band::Rib, stiffness_n: 25.0, length_factor: 0.9, vertices: vec![0, 1, 2, 3] };
+        garment.reinforcements.push(rib);
+        let x = garment.rest.iter().map(|p| V3::new(p.x, p.y, 0.0)).collect();
+        (garment, x)
+    }
+
+    #[test]
+    fn forces_and_stiffness_are_the_energys() {
+        let (garment, flat) = ribbed();
+        let bands = Bands::new(&garment, &unsewn(&garment));
+        let x = sheets::shaken(&flat, 1e-3, 9);
+        let mut forces = vec![V3::zeros(); x.len()];
+        bands.add_forces(&x, &mut forces);
+        check_forces(|x| bands.energy(x), &forces, &x, 1e-7, 1e-6);
+        let pairs = PairList::new([[0, 1], [1, 2], [2, 3]]);
+        let mut blocks = vec![Matrix3::zeros(); 3];
+        bands.add_stiffness(&x, &pairs, &mut blocks);
+        let force = |d: f64| {
+            let mut moved = x.clone();
+            moved[1].z += d;
+            let mut forces = vec![V3::zeros(); x.len()];
+            bands.add_forces(&moved, &mut forces);
+            forces[0]
+        };
+        let column = -(force(1e-7) - force(-1e-7)) / 2e-7;
+        assert!((column - blocks[0].column(2)).norm() < 1e-6 * blocks[0].norm());
+    }
+
+    #[test]
+    fn a_stretched_rib_pulls_its_ends_together() {
+        let (garment, _) = ribbed();
+        let cloth = Cloth::new(&garment, &fabric(), unsewn(&garment)).expect("sound");
+        let stretched: Vec<V3> = garment.rest.iter().map(|p| V3::new(1.1 * p.x, p.y, 0.0)).collect();
+        let energy = cloth.bands.energy(&stretched);
+        // (1.1 / 0.9 - 1)^2 * 25 N / 2 over a band of 54 mm.
+        let expected = 12.5 * (1.1 / 0.9 - 1.0_f64).powi(2) * 0.054;
+        assert!((energy / expected - 1.0).abs() < 1e-9, "{energy} for {expected}");
+        let mut forces = vec![V3::zeros(); stretched.len()];
+        cloth.bands.add_forces(&stretched, &mut forces);
+        assert!(forces[0].x > 0.0 && (forces[0] + forces[3]).norm() < 1e-12 && forces[1].norm() < 1e-9);
+    }
+}

@@ -1,0 +1,202 @@
+//! Hybrid-GS as a whole, on one man and the drafted styles.
+
+use std::sync::LazyLock;
+
+use super::elastic::{Elastic, Pull};
+use super::form::Form;
+use super::mapping::can_touch;
+use super::path::{PathGraph, Taken};
+use super::*;
+use crate::body::{self, Measurements, Region, Sex};
+use crate::geom::V2;
+use crate::measure;
+use crate::pattern::draft::Model;
+use crate::pattern::garment::PieceMesh;
+use crate::pattern::{Role, Style};
+use crate::sim::fabric;
+use crate::sim::laboratory::sheets::{hexagonal_sheet, noise};
+
+struct Silent;
+
+impl Monitor for Silent {
+    fn progress(&mut self, _: &Progress) {}
+}
+
+/// The thesis's men ii and vi: the slimmest and the largest.
+fn man(stature_m: f64, chest_m: f64, waist_m: f64, hip_m: f64) -> Body {
+    let measurements = Measurements {
+        chest_girth_m: Some(chest_m),
+        waist_girth_m: Some(waist_m),
+        hip_girth_m: Some(hip_m),
+        ..Measurements::of(Sex::Male, stature_m)
+    };
+    body::build(&measurements).expect("a body")
+}
+
+static SLIM: LazyLock<Body> = LazyLock::new(|| man(1.69, 0.863, 0.782, 0.914));
+static LARGE: LazyLock<Body> = LazyLock::new(|| man(1.85, 1.02, 0.873, 1.032));
+
+fn garment(model: Model, size: usize, edge_m: f64) -> Garment {
+    let style = Style::read(&model.drafts()[size].pieces, model.seams(), "seams").expect("a style");
+    style.mesh(edge_m).expect("a mesh")
+}
+
+fn dressed(body: &Body, garment: &Garment, params: &Params) -> Phases {
+    let field = DistanceField::build(&body.mesh, 0.012).expect("a field");
+    phases(body, &field, garment, &fabric::library()[0], params, &mut Silent).expect("it can be dressed")
+}
+
+fn mean_edge_error(garment: &Garment, x: &[V3]) -> f64 {
+    let edges = || garment.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let error = |[a, b]: [usize; 2]| ((x[a] - x[b]).norm() / (garment.rest[a] - garment.rest[b]).norm() - 1.0).abs();
+    edges().map(error).sum::<f64>() / edges().count() as f64
+}
+
+#[test]
+fn a_shirt_that_is_large_enough_keeps_its_size_and_stays_out_of_the_body() {
+    let garment = garment(Model::Tshirt, 1, 0.03);
+    let phases = dressed(&SLIM, &garment, &Params::default());
+    for x in [&phases.popup, &phases.drape.positions] {
+        let metrics = measure::metrics(&measure::measure(&garment, x)).expect("nine measurements");
+        assert!(metrics.ei < 0.01, "{metrics:?}");
+        assert!(mean_edge_error(&garment, x) < 0.01);
+    }
+    assert!(mean_edge_error(&garment, &phases.sewn) > 0.1, "the body is not the pattern");
+    assert_eq!(phases.drape.self_crossings, 0);
+    assert!(
+        phases.drape.seam_gap_max_m == 0.0 && phases.drape.penetration_max_m < 0.02,
+        "{:?}",
+        phases.drape.penetration_max_m
+    );
+}
+
+#[test]
+fn a_measurement_left_out_of_the_controls_still_comes_out() {
+    let garment = garment(Model::Tshirt, 1, 0.03);
+    let no = garment.measurements[0].no;
+    let params = Params { uncontrolled: vec![no], ..Params::default() };
+    let chi = measure::measure(&garment, &dressed(&SLIM, &garment, &params).drape.positions)[0].chi();
+    assert!((chi - 1.0).abs() < 0.03, "{chi}");
+}
+
+#[test]
+fn a_shirt_that_is_too_small_keeps_its_size_and_says_what_it_lacks() {
+    let garment = garment(Model::Tshirt, 0, 0.03);
+    let phases = dressed(&LARGE, &garment, &Params::default());
+    let chis = measure::measure(&garment, &phases.drape.positions);
+    assert!(chis.iter().all(|chi| (chi.chi() - 1.0).abs() < 0.02), "{chis:?}");
+    let chest = &closures(&LARGE, &garment, &phases.drape.positions)[0];
+    let lacks = chest.body_girth_m - garment.fit_levels[0].girth_m;
+    assert!(lacks > 0.03 && (chest.shortfall_m() - lacks).abs() < 0.01, "{chest:?}, pattern lacks {lacks}");
+}
+
+#[test]
+fn trousers_and_a_dress_are_mapped() {
+    let trousers = garment(Model::Trousers, 1, 0.03);
+    let mapped = mapping::map(&SLIM, &trousers).expect("trousers");
+    let flipped = mapped.flips as f64 / trousers.triangles.len() as f64;
+    assert!(flipped < 0.005, "{} of {}", mapped.flips, trousers.triangles.len());
+    assert_eq!(mapping::map(&SLIM, &garment(Model::Dress, 0, 0.03)).expect("a dress").flips, 0);
+}
+
+#[test]
+fn what_cannot_be_mapped_is_named_with_its_reason() {
+    let mut alone = garment(Model::Tshirt, 1, 0.05);
+    alone.seams.retain(|seam| !seam.name.starts_with("side"));
+    let error = mapping::map(&SLIM, &alone).expect_err("no sides").to_string();
+    assert!(error.contains("\"back\"") && error.contains("along two sides"), "{error}");
+    alone.pieces[0].role = Role::Other;
+    let error = mapping::map(&SLIM, &alone).expect_err("no role").to_string();
+    assert!(error.contains("cannot place role Other"), "{error}");
+}
+
+/// Numbers from 0 to `below`.
+fn picks(count: usize, below: usize, seed: u64) -> Vec<usize> {
+    noise(count, seed).into_iter().map(|r| (((r + 1.0) / 2.0) * below as f64) as usize % below).collect()
+}
+
+#[test]
+fn the_fast_search_finds_the_path_of_the_full_one() {
+    let form = Form::hung(&SLIM);
+    let normals = form.mesh.triangle_normals();
+    let graph = PathGraph::new(&form.mesh, 3);
+    let allowed = |face: usize| can_touch(Role::Front, form.regions[face], &normals[face]);
+    // Both ends on the front of the chest.
+    let inside: Vec<usize> = (0..graph.len())
+        .filter(|&n| !graph.faces(n).is_empty())
+        .filter(|&n| graph.faces(n).iter().all(|&f| form.regions[f] == Region::Chest && normals[f].y > 0.0))
+        .collect();
+    let (from, to) = (picks(500, inside.len(), 1), picks(500, inside.len(), 2));
+    for (a, b) in from.into_iter().zip(to).map(|(a, b)| (inside[a], inside[b])) {
+        let full = graph.shortest(a, b).expect("connected");
+        let fast = graph.shortest_within(a, b, allowed, &Taken::default()).expect("connected");
+        let (full_m, fast_m) = (graph.length(&full), graph.length(&fast));
+        assert!(fast == full || (fast_m - full_m).abs() < 1e-12, "{a} to {b}: {fast_m} for {full_m}");
+    }
+}
+
+#[test]
+fn a_trouser_back_is_not_led_over_the_front_of_the_leg() {
+    // Figure 5-11: the shortest way between the two seams of a leg piece may run over the wrong side of the leg. On this
+    // body it always runs over the front, which is right for a front and wrong for a back.
+    let form = Form::legs(&SLIM);
+    let normals = form.mesh.triangle_normals();
+    let graph = PathGraph::new(&form.mesh, 3);
+    let side = |path: &[usize]| path.iter().map(|&n| graph.position(n).y).sum::<f64>() / path.len() as f64;
+    let mut misled = 0;
+    for ring in 0..form.legs[0].end() as usize {
+        let [outer, inner] = [0, 12].map(|line| form.legs[0].line(line).nth(ring).expect("a ring"));
+        let middle = side(&[outer, inner]);
+        let back = |face: usize| can_touch(Role::LegBackRight, form.regions[face], &normals[face]);
+        let full = graph.shortest(outer, inner).expect("connected");
+        let oriented = graph.shortest_within(outer, inner, back, &Taken::default()).expect("connected");
+        misled += usize::from(side(&full) > middle);
+        assert!(side(&oriented) < middle, "ring {ring}");
+        assert!(oriented.iter().all(|&n| graph.faces(n).iter().any(|&f| back(f))));
+    }
+    assert!(misled > 0, "the full search never errs here: the test shows nothing");
+}
+
+#[test]
+fn a_tube_gets_its_length_and_girth_back() {
+    // A sheet rolled to three quarters of a turn, at 0.9 of its size.
+    let (rest, triangles) = hexagonal_sheet(24, 16, 0.02);
+    let radius = 0.9 * 0.48 / (1.5 * std::f64::consts::PI);
+    let rolled = |p: &V2| V3::new(radius * (0.9 * p.x / radius).cos(), radius * (0.9 * p.x / radius).sin(), 0.9 * p.y);
+    let x: Vec<V3> = rest.iter().map(rolled).collect();
+    let garment = Garment {
+        name: "tube".into(),
+        size: String::new(),
+        pieces: vec![PieceMesh {
+            id: "tube".into(),
+            role: Role::Other,
+            vertices: 0..rest.len(),
+            triangles: 0..triangles.len(),
+            grain: V2::y(),
+            edges: std::collections::BTreeMap::new(),
+        }],
+        rest,
+        triangles,
+        seams: vec![],
+        measurements: vec![],
+        fit_levels: vec![],
+        edge_length_m: 0.02,
+        reinforcements: vec![],
+    };
+    let own: Vec<usize> = (0..x.len()).collect();
+    let mut elastic = Elastic::new(&garment, &own, &x, &[], 0.0, &[], vec![1e-6; x.len()]).expect("sound triangles");
+    let none = vec![V3::zeros(); x.len()];
+    let mut now = x.clone();
+    let mut last = mean_edge_error(&garment, &now);
+    assert!((last - 0.1).abs() < 2e-3, "{last}");
+    for _ in 0..30 {
+        now = elastic.step(&now, &Pull { targets: &now, loads: &none, share: 1.0 });
+        let error = mean_edge_error(&garment, &now);
+        assert!(error <= last + 1e-5, "{error} after {last}");
+        last = error;
+    }
+    assert!(last < 1e-3, "{last}");
+    // Rolled still, not flat: its ends face each other.
+    let flat = garment.rest.iter().map(|p| p.x).fold(0.0, f64::max);
+    assert!((now[24] - now[0]).norm() < 0.6 * flat);
+}

@@ -1,0 +1,138 @@
+//! The laboratory: specimens of cloth in experiments with known answers, for tests and for `docs/mechanics.md`.
+//!
+//! Each experiment is run by the solver that drapes garments, with linear systems solved by a factor.
+
+pub mod bending;
+pub mod drape;
+pub mod sheets;
+pub mod stretch;
+
+use crate::geom::{DistanceField, V2, V3, shapes};
+use crate::pattern::{Garment, PieceMesh, Role};
+use crate::sim::cloth::Cloth;
+use crate::sim::contact::{BodyContact, ContactParams};
+use crate::sim::sewing::unsewn;
+use crate::sim::solver::{LinearSolver, StepParams, Stepper, System};
+use crate::sim::{Fabric, SimError};
+
+use sheets::Flat;
+
+/// Standard gravity, m/s2.
+pub const GRAVITY: f64 = 9.80665;
+
+/// A flat piece of cloth, grain along v, that some vertices hold.
+pub struct Specimen {
+    /// The piece as a garment without seams.
+    pub garment: Garment,
+    /// Its energies.
+    pub cloth: Cloth,
+    /// Where its vertices are, m.
+    pub positions: Vec<V3>,
+    /// Vertices that do not move.
+    pub held: Vec<usize>,
+}
+
+impl Specimen {
+    /// A specimen of a fabric, laid where `place` puts the points of its plane.
+    ///
+    /// # Errors
+    /// When a triangle has no area.
+    pub fn new(flat: Flat, fabric: &Fabric, place: impl Fn(&V2) -> V3) -> Result<Self, SimError> {
+        let garment = garment(flat);
+        let cloth = Cloth::new(&garment, fabric, unsewn(&garment))?;
+        let positions = garment.rest.iter().map(place).collect();
+        Ok(Self { garment, cloth, positions, held: Vec::new() })
+    }
+
+    /// Holds the vertices whose place in the plane satisfies a condition.
+    #[must_use]
+    pub fn hold(mut self, is_held: impl Fn(&V2) -> bool) -> Self {
+        self.held = (0..self.garment.rest.len()).filter(|&v| is_held(&self.garment.rest[v])).collect();
+        self
+    }
+
+    /// Lets the specimen come to rest under `gravity` times its weight, until the residual or the number of steps is
+    /// reached; returns the residual.
+    pub fn rest(&mut self, gravity: f64, tolerance: f64, steps: usize) -> f64 {
+        let field = nowhere();
+        let contact = BodyContact::new(&field, ContactParams::default(), &self.cloth.areas);
+        let mut system = System::new(&self.cloth, contact, None);
+        system.weights.iter_mut().for_each(|w| *w *= gravity);
+        system.held.clone_from(&self.held);
+        system.linear = LinearSolver::exact();
+        settle(&mut system, &mut self.positions, tolerance, steps)
+    }
+}
+
+/// Steps with accurate linear solves until the residual or the number of steps is reached; returns the residual.
+pub fn settle(system: &mut System, x: &mut Vec<V3>, tolerance: f64, steps: usize) -> f64 {
+    let exact = StepParams { linear_tolerance: 1e-4, h_max_s: 20.0, clamp_m: 0.05, ..StepParams::default() };
+    let mut stepper = Stepper::new(exact);
+    let mut residual = f64::MAX;
+    for _ in 0..steps {
+        residual = stepper.step(system, x, tolerance).residual;
+        if residual <= tolerance {
+            break;
+        }
+    }
+    residual
+}
+
+/// A flat mesh as a garment of one piece, grain along v.
+#[must_use]
+pub fn garment((rest, triangles): Flat) -> Garment {
+    let edge_length_m = triangles.first().map_or(0.0, |t| (rest[t[1]] - rest[t[0]]).norm());
+    let piece = PieceMesh {
+        id: "sheet".into(),
+        role: Role::Front,
+        vertices: 0..rest.len(),
+        triangles: 0..triangles.len(),
+        grain: V2::y(),
+        edges: Default::default(),
+    };
+    Garment {
+        name: "sheet".into(),
+        size: "one".into(),
+        pieces: vec![piece],
+        rest,
+        triangles,
+        seams: Vec::new(),
+        measurements: Vec::new(),
+        fit_levels: Vec::new(),
+        reinforcements: Vec::new(),
+        edge_length_m,
+    }
+}
+
+/// A body far away from everything.
+///
+/// # Panics
+/// Never: a sphere is closed.
+#[must_use]
+pub fn nowhere() -> DistanceField {
+    let mut mesh = shapes::sphere(0.05, 8);
+    for p in &mut mesh.positions {
+        p.x += 50.0;
+    }
+    DistanceField::build(&mesh, 0.02).expect("a closed sphere")
+}
+
+/// A fabric that is the same along warp and weft: membrane `stiffness_n_m` without coupling, bending `rigidity_nm`.
+#[must_use]
+pub fn isotropic(density_kg_m2: f64, stiffness_n_m: f64, rigidity_nm: f64) -> Fabric {
+    Fabric {
+        name: "specimen".into(),
+        density_kg_m2,
+        thickness_m: 3e-4,
+        membrane_warp_n_m: stiffness_n_m,
+        membrane_weft_n_m: stiffness_n_m,
+        membrane_coupling_n_m: 0.0,
+        shear_n_m: 0.5 * stiffness_n_m,
+        bending_warp_nm: rigidity_nm,
+        bending_weft_nm: rigidity_nm,
+        friction_body: 0.3,
+        friction_self: 0.5,
+        source: "made up".into(),
+        stretched: None,
+    }
+}

@@ -1,0 +1,57 @@
+//! The linear solves of a step: conjugate gradients with one of two preconditioners.
+
+use nalgebra::Matrix3;
+
+use super::factor::Factor;
+use super::operator::Operator;
+use super::pcg::{self, PcgParams};
+use crate::geom::V3;
+
+/// How the linear systems of a cloth are solved.
+#[derive(Default)]
+pub enum LinearSolver {
+    /// Block-Jacobi: cheap, approximate, for garments.
+    #[default]
+    Jacobi,
+    /// A Cholesky factor, renewed when it has aged: exact, for specimens whose answer is compared with mechanics.
+    Factor(Option<Box<Factor>>),
+}
+
+/// Iterations with an old factor after which a new one is made: about as many solves as a factorisation costs.
+const PATIENCE: usize = 6;
+
+impl LinearSolver {
+    /// The solver that factorises.
+    #[must_use]
+    pub fn exact() -> Self {
+        Self::Factor(None)
+    }
+
+    /// Solves `K x = b` approximately, improving `x`.
+    pub fn solve(&mut self, operator: &Operator, b: &[V3], x: &mut [V3], params: &PcgParams) {
+        match self {
+            Self::Jacobi => jacobi(operator, b, x, params),
+            Self::Factor(kept) => {
+                let aged = kept.is_some();
+                let factor = kept.get_or_insert_with(|| Box::new(Factor::new(operator)));
+                let attempt = PcgParams { max_iterations: PATIENCE, ..*params };
+                if aged && pcg::solve(operator, &|r, z| factor.solve(r, z), b, x, &attempt) {
+                    return;
+                }
+                factor.refresh(operator);
+                pcg::solve(operator, &|r, z| factor.solve(r, z), b, x, params);
+            }
+        }
+    }
+}
+
+fn jacobi(operator: &Operator, b: &[V3], x: &mut [V3], params: &PcgParams) {
+    let inverse: Vec<Matrix3<f64>> =
+        operator.diagonal_blocks().iter().map(|d| d.try_inverse().unwrap_or_else(Matrix3::zeros)).collect();
+    let precondition = |r: &[V3], z: &mut [V3]| {
+        for ((z, r), d) in z.iter_mut().zip(r).zip(&inverse) {
+            *z = d * r;
+        }
+    };
+    pcg::solve(operator, &precondition, b, x, params);
+}

@@ -1,0 +1,114 @@
+//! Entries of the catalogue from files: all of them, or none where anything is wrong with one.
+
+use std::path::{Path, PathBuf};
+
+use super::super::error::{Result, StudyError};
+use super::super::file::{self, Placed, Problem};
+use super::super::store;
+use super::super::workspace::Workspace;
+use super::{Mode, Part, Saved, Stored, check_name, known, save, sheet};
+
+impl Workspace {
+    /// Brings all entries of some files into the catalogue, or none where anything is wrong with one of them: TOML with
+    /// the tables of a study file (a study file itself will do), or, for subjects and fabrics, CSV with the same keys.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the files, each with its line.
+    pub fn import(&mut self, part: Part, files: &[PathBuf]) -> Result<Vec<Saved>> {
+        match part {
+            Part::Subject => {
+                let known = known(Some(&self.reader))?;
+                self.import_entries(files, |path, text| {
+                    let subjects = file::subjects(path, text, &known)?;
+                    Ok(subjects.into_iter().map(|placed| placed.map(|subject| subject.measurements)).collect())
+                })
+            }
+            Part::Fabric => self.import_entries(files, file::fabrics),
+            Part::Style | Part::Size => self.import_styles(part, files),
+        }
+    }
+
+    fn import_entries<T: Stored>(
+        &mut self,
+        files: &[PathBuf],
+        of_toml: impl Fn(&Path, &str) -> std::result::Result<Vec<Placed<T>>, Vec<Problem>>,
+    ) -> Result<Vec<Saved>> {
+        let mut entries = Vec::new();
+        let mut problems = Vec::new();
+        for path in files {
+            let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
+            let read = match format_of(path) {
+                Some(Format::Csv) => sheet::read::<T>(path, T::PART, &bytes),
+                Some(Format::Toml) => text_of(path, &bytes).and_then(|text| of_toml(path, text)),
+                None => Err(vec![unknown_format(path, "CSV (.csv) or TOML (.toml)")]),
+            };
+            match read {
+                Ok(read) if read.is_empty() => problems.push(Problem::of(path, format!("no {} in it", T::PART))),
+                Ok(read) => entries.extend(read),
+                Err(found) => problems.extend(found),
+            }
+        }
+        let checked = verified(&entries);
+        let wrong = entries.iter().zip(&checked).filter_map(|(placed, outcome)| {
+            let named = check_name(&placed.name);
+            let problem = outcome.as_ref().err().or(named.as_ref().err())?;
+            Some(placed.problem(format!("{} {}: {problem}", T::PART, placed.name)))
+        });
+        problems.extend(wrong);
+        if !problems.is_empty() {
+            return Err(StudyError::File(problems));
+        }
+        let transaction = store::write(self.writer()?)?;
+        let mut saved = Vec::new();
+        for (Placed { name, entry, .. }, doubts) in entries.iter().zip(checked) {
+            let done = save(&transaction, T::PART, name, Mode::Import, || entry.store(&transaction, name))?;
+            saved.push(Saved { doubts: doubts.unwrap_or_default(), ..done });
+        }
+        transaction.commit()?;
+        Ok(saved)
+    }
+}
+
+/// Verifies entries on all cores: a body takes a while to build.
+fn verified<T: Stored>(entries: &[Placed<T>]) -> Vec<std::result::Result<Vec<String>, String>> {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let share = entries.len().div_ceil(threads).max(1);
+    let check = |chunk: &[Placed<T>]| chunk.iter().map(|placed| placed.entry.verify()).collect::<Vec<_>>();
+    std::thread::scope(|scope| {
+        let workers: Vec<_> = entries.chunks(share).map(|chunk| scope.spawn(move || check(chunk))).collect();
+        workers
+            .into_iter()
+            .flat_map(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+            .collect()
+    })
+}
+
+/// Format of a file to import.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Format {
+    Csv,
+    Toml,
+}
+
+/// The format that a file's name tells.
+pub(super) fn format_of(path: &Path) -> Option<Format> {
+    match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+        "csv" | "tsv" => Some(Format::Csv),
+        "toml" => Some(Format::Toml),
+        _ => None,
+    }
+}
+
+/// That a file is of no format that can be imported.
+pub(super) fn unknown_format(path: &Path, accepted: &str) -> Problem {
+    Problem::of(path, format!("its name tells no format that can be imported; accepted: {accepted}"))
+}
+
+/// The text of a file.
+pub(super) fn text_of<'b>(path: &Path, bytes: &'b [u8]) -> std::result::Result<&'b str, Vec<Problem>> {
+    std::str::from_utf8(bytes).map_err(|error| {
+        let line = 1 + bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count();
+        let message = "bytes that are no text; accepted: UTF-8".to_owned();
+        vec![Problem { line: Some(line), ..Problem::of(path, message) }]
+    })
+}

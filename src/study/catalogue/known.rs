@@ -1,0 +1,181 @@
+//! What is in the catalogue: the current revisions, what is built in, and what becomes of entries that are removed.
+
+use rusqlite::{Connection, Row, Transaction};
+
+use super::super::error::{Result, StudyError};
+use super::super::file::Known;
+use super::super::store;
+use super::super::types::SubjectId;
+use super::super::workspace::Workspace;
+use super::fields::{Entry, FABRIC_NUMBERS, MEASUREMENTS};
+use super::revision::{self, By};
+use super::{Field, Part, Removed};
+use crate::body::{Measurements, Sex};
+use crate::sim::{self, Fabric};
+
+/// The thesis's twelve subjects [T tables 6-1 to 6-4].
+const THESIS_SUBJECTS: &str = include_str!("../../../db/subjects.csv");
+
+/// A subject of the catalogue.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SubjectRow {
+    /// Number of the revision's row: stands for these measurements for good.
+    pub id: SubjectId,
+    /// Name.
+    pub name: String,
+    /// Number of the revision.
+    pub revision: i64,
+    /// What is known of the body.
+    pub measurements: Measurements,
+}
+
+/// Puts the thesis's subjects and the fabric library into the catalogue, where they are not there yet.
+pub(crate) fn add_builtin(connection: &mut Connection) -> Result<()> {
+    let transaction = store::write(connection)?;
+    for (name, measurements) in thesis_subjects()? {
+        revision::subject(&transaction, &name, &measurements, By::Program)?;
+    }
+    for cloth in sim::fabric::library() {
+        revision::fabric(&transaction, &cloth, By::Program)?;
+    }
+    Ok(transaction.commit()?)
+}
+
+/// What study files may name: the current entries of a database, the built-in ones without a database.
+pub(crate) fn known(connection: Option<&Connection>) -> Result<Known> {
+    let Some(connection) = connection else {
+        return Ok(Known {
+            subjects: thesis_subjects()?.into_iter().collect(),
+            fabrics: sim::fabric::library().into_iter().map(|cloth| (cloth.name.clone(), cloth)).collect(),
+        });
+    };
+    let subjects = subjects(connection)?.into_iter().map(|row| (row.name, row.measurements));
+    let sql = format!(
+        "SELECT fabric, source, {} FROM v_fabrics WHERE is_latest AND NOT is_retired",
+        columns(&FABRIC_NUMBERS)
+    );
+    let mut statement = connection.prepare_cached(&sql)?;
+    let row = |row: &Row<'_>| {
+        let mut cloth = Fabric { source: row.get(1)?, ..Fabric::blank(&row.get::<_, String>(0)?) };
+        read_numbers(row, 2, &FABRIC_NUMBERS, &mut cloth)?;
+        Ok((cloth.name.clone(), cloth))
+    };
+    let fabrics = statement.query_map([], row)?.collect::<rusqlite::Result<_>>()?;
+    Ok(Known { subjects: subjects.collect(), fabrics })
+}
+
+/// Columns of fields, for SQL.
+fn columns<T>(fields: &[Field<T>]) -> String {
+    fields.iter().map(|field| field.key).collect::<Vec<_>>().join(", ")
+}
+
+/// Reads fields from the columns of a row from `first` on.
+fn read_numbers<T>(row: &Row<'_>, first: usize, fields: &[Field<T>], entry: &mut T) -> rusqlite::Result<()> {
+    for (k, field) in fields.iter().enumerate() {
+        field.set(entry, row.get(first + k)?);
+    }
+    Ok(())
+}
+
+/// The current subjects, by name.
+fn subjects(connection: &Connection) -> Result<Vec<SubjectRow>> {
+    let sql = format!(
+        "{} JOIN catalogue_entry AS entry USING (name, revision)
+        WHERE part = 'subject' AND NOT is_retired ORDER BY name",
+        select_subject()
+    );
+    let mut statement = connection.prepare_cached(&sql)?;
+    let rows = statement.query_map([], subject_row)?.collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
+/// What [`subject_row`] reads.
+fn select_subject() -> String {
+    format!("SELECT subject_id, name, revision, sex, {} FROM subject", columns(&MEASUREMENTS))
+}
+
+fn subject_row(row: &Row<'_>) -> rusqlite::Result<SubjectRow> {
+    let sex: String = row.get(3)?;
+    let sex = if sex == "male" { Sex::Male } else { Sex::Female };
+    let mut measurements = Measurements { sex, ..Measurements::blank("") };
+    read_numbers(row, 4, &MEASUREMENTS, &mut measurements)?;
+    Ok(SubjectRow { id: SubjectId(row.get(0)?), name: row.get(1)?, revision: row.get(2)?, measurements })
+}
+
+/// The built-in subjects, by name.
+pub(super) fn thesis_subjects() -> Result<Vec<(String, Measurements)>> {
+    let path = std::path::Path::new("db/subjects.csv");
+    let read = super::sheet::read::<Measurements>(path, Part::Subject, THESIS_SUBJECTS.as_bytes());
+    Ok(read.map_err(StudyError::File)?.into_iter().map(|placed| (placed.name, placed.entry)).collect())
+}
+
+/// Why an entry cannot be edited or removed: there is none of that name.
+pub(super) fn missing(transaction: &Transaction<'_>, part: Part, name: &str) -> Result<StudyError> {
+    let sql = "SELECT name FROM catalogue_entry WHERE part = ? AND NOT is_retired ORDER BY name";
+    let mut statement = transaction.prepare_cached(sql)?;
+    let known = statement.query_map([part.as_str()], |row| row.get(0))?.collect::<rusqlite::Result<_>>()?;
+    Ok(StudyError::NotFound { what: part.as_str(), name: name.to_owned(), known })
+}
+
+/// Takes an entry out of the catalogue; what jobs use, or what would come back by itself, is hidden.
+pub(super) fn remove(transaction: &Transaction<'_>, part: Part, name: &str) -> Result<Removed> {
+    if revision::current(transaction, part, name)?.is_none_or(|(_, is_retired)| is_retired) {
+        return Err(missing(transaction, part, name)?);
+    }
+    if part == Part::Style {
+        for size in sizes(transaction, name)? {
+            remove(transaction, Part::Size, &size)?;
+        }
+    }
+    let table = part.as_str();
+    let named = if part == Part::Size { "size.style || '/' || size.name" } else { &format!("{table}.name") };
+    let sql = format!("SELECT count(*) FROM job JOIN {table} USING ({table}_id) WHERE {named} = ?");
+    let jobs: i64 = transaction.query_row(&sql, [name], |row| row.get(0))?;
+    let is_built_in = match part {
+        Part::Subject => thesis_subjects()?.iter().any(|(built_in, _)| built_in == name),
+        Part::Fabric => sim::fabric::library().iter().any(|cloth| cloth.name == name),
+        Part::Style | Part::Size => false,
+    };
+    let is_hidden = jobs > 0 || is_built_in;
+    if is_hidden {
+        let sql = "UPDATE catalogue_entry SET is_retired = 1 WHERE part = ? AND name = ?";
+        transaction.execute(sql, [part.as_str(), name])?;
+    } else {
+        transaction.execute(&format!("DELETE FROM {table} WHERE {named} = ?"), [name])?;
+        transaction.execute("DELETE FROM catalogue_entry WHERE part = ? AND name = ?", [part.as_str(), name])?;
+    }
+    Ok(Removed { part, name: name.to_owned(), jobs, is_hidden })
+}
+
+/// Names of the sizes of a style that were not removed.
+fn sizes(transaction: &Transaction<'_>, style: &str) -> Result<Vec<String>> {
+    let sql = "SELECT DISTINCT style || '/' || size FROM v_sizes WHERE style = ? AND NOT is_retired";
+    let mut statement = transaction.prepare_cached(sql)?;
+    let sizes = statement.query_map([style], |row| row.get(0))?.collect::<rusqlite::Result<_>>()?;
+    Ok(sizes)
+}
+
+impl Workspace {
+    /// The subjects of the catalogue, by name.
+    ///
+    /// # Errors
+    /// When the database cannot be read.
+    pub fn subjects(&self) -> Result<Vec<SubjectRow>> {
+        subjects(&self.reader)
+    }
+
+    /// A revision of a subject, current or not.
+    ///
+    /// # Errors
+    /// When there is none of that number.
+    pub(in super::super) fn subject_revision(&self, id: SubjectId) -> Result<SubjectRow> {
+        let sql = format!("{} WHERE subject_id = ?", select_subject());
+        let found = self.reader.prepare_cached(&sql)?.query_row([id.0], subject_row);
+        found.map_err(|error| match error {
+            rusqlite::Error::QueryReturnedNoRows => {
+                StudyError::NotFound { what: "revision of a subject", name: id.0.to_string(), known: vec![] }
+            }
+            error => error.into(),
+        })
+    }
+}

@@ -1,0 +1,283 @@
+//! The catalogue: subjects, styles, sizes and fabrics with revisions. An edit adds a revision, content seen before is
+//! found again, and nothing a result came from is ever changed: an entry that results use is hidden when it is removed.
+
+mod fields;
+mod import;
+mod known;
+mod norms;
+mod revision;
+mod sheet;
+mod style;
+#[cfg(test)]
+mod tests;
+
+use std::fmt;
+
+use rusqlite::Transaction;
+
+use super::error::{Result, StudyError};
+use super::store;
+use super::tools;
+use super::workspace::Workspace;
+use crate::body::Measurements;
+use crate::sim::Fabric;
+
+pub(crate) use fields::{Entry, keys};
+pub use fields::{FABRIC_NUMBERS, Field, Given, MEASUREMENTS, sex};
+pub use known::SubjectRow;
+pub(crate) use known::{add_builtin, known};
+pub use norms::{doubts, is_doubtful, percentile, percentile_text};
+pub(crate) use revision::{By, fabric, size, style, subject};
+pub use style::StyleGiven;
+
+/// A part of the catalogue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Bodies.
+    Subject,
+    /// How pieces are sewn and measured.
+    Style,
+    /// A pattern of a style; named `STYLE/SIZE`.
+    Size,
+    /// Cloths.
+    Fabric,
+}
+
+impl Part {
+    /// Name in SQL and in messages.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Subject => "subject",
+            Self::Style => "style",
+            Self::Size => "size",
+            Self::Fabric => "fabric",
+        }
+    }
+}
+
+impl fmt::Display for Part {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.as_str())
+    }
+}
+
+/// Whether an entry is to be there already when it is saved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// It must not.
+    Add,
+    /// It must.
+    Edit,
+    /// It may.
+    Import,
+}
+
+/// What saving an entry did.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Saved {
+    /// Part of the catalogue.
+    pub part: Part,
+    /// Name of the entry.
+    pub name: String,
+    /// Its revision that is now the current one.
+    pub revision: i64,
+    /// What was done.
+    pub deed: Deed,
+    /// Values that are possible but rare.
+    pub doubts: Vec<String>,
+}
+
+/// How a saved revision became the current one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Deed {
+    /// The entry is new, or was removed before.
+    Added,
+    /// It has a new revision.
+    Revised,
+    /// An earlier revision has the same content and is current again.
+    Restored,
+    /// The current revision has the same content.
+    Unchanged,
+}
+
+impl fmt::Display for Saved {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { part, name, revision, .. } = self;
+        match self.deed {
+            Deed::Added => write!(f, "{part} {name} is added"),
+            Deed::Revised => write!(f, "{part} {name} has revision {revision}; results keep theirs"),
+            Deed::Restored => write!(f, "{part} {name} is as in revision {revision} again"),
+            Deed::Unchanged => write!(f, "{part} {name} is unchanged"),
+        }
+    }
+}
+
+/// What removing an entry did.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Removed {
+    /// Part of the catalogue.
+    pub part: Part,
+    /// Name of the entry.
+    pub name: String,
+    /// Jobs that use it. It is hidden, and stays stored, where there are any or where it is built in.
+    pub jobs: i64,
+    /// Whether it is only hidden.
+    pub is_hidden: bool,
+}
+
+impl fmt::Display for Removed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { part, name, jobs, is_hidden } = self;
+        match (is_hidden, jobs) {
+            (false, _) => write!(f, "{part} {name} is gone"),
+            (true, 0) => write!(f, "{part} {name} is hidden; it is built in"),
+            (true, jobs) => write!(f, "{part} {name} is hidden; {jobs} job(s) use it and keep it"),
+        }
+    }
+}
+
+/// An entry that can be saved by itself.
+trait Stored: Entry + Sync {
+    const PART: Part;
+
+    /// Whether it can be; what is rare about it.
+    fn verify(&self) -> std::result::Result<Vec<String>, String>;
+
+    /// Makes it the current revision of its name.
+    fn store(&self, transaction: &Transaction<'_>, name: &str) -> Result<revision::Revision>;
+}
+
+impl Stored for Measurements {
+    const PART: Part = Part::Subject;
+
+    /// Builds the body: that alone tells whether the measurements are those of one person.
+    fn verify(&self) -> std::result::Result<Vec<String>, String> {
+        tools::build_body(self).map_err(|error| error.to_string())?;
+        Ok(doubts(self))
+    }
+
+    fn store(&self, transaction: &Transaction<'_>, name: &str) -> Result<revision::Revision> {
+        subject(transaction, name, self, By::User)
+    }
+}
+
+impl Stored for Fabric {
+    const PART: Part = Part::Fabric;
+
+    fn verify(&self) -> std::result::Result<Vec<String>, String> {
+        let (warp, weft) = (self.membrane_warp_n_m, self.membrane_weft_n_m);
+        if self.membrane_coupling_n_m.powi(2) < warp * weft {
+            return Ok(vec![]);
+        }
+        let most = (warp * weft).sqrt();
+        Err(format!("`membrane_coupling_n_m` is {}; accepted: below {most:.1}", self.membrane_coupling_n_m))
+    }
+
+    fn store(&self, transaction: &Transaction<'_>, _: &str) -> Result<revision::Revision> {
+        fabric(transaction, self, By::User)
+    }
+}
+
+/// Why an entry cannot be saved.
+fn refused(part: Part, name: &str, problems: Vec<String>) -> StudyError {
+    StudyError::Refused { what: part.as_str(), name: name.to_owned(), problems }
+}
+
+/// Whether a name can be that of an entry.
+fn check_name(name: &str) -> std::result::Result<(), String> {
+    let is_odd = |letter: char| letter.is_control() || letter == '/';
+    if !name.is_empty() && name.trim() == name && name.chars().count() <= 64 && !name.chars().any(is_odd) {
+        return Ok(());
+    }
+    Err("its name; accepted: 1 to 64 characters, no `/`, no space at either end".to_owned())
+}
+
+/// Makes a revision current with `store`, as far as the mode allows; says what that did.
+fn save(
+    transaction: &Transaction<'_>,
+    part: Part,
+    name: &str,
+    mode: Mode,
+    store: impl FnOnce() -> Result<revision::Revision>,
+) -> Result<Saved> {
+    let before = revision::current(transaction, part, name)?.filter(|(_, is_retired)| !is_retired);
+    match mode {
+        Mode::Add if before.is_some() => {
+            return Err(StudyError::Exists { what: part.as_str(), name: name.to_owned() });
+        }
+        Mode::Edit if before.is_none() => return Err(known::missing(transaction, part, name)?),
+        _ => {}
+    }
+    let after = store()?;
+    let deed = match before {
+        None => Deed::Added,
+        Some((number, _)) if number == after.number => Deed::Unchanged,
+        Some(_) if after.is_new => Deed::Revised,
+        Some(_) => Deed::Restored,
+    };
+    Ok(Saved { part, name: name.to_owned(), revision: after.number, deed, doubts: vec![] })
+}
+
+impl Workspace {
+    /// Saves a subject: given values over those it has, or over none. The body is built to see that it can be.
+    ///
+    /// # Errors
+    /// When a value or the body is impossible, the name is taken (`Add`) or unknown (`Edit`), or the workspace is
+    /// read-only.
+    pub fn save_subject(&mut self, mode: Mode, name: &str, given: &[Given]) -> Result<Saved> {
+        let base = match mode {
+            Mode::Edit => Some(self.subject(name)?),
+            _ => None,
+        };
+        self.save_entry(mode, name, base.as_ref(), given)
+    }
+
+    /// Saves a fabric: given values over those it has, over those of the fabric `like`, or over none.
+    ///
+    /// # Errors
+    /// As [`Workspace::save_subject`].
+    pub fn save_fabric(&mut self, mode: Mode, name: &str, like: Option<&str>, given: &[Given]) -> Result<Saved> {
+        let base = match (like, mode) {
+            (Some(like), _) => Some(Fabric { name: name.to_owned(), ..self.fabric(like)? }),
+            (None, Mode::Edit) => Some(self.fabric(name)?),
+            _ => None,
+        };
+        self.save_entry(mode, name, base.as_ref(), given)
+    }
+
+    /// A fabric of the catalogue, its current revision.
+    ///
+    /// # Errors
+    /// When there is none of that name.
+    fn fabric(&self, name: &str) -> Result<Fabric> {
+        let mut fabrics = known(Some(&self.reader))?.fabrics;
+        fabrics.remove(name).ok_or_else(|| {
+            let known = fabrics.into_keys().collect();
+            StudyError::NotFound { what: "fabric", name: name.to_owned(), known }
+        })
+    }
+
+    fn save_entry<T: Stored>(&mut self, mode: Mode, name: &str, base: Option<&T>, given: &[Given]) -> Result<Saved> {
+        let refuse = |problems| refused(T::PART, name, problems);
+        check_name(name).map_err(|problem| refuse(vec![problem]))?;
+        let entry = fields::filled(base, name, given);
+        let entry = entry.map_err(|problems| refuse(problems.into_iter().map(|(_, problem)| problem).collect()))?;
+        let doubts = entry.verify().map_err(|problem| refuse(vec![problem]))?;
+        let transaction = store::write(self.writer()?)?;
+        let saved = save(&transaction, T::PART, name, mode, || entry.store(&transaction, name))?;
+        transaction.commit()?;
+        Ok(Saved { doubts, ..saved })
+    }
+
+    /// Removes an entry: for good, or, where jobs use it or it is built in, from all lists. A style goes with its sizes.
+    ///
+    /// # Errors
+    /// When there is none of that name, or the workspace is read-only.
+    pub fn remove(&mut self, part: Part, name: &str) -> Result<Removed> {
+        let transaction = store::write(self.writer()?)?;
+        let removed = known::remove(&transaction, part, name)?;
+        transaction.commit()?;
+        Ok(removed)
+    }
+}

@@ -1,0 +1,69 @@
+//! Where a measurement stands among adults of the same sex, and which are so rare that they may be mistakes.
+
+use crate::body::{self, Dimension, Measurements, Sex};
+
+/// Percentiles below the first and above the second of these are doubted.
+const ORDINARY: (f64, f64) = (1.0, 99.0);
+
+/// The percentile of a value, in the unit of its key, among adults of a sex [Gordon 2014], 0 to 100; `None` for what is no
+/// measurement of a subject.
+#[must_use]
+pub fn percentile(sex: Sex, key: &str, value: f64) -> Option<f64> {
+    let dimension = Dimension::ALL.into_iter().find(|dimension| dimension.key() == key)?;
+    Some(body::percentile(sex, dimension, value / dimension.per_si(), None, None))
+}
+
+/// Whether a percentile is so rare that the value may be a mistake.
+#[must_use]
+pub fn is_doubtful(percentile: f64) -> bool {
+    !(ORDINARY.0..=ORDINARY.1).contains(&percentile)
+}
+
+/// A percentile in at most four characters: `P63`, `<P1`, `>P99`.
+#[must_use]
+pub fn percentile_text(percentile: f64) -> String {
+    if percentile < ORDINARY.0 {
+        "<P1".to_owned()
+    } else if percentile > ORDINARY.1 {
+        ">P99".to_owned()
+    } else {
+        format!("P{percentile:.0}")
+    }
+}
+
+/// The measurements of a subject that are possible but rare, in words.
+#[must_use]
+pub fn doubts(subject: &Measurements) -> Vec<String> {
+    body::plausibility(subject).iter().map(ToString::to_string).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The survey's own 5th and 95th percentiles of stature and of the men's weight.
+    #[test]
+    fn the_survey_is_found_again() {
+        let check = |sex, key, value, expected: f64| {
+            let found = percentile(sex, key, value).expect("in the survey");
+            assert!((found - expected).abs() < 1.6, "{key} {value}: {found}");
+        };
+        check(Sex::Male, "stature_mm", 1648.0, 5.0);
+        check(Sex::Male, "stature_mm", 1870.0, 95.0);
+        check(Sex::Female, "stature_mm", 1525.0, 5.0);
+        check(Sex::Female, "stature_mm", 1740.0, 95.0);
+        check(Sex::Male, "weight_kg", 110.7, 95.0);
+        assert_eq!(percentile(Sex::Male, "shoe_size", 43.0), None);
+    }
+
+    #[test]
+    fn the_rare_is_doubted_and_the_ordinary_is_not() {
+        let ordinary = Measurements { weight_kg: Some(60.0), ..Measurements::of(Sex::Female, 1.63) };
+        assert_eq!(doubts(&ordinary), [""; 0]);
+        let rare = Measurements { chest_girth_m: Some(1.5), ..ordinary };
+        let told = doubts(&rare);
+        assert_eq!(told.len(), 1);
+        assert!(told[0].starts_with("chest_girth_mm = 1500 is doubtful"), "{told:?}");
+        assert_eq!([0.3, 63.2, 99.7].map(percentile_text), ["<P1", "P63", ">P99"]);
+    }
+}

@@ -1,0 +1,257 @@
+//! Styles and their sizes in the catalogue: a seam file, and a pattern a size that can be sewn by it.
+
+use std::path::PathBuf;
+
+use rusqlite::{OptionalExtension, Row, Transaction};
+
+use super::super::error::{Result, StudyError};
+use super::super::file::{self, Placed, Problem, Sewn, SizeFile, SourceFile};
+use super::super::store;
+use super::super::tools;
+use super::super::types::JobId;
+use super::super::workspace::Workspace;
+use super::import::{Format, format_of, text_of, unknown_format};
+use super::revision::{self, By};
+use super::{Mode, Part, Saved, check_name, refused, save};
+use crate::pattern::{Style, source};
+
+/// What is given of a style or a size; an edit keeps what is not.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct StyleGiven {
+    /// Seam file.
+    pub seams: Option<PathBuf>,
+    /// Unit of the patterns, where their files name none: `mm`, `cm` or `in`.
+    pub unit: Option<String>,
+    /// Patterns, each with the size it is; a file without one brings all sizes in it.
+    pub patterns: Vec<(Option<String>, PathBuf)>,
+}
+
+/// A size with the unit of its pattern.
+type Sized = (SizeFile, Option<String>);
+
+/// A style as it is to be stored: its seams, where they are new, and sizes.
+struct Draft {
+    name: String,
+    seams: Option<SourceFile>,
+    sizes: Vec<Sized>,
+}
+
+impl Workspace {
+    /// Saves a style: its seam file, and its sizes. Every size, given now or earlier, must be sewable by the seams.
+    ///
+    /// # Errors
+    /// When a file cannot be read or sewn, the name is taken (`Add`) or unknown (`Edit`), or the workspace is read-only.
+    pub fn save_style(&mut self, mode: Mode, name: &str, given: &StyleGiven) -> Result<Vec<Saved>> {
+        check_name(name).map_err(|problem| refused(Part::Style, name, vec![problem]))?;
+        let seams = given.seams.as_deref().map(SourceFile::read).transpose()?;
+        if mode == Mode::Add && (seams.is_none() || given.patterns.is_empty()) {
+            let problem = "a new style needs a seam file and at least one pattern".to_owned();
+            return Err(refused(Part::Style, name, vec![problem]));
+        }
+        let sizes = self.sizes_given(name, given)?;
+        let draft = Draft { name: name.to_owned(), seams, sizes };
+        let problems = self.unsewable(&draft)?;
+        if !problems.is_empty() {
+            return Err(refused(Part::Style, name, problems));
+        }
+        let transaction = store::write(self.writer()?)?;
+        let saved = store_draft(&transaction, [mode, Mode::Import], &draft)?;
+        transaction.commit()?;
+        Ok(saved)
+    }
+
+    /// Saves a size, named `STYLE/SIZE`, of a style that is there.
+    ///
+    /// # Errors
+    /// As [`Workspace::save_style`].
+    pub fn save_size(&mut self, mode: Mode, name: &str, given: &StyleGiven) -> Result<Saved> {
+        let refuse = |problem: &str| refused(Part::Size, name, vec![problem.to_owned()]);
+        let (style, size) = name.split_once('/').ok_or_else(|| refuse("its name; accepted: STYLE/SIZE"))?;
+        check_name(size).map_err(|problem| refuse(&problem))?;
+        let sizes = match (given.patterns.as_slice(), &given.unit) {
+            ([(_, path)], unit) => {
+                let before = self.sizes_of(style)?.into_iter().find(|(before, _)| before.name == size);
+                let unit = unit.clone().or(before.and_then(|(_, unit)| unit));
+                vec![(SizeFile { name: size.to_owned(), pattern: SourceFile::read(path)? }, unit)]
+            }
+            ([], Some(unit)) => {
+                let before = self.sizes_of(style)?.into_iter().filter(|(before, _)| before.name == size);
+                before.map(|(before, _)| (before, Some(unit.clone()))).collect()
+            }
+            _ => return Err(refuse("a size has one pattern")),
+        };
+        let draft = Draft { name: style.to_owned(), seams: None, sizes };
+        let problems = self.unsewable(&draft)?;
+        if !problems.is_empty() {
+            return Err(refused(Part::Size, name, problems));
+        }
+        let transaction = store::write(self.writer()?)?;
+        let mut saved = store_draft(&transaction, [mode; 2], &draft)?;
+        transaction.commit()?;
+        saved.pop().ok_or_else(|| StudyError::NotFound { what: "size", name: name.to_owned(), known: vec![] })
+    }
+
+    /// Brings the garments of study files, or of files with nothing else, into the catalogue: for [`Part::Size`] only
+    /// their sizes.
+    pub(super) fn import_styles(&mut self, part: Part, files: &[PathBuf]) -> Result<Vec<Saved>> {
+        let mut drafts: Vec<Placed<Draft>> = Vec::new();
+        let mut problems = Vec::new();
+        for path in files {
+            let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
+            let read = match format_of(path) {
+                Some(Format::Toml) => text_of(path, &bytes).and_then(|text| file::garments(path, text)),
+                _ => Err(vec![unknown_format(path, "TOML (.toml)")]),
+            };
+            match read {
+                Ok(garments) if garments.is_empty() => problems.push(Problem::of(path, "no [[garment]] in it")),
+                Ok(garments) => drafts.extend(garments.into_iter().map(|placed| {
+                    let name = placed.name.clone();
+                    placed.map(|sewn| draft(part, name, sewn))
+                })),
+                Err(found) => problems.extend(found),
+            }
+        }
+        for placed in &drafts {
+            let found = match check_name(&placed.name) {
+                Ok(()) => self.unsewable(&placed.entry)?,
+                Err(problem) => vec![problem],
+            };
+            problems
+                .extend(found.into_iter().map(|problem| placed.problem(format!("garment {}: {problem}", placed.name))));
+        }
+        if !problems.is_empty() {
+            return Err(StudyError::File(problems));
+        }
+        let transaction = store::write(self.writer()?)?;
+        let mut saved = Vec::new();
+        for placed in &drafts {
+            saved.extend(store_draft(&transaction, [Mode::Import; 2], &placed.entry)?);
+        }
+        transaction.commit()?;
+        Ok(saved)
+    }
+
+    /// The sizes that are given of a style, with their units; all it has, where only the unit is given.
+    fn sizes_given(&self, style: &str, given: &StyleGiven) -> Result<Vec<Sized>> {
+        let unit = given.unit.clone();
+        if given.patterns.is_empty() {
+            let with_unit = |(size, _): Sized| (size, unit.clone());
+            return Ok(if unit.is_some() {
+                self.sizes_of(style)?.into_iter().map(with_unit).collect()
+            } else {
+                vec![]
+            });
+        }
+        let mut sizes = Vec::new();
+        for (name, path) in &given.patterns {
+            let pattern = SourceFile::read(path)?;
+            let names = match name {
+                Some(name) => vec![name.clone()],
+                None => sizes_in(&pattern, unit.as_deref())?,
+            };
+            for name in names {
+                check_name(&name).map_err(|_| {
+                    let problem =
+                        format!("{}: it names no size; say which it is: SIZE={}", pattern.name, path.display());
+                    refused(Part::Style, style, vec![problem])
+                })?;
+                sizes.push((SizeFile { name, pattern: pattern.clone() }, unit.clone()));
+            }
+        }
+        Ok(sizes)
+    }
+
+    /// Why sizes of a style could not be sewn were a draft stored: its own, and with new seams those there are as well.
+    fn unsewable(&self, draft: &Draft) -> Result<Vec<String>> {
+        let own = self.seams_of(&draft.name)?;
+        let Some(seams) = draft.seams.as_ref().or(own.as_ref()) else {
+            return Ok(vec![format!("no style `{}` in the catalogue; give its seam file", draft.name)]);
+        };
+        let mut sizes = draft.sizes.clone();
+        if draft.seams.is_some() {
+            let is_kept = |(before, _): &Sized| !draft.sizes.iter().any(|(size, _)| size.name == before.name);
+            sizes.extend(self.sizes_of(&draft.name)?.into_iter().filter(is_kept));
+        }
+        let problem = |(size, unit): &Sized| {
+            let unit = unit.as_deref().and_then(tools::unit_of);
+            let read = tools::read_style(&size.pattern, Some(seams), Some(&size.name), unit);
+            read.err().map(|error| format!("size {}: {error}", size.name))
+        };
+        Ok(sizes.iter().filter_map(problem).collect())
+    }
+
+    /// The seam file of a style, current revision.
+    fn seams_of(&self, style: &str) -> Result<Option<SourceFile>> {
+        let sql = "SELECT seam_file, seams FROM style JOIN catalogue_entry AS entry USING (name, revision)
+            WHERE part = 'style' AND name = ? AND NOT is_retired";
+        let row = |row: &Row<'_>| {
+            let text: String = row.get(1)?;
+            Ok(SourceFile { name: row.get(0)?, bytes: text.into_bytes().into() })
+        };
+        Ok(self.reader.prepare_cached(sql)?.query_row([style], row).optional()?)
+    }
+
+    /// The sizes of a style, current revisions.
+    fn sizes_of(&self, style: &str) -> Result<Vec<Sized>> {
+        let sql = "SELECT size.name, pattern_file, pattern, unit
+            FROM size JOIN catalogue_entry AS entry
+                ON entry.name = style || '/' || size.name AND entry.revision = size.revision
+            WHERE part = 'size' AND style = ? AND NOT is_retired ORDER BY size_id";
+        let mut statement = self.reader.prepare_cached(sql)?;
+        let row = |row: &Row<'_>| {
+            let pattern = SourceFile { name: row.get(1)?, bytes: row.get::<_, Vec<u8>>(2)?.into() };
+            Ok((SizeFile { name: row.get(0)?, pattern }, row.get(3)?))
+        };
+        let sizes = statement.query_map([style], row)?.collect::<rusqlite::Result<_>>()?;
+        Ok(sizes)
+    }
+
+    /// The style a job was made from.
+    ///
+    /// # Errors
+    /// When there is no such job.
+    pub(in super::super) fn style_of(&self, id: JobId) -> Result<Style> {
+        let sql = "SELECT pattern_file, pattern, seam_file, seams, unit, size.name
+            FROM job JOIN size USING (size_id) JOIN style USING (style_id) WHERE job_id = ?";
+        type Stored = (String, Vec<u8>, String, String, Option<String>, String);
+        let row = |row: &Row<'_>| {
+            Ok::<Stored, _>((row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?, row.get(4)?, row.get(5)?))
+        };
+        let found = self.reader.prepare_cached(sql)?.query_row([id.0], row).optional()?;
+        let missing = || StudyError::NotFound { what: "job", name: id.to_string(), known: vec![] };
+        let (pattern_file, pattern, seam_file, seams, unit, size) = found.ok_or_else(missing)?;
+        let pattern = SourceFile { name: pattern_file, bytes: pattern.into() };
+        let seams = Some(SourceFile { name: seam_file, bytes: seams.into_bytes().into() });
+        let seams = seams.filter(|seams| !seams.name.is_empty());
+        tools::read_style(&pattern, seams.as_ref(), Some(&size), unit.as_deref().and_then(tools::unit_of))
+    }
+}
+
+/// A garment of a file as it is to be stored.
+fn draft(part: Part, name: String, sewn: Sewn) -> Draft {
+    let Sewn { seams, unit, sizes } = sewn;
+    let seams = seams.filter(|_| part == Part::Style);
+    Draft { name, seams, sizes: sizes.into_iter().map(|size| (size, unit.clone())).collect() }
+}
+
+/// Names of the sizes in a pattern file.
+fn sizes_in(pattern: &SourceFile, unit: Option<&str>) -> Result<Vec<String>> {
+    let read = source::read(&pattern.bytes, &pattern.name, unit.and_then(tools::unit_of));
+    let file = read.map_err(StudyError::stage("pattern"))?;
+    Ok(file.sizes().into_iter().map(str::to_owned).collect())
+}
+
+/// Stores a draft: its seams, where there are any, by one mode, and its sizes by another.
+fn store_draft(transaction: &Transaction<'_>, [mode, of_sizes]: [Mode; 2], draft: &Draft) -> Result<Vec<Saved>> {
+    let mut saved = Vec::new();
+    if let Some(seams) = &draft.seams {
+        let store = || revision::style(transaction, &draft.name, Some(seams), By::User);
+        saved.push(save(transaction, Part::Style, &draft.name, mode, store)?);
+    }
+    for (size, unit) in &draft.sizes {
+        let place = (draft.name.as_str(), size.name.as_str());
+        let store = || revision::size(transaction, place, &size.pattern, unit.as_deref(), By::User);
+        saved.push(save(transaction, Part::Size, &format!("{}/{}", draft.name, size.name), of_sizes, store)?);
+    }
+    Ok(saved)
+}

@@ -1,0 +1,206 @@
+//! The catalogue as a user changes it, on a real database.
+
+use std::path::PathBuf;
+
+use super::*;
+use crate::study::store::{self, Access};
+use crate::units::from_mm;
+
+struct Bench {
+    folder: tempfile::TempDir,
+    workspace: Workspace,
+}
+
+impl Bench {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let workspace = Workspace::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
+        Self { folder, workspace }
+    }
+
+    fn write(&self, name: &str, text: &str) -> PathBuf {
+        let path = self.folder.path().join(name);
+        std::fs::write(&path, text).expect("writable");
+        path
+    }
+
+    fn subject(&mut self, mode: Mode, name: &str, given: &[(&str, &str)]) -> std::result::Result<Deed, String> {
+        let given: Vec<Given> = given.iter().map(|(key, text)| ((*key).to_owned(), (*text).to_owned())).collect();
+        self.workspace.save_subject(mode, name, &given).map(|saved| saved.deed).map_err(|error| error.to_string())
+    }
+
+    /// Imports a file; an error without the folder's name.
+    fn import(&mut self, part: Part, name: &str, text: &str) -> std::result::Result<Vec<(String, Deed)>, String> {
+        let path = self.write(name, text);
+        let prefix = format!("{}/", self.folder.path().display());
+        match self.workspace.import(part, &[path]) {
+            Ok(saved) => Ok(saved.into_iter().map(|saved| (saved.name, saved.deed)).collect()),
+            Err(error) => Err(error.to_string().replace(&prefix, "")),
+        }
+    }
+
+    fn one(&self, sql: &str) -> String {
+        self.workspace
+            .query(sql)
+            .expect("valid")
+            .rows
+            .iter()
+            .flatten()
+            .map(ToString::to_string)
+            .collect::<Vec<_>>()
+            .join(",")
+    }
+}
+
+const ANNA: [(&str, &str); 3] = [("sex", "f"), ("stature_mm", "1650"), ("waist_girth_mm", "700")];
+
+#[test]
+fn an_edit_is_a_revision_and_known_content_is_current_again() {
+    let mut bench = Bench::new();
+    assert_eq!(bench.subject(Mode::Add, "anna", &ANNA), Ok(Deed::Added));
+    assert_eq!(bench.subject(Mode::Edit, "anna", &[("waist_girth_mm", "720")]), Ok(Deed::Revised));
+    assert_eq!(bench.subject(Mode::Edit, "anna", &[("waist_girth_mm", "720")]), Ok(Deed::Unchanged));
+    assert_eq!(bench.one("SELECT waist_girth_mm FROM v_subjects WHERE subject = 'anna' ORDER BY revision"), "700,720");
+    assert_eq!(bench.subject(Mode::Edit, "anna", &[("waist_girth_mm", "700")]), Ok(Deed::Restored));
+    assert_eq!(bench.workspace.subject("anna").expect("there").waist_girth_m, Some(from_mm(700.0)));
+    assert_eq!(bench.one("SELECT revision FROM v_subjects WHERE subject = 'anna' AND is_latest"), "1");
+}
+
+#[test]
+fn names_that_are_taken_unknown_or_odd_are_refused() {
+    let mut bench = Bench::new();
+    let mut check = |mode, name: &str, expected: &str| {
+        let error = bench.subject(mode, name, &ANNA).expect_err(name);
+        assert!(error.contains(expected), "{error}");
+    };
+    check(Mode::Add, "male-ii", "there is a subject `male-ii` already; edit it, or take another name");
+    check(Mode::Edit, "male-iv2", "did you mean `male-iv`?");
+    check(Mode::Add, "", "1 to 64 characters");
+    check(Mode::Add, "a/b", "no `/`");
+    check(Mode::Add, "anna ", "no space at either end");
+}
+
+#[test]
+fn bodies_that_cannot_be_are_refused_and_rare_ones_are_told() {
+    let mut bench = Bench::new();
+    let error = bench.subject(Mode::Add, "anna", &[("sex", "f"), ("stature_mm", "165"), ("hip_girth_mm", "x")]);
+    let error = error.expect_err("too small");
+    assert!(
+        error.starts_with("subject anna: `stature_mm` is 165; accepted: 1300 to 2200; `hip_girth_mm` is `x`"),
+        "{error}"
+    );
+    let rare = [("sex", "f"), ("stature_mm", "1450")].map(|(key, text)| (key.to_owned(), text.to_owned()));
+    let saved = bench.workspace.save_subject(Mode::Add, "small", &rare).expect("possible");
+    assert_eq!(saved.doubts, ["stature_mm 1450 is doubtful: less than 1 % of women have less"]);
+}
+
+#[test]
+fn what_is_built_in_gives_way_to_edits_for_good() {
+    let mut bench = Bench::new();
+    let path = bench.workspace.path().to_owned();
+    assert_eq!(bench.subject(Mode::Edit, "male-ii", &[("stature_mm", "1700")]), Ok(Deed::Revised));
+    let removed = bench.workspace.remove(Part::Subject, "male-iv").expect("there");
+    assert_eq!(removed.to_string(), "subject male-iv is hidden; it is built in");
+    drop(bench.workspace);
+    let workspace = Workspace::open(&path, false).expect("there");
+    assert_eq!(workspace.subject("male-ii").expect("there").stature_m, 1.7);
+    let names: Vec<String> = workspace.subjects().expect("readable").into_iter().map(|row| row.name).collect();
+    assert_eq!(names.len(), 11);
+    assert!(!names.contains(&"male-iv".to_owned()));
+}
+
+#[test]
+fn removed_entries_can_be_added_again() {
+    let mut bench = Bench::new();
+    bench.subject(Mode::Add, "anna", &ANNA).expect("new");
+    assert_eq!(bench.workspace.remove(Part::Subject, "anna").expect("there").to_string(), "subject anna is gone");
+    assert_eq!(bench.one("SELECT count(*) FROM subject WHERE name = 'anna'"), "0");
+    assert!(bench.workspace.remove(Part::Subject, "anna").is_err());
+    bench.workspace.remove(Part::Subject, "male-ii").expect("there");
+    assert!(bench.subject(Mode::Edit, "male-ii", &ANNA).expect_err("removed").contains("no subject"));
+    assert_eq!(bench.subject(Mode::Add, "male-ii", &ANNA), Ok(Deed::Added));
+}
+
+#[test]
+fn tables_are_imported_wholly_or_not_at_all() {
+    let mut bench = Bench::new();
+    let good = "\u{feff}name;sex;stature_mm;weight_kg;is_latest\nanna;f;1650;;1\nbo;m;1800;80;1\n";
+    let done = bench.import(Part::Subject, "people.csv", good).expect("good");
+    assert_eq!(done, [("anna".to_owned(), Deed::Added), ("bo".to_owned(), Deed::Added)]);
+    let again = bench.import(Part::Subject, "people.csv", &good.replace("1650", "1660")).expect("good");
+    assert_eq!(again.iter().map(|(_, deed)| *deed).collect::<Vec<_>>(), [Deed::Revised, Deed::Unchanged]);
+
+    let bad = "name,sex,stature_mm,waist_girth_mm\ncleo,f,1650,700\ndan,x,1.8,\ncleo,f,1660,710\neve,f,1650\n\"f/g\",f,1650,700\n";
+    let error = bench.import(Part::Subject, "people.csv", bad).expect_err("bad");
+    insta::assert_snapshot!(error);
+    assert_eq!(bench.one("SELECT count(*) FROM subject WHERE name = 'cleo'"), "0");
+    let error = bench.import(Part::Subject, "people.csv", "nam,sex,hight_mm,sex\n").expect_err("bad");
+    insta::assert_snapshot!(error);
+    let empty = bench.import(Part::Subject, "people.csv", "name,sex,stature_mm\n").expect_err("empty");
+    assert_eq!(empty, "people.csv: no subject in it");
+    assert!(bench.import(Part::Subject, "people.txt", "").expect_err("no format").contains("accepted: CSV"));
+}
+
+#[test]
+fn study_files_are_imported_and_their_lines_told() {
+    let mut bench = Bench::new();
+    let text = "[[subject]]\nid = \"ii\"\nlike = \"male-ii\"\n\n[[subject]]\nid = \"anna\"\nsex = \"female\"\nstature_mm = 1650\n";
+    let done = bench.import(Part::Subject, "study.toml", text).expect("good");
+    assert_eq!(done.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(), ["ii", "anna"]);
+    let error = bench.import(Part::Subject, "study.toml", &text.replace("1650", "165")).expect_err("bad");
+    assert_eq!(error, "study.toml:8:14: subject anna: `stature_mm` is 165; accepted: 1300 to 2200");
+
+    let cloth = "[[fabric]]\nname = \"poplin\"\ndensity_kg_m2 = 0.1\nthickness_mm = 0.2\nmembrane_warp_n_m = 3000\nmembrane_weft_n_m = 2000\nshear_n_m = 90\nbending_warp_nm = 5e-6\nbending_weft_nm = 4e-6\nfriction_body = 0.3\nfriction_self = 0.5\n";
+    bench.import(Part::Fabric, "cloth.toml", cloth).expect("good");
+    let like =
+        bench.workspace.save_fabric(Mode::Add, "poplin_2", Some("poplin"), &[("shear_n_m".into(), "120".into())]);
+    assert_eq!(like.expect("possible").deed, Deed::Added);
+    assert_eq!(bench.one("SELECT shear_n_m, density_kg_m2 FROM v_fabrics WHERE fabric = 'poplin_2'"), "120,0.1");
+    let stiff =
+        bench.workspace.save_fabric(Mode::Edit, "poplin", None, &[("membrane_coupling_n_m".into(), "3000".into())]);
+    assert!(stiff.expect_err("not elastic").to_string().contains("below 2449.5"));
+}
+
+#[test]
+fn a_style_is_stored_with_sizes_that_can_be_sewn() {
+    let mut bench = Bench::new();
+    let folder = bench.folder.path().to_owned();
+    tools::write_files(&folder, &tools::drafted(tools::Model::Tshirt)).expect("writable");
+    let given = |sizes: &[(&str, &str)]| StyleGiven {
+        seams: Some(folder.join("tshirt.seams.toml")),
+        unit: None,
+        patterns: sizes.iter().map(|(size, file)| (Some((*size).to_owned()), folder.join(file))).collect(),
+    };
+    let saved = bench.workspace.save_style(Mode::Add, "tee", &given(&[("S", "tshirt-s.dxf"), ("M", "tshirt-m.dxf")]));
+    assert_eq!(saved.expect("sewable").len(), 3);
+    assert_eq!(bench.one("SELECT size FROM v_sizes WHERE style = 'tee' AND is_latest ORDER BY size"), "M,S");
+
+    let broken = bench.write("broken.seams.toml", "[[piece]]\nblock = \"none\"\n");
+    let given_broken = StyleGiven { seams: Some(broken), ..StyleGiven::default() };
+    let error = bench.workspace.save_style(Mode::Edit, "tee", &given_broken).expect_err("not sewable").to_string();
+    assert!(error.contains("size S: ") && error.contains("size M: "), "{error}");
+
+    let pattern = |file: &str| StyleGiven { patterns: vec![(None, folder.join(file))], ..StyleGiven::default() };
+    let added = bench.workspace.save_size(Mode::Add, "tee/L", &pattern("tshirt-l.dxf")).expect("sewable");
+    assert_eq!((added.name.as_str(), added.deed), ("tee/L", Deed::Added));
+    assert!(bench.workspace.save_size(Mode::Add, "none/L", &pattern("tshirt-l.dxf")).is_err());
+    assert!(bench.workspace.save_size(Mode::Edit, "tee/XL", &pattern("tshirt-l.dxf")).is_err());
+    bench.workspace.remove(Part::Style, "tee").expect("there");
+    assert_eq!(bench.one("SELECT (SELECT count(*) FROM style) + (SELECT count(*) FROM size)"), "0");
+}
+
+#[test]
+fn revisions_of_an_earlier_schema_become_current() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("toile.sqlite");
+    drop(Workspace::open(&path, false).expect("a new database"));
+    let connection = store::open(&path, Access::Write).expect("there");
+    connection.execute_batch("DELETE FROM catalogue_entry").expect("valid");
+    let migration = include_str!("../../../db/migrations/0005_catalogue.sql");
+    let fill =
+        migration.split(';').find(|sql| sql.contains("INSERT INTO catalogue_entry")).expect("it fills the table");
+    connection.execute_batch(fill).expect("valid");
+    drop(connection);
+    let workspace = Workspace::open(&path, false).expect("there");
+    assert_eq!(workspace.subjects().expect("readable").len(), 12);
+}

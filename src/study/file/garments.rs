@@ -1,0 +1,132 @@
+//! The `[[garment]]` tables of a study file: who wears it, how it is sewn, in which cloth, its sizes.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use toml::Spanned;
+
+use super::parse::{lookup, source, unique};
+use super::reader::{Place, Reader};
+use super::{GarmentEntry, Placed, Sewn, SizeFile, SourceFile, Subject};
+use crate::sim::Fabric;
+
+const GARMENT_KEYS: [&str; 6] = ["name", "subjects", "seams", "unit", "fabric", "sizes"];
+
+/// All garments with their cloth and those who wear them.
+pub(super) fn garments(
+    reader: &mut Reader<'_>,
+    top: &Place<'_>,
+    folder: &Path,
+    subjects: &[Subject],
+    fabrics: &BTreeMap<String, Fabric>,
+) -> Vec<GarmentEntry> {
+    let places = reader.tables(top, "garment", "garment");
+    if places.is_empty() {
+        reader.missing(top, "garment", "at least one [[garment]]");
+    }
+    let mut garments = Vec::new();
+    let mut names = BTreeSet::new();
+    for mut place in places {
+        let name = named(reader, &mut place, &mut names);
+        let subjects = wearers(reader, &place, top, subjects);
+        let Sewn { seams, unit, sizes } = sewn(reader, &place, folder);
+        let holds_seams = !sizes.is_empty() && sizes.iter().all(|size| size.pattern.holds_seams());
+        if !holds_seams && !place.table.contains_key("seams") {
+            reader.missing(&place, "seams", "the file that says how its pieces are sewn");
+        }
+        let fabric = reader.need_text(&place, "fabric", "the name of a fabric");
+        let fabric = fabric.and_then(|name| lookup(reader, fabrics, &name, "fabric").cloned());
+        if let (Some(name), Some(fabric)) = (name, fabric) {
+            garments.push(GarmentEntry { name: (*name.get_ref()).to_owned(), subjects, seams, unit, fabric, sizes });
+        }
+    }
+    garments
+}
+
+/// Who wears a garment: the subjects it names, or else all of the file.
+fn wearers(reader: &mut Reader<'_>, garment: &Place<'_>, top: &Place<'_>, subjects: &[Subject]) -> Vec<String> {
+    let Some(names) = reader.texts(garment, "subjects") else {
+        return subjects.iter().map(|subject| subject.id.clone()).collect();
+    };
+    // Subjects that are in the file but wrong are told of once, at their own place.
+    let known: BTreeMap<String, ()> = reader
+        .tables(top, "subject", "subject")
+        .iter()
+        .filter_map(|place| place.table.get("id")?.get_ref().as_str().map(|id| (id.to_owned(), ())))
+        .collect();
+    let mut wearers: Vec<String> = Vec::new();
+    for name in &names {
+        if wearers.iter().any(|wearer| wearer == name.get_ref()) {
+            reader.problem(&name.span(), format!("{}: subject `{}` is named twice", garment.name, name.get_ref()));
+        } else if lookup(reader, &known, name, "[[subject]] with the id").is_some() {
+            wearers.push((*name.get_ref()).to_owned());
+        }
+    }
+    if names.is_empty() {
+        let span = garment.table.get("subjects").map_or(garment.span.clone(), Spanned::span);
+        let message = format!("{}: nobody wears it; name subjects, or leave `subjects` out for all", garment.name);
+        reader.problem(&span, message);
+    }
+    wearers
+}
+
+/// All garments without their cloth.
+pub(super) fn all_sewn(reader: &mut Reader<'_>, top: &Place<'_>, folder: &Path) -> Vec<Placed<Sewn>> {
+    let mut garments = Vec::new();
+    let mut names = BTreeSet::new();
+    for mut place in reader.tables(top, "garment", "garment") {
+        let name = named(reader, &mut place, &mut names);
+        let sewn = sewn(reader, &place, folder);
+        garments.extend(name.map(|name| reader.placed(&name.span(), name.get_ref(), sewn)));
+    }
+    garments
+}
+
+/// The name of a garment, which its place then bears.
+fn named<'t>(
+    reader: &mut Reader<'_>,
+    place: &mut Place<'t>,
+    names: &mut BTreeSet<&'t str>,
+) -> Option<Spanned<&'t str>> {
+    reader.only(place, &GARMENT_KEYS);
+    let name = reader.need_text(place, "name", "its name in results")?;
+    unique(reader, names, &name, "garment");
+    place.name = format!("garment {}", name.get_ref());
+    Some(name)
+}
+
+fn sewn(reader: &mut Reader<'_>, place: &Place<'_>, folder: &Path) -> Sewn {
+    let seams = reader.text(place, "seams").and_then(|file| source(reader, place, &file, folder, SourceFile::read));
+    Sewn { seams, unit: unit(reader, place), sizes: sizes(reader, place, folder) }
+}
+
+fn unit(reader: &mut Reader<'_>, place: &Place<'_>) -> Option<String> {
+    let unit = reader.text(place, "unit")?;
+    if !["mm", "cm", "in"].contains(unit.get_ref()) {
+        let message = format!("{}: unit `{}`; accepted: mm, cm, in", place.name, unit.get_ref());
+        reader.problem(&unit.span(), message);
+        return None;
+    }
+    Some(unit.into_inner().to_owned())
+}
+
+fn sizes(reader: &mut Reader<'_>, garment: &Place<'_>, folder: &Path) -> Vec<SizeFile> {
+    let places = reader.tables(garment, "sizes", "size");
+    if places.is_empty() {
+        reader.missing(garment, "sizes", "a list like [{ name = \"S\", pattern = \"s.dxf\" }]");
+    }
+    let mut sizes = Vec::new();
+    let mut names = BTreeSet::new();
+    for mut place in places {
+        place.name = format!("{}, {}", garment.name, place.name);
+        reader.only(&place, &["name", "pattern"]);
+        let name = reader.need_text(&place, "name", "the size's name");
+        let pattern = reader.need_text(&place, "pattern", "its DXF file, folder of DXF files, or GarmentCode JSON");
+        let pattern = pattern.and_then(|file| source(reader, &place, &file, folder, SourceFile::read_pattern));
+        if let Some(name) = name {
+            unique(reader, &mut names, &name, "size");
+            sizes.extend(pattern.map(|pattern| SizeFile { name: (*name.get_ref()).to_owned(), pattern }));
+        }
+    }
+    sizes
+}

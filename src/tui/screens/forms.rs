@@ -1,0 +1,108 @@
+//! Forms above a screen: the values of a subject, the path of a file.
+
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Clear, Paragraph};
+
+use super::super::form::{Form, Note, PathPrompt};
+use super::super::text::{left, right, shortened};
+use super::super::theme::Theme;
+use super::chi::wrapped;
+use super::overlays::middle;
+use super::{first_shown, pane};
+use crate::study::Mode;
+
+/// Columns of names and of values in a form.
+const LABEL: usize = 17;
+const VALUE: usize = 12;
+
+/// Draws the values of a subject.
+pub(super) fn draw_form(frame: &mut Frame<'_>, area: Rect, form: &Form, theme: Theme) {
+    let title = match form.mode {
+        Mode::Edit => format!("edit {}: a new revision, results keep theirs", form.name()),
+        _ => "new subject".to_owned(),
+    };
+    let width = area.width.min(76);
+    let columns = usize::from(width.saturating_sub(2));
+    // The line has little room for what is wrong with its value.
+    let wrong = match form.note(form.at) {
+        Note::Problem(problem) => Some(problem),
+        _ => form.problem.clone(),
+    };
+    let end = end(form.is_busy.then_some("building the body…"), wrong.as_deref(), columns, theme);
+    let room = usize::from(area.height.saturating_sub(2)).saturating_sub(end.len());
+    let first = first_shown(form.at, form.texts.len(), room);
+    let shown = (first..form.texts.len()).take(room);
+    let mut lines: Vec<Line<'_>> = shown.map(|k| line(form, k, columns, theme)).collect();
+    lines.extend(end);
+    let keys = " Tab ↑↓ line  ↵ save  Esc cancel  empty = not known ";
+    draw(frame, area, width, title, keys, lines, theme);
+}
+
+/// A line of a form: name, value, and what there is to say of it.
+fn line(form: &Form, k: usize, columns: usize, theme: Theme) -> Line<'static> {
+    let is_focused = k == form.at && !form.is_busy;
+    let mark = if is_focused { "▸" } else { " " };
+    let value = if is_focused { format!("{}▏", form.texts[k]) } else { form.texts[k].clone() };
+    let (note, style) = match form.note(k) {
+        Note::None => (String::new(), theme.dim()),
+        Note::Percentile(words) => (words, theme.dim()),
+        Note::Doubt(words) => (format!("{words} ! doubtful"), theme.warn()),
+        Note::Problem(problem) => (format!("✗ {problem}"), theme.bad()),
+    };
+    // A long name takes the room of its note.
+    let value = if k == 0 { value } else { right(&value, VALUE) };
+    let text = format!("{mark} {}{value} {} ", left(Form::label(k), LABEL), left(Form::unit(k), 2));
+    let room = columns.saturating_sub(super::super::text::width(&text));
+    let style_of_text = if is_focused { theme.bold() } else { ratatui::style::Style::new() };
+    Line::from(vec![Span::styled(text, style_of_text), Span::styled(shortened(&note, room), style)])
+}
+
+/// Draws the prompt for a file.
+pub(super) fn draw_path(frame: &mut Frame<'_>, area: Rect, prompt: &PathPrompt, theme: Theme) {
+    let width = area.width.min(100);
+    let columns = usize::from(width.saturating_sub(2));
+    // The end of a long path is what is being typed.
+    let typed: Vec<char> = format!(" {}▏", prompt.text).chars().collect();
+    let shown: String = typed[typed.len().saturating_sub(columns)..].iter().collect();
+    let mut lines = vec![Line::styled(shown, theme.bold())];
+    lines.extend(end(
+        prompt.is_busy.then_some("reading, and building each body…"),
+        prompt.problem.as_deref(),
+        columns,
+        theme,
+    ));
+    if lines.len() == 1 {
+        lines
+            .push(Line::styled(" CSV with columns name, sex, stature_mm, …, or a study.toml; ~/ is home", theme.dim()));
+    }
+    draw(frame, area, width, "import subjects from".to_owned(), " ↵ import all or none  Esc cancel ", lines, theme);
+}
+
+/// What goes on, or what went wrong.
+fn end(busy: Option<&str>, problem: Option<&str>, columns: usize, theme: Theme) -> Vec<Line<'static>> {
+    let mut lines: Vec<Line<'static>> =
+        busy.iter().map(|text| Line::styled(format!(" {text}"), theme.busy())).collect();
+    let problem = wrapped(problem.unwrap_or_default(), columns.saturating_sub(3));
+    let mark = |k| if k == 0 { "✗" } else { " " };
+    lines.extend(
+        problem.into_iter().enumerate().map(|(k, text)| Line::styled(format!(" {} {text}", mark(k)), theme.bad())),
+    );
+    lines
+}
+
+fn draw(
+    frame: &mut Frame<'_>,
+    area: Rect,
+    width: u16,
+    title: String,
+    keys: &'static str,
+    lines: Vec<Line<'_>>,
+    theme: Theme,
+) {
+    let place = middle(area, width, (lines.len() as u16 + 2).min(area.height));
+    let block = pane(theme, title, true).title_bottom(Line::styled(keys, theme.legend()));
+    frame.render_widget(Clear, place);
+    frame.render_widget(Paragraph::new(lines).block(block), place);
+}
