@@ -183,7 +183,7 @@ fn body(asked: &Attempt, notes: &mut Vec<String>) -> Result<Body> {
 /// The style: with its seam file, by its own stitches, or as proposed where the proposal is sure.
 fn style(asked: &Attempt, notes: &mut Vec<String>) -> Result<Style> {
     let size = asked.size.as_deref();
-    if asked.seams.is_some() || tools::is_garmentcode(&asked.pattern) {
+    if asked.seams.is_some() || SourceFile::read_pattern(&asked.pattern)?.holds_seams() {
         return tools::style(&asked.pattern, asked.seams.as_deref(), size, asked.unit);
     }
     let proposal = tools::propose(&asked.pattern, size, asked.unit)?.proposal;
