@@ -5,6 +5,7 @@
 
 mod answers;
 mod args;
+mod attempt;
 mod body;
 mod catalogue;
 mod context;
@@ -121,6 +122,7 @@ fn execute(arguments: Arguments, workbench: impl FnOnce(Workbench) -> Result<(),
             Ok(End::Done)
         }
         Some(Command::Run(arguments)) => run::run(&context, &arguments),
+        Some(Command::Try(arguments)) => attempt::run(&context, &arguments),
         Some(Command::Report(arguments)) => pictures::report(&context, &arguments),
         Some(Command::Sql(arguments)) => answers::sql(&context, &arguments),
         Some(Command::Audit(arguments)) => answers::audit(&context, &arguments),

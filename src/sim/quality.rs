@@ -3,7 +3,7 @@
 use crate::body::Body;
 use crate::geom::{Surface, V3};
 use crate::pattern::Garment;
-use crate::sim::contact::grid::BoxGrid;
+use crate::sim::contact::crossings;
 use crate::sim::solver::PairList;
 
 /// Deepest point of the cloth inside the body, m: vertices, edge middles and triangle centres against the exact surface;
@@ -30,24 +30,5 @@ pub fn seam_gap_m(garment: &Garment, positions: &[V3]) -> f64 {
 #[must_use]
 pub fn self_crossings(x: &[V3], triangles: &[[usize; 3]]) -> usize {
     let edges = PairList::new(triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]));
-    let length = edges.pairs().iter().map(|&[a, b]| (x[a] - x[b]).norm()).fold(0.0, f64::max);
-    // Every point of an edge is within half the greatest length of the edge's middle.
-    let grid = BoxGrid::new(x, triangles, 0.5 * length, length.max(1e-6));
-    let pierces = |&[a, b]: &[usize; 2]| {
-        let near = grid.near(&((x[a] + x[b]) / 2.0));
-        near.filter(|&t| !triangles[t].contains(&a) && !triangles[t].contains(&b))
-            .filter(|&t| segment_hits(x[a], x[b], triangles[t].map(|v| x[v])))
-            .count()
-    };
-    edges.pairs().iter().map(pierces).sum()
-}
-
-fn segment_hits(p: V3, q: V3, [a, b, c]: [V3; 3]) -> bool {
-    let volume = |u: V3, v: V3, w: V3, z: V3| (v - u).cross(&(w - u)).dot(&(z - u));
-    let (above, below) = (volume(a, b, c, p), volume(a, b, c, q));
-    if above * below >= 0.0 {
-        return false;
-    }
-    let sides = [volume(p, q, a, b), volume(p, q, b, c), volume(p, q, c, a)];
-    sides.iter().all(|s| *s > 0.0) || sides.iter().all(|s| *s < 0.0)
+    crossings(x, edges.pairs(), triangles).count()
 }

@@ -4,6 +4,7 @@
 //! (`read`), acts on the queue and starts runs. SI units in rows, millimetres in SQL.
 
 mod actions;
+mod attempt;
 mod audit;
 mod cache;
 mod catalogue;
@@ -35,6 +36,7 @@ mod types;
 mod workspace;
 
 pub use actions::why_no_retry;
+pub use attempt::{Attempt, Tried, TriedChi, TriedEase, attempt};
 pub use audit::{Audit, Finding};
 pub use catalogue::{
     Deed, FABRIC_NUMBERS, Field, Given, MEASUREMENTS, Mode, Part, Removed, Saved, StyleGiven, SubjectRow, doubts,

@@ -23,10 +23,10 @@ pub const SIMULATORS: [Simulator; 2] = [Simulator::Fem, Simulator::Hybrid];
 /// Versions of the stages, raised whenever one may give other numbers for the same inputs.
 const VERSIONS: [(&str, u32); 3] = [("body.version", 4), ("field.version", 1), ("mesh.version", 3)];
 /// Version of the simulators, likewise; their default parameters count as inputs by themselves.
-const SIM_VERSION: u32 = 5;
+const SIM_VERSION: u32 = 6;
 
 /// Spacing of the distance field's nodes, m: the 99th percentile of its error is then about 0.1 mm.
-const FIELD_SPACING_M: f64 = 0.005;
+pub(super) const FIELD_SPACING_M: f64 = 0.005;
 
 /// The inputs every job has besides the study's own: versions and parameters of the stages.
 pub(crate) fn versions(simulator: Simulator) -> Vec<(&'static str, String)> {
@@ -58,21 +58,20 @@ pub(super) struct Model {
     pub body: Body,
 }
 
-impl Model {
-    /// Girth at a level named in a style's fit references, m.
-    fn girth_m(&self, level: &str) -> Option<f64> {
-        let mm = match level {
-            "neck" => self.body.girths.neck_girth_mm,
-            "chest" | "bust" => self.body.girths.chest_girth_mm,
-            "underbust" => self.body.girths.underbust_girth_mm,
-            "waist" => self.body.girths.waist_girth_mm,
-            "hip" => self.body.girths.hip_girth_mm,
-            "thigh" => self.body.girths.thigh_girth_mm,
-            "upper_arm" => self.body.girths.upper_arm_girth_mm?,
-            _ => return None,
-        };
-        Some(from_mm(mm))
-    }
+/// Girth of a body at a level named in a style's fit references, m.
+fn girth_m(body: &Body, level: &str) -> Option<f64> {
+    let girths = &body.girths;
+    let mm = match level {
+        "neck" => girths.neck_girth_mm,
+        "chest" | "bust" => girths.chest_girth_mm,
+        "underbust" => girths.underbust_girth_mm,
+        "waist" => girths.waist_girth_mm,
+        "hip" => girths.hip_girth_mm,
+        "thigh" => girths.thigh_girth_mm,
+        "upper_arm" => girths.upper_arm_girth_mm?,
+        _ => return None,
+    };
+    Some(from_mm(mm))
 }
 
 /// Meshes of one garment, coarse to fine.
@@ -155,14 +154,14 @@ impl Pipeline {
     pub(super) fn ease(&self, spec: &JobSpec) -> Result<Vec<Ease>> {
         let (model, _) = self.model(spec)?;
         let (meshes, _) = self.meshes(spec)?;
-        Ok(ease(meshes.finest()?, &model))
+        Ok(ease_on(meshes.finest()?, &model.body))
     }
 }
 
 /// Ease at each fit level; a study's own cuts classify it when it is read.
-fn ease(garment: &Garment, model: &Model) -> Vec<Ease> {
+pub(super) fn ease_on(garment: &Garment, body: &Body) -> Vec<Ease> {
     let levels = garment.fit_levels.iter().map(|level| (level.level.as_str(), level.girth_m));
-    fit::ease(levels, |level| model.girth_m(level), &Cuts::default())
+    fit::ease(levels, |level| girth_m(body, level), &Cuts::default())
 }
 
 /// The style of a job's size.
@@ -221,7 +220,7 @@ impl Executor for Pipeline {
             seam_gap_max_m: drape.seam_gap_max_m,
             self_crossings: drape.self_crossings,
             history: drape.history.clone(),
-            eases: ease(garment, &model),
+            eases: ease_on(garment, &model.body),
             used: vec![used_body, used_field, used_mesh, used_drape],
         })
     }

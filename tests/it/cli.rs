@@ -7,9 +7,10 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 70] = [
+const COMMANDS: [&str; 71] = [
     "",
     "run",
+    "try",
     "report",
     "sql",
     "ease",

@@ -5,10 +5,12 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
+mod attempt;
 mod body;
 mod catalogue;
 mod pattern;
 
+pub use attempt::{Try, TrySimulator};
 pub use body::{Body, BodyBuild, MeshUnit, Sex};
 pub use catalogue::{Catalogue, FabricValues, SizeValues, StyleValues, SubjectValues};
 pub use pattern::{BesideFiles, DraftStyle, Pattern, PatternUnit, SeamCommand, StyleFiles};
@@ -57,6 +59,8 @@ pub struct Global {
 pub enum Command {
     /// Run a study: queue what is new or changed, simulate, measure, report.
     Run(Run),
+    /// Dress one body in one garment, without a study: a picture, a table, the mesh.
+    Try(Box<Try>),
     /// Write a study's report: HTML, PNG, CSV.
     Report(Report),
     /// Ask the database in SQL (read-only; also median, stddev, quantile).

@@ -2,7 +2,8 @@
 //!
 //! A pair is found while its two sides are still clear of each other; which way round they then lie is remembered for
 //! as long as they stay near, so cloth that slips through is pushed back to where it came from. Pairs are sought within a
-//! reach that no step can cross, so none is met unseen.
+//! reach that no step can cross, so none is met unseen. Cloth that already crosses when it is first seen passes through
+//! itself until it has come free. There is no friction between layers.
 
 use super::grid::BoxGrid;
 use crate::geom::V3;
@@ -34,6 +35,14 @@ const MARGIN: f64 = 0.3;
 enum Primitives {
     VertexTriangle([usize; 4]),
     EdgeEdge([usize; 4]),
+}
+
+impl Primitives {
+    fn vertices(self) -> [usize; 4] {
+        match self {
+            Self::VertexTriangle(vertices) | Self::EdgeEdge(vertices) => vertices,
+        }
+    }
 }
 
 /// A pair that is near, and which way round it lay when it was found.
@@ -107,13 +116,28 @@ impl<'a> ClothContact<'a> {
         let mut found = self.vertex_triangle_pairs(x);
         found.extend(self.edge_edge_pairs(x));
         found.sort_unstable_by_key(|p| p.primitives);
-        for pair in &mut found {
-            if let Ok(known) = self.pairs.binary_search_by_key(&pair.primitives, |p| p.primitives) {
+        let tangled = self.tangled(x);
+        found.retain_mut(|pair| match self.pairs.binary_search_by_key(&pair.primitives, |p| p.primitives) {
+            Ok(known) => {
                 pair.side = self.pairs[known].side;
+                true
             }
-        }
+            // Cloth that crosses when it first meets has no right side: it passes until it has come free.
+            Err(_) => pair.primitives.vertices().iter().all(|v| !tangled[*v]),
+        });
         self.pairs = found;
         self.found_at = x.to_vec();
+    }
+
+    /// Vertices of edges and triangles that pierce each other.
+    fn tangled(&self, x: &[V3]) -> Vec<bool> {
+        let mut tangled = vec![false; x.len()];
+        for (edge, triangle) in crossings(x, self.edges.pairs(), self.triangles) {
+            for v in edge.into_iter().chain(triangle) {
+                tangled[v] = true;
+            }
+        }
+        tangled
     }
 
     fn vertex_triangle_pairs(&self, x: &[V3]) -> Vec<Pair> {
@@ -204,6 +228,35 @@ impl<'a> ClothContact<'a> {
         }
         contacts
     }
+}
+
+/// Edges that pierce a triangle with which they share no vertex.
+pub fn crossings<'s>(
+    x: &'s [V3],
+    edges: &'s [[usize; 2]],
+    triangles: &'s [[usize; 3]],
+) -> impl Iterator<Item = ([usize; 2], [usize; 3])> + 's {
+    let length = edges.iter().map(|&[a, b]| (x[a] - x[b]).norm()).fold(0.0, f64::max);
+    // Every point of an edge is within half the greatest length of the edge's middle.
+    let grid = BoxGrid::new(x, triangles, 0.5 * length, length.max(1e-6));
+    edges.iter().flat_map(move |&[a, b]| {
+        let near: Vec<usize> = grid.near(&((x[a] + x[b]) / 2.0)).collect();
+        let hits = move |t: &usize| {
+            let triangle = triangles[*t];
+            !triangle.contains(&a) && !triangle.contains(&b) && segment_hits(x[a], x[b], triangle.map(|v| x[v]))
+        };
+        near.into_iter().filter(hits).map(move |t| ([a, b], triangles[t]))
+    })
+}
+
+fn segment_hits(p: V3, q: V3, [a, b, c]: [V3; 3]) -> bool {
+    let volume = |u: V3, v: V3, w: V3, z: V3| (v - u).cross(&(w - u)).dot(&(z - u));
+    let (above, below) = (volume(a, b, c, p), volume(a, b, c, q));
+    if above * below >= 0.0 {
+        return false;
+    }
+    let sides = [volume(p, q, a, b), volume(p, q, b, c), volume(p, q, c, a)];
+    sides.iter().all(|s| *s > 0.0) || sides.iter().all(|s| *s < 0.0)
 }
 
 fn near(p: &V3, q: &V3, distance_m: f64) -> bool {

@@ -5,4 +5,4 @@ pub mod cloth;
 pub mod grid;
 
 pub use body::{BodyContact, ContactParams};
-pub use cloth::{ClothContact, ClothContactParams};
+pub use cloth::{ClothContact, ClothContactParams, crossings};

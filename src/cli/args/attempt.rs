@@ -1,0 +1,54 @@
+//! Arguments of `toile try`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::{MeshUnit, PatternUnit, Sex};
+
+/// Simulator of a trial.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TrySimulator {
+    /// Physics alone.
+    Fem,
+    /// The pattern's size first.
+    Hybrid,
+}
+
+/// Arguments of `try`.
+#[derive(Debug, Args)]
+pub struct Try {
+    /// Body: a mesh or scan (OBJ, PLY, STL), or measurements (TOML with the keys of a study's [[subject]]).
+    #[arg(long, value_name = "FILE")]
+    pub body: PathBuf,
+    /// Unit of the mesh; by default told from its height.
+    #[arg(long, value_enum)]
+    pub body_unit: Option<MeshUnit>,
+    /// Sex of the body; by default told from its girths.
+    #[arg(long, value_enum)]
+    pub sex: Option<Sex>,
+    /// Pattern: a DXF file, a folder of them, or a GarmentCode specification (JSON).
+    #[arg(long, value_name = "FILE")]
+    pub pattern: PathBuf,
+    /// Seam file; without one a DXF pattern is sewn as `pattern propose` says, where that is sure.
+    #[arg(long, value_name = "FILE")]
+    pub seams: Option<PathBuf>,
+    /// Size, where the pattern has several.
+    #[arg(long, value_name = "NAME")]
+    pub size: Option<String>,
+    /// Unit of the pattern, where its file names none.
+    #[arg(long, value_enum)]
+    pub unit: Option<PatternUnit>,
+    /// Simulator.
+    #[arg(long, value_enum, default_value_t = TrySimulator::Fem)]
+    pub sim: TrySimulator,
+    /// Fabric of the library, or a TOML file of one.
+    #[arg(long, value_name = "NAME", default_value = "cotton_shirting_light")]
+    pub fabric: String,
+    /// Edge length of the mesh, mm.
+    #[arg(long, value_name = "MM", default_value_t = 15.0)]
+    pub edge_mm: f64,
+    /// Folder for picture and meshes.
+    #[arg(long, short, value_name = "DIR", default_value = "try")]
+    pub output: PathBuf,
+}

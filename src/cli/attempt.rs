@@ -1,0 +1,84 @@
+//! `toile try`: one garment on one body.
+
+use super::args::{PatternUnit, Sex, Try, TrySimulator};
+use super::context::Context;
+use super::{CliError, End, Outcome, output};
+use crate::study::tools::{self, Unit};
+use crate::study::{self, Attempt, Simulator, Table, Tried, Value};
+use crate::units::from_mm;
+
+/// Runs a trial; writes its picture and meshes, prints what was measured.
+pub fn run(context: &Context, arguments: &Try) -> Outcome {
+    let asked = Attempt {
+        body: arguments.body.clone(),
+        body_unit: arguments.body_unit.map(Into::into),
+        sex: arguments.sex.map(|sex| match sex {
+            Sex::M => tools::Sex::Male,
+            Sex::F => tools::Sex::Female,
+        }),
+        pattern: arguments.pattern.clone(),
+        seams: arguments.seams.clone(),
+        size: arguments.size.clone(),
+        unit: arguments.unit.map(|unit| match unit {
+            PatternUnit::Mm => Unit::Mm,
+            PatternUnit::Cm => Unit::Cm,
+            PatternUnit::In => Unit::In,
+        }),
+        simulator: match arguments.sim {
+            TrySimulator::Fem => Simulator::Fem,
+            TrySimulator::Hybrid => Simulator::Hybrid,
+        },
+        fabric: arguments.fabric.clone(),
+        edge_length_m: from_mm(arguments.edge_mm),
+    };
+    let mut phase_before = String::new();
+    let tried = study::attempt(&asked, &mut |phase, share| {
+        if phase != phase_before {
+            context.say(format_args!("{phase}, {:.0} %", 100.0 * share));
+            phase.clone_into(&mut phase_before);
+        }
+    })?;
+    for path in tools::write_files(&arguments.output, &tried.files)? {
+        context.say(format_args!("wrote {}", path.display()));
+    }
+    for note in &tried.notes {
+        context.say(note);
+    }
+    for problem in &tried.problems {
+        eprintln!("toile: {problem}");
+    }
+    show(context, &tried)?;
+    Ok(if tried.problems.is_empty() { End::Done } else { End::CheckFailed })
+}
+
+/// The measurements, then the summary; as JSON one document of both.
+fn show(context: &Context, tried: &Tried) -> Result<(), CliError> {
+    if context.json {
+        return Ok(output::json(tried)?);
+    }
+    let columns = ["no", "measurement", "free", "l2d_mm", "l3d_mm", "chi"].map(str::to_owned).to_vec();
+    let rows = tried.chi.iter().map(|row| {
+        vec![
+            Value::Integer(i64::from(row.measurement_no)),
+            Value::Text(row.measurement.clone()),
+            Value::Text(if row.is_free_edge { "yes" } else { "" }.to_owned()),
+            Value::Real((row.l2d_mm * 10.0).round() / 10.0),
+            Value::Real((row.l3d_mm * 10.0).round() / 10.0),
+            Value::Real((row.chi * 1e4).round() / 1e4),
+        ]
+    });
+    context.print(&Table { columns, rows: rows.collect() })?;
+    let columns = ["n", "e_chi", "sd_chi", "ei", "residual", "penetration_mm", "crossings", "vertices", "wall_ms"];
+    let row = vec![
+        Value::Integer(tried.n as i64),
+        Value::Real(tried.e_chi),
+        Value::Real(tried.sd_chi),
+        Value::Real(tried.ei),
+        Value::Real(tried.residual),
+        Value::Real(tried.penetration_max_mm),
+        Value::Integer(tried.self_crossings as i64),
+        Value::Integer(tried.vertices as i64),
+        Value::Integer(i64::try_from(tried.wall_ms).unwrap_or(i64::MAX)),
+    ];
+    context.print(&Table { columns: columns.map(str::to_owned).to_vec(), rows: vec![row] })
+}

@@ -1,0 +1,297 @@
+//! One garment on one body, without a study: `toile try`.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use serde::Serialize;
+
+use super::error::{Result, StudyError};
+use super::pipeline::{FIELD_SPACING_M, ease_on};
+use super::tools::{self, LengthUnit, Sex, SourceFile, Unit};
+use crate::body::Body;
+use crate::fit::Simulator;
+use crate::geom::{DistanceField, TriMesh};
+use crate::measure;
+use crate::pattern::{Garment, MeasurementKind, Style};
+use crate::render::export::{MeshFormat, Part};
+use crate::render::{self, Camera, Cell, Frame, Layer, Material, Rgb, Scene, View};
+use crate::sim::{self, Drape, Fabric, Monitor, Progress};
+use crate::units::mm;
+
+/// Deepest penetration of a drape that is good, mm.
+const PENETRATION_MM: f64 = 0.5;
+/// Least confidence of a proposed seam that is sewn without asking.
+const SURE: f64 = 0.4;
+/// Size of each picture, pixels.
+const PICTURE: [u32; 2] = [480, 800];
+
+/// What is to be tried on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attempt {
+    /// A mesh (OBJ, PLY, STL) or measurements (TOML).
+    pub body: PathBuf,
+    /// Unit of the mesh, where it cannot be told from its height.
+    pub body_unit: Option<LengthUnit>,
+    /// Sex of the body, where known.
+    pub sex: Option<Sex>,
+    /// DXF file, a folder of them, or a GarmentCode specification.
+    pub pattern: PathBuf,
+    /// Its seam file; without one a DXF pattern is sewn as proposed.
+    pub seams: Option<PathBuf>,
+    /// Size, where the pattern has several.
+    pub size: Option<String>,
+    /// Unit of the pattern, where its file names none.
+    pub unit: Option<Unit>,
+    /// Simulator.
+    pub simulator: Simulator,
+    /// Fabric of the library, or a TOML file of one.
+    pub fabric: String,
+    /// Edge length of the finest mesh, m.
+    pub edge_length_m: f64,
+}
+
+/// One measurement of a trial, with the columns of `v_chi`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[expect(missing_docs, reason = "the columns of the view, which db/schema.sql describes")]
+pub struct TriedChi {
+    pub stage: sim::Stage,
+    pub measurement_no: u32,
+    pub measurement: String,
+    pub kind: MeasurementKind,
+    pub is_free_edge: bool,
+    pub is_controlled: bool,
+    pub l2d_mm: f64,
+    pub l3d_mm: f64,
+    pub chi: f64,
+}
+
+/// The ease of a trial at one level.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[expect(missing_docs, reason = "the columns of `v_ease`, which db/schema.sql describes")]
+pub struct TriedEase {
+    pub level: String,
+    pub pattern_girth_mm: f64,
+    pub body_girth_mm: f64,
+    pub ease_mm: f64,
+}
+
+/// What came of a trial, with the columns of `v_metrics`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[expect(missing_docs, reason = "the columns of the view, which db/schema.sql describes")]
+pub struct Tried {
+    pub garment: String,
+    pub size: String,
+    pub subject: String,
+    pub simulator: String,
+    pub fabric: String,
+    pub n: usize,
+    pub e_chi: f64,
+    pub sd_chi: f64,
+    pub ei: f64,
+    pub max_abs_error: f64,
+    pub vertices: usize,
+    pub faces: usize,
+    pub iterations: u32,
+    pub residual: f64,
+    pub converged: bool,
+    pub penetration_max_mm: f64,
+    pub seam_gap_max_mm: f64,
+    pub self_crossings: usize,
+    pub wall_ms: u64,
+    pub chi: Vec<TriedChi>,
+    pub ease: Vec<TriedEase>,
+    /// What is wrong with the drape; empty where it is good.
+    pub problems: Vec<String>,
+    /// What had to be guessed about the inputs.
+    pub notes: Vec<String>,
+    /// Picture and meshes by file name.
+    #[serde(skip)]
+    pub files: Vec<(String, Vec<u8>)>,
+}
+
+/// Dresses a body in a garment; `progress` hears the phase and the share done.
+///
+/// # Errors
+/// When an input cannot be used: the message says what would be. A drape that is not good is no error.
+pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<Tried> {
+    let started = Instant::now();
+    let mut notes = Vec::new();
+    let fabric = fabric(&asked.fabric)?;
+    let style = style(asked, &mut notes)?;
+    let body = body(asked, &mut notes)?;
+    let mesh = |edge| style.mesh(edge).map_err(StudyError::stage("mesh"));
+    let meshes: Vec<Garment> =
+        sim::fem::level_edges(asked.edge_length_m).into_iter().map(mesh).collect::<Result<_>>()?;
+    let garment = meshes.last().ok_or_else(|| StudyError::stage("mesh")("no mesh"))?;
+    let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).map_err(StudyError::stage("field"))?;
+    let mut told = Told(progress);
+    let drape = match asked.simulator {
+        Simulator::Fem => sim::fem::simulate(&body, &field, &meshes, &fabric, &sim::fem::Params::default(), &mut told),
+        Simulator::Hybrid => {
+            sim::hybrid::simulate(&body, &field, garment, &fabric, &sim::hybrid::Params::default(), &mut told)
+        }
+    }
+    .map_err(StudyError::stage("sim"))?;
+    let mut tried = measured(asked, &style, garment, &drape, &fabric)?;
+    tried.ease = ease_on(garment, &body)
+        .into_iter()
+        .map(|ease| TriedEase {
+            pattern_girth_mm: mm(ease.pattern_girth_m),
+            body_girth_mm: mm(ease.body_girth_m),
+            ease_mm: mm(ease.ease_m()),
+            level: ease.level,
+        })
+        .collect();
+    tried.notes = notes;
+    tried.files = files(asked.simulator, &body, garment, &drape)?;
+    tried.wall_ms = u64::try_from(started.elapsed().as_millis()).unwrap_or(u64::MAX);
+    Ok(tried)
+}
+
+/// Passes progress on.
+struct Told<'a>(&'a mut dyn FnMut(&str, f64));
+
+impl Monitor for Told<'_> {
+    fn progress(&mut self, progress: &Progress) {
+        (self.0)(progress.phase, progress.fraction);
+    }
+}
+
+fn fabric(name: &str) -> Result<Fabric> {
+    let path = Path::new(name);
+    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
+        let text = std::fs::read_to_string(path).map_err(StudyError::io(path))?;
+        return toml::from_str(&text)
+            .map_err(|error| StudyError::Stage { stage: "fabric", message: format!("{name}: {error}") });
+    }
+    let library = sim::fabric::library();
+    let known = library.iter().map(|fabric| fabric.name.clone()).collect();
+    let missing = || StudyError::NotFound { what: "fabric", name: name.to_owned(), known };
+    library.into_iter().find(|fabric| fabric.name == name).ok_or_else(missing)
+}
+
+fn body(asked: &Attempt, notes: &mut Vec<String>) -> Result<Body> {
+    if asked.body.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
+        return tools::build_body(&tools::read_measurements(&asked.body)?);
+    }
+    let source = SourceFile::read(&asked.body)?;
+    let scan = tools::read_scan(&source, asked.body_unit, asked.sex)?;
+    notes.extend(scan.imported.notes.iter().cloned());
+    tools::scanned_body(&source, scan)
+}
+
+/// The style: with its seam file, by its own stitches, or as proposed where the proposal is sure.
+fn style(asked: &Attempt, notes: &mut Vec<String>) -> Result<Style> {
+    let size = asked.size.as_deref();
+    if asked.seams.is_some() || SourceFile::read_pattern(&asked.pattern)?.holds_seams() {
+        return tools::style(&asked.pattern, asked.seams.as_deref(), size, asked.unit);
+    }
+    let proposal = tools::propose(&asked.pattern, size, asked.unit)?.proposal;
+    let unsure: Vec<String> = proposal
+        .seams
+        .iter()
+        .filter(|seam| seam.confidence < SURE)
+        .map(|seam| format!("is {} sewn to {}?", seam.entry.a.join(" "), seam.entry.b.join(" ")))
+        .collect();
+    if proposal.seams.is_empty() || !unsure.is_empty() {
+        let questions: Vec<String> = proposal.questions.iter().cloned().chain(unsure).collect();
+        let message = format!(
+            "{}: how it is sewn is not sure enough: {}; say --seams FILE (`toile pattern propose -o FILE` writes one to edit)",
+            asked.pattern.display(),
+            if questions.is_empty() { "no seams were found".to_owned() } else { questions.join("; ") }
+        );
+        return Err(StudyError::Stage { stage: "pattern", message });
+    }
+    notes.push("sewn as proposed: no seam file was given".to_owned());
+    notes.extend(proposal.questions.iter().cloned());
+    let name = asked.pattern.file_stem().unwrap_or_default().to_string_lossy();
+    let pieces = tools::pieces(&SourceFile::read_pattern(&asked.pattern)?, size, asked.unit)?;
+    let text = proposal.toml(&name);
+    let mut style = Style::read(&pieces, text.as_bytes(), "the proposal").map_err(StudyError::stage("pattern"))?;
+    if style.measurements.is_empty() {
+        style.measure_openings_and_seams();
+    }
+    Ok(style)
+}
+
+fn measured(asked: &Attempt, style: &Style, garment: &Garment, drape: &Drape, fabric: &Fabric) -> Result<Tried> {
+    let chis = measure::measure(garment, &drape.positions);
+    let metrics = measure::metrics(&chis).ok_or_else(|| StudyError::stage("measure")("nothing to measure"))?;
+    let penetration_max_mm = mm(drape.penetration_max_m);
+    let mut problems = Vec::new();
+    if !drape.converged {
+        problems.push(format!("not converged: residual {:.4}", drape.residual));
+    }
+    if penetration_max_mm > PENETRATION_MM {
+        problems.push(format!("{penetration_max_mm:.1} mm inside the body"));
+    }
+    if drape.self_crossings > 0 {
+        problems.push(format!("the cloth crosses itself at {} edges", drape.self_crossings));
+    }
+    let chi = garment.measurements.iter().zip(&chis).map(|(measurement, chi)| TriedChi {
+        stage: drape.stage,
+        measurement_no: measurement.no,
+        measurement: measurement.name.clone(),
+        kind: measurement.kind,
+        is_free_edge: measurement.is_free_edge,
+        is_controlled: asked.simulator == Simulator::Hybrid,
+        l2d_mm: mm(chi.l2d_m),
+        l3d_mm: mm(chi.l3d_m),
+        chi: chi.chi(),
+    });
+    Ok(Tried {
+        garment: style.name.clone(),
+        size: style.size.clone(),
+        subject: asked.body.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+        simulator: asked.simulator.as_str().to_owned(),
+        fabric: fabric.name.clone(),
+        n: metrics.n,
+        e_chi: metrics.e_chi,
+        sd_chi: metrics.sd_chi,
+        ei: metrics.ei,
+        max_abs_error: metrics.max_abs_error,
+        vertices: drape.welded_vertices,
+        faces: garment.triangles.len(),
+        iterations: drape.iterations,
+        residual: drape.residual,
+        converged: drape.converged,
+        penetration_max_mm,
+        seam_gap_max_mm: mm(drape.seam_gap_max_m),
+        self_crossings: drape.self_crossings,
+        wall_ms: 0,
+        chi: chi.collect(),
+        ease: Vec::new(),
+        problems,
+        notes: Vec::new(),
+        files: Vec::new(),
+    })
+}
+
+/// Four views as one picture, and body and garment as meshes.
+fn files(simulator: Simulator, body: &Body, garment: &Garment, drape: &Drape) -> Result<Vec<(String, Vec<u8>)>> {
+    let fail = StudyError::stage("render");
+    let cloth = TriMesh { positions: drape.positions.clone(), triangles: garment.triangles.clone() };
+    let (form, material) = match simulator {
+        Simulator::Fem => (Material::form(), Material::fem()),
+        Simulator::Hybrid => (Material::form(), Material::hybrid()),
+    };
+    let layers = vec![Layer::new(&body.mesh, form), Layer::new(&cloth, material)];
+    let scene = Scene::new(layers).map_err(StudyError::stage("render"))?;
+    let [width, height] = PICTURE;
+    let frame = Frame::enclosing([&body.mesh, &cloth], f64::from(width) / f64::from(height));
+    let shot = |view: View| {
+        let picture = render::render(&scene, &Camera::new(view, frame), width, height);
+        Ok(Cell { picture: picture.map_err(StudyError::stage("render"))?, label: view.as_str().to_owned() })
+    };
+    let cells = View::ALL.into_iter().map(shot).collect::<Result<Vec<_>>>()?;
+    let sheet = render::contact_sheet("", &cells, cells.len()).map_err(fail)?;
+    let colours = |mesh: &TriMesh, colour: Rgb| vec![colour; mesh.positions.len()];
+    let part = |name, mesh, colour, places| Part { name, mesh, colours: colours(mesh, colour), places, values: None };
+    let parts =
+        [part("body", &body.mesh, form.front, None), part("garment", &cloth, material.front, Some(&garment.rest[..]))];
+    Ok(vec![
+        ("drape.png".to_owned(), render::png(&sheet).map_err(StudyError::stage("render"))?),
+        ("drape.glb".to_owned(), MeshFormat::Glb.write(&parts)),
+        ("drape.obj".to_owned(), MeshFormat::Obj.write(&parts)),
+    ])
+}
