@@ -5,9 +5,11 @@ mod drape;
 mod forms;
 mod jobs;
 mod overlays;
+mod pieces;
 mod results;
 mod start;
 mod study;
+mod styles;
 mod subjects;
 
 use ratatui::Frame;
@@ -37,6 +39,7 @@ pub fn draw(frame: &mut Frame<'_>, state: &State) {
     match state.screen {
         _ if state.data.is_none() => frame.render_widget(Paragraph::new(" reading the database…"), body),
         Screen::Subjects => subjects::draw(frame, body, state),
+        Screen::Styles => styles::draw(frame, body, state),
         _ if state.is_first_start() => start::draw(frame, body, state),
         Screen::Study => study::draw(frame, body, state),
         Screen::Jobs => jobs::draw(frame, body, state),
@@ -135,7 +138,7 @@ fn status_line(state: &State, width: u16) -> Line<'static> {
     }
     // What matters most stands first in the table, but help and palette must always be found.
     let hinted = state.bindings.iter().filter(|b| !b.hint.is_empty() && b.is_on(state.screen));
-    let is_start = state.is_first_start() && state.screen != Screen::Subjects;
+    let is_start = state.is_first_start() && !matches!(state.screen, Screen::Subjects | Screen::Styles);
     let hinted = hinted.filter(|b| !is_start || matches!(b.name, "open" | "run" | "help" | "palette"));
     let (last, first): (Vec<&Binding>, Vec<&Binding>) = hinted.partition(|b| matches!(b.name, "help" | "palette"));
     let columns = |b: &Binding| text::width(&b.keys[0].to_string()) + text::width(b.hint) + 3;
