@@ -191,7 +191,7 @@ mod tests {
         assert!(laid.desk.pieces.len() == 4 && laid.questions.is_empty(), "{:?}", laid.questions);
         assert!(laid.desk.seams.iter().all(|seam| seam.confidence.is_none()));
         let hem = laid.lengths.iter().find(|length| length.no == 1).expect("number 1");
-        assert!((hem.l2d_mm - 974.0).abs() < 0.1, "{hem:?}");
+        assert!((hem.l2d_mm - 974.0).abs() < 0.2, "{hem:?}");
     }
 
     #[test]
@@ -221,7 +221,7 @@ mod tests {
         let edit = Edit::Remove { a: "front.side_right".into(), b: "back.side_right".into() };
         piece.seams = Some(piece.after(&Step::Edit(edit)).expect("it is there"));
         let questions = piece.laid_out().expect("it fits").questions;
-        assert!(questions.iter().any(|text| text.contains("front.side_right")), "{questions:?}");
+        assert!(questions.iter().any(|text| text.contains("back.side_right")), "{questions:?}");
     }
 
     #[test]

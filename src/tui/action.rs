@@ -311,14 +311,6 @@ pub const BINDINGS: &[Binding] = &[
         "Remove the selected subject; asks",
     ),
     bind(
-        Action::ImportStyle,
-        "import-style",
-        &[ch('i')],
-        &[Styles],
-        "import",
-        "Add a style or sizes: DXF, GarmentCode, study.toml",
-    ),
-    bind(
         Action::ConfirmSeam,
         "confirm-seam",
         &[key(KeyCode::Enter)],
@@ -329,7 +321,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(
         Action::MarkEdge,
         "mark-edge",
-        &[ch(' ')],
+        &[ch('m'), ch(' ')],
         &[Styles],
         "mark",
         "Mark the selected edge for a new seam, or unmark it",
@@ -343,7 +335,6 @@ pub const BINDINGS: &[Binding] = &[
         "Sew the marked edge to the selected or other marked",
     ),
     bind(Action::RemoveSeam, "remove-seam", &[ch('x')], &[Styles], "open", "Open the selected seam"),
-    bind(Action::FlipSeam, "flip-seam", &[ch('f')], &[Styles], "flip", "Turn one side of the selected seam round"),
     bind(
         Action::SaveSeams,
         "save-seams",
@@ -352,6 +343,15 @@ pub const BINDINGS: &[Binding] = &[
         "save",
         "Save the seams: catalogue, and study folder if asked",
     ),
+    bind(
+        Action::ImportStyle,
+        "import-style",
+        &[ch('i')],
+        &[Styles],
+        "import",
+        "Add a style or sizes: DXF, GarmentCode, study.toml",
+    ),
+    bind(Action::FlipSeam, "flip-seam", &[ch('f')], &[Styles], "flip", "Turn one side of the selected seam round"),
     bind(
         Action::ProposeSeams,
         "propose-seams",

@@ -255,7 +255,7 @@ impl State {
         let Some(Ok(laid)) = self.laid() else { return vec![] };
         let [first, others @ ..] = sides.as_slice() else { return vec![] };
         if others.is_empty() {
-            self.say("Space marks an edge; then go to the edge it is sewn to, and a sews them");
+            self.say("m marks an edge; then go to the edge it is sewn to, and a sews them");
             return vec![];
         }
         let length = |(piece, edge): &EdgeAt| laid.out.desk.pieces[*piece].edges[*edge].length_mm;

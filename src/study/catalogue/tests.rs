@@ -243,6 +243,6 @@ fn styles_without_a_seam_file_hold_their_seams_or_have_them_proposed() {
     let row = sizes.iter().find(|row| row.style == "coded").expect("stored");
     assert!(row.seam_file.is_none());
     let laid = bench.workspace.workpiece(row.key).and_then(|piece| piece.laid_out()).expect("it reads");
-    assert_eq!(laid.desk.seams.len(), style.seams.len());
+    assert!(laid.desk.pieces.len() == style.pieces.len() && laid.desk.seams.len() >= style.seams.len());
     bench.workspace.save_size(Mode::Add, "coded/two", &given("two", "tee.json")).expect("it holds its seams");
 }

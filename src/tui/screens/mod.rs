@@ -84,7 +84,8 @@ fn tabs(state: &State, width: u16) -> Line<'static> {
     let mut spans = vec![];
     for screen in Screen::ALL {
         let style = if screen == state.screen { state.theme.selected() } else { Style::new() };
-        spans.push(Span::styled(format!(" {} ", screen.title()), style));
+        let end = if width < WIDE { "" } else { " " };
+        spans.push(Span::styled(format!(" {}{end}", screen.title()), style));
     }
     let used: usize = spans.iter().map(Span::width).sum();
     let room = usize::from(width).saturating_sub(used);
@@ -108,7 +109,7 @@ fn summary(state: &State) -> Vec<Span<'static>> {
     if state.run.is_some() {
         spans.push(Span::styled(" run here", state.theme.busy()));
     }
-    spans.push(Span::raw(format!("  {} jobs", study.total())));
+    spans.push(Span::raw(format!(" {} jobs", study.total())));
     for status in Status::ALL.into_iter().filter(|status| study.count(*status) > 0) {
         let text = format!(" {}{}", glyph(status), study.count(status));
         spans.push(Span::styled(text, state.theme.status(status)));

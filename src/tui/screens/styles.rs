@@ -25,7 +25,7 @@ const FIXED: usize = 3 + NAME + 1 + 2 * 8 + 2 * 6 + 5;
 fn panes(area: Rect, sizes: usize) -> [Rect; 3] {
     let share = if area.width >= WIDE { area.width * 9 / 20 } else { area.width / 2 };
     let [left, pieces] = Layout::horizontal([Constraint::Length(share), Constraint::Fill(1)]).areas(area);
-    let list = (sizes as u16).saturating_add(3).min((area.height / 3).max(5));
+    let list = (sizes.max(1) as u16).saturating_add(3).min((area.height / 3).max(5));
     let [list, table] = Layout::vertical([Constraint::Length(list), Constraint::Fill(1)]).areas(left);
     [list, table, pieces]
 }
@@ -48,8 +48,10 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     }
     let mut styles: Vec<&str> = sizes.iter().map(|row| row.style.as_str()).collect();
     styles.dedup();
-    let block = pane(state.theme, format!("{} sizes of {} styles", sizes.len(), styles.len()), !on_desk);
-    let legend = "• in the study  * not saved  ? proposed";
+    let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    let title = format!("{}, {}", counted(styles.len(), "style"), counted(sizes.len(), "size"));
+    let block = pane(state.theme, title, !on_desk);
+    let legend = "• study  * not saved  ? proposed";
     let block = block.title_bottom(Line::styled(legend, state.theme.legend()));
     let inner = block.inner(list_area);
     frame.render_widget(Paragraph::new(list(state, inner.width, inner.height)).block(block), list_area);
@@ -64,10 +66,10 @@ fn list(state: &State, width: u16, height: u16) -> Vec<Line<'static>> {
     let key = state.size_row().map(|row| row.key);
     let at = sizes.iter().position(|row| Some(row.key) == key).unwrap_or(0);
     let first = first_shown(at, sizes.len(), height);
-    let head = format!("  {} {} {} {}", left("style", 14), left("size", 6), left("rev", 5), "pattern");
+    let head = format!("  {} {} {} {}", left("style", 14), left("size", 6), left("rev", 4), "pattern");
     let mut lines = vec![Line::styled(shortened(&head, width), state.theme.dim())];
     for (k, row) in sizes.iter().enumerate().skip(first).take(height) {
-        let line = Line::raw(shortened(&list_line(state, row), width));
+        let line = Line::raw(list_line(state, row, width));
         let style = state.theme.selection(!state.in_second_pane());
         lines.push(if k == at { as_selected(line, style) } else { line });
     }
@@ -78,14 +80,16 @@ fn list(state: &State, width: u16, height: u16) -> Vec<Line<'static>> {
     lines
 }
 
-fn list_line(state: &State, row: &SizeRow) -> String {
+fn list_line(state: &State, row: &SizeRow, width: usize) -> String {
     let study = state.data.as_ref().and_then(|data| data.study());
     let used = if study.is_some_and(|study| study.garments.contains(&row.style)) { "•" } else { " " };
     let edited = if state.styles.edits.contains_key(&row.style) { "*" } else { " " };
     let unsure = if row.unconfirmed > 0 { format!("?{} ", row.unconfirmed) } else { String::new() };
     let revisions = format!("{}/{}", row.style_revision, row.revision);
     let (style, size) = (left(&row.style, 14), left(&row.size, 6));
-    format!("{used}{edited}{style} {size} {} {unsure}{}", left(&revisions, 5), row.pattern_file)
+    let start = format!("{used}{edited}{style} {size} {} {unsure}", left(&revisions, 4));
+    let file = shortened(&row.pattern_file, width.saturating_sub(super::super::text::width(&start)));
+    shortened(&format!("{start}{file}"), width)
 }
 
 fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
@@ -126,16 +130,15 @@ fn selection(state: &State, laid: &Laid) -> String {
     let (piece, edge) = state.styles.edge;
     let Some(piece) = laid.out.desk.pieces.get(piece) else { return String::new() };
     let Some(edge) = piece.edges.get(edge) else { return String::new() };
-    let name = edge.name.as_ref().map_or(String::new(), |name| format!(" {name}"));
-    let seam = match laid.seam_at(state.styles.edge) {
+    let edge = format!("{}.{} {:.1} mm", piece.id, edge.number, edge.length_mm);
+    match laid.seam_at(state.styles.edge) {
         Some(k) => {
             let seam = &laid.out.desk.seams[k];
             let turned = if seam.same_direction { ", turned" } else { "" };
-            format!("{} {} {:.3}{turned}", letter(k), seam.name, seam.a_mm / seam.b_mm)
+            format!("{} {} · {edge}{turned}", letter(k), seam.name)
         }
-        None => "in no seam".to_owned(),
-    };
-    format!("{}.{}{name} {:.1} mm · {seam}", piece.id, edge.number, edge.length_mm)
+        None => format!("in no seam · {edge}"),
+    }
 }
 
 /// Seams, questions and measurements, the selected line among them.
@@ -198,17 +201,22 @@ fn seam_line(desk: &Desk, k: usize, seam: &DeskSeam, width: usize) -> String {
         None => (" ", "✓".to_owned()),
     };
     let turned = if seam.same_direction { "↻" } else { "" };
-    let edges = format!("{}={}{turned}", chain(desk, &seam.a), chain(desk, &seam.b));
+    // Names of pieces give way before numbers of edges do.
+    let fitted = |columns: usize| {
+        let edges = |letters| format!("{}={}{turned}", chain(desk, &seam.a, letters), chain(desk, &seam.b, letters));
+        let fits = |edges: &String| super::super::text::width(edges) <= columns;
+        left(&(1..=12).rev().map(edges).find(fits).unwrap_or_else(|| edges(1)), columns)
+    };
     let ease = seam.a_mm - seam.b_mm;
     let ease = if ease.abs() < 0.05 { "0".to_owned() } else { whole_or_tenth(ease) };
     let start = format!("{}{mark} ", letter(k));
     let text = if width >= FULL {
         let numbers = [seam.a_mm, seam.b_mm].map(|mm| right(&format!("{mm:.1}"), 8)).concat();
         let ratio = right(&format!("{:.3}", seam.a_mm / seam.b_mm), 6);
-        let edges = left(&edges, width - FIXED);
+        let edges = fitted(width - FIXED);
         format!("{start}{} {edges}{numbers}{ratio}{}{}", left(&seam.name, NAME), right(&ease, 6), right(&sure, 5))
     } else {
-        let edges = left(&edges, width.saturating_sub(3 + 7 + 6 + 5));
+        let edges = fitted(width.saturating_sub(3 + 7 + 6 + 5));
         format!("{start}{edges}{}{}{}", right(&format!("{:.1}", seam.a_mm), 7), right(&ease, 6), right(&sure, 5))
     };
     shortened(&text, width)
@@ -220,8 +228,12 @@ fn whole_or_tenth(ease: f64) -> String {
     if ease.abs() < 10.0 { format!("{sign}{ease:.1}").replace('-', "−") } else { format!("{sign}{}", whole(ease)) }
 }
 
-/// The edges of one side of a seam by their numbers: `front.3`, `sleeve.2+3`.
-fn chain(desk: &Desk, edges: &[EdgeAt]) -> String {
+/// The edges of one side of a seam by their numbers: `front.3`, `sleeve.2+3`; so many letters of each word of a piece.
+fn chain(desk: &Desk, edges: &[EdgeAt], letters: usize) -> String {
+    let short = |id: &str| {
+        let words = id.split('_').map(|word| word.chars().take(letters).collect::<String>());
+        words.collect::<Vec<_>>().join("_")
+    };
     let mut text = String::new();
     let mut before = None;
     for (piece, edge) in edges {
@@ -229,8 +241,8 @@ fn chain(desk: &Desk, edges: &[EdgeAt]) -> String {
         let number = drawn.edges[*edge].number;
         text += &match before {
             Some(same) if same == piece => format!("+{number}"),
-            Some(_) => format!("+{}.{number}", drawn.id),
-            None => format!("{}.{number}", drawn.id),
+            Some(_) => format!("+{}.{number}", short(&drawn.id)),
+            None => format!("{}.{number}", short(&drawn.id)),
         };
         before = Some(piece);
     }

@@ -38,7 +38,7 @@ fn sizes_are_chosen_and_filtered_and_each_is_laid_out_once() {
     let layings = bench.effects.iter().filter(|effect| matches!(effect, Effect::Desk(_))).count();
     assert_eq!(layings, 2);
     assert_eq!(size(bench.press("g/-M.dxf<Enter>")), "M");
-    assert!(bench.press("/x<Enter>").screen().contains("no size matches the filter"));
+    assert!(bench.press("/zz<Enter>").screen().contains("no size matches the filter"));
     assert_eq!(bench.press("<Esc>jy").asked().len(), 1, "the table of seams is copied");
 }
 
@@ -81,9 +81,9 @@ fn a_seam_is_opened_sewn_again_turned_taken_back_and_saved() {
     assert_eq!(seams(&bench).len(), before.len() - 1);
     assert_eq!(seam(&bench), "none");
     let questions = bench.state.laid().expect("laid out").expect("it fits").out.questions.len();
-    assert!(questions >= 2 && bench.screen().contains("? free edge"), "{}", bench.screen());
+    assert!(questions >= 1 && bench.screen().contains("? free edge"), "{}", bench.screen());
     assert!(bench.press("x").status().contains("no seam holds"));
-    assert!(bench.press("a").status().contains("Space marks an edge"));
+    assert!(bench.press("a").status().contains("m marks an edge"));
 
     bench.press(" ");
     assert_eq!(bench.state.styles.marks, [a]);
