@@ -44,6 +44,7 @@ impl Values for StyleValues {
         };
         let given = StyleGiven {
             seams: self.seams.clone(),
+            is_proposed: false,
             unit: self.unit.and_then(unit_name),
             patterns: self.patterns.iter().map(pattern).collect(),
         };
@@ -57,6 +58,7 @@ impl Values for SizeValues {
     fn save(&self, workspace: &mut Workspace, mode: Mode, name: &str) -> Result<Vec<Saved>, StudyError> {
         let given = StyleGiven {
             seams: None,
+            is_proposed: false,
             unit: self.unit.and_then(unit_name),
             patterns: self.pattern.iter().map(|path| (None, path.clone())).collect(),
         };

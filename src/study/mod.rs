@@ -33,14 +33,15 @@ mod store;
 mod tests;
 pub mod tools;
 mod types;
+mod workpiece;
 mod workspace;
 
 pub use actions::why_no_retry;
 pub use attempt::{Attempt, Tried, TriedChi, TriedEase, attempt};
 pub use audit::{Audit, Finding};
 pub use catalogue::{
-    Deed, FABRIC_NUMBERS, Field, Given, MEASUREMENTS, Mode, Part, Removed, Saved, StyleGiven, SubjectRow, doubts,
-    is_doubtful, percentile, percentile_text, sex,
+    Deed, FABRIC_NUMBERS, Field, Given, MEASUREMENTS, Mode, Part, Removed, Saved, SizeRow, StyleGiven, SubjectRow,
+    doubts, is_doubtful, percentile, percentile_text, sex,
 };
 pub use doctor::{Check, checks};
 pub use enqueue::{Planned, Why};
@@ -57,8 +58,8 @@ pub use spec::{JobSpec, Selection};
 pub use sql::Interrupter;
 pub use store::now_ms;
 pub use types::{
-    Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, RecommendationRow, StageRow,
-    Status, StudyRow, SubjectId, Table, Value,
+    Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, RecommendationRow, SizeKey,
+    StageRow, Status, StudyRow, SubjectId, Table, Value,
 };
 pub use workspace::Workspace;
 

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use toml_edit::{DocumentMut, Item};
+
 use super::error::{Result, StudyError};
 use super::file::SourceFile;
 use super::tools::{self, Unit};
@@ -142,6 +144,27 @@ pub fn propose(path: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Pr
 /// When a file cannot be read or does not fit the other.
 pub fn desk(pattern: &Path, seams: Option<&Path>, size: Option<&str>, unit: Option<Unit>) -> Result<Desk> {
     Ok(Desk::of(&tools::style(pattern, seams, size, unit)?))
+}
+
+/// How sure the proposed seams of a seam file are that nobody has confirmed yet, by their places in it: what stands as
+/// `# confidence 0.83` beside their headers.
+pub(super) fn confidences(text: &str) -> Vec<Option<f64>> {
+    let Ok(document) = text.parse::<DocumentMut>() else { return vec![] };
+    let seams = document.get("seam").and_then(Item::as_array_of_tables);
+    let sure = |seam: &toml_edit::Table| {
+        let remark = seam.decor().suffix()?.as_str()?.split_once("confidence ")?.1;
+        remark.split([',', ' ', '\n']).next()?.parse().ok()
+    };
+    seams.map_or(vec![], |seams| seams.iter().map(sure).collect())
+}
+
+/// The text of a seam file without the doubt about one of its seams; `None` where it has no such seam.
+pub(super) fn confirmed(text: &str, seam: &str) -> Option<String> {
+    let mut document: DocumentMut = text.parse().ok()?;
+    let seams = document.get_mut("seam")?.as_array_of_tables_mut()?;
+    let is_named = |table: &&mut toml_edit::Table| table.get("name").and_then(Item::as_str) == Some(seam);
+    seams.iter_mut().find(is_named)?.decor_mut().set_suffix("");
+    Some(document.to_string())
 }
 
 /// The text of a seam file after an edit, checked against the pattern; comments stay.

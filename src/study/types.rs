@@ -30,6 +30,15 @@ impl FromStr for JobId {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SubjectId(pub i64);
 
+/// Revisions of a style and of a size of it in their database: stand for one pattern and one seam file for good.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SizeKey {
+    /// Row of the style.
+    pub style: i64,
+    /// Row of the size.
+    pub size: i64,
+}
+
 /// State of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "snake_case")]

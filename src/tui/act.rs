@@ -50,6 +50,17 @@ impl State {
             Action::EditSubject => self.edit_subject(),
             Action::ImportSubjects => self.import_subjects(),
             Action::RemoveSubject => self.remove_subject(),
+            Action::ImportStyle => self.import_style(),
+            Action::RemoveSize => self.remove_size(),
+            Action::EnlargePieces => self.enlarge_pieces(),
+            Action::MarkEdge => self.mark_edge(),
+            Action::AddSeam => return self.add_seam(),
+            Action::RemoveSeam => return self.remove_seam(),
+            Action::FlipSeam => return self.flip_seam(),
+            Action::ConfirmSeam => return self.confirm_seam(),
+            Action::ProposeSeams => return self.propose_seams(),
+            Action::UndoEdit => self.undo_edit(),
+            Action::SaveSeams => return self.save_seams(),
             Action::Pause => return self.pause(),
             Action::Cancel => return self.cancel(),
             Action::Retry => return self.retry(),
@@ -95,6 +106,8 @@ impl State {
             filter.clear();
         } else if self.enlarged && self.screen == Screen::Results {
             self.enlarged = false;
+        } else if self.styles.enlarged && self.screen == Screen::Styles {
+            self.styles.enlarged = false;
         } else if let Some(screen) = self.trail.pop() {
             self.screen = screen;
         } else {
@@ -104,8 +117,13 @@ impl State {
     }
 
     fn quit(&mut self) -> Vec<Effect> {
-        if self.run.is_none() {
+        let unsaved = self.unsaved();
+        if self.run.is_none() && unsaved.is_empty() {
             return vec![Effect::Quit];
+        }
+        if self.run.is_none() {
+            self.ask(format!("Seams of {unsaved} are not saved. Leave all the same?"), vec![Effect::Quit]);
+            return vec![];
         }
         self.ask(
             "A run goes on here. Stop it and leave? Unfinished jobs go back to the queue.",
@@ -120,6 +138,7 @@ impl State {
 
     fn sort(&mut self) {
         match self.screen {
+            Screen::Styles => self.say("styles are listed by name, sizes as they came"),
             Screen::Subjects => self.subject_order.by = self.subject_order.by.next(subjects::SHOWN),
             Screen::Jobs => self.job_order.by = self.job_order.by.next(),
             Screen::Study | Screen::Results => {
@@ -133,6 +152,7 @@ impl State {
 
     fn reverse(&mut self) {
         let reversed = match self.screen {
+            Screen::Styles => return self.say("styles are listed by name, sizes as they came"),
             Screen::Subjects => &mut self.subject_order.reversed,
             Screen::Jobs => &mut self.job_order.reversed,
             Screen::Study | Screen::Results => &mut self.chi_order.reversed,

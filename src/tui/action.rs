@@ -4,7 +4,7 @@ use std::fmt;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use Screen::{Jobs, Results, Study, Subjects};
+use Screen::{Jobs, Results, Study, Styles, Subjects};
 
 /// A screen of the workbench; its number is its key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,6 +13,8 @@ pub enum Screen {
     Study,
     /// The subjects of the catalogue.
     Subjects,
+    /// The styles and sizes of the catalogue, and the seams of one.
+    Styles,
     /// The queue.
     Jobs,
     /// One result: its measurements and its picture.
@@ -21,7 +23,7 @@ pub enum Screen {
 
 impl Screen {
     /// All screens, in order of their numbers.
-    pub const ALL: [Self; 4] = [Self::Study, Self::Subjects, Self::Jobs, Self::Results];
+    pub const ALL: [Self; 5] = [Self::Study, Self::Subjects, Self::Styles, Self::Jobs, Self::Results];
 
     /// Number and name, as on its tab.
     #[must_use]
@@ -29,6 +31,7 @@ impl Screen {
         match self {
             Self::Study => "1 Study",
             Self::Subjects => "2 Subjects",
+            Self::Styles => "3 Styles",
             Self::Jobs => "4 Jobs",
             Self::Results => "5 Results",
         }
@@ -102,6 +105,28 @@ pub enum Action {
     ImportSubjects,
     /// Removes the selected subject.
     RemoveSubject,
+    /// Asks for the files of a style.
+    ImportStyle,
+    /// Removes the selected size.
+    RemoveSize,
+    /// Gives the pieces all the room, or less again.
+    EnlargePieces,
+    /// Marks the selected edge.
+    MarkEdge,
+    /// Sews the marked edges.
+    AddSeam,
+    /// Opens the selected seam.
+    RemoveSeam,
+    /// Turns one side of the selected seam round.
+    FlipSeam,
+    /// Takes the selected proposed seam for right.
+    ConfirmSeam,
+    /// Proposes the seams of the selected style.
+    ProposeSeams,
+    /// Takes the last edit of the seams back.
+    UndoEdit,
+    /// Saves the edited seams.
+    SaveSeams,
     /// Pauses or resumes the study.
     Pause,
     /// Cancels the selected job.
@@ -285,6 +310,73 @@ pub const BINDINGS: &[Binding] = &[
         "delete",
         "Remove the selected subject; asks",
     ),
+    bind(
+        Action::ConfirmSeam,
+        "confirm-seam",
+        &[key(KeyCode::Enter)],
+        &[Styles],
+        "confirm",
+        "Work on the seams; confirm a proposed one (?)",
+    ),
+    bind(
+        Action::MarkEdge,
+        "mark-edge",
+        &[ch('m'), ch(' ')],
+        &[Styles],
+        "mark",
+        "Mark the selected edge for a new seam, or unmark it",
+    ),
+    bind(
+        Action::AddSeam,
+        "add-seam",
+        &[ch('a')],
+        &[Styles],
+        "sew",
+        "Sew the marked edge to the selected or other marked",
+    ),
+    bind(Action::RemoveSeam, "remove-seam", &[ch('x')], &[Styles], "open", "Open the selected seam"),
+    bind(
+        Action::SaveSeams,
+        "save-seams",
+        &[ch('w')],
+        &[Styles],
+        "save",
+        "Save the seams: catalogue, and study folder if asked",
+    ),
+    bind(
+        Action::ImportStyle,
+        "import-style",
+        &[ch('i')],
+        &[Styles],
+        "import",
+        "Add a style or sizes: DXF, GarmentCode, study.toml",
+    ),
+    bind(Action::FlipSeam, "flip-seam", &[ch('f')], &[Styles], "flip", "Turn one side of the selected seam round"),
+    bind(
+        Action::ProposeSeams,
+        "propose-seams",
+        &[ch('p')],
+        &[Styles],
+        "propose",
+        "Propose all seams of the style; asks",
+    ),
+    bind(Action::UndoEdit, "undo-edit", &[ch('u')], &[Styles], "undo", "Take the last edit of the seams back"),
+    bind(
+        Action::EnlargePieces,
+        "enlarge-pieces",
+        &[ch('z')],
+        &[Styles],
+        "enlarge",
+        "Give the pieces all the room, or less again",
+    ),
+    bind(
+        Action::RemoveSize,
+        "delete-size",
+        &[ch('d')],
+        &[Styles],
+        "delete",
+        "Remove the selected size, the last with its style",
+    ),
     bind(Action::Pause, "pause", &[ch('p')], &[Study, Jobs], "pause", "Pause or resume the study; running jobs go on"),
     bind(Action::Cancel, "cancel", &[ch('x')], RESULTS, "cancel", "Cancel the selected queued or running job; asks"),
     bind(Action::Retry, "retry", &[ch('r')], RESULTS, "retry", "Queue the selected failed or cancelled job again"),
@@ -339,6 +431,7 @@ pub const BINDINGS: &[Binding] = &[
         "",
         "Screen 2: the subjects, their bodies and percentiles",
     ),
+    bind(Action::Show(Styles), "styles", &[ch('3')], &[], "", "Screen 3: styles and sizes, pieces and seams"),
     bind(Action::Show(Jobs), "jobs", &[ch('4')], &[], "", "Screen 4: the queue, logs and convergence"),
     bind(Action::Show(Results), "results", &[ch('5')], &[], "", "Screen 5: one result, its numbers and picture"),
     bind(Action::NextGarment, "next-garment", &[ch(']')], &[], "", "Next garment of the study"),
@@ -398,6 +491,8 @@ mod tests {
         check(key(KeyCode::Enter), Jobs, Some(Action::Open));
         check(key(KeyCode::Enter), Results, Some(Action::Enlarge));
         check(key(KeyCode::Enter), Subjects, Some(Action::EditSubject));
+        check(key(KeyCode::Enter), Styles, Some(Action::ConfirmSeam));
+        check(ch('x'), Styles, Some(Action::RemoveSeam));
         check(ch('x'), Subjects, None);
         check(ch('v'), Study, None);
         check(ctrl('c'), Study, Some(Action::Quit));

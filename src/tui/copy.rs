@@ -15,6 +15,7 @@ pub fn selection(state: &State) -> Option<(String, &'static str)> {
     match state.screen {
         Screen::Results => chi_table(state).map(|table| (table, "the table of measurements")),
         Screen::Subjects => subject_line(state).map(|line| (line, "the subject")),
+        Screen::Styles => seam_table(state).map(|table| (table, "the table of seams")),
         Screen::Study | Screen::Jobs => job_line(state).map(|line| (line, "the job")),
     }
 }
@@ -40,6 +41,25 @@ fn subject_line(state: &State) -> Option<String> {
     let value = |field: &Field<Measurements>| field.get(&subject.measurements).map_or(String::new(), |v| v.to_string());
     let values: Vec<String> = MEASUREMENTS.iter().map(value).collect();
     Some(format!("{}\t{}\t{}", subject.name, text::sex(subject), values.join("\t")))
+}
+
+fn seam_table(state: &State) -> Option<String> {
+    let desk = &state.laid()?.ok()?.out.desk;
+    let names = |chain: &[(usize, usize)]| {
+        let name = |(piece, edge): &(usize, usize)| {
+            let piece = &desk.pieces[*piece];
+            let edge = &piece.edges[*edge];
+            format!("{}.{}", piece.id, edge.name.clone().unwrap_or_else(|| edge.number.to_string()))
+        };
+        chain.iter().map(name).collect::<Vec<_>>().join("+")
+    };
+    let mut table = String::from("seam\ta\tb\ta_mm\tb_mm\tconfidence\n");
+    for seam in &desk.seams {
+        let confidence = seam.confidence.map_or(String::new(), |confidence| confidence.to_string());
+        let (a, b) = (names(&seam.a), names(&seam.b));
+        table += &format!("{}\t{a}\t{b}\t{:.1}\t{:.1}\t{confidence}\n", seam.name, seam.a_mm, seam.b_mm);
+    }
+    Some(table)
 }
 
 fn chi_table(state: &State) -> Option<String> {

@@ -1,8 +1,8 @@
 //! What the screens show, read from the workspace in one go on a background thread.
 
 use crate::study::{
-    ChiRow, EaseRow, Grid, JobFilter, JobId, JobRow, LogLine, MetricsRow, Result, StageRow, Step, StudyRow, SubjectRow,
-    Why, Workspace, now_ms,
+    ChiRow, EaseRow, Grid, JobFilter, JobId, JobRow, LogLine, MetricsRow, Result, SizeRow, StageRow, Step, StudyRow,
+    SubjectRow, Why, Workspace, now_ms,
 };
 
 /// What the user looks at; whatever is `None` or gone is chosen by [`snapshot`].
@@ -23,6 +23,8 @@ pub struct Snapshot {
     pub now_ms: i64,
     /// The subjects of the catalogue, by name.
     pub subjects: Vec<SubjectRow>,
+    /// The sizes of the styles of the catalogue.
+    pub sizes: Vec<SizeRow>,
     /// All studies.
     pub studies: Vec<StudyRow>,
     /// The study looked at, an index into `studies`.
@@ -78,8 +80,10 @@ pub fn snapshot(workspace: &Workspace, focus: &Focus) -> Result<Snapshot> {
     let studies = workspace.studies()?;
     let study = studies.iter().position(|study| Some(&study.name) == focus.study.as_ref()).unwrap_or(0);
     let subjects = workspace.subjects()?;
+    let sizes = workspace.sizes()?;
     let (jobs, ease) = (vec![], vec![]);
-    let mut snapshot = Snapshot { now_ms: now_ms(), subjects, studies, study, grid: None, jobs, ease, detail: None };
+    let mut snapshot =
+        Snapshot { now_ms: now_ms(), subjects, sizes, studies, study, grid: None, jobs, ease, detail: None };
     let Some(row) = snapshot.studies.get(study) else { return Ok(snapshot) };
     let garment = row.garments.iter().find(|name| Some(*name) == focus.garment.as_ref()).or(row.garments.first());
     let grid = garment.map(|garment| workspace.grid(&row.name, garment)).transpose()?;

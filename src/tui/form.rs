@@ -191,8 +191,12 @@ impl PathPrompt {
             return Outcome::Closed;
         }
         (self.is_busy, self.problem) = (true, None);
-        let home = path.strip_prefix("~/").zip(std::env::home_dir());
-        let path = home.map_or_else(|| PathBuf::from(path), |(rest, home)| home.join(rest));
-        Outcome::Sent(vec![Effect::Do(Act::ImportSubjects(path))])
+        Outcome::Sent(vec![Effect::Do(Act::ImportSubjects(path_of(path)))])
     }
+}
+
+/// The path that was typed; `~/` is home.
+pub(super) fn path_of(text: &str) -> PathBuf {
+    let home = text.strip_prefix("~/").zip(std::env::home_dir());
+    home.map_or_else(|| PathBuf::from(text), |(rest, home)| home.join(rest))
 }

@@ -16,6 +16,8 @@ impl State {
         match (self.screen, self.in_second_pane()) {
             (Screen::Study, false) => self.go_in_grid(action, page),
             (Screen::Subjects, _) => self.go_in_subjects(action, page),
+            (Screen::Styles, false) => self.go_in_sizes(action, page),
+            (Screen::Styles, true) => self.go_in_desk(action, page),
             (Screen::Jobs, false) => self.go_in_jobs(action, page),
             (Screen::Jobs, true) => self.go_in_log(action, page),
             (Screen::Study, true) | (Screen::Results, _) => {
@@ -37,6 +39,19 @@ impl State {
         let subjects = self.subjects();
         let at = subjects.iter().position(|row| Some(row.id) == selected).unwrap_or(0);
         self.subject = subjects.get(moved(at, subjects.len(), action, page)).map(|row| row.name.clone());
+    }
+
+    fn go_in_sizes(&mut self, action: Action, page: usize) {
+        let selected = self.size_row().map(|row| row.key);
+        let sizes = self.sizes();
+        let at = sizes.iter().position(|row| Some(row.key) == selected).unwrap_or(0);
+        let next = sizes.get(moved(at, sizes.len(), action, page));
+        self.styles.selected = next.map(|row| (row.style.clone(), row.size.clone()));
+    }
+
+    fn go_in_desk(&mut self, action: Action, page: usize) {
+        let lines = self.laid().and_then(Result::ok).map_or(0, |laid| laid.lines().len());
+        self.select_line(moved(self.styles.line, lines, action, page));
     }
 
     fn go_in_jobs(&mut self, action: Action, page: usize) {
@@ -65,7 +80,8 @@ impl State {
             }
             (Screen::Results, true) => self.view = picture::turned(self.view, step),
             (Screen::Results, false) => self.step_result(step),
-            (Screen::Subjects | Screen::Jobs, _) => {}
+            (Screen::Styles, true) => self.step_edge(step),
+            (Screen::Subjects | Screen::Styles | Screen::Jobs, _) => {}
         }
     }
 
@@ -99,6 +115,13 @@ impl State {
                 let subjects = self.subjects();
                 let at = subjects.iter().position(|row| Some(row.id) == selected).unwrap_or(0);
                 self.subject = stepped(at, step, subjects.len()).map(|next| subjects[next].name.clone());
+            }
+            Screen::Styles => {
+                let selected = self.size_row().map(|row| row.key);
+                let sizes = self.sizes();
+                let at = sizes.iter().position(|row| Some(row.key) == selected).unwrap_or(0);
+                let next = stepped(at, step, sizes.len()).map(|next| sizes[next]);
+                self.styles.selected = next.map(|row| (row.style.clone(), row.size.clone()));
             }
             Screen::Jobs => {
                 let jobs: Vec<JobId> = self.jobs().iter().map(|job| job.id).collect();

@@ -7,8 +7,9 @@ use crossterm::event::KeyEvent;
 
 use super::feed::{Focus, Snapshot};
 use super::picture::{Drawn, Shot};
-use crate::study::tools::Girths;
-use crate::study::{Given, JobId, Mode, SubjectId};
+use super::tailor::{Laid, Laying, Task};
+use crate::study::tools::{Girths, SourceFile};
+use crate::study::{Given, JobId, Mode, Part, StyleGiven, SubjectId};
 
 /// Something that happened.
 #[derive(Debug)]
@@ -27,6 +28,12 @@ pub enum Message {
     Saved(Result<String, String>),
     /// A subject's body is built and measured, or could not be.
     Measured(SubjectId, Result<Box<Girths>, String>),
+    /// A size is laid out, or could not be.
+    LaidOut(Box<Laying>, Result<Box<Laid>, String>),
+    /// The seam file of a style after a step of work, or why there is none.
+    Sewn(String, Result<SourceFile, String>),
+    /// The seams of a style are saved, or why not.
+    SeamsSaved(String, SourceFile, Result<String, String>),
     /// A picture is drawn, or could not be.
     Picture(Shot, Result<Drawn, String>),
     /// The run started here has ended.
@@ -44,6 +51,8 @@ pub enum Effect {
     Read(Focus),
     /// Draw a picture.
     Paint(Shot),
+    /// Work on seams.
+    Desk(Task),
     /// Act on the queue or the catalogue.
     Do(Act),
     /// Run a study in the background.
@@ -67,6 +76,14 @@ pub enum Act {
     ImportSubjects(PathBuf),
     /// Remove a subject.
     RemoveSubject(String),
+    /// Add a style or sizes of it, or the styles of a study file.
+    ImportStyle(String, StyleGiven),
+    /// Remove a style or a size.
+    RemoveStyle(Part, String),
+    /// Save the seams of a style.
+    SaveSeams(String, SourceFile),
+    /// Write seams over a file that still says what it said before.
+    WriteSeams(PathBuf, SourceFile, SourceFile),
     /// Cancel a job.
     Cancel(JobId),
     /// Queue a job again.
@@ -83,7 +100,7 @@ impl Act {
     /// Whether a form waits for the answer.
     #[must_use]
     pub fn is_filled_in(&self) -> bool {
-        matches!(self, Self::SaveSubject(..) | Self::ImportSubjects(_))
+        matches!(self, Self::SaveSubject(..) | Self::ImportSubjects(_) | Self::ImportStyle(..))
     }
 }
 

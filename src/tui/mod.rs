@@ -19,7 +19,10 @@ mod painter;
 mod picture;
 mod screens;
 mod state;
+mod style_form;
+mod styles;
 mod subjects;
+mod tailor;
 mod terminal;
 #[cfg(test)]
 mod tests;

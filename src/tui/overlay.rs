@@ -5,6 +5,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use super::action::{Action, Binding, search};
 use super::form::{Form, PathPrompt};
 use super::message::Effect;
+use super::style_form::StyleForm;
 
 /// What is open.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +20,8 @@ pub enum Overlay {
     Form(Box<Form>),
     /// The path of a file to import.
     Path(PathPrompt),
+    /// The files of a style.
+    StyleForm(Box<StyleForm>),
     /// A question; `y` has the effects happen.
     Question {
         /// What is asked.
@@ -96,9 +99,10 @@ impl Overlay {
                 list.edit(event);
                 Outcome::Open
             }
-            Self::Form(_) | Self::Path(_) if leaves => Outcome::Closed,
+            Self::Form(_) | Self::Path(_) | Self::StyleForm(_) if leaves => Outcome::Closed,
             Self::Form(form) => form.key(event),
             Self::Path(prompt) => prompt.key(event),
+            Self::StyleForm(form) => form.key(event),
             Self::Filter(before) if leaves => {
                 filter.clone_from(before);
                 Outcome::Closed

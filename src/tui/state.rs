@@ -9,6 +9,7 @@ use super::feed::{Detail, Focus, Snapshot};
 use super::message::Target;
 use super::overlay::Overlay;
 use super::picture::{Drawn, Shot};
+use super::styles::Styles;
 use super::text;
 use super::theme::Theme;
 use crate::study::tools::Girths;
@@ -144,6 +145,8 @@ pub struct State {
     pub filters: [String; Screen::ALL.len()],
     /// Subject selected.
     pub subject: Option<String>,
+    /// Where the user is among the styles.
+    pub styles: Styles,
     /// Order of subjects.
     pub subject_order: Order<SubjectOrder>,
     /// What was read on bodies that were built.
@@ -197,6 +200,7 @@ impl State {
             second_pane: [false; Screen::ALL.len()],
             filters: Default::default(),
             subject: None,
+            styles: Styles::default(),
             subject_order: Order::default(),
             measured: BTreeMap::new(),
             job_order: Order::default(),

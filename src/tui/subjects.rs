@@ -61,6 +61,17 @@ impl State {
     pub(super) fn saved(&mut self, outcome: Result<String, String>) {
         let waits = match &mut self.overlay {
             Some(Overlay::Form(form)) if form.is_busy => Some((&mut form.is_busy, &mut form.problem)),
+            Some(Overlay::StyleForm(form)) if form.is_busy => {
+                match outcome {
+                    Err(text) => form.refused(text),
+                    Ok(text) => {
+                        self.styles.selected = Some((form.style(), form.size()));
+                        self.overlay = None;
+                        self.say(text);
+                    }
+                }
+                return;
+            }
             Some(Overlay::Path(prompt)) if prompt.is_busy => Some((&mut prompt.is_busy, &mut prompt.problem)),
             _ => None,
         };

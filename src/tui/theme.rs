@@ -136,6 +136,13 @@ impl Theme {
         }
     }
 
+    /// The colour of a seam, which its letter tells as well.
+    #[must_use]
+    pub fn seam(self, seam: usize) -> Color {
+        const COLOURS: [Color; 5] = [Color::Green, Color::Magenta, Color::Cyan, Color::Red, Color::Blue];
+        if self.has_colours() { COLOURS[seam % COLOURS.len()] } else { Color::Reset }
+    }
+
     /// Whether there are colours at all.
     #[must_use]
     pub fn has_colours(self) -> bool {

@@ -37,6 +37,18 @@ impl State {
                 self.saved(outcome);
                 vec![]
             }
+            Message::LaidOut(laying, outcome) => {
+                self.laid_out(*laying, outcome);
+                vec![]
+            }
+            Message::Sewn(style, outcome) => {
+                self.sewn(style, outcome);
+                vec![]
+            }
+            Message::SeamsSaved(style, seams, outcome) => {
+                self.seams_saved(&style, &seams, outcome);
+                vec![]
+            }
             Message::Measured(id, outcome) => {
                 self.measured.insert(id, outcome);
                 vec![]
@@ -64,6 +76,7 @@ impl State {
             effects.push(Effect::Read(self.focus.clone()));
         }
         effects.extend(self.ask_for_picture());
+        effects.extend(self.ask_for_desk());
         effects
     }
 

@@ -16,7 +16,9 @@ use super::feed::{self, Focus};
 use super::message::{Act, Effect, Message, Target};
 use super::painter;
 use super::picture::{Canvas, Shot};
-use crate::study::{Deed, Part, RunOptions, StudyError, Workspace};
+use super::tailor::{self, Task};
+use crate::study::tools::write_seams;
+use crate::study::{Deed, Mode, Part, RunOptions, Saved, StudyError, StyleGiven, Workspace};
 
 /// Time between two looks at whether the database has changed; a look costs microseconds.
 const LOOK: Duration = Duration::from_millis(250);
@@ -36,6 +38,7 @@ pub struct Workers {
     sender: Sender<Message>,
     requests: Sender<Request>,
     shots: Sender<Shot>,
+    tasks: Sender<Task>,
     database: PathBuf,
     quickstart: Option<PathBuf>,
     stop: Arc<AtomicBool>,
@@ -49,14 +52,17 @@ impl Workers {
         let (sender, messages) = mpsc::channel();
         let (requests, asked) = mpsc::channel();
         let (shots, wanted) = mpsc::channel();
+        let (tasks, work) = mpsc::channel();
         let (database, workspace_is_readonly) = (workspace.path().to_owned(), workspace.is_readonly());
         spawn(&sender, read_keys);
         spawn(&sender, watch_signals);
         spawn(&sender, move |sender| serve_database(workspace, &asked, sender));
         let (path, readonly) = (database.clone(), workspace_is_readonly);
         spawn(&sender, move |sender| painter::serve(&path, readonly, canvas.as_ref(), &wanted, sender));
+        let (path, readonly) = (database.clone(), workspace_is_readonly);
+        spawn(&sender, move |sender| tailor::serve(&path, readonly, &work, sender));
         let stop = Arc::new(AtomicBool::new(false));
-        Self { messages, sender, requests, shots, database, quickstart, stop, run: Mutex::new(None) }
+        Self { messages, sender, requests, shots, tasks, database, quickstart, stop, run: Mutex::new(None) }
     }
 
     /// Has the database read.
@@ -69,6 +75,7 @@ impl Workers {
         match effect {
             Effect::Read(focus) => drop(self.requests.send(Request::Read(focus))),
             Effect::Do(act) => drop(self.requests.send(Request::Do(act))),
+            Effect::Desk(task) => drop(self.tasks.send(task)),
             Effect::Paint(shot) => drop(self.shots.send(shot)),
             Effect::Run(target) => self.start_run(target),
             Effect::StopRun => self.stop.store(true, Ordering::Relaxed),
@@ -147,10 +154,11 @@ fn serve_database(mut workspace: Workspace, asked: &Receiver<Request>, sender: &
             }
             Ok(Request::Do(act)) => {
                 let done = do_act(&mut workspace, &act).map_err(|error| error.to_string());
-                let message = match done {
-                    done if act.is_filled_in() => Message::Saved(done),
-                    Ok(text) => Message::Acted(text),
-                    Err(text) => Message::Failed(text),
+                let message = match (act, done) {
+                    (Act::SaveSeams(style, seams), done) => Message::SeamsSaved(style, seams, done),
+                    (act, done) if act.is_filled_in() => Message::Saved(done),
+                    (_, Ok(text)) => Message::Acted(text),
+                    (_, Err(text)) => Message::Failed(text),
                 };
                 if sender.send(message).is_err() {
                     return;
@@ -195,6 +203,13 @@ pub(super) fn do_act(workspace: &mut Workspace, act: &Act) -> Result<String, Stu
             ))
         }
         Act::RemoveSubject(name) => Ok(workspace.remove(Part::Subject, name)?.to_string()),
+        Act::ImportStyle(name, given) => import_style(workspace, name, given),
+        Act::RemoveStyle(part, name) => Ok(workspace.remove(*part, name)?.to_string()),
+        Act::SaveSeams(style, seams) => Ok(said(&workspace.save_seams(style, seams)?)),
+        Act::WriteSeams(path, before, after) => {
+            write_seams(path, before, after)?;
+            Ok(format!("{} is written", path.display()))
+        }
         Act::Cancel(id) => match workspace.cancel(&[*id])? {
             0 => Ok(format!("job {id} had ended already")),
             _ => Ok(format!("job {id} is cancelled; r queues it again")),
@@ -215,6 +230,28 @@ pub(super) fn do_act(workspace: &mut Workspace, act: &Act) -> Result<String, Stu
             workspace.resume(study)?;
             Ok(format!("{study} goes on"))
         }
+    }
+}
+
+/// Adds the styles of a study file; or a style, whose seams are proposed where none are given; or sizes to one.
+fn import_style(workspace: &mut Workspace, name: &str, given: &StyleGiven) -> Result<String, StudyError> {
+    if let [(_, path)] = given.patterns.as_slice()
+        && path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
+    {
+        return Ok(said(&workspace.import(Part::Style, std::slice::from_ref(path))?));
+    }
+    let is_known = workspace.sizes()?.iter().any(|row| row.style == name);
+    let saved = workspace.save_style(if is_known { Mode::Edit } else { Mode::Add }, name, given)?;
+    let unsure = workspace.sizes()?.iter().find(|row| row.style == name).map_or(0, |row| row.unconfirmed);
+    let proposed = if unsure > 0 { format!("; {unsure} seams are proposed: confirm them") } else { String::new() };
+    Ok(said(&saved) + &proposed)
+}
+
+/// What was saved, in a line.
+fn said(saved: &[Saved]) -> String {
+    match saved {
+        [first, _, _, _, ..] => format!("{first}, and {} more", saved.len() - 1),
+        _ => saved.iter().map(Saved::to_string).collect::<Vec<_>>().join(", "),
     }
 }
 

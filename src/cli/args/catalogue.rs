@@ -65,10 +65,10 @@ pub struct FabricValues {
 /// Files of a style.
 #[derive(Debug, Args)]
 pub struct StyleValues {
-    /// Seam file.
+    /// Seam file; GarmentCode JSON needs none.
     #[arg(long, value_name = "FILE")]
     pub seams: Option<PathBuf>,
-    /// Patterns; without SIZE= all sizes that a file names.
+    /// Patterns (DXF, GarmentCode JSON); without SIZE= all sizes that a file names.
     #[arg(long = "pattern", value_name = "[SIZE=]FILE", num_args = 1..)]
     pub patterns: Vec<String>,
     /// Unit of the patterns, where they name none.

@@ -7,6 +7,7 @@ mod known;
 mod norms;
 mod revision;
 mod sheet;
+mod sizes;
 mod style;
 #[cfg(test)]
 mod tests;
@@ -28,6 +29,7 @@ pub use known::SubjectRow;
 pub(crate) use known::{add_builtin, known};
 pub use norms::{doubts, is_doubtful, percentile, percentile_text};
 pub(crate) use revision::{By, fabric, size, style, subject};
+pub use sizes::SizeRow;
 pub use style::StyleGiven;
 
 /// A part of the catalogue.

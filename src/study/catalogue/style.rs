@@ -9,6 +9,7 @@ use super::super::file::{self, Placed, Problem, Sewn, SizeFile, SourceFile};
 use super::super::store;
 use super::super::tools;
 use super::super::types::JobId;
+use super::super::workpiece::Workpiece;
 use super::super::workspace::Workspace;
 use super::import::{Format, format_of, text_of, unknown_format};
 use super::revision::{self, By};
@@ -20,6 +21,8 @@ use crate::pattern::{Style, source};
 pub struct StyleGiven {
     /// Seam file.
     pub seams: Option<PathBuf>,
+    /// Whether seams are proposed where a new style has none: no seam file, and patterns that hold none.
+    pub is_proposed: bool,
     /// Unit of the patterns, where their files name none: `mm`, `cm` or `in`.
     pub unit: Option<String>,
     /// Patterns, each with the size it is; a file without one brings all sizes in it.
@@ -29,10 +32,18 @@ pub struct StyleGiven {
 /// A size with the unit of its pattern.
 type Sized = (SizeFile, Option<String>);
 
-/// A style as it is to be stored: its seams, where they are new, and sizes.
+/// What becomes of the seams of a style.
+enum Seams {
+    /// They stay.
+    Kept,
+    /// They are those of a file, or of the patterns themselves.
+    Given(Option<SourceFile>),
+}
+
+/// A style as it is to be stored: its seams and sizes.
 struct Draft {
     name: String,
-    seams: Option<SourceFile>,
+    seams: Seams,
     sizes: Vec<Sized>,
 }
 
@@ -43,16 +54,38 @@ impl Workspace {
     /// When a file cannot be read or sewn, the name is taken (`Add`) or unknown (`Edit`), or the workspace is read-only.
     pub fn save_style(&mut self, mode: Mode, name: &str, given: &StyleGiven) -> Result<Vec<Saved>> {
         check_name(name).map_err(|problem| refused(Part::Style, name, vec![problem]))?;
-        let seams = given.seams.as_deref().map(SourceFile::read).transpose()?;
-        if mode == Mode::Add && (seams.is_none() || given.patterns.is_empty()) {
-            let problem = "a new style needs a seam file and at least one pattern".to_owned();
-            return Err(refused(Part::Style, name, vec![problem]));
-        }
         let sizes = self.sizes_given(name, given)?;
-        let draft = Draft { name: name.to_owned(), seams, sizes };
+        let seams = match (&given.seams, sizes.first()) {
+            (Some(path), _) => Seams::Given(Some(SourceFile::read(path)?)),
+            (None, _) if mode != Mode::Add => Seams::Kept,
+            (None, Some(_)) if sizes.iter().all(|(size, _)| size.pattern.holds_seams()) => Seams::Given(None),
+            (None, Some((size, unit))) if given.is_proposed => {
+                let unit = unit.as_deref().and_then(tools::unit_of);
+                let workpiece = Workpiece { pattern: size.pattern.clone(), seams: None, size: size.name.clone(), unit };
+                Seams::Given(Some(workpiece.proposed(name)?))
+            }
+            _ => {
+                let problem = "a new style needs at least one pattern, and a seam file unless its patterns are \
+                    GarmentCode JSON";
+                return Err(refused(Part::Style, name, vec![problem.to_owned()]));
+            }
+        };
+        self.store_style(mode, Draft { name: name.to_owned(), seams, sizes })
+    }
+
+    /// Saves other seams of a style that is there. Every size must be sewable by them.
+    ///
+    /// # Errors
+    /// As [`Workspace::save_style`].
+    pub fn save_seams(&mut self, name: &str, seams: &SourceFile) -> Result<Vec<Saved>> {
+        let seams = Seams::Given(Some(seams.clone()));
+        self.store_style(Mode::Edit, Draft { name: name.to_owned(), seams, sizes: vec![] })
+    }
+
+    fn store_style(&mut self, mode: Mode, draft: Draft) -> Result<Vec<Saved>> {
         let problems = self.unsewable(&draft)?;
         if !problems.is_empty() {
-            return Err(refused(Part::Style, name, problems));
+            return Err(refused(Part::Style, &draft.name, problems));
         }
         let transaction = store::write(self.writer()?)?;
         let saved = store_draft(&transaction, [mode, Mode::Import], &draft)?;
@@ -80,7 +113,7 @@ impl Workspace {
             }
             _ => return Err(refuse("a size has one pattern")),
         };
-        let draft = Draft { name: style.to_owned(), seams: None, sizes };
+        let draft = Draft { name: style.to_owned(), seams: Seams::Kept, sizes };
         let problems = self.unsewable(&draft)?;
         if !problems.is_empty() {
             return Err(refused(Part::Size, name, problems));
@@ -163,30 +196,33 @@ impl Workspace {
 
     /// Why sizes of a style could not be sewn were a draft stored: its own, and with new seams those there are as well.
     fn unsewable(&self, draft: &Draft) -> Result<Vec<String>> {
-        let own = self.seams_of(&draft.name)?;
-        let Some(seams) = draft.seams.as_ref().or(own.as_ref()) else {
-            return Ok(vec![format!("no style `{}` in the catalogue; give its seam file", draft.name)]);
+        let (seams, is_new) = match (&draft.seams, self.seams_of(&draft.name)?) {
+            (Seams::Given(seams), _) => (seams.clone(), true),
+            (Seams::Kept, Some(own)) => (own, false),
+            (Seams::Kept, None) => {
+                return Ok(vec![format!("no style `{}` in the catalogue; give its seam file", draft.name)]);
+            }
         };
         let mut sizes = draft.sizes.clone();
-        if draft.seams.is_some() {
+        if is_new {
             let is_kept = |(before, _): &Sized| !draft.sizes.iter().any(|(size, _)| size.name == before.name);
             sizes.extend(self.sizes_of(&draft.name)?.into_iter().filter(is_kept));
         }
         let problem = |(size, unit): &Sized| {
             let unit = unit.as_deref().and_then(tools::unit_of);
-            let read = tools::read_style(&size.pattern, Some(seams), Some(&size.name), unit);
+            let read = tools::read_style(&size.pattern, seams.as_ref(), Some(&size.name), unit);
             read.err().map(|error| format!("size {}: {error}", size.name))
         };
         Ok(sizes.iter().filter_map(problem).collect())
     }
 
-    /// The seam file of a style, current revision.
-    fn seams_of(&self, style: &str) -> Result<Option<SourceFile>> {
+    /// The seam file of a style, where it has one, current revision; `None` where there is no such style.
+    fn seams_of(&self, style: &str) -> Result<Option<Option<SourceFile>>> {
         let sql = "SELECT seam_file, seams FROM style JOIN catalogue_entry AS entry USING (name, revision)
             WHERE part = 'style' AND name = ? AND NOT is_retired";
         let row = |row: &Row<'_>| {
             let text: String = row.get(1)?;
-            Ok(SourceFile { name: row.get(0)?, bytes: text.into_bytes().into() })
+            Ok(seam_file(row.get(0)?, text))
         };
         Ok(self.reader.prepare_cached(sql)?.query_row([style], row).optional()?)
     }
@@ -221,16 +257,20 @@ impl Workspace {
         let missing = || StudyError::NotFound { what: "job", name: id.to_string(), known: vec![] };
         let (pattern_file, pattern, seam_file, seams, unit, size) = found.ok_or_else(missing)?;
         let pattern = SourceFile { name: pattern_file, bytes: pattern.into() };
-        let seams = Some(SourceFile { name: seam_file, bytes: seams.into_bytes().into() });
-        let seams = seams.filter(|seams| !seams.name.is_empty());
+        let seams = self::seam_file(seam_file, seams);
         tools::read_style(&pattern, seams.as_ref(), Some(&size), unit.as_deref().and_then(tools::unit_of))
     }
+}
+
+/// A seam file as stored; a style without one has an empty name there.
+pub(super) fn seam_file(name: String, text: String) -> Option<SourceFile> {
+    (!name.is_empty()).then(|| SourceFile { name, bytes: text.into_bytes().into() })
 }
 
 /// A garment of a file as it is to be stored.
 fn draft(part: Part, name: String, sewn: Sewn) -> Draft {
     let Sewn { seams, unit, sizes } = sewn;
-    let seams = seams.filter(|_| part == Part::Style);
+    let seams = if part == Part::Style { Seams::Given(seams) } else { Seams::Kept };
     Draft { name, seams, sizes: sizes.into_iter().map(|size| (size, unit.clone())).collect() }
 }
 
@@ -244,8 +284,8 @@ fn sizes_in(pattern: &SourceFile, unit: Option<&str>) -> Result<Vec<String>> {
 /// Stores a draft: its seams, where there are any, by one mode, and its sizes by another.
 fn store_draft(transaction: &Transaction<'_>, [mode, of_sizes]: [Mode; 2], draft: &Draft) -> Result<Vec<Saved>> {
     let mut saved = Vec::new();
-    if let Some(seams) = &draft.seams {
-        let store = || revision::style(transaction, &draft.name, Some(seams), By::User);
+    if let Seams::Given(seams) = &draft.seams {
+        let store = || revision::style(transaction, &draft.name, seams.as_ref(), By::User);
         saved.push(save(transaction, Part::Style, &draft.name, mode, store)?);
     }
     for (size, unit) in &draft.sizes {

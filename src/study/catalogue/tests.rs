@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::*;
 use crate::study::store::{self, Access};
+use crate::study::tools::SourceFile;
 use crate::units::from_mm;
 
 struct Bench {
@@ -168,8 +169,8 @@ fn a_style_is_stored_with_sizes_that_can_be_sewn() {
     tools::write_files(&folder, &tools::drafted(tools::Model::Tshirt)).expect("writable");
     let given = |sizes: &[(&str, &str)]| StyleGiven {
         seams: Some(folder.join("tshirt.seams.toml")),
-        unit: None,
         patterns: sizes.iter().map(|(size, file)| (Some((*size).to_owned()), folder.join(file))).collect(),
+        ..StyleGiven::default()
     };
     let saved = bench.workspace.save_style(Mode::Add, "tee", &given(&[("S", "tshirt-s.dxf"), ("M", "tshirt-m.dxf")]));
     assert_eq!(saved.expect("sewable").len(), 3);
@@ -203,4 +204,45 @@ fn revisions_of_an_earlier_schema_become_current() {
     drop(connection);
     let workspace = Workspace::open(&path, false).expect("there");
     assert_eq!(workspace.subjects().expect("readable").len(), 12);
+}
+
+#[test]
+fn styles_without_a_seam_file_hold_their_seams_or_have_them_proposed() {
+    let mut bench = Bench::new();
+    let files = crate::pattern::draft::Model::Tshirt.files();
+    for (name, bytes) in &files {
+        std::fs::write(bench.folder.path().join(name), bytes).expect("writable");
+    }
+    let dxf = files.iter().map(|(name, _)| name).find(|name| name.ends_with("s.dxf")).expect("a size S");
+    let seams = files.iter().map(|(name, _)| name).find(|name| name.ends_with(".toml")).expect("seams");
+    let folder = bench.folder.path().to_owned();
+    let given = |size: &str, file: &str| StyleGiven {
+        patterns: vec![(Some(size.to_owned()), folder.join(file))],
+        ..StyleGiven::default()
+    };
+    let refused = bench.workspace.save_style(Mode::Add, "tee", &given("S", dxf)).expect_err("no seams");
+    assert!(refused.to_string().contains("a seam file unless"), "{refused}");
+    let proposed = StyleGiven { is_proposed: true, ..given("S", dxf) };
+    bench.workspace.save_style(Mode::Add, "tee", &proposed).expect("its pieces are known");
+    let sizes = bench.workspace.sizes().expect("readable");
+    assert!(sizes.len() == 1 && sizes[0].unconfirmed >= 8 && sizes[0].seam_file.as_deref() == Some("tee.seams.toml"));
+    let own = SourceFile::read(&folder.join(seams)).expect("readable");
+    let saved = bench.workspace.save_seams("tee", &own).expect("they fit");
+    assert_eq!((saved[0].deed, saved[0].revision), (Deed::Revised, 2));
+    let sizes = bench.workspace.sizes().expect("readable");
+    assert_eq!((sizes[0].unconfirmed, sizes[0].style_revision), (0, 2));
+    let piece = bench.workspace.workpiece(sizes[0].key).expect("stored");
+    assert_eq!(piece.seams.as_ref().map(|file| &file.bytes), Some(&own.bytes));
+
+    let style = piece.seams.as_ref().map(|seams| tools::read_style(&piece.pattern, Some(seams), Some("S"), None));
+    let style = style.expect("it has seams").expect("they fit");
+    let json = serde_json::to_vec(&crate::pattern::garmentcode::document(&style)).expect("JSON");
+    std::fs::write(folder.join("tee.json"), json).expect("writable");
+    bench.workspace.save_style(Mode::Add, "coded", &given("one", "tee.json")).expect("it holds its seams");
+    let sizes = bench.workspace.sizes().expect("readable");
+    let row = sizes.iter().find(|row| row.style == "coded").expect("stored");
+    assert!(row.seam_file.is_none());
+    let laid = bench.workspace.workpiece(row.key).and_then(|piece| piece.laid_out()).expect("it reads");
+    assert!(laid.desk.pieces.len() == style.pieces.len() && laid.desk.seams.len() >= style.seams.len());
+    bench.workspace.save_size(Mode::Add, "coded/two", &given("two", "tee.json")).expect("it holds its seams");
 }

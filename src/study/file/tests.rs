@@ -158,8 +158,8 @@ fn garments_are_worn_by_the_subjects_they_name() {
     let twice = "study.toml:12:18: garment tee: subject `x` is named twice";
     let unknown = "study.toml:12:23: no [[subject]] with the id `i`; there are: ii, x";
     refused("[\"x\", \"x\", \"i\"]", &format!("{twice}\n{unknown}"));
-    refused("[]", "study.toml:12: garment tee: nobody wears it; name subjects, or leave `subjects` out for all");
-    refused("\"x\"", "study.toml:12: garment tee: `subjects` must be a list of texts, found string");
+    refused("[]", "study.toml:12:12: garment tee: nobody wears it; name subjects, or leave `subjects` out for all");
+    refused("\"x\"", "study.toml:12:12: garment tee: `subjects` must be a list of texts, found string");
 }
 
 #[test]

@@ -25,7 +25,7 @@ pub fn picture_size(state: &State) -> Option<Size> {
         Screen::Study => study::picture_pane(body, state),
         Screen::Results => results::picture_pane(body, state),
         Screen::Subjects => subjects::picture_pane(body),
-        Screen::Jobs => None,
+        Screen::Styles | Screen::Jobs => None,
     };
     let (picture, _) = parts(Block::bordered().inner(pane?));
     (picture.width >= 4 && picture.height >= 3).then(|| picture.as_size())

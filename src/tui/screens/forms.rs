@@ -6,6 +6,7 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Clear, Paragraph};
 
 use super::super::form::{Form, Note, PathPrompt};
+use super::super::style_form::{self, StyleForm};
 use super::super::text::{left, right, shortened};
 use super::super::theme::Theme;
 use super::chi::wrapped;
@@ -78,6 +79,30 @@ pub(super) fn draw_path(frame: &mut Frame<'_>, area: Rect, prompt: &PathPrompt, 
             .push(Line::styled(" CSV with columns name, sex, stature_mm, …, or a study.toml; ~/ is home", theme.dim()));
     }
     draw(frame, area, width, "import subjects from".to_owned(), " ↵ import all or none  Esc cancel ", lines, theme);
+}
+
+/// Draws the files of a style.
+pub(super) fn draw_style(frame: &mut Frame<'_>, area: Rect, form: &StyleForm, theme: Theme) {
+    let width = area.width.min(100);
+    let columns = usize::from(width.saturating_sub(2));
+    let line = |(k, text): (usize, &String)| {
+        let is_focused = k == form.at && !form.is_busy;
+        let (mark, end) = if is_focused { ("▸", "▏") } else { (" ", "") };
+        let head = format!("{mark} {}", left(style_form::LABELS[k], 11));
+        let room = columns.saturating_sub(super::super::text::width(&head));
+        // The end of a long path is what is being typed.
+        let typed: Vec<char> = format!("{text}{end}").chars().collect();
+        let shown: String = typed[typed.len().saturating_sub(room)..].iter().collect();
+        let style = if is_focused { theme.bold() } else { ratatui::style::Style::new() };
+        let hint = if text.is_empty() { format!(" {}", form.hint(k)) } else { String::new() };
+        let hint = shortened(&hint, room.saturating_sub(typed.len().min(room)));
+        Line::from(vec![Span::styled(head + &shown, style), Span::styled(hint, theme.dim())])
+    };
+    let mut lines: Vec<Line<'_>> = form.texts.iter().enumerate().map(line).collect();
+    let busy = form.is_busy.then_some("reading, and sewing each size…");
+    lines.extend(end(busy, form.problem.as_deref(), columns, theme));
+    let keys = " Tab ↑↓ line  ↵ import all or none  Esc cancel  ~/ is home ";
+    draw(frame, area, width, "import a style or sizes".to_owned(), keys, lines, theme);
 }
 
 /// What goes on, or what went wrong.

@@ -5,9 +5,11 @@ mod drape;
 mod forms;
 mod jobs;
 mod overlays;
+mod pieces;
 mod results;
 mod start;
 mod study;
+mod styles;
 mod subjects;
 
 use ratatui::Frame;
@@ -37,6 +39,7 @@ pub fn draw(frame: &mut Frame<'_>, state: &State) {
     match state.screen {
         _ if state.data.is_none() => frame.render_widget(Paragraph::new(" reading the database…"), body),
         Screen::Subjects => subjects::draw(frame, body, state),
+        Screen::Styles => styles::draw(frame, body, state),
         _ if state.is_first_start() => start::draw(frame, body, state),
         Screen::Study => study::draw(frame, body, state),
         Screen::Jobs => jobs::draw(frame, body, state),
@@ -81,7 +84,8 @@ fn tabs(state: &State, width: u16) -> Line<'static> {
     let mut spans = vec![];
     for screen in Screen::ALL {
         let style = if screen == state.screen { state.theme.selected() } else { Style::new() };
-        spans.push(Span::styled(format!(" {} ", screen.title()), style));
+        let end = if width < WIDE { "" } else { " " };
+        spans.push(Span::styled(format!(" {}{end}", screen.title()), style));
     }
     let used: usize = spans.iter().map(Span::width).sum();
     let room = usize::from(width).saturating_sub(used);
@@ -105,7 +109,7 @@ fn summary(state: &State) -> Vec<Span<'static>> {
     if state.run.is_some() {
         spans.push(Span::styled(" run here", state.theme.busy()));
     }
-    spans.push(Span::raw(format!("  {} jobs", study.total())));
+    spans.push(Span::raw(format!(" {} jobs", study.total())));
     for status in Status::ALL.into_iter().filter(|status| study.count(*status) > 0) {
         let text = format!(" {}{}", glyph(status), study.count(status));
         spans.push(Span::styled(text, state.theme.status(status)));
@@ -135,7 +139,7 @@ fn status_line(state: &State, width: u16) -> Line<'static> {
     }
     // What matters most stands first in the table, but help and palette must always be found.
     let hinted = state.bindings.iter().filter(|b| !b.hint.is_empty() && b.is_on(state.screen));
-    let is_start = state.is_first_start() && state.screen != Screen::Subjects;
+    let is_start = state.is_first_start() && !matches!(state.screen, Screen::Subjects | Screen::Styles);
     let hinted = hinted.filter(|b| !is_start || matches!(b.name, "open" | "run" | "help" | "palette"));
     let (last, first): (Vec<&Binding>, Vec<&Binding>) = hinted.partition(|b| matches!(b.name, "help" | "palette"));
     let columns = |b: &Binding| text::width(&b.keys[0].to_string()) + text::width(b.hint) + 3;

@@ -24,6 +24,7 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, overlay: &Overlay, state: 
         }
         Overlay::Form(form) => forms::draw_form(frame, area, form, state.theme),
         Overlay::Path(prompt) => forms::draw_path(frame, area, prompt, state.theme),
+        Overlay::StyleForm(form) => forms::draw_style(frame, area, form, state.theme),
         Overlay::Question { text, .. } => draw_question(frame, area, text, state.theme),
         Overlay::Filter(_) => {}
     }

@@ -1,10 +1,12 @@
 //! An example study: two sizes of a T-shirt on three subjects by both simulators, in all states a job can have.
 
 use super::super::feed::{Detail, Snapshot};
-use crate::study::tools::{Girths, Measurements, Sex};
+use super::super::message::Message;
+use super::super::tailor::{Laid, Task};
+use crate::study::tools::{Girths, Measurements, Model, Sex, SourceFile, Workpiece, drafted};
 use crate::study::{
     Cell, Change, ChiRow, EaseRow, FitCell, FitClass, Grid, JobId, JobProgress, JobRow, LogLine, MEASUREMENTS,
-    MetricsRow, Simulator, StageRow, Status, Step, StudyRow, SubjectId, SubjectRow, Why,
+    MetricsRow, Simulator, SizeKey, SizeRow, StageRow, Status, Step, StudyRow, SubjectId, SubjectRow, Why,
 };
 
 /// When it is, ms since 1970: 2023-11-14 22:13:20 UTC.
@@ -126,12 +128,57 @@ pub fn snapshot() -> Snapshot {
     Snapshot {
         now_ms: NOW_MS,
         subjects: subjects(),
+        sizes: sizes(),
         studies: vec![study],
         study: 0,
         grid: Some(grid),
         ease: (0..6).map(|k| ease(k / 3, k % 3)).collect(),
         jobs,
         detail: None,
+    }
+}
+
+/// Two sizes of the thesis's T-shirt.
+fn sizes() -> Vec<SizeRow> {
+    let row = |(k, size): (usize, &&str)| SizeRow {
+        key: SizeKey { style: 1, size: k as i64 + 1 },
+        style: "tshirt".into(),
+        style_revision: 1,
+        size: (*size).into(),
+        revision: 1,
+        pattern_file: format!("tshirt-{}.dxf", size.to_lowercase()),
+        seam_file: Some("tshirt.seams.toml".into()),
+        unit: None,
+        unconfirmed: 0,
+    };
+    SIZES.iter().enumerate().map(row).collect()
+}
+
+/// A file of the thesis's T-shirt.
+fn tshirt_file(end: &str) -> SourceFile {
+    let found = drafted(Model::Tshirt).into_iter().find(|(name, _)| name.ends_with(end));
+    let (name, bytes) = found.unwrap_or_else(|| panic!("no file {end}"));
+    SourceFile { name, bytes: bytes.into() }
+}
+
+/// What the thread that works on seams answers.
+pub fn work(task: Task) -> Message {
+    let (Task::LayOut(laying) | Task::Sew(laying, _)) = &task;
+    let size = SIZES[laying.key.size as usize - 1];
+    let stored = Some(tshirt_file(".toml"));
+    let piece = Workpiece {
+        pattern: tshirt_file(&format!("-{}.dxf", size.to_lowercase())),
+        seams: laying.seams.clone().or(stored.clone()),
+        size: size.into(),
+        unit: None,
+    };
+    match task {
+        Task::LayOut(laying) => {
+            let home = laying.study.as_ref().map(|study| study.with_file_name("tshirt.seams.toml"));
+            let laid = piece.laid_out().map(|out| Box::new(Laid { out, stored, home }));
+            Message::LaidOut(Box::new(laying), laid.map_err(|error| error.to_string()))
+        }
+        Task::Sew(laying, step) => Message::Sewn(laying.style, piece.after(&step).map_err(|error| error.to_string())),
     }
 }
 
@@ -188,6 +235,7 @@ pub fn empty() -> Snapshot {
     Snapshot {
         now_ms: NOW_MS,
         subjects: vec![],
+        sizes: vec![],
         studies: vec![],
         study: 0,
         grid: None,

@@ -34,6 +34,21 @@ fn the_form_of_a_subject() {
 }
 
 #[test]
+fn styles() {
+    looks_like!("styles", "3");
+}
+
+#[test]
+fn seams() {
+    looks_like!("seams", "3<Enter>pyjj");
+}
+
+#[test]
+fn the_form_of_a_style() {
+    looks_like!("style_form", "3i~/patterns/titan.dxf<Tab><Tab><Tab>mile<Enter>");
+}
+
+#[test]
 fn jobs() {
     looks_like!("jobs", "4jjjj");
 }
@@ -72,8 +87,25 @@ fn small_terminals_show_lists_and_none_is_refused() {
     assert_snapshot!("study_40x10", bench.screen());
     assert_snapshot!("jobs_40x10", bench.press("4").screen());
     assert_snapshot!("subjects_40x10", bench.press("2").screen());
+    assert_snapshot!("styles_40x10", bench.press("3").screen());
+    assert_snapshot!("seams_40x10", bench.press("<Enter>").screen());
     for (width, height) in [(1, 1), (3, 2), (12, 4), (59, 15), (60, 16), (119, 20), (250, 90), (80, 3)] {
-        for keys in ["1", "2", "2a<Enter>", "2i", "2d", "4", "5", "?", "<Esc>:x", "<Esc>4jx", "<Esc>5<Tab><Enter>"] {
+        for keys in [
+            "1",
+            "2",
+            "2a<Enter>",
+            "2i",
+            "2d",
+            "3",
+            "3<Enter>zl<Tab>",
+            "3i",
+            "4",
+            "5",
+            "?",
+            "<Esc>:x",
+            "<Esc>4jx",
+            "<Esc>5<Tab><Enter>",
+        ] {
             let mut bench = Bench::example(width, height);
             assert!(!bench.press(keys).screen().is_empty(), "{width}x{height} {keys}");
         }

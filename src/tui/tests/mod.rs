@@ -3,6 +3,7 @@
 mod behaviour;
 mod fixture;
 mod looks;
+mod styles;
 mod subjects;
 mod workspace;
 
@@ -52,7 +53,12 @@ impl Bench {
                 self.state.update(Message::Measured(*id, Ok(Box::new(fixture::girths()))));
             }
         }
+        let tasks: Vec<_> =
+            effects.iter().filter_map(|e| if let Effect::Desk(task) = e { Some(task.clone()) } else { None }).collect();
         self.effects.extend(effects);
+        for task in tasks {
+            self.send(fixture::work(task));
+        }
     }
 
     /// Presses keys: letters as they are, others by name between angle brackets (`<Enter>`).
@@ -70,10 +76,10 @@ impl Bench {
         self
     }
 
-    /// What it asked for, reads and pictures left out.
+    /// What it asked for; reads, pictures and work on seams, which is done, left out.
     fn asked(&mut self) -> Vec<Effect> {
         let effects = std::mem::take(&mut self.effects);
-        effects.into_iter().filter(|e| !matches!(e, Effect::Read(_) | Effect::Paint(_))).collect()
+        effects.into_iter().filter(|e| !matches!(e, Effect::Read(_) | Effect::Paint(_) | Effect::Desk(_))).collect()
     }
 
     /// The screen as text.

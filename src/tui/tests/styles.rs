@@ -1,0 +1,214 @@
+//! What keys do on the Styles screen.
+
+use super::super::action::Screen;
+use super::super::message::{Act, Effect, Message};
+use super::super::overlay::Overlay;
+use super::super::styles::DeskLine;
+use super::super::theme::Colours;
+use super::{Bench, fixture};
+use crate::study::tools::{DeskSeam, SourceFile};
+use crate::study::{Part, StyleGiven};
+
+/// Seams on the desk.
+fn seams(bench: &Bench) -> Vec<DeskSeam> {
+    bench.state.laid().expect("laid out").expect("it fits").out.desk.seams.clone()
+}
+
+/// Name of the selected edge's seam.
+fn seam(bench: &Bench) -> String {
+    let laid = bench.state.laid().expect("laid out").expect("it fits");
+    laid.seam_at(bench.state.styles.edge).map_or("none".into(), |k| laid.out.desk.seams[k].name.clone())
+}
+
+/// The seam file that is to be saved.
+fn saved(bench: &mut Bench) -> SourceFile {
+    match bench.press("w").asked().pop() {
+        Some(Effect::Do(Act::SaveSeams(style, seams))) if style == "tshirt" => seams,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn sizes_are_chosen_and_filtered_and_each_is_laid_out_once() {
+    let mut bench = Bench::example(80, 24);
+    let size = |bench: &Bench| bench.state.size_row().map_or("", |row| row.size.as_str()).to_owned();
+    bench.press("3");
+    assert_eq!((size(&bench).as_str(), seams(&bench).len()), ("S", 8));
+    assert_eq!(size(bench.press("j")), "M");
+    let layings = bench.effects.iter().filter(|effect| matches!(effect, Effect::Desk(_))).count();
+    assert_eq!(layings, 2);
+    assert_eq!(size(bench.press("g/-M.dxf<Enter>")), "M");
+    assert!(bench.press("/zz<Enter>").screen().contains("no size matches the filter"));
+    assert_eq!(bench.press("<Esc>jy").asked().len(), 1, "the table of seams is copied");
+}
+
+#[test]
+fn lines_and_edges_are_walked_together() {
+    let mut bench = Bench::example(160, 50);
+    bench.press("3<Enter>");
+    let first = seams(&bench)[0].clone();
+    assert_eq!((seam(&bench), bench.state.styles.edge), (first.name.clone(), first.a[0]));
+    bench.press("j");
+    assert_eq!(seam(&bench), seams(&bench)[1].name);
+    bench.press("g");
+    let pieces = bench.state.laid().expect("laid out").expect("it fits").out.desk.pieces.clone();
+    let edges: usize = pieces.iter().map(|piece| piece.edges.len()).sum();
+    let start = bench.state.styles.edge;
+    for _ in 0..edges {
+        bench.press("l");
+        let line = bench.state.desk_line().expect("a line");
+        let name = seam(&bench);
+        assert!(name == "none" || line == DeskLine::Seam(bench.state.styles.line));
+        assert!(bench.screen().contains(&format!(
+            "{}.{}",
+            pieces[bench.state.styles.edge.0].id,
+            bench.state.styles.edge.1 + 1
+        )));
+    }
+    assert_eq!(bench.state.styles.edge, start, "all the way round");
+    bench.press("G");
+    assert!(matches!(bench.state.desk_line(), Some(DeskLine::Length(_))));
+    assert!(bench.screen().contains("Hem Circumference"));
+}
+
+#[test]
+fn a_seam_is_opened_sewn_again_turned_taken_back_and_saved() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("3<Enter>");
+    let before = seams(&bench);
+    let [a, b] = [before[0].a[0], before[0].b[0]];
+    bench.press("x");
+    assert_eq!(seams(&bench).len(), before.len() - 1);
+    assert_eq!(seam(&bench), "none");
+    let questions = bench.state.laid().expect("laid out").expect("it fits").out.questions.len();
+    assert!(questions >= 1 && bench.screen().contains("? free edge"), "{}", bench.screen());
+    assert!(bench.press("x").status().contains("no seam holds"));
+    assert!(bench.press("a").status().contains("m marks an edge"));
+
+    bench.press(" ");
+    assert_eq!(bench.state.styles.marks, [a]);
+    bench.state.styles.edge = b;
+    bench.press("a");
+    assert_eq!(seams(&bench).len(), before.len(), "{}", bench.status());
+    assert!(bench.state.styles.marks.is_empty());
+    assert_eq!(seam(&bench), seams(&bench)[before.len() - 1].name);
+    let was_turned = seams(&bench)[before.len() - 1].same_direction;
+    bench.press("f");
+    assert_eq!(seams(&bench)[before.len() - 1].same_direction, !was_turned);
+    bench.press("u");
+    assert_eq!(seams(&bench)[before.len() - 1].same_direction, was_turned);
+    assert!(bench.screen().contains("*tshirt"), "not saved yet");
+    assert!(bench.press("1q").screen().contains("Seams of tshirt are not saved"));
+    assert!(bench.press("n3").asked().is_empty());
+
+    let file = saved(&mut bench);
+    assert!(String::from_utf8_lossy(&file.bytes).contains("# +u is the wearer's right"), "comments stay");
+    bench.send(Message::SeamsSaved("tshirt".into(), file.clone(), Err("size M: too long".into())));
+    assert!(bench.status().contains("too long") && bench.screen().contains("*tshirt"));
+    bench.send(Message::SeamsSaved("tshirt".into(), file.clone(), Ok("style tshirt has revision 2".into())));
+    assert!(bench.screen().contains("tshirt.seams.toml of the study too?"), "{}", bench.screen());
+    match bench.press("y").asked().pop() {
+        Some(Effect::Do(Act::WriteSeams(path, old, new))) => {
+            assert!(path.ends_with("studies/men-tops/tshirt.seams.toml") && old != new && new == file);
+        }
+        other => panic!("{other:?}"),
+    }
+    assert!(bench.press("w").status().contains("nothing to save") && bench.press("u").status().contains("nothing"));
+}
+
+#[test]
+fn sides_of_unlike_length_are_sewn_with_ease_only_after_asking() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("3<Enter>");
+    let before = seams(&bench);
+    bench.press("xjx");
+    let [one, other] = [before[0].a[0], before[2].a[0]];
+    let laid = bench.state.laid().expect("laid out").expect("it fits");
+    let mm = |(piece, edge): (usize, usize)| laid.out.desk.pieces[piece].edges[edge].length_mm;
+    assert!((mm(one) - mm(other)).abs() > 1.0, "the example needs unlike edges");
+    bench.state.styles.marks = vec![one, other];
+    bench.press("a");
+    assert!(bench.screen().contains("mm of ease (ratio"), "{}", bench.screen());
+    bench.press("n");
+    assert_eq!(seams(&bench).len(), before.len() - 2);
+    bench.press("ay");
+    let sewn = seams(&bench).pop().expect("there are seams");
+    assert!((sewn.a_mm - sewn.b_mm).abs() > 1.0 && seams(&bench).len() == before.len() - 1, "{}", bench.status());
+}
+
+#[test]
+fn proposed_seams_are_confirmed_one_by_one() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("3p");
+    assert!(bench.screen().contains("Propose all seams of tshirt anew?"));
+    bench.press("y");
+    let unsure = |bench: &Bench| seams(bench).iter().filter(|seam| seam.confidence.is_some()).count();
+    let all = seams(&bench).len();
+    assert!(all >= 8 && unsure(&bench) == all);
+    assert!(bench.screen().contains("A? ") && bench.screen().contains('%'), "{}", bench.screen());
+    bench.press("<Enter>g<Enter>");
+    assert_eq!(unsure(&bench), all - 1);
+    assert!(bench.press("<Enter>").status().contains("nothing to confirm"));
+    for _ in 1..all {
+        bench.press("j<Enter>");
+    }
+    assert_eq!(unsure(&bench), 0);
+    assert!(!String::from_utf8_lossy(&saved(&mut bench).bytes).contains("[[seam]]  # confidence"));
+}
+
+#[test]
+fn files_are_imported_and_what_they_do_not_say_is_asked_for() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("3i/tmp/titan.dxf<Tab>");
+    assert!(bench.screen().contains("empty = titan"), "{}", bench.screen());
+    bench.press("<Enter>");
+    let given = StyleGiven { is_proposed: true, patterns: vec![(None, "/tmp/titan.dxf".into())], ..Default::default() };
+    assert_eq!(bench.asked(), [Effect::Do(Act::ImportStyle("titan".into(), given.clone()))]);
+    bench.send(Message::Saved(Err("pattern: titan.dxf: no unit; accepted: a file that names its unit".into())));
+    let Some(Overlay::StyleForm(form)) = &bench.state.overlay else { panic!("the form stays") };
+    assert_eq!(form.at, 3, "the unit is asked for");
+    bench.press("yard<Enter>");
+    assert!(bench.asked().is_empty() && bench.screen().contains("unit `yard`; accepted: mm, cm, in"));
+    bench.press("<Backspace><Backspace><Backspace><Backspace>mm<Enter>");
+    let given = StyleGiven { unit: Some("mm".into()), ..given };
+    assert_eq!(bench.asked(), [Effect::Do(Act::ImportStyle("titan".into(), given))]);
+    bench.send(Message::Saved(Ok("style titan is added".into())));
+    assert!(bench.state.overlay.is_none() && bench.status().contains("titan is added"));
+    assert!(bench.press("i<Enter>").asked().is_empty() && bench.state.overlay.is_none(), "no path, no import");
+}
+
+#[test]
+fn removing_asks_and_readonly_changes_nothing() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("3d");
+    assert!(bench.screen().contains("Remove size tshirt/S?"));
+    assert_eq!(bench.press("y").asked(), [Effect::Do(Act::RemoveStyle(Part::Size, "tshirt/S".into()))]);
+    let mut data = fixture::snapshot();
+    data.sizes.truncate(1);
+    bench.send(Message::Data(Box::new(data)));
+    assert!(bench.press("d").screen().contains("Remove style tshirt?"));
+
+    let mut bench = Bench::new(80, 24, fixture::empty());
+    assert!(bench.press("3").screen().contains("no styles yet: i imports one"), "{}", bench.screen());
+    assert!(bench.press("x").status().contains("no size is selected"));
+    bench.state.abilities.run = false;
+    for keys in ["a", "x", "f", "p", "w", "i", "d", " "] {
+        assert!(bench.press(keys).status().contains("read-only") && bench.state.overlay.is_none(), "{keys}");
+    }
+}
+
+#[test]
+fn the_palette_reaches_seams_from_anywhere_and_glyphs_need_no_colour() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("4:save-seams<Enter>");
+    assert!(bench.state.screen == Screen::Styles && bench.status().contains("nothing to save"));
+    bench.state.theme.colours = Colours::None;
+    bench.press("<Enter> l");
+    let screen = bench.screen();
+    for glyph in ["●", "◆", "A  ", "✓"] {
+        assert!(screen.contains(glyph), "{glyph} in\n{screen}");
+    }
+    let wide = bench.press("z").screen();
+    assert!(wide.contains("front") && wide.matches('●').count() > screen.matches('●').count() / 2);
+    assert!(!bench.press("<Esc>").state.styles.enlarged);
+}
