@@ -81,7 +81,8 @@ fn fit_from(profile: &Profile, factors: Factors) -> Result<Fit<'_>, BodyError> {
     for _ in 0..CORRECTIONS {
         fit.correct(profile, template)?;
     }
-    let unmet = errors(profile, &fit.girths).into_iter().find(|error| error.is_asked(profile) && error.is_unmet());
+    let unmet =
+        errors(profile, &fit.girths).into_iter().find(|error| profile.is_given(error.dimension) && error.is_unmet());
     unmet.map_or(Ok(fit), |error| Err(error.refusal()))
 }
 

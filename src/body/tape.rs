@@ -95,11 +95,11 @@ const SPINE: f64 = 0.14;
 
 /// Greatest lean of the neck that is tried, radians, and the number of coarse heights and leans.
 const GREATEST_LEAN: f64 = 30.0 * std::f64::consts::PI / 180.0;
-const HEIGHTS: usize = 8;
-const LEANS: usize = 4;
+const HEIGHTS: usize = 13;
+const LEANS: usize = 7;
 
 /// How often the steps of the search are halved.
-const HALVINGS: usize = 4;
+const HALVINGS: usize = 3;
 
 /// Finds the narrowest girth round the neck, over heights between `low` and `high` and leans of up to 30 degrees: a coarse grid,
 /// from whose best place the search walks with ever smaller steps.
@@ -115,20 +115,20 @@ pub(super) fn neck(mesh: &TriMesh, low: f64, high: f64, middle: f64) -> Option<N
         let girth = girth(&outline_round(&upper, &plane(centre, lean))?);
         Some(Tried { centre, lean, girth })
     };
-    let row = |height: f64, leans: [f64; LEANS]| {
+    let row = |height: f64, leans: &[f64]| {
         let centre = centre(height);
-        leans.into_iter().filter_map(move |lean| tried(centre?, lean))
+        leans.iter().filter_map(|&lean| tried(centre?, lean)).collect::<Vec<_>>()
     };
     let least = |a: &Tried, b: &Tried| a.girth.total_cmp(&b.girth);
     let mut step = [(high - low) / (HEIGHTS - 1) as f64, GREATEST_LEAN / (LEANS - 1) as f64];
-    let leans = std::array::from_fn(|i| step[1] * i as f64);
-    let mut best = (0..HEIGHTS).flat_map(|i| row(low + step[0] * i as f64, leans)).min_by(least)?;
+    let leans: [f64; LEANS] = std::array::from_fn(|i| step[1] * i as f64);
+    let mut best = (0..HEIGHTS).flat_map(|i| row(low + step[0] * i as f64, &leans)).min_by(least)?;
     for _ in 0..HALVINGS {
         step = step.map(|step| step / 2.0);
         let around = [-1.0, 0.0, 1.0].map(|side| (best.centre.z + side * step[0]).clamp(low, high));
-        let leans = [best.lean - step[1], best.lean, best.lean + step[1], best.lean];
-        let leans = leans.map(|lean| lean.clamp(0.0, GREATEST_LEAN));
-        best = around.into_iter().flat_map(|height| row(height, leans)).chain([best]).min_by(least)?;
+        let around_lean = [best.lean - step[1], best.lean, best.lean + step[1]];
+        let around_lean = around_lean.map(|lean| lean.clamp(0.0, GREATEST_LEAN));
+        best = around.into_iter().flat_map(|height| row(height, &around_lean)).chain([best]).min_by(least)?;
     }
     // The horizontal outline, by which the search goes, reaches under the chin: the tape's own middle lies farther back.
     let plane = plane(best.centre, best.lean);
