@@ -33,10 +33,11 @@ impl<'a> Slices<'a> {
         let count = ((high - low) / LAYER).max(0.0) as usize + 1;
         let layers = |triangle: &[usize; 3]| {
             let heights = triangle.map(|vertex| (mesh.positions[vertex].z - low) / LAYER);
-            let least = heights.into_iter().fold(f64::INFINITY, f64::min).max(0.0);
-            let most = heights.into_iter().fold(f64::NEG_INFINITY, f64::max).min(count as f64 - 0.5);
-            // A height that rounding puts on the other side of a layer's edge is in both.
-            if most < least { 0..0 } else { (least - 1e-6).max(0.0) as usize..(most + 1e-6) as usize + 1 }
+            let least = heights.into_iter().fold(f64::INFINITY, f64::min);
+            let most = heights.into_iter().fold(f64::NEG_INFINITY, f64::max);
+            // A height that rounding puts on the other side of a layer's edge is in both; casts stop at zero.
+            let first = (least - 1e-6) as usize;
+            if most < -1e-6 || first >= count { 0..0 } else { first..((most + 1e-6) as usize + 1).min(count) }
         };
         let spans: Vec<std::ops::Range<usize>> = mesh.triangles.iter().map(layers).collect();
         let mut starts = vec![0; count + 2];
@@ -83,11 +84,14 @@ mod tests {
         let positions: Vec<V3> = (0..60).map(ring).collect();
         let triangles = (0..58).map(|i| [i, i + 1, i + 2]).collect();
         let mesh = TriMesh { positions, triangles };
-        let slices = Slices::new(&mesh, 0.1, 0.5);
-        for i in 0..=400 {
-            let z = 0.1 + 0.001 * f64::from(i);
-            assert_eq!(slices.slice(z), mesh.slice(z), "z = {z}");
+        for high in [0.5, 0.501, 0.503, 0.5059] {
+            let slices = Slices::new(&mesh, 0.1, high);
+            for i in 0..=400 {
+                let z = 0.1 + (high - 0.1) * f64::from(i) / 400.0;
+                assert_eq!(slices.slice(z), mesh.slice(z), "z = {z} of {high}");
+            }
         }
+        let slices = Slices::new(&mesh, 0.1, 0.5);
         assert_eq!(slices.slice(0.09), Vec::new());
         assert_eq!(slices.slice(0.6), Vec::new());
     }
