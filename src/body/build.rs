@@ -7,8 +7,8 @@ use super::fit::{self, Fit};
 use super::landmarks::{self, Side};
 use super::limbs::UPPER_ARM;
 use super::measure::{self, Sites};
-use super::tape;
-use super::{Body, BodyError, Landmarks, Levels, Measurements};
+use super::tape::{self, Neck};
+use super::{Body, BodyError, Dimension, Landmarks, Levels, Measurements};
 use crate::geom::section::Plane;
 use crate::geom::{TriMesh, V3};
 
@@ -30,33 +30,48 @@ pub fn build(known: &Measurements) -> Result<Body, BodyError> {
     })
 }
 
-/// Where the tape is laid on a figure's skin. Chest and hip are found on the mesh, as on anybody's, so that whoever
+/// Where the tape is laid on a figure's skin. Chest, hip and neck are found on the mesh, as on anybody's, so that whoever
 /// measures the mesh reads what was fitted; shoulder and waist are known from the figure.
 pub(super) fn sites(mesh: &TriMesh, figure: &Figure) -> Result<Sites, BodyError> {
     let (atlas, h) = (figure.atlas, figure.stature());
-    let missing = |part, share: f64| BodyError::MissingPart { part, height_mm: share * h * 1e3 };
+    let crotch = crotch(mesh, figure)?;
     let trunk = mesh.part(|p| p.z > 0.63 * h && p.z < 0.82 * h);
-    let chest = measure::chest_level(&trunk, 0.0, h, crotch(mesh, figure)?, 0.0).unwrap_or(atlas.chest * h);
-    let upper = mesh.part(|p| p.z > 0.80 * h);
-    let neck = tape::neck(&upper, 0.845 * h, 0.885 * h, 0.0).ok_or_else(|| missing("neck", 0.87))?;
+    let chest = measure::chest_level(&trunk, 0.0, h, crotch, 0.0).unwrap_or(atlas.chest * h);
+    let pelvis = mesh.part(|p| p.z > crotch && p.z < crotch + 0.11 * h);
+    let upper = mesh.part(|p| p.z > 0.75 * h);
+    let neck = tape::neck(&upper, 0.83 * h, 0.90 * h, 0.0).ok_or_else(|| missing("neck", 0.87 * h))?;
     let level = Sites {
         floor: 0.0,
         crown: h,
         middle: 0.0,
-        crotch: figure.crotch(),
-        hip: figure.hip(),
+        crotch,
+        hip: measure::hip_level(&pelvis, crotch, h, 0.0).unwrap_or_else(|| figure.hip()),
         waist: atlas.waist * h,
-        underbust: measure::underbust_level(&trunk, chest, h, 0.0),
+        underbust: underbust(&trunk, chest, figure),
         chest,
         neck,
         shoulder: [V3::zeros(); 2],
         back_neck: V3::zeros(),
-        upper_arm: Some(figure.upper_arm()),
+        upper_arm: None,
     };
-    let sites = moving_sites(mesh, figure, &level)?;
-    let pelvis = mesh.part(|p| p.z > sites.crotch && p.z < sites.crotch + 0.11 * h);
-    let hip = measure::hip_level(&pelvis, sites.crotch, h, 0.0).unwrap_or(sites.hip);
-    Ok(Sites { hip, ..sites })
+    held_sites(mesh, figure, &level)
+}
+
+/// How far off the section of the figure that makes room for it the under-bust level lies at most, over stature.
+const UNDERBUST_OFF: f64 = 0.012;
+
+/// The level under the bust; where its girth is given, near the section that is fitted to it.
+fn underbust(trunk: &TriMesh, chest: f64, figure: &Figure) -> f64 {
+    let found = measure::underbust_level(trunk, chest, figure.stature(), 0.0);
+    if !figure.profile.is_given(Dimension::UnderbustGirth) {
+        return found;
+    }
+    let (meant, off) = (figure.underbust(), UNDERBUST_OFF * figure.stature());
+    found.clamp(meant - off, meant + off)
+}
+
+fn missing(part: &'static str, height: f64) -> BodyError {
+    BodyError::MissingPart { part, height_mm: height * 1e3 }
 }
 
 /// Height of the crotch, near where the figure has it.
@@ -64,23 +79,26 @@ fn crotch(mesh: &TriMesh, figure: &Figure) -> Result<f64, BodyError> {
     let (meant, h) = (figure.crotch(), figure.stature());
     let (low, high) = (meant - 0.06 * h, meant + 0.06 * h);
     let groin = mesh.part(|p| p.z > low && p.z < high);
-    let missing = || BodyError::MissingPart { part: "crotch", height_mm: meant * 1e3 };
-    landmarks::crotch(&groin, low, high, 0.0).ok_or_else(missing)
+    landmarks::crotch(&groin, low, high, 0.0).ok_or_else(|| missing("crotch", meant))
 }
 
-/// Sites with what moves in the fit found anew: crotch, shoulder points and back neck point.
-pub(super) fn moving_sites(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Sites, BodyError> {
+/// The sites on a changed skin: the levels of chest, hip and neck as they were, the rest found anew.
+pub(super) fn held_sites(mesh: &TriMesh, figure: &Figure, before: &Sites) -> Result<Sites, BodyError> {
     let h = figure.stature();
-    let missing = |part, height: f64| BodyError::MissingPart { part, height_mm: height * 1e3 };
-    let upper = mesh.part(|p| p.z > 0.75 * h && p.z < 0.9 * h);
+    let upper = mesh.part(|p| p.z > 0.75 * h && p.z < 0.95 * h);
     let back_neck = landmarks::median_point(&upper, figure.back_neck_height(), 0.0, Side::Back);
-    let shoulder = |sign: f64| landmarks::shoulder_top(&upper, sign * figure.shoulder_x(), 0.86 * h);
-    let missing_shoulder = || missing("shoulder", figure.atlas.shoulder * h);
+    let shoulder = |sign: f64| {
+        landmarks::shoulder_top(&upper, sign * figure.shoulder_x(), 0.86 * h)
+            .ok_or_else(|| missing("shoulder", figure.atlas.shoulder * h))
+    };
+    let girth = tape::girth_round(&upper, before.neck.centre, before.neck.along());
     Ok(Sites {
         crotch: crotch(mesh, figure)?,
-        shoulder: [shoulder(1.0).ok_or_else(missing_shoulder)?, shoulder(-1.0).ok_or_else(missing_shoulder)?],
+        neck: Neck { girth: girth.ok_or_else(|| missing("neck", before.neck.height))?, ..before.neck },
+        shoulder: [shoulder(1.0)?, shoulder(-1.0)?],
         back_neck: back_neck.ok_or_else(|| missing("nape", figure.back_neck_height()))?,
-        ..sites.clone()
+        upper_arm: Some(figure.upper_arm()),
+        ..before.clone()
     })
 }
 
@@ -144,7 +162,6 @@ fn cuts(mesh: &TriMesh, figure: &Figure, sites: &Sites, landmarks: &Landmarks) -
     };
     let (front, back) = (landmarks.front_neck, landmarks.back_neck);
     let base = (back - front).normalize();
-    let neck_lean = V3::new(0.0, sites.neck.lean.sin(), sites.neck.lean.cos());
     let middle_of = |z: f64| {
         tape::trunk_outline(mesh, z, 0.0).map_or(0.0, |outline| {
             let (front, back) = tape::depth_range(&outline);
@@ -163,7 +180,7 @@ fn cuts(mesh: &TriMesh, figure: &Figure, sites: &Sites, landmarks: &Landmarks) -
         ],
         neck: [
             Plane { origin: (front + back) / 2.0, u: V3::x(), v: -base },
-            Plane::normal_to(V3::new(0.0, middle_of(sites.neck.height), sites.neck.height), neck_lean),
+            Plane::normal_to(V3::new(0.0, middle_of(sites.neck.height), sites.neck.height), sites.neck.along()),
         ],
         head: [h * (1.0 - 0.76 * atlas.head_height), h * (1.0 - 0.35 * atlas.head_height)],
         arm: [

@@ -69,8 +69,7 @@ fn anybody(state: &mut u64) -> Measurements {
     let chance = [0.0, 0.3, 0.9][(3.0 * share()) as usize];
     for dimension in Dimension::ALL.into_iter().skip(2) {
         let (wanted, score) = (share() < chance, 4.0 * share() - 2.0);
-        // A given under-bust girth moves the level at which the tape finds the chest, and is not always reached: left out.
-        if wanted && dimension != Dimension::UnderbustGirth {
+        if wanted {
             let given: Vec<(Dimension, f64)> = known.known().collect();
             known.set(dimension, Survey::of(sex).expect(&[dimension], &given)[0].at(score));
         }
@@ -114,6 +113,10 @@ fn faults(asked: &Measurements, body: &Body) -> Vec<String> {
     if let Some(&[triangle, _]) = crossings.first() {
         let place = mesh.triangles[triangle].iter().map(|&vertex| mesh.positions[vertex]).sum::<V3>() / 3.0;
         faults.push(format!("{} crossings, one at {place:.3?}", crossings.len()));
+    }
+    let (low, high) = mesh.bounds().expect("vertices");
+    if low.z.abs() > 1e-6 || (high.z - asked.stature_m).abs() > 1e-6 {
+        faults.push(format!("reaches from {} to {} m", low.z, high.z));
     }
     for (number, joint) in body.skeleton.joints.iter().enumerate() {
         if (crossing::winding_number(mesh, *joint) - 1.0).abs() > 1e-6 {

@@ -56,6 +56,11 @@ impl<'a> Figure<'a> {
         self.crotch() + (self.atlas.hip - self.atlas.crotch) * self.stature()
     }
 
+    /// Height of the section that makes room for the under-bust girth, metres.
+    pub fn underbust(&self) -> f64 {
+        self.trunk_heights()[6]
+    }
+
     /// Heights of knee and calf, metres: their share of the leg.
     pub fn knee_and_calf(&self) -> [f64; 2] {
         [self.atlas.knee, self.atlas.calf].map(|share| share / self.atlas.crotch * self.crotch())

@@ -5,24 +5,27 @@ use super::dimension::{COUNT, Dimension};
 use super::figure::{Factors, Figure};
 use super::limb_tape::LimbSites;
 use super::measure::{self, Girths, Sites};
+use super::tape::Neck;
 use super::template::Template;
-use super::{BodyError, Sex, build, tape};
-use crate::geom::{TriMesh, V3};
+use super::{BodyError, Sex, build};
+use crate::geom::TriMesh;
 use crate::units::from_mm;
 use std::sync::LazyLock;
 
-/// Most rounds of the fit; corrections in each, of which the levels of the tape are found anew only before the first.
-const ROUNDS: usize = 8;
-const CORRECTIONS: usize = 3;
+/// Most rounds of the fit, and corrections in each. The levels of the tape are held in a round and found anew after it.
+const ROUNDS: usize = 6;
+const CORRECTIONS: usize = 6;
 
-/// Error at which the fit stops, metres.
-const FITTED: f64 = 3e-4;
+/// Error at which the corrections of a round stop, and error with levels found anew at which the fit does, metres.
+const CORRECTED: f64 = 3e-4;
+const FITTED: f64 = 8e-4;
 
 /// Greatest accepted difference of a girth, and of a length, from what was asked, metres.
 const GIRTH_TOLERANCE: f64 = 2e-3;
 const LENGTH_TOLERANCE: f64 = 5e-3;
 
-/// A skin that measures as asked.
+/// A skin with what the tape reads on it.
+#[derive(Clone)]
 pub(super) struct Fit<'a> {
     pub figure: Figure<'a>,
     pub mesh: TriMesh,
@@ -53,26 +56,75 @@ fn start(sex: Sex) -> Factors {
 
 fn fit_from(profile: &Profile, factors: Factors) -> Result<Fit<'_>, BodyError> {
     let template = Template::of(profile.sex);
-    let mut figure = Figure { factors, ..Figure::new(profile) };
-    let mut mesh = template.dress(&figure);
-    for round in 1.. {
-        let sites = build::sites(&mesh, &figure)?;
-        let girths = read(&mesh, &figure, &sites)?;
-        let mut errors = errors(profile, &girths);
-        let asked = |error: &&Fitted| profile.is_given(error.dimension) || MAIN.contains(&error.dimension);
-        if errors.iter().filter(asked).all(|error| error.off().abs() < FITTED) || round == ROUNDS {
-            let unmet = errors.iter().filter(asked).find(|error| error.off().abs() > error.tolerance());
-            return unmet.map_or(Ok(Fit { figure, mesh, sites, girths }), |error| Err(error.refusal()));
-        }
+    let figure = Figure { factors, ..Figure::new(profile) };
+    let mesh = template.dress(&figure);
+    let sites = build::sites(&mesh, &figure)?;
+    let girths = read(&mesh, &figure, &sites)?;
+    let mut fit = Fit { figure, mesh, sites, girths };
+    for round in 0..ROUNDS {
         for _ in 0..CORRECTIONS {
-            for error in &errors {
-                figure.adjust(error.dimension, error.asked / error.read);
+            if fit.worst(profile).is_none_or(|worst| worst.off().abs() < CORRECTED) {
+                break;
             }
-            mesh = template.dress(&figure);
-            errors = self::errors(profile, &read(&mesh, &figure, &same_levels(&mesh, &figure, &sites)?)?);
+            fit.correct(profile, template)?;
         }
+        let found = build::sites(&fit.mesh, &fit.figure)?;
+        let girths = read(&fit.mesh, &fit.figure, &found)?;
+        let anew = Fit { sites: found, girths, ..fit.clone() };
+        if anew.worst(profile).is_none_or(|worst| worst.off().abs() < FITTED) {
+            return Ok(anew);
+        }
+        // Levels that swing with what they are corrected by come to rest half way.
+        let sites = if round == 0 { anew.sites } else { half_way(&fit.sites, anew.sites) };
+        fit.hold(sites)?;
     }
-    unreachable!("the last round returns")
+    for _ in 0..CORRECTIONS {
+        fit.correct(profile, template)?;
+    }
+    let unmet =
+        errors(profile, &fit.girths).into_iter().find(|error| profile.is_given(error.dimension) && error.is_unmet());
+    unmet.map_or(Ok(fit), |error| Err(error.refusal()))
+}
+
+impl Fit<'_> {
+    /// The asked measurement that is farthest off.
+    fn worst(&self, profile: &Profile) -> Option<Fitted> {
+        let asked = errors(profile, &self.girths).into_iter().filter(|error| error.is_asked(profile));
+        asked.max_by(|a, b| a.off().abs().total_cmp(&b.off().abs()))
+    }
+
+    /// Corrects every dimension by what the tape reads, the levels held.
+    fn correct(&mut self, profile: &Profile, template: &Template) -> Result<(), BodyError> {
+        for error in errors(profile, &self.girths) {
+            self.figure.adjust(error.dimension, error.asked / error.read);
+        }
+        self.mesh = template.dress(&self.figure);
+        self.hold(self.sites.clone())
+    }
+
+    /// Lays the tape at levels.
+    fn hold(&mut self, levels: Sites) -> Result<(), BodyError> {
+        self.sites = build::held_sites(&self.mesh, &self.figure, &levels)?;
+        self.girths = read(&self.mesh, &self.figure, &self.sites)?;
+        Ok(())
+    }
+}
+
+/// Sites with levels in the middle between those of two.
+fn half_way(a: &Sites, b: Sites) -> Sites {
+    let middle = |a: f64, b: f64| (a + b) / 2.0;
+    Sites {
+        chest: middle(a.chest, b.chest),
+        underbust: middle(a.underbust, b.underbust),
+        hip: middle(a.hip, b.hip),
+        neck: Neck {
+            centre: a.neck.centre.lerp(&b.neck.centre, 0.5),
+            height: middle(a.neck.height, b.neck.height),
+            lean: middle(a.neck.lean, b.neck.lean),
+            ..b.neck
+        },
+        ..b
+    }
 }
 
 /// What is fitted whether given or not.
@@ -91,15 +143,6 @@ fn read(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Girths, BodyEr
     Ok(girths)
 }
 
-/// The sites on a changed skin, with the levels of chest, hip and neck as they were.
-fn same_levels(mesh: &TriMesh, figure: &Figure, before: &Sites) -> Result<Sites, BodyError> {
-    let mut neck = before.neck;
-    let upper = tape::above(mesh, 0.8 * figure.stature());
-    let across = V3::new(0.0, neck.lean.sin(), neck.lean.cos());
-    neck.girth = tape::girth_round(&upper, neck.centre, across).unwrap_or(neck.girth);
-    Ok(Sites { neck, upper_arm: Some(figure.upper_arm()), ..build::moving_sites(mesh, figure, before)? })
-}
-
 /// A fitted measurement: asked for, and read by the tape; metres.
 struct Fitted {
     dimension: Dimension,
@@ -110,6 +153,15 @@ struct Fitted {
 impl Fitted {
     fn off(&self) -> f64 {
         self.read - self.asked
+    }
+
+    /// Whether it has to be met: it is given, or one of the main ones.
+    fn is_asked(&self, profile: &Profile) -> bool {
+        profile.is_given(self.dimension) || MAIN.contains(&self.dimension)
+    }
+
+    fn is_unmet(&self) -> bool {
+        self.off().abs() > self.tolerance()
     }
 
     fn tolerance(&self) -> f64 {

@@ -1,6 +1,7 @@
 //! Points of a body mesh that can be told from its sections alone.
 
 use super::measure::{Sites, steps};
+use super::slices::{Sliced, Slices};
 use super::tape;
 use crate::geom::section::{Plane, section};
 use crate::geom::{TriMesh, V3};
@@ -10,7 +11,7 @@ const LEAST_TRUNK: f64 = 0.03;
 
 /// Where the trunk ends: the lowest height at which an outline crosses the median plane, by bisection.
 pub(super) fn crotch(mesh: &TriMesh, mut below: f64, mut above: f64, middle: f64) -> Option<f64> {
-    let lower = tape::between(mesh, below, above);
+    let lower = Slices::new(mesh, below, above);
     let joined =
         |z: f64| tape::trunk_outline(&lower, z, middle).is_some_and(|outline| tape::girth(&outline) > LEAST_TRUNK);
     if joined(below) || !joined(above) {
@@ -31,7 +32,7 @@ pub(super) enum Side {
 }
 
 /// The point of the trunk's outline in the median plane at height `z`.
-pub(super) fn median_point(mesh: &TriMesh, z: f64, middle: f64, side: Side) -> Option<V3> {
+pub(super) fn median_point(mesh: &impl Sliced, z: f64, middle: f64, side: Side) -> Option<V3> {
     let outline = tape::trunk_outline(mesh, z, middle)?;
     let next = outline.points.iter().cycle().skip(1);
     let crossings = outline.points.iter().zip(next).filter(|(a, b)| (a.x > middle) != (b.x > middle));
@@ -54,7 +55,7 @@ pub(super) fn shoulder_top(mesh: &TriMesh, x: f64, ceiling: f64) -> Option<V3> {
 ///
 /// Searched by bisection between a height where the arm is free and one where it is joined to the trunk.
 pub(super) fn armpit(mesh: &TriMesh, mut free: f64, mut joined: f64, middle: f64) -> Option<V3> {
-    let around = tape::between(mesh, free, joined);
+    let around = Slices::new(mesh, free, joined);
     let gap = |z: f64| {
         let trunk = tape::trunk_outline(&around, z, middle)?;
         let limbs = tape::right_limbs(&around, z, middle);

@@ -3,6 +3,7 @@
 use super::arm::Arm;
 use super::landmarks;
 use super::measure::{self, Sites, steps};
+use super::slices::Slices;
 use super::{BodyError, Girths, Sex, tape};
 use crate::geom::section::{Plane, section};
 use crate::geom::{TriMesh, V2, V3, hull};
@@ -121,7 +122,7 @@ fn arm_length(arm: &Arm, shoulder: V3) -> f64 {
 fn leg_girths(mesh: &TriMesh, sites: &Sites, range: [f64; 2]) -> Vec<(f64, f64)> {
     let inseam = sites.crotch - sites.floor;
     let [low, high] = range.map(|share| sites.floor + share * inseam);
-    let leg = tape::between(mesh, low, high);
+    let leg = Slices::new(mesh, low, high);
     let girth = |z: f64| {
         let legs = tape::right_limbs(&leg, z, sites.middle);
         let inner = legs.iter().min_by(|a, b| a.bounds().0.x.total_cmp(&b.bounds().0.x))?;

@@ -1,6 +1,7 @@
 //! Measuring any upright body mesh: the levels are found on the mesh, then the tape is laid.
 
 use super::landmarks::{Side, crotch, median_point, shoulder_top};
+use super::slices::{Sliced, Slices};
 use super::tape::{self, Neck};
 use super::{BodyError, Measurements, Sex};
 use crate::geom::section::{Plane, section};
@@ -236,7 +237,7 @@ fn likely_sex([neck, hip, waist]: [f64; 3]) -> Sex {
 /// The level of the greatest buttock protrusion.
 pub(super) fn hip_level(mesh: &TriMesh, crotch: f64, stature: f64, middle: f64) -> Option<f64> {
     let heights = steps(crotch + 0.01 * stature, crotch + 0.10 * stature, 96);
-    let mesh = &tape::between(mesh, crotch, crotch + 0.11 * stature);
+    let mesh = &Slices::new(mesh, crotch, crotch + 0.11 * stature);
     let back = |z: f64| Some((z, tape::depth_range(&tape::trunk_outline(mesh, z, middle)?).1));
     levelled(heights.filter_map(back).collect(), 2).into_iter().min_by(|a, b| a.1.total_cmp(&b.1)).map(|(z, _)| z)
 }
@@ -269,12 +270,17 @@ pub(super) fn usual_chest(stature: f64, crotch: f64) -> f64 {
 /// proportions tell, which err alike; at most where the arms are still apart from the trunk.
 pub(super) fn chest_level(mesh: &TriMesh, floor: f64, stature: f64, crotch: f64, middle: f64) -> Option<f64> {
     let (low, high) = (floor + 0.66 * stature, floor + 0.80 * stature);
-    let front = |z: f64| tape::trunk_outline(mesh, z, middle).map(|outline| tape::depth_range(&outline).0);
-    let arm_apart = |z: f64| !tape::right_limbs(mesh, z, middle).is_empty();
-    let (y_low, y_high, has_arms) = (front(low)?, front(high)?, arm_apart(low));
+    let trunk = Slices::new(mesh, low, high);
+    // Front of the trunk, and whether the arms are apart from it.
+    let section = |z: f64| {
+        let outlines = trunk.slice(z);
+        let apart = outlines.iter().any(|outline| tape::is_right_limb(outline, middle));
+        Some((tape::depth_range(&tape::trunk_among(outlines, middle)?).0, apart))
+    };
+    let ((y_low, has_arms), (y_high, _)) = (section(low)?, section(high)?);
     let standing_out = |z: f64| {
         let chord = y_low + (y_high - y_low) * (z - low) / (high - low);
-        (arm_apart(z) || !has_arms).then_some((z, front(z)? - chord))
+        section(z).filter(|(_, apart)| *apart || !has_arms).map(|(front, _)| (z, front - chord))
     };
     let heights = steps(floor + CHEST[0] * stature, floor + CHEST[1] * stature, 40);
     let profile: Vec<(f64, f64)> = heights.filter_map(standing_out).collect();
@@ -286,7 +292,8 @@ pub(super) fn chest_level(mesh: &TriMesh, floor: f64, stature: f64, crotch: f64,
 
 /// The level below the chest where the girth stops falling.
 pub(super) fn underbust_level(mesh: &TriMesh, chest: f64, stature: f64, middle: f64) -> f64 {
-    let girth = |z: f64| tape::trunk_girth(mesh, z, middle);
+    let trunk = Slices::new(mesh, chest - 0.075 * stature, chest);
+    let girth = |z: f64| tape::trunk_girth(&trunk, z, middle);
     let falling: Vec<(f64, f64)> =
         steps(chest, chest - 0.075 * stature, 30).map_while(|z| girth(z).map(|girth| (z, girth))).collect();
     let falling = levelled(falling, 2);

@@ -32,6 +32,7 @@ mod scanned;
 mod sections;
 mod segment;
 mod silhouette;
+mod slices;
 mod stl;
 mod surface;
 mod survey;

@@ -145,7 +145,6 @@ fn cuts(mesh: &TriMesh, sex: Sex, sites: &Sites, landmarks: &Landmarks, half: &H
     };
     let (elbow, wrist) = (arm.elbow(), arm.wrist());
     let base = (landmarks.back_neck - landmarks.front_neck).normalize();
-    let neck_lean = V3::new(0.0, sites.neck.lean.sin(), sites.neck.lean.cos());
     let armpits = landmarks.armpit[0].z.min(landmarks.armpit[1].z);
     Cuts {
         leg: [0.012 * h, 0.072 * h, atlas.calf * h, atlas.knee * h, 0.80 * sites.crotch, sites.crotch - 0.02],
@@ -159,7 +158,7 @@ fn cuts(mesh: &TriMesh, sex: Sex, sites: &Sites, landmarks: &Landmarks, half: &H
         ],
         neck: [
             Plane { origin: (landmarks.front_neck + landmarks.back_neck) / 2.0, u: V3::x(), v: -base },
-            Plane::normal_to(sites.neck.centre, neck_lean),
+            Plane::normal_to(sites.neck.centre, sites.neck.along()),
         ],
         head: [h * (1.0 - 0.76 * atlas.head_height), h * (1.0 - 0.35 * atlas.head_height)],
         arm: [

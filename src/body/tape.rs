@@ -1,5 +1,6 @@
 //! The tape measure: girths of plane sections of a body mesh.
 
+use super::slices::{Sliced, Slices};
 use crate::geom::section::{Outline, Plane, section};
 use crate::geom::{TriMesh, V2, V3, hull};
 
@@ -7,12 +8,18 @@ use crate::geom::{TriMesh, V2, V3, hull};
 const SMALLEST_PART: f64 = 0.10;
 
 /// The outline of the trunk (or neck, or head) at height `z`: the longest across the plane `x = middle`.
-pub(super) fn trunk_outline(mesh: &TriMesh, z: f64, middle: f64) -> Option<Outline> {
+pub(super) fn trunk_outline(mesh: &impl Sliced, z: f64, middle: f64) -> Option<Outline> {
+    trunk_among(mesh.slice(z), middle)
+}
+
+/// The outline of the trunk among those at a height.
+pub(super) fn trunk_among(outlines: Vec<Outline>, middle: f64) -> Option<Outline> {
     let across = |outline: &Outline| {
         let (low, high) = outline.bounds();
         low.x < middle && high.x > middle
     };
-    section(mesh, &Plane::horizontal(z)).into_iter().filter(across).max_by(|a, b| girth(a).total_cmp(&girth(b)))
+    let mut trunks: Vec<Outline> = outlines.into_iter().filter(across).collect();
+    if trunks.len() < 2 { trunks.pop() } else { trunks.into_iter().max_by(|a, b| girth(a).total_cmp(&girth(b))) }
 }
 
 /// Tape girth of an outline, metres.
@@ -21,17 +28,18 @@ pub(super) fn girth(outline: &Outline) -> f64 {
 }
 
 /// Tape girth of the trunk at height `z`, metres.
-pub(super) fn trunk_girth(mesh: &TriMesh, z: f64, middle: f64) -> Option<f64> {
+pub(super) fn trunk_girth(mesh: &impl Sliced, z: f64, middle: f64) -> Option<f64> {
     trunk_outline(mesh, z, middle).map(|outline| girth(&outline))
 }
 
 /// The outlines of limb size at height `z` whose middle lies to the right of `x`.
-pub(super) fn right_limbs(mesh: &TriMesh, z: f64, x: f64) -> Vec<Outline> {
-    let right = |outline: &Outline| {
-        let (low, high) = outline.bounds();
-        low.x > x && hull::perimeter(&outline.points) > SMALLEST_PART && (low.x + high.x) / 2.0 > x
-    };
-    section(mesh, &Plane::horizontal(z)).into_iter().filter(right).collect()
+pub(super) fn right_limbs(mesh: &impl Sliced, z: f64, x: f64) -> Vec<Outline> {
+    mesh.slice(z).into_iter().filter(|outline| is_right_limb(outline, x)).collect()
+}
+
+/// Whether an outline is of limb size and lies to the right of `x`.
+pub(super) fn is_right_limb(outline: &Outline, x: f64) -> bool {
+    outline.bounds().0.x > x && hull::perimeter(&outline.points) > SMALLEST_PART
 }
 
 /// Girth of the outline round `point` in the plane through it with `normal`, metres: the largest outline that holds
@@ -75,37 +83,67 @@ pub(super) struct Neck {
     pub lean: f64,
 }
 
+impl Neck {
+    /// Unit direction of the neck, upward: normal of the tape's plane.
+    pub fn along(&self) -> V3 {
+        V3::new(0.0, self.lean.sin(), self.lean.cos())
+    }
+}
+
 /// How far behind the middle of the neck the spine runs, as a share of its depth: the height of a leaning tape is read there.
 const SPINE: f64 = 0.14;
 
-/// Finds the narrowest girth round the neck, over heights between `low` and `high` and leans of up to 30 degrees.
+/// Greatest lean of the neck that is tried, radians, and the number of coarse heights and leans.
+const GREATEST_LEAN: f64 = 30.0 * std::f64::consts::PI / 180.0;
+const HEIGHTS: usize = 13;
+const LEANS: usize = 7;
+
+/// How often the steps of the search are halved.
+const HALVINGS: usize = 3;
+
+/// Finds the narrowest girth round the neck, over heights between `low` and `high` and leans of up to 30 degrees: a coarse grid,
+/// from whose best place the search walks with ever smaller steps.
 pub(super) fn neck(mesh: &TriMesh, low: f64, high: f64, middle: f64) -> Option<Neck> {
-    let upper = above(mesh, low - 0.12);
-    let plane = |height: f64, lean: f64| {
-        let (front, back) = depth_range(&trunk_outline(&upper, height, middle)?);
-        let centre = V3::new(middle, (front + back) / 2.0, height);
-        Some(Plane::normal_to(centre, V3::new(0.0, lean.sin(), lean.cos())))
+    let upper = mesh.part(|p| p.z > low - 0.12 && p.z < high + 0.12);
+    let slices = Slices::new(&upper, low, high);
+    let centre = |height: f64| {
+        let (front, back) = depth_range(&trunk_outline(&slices, height, middle)?);
+        Some(V3::new(middle, (front + back) / 2.0, height))
     };
-    let least = |candidates: &mut dyn Iterator<Item = (f64, f64)>| {
-        let at = |(height, lean)| Some((height, lean, girth(&outline_round(&upper, &plane(height, lean)?)?)));
-        candidates.filter_map(at).min_by(|a, b| a.2.total_cmp(&b.2))
+    let plane = |centre: V3, lean: f64| Plane::normal_to(centre, V3::new(0.0, lean.sin(), lean.cos()));
+    let tried = |centre: V3, lean: f64| {
+        let girth = girth(&outline_round(&upper, &plane(centre, lean))?);
+        Some(Tried { centre, lean, girth })
     };
-    let coarse_step = (high - low) / 12.0;
-    let lean_step = 5_f64.to_radians();
-    let mut coarse =
-        (0..=12).flat_map(|i| (0..=6).map(move |j| (low + coarse_step * f64::from(i), lean_step * f64::from(j))));
-    let best = least(&mut coarse)?;
-    let offsets = |i: i32, step: f64| f64::from(i) * step / 3.0;
-    let mut fine = (-3..=3).flat_map(|i| {
-        (-3..=3).map(move |j| (best.0 + offsets(i, coarse_step), (best.1 + offsets(j, lean_step)).max(0.0)))
-    });
-    let (height, lean, girth) = least(&mut fine)?;
+    let row = |height: f64, leans: &[f64]| {
+        let centre = centre(height);
+        leans.iter().filter_map(|&lean| tried(centre?, lean)).collect::<Vec<_>>()
+    };
+    let least = |a: &Tried, b: &Tried| a.girth.total_cmp(&b.girth);
+    let mut step = [(high - low) / (HEIGHTS - 1) as f64, GREATEST_LEAN / (LEANS - 1) as f64];
+    let leans: [f64; LEANS] = std::array::from_fn(|i| step[1] * i as f64);
+    let mut best = (0..HEIGHTS).flat_map(|i| row(low + step[0] * i as f64, &leans)).min_by(least)?;
+    for _ in 0..HALVINGS {
+        step = step.map(|step| step / 2.0);
+        let around = [-1.0, 0.0, 1.0].map(|side| (best.centre.z + side * step[0]).clamp(low, high));
+        let around_lean = [best.lean - step[1], best.lean, best.lean + step[1]];
+        let around_lean = around_lean.map(|lean| lean.clamp(0.0, GREATEST_LEAN));
+        best = around.into_iter().flat_map(|height| row(height, &around_lean)).chain([best]).min_by(least)?;
+    }
     // The horizontal outline, by which the search goes, reaches under the chin: the tape's own middle lies farther back.
-    let plane = plane(height, lean)?;
+    let plane = plane(best.centre, best.lean);
     let (low, high) = outline_round(&upper, &plane)?.bounds();
     let centre = plane.lift((low + high) / 2.0);
     let spine = centre - plane.v * (SPINE * (high.y - low.y));
-    Some(Neck { girth, centre, height: spine.z, lean })
+    Some(Neck { girth: best.girth, centre, height: spine.z, lean: best.lean })
+}
+
+/// A tape tried round the neck.
+#[derive(Clone, Copy)]
+struct Tried {
+    centre: V3,
+    lean: f64,
+    girth: f64,
 }
 
 /// Half of a drawn tape's breadth and how far it lies off the skin, metres.
@@ -142,14 +180,5 @@ pub(super) fn depth_range(outline: &Outline) -> (f64, f64) {
 /// The triangles that reach above the height `z`: sections above it are those of the whole mesh.
 pub(super) fn above(mesh: &TriMesh, z: f64) -> TriMesh {
     let reaches = |triangle: &&[usize; 3]| triangle.iter().any(|&vertex| mesh.positions[vertex].z > z);
-    TriMesh { positions: mesh.positions.clone(), triangles: mesh.triangles.iter().filter(reaches).copied().collect() }
-}
-
-/// The triangles that reach into the heights between `low` and `high`.
-pub(super) fn between(mesh: &TriMesh, low: f64, high: f64) -> TriMesh {
-    let height = |vertex: usize| mesh.positions[vertex].z;
-    let reaches = |triangle: &&[usize; 3]| {
-        triangle.iter().any(|&v| height(v) >= low) && triangle.iter().any(|&v| height(v) <= high)
-    };
     TriMesh { positions: mesh.positions.clone(), triangles: mesh.triangles.iter().filter(reaches).copied().collect() }
 }

@@ -136,9 +136,12 @@ impl Template {
         };
         let place = |vertex: &Vertex| {
             let p: V3 = vertex.ties.iter().map(at).sum();
-            V3::new(if vertex.median { 0.0 } else { p.x }, p.y, if vertex.sole { 0.0 } else { p.z.max(0.0) })
+            V3::new(if vertex.median { 0.0 } else { p.x }, p.y, p.z)
         };
-        let right = self.evened(self.vertices.iter().map(place).collect(), scale);
+        let mut right = self.evened(self.vertices.iter().map(place).collect(), scale);
+        for (p, vertex) in right.iter_mut().zip(&self.vertices) {
+            p.z = if vertex.sole { 0.0 } else { p.z.max(0.0) };
+        }
         let crown = right.iter().map(|p| p.z).fold(0.0, f64::max);
         let stretch = figure.stature() / crown;
         let image = |&(i, mirrored): &(usize, bool)| {

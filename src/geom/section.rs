@@ -91,18 +91,25 @@ type CutEdge = (usize, usize);
 /// a closed manifold mesh all close.
 #[must_use]
 pub fn section(mesh: &TriMesh, plane: &Plane) -> Vec<Outline> {
+    section_of(&mesh.positions, &mesh.triangles, plane)
+}
+
+/// Outlines in which `plane` cuts some `triangles` over `positions`.
+#[must_use]
+pub fn section_of(positions: &[V3], triangles: &[[usize; 3]], plane: &Plane) -> Vec<Outline> {
     let normal = plane.normal();
-    let height: Vec<f64> = mesh.positions.iter().map(|p| (p - plane.origin).dot(&normal)).collect();
-    let above: Vec<bool> = height.iter().map(|&height| height >= 0.0).collect();
+    let height = |vertex: usize| (positions[vertex] - plane.origin).dot(&normal);
     let mut links: Vec<(CutEdge, CutEdge)> = Vec::new();
-    for &[a, b, c] in &mesh.triangles {
-        if above[a] == above[b] && above[b] == above[c] {
+    for triangle in triangles {
+        let above = triangle.map(|vertex| height(vertex) >= 0.0);
+        if above[0] == above[1] && above[1] == above[2] {
             continue;
         }
         let mut link = ((0, 0), (0, 0));
-        for (from, to) in [(a, b), (b, c), (c, a)] {
+        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+            let (from, to) = (triangle[i], triangle[j]);
             let edge = (from.min(to), from.max(to));
-            match (above[from], above[to]) {
+            match (above[i], above[j]) {
                 (true, false) => link.0 = edge,
                 (false, true) => link.1 = edge,
                 _ => {}
@@ -111,8 +118,8 @@ pub fn section(mesh: &TriMesh, plane: &Plane) -> Vec<Outline> {
         links.push(link);
     }
     let place = |&(a, b): &CutEdge| {
-        let share = height[a] / (height[a] - height[b]);
-        plane.project(mesh.positions[a] + (mesh.positions[b] - mesh.positions[a]) * share)
+        let (low, high) = (height(a), height(b));
+        plane.project(positions[a] + (positions[b] - positions[a]) * (low / (low - high)))
     };
     chain(links)
         .into_iter()
