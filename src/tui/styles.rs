@@ -277,13 +277,12 @@ impl State {
         effects
     }
 
-    /// The seam selected: that of the line, or of the edge where the line is none.
+    /// The seam that holds the selected edge.
     fn selected_seam(&mut self) -> Option<DeskSeam> {
         if !self.may_sew() {
             return None;
         }
         let laid = self.laid()?.ok()?;
-        // An edge without a seam is selected beside the line of another one.
         let found = laid.seam_at(self.styles.edge).map(|k| laid.out.desk.seams[k].clone());
         if found.is_none() {
             self.say("no seam holds the selected edge");
