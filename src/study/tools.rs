@@ -11,7 +11,7 @@ use crate::render::{self, Camera, Frame, Layer, Material, Scene};
 
 pub use super::seam_desk::{Desk, DeskEdge, DeskPiece, DeskSeam, Proposed, desk, edit_seams, propose};
 pub use super::sewing::{CHECK_EDGE_MM, SizeCheck, check_study};
-pub use super::workpiece::{DeskLength, LaidOut, Step, Workpiece, seam_home, write_seams};
+pub use super::workpiece::{DeskLength, LaidOut, SeamStep, Workpiece, seam_home, write_seams};
 pub use crate::body::{
     Accuracy, Body, Doubt, Evaluation, Girths, LengthUnit, Mass, Measured, Measurements, Pictured, PicturedLevel, Pose,
     Scan, Sex, write_obj,

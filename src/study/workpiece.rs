@@ -30,11 +30,13 @@ pub struct Workpiece {
 
 /// One step of work on a seam file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Step {
+pub enum SeamStep {
     /// Add, remove or turn a seam.
     Edit(Edit),
     /// Take a proposed seam, by its name, for right.
     Confirm(String),
+    /// Strike a question of a proposal out, its answer being in the file.
+    Decide(String),
     /// Propose all seams anew; the text is the name of the style.
     Propose(String),
 }
@@ -98,26 +100,36 @@ impl Workpiece {
     ///
     /// # Errors
     /// When the pattern holds its own seams, or the step cannot be done.
-    pub fn after(&self, step: &Step) -> Result<SourceFile> {
+    pub fn after(&self, step: &SeamStep) -> Result<SourceFile> {
         let refused = |message: String| StudyError::Stage { stage: "pattern", message };
         if self.pattern.holds_seams() {
             let message = format!("{}: holds its own seams; they are edited where it was drawn", self.pattern.name);
             return Err(refused(message));
         }
-        if let Step::Propose(style) = step {
+        if let SeamStep::Propose(style) = step {
             return self.proposed(style);
         }
         let missing = || refused(format!("{}: has no seam file yet; propose one", self.pattern.name));
         let (file, text) = self.seams.as_ref().zip(self.text()).ok_or_else(missing)?;
         let text = match step {
-            Step::Edit(edit) => {
+            SeamStep::Edit(edit) => {
                 let pieces = tools::pieces(&self.pattern, Some(&self.size), self.unit)?;
                 edited(&text, &file.name, &pieces, edit).map_err(StudyError::stage("pattern"))?
             }
-            Step::Confirm(seam) => {
+            SeamStep::Confirm(seam) => {
                 confirmed(&text, seam).ok_or_else(|| refused(format!("{}: there is no seam `{seam}`", file.name)))?
             }
-            Step::Propose(_) => text,
+            SeamStep::Decide(question) => {
+                let lines = text.split_inclusive('\n');
+                let kept: String =
+                    lines.filter(|line| line.trim_end().strip_prefix(QUESTION) != Some(question)).collect();
+                if kept == text {
+                    let accepted = "sew the edge, or name it in `open` of the seam file";
+                    return Err(refused(format!("{question}: the check finds it, nobody asks it; {accepted}")));
+                }
+                kept
+            }
+            SeamStep::Propose(_) => text,
         };
         Ok(SourceFile { name: file.name.clone(), bytes: text.into_bytes().into() })
     }
@@ -197,14 +209,16 @@ mod tests {
     #[test]
     fn a_proposal_is_confirmed_seam_by_seam_and_the_rest_of_its_text_stays() {
         let mut piece = tshirt(None);
-        assert!(piece.after(&Step::Confirm("x".into())).expect_err("nothing yet").to_string().contains("propose one"));
-        piece.seams = Some(piece.after(&Step::Propose("tee".into())).expect("known pieces"));
+        assert!(
+            piece.after(&SeamStep::Confirm("x".into())).expect_err("nothing yet").to_string().contains("propose one")
+        );
+        piece.seams = Some(piece.after(&SeamStep::Propose("tee".into())).expect("known pieces"));
         let laid = piece.laid_out().expect("it fits");
         let seams = laid.desk.seams.len();
         assert!(seams >= 8 && laid.desk.seams.iter().all(|seam| seam.confidence.is_some()));
         let name = laid.desk.seams[2].name.clone();
         let before = piece.text().expect("proposed");
-        piece.seams = Some(piece.after(&Step::Confirm(name.clone())).expect("it is there"));
+        piece.seams = Some(piece.after(&SeamStep::Confirm(name.clone())).expect("it is there"));
         let laid = piece.laid_out().expect("it fits");
         let sure: Vec<&str> =
             laid.desk.seams.iter().filter(|seam| seam.confidence.is_none()).map(|seam| seam.name.as_str()).collect();
@@ -212,14 +226,20 @@ mod tests {
         let after = piece.text().expect("proposed");
         let changed = before.lines().zip(after.lines()).filter(|(before, after)| before != after).count();
         assert_eq!((before.lines().count(), changed), (after.lines().count(), 1));
-        assert!(piece.after(&Step::Confirm("none".into())).is_err());
+        assert!(piece.after(&SeamStep::Confirm("none".into())).is_err());
+
+        let question = laid.questions.first().expect("which sleeve is drawn").clone();
+        piece.seams = Some(piece.after(&SeamStep::Decide(question.clone())).expect("it is asked"));
+        let laid = piece.laid_out().expect("it fits");
+        assert!(!laid.questions.contains(&question));
+        assert!(piece.after(&SeamStep::Decide(question)).is_err());
     }
 
     #[test]
     fn an_opened_seam_leaves_free_edges_to_decide_on() {
         let mut piece = tshirt(Some(own_seams()));
         let edit = Edit::Remove { a: "front.side_right".into(), b: "back.side_right".into() };
-        piece.seams = Some(piece.after(&Step::Edit(edit)).expect("it is there"));
+        piece.seams = Some(piece.after(&SeamStep::Edit(edit)).expect("it is there"));
         let questions = piece.laid_out().expect("it fits").questions;
         assert!(questions.iter().any(|text| text.contains("back.side_right")), "{questions:?}");
     }

@@ -7,7 +7,7 @@ use super::message::{Act, Effect};
 use super::overlay::Overlay;
 use super::state::State;
 use super::tailor::{Laid, Laying, Task};
-use crate::study::tools::{DeskSeam, SeamEdit, SourceFile, Step};
+use crate::study::tools::{DeskSeam, SeamEdit, SeamStep, SourceFile};
 use crate::study::{Part, SizeRow};
 
 /// An edge by its piece and its place on it.
@@ -268,7 +268,7 @@ impl State {
             a_mm - b_mm,
             a_mm / b_mm
         );
-        let effects = self.step_of_work(Step::Edit(SeamEdit::Add { a, b, name: None, is_eased }));
+        let effects = self.step_of_work(SeamStep::Edit(SeamEdit::Add { a, b, name: None, is_eased }));
         if is_eased {
             self.styles.is_busy = false;
             self.ask(text, effects);
@@ -277,13 +277,12 @@ impl State {
         effects
     }
 
-    /// The seam selected: that of the line, or of the edge where the line is none.
+    /// The seam that holds the selected edge.
     fn selected_seam(&mut self) -> Option<DeskSeam> {
         if !self.may_sew() {
             return None;
         }
         let laid = self.laid()?.ok()?;
-        // An edge without a seam is selected beside the line of another one.
         let found = laid.seam_at(self.styles.edge).map(|k| laid.out.desk.seams[k].clone());
         if found.is_none() {
             self.say("no seam holds the selected edge");
@@ -300,23 +299,30 @@ impl State {
     /// Opens the selected seam.
     pub(super) fn remove_seam(&mut self) -> Vec<Effect> {
         let edges = self.selected_seam().and_then(|seam| self.between(&seam));
-        edges.map_or(vec![], |(a, b)| self.step_of_work(Step::Edit(SeamEdit::Remove { a, b })))
+        edges.map_or(vec![], |(a, b)| self.step_of_work(SeamStep::Edit(SeamEdit::Remove { a, b })))
     }
 
     /// Turns one side of the selected seam round.
     pub(super) fn flip_seam(&mut self) -> Vec<Effect> {
         let edges = self.selected_seam().and_then(|seam| self.between(&seam));
-        edges.map_or(vec![], |(a, b)| self.step_of_work(Step::Edit(SeamEdit::Flip { a, b })))
+        edges.map_or(vec![], |(a, b)| self.step_of_work(SeamStep::Edit(SeamEdit::Flip { a, b })))
     }
 
-    /// Takes the selected proposed seam for right; gives the desk the focus first where the list has it.
+    /// Takes the selected proposed seam for right, or the selected question for answered; gives the desk the focus first where the list has it.
     pub(super) fn confirm_seam(&mut self) -> Vec<Effect> {
         if self.screen == Screen::Styles && !self.in_second_pane() {
             self.second_pane[Screen::Styles as usize] = true;
             return vec![];
         }
+        if let (true, Some(DeskLine::Question(k))) = (self.screen == Screen::Styles, self.desk_line()) {
+            if !self.may_sew() {
+                return vec![];
+            }
+            let question = self.laid().and_then(Result::ok).and_then(|laid| laid.out.questions.get(k).cloned());
+            return question.map_or(vec![], |question| self.step_of_work(SeamStep::Decide(question)));
+        }
         match self.selected_seam() {
-            Some(seam) if seam.confidence.is_some() => self.step_of_work(Step::Confirm(seam.name)),
+            Some(seam) if seam.confidence.is_some() => self.step_of_work(SeamStep::Confirm(seam.name)),
             Some(seam) => {
                 self.say(format!("{} is no proposal: nothing to confirm", seam.name));
                 vec![]
@@ -335,7 +341,7 @@ impl State {
         let replaced = self.laid().and_then(Result::ok).map_or(0, |laid| {
             laid.out.desk.seams.iter().filter(|seam| seam.confidence.is_none()).count() + laid.out.lengths.len()
         });
-        let effects = self.step_of_work(Step::Propose(style.clone()));
+        let effects = self.step_of_work(SeamStep::Propose(style.clone()));
         if replaced > 0 {
             self.styles.is_busy = false;
             let text = format!("Propose all seams of {style} anew? Its seams and measurements go; u brings them back.");
@@ -345,7 +351,7 @@ impl State {
         effects
     }
 
-    fn step_of_work(&mut self, step: Step) -> Vec<Effect> {
+    fn step_of_work(&mut self, step: SeamStep) -> Vec<Effect> {
         let Some(laying) = self.laying() else { return vec![] };
         self.styles.is_busy = true;
         vec![Effect::Desk(Task::Sew(laying, step))]

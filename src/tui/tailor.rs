@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender};
 
 use super::message::Message;
-use crate::study::tools::{LaidOut, SourceFile, Step, Workpiece, seam_home};
+use crate::study::tools::{LaidOut, SeamStep, SourceFile, Workpiece, seam_home};
 use crate::study::{SizeKey, StudyError, Workspace};
 
 /// What is wanted on the desk.
@@ -26,7 +26,7 @@ pub enum Task {
     /// Lay a size out.
     LayOut(Laying),
     /// Do a step of work on its seams.
-    Sew(Laying, Step),
+    Sew(Laying, SeamStep),
 }
 
 /// A size on the desk.
@@ -80,6 +80,6 @@ pub(super) fn lay_out(workspace: &Workspace, laying: &Laying) -> Result<Laid, St
     Ok(Laid { out: piece.laid_out()?, stored, home })
 }
 
-pub(super) fn sew(workspace: &Workspace, laying: &Laying, step: &Step) -> Result<SourceFile, StudyError> {
+pub(super) fn sew(workspace: &Workspace, laying: &Laying, step: &SeamStep) -> Result<SourceFile, StudyError> {
     workpiece(workspace, laying)?.0.after(step)
 }

@@ -149,10 +149,20 @@ fn table(state: &State, laid: &Laid, width: u16, height: u16) -> Vec<Line<'stati
     let first = first_shown(at, items.len(), height);
     let mut lines = vec![Line::styled(head(width), state.theme.dim())];
     for (k, item) in items.iter().enumerate().skip(first) {
-        let (texts, style) = item_lines(state, laid, *item, width, k == at);
+        // An edge in no seam is selected beside the line of another one.
+        let is_selected = k == at
+            && match item {
+                DeskLine::Seam(seam) => laid.seam_at(state.styles.edge) == Some(*seam),
+                _ => true,
+            };
+        let (texts, style) = item_lines(state, laid, *item, width, is_selected);
         for text in texts {
             let line = Line::styled(text, style);
-            lines.push(if k == at { as_selected(line, state.theme.selection(state.in_second_pane())) } else { line });
+            lines.push(if is_selected {
+                as_selected(line, state.theme.selection(state.in_second_pane()))
+            } else {
+                line
+            });
         }
     }
     lines.truncate(height + 1);

@@ -153,6 +153,10 @@ fn proposed_seams_are_confirmed_one_by_one() {
         bench.press("j<Enter>");
     }
     assert_eq!(unsure(&bench), 0);
+    let asked = |bench: &Bench| bench.state.laid().expect("laid out").expect("it fits").out.questions.len();
+    let questions = asked(&bench);
+    bench.press("j<Enter>");
+    assert_eq!((asked(&bench), questions), (questions - 1, questions), "the question is answered");
     assert!(!String::from_utf8_lossy(&saved(&mut bench).bytes).contains("[[seam]]  # confidence"));
 }
 
