@@ -58,7 +58,12 @@ impl Station {
             let departure: f64 = self.shape.iter().zip(&direction.harmonics).map(|(c, cosine)| c * cosine).sum();
             ellipse * (1.0 + departure)
         };
-        COMPASS.iter().map(radius).collect()
+        // The shape is its own mirror image: directions from the front round the left to the back, the others from them.
+        let [front, back] = [DIRECTIONS / 4, 3 * DIRECTIONS / 4];
+        let half: Vec<f64> = COMPASS[front..=back].iter().map(radius).collect();
+        let mirrored = |i: usize| (DIRECTIONS + DIRECTIONS / 2 - i) % DIRECTIONS;
+        let place = |i: usize| if (front..=back).contains(&i) { i } else { mirrored(i) };
+        (0..DIRECTIONS).map(|i| half[place(i) - front]).collect()
     }
 
     /// Tape girth of the section, metres.
