@@ -162,7 +162,7 @@ fn the_catalogue_is_edited() {
     let table = command.arg("SELECT * FROM v_subjects WHERE is_latest").output().expect("it starts").stdout;
     place.write("people.csv", &table);
     let said = place.toile("subject import people.csv").ends_with(0);
-    assert_eq!(said.err.lines().count(), 13);
+    assert_eq!(said.err.lines().filter(|line| line.contains("is unchanged")).count(), 13);
     assert!(said.err.lines().all(|line| line.contains("is unchanged") || line.contains("is doubtful")), "{}", said.err);
 
     place.toile("style add tee --seams patterns/tshirt.seams.toml --pattern S=patterns/tshirt-s.dxf").ends_with(0);
@@ -200,7 +200,7 @@ fn a_failed_job_ends_with_4() {
     let text = text.replace("chest_girth_mm = 863", "chest_girth_mm = 600").replace("= 782", "= 1500");
     place.write("study.toml", text.replace("hip_girth_mm = 914", "hip_girth_mm = 650"));
     let said = place.toile("run .").ends_with(4);
-    assert!(said.err.contains("job 1 failed: body:") && said.err.contains("one body"), "{}", said.err);
+    assert!(said.err.contains("job 1 failed: body:") && said.err.contains("no adult has both"), "{}", said.err);
     assert_eq!(place.one("SELECT status FROM v_jobs"), "failed");
 }
 

@@ -110,17 +110,18 @@ fn corners_come_from_turn_points_or_else_from_the_outline() {
 #[test]
 fn reinforced_edges_reach_the_mesh() {
     let with = |entry: &str| read(&format!("{}\n[[reinforce]]\n{entry}\n", seams()));
-    let style = with("edges = [\"front.neck\", \"back.neck\"]\nkind = \"rib\"\nstiffness_n = 20.0").expect("sound");
+    let style =
+        with("edges = [\"front.neck_left\", \"front.neck_right\"]\nkind = \"rib\"\nstiffness_n = 20.0").expect("sound");
     let garment = style.mesh(0.03).expect("it meshes");
     assert_eq!(garment.reinforcements.len(), 2);
-    let neck = garment.pieces.iter().find(|p| p.id == "front").map(|p| p.edges["neck"].clone());
+    let neck = garment.pieces.iter().find(|p| p.id == "front").map(|p| p.edges["neck_left"].clone());
     assert!(garment.reinforcements.iter().any(|r| Some(&r.vertices) == neck.as_ref() && r.length_factor == 1.0));
     assert!(read(seams()).expect("sound").mesh(0.03).expect("it meshes").reinforcements.is_empty());
     let check = |entry: &str, expect: &str| {
         let text = with(entry).expect_err(entry).to_string();
         assert!(text.contains(expect), "`{expect}` in: {text}");
     };
-    check("edges = [\"front.neck\"]\nkind = \"rib\"\nstiffness_n = -1.0", "reinforce 1");
+    check("edges = [\"front.neck_left\"]\nkind = \"rib\"\nstiffness_n = -1.0", "reinforce 1");
     check("edges = [\"front.nick\"]\nkind = \"rib\"\nstiffness_n = 20.0", "front.nick");
-    check("edges = [\"front.neck\"]\nkind = \"lace\"\nstiffness_n = 20.0", "lace");
+    check("edges = [\"front.neck_left\"]\nkind = \"lace\"\nstiffness_n = 20.0", "lace");
 }

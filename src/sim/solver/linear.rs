@@ -3,7 +3,7 @@
 use nalgebra::Matrix3;
 
 use super::factor::Factor;
-use super::operator::Operator;
+use super::operator::{Operator, times};
 use super::pcg::{self, PcgParams};
 use crate::geom::V3;
 
@@ -50,7 +50,7 @@ fn jacobi(operator: &Operator, b: &[V3], x: &mut [V3], params: &PcgParams) {
         operator.diagonal_blocks().iter().map(|d| d.try_inverse().unwrap_or_else(Matrix3::zeros)).collect();
     let precondition = |r: &[V3], z: &mut [V3]| {
         for ((z, r), d) in z.iter_mut().zip(r).zip(&inverse) {
-            *z = d * r;
+            *z = times(d, r);
         }
     };
     pcg::solve(operator, &precondition, b, x, params);

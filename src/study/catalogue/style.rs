@@ -56,7 +56,7 @@ impl Workspace {
         check_name(name).map_err(|problem| refused(Part::Style, name, vec![problem]))?;
         let sizes = self.sizes_given(name, given)?;
         let seams = match (&given.seams, sizes.first()) {
-            (Some(path), _) => Seams::Given(Some(SourceFile::read(path)?)),
+            (Some(path), first) if mode != Mode::Add || first.is_some() => Seams::Given(Some(SourceFile::read(path)?)),
             (None, _) if mode != Mode::Add => Seams::Kept,
             (None, Some(_)) if sizes.iter().all(|(size, _)| size.pattern.holds_seams()) => Seams::Given(None),
             (None, Some((size, unit))) if given.is_proposed => {
