@@ -183,7 +183,7 @@ fn render_front(bencher: Bencher) {
     });
 }
 
-/// Reading all results of a study of three coarse drapes, as the workbench does.
+/// Reading all results of a study of six coarse drapes, as the workbench does.
 #[divan::bench]
 fn sql_results(bencher: Bencher) {
     let folder = tempfile::tempdir().expect("a folder");
@@ -195,7 +195,7 @@ fn sql_results(bencher: Bencher) {
     workspace.start(&study, &RunOptions::default()).expect("queued").join().expect("the database works");
     bencher.bench_local(|| {
         let chi = workspace.query("SELECT * FROM v_chi").expect("a view");
-        assert_eq!(chi.rows.len(), 27);
+        assert_eq!(chi.rows.len(), 54);
         workspace.query("SELECT * FROM v_metrics").expect("a view")
     });
 }

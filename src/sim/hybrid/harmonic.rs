@@ -113,7 +113,7 @@ mod tests {
         let mut boundary = Vec::new();
         for ends in corners.windows(2) {
             let [from, to] = [ends[0], ends[1]];
-            let length = (to[0] - from[0] + to[1] - from[1]).abs();
+            let length = i32::abs(to[0] - from[0] + to[1] - from[1]);
             for k in 0..length {
                 let at = |axis: usize| from[axis] + (to[axis] - from[axis]) * k / length;
                 boundary.push(number((at(1) * 13 + at(0)) as usize));
