@@ -2,6 +2,8 @@
 //!
 //! `cargo run --release --example mechanics docs`
 
+#![allow(clippy::print_stdout, reason = "an example speaks to whoever runs it")]
+
 use std::error::Error;
 use std::path::Path;
 
