@@ -239,6 +239,10 @@ fn told(finding: &Finding) -> String {
 
 /// One row for each size of a study.
 fn check_study(context: &Context, path: &Path) -> Outcome {
+    if context.db.exists() && !context.readonly {
+        // A study names entries of the catalogue: a database of an earlier version is brought up to date first.
+        context.workspace()?;
+    }
     let checks = tools::check_study(path, &context.db)?;
     if context.json {
         output::json(&checks)?;
