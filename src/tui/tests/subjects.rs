@@ -92,8 +92,8 @@ fn an_edit_starts_from_what_is_known_and_keeps_the_name() {
 #[test]
 fn files_are_imported_and_their_errors_read() {
     let mut bench = Bench::example(80, 24);
-    bench.press("2i/tmp/people.csv<Enter>");
-    assert_eq!(bench.asked(), [Effect::Do(Act::ImportSubjects("/tmp/people.csv".into()))]);
+    bench.press("2ipeople.csv<Enter>");
+    assert_eq!(bench.asked(), [Effect::Do(Act::ImportSubjects("people.csv".into()))]);
     bench.send(Message::Saved(Err("people.csv:3: no name\npeople.csv:4: no sex".into())));
     let screen = bench.screen();
     assert!(screen.contains("✗ people.csv:3: no name") && screen.contains("  people.csv:4: no sex"), "{screen}");
