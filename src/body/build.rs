@@ -8,7 +8,7 @@ use super::landmarks::{self, Side};
 use super::limbs::UPPER_ARM;
 use super::measure::{self, Sites};
 use super::tape::{self, Neck};
-use super::{Body, BodyError, Dimension, Landmarks, Levels, Measurements};
+use super::{Body, BodyError, Dimension, Landmarks, Measurements};
 use crate::geom::section::Plane;
 use crate::geom::{TriMesh, V3};
 
@@ -108,14 +108,7 @@ fn describe(fit: Fit<'_>) -> Result<Body, BodyError> {
     let landmarks = find_landmarks(&mesh, &figure, &sites)?;
     let mut control = control_mesh(&mesh, &cuts(&mesh, &figure, &sites, &landmarks))?;
     control.snap(&landmarks);
-    let levels = Levels {
-        chest_m: sites.chest,
-        underbust_m: sites.underbust,
-        waist_m: sites.waist,
-        hip_m: sites.hip,
-        crotch_m: sites.crotch,
-        neck_m: sites.neck.height,
-    };
+    let levels = sites.levels();
     let skeleton = control.skeleton();
     Ok(Body { sex: figure.profile.sex, mesh, skeleton, landmarks, levels, control, girths })
 }

@@ -3,7 +3,7 @@
 use super::landmarks::{Side, crotch, median_point, shoulder_top};
 use super::slices::{Sliced, Slices};
 use super::tape::{self, Neck};
-use super::{BodyError, Measurements, Sex};
+use super::{BodyError, Levels, Measurements, Sex};
 use crate::geom::section::{Plane, section};
 use crate::geom::{TriMesh, V2, V3};
 use crate::units::{from_mm, mm};
@@ -102,6 +102,20 @@ pub(super) struct Sites {
     pub back_neck: V3,
     /// Middle of the right upper arm, and the direction of the arm.
     pub upper_arm: Option<(V3, V3)>,
+}
+
+impl Sites {
+    /// The levels of a body whose tape lies here.
+    pub fn levels(&self) -> Levels {
+        Levels {
+            chest_m: self.chest,
+            underbust_m: self.underbust,
+            waist_m: self.waist,
+            hip_m: self.hip,
+            crotch_m: self.crotch,
+            neck_m: self.neck.height,
+        }
+    }
 }
 
 /// Heights of the ISO 8559-1 waist over stature, men and women [Gordon 2014]; it has no mark on the skin.

@@ -9,7 +9,7 @@ use super::control_cut::{Cuts, control_mesh};
 use super::landmarks;
 use super::measure::{self, Sites};
 use super::tape;
-use super::{Body, BodyError, Landmarks, Levels, Sex};
+use super::{Body, BodyError, Landmarks, Sex};
 use crate::geom::section::Plane;
 use crate::geom::{TriMesh, V3};
 use crate::units::mm;
@@ -30,14 +30,7 @@ pub(super) fn describe(sex: Sex, mesh: TriMesh) -> Result<Body, BodyError> {
     let of_left = control_mesh(&mirrored, &cuts(&mirrored, sex, &sites, &landmarks, &left))?;
     take_left(&mut control, &of_left);
     control.snap(&landmarks);
-    let levels = Levels {
-        chest_m: sites.chest,
-        underbust_m: sites.underbust,
-        waist_m: sites.waist,
-        hip_m: sites.hip,
-        crotch_m: sites.crotch,
-        neck_m: sites.neck.height,
-    };
+    let levels = sites.levels();
     let skeleton = control.skeleton();
     Ok(Body { sex, mesh, skeleton, landmarks, levels, control, girths })
 }
