@@ -12,14 +12,11 @@ use super::pipeline::{self, Model};
 use super::tools;
 use super::types::SubjectId;
 use super::workspace::Workspace;
-use crate::body::Girths;
+use crate::body::{Girths, Mass};
 use crate::render::{self, Camera, Frame, Layer, Material, Scene, View};
 
 /// Room around a body in its picture, m.
 const MARGIN_M: f64 = 0.12;
-
-/// Density of a body, kg/l: between that of fat and that of lean tissue, lungs half full.
-const DENSITY_KG_L: f64 = 1.01;
 
 /// A subject's body, ready to be shown.
 pub struct Figure {
@@ -60,7 +57,7 @@ impl Figure {
     pub fn reading(girths: &Girths, key: &str) -> Option<f64> {
         Some(match key {
             "stature_mm" => girths.stature_mm,
-            "weight_kg" => girths.volume_l * DENSITY_KG_L,
+            "weight_kg" => Mass::of(girths.volume_l, None).mass_from_volume_kg,
             "chest_girth_mm" => girths.chest_girth_mm,
             "waist_girth_mm" => girths.waist_girth_mm,
             "hip_girth_mm" => girths.hip_girth_mm,

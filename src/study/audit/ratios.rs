@@ -75,8 +75,8 @@ fn summary(row: &Row) -> Option<Finding> {
 }
 
 /// Cases in which the wrong ratios change which simulator has the lower EI.
-fn winners(tables: &Tables) -> Option<Finding> {
-    let mut changed = Vec::new();
+fn winners(tables: &Tables) -> Vec<Finding> {
+    let mut findings = Vec::new();
     for of in tables.garments() {
         for subject in 0..6 {
             let ei = |simulator: Simulator, ratio: &dyn Fn(&Row) -> f64| {
@@ -84,20 +84,17 @@ fn winners(tables: &Tables) -> Option<Finding> {
                 mean(&rows.iter().map(|row| (ratio(row) - 1.0).abs()).collect::<Vec<_>>())
             };
             let lead = |ratio: &dyn Fn(&Row) -> f64| ei(Simulator::Fem, ratio) - ei(Simulator::Hybrid, ratio);
-            let (stated, true_lead) = (lead(&|row| as_computed(row, subject)), lead(&|row| row.ratio(subject)));
-            if stated * true_lead < 0.0 {
-                changed.push((format!("{of} {}", SUBJECTS[subject]), stated, true_lead));
+            let (stated, mended) = (lead(&|row| as_computed(row, subject)), lead(&|row| row.ratio(subject)));
+            if stated * mended < 0.0 {
+                findings.push(Finding {
+                    kind: "winner",
+                    place: format!("{of}, {}", SUBJECTS[subject]),
+                    stated: three(stated),
+                    recomputed: three(mended),
+                    says: "EI of FEM less EI of Hybrid changes its sign once the ratios are mended".into(),
+                });
             }
         }
     }
-    (!changed.is_empty()).then(|| Finding {
-        kind: "ratio",
-        place: changed.iter().map(|(place, ..)| place.as_str()).collect::<Vec<_>>().join(", "),
-        stated: changed.iter().map(|(_, stated, _)| three(*stated)).collect::<Vec<_>>().join(" "),
-        recomputed: changed.iter().map(|(.., lead)| three(*lead)).collect::<Vec<_>>().join(" "),
-        says: format!(
-            "EI of FEM minus EI of Hybrid changes its sign in {} cases once the ratios are mended",
-            changed.len()
-        ),
-    })
+    findings
 }
