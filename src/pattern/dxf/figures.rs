@@ -114,11 +114,30 @@ pub enum Figure {
     Label,
 }
 
+/// Farthest that anything is drawn from the sheet's origin, m: a cutting table is some tens long.
+const FARTHEST_M: f64 = 1_000.0;
+
 /// What an entity draws at a placement.
 ///
 /// # Errors
 /// A sentence that says what cannot be read and what would be accepted.
 pub fn figure(entity: &Entity, placement: &Placement) -> Result<Figure, String> {
+    let figure = figure_anywhere(entity, placement)?;
+    let places: &[V2] = match &figure {
+        Figure::Line { points, .. } | Figure::Circle { points, .. } => points,
+        Figure::Point { at, .. } => std::slice::from_ref(at),
+        Figure::Text { .. } | Figure::Label => &[],
+    };
+    match places.iter().find(|place| place.amax().is_nan() || place.amax() > FARTHEST_M) {
+        Some(far) => {
+            Err(format!("a point at ({:e}, {:e}) m; accepted: up to {FARTHEST_M} m from the origin", far.x, far.y))
+        }
+        None => Ok(figure),
+    }
+}
+
+/// What an entity draws, however far away.
+fn figure_anywhere(entity: &Entity, placement: &Placement) -> Result<Figure, String> {
     let tolerance = CHORD_ERROR_M / placement.scale();
     match &entity.specific {
         EntityType::Circle(drawn) => {

@@ -186,6 +186,7 @@ fn unusable_pieces_are_refused_and_the_others_read() {
     };
     // The apex of the V-neck thrown down through the hem.
     check("self-crossing", &edited("\r\n550.7600\r\n", "\r\n-50.0000\r\n"), "crosses itself at (");
+    check("out of the world", &edited("\r\n550.7600\r\n", "\r\n1e308\r\n"), "up to 1000 m from the origin");
     check("open", &edited(" 70\r\n1\r\n", " 70\r\n0\r\n"), "does not close: 458.95 mm");
     check("no outline", &edited("POLYLINE\r\n  8\r\n1\r\n", "POLYLINE\r\n  8\r\n99\r\n"), "no outline");
     check(
