@@ -12,6 +12,7 @@ mod doctor;
 mod engine;
 mod enqueue;
 mod error;
+mod evidence;
 mod figure;
 mod file;
 mod inputs;
@@ -46,6 +47,7 @@ pub use catalogue::{
 pub use doctor::{Check, checks};
 pub use enqueue::{Planned, Why};
 pub use error::{Result, StudyError};
+pub use evidence::PUBLISHED;
 pub use figure::Figure;
 pub use file::{Problem, Study, study_file};
 pub use inputs::{Change, Inputs, StageKind};
@@ -64,6 +66,7 @@ pub use types::{
 pub use workspace::Workspace;
 
 pub use crate::fit::FitClass;
+pub use crate::fit::{Analysis, Answer, Estimate, Evidence, Finding as Verdict, SizeAdvice, SizeFit, Without};
 pub use crate::fit::Simulator;
 pub use crate::render::View;
 pub use crate::render::export::MeshFormat;

@@ -361,7 +361,7 @@ pub(super) fn simulator(row: &Row<'_>, column: usize) -> rusqlite::Result<Simula
     named(row, column, |name| [Simulator::Fem, Simulator::Hybrid].into_iter().find(|sim| sim.as_str() == name))
 }
 
-fn fit_class(row: &Row<'_>, column: usize) -> rusqlite::Result<FitClass> {
+pub(super) fn fit_class(row: &Row<'_>, column: usize) -> rusqlite::Result<FitClass> {
     named(row, column, |name| {
         [FitClass::Tight, FitClass::Just, FitClass::Loose].into_iter().find(|class| class.as_str() == name)
     })
