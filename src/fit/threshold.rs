@@ -22,6 +22,27 @@ pub struct Crossover {
     pub range_m: (f64, f64),
 }
 
+impl std::fmt::Display for Crossover {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let (low, high) = self.slope_interval;
+        let mm = |metres: f64| 1e3 * metres;
+        match self.ease {
+            Some((at, from, to)) => {
+                write!(f, "FEM-GS is the truer above {:+.0} mm of ease ({:+.0} to {:+.0})", mm(at), mm(from), mm(to))?;
+                if !(self.range_m.0..=self.range_m.1).contains(&at) {
+                    let (least, most) = (mm(self.range_m.0), mm(self.range_m.1));
+                    write!(f, ", which is outside the eases seen, {least:+.0} to {most:+.0}")?;
+                }
+                Ok(())
+            }
+            None => {
+                let slope = 0.01 * self.slope_per_m;
+                write!(f, "none: the EI difference changes by {slope:+.4} a centimetre ({:+.4} to {:+.4})", 0.01 * low, 0.01 * high)
+            }
+        }
+    }
+}
+
 /// Fits the line by least squares over the cases, each subject's drawn together. `None` of fewer than three subjects or
 /// where all eases are the same.
 #[must_use]

@@ -4,6 +4,7 @@
 //! (`read`), acts on the queue and starts runs. SI units in rows, millimetres in SQL.
 
 mod actions;
+mod advice;
 mod attempt;
 mod audit;
 mod cache;
@@ -38,6 +39,7 @@ mod workpiece;
 mod workspace;
 
 pub use actions::why_no_retry;
+pub use advice::{LevelFit, SizeAnswer, SizeOn};
 pub use attempt::{Attempt, Tried, TriedChi, TriedEase, attempt};
 pub use audit::{Audit, Finding};
 pub use catalogue::{

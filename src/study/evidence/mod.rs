@@ -8,7 +8,7 @@ use super::error::Result;
 use super::read::fit_class;
 use super::store;
 use super::workspace::Workspace;
-use crate::fit::{self, Cell, Errors, Evidence, Pair};
+use crate::fit::{self, Cell, Errors, Evidence, Pair, RuleScore};
 use crate::units::from_mm;
 
 /// Name under which the thesis's own printed numbers go as a study.
@@ -49,6 +49,25 @@ impl Workspace {
     /// When the database cannot be read.
     pub fn pairs(&self, study: &str) -> Result<Vec<Pair>> {
         if study == PUBLISHED { published::pairs(&self.reader) } else { pairs(&self.reader, study) }
+    }
+
+    /// The ease at which the simulators change places, over all garments of a study or one, in words.
+    ///
+    /// # Errors
+    /// When the database cannot be read.
+    pub fn crossover_words(&self, study: &str, garment: Option<&str>) -> Result<String> {
+        let pairs = self.pairs(study)?;
+        let of: Vec<&Pair> = pairs.iter().filter(|pair| garment.is_none_or(|name| name == pair.garment)).collect();
+        Ok(fit::crossover(&of).map_or_else(|| "too few subjects, or one ease".to_owned(), |found| found.to_string()))
+    }
+
+    /// How often the thesis's rule names the simulator with the lower EI in a study, and of how many pairs.
+    ///
+    /// # Errors
+    /// When the database cannot be read.
+    pub fn rule_score(&self, study: &str) -> Result<(RuleScore, usize)> {
+        let pairs = self.pairs(study)?;
+        Ok((fit::rule_score(&pairs), pairs.len()))
     }
 
     /// Judges a study's results again and keeps that for `v_recommendation`; nothing happens in a read-only workspace.

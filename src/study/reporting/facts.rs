@@ -193,7 +193,7 @@ impl Workspace {
     }
 
     /// Where the fit classes of a study meet.
-    pub(super) fn cuts(&self, study: &str) -> Result<Cuts> {
+    pub(in crate::study) fn cuts(&self, study: &str) -> Result<Cuts> {
         let sql =
             format!("SELECT tight_below_mm / 1000, loose_above_mm / 1000 FROM study WHERE name = {}", quoted(study));
         let cuts = match self.query(&sql)?.rows.first().map(Vec::as_slice) {
