@@ -11,12 +11,11 @@ use crate::units::mm;
 /// `toile recommend`.
 pub fn recommend(context: &Context, arguments: &Recommend) -> Outcome {
     let mut workspace = context.workspace()?;
-    let published = arguments.study.as_os_str() == PUBLISHED;
-    let name = if published { PUBLISHED.to_owned() } else { context.study_name(&workspace, &arguments.study)? };
+    let name = context.study_name(&workspace, &arguments.study)?;
     if let Some(subject) = &arguments.size_for {
         return sizes(context, &workspace.size_advice(&name, subject, arguments.garment.as_deref())?);
     }
-    if !published {
+    if name != PUBLISHED {
         workspace.update_evidence(&name)?;
     }
     let evidence = workspace.evidence(&name)?;

@@ -86,6 +86,12 @@ impl Analysis {
         }
     }
 
+    /// Whether a simulator sets every measurement by construction: scoring them is circular.
+    #[must_use]
+    pub fn is_circular(&self) -> bool {
+        self.controlled > 0 && !self.told_apart.iter().any(|rest| rest.what == CONTROLLED)
+    }
+
     /// The first measurement without which the mean difference changes its sign; `None` where none does.
     #[must_use]
     pub fn turned_by(&self) -> Option<&Without> {

@@ -296,7 +296,7 @@ impl Weighed<'_> {
         let controlled = self.analysis.controlled;
         let rest = self.analysis.told_apart.iter().find(|rest| rest.what == CONTROLLED);
         match rest {
-            _ if controlled == 0 => None,
+            None if !self.analysis.is_circular() => None,
             None => Some("every measurement is one that Hybrid-GS sets by construction: scoring it is circular.".into()),
             Some(rest) if rest.mean <= 0.0 => {
                 Some(format!("without the {controlled} measurements that Hybrid-GS sets it is {}: scoring those is circular.", ei(rest.mean)))

@@ -3,9 +3,9 @@
 use super::error::{Result, StudyError};
 use super::evidence::PUBLISHED;
 use super::picture::tension_near;
-use super::types::{EaseRow, JobId, JobRow};
-use super::workspace::Workspace;
 use super::read::JobFilter;
+use super::types::{EaseRow, JobId, JobRow, RecommendationRow};
+use super::workspace::Workspace;
 use crate::fit::{self, Ease, Simulator, SizeAdvice, SizeFit};
 
 /// Every size of a garment on a subject, and the one to wear.
@@ -66,45 +66,50 @@ impl Workspace {
             return Err(StudyError::NotFound { what: "garment", name: garment.to_owned(), known: garments });
         }
         let jobs = self.jobs(&JobFilter { study: Some(study.to_owned()), ..JobFilter::default() })?;
+        let recommended = self.recommendations(study)?;
         let mut answers = Vec::new();
         for name in garments.iter().filter(|name| garment.is_none_or(|garment| garment == *name)) {
             let of: Vec<&EaseRow> = eases.iter().filter(|e| e.subject == subject && e.garment == *name).collect();
-            answers.extend(self.size_answer(study, &of, &jobs)?);
+            answers.extend(self.size_answer(study, &of, &jobs, &recommended)?);
         }
         Ok(answers)
     }
 
     /// The answer for one garment and subject, given its eases; `None` where there are none.
-    fn size_answer(&self, study: &str, eases: &[&EaseRow], jobs: &[JobRow]) -> Result<Option<SizeAnswer>> {
+    fn size_answer(
+        &self,
+        study: &str,
+        eases: &[&EaseRow],
+        jobs: &[JobRow],
+        answers: &[RecommendationRow],
+    ) -> Result<Option<SizeAnswer>> {
         let Some(first) = eases.first() else { return Ok(None) };
         let mut sizes: Vec<SizeOn> = Vec::new();
-        for ease in eases {
-            if sizes.last().is_none_or(|row| row.size != ease.size) {
-                let shown = self.shown(study, ease, eases)?;
-                sizes.push(SizeOn { size: ease.size.clone(), levels: vec![], shown });
-            }
-            let tension_n_m = match drape_of(ease, jobs) {
-                Some(id) => tension_near(&self.dressed(id)?, &ease.level)?,
+        for of_size in eases.chunk_by(|a, b| a.size == b.size) {
+            let worn = match drape_of(of_size[0], jobs) {
+                Some(id) => Some(self.dressed(id)?),
                 None => None,
             };
-            if let Some(row) = sizes.last_mut() {
-                row.levels.push(LevelFit { ease: (*ease).clone(), tension_n_m });
+            let mut levels = Vec::new();
+            for ease in of_size {
+                let tension_n_m = worn.as_ref().map(|worn| tension_near(worn, &ease.level)).transpose()?.flatten();
+                levels.push(LevelFit { ease: (*ease).clone(), tension_n_m });
             }
+            sizes.push(SizeOn { size: of_size[0].size.clone(), levels, shown: shown(of_size, answers) });
         }
         let fits: Vec<SizeFit> = sizes.iter().map(fit_of).collect();
         let advice = fit::advise(&fits, &self.cuts(study)?);
         let (garment, subject) = (first.garment.clone(), first.subject.clone());
         Ok(advice.map(|advice| SizeAnswer { garment, subject, advice, sizes }))
     }
+}
 
-    /// Which picture of a size a customer should see.
-    fn shown(&self, study: &str, ease: &EaseRow, eases: &[&EaseRow]) -> Result<&'static str> {
-        let decides = eases.iter().find(|other| other.size == ease.size && other.decides).unwrap_or(&ease);
-        let rows = self.recommendations(study)?;
-        let answer = rows.iter().find(|row| row.garment == ease.garment && row.class == decides.fit.class);
-        let recommended = answer.map_or_else(|| decides.fit.class.rule_says(), |row| row.recommended);
-        Ok(fit::shown(recommended, decides.fit.undersized).words())
-    }
+/// Which picture of a size a customer should see, given the eases of that size.
+fn shown(of_size: &[&EaseRow], answers: &[RecommendationRow]) -> &'static str {
+    let Some(decides) = of_size.iter().find(|ease| ease.decides).or(of_size.first()) else { return "" };
+    let answer = answers.iter().find(|row| row.garment == decides.garment && row.class == decides.fit.class);
+    let recommended = answer.map_or_else(|| decides.fit.class.rule_says(), |row| row.recommended);
+    fit::shown(recommended, decides.fit.undersized).words()
 }
 
 /// The FEM-GS result of an ease's size on its subject.
