@@ -1,8 +1,8 @@
-//! Questions to the database: SQL, ease, recommendation.
+//! Questions to the database: SQL, audit, ease.
 
 use std::io::Read;
 
-use super::args::{Audit as AuditArguments, Format, Recommend, Sql, StudyPath};
+use super::args::{Audit as AuditArguments, Format, Sql, StudyPath};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
 use crate::study::{Finding, StudyError, Table, Value};
@@ -91,23 +91,5 @@ pub fn ease(context: &Context, arguments: &StudyPath) -> Outcome {
     } else {
         context.print(&table)?;
     }
-    Ok(End::Done)
-}
-
-/// `toile recommend`.
-pub fn recommend(context: &Context, arguments: &Recommend) -> Outcome {
-    let workspace = context.workspace()?;
-    let name = context.study_name(&workspace, &arguments.study)?;
-    let reason = if arguments.explain || context.json { ", rule_says, effect, ci_low, ci_high, reason" } else { "" };
-    let sql = format!(
-        "SELECT garment, fit_class, recommended, basis, verdict, n_subjects{reason}
-        FROM v_recommendation WHERE study = '{}' ORDER BY garment, fit_class",
-        name.replace('\'', "''")
-    );
-    let table = workspace.query(&sql)?;
-    if table.rows.is_empty() {
-        context.say(format_args!("study {name} has no fit classes yet; `toile ease` or `toile run` finds them"));
-    }
-    context.print(&table)?;
     Ok(End::Done)
 }

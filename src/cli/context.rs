@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::CliError;
 use super::args::{Format, Global};
-use crate::study::{Study, Table, Workspace};
+use crate::study::{PUBLISHED, Study, Table, Workspace};
 
 /// The resolved global flags.
 pub struct Context {
@@ -68,6 +68,9 @@ impl Context {
     /// Name of a study given by its folder, its file, or its name itself.
     pub fn study_name(&self, workspace: &Workspace, path: &Path) -> Result<String, CliError> {
         let name = path.to_string_lossy();
+        if name == PUBLISHED {
+            return Ok(name.into_owned());
+        }
         if !name.contains('/') && workspace.studies()?.iter().any(|study| study.name == name) {
             return Ok(name.into_owned());
         }

@@ -16,6 +16,7 @@ mod pattern_files;
 mod pictures;
 mod progress;
 mod queue;
+mod recommend;
 mod run;
 #[cfg(test)]
 mod tests;
@@ -127,7 +128,7 @@ fn execute(arguments: Arguments, workbench: impl FnOnce(Workbench) -> Result<(),
         Some(Command::Sql(arguments)) => answers::sql(&context, &arguments),
         Some(Command::Audit(arguments)) => answers::audit(&context, &arguments),
         Some(Command::Ease(arguments)) => answers::ease(&context, &arguments),
-        Some(Command::Recommend(arguments)) => answers::recommend(&context, &arguments),
+        Some(Command::Recommend(arguments)) => recommend::recommend(&context, &arguments),
         Some(Command::Pattern(command)) => pattern::run(&context, &command),
         Some(Command::Body(command)) => body::run(&context, &command),
         Some(Command::Render(arguments)) => pictures::render(&context, &arguments),

@@ -1,7 +1,6 @@
 //! What a report is made from: plain values, lengths in metres, times in seconds. The page formats them.
 
-use crate::fit::Simulator;
-use crate::fit::{Cuts, Ease, FitClass};
+use crate::fit::{Basis, Cuts, Ease, Evidence, Finding, FitClass, Pair, Simulator};
 use crate::measure::{Chi, Metrics, metrics};
 use crate::render::Scale;
 
@@ -32,60 +31,20 @@ pub struct ReportData {
     pub cuts: Cuts,
     /// Ease of every subject and size, garment by garment.
     pub ease: Vec<EaseMatrix>,
+    /// Which size each subject should wear.
+    pub sizes: Vec<SizeTip>,
     /// All runs, failed ones too.
     pub runs: Vec<Run>,
+    /// The cases that both simulators drew.
+    pub pairs: Vec<Pair>,
+    /// What they say.
+    pub evidence: Option<Evidence>,
     /// How it was done, a paragraph each.
     pub methods: Vec<String>,
     /// What it does not show, a paragraph each.
     pub limits: Vec<String>,
     /// Files with the raw numbers, as addresses relative to the page.
     pub raw: Vec<RawLink>,
-}
-
-/// What the evidence says of one garment and fit class.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Finding {
-    /// FEM-GS is truer to the pattern.
-    Fem,
-    /// Hybrid-GS is truer to the pattern.
-    Hybrid,
-    /// The two differ by less than the margin.
-    NoDifference,
-    /// Too little data to tell.
-    InsufficientEvidence,
-}
-
-impl Finding {
-    /// Name in SQL (`v_recommendation.verdict`).
-    #[must_use]
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Fem => "fem",
-            Self::Hybrid => "hybrid",
-            Self::NoDifference => "no_difference",
-            Self::InsufficientEvidence => "insufficient_evidence",
-        }
-    }
-
-    /// Words on the page.
-    #[must_use]
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Fem => "FEM-GS is truer",
-            Self::Hybrid => "Hybrid-GS is truer",
-            Self::NoDifference => "no practical difference",
-            Self::InsufficientEvidence => "insufficient evidence",
-        }
-    }
-}
-
-/// What a recommendation rests on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Basis {
-    /// The thesis's rule.
-    Rule,
-    /// The study's own numbers.
-    Evidence,
 }
 
 /// One answer to "which simulator?".
@@ -103,6 +62,8 @@ pub struct Verdict {
     pub finding: Finding,
     /// Mean EI of FEM less that of Hybrid, and the ends of its interval, where both ran.
     pub effect: Option<[f64; 3]>,
+    /// p of the sign-flip test after Holm, where there are subjects enough.
+    pub p_holm: Option<f64>,
     /// Subjects behind the numbers.
     pub subjects: usize,
     /// One sentence of explanation.
@@ -228,6 +189,23 @@ pub struct EaseMatrix {
     pub cells: Vec<Vec<Option<Ease>>>,
 }
 
+/// Which size of a garment a subject should wear.
+#[derive(Clone, Debug)]
+pub struct SizeTip {
+    /// Garment.
+    pub garment: String,
+    /// Subject.
+    pub subject: String,
+    /// Size.
+    pub size: String,
+    /// Why.
+    pub reason: String,
+    /// Tension at each level in the FEM-GS drape of that size, where there is one.
+    pub tension: String,
+    /// Which picture of it a customer should see.
+    pub shown: String,
+}
+
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {
@@ -237,6 +215,8 @@ pub enum Outcome {
     NotConverged,
     /// No result, and why.
     Failed(String),
+    /// Numbers that somebody printed; nothing is known of how they came to be.
+    Printed,
 }
 
 /// One measurement of one run.
@@ -254,6 +234,8 @@ pub struct Measured {
     pub controlled: bool,
     /// The chi the thesis printed for the same case, where there is one.
     pub published_chi: Option<f64>,
+    /// The chi that is printed where it is not the ratio of the lengths printed beside it.
+    pub misprint: Option<f64>,
 }
 
 /// A picture file.

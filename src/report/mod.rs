@@ -6,6 +6,7 @@
 
 pub mod chart;
 pub mod data;
+mod evidence;
 mod page;
 mod runs;
 mod text;

@@ -2,11 +2,13 @@
 
 use super::ReportError;
 use super::chart::{Chart, ease_chart, time_chart};
-use super::data::{Basis, Finding, Outcome, Picture, ReportData, Run, Severity, Verdict};
+use super::data::{Outcome, Picture, ReportData, Run, Severity, Verdict};
+use super::evidence::EvidencePart;
 use super::runs::{Group, groups};
-use super::text::{count, distinct, duration, fit_glyph, fit_words, mean_sd, mm, number, signed_mm, simulator_name};
-use crate::fit::Simulator;
-use crate::fit::{Ease, FitClass};
+use super::text::{
+    count, distinct, duration, finding_words, fit_glyph, fit_words, mean_sd, mm, number, signed, signed_mm, simulator_name,
+};
+use crate::fit::{Basis, Ease, Finding, FitClass, Simulator};
 use base64::Engine;
 
 /// What `report.html` is filled from.
@@ -26,6 +28,7 @@ pub(super) struct Page<'a> {
     loose_above: String,
     ease: Vec<Matrix<'a>>,
     groups: Vec<Group>,
+    evidence: Option<EvidencePart>,
     ease_chart: Option<Chart>,
     time_chart: Option<Chart>,
 }
@@ -53,6 +56,7 @@ struct Card {
     finding: &'static str,
     rule_says: &'static str,
     effect: String,
+    p: String,
     subjects: String,
     reason: String,
     would_settle: String,
@@ -156,7 +160,8 @@ fn address(kind: &str, bytes: &[u8]) -> String {
 impl<'a> Page<'a> {
     /// All charts, in the order of the page.
     pub fn charts(&self) -> impl Iterator<Item = &Chart> {
-        self.groups.iter().flat_map(Group::charts).chain(&self.ease_chart).chain(&self.time_chart)
+        let of_evidence = self.evidence.iter().flat_map(EvidencePart::charts);
+        self.groups.iter().flat_map(Group::charts).chain(of_evidence).chain(&self.ease_chart).chain(&self.time_chart)
     }
 
     pub fn new(data: &'a ReportData) -> Result<Self, ReportError> {
@@ -183,10 +188,16 @@ impl<'a> Page<'a> {
             loose_above: number(data.cuts.loose_above_m * 1e3, 0),
             ease: matrices(data),
             groups: groups(&data.runs)?,
+            evidence: EvidencePart::new(data)?,
             ease_chart: ease_chart(&data.runs, &data.cuts)?,
             time_chart: time_chart(&data.runs)?,
         })
     }
+}
+
+/// Whether the runs are numbers of somebody's tables.
+fn are_printed(runs: &[Run]) -> bool {
+    runs.iter().all(|run| run.outcome == Outcome::Printed)
 }
 
 fn mean_ei(runs: &[Run], simulator: Simulator) -> Option<f64> {
@@ -204,7 +215,11 @@ fn summary(runs: &[Run]) -> String {
         return "No runs yet.".into();
     }
     let mut text = format!("{} of {garments} on {}; ", count(runs.len(), "run"), count(subjects, "subject"));
-    text += &if converged == runs.len() { "all converged.".into() } else { format!("{converged} converged.") };
+    text += &match converged {
+        _ if are_printed(runs) => "as printed.".into(),
+        all if all == runs.len() => "all converged.".into(),
+        some => format!("{some} converged."),
+    };
     for simulator in [Simulator::Fem, Simulator::Hybrid] {
         if let Some(ei) = mean_ei(runs, simulator) {
             let name = simulator_name(simulator);
@@ -232,7 +247,10 @@ fn percent(share: f64) -> String {
 fn tiles(runs: &[Run]) -> Vec<Tile> {
     let tile = |value: String, name: &str| Tile { value, name: name.into() };
     let converged = runs.iter().filter(|r| r.outcome == Outcome::Converged).count();
-    let mut tiles = vec![tile(format!("{converged} / {}", runs.len()), "runs converged")];
+    let mut tiles = match are_printed(runs) {
+        true => vec![tile(runs.len().to_string(), "drapes, as printed")],
+        false => vec![tile(format!("{converged} / {}", runs.len()), "runs converged")],
+    };
     for simulator in [Simulator::Fem, Simulator::Hybrid] {
         if let Some(ei) = mean_ei(runs, simulator) {
             tiles.push(tile(format!("{ei:.3}"), &format!("mean EI, {}", simulator_name(simulator))));
@@ -243,7 +261,7 @@ fn tiles(runs: &[Run]) -> Vec<Tile> {
         let (low, high) = chi().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), c| (l.min(c), h.max(c)));
         tiles.push(tile(format!("{low:.3}–{high:.3}"), "range of chi"));
     }
-    let done = || runs.iter().filter(|r| !matches!(r.outcome, Outcome::Failed(_)));
+    let done = || runs.iter().filter(|r| !matches!(r.outcome, Outcome::Failed(_) | Outcome::Printed));
     let (mean, _) = mean_sd(done().map(|r| r.wall_s));
     if mean.is_finite() {
         tiles.push(tile(duration(mean), "mean time of a run"));
@@ -281,6 +299,7 @@ fn by_rule(data: &ReportData, garment: &str, class: FitClass) -> Verdict {
         basis: Basis::Rule,
         finding: Finding::InsufficientEvidence,
         effect: None,
+        p_holm: None,
         subjects,
         reason: format!("{why}; the thesis's rule stands."),
         would_settle: "Runs of both simulators on the same subjects with this fit.".into(),
@@ -290,7 +309,7 @@ fn by_rule(data: &ReportData, garment: &str, class: FitClass) -> Verdict {
 fn card(verdict: &Verdict) -> Card {
     let effect = verdict.effect.map_or_else(
         || "not measured".into(),
-        |[mean, low, high]| format!("{} ({} to {})", number(mean, 3), number(low, 3), number(high, 3)),
+        |[mean, low, high]| format!("{} ({} to {})", signed(mean, 4), signed(low, 4), signed(high, 4)),
     );
     Card {
         class: verdict.class.as_str(),
@@ -301,9 +320,10 @@ fn card(verdict: &Verdict) -> Card {
             Basis::Evidence => "by this study's evidence",
         },
         verdict: verdict.finding.as_str(),
-        finding: verdict.finding.words(),
+        finding: finding_words(verdict.finding),
         rule_says: simulator_name(verdict.class.rule_says()),
         effect,
+        p: verdict.p_holm.map_or_else(|| "too few subjects".into(), |p| number(p, 3)),
         subjects: count(verdict.subjects, "subject"),
         reason: verdict.reason.clone(),
         would_settle: verdict.would_settle.clone(),
@@ -330,7 +350,7 @@ fn audit(data: &ReportData) -> Vec<Note> {
                 );
                 Some(Note { severity: Severity::Warning, text })
             }
-            Outcome::Converged => None,
+            Outcome::Converged | Outcome::Printed => None,
         }
     };
     let given = data.audit.iter().map(|n| Note { severity: n.severity, text: n.text.clone() });

@@ -12,6 +12,8 @@ pub(super) struct Group {
     pub id: String,
     pub title: String,
     pub strips: Vec<Strip>,
+    /// Whether anything is known of how its runs went.
+    pub course: bool,
     pub series: Vec<Series>,
     pub metrics: Vec<MetricsRow>,
     pub heat: Heat,
@@ -79,6 +81,8 @@ pub(super) struct ChiCell {
     pub l3d: String,
     pub chi: String,
     pub published: Option<String>,
+    /// What is printed in its place.
+    pub misprint: Option<String>,
 }
 
 /// Summary numbers of one run: how true it is, and how it went.
@@ -143,7 +147,8 @@ fn group(index: usize, title: String, runs: &[&Run], name_fabric: bool) -> Resul
     let recorded = runs.iter().any(|r| r.residuals.len() > 1);
     Ok(Group {
         id: format!("g{}", index + 1),
-        strips: runs.iter().map(|r| strip(r)).collect::<Result<_, _>>()?,
+        strips: runs.iter().filter(|r| r.outcome != Outcome::Printed).map(|r| strip(r)).collect::<Result<_, _>>()?,
+        course: runs.iter().any(|r| r.outcome != Outcome::Printed),
         series: series(&title, runs)?,
         side_by_side: side_by_side(runs),
         metrics: runs.iter().zip(&labels).map(|(r, label)| metrics_row(r, label)).collect(),
@@ -166,6 +171,7 @@ fn status(run: &Run) -> String {
         Outcome::Converged => "✓ converged".into(),
         Outcome::NotConverged => "! not converged".into(),
         Outcome::Failed(_) => "✗ failed".into(),
+        Outcome::Printed => "as printed".into(),
     }
 }
 
@@ -179,7 +185,7 @@ fn strip(run: &Run) -> Result<Strip, ReportError> {
         status: status(run),
         failure: match &run.outcome {
             Outcome::Failed(why) => Some(why.clone()),
-            Outcome::Converged | Outcome::NotConverged => None,
+            Outcome::Converged | Outcome::NotConverged | Outcome::Printed => None,
         },
         images: run.views.iter().map(Image::new).collect::<Result<_, _>>()?,
         maps: run.maps.iter().map(MapImage::new).collect::<Result<_, _>>()?,
@@ -239,8 +245,9 @@ fn chi_row(measured: &Measured, runs: &[&Run]) -> ChiRow {
             l3d: mm(m.chi.l3d_m),
             chi: number(m.chi.chi(), 3),
             published: m.published_chi.map(|c| number(c, 3)),
+            misprint: m.misprint.map(|c| number(c, 3)),
         },
-        None => ChiCell { l3d: "–".into(), chi: "–".into(), published: None },
+        None => ChiCell { l3d: "–".into(), chi: "–".into(), published: None, misprint: None },
     };
     let (mean, sd) = mean_sd(runs.iter().filter_map(|r| r.measurement(no)).map(|m| m.chi.chi()));
     ChiRow {
@@ -280,7 +287,7 @@ fn summary(runs: &[&Run]) -> Vec<(&'static str, Vec<String>)> {
 
 fn metrics_row(run: &Run, label: &str) -> MetricsRow {
     let (class, fit) = fit(run);
-    let failed = matches!(run.outcome, Outcome::Failed(_));
+    let failed = matches!(run.outcome, Outcome::Failed(_) | Outcome::Printed);
     let with = |keep: fn(&Measured) -> bool| run.metrics(keep).map_or(f64::NAN, |m| m.ei);
     let all = run.metrics(|_| true);
     let unless_failed = |text: String| if failed { "–".into() } else { text };

@@ -1,7 +1,6 @@
 use super::data::*;
 use super::{ReportError, chart, html};
-use crate::fit::Simulator;
-use crate::fit::{Cuts, Ease, FitClass};
+use crate::fit::{Basis, Cuts, Ease, Finding, FitClass, Simulator};
 use crate::measure::Chi;
 use crate::render::{Rgb, Scale, png};
 
@@ -25,6 +24,7 @@ fn measured(no: u32, name: &str, l2d_m: f64, chi: f64, free_edge: bool) -> Measu
         free_edge,
         controlled: false,
         published_chi: None,
+        misprint: None,
     }
 }
 
@@ -182,12 +182,13 @@ fn every_fit_class_of_every_garment_has_an_answer() {
         basis: Basis::Evidence,
         finding: Finding::Fem,
         effect: Some([-0.021, -0.034, -0.012]),
+        p_holm: Some(0.031),
         subjects: 6,
         reason: "FEM wins.".into(),
         would_settle: "Three subjects more.".into(),
     });
     let page = words(&html(&data).unwrap());
-    assert!(page.contains("\u{2212}0.021 (\u{2212}0.034 to \u{2212}0.012)") && page.contains("FEM-GS is truer"));
+    assert!(page.contains("\u{2212}0.0210 (\u{2212}0.0340 to \u{2212}0.0120)") && page.contains("FEM-GS is truer"));
     assert_eq!(page.matches("insufficient evidence").count(), 2);
 }
 

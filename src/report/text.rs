@@ -1,7 +1,6 @@
 //! Numbers and names as readers see them, and the two statistics of a row.
 
-use crate::fit::Simulator;
-use crate::fit::{Ease, FitClass};
+use crate::fit::{Ease, Finding, FitClass, Simulator};
 
 /// Text with the characters replaced that mean something in HTML and SVG.
 pub(super) fn escape(text: &str) -> String {
@@ -29,8 +28,14 @@ pub(super) fn number(value: f64, decimals: usize) -> String {
 
 /// Metres as millimetres with its sign.
 pub(super) fn signed_mm(metres: f64) -> String {
-    let text = mm(metres);
-    if metres > 0.0 && text != "0.0" { format!("+{text}") } else { text }
+    signed(metres * 1e3, 1)
+}
+
+/// A number with its sign.
+pub(super) fn signed(value: f64, decimals: usize) -> String {
+    let text = number(value, decimals);
+    let is_nought = !text.bytes().any(|b| (b'1'..=b'9').contains(&b));
+    if value > 0.0 && !is_nought { format!("+{text}") } else { text }
 }
 
 /// Seconds in the unit that suits them.
@@ -49,6 +54,16 @@ pub(super) fn simulator_name(simulator: Simulator) -> &'static str {
     match simulator {
         Simulator::Fem => "FEM-GS",
         Simulator::Hybrid => "Hybrid-GS",
+    }
+}
+
+/// What a finding means.
+pub(super) fn finding_words(finding: Finding) -> &'static str {
+    match finding {
+        Finding::Fem => "FEM-GS is truer",
+        Finding::Hybrid => "Hybrid-GS is truer",
+        Finding::NoDifference => "no practical difference",
+        Finding::InsufficientEvidence => "insufficient evidence",
     }
 }
 

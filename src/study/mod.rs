@@ -4,6 +4,7 @@
 //! (`read`), acts on the queue and starts runs. SI units in rows, millimetres in SQL.
 
 mod actions;
+mod advice;
 mod attempt;
 mod audit;
 mod cache;
@@ -12,6 +13,7 @@ mod doctor;
 mod engine;
 mod enqueue;
 mod error;
+mod evidence;
 mod figure;
 mod file;
 mod inputs;
@@ -37,6 +39,7 @@ mod workpiece;
 mod workspace;
 
 pub use actions::why_no_retry;
+pub use advice::{LevelFit, SizeAnswer, SizeOn};
 pub use attempt::{Attempt, Tried, TriedChi, TriedEase, attempt};
 pub use audit::{Audit, Finding};
 pub use catalogue::{
@@ -46,6 +49,7 @@ pub use catalogue::{
 pub use doctor::{Check, checks};
 pub use enqueue::{Planned, Why};
 pub use error::{Result, StudyError};
+pub use evidence::PUBLISHED;
 pub use figure::Figure;
 pub use file::{Problem, Study, study_file};
 pub use inputs::{Change, Inputs, StageKind};
@@ -64,6 +68,7 @@ pub use types::{
 pub use workspace::Workspace;
 
 pub use crate::fit::FitClass;
+pub use crate::fit::{Analysis, Answer, Estimate, Evidence, Finding as Verdict, SizeAdvice, SizeFit, Without};
 pub use crate::fit::Simulator;
 pub use crate::render::View;
 pub use crate::render::export::MeshFormat;

@@ -4,6 +4,8 @@ mod maps;
 
 pub use maps::Map;
 
+use std::collections::BTreeMap;
+
 use image::RgbaImage;
 
 use super::cache;
@@ -15,12 +17,15 @@ use super::workspace::Workspace;
 use crate::fit::Simulator;
 use crate::geom::{Surface, TriMesh};
 use crate::pattern::Garment;
+use crate::pattern::garment::Role;
 use crate::render::export::{MeshFormat, Part};
 use crate::render::{self, Camera, Frame, Layer, Mapping, Material, Paint, Scene, Texture, Values, View};
 use crate::sim::Drape;
 use crate::sim::cloth::membrane::{Fibre, Orthotropic};
 use crate::units::mm;
 
+/// How far from a level of the body cloth still counts as at it, m.
+const NEAR_M: f64 = 0.02;
 /// One repeat of the check, m.
 const CHECK_M: f64 = 0.04;
 
@@ -43,6 +48,8 @@ pub(super) struct Dressed {
     simulator: Simulator,
     garment: Garment,
     fabric: Orthotropic,
+    /// Heights of the body's levels, m.
+    levels: BTreeMap<&'static str, f64>,
     pub body: TriMesh,
     pub cloth: TriMesh,
 }
@@ -87,6 +94,17 @@ impl Dressed {
         let layers = vec![Layer::new(&self.body, form), Layer::new(&self.cloth, material).painted(paint)];
         Scene::new(layers).map_err(StudyError::stage("render"))
     }
+}
+
+/// Mean tension, N/m, of a result's cloth around the trunk within [`NEAR_M`] of a body level; `None` where that level of
+/// the body is not known or no cloth lies there.
+pub(super) fn tension_near(worn: &Dressed, level: &str) -> Result<Option<f64>> {
+    let Some(height_m) = worn.levels.get(level).copied() else { return Ok(None) };
+    let tensions = worn.values(Map::Tension)?;
+    let trunk = worn.garment.pieces.iter().filter(|p| !matches!(p.role, Role::SleeveRight | Role::SleeveLeft));
+    let near = trunk.flat_map(|piece| piece.vertices.clone()).filter(|&v| (worn.cloth.positions[v].z - height_m).abs() < NEAR_M);
+    let near: Vec<f64> = near.map(|v| tensions[v]).collect();
+    Ok((!near.is_empty()).then(|| near.iter().sum::<f64>() / near.len() as f64))
 }
 
 impl Workspace {
@@ -188,7 +206,10 @@ impl Workspace {
             .ok_or_else(|| StudyError::stage("store")(format!("the mesh of job {id} does not fit its drape")))?;
         let cloth = TriMesh { positions: drape.positions, triangles: garment.triangles.clone() };
         let fabric = self.membrane_of(id)?;
-        Ok(Dressed { simulator: job.simulator, garment, fabric, body: model.body.mesh, cloth })
+        let at = &model.body.levels;
+        let levels = [("chest", at.chest_m), ("underbust", at.underbust_m), ("waist", at.waist_m), ("hip", at.hip_m)];
+        let levels = BTreeMap::from(levels);
+        Ok(Dressed { simulator: job.simulator, garment, fabric, levels, body: model.body.mesh, cloth })
     }
 
     /// The membrane law of a job's fabric.

@@ -261,7 +261,8 @@ impl Workspace {
     /// # Errors
     /// When the database cannot be read.
     pub fn recommendations(&self, study: &str) -> Result<Vec<RecommendationRow>> {
-        let sql = "SELECT garment, fit_class, recommended, basis, verdict, rule_says, effect, ci_low, ci_high, n_subjects, reason
+        let sql = "SELECT garment, fit_class, recommended, basis, verdict, rule_says, effect, ci_low, ci_high, n_subjects, reason,
+                p_holm, would_settle
             FROM v_recommendation WHERE study = ? ORDER BY garment, fit_class";
         self.rows(sql, &[&study], |row| {
             let bounds: (Option<f64>, Option<f64>) = (row.get(7)?, row.get(8)?);
@@ -276,6 +277,8 @@ impl Workspace {
                 interval: bounds.0.zip(bounds.1),
                 n_subjects: row.get(9)?,
                 reason: row.get(10)?,
+                p_holm: row.get(11)?,
+                would_settle: row.get(12)?,
             })
         })
     }
@@ -361,7 +364,7 @@ pub(super) fn simulator(row: &Row<'_>, column: usize) -> rusqlite::Result<Simula
     named(row, column, |name| [Simulator::Fem, Simulator::Hybrid].into_iter().find(|sim| sim.as_str() == name))
 }
 
-fn fit_class(row: &Row<'_>, column: usize) -> rusqlite::Result<FitClass> {
+pub(super) fn fit_class(row: &Row<'_>, column: usize) -> rusqlite::Result<FitClass> {
     named(row, column, |name| {
         [FitClass::Tight, FitClass::Just, FitClass::Loose].into_iter().find(|class| class.as_str() == name)
     })

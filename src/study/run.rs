@@ -9,6 +9,7 @@ use super::catalogue;
 use super::engine;
 use super::enqueue::{self, Planned};
 use super::error::{Result, StudyError};
+use super::evidence;
 use super::file::{Problem, Study};
 use super::outcome::{self, Executor, Provenance};
 use super::pipeline::Pipeline;
@@ -187,6 +188,7 @@ fn store_ease(database: &Path, study: &Study, pipeline: &Pipeline) -> Result<()>
     for (spec, eases) in &found {
         outcome::write_ease(&transaction, study_id, spec, eases)?;
     }
+    evidence::refresh(&transaction, &study.name)?;
     Ok(transaction.commit()?)
 }
 

@@ -7,16 +7,17 @@ use rusqlite::hooks::{AuthAction, AuthContext, Authorization};
 use rusqlite::{Connection, OpenFlags, Transaction, TransactionBehavior};
 
 use super::error::{Result, StudyError};
-use super::sql;
+use super::{evidence, sql};
 
 /// Schema changes in order, never edited once released: `user_version` counts how many a database has.
-const MIGRATIONS: [&str; 6] = [
+const MIGRATIONS: [&str; 7] = [
     include_str!("../../db/migrations/0001_store.sql"),
     include_str!("../../db/migrations/0002_views.sql"),
     include_str!("../../db/migrations/0003_published.sql"),
     include_str!("../../db/migrations/0004_published_metrics.sql"),
     include_str!("../../db/migrations/0005_catalogue.sql"),
     include_str!("../../db/migrations/0006_stretched.sql"),
+    include_str!("../../db/migrations/0020_evidence.sql"),
 ];
 
 /// How long a statement waits for another process's write.
@@ -92,6 +93,7 @@ fn migrate(connection: &mut Connection) -> Result<()> {
         transaction.execute_batch(sql)?;
     }
     transaction.pragma_update(None, "user_version", MIGRATIONS.len() as i64)?;
+    evidence::refresh_all(&transaction)?;
     Ok(transaction.commit()?)
 }
 

@@ -340,6 +340,10 @@ pub struct RecommendationRow {
     pub n_subjects: u32,
     /// The reason in words.
     pub reason: String,
+    /// p of the sign-flip test after Holm, where there are subjects enough.
+    pub p_holm: Option<f64>,
+    /// What would settle or flip it.
+    pub would_settle: String,
 }
 
 /// One line of a job's log.

@@ -194,11 +194,17 @@ pub struct Audit {
 /// Arguments of `recommend`.
 #[derive(Debug, Args)]
 pub struct Recommend {
-    /// Name of the study, its folder, or its study.toml.
+    /// Name of the study, its folder, or its study.toml; `thesis-published` for the thesis's printed tables.
     pub study: PathBuf,
-    /// Give the reasons.
+    /// Give the reasons and the numbers behind them.
     #[arg(long)]
     pub explain: bool,
+    /// Say which size this subject should wear, and why.
+    #[arg(long, value_name = "SUBJECT")]
+    pub size_for: Option<String>,
+    /// Only this garment.
+    #[arg(long, value_name = "NAME")]
+    pub garment: Option<String>,
 }
 
 /// Side of a picture.

@@ -9,9 +9,9 @@ use super::super::workspace::Workspace;
 use super::quoted;
 use crate::body::Girths;
 use crate::fit::Simulator;
-use crate::fit::{Cuts, Ease};
+use crate::fit::{Basis, Cuts, Ease, Finding};
 use crate::report::data::{
-    AuditNote, Basis, Column, Drawing, EaseMatrix, FabricFacts, Fact, Finding, Severity, Subject, SubjectTable, Verdict,
+    AuditNote, Column, Drawing, EaseMatrix, FabricFacts, Fact, Severity, SizeTip, Subject, SubjectTable, Verdict,
 };
 
 /// Columns of `v_subjects` on the page: name, heading, unit, decimals.
@@ -59,7 +59,7 @@ pub(super) fn subject_table(bodies: &[BodyFacts]) -> SubjectTable {
     };
     let row = |body: &BodyFacts| {
         let read = body.measured.clone().unwrap_or_else(|| vec![None; MEASUREMENTS.len()]);
-        let state = if body.measured.is_some() { "body built from measurements" } else { "as given; not dressed yet" };
+        let state = if body.measured.is_some() { "body built from measurements" } else { "as given" };
         Subject {
             name: body.name.clone(),
             note: format!("{}, {state}", body.sex),
@@ -93,18 +93,38 @@ impl Workspace {
             class: row.class,
             recommended: row.recommended,
             basis: if row.basis == "evidence" { Basis::Evidence } else { Basis::Rule },
-            finding: match row.verdict.as_str() {
-                "fem" => Finding::Fem,
-                "hybrid" => Finding::Hybrid,
-                "no_difference" => Finding::NoDifference,
-                _ => Finding::InsufficientEvidence,
-            },
+            finding: Finding::from_name(&row.verdict).unwrap_or(Finding::InsufficientEvidence),
             effect: row.effect.zip(row.interval).map(|(effect, (low, high))| [effect, low, high]),
+            p_holm: row.p_holm,
             subjects: row.n_subjects as usize,
             reason: row.reason,
-            would_settle: "Converged results of both simulators on at least six subjects with this fit.".into(),
+            would_settle: row.would_settle,
         };
         Ok(self.recommendations(study)?.into_iter().map(verdict).collect())
+    }
+
+    /// Which size each subject of a study should wear.
+    pub(super) fn size_tips(&self, study: &str, bodies: &[BodyFacts]) -> Result<Vec<SizeTip>> {
+        let mut tips = Vec::new();
+        let eased = self.ease(study)?;
+        for body in bodies.iter().filter(|body| eased.iter().any(|ease| ease.subject == body.name)) {
+            for answer in self.size_advice(study, &body.name, None)? {
+                let Some(size) = answer.sizes.iter().find(|size| size.size == answer.advice.size) else { continue };
+                let pulls = size.levels.iter().filter_map(|level| {
+                    Some(format!("{} {:.0} N/m", level.ease.level, level.tension_n_m?))
+                });
+                let tension = pulls.collect::<Vec<_>>().join(", ");
+                tips.push(SizeTip {
+                    garment: answer.garment,
+                    subject: answer.subject,
+                    size: size.size.clone(),
+                    reason: answer.advice.reason,
+                    tension: if tension.is_empty() { "no FEM-GS drape yet".into() } else { tension },
+                    shown: size.shown.to_owned(),
+                });
+            }
+        }
+        Ok(tips)
     }
 
     /// What a reader should know before believing the numbers.
@@ -151,11 +171,6 @@ impl Workspace {
             WHERE study.name = {} AND is_current ORDER BY position",
             quoted(study)
         ))?;
-        let number = |value: &Value| match value {
-            Value::Real(number) => Some(*number),
-            Value::Integer(number) => Some(*number as f64),
-            _ => None,
-        };
         let mut bodies = Vec::new();
         for row in &table.rows {
             let name = row[0].to_string();
@@ -172,6 +187,22 @@ impl Workspace {
             });
         }
         Ok(bodies)
+    }
+
+    /// The subjects of the thesis, as printed.
+    pub(super) fn published_bodies(&self) -> Result<Vec<BodyFacts>> {
+        let keys = MEASUREMENTS.map(|(key, ..)| key).join(", ");
+        let table = self.query(&format!(
+            "SELECT name, sex, {keys} FROM subject
+            WHERE revision = 1 AND (name GLOB 'male-[iv]*' OR name GLOB 'female-[iv]*') ORDER BY sex DESC, name"
+        ))?;
+        let body = |row: &Vec<Value>| BodyFacts {
+            name: row[0].to_string(),
+            sex: row[1].to_string(),
+            asked: row[2..].iter().map(number).collect(),
+            measured: None,
+        };
+        Ok(table.rows.iter().map(body).collect())
     }
 
     pub(super) fn fabric_facts(&self, study: &str) -> Result<Vec<FabricFacts>> {
@@ -193,7 +224,7 @@ impl Workspace {
     }
 
     /// Where the fit classes of a study meet.
-    pub(super) fn cuts(&self, study: &str) -> Result<Cuts> {
+    pub(in crate::study) fn cuts(&self, study: &str) -> Result<Cuts> {
         let sql =
             format!("SELECT tight_below_mm / 1000, loose_above_mm / 1000 FROM study WHERE name = {}", quoted(study));
         let cuts = match self.query(&sql)?.rows.first().map(Vec::as_slice) {
@@ -239,6 +270,15 @@ impl Workspace {
             matrices.push(EaseMatrix { garment, sizes: grid.sizes.clone(), subjects: grid.subjects.clone(), cells });
         }
         Ok(matrices)
+    }
+}
+
+/// A value of a table as a number.
+pub(super) fn number(value: &Value) -> Option<f64> {
+    match value {
+        Value::Real(number) => Some(*number),
+        Value::Integer(number) => Some(*number as f64),
+        _ => None,
     }
 }
 

@@ -1,9 +1,11 @@
 //! The report of a study: gathering what the page shows, and the raw files beside it.
 
 mod facts;
+mod published;
 mod runs;
 
 use super::error::{Result, StudyError};
+use super::evidence::PUBLISHED;
 use super::read::JobFilter;
 use super::types::{Table, Value};
 use super::workspace::Workspace;
@@ -44,6 +46,9 @@ impl Workspace {
     /// # Errors
     /// When there is no such study, or a stored result cannot be read.
     pub fn report(&self, study: &str) -> Result<Vec<(String, Vec<u8>)>> {
+        if study == PUBLISHED {
+            return self.report_published();
+        }
         self.study(study)?;
         let mut files = Vec::new();
         let data = self.report_data(study, &mut files)?;
@@ -98,7 +103,10 @@ impl Workspace {
             drawings,
             cuts: self.cuts(study)?,
             ease: self.ease_matrices(study)?,
+            sizes: self.size_tips(study, &bodies)?,
             runs,
+            pairs: self.pairs(study)?,
+            evidence: Some(self.evidence(study)?),
             methods: METHODS.map(str::to_owned).to_vec(),
             limits: LIMITS.map(str::to_owned).to_vec(),
             raw: raw.chain(sheets).collect(),
@@ -120,6 +128,11 @@ impl Workspace {
     fn one(&self, sql: &str) -> Result<String> {
         Ok(self.query(sql)?.rows.first().and_then(|row| row.first()).map(Value::to_string).unwrap_or_default())
     }
+}
+
+/// A value of a table that is a length in millimetres, as metres.
+fn mm_value(value: &Value) -> f64 {
+    crate::units::from_mm(facts::number(value).unwrap_or(f64::NAN))
 }
 
 /// A text as SQL literal.

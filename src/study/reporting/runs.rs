@@ -22,6 +22,9 @@ pub(super) const SHEETS: &str = "pictures/try-on-";
 const ROOM: f64 = 1.12;
 /// Runs whose pictures the page holds at full size within its 3 MB; of more runs they are smaller, the files beside not.
 const FULL_SIZE: usize = 8;
+/// Pictures are not made smaller than this share of their full size, where they would show nothing: a page of 108 runs is
+/// then about 8 MB, which can still be mailed.
+const LEAST_SHRINK: f64 = 0.42;
 /// The pictures of a run.
 const SHOTS: [(Map, &[View]); 4] = [
     (Map::Plain, &View::ALL),
@@ -47,7 +50,7 @@ impl Workspace {
         let least = Frame::enclosing(garments, f64::from(PICTURE.0) / f64::from(PICTURE.1));
         let frame = Frame { height_m: ROOM * least.height_m, ..least };
         let shown = dressed.iter().flatten().count().max(FULL_SIZE);
-        let shrink = (FULL_SIZE as f64 / shown as f64).sqrt();
+        let shrink = (FULL_SIZE as f64 / shown as f64).sqrt().max(LEAST_SHRINK);
         let mut runs = Vec::new();
         let mut cells: BTreeMap<(&str, &str), Vec<Cell>> = BTreeMap::new();
         for (job, worn) in jobs.iter().zip(&dressed) {
@@ -104,6 +107,7 @@ impl Workspace {
                     Some(Value::Real(chi)) => Some(chi),
                     _ => None,
                 },
+                misprint: None,
             });
         }
         Ok(Run {

@@ -1,58 +1,6 @@
-//! Fit (thesis 6.2.3): ease at a level, the fit class it means, and the simulator the thesis's rule then names.
+//! Ease at the levels of a body, and the fit class that the least of it means [T 6.2.3].
 
-/// A garment simulator, by name: what a rule or the evidence can recommend.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Simulator {
-    /// FEM-GS: physics.
-    Fem,
-    /// Hybrid-GS: geometry first, then physics.
-    Hybrid,
-}
-
-impl Simulator {
-    /// Name in the command line and in SQL.
-    #[must_use]
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Fem => "fem",
-            Self::Hybrid => "hybrid",
-        }
-    }
-}
-
-/// Fit class of a garment on a body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum FitClass {
-    /// Ease below the lower cut.
-    Tight,
-    /// Ease between the cuts, both included.
-    Just,
-    /// Ease above the upper cut.
-    Loose,
-}
-
-impl FitClass {
-    /// Name in SQL and on screens.
-    #[must_use]
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Tight => "tight",
-            Self::Just => "just",
-            Self::Loose => "loose",
-        }
-    }
-
-    /// The simulator the thesis's rule names for this class [T 6.4.2, 6.5]: FEM for loose, Hybrid otherwise.
-    #[must_use]
-    pub fn rule_says(self) -> Simulator {
-        match self {
-            Self::Loose => Simulator::Fem,
-            Self::Tight | Self::Just => Simulator::Hybrid,
-        }
-    }
-}
+use super::class::FitClass;
 
 /// Where the fit classes meet, and the bands around the cuts in which the thesis's own ranges overlap; metres of ease.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

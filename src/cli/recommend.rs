@@ -1,0 +1,175 @@
+//! `toile recommend`: which simulator for which fit, how strong the evidence is, and which size for whom.
+
+use std::fmt::Write as _;
+
+use super::args::Recommend;
+use super::context::Context;
+use super::{CliError, End, Outcome, output};
+use crate::study::{Analysis, Answer, Estimate, PUBLISHED, SizeAnswer, Simulator, Table, Value, Without, Workspace};
+use crate::units::mm;
+
+/// `toile recommend`.
+pub fn recommend(context: &Context, arguments: &Recommend) -> Outcome {
+    let mut workspace = context.workspace()?;
+    let name = context.study_name(&workspace, &arguments.study)?;
+    if let Some(subject) = &arguments.size_for {
+        return sizes(context, &workspace.size_advice(&name, subject, arguments.garment.as_deref())?);
+    }
+    if name != PUBLISHED {
+        workspace.update_evidence(&name)?;
+    }
+    let evidence = workspace.evidence(&name)?;
+    let is_asked = |garment: &str| arguments.garment.as_deref().is_none_or(|asked| asked == garment);
+    let answers: Vec<&Answer> = evidence.answers.iter().filter(|answer| is_asked(&answer.garment)).collect();
+    if answers.is_empty() {
+        context.say(format_args!("study {name} has no fit classes yet; `toile ease` or `toile run` finds them"));
+    }
+    context.print(&table(&answers, arguments.explain || context.json, context.json))?;
+    if arguments.explain && !context.json {
+        output::text(&explained(&workspace, &name, &answers)?)?;
+    }
+    Ok(End::Done)
+}
+
+/// The answers as a table: without numbers, with them, and with the sentences too.
+fn table(answers: &[&Answer], numbers: bool, sentences: bool) -> Table {
+    let text = |text: &str| Value::Text(text.to_owned());
+    let real = |number: Option<f64>| number.map_or(Value::Null, Value::Real);
+    let mut columns = vec!["garment", "fit_class", "recommended", "basis", "verdict", "n_subjects"];
+    if numbers {
+        columns.extend(["rule_says", "effect", "ci_low", "ci_high", "effect_size", "p", "p_holm", "p_equivalence"]);
+    }
+    if sentences {
+        columns.extend(["reason", "would_settle"]);
+    }
+    let row = |answer: &&Answer| {
+        let mut row = vec![
+            text(&answer.garment),
+            text(answer.class.as_str()),
+            text(answer.recommended().as_str()),
+            text(answer.basis().as_str()),
+            text(answer.finding.as_str()),
+            Value::Integer(answer.analysis.subjects.len() as i64),
+        ];
+        if numbers {
+            let estimate = answer.analysis.estimate;
+            let interval = estimate.and_then(|e| e.interval);
+            row.push(text(answer.class.rule_says().as_str()));
+            row.extend([estimate.map(|e| e.mean), interval.map(|i| i.0), interval.map(|i| i.1)].map(real));
+            let p = [estimate.and_then(|e| e.size), estimate.map(|e| e.p), answer.p_holm];
+            row.extend(p.map(real));
+            row.push(real(estimate.and_then(|e| e.p_equivalence)));
+        }
+        if sentences {
+            row.extend([text(&answer.reason), text(&answer.would_settle)]);
+        }
+        row
+    };
+    Table { columns: columns.into_iter().map(str::to_owned).collect(), rows: answers.iter().map(row).collect() }
+}
+
+/// Every answer in words, then the garments over all fits and the rule.
+fn explained(workspace: &Workspace, study: &str, answers: &[&Answer]) -> Result<String, CliError> {
+    let mut text = String::from(
+        "\nEffects are EI of FEM-GS less EI of Hybrid-GS, mean over subjects (95 % bootstrap interval): below 0 FEM-GS is truer.\n",
+    );
+    for answer in answers {
+        let name = simulator_name(answer.recommended());
+        let _ = write!(text, "\n{}, {} fit: {name}, by the {}\n", answer.garment, answer.class.as_str(), answer.basis().as_str());
+        line(&mut text, "why", &answer.reason);
+        analysed(&mut text, &answer.analysis, answer.p_holm);
+        if let Some([own, constant]) = answer.regret {
+            line(&mut text, "held out", &format!("regret {own:.4} EI, of one simulator for the whole study {constant:.4}"));
+        }
+        line(&mut text, "settles it", &answer.would_settle);
+    }
+    for (garment, analysis, p_holm) in &workspace.evidence(study)?.garments {
+        let _ = write!(text, "\n{garment}, all fits\n");
+        analysed(&mut text, analysis, *p_holm);
+        line(&mut text, "crossover", &workspace.crossover_words(study, Some(garment))?);
+    }
+    let (score, pairs) = workspace.rule_score(study)?;
+    if pairs > 0 {
+        let _ = write!(text, "\nall garments\n");
+        line(&mut text, "the rule", &format!("right in {} of {} loose or tight cases", score.right, score.of));
+        line(&mut text, "crossover", &workspace.crossover_words(study, None)?);
+    }
+    Ok(text)
+}
+
+fn analysed(text: &mut String, analysis: &Analysis, p_holm: Option<f64>) {
+    if let Some(estimate) = &analysis.estimate {
+        line(text, "effect", &estimated(estimate, p_holm));
+    }
+    let [fem, hybrid] = analysis.wins;
+    let subjects = analysis.subjects.len();
+    line(text, "cases", &format!("{} on {subjects} subjects; lower EI in FEM-GS {fem}, Hybrid-GS {hybrid}", analysis.cases));
+    let rest = |w: &Without| format!("{} {:+.4} (FEM-GS {}, Hybrid-GS {})", w.what, w.mean, w.wins[0], w.wins[1]);
+    for told in &analysis.told_apart {
+        line(text, "without", &rest(told));
+    }
+    if let Some(turned) = analysis.turned_by() {
+        line(text, "turns", &format!("without {}", rest(turned)));
+    }
+    if analysis.controlled > 0 {
+        line(text, "circular", &format!("{} measurements are set by a simulator itself", analysis.controlled));
+    }
+}
+
+fn estimated(estimate: &Estimate, p_holm: Option<f64>) -> String {
+    let mut words = format!("{:+.4}", estimate.mean);
+    if let Some((low, high)) = estimate.interval {
+        let _ = write!(words, " ({low:+.4} to {high:+.4})");
+    }
+    let mut add = |name: &str, number: Option<f64>| {
+        if let Some(number) = number {
+            let _ = write!(words, ", {name} {number:.3}");
+        }
+    };
+    add("d_z", estimate.size);
+    add("p", Some(estimate.p));
+    add("Holm", p_holm);
+    add("equivalence p", estimate.p_equivalence);
+    words
+}
+
+fn line(text: &mut String, name: &str, words: &str) {
+    let _ = writeln!(text, "  {name:<11}{words}");
+}
+
+fn simulator_name(simulator: Simulator) -> &'static str {
+    match simulator {
+        Simulator::Fem => "FEM-GS",
+        Simulator::Hybrid => "Hybrid-GS",
+    }
+}
+
+/// The sizes of every garment on one subject, the one to wear marked.
+fn sizes(context: &Context, answers: &[SizeAnswer]) -> Outcome {
+    let columns = ["garment", "subject", "size", "wear", "level", "ease_mm", "fit_class", "tension_n_m", "show", "reason"];
+    let mut rows = Vec::new();
+    for answer in answers {
+        for size in &answer.sizes {
+            let is_it = size.size == answer.advice.size;
+            for level in &size.levels {
+                let text = |text: &str| Value::Text(text.to_owned());
+                let tenth = |value: f64| Value::Real((value * 10.0).round() / 10.0);
+                let reason = if is_it && level.ease.decides { answer.advice.reason.as_str() } else { "" };
+                rows.push(vec![
+                    text(&answer.garment),
+                    text(&answer.subject),
+                    text(&size.size),
+                    text(if is_it { "yes" } else { "" }),
+                    text(&level.ease.level),
+                    tenth(mm(level.ease.fit.ease_m)),
+                    text(level.ease.fit.class.as_str()),
+                    level.tension_n_m.map_or(Value::Null, tenth),
+                    text(size.shown),
+                    text(reason),
+                ]);
+            }
+        }
+    }
+    context.print(&Table { columns: columns.map(str::to_owned).to_vec(), rows })?;
+    Ok(End::Done)
+}

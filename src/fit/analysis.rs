@@ -1,0 +1,120 @@
+//! The statistics of a set of pairs.
+
+use std::collections::BTreeMap;
+
+use super::pair::{Errors, Pair, by_subject, wins};
+use super::resample::{interval, sign_flip};
+use super::statistics::{effect_size, equivalence, mean, sd};
+use super::{ALPHA, MARGIN};
+
+/// What pairs of both simulators say, subject by subject. Differences are EI of FEM-GS less EI of Hybrid-GS.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Analysis {
+    /// Cases: sizes times subjects.
+    pub cases: usize,
+    /// Cases in which FEM-GS and Hybrid-GS have the lower EI.
+    pub wins: [usize; 2],
+    /// Mean difference of each subject.
+    pub subjects: Vec<f64>,
+    /// The estimate from them, where there is a subject.
+    pub estimate: Option<Estimate>,
+    /// The same without each measurement in turn.
+    pub without: Vec<Without>,
+    /// The same without free edges, and without the measurements that a simulator restores by construction.
+    pub told_apart: Vec<Without>,
+    /// How many measurements a simulator restores by construction; where that is all of them, nothing is left without.
+    pub controlled: usize,
+}
+
+/// What is left out where [`Analysis::told_apart`] leaves out what a simulator restores by construction.
+pub(super) const CONTROLLED: &str = "controlled measurements";
+
+/// A mean difference over subjects and how sure it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// Mean over subjects.
+    pub mean: f64,
+    /// Its bootstrap interval at 95 %, of two subjects or more.
+    pub interval: Option<(f64, f64)>,
+    /// Paired effect size.
+    pub size: Option<f64>,
+    /// Sample standard deviation over subjects.
+    pub sd: Option<f64>,
+    /// Two-sided p of the sign-flip test.
+    pub p: f64,
+    /// p of the two one-sided tests that the difference is within the margin.
+    pub p_equivalence: Option<f64>,
+}
+
+/// A mean difference without some of the measurements.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Without {
+    /// What was left out (`#6 Neck Opening`, `free edges`).
+    pub what: String,
+    /// Mean difference over subjects of the rest.
+    pub mean: f64,
+    /// Cases in which FEM-GS and Hybrid-GS have the lower EI then.
+    pub wins: [usize; 2],
+}
+
+impl Analysis {
+    /// Analyses a set of pairs.
+    #[must_use]
+    pub fn new(pairs: &[&Pair]) -> Self {
+        let subjects = by_subject(pairs, |_| true);
+        let mut names: BTreeMap<u32, (&str, bool)> = BTreeMap::new();
+        for errors in pairs.iter().flat_map(|pair| &pair.errors) {
+            names.entry(errors.no).or_insert((&errors.name, errors.controlled));
+        }
+        let each = names.iter().filter_map(|(no, (name, _))| without(pairs, format!("#{no} {name}"), |e| e.no != *no));
+        let any = |of: fn(&Errors) -> bool| pairs.iter().flat_map(|pair| &pair.errors).any(of);
+        let mut told_apart = Vec::new();
+        if any(|e| e.free_edge) {
+            told_apart.extend(without(pairs, "free edges".into(), |e| !e.free_edge));
+        }
+        if any(|e| e.controlled) {
+            told_apart.extend(without(pairs, CONTROLLED.into(), |e| !e.controlled));
+        }
+        Self {
+            cases: pairs.len(),
+            wins: wins(pairs, |_| true),
+            estimate: estimate(&subjects),
+            without: each.collect(),
+            subjects,
+            told_apart,
+            controlled: names.values().filter(|(_, controlled)| *controlled).count(),
+        }
+    }
+
+    /// Whether a simulator sets every measurement by construction: scoring them is circular.
+    #[must_use]
+    pub fn is_circular(&self) -> bool {
+        self.controlled > 0 && !self.told_apart.iter().any(|rest| rest.what == CONTROLLED)
+    }
+
+    /// The first measurement without which the mean difference changes its sign; `None` where none does.
+    #[must_use]
+    pub fn turned_by(&self) -> Option<&Without> {
+        let mean = self.estimate?.mean;
+        self.without.iter().find(|rest| rest.mean * mean <= 0.0)
+    }
+}
+
+fn without(pairs: &[&Pair], what: String, keep: impl Fn(&Errors) -> bool) -> Option<Without> {
+    let subjects = by_subject(pairs, &keep);
+    (!subjects.is_empty()).then(|| Without { what, mean: mean(&subjects), wins: wins(pairs, &keep) })
+}
+
+fn estimate(subjects: &[f64]) -> Option<Estimate> {
+    let n = subjects.len();
+    let mean = (n > 0).then(|| mean(subjects))?;
+    let sd = (n > 1).then(|| sd(subjects));
+    Some(Estimate {
+        mean,
+        interval: interval(subjects, ALPHA),
+        size: effect_size(subjects),
+        sd,
+        p: sign_flip(subjects),
+        p_equivalence: sd.map(|sd| equivalence(mean, sd / (n as f64).sqrt(), n - 1, MARGIN)),
+    })
+}

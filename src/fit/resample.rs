@@ -1,0 +1,155 @@
+//! Tests and intervals that assume no distribution: signs flipped, subjects drawn again.
+
+use super::distribution::{normal, student_quantile};
+
+/// Subjects up to which every assignment of signs is looked at; of more, [`DRAWS`] are drawn.
+const EXACT: usize = 20;
+/// Random draws of signs or of subjects.
+const DRAWS: usize = 9999;
+
+/// Numbers that look random and are the same every time [Steele 2014: SplitMix64].
+pub(super) struct Draw(u64);
+
+impl Draw {
+    /// A sequence of its own for every seed.
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// 64 bits.
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// A whole number below `n`.
+    pub fn below(&mut self, n: usize) -> usize {
+        ((u128::from(self.bits()) * n as u128) >> 64) as usize
+    }
+}
+
+/// Two-sided p of the sign-flip test [Fisher 1935, section 21]: the share of all assignments of signs to the differences
+/// whose sum is as far from 0 as that of the differences themselves. Exact for up to 20 differences, by seeded draws
+/// beyond; 1 of none.
+#[must_use]
+pub fn sign_flip(differences: &[f64]) -> f64 {
+    let n = differences.len();
+    let sum: f64 = differences.iter().sum();
+    // Sums that are equal but for rounding count as equal.
+    let reached = sum.abs() - 1e-9 * differences.iter().map(|d| d.abs()).sum::<f64>();
+    if n > EXACT {
+        let mut draw = Draw::new(0x5167);
+        let flipped = |_: &usize| {
+            let sign = |d: &f64| if draw.bits() >> 63 == 1 { *d } else { -d };
+            differences.iter().map(sign).sum::<f64>().abs() >= reached
+        };
+        return (1 + (0..DRAWS).filter(flipped).count()) as f64 / (1 + DRAWS) as f64;
+    }
+    let assignments = 1_u64 << n;
+    let mut turned = sum;
+    let mut extreme = u64::from(turned.abs() >= reached);
+    // A Gray code: each assignment differs from the one before in one sign.
+    for step in 1..assignments {
+        let place = step.trailing_zeros() as usize;
+        let now_negative = (step ^ (step >> 1)) >> place & 1 == 1;
+        turned += if now_negative { -2.0 } else { 2.0 } * differences[place];
+        extreme += u64::from(turned.abs() >= reached);
+    }
+    extreme as f64 / assignments as f64
+}
+
+/// Bootstrap interval of the mean of subjects' values that covers a share `1 - alpha`: percentiles of the means of
+/// subjects drawn with replacement, taken as far out as the smallness of the sample asks for [Hesterberg 2015, expanded
+/// percentiles]. Seeded, so that the same values give the same interval. `None` of fewer than two values.
+#[must_use]
+pub fn interval(values: &[f64], alpha: f64) -> Option<(f64, f64)> {
+    let share = share(values.len(), alpha)?;
+    let mut means = bootstrap(values.len(), |drawn| drawn.iter().map(|&k| values[k]).sum::<f64>() / drawn.len() as f64);
+    means.sort_by(f64::total_cmp);
+    Some((quantile(&means, share), quantile(&means, 1.0 - share)))
+}
+
+/// The percentile that stands for `alpha / 2` in a sample of `n`: as far out as Student's t and the divisor n - 1.
+pub(super) fn share(n: usize, alpha: f64) -> Option<f64> {
+    let dof = n.checked_sub(1).filter(|&dof| dof > 0)?;
+    let expand = (n as f64 / dof as f64).sqrt();
+    Some(normal(expand * student_quantile(alpha / 2.0, dof)))
+}
+
+/// A statistic of `n` subjects drawn with replacement, again and again; the drawn subjects are given by their index.
+pub(super) fn bootstrap(n: usize, mut statistic: impl FnMut(&[usize]) -> f64) -> Vec<f64> {
+    let mut draw = Draw::new(0xb007);
+    let mut drawn = vec![0; n];
+    let once = |_| {
+        drawn.iter_mut().for_each(|k| *k = draw.below(n));
+        statistic(&drawn)
+    };
+    (0..DRAWS).map(once).collect()
+}
+
+/// Quantile of sorted values, linear between them.
+pub(super) fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let place = share.clamp(0.0, 1.0) * (sorted.len().saturating_sub(1)) as f64;
+    let (low, high) = (sorted[place.floor() as usize], sorted[place.ceil() as usize]);
+    low + (high - low) * place.fract()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::statistics::{mean, sd};
+    use super::*;
+
+    /// Darwin's maize: eighths of an inch by which the crossed plant of each pair is the taller [Fisher 1935].
+    const MAIZE: [f64; 15] = [49.0, -67.0, 8.0, 16.0, 6.0, 23.0, 28.0, 41.0, 14.0, 29.0, 56.0, 24.0, 75.0, 60.0, -48.0];
+
+    #[test]
+    fn sign_flips_give_fishers_number_for_darwins_maize() {
+        // "863 cases out of 32,768 ... the two groups together constitute 5.267 per cent."
+        assert_eq!(sign_flip(&MAIZE) * 32_768.0, 2.0 * 863.0);
+        assert!((100.0 * sign_flip(&MAIZE) - 5.267).abs() < 5e-4);
+        // Twice as many plants, drawn: as rare as the normal approximation says.
+        let twice: Vec<f64> = MAIZE.iter().chain(&MAIZE).copied().collect();
+        let spread = (2.0 * MAIZE.iter().map(|d| d * d).sum::<f64>()).sqrt();
+        let near = 2.0 * normal(-twice.iter().sum::<f64>() / spread);
+        assert!((sign_flip(&twice) - near).abs() < 0.003, "{} {near}", sign_flip(&twice));
+    }
+
+    #[test]
+    fn few_subjects_cannot_reach_small_p() {
+        let check = |n: usize, p: f64| assert_eq!(sign_flip(&vec![0.013; n]), p, "{n}");
+        check(0, 1.0);
+        check(1, 1.0);
+        check(5, 0.0625);
+        check(6, 0.03125);
+        assert_eq!(sign_flip(&[0.1, -0.1]), 1.0);
+    }
+
+    /// Survival of seven treated mice, days [Efron & Tibshirani 1993, tables 2.1 and 2.2].
+    const MICE: [f64; 7] = [94.0, 197.0, 16.0, 38.0, 99.0, 141.0, 23.0];
+
+    #[test]
+    fn the_bootstrap_gives_the_published_error_of_the_mice() {
+        let means = bootstrap(MICE.len(), |drawn| drawn.iter().map(|&k| MICE[k]).sum::<f64>() / 7.0);
+        assert!((mean(&MICE) - 86.86).abs() < 0.005);
+        // 23.36 with endlessly many draws.
+        assert!((sd(&means) - 23.36).abs() < 0.4, "{}", sd(&means));
+        let t = 2.447 * sd(&MICE) / 7f64.sqrt();
+        let (low, high) = interval(&MICE, 0.05).expect("seven mice");
+        assert!((high - low - 2.0 * t).abs() < 0.1 * t, "as wide as Student's: {low} {high}, {t}");
+        assert!(mean(&MICE) - low < high - mean(&MICE), "skewed as the mice are");
+        assert_eq!(interval(&MICE, 0.05), Some((low, high)));
+        assert_eq!(interval(&[1.0], 0.05), None);
+    }
+
+    #[test]
+    fn percentiles_are_expanded_as_published() {
+        // [Hesterberg 2015], adjusted quantile for a nominal 2.5 %: n = 5, 10, 20.
+        for (n, table) in [(5, 0.0010), (10, 0.0086), (20, 0.0158)] {
+            let found = share(n, 0.05).expect("enough");
+            assert!((found - table).abs() < 1e-4, "{n}: {found}");
+        }
+    }
+}

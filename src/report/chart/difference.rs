@@ -1,0 +1,138 @@
+//! EI of FEM-GS less EI of Hybrid-GS: means with their intervals by row, and every case against ease.
+
+use super::super::text::{number, signed};
+use super::super::{ReportError, theme};
+use super::canvas::{Align, Axis, Canvas, ROW, TYPE, WIDTH, draw};
+use super::{Chart, shorten};
+use crate::fit::{Crossover, Cuts, MARGIN, Pair};
+
+const LEFT: i32 = 560;
+const UNDER: i32 = 3 * TYPE + 30;
+
+/// A mean difference under a name.
+pub struct Difference {
+    /// What it is of.
+    pub label: String,
+    /// Mean over subjects.
+    pub mean: f64,
+    /// Its interval, where there is one.
+    pub interval: Option<(f64, f64)>,
+}
+
+/// Reach of an axis that holds all values and the margin, the same to both sides of 0.
+fn reach(values: impl Iterator<Item = f64>) -> f64 {
+    1.08 * values.filter(|v| v.is_finite()).fold(1.3 * MARGIN, |most, v| most.max(v.abs()))
+}
+
+/// A row for each difference: a dot with its interval, the margin as a band about 0, and where `whole` is given a line
+/// there. The chart's kind names its file.
+///
+/// # Errors
+/// [`ReportError::Chart`] where plotters refuses to draw.
+pub fn difference_chart(
+    title: &str,
+    kind: &str,
+    rows: &[Difference],
+    whole: Option<f64>,
+) -> Result<Chart, ReportError> {
+    let ends = rows.iter().flat_map(|row| {
+        let (low, high) = row.interval.unwrap_or((row.mean, row.mean));
+        [row.mean, low, high]
+    });
+    let reach = reach(ends.chain(whole));
+    let axis = Axis { low: -reach, high: reach, left: LEFT, right: WIDTH - 190 };
+    let (top, bottom) = (60, 60 + ROW * rows.len() as i32);
+    let svg = draw(bottom + UNDER, |canvas| {
+        canvas.bar((axis.at(-MARGIN), top), (axis.at(MARGIN), bottom), theme::BAND)?;
+        axis.grid(canvas, top, bottom)?;
+        sides(canvas, (axis.left, axis.right), top - 30)?;
+        canvas.line(vec![(axis.at(0.0), top), (axis.at(0.0), bottom)], theme::INK, 4)?;
+        if let Some(whole) = whole {
+            canvas.line(vec![(axis.at(whole), top), (axis.at(whole), bottom)], theme::MUTED, 3)?;
+        }
+        for (k, row) in (0..).zip(rows) {
+            let y = top + ROW * k + ROW / 2;
+            canvas.text((LEFT - 24, y), &shorten(&row.label, 36), theme::INK, Align::Right, false)?;
+            if let Some((low, high)) = row.interval {
+                canvas.line(vec![(axis.at(low), y), (axis.at(high), y)], theme::INK, 4)?;
+            }
+            canvas.dot((axis.at(row.mean), y), side(row.mean))?;
+            canvas.text((WIDTH - 20, y), &signed(row.mean, 4), theme::INK, Align::Right, false)?;
+        }
+        let caption = "EI of FEM-GS less EI of Hybrid-GS, mean over subjects   (band: no practical difference)";
+        canvas.text((WIDTH / 2, bottom + 2 * TYPE + 18), caption, theme::MUTED, Align::Middle, false)
+    })?;
+    let said: Vec<String> = rows.iter().map(|row| format!("{} {}", row.label, signed(row.mean, 4))).collect();
+    Ok(Chart::new(kind, title, svg, format!("{title}: EI difference of {}.", said.join(", "))))
+}
+
+/// Which end of the axis belongs to which simulator.
+fn sides(canvas: &Canvas<'_>, (left, right): (i32, i32), y: i32) -> Result<(), ReportError> {
+    canvas.text((left, y), "← FEM-GS truer", theme::MUTED, Align::Left, false)?;
+    canvas.text((right, y), "Hybrid-GS truer →", theme::MUTED, Align::Right, false)
+}
+
+/// Colour of the simulator that a difference speaks for.
+fn side(difference: f64) -> crate::render::Rgb {
+    theme::simulator(if difference < 0.0 { crate::fit::Simulator::Fem } else { crate::fit::Simulator::Hybrid })
+}
+
+/// Every case's EI difference against its ease, the line through them, and the band in which it crosses 0 where one can be
+/// told; `None` without cases.
+///
+/// # Errors
+/// [`ReportError::Chart`] where plotters refuses to draw.
+pub fn crossover_chart(
+    title: &str,
+    pairs: &[&Pair],
+    crossover: Option<&Crossover>,
+    cuts: &Cuts,
+) -> Result<Option<Chart>, ReportError> {
+    let of = |pair: &&&Pair| Some((pair.ease_m * 1e3, pair.d_ei(|_| true)?, pair.garment.clone()));
+    let dots: Vec<(f64, f64, String)> = pairs.iter().filter_map(|pair| of(&pair)).collect();
+    if dots.is_empty() {
+        return Ok(None);
+    }
+    let lines = [(cuts.tight_below_m * 1e3, "tight | just"), (cuts.loose_above_m * 1e3, "just | loose")];
+    let eases = || dots.iter().map(|dot| dot.0).chain(lines.map(|line| line.0));
+    let (low, high) = (eases().fold(f64::INFINITY, f64::min), eases().fold(f64::NEG_INFINITY, f64::max));
+    let margin = 0.06 * (high - low);
+    let (top, bottom) = (150, 700);
+    let across = Axis { low: low - margin, high: high + margin, left: 190, right: WIDTH - 50 };
+    let reach = reach(dots.iter().map(|dot| dot.1));
+    let up = Axis { low: -reach, high: reach, left: bottom, right: top };
+    let garments = super::super::text::distinct(dots.iter().map(|dot| dot.2.as_str()));
+    let names: Vec<String> = garments.iter().map(|name| (*name).to_owned()).collect();
+    let svg = draw(bottom + UNDER, |canvas| {
+        canvas.key(&names, 20, 10)?;
+        if let Some((_, from, to)) = crossover.and_then(|found| found.ease) {
+            canvas.bar((across.at(from * 1e3), top), (across.at(to * 1e3).max(across.at(from * 1e3) + 3), bottom), theme::GRID)?;
+        }
+        across.grid(canvas, top, bottom)?;
+        let (ticks, decimals) = up.ticks();
+        for tick in ticks {
+            canvas.line(vec![(across.left, up.at(tick)), (across.right, up.at(tick))], theme::GRID, 2)?;
+            canvas.text((across.left - 16, up.at(tick)), &number(tick, decimals), theme::MUTED, Align::Right, false)?;
+        }
+        canvas.line(vec![(across.left, up.at(0.0)), (across.right, up.at(0.0))], theme::INK, 4)?;
+        canvas.text((across.right, up.at(0.0) - 24), "above: Hybrid-GS truer", theme::MUTED, Align::Right, false)?;
+        canvas.text((across.right, up.at(0.0) + 26), "below: FEM-GS truer", theme::MUTED, Align::Right, false)?;
+        for (x, name) in lines {
+            canvas.line(vec![(across.at(x), top), (across.at(x), bottom)], theme::MUTED, 3)?;
+            canvas.text((across.at(x), top - 20), name, theme::MUTED, Align::Middle, false)?;
+        }
+        if let Some(found) = crossover {
+            let at = |ease_m: f64| (across.at(ease_m * 1e3), up.at(found.at_zero + found.slope_per_m * ease_m));
+            canvas.line(vec![at(found.range_m.0), at(found.range_m.1)], theme::MUTED, 4)?;
+        }
+        for (ease, difference, garment) in &dots {
+            let series = garments.iter().position(|name| name == garment).unwrap_or_default();
+            canvas.mark((across.at(*ease), up.at(*difference)), series, false)?;
+        }
+        let caption = "ease, mm   (left: tight, right: loose); EI of FEM-GS less EI of Hybrid-GS upwards";
+        canvas.text(((across.left + across.right) / 2, bottom + 2 * TYPE + 18), caption, theme::MUTED, Align::Middle, false)
+    })?;
+    let words = crossover.map_or_else(String::new, |found| format!(" Crossover: {found}."));
+    let alt = format!("{title}: EI difference of {} cases against ease.{words}", dots.len());
+    Ok(Some(Chart::new("crossover", title, svg, alt)))
+}

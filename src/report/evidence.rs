@@ -1,0 +1,173 @@
+//! What the pairs of both simulators say: statistics, differences with intervals, crossovers, and what they rest on.
+
+use super::ReportError;
+use super::chart::{Chart, Difference, crossover_chart, difference_chart};
+use super::data::ReportData;
+use super::text::{fit_glyph, number, signed};
+use crate::fit::{Analysis, Pair, crossover, rule_score};
+
+/// The section on the evidence.
+pub(super) struct EvidencePart {
+    pub statistics: Vec<Statistic>,
+    /// Means with intervals of every answer and garment.
+    pub differences: Option<Chart>,
+    pub crossovers: Vec<Crossing>,
+    /// A chart a garment: the difference without each measurement in turn.
+    pub without: Vec<Chart>,
+    /// Differences without free edges and without controlled measurements.
+    pub told_apart: Vec<ToldApart>,
+    /// How often the thesis's rule was right.
+    pub rule: String,
+}
+
+/// A row of statistics.
+pub(super) struct Statistic {
+    pub name: String,
+    /// Class of its fit; empty over all fits.
+    pub class: &'static str,
+    pub fit: String,
+    pub cells: Vec<String>,
+}
+
+/// A chart of cases against ease and what it says.
+pub(super) struct Crossing {
+    pub chart: Chart,
+    pub words: String,
+}
+
+/// One garment with all measurements and without some.
+pub(super) struct ToldApart {
+    pub name: String,
+    pub what: String,
+    pub cells: Vec<String>,
+}
+
+impl EvidencePart {
+    /// The section of a study; `None` without a case that both simulators drew.
+    pub fn new(data: &ReportData) -> Result<Option<Self>, ReportError> {
+        let Some(evidence) = data.evidence.as_ref().filter(|_| !data.pairs.is_empty()) else { return Ok(None) };
+        let of_answers = evidence.answers.iter().filter(|answer| answer.analysis.cases > 0).map(|answer| {
+            let fit = format!("{} {}", fit_glyph(answer.class), answer.class.as_str());
+            let regret = answer.regret.map_or_else(dash, |[own, constant]| format!("{own:.4} / {constant:.4}"));
+            let cells = cells(&answer.analysis, answer.p_holm, regret);
+            Statistic { name: answer.garment.clone(), class: answer.class.as_str(), fit, cells }
+        });
+        let of_garments = evidence.garments.iter().map(|(name, analysis, p_holm)| Statistic {
+            name: name.clone(),
+            class: "",
+            fit: "all fits".into(),
+            cells: cells(analysis, *p_holm, dash()),
+        });
+        let mut without = Vec::new();
+        let mut told_apart = Vec::new();
+        for (name, analysis, _) in &evidence.garments {
+            without.extend(without_chart(name, analysis)?);
+            told_apart.extend(told(name, analysis));
+        }
+        let score = rule_score(&data.pairs);
+        Ok(Some(Self {
+            statistics: of_answers.chain(of_garments).collect(),
+            differences: differences(data)?,
+            crossovers: crossings(data)?,
+            without,
+            told_apart,
+            rule: format!(
+                "The thesis's rule, FEM-GS for loose fits and Hybrid-GS for tight ones, names the simulator with the lower EI \
+                 in {} of {} loose or tight cases.",
+                score.right, score.of
+            ),
+        }))
+    }
+
+    /// Its charts.
+    pub fn charts(&self) -> impl Iterator<Item = &Chart> {
+        self.differences.iter().chain(self.crossovers.iter().map(|c| &c.chart)).chain(&self.without)
+    }
+}
+
+fn dash() -> String {
+    "–".into()
+}
+
+/// Subjects, cases, mean, interval, effect size, p, p after Holm, equivalence p, lower EI, regret.
+fn cells(analysis: &Analysis, p_holm: Option<f64>, regret: String) -> Vec<String> {
+    let estimate = analysis.estimate.as_ref();
+    let p = |p: Option<f64>| p.map_or_else(dash, |p| if p < 0.001 { "< 0.001".into() } else { number(p, 3) });
+    let interval = estimate.and_then(|e| e.interval);
+    vec![
+        analysis.subjects.len().to_string(),
+        analysis.cases.to_string(),
+        estimate.map_or_else(dash, |e| signed(e.mean, 4)),
+        interval.map_or_else(dash, |(low, high)| format!("{} to {}", signed(low, 4), signed(high, 4))),
+        estimate.and_then(|e| e.size).map_or_else(dash, |size| signed(size, 2)),
+        p(estimate.map(|e| e.p)),
+        p(p_holm),
+        p(estimate.and_then(|e| e.p_equivalence)),
+        format!("{} / {}", analysis.wins[0], analysis.wins[1]),
+        regret,
+    ]
+}
+
+/// Every answer and every garment as a row.
+fn differences(data: &ReportData) -> Result<Option<Chart>, ReportError> {
+    let Some(evidence) = &data.evidence else { return Ok(None) };
+    let row = |label: String, analysis: &Analysis| {
+        let estimate = analysis.estimate?;
+        let label = format!("{label} ({})", analysis.subjects.len());
+        Some(Difference { label, mean: estimate.mean, interval: estimate.interval })
+    };
+    let answers = evidence
+        .answers
+        .iter()
+        .filter_map(|answer| row(format!("{}, {}", answer.garment, answer.class.as_str()), &answer.analysis));
+    let garments = evidence.garments.iter().filter_map(|(name, analysis, _)| row(format!("{name}, all fits"), analysis));
+    let rows: Vec<Difference> = answers.chain(garments).collect();
+    Ok(if rows.is_empty() { None } else { Some(difference_chart(&data.title, "differences", &rows, None)?) })
+}
+
+/// All garments together, then each, where there are several.
+fn crossings(data: &ReportData) -> Result<Vec<Crossing>, ReportError> {
+    let garments = super::text::distinct(data.pairs.iter().map(|pair| pair.garment.as_str()));
+    let each = if garments.len() > 1 { garments } else { vec![] };
+    let mut all = Vec::new();
+    for garment in [None].into_iter().chain(each.into_iter().map(Some)) {
+        let pairs: Vec<&Pair> =
+            data.pairs.iter().filter(|pair| garment.is_none_or(|name| name == pair.garment)).collect();
+        let found = crossover(&pairs);
+        let title = garment.unwrap_or("all garments");
+        if let Some(chart) = crossover_chart(title, &pairs, found.as_ref(), &data.cuts)? {
+            let said = found.map_or_else(|| "too few subjects, or one ease".to_owned(), |found| found.to_string());
+            all.push(Crossing { chart, words: format!("{title}: EI difference of every case against its ease. Crossover: {said}.") });
+        }
+    }
+    Ok(all)
+}
+
+/// The difference of a garment without each measurement in turn.
+fn without_chart(name: &str, analysis: &Analysis) -> Result<Option<Chart>, ReportError> {
+    let row = |rest: &crate::fit::Without| Difference {
+        label: format!("without {}", rest.what),
+        mean: rest.mean,
+        interval: None,
+    };
+    let rows: Vec<Difference> = analysis.without.iter().map(row).collect();
+    let whole = analysis.estimate.map(|estimate| estimate.mean);
+    Ok(if rows.is_empty() { None } else { Some(difference_chart(name, "without", &rows, whole)?) })
+}
+
+/// A garment with all measurements, then without free edges and controlled ones.
+fn told(name: &str, analysis: &Analysis) -> Vec<ToldApart> {
+    let row = |what: String, mean: f64, [fem, hybrid]: [usize; 2]| ToldApart {
+        name: name.to_owned(),
+        what,
+        cells: vec![signed(mean, 4), fem.to_string(), hybrid.to_string()],
+    };
+    let all = analysis.estimate.map(|e| row("all measurements".into(), e.mean, analysis.wins));
+    let rest = analysis.told_apart.iter().map(|rest| row(format!("without {}", rest.what), rest.mean, rest.wins));
+    let mut rows: Vec<ToldApart> = all.into_iter().chain(rest).collect();
+    if analysis.is_circular() {
+        let what = format!("all {} measurements are set by a simulator: nothing is left without them", analysis.controlled);
+        rows.push(ToldApart { name: name.to_owned(), what, cells: vec![dash(), dash(), dash()] });
+    }
+    rows
+}
