@@ -8,6 +8,9 @@ mod attempt;
 mod audit;
 mod cache;
 mod catalogue;
+mod desk_report;
+mod desk_sql;
+mod desk_study;
 mod doctor;
 mod engine;
 mod enqueue;
@@ -15,6 +18,7 @@ mod error;
 mod figure;
 mod file;
 mod inputs;
+mod live;
 mod outcome;
 mod owner;
 pub mod pattern_files;
@@ -43,14 +47,18 @@ pub use catalogue::{
     Deed, FABRIC_NUMBERS, Field, Given, MEASUREMENTS, Mode, Part, Removed, Saved, SizeRow, StyleGiven, SubjectRow,
     doubts, is_doubtful, percentile, percentile_text, sex,
 };
+pub use desk_report::{ReportRow, reports};
+pub use desk_sql::{Answer, Relation, SavedQuery, saved_queries};
+pub use desk_study::{NewStudy, PatternSource, Wearable, wearables};
 pub use doctor::{Check, checks};
 pub use enqueue::{Planned, Why};
 pub use error::{Result, StudyError};
 pub use figure::Figure;
 pub use file::{Problem, Study, study_file};
 pub use inputs::{Change, Inputs, StageKind};
+pub use live::{Live, LiveFrame};
 pub use outcome::{Executor, Measured, Outcome};
-pub use picture::Map;
+pub use picture::{Look, Map};
 pub use pipeline::{Pipeline, SIMULATORS};
 pub use read::JobFilter;
 pub use run::{Run, RunOptions};
