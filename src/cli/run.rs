@@ -33,7 +33,8 @@ pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
         context.print(&plan_table(&planned))?;
         return Ok(End::Done);
     }
-    let options = RunOptions { selection, workers: arguments.workers.map(usize::from) };
+    let workers = arguments.workers.map(usize::from);
+    let options = RunOptions { selection, workers, ..RunOptions::default() };
     let interrupted = work(context, &mut workspace, &study, &options, arguments.why)?;
     let jobs = workspace.jobs(&JobFilter { study: Some(study.name.clone()), ..JobFilter::default() })?;
     summarise(context, &workspace, &jobs)?;

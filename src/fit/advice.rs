@@ -71,7 +71,9 @@ pub fn advise(sizes: &[SizeFit], cuts: &Cuts) -> Option<SizeAdvice> {
     let (&(size, ease), why) = match (nearest, smallest_loose) {
         (Some(found), _) => (found, "a just fit"),
         (None, Some(found)) => (found, "the smallest that is not tight"),
-        (None, None) if largest.1.is_undersized() => (largest, "the largest, and still smaller than the body: no size fits"),
+        (None, None) if largest.1.is_undersized() => {
+            (largest, "the largest, and still smaller than the body: no size fits")
+        }
         (None, None) => (largest, "the largest, and still tight"),
     };
     let told = |(size, ease): &(&str, &Ease)| {

@@ -143,7 +143,8 @@ pub fn judge(cells: &[Cell], pairs: &[Pair]) -> Evidence {
     let family = adjusted.iter().flatten().count();
     let answers = cells.iter().zip(analyses).zip(adjusted).map(|((cell, analysis), p_holm)| {
         let regret = regret(&of(cell), pairs);
-        let (finding, reason, would_settle) = Weighed { analysis: &analysis, p_holm, regret, family }.decide(cell.class);
+        let (finding, reason, would_settle) =
+            Weighed { analysis: &analysis, p_holm, regret, family }.decide(cell.class);
         let (garment, class) = (cell.garment.clone(), cell.class);
         Answer { garment, class, finding, analysis, p_holm, regret, reason, would_settle }
     });
@@ -221,7 +222,10 @@ impl Weighed<'_> {
             return self.within(&estimate, class);
         }
         if !(low >= MARGIN || high <= -MARGIN) {
-            let reason = format!("The interval holds {}, so the rule stands.", if estimate.mean > 0.0 { "+0.01" } else { "-0.01" });
+            let reason = format!(
+                "The interval holds {}, so the rule stands.",
+                if estimate.mean > 0.0 { "+0.01" } else { "-0.01" }
+            );
             return self.abstain(format!("The mean EI difference is {}. {reason}", told(&estimate)));
         }
         self.beyond(&estimate, class)
@@ -246,15 +250,22 @@ impl Weighed<'_> {
     fn within(&self, estimate: &Estimate, class: FitClass) -> (Finding, String, String) {
         let said = format!("The mean EI difference is {}", told(estimate));
         if estimate.p_equivalence.is_none_or(|p| p > ALPHA) {
-            return self.abstain(format!("{said}, but equivalence is not shown (p {}).", p_words(estimate.p_equivalence)));
+            return self
+                .abstain(format!("{said}, but equivalence is not shown (p {}).", p_words(estimate.p_equivalence)));
         }
         if let Some(rest) = self.analysis.without.iter().find(|rest| rest.mean.abs() >= MARGIN) {
-            let reason = format!("{said}, but without {} it is {}: one measurement hides a difference.", rest.what, ei(rest.mean));
+            let reason = format!(
+                "{said}, but without {} it is {}: one measurement hides a difference.",
+                rest.what,
+                ei(rest.mean)
+            );
             return (Finding::InsufficientEvidence, reason, format!("Agreement on whether {} counts.", rest.what));
         }
         let rule = simulator_name(class.rule_says());
-        let reason = format!("{said}, all of it within {MARGIN} (equivalence p {}): no practical difference. {rule} by the rule.",
-            p_words(estimate.p_equivalence));
+        let reason = format!(
+            "{said}, all of it within {MARGIN} (equivalence p {}): no practical difference. {rule} by the rule.",
+            p_words(estimate.p_equivalence)
+        );
         (Finding::NoDifference, reason, format!("A margin below {:.4} would turn it.", self.reach(estimate)))
     }
 
@@ -271,23 +282,41 @@ impl Weighed<'_> {
             return self.abstain(format!("{said}, but among {} answers tested p is {p} (Holm).", self.family));
         }
         if let Some(rest) = self.analysis.turned_by() {
-            let reason = format!("{said}, but without {} it is {}: the answer rests on one measurement.", rest.what, ei(rest.mean));
-            return (Finding::InsufficientEvidence, reason, format!("Agreement on whether {} counts; more subjects would not.", rest.what));
+            let reason = format!(
+                "{said}, but without {} it is {}: the answer rests on one measurement.",
+                rest.what,
+                ei(rest.mean)
+            );
+            return (
+                Finding::InsufficientEvidence,
+                reason,
+                format!("Agreement on whether {} counts; more subjects would not.", rest.what),
+            );
         }
         if estimate.mean > 0.0
             && let Some(reason) = self.circular()
         {
-            return (Finding::InsufficientEvidence, format!("{said}, but {reason}"), "Measurements that no simulator sets.".into());
+            return (
+                Finding::InsufficientEvidence,
+                format!("{said}, but {reason}"),
+                "Measurements that no simulator sets.".into(),
+            );
         }
         if let Some([own, constant]) = self.regret.filter(|[own, constant]| *own > constant + 1e-12) {
-            let reason = format!("{said}, but on subjects held out it costs {own:.4} EI, one simulator for all {constant:.4}.");
+            let reason =
+                format!("{said}, but on subjects held out it costs {own:.4} EI, one simulator for all {constant:.4}.");
             return self.abstain(reason);
         }
-        let (finding, truer) = if estimate.mean < 0.0 { (Finding::Fem, Simulator::Fem) } else { (Finding::Hybrid, Simulator::Hybrid) };
+        let (finding, truer) =
+            if estimate.mean < 0.0 { (Finding::Fem, Simulator::Fem) } else { (Finding::Hybrid, Simulator::Hybrid) };
         let against = if truer == class.rule_says() { "supports" } else { "contradicts" };
         let p = p_words(self.p_holm);
-        let reason = format!("{} is truer: the mean EI difference is {} (p {p}, Holm), with every measurement left out in turn. \
-            This {against} the rule.", simulator_name(truer), told(estimate));
+        let reason = format!(
+            "{} is truer: the mean EI difference is {} (p {p}, Holm), with every measurement left out in turn. \
+            This {against} the rule.",
+            simulator_name(truer),
+            told(estimate)
+        );
         (finding, reason, self.nearest_to_turning())
     }
 
@@ -297,10 +326,13 @@ impl Weighed<'_> {
         let rest = self.analysis.told_apart.iter().find(|rest| rest.what == CONTROLLED);
         match rest {
             None if !self.analysis.is_circular() => None,
-            None => Some("every measurement is one that Hybrid-GS sets by construction: scoring it is circular.".into()),
-            Some(rest) if rest.mean <= 0.0 => {
-                Some(format!("without the {controlled} measurements that Hybrid-GS sets it is {}: scoring those is circular.", ei(rest.mean)))
+            None => {
+                Some("every measurement is one that Hybrid-GS sets by construction: scoring it is circular.".into())
             }
+            Some(rest) if rest.mean <= 0.0 => Some(format!(
+                "without the {controlled} measurements that Hybrid-GS sets it is {}: scoring those is circular.",
+                ei(rest.mean)
+            )),
             Some(_) => None,
         }
     }
@@ -326,7 +358,9 @@ impl Weighed<'_> {
         };
         match (LEAST.max(have + 1)..=MOST).find(enough) {
             Some(n) => format!("{} more with this fit, if the difference stays as it is.", subjects(n - have)),
-            None => format!("More than {MOST} subjects, if the difference stays as it is: it is too near the margin of {MARGIN}."),
+            None => format!(
+                "More than {MOST} subjects, if the difference stays as it is: it is too near the margin of {MARGIN}."
+            ),
         }
     }
 }

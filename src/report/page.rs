@@ -6,7 +6,8 @@ use super::data::{Outcome, Picture, ReportData, Run, Severity, Verdict};
 use super::evidence::EvidencePart;
 use super::runs::{Group, groups};
 use super::text::{
-    count, distinct, duration, finding_words, fit_glyph, fit_words, mean_sd, mm, number, signed, signed_mm, simulator_name,
+    count, distinct, duration, finding_words, fit_glyph, fit_words, mean_sd, mm, number, signed, signed_mm,
+    simulator_name,
 };
 use crate::fit::{Basis, Ease, Finding, FitClass, Simulator};
 use base64::Engine;

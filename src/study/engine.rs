@@ -16,12 +16,14 @@ use rusqlite::{Connection, named_params};
 
 use super::enqueue::Planned;
 use super::error::{Result, StudyError};
+use super::live::Live as LiveView;
 use super::outcome::{self, Executor, Outcome, Provenance};
 use super::owner::Owner;
 use super::queue;
 use super::spec::JobSpec;
 use super::store::{self, Access, now_ms};
 use super::types::{JobId, JobProgress};
+use crate::geom::V3;
 use crate::sim::{Monitor, Progress};
 use crate::units::mm;
 
@@ -45,6 +47,7 @@ struct Run<'a> {
     owner: Owner,
     provenance: Provenance,
     stop: &'a AtomicBool,
+    view: &'a LiveView,
     live: Mutex<BTreeMap<JobId, Arc<Live>>>,
     busy_workers: AtomicUsize,
 }
@@ -61,6 +64,7 @@ pub(crate) fn run(
     workers: usize,
     provenance: Provenance,
     stop: &AtomicBool,
+    view: &LiveView,
 ) -> Result<()> {
     let run = Run {
         database,
@@ -70,6 +74,7 @@ pub(crate) fn run(
         owner: Owner::new(),
         provenance,
         stop,
+        view,
         live: Mutex::default(),
         busy_workers: AtomicUsize::new(workers.max(1)),
     };
@@ -114,7 +119,7 @@ impl Run<'_> {
     fn execute(&self, connection: &mut Connection, id: JobId) -> Result<()> {
         let live = Arc::new(Live::default());
         lock(&self.live).insert(id, live.clone());
-        let mut reporter = Reporter { live: &live, stop: self.stop };
+        let mut reporter = Reporter { id, live: &live, view: self.view, stop: self.stop };
         let spec = self.specs[&id];
         let result = catch_unwind(AssertUnwindSafe(|| self.executor.execute(spec, &mut reporter)))
             .unwrap_or_else(|panic| Err(StudyError::Stage { stage: "panic", message: panic_text(&*panic) }));
@@ -191,7 +196,9 @@ fn write_progress(connection: &Connection, id: JobId, progress: &JobProgress) ->
 
 /// The monitor of a running job.
 struct Reporter<'a> {
+    id: JobId,
     live: &'a Live,
+    view: &'a LiveView,
     stop: &'a AtomicBool,
 }
 
@@ -202,6 +209,14 @@ impl Monitor for Reporter<'_> {
 
     fn cancelled(&self) -> bool {
         self.stop.load(Ordering::Relaxed) || self.live.lost.load(Ordering::Relaxed)
+    }
+
+    fn wants_snapshot(&mut self) -> bool {
+        self.view.wants(self.id)
+    }
+
+    fn snapshot(&mut self, positions: &[V3]) {
+        self.view.show(self.id, positions);
     }
 }
 

@@ -9,6 +9,9 @@ mod attempt;
 mod audit;
 mod cache;
 mod catalogue;
+mod desk_report;
+mod desk_sql;
+mod desk_study;
 mod doctor;
 mod engine;
 mod enqueue;
@@ -17,6 +20,7 @@ mod evidence;
 mod figure;
 mod file;
 mod inputs;
+mod live;
 mod outcome;
 mod owner;
 pub mod pattern_files;
@@ -46,6 +50,9 @@ pub use catalogue::{
     Deed, FABRIC_NUMBERS, Field, Given, MEASUREMENTS, Mode, Part, Removed, Saved, SizeRow, StyleGiven, SubjectRow,
     doubts, is_doubtful, percentile, percentile_text, sex,
 };
+pub use desk_report::{ReportRow, reports};
+pub use desk_sql::{Relation, SavedQuery, SqlAnswer, saved_queries};
+pub use desk_study::{NewStudy, PatternSource, Wearable, wearables};
 pub use doctor::{Check, checks};
 pub use enqueue::{Planned, Why};
 pub use error::{Result, StudyError};
@@ -53,8 +60,9 @@ pub use evidence::PUBLISHED;
 pub use figure::Figure;
 pub use file::{Problem, Study, study_file};
 pub use inputs::{Change, Inputs, StageKind};
+pub use live::{Live, LiveFrame};
 pub use outcome::{Executor, Measured, Outcome};
-pub use picture::Map;
+pub use picture::{Look, Map};
 pub use pipeline::{Pipeline, SIMULATORS};
 pub use read::JobFilter;
 pub use run::{Run, RunOptions};
@@ -68,8 +76,8 @@ pub use types::{
 pub use workspace::Workspace;
 
 pub use crate::fit::FitClass;
-pub use crate::fit::{Analysis, Answer, Estimate, Evidence, Finding as Verdict, SizeAdvice, SizeFit, Without};
 pub use crate::fit::Simulator;
+pub use crate::fit::{Analysis, Answer, Estimate, Evidence, Finding as Verdict, SizeAdvice, SizeFit, Without};
 pub use crate::render::View;
 pub use crate::render::export::MeshFormat;
 pub use crate::sim::{Monitor, Step};

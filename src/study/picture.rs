@@ -26,6 +26,21 @@ use crate::units::mm;
 
 /// How far from a level of the body cloth still counts as at it, m.
 const NEAR_M: f64 = 0.02;
+
+/// Results that are kept ready: those of a comparison, so that turning them stays quick.
+const SCENES_KEPT: usize = 3;
+
+/// From where a drape is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Look {
+    /// Angle about the vertical from the front towards the subject's right, degrees.
+    pub azimuth_deg: i32,
+    /// Enlargement, percent.
+    pub zoom_pct: u32,
+    /// How far the picture's middle lies above the garment's, percent of half its height.
+    pub rise_pct: i32,
+}
+
 /// One repeat of the check, m.
 const CHECK_M: f64 = 0.04;
 
@@ -102,7 +117,9 @@ pub(super) fn tension_near(worn: &Dressed, level: &str) -> Result<Option<f64>> {
     let Some(height_m) = worn.levels.get(level).copied() else { return Ok(None) };
     let tensions = worn.values(Map::Tension)?;
     let trunk = worn.garment.pieces.iter().filter(|p| !matches!(p.role, Role::SleeveRight | Role::SleeveLeft));
-    let near = trunk.flat_map(|piece| piece.vertices.clone()).filter(|&v| (worn.cloth.positions[v].z - height_m).abs() < NEAR_M);
+    let near = trunk
+        .flat_map(|piece| piece.vertices.clone())
+        .filter(|&v| (worn.cloth.positions[v].z - height_m).abs() < NEAR_M);
     let near: Vec<f64> = near.map(|v| tensions[v]).collect();
     Ok((!near.is_empty()).then(|| near.iter().sum::<f64>() / near.len() as f64))
 }
@@ -113,35 +130,43 @@ impl Workspace {
     /// # Errors
     /// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
     pub fn picture(&self, id: JobId, view: View, width: u32, height: u32, map: Map) -> Result<RgbaImage> {
-        self.shot(id, view, (width, height), map, Stage::frame)
+        self.shot(id, (width, height), map, |stage, aspect| Camera::new(view, stage.frame(aspect)))
     }
 
-    /// [`Workspace::picture`] with the garment as large as it can be, for small pictures: the body is cut off where it
-    /// goes beyond.
+    /// A result from any side, the garment as large as it can be times the look's own enlargement: the body is cut off
+    /// where it goes beyond. For small pictures.
     ///
     /// # Errors
-    /// As there.
-    pub fn close_up(&self, id: JobId, view: View, width: u32, height: u32, map: Map) -> Result<RgbaImage> {
-        self.shot(id, view, (width, height), map, |stage, aspect| Frame::enclosing(&stage.meshes[1..], aspect))
+    /// As [`Workspace::picture`].
+    pub fn look(&self, id: JobId, look: Look, width: u32, height: u32, map: Map) -> Result<RgbaImage> {
+        self.shot(id, (width, height), map, |stage, aspect| {
+            let mut frame = Frame::enclosing(&stage.meshes[1..], aspect);
+            frame.centre.z += f64::from(look.rise_pct) / 100.0 * frame.height_m / 2.0;
+            frame.height_m *= 100.0 / f64::from(look.zoom_pct.max(1));
+            Camera { azimuth_deg: f64::from(look.azimuth_deg), ..Camera::new(View::Front, frame) }
+        })
     }
 
-    /// A picture of what a frame holds, given the picture's width over height.
+    /// A picture of what a camera shows, given the picture's width over height.
     fn shot(
         &self,
         id: JobId,
-        view: View,
         (width, height): (u32, u32),
         map: Map,
-        frame: impl Fn(&Stage, f64) -> Frame,
+        camera: impl Fn(&Stage, f64) -> Camera,
     ) -> Result<RgbaImage> {
-        let mut kept = self.scene.borrow_mut();
-        let stage = match kept.take() {
-            Some((of, with, stage)) if (of, with) == (id, map) => stage,
-            _ => self.stage(id, map)?,
+        let mut kept = self.scenes.borrow_mut();
+        let known = kept.iter().position(|(of, with, _)| (*of, *with) == (id, map));
+        let entry = match known {
+            Some(at) => kept.remove(at),
+            None => (id, map, self.stage(id, map)?),
         };
-        let frame = frame(&stage, f64::from(width.max(1)) / f64::from(height.max(1)));
-        let picture = render::render(&stage.scene, &Camera::new(view, frame), width, height);
-        *kept = Some((id, map, stage));
+        if kept.len() == SCENES_KEPT {
+            kept.remove(0);
+        }
+        let camera = camera(&entry.2, f64::from(width.max(1)) / f64::from(height.max(1)));
+        let picture = render::render(&entry.2.scene, &camera, width, height);
+        kept.push(entry);
         picture.map_err(StudyError::stage("render"))
     }
 

@@ -11,6 +11,7 @@ use super::enqueue::{self, Planned};
 use super::error::{Result, StudyError};
 use super::evidence;
 use super::file::{Problem, Study};
+use super::live::Live;
 use super::outcome::{self, Executor, Provenance};
 use super::pipeline::Pipeline;
 use super::spec::{self, Selection};
@@ -26,6 +27,8 @@ pub struct RunOptions {
     pub selection: Selection,
     /// Worker threads, one simulation each; by default as many as there are cores.
     pub workers: Option<usize>,
+    /// Where the run may be watched.
+    pub live: Arc<Live>,
 }
 
 /// A run in the background. Dropping it stops it: what runs goes back into the queue.
@@ -160,12 +163,13 @@ impl Workspace {
         let stop = Arc::new(AtomicBool::new(false));
         let workers = options.workers.unwrap_or_else(|| thread::available_parallelism().map_or(1, usize::from));
         let (database, jobs, stopped) = (self.path().to_owned(), planned.clone(), stop.clone());
+        let live = options.live.clone();
         let folder = study.path.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
         let work = move || {
             let provenance = Provenance::of(&folder);
             thread::scope(|scope| {
                 scope.spawn(aside);
-                engine::run(&database, &jobs, &*executor, workers, provenance, &stopped)
+                engine::run(&database, &jobs, &*executor, workers, provenance, &stopped, &live)
             })
         };
         let thread = thread::Builder::new().name("toile-run".into()).spawn(work).map_err(StudyError::io("thread"))?;

@@ -18,8 +18,8 @@ pub struct Workspace {
     path: PathBuf,
     pub(super) reader: Connection,
     pub(super) writer: Option<Connection>,
-    /// The result last shown, ready for more pictures.
-    pub(super) scene: RefCell<Option<(JobId, Map, Stage)>>,
+    /// The results last shown, the latest last, ready for more pictures.
+    pub(super) scenes: RefCell<Vec<(JobId, Map, Stage)>>,
 }
 
 impl Workspace {
@@ -33,7 +33,7 @@ impl Workspace {
             catalogue::add_builtin(writer)?;
         }
         let reader = store::open(path, Access::Read)?;
-        Ok(Self { path: path.to_owned(), reader, writer, scene: RefCell::default() })
+        Ok(Self { path: path.to_owned(), reader, writer, scenes: RefCell::default() })
     }
 
     /// The database file.

@@ -22,6 +22,7 @@ impl State {
                 let pane = &mut self.second_pane[self.screen as usize];
                 *pane = !*pane;
             }
+            Action::Show(Screen::Compare) => self.compare(),
             Action::Show(screen) => self.show(screen),
             Action::Open => return self.open(),
             Action::Back => {
@@ -43,7 +44,30 @@ impl State {
             Action::NextStudy => self.next_study(),
             Action::OtherSimulator => self.other_simulator(),
             Action::NextStage => self.next_stage(),
-            Action::NextView => self.view = picture::turned(self.view, 1),
+            Action::NextView => self.look = picture::next_view(self.look),
+            Action::ZoomIn => self.look = picture::zoomed(self.look, 1),
+            Action::ZoomOut => self.look = picture::zoomed(self.look, -1),
+            Action::Mark => self.mark_run(),
+            Action::Unmark => self.unmark_runs(),
+            Action::Differences => {
+                (self.differences_only, self.contrast) = (!self.differences_only, 0);
+            }
+            Action::NewStudy => return self.new_study(),
+            Action::EditQuery => self.second_pane[Screen::Sql as usize] = false,
+            Action::SavedQueries => self.offer_queries(),
+            Action::OlderQuery => self.recall(-1),
+            Action::NewerQuery => self.recall(1),
+            Action::ExportQuery => self.export_query(),
+            Action::BuildReport => return self.build_report(),
+            Action::OpenReport => return self.open_report(),
+            Action::Ascii => self.theme.ascii = !self.theme.ascii,
+            Action::Mouse => {
+                self.has_mouse = !self.has_mouse;
+                let text =
+                    if self.has_mouse { "the mouse is taken: tabs, wheel" } else { "the mouse is the terminal's" };
+                self.say(text);
+                return vec![Effect::Mouse(self.has_mouse)];
+            }
             Action::NextMap => self.map = picture::next_map(self.map),
             Action::Enlarge => self.enlarged = !self.enlarged,
             Action::AddSubject => self.add_subject(),
@@ -66,11 +90,13 @@ impl State {
             Action::Retry => return self.retry(),
             Action::Raise => return self.prioritise(1),
             Action::Lower => return self.prioritise(-1),
+            Action::Run if self.screen == Screen::Sql => return self.run_query(),
             Action::Run => return self.start_run(),
             Action::Stop => self.stop_run(),
             Action::Help => self.overlay = Some(Overlay::Help(List::of(self.bindings))),
             Action::Palette => self.overlay = Some(Overlay::Palette(List::of(self.bindings))),
             Action::Redraw => return vec![Effect::Clear],
+            Action::Quit if self.sql.asked.is_some() => return vec![Effect::StopAsking],
             Action::Quit => return self.quit(),
         }
         vec![]
@@ -104,7 +130,7 @@ impl State {
         let filter = &mut self.filters[self.screen as usize];
         if !filter.is_empty() {
             filter.clear();
-        } else if self.enlarged && self.screen == Screen::Results {
+        } else if self.enlarged && matches!(self.screen, Screen::Results | Screen::Compare) {
             self.enlarged = false;
         } else if self.styles.enlarged && self.screen == Screen::Styles {
             self.styles.enlarged = false;
@@ -141,6 +167,14 @@ impl State {
             Screen::Styles => self.say("styles are listed by name, sizes as they came"),
             Screen::Subjects => self.subject_order.by = self.subject_order.by.next(subjects::SHOWN),
             Screen::Jobs => self.job_order.by = self.job_order.by.next(),
+            Screen::Compare => self.sorts_contrasts = !self.sorts_contrasts,
+            Screen::Reports => self.reports_by_time = !self.reports_by_time,
+            Screen::Sql => {
+                let filter = self.filter().to_owned();
+                if let Some(sheet) = &mut self.sql.sheet {
+                    sheet.sort(&filter);
+                }
+            }
             Screen::Study | Screen::Results => {
                 self.chi_order.by = match self.chi_order.by {
                     ChiOrder::Number => ChiOrder::Error,
@@ -156,6 +190,12 @@ impl State {
             Screen::Subjects => &mut self.subject_order.reversed,
             Screen::Jobs => &mut self.job_order.reversed,
             Screen::Study | Screen::Results => &mut self.chi_order.reversed,
+            Screen::Compare => &mut self.sorts_contrasts,
+            Screen::Reports => &mut self.reports_by_time,
+            Screen::Sql => {
+                let filter = self.filter().to_owned();
+                return self.sql.sheet.iter_mut().for_each(|sheet| sheet.reverse(&filter));
+            }
         };
         *reversed = !*reversed;
     }
@@ -194,14 +234,7 @@ impl State {
 
     fn other_simulator(&mut self) {
         let Some(job) = self.job() else { return };
-        let is_other = |other: &&crate::study::JobRow| {
-            other.garment == job.garment
-                && other.size == job.size
-                && other.subject == job.subject
-                && other.repeat == job.repeat
-                && other.simulator != job.simulator
-        };
-        match self.data.as_ref().and_then(|data| data.jobs.iter().find(is_other)).map(|other| other.id) {
+        match self.same_by_other(job).map(|other| other.id) {
             Some(id) => self.focus.job = Some(id),
             None => self.say("the study has no job of the other simulator here"),
         }

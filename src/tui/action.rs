@@ -4,7 +4,7 @@ use std::fmt;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use Screen::{Jobs, Results, Study, Styles, Subjects};
+use Screen::{Compare, Jobs, Reports, Results, Sql, Study, Styles, Subjects};
 
 /// A screen of the workbench; its number is its key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,21 +19,31 @@ pub enum Screen {
     Jobs,
     /// One result: its measurements and its picture.
     Results,
+    /// Several results side by side.
+    Compare,
+    /// Questions in SQL.
+    Sql,
+    /// Reports that were built.
+    Reports,
 }
 
 impl Screen {
     /// All screens, in order of their numbers.
-    pub const ALL: [Self; 5] = [Self::Study, Self::Subjects, Self::Styles, Self::Jobs, Self::Results];
+    pub const ALL: [Self; 8] =
+        [Self::Study, Self::Subjects, Self::Styles, Self::Jobs, Self::Results, Self::Compare, Self::Sql, Self::Reports];
 
-    /// Number and name, as on its tab.
+    /// Name, and a short one for tabs with little room.
     #[must_use]
-    pub fn title(self) -> &'static str {
+    pub fn names(self) -> [&'static str; 2] {
         match self {
-            Self::Study => "1 Study",
-            Self::Subjects => "2 Subjects",
-            Self::Styles => "3 Styles",
-            Self::Jobs => "4 Jobs",
-            Self::Results => "5 Results",
+            Self::Study => ["Study", "Study"],
+            Self::Subjects => ["Subjects", "Subj"],
+            Self::Styles => ["Styles", "Style"],
+            Self::Jobs => ["Jobs", "Jobs"],
+            Self::Results => ["Results", "Res"],
+            Self::Compare => ["Compare", "Cmp"],
+            Self::Sql => ["SQL", "SQL"],
+            Self::Reports => ["Reports", "Rep"],
         }
     }
 }
@@ -97,6 +107,36 @@ pub enum Action {
     NextMap,
     /// Gives the picture all the room, or less again.
     Enlarge,
+    /// Shows the picture from nearer.
+    ZoomIn,
+    /// Shows the picture from farther.
+    ZoomOut,
+    /// Selects the job for a comparison, or no longer.
+    Mark,
+    /// Takes all selections back.
+    Unmark,
+    /// Shows only the measurements in which compared runs differ, or all.
+    Differences,
+    /// Asks what a new study is made of.
+    NewStudy,
+    /// Types in the query.
+    EditQuery,
+    /// Offers the saved queries.
+    SavedQueries,
+    /// Puts the query before into the editor.
+    OlderQuery,
+    /// Puts the query after into the editor.
+    NewerQuery,
+    /// Asks for the file that the rows of the query go into.
+    ExportQuery,
+    /// Builds the report of the study.
+    BuildReport,
+    /// Opens the selected report.
+    OpenReport,
+    /// Shows the screen in ASCII, or no longer.
+    Ascii,
+    /// Takes the mouse, or gives it back to the terminal.
+    Mouse,
     /// Asks for the values of a new subject.
     AddSubject,
     /// Asks for other values of the selected subject.
@@ -137,7 +177,7 @@ pub enum Action {
     Raise,
     /// Runs the selected job later.
     Lower,
-    /// Runs the open jobs of the study here.
+    /// Runs the open jobs of the study here; on SQL, the query.
     Run,
     /// Stops the run.
     Stop,
@@ -156,19 +196,27 @@ pub enum Action {
 pub struct Key {
     code: KeyCode,
     ctrl: bool,
+    alt: bool,
 }
 
 impl Key {
     /// A key, with Ctrl or without.
     #[must_use]
     pub const fn new(code: KeyCode, ctrl: bool) -> Self {
-        Self { code, ctrl }
+        Self { code, ctrl, alt: false }
+    }
+
+    /// A key with Alt.
+    #[must_use]
+    pub const fn alt(code: KeyCode) -> Self {
+        Self { code, ctrl: false, alt: true }
     }
 
     /// The key of an event.
     #[must_use]
     pub fn of(event: &KeyEvent) -> Self {
-        Self { code: event.code, ctrl: event.modifiers.contains(KeyModifiers::CONTROL) }
+        let is = |modifier| event.modifiers.contains(modifier);
+        Self { code: event.code, ctrl: is(KeyModifiers::CONTROL), alt: is(KeyModifiers::ALT) }
     }
 }
 
@@ -176,6 +224,9 @@ impl fmt::Display for Key {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.ctrl {
             f.write_str("C-")?;
+        }
+        if self.alt {
+            f.write_str("A-")?;
         }
         match self.code {
             KeyCode::Char(' ') => f.write_str("Space"),
@@ -274,6 +325,9 @@ const fn bind(
 /// Screens on which a job is selected.
 const RESULTS: &[Screen] = &[Study, Jobs, Results];
 
+/// Screens with lists that are sorted.
+const SORTED: &[Screen] = &[Study, Subjects, Jobs, Results, Compare, Sql, Reports];
+
 /// The table of keys, which a file may change (see `keys`). Ctrl-A, B, S, Q, H, I, J and M stay free: tmux, screen, flow control and the terminal use them.
 pub const BINDINGS: &[Binding] = &[
     bind(Action::Open, "open", &[key(KeyCode::Enter)], &[Study, Jobs], "open", "Open the result of the selected job"),
@@ -281,7 +335,7 @@ pub const BINDINGS: &[Binding] = &[
         Action::Enlarge,
         "enlarge",
         &[key(KeyCode::Enter), ch('z')],
-        &[Results],
+        &[Results, Compare],
         "enlarge",
         "Give the picture all the room, or less again",
     ),
@@ -380,10 +434,78 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Pause, "pause", &[ch('p')], &[Study, Jobs], "pause", "Pause or resume the study; running jobs go on"),
     bind(Action::Cancel, "cancel", &[ch('x')], RESULTS, "cancel", "Cancel the selected queued or running job; asks"),
     bind(Action::Retry, "retry", &[ch('r')], RESULTS, "retry", "Queue the selected failed or cancelled job again"),
-    bind(Action::Run, "run", &[ch('R')], &[], "run", "Run the study here, in the background"),
+    bind(
+        Action::OpenReport,
+        "open-report",
+        &[key(KeyCode::Enter)],
+        &[Reports],
+        "open",
+        "Open the report, or copy its address",
+    ),
+    bind(
+        Action::BuildReport,
+        "build-report",
+        &[ch('b')],
+        &[Study, Results, Compare, Reports],
+        "report",
+        "Build the report of the study, in the background",
+    ),
+    bind(
+        Action::EditQuery,
+        "edit-query",
+        &[ch('e'), key(KeyCode::Enter)],
+        &[Sql],
+        "edit",
+        "Type in the query; Esc leaves it",
+    ),
+    bind(
+        Action::Run,
+        "run",
+        &[ch('R'), key(KeyCode::F(5)), Key::alt(KeyCode::Enter)],
+        &[],
+        "run",
+        "Run the study in the background; on SQL, the query",
+    ),
+    bind(Action::SavedQueries, "saved-queries", &[ch('o')], &[Sql], "saved", "Choose a saved query"),
+    bind(Action::ExportQuery, "export-query", &[ch('w')], &[Sql], "export", "Write all rows of the query: CSV or JSON"),
+    bind(Action::OlderQuery, "older-query", &[ctrl('p')], &[Sql], "", "The query before, of the history"),
+    bind(Action::NewerQuery, "newer-query", &[ctrl('n')], &[Sql], "", "The query after, of the history"),
+    bind(Action::NewStudy, "new-study", &[ch('a')], &[Study], "new", "Make a study: subjects, styles, sizes, fabric"),
+    bind(Action::Mark, "select", &[ch(' ')], RESULTS, "select", "Select the job for a comparison, or no longer"),
+    bind(
+        Action::Show(Compare),
+        "compare",
+        &[ch('c'), ch('6')],
+        &[],
+        "compare",
+        "Screen 6: selected runs, or FEM and Hybrid",
+    ),
+    bind(Action::Unmark, "unselect", &[ch('u')], &[Study, Jobs, Results, Compare], "", "Take all selections back"),
+    bind(
+        Action::Differences,
+        "differences",
+        &[ch('d')],
+        &[Compare],
+        "differences",
+        "Only what differs, or all measurements",
+    ),
     bind(Action::Stop, "stop", &[ch('X')], &[], "", "Stop the run started here; asks"),
-    bind(Action::NextView, "view", &[ch('v')], &[Results], "view", "Turn the picture: front, side, back, quarter"),
-    bind(Action::NextMap, "map", &[ch('m')], &[Results], "map", "Colour it: plain, check, stretch, tension, gap"),
+    bind(
+        Action::NextView,
+        "view",
+        &[ch('v')],
+        &[Results, Compare],
+        "view",
+        "Turn the picture: front, side, back, quarter",
+    ),
+    bind(
+        Action::NextMap,
+        "map",
+        &[ch('m')],
+        &[Results, Compare],
+        "map",
+        "Colour it: plain, check, stretch, tension, gap",
+    ),
     bind(
         Action::OtherSimulator,
         "other-simulator",
@@ -392,11 +514,27 @@ pub const BINDINGS: &[Binding] = &[
         "FEM/HYB",
         "Same size and subject by the other simulator",
     ),
+    bind(
+        Action::ZoomIn,
+        "zoom-in",
+        &[ch('+'), ch('=')],
+        &[Results, Compare],
+        "",
+        "Nearer; ↑↓ move in the focused picture",
+    ),
+    bind(Action::ZoomOut, "zoom-out", &[ch('-')], &[Results, Compare], "", "Farther"),
     bind(Action::NextStage, "stage", &[ch('t')], &[Results], "stage", "Measurements of the next stage: popup, drape"),
     bind(Action::Filter, "filter", &[ch('/')], &[], "filter", "Show only what contains a text"),
-    bind(Action::Sort, "sort", &[ch('s')], &[Subjects, Jobs, Results], "sort", "Sort by the next column"),
-    bind(Action::Reverse, "reverse", &[ch('S')], &[Subjects, Jobs, Results], "", "Reverse the order"),
-    bind(Action::Help, "help", &[ch('?')], &[], "help", "List the keys; type to filter by name or key"),
+    bind(Action::Sort, "sort", &[ch('s')], SORTED, "sort", "Sort by the next column, on SQL by the selected one"),
+    bind(Action::Reverse, "reverse", &[ch('S')], SORTED, "", "Reverse the order"),
+    bind(
+        Action::Help,
+        "help",
+        &[ch('?'), key(KeyCode::F(1))],
+        &[],
+        "help",
+        "List the keys; type to filter by name or key",
+    ),
     bind(Action::Palette, "palette", &[ch(':')], &[], "command", "Run any action by its name; :q quits"),
     bind(Action::Up, "up", &[ch('k'), key(KeyCode::Up)], &[], "", "Select what is above"),
     bind(Action::Down, "down", &[ch('j'), key(KeyCode::Down)], &[], "", "Select what is below"),
@@ -434,6 +572,8 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Show(Styles), "styles", &[ch('3')], &[], "", "Screen 3: styles and sizes, pieces and seams"),
     bind(Action::Show(Jobs), "jobs", &[ch('4')], &[], "", "Screen 4: the queue, logs and convergence"),
     bind(Action::Show(Results), "results", &[ch('5')], &[], "", "Screen 5: one result, its numbers and picture"),
+    bind(Action::Show(Sql), "sql", &[ch('7')], &[], "", "Screen 7: questions in SQL"),
+    bind(Action::Show(Reports), "reports", &[ch('8')], &[], "", "Screen 8: the reports that were built"),
     bind(Action::NextGarment, "next-garment", &[ch(']')], &[], "", "Next garment of the study"),
     bind(Action::PreviousGarment, "previous-garment", &[ch('[')], &[], "", "Garment before"),
     bind(Action::NextStudy, "next-study", &[ch('}')], &[], "", "Next study"),
@@ -441,11 +581,13 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::PreviousMatch, "previous-match", &[ch('N')], &[], "", "Match before"),
     bind(Action::Raise, "raise", &[ch('+')], &[Jobs], "", "Have the selected job run earlier"),
     bind(Action::Lower, "lower", &[ch('-')], &[Jobs], "", "Have the selected job run later"),
-    bind(Action::Copy, "copy", &[ch('y')], &[], "", "Copy the job or the table (OSC 52, works over SSH)"),
+    bind(Action::Copy, "copy", &[ch('y')], &[], "", "Copy the line or the table (OSC 52, over SSH too)"),
     bind(Action::Redraw, "redraw", &[ctrl('l')], &[], "", "Draw everything anew"),
+    bind(Action::Ascii, "ascii", &[key(KeyCode::F(2))], &[], "", "Plain ASCII instead of lines and signs, or back"),
+    bind(Action::Mouse, "mouse", &[key(KeyCode::F(3))], &[], "", "Take the mouse for tabs and scrolling, or not"),
     bind(Action::Back, "back", &[key(KeyCode::Esc)], &[], "", "Close, clear the filter, go back a screen"),
     bind(Action::Leave, "leave", &[ch('q')], &[], "", "Go back; at the top, quit"),
-    bind(Action::Quit, "quit", &[ctrl('c')], &[], "", "Leave; asks while a run goes on here"),
+    bind(Action::Quit, "quit", &[ctrl('c')], &[], "", "Cancel a query; else leave; asks while a run goes on"),
 ];
 
 #[cfg(test)]
@@ -458,7 +600,7 @@ mod tests {
             let keys: Vec<Key> =
                 BINDINGS.iter().filter(|b| b.is_on(screen)).flat_map(|b| b.keys.iter().copied()).collect();
             for (i, key) in keys.iter().enumerate() {
-                assert!(!keys[..i].contains(key), "{key} twice on {}", screen.title());
+                assert!(!keys[..i].contains(key), "{key} twice on {screen:?}");
                 let avoided = "absqhijm".chars().map(ctrl).any(|taken| taken == *key);
                 assert!(!avoided, "{key} is taken by terminals");
             }
@@ -496,6 +638,7 @@ mod tests {
         check(ch('x'), Subjects, None);
         check(ch('v'), Study, None);
         check(ctrl('c'), Study, Some(Action::Quit));
-        check(ch('c'), Study, None);
+        check(ch('c'), Study, Some(Action::Show(Compare)));
+        check(Key::alt(KeyCode::Enter), Sql, Some(Action::Run));
     }
 }

@@ -4,10 +4,11 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
 use super::action::Screen;
+use super::compare;
 use super::state::State;
 use super::text;
 use crate::study::tools::Measurements;
-use crate::study::{Field, MEASUREMENTS};
+use crate::study::{Field, JobRow, MEASUREMENTS};
 
 /// The text that stands for what is selected, tab-separated, and what it is.
 #[must_use]
@@ -16,6 +17,9 @@ pub fn selection(state: &State) -> Option<(String, &'static str)> {
         Screen::Results => chi_table(state).map(|table| (table, "the table of measurements")),
         Screen::Subjects => subject_line(state).map(|line| (line, "the subject")),
         Screen::Styles => seam_table(state).map(|table| (table, "the table of seams")),
+        Screen::Compare => contrast_table(state).map(|table| (table, "the comparison")),
+        Screen::Sql => sheet_row(state).map(|rows| (rows, "the row")),
+        Screen::Reports => state.report().map(|row| (row.page.display().to_string(), "the path")),
         Screen::Study | Screen::Jobs => job_line(state).map(|line| (line, "the job")),
     }
 }
@@ -60,6 +64,24 @@ fn seam_table(state: &State) -> Option<String> {
         table += &format!("{}\t{a}\t{b}\t{:.1}\t{:.1}\t{confidence}\n", seam.name, seam.a_mm, seam.b_mm);
     }
     Some(table)
+}
+
+fn contrast_table(state: &State) -> Option<String> {
+    let jobs: Vec<&JobRow> = state.compared().iter().map(|run| &run.job).collect();
+    if jobs.is_empty() {
+        return None;
+    }
+    let mut table = format!("no\tmeasurement\tl2d_mm\t{}\n", compare::labels(&jobs).join("\t"));
+    for row in state.contrasts() {
+        let chi = row.chi.iter().map(|chi| chi.map_or(String::new(), |chi| format!("{chi:.6}"))).collect::<Vec<_>>();
+        table += &format!("{}\t{}\t{}\t{}\n", row.no, row.name, text::mm(row.l2d_m), chi.join("\t"));
+    }
+    Some(table)
+}
+
+fn sheet_row(state: &State) -> Option<String> {
+    let sheet = state.sql.sheet.as_ref().filter(|sheet| sheet.len() > 0)?;
+    Some(sheet.copied(std::iter::once(sheet.row)))
 }
 
 fn chi_table(state: &State) -> Option<String> {

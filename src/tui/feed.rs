@@ -1,8 +1,8 @@
 //! What the screens show, read from the workspace in one go on a background thread.
 
 use crate::study::{
-    ChiRow, EaseRow, Grid, JobFilter, JobId, JobRow, LogLine, MetricsRow, Result, SizeRow, StageRow, Step, StudyRow,
-    SubjectRow, Why, Workspace, now_ms,
+    ChiRow, EaseRow, Grid, Inputs, JobFilter, JobId, JobRow, LogLine, MetricsRow, RecommendationRow, Result, SizeRow,
+    StageRow, Step, StudyError, StudyRow, SubjectRow, Why, Workspace, now_ms,
 };
 
 /// What the user looks at; whatever is `None` or gone is chosen by [`snapshot`].
@@ -14,6 +14,8 @@ pub struct Focus {
     pub garment: Option<String>,
     /// Job whose details are wanted.
     pub job: Option<JobId>,
+    /// Jobs to compare.
+    pub compare: Vec<JobId>,
 }
 
 /// Everything the screens show of the database at one moment.
@@ -37,6 +39,23 @@ pub struct Snapshot {
     pub ease: Vec<EaseRow>,
     /// The job looked at.
     pub detail: Option<Detail>,
+    /// The jobs compared, those that are gone left out.
+    pub compared: Vec<Compared>,
+    /// Which simulator the study's garments are to be trusted to; read for comparisons only.
+    pub recommendations: Vec<RecommendationRow>,
+}
+
+/// A run as it is compared.
+#[derive(Clone, Debug)]
+pub struct Compared {
+    /// The job.
+    pub job: JobRow,
+    /// Measurements of all stages.
+    pub chi: Vec<ChiRow>,
+    /// Numbers of its result.
+    pub metrics: Option<MetricsRow>,
+    /// What it was made of.
+    pub inputs: Inputs,
 }
 
 impl Snapshot {
@@ -82,8 +101,19 @@ pub fn snapshot(workspace: &Workspace, focus: &Focus) -> Result<Snapshot> {
     let subjects = workspace.subjects()?;
     let sizes = workspace.sizes()?;
     let (jobs, ease) = (vec![], vec![]);
-    let mut snapshot =
-        Snapshot { now_ms: now_ms(), subjects, sizes, studies, study, grid: None, jobs, ease, detail: None };
+    let mut snapshot = Snapshot {
+        now_ms: now_ms(),
+        subjects,
+        sizes,
+        studies,
+        study,
+        grid: None,
+        jobs,
+        ease,
+        detail: None,
+        compared: vec![],
+        recommendations: vec![],
+    };
     let Some(row) = snapshot.studies.get(study) else { return Ok(snapshot) };
     let garment = row.garments.iter().find(|name| Some(*name) == focus.garment.as_ref()).or(row.garments.first());
     let grid = garment.map(|garment| workspace.grid(&row.name, garment)).transpose()?;
@@ -93,7 +123,41 @@ pub fn snapshot(workspace: &Workspace, focus: &Focus) -> Result<Snapshot> {
     if let Some(job) = focus.job.filter(|id| snapshot.job(*id).is_some()) {
         snapshot.detail = Some(detail(workspace, job)?);
     }
+    add_compared(workspace, &mut snapshot, focus)?;
     Ok(snapshot)
+}
+
+/// What was read before, with what another job or comparison needs; for when nothing was written since.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn refocused(workspace: &Workspace, mut before: Snapshot, focus: &Focus) -> Result<Snapshot> {
+    before.now_ms = now_ms();
+    before.detail = focus.job.filter(|id| before.job(*id).is_some()).map(|job| detail(workspace, job)).transpose()?;
+    add_compared(workspace, &mut before, focus)?;
+    Ok(before)
+}
+
+/// Reads the runs that are compared.
+fn add_compared(workspace: &Workspace, snapshot: &mut Snapshot, focus: &Focus) -> Result<()> {
+    (snapshot.compared, snapshot.recommendations) = (vec![], vec![]);
+    for id in &focus.compare {
+        snapshot.compared.extend(compared(workspace, *id)?);
+    }
+    if let (false, Some(study)) = (snapshot.compared.is_empty(), snapshot.studies.get(snapshot.study)) {
+        snapshot.recommendations = workspace.recommendations(&study.name)?;
+    }
+    Ok(())
+}
+
+/// A run to compare; `None` where there is no such job any more.
+fn compared(workspace: &Workspace, id: JobId) -> Result<Option<Compared>> {
+    let job = match workspace.job(id) {
+        Err(StudyError::NotFound { .. }) => return Ok(None),
+        job => job?,
+    };
+    let (chi, metrics, inputs) = (workspace.chi(id)?, workspace.metrics(id)?, workspace.inputs(id)?);
+    Ok(Some(Compared { job, chi, metrics, inputs }))
 }
 
 fn detail(workspace: &Workspace, job: JobId) -> Result<Detail> {

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crossterm::event::{KeyCode, KeyEvent};
 
+use super::asker::Question;
 use super::message::{Act, Effect};
 use super::overlay::{Outcome, edit};
 use super::text;
@@ -165,18 +166,79 @@ impl Form {
     }
 }
 
-/// The path of a file to import.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+/// What a path is asked for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// Subjects to import.
+    ImportSubjects,
+    /// The rows of a query to write.
+    Export(String),
+}
+
+impl Purpose {
+    /// Title of the prompt.
+    #[must_use]
+    pub fn title(&self) -> &'static str {
+        match self {
+            Self::ImportSubjects => "import subjects from",
+            Self::Export(_) => "write all rows of the query into",
+        }
+    }
+
+    /// What a path may be.
+    #[must_use]
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::ImportSubjects => "CSV with columns name, sex, stature_mm, …, or a study.toml",
+            Self::Export(_) => "a new file: NAME.csv or NAME.json",
+        }
+    }
+
+    /// What goes on after Enter.
+    #[must_use]
+    pub fn busy(&self) -> &'static str {
+        match self {
+            Self::ImportSubjects => "reading, and building each body…",
+            Self::Export(_) => "writing…",
+        }
+    }
+
+    /// What the keys do.
+    #[must_use]
+    pub fn keys(&self) -> &'static str {
+        match self {
+            Self::ImportSubjects => " ↵ import all or none  Esc cancel ",
+            Self::Export(_) => " ↵ write  Esc cancel ",
+        }
+    }
+}
+
+/// The path of a file to read or write.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PathPrompt {
+    /// What it is for.
+    pub purpose: Purpose,
     /// What is typed.
     pub text: String,
-    /// Whether the file is being imported.
+    /// Whether the file is being read or written.
     pub is_busy: bool,
     /// Why it could not be.
     pub problem: Option<String>,
 }
 
 impl PathPrompt {
+    /// Asks for a file with subjects.
+    #[must_use]
+    pub fn subjects() -> Self {
+        Self { purpose: Purpose::ImportSubjects, text: String::new(), is_busy: false, problem: None }
+    }
+
+    /// Asks for the file that the rows of a query go into.
+    #[must_use]
+    pub fn export(query: String) -> Self {
+        Self { purpose: Purpose::Export(query), text: "query.csv".to_owned(), ..Self::subjects() }
+    }
+
     /// Handles a key.
     pub fn key(&mut self, event: &KeyEvent) -> Outcome {
         if self.is_busy {
@@ -191,7 +253,11 @@ impl PathPrompt {
             return Outcome::Closed;
         }
         (self.is_busy, self.problem) = (true, None);
-        Outcome::Sent(vec![Effect::Do(Act::ImportSubjects(path_of(path)))])
+        let path = path_of(path);
+        Outcome::Sent(vec![match &self.purpose {
+            Purpose::ImportSubjects => Effect::Do(Act::ImportSubjects(path)),
+            Purpose::Export(query) => Effect::Ask(Question::Export(query.clone(), path)),
+        }])
     }
 }
 

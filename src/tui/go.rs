@@ -20,6 +20,21 @@ impl State {
             (Screen::Styles, true) => self.go_in_desk(action, page),
             (Screen::Jobs, false) => self.go_in_jobs(action, page),
             (Screen::Jobs, true) => self.go_in_log(action, page),
+            (Screen::Results | Screen::Compare, true) if self.look.zoom_pct > picture::FRONT.zoom_pct => {
+                let steps = match action {
+                    Action::Up | Action::PageUp => 1,
+                    Action::Down | Action::PageDown => -1,
+                    _ => 0,
+                };
+                self.look = picture::raised(self.look, steps);
+            }
+            (Screen::Compare, _) => self.contrast = moved(self.contrast, self.contrasts().len(), action, page),
+            (Screen::Reports, _) => self.reports.row = moved(self.reports.row, self.reports().len(), action, page),
+            (Screen::Sql, _) => {
+                if let Some(sheet) = &mut self.sql.sheet {
+                    sheet.row = moved(sheet.row, sheet.len(), action, page);
+                }
+            }
             (Screen::Study, true) | (Screen::Results, _) => {
                 self.chi_row = moved(self.chi_row, self.chi().len(), action, page);
             }
@@ -78,10 +93,11 @@ impl State {
                 let subject = self.place.subject.saturating_add_signed(step).min(last);
                 self.go_to(Place { subject, ..self.place });
             }
-            (Screen::Results, true) => self.view = picture::turned(self.view, step),
+            (Screen::Results | Screen::Compare, true) => self.look = picture::turned(self.look, step),
+            (Screen::Sql, _) => self.sql.sheet.iter_mut().for_each(|sheet| sheet.sideways(step)),
             (Screen::Results, false) => self.step_result(step),
             (Screen::Styles, true) => self.step_edge(step),
-            (Screen::Subjects | Screen::Styles | Screen::Jobs, _) => {}
+            (Screen::Subjects | Screen::Styles | Screen::Jobs | Screen::Compare | Screen::Reports, _) => {}
         }
     }
 
@@ -131,6 +147,13 @@ impl State {
                 }
             }
             Screen::Results => self.chi_row = stepped(self.chi_row, step, self.chi().len()).unwrap_or(0),
+            Screen::Compare => self.contrast = stepped(self.contrast, step, self.contrasts().len()).unwrap_or(0),
+            Screen::Reports => self.reports.row = stepped(self.reports.row, step, self.reports().len()).unwrap_or(0),
+            Screen::Sql => {
+                if let Some(sheet) = &mut self.sql.sheet {
+                    sheet.row = stepped(sheet.row, step, sheet.len()).unwrap_or(0);
+                }
+            }
         }
     }
 

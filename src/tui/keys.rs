@@ -2,7 +2,7 @@
 //!
 //! ```toml
 //! cancel = "D"
-//! down = ["j", "Down", "C-n"]
+//! down = ["j", "Down", "C-e"]
 //! ```
 
 use std::path::{Path, PathBuf};
@@ -130,12 +130,16 @@ fn key(name: &str) -> Result<Key, String> {
         }
         return Ok(Key::new(KeyCode::Char(letter), true));
     }
-    let named = NAMES.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).map(|(_, code)| *code);
-    let function = name.strip_prefix(['F', 'f']).and_then(|n| n.parse().ok()).filter(|n| (1..=12).contains(n));
-    let code = named.or(function.map(KeyCode::F)).or(single(name).map(KeyCode::Char));
-    code.map(|code| Key::new(code, false)).ok_or_else(|| {
+    let (plain, has_alt) = name.strip_prefix("A-").map_or((name, false), |plain| (plain, true));
+    let named = NAMES.iter().find(|(known, _)| known.eq_ignore_ascii_case(plain)).map(|(_, code)| *code);
+    let function = plain.strip_prefix(['F', 'f']).and_then(|n| n.parse().ok()).filter(|n| (1..=12).contains(n));
+    let code = named.or(function.map(KeyCode::F)).or(single(plain).map(KeyCode::Char));
+    code.map(|code| if has_alt { Key::alt(code) } else { Key::new(code, false) }).ok_or_else(|| {
         let names: Vec<&str> = NAMES.iter().map(|(name, _)| *name).collect();
-        format!("no key `{name}`; accepted: a character, C- and a letter, F1 to F12, {}", names.join(", "))
+        format!(
+            "no key `{name}`; accepted: a character, C- and a letter, A- and a key, F1 to F12, {}",
+            names.join(", ")
+        )
     })
 }
 
@@ -150,15 +154,16 @@ mod tests {
 
     #[test]
     fn actions_get_other_keys_and_the_rest_stays() {
-        let text = "# mine\ncancel = \"D\"\ndown = [\"Down\", \"C-n\", \"F2\"]\nnext-match = \"j\"\n";
+        let text = "# mine\ncancel = \"D\"\ndown = [\"Down\", \"C-e\", \"A-x\", \"F7\"]\nnext-match = \"j\"\n";
         let bindings = parse("keys.toml", text).expect("right");
         let check = |name: &str, expect: Option<Action>| {
             assert_eq!(action_of(bindings, key(name).expect("a key"), Screen::Jobs), expect, "{name}");
         };
         check("D", Some(Action::Cancel));
         check("x", None);
-        check("C-n", Some(Action::Down));
-        check("f2", Some(Action::Down));
+        check("C-e", Some(Action::Down));
+        check("A-x", Some(Action::Down));
+        check("f7", Some(Action::Down));
         check("j", Some(Action::NextMatch));
         check("k", Some(Action::Up));
         assert_eq!(bindings.len(), BINDINGS.len());

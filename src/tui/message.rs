@@ -3,13 +3,16 @@
 
 use std::path::PathBuf;
 
-use crossterm::event::KeyEvent;
+use crossterm::event::{KeyEvent, MouseEvent};
 
+use super::asker::Question;
+use super::clerk::Errand;
 use super::feed::{Focus, Snapshot};
 use super::picture::{Drawn, Shot};
+use super::sheet::Sheet;
 use super::tailor::{Laid, Laying, Task};
 use crate::study::tools::{Girths, SourceFile};
-use crate::study::{Given, JobId, Mode, Part, StyleGiven, SubjectId};
+use crate::study::{Given, JobId, LiveFrame, Mode, Part, Relation, ReportRow, SavedQuery, StyleGiven, SubjectId};
 
 /// Something that happened.
 #[derive(Debug)]
@@ -36,6 +39,22 @@ pub enum Message {
     SeamsSaved(String, SourceFile, Result<String, String>),
     /// A picture is drawn, or could not be.
     Picture(Shot, Result<Drawn, String>),
+    /// What a query may name, and the saved queries.
+    Names(Vec<Relation>, Vec<SavedQuery>),
+    /// A query is answered after so many ms, or refused.
+    Answered(u64, Result<Box<Sheet>, String>),
+    /// The reports there are.
+    Reports(Vec<ReportRow>),
+    /// A report is built, its page here, or could not be; and the reports there are now.
+    ReportBuilt(Result<PathBuf, String>, Vec<ReportRow>),
+    /// The fabrics there are.
+    Fabrics(Vec<String>),
+    /// A new study of a name is written, its file here, or could not be.
+    StudyCreated(String, Result<PathBuf, String>),
+    /// The garment of the watched job as it is now.
+    Live(LiveFrame),
+    /// The mouse did something.
+    Mouse(MouseEvent),
     /// The run started here has ended.
     RunEnded(Result<String, String>),
     /// The terminal is gone.
@@ -49,8 +68,18 @@ pub enum Message {
 pub enum Effect {
     /// Read what the screens show.
     Read(Focus),
-    /// Draw a picture.
-    Paint(Shot),
+    /// Draw pictures.
+    Paint(Vec<Shot>),
+    /// Ask the database.
+    Ask(Question),
+    /// Stop what it is asked.
+    StopAsking,
+    /// Do what takes long and writes files.
+    Errand(Errand),
+    /// Watch a job of the run, or none.
+    Watch(Option<JobId>),
+    /// Take the mouse or give it back.
+    Mouse(bool),
     /// Work on seams.
     Desk(Task),
     /// Act on the queue or the catalogue.

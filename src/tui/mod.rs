@@ -8,17 +8,28 @@
 
 mod act;
 mod action;
+mod ascii;
+mod asker;
+mod clerk;
+mod compare;
 mod copy;
+mod editor;
 mod feed;
 mod form;
 mod go;
 mod keys;
+mod live;
+mod memory;
 mod message;
 mod overlay;
 mod painter;
 mod picture;
+mod reports;
 mod screens;
+mod sheet;
+mod sql;
 mod state;
+mod study_form;
 mod style_form;
 mod styles;
 mod subjects;
@@ -32,7 +43,7 @@ mod update;
 mod worker;
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 pub use action::{Action, BINDINGS, Binding, Screen};
 pub use feed::{Focus, Snapshot};
@@ -41,8 +52,9 @@ pub use picture::{Images, Shot};
 pub use state::State;
 
 use crate::study::{StudyError, Workspace, study_file};
+use memory::Memory;
 use picture::Canvas;
-use state::Abilities;
+use state::{Abilities, Places};
 use theme::{Colours, Theme};
 use worker::Workers;
 
@@ -83,26 +95,40 @@ pub fn run(options: Options) -> Result<(), TuiError> {
     let env = |name: &str| std::env::var(name).ok();
     let bindings = keys::read(keys::place(&env).as_deref())?;
     let workspace = Workspace::open(&options.database, options.readonly)?;
-    let theme = Theme { colours: Colours::detect(options.no_color, &env) };
+    let theme = Theme { colours: Colours::detect(options.no_color, &env), ascii: theme::wants_ascii(&env) };
     let canvas = Canvas::new(options.images, theme.colours, &env);
+    let places = places(&options);
     let quickstart = options.quickstart.filter(|path| study_file(path).exists());
     let abilities = Abilities { run: !options.readonly, pictures: canvas.is_some(), quickstart: quickstart.is_some() };
 
     let mut screen = terminal::Screen::enter()?;
     let size = screen.terminal.size()?;
-    let state = State { bindings, ..State::new(theme, abilities, size) };
-    let workers = Workers::start(workspace, canvas, quickstart);
-    let outcome = event_loop(&mut screen, state, &workers);
+    let mut state = State { bindings, places, ..State::new(theme, abilities, size) };
+    let memory = memory::place(&options.database, &env);
+    memory.as_deref().map(Memory::read).unwrap_or_default().recall(&mut state);
+    let workers = Workers::start(workspace, canvas, quickstart, state.places.reports.clone());
+    let outcome = event_loop(&mut screen, &mut state, &workers);
     drop(screen);
+    if let Some(path) = memory {
+        Memory::of(&state).write(&path);
+    }
     workers.finish();
     Ok(outcome?)
 }
 
+/// Where new studies and reports go: beside the studies that come with the program, else beside the database.
+fn places(options: &Options) -> Places {
+    let project = options.quickstart.as_deref().and_then(Path::parent).and_then(Path::parent);
+    let home = project.or(options.database.parent()).unwrap_or(Path::new(""));
+    Places { studies: home.join("studies"), reports: home.join("reports") }
+}
+
 /// Takes messages, changes the state, draws, until it is time to leave.
-fn event_loop(screen: &mut terminal::Screen, mut state: State, workers: &Workers) -> io::Result<()> {
+fn event_loop(screen: &mut terminal::Screen, state: &mut State, workers: &Workers) -> io::Result<()> {
     let mut silence = None;
-    workers.read(Focus::default());
-    screen.draw(&state)?;
+    workers.read(state.focus.clone());
+    terminal::take_mouse(state.has_mouse)?;
+    screen.draw(state)?;
     while let Ok(message) = workers.messages.recv() {
         // All that waits is taken in before the next frame, so that a flood of keys or progress costs one frame.
         for message in std::iter::once(message).chain(workers.messages.try_iter()) {
@@ -111,12 +137,13 @@ fn event_loop(screen: &mut terminal::Screen, mut state: State, workers: &Workers
                     Effect::Quit => return Ok(()),
                     Effect::Copy(text) => print_raw(&copy::osc52(&text))?,
                     Effect::Clear => screen.terminal.clear()?,
+                    Effect::Mouse(is_taken) => terminal::take_mouse(is_taken)?,
                     other => workers.carry_out(other),
                 }
             }
         }
         if !state.detached
-            && let Err(error) = screen.draw(&state)
+            && let Err(error) = screen.draw(state)
             && state.update(Message::Hangup).contains(&Effect::Quit)
         {
             return Err(error);

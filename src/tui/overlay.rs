@@ -5,6 +5,8 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use super::action::{Action, Binding, search};
 use super::form::{Form, PathPrompt};
 use super::message::Effect;
+use super::sql::QueryList;
+use super::study_form::StudyForm;
 use super::style_form::StyleForm;
 
 /// What is open.
@@ -22,6 +24,10 @@ pub enum Overlay {
     Path(PathPrompt),
     /// The files of a style.
     StyleForm(Box<StyleForm>),
+    /// What a new study is made of.
+    StudyForm(Box<StudyForm>),
+    /// Saved queries.
+    Queries(QueryList),
     /// A question; `y` has the effects happen.
     Question {
         /// What is asked.
@@ -80,6 +86,8 @@ pub enum Outcome {
     Closed,
     /// It closes and an action follows.
     Act(Action),
+    /// It closes and a query goes into the editor.
+    Query(String),
     /// It closes and effects follow.
     Effects(Vec<Effect>),
     /// It stays open until what it asked for is done.
@@ -99,7 +107,11 @@ impl Overlay {
                 list.edit(event);
                 Outcome::Open
             }
-            Self::Form(_) | Self::Path(_) | Self::StyleForm(_) if leaves => Outcome::Closed,
+            Self::Form(_) | Self::Path(_) | Self::StyleForm(_) | Self::StudyForm(_) | Self::Queries(_) if leaves => {
+                Outcome::Closed
+            }
+            Self::StudyForm(form) => form.key(event),
+            Self::Queries(list) => list.key(event).map_or(Outcome::Open, Outcome::Query),
             Self::Form(form) => form.key(event),
             Self::Path(prompt) => prompt.key(event),
             Self::StyleForm(form) => form.key(event),

@@ -9,21 +9,27 @@ use super::message::Message;
 use super::picture::{Canvas, Shot, Sitter};
 use crate::study::{Figure, SubjectId, Workspace};
 
-/// Makes the pictures asked for, the latest only, until nobody asks or listens any more. Bodies are measured where
-/// there is no canvas, too.
+/// Makes the pictures asked for, those of the latest request only, until nobody asks or listens any more. Bodies are
+/// measured where there is no canvas, too.
 pub fn serve(
     database: &Path,
     readonly: bool,
     canvas: Option<&Canvas>,
-    wanted: &Receiver<Shot>,
+    wanted: &Receiver<Vec<Shot>>,
     sender: &Sender<Message>,
 ) {
     let workspace = Workspace::open(database, readonly).map_err(|error| error.to_string());
     let mut painter = Painter { workspace, ready: None, sender };
-    while let Ok(shot) = wanted.recv() {
-        let shot = wanted.try_iter().last().unwrap_or(shot);
-        if painter.show(&shot, canvas).is_err() {
-            return;
+    while let Ok(request) = wanted.recv() {
+        let mut shots = wanted.try_iter().last().unwrap_or(request).into_iter();
+        while let Some(shot) = shots.next() {
+            if painter.show(&shot, canvas).is_err() {
+                return;
+            }
+            // A newer request makes what is left of this one needless.
+            if let Some(newer) = wanted.try_iter().last() {
+                shots = newer.into_iter();
+            }
         }
     }
 }
@@ -64,7 +70,7 @@ impl Painter<'_> {
         match (shot.of, &self.ready) {
             (Sitter::Drape(job), _) => {
                 let workspace = self.workspace.as_ref().map_err(Clone::clone)?;
-                workspace.close_up(job, shot.view, width, height, shot.map).map_err(|error| error.to_string())
+                workspace.look(job, shot.look, width, height, shot.map).map_err(|error| error.to_string())
             }
             (Sitter::Body(_), Some((_, Ok(figure)))) => {
                 figure.picture(width, height).map_err(|error| error.to_string())

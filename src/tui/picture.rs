@@ -10,7 +10,7 @@ use ratatui_image::protocol::Protocol;
 use ratatui_image::{FontSize, Resize};
 
 use super::theme::Colours;
-use crate::study::{JobId, Map, SubjectId, View};
+use crate::study::{JobId, Look, Map, SubjectId, View};
 
 /// How pictures are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -37,11 +37,58 @@ impl std::str::FromStr for Images {
     }
 }
 
-/// The view some steps on, round the drape.
+/// Degrees of one turn.
+const TURN_DEG: i32 = 15;
+/// Least and greatest enlargement, percent; one step multiplies or divides by 5/4.
+const ZOOM_PCT: [u32; 2] = [100, 800];
+
+/// The drape from the front, whole.
+pub const FRONT: Look = Look { azimuth_deg: 0, zoom_pct: 100, rise_pct: 0 };
+
+/// The named view that a look has, if it has one.
 #[must_use]
-pub fn turned(view: View, steps: isize) -> View {
-    let at = View::ALL.iter().position(|one| *one == view).unwrap_or(0);
-    View::ALL[(at as isize + steps).rem_euclid(View::ALL.len() as isize) as usize]
+pub fn view_of(look: Look) -> Option<View> {
+    View::ALL.into_iter().find(|view| view.azimuth_deg() as i32 == look.azimuth_deg)
+}
+
+/// What a look is called: its view, or its angle; its enlargement.
+#[must_use]
+pub fn look_name(look: Look) -> String {
+    let side = view_of(look).map_or_else(|| format!("{}°", look.azimuth_deg), |view| view.as_str().to_owned());
+    if look.zoom_pct == FRONT.zoom_pct { side } else { format!("{side} ×{:.1}", f64::from(look.zoom_pct) / 100.0) }
+}
+
+/// The named view after that of a look, or after the angle it has.
+#[must_use]
+pub fn next_view(look: Look) -> Look {
+    let at = view_of(look).and_then(|view| View::ALL.iter().position(|one| *one == view));
+    let next = View::ALL[at.map_or(0, |at| (at + 1) % View::ALL.len())];
+    Look { azimuth_deg: next.azimuth_deg() as i32, ..look }
+}
+
+/// A look some turns on, round the drape.
+#[must_use]
+pub fn turned(look: Look, steps: isize) -> Look {
+    let azimuth_deg = (look.azimuth_deg + TURN_DEG * steps as i32).rem_euclid(360);
+    Look { azimuth_deg, ..look }
+}
+
+/// A look nearer or farther by some steps.
+#[must_use]
+pub fn zoomed(look: Look, steps: i32) -> Look {
+    let zoom_pct = if steps > 0 { look.zoom_pct * 5 / 4 } else { look.zoom_pct * 4 / 5 };
+    let zoom_pct = zoom_pct.clamp(ZOOM_PCT[0], ZOOM_PCT[1]);
+    // The whole garment is in the middle.
+    let rise_pct = if zoom_pct == ZOOM_PCT[0] { 0 } else { look.rise_pct };
+    Look { zoom_pct, rise_pct, ..look }
+}
+
+/// An enlarged look higher or lower by some steps.
+#[must_use]
+pub fn raised(look: Look, steps: i32) -> Look {
+    let step = (2000 / look.zoom_pct as i32).max(2);
+    let reach = 100 - 100 * ZOOM_PCT[0] as i32 / look.zoom_pct as i32;
+    Look { rise_pct: (look.rise_pct + steps * step).clamp(-reach, reach), ..look }
 }
 
 /// What the colours mean next.
@@ -66,7 +113,7 @@ pub struct Shot {
     /// What is shown.
     pub of: Sitter,
     /// From where.
-    pub view: View,
+    pub look: Look,
     /// In which colours.
     pub map: Map,
     /// Width of the pane, cells.
@@ -230,7 +277,7 @@ mod tests {
     }
 
     fn shot(columns: u16, rows: u16) -> Shot {
-        Shot { of: Sitter::Drape(JobId(1)), view: View::Front, map: Map::Plain, columns, rows }
+        Shot { of: Sitter::Drape(JobId(1)), look: FRONT, map: Map::Plain, columns, rows }
     }
 
     #[test]
@@ -271,9 +318,17 @@ mod tests {
     }
 
     #[test]
-    fn views_turn_all_round() {
-        assert_eq!(turned(View::Front, -1), View::Quarter);
-        assert_eq!(turned(View::Quarter, 1), View::Front);
+    fn drapes_turn_all_round_and_come_nearer() {
+        let views = std::iter::successors(Some(FRONT), |look| Some(next_view(*look))).take(5).map(look_name);
+        assert_eq!(views.collect::<Vec<_>>(), ["front", "side", "back", "quarter", "front"]);
+        assert_eq!(look_name(turned(FRONT, -1)), "345°");
+        assert_eq!(next_view(turned(FRONT, 1)), FRONT, "from anywhere the front comes next");
+        assert_eq!(look_name(turned(FRONT, 6)), "side");
+        assert_eq!(raised(FRONT, 3), FRONT, "the whole garment stays in the middle");
+        let near = raised(zoomed(zoomed(FRONT, 1), 1), 1);
+        assert_eq!(look_name(near), "front ×1.6");
+        assert!(near.rise_pct > 0);
+        assert_eq!(zoomed(zoomed(near, -1), -1).rise_pct, 0);
         let seen = std::iter::successors(Some(Map::Plain), |map| Some(next_map(*map))).take(Map::ALL.len());
         assert!(seen.eq(Map::ALL), "every map has its turn");
     }

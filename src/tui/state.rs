@@ -1,24 +1,28 @@
 //! What the workbench knows and where the user is in it. Screens are pure functions of this.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
 
 use ratatui::layout::Size;
 
 use super::action::{BINDINGS, Binding, Screen};
+use super::clerk::Reports;
 use super::feed::{Detail, Focus, Snapshot};
 use super::message::Target;
 use super::overlay::Overlay;
-use super::picture::{Drawn, Shot};
+use super::picture::{Drawn, FRONT, Shot};
+use super::sql::Sql;
 use super::styles::Styles;
 use super::text;
 use super::theme::Theme;
 use crate::study::tools::Girths;
 use crate::study::{
-    Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobRow, MEASUREMENTS, Map, Status, Step, SubjectId, SubjectRow, View,
+    Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobRow, LiveFrame, Look, MEASUREMENTS, Map, Status, Step, SubjectId,
+    SubjectRow,
 };
 
 /// How jobs are ordered.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum JobOrder {
     /// As queued.
     #[default]
@@ -45,7 +49,7 @@ impl JobOrder {
 }
 
 /// How subjects are ordered: by name, or by the measurement of a number in [`MEASUREMENTS`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum SubjectOrder {
     /// By name.
     #[default]
@@ -70,7 +74,7 @@ impl SubjectOrder {
 }
 
 /// How measurements are ordered.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum ChiOrder {
     /// By number.
     #[default]
@@ -80,7 +84,7 @@ pub enum ChiOrder {
 }
 
 /// An order and whether it is reversed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Order<T> {
     /// By what.
     pub by: T,
@@ -119,6 +123,22 @@ pub struct Abilities {
     pub quickstart: bool,
 }
 
+/// The jobs shown, and of what they were found: data, filter, order.
+#[derive(Clone, Debug, Default)]
+pub struct Arranged {
+    of: Option<(u64, String, Order<JobOrder>)>,
+    rows: Vec<usize>,
+}
+
+/// Where new things are put.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Places {
+    /// Folder of studies.
+    pub studies: PathBuf,
+    /// Folder of reports.
+    pub reports: PathBuf,
+}
+
 /// The state of the workbench.
 pub struct State {
     /// Styles.
@@ -143,6 +163,10 @@ pub struct State {
     pub second_pane: [bool; Screen::ALL.len()],
     /// The filter of each screen.
     pub filters: [String; Screen::ALL.len()],
+    /// How often data came.
+    pub reads: u64,
+    /// The jobs shown, in order.
+    pub arranged: Arranged,
     /// Subject selected.
     pub subject: Option<String>,
     /// Where the user is among the styles.
@@ -161,16 +185,38 @@ pub struct State {
     pub stage: Option<String>,
     /// Lines the log is scrolled up from its end.
     pub log_up: usize,
-    /// From where the drape is seen.
-    pub view: View,
+    /// From where drapes are seen.
+    pub look: Look,
     /// In which colours.
     pub map: Map,
     /// Whether the picture has all the room.
     pub enlarged: bool,
-    /// The picture asked for.
-    pub shot: Option<Shot>,
-    /// The picture that came last.
-    pub picture: Option<(Shot, Result<Drawn, String>)>,
+    /// The pictures asked for.
+    pub shots: Vec<Shot>,
+    /// The picture of each that came last.
+    pub pictures: Vec<(Shot, Result<Drawn, String>)>,
+    /// Runs selected for a comparison.
+    pub marks: BTreeSet<JobId>,
+    /// Whether only the measurements are shown in which compared runs differ.
+    pub differences_only: bool,
+    /// Whether those that differ most come first.
+    pub sorts_contrasts: bool,
+    /// Measurement selected in the comparison, a row of the table shown.
+    pub contrast: usize,
+    /// Where the user is among questions.
+    pub sql: Sql,
+    /// Where the user is among reports.
+    pub reports: Reports,
+    /// Whether the latest report comes first.
+    pub reports_by_time: bool,
+    /// Where new things are put.
+    pub places: Places,
+    /// The job of the run here that is watched.
+    pub watched: Option<JobId>,
+    /// Its garment as it was last seen.
+    pub live: Option<LiveFrame>,
+    /// Whether the mouse is taken.
+    pub has_mouse: bool,
     /// Steps of running jobs, as they came.
     pub traces: BTreeMap<JobId, Vec<Step>>,
     /// What is open above the screen.
@@ -199,6 +245,8 @@ impl State {
             place: Place::default(),
             second_pane: [false; Screen::ALL.len()],
             filters: Default::default(),
+            reads: 0,
+            arranged: Arranged::default(),
             subject: None,
             styles: Styles::default(),
             subject_order: Order::default(),
@@ -208,11 +256,22 @@ impl State {
             chi_row: 0,
             stage: None,
             log_up: 0,
-            view: View::Front,
+            look: FRONT,
             map: Map::Plain,
             enlarged: false,
-            shot: None,
-            picture: None,
+            shots: vec![],
+            pictures: vec![],
+            marks: BTreeSet::new(),
+            differences_only: false,
+            sorts_contrasts: false,
+            contrast: 0,
+            sql: Sql::default(),
+            reports: Reports::default(),
+            reports_by_time: false,
+            places: Places::default(),
+            watched: None,
+            live: None,
+            has_mouse: false,
             traces: BTreeMap::new(),
             overlay: None,
             notice: None,
@@ -279,19 +338,32 @@ impl State {
     #[must_use]
     pub fn jobs(&self) -> Vec<&JobRow> {
         let Some(data) = &self.data else { return vec![] };
+        self.arranged.rows.iter().filter_map(|row| data.jobs.get(*row)).collect()
+    }
+
+    /// Finds which jobs pass the filter and in which order, where data, filter or order have changed since: with ten
+    /// thousand jobs that takes too long for every frame.
+    pub(super) fn arrange_jobs(&mut self) {
+        let Some(data) = &self.data else { return };
         let filter = self.filters[Screen::Jobs as usize].to_lowercase();
-        let mut jobs: Vec<&JobRow> = data.jobs.iter().filter(|job| words(job).contains(&filter)).collect();
+        let wanted = (self.reads, filter, self.job_order);
+        if self.arranged.of.as_ref() == Some(&wanted) {
+            return;
+        }
+        let jobs = &data.jobs;
+        let passes = |row: &usize| wanted.1.is_empty() || words(&jobs[*row]).contains(&wanted.1);
+        let mut rows: Vec<usize> = (0..jobs.len()).filter(passes).collect();
         let falling = |value: Option<f64>| value.map_or(f64::INFINITY, |v| -v);
         match self.job_order.by {
             JobOrder::Number => {}
-            JobOrder::Status => jobs.sort_by_key(|job| attention(job.status)),
-            JobOrder::Ei => jobs.sort_by(|a, b| falling(a.ei).total_cmp(&falling(b.ei))),
-            JobOrder::Time => jobs.sort_by_key(|job| -job.wall_ms.unwrap_or(i64::MIN + 1)),
+            JobOrder::Status => rows.sort_by_key(|row| attention(jobs[*row].status)),
+            JobOrder::Ei => rows.sort_by(|a, b| falling(jobs[*a].ei).total_cmp(&falling(jobs[*b].ei))),
+            JobOrder::Time => rows.sort_by_key(|row| -jobs[*row].wall_ms.unwrap_or(i64::MIN + 1)),
         }
         if self.job_order.reversed {
-            jobs.reverse();
+            rows.reverse();
         }
-        jobs
+        self.arranged = Arranged { of: Some(wanted), rows };
     }
 
     /// Subjects that pass the filter of the Subjects screen, in its order.

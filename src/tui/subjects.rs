@@ -31,7 +31,7 @@ impl State {
     /// Asks for a file with subjects.
     pub(super) fn import_subjects(&mut self) {
         if self.may_change_subjects() {
-            self.overlay = Some(Overlay::Path(PathPrompt::default()));
+            self.overlay = Some(Overlay::Path(PathPrompt::subjects()));
         }
     }
 

@@ -4,7 +4,9 @@ use std::io::{self, IsTerminal, Stdout};
 use std::os::unix::net::UnixStream;
 use std::panic;
 use std::sync::Once;
+use std::thread;
 
+use crossterm::event::{DisableMouseCapture, EnableMouseCapture};
 use crossterm::{cursor, execute, terminal};
 use ratatui::Terminal;
 use ratatui::backend::CrosstermBackend;
@@ -30,9 +32,13 @@ impl Screen {
         static HOOK: Once = Once::new();
         HOOK.call_once(|| {
             let before = panic::take_hook();
+            let screen_thread = thread::current().id();
             panic::set_hook(Box::new(move |info| {
-                restore();
-                before(info);
+                // A panic of another thread is told on the screen, which goes on; here it would be written over it.
+                if thread::current().id() == screen_thread {
+                    restore();
+                    before(info);
+                }
             }));
         });
         terminal::enable_raw_mode()?;
@@ -62,6 +68,14 @@ impl Drop for Screen {
     }
 }
 
+/// Takes the mouse, or leaves it to the terminal.
+///
+/// # Errors
+/// When the terminal is gone.
+pub fn take_mouse(is_taken: bool) -> io::Result<()> {
+    if is_taken { execute!(io::stdout(), EnableMouseCapture) } else { execute!(io::stdout(), DisableMouseCapture) }
+}
+
 /// Puts a silent socket in the place of standard input once its terminal is gone: crossterm's reader would otherwise read
 /// the end of it over and over, a whole core's worth. Silence lasts as long as the returned end lives.
 ///
@@ -77,6 +91,6 @@ pub fn silence_input() -> io::Result<UnixStream> {
 /// Gives the terminal back, as far as it is still there.
 fn restore() {
     // Errors have nowhere to go: the terminal that would show them is what failed.
-    let _ = execute!(io::stdout(), terminal::LeaveAlternateScreen, cursor::Show);
+    let _ = execute!(io::stdout(), DisableMouseCapture, terminal::LeaveAlternateScreen, cursor::Show);
     let _ = terminal::disable_raw_mode();
 }

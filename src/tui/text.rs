@@ -70,6 +70,20 @@ pub fn ease_mm(metres: f64) -> String {
     format!("{:+.0}", metres * 1000.0)
 }
 
+/// A moment, ms since 1970, as date and time (UTC): `2026-03-01 07:05`.
+#[must_use]
+pub fn date(ms: i64) -> String {
+    let (days, minutes) = (ms.div_euclid(86_400_000), ms.rem_euclid(86_400_000) / 60_000);
+    // Days from March of a year on, so that the leap day comes last; 146,097 days are 400 years.
+    let (era, day) = ((days + 719_468).div_euclid(146_097), (days + 719_468).rem_euclid(146_097));
+    let year = (day - day / 1_460 + day / 36_524 - day / 146_096) / 365;
+    let of_year = day - (365 * year + year / 4 - year / 100);
+    let month = (5 * of_year + 2) / 153;
+    let (of_month, month) = (of_year - (153 * month + 2) / 5 + 1, if month < 10 { month + 3 } else { month - 9 });
+    let year = year + 400 * era + i64::from(month <= 2);
+    format!("{year:04}-{month:02}-{of_month:02} {:02}:{:02}", minutes / 60, minutes % 60)
+}
+
 /// A duration in at most six columns.
 #[must_use]
 pub fn duration(ms: i64) -> String {
@@ -190,6 +204,15 @@ pub fn why(job: &JobRow, paused: bool) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn dates_are_those_of_the_calendar() {
+        let check = |ms: i64, expect: &str| assert_eq!(date(ms), expect);
+        check(0, "1970-01-01 00:00");
+        check(951_782_400_000, "2000-02-29 00:00");
+        check(1_700_000_000_000, "2023-11-14 22:13");
+        check(1_709_251_199_000, "2024-02-29 23:59");
+    }
 
     #[test]
     fn texts_keep_their_columns() {

@@ -12,11 +12,16 @@ use crate::study::{FitCell, FitClass, Status};
 pub enum Colours {
     /// None.
     None,
+    /// The 16 of the terminal's own palette.
+    Basic,
     /// The 256 of xterm.
     Indexed,
     /// Red, green and blue of 8 bits.
     True,
 }
+
+/// Terminals that show 16 colours.
+const BASIC: [&str; 6] = ["linux", "xterm", "screen", "vt220", "ansi", "xterm-16color"];
 
 impl Colours {
     /// What the environment says: `NO_COLOR`, `TERM`, `COLORTERM`.
@@ -30,10 +35,19 @@ impl Colours {
             Self::None
         } else if says_true || is_known {
             Self::True
+        } else if BASIC.contains(&term.as_str()) {
+            Self::Basic
         } else {
             Self::Indexed
         }
     }
+}
+
+/// Whether the environment asks for ASCII: `TOILE_ASCII`, or a terminal that has nothing else.
+#[must_use]
+pub fn wants_ascii(env: &dyn Fn(&str) -> Option<String>) -> bool {
+    let term = env("TERM").unwrap_or_default();
+    env("TOILE_ASCII").is_some_and(|value| !value.is_empty()) || term == "dumb" || term.starts_with("vt")
 }
 
 /// The styles of the workbench.
@@ -41,6 +55,8 @@ impl Colours {
 pub struct Theme {
     /// Colours there are.
     pub colours: Colours,
+    /// Whether only ASCII is shown.
+    pub ascii: bool,
 }
 
 impl Theme {
@@ -151,12 +167,14 @@ impl Theme {
 
     /// Turns colours the terminal lacks, as pictures have them, into the nearest it has.
     pub fn adapt(self, buffer: &mut Buffer, area: Rect) {
-        if self.colours != Colours::Indexed {
-            return;
-        }
+        let near: fn(Color) -> Color = match self.colours {
+            Colours::Indexed => indexed,
+            Colours::Basic => basic,
+            Colours::None | Colours::True => return,
+        };
         for position in area.intersection(buffer.area).positions() {
             let cell = &mut buffer[position];
-            (cell.fg, cell.bg) = (indexed(cell.fg), indexed(cell.bg));
+            (cell.fg, cell.bg) = (near(cell.fg), near(cell.bg));
         }
     }
 }
@@ -177,6 +195,32 @@ fn indexed(colour: Color) -> Color {
     } else {
         Color::Indexed(16 + (36 * i + 6 * j + k) as u8)
     }
+}
+
+/// The nearest of the 16 colours, as most terminals have them.
+fn basic(colour: Color) -> Color {
+    const PALETTE: [(Color, [u8; 3]); 16] = [
+        (Color::Black, [0, 0, 0]),
+        (Color::Red, [170, 0, 0]),
+        (Color::Green, [0, 170, 0]),
+        (Color::Yellow, [170, 85, 0]),
+        (Color::Blue, [0, 0, 170]),
+        (Color::Magenta, [170, 0, 170]),
+        (Color::Cyan, [0, 170, 170]),
+        (Color::Gray, [170, 170, 170]),
+        (Color::DarkGray, [85, 85, 85]),
+        (Color::LightRed, [255, 85, 85]),
+        (Color::LightGreen, [85, 255, 85]),
+        (Color::LightYellow, [255, 255, 85]),
+        (Color::LightBlue, [85, 85, 255]),
+        (Color::LightMagenta, [255, 85, 255]),
+        (Color::LightCyan, [85, 255, 255]),
+        (Color::White, [255, 255, 255]),
+    ];
+    let Color::Rgb(r, g, b) = colour else { return colour };
+    let distance =
+        |to: &[u8; 3]| -> u32 { [r, g, b].iter().zip(to).map(|(v, to)| u32::from(v.abs_diff(*to)).pow(2)).sum() };
+    PALETTE.iter().min_by_key(|(_, to)| distance(to)).map_or(colour, |(near, _)| *near)
 }
 
 /// The glyph of a status.
@@ -224,6 +268,7 @@ mod tests {
         check(false, &[("COLORTERM", "truecolor"), ("NO_COLOR", "")], Colours::True);
         check(true, &[("COLORTERM", "truecolor")], Colours::None);
         check(false, &[("TERM", "dumb")], Colours::None);
+        check(false, &[("TERM", "linux")], Colours::Basic);
     }
 
     #[test]
@@ -235,11 +280,12 @@ mod tests {
         check((255, 0, 0), 196);
         check((128, 128, 128), 244);
         assert_eq!(indexed(Color::Reset), Color::Reset);
+        assert_eq!([basic(Color::Rgb(250, 240, 240)), basic(Color::Rgb(20, 160, 30))], [Color::White, Color::Green]);
     }
 
     #[test]
     fn without_colours_no_style_has_one() {
-        let theme = Theme { colours: Colours::None };
+        let theme = Theme { colours: Colours::None, ascii: false };
         for style in [theme.good(), theme.warn(), theme.bad(), theme.busy(), theme.border(true), theme.chi(1.2)] {
             assert_eq!((style.fg, style.bg), (None, None));
         }

@@ -1,16 +1,16 @@
 //! The one place where messages change the state: `(state, message) -> (state, effects)`, without waiting for anything.
 
-use crossterm::event::{KeyEvent, KeyEventKind};
+use crossterm::event::{KeyEvent, KeyEventKind, MouseButton, MouseEvent, MouseEventKind};
 use ratatui::layout::Size;
 
-use super::action::{Key, Screen, action_of};
+use super::action::{Action, Key, Screen, action_of};
 use super::feed::{Focus, Snapshot};
 use super::message::{Effect, Message};
-use super::overlay::Outcome;
-use super::picture::{Shot, Sitter};
+use super::overlay::{Outcome, Overlay};
+use super::picture::{Drawn, FRONT, Shot, Sitter};
 use super::screens;
 use super::state::{Place, State};
-use crate::study::{JobId, Map, Status, View};
+use crate::study::{Map, Status};
 
 /// Steps of a running job that are kept for its curves.
 const MAX_TRACE: usize = 4096;
@@ -19,6 +19,7 @@ impl State {
     /// Takes in a message; returns what others have to do.
     pub fn update(&mut self, message: Message) -> Vec<Effect> {
         let before = self.focus.clone();
+        let filter = self.filters[Screen::Sql as usize].clone();
         let mut effects = match message {
             Message::Key(event) => self.key(&event),
             Message::Resize(width, height) => {
@@ -58,11 +59,42 @@ impl State {
                 vec![]
             }
             Message::Picture(shot, drawn) => {
-                if self.shot == Some(shot) {
-                    self.picture = Some((shot, drawn));
+                self.take_picture(shot, drawn);
+                vec![]
+            }
+            Message::Names(relations, saved) => {
+                (self.sql.relations, self.sql.saved) = (Some(relations), saved);
+                vec![]
+            }
+            Message::Answered(ms, outcome) => {
+                self.answered(ms, outcome);
+                vec![]
+            }
+            Message::Reports(rows) => {
+                self.reports.rows = Some(rows);
+                vec![]
+            }
+            Message::ReportBuilt(page, rows) => {
+                self.report_built(page, rows);
+                vec![]
+            }
+            Message::Fabrics(fabrics) => {
+                if let Some(Overlay::StudyForm(form)) = &mut self.overlay {
+                    form.take_fabrics(fabrics);
                 }
                 vec![]
             }
+            Message::StudyCreated(name, outcome) => {
+                self.study_created(&name, outcome);
+                vec![]
+            }
+            Message::Live(frame) => {
+                if self.watched == Some(frame.job) {
+                    self.live = Some(frame);
+                }
+                vec![]
+            }
+            Message::Mouse(event) => self.mouse(&event),
             Message::RunEnded(outcome) => self.run_ended(outcome),
             Message::Hangup if self.run.is_some() => {
                 self.detached = true;
@@ -71,12 +103,20 @@ impl State {
             Message::Hangup => vec![Effect::Quit],
             Message::Terminate => vec![Effect::StopRun, Effect::Quit],
         };
+        if self.filters[Screen::Sql as usize] != filter {
+            self.arrange_sheet();
+        }
+        self.arrange_jobs();
+        self.focus.compare = if self.screen == Screen::Compare { self.to_compare() } else { vec![] };
         if self.focus != before {
             self.moved(&before);
             effects.push(Effect::Read(self.focus.clone()));
         }
         effects.extend(self.ask_for_picture());
         effects.extend(self.ask_for_desk());
+        effects.extend(self.ask_for_names());
+        effects.extend(self.ask_for_reports());
+        effects.extend(self.ask_to_watch());
         effects
     }
 
@@ -86,6 +126,9 @@ impl State {
         }
         let Some(mut overlay) = self.overlay.take() else {
             self.notice = None;
+            if self.is_editing() && self.edit_query(event) {
+                return vec![];
+            }
             return action_of(self.bindings, Key::of(event), self.screen).map_or(vec![], |action| self.act(action));
         };
         match overlay.key(event, &mut self.filters[self.screen as usize]) {
@@ -97,6 +140,10 @@ impl State {
             Outcome::Closed => vec![],
             Outcome::Act(action) => self.act(action),
             Outcome::Effects(effects) => effects,
+            Outcome::Query(text) => {
+                self.take_query(&text);
+                vec![]
+            }
             Outcome::Sent(effects) => {
                 self.overlay = Some(overlay);
                 effects
@@ -120,6 +167,8 @@ impl State {
         self.focus.study = snapshot.study().map(|study| study.name.clone());
         self.focus.garment = snapshot.grid.as_ref().map(|grid| grid.garment.clone());
         self.data = Some(snapshot);
+        self.reads += 1;
+        self.arrange_jobs();
         self.subject = self.subject().map(|row| row.name.clone());
         self.clamp_place();
         self.chi_row = self.chi_row.min(self.chi().len().saturating_sub(1));
@@ -159,6 +208,7 @@ impl State {
 
     /// Moves the selection to a row that the filter still shows.
     fn keep_selection_visible(&mut self) {
+        self.arrange_jobs();
         if self.screen == Screen::Jobs {
             let jobs = self.jobs();
             let is_hidden = !jobs.iter().any(|job| Some(job.id) == self.focus.job);
@@ -178,33 +228,57 @@ impl State {
         if self.detached { vec![Effect::Quit] } else { vec![] }
     }
 
-    /// Asks for the picture the screen has room for, where it is not the one asked for already.
+    /// Asks for the pictures the screen has room for, where they are not those asked for already.
     fn ask_for_picture(&mut self) -> Option<Effect> {
-        let size = screens::picture_size(self);
-        let wanted = if self.screen == Screen::Subjects {
+        let mut wanted: Vec<Shot> = screens::picture_places(self)
+            .into_iter()
+            .map(|(of, size)| match of {
+                Sitter::Drape(_) => Shot { of, look: self.look, map: self.map, columns: size.width, rows: size.height },
+                // Bodies have one view and no maps.
+                Sitter::Body(_) => Shot { of, look: FRONT, map: Map::Plain, columns: size.width, rows: size.height },
+            })
+            .collect();
+        if let (true, true, Some(row)) = (self.screen == Screen::Subjects, wanted.is_empty(), self.subject()) {
             // A body is measured where there is no room for its picture, too.
-            self.subject().map(|row| self.shot_of(Sitter::Body(row.id), size.unwrap_or_default()))
-        } else {
-            size.zip(self.job_with_drape()).map(|(size, job)| self.shot_of(Sitter::Drape(job), size))
-        };
-        if wanted == self.shot {
+            wanted = vec![Shot { of: Sitter::Body(row.id), look: FRONT, map: Map::Plain, columns: 0, rows: 0 }];
+        }
+        if wanted == self.shots {
             return None;
         }
-        self.shot = wanted;
-        wanted.map(Effect::Paint)
+        self.shots.clone_from(&wanted);
+        (!wanted.is_empty()).then_some(Effect::Paint(wanted))
     }
 
-    /// A picture as it is wanted now; bodies have one view and no maps.
-    fn shot_of(&self, of: Sitter, size: Size) -> Shot {
-        let (view, map) = match of {
-            Sitter::Drape(_) => (self.view, self.map),
-            Sitter::Body(_) => (View::Front, Map::Plain),
-        };
-        Shot { of, view, map, columns: size.width, rows: size.height }
+    /// Takes in a picture that is still wanted, in the place of the one before of the same sitter.
+    fn take_picture(&mut self, shot: Shot, drawn: Result<Drawn, String>) {
+        if self.shots.contains(&shot) {
+            let shots = &self.shots;
+            self.pictures.retain(|(old, _)| old.of != shot.of && shots.iter().any(|one| one.of == old.of));
+            self.pictures.push((shot, drawn));
+        }
     }
 
-    /// The selected job, where it has a drape to show.
-    fn job_with_drape(&self) -> Option<JobId> {
-        self.job().filter(|job| job.status.has_result()).map(|job| job.id)
+    /// Watches the selected job while it runs here and is looked at.
+    fn ask_to_watch(&mut self) -> Option<Effect> {
+        let is_shown = matches!(self.screen, Screen::Study | Screen::Jobs | Screen::Results) && self.run.is_some();
+        let running = self.job().filter(|job| is_shown && job.status == Status::Running).map(|job| job.id);
+        if running == self.watched {
+            return None;
+        }
+        (self.watched, self.live) = (running, None);
+        Some(Effect::Watch(running))
+    }
+
+    /// What the mouse does: tabs show screens, the wheel scrolls.
+    fn mouse(&mut self, event: &MouseEvent) -> Vec<Effect> {
+        match event.kind {
+            _ if self.overlay.is_some() => vec![],
+            MouseEventKind::ScrollUp => self.act(Action::Up),
+            MouseEventKind::ScrollDown => self.act(Action::Down),
+            MouseEventKind::Down(MouseButton::Left) if event.row == 0 => {
+                screens::tab_at(self, event.column).map_or(vec![], |screen| self.act(Action::Show(screen)))
+            }
+            _ => vec![],
+        }
     }
 }

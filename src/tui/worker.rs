@@ -1,29 +1,32 @@
 //! The threads behind the screens: keys, signals, the database, pictures and runs, each on its own, all answering with
 //! messages. None of them is waited for while the workbench is used.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crossterm::event::{self, Event};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 
-use super::feed::{self, Focus};
+use super::asker::{self, Brake, Question};
+use super::clerk::{self, Errand};
+use super::feed::{self, Focus, Snapshot};
 use super::message::{Act, Effect, Message, Target};
 use super::painter;
 use super::picture::{Canvas, Shot};
 use super::tailor::{self, Task};
 use crate::study::tools::write_seams;
-use crate::study::{Deed, Mode, Part, RunOptions, Saved, StudyError, StyleGiven, Workspace};
+use crate::study::{Deed, Live, Mode, Part, RunOptions, Saved, StudyError, StyleGiven, Workspace};
 
 /// Time between two looks at whether the database has changed; a look costs microseconds.
 const LOOK: Duration = Duration::from_millis(250);
-/// Time between two looks at whether a run has ended or is to stop.
-const RUN_LOOK: Duration = Duration::from_millis(100);
+/// Time between two looks at whether a run has ended or is to stop, and at the garment that is watched.
+const RUN_LOOK: Duration = Duration::from_millis(200);
 
 /// What the thread of the database is asked for.
 enum Request {
@@ -37,8 +40,12 @@ pub struct Workers {
     pub messages: Receiver<Message>,
     sender: Sender<Message>,
     requests: Sender<Request>,
-    shots: Sender<Shot>,
+    shots: Sender<Vec<Shot>>,
     tasks: Sender<Task>,
+    questions: Sender<Question>,
+    brake: Brake,
+    errands: Sender<Errand>,
+    live: Arc<Live>,
     database: PathBuf,
     quickstart: Option<PathBuf>,
     stop: Arc<AtomicBool>,
@@ -48,7 +55,7 @@ pub struct Workers {
 impl Workers {
     /// Starts all threads but that of runs.
     #[must_use]
-    pub fn start(workspace: Workspace, canvas: Option<Canvas>, quickstart: Option<PathBuf>) -> Self {
+    pub fn start(workspace: Workspace, canvas: Option<Canvas>, quickstart: Option<PathBuf>, reports: PathBuf) -> Self {
         let (sender, messages) = mpsc::channel();
         let (requests, asked) = mpsc::channel();
         let (shots, wanted) = mpsc::channel();
@@ -61,8 +68,30 @@ impl Workers {
         spawn(&sender, move |sender| painter::serve(&path, readonly, canvas.as_ref(), &wanted, sender));
         let (path, readonly) = (database.clone(), workspace_is_readonly);
         spawn(&sender, move |sender| tailor::serve(&path, readonly, &work, sender));
+        let (questions, to_ask) = mpsc::channel();
+        let brake = Brake::default();
+        let (path, own_brake) = (database.clone(), brake.clone());
+        spawn(&sender, move |sender| asker::serve(&path, &own_brake, &to_ask, sender));
+        let (errands, to_run) = mpsc::channel();
+        let (path, readonly) = (database.clone(), workspace_is_readonly);
+        spawn(&sender, move |sender| clerk::serve(&path, readonly, &reports, &to_run, sender));
         let stop = Arc::new(AtomicBool::new(false));
-        Self { messages, sender, requests, shots, tasks, database, quickstart, stop, run: Mutex::new(None) }
+        let (live, run) = (Arc::default(), Mutex::new(None));
+        Self {
+            messages,
+            sender,
+            requests,
+            shots,
+            tasks,
+            questions,
+            brake,
+            errands,
+            live,
+            database,
+            quickstart,
+            stop,
+            run,
+        }
     }
 
     /// Has the database read.
@@ -76,10 +105,17 @@ impl Workers {
             Effect::Read(focus) => drop(self.requests.send(Request::Read(focus))),
             Effect::Do(act) => drop(self.requests.send(Request::Do(act))),
             Effect::Desk(task) => drop(self.tasks.send(task)),
-            Effect::Paint(shot) => drop(self.shots.send(shot)),
+            Effect::Paint(shots) => drop(self.shots.send(shots)),
+            Effect::Ask(question) => {
+                self.brake.release();
+                drop(self.questions.send(question));
+            }
+            Effect::StopAsking => self.brake.pull(),
+            Effect::Errand(errand) => drop(self.errands.send(errand)),
+            Effect::Watch(job) => self.live.watch(job),
             Effect::Run(target) => self.start_run(target),
             Effect::StopRun => self.stop.store(true, Ordering::Relaxed),
-            Effect::Copy(_) | Effect::Clear | Effect::Quit => {}
+            Effect::Copy(_) | Effect::Clear | Effect::Mouse(_) | Effect::Quit => {}
         }
     }
 
@@ -89,9 +125,9 @@ impl Workers {
             Target::Quickstart => self.quickstart.clone().unwrap_or_default(),
         };
         self.stop.store(false, Ordering::Relaxed);
-        let (database, stop) = (self.database.clone(), self.stop.clone());
+        let (database, stop, live) = (self.database.clone(), self.stop.clone(), self.live.clone());
         let handle = spawn(&self.sender, move |sender| {
-            let outcome = follow_run(&database, &path, &stop);
+            let outcome = follow_run(&database, &path, &stop, &live, sender);
             let _ = sender.send(Message::RunEnded(outcome.map_err(|error| error.to_string())));
         });
         *self.run.lock().unwrap_or_else(PoisonError::into_inner) = handle;
@@ -110,7 +146,16 @@ impl Workers {
 /// Starts a thread with a way to answer; says so where the system refuses one.
 fn spawn(sender: &Sender<Message>, work: impl FnOnce(&Sender<Message>) + Send + 'static) -> Option<JoinHandle<()>> {
     let own = sender.clone();
-    let handle = thread::Builder::new().name("toile-tui".into()).spawn(move || work(&own));
+    let guarded = move || {
+        if let Err(panic) = catch_unwind(AssertUnwindSafe(|| work(&own))) {
+            let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+            let text = text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default();
+            // Nobody listens any more when the workbench is being left.
+            let _ = own
+                .send(Message::Failed(format!("part of the workbench broke, please leave and start it again: {text}")));
+        }
+    };
+    let handle = thread::Builder::new().name("toile-tui".into()).spawn(guarded);
     handle.map_err(|error| sender.send(Message::Failed(format!("no thread could be started: {error}")))).ok()
 }
 
@@ -119,6 +164,7 @@ fn read_keys(sender: &Sender<Message>) {
         let message = match event::read() {
             Ok(Event::Key(key)) => Message::Key(key),
             Ok(Event::Resize(width, height)) => Message::Resize(width, height),
+            Ok(Event::Mouse(event)) => Message::Mouse(event),
             Ok(_) => continue,
             Err(_) => Message::Hangup,
         };
@@ -143,24 +189,16 @@ fn watch_signals(sender: &Sender<Message>) {
 }
 
 /// Reads what the screens show when asked to and whenever the database has changed, and acts on the queue.
-fn serve_database(mut workspace: Workspace, asked: &Receiver<Request>, sender: &Sender<Message>) {
-    let mut focus = Focus::default();
-    let mut seen = None;
+fn serve_database(workspace: Workspace, asked: &Receiver<Request>, sender: &Sender<Message>) {
+    let mut reader = Reader { workspace, focus: Focus::default(), last: None, rest: LOOK };
     loop {
-        let is_wanted = match asked.recv_timeout(LOOK) {
+        let is_wanted = match asked.recv_timeout(reader.rest) {
             Ok(Request::Read(wanted)) => {
-                focus = wanted;
+                reader.focus = wanted;
                 true
             }
             Ok(Request::Do(act)) => {
-                let done = do_act(&mut workspace, &act).map_err(|error| error.to_string());
-                let message = match (act, done) {
-                    (Act::SaveSeams(style, seams), done) => Message::SeamsSaved(style, seams, done),
-                    (act, done) if act.is_filled_in() => Message::Saved(done),
-                    (_, Ok(text)) => Message::Acted(text),
-                    (_, Err(text)) => Message::Failed(text),
-                };
-                if sender.send(message).is_err() {
+                if sender.send(reader.do_act(act)).is_err() {
                     return;
                 }
                 true
@@ -168,16 +206,59 @@ fn serve_database(mut workspace: Workspace, asked: &Receiver<Request>, sender: &
             Err(RecvTimeoutError::Timeout) => false,
             Err(RecvTimeoutError::Disconnected) => return,
         };
-        let message = match workspace.version() {
-            Ok(version) if !is_wanted && seen == Some(version) => continue,
-            Ok(version) => {
-                seen = Some(version);
-                feed::snapshot(&workspace, &focus).map(|data| Message::Data(Box::new(data)))
-            }
-            Err(error) => Err(error),
+        let message = match reader.read(is_wanted) {
+            Ok(None) => continue,
+            Ok(Some(data)) => Message::Data(Box::new(data)),
+            Err(error) => Message::Failed(error.to_string()),
         };
-        if sender.send(message.unwrap_or_else(|error| Message::Failed(error.to_string()))).is_err() {
+        if sender.send(message).is_err() {
             return;
+        }
+    }
+}
+
+/// What the thread of the database keeps.
+struct Reader {
+    workspace: Workspace,
+    focus: Focus,
+    /// What was read last: of which version of the database, and of which focus.
+    last: Option<(i64, Focus, Snapshot)>,
+    /// Time to the next look.
+    rest: Duration,
+}
+
+impl Reader {
+    /// Reads what is shown, where it is wanted or anything was written; after a long read the next look comes later.
+    fn read(&mut self, is_wanted: bool) -> Result<Option<Snapshot>, StudyError> {
+        let version = self.workspace.version()?;
+        if !is_wanted && self.last.as_ref().is_some_and(|(of, ..)| *of == version) {
+            return Ok(None);
+        }
+        let known = self.last.take().filter(|(of, ..)| *of == version);
+        let start = Instant::now();
+        let is_same = |focus: &Focus| (&focus.study, &focus.garment) == (&self.focus.study, &self.focus.garment);
+        let data = match known.filter(|(_, focus, _)| is_same(focus)) {
+            Some((.., before)) => feed::refocused(&self.workspace, before, &self.focus)?,
+            None => feed::snapshot(&self.workspace, &self.focus)?,
+        };
+        self.rest = LOOK.max(2 * start.elapsed());
+        let shown = Focus {
+            study: data.study().map(|study| study.name.clone()),
+            garment: data.grid.as_ref().map(|grid| grid.garment.clone()),
+            ..self.focus.clone()
+        };
+        self.last = Some((version, shown, data.clone()));
+        Ok(Some(data))
+    }
+
+    /// Acts, and says what came of it.
+    fn do_act(&mut self, act: Act) -> Message {
+        let done = do_act(&mut self.workspace, &act).map_err(|error| error.to_string());
+        match (act, done) {
+            (Act::SaveSeams(style, seams), done) => Message::SeamsSaved(style, seams, done),
+            (act, done) if act.is_filled_in() => Message::Saved(done),
+            (_, Ok(text)) => Message::Acted(text),
+            (_, Err(text)) => Message::Failed(text),
         }
     }
 }
@@ -256,14 +337,24 @@ fn said(saved: &[Saved]) -> String {
 }
 
 /// Starts a run and waits for its end or for the order to stop it; says how it ended.
-fn follow_run(database: &Path, study: &Path, stop: &AtomicBool) -> Result<String, StudyError> {
+fn follow_run(
+    database: &Path,
+    study: &Path,
+    stop: &AtomicBool,
+    live: &Arc<Live>,
+    sender: &Sender<Message>,
+) -> Result<String, StudyError> {
     let mut workspace = Workspace::open(database, false)?;
     let study = workspace.load_study(study)?;
-    let run = workspace.start(&study, &RunOptions::default())?;
+    let run = workspace.start(&study, &RunOptions { live: live.clone(), ..RunOptions::default() })?;
     while !run.is_finished() {
         if stop.load(Ordering::Relaxed) {
             run.stop();
             break;
+        }
+        if let Some(frame) = live.take() {
+            // Nobody listens any more when the terminal is gone; the run goes on.
+            let _ = sender.send(Message::Live(frame));
         }
         thread::sleep(RUN_LOOK);
     }

@@ -106,7 +106,11 @@ pub fn crossover_chart(
     let svg = draw(bottom + UNDER, |canvas| {
         canvas.key(&names, 20, 10)?;
         if let Some((_, from, to)) = crossover.and_then(|found| found.ease) {
-            canvas.bar((across.at(from * 1e3), top), (across.at(to * 1e3).max(across.at(from * 1e3) + 3), bottom), theme::GRID)?;
+            canvas.bar(
+                (across.at(from * 1e3), top),
+                (across.at(to * 1e3).max(across.at(from * 1e3) + 3), bottom),
+                theme::GRID,
+            )?;
         }
         across.grid(canvas, top, bottom)?;
         let (ticks, decimals) = up.ticks();
@@ -130,7 +134,13 @@ pub fn crossover_chart(
             canvas.mark((across.at(*ease), up.at(*difference)), series, false)?;
         }
         let caption = "ease, mm   (left: tight, right: loose); EI of FEM-GS less EI of Hybrid-GS upwards";
-        canvas.text(((across.left + across.right) / 2, bottom + 2 * TYPE + 18), caption, theme::MUTED, Align::Middle, false)
+        canvas.text(
+            ((across.left + across.right) / 2, bottom + 2 * TYPE + 18),
+            caption,
+            theme::MUTED,
+            Align::Middle,
+            false,
+        )
     })?;
     let words = crossover.map_or_else(String::new, |found| format!(" Crossover: {found}."));
     let alt = format!("{title}: EI difference of {} cases against ease.{words}", dots.len());

@@ -110,9 +110,10 @@ impl Workspace {
         for body in bodies.iter().filter(|body| eased.iter().any(|ease| ease.subject == body.name)) {
             for answer in self.size_advice(study, &body.name, None)? {
                 let Some(size) = answer.sizes.iter().find(|size| size.size == answer.advice.size) else { continue };
-                let pulls = size.levels.iter().filter_map(|level| {
-                    Some(format!("{} {:.0} N/m", level.ease.level, level.tension_n_m?))
-                });
+                let pulls = size
+                    .levels
+                    .iter()
+                    .filter_map(|level| Some(format!("{} {:.0} N/m", level.ease.level, level.tension_n_m?)));
                 let tension = pulls.collect::<Vec<_>>().join(", ");
                 tips.push(SizeTip {
                     garment: answer.garment,

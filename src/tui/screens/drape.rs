@@ -8,27 +8,36 @@ use ratatui::widgets::{Block, Paragraph, Wrap};
 use ratatui_image::Image;
 
 use super::super::action::Screen;
-use super::super::picture::{Drawn, Sitter};
+use super::super::live::braille;
+use super::super::picture::{Drawn, Shot, Sitter, look_name};
 use super::super::state::State;
 use super::super::text;
-use super::{pane, results, rows, study, subjects};
+use super::{compare, pane, results, rows, study, subjects};
 use crate::study::Status;
 
-/// Room for the picture on the screen shown, in cells; `None` where no picture is shown.
+/// The pictures that the screen shown has room for, each with its cells.
 #[must_use]
-pub fn picture_size(state: &State) -> Option<Size> {
+pub fn picture_places(state: &State) -> Vec<(Sitter, Size)> {
     if !state.abilities.pictures {
-        return None;
+        return vec![];
     }
     let [_, body, _] = rows(Rect::from((Position::ORIGIN, state.size)));
-    let pane = match state.screen {
-        Screen::Study => study::picture_pane(body, state),
-        Screen::Results => results::picture_pane(body, state),
-        Screen::Subjects => subjects::picture_pane(body),
-        Screen::Styles | Screen::Jobs => None,
+    let drape = |pane: Option<Rect>| {
+        let job = state.job().filter(|job| job.status.has_result()).map(|job| Sitter::Drape(job.id));
+        job.zip(pane).into_iter().collect()
     };
-    let (picture, _) = parts(Block::bordered().inner(pane?));
-    (picture.width >= 4 && picture.height >= 3).then(|| picture.as_size())
+    let panes: Vec<(Sitter, Rect)> = match state.screen {
+        Screen::Study => drape(study::picture_pane(body, state)),
+        Screen::Results => drape(results::picture_pane(body, state)),
+        Screen::Subjects => {
+            let body = state.subject().map(|row| Sitter::Body(row.id)).zip(subjects::picture_pane(body));
+            body.into_iter().collect()
+        }
+        Screen::Compare => compare::picture_panes(body, state),
+        Screen::Styles | Screen::Jobs | Screen::Sql | Screen::Reports => vec![],
+    };
+    let sized = panes.into_iter().map(|(of, pane)| (of, parts(Block::bordered().inner(pane)).0.as_size()));
+    sized.filter(|(_, size)| size.width >= 4 && size.height >= 3).collect()
 }
 
 /// Picture and, where there is room, the line below it that says what its colours mean. The line is there for pictures
@@ -43,39 +52,64 @@ pub(super) fn parts(inner: Rect) -> (Rect, Option<Rect>) {
 
 /// Draws the pane; `keys` are those that change the picture there.
 pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool, keys: &'static str) {
-    let title = format!("{} · {}", state.view.as_str(), state.map.as_str());
+    let title = format!("{} · {}", look_name(state.look), state.map.as_str());
     let block = pane(state.theme, title, focused).title_bottom(Line::styled(keys, state.theme.legend()));
     let (inner, legend) = parts(block.inner(area));
     frame.render_widget(block, area);
+    if state.job().is_some_and(|job| job.status == Status::Running) {
+        draw_live(frame, inner, state);
+        return;
+    }
     if let Some(legend) = legend {
         draw_legend(frame, legend, state);
     }
     // While a picture is drawn anew, the one before stays, so that turning does not flicker.
-    let otherwise = match state.job().map(|job| job.status) {
-        Some(Status::Running) => "the drape is shown when the job is done",
-        _ => "",
-    };
-    draw_shot(frame, inner, state, state.focus.job.map(Sitter::Drape), otherwise);
+    draw_shot(frame, inner, state, state.focus.job.map(Sitter::Drape), "");
+}
+
+/// Draws the garment of the selected running job as it is now, below it how far it has come.
+pub(super) fn draw_live(frame: &mut Frame<'_>, area: Rect, state: &State) {
+    let Some(job) = state.job() else { return };
+    let [picture, facts] = Layout::vertical([Constraint::Fill(1), Constraint::Length(area.height.min(2))]).areas(area);
+    let progress = job.progress.as_ref().map_or_else(Vec::new, |progress| {
+        let step = &progress.step;
+        let share = format!("{} {:.0}%", progress.phase, 100.0 * progress.fraction);
+        vec![Line::raw(share), Line::raw(format!("residual {:.1e}  E {:.4}", step.residual, step.e_chi))]
+    });
+    frame.render_widget(Paragraph::new(progress).alignment(Alignment::Center), facts);
+    match state.live.as_ref().filter(|frame| frame.job == job.id) {
+        Some(seen) => {
+            let rows = braille(seen, state.look, usize::from(picture.width), usize::from(picture.height));
+            let lines: Vec<Line<'_>> = rows.into_iter().map(|row| Line::styled(row, state.theme.busy())).collect();
+            frame.render_widget(Paragraph::new(lines), picture);
+        }
+        None => {
+            let text = if state.watched == Some(job.id) {
+                "the garment is being made ready…"
+            } else {
+                "another process simulates it: its drape is shown when it is done"
+            };
+            frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), picture);
+        }
+    }
 }
 
 /// Draws the picture of a sitter, or why there is none.
 pub(super) fn draw_shot(frame: &mut Frame<'_>, area: Rect, state: &State, of: Option<Sitter>, otherwise: &str) {
-    let drawn = state
-        .picture
-        .as_ref()
-        .filter(|(shot, _)| Some(shot.of) == of && shot.columns == area.width && shot.rows == area.height);
+    let fits = |(shot, _): &&(Shot, _)| Some(shot.of) == of && shot.columns == area.width && shot.rows == area.height;
+    let drawn = state.pictures.iter().find(fits);
     let text = match drawn {
         Some((_, Ok(drawn))) => return draw_cells(frame, area, drawn, state),
         Some((_, Err(error))) => format!("no picture: {error}"),
         None if !state.abilities.pictures => "pictures are off (--images off)".into(),
-        None if state.shot.is_some() => "drawing…".into(),
+        None if state.shots.iter().any(|shot| Some(shot.of) == of) => "drawing…".into(),
         None => otherwise.to_owned(),
     };
     frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), area);
 }
 
 /// What the colours mean: name, least value, the run of colours, greatest value with its unit.
-fn draw_legend(frame: &mut Frame<'_>, area: Rect, state: &State) {
+pub(super) fn draw_legend(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let Some(scale) = state.map.scale() else { return };
     let before = format!("{} {} ", scale.label, text::whole(scale.low));
     let after = format!(" {} {}", text::whole(scale.high), scale.unit);

@@ -68,17 +68,11 @@ pub(super) fn draw_path(frame: &mut Frame<'_>, area: Rect, prompt: &PathPrompt, 
     let typed: Vec<char> = format!(" {}▏", prompt.text).chars().collect();
     let shown: String = typed[typed.len().saturating_sub(columns)..].iter().collect();
     let mut lines = vec![Line::styled(shown, theme.bold())];
-    lines.extend(end(
-        prompt.is_busy.then_some("reading, and building each body…"),
-        prompt.problem.as_deref(),
-        columns,
-        theme,
-    ));
+    lines.extend(end(prompt.is_busy.then_some(prompt.purpose.busy()), prompt.problem.as_deref(), columns, theme));
     if lines.len() == 1 {
-        lines
-            .push(Line::styled(" CSV with columns name, sex, stature_mm, …, or a study.toml; ~/ is home", theme.dim()));
+        lines.push(Line::styled(format!(" {}; ~/ is home", prompt.purpose.hint()), theme.dim()));
     }
-    draw(frame, area, width, "import subjects from".to_owned(), " ↵ import all or none  Esc cancel ", lines, theme);
+    draw(frame, area, width, prompt.purpose.title().to_owned(), prompt.purpose.keys(), lines, theme);
 }
 
 /// Draws the files of a style.
@@ -106,7 +100,7 @@ pub(super) fn draw_style(frame: &mut Frame<'_>, area: Rect, form: &StyleForm, th
 }
 
 /// What goes on, or what went wrong.
-fn end(busy: Option<&str>, problem: Option<&str>, columns: usize, theme: Theme) -> Vec<Line<'static>> {
+pub(super) fn end(busy: Option<&str>, problem: Option<&str>, columns: usize, theme: Theme) -> Vec<Line<'static>> {
     let mut lines: Vec<Line<'static>> =
         busy.iter().map(|text| Line::styled(format!(" {text}"), theme.busy())).collect();
     let problem = wrapped(problem.unwrap_or_default(), columns.saturating_sub(3));
@@ -117,7 +111,7 @@ fn end(busy: Option<&str>, problem: Option<&str>, columns: usize, theme: Theme) 
     lines
 }
 
-fn draw(
+pub(super) fn draw(
     frame: &mut Frame<'_>,
     area: Rect,
     width: u16,

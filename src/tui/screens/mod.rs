@@ -1,14 +1,18 @@
 //! The screens: pure functions of the state to a frame. Here the frame they share: tabs, panes, status line, overlays.
 
 mod chi;
+mod compare;
 mod drape;
 mod forms;
 mod jobs;
 mod overlays;
 mod pieces;
+mod reports;
 mod results;
+mod sql;
 mod start;
 mod study;
+mod study_form;
 mod styles;
 mod subjects;
 
@@ -19,13 +23,14 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph};
 
 use super::action::{Binding, Screen};
+use super::ascii;
 use super::overlay::Overlay;
 use super::state::State;
 use super::text;
 use super::theme::{Theme, glyph};
 use crate::study::Status;
 
-pub use drape::picture_size;
+pub use drape::picture_places;
 
 /// Terminals with fewer columns or rows than this get lists instead of grids and panes.
 const NARROW: (u16, u16) = (60, 16);
@@ -40,14 +45,20 @@ pub fn draw(frame: &mut Frame<'_>, state: &State) {
         _ if state.data.is_none() => frame.render_widget(Paragraph::new(" reading the database…"), body),
         Screen::Subjects => subjects::draw(frame, body, state),
         Screen::Styles => styles::draw(frame, body, state),
+        Screen::Sql => sql::draw(frame, body, state),
+        Screen::Reports => reports::draw(frame, body, state),
         _ if state.is_first_start() => start::draw(frame, body, state),
         Screen::Study => study::draw(frame, body, state),
         Screen::Jobs => jobs::draw(frame, body, state),
         Screen::Results => results::draw(frame, body, state),
+        Screen::Compare => compare::draw(frame, body, state),
     }
     frame.render_widget(status_line(state, bottom.width), bottom);
     if let Some(overlay) = &state.overlay {
         overlays::draw(frame, body, overlay, state);
+    }
+    if state.theme.ascii {
+        ascii::translate(frame.buffer_mut());
     }
 }
 
@@ -80,41 +91,66 @@ fn first_shown(selected: usize, lines: usize, height: usize) -> usize {
     selected.saturating_sub(height / 2).min(lines.saturating_sub(height))
 }
 
+/// The tabs with their texts: whole names where there is room, short ones, or, but for the screen shown, numbers.
+fn tab_texts(state: &State, width: u16) -> Vec<(Screen, String)> {
+    let text = |(k, screen): (usize, Screen)| {
+        let [name, short] = screen.names();
+        let text = match width {
+            WIDE.. => format!(" {} {name} ", k + 1),
+            60.. => format!(" {} {}", k + 1, if screen == state.screen { name } else { short }),
+            _ if screen == state.screen => format!(" {} {name}", k + 1),
+            _ => format!(" {}", k + 1),
+        };
+        (screen, text)
+    };
+    Screen::ALL.into_iter().enumerate().map(text).collect()
+}
+
+/// The screen whose tab is at a column.
+#[must_use]
+pub fn tab_at(state: &State, column: u16) -> Option<Screen> {
+    let mut end = 0;
+    tab_texts(state, state.size.width).into_iter().find_map(|(screen, text)| {
+        end += text::width(&text);
+        (usize::from(column) < end).then_some(screen)
+    })
+}
+
 fn tabs(state: &State, width: u16) -> Line<'static> {
     let mut spans = vec![];
-    for screen in Screen::ALL {
+    for (screen, text) in tab_texts(state, width) {
         let style = if screen == state.screen { state.theme.selected() } else { Style::new() };
-        let end = if width < WIDE { "" } else { " " };
-        spans.push(Span::styled(format!(" {}{end}", screen.title()), style));
+        spans.push(Span::styled(text, style));
     }
     let used: usize = spans.iter().map(Span::width).sum();
     let room = usize::from(width).saturating_sub(used);
-    let columns = |spans: &[Span<'_>]| spans.iter().map(Span::width).sum::<usize>();
+    let columns = |spans: &[(u8, Span<'_>)]| spans.iter().map(|(_, span)| span.width()).sum::<usize>();
     let mut summary = summary(state);
     while columns(&summary) >= room && !summary.is_empty() {
-        summary.remove(0);
+        let least = (0..summary.len()).min_by_key(|k| summary[*k].0).unwrap_or(0);
+        summary.remove(least);
     }
     spans.push(Span::raw(" ".repeat(room - columns(&summary).min(room))));
-    spans.extend(summary);
+    spans.extend(summary.into_iter().map(|(_, span)| span));
     Line::from(spans)
 }
 
-/// The study and how far it has come, what may be left out first.
-fn summary(state: &State) -> Vec<Span<'static>> {
+/// The study and how far it has come, each part with its weight: the least is left out first where there is no room.
+fn summary(state: &State) -> Vec<(u8, Span<'static>)> {
     let Some(study) = state.data.as_ref().and_then(|data| data.study()) else { return vec![] };
-    let mut spans = vec![Span::styled(study.name.clone(), state.theme.bold())];
+    let mut spans = vec![(1, Span::styled(study.name.clone(), state.theme.bold()))];
     if study.paused {
-        spans.push(Span::styled(" paused", state.theme.warn()));
+        spans.push((9, Span::styled(" paused", state.theme.warn())));
     }
     if state.run.is_some() {
-        spans.push(Span::styled(" run here", state.theme.busy()));
+        spans.push((8, Span::styled(" run here", state.theme.busy())));
     }
-    spans.push(Span::raw(format!(" {} jobs", study.total())));
+    spans.push((0, Span::raw(format!(" {} jobs", study.total()))));
     for status in Status::ALL.into_iter().filter(|status| study.count(*status) > 0) {
         let text = format!(" {}{}", glyph(status), study.count(status));
-        spans.push(Span::styled(text, state.theme.status(status)));
+        spans.push((if status == Status::Cancelled { 2 } else { 3 }, Span::styled(text, state.theme.status(status))));
     }
-    spans.push(Span::raw(" "));
+    spans.push((10, Span::raw(" ")));
     spans
 }
 
@@ -129,6 +165,9 @@ fn status_line(state: &State, width: u16) -> Line<'static> {
         let line = notice.text.lines().collect::<Vec<_>>().join("; ");
         return Line::styled(text::shortened(&format!(" {mark}{line}"), usize::from(width)), style);
     }
+    if state.is_editing() {
+        return editor_hints(state);
+    }
     let filter = state.filter();
     let mut spans = vec![];
     let mut used = 0;
@@ -139,8 +178,9 @@ fn status_line(state: &State, width: u16) -> Line<'static> {
     }
     // What matters most stands first in the table, but help and palette must always be found.
     let hinted = state.bindings.iter().filter(|b| !b.hint.is_empty() && b.is_on(state.screen));
-    let is_start = state.is_first_start() && !matches!(state.screen, Screen::Subjects | Screen::Styles);
-    let hinted = hinted.filter(|b| !is_start || matches!(b.name, "open" | "run" | "help" | "palette"));
+    let is_start = state.is_first_start()
+        && !matches!(state.screen, Screen::Subjects | Screen::Styles | Screen::Sql | Screen::Reports);
+    let hinted = hinted.filter(|b| !is_start || matches!(b.name, "open" | "run" | "new-study" | "help" | "palette"));
     let (last, first): (Vec<&Binding>, Vec<&Binding>) = hinted.partition(|b| matches!(b.name, "help" | "palette"));
     let columns = |b: &Binding| text::width(&b.keys[0].to_string()) + text::width(b.hint) + 3;
     let reserved: usize = last.iter().map(|b| columns(b)).sum();
@@ -155,4 +195,19 @@ fn status_line(state: &State, width: u16) -> Line<'static> {
         spans.push(Span::raw(format!(" {} ", binding.hint)));
     }
     Line::from(spans)
+}
+
+/// The keys that matter while a query is typed.
+fn editor_hints(state: &State) -> Line<'static> {
+    let hints = [
+        ("F5", "run"),
+        ("Tab", "complete, or rows"),
+        ("C-p", "history"),
+        ("Esc", "rows and commands"),
+        ("C-c", "cancel"),
+    ];
+    let spans = hints
+        .iter()
+        .flat_map(|(key, hint)| [Span::styled(format!(" {key}"), state.theme.bold()), Span::raw(format!(" {hint} "))]);
+    Line::from(spans.collect::<Vec<_>>())
 }

@@ -10,7 +10,7 @@ use super::super::overlay::{List, Overlay};
 use super::super::state::State;
 use super::super::text::left;
 use super::super::theme::Theme;
-use super::{first_shown, forms, pane};
+use super::{first_shown, forms, pane, sql, study_form};
 
 pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, overlay: &Overlay, state: &State) {
     match overlay {
@@ -25,6 +25,8 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, overlay: &Overlay, state: 
         Overlay::Form(form) => forms::draw_form(frame, area, form, state.theme),
         Overlay::Path(prompt) => forms::draw_path(frame, area, prompt, state.theme),
         Overlay::StyleForm(form) => forms::draw_style(frame, area, form, state.theme),
+        Overlay::StudyForm(form) => study_form::draw(frame, area, form, state.theme),
+        Overlay::Queries(list) => sql::draw_queries(frame, area, list, state),
         Overlay::Question { text, .. } => draw_question(frame, area, text, state.theme),
         Overlay::Filter(_) => {}
     }

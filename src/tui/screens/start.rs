@@ -21,8 +21,14 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
         (None, true) => vec![
             Line::styled("Enter  run the quickstart", bold),
             Line::raw("       A small study with all it needs; results appear here as they come."),
+            Line::raw(""),
+            Line::styled("a      make a study of your own", bold),
+            Line::raw("       Choose subjects, styles, fabric, simulators; it writes a study.toml."),
         ],
-        (None, false) if can_run => vec![Line::raw("The quickstart study is not installed here.")],
+        (None, false) if can_run => vec![
+            Line::styled("a      make a study of your own", bold),
+            Line::raw("       The quickstart study is not installed here."),
+        ],
         (None, false) => vec![Line::raw("It is open read-only: start without --readonly to run a study.")],
     });
     lines.extend([

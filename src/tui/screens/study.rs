@@ -74,22 +74,17 @@ fn draw_grid(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
     let first = first_shown(state.place.subject, grid.subjects.len(), shown);
     let subjects = first..(first + shown).min(grid.subjects.len());
 
-    let mut lines = vec![];
-    let mut selected = 0;
-    for size in 0..grid.sizes.len() {
-        for simulator in 0..grid.simulators.len() {
-            if (size, simulator) == (state.place.size, state.place.simulator) {
-                selected = lines.len();
-            }
-            lines.push(row(state, grid, subjects.clone(), size, simulator));
-        }
-        lines.push(fit_row(state, grid, subjects.clone(), size));
-    }
+    // Each size has a line a simulator and one of its ease.
+    let of_size = grid.simulators.len() + 1;
+    let all = grid.sizes.len() * of_size;
     let height = usize::from(inner.height).saturating_sub(1);
-    let from = first_shown(selected, lines.len(), height);
-    let mut shown_lines = vec![header(state, grid, subjects)];
-    shown_lines.extend(lines.into_iter().skip(from).take(height));
-    frame.render_widget(Paragraph::new(shown_lines).block(block), area);
+    let from = first_shown(state.place.size * of_size + state.place.simulator, all, height);
+    let mut lines = vec![header(state, grid, subjects.clone())];
+    lines.extend((from..all).take(height).map(|line| match (line / of_size, line % of_size) {
+        (size, simulator) if simulator + 1 < of_size => row(state, grid, subjects.clone(), size, simulator),
+        (size, _) => fit_row(state, grid, subjects.clone(), size),
+    }));
+    frame.render_widget(Paragraph::new(lines).block(block), area);
 }
 
 /// Garment, and which of how many.

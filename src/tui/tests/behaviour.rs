@@ -3,9 +3,9 @@
 use super::super::action::Screen;
 use super::super::message::{Act, Effect, Message, Target};
 use super::super::overlay::Overlay;
-use super::super::picture::{Shot, Sitter};
+use super::super::picture::{self, FRONT, Shot, Sitter};
 use super::{Bench, fixture};
-use crate::study::{JobId, Map, Status, View};
+use crate::study::{JobId, Map, Status};
 
 fn selected(bench: &Bench) -> i64 {
     bench.state.focus.job.map_or(0, |id| id.0)
@@ -171,18 +171,22 @@ fn pictures_are_asked_for_when_seen_and_only_then() {
     let mut bench = Bench::example(80, 24);
     let shots = |bench: &mut Bench| -> Vec<Shot> {
         let effects = std::mem::take(&mut bench.effects);
-        effects.into_iter().filter_map(|e| if let Effect::Paint(shot) = e { Some(shot) } else { None }).collect()
+        effects
+            .into_iter()
+            .filter_map(|e| if let Effect::Paint(shots) = e { Some(shots) } else { None })
+            .flatten()
+            .collect()
     };
     assert_eq!(shots(&mut bench), []);
     bench.press("5");
     let first = shots(&mut bench);
-    let expect = Shot { of: Sitter::Drape(JobId(1)), view: View::Front, map: Map::Plain, columns: 28, rows: 19 };
+    let expect = Shot { of: Sitter::Drape(JobId(1)), look: FRONT, map: Map::Plain, columns: 28, rows: 19 };
     assert_eq!(first, [expect]);
     bench.press("j");
     assert_eq!(shots(&mut bench), []);
     bench.press("v");
-    assert_eq!(shots(&mut bench), [Shot { view: View::Side, ..expect }]);
-    bench.press("<Tab>hm");
+    assert_eq!(shots(&mut bench), [Shot { look: picture::next_view(FRONT), ..expect }]);
+    bench.press("<Tab>hhhhhhm");
     let turned = shots(&mut bench);
     assert_eq!(turned.last(), Some(&Shot { map: Map::Check, ..expect }));
     bench.press("<Enter>");
@@ -197,9 +201,9 @@ fn pictures_are_asked_for_when_seen_and_only_then() {
 fn late_pictures_of_something_else_are_dropped() {
     let mut bench = Bench::example(80, 24);
     bench.press("5");
-    let wanted = bench.state.shot.expect("asked for");
-    bench.send(Message::Picture(Shot { view: View::Back, ..wanted }, Err("late".into())));
-    assert!(bench.state.picture.is_none());
+    let wanted = *bench.state.shots.first().expect("asked for");
+    bench.send(Message::Picture(Shot { map: Map::Gap, ..wanted }, Err("late".into())));
+    assert!(bench.state.pictures.is_empty());
     bench.send(Message::Picture(wanted, Err("artefact is gone".into())));
     assert!(bench.screen().contains("no picture: artefact"));
 }

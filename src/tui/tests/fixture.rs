@@ -1,12 +1,13 @@
 //! An example study: two sizes of a T-shirt on three subjects by both simulators, in all states a job can have.
 
-use super::super::feed::{Detail, Snapshot};
+use super::super::feed::{Compared, Detail, Snapshot};
 use super::super::message::Message;
 use super::super::tailor::{Laid, Task};
 use crate::study::tools::{Girths, Measurements, Model, Sex, SourceFile, Workpiece, drafted};
 use crate::study::{
     Cell, Change, ChiRow, EaseRow, FitCell, FitClass, Grid, JobId, JobProgress, JobRow, LogLine, MEASUREMENTS,
-    MetricsRow, Simulator, SizeKey, SizeRow, StageRow, Status, Step, StudyRow, SubjectId, SubjectRow, Why,
+    MetricsRow, RecommendationRow, Simulator, SizeKey, SizeRow, StageRow, Status, Step, StudyRow, SubjectId,
+    SubjectRow, Why,
 };
 
 /// When it is, ms since 1970: 2023-11-14 22:13:20 UTC.
@@ -135,6 +136,8 @@ pub fn snapshot() -> Snapshot {
         ease: (0..6).map(|k| ease(k / 3, k % 3)).collect(),
         jobs,
         detail: None,
+        compared: vec![],
+        recommendations: vec![],
     }
 }
 
@@ -242,6 +245,8 @@ pub fn empty() -> Snapshot {
         jobs: vec![],
         ease: vec![],
         detail: None,
+        compared: vec![],
+        recommendations: vec![],
     }
 }
 
@@ -288,6 +293,40 @@ pub fn detail(id: JobId) -> Detail {
         },
         stages: if has_result { vec![stage("body", true), stage("drape", false), stage("mesh", true)] } else { vec![] },
     }
+}
+
+/// A job of the example study as it is compared; Hybrid-GS is nearer to 1 by a half.
+pub fn compared(id: JobId) -> Compared {
+    let job = job(id.0 as usize - 1);
+    let detail = detail(id);
+    let is_hybrid = job.simulator == Simulator::Hybrid;
+    let chi = detail.chi.into_iter().map(|row| match is_hybrid {
+        true => ChiRow { l3d_m: (row.l3d_m + row.l2d_m) / 2.0, is_controlled: true, ..row },
+        false => row,
+    });
+    let metrics =
+        detail.metrics.map(|metrics| MetricsRow { ei: if is_hybrid { 0.0058 } else { metrics.ei }, ..metrics });
+    let inputs = [("sim.name", job.simulator.as_str()), ("fabric.cotton.shear_n_m", "97")];
+    let inputs = inputs.into_iter().map(|(name, value)| (name.to_owned(), value.to_owned())).collect();
+    Compared { chi: chi.collect(), metrics, inputs, job }
+}
+
+/// What the example study says of the simulators.
+pub fn recommendations() -> Vec<RecommendationRow> {
+    vec![RecommendationRow {
+        garment: "tshirt".into(),
+        class: FitClass::Tight,
+        recommended: Simulator::Hybrid,
+        basis: "rule".into(),
+        verdict: "insufficient_evidence".into(),
+        rule_says: Simulator::Hybrid,
+        effect: Some(0.0059),
+        interval: None,
+        n_subjects: 1,
+        reason: "1 subject paired; the thesis's rule stands".into(),
+        p_holm: None,
+        would_settle: "5 more subjects".into(),
+    }]
 }
 
 fn chi() -> Vec<ChiRow> {

@@ -127,7 +127,7 @@ fn without_colours_glyphs_tell_everything_and_the_shirt_is_seen() {
     let mut bench = Bench::example(80, 24);
     bench.state.theme.colours = Colours::None;
     bench.press("5");
-    let shot = bench.effects.iter().find_map(|e| if let Effect::Paint(shot) = e { Some(*shot) } else { None });
+    let shot = bench.effects.iter().find_map(|e| if let Effect::Paint(shots) = e { Some(shots[0]) } else { None });
     let shot = shot.expect("the picture was asked for");
     let canvas = Canvas::new(Images::Auto, Colours::None, &|_| None).expect("pictures are on");
     let (width, height) = canvas.pixels(&shot);

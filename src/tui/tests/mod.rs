@@ -3,6 +3,7 @@
 mod behaviour;
 mod fixture;
 mod looks;
+mod questions;
 mod styles;
 mod subjects;
 mod workspace;
@@ -29,7 +30,7 @@ impl Bench {
     /// A workbench that has read something.
     fn new(width: u16, height: u16, data: Snapshot) -> Self {
         let abilities = Abilities { run: true, pictures: true, quickstart: true };
-        let state = State::new(Theme { colours: Colours::True }, abilities, Size::new(width, height));
+        let state = State::new(Theme { colours: Colours::True, ascii: false }, abilities, Size::new(width, height));
         let mut bench = Self { state, effects: vec![] };
         bench.send(Message::Data(Box::new(data)));
         bench
@@ -47,10 +48,14 @@ impl Bench {
             if let (Effect::Read(focus), Some(data)) = (effect, &self.state.data) {
                 let mut next = data.clone();
                 next.detail = focus.job.map(fixture::detail);
+                next.compared = focus.compare.iter().map(|id| fixture::compared(*id)).collect();
+                next.recommendations = fixture::recommendations();
                 assert!(self.state.update(Message::Data(next)).iter().all(|e| !matches!(e, Effect::Read(_))));
             }
-            if let Effect::Paint(Shot { of: Sitter::Body(id), .. }) = effect {
-                self.state.update(Message::Measured(*id, Ok(Box::new(fixture::girths()))));
+            if let Effect::Paint(shots) = effect
+                && let [Shot { of: Sitter::Body(id), .. }] = shots[..]
+            {
+                self.state.update(Message::Measured(id, Ok(Box::new(fixture::girths()))));
             }
         }
         let tasks: Vec<_> =
@@ -105,6 +110,9 @@ fn code_of(name: &str) -> KeyCode {
         "Right" => KeyCode::Right,
         "PgDn" => KeyCode::PageDown,
         "Left" => KeyCode::Left,
+        "Up" => KeyCode::Up,
+        "F2" => KeyCode::F(2),
+        "F5" => KeyCode::F(5),
         "Backspace" => KeyCode::Backspace,
         other => panic!("no key `{other}`"),
     }

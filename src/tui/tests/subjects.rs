@@ -133,7 +133,11 @@ fn the_palette_reaches_subjects_from_anywhere_and_jobs_are_left_alone() {
 fn bodies_are_built_when_seen_and_measured_without_pictures_too() {
     let shots = |bench: &mut Bench| -> Vec<Shot> {
         let effects = std::mem::take(&mut bench.effects);
-        effects.into_iter().filter_map(|e| if let Effect::Paint(shot) = e { Some(shot) } else { None }).collect()
+        effects
+            .into_iter()
+            .filter_map(|e| if let Effect::Paint(shots) = e { Some(shots) } else { None })
+            .flatten()
+            .collect()
     };
     let mut bench = Bench::example(80, 24);
     bench.press("2j");

@@ -46,5 +46,5 @@ fn follows_a_run_and_acts_on_it() {
     assert!(do_act(&mut workspace, &Act::Pause("none".into())).is_err());
     bench.state.update(Message::Data(Box::new(read(&workspace, &bench.state.focus.clone()))));
     let screen = bench.screen();
-    assert!(screen.contains("quickstart paused") && screen.contains(&format!("…1 ✗{}", jobs - 1)), "{screen}");
+    assert!(screen.contains(" paused ") && screen.contains(&format!("…1 ✗{}", jobs - 1)), "{screen}");
 }

@@ -1,0 +1,95 @@
+//! The thread that asks the database what users ask in SQL. It has a connection of its own, so that the screens go on
+//! while a long query runs.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, Sender};
+use std::sync::{Arc, OnceLock};
+use std::time::Instant;
+
+use super::message::Message;
+use super::sheet::Sheet;
+use crate::study::{Interrupter, StudyError, Workspace, saved_queries};
+
+/// Rows that are shown of an answer; a file gets all.
+const MOST_ROWS: usize = 20_000;
+
+/// What the thread is asked for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Question {
+    /// What a query may name, and the saved queries.
+    Names,
+    /// The rows of a query.
+    Rows(String),
+    /// The rows of a query in a file.
+    Export(String, PathBuf),
+}
+
+/// Stops what the thread works on.
+#[derive(Clone, Default)]
+pub struct Brake {
+    is_on: Arc<AtomicBool>,
+    interrupter: Arc<OnceLock<Interrupter>>,
+}
+
+impl Brake {
+    /// Ends the query that runs now.
+    pub fn pull(&self) {
+        self.is_on.store(true, Ordering::Relaxed);
+        if let Some(interrupter) = self.interrupter.get() {
+            interrupter.interrupt();
+        }
+    }
+
+    /// Lets the next query run.
+    pub fn release(&self) {
+        self.is_on.store(false, Ordering::Relaxed);
+    }
+}
+
+/// Answers until nobody asks or listens any more.
+pub fn serve(database: &Path, brake: &Brake, wanted: &Receiver<Question>, sender: &Sender<Message>) {
+    // Whatever a query says, it cannot write.
+    let workspace = Workspace::open(database, true).map_err(|error| error.to_string());
+    if let Ok(workspace) = &workspace {
+        // The thread is started once, and so is its interrupter set.
+        let _ = brake.interrupter.set(workspace.interrupter());
+    }
+    while let Ok(question) = wanted.recv() {
+        let workspace = workspace.as_ref().map_err(Clone::clone);
+        let start = Instant::now();
+        let message = match question {
+            Question::Names => {
+                let relations = workspace.and_then(|it| it.relations().map_err(|error| error.to_string()));
+                match relations {
+                    Ok(relations) => Message::Names(relations, saved_queries(database)),
+                    Err(error) => Message::Failed(error),
+                }
+            }
+            Question::Rows(text) => {
+                let answer =
+                    workspace.and_then(|it| it.answer(&text, MOST_ROWS, &brake.is_on).map_err(|error| said(&error)));
+                let sheet = answer.map(|answer| Box::new(Sheet::of(answer)));
+                Message::Answered(start.elapsed().as_millis() as u64, sheet)
+            }
+            Question::Export(text, path) => {
+                let rows =
+                    workspace.and_then(|it| it.export_query(&text, &path, &brake.is_on).map_err(|error| said(&error)));
+                Message::Saved(rows.map(|rows| format!("{rows} rows are in {}", path.display())))
+            }
+        };
+        if sender.send(message).is_err() {
+            return;
+        }
+    }
+}
+
+/// An error of a query; one that was stopped says so.
+fn said(error: &StudyError) -> String {
+    match error {
+        StudyError::Interrupted => "cancelled".to_owned(),
+        StudyError::Database(inner) if inner.to_string().contains("interrupted") => "cancelled".to_owned(),
+        StudyError::Database(inner) => inner.to_string(),
+        other => other.to_string(),
+    }
+}

@@ -1,0 +1,271 @@
+//! Comparing runs: which ones, measurement by measurement, and what that says.
+
+use super::action::Screen;
+use super::feed::Compared;
+use super::state::State;
+use super::text;
+use crate::study::{ChiRow, JobId, JobRow, RecommendationRow};
+
+/// Runs that are compared at most.
+pub const MOST: usize = 6;
+/// chi of two runs differ where the third decimal does.
+const DIFFERS: f64 = 0.0005;
+/// EI that are nearer than this make no practical difference (the margin of the recommendation).
+const MARGIN: f64 = 0.01;
+
+/// One measurement over all runs compared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contrast {
+    /// Number in the style.
+    pub no: u32,
+    /// Name.
+    pub name: String,
+    /// Pattern length of the first run that has it, m.
+    pub l2d_m: f64,
+    /// chi of each run; `None` where it has no such measurement.
+    pub chi: Vec<Option<f64>>,
+}
+
+impl Contrast {
+    /// Whether the runs differ.
+    #[must_use]
+    pub fn differs(&self) -> bool {
+        let first = self.chi[0];
+        self.chi.iter().any(|chi| match (first, chi) {
+            (Some(a), Some(b)) => (a - b).abs() >= DIFFERS,
+            (a, b) => a.is_some() != b.is_some(),
+        })
+    }
+
+    /// The run nearest to 1, where one alone is.
+    #[must_use]
+    pub fn nearest(&self) -> Option<usize> {
+        let error = |k: usize| self.chi[k].map_or(f64::INFINITY, |chi| (chi - 1.0).abs());
+        let best = (0..self.chi.len()).min_by(|a, b| error(*a).total_cmp(&error(*b)))?;
+        let is_alone = (0..self.chi.len()).all(|k| k == best || error(k) - error(best) >= DIFFERS);
+        (is_alone && self.chi.len() > 1).then_some(best)
+    }
+}
+
+/// What tells runs apart: the parts of their names that are not the same in all.
+#[must_use]
+pub fn labels(jobs: &[&JobRow]) -> Vec<String> {
+    let parts: [fn(&JobRow) -> String; 5] = [
+        |job| job.study.clone(),
+        |job| job.garment.clone(),
+        |job| job.size.clone(),
+        |job| job.subject.clone(),
+        |job| text::sim(job.simulator).to_owned(),
+    ];
+    let telling: Vec<_> = parts.iter().filter(|part| jobs.iter().any(|job| part(job) != part(jobs[0]))).collect();
+    let label = |job: &&JobRow| {
+        let words: Vec<String> = telling.iter().map(|part| part(job)).collect();
+        if words.is_empty() { format!("#{}", job.id) } else { words.join(" ") }
+    };
+    let labels: Vec<String> = jobs.iter().map(label).collect();
+    let is_twice = |label: &String| labels.iter().filter(|other| *other == label).count() > 1;
+    labels
+        .iter()
+        .zip(jobs)
+        .map(|(label, job)| if is_twice(label) { format!("{label} #{}", job.id) } else { label.clone() })
+        .collect()
+}
+
+/// The measurements of all runs, by the numbers and names of their last stage.
+#[must_use]
+pub fn contrasts(runs: &[Compared]) -> Vec<Contrast> {
+    let mut found: Vec<Contrast> = Vec::new();
+    for (k, run) in runs.iter().enumerate() {
+        for row in last_stage(&run.chi) {
+            let at = found.iter().position(|one| one.no == row.no && one.name == row.name).unwrap_or_else(|| {
+                found.push(Contrast {
+                    no: row.no,
+                    name: row.name.clone(),
+                    l2d_m: row.l2d_m,
+                    chi: vec![None; runs.len()],
+                });
+                found.len() - 1
+            });
+            found[at].chi[k] = Some(row.chi());
+        }
+    }
+    found
+}
+
+fn last_stage(chi: &[ChiRow]) -> impl Iterator<Item = &ChiRow> {
+    let last = ["drape", "popup", "sewn"].into_iter().find(|stage| chi.iter().any(|row| row.stage == *stage));
+    chi.iter().filter(move |row| Some(row.stage.as_str()) == last)
+}
+
+/// What the comparison says, in sentences, the most important first.
+#[must_use]
+pub fn verdict(runs: &[Compared], recommended: Option<&RecommendationRow>) -> Vec<String> {
+    let jobs: Vec<&JobRow> = runs.iter().map(|run| &run.job).collect();
+    let names = labels(&jobs);
+    let mut said = Vec::new();
+    let mut ranked: Vec<(usize, f64)> =
+        runs.iter().enumerate().filter_map(|(k, run)| Some((k, run.metrics.as_ref()?.ei))).collect();
+    ranked.sort_by(|a, b| a.1.total_cmp(&b.1));
+    if let [(best, least), (second, next), ..] = ranked[..] {
+        let apart = next - least;
+        let weight = if apart < MARGIN { "within 0.01, no practical difference" } else { "more than 0.01 apart" };
+        said.push(format!(
+            "{} is truest: EI {least:.4}, {} {next:.4}; {apart:.4} apart, {weight}",
+            names[best], names[second]
+        ));
+    } else {
+        said.push("fewer than two of these runs have a result yet".to_owned());
+    }
+    let rows = contrasts(runs);
+    let won = |k: usize| rows.iter().filter(|row| row.nearest() == Some(k)).count();
+    let wins: Vec<String> = names.iter().enumerate().map(|(k, name)| format!("{name} {}", won(k))).collect();
+    let ties = rows.iter().filter(|row| row.nearest().is_none()).count();
+    if !rows.is_empty() {
+        said.push(format!("nearest to 1, of {} measurements: {}, even {ties}", rows.len(), wins.join(", ")));
+    }
+    let restored = runs.iter().zip(&names).filter(|(run, _)| run.chi.iter().any(|row| row.is_controlled));
+    let restored: Vec<&str> = restored.map(|(_, name)| name.as_str()).collect();
+    if !restored.is_empty() && restored.len() < runs.len() {
+        said.push(format!("{} restores these lengths by construction: its EI flatters it", restored.join(", ")));
+    }
+    if let Some(row) = recommended {
+        let class = row.class.as_str();
+        said.push(format!(
+            "for {class} fits of {}: {}, by {} ({})",
+            row.garment,
+            row.recommended.as_str(),
+            row.basis,
+            row.reason
+        ));
+    }
+    said
+}
+
+/// Names of the inputs in which the runs differ from the first, without those of the same cell's other simulator.
+#[must_use]
+pub fn differing_inputs(runs: &[Compared]) -> Vec<String> {
+    let Some((first, rest)) = runs.split_first() else { return vec![] };
+    let mut names: Vec<String> = rest
+        .iter()
+        .flat_map(|run| run.inputs.changes_since(&first.inputs))
+        .map(|change| change.name)
+        .filter(|name| name != "sim.parameters")
+        .collect();
+    names.sort();
+    names.dedup();
+    names
+}
+
+impl State {
+    /// The runs to compare: those selected; else the job looked at and its cell by the other simulator.
+    #[must_use]
+    pub fn to_compare(&self) -> Vec<JobId> {
+        if self.marks.len() > 1 {
+            return self.marks.iter().copied().take(MOST).collect();
+        }
+        let Some(job) = self.job() else { return vec![] };
+        let mut pair = vec![job.id];
+        pair.extend(self.same_by_other(job).map(|other| other.id));
+        pair.sort_by_key(|id| self.data.as_ref().and_then(|data| data.job(*id)).map(|job| job.simulator));
+        pair
+    }
+
+    /// The same size and subject by the other simulator.
+    #[must_use]
+    pub fn same_by_other(&self, job: &JobRow) -> Option<&JobRow> {
+        let is_other = |other: &&JobRow| {
+            other.garment == job.garment
+                && other.size == job.size
+                && other.subject == job.subject
+                && other.repeat == job.repeat
+                && other.simulator != job.simulator
+        };
+        self.data.as_ref()?.jobs.iter().find(is_other)
+    }
+
+    /// The runs compared, as they were read.
+    #[must_use]
+    pub fn compared(&self) -> &[Compared] {
+        self.data.as_ref().map_or(&[], |data| &data.compared)
+    }
+
+    /// The measurements shown: all, or those in which the runs differ.
+    #[must_use]
+    pub fn contrasts(&self) -> Vec<Contrast> {
+        let filter = self.filters[Screen::Compare as usize].to_lowercase();
+        let mut rows = contrasts(self.compared());
+        rows.retain(|row| !self.differences_only || row.differs());
+        rows.retain(|row| format!("#{} {}", row.no, row.name).to_lowercase().contains(&filter));
+        if self.sorts_contrasts {
+            let spread = |row: &Contrast| {
+                let known = || row.chi.iter().flatten();
+                known().fold(f64::MIN, |a, b| a.max(*b)) - known().fold(f64::MAX, |a, b| a.min(*b))
+            };
+            rows.sort_by(|a, b| spread(b).total_cmp(&spread(a)));
+        }
+        rows
+    }
+
+    /// The recommendation that stands beside the comparison: that of the first run's garment and fit class.
+    #[must_use]
+    pub fn recommended(&self) -> Option<&RecommendationRow> {
+        let job = &self.compared().first()?.job;
+        let class = self.ease(job)?.fit.class;
+        let of_class = |row: &&RecommendationRow| row.garment == job.garment && row.class == class;
+        self.data.as_ref()?.recommendations.iter().find(of_class)
+    }
+
+    /// Selects a run for a comparison, or no longer.
+    pub(super) fn mark_run(&mut self) {
+        let Some(job) = self.job() else {
+            self.say("no job is selected");
+            return;
+        };
+        let id = job.id;
+        if !self.marks.remove(&id) {
+            if self.marks.len() == MOST {
+                self.say(format!("{MOST} runs are selected already; u takes all back"));
+                return;
+            }
+            self.marks.insert(id);
+        }
+        self.say(match self.marks.len() {
+            0 => "no run is selected".to_owned(),
+            1 => "1 run is selected; another, then c compares".to_owned(),
+            n => format!("{n} runs are selected; c compares, u takes all back"),
+        });
+    }
+
+    /// Takes all selections back.
+    pub(super) fn unmark_runs(&mut self) {
+        self.say(format!("{} runs were selected, none is now", self.marks.len()));
+        self.marks.clear();
+    }
+
+    /// Shows the comparison, where there is anything to compare.
+    pub(super) fn compare(&mut self) {
+        if self.to_compare().is_empty() {
+            self.say("nothing to compare yet: select a job, or several with Space");
+            return;
+        }
+        self.show(Screen::Compare);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_is_alone_or_nobody() {
+        let row = |chi: &[Option<f64>]| Contrast { no: 1, name: "Hem".into(), l2d_m: 1.0, chi: chi.to_vec() };
+        let check = |chi: &[Option<f64>], nearest, differs| {
+            assert_eq!((row(chi).nearest(), row(chi).differs()), (nearest, differs), "{chi:?}");
+        };
+        check(&[Some(1.02), Some(0.99)], Some(1), true);
+        check(&[Some(1.01), Some(0.99)], None, true);
+        check(&[Some(1.0), Some(1.0001)], None, false);
+        check(&[Some(1.2), None], Some(0), true);
+        check(&[Some(1.2)], None, false);
+    }
+}

@@ -1,0 +1,299 @@
+//! A text of several lines that is edited in place, and the completion of the word before its cursor.
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
+use crate::study::Relation;
+
+/// Words of SQL that are offered besides names.
+const WORDS: [&str; 24] = [
+    "SELECT",
+    "FROM",
+    "WHERE",
+    "JOIN",
+    "LEFT JOIN",
+    "USING",
+    "GROUP BY",
+    "ORDER BY",
+    "HAVING",
+    "LIMIT",
+    "DISTINCT",
+    "AND",
+    "BETWEEN",
+    "LIKE",
+    "IS NOT NULL",
+    "DESC",
+    "WITH",
+    "CASE",
+    "count(*)",
+    "avg(",
+    "median(",
+    "quantile(",
+    "stddev(",
+    "round(",
+];
+
+/// A text and the place in it where typing goes on.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Editor {
+    /// The text.
+    text: String,
+    /// Where the cursor is, a byte of `text` between characters.
+    cursor: usize,
+    /// The words offered for the one before the cursor.
+    offer: Option<Offer>,
+}
+
+/// Words that the one before the cursor may become.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Offer {
+    /// Where the word begins.
+    start: usize,
+    /// The words.
+    pub words: Vec<String>,
+    /// The one put into the text; `None` while they are only offered.
+    pub taken: Option<usize>,
+}
+
+impl Editor {
+    /// The text.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The words offered.
+    #[must_use]
+    pub fn offer(&self) -> Option<&Offer> {
+        self.offer.as_ref()
+    }
+
+    /// Puts another text in, the cursor at its end.
+    pub fn set(&mut self, text: &str) {
+        *self = Self { text: text.to_owned(), cursor: text.len(), offer: None };
+    }
+
+    /// Line and column of the cursor, in characters from 0.
+    #[must_use]
+    pub fn place(&self) -> (usize, usize) {
+        let before = &self.text[..self.cursor];
+        let line = before.matches('\n').count();
+        (line, before[self.line_start()..].chars().count())
+    }
+
+    fn line_start(&self) -> usize {
+        self.text[..self.cursor].rfind('\n').map_or(0, |at| at + 1)
+    }
+
+    fn line_end(&self) -> usize {
+        self.text[self.cursor..].find('\n').map_or(self.text.len(), |at| self.cursor + at)
+    }
+
+    /// Handles a key; returns whether it was one for the editor.
+    pub fn key(&mut self, event: &KeyEvent, relations: &[Relation]) -> bool {
+        let ctrl = event.modifiers.contains(KeyModifiers::CONTROL);
+        if event.modifiers.contains(KeyModifiers::ALT) {
+            return false;
+        }
+        match event.code {
+            KeyCode::Tab if self.offer.is_some() => self.take_word(1),
+            KeyCode::BackTab if self.offer.is_some() => self.take_word(-1),
+            _ => {
+                if !self.edit(event.code, ctrl) {
+                    return false;
+                }
+                self.offer = self.offered(relations);
+            }
+        }
+        true
+    }
+
+    fn edit(&mut self, code: KeyCode, ctrl: bool) -> bool {
+        match code {
+            KeyCode::Char('u') if ctrl => self.remove(self.line_start()),
+            KeyCode::Char('w') if ctrl => self.remove(self.word_start()),
+            KeyCode::Char(_) if ctrl => return false,
+            KeyCode::Char(letter) => self.insert(letter),
+            KeyCode::Enter => self.insert('\n'),
+            KeyCode::Backspace => self.remove(self.before()),
+            KeyCode::Delete => {
+                if self.cursor < self.text.len() {
+                    self.text.remove(self.cursor);
+                }
+            }
+            KeyCode::Left if ctrl => self.cursor = self.word_start(),
+            KeyCode::Left => self.cursor = self.before(),
+            KeyCode::Right => self.cursor += self.text[self.cursor..].chars().next().map_or(0, char::len_utf8),
+            KeyCode::Home => self.cursor = self.line_start(),
+            KeyCode::End => self.cursor = self.line_end(),
+            KeyCode::Up => self.go_to_line(-1),
+            KeyCode::Down => self.go_to_line(1),
+            _ => return false,
+        }
+        true
+    }
+
+    fn insert(&mut self, letter: char) {
+        self.text.insert(self.cursor, letter);
+        self.cursor += letter.len_utf8();
+    }
+
+    /// Removes what lies between a place and the cursor.
+    fn remove(&mut self, from: usize) {
+        self.text.replace_range(from..self.cursor, "");
+        self.cursor = from;
+    }
+
+    fn before(&self) -> usize {
+        self.text[..self.cursor].char_indices().next_back().map_or(0, |(at, _)| at)
+    }
+
+    /// Where the word before the cursor begins, blanks after it left out.
+    fn word_start(&self) -> usize {
+        let trimmed = self.text[..self.cursor].trim_end();
+        trimmed.rfind(|c: char| !is_of_word(c)).map_or(0, |at| {
+            let after = at + trimmed[at..].chars().next().map_or(1, char::len_utf8);
+            if after == trimmed.len() { at } else { after }
+        })
+    }
+
+    fn go_to_line(&mut self, step: isize) {
+        let (line, column) = self.place();
+        let starts: Vec<usize> =
+            std::iter::once(0).chain(self.text.match_indices('\n').map(|(at, _)| at + 1)).collect();
+        let Some(start) = line.checked_add_signed(step).and_then(|line| starts.get(line)) else {
+            self.cursor = if step < 0 { 0 } else { self.text.len() };
+            return;
+        };
+        self.cursor = *start;
+        let end = self.line_end();
+        self.cursor = self.text[*start..end].char_indices().nth(column).map_or(end, |(at, _)| start + at);
+    }
+
+    /// Puts the next of the offered words into the text.
+    fn take_word(&mut self, step: isize) {
+        let Some(offer) = &mut self.offer else { return };
+        let last = offer.words.len() as isize;
+        let next = offer.taken.map_or(if step > 0 { 0 } else { last - 1 }, |at| (at as isize + step).rem_euclid(last));
+        offer.taken = Some(next as usize);
+        let word = &offer.words[next as usize];
+        self.text.replace_range(offer.start..self.cursor, word);
+        self.cursor = offer.start + word.len();
+    }
+
+    /// Words that begin like the one before the cursor: columns of what the text names, names of views and tables, words
+    /// of SQL, other columns. After `view.` only its columns.
+    fn offered(&self, relations: &[Relation]) -> Option<Offer> {
+        let before = &self.text[..self.cursor];
+        let start = before
+            .rfind(|c: char| !is_of_word(c))
+            .map_or(0, |at| at + before[at..].chars().next().map_or(1, char::len_utf8));
+        let prefix = before[start..].to_lowercase();
+        let owner = before[..start]
+            .strip_suffix('.')
+            .map(|rest| rest.rsplit(|c: char| !is_of_word(c)).next().unwrap_or_default());
+        if prefix.is_empty() && owner.is_none() {
+            return None;
+        }
+        let named = self.named(relations);
+        let columns = |relations: &[&Relation]| relations.iter().flat_map(|r| r.columns.clone()).collect::<Vec<_>>();
+        let mut words = match owner {
+            Some(owner) => columns(&self.owned(owner, relations).into_iter().collect::<Vec<_>>()),
+            None => {
+                let names = relations.iter().map(|relation| relation.name.clone());
+                let sql = WORDS.iter().map(|word| (*word).to_owned());
+                let others = columns(&relations.iter().collect::<Vec<_>>());
+                columns(&named).into_iter().chain(names).chain(sql).chain(others).collect()
+            }
+        };
+        let mut seen = std::collections::BTreeSet::new();
+        words.retain(|word| {
+            let lower = word.to_lowercase();
+            lower.starts_with(&prefix) && lower != prefix && seen.insert(lower)
+        });
+        (!words.is_empty()).then_some(Offer { start, words, taken: None })
+    }
+
+    /// Views and tables that the text names.
+    fn named<'a>(&self, relations: &'a [Relation]) -> Vec<&'a Relation> {
+        let words: Vec<&str> = self.text.split(|c: char| !is_of_word(c)).collect();
+        relations.iter().filter(|relation| words.iter().any(|word| relation.name.eq_ignore_ascii_case(word))).collect()
+    }
+
+    /// The view or table that a name stands for: its own, or one given with `AS`, which may be left out.
+    fn owned<'a>(&self, name: &str, relations: &'a [Relation]) -> Option<&'a Relation> {
+        let of_name = |name: &str| relations.iter().find(|relation| relation.name.eq_ignore_ascii_case(name));
+        let words: Vec<&str> = self.text.split(|c: char| !is_of_word(c)).filter(|word| !word.is_empty()).collect();
+        let alias = words.iter().enumerate().find_map(|(k, word)| {
+            let after = words.get(k + 1)?;
+            let alias = if after.eq_ignore_ascii_case("as") { words.get(k + 2)? } else { after };
+            of_name(word).filter(|_| alias.eq_ignore_ascii_case(name))
+        });
+        of_name(name).or(alias)
+    }
+}
+
+fn is_of_word(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn relations() -> Vec<Relation> {
+        let relation = |name: &str, columns: &[&str]| Relation {
+            name: name.to_owned(),
+            columns: columns.iter().map(|column| (*column).to_owned()).collect(),
+        };
+        vec![relation("v_chi", &["study", "chi", "l2d_mm"]), relation("v_jobs", &["study", "status", "job_id"])]
+    }
+
+    /// Types a text; `|` stands for Tab, `<` for Left, `^` for Up, `~` for Backspace.
+    fn typed(keys: &str) -> Editor {
+        let mut editor = Editor::default();
+        for letter in keys.chars() {
+            let code = match letter {
+                '|' => KeyCode::Tab,
+                '<' => KeyCode::Left,
+                '^' => KeyCode::Up,
+                '~' => KeyCode::Backspace,
+                '\n' => KeyCode::Enter,
+                other => KeyCode::Char(other),
+            };
+            editor.key(&KeyEvent::new(code, KeyModifiers::NONE), &relations());
+        }
+        editor
+    }
+
+    #[test]
+    fn text_is_edited_anywhere() {
+        let check = |keys: &str, text: &str, place| {
+            let editor = typed(keys);
+            assert_eq!((editor.text(), editor.place()), (text, place), "{keys}");
+        };
+        check("ac<b", "abc", (0, 2));
+        check("äö<~", "ö", (0, 0));
+        check("one\ntwo^x", "onex\ntwo", (0, 4));
+        check("one\n\nthree^^2", "2one\n\nthree", (0, 1));
+        check("~^<", "", (0, 0));
+        let mut editor = typed("SELECT chi");
+        editor.key(&KeyEvent::new(KeyCode::Char('w'), KeyModifiers::CONTROL), &[]);
+        assert_eq!(editor.text(), "SELECT ");
+        editor.key(&KeyEvent::new(KeyCode::Char('u'), KeyModifiers::CONTROL), &[]);
+        assert_eq!(editor.text(), "");
+    }
+
+    #[test]
+    fn words_are_completed_by_what_the_text_names() {
+        let check = |keys: &str, text: &str| assert_eq!(typed(keys).text(), text, "{keys}");
+        check("sel|", "SELECT");
+        check("SELECT * FROM v_|", "SELECT * FROM v_chi");
+        check("SELECT * FROM v_||", "SELECT * FROM v_jobs");
+        check("SELECT * FROM v_|||", "SELECT * FROM v_chi");
+        check("SELECT * FROM v_jobs WHERE st|", "SELECT * FROM v_jobs WHERE study");
+        check("SELECT * FROM v_jobs WHERE sta|", "SELECT * FROM v_jobs WHERE status");
+        check("SELECT * FROM v_chi AS c, v_jobs j WHERE j.|", "SELECT * FROM v_chi AS c, v_jobs j WHERE j.study");
+        check("SELECT * FROM v_chi AS c WHERE c.l|", "SELECT * FROM v_chi AS c WHERE c.l2d_mm");
+        assert!(typed("SELECT ").offer().is_none() && typed("zzz").offer().is_none());
+    }
+}

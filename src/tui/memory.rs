@@ -1,0 +1,134 @@
+//! What the workbench remembers from one start to the next: the screen, what is selected, filters, orders, queries. One
+//! small file a database, in the state folder; one that cannot be read means a fresh start, never an error.
+
+use std::path::{Path, PathBuf};
+
+use super::action::Screen;
+use super::state::{ChiOrder, JobOrder, Order, State, SubjectOrder};
+use crate::study::JobId;
+
+/// The longest name of a file.
+const LONGEST: usize = 200;
+
+/// What is remembered.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub struct Memory {
+    screen: usize,
+    study: Option<String>,
+    garment: Option<String>,
+    job: Option<i64>,
+    subject: Option<String>,
+    size: Option<(String, String)>,
+    marks: Vec<i64>,
+    filters: Vec<String>,
+    subject_order: Order<SubjectOrder>,
+    job_order: Order<JobOrder>,
+    chi_order: Order<ChiOrder>,
+    reports_by_time: bool,
+    sorts_contrasts: bool,
+    differences_only: bool,
+    is_ascii: Option<bool>,
+    has_mouse: Option<bool>,
+    query: String,
+    history: Vec<String>,
+}
+
+impl Memory {
+    /// What a state leaves behind.
+    #[must_use]
+    pub fn of(state: &State) -> Self {
+        Self {
+            screen: state.screen as usize,
+            study: state.focus.study.clone(),
+            garment: state.focus.garment.clone(),
+            job: state.focus.job.map(|job| job.0),
+            subject: state.subject.clone(),
+            size: state.styles.selected.clone(),
+            marks: state.marks.iter().map(|job| job.0).collect(),
+            filters: state.filters.to_vec(),
+            subject_order: state.subject_order,
+            job_order: state.job_order,
+            chi_order: state.chi_order,
+            reports_by_time: state.reports_by_time,
+            sorts_contrasts: state.sorts_contrasts,
+            differences_only: state.differences_only,
+            is_ascii: Some(state.theme.ascii),
+            has_mouse: Some(state.has_mouse),
+            query: state.sql.editor.text().to_owned(),
+            history: state.sql.history.clone(),
+        }
+    }
+
+    /// Puts it into a new state. `ascii` and the mouse stay as they are where the environment asks for them.
+    pub fn recall(self, state: &mut State) {
+        state.screen = Screen::ALL.get(self.screen).copied().unwrap_or(Screen::Study);
+        (state.focus.study, state.focus.garment, state.focus.job) = (self.study, self.garment, self.job.map(JobId));
+        (state.subject, state.styles.selected) = (self.subject, self.size);
+        state.marks = self.marks.into_iter().map(JobId).collect();
+        for (filter, kept) in state.filters.iter_mut().zip(self.filters) {
+            *filter = kept;
+        }
+        (state.subject_order, state.job_order, state.chi_order) = (self.subject_order, self.job_order, self.chi_order);
+        (state.reports_by_time, state.sorts_contrasts) = (self.reports_by_time, self.sorts_contrasts);
+        state.differences_only = self.differences_only;
+        state.theme.ascii |= self.is_ascii == Some(true);
+        state.has_mouse = self.has_mouse.unwrap_or(state.has_mouse);
+        state.sql.editor.set(&self.query);
+        state.sql.history = self.history;
+    }
+
+    /// What was kept in a file; nothing where there is none.
+    #[must_use]
+    pub fn read(path: &Path) -> Self {
+        std::fs::read(path).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok()).unwrap_or_default()
+    }
+
+    /// Keeps it in a file, as far as that can be written: what is lost is a convenience.
+    pub fn write(&self, path: &Path) {
+        let Some(folder) = path.parent() else { return };
+        let Ok(bytes) = serde_json::to_vec_pretty(self) else { return };
+        let aside = path.with_extension(format!("{}.tmp", std::process::id()));
+        let written = std::fs::create_dir_all(folder).and_then(|()| std::fs::write(&aside, bytes));
+        let _ = written.and_then(|()| std::fs::rename(&aside, path));
+    }
+}
+
+/// Where it is kept for a database: `toile` in the state folder.
+#[must_use]
+pub fn place(database: &Path, env: &dyn Fn(&str) -> Option<String>) -> Option<PathBuf> {
+    let set = |name: &str| env(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+    let folder = set("XDG_STATE_HOME").or_else(|| set("HOME").map(|home| home.join(".local").join("state")))?;
+    let path = std::path::absolute(database).unwrap_or_else(|_| database.to_owned());
+    let name: Vec<char> = path.display().to_string().replace(['/', '\\'], "%").chars().collect();
+    // The end of a long path tells databases apart.
+    let name: String = name[name.len().saturating_sub(LONGEST)..].iter().collect();
+    Some(folder.join("toile").join(format!("{name}.json")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_read_is_forgotten() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("state/x.json");
+        assert_eq!(Memory::read(&path), Memory::default());
+        let memory = Memory { screen: 3, query: "SELECT 1".into(), ..Memory::default() };
+        memory.write(&path);
+        assert_eq!(Memory::read(&path), memory);
+        std::fs::write(&path, "{\"screen\": 2, \"new\": []").expect("writable");
+        assert_eq!(Memory::read(&path), Memory::default());
+        std::fs::write(&path, "{\"screen\": 2, \"of a newer program\": []}").expect("writable");
+        assert_eq!(Memory::read(&path).screen, 2);
+    }
+
+    #[test]
+    fn databases_have_files_of_their_own() {
+        let env = |name: &str| (name == "XDG_STATE_HOME").then(|| "/state".to_owned());
+        let of = |database: &str| place(Path::new(database), &env).expect("a place").display().to_string();
+        assert_eq!(of("/data/a.sqlite"), "/state/toile/%data%a.sqlite.json");
+        assert_ne!(of(&format!("/{}/a.sqlite", "long".repeat(80))), of(&format!("/{}/b.sqlite", "long".repeat(80))));
+    }
+}

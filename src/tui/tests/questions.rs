@@ -1,0 +1,294 @@
+//! SQL, comparisons, reports, new studies, and what is remembered of them.
+
+use std::sync::mpsc;
+use std::time::Duration;
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use insta::assert_snapshot;
+
+use super::super::asker::{self, Brake, Question};
+use super::super::clerk::Errand;
+use super::super::memory::Memory;
+use super::super::message::{Effect, Message};
+use super::super::overlay::Overlay;
+use super::super::sheet::Sheet;
+use super::super::state::State;
+use super::super::{Screen, theme::Theme};
+use super::{Bench, fixture};
+use crate::study::{JobId, LiveFrame, Relation, ReportRow, SqlAnswer, Table, Value, Workspace, saved_queries};
+
+/// An answer with a name, two numbers and a long text a row.
+fn answer(rows: i64) -> SqlAnswer {
+    let row = |k: i64| {
+        let reason = format!("row {k} because of reasons that take some room to tell");
+        vec![
+            Value::Text(format!("tshirt {k}")),
+            Value::Integer(100 - k),
+            Value::Real(0.0117 / k as f64),
+            Value::Text(reason),
+        ]
+    };
+    let columns = ["garment", "n", "ei", "why"].map(str::to_owned).to_vec();
+    SqlAnswer { table: Table { columns, rows: (1..=rows).map(row).collect() }, is_cut: false }
+}
+
+/// What the thread that asks the database answers.
+fn ask(bench: &mut Bench) {
+    for effect in bench.asked() {
+        match effect {
+            Effect::Ask(Question::Names) => {
+                let columns = ["study", "garment", "ei"].map(str::to_owned).to_vec();
+                let relation = |name: &str| Relation { name: name.into(), columns: columns.clone() };
+                let relations = vec![relation("v_metrics"), relation("v_pair"), relation("job")];
+                bench.send(Message::Names(relations, saved_queries(std::path::Path::new("none"))));
+            }
+            Effect::Ask(Question::Rows(text)) => {
+                let outcome = if text.contains("wrong") {
+                    Err("no such column: wrong in SELECT wrong".to_owned())
+                } else {
+                    Ok(Box::new(Sheet::of(answer(30))))
+                };
+                bench.send(Message::Answered(3, outcome));
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+}
+
+fn ctrl(bench: &mut Bench, letter: char) {
+    bench.send(Message::Key(KeyEvent::new(KeyCode::Char(letter), KeyModifiers::CONTROL)));
+}
+
+#[test]
+fn a_query_is_typed_completed_run_and_its_rows_sorted() {
+    for (width, height) in [(80, 24), (160, 50)] {
+        let mut bench = Bench::example(width, height);
+        bench.press("7");
+        ask(&mut bench);
+        assert_snapshot!(format!("sql_{width}x{height}"), bench.screen());
+        bench.press("select * from v_<Tab>");
+        assert_snapshot!(format!("sql_completion_{width}x{height}"), bench.screen());
+        bench.press("<F5>");
+        assert!(bench.screen().contains("asking… C-c cancels"));
+        ask(&mut bench);
+        bench.press("<Esc><Right>s");
+        assert_snapshot!(format!("sql_rows_{width}x{height}"), bench.screen());
+        bench.press("/tshirt 7<Enter>");
+        assert_eq!(bench.state.sql.sheet.as_ref().map(Sheet::len), Some(1));
+        assert_eq!(bench.press("y").asked(), [Effect::Copy("garment\tn\tei\twhy\ntshirt 7\t93\t0.0016714285714285715\trow 7 because of reasons that take some room to tell\n".into())]);
+        bench.press("<Esc>");
+        assert_eq!(bench.state.sql.sheet.as_ref().map(Sheet::len), Some(30));
+    }
+}
+
+#[test]
+fn queries_are_refused_cancelled_recalled_and_saved_ones_offered() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("7select wrong<F5>");
+    ask(&mut bench);
+    assert!(bench.screen().contains("✗ no such column: wrong"), "{}", bench.screen());
+    bench.press("<Esc>e; select 2<F5>");
+    bench.asked();
+    ctrl(&mut bench, 'c');
+    assert_eq!(bench.asked(), [Effect::StopAsking], "a query is cancelled before anything is left");
+    bench.send(Message::Answered(9, Err("cancelled".into())));
+    ctrl(&mut bench, 'p');
+    ctrl(&mut bench, 'p');
+    assert_eq!(bench.state.sql.editor.text(), "select wrong");
+    ctrl(&mut bench, 'n');
+    assert_eq!(bench.state.sql.editor.text(), "select wrong; select 2");
+    bench.press("<Esc>o");
+    assert!(bench.screen().contains("saved queries") && bench.screen().contains("attention"));
+    bench.press("times<Enter>");
+    assert!(bench.state.sql.editor.text().contains("median_s"), "{}", bench.state.sql.editor.text());
+    bench.press("<F5>");
+    ask(&mut bench);
+    bench.press("<Esc>w");
+    ctrl(&mut bench, 'u');
+    bench.press("rows.json<Enter>");
+    let query = bench.state.sql.answered.clone();
+    assert_eq!(bench.asked(), [Effect::Ask(Question::Export(query, "rows.json".into()))]);
+    bench.send(Message::Saved(Ok("30 rows are in rows.json".into())));
+    assert!(bench.state.overlay.is_none() && bench.status().contains("30 rows"));
+}
+
+#[test]
+fn an_empty_editor_lets_commands_through() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("7");
+    assert!(bench.press("?").screen().contains("keys:"));
+    assert_eq!(bench.press("<Esc>4").state.screen, Screen::Jobs);
+    assert_eq!(bench.press("7x4").state.screen, Screen::Sql, "now it is text");
+    assert_eq!(bench.press("<Esc>:run<Enter>").asked().last(), Some(&Effect::Ask(Question::Rows("x4".into()))));
+}
+
+#[test]
+fn fem_and_hybrid_are_compared_unless_runs_are_selected() {
+    for (width, height) in [(80, 24), (160, 50)] {
+        let mut bench = Bench::example(width, height);
+        bench.press("c");
+        assert_eq!(bench.state.focus.compare, [JobId(1), JobId(2)]);
+        assert_snapshot!(format!("compare_{width}x{height}"), bench.screen());
+    }
+    let mut bench = Bench::example(80, 24);
+    bench.press(" l ");
+    assert_eq!(bench.status(), "2 runs are selected; c compares, u takes all back");
+    bench.press("cd");
+    assert_eq!(bench.state.focus.compare, [JobId(1), JobId(3)]);
+    assert!(bench.screen().contains("no measurement differs"), "the fixture's results by FEM are all the same");
+    assert!(bench.screen().contains("FEM") || bench.screen().contains(" ii "), "{}", bench.screen());
+    bench.press("du<Esc>c");
+    let copied = bench.press("y").asked();
+    assert!(
+        matches!(&copied[..], [Effect::Copy(text)] if text.starts_with("no\tmeasurement\tl2d_mm\tFEM\tHYB\n1\tHem")),
+        "{copied:?}"
+    );
+}
+
+#[test]
+fn compared_drapes_stand_side_by_side_where_there_is_room() {
+    let mut bench = Bench::example(160, 50);
+    bench.press("c");
+    assert_eq!(bench.state.shots.len(), 2);
+    let before = bench.state.shots.clone();
+    bench.press("v");
+    assert!(bench.state.shots.iter().zip(&before).all(|(now, then)| now.of == then.of && now.look != then.look));
+    let mut bench = Bench::example(80, 24);
+    bench.press("c");
+    assert!(bench.state.shots.is_empty());
+    bench.press("z");
+    assert_eq!(bench.state.shots.len(), 2);
+}
+
+#[test]
+fn reports_are_listed_built_and_opened() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("8");
+    assert_eq!(bench.asked(), [Effect::Errand(Errand::ListReports)]);
+    assert_eq!(bench.press("b").asked(), [Effect::Errand(Errand::BuildReport("men-tops".into()))]);
+    assert_eq!(bench.press("b").asked(), [], "one at a time");
+    let row = |name: &str, written_ms| ReportRow {
+        name: name.into(),
+        page: format!("/srv/reports/{name}/index.html").into(),
+        bytes: 1_234_567,
+        written_ms,
+        files: 42,
+    };
+    let rows = vec![row("dresses", 0), row("men-tops", 1_700_000_000_000)];
+    bench.send(Message::ReportBuilt(Ok("/srv/reports/men-tops/index.html".into()), rows));
+    assert_eq!(bench.state.report().map(|row| row.name.as_str()), Some("men-tops"));
+    assert_snapshot!("reports_80x24", bench.screen());
+    assert_eq!(bench.press("y").asked(), [Effect::Copy("/srv/reports/men-tops/index.html".into())]);
+    assert_eq!(bench.press("gs").state.report().map(|row| row.name.as_str()), Some("men-tops"), "the latest first");
+}
+
+#[test]
+fn a_new_study_is_chosen_from_the_catalogue() {
+    for (width, height) in [(80, 24), (160, 50)] {
+        let mut bench = Bench::new(
+            width,
+            height,
+            super::super::Snapshot { subjects: fixture::snapshot().subjects, ..fixture::empty() },
+        );
+        assert_eq!(bench.press("a").asked(), [Effect::Errand(Errand::ListFabrics)]);
+        bench.send(Message::Fabrics(vec!["canvas".into(), "cotton_shirting_light".into()]));
+        bench.press("<Enter>");
+        assert!(bench.screen().contains("✗ choose a size of a style"), "{}", bench.screen());
+        bench.press(" <Tab>a");
+        assert_snapshot!(format!("new_study_{width}x{height}"), bench.screen());
+        let asked = bench.press("<Enter>").asked();
+        let [Effect::Errand(Errand::CreateStudy(new))] = &asked[..] else { panic!("{asked:?}") };
+        assert_eq!(
+            (new.name.as_str(), new.subjects.len(), new.sizes.len(), new.simulators.len()),
+            ("study-1", 3, 1, 2)
+        );
+        assert_eq!(new.fabric, "cotton_shirting_light");
+        bench.send(Message::StudyCreated("study-1".into(), Err("the folder is there".into())));
+        assert!(bench.screen().contains("✗ the folder is there"));
+        bench.state.update(Message::StudyCreated("study-1".into(), Ok("studies/study-1/study.toml".into())));
+        assert!(bench.state.overlay.is_none() && bench.state.focus.study.as_deref() == Some("study-1"));
+    }
+}
+
+#[test]
+fn a_run_here_is_watched_and_one_elsewhere_is_not() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("4jjjjjj5");
+    assert!(bench.screen().contains("another process"), "{}", bench.screen());
+    bench.press("R");
+    assert!(bench.asked().contains(&Effect::Watch(Some(JobId(7)))));
+    let at = |k: usize| crate::geom::V3::new(0.2 * (k as f64).cos(), 0.1, 1.0 + 0.3 * (k as f64 * 0.37).sin());
+    let positions: Vec<_> = (0..400).map(at).collect();
+    bench.send(Message::Live(LiveFrame { job: JobId(7), positions }));
+    let screen = bench.screen();
+    assert!(screen.contains("residual 5.5e-2") && screen.chars().any(|c| ('⠁'..='⣿').contains(&c)), "{screen}");
+    bench.press("7");
+    assert!(bench.asked().contains(&Effect::Watch(None)), "nobody looks");
+}
+
+#[test]
+fn what_was_looked_at_is_remembered() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("4/hyb<Enter>sjj 7select 1<Esc>3");
+    let memory = Memory::of(&bench.state);
+    let abilities = bench.state.abilities;
+    let theme = Theme { ..bench.state.theme };
+    let mut state = State::new(theme, abilities, bench.state.size);
+    let focus = bench.state.focus.clone();
+    memory.clone().recall(&mut state);
+    assert_eq!((state.screen, &state.focus.job, &state.filters), (Screen::Styles, &focus.job, &bench.state.filters));
+    assert_eq!((state.job_order, state.marks.len(), state.sql.editor.text()), (bench.state.job_order, 1, "select 1"));
+    state.update(Message::Data(Box::new(fixture::snapshot())));
+    assert_eq!(Memory::of(&state), memory, "and still is once the database was read");
+}
+
+#[test]
+fn ascii_has_a_stand_in_for_every_sign() {
+    for keys in ["", "2", "3", "4jjjj", "5", "c", "7", "8", "?", "5<Tab>", "4x"] {
+        let mut bench = Bench::example(160, 50);
+        bench.press("<F2>").press(keys);
+        let screen = bench.screen();
+        let inside: String = screen.lines().map(|line| line.trim_matches('"')).collect();
+        assert!(inside.is_ascii(), "{keys}: {:?}", inside.chars().filter(|c| !c.is_ascii()).collect::<Vec<_>>());
+        let unknown = inside.matches('?').count();
+        assert!(unknown <= 3, "{keys}: {screen}");
+    }
+}
+
+/// The query thread stops what it works on, and says so.
+#[test]
+fn the_brake_stops_a_query_that_would_never_end() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("toile.sqlite");
+    Workspace::open(&path, false).expect("a new database");
+    let (questions, wanted) = mpsc::channel();
+    let (sender, answers) = mpsc::channel();
+    let brake = Brake::default();
+    std::thread::scope(|scope| {
+        let (path, own_brake) = (path.clone(), brake.clone());
+        scope.spawn(move || asker::serve(&path, &own_brake, &wanted, &sender));
+        let endless = "WITH RECURSIVE n(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM n) SELECT count(*) FROM n";
+        let ask = |sql: &str| questions.send(Question::Rows(sql.into())).expect("it listens");
+        ask(endless);
+        let told = loop {
+            brake.pull();
+            if let Ok(message) = answers.recv_timeout(Duration::from_millis(10)) {
+                break message;
+            }
+        };
+        assert!(matches!(&told, Message::Answered(_, Err(error)) if error == "cancelled"), "{told:?}");
+        brake.release();
+        ask("SELECT 7");
+        let told = answers.recv().expect("it goes on");
+        assert!(matches!(&told, Message::Answered(_, Ok(sheet)) if sheet.total() == 1), "{told:?}");
+        drop(questions);
+    });
+}
+
+#[test]
+fn a_question_overlay_hides_nothing_of_the_form() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("a");
+    assert!(matches!(bench.state.overlay, Some(Overlay::StudyForm(_))));
+    assert!(bench.press("<Esc>").state.overlay.is_none());
+}
