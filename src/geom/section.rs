@@ -91,25 +91,36 @@ type CutEdge = (usize, usize);
 /// a closed manifold mesh all close.
 #[must_use]
 pub fn section(mesh: &TriMesh, plane: &Plane) -> Vec<Outline> {
-    section_of(&mesh.positions, &mesh.triangles, plane)
+    let normal = plane.normal();
+    let heights: Vec<f64> = mesh.positions.iter().map(|p| (p - plane.origin).dot(&normal)).collect();
+    cut(&mesh.positions, &mesh.triangles, plane, |vertex| heights[vertex])
 }
 
 /// Outlines in which `plane` cuts some `triangles` over `positions`.
 #[must_use]
 pub fn section_of(positions: &[V3], triangles: &[[usize; 3]], plane: &Plane) -> Vec<Outline> {
     let normal = plane.normal();
-    let height = |vertex: usize| (positions[vertex] - plane.origin).dot(&normal);
+    cut(positions, triangles, plane, |vertex| (positions[vertex] - plane.origin).dot(&normal))
+}
+
+/// The outlines, where a vertex lies at a `height` above the plane.
+fn cut(
+    positions: &[V3],
+    triangles: &[[usize; 3]],
+    plane: &Plane,
+    height: impl Fn(usize) -> f64,
+) -> Vec<Outline> {
     let mut links: Vec<(CutEdge, CutEdge)> = Vec::new();
-    for triangle in triangles {
-        let above = triangle.map(|vertex| height(vertex) >= 0.0);
+    for &[a, b, c] in triangles {
+        let above = [height(a) >= 0.0, height(b) >= 0.0, height(c) >= 0.0];
         if above[0] == above[1] && above[1] == above[2] {
             continue;
         }
         let mut link = ((0, 0), (0, 0));
-        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
-            let (from, to) = (triangle[i], triangle[j]);
+        for (from, to, up, down) in [(a, b, above[0], above[1]), (b, c, above[1], above[2]), (c, a, above[2], above[0])]
+        {
             let edge = (from.min(to), from.max(to));
-            match (above[i], above[j]) {
+            match (up, down) {
                 (true, false) => link.0 = edge,
                 (false, true) => link.1 = edge,
                 _ => {}
