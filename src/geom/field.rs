@@ -5,6 +5,8 @@
 //! armpit) does not jump between two contact planes. The spline blurs the field by a quarter of the spacing squared,
 //! which lifts a surface of mean curvature `H` by about `spacing^2 H / 4`: 0.1 mm on a neck at 6 mm.
 
+use nalgebra::Matrix3;
+
 use super::surface::{Surface, SurfaceError};
 use super::{TriMesh, V3};
 
@@ -130,6 +132,38 @@ impl DistanceField {
         (value, gradient / self.spacing_m)
     }
 
+    /// Second derivatives of the distance at a point, 1/m; zero beyond the exact shell.
+    #[must_use]
+    pub fn hessian(&self, p: &V3) -> Matrix3<f64> {
+        let local = (p - self.origin) / self.spacing_m;
+        let mut first = [0_usize; 3];
+        // Weights of the value, of the slope and of the curvature along each axis.
+        let mut weight = [[[0.0; 3]; 3]; 3];
+        for k in 0..3 {
+            let centre = local[k].round();
+            if !(centre >= 1.0 && centre < (self.size[k] - 1) as f64) {
+                return Matrix3::zeros();
+            }
+            first[k] = centre as usize - 1;
+            let t = local[k] - centre;
+            weight[k] = [
+                [0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)],
+                [t - 0.5, -2.0 * t, t + 0.5],
+                [1.0, -2.0, 1.0],
+            ];
+        }
+        let sum = |orders: [usize; 3]| -> f64 {
+            let [x, y, z] = [0, 1, 2].map(|k| weight[k][orders[k]]);
+            let at = |a: usize, b: usize, c: usize| {
+                f64::from(self.values[self.node(first[0] + a, first[1] + b, first[2] + c)]) * x[a] * y[b] * z[c]
+            };
+            (0..27).map(|i| at(i % 3, i / 3 % 3, i / 9)).sum()
+        };
+        let [xx, yy, zz] = [sum([2, 0, 0]), sum([0, 2, 0]), sum([0, 0, 2])];
+        let [xy, yz, zx] = [sum([1, 1, 0]), sum([0, 1, 1]), sum([1, 0, 1])];
+        Matrix3::new(xx, xy, zx, xy, yy, yz, zx, yz, zz) / (self.spacing_m * self.spacing_m)
+    }
+
     /// The field as bytes, for a cache.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
@@ -187,6 +221,12 @@ mod tests {
         for d in [-0.05, -0.01, 0.0, 0.003] {
             check(V3::new(1.0, 0.2, 0.1), d);
             check(V3::new(-0.3, 0.9, -0.4), d);
+        }
+        let (p, step) = (V3::new(0.05, 0.06, 0.05), 1e-6);
+        for k in 0..3 {
+            let at = |d: f64| field.value_and_gradient(&(p + V3::ith(k, d))).1;
+            let slope = (at(step) - at(-step)) / (2.0 * step);
+            assert!((field.hessian(&p).column(k) - slope).norm() < 1e-5, "{slope} along axis {k}");
         }
         let (value, gradient) = field.value_and_gradient(&V3::new(3.0, 0.0, 0.0));
         assert!(value > 0.01 && gradient == V3::zeros());

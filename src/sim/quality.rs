@@ -4,7 +4,7 @@ use crate::body::Body;
 use crate::geom::{Surface, V3};
 use crate::pattern::Garment;
 use crate::sim::contact::crossings;
-use crate::sim::solver::PairList;
+use crate::sim::contact::tangle::edges_of;
 
 /// Deepest point of the cloth inside the body, m: vertices, edge middles and triangle centres against the exact surface;
 /// 0 when none is inside.
@@ -29,6 +29,6 @@ pub fn seam_gap_m(garment: &Garment, positions: &[V3]) -> f64 {
 /// vertices at `x`.
 #[must_use]
 pub fn self_crossings(x: &[V3], triangles: &[[usize; 3]]) -> usize {
-    let edges = PairList::new(triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]));
+    let edges = edges_of(triangles);
     crossings(x, edges.pairs(), triangles).count()
 }

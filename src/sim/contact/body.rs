@@ -1,12 +1,19 @@
 //! Contact of cloth with the body: a penalty in the distance field, and Coulomb friction by anchors.
 //!
-//! A vertex nearer than the offset `d0` is pushed out with the energy `k A (d0 - phi)^2 / 2`, `A` its rest area; the force runs
-//! along the raw gradient of the field, so that it is exactly the energy's. Friction ties a touching vertex to an anchor by
-//! a spring of stiffness `k_t`; beyond the Coulomb limit the anchor is dragged along [method 7].
+//! A sample of the cloth nearer than the offset `d0` is pushed out with the energy `k A (d0 - phi)^2 / 2`, `A` its rest area;
+//! the force runs along the raw gradient of the field, so that it is exactly the energy's. Friction ties a touching sample
+//! to an anchor by a spring of stiffness `k_t`; beyond the Coulomb limit the anchor is dragged along [method 7].
+//!
+//! The samples are the vertices, and those points between them that [`BodyContact::hold_out`] has found inside: where the
+//! body is more curved than the mesh is fine, chords would cut into it. A force on such a point is shared by the vertices
+//! about it, as the point's place is.
+
+use std::collections::BTreeMap;
 
 use nalgebra::Matrix3;
 
-use crate::geom::{DistanceField, V3};
+use crate::geom::{DistanceField, Surface, V3};
+use crate::sim::solver::Contact4;
 
 /// Parameters of body contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,36 +24,79 @@ pub struct ContactParams {
     pub stiffness_n_m3: f64,
     /// Tangential over normal stiffness of a sticking contact.
     pub tangential_share: f64,
+    /// Distance from the skin that a point found inside is given, m.
+    pub clearance_m: f64,
 }
 
 impl Default for ContactParams {
     fn default() -> Self {
-        Self { offset_m: 1e-3, stiffness_n_m3: 1e7, tangential_share: 0.03 }
+        Self { offset_m: 1e-3, stiffness_n_m3: 1e7, tangential_share: 0.03, clearance_m: 2e-4 }
     }
 }
 
 /// Share of the sticking stiffness that a sliding contact keeps in the linear system, so that it stays regular.
 const SLIDING_STIFFNESS_SHARE: f64 = 0.1;
+/// Curvature of the field over a contact's depth, as a share of its gradient squared, that the stiffness leaves out.
+const NEARLY_FLAT: f64 = 0.02;
+/// Most that an offset grows at once, m.
+const MOST_YIELD_M: f64 = 2e-3;
+/// Farthest that the blurred field may lie from the true skin where cloth touches, m.
+const FIELD_ERROR_M: f64 = 4e-3;
 
-/// A vertex in contact, as seen at the start of a step.
+/// A point of the cloth that is kept out of the body.
+#[derive(Clone, Copy, Debug)]
+struct Sample {
+    vertices: [usize; 3],
+    weights: [f64; 3],
+    /// Distance in the field at which it begins to be pushed, m.
+    offset_m: f64,
+    /// Penalty stiffness, N/m.
+    stiffness: f64,
+    /// Where friction holds it.
+    anchor: Option<V3>,
+}
+
+impl Sample {
+    /// A vertex of stiffness `stiffness`.
+    fn vertex(vertex: usize, offset_m: f64, stiffness: f64) -> Self {
+        Self { vertices: [vertex; 3], weights: [1.0, 0.0, 0.0], offset_m, stiffness, anchor: None }
+    }
+
+    fn at(&self, x: &[V3]) -> V3 {
+        (0..3).map(|k| x[self.vertices[k]] * self.weights[k]).sum()
+    }
+
+    fn add_force(&self, force: &V3, forces: &mut [V3]) {
+        for k in 0..3 {
+            forces[self.vertices[k]] += force * self.weights[k];
+        }
+    }
+
+    /// Stiffness `k` along a direction, as the operator takes it.
+    fn coupling(&self, normal: V3, stiffness: f64) -> Contact4 {
+        let ([a, b, c], [wa, wb, wc]) = (self.vertices, self.weights);
+        Contact4 { vertices: [a, b, c, c], weights: [wa, wb, wc, 0.0], normal, stiffness }
+    }
+}
+
+/// A sample in contact, as seen at the start of a step.
 #[derive(Clone, Copy, Debug)]
 struct Touch {
-    vertex: usize,
+    sample: usize,
     /// Gradient of the distance.
     gradient: V3,
-    /// Normal force, N.
-    force_n: f64,
+    depth_m: f64,
 }
 
 /// Contact of one cloth with one body.
 pub struct BodyContact<'a> {
     field: &'a DistanceField,
     params: ContactParams,
-    /// Penalty stiffness of each vertex, N/m.
-    stiffness: Vec<f64>,
+    /// The vertices in their order, then points between them.
+    samples: Vec<Sample>,
+    vertices: usize,
     /// Coulomb coefficient; `None` while friction is off.
     friction: Option<f64>,
-    anchors: Vec<Option<V3>>,
     touching: Vec<Touch>,
 }
 
@@ -54,12 +104,13 @@ impl<'a> BodyContact<'a> {
     /// Contact for vertices with rest areas `areas` (m2), without friction.
     #[must_use]
     pub fn new(field: &'a DistanceField, params: ContactParams, areas: &[f64]) -> Self {
+        let sample = |(v, area): (usize, &f64)| Sample::vertex(v, params.offset_m, area * params.stiffness_n_m3);
         Self {
             field,
             params,
-            stiffness: areas.iter().map(|a| a * params.stiffness_n_m3).collect(),
+            samples: areas.iter().enumerate().map(sample).collect(),
+            vertices: areas.len(),
             friction: None,
-            anchors: vec![None; areas.len()],
             touching: Vec::new(),
         }
     }
@@ -67,105 +118,200 @@ impl<'a> BodyContact<'a> {
     /// Switches friction on with a Coulomb coefficient, or off. Anchors are set where the cloth now lies.
     pub fn set_friction(&mut self, coefficient: Option<f64>) {
         self.friction = coefficient;
-        self.anchors.fill(None);
+        self.samples.iter_mut().for_each(|sample| sample.anchor = None);
     }
 
-    /// Number of vertices in contact at the last [`BodyContact::assemble`].
+    /// Number of samples in contact at the last [`BodyContact::assemble`].
     #[must_use]
     pub fn count(&self) -> usize {
         self.touching.len()
     }
 
-    fn depth(&self, p: &V3) -> (f64, V3) {
-        let (distance, gradient) = self.field.value_and_gradient(p);
-        (self.params.offset_m - distance, gradient)
+    /// Has every edge middle and triangle centre kept out like the vertices: for meshes so coarse that an edge could go
+    /// through an arm unseen.
+    #[must_use]
+    pub fn with_points_between(mut self, triangles: &[[usize; 3]]) -> Self {
+        let points = self.candidates(triangles).into_iter().skip(self.vertices);
+        let offset_m = self.params.offset_m;
+        self.samples.extend(points.map(|sample| Sample { offset_m, ..sample }));
+        self
+    }
+
+    /// Looks at vertices, edge middles and triangle centres against the exact surface, and has those that lie inside
+    /// held [`ContactParams::clearance_m`] off it from now on; returns how deep the deepest lay, m (0 when none).
+    ///
+    /// The offset of such a point is told in the field, which is blurred: what the blur takes from a sharp convex place
+    /// is given back. Where the cloth `is_at_rest` and a point held before is inside all the same, the cloth presses so
+    /// hard there that the penalty yields: its offset grows by as much (an augmented penalty).
+    pub fn hold_out(&mut self, surface: &Surface, triangles: &[[usize; 3]], x: &[V3], is_at_rest: bool) -> f64 {
+        let mut known: BTreeMap<[usize; 3], usize> =
+            self.samples.iter().enumerate().map(|(k, sample)| (sample.vertices, k)).collect();
+        let mut deepest = 0.0_f64;
+        for sample in self.candidates(triangles) {
+            let p = sample.at(x);
+            let (distance, _) = self.field.value_and_gradient(&p);
+            if distance > self.params.offset_m + FIELD_ERROR_M {
+                continue;
+            }
+            let depth = -surface.signed_distance(&p);
+            if depth <= 0.0 {
+                continue;
+            }
+            deepest = deepest.max(depth);
+            let is_held = known.contains_key(&sample.vertices);
+            let index = *known.entry(sample.vertices).or_insert_with(|| {
+                self.samples.push(sample);
+                self.samples.len() - 1
+            });
+            let held = &mut self.samples[index];
+            held.offset_m = if is_held && is_at_rest && distance < held.offset_m {
+                held.offset_m + depth.min(MOST_YIELD_M)
+            } else {
+                held.offset_m.max(distance + depth + self.params.clearance_m)
+            };
+        }
+        deepest
+    }
+
+    /// Every vertex, edge middle and triangle centre once.
+    fn candidates(&self, triangles: &[[usize; 3]]) -> Vec<Sample> {
+        let between = |vertices: [usize; 3], weights: [f64; 3]| {
+            let stiffness = (0..3).map(|k| self.samples[vertices[k]].stiffness * weights[k]).sum();
+            Sample { vertices, weights, offset_m: f64::MIN, stiffness, anchor: None }
+        };
+        let mut edges: Vec<[usize; 2]> = triangles
+            .iter()
+            .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
+            .map(|[a, b]| [a.min(b), a.max(b)])
+            .collect();
+        edges.sort_unstable();
+        edges.dedup();
+        let vertices = self.samples[..self.vertices].iter().copied();
+        let middles = edges.into_iter().map(|[a, b]| between([a, b, b], [0.5, 0.5, 0.0]));
+        let centres = triangles.iter().map(|&t| between(t, [1.0 / 3.0; 3]));
+        vertices.chain(middles).chain(centres).collect()
+    }
+
+    fn depth(&self, sample: &Sample, x: &[V3]) -> (f64, V3) {
+        let (distance, gradient) = self.field.value_and_gradient(&sample.at(x));
+        (sample.offset_m - distance, gradient)
     }
 
     /// Contact and friction energy, J; friction's with the normal forces and anchors of the current step.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {
         let mut energy = 0.0;
-        for (p, k) in x.iter().zip(&self.stiffness) {
-            let (depth, _) = self.depth(p);
+        for sample in &self.samples {
+            let (depth, _) = self.depth(sample, x);
             if depth > 0.0 {
-                energy += 0.5 * k * depth * depth;
+                energy += 0.5 * sample.stiffness * depth * depth;
             }
         }
-        energy + self.touching.iter().filter_map(|t| self.friction_at(t, &x[t.vertex])).map(|f| f.energy).sum::<f64>()
+        energy + self.touching.iter().filter_map(|t| self.friction_at(t, x)).map(|f| f.energy).sum::<f64>()
     }
 
     /// Adds the contact forces at `x`; friction's with the normal forces and anchors of the current step.
     pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
-        for ((p, k), force) in x.iter().zip(&self.stiffness).zip(forces.iter_mut()) {
-            let (depth, gradient) = self.depth(p);
+        for sample in &self.samples {
+            let (depth, gradient) = self.depth(sample, x);
             if depth > 0.0 {
-                *force += gradient * (k * depth);
+                sample.add_force(&(gradient * (sample.stiffness * depth)), forces);
             }
         }
         for touch in &self.touching {
-            if let Some(f) = self.friction_at(touch, &x[touch.vertex]) {
-                forces[touch.vertex] += f.force;
+            if let Some(f) = self.friction_at(touch, x) {
+                self.samples[touch.sample].add_force(&f.force, forces);
             }
         }
     }
 
-    /// Finds the touching vertices and adds their forces and stiffness.
-    pub fn assemble(&mut self, x: &[V3], forces: &mut [V3], diagonal: &mut [Matrix3<f64>]) {
+    /// Finds the touching samples and adds their forces and the stiffness of vertices; returns that of points between.
+    pub fn assemble(&mut self, x: &[V3], forces: &mut [V3], diagonal: &mut [Matrix3<f64>]) -> Vec<Contact4> {
+        self.find_touching(x);
+        let mut couplings = Vec::new();
+        for touch in &self.touching {
+            let sample = &self.samples[touch.sample];
+            let friction = self.friction_at(touch, x);
+            sample.add_force(&(touch.gradient * (sample.stiffness * touch.depth_m)), forces);
+            if let Some(f) = &friction {
+                sample.add_force(&f.force, forces);
+            }
+            let stiffness = self.stiffness_at(touch, &sample.at(x), friction.map_or(0.0, |f| f.stiffness));
+            if touch.sample < self.vertices {
+                diagonal[touch.sample] += stiffness;
+            } else {
+                let eigen = stiffness.symmetric_eigen();
+                let directions = (0..3).map(|k| (eigen.eigenvectors.column(k).into_owned(), eigen.eigenvalues[k]));
+                couplings.extend(directions.filter(|(_, k)| *k > 0.0).map(|(n, k)| sample.coupling(n, k)));
+            }
+        }
+        couplings
+    }
+
+    /// Stiffness of a touching sample at `p`: the second derivative of its energy without what would pull it in, and
+    /// `across` the normal that of friction.
+    ///
+    /// The field's own curvature matters where skin faces skin: in an armpit the gradient is small and turns over a few
+    /// millimetres, and cloth between the two is held by that turning alone.
+    fn stiffness_at(&self, touch: &Touch, p: &V3, across: f64) -> Matrix3<f64> {
+        let upright = touch.gradient * touch.gradient.transpose();
+        let bent = self.field.hessian(p) * touch.depth_m;
+        let stiffness = if bent.norm() > NEARLY_FLAT * touch.gradient.norm_squared() {
+            let mut eigen = (upright - bent).symmetric_eigen();
+            eigen.eigenvalues.apply(|value| *value = value.max(0.0));
+            eigen.recompose()
+        } else {
+            upright
+        };
+        let normal = touch.gradient.try_normalize(0.0).unwrap_or_default();
+        let friction = (Matrix3::identity() - normal * normal.transpose()) * across;
+        stiffness * self.samples[touch.sample].stiffness + friction
+    }
+
+    fn find_touching(&mut self, x: &[V3]) {
         self.touching.clear();
-        for vertex in 0..x.len() {
-            let (depth, gradient) = self.depth(&x[vertex]);
+        for k in 0..self.samples.len() {
+            let (depth, gradient) = self.depth(&self.samples[k], x);
+            let sample = &mut self.samples[k];
             if depth <= 0.0 {
-                self.anchors[vertex] = None;
+                sample.anchor = None;
                 continue;
             }
-            let k = self.stiffness[vertex];
-            forces[vertex] += gradient * (k * depth);
-            diagonal[vertex] += gradient * gradient.transpose() * k;
-            self.touching.push(Touch { vertex, gradient, force_n: k * depth * gradient.norm() });
+            self.touching.push(Touch { sample: k, gradient, depth_m: depth });
             if self.friction.is_some() {
-                self.anchors[vertex].get_or_insert(x[vertex]);
-            }
-        }
-        for touch in &self.touching {
-            if let Some(f) = self.friction_at(touch, &x[touch.vertex]) {
-                forces[touch.vertex] += f.force;
-                diagonal[touch.vertex] += f.stiffness;
+                sample.anchor.get_or_insert_with(|| (0..3).map(|k| x[sample.vertices[k]] * sample.weights[k]).sum());
             }
         }
     }
 
-    fn friction_at(&self, touch: &Touch, p: &V3) -> Option<Friction> {
-        let limit = self.friction? * touch.force_n;
-        let anchor = self.anchors[touch.vertex]?;
+    fn friction_at(&self, touch: &Touch, x: &[V3]) -> Option<Friction> {
+        let sample = &self.samples[touch.sample];
+        let limit = self.friction? * sample.stiffness * touch.depth_m * touch.gradient.norm();
+        let anchor = sample.anchor?;
         let normal = touch.gradient.try_normalize(0.0)?;
-        let tangent_plane = Matrix3::identity() - normal * normal.transpose();
-        let slip = tangent_plane * (p - anchor);
-        let k = self.stiffness[touch.vertex] * self.params.tangential_share;
+        let offset = sample.at(x) - anchor;
+        let slip = offset - normal * normal.dot(&offset);
+        let k = sample.stiffness * self.params.tangential_share;
         let length = slip.norm();
         Some(if k * length <= limit {
-            Friction {
-                energy: 0.5 * k * length * length,
-                force: slip * -k,
-                stiffness: tangent_plane * k,
-                excess: V3::zeros(),
-            }
+            Friction { energy: 0.5 * k * length * length, force: slip * -k, stiffness: k, excess: V3::zeros() }
         } else {
             let direction = slip / length;
             Friction {
                 energy: limit * (length - 0.5 * limit / k),
                 force: direction * -limit,
-                stiffness: tangent_plane * (k * SLIDING_STIFFNESS_SHARE),
+                stiffness: k * SLIDING_STIFFNESS_SHARE,
                 excess: direction * (length - limit / k),
             }
         })
     }
 
-    /// Drags the anchors of sliding vertices along, after a step has been taken to `x`.
+    /// Drags the anchors of sliding samples along, after a step has been taken to `x`.
     pub fn drag_anchors(&mut self, x: &[V3]) {
         for k in 0..self.touching.len() {
             let touch = self.touching[k];
-            let excess = self.friction_at(&touch, &x[touch.vertex]).map(|f| f.excess);
-            if let (Some(anchor), Some(excess)) = (&mut self.anchors[touch.vertex], excess) {
+            let excess = self.friction_at(&touch, x).map(|f| f.excess);
+            if let (Some(anchor), Some(excess)) = (&mut self.samples[touch.sample].anchor, excess) {
                 *anchor += excess;
             }
         }
@@ -175,7 +321,8 @@ impl<'a> BodyContact<'a> {
 struct Friction {
     energy: f64,
     force: V3,
-    stiffness: Matrix3<f64>,
+    /// Across the normal, N/m.
+    stiffness: f64,
     /// How far the anchor lags behind the Coulomb limit.
     excess: V3,
 }

@@ -1,13 +1,17 @@
 //! Contact of the cloth with itself: vertices are kept a thickness away from triangles, edges from edges.
 //!
-//! A pair is found while its two sides are still clear of each other; which way round they then lie is remembered for
-//! as long as they stay near, so cloth that slips through is pushed back to where it came from. Pairs are sought within a
-//! reach that no step can cross, so none is met unseen. Cloth that already crosses when it is first seen passes through
-//! itself until it has come free. There is no friction between layers.
+//! Each pair is pushed apart by the true distance of its two primitives, which runs on smoothly where a nearest point
+//! slides over a rim (as in [Li 2020]): the energy has no steps, and a line search no place to stop at. While the nearest
+//! points lie within both primitives, the side on which the pair lies is remembered, so cloth that slips through in a
+//! step is pushed back to where it came from. Pairs are sought within a reach that no step can cross, so none is met
+//! unseen. Cloth that already crosses when it is first seen passes through itself while the line along which it crosses
+//! is drawn out of it ([`super::tangle`]). There is no friction between layers.
 
-use super::grid::BoxGrid;
+use super::nearest::{Nearest, Primitives, spanned_squared};
+use super::search::Neighbours;
+use super::tangle::{Release, Wings, crossings};
 use crate::geom::V3;
-use crate::sim::solver::{Contact4, PairList};
+use crate::sim::solver::Contact4;
 
 /// Parameters of self-contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,292 +20,261 @@ pub struct ClothContactParams {
     pub thickness_m: f64,
     /// Penalty, N/m3.
     pub stiffness_n_m3: f64,
-    /// Pairs are sought up to this distance, m: at least twice what a vertex moves in a step.
+    /// Pairs are sought up to this distance at most, m: twice what a vertex moves in a step.
     pub reach_m: f64,
+    /// Force that draws a crossing out, N.
+    pub release_n: f64,
+    /// Steps for which crossings are drawn out: what is still tangled then is held so by the body.
+    pub release_steps: u32,
 }
 
 impl Default for ClothContactParams {
     fn default() -> Self {
-        Self { thickness_m: 2e-3, stiffness_n_m3: 1e6, reach_m: 0.02 }
+        Self { thickness_m: 2e-3, stiffness_n_m3: 1e6, reach_m: 0.02, release_n: 0.02, release_steps: 150 }
     }
 }
 
-/// How far outside its triangle or edge a foot point may lie for a pair to be remembered, as a barycentric weight: it may
-/// slide in before pairs are sought again.
-const MARGIN: f64 = 0.3;
+/// Squared sine of the angle between two edges below which their contact fades out: parallel edges have no one direction
+/// in which they face each other.
+const PARALLEL: f64 = 0.01;
+/// Least movement that a search foresees, m.
+const LEAST_SLACK_M: f64 = 2e-3;
+/// How far a step against a releasing force goes at most, m.
+const RELEASE_STEP_M: f64 = 2e-3;
 
-/// Vertices of a pair: `[vertex, triangle]` or `[edge, edge]`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Primitives {
-    VertexTriangle([usize; 4]),
-    EdgeEdge([usize; 4]),
-}
-
-impl Primitives {
-    fn vertices(self) -> [usize; 4] {
-        match self {
-            Self::VertexTriangle(vertices) | Self::EdgeEdge(vertices) => vertices,
-        }
-    }
-}
-
-/// A pair that is near, and which way round it lay when it was found.
+/// A pair that is near.
 #[derive(Clone, Copy, Debug)]
 struct Pair {
     primitives: Primitives,
-    /// +1 or -1 along the pair's normal.
-    side: f64,
+    /// Distance when the pairs were sought, m.
+    distance_m: f64,
+    /// Unit vector away from the second primitive on the side where the first one was last seen free.
+    away: V3,
+}
+
+/// How deep a pair is in contact at some positions.
+struct Press {
+    vertices: [usize; 4],
+    weights: [f64; 4],
+    /// Direction away from the second primitive.
+    normal: V3,
+    /// By how much the pair is nearer than the thickness, m.
+    depth: f64,
+    /// Share of the contact that counts: less than 1 for nearly parallel edges.
+    share: f64,
+    /// Gradient of that share by the first edge and by the second.
+    fading: Option<[V3; 2]>,
 }
 
 /// Self-contact of one cloth.
 pub struct ClothContact<'a> {
     params: ClothContactParams,
-    triangles: &'a [[usize; 3]],
-    edges: PairList,
+    neighbours: Neighbours<'a>,
+    wings: Wings,
     areas: &'a [f64],
-    /// Vertices that share a triangle with a vertex, itself included, sorted.
-    ring: Vec<Vec<usize>>,
-    /// Group of each vertex where only groups are kept apart from each other; 0 belongs to none.
-    groups: Option<Vec<u8>>,
-    /// Sorted by primitives.
+    /// Nearest first.
     pairs: Vec<Pair>,
     found_at: Vec<V3>,
+    reach_m: f64,
+    /// Where the cloth was at the last step.
+    last: Vec<V3>,
+    is_tangled: bool,
+    released: u32,
+    releases: Vec<Release>,
 }
 
 impl<'a> ClothContact<'a> {
     /// Self-contact over the triangles of a cloth; `areas` are the vertices' rest areas, m2.
     #[must_use]
     pub fn new(params: ClothContactParams, triangles: &'a [[usize; 3]], areas: &'a [f64]) -> Self {
-        let mut ring = vec![Vec::new(); areas.len()];
-        for t in triangles {
-            for &v in t {
-                ring[v].extend_from_slice(t);
-            }
+        Self {
+            params,
+            neighbours: Neighbours::new(triangles, areas.len()),
+            wings: Wings::new(triangles),
+            areas,
+            pairs: Vec::new(),
+            found_at: Vec::new(),
+            reach_m: params.reach_m,
+            last: Vec::new(),
+            is_tangled: false,
+            released: 0,
+            releases: Vec::new(),
         }
-        for r in &mut ring {
-            r.sort_unstable();
-            r.dedup();
-        }
-        let edges = PairList::new(triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]));
-        Self { params, triangles, edges, areas, ring, groups: None, pairs: Vec::new(), found_at: Vec::new() }
     }
 
     /// Keeps apart only vertices of different groups (0 belongs to none), and those not where `sewn` pairs will join
     /// them: what two limbs wear must not interlock while it is sewn, all else may still pass through itself.
     #[must_use]
     pub fn between(mut self, groups: Vec<u8>, sewn: impl Iterator<Item = [usize; 2]>) -> Self {
-        let unsewn = self.ring.clone();
-        for [a, b] in sewn {
-            for (own, other) in [(a, b), (b, a)] {
-                for &v in &unsewn[own] {
-                    self.ring[v].extend_from_slice(&unsewn[other]);
-                }
-            }
-        }
-        for ring in &mut self.ring {
-            ring.sort_unstable();
-            ring.dedup();
-        }
-        self.groups = Some(groups);
+        self.neighbours.keep_apart(groups, sewn);
+        self.params.release_steps = 0;
         self
     }
 
-    /// Seeks near pairs anew where cloth has moved so far that one could have been missed.
+    /// Looks at where the cloth has come in a step: seeks near pairs anew where it has moved so far that one could be
+    /// missed in the next, remembers on which side each lies, and finds the way out of crossings.
     pub fn update(&mut self, x: &[V3]) {
-        let slack = 0.25 * self.params.reach_m;
-        let moved = |(p, q): (&V3, &V3)| (p - q).norm_squared() > slack * slack;
-        if self.found_at.len() == x.len() && !x.iter().zip(&self.found_at).any(moved) {
-            return;
+        let step = if self.last.len() == x.len() { farthest(x, &self.last) } else { self.params.reach_m };
+        self.last = x.to_vec();
+        let expected = 1.5 * step;
+        let moved = if self.found_at.len() == x.len() { farthest(x, &self.found_at) } else { f64::MAX };
+        if moved + expected > 0.5 * (self.reach_m - self.params.thickness_m) {
+            let wanted = self.params.thickness_m + 2.0 * (expected + expected.max(LEAST_SLACK_M));
+            self.reach_m = wanted.min(self.params.reach_m);
+            self.seek(x);
         }
-        let mut found = self.vertex_triangle_pairs(x);
-        found.extend(self.edge_edge_pairs(x));
-        found.sort_unstable_by_key(|p| p.primitives);
-        let tangled = self.tangled(x);
-        found.retain_mut(|pair| match self.pairs.binary_search_by_key(&pair.primitives, |p| p.primitives) {
-            Ok(known) => {
-                pair.side = self.pairs[known].side;
-                true
+        self.see_sides(x);
+        self.releases.clear();
+        if self.is_tangled && self.released < self.params.release_steps {
+            self.released += 1;
+            let crossing = crossings(x, self.neighbours.edges(), self.neighbours.triangles());
+            self.releases = crossing.filter_map(|crossing| Release::of(x, &self.wings, &crossing)).collect();
+        }
+    }
+
+    fn seek(&mut self, x: &[V3]) {
+        self.pairs.sort_unstable_by_key(|pair| pair.primitives);
+        let mut tangled = vec![false; x.len()];
+        self.is_tangled = false;
+        for crossing in crossings(x, self.neighbours.edges(), self.neighbours.triangles()) {
+            self.is_tangled = true;
+            for v in crossing.edge.into_iter().chain(crossing.triangle) {
+                tangled[v] = true;
             }
-            // Cloth that crosses when it first meets has no right side: it passes until it has come free.
-            Err(_) => pair.primitives.vertices().iter().all(|v| !tangled[*v]),
-        });
+        }
+        let mut found = Vec::new();
+        for primitives in self.neighbours.within(x, self.reach_m) {
+            let nearest = Nearest::of(x, primitives);
+            let distance_m = nearest.gap.norm();
+            let Some(away) = nearest.gap.try_normalize(0.0).filter(|_| distance_m < self.reach_m) else { continue };
+            match self.pairs.binary_search_by_key(&primitives, |p| p.primitives) {
+                Ok(known) => found.push(Pair { distance_m, ..self.pairs[known] }),
+                // Cloth that crosses when it first meets has no right side: it passes until it has come free.
+                Err(_) if primitives.vertices().iter().any(|v| tangled[*v]) => {}
+                Err(_) => found.push(Pair { primitives, distance_m, away }),
+            }
+        }
+        found.sort_by(|a, b| a.distance_m.total_cmp(&b.distance_m).then(a.primitives.cmp(&b.primitives)));
         self.pairs = found;
         self.found_at = x.to_vec();
     }
 
-    /// Vertices of edges and triangles that pierce each other.
-    fn tangled(&self, x: &[V3]) -> Vec<bool> {
-        let mut tangled = vec![false; x.len()];
-        for (edge, triangle) in crossings(x, self.edges.pairs(), self.triangles) {
-            for v in edge.into_iter().chain(triangle) {
-                tangled[v] = true;
-            }
-        }
-        tangled
-    }
-
-    fn vertex_triangle_pairs(&self, x: &[V3]) -> Vec<Pair> {
-        let reach = self.params.reach_m;
-        let longest = self.longest_edge(x);
-        let grid = BoxGrid::new(x, self.triangles, reach, 2.0 * reach);
-        let mut pairs = Vec::new();
-        for v in 0..x.len() {
-            for t in grid.near(&x[v]) {
-                let [a, b, c] = self.triangles[t];
-                if near(&x[v], &x[a], reach + longest) && self.apart(&[v], &[a, b, c]) {
-                    pairs.extend(self.near_pair(x, Primitives::VertexTriangle([v, a, b, c])));
+    /// Remembers on which side the near pairs lie, but of those that something has slipped through.
+    fn see_sides(&mut self, x: &[V3]) {
+        let near: Vec<(usize, Nearest)> = self.near(x).map(|(k, pair)| (k, Nearest::of(x, pair.primitives))).collect();
+        let mut slipped = vec![false; x.len()];
+        for (k, nearest) in &near {
+            let pair = &mut self.pairs[*k];
+            let Some(normal) = nearest.normal else { continue };
+            pair.away = normal * normal.dot(&pair.away).signum();
+            if pair.away.dot(&nearest.gap) < 0.0 {
+                for v in pair.primitives.vertices() {
+                    slipped[v] = true;
                 }
             }
         }
-        pairs
-    }
-
-    fn edge_edge_pairs(&self, x: &[V3]) -> Vec<Pair> {
-        let reach = self.params.reach_m;
-        let edges = self.edges.pairs();
-        let longest = self.longest_edge(x);
-        // Two edges within reach of each other: the middle of one is within that and half its length of the other's box.
-        let grid = BoxGrid::new(x, edges, reach + 0.5 * longest, 2.0 * reach + longest);
-        let mut pairs = Vec::new();
-        for (e, &[a, b]) in edges.iter().enumerate() {
-            let middle = (x[a] + x[b]) / 2.0;
-            for f in grid.near(&middle).filter(|&f| f > e) {
-                let [c, d] = edges[f];
-                if near(&middle, &((x[c] + x[d]) / 2.0), reach + longest) && self.apart(&[a, b], &[c, d]) {
-                    pairs.extend(self.near_pair(x, Primitives::EdgeEdge([a, b, c, d])));
-                }
+        for (k, nearest) in near {
+            let pair = &mut self.pairs[k];
+            if nearest.normal.is_none() && pair.primitives.vertices().iter().all(|v| !slipped[*v]) {
+                pair.away = nearest.gap.try_normalize(0.0).unwrap_or(pair.away);
             }
         }
-        pairs
     }
 
-    fn longest_edge(&self, x: &[V3]) -> f64 {
-        self.edges.pairs().iter().map(|&[a, b]| (x[a] - x[b]).norm()).fold(0.0, f64::max)
-    }
-
-    /// Whether no vertex of one side shares a triangle with one of the other.
-    fn apart(&self, one: &[usize], other: &[usize]) -> bool {
-        if let Some(groups) = &self.groups {
-            let (a, b) = (groups[one[0]], groups[other[0]]);
-            if a == b || a == 0 || b == 0 {
-                return false;
-            }
-        }
-        one.iter().all(|&v| other.iter().all(|w| self.ring[v].binary_search(w).is_err()))
-    }
-
-    fn near_pair(&self, x: &[V3], primitives: Primitives) -> Option<Pair> {
-        let facing = Facing::of(x, primitives, MARGIN)?;
-        (facing.height.abs() < self.params.reach_m).then(|| Pair { primitives, side: facing.height.signum() })
-    }
-
-    fn active<'s>(&'s self, x: &'s [V3]) -> impl Iterator<Item = (f64, f64, Facing)> + 's {
-        self.pairs.iter().filter_map(|pair| {
-            let facing = Facing::of(x, pair.primitives, 0.0)?;
-            let depth = self.params.thickness_m - pair.side * facing.height;
-            (depth > 0.0).then_some((pair.side, depth, facing))
+    /// Pairs that can be in contact at `x`, with their places.
+    fn near<'s>(&'s self, x: &[V3]) -> impl Iterator<Item = (usize, &'s Pair)> + 's {
+        let moved: Vec<f64> = if self.pairs.is_empty() {
+            Vec::new()
+        } else {
+            x.iter().zip(&self.found_at).map(|(p, q)| (p - q).norm()).collect()
+        };
+        let most = moved.iter().copied().fold(0.0, f64::max);
+        let thickness = self.params.thickness_m;
+        let candidates = self.pairs.iter().take_while(move |pair| pair.distance_m < thickness + 2.0 * most).enumerate();
+        candidates.filter(move |(_, pair)| {
+            let [a, b, c, d] = pair.primitives.vertices().map(|v| moved[v]);
+            let closing = match pair.primitives {
+                Primitives::VertexTriangle(_) => a + b.max(c).max(d),
+                Primitives::EdgeEdge(_) => a.max(b) + c.max(d),
+            };
+            pair.distance_m < thickness + closing
         })
     }
 
+    fn press(&self, x: &[V3], pair: &Pair) -> Option<Press> {
+        let vertices = pair.primitives.vertices();
+        let nearest = Nearest::of(x, pair.primitives);
+        let (normal, height) = match nearest.normal {
+            Some(normal) => {
+                let normal = normal * normal.dot(&pair.away).signum();
+                (normal, normal.dot(&nearest.gap))
+            }
+            None => nearest.gap.try_normalize(0.0).map(|normal| (normal, nearest.gap.norm()))?,
+        };
+        let depth = self.params.thickness_m - height;
+        if depth <= 0.0 {
+            return None;
+        }
+        let mut press = Press { vertices, weights: nearest.weights, normal, depth, share: 1.0, fading: None };
+        if let Primitives::EdgeEdge([a, b, c, d]) = pair.primitives {
+            let edges_at = |x: &[V3]| [x[b] - x[a], x[d] - x[c]];
+            let [u, w] = edges_at(&self.found_at);
+            let full = PARALLEL * u.norm_squared() * w.norm_squared();
+            let [u, w] = edges_at(x);
+            let (area, slopes) = spanned_squared(&u, &w);
+            if area < full {
+                let part = area / full;
+                press.share = part * (2.0 - part);
+                press.fading = Some(slopes.map(|slope| slope * ((2.0 - 2.0 * part) / full)));
+            }
+        }
+        Some(press)
+    }
+
+    fn presses<'s>(&'s self, x: &'s [V3]) -> impl Iterator<Item = Press> + 's {
+        self.near(x).filter_map(|(_, pair)| self.press(x, pair))
+    }
+
     /// Penalty stiffness of a contact, N/m: by the smallest rest area among its vertices.
-    fn stiffness(&self, facing: &Facing) -> f64 {
-        self.params.stiffness_n_m3 * facing.vertices.iter().map(|&v| self.areas[v]).fold(f64::MAX, f64::min)
+    fn stiffness(&self, press: &Press) -> f64 {
+        self.params.stiffness_n_m3 * press.vertices.iter().map(|&v| self.areas[v]).fold(f64::MAX, f64::min)
     }
 
     /// Contact energy, J.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {
-        self.active(x).map(|(_, depth, facing)| 0.5 * self.stiffness(&facing) * depth * depth).sum()
+        let pressed = |press: Press| 0.5 * self.stiffness(&press) * press.share * press.depth * press.depth;
+        let released: f64 = self.releases.iter().map(|release| release.potential(x)).sum();
+        self.presses(x).map(pressed).sum::<f64>() + self.params.release_n * released
     }
 
     /// Adds the contact forces and returns the stiffness.
     pub fn assemble(&self, x: &[V3], forces: &mut [V3]) -> Vec<Contact4> {
         let mut contacts = Vec::new();
-        for (side, depth, facing) in self.active(x) {
-            let stiffness = self.stiffness(&facing);
-            let contact =
-                Contact4 { vertices: facing.vertices, weights: facing.weights, normal: facing.normal, stiffness };
-            for k in 0..4 {
-                forces[contact.vertices[k]] += facing.normal * (side * stiffness * depth * contact.weights[k]);
+        for press in self.presses(x) {
+            let k = self.stiffness(&press);
+            let Press { vertices, weights, normal, depth, share, fading } = press;
+            for i in 0..4 {
+                forces[vertices[i]] += normal * (share * k * depth * weights[i]);
             }
-            contacts.push(contact);
+            if let Some(slopes) = fading {
+                for (slope, ends) in slopes.iter().zip([[0, 1], [2, 3]]) {
+                    let force = slope * (0.5 * k * depth * depth);
+                    forces[vertices[ends[0]]] += force;
+                    forces[vertices[ends[1]]] -= force;
+                }
+            }
+            contacts.push(Contact4 { vertices, weights, normal, stiffness: share * k });
+        }
+        for release in &self.releases {
+            release.add_force(self.params.release_n, forces);
+            contacts.extend(release.couplings(self.params.release_n / RELEASE_STEP_M));
         }
         contacts
     }
 }
 
-/// Edges that pierce a triangle with which they share no vertex.
-pub fn crossings<'s>(
-    x: &'s [V3],
-    edges: &'s [[usize; 2]],
-    triangles: &'s [[usize; 3]],
-) -> impl Iterator<Item = ([usize; 2], [usize; 3])> + 's {
-    let length = edges.iter().map(|&[a, b]| (x[a] - x[b]).norm()).fold(0.0, f64::max);
-    // Every point of an edge is within half the greatest length of the edge's middle.
-    let grid = BoxGrid::new(x, triangles, 0.5 * length, length.max(1e-6));
-    edges.iter().flat_map(move |&[a, b]| {
-        let near: Vec<usize> = grid.near(&((x[a] + x[b]) / 2.0)).collect();
-        let hits = move |t: &usize| {
-            let triangle = triangles[*t];
-            !triangle.contains(&a) && !triangle.contains(&b) && segment_hits(x[a], x[b], triangle.map(|v| x[v]))
-        };
-        near.into_iter().filter(hits).map(move |t| ([a, b], triangles[t]))
-    })
-}
-
-fn segment_hits(p: V3, q: V3, [a, b, c]: [V3; 3]) -> bool {
-    let volume = |u: V3, v: V3, w: V3, z: V3| (v - u).cross(&(w - u)).dot(&(z - u));
-    let (above, below) = (volume(a, b, c, p), volume(a, b, c, q));
-    if above * below >= 0.0 {
-        return false;
-    }
-    let sides = [volume(p, q, a, b), volume(p, q, b, c), volume(p, q, c, a)];
-    sides.iter().all(|s| *s > 0.0) || sides.iter().all(|s| *s < 0.0)
-}
-
-fn near(p: &V3, q: &V3, distance_m: f64) -> bool {
-    (p - q).norm_squared() < distance_m * distance_m
-}
-
-/// Two primitives that face each other: the height of one over the other is `normal . sum w_k x_k`.
-struct Facing {
-    vertices: [usize; 4],
-    /// Weights of the vertices; they sum to zero.
-    weights: [f64; 4],
-    /// Unit normal.
-    normal: V3,
-    /// Signed height, m.
-    height: f64,
-}
-
-impl Facing {
-    /// `None` when a foot point lies more than `margin` outside its primitive, or edges are parallel.
-    fn of(x: &[V3], primitives: Primitives, margin: f64) -> Option<Self> {
-        let (vertices, weights, cross) = match primitives {
-            Primitives::VertexTriangle(vertices) => {
-                let [p, a, b, c] = vertices.map(|v| x[v]);
-                let cross = (b - a).cross(&(c - a));
-                let area = cross.norm_squared();
-                let wb = (p - a).cross(&(c - a)).dot(&cross) / area;
-                let wc = (b - a).cross(&(p - a)).dot(&cross) / area;
-                let wa = 1.0 - wb - wc;
-                (wa >= -margin && wb >= -margin && wc >= -margin).then_some(())?;
-                (vertices, [1.0, -wa, -wb, -wc], cross)
-            }
-            Primitives::EdgeEdge(vertices) => {
-                let [a, b, c, d] = vertices.map(|v| x[v]);
-                let (u, w, between) = (b - a, d - c, c - a);
-                let cross = u.cross(&w);
-                let area = cross.norm_squared();
-                let s = between.cross(&w).dot(&cross) / area;
-                let t = between.cross(&u).dot(&cross) / area;
-                let range = -margin..=1.0 + margin;
-                (range.contains(&s) && range.contains(&t)).then_some(())?;
-                (vertices, [1.0 - s, s, t - 1.0, -t], cross)
-            }
-        };
-        let normal = cross.try_normalize(0.0)?;
-        let height = (0..4).map(|k| weights[k] * normal.dot(&x[vertices[k]])).sum();
-        Some(Self { vertices, weights, normal, height })
-    }
+/// Greatest distance of a vertex from where it was, m.
+fn farthest(x: &[V3], from: &[V3]) -> f64 {
+    x.iter().zip(from).map(|(p, q)| (p - q).norm_squared()).fold(0.0, f64::max).sqrt()
 }

@@ -3,6 +3,10 @@
 pub mod body;
 pub mod cloth;
 pub mod grid;
+pub mod nearest;
+pub mod search;
+pub mod tangle;
 
 pub use body::{BodyContact, ContactParams};
-pub use cloth::{ClothContact, ClothContactParams, crossings};
+pub use cloth::{ClothContact, ClothContactParams};
+pub use tangle::crossings;

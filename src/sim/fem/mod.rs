@@ -7,7 +7,7 @@ mod run;
 pub use params::{Params, level_edges};
 
 use crate::body::Body;
-use crate::geom::{DistanceField, V3};
+use crate::geom::{DistanceField, Surface, V3};
 use crate::pattern::{Garment, Role};
 use crate::sim::cloth::Cloth;
 use crate::sim::contact::{BodyContact, ClothContact};
@@ -18,6 +18,11 @@ use crate::sim::solver::System;
 use crate::sim::{Drape, Fabric, Monitor, SimError, Stage};
 
 use run::{Phase, Run};
+
+/// Deepest point of a drape that is good, m.
+const DEEPEST_M: f64 = 3e-4;
+/// Times at most that a drape is looked at for points inside the body, and comes to rest with them held out.
+const HOLDING_ROUNDS: usize = 5;
 
 /// Dresses a body in a garment.
 ///
@@ -41,10 +46,12 @@ pub fn simulate(
     let mut run = Run::new(params, monitor, finer.len());
     let mut positions = sew(body, field, coarsest, fabric, params, &mut run)?;
     let mut level = coarsest;
-    let mut last = settle(field, level, fabric, params, positions, &mut run, 0)?;
+    let surface = Surface::new(&body.mesh).ok();
+    let around = Around { surface: surface.as_ref(), field };
+    let mut last = settle(around, level, fabric, params, positions, &mut run, 0)?;
     for (index, next) in finer.iter().enumerate() {
         positions = prolong(level, &last.positions, next);
-        last = settle(field, next, fabric, params, positions, &mut run, index + 1)?;
+        last = settle(around, next, fabric, params, positions, &mut run, index + 1)?;
         level = next;
     }
     Ok(Drape {
@@ -72,7 +79,7 @@ fn sew(
 ) -> Result<Vec<V3>, SimError> {
     let mut x = preposition::place(body, garment, params)?;
     let cloth = Cloth::new(garment, fabric, sewing::unsewn(garment))?;
-    let contact = BodyContact::new(field, params.contact, &cloth.areas);
+    let contact = BodyContact::new(field, params.contact, &cloth.areas).with_points_between(&cloth.triangles);
     let springs = Springs::new(garment, params.seam_stiffness_n_m, params.seam_cap_n);
     let sewn = springs.pairs.clone();
     let mut system = System::new(&cloth, contact, Some(springs));
@@ -105,9 +112,17 @@ struct Settled {
     triangles: Vec<[usize; 3]>,
 }
 
+/// The body as contact sees it: exactly, and as a field.
+#[derive(Clone, Copy)]
+struct Around<'a> {
+    /// `None` where the mesh bounds no solid: then only the field holds the cloth.
+    surface: Option<&'a Surface>,
+    field: &'a DistanceField,
+}
+
 /// Welds the seams and lets the garment come to rest, without friction and then, on the finest level, with it.
 fn settle(
-    field: &DistanceField,
+    around: Around,
     garment: &Garment,
     fabric: &Fabric,
     params: &Params,
@@ -117,13 +132,30 @@ fn settle(
 ) -> Result<Settled, SimError> {
     let cloth = Cloth::new(garment, fabric, sewing::welded(garment))?;
     let mut x = cloth.weld(&positions);
-    let contact = BodyContact::new(field, params.contact, &cloth.areas);
+    let is_finest = level == run.levels();
+    let mut contact = BodyContact::new(around.field, params.contact, &cloth.areas);
+    if !is_finest {
+        contact = contact.with_points_between(&cloth.triangles);
+    }
     let mut system = System::new(&cloth, contact, None);
     system.self_contact = Some(ClothContact::new(params.self_contact, &cloth.triangles, &cloth.areas));
+    let hold_out = |system: &mut System, x: &[V3], is_at_rest: bool| {
+        let deepest = |surface| system.contact.hold_out(surface, &cloth.triangles, x, is_at_rest);
+        around.surface.map_or(0.0, deepest)
+    };
+    if is_finest {
+        hold_out(&mut system, &x, false);
+    }
     let mut residual = run.drape(garment, &mut system, &mut x, Phase::frictionless(params, level, run.levels()))?;
-    if level == run.levels() {
+    if is_finest {
+        hold_out(&mut system, &x, residual <= params.frictionless_tolerance);
         system.contact.set_friction(Some(fabric.friction_body));
-        residual = run.drape(garment, &mut system, &mut x, Phase::final_drape(params, level))?;
+        for _ in 0..HOLDING_ROUNDS {
+            residual = run.drape(garment, &mut system, &mut x, Phase::final_drape(params, level))?;
+            if hold_out(&mut system, &x, residual <= params.tolerance) <= DEEPEST_M {
+                break;
+            }
+        }
     }
     Ok(Settled { positions: cloth.unweld(&x), residual, sewn: x, triangles: cloth.triangles })
 }

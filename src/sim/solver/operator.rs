@@ -42,7 +42,7 @@ impl PairList {
 pub struct Contact4 {
     /// Vertices.
     pub vertices: [usize; 4],
-    /// Weight of each vertex; they sum to zero.
+    /// Weight of each vertex; they sum to zero between layers of cloth, and to one on the body.
     pub weights: [f64; 4],
     /// Unit direction.
     pub normal: V3,
@@ -73,7 +73,7 @@ pub struct Operator<'a> {
     pub bending: &'a [f64],
     /// Springs between two vertices: stiffness, N/m.
     pub springs: Vec<([usize; 2], f64)>,
-    /// Contacts of the cloth with itself.
+    /// Contacts of the cloth with itself, and of points between vertices with the body.
     pub contacts: Vec<Contact4>,
 }
 

@@ -93,12 +93,12 @@ impl<'a> System<'a> {
         cloth.bending.add_forces(x, &mut forces);
         cloth.bands.add_forces(x, &mut forces);
         cloth.bands.add_stiffness(x, &cloth.membrane.pairs, &mut membrane);
-        self.contact.assemble(x, &mut forces, &mut diagonal);
+        let mut contacts = self.contact.assemble(x, &mut forces, &mut diagonal);
         let springs = self.springs.as_ref().map_or_else(Vec::new, |s| s.assemble(x, &mut forces));
-        let contacts = self.self_contact.as_mut().map_or_else(Vec::new, |c| {
+        if let Some(c) = &mut self.self_contact {
             c.update(x);
-            c.assemble(x, &mut forces)
-        });
+            contacts.extend(c.assemble(x, &mut forces));
+        }
         for &v in &self.held {
             forces[v] = V3::zeros();
             diagonal[v] += Matrix3::identity() * HELD_STIFFNESS;

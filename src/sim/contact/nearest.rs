@@ -1,0 +1,143 @@
+//! Nearest points of a vertex and a triangle, or of two edges [Ericson 2005, 5.1].
+
+use crate::geom::V3;
+
+/// Vertices of a pair: `[vertex, triangle]` or `[edge, edge]`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Primitives {
+    /// A vertex, then the corners of a triangle.
+    VertexTriangle([usize; 4]),
+    /// The ends of an edge, then those of another.
+    EdgeEdge([usize; 4]),
+}
+
+impl Primitives {
+    /// All vertices of the pair.
+    #[must_use]
+    pub fn vertices(self) -> [usize; 4] {
+        match self {
+            Self::VertexTriangle(vertices) | Self::EdgeEdge(vertices) => vertices,
+        }
+    }
+}
+
+/// Nearest points of a pair: the vector from the second to the first is `sum w_k x_k`.
+#[derive(Clone, Copy, Debug)]
+pub struct Nearest {
+    /// Weights of the vertices; they sum to zero.
+    pub weights: [f64; 4],
+    /// From the nearest point of the second primitive to that of the first, m.
+    pub gap: V3,
+    /// Unit normal of the triangle, or common perpendicular of the edges, where the nearest points lie within both
+    /// primitives; else one of them is on a rim.
+    pub normal: Option<V3>,
+}
+
+impl Nearest {
+    /// Nearest points at `x`.
+    #[must_use]
+    pub fn of(x: &[V3], primitives: Primitives) -> Self {
+        let corners = primitives.vertices().map(|v| x[v]);
+        let (weights, within) = match primitives {
+            Primitives::VertexTriangle(_) => vertex_triangle(&corners),
+            Primitives::EdgeEdge(_) => edge_edge(&corners),
+        };
+        let gap: V3 = (0..4).map(|k| corners[k] * weights[k]).sum();
+        let cross = match primitives {
+            Primitives::VertexTriangle(_) => (corners[2] - corners[1]).cross(&(corners[3] - corners[1])),
+            Primitives::EdgeEdge(_) => (corners[1] - corners[0]).cross(&(corners[3] - corners[2])),
+        };
+        let normal = if within { cross.try_normalize(0.0) } else { None };
+        Self { weights, gap, normal }
+    }
+}
+
+/// Weights of the nearest points, and whether the foot point is inside the triangle.
+fn vertex_triangle([p, a, b, c]: &[V3; 4]) -> ([f64; 4], bool) {
+    let (ab, ac, ap) = (b - a, c - a, p - a);
+    let (d1, d2) = (ab.dot(&ap), ac.dot(&ap));
+    let on = |wb: f64, wc: f64| [1.0, wb + wc - 1.0, -wb, -wc];
+    if d1 <= 0.0 && d2 <= 0.0 {
+        return (on(0.0, 0.0), false);
+    }
+    let bp = p - b;
+    let (d3, d4) = (ab.dot(&bp), ac.dot(&bp));
+    if d3 >= 0.0 && d4 <= d3 {
+        return (on(1.0, 0.0), false);
+    }
+    let vc = d1 * d4 - d3 * d2;
+    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        return (on(d1 / (d1 - d3), 0.0), false);
+    }
+    let cp = p - c;
+    let (d5, d6) = (ab.dot(&cp), ac.dot(&cp));
+    if d6 >= 0.0 && d5 <= d6 {
+        return (on(0.0, 1.0), false);
+    }
+    let vb = d5 * d2 - d1 * d6;
+    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        return (on(0.0, d2 / (d2 - d6)), false);
+    }
+    let va = d3 * d6 - d5 * d4;
+    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
+        let share = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+        return (on(1.0 - share, share), false);
+    }
+    let sum = va + vb + vc;
+    (on(vb / sum, vc / sum), true)
+}
+
+/// Weights of the nearest points, and whether both are inside their edges.
+fn edge_edge([a, b, c, d]: &[V3; 4]) -> ([f64; 4], bool) {
+    let (u, w, r) = (b - a, d - c, a - c);
+    let (uu, ww, uw) = (u.norm_squared(), w.norm_squared(), u.dot(&w));
+    let (ur, wr) = (u.dot(&r), w.dot(&r));
+    let along = |value: f64, length: f64| if length > 0.0 { (value / length).clamp(0.0, 1.0) } else { 0.0 };
+    let area = uu * ww - uw * uw;
+    let mut s = along(uw * wr - ur * ww, area);
+    let free_t = if ww > 0.0 { (uw * s + wr) / ww } else { 0.0 };
+    let t = free_t.clamp(0.0, 1.0);
+    if t != free_t {
+        s = along(t * uw - ur, uu);
+    }
+    let inside = |q: f64| q > 0.0 && q < 1.0;
+    ([1.0 - s, s, t - 1.0, -t], inside(s) && inside(t))
+}
+
+/// Twice the area that two edges span, squared, and its gradient by the first edge and by the second: it vanishes where
+/// they are parallel.
+#[must_use]
+pub fn spanned_squared(u: &V3, w: &V3) -> (f64, [V3; 2]) {
+    let (uu, ww, uw) = (u.norm_squared(), w.norm_squared(), u.dot(w));
+    (u.cross(w).norm_squared(), [(u * ww - w * uw) * 2.0, (w * uu - u * uw) * 2.0])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_sampled_point_is_nearer() {
+        let corner = |k: usize, seed: usize| {
+            let noise = |axis: usize| ((k * 37 + seed * 101 + axis * 53) as f64).sin() * 1e4 % 1.0;
+            V3::new(noise(0), noise(1), noise(2))
+        };
+        for seed in 0..200 {
+            let x = [0, 1, 2, 3].map(|k| corner(k, seed));
+            let steps = (0..=20).map(|i| f64::from(i) / 20.0);
+            let in_triangle = steps.clone().flat_map(|b| (0..=20).map(move |i| (b, (1.0 - b) * f64::from(i) / 20.0)));
+            let triangle = in_triangle.map(|(b, c)| x[0] - x[1] * (1.0 - b - c) - x[2] * b - x[3] * c);
+            let on_edges = steps.clone().flat_map(|s| steps.clone().map(move |t| (s, t)));
+            let edges = on_edges.map(|(s, t)| x[0].lerp(&x[1], s) - x[2].lerp(&x[3], t));
+            let least = |gaps: &mut dyn Iterator<Item = V3>| gaps.map(|g| g.norm()).fold(f64::MAX, f64::min);
+            let check = |primitives, sampled: f64| {
+                let nearest = Nearest::of(&x, primitives);
+                let gap = nearest.gap.norm();
+                assert!(gap <= sampled + 1e-12 && gap > sampled - 0.1, "{primitives:?} of {seed}: {gap} for {sampled}");
+                assert!(nearest.weights.iter().sum::<f64>().abs() < 1e-12);
+            };
+            check(Primitives::VertexTriangle([0, 1, 2, 3]), least(&mut triangle.clone()));
+            check(Primitives::EdgeEdge([0, 1, 2, 3]), least(&mut edges.clone()));
+        }
+    }
+}

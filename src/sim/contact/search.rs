@@ -1,0 +1,131 @@
+//! The search for parts of a cloth that are near each other and not neighbours in it.
+
+use super::grid::BoxGrid;
+use super::nearest::Primitives;
+use super::tangle::edges_of;
+use crate::geom::V3;
+use crate::sim::solver::PairList;
+
+/// The cloth as the search sees it.
+pub struct Neighbours<'a> {
+    triangles: &'a [[usize; 3]],
+    edges: PairList,
+    /// Vertices that share a triangle with a vertex, itself included, sorted.
+    ring: Vec<Vec<usize>>,
+    /// Group of each vertex where only groups are kept apart from each other; 0 belongs to none.
+    groups: Option<Vec<u8>>,
+}
+
+impl<'a> Neighbours<'a> {
+    /// Of `vertices` vertices.
+    #[must_use]
+    pub fn new(triangles: &'a [[usize; 3]], vertices: usize) -> Self {
+        let mut ring = vec![Vec::new(); vertices];
+        for t in triangles {
+            for &v in t {
+                ring[v].extend_from_slice(t);
+            }
+        }
+        sort_each(&mut ring);
+        Self { triangles, edges: edges_of(triangles), ring, groups: None }
+    }
+
+    /// Leaves out what is not of two different groups (0 belongs to none), and what is near `sewn` pairs.
+    pub fn keep_apart(&mut self, groups: Vec<u8>, sewn: impl Iterator<Item = [usize; 2]>) {
+        let unsewn = self.ring.clone();
+        for [a, b] in sewn {
+            for (own, other) in [(a, b), (b, a)] {
+                for &v in &unsewn[own] {
+                    self.ring[v].extend_from_slice(&unsewn[other]);
+                }
+            }
+        }
+        sort_each(&mut self.ring);
+        self.groups = Some(groups);
+    }
+
+    /// The cloth's edges.
+    #[must_use]
+    pub fn edges(&self) -> &[[usize; 2]] {
+        self.edges.pairs()
+    }
+
+    /// The cloth's triangles.
+    #[must_use]
+    pub fn triangles(&self) -> &'a [[usize; 3]] {
+        self.triangles
+    }
+
+    /// Pairs whose boxes are within `reach` of each other; all that are within it are among them.
+    #[must_use]
+    pub fn within(&self, x: &[V3], reach: f64) -> Vec<Primitives> {
+        let mut pairs = self.vertex_triangle_pairs(x, reach);
+        pairs.extend(self.edge_edge_pairs(x, reach));
+        pairs
+    }
+
+    fn vertex_triangle_pairs(&self, x: &[V3], reach: f64) -> Vec<Primitives> {
+        let boxes = boxes(x, self.triangles);
+        let grid = BoxGrid::new(x, self.triangles, reach, (2.0 * reach).max(CELL_M));
+        let mut pairs = Vec::new();
+        for v in 0..x.len() {
+            for t in grid.near(&x[v]) {
+                let triangle = self.triangles[t];
+                if within_box(&boxes[t], &(x[v], x[v]), reach) && self.apart(&[v], &triangle) {
+                    let [a, b, c] = triangle;
+                    pairs.push(Primitives::VertexTriangle([v, a, b, c]));
+                }
+            }
+        }
+        pairs
+    }
+
+    fn edge_edge_pairs(&self, x: &[V3], reach: f64) -> Vec<Primitives> {
+        let edges = self.edges.pairs();
+        let boxes = boxes(x, edges);
+        let longest = edges.iter().map(|&[a, b]| (x[a] - x[b]).norm()).fold(0.0, f64::max);
+        // Two edges within reach of each other: the middle of one is within that and half its length of the other's box.
+        let grid = BoxGrid::new(x, edges, reach + 0.5 * longest, 2.0 * reach + longest);
+        let mut pairs = Vec::new();
+        for (e, &[a, b]) in edges.iter().enumerate() {
+            for f in grid.near(&((x[a] + x[b]) / 2.0)).filter(|&f| f > e) {
+                let [c, d] = edges[f];
+                if within_box(&boxes[e], &boxes[f], reach) && self.apart(&[a, b], &[c, d]) {
+                    pairs.push(Primitives::EdgeEdge([a, b, c, d]));
+                }
+            }
+        }
+        pairs
+    }
+
+    /// Whether no vertex of one side shares a triangle with one of the other.
+    fn apart(&self, one: &[usize], other: &[usize]) -> bool {
+        if let Some(groups) = &self.groups {
+            let (a, b) = (groups[one[0]], groups[other[0]]);
+            if a == b || a == 0 || b == 0 {
+                return false;
+            }
+        }
+        one.iter().all(|&v| other.iter().all(|w| self.ring[v].binary_search(w).is_err()))
+    }
+}
+
+/// Least cell of the grid, m: smaller ones hold each triangle many times.
+const CELL_M: f64 = 0.02;
+
+fn sort_each(rings: &mut [Vec<usize>]) {
+    for ring in rings {
+        ring.sort_unstable();
+        ring.dedup();
+    }
+}
+
+fn boxes<const N: usize>(x: &[V3], sets: &[[usize; N]]) -> Vec<(V3, V3)> {
+    let start = (V3::repeat(f64::MAX), V3::repeat(f64::MIN));
+    let around = |set: &[usize; N]| set.iter().fold(start, |(low, high), &v| (low.inf(&x[v]), high.sup(&x[v])));
+    sets.iter().map(around).collect()
+}
+
+fn within_box(one: &(V3, V3), other: &(V3, V3), reach: f64) -> bool {
+    (0..3).all(|k| one.0[k] - reach < other.1[k] && other.0[k] - reach < one.1[k])
+}

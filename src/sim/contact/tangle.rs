@@ -1,0 +1,150 @@
+//! Where cloth pierces itself, and which way it comes free.
+//!
+//! A crossing has no right side to be pushed back to. What it has is a line along which the two sheets cut each other:
+//! forces along the steepest fall of that line's length draw its ends and bends out of the cloth, whatever the layers
+//! around it do [Volino & Magnenat-Thalmann 2006].
+
+use super::grid::BoxGrid;
+use crate::geom::V3;
+use crate::sim::solver::{Contact4, PairList};
+
+/// Sine between edge and pierced triangle below which the way out along the normal is not taken longer still.
+const LEAST_SLOPE: f64 = 0.2;
+
+/// An edge that pierces a triangle.
+#[derive(Clone, Copy, Debug)]
+pub struct Crossing {
+    /// Ends of the edge.
+    pub edge: [usize; 2],
+    /// Corners of the triangle.
+    pub triangle: [usize; 3],
+}
+
+/// Edges that pierce a triangle with which they share no vertex.
+pub fn crossings<'s>(
+    x: &'s [V3],
+    edges: &'s [[usize; 2]],
+    triangles: &'s [[usize; 3]],
+) -> impl Iterator<Item = Crossing> + 's {
+    let length = edges.iter().map(|&[a, b]| (x[a] - x[b]).norm()).fold(0.0, f64::max);
+    // Every point of an edge is within half the greatest length of the edge's middle.
+    let grid = BoxGrid::new(x, triangles, 0.5 * length, length.max(1e-6));
+    edges.iter().flat_map(move |&[a, b]| {
+        let near: Vec<usize> = grid.near(&((x[a] + x[b]) / 2.0)).collect();
+        let hits = move |t: &usize| {
+            let triangle = triangles[*t];
+            !triangle.contains(&a) && !triangle.contains(&b) && segment_hits(x[a], x[b], triangle.map(|v| x[v]))
+        };
+        near.into_iter().filter(hits).map(move |t| Crossing { edge: [a, b], triangle: triangles[t] })
+    })
+}
+
+fn segment_hits(p: V3, q: V3, [a, b, c]: [V3; 3]) -> bool {
+    let volume = |u: V3, v: V3, w: V3, z: V3| (v - u).cross(&(w - u)).dot(&(z - u));
+    let (above, below) = (volume(a, b, c, p), volume(a, b, c, q));
+    if above * below >= 0.0 {
+        return false;
+    }
+    let sides = [volume(p, q, a, b), volume(p, q, b, c), volume(p, q, c, a)];
+    sides.iter().all(|s| *s > 0.0) || sides.iter().all(|s| *s < 0.0)
+}
+
+/// Third corners of the triangles at each edge.
+pub struct Wings {
+    /// Sorted by edge.
+    corners: Vec<([usize; 2], usize)>,
+}
+
+impl Wings {
+    /// Collects them.
+    #[must_use]
+    pub fn new(triangles: &[[usize; 3]]) -> Self {
+        let of = |&[a, b, c]: &[usize; 3]| [([a, b], c), ([b, c], a), ([c, a], b)];
+        let sorted = |([a, b], c): ([usize; 2], usize)| ([a.min(b), a.max(b)], c);
+        let mut corners: Vec<_> = triangles.iter().flat_map(of).map(sorted).collect();
+        corners.sort_unstable();
+        Self { corners }
+    }
+
+    fn at(&self, [a, b]: [usize; 2]) -> impl Iterator<Item = usize> + '_ {
+        let edge = [a.min(b), a.max(b)];
+        let start = self.corners.partition_point(|(e, _)| *e < edge);
+        self.corners[start..].iter().take_while(move |(e, _)| *e == edge).map(|(_, c)| *c)
+    }
+}
+
+/// A force of the length of a crossing line on the five vertices about one of its corners.
+#[derive(Clone, Copy, Debug)]
+pub struct Release {
+    /// The edge, then the triangle that it pierces.
+    pub vertices: [usize; 5],
+    /// Weights of the edge's ends, and of the triangle's corners with the opposite sign.
+    pub weights: [f64; 5],
+    /// How the line grows shorter when the edge moves against the triangle, without unit, at most 1 long.
+    pub fall: V3,
+}
+
+impl Release {
+    /// The way out of one crossing; `None` where the line runs straight on.
+    #[must_use]
+    pub fn of(x: &[V3], wings: &Wings, crossing: &Crossing) -> Option<Self> {
+        let ([p, q], [a, b, c]) = (crossing.edge, crossing.triangle);
+        let along = (x[q] - x[p]).try_normalize(0.0)?;
+        let face = (x[b] - x[a]).cross(&(x[c] - x[a]));
+        let normal = face.try_normalize(0.0)?;
+        let slope = along.dot(&normal);
+        let share = ((x[a] - x[p]).dot(&normal) / (x[q] - x[p]).dot(&normal)).clamp(0.0, 1.0);
+        let point = x[p].lerp(&x[q], share);
+        let mut fall = V3::zeros();
+        for third in wings.at(crossing.edge) {
+            let inwards = x[third] - x[p] - along * along.dot(&(x[third] - x[p]));
+            let wing = along.cross(&inwards);
+            let Some(line) = wing.cross(&normal).try_normalize(0.0) else { continue };
+            let line = line * line.dot(&inwards).signum();
+            fall += line - normal * (along.dot(&line) / (slope.signum() * slope.abs().max(LEAST_SLOPE)));
+        }
+        let length = fall.norm();
+        if length < 1e-6 {
+            return None;
+        }
+        let area = face.norm_squared();
+        let wb = (point - x[a]).cross(&(x[c] - x[a])).dot(&face) / area;
+        let wc = (x[b] - x[a]).cross(&(point - x[a])).dot(&face) / area;
+        Some(Self {
+            vertices: [p, q, a, b, c],
+            weights: [1.0 - share, share, wb + wc - 1.0, -wb, -wc],
+            fall: fall / length.max(1.0),
+        })
+    }
+
+    /// Potential that falls as the line grows shorter, m: linear, as at the step's start.
+    #[must_use]
+    pub fn potential(&self, x: &[V3]) -> f64 {
+        -(0..5).map(|k| self.weights[k] * self.fall.dot(&x[self.vertices[k]])).sum::<f64>()
+    }
+
+    /// Adds a force of `force_n` newtons along the fall.
+    pub fn add_force(&self, force_n: f64, forces: &mut [V3]) {
+        for k in 0..5 {
+            forces[self.vertices[k]] += self.fall * (force_n * self.weights[k]);
+        }
+    }
+
+    /// Stiffness against the fall, so that a step goes only about as far as the force is right.
+    #[must_use]
+    pub fn couplings(&self, stiffness: f64) -> [Contact4; 2] {
+        let normal = self.fall.try_normalize(0.0).unwrap_or_default();
+        let [p, q, a, b, c] = self.vertices;
+        let [wp, wq, wa, wb, wc] = self.weights;
+        [
+            Contact4 { vertices: [p, q, p, q], weights: [wp, wq, 0.0, 0.0], normal, stiffness },
+            Contact4 { vertices: [a, b, c, c], weights: [wa, wb, wc, 0.0], normal, stiffness },
+        ]
+    }
+}
+
+/// The distinct edges of some triangles.
+#[must_use]
+pub fn edges_of(triangles: &[[usize; 3]]) -> PairList {
+    PairList::new(triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]))
+}
