@@ -51,23 +51,37 @@ pub fn run(context: &Context, arguments: &Try) -> Outcome {
     Ok(if tried.problems.is_empty() { End::Done } else { End::CheckFailed })
 }
 
-/// The measurements, then the summary; as JSON one document of both.
+/// Rounded to a tenth.
+fn tenths(number: f64) -> Value {
+    Value::Real((number * 10.0).round() / 10.0)
+}
+
+/// The measurements as the last stage left them, what the garment lacks, then the summary; as JSON one document of all.
 fn show(context: &Context, tried: &Tried) -> Result<(), CliError> {
     if context.json {
         return Ok(output::json(tried)?);
     }
     let columns = ["no", "measurement", "free", "l2d_mm", "l3d_mm", "chi"].map(str::to_owned).to_vec();
-    let rows = tried.chi.iter().map(|row| {
+    let last = tried.chi.last().map(|row| row.stage);
+    let rows = tried.chi.iter().filter(|row| Some(row.stage) == last).map(|row| {
         vec![
             Value::Integer(i64::from(row.measurement_no)),
             Value::Text(row.measurement.clone()),
             Value::Text(if row.is_free_edge { "yes" } else { "" }.to_owned()),
-            Value::Real((row.l2d_mm * 10.0).round() / 10.0),
-            Value::Real((row.l3d_mm * 10.0).round() / 10.0),
+            tenths(row.l2d_mm),
+            tenths(row.l3d_mm),
             Value::Real((row.chi * 1e4).round() / 1e4),
         ]
     });
     context.print(&Table { columns, rows: rows.collect() })?;
+    if !tried.gap.is_empty() {
+        let columns = ["level", "body_girth_mm", "garment_girth_mm", "shortfall_mm"].map(str::to_owned).to_vec();
+        let rows = tried.gap.iter().map(|gap| {
+            let girths = [gap.body_girth_mm, gap.garment_girth_mm, gap.shortfall_mm].map(tenths);
+            [Value::Text(gap.level.clone())].into_iter().chain(girths).collect()
+        });
+        context.print(&Table { columns, rows: rows.collect() })?;
+    }
     let columns = ["n", "e_chi", "sd_chi", "ei", "residual", "penetration_mm", "crossings", "vertices", "wall_ms"];
     let row = vec![
         Value::Integer(tried.n as i64),

@@ -12,7 +12,7 @@ use super::context::Context;
 use super::progress::Progress;
 use super::{End, Outcome, output, pictures};
 use crate::study::{
-    JobFilter, JobId, JobRow, Planned, RunOptions, Selection, Status, Study, StudyError, Table, Value, Workspace,
+    JobFilter, JobId, JobRow, Planned, RunOptions, Selection, Stage, Status, Study, StudyError, Table, Value, Workspace,
 };
 
 /// Time between two looks at the running jobs.
@@ -159,7 +159,8 @@ fn chi_table(workspace: &Workspace, jobs: &[&JobRow]) -> Result<Table, StudyErro
         let repeat = if job.repeat > 1 { format!(" /{}", job.repeat) } else { String::new() };
         let mark = if job.status == Status::NotConverged { " *" } else { "" };
         columns.push(format!("{}{repeat}{mark}", job.subject));
-        for (index, chi) in workspace.chi(job.id)?.iter().enumerate() {
+        let drape = Stage::Drape.as_str();
+        for (index, chi) in workspace.chi(job.id)?.iter().filter(|chi| chi.stage == drape).enumerate() {
             if rows.len() == index {
                 let length = Value::Text(format!("{:.2}", crate::units::mm(chi.l2d_m)));
                 rows.push(vec![Value::Integer(i64::from(chi.no)), Value::Text(chi.name.clone()), length]);

@@ -64,6 +64,17 @@ pub struct Drape {
     pub welded_vertices: usize,
     /// The run, step by step.
     pub history: Vec<Step>,
+    /// The stages before this one, in order, where the simulator tells them apart.
+    pub earlier: Vec<Staged>,
+}
+
+/// A garment as a stage left it.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Staged {
+    /// Stage.
+    pub stage: Stage,
+    /// World position of each garment vertex, m.
+    pub positions: Vec<V3>,
 }
 
 /// What a simulator says while it works.

@@ -18,6 +18,6 @@ pub mod solver;
 #[cfg(test)]
 mod testing;
 
-pub use drape::{Drape, Monitor, Progress, Stage, Step};
+pub use drape::{Drape, Monitor, Progress, Stage, Staged, Step};
 pub use error::SimError;
 pub use fabric::Fabric;

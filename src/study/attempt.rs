@@ -15,11 +15,14 @@ use crate::measure;
 use crate::pattern::{Garment, MeasurementKind, Style};
 use crate::render::export::{MeshFormat, Part};
 use crate::render::{self, Camera, Cell, Frame, Layer, Material, Rgb, Scene, View};
+use crate::sim::hybrid::Closure;
 use crate::sim::{self, Drape, Fabric, Monitor, Progress};
 use crate::units::mm;
 
 /// Deepest penetration of a drape that is good, mm.
 const PENETRATION_MM: f64 = 0.5;
+/// Least shortfall that is told as a problem, mm.
+const SHORTFALL_MM: f64 = 5.0;
 /// Least confidence of a proposed seam that is sewn without asking.
 const SURE: f64 = 0.4;
 /// Size of each picture, pixels.
@@ -75,6 +78,17 @@ pub struct TriedEase {
     pub ease_mm: f64,
 }
 
+/// What the garment of a trial lacks at one level, with the columns of `v_gap`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[expect(missing_docs, reason = "the columns of the view, which db/schema.sql describes")]
+pub struct TriedGap {
+    pub level: String,
+    pub height_mm: f64,
+    pub body_girth_mm: f64,
+    pub garment_girth_mm: f64,
+    pub shortfall_mm: f64,
+}
+
 /// What came of a trial, with the columns of `v_metrics`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[expect(missing_docs, reason = "the columns of the view, which db/schema.sql describes")]
@@ -100,6 +114,8 @@ pub struct Tried {
     pub wall_ms: u64,
     pub chi: Vec<TriedChi>,
     pub ease: Vec<TriedEase>,
+    /// Hybrid-GS: girths of garment and body; empty for the other simulator.
+    pub gap: Vec<TriedGap>,
     /// What is wrong with the drape; empty where it is good.
     pub problems: Vec<String>,
     /// What had to be guessed about the inputs.
@@ -142,10 +158,36 @@ pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<T
             level: ease.level,
         })
         .collect();
+    if asked.simulator == Simulator::Hybrid {
+        tried.lacks(&sim::hybrid::closures(&body, garment, &drape.positions));
+    }
     tried.notes = notes;
     tried.files = files(asked.simulator, &body, garment, &drape)?;
     tried.wall_ms = u64::try_from(started.elapsed().as_millis()).unwrap_or(u64::MAX);
     Ok(tried)
+}
+
+impl Tried {
+    /// Adds what the garment lacks; where it does not close around the body, that is a problem.
+    fn lacks(&mut self, closures: &[Closure]) {
+        self.gap = closures.iter().map(TriedGap::of).collect();
+        let short = self.gap.iter().filter(|gap| gap.shortfall_mm > SHORTFALL_MM);
+        self.problems.extend(
+            short.map(|gap| format!("does not close around the {}: {:.0} mm short", gap.level, gap.shortfall_mm)),
+        );
+    }
+}
+
+impl TriedGap {
+    fn of(closure: &Closure) -> Self {
+        Self {
+            level: closure.level.clone(),
+            height_mm: mm(closure.height_m),
+            body_girth_mm: mm(closure.body_girth_m),
+            garment_girth_mm: mm(closure.garment_girth_m),
+            shortfall_mm: mm(closure.shortfall_m()),
+        }
+    }
 }
 
 /// Passes progress on.
@@ -228,16 +270,19 @@ fn measured(asked: &Attempt, style: &Style, garment: &Garment, drape: &Drape, fa
     if drape.self_crossings > 0 {
         problems.push(format!("the cloth crosses itself at {} edges", drape.self_crossings));
     }
-    let chi = garment.measurements.iter().zip(&chis).map(|(measurement, chi)| TriedChi {
-        stage: drape.stage,
-        measurement_no: measurement.no,
-        measurement: measurement.name.clone(),
-        kind: measurement.kind,
-        is_free_edge: measurement.is_free_edge,
-        is_controlled: asked.simulator == Simulator::Hybrid,
-        l2d_mm: mm(chi.l2d_m),
-        l3d_mm: mm(chi.l3d_m),
-        chi: chi.chi(),
+    let earlier = drape.earlier.iter().map(|staged| (staged.stage, measure::measure(garment, &staged.positions)));
+    let chi = earlier.chain([(drape.stage, chis)]).flat_map(|(stage, chis)| {
+        garment.measurements.iter().zip(chis).map(move |(measurement, chi)| TriedChi {
+            stage,
+            measurement_no: measurement.no,
+            measurement: measurement.name.clone(),
+            kind: measurement.kind,
+            is_free_edge: measurement.is_free_edge,
+            is_controlled: asked.simulator == Simulator::Hybrid,
+            l2d_mm: mm(chi.l2d_m),
+            l3d_mm: mm(chi.l3d_m),
+            chi: chi.chi(),
+        })
     });
     Ok(Tried {
         garment: style.name.clone(),
@@ -261,6 +306,7 @@ fn measured(asked: &Attempt, style: &Style, garment: &Garment, drape: &Drape, fa
         wall_ms: 0,
         chi: chi.collect(),
         ease: Vec::new(),
+        gap: Vec::new(),
         problems,
         notes: Vec::new(),
         files: Vec::new(),

@@ -44,7 +44,7 @@ mod workspace;
 
 pub use actions::why_no_retry;
 pub use advice::{LevelFit, SizeAnswer, SizeOn};
-pub use attempt::{Attempt, Tried, TriedChi, TriedEase, attempt};
+pub use attempt::{Attempt, Tried, TriedChi, TriedEase, TriedGap, attempt};
 pub use audit::{Audit, Finding};
 pub use catalogue::{
     Deed, FABRIC_NUMBERS, Field, Given, MEASUREMENTS, Mode, Part, Removed, Saved, SizeRow, StyleGiven, SubjectRow,
@@ -80,4 +80,4 @@ pub use crate::fit::Simulator;
 pub use crate::fit::{Analysis, Answer, Estimate, Evidence, Finding as Verdict, SizeAdvice, SizeFit, Without};
 pub use crate::render::View;
 pub use crate::render::export::MeshFormat;
-pub use crate::sim::{Monitor, Step};
+pub use crate::sim::{Monitor, Stage, Step};

@@ -13,12 +13,15 @@ use super::types::{JobId, Status};
 use crate::fit::Ease;
 use crate::measure::{Chi, Metrics};
 use crate::pattern::MeasurementKind;
+use crate::sim::hybrid::Closure;
 use crate::sim::{Monitor, Stage, Step};
 use crate::units::mm;
 
 /// One measurement of a result with what it is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
+    /// Stage at which it was taken.
+    pub stage: Stage,
     /// Name.
     pub name: String,
     /// Loop or length.
@@ -34,13 +37,11 @@ pub struct Measured {
 /// The result of a simulation, measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
-    /// How far the garment came.
-    pub stage: Stage,
     /// Whether the residual reached its tolerance with all seams closed.
     pub converged: bool,
-    /// Every measurement.
+    /// Every measurement, at every stage that the simulator tells apart.
     pub measured: Vec<Measured>,
-    /// Their summary.
+    /// Summary of those of the last stage.
     pub metrics: Metrics,
     /// Vertices once sewn.
     pub vertices: usize,
@@ -60,6 +61,8 @@ pub struct Outcome {
     pub history: Vec<Step>,
     /// Ease at each fit level.
     pub eases: Vec<Ease>,
+    /// Hybrid-GS: girths of garment and body at each fit level.
+    pub closures: Vec<Closure>,
     /// Products of stages it used.
     pub used: Vec<Used>,
 }
@@ -142,6 +145,7 @@ fn write_result(
     provenance: &Provenance,
 ) -> Result<()> {
     write_measured(transaction, id, outcome)?;
+    write_closures(transaction, id, &outcome.closures)?;
     let mut statement = transaction.prepare_cached(
         "INSERT INTO history (job_id, step, iteration, level, residual, seam_gap_mm, e_chi) VALUES (?, ?, ?, ?, ?, ?, ?)",
     )?;
@@ -174,7 +178,6 @@ fn write_result(
 }
 
 fn write_measured(transaction: &Transaction<'_>, id: JobId, outcome: &Outcome) -> Result<()> {
-    let stage = outcome.stage.as_str();
     let mut statement = transaction.prepare_cached(
         "INSERT INTO chi (job_id, stage, measurement_no, measurement, kind, is_free_edge, is_controlled, l2d_mm, l3d_mm)
         VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
@@ -185,6 +188,7 @@ fn write_measured(transaction: &Transaction<'_>, id: JobId, outcome: &Outcome) -
             MeasurementKind::OpenLength => "open_length",
         };
         let (l2d_mm, l3d_mm) = (mm(m.chi.l2d_m), mm(m.chi.l3d_m));
+        let stage = m.stage.as_str();
         let row = params![id.0, stage, m.chi.no, m.name, kind, m.is_free_edge, m.is_controlled, l2d_mm, l3d_mm];
         statement.execute(row)?;
     }
@@ -207,6 +211,19 @@ fn write_measured(transaction: &Transaction<'_>, id: JobId, outcome: &Outcome) -
             outcome.self_crossings as i64
         ],
     )?;
+    Ok(())
+}
+
+/// The gap map in numbers: what a garment of Hybrid-GS lacks at each level.
+fn write_closures(transaction: &Transaction<'_>, id: JobId, closures: &[Closure]) -> Result<()> {
+    let mut statement = transaction.prepare_cached(
+        "INSERT INTO gap (job_id, level, height_mm, body_girth_mm, garment_girth_mm) VALUES (?, ?, ?, ?, ?)",
+    )?;
+    for closure in closures {
+        let [height_mm, body_mm, garment_mm] =
+            [closure.height_m, closure.body_girth_m, closure.garment_girth_m].map(mm);
+        statement.execute(params![id.0, closure.level, height_mm, body_mm, garment_mm])?;
+    }
     Ok(())
 }
 

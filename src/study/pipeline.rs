@@ -200,15 +200,18 @@ impl Executor for Pipeline {
         let chis = measure::measure(garment, &drape.positions);
         let metrics = measure::metrics(&chis)
             .ok_or_else(|| StudyError::stage("measure")(format!("{} has no measurement", spec.garment)))?;
-        let measured = garment.measurements.iter().zip(chis).map(|(m, chi)| Measured {
-            name: m.name.clone(),
-            kind: m.kind,
-            is_free_edge: m.is_free_edge,
-            is_controlled: spec.simulator == Simulator::Hybrid,
-            chi,
+        let earlier = drape.earlier.iter().map(|staged| (staged.stage, measure::measure(garment, &staged.positions)));
+        let measured = earlier.chain([(drape.stage, chis)]).flat_map(|(stage, chis)| {
+            garment.measurements.iter().zip(chis).map(move |(m, chi)| Measured {
+                stage,
+                name: m.name.clone(),
+                kind: m.kind,
+                is_free_edge: m.is_free_edge,
+                is_controlled: spec.simulator == Simulator::Hybrid,
+                chi,
+            })
         });
         Ok(Outcome {
-            stage: drape.stage,
             converged: drape.converged,
             measured: measured.collect(),
             metrics,
@@ -221,6 +224,10 @@ impl Executor for Pipeline {
             self_crossings: drape.self_crossings,
             history: drape.history.clone(),
             eases: ease_on(garment, &model.body),
+            closures: match spec.simulator {
+                Simulator::Fem => Vec::new(),
+                Simulator::Hybrid => sim::hybrid::closures(&model.body, garment, &drape.positions),
+            },
             used: vec![used_body, used_field, used_mesh, used_drape],
         })
     }

@@ -151,7 +151,7 @@ impl Workspace {
     /// When the database cannot be read.
     pub fn chi(&self, id: JobId) -> Result<Vec<ChiRow>> {
         let sql = "SELECT stage, measurement_no, measurement, kind = 'closed_girth', is_free_edge, is_controlled, l2d_mm, l3d_mm
-            FROM chi WHERE job_id = ? ORDER BY stage, measurement_no";
+            FROM chi WHERE job_id = ? ORDER BY stage = 'drape', stage = 'popup', measurement_no";
         self.rows(sql, &[&id.0], |row| {
             Ok(ChiRow {
                 stage: row.get(0)?,

@@ -10,13 +10,14 @@ use super::error::{Result, StudyError};
 use super::{evidence, sql};
 
 /// Schema changes in order, never edited once released: `user_version` counts how many a database has.
-const MIGRATIONS: [&str; 7] = [
+const MIGRATIONS: [&str; 8] = [
     include_str!("../../db/migrations/0001_store.sql"),
     include_str!("../../db/migrations/0002_views.sql"),
     include_str!("../../db/migrations/0003_published.sql"),
     include_str!("../../db/migrations/0004_published_metrics.sql"),
     include_str!("../../db/migrations/0005_catalogue.sql"),
     include_str!("../../db/migrations/0006_stretched.sql"),
+    include_str!("../../db/migrations/0007_hybrid_gap.sql"),
     include_str!("../../db/migrations/0020_evidence.sql"),
 ];
 

@@ -97,6 +97,7 @@ fn outcome(spec: &JobSpec) -> Outcome {
     let stretch = 1.0 + spec.measurements.stature_m / 100.0;
     let chis = vec![Chi { no: 1, l2d_m: 1.0, l3d_m: stretch }, Chi { no: 2, l2d_m: 0.5, l3d_m: 0.5 }];
     let measured = |chi: &Chi| Measured {
+        stage: Stage::Drape,
         name: format!("length {}", chi.no),
         kind: MeasurementKind::OpenLength,
         is_free_edge: false,
@@ -112,7 +113,6 @@ fn outcome(spec: &JobSpec) -> Outcome {
         borderline: true,
     };
     Outcome {
-        stage: Stage::Drape,
         converged: spec.size != "m",
         measured: chis.iter().map(measured).collect(),
         metrics: metrics(&chis).expect("two"),
@@ -125,6 +125,7 @@ fn outcome(spec: &JobSpec) -> Outcome {
         seam_gap_max_m: 0.0,
         history: vec![step],
         eases: vec![ease],
+        closures: vec![],
         used: vec![],
     }
 }

@@ -65,6 +65,7 @@ pub fn simulate(
         welded_vertices: last.sewn.len(),
         positions: last.positions,
         history: run.into_history(),
+        earlier: Vec::new(),
     })
 }
 

@@ -22,7 +22,7 @@ pub mod sparse;
 use crate::body::Body;
 use crate::geom::{DistanceField, V3};
 use crate::pattern::{Garment, Measurement};
-use crate::sim::{Drape, Fabric, Monitor, Progress, SimError, Stage, Step, quality};
+use crate::sim::{Drape, Fabric, Monitor, Progress, SimError, Stage, Staged, Step, quality};
 
 pub use gap::{Closure, closures};
 pub use mapping::OnForm;
@@ -58,11 +58,7 @@ const AT_REST_M: f64 = 1e-3;
 pub struct Phases {
     /// On the form, piece by piece.
     pub mapped: OnForm,
-    /// Sewn, smoothed and lifted onto the fine mesh.
-    pub sewn: Vec<V3>,
-    /// Size restored.
-    pub popup: Vec<V3>,
-    /// Draped.
+    /// Draped; its earlier stages are those sewn, smoothed and lifted onto the fine mesh, and popped up.
     pub drape: Drape,
 }
 
@@ -128,8 +124,12 @@ pub fn phases(
         welded_vertices: x.len(),
         positions,
         history: run.history,
+        earlier: vec![
+            Staged { stage: Stage::Sewn, positions: on_skin },
+            Staged { stage: Stage::Popup, positions: popped },
+        ],
     };
-    Ok(Phases { sewn: on_skin, popup: popped, mapped, drape })
+    Ok(Phases { mapped, drape })
 }
 
 /// A run under way: what is recorded and reported of each step.

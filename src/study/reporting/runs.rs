@@ -12,6 +12,7 @@ use super::quoted;
 use crate::measure::Chi;
 use crate::render::{self, Camera, Cell, Frame, View};
 use crate::report::data::{FieldMap, Measured, Outcome, Picture, Run};
+use crate::sim::Stage;
 use crate::units::mm;
 
 /// Pixels of a picture on the page.
@@ -84,7 +85,7 @@ impl Workspace {
         let metrics = self.metrics(job.id)?;
         let number = |get: fn(&MetricsRow) -> f64| metrics.as_ref().map_or(0.0, get);
         let mut measured = Vec::new();
-        for chi in self.chi(job.id)? {
+        for chi in self.chi(job.id)?.into_iter().filter(|chi| chi.stage == Stage::Drape.as_str()) {
             let published = format!(
                 "SELECT chi FROM v_published WHERE simulator = '{}' AND lower(size) = lower({}) AND subject = {}
                 AND measurement_no = {} AND abs(l2d_mm - {}) < 0.5
