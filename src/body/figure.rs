@@ -227,7 +227,8 @@ impl<'a> Figure<'a> {
         ];
         let section = |(at, half_width): (f64, f64)| {
             let [front, back] = outline.clone().map(|curve| curve.at(at / h) * h);
-            let fullness = 1.0 - ((at - axilla.at) / (z_shoulder - axilla.at)).clamp(0.0, 1.0);
+            let upness = ((at - axilla.at) / (z_shoulder - axilla.at)).clamp(0.0, 1.0);
+            let fullness = 1.0 - upness * upness * (3.0 - 2.0 * upness);
             let (front, back) = self.grown(axilla, at, front, back, neck);
             Station {
                 at,
@@ -246,7 +247,8 @@ impl<'a> Figure<'a> {
         let outline = self.neck_outline();
         let [mean_front, mean_back] = outline.map(|curve| curve.at(self.atlas.axilla) * h);
         let upness = ((at / h - self.atlas.axilla) / (0.855 - self.atlas.axilla)).clamp(0.0, 1.0);
-        let by_chest = (1.0 - upness) * (1.0 - upness);
+        // Level at the armpit, so that no ledge is left there.
+        let by_chest = (1.0 - upness) * (1.0 - upness) * (1.0 + upness);
         let centre = (front + back) / 2.0;
         let by_neck = 1.0 + (neck - 1.0) * upness * upness;
         let widen = |y: f64, mean: f64, actual: f64| centre + (y - centre) * by_neck + (actual - mean) * by_chest;
