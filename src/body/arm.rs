@@ -8,6 +8,9 @@ use crate::geom::{TriMesh, V2, V3};
 const STEP: f64 = 0.012;
 const OFF: f64 = 0.03;
 
+/// How far outside the armpit a spread arm is first cut, over stature.
+const SPREAD: f64 = 0.05;
+
 /// Girths of the outlines of an arm, over stature.
 const ARM_GIRTHS: std::ops::Range<f64> = 0.03..0.36;
 
@@ -45,8 +48,14 @@ impl Arm {
         let mesh = &beyond(mesh, armpit.x - 0.06 * stature);
         let below = armpit.z - 0.03 * stature;
         let limbs = tape::right_limbs(mesh, below, armpit.x - 0.02 * stature);
-        let first = limbs.iter().max_by(|a, b| a.bounds().1.x.total_cmp(&b.bounds().1.x))?;
-        let start = Plane::horizontal(below).lift(middle(first));
+        let start = match limbs.iter().max_by(|a, b| a.bounds().1.x.total_cmp(&b.bounds().1.x)) {
+            Some(first) => Plane::horizontal(below).lift(middle(first)),
+            // An arm that is spread wide: no part of it lies below the armpit.
+            None => {
+                let plane = Plane::normal_to(V3::new(armpit.x + SPREAD * stature, joint.y, joint.z), V3::x());
+                plane.lift(middle(&nearest(mesh, &plane, stature)?))
+            }
+        };
         let mut along = (start - joint).try_normalize(1e-6)?;
         let mut stations = vec![Station { centre: joint, at: 0.0, girth: f64::NAN }];
         let mut at = (start - joint).norm();

@@ -5,7 +5,8 @@
 //! means of the ANSUR II survey [Gordon 2014]. Head and shoulder outlines are means of three bodies of each sex, smoothed:
 //! no ears, a plain face. At and below the hip the highest harmonics (the cleft) are damped, and the depth over the width is
 //! half way to that of the survey (0.711 men, 0.658 women); the lowest section is flatter than the model's, whose legs stand
-//! farther apart.
+//! farther apart. Above the waist of women the changes with the girth are the means of the neighbouring sections', which
+//! keeps large waists free of a step.
 
 use super::Sex;
 use super::loft::Shape;
@@ -206,8 +207,8 @@ static FEMALE: Atlas = Atlas {
         ),
         level(
             0.4473,
-            [0.739, 0.443],
-            [0.0217, -0.0160],
+            [0.739, 0.554],
+            [0.0217, 0.0090],
             [0.014, -0.030, 0.003, 0.042, -0.033, -0.001, -0.003, 0.007, -0.005],
         ),
         level(

@@ -4,7 +4,7 @@ use super::BodyError;
 use super::control::{ControlMesh, Layer, RING, Region, YOKE, YOKE_ROWS, YOKE_START};
 use super::tape;
 use crate::geom::section::{Outline, Plane, section};
-use crate::geom::{TriMesh, V2, V3};
+use crate::geom::{TriMesh, V2, V3, hull};
 use crate::units::mm;
 
 /// Heights and frames at which the rings are cut, metres.
@@ -36,7 +36,7 @@ pub(super) fn control_mesh(mesh: &TriMesh, cuts: &Cuts) -> Result<ControlMesh, B
     positions.extend(legs.iter().flatten());
     // A mirrored horizontal ring starts on its other side, so that 0 stays on the subject's right.
     positions.extend(legs.iter().flat_map(|ring| mirror(ring, &|i| RING + RING / 2 - i)));
-    let horizontal = |&z: &f64| ring(mesh, &Plane::horizontal(z), 0.0, "trunk");
+    let horizontal = |&z: &f64| ring(mesh, &trunk_plane(mesh, z), 0.0, "trunk");
     for z in &cuts.trunk {
         positions.extend(horizontal(z)?);
     }
@@ -63,10 +63,21 @@ pub(super) fn control_mesh(mesh: &TriMesh, cuts: &Cuts) -> Result<ControlMesh, B
 /// The ring in which `plane` cuts the part round its origin; vertex 0 lies at the angle `start` in the plane.
 fn ring(mesh: &TriMesh, plane: &Plane, start: f64, part: &'static str) -> Result<Vec<V3>, BodyError> {
     let outlines = section(mesh, plane);
-    let inside = outlines.iter().filter(|outline| outline.contains(V2::zeros()));
-    let outline = inside.max_by(|a, b| tape::girth(a).total_cmp(&tape::girth(b)));
+    // Round the point as a tape goes: the point may lie in an open mouth.
+    let round =
+        |outline: &&Outline| Outline { points: hull::convex_hull(&outline.points), closed: true }.contains(V2::zeros());
+    let outline = outlines.iter().filter(round).max_by(|a, b| tape::girth(a).total_cmp(&tape::girth(b)));
     let outline = outline.ok_or(BodyError::MissingPart { part, height_mm: mm(plane.origin.z) })?;
     Ok(spokes(outline, start).into_iter().map(|p| plane.lift(p)).collect())
+}
+
+/// The horizontal plane at height `z` about the middle of the trunk's (or head's) outline: a head may be wholly before the body's axis.
+fn trunk_plane(mesh: &TriMesh, z: f64) -> Plane {
+    let middle = tape::trunk_outline(mesh, z, 0.0).map_or(0.0, |outline| {
+        let (front, back) = tape::depth_range(&outline);
+        (front + back) / 2.0
+    });
+    Plane { origin: V3::new(0.0, middle, z), ..Plane::horizontal(z) }
 }
 
 /// The right leg's ring at height `z`, about the middle of its outline.

@@ -142,27 +142,23 @@ impl<'a> Figure<'a> {
         ]
     }
 
-    /// Sections of the trunk at their girths: the asked ones at hip, waist and chest, between them the mean body's
-    /// departure from a straight course.
+    /// Sections of the trunk at their girths: the asked ones at hip, waist and chest. Between hip and waist, and above the chest,
+    /// the mean body's departure from a straight course; between waist and chest its share of their difference, so that ribs
+    /// do not draw in under the chest of somebody who has no waist.
     pub fn trunk_sections(&self) -> Vec<Station> {
         let heights = self.trunk_heights();
         let mean = |i: usize| self.atlas.trunk[i].girth;
-        let course = |at: f64, hip: f64, waist: f64, chest: f64| {
-            let (low, high, a, b) = if at < heights[4] {
-                (heights[1], heights[4], hip, waist)
-            } else {
-                (heights[4], heights[7], waist, chest)
-            };
-            a + (b - a) * ((at - low) / (high - low)).clamp(0.0, 1.0)
+        let [hip, waist, chest] =
+            [Dimension::HipGirth, Dimension::WaistGirth, Dimension::ChestGirth].map(|girth| self.size(girth));
+        let course = |at: f64, hip: f64, waist: f64| {
+            waist + (hip - waist) * ((heights[4] - at) / (heights[4] - heights[1])).clamp(0.0, 1.0)
         };
-        let section = |i: usize| {
-            let usual = mean(i) / course(heights[i], mean(1), mean(4), mean(7));
-            let [hip, waist, chest] =
-                [Dimension::HipGirth, Dimension::WaistGirth, Dimension::ChestGirth].map(|girth| self.size(girth));
-            let girth = usual * course(heights[i], hip, waist, chest) * self.underbust_share(i);
-            self.trunk_section(i, heights[i], girth)
+        let girth = |i: usize| match i {
+            0..=4 => course(heights[i], hip, waist) * mean(i) / course(heights[i], mean(1), mean(4)),
+            5..=6 => waist + (chest - waist) * (mean(i) - mean(4)) / (mean(7) - mean(4)),
+            _ => chest * mean(i) / mean(7),
         };
-        (0..9).map(section).collect()
+        (0..9).map(|i| self.trunk_section(i, heights[i], girth(i) * self.underbust_share(i))).collect()
     }
 
     /// Factor on the sections between waist and chest that makes room for an under-bust girth.
@@ -227,7 +223,8 @@ impl<'a> Figure<'a> {
         ];
         let section = |(at, half_width): (f64, f64)| {
             let [front, back] = outline.clone().map(|curve| curve.at(at / h) * h);
-            let fullness = 1.0 - ((at - axilla.at) / (z_shoulder - axilla.at)).clamp(0.0, 1.0);
+            let upness = ((at - axilla.at) / (z_shoulder - axilla.at)).clamp(0.0, 1.0);
+            let fullness = 1.0 - upness * upness * (3.0 - 2.0 * upness);
             let (front, back) = self.grown(axilla, at, front, back, neck);
             Station {
                 at,
@@ -246,7 +243,8 @@ impl<'a> Figure<'a> {
         let outline = self.neck_outline();
         let [mean_front, mean_back] = outline.map(|curve| curve.at(self.atlas.axilla) * h);
         let upness = ((at / h - self.atlas.axilla) / (0.855 - self.atlas.axilla)).clamp(0.0, 1.0);
-        let by_chest = (1.0 - upness) * (1.0 - upness);
+        // Gently at the armpit, so that no ledge is left there.
+        let by_chest = (1.0 - upness) * (1.0 - upness) * (1.0 + upness);
         let centre = (front + back) / 2.0;
         let by_neck = 1.0 + (neck - 1.0) * upness * upness;
         let widen = |y: f64, mean: f64, actual: f64| centre + (y - centre) * by_neck + (actual - mean) * by_chest;

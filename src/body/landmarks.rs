@@ -78,6 +78,31 @@ pub(super) fn armpit(mesh: &TriMesh, mut free: f64, mut joined: f64, middle: f64
     Some(apex)
 }
 
+/// Greatest height of an arm's section along the body, over stature.
+const SPREAD_ARM: f64 = 0.10;
+
+/// The armpit of a right arm that is spread so wide that no level passes between it and the trunk: its underside where, from the
+/// free arm inwards, sections along the body reach farther down than an arm's.
+pub(super) fn armpit_of_spread(mesh: &TriMesh, shoulder: V3, stature: f64) -> Option<V3> {
+    let underside = |x: f64| {
+        let plane = Plane { origin: V3::new(x, 0.0, 0.0), u: V3::y(), v: V3::z() };
+        let outlines = section(mesh, &plane);
+        let arm = outlines.iter().max_by(|a, b| a.bounds().1.y.total_cmp(&b.bounds().1.y))?;
+        let lowest = arm.points.iter().min_by(|a, b| a.y.total_cmp(&b.y))?;
+        (arm.bounds().1.y - lowest.y < SPREAD_ARM * stature).then(|| plane.lift(*lowest))
+    };
+    let (mut free, mut joined) = (shoulder.x + 0.08 * stature, shoulder.x - 0.06 * stature);
+    let mut apex = underside(free)?;
+    while free - joined > 1e-4 {
+        let x = (free + joined) / 2.0;
+        match underside(x) {
+            Some(point) => (free, apex) = (x, point),
+            None => joined = x,
+        }
+    }
+    Some(apex)
+}
+
 /// The lowest point of the skin between the thighs, in the median plane just above the crotch's height.
 pub(super) fn crotch_point(mesh: &TriMesh, crotch: f64) -> Option<V3> {
     let outline = tape::trunk_outline(mesh, crotch, 0.0)?;

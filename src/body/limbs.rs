@@ -153,8 +153,20 @@ impl Figure<'_> {
             ring(0.125 * h, 0.60 * ankle + 0.40 * calf_girth, 1.12, at(0.125 * h, -0.019), calf_shape),
             ring(calf, calf_girth, 1.02, at(calf, -0.0165), calf_shape),
             ring(knee, knee_girth, 1.06, at(knee, -0.0065), [-0.022, -0.025, 0.0, 0.025, 0.004, 0.0, 0.0, 0.0, 0.0]),
-            ring(1.25 * knee, 0.53 * knee_girth + 0.45 * thigh_girth, 1.05, at(1.25 * knee, 0.3 * forward), thigh_shape),
-            ring(0.82 * crotch, 0.22 * knee_girth + 0.76 * thigh_girth, 1.06, at(0.82 * crotch, 0.8 * forward), thigh_shape),
+            ring(
+                1.25 * knee,
+                0.53 * knee_girth + 0.45 * thigh_girth,
+                1.05,
+                at(1.25 * knee, 0.3 * forward),
+                thigh_shape,
+            ),
+            ring(
+                0.82 * crotch,
+                0.22 * knee_girth + 0.76 * thigh_girth,
+                1.06,
+                at(0.82 * crotch, 0.8 * forward),
+                thigh_shape,
+            ),
             Station { centre: at(thigh.at, forward), ..thigh },
         ];
         let thigh = sections[sections.len() - 1];

@@ -253,20 +253,24 @@ pub(super) fn hip_level(mesh: &TriMesh, crotch: f64, stature: f64, middle: f64) 
     let heights = steps(crotch + 0.01 * stature, crotch + 0.10 * stature, 96);
     let mesh = &Slices::new(mesh, crotch, crotch + 0.11 * stature);
     let back = |z: f64| Some((z, -tape::depth_range(&tape::trunk_outline(mesh, z, middle)?).1));
-    summit(&levelled(heights.filter_map(back).collect(), 2))
+    summit(&heights.filter_map(back).collect::<Vec<_>>())
 }
-
-/// How far below its greatest value a profile still belongs to its summit, metres: what a scan's noise cannot tell apart.
-const SUMMIT: f64 = 1.5e-3;
 
 /// Where a profile is greatest: the middle of its summit, each height weighted by how far it stands above the summit's foot. The
-/// greatest value alone would be anywhere on a flat summit, and jump with the least change of the skin.
+/// summit is what lies below the greatest value by no more than twice the profile's unevenness, which facets and noise leave:
+/// the greatest value alone would be anywhere on a flat summit.
 fn summit(profile: &[(f64, f64)]) -> Option<f64> {
-    let greatest = profile.iter().map(|(_, value)| *value).max_by(f64::total_cmp)?;
-    let above = |(_, value): &(f64, f64)| (value - greatest + SUMMIT).max(0.0);
-    let (weight, moment) = profile.iter().fold((0.0, 0.0), |(w, m), at| (w + above(at), m + above(at) * at.0));
+    let level = levelled(profile.to_vec(), 2);
+    let greatest = level.iter().map(|(_, value)| *value).max_by(f64::total_cmp)?;
+    let uneven = profile.iter().zip(&level).map(|(raw, level)| (raw.1 - level.1).powi(2)).sum::<f64>();
+    let depth = (2.0 * (uneven / profile.len() as f64).sqrt()).max(LEAST_SUMMIT);
+    let above = |(_, value): &(f64, f64)| (value - greatest + depth).max(0.0);
+    let (weight, moment) = level.iter().fold((0.0, 0.0), |(w, m), at| (w + above(at), m + above(at) * at.0));
     Some(moment / weight)
 }
+
+/// How far a summit reaches down at least, metres: rounding.
+const LEAST_SUMMIT: f64 = 1e-6;
 
 /// Values along the height, each the mean of itself and `reach` neighbours on both sides: what remains of a scan's noise must not choose
 /// among the heights of a flat profile.

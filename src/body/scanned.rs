@@ -46,8 +46,9 @@ struct Half {
 impl Half {
     fn find(mesh: &TriMesh, sites: &Sites, shoulder: V3) -> Result<Self, BodyError> {
         let stature = sites.crown - sites.floor;
-        let armpit =
-            landmarks::armpit(mesh, sites.waist, shoulder.z, 0.0).ok_or_else(|| missing("armpit", sites.chest))?;
+        let armpit = landmarks::armpit(mesh, sites.waist, shoulder.z, 0.0)
+            .or_else(|| landmarks::armpit_of_spread(mesh, shoulder, stature))
+            .ok_or_else(|| missing("armpit", sites.chest))?;
         let arm = Arm::trace(mesh, shoulder, armpit, stature).ok_or_else(|| missing("arm", armpit.z))?;
         let side_neck = side_neck(mesh, sites, shoulder).ok_or_else(|| missing("neck base", shoulder.z))?;
         Ok(Self { shoulder, side_neck, armpit, arm })

@@ -104,12 +104,7 @@ pub fn section_of(positions: &[V3], triangles: &[[usize; 3]], plane: &Plane) -> 
 }
 
 /// The outlines, where a vertex lies at a `height` above the plane.
-fn cut(
-    positions: &[V3],
-    triangles: &[[usize; 3]],
-    plane: &Plane,
-    height: impl Fn(usize) -> f64,
-) -> Vec<Outline> {
+fn cut(positions: &[V3], triangles: &[[usize; 3]], plane: &Plane, height: impl Fn(usize) -> f64) -> Vec<Outline> {
     let mut links: Vec<(CutEdge, CutEdge)> = Vec::new();
     for &[a, b, c] in triangles {
         let above = [height(a) >= 0.0, height(b) >= 0.0, height(c) >= 0.0];
