@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::args::Recommend;
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
-use crate::study::{Analysis, Answer, Estimate, PUBLISHED, SizeAnswer, Simulator, Table, Value, Without, Workspace};
+use crate::study::{Analysis, Answer, Estimate, PUBLISHED, Simulator, SizeAnswer, Table, Value, Without, Workspace};
 use crate::units::mm;
 
 /// `toile recommend`.
@@ -75,11 +75,21 @@ fn explained(workspace: &Workspace, study: &str, answers: &[&Answer]) -> Result<
     );
     for answer in answers {
         let name = simulator_name(answer.recommended());
-        let _ = write!(text, "\n{}, {} fit: {name}, by the {}\n", answer.garment, answer.class.as_str(), answer.basis().as_str());
+        let _ = write!(
+            text,
+            "\n{}, {} fit: {name}, by the {}\n",
+            answer.garment,
+            answer.class.as_str(),
+            answer.basis().as_str()
+        );
         line(&mut text, "why", &answer.reason);
         analysed(&mut text, &answer.analysis, answer.p_holm);
         if let Some([own, constant]) = answer.regret {
-            line(&mut text, "held out", &format!("regret {own:.4} EI, of one simulator for the whole study {constant:.4}"));
+            line(
+                &mut text,
+                "held out",
+                &format!("regret {own:.4} EI, of one simulator for the whole study {constant:.4}"),
+            );
         }
         line(&mut text, "settles it", &answer.would_settle);
     }
@@ -101,9 +111,8 @@ fn analysed(text: &mut String, analysis: &Analysis, p_holm: Option<f64>) {
     if let Some(estimate) = &analysis.estimate {
         line(text, "effect", &estimated(estimate, p_holm));
     }
-    let [fem, hybrid] = analysis.wins;
-    let subjects = analysis.subjects.len();
-    line(text, "cases", &format!("{} on {subjects} subjects; lower EI in FEM-GS {fem}, Hybrid-GS {hybrid}", analysis.cases));
+    let ([fem, hybrid], cases, subjects) = (analysis.wins, analysis.cases, analysis.subjects.len());
+    line(text, "cases", &format!("{cases}, of {subjects} subject(s); lower EI in FEM-GS {fem}, Hybrid-GS {hybrid}"));
     let rest = |w: &Without| format!("{} {:+.4} (FEM-GS {}, Hybrid-GS {})", w.what, w.mean, w.wins[0], w.wins[1]);
     for told in &analysis.told_apart {
         line(text, "without", &rest(told));
@@ -146,7 +155,8 @@ fn simulator_name(simulator: Simulator) -> &'static str {
 
 /// The sizes of every garment on one subject, the one to wear marked.
 fn sizes(context: &Context, answers: &[SizeAnswer]) -> Outcome {
-    let columns = ["garment", "subject", "size", "wear", "level", "ease_mm", "fit_class", "tension_n_m", "show", "reason"];
+    let columns =
+        ["garment", "subject", "size", "wear", "level", "ease_mm", "fit_class", "tension_n_m", "show", "reason"];
     let mut rows = Vec::new();
     for answer in answers {
         for size in &answer.sizes {

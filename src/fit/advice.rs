@@ -21,7 +21,7 @@ impl Shown {
         match self {
             Self::FemDrape => "FEM-GS drape",
             Self::HybridDrape => "Hybrid-GS drape",
-            Self::HybridGap => "Hybrid-GS with its gap map: too small",
+            Self::HybridGap => "Hybrid-GS and its gap map",
         }
     }
 }
@@ -71,7 +71,9 @@ pub fn advise(sizes: &[SizeFit], cuts: &Cuts) -> Option<SizeAdvice> {
     let (&(size, ease), why) = match (nearest, smallest_loose) {
         (Some(found), _) => (found, "a just fit"),
         (None, Some(found)) => (found, "the smallest that is not tight"),
-        (None, None) if largest.1.is_undersized() => (largest, "the largest, and still smaller than the body: no size fits"),
+        (None, None) if largest.1.is_undersized() => {
+            (largest, "the largest, and still smaller than the body: no size fits")
+        }
         (None, None) => (largest, "the largest, and still tight"),
     };
     let told = |(size, ease): &(&str, &Ease)| {

@@ -28,11 +28,7 @@ pub(super) fn student(t: f64, dof: usize) -> f64 {
         sum += term;
         term *= square * (k + 1) as f64 / (k + 2) as f64;
     }
-    let between = if odd {
-        2.0 / std::f64::consts::PI * (angle + angle.sin() * sum)
-    } else {
-        angle.sin() * sum
-    };
+    let between = if odd { 2.0 / std::f64::consts::PI * (angle + angle.sin() * sum) } else { angle.sin() * sum };
     0.5 + 0.5 * between
 }
 
@@ -58,7 +54,8 @@ mod tests {
 
     #[test]
     fn values_are_those_of_the_tables() {
-        let check = |found: f64, table: f64, half_digit: f64| assert!((found - table).abs() < half_digit, "{found}, {table}");
+        let check =
+            |found: f64, table: f64, half_digit: f64| assert!((found - table).abs() < half_digit, "{found}, {table}");
         // [Abramowitz & Stegun, tables 26.1 and 26.2].
         check(normal(1.0), 0.841_344_746_068_543, 1e-14);
         check(normal(1.96), 0.975_002_104_851_780, 1e-14);

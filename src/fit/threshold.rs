@@ -37,7 +37,12 @@ impl std::fmt::Display for Crossover {
             }
             None => {
                 let slope = 0.01 * self.slope_per_m;
-                write!(f, "none: the EI difference changes by {slope:+.4} a centimetre ({:+.4} to {:+.4})", 0.01 * low, 0.01 * high)
+                write!(
+                    f,
+                    "none: the EI difference changes by {slope:+.4} a centimetre ({:+.4} to {:+.4})",
+                    0.01 * low,
+                    0.01 * high
+                )
             }
         }
     }
@@ -124,7 +129,8 @@ mod tests {
 
     #[test]
     fn no_slope_is_no_crossover() {
-        let pairs: Vec<Pair> = (0..10).map(|k| pair(k, 0.02 * k as f64, if [0, 3].contains(&(k % 4)) { 0.01 } else { -0.01 })).collect();
+        let pairs: Vec<Pair> =
+            (0..10).map(|k| pair(k, 0.02 * k as f64, if [0, 3].contains(&(k % 4)) { 0.01 } else { -0.01 })).collect();
         assert_eq!(crossover(&pairs.iter().collect::<Vec<_>>()).expect("ten subjects").ease, None);
         let same: Vec<Pair> = (0..5).map(|k| pair(k, 0.05, 0.01)).collect();
         assert_eq!(crossover(&same.iter().collect::<Vec<_>>()), None);

@@ -120,7 +120,8 @@ fn differences(data: &ReportData) -> Result<Option<Chart>, ReportError> {
         .answers
         .iter()
         .filter_map(|answer| row(format!("{}, {}", answer.garment, answer.class.as_str()), &answer.analysis));
-    let garments = evidence.garments.iter().filter_map(|(name, analysis, _)| row(format!("{name}, all fits"), analysis));
+    let garments =
+        evidence.garments.iter().filter_map(|(name, analysis, _)| row(format!("{name}, all fits"), analysis));
     let rows: Vec<Difference> = answers.chain(garments).collect();
     Ok(if rows.is_empty() { None } else { Some(difference_chart(&data.title, "differences", &rows, None)?) })
 }
@@ -137,7 +138,10 @@ fn crossings(data: &ReportData) -> Result<Vec<Crossing>, ReportError> {
         let title = garment.unwrap_or("all garments");
         if let Some(chart) = crossover_chart(title, &pairs, found.as_ref(), &data.cuts)? {
             let said = found.map_or_else(|| "too few subjects, or one ease".to_owned(), |found| found.to_string());
-            all.push(Crossing { chart, words: format!("{title}: EI difference of every case against its ease. Crossover: {said}.") });
+            all.push(Crossing {
+                chart,
+                words: format!("{title}: EI difference of every case against its ease. Crossover: {said}."),
+            });
         }
     }
     Ok(all)
@@ -166,7 +170,8 @@ fn told(name: &str, analysis: &Analysis) -> Vec<ToldApart> {
     let rest = analysis.told_apart.iter().map(|rest| row(format!("without {}", rest.what), rest.mean, rest.wins));
     let mut rows: Vec<ToldApart> = all.into_iter().chain(rest).collect();
     if analysis.is_circular() {
-        let what = format!("all {} measurements are set by a simulator: nothing is left without them", analysis.controlled);
+        let what =
+            format!("all {} measurements are set by a simulator: nothing is left without them", analysis.controlled);
         rows.push(ToldApart { name: name.to_owned(), what, cells: vec![dash(), dash(), dash()] });
     }
     rows

@@ -68,8 +68,8 @@ pub use types::{
 pub use workspace::Workspace;
 
 pub use crate::fit::FitClass;
-pub use crate::fit::{Analysis, Answer, Estimate, Evidence, Finding as Verdict, SizeAdvice, SizeFit, Without};
 pub use crate::fit::Simulator;
+pub use crate::fit::{Analysis, Answer, Estimate, Evidence, Finding as Verdict, SizeAdvice, SizeFit, Without};
 pub use crate::render::View;
 pub use crate::render::export::MeshFormat;
 pub use crate::sim::{Monitor, Step};

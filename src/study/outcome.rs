@@ -159,7 +159,8 @@ fn write_result(
     let study_id: Option<i64> = transaction.query_row(is_current, [id.0], |row| row.get(0)).optional()?;
     if let Some(study_id) = study_id {
         write_ease(transaction, study_id, spec, &outcome.eases)?;
-        let study: String = transaction.query_row("SELECT name FROM study WHERE study_id = ?", [study_id], |row| row.get(0))?;
+        let study: String =
+            transaction.query_row("SELECT name FROM study WHERE study_id = ?", [study_id], |row| row.get(0))?;
         evidence::refresh(transaction, &study)?;
     }
     let (commit, dirty) = provenance.git.clone().unzip();

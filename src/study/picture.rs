@@ -26,6 +26,8 @@ use crate::units::mm;
 
 /// How far from a level of the body cloth still counts as at it, m.
 const NEAR_M: f64 = 0.02;
+/// How far within the body cloth still shows on a gap map, m.
+const WITHIN_M: f64 = 0.05;
 /// One repeat of the check, m.
 const CHECK_M: f64 = 0.04;
 
@@ -89,7 +91,12 @@ impl Dressed {
                 (Material::form(), Paint::Texture(Texture::gingham(material.front), places))
             }
             None => (Material::form(), Paint::Plain),
-            Some(scale) => (Material::form_under_map(), Paint::Field(Values::Vertices(values), scale)),
+            Some(scale) => {
+                let form = Material::form_under_map();
+                // A garment that does not reach round the body lies within it: the gap map shows by how much.
+                let recede_m = if map == Map::Gap { WITHIN_M } else { form.recede_m };
+                (Material { recede_m, ..form }, Paint::Field(Values::Vertices(values), scale))
+            }
         };
         let layers = vec![Layer::new(&self.body, form), Layer::new(&self.cloth, material).painted(paint)];
         Scene::new(layers).map_err(StudyError::stage("render"))
@@ -102,7 +109,9 @@ pub(super) fn tension_near(worn: &Dressed, level: &str) -> Result<Option<f64>> {
     let Some(height_m) = worn.levels.get(level).copied() else { return Ok(None) };
     let tensions = worn.values(Map::Tension)?;
     let trunk = worn.garment.pieces.iter().filter(|p| !matches!(p.role, Role::SleeveRight | Role::SleeveLeft));
-    let near = trunk.flat_map(|piece| piece.vertices.clone()).filter(|&v| (worn.cloth.positions[v].z - height_m).abs() < NEAR_M);
+    let near = trunk
+        .flat_map(|piece| piece.vertices.clone())
+        .filter(|&v| (worn.cloth.positions[v].z - height_m).abs() < NEAR_M);
     let near: Vec<f64> = near.map(|v| tensions[v]).collect();
     Ok((!near.is_empty()).then(|| near.iter().sum::<f64>() / near.len() as f64))
 }

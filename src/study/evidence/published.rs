@@ -86,7 +86,8 @@ mod tests {
         let (_folder, workspace) = open();
         let pairs = workspace.pairs(PUBLISHED).expect("readable");
         let all = |_: &Errors| true;
-        let check = |garment: &str, expected: [usize; 2]| assert_eq!(wins(&of(&pairs, garment), all), expected, "{garment}");
+        let check =
+            |garment: &str, expected: [usize; 2]| assert_eq!(wins(&of(&pairs, garment), all), expected, "{garment}");
         check("", [27, 27]);
         check("tshirt", [5, 13]);
         check("trousers", [8, 10]);
@@ -105,8 +106,7 @@ mod tests {
     fn t_shirts_turn_to_fem_without_the_neck_opening() {
         let (_folder, workspace) = open();
         let evidence = workspace.evidence(PUBLISHED).expect("readable");
-        let (_, shirts, _) =
-            evidence.garments.iter().find(|(name, ..)| name == "male_tshirt").expect("published");
+        let (_, shirts, _) = evidence.garments.iter().find(|(name, ..)| name == "male_tshirt").expect("published");
         let all = shirts.estimate.expect("six subjects");
         assert!(all.mean > 0.0 && shirts.wins == [5, 13], "{all:?}");
         let rest = shirts.turned_by().expect("one measurement");

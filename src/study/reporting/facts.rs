@@ -94,7 +94,8 @@ impl Workspace {
             recommended: row.recommended,
             basis: if row.basis == "evidence" { Basis::Evidence } else { Basis::Rule },
             finding: Finding::from_name(&row.verdict).unwrap_or(Finding::InsufficientEvidence),
-            effect: row.effect.zip(row.interval).map(|(effect, (low, high))| [effect, low, high]),
+            effect: row.effect,
+            interval: row.interval,
             p_holm: row.p_holm,
             subjects: row.n_subjects as usize,
             reason: row.reason,
@@ -110,9 +111,10 @@ impl Workspace {
         for body in bodies.iter().filter(|body| eased.iter().any(|ease| ease.subject == body.name)) {
             for answer in self.size_advice(study, &body.name, None)? {
                 let Some(size) = answer.sizes.iter().find(|size| size.size == answer.advice.size) else { continue };
-                let pulls = size.levels.iter().filter_map(|level| {
-                    Some(format!("{} {:.0} N/m", level.ease.level, level.tension_n_m?))
-                });
+                let pulls = size
+                    .levels
+                    .iter()
+                    .filter_map(|level| Some(format!("{} {:.0} N/m", level.ease.level, level.tension_n_m?)));
                 let tension = pulls.collect::<Vec<_>>().join(", ");
                 tips.push(SizeTip {
                     garment: answer.garment,

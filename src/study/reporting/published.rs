@@ -50,7 +50,10 @@ impl Workspace {
             made: format!("{}, toile {}", self.one("SELECT date('now')")?, env!("CARGO_PKG_VERSION")),
             verdicts: evidence.answers.iter().map(verdict).collect(),
             audit: self.misprints()?,
-            provenance: vec![Fact { name: "Source".into(), value: "Tables 6-1 to 6-31 of the thesis, as printed".into() }],
+            provenance: vec![Fact {
+                name: "Source".into(),
+                value: "Tables 6-1 to 6-31 of the thesis, as printed".into(),
+            }],
             subjects: facts::subject_table(&bodies),
             cuts: Cuts::default(),
             ease: matrices(&eases),
@@ -73,7 +76,10 @@ impl Workspace {
     fn misprints(&self) -> Result<Vec<AuditNote>> {
         let note = |finding: super::super::audit::Finding| AuditNote {
             severity: Severity::Warning,
-            text: format!("{}: stated {}, recomputed {}. {}", finding.place, finding.stated, finding.recomputed, finding.says),
+            text: format!(
+                "{}: stated {}, recomputed {}. {}",
+                finding.place, finding.stated, finding.recomputed, finding.says
+            ),
         };
         Ok(self.audit_thesis()?.findings.into_iter().map(note).collect())
     }
@@ -110,7 +116,8 @@ impl Workspace {
         for row in &table.rows {
             let place = [0, 1, 2].map(|k: usize| row[k].to_string());
             let simulator = if row[3] == Value::Text("fem".into()) { Simulator::Fem } else { Simulator::Hybrid };
-            let is_of = |run: &Run| [&run.garment, &run.size, &run.subject] == place.each_ref() && run.simulator == simulator;
+            let is_of =
+                |run: &Run| [&run.garment, &run.size, &run.subject] == place.each_ref() && run.simulator == simulator;
             if !runs.last().is_some_and(is_of) {
                 runs.push(printed_run(&place, simulator, eases.get(&place).cloned()));
             }
@@ -171,7 +178,8 @@ fn verdict(answer: &Answer) -> Verdict {
         recommended: answer.recommended(),
         basis: answer.basis(),
         finding: answer.finding,
-        effect: estimate.and_then(|e| e.interval.map(|(low, high)| [e.mean, low, high])),
+        effect: estimate.map(|e| e.mean),
+        interval: estimate.and_then(|e| e.interval),
         p_holm: answer.p_holm,
         subjects: answer.analysis.subjects.len(),
         reason: answer.reason.clone(),
