@@ -56,18 +56,19 @@ fn name(simulator: &str) -> &'static str {
     if simulator == "fem" { "FEM-GS" } else { "Hybrid-GS" }
 }
 
-/// A number as the page writes it; a nought has no sign.
-fn number(value: &str, decimals: usize) -> String {
-    let value: f64 = value.parse().unwrap_or_else(|_| panic!("{value} is no number"));
-    let text = format!("{value:.decimals$}");
-    if text.trim_start_matches(['-', '0', '.']).is_empty() { text.trim_start_matches('-').to_owned() } else { text }
+/// Whether a page shows a number: rounded to so many decimals, halves either way.
+fn is_shown(shown: &str, value: &str, decimals: usize) -> bool {
+    let is_rounded = shown.split_once('.').map_or(0, |(_, rest)| rest.len()) == decimals;
+    let (Ok(number), Ok(value)) = (shown.parse::<f64>(), value.parse::<f64>()) else { return false };
+    is_rounded && (number - value).abs() <= 0.5 * 0.1f64.powi(decimals as i32) * (1.0 + 1e-6)
 }
 
-/// A number with its sign.
-fn signed(value: &str, decimals: usize) -> String {
-    let text = number(value, decimals);
-    let is_more = !text.starts_with('-') && text.bytes().any(|b| (b'1'..=b'9').contains(&b));
-    if is_more { format!("+{text}") } else { text }
+/// Checks a row of numbers: what the page shows, the value, its decimals.
+#[track_caller]
+fn are_shown(numbers: &[(&String, &str, usize)], place: &str) {
+    for (shown, value, decimals) in numbers {
+        assert!(is_shown(shown, value, *decimals), "{place}: the page shows {shown}, the view has {value}");
+    }
 }
 
 /// Every L3D and chi; the query gives garment, size, subject, simulator, number, L2D, L3D, chi.
@@ -78,11 +79,9 @@ fn chis(place: &Place, tables: &[Table], query: &str) -> usize {
         let caption = format!("{}, size {}, {}", cell[0], cell[1], name(cell[3]));
         let (table, row) = row(tables, &caption, &format!("#{} ", cell[4]));
         let at = table.groups.iter().position(|subject| subject == cell[2]).expect("a column of the subject");
-        let shown = [&row[1], &row[2 + 2 * at], &row[3 + 2 * at]];
-        assert_eq!(
-            shown,
-            [number(cell[5], 1), number(cell[6], 1), number(cell[7], 3)].each_ref(),
-            "{caption}: {answer}"
+        are_shown(
+            &[(&row[1], cell[5], 1), (&row[2 + 2 * at], cell[6], 1), (&row[3 + 2 * at], cell[7], 3)],
+            &format!("{caption}: {answer}"),
         );
     }
     answers.len()
@@ -91,7 +90,8 @@ fn chis(place: &Place, tables: &[Table], query: &str) -> usize {
 /// Every number of the page of a study that the views `v_chi`, `v_metrics`, `v_ease` and `v_recommendation` have.
 pub fn numbers_are_those_of_the_views(place: &Place, page: &str) {
     let tables = tables(page);
-    let lengths = "SELECT garment, size, subject, simulator, measurement_no, l2d_mm, l3d_mm, chi FROM v_chi";
+    let lengths = "SELECT garment, size, subject, simulator, measurement_no, l2d_mm, l3d_mm, chi FROM v_chi
+        WHERE stage = 'drape'";
     assert_ne!(chis(place, &tables, lengths), 0);
 
     let metrics = "SELECT garment, size, subject, simulator, n, e_chi, sd_chi, ei, max_abs_error, residual * 100,
@@ -100,19 +100,20 @@ pub fn numbers_are_those_of_the_views(place: &Place, page: &str) {
         let cell: Vec<&str> = answer.split(',').collect();
         let title = format!("{}, size {}", cell[0], cell[1]);
         let (_, truth) = row(&tables, &format!("{title}: truth"), cell[2]);
-        let [e, sd, ei, most] = [5, 6, 7, 8].map(|k: usize| number(cell[k], 3));
-        assert_eq!([&truth[2], &truth[3], &truth[4], &truth[5], &truth[8]], [cell[4], &e, &sd, &ei, &most], "{title}");
+        let columns = [(2, 4, 0), (3, 5, 3), (4, 6, 3), (5, 7, 3), (8, 8, 3)];
+        are_shown(&columns.map(|(at, of, decimals): (usize, usize, usize)| (&truth[at], cell[of], decimals)), &title);
         let (_, course) = row(&tables, &format!("{title}: how"), cell[2]);
-        let shown: Vec<&str> = course[2..8].iter().map(String::as_str).collect();
-        let decimals = [2, 1, 1, 0, 0, 0];
-        let expected: Vec<String> = (0..6).map(|k| number(cell[9 + k], decimals[k])).collect();
-        assert_eq!(shown, expected, "{title}");
+        let columns = [(2, 9, 2), (3, 10, 1), (4, 11, 1), (5, 12, 0), (6, 13, 0), (7, 14, 0)];
+        are_shown(&columns.map(|(at, of, decimals): (usize, usize, usize)| (&course[at], cell[of], decimals)), &title);
     }
 
     for answer in place.sql("SELECT garment, size, subject, ease_mm FROM v_ease WHERE decides") {
         let cell: Vec<&str> = answer.split(',').collect();
         let (_, sizes) = row(&tables, &format!("{}: ease in mm", cell[0]), cell[1]);
-        assert!(sizes[1..].contains(&signed(cell[3], 1)), "{answer}: {sizes:?}");
+        assert!(
+            sizes[1..].iter().any(|shown| is_shown(shown.trim_start_matches('+'), cell[3], 1)),
+            "{answer}: {sizes:?}"
+        );
     }
     let columns = "garment, fit_class, verdict, recommended, coalesce(effect, ''), coalesce(ci_low, ''), coalesce(ci_high, ''), n_subjects";
     cards_are(page, &place.sql(&format!("SELECT {columns} FROM v_recommendation")));
@@ -134,15 +135,15 @@ fn cards_are(page: &str, answers: &[String]) {
             shown.get(&(cell[0].to_owned(), cell[1].to_owned())).unwrap_or_else(|| panic!("no card of {answer}"));
         assert!(card.contains(&format!("data-verdict=\"{}\"", cell[2])), "{answer}");
         assert!(card.contains(&format!("<p class=\"use\">{}</p>", name(cell[3]))), "{answer}");
-        let effect = match (cell[4], cell[5]) {
-            ("", _) => "not measured".to_owned(),
-            (mean, "") => signed(mean, 4),
-            _ => {
-                let [mean, low, high] = [4, 5, 6].map(|k: usize| signed(cell[k], 4));
-                format!("{mean} ({low} to {high})")
-            }
-        };
-        assert!(plain(card).contains(&effect), "{answer}: {effect} is not on {}", plain(card));
+        let effect = between(card, "<dt>Effect (interval)</dt><dd>", "</dd>").next().map(plain).expect("an effect");
+        let numbers: Vec<&str> = effect.split([' ', '(', ')']).filter(|word| !["", "to"].contains(word)).collect();
+        let values: Vec<&str> = cell[4..7].iter().copied().filter(|value| !value.is_empty()).collect();
+        if values.is_empty() {
+            assert_eq!(effect, "not measured", "{answer}");
+        } else {
+            let agree = |(shown, value): (&&str, &&str)| is_shown(shown.trim_start_matches('+'), value, 4);
+            assert!(numbers.len() == values.len() && numbers.iter().zip(&values).all(agree), "{answer}: {effect}");
+        }
         assert!(plain(card).contains(&format!("{} subject", cell[7])), "{answer}");
     }
 }
