@@ -111,13 +111,8 @@ fn analysed(text: &mut String, analysis: &Analysis, p_holm: Option<f64>) {
     if let Some(estimate) = &analysis.estimate {
         line(text, "effect", &estimated(estimate, p_holm));
     }
-    let [fem, hybrid] = analysis.wins;
-    let subjects = analysis.subjects.len();
-    line(
-        text,
-        "cases",
-        &format!("{} on {subjects} subjects; lower EI in FEM-GS {fem}, Hybrid-GS {hybrid}", analysis.cases),
-    );
+    let ([fem, hybrid], cases, subjects) = (analysis.wins, analysis.cases, analysis.subjects.len());
+    line(text, "cases", &format!("{cases}, of {subjects} subject(s); lower EI in FEM-GS {fem}, Hybrid-GS {hybrid}"));
     let rest = |w: &Without| format!("{} {:+.4} (FEM-GS {}, Hybrid-GS {})", w.what, w.mean, w.wins[0], w.wins[1]);
     for told in &analysis.told_apart {
         line(text, "without", &rest(told));

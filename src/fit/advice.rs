@@ -21,7 +21,7 @@ impl Shown {
         match self {
             Self::FemDrape => "FEM-GS drape",
             Self::HybridDrape => "Hybrid-GS drape",
-            Self::HybridGap => "Hybrid-GS with its gap map: too small",
+            Self::HybridGap => "Hybrid-GS and its gap map",
         }
     }
 }

@@ -15,6 +15,7 @@ mod pair;
 mod resample;
 mod statistics;
 mod threshold;
+mod weigh;
 
 pub use advice::{Shown, SizeAdvice, SizeFit, advise, shown};
 pub use analysis::{Analysis, Estimate, Without};

@@ -144,6 +144,7 @@ impl<'a> Studio<'a> {
     /// Linear colour of a pixel: each triangle it shows is shaded once, at the middle of the samples it covers.
     fn pixel(&self, x: usize, y: usize, gain: f32) -> [f32; 3] {
         let samples = self.samples(x, y);
+        let (left, top) = ((x * FINE) as f32 + 0.5, (y * FINE) as f32 + 0.5);
         let mut colour = [0.0; 3];
         let mut done = [false; FINE * FINE];
         for first in 0..samples.len() {
@@ -155,8 +156,8 @@ impl<'a> Studio<'a> {
             for (k, &sample) in samples.iter().enumerate().skip(first) {
                 if self.visible.triangle[sample] == triangle {
                     done[k] = true;
-                    sx += (sample % self.visible.width) as f32 + 0.5;
-                    sy += (sample / self.visible.width) as f32 + 0.5;
+                    sx += left + (k % FINE) as f32;
+                    sy += top + (k / FINE) as f32;
                     share += 1.0;
                     stitched += f32::from(u8::from(self.stitched[sample]));
                 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::geom::{TriMesh, V3};
+use crate::geom::{TriMesh, V2, V3};
 
 /// A closed surface of revolution about `z` through (radius, z) profile points, bottom to top, bent by `shape`.
 fn lathe(profile: &[(f64, f64)], around: usize, shape: impl Fn(V3) -> V3) -> TriMesh {
@@ -124,6 +124,44 @@ fn fields_colour_the_cloth_and_must_fit_it() {
     let (short, long) = (centre(0.8), centre(1.2));
     assert!(short[2] > short[0] && long[0] > long[2], "{short:?} {long:?}");
     assert!(matches!(Scene::new(vec![layer(3, 1.0)]), Err(RenderError::PaintLength { layer: 0, found: 3, .. })));
+}
+
+/// A sheet of cloth in front of the camera, stretched by 5 % across its grain and short of its pattern by 3 % along it.
+#[test]
+fn a_check_of_20_mm_measures_20_mm_along_warp_and_weft() {
+    const SIDE: usize = 41;
+    let rest: Vec<V2> = (0..SIDE * SIDE).map(|k| 0.01 * V2::new((k % SIDE) as f64, (k / SIDE) as f64)).collect();
+    let positions = rest.iter().map(|p| V3::new(-1.05 * p.x, 0.0, 0.97 * p.y)).collect();
+    let mut sheet = TriMesh { positions, triangles: vec![] };
+    for corner in (0..SIDE - 1).flat_map(|row| (0..SIDE - 1).map(move |column| row * SIDE + column)) {
+        sheet.triangles.push([corner, corner + 1, corner + SIDE + 1]);
+        sheet.triangles.push([corner, corner + SIDE + 1, corner + SIDE]);
+    }
+    let places = texture_coordinates(&rest, &[(0..rest.len(), V2::y())], Mapping::Fabric { repeat_m: 0.04 });
+    let check = Paint::Texture(Texture::gingham(Rgb(0, 60, 120)), places);
+    let scene = Scene::new(vec![Layer::new(&sheet, Material::fem()).painted(check)]).unwrap();
+    let frame = Frame { centre: V3::new(-0.21, 0.0, 0.194), height_m: 0.3 };
+    let picture = render(&scene, &Camera { frame, azimuth_deg: 0.0, elevation_deg: 0.0 }, 600, 600).unwrap();
+    // Half a millimetre a pixel: where the check turns from light to dark or back, along one line of the picture.
+    let squares = |at: &dyn Fn(u32) -> [i32; 3]| {
+        let values: Vec<i32> = (60..540).map(|k| at(k)[0]).collect();
+        let middle = (values.iter().max().unwrap() + values.iter().min().unwrap()) / 2;
+        let turns: Vec<f64> = values
+            .windows(2)
+            .enumerate()
+            .filter(|(_, pair)| (pair[0] < middle) != (pair[1] < middle))
+            .map(|(k, pair)| k as f64 + f64::from(middle - pair[0]) / f64::from(pair[1] - pair[0]))
+            .collect();
+        assert!(turns.len() > 8, "{turns:?}");
+        turns.windows(2).map(|pair| 0.5 * (pair[1] - pair[0])).collect::<Vec<f64>>()
+    };
+    // Lines through the middle of a row and of a column of squares: 10 mm of cloth off the pattern's origin.
+    let (across, down) = (300 + ((0.194 - 0.97 * 0.19) * 2000.0) as u32, 300 - ((0.21 - 1.05 * 0.19) * 2000.0) as u32);
+    for (squares, mm) in [(squares(&|x| rgb(&picture, x, across)), 21.0), (squares(&|y| rgb(&picture, down, y)), 19.4)]
+    {
+        let mean = squares.iter().sum::<f64>() / squares.len() as f64;
+        assert!((mean - mm).abs() < 0.1 && squares.iter().all(|s| (s - mm).abs() < 0.6), "{mm} mm: {squares:?}");
+    }
 }
 
 #[test]

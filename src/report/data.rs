@@ -60,8 +60,10 @@ pub struct Verdict {
     pub basis: Basis,
     /// What the study's numbers say by themselves.
     pub finding: Finding,
-    /// Mean EI of FEM less that of Hybrid, and the ends of its interval, where both ran.
-    pub effect: Option<[f64; 3]>,
+    /// Mean EI of FEM less that of Hybrid, where both ran.
+    pub effect: Option<f64>,
+    /// The ends of its interval, of two subjects or more.
+    pub interval: Option<(f64, f64)>,
     /// p of the sign-flip test after Holm, where there are subjects enough.
     pub p_holm: Option<f64>,
     /// Subjects behind the numbers.

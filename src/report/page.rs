@@ -9,7 +9,7 @@ use super::text::{
     count, distinct, duration, finding_words, fit_glyph, fit_words, mean_sd, mm, number, signed, signed_mm,
     simulator_name,
 };
-use crate::fit::{Basis, Ease, Finding, FitClass, Simulator};
+use crate::fit::{Basis, Ease, Finding, FitClass, Simulator, shown};
 use base64::Engine;
 
 /// What `report.html` is filled from.
@@ -98,6 +98,8 @@ struct Fit {
     words: String,
     /// The level that decides and the two girths there.
     girths: String,
+    /// Which picture a customer should see.
+    shown: String,
 }
 
 /// A picture inside the page.
@@ -300,6 +302,7 @@ fn by_rule(data: &ReportData, garment: &str, class: FitClass) -> Verdict {
         basis: Basis::Rule,
         finding: Finding::InsufficientEvidence,
         effect: None,
+        interval: None,
         p_holm: None,
         subjects,
         reason: format!("{why}; the thesis's rule stands."),
@@ -308,10 +311,11 @@ fn by_rule(data: &ReportData, garment: &str, class: FitClass) -> Verdict {
 }
 
 fn card(verdict: &Verdict) -> Card {
-    let effect = verdict.effect.map_or_else(
-        || "not measured".into(),
-        |[mean, low, high]| format!("{} ({} to {})", signed(mean, 4), signed(low, 4), signed(high, 4)),
-    );
+    let effect = match (verdict.effect, verdict.interval) {
+        (None, _) => "not measured".into(),
+        (Some(mean), None) => signed(mean, 4),
+        (Some(mean), Some((low, high))) => format!("{} ({} to {})", signed(mean, 4), signed(low, 4), signed(high, 4)),
+    };
     Card {
         class: verdict.class.as_str(),
         glyph: fit_glyph(verdict.class),
@@ -385,13 +389,18 @@ fn subject_statistics(data: &ReportData) -> [Row; 2] {
 }
 
 fn matrices(data: &ReportData) -> Vec<Matrix<'_>> {
-    let fit = |ease: &Option<Ease>| match ease {
+    let recommended = |garment: &str, class: FitClass| {
+        let given = data.verdicts.iter().find(|v| v.garment == garment && v.class == class);
+        given.map_or_else(|| class.rule_says(), |verdict| verdict.recommended)
+    };
+    let fit = |garment: &str, ease: &Option<Ease>| match ease {
         Some(e) => Fit {
             class: e.class.as_str(),
             glyph: fit_glyph(e.class),
             ease: signed_mm(e.ease_m()),
             words: fit_words(e),
             girths: format!("{}: {} \u{2212} {}", e.level, mm(e.pattern_girth_m), mm(e.body_girth_m)),
+            shown: format!("show: {}", shown(recommended(garment, e.class), e.is_undersized()).words()),
         },
         None => Fit {
             class: "unknown",
@@ -399,15 +408,18 @@ fn matrices(data: &ReportData) -> Vec<Matrix<'_>> {
             ease: "–".into(),
             words: "girth not known".into(),
             girths: String::new(),
+            shown: String::new(),
         },
     };
-    let row = |(size, cells): (&'_ String, &Vec<Option<Ease>>)| (size.clone(), cells.iter().map(fit).collect());
+    let row = |garment: &str, (size, cells): (&String, &Vec<Option<Ease>>)| {
+        (size.clone(), cells.iter().map(|ease| fit(garment, ease)).collect())
+    };
     data.ease
         .iter()
         .map(|m| Matrix {
             garment: &m.garment,
             subjects: &m.subjects,
-            rows: m.sizes.iter().zip(&m.cells).map(row).collect(),
+            rows: m.sizes.iter().zip(&m.cells).map(|cells| row(&m.garment, cells)).collect(),
         })
         .collect()
 }

@@ -1,7 +1,7 @@
 //! The runs of one garment and size: pictures, tables, charts.
 
 use super::ReportError;
-use super::chart::{Chart, chi_chart, ei_chart, mean_sd_chart, residual_chart};
+use super::chart::{Chart, Metric, chi_chart, mean_sd_chart, metric_chart, residual_chart};
 use super::data::{Measured, Outcome, Run, measurements};
 use super::page::{Image, MapImage};
 use super::text::{duration, fit_glyph, fit_words, mean_sd, mm, number, signed_mm, simulator_name};
@@ -19,7 +19,8 @@ pub(super) struct Group {
     pub heat: Heat,
     /// Mean chi of each series, where there are several.
     pub side_by_side: Option<Heat>,
-    pub ei_chart: Chart,
+    /// E, SD and EI, each simulator beside the other.
+    pub metric_charts: Vec<Chart>,
     pub residual_chart: Option<Chart>,
 }
 
@@ -27,7 +28,7 @@ impl Group {
     /// Its charts.
     pub fn charts(&self) -> impl Iterator<Item = &Chart> {
         let of_series = self.series.iter().flat_map(|s| [&s.chi_chart].into_iter().chain(&s.mean_chart));
-        of_series.chain([&self.ei_chart]).chain(&self.residual_chart)
+        of_series.chain(&self.metric_charts).chain(&self.residual_chart)
     }
 }
 
@@ -153,7 +154,10 @@ fn group(index: usize, title: String, runs: &[&Run], name_fabric: bool) -> Resul
         side_by_side: side_by_side(runs),
         metrics: runs.iter().zip(&labels).map(|(r, label)| metrics_row(r, label)).collect(),
         heat: heat(runs, &labels),
-        ei_chart: ei_chart(&title, runs, &places)?,
+        metric_charts: Metric::ALL
+            .into_iter()
+            .map(|metric| metric_chart(&title, metric, runs, &places))
+            .collect::<Result<_, _>>()?,
         residual_chart: if recorded { Some(residual_chart(&title, runs, &labels)?) } else { None },
         title,
     })

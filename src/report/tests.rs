@@ -181,7 +181,8 @@ fn every_fit_class_of_every_garment_has_an_answer() {
         recommended: Simulator::Fem,
         basis: Basis::Evidence,
         finding: Finding::Fem,
-        effect: Some([-0.021, -0.034, -0.012]),
+        effect: Some(-0.021),
+        interval: Some((-0.034, -0.012)),
         p_holm: Some(0.031),
         subjects: 6,
         reason: "FEM wins.".into(),
@@ -223,7 +224,7 @@ fn charts_place_marks_where_values_are() {
     let labels = ["i".to_owned(), "i".to_owned()];
     let chi = chart::chi_chart("Tee", &runs, &labels).unwrap();
     assert!(chi.svg().contains("#6 neck girth") && chi.svg().contains("\n1.00\n"), "{}", chi.svg());
-    let ei = chart::ei_chart("Tee", &runs, &labels).unwrap();
+    let ei = chart::metric_chart("Tee", chart::Metric::Ei, &runs, &labels).unwrap();
     // (0.002 + 0.04) / 2 and (0.002 + 0.10) / 2, in the bars' own labels.
     assert!(ei.svg().contains("0.021") && ei.svg().contains("0.051"), "{}", ei.svg());
     let count = |picture: &image::RgbaImage, c: Rgb| picture.pixels().filter(|p| p.0[..3] == [c.0, c.1, c.2]).count();

@@ -26,6 +26,8 @@ use crate::units::mm;
 
 /// How far from a level of the body cloth still counts as at it, m.
 const NEAR_M: f64 = 0.02;
+/// How far within the body cloth still shows on a gap map, m.
+const WITHIN_M: f64 = 0.05;
 
 /// Results that are kept ready: those of a comparison, so that turning them stays quick.
 const SCENES_KEPT: usize = 3;
@@ -104,7 +106,12 @@ impl Dressed {
                 (Material::form(), Paint::Texture(Texture::gingham(material.front), places))
             }
             None => (Material::form(), Paint::Plain),
-            Some(scale) => (Material::form_under_map(), Paint::Field(Values::Vertices(values), scale)),
+            Some(scale) => {
+                let form = Material::form_under_map();
+                // A garment that does not reach round the body lies within it: the gap map shows by how much.
+                let recede_m = if map == Map::Gap { WITHIN_M } else { form.recede_m };
+                (Material { recede_m, ..form }, Paint::Field(Values::Vertices(values), scale))
+            }
         };
         let layers = vec![Layer::new(&self.body, form), Layer::new(&self.cloth, material).painted(paint)];
         Scene::new(layers).map_err(StudyError::stage("render"))

@@ -7,5 +7,6 @@ mod bad_input;
 mod cli;
 mod pattern_files;
 mod program;
+mod report;
 mod run;
 mod tidy;

@@ -4,6 +4,7 @@ use std::process::Stdio;
 use std::time::{Duration, Instant};
 
 use super::program::Place;
+use super::report::numbers_are_those_of_the_views;
 
 /// Contract columns of the views.
 const VIEWS: [(&str, &str); 8] = [
@@ -50,6 +51,7 @@ fn a_study_is_run_cached_changed_and_reported() {
     assert!(first.err.contains("2 jobs, 2 to run, 0 up to date"), "{}", first.err);
     results_keep_the_contract(&place);
     report_is_self_contained(&place, &first.out);
+    a_size_is_advised(&place);
 
     let lengths = place.sql(LENGTHS);
     let finished = "SELECT job_id, attempts, started_at, finished_at FROM v_jobs ORDER BY 1";
@@ -97,6 +99,19 @@ fn report_is_self_contained(place: &Place, out: &str) {
     for forbidden in ["<script", "http://", "https://", "<link", "@import", "src=\"/", "javascript:"] {
         assert!(!without_names.contains(forbidden), "the report holds {forbidden}");
     }
+    numbers_are_those_of_the_views(place, &page);
+}
+
+/// The one size there is, with the pull of its cloth; nobody else's.
+fn a_size_is_advised(place: &Place) {
+    let rows = place.toile("recommend . --size-for ii --json").ends_with(0).json();
+    let rows = rows.as_array().expect("rows");
+    assert!(!rows.is_empty() && rows.iter().all(|row| row["wear"] == "yes" && row["size"] == "m"), "{rows:?}");
+    assert!(rows.iter().any(|row| row["tension_n_m"].as_f64().is_some_and(|pull| pull > 0.0)), "{rows:?}");
+    assert!(rows.iter().any(|row| row["reason"].as_str().is_some_and(|why| why.contains("the level that decides"))));
+    assert!(place.toile("recommend . --size-for vii").ends_with(2).err.contains("no subject `vii`"));
+    let explained = place.toile("recommend . --explain").ends_with(0).out;
+    assert!(explained.contains("by the rule") && explained.contains("6 subjects more"), "{explained}");
 }
 
 /// One number of one cloth: its garment is draped anew from the old body, field and mesh; the other is left alone.

@@ -102,6 +102,8 @@ fn the_evidence_speaks_or_says_why_not() {
     check(&sure, 8, Loose, Finding::Fem, Fem, "supports the rule");
     check(&sure, 8, Tight, Finding::Fem, Fem, "contradicts the rule");
     check(&none, 8, Tight, Finding::NoDifference, Hybrid, "no practical difference");
+    check(&none, 5, Loose, Finding::NoDifference, Fem, "no practical difference");
+    check(&none, 4, Loose, Finding::InsufficientEvidence, Fem, "1 subject more");
     check(&sure, 5, Tight, Finding::InsufficientEvidence, Hybrid, "fewer than 6");
     check(&sure, 5, Tight, Finding::InsufficientEvidence, Hybrid, "1 subject more");
     check(&sure, 0, Loose, Finding::InsufficientEvidence, Fem, "6 subjects more");

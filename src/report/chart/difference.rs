@@ -97,7 +97,7 @@ pub fn crossover_chart(
     let eases = || dots.iter().map(|dot| dot.0).chain(lines.map(|line| line.0));
     let (low, high) = (eases().fold(f64::INFINITY, f64::min), eases().fold(f64::NEG_INFINITY, f64::max));
     let margin = 0.06 * (high - low);
-    let (top, bottom) = (150, 700);
+    let (top, bottom) = (190, 740);
     let across = Axis { low: low - margin, high: high + margin, left: 190, right: WIDTH - 50 };
     let reach = reach(dots.iter().map(|dot| dot.1));
     let up = Axis { low: -reach, high: reach, left: bottom, right: top };
@@ -105,12 +105,16 @@ pub fn crossover_chart(
     let names: Vec<String> = garments.iter().map(|name| (*name).to_owned()).collect();
     let svg = draw(bottom + UNDER, |canvas| {
         canvas.key(&names, 20, 10)?;
+        canvas.text(
+            (20, top - 70),
+            "above 0: Hybrid-GS truer; below: FEM-GS truer",
+            theme::MUTED,
+            Align::Left,
+            false,
+        )?;
         if let Some((_, from, to)) = crossover.and_then(|found| found.ease) {
-            canvas.bar(
-                (across.at(from * 1e3), top),
-                (across.at(to * 1e3).max(across.at(from * 1e3) + 3), bottom),
-                theme::GRID,
-            )?;
+            let left = across.at(from * 1e3);
+            canvas.bar((left, top), (across.at(to * 1e3).max(left + 3), bottom), theme::BAND)?;
         }
         across.grid(canvas, top, bottom)?;
         let (ticks, decimals) = up.ticks();
@@ -119,8 +123,6 @@ pub fn crossover_chart(
             canvas.text((across.left - 16, up.at(tick)), &number(tick, decimals), theme::MUTED, Align::Right, false)?;
         }
         canvas.line(vec![(across.left, up.at(0.0)), (across.right, up.at(0.0))], theme::INK, 4)?;
-        canvas.text((across.right, up.at(0.0) - 24), "above: Hybrid-GS truer", theme::MUTED, Align::Right, false)?;
-        canvas.text((across.right, up.at(0.0) + 26), "below: FEM-GS truer", theme::MUTED, Align::Right, false)?;
         for (x, name) in lines {
             canvas.line(vec![(across.at(x), top), (across.at(x), bottom)], theme::MUTED, 3)?;
             canvas.text((across.at(x), top - 20), name, theme::MUTED, Align::Middle, false)?;

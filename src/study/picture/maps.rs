@@ -26,7 +26,7 @@ pub enum Map {
 const STRETCH_REACH: f64 = 8.0;
 /// Tension at the end of its colour scale, N/m: a strip 1 cm wide that carries 100 g.
 const TENSION_REACH: f64 = 100.0;
-/// Gap at the end of its colour scale, mm.
+/// Gap at the ends of its colour scale, mm; below 0 the cloth lies within the body.
 const GAP_REACH_MM: f64 = 100.0;
 
 impl Map {
@@ -52,7 +52,7 @@ impl Map {
             Self::Plain | Self::Check => None,
             Self::Stretch => Some(Scale::diverging(0.0, STRETCH_REACH, "stretch", "%")),
             Self::Tension => Some(Scale::rising(TENSION_REACH, "tension", "N/m")),
-            Self::Gap => Some(Scale::sequential(0.0, GAP_REACH_MM, "gap to the body", "mm")),
+            Self::Gap => Some(Scale::diverging(0.0, GAP_REACH_MM, "gap to the body", "mm")),
         }
     }
 }
