@@ -9,7 +9,7 @@
 
 use super::nearest::{Nearest, Primitives, spanned_squared};
 use super::search::Neighbours;
-use super::tangle::{Release, Wings, crossings};
+use super::tangle::{Crossing, Release, Wings, crossings};
 use crate::geom::V3;
 use crate::sim::solver::Contact4;
 
@@ -79,6 +79,8 @@ pub struct ClothContact<'a> {
     /// Where the cloth was at the last step.
     last: Vec<V3>,
     is_tangled: bool,
+    /// Vertices of what crosses: it has no right side, and passes until it has come free.
+    tangled: Vec<bool>,
     released: u32,
     releases: Vec<Release>,
 }
@@ -97,16 +99,16 @@ impl<'a> ClothContact<'a> {
             reach_m: params.reach_m,
             last: Vec::new(),
             is_tangled: false,
+            tangled: vec![false; areas.len()],
             released: 0,
             releases: Vec::new(),
         }
     }
 
-    /// Keeps apart only vertices of different groups (0 belongs to none), and those not where `sewn` pairs will join
-    /// them: what two limbs wear must not interlock while it is sewn, all else may still pass through itself.
+    /// Leaves alone what is near `sewn` pairs, which will join, and what crosses: for cloth that is being sewn.
     #[must_use]
-    pub fn between(mut self, groups: Vec<u8>, sewn: impl Iterator<Item = [usize; 2]>) -> Self {
-        self.neighbours.keep_apart(groups, sewn);
+    pub fn but_near(mut self, sewn: impl Iterator<Item = [usize; 2]>) -> Self {
+        self.neighbours.join(sewn);
         self.params.release_steps = 0;
         self
     }
@@ -122,26 +124,38 @@ impl<'a> ClothContact<'a> {
             let wanted = self.params.thickness_m + 2.0 * (expected + expected.max(LEAST_SLACK_M));
             self.reach_m = wanted.min(self.params.reach_m);
             self.seek(x);
+            // Only cloth that has moved can have come to cross.
+            self.is_tangled = true;
+        }
+        if self.is_tangled {
+            self.untangle(x);
         }
         self.see_sides(x);
+    }
+
+    /// Finds what crosses, lets it pass, and the way out of it.
+    fn untangle(&mut self, x: &[V3]) {
+        let found: Vec<Crossing> = crossings(x, self.neighbours.edges(), self.neighbours.triangles()).collect();
+        self.is_tangled = !found.is_empty();
+        self.tangled = vec![false; x.len()];
+        for v in found.iter().flat_map(|crossing| crossing.edge.into_iter().chain(crossing.triangle)) {
+            self.tangled[v] = true;
+        }
+        for pair in &mut self.pairs {
+            if pair.primitives.vertices().iter().any(|v| self.tangled[*v]) {
+                let gap = Nearest::of(x, pair.primitives).gap;
+                pair.away = gap.try_normalize(0.0).unwrap_or(pair.away);
+            }
+        }
         self.releases.clear();
-        if self.is_tangled && self.released < self.params.release_steps {
+        if self.released < self.params.release_steps {
             self.released += 1;
-            let crossing = crossings(x, self.neighbours.edges(), self.neighbours.triangles());
-            self.releases = crossing.filter_map(|crossing| Release::of(x, &self.wings, &crossing)).collect();
+            self.releases = found.iter().filter_map(|crossing| Release::of(x, &self.wings, crossing)).collect();
         }
     }
 
     fn seek(&mut self, x: &[V3]) {
         self.pairs.sort_unstable_by_key(|pair| pair.primitives);
-        let mut tangled = vec![false; x.len()];
-        self.is_tangled = false;
-        for crossing in crossings(x, self.neighbours.edges(), self.neighbours.triangles()) {
-            self.is_tangled = true;
-            for v in crossing.edge.into_iter().chain(crossing.triangle) {
-                tangled[v] = true;
-            }
-        }
         let mut found = Vec::new();
         for primitives in self.neighbours.within(x, self.reach_m) {
             let nearest = Nearest::of(x, primitives);
@@ -149,8 +163,6 @@ impl<'a> ClothContact<'a> {
             let Some(away) = nearest.gap.try_normalize(0.0).filter(|_| distance_m < self.reach_m) else { continue };
             match self.pairs.binary_search_by_key(&primitives, |p| p.primitives) {
                 Ok(known) => found.push(Pair { distance_m, ..self.pairs[known] }),
-                // Cloth that crosses when it first meets has no right side: it passes until it has come free.
-                Err(_) if primitives.vertices().iter().any(|v| tangled[*v]) => {}
                 Err(_) => found.push(Pair { primitives, distance_m, away }),
             }
         }
@@ -159,7 +171,7 @@ impl<'a> ClothContact<'a> {
         self.found_at = x.to_vec();
     }
 
-    /// Remembers on which side the near pairs lie, but of those that something has slipped through.
+    /// Remembers on which side the near pairs lie, but for those that something has slipped through.
     fn see_sides(&mut self, x: &[V3]) {
         let near: Vec<(usize, Nearest)> = self.near(x).map(|(k, pair)| (k, Nearest::of(x, pair.primitives))).collect();
         let mut slipped = vec![false; x.len()];
@@ -197,7 +209,7 @@ impl<'a> ClothContact<'a> {
                 Primitives::VertexTriangle(_) => a + b.max(c).max(d),
                 Primitives::EdgeEdge(_) => a.max(b) + c.max(d),
             };
-            pair.distance_m < thickness + closing
+            pair.distance_m < thickness + closing && !pair.primitives.vertices().iter().any(|v| self.tangled[*v])
         })
     }
 

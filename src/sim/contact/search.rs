@@ -12,8 +12,6 @@ pub struct Neighbours<'a> {
     edges: PairList,
     /// Vertices that share a triangle with a vertex, itself included, sorted.
     ring: Vec<Vec<usize>>,
-    /// Group of each vertex where only groups are kept apart from each other; 0 belongs to none.
-    groups: Option<Vec<u8>>,
 }
 
 impl<'a> Neighbours<'a> {
@@ -27,11 +25,11 @@ impl<'a> Neighbours<'a> {
             }
         }
         sort_each(&mut ring);
-        Self { triangles, edges: edges_of(triangles), ring, groups: None }
+        Self { triangles, edges: edges_of(triangles), ring }
     }
 
-    /// Leaves out what is not of two different groups (0 belongs to none), and what is near `sewn` pairs.
-    pub fn keep_apart(&mut self, groups: Vec<u8>, sewn: impl Iterator<Item = [usize; 2]>) {
+    /// Takes the neighbours of `sewn` pairs for neighbours of each other.
+    pub fn join(&mut self, sewn: impl Iterator<Item = [usize; 2]>) {
         let unsewn = self.ring.clone();
         for [a, b] in sewn {
             for (own, other) in [(a, b), (b, a)] {
@@ -41,7 +39,6 @@ impl<'a> Neighbours<'a> {
             }
         }
         sort_each(&mut self.ring);
-        self.groups = Some(groups);
     }
 
     /// The cloth's edges.
@@ -100,12 +97,6 @@ impl<'a> Neighbours<'a> {
 
     /// Whether no vertex of one side shares a triangle with one of the other.
     fn apart(&self, one: &[usize], other: &[usize]) -> bool {
-        if let Some(groups) = &self.groups {
-            let (a, b) = (groups[one[0]], groups[other[0]]);
-            if a == b || a == 0 || b == 0 {
-                return false;
-            }
-        }
         one.iter().all(|&v| other.iter().all(|w| self.ring[v].binary_search(w).is_err()))
     }
 }

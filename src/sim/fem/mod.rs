@@ -8,7 +8,7 @@ pub use params::{Params, level_edges};
 
 use crate::body::Body;
 use crate::geom::{DistanceField, Surface, V3};
-use crate::pattern::{Garment, Role};
+use crate::pattern::Garment;
 use crate::sim::cloth::Cloth;
 use crate::sim::contact::{BodyContact, ClothContact};
 use crate::sim::levels::prolong;
@@ -85,23 +85,9 @@ fn sew(
     let sewn = springs.pairs.clone();
     let mut system = System::new(&cloth, contact, Some(springs));
     let apart = ClothContact::new(params.self_contact, &cloth.triangles, &cloth.areas);
-    system.self_contact = legs(garment).map(|legs| apart.between(legs, sewn.into_iter()));
+    system.self_contact = Some(apart.but_near(sewn.into_iter()));
     run.sew(garment, &mut system, &mut x)?;
     Ok(x)
-}
-
-/// The leg (1 right, 2 left) of each vertex, 0 for all else; `None` where nothing is worn on the legs.
-fn legs(garment: &Garment) -> Option<Vec<u8>> {
-    let mut legs = vec![0; garment.rest.len()];
-    for piece in &garment.pieces {
-        let leg = match piece.role {
-            Role::LegFrontRight | Role::LegBackRight => 1,
-            Role::LegFrontLeft | Role::LegBackLeft => 2,
-            _ => 0,
-        };
-        legs[piece.vertices.clone()].fill(leg);
-    }
-    legs.iter().any(|leg| *leg != 0).then_some(legs)
 }
 
 /// A settled level.
