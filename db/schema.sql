@@ -392,3 +392,26 @@ SELECT name AS fabric, fabric.revision, density_kg_m2, thickness_mm, membrane_wa
     membrane_coupling_n_m, shear_n_m, bending_warp_nm, bending_weft_nm, friction_body, friction_self, source, hash,
     fabric.revision = entry.revision AS is_latest, is_retired, stretch_pct, stretched_warp_n_m, stretched_weft_n_m
 FROM fabric JOIN catalogue_entry AS entry USING (name) WHERE part = 'fabric';
+
+CREATE TABLE study_sweep (
+    study_id INTEGER NOT NULL REFERENCES study,
+    garment TEXT NOT NULL,
+    style TEXT NOT NULL,
+    name TEXT NOT NULL,
+    value TEXT NOT NULL,
+    PRIMARY KEY (study_id, garment, name)
+) STRICT, WITHOUT ROWID;
+
+CREATE VIEW v_sweep AS
+SELECT study.name AS study, garment, style, study_sweep.name AS parameter,
+    CASE WHEN json_valid(value) AND json_type(value) IN ('integer', 'real') THEN value + 0 ELSE value END AS value
+FROM study_sweep JOIN study USING (study_id);
+
+CREATE VIEW v_inputs AS
+SELECT job_id, study.name AS study, garment, size, subject, simulator, repeat, job_input.name AS input, value
+FROM job_input JOIN job USING (job_id) JOIN study USING (study_id)
+WHERE is_current;
+
+CREATE INDEX job_queue ON job (status, priority DESC, job_id) WHERE is_current;
+
+CREATE TABLE built_in (hash TEXT PRIMARY KEY) STRICT, WITHOUT ROWID;

@@ -10,13 +10,17 @@ mod body;
 mod catalogue;
 mod context;
 mod health;
+mod jobs;
 mod output;
+mod parquet;
 mod pattern;
 mod pattern_files;
 mod pictures;
 mod progress;
 mod queue;
 mod run;
+mod runs;
+mod studies;
 #[cfg(test)]
 mod tests;
 
@@ -133,6 +137,8 @@ fn execute(arguments: Arguments, workbench: impl FnOnce(Workbench) -> Result<(),
         Some(Command::Render(arguments)) => pictures::render(&context, &arguments),
         Some(Command::Export(arguments)) => pictures::export(&context, &arguments),
         Some(Command::Queue(command)) => queue::run(&context, &command),
+        Some(Command::Study(command)) => studies::run(&context, &command),
+        Some(Command::Job(command)) => jobs::run(&context, &command),
         Some(Command::Subject(command)) => catalogue::run(&context, command),
         Some(Command::Style(command)) => catalogue::run(&context, command),
         Some(Command::Size(command)) => catalogue::run(&context, command),

@@ -9,7 +9,7 @@ use nalgebra::Matrix3;
 use crate::geom::{DistanceField, V3};
 
 /// Parameters of body contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ContactParams {
     /// Distance from the skin at which cloth begins to be pushed, m.
     pub offset_m: f64,
