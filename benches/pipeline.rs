@@ -190,7 +190,7 @@ fn sql_results(bencher: Bencher) {
     let mut workspace = Workspace::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
     let project = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut study = workspace.load_study(&project.join("studies/quickstart")).expect("the quickstart is right");
-    study.edge_length_m = COARSE_M;
+    study.garments.iter_mut().for_each(|garment| garment.edge_length_m = COARSE_M);
     study.subjects.truncate(1);
     workspace.start(&study, &RunOptions::default()).expect("queued").join().expect("the database works");
     bencher.bench_local(|| {

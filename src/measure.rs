@@ -4,7 +4,7 @@ use crate::geom::V3;
 use crate::pattern::{Garment, Measurement};
 
 /// One measurement of one drape.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Chi {
     /// Number in the style.
     pub no: u32,
@@ -23,7 +23,7 @@ impl Chi {
 }
 
 /// Summary over the measurements of one drape.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Metrics {
     /// Number of measurements.
     pub n: usize,

@@ -1,16 +1,28 @@
 //! Questions to the database: SQL, audit, ease.
 
-use std::io::Read;
+use std::io::{IsTerminal, Read};
+
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::iterator::Signals;
 
 use super::args::{Audit as AuditArguments, Format, Sql, StudyPath};
-use super::context::Context;
+use super::context::{Context, project_folder};
 use super::{CliError, End, Outcome, output};
-use crate::study::{Finding, StudyError, Table, Value};
+use crate::study::{Finding, StudyError, Table, Value, saved_queries, saved_query};
 use crate::units::mm;
 
-/// `toile sql`.
+/// `toile sql`. Ctrl-C ends a query that takes too long.
 pub fn sql(context: &Context, arguments: &Sql) -> Outcome {
+    let project = project_folder().map(|project| project.join("db").join("queries"));
+    if arguments.list {
+        let text = |text: String| Value::Text(text);
+        let saved = saved_queries(project.as_deref())?.into_iter();
+        let rows = saved.map(|saved| vec![text(saved.name), text(saved.about)]).collect();
+        context.print(&Table { columns: ["name", "what it asks"].map(str::to_owned).to_vec(), rows })?;
+        return Ok(End::Done);
+    }
     let query = match (&arguments.query, &arguments.file) {
+        (Some(name), _) if is_name(name) => saved_query(project.as_deref(), name)?,
         (Some(query), _) => query.clone(),
         (None, Some(file)) if file.as_os_str() == "-" => {
             let mut text = String::new();
@@ -23,8 +35,30 @@ pub fn sql(context: &Context, arguments: &Sql) -> Outcome {
         (None, None) => return Err(CliError::Usage("no query; give one, or a file with -f".into())),
     };
     let format = arguments.format.unwrap_or(if context.json { Format::Json } else { Format::Table });
-    output::table(&context.workspace()?.query(&query)?, format)?;
+    if format == Format::Parquet && arguments.output.is_none() && std::io::stdout().is_terminal() {
+        return Err(CliError::Usage("a Parquet file is not for a terminal; give a file with -o".into()));
+    }
+    let workspace = context.workspace()?;
+    let interrupter = workspace.interrupter();
+    let mut signals = Signals::new([SIGINT, SIGTERM])?;
+    let handle = signals.handle();
+    let answer = std::thread::scope(|scope| {
+        scope.spawn(move || signals.forever().for_each(|_| interrupter.interrupt()));
+        let answer = workspace.query(&query);
+        handle.close();
+        answer
+    })?;
+    let bytes = output::encoded(&answer, format)?;
+    match &arguments.output {
+        None => output::bytes(&bytes)?,
+        Some(path) => std::fs::write(path, bytes).map_err(|source| StudyError::Io { path: path.clone(), source })?,
+    }
     Ok(End::Done)
+}
+
+/// Whether a query is one word: no SQL is, but the name of a saved query.
+fn is_name(query: &str) -> bool {
+    query.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-')) && !query.is_empty()
 }
 
 /// `toile audit`: what does not add up; exit code 3 when that is anything in results of ours. The errors of the thesis are

@@ -33,7 +33,7 @@ pub fn run(context: &Context, command: &Body) -> Outcome {
     Ok(End::Done)
 }
 
-fn of(sex: Sex) -> tools::Sex {
+pub fn of(sex: Sex) -> tools::Sex {
     match sex {
         Sex::M => tools::Sex::Male,
         Sex::F => tools::Sex::Female,

@@ -10,7 +10,9 @@ mod body;
 mod catalogue;
 mod context;
 mod health;
+mod jobs;
 mod output;
+mod parquet;
 mod pattern;
 mod pattern_files;
 mod pictures;
@@ -18,6 +20,8 @@ mod progress;
 mod queue;
 mod recommend;
 mod run;
+mod runs;
+mod studies;
 #[cfg(test)]
 mod tests;
 
@@ -134,6 +138,8 @@ fn execute(arguments: Arguments, workbench: impl FnOnce(Workbench) -> Result<(),
         Some(Command::Render(arguments)) => pictures::render(&context, &arguments),
         Some(Command::Export(arguments)) => pictures::export(&context, &arguments),
         Some(Command::Queue(command)) => queue::run(&context, &command),
+        Some(Command::Study(command)) => studies::run(&context, &command),
+        Some(Command::Job(command)) => jobs::run(&context, &command),
         Some(Command::Subject(command)) => catalogue::run(&context, command),
         Some(Command::Style(command)) => catalogue::run(&context, command),
         Some(Command::Size(command)) => catalogue::run(&context, command),

@@ -10,8 +10,13 @@ use crate::study::{Table, Value};
 
 /// Writes text to standard output; a closed pipe (`| head`) is no error.
 pub fn text(text: &str) -> io::Result<()> {
+    bytes(text.as_bytes())
+}
+
+/// Writes bytes to standard output, likewise.
+pub fn bytes(bytes: &[u8]) -> io::Result<()> {
     let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    match out.write_all(bytes).and_then(|()| out.flush()) {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         result => result,
     }
@@ -19,18 +24,29 @@ pub fn text(text: &str) -> io::Result<()> {
 
 /// Writes a JSON document.
 pub fn json(value: &impl serde::Serialize) -> io::Result<()> {
+    text(&document(value)?)
+}
+
+/// A JSON document as text.
+fn document(value: &impl serde::Serialize) -> io::Result<String> {
     let mut document = serde_json::to_string_pretty(value)?;
     document.push('\n');
-    text(&document)
+    Ok(document)
 }
 
 /// Writes a table in a format.
 pub fn table(table: &Table, format: Format) -> io::Result<()> {
-    match format {
-        Format::Table => text(&pretty(table)),
-        Format::Csv => text(&csv(table)?),
-        Format::Json => json(&rows(table)),
-    }
+    bytes(&encoded(table, format)?)
+}
+
+/// A table in a format.
+pub fn encoded(table: &Table, format: Format) -> io::Result<Vec<u8>> {
+    Ok(match format {
+        Format::Table => pretty(table).into_bytes(),
+        Format::Csv => csv(table)?.into_bytes(),
+        Format::Json => document(&rows(table))?.into_bytes(),
+        Format::Parquet => super::parquet::bytes(table),
+    })
 }
 
 /// A table for reading: numbers to the right, at most six significant digits.

@@ -42,7 +42,8 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
     }
 }
 
-fn model(style: DraftStyle) -> Model {
+/// The style to draft.
+pub fn model(style: DraftStyle) -> Model {
     match style {
         DraftStyle::Tshirt => Model::Tshirt,
         DraftStyle::Trousers => Model::Trousers,

@@ -43,7 +43,7 @@ fn map(argument: MapArgument) -> Map {
 }
 
 /// Writes one file and says so.
-fn write(context: &Context, path: &Path, bytes: Vec<u8>) -> Outcome {
+pub fn write(context: &Context, path: &Path, bytes: Vec<u8>) -> Outcome {
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     tools::write_files(path.parent().unwrap_or(Path::new("")), &[(name, bytes)])?;
     context.say(format_args!("wrote {}", path.display()));

@@ -1,41 +1,55 @@
 //! `toile run`: queue, work, summarise, report.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 
-use super::args::Run as Arguments;
+use super::args::{Engine, Run as Arguments, StudyPart};
 use super::context::Context;
 use super::progress::Progress;
-use super::{End, Outcome, output, pictures};
+use super::{CliError, End, Outcome, output, pictures, runs};
 use crate::study::{
-    JobFilter, JobId, JobRow, Planned, RunOptions, Selection, Stage, Status, Study, StudyError, Table, Value, Workspace,
+    JobFilter, JobId, JobRow, Planned, RunOptions, Selection, SlurmOptions, Stage, Status, Study, StudyError, Table,
+    Value, Workspace,
 };
 
 /// Time between two looks at the running jobs.
 const LOOK: Duration = Duration::from_millis(150);
+/// Time between two looks at a cluster.
+const SLURM_LOOK: Duration = Duration::from_secs(1);
 
 /// `toile run`.
 pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
-    let mut workspace = context.workspace()?;
-    let study = context.study(&workspace, &arguments.study)?;
-    let selection = Selection {
-        simulators: arguments.sim.clone(),
-        sizes: arguments.size.clone(),
-        subjects: arguments.subject.clone(),
-        garments: arguments.garment.clone(),
+    let path = match (&arguments.command, &arguments.study) {
+        (Some(command), _) => return runs::run(context, command),
+        (None, Some(path)) => path,
+        (None, None) => return Err(CliError::Usage("no study; give its folder".into())),
     };
+    let mut workspace = context.workspace()?;
+    let study = context.study(&workspace, path)?;
+    let selection = selection(&arguments.part);
     if arguments.dry_run {
         let planned = workspace.plan(&study, &selection)?;
         context.print(&plan_table(&planned))?;
         return Ok(End::Done);
     }
     let workers = arguments.workers.map(usize::from);
-    let options = RunOptions { selection, workers, ..RunOptions::default() };
-    let interrupted = work(context, &mut workspace, &study, &options, arguments.why)?;
+    let interrupted = match arguments.engine {
+        Engine::Local => {
+            let options = RunOptions { selection, workers, ..RunOptions::default() };
+            work(context, &mut workspace, &study, &options, arguments.why)?
+        }
+        Engine::Slurm => {
+            let beside = || context.db.parent().map(Path::to_owned).unwrap_or_default();
+            let folder = arguments.slurm_dir.clone().unwrap_or_else(|| beside().join("slurm").join(&study.name));
+            let options = SlurmOptions { folder, tasks: workers, sbatch: arguments.sbatch.clone() };
+            slurm(context, &mut workspace, &study, &selection, &options, arguments.why)?
+        }
+    };
     let jobs = workspace.jobs(&JobFilter { study: Some(study.name.clone()), ..JobFilter::default() })?;
     summarise(context, &workspace, &jobs)?;
     if interrupted {
@@ -52,6 +66,71 @@ pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
     Ok(if failed.is_empty() { End::Done } else { End::JobFailed })
 }
 
+/// The part of a study that flags name.
+pub fn selection(part: &StudyPart) -> Selection {
+    Selection {
+        simulators: part.sim.clone(),
+        sizes: part.size.clone(),
+        subjects: part.subject.clone(),
+        garments: part.garment.clone(),
+    }
+}
+
+/// Set by the first Ctrl-C or request to end.
+fn interruption() -> Result<Arc<AtomicBool>, CliError> {
+    let interrupted = Arc::new(AtomicBool::new(false));
+    for signal in [SIGINT, SIGTERM] {
+        // A second signal ends at once: the database does not mind.
+        signal_hook::flag::register_conditional_shutdown(signal, End::Interrupted as i32, interrupted.clone())?;
+        signal_hook::flag::register(signal, interrupted.clone())?;
+    }
+    Ok(interrupted)
+}
+
+/// Says what will be run, and with `why` the reason for each; the jobs that will.
+fn tell_plan(context: &Context, study: &Study, planned: &[Planned], why: bool) -> BTreeSet<JobId> {
+    if why || context.verbose {
+        for job in planned {
+            context.say(format_args!("{}: {}", label(&job.spec.garment, &job.spec.size, &job.spec.subject), job.why));
+        }
+    }
+    let todo: BTreeSet<JobId> = planned.iter().filter(|job| job.why.will_run()).map(|job| job.id).collect();
+    let (all, to_run) = (planned.len(), todo.len());
+    context.say(format_args!("{}: {all} jobs, {to_run} to run, {} up to date", study.name, all - to_run));
+    todo
+}
+
+/// Hands the study to Slurm and shows how it fares until it ends; says whether it was interrupted. What Slurm has goes
+/// on then, and the next run takes it up.
+fn slurm(
+    context: &Context,
+    workspace: &mut Workspace,
+    study: &Study,
+    selection: &Selection,
+    options: &SlurmOptions,
+    why: bool,
+) -> Result<bool, CliError> {
+    let interrupted = interruption()?;
+    let mut run = workspace.start_slurm(study, selection, options)?;
+    let todo = tell_plan(context, study, &run.planned, why);
+    let mut progress = Progress::new(context, &study.name, todo);
+    let mut told = Vec::new();
+    while !run.step(workspace)? {
+        if interrupted.load(Ordering::Relaxed) {
+            break;
+        }
+        if run.arrays() != told {
+            told = run.arrays().to_vec();
+            context.say(format_args!("Slurm job {}", told.join(", ")));
+        }
+        progress.show(workspace)?;
+        std::thread::sleep(SLURM_LOOK);
+    }
+    progress.show(workspace)?;
+    progress.finish();
+    Ok(interrupted.load(Ordering::Relaxed))
+}
+
 /// Starts the run and shows how it fares until it ends; says whether it was interrupted.
 fn work(
     context: &Context,
@@ -59,27 +138,10 @@ fn work(
     study: &Study,
     options: &RunOptions,
     why: bool,
-) -> Result<bool, super::CliError> {
-    let interrupted = Arc::new(AtomicBool::new(false));
-    for signal in [SIGINT, SIGTERM] {
-        // A second signal ends at once: the database does not mind.
-        signal_hook::flag::register_conditional_shutdown(signal, End::Interrupted as i32, interrupted.clone())?;
-        signal_hook::flag::register(signal, interrupted.clone())?;
-    }
+) -> Result<bool, CliError> {
+    let interrupted = interruption()?;
     let run = workspace.start(study, options)?;
-    if why || context.verbose {
-        for job in &run.planned {
-            context.say(format_args!("{}: {}", label(&job.spec.garment, &job.spec.size, &job.spec.subject), job.why));
-        }
-    }
-    let todo: BTreeSet<JobId> = run.planned.iter().filter(|job| job.why.will_run()).map(|job| job.id).collect();
-    context.say(format_args!(
-        "{}: {} jobs, {} to run, {} up to date",
-        study.name,
-        run.planned.len(),
-        todo.len(),
-        run.planned.len() - todo.len()
-    ));
+    let todo = tell_plan(context, study, &run.planned, why);
     if workspace.study(&study.name)?.paused {
         context.say(format_args!("{0} is paused: jobs wait until `toile queue resume {0}`", study.name));
     }
@@ -122,7 +184,7 @@ fn plan_table(planned: &[Planned]) -> Table {
 
 /// Prints the results: chi of every measurement as the thesis lays it out, one table a garment, size and simulator; as
 /// JSON the rows of `v_metrics` with their `chi`.
-fn summarise(context: &Context, workspace: &Workspace, jobs: &[JobRow]) -> Result<(), super::CliError> {
+fn summarise(context: &Context, workspace: &Workspace, jobs: &[JobRow]) -> Result<(), CliError> {
     let done: Vec<&JobRow> = jobs.iter().filter(|job| job.status.has_result()).collect();
     if context.json {
         let mut results = Vec::new();

@@ -39,7 +39,7 @@ impl Cuts {
 }
 
 /// Ease of a garment on a body at one level.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Ease {
     /// Body level (`chest`, `hip`, ...).
     pub level: String,

@@ -25,7 +25,7 @@ pub(crate) trait Artefact: Sized + Send + Sync + 'static {
 }
 
 /// One product a job used.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Used {
     /// Stage that made it.
     pub stage: StageKind,

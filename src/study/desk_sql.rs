@@ -1,25 +1,17 @@
-//! Questions in SQL as an editor asks them: rows up to a bound, files without one, names to complete, saved queries.
+//! Questions in SQL as an editor asks them: rows up to a bound, files without one, names to complete.
 
 use std::fs::{self, File};
 use std::io::{BufWriter, Write};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use rusqlite::ErrorCode;
 use rusqlite::fallible_iterator::FallibleIterator;
 
 use super::error::{Result, StudyError};
 use super::sql;
 use super::types::{Table, Value};
 use super::workspace::Workspace;
-
-/// Queries that come with the program: names and texts.
-const BUILT_IN: [(&str, &str); 5] = [
-    ("attention", include_str!("../../db/queries/attention.sql")),
-    ("against_thesis", include_str!("../../db/queries/against_thesis.sql")),
-    ("ease_and_error", include_str!("../../db/queries/ease_and_error.sql")),
-    ("measurements", include_str!("../../db/queries/measurements.sql")),
-    ("times", include_str!("../../db/queries/times.sql")),
-];
 
 /// The rows of a query, as far as they were wanted.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,23 +22,6 @@ pub struct SqlAnswer {
     pub is_cut: bool,
 }
 
-/// A query kept in a file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SavedQuery {
-    /// Name: that of its file.
-    pub name: String,
-    /// Its text.
-    pub sql: String,
-}
-
-impl SavedQuery {
-    /// What it is for: the comment it begins with.
-    #[must_use]
-    pub fn about(&self) -> &str {
-        self.sql.lines().next().and_then(|line| line.strip_prefix("--")).unwrap_or_default().trim()
-    }
-}
-
 /// A table or view, and its columns.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Relation {
@@ -54,27 +29,6 @@ pub struct Relation {
     pub name: String,
     /// Names of its columns, in order.
     pub columns: Vec<String>,
-}
-
-/// Queries that come with the program, and the `.sql` files of the folder `queries` beside a database, which go before.
-#[must_use]
-pub fn saved_queries(database: &Path) -> Vec<SavedQuery> {
-    let folder = database.parent().unwrap_or(Path::new("")).join("queries");
-    let files = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
-    let mut found: Vec<SavedQuery> = files
-        .filter(|path| path.extension().is_some_and(|extension| extension == "sql"))
-        .filter_map(|path| {
-            let name = path.file_stem()?.to_string_lossy().into_owned();
-            Some(SavedQuery { name, sql: fs::read_to_string(&path).ok()? })
-        })
-        .collect();
-    for (name, sql) in BUILT_IN {
-        if !found.iter().any(|query| query.name == name) {
-            found.push(SavedQuery { name: name.to_owned(), sql: sql.to_owned() });
-        }
-    }
-    found.sort_by(|a, b| a.name.cmp(&b.name));
-    found
 }
 
 impl Workspace {
@@ -137,6 +91,20 @@ impl Workspace {
 
     /// Takes the columns of the last statement of a text, then each of its rows, until `take` says that it has enough.
     fn each_row(
+        &self,
+        text: &str,
+        stop: &AtomicBool,
+        take: impl FnMut(&[String], Option<Vec<Value>>) -> Result<bool>,
+    ) -> Result<()> {
+        self.walk_rows(text, stop, take).map_err(|error| match error {
+            StudyError::Database(error) if error.sqlite_error_code() == Some(ErrorCode::OperationInterrupted) => {
+                StudyError::Interrupted
+            }
+            error => error,
+        })
+    }
+
+    fn walk_rows(
         &self,
         text: &str,
         stop: &AtomicBool,
@@ -261,21 +229,6 @@ mod tests {
         assert_eq!(text("none.json"), "[]\n");
         assert!(write("a.csv", "SELECT 1").is_err(), "it is there already");
         assert!(write("b.csv", "SELECT nothing").is_err() && !folder.path().join("b.csv").exists());
-    }
-
-    #[test]
-    fn saved_queries_run_and_files_go_before_those_built_in() {
-        let (folder, workspace) = workspace();
-        let go = AtomicBool::new(false);
-        for query in saved_queries(workspace.path()) {
-            assert!(!query.about().is_empty(), "{}", query.name);
-            workspace.answer(&query.sql, 10, &go).unwrap_or_else(|error| panic!("{}: {error}", query.name));
-        }
-        fs::create_dir(folder.path().join("queries")).expect("writable");
-        fs::write(folder.path().join("queries/times.sql"), "-- mine\nSELECT 1").expect("writable");
-        let queries = saved_queries(workspace.path());
-        assert_eq!(queries.len(), BUILT_IN.len());
-        assert!(queries.iter().any(|query| query.name == "times" && query.about() == "mine"));
     }
 
     #[test]

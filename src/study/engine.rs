@@ -18,7 +18,7 @@ use super::enqueue::Planned;
 use super::error::{Result, StudyError};
 use super::live::Live as LiveView;
 use super::outcome::{self, Executor, Outcome, Provenance};
-use super::owner::Owner;
+use super::owner::{Owner, Watch};
 use super::queue;
 use super::spec::JobSpec;
 use super::store::{self, Access, now_ms};
@@ -48,6 +48,7 @@ struct Run<'a> {
     provenance: Provenance,
     stop: &'a AtomicBool,
     view: &'a LiveView,
+    watch: Mutex<Watch>,
     live: Mutex<BTreeMap<JobId, Arc<Live>>>,
     busy_workers: AtomicUsize,
 }
@@ -56,7 +57,7 @@ struct Run<'a> {
 /// `stop`; then what runs goes back into the queue.
 ///
 /// # Errors
-/// When the database fails; a failing job is no error here.
+/// When the database fails: the run stops, and its jobs stay queued. A failing job is no error here.
 pub(crate) fn run(
     database: &Path,
     planned: &[Planned],
@@ -75,6 +76,7 @@ pub(crate) fn run(
         provenance,
         stop,
         view,
+        watch: Mutex::default(),
         live: Mutex::default(),
         busy_workers: AtomicUsize::new(workers.max(1)),
     };
@@ -93,29 +95,34 @@ pub(crate) fn run(
 }
 
 impl Run<'_> {
-    /// A worker: one job after another.
+    /// A worker: one job after another. What stops one worker, the database failing, would stop the others too.
     fn work(&self) -> Result<()> {
         let result = store::open(self.database, Access::Write).and_then(|mut connection| self.work_on(&mut connection));
+        if result.is_err() {
+            self.stop.store(true, Ordering::Relaxed);
+        }
         self.busy_workers.fetch_sub(1, Ordering::Release);
         result
     }
 
     fn work_on(&self, connection: &mut Connection) -> Result<()> {
+        queue::want(connection, &self.ids)?;
         while !self.stop.load(Ordering::Relaxed) {
             let transaction = store::write(connection)?;
-            let claimed = queue::claim(&transaction, &self.ids, &self.owner)?;
-            let open = queue::open_jobs(&transaction, &self.ids)?;
+            let claimed = queue::claim(&transaction, &self.owner, &mut lock(&self.watch))?;
+            let is_open = claimed.is_some() || queue::is_open(&transaction)?;
             transaction.commit()?;
             match claimed {
                 Some(id) => self.execute(connection, id)?,
-                None if open == 0 => break,
-                None => thread::sleep(TICK),
+                None if is_open => thread::sleep(TICK),
+                None => break,
             }
         }
         Ok(())
     }
 
-    /// Runs one claimed job and writes what came of it; a panic of a stage is its failure.
+    /// Runs one claimed job and writes what came of it; a panic of a stage is its failure. That the database fails is
+    /// not: then the job goes back into the queue, if that can still be written, and the run ends.
     fn execute(&self, connection: &mut Connection, id: JobId) -> Result<()> {
         let live = Arc::new(Live::default());
         lock(&self.live).insert(id, live.clone());
@@ -123,7 +130,14 @@ impl Run<'_> {
         let spec = self.specs[&id];
         let result = catch_unwind(AssertUnwindSafe(|| self.executor.execute(spec, &mut reporter)))
             .unwrap_or_else(|panic| Err(StudyError::Stage { stage: "panic", message: panic_text(&*panic) }));
-        let written = self.finish(connection, id, &result);
+        let written = match result {
+            Err(error @ (StudyError::Database(_) | StudyError::Open { .. })) => {
+                // Where it cannot be written, the end of this process puts the job back.
+                let _ = self.finish(connection, id, &Err(StudyError::Interrupted));
+                Err(error)
+            }
+            result => self.finish(connection, id, &result),
+        };
         lock(&self.live).remove(&id);
         written
     }
@@ -146,6 +160,7 @@ impl Run<'_> {
         let mut connection = store::open(self.database, Access::Volatile)?;
         while self.busy_workers.load(Ordering::Acquire) > 0 {
             thread::sleep(TICK);
+            store::still_there(self.database)?;
             let live: Vec<(JobId, Arc<Live>)> = lock(&self.live).iter().map(|(id, live)| (*id, live.clone())).collect();
             if !live.is_empty() {
                 self.report(&mut connection, &live)?;

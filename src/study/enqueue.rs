@@ -112,6 +112,16 @@ pub(crate) fn store_study(transaction: &Transaction<'_>, study: &Study) -> Resul
             .prepare_cached("INSERT OR IGNORE INTO study_axis (study_id, axis, name, position) VALUES (?, ?, ?, ?)")?
             .execute(params![study_id, axis, name, position as i64])?;
     }
+    transaction.execute("DELETE FROM study_sweep WHERE study_id = ?", [study_id])?;
+    for garment in &study.garments {
+        for (name, value) in &garment.swept {
+            transaction
+                .prepare_cached(
+                    "INSERT INTO study_sweep (study_id, garment, style, name, value) VALUES (?, ?, ?, ?, ?)",
+                )?
+                .execute(params![study_id, garment.name, garment.style, name, value])?;
+        }
+    }
     Ok(study_id)
 }
 
@@ -218,8 +228,8 @@ fn supersede(transaction: &Transaction<'_>, id: JobId) -> Result<()> {
 fn insert(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec, hash: &str) -> Result<JobId> {
     let (by, unit) = (By::Study, spec.unit.as_deref());
     let subject = catalogue::subject(transaction, &spec.subject, &spec.measurements, by)?.id;
-    let style = catalogue::style(transaction, &spec.garment, spec.seams.as_ref(), by)?.id;
-    let size = catalogue::size(transaction, (&spec.garment, &spec.size), &spec.pattern, unit, by)?.id;
+    let style = catalogue::style(transaction, &spec.style, spec.seams.as_ref(), by)?.id;
+    let size = catalogue::size(transaction, (&spec.style, &spec.size), &spec.pattern, unit, by)?.id;
     let fabric = catalogue::fabric(transaction, &spec.fabric, by)?.id;
     transaction
         .prepare_cached(

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use rusqlite::ErrorCode;
+
 use super::file::Problem;
 
 /// An error of the store, the study file, the queue or a stage.
@@ -9,7 +11,7 @@ use super::file::Problem;
 #[non_exhaustive]
 pub enum StudyError {
     /// SQLite refused.
-    #[error("database: {0}")]
+    #[error("database: {}", database_error(.0))]
     Database(#[from] rusqlite::Error),
     /// A database file could not be opened.
     #[error("{}: cannot open this database: {reason}", path.display())]
@@ -85,6 +87,12 @@ pub enum StudyError {
         /// What is wrong.
         message: String,
     },
+    /// A job failed on another machine.
+    #[error("{message}")]
+    Elsewhere {
+        /// What was said there.
+        message: String,
+    },
     /// The run was asked to stop.
     #[error("interrupted")]
     Interrupted,
@@ -105,6 +113,24 @@ impl StudyError {
 
 /// Result of a study operation.
 pub type Result<T> = std::result::Result<T, StudyError>;
+
+/// What SQLite said, and what helps.
+pub(crate) fn database_error(error: &rusqlite::Error) -> String {
+    let advice = match error.sqlite_error_code() {
+        Some(ErrorCode::DiskFull) => "; make room and start again: nothing finished is lost",
+        Some(ErrorCode::SystemIoFailure) => {
+            "; a full disk, a quota or a limit on file sizes does this: make room and start again, nothing finished is lost"
+        }
+        Some(ErrorCode::DatabaseBusy | ErrorCode::DatabaseLocked) => {
+            "; another process keeps it to itself: wait for that one or end it, then start again"
+        }
+        Some(ErrorCode::ReadOnly) => "; the file or its folder may not be written to: --readonly reads it as it is",
+        Some(ErrorCode::CannotOpen) => "; it, its folder or its log may not be read or written",
+        Some(ErrorCode::DatabaseCorrupt | ErrorCode::NotADatabase) => "; `toile doctor` looks closer, a copy helps",
+        _ => "",
+    };
+    format!("{error}{advice}")
+}
 
 /// `; did you mean ...?` or `; there are: ...`, as far as it helps.
 fn suggestion(known: &[String], name: &str) -> String {

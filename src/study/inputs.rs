@@ -4,11 +4,13 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 /// Named leaf values, such as `fabric.cotton_shirting_light.density_kg_m2 = 0.1036`.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(transparent)]
 pub struct Inputs(BTreeMap<String, String>);
 
 /// A cached stage of a job; each depends on some of the job's inputs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum StageKind {
     /// The human model.
     Body,

@@ -18,7 +18,7 @@ use crate::sim::{Monitor, Stage, Step};
 use crate::units::mm;
 
 /// One measurement of a result with what it is.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Measured {
     /// Stage at which it was taken.
     pub stage: Stage,
@@ -35,7 +35,7 @@ pub struct Measured {
 }
 
 /// The result of a simulation, measured.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Outcome {
     /// Whether the residual reached its tolerance with all seams closed.
     pub converged: bool,
@@ -83,10 +83,14 @@ impl<F: Fn(&JobSpec, &mut dyn Monitor) -> Result<Outcome> + Sync> Executor for F
 }
 
 /// Where results are made: the same for all jobs of a run.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct Provenance {
     /// Commit of the repository the study file lies in, and whether it has uncommitted changes.
     pub git: Option<(String, bool)>,
+    /// Machine.
+    pub machine: String,
+    /// Version of the program.
+    pub program_version: String,
 }
 
 impl Provenance {
@@ -99,7 +103,12 @@ impl Provenance {
         let commit = git(&["rev-parse", "HEAD"]);
         let git =
             commit.map(|commit| (commit, git(&["status", "--porcelain"]).is_none_or(|changes| !changes.is_empty())));
-        Self { git }
+        Self { git, ..Self::here() }
+    }
+
+    /// This machine and program, without a repository.
+    pub fn here() -> Self {
+        Self { git: None, machine: machine(), program_version: env!("CARGO_PKG_VERSION").to_owned() }
     }
 }
 
@@ -114,6 +123,20 @@ pub(crate) fn finish(
     provenance: &Provenance,
 ) -> Result<Option<Status>> {
     let transaction = store::write(connection)?;
+    let status = finish_in(&transaction, id, spec, owner, outcome, provenance)?;
+    transaction.commit()?;
+    Ok(status)
+}
+
+/// [`finish`] within a transaction.
+pub(crate) fn finish_in(
+    transaction: &Transaction<'_>,
+    id: JobId,
+    spec: &JobSpec,
+    owner: &str,
+    outcome: &Result<Outcome>,
+    provenance: &Provenance,
+) -> Result<Option<Status>> {
     let message = outcome.as_ref().err().map(StudyError::to_string);
     let event = match outcome {
         Ok(outcome) => Event::Finish { owner, converged: outcome.converged },
@@ -121,19 +144,18 @@ pub(crate) fn finish(
         Err(_) => Event::Fail(owner),
     };
     let error = message.as_deref().filter(|_| matches!(event, Event::Fail(_)));
-    let Some(after) = queue::apply(&transaction, id, &event, error)? else { return Ok(None) };
+    let Some(after) = queue::apply(transaction, id, &event, error)? else { return Ok(None) };
     match outcome {
         Ok(outcome) => {
-            write_result(&transaction, id, spec, outcome, provenance)?;
+            write_result(transaction, id, spec, outcome, provenance)?;
             let stages: Vec<String> = outcome.used.iter().map(Used::to_string).collect();
-            queue::log(&transaction, id, "info", &stages.join(", "))?;
+            queue::log(transaction, id, "info", &stages.join(", "))?;
             let text = format!("{}: EI {:.4}", after.status.as_str().replace('_', " "), outcome.metrics.ei);
-            queue::log(&transaction, id, if outcome.converged { "info" } else { "warn" }, &text)?;
+            queue::log(transaction, id, if outcome.converged { "info" } else { "warn" }, &text)?;
         }
-        Err(StudyError::Interrupted) => queue::log(&transaction, id, "info", "stopped; queued again")?,
-        Err(error) => queue::log(&transaction, id, "error", &error.to_string())?,
+        Err(StudyError::Interrupted) => queue::log(transaction, id, "info", "stopped; queued again")?,
+        Err(error) => queue::log(transaction, id, "error", &error.to_string())?,
     }
-    transaction.commit()?;
     Ok(Some(after.status))
 }
 
@@ -173,7 +195,7 @@ fn write_result(
             "INSERT INTO provenance (job_id, program_version, git_commit, git_dirty, machine, seed)
             SELECT job_id, ?, ?, ?, ?, repeat FROM job WHERE job_id = ?",
         )?
-        .execute(params![env!("CARGO_PKG_VERSION"), commit, dirty, machine(), id.0])?;
+        .execute(params![provenance.program_version, commit, dirty, provenance.machine, id.0])?;
     Ok(())
 }
 

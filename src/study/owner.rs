@@ -1,7 +1,14 @@
 //! Who runs a job: one run of one process of one machine, and whether that process is still alive.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+use super::types::JobId;
+
+/// A heartbeat that stands still for so long is a dead owner's, where its process cannot be looked up.
+const LEASE: Duration = Duration::from_secs(60);
 
 /// Name of one run: `host/boot/pid/start/number`, unique over machines and time.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -48,6 +55,26 @@ pub(crate) fn is_dead(owner: &str) -> Option<bool> {
     Some(their_boot != boot() || start_ticks(pid) != Some(start))
 }
 
+/// Heartbeats of other machines' jobs as this run has seen them change. The stamps are of the clocks of those machines,
+/// which may be wrong or be set: only that they change counts, and for how long they have not, by a clock nobody sets.
+#[derive(Debug, Default)]
+pub(crate) struct Watch(BTreeMap<JobId, (i64, Instant)>);
+
+impl Watch {
+    /// Whether a job's heartbeat has stood still for longer than a lease.
+    pub(crate) fn stands_still(&mut self, id: JobId, heartbeat: i64) -> bool {
+        self.stood_still_until(id, heartbeat, Instant::now())
+    }
+
+    fn stood_still_until(&mut self, id: JobId, heartbeat: i64, now: Instant) -> bool {
+        let (seen, since) = self.0.entry(id).or_insert((heartbeat, now));
+        if *seen != heartbeat {
+            (*seen, *since) = (heartbeat, now);
+        }
+        now.duration_since(*since) > LEASE
+    }
+}
+
 /// Name of this machine.
 pub(crate) fn host() -> String {
     let kernel = std::fs::read_to_string("/proc/sys/kernel/hostname").ok().filter(|name| !name.trim().is_empty());
@@ -75,6 +102,20 @@ fn start_ticks(pid: u32) -> Option<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_heartbeat_is_watched_by_a_clock_that_nobody_sets() {
+        let (mut watch, start) = (Watch::default(), Instant::now());
+        let mut check = |heartbeat: i64, seconds: u64, dead: bool| {
+            let now = start + Duration::from_secs(seconds);
+            assert_eq!(watch.stood_still_until(JobId(1), heartbeat, now), dead, "{heartbeat} after {seconds} s");
+        };
+        check(9_000_000, 0, false); // a stamp of the future, from before a clock was set back
+        check(9_000_000, 59, false);
+        check(5_000, 61, false); // it lives, on a clock that was set back
+        check(5_000, 121, false);
+        check(5_000, 122, true);
+    }
 
     #[test]
     fn this_process_lives_and_others_are_told_apart() {

@@ -121,7 +121,12 @@ impl Pipeline {
     /// Stages whose products are kept in a database.
     #[must_use]
     pub fn new(database: &Path) -> Self {
-        Self { cache: Cache::new(database.to_owned()) }
+        Self::over(Cache::new(database.to_owned()))
+    }
+
+    /// Stages over a cache.
+    pub(super) fn over(cache: Cache) -> Self {
+        Self { cache }
     }
 
     fn model(&self, spec: &JobSpec) -> Result<(Arc<Model>, Used)> {
@@ -187,12 +192,12 @@ impl Executor for Pipeline {
         let (drape, used_drape) =
             self.cache.get(StageKind::Drape, &spec.inputs.stage_hash(StageKind::Drape), || match spec.simulator {
                 Simulator::Fem => {
-                    let params = sim::fem::Params::default();
+                    let params = spec.parameters.fem()?;
                     sim::fem::simulate(&model.body, &field, &meshes.0, &spec.fabric, &params, monitor)
                         .map_err(sim_error)
                 }
                 Simulator::Hybrid => {
-                    let params = sim::hybrid::Params::default();
+                    let params = spec.parameters.hybrid()?;
                     sim::hybrid::simulate(&model.body, &field, garment, &spec.fabric, &params, monitor)
                         .map_err(sim_error)
                 }

@@ -6,15 +6,13 @@
 use rusqlite::{Connection, OptionalExtension, Transaction, named_params};
 
 use super::error::{Result, StudyError};
-use super::owner::{self, Owner};
+use super::owner::{self, Owner, Watch};
 use super::read;
 use super::store::now_ms;
 use super::types::{JobId, Status};
 
 /// A job whose process died this often is failed, lest it kill every process that takes it.
 const MAX_LOST: u32 = 10;
-/// A heartbeat older than this, ms, is a dead owner's, where its process cannot be looked up.
-const LEASE_MS: i64 = 60_000;
 
 /// What the queue knows of a job.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -83,7 +81,7 @@ pub(crate) fn apply(
                 heartbeat_at = CASE WHEN :status = 'running' THEN :now END,
                 started_at = CASE WHEN :status = 'running' THEN :now WHEN :status = 'queued' THEN NULL ELSE started_at END,
                 finished_at = CASE WHEN :status IN ('running', 'queued') THEN NULL ELSE :now END,
-                wall_ms = CASE WHEN :status IN ('running', 'queued') THEN NULL ELSE :now - started_at END
+                wall_ms = CASE WHEN :status IN ('running', 'queued') THEN NULL ELSE max(0, :now - started_at) END
             WHERE job_id = :id",
         )?
         .execute(named_params! {
@@ -105,16 +103,26 @@ fn load(connection: &Connection, id: JobId) -> Result<State> {
     state.ok_or_else(|| StudyError::NotFound { what: "job", name: id.to_string(), known: vec![] })
 }
 
-/// Takes the next queued job among `ids` for `owner`: greatest priority first, then in order of queueing.
-pub(crate) fn claim(transaction: &Transaction<'_>, ids: &[JobId], owner: &Owner) -> Result<Option<JobId>> {
-    take_over(transaction)?;
+/// Names the jobs that this connection works on: [`claim`] and [`is_open`] see no others. Ten thousand of them are looked
+/// up faster in a table than in a list that goes along with every question.
+pub(crate) fn want(connection: &Connection, ids: &[JobId]) -> Result<()> {
+    connection.execute_batch("CREATE TEMP TABLE wanted (job_id INTEGER PRIMARY KEY) STRICT")?;
+    let all = serde_json::Value::from_iter(ids.iter().map(|id| id.0)).to_string();
+    connection.execute("INSERT INTO wanted SELECT value FROM json_each(?)", [all])?;
+    Ok(())
+}
+
+/// Takes the next queued job that is wanted for `owner`: greatest priority first, then in order of queueing.
+pub(crate) fn claim(transaction: &Transaction<'_>, owner: &Owner, watch: &mut Watch) -> Result<Option<JobId>> {
+    take_over(transaction, watch)?;
     let next = transaction
         .prepare_cached(
-            "SELECT job_id FROM job JOIN study USING (study_id)
-            WHERE status = 'queued' AND is_current AND NOT paused AND job_id IN (SELECT value FROM json_each(?))
+            "SELECT job_id FROM job
+            WHERE status = 'queued' AND is_current AND job_id IN wanted
+                AND (SELECT NOT paused FROM study WHERE study.study_id = job.study_id)
             ORDER BY priority DESC, job_id LIMIT 1",
         )?
-        .query_row([ids_json(ids)], |row| row.get(0).map(JobId))
+        .query_row([], |row| row.get(0).map(JobId))
         .optional()?;
     if let Some(id) = next {
         apply(transaction, id, &Event::Claim(owner.as_str()), None)?;
@@ -124,15 +132,13 @@ pub(crate) fn claim(transaction: &Transaction<'_>, ids: &[JobId], owner: &Owner)
 }
 
 /// Puts jobs of dead owners back into the queue.
-fn take_over(transaction: &Transaction<'_>) -> Result<()> {
+fn take_over(transaction: &Transaction<'_>, watch: &mut Watch) -> Result<()> {
     let running: Vec<(JobId, String, i64)> = transaction
         .prepare_cached("SELECT job_id, owner, heartbeat_at FROM job WHERE status = 'running'")?
         .query_map([], |row| Ok((JobId(row.get(0)?), row.get(1)?, row.get(2)?)))?
         .collect::<rusqlite::Result<_>>()?;
-    let now = now_ms();
     for (id, owner, heartbeat) in running {
-        let dead = owner::is_dead(&owner).unwrap_or(now - heartbeat > LEASE_MS);
-        if !dead {
+        if !owner::is_dead(&owner).unwrap_or_else(|| watch.stands_still(id, heartbeat)) {
             continue;
         }
         let message = format!("{} ended before the job did", owner::describe(&owner));
@@ -145,12 +151,11 @@ fn take_over(transaction: &Transaction<'_>) -> Result<()> {
     Ok(())
 }
 
-/// Number of jobs among `ids` that a worker may still get: queued, or running somewhere.
-pub(crate) fn open_jobs(connection: &Connection, ids: &[JobId]) -> Result<usize> {
-    let sql = "SELECT count(*) FROM job WHERE is_current AND status IN ('queued', 'running')
-        AND job_id IN (SELECT value FROM json_each(?))";
-    let n: i64 = connection.prepare_cached(sql)?.query_row([ids_json(ids)], |row| row.get(0))?;
-    Ok(n as usize)
+/// Whether a worker may still get a job that is wanted: one is queued, or running somewhere.
+pub(crate) fn is_open(connection: &Connection) -> Result<bool> {
+    let sql = "SELECT EXISTS (
+        SELECT 1 FROM job WHERE status IN ('queued', 'running') AND is_current AND job_id IN wanted)";
+    Ok(connection.prepare_cached(sql)?.query_row([], |row| row.get(0))?)
 }
 
 /// Adds a line to a job's log.
@@ -158,11 +163,6 @@ pub(crate) fn log(connection: &Connection, id: JobId, level: &str, text: &str) -
     let sql = "INSERT INTO job_log (job_id, at, level, text) VALUES (?, ?, ?, ?)";
     connection.prepare_cached(sql)?.execute((id.0, now_ms(), level, text))?;
     Ok(())
-}
-
-/// Job numbers as a JSON array, for `json_each`.
-fn ids_json(ids: &[JobId]) -> String {
-    serde_json::Value::from_iter(ids.iter().map(|id| id.0)).to_string()
 }
 
 #[cfg(test)]

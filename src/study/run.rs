@@ -212,7 +212,7 @@ fn check_patterns(study: &Study) -> Result<()> {
 }
 
 /// Refuses a selection with a name that the study does not have.
-fn check_names(study: &Study, selection: &Selection) -> Result<()> {
+pub(super) fn check_names(study: &Study, selection: &Selection) -> Result<()> {
     let specs = spec::jobs(study);
     type Name = fn(&spec::JobSpec) -> String;
     let axes: [(&'static str, &[String], Name); 4] = [

@@ -3,6 +3,7 @@
 use super::catalogue::{FABRIC_NUMBERS, MEASUREMENTS};
 use super::file::{GarmentEntry, ScanFile, SizeFile, SourceFile, Study, Subject};
 use super::inputs::Inputs;
+use super::parameters::Parameters;
 use super::pipeline;
 use crate::body::Measurements;
 use crate::fit::Simulator;
@@ -10,10 +11,12 @@ use crate::sim::Fabric;
 use crate::units::mm;
 
 /// One simulation with everything it needs.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct JobSpec {
     /// Garment.
     pub garment: String,
+    /// Its style in the catalogue.
+    pub style: String,
     /// Size.
     pub size: String,
     /// Subject.
@@ -36,6 +39,8 @@ pub struct JobSpec {
     pub fabric: Fabric,
     /// Edge length of the finest mesh, m.
     pub edge_length_m: f64,
+    /// Values of the simulators' parameters that are not the default ones.
+    pub parameters: Parameters,
     /// All of the above, and the versions of the stages, as named values.
     pub inputs: Inputs,
 }
@@ -73,7 +78,7 @@ pub fn jobs(study: &Study) -> Vec<JobSpec> {
         for size in &garment.sizes {
             for subject in study.subjects.iter().filter(|subject| garment.subjects.contains(&subject.id)) {
                 for &simulator in &study.simulators {
-                    jobs.extend((1..=study.repeats).map(|n| job(study, garment, size, subject, simulator, n)));
+                    jobs.extend((1..=study.repeats).map(|n| job(garment, size, subject, simulator, n)));
                 }
             }
         }
@@ -81,38 +86,10 @@ pub fn jobs(study: &Study) -> Vec<JobSpec> {
     jobs
 }
 
-fn job(
-    study: &Study,
-    garment: &GarmentEntry,
-    size: &SizeFile,
-    subject: &Subject,
-    simulator: Simulator,
-    repeat: u32,
-) -> JobSpec {
-    let mut inputs = Inputs::default();
-    inputs.set("sim.name", simulator.as_str());
-    inputs.set("sim.repeat", repeat);
-    inputs.set("mesh.edge_length_mm", millimetres(study.edge_length_m));
-    if let Some(seams) = &garment.seams {
-        inputs.set(format!("seams.{}", seams.name), seams.hash());
-    }
-    inputs.set(format!("pattern.{}", size.pattern.name), size.pattern.hash());
-    if let Some(unit) = &garment.unit {
-        inputs.set("pattern.unit", unit);
-    }
-    subject_inputs(&mut inputs, &subject.id, &subject.measurements);
-    if let Some(scan) = &subject.scan {
-        inputs.set(format!("subject.{}.scan", subject.id), scan.file.hash());
-        if let Some(unit) = scan.unit {
-            inputs.set(format!("subject.{}.scan_unit", subject.id), unit.name());
-        }
-    }
-    fabric_inputs(&mut inputs, &garment.fabric);
-    for (name, version) in pipeline::versions(simulator) {
-        inputs.set(name, version);
-    }
-    JobSpec {
+fn job(garment: &GarmentEntry, size: &SizeFile, subject: &Subject, simulator: Simulator, repeat: u32) -> JobSpec {
+    let spec = JobSpec {
         garment: garment.name.clone(),
+        style: garment.style.clone(),
         size: size.name.clone(),
         subject: subject.id.clone(),
         simulator,
@@ -123,8 +100,40 @@ fn job(
         unit: garment.unit.clone(),
         seams: garment.seams.clone(),
         fabric: garment.fabric.clone(),
-        edge_length_m: study.edge_length_m,
-        inputs,
+        edge_length_m: garment.edge_length_m,
+        parameters: garment.parameters.clone(),
+        inputs: Inputs::default(),
+    };
+    spec.with_inputs()
+}
+
+impl JobSpec {
+    /// The same with its inputs as named values, for this program's versions of the stages.
+    pub(super) fn with_inputs(self) -> Self {
+        let mut inputs = Inputs::default();
+        inputs.set("sim.name", self.simulator.as_str());
+        inputs.set("sim.repeat", self.repeat);
+        inputs.set("mesh.edge_length_mm", millimetres(self.edge_length_m));
+        self.parameters.add_inputs(self.simulator, &mut inputs);
+        if let Some(seams) = &self.seams {
+            inputs.set(format!("seams.{}", seams.name), seams.hash());
+        }
+        inputs.set(format!("pattern.{}", self.pattern.name), self.pattern.hash());
+        if let Some(unit) = &self.unit {
+            inputs.set("pattern.unit", unit);
+        }
+        subject_inputs(&mut inputs, &self.subject, &self.measurements);
+        if let Some(scan) = &self.scan {
+            inputs.set(format!("subject.{}.scan", self.subject), scan.file.hash());
+            if let Some(unit) = scan.unit {
+                inputs.set(format!("subject.{}.scan_unit", self.subject), unit.name());
+            }
+        }
+        fabric_inputs(&mut inputs, &self.fabric);
+        for (name, version) in pipeline::versions(self.simulator) {
+            inputs.set(name, version);
+        }
+        Self { inputs, ..self }
     }
 }
 

@@ -1,13 +1,72 @@
 //! Questions in SQL: a read-only connection with a few statistics SQLite does not have.
 
-use rusqlite::fallible_iterator::FallibleIterator;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
 use rusqlite::functions::{Aggregate, Context, FunctionFlags};
 use rusqlite::types::ValueRef;
 use rusqlite::{Connection, Error};
 
-use super::error::Result;
+use super::error::{Result, StudyError};
 use super::types::{Table, Value};
 use super::workspace::Workspace;
+
+/// Queries that come with the program.
+const SAVED: [(&str, &str); 8] = [
+    ("against_thesis", include_str!("../../db/queries/against_thesis.sql")),
+    ("attention", include_str!("../../db/queries/attention.sql")),
+    ("ease_and_error", include_str!("../../db/queries/ease_and_error.sql")),
+    ("measurements", include_str!("../../db/queries/measurements.sql")),
+    ("preposition", include_str!("../../db/queries/preposition.sql")),
+    ("sizes", include_str!("../../db/queries/sizes.sql")),
+    ("thesis_table", include_str!("../../db/queries/thesis_table.sql")),
+    ("times", include_str!("../../db/queries/times.sql")),
+];
+
+/// A query that has a name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SavedQuery {
+    /// Name.
+    pub name: String,
+    /// What it asks: its first line, where that is a comment.
+    pub about: String,
+    /// The query.
+    pub sql: String,
+}
+
+/// The saved queries by name: those of the program, and of a folder with a file NAME.sql each, which win.
+///
+/// # Errors
+/// When the folder has a file that cannot be read.
+pub fn saved_queries(folder: Option<&Path>) -> Result<Vec<SavedQuery>> {
+    let mut found: BTreeMap<String, String> = BTreeMap::new();
+    found.extend(SAVED.iter().map(|(name, sql)| ((*name).to_owned(), (*sql).to_owned())));
+    let entries = folder.and_then(|folder| std::fs::read_dir(folder).ok());
+    for path in entries.into_iter().flatten().flatten().map(|entry| entry.path()) {
+        if path.extension().is_some_and(|extension| extension == "sql") {
+            let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            found.insert(name, std::fs::read_to_string(&path).map_err(StudyError::io(&path))?);
+        }
+    }
+    let about = |sql: &str| sql.lines().next().and_then(|line| line.strip_prefix("-- ")).unwrap_or_default().to_owned();
+    Ok(found.into_iter().map(|(name, sql)| SavedQuery { about: about(&sql), name, sql }).collect())
+}
+
+/// The text of a saved query.
+///
+/// # Errors
+/// When there is none of that name.
+pub fn saved_query(folder: Option<&Path>, name: &str) -> Result<String> {
+    let saved = saved_queries(folder)?;
+    let known = saved.iter().map(|saved| saved.name.clone()).collect();
+    let found = saved.into_iter().find(|saved| saved.name == name);
+    found.map(|saved| saved.sql).ok_or_else(|| StudyError::NotFound {
+        what: "saved query",
+        name: name.to_owned(),
+        known,
+    })
+}
 
 /// Stops a query that another thread waits for.
 pub struct Interrupter(rusqlite::InterruptHandle);
@@ -32,21 +91,9 @@ impl Workspace {
     /// 1, linear between order statistics).
     ///
     /// # Errors
-    /// What SQLite says of the query.
+    /// What SQLite says of the query; [`StudyError::Interrupted`] when an [`Interrupter`] stopped it.
     pub fn query(&self, sql: &str) -> Result<Table> {
-        let mut batch = rusqlite::Batch::new(&self.reader, sql);
-        let mut table = Table::default();
-        while let Some(mut statement) = batch.next()? {
-            let columns = statement.column_names().map(str::to_owned).collect::<Vec<_>>();
-            let width = columns.len();
-            let mut rows = Vec::new();
-            let mut found = statement.raw_query();
-            while let Some(row) = found.next()? {
-                rows.push((0..width).map(|k| row.get_ref(k).map(value)).collect::<rusqlite::Result<_>>()?);
-            }
-            table = Table { columns, rows };
-        }
-        Ok(table)
+        Ok(self.answer(sql, usize::MAX, &AtomicBool::new(false))?.table)
     }
 }
 

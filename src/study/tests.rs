@@ -84,9 +84,12 @@ fn study(density_kg_m2: f64) -> Study {
             unit: None,
             fabric,
             sizes: vec![size("s"), size("m")],
+            style: "tee".into(),
+            edge_length_m: 0.015,
+            parameters: Parameters::default(),
+            swept: vec![],
         }],
         simulators: vec![Simulator::Fem],
-        edge_length_m: 0.015,
         repeats: 1,
         cuts: Cuts::default(),
     }

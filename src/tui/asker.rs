@@ -60,11 +60,12 @@ pub fn serve(database: &Path, brake: &Brake, wanted: &Receiver<Question>, sender
         let start = Instant::now();
         let message = match question {
             Question::Names => {
-                let relations = workspace.and_then(|it| it.relations().map_err(|error| error.to_string()));
-                match relations {
-                    Ok(relations) => Message::Names(relations, saved_queries(database)),
-                    Err(error) => Message::Failed(error),
-                }
+                let folder = database.parent().map(|folder| folder.join("queries"));
+                let names = workspace.and_then(|it| {
+                    let names = it.relations().and_then(|known| Ok((known, saved_queries(folder.as_deref())?)));
+                    names.map_err(|error| error.to_string())
+                });
+                names.map_or_else(Message::Failed, |(relations, queries)| Message::Names(relations, queries))
             }
             Question::Rows(text) => {
                 let answer =

@@ -7,9 +7,23 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 71] = [
+const COMMANDS: [&str; 85] = [
     "",
     "run",
+    "run show",
+    "run diff",
+    "run rerun",
+    "study",
+    "study new",
+    "study check",
+    "study export",
+    "study population",
+    "study nearest",
+    "study sizes",
+    "job",
+    "job handout",
+    "job run",
+    "job merge",
     "try",
     "report",
     "sql",
@@ -107,7 +121,7 @@ fn help_lists_every_command() {
         let entries = lines.filter(|line| line.starts_with("  ") && !line.starts_with("   "));
         entries.filter_map(|line| line.split_whitespace().next().map(str::to_owned)).collect()
     };
-    for group in ["", "pattern", "body", "queue", "subject", "style", "size", "fabric"] {
+    for group in ["", "run", "study", "job", "pattern", "body", "queue", "subject", "style", "size", "fabric"] {
         let help = place.toile(&format!("{group} --help")).ends_with(0).out;
         for name in listed(&help) {
             let command = format!("{group} {name}").trim().to_owned();
@@ -131,8 +145,13 @@ fn wrong_usage_ends_with_2_and_says_what_would_be_right() {
     check("run . --sim hybird", "no simulator `hybird`");
     check("run . --workers 0", "1..=1024");
     check("run nowhere", "nowhere");
+    check("run show 99", "no job `99`");
+    check("job run study.toml", "study.toml: this is no job file");
+    check("job merge study.toml", "study.toml: this is no result file");
     check("sql", "<QUERY|--file <FILE>>");
-    check("sql nonsense", "syntax error");
+    check("sql nonsense", "no saved query `nonsense`; there are: against_thesis, attention,");
+    check("sql SELECT/nonsense", "syntax error");
+    check("sql timse", "did you mean `times`?");
     check("queue log 99", "no job `99`");
     check("report nothing", "no study `nothing`");
     check("subject add anna --sex f", "`stature_mm` is missing");

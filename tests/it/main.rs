@@ -5,6 +5,8 @@
 
 mod bad_input;
 mod cli;
+mod durability;
+mod engine;
 mod pattern_files;
 mod program;
 mod report;

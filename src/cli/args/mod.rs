@@ -84,6 +84,12 @@ pub enum Command {
     /// The job queue.
     #[command(subcommand)]
     Queue(Queue),
+    /// Study files: start, check, export.
+    #[command(subcommand)]
+    Study(StudyCommand),
+    /// Jobs as files, for other machines.
+    #[command(subcommand)]
+    Job(Job),
     /// Subjects of the catalogue.
     #[command(subcommand)]
     Subject(Catalogue<SubjectValues>),
@@ -118,12 +124,41 @@ pub struct StudyPath {
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub struct Run {
+    #[command(subcommand)]
+    pub command: Option<RunCommand>,
     /// Folder of the study, or its study.toml.
-    pub study: PathBuf,
+    #[arg(required = true)]
+    pub study: Option<PathBuf>,
     /// Simulations at once [default: number of cores].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub workers: Option<u16>,
+    #[command(flatten)]
+    pub part: StudyPart,
+    /// Who works: threads of this process, or tasks of a Slurm cluster.
+    #[arg(long, value_enum, default_value_t = Engine::Local)]
+    pub engine: Engine,
+    /// Folder that all nodes of the cluster see [default: slurm/STUDY beside the database].
+    #[arg(long, value_name = "DIR")]
+    pub slurm_dir: Option<PathBuf>,
+    /// Option for sbatch, such as --time=10; may be given again.
+    #[arg(long, value_name = "OPTION", allow_hyphen_values = true)]
+    pub sbatch: Vec<String>,
+    /// Say what would run and why; change nothing.
+    #[arg(long)]
+    pub dry_run: bool,
+    /// Say of each job why it runs: which input changed.
+    #[arg(long)]
+    pub why: bool,
+    /// Write no report.
+    #[arg(long)]
+    pub no_report: bool,
+}
+
+/// Part of a study.
+#[derive(Debug, Args)]
+pub struct StudyPart {
     /// Only these simulators.
     #[arg(long, value_name = "fem,hybrid", value_delimiter = ',')]
     pub sim: Vec<String>,
@@ -136,15 +171,119 @@ pub struct Run {
     /// Only these garments.
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     pub garment: Vec<String>,
-    /// Say what would run and why; change nothing.
-    #[arg(long)]
-    pub dry_run: bool,
-    /// Say of each job why it runs: which input changed.
-    #[arg(long)]
-    pub why: bool,
-    /// Write no report.
-    #[arg(long)]
-    pub no_report: bool,
+}
+
+/// Who works on jobs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Engine {
+    /// Threads of this process.
+    Local,
+    /// Tasks of a Slurm cluster.
+    Slurm,
+}
+
+/// Commands on stored runs.
+#[derive(Debug, Subcommand)]
+pub enum RunCommand {
+    /// Everything that is stored of one run: where it was made, of what, and its numbers.
+    Show {
+        /// Number of the job (`toile queue ls`).
+        job: i64,
+    },
+    /// Two runs side by side: inputs that differ, numbers, chi.
+    Diff {
+        /// Number of the one job.
+        before: i64,
+        /// Number of the other.
+        after: i64,
+    },
+    /// Make a run again from its stored inputs, without the cache, and compare; exit code 3 when a bit differs.
+    Rerun {
+        /// Number of the job.
+        job: i64,
+    },
+}
+
+/// Commands on jobs as files, for any scheduler.
+#[derive(Debug, Subcommand)]
+pub enum Job {
+    /// Queue a study and write a file for each job that is to be run.
+    Handout {
+        /// Folder of the study, or its study.toml.
+        study: PathBuf,
+        /// Folder to write to.
+        #[arg(long, short, value_name = "DIR")]
+        output: PathBuf,
+        #[command(flatten)]
+        part: StudyPart,
+    },
+    /// Run a job file, on any machine and without a database; its result lies beside it.
+    Run {
+        /// Job file.
+        file: PathBuf,
+        /// Result file to write.
+        #[arg(long, short, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
+    /// Store results of job files: all of them or none; again changes nothing.
+    Merge {
+        /// Result files, or folders with them.
+        #[arg(required = true)]
+        results: Vec<PathBuf>,
+    },
+}
+
+/// Commands on study files.
+#[derive(Debug, Subcommand)]
+pub enum StudyCommand {
+    /// Start a study: a folder with a study.toml that says what may be in it, and drafted patterns.
+    New {
+        /// Folder to make.
+        folder: PathBuf,
+        /// Style to draft.
+        #[arg(long, value_enum, default_value_t = DraftStyle::Tshirt)]
+        style: DraftStyle,
+    },
+    /// Check a study file and everything it names: every problem at once, with its line.
+    Check(StudyPath),
+    /// Print [[subject]] tables of people who stand for a population, drawn from a published survey [Gordon 2014].
+    Population {
+        /// How many of each sex.
+        #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=500))]
+        bodies: u32,
+        /// Only of this sex.
+        #[arg(long, value_enum)]
+        sex: Option<Sex>,
+        /// People drawn of each sex, of whom they are chosen.
+        #[arg(long, default_value_t = 5000, value_parser = clap::value_parser!(u32).range(100..=100_000))]
+        people: u32,
+        /// Seed of the draw.
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+    },
+    /// Draw which size fits whom: an SVG picture of all subjects of a study.
+    Sizes {
+        /// Name of the study, its folder, or its study.toml.
+        study: PathBuf,
+        /// SVG file to write.
+        #[arg(long, short, value_name = "FILE")]
+        output: PathBuf,
+    },
+    /// Who of a study is most like somebody, and the results there are of them already.
+    Nearest {
+        /// Name of the study, its folder, or its study.toml.
+        study: PathBuf,
+        #[command(flatten)]
+        subject: SubjectValues,
+    },
+    /// Write a folder that reproduces a study elsewhere: what it takes from the catalogue is in it.
+    Export {
+        /// Folder of the study, or its study.toml.
+        study: PathBuf,
+        /// Folder to write to.
+        #[arg(long, short, value_name = "DIR")]
+        output: PathBuf,
+    },
 }
 
 /// Arguments of `report`.
@@ -161,15 +300,21 @@ pub struct Report {
 #[derive(Debug, Args)]
 #[command(group = clap::ArgGroup::new("source").required(true))]
 pub struct Sql {
-    /// The query.
+    /// The query, or the name of a saved one (--list).
     #[arg(group = "source")]
     pub query: Option<String>,
+    /// List the saved queries: those of the program and of db/queries.
+    #[arg(long, group = "source")]
+    pub list: bool,
     /// A file with the query; - is standard input.
     #[arg(long, short, group = "source", value_name = "FILE")]
     pub file: Option<PathBuf>,
     /// How to print the rows.
     #[arg(long, value_enum)]
     pub format: Option<Format>,
+    /// File to write to, in place of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    pub output: Option<PathBuf>,
 }
 
 /// How rows are printed.
@@ -181,6 +326,8 @@ pub enum Format {
     Csv,
     /// For programs.
     Json,
+    /// For data frames: a Parquet file.
+    Parquet,
 }
 
 /// Arguments of `audit`.

@@ -16,7 +16,7 @@ use crate::geom::{DistanceField, Surface, V3};
 use crate::sim::solver::Contact4;
 
 /// Parameters of body contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ContactParams {
     /// Distance from the skin at which cloth begins to be pushed, m.
     pub offset_m: f64,

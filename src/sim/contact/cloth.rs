@@ -14,7 +14,7 @@ use crate::geom::V3;
 use crate::sim::solver::Contact4;
 
 /// Parameters of self-contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ClothContactParams {
     /// Distance at which layers begin to push each other apart, m.
     pub thickness_m: f64,

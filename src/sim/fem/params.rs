@@ -16,7 +16,7 @@ pub fn level_edges(finest_m: f64) -> Vec<f64> {
 }
 
 /// How FEM-GS places, sews and drapes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Params {
     /// Offset `mu`: the middle of a trunk piece starts `mu H / 2` before the trunk's centre, `H` the body depth (4.18).
     /// `None`: the least that clears the body all along the piece and brings its sides to the body's sides.

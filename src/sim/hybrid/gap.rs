@@ -8,7 +8,7 @@ use crate::sim::sewing;
 use crate::units::from_mm;
 
 /// Girth of a draped garment beside that of the body, at one of the style's fit levels.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Closure {
     /// Body level (`chest`, `hip`, ...).
     pub level: String,

@@ -32,7 +32,7 @@ pub use sewn::Sewn;
 use relax::{Push, Relaxation};
 
 /// Parameters of Hybrid-GS.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Params {
     /// Numbers of measurements that are not controlled: what their chi is without.
     pub uncontrolled: Vec<u32>,

@@ -13,7 +13,7 @@ use crate::sim::cloth::Cloth;
 use crate::sim::{Fabric, SimError};
 
 /// Parameters of the steps of pop-up and drape.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct RelaxParams {
     /// Distance from the skin at which cloth is pushed, m.
     pub offset_m: f64,

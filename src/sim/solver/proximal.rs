@@ -11,7 +11,7 @@ use super::system::System;
 use crate::geom::V3;
 
 /// How to step.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct StepParams {
     /// First step size, s.
     pub h_start_s: f64,

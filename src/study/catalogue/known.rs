@@ -1,9 +1,11 @@
 //! What is in the catalogue: the current revisions, what is built in, and what becomes of entries that are removed.
 
+use std::collections::BTreeMap;
+
 use rusqlite::{Connection, Row, Transaction};
 
 use super::super::error::{Result, StudyError};
-use super::super::file::Known;
+use super::super::file::{Known, KnownStyle, SizeFile, SourceFile};
 use super::super::store;
 use super::super::types::SubjectId;
 use super::super::workspace::Workspace;
@@ -29,9 +31,20 @@ pub struct SubjectRow {
     pub measurements: Measurements,
 }
 
-/// Puts the thesis's subjects and the fabric library into the catalogue, where they are not there yet.
+/// Puts the thesis's subjects and the fabric library into the catalogue, where they are not there yet. A database that has
+/// them from this program is only read: whoever asks it something need not wait for those who write.
 pub(crate) fn add_builtin(connection: &mut Connection) -> Result<()> {
+    let mut content = blake3::Hasher::new();
+    content.update(THESIS_SUBJECTS.as_bytes());
+    content.update(format!("{:?}", sim::fabric::library()).as_bytes());
+    let hash = content.finalize().to_hex().to_string();
+    let is_there = "SELECT EXISTS (SELECT 1 FROM built_in WHERE hash = ?)";
+    if connection.query_row(is_there, [&hash], |row| row.get(0))? {
+        return Ok(());
+    }
     let transaction = store::write(connection)?;
+    transaction.execute("DELETE FROM built_in", [])?;
+    transaction.execute("INSERT INTO built_in (hash) VALUES (?)", [&hash])?;
     for (name, measurements) in thesis_subjects()? {
         revision::subject(&transaction, &name, &measurements, By::Program)?;
     }
@@ -47,6 +60,7 @@ pub(crate) fn known(connection: Option<&Connection>) -> Result<Known> {
         return Ok(Known {
             subjects: thesis_subjects()?.into_iter().collect(),
             fabrics: sim::fabric::library().into_iter().map(|cloth| (cloth.name.clone(), cloth)).collect(),
+            styles: BTreeMap::new(),
         });
     };
     let subjects = subjects(connection)?.into_iter().map(|row| (row.name, row.measurements));
@@ -61,7 +75,56 @@ pub(crate) fn known(connection: Option<&Connection>) -> Result<Known> {
         Ok((cloth.name.clone(), cloth))
     };
     let fabrics = statement.query_map([], row)?.collect::<rusqlite::Result<_>>()?;
-    Ok(Known { subjects: subjects.collect(), fabrics })
+    Ok(Known { subjects: subjects.collect(), fabrics, styles: styles(connection)? })
+}
+
+/// The current styles with their current sizes, by name.
+fn styles(connection: &Connection) -> Result<BTreeMap<String, KnownStyle>> {
+    let sql = "SELECT style.name, seam_file, seams, size.name, pattern_file, pattern, unit
+        FROM size
+            JOIN catalogue_entry AS sized ON sized.part = 'size' AND sized.name = size.style || '/' || size.name
+                AND sized.revision = size.revision AND NOT sized.is_retired
+            JOIN style ON style.name = size.style
+            JOIN catalogue_entry AS styled ON styled.part = 'style' AND styled.name = style.name
+                AND styled.revision = style.revision AND NOT styled.is_retired
+        ORDER BY style.name, size_id";
+    let mut statement = connection.prepare_cached(sql)?;
+    let mut rows = statement.query([])?;
+    let mut styles: BTreeMap<String, KnownStyle> = BTreeMap::new();
+    while let Some(row) = rows.next()? {
+        let (file, seams): (String, String) = (row.get(1)?, row.get(2)?);
+        let seams = (!file.is_empty()).then(|| SourceFile { name: file, bytes: seams.into_bytes().into() });
+        let pattern = SourceFile { name: row.get(4)?, bytes: row.get::<_, Vec<u8>>(5)?.into() };
+        let style = styles.entry(row.get(0)?).or_insert(KnownStyle { seams, sizes: vec![] });
+        style.sizes.push((SizeFile { name: row.get(3)?, pattern }, row.get(6)?));
+    }
+    Ok(styles)
+}
+
+/// A style and a size by their rows: name, seam file, pattern and its unit.
+pub(crate) fn read_style(
+    connection: &Connection,
+    style: i64,
+    size: i64,
+) -> Result<(String, Option<SourceFile>, SourceFile, Option<String>)> {
+    let sql = "SELECT style.name, seam_file, seams, pattern_file, pattern, unit FROM style, size
+        WHERE style_id = ? AND size_id = ?";
+    Ok(connection.prepare_cached(sql)?.query_row([style, size], |row| {
+        let (file, seams): (String, String) = (row.get(1)?, row.get(2)?);
+        let seams = (!file.is_empty()).then(|| SourceFile { name: file, bytes: seams.into_bytes().into() });
+        let pattern = SourceFile { name: row.get(3)?, bytes: row.get::<_, Vec<u8>>(4)?.into() };
+        Ok((row.get(0)?, seams, pattern, row.get(5)?))
+    })?)
+}
+
+/// A fabric by its row.
+pub(crate) fn read_fabric(connection: &Connection, id: i64) -> Result<Fabric> {
+    let sql = format!("SELECT name, source, {} FROM fabric WHERE fabric_id = ?", columns(&FABRIC_NUMBERS));
+    Ok(connection.prepare_cached(&sql)?.query_row([id], |row| {
+        let mut cloth = Fabric { source: row.get(1)?, ..Fabric::blank(&row.get::<_, String>(0)?) };
+        read_numbers(row, 2, &FABRIC_NUMBERS, &mut cloth)?;
+        Ok(cloth)
+    })?)
 }
 
 /// Columns of fields, for SQL.

@@ -23,10 +23,10 @@ use super::workspace::Workspace;
 use crate::body::Measurements;
 use crate::sim::Fabric;
 
-pub(crate) use fields::{Entry, keys};
+pub(crate) use fields::{Entry, filled, keys};
 pub use fields::{FABRIC_NUMBERS, Field, Given, MEASUREMENTS, sex};
 pub use known::SubjectRow;
-pub(crate) use known::{add_builtin, known};
+pub(crate) use known::{add_builtin, known, read_fabric, read_style};
 pub use norms::{doubts, is_doubtful, percentile, percentile_text};
 pub(crate) use revision::{By, fabric, size, style, subject};
 pub use sizes::SizeRow;
@@ -263,7 +263,7 @@ impl Workspace {
     fn save_entry<T: Stored>(&mut self, mode: Mode, name: &str, base: Option<&T>, given: &[Given]) -> Result<Saved> {
         let refuse = |problems| refused(T::PART, name, problems);
         check_name(name).map_err(|problem| refuse(vec![problem]))?;
-        let entry = fields::filled(base, name, given);
+        let entry = filled(base, name, given);
         let entry = entry.map_err(|problems| refuse(problems.into_iter().map(|(_, problem)| problem).collect()))?;
         let doubts = entry.verify().map_err(|problem| refuse(vec![problem]))?;
         let transaction = store::write(self.writer()?)?;

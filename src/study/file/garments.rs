@@ -5,20 +5,37 @@ use std::path::Path;
 
 use toml::Spanned;
 
+use super::super::parameters::Parameters;
 use super::parse::{lookup, source, unique};
 use super::reader::{Place, Reader};
-use super::{GarmentEntry, Placed, Sewn, SizeFile, SourceFile, Subject};
+use super::sweep::{self, EDGE_MM};
+use super::{GarmentEntry, KnownStyle, Placed, Sewn, SizeFile, SourceFile, Subject};
 use crate::sim::Fabric;
+use crate::units::from_mm;
 
-const GARMENT_KEYS: [&str; 6] = ["name", "subjects", "seams", "unit", "fabric", "sizes"];
+const GARMENT_KEYS: [&str; 9] =
+    ["name", "subjects", "seams", "unit", "fabric", "sizes", "style", "edge_length_mm", "parameters"];
+
+/// What garments of a file have in common.
+pub(super) struct Common<'a> {
+    /// Folder of the file.
+    pub folder: &'a Path,
+    /// Fabrics they may name.
+    pub fabrics: &'a BTreeMap<String, Fabric>,
+    /// Styles they may name.
+    pub styles: &'a BTreeMap<String, KnownStyle>,
+    /// Edge length of the finest mesh, m, where a garment says nothing else.
+    pub edge_length_m: f64,
+    /// Parameters of the simulators, likewise.
+    pub parameters: Parameters,
+}
 
 /// All garments with their cloth and those who wear them.
 pub(super) fn garments(
     reader: &mut Reader<'_>,
     top: &Place<'_>,
-    folder: &Path,
+    common: &Common<'_>,
     subjects: &[Subject],
-    fabrics: &BTreeMap<String, Fabric>,
 ) -> Vec<GarmentEntry> {
     let places = reader.tables(top, "garment", "garment");
     if places.is_empty() {
@@ -29,18 +46,74 @@ pub(super) fn garments(
     for mut place in places {
         let name = named(reader, &mut place, &mut names);
         let subjects = wearers(reader, &place, top, subjects);
-        let Sewn { seams, unit, sizes } = sewn(reader, &place, folder);
-        let holds_seams = !sizes.is_empty() && sizes.iter().all(|size| size.pattern.holds_seams());
-        if !holds_seams && !place.table.contains_key("seams") {
-            reader.missing(&place, "seams", "the file that says how its pieces are sewn");
+        let style = reader.text(&place, "style");
+        let Sewn { seams, unit, sizes } = match &style {
+            Some(style) if !place.table.contains_key("seams") => in_catalogue(reader, &place, style, common.styles),
+            _ => {
+                let sewn = sewn(reader, &place, common.folder);
+                let holds_seams = !sewn.sizes.is_empty() && sewn.sizes.iter().all(|size| size.pattern.holds_seams());
+                if !holds_seams && !place.table.contains_key("seams") {
+                    let wanted = "the file that says how its pieces are sewn, or a `style` of the catalogue";
+                    reader.missing(&place, "seams", wanted);
+                }
+                sewn
+            }
+        };
+        let edge_length_m = reader.number(&place, "edge_length_mm", EDGE_MM).map_or(common.edge_length_m, from_mm);
+        let mut parameters = common.parameters.clone();
+        for (name, value) in sweep::parameters(reader, &place).iter() {
+            // It was accepted when it was read.
+            let _ = parameters.set(name, value.clone());
         }
         let fabric = reader.need_text(&place, "fabric", "the name of a fabric");
-        let fabric = fabric.and_then(|name| lookup(reader, fabrics, &name, "fabric").cloned());
+        let fabric = fabric.and_then(|name| lookup(reader, common.fabrics, &name, "fabric").cloned());
         if let (Some(name), Some(fabric)) = (name, fabric) {
-            garments.push(GarmentEntry { name: (*name.get_ref()).to_owned(), subjects, seams, unit, fabric, sizes });
+            let name = (*name.get_ref()).to_owned();
+            let style = style.map_or_else(|| name.clone(), |style| style.into_inner().to_owned());
+            let swept = vec![];
+            garments.push(GarmentEntry {
+                name,
+                subjects,
+                seams,
+                unit,
+                fabric,
+                sizes,
+                style,
+                edge_length_m,
+                parameters,
+                swept,
+            });
         }
     }
     garments
+}
+
+/// A style of the catalogue in all of its sizes, or those that are named.
+fn in_catalogue(
+    reader: &mut Reader<'_>,
+    place: &Place<'_>,
+    name: &Spanned<&str>,
+    styles: &BTreeMap<String, KnownStyle>,
+) -> Sewn {
+    let mut sewn = Sewn { seams: None, unit: unit(reader, place), sizes: vec![] };
+    let Some(style) = lookup(reader, styles, name, "style in the catalogue") else { return sewn };
+    sewn.seams.clone_from(&style.seams);
+    let known: BTreeMap<String, ()> = style.sizes.iter().map(|(size, _)| (size.name.clone(), ())).collect();
+    let wanted = reader.texts(place, "sizes").map(|names| {
+        let found = names.iter().filter(|size| lookup(reader, &known, size, "size of the style").is_some());
+        found.map(|size| (*size.get_ref()).to_owned()).collect::<Vec<_>>()
+    });
+    let wanted = wanted.unwrap_or_else(|| style.sizes.iter().map(|(size, _)| size.name.clone()).collect());
+    for (size, unit) in wanted.iter().filter_map(|name| style.sizes.iter().find(|(size, _)| size.name == *name)) {
+        if unit.is_some() && sewn.unit.is_some() && *unit != sewn.unit {
+            let message =
+                format!("{}: sizes of `{}` are in different units; name those of one", place.name, name.get_ref());
+            reader.problem(&name.span(), message);
+        }
+        sewn.unit = sewn.unit.or(unit.clone());
+        sewn.sizes.push(size.clone());
+    }
+    sewn
 }
 
 /// Who wears a garment: the subjects it names, or else all of the file.

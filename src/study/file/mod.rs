@@ -20,11 +20,23 @@
 //! seams = "patterns/tshirt.seams.toml"  # not needed for GarmentCode JSON, which holds its own seams
 //! fabric = "cotton_shirting_light"  # of the library, the catalogue, or a [[fabric]] of this file
 //! unit = "mm"                       # only where the DXF files name no unit
+//! style = "tee"                     # in place of files: a style of the catalogue; default: the garment's name
+//! edge_length_mm = 12               # default: the study's
+//! parameters = { fem.offset_mu = 0.4 }  # over the study's
 //! sizes = [{ name = "S", pattern = "patterns/tshirt-s.dxf" }]   # DXF, a folder of DXF files, or GarmentCode JSON
+//! # with a style of the catalogue: sizes = ["S"]; default: all of the style
 //!
 //! [[fabric]]                        # numbers of a cloth of one's own, SI units as in the library
 //! name = "my_poplin"
 //! # density_kg_m2, thickness_mm, membrane_warp_n_m, membrane_weft_n_m, shear_n_m, bending_warp_nm, ...
+//!
+//! [parameters]                      # of the simulators, where they are not the default ones
+//! hybrid.push_steps = 20
+//!
+//! [[sweep]]                         # every combination becomes a garment: `tshirt offset_mu=0.4 bend_angle_deg=120`
+//! garments = ["tshirt"]             # default: all
+//! fem.offset_mu = [0.4, 0.3]        # any parameter, `edge_length_mm`, `fabric` or a number `fabric.shear_n_m`
+//! fem.bend_angle_deg = [180, 120]
 //! ```
 //!
 //! Everything is checked before anything runs, and all problems are told at once.
@@ -34,6 +46,7 @@ mod parse;
 mod reader;
 mod source;
 mod subjects;
+mod sweep;
 #[cfg(test)]
 mod tests;
 
@@ -43,6 +56,7 @@ use std::path::{Path, PathBuf};
 
 pub use self::source::SourceFile;
 use super::error::{Result, StudyError};
+use super::parameters::Parameters;
 use crate::body::{LengthUnit, Measurements};
 use crate::fit::Cuts;
 use crate::fit::Simulator;
@@ -100,7 +114,7 @@ pub struct Subject {
 }
 
 /// A body scan of a study.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct ScanFile {
     /// OBJ, PLY or STL.
     pub file: SourceFile,
@@ -132,6 +146,14 @@ pub struct GarmentEntry {
     pub fabric: Fabric,
     /// Sizes, in order.
     pub sizes: Vec<SizeFile>,
+    /// Its style in the catalogue.
+    pub style: String,
+    /// Edge length of the finest cloth mesh, m.
+    pub edge_length_m: f64,
+    /// Values of the simulators' parameters that are not the default ones.
+    pub parameters: Parameters,
+    /// Names and values that a sweep gave it.
+    pub swept: Vec<(String, String)>,
 }
 
 /// A study, checked and with all its inputs read.
@@ -147,8 +169,6 @@ pub struct Study {
     pub garments: Vec<GarmentEntry>,
     /// Simulators, in order.
     pub simulators: Vec<Simulator>,
-    /// Edge length of the finest cloth mesh, m.
-    pub edge_length_m: f64,
     /// Simulations of each cell.
     pub repeats: u32,
     /// Where the fit classes meet.
@@ -162,6 +182,17 @@ pub struct Known {
     pub subjects: BTreeMap<String, Measurements>,
     /// Fabrics of the catalogue and the library.
     pub fabrics: BTreeMap<String, Fabric>,
+    /// Styles of the catalogue with their sizes.
+    pub styles: BTreeMap<String, KnownStyle>,
+}
+
+/// A style of the catalogue.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KnownStyle {
+    /// Seam file; `None` where the patterns hold their own seams.
+    pub seams: Option<SourceFile>,
+    /// Sizes, each with the unit of its pattern where its file names none.
+    pub sizes: Vec<(SizeFile, Option<String>)>,
 }
 
 /// An entry of a file, and where it stands.

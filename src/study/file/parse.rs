@@ -8,9 +8,10 @@ use toml::de::DeTable;
 
 use super::super::catalogue::{Entry, keys};
 use super::super::error::{StudyError, nearest};
-use super::garments::garments;
+use super::garments::{Common, garments};
 use super::reader::{Place, Reader};
 use super::subjects::{measurements, subjects};
+use super::sweep;
 use super::{Known, Placed, Problem, SourceFile, Study, Subject};
 use crate::body::Measurements;
 use crate::fit::Cuts;
@@ -18,8 +19,8 @@ use crate::fit::Simulator;
 use crate::sim::Fabric;
 use crate::units::{from_mm, mm};
 
-const STUDY_KEYS: [&str; 8] =
-    ["name", "simulators", "edge_length_mm", "repeats", "fit", "subject", "garment", "fabric"];
+const STUDY_KEYS: [&str; 10] =
+    ["name", "simulators", "edge_length_mm", "repeats", "fit", "subject", "garment", "fabric", "parameters", "sweep"];
 
 /// Checks the text of a study file; files it names are looked up beside it.
 pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec<Problem>> {
@@ -35,14 +36,21 @@ pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec
     let fabrics = fabrics(&mut reader, &top, &known.fabrics);
     let subjects = subjects(&mut reader, &top, folder, &known.subjects);
     let subjects: Vec<Subject> = subjects.into_iter().map(|placed| placed.entry).collect();
+    let common = Common {
+        folder,
+        fabrics: &fabrics,
+        styles: &known.styles,
+        edge_length_m: from_mm(reader.number(&top, "edge_length_mm", sweep::EDGE_MM).unwrap_or(15.0)),
+        parameters: sweep::parameters(&mut reader, &top),
+    };
+    let worn = garments(&mut reader, &top, &common, &subjects);
     let study = Study {
         name,
         path: path.to_owned(),
         simulators: simulators(&mut reader, &top),
-        edge_length_m: from_mm(reader.number(&top, "edge_length_mm", 2.0..=100.0).unwrap_or(15.0)),
         repeats: reader.number(&top, "repeats", 1.0..=100.0).unwrap_or(1.0) as u32,
         cuts: cuts(&mut reader, &top),
-        garments: garments(&mut reader, &top, folder, &subjects, &fabrics),
+        garments: sweep::swept(&mut reader, &top, worn, &fabrics),
         subjects,
     };
     if study.subjects.is_empty() && !top.table.contains_key("subject") {

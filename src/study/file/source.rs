@@ -7,12 +7,30 @@ use super::super::error::{Result, StudyError};
 use crate::pattern::source::{self, Kind};
 
 /// A file that a study brings, as read, or the DXF files of a folder.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct SourceFile {
     /// Name without folders; that of a folder ends in `/`.
     pub name: String,
-    /// Contents; of a folder, each file's name, length and contents one after another.
+    /// Contents (base64 in JSON); of a folder, each file's name, length and contents one after another.
+    #[serde(with = "base64_bytes")]
     pub bytes: Arc<[u8]>,
+}
+
+mod base64_bytes {
+    use std::sync::Arc;
+
+    use base64::prelude::{BASE64_STANDARD, Engine};
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub fn serialize<S: Serializer>(bytes: &Arc<[u8]>, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&BASE64_STANDARD.encode(bytes))
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Arc<[u8]>, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        BASE64_STANDARD.decode(text).map(Arc::from).map_err(D::Error::custom)
+    }
 }
 
 impl SourceFile {

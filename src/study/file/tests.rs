@@ -22,6 +22,7 @@ fn known() -> Known {
     Known {
         subjects: [("male-ii".to_owned(), male_ii)].into(),
         fabrics: [("cotton_shirting_light".to_owned(), cotton)].into(),
+        styles: BTreeMap::new(),
     }
 }
 

@@ -242,7 +242,7 @@ pub(super) fn draw_queries(frame: &mut Frame<'_>, area: Rect, list: &QueryList, 
     let inner = block.inner(place);
     let first = first_shown(list.row, rows.len(), usize::from(inner.height));
     let line = |(k, query): (usize, &&SavedQuery)| {
-        let text = format!("{} {}", left(&query.name, 18), query.about());
+        let text = format!("{} {}", left(&query.name, 18), query.about);
         let style = if k == list.row { state.theme.selected() } else { Style::new() };
         Line::styled(shortened(&text, usize::from(inner.width)), style)
     };

@@ -1,0 +1,183 @@
+//! A database of 10,000 jobs and 1,000,000 measurements, made through the real queue, and how long it takes to work with.
+//!
+//! `cargo run --release --example scale [STUDIES]` prints the table of docs/studies.md: queue operations, and a typical
+//! question to each view.
+
+use std::fmt::Write;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+
+use toile::fit::{Ease, FitClass, Simulator};
+use toile::measure::{Chi, metrics};
+use toile::pattern::MeasurementKind;
+use toile::sim::{Monitor, Stage, Step};
+use toile::study::{
+    JobFilter, JobId, JobSpec, Measured, Outcome, Result, RunOptions, Selection, Status, StudyError, Workspace,
+    new_study, tools,
+};
+
+/// Measurements of a result.
+const LENGTHS: u32 = 100;
+/// Subjects of one study; with three sizes and two simulators 504 jobs.
+const SUBJECTS: usize = 84;
+
+/// Questions that users ask of a study, and of all.
+const QUESTIONS: [(&str, &str); 14] = [
+    ("v_jobs: how far is a study", "SELECT status, count(*) FROM v_jobs WHERE study = 'study7' GROUP BY status"),
+    ("v_jobs: what failed, anywhere", "SELECT * FROM v_jobs WHERE status IN ('failed', 'cancelled')"),
+    ("v_jobs: the slowest of all", "SELECT study, size, subject, wall_ms FROM v_jobs ORDER BY wall_ms DESC LIMIT 20"),
+    ("v_chi: one result", "SELECT * FROM v_chi WHERE study = 'study7' AND size = 'M' AND subject = 's3'"),
+    (
+        "v_chi: each measurement of a study",
+        "SELECT measurement_no, count(*), avg(chi), stddev(chi) FROM v_chi WHERE study = 'study7' GROUP BY 1",
+    ),
+    (
+        "v_chi: one measurement over all studies",
+        "SELECT study, simulator, avg(chi) FROM v_chi WHERE measurement_no = 6 GROUP BY 1, 2",
+    ),
+    ("v_chi: the worst of a study", "SELECT * FROM v_chi WHERE study = 'study7' ORDER BY abs(chi - 1) DESC LIMIT 10"),
+    (
+        "v_metrics: EI of all studies",
+        "SELECT study, simulator, median(ei), quantile(ei, 0.9) FROM v_metrics GROUP BY 1, 2",
+    ),
+    (
+        "v_ease: fits of a study",
+        "SELECT size, fit_class, count(*) FROM v_ease WHERE study = 'study7' AND decides GROUP BY 1, 2",
+    ),
+    ("v_pair: pairs of a study", "SELECT * FROM v_pair WHERE study = 'study7'"),
+    ("v_recommendation: of a study", "SELECT * FROM v_recommendation WHERE study = 'study7'"),
+    (
+        "v_provenance: programs and machines",
+        "SELECT program_version, machine, count(*) FROM v_provenance GROUP BY 1, 2",
+    ),
+    (
+        "v_inputs: jobs of a cloth",
+        "SELECT study, count(*) FROM v_inputs WHERE input = 'fabric.cotton_shirting_light.shear_n_m' GROUP BY 1",
+    ),
+    ("v_published: one table", "SELECT * FROM v_published WHERE garment = 'male_tshirt' AND size = 'm'"),
+];
+
+fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
+    let studies: usize = std::env::args().nth(1).map_or(Ok(20), |text| text.parse())?;
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("toile.sqlite");
+    let mut workspace = Workspace::open(&path, false)?;
+    write_study(folder.path())?;
+    let mut spent = 0.0;
+    for number in 0..studies {
+        let mut study = workspace.load_study(folder.path())?;
+        study.name = format!("study{number}");
+        let options = RunOptions { workers: Some(2), ..RunOptions::default() };
+        let start = Instant::now();
+        workspace.start_with(&study, &options, Arc::new(quick))?.join()?;
+        spent += start.elapsed().as_secs_f64();
+    }
+    let count = |sql: &str| -> Result<String> { Ok(workspace.query(sql)?.rows[0][0].to_string()) };
+    let (jobs, rows) = (count("SELECT count(*) FROM v_jobs")?, count("SELECT count(*) FROM v_chi")?);
+    let made: f64 = jobs.parse()?;
+    let megabytes = std::fs::metadata(&path)?.len() as f64 / 1e6;
+    println!("{jobs} jobs, {rows} rows of v_chi, {megabytes:.0} MB");
+    println!("{:8.2} ms  queue, claim and finish a job, on average", spent * 1e3 / made);
+
+    let mut study = workspace.load_study(folder.path())?;
+    study.name = "study7".to_owned();
+    let id = JobId(made as i64 / 2);
+    let filter = JobFilter { study: Some(study.name.clone()), status: Some(Status::Done), ..JobFilter::default() };
+    time("list the jobs of a study", || workspace.jobs(&filter).map(drop))?;
+    time("one job, its log and measurements", || {
+        workspace.job(id)?;
+        workspace.log(id)?;
+        workspace.chi(id).map(drop)
+    })?;
+    time("the counts of all studies", || workspace.studies().map(drop))?;
+    time("pause and resume a study", || {
+        workspace.pause(&study.name)?;
+        workspace.resume(&study.name)
+    })?;
+    time("cancel a job", || workspace.cancel(&[id]).map(drop))?;
+    time("plan a study again", || workspace.plan(&study, &Selection::default()).map(drop))?;
+    for (question, sql) in QUESTIONS {
+        let rows = workspace.query(sql)?.rows.len();
+        time(&format!("{question}, {rows} rows"), || workspace.query(sql).map(drop))?;
+    }
+    Ok(())
+}
+
+/// Prints the least of five times.
+fn time(what: &str, mut act: impl FnMut() -> Result<()>) -> Result<()> {
+    let mut least = f64::INFINITY;
+    for _ in 0..5 {
+        let start = Instant::now();
+        act()?;
+        least = least.min(start.elapsed().as_secs_f64());
+    }
+    println!("{:8.2} ms  {what}", least * 1e3);
+    Ok(())
+}
+
+/// A study of the drafted T-shirt on many men.
+fn write_study(folder: &Path) -> Result<()> {
+    let mut files = new_study(folder, tools::Model::Tshirt)?;
+    let text = String::from_utf8_lossy(&files[0].1).into_owned();
+    let subjects = text.find("# Somebody of the").unwrap_or_default();
+    let garments = text.find("# A style of").unwrap_or(text.len());
+    let mut many = text[..subjects].to_owned();
+    for number in 0..SUBJECTS {
+        let stature_mm = 1600 + number * 4;
+        // Writing into a text does not fail.
+        let _ = writeln!(many, "[[subject]]\nid = \"s{number}\"\nsex = \"male\"\nstature_mm = {stature_mm}");
+    }
+    many.push_str(&text[garments..]);
+    files[0].1 = many.into_bytes();
+    tools::write_files(folder, &files).map(drop)
+}
+
+/// A result that costs nothing: lengths that spread a little with everything.
+fn quick(spec: &JobSpec, _: &mut dyn Monitor) -> Result<Outcome> {
+    let off = if spec.simulator == Simulator::Fem { 0.02 } else { 0.005 };
+    let chi = |no: u32| {
+        let spread = (spec.measurements.stature_m * 1000.0 + f64::from(no) * 7.0).sin();
+        Chi { no, l2d_m: 0.3, l3d_m: 0.3 * (1.0 + off * (1.0 + spread)) }
+    };
+    let chis: Vec<Chi> = (1..=LENGTHS).map(chi).collect();
+    let found = metrics(&chis);
+    let measured = chis.into_iter().map(|chi| Measured {
+        stage: Stage::Drape,
+        name: format!("length {}", chi.no),
+        kind: MeasurementKind::OpenLength,
+        is_free_edge: false,
+        is_controlled: spec.simulator == Simulator::Hybrid,
+        chi,
+    });
+    let history = (1..40).map(|iteration| Step {
+        iteration,
+        level: 0,
+        residual: 1.0 / f64::from(iteration),
+        seam_gap_m: 0.0,
+        e_chi: 1.0,
+    });
+    let ease = Ease {
+        level: "chest".into(),
+        pattern_girth_m: 0.94,
+        body_girth_m: spec.measurements.stature_m * 0.52,
+        class: FitClass::Just,
+        borderline: false,
+    };
+    Ok(Outcome {
+        converged: true,
+        measured: measured.collect(),
+        metrics: found.ok_or(StudyError::Interrupted)?,
+        vertices: 5000,
+        faces: 9000,
+        iterations: 40,
+        residual: 0.01,
+        penetration_max_m: 0.0,
+        seam_gap_max_m: 0.0,
+        self_crossings: 0,
+        history: history.collect(),
+        closures: Vec::new(),
+        eases: vec![ease],
+        used: vec![],
+    })
+}

@@ -1,0 +1,42 @@
+//! `toile job handout|run|merge`: jobs as files, for any scheduler.
+
+use std::path::PathBuf;
+
+use super::args::Job;
+use super::context::Context;
+use super::run::selection;
+use super::{End, Outcome, output};
+use crate::study::run_job;
+
+/// Runs a job command.
+pub fn run(context: &Context, command: &Job) -> Outcome {
+    match command {
+        Job::Handout { study, output, part } => {
+            let mut workspace = context.workspace()?;
+            let study = context.study(&workspace, study)?;
+            let handed = workspace.hand_out(&study, &selection(part), output)?;
+            let files: Vec<&PathBuf> = handed.iter().filter_map(|handed| handed.file.as_ref()).collect();
+            output::text(&files.iter().map(|file| format!("{}\n", file.display())).collect::<String>())?;
+            context.say(format_args!("{}: {} jobs, {} handed out", study.name, handed.len(), files.len()));
+        }
+        Job::Run { file, output } => {
+            let ran = run_job(file, output.as_deref())?;
+            output::text(&format!("{}\n", ran.file.display()))?;
+            if let Some(error) = ran.error {
+                eprintln!("toile: {error}");
+                return Ok(End::JobFailed);
+            }
+        }
+        Job::Merge { results } => {
+            let merged = context.workspace()?.merge(results)?;
+            context.say(format_args!(
+                "{} results stored, {} failed elsewhere, {} were here, {} are being made here",
+                merged.stored.len(),
+                merged.failed.len(),
+                merged.known.len(),
+                merged.running.len()
+            ));
+        }
+    }
+    Ok(End::Done)
+}

@@ -1,0 +1,207 @@
+//! `toile run show|diff|rerun`: one result in full, two side by side, and one made again.
+
+use serde_json::{Value as Json, json};
+
+use super::args::RunCommand;
+use super::context::Context;
+use super::{End, Outcome, output};
+use crate::study::{Change, ChiPair, Inputs, JobId, MetricsRow, Record, Table, Value};
+use crate::units::mm;
+
+/// Runs one of the commands on stored runs.
+pub fn run(context: &Context, command: &RunCommand) -> Outcome {
+    match *command {
+        RunCommand::Show { job } => show(context, JobId(job)),
+        RunCommand::Diff { before, after } => diff(context, JobId(before), JobId(after)),
+        RunCommand::Rerun { job } => rerun(context, JobId(job)),
+    }
+}
+
+fn show(context: &Context, id: JobId) -> Outcome {
+    let record = context.workspace()?.record(id)?;
+    if context.json {
+        output::json(&record_json(&record))?;
+        return Ok(End::Done);
+    }
+    let job = &record.job;
+    let mut facts = vec![
+        ("study", job.study.clone()),
+        ("result of", format!("{} {} on {} by {}", job.garment, job.size, job.subject, job.simulator.as_str())),
+        ("repeat", job.repeat.to_string()),
+        ("status", job.status.as_str().to_owned()),
+        ("attempts", job.attempts.to_string()),
+    ];
+    facts.extend(job.error.clone().map(|error| ("error", error)));
+    facts.extend(job.wall_ms.map(|ms| ("took", format!("{:.1} s", ms as f64 / 1e3))));
+    if let Some(made) = &record.provenance {
+        let dirty = if made.git_dirty == Some(true) { ", with changes" } else { "" };
+        facts.push(("program", made.program_version.clone()));
+        facts.extend(made.git_commit.iter().map(|commit| ("commit", format!("{commit}{dirty}"))));
+        facts.push(("machine", made.machine.clone()));
+        facts.push(("seed", made.seed.to_string()));
+    }
+    facts.extend(record.stages.iter().map(|stage| {
+        let made = if stage.was_cached { "from the cache" } else { "made" };
+        ("stage", format!("{} {} {made}", stage.stage, &stage.hash[..stage.hash.len().min(16)]))
+    }));
+    facts
+        .extend(record.metrics.iter().flat_map(|metrics| numbers(metrics).map(|(name, number)| (name, short(number)))));
+    output::text(&output::pretty(&two_columns(["what", "value"], facts)))?;
+    let inputs = record.inputs.iter().map(|(name, value)| (name, value.to_owned())).collect();
+    output::text(&output::pretty(&two_columns(["input", "value"], inputs)))?;
+    let rows = record.chi.iter().map(|row| {
+        let length = |length_m: f64| Value::Text(format!("{:.2}", mm(length_m)));
+        vec![
+            Value::Integer(i64::from(row.no)),
+            Value::Text(row.name.clone()),
+            length(row.l2d_m),
+            length(row.l3d_m),
+            Value::Text(format!("{:.4}", row.chi())),
+        ]
+    });
+    let columns = ["#", "measurement", "L2D mm", "L3D mm", "chi"].map(str::to_owned).to_vec();
+    output::text(&output::pretty(&Table { columns, rows: rows.collect() }))?;
+    Ok(End::Done)
+}
+
+fn diff(context: &Context, before: JobId, after: JobId) -> Outcome {
+    let found = context.workspace()?.compare(before, after)?;
+    let metrics = found.metrics.each_ref().map(|metrics| metrics.as_ref().map(numbers));
+    let names: Vec<&str> =
+        metrics.iter().flatten().next().map(|all| all.iter().map(|(name, _)| *name).collect()).unwrap_or_default();
+    let value = |side: usize, k: usize| metrics[side].map(|numbers| numbers[k].1);
+    if context.json {
+        let differ: Vec<Json> = (0..names.len())
+            .filter(|&k| value(0, k) != value(1, k))
+            .map(|k| json!({ "name": names[k], "before": value(0, k), "after": value(1, k) }))
+            .collect();
+        let chi: Vec<Json> = found.chi.iter().map(chi_json).collect();
+        output::json(&json!({ "inputs": changes_json(&found.inputs), "metrics": differ, "chi": chi }))?;
+        return Ok(End::Done);
+    }
+    if found.inputs.is_empty() {
+        context.say("no input differs");
+    }
+    for change in &found.inputs {
+        output::text(&format!("{change}\n"))?;
+    }
+    let both = [before, after].map(|id| format!("job {id}"));
+    let number = |number: Option<f64>| number.map_or(Value::Null, Value::Real);
+    let rows =
+        (0..names.len()).map(|k| vec![Value::Text(names[k].to_owned()), number(value(0, k)), number(value(1, k))]);
+    let columns = [&["number".to_owned()][..], &both].concat();
+    output::text(&output::pretty(&Table { columns, rows: rows.collect() }))?;
+    output::text(&output::pretty(&chi_table(&found.chi, &both)))?;
+    Ok(End::Done)
+}
+
+fn rerun(context: &Context, id: JobId) -> Outcome {
+    let again = context.workspace()?.rerun(id)?;
+    let differ = again.chi.iter().filter(|pair| !pair.is_same()).count();
+    if context.json {
+        let chi: Vec<Json> = again.chi.iter().map(chi_json).collect();
+        output::json(&json!({
+            "same": differ == 0, "inputs": changes_json(&again.inputs), "chi": chi,
+            "ei": { "before": again.ei[0], "after": again.ei[1] },
+        }))?;
+    } else {
+        output::text(&output::pretty(&chi_table(&again.chi, &["stored".to_owned(), "now".to_owned()])))?;
+    }
+    for change in &again.inputs {
+        context.say(format_args!("this program differs: {change}"));
+    }
+    if differ == 0 {
+        context.say(format_args!("job {id}: the same to the last bit, {} measurements", again.chi.len()));
+        return Ok(End::Done);
+    }
+    context.say(format_args!("job {id}: {differ} of {} measurements differ", again.chi.len()));
+    Ok(End::CheckFailed)
+}
+
+/// The numbers of a result with their names in SQL.
+fn numbers(m: &MetricsRow) -> [(&'static str, f64); 12] {
+    [
+        ("n", f64::from(m.n)),
+        ("e_chi", m.e_chi),
+        ("sd_chi", m.sd_chi),
+        ("ei", m.ei),
+        ("max_abs_error", m.max_abs_error),
+        ("vertices", f64::from(m.vertices)),
+        ("faces", f64::from(m.faces)),
+        ("iterations", f64::from(m.iterations)),
+        ("residual", m.residual),
+        ("penetration_max_mm", mm(m.penetration_max_m)),
+        ("seam_gap_max_mm", mm(m.seam_gap_max_m)),
+        ("self_crossings", f64::from(m.self_crossings)),
+    ]
+}
+
+/// A number with six digits after the point, no more than it has.
+fn short(number: f64) -> String {
+    let text = format!("{number:.6}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+fn two_columns(columns: [&str; 2], rows: Vec<(&str, String)>) -> Table {
+    let rows = rows.into_iter().map(|(name, value)| vec![Value::Text(name.to_owned()), Value::Text(value)]);
+    Table { columns: columns.map(str::to_owned).to_vec(), rows: rows.collect() }
+}
+
+/// Measurements of two results: chi of both and their difference; `=` where no bit differs.
+fn chi_table(pairs: &[ChiPair], names: &[String; 2]) -> Table {
+    let columns = [&["#".to_owned(), "measurement".to_owned()][..], names, &["difference".to_owned()]].concat();
+    let rows = pairs.iter().map(|pair| {
+        let [a, b] = pair.chi();
+        let text = |chi: Option<f64>| chi.map_or(Value::Null, |chi| Value::Text(format!("{chi:.4}")));
+        let difference = match (a, b) {
+            _ if pair.is_same() => Value::Text("=".to_owned()),
+            (Some(a), Some(b)) => Value::Text(format!("{:+.2e}", b - a)),
+            _ => Value::Null,
+        };
+        vec![Value::Integer(i64::from(pair.no)), Value::Text(pair.name.clone()), text(a), text(b), difference]
+    });
+    Table { columns, rows: rows.collect() }
+}
+
+fn chi_json(pair: &ChiPair) -> Json {
+    let [a, b] = pair.chi();
+    json!({ "measurement_no": pair.no, "measurement": pair.name, "before": a, "after": b, "same": pair.is_same() })
+}
+
+fn changes_json(changes: &[Change]) -> Vec<Json> {
+    changes.iter().map(|c| json!({ "input": c.name, "before": c.before, "after": c.after })).collect()
+}
+
+fn inputs_json(inputs: &Inputs) -> Json {
+    inputs.iter().map(|(name, value)| (name.to_owned(), Json::from(value))).collect::<serde_json::Map<_, _>>().into()
+}
+
+fn record_json(record: &Record) -> Json {
+    let job = &record.job;
+    let metrics = record.metrics.as_ref().map(|metrics| {
+        let numbers = numbers(metrics).into_iter().map(|(name, number)| (name.to_owned(), Json::from(number)));
+        let mut all: serde_json::Map<String, Json> = numbers.collect();
+        all.insert("converged".to_owned(), metrics.converged.into());
+        all
+    });
+    let stages: Vec<Json> = record
+        .stages
+        .iter()
+        .map(|stage| json!({ "stage": stage.stage, "hash": stage.hash, "was_cached": stage.was_cached }))
+        .collect();
+    let chi: Vec<Json> = record
+        .chi
+        .iter()
+        .map(|row| {
+            json!({ "measurement_no": row.no, "measurement": row.name, "stage": row.stage,
+                "l2d_mm": mm(row.l2d_m), "l3d_mm": mm(row.l3d_m), "chi": row.chi() })
+        })
+        .collect();
+    json!({
+        "job_id": job.id.0, "study": job.study, "garment": job.garment, "size": job.size, "subject": job.subject,
+        "simulator": job.simulator.as_str(), "repeat": job.repeat, "status": job.status.as_str(),
+        "attempts": job.attempts, "error": job.error, "wall_ms": job.wall_ms, "is_current": job.is_current,
+        "provenance": record.provenance, "inputs": inputs_json(&record.inputs), "stages": stages,
+        "metrics": metrics, "chi": chi,
+    })
+}

@@ -1,0 +1,81 @@
+//! `toile study new|check|export`: study files.
+
+use std::path::Path;
+
+use super::args::{Sex, StudyCommand, SubjectValues};
+use super::context::Context;
+use super::pattern::model;
+use super::pictures::write;
+use super::{End, Outcome, body, output};
+use crate::study::{PopulationOptions, export_study, new_study, representatives, subjects_text, tools};
+
+/// Runs a study command.
+pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
+    match command {
+        StudyCommand::New { folder, style } => {
+            for path in tools::write_files(folder, &new_study(folder, model(*style))?)? {
+                context.say(format_args!("wrote {}", path.display()));
+            }
+            context.say(format_args!("`toile run {}` runs it", folder.display()));
+        }
+        StudyCommand::Check(arguments) => {
+            let study = context.study(&context.workspace()?, &arguments.study)?;
+            let jobs = study.jobs();
+            let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+            context.say(format_args!(
+                "{} is in order: {}, {}, {}",
+                study.path.display(),
+                count(study.subjects.len(), "subject"),
+                count(study.garments.len(), "garment"),
+                count(jobs, "simulation"),
+            ));
+        }
+        StudyCommand::Population { bodies, sex, people, seed } => {
+            let (bodies, people) = (*bodies as usize, *people as usize);
+            let options = PopulationOptions { bodies: bodies.min(people), people, seed: *seed };
+            for sex in sex.map_or(vec![Sex::F, Sex::M], |sex| vec![sex]) {
+                output::text(&subjects_text(&representatives(body::of(sex), &options)))?;
+            }
+        }
+        StudyCommand::Sizes { study, output } => {
+            let workspace = context.workspace()?;
+            let svg = workspace.size_map(&context.study_name(&workspace, study)?)?;
+            return write(context, output, svg.into_bytes());
+        }
+        StudyCommand::Nearest { study, subject } => return nearest(context, study, subject),
+        StudyCommand::Export { study, output } => {
+            let study = context.study(&context.workspace()?, study)?;
+            for path in tools::write_files(output, &export_study(&study))? {
+                context.say(format_args!("wrote {}", path.display()));
+            }
+        }
+    }
+    Ok(End::Done)
+}
+
+/// The representative of a study, and its results.
+fn nearest(context: &Context, study: &Path, subject: &SubjectValues) -> Outcome {
+    let workspace = context.workspace()?;
+    let name = context.study_name(&workspace, study)?;
+    let nearest = workspace.nearest(&name, &subject.0)?;
+    let (dimension, asked, found) = nearest.widest;
+    let edge = |value: f64| format!("{:.0} {}", value * dimension.per_si(), dimension.unit());
+    context.say(format_args!(
+        "{} of {name} is nearest: {:.2} standard deviations off, most in {} ({}, not {})",
+        nearest.subject,
+        nearest.distance,
+        dimension.name(),
+        edge(found),
+        edge(asked)
+    ));
+    let jobs: Vec<String> = nearest.jobs.iter().map(ToString::to_string).collect();
+    let table = workspace.query(&format!(
+        "SELECT garment, size, simulator, fit_class, round(ease_mm, 1) AS ease_mm, round(e_chi, 4) AS e_chi,
+            round(ei, 4) AS ei, converged, job_id
+        FROM v_metrics LEFT JOIN (SELECT * FROM v_ease WHERE decides) USING (study, garment, size, subject)
+        WHERE job_id IN ({}) ORDER BY garment, size, simulator",
+        jobs.join(", ")
+    ))?;
+    context.print(&table)?;
+    Ok(End::Done)
+}
