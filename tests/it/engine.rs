@@ -15,12 +15,12 @@ fn place(more: &str) -> Place {
 
 #[test]
 fn a_sweep_is_run_and_its_runs_are_shown_compared_and_made_again() {
-    let place = place("\n[[sweep]]\nfabric.shear_n_m = [90, 30]\nhybrid.relax.momentum = [0.85, 0.5]\n");
+    let place = place("\n[[sweep]]\nfabric.density_kg_m2 = [0.3, 0.1]\nhybrid.relax.momentum = [0.85, 0.5]\n");
     place.toile("run . --workers 2 --no-report").ends_with(0);
-    let expect = ["tee shear_n_m=90 momentum=0.85,90,0.85", "tee shear_n_m=90 momentum=0.5,90,0.5"];
+    let expect = ["tee density_kg_m2=0.3 momentum=0.85,0.3,0.85", "tee density_kg_m2=0.3 momentum=0.5,0.3,0.5"];
     let swept = place.sql(
         "SELECT garment, a.value, b.value FROM v_sweep AS a JOIN v_sweep AS b USING (study, garment)
-        WHERE a.parameter = 'fabric.shear_n_m' AND b.parameter = 'hybrid.relax.momentum' ORDER BY a.value DESC, b.value DESC",
+        WHERE a.parameter = 'fabric.density_kg_m2' AND b.parameter = 'hybrid.relax.momentum' ORDER BY a.value DESC, b.value DESC",
     );
     assert_eq!((swept.len(), &swept[..2]), (4, &expect.map(str::to_owned)[..]));
     assert_eq!(place.one("SELECT count(DISTINCT e_chi) FROM v_metrics"), "4", "every value matters");
