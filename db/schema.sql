@@ -415,3 +415,9 @@ WHERE is_current;
 CREATE INDEX job_queue ON job (status, priority DESC, job_id) WHERE is_current;
 
 CREATE TABLE built_in (hash TEXT PRIMARY KEY) STRICT, WITHOUT ROWID;
+
+CREATE TABLE study_report (
+    study_id INTEGER PRIMARY KEY REFERENCES study,
+    page TEXT NOT NULL,
+    written_at INTEGER NOT NULL
+) STRICT;

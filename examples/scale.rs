@@ -3,6 +3,8 @@
 //! `cargo run --release --example scale [STUDIES]` prints the table of docs/studies.md: queue operations, and a typical
 //! question to each view.
 
+#![allow(clippy::print_stdout, reason = "an example speaks to whoever runs it")]
+
 use std::fmt::Write;
 use std::path::Path;
 use std::sync::Arc;

@@ -27,3 +27,10 @@ CREATE INDEX job_queue ON job (status, priority DESC, job_id) WHERE is_current;
 
 -- What the program brought into the catalogue, by the hash of all of it.
 CREATE TABLE built_in (hash TEXT PRIMARY KEY) STRICT, WITHOUT ROWID;
+
+-- The page of a study's report as it was last written from this database: while the file is of that time it is that page.
+CREATE TABLE study_report (
+    study_id INTEGER PRIMARY KEY REFERENCES study,
+    page TEXT NOT NULL,
+    written_at INTEGER NOT NULL
+) STRICT;

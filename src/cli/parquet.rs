@@ -146,7 +146,7 @@ struct Struct {
 impl Struct {
     /// Starts a field: its number as the distance from the last one, and its type.
     fn field(&mut self, number: u8, kind: u8) {
-        self.bytes.push((number - self.last) << 4 | kind);
+        self.bytes.push(((number - self.last) << 4) | kind);
         self.last = number;
     }
 
@@ -193,7 +193,7 @@ impl Struct {
     fn head(&mut self, number: u8, items: usize, kind: u8) {
         self.field(number, 9);
         if items < 15 {
-            self.bytes.push((items as u8) << 4 | kind);
+            self.bytes.push(((items as u8) << 4) | kind);
         } else {
             self.bytes.push(0xf0 | kind);
             varint(&mut self.bytes, items as u64);

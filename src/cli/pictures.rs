@@ -1,11 +1,12 @@
 //! `toile render`, `toile export` and `toile report`: what a run looks like.
 
 use std::path::{Path, PathBuf};
+use std::time::UNIX_EPOCH;
 
 use super::args::{Export, Map as MapArgument, MeshFormat as FormatArgument, Render, Report, View as ViewArgument};
 use super::context::{Context, project_folder};
 use super::{CliError, End, Outcome, output};
-use crate::study::{JobId, Map, MeshFormat, View, Workspace, tools};
+use crate::study::{JobId, Map, MeshFormat, Study, View, Workspace, tools};
 
 /// `toile render`.
 pub fn render(context: &Context, arguments: &Render) -> Outcome {
@@ -68,7 +69,44 @@ pub fn write_report(
     let folder = folder.map_or_else(|| default_folder(context, study), Path::to_owned);
     let files: Vec<(String, Vec<u8>)> = workspace.report(study)?;
     tools::write_files(&folder, &files)?;
-    let page = folder.join("index.html");
+    tell_report(context, &folder.join(PAGE))
+}
+
+/// The report's page in its folder.
+const PAGE: &str = "index.html";
+
+/// Writes a study's report, unless the page that is there was written from this database and is younger than its latest
+/// result, its file and this program; prints the path.
+pub fn bring_report(
+    context: &Context,
+    workspace: &mut Workspace,
+    study: &Study,
+    since_ms: i64,
+) -> Result<(), CliError> {
+    let page = default_folder(context, &study.name).join(PAGE);
+    let program = std::env::current_exe().ok().and_then(|path| modified_ms(&path));
+    let sources = [Some(since_ms), modified_ms(&study.path), program];
+    if let Some(written) = modified_ms(&page)
+        && sources.into_iter().flatten().all(|source| source < written)
+        && workspace.knows_report(&study.name, &page, written)?
+    {
+        return tell_report(context, &page);
+    }
+    write_report(context, workspace, &study.name, None)?;
+    if let Some(written) = modified_ms(&page).filter(|_| !workspace.is_readonly()) {
+        workspace.remember_report(&study.name, &page, written)?;
+    }
+    Ok(())
+}
+
+/// When a file was last written, ms since 1970.
+fn modified_ms(path: &Path) -> Option<i64> {
+    let modified = std::fs::metadata(path).and_then(|file| file.modified()).ok()?;
+    i64::try_from(modified.duration_since(UNIX_EPOCH).ok()?.as_millis()).ok()
+}
+
+/// Prints the path of a report's page.
+fn tell_report(context: &Context, page: &Path) -> Result<(), CliError> {
     if context.json {
         context.say(format_args!("report: {}", page.display()));
     } else {

@@ -57,7 +57,8 @@ pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
         return Ok(End::Interrupted);
     }
     if !arguments.no_report && jobs.iter().any(|job| job.status.has_result()) {
-        pictures::write_report(context, &workspace, &study.name, None)?;
+        let since = jobs.iter().filter_map(|job| job.finished_at_ms).max().unwrap_or_default();
+        pictures::bring_report(context, &mut workspace, &study, since)?;
     }
     let failed: Vec<&JobRow> = jobs.iter().filter(|job| job.status == Status::Failed).collect();
     for job in &failed {

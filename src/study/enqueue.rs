@@ -69,6 +69,8 @@ pub struct Planned {
     pub spec: JobSpec,
     /// Why it runs, or need not.
     pub why: Why,
+    /// Whether it was its cell's job before, too.
+    pub was_current: bool,
 }
 
 /// Stores a study and queues what is to be run of its jobs; failed and cancelled ones are queued again. What the study
@@ -80,8 +82,8 @@ pub(crate) fn enqueue(transaction: &Transaction<'_>, study: &Study, selection: &
     let specs: Vec<JobSpec> = all.into_iter().filter(|spec| selection.takes(spec)).collect();
     let mut planned = Vec::with_capacity(specs.len());
     for spec in specs {
-        let (id, why) = enqueue_one(transaction, study_id, &spec)?;
-        planned.push(Planned { id, spec, why });
+        let (id, why, was_current) = enqueue_one(transaction, study_id, &spec)?;
+        planned.push(Planned { id, spec, why, was_current });
     }
     Ok(planned)
 }
@@ -162,7 +164,7 @@ impl Cell {
     }
 }
 
-fn enqueue_one(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec) -> Result<(JobId, Why)> {
+fn enqueue_one(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec) -> Result<(JobId, Why, bool)> {
     let hash = spec.inputs.hash();
     let same = transaction
         .prepare_cached(
@@ -185,7 +187,7 @@ fn enqueue_one(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec) -> 
                 Why::Again(status)
             }
         };
-        return Ok((id, why));
+        return Ok((id, why, earlier == Some(id)));
     }
     let why = match earlier {
         Some(since) => Why::Changed { since, changes: spec.inputs.changes_since(&inputs_of(transaction, since)?) },
@@ -196,7 +198,7 @@ fn enqueue_one(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec) -> 
     }
     let id = insert(transaction, study_id, spec, &hash)?;
     queue::log(transaction, id, "info", &format!("queued: {why}"))?;
-    Ok((id, why))
+    Ok((id, why, false))
 }
 
 /// The current job of a specification's cell.

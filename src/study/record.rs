@@ -1,6 +1,8 @@
 //! One run of a simulation in full: where it came from, what it was made of, its numbers; two of them side by side; and
 //! the same again from what is stored.
 
+use std::path::Path;
+
 use rusqlite::{OptionalExtension, Row};
 
 use super::cache::Cache;
@@ -156,6 +158,28 @@ impl Workspace {
             chi: paired(&self.chi(id)?, &rows_of(&outcome)),
             ei: [metrics.ei, outcome.metrics.ei],
         })
+    }
+
+    /// Whether a study's report was last written from this database, as the page that has this time (ms since 1970).
+    ///
+    /// # Errors
+    /// When the database cannot be read.
+    pub fn knows_report(&self, study: &str, page: &Path, written_ms: i64) -> Result<bool> {
+        let sql = "SELECT EXISTS (SELECT 1 FROM study_report JOIN study USING (study_id)
+            WHERE name = ? AND page = ? AND written_at = ?)";
+        let page = page.to_string_lossy();
+        Ok(self.reader.prepare_cached(sql)?.query_row((study, page, written_ms), |row| row.get(0))?)
+    }
+
+    /// Remembers the page that a study's report was just written to, and its time (ms since 1970).
+    ///
+    /// # Errors
+    /// When the workspace is read-only.
+    pub fn remember_report(&mut self, study: &str, page: &Path, written_ms: i64) -> Result<()> {
+        let sql = "INSERT OR REPLACE INTO study_report (study_id, page, written_at)
+            SELECT study_id, ?, ? FROM study WHERE name = ?";
+        self.writer()?.execute(sql, (page.to_string_lossy(), written_ms, study))?;
+        Ok(())
     }
 
     /// What a job does, from what the database has of it.

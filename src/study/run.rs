@@ -165,7 +165,12 @@ impl Workspace {
         let (database, jobs, stopped) = (self.path().to_owned(), planned.clone(), stop.clone());
         let live = options.live.clone();
         let folder = study.path.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
+        // What was the study's before needs nothing beside it: all of that was found with its results.
+        let is_settled = planned.iter().all(|job| job.was_current && !job.why.will_run());
         let work = move || {
+            if is_settled {
+                return Ok(());
+            }
             let provenance = Provenance::of(&folder);
             thread::scope(|scope| {
                 scope.spawn(aside);

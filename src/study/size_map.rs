@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::error::Result;
 use super::workspace::Workspace;
 
-/// Colours that differ in lightness too [Okabe and Ito 2008].
+/// Colours that differ in lightness too [Okabe & Ito 2008].
 const COLOURS: [&str; 7] = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442"];
 /// Side of a panel, and its margins, px.
 const PANEL: f64 = 420.0;

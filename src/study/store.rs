@@ -273,14 +273,14 @@ mod tests {
     #[test]
     fn the_file_system_of_a_folder_is_that_of_the_nearest_mount() {
         let mounts = "22 1 0:20 / / rw,relatime - ext4 /dev/sda1 rw\n\
-            30 22 0:30 / /home rw shared:1 - nfs4 server:/home rw\n\
-            31 30 0:31 / /home/my\\040disk rw - xfs /dev/sdb1 rw\n";
+            30 22 0:30 / /data rw shared:1 - nfs4 server:/data rw\n\
+            31 30 0:31 / /data/my\\040disk rw - xfs /dev/sdb1 rw\n";
         let check =
             |folder: &str, kind: &str| assert_eq!(file_system(mounts, Path::new(folder)), Some(kind), "{folder}");
         check("/var/lib", "ext4");
-        check("/home/anna/db", "nfs4");
-        check("/homes", "ext4");
-        check("/home/my disk/db", "xfs");
+        check("/data/anna/db", "nfs4");
+        check("/database", "ext4");
+        check("/data/my disk/db", "xfs");
         assert_eq!(file_system("", Path::new("/")), None);
     }
 

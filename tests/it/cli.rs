@@ -148,10 +148,10 @@ fn wrong_usage_ends_with_2_and_says_what_would_be_right() {
     check("run show 99", "no job `99`");
     check("job run study.toml", "study.toml: this is no job file");
     check("job merge study.toml", "study.toml: this is no result file");
-    check("sql", "<QUERY|--file <FILE>>");
+    check("sql", "<QUERY|--list|--file <FILE>>");
     check("sql nonsense", "no saved query `nonsense`; there are: against_thesis, attention,");
     check("sql SELECT/nonsense", "syntax error");
-    check("sql timse", "did you mean `times`?");
+    check("sql time", "did you mean `times`?");
     check("queue log 99", "no job `99`");
     check("report nothing", "no study `nothing`");
     check("subject add anna --sex f", "`stature_mm` is missing");

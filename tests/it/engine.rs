@@ -15,12 +15,12 @@ fn place(more: &str) -> Place {
 
 #[test]
 fn a_sweep_is_run_and_its_runs_are_shown_compared_and_made_again() {
-    let place = place("\n[[sweep]]\nfabric.shear_n_m = [90, 30]\nhybrid.relax.momentum = [0.85, 0.5]\n");
+    let place = place("\n[[sweep]]\nfabric.density_kg_m2 = [0.3, 0.1]\nhybrid.relax.momentum = [0.85, 0.5]\n");
     place.toile("run . --workers 2 --no-report").ends_with(0);
-    let expect = ["tee shear_n_m=90 momentum=0.85,90,0.85", "tee shear_n_m=90 momentum=0.5,90,0.5"];
+    let expect = ["tee density_kg_m2=0.3 momentum=0.85,0.3,0.85", "tee density_kg_m2=0.3 momentum=0.5,0.3,0.5"];
     let swept = place.sql(
         "SELECT garment, a.value, b.value FROM v_sweep AS a JOIN v_sweep AS b USING (study, garment)
-        WHERE a.parameter = 'fabric.shear_n_m' AND b.parameter = 'hybrid.relax.momentum' ORDER BY a.value DESC, b.value DESC",
+        WHERE a.parameter = 'fabric.density_kg_m2' AND b.parameter = 'hybrid.relax.momentum' ORDER BY a.value DESC, b.value DESC",
     );
     assert_eq!((swept.len(), &swept[..2]), (4, &expect.map(str::to_owned)[..]));
     assert_eq!(place.one("SELECT count(DISTINCT e_chi) FROM v_metrics"), "4", "every value matters");
@@ -138,4 +138,23 @@ fn a_style_of_the_catalogue_is_sewn_and_exported_with_its_files() {
     );
     let said = place.toile("study check named").ends_with(2);
     assert!(said.err.contains("no style in the catalogue `skirt`; did you mean `shirt`?"), "{}", said.err);
+}
+
+#[test]
+fn a_population_stands_for_somebody_new() {
+    let place = place("");
+    let people = place.toile("study population --bodies 2 --sex m --people 200").ends_with(0).out;
+    assert_eq!(people.matches("[[subject]]").count(), 2, "{people}");
+    let text = std::fs::read_to_string(place.path("study.toml")).expect("written");
+    let (start, end) = (text.find("[[subject]]").expect("one"), text.find("[[garment]]").expect("one"));
+    place.write("study.toml", format!("{}{people}{}", &text[..start], &text[end..]));
+    place.toile("run . --no-report --quiet").ends_with(0);
+    let said = place.toile("study nearest coarse --sex m --stature-mm 1755 --chest-girth-mm 1050 --json").ends_with(0);
+    assert!(said.err.contains("of coarse is nearest"), "{}", said.err);
+    assert!(said.json()[0]["ei"].is_f64() && said.json()[0]["fit_class"].is_string(), "{}", said.out);
+    let none = place.toile("study nearest coarse --sex f --stature-mm 1650").ends_with(2);
+    assert!(none.err.contains("no subject of the study who is `female`"), "{}", none.err);
+    place.toile("study sizes coarse -o sizes.svg").ends_with(0);
+    let svg = std::fs::read_to_string(place.path("sizes.svg")).expect("written");
+    assert!(svg.contains("m: 2, a just fit for") && svg.matches("<title>").count() == 2, "{svg}");
 }

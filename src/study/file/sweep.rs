@@ -163,12 +163,12 @@ fn setting(name: &str, item: &Spanned<DeValue<'_>>, fabrics: &BTreeMap<String, F
     let number = || value.as_f64().ok_or_else(|| format!("`{name}` is {value}; accepted: a number"));
     if name == "fabric" {
         let known: Vec<&str> = fabrics.keys().map(String::as_str).collect();
-        let wanted = value.as_str().unwrap_or_default();
-        let hint = || match super::super::error::nearest(wanted, known.iter().copied()) {
+        let wanted = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+        let hint = || match super::super::error::nearest(&wanted, known.iter().copied()) {
             Some(near) => format!("no fabric `{wanted}`; did you mean `{near}`?"),
-            None => format!("no fabric {value}; there are: {}", known.join(", ")),
+            None => format!("no fabric `{wanted}`; there are: {}", known.join(", ")),
         };
-        return fabrics.get(wanted).cloned().map(Setting::Fabric).ok_or_else(hint);
+        return fabrics.get(&wanted).cloned().map(Setting::Fabric).ok_or_else(hint);
     }
     if let Some(key) = name.strip_prefix("fabric.") {
         let keys = || FABRIC_NUMBERS.iter().map(|field| field.key);
