@@ -250,7 +250,7 @@ fn nearest(point: &Point, middles: &[Point]) -> usize {
     (0..middles.len()).min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0)
 }
 
-/// Numbers that look random [Steele, Lea and Flood 2014, SplitMix], the same for the same seed everywhere.
+/// Numbers that look random [Steele 2014: SplitMix64], the same for the same seed everywhere.
 struct Random(u64);
 
 impl Random {

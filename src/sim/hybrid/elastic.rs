@@ -36,6 +36,8 @@ pub struct Pull<'a> {
     pub loads: &'a [V3],
     /// What triangles and controls want to be: 0 as they were first, 1 as in the pattern, in between in proportion.
     pub share: f64,
+    /// What lengths of controls are multiplied by: takes back what they are stretched by for their softness.
+    pub control: f64,
 }
 
 /// The energy of a sewn garment, ready to be lowered.
@@ -48,8 +50,6 @@ pub struct Elastic {
     /// Length of each control then, m.
     first_m: Vec<f64>,
     control_weight: f64,
-    /// The part of the matrix that does not depend on the targets' weights: lower triangle.
-    entries: Vec<(usize, usize, f64)>,
     /// Weight of each vertex's target.
     weights: Vec<f64>,
     factor: Factor,
@@ -106,7 +106,8 @@ impl Elastic {
         }
         let first_stretch = triangles.iter().map(|t| t.polar(x).1).collect();
         let first_m = controls.iter().map(|c| c.way(x).norm()).collect();
-        let factor = factorise(x.len(), &entries, &weights)?;
+        entries.extend(weights.iter().enumerate().map(|(v, w)| (v, v, *w)));
+        let factor = Factor::new(x.len(), &entries)?;
         Some(Self {
             count: x.len(),
             triangles,
@@ -114,7 +115,6 @@ impl Elastic {
             first_stretch,
             first_m,
             control_weight,
-            entries,
             weights,
             factor,
         })
@@ -124,9 +124,9 @@ impl Elastic {
     ///
     /// Does nothing when the weights do not hold the garment.
     pub fn set_weights(&mut self, weights: Vec<f64>) {
-        if let Some(factor) = factorise(self.count, &self.entries, &weights) {
+        let added: Vec<f64> = weights.iter().zip(&self.weights).map(|(new, old)| new - old).collect();
+        if self.factor.add_to_diagonal(&added) {
             self.weights = weights;
-            self.factor = factor;
         }
     }
 
@@ -142,7 +142,7 @@ impl Elastic {
             }
         }
         for (control, first) in self.controls.iter().zip(&self.first_m) {
-            let length = first + (control.rest_m - first) * pull.share;
+            let length = pull.control * (first + (control.rest_m - first) * pull.share);
             let way = control.way(x);
             let wanted = way * (length / way.norm().max(1e-9) * self.control_weight / control.rest_m);
             for &(v, weight) in &control.terms {
@@ -168,12 +168,6 @@ impl Elastic {
     pub fn stretches<'s>(&'s self, x: &'s [V3]) -> impl Iterator<Item = (Matrix2<f64>, f64)> + 's {
         self.triangles.iter().map(|t| (t.polar(x).1, t.area_m2))
     }
-}
-
-fn factorise(count: usize, entries: &[(usize, usize, f64)], weights: &[f64]) -> Option<Factor> {
-    let held = weights.iter().enumerate().map(|(v, w)| (v, v, *w));
-    let all: Vec<_> = entries.iter().copied().chain(held).collect();
-    Factor::new(count, &all)
 }
 
 impl Triangle {

@@ -2,12 +2,13 @@
 
 use crate::body::Body;
 use crate::geom::section::{Outline, Plane, section};
-use crate::geom::{TriMesh, V2, V3};
+use crate::geom::hull::tape_girth;
+use crate::geom::{TriMesh, V3};
 use crate::pattern::{Garment, Role};
 use crate::sim::sewing;
 use crate::units::from_mm;
 
-/// Girth of a draped garment beside that of the body, at one of the style's fit levels.
+/// Girth of a draped garment beside that of the body, at a level of the body.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Closure {
     /// Body level (`chest`, `hip`, ...).
@@ -28,35 +29,31 @@ impl Closure {
     }
 }
 
-/// The trunk of a garment may be open at a level (an armhole): it is then measured at most this far below, m.
-const DOWN_M: f64 = 0.25;
+/// The trunk of a garment may be open at the chest (an armhole): it is then measured at most this far below, m.
+const DOWN_M: f64 = 0.15;
 /// In steps of this, m.
 const STEP_M: f64 = 0.005;
 
-/// Girths at the garment's fit levels whose height on the body is known; positions in m.
+/// Girths at each level of the body that the garment goes round; positions in m.
 #[must_use]
 pub fn closures(body: &Body, garment: &Garment, positions: &[V3]) -> Vec<Closure> {
     let trunk = trunk(garment, positions);
-    let levels = garment.fit_levels.iter().filter_map(|fit| Some((&fit.level, level(body, &fit.level)?)));
-    levels
-        .filter_map(|(name, (height_m, body_girth_m))| {
-            let heights = (0..(DOWN_M / STEP_M) as usize).map(|k| height_m - k as f64 * STEP_M);
-            let (height_m, garment_girth_m) = heights.into_iter().find_map(|z| Some((z, girth_at(&trunk, z)?)))?;
-            Some(Closure { level: name.clone(), height_m, body_girth_m, garment_girth_m })
-        })
-        .collect()
-}
-
-/// Height and girth of a body level, m.
-fn level(body: &Body, name: &str) -> Option<(f64, f64)> {
-    let (height_m, girth_mm) = match name {
-        "chest" | "bust" => (body.levels.chest_m, body.girths.chest_girth_mm),
-        "underbust" => (body.levels.underbust_m, body.girths.underbust_girth_mm),
-        "waist" => (body.levels.waist_m, body.girths.waist_girth_mm),
-        "hip" => (body.levels.hip_m, body.girths.hip_girth_mm),
-        _ => return None,
+    let corners = trunk.triangles.iter().flatten().map(|&v| trunk.positions[v].z);
+    let top_m = corners.fold(f64::MIN, f64::max);
+    let closure = |(name, height_m, girth_mm, down_m): (&str, f64, f64, f64)| {
+        let heights = (0..=(down_m / STEP_M) as usize).map(|k| height_m - k as f64 * STEP_M);
+        let girth = heights.filter(|z| *z < top_m).find_map(|z| Some((z, girth_at(&trunk, z)?)));
+        let (height_m, garment_girth_m) = girth.filter(|_| height_m < top_m)?;
+        Some(Closure { level: name.to_owned(), height_m, body_girth_m: from_mm(girth_mm), garment_girth_m })
     };
-    Some((height_m, from_mm(girth_mm)))
+    let (levels, girths) = (&body.levels, &body.girths);
+    let levels = [
+        ("chest", levels.chest_m, girths.chest_girth_mm, DOWN_M),
+        ("underbust", levels.underbust_m, girths.underbust_girth_mm, 0.0),
+        ("waist", levels.waist_m, girths.waist_girth_mm, 0.0),
+        ("hip", levels.hip_m, girths.hip_girth_mm, 0.0),
+    ];
+    levels.into_iter().filter_map(closure).collect()
 }
 
 /// What covers the trunk, sewn: everything but sleeves.
@@ -71,15 +68,11 @@ fn trunk(garment: &Garment, positions: &[V3]) -> TriMesh {
     mesh
 }
 
-/// Length of the closed outline in which a horizontal plane cuts cloth round the body's axis, m.
+/// Girth of the cloth round the body's axis at a height, as a tape reads it, m: like that of the body, without folds.
 fn girth_at(trunk: &TriMesh, z: f64) -> Option<f64> {
-    let length = |outline: &Outline| -> f64 {
-        let next = outline.points.iter().cycle().skip(1);
-        outline.points.iter().zip(next).map(|(a, b): (&V2, &V2)| (b - a).norm()).sum()
-    };
     let round = |outline: &Outline| {
         let (low, high) = outline.bounds();
         outline.closed && low.x < 0.0 && high.x > 0.0
     };
-    section(trunk, &Plane::horizontal(z)).iter().filter(|o| round(o)).map(length).max_by(f64::total_cmp)
+    section(trunk, &Plane::horizontal(z)).iter().filter(|o| round(o)).map(|o| tape_girth(&o.points)).max_by(f64::total_cmp)
 }

@@ -6,17 +6,20 @@
 
 use std::collections::BTreeMap;
 
+use super::assemble::{Assembly, assemble};
 use super::features::{self, Face, Feature, Kind, Mapped};
+use super::follow;
 use super::form::Form;
 use super::harmonic;
 use super::locate::Locator;
 use super::outline;
 use super::patch::{self, Patch};
 use super::path::{PathGraph, Taken};
+use super::untangle::untangle;
 use crate::body::{Body, Region};
-use crate::geom::{V2, V3};
+use crate::geom::{TriMesh, V2, V3};
 use crate::pattern::{Garment, PieceMesh, Role};
-use crate::sim::SimError;
+use crate::sim::{SimError, sewing};
 
 /// Points on each edge of the control mesh in path searches. Odd, so that an edge across the median plane has its middle.
 pub const PATH_POINTS: usize = 9;
@@ -27,11 +30,11 @@ const AWAY: f64 = 0.4;
 /// A garment on the surface of a form.
 #[derive(Clone, Debug)]
 pub struct OnForm {
-    /// World position of each garment vertex, m; the two sides of a seam nearly coincide.
+    /// World position of each garment vertex, m; the two sides of a seam coincide.
     pub positions: Vec<V3>,
-    /// Triangles whose outside faces the form, after repair.
+    /// Triangles whose outside still faces the form.
     pub flips: usize,
-    /// Patch of each piece on the form.
+    /// Patch of each piece on the form, pieces that lie side by side taken together.
     pub patches: Vec<Vec<usize>>,
 }
 
@@ -40,29 +43,33 @@ pub struct OnForm {
 /// # Errors
 /// [`SimError::CannotPlace`] and [`SimError::CannotMap`], both before anything is computed that takes long.
 pub fn map(body: &Body, garment: &Garment) -> Result<OnForm, SimError> {
-    let form = match features::kind(garment)? {
+    let assembly = assemble(garment);
+    let joined = &assembly.garment;
+    let form = match features::kind(joined)? {
         Kind::Hung => Form::hung(body),
         Kind::Legs => Form::legs(body),
     };
-    let pieces = features::features(body, &form, garment)?;
+    let pieces = features::features(body, &form, joined)?;
     let graph = PathGraph::new(&form.mesh, PATH_POINTS);
     let mut paths = Paths::new(&form, &graph, &pieces);
-    let partners = outline::partners(garment);
-    let mut mapped = OnForm { positions: vec![V3::zeros(); garment.rest.len()], flips: 0, patches: Vec::new() };
+    let partners = outline::partners(joined);
+    let count = joined.rest.len();
+    let mut laid = Laid { x: vec![V3::zeros(); count], outwards: vec![V3::zeros(); count] };
     // Trunk pieces first: sleeves take the armholes' paths from them.
     let mut order: Vec<usize> = (0..pieces.len()).collect();
-    order.sort_by_key(|&p| features::face(garment.pieces[p].role) == Face::Round);
-    mapped.patches = vec![Vec::new(); pieces.len()];
-    paths.find_underarms(garment, &pieces, &partners);
+    order.sort_by_key(|&p| features::face(joined.pieces[p].role) == Face::Round);
+    let mut patches = vec![Vec::new(); pieces.len()];
+    paths.find_underarms(joined, &pieces, &partners);
     for p in order {
-        let cannot = |reason| SimError::CannotMap { piece: garment.pieces[p].id.clone(), reason };
-        let outline = paths.outline(garment, p, &pieces[p], &partners).map_err(cannot)?;
+        let cannot = |reason| SimError::CannotMap { piece: joined.pieces[p].id.clone(), reason };
+        let outline = paths.outline(joined, p, &pieces[p], &partners).map_err(cannot)?;
         let patch = patch::cut(&graph, &outline.nodes).map_err(cannot)?;
-        mapped.flips += lay(garment, &garment.pieces[p], &outline, &patch, &mut mapped.positions)
+        lay(joined, &joined.pieces[p], &outline, &patch, &mut laid)
             .ok_or_else(|| cannot("its patch of the body's surface has no harmonic map"))?;
-        mapped.patches[p] = patch.face_of;
+        patches[p] = patch.face_of;
     }
-    Ok(mapped)
+    let (positions, flips) = spread(garment, &assembly, &laid)?;
+    Ok(OnForm { positions, flips, patches })
 }
 
 /// The closed outline of a piece on the form.
@@ -250,8 +257,16 @@ fn on_circle(turn: f64) -> V2 {
     V2::new(cos, sin)
 }
 
-/// Lays one piece on its patch; returns the number of triangles that look inwards even after repair.
-fn lay(garment: &Garment, piece: &PieceMesh, outline: &Outline, patch: &Patch, positions: &mut [V3]) -> Option<usize> {
+/// Where vertices came to lie on the form.
+struct Laid {
+    /// Positions, m.
+    x: Vec<V3>,
+    /// Unit normals of the form there.
+    outwards: Vec<V3>,
+}
+
+/// Lays one piece on its patch; `None` where one of the two has no harmonic map.
+fn lay(garment: &Garment, piece: &PieceMesh, outline: &Outline, patch: &Patch, laid: &mut Laid) -> Option<()> {
     let fixed = patch.boundary.iter().zip(&outline.turns).map(|(&v, &turn)| (v, on_circle(turn))).collect();
     let surface = harmonic::map(&patch.mesh.positions, &patch.mesh.triangles, &fixed)?;
     let first = piece.vertices.start;
@@ -259,96 +274,41 @@ fn lay(garment: &Garment, piece: &PieceMesh, outline: &Outline, patch: &Patch, p
     let triangles: Vec<[usize; 3]> =
         garment.triangles[piece.triangles.clone()].iter().map(|t| t.map(|v| v - first)).collect();
     let fixed: BTreeMap<usize, V2> = outline.boundary.iter().map(|&(v, place, _)| (v - first, place)).collect();
-    let mut laid = Laid {
-        domain: harmonic::map(&flat, &triangles, &fixed)?,
-        x: vec![V3::zeros(); flat.len()],
-        outwards: vec![V3::zeros(); flat.len()],
-    };
-    let composed = Composed { patch, locator: Locator::new(&surface, &patch.mesh.triangles) };
-    (0..flat.len()).try_for_each(|v| composed.lift(&mut laid, v))?;
-    for &(v, _, place) in &outline.boundary {
-        laid.x[v - first] = place;
-    }
-    let flips = repair(&composed, &mut laid, &triangles, &fixed)?;
-    positions[piece.vertices.clone()].copy_from_slice(&laid.x);
-    Some(flips)
-}
-
-/// A piece under way: its vertices in the domain and on the form.
-struct Laid {
-    domain: Vec<V2>,
-    x: Vec<V3>,
-    /// Unit normal of the form there.
-    outwards: Vec<V3>,
-}
-
-impl Laid {
-    fn looks_inwards(&self, t: &[usize; 3]) -> bool {
-        let [a, b, c] = t.map(|v| self.x[v]);
-        let out: V3 = t.iter().map(|&v| self.outwards[v]).sum();
-        (b - a).cross(&(c - a)).dot(&out) <= 0.0
-    }
-}
-
-/// The way from the domain to the form.
-struct Composed<'a> {
-    patch: &'a Patch,
-    locator: Locator<'a>,
-}
-
-impl Composed<'_> {
-    /// Sets a vertex on the form where it is in the domain.
-    fn lift(&self, laid: &mut Laid, v: usize) -> Option<()> {
-        let (t, weights) = self.locator.locate(laid.domain[v])?;
-        let [a, b, c] = self.patch.mesh.triangles[t].map(|w| self.patch.mesh.positions[w]);
+    let domain = harmonic::map(&flat, &triangles, &fixed)?;
+    let locator = Locator::new(&surface, &patch.mesh.triangles);
+    for (v, place) in piece.vertices.clone().zip(domain) {
+        let (t, weights) = locator.locate(place)?;
+        let [a, b, c] = patch.mesh.triangles[t].map(|w| patch.mesh.positions[w]);
         laid.x[v] = a * weights[0] + b * weights[1] + c * weights[2];
         laid.outwards[v] = (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_else(V3::zeros);
-        Some(())
     }
+    for &(v, _, place) in &outline.boundary {
+        laid.x[v] = place;
+    }
+    Some(())
 }
 
-/// Rounds of repair at most.
-const REPAIRS: u32 = 30;
-
-/// Moves the inner vertices of flipped triangles to the mean of their neighbours, first in the domain, then in space, until
-/// none is left or the rounds are used up. Both maps are bijective; but a piece is laid vertex by vertex, and a narrow triangle over an edge of
-/// the coarse form can still turn over.
-fn repair(
-    composed: &Composed,
-    laid: &mut Laid,
-    triangles: &[[usize; 3]],
-    fixed: &BTreeMap<usize, V2>,
-) -> Option<usize> {
-    let mut around = vec![Vec::new(); laid.x.len()];
-    for t in triangles {
-        for k in 0..3 {
-            around[t[k]].push(t[(k + 1) % 3]);
-        }
+/// Brings the pieces as cut where the assembled ones lie, lets the others follow, and turns flipped triangles back.
+fn spread(garment: &Garment, assembly: &Assembly, laid: &Laid) -> Result<(Vec<V3>, usize), SimError> {
+    let mut positions: Vec<V3> =
+        assembly.vertex_of.iter().map(|v| v.map_or_else(V3::zeros, |v| laid.x[v])).collect();
+    follow::place(garment, &assembly.followers, &mut positions)?;
+    let welded = sewing::welded(garment);
+    let count = welded.iter().max().map_or(0, |m| m + 1);
+    let (mut x, mut outwards, mut copies) = (vec![V3::zeros(); count], vec![V3::zeros(); count], vec![0.0; count]);
+    for (v, &sewn) in welded.iter().enumerate() {
+        x[sewn] += positions[v];
+        copies[sewn] += 1.0;
+        outwards[sewn] += assembly.vertex_of[v].map_or_else(V3::zeros, |v| laid.outwards[v]);
     }
-    let flipped = |laid: &Laid| triangles.iter().filter(|t| laid.looks_inwards(t)).count();
-    let mut flips = flipped(laid);
-    for round in 0..REPAIRS {
-        if flips == 0 {
-            break;
-        }
-        let moving: Vec<usize> = triangles
-            .iter()
-            .filter(|t| laid.looks_inwards(t))
-            .flatten()
-            .copied()
-            .flat_map(|v| std::iter::once(v).chain(around[v].iter().copied()))
-            .filter(|v| !fixed.contains_key(v))
-            .collect();
-        for v in moving {
-            let count = around[v].len() as f64;
-            if round < REPAIRS / 2 {
-                laid.domain[v] = around[v].iter().map(|&w| laid.domain[w]).sum::<V2>() / count;
-                composed.lift(laid, v)?;
-            } else {
-                laid.x[v] = around[v].iter().map(|&w| laid.x[w]).sum::<V3>() / count;
-            }
-        }
-        flips = flipped(laid);
+    x.iter_mut().zip(&copies).for_each(|(sum, n)| *sum /= *n);
+    let triangles: Vec<[usize; 3]> = garment.triangles.iter().map(|t| t.map(|v| welded[v])).collect();
+    // Followers look where they lie.
+    let own = TriMesh { positions: positions.clone(), triangles: garment.triangles.clone() }.vertex_normals();
+    for &piece in &assembly.followers {
+        garment.pieces[piece].vertices.clone().for_each(|v| outwards[welded[v]] += own[v]);
     }
-    Some(flips)
+    let flips = untangle(&triangles, &outwards, &mut x);
+    welded.iter().zip(&mut positions).for_each(|(&sewn, p)| *p = x[sewn]);
+    Ok((positions, flips))
 }

@@ -3,11 +3,14 @@
 //! Four phases, each with a result of its own: [`mapping`] lays the pieces on the body, [`sewn`] joins them, [`popup`] gives
 //! them back their size, and a short drape lets them come to rest on the fine mesh.
 
+mod assemble;
 mod elastic;
 pub mod features;
+mod follow;
 pub mod form;
 pub mod gap;
 pub mod harmonic;
+mod layers;
 mod locate;
 pub mod mapping;
 pub mod outline;
@@ -18,8 +21,10 @@ pub mod relax;
 mod rows;
 pub mod sewn;
 pub mod sparse;
+mod untangle;
+mod walls;
 
-use crate::body::Body;
+use crate::body::{Body, Layer};
 use crate::geom::{DistanceField, V3};
 use crate::pattern::{Garment, Measurement};
 use crate::sim::{Drape, Fabric, Monitor, Progress, SimError, Stage, Staged, Step, quality};
@@ -30,6 +35,7 @@ pub use relax::RelaxParams;
 pub use sewn::Sewn;
 
 use relax::{Push, Relaxation};
+use walls::Walls;
 
 /// Parameters of Hybrid-GS.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -46,12 +52,15 @@ pub struct Params {
 
 impl Default for Params {
     fn default() -> Self {
-        Self { uncontrolled: Vec::new(), relax: RelaxParams::default(), push_steps: 15, yield_steps: 20 }
+        Self { uncontrolled: Vec::new(), relax: RelaxParams::default(), push_steps: 25, yield_steps: 25 }
     }
 }
 
 /// Rms movement in a step below which a drape counts as come to rest, m.
 const AT_REST_M: f64 = 1e-3;
+
+/// Rounds in which cloth that runs through itself is pulled apart in the end.
+const PARTINGS: u32 = 40;
 
 /// What each phase left, positions of the garment's vertices in metres.
 #[derive(Clone, Debug)]
@@ -94,20 +103,28 @@ pub fn phases(
         garment.measurements.iter().filter(|m| !params.uncontrolled.contains(&m.no)).collect();
     let mapped = mapping::map(body, garment)?;
     let sewn = Sewn::new(garment, &mapped.positions);
-    let mut relaxation = Relaxation::new(field, garment, &sewn, fabric, &controls, params.relax)?;
+    let walls = Walls::new(body, garment, &sewn);
+    let mut relaxation = Relaxation::new(field, garment, &sewn, fabric, &controls, walls, params.relax)?
+        .over_feet(body.control.ring_centre(Layer::AnkleRight).z);
+    relaxation.part_layers(PARTINGS);
     let on_skin = sewn.unsewn(&relaxation.x);
     let lift: f64 = relaxation.x.iter().zip(&sewn.x).map(|(a, b)| (a - b).norm_squared()).sum();
     run.record("sew", 0.2, 0, &on_skin, (lift / sewn.x.len() as f64).sqrt() / AT_REST_M)?;
     let mut done = 0.0;
-    popup::reconstruct(&mut relaxation, |now, moved| {
+    let error = |x: &[V3]| mean_chi(garment, &sewn.unsewn(x)) - 1.0;
+    popup::reconstruct(&mut relaxation, error, |now, moved| {
         done += 1.0;
         run.record("popup", 0.2 + 0.4 * done / f64::from(popup::steps()), 1, &sewn.unsewn(&now.x), moved / AT_REST_M)
     })?;
+    relaxation.part_layers(PARTINGS);
     let popped = sewn.unsewn(&relaxation.x);
     let steps = params.push_steps + params.yield_steps;
-    let mut last = f64::MAX;
+    let (mut last, mut self_crossings) = (f64::MAX, 0);
     for step in 1..=steps {
         last = relaxation.step(Push { unlimited: step <= params.push_steps, gravity: 1.0, share: 1.0 });
+        if step == steps {
+            self_crossings = relaxation.part_layers(PARTINGS);
+        }
         let fraction = 0.6 + 0.4 * f64::from(step) / f64::from(steps);
         run.record("drape", fraction, 2, &sewn.unsewn(&relaxation.x), last / AT_REST_M)?;
     }
@@ -120,7 +137,7 @@ pub fn phases(
         residual: last / AT_REST_M,
         penetration_max_m: quality::penetration_m(body, garment, &positions),
         seam_gap_max_m: quality::seam_gap_m(garment, &positions),
-        self_crossings: quality::self_crossings(&x, &sewn.triangles),
+        self_crossings,
         welded_vertices: x.len(),
         positions,
         history: run.history,
@@ -130,6 +147,12 @@ pub fn phases(
         ],
     };
     Ok(Phases { mapped, drape })
+}
+
+/// E: mean chi over the measurements; positions of the garment's vertices in m.
+fn mean_chi(garment: &Garment, positions: &[V3]) -> f64 {
+    let chi = |m: &Measurement| m.length_m(&garment.rest, positions) / m.l2d_m;
+    garment.measurements.iter().map(chi).sum::<f64>() / garment.measurements.len() as f64
 }
 
 /// A run under way: what is recorded and reported of each step.
@@ -152,8 +175,7 @@ impl Run<'_> {
         if !positions.iter().all(|p| p.iter().all(|c| c.is_finite())) {
             return Err(SimError::Diverged { garment: self.garment.name.clone(), iteration });
         }
-        let chi = |m: &Measurement| m.length_m(&self.garment.rest, positions) / m.l2d_m;
-        let e_chi = self.garment.measurements.iter().map(chi).sum::<f64>() / self.garment.measurements.len() as f64;
+        let e_chi = mean_chi(self.garment, positions);
         let step = Step { iteration, level, residual, seam_gap_m: 0.0, e_chi };
         self.history.push(step);
         self.monitor.progress(&Progress { phase, fraction, step });

@@ -2,6 +2,7 @@
 //! under control of every measurement of the style.
 
 use super::relax::{Push, Relaxation};
+use crate::geom::V3;
 
 /// Steps in which it grows, and in which it then comes to rest.
 const STEPS: [u32; 2] = [12, 16];
@@ -12,21 +13,54 @@ pub fn steps() -> u32 {
     STEPS[0] + STEPS[1]
 }
 
+
+/// Times that the controls are set anew in a step, at most.
+const CORRECTIONS: u32 = 2;
+/// What a change of all controls' lengths changes their mean by, at first guess.
+const RESPONSE: f64 = 0.7;
+
 /// Pops a garment up; calls `each` with it and the rms movement (m) after every step, which ends it early with an error.
 ///
 /// Triangles and controls go from the size they were sewn at to that of the pattern in equal steps. Until then the body
-/// pushes the cloth out, or sleeves would swing through the arms while they grow; then it yields.
+/// pushes the cloth out, or sleeves would swing through the arms while they grow; then it yields. `error` is how far the
+/// garment is from its size on average, signed: a step that would go past, on its momentum or because controls are soft, or
+/// lead away from it, is done again with the controls' lengths set against that.
 ///
 /// # Errors
 /// Those of `each`.
 pub fn reconstruct<E>(
     relaxation: &mut Relaxation,
+    error: impl Fn(&[V3]) -> f64,
     mut each: impl FnMut(&Relaxation, f64) -> Result<(), E>,
 ) -> Result<(), E> {
+    let mut last = error(&relaxation.x);
     for step in 1..=steps() {
         let share = f64::from(step) / f64::from(STEPS[0]);
-        let moved = relaxation.step(Push { unlimited: share < 1.0, gravity: 0.0, share: share.min(1.0) });
+        let push = Push { unlimited: share < 1.0, gravity: 0.0, share: share.min(1.0) };
+        let before = relaxation.place();
+        let mut moved = relaxation.step(push);
+        let mut now = error(&relaxation.x);
+        let (mut response, mut tries) = (RESPONSE, 0);
+        while !is_nearer(now, last) && tries < CORRECTIONS {
+            let change = (0.5 * last - now) / response;
+            relaxation.go_back(&before);
+            relaxation.control += change;
+            moved = relaxation.step(push);
+            let next = error(&relaxation.x);
+            response = ((next - now) / change).clamp(0.3 * RESPONSE, 2.0 * RESPONSE);
+            now = next;
+            tries += 1;
+        }
+        last = now;
         each(relaxation, moved)?;
     }
     Ok(())
+}
+
+/// Error that counts as none.
+const NONE: f64 = 2e-5;
+
+/// Whether an error is smaller than the last and has not changed sides, or is none.
+fn is_nearer(now: f64, last: f64) -> bool {
+    now.abs() < NONE || (now.abs() <= last.abs() && now * last >= 0.0)
 }

@@ -5,10 +5,12 @@
 //! body wins no more: the cloth goes back to its size and into the body.
 
 use super::elastic::{Elastic, Pull};
+use super::layers::Layers;
 use super::rows::Rows;
 use super::sewn::Sewn;
+use super::walls::Walls;
 use crate::geom::{DistanceField, V3};
-use crate::pattern::{Garment, Measurement, Role};
+use crate::pattern::{Garment, Measurement};
 use crate::sim::cloth::Cloth;
 use crate::sim::{Fabric, SimError};
 
@@ -65,9 +67,7 @@ pub struct Relaxation<'a> {
     /// Weight of each sewn vertex over the membrane's stiffness, m.
     weight: Vec<f64>,
     rows: Rows,
-    /// Side of the median plane that vertices keep to: 1 for the right leg, -1 for the left, 0 for the seam between
-    /// them, which stays on it. Legs would run through each other otherwise.
-    sides: Vec<Option<f64>>,
+    walls: Walls,
     /// Vertices that had the weight of contact at the last look.
     touching: Vec<bool>,
     /// Greatest depth that contact still pushes against at each sewn vertex, m.
@@ -76,6 +76,20 @@ pub struct Relaxation<'a> {
     pub x: Vec<V3>,
     /// Displacement of the last step, m.
     last: Vec<V3>,
+    layers: Layers,
+    /// What lengths of controls are multiplied by.
+    pub control: f64,
+    /// Below this height cloth lies on the feet and need not close around them, m.
+    feet_m: f64,
+    steps: u32,
+}
+
+/// A place on the way of a garment to which it can go back.
+#[derive(Clone, Debug)]
+pub struct Place {
+    x: Vec<V3>,
+    last: Vec<V3>,
+    most_m: Vec<f64>,
     steps: u32,
 }
 
@@ -101,6 +115,7 @@ impl<'a> Relaxation<'a> {
         sewn: &Sewn,
         fabric: &Fabric,
         controls: &[&Measurement],
+        walls: Walls,
         params: RelaxParams,
     ) -> Result<Self, SimError> {
         let stiff = Fabric {
@@ -113,8 +128,7 @@ impl<'a> Relaxation<'a> {
         let bending: Vec<([usize; 2], f64)> =
             pairs.map(|(pair, entry)| (*pair, entry / params.stiffness_n_m)).collect();
         let x = lifted(field, params.offset_m, &sewn.x);
-        let sides = legs(garment, sewn);
-        let touching = touching(field, params.offset_m, &sides, &x);
+        let touching = touching(field, params.offset_m, &walls, &x);
         let weights = weights(&params, &cloth.areas, &touching);
         let elastic = Elastic::new(garment, &sewn.vertex_of, &x, controls, params.control_width_m, &bending, weights)
             .ok_or_else(|| SimError::Degenerate { piece: garment.name.clone(), at: garment.rest[0] })?;
@@ -128,13 +142,41 @@ impl<'a> Relaxation<'a> {
             areas: cloth.areas,
             weight,
             rows,
-            sides,
+            walls,
             touching,
             most_m,
             last: vec![V3::zeros(); x.len()],
+            layers: Layers::new(&sewn.triangles),
+            control: 1.0,
+            feet_m: f64::MIN,
             x,
             steps: 0,
         })
+    }
+
+    /// Says how high the ankles are, m: below them contact does not yield.
+    #[must_use]
+    pub fn over_feet(self, ankles_m: f64) -> Self {
+        Self { feet_m: ankles_m, ..self }
+    }
+
+    /// Where it is now.
+    #[must_use]
+    pub fn place(&self) -> Place {
+        Place { x: self.x.clone(), last: self.last.clone(), most_m: self.most_m.clone(), steps: self.steps }
+    }
+
+    /// Goes back to a place.
+    pub fn go_back(&mut self, place: &Place) {
+        self.x.clone_from(&place.x);
+        self.last.clone_from(&place.last);
+        self.most_m.clone_from(&place.most_m);
+        self.steps = place.steps;
+    }
+
+    /// Pulls cloth apart that runs through itself; returns how many edges still do.
+    pub fn part_layers(&mut self, rounds: u32) -> usize {
+        self.layers.part(&mut self.x, rounds)
     }
 
     /// Takes one step; returns the rms movement of the vertices, m.
@@ -152,13 +194,13 @@ impl<'a> Relaxation<'a> {
         }
         let target = |((p, (depth, out)), most): ((&V3, &(f64, V3)), &f64)| p + out * depth.min(*most);
         let mut targets: Vec<V3> = from.iter().zip(&contacts).zip(&self.most_m).map(target).collect();
-        for (target, side) in targets.iter_mut().zip(&self.sides) {
-            if let Some(side) = side.filter(|side| beyond_median(target, *side, self.params.offset_m)) {
-                target.x = side * self.params.offset_m;
+        for (v, target) in targets.iter_mut().enumerate() {
+            if let Some(back) = self.walls.back(v, target, self.params.offset_m) {
+                *target = back;
             }
         }
         let loads: Vec<V3> = self.weight.iter().map(|w| V3::new(0.0, 0.0, -w * push.gravity)).collect();
-        let next = self.elastic.step(&from, &Pull { targets: &targets, loads: &loads, share: push.share });
+        let next = self.elastic.step(&from, &Pull { targets: &targets, loads: &loads, share: push.share, control: self.control });
         self.last = next.iter().zip(&self.x).map(|(a, b)| a - b).collect();
         self.x = next;
         (self.last.iter().map(V3::norm_squared).sum::<f64>() / self.x.len() as f64).sqrt()
@@ -166,7 +208,7 @@ impl<'a> Relaxation<'a> {
 
     /// Gives the vertices their weights anew, where enough of them have come into contact or left it.
     fn look_for_contacts(&mut self) {
-        let touching = touching(self.field, self.params.offset_m, &self.sides, &self.x);
+        let touching = touching(self.field, self.params.offset_m, &self.walls, &self.x);
         let changed = touching.iter().zip(&self.touching).filter(|(a, b)| a != b).count();
         if changed as f64 > SAME_CONTACTS * touching.len() as f64 {
             self.elastic.set_weights(weights(&self.params, &self.areas, &touching));
@@ -178,34 +220,14 @@ impl<'a> Relaxation<'a> {
     fn give_way(&mut self, contacts: &[(f64, V3)]) {
         let stretch = self.rows.stretch(&self.elastic, &self.x);
         for (v, (depth, _)) in contacts.iter().enumerate() {
+            if self.x[v].z < self.feet_m {
+                continue;
+            }
             let excess = (stretch[v] - self.params.yield_stretch) / self.params.yield_stretch;
             let now = self.most_m[v].min(depth.max(LEAST_PUSH_M));
             self.most_m[v] = now * (1.0 - 0.5 * excess).clamp(0.5, 1.2);
         }
     }
-}
-
-/// Whether a vertex is on the wrong side of the median plane.
-fn beyond_median(p: &V3, side: f64, offset_m: f64) -> bool {
-    side == 0.0 || p.x * side < offset_m
-}
-
-/// Which leg each sewn vertex belongs to; `None` for vertices of neither.
-fn legs(garment: &Garment, sewn: &Sewn) -> Vec<Option<f64>> {
-    let mut sums = vec![(0.0, 0.0); sewn.x.len()];
-    for piece in &garment.pieces {
-        let side = match piece.role {
-            Role::LegFrontRight | Role::LegBackRight => 1.0,
-            Role::LegFrontLeft | Role::LegBackLeft => -1.0,
-            _ => continue,
-        };
-        for v in piece.vertices.clone() {
-            sums[sewn.vertex_of[v]].0 += side;
-            sums[sewn.vertex_of[v]].1 += 1.0;
-        }
-    }
-    let side = |(sum, n): (f64, f64)| (n > 0.0).then_some(if sum.abs() == n { sum.signum() } else { 0.0 });
-    sums.into_iter().map(side).collect()
 }
 
 /// Share of the vertices whose contact may have changed before the system is factorised again.
@@ -228,12 +250,11 @@ fn lifted(field: &DistanceField, offset_m: f64, x: &[V3]) -> Vec<V3> {
     x.iter().map(lift).collect()
 }
 
-/// Which vertices contact acts on: those near the body or beyond the median plane.
-fn touching(field: &DistanceField, offset_m: f64, sides: &[Option<f64>], x: &[V3]) -> Vec<bool> {
-    let touches = |(p, side): (&V3, &Option<f64>)| {
-        field.value_and_gradient(p).0 < offset_m || side.is_some_and(|side| beyond_median(p, side, offset_m))
-    };
-    x.iter().zip(sides).map(touches).collect()
+/// Which vertices contact acts on: those near the body or beyond a wall.
+fn touching(field: &DistanceField, offset_m: f64, walls: &Walls, x: &[V3]) -> Vec<bool> {
+    let touches =
+        |(v, p): (usize, &V3)| field.value_and_gradient(p).0 < offset_m || walls.back(v, p, offset_m).is_some();
+    x.iter().enumerate().map(touches).collect()
 }
 
 /// Weights of the vertices' targets: those in contact stay where contact wants them, the others may go.

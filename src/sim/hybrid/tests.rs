@@ -197,7 +197,7 @@ fn a_tube_gets_its_length_and_girth_back() {
     let mut last = mean_edge_error(&garment, &now);
     assert!((last - 0.1).abs() < 2e-3, "{last}");
     for _ in 0..30 {
-        now = elastic.step(&now, &Pull { targets: &now, loads: &none, share: 1.0 });
+        now = elastic.step(&now, &Pull { targets: &now, loads: &none, share: 1.0, control: 1.0 });
         let error = mean_edge_error(&garment, &now);
         assert!(error <= last + 1e-5, "{error} after {last}");
         last = error;

@@ -1,0 +1,354 @@
+//! The garment as the body sees it: what is cut in several pieces but lies on one side of the trunk, one leg or one arm
+//! is one piece there.
+//!
+//! Fronts cut in halves or with darts, skirts with their waistbands, sleeves in two pieces are sewn together beforehand
+//! and laid flat again, as little stretched as can be. What hangs on such pieces only (cuffs, collars, bands that join both
+//! legs) is left to [`super::follow`].
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::elastic::{Elastic, Pull};
+use crate::geom::{V2, V3};
+use crate::pattern::{Garment, PieceMesh, Role, SeamMesh};
+use crate::sim::sewing;
+
+/// Steps in which pieces sewn together are laid flat.
+const FLATTENING: u32 = 12;
+
+/// A garment in as few pieces as the body needs.
+#[derive(Clone, Debug)]
+pub struct Assembly {
+    /// Its pieces, flat, with the seams that are still open; without measurements.
+    pub garment: Garment,
+    /// Its vertex of each vertex of the garment as cut; `None` on pieces that follow.
+    pub vertex_of: Vec<Option<usize>>,
+    /// Pieces as cut that only follow others.
+    pub followers: Vec<usize>,
+}
+
+/// A stretch of a seam between two pieces, or of one with itself.
+struct Stretch {
+    pieces: [usize; 2],
+    name: String,
+    pairs: Vec<[usize; 2]>,
+}
+
+/// Joins the pieces of a garment that lie side by side on one part of the body.
+#[must_use]
+pub fn assemble(garment: &Garment) -> Assembly {
+    let stretches = stretches(garment);
+    let parts = parts(garment, &stretches);
+    let marks = Marks::new(garment, &stretches);
+    let is_inner = |s: &Stretch| {
+        let [a, b] = s.pieces.map(|p| parts[p]);
+        a.is_some() && a == b && closes(garment, &marks, a, s)
+    };
+    let (inner, outer): (Vec<Stretch>, Vec<Stretch>) = stretches.into_iter().partition(is_inner);
+    let sewn = sewing::welded(&Garment { seams: seams(&inner, |v| v), ..garment.clone() });
+    let groups = groups(&parts, &inner);
+    let flat = flat(garment, &sewn, &groups, &inner);
+    Numbered::new(garment, &sewn, &groups).assembly(garment, &parts, &groups, &flat, &outer, &marks)
+}
+
+/// The seams of a garment, parted where a side goes over to another piece.
+fn stretches(garment: &Garment) -> Vec<Stretch> {
+    let piece_of = |v: usize| garment.pieces.iter().position(|p| p.vertices.contains(&v)).unwrap_or(usize::MAX);
+    let mut found: Vec<Stretch> = Vec::new();
+    for seam in &garment.seams {
+        let mut last = None;
+        for &pair in &seam.pairs {
+            let pieces = pair.map(piece_of);
+            if last != Some(pieces) {
+                found.push(Stretch { pieces, name: seam.name.clone(), pairs: Vec::new() });
+                last = Some(pieces);
+            }
+            if let Some(stretch) = found.last_mut() {
+                stretch.pairs.push(pair);
+            }
+        }
+    }
+    found
+}
+
+/// The part of the body that each piece lies on, named by a role; `None` for pieces that follow.
+fn parts(garment: &Garment, stretches: &[Stretch]) -> Vec<Option<Role>> {
+    let own = |p: &PieceMesh| (!matches!(p.role, Role::Waistband | Role::Other)).then_some(p.role);
+    let mut parts: Vec<Option<Role>> = garment.pieces.iter().map(own).collect();
+    if parts.iter().all(Option::is_none) {
+        // Something that is sewn to itself only, as a circle skirt: the largest piece goes round the trunk.
+        let largest = (0..parts.len()).max_by_key(|&p| garment.pieces[p].triangles.len());
+        if let Some(largest) = largest {
+            parts[largest] = Some(Role::Other);
+        }
+        return parts;
+    }
+    let worn = parts.clone();
+    for (band, part) in parts.iter_mut().enumerate().filter(|(p, _)| garment.pieces[*p].role == Role::Waistband) {
+        let sides = |s: &Stretch| match s.pieces {
+            [a, b] if a == band => worn[b],
+            [a, b] if b == band => worn[a],
+            _ => None,
+        };
+        let on: BTreeSet<Role> = stretches.iter().filter_map(sides).collect();
+        let is_skirt = |role: &&Role| matches!(role, Role::SkirtFront | Role::SkirtBack);
+        let skirts: Vec<&Role> = on.iter().filter(is_skirt).collect();
+        let is_leg = |role: &Role| super::features::is_leg(*role);
+        *part = match (skirts.as_slice(), on.iter().collect::<Vec<_>>().as_slice()) {
+            ([skirt], _) => Some(**skirt),
+            ([], [trunk]) if !is_leg(trunk) => Some(**trunk),
+            _ => None,
+        };
+    }
+    parts
+}
+
+/// Where front and back of the trunk meet along the sides.
+struct Marks {
+    /// Welded vertex of each vertex.
+    welded: Vec<usize>,
+    /// Welded vertices of the sides.
+    sides: BTreeSet<usize>,
+}
+
+impl Marks {
+    fn new(garment: &Garment, stretches: &[Stretch]) -> Self {
+        use super::features::{Face, face};
+        let mut marks = Self { welded: sewing::welded(garment), sides: BTreeSet::new() };
+        for stretch in stretches {
+            let faces = stretch.pieces.map(|p| face(garment.pieces[p].role));
+            if !matches!(faces, [Face::Front, Face::Back] | [Face::Back, Face::Front]) {
+                continue;
+            }
+            let ends = [stretch.pairs[0][0], stretch.pairs[stretch.pairs.len() - 1][0]].map(|v| garment.rest[v]);
+            let chord = ends[1] - ends[0];
+            if chord.y.abs() > chord.x.abs() {
+                marks.sides.extend(stretch.pairs.iter().map(|pair| marks.welded[pair[0]]));
+            }
+        }
+        marks
+    }
+
+    fn is_underarm(&self, stretch: &Stretch) -> bool {
+        stretch.pairs.iter().any(|pair| self.sides.contains(&self.welded[pair[0]]))
+    }
+}
+
+/// Whether a stretch between pieces of one part is sewn beforehand: a dart is, the seam that makes a tube of a sleeve is not.
+fn closes(garment: &Garment, marks: &Marks, part: Option<Role>, stretch: &Stretch) -> bool {
+    let [a, b] = stretch.pieces;
+    if a == b {
+        let is_edge = |[v, w]: [usize; 2]| {
+            let of = &garment.triangles[garment.pieces[a].triangles.clone()];
+            v == w || of.iter().any(|t| t.contains(&v) && t.contains(&w))
+        };
+        return stretch.pairs.iter().any(|pair| is_edge(*pair));
+    }
+    match part {
+        Some(Role::SleeveRight | Role::SleeveLeft) => !marks.is_underarm(stretch),
+        _ => true,
+    }
+}
+
+fn seams(stretches: &[Stretch], number: impl Fn(usize) -> usize) -> Vec<SeamMesh> {
+    let seam = |s: &Stretch| SeamMesh { name: s.name.clone(), pairs: s.pairs.iter().map(|p| p.map(&number)).collect() };
+    stretches.iter().map(seam).collect()
+}
+
+/// Pieces that are sewn together beforehand, largest first; groups in the order of their first pieces.
+fn groups(parts: &[Option<Role>], inner: &[Stretch]) -> Vec<Vec<usize>> {
+    let mut group: Vec<usize> = (0..parts.len()).collect();
+    for stretch in inner {
+        let [a, b] = stretch.pieces.map(|p| group[p]);
+        group.iter_mut().filter(|g| **g == a.max(b)).for_each(|g| *g = a.min(b));
+    }
+    let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (piece, &group) in group.iter().enumerate().filter(|(piece, _)| parts[*piece].is_some()) {
+        groups.entry(group).or_default().push(piece);
+    }
+    groups.into_values().collect()
+}
+
+/// Places of the vertices sewn so far in the plane of the largest piece of their group, m.
+fn flat(garment: &Garment, sewn: &[usize], groups: &[Vec<usize>], inner: &[Stretch]) -> Vec<V2> {
+    let mut laid = garment.rest.clone();
+    for group in groups.iter().filter(|group| group.len() > 1) {
+        beside(garment, group, inner, &mut laid);
+    }
+    let count = sewn.iter().max().map_or(0, |m| m + 1);
+    let mut sums = vec![(V3::zeros(), 0.0); count];
+    for (&v, p) in sewn.iter().zip(&laid) {
+        sums[v].0 += V3::new(p.x, p.y, 0.0);
+        sums[v].1 += 1.0;
+    }
+    let mut x: Vec<V3> = sums.into_iter().map(|(sum, n)| sum / n).collect();
+    if !inner.is_empty() {
+        let hold = vec![1e-6; count];
+        let none = vec![V3::zeros(); count];
+        if let Some(mut elastic) = Elastic::new(garment, sewn, &x, &[], 0.0, &[], hold) {
+            for _ in 0..FLATTENING {
+                x = elastic.step(&x, &Pull { targets: &x, loads: &none, share: 1.0, control: 1.0 });
+            }
+        }
+    }
+    x.into_iter().map(|p| p.xy()).collect()
+}
+
+/// Lays the pieces of a group beside each other as they are sewn, the largest where it is.
+fn beside(garment: &Garment, group: &[usize], inner: &[Stretch], laid: &mut [V2]) {
+    let size = |p: &usize| garment.pieces[*p].triangles.len();
+    let Some(&first) = group.iter().max_by_key(|p| size(p)) else { return };
+    let mut placed = vec![first];
+    while placed.len() < group.len() {
+        let pairs_to = |p: usize| -> Vec<[usize; 2]> {
+            let towards = |s: &Stretch| match s.pieces {
+                [a, b] if a == p && placed.contains(&b) => s.pairs.clone(),
+                [a, b] if b == p && placed.contains(&a) => s.pairs.iter().map(|&[v, w]| [w, v]).collect(),
+                _ => vec![],
+            };
+            inner.iter().flat_map(towards).collect()
+        };
+        let open = group.iter().copied().filter(|p| !placed.contains(p));
+        let Some((next, pairs)) = open.map(|p| (p, pairs_to(p))).max_by_key(|(_, pairs)| pairs.len()) else { return };
+        let motion = Motion::onto(&pairs, &garment.rest, laid);
+        for v in garment.pieces[next].vertices.clone() {
+            laid[v] = motion.at(garment.rest[v]);
+        }
+        placed.push(next);
+    }
+}
+
+/// A turn and a shift of the plane.
+struct Motion {
+    from: V2,
+    to: V2,
+    turn: nalgebra::Rotation2<f64>,
+}
+
+impl Motion {
+    /// The one that brings the first vertices of pairs, at `rest`, nearest to the second, at `laid`.
+    fn onto(pairs: &[[usize; 2]], rest: &[V2], laid: &[V2]) -> Self {
+        let n = pairs.len().max(1) as f64;
+        let from = pairs.iter().map(|&[v, _]| rest[v]).sum::<V2>() / n;
+        let to = pairs.iter().map(|&[_, w]| laid[w]).sum::<V2>() / n;
+        let arms = || pairs.iter().map(|&[v, w]| (rest[v] - from, laid[w] - to));
+        let cross: f64 = arms().map(|(a, b)| a.perp(&b)).sum();
+        let dot: f64 = arms().map(|(a, b)| a.dot(&b)).sum();
+        Self { from, to, turn: nalgebra::Rotation2::new(cross.atan2(dot)) }
+    }
+
+    fn at(&self, p: V2) -> V2 {
+        self.to + self.turn * (p - self.from)
+    }
+}
+
+/// Vertices of the assembled garment, group by group.
+struct Numbered {
+    /// By vertex sewn so far.
+    number: Vec<usize>,
+    vertex_of: Vec<Option<usize>>,
+    ranges: Vec<std::ops::Range<usize>>,
+}
+
+impl Numbered {
+    fn new(garment: &Garment, sewn: &[usize], groups: &[Vec<usize>]) -> Self {
+        let mut number = vec![usize::MAX; sewn.len()];
+        let mut vertex_of = vec![None; sewn.len()];
+        let mut ranges = Vec::new();
+        let mut count = 0;
+        for group in groups {
+            let first = count;
+            for v in group.iter().flat_map(|&p| garment.pieces[p].vertices.clone()) {
+                if number[sewn[v]] == usize::MAX {
+                    number[sewn[v]] = count;
+                    count += 1;
+                }
+                vertex_of[v] = Some(number[sewn[v]]);
+            }
+            ranges.push(first..count);
+        }
+        Self { number, vertex_of, ranges }
+    }
+
+    fn assembly(
+        self,
+        garment: &Garment,
+        parts: &[Option<Role>],
+        groups: &[Vec<usize>],
+        flat: &[V2],
+        outer: &[Stretch],
+        marks: &Marks,
+    ) -> Assembly {
+        let number = |v: usize| self.vertex_of[v].unwrap_or(usize::MAX);
+        let mut rest = vec![V2::zeros(); self.ranges.last().map_or(0, |r| r.end)];
+        for (sewn, &v) in self.number.iter().enumerate().filter(|(_, v)| **v != usize::MAX) {
+            rest[v] = flat[sewn];
+        }
+        let (mut triangles, mut pieces) = (Vec::new(), Vec::new());
+        for (group, vertices) in groups.iter().zip(&self.ranges) {
+            let first = triangles.len();
+            triangles.extend(
+                group.iter().flat_map(|&p| &garment.triangles[garment.pieces[p].triangles.clone()]).map(|t| t.map(number)),
+            );
+            let names: Vec<&str> = group.iter().map(|&p| garment.pieces[p].id.as_str()).collect();
+            let piece = PieceMesh {
+                id: names.join(" + "),
+                role: parts[group[0]].unwrap_or(Role::Other),
+                vertices: vertices.clone(),
+                triangles: first..triangles.len(),
+                grain: V2::y(),
+                edges: BTreeMap::new(),
+            };
+            let is_sleeve = matches!(piece.role, Role::SleeveRight | Role::SleeveLeft);
+            if group.len() > 1 && is_sleeve {
+                let open = outer.iter().filter(|s| s.pieces.iter().all(|p| group.contains(p)));
+                upright(&mut rest, vertices.clone(), open, marks, number);
+            }
+            pieces.push(piece);
+        }
+        let is_worn = |s: &&Stretch| s.pieces.iter().all(|p| parts[*p].is_some());
+        let seams = outer.iter().filter(is_worn).map(|s| SeamMesh {
+            name: s.name.clone(),
+            pairs: s.pairs.iter().map(|pair| pair.map(number)).filter(|[a, b]| a != b).collect(),
+        });
+        let joined = Garment {
+            pieces,
+            rest,
+            triangles,
+            seams: seams.collect(),
+            measurements: Vec::new(),
+            fit_levels: Vec::new(),
+            reinforcements: Vec::new(),
+            ..garment.clone()
+        };
+        let followers = (0..parts.len()).filter(|&p| parts[p].is_none()).collect();
+        Assembly { garment: joined, vertex_of: self.vertex_of, followers }
+    }
+}
+
+/// Turns a sleeve so that its underarm seams run upright: from where they are open to where they meet the side.
+fn upright<'s>(
+    rest: &mut [V2],
+    vertices: std::ops::Range<usize>,
+    open: impl Iterator<Item = &'s Stretch>,
+    marks: &Marks,
+    number: impl Fn(usize) -> usize,
+) {
+    let mut up = V2::zeros();
+    for stretch in open {
+        let [first, last] = [stretch.pairs[0], stretch.pairs[stretch.pairs.len() - 1]];
+        let sign = if marks.sides.contains(&marks.welded[last[0]]) {
+            1.0
+        } else if marks.sides.contains(&marks.welded[first[0]]) {
+            -1.0
+        } else {
+            continue;
+        };
+        for side in 0..2 {
+            up += (rest[number(last[side])] - rest[number(first[side])]) * sign;
+        }
+    }
+    if up.norm() > 0.0 {
+        let turn = nalgebra::Rotation2::rotation_between(&up, &V2::y());
+        rest[vertices].iter_mut().for_each(|p| *p = turn * *p);
+    }
+}

@@ -1,0 +1,142 @@
+//! Features of what goes round a limb: sleeves, fronts and backs of legs, skirts in one piece.
+
+use super::line::{between, joined, nth, run};
+use super::{Face, Found, Mapper, OnTube, face};
+use crate::body::RING;
+use crate::pattern::Role;
+use crate::sim::hybrid::outline::{self, Chain, Partner};
+
+/// Line of an arm that runs along its top, and along its underside.
+pub(super) const TOP_OF_ARM: i32 = 16;
+const UNDER_ARM: i32 = 4;
+/// Line of the trunk down the centre of the back.
+const CENTRE_BACK: i32 = 18;
+/// A sleeve reaches onto the arm by this at least, m.
+const LEAST_SLEEVE_M: f64 = 0.02;
+
+impl Mapper<'_> {
+    /// A sleeve in one piece: its opening round the arm at the length of the underarm seam.
+    pub(super) fn sleeve(&mut self, piece: usize, chains: &[Chain], side: usize) -> Found {
+        let [a, b] = self.own_seam(piece, chains)?;
+        let up = |i: usize| chains[i].chord(self.garment).y > 0.0;
+        let (rising, falling) = match (up(a), up(b)) {
+            (true, false) => (a, b),
+            (false, true) => (b, a),
+            _ => return Err("its underarm seam does not run along both sides of it"),
+        };
+        let opening = joined(run(falling, rising, chains));
+        let cap = joined(run(rising, falling, chains));
+        let underarm = self.place(chains[rising].last()).ok_or("its underarm is not sewn to a side seam")?;
+        let top = cap.iter().copied().find(|&v| self.place(v).is_some_and(|p| p != underarm));
+        let top = top.ok_or("its cap is not sewn to a shoulder")?;
+        let arm = self.form.arms[side].clone();
+        let mesh = &self.form.mesh;
+        let root = arm.at(mesh, UNDER_ARM, 0.0);
+        let left = chains[rising].length_m(self.garment) - (root - underarm).norm();
+        let below = arm.further(mesh, UNDER_ARM, 0.0, left.max(LEAST_SLEEVE_M));
+        // Over the top of the arm, from the shoulder by the sleeve's height there.
+        let start = arm.at(mesh, TOP_OF_ARM, 0.0);
+        let shoulder = self.place(top).map_or(0.0, |p| (p - start).norm());
+        let height = self.v(top) - self.v(nth(self.garment, &opening, 0.5 * outline::length_m(self.garment, &opening)));
+        let above = arm.further(mesh, TOP_OF_ARM, 0.0, shoulder + height.max(LEAST_SLEEVE_M));
+        // On the right, +u is the front: from below over the back, the top and the front.
+        let turn = if side == 0 { -24.0 } else { 24.0 };
+        self.round(&arm, &opening, &|share| OnTube {
+            line: f64::from(UNDER_ARM) + turn * share,
+            along: below + (above - below) * 0.5 * (1.0 - (share * std::f64::consts::TAU).cos()),
+        });
+        Ok(())
+    }
+
+    /// A piece that goes all round the trunk, sewn to itself: its seam down the centre of the back from the waist.
+    pub(super) fn wrap(&mut self, piece: usize, chains: &[Chain]) -> Found {
+        let [a, b] = self.own_seam(piece, chains)?;
+        let lines = [joined(run(a, b, chains)), joined(run(b, a, chains))];
+        if lines.iter().any(|line| line.len() < 2) {
+            return Err("it has no hem or no waist line");
+        }
+        // However it is drawn, as a ring or as a trapeze: the waist is the shorter of the two.
+        let length = |line: &Vec<usize>| outline::length_m(self.garment, line);
+        let [one, other] = &lines;
+        let (top, bottom) = if length(one) < length(other) { (one, other) } else { (other, one) };
+        let (trunk, mesh) = (self.form.trunk.clone(), &self.form.mesh);
+        let above = trunk.at_height(mesh, CENTRE_BACK, self.body.levels.waist_m);
+        let below = trunk.further(mesh, CENTRE_BACK, above, chains[a].length_m(self.garment));
+        // Lines run from the right over the front to the left, as a hem seen from outside does.
+        let [before, after] = [CENTRE_BACK - RING as i32, CENTRE_BACK].map(f64::from);
+        let on = |along: f64| [before, after].map(|line| OnTube { line, along });
+        let [first, last] = on(above);
+        self.round(&trunk, top, &between([last, first]));
+        self.round(&trunk, bottom, &between(on(below)));
+        Ok(())
+    }
+
+    /// The two sides of the seam that makes a tube of a piece.
+    fn own_seam(&self, piece: usize, chains: &[Chain]) -> Result<[usize; 2], &'static str> {
+        let is_own = |c: &Chain| c.partner == Partner::Piece(piece);
+        let own: Vec<usize> = (0..chains.len()).filter(|&i| is_own(&chains[i])).collect();
+        <[usize; 2]>::try_from(own).map_err(|_| "what goes round an arm or the trunk must have one seam with itself")
+    }
+
+    /// A front or back of one leg.
+    pub(super) fn leg(&mut self, piece: usize, chains: &[Chain], side: usize) -> Found {
+        let own = face(self.garment.pieces[piece].role);
+        let role_of = |chain: &Chain| match chain.partner {
+            Partner::Piece(p) => Some(self.garment.pieces[p].role),
+            Partner::Free => None,
+        };
+        let is_own_leg = |role: Role| {
+            let right = matches!(role, Role::LegFrontRight | Role::LegBackRight);
+            right == (side == 0)
+        };
+        // Seen from outside, the front's +u is the wearer's left: the right leg's inseam.
+        let inseam_rises = (own == Face::Front) == (side == 0);
+        let up = |chain: &Chain| chain.chord(self.garment).y > 0.0;
+        let find = |wanted: &dyn Fn(&Chain) -> bool| chains.iter().position(wanted);
+        let own_leg = |c: &Chain| role_of(c).is_some_and(is_own_leg);
+        let inseam = find(&|c| own_leg(c) && up(c) == inseam_rises).ok_or("it has no inseam")?;
+        let outseam = find(&|c| own_leg(c) && up(c) != inseam_rises).ok_or("it has no outseam")?;
+        let crotch = find(&|c| role_of(c).is_some_and(|r| !is_own_leg(r))).ok_or("it has no crotch seam")?;
+        let (hem, waist) = if inseam_rises {
+            (joined(run(outseam, inseam, chains)), joined(run(crotch, outseam, chains)))
+        } else {
+            (joined(run(inseam, outseam, chains)), joined(run(outseam, crotch, chains)))
+        };
+        if hem.len() < 2 || waist.len() < 2 {
+            return Err("it has no hem or no waist line");
+        }
+        let fork = if inseam_rises { chains[inseam].last() } else { chains[inseam].first() };
+        let (centre, outer) =
+            if inseam_rises { (waist[0], waist[waist.len() - 1]) } else { (waist[waist.len() - 1], waist[0]) };
+        let mesh = &self.form.mesh;
+        let tube = self.form.legs[side].clone();
+        let inner_line = if side == 0 { 12 } else { 0 };
+        let fork_place = {
+            let sides = [self.form.legs[0].at(mesh, 12, 0.0), self.form.legs[1].at(mesh, 0, 0.0)];
+            sides[0].lerp(&sides[1], 0.5)
+        };
+        // Waist: as high above the fork as the pattern has it.
+        let rise = self.v(centre) - self.v(fork);
+        let trunk = self.form.trunk.clone();
+        let (line_c, line_o) = match (own, side) {
+            (Face::Front, 0) => (6.0, 0.0),
+            (Face::Front, _) => (6.0, 12.0),
+            (_, 0) => (18.0, 24.0),
+            (_, _) => (18.0, 12.0),
+        };
+        let z = self.place(centre).map_or(fork_place.z + rise, |p| p.z);
+        let z_outer = self.place(outer).map_or(z + self.v(outer) - self.v(centre), |p| p.z);
+        let on = |line: f64, z: f64| OnTube { line, along: trunk.at_height(mesh, line as i32, z) };
+        let (at_centre, at_outer) = (on(line_c, z), on(line_o, z_outer));
+        let reach = (fork_place - tube.at(mesh, inner_line, 0.0)).norm();
+        let along = tube.further(mesh, inner_line, 0.0, chains[inseam].length_m(self.garment) - reach);
+        self.set(fork, fork_place);
+        let waist_ends = if inseam_rises { [at_centre, at_outer] } else { [at_outer, at_centre] };
+        self.round(&trunk, &waist, &between(waist_ends));
+        // Lines 0 to 12 run over the front, 12 to 24 over the back; the hem runs counter-clockwise with them.
+        let start = if own == Face::Front { 0.0 } else { 12.0 };
+        let hem_ends = [OnTube { line: start, along }, OnTube { line: start + 12.0, along }];
+        self.round(&tube, &hem, &between(hem_ends));
+        Ok(())
+    }
+}

@@ -1,0 +1,203 @@
+//! Feature mapping (5.2.1): the corners of a piece's outline onto features of the body, lengths preserved.
+//!
+//! The outline is read by what its stretches are sewn to, not by names: a seam between front and back that runs upright is a
+//! side, one that runs across is a shoulder; what lies between a side and a shoulder is an armhole, and so on. Points are
+//! then found in this order: shoulder ends on the shoulder line (Algorithm 5.1), underarm and hem down the side line,
+//! neck on the centre line; for trousers the fork on the crotch, the waist above it, the hem down the inseam.
+
+mod limb;
+mod line;
+mod trunk;
+
+use std::collections::BTreeMap;
+
+use super::form::{Form, Tube};
+use super::outline;
+use crate::body::Body;
+use crate::geom::V3;
+use crate::pattern::{Garment, Role};
+use crate::sim::{SimError, sewing};
+
+/// Auxiliary points on a hem, waist or opening: it is a curve round the body, which three points keep level.
+const AUXILIARY: usize = 3;
+
+/// A corner or auxiliary point of a piece: a boundary vertex and its place on the form, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Feature {
+    /// Garment vertex.
+    pub vertex: usize,
+    /// Place on the form, m.
+    pub place: V3,
+}
+
+/// A piece's outline and the features along it, both counter-clockwise.
+#[derive(Clone, Debug)]
+pub struct Mapped {
+    /// Boundary vertices, beginning with the first feature's.
+    pub ring: Vec<usize>,
+    /// Features in order along the ring.
+    pub features: Vec<Feature>,
+}
+
+/// What kind of garment it is, as far as mapping goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Hangs from shoulders or waist: tops, dresses, skirts.
+    Hung,
+    /// Trousers.
+    Legs,
+}
+
+/// Whether pieces of a role are worn on a leg.
+#[must_use]
+pub fn is_leg(role: Role) -> bool {
+    matches!(role, Role::LegFrontRight | Role::LegFrontLeft | Role::LegBackRight | Role::LegBackLeft)
+}
+
+/// Kind of a garment.
+///
+/// # Errors
+/// [`SimError::CannotPlace`] for a piece that belongs to the other kind than the first.
+pub fn kind(garment: &Garment) -> Result<Kind, SimError> {
+    let kind_of = |role: Role| if is_leg(role) { Kind::Legs } else { Kind::Hung };
+    let first = garment.pieces.first().map_or(Kind::Hung, |p| kind_of(p.role));
+    let strange = garment.pieces.iter().find(|p| kind_of(p.role) != first);
+    match strange {
+        None => Ok(first),
+        Some(piece) => Err(SimError::CannotPlace {
+            piece: piece.id.clone(),
+            role: piece.role,
+            accepted: match first {
+                Kind::Hung => "front, back, sleeve, bodice and skirt pieces",
+                Kind::Legs => "leg pieces",
+            },
+        }),
+    }
+}
+
+/// Side of the trunk that a piece lies on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Face {
+    /// Front.
+    Front,
+    /// Back.
+    Back,
+    /// All round a limb.
+    Round,
+}
+
+/// Side of the trunk that pieces of a role lie on.
+#[must_use]
+pub fn face(role: Role) -> Face {
+    match role {
+        Role::Front | Role::BodiceFront | Role::SkirtFront | Role::LegFrontRight | Role::LegFrontLeft => Face::Front,
+        Role::Back | Role::BodiceBack | Role::SkirtBack | Role::LegBackRight | Role::LegBackLeft => Face::Back,
+        _ => Face::Round,
+    }
+}
+
+/// Whether a piece is the lower part of a dress, or a skirt.
+fn is_skirt(role: Role) -> bool {
+    matches!(role, Role::SkirtFront | Role::SkirtBack)
+}
+
+/// A point of a tube: line and parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct OnTube {
+    line: f64,
+    along: f64,
+}
+
+/// The features of every piece of a garment.
+///
+/// # Errors
+/// [`SimError::CannotMap`] when an outline is not that of a piece of its role.
+pub fn features(body: &Body, form: &Form, garment: &Garment) -> Result<Vec<Mapped>, SimError> {
+    let partners = outline::partners(garment);
+    let mut pieces = Vec::new();
+    for piece in &garment.pieces {
+        let cannot = |reason| SimError::CannotMap { piece: piece.id.clone(), reason };
+        let ring = outline::boundary(garment, piece).ok_or_else(|| cannot("its outline is not one closed line"))?;
+        let chains = outline::chains(&ring, &partners);
+        pieces.push((ring, chains));
+    }
+    let mut mapper = Mapper { body, form, garment, welded: sewing::welded(garment), places: BTreeMap::new() };
+    let mut order: Vec<usize> = (0..pieces.len()).collect();
+    // Sleeves hang on bodices, skirts too: trunk first.
+    order.sort_by_key(|&p| (face(garment.pieces[p].role) == Face::Round, is_skirt(garment.pieces[p].role)));
+    // Shoulders and underarms of all trunk pieces before anything is hung on them.
+    for &p in &order {
+        let piece = &garment.pieces[p];
+        let found = match piece.role {
+            Role::SleeveRight => mapper.sleeve(p, &pieces[p].1, 0),
+            Role::SleeveLeft => mapper.sleeve(p, &pieces[p].1, 1),
+            Role::LegFrontRight | Role::LegBackRight => mapper.leg(p, &pieces[p].1, 0),
+            Role::LegFrontLeft | Role::LegBackLeft => mapper.leg(p, &pieces[p].1, 1),
+            Role::Other | Role::Waistband => mapper.wrap(p, &pieces[p].1),
+            _ => mapper.trunk(p, &pieces[p].1),
+        };
+        found.map_err(|reason| SimError::CannotMap { piece: piece.id.clone(), reason })?;
+    }
+    let mapped = pieces.into_iter().enumerate().map(|(p, (ring, _))| {
+        mapper.along(ring).ok_or(SimError::CannotMap {
+            piece: garment.pieces[p].id.clone(),
+            reason: "fewer than three of its corners have a place on the body",
+        })
+    });
+    mapped.collect()
+}
+
+type Found = Result<(), &'static str>;
+
+struct Mapper<'a> {
+    body: &'a Body,
+    form: &'a Form,
+    garment: &'a Garment,
+    welded: Vec<usize>,
+    /// Place of each welded vertex that is a feature.
+    places: BTreeMap<usize, V3>,
+}
+
+impl Mapper<'_> {
+    fn set(&mut self, vertex: usize, place: V3) {
+        self.places.entry(self.welded[vertex]).or_insert(place);
+    }
+
+    fn place(&self, vertex: usize) -> Option<V3> {
+        self.places.get(&self.welded[vertex]).copied()
+    }
+
+    fn v(&self, vertex: usize) -> f64 {
+        self.garment.rest[vertex].y
+    }
+
+    /// The features along a ring, which is turned to begin with one.
+    fn along(&self, mut ring: Vec<usize>) -> Option<Mapped> {
+        let start = ring.iter().position(|&v| self.place(v).is_some())?;
+        ring.rotate_left(start);
+        let features: Vec<Feature> =
+            ring.iter().filter_map(|&vertex| Some(Feature { vertex, place: self.place(vertex)? })).collect();
+        (features.len() >= 3).then_some(Mapped { ring, features })
+    }
+
+    /// Auxiliary points along a line round a tube, given by share of its length; ends without a place get theirs.
+    fn round(&mut self, tube: &Tube, vertices: &[usize], on_tube: &dyn Fn(f64) -> OnTube) {
+        let whole = outline::length_m(self.garment, vertices);
+        let point = |share: f64| {
+            let OnTube { line, along } = on_tube(share);
+            tube.at(&self.form.mesh, line.round() as i32, along)
+        };
+        let places: Vec<(f64, V3)> =
+            (0..=AUXILIARY + 1).map(|k| k as f64 / (AUXILIARY + 1) as f64).map(|share| (share, point(share))).collect();
+        // A line sewn to one that is placed takes its points.
+        let inner = &vertices[1..vertices.len() - 1];
+        let taken = inner.iter().any(|&v| self.place(v).is_some());
+        for (share, place) in places {
+            let is_end = share == 0.0 || share == 1.0;
+            if is_end || !taken {
+                let at = line::nth(self.garment, vertices, share * whole);
+                self.set(at, place);
+            }
+        }
+    }
+}

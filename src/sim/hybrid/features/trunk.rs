@@ -1,0 +1,229 @@
+//! Features of the pieces of the trunk: fronts and backs, with or without shoulders.
+
+use super::line::{between, groups, joined};
+use super::limb::TOP_OF_ARM;
+use super::{Face, Found, Mapper, OnTube, face};
+use crate::body::Layer;
+use crate::geom::V3;
+use crate::sim::hybrid::outline::{Chain, Partner};
+
+/// A shoulder seam that is longer than the shoulder reaches onto the arm, at most by this share of the way from armscye to
+/// the middle of the upper arm: what is longer still the pop-up gives back.
+const MOST_DROP: f64 = 0.25;
+/// An underarm point lies at most this far below the armpit, m: deeper armholes leave no arm for the sleeve, and the
+/// pop-up gives them their depth.
+const MOST_DEPTH_M: f64 = 0.005;
+
+/// A seam of a trunk piece with a piece of the other face, or with its other half.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Key {
+    Side,
+    Shoulder,
+    Centre,
+}
+
+impl Mapper<'_> {
+    /// A front or back piece, whole or half, with or without shoulders.
+    pub(super) fn trunk(&mut self, piece: usize, chains: &[Chain]) -> Found {
+        let own = face(self.garment.pieces[piece].role);
+        let keys: Vec<Option<Key>> = chains.iter().map(|chain| self.key(own, chain)).collect();
+        let count = |key: Key| keys.iter().filter(|k| **k == Some(key)).count();
+        if count(Key::Side) + count(Key::Centre) != 2 || count(Key::Side) == 0 {
+            return Err("it is not sewn to the other face of the trunk along two sides, or one and a centre seam");
+        }
+        let start = keys.iter().position(Option::is_some).ok_or("nothing is sewn to it")?;
+        let n = chains.len();
+        // Shoulders give the places from which sides are measured, sides those of bottoms.
+        let groups = groups(&keys, start);
+        for (chain, key) in chains.iter().zip(&keys) {
+            if *key == Some(Key::Shoulder) {
+                self.shoulder(own, chain);
+            }
+        }
+        if count(Key::Shoulder) == 0 {
+            self.hang_from_waist(own, chains, &keys);
+        }
+        for (chain, key) in chains.iter().zip(&keys) {
+            if *key == Some(Key::Side) {
+                self.side(own, chain, chains, &keys)?;
+            }
+        }
+        for (before, inner, after) in groups {
+            let (Some(a), Some(b)) = (keys[before], keys[after]) else { continue };
+            let up = |c: usize| chains[c].chord(self.garment).y > 0.0;
+            let vertices = joined(inner.iter().map(|&i| &chains[i % n]));
+            if vertices.len() < 2 {
+                continue;
+            }
+            match (a, up(before), b, up(after)) {
+                (Key::Shoulder, ..) | (_, _, Key::Shoulder, _) => {
+                    if a != Key::Side && b != Key::Side {
+                        self.neck(own, &vertices, chains, &keys);
+                    }
+                }
+                (_, false, _, true) => self.level(own, &vertices)?,
+                (_, true, _, false) => self.level(own, &vertices)?,
+                _ => return Err("its seams do not run round it as those of a front or back"),
+            }
+        }
+        Ok(())
+    }
+
+    fn key(&self, own: Face, chain: &Chain) -> Option<Key> {
+        let Partner::Piece(other) = chain.partner else { return None };
+        let other = face(self.garment.pieces[other].role);
+        let chord = chain.chord(self.garment);
+        match (own, other) {
+            (Face::Front, Face::Back) | (Face::Back, Face::Front) => {
+                Some(if chord.y.abs() > chord.x.abs() { Key::Side } else { Key::Shoulder })
+            }
+            (a, b) if a == b && chord.y.abs() > chord.x.abs() => Some(Key::Centre),
+            _ => None,
+        }
+    }
+
+    /// Wearer's side (0 right, 1 left) of a key seam: seen from outside, the front's `+u` is the left, the back's the right.
+    fn wearer_side(&self, own: Face, chain: &Chain) -> usize {
+        // Counter-clockwise, seams at +u run upwards.
+        let plus = chain.chord(self.garment).y > 0.0;
+        usize::from((own == Face::Front) == plus)
+    }
+
+    /// Ends of a shoulder seam onto the shoulder line (Algorithm 5.1), and beyond its end down the arm.
+    fn shoulder(&mut self, own: Face, chain: &Chain) {
+        let side = self.wearer_side(own, chain);
+        let (outer, inner) = if chain.chord(self.garment).y > 0.0 {
+            (chain.first(), chain.last())
+        } else {
+            (chain.last(), chain.first())
+        };
+        let (neck, armscye) = self.shoulder_line(side);
+        let (line, seam) = ((armscye - neck).norm(), chain.length_m(self.garment));
+        if seam < line {
+            // Shorter than the body's: centred on it.
+            let start = 0.5 * (1.0 - seam / line);
+            self.set(inner, neck.lerp(&armscye, start));
+            self.set(outer, neck.lerp(&armscye, 1.0 - start));
+        } else {
+            self.set(inner, neck);
+            let arm = &self.form.arms[side];
+            let along = arm.further(&self.form.mesh, TOP_OF_ARM, 0.0, seam - line);
+            self.set(outer, arm.at(&self.form.mesh, TOP_OF_ARM, along.min(MOST_DROP)));
+        }
+    }
+
+    /// Side neck point and shoulder point of the control mesh.
+    fn shoulder_line(&self, side: usize) -> (V3, V3) {
+        let control = &self.body.control;
+        let neck = control.ring_vertex(Layer::NeckBase, 12 * side);
+        (self.form.mesh.positions[neck], self.form.arms[side].at(&self.form.mesh, TOP_OF_ARM, 0.0))
+    }
+
+    /// Places the tops of the sides of a piece without shoulders at the waist, unless a bodice has placed them.
+    fn hang_from_waist(&mut self, own: Face, chains: &[Chain], keys: &[Option<Key>]) {
+        for (chain, _) in chains.iter().zip(keys).filter(|(_, key)| **key == Some(Key::Side)) {
+            let side = self.wearer_side(own, chain);
+            let top = if chain.chord(self.garment).y > 0.0 { chain.last() } else { chain.first() };
+            let along = self.form.trunk.at_height(&self.form.mesh, 12 * side as i32, self.body.levels.waist_m);
+            self.set(top, self.form.trunk.at(&self.form.mesh, 12 * side as i32, along));
+        }
+    }
+
+    /// The upper end of a side at the depth of the armhole, the lower end down the side line by the seam's length.
+    fn side(&mut self, own: Face, chain: &Chain, chains: &[Chain], keys: &[Option<Key>]) -> Found {
+        let side = self.wearer_side(own, chain);
+        let up = chain.chord(self.garment).y > 0.0;
+        let (top, bottom) = if up { (chain.last(), chain.first()) } else { (chain.first(), chain.last()) };
+        let line = 12 * side as i32;
+        let (mesh, trunk) = (&self.form.mesh, &self.form.trunk);
+        let start = match self.place(top) {
+            Some(place) => trunk.at_height(mesh, line, place.z),
+            None => {
+                let shoulder = chains
+                    .iter()
+                    .zip(keys)
+                    .find(|(c, key)| **key == Some(Key::Shoulder) && self.wearer_side(own, c) == side);
+                let (shoulder, _) = shoulder.ok_or("a side has no shoulder above it")?;
+                let outer = if up { shoulder.first() } else { shoulder.last() };
+                let depth = self.v(outer) - self.v(top);
+                let from = self.place(outer).ok_or("a side has no shoulder above it")?;
+                let axilla = trunk.at(mesh, line, 0.0).z;
+                trunk.at_height(mesh, line, (from.z - depth).max(axilla - MOST_DEPTH_M))
+            }
+        };
+        let end = trunk.further(mesh, line, start, chain.length_m(self.garment));
+        let places = [trunk.at(mesh, line, start), trunk.at(mesh, line, end)];
+        self.set(top, places[0]);
+        self.set(bottom, places[1]);
+        Ok(())
+    }
+
+    /// The lowest point of a neckline on the centre line, at its depth below the side neck point.
+    fn neck(&mut self, own: Face, vertices: &[usize], chains: &[Chain], keys: &[Option<Key>]) {
+        let (first, last) = (vertices[0], vertices[vertices.len() - 1]);
+        let shoulder = chains.iter().zip(keys).find(|(_, key)| **key == Some(Key::Shoulder));
+        let Some((shoulder, _)) = shoulder else { return };
+        let inner = if shoulder.chord(self.garment).y > 0.0 { shoulder.last() } else { shoulder.first() };
+        let Some(side_neck) = self.place(inner) else { return };
+        // A half piece ends at the centre, a whole one passes it at its middle.
+        let middle = if self.place(first).is_none() {
+            first
+        } else if self.place(last).is_none() {
+            last
+        } else {
+            let u = 0.5 * (self.garment.rest[first].x + self.garment.rest[last].x);
+            let off = |v: &usize| (self.garment.rest[*v].x - u).abs();
+            *vertices.iter().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(&first)
+        };
+        let z = side_neck.z - (self.v(inner) - self.v(middle));
+        self.set(middle, self.on_centre(own, z));
+    }
+
+    /// The point of the centre line, from the neck's base down, at the height `z`.
+    fn on_centre(&self, own: Face, z: f64) -> V3 {
+        let index = if own == Face::Front { 6 } else { 18 };
+        let control = &self.body.control;
+        let mut line = vec![control.ring_vertex(Layer::NeckBase, index)];
+        line.extend(self.form.trunk.line(index as i32));
+        let points: Vec<V3> = line.into_iter().map(|v| self.form.mesh.positions[v]).collect();
+        let below = points.iter().position(|p| p.z <= z);
+        match below {
+            Some(0) => points[0],
+            Some(k) => points[k].lerp(&points[k - 1], (z - points[k].z) / (points[k - 1].z - points[k].z)),
+            None => points[points.len() - 1],
+        }
+    }
+
+    /// A hem or waist line round the trunk between two placed ends, with auxiliary points.
+    fn level(&mut self, own: Face, vertices: &[usize]) -> Found {
+        let ends = [vertices[0], vertices[vertices.len() - 1]];
+        let lines = ends.map(|v| self.place(v).map(|p| self.trunk_line(own, &p)));
+        // The end without a place is at the centre.
+        let centre = if own == Face::Front { 6.0 } else { 18.0 };
+        let placed = ends.iter().find_map(|v| self.place(*v)).ok_or("a hem or waist line has no end on the body")?;
+        let along = |line: f64, z: f64| self.form.trunk.at_height(&self.form.mesh, line as i32, z);
+        let points = [0, 1].map(|k| {
+            let line = lines[k].unwrap_or(centre);
+            let z = self.place(ends[k]).unwrap_or(placed).z;
+            OnTube { line, along: along(line, z) }
+        });
+        let trunk = self.form.trunk.clone();
+        self.round(&trunk, vertices, &between(points));
+        Ok(())
+    }
+
+    /// The line of the trunk on which a point at its side or centre lies: 0 to 12 in front, 12 to 24 behind.
+    fn trunk_line(&self, own: Face, place: &V3) -> f64 {
+        let half_width = 0.02;
+        let front = own == Face::Front;
+        if place.x > half_width {
+            if front { 0.0 } else { 24.0 }
+        } else if place.x < -half_width {
+            12.0
+        } else if front {
+            6.0
+        } else {
+            18.0
+        }
+    }
+}

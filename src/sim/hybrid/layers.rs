@@ -1,0 +1,113 @@
+//! Cloth that runs through itself, pulled apart: a sleeve and the side below it, a fold.
+
+use std::collections::BTreeMap;
+
+use crate::geom::V3;
+use crate::sim::contact::crossings;
+use crate::sim::solver::PairList;
+
+/// Layers are this far apart afterwards, m.
+const APART_M: f64 = 5e-4;
+/// A vertex is moved by this at most in a round, m.
+const STRIDE_M: f64 = 3e-3;
+/// Rounds without fewer crossings after which it is given up.
+const PATIENCE: u32 = 5;
+
+/// Cloth within this distance of a crossing is looked at again, m.
+const NEAR_M: f64 = 0.05;
+
+/// The cloth as a mesh that may meet itself.
+pub struct Layers {
+    edges: PairList,
+    triangles: Vec<[usize; 3]>,
+}
+
+impl Layers {
+    /// The layers of sewn triangles.
+    #[must_use]
+    pub fn new(triangles: &[[usize; 3]]) -> Self {
+        let edges = PairList::new(triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]));
+        Self { edges, triangles: triangles.to_vec() }
+    }
+
+    /// Moves vertices `x` (m) until no edge pierces a triangle, in so many rounds at most, or as few do as can be reached;
+    /// returns how many.
+    ///
+    /// The end of an edge that has come through least goes back, and the triangle meets it half way: while cloth moves
+    /// little between two looks, that is the end which should not have come through.
+    pub fn part(&self, x: &mut [V3], rounds: u32) -> usize {
+        let mut pierced: Vec<Pierced> = crossings(x, self.edges.pairs(), &self.triangles).collect();
+        if pierced.is_empty() {
+            return 0;
+        }
+        let near = self.near(&pierced, x);
+        let (mut best, mut least, mut waited) = (x.to_vec(), pierced.len(), 0);
+        for _ in 0..rounds {
+            apart(&pierced, x);
+            pierced = crossings(x, near.edges.pairs(), &near.triangles).collect();
+            waited += 1;
+            if pierced.len() < least {
+                (least, waited) = (pierced.len(), 0);
+                best.copy_from_slice(x);
+            }
+            if least == 0 || waited > PATIENCE {
+                break;
+            }
+        }
+        x.copy_from_slice(&best);
+        least
+    }
+
+    /// The cloth round crossings.
+    fn near(&self, pierced: &[Pierced], x: &[V3]) -> Self {
+        let places: Vec<V3> = pierced.iter().map(|(edge, _)| (x[edge[0]] + x[edge[1]]) / 2.0).collect();
+        let is_near = |v: usize| places.iter().any(|p| (x[v] - p).norm_squared() < NEAR_M * NEAR_M);
+        let near: Vec<bool> = (0..x.len()).map(is_near).collect();
+        let triangles: Vec<[usize; 3]> =
+            self.triangles.iter().filter(|t| t.iter().any(|&v| near[v])).copied().collect();
+        Self::new(&triangles)
+    }
+}
+
+/// An edge and the triangle that it pierces.
+type Pierced = ([usize; 2], [usize; 3]);
+
+/// One round: every crossing asks for its way out, every vertex takes the mean of what it is asked for.
+fn apart(pierced: &[Pierced], x: &mut [V3]) {
+    let mut moves: BTreeMap<usize, (V3, f64)> = BTreeMap::new();
+    for (edge, triangle) in pierced {
+        let [a, b, c] = triangle.map(|v| x[v]);
+        let Some(normal) = (b - a).cross(&(c - a)).try_normalize(0.0) else { continue };
+        let heights = edge.map(|v| (x[v] - a).dot(&normal));
+        let through = usize::from(heights[1].abs() < heights[0].abs());
+        let by = -heights[through] - APART_M * heights[through].signum();
+        let half = normal * (0.5 * by.clamp(-STRIDE_M, STRIDE_M));
+        for (v, way) in std::iter::once((edge[through], half)).chain(triangle.iter().map(|&v| (v, -half))) {
+            let (sum, n) = moves.entry(v).or_insert((V3::zeros(), 0.0));
+            *sum += way;
+            *n += 1.0;
+        }
+    }
+    moves.into_iter().for_each(|(v, (sum, n))| x[v] += sum / n);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::laboratory::sheets::sheet;
+
+    #[test]
+    fn two_sheets_that_dip_into_each_other_are_parted() {
+        let (rest, below) = sheet(8, 8, 0.01);
+        let count = rest.len();
+        let triangles: Vec<[usize; 3]> = below.iter().copied().chain(below.iter().map(|t| t.map(|v| v + count))).collect();
+        // The upper sheet sags through the lower in its middle.
+        let sag = |x: f64, y: f64| 2.5e-3 - 4.5e-3 * (-((x - 0.043).powi(2) + (y - 0.037).powi(2)) / 2e-4).exp();
+        let upper = rest.iter().map(|p| V3::new(p.x + 2e-3, p.y + 1e-3, sag(p.x, p.y)));
+        let mut x: Vec<V3> = rest.iter().map(|p| V3::new(p.x, p.y, 0.0)).chain(upper).collect();
+        let layers = Layers::new(&triangles);
+        assert!(layers.part(&mut x.clone(), 0) > 0);
+        assert_eq!(layers.part(&mut x, 30), 0);
+        assert!(x[count..].iter().zip(&x[..count]).all(|(above, below)| above.z > below.z - 1e-3));
+    }
+}

@@ -1,0 +1,89 @@
+//! Planes that part the cloth of two limbs, in place of its contact with itself: legs keep to their side of the median plane, a
+//! sleeve and the side of the trunk to theirs of the plane between arm and trunk.
+
+use super::sewn::Sewn;
+use crate::body::{Body, Layer};
+use crate::geom::V3;
+use crate::pattern::{Garment, Role};
+
+/// A plane, or the half of it that lies beyond a point.
+struct Wall {
+    /// A point of it, m.
+    point: V3,
+    /// Unit normal.
+    normal: V3,
+    /// Direction in which it goes on from its point; both ways without one.
+    onwards: Option<V3>,
+}
+
+/// Which side of which wall every sewn vertex keeps to.
+pub struct Walls {
+    walls: Vec<Wall>,
+    /// Wall and side: 1 or -1, or 0 for the seam between legs, which stays on the wall.
+    keeps: Vec<Option<(usize, f64)>>,
+}
+
+impl Walls {
+    /// The walls between the limbs of a body for a garment.
+    #[must_use]
+    pub fn new(body: &Body, garment: &Garment, sewn: &Sewn) -> Self {
+        let median = Wall { point: V3::zeros(), normal: V3::x(), onwards: None };
+        let arms = [0, 1].map(|side| Wall::beside_arm(body, side));
+        let walls: Vec<Wall> = std::iter::once(median).chain(arms).collect();
+        // Sums over the pieces that meet in a vertex: wall, side, number.
+        let mut sums = vec![(0, 0.0, 0.0); sewn.x.len()];
+        for piece in &garment.pieces {
+            for v in piece.vertices.clone() {
+                let sewn_v = sewn.vertex_of[v];
+                if let Some((wall, side)) = side_of(piece.role, &sewn.x[sewn_v]) {
+                    let sum = &mut sums[sewn_v];
+                    *sum = (wall, sum.1 + side, sum.2 + 1.0);
+                }
+            }
+        }
+        let keep = |(wall, sum, n): (usize, f64, f64)| {
+            let is_clear = n > 0.0 && sum.abs() == n;
+            // Only legs meet on their wall; an armhole may lie above or below the armpit.
+            (is_clear || (n > 0.0 && wall == MEDIAN)).then_some((wall, if is_clear { sum.signum() } else { 0.0 }))
+        };
+        Self { walls, keeps: sums.into_iter().map(keep).collect() }
+    }
+
+    /// Where a vertex at `p` goes to be `offset_m` on its side; `None` where it is there.
+    #[must_use]
+    pub fn back(&self, vertex: usize, p: &V3, offset_m: f64) -> Option<V3> {
+        let (wall, side) = self.keeps[vertex]?;
+        let Wall { point, normal, onwards } = &self.walls[wall];
+        let from = p - point;
+        let height = from.dot(normal);
+        let is_beyond = side == 0.0 || height * side < offset_m;
+        (is_beyond && onwards.is_none_or(|d| from.dot(&d) > 0.0)).then(|| p + normal * (side * offset_m - height))
+    }
+}
+
+/// Index of the median plane.
+const MEDIAN: usize = 0;
+
+/// Wall and side that a piece of a role keeps to, at a place on the body.
+fn side_of(role: Role, at: &V3) -> Option<(usize, f64)> {
+    match role {
+        Role::LegFrontRight | Role::LegBackRight => Some((MEDIAN, 1.0)),
+        Role::LegFrontLeft | Role::LegBackLeft => Some((MEDIAN, -1.0)),
+        Role::SleeveRight => Some((1, 1.0)),
+        Role::SleeveLeft => Some((2, 1.0)),
+        Role::Waistband | Role::Other => None,
+        _ => Some((if at.x > 0.0 { 1 } else { 2 }, -1.0)),
+    }
+}
+
+impl Wall {
+    /// From the armpit outwards and down, half way between arm and trunk; its normal points to the arm.
+    fn beside_arm(body: &Body, side: usize) -> Self {
+        use Layer::*;
+        let [armscye, elbow] = [[ArmscyeRight, ElbowRight], [ArmscyeLeft, ElbowLeft]][side];
+        let arm = body.control.ring_centre(elbow) - body.control.ring_centre(armscye);
+        let onwards = (arm.normalize() - V3::z()).normalize();
+        let normal = (arm - onwards * arm.dot(&onwards)).normalize();
+        Self { point: body.landmarks.armpit[side], normal, onwards: Some(onwards) }
+    }
+}
