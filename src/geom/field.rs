@@ -42,13 +42,14 @@ impl DistanceField {
         let size = [0, 1, 2].map(|k| (extent[k] / spacing_m).ceil() as usize + 1);
         let far = (SHELL_CELLS * spacing_m) as f32;
         let mut field = Self { origin, spacing_m, size, values: vec![far; size.iter().product()] };
-        field.sample_shell(mesh, &surface);
+        let sampled = field.sample_shell(mesh, &surface);
+        field.agree_on_signs(&sampled);
         field.fill_inside(&surface);
         Ok(field)
     }
 
-    /// Exact values at the nodes near each triangle.
-    fn sample_shell(&mut self, mesh: &TriMesh, surface: &Surface) {
+    /// Exact values at the nodes near each triangle; says which those are.
+    fn sample_shell(&mut self, mesh: &TriMesh, surface: &Surface) -> Vec<bool> {
         let reach = V3::repeat(SHELL_CELLS * self.spacing_m);
         let far = SHELL_CELLS * self.spacing_m;
         let mut done = vec![false; self.values.len()];
@@ -69,9 +70,44 @@ impl DistanceField {
                 }
             }
         }
+        done
     }
 
-    /// Exact values at the nodes deeper inside than the shell: they follow a negative node along x.
+    /// Mends single wrong signs: on a crumpled mesh the nearest feature's normal can point the wrong way. Where two
+    /// neighbouring nodes are together farther from the surface than from each other, it cannot lie between them: all
+    /// nodes that are joined so are on one side, that of most of them.
+    fn agree_on_signs(&mut self, sampled: &[bool]) {
+        let spacing = self.spacing_m as f32;
+        let strides = [1, self.size[0], self.size[0] * self.size[1]];
+        let mut seen = vec![false; self.values.len()];
+        for start in (0..self.values.len()).filter(|node| sampled[*node]) {
+            if seen[start] {
+                continue;
+            }
+            seen[start] = true;
+            let mut side = vec![start];
+            let mut next = 0;
+            while let Some(&node) = side.get(next) {
+                next += 1;
+                // The shell keeps clear of the grid's ends, so that a neighbour's number is one of a neighbour.
+                for stride in strides {
+                    for other in [node.wrapping_sub(stride), node + stride] {
+                        let is_open = sampled.get(other) == Some(&true) && !seen[other];
+                        if is_open && self.values[node].abs() + self.values[other].abs() > spacing {
+                            seen[other] = true;
+                            side.push(other);
+                        }
+                    }
+                }
+            }
+            let inside = side.iter().filter(|node| self.values[**node] < 0.0).count();
+            let sign = if 2 * inside > side.len() { -1.0 } else { 1.0 };
+            side.into_iter().for_each(|node| self.values[node] = sign * self.values[node].abs());
+        }
+    }
+
+    /// Exact values at the nodes deeper inside than the shell: they follow along x a negative node that is farther from
+    /// the surface than from them.
     fn fill_inside(&mut self, surface: &Surface) {
         let far = (SHELL_CELLS * self.spacing_m) as f32;
         for k in 0..self.size[2] {
@@ -79,7 +115,7 @@ impl DistanceField {
                 for i in 1..self.size[0] {
                     let node = self.node(i, j, k);
                     if self.values[node] == far && self.values[node - 1] < 0.0 {
-                        self.values[node] = surface.signed_distance(&self.position(i, j, k)) as f32;
+                        self.values[node] = -surface.signed_distance(&self.position(i, j, k)).abs() as f32;
                     }
                 }
             }

@@ -1,10 +1,10 @@
 //! Checks on a finished drape, made on the meshes themselves and not on what the solver believed.
 
 use crate::body::Body;
-use crate::geom::{DistanceField, Surface, V3};
+use crate::geom::{DistanceField, V3};
 use crate::pattern::Garment;
-use crate::sim::contact::crossings;
 use crate::sim::contact::tangle::edges_of;
+use crate::sim::contact::{Skin, crossings};
 
 /// Deepest point of the cloth inside the body, m: vertices, edge middles and triangle centres against the exact surface;
 /// 0 when none is inside.
@@ -31,8 +31,11 @@ fn samples<'a>(garment: &'a Garment, positions: &'a [V3]) -> impl Iterator<Item 
 }
 
 fn deepest_m(body: &Body, samples: impl Iterator<Item = V3>) -> f64 {
-    let Ok(surface) = Surface::new(&body.mesh) else { return f64::NAN };
-    samples.map(|p| -surface.signed_distance(&p)).fold(0.0, f64::max)
+    let Ok(skin) = Skin::new(&body.mesh) else { return f64::NAN };
+    let mut inside: Vec<(f64, V3)> =
+        samples.map(|p| (skin.quick_depth(&p), p)).filter(|(depth, _)| *depth > 0.0).collect();
+    inside.sort_by(|a, b| b.0.total_cmp(&a.0));
+    inside.iter().find(|(_, p)| skin.contains(p)).map_or(0.0, |(depth, _)| *depth)
 }
 
 /// Greatest distance between the two vertices of a seam pair, m.

@@ -12,7 +12,8 @@ use std::collections::BTreeMap;
 
 use nalgebra::Matrix3;
 
-use crate::geom::{DistanceField, Surface, V3};
+use super::skin::Skin;
+use crate::geom::{DistanceField, V3};
 use crate::sim::solver::Contact4;
 
 /// Parameters of body contact.
@@ -143,7 +144,7 @@ impl<'a> BodyContact<'a> {
     /// The offset of such a point is told in the field, which is blurred: what the blur takes from a sharp convex place
     /// is given back. Where the cloth `is_at_rest` and a point held before is inside all the same, the cloth presses so
     /// hard there that the penalty yields: its offset grows by as much (an augmented penalty).
-    pub fn hold_out(&mut self, surface: &Surface, triangles: &[[usize; 3]], x: &[V3], is_at_rest: bool) -> f64 {
+    pub fn hold_out(&mut self, skin: &Skin, triangles: &[[usize; 3]], x: &[V3], is_at_rest: bool) -> f64 {
         let mut known: BTreeMap<[usize; 3], usize> =
             self.samples.iter().enumerate().map(|(k, sample)| (sample.vertices, k)).collect();
         let mut deepest = 0.0_f64;
@@ -153,7 +154,7 @@ impl<'a> BodyContact<'a> {
             if distance > self.params.offset_m + FIELD_ERROR_M {
                 continue;
             }
-            let depth = -surface.signed_distance(&p);
+            let depth = skin.depth(&p, distance);
             if depth <= 0.0 {
                 continue;
             }

@@ -5,8 +5,10 @@ pub mod cloth;
 pub mod grid;
 pub mod nearest;
 pub mod search;
+pub mod skin;
 pub mod tangle;
 
 pub use body::{BodyContact, ContactParams};
 pub use cloth::{ClothContact, ClothContactParams};
-pub use tangle::crossings;
+pub use skin::Skin;
+pub use tangle::{Crossing, crossings};

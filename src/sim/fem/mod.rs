@@ -7,10 +7,10 @@ mod run;
 pub use params::{Params, level_edges};
 
 use crate::body::Body;
-use crate::geom::{DistanceField, Surface, V3};
+use crate::geom::{DistanceField, V3};
 use crate::pattern::Garment;
 use crate::sim::cloth::Cloth;
-use crate::sim::contact::{BodyContact, ClothContact};
+use crate::sim::contact::{BodyContact, ClothContact, Skin};
 use crate::sim::levels::prolong;
 use crate::sim::quality;
 use crate::sim::sewing::{self, Springs};
@@ -46,8 +46,8 @@ pub fn simulate(
     let mut run = Run::new(params, monitor, finer.len());
     let mut positions = sew(body, field, coarsest, fabric, params, &mut run)?;
     let mut level = coarsest;
-    let surface = Surface::new(&body.mesh).ok();
-    let around = Around { surface: surface.as_ref(), field };
+    let skin = Skin::new(&body.mesh).ok();
+    let around = Around { skin: skin.as_ref(), field };
     let mut last = settle(around, level, fabric, params, positions, &mut run, 0)?;
     for (index, next) in finer.iter().enumerate() {
         positions = prolong(level, &last.positions, next);
@@ -103,7 +103,7 @@ struct Settled {
 #[derive(Clone, Copy)]
 struct Around<'a> {
     /// `None` where the mesh bounds no solid: then only the field holds the cloth.
-    surface: Option<&'a Surface>,
+    skin: Option<&'a Skin<'a>>,
     field: &'a DistanceField,
 }
 
@@ -127,8 +127,8 @@ fn settle(
     let mut system = System::new(&cloth, contact, None);
     system.self_contact = Some(ClothContact::new(params.self_contact, &cloth.triangles, &cloth.areas));
     let hold_out = |system: &mut System, x: &[V3], is_at_rest: bool| {
-        let deepest = |surface| system.contact.hold_out(surface, &cloth.triangles, x, is_at_rest);
-        around.surface.map_or(0.0, deepest)
+        let deepest = |skin| system.contact.hold_out(skin, &cloth.triangles, x, is_at_rest);
+        around.skin.map_or(0.0, deepest)
     };
     if is_finest {
         hold_out(&mut system, &x, false);

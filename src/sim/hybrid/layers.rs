@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::geom::V3;
-use crate::sim::contact::crossings;
+use crate::sim::contact::{Crossing, crossings};
 use crate::sim::solver::PairList;
 
 /// Layers are this far apart afterwards, m.
@@ -36,7 +36,7 @@ impl Layers {
     /// The end of an edge that has come through least goes back, and the triangle meets it half way: while cloth moves
     /// little between two looks, that is the end which should not have come through.
     pub fn part(&self, x: &mut [V3], rounds: u32) -> usize {
-        let mut pierced: Vec<Pierced> = crossings(x, self.edges.pairs(), &self.triangles).collect();
+        let mut pierced: Vec<Crossing> = crossings(x, self.edges.pairs(), &self.triangles).collect();
         if pierced.is_empty() {
             return 0;
         }
@@ -59,8 +59,8 @@ impl Layers {
     }
 
     /// The cloth round crossings.
-    fn near(&self, pierced: &[Pierced], x: &[V3]) -> Self {
-        let places: Vec<V3> = pierced.iter().map(|(edge, _)| (x[edge[0]] + x[edge[1]]) / 2.0).collect();
+    fn near(&self, pierced: &[Crossing], x: &[V3]) -> Self {
+        let places: Vec<V3> = pierced.iter().map(|Crossing { edge, .. }| (x[edge[0]] + x[edge[1]]) / 2.0).collect();
         let is_near = |v: usize| places.iter().any(|p| (x[v] - p).norm_squared() < NEAR_M * NEAR_M);
         let near: Vec<bool> = (0..x.len()).map(is_near).collect();
         let triangles: Vec<[usize; 3]> =
@@ -69,13 +69,10 @@ impl Layers {
     }
 }
 
-/// An edge and the triangle that it pierces.
-type Pierced = ([usize; 2], [usize; 3]);
-
 /// One round: every crossing asks for its way out, every vertex takes the mean of what it is asked for.
-fn apart(pierced: &[Pierced], x: &mut [V3]) {
+fn apart(pierced: &[Crossing], x: &mut [V3]) {
     let mut moves: BTreeMap<usize, (V3, f64)> = BTreeMap::new();
-    for (edge, triangle) in pierced {
+    for Crossing { edge, triangle } in pierced {
         let [a, b, c] = triangle.map(|v| x[v]);
         let Some(normal) = (b - a).cross(&(c - a)).try_normalize(0.0) else { continue };
         let heights = edge.map(|v| (x[v] - a).dot(&normal));
