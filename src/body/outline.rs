@@ -22,6 +22,12 @@ const USUAL_NECK: f64 = 0.8714;
 /// Radius of the crown over stature: seen from below or above, the head's edge is not its highest point.
 const CROWN: f64 = 0.05;
 
+/// How far before the subject's axis the soles' nearest edge stands, over stature: it is seen below the floor under the axis.
+const SOLES_NEARER: f64 = 0.09;
+
+/// Share by which a person's height in a picture may differ from what stature, distance and focal length say.
+const MISFIT: f64 = 0.03;
+
 /// A silhouette with its scale.
 #[derive(Clone, Debug)]
 pub(super) struct View {
@@ -84,6 +90,27 @@ impl Outlines {
             .find_crotch()
             .ok_or_else(|| refused("front", "the legs are not apart, or it is no person seen from the front"))?;
         Ok(outlines)
+    }
+
+    /// What does not go together in a view: a camera that looked up or down shortens or lengthens the person, as a wrong distance or
+    /// focal length does, and one picture cannot tell which it was.
+    pub fn doubt(&self, name: &str, side: bool) -> Option<String> {
+        let view = if side { &self.side } else { &self.front };
+        let (focal, distance) = view.camera?;
+        let seen = (view.rows.1 + 1 - view.rows.0) as f64 * distance / focal;
+        let nearer = SOLES_NEARER * self.stature;
+        let rise = (self.stature - self.camera_height) / distance;
+        let crown = self.stature * (1.0 - CROWN * (rise.hypot(1.0) - 1.0));
+        let soles = self.camera_height.max(0.0) * nearer / (distance - nearer);
+        let misfit = seen / (crown + soles) - 1.0;
+        (misfit.abs() > MISFIT).then(|| {
+            let than = if misfit > 0.0 { "taller" } else { "smaller" };
+            format!(
+                "in the {name} picture the person is {:.0} % {than} than stature, distance and focal length say: one of them is \
+                 wrong, or the camera looked up or down",
+                100.0 * misfit.abs()
+            )
+        })
     }
 
     /// Neck, chest, waist and hip.

@@ -87,6 +87,7 @@ pub fn from_pictures(
         notes.push("no camera given: taken as seen from far away, which reads a near person too large".to_owned());
     }
     let outlines = Outlines::new(front, side, stature_m)?;
+    notes.extend([("front", false), ("side", true)].into_iter().filter_map(|(name, side)| outlines.doubt(name, side)));
     let found = outlines.sections(sex, &mut notes)?;
     let girths = found.map(|section| section.girth(sex));
     let levels = found.iter().zip(girths).map(|(section, girth)| PicturedLevel {

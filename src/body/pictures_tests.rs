@@ -1,5 +1,6 @@
 use super::*;
-use crate::body::testing::{Taken, png, silhouette};
+use crate::body::testing::{Taken, placed, png, silhouette};
+use crate::geom::V3;
 
 /// The reference bodies beside the project, where they are.
 fn reference() -> Option<std::path::PathBuf> {
@@ -125,4 +126,29 @@ fn tilted_and_mistaken_views_are_refused() {
     check(&front, &front, "two legs are seen apart");
     check(&side, &side, "the legs are not apart");
     check(&turned(&front, 180.0), &side, "front picture");
+}
+
+#[test]
+fn a_camera_that_looks_down_or_stands_elsewhere_is_doubted() {
+    let body = crate::body::build(&measured(Sex::Male, 1.76, 72.0)).expect("an ordinary man");
+    let (focal, distance, size) = (1900.0, 3.0, [1200, 1800]);
+    // The camera of the silhouettes is 0.9 m high: what it turns by, the body turns about it the other way.
+    let notes = |pitch_deg: f64, higher: f64, said_distance: f64| {
+        let seen = |side: bool| {
+            let eye = if side { V3::new(distance, 0.0, 0.9) } else { V3::new(0.0, distance, 0.9) };
+            let axis = if side { V3::y_axis() } else { -V3::x_axis() };
+            let turn = nalgebra::Rotation3::from_axis_angle(&axis, pitch_deg.to_radians());
+            let mesh = placed(&body.mesh, |p| turn * (p - V3::z() * higher - eye) + eye);
+            png(&silhouette(&mesh, side, Taken::Perspective(focal, distance), size))
+        };
+        let camera = Camera::of_focal(focal, 1800, said_distance);
+        from_pictures(&seen(false), &seen(true), Some(&camera), Sex::Male, 1.76).expect("a person").notes
+    };
+    let doubted = |notes: &[String]| notes.iter().filter(|note| note.contains("looked up or down")).count();
+    assert_eq!(doubted(&notes(0.0, 0.0, distance)), 0);
+    assert_eq!(doubted(&notes(0.0, 0.4, distance)), 0);
+    assert_eq!(doubted(&notes(0.0, 0.0, 1.06 * distance)), 2);
+    // From above the head down at the middle of the body.
+    let down = notes(16.0, 0.9, distance);
+    assert_eq!(doubted(&down), 2, "{down:?}");
 }
