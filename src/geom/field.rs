@@ -77,7 +77,8 @@ impl DistanceField {
     /// neighbouring nodes are together farther from the surface than from each other, it cannot lie between them: all
     /// nodes that are joined so are on one side, that of most of them.
     fn agree_on_signs(&mut self, sampled: &[bool]) {
-        let spacing = self.spacing_m as f32;
+        // A flat surface across the axis is as far from both as they from each other, but for rounding.
+        let apart = 1.05 * self.spacing_m as f32;
         let strides = [1, self.size[0], self.size[0] * self.size[1]];
         let mut seen = vec![false; self.values.len()];
         for start in (0..self.values.len()).filter(|node| sampled[*node]) {
@@ -93,7 +94,7 @@ impl DistanceField {
                 for stride in strides {
                     for other in [node.wrapping_sub(stride), node + stride] {
                         let is_open = sampled.get(other) == Some(&true) && !seen[other];
-                        if is_open && self.values[node].abs() + self.values[other].abs() > spacing {
+                        if is_open && self.values[node].abs() + self.values[other].abs() > apart {
                             seen[other] = true;
                             side.push(other);
                         }
