@@ -8,6 +8,7 @@ use super::catalogue::{self, By};
 use super::error::Result;
 use super::file::Study;
 use super::inputs::{Change, Inputs};
+use super::owner::Watch;
 use super::queue::{self, Event};
 use super::read;
 use super::spec::{self, JobSpec, Selection};
@@ -77,6 +78,9 @@ pub struct Planned {
 /// no longer has is no longer current.
 pub(crate) fn enqueue(transaction: &Transaction<'_>, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
     let all = spec::jobs(study);
+    // Before it is said what becomes of each job: one that was given up for the processes that died over it is wanted anew
+    // by whoever starts a run.
+    queue::take_over(transaction, &mut Watch::default())?;
     let study_id = store_study(transaction, study)?;
     retire(transaction, study_id, &all)?;
     let specs: Vec<JobSpec> = all.into_iter().filter(|spec| selection.takes(spec)).collect();

@@ -132,7 +132,7 @@ pub(crate) fn claim(transaction: &Transaction<'_>, owner: &Owner, watch: &mut Wa
 }
 
 /// Puts jobs of dead owners back into the queue.
-fn take_over(transaction: &Transaction<'_>, watch: &mut Watch) -> Result<()> {
+pub(crate) fn take_over(transaction: &Transaction<'_>, watch: &mut Watch) -> Result<()> {
     let running: Vec<(JobId, String, i64)> = transaction
         .prepare_cached("SELECT job_id, owner, heartbeat_at FROM job WHERE status = 'running'")?
         .query_map([], |row| Ok((JobId(row.get(0)?), row.get(1)?, row.get(2)?)))?

@@ -166,7 +166,8 @@ fn garments_are_worn_by_the_subjects_they_name() {
 #[test]
 fn a_seam_file_is_needed_unless_the_pattern_holds_seams() {
     let without = GOOD.replace("seams = \"tee.seams.toml\"\n", "");
-    let expect = "study.toml:10:1: garment tee: `seams` is missing; give the file that says how its pieces are sewn";
+    let expect = "study.toml:10:1: garment tee: `seams` is missing; give the file that says how its pieces are sewn, or a \
+        `style` of the catalogue";
     assert_eq!(load(&without).expect_err("bad"), expect);
     // Any file will do: what is in it is read later.
     let json = load(&without.replace("tee-s.dxf", "tee.json")).expect("good");
