@@ -94,7 +94,7 @@ fn line<'a>(points: impl Iterator<Item = &'a (f64, f64)> + Clone) -> Option<(f64
         xy += (p.0 - x) * (p.1 - y);
     }
     let slope = xy / xx;
-    (xx > 1e-12 && slope.is_finite()).then(|| (y - slope * x, slope))
+    (xx > 1e-12 && slope.is_finite()).then_some((y - slope * x, slope))
 }
 
 #[cfg(test)]

@@ -15,6 +15,8 @@ const FINE: usize = 3;
 const SHADOW: usize = 1280;
 /// How many places around a point the shadow map is asked at.
 const TAPS: usize = 32;
+/// The outermost of them, which are asked first.
+const RIM: usize = 8;
 /// How far around, in map samples: the width of a shadow's soft edge.
 const SOFT: f32 = 9.0;
 
@@ -38,11 +40,16 @@ pub fn render(scene: &Scene, camera: &Camera, width: u32, height: u32) -> Result
     }
     let (columns, rows) = (width as usize, height as usize);
     let studio = Studio::new(scene, camera, columns, rows);
-    let gain = relief(&studio.pixel_depths(columns, rows), columns, studio.projection.per_m / FINE as f32);
+    let depths = studio.pixel_depths(columns, rows);
+    let gain = relief(&depths, columns, studio.projection.per_m / FINE as f32);
     let encoder = Encoder::new();
     let mut picture = RgbaImage::new(width, height);
     for (pixel, (out, gain)) in picture.pixels_mut().zip(gain).enumerate() {
-        let [r, g, b] = encoder.encode(studio.pixel(pixel % columns, pixel / columns, gain));
+        let (x, y) = (pixel % columns, pixel / columns);
+        let middle = |k: usize| ((k * FINE) as f32) + 0.5 * FINE as f32;
+        let light =
+            if depths[pixel].is_finite() { studio.pixel(x, y, gain) } else { studio.ground(middle(x), middle(y)) };
+        let [r, g, b] = encoder.encode(light);
         out.0 = [r, g, b, 255];
     }
     Ok(picture)
@@ -72,14 +79,21 @@ impl ShadowMap {
     /// Share of the light that reaches a point, 0 to 1.
     fn reaches(&self, point: &Vector3<f32>) -> f32 {
         let [x, y, depth] = self.projection.project(point);
-        let open = self.taps.iter().filter(|(dx, dy, distance)| {
+        let is_open = |&(dx, dy, distance): &(f32, f32, f32)| {
             let (x, y) = (x + dx, y + dy);
             let inside = x >= 0.0 && y >= 0.0 && x < SHADOW as f32 && y < SHADOW as f32;
             // A tilted surface would shadow itself: forgive what the tap's distance can explain.
             let bias = (1.5 + 0.8 * distance) / self.projection.per_m;
             !inside || depth - bias <= self.depth[y as usize * SHADOW + x as usize]
-        });
-        open.count() as f32 / TAPS as f32
+        };
+        let (within, rim) = self.taps.split_at(TAPS - RIM);
+        let open = rim.iter().filter(|tap| is_open(tap)).count();
+        // Where centre and rim agree there is no edge of a shadow between them.
+        match (open, is_open(&self.taps[0])) {
+            (RIM, true) => 1.0,
+            (0, false) => 0.0,
+            _ => (open + within.iter().filter(|tap| is_open(tap)).count()) as f32 / TAPS as f32,
+        }
     }
 }
 

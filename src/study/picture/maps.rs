@@ -52,7 +52,7 @@ impl Map {
             Self::Plain | Self::Check => None,
             Self::Stretch => Some(Scale::diverging(0.0, STRETCH_REACH, "stretch", "%")),
             Self::Tension => Some(Scale::rising(TENSION_REACH, "tension", "N/m")),
-            Self::Gap => Some(Scale::diverging(0.0, GAP_REACH_MM, "gap to the body", "mm")),
+            Self::Gap => Some(Scale::diverging(0.0, GAP_REACH_MM, "gap", "mm")),
         }
     }
 }
