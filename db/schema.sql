@@ -392,3 +392,19 @@ SELECT name AS fabric, fabric.revision, density_kg_m2, thickness_mm, membrane_wa
     membrane_coupling_n_m, shear_n_m, bending_warp_nm, bending_weft_nm, friction_body, friction_self, source, hash,
     fabric.revision = entry.revision AS is_latest, is_retired, stretch_pct, stretched_warp_n_m, stretched_weft_n_m
 FROM fabric JOIN catalogue_entry AS entry USING (name) WHERE part = 'fabric';
+
+CREATE TABLE gap (
+    job_id INTEGER NOT NULL REFERENCES job ON DELETE CASCADE,
+    level TEXT NOT NULL,
+    -- Where the garment was measured; the level itself may lie at an armhole.
+    height_mm REAL NOT NULL,
+    body_girth_mm REAL NOT NULL,
+    garment_girth_mm REAL NOT NULL,
+    PRIMARY KEY (job_id, level)
+) STRICT, WITHOUT ROWID;
+
+CREATE VIEW v_gap AS
+SELECT study.name AS study, garment, size, subject, simulator, level, height_mm, body_girth_mm, garment_girth_mm,
+    body_girth_mm - garment_girth_mm AS shortfall_mm, repeat, job_id
+FROM gap JOIN job USING (job_id) JOIN study USING (study_id)
+WHERE is_current;

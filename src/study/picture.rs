@@ -17,8 +17,8 @@ use crate::geom::{Surface, TriMesh};
 use crate::pattern::Garment;
 use crate::render::export::{MeshFormat, Part};
 use crate::render::{self, Camera, Frame, Layer, Mapping, Material, Paint, Scene, Texture, Values, View};
-use crate::sim::Drape;
 use crate::sim::cloth::membrane::{Fibre, Orthotropic};
+use crate::sim::{self, Drape};
 use crate::units::mm;
 
 /// One repeat of the check, m.
@@ -45,9 +45,18 @@ pub(super) struct Dressed {
     fabric: Orthotropic,
     pub body: TriMesh,
     pub cloth: TriMesh,
+    /// Hybrid-GS: the garment as the pop-up left it.
+    popup: Option<TriMesh>,
 }
 
 impl Dressed {
+    /// The lit scene of the pop-up, where there is one.
+    pub fn popup_scene(&self) -> Option<Result<Scene>> {
+        let cloth = self.popup.as_ref()?;
+        let layers = vec![Layer::new(&self.body, Material::form()), Layer::new(cloth, Material::popup())];
+        Some(Scene::new(layers).map_err(StudyError::stage("render")))
+    }
+
     /// The cloth in its simulator's colour.
     fn material(&self) -> Material {
         match self.simulator {
@@ -186,9 +195,11 @@ impl Workspace {
             .pop()
             .filter(fits)
             .ok_or_else(|| StudyError::stage("store")(format!("the mesh of job {id} does not fit its drape")))?;
-        let cloth = TriMesh { positions: drape.positions, triangles: garment.triangles.clone() };
+        let mesh = |positions| TriMesh { positions, triangles: garment.triangles.clone() };
+        let popup = drape.earlier.into_iter().find(|staged| staged.stage == sim::Stage::Popup);
+        let (cloth, popup) = (mesh(drape.positions), popup.map(|staged| mesh(staged.positions)));
         let fabric = self.membrane_of(id)?;
-        Ok(Dressed { simulator: job.simulator, garment, fabric, body: model.body.mesh, cloth })
+        Ok(Dressed { simulator: job.simulator, garment, fabric, body: model.body.mesh, cloth, popup })
     }
 
     /// The membrane law of a job's fabric.
