@@ -7,4 +7,5 @@ FROM v_chi AS ours
 JOIN v_published AS theirs ON lower(theirs.size) = lower(ours.size) AND ours.subject IN (theirs.subject, iif(theirs.garment LIKE 'male%', 'male-', 'female-') || theirs.subject)
     AND theirs.simulator = ours.simulator AND theirs.measurement_no = ours.measurement_no
     AND abs(theirs.l2d_mm - ours.l2d_mm) < 0.5
+WHERE ours.stage = 'drape'
 ORDER BY 1, 2, 3, 4, 5, 6;

@@ -10,7 +10,7 @@ use super::pipeline::{FIELD_SPACING_M, ease_on};
 use super::tools::{self, LengthUnit, Sex, SourceFile, Unit};
 use crate::body::Body;
 use crate::fit::Simulator;
-use crate::geom::{DistanceField, TriMesh};
+use crate::geom::{DistanceField, TriMesh, V3};
 use crate::measure;
 use crate::pattern::{Garment, MeasurementKind, Style};
 use crate::render::export::{MeshFormat, Part};
@@ -313,31 +313,40 @@ fn measured(asked: &Attempt, style: &Style, garment: &Garment, drape: &Drape, fa
     })
 }
 
-/// Four views as one picture, and body and garment as meshes.
+/// Four views of every stage as one picture each, and body and garment as meshes.
 fn files(simulator: Simulator, body: &Body, garment: &Garment, drape: &Drape) -> Result<Vec<(String, Vec<u8>)>> {
-    let fail = StudyError::stage("render");
-    let cloth = TriMesh { positions: drape.positions.clone(), triangles: garment.triangles.clone() };
-    let (form, material) = match simulator {
-        Simulator::Fem => (Material::form(), Material::fem()),
-        Simulator::Hybrid => (Material::form(), Material::hybrid()),
+    let mesh = |positions: &[V3]| TriMesh { positions: positions.to_vec(), triangles: garment.triangles.clone() };
+    let cloth = mesh(&drape.positions);
+    let material = match simulator {
+        Simulator::Fem => Material::fem(),
+        Simulator::Hybrid => Material::hybrid(),
     };
-    let layers = vec![Layer::new(&body.mesh, form), Layer::new(&cloth, material)];
+    let mut files = vec![("drape.png".to_owned(), four_views(body, &cloth, material)?)];
+    if let Some(popup) = drape.earlier.iter().find(|staged| staged.stage == sim::Stage::Popup) {
+        let picture = four_views(body, &mesh(&popup.positions), Material::popup())?;
+        files.push(("popup.png".to_owned(), picture));
+    }
+    let colours = |mesh: &TriMesh, colour: Rgb| vec![colour; mesh.positions.len()];
+    let part = |name, mesh, colour, places| Part { name, mesh, colours: colours(mesh, colour), places, values: None };
+    let form = Material::form().front;
+    let parts =
+        [part("body", &body.mesh, form, None), part("garment", &cloth, material.front, Some(&garment.rest[..]))];
+    files.push(("drape.glb".to_owned(), MeshFormat::Glb.write(&parts)));
+    files.push(("drape.obj".to_owned(), MeshFormat::Obj.write(&parts)));
+    Ok(files)
+}
+
+/// Cloth on a body from four sides, as a PNG file.
+fn four_views(body: &Body, cloth: &TriMesh, material: Material) -> Result<Vec<u8>> {
+    let layers = vec![Layer::new(&body.mesh, Material::form()), Layer::new(cloth, material)];
     let scene = Scene::new(layers).map_err(StudyError::stage("render"))?;
     let [width, height] = PICTURE;
-    let frame = Frame::enclosing([&body.mesh, &cloth], f64::from(width) / f64::from(height));
+    let frame = Frame::enclosing([&body.mesh, cloth], f64::from(width) / f64::from(height));
     let shot = |view: View| {
         let picture = render::render(&scene, &Camera::new(view, frame), width, height);
         Ok(Cell { picture: picture.map_err(StudyError::stage("render"))?, label: view.as_str().to_owned() })
     };
     let cells = View::ALL.into_iter().map(shot).collect::<Result<Vec<_>>>()?;
-    let sheet = render::contact_sheet("", &cells, cells.len()).map_err(fail)?;
-    let colours = |mesh: &TriMesh, colour: Rgb| vec![colour; mesh.positions.len()];
-    let part = |name, mesh, colour, places| Part { name, mesh, colours: colours(mesh, colour), places, values: None };
-    let parts =
-        [part("body", &body.mesh, form.front, None), part("garment", &cloth, material.front, Some(&garment.rest[..]))];
-    Ok(vec![
-        ("drape.png".to_owned(), render::png(&sheet).map_err(StudyError::stage("render"))?),
-        ("drape.glb".to_owned(), MeshFormat::Glb.write(&parts)),
-        ("drape.obj".to_owned(), MeshFormat::Obj.write(&parts)),
-    ])
+    let sheet = render::contact_sheet("", &cells, cells.len()).map_err(StudyError::stage("render"))?;
+    render::png(&sheet).map_err(StudyError::stage("render"))
 }

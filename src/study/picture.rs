@@ -20,8 +20,8 @@ use crate::pattern::Garment;
 use crate::pattern::garment::Role;
 use crate::render::export::{MeshFormat, Part};
 use crate::render::{self, Camera, Frame, Layer, Mapping, Material, Paint, Scene, Texture, Values, View};
-use crate::sim::Drape;
 use crate::sim::cloth::membrane::{Fibre, Orthotropic};
+use crate::sim::{self, Drape};
 use crate::units::mm;
 
 /// How far from a level of the body cloth still counts as at it, m.
@@ -69,9 +69,18 @@ pub(super) struct Dressed {
     levels: BTreeMap<&'static str, f64>,
     pub body: TriMesh,
     pub cloth: TriMesh,
+    /// Hybrid-GS: the garment as the pop-up left it.
+    popup: Option<TriMesh>,
 }
 
 impl Dressed {
+    /// The lit scene of the pop-up, where there is one.
+    pub fn popup_scene(&self) -> Option<Result<Scene>> {
+        let cloth = self.popup.as_ref()?;
+        let layers = vec![Layer::new(&self.body, Material::form()), Layer::new(cloth, Material::popup())];
+        Some(Scene::new(layers).map_err(StudyError::stage("render")))
+    }
+
     /// The cloth in its simulator's colour.
     fn material(&self) -> Material {
         match self.simulator {
@@ -236,12 +245,14 @@ impl Workspace {
             .pop()
             .filter(fits)
             .ok_or_else(|| StudyError::stage("store")(format!("the mesh of job {id} does not fit its drape")))?;
-        let cloth = TriMesh { positions: drape.positions, triangles: garment.triangles.clone() };
+        let mesh = |positions| TriMesh { positions, triangles: garment.triangles.clone() };
+        let popup = drape.earlier.into_iter().find(|staged| staged.stage == sim::Stage::Popup);
+        let (cloth, popup) = (mesh(drape.positions), popup.map(|staged| mesh(staged.positions)));
         let fabric = self.membrane_of(id)?;
         let at = &model.body.levels;
         let levels = [("chest", at.chest_m), ("underbust", at.underbust_m), ("waist", at.waist_m), ("hip", at.hip_m)];
         let levels = BTreeMap::from(levels);
-        Ok(Dressed { simulator: job.simulator, garment, fabric, levels, body: model.body.mesh, cloth })
+        Ok(Dressed { simulator: job.simulator, garment, fabric, levels, body: model.body.mesh, cloth, popup })
     }
 
     /// The membrane law of a job's fabric.

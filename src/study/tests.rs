@@ -14,6 +14,7 @@ use crate::body::{Measurements, Sex};
 use crate::fit::{Cuts, Ease};
 use crate::measure::{Chi, metrics};
 use crate::pattern::MeasurementKind;
+use crate::sim::hybrid::Closure;
 use crate::sim::{Fabric, Monitor, Progress, Stage};
 
 /// A workspace in a folder of its own.
@@ -128,9 +129,14 @@ fn outcome(spec: &JobSpec) -> Outcome {
         seam_gap_max_m: 0.0,
         history: vec![step],
         eases: vec![ease],
-        closures: vec![],
+        closures: (spec.size == "m").then(gap).into_iter().collect(),
         used: vec![],
     }
+}
+
+/// A garment that lacks 12 mm at the chest.
+fn gap() -> Closure {
+    Closure { level: "chest".into(), height_m: 1.2, body_girth_m: 0.952, garment_girth_m: 0.94 }
 }
 
 fn quick(spec: &JobSpec, _monitor: &mut dyn Monitor) -> Result<Outcome> {
@@ -407,6 +413,9 @@ fn every_contract_view_answers() {
     check("v_chi", 8);
     check("v_metrics", 4);
     check("v_ease", 4);
+    check("v_gap", 2);
+    let lacks = bench.workspace.query("SELECT round(shortfall_mm, 6) FROM v_gap").expect("valid");
+    assert!(lacks.rows.iter().all(|row| row[0] == Value::Real(12.0)), "{:?}", lacks.rows);
     check("v_pair", 0);
     check("v_recommendation", 1);
     check("v_published", 888);

@@ -287,7 +287,10 @@ impl Numbered {
         for (group, vertices) in groups.iter().zip(&self.ranges) {
             let first = triangles.len();
             triangles.extend(
-                group.iter().flat_map(|&p| &garment.triangles[garment.pieces[p].triangles.clone()]).map(|t| t.map(number)),
+                group
+                    .iter()
+                    .flat_map(|&p| &garment.triangles[garment.pieces[p].triangles.clone()])
+                    .map(|t| t.map(number)),
             );
             let names: Vec<&str> = group.iter().map(|&p| garment.pieces[p].id.as_str()).collect();
             let piece = PieceMesh {

@@ -75,7 +75,8 @@ fn continued(anchors: &[Anchor], p: V2) -> V3 {
     let (mut sum, mut weights) = (V3::zeros(), 0.0);
     for anchor in anchors {
         let arm = p - anchor.rest;
-        let place = anchor.place + anchor.ways[0] * arm.dot(&anchor.axes[0]) + anchor.ways[1] * arm.dot(&anchor.axes[1]);
+        let place =
+            anchor.place + anchor.ways[0] * arm.dot(&anchor.axes[0]) + anchor.ways[1] * arm.dot(&anchor.axes[1]);
         let weight = 1.0 / (arm.norm_squared() + 1e-9).powi(2);
         sum += place * weight;
         weights += weight;

@@ -1,10 +1,12 @@
 //! How much a garment lacks where it does not close around the body: the message of Hybrid-GS to its user.
 
+use super::features::face;
 use crate::body::Body;
-use crate::geom::section::{Outline, Plane, section};
 use crate::geom::hull::tape_girth;
+use crate::geom::section::{Outline, Plane, section};
 use crate::geom::{TriMesh, V3};
-use crate::pattern::{Garment, Role};
+use crate::pattern::garment::SeamMesh;
+use crate::pattern::{Garment, PieceMesh, Role};
 use crate::sim::sewing;
 use crate::units::from_mm;
 
@@ -29,31 +31,65 @@ impl Closure {
     }
 }
 
-/// The trunk of a garment may be open at the chest (an armhole): it is then measured at most this far below, m.
-const DOWN_M: f64 = 0.15;
-/// In steps of this, m.
-const STEP_M: f64 = 0.005;
-
 /// Girths at each level of the body that the garment goes round; positions in m.
+///
+/// At the chest it is the length of the cloth from underarm to underarm in front and behind, as the pattern's is; a level plane
+/// would cut armholes there. At the other levels it is what a tape reads.
 #[must_use]
 pub fn closures(body: &Body, garment: &Garment, positions: &[V3]) -> Vec<Closure> {
     let trunk = trunk(garment, positions);
-    let corners = trunk.triangles.iter().flatten().map(|&v| trunk.positions[v].z);
-    let top_m = corners.fold(f64::MIN, f64::max);
-    let closure = |(name, height_m, girth_mm, down_m): (&str, f64, f64, f64)| {
-        let heights = (0..=(down_m / STEP_M) as usize).map(|k| height_m - k as f64 * STEP_M);
-        let girth = heights.filter(|z| *z < top_m).find_map(|z| Some((z, girth_at(&trunk, z)?)));
-        let (height_m, garment_girth_m) = girth.filter(|_| height_m < top_m)?;
+    let (levels, girths) = (&body.levels, &body.girths);
+    let closure = |(name, found, girth_mm): (&str, Option<(f64, f64)>, f64)| {
+        let (height_m, garment_girth_m) = found?;
         Some(Closure { level: name.to_owned(), height_m, body_girth_m: from_mm(girth_mm), garment_girth_m })
     };
-    let (levels, girths) = (&body.levels, &body.girths);
+    let at = |z: f64| Some((z, girth_at(&trunk, z)?));
     let levels = [
-        ("chest", levels.chest_m, girths.chest_girth_mm, DOWN_M),
-        ("underbust", levels.underbust_m, girths.underbust_girth_mm, 0.0),
-        ("waist", levels.waist_m, girths.waist_girth_mm, 0.0),
-        ("hip", levels.hip_m, girths.hip_girth_mm, 0.0),
+        ("chest", at_underarm(garment, positions), girths.chest_girth_mm),
+        ("underbust", at(levels.underbust_m), girths.underbust_girth_mm),
+        ("waist", at(levels.waist_m), girths.waist_girth_mm),
+        ("hip", at(levels.hip_m), girths.hip_girth_mm),
     ];
     levels.into_iter().filter_map(closure).collect()
+}
+
+/// Height of the underarms and length of the cloth between them, front and back, m; `None` for garments without.
+fn at_underarm(garment: &Garment, positions: &[V3]) -> Option<(f64, f64)> {
+    let is_top = |p: &PieceMesh| matches!(p.role, Role::Front | Role::Back | Role::BodiceFront | Role::BodiceBack);
+    let tops: Vec<&PieceMesh> = garment.pieces.iter().filter(|p| is_top(p)).collect();
+    let of = |v: usize| tops.iter().find(|p| p.vertices.contains(&v)).map(|p| face(p.role));
+    // Front to back, upright: the sides.
+    let is_side = |seam: &&SeamMesh| {
+        let (Some(first), Some(last)) = (seam.pairs.first(), seam.pairs.last()) else { return false };
+        let chord = garment.rest[last[0]] - garment.rest[first[0]];
+        let faces = first.map(of);
+        faces.iter().all(Option::is_some) && faces[0] != faces[1] && chord.y.abs() > chord.x.abs()
+    };
+    let sides: Vec<usize> =
+        garment.seams.iter().filter(is_side).flat_map(|s| s.pairs.iter().flatten().copied()).collect();
+    let (mut heights, mut length) = (Vec::new(), 0.0);
+    for piece in &tops {
+        let own = sides.iter().copied().filter(|v| piece.vertices.contains(v));
+        let underarm = own.max_by(|&a, &b| garment.rest[a].y.total_cmp(&garment.rest[b].y))?;
+        heights.push(positions[underarm].z);
+        length += across_m(garment, piece, garment.rest[underarm].y, positions);
+    }
+    (!heights.is_empty()).then(|| (heights.iter().sum::<f64>() / heights.len() as f64, length))
+}
+
+/// Length in space of the line at height `v` across a piece, m.
+fn across_m(garment: &Garment, piece: &PieceMesh, v: f64, positions: &[V3]) -> f64 {
+    let cut = |t: &[usize; 3]| -> f64 {
+        let ends: Vec<V3> = (0..3)
+            .filter_map(|k| {
+                let (a, b) = (t[k], t[(k + 1) % 3]);
+                let (below, above) = (garment.rest[a].y - v, garment.rest[b].y - v);
+                ((below < 0.0) != (above < 0.0)).then(|| positions[a].lerp(&positions[b], below / (below - above)))
+            })
+            .collect();
+        if let [a, b] = ends.as_slice() { (b - a).norm() } else { 0.0 }
+    };
+    garment.triangles[piece.triangles.clone()].iter().map(cut).sum()
 }
 
 /// What covers the trunk, sewn: everything but sleeves.
@@ -74,5 +110,9 @@ fn girth_at(trunk: &TriMesh, z: f64) -> Option<f64> {
         let (low, high) = outline.bounds();
         outline.closed && low.x < 0.0 && high.x > 0.0
     };
-    section(trunk, &Plane::horizontal(z)).iter().filter(|o| round(o)).map(|o| tape_girth(&o.points)).max_by(f64::total_cmp)
+    section(trunk, &Plane::horizontal(z))
+        .iter()
+        .filter(|o| round(o))
+        .map(|o| tape_girth(&o.points))
+        .max_by(f64::total_cmp)
 }

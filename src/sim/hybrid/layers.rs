@@ -97,7 +97,8 @@ mod tests {
     fn two_sheets_that_dip_into_each_other_are_parted() {
         let (rest, below) = sheet(8, 8, 0.01);
         let count = rest.len();
-        let triangles: Vec<[usize; 3]> = below.iter().copied().chain(below.iter().map(|t| t.map(|v| v + count))).collect();
+        let triangles: Vec<[usize; 3]> =
+            below.iter().copied().chain(below.iter().map(|t| t.map(|v| v + count))).collect();
         // The upper sheet sags through the lower in its middle.
         let sag = |x: f64, y: f64| 2.5e-3 - 4.5e-3 * (-((x - 0.043).powi(2) + (y - 0.037).powi(2)) / 2e-4).exp();
         let upper = rest.iter().map(|p| V3::new(p.x + 2e-3, p.y + 1e-3, sag(p.x, p.y)));

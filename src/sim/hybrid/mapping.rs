@@ -290,8 +290,7 @@ fn lay(garment: &Garment, piece: &PieceMesh, outline: &Outline, patch: &Patch, l
 
 /// Brings the pieces as cut where the assembled ones lie, lets the others follow, and turns flipped triangles back.
 fn spread(garment: &Garment, assembly: &Assembly, laid: &Laid) -> Result<(Vec<V3>, usize), SimError> {
-    let mut positions: Vec<V3> =
-        assembly.vertex_of.iter().map(|v| v.map_or_else(V3::zeros, |v| laid.x[v])).collect();
+    let mut positions: Vec<V3> = assembly.vertex_of.iter().map(|v| v.map_or_else(V3::zeros, |v| laid.x[v])).collect();
     follow::place(garment, &assembly.followers, &mut positions)?;
     let welded = sewing::welded(garment);
     let count = welded.iter().max().map_or(0, |m| m + 1);

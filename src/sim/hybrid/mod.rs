@@ -52,13 +52,15 @@ pub struct Params {
 
 impl Default for Params {
     fn default() -> Self {
-        Self { uncontrolled: Vec::new(), relax: RelaxParams::default(), push_steps: 25, yield_steps: 25 }
+        Self { uncontrolled: Vec::new(), relax: RelaxParams::default(), push_steps: 25, yield_steps: 30 }
     }
 }
 
 /// Rms movement in a step below which a drape counts as come to rest, m.
 const AT_REST_M: f64 = 1e-3;
 
+/// Last steps after each of which cloth that is large enough is lifted out of the body.
+const LIFTS: u32 = 3;
 /// Rounds in which cloth that runs through itself is pulled apart in the end.
 const PARTINGS: u32 = 40;
 
@@ -112,7 +114,7 @@ pub fn phases(
     run.record("sew", 0.2, 0, &on_skin, (lift / sewn.x.len() as f64).sqrt() / AT_REST_M)?;
     let mut done = 0.0;
     let error = |x: &[V3]| mean_chi(garment, &sewn.unsewn(x)) - 1.0;
-    popup::reconstruct(&mut relaxation, error, |now, moved| {
+    popup::reconstruct(&mut relaxation, &body.mesh, error, |now, moved| {
         done += 1.0;
         run.record("popup", 0.2 + 0.4 * done / f64::from(popup::steps()), 1, &sewn.unsewn(&now.x), moved / AT_REST_M)
     })?;
@@ -121,7 +123,13 @@ pub fn phases(
     let steps = params.push_steps + params.yield_steps;
     let (mut last, mut self_crossings) = (f64::MAX, 0);
     for step in 1..=steps {
+        if step == params.push_steps + 1 {
+            relaxation.judge(&body.mesh);
+        }
         last = relaxation.step(Push { unlimited: step <= params.push_steps, gravity: 1.0, share: 1.0 });
+        if step + LIFTS > steps {
+            relaxation.lift_out();
+        }
         if step == steps {
             self_crossings = relaxation.part_layers(PARTINGS);
         }
@@ -135,7 +143,7 @@ pub fn phases(
         converged: last <= AT_REST_M,
         iterations: run.history.len() as u32,
         residual: last / AT_REST_M,
-        penetration_max_m: quality::penetration_m(body, garment, &positions),
+        penetration_max_m: quality::penetration_by_field_m(body, field, garment, &positions),
         seam_gap_max_m: quality::seam_gap_m(garment, &positions),
         self_crossings,
         welded_vertices: x.len(),

@@ -2,7 +2,7 @@
 //! under control of every measurement of the style.
 
 use super::relax::{Push, Relaxation};
-use crate::geom::V3;
+use crate::geom::{TriMesh, V3};
 
 /// Steps in which it grows, and in which it then comes to rest.
 const STEPS: [u32; 2] = [12, 16];
@@ -13,7 +13,6 @@ pub fn steps() -> u32 {
     STEPS[0] + STEPS[1]
 }
 
-
 /// Times that the controls are set anew in a step, at most.
 const CORRECTIONS: u32 = 2;
 /// What a change of all controls' lengths changes their mean by, at first guess.
@@ -22,7 +21,7 @@ const RESPONSE: f64 = 0.7;
 /// Pops a garment up; calls `each` with it and the rms movement (m) after every step, which ends it early with an error.
 ///
 /// Triangles and controls go from the size they were sewn at to that of the pattern in equal steps. Until then the body
-/// pushes the cloth out, or sleeves would swing through the arms while they grow; then it yields. `error` is how far the
+/// pushes the cloth out, or sleeves would swing through the arms while they grow; then it yields where the garment is too small. `error` is how far the
 /// garment is from its size on average, signed: a step that would go past, on its momentum or because controls are soft, or
 /// lead away from it, is done again with the controls' lengths set against that.
 ///
@@ -30,6 +29,7 @@ const RESPONSE: f64 = 0.7;
 /// Those of `each`.
 pub fn reconstruct<E>(
     relaxation: &mut Relaxation,
+    body: &TriMesh,
     error: impl Fn(&[V3]) -> f64,
     mut each: impl FnMut(&Relaxation, f64) -> Result<(), E>,
 ) -> Result<(), E> {
@@ -37,6 +37,9 @@ pub fn reconstruct<E>(
     for step in 1..=steps() {
         let share = f64::from(step) / f64::from(STEPS[0]);
         let push = Push { unlimited: share < 1.0, gravity: 0.0, share: share.min(1.0) };
+        if step == STEPS[0] {
+            relaxation.judge(body);
+        }
         let before = relaxation.place();
         let mut moved = relaxation.step(push);
         let mut now = error(&relaxation.x);

@@ -9,7 +9,7 @@ use super::layers::Layers;
 use super::rows::Rows;
 use super::sewn::Sewn;
 use super::walls::Walls;
-use crate::geom::{DistanceField, V3};
+use crate::geom::{DistanceField, TriMesh, V3};
 use crate::pattern::{Garment, Measurement};
 use crate::sim::cloth::Cloth;
 use crate::sim::{Fabric, SimError};
@@ -46,7 +46,7 @@ impl Default for RelaxParams {
             contact: 400.0,
             hold: 1.0,
             control_width_m: 0.5,
-            yield_stretch: 5e-3,
+            yield_stretch: 2e-3,
             least_bending_nm: 5e-5,
             momentum: 0.85,
             refresh: 5,
@@ -160,6 +160,23 @@ impl<'a> Relaxation<'a> {
         Self { feet_m: ankles_m, ..self }
     }
 
+    /// Lifts cloth out of the body where it is not too small for it and lies shallow: what contact, which is soft, left inside.
+    /// What lies deeper would lose its size.
+    pub fn lift_out(&mut self) {
+        let stretch = self.rows.stretch(&self.elastic, &self.x);
+        for (p, stretch) in self.x.iter_mut().zip(stretch) {
+            if stretch < 0.0 || p.z < self.feet_m {
+                let (depth, out) = contact(self.field, LEAST_CLEARANCE_M, p);
+                *p += out * if depth < MOST_LIFT_M { depth } else { 0.0 };
+            }
+        }
+    }
+
+    /// Judges anew where the garment is too small for a body: there contact yields.
+    pub fn judge(&mut self, body: &TriMesh) {
+        self.rows.judge(body, &self.x, self.params.offset_m, self.params.yield_stretch);
+    }
+
     /// Where it is now.
     #[must_use]
     pub fn place(&self) -> Place {
@@ -200,7 +217,9 @@ impl<'a> Relaxation<'a> {
             }
         }
         let loads: Vec<V3> = self.weight.iter().map(|w| V3::new(0.0, 0.0, -w * push.gravity)).collect();
-        let next = self.elastic.step(&from, &Pull { targets: &targets, loads: &loads, share: push.share, control: self.control });
+        let next = self
+            .elastic
+            .step(&from, &Pull { targets: &targets, loads: &loads, share: push.share, control: self.control });
         self.last = next.iter().zip(&self.x).map(|(a, b)| a - b).collect();
         self.x = next;
         (self.last.iter().map(V3::norm_squared).sum::<f64>() / self.x.len() as f64).sqrt()
@@ -232,6 +251,10 @@ impl<'a> Relaxation<'a> {
 
 /// Share of the vertices whose contact may have changed before the system is factorised again.
 const SAME_CONTACTS: f64 = 0.01;
+/// Cloth that is large enough is this far from the skin in the end at least, m.
+const LEAST_CLEARANCE_M: f64 = 1e-3;
+/// Cloth is lifted out by this at most, m.
+const MOST_LIFT_M: f64 = 3e-3;
 /// Contact that has yielded comes back from this, m.
 const LEAST_PUSH_M: f64 = 2e-5;
 

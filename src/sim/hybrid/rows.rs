@@ -1,14 +1,16 @@
-//! How much the cloth is stretched round the body, over whole rings of rows.
+//! Where the cloth is too small to go round the body, over whole rings of rows.
 //!
 //! A piece is drawn upright, so that its rows (the `u` direction) go round trunk or limb, and on in the piece beside it: front
-//! and back make a ring. A bust stretches the front and leaves the back slack; only where the whole ring is stretched is the
-//! pattern too small.
+//! and back make a ring. A bust stretches the front and leaves the back slack; only where the body inside a ring is
+//! wider than its cloth is the pattern too small.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::elastic::Elastic;
 use super::sewn::Sewn;
-use crate::geom::V3;
+use crate::geom::hull::tape_girth;
+use crate::geom::section::{Plane, section};
+use crate::geom::{TriMesh, V2, V3};
 use crate::pattern::{Garment, Role};
 
 /// The part of the body that a piece goes round together with others.
@@ -34,6 +36,12 @@ pub struct Rows {
     goes_on: Vec<bool>,
     /// Rows that go on in each other round the body, each with itself.
     rings: Vec<Vec<usize>>,
+    /// The row itself where its ring closes, else the nearest of its piece that does.
+    closed: Vec<Option<usize>>,
+    /// Width of each row in the piece's plane, m.
+    widths_m: Vec<f64>,
+    /// Whether the ring of each row is too small for the body.
+    tight: Vec<bool>,
 }
 
 impl Rows {
@@ -45,6 +53,9 @@ impl Rows {
             of_vertex: sewn.vertex_of.iter().map(|&v| (0, v)).collect(),
             goes_on: Vec::new(),
             rings: Vec::new(),
+            closed: Vec::new(),
+            widths_m: Vec::new(),
+            tight: Vec::new(),
         };
         for piece in &garment.pieces {
             let low = garment.rest[piece.vertices.clone()].iter().map(|p| p.y).fold(f64::MAX, f64::min);
@@ -59,9 +70,32 @@ impl Rows {
             let last = piece.vertices.clone().map(|v| rows.of_vertex[v].0).max().unwrap_or(first);
             rows.goes_on.resize(last, true);
             rows.goes_on.push(false);
+            rows.widths_m.resize(rows.goes_on.len(), 0.0);
+            for t in &garment.triangles[piece.triangles.clone()] {
+                let corners = t.map(|v| garment.rest[v] - V2::new(0.0, low));
+                rows.add_widths(first, &corners);
+            }
         }
         rows.find_rings(garment);
+        rows.tight = vec![false; rows.goes_on.len()];
         rows
+    }
+
+    /// Adds a triangle to the widths of the rows whose middle lines cut it; `first` is the row at height 0.
+    fn add_widths(&mut self, first: usize, corners: &[V2; 3]) {
+        let heights = corners.map(|p| p.y / HEIGHT_M - 0.5);
+        let [low, high] =
+            [heights.iter().copied().fold(f64::MAX, f64::min), heights.iter().copied().fold(0.0, f64::max)];
+        for row in low.max(0.0).ceil() as usize..=high as usize {
+            let cuts = (0..3).filter_map(|k| {
+                let (below, above) = (heights[k] - row as f64, heights[(k + 1) % 3] - row as f64);
+                let along = below / (below - above);
+                ((below < 0.0) != (above < 0.0)).then(|| corners[k].x + (corners[(k + 1) % 3].x - corners[k].x) * along)
+            });
+            if let ([a, b], Some(width)) = (cuts.collect::<Vec<_>>().as_slice(), self.widths_m.get_mut(first + row)) {
+                *width += (b - a).abs();
+            }
+        }
     }
 
     /// Joins each row with those it goes on in, over two seams at most: from a half of the front over the other to the back.
@@ -104,11 +138,10 @@ impl Rows {
         self.close_rings(garment, &joined);
     }
 
-    /// Adds the nearest row that closes to rows that do not: beside an armhole a front is as tight as below it, but may be
-    /// stretched by itself across a bust. A row closes when cloth of the same limb goes on at both its ends, in vertices
-    /// that are `joined`.
+    /// Finds the rows that close: cloth of the same limb goes on at both their ends, in vertices that are `joined`. Beside an
+    /// armhole a front is as tight as in the nearest ring below it.
     fn close_rings(&mut self, garment: &Garment, joined: &BTreeSet<usize>) {
-        let mut closed = self.rings.clone();
+        self.closed = vec![None; self.goes_on.len()];
         for piece in &garment.pieces {
             let mut ends: BTreeMap<usize, [usize; 2]> = BTreeMap::new();
             for v in piece.vertices.clone() {
@@ -117,19 +150,45 @@ impl Rows {
                 *left = if u(v) < u(*left) { v } else { *left };
                 *right = if u(v) > u(*right) { v } else { *right };
             }
-            let (whole, open): (Vec<_>, Vec<_>) =
-                ends.into_iter().partition(|(_, ends)| ends.iter().all(|v| joined.contains(v)));
-            for (row, _) in open {
-                if let Some((near, _)) = whole.iter().min_by_key(|(other, _)| other.abs_diff(row)) {
-                    closed[row].extend(&self.rings[*near]);
-                }
+            let closes = |ends: &[usize; 2]| ends.iter().all(|v| joined.contains(v));
+            let whole: Vec<usize> = ends.iter().filter(|(_, ends)| closes(ends)).map(|(row, _)| *row).collect();
+            for row in ends.into_keys() {
+                self.closed[row] = whole.iter().copied().min_by_key(|other| other.abs_diff(row));
             }
         }
-        self.rings = closed;
     }
 
-    /// Stretch beyond 1 of the ring through each sewn vertex: the mean of its slackest row, from which the others can still
-    /// take cloth. Of the most stretched ring where rings meet.
+    /// Judges which rings are too small, where the cloth is now: a tape round the body inside them, `offset_m` off the skin, is
+    /// longer than their cloth by more than a share. Positions `x` in m.
+    pub fn judge(&mut self, body: &TriMesh, x: &[V3], offset_m: f64, share: f64) {
+        let mut members = vec![Vec::new(); self.goes_on.len()];
+        for &(row, v) in &self.of_vertex {
+            members[row].push(v);
+        }
+        let middle = |rows: &mut dyn Iterator<Item = usize>| {
+            let (sum, n) =
+                rows.flat_map(|r| &members[r]).fold((V3::zeros(), 0.0), |(sum, n), &v| (sum + x[v], n + 1.0));
+            (n > 0.0).then(|| sum / n)
+        };
+        let is_tight = |row: usize| {
+            let ring = &self.rings[row];
+            let centre = middle(&mut ring.iter().copied())?;
+            let above = middle(&mut ring.iter().map(|&r| if self.goes_on[r] { r + 1 } else { r }))?;
+            let below = middle(&mut ring.iter().map(|&r| r.checked_sub(1).filter(|&b| self.goes_on[b]).unwrap_or(r)))?;
+            let plane = Plane::normal_to(centre, (above - below).try_normalize(1e-6)?);
+            let outlines = section(body, &plane);
+            let inside = outlines.iter().find(|o| o.closed && o.contains(plane.project(centre)))?;
+            let body_m = tape_girth(&inside.points) + std::f64::consts::TAU * offset_m;
+            let cloth_m: f64 = ring.iter().map(|&r| self.widths_m[r]).sum();
+            Some(body_m > (1.0 + share) * cloth_m)
+        };
+        let is_closed = |row: usize| self.closed[row] == Some(row);
+        let own: Vec<bool> = (0..members.len()).map(|row| is_closed(row) && is_tight(row).unwrap_or(false)).collect();
+        self.tight = self.closed.iter().map(|closed| closed.is_some_and(|row| own[row])).collect();
+    }
+
+    /// Stretch beyond 1 of the row through each sewn vertex where its ring was judged too small, and -1 elsewhere: of the most
+    /// stretched row where pieces meet.
     #[must_use]
     pub fn stretch(&self, elastic: &Elastic, x: &[V3]) -> Vec<f64> {
         let mut sums = vec![(0.0, 0.0); self.goes_on.len()];
@@ -148,11 +207,9 @@ impl Rows {
             stretch / area.max(f64::MIN_POSITIVE)
         };
         let means: Vec<f64> = (0..sums.len()).map(mean).collect();
-        let slackest: Vec<f64> =
-            self.rings.iter().map(|ring| ring.iter().map(|&row| means[row]).fold(f64::MAX, f64::min)).collect();
         let mut greatest = vec![f64::MIN; x.len()];
         for &(row, v) in &self.of_vertex {
-            greatest[v] = greatest[v].max(slackest[row]);
+            greatest[v] = greatest[v].max(if self.tight[row] { means[row] } else { -1.0 });
         }
         greatest
     }

@@ -13,8 +13,9 @@ use crate::report::data::{Fact, RawLink};
 use crate::report::{self, ReportData};
 
 /// Views of the raw data, their files, and what they hold.
-const RAW: [(&str, &str, &str); 4] = [
-    ("v_chi", "chi.csv", "L2D, L3D and chi of every measurement"),
+const RAW: [(&str, &str, &str); 5] = [
+    ("v_chi", "chi.csv", "L2D, L3D and chi of every measurement at every stage"),
+    ("v_gap", "gap.csv", "girths of garment and body where Hybrid-GS does not close"),
     ("v_metrics", "metrics.csv", "E, SD, EI and the state of every drape"),
     ("v_ease", "ease.csv", "ease and fit class of every size and subject"),
     ("v_provenance", "provenance.csv", "hashes, versions and machine of every result"),

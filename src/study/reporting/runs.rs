@@ -6,7 +6,7 @@ use image::imageops;
 
 use super::super::error::{Result, StudyError};
 use super::super::picture::{Dressed, Map};
-use super::super::types::{JobRow, MetricsRow, Status, Value};
+use super::super::types::{JobId, JobRow, MetricsRow, Status, Value};
 use super::super::workspace::Workspace;
 use super::quoted;
 use crate::measure::Chi;
@@ -68,6 +68,11 @@ impl Workspace {
             });
             if let Some(worn) = worn {
                 let shots = add_pictures(&mut run, job, worn, (frame, shrink), files)?;
+                if let Some(lacks) = self.lacks(job.id)? {
+                    let gap =
+                        run.maps.iter_mut().map(|map| &mut map.picture).rfind(|picture| picture.file.contains("gap"));
+                    gap.into_iter().for_each(|picture| picture.caption.push_str(&lacks));
+                }
                 cells.entry((&job.garment, &job.size)).or_default().extend(shots);
             }
             runs.push(run);
@@ -78,6 +83,19 @@ impl Workspace {
             files.push((format!("{SHEETS}{garment}-{size}.png"), sheet.map_err(StudyError::stage("render"))?));
         }
         Ok(runs)
+    }
+
+    /// Where a garment of Hybrid-GS does not close around the body, for the caption of its gap map.
+    fn lacks(&self, id: JobId) -> Result<Option<String>> {
+        let sql = format!(
+            "SELECT group_concat(printf('%.0f mm at the %s', body_girth_mm - garment_girth_mm, level), ', ')
+            FROM gap WHERE job_id = {id} AND body_girth_mm - garment_girth_mm >= 0.5"
+        );
+        let lacks = self.query(&sql)?.rows.into_iter().flatten().next();
+        Ok(match lacks {
+            Some(Value::Text(lacks)) => Some(format!("; does not close by {lacks}")),
+            _ => None,
+        })
     }
 
     /// A run without ease and pictures.
@@ -172,6 +190,16 @@ fn add_pictures(
                 Some(scale) => run.maps.push(FieldMap { picture, scale }),
             }
         }
+    }
+    if let Some(scene) = worn.popup_scene() {
+        let shot = render::render(&scene?, &Camera::new(View::Front, frame), PICTURE.0, PICTURE.1)
+            .map_err(StudyError::stage("render"))?;
+        let small = imageops::resize(&shot, on_page[0], on_page[1], imageops::FilterType::CatmullRom);
+        let file = format!("pictures/job-{}-popup.png", job.id);
+        files.push((file.clone(), render::png(&shot).map_err(StudyError::stage("render"))?));
+        let caption = "pop-up".to_owned();
+        let bytes = render::jpeg(&small).map_err(StudyError::stage("render"))?;
+        run.views.push(Picture { bytes, file, alt: format!("{what}, {caption}"), caption });
     }
     Ok(cells)
 }

@@ -17,7 +17,7 @@ const LEAST_SLEEVE_M: f64 = 0.02;
 impl Mapper<'_> {
     /// A sleeve in one piece: its opening round the arm at the length of the underarm seam.
     pub(super) fn sleeve(&mut self, piece: usize, chains: &[Chain], side: usize) -> Found {
-        let [a, b] = self.own_seam(piece, chains)?;
+        let [a, b] = own_seam(piece, chains)?;
         let up = |i: usize| chains[i].chord(self.garment).y > 0.0;
         let (rising, falling) = match (up(a), up(b)) {
             (true, false) => (a, b),
@@ -50,7 +50,7 @@ impl Mapper<'_> {
 
     /// A piece that goes all round the trunk, sewn to itself: its seam down the centre of the back from the waist.
     pub(super) fn wrap(&mut self, piece: usize, chains: &[Chain]) -> Found {
-        let [a, b] = self.own_seam(piece, chains)?;
+        let [a, b] = own_seam(piece, chains)?;
         let lines = [joined(run(a, b, chains)), joined(run(b, a, chains))];
         if lines.iter().any(|line| line.len() < 2) {
             return Err("it has no hem or no waist line");
@@ -69,13 +69,6 @@ impl Mapper<'_> {
         self.round(&trunk, top, &between([last, first]));
         self.round(&trunk, bottom, &between(on(below)));
         Ok(())
-    }
-
-    /// The two sides of the seam that makes a tube of a piece.
-    fn own_seam(&self, piece: usize, chains: &[Chain]) -> Result<[usize; 2], &'static str> {
-        let is_own = |c: &Chain| c.partner == Partner::Piece(piece);
-        let own: Vec<usize> = (0..chains.len()).filter(|&i| is_own(&chains[i])).collect();
-        <[usize; 2]>::try_from(own).map_err(|_| "what goes round an arm or the trunk must have one seam with itself")
     }
 
     /// A front or back of one leg.
@@ -139,4 +132,11 @@ impl Mapper<'_> {
         self.round(&tube, &hem, &between(hem_ends));
         Ok(())
     }
+}
+
+/// The two sides of the seam that makes a tube of a piece.
+fn own_seam(piece: usize, chains: &[Chain]) -> Result<[usize; 2], &'static str> {
+    let is_own = |c: &Chain| c.partner == Partner::Piece(piece);
+    let own: Vec<usize> = (0..chains.len()).filter(|&i| is_own(&chains[i])).collect();
+    <[usize; 2]>::try_from(own).map_err(|_| "what goes round an arm or the trunk must have one seam with itself")
 }

@@ -1,7 +1,7 @@
 //! Features of the pieces of the trunk: fronts and backs, with or without shoulders.
 
-use super::line::{between, groups, joined};
 use super::limb::TOP_OF_ARM;
+use super::line::{between, groups, joined};
 use super::{Face, Found, Mapper, OnTube, face};
 use crate::body::Layer;
 use crate::geom::V3;
