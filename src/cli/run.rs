@@ -10,7 +10,7 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 use super::args::Run as Arguments;
 use super::context::Context;
 use super::progress::Progress;
-use super::{End, Outcome, output, pictures};
+use super::{End, Outcome, detached, output, pictures};
 use crate::study::{
     JobFilter, JobId, JobRow, Planned, RunOptions, Selection, Status, Study, StudyError, Table, Value, Workspace,
 };
@@ -21,6 +21,10 @@ const LOOK: Duration = Duration::from_millis(150);
 /// `toile run`.
 pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
     let mut workspace = context.workspace()?;
+    if arguments.attach {
+        let name = context.study_name(&workspace, &arguments.study)?;
+        return detached::follow(context, &workspace, &name);
+    }
     let study = context.study(&workspace, &arguments.study)?;
     let selection = Selection {
         simulators: arguments.sim.clone(),
@@ -34,6 +38,11 @@ pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
         return Ok(End::Done);
     }
     let workers = arguments.workers.map(usize::from);
+    if arguments.detach {
+        // So that whoever follows it at once finds its jobs.
+        workspace.queue(&study, &selection)?;
+        return detached::start(context, &study.name);
+    }
     let options = RunOptions { selection, workers, ..RunOptions::default() };
     let interrupted = work(context, &mut workspace, &study, &options, arguments.why)?;
     let jobs = workspace.jobs(&JobFilter { study: Some(study.name.clone()), ..JobFilter::default() })?;
