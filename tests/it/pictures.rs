@@ -110,22 +110,29 @@ fn drawn(screen: &vt100::Screen) -> String {
         for (from, to) in
             runs(&|a, b| a.front == b.front && a.is_bold == b.is_bold && (a.text == "▀") == (b.text == "▀"))
         {
-            let text: String = cells[from..to].iter().map(|cell| cell.text.as_str()).collect();
-            if text.trim().is_empty() || cells[from].text == "▀" {
+            if cells[from].text == "▀" {
                 continue;
             }
-            let blanks = text.chars().take_while(|c| *c == ' ').count();
-            let x = (from + blanks) as f64 * CELL.0;
-            let shown = text.trim();
-            let width = shown.chars().count() as f64 * CELL.0;
+            let text: String = cells[from..to].iter().map(|cell| cell.text.as_str()).collect();
             let weight = if cells[from].is_bold { r#" font-weight="bold""# } else { "" };
-            let escaped = shown.replace('&', "&amp;").replace('<', "&lt;");
-            let _ = write!(
-                svg,
-                r#"<text x="{x:.1}" y="{:.1}" textLength="{width:.1}" fill="{}"{weight}>{escaped}</text>"#,
-                y + 0.76 * CELL.1,
-                hex(cells[from].front)
-            );
+            // Viewers run blanks together: what several of them part is placed by itself.
+            let mut column = from;
+            for word in text.split("  ") {
+                let shown = word.trim();
+                let x = (column + word.chars().take_while(|c| *c == ' ').count()) as f64 * CELL.0;
+                column += word.chars().count() + 2;
+                if shown.is_empty() {
+                    continue;
+                }
+                let width = shown.chars().count() as f64 * CELL.0;
+                let escaped = shown.replace('&', "&amp;").replace('<', "&lt;");
+                let _ = write!(
+                    svg,
+                    r#"<text x="{x:.1}" y="{:.1}" textLength="{width:.1}" fill="{}"{weight}>{escaped}</text>"#,
+                    y + 0.76 * CELL.1,
+                    hex(cells[from].front)
+                );
+            }
         }
         svg.push('\n');
     }

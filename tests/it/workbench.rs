@@ -36,8 +36,9 @@ fn whole_session(columns: u16, rows: u16) {
 
     // Sizes S and M of the drafted T-shirt on male-ii, by Hybrid-GS.
     seat.press("a");
+    seat.wait_for("Space choose");
+    seat.press("<Tab> <Down> <Tab><Down><Down><Down><Down><Down><Down><Down> <Tab> <Tab>");
     seat.wait_for("cotton_shirting_light");
-    seat.press("<Tab> <Down> <Tab><Down><Down><Down><Down><Down><Down><Down> <Tab> ");
     let form = seat.wait_for("1 subject × 2 sizes × 1 simulator = 2 simulations");
     assert!(form.contains("[x] male-ii"), "{form}");
     seat.press("<Enter>");
@@ -148,7 +149,7 @@ fn a_lost_connection_ends_the_workbench() {
 fn a_panic_gives_the_terminal_back_and_is_told() {
     let place = Place::new();
     let mut command = workbench(&place);
-    command.env("TOILE_BREAK", "1");
+    command.env("TOILE_BREAK", "1").env("RUST_BACKTRACE", "0");
     let Some(mut seat) = Seat::take(&command, 80, 24) else { return };
     seat.wait_for("no study yet");
     seat.press("j");
