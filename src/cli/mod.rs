@@ -9,6 +9,7 @@ mod attempt;
 mod body;
 mod catalogue;
 mod context;
+mod detached;
 mod health;
 mod jobs;
 mod output;

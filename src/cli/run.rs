@@ -11,7 +11,7 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 use super::args::{Engine, Run as Arguments, StudyPart};
 use super::context::Context;
 use super::progress::Progress;
-use super::{CliError, End, Outcome, output, pictures, runs};
+use super::{CliError, End, Outcome, detached, output, pictures, runs};
 use crate::study::{
     JobFilter, JobId, JobRow, Planned, RunOptions, Selection, SlurmOptions, Stage, Status, Study, StudyError, Table,
     Value, Workspace,
@@ -30,6 +30,10 @@ pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
         (None, None) => return Err(CliError::Usage("no study; give its folder".into())),
     };
     let mut workspace = context.workspace()?;
+    if arguments.attach {
+        let name = context.study_name(&workspace, path)?;
+        return detached::follow(context, &workspace, &name);
+    }
     let study = context.study(&workspace, path)?;
     let selection = selection(&arguments.part);
     if arguments.dry_run {
@@ -38,6 +42,11 @@ pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
         return Ok(End::Done);
     }
     let workers = arguments.workers.map(usize::from);
+    if arguments.detach {
+        // So that whoever follows it at once finds its jobs.
+        workspace.queue(&study, &selection)?;
+        return detached::start(context, &study.name);
+    }
     let interrupted = match arguments.engine {
         Engine::Local => {
             let options = RunOptions { selection, workers, ..RunOptions::default() };

@@ -114,7 +114,7 @@ impl Workspace {
         let mut next = batch.next()?;
         while let Some(mut statement) = next {
             next = batch.next()?;
-            let columns: Vec<String> = statement.column_names().into_iter().map(str::to_owned).collect();
+            let columns: Vec<String> = statement.column_names().map(str::to_owned).collect();
             let is_last = next.is_none();
             if is_last {
                 take(&columns, None)?;

@@ -96,7 +96,7 @@ impl Workspace {
         tools::write_files(&folder, &files)?;
         let path = folder.join("study.toml");
         let study = self.load_study(&path)?;
-        self.queue(&study)?;
+        self.queue(&study, &Selection::default())?;
         Ok(path)
     }
 
@@ -104,9 +104,9 @@ impl Workspace {
     ///
     /// # Errors
     /// When the workspace is read-only.
-    pub fn queue(&mut self, study: &Study) -> Result<Vec<Planned>> {
+    pub fn queue(&mut self, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
         let transaction = store::write(self.writer()?)?;
-        let planned = enqueue::enqueue(&transaction, study, &Selection::default())?;
+        let planned = enqueue::enqueue(&transaction, study, selection)?;
         transaction.commit()?;
         Ok(planned)
     }

@@ -22,7 +22,6 @@ impl State {
                 let pane = &mut self.second_pane[self.screen as usize];
                 *pane = !*pane;
             }
-            Action::Show(Screen::Compare) => self.compare(),
             Action::Show(screen) => self.show(screen),
             Action::Open => return self.open(),
             Action::Back => {

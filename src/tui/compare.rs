@@ -215,6 +215,12 @@ impl State {
         self.data.as_ref()?.recommendations.iter().find(of_class)
     }
 
+    /// The sign of a run that is selected for a comparison.
+    #[must_use]
+    pub fn mark_of(&self, job: Option<JobId>) -> &'static str {
+        if job.is_some_and(|job| self.marks.contains(&job)) { "•" } else { "" }
+    }
+
     /// Selects a run for a comparison, or no longer.
     pub(super) fn mark_run(&mut self) {
         let Some(job) = self.job() else {
@@ -240,15 +246,6 @@ impl State {
     pub(super) fn unmark_runs(&mut self) {
         self.say(format!("{} runs were selected, none is now", self.marks.len()));
         self.marks.clear();
-    }
-
-    /// Shows the comparison, where there is anything to compare.
-    pub(super) fn compare(&mut self) {
-        if self.to_compare().is_empty() {
-            self.say("nothing to compare yet: select a job, or several with Space");
-            return;
-        }
-        self.show(Screen::Compare);
     }
 }
 

@@ -67,6 +67,11 @@ impl Editor {
         self.offer.as_ref()
     }
 
+    /// Takes the offered words away.
+    pub fn decline(&mut self) {
+        self.offer = None;
+    }
+
     /// Puts another text in, the cursor at its end.
     pub fn set(&mut self, text: &str) {
         *self = Self { text: text.to_owned(), cursor: text.len(), offer: None };

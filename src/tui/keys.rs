@@ -10,7 +10,8 @@ use std::path::{Path, PathBuf};
 use crossterm::event::KeyCode;
 use toml::de::{DeTable, DeValue};
 
-use super::action::{BINDINGS, Binding, Key, Screen};
+use super::action::{Binding, Key, Screen};
+use super::bindings::BINDINGS;
 
 /// Names of keys that are no single character.
 const NAMES: [(&str, KeyCode); 15] = [

@@ -10,6 +10,7 @@ mod act;
 mod action;
 mod ascii;
 mod asker;
+mod bindings;
 mod clerk;
 mod compare;
 mod copy;
@@ -24,6 +25,7 @@ mod message;
 mod overlay;
 mod painter;
 mod picture;
+mod rehearsal;
 mod reports;
 mod screens;
 mod sheet;
@@ -45,10 +47,12 @@ mod worker;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-pub use action::{Action, BINDINGS, Binding, Screen};
+pub use action::{Action, Binding, Screen};
+pub use bindings::BINDINGS;
 pub use feed::{Focus, Snapshot};
 pub use message::{Act, Effect, Message, Target};
 pub use picture::{Images, Shot};
+pub use rehearsal::Rehearsal;
 pub use state::State;
 
 use crate::study::{StudyError, Workspace, study_file};
@@ -132,6 +136,10 @@ fn event_loop(screen: &mut terminal::Screen, state: &mut State, workers: &Worker
     while let Ok(message) = workers.messages.recv() {
         // All that waits is taken in before the next frame, so that a flood of keys or progress costs one frame.
         for message in std::iter::once(message).chain(workers.messages.try_iter()) {
+            if cfg!(debug_assertions) && matches!(message, Message::Key(_)) && std::env::var_os("TOILE_BREAK").is_some()
+            {
+                panic!("a key was pressed and TOILE_BREAK is set");
+            }
             for effect in state.update(message) {
                 match effect {
                     Effect::Quit => return Ok(()),

@@ -151,7 +151,7 @@ pub(super) fn edit(text: &mut String, event: &KeyEvent) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::action::BINDINGS;
+    use super::super::bindings::BINDINGS;
     use super::*;
 
     fn press(code: KeyCode) -> KeyEvent {

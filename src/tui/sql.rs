@@ -123,6 +123,7 @@ impl State {
         let surplus = self.sql.history.len().saturating_sub(MOST_KEPT);
         self.sql.history.drain(..surplus);
         self.sql.recalled = None;
+        self.sql.editor.decline();
         self.sql.asked = Some(text.clone());
         self.sql.told = None;
         vec![Effect::Ask(Question::Rows(text))]

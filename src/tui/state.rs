@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use ratatui::layout::Size;
 
-use super::action::{BINDINGS, Binding, Screen};
+use super::action::{Binding, Screen};
+use super::bindings::BINDINGS;
 use super::clerk::Reports;
 use super::feed::{Detail, Focus, Snapshot};
 use super::message::Target;
@@ -284,6 +285,13 @@ impl State {
     #[must_use]
     pub fn is_first_start(&self) -> bool {
         self.data.as_ref().is_some_and(|data| data.studies.is_empty())
+    }
+
+    /// The screen that is really there: without a study, those of studies show what may be done first.
+    #[must_use]
+    pub fn screen_shown(&self) -> Screen {
+        let needs_study = matches!(self.screen, Screen::Jobs | Screen::Results | Screen::Compare);
+        if needs_study && self.is_first_start() { Screen::Study } else { self.screen }
     }
 
     /// Whether the second pane of the screen has the focus.

@@ -129,7 +129,8 @@ impl State {
             if self.is_editing() && self.edit_query(event) {
                 return vec![];
             }
-            return action_of(self.bindings, Key::of(event), self.screen).map_or(vec![], |action| self.act(action));
+            return action_of(self.bindings, Key::of(event), self.screen_shown())
+                .map_or(vec![], |action| self.act(action));
         };
         match overlay.key(event, &mut self.filters[self.screen as usize]) {
             Outcome::Open => {

@@ -1,6 +1,7 @@
 //! Toile from outside: the program as its users call it, and the rules that the sources keep.
 //!
-//! `tidy` reads the sources; `cli`, `bad_input` and `run` start the real program in folders of their own. Tests that need
+//! `tidy` reads the sources; `cli`, `bad_input` and `run` start the real program in folders of their own,
+//! `workbench` in a pseudo-terminal. Tests that need
 //! the sample data beside the project say so and pass where it is not there.
 
 mod bad_input;
@@ -8,7 +9,10 @@ mod cli;
 mod durability;
 mod engine;
 mod pattern_files;
+mod pictures;
 mod program;
 mod report;
 mod run;
+mod seat;
 mod tidy;
+mod workbench;

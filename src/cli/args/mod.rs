@@ -154,6 +154,12 @@ pub struct Run {
     /// Write no report.
     #[arg(long)]
     pub no_report: bool,
+    /// Run in the background; a lost connection does not end it.
+    #[arg(long, conflicts_with_all = ["dry_run", "attach"])]
+    pub detach: bool,
+    /// Follow a run that goes on elsewhere; leaving it does not end it.
+    #[arg(long, conflicts_with_all = ["dry_run", "why"])]
+    pub attach: bool,
 }
 
 /// Part of a study.

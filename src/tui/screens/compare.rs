@@ -19,6 +19,8 @@ use crate::study::{JobRow, MetricsRow};
 const RUN: usize = 12;
 /// Columns of number and pattern length.
 const FIXED: usize = 3 + 8;
+/// The fewest columns of a name.
+const LEAST_NAME: usize = 12;
 /// Columns of the difference of two.
 const DELTA: usize = 9;
 
@@ -165,9 +167,10 @@ struct Columns {
 impl Columns {
     fn new(rows: &[Contrast], runs: usize, width: usize) -> Self {
         let longest = rows.iter().map(|row| text::width(&row.name)).max().unwrap_or(0).max(11) + 1;
-        let delta = runs == 2;
+        // The runs matter more than their difference, which is left out first.
+        let delta = runs == 2 && width >= FIXED + LEAST_NAME + 2 * RUN + DELTA;
         let taken = FIXED + if delta { DELTA } else { 0 };
-        let runs = runs.min((width.saturating_sub(taken + 12) / RUN).max(1));
+        let runs = runs.min((width.saturating_sub(taken + LEAST_NAME) / RUN).max(1));
         Self { name: width.saturating_sub(taken + runs * RUN).clamp(6, longest), runs, delta }
     }
 }

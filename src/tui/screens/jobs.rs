@@ -121,7 +121,7 @@ fn line(state: &State, job: &JobRow, columns: &Columns) -> Line<'static> {
     let status = state.theme.status(job.status);
     let why = text::why(job, is_paused);
     Line::from(vec![
-        Span::raw(format!("{} ", right(&job.id.to_string(), 4))),
+        Span::raw(format!("{}{}", right(&job.id.to_string(), 4), left(state.mark_of(Some(job.id)), 1))),
         Span::styled(left(glyph(job.status), 2), status),
         Span::raw(format!(
             " {} {} {} {}",

@@ -177,9 +177,8 @@ fn status_line(state: &State, width: u16) -> Line<'static> {
         spans.push(Span::styled(text, state.theme.warn()));
     }
     // What matters most stands first in the table, but help and palette must always be found.
-    let hinted = state.bindings.iter().filter(|b| !b.hint.is_empty() && b.is_on(state.screen));
-    let is_start = state.is_first_start()
-        && !matches!(state.screen, Screen::Subjects | Screen::Styles | Screen::Sql | Screen::Reports);
+    let hinted = state.bindings.iter().filter(|b| !b.hint.is_empty() && b.is_on(state.screen_shown()));
+    let is_start = state.is_first_start() && state.screen_shown() == Screen::Study;
     let hinted = hinted.filter(|b| !is_start || matches!(b.name, "open" | "run" | "new-study" | "help" | "palette"));
     let (last, first): (Vec<&Binding>, Vec<&Binding>) = hinted.partition(|b| matches!(b.name, "help" | "palette"));
     let columns = |b: &Binding| text::width(&b.keys[0].to_string()) + text::width(b.hint) + 3;

@@ -30,8 +30,7 @@ fn draw_list(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let width = usize::from(inner.width);
     let name = width.saturating_sub(10 + 8 + 19).clamp(8, 32);
     let mark = if state.reports_by_time { "▼" } else { "" };
-    let head =
-        format!("{}{}{}  {}", left("study", name), right("page", 10), right("files", 8), format!("built (UTC){mark}"));
+    let head = format!("{}{}{}  built (UTC){mark}", left("study", name), right("page", 10), right("files", 8));
     let mut lines = vec![Line::styled(shortened(&head, width), state.theme.dim())];
     let room = usize::from(inner.height).saturating_sub(1);
     let at = state.reports.row.min(rows.len().saturating_sub(1));

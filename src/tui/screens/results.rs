@@ -52,8 +52,11 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     }
     if let Some(area) = panes.picture {
         let focused = state.in_second_pane() || state.enlarged;
-        let keys =
-            if area.width > 44 { " v or h l turn  m colours  Enter size " } else { " v turn  m colours  ↵ size " };
+        let keys = if area.width > 44 {
+            " v h l turn  + - zoom  m colours  ↵ size "
+        } else {
+            " v turn  m colours  ↵ size "
+        };
         drape::draw(frame, area, state, focused, keys);
     }
 }
@@ -64,7 +67,8 @@ fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State) {
         Some(job) => {
             let simulator = text::sim(job.simulator);
             let stage = state.stage().map_or(String::new(), |stage| format!(" · {stage}"));
-            format!("{} {} · {} · {simulator}{stage}", job.garment, job.size, job.subject)
+            let mark = state.mark_of(Some(job.id));
+            format!("{} {} · {} · {simulator}{stage}{mark}", job.garment, job.size, job.subject)
         }
         None => "no result".into(),
     };

@@ -140,7 +140,8 @@ fn row(state: &State, grid: &Grid, subjects: std::ops::Range<usize>, size: usize
             style = style.patch(state.theme.selection(!state.in_second_pane()));
         }
         let width = cell_width(grid);
-        spans.push(Span::styled(left(&cell_text(cell), width - 1), style));
+        let text = format!("{}{}", cell_text(cell), state.mark_of(cell.job));
+        spans.push(Span::styled(left(&text, width - 1), style));
         spans.push(Span::raw(" "));
     }
     Line::from(spans)

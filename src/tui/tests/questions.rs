@@ -6,6 +6,7 @@ use std::time::Duration;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use insta::assert_snapshot;
 
+use super::super::Screen;
 use super::super::asker::{self, Brake, Question};
 use super::super::clerk::Errand;
 use super::super::memory::Memory;
@@ -13,7 +14,6 @@ use super::super::message::{Effect, Message};
 use super::super::overlay::Overlay;
 use super::super::sheet::Sheet;
 use super::super::state::State;
-use super::super::{Screen, theme::Theme};
 use super::{Bench, fixture};
 use crate::study::{JobId, LiveFrame, Relation, ReportRow, SqlAnswer, Table, Value, Workspace, saved_queries};
 
@@ -233,8 +233,7 @@ fn what_was_looked_at_is_remembered() {
     bench.press("4/hyb<Enter>sjj 7select 1<Esc>3");
     let memory = Memory::of(&bench.state);
     let abilities = bench.state.abilities;
-    let theme = Theme { ..bench.state.theme };
-    let mut state = State::new(theme, abilities, bench.state.size);
+    let mut state = State::new(bench.state.theme, abilities, bench.state.size);
     let focus = bench.state.focus.clone();
     memory.clone().recall(&mut state);
     assert_eq!((state.screen, &state.focus.job, &state.filters), (Screen::Styles, &focus.job, &bench.state.filters));
@@ -287,7 +286,7 @@ fn the_brake_stops_a_query_that_would_never_end() {
 }
 
 #[test]
-fn a_question_overlay_hides_nothing_of_the_form() {
+fn escape_closes_the_form_of_a_study() {
     let mut bench = Bench::example(80, 24);
     bench.press("a");
     assert!(matches!(bench.state.overlay, Some(Overlay::StudyForm(_))));

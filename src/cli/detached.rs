@@ -1,0 +1,85 @@
+//! Runs in the background: starting one that outlives its terminal, and following one from another.
+
+use std::collections::BTreeSet;
+use std::fs::OpenOptions;
+use std::os::unix::process::CommandExt;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use signal_hook::consts::SIGINT;
+
+use super::context::Context;
+use super::progress::Progress;
+use super::{End, Outcome, output};
+use crate::study::{JobFilter, JobId, JobRow, Status, StudyError, Workspace};
+
+/// Time between two looks at the running jobs.
+const LOOK: Duration = Duration::from_millis(250);
+/// Looks without a running job after which nobody works on the study: a process may only be starting.
+const PATIENCE: u32 = 60;
+
+/// Starts this very command again without its `--detach`, in a process group of its own, what it says going to a file.
+pub fn start(context: &Context, study: &str) -> Outcome {
+    let log = log_file(&context.db, study);
+    let io = |path: &Path| StudyError::io(path.to_owned());
+    let out = OpenOptions::new().create(true).append(true).open(&log).map_err(io(&log))?;
+    let errors = out.try_clone().map_err(io(&log))?;
+    let program = std::env::current_exe()?;
+    // The terminal tells its own group when it goes; this one is another.
+    let child = Command::new(&program)
+        .args(std::env::args_os().skip(1).filter(|argument| argument != "--detach"))
+        .stdin(Stdio::null())
+        .stdout(out)
+        .stderr(errors)
+        .process_group(0)
+        .spawn()
+        .map_err(io(&program))?;
+    output::text(&format!("{study} runs as process {}\n", child.id()))?;
+    context.say(format_args!(
+        "log: {}\nfollow it with `toile run {study} --attach` or in the workbench; `kill {}` stops it, its unfinished jobs go \
+         back into the queue",
+        log.display(),
+        child.id()
+    ));
+    Ok(End::Done)
+}
+
+/// Shows how the jobs of a study fare that other processes run, until none is left or nobody works on them. An interrupt
+/// ends the following, not the run.
+pub fn follow(context: &Context, workspace: &Workspace, study: &str) -> Outcome {
+    let is_left = Arc::new(AtomicBool::new(false));
+    signal_hook::flag::register(SIGINT, is_left.clone())?;
+    let jobs = || workspace.jobs(&JobFilter { study: Some(study.to_owned()), ..JobFilter::default() });
+    let open: BTreeSet<JobId> = jobs()?.iter().filter(|job| !job.status.is_final()).map(|job| job.id).collect();
+    let mut progress = Progress::new(context, study, open.clone());
+    let mut idle = 0;
+    let last = loop {
+        progress.show(workspace)?;
+        let now: Vec<JobRow> = jobs()?.into_iter().filter(|job| open.contains(&job.id)).collect();
+        let is_running = now.iter().any(|job| job.status == Status::Running);
+        idle = if is_running { 0 } else { idle + 1 };
+        let is_over = now.iter().all(|job| job.status.is_final());
+        if is_over || idle > PATIENCE || is_left.load(Ordering::Relaxed) {
+            break now;
+        }
+        std::thread::sleep(LOOK);
+    };
+    progress.finish();
+    let count = |status: Status| last.iter().filter(|job| job.status == status).count();
+    let (queued, failed) = (count(Status::Queued), count(Status::Failed));
+    if is_left.load(Ordering::Relaxed) {
+        context.say("left; the run goes on");
+    } else if queued > 0 {
+        context.say(format_args!("nobody works on the {queued} jobs that wait; `toile run` does"));
+    }
+    Ok(if failed > 0 { End::JobFailed } else { End::Done })
+}
+
+/// Where a run in the background says what it has to say: beside the database.
+fn log_file(database: &Path, study: &str) -> PathBuf {
+    let name: String = study.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect();
+    database.with_file_name(format!("{name}.run.log"))
+}

@@ -1,0 +1,83 @@
+//! The workbench without a terminal or threads, as benchmarks press its keys: every answer is waited for.
+
+use std::cell::Cell;
+use std::io;
+use std::path::Path;
+use std::rc::Rc;
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use ratatui::backend::CrosstermBackend;
+use ratatui::layout::{Rect, Size};
+use ratatui::{Terminal, TerminalOptions, Viewport};
+
+use super::feed;
+use super::message::{Effect, Message};
+use super::screens;
+use super::state::{Abilities, State};
+use super::theme::{Colours, Theme};
+use crate::study::{Result, Workspace};
+
+/// Counts what is written to it.
+struct Counter(Rc<Cell<usize>>);
+
+impl io::Write for Counter {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.set(self.0.get() + bytes.len());
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// A workbench on a database whose screen goes nowhere.
+pub struct Rehearsal {
+    workspace: Workspace,
+    state: State,
+    sent: Rc<Cell<usize>>,
+    terminal: Terminal<CrosstermBackend<Counter>>,
+}
+
+impl Rehearsal {
+    /// Opens a database and reads what the first screen shows.
+    ///
+    /// # Errors
+    /// When the database cannot be read.
+    pub fn new(database: &Path, width: u16, height: u16) -> Result<Self> {
+        let workspace = Workspace::open(database, true)?;
+        let abilities = Abilities { run: false, pictures: false, quickstart: false };
+        let state = State::new(Theme { colours: Colours::Indexed, ascii: false }, abilities, Size::new(width, height));
+        let options = TerminalOptions { viewport: Viewport::Fixed(Rect::new(0, 0, width, height)) };
+        let sent = Rc::new(Cell::new(0));
+        let terminal = Terminal::with_options(CrosstermBackend::new(Counter(sent.clone())), options)
+            .map_err(crate::study::StudyError::io("a screen in memory"))?;
+        let mut rehearsal = Self { workspace, state, sent, terminal };
+        rehearsal.read()?;
+        Ok(rehearsal)
+    }
+
+    /// Reads all that the screens show.
+    ///
+    /// # Errors
+    /// When the database cannot be read.
+    pub fn read(&mut self) -> Result<()> {
+        let data = feed::snapshot(&self.workspace, &self.state.focus)?;
+        self.state.update(Message::Data(Box::new(data)));
+        Ok(())
+    }
+
+    /// Presses a key; returns whether something has to be read for it.
+    pub fn press(&mut self, code: KeyCode) -> bool {
+        let effects = self.state.update(Message::Key(KeyEvent::new(code, KeyModifiers::NONE)));
+        effects.iter().any(|effect| matches!(effect, Effect::Read(_)))
+    }
+
+    /// Draws; returns the bytes a terminal is sent.
+    pub fn draw(&mut self) -> usize {
+        let Self { terminal, state, sent, .. } = self;
+        // A screen in memory refuses nothing.
+        let _ = terminal.draw(|frame| screens::draw(frame, state));
+        sent.take()
+    }
+}

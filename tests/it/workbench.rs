@@ -1,0 +1,196 @@
+//! The workbench as its users meet it: the real program in a pseudo-terminal, from a first start to a report.
+
+use std::fs;
+use std::process::Command;
+
+use insta::assert_snapshot;
+use rustix::process::Signal;
+
+use super::program::Place;
+use super::seat::Seat;
+
+/// The workbench in a folder of its own, with colours a plain terminal has.
+pub fn workbench(place: &Place) -> Command {
+    let mut command = place.command("");
+    command.env("TERM", "xterm-256color").env("XDG_STATE_HOME", place.path("state"));
+    for name in ["COLORTERM", "TMUX", "STY", "SSH_TTY", "DISPLAY", "WAYLAND_DISPLAY", "XDG_CONFIG_HOME", "TOILE_ASCII"]
+    {
+        command.env_remove(name);
+    }
+    command.env("HOME", place.path("home"));
+    command
+}
+
+/// A screen without what differs from run to run: the folder of the test.
+fn plain(screen: &str, place: &Place) -> String {
+    screen.replace(&place.path("").display().to_string(), "FOLDER/")
+}
+
+/// From a first start through a new study, run, cancel, retry, compare, SQL and report to the end, and a second start.
+fn whole_session(columns: u16, rows: u16) {
+    let place = Place::new();
+    let Some(mut seat) = Seat::take(&workbench(&place), columns, rows) else { return };
+    let size = format!("{columns}x{rows}");
+    let first = seat.wait_for("make a study of your own");
+    assert_snapshot!(format!("first_start_{size}"), plain(&first, &place));
+
+    // Sizes S and M of the drafted T-shirt on male-ii, by Hybrid-GS.
+    seat.press("a");
+    seat.wait_for("Space choose");
+    seat.press("<Tab> <Down> <Tab><Down><Down><Down><Down><Down><Down><Down> <Tab> <Tab>");
+    seat.wait_for("cotton_shirting_light");
+    let form = seat.wait_for("1 subject × 2 sizes × 1 simulator = 2 simulations");
+    assert!(form.contains("[x] male-ii"), "{form}");
+    seat.press("<Enter>");
+    seat.wait_for("…2");
+    let file = place.path("studies/study-1/study.toml");
+    let text = fs::read_to_string(&file).expect("the study was written");
+    assert!(text.contains("like = \"male-ii\"") && text.contains("patterns/tshirt-s.dxf"), "{text}");
+    fs::write(&file, text.replace("edge_length_mm = 15", "edge_length_mm = 40")).expect("writable");
+
+    run_cancel_retry(&seat);
+    seat.press("g <Down> ");
+    seat.wait_for("2 runs are selected");
+    seat.press("c");
+    let compared = seat.wait_for("is truest: EI");
+    assert!(compared.contains("Neck Opening") && compared.contains("differ in:"), "{compared}");
+
+    seat.press("7SELECT garment, size, simulator, status FROM v_jobs WHERE is_current ORDER BY size<F5>");
+    let answer = seat.wait_for("2 rows in");
+    assert!(answer.contains("tshirt") && answer.contains("hybrid"), "{answer}");
+    seat.press("<Tab>8b");
+    seat.wait_for("the report is in");
+    let page = fs::read_to_string(place.path("reports/study-1/index.html")).expect("the report was written");
+    assert!(page.contains("study-1") && page.contains("Neck Opening"));
+    seat.press(":quit<Enter>");
+    assert_eq!(seat.end().code(), Some(0));
+    seat.is_sane();
+
+    let Some(mut seat) = Seat::take(&workbench(&place), columns, rows) else { return };
+    let again = seat.wait_for("reports/study-1/index.html");
+    assert!(again.contains("8 Reports"), "it starts where it was left: {again}");
+    seat.press("7");
+    seat.wait_for("WHERE is_current");
+    seat.press("<C-c>");
+    assert_eq!(seat.end().code(), Some(0));
+}
+
+/// Runs the study while it is paused, so that a job can be cancelled and queued again before it is simulated.
+fn run_cancel_retry(seat: &Seat) {
+    seat.press("p");
+    seat.wait_for("paused");
+    seat.press("R");
+    seat.wait_for("run here");
+    seat.press("4");
+    seat.wait_for("took");
+    // The jobs of the finer mesh are no longer the study's own.
+    seat.wait_until("two new jobs", |screen| screen.contains("3 …") && screen.contains("4 …"));
+    seat.press("gx");
+    seat.wait_for("Cancel job 3");
+    seat.press("y");
+    seat.wait_for("⊘1");
+    seat.press("r");
+    seat.wait_until("queued again", |screen| screen.contains("…2") && !screen.contains("⊘1"));
+    seat.press("p");
+    seat.wait_for("the run of study-1 has ended");
+    seat.wait_until("two results", |screen| !screen.contains("…1") && !screen.contains("▶"));
+}
+
+#[test]
+fn a_session_from_first_start_to_report_at_80_by_24() {
+    whole_session(80, 24);
+}
+
+#[test]
+fn a_session_from_first_start_to_report_at_160_by_50() {
+    whole_session(160, 50);
+}
+
+#[test]
+fn the_screen_follows_the_size_of_the_terminal() {
+    let place = Place::new();
+    let Some(mut seat) = Seat::take(&workbench(&place), 80, 24) else { return };
+    seat.wait_for("1 Study 2 Subj");
+    for (columns, rows, text) in
+        [(160, 50, "2 Subjects  3 Styles"), (40, 10, " 1 Study 2 3 4 5 6 7 8"), (80, 24, "2 Subj 3 Style")]
+    {
+        seat.resize(columns, rows);
+        seat.wait_for(text);
+    }
+    seat.press("q");
+    assert_eq!(seat.end().code(), Some(0));
+    seat.is_sane();
+}
+
+#[test]
+fn signals_leave_the_terminal_as_it_was() {
+    for signal in [Signal::TERM, Signal::HUP, Signal::INT] {
+        let place = Place::new();
+        let Some(mut seat) = Seat::take(&workbench(&place), 80, 24) else { return };
+        seat.wait_for("no study yet");
+        seat.signal(signal);
+        seat.end();
+        seat.is_sane();
+    }
+}
+
+#[test]
+fn a_lost_connection_ends_the_workbench() {
+    let place = Place::new();
+    let Some(mut seat) = Seat::take(&workbench(&place), 80, 24) else { return };
+    seat.wait_for("no study yet");
+    seat.hang_up();
+    seat.end();
+}
+
+/// Debug builds break where they are asked to, so that this can be seen.
+#[cfg(debug_assertions)]
+#[test]
+fn a_panic_gives_the_terminal_back_and_is_told() {
+    let place = Place::new();
+    let mut command = workbench(&place);
+    command.env("TOILE_BREAK", "1").env("RUST_BACKTRACE", "0");
+    let Some(mut seat) = Seat::take(&command, 80, 24) else { return };
+    seat.wait_for("no study yet");
+    seat.press("j");
+    assert_eq!(seat.end().code(), Some(101));
+    seat.is_sane();
+    assert!(seat.screen().contains("TOILE_BREAK"), "{}", seat.screen());
+}
+
+/// What normal use sends over a slow line, pictures aside.
+#[test]
+fn a_key_costs_less_than_four_kilobytes() {
+    let place = Place::new();
+    let mut command = workbench(&place);
+    command.args(["--images", "off"]);
+    let Some(mut seat) = Seat::take(&command, 80, 24) else { return };
+    seat.wait_for("no study yet");
+    seat.settle();
+    for keys in ["2", "j", "j", "?", "<Down>", "<Enter>", "7", "s", "8", "3", "1", ":"] {
+        let before = seat.bytes();
+        seat.press(keys);
+        seat.settle();
+        let sent = seat.bytes() - before;
+        assert!(sent < 4096, "{keys} sends {sent} bytes:\n{}", seat.screen());
+    }
+    seat.press("<C-c><C-c>");
+    seat.end();
+}
+
+#[test]
+fn a_run_in_the_background_is_followed_to_its_end() {
+    let place = Place::new();
+    place.study(&[("light", 0.1, &["m"])]);
+    let said = place.toile("run . --detach --no-report").ends_with(0);
+    assert!(said.out.contains("coarse runs as process") && said.err.contains("--attach"), "{}{}", said.out, said.err);
+    place.toile("run coarse --attach").ends_with(0);
+    assert_eq!(place.one("SELECT count(*) FROM v_jobs WHERE status IN ('done', 'not_converged')"), "1");
+    // What it had to say is in its log, once it has written all of it.
+    let log = place.path("coarse.run.log");
+    let start = std::time::Instant::now();
+    while !fs::read_to_string(&log).is_ok_and(|text| text.contains("chi = L3D / L2D")) {
+        assert!(start.elapsed().as_secs() < 60, "{:?}", fs::read_to_string(&log));
+        std::thread::sleep(std::time::Duration::from_millis(50));
+    }
+}
