@@ -248,9 +248,9 @@ fn slimmed(section: Station, half_width: f64) -> Station {
     Station { half_width, half_depth: square.sqrt(), ..section }
 }
 
-/// How far to the front the thigh's middle lies below the crotch, over stature `h`: the buttocks stand out behind it. Least squares
-/// over the six reference bodies (girths over stature of 0.29 to 0.40), whose thighs stand no more than a hundredth of the stature
-/// before the hip.
+/// How far to the front the thigh's middle lies below the crotch, over stature `h`: the buttocks stand out behind it. Read
+/// off the six reference bodies (girths over stature of 0.29 to 0.40; up to 5 mm remain), whose thighs stand no more than a hundredth of
+/// the stature before the hip.
 fn thigh_forward(hip: &Station, thigh: &Station, girth: f64, h: f64) -> f64 {
     let usual = 0.0125 + 0.08 * (girth.clamp(0.26, 0.46) - 0.335);
     let at_most = (hip.centre.y + hip.half_depth - thigh.half_depth) / h + 0.010;

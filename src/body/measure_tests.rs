@@ -120,3 +120,18 @@ fn what_is_no_body_is_refused() {
     check(corners.clone(), Vec::new());
     check(corners, vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]);
 }
+
+#[test]
+fn a_summit_is_found_between_its_samples_and_in_the_middle_where_it_is_flat() {
+    let profile =
+        |height: &dyn Fn(f64) -> f64| (0..=96).map(|i| f64::from(i) * 1.5e-3).map(|z| (z, height(z))).collect();
+    let check = |profile: Vec<(f64, f64)>, expect: f64, off: f64| {
+        let found = summit(&profile).expect("a profile");
+        assert!((found - expect).abs() < off, "{found} for {expect}");
+    };
+    check(profile(&|z| 0.1 - 4.0 * (z - 0.0707).powi(2)), 0.0707, 8e-4);
+    // Alike over 30 mm, uneven by a tenth of a millimetre, steep beside it.
+    let flat = |z: f64| 0.1 - 3.0 * ((z - 0.070).abs() - 0.015).max(0.0) + 1e-4 * (z * 2000.0).sin();
+    check(profile(&flat), 0.070, 3e-3);
+    assert_eq!(summit(&[]), None);
+}

@@ -1,6 +1,6 @@
 use super::*;
 use crate::body::testing::{Noise, ascii_ply, binary_ply, binary_stl, pierce, placed, roughen};
-use crate::body::{Measurements, build, write_obj};
+use crate::body::{Joint, Measurements, build, write_obj};
 use crate::geom::{Surface, TriMesh};
 
 fn built(sex: Sex, stature_m: f64, weight_kg: f64) -> Body {
@@ -179,4 +179,22 @@ fn doubled_turned_and_branching_triangles_do_not_stop_a_scan() {
     assert!((scan.girths.waist_girth_mm - truth.waist_girth_mm).abs() < 3.0);
     assert!((scan.girths.hip_girth_mm - truth.hip_girth_mm).abs() < 3.0);
     scan.into_body().expect("a closed surface");
+}
+
+#[test]
+fn arms_spread_to_the_horizontal_find_their_armpits() {
+    let known = built(Sex::Female, 1.68, 62.0);
+    let spread =
+        crate::body::pose(&known, crate::body::Pose { arm_deg: Some(85.0), leg_deg: None }).expect("free arms");
+    let scan = from_scan(&binary_ply(&spread.mesh), None, Some(Sex::Female)).expect("a scan of a body");
+    let body = scan.into_body().expect("arms apart from the trunk");
+    for side in [0, 1] {
+        let (found, truth) = (body.landmarks.armpit[side], known.landmarks.armpit[side]);
+        assert!((found - truth).norm() < 0.05, "armpit {side}: {found:?} for {truth:?}");
+    }
+    for joint in [Joint::ElbowRight, Joint::WristLeft] {
+        let (found, truth) = (body.skeleton.at(joint), spread.skeleton.at(joint));
+        assert!((found - truth).norm() < 0.05, "{joint:?}: {found:?} for {truth:?}");
+    }
+    assert!(body.control.triangulated().is_closed_manifold());
 }
