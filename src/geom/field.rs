@@ -259,7 +259,8 @@ mod tests {
             check(V3::new(1.0, 0.2, 0.1), d);
             check(V3::new(-0.3, 0.9, -0.4), d);
         }
-        let (p, step) = (V3::new(0.05, 0.06, 0.05), 1e-6);
+        // Away from where the spline changes its piece.
+        let (p, step) = (V3::new(0.0511, 0.0607, 0.0489), 1e-6);
         for k in 0..3 {
             let at = |d: f64| field.value_and_gradient(&(p + V3::ith(k, d))).1;
             let slope = (at(step) - at(-step)) / (2.0 * step);

@@ -12,3 +12,6 @@ pub use body::{BodyContact, ContactParams};
 pub use cloth::{ClothContact, ClothContactParams};
 pub use skin::Skin;
 pub use tangle::{Crossing, crossings};
+
+#[cfg(test)]
+mod tests;

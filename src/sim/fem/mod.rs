@@ -21,7 +21,7 @@ use run::{Phase, Run};
 
 /// Deepest point of a drape that is good, m.
 const DEEPEST_M: f64 = 3e-4;
-/// Times at most that a drape is looked at for points inside the body, and comes to rest with them held out.
+/// Times at most that a drape is taken up again, because it is not at rest yet or to hold out points inside the body.
 const HOLDING_ROUNDS: usize = 5;
 
 /// Dresses a body in a garment.
@@ -139,7 +139,8 @@ fn settle(
         system.contact.set_friction(Some(fabric.friction_body));
         for _ in 0..HOLDING_ROUNDS {
             residual = run.drape(garment, &mut system, &mut x, Phase::final_drape(params, level))?;
-            if hold_out(&mut system, &x, residual <= params.tolerance) <= DEEPEST_M {
+            let is_at_rest = residual <= params.tolerance;
+            if hold_out(&mut system, &x, is_at_rest) <= DEEPEST_M && is_at_rest {
                 break;
             }
         }
