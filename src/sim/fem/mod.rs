@@ -3,6 +3,7 @@
 pub mod params;
 pub mod preposition;
 mod run;
+mod start;
 
 pub use params::{Params, level_edges};
 
@@ -71,9 +72,10 @@ fn sew(
     run: &mut Run,
 ) -> Result<Vec<V3>, SimError> {
     let mut x = preposition::place(body, garment, params)?;
+    let force = start::perturb(params.seed, &mut x);
     let cloth = Cloth::new(garment, fabric, sewing::unsewn(garment))?;
     let contact = BodyContact::new(field, params.contact, &cloth.areas);
-    let springs = Springs::new(garment, params.seam_stiffness_n_m, params.seam_cap_n);
+    let springs = Springs::new(garment, params.seam_stiffness_n_m, force * params.seam_cap_n);
     let sewn = springs.pairs.clone();
     let mut system = System::new(&cloth, contact, Some(springs));
     let apart = ClothContact::new(params.self_contact, &cloth.triangles, &cloth.areas);
