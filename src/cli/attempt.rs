@@ -30,6 +30,7 @@ pub fn run(context: &Context, arguments: &Try) -> Outcome {
         },
         fabric: arguments.fabric.clone(),
         edge_length_m: from_mm(arguments.edge_mm),
+        repeat: arguments.repeat,
     };
     let mut phase_before = String::new();
     let tried = study::attempt(&asked, &mut |phase, share| {
@@ -61,17 +62,22 @@ fn show(context: &Context, tried: &Tried) -> Result<(), CliError> {
     if context.json {
         return Ok(output::json(tried)?);
     }
-    let columns = ["no", "measurement", "free", "l2d_mm", "l3d_mm", "chi"].map(str::to_owned).to_vec();
+    let mut columns = ["no", "measurement", "free", "l2d_mm", "l3d_mm", "chi"].map(str::to_owned).to_vec();
+    if tried.chi_spread_max.is_some() {
+        columns.push("chi_spread".to_owned());
+    }
     let last = tried.chi.last().map(|row| row.stage);
     let rows = tried.chi.iter().filter(|row| Some(row.stage) == last).map(|row| {
-        vec![
+        let mut cells = vec![
             Value::Integer(i64::from(row.measurement_no)),
             Value::Text(row.measurement.clone()),
             Value::Text(if row.is_free_edge { "yes" } else { "" }.to_owned()),
             tenths(row.l2d_mm),
             tenths(row.l3d_mm),
             Value::Real((row.chi * 1e4).round() / 1e4),
-        ]
+        ];
+        cells.extend(row.chi_spread.map(|spread| Value::Real((spread * 1e4).round() / 1e4)));
+        cells
     });
     context.print(&Table { columns, rows: rows.collect() })?;
     if !tried.gap.is_empty() {

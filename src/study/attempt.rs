@@ -51,6 +51,8 @@ pub struct Attempt {
     pub fabric: String,
     /// Edge length of the finest mesh, m.
     pub edge_length_m: f64,
+    /// Simulations by FEM-GS: the first as placed, each other from a start that differs a little.
+    pub repeat: u32,
 }
 
 /// One measurement of a trial, with the columns of `v_chi`.
@@ -66,6 +68,9 @@ pub struct TriedChi {
     pub l2d_mm: f64,
     pub l3d_mm: f64,
     pub chi: f64,
+    /// Greatest less least chi over the repeated simulations.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub chi_spread: Option<f64>,
 }
 
 /// The ease of a trial at one level.
@@ -112,6 +117,9 @@ pub struct Tried {
     pub seam_gap_max_mm: f64,
     pub self_crossings: usize,
     pub wall_ms: u64,
+    /// Greatest spread of a chi over the repeated simulations.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub chi_spread_max: Option<f64>,
     pub chi: Vec<TriedChi>,
     pub ease: Vec<TriedEase>,
     /// Hybrid-GS: girths of garment and body; empty for the other simulator.
@@ -131,6 +139,11 @@ pub struct Tried {
 /// When an input cannot be used: the message says what would be. A drape that is not good is no error.
 pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<Tried> {
     let started = Instant::now();
+    if asked.repeat > 1 && asked.simulator != Simulator::Fem {
+        return Err(StudyError::stage("sim")(
+            "--repeat is for --sim fem: only that starts from a place that can be varied",
+        ));
+    }
     let mut notes = Vec::new();
     let fabric = fabric(&asked.fabric)?;
     let style = style(asked, &mut notes)?;
@@ -149,6 +162,14 @@ pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<T
     }
     .map_err(StudyError::stage("sim"))?;
     let mut tried = measured(asked, &style, garment, &drape, &fabric)?;
+    if asked.repeat > 1 {
+        let again = |seed: u64| {
+            let params = sim::fem::Params { seed, ..sim::fem::Params::default() };
+            sim::fem::simulate(&body, &field, &meshes, &fabric, &params, &mut told).map_err(StudyError::stage("sim"))
+        };
+        let drapes = (1..u64::from(asked.repeat)).map(again).collect::<Result<Vec<_>>>()?;
+        spread(&mut tried, garment, &drapes);
+    }
     tried.ease = ease_on(garment, &body)
         .into_iter()
         .map(|ease| TriedEase {
@@ -187,6 +208,21 @@ impl TriedGap {
             garment_girth_mm: mm(closure.garment_girth_m),
             shortfall_mm: mm(closure.shortfall_m()),
         }
+    }
+}
+
+/// Enters how far each chi of repeated simulations lies apart, and which of them did not come to rest.
+fn spread(tried: &mut Tried, garment: &Garment, drapes: &[Drape]) {
+    let others: Vec<_> = drapes.iter().map(|drape| measure::measure(garment, &drape.positions)).collect();
+    let last = tried.chi.last().map(|row| row.stage);
+    for (index, row) in tried.chi.iter_mut().filter(|row| Some(row.stage) == last).enumerate() {
+        let all = others.iter().map(|chis| chis[index].chi());
+        let (low, high) = all.fold((row.chi, row.chi), |(low, high), chi| (low.min(chi), high.max(chi)));
+        row.chi_spread = Some(high - low);
+    }
+    tried.chi_spread_max = tried.chi.iter().filter_map(|row| row.chi_spread).reduce(f64::max);
+    for (index, drape) in drapes.iter().enumerate().filter(|(_, drape)| !drape.converged) {
+        tried.problems.push(format!("repetition {} did not converge: residual {:.4}", index + 2, drape.residual));
     }
 }
 
@@ -282,6 +318,7 @@ fn measured(asked: &Attempt, style: &Style, garment: &Garment, drape: &Drape, fa
             l2d_mm: mm(chi.l2d_m),
             l3d_mm: mm(chi.l3d_m),
             chi: chi.chi(),
+            chi_spread: None,
         })
     });
     Ok(Tried {
@@ -304,6 +341,7 @@ fn measured(asked: &Attempt, style: &Style, garment: &Garment, drape: &Drape, fa
         seam_gap_max_mm: mm(drape.seam_gap_max_m),
         self_crossings: drape.self_crossings,
         wall_ms: 0,
+        chi_spread_max: None,
         chi: chi.collect(),
         ease: Vec::new(),
         gap: Vec::new(),

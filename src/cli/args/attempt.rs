@@ -48,6 +48,9 @@ pub struct Try {
     /// Edge length of the mesh, mm.
     #[arg(long, value_name = "MM", default_value_t = 15.0)]
     pub edge_mm: f64,
+    /// Drape N times, each from a start that differs a little, and print how far each chi lies apart (FEM-GS only).
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100))]
+    pub repeat: u32,
     /// Folder for picture and meshes.
     #[arg(long, short, value_name = "DIR", default_value = "try")]
     pub output: PathBuf,

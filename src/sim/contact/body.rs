@@ -1,8 +1,11 @@
 //! Contact of cloth with the body: a penalty in the distance field, and Coulomb friction by anchors.
 //!
-//! A sample of the cloth nearer than the offset `d0` is pushed out with the energy `k A (d0 - phi)^2 / 2`, `A` its rest area;
-//! the force runs along the raw gradient of the field, so that it is exactly the energy's. Friction ties a touching sample
-//! to an anchor by a spring of stiffness `k_t`; beyond the Coulomb limit the anchor is dragged along [method 7].
+//! A sample of the cloth nearer than the offset `d0` is pushed out by a pressure that grows with its depth `d = d0 - phi` as
+//! `p0 (exp(d / l) - 1)` until its slope is the penalty `k`, and with slope `k` from there on; its force is that times its rest
+//! area. So what only carries its weight lies softly (a hard contact of a few pascals is lost by a move of a micrometre, and
+//! found again by the next), and what is drawn tight lies hard. The force runs along the raw gradient of the field, so
+//! that it is exactly the energy's. Friction ties a touching sample to an anchor by a spring of stiffness `k_t`; beyond the
+//! Coulomb limit the anchor is dragged along [method 7].
 //!
 //! The samples are the vertices, and those points between them that [`BodyContact::hold_out`] has found inside: where the
 //! body is more curved than the mesh is fine, chords would cut into it. A force on such a point is shared by the vertices
@@ -23,7 +26,13 @@ pub struct ContactParams {
     pub offset_m: f64,
     /// Penalty, N/m3 (pressure per depth).
     pub stiffness_n_m3: f64,
-    /// Tangential over normal stiffness of a sticking contact.
+    /// Depth over which the pressure of a light contact grows e-fold, m.
+    pub softness_m: f64,
+    /// Pressure at which that growth begins, N/m2: about the weight of cloth.
+    pub light_n_m2: f64,
+    /// Greatest displacement of a sticking contact, m: a light one is held no more stiffly than that takes.
+    pub slip_m: f64,
+    /// Greatest tangential stiffness of a sticking contact over the penalty.
     pub tangential_share: f64,
     /// Distance from the skin that a point found inside is given, m.
     pub clearance_m: f64,
@@ -31,13 +40,47 @@ pub struct ContactParams {
 
 impl Default for ContactParams {
     fn default() -> Self {
-        Self { offset_m: 1e-3, stiffness_n_m3: 1e7, tangential_share: 0.03, clearance_m: 2e-4 }
+        Self {
+            offset_m: 1e-3,
+            stiffness_n_m3: 1e7,
+            softness_m: 5e-5,
+            light_n_m2: 2.0,
+            slip_m: 2e-4,
+            tangential_share: 0.03,
+            clearance_m: 4e-4,
+        }
+    }
+}
+
+/// What a contact does at some depth.
+#[derive(Clone, Copy, Debug)]
+struct Push {
+    /// Energy per area, N/m.
+    energy_n_m: f64,
+    pressure_n_m2: f64,
+    /// Slope of the pressure, N/m3.
+    stiffness_n_m3: f64,
+}
+
+impl ContactParams {
+    fn push(&self, depth: f64) -> Push {
+        let (l, p0, k) = (self.softness_m, self.light_n_m2, self.stiffness_n_m3);
+        let knee = l * (k * l / p0).max(1.0).ln();
+        let soft = depth.min(knee);
+        let hard = depth - soft;
+        let growth = (soft / l).exp();
+        let pressure = p0 * (growth - 1.0);
+        Push {
+            energy_n_m: p0 * (l * (growth - 1.0) - soft) + hard * (pressure + 0.5 * k * hard),
+            pressure_n_m2: pressure + k * hard,
+            stiffness_n_m3: if hard > 0.0 { k } else { p0 / l * growth },
+        }
     }
 }
 
 /// Share of the sticking stiffness that a sliding contact keeps in the linear system, so that it stays regular.
 const SLIDING_STIFFNESS_SHARE: f64 = 0.1;
-/// Curvature of the field over a contact's depth, as a share of its gradient squared, that the stiffness leaves out.
+/// Stiffness that the field's curvature takes, as a share of that along its gradient, which is left out.
 const NEARLY_FLAT: f64 = 0.02;
 /// Most that an offset grows at once, m.
 const MOST_YIELD_M: f64 = 2e-3;
@@ -51,16 +94,15 @@ struct Sample {
     weights: [f64; 3],
     /// Distance in the field at which it begins to be pushed, m.
     offset_m: f64,
-    /// Penalty stiffness, N/m.
-    stiffness: f64,
+    /// Rest area that it stands for, m2.
+    area_m2: f64,
     /// Where friction holds it.
     anchor: Option<V3>,
 }
 
 impl Sample {
-    /// A vertex of stiffness `stiffness`.
-    fn vertex(vertex: usize, offset_m: f64, stiffness: f64) -> Self {
-        Self { vertices: [vertex; 3], weights: [1.0, 0.0, 0.0], offset_m, stiffness, anchor: None }
+    fn vertex(vertex: usize, offset_m: f64, area_m2: f64) -> Self {
+        Self { vertices: [vertex; 3], weights: [1.0, 0.0, 0.0], offset_m, area_m2, anchor: None }
     }
 
     fn at(&self, x: &[V3]) -> V3 {
@@ -86,7 +128,7 @@ struct Touch {
     sample: usize,
     /// Gradient of the distance.
     gradient: V3,
-    depth_m: f64,
+    push: Push,
 }
 
 /// Contact of one cloth with one body.
@@ -105,7 +147,7 @@ impl<'a> BodyContact<'a> {
     /// Contact for vertices with rest areas `areas` (m2), without friction.
     #[must_use]
     pub fn new(field: &'a DistanceField, params: ContactParams, areas: &[f64]) -> Self {
-        let sample = |(v, area): (usize, &f64)| Sample::vertex(v, params.offset_m, area * params.stiffness_n_m3);
+        let sample = |(v, area): (usize, &f64)| Sample::vertex(v, params.offset_m, *area);
         Self {
             field,
             params,
@@ -177,8 +219,8 @@ impl<'a> BodyContact<'a> {
     /// Every vertex, edge middle and triangle centre once.
     fn candidates(&self, triangles: &[[usize; 3]]) -> Vec<Sample> {
         let between = |vertices: [usize; 3], weights: [f64; 3]| {
-            let stiffness = (0..3).map(|k| self.samples[vertices[k]].stiffness * weights[k]).sum();
-            Sample { vertices, weights, offset_m: f64::MIN, stiffness, anchor: None }
+            let area_m2 = (0..3).map(|k| self.samples[vertices[k]].area_m2 * weights[k]).sum();
+            Sample { vertices, weights, offset_m: f64::MIN, area_m2, anchor: None }
         };
         let mut edges: Vec<[usize; 2]> = triangles
             .iter()
@@ -205,7 +247,7 @@ impl<'a> BodyContact<'a> {
         for sample in &self.samples {
             let (depth, _) = self.depth(sample, x);
             if depth > 0.0 {
-                energy += 0.5 * sample.stiffness * depth * depth;
+                energy += sample.area_m2 * self.params.push(depth).energy_n_m;
             }
         }
         energy + self.touching.iter().filter_map(|t| self.friction_at(t, x)).map(|f| f.energy).sum::<f64>()
@@ -216,7 +258,8 @@ impl<'a> BodyContact<'a> {
         for sample in &self.samples {
             let (depth, gradient) = self.depth(sample, x);
             if depth > 0.0 {
-                sample.add_force(&(gradient * (sample.stiffness * depth)), forces);
+                let force_n = sample.area_m2 * self.params.push(depth).pressure_n_m2;
+                sample.add_force(&(gradient * force_n), forces);
             }
         }
         for touch in &self.touching {
@@ -233,7 +276,7 @@ impl<'a> BodyContact<'a> {
         for touch in &self.touching {
             let sample = &self.samples[touch.sample];
             let friction = self.friction_at(touch, x);
-            sample.add_force(&(touch.gradient * (sample.stiffness * touch.depth_m)), forces);
+            sample.add_force(&(touch.gradient * (sample.area_m2 * touch.push.pressure_n_m2)), forces);
             if let Some(f) = &friction {
                 sample.add_force(&f.force, forces);
             }
@@ -255,9 +298,9 @@ impl<'a> BodyContact<'a> {
     /// The field's own curvature matters where skin faces skin: in an armpit the gradient is small and turns over a few
     /// millimetres, and cloth between the two is held by that turning alone.
     fn stiffness_at(&self, touch: &Touch, p: &V3, across: f64) -> Matrix3<f64> {
-        let upright = touch.gradient * touch.gradient.transpose();
-        let bent = self.field.hessian(p) * touch.depth_m;
-        let stiffness = if bent.norm() > NEARLY_FLAT * touch.gradient.norm_squared() {
+        let upright = touch.gradient * touch.gradient.transpose() * touch.push.stiffness_n_m3;
+        let bent = self.field.hessian(p) * touch.push.pressure_n_m2;
+        let stiffness = if bent.norm() > NEARLY_FLAT * upright.norm() {
             let mut eigen = (upright - bent).symmetric_eigen();
             eigen.eigenvalues.apply(|value| *value = value.max(0.0));
             eigen.recompose()
@@ -266,7 +309,23 @@ impl<'a> BodyContact<'a> {
         };
         let normal = touch.gradient.try_normalize(0.0).unwrap_or_default();
         let friction = (Matrix3::identity() - normal * normal.transpose()) * across;
-        stiffness * self.samples[touch.sample].stiffness + friction
+        stiffness * self.samples[touch.sample].area_m2 + friction
+    }
+
+    /// Adds what vertices that touch at `x` lack of stiffness in `diagonal`, which [`BodyContact::assemble`] has filled for
+    /// the start of the step: those that come to touch, and those that go deeper.
+    pub fn stiffen(&self, x: &[V3], diagonal: &mut [Matrix3<f64>]) {
+        let mut has = vec![0.0; self.vertices];
+        for touch in self.touching.iter().filter(|touch| touch.sample < self.vertices) {
+            has[touch.sample] = touch.push.stiffness_n_m3;
+        }
+        for (vertex, sample) in self.samples[..self.vertices].iter().enumerate() {
+            let (depth, gradient) = self.depth(sample, x);
+            if depth > 0.0 {
+                let lacks = self.params.push(depth).stiffness_n_m3 - has[vertex];
+                diagonal[vertex] += gradient * gradient.transpose() * (sample.area_m2 * lacks.max(0.0));
+            }
+        }
     }
 
     fn find_touching(&mut self, x: &[V3]) {
@@ -278,7 +337,7 @@ impl<'a> BodyContact<'a> {
                 sample.anchor = None;
                 continue;
             }
-            self.touching.push(Touch { sample: k, gradient, depth_m: depth });
+            self.touching.push(Touch { sample: k, gradient, push: self.params.push(depth) });
             if self.friction.is_some() {
                 sample.anchor.get_or_insert_with(|| (0..3).map(|k| x[sample.vertices[k]] * sample.weights[k]).sum());
             }
@@ -287,12 +346,13 @@ impl<'a> BodyContact<'a> {
 
     fn friction_at(&self, touch: &Touch, x: &[V3]) -> Option<Friction> {
         let sample = &self.samples[touch.sample];
-        let limit = self.friction? * sample.stiffness * touch.depth_m * touch.gradient.norm();
+        let limit = self.friction? * sample.area_m2 * touch.push.pressure_n_m2 * touch.gradient.norm();
         let anchor = sample.anchor?;
         let normal = touch.gradient.try_normalize(0.0)?;
         let offset = sample.at(x) - anchor;
         let slip = offset - normal * normal.dot(&offset);
-        let k = sample.stiffness * self.params.tangential_share;
+        let stiffest = sample.area_m2 * self.params.stiffness_n_m3 * self.params.tangential_share;
+        let k = stiffest.min(limit / self.params.slip_m);
         let length = slip.norm();
         Some(if k * length <= limit {
             Friction { energy: 0.5 * k * length * length, force: slip * -k, stiffness: k, excess: V3::zeros() }

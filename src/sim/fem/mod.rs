@@ -3,6 +3,7 @@
 pub mod params;
 pub mod preposition;
 mod run;
+mod start;
 
 pub use params::{Params, level_edges};
 
@@ -79,9 +80,10 @@ fn sew(
     run: &mut Run,
 ) -> Result<Vec<V3>, SimError> {
     let mut x = preposition::place(body, garment, params)?;
+    let force = start::perturb(params.seed, &mut x);
     let cloth = Cloth::new(garment, fabric, sewing::unsewn(garment))?;
     let contact = BodyContact::new(field, params.contact, &cloth.areas).with_points_between(&cloth.triangles);
-    let springs = Springs::new(garment, params.seam_stiffness_n_m, params.seam_cap_n);
+    let springs = Springs::new(garment, params.seam_stiffness_n_m, force * params.seam_cap_n);
     let sewn = springs.pairs.clone();
     let mut system = System::new(&cloth, contact, Some(springs));
     let apart = ClothContact::new(params.self_contact, &cloth.triangles, &cloth.areas);
@@ -135,7 +137,7 @@ fn settle(
     }
     let mut residual = run.drape(garment, &mut system, &mut x, Phase::frictionless(params, level, run.levels()))?;
     if is_finest {
-        hold_out(&mut system, &x, residual <= params.frictionless_tolerance);
+        hold_out(&mut system, &x, residual <= params.coarse_tolerance);
         system.contact.set_friction(Some(fabric.friction_body));
         for _ in 0..HOLDING_ROUNDS {
             residual = run.drape(garment, &mut system, &mut x, Phase::final_drape(params, level))?;

@@ -23,6 +23,8 @@ pub struct Params {
     pub offset_mu: Option<f64>,
     /// Angle over which trunk pieces are bent before sewing, rad (4.6). `None`: bent to half an ellipse as wide as the body.
     pub bend_angle_rad: Option<f64>,
+    /// Draws a start that differs a little from the placed one, to measure what the drape owes to it; 0 for the placed one.
+    pub seed: u64,
     /// Stiffness of a seam spring, N/m.
     pub seam_stiffness_n_m: f64,
     /// Force of a seam spring at first, N.
@@ -43,14 +45,12 @@ pub struct Params {
     pub sewing_steps: u32,
     /// Gap at which seams are welded, m.
     pub weld_gap_m: f64,
-    /// Residual at which a coarse level is good enough to start the next.
+    /// Residual without friction at which a level is good enough to start the next.
     pub coarse_tolerance: f64,
-    /// Most steps on a coarse level.
+    /// Most steps without friction on a level.
     pub coarse_steps: u32,
-    /// Residual at which friction is switched on.
-    pub frictionless_tolerance: f64,
-    /// Most steps before friction is switched on.
-    pub frictionless_steps: u32,
+    /// Most steps without friction on the finest level where a coarser one has settled.
+    pub finest_frictionless_steps: u32,
     /// Residual, rms force over mean vertex weight, at which the drape counts as in equilibrium.
     pub tolerance: f64,
     /// Most steps of the last phase, with friction.
@@ -68,6 +68,7 @@ impl Default for Params {
         Self {
             offset_mu: None,
             bend_angle_rad: None,
+            seed: 0,
             seam_stiffness_n_m: 50.0,
             seam_cap_n: 0.05,
             seam_growth: 1.5,
@@ -80,8 +81,7 @@ impl Default for Params {
             weld_gap_m: 2e-3,
             coarse_tolerance: 0.02,
             coarse_steps: 300,
-            frictionless_tolerance: 0.05,
-            frictionless_steps: 80,
+            finest_frictionless_steps: 12,
             tolerance: 0.01,
             max_iterations: 600,
             contact: ContactParams::default(),

@@ -21,15 +21,16 @@ pub struct Phase {
 }
 
 impl Phase {
-    /// Coming to rest without friction on level `level` of `last`; the coarser, the rougher.
+    /// Coming to rest without friction on level `level` of `last`.
     pub fn frictionless(params: &Params, level: usize, last: usize) -> Self {
         let at = |l: usize| 0.2 + 0.6 * (l as f64 / (last + 1) as f64).powi(2);
-        let finest = level == last;
+        // What a finer mesh starts from has settled already; it only has to lie down.
+        let has_settled = level > 0 && level == last;
         Self {
             name: "settle",
             level,
-            tolerance: if finest { params.frictionless_tolerance } else { params.coarse_tolerance },
-            max_steps: if finest { params.frictionless_steps } else { params.coarse_steps },
+            tolerance: params.coarse_tolerance,
+            max_steps: if has_settled { params.finest_frictionless_steps } else { params.coarse_steps },
             share: [at(level), at(level + 1)],
         }
     }
@@ -79,7 +80,6 @@ impl<'a> Run<'a> {
             h_start_s: params.sewing_h_min_s,
             h_max_s: params.sewing_h_max_s,
             clamp_m: params.sewing_clamp_m,
-            clamps_alike: true,
             ..params.step
         });
         let gaps =

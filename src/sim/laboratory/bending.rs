@@ -154,7 +154,7 @@ pub fn lateral_buckling(columns: usize) -> Result<f64, SimError> {
         (&stiffness + stiffness.transpose()) * 0.5
     };
     let bending = sideways(&|x, f| strip.cloth.bending.add_forces(x, f));
-    let stress = sideways(&|x, f| strip.cloth.membrane.assemble(x, f, None));
+    let stress = sideways(&|x, f| strip.cloth.membrane.add_forces(x, f));
     // B bending + stress is singular at the greatest eigenvalue B of -bending^-1 stress.
     let factor = bending.cholesky().expect("held along an edge, the bending stiffness is positive definite");
     let half = factor.l().solve_lower_triangular(&-stress).expect("a factor is regular");

@@ -28,7 +28,7 @@ pub fn held_sheet(fabric: &Fabric, gradient: [V3; 2]) -> Result<(f64, [f64; 2]),
     sheet.rest(0.0, 1e-9, 200);
     let off = sheet.positions.iter().zip(&exact).map(|(p, q)| (p - q).norm()).fold(0.0, f64::max);
     let mut forces = vec![V3::zeros(); exact.len()];
-    sheet.cloth.membrane.assemble(&sheet.positions, &mut forces, None);
+    sheet.cloth.membrane.add_forces(&sheet.positions, &mut forces);
     // Virtual work of the held sides' reactions in a stretch along one axis, corners included.
     let tension = |axis: usize| {
         let direction = gradient[axis].normalize();

@@ -1,6 +1,6 @@
 //! The forces on a cloth, their energy and their stiffness, gathered from every source.
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix2, Matrix3};
 
 use super::linear::LinearSolver;
 use super::operator::Operator;
@@ -67,7 +67,7 @@ impl<'a> System<'a> {
     #[must_use]
     pub fn forces(&self, x: &[V3]) -> Vec<V3> {
         let mut forces: Vec<V3> = self.weights.iter().map(|w| V3::new(0.0, 0.0, -w)).collect();
-        self.cloth.membrane.assemble(x, &mut forces, None);
+        self.cloth.membrane.add_forces(x, &mut forces);
         self.cloth.bending.add_forces(x, &mut forces);
         self.cloth.bands.add_forces(x, &mut forces);
         self.contact.add_forces(x, &mut forces);
@@ -83,13 +83,13 @@ impl<'a> System<'a> {
         forces
     }
 
-    /// Forces (N) and stiffness (N/m) at `x`.
-    pub fn assemble(&mut self, x: &[V3]) -> (Vec<V3>, Operator<'a>) {
+    /// Forces (N) and stiffness (N/m) at `x`; `predicted` are the membrane stresses that stiffen the cloth geometrically,
+    /// where they are not those at `x` ([`Membrane::assemble`](crate::sim::cloth::membrane::Membrane::assemble)).
+    pub fn assemble(&mut self, x: &[V3], predicted: Option<&[Matrix2<f64>]>) -> (Vec<V3>, Operator<'a>) {
         let cloth = self.cloth;
         let mut forces: Vec<V3> = self.weights.iter().map(|w| V3::new(0.0, 0.0, -w)).collect();
         let mut diagonal = vec![Matrix3::zeros(); cloth.len()];
-        let mut membrane = Vec::new();
-        cloth.membrane.assemble(x, &mut forces, Some(&mut membrane));
+        let mut membrane = cloth.membrane.assemble(x, &mut forces, predicted);
         cloth.bending.add_forces(x, &mut forces);
         cloth.bands.add_forces(x, &mut forces);
         cloth.bands.add_stiffness(x, &cloth.membrane.pairs, &mut membrane);

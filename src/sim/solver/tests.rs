@@ -24,7 +24,7 @@ fn all_forces_together_are_the_energys() {
     let mut system = System::new(&cloth, BodyContact::new(&field, ContactParams::default(), &cloth.areas), None);
     system.contact.set_friction(Some(0.3));
     let flat: Vec<V3> = garment.rest.iter().map(|p| V3::new(p.x - 0.04, p.y - 0.04, 0.06)).collect();
-    system.assemble(&flat);
+    system.assemble(&flat, None);
     let x = shaken(&flat, 3e-4, 7);
     assert!(system.contact.count() > 0);
     check_forces(|x| system.energy(x), &system.forces(&x), &x, 1e-7, 1e-6);
