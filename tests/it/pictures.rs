@@ -177,8 +177,8 @@ const SCENES: [Scene; 17] = [
     ("<Down>", 0.6, None),
     ("<Right>", 0.6, None),
     ("<Right>", 1.2, None),
-    ("2", 1.6, Some("subjects")),
-    ("4", 1.6, Some("jobs")),
+    ("2", 1.6, None),
+    ("4", 1.6, None),
     ("<Enter>", 2.0, Some("results")),
     ("v", 1.2, None),
     ("m", 1.2, None),
@@ -186,10 +186,10 @@ const SCENES: [Scene; 17] = [
     ("c", 2.4, Some("compare")),
     ("d", 1.4, None),
     ("7", 0.8, None),
-    ("SELECT garment, size, subject, simulator, ei FROM v_m", 0.8, Some("completion")),
+    ("SELECT garment, size, subject, simulator, ei FROM v_m", 0.8, None),
     ("<Tab> ORDER BY ei DESC<F5>", 1.0, None),
     ("<Tab>", 2.4, Some("sql")),
-    ("?", 2.0, Some("help")),
+    ("?", 2.0, None),
 ];
 
 #[test]

@@ -23,6 +23,7 @@ fn draw_list(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let rows = state.reports();
     let title = match &state.reports.building {
         Some(study) => format!("reports: building that of {study}…"),
+        None if rows.len() == 1 => "1 report".to_owned(),
         None => format!("{} reports", rows.len()),
     };
     let block = pane(state.theme, title, true);
