@@ -268,28 +268,6 @@ SELECT ei.study, ei.garment, ei.size, ei.subject, fit_class, ease_mm, ei_fem, ei
 FROM ei JOIN v_ease USING (study, garment, size, subject)
 WHERE decides AND ei_fem IS NOT NULL AND ei_hybrid IS NOT NULL;
 
-CREATE VIEW v_recommendation AS
-WITH present AS (
-    SELECT study, garment, fit_class, count(DISTINCT subject) AS subjects
-    FROM v_ease WHERE decides GROUP BY study, garment, fit_class
-),
-by_subject AS (
-    SELECT study, garment, fit_class, subject, avg(d_ei) AS d_ei FROM v_pair GROUP BY study, garment, fit_class, subject
-),
-paired AS (
-    SELECT study, garment, fit_class, avg(d_ei) AS effect, count(*) AS n_subjects
-    FROM by_subject GROUP BY study, garment, fit_class
-)
-SELECT study, garment, fit_class, rule_says AS recommended, 'rule' AS basis, 'insufficient_evidence' AS verdict,
-    rule_says, effect, CAST(NULL AS REAL) AS ci_low, CAST(NULL AS REAL) AS ci_high,
-    coalesce(n_subjects, 0) AS n_subjects,
-    CASE WHEN n_subjects IS NULL
-        THEN 'No subject has a converged result of both simulators (' || subjects || ' with this fit); the thesis''s rule stands.'
-        ELSE n_subjects || ' subject(s) paired; the difference has not been tested, so the thesis''s rule stands.'
-    END AS reason
-FROM (SELECT *, CASE fit_class WHEN 'loose' THEN 'fem' ELSE 'hybrid' END AS rule_says FROM present)
-LEFT JOIN paired USING (study, garment, fit_class);
-
 CREATE VIEW v_provenance AS
 SELECT job_id, study.name AS study, garment, size, job.subject, simulator, repeat, input_hash,
     subject.hash AS subject_hash, style.hash AS style_hash, size.hash AS pattern_hash, fabric.hash AS fabric_hash,
@@ -393,6 +371,22 @@ SELECT name AS fabric, fabric.revision, density_kg_m2, thickness_mm, membrane_wa
     fabric.revision = entry.revision AS is_latest, is_retired, stretch_pct, stretched_warp_n_m, stretched_weft_n_m
 FROM fabric JOIN catalogue_entry AS entry USING (name) WHERE part = 'fabric';
 
+CREATE TABLE gap (
+    job_id INTEGER NOT NULL REFERENCES job ON DELETE CASCADE,
+    level TEXT NOT NULL,
+    -- Where the garment was measured; the level itself may lie at an armhole.
+    height_mm REAL NOT NULL,
+    body_girth_mm REAL NOT NULL,
+    garment_girth_mm REAL NOT NULL,
+    PRIMARY KEY (job_id, level)
+) STRICT, WITHOUT ROWID;
+
+CREATE VIEW v_gap AS
+SELECT study.name AS study, garment, size, subject, simulator, level, height_mm, body_girth_mm, garment_girth_mm,
+    body_girth_mm - garment_girth_mm AS shortfall_mm, repeat, job_id
+FROM gap JOIN job USING (job_id) JOIN study USING (study_id)
+WHERE is_current;
+
 CREATE TABLE study_sweep (
     study_id INTEGER NOT NULL REFERENCES study,
     garment TEXT NOT NULL,
@@ -421,3 +415,48 @@ CREATE TABLE study_report (
     page TEXT NOT NULL,
     written_at INTEGER NOT NULL
 ) STRICT;
+
+CREATE TABLE evidence (
+    study_id INTEGER NOT NULL REFERENCES study,
+    garment TEXT NOT NULL,
+    fit_class TEXT NOT NULL CHECK (fit_class IN ('tight', 'just', 'loose')),
+    verdict TEXT NOT NULL CHECK (verdict IN ('fem', 'hybrid', 'no_difference', 'insufficient_evidence')),
+    effect REAL,
+    ci_low REAL,
+    ci_high REAL,
+    effect_size REAL,
+    p REAL,
+    p_holm REAL,
+    p_equivalence REAL,
+    n_subjects INTEGER NOT NULL,
+    reason TEXT NOT NULL,
+    would_settle TEXT NOT NULL,
+    pairs INTEGER NOT NULL,
+    checksum REAL NOT NULL,
+    PRIMARY KEY (study_id, garment, fit_class)
+) STRICT, WITHOUT ROWID;
+
+CREATE VIEW v_evidence_basis AS
+SELECT name AS study, count(garment) AS pairs, total(d_ei) + total(ease_mm) AS checksum
+FROM study LEFT JOIN v_pair ON v_pair.study = study.name
+GROUP BY study_id;
+
+CREATE VIEW v_recommendation AS
+WITH present AS (
+    SELECT study, garment, fit_class, CASE fit_class WHEN 'loose' THEN 'fem' ELSE 'hybrid' END AS rule_says
+    FROM v_ease WHERE decides GROUP BY study, garment, fit_class
+),
+judged AS (
+    SELECT study, evidence.*
+    FROM evidence JOIN (SELECT study_id, name AS study FROM study) USING (study_id) JOIN v_evidence_basis AS basis USING (study)
+    WHERE evidence.pairs = basis.pairs AND abs(evidence.checksum - basis.checksum) < 1e-6
+)
+SELECT study, garment, fit_class,
+    iif(verdict IN ('fem', 'hybrid'), verdict, rule_says) AS recommended,
+    iif(verdict IN ('fem', 'hybrid'), 'evidence', 'rule') AS basis,
+    coalesce(verdict, 'insufficient_evidence') AS verdict,
+    rule_says, effect, ci_low, ci_high, coalesce(n_subjects, 0) AS n_subjects,
+    coalesce(reason, 'Not judged since the results changed; the rule stands.') AS reason,
+    effect_size, p, p_holm, p_equivalence,
+    coalesce(would_settle, '`toile recommend` judges them.') AS would_settle
+FROM present LEFT JOIN judged USING (study, garment, fit_class);

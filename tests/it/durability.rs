@@ -80,7 +80,7 @@ fn finished(place: &Place) -> BTreeMap<i64, Vec<Value>> {
     assert!(rows(&connection, twice).is_empty(), "done twice");
     let half = "SELECT job_id FROM job LEFT JOIN metrics USING (job_id) LEFT JOIN provenance USING (job_id)
         WHERE (status = 'done') <> (n IS NOT NULL) OR (status = 'done') <> (seed IS NOT NULL)
-            OR (status = 'done') <> (9 = (SELECT count(*) FROM chi WHERE chi.job_id = job.job_id))";
+            OR (status = 'done') <> (9 = (SELECT count(*) FROM chi WHERE chi.job_id = job.job_id AND stage = 'drape'))";
     assert!(rows(&connection, half).is_empty(), "half a result");
     let done = rows(&connection, "SELECT * FROM job WHERE status = 'done'");
     let number = |row: &Vec<Value>| match row[0] {

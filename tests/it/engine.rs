@@ -27,7 +27,7 @@ fn a_sweep_is_run_and_its_runs_are_shown_compared_and_made_again() {
 
     let shown = place.toile("run show 1 --json").ends_with(0).json();
     assert_eq!((&shown["status"], &shown["inputs"]["sim.hybrid.relax.momentum"]), (&"done".into(), &"0.85".into()));
-    assert_eq!(shown["chi"].as_array().map(Vec::len), Some(9));
+    assert_eq!(shown["chi"].as_array().map(Vec::len), Some(27), "nine lengths, sewn, popped up and draped");
     assert!(shown["provenance"]["machine"].is_string() && shown["metrics"]["ei"].is_f64(), "{shown}");
     let text = place.toile("run show 1").ends_with(0).out;
     assert!(text.contains("Neck Opening") && text.contains("sim.hybrid.relax.momentum"), "{text}");

@@ -88,15 +88,18 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     }
 }
 
+/// Who is truest, what differs, then the rest of the verdict: a small pane cuts what comes last.
 fn said(state: &State, runs: &[Compared], width: usize) -> Vec<Line<'static>> {
+    let inputs = differing_inputs(runs).join(", ");
+    let inputs = if inputs.is_empty() { "all inputs are the same".to_owned() } else { format!("differ in: {inputs}") };
     let mut lines = vec![];
     for (k, sentence) in verdict(runs, state.recommended()).into_iter().enumerate() {
         let style = if k == 0 { state.theme.bold() } else { Style::new() };
         lines.extend(chi::wrapped(&sentence, width).into_iter().map(|line| Line::styled(line, style)));
+        if k == 0 {
+            lines.push(Line::styled(shortened(&inputs, width), state.theme.dim()));
+        }
     }
-    let inputs = differing_inputs(runs).join(", ");
-    let inputs = if inputs.is_empty() { "all inputs are the same".to_owned() } else { format!("differ in: {inputs}") };
-    lines.push(Line::styled(shortened(&inputs, width), state.theme.dim()));
     lines
 }
 
