@@ -23,7 +23,7 @@ pub use class::{FitClass, Simulator};
 pub use ease::{Cuts, Ease, deciding, ease};
 pub use judge::{Answer, Basis, Cell, Evidence, Finding, judge};
 pub use pair::{Errors, Pair, RuleScore, rule_score, wins};
-pub use resample::{interval, sign_flip};
+pub use resample::{Draw, interval, sign_flip};
 pub use statistics::{effect_size, equivalence, holm};
 pub use threshold::{Crossover, crossover};
 

@@ -8,10 +8,12 @@ const EXACT: usize = 20;
 const DRAWS: usize = 9999;
 
 /// Numbers that look random and are the same every time [Steele 2014: SplitMix64].
-pub(super) struct Draw(u64);
+#[derive(Clone, Debug)]
+pub struct Draw(u64);
 
 impl Draw {
     /// A sequence of its own for every seed.
+    #[must_use]
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
@@ -28,6 +30,17 @@ impl Draw {
     /// A whole number below `n`.
     pub fn below(&mut self, n: usize) -> usize {
         ((u128::from(self.bits()) * n as u128) >> 64) as usize
+    }
+
+    /// 0 to 1, neither of them.
+    pub fn share(&mut self) -> f64 {
+        ((self.bits() >> 11) as f64 + 0.5) / (1u64 << 53) as f64
+    }
+
+    /// Normally distributed, mean 0 and standard deviation 1 [Box and Muller 1958].
+    pub fn normal(&mut self) -> f64 {
+        let radius = (-2.0 * self.share().ln()).sqrt();
+        radius * (std::f64::consts::TAU * self.share()).cos()
     }
 }
 

@@ -10,6 +10,7 @@ use super::spec::sex_name;
 use super::types::{JobId, SubjectId};
 use super::workspace::Workspace;
 use crate::body::{self, Dimension, Measurements, Sex};
+use crate::fit::Draw;
 
 /// Dimensions by which people are drawn and grouped: those that the thesis's subjects are known by.
 const DIMENSIONS: [Dimension; 7] = [
@@ -62,7 +63,7 @@ pub struct Nearest {
 /// The representatives of a sex, the most frequent first.
 #[must_use]
 pub fn representatives(sex: Sex, options: &PopulationOptions) -> Vec<Representative> {
-    let mut random = Random(options.seed ^ if sex == Sex::Male { 0x6d } else { 0x66 });
+    let mut random = Draw::new(options.seed ^ if sex == Sex::Male { 0x6d } else { 0x66 });
     let people: Vec<Measurements> = (0..options.people).map(|_| draw(sex, &mut random)).collect();
     let points: Vec<Point> = people.iter().map(point).collect();
     let groups = group(&points, options.bodies, &mut random);
@@ -159,7 +160,7 @@ fn distance(a: &Measurements, b: &Measurements) -> Option<(f64, (Dimension, f64,
 }
 
 /// Somebody within the range of the survey.
-fn draw(sex: Sex, random: &mut Random) -> Measurements {
+fn draw(sex: Sex, random: &mut Draw) -> Measurements {
     loop {
         let scores = DIMENSIONS.map(|dimension| (dimension, random.normal()));
         let person = body::person(sex, &scores);
@@ -197,7 +198,7 @@ fn off(a: &Point, b: &Point) -> f64 {
 
 /// Groups points around as many middles (k-means [Lloyd 1982], begun as [Arthur and Vassilvitskii 2007] say); of each
 /// group the point nearest its mean, and how many it has.
-fn group(points: &[Point], count: usize, random: &mut Random) -> Vec<(usize, usize)> {
+fn group(points: &[Point], count: usize, random: &mut Draw) -> Vec<(usize, usize)> {
     let mut middles = seeds(points, count, random);
     let mut of = vec![usize::MAX; points.len()];
     for _ in 0..ROUNDS {
@@ -229,7 +230,7 @@ fn group(points: &[Point], count: usize, random: &mut Random) -> Vec<(usize, usi
 }
 
 /// First middles: each point the likelier the farther it is from those before.
-fn seeds(points: &[Point], count: usize, random: &mut Random) -> Vec<Point> {
+fn seeds(points: &[Point], count: usize, random: &mut Draw) -> Vec<Point> {
     let mut middles: Vec<Point> = points.first().copied().into_iter().collect();
     let mut far: Vec<f64> = points.iter().map(|point| middles.first().map_or(0.0, |first| off(point, first))).collect();
     while middles.len() < count.min(points.len()) {
@@ -250,25 +251,6 @@ fn nearest(point: &Point, middles: &[Point]) -> usize {
     (0..middles.len()).min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0)
 }
 
-/// Numbers that look random [Steele 2014: SplitMix64], the same for the same seed everywhere.
-struct Random(u64);
-
-impl Random {
-    /// 0 to 1, neither of them.
-    fn share(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (((x ^ (x >> 31)) >> 11) as f64 + 0.5) / (1u64 << 53) as f64
-    }
-
-    /// Normally distributed [Box and Muller 1958].
-    fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * self.share().ln()).sqrt();
-        radius * (std::f64::consts::TAU * self.share()).cos()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -277,7 +259,7 @@ mod tests {
 
     #[test]
     fn people_are_drawn_as_frequent_as_in_the_survey() {
-        let mut random = Random(3);
+        let mut random = Draw::new(3);
         let points: Vec<Point> = (0..4000).map(|_| point(&draw(Sex::Male, &mut random))).collect();
         for k in 0..DIMENSIONS.len() {
             let mean = points.iter().map(|p| p[k]).sum::<f64>() / 4000.0;
@@ -298,7 +280,7 @@ mod tests {
         assert!(found[0].share < 0.25 && found[FEW.bodies - 1].share > 0.01, "{found:?}");
         // Nobody is far from all of them: within the spread of one group.
         let middles: Vec<Point> = found.iter().map(|one| point(&one.measurements)).collect();
-        let mut random = Random(9);
+        let mut random = Draw::new(9);
         let far: Vec<f64> = (0..500)
             .map(|_| point(&draw(Sex::Female, &mut random)))
             .map(|p| (off(&p, &middles[nearest(&p, &middles)]) / 7.0).sqrt())

@@ -2,13 +2,6 @@ use super::super::resample::Draw;
 use super::super::{Errors, rule_score, wins};
 use super::*;
 
-/// A standard normal number [Box & Muller 1958].
-fn normal(draw: &mut Draw) -> f64 {
-    let mut uniform = || (draw.bits() >> 11) as f64 / (1u64 << 53) as f64;
-    let (u, v) = (1.0 - uniform(), uniform());
-    (-2.0 * u.ln()).sqrt() * (2.0 * std::f64::consts::PI * v).cos()
-}
-
 /// Pairs of `subjects` subjects whose EI differs by `effect` on average, `spread` over subjects, half of that over
 /// measurements.
 fn study(draw: &mut Draw, garments: usize, subjects: usize, effect: f64, spread: f64) -> (Vec<Cell>, Vec<Pair>) {
@@ -16,9 +9,9 @@ fn study(draw: &mut Draw, garments: usize, subjects: usize, effect: f64, spread:
     let mut pairs = Vec::new();
     for garment in &names {
         for subject in 0..subjects {
-            let own = effect + spread * normal(draw);
+            let own = effect + spread * draw.normal();
             let errors = (1..=9).map(|no| {
-                let difference = own + 0.5 * spread * normal(draw);
+                let difference = own + 0.5 * spread * draw.normal();
                 let (fem, hybrid) = (0.1 + difference / 2.0, 0.1 - difference / 2.0);
                 Errors { no, name: format!("m{no}"), fem, hybrid, free_edge: no == 6, controlled: false }
             });
