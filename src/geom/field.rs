@@ -153,19 +153,22 @@ impl DistanceField {
             weight[k] = [0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)];
             slope[k] = [t - 0.5, -2.0 * t, t + 0.5];
         }
-        let mut value = 0.0;
-        let mut gradient = V3::zeros();
+        let (mut value, mut gx, mut gy, mut gz) = (0.0, 0.0, 0.0, 0.0);
+        let ([wx, wy, wz], [sx, sy, sz]) = (weight, slope);
         for c in 0..3 {
             for b in 0..3 {
                 let row = self.node(first[0], first[1] + b, first[2] + c);
-                let [v0, v1, v2] = [0, 1, 2].map(|a| f64::from(self.values[row + a]));
-                let along = v0 * weight[0][0] + v1 * weight[0][1] + v2 * weight[0][2];
-                value += along * weight[1][b] * weight[2][c];
-                gradient.x += (v0 * slope[0][0] + v1 * slope[0][1] + v2 * slope[0][2]) * weight[1][b] * weight[2][c];
-                gradient.y += along * slope[1][b] * weight[2][c];
-                gradient.z += along * weight[1][b] * slope[2][c];
+                let Some(&[v0, v1, v2]) = self.values.get(row..row + 3) else { continue };
+                let (v0, v1, v2) = (f64::from(v0), f64::from(v1), f64::from(v2));
+                let along = v0 * wx[0] + v1 * wx[1] + v2 * wx[2];
+                let across = wy[b] * wz[c];
+                value += along * across;
+                gx += (v0 * sx[0] + v1 * sx[1] + v2 * sx[2]) * across;
+                gy += along * sy[b] * wz[c];
+                gz += along * wy[b] * sz[c];
             }
         }
+        let gradient = V3::new(gx, gy, gz);
         (value, gradient / self.spacing_m)
     }
 

@@ -68,6 +68,29 @@ impl Bands {
         }
     }
 
+    /// Adds the forces (N) that would bring the tensions at `end` to those that a linear solve at `x` foresaw there, and the
+    /// off-diagonal stiffness blocks of stretching alone to those of the membrane, whose pairs the links are among.
+    pub fn assemble_towards(
+        &self,
+        x: &[V3],
+        end: &[V3],
+        pairs: &PairList,
+        forces: &mut [V3],
+        blocks: &mut [Matrix3<f64>],
+    ) {
+        for link in &self.links {
+            let [i, j] = link.vertices;
+            let stiffness = link.stiffness_n / link.length_m;
+            let ((before, along), (after, direction)) = (link.pull(x), link.pull(end));
+            let foreseen = before + stiffness * along.dot(&(end[j] - end[i] - (x[j] - x[i])));
+            forces[i] += direction * (after - foreseen);
+            forces[j] -= direction * (after - foreseen);
+            if let Some(slot) = pairs.slot(i, j) {
+                blocks[slot] -= direction * direction.transpose() * stiffness;
+            }
+        }
+    }
+
     /// Adds the off-diagonal stiffness blocks (N/m) to those of the membrane, whose pairs the links are among.
     pub fn add_stiffness(&self, x: &[V3], pairs: &PairList, blocks: &mut [Matrix3<f64>]) {
         for link in &self.links {

@@ -233,16 +233,29 @@ impl Membrane {
         blocks
     }
 
-    /// Stress of each element, N/m, that a linear solve foresees: that at `start`, and what the displacement `d` adds to it
-    /// in first order by the geometry at `x`, where the solve was linearised.
+    /// Stress of each element, N/m, that a linear solve at `x` foresees of a displacement `d`: what it adds in first order.
     #[must_use]
-    pub fn predicted_stress(&self, x: &[V3], start: &[V3], d: &[V3]) -> Vec<Matrix2<f64>> {
+    pub fn predicted_stress(&self, x: &[V3], d: &[V3]) -> Vec<Matrix2<f64>> {
         let of = |element: &Element| {
-            let product = element.deformation_gradient(x).transpose() * element.deformation_gradient(d);
-            let strain = element.strain(start);
+            let f = element.deformation_gradient(x);
+            let product = f.transpose() * element.deformation_gradient(d);
+            let strain = green(&f);
             self.material.stress(&strain) + self.material.tangent(&strain, &((product + product.transpose()) * 0.5))
         };
         self.elements.iter().map(of).collect()
+    }
+
+    /// Adds the forces (N) that would bring the stresses at `x` to `wanted`, one an element, and returns the off-diagonal
+    /// blocks of the stiffness that stretching alone has there, N/m.
+    pub fn assemble_towards(&self, x: &[V3], wanted: &[Matrix2<f64>], forces: &mut [V3]) -> Vec<Matrix3<f64>> {
+        let mut blocks = vec![Matrix3::zeros(); self.pairs.pairs().len()];
+        for (element, wanted) in self.elements.iter().zip(wanted) {
+            let f = element.deformation_gradient(x);
+            let strain = green(&f);
+            element.add_forces(&f, &(self.material.stress(&strain) - wanted), forces);
+            self.add_stiffness(element, &f, &strain, &Matrix2::zeros(), &mut blocks);
+        }
+        blocks
     }
 
     fn add_stiffness(
@@ -377,7 +390,7 @@ mod tests {
             let error = |size: f64| {
                 let end = shaken(&x, size, 6);
                 let d: Vec<V3> = end.iter().zip(&x).map(|(p, q)| p - q).collect();
-                let predicted = membrane.predicted_stress(&x, &x, &d);
+                let predicted = membrane.predicted_stress(&x, &d);
                 let off = |(e, p): (&Element, &Matrix2<f64>)| (membrane.material.stress(&e.strain(&end)) - p).norm();
                 membrane.elements.iter().zip(&predicted).map(off).fold(0.0, f64::max)
             };

@@ -87,6 +87,11 @@ const MOST_YIELD_M: f64 = 2e-3;
 /// Farthest that the blurred field may lie from the true skin where cloth touches, m.
 const FIELD_ERROR_M: f64 = 4e-3;
 
+/// The place of a sample that was not looked up yet.
+const UNSEEN: (V3, f64) = (V3::new(0.0, 0.0, 0.0), f64::MIN);
+/// The field rises no faster than this; a distance field by 1 a metre, but for rounding.
+const STEEPEST: f64 = 1.05;
+
 /// A point of the cloth that is kept out of the body.
 #[derive(Clone, Copy, Debug)]
 struct Sample {
@@ -98,15 +103,24 @@ struct Sample {
     area_m2: f64,
     /// Where friction holds it.
     anchor: Option<V3>,
+    /// Where it was last looked up in the field, and how far it may go from there before it can touch, m.
+    seen: (V3, f64),
 }
 
 impl Sample {
     fn vertex(vertex: usize, offset_m: f64, area_m2: f64) -> Self {
-        Self { vertices: [vertex; 3], weights: [1.0, 0.0, 0.0], offset_m, area_m2, anchor: None }
+        Self { vertices: [vertex; 3], weights: [1.0, 0.0, 0.0], offset_m, area_m2, anchor: None, seen: UNSEEN }
     }
 
     fn at(&self, x: &[V3]) -> V3 {
-        (0..3).map(|k| x[self.vertices[k]] * self.weights[k]).sum()
+        let ([a, b, c], [wa, wb, wc]) = (self.vertices, self.weights);
+        if wa == 1.0 { x[a] } else { x[a] * wa + x[b] * wb + x[c] * wc }
+    }
+
+    /// Whether it cannot touch at `p`, by where it was last looked up.
+    fn is_clear(&self, p: &V3) -> bool {
+        let (place, slack) = self.seen;
+        slack > 0.0 && (p - place).norm_squared() < slack * slack
     }
 
     fn add_force(&self, force: &V3, forces: &mut [V3]) {
@@ -207,6 +221,7 @@ impl<'a> BodyContact<'a> {
                 self.samples.len() - 1
             });
             let held = &mut self.samples[index];
+            held.seen = UNSEEN;
             held.offset_m = if is_held && is_at_rest && distance < held.offset_m {
                 held.offset_m + depth.min(MOST_YIELD_M)
             } else {
@@ -220,7 +235,7 @@ impl<'a> BodyContact<'a> {
     fn candidates(&self, triangles: &[[usize; 3]]) -> Vec<Sample> {
         let between = |vertices: [usize; 3], weights: [f64; 3]| {
             let area_m2 = (0..3).map(|k| self.samples[vertices[k]].area_m2 * weights[k]).sum();
-            Sample { vertices, weights, offset_m: f64::MIN, area_m2, anchor: None }
+            Sample { vertices, weights, offset_m: f64::MIN, area_m2, anchor: None, seen: UNSEEN }
         };
         let mut edges: Vec<[usize; 2]> = triangles
             .iter()
@@ -235,9 +250,14 @@ impl<'a> BodyContact<'a> {
         vertices.chain(middles).chain(centres).collect()
     }
 
-    fn depth(&self, sample: &Sample, x: &[V3]) -> (f64, V3) {
-        let (distance, gradient) = self.field.value_and_gradient(&sample.at(x));
-        (sample.offset_m - distance, gradient)
+    /// How much nearer than its offset a sample is, m, and the gradient of the distance there; `None` where it is not.
+    fn depth(&self, sample: &Sample, x: &[V3]) -> Option<(f64, V3)> {
+        let p = sample.at(x);
+        if sample.is_clear(&p) {
+            return None;
+        }
+        let (distance, gradient) = self.field.value_and_gradient(&p);
+        Some((sample.offset_m - distance, gradient)).filter(|(depth, _)| *depth > 0.0)
     }
 
     /// Contact and friction energy, J; friction's with the normal forces and anchors of the current step.
@@ -245,8 +265,7 @@ impl<'a> BodyContact<'a> {
     pub fn energy(&self, x: &[V3]) -> f64 {
         let mut energy = 0.0;
         for sample in &self.samples {
-            let (depth, _) = self.depth(sample, x);
-            if depth > 0.0 {
+            if let Some((depth, _)) = self.depth(sample, x) {
                 energy += sample.area_m2 * self.params.push(depth).energy_n_m;
             }
         }
@@ -256,8 +275,7 @@ impl<'a> BodyContact<'a> {
     /// Adds the contact forces at `x`; friction's with the normal forces and anchors of the current step.
     pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
         for sample in &self.samples {
-            let (depth, gradient) = self.depth(sample, x);
-            if depth > 0.0 {
+            if let Some((depth, gradient)) = self.depth(sample, x) {
                 let force_n = sample.area_m2 * self.params.push(depth).pressure_n_m2;
                 sample.add_force(&(gradient * force_n), forces);
             }
@@ -320,8 +338,7 @@ impl<'a> BodyContact<'a> {
             has[touch.sample] = touch.push.stiffness_n_m3;
         }
         for (vertex, sample) in self.samples[..self.vertices].iter().enumerate() {
-            let (depth, gradient) = self.depth(sample, x);
-            if depth > 0.0 {
+            if let Some((depth, gradient)) = self.depth(sample, x) {
                 let lacks = self.params.push(depth).stiffness_n_m3 - has[vertex];
                 diagonal[vertex] += gradient * gradient.transpose() * (sample.area_m2 * lacks.max(0.0));
             }
@@ -331,15 +348,22 @@ impl<'a> BodyContact<'a> {
     fn find_touching(&mut self, x: &[V3]) {
         self.touching.clear();
         for k in 0..self.samples.len() {
-            let (depth, gradient) = self.depth(&self.samples[k], x);
+            let p = self.samples[k].at(x);
             let sample = &mut self.samples[k];
+            if sample.is_clear(&p) {
+                sample.anchor = None;
+                continue;
+            }
+            let (distance, gradient) = self.field.value_and_gradient(&p);
+            let depth = sample.offset_m - distance;
+            sample.seen = (p, -depth / STEEPEST);
             if depth <= 0.0 {
                 sample.anchor = None;
                 continue;
             }
             self.touching.push(Touch { sample: k, gradient, push: self.params.push(depth) });
             if self.friction.is_some() {
-                sample.anchor.get_or_insert_with(|| (0..3).map(|k| x[sample.vertices[k]] * sample.weights[k]).sum());
+                sample.anchor.get_or_insert(p);
             }
         }
     }

@@ -37,6 +37,8 @@ impl Default for ClothContactParams {
 /// Squared sine of the angle between two edges below which their contact fades out: parallel edges have no one direction
 /// in which they face each other.
 const PARALLEL: f64 = 0.01;
+/// Cosine to the normal from which on something beside a rim lies clearly on one side.
+const CLEARLY: f64 = 0.7;
 /// Least movement that a search foresees, m.
 const LEAST_SLACK_M: f64 = 2e-3;
 /// How far a step against a releasing force goes at most, m.
@@ -50,6 +52,19 @@ struct Pair {
     distance_m: f64,
     /// Unit vector away from the second primitive on the side where the first one was last seen free.
     away: V3,
+    /// Whether the nearest points then lay within both primitives.
+    is_within: bool,
+    /// Whether the first one was then on the wrong side: such a pair counts however far it is through.
+    has_slipped: bool,
+}
+
+impl Pair {
+    /// On which side of the second primitive the first belongs, 1 where its normal points. What came over a rim since
+    /// belongs where it now is, unless it clearly lay on one side.
+    fn side(&self, normal: &V3, gap: &V3) -> f64 {
+        let known = normal.dot(&self.away);
+        if self.is_within || known.abs() > CLEARLY { known.signum() } else { normal.dot(gap).signum() }
+    }
 }
 
 /// How deep a pair is in contact at some positions.
@@ -163,7 +178,7 @@ impl<'a> ClothContact<'a> {
             let Some(away) = nearest.gap.try_normalize(0.0).filter(|_| distance_m < self.reach_m) else { continue };
             match self.pairs.binary_search_by_key(&primitives, |p| p.primitives) {
                 Ok(known) => found.push(Pair { distance_m, ..self.pairs[known] }),
-                Err(_) => found.push(Pair { primitives, distance_m, away }),
+                Err(_) => found.push(Pair { primitives, distance_m, away, is_within: nearest.normal.is_some(), has_slipped: false }),
             }
         }
         found.sort_by(|a, b| a.distance_m.total_cmp(&b.distance_m).then(a.primitives.cmp(&b.primitives)));
@@ -177,9 +192,11 @@ impl<'a> ClothContact<'a> {
         let mut slipped = vec![false; x.len()];
         for (k, nearest) in &near {
             let pair = &mut self.pairs[*k];
+            pair.has_slipped = false;
             let Some(normal) = nearest.normal else { continue };
-            pair.away = normal * normal.dot(&pair.away).signum();
-            if pair.away.dot(&nearest.gap) < 0.0 {
+            pair.away = normal * pair.side(&normal, &nearest.gap);
+            pair.has_slipped = pair.away.dot(&nearest.gap) < 0.0;
+            if pair.has_slipped {
                 for v in pair.primitives.vertices() {
                     slipped[v] = true;
                 }
@@ -187,6 +204,7 @@ impl<'a> ClothContact<'a> {
         }
         for (k, nearest) in near {
             let pair = &mut self.pairs[k];
+            pair.is_within = nearest.normal.is_some();
             if nearest.normal.is_none() && pair.primitives.vertices().iter().all(|v| !slipped[*v]) {
                 pair.away = nearest.gap.try_normalize(0.0).unwrap_or(pair.away);
             }
@@ -202,14 +220,18 @@ impl<'a> ClothContact<'a> {
         };
         let most = moved.iter().copied().fold(0.0, f64::max);
         let thickness = self.params.thickness_m;
-        let candidates = self.pairs.iter().take_while(move |pair| pair.distance_m < thickness + 2.0 * most).enumerate();
-        candidates.filter(move |(_, pair)| {
+        let nearest = self.pairs.partition_point(|pair| pair.distance_m < thickness + 2.0 * most);
+        self.pairs.iter().enumerate().filter(move |(k, pair)| {
+            if !pair.has_slipped && *k >= nearest {
+                return false;
+            }
             let [a, b, c, d] = pair.primitives.vertices().map(|v| moved[v]);
             let closing = match pair.primitives {
                 Primitives::VertexTriangle(_) => a + b.max(c).max(d),
                 Primitives::EdgeEdge(_) => a.max(b) + c.max(d),
             };
-            pair.distance_m < thickness + closing && !pair.primitives.vertices().iter().any(|v| self.tangled[*v])
+            let is_near = pair.has_slipped || pair.distance_m < thickness + closing;
+            is_near && !pair.primitives.vertices().iter().any(|v| self.tangled[*v])
         })
     }
 
@@ -218,13 +240,14 @@ impl<'a> ClothContact<'a> {
         let nearest = Nearest::of(x, pair.primitives);
         let (normal, height) = match nearest.normal {
             Some(normal) => {
-                let normal = normal * normal.dot(&pair.away).signum();
+                let normal = normal * pair.side(&normal, &nearest.gap);
                 (normal, normal.dot(&nearest.gap))
             }
             None => nearest.gap.try_normalize(0.0).map(|normal| (normal, nearest.gap.norm()))?,
         };
         let depth = self.params.thickness_m - height;
-        if depth <= 0.0 {
+        // Not a number where a triangle has collapsed.
+        if depth.is_nan() || depth <= 0.0 {
             return None;
         }
         let mut press = Press { vertices, weights: nearest.weights, normal, depth, share: 1.0, fading: None };

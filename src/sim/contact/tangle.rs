@@ -110,9 +110,11 @@ impl Release {
         let area = face.norm_squared();
         let wb = (point - x[a]).cross(&(x[c] - x[a])).dot(&face) / area;
         let wc = (x[b] - x[a]).cross(&(point - x[a])).dot(&face) / area;
-        Some(Self {
+        let weights = [1.0 - share, share, wb + wc - 1.0, -wb, -wc];
+        // Not a number where an edge lies in the triangle's plane.
+        weights.iter().all(|w| w.is_finite()).then_some(Self {
             vertices: [p, q, a, b, c],
-            weights: [1.0 - share, share, wb + wc - 1.0, -wb, -wc],
+            weights,
             fall: fall / length.max(1.0),
         })
     }

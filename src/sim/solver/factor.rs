@@ -10,7 +10,7 @@ use faer::{MatMut, Par, Side};
 use nalgebra::Matrix3;
 
 use super::operator::{Operator, PairList};
-use crate::geom::V3;
+use super::rows::Quad;
 
 /// The pattern of a stiffness with its symbolic factor, and the latest numeric one.
 pub struct Factor {
@@ -112,14 +112,14 @@ impl Factor {
     }
 
     /// `z = K^-1 r` with the stiffness of the last [`Factor::refresh`]; `r` itself before the first.
-    pub fn solve(&self, r: &[V3], z: &mut [V3]) {
-        let mut flat: Vec<f64> = r.iter().flat_map(|v| [v.x, v.y, v.z]).collect();
+    pub fn solve(&self, r: &[Quad<f64>], z: &mut [Quad<f64>]) {
+        let mut flat: Vec<f64> = r.iter().flat_map(|v| [v[0], v[1], v[2]]).collect();
         if let Some(factor) = &self.numeric {
             let rows = flat.len();
             factor.solve_in_place(MatMut::from_column_major_slice_mut(&mut flat, rows, 1));
         }
         for (z, v) in z.iter_mut().zip(flat.chunks_exact(3)) {
-            *z = V3::new(v[0], v[1], v[2]);
+            *z = [v[0], v[1], v[2], 0.0];
         }
     }
 }

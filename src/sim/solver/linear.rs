@@ -3,8 +3,9 @@
 use nalgebra::Matrix3;
 
 use super::factor::Factor;
-use super::operator::{Operator, times};
+use super::operator::Operator;
 use super::pcg::{self, PcgParams};
+use super::rows::{self, Quad, Rows};
 use crate::geom::V3;
 
 /// How the linear systems of a cloth are solved.
@@ -35,23 +36,25 @@ impl LinearSolver {
                 let aged = kept.is_some();
                 let factor = kept.get_or_insert_with(|| Box::new(Factor::new(operator)));
                 let attempt = PcgParams { max_iterations: PATIENCE, ..*params };
-                if aged && pcg::solve(operator, &|r, z| factor.solve(r, z), b, x, &attempt) {
+                let rows = Rows::<f64>::new(operator);
+                if aged && pcg::solve(&rows, &|r, z| factor.solve(r, z), b, x, &attempt) {
                     return;
                 }
                 factor.refresh(operator);
-                pcg::solve(operator, &|r, z| factor.solve(r, z), b, x, params);
+                pcg::solve(&rows, &|r, z| factor.solve(r, z), b, x, params);
             }
         }
     }
 }
 
-fn jacobi(operator: &Operator, b: &[V3], x: &mut [V3], params: &PcgParams) {
-    let inverse: Vec<Matrix3<f64>> =
-        operator.diagonal_blocks().iter().map(|d| d.try_inverse().unwrap_or_else(Matrix3::zeros)).collect();
-    let precondition = |r: &[V3], z: &mut [V3]| {
-        for ((z, r), d) in z.iter_mut().zip(r).zip(&inverse) {
-            *z = times(d, r);
+/// Solves `K x = b` with block-Jacobi in single precision: a direction of descent need not be better.
+pub fn jacobi(operator: &Operator, b: &[V3], x: &mut [V3], params: &PcgParams) {
+    let inverse = |d: &Matrix3<f64>| rows::block::<f32>(&d.try_inverse().unwrap_or_else(Matrix3::zeros));
+    let inverses: Vec<_> = operator.diagonal_blocks().iter().map(inverse).collect();
+    let precondition = |r: &[Quad<f32>], z: &mut [Quad<f32>]| {
+        for ((z, r), d) in z.iter_mut().zip(r).zip(&inverses) {
+            *z = rows::add_times([0.0; 4], d, r);
         }
     };
-    pcg::solve(operator, &precondition, b, x, params);
+    pcg::solve(&Rows::new(operator), &precondition, b, x, params);
 }

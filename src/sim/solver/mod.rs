@@ -5,6 +5,7 @@ pub mod linear;
 pub mod operator;
 pub mod pcg;
 pub mod proximal;
+pub mod rows;
 pub mod system;
 
 pub use linear::LinearSolver;

@@ -6,12 +6,14 @@
 
 use nalgebra::Matrix3;
 
+use super::rows::RowTable;
 use crate::geom::V3;
 
 /// Pairs of vertices `i < j`, sorted, that some element couples.
 #[derive(Clone, Debug, Default)]
 pub struct PairList {
     pairs: Vec<[usize; 2]>,
+    rows: RowTable,
 }
 
 impl PairList {
@@ -21,13 +23,20 @@ impl PairList {
         let mut pairs: Vec<[usize; 2]> = pairs.into_iter().map(|[i, j]| [i.min(j), i.max(j)]).collect();
         pairs.sort_unstable();
         pairs.dedup();
-        Self { pairs }
+        let rows = RowTable::new(&pairs);
+        Self { pairs, rows }
     }
 
     /// Position of the pair `{i, j}` in the list.
     #[must_use]
     pub fn slot(&self, i: usize, j: usize) -> Option<usize> {
         self.pairs.binary_search(&[i.min(j), i.max(j)]).ok()
+    }
+
+    /// Where the pairs stand in rows.
+    #[must_use]
+    pub fn rows(&self) -> &RowTable {
+        &self.rows
     }
 
     /// The pairs.
@@ -77,47 +86,15 @@ pub struct Operator<'a> {
     pub contacts: Vec<Contact4>,
 }
 
-/// `block v`, written out: most of a simulation's time is spent here, and the general product is not inlined.
-pub(super) fn times(block: &Matrix3<f64>, v: &V3) -> V3 {
-    let [a, b, c] = block.data.0;
-    V3::new(
-        a[0] * v.x + b[0] * v.y + c[0] * v.z,
-        a[1] * v.x + b[1] * v.y + c[1] * v.z,
-        a[2] * v.x + b[2] * v.y + c[2] * v.z,
-    )
-}
-
-/// `block^T v`.
-fn times_transposed(block: &Matrix3<f64>, v: &V3) -> V3 {
-    let along = |column: [f64; 3]| column[0] * v.x + column[1] * v.y + column[2] * v.z;
-    let [a, b, c] = block.data.0;
-    V3::new(along(a), along(b), along(c))
-}
-
 impl Operator<'_> {
-    /// `y = K x`.
-    pub fn apply(&self, x: &[V3], y: &mut [V3]) {
-        for ((y, d), x) in y.iter_mut().zip(&self.diagonal).zip(x) {
-            *y = times(d, x);
-        }
-        for (&[i, j], block) in self.membrane_pairs.pairs().iter().zip(&self.membrane) {
-            let difference = x[j] - x[i];
-            y[i] += times(block, &difference);
-            y[j] -= times_transposed(block, &difference);
-        }
-        for (&[i, j], entry) in self.bending_pairs.pairs().iter().zip(self.bending) {
-            let pull = (x[j] - x[i]) * *entry;
-            y[i] += pull;
-            y[j] -= pull;
-        }
-        for &([i, j], stiffness) in &self.springs {
-            let pull = (x[i] - x[j]) * stiffness;
-            y[i] += pull;
-            y[j] -= pull;
-        }
+    /// What the diagonal and the contacts alone make of a displacement.
+    #[must_use]
+    pub fn contact_forces(&self, x: &[V3]) -> Vec<V3> {
+        let mut y: Vec<V3> = self.diagonal.iter().zip(x).map(|(block, x)| block * x).collect();
         for contact in &self.contacts {
-            contact.apply(x, y);
+            contact.apply(x, &mut y);
         }
+        y
     }
 
     /// The 3x3 blocks on the diagonal of `K`, for a block-Jacobi preconditioner.

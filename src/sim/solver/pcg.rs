@@ -1,6 +1,8 @@
 //! Preconditioned conjugate gradients.
 
-use super::operator::Operator;
+use nalgebra::RealField;
+
+use super::rows::{self, Quad, Rows};
 use crate::geom::V3;
 
 /// When to stop.
@@ -16,52 +18,87 @@ pub struct PcgParams {
 /// whether the tolerance was met.
 ///
 /// Every iterate descends the quadratic `x.K x / 2 - b.x`, so a run cut short still yields a descent direction.
-pub fn solve(
-    operator: &Operator,
-    precondition: &dyn Fn(&[V3], &mut [V3]),
+pub fn solve<T: RealField + Copy>(
+    operator: &Rows<T>,
+    precondition: &dyn Fn(&[Quad<T>], &mut [Quad<T>]),
     b: &[V3],
     x: &mut [V3],
     params: &PcgParams,
 ) -> bool {
     let n = b.len();
-    let mut z = vec![V3::zeros(); n];
-    let mut kp = vec![V3::zeros(); n];
+    let mut state: Vec<Quad<T>> = x.iter().map(rows::quad).collect();
+    let solved = improve(operator, precondition, &b.iter().map(rows::quad).collect::<Vec<_>>(), &mut state, params);
+    for v in 0..n {
+        let component = |k: usize| state[v][k].to_subset().unwrap_or(f64::NAN);
+        x[v] = V3::new(component(0), component(1), component(2));
+    }
+    solved
+}
+
+fn improve<T: RealField + Copy>(
+    operator: &Rows<T>,
+    precondition: &dyn Fn(&[Quad<T>], &mut [Quad<T>]),
+    b: &[Quad<T>],
+    x: &mut [Quad<T>],
+    params: &PcgParams,
+) -> bool {
+    let n = b.len();
+    let tolerance: T = nalgebra::convert(params.tolerance);
+    let mut z = vec![[T::zero(); 4]; n];
+    let mut kp = z.clone();
     precondition(b, &mut z);
-    let goal = dot(b, &z) * params.tolerance * params.tolerance;
+    let goal = dot(b, &z) * tolerance * tolerance;
     operator.apply(x, &mut kp);
     // Never worse than zero.
     let scale = dot(x, b) / dot(x, &kp);
-    let scale = if scale.is_finite() { scale.clamp(0.0, 1.0) } else { 0.0 };
-    x.iter_mut().for_each(|x| *x *= scale);
-    let mut r: Vec<V3> = b.iter().zip(&kp).map(|(b, k)| b - k * scale).collect();
+    let scale = if scale.is_finite() { scale.clamp(T::zero(), T::one()) } else { T::zero() };
+    x.iter_mut().flatten().for_each(|x| *x *= scale);
+    let mut r = b.to_vec();
+    add_scaled(&mut r, -scale, &kp);
     precondition(&r, &mut z);
     let mut p = z.clone();
     let mut rz = dot(&r, &z);
+    let nothing = T::default_epsilon().powi(3);
     for _ in 0..params.max_iterations {
-        if rz <= goal || rz <= f64::MIN_POSITIVE {
+        if rz <= goal || rz <= nothing {
             return true;
         }
         operator.apply(&p, &mut kp);
         let curvature = dot(&p, &kp);
-        if curvature <= 0.0 {
+        if curvature <= T::zero() {
             return true;
         }
         let alpha = rz / curvature;
-        for i in 0..n {
-            x[i] += p[i] * alpha;
-            r[i] -= kp[i] * alpha;
-        }
+        add_scaled(x, alpha, &p);
+        add_scaled(&mut r, -alpha, &kp);
         precondition(&r, &mut z);
         let rz_next = dot(&r, &z);
         let beta = rz_next / rz;
         rz = rz_next;
-        for i in 0..n {
-            p[i] = z[i] + p[i] * beta;
+        for (p, z) in p.iter_mut().zip(&z) {
+            for k in 0..4 {
+                p[k] = z[k] + beta * p[k];
+            }
         }
     }
     rz <= goal
 }
 
-fn dot(a: &[V3], b: &[V3]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
+fn add_scaled<T: RealField + Copy>(a: &mut [Quad<T>], scale: T, b: &[Quad<T>]) {
+    for (a, b) in a.iter_mut().zip(b) {
+        for k in 0..4 {
+            a[k] += scale * b[k];
+        }
+    }
+}
+
+/// Inner product; four sums side by side.
+fn dot<T: RealField + Copy>(a: &[Quad<T>], b: &[Quad<T>]) -> T {
+    let mut sums = [T::zero(); 4];
+    for (a, b) in a.iter().zip(b) {
+        for k in 0..4 {
+            sums[k] += a[k] * b[k];
+        }
+    }
+    (sums[0] + sums[2]) + (sums[1] + sums[3])
 }

@@ -2,9 +2,16 @@
 //!
 //! There is no inertia: `h` only keeps a step from going further than its linearisation is good for. It grows while
 //! steps succeed, and the limit is static equilibrium.
+//!
+//! Cloth is a million times softer in bending than in its plane. A step along a soft mode turns triangles and so, in
+//! second order, stretches them; on its own it could go only a fraction of a millimetre. Each step is therefore corrected:
+//! at its end the stretch that the linear solve did not foresee is taken out again by the least movement that does
+//! it, as inextensible cloth is projected onto its constraints [Goldenthal 2007], and the step runs along
+//! `x + t d + t^2 b`.
 
 use nalgebra::{Matrix2, Matrix3};
 
+use super::linear;
 use super::operator::Operator;
 use super::pcg::PcgParams;
 use super::system::System;
@@ -28,7 +35,12 @@ pub struct StepParams {
     pub linear_tolerance: f64,
     /// Most iterations of the linear solve.
     pub linear_iterations: usize,
-    /// Most iterations of the linear solve of the second-order correction.
+    /// Step size of the second-order correction, s: small enough that bending hardly moves, so that of all ways to take the
+    /// stretch out the shortest is found.
+    pub correction_h_s: f64,
+    /// Relative tolerance of the correction's linear solve.
+    pub correction_tolerance: f64,
+    /// Most iterations of the correction's linear solve.
     pub correction_iterations: usize,
 }
 
@@ -40,8 +52,10 @@ impl Default for StepParams {
             h_max_s: 2.0,
             growth: 1.5,
             clamp_m: 0.01,
-            linear_tolerance: 0.02,
+            linear_tolerance: 0.005,
             linear_iterations: 1000,
+            correction_h_s: 0.03,
+            correction_tolerance: 0.1,
             correction_iterations: 100,
         }
     }
@@ -69,6 +83,10 @@ pub struct Stepper {
 /// Armijo's constant.
 const SUFFICIENT_DECREASE: f64 = 1e-4;
 const MOST_HALVINGS: usize = 12;
+/// The stiffness leaves compression out and so is too stiff where cloth buckles: once steps are as long as they get, a full
+/// one is lengthened by this factor for as long as the energy falls.
+const LENGTHENING: f64 = 1.5;
+const MOST_LENGTHENINGS: usize = 6;
 
 impl Stepper {
     /// Starts at the smallest step.
@@ -84,22 +102,24 @@ impl Stepper {
         if residual <= tolerance {
             return StepInfo { residual, share: 1.0 };
         }
+        let contacts = operator.diagonal.clone();
         let inertia: Vec<f64> = system.cloth.masses.iter().map(|m| m / (self.h_s * self.h_s)).collect();
-        for (block, m) in operator.diagonal.iter_mut().zip(&inertia) {
-            *block += Matrix3::identity() * *m;
-        }
+        add_inertia(&mut operator.diagonal, &inertia);
         let linear =
             PcgParams { tolerance: self.params.linear_tolerance, max_iterations: self.params.linear_iterations };
         let mut direction = self.last.take().unwrap_or_else(|| vec![V3::zeros(); x.len()]);
         system.linear.solve(&operator, &forces, &mut direction, &linear);
         self.clamp(&mut direction);
-        let bend = self.bend(system, &mut operator, x, &direction, &inertia);
-        let Found { share, bent, positions: next } = self.search(system, x, &direction, &bend, &forces, &inertia);
-        self.predicted = Some(predicted(system, x, &direction, &bend, share, bent));
+        operator.diagonal = contacts;
+        let bend = self.correction(system, operator, x, &direction);
+        let may_lengthen = self.h_s >= self.params.h_max_s;
+        let (share, next) = search(system, x, [&direction, &bend], &forces, &inertia, may_lengthen);
+        direction.iter_mut().for_each(|d| *d *= share);
+        self.predicted = Some(system.cloth.membrane.predicted_stress(x, &direction));
         self.last = Some(next.iter().zip(x.iter()).map(|(p, q)| p - q).collect());
         *x = next;
         system.contact.drag_anchors(x);
-        self.h_s = if share == 1.0 {
+        self.h_s = if share >= 1.0 {
             (self.h_s * self.params.growth).min(self.params.h_max_s)
         } else if share < 0.25 {
             (self.h_s * 0.5).max(self.params.h_min_s)
@@ -109,28 +129,18 @@ impl Stepper {
         StepInfo { residual, share }
     }
 
-    /// Second-order correction: what the Newton direction leaves over at its end, through the same stiffness.
-    ///
-    /// Cloth is a million times softer in bending than in its plane. A step along a soft mode turns triangles and so, in
-    /// second order, stretches them; without a correction the line search would cut it to a fraction of a millimetre.
-    fn bend(
-        &self,
-        system: &mut System,
-        operator: &mut Operator,
-        x: &[V3],
-        direction: &[V3],
-        inertia: &[f64],
-    ) -> Vec<V3> {
-        let end: Vec<V3> = x.iter().zip(direction).map(|(p, d)| p + d).collect();
-        system.contact.stiffen(&end, &mut operator.diagonal);
-        let mut remainder = system.forces(&end);
-        for ((r, d), m) in remainder.iter_mut().zip(direction).zip(inertia) {
-            *r -= d * *m;
-        }
-        let linear =
-            PcgParams { tolerance: self.params.linear_tolerance, max_iterations: self.params.correction_iterations };
+    /// Second-order correction of a step; `operator` is that at `x`, without inertia.
+    fn correction(&self, system: &mut System, operator: Operator, x: &[V3], direction: &[V3]) -> Vec<V3> {
+        let (excess, mut operator) = system.excess(operator, x, direction);
+        let h2 = self.params.correction_h_s * self.params.correction_h_s;
+        let inertia: Vec<f64> = system.cloth.masses.iter().map(|m| m / h2).collect();
+        add_inertia(&mut operator.diagonal, &inertia);
+        let params = PcgParams {
+            tolerance: self.params.correction_tolerance,
+            max_iterations: self.params.correction_iterations,
+        };
         let mut bend = vec![V3::zeros(); x.len()];
-        system.linear.solve(operator, &remainder, &mut bend, &linear);
+        linear::jacobi(&operator, &excess, &mut bend, &params);
         self.clamp(&mut bend);
         bend
     }
@@ -142,62 +152,68 @@ impl Stepper {
             direction.iter_mut().for_each(|d| *d *= self.params.clamp_m / longest);
         }
     }
+}
 
-    /// The longest share of the step that decreases the proximal energy enough, corrected where that does, else along the
-    /// direction alone; none where no share does.
-    fn search(
-        &self,
-        system: &System,
-        x: &[V3],
-        direction: &[V3],
-        bend: &[V3],
-        forces: &[V3],
-        inertia: &[f64],
-    ) -> Found {
-        let start = system.energy(x);
-        let slope: f64 = forces.iter().zip(direction).map(|(f, d)| f.dot(d)).sum();
-        let decreases = |trial: &[V3], share: f64| {
-            let moved = trial.iter().zip(x).zip(inertia).map(|((p, q), m)| 0.5 * m * (p - q).norm_squared());
-            system.energy(trial) + moved.sum::<f64>() <= start - SUFFICIENT_DECREASE * share * slope.max(0.0)
-        };
-        // x + t direction + t^2 bend: the correction is of second order.
-        let at = |share: f64, bent: f64| -> Vec<V3> {
-            let point = |((p, d), b): ((&V3, &V3), &V3)| p + d * share + b * (bent * share * share);
-            x.iter().zip(direction).zip(bend).map(point).collect()
-        };
-        let mut share = 1.0;
-        for _ in 0..MOST_HALVINGS {
-            for bent in [1.0, 0.0] {
-                let positions = at(share, bent);
-                if decreases(&positions, share) {
-                    return Found { share, bent: bent > 0.0, positions };
-                }
+fn add_inertia(diagonal: &mut [Matrix3<f64>], inertia: &[f64]) {
+    for (block, m) in diagonal.iter_mut().zip(inertia) {
+        *block += Matrix3::identity() * *m;
+    }
+}
+
+/// The longest share of a step that decreases the proximal energy enough, corrected where that does, else along the
+/// direction alone, and where it leads; 0 where no share does. A full step may be lengthened while the energy falls.
+fn search(
+    system: &System,
+    x: &[V3],
+    [direction, bend]: [&[V3]; 2],
+    forces: &[V3],
+    inertia: &[f64],
+    may_lengthen: bool,
+) -> (f64, Vec<V3>) {
+    let slope: f64 = forces.iter().zip(direction).map(|(f, d)| f.dot(d)).sum();
+    let start = system.energy(x);
+    let energy = |trial: &[V3]| {
+        let moved = trial.iter().zip(x).zip(inertia).map(|((p, q), m)| 0.5 * m * (p - q).norm_squared());
+        system.energy(trial) + moved.sum::<f64>()
+    };
+    // x + t direction + t^2 bend: the correction is of second order.
+    let at = |share: f64, bent: f64| -> Vec<V3> {
+        let point = |((p, d), b): ((&V3, &V3), &V3)| p + d * share + b * (bent * share * share);
+        x.iter().zip(direction).zip(bend).map(point).collect()
+    };
+    let mut share = 1.0;
+    for _ in 0..MOST_HALVINGS {
+        for bent in [1.0, 0.0] {
+            let positions = at(share, bent);
+            let reached = energy(&positions);
+            if reached <= start - SUFFICIENT_DECREASE * share * slope.max(0.0) {
+                let is_lengthened = may_lengthen && share == 1.0;
+                let further = |share: f64| at(share, bent);
+                return if is_lengthened { lengthen(energy, further, reached, positions) } else { (share, positions) };
             }
-            share *= 0.5;
         }
-        Found { share: 0.0, bent: false, positions: x.to_vec() }
+        share *= 0.5;
     }
+    (0.0, x.to_vec())
 }
 
-/// What the line search found.
-struct Found {
-    /// Share of the full step.
-    share: f64,
-    /// Whether the second-order correction is in it.
-    bent: bool,
-    positions: Vec<V3>,
-}
-
-/// Membrane stresses that the linear solves of a step foresee at its end: the correction's where it was taken in full.
-fn predicted(system: &System, x: &[V3], direction: &[V3], bend: &[V3], share: f64, bent: bool) -> Vec<Matrix2<f64>> {
-    let membrane = &system.cloth.membrane;
-    if bent && share == 1.0 {
-        let end: Vec<V3> = x.iter().zip(direction).map(|(p, d)| p + d).collect();
-        membrane.predicted_stress(x, &end, bend)
-    } else {
-        let taken: Vec<V3> = direction.iter().map(|d| d * share).collect();
-        membrane.predicted_stress(x, x, &taken)
+/// Goes on beyond a full step, which reached some energy, while that falls.
+fn lengthen(
+    energy: impl Fn(&[V3]) -> f64,
+    at: impl Fn(f64) -> Vec<V3>,
+    mut least: f64,
+    mut positions: Vec<V3>,
+) -> (f64, Vec<V3>) {
+    let mut share = 1.0;
+    for _ in 0..MOST_LENGTHENINGS {
+        let further = at(LENGTHENING * share);
+        let reached = energy(&further);
+        if reached >= least {
+            break;
+        }
+        (share, least, positions) = (LENGTHENING * share, reached, further);
     }
+    (share, positions)
 }
 
 /// Root mean square length of the vectors.

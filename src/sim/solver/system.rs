@@ -63,26 +63,6 @@ impl<'a> System<'a> {
             + self.springs.as_ref().map_or(0.0, |s| s.energy(x))
     }
 
-    /// Forces at `x`, N, with the contacts and anchors of the last [`System::assemble`].
-    #[must_use]
-    pub fn forces(&self, x: &[V3]) -> Vec<V3> {
-        let mut forces: Vec<V3> = self.weights.iter().map(|w| V3::new(0.0, 0.0, -w)).collect();
-        self.cloth.membrane.add_forces(x, &mut forces);
-        self.cloth.bending.add_forces(x, &mut forces);
-        self.cloth.bands.add_forces(x, &mut forces);
-        self.contact.add_forces(x, &mut forces);
-        if let Some(contact) = &self.self_contact {
-            contact.assemble(x, &mut forces);
-        }
-        if let Some(springs) = &self.springs {
-            springs.assemble(x, &mut forces);
-        }
-        for &v in &self.held {
-            forces[v] = V3::zeros();
-        }
-        forces
-    }
-
     /// Forces (N) and stiffness (N/m) at `x`; `predicted` are the membrane stresses that stiffen the cloth geometrically,
     /// where they are not those at `x` ([`Membrane::assemble`](crate::sim::cloth::membrane::Membrane::assemble)).
     pub fn assemble(&mut self, x: &[V3], predicted: Option<&[Matrix2<f64>]>) -> (Vec<V3>, Operator<'a>) {
@@ -113,5 +93,34 @@ impl<'a> System<'a> {
             contacts,
         };
         (forces, operator)
+    }
+
+    /// Forces (N) by which stretching and contact at the end of a step `d` from `x` differ from what a linear solve at `x`
+    /// foresaw, and the stiffness (N/m) that they have there, without bending and geometric parts. `operator` is that of
+    /// [`System::assemble`] at `x`.
+    pub fn excess(&self, operator: Operator<'a>, x: &[V3], d: &[V3]) -> (Vec<V3>, Operator<'a>) {
+        let end: Vec<V3> = x.iter().zip(d).map(|(p, d)| p + d).collect();
+        let membrane = &self.cloth.membrane;
+        let mut excess = self.contact_forces(&end);
+        let foreseen = self.contact_forces(x).into_iter().zip(operator.contact_forces(d)).map(|(f, kd)| f - kd);
+        excess.iter_mut().zip(foreseen).for_each(|(e, f)| *e -= f);
+        let mut blocks = membrane.assemble_towards(&end, &membrane.predicted_stress(x, d), &mut excess);
+        self.cloth.bands.assemble_towards(x, &end, &membrane.pairs, &mut excess, &mut blocks);
+        for &v in &self.held {
+            excess[v] = V3::zeros();
+        }
+        let mut diagonal = operator.diagonal;
+        self.contact.stiffen(&end, &mut diagonal);
+        (excess, Operator { diagonal, membrane: blocks, bending: &[], ..operator })
+    }
+
+    /// Forces of the contacts, N, with those found at the last [`System::assemble`].
+    fn contact_forces(&self, x: &[V3]) -> Vec<V3> {
+        let mut forces = vec![V3::zeros(); x.len()];
+        self.contact.add_forces(x, &mut forces);
+        if let Some(contact) = &self.self_contact {
+            contact.assemble(x, &mut forces);
+        }
+        forces
     }
 }
