@@ -37,8 +37,6 @@ impl Default for ClothContactParams {
 /// Squared sine of the angle between two edges below which their contact fades out: parallel edges have no one direction
 /// in which they face each other.
 const PARALLEL: f64 = 0.01;
-/// Cosine to the normal from which on something beside a rim lies clearly on one side.
-const CLEARLY: f64 = 0.7;
 /// Least movement that a search foresees, m.
 const LEAST_SLACK_M: f64 = 2e-3;
 /// How far a step against a releasing force goes at most, m.
@@ -50,7 +48,7 @@ struct Pair {
     primitives: Primitives,
     /// Distance when the pairs were sought, m.
     distance_m: f64,
-    /// Unit vector away from the second primitive on the side where the first one was last seen free.
+    /// Unit normal of the second primitive on the side where the first one was last seen within it.
     away: V3,
     /// Whether the nearest points then lay within both primitives.
     is_within: bool,
@@ -59,11 +57,10 @@ struct Pair {
 }
 
 impl Pair {
-    /// On which side of the second primitive the first belongs, 1 where its normal points. What came over a rim since
-    /// belongs where it now is, unless it clearly lay on one side.
+    /// On which side of the second primitive the first belongs, 1 where its normal points: where it was seen, or where it
+    /// now is if it has come over a rim since.
     fn side(&self, normal: &V3, gap: &V3) -> f64 {
-        let known = normal.dot(&self.away);
-        if self.is_within || known.abs() > CLEARLY { known.signum() } else { normal.dot(gap).signum() }
+        normal.dot(if self.is_within { &self.away } else { gap }).signum()
     }
 }
 
@@ -158,8 +155,7 @@ impl<'a> ClothContact<'a> {
         }
         for pair in &mut self.pairs {
             if pair.primitives.vertices().iter().any(|v| self.tangled[*v]) {
-                let gap = Nearest::of(x, pair.primitives).gap;
-                pair.away = gap.try_normalize(0.0).unwrap_or(pair.away);
+                pair.is_within = false;
             }
         }
         self.releases.clear();
@@ -178,7 +174,13 @@ impl<'a> ClothContact<'a> {
             let Some(away) = nearest.gap.try_normalize(0.0).filter(|_| distance_m < self.reach_m) else { continue };
             match self.pairs.binary_search_by_key(&primitives, |p| p.primitives) {
                 Ok(known) => found.push(Pair { distance_m, ..self.pairs[known] }),
-                Err(_) => found.push(Pair { primitives, distance_m, away, is_within: nearest.normal.is_some(), has_slipped: false }),
+                Err(_) => found.push(Pair {
+                    primitives,
+                    distance_m,
+                    away,
+                    is_within: nearest.normal.is_some(),
+                    has_slipped: false,
+                }),
             }
         }
         found.sort_by(|a, b| a.distance_m.total_cmp(&b.distance_m).then(a.primitives.cmp(&b.primitives)));
@@ -186,28 +188,16 @@ impl<'a> ClothContact<'a> {
         self.found_at = x.to_vec();
     }
 
-    /// Remembers on which side the near pairs lie, but for those that something has slipped through.
+    /// Remembers on which side the near pairs lie.
     fn see_sides(&mut self, x: &[V3]) {
         let near: Vec<(usize, Nearest)> = self.near(x).map(|(k, pair)| (k, Nearest::of(x, pair.primitives))).collect();
-        let mut slipped = vec![false; x.len()];
-        for (k, nearest) in &near {
-            let pair = &mut self.pairs[*k];
-            pair.has_slipped = false;
-            let Some(normal) = nearest.normal else { continue };
-            pair.away = normal * pair.side(&normal, &nearest.gap);
-            pair.has_slipped = pair.away.dot(&nearest.gap) < 0.0;
-            if pair.has_slipped {
-                for v in pair.primitives.vertices() {
-                    slipped[v] = true;
-                }
-            }
-        }
         for (k, nearest) in near {
             let pair = &mut self.pairs[k];
-            pair.is_within = nearest.normal.is_some();
-            if nearest.normal.is_none() && pair.primitives.vertices().iter().all(|v| !slipped[*v]) {
-                pair.away = nearest.gap.try_normalize(0.0).unwrap_or(pair.away);
+            if let Some(normal) = nearest.normal {
+                pair.away = normal * pair.side(&normal, &nearest.gap);
             }
+            pair.is_within = nearest.normal.is_some();
+            pair.has_slipped = pair.is_within && pair.away.dot(&nearest.gap) < 0.0;
         }
     }
 

@@ -39,7 +39,8 @@ impl BoxGrid {
         let cell_m = cell_m * (wanted / MOST_CELLS).max(1.0).cbrt();
         let count = |e: f64| (e / cell_m) as usize + 1;
         let size = [count(extent.x), count(extent.y), count(extent.z)];
-        let mut grid = Self { cell_m, low: lowest, size, starts: vec![0; size.iter().product::<usize>() + 1], boxes: Vec::new() };
+        let mut grid =
+            Self { cell_m, low: lowest, size, starts: vec![0; size.iter().product::<usize>() + 1], boxes: Vec::new() };
         let ranges: Vec<_> = bounds.iter().map(|(low, high)| (grid.cell(low), grid.cell(high))).collect();
         for range in &ranges {
             grid.each(range, |grid, cell| grid.starts[cell + 1] += 1);

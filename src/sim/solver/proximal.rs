@@ -50,7 +50,7 @@ impl Default for StepParams {
             h_start_s: 0.05,
             h_min_s: 1e-3,
             h_max_s: 2.0,
-            growth: 1.5,
+            growth: 2.0,
             clamp_m: 0.01,
             linear_tolerance: 0.005,
             linear_iterations: 1000,
@@ -83,10 +83,12 @@ pub struct Stepper {
 /// Armijo's constant.
 const SUFFICIENT_DECREASE: f64 = 1e-4;
 const MOST_HALVINGS: usize = 12;
-/// The stiffness leaves compression out and so is too stiff where cloth buckles: once steps are as long as they get, a full
-/// one is lengthened by this factor for as long as the energy falls.
+/// The stiffness leaves compression out and so is too stiff where cloth buckles: a full step is lengthened by this factor
+/// for as long as the energy falls.
 const LENGTHENING: f64 = 1.5;
 const MOST_LENGTHENINGS: usize = 6;
+/// Step size from which on that is done, s: cloth that has only begun to settle is thrown off the body by it.
+const LENGTHENED_FROM_S: f64 = 0.2;
 
 impl Stepper {
     /// Starts at the smallest step.
@@ -112,7 +114,7 @@ impl Stepper {
         self.clamp(&mut direction);
         operator.diagonal = contacts;
         let bend = self.correction(system, operator, x, &direction);
-        let may_lengthen = self.h_s >= self.params.h_max_s;
+        let may_lengthen = self.h_s >= LENGTHENED_FROM_S;
         let (share, next) = search(system, x, [&direction, &bend], &forces, &inertia, may_lengthen);
         direction.iter_mut().for_each(|d| *d *= share);
         self.predicted = Some(system.cloth.membrane.predicted_stress(x, &direction));

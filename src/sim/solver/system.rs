@@ -19,7 +19,7 @@ const HELD_STIFFNESS: f64 = 1e10;
 pub struct System<'a> {
     /// The cloth.
     pub cloth: &'a Cloth,
-    /// Weight of each vertex, N; zero for those that gravity is kept from.
+    /// Weight of each vertex, N.
     pub weights: Vec<f64>,
     /// Contact with the body.
     pub contact: BodyContact<'a>,
@@ -34,13 +34,12 @@ pub struct System<'a> {
 }
 
 impl<'a> System<'a> {
-    /// A cloth under gravity and body contact; the vertices of open seams carry no weight.
+    /// A cloth under gravity and body contact. While seams are open it weighs nothing: a dress would fall off the shoulders
+    /// before they are closed, or not, as the springs happen to pull.
     #[must_use]
     pub fn new(cloth: &'a Cloth, contact: BodyContact<'a>, springs: Option<Springs>) -> Self {
-        let mut weights: Vec<f64> = cloth.masses.iter().map(|m| m * GRAVITY).collect();
-        for &v in springs.iter().flat_map(|s| &s.pairs).flatten() {
-            weights[v] = 0.0;
-        }
+        let gravity = if springs.is_some() { 0.0 } else { GRAVITY };
+        let weights = cloth.masses.iter().map(|m| m * gravity).collect();
         Self { cloth, weights, contact, self_contact: None, springs, held: Vec::new(), linear: LinearSolver::default() }
     }
 
