@@ -72,7 +72,11 @@ fn the_subjects_right_is_at_the_pictures_left_from_the_front() {
 fn cloth_a_millimetre_over_skin_hides_it() {
     let body = sphere(0.300, V3::zeros());
     let cloth = sphere(0.301, V3::zeros());
-    let scene = Scene::new(vec![Layer::new(&body, Material::skin()), Layer::new(&cloth, Material::hybrid())]).unwrap();
+    let scene = Scene::new(vec![
+        Layer::new(&body, Material::skin(Rgb(0xdc, 0xb0, 0x94))),
+        Layer::new(&cloth, Material::hybrid()),
+    ])
+    .unwrap();
     let picture = render(&scene, &Camera::new(View::Quarter, Frame::enclosing([&cloth], 1.0)), 200, 200).unwrap();
     let skin = picture.enumerate_pixels().filter(|(x, y, p)| {
         let inside = (f64::from(*x) - 99.5).hypot(f64::from(*y) - 99.5) < 82.0;
@@ -137,8 +141,10 @@ fn a_check_of_20_mm_measures_20_mm_along_warp_and_weft() {
         sheet.triangles.push([corner, corner + 1, corner + SIDE + 1]);
         sheet.triangles.push([corner, corner + SIDE + 1, corner + SIDE]);
     }
-    let places = texture_coordinates(&rest, &[(0..rest.len(), V2::y())], Mapping::Fabric { repeat_m: 0.04 });
-    let check = Paint::Texture(Texture::gingham(Rgb(0, 60, 120)), places);
+    let woven = Mapping::Fabric { repeat_m: [0.04, 0.04] };
+    let places = texture_coordinates(&rest, &[(0..rest.len(), V2::y(), woven)]);
+    let of = vec![0; sheet.triangles.len()];
+    let check = Paint::Printed(Print { textures: vec![Texture::gingham(Rgb(0, 60, 120))], of, places });
     let scene = Scene::new(vec![Layer::new(&sheet, Material::fem()).painted(check)]).unwrap();
     let frame = Frame { centre: V3::new(-0.21, 0.0, 0.194), height_m: 0.3 };
     let picture = render(&scene, &Camera { frame, azimuth_deg: 0.0, elevation_deg: 0.0 }, 600, 600).unwrap();

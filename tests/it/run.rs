@@ -111,7 +111,7 @@ fn a_size_is_advised(place: &Place) {
     assert!(rows.iter().any(|row| row["reason"].as_str().is_some_and(|why| why.contains("the level that decides"))));
     assert!(place.toile("recommend . --size-for vii").ends_with(2).err.contains("no subject `vii`"));
     let explained = place.toile("recommend . --explain").ends_with(0).out;
-    assert!(explained.contains("by the rule") && explained.contains("6 subjects more"), "{explained}");
+    assert!(explained.contains("by the rule") && explained.contains("6 subjects with this fit"), "{explained}");
 }
 
 /// One number of one cloth: its garment is draped anew from the old body, field and mesh; the other is left alone.
