@@ -8,7 +8,7 @@ use super::relief::relief;
 use super::scene::{Paint, Scene, Values};
 use super::visible::{Fine, SAMPLES, Visible, offset};
 use image::RgbaImage;
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 /// Samples along a side of the key light's shadow map.
 const SHADOW: usize = 1280;
@@ -18,6 +18,8 @@ const TAPS: usize = 32;
 const RIM: usize = 8;
 /// How far around, in map samples: the width of a shadow's soft edge.
 const SOFT: f32 = 9.0;
+/// How light the wrong side of printed cloth is.
+const WRONG_SIDE: f32 = 0.6;
 /// Steps of a scale of colours.
 const RAMP: usize = 1024;
 
@@ -190,16 +192,15 @@ impl<'a> Studio<'a> {
         let [i, j, k] = scene.triangles[triangle];
         let w = weights(scene.corners(triangle, &self.projected), x, y);
         let (a, b, c) = (scene.positions[i], scene.positions[j], scene.positions[k]);
-        let across = (b - a).cross(&(c - a));
         let viewer = self.projection.axes[2];
-        let back = across.dot(&viewer) < 0.0;
+        let back = (b - a).cross(&(c - a)).dot(&viewer) < 0.0;
         let smooth = scene.normals[i] * w[0] + scene.normals[j] * w[1] + scene.normals[k] * w[2];
         let normal = smooth.try_normalize(1e-12).unwrap_or(viewer) * if back { -1.0 } else { 1.0 };
         let point = a * w[0] + b * w[1] + c * w[2];
         let openness = |side: usize| {
             w[0] * scene.openness[i][side] + w[1] * scene.openness[j][side] + w[2] * scene.openness[k][side]
         };
-        let (albedo, coded) = self.albedo(triangle, back, w, across.norm());
+        let (albedo, coded) = self.albedo(triangle, back, w);
         let reaches = self.shadow.reaches(&(point + normal * 0.004));
         let mut lit = self.lit(&albedo, &normal, openness(usize::from(back)), reaches);
         if back {
@@ -223,8 +224,18 @@ impl<'a> Studio<'a> {
         albedo.component_mul(&matt.add_scalar(0.26 * edge)).add_scalar(0.04 * edge)
     }
 
-    /// Own colour of a surface point, and whether it stands for a value; `twice_area` of the triangle, m2.
-    fn albedo(&self, triangle: usize, back: bool, w: [f32; 3], twice_area: f32) -> (Colour, bool) {
+    /// How much of a texture a pixel spans: the rms change of its coordinates from one pixel to the next.
+    fn texture_span(&self, triangle: usize, places: &[Vector2<f32>; 3]) -> f32 {
+        let [a, b, c] = self.scene.corners(triangle, &self.projected);
+        let (x1, y1, x2, y2) = (b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]);
+        let (one, two) = (places[1] - places[0], places[2] - places[0]);
+        let area = x1 * y2 - x2 * y1;
+        let (right, down) = (one * y2 - two * y1, two * x1 - one * x2);
+        (0.5 * (right.norm_squared() + down.norm_squared())).sqrt() / area.abs().max(1e-6)
+    }
+
+    /// Own colour of a surface point, and whether it stands for a value.
+    fn albedo(&self, triangle: usize, back: bool, w: [f32; 3]) -> (Colour, bool) {
         let layer = self.scene.layer_of[triangle];
         let look = &self.scene.looks[layer];
         let own = || self.scene.triangles[triangle].map(|v| v - look.first_vertex);
@@ -236,14 +247,13 @@ impl<'a> Studio<'a> {
                 };
                 (look_up(&self.ramps[layer], scale, value), true)
             }
-            Paint::Printed(print) if !back => {
+            Paint::Printed(print) => {
                 let corners = own().map(|v| print.places[v]);
                 let place = corners[0] * f64::from(w[0]) + corners[1] * f64::from(w[1]) + corners[2] * f64::from(w[2]);
-                // How much of the texture a pixel spans: the ratio of the triangle's two areas.
-                let drawn = (corners[1] - corners[0]).perp(&(corners[2] - corners[0])).abs() as f32;
-                let span = (drawn / twice_area.max(1e-12)).sqrt() / self.projection.per_m;
+                let span = self.texture_span(triangle, &corners.map(|c| c.cast()));
                 let texture = &print.textures[print.of[triangle - look.first_triangle]];
-                (texture.at(place.x as f32, place.y as f32, span), false)
+                let seen = texture.at(place.x as f32, place.y as f32, span);
+                (seen * if back { WRONG_SIDE } else { 1.0 }, false)
             }
             _ => (self.colours[layer][usize::from(back)], false),
         }

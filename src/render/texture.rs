@@ -96,8 +96,13 @@ impl Texture {
     /// Linear colour at a place, for a picture sample that spans `span` of a repeat.
     pub(super) fn at(&self, u: f32, v: f32, span: f32) -> Vector3<f32> {
         let texels = span * self.levels[0].width.max(self.levels[0].height) as f32;
-        let level = (texels.max(1.0).log2().round() as usize).min(self.levels.len() - 1);
-        self.levels[level].at(u, v)
+        let place = texels.max(1.0).log2().min((self.levels.len() - 1) as f32);
+        let (finer, share) = (place as usize, place.fract());
+        let seen = self.levels[finer].at(u, v);
+        match self.levels.get(finer + 1) {
+            Some(coarser) if share > 0.0 => seen * (1.0 - share) + coarser.at(u, v) * share,
+            _ => seen,
+        }
     }
 }
 

@@ -12,7 +12,7 @@ use crate::render::{self, Camera, Cell, Frame, Rgb, Scene, View};
 /// Time of one turn of a turntable, ms.
 const TURN_MS: u32 = 6000;
 /// A close-up: angle, enlargement and height of its middle, as in [`Zoom`].
-const CLOSE_UP: (f64, Zoom) = (24.0, Zoom { zoom_pct: 260, rise_pct: 58 });
+const CLOSE_UP: (f64, Zoom) = (24.0, Zoom { zoom_pct: 280, rise_pct: 40 });
 
 /// How close a picture is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
