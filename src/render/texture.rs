@@ -95,7 +95,8 @@ impl Texture {
 
     /// Linear colour at a place, for a picture sample that spans `span` of a repeat.
     pub(super) fn at(&self, u: f32, v: f32, span: f32) -> Vector3<f32> {
-        let texels = span * self.levels[0].width.max(self.levels[0].height) as f32;
+        // Somewhat coarser than the pixel: finer texels beat with the pixels.
+        let texels = 1.6 * span * self.levels[0].width.max(self.levels[0].height) as f32;
         let place = texels.max(1.0).log2().min((self.levels.len() - 1) as f32);
         let (finer, share) = (place as usize, place.fract());
         let seen = self.levels[finer].at(u, v);
