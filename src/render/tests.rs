@@ -170,6 +170,47 @@ fn a_check_of_20_mm_measures_20_mm_along_warp_and_weft() {
     }
 }
 
+/// Cloth wound round a cylinder without strain: squares look narrower towards its sides, along the cloth they are 20 mm.
+#[test]
+fn a_check_on_a_cylinder_measures_20_mm_along_the_cloth() {
+    const RADIUS: f64 = 0.15;
+    const SIDE: usize = 61;
+    // Places on the cloth, m, from its middle; the grain runs up.
+    let rest: Vec<V2> =
+        (0..SIDE * SIDE).map(|k| 0.006 * V2::new((k % SIDE) as f64 - 30.0, (k / SIDE) as f64)).collect();
+    let wound = |p: &V2| V3::new(-RADIUS * (p.x / RADIUS).sin(), RADIUS * (p.x / RADIUS).cos(), p.y);
+    let mut tube = TriMesh { positions: rest.iter().map(wound).collect(), triangles: vec![] };
+    for corner in (0..SIDE - 1).flat_map(|row| (0..SIDE - 1).map(move |column| row * SIDE + column)) {
+        tube.triangles.push([corner, corner + 1, corner + SIDE + 1]);
+        tube.triangles.push([corner, corner + SIDE + 1, corner + SIDE]);
+    }
+    let woven = Mapping::Fabric { repeat_m: [0.04, 0.04] };
+    let places = texture_coordinates(&rest, &[(0..rest.len(), V2::y(), woven)]);
+    let of = vec![0; tube.triangles.len()];
+    let check = Paint::Printed(Print { textures: vec![Texture::gingham(Rgb(0, 60, 120))], of, places });
+    let scene = Scene::new(vec![Layer::new(&tube, Material::fem()).painted(check)]).unwrap();
+    let frame = Frame { centre: V3::new(0.0, 0.0, 0.19), height_m: 0.3 };
+    let picture = render(&scene, &Camera { frame, azimuth_deg: 0.0, elevation_deg: 0.0 }, 600, 600).unwrap();
+    // A line through the middle of a row of squares, half a millimetre a pixel, as far as 50 degrees to both sides.
+    let reach = (0.15 * 50f64.to_radians().sin() * 2000.0) as u32;
+    let values: Vec<(f64, i32)> =
+        (300 - reach..300 + reach).map(|x| ((f64::from(x) + 0.5 - 300.0) / 2000.0, rgb(&picture, x, 300)[2])).collect();
+    let turns: Vec<f64> = values
+        .windows(9)
+        .filter_map(|near| {
+            // Light falls off round the cylinder: a turn is where the colour changes fast, not where it passes a level.
+            let steps: Vec<i32> = near.windows(2).map(|pair| (pair[1].1 - pair[0].1).abs()).collect();
+            let greatest = *steps.iter().max()?;
+            (greatest > 8 && steps[3] == greatest && steps[..3].iter().all(|s| *s < greatest))
+                .then(|| RADIUS * (0.5 * (near[3].0 + near[4].0) / RADIUS).asin())
+        })
+        .collect();
+    assert!(turns.len() >= 11, "{turns:?}");
+    let squares: Vec<f64> = turns.windows(2).map(|pair| 1e3 * (pair[1] - pair[0])).collect();
+    let mean = squares.iter().sum::<f64>() / squares.len() as f64;
+    assert!((mean - 20.0).abs() < 0.15 && squares.iter().all(|s| (s - 20.0).abs() < 1.2), "{squares:?}");
+}
+
 #[test]
 fn broken_meshes_and_sizes_are_refused() {
     let mesh = TriMesh { positions: vec![V3::zeros(); 3], triangles: vec![[0, 1, 7]] };
