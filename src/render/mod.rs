@@ -72,6 +72,14 @@ pub enum RenderError {
         /// How many textures it has.
         textures: usize,
     },
+    /// A layer that the scene does not have.
+    #[error("no layer {layer}; the scene has {layers}, counted from 0")]
+    NoSuchLayer {
+        /// The index asked for.
+        layer: usize,
+        /// How many there are.
+        layers: usize,
+    },
     /// No picture has this size.
     #[error("picture of {width} x {height} pixels; each side must be 1 to 8192")]
     Size {

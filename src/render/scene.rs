@@ -195,7 +195,8 @@ impl Scene {
             radius: 1.0,
         };
         for (index, layer) in layers.into_iter().enumerate() {
-            check(index, &layer)?;
+            check_mesh(index, layer.mesh)?;
+            check_paint(index, &layer.paint, layer.mesh.positions.len(), layer.mesh.triangles.len())?;
             scene.add(layer);
         }
         if let Some(&first) = scene.positions.first() {
@@ -205,6 +206,24 @@ impl Scene {
             bake::light(&mut scene, low.z);
         }
         Ok(scene)
+    }
+
+    /// Gives a layer another look; the light, which takes longest, is computed again only where the layer is drawn elsewhere.
+    ///
+    /// # Errors
+    /// A field or texture that does not fit the layer's mesh; a layer that is not there.
+    pub fn paint(&mut self, layer: usize, material: Material, paint: Paint) -> Result<(), RenderError> {
+        let next = self.looks.get(layer + 1).map(|look| [look.first_vertex, look.first_triangle]);
+        let [vertices, triangles] = next.unwrap_or([self.positions.len(), self.triangles.len()]);
+        let layers = self.looks.len();
+        let look = self.looks.get_mut(layer).ok_or(RenderError::NoSuchLayer { layer, layers })?;
+        check_paint(layer, &paint, vertices - look.first_vertex, triangles - look.first_triangle)?;
+        let moves = look.material.recede_m != material.recede_m;
+        (look.material, look.paint) = (material, paint);
+        if moves && !self.positions.is_empty() {
+            bake::light(self, self.floor.z);
+        }
+        Ok(())
     }
 
     fn add(&mut self, layer: Layer<'_>) {
@@ -237,28 +256,31 @@ impl Scene {
     }
 }
 
-fn check(index: usize, layer: &Layer<'_>) -> Result<(), RenderError> {
-    let mesh = layer.mesh;
+fn check_mesh(layer: usize, mesh: &TriMesh) -> Result<(), RenderError> {
     let vertices = mesh.positions.len();
     if let Some(vertex) = mesh.positions.iter().position(|p| p.iter().any(|c| !c.is_finite())) {
-        return Err(RenderError::NotFinite { layer: index, vertex });
+        return Err(RenderError::NotFinite { layer, vertex });
     }
     for (triangle, corners) in mesh.triangles.iter().enumerate() {
         if let Some(&vertex) = corners.iter().find(|&&v| v >= vertices) {
-            return Err(RenderError::NoSuchVertex { layer: index, triangle, vertex, vertices });
+            return Err(RenderError::NoSuchVertex { layer, triangle, vertex, vertices });
         }
     }
-    let (found, needed) = match &layer.paint {
+    Ok(())
+}
+
+fn check_paint(layer: usize, paint: &Paint, vertices: usize, triangles: usize) -> Result<(), RenderError> {
+    let (found, needed) = match paint {
         Paint::Plain => return Ok(()),
         Paint::Field(Values::Vertices(values), _) => (values.len(), vertices),
-        Paint::Field(Values::Triangles(values), _) => (values.len(), mesh.triangles.len()),
-        Paint::Printed(print) if print.of.len() != mesh.triangles.len() => (print.of.len(), mesh.triangles.len()),
+        Paint::Field(Values::Triangles(values), _) => (values.len(), triangles),
+        Paint::Printed(print) if print.of.len() != triangles => (print.of.len(), triangles),
         Paint::Printed(print) if print.of.iter().any(|of| *of >= print.textures.len()) => {
-            return Err(RenderError::NoSuchTexture { layer: index, textures: print.textures.len() });
+            return Err(RenderError::NoSuchTexture { layer, textures: print.textures.len() });
         }
         Paint::Printed(print) => (print.places.len(), vertices),
     };
-    if found == needed { Ok(()) } else { Err(RenderError::PaintLength { layer: index, found, needed }) }
+    if found == needed { Ok(()) } else { Err(RenderError::PaintLength { layer, found, needed }) }
 }
 
 /// For each vertex the first vertex at the same place (to 0.01 mm): the two sides of a sewn seam are one surface.

@@ -130,6 +130,27 @@ fn fields_colour_the_cloth_and_must_fit_it() {
     assert!(matches!(Scene::new(vec![layer(3, 1.0)]), Err(RenderError::PaintLength { layer: 0, found: 3, .. })));
 }
 
+#[test]
+fn a_scene_painted_anew_is_a_new_scene() {
+    let (ball, cloth) = (sphere(0.25, V3::zeros()), sphere(0.251, V3::zeros()));
+    let values =
+        |value: f64| Paint::Field(Values::Vertices(vec![value; cloth.positions.len()]), Scale::rising(1.0, "", ""));
+    let far = Material { recede_m: 0.02, ..Material::form() };
+    let made = |form: Material, paint: Paint| {
+        Scene::new(vec![Layer::new(&ball, form), Layer::new(&cloth, Material::fem()).painted(paint)]).unwrap()
+    };
+    let shot =
+        |scene: &Scene| render(scene, &Camera::new(View::Front, Frame::enclosing([&ball], 1.0)), 60, 60).unwrap();
+    let mut scene = made(Material::form(), Paint::Plain);
+    scene.paint(0, far, Paint::Plain).unwrap();
+    scene.paint(1, Material::fem(), values(0.7)).unwrap();
+    assert_eq!(shot(&scene), shot(&made(far, values(0.7))));
+    assert_ne!(shot(&scene), shot(&made(far, Paint::Plain)));
+    let short = Paint::Field(Values::Vertices(vec![0.0; 3]), Scale::rising(1.0, "", ""));
+    assert!(matches!(scene.paint(1, far, short), Err(RenderError::PaintLength { layer: 1, found: 3, .. })));
+    assert!(matches!(scene.paint(2, far, Paint::Plain), Err(RenderError::NoSuchLayer { layer: 2, layers: 2 })));
+}
+
 /// A sheet of cloth in front of the camera, stretched by 5 % across its grain and short of its pattern by 3 % along it.
 #[test]
 fn a_check_of_20_mm_measures_20_mm_along_warp_and_weft() {

@@ -34,6 +34,10 @@ const NEAR_M: f64 = 0.02;
 /// How far within the body cloth still shows on a gap map, m.
 const WITHIN_M: f64 = 0.05;
 
+/// Layers of a scene.
+const BODY: usize = 0;
+const CLOTH: usize = 1;
+
 /// Results that are kept ready: those of a comparison, so that turning them stays quick.
 const SCENES_KEPT: usize = 3;
 
@@ -114,11 +118,26 @@ impl Dressed {
 
     /// The lit scene of a map; on a plain one the garment cut from these cloths, on a body of this skin.
     fn scene_in(&self, map: Map, cloths: &[Cloth], skin: Option<Rgb>) -> Result<Scene> {
-        let (material, values) = (self.material(), self.values(map)?);
+        let (form, paint) = self.look(map, cloths, skin)?;
+        let layers = vec![Layer::new(&self.body, form), Layer::new(&self.cloth, self.material()).painted(paint)];
+        Scene::new(layers).map_err(StudyError::stage("render"))
+    }
+
+    /// Shows another map in a scene of this result, which need not be lit again.
+    pub fn repaint(&self, scene: &mut Scene, map: Map) -> Result<()> {
+        let (form, paint) = self.look(map, &[], None)?;
+        let painted = scene.paint(BODY, form, Paint::Plain).and_then(|()| scene.paint(CLOTH, self.material(), paint));
+        painted.map_err(StudyError::stage("render"))
+    }
+
+    /// How the body and the cloth look.
+    fn look(&self, map: Map, cloths: &[Cloth], skin: Option<Rgb>) -> Result<(Material, Paint)> {
+        let values = self.values(map)?;
         let bare = skin.map_or_else(Material::form, Material::skin);
-        let cut =
-            |cloths: &[Cloth]| cloth::print(cloths, &self.garment, &self.looks, material.front).map(Paint::Printed);
-        let (form, paint) = match map.scale() {
+        let cut = |cloths: &[Cloth]| {
+            cloth::print(cloths, &self.garment, &self.looks, self.material().front).map(Paint::Printed)
+        };
+        Ok(match map.scale() {
             None if map == Map::Check => (bare, cut(&[Cloth::CHECK])?),
             None if !cloths.is_empty() => (bare, cut(cloths)?),
             None => (bare, Paint::Plain),
@@ -128,9 +147,7 @@ impl Dressed {
                 let recede_m = if map == Map::Gap { WITHIN_M } else { form.recede_m };
                 (Material { recede_m, ..form }, Paint::Field(Values::Vertices(values), scale))
             }
-        };
-        let layers = vec![Layer::new(&self.body, form), Layer::new(&self.cloth, material).painted(paint)];
-        Scene::new(layers).map_err(StudyError::stage("render"))
+        })
     }
 }
 

@@ -178,8 +178,9 @@ fn add_pictures(
     let mut cells = Vec::new();
     let what = format!("{} {} on {}, {}", job.garment, job.size, job.subject, job.simulator.as_str());
     let on_page = [PICTURE.0, PICTURE.1].map(|side| (f64::from(side) * shrink).round() as u32);
+    let mut scene = worn.scene(Map::Plain)?;
     for (map, views) in &SHOTS {
-        let scene = worn.scene(*map)?;
+        worn.repaint(&mut scene, *map)?;
         for view in *views {
             let camera = Camera::new(*view, frame);
             let shot = render::render(&scene, &camera, PICTURE.0, PICTURE.1).map_err(StudyError::stage("render"))?;
