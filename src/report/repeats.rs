@@ -78,10 +78,13 @@ impl Repeats {
     }
 }
 
+/// Garment, place and simulator of a case.
+type Case = (String, String, Simulator);
+
 /// The cases with two results or more, in the order in which they first appear.
 fn repeats(runs: &[Run]) -> Vec<Repeats> {
     let key = |run: &Run| (run.case.clone(), format!("{} on {}, {}", run.size, run.subject, run.fabric), run.simulator);
-    let mut cases: Vec<((String, String, Simulator), Vec<&Run>)> = Vec::new();
+    let mut cases: Vec<(Case, Vec<&Run>)> = Vec::new();
     for run in runs.iter().filter(|run| !run.measured.is_empty()) {
         let key = key(run);
         match cases.iter_mut().find(|(known, _)| *known == key) {
@@ -92,7 +95,7 @@ fn repeats(runs: &[Run]) -> Vec<Repeats> {
     cases.into_iter().filter(|(_, same)| same.len() > 1).map(|(key, same)| repeats_of(key, &same)).collect()
 }
 
-fn repeats_of((garment, place, simulator): (String, String, Simulator), runs: &[&Run]) -> Repeats {
+fn repeats_of((garment, place, simulator): Case, runs: &[&Run]) -> Repeats {
     let range = |values: &mut dyn Iterator<Item = f64>| {
         values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
     };
