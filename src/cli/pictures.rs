@@ -6,19 +6,42 @@ use std::time::UNIX_EPOCH;
 use super::args::{Export, Map as MapArgument, MeshFormat as FormatArgument, Render, Report, View as ViewArgument};
 use super::context::{Context, project_folder};
 use super::{CliError, End, Outcome, output};
-use crate::study::{JobId, Map, MeshFormat, Study, View, Workspace, tools};
+use crate::study::{Cloth, JobId, Map, MeshFormat, Order, Rgb, Shot, Study, View, Workspace, Zoom, tools};
 
 /// `toile render`.
 pub fn render(context: &Context, arguments: &Render) -> Outcome {
-    let view = match arguments.view {
-        ViewArgument::Front => View::Front,
-        ViewArgument::Side => View::Side,
-        ViewArgument::Back => View::Back,
-        ViewArgument::Quarter => View::Quarter,
+    let shot = |view: &ViewArgument| match view {
+        ViewArgument::Front => Shot::View(View::Front),
+        ViewArgument::Side => Shot::View(View::Side),
+        ViewArgument::Back => Shot::View(View::Back),
+        ViewArgument::Quarter => Shot::View(View::Quarter),
+        ViewArgument::CloseUp => Shot::CloseUp,
     };
-    let (workspace, map) = (context.workspace()?, map(arguments.map));
-    let png = workspace.picture_png(JobId(arguments.job), view, arguments.width, arguments.height, map)?;
+    let shots = match arguments.turn {
+        Some(degrees) => vec![Shot::Turned(degrees)],
+        None => arguments.view.iter().map(shot).collect(),
+    };
+    let order = Order {
+        shots,
+        map: map(arguments.map),
+        cloths: arguments.cloth.iter().map(|text| Cloth::parse(text)).collect::<Result<_, _>>()?,
+        skin: arguments.skin.as_deref().map(colour).transpose()?,
+        zoom: arguments.zoom.map(|zoom_pct| Zoom { zoom_pct, rise_pct: arguments.rise }),
+        size: (arguments.width, arguments.height),
+    };
+    let jobs: Vec<JobId> = arguments.jobs.iter().copied().map(JobId).collect();
+    let workspace = context.workspace()?;
+    let png = match (arguments.turntable, jobs.as_slice()) {
+        (None, _) => workspace.pictures(&jobs, &order)?,
+        (Some(pictures), [job]) => workspace.turntable(*job, &order, pictures)?,
+        (Some(_), _) => return Err(CliError::Usage("--turntable shows one job".into())),
+    };
     write(context, &arguments.output, png)
+}
+
+/// A colour as it is written.
+fn colour(text: &str) -> Result<Rgb, CliError> {
+    Rgb::from_hex(text).ok_or_else(|| CliError::Usage(format!("{text} is no colour; accepted: #rrggbb, like #dcb094")))
 }
 
 /// `toile export`.

@@ -11,6 +11,9 @@ pub enum Simulator {
 }
 
 impl Simulator {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Fem, Self::Hybrid];
+
     /// Name in the command line and in SQL.
     #[must_use]
     pub fn as_str(self) -> &'static str {

@@ -172,6 +172,7 @@ impl Weighed<'_> {
             (mean.abs() - MARGIN).abs() > half_width && (is_within || family * 0.5f64.powi(n as i32 - 1) <= ALPHA)
         };
         match (LEAST_EQUAL.max(have + 1)..=MOST).find(enough) {
+            Some(n) if have == 0 => format!("{} with this fit, dressed by both simulators.", subjects(n)),
             Some(n) => format!("{} more with this fit, if the difference stays as it is.", subjects(n - have)),
             None => format!(
                 "More than {MOST} subjects, if the difference stays as it is: it is too near the margin of {MARGIN}."

@@ -44,7 +44,8 @@ pub fn svg(style: &Style) -> String {
     let (low, high) = bounds_mm(&all);
     let sheet = high - low + V2::repeat(2.0 * MARGIN_MM) + V2::new(0.0, TITLE_MM);
     let pen = Pen { origin: V2::new(MARGIN_MM - low.x, MARGIN_MM + TITLE_MM + high.y) };
-    let (width, height) = (sheet.x, sheet.y + MARGIN_MM + 24.0 * style.measurements.len().div_ceil(3) as f64);
+    let rows = style.measurements.len().div_ceil(legend_columns(style, sheet.x)).max(1);
+    let (width, height) = (sheet.x, sheet.y + MARGIN_MM + 24.0 * rows as f64);
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{width:.0}\" height=\"{height:.0}\">\n\
          <style>{CSS}</style>\n<rect width=\"{width:.0}\" height=\"{height:.0}\" fill=\"#fff\"/>\n"
@@ -53,7 +54,7 @@ pub fn svg(style: &Style) -> String {
         pen.piece(&mut out, &style.size, piece);
         pen.measurements(&mut out, style, index);
     }
-    legend(&mut out, style, sheet, width);
+    legend(&mut out, style, sheet, rows);
     out.push_str("</svg>\n");
     out
 }
@@ -183,11 +184,19 @@ fn numbered_disc(out: &mut String, place: V2, no: u32) {
     );
 }
 
-/// Numbers, names and pattern lengths, in three columns.
-fn legend(out: &mut String, style: &Style, sheet: V2, width: f64) {
-    let rows = style.measurements.len().div_ceil(3).max(1);
+/// Columns of the legend: three, fewer where a sheet is too narrow for the longest name.
+fn legend_columns(style: &Style, width: f64) -> usize {
+    let letters = style.measurements.iter().map(|m| m.name.chars().count()).max().unwrap_or(0);
+    // Letters of 15 mm are 9 mm wide; a disc stands before them, a length behind.
+    let widest = 9.0 * letters as f64 + 130.0;
+    ((width - 2.0 * MARGIN_MM) / widest).clamp(1.0, 3.0) as usize
+}
+
+/// Numbers, names and pattern lengths, so many rows of them in columns.
+fn legend(out: &mut String, style: &Style, sheet: V2, rows: usize) {
+    let columns = style.measurements.len().div_ceil(rows).max(1) as f64;
     for (k, measurement) in style.measurements.iter().enumerate() {
-        let x = MARGIN_MM + 10.0 + (width - 2.0 * MARGIN_MM) * (k / rows) as f64 / 3.0;
+        let x = MARGIN_MM + 10.0 + (sheet.x - 2.0 * MARGIN_MM) * (k / rows) as f64 / columns;
         let y = sheet.y + 24.0 * (k % rows) as f64 + 10.0;
         numbered_disc(out, V2::new(x, y), measurement.no);
         let name = escaped(&measurement.name);

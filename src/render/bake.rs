@@ -82,10 +82,12 @@ impl TwoSided {
         let mut near = vec![f32::INFINITY; MAP * MAP];
         let mut far = vec![f32::NEG_INFINITY; MAP * MAP];
         let projected: Vec<[f32; 3]> = scene.positions.iter().map(|p| projection.project(p)).collect();
-        for triangle in &scene.triangles {
-            cover(triangle.map(|v| projected[v]), MAP, MAP, |sample, depth| {
-                near[sample] = near[sample].min(depth);
-                far[sample] = far[sample].max(depth);
+        for triangle in 0..scene.triangles.len() {
+            // Skin gives way here as it does in the picture: cloth that has sunk into it a little is not in its shade.
+            let recede = scene.recede(triangle);
+            cover(scene.corners(triangle, &projected), MAP, MAP, |sample, depth| {
+                near[sample] = near[sample].min(depth + recede);
+                far[sample] = far[sample].max(depth - recede);
             });
         }
         Self { projection, near, far }

@@ -11,6 +11,15 @@ impl Rgb {
         format!("#{:02x}{:02x}{:02x}", self.0, self.1, self.2)
     }
 
+    /// The colour of `rrggbb`, with or without a `#`; `None` where it is none.
+    #[must_use]
+    pub fn from_hex(text: &str) -> Option<Self> {
+        let hex = text.strip_prefix('#').unwrap_or(text);
+        let is_hex = hex.len() == 6 && hex.bytes().all(|b| b.is_ascii_hexdigit());
+        let byte = |k: usize| u8::from_str_radix(hex.get(k..k + 2)?, 16).ok();
+        if is_hex { Some(Self(byte(0)?, byte(2)?, byte(4)?)) } else { None }
+    }
+
     /// Linear light, 0 to 1 [IEC 61966-2-1].
     pub(super) fn linear(self) -> [f32; 3] {
         [self.0, self.1, self.2].map(|v| decode(f32::from(v) / 255.0))
@@ -51,7 +60,9 @@ impl Encoder {
     }
 
     pub fn encode(&self, linear: [f32; 3]) -> [u8; 3] {
-        linear.map(|v| self.0[(v.clamp(0.0, 1.0) * Self::STEPS as f32) as usize])
+        let [r, g, b] = linear;
+        let level = |v: f32| self.0[(v.clamp(0.0, 1.0) * Self::STEPS as f32) as usize];
+        [level(r), level(g), level(b)]
     }
 }
 

@@ -15,14 +15,17 @@ mod shade;
 mod sheet;
 mod svg;
 mod texture;
+mod visible;
+mod weave;
 
 pub use camera::{Camera, Frame, View};
 pub use colour::{ColourMap, Rgb, Scale};
-pub use scene::{Layer, Material, Paint, Scene, Values};
+pub use scene::{Layer, Material, Paint, Print, Scene, Values};
 pub use shade::render;
 pub use sheet::{Cell, contact_sheet, draw_legend};
 pub use svg::rasterise_svg;
 pub use texture::{Mapping, Texture, texture_coordinates};
+pub use weave::Weave;
 
 use image::RgbaImage;
 
@@ -61,6 +64,22 @@ pub enum RenderError {
         /// Vertices or triangles of the mesh.
         needed: usize,
     },
+    /// A triangle shows a picture that is not there.
+    #[error("layer {layer}: a triangle names a texture beyond the {textures} that are there")]
+    NoSuchTexture {
+        /// Index of the layer.
+        layer: usize,
+        /// How many textures it has.
+        textures: usize,
+    },
+    /// A layer that the scene does not have.
+    #[error("no layer {layer}; the scene has {layers}, counted from 0")]
+    NoSuchLayer {
+        /// The index asked for.
+        layer: usize,
+        /// How many there are.
+        layers: usize,
+    },
     /// No picture has this size.
     #[error("picture of {width} x {height} pixels; each side must be 1 to 8192")]
     Size {
@@ -72,6 +91,9 @@ pub enum RenderError {
     /// A drawing could not be read.
     #[error("SVG drawing: {0}")]
     Svg(String),
+    /// Pictures that cannot follow each other.
+    #[error("animation: {0}")]
+    Animation(String),
     /// An encoder refused a picture.
     #[error("picture encoding: {0}")]
     Encode(#[from] image::ImageError),
@@ -84,6 +106,30 @@ pub enum RenderError {
 pub fn png(picture: &RgbaImage) -> Result<Vec<u8>, RenderError> {
     let mut bytes = Vec::new();
     picture.write_to(&mut std::io::Cursor::new(&mut bytes), image::ImageFormat::Png)?;
+    Ok(bytes)
+}
+
+/// Pictures of one size shown one after the other, each for so many milliseconds, for ever: an animated PNG file, which
+/// programs that know no animation show as the first picture.
+///
+/// # Errors
+/// [`RenderError::Animation`] where there is no picture or their sizes differ.
+pub fn animated_png(pictures: &[RgbaImage], each_ms: u32) -> Result<Vec<u8>, RenderError> {
+    let Some(first) = pictures.first() else { return Err(RenderError::Animation("no pictures".into())) };
+    if pictures.iter().any(|picture| picture.dimensions() != first.dimensions()) {
+        return Err(RenderError::Animation("pictures of several sizes".into()));
+    }
+    let refused = |error: png::EncodingError| RenderError::Animation(error.to_string());
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, first.width(), first.height());
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_animated(pictures.len() as u32, 0).map_err(refused)?;
+    encoder.set_frame_delay(each_ms.min(u32::from(u16::MAX)) as u16, 1000).map_err(refused)?;
+    let mut writer = encoder.write_header().map_err(refused)?;
+    for picture in pictures {
+        writer.write_image_data(picture.as_raw()).map_err(refused)?;
+    }
+    writer.finish().map_err(refused)?;
     Ok(bytes)
 }
 

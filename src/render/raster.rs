@@ -1,4 +1,7 @@
-//! The z-buffer.
+//! Triangles on a grid of samples.
+
+/// How far beyond its edges a triangle still covers a sample, as a share of its height: rounding leaves no pinholes.
+pub(super) const RIM: f32 = 1e-4;
 
 /// Calls `plot(sample, depth)` for every sample (row by row, `width` a row) whose centre a triangle covers.
 ///
@@ -18,13 +21,14 @@ pub(super) fn cover(corners: [[f32; 3]; 3], width: usize, height: usize, mut plo
     let ((left, right), (top, bottom)) = (range(0, width), range(1, height));
     // Weights of b and c at a sample, and their change from one sample to the next to the right.
     let (wb_x, wc_x) = ((c[1] - a[1]) / area, (a[1] - b[1]) / area);
+    let (wb_y, wc_y) = ((a[0] - c[0]) / area, (b[0] - a[0]) / area);
+    let (dx, (slope_b, slope_c)) = (left as f32 + 0.5 - a[0], (b[2] - a[2], c[2] - a[2]));
     for y in top..bottom {
-        let (dx, dy) = (left as f32 + 0.5 - a[0], y as f32 + 0.5 - a[1]);
-        let mut wb = (dx * (c[1] - a[1]) - dy * (c[0] - a[0])) / area;
-        let mut wc = (dy * (b[0] - a[0]) - dx * (b[1] - a[1])) / area;
+        let dy = y as f32 + 0.5 - a[1];
+        let (mut wb, mut wc) = (dx * wb_x + dy * wb_y, dx * wc_x + dy * wc_y);
         for x in left..right {
-            if wb >= 0.0 && wc >= 0.0 && wb + wc <= 1.0 {
-                plot(y * width + x, a[2] + wb * (b[2] - a[2]) + wc * (c[2] - a[2]));
+            if wb >= -RIM && wc >= -RIM && wb + wc <= 1.0 + RIM {
+                plot(y * width + x, a[2] + wb * slope_b + wc * slope_c);
             }
             wb += wb_x;
             wc += wc_x;
@@ -42,32 +46,5 @@ pub(super) fn weights(corners: [[f32; 3]; 3], x: f32, y: f32) -> [f32; 3] {
     [1.0 - wb - wc, wb, wc]
 }
 
-/// Nearest surface at each sample.
-pub(super) struct Visible {
-    /// Samples in a row.
-    pub width: usize,
-    /// Distance behind the centre plane, m; infinite where there is nothing.
-    pub depth: Vec<f32>,
-    /// Triangle, `NOTHING` where there is none.
-    pub triangle: Vec<u32>,
-}
-
 /// No triangle.
 pub(super) const NOTHING: u32 = u32::MAX;
-
-impl Visible {
-    pub fn new(width: usize, height: usize) -> Self {
-        Self { width, depth: vec![f32::INFINITY; width * height], triangle: vec![NOTHING; width * height] }
-    }
-
-    pub fn draw(&mut self, triangle: usize, corners: [[f32; 3]; 3]) {
-        let height = self.depth.len() / self.width;
-        let (depths, triangles) = (&mut self.depth, &mut self.triangle);
-        cover(corners, self.width, height, |sample, depth| {
-            if depth < depths[sample] {
-                depths[sample] = depth;
-                triangles[sample] = triangle as u32;
-            }
-        });
-    }
-}

@@ -19,12 +19,10 @@ const REACH: f32 = 3.0;
 pub(super) fn relief(depth: &[f32], width: usize, per_m: f32) -> Vec<f32> {
     let mut gain = vec![1.0_f32; depth.len()];
     for (distance, strength) in RINGS {
-        let offsets = ring((distance * per_m).max(1.0));
-        // Where pixels are coarser than the ring, the neighbours are further off than asked.
-        let distance = distance.max(1.0 / per_m);
+        let ring = Ring::new(depth, width, distance, per_m);
         for (pixel, g) in gain.iter_mut().enumerate() {
             if depth[pixel].is_finite() {
-                let hollow = hollow(depth, width, pixel, &offsets, distance);
+                let hollow = ring.hollow(pixel);
                 *g *= 1.0 - strength * if hollow > 0.0 { hollow } else { 0.3 * hollow };
             }
         }
@@ -32,32 +30,60 @@ pub(super) fn relief(depth: &[f32], width: usize, per_m: f32) -> Vec<f32> {
     gain
 }
 
-/// Half of the neighbours around a pixel, in pixels; the other half lies opposite.
-fn ring(radius: f32) -> [(isize, isize); PAIRS] {
-    std::array::from_fn(|k| {
-        let (sin, cos) = (std::f32::consts::PI * (k as f32 + 0.5) / PAIRS as f32).sin_cos();
-        ((radius * cos).round() as isize, (radius * sin).round() as isize)
-    })
+/// The neighbours of a pixel at one distance.
+struct Ring<'a> {
+    depth: &'a [f32],
+    width: usize,
+    /// How far off they are, m.
+    distance: f32,
+    /// Half of them, in pixels; the other half lies opposite.
+    offsets: [(isize, isize); PAIRS],
+    /// Pixels from the picture's border within which some neighbours are outside.
+    border: usize,
 }
 
-/// How deep a pixel lies below its neighbours, from -1 (a crest) to 1 (a hollow).
-fn hollow(depth: &[f32], width: usize, pixel: usize, offsets: &[(isize, isize)], distance: f32) -> f32 {
-    let (x, y, here) = ((pixel % width) as isize, (pixel / width) as isize, depth[pixel]);
-    let height = (depth.len() / width) as isize;
-    let at = |x: isize, y: isize| {
-        let inside = x >= 0 && y >= 0 && x < width as isize && y < height;
-        if inside { depth[y as usize * width + x as usize] } else { f32::INFINITY }
-    };
-    let pair = |&(dx, dy): &(isize, isize)| {
-        let (a, b) = (at(x + dx, y + dy) - here, at(x - dx, y - dy) - here);
-        let apart = a.abs().max(b.abs()) / (REACH * distance);
-        if apart >= 1.0 {
-            return 0.0;
-        }
-        weight_of(apart) * -0.5 * (a + b) / (FULL * distance)
-    };
-    let mean = offsets.iter().map(pair).sum::<f32>() / offsets.len() as f32;
-    mean / (1.0 + mean.abs())
+impl<'a> Ring<'a> {
+    fn new(depth: &'a [f32], width: usize, distance: f32, per_m: f32) -> Self {
+        let radius = (distance * per_m).max(1.0);
+        let offsets = std::array::from_fn(|k| {
+            let (sin, cos) = (std::f32::consts::PI * (k as f32 + 0.5) / PAIRS as f32).sin_cos();
+            ((radius * cos).round() as isize, (radius * sin).round() as isize)
+        });
+        // Where pixels are coarser than the ring, the neighbours are further off than asked.
+        Self { depth, width, distance: distance.max(1.0 / per_m), offsets, border: radius.ceil() as usize }
+    }
+
+    /// How deep a pixel lies below its neighbours, from -1 (a crest) to 1 (a hollow).
+    fn hollow(&self, pixel: usize) -> f32 {
+        let (x, y, height) = (pixel % self.width, pixel / self.width, self.depth.len() / self.width);
+        let is_inner = |at: usize, of: usize| at >= self.border && at + self.border < of;
+        let sum: f32 = if is_inner(x, self.width) && is_inner(y, height) {
+            let pair = |&(dx, dy): &(isize, isize)| {
+                let offset = dy * self.width as isize + dx;
+                let [a, b] = [pixel.wrapping_add_signed(offset), pixel.wrapping_add_signed(-offset)];
+                self.pair(pixel, self.depth[a], self.depth[b])
+            };
+            self.offsets.iter().map(pair).sum()
+        } else {
+            let at = |dx: isize, dy: isize| {
+                let place = (x.checked_add_signed(dx), y.checked_add_signed(dy));
+                match place {
+                    (Some(x), Some(y)) if x < self.width && y < height => self.depth[y * self.width + x],
+                    _ => f32::INFINITY,
+                }
+            };
+            self.offsets.iter().map(|&(dx, dy)| self.pair(pixel, at(dx, dy), at(-dx, -dy))).sum()
+        };
+        let mean = sum / PAIRS as f32;
+        mean / (1.0 + mean.abs())
+    }
+
+    /// What the depths of two opposite neighbours say.
+    fn pair(&self, pixel: usize, a: f32, b: f32) -> f32 {
+        let (a, b) = (a - self.depth[pixel], b - self.depth[pixel]);
+        let apart = a.abs().max(b.abs()) / (REACH * self.distance);
+        if apart < 1.0 { weight_of(apart) * -0.5 * (a + b) / (FULL * self.distance) } else { 0.0 }
+    }
 }
 
 /// Weight of a pair whose neighbours are this share of the reach off: it falls over the second half, so that no line is

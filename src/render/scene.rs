@@ -3,6 +3,7 @@
 use super::RenderError;
 use super::bake::{self, Floor};
 use super::colour::{Rgb, Scale};
+use super::raster::NOTHING;
 use super::texture::Texture;
 use crate::geom::{TriMesh, V2, V3};
 use nalgebra::Vector3;
@@ -34,10 +35,10 @@ impl Material {
         Self::body(Rgb(0x8e, 0x92, 0x98))
     }
 
-    /// Skin.
+    /// Skin of a colour.
     #[must_use]
-    pub fn skin() -> Self {
-        Self::body(Rgb(0xdc, 0xb0, 0x94))
+    pub fn skin(colour: Rgb) -> Self {
+        Self::body(colour)
     }
 
     fn body(colour: Rgb) -> Self {
@@ -87,8 +88,19 @@ pub enum Paint {
     Plain,
     /// Values and the scale that colours them.
     Field(Values, Scale),
-    /// A picture, and where on it each vertex lies.
-    Texture(Texture, Vec<V2>),
+    /// Pictures on the cloth.
+    Printed(Print),
+}
+
+/// Pictures on a layer: a garment may be cut from several cloths.
+#[derive(Clone, Debug)]
+pub struct Print {
+    /// The pictures.
+    pub textures: Vec<Texture>,
+    /// Which of them each triangle shows.
+    pub of: Vec<usize>,
+    /// Where on it each vertex lies, in repeats.
+    pub places: Vec<V2>,
 }
 
 /// A mesh with its look.
@@ -124,6 +136,26 @@ pub(super) struct Look {
     pub first_triangle: usize,
 }
 
+impl Look {
+    /// What tells the colours of two triangles apart where they meet: flat values differ from triangle to triangle, prints
+    /// from cloth to cloth.
+    pub fn parts(&self, triangle: usize) -> usize {
+        let own = triangle - self.first_triangle;
+        match &self.paint {
+            Paint::Field(Values::Triangles(_), _) => own,
+            Paint::Printed(print) => print.of[own],
+            Paint::Plain | Paint::Field(Values::Vertices(_), _) => 0,
+        }
+    }
+}
+
+/// An edge and the triangles on it.
+pub(super) struct Edge {
+    pub ends: [u32; 2],
+    /// The second is [`NOTHING`] at a border, and where more than two triangles meet.
+    pub faces: [u32; 2],
+}
+
 /// Meshes joined into one, with everything about their light that does not depend on the camera.
 pub struct Scene {
     pub(super) positions: Vec<Vector3<f32>>,
@@ -132,6 +164,8 @@ pub struct Scene {
     /// Layer of each triangle.
     pub(super) layer_of: Vec<usize>,
     pub(super) looks: Vec<Look>,
+    /// Every edge once.
+    pub(super) edges: Vec<Edge>,
     /// Vertex pairs joined by a seam line.
     pub(super) seams: Vec<[usize; 2]>,
     /// Share of the sky each vertex sees from its front and its back side, 0 to 1.
@@ -153,6 +187,7 @@ impl Scene {
             triangles: Vec::new(),
             layer_of: Vec::new(),
             looks: Vec::new(),
+            edges: Vec::new(),
             seams: Vec::new(),
             openness: Vec::new(),
             floor: Floor::default(),
@@ -160,7 +195,8 @@ impl Scene {
             radius: 1.0,
         };
         for (index, layer) in layers.into_iter().enumerate() {
-            check(index, &layer)?;
+            check_mesh(index, layer.mesh)?;
+            check_paint(index, &layer.paint, layer.mesh.positions.len(), layer.mesh.triangles.len())?;
             scene.add(layer);
         }
         if let Some(&first) = scene.positions.first() {
@@ -172,18 +208,46 @@ impl Scene {
         Ok(scene)
     }
 
+    /// Gives a layer another look; the light, which takes longest, is computed again only where the layer is drawn elsewhere.
+    ///
+    /// # Errors
+    /// A field or texture that does not fit the layer's mesh; a layer that is not there.
+    pub fn paint(&mut self, layer: usize, material: Material, paint: Paint) -> Result<(), RenderError> {
+        let next = self.looks.get(layer + 1).map(|look| [look.first_vertex, look.first_triangle]);
+        let [vertices, triangles] = next.unwrap_or([self.positions.len(), self.triangles.len()]);
+        let layers = self.looks.len();
+        let look = self.looks.get_mut(layer).ok_or(RenderError::NoSuchLayer { layer, layers })?;
+        check_paint(layer, &paint, vertices - look.first_vertex, triangles - look.first_triangle)?;
+        let moves = look.material.recede_m != material.recede_m;
+        (look.material, look.paint) = (material, paint);
+        if moves && !self.positions.is_empty() {
+            bake::light(self, self.floor.z);
+        }
+        Ok(())
+    }
+
     fn add(&mut self, layer: Layer<'_>) {
         let (first_vertex, first_triangle) = (self.positions.len(), self.triangles.len());
-        let twins = twins(&layer.mesh.positions);
+        let (twins, edges) = (twins(&layer.mesh.positions), edges(layer.mesh));
         if layer.material.seams {
-            let lines = seam_lines(layer.mesh, &twins);
+            let lines = seam_lines(&edges, &twins);
             self.seams.extend(lines.into_iter().map(|edge| edge.map(|v| v + first_vertex)));
         }
+        self.edges.extend(edges.into_iter().map(|Edge { ends, faces }| Edge {
+            ends: ends.map(|v| v + first_vertex as u32),
+            faces: faces.map(|face| if face == NOTHING { NOTHING } else { face + first_triangle as u32 }),
+        }));
         self.positions.extend(layer.mesh.positions.iter().map(|p| p.cast::<f32>()));
         self.normals.extend(seamless_normals(layer.mesh, &twins));
         self.triangles.extend(layer.mesh.triangles.iter().map(|t| t.map(|v| v + first_vertex)));
         self.layer_of.resize(self.triangles.len(), self.looks.len());
         self.looks.push(Look { material: layer.material, paint: layer.paint, first_vertex, first_triangle });
+    }
+
+    /// The corners of a triangle, given every vertex in some picture.
+    pub(super) fn corners(&self, triangle: usize, projected: &[[f32; 3]]) -> [[f32; 3]; 3] {
+        let [a, b, c] = self.triangles[triangle];
+        [projected[a], projected[b], projected[c]]
     }
 
     /// How far a triangle is drawn behind where it is, m.
@@ -192,24 +256,31 @@ impl Scene {
     }
 }
 
-fn check(index: usize, layer: &Layer<'_>) -> Result<(), RenderError> {
-    let mesh = layer.mesh;
+fn check_mesh(layer: usize, mesh: &TriMesh) -> Result<(), RenderError> {
     let vertices = mesh.positions.len();
     if let Some(vertex) = mesh.positions.iter().position(|p| p.iter().any(|c| !c.is_finite())) {
-        return Err(RenderError::NotFinite { layer: index, vertex });
+        return Err(RenderError::NotFinite { layer, vertex });
     }
     for (triangle, corners) in mesh.triangles.iter().enumerate() {
         if let Some(&vertex) = corners.iter().find(|&&v| v >= vertices) {
-            return Err(RenderError::NoSuchVertex { layer: index, triangle, vertex, vertices });
+            return Err(RenderError::NoSuchVertex { layer, triangle, vertex, vertices });
         }
     }
-    let (found, needed) = match &layer.paint {
+    Ok(())
+}
+
+fn check_paint(layer: usize, paint: &Paint, vertices: usize, triangles: usize) -> Result<(), RenderError> {
+    let (found, needed) = match paint {
         Paint::Plain => return Ok(()),
         Paint::Field(Values::Vertices(values), _) => (values.len(), vertices),
-        Paint::Field(Values::Triangles(values), _) => (values.len(), mesh.triangles.len()),
-        Paint::Texture(_, coordinates) => (coordinates.len(), vertices),
+        Paint::Field(Values::Triangles(values), _) => (values.len(), triangles),
+        Paint::Printed(print) if print.of.len() != triangles => (print.of.len(), triangles),
+        Paint::Printed(print) if print.of.iter().any(|of| *of >= print.textures.len()) => {
+            return Err(RenderError::NoSuchTexture { layer, textures: print.textures.len() });
+        }
+        Paint::Printed(print) => (print.places.len(), vertices),
     };
-    if found == needed { Ok(()) } else { Err(RenderError::PaintLength { layer: index, found, needed }) }
+    if found == needed { Ok(()) } else { Err(RenderError::PaintLength { layer, found, needed }) }
 }
 
 /// For each vertex the first vertex at the same place (to 0.01 mm): the two sides of a sewn seam are one surface.
@@ -237,17 +308,28 @@ fn seamless_normals(mesh: &TriMesh, twins: &[usize]) -> Vec<Vector3<f32>> {
         .collect()
 }
 
-/// Edges along which two boundary edges lie on each other: where pieces were sewn together.
-fn seam_lines(mesh: &TriMesh, twins: &[usize]) -> Vec<[usize; 2]> {
-    let edges = |t: &[usize; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
-    let sorted = |[a, b]: [usize; 2]| if a < b { [a, b] } else { [b, a] };
-    let mut uses: BTreeMap<[usize; 2], u32> = BTreeMap::new();
-    for edge in mesh.triangles.iter().flat_map(edges) {
-        *uses.entry(sorted(edge)).or_default() += 1;
+/// Every edge of a mesh once, in the order of its ends.
+fn edges(mesh: &TriMesh) -> Vec<Edge> {
+    let mut sides: Vec<([u32; 2], u32)> = Vec::with_capacity(3 * mesh.triangles.len());
+    for (face, t) in (0..).zip(&mesh.triangles) {
+        let ends = |a: usize, b: usize| [a.min(b) as u32, a.max(b) as u32];
+        sides.extend([(ends(t[0], t[1]), face), (ends(t[1], t[2]), face), (ends(t[2], t[0]), face)]);
     }
-    let mut meetings: BTreeMap<[usize; 2], u32> = BTreeMap::new();
-    for (edge, _) in uses.iter().filter(|&(_, &n)| n == 1) {
-        *meetings.entry(sorted(edge.map(|v| twins[v]))).or_default() += 1;
-    }
-    meetings.into_iter().filter(|&(_, n)| n > 1).map(|(edge, _)| edge).collect()
+    sides.sort_unstable();
+    let edge = |sides: &[([u32; 2], u32)]| Edge {
+        ends: sides[0].0,
+        faces: if let [one, other] = sides { [one.1, other.1] } else { [sides[0].1, NOTHING] },
+    };
+    sides.chunk_by(|a, b| a.0 == b.0).map(edge).collect()
+}
+
+/// Edges along which borders lie on each other: where pieces were sewn together.
+fn seam_lines(edges: &[Edge], twins: &[usize]) -> Vec<[usize; 2]> {
+    let at = |edge: &Edge| {
+        let [a, b] = edge.ends.map(|v| twins[v as usize]);
+        [a.min(b), a.max(b)]
+    };
+    let mut borders: Vec<[usize; 2]> = edges.iter().filter(|edge| edge.faces[1] == NOTHING).map(at).collect();
+    borders.sort_unstable();
+    borders.chunk_by(|a, b| a == b).filter(|same| same.len() > 1).map(|same| same[0]).collect()
 }

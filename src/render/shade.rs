@@ -2,15 +2,14 @@
 
 use super::RenderError;
 use super::camera::{Camera, Projection};
-use super::colour::{Encoder, Rgb};
-use super::raster::{NOTHING, Visible, cover, weights};
+use super::colour::{Encoder, Rgb, Scale};
+use super::raster::{NOTHING, cover, weights};
 use super::relief::relief;
 use super::scene::{Paint, Scene, Values};
+use super::visible::{Fine, SAMPLES, Visible, offset};
 use image::RgbaImage;
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
-/// Samples along a side of each pixel.
-const FINE: usize = 3;
 /// Samples along a side of the key light's shadow map.
 const SHADOW: usize = 1280;
 /// How many places around a point the shadow map is asked at.
@@ -19,6 +18,10 @@ const TAPS: usize = 32;
 const RIM: usize = 8;
 /// How far around, in map samples: the width of a shadow's soft edge.
 const SOFT: f32 = 9.0;
+/// How light the wrong side of printed cloth is.
+const WRONG_SIDE: f32 = 0.6;
+/// Steps of a scale of colours.
+const RAMP: usize = 1024;
 
 /// Offsets of the taps, in map samples, and their distances: a disc filled evenly by a golden-angle spiral [Vogel 1979].
 fn taps() -> [(f32, f32, f32); TAPS] {
@@ -38,18 +41,12 @@ pub fn render(scene: &Scene, camera: &Camera, width: u32, height: u32) -> Result
     if !(1..=8192).contains(&width) || !(1..=8192).contains(&height) {
         return Err(RenderError::Size { width, height });
     }
-    let (columns, rows) = (width as usize, height as usize);
-    let studio = Studio::new(scene, camera, columns, rows);
-    let depths = studio.pixel_depths(columns, rows);
-    let gain = relief(&depths, columns, studio.projection.per_m / FINE as f32);
+    let studio = Studio::new(scene, camera, width as usize, height as usize);
+    let gain = relief(&studio.visible.depth, width as usize, studio.projection.per_m);
     let encoder = Encoder::new();
     let mut picture = RgbaImage::new(width, height);
     for (pixel, (out, gain)) in picture.pixels_mut().zip(gain).enumerate() {
-        let (x, y) = (pixel % columns, pixel / columns);
-        let middle = |k: usize| ((k * FINE) as f32) + 0.5 * FINE as f32;
-        let light =
-            if depths[pixel].is_finite() { studio.pixel(x, y, gain) } else { studio.ground(middle(x), middle(y)) };
-        let [r, g, b] = encoder.encode(light);
+        let [r, g, b] = encoder.encode(studio.pixel(pixel, gain).into());
         out.0 = [r, g, b, 255];
     }
     Ok(picture)
@@ -67,9 +64,9 @@ impl ShadowMap {
         let projection = Projection::of_light(towards, scene.centre, scene.radius * 1.02, SHADOW);
         let projected: Vec<[f32; 3]> = scene.positions.iter().map(|p| projection.project(p)).collect();
         let mut depth = vec![f32::INFINITY; SHADOW * SHADOW];
-        for (index, triangle) in scene.triangles.iter().enumerate() {
-            let recede = scene.recede(index);
-            cover(triangle.map(|v| projected[v]), SHADOW, SHADOW, |sample, d| {
+        for triangle in 0..scene.triangles.len() {
+            let recede = scene.recede(triangle);
+            cover(scene.corners(triangle, &projected), SHADOW, SHADOW, |sample, d| {
                 depth[sample] = depth[sample].min(d + recede);
             });
         }
@@ -97,102 +94,89 @@ impl ShadowMap {
     }
 }
 
+/// Linear light: red, green, blue.
+type Colour = Vector3<f32>;
+
 /// Everything needed to colour a pixel.
 struct Studio<'a> {
     scene: &'a Scene,
     projection: Projection,
+    /// Pixels across and down.
+    size: [usize; 2],
     /// Vertices in the picture.
     projected: Vec<[f32; 3]>,
     visible: Visible,
-    /// Samples that a seam line passes.
-    stitched: Vec<bool>,
     shadow: ShadowMap,
     /// Directions to the key, fill and rim light.
     lights: [Vector3<f32>; 3],
-    /// Linear front and back colour of each layer.
-    colours: Vec<[[f32; 3]; 2]>,
-    backdrop: [[f32; 3]; 2],
+    /// Front and back colour of each layer.
+    colours: Vec<[Colour; 2]>,
+    /// Colours of each layer's scale, from its low end to its high one; none where it has none.
+    ramps: Vec<Vec<Colour>>,
+    backdrop: [Colour; 2],
 }
 
 impl<'a> Studio<'a> {
-    fn new(scene: &'a Scene, camera: &Camera, columns: usize, rows: usize) -> Self {
-        let (width, height) = (columns * FINE, rows * FINE);
+    fn new(scene: &'a Scene, camera: &Camera, width: usize, height: usize) -> Self {
         let projection = Projection::new(camera, width, height);
         let projected: Vec<[f32; 3]> = scene.positions.iter().map(|p| projection.project(p)).collect();
-        let mut visible = Visible::new(width, height);
-        for (index, triangle) in scene.triangles.iter().enumerate() {
-            let recede = scene.recede(index);
-            visible.draw(index, triangle.map(|v| projected[v]).map(|[x, y, d]| [x, y, d + recede]));
-        }
-        let stitched = stitches(scene, &projected, &visible);
+        let visible = Visible::new(scene, &projected, width, height);
         let [right, up, viewer] = projection.axes;
         let light = |r: f32, u: f32, v: f32| (right * r + up * u + viewer * v).normalize();
         let lights = [light(-0.72, 0.62, 0.62), light(0.85, 0.05, 0.6), light(0.75, 0.45, -0.65)];
         Self {
             scene,
             projection,
+            size: [width, height],
             projected,
             visible,
-            stitched,
             shadow: ShadowMap::new(scene, lights[0]),
             lights,
-            colours: scene.looks.iter().map(|l| [l.material.front.linear(), l.material.back.linear()]).collect(),
-            backdrop: [Rgb(0xfa, 0xfa, 0xf9).linear(), Rgb(0xe9, 0xea, 0xec).linear()],
+            colours: scene.looks.iter().map(|l| [l.material.front, l.material.back].map(linear)).collect(),
+            ramps: scene.looks.iter().map(|look| ramp(&look.paint)).collect(),
+            backdrop: [Rgb(0xfa, 0xfa, 0xf9), Rgb(0xe9, 0xea, 0xec)].map(linear),
         }
     }
 
-    /// Depth of the nearest sample of each pixel, infinite where it shows nothing.
-    fn pixel_depths(&self, columns: usize, rows: usize) -> Vec<f32> {
-        let nearest = |pixel| {
-            let samples = self.samples(pixel % columns, pixel / columns);
-            samples.map(|sample| self.visible.depth[sample]).into_iter().fold(f32::INFINITY, f32::min)
-        };
-        (0..columns * rows).map(nearest).collect()
+    /// Colour of a pixel; `gain` is what its relief makes of the light.
+    fn pixel(&self, pixel: usize, gain: f32) -> Colour {
+        let (x, y) = ((pixel % self.size[0]) as f32, (pixel / self.size[0]) as f32);
+        match self.visible.closer(pixel) {
+            Some(fine) => self.blend(fine, [x, y], gain),
+            None => self.seen(self.visible.triangle[pixel], x + 0.5, y + 0.5, gain),
+        }
     }
 
-    fn samples(&self, x: usize, y: usize) -> [usize; FINE * FINE] {
-        let corner = y * FINE * self.visible.width + x * FINE;
-        std::array::from_fn(|k| corner + k / FINE * self.visible.width + k % FINE)
-    }
-
-    /// Linear colour of a pixel: each triangle it shows is shaded once, at the middle of the samples it covers.
-    fn pixel(&self, x: usize, y: usize, gain: f32) -> [f32; 3] {
-        let samples = self.samples(x, y);
-        let (left, top) = ((x * FINE) as f32 + 0.5, (y * FINE) as f32 + 0.5);
-        let mut colour = [0.0; 3];
-        let mut done = [false; FINE * FINE];
-        for first in 0..samples.len() {
+    /// A pixel that is looked at closer: each triangle it shows is shaded once, at the middle of the samples it covers.
+    fn blend(&self, fine: &Fine, [left, top]: [f32; 2], gain: f32) -> Colour {
+        let mut colour = Colour::zeros();
+        let mut done = [false; SAMPLES];
+        for first in 0..SAMPLES {
             if done[first] {
                 continue;
             }
-            let triangle = self.visible.triangle[samples[first]];
-            let (mut sx, mut sy, mut share, mut stitched) = (0.0, 0.0, 0.0, 0.0);
-            for (k, &sample) in samples.iter().enumerate().skip(first) {
-                if self.visible.triangle[sample] == triangle {
-                    done[k] = true;
-                    sx += left + (k % FINE) as f32;
-                    sy += top + (k / FINE) as f32;
-                    share += 1.0;
-                    stitched += f32::from(u8::from(self.stitched[sample]));
-                }
+            let triangle = fine.triangle[first];
+            let (mut x, mut y, mut share, mut stitched) = (0.0, 0.0, 0.0, 0.0);
+            for k in (first..SAMPLES).filter(|&k| fine.triangle[k] == triangle) {
+                done[k] = true;
+                let [dx, dy] = offset(k);
+                (x, y, share) = (x + left + dx, y + top + dy, share + 1.0);
+                stitched += f32::from(u8::from(fine.stitched[k]));
             }
-            let light = if triangle == NOTHING {
-                self.ground(sx / share, sy / share)
-            } else {
-                let gain = gain * (1.0 - 0.38 * stitched / share);
-                self.surface(triangle as usize, sx / share, sy / share).map(|v| v * gain)
-            };
-            for k in 0..3 {
-                colour[k] += light[k] * share / samples.len() as f32;
-            }
+            let light = self.seen(triangle, x / share, y / share, gain * (1.0 - 0.38 * stitched / share));
+            colour += light * (share / SAMPLES as f32);
         }
         colour
     }
 
+    /// Colour of what is seen at a place: a triangle, or the ground where there is none.
+    fn seen(&self, triangle: u32, x: f32, y: f32, gain: f32) -> Colour {
+        if triangle == NOTHING { self.ground(x, y) } else { self.surface(triangle as usize, x, y) * gain }
+    }
+
     /// Backdrop and floor: one seamless light sheet, darker where the subject stands.
-    fn ground(&self, x: f32, y: f32) -> [f32; 3] {
-        let rows = (self.visible.depth.len() / self.visible.width) as f32;
-        let t = y / rows;
+    fn ground(&self, x: f32, y: f32) -> Colour {
+        let t = y / self.size[1] as f32;
         let viewer = self.projection.axes[2];
         let mut light = 1.0;
         if viewer.z > 0.01 {
@@ -200,94 +184,95 @@ impl<'a> Studio<'a> {
             let point = start - viewer * ((start.z - self.scene.floor.z) / viewer.z);
             light = self.scene.floor.openness(point.x, point.y);
         }
-        [0, 1, 2].map(|k| (self.backdrop[0][k] * (1.0 - t) + self.backdrop[1][k] * t) * light)
+        (self.backdrop[0] * (1.0 - t) + self.backdrop[1] * t) * light
     }
 
-    fn surface(&self, triangle: usize, x: f32, y: f32) -> [f32; 3] {
+    fn surface(&self, triangle: usize, x: f32, y: f32) -> Colour {
         let scene = self.scene;
-        let vertices = scene.triangles[triangle];
-        let corners = vertices.map(|v| self.projected[v]);
-        let w = weights(corners, x, y);
-        let [a, b, c] = vertices.map(|v| scene.positions[v]);
+        let [i, j, k] = scene.triangles[triangle];
+        let w = weights(scene.corners(triangle, &self.projected), x, y);
+        let (a, b, c) = (scene.positions[i], scene.positions[j], scene.positions[k]);
         let viewer = self.projection.axes[2];
         let back = (b - a).cross(&(c - a)).dot(&viewer) < 0.0;
-        let sign = if back { -1.0 } else { 1.0 };
-        let smooth = (0..3).fold(Vector3::zeros(), |sum, k| sum + scene.normals[vertices[k]] * w[k]);
-        let normal = smooth.try_normalize(1e-12).unwrap_or(viewer) * sign;
+        let smooth = scene.normals[i] * w[0] + scene.normals[j] * w[1] + scene.normals[k] * w[2];
+        let normal = smooth.try_normalize(1e-12).unwrap_or(viewer) * if back { -1.0 } else { 1.0 };
         let point = a * w[0] + b * w[1] + c * w[2];
-        let open = (0..3).map(|k| w[k] * scene.openness[vertices[k]][usize::from(back)]).sum();
+        let openness = |side: usize| {
+            w[0] * scene.openness[i][side] + w[1] * scene.openness[j][side] + w[2] * scene.openness[k][side]
+        };
         let (albedo, coded) = self.albedo(triangle, back, w);
-        let lit = self.lit(albedo, &normal, open, self.shadow.reaches(&(point + normal * 0.004)));
-        // Light from outside shines through cloth: a garment's inside is dark, never black.
-        let through = if back { (0..3).map(|k| w[k] * scene.openness[vertices[k]][0]).sum::<f32>() } else { 0.0 };
-        let lit = [0, 1, 2].map(|k| lit[k] + 0.16 * through * albedo[k]);
+        let reaches = self.shadow.reaches(&(point + normal * 0.004));
+        let mut lit = self.lit(&albedo, &normal, openness(usize::from(back)), reaches);
+        if back {
+            // Light from outside shines through cloth: a garment's inside is dark, never black.
+            lit += albedo * (0.16 * openness(0));
+        }
         // A colour that codes a value must stay readable in the shade: half of it shines by itself.
-        if coded { [0, 1, 2].map(|k| 0.5 * lit[k] + 0.42 * albedo[k]) } else { lit }
+        if coded { lit * 0.5 + albedo * 0.42 } else { lit }
     }
 
     /// Sky, key, fill and rim light on a matt surface.
-    fn lit(&self, albedo: [f32; 3], normal: &Vector3<f32>, open: f32, shadow: f32) -> [f32; 3] {
-        let [key, fill, rim] = self.lights.map(|l| normal.dot(&l).max(0.0));
+    fn lit(&self, albedo: &Colour, normal: &Vector3<f32>, open: f32, shadow: f32) -> Colour {
+        let from = |light: usize| normal.dot(&self.lights[light]).max(0.0);
         let facing = normal.dot(&self.projection.axes[2]).clamp(0.0, 1.0);
         let sky = 0.35 + 0.12 * normal.z;
-        let edge = (1.0 - facing).powi(3) * (0.25 + 0.75 * rim);
+        let edge = (1.0 - facing).powi(3) * (0.25 + 0.75 * from(2)) * open;
         // Cloth and skin pass light on: a hollow keeps a fifth of the sky.
         let occlusion = 0.2 + 0.8 * open * open * (1.4 - 0.4 * open);
-        let warm = [1.04, 1.0, 0.95];
-        let cool = [0.97, 1.0, 1.05];
-        [0, 1, 2].map(|k| {
-            let matt = cool[k] * (sky * occlusion + 0.16 * fill * open) + warm[k] * 0.73 * key * shadow;
-            albedo[k] * (matt + 0.26 * edge * open) + 0.04 * edge * open
-        })
+        let (warm, cool) = (Colour::new(1.04, 1.0, 0.95), Colour::new(0.97, 1.0, 1.05));
+        let matt = cool * (sky * occlusion + 0.16 * from(1) * open) + warm * (0.73 * from(0) * shadow);
+        albedo.component_mul(&matt.add_scalar(0.26 * edge)).add_scalar(0.04 * edge)
     }
 
-    /// Linear colour of a surface point, and whether it stands for a value.
-    fn albedo(&self, triangle: usize, back: bool, w: [f32; 3]) -> ([f32; 3], bool) {
+    /// How much of a texture a pixel spans: the rms change of its coordinates from one pixel to the next.
+    fn texture_span(&self, triangle: usize, places: &[Vector2<f32>; 3]) -> f32 {
+        let [a, b, c] = self.scene.corners(triangle, &self.projected);
+        let (x1, y1, x2, y2) = (b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]);
+        let (one, two) = (places[1] - places[0], places[2] - places[0]);
+        let area = x1 * y2 - x2 * y1;
+        let (right, down) = (one * y2 - two * y1, two * x1 - one * x2);
+        (0.5 * (right.norm_squared() + down.norm_squared())).sqrt() / area.abs().max(1e-6)
+    }
+
+    /// Own colour of a surface point, and whether it stands for a value.
+    fn albedo(&self, triangle: usize, back: bool, w: [f32; 3]) -> (Colour, bool) {
         let layer = self.scene.layer_of[triangle];
         let look = &self.scene.looks[layer];
-        let vertices = self.scene.triangles[triangle];
-        let own = vertices.map(|v| v - look.first_vertex);
+        let own = || self.scene.triangles[triangle].map(|v| v - look.first_vertex);
         match &look.paint {
             Paint::Field(values, scale) if !back => {
                 let value = match values {
-                    Values::Vertices(values) => (0..3).map(|k| f64::from(w[k]) * values[own[k]]).sum(),
+                    Values::Vertices(values) => own().iter().zip(w).map(|(v, w)| f64::from(w) * values[*v]).sum(),
                     Values::Triangles(values) => values[triangle - look.first_triangle],
                 };
-                (scale.colour(value).linear(), true)
+                (look_up(&self.ramps[layer], scale, value), true)
             }
-            Paint::Texture(texture, coordinates) if !back => {
-                let corners = own.map(|v| coordinates[v]);
+            Paint::Printed(print) => {
+                let corners = own().map(|v| print.places[v]);
                 let place = corners[0] * f64::from(w[0]) + corners[1] * f64::from(w[1]) + corners[2] * f64::from(w[2]);
-                // How much of the texture a pixel spans: the ratio of the triangle's two areas.
-                let drawn = (corners[1] - corners[0]).perp(&(corners[2] - corners[0])).abs() as f32;
-                let [a, b, c] = vertices.map(|v| self.scene.positions[v]);
-                let real = (b - a).cross(&(c - a)).norm().max(1e-12);
-                let span = (drawn / real).sqrt() * FINE as f32 / self.projection.per_m;
-                (texture.at(place.x as f32, place.y as f32, span), false)
+                let span = self.texture_span(triangle, &corners.map(|c| c.cast()));
+                let texture = &print.textures[print.of[triangle - look.first_triangle]];
+                let seen = texture.at(place.x as f32, place.y as f32, span);
+                (seen * if back { WRONG_SIDE } else { 1.0 }, false)
             }
             _ => (self.colours[layer][usize::from(back)], false),
         }
     }
 }
 
-/// Samples along seam lines that are not hidden.
-fn stitches(scene: &Scene, projected: &[[f32; 3]], visible: &Visible) -> Vec<bool> {
-    let height = visible.depth.len() / visible.width;
-    let mut stitched = vec![false; visible.depth.len()];
-    for &[a, b] in &scene.seams {
-        let (a, b) = (projected[a], projected[b]);
-        let steps = ((b[0] - a[0]).abs().max((b[1] - a[1]).abs()).ceil() as usize).clamp(1, 4096);
-        for step in 0..=steps {
-            let t = step as f32 / steps as f32;
-            let [x, y, depth] = [0, 1, 2].map(|k| a[k] + t * (b[k] - a[k]));
-            for (dx, dy) in [(0.0, 0.0), (-1.0, 0.0), (0.0, -1.0), (-1.0, -1.0)] {
-                let (x, y) = (x + dx + 0.5, y + dy + 0.5);
-                if x >= 0.0 && y >= 0.0 && x < visible.width as f32 && y < height as f32 {
-                    let sample = y as usize * visible.width + x as usize;
-                    stitched[sample] |= depth < visible.depth[sample] + 0.006;
-                }
-            }
-        }
-    }
-    stitched
+fn linear(colour: Rgb) -> Colour {
+    Colour::from(colour.linear())
+}
+
+/// Colours of a scale as it is looked up: one for values that are none, then from its low end to its high one.
+fn ramp(paint: &Paint) -> Vec<Colour> {
+    let Paint::Field(_, scale) = paint else { return vec![] };
+    let step = |k: usize| linear(scale.map.at(k as f64 / RAMP as f64));
+    [linear(scale.colour(f64::NAN))].into_iter().chain((0..=RAMP).map(step)).collect()
+}
+
+/// The colour of a value on a [`ramp`].
+fn look_up(ramp: &[Colour], scale: &Scale, value: f64) -> Colour {
+    let t = (value - scale.low) / (scale.high - scale.low);
+    if t.is_finite() { ramp[1 + (t.clamp(0.0, 1.0) * RAMP as f64).round() as usize] } else { ramp[0] }
 }

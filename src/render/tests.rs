@@ -72,7 +72,11 @@ fn the_subjects_right_is_at_the_pictures_left_from_the_front() {
 fn cloth_a_millimetre_over_skin_hides_it() {
     let body = sphere(0.300, V3::zeros());
     let cloth = sphere(0.301, V3::zeros());
-    let scene = Scene::new(vec![Layer::new(&body, Material::skin()), Layer::new(&cloth, Material::hybrid())]).unwrap();
+    let scene = Scene::new(vec![
+        Layer::new(&body, Material::skin(Rgb(0xdc, 0xb0, 0x94))),
+        Layer::new(&cloth, Material::hybrid()),
+    ])
+    .unwrap();
     let picture = render(&scene, &Camera::new(View::Quarter, Frame::enclosing([&cloth], 1.0)), 200, 200).unwrap();
     let skin = picture.enumerate_pixels().filter(|(x, y, p)| {
         let inside = (f64::from(*x) - 99.5).hypot(f64::from(*y) - 99.5) < 82.0;
@@ -126,6 +130,27 @@ fn fields_colour_the_cloth_and_must_fit_it() {
     assert!(matches!(Scene::new(vec![layer(3, 1.0)]), Err(RenderError::PaintLength { layer: 0, found: 3, .. })));
 }
 
+#[test]
+fn a_scene_painted_anew_is_a_new_scene() {
+    let (ball, cloth) = (sphere(0.25, V3::zeros()), sphere(0.251, V3::zeros()));
+    let values =
+        |value: f64| Paint::Field(Values::Vertices(vec![value; cloth.positions.len()]), Scale::rising(1.0, "", ""));
+    let far = Material { recede_m: 0.02, ..Material::form() };
+    let made = |form: Material, paint: Paint| {
+        Scene::new(vec![Layer::new(&ball, form), Layer::new(&cloth, Material::fem()).painted(paint)]).unwrap()
+    };
+    let shot =
+        |scene: &Scene| render(scene, &Camera::new(View::Front, Frame::enclosing([&ball], 1.0)), 60, 60).unwrap();
+    let mut scene = made(Material::form(), Paint::Plain);
+    scene.paint(0, far, Paint::Plain).unwrap();
+    scene.paint(1, Material::fem(), values(0.7)).unwrap();
+    assert_eq!(shot(&scene), shot(&made(far, values(0.7))));
+    assert_ne!(shot(&scene), shot(&made(far, Paint::Plain)));
+    let short = Paint::Field(Values::Vertices(vec![0.0; 3]), Scale::rising(1.0, "", ""));
+    assert!(matches!(scene.paint(1, far, short), Err(RenderError::PaintLength { layer: 1, found: 3, .. })));
+    assert!(matches!(scene.paint(2, far, Paint::Plain), Err(RenderError::NoSuchLayer { layer: 2, layers: 2 })));
+}
+
 /// A sheet of cloth in front of the camera, stretched by 5 % across its grain and short of its pattern by 3 % along it.
 #[test]
 fn a_check_of_20_mm_measures_20_mm_along_warp_and_weft() {
@@ -137,8 +162,10 @@ fn a_check_of_20_mm_measures_20_mm_along_warp_and_weft() {
         sheet.triangles.push([corner, corner + 1, corner + SIDE + 1]);
         sheet.triangles.push([corner, corner + SIDE + 1, corner + SIDE]);
     }
-    let places = texture_coordinates(&rest, &[(0..rest.len(), V2::y())], Mapping::Fabric { repeat_m: 0.04 });
-    let check = Paint::Texture(Texture::gingham(Rgb(0, 60, 120)), places);
+    let woven = Mapping::Fabric { repeat_m: [0.04, 0.04] };
+    let places = texture_coordinates(&rest, &[(0..rest.len(), V2::y(), woven)]);
+    let of = vec![0; sheet.triangles.len()];
+    let check = Paint::Printed(Print { textures: vec![Texture::gingham(Rgb(0, 60, 120))], of, places });
     let scene = Scene::new(vec![Layer::new(&sheet, Material::fem()).painted(check)]).unwrap();
     let frame = Frame { centre: V3::new(-0.21, 0.0, 0.194), height_m: 0.3 };
     let picture = render(&scene, &Camera { frame, azimuth_deg: 0.0, elevation_deg: 0.0 }, 600, 600).unwrap();
@@ -162,6 +189,47 @@ fn a_check_of_20_mm_measures_20_mm_along_warp_and_weft() {
         let mean = squares.iter().sum::<f64>() / squares.len() as f64;
         assert!((mean - mm).abs() < 0.1 && squares.iter().all(|s| (s - mm).abs() < 0.6), "{mm} mm: {squares:?}");
     }
+}
+
+/// Cloth wound round a cylinder without strain: squares look narrower towards its sides, along the cloth they are 20 mm.
+#[test]
+fn a_check_on_a_cylinder_measures_20_mm_along_the_cloth() {
+    const RADIUS: f64 = 0.15;
+    const SIDE: usize = 61;
+    // Places on the cloth, m, from its middle; the grain runs up.
+    let rest: Vec<V2> =
+        (0..SIDE * SIDE).map(|k| 0.006 * V2::new((k % SIDE) as f64 - 30.0, (k / SIDE) as f64)).collect();
+    let wound = |p: &V2| V3::new(-RADIUS * (p.x / RADIUS).sin(), RADIUS * (p.x / RADIUS).cos(), p.y);
+    let mut tube = TriMesh { positions: rest.iter().map(wound).collect(), triangles: vec![] };
+    for corner in (0..SIDE - 1).flat_map(|row| (0..SIDE - 1).map(move |column| row * SIDE + column)) {
+        tube.triangles.push([corner, corner + 1, corner + SIDE + 1]);
+        tube.triangles.push([corner, corner + SIDE + 1, corner + SIDE]);
+    }
+    let woven = Mapping::Fabric { repeat_m: [0.04, 0.04] };
+    let places = texture_coordinates(&rest, &[(0..rest.len(), V2::y(), woven)]);
+    let of = vec![0; tube.triangles.len()];
+    let check = Paint::Printed(Print { textures: vec![Texture::gingham(Rgb(0, 60, 120))], of, places });
+    let scene = Scene::new(vec![Layer::new(&tube, Material::fem()).painted(check)]).unwrap();
+    let frame = Frame { centre: V3::new(0.0, 0.0, 0.19), height_m: 0.3 };
+    let picture = render(&scene, &Camera { frame, azimuth_deg: 0.0, elevation_deg: 0.0 }, 600, 600).unwrap();
+    // A line through the middle of a row of squares, half a millimetre a pixel, as far as 50 degrees to both sides.
+    let reach = (0.15 * 50f64.to_radians().sin() * 2000.0) as u32;
+    let values: Vec<(f64, i32)> =
+        (300 - reach..300 + reach).map(|x| ((f64::from(x) + 0.5 - 300.0) / 2000.0, rgb(&picture, x, 300)[2])).collect();
+    let turns: Vec<f64> = values
+        .windows(9)
+        .filter_map(|near| {
+            // Light falls off round the cylinder: a turn is where the colour changes fast, not where it passes a level.
+            let steps: Vec<i32> = near.windows(2).map(|pair| (pair[1].1 - pair[0].1).abs()).collect();
+            let greatest = *steps.iter().max()?;
+            (greatest > 8 && steps[3] == greatest && steps[..3].iter().all(|s| *s < greatest))
+                .then(|| RADIUS * (0.5 * (near[3].0 + near[4].0) / RADIUS).asin())
+        })
+        .collect();
+    assert!(turns.len() >= 11, "{turns:?}");
+    let squares: Vec<f64> = turns.windows(2).map(|pair| 1e3 * (pair[1] - pair[0])).collect();
+    let mean = squares.iter().sum::<f64>() / squares.len() as f64;
+    assert!((mean - 20.0).abs() < 0.15 && squares.iter().all(|s| (s - 20.0).abs() < 1.2), "{squares:?}");
 }
 
 #[test]

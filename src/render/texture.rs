@@ -3,6 +3,7 @@
 use super::colour::Rgb;
 use crate::geom::V2;
 use image::RgbaImage;
+use nalgebra::Vector3;
 use std::ops::Range;
 
 /// How the pattern plane becomes texture coordinates.
@@ -13,19 +14,19 @@ pub enum Mapping {
     Piece,
     /// The fabric as it is woven: one repeat every so many metres, `v` along the grain, the same on every piece.
     Fabric {
-        /// Length of one repeat, m.
-        repeat_m: f64,
+        /// Length of one repeat across and along the grain, m.
+        repeat_m: [f64; 2],
     },
 }
 
 /// Texture coordinates of every vertex of a pattern.
 ///
-/// `rest` are the vertices in their pieces' planes, m; each piece is its range of vertices and the unit vector of its
-/// grain. Vertices of no piece keep `(0, 0)`.
+/// `rest` are the vertices in their pieces' planes, m; each piece is its range of vertices, the unit vector of its grain
+/// and how it is mapped. Vertices of no piece keep `(0, 0)`.
 #[must_use]
-pub fn texture_coordinates(rest: &[V2], pieces: &[(Range<usize>, V2)], mapping: Mapping) -> Vec<V2> {
+pub fn texture_coordinates(rest: &[V2], pieces: &[(Range<usize>, V2, Mapping)]) -> Vec<V2> {
     let mut coordinates = vec![V2::zeros(); rest.len()];
-    for (vertices, grain) in pieces {
+    for (vertices, grain, mapping) in pieces {
         let Some(points) = rest.get(vertices.clone()) else { continue };
         let Some(&first) = points.first() else { continue };
         let (low, high) = points.iter().fold((first, first), |(l, h), p| (l.inf(p), h.sup(p)));
@@ -33,7 +34,9 @@ pub fn texture_coordinates(rest: &[V2], pieces: &[(Range<usize>, V2)], mapping: 
         for (to, p) in coordinates[vertices.clone()].iter_mut().zip(points) {
             *to = match mapping {
                 Mapping::Piece => (p - low) / longer,
-                Mapping::Fabric { repeat_m } => V2::new(p.dot(&V2::new(grain.y, -grain.x)), p.dot(grain)) / repeat_m,
+                Mapping::Fabric { repeat_m: [across, along] } => {
+                    V2::new(p.dot(&V2::new(grain.y, -grain.x)) / across, p.dot(grain) / along)
+                }
             };
         }
     }
@@ -51,7 +54,7 @@ struct Level {
     width: usize,
     height: usize,
     /// Linear colour, row by row from the top.
-    texels: Vec<[f32; 3]>,
+    texels: Vec<Vector3<f32>>,
 }
 
 impl Texture {
@@ -59,8 +62,8 @@ impl Texture {
     #[must_use]
     pub fn new(picture: &RgbaImage) -> Self {
         let (width, height) = (picture.width().max(1) as usize, picture.height().max(1) as usize);
-        let mut texels: Vec<[f32; 3]> = picture.pixels().map(|p| Rgb(p[0], p[1], p[2]).linear()).collect();
-        texels.resize(width * height, [1.0; 3]);
+        let mut texels: Vec<Vector3<f32>> = picture.pixels().map(|p| Rgb(p[0], p[1], p[2]).linear().into()).collect();
+        texels.resize(width * height, Vector3::repeat(1.0));
         let mut levels = vec![Level { width, height, texels }];
         while let Some(half) = levels.last().and_then(Level::half) {
             levels.push(half);
@@ -84,11 +87,23 @@ impl Texture {
         }))
     }
 
+    /// Height of a repeat over its width.
+    #[must_use]
+    pub fn aspect(&self) -> f64 {
+        self.levels[0].height as f64 / self.levels[0].width as f64
+    }
+
     /// Linear colour at a place, for a picture sample that spans `span` of a repeat.
-    pub(super) fn at(&self, u: f32, v: f32, span: f32) -> [f32; 3] {
-        let texels = span * self.levels[0].width.max(self.levels[0].height) as f32;
-        let level = (texels.max(1.0).log2().round() as usize).min(self.levels.len() - 1);
-        self.levels[level].at(u, v)
+    pub(super) fn at(&self, u: f32, v: f32, span: f32) -> Vector3<f32> {
+        // Somewhat coarser than the pixel: finer texels beat with the pixels.
+        let texels = 1.6 * span * self.levels[0].width.max(self.levels[0].height) as f32;
+        let place = texels.max(1.0).log2().min((self.levels.len() - 1) as f32);
+        let (finer, share) = (place as usize, place.fract());
+        let seen = self.levels[finer].at(u, v);
+        match self.levels.get(finer + 1) {
+            Some(coarser) if share > 0.0 => seen * (1.0 - share) + coarser.at(u, v) * share,
+            _ => seen,
+        }
     }
 }
 
@@ -100,16 +115,13 @@ impl Level {
         }
         let (width, height) = (self.width.div_ceil(2), self.height.div_ceil(2));
         let texel = |x: usize, y: usize| self.texels[(y % self.height) * self.width + x % self.width];
-        let mean = |x: usize, y: usize| {
-            let four = [texel(x, y), texel(x + 1, y), texel(x, y + 1), texel(x + 1, y + 1)];
-            [0, 1, 2].map(|k| four.iter().map(|t| t[k]).sum::<f32>() / 4.0)
-        };
+        let mean = |x: usize, y: usize| (texel(x, y) + texel(x + 1, y) + texel(x, y + 1) + texel(x + 1, y + 1)) / 4.0;
         let texels = (0..width * height).map(|k| mean(2 * (k % width), 2 * (k / width))).collect();
         Some(Self { width, height, texels })
     }
 
     /// Blend of the four texels around a place; `v` runs up the picture.
-    fn at(&self, u: f32, v: f32) -> [f32; 3] {
+    fn at(&self, u: f32, v: f32) -> Vector3<f32> {
         let place = |t: f32, n: usize| {
             let t = (t - t.floor()) * n as f32 - 0.5;
             let low = t.floor();
@@ -119,7 +131,7 @@ impl Level {
         let (x1, y1) = ((x + 1) % self.width, (y + 1) % self.height);
         let texel = |x: usize, y: usize| self.texels[y * self.width + x];
         let (a, b, c, d) = (texel(x, y), texel(x1, y), texel(x, y1), texel(x1, y1));
-        [0, 1, 2].map(|k| (1.0 - g) * ((1.0 - f) * a[k] + f * b[k]) + g * ((1.0 - f) * c[k] + f * d[k]))
+        (a * (1.0 - f) + b * f) * (1.0 - g) + (c * (1.0 - f) + d * f) * g
     }
 }
 
@@ -130,11 +142,15 @@ mod tests {
     #[test]
     fn coordinates_follow_the_piece_or_the_grain() {
         let rest = [V2::new(1.0, 2.0), V2::new(1.5, 2.0), V2::new(1.0, 2.25), V2::new(9.0, 9.0)];
-        let pieces = [(0..3, V2::new(0.0, 1.0)), (3..4, V2::new(1.0, 0.0)), (7..9, V2::y())];
-        let piece = texture_coordinates(&rest, &pieces, Mapping::Piece);
+        let mapped = |mapping| {
+            let pieces =
+                [(0..3, V2::new(0.0, 1.0), mapping), (3..4, V2::new(1.0, 0.0), mapping), (7..9, V2::y(), mapping)];
+            texture_coordinates(&rest, &pieces)
+        };
+        let piece = mapped(Mapping::Piece);
         assert_eq!(piece, [V2::zeros(), V2::new(1.0, 0.0), V2::new(0.0, 0.5), V2::zeros()]);
-        let fabric = texture_coordinates(&rest, &pieces, Mapping::Fabric { repeat_m: 0.5 });
-        assert_eq!(fabric, [V2::new(2.0, 4.0), V2::new(3.0, 4.0), V2::new(2.0, 4.5), V2::new(-18.0, 18.0)]);
+        let fabric = mapped(Mapping::Fabric { repeat_m: [0.5, 0.25] });
+        assert_eq!(fabric, [V2::new(2.0, 8.0), V2::new(3.0, 8.0), V2::new(2.0, 9.0), V2::new(-18.0, 36.0)]);
     }
 
     #[test]
@@ -146,6 +162,6 @@ mod tests {
         assert!(grey(0.4, 0.25, 0.0).abs() < 1e-5);
         assert!((grey(3.4, -6.25, 0.0) - grey(0.4, 0.75, 0.0)).abs() < 1e-4, "repeats");
         assert!((grey(0.1, 0.9, 2.0) - 0.5).abs() < 1e-5, "a sample of two repeats sees the mean");
-        assert_eq!(Texture::new(&RgbaImage::new(0, 0)).at(0.3, 0.3, 1.0), [1.0; 3]);
+        assert_eq!(Texture::new(&RgbaImage::new(0, 0)).at(0.3, 0.3, 1.0), Vector3::repeat(1.0));
     }
 }

@@ -267,6 +267,10 @@ pub struct FieldMap {
 pub struct Run {
     /// Garment.
     pub garment: String,
+    /// The garment without the seed of its start: what is the same but for this is a repeat.
+    pub case: String,
+    /// Which of several simulations of the same inputs, from 1.
+    pub repeat: u32,
     /// Size.
     pub size: String,
     /// Subject.

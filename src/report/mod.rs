@@ -8,6 +8,7 @@ pub mod chart;
 pub mod data;
 mod evidence;
 mod page;
+mod repeats;
 mod runs;
 mod text;
 mod theme;

@@ -4,6 +4,7 @@ use super::ReportError;
 use super::chart::{Chart, ease_chart, time_chart};
 use super::data::{Outcome, Picture, ReportData, Run, Severity, Verdict};
 use super::evidence::EvidencePart;
+use super::repeats::RepeatPart;
 use super::runs::{Group, groups};
 use super::text::{
     count, distinct, duration, finding_words, fit_glyph, fit_words, mean_sd, mm, number, signed, signed_mm,
@@ -32,6 +33,7 @@ pub(super) struct Page<'a> {
     evidence: Option<EvidencePart>,
     ease_chart: Option<Chart>,
     time_chart: Option<Chart>,
+    repeats: Option<RepeatPart>,
 }
 
 /// A number worth seeing first.
@@ -164,7 +166,9 @@ impl<'a> Page<'a> {
     /// All charts, in the order of the page.
     pub fn charts(&self) -> impl Iterator<Item = &Chart> {
         let of_evidence = self.evidence.iter().flat_map(EvidencePart::charts);
-        self.groups.iter().flat_map(Group::charts).chain(of_evidence).chain(&self.ease_chart).chain(&self.time_chart)
+        let of_repeats = self.repeats.iter().flat_map(|part| &part.charts);
+        let of_groups = self.groups.iter().flat_map(Group::charts);
+        of_groups.chain(of_evidence).chain(&self.ease_chart).chain(&self.time_chart).chain(of_repeats)
     }
 
     pub fn new(data: &'a ReportData) -> Result<Self, ReportError> {
@@ -194,6 +198,7 @@ impl<'a> Page<'a> {
             evidence: EvidencePart::new(data)?,
             ease_chart: ease_chart(&data.runs, &data.cuts)?,
             time_chart: time_chart(&data.runs)?,
+            repeats: RepeatPart::new(&data.runs)?,
         })
     }
 }
@@ -223,7 +228,7 @@ fn summary(runs: &[Run]) -> String {
         all if all == runs.len() => "all converged.".into(),
         some => format!("{some} converged."),
     };
-    for simulator in [Simulator::Fem, Simulator::Hybrid] {
+    for simulator in Simulator::ALL {
         if let Some(ei) = mean_ei(runs, simulator) {
             let name = simulator_name(simulator);
             text += &format!(" {name} is off the pattern by {} on average (mean EI {ei:.3}).", percent(ei));
@@ -254,7 +259,7 @@ fn tiles(runs: &[Run]) -> Vec<Tile> {
         true => vec![tile(runs.len().to_string(), "drapes, as printed")],
         false => vec![tile(format!("{converged} / {}", runs.len()), "runs converged")],
     };
-    for simulator in [Simulator::Fem, Simulator::Hybrid] {
+    for simulator in Simulator::ALL {
         if let Some(ei) = mean_ei(runs, simulator) {
             tiles.push(tile(format!("{ei:.3}"), &format!("mean EI, {}", simulator_name(simulator))));
         }
@@ -268,8 +273,13 @@ fn tiles(runs: &[Run]) -> Vec<Tile> {
     let (mean, _) = mean_sd(done().map(|r| r.wall_s));
     if mean.is_finite() {
         tiles.push(tile(duration(mean), "mean time of a run"));
-        let deepest = done().map(|r| r.penetration_max_m).fold(0.0, f64::max);
-        tiles.push(tile(format!("{} mm", mm(deepest)), "deepest penetration"));
+        for simulator in Simulator::ALL {
+            let depths = done().filter(|run| run.simulator == simulator).map(|run| run.penetration_max_m);
+            if let Some(deepest) = depths.reduce(f64::max) {
+                let name = format!("deepest in the body, {}", simulator_name(simulator));
+                tiles.push(tile(format!("{} mm", mm(deepest)), &name));
+            }
+        }
     }
     tiles
 }

@@ -137,7 +137,7 @@ pub(super) fn groups(runs: &[Run]) -> Result<Vec<Group>, ReportError> {
 }
 
 fn group(index: usize, title: String, runs: &[&Run], name_fabric: bool) -> Result<Group, ReportError> {
-    let place = |r: &Run| if name_fabric { format!("{}, {}", r.subject, r.fabric) } else { r.subject.clone() };
+    let place = |r: &Run| if name_fabric { format!("{}, {}", wearer(r), r.fabric) } else { wearer(r) };
     let places: Vec<String> = runs.iter().map(|r| place(r)).collect();
     let both = runs.iter().any(|r| r.simulator != runs[0].simulator);
     let labels: Vec<String> = runs
@@ -163,6 +163,11 @@ fn group(index: usize, title: String, runs: &[&Run], name_fabric: bool) -> Resul
     })
 }
 
+/// The subject, and which repeat where it is not the first.
+fn wearer(run: &Run) -> String {
+    if run.repeat > 1 { format!("{}, repeat {}", run.subject, run.repeat) } else { run.subject.clone() }
+}
+
 /// Class and words of a run's fit.
 fn fit(run: &Run) -> (&'static str, String) {
     run.ease.as_ref().map_or(("unknown", "fit unknown".into()), |e| {
@@ -183,7 +188,7 @@ fn strip(run: &Run) -> Result<Strip, ReportError> {
     let (class, fit) = fit(run);
     Ok(Strip {
         simulator: run.simulator.as_str(),
-        title: format!("Subject {}, {}, {}", run.subject, simulator_name(run.simulator), run.fabric),
+        title: format!("Subject {}, {}, {}", wearer(run), simulator_name(run.simulator), run.fabric),
         class,
         fit,
         status: status(run),
@@ -201,7 +206,7 @@ fn series(title: &str, runs: &[&Run]) -> Result<Vec<Series>, ReportError> {
     for (name, members) in by_series(runs) {
         let rows = measurements(&members);
         let title = format!("{title}, {name}");
-        let subjects: Vec<String> = members.iter().map(|r| r.subject.clone()).collect();
+        let subjects: Vec<String> = members.iter().map(|r| wearer(r)).collect();
         all.push(Series {
             chi_chart: chi_chart(&title, &members, &subjects)?,
             mean_chart: if members.len() > 1 { Some(mean_sd_chart(&title, &members)?) } else { None },

@@ -41,6 +41,8 @@ fn picture(caption: &str) -> Picture {
 fn run(subject: &str, simulator: Simulator, neck: f64) -> Run {
     Run {
         garment: "Tee".into(),
+        case: "Tee".into(),
+        repeat: 1,
         size: "S".into(),
         subject: subject.into(),
         simulator,
@@ -191,6 +193,27 @@ fn every_fit_class_of_every_garment_has_an_answer() {
     let page = words(&html(&data).unwrap());
     assert!(page.contains("\u{2212}0.0210 (\u{2212}0.0340 to \u{2212}0.0120)") && page.contains("FEM-GS is truer"));
     assert_eq!(page.matches("insufficient evidence").count(), 2);
+}
+
+#[test]
+fn repeats_are_compared_where_there_are_some() {
+    assert!(!html(&sample()).unwrap().contains("Repeatability"));
+    let mut data = sample();
+    let again = |from: &Run, garment: &str, repeat: u32, chi: f64| {
+        let mut run = Run { garment: garment.into(), repeat, ..from.clone() };
+        run.measured[0].chi.l3d_m = run.measured[0].chi.l2d_m * chi;
+        run
+    };
+    let [first, second] = [data.runs[0].clone(), data.runs[1].clone()];
+    data.runs.push(again(&first, "Tee seed=1", 1, 1.0044));
+    data.runs.push(again(&first, "Tee seed=2", 1, 0.9980));
+    data.runs.push(again(&second, "Tee", 2, 1.002));
+    let page = words(&html(&data).unwrap());
+    assert!(page.contains("2 cases were simulated more than once") && page.contains("1 of them gave"), "{page}");
+    // 1.0044 less 0.9980; EI (0.0044 + 0.04) / 2 and (0.002 + 0.04) / 2.
+    assert!(page.contains("Tee, S on i, jersey | FEM-GS | 3 | 0.0064 | #1 hem girth | 0.0210 | 0.0222"), "{page}");
+    assert!(page.contains("Tee, S on ii, jersey | FEM-GS | 2 | 0.0000"), "{page}");
+    assert!(page.contains("ii, repeat 2"), "{page}");
 }
 
 #[test]

@@ -1,8 +1,12 @@
 //! Pictures of results: the stored body and drape, rendered.
 
+mod cloth;
 mod maps;
+mod order;
 
+pub use cloth::Cloth;
 pub use maps::Map;
+pub use order::{Order, Shot, Zoom};
 
 use std::collections::BTreeMap;
 
@@ -19,15 +23,20 @@ use crate::geom::{Surface, TriMesh};
 use crate::pattern::Garment;
 use crate::pattern::garment::Role;
 use crate::render::export::{MeshFormat, Part};
-use crate::render::{self, Camera, Frame, Layer, Mapping, Material, Paint, Scene, Texture, Values, View};
+use crate::render::{self, Camera, Frame, Layer, Material, Paint, Rgb, Scene, Values, View};
 use crate::sim::cloth::membrane::{Fibre, Orthotropic};
 use crate::sim::{self, Drape};
 use crate::units::mm;
+use cloth::Looks;
 
 /// How far from a level of the body cloth still counts as at it, m.
 const NEAR_M: f64 = 0.02;
 /// How far within the body cloth still shows on a gap map, m.
 const WITHIN_M: f64 = 0.05;
+
+/// Layers of a scene.
+const BODY: usize = 0;
+const CLOTH: usize = 1;
 
 /// Results that are kept ready: those of a comparison, so that turning them stays quick.
 const SCENES_KEPT: usize = 3;
@@ -42,9 +51,6 @@ pub struct Look {
     /// How far the picture's middle lies above the garment's, percent of half its height.
     pub rise_pct: i32,
 }
-
-/// One repeat of the check, m.
-const CHECK_M: f64 = 0.04;
 
 /// A result made ready for pictures: lit once, shown from anywhere.
 pub(super) struct Stage {
@@ -65,6 +71,7 @@ pub(super) struct Dressed {
     simulator: Simulator,
     garment: Garment,
     fabric: Orthotropic,
+    looks: Looks,
     /// Heights of the body's levels, m.
     levels: BTreeMap<&'static str, f64>,
     pub body: TriMesh,
@@ -104,26 +111,43 @@ impl Dressed {
         })
     }
 
-    /// The lit scene of a map.
+    /// The lit scene of a map, the body a dress form.
     pub fn scene(&self, map: Map) -> Result<Scene> {
-        let (material, values) = (self.material(), self.values(map)?);
-        let (form, paint) = match map.scale() {
-            None if map == Map::Check => {
-                let pieces: Vec<_> = self.garment.pieces.iter().map(|p| (p.vertices.clone(), p.grain)).collect();
-                let woven = Mapping::Fabric { repeat_m: CHECK_M };
-                let places = render::texture_coordinates(&self.garment.rest, &pieces, woven);
-                (Material::form(), Paint::Texture(Texture::gingham(material.front), places))
-            }
-            None => (Material::form(), Paint::Plain),
+        self.scene_in(map, &[], None)
+    }
+
+    /// The lit scene of a map; on a plain one the garment cut from these cloths, on a body of this skin.
+    fn scene_in(&self, map: Map, cloths: &[Cloth], skin: Option<Rgb>) -> Result<Scene> {
+        let (form, paint) = self.look(map, cloths, skin)?;
+        let layers = vec![Layer::new(&self.body, form), Layer::new(&self.cloth, self.material()).painted(paint)];
+        Scene::new(layers).map_err(StudyError::stage("render"))
+    }
+
+    /// Shows another map in a scene of this result, which need not be lit again.
+    pub fn repaint(&self, scene: &mut Scene, map: Map) -> Result<()> {
+        let (form, paint) = self.look(map, &[], None)?;
+        let painted = scene.paint(BODY, form, Paint::Plain).and_then(|()| scene.paint(CLOTH, self.material(), paint));
+        painted.map_err(StudyError::stage("render"))
+    }
+
+    /// How the body and the cloth look.
+    fn look(&self, map: Map, cloths: &[Cloth], skin: Option<Rgb>) -> Result<(Material, Paint)> {
+        let values = self.values(map)?;
+        let bare = skin.map_or_else(Material::form, Material::skin);
+        let cut = |cloths: &[Cloth]| {
+            cloth::print(cloths, &self.garment, &self.looks, self.material().front).map(Paint::Printed)
+        };
+        Ok(match map.scale() {
+            None if map == Map::Check => (bare, cut(&[Cloth::CHECK])?),
+            None if !cloths.is_empty() => (bare, cut(cloths)?),
+            None => (bare, Paint::Plain),
             Some(scale) => {
                 let form = Material::form_under_map();
                 // A garment that does not reach round the body lies within it: the gap map shows by how much.
                 let recede_m = if map == Map::Gap { WITHIN_M } else { form.recede_m };
                 (Material { recede_m, ..form }, Paint::Field(Values::Vertices(values), scale))
             }
-        };
-        let layers = vec![Layer::new(&self.body, form), Layer::new(&self.cloth, material).painted(paint)];
-        Scene::new(layers).map_err(StudyError::stage("render"))
+        })
     }
 }
 
@@ -186,18 +210,6 @@ impl Workspace {
         picture.map_err(StudyError::stage("render"))
     }
 
-    /// [`Workspace::picture`] as a PNG file, the legend of a map drawn into it.
-    ///
-    /// # Errors
-    /// As there.
-    pub fn picture_png(&self, id: JobId, view: View, width: u32, height: u32, map: Map) -> Result<Vec<u8>> {
-        let mut picture = self.picture(id, view, width, height, map)?;
-        if let Some(scale) = map.scale() {
-            render::draw_legend(&mut picture, &scale).map_err(StudyError::stage("render"))?;
-        }
-        render::png(&picture).map_err(StudyError::stage("render"))
-    }
-
     /// A result's body and garment as a mesh file. The garment's texture coordinates are its places in the pattern, m; a
     /// map colours it and leaves its values in the formats that can hold them.
     ///
@@ -248,11 +260,11 @@ impl Workspace {
         let mesh = |positions| TriMesh { positions, triangles: garment.triangles.clone() };
         let popup = drape.earlier.into_iter().find(|staged| staged.stage == sim::Stage::Popup);
         let (cloth, popup) = (mesh(drape.positions), popup.map(|staged| mesh(staged.positions)));
-        let fabric = self.membrane_of(id)?;
+        let (fabric, looks) = (self.membrane_of(id)?, self.looks_of(id)?);
         let at = &model.body.levels;
         let levels = [("chest", at.chest_m), ("underbust", at.underbust_m), ("waist", at.waist_m), ("hip", at.hip_m)];
         let levels = BTreeMap::from(levels);
-        Ok(Dressed { simulator: job.simulator, garment, fabric, levels, body: model.body.mesh, cloth, popup })
+        Ok(Dressed { simulator: job.simulator, garment, fabric, looks, levels, body: model.body.mesh, cloth, popup })
     }
 
     /// The membrane law of a job's fabric.
@@ -278,6 +290,23 @@ impl Workspace {
             warp: law(number(2)?, optional(5)),
             shear: number(3)?,
         })
+    }
+
+    /// What a job's fabric looks like.
+    fn looks_of(&self, id: JobId) -> Result<Looks> {
+        let table = self.query(&format!(
+            "SELECT name, density_kg_m2, thickness_mm / 1000, stretch_pct IS NOT NULL
+            FROM fabric JOIN job USING (fabric_id) WHERE job_id = {id}"
+        ))?;
+        match table.rows.first().map(Vec::as_slice) {
+            Some(
+                [Value::Text(name), Value::Real(density_kg_m2), Value::Real(thickness_m), Value::Integer(stretches)],
+            ) => {
+                let (density_kg_m2, thickness_m) = (*density_kg_m2, *thickness_m);
+                Ok(Looks { name: name.clone(), density_kg_m2, thickness_m, is_knit: *stretches != 0 })
+            }
+            _ => Err(StudyError::NotFound { what: "fabric of job", name: id.to_string(), known: vec![] }),
+        }
     }
 
     /// A stored product of a job's stage.

@@ -1,6 +1,7 @@
 //! Every number on a report's page against the views it is from.
 
-use std::collections::BTreeMap;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::program::Place;
 
@@ -9,8 +10,45 @@ struct Table {
     caption: String,
     /// Names over groups of columns.
     groups: Vec<String>,
+    /// Names over the columns of the last row of the head.
+    columns: Vec<String>,
     /// Cells of each row of the body.
     rows: Vec<Vec<String>>,
+    /// Which of them have been compared, by row and column.
+    compared: RefCell<BTreeSet<(usize, usize)>>,
+}
+
+impl Table {
+    /// A cell, which counts as compared from now on.
+    fn cell(&self, row: usize, column: usize) -> &str {
+        self.compared.borrow_mut().insert((row, column));
+        &self.rows[row][column]
+    }
+
+    /// The row that begins with a text.
+    #[track_caller]
+    fn row(&self, head: &str) -> usize {
+        let found = self.rows.iter().position(|row| row.first().is_some_and(|cell| cell.starts_with(head)));
+        found.unwrap_or_else(|| panic!("{}: no row {head} in {:?}", self.caption, self.rows))
+    }
+}
+
+/// Tables whose numbers are in no view: what the tape reads on the bodies, and what went into the simulators. Sizes are names.
+const OF_NO_VIEW: [&str; 4] = ["Program and parameters", "Inputs", "Subjects and their measurements", "Size to wear"];
+
+/// No table but those of [`OF_NO_VIEW`] and of fabrics has a number that was not compared.
+fn all_are_compared(tables: &[Table], fabrics: &[String]) {
+    let is_of_view =
+        |table: &&Table| !OF_NO_VIEW.contains(&table.caption.as_str()) && !fabrics.contains(&table.caption);
+    for table in tables.iter().filter(is_of_view) {
+        for (row, cells) in table.rows.iter().enumerate() {
+            for (column, cell) in cells.iter().enumerate().skip(1) {
+                let is_number = cell.trim_start_matches('+').parse::<f64>().is_ok();
+                let is_compared = table.compared.borrow().contains(&(row, column));
+                assert!(!is_number || is_compared, "{}, {}: {cell} is compared with nothing", table.caption, cells[0]);
+            }
+        }
+    }
 }
 
 /// What lies between two marks, again and again.
@@ -34,22 +72,24 @@ fn tables(page: &str) -> Vec<Table> {
     let table = |html: &str| {
         let caption = plain(between(html, "<caption>", "</caption>").next().unwrap_or_default());
         let groups = between(html, "<th scope=\"colgroup\" colspan=\"2\">", "</th>").map(plain).collect();
-        let body = html.split_once("<tbody>").map_or("", |(_, body)| body);
+        let (head, body) = html.split_once("<tbody>").unwrap_or_default();
+        let last = head.rsplit_once("<tr>").map_or("", |(_, last)| last);
+        let columns = between(last, "<th scope=\"col\"", "</th>").map(|cell| plain(&format!("<{cell}"))).collect();
         let cells = |row: &str| -> Vec<String> {
             let cells = row.split("<t").skip(1).filter(|cell| cell.starts_with('h') || cell.starts_with('d'));
             cells.map(|cell| plain(cell.split_once('>').map_or("", |(_, rest)| rest))).collect()
         };
-        Table { caption, groups, rows: between(body, "<tr>", "</tr>").map(cells).collect() }
+        let rows = between(body, "<tr>", "</tr>").map(cells).collect();
+        Table { caption, groups, columns, rows, compared: RefCell::default() }
     };
     between(page, "<table", "</table>").map(table).collect()
 }
 
-/// The row of a table whose head begins with a text.
-fn row<'a>(tables: &'a [Table], caption: &str, head: &str) -> (&'a Table, &'a Vec<String>) {
+/// The table whose caption begins with a text.
+#[track_caller]
+fn table<'a>(tables: &'a [Table], caption: &str) -> &'a Table {
     let table = tables.iter().find(|table| table.caption.starts_with(caption));
-    let table = table.unwrap_or_else(|| panic!("no table {caption}"));
-    let row = table.rows.iter().find(|row| row.first().is_some_and(|cell| cell.starts_with(head)));
-    (table, row.unwrap_or_else(|| panic!("{caption}: no row {head} in {:?}", table.rows)))
+    table.unwrap_or_else(|| panic!("no table {caption}"))
 }
 
 fn name(simulator: &str) -> &'static str {
@@ -63,60 +103,179 @@ fn is_shown(shown: &str, value: &str, decimals: usize) -> bool {
     is_rounded && (number - value).abs() <= 0.5 * 0.1f64.powi(decimals as i32) * (1.0 + 1e-6)
 }
 
-/// Checks a row of numbers: what the page shows, the value, its decimals.
+/// Checks cells of a row: column, the view's value, its decimals. No value is a dash.
 #[track_caller]
-fn are_shown(numbers: &[(&String, &str, usize)], place: &str) {
-    for (shown, value, decimals) in numbers {
-        assert!(is_shown(shown, value, *decimals), "{place}: the page shows {shown}, the view has {value}");
+fn are_shown(table: &Table, row: usize, numbers: &[(usize, &str, usize)]) {
+    for (column, value, decimals) in numbers {
+        let shown = table.cell(row, *column).trim_start_matches('+');
+        let place = format!("{}, {}", table.caption, table.rows[row][0]);
+        let agrees = if value.is_empty() { ["–", ""].contains(&shown) } else { is_shown(shown, value, *decimals) };
+        assert!(agrees, "{place}, column {column}: the page shows {shown:?}, the view has {value:?}");
     }
 }
 
-/// Every L3D and chi; the query gives garment, size, subject, simulator, number, L2D, L3D, chi.
-fn chis(place: &Place, tables: &[Table], query: &str) -> usize {
-    let answers = place.sql(query);
-    for answer in &answers {
-        let cell: Vec<&str> = answer.split(',').collect();
-        let caption = format!("{}, size {}, {}", cell[0], cell[1], name(cell[3]));
-        let (table, row) = row(tables, &caption, &format!("#{} ", cell[4]));
-        let at = table.groups.iter().position(|subject| subject == cell[2]).expect("a column of the subject");
-        are_shown(
-            &[(&row[1], cell[5], 1), (&row[2 + 2 * at], cell[6], 1), (&row[3 + 2 * at], cell[7], 3)],
-            &format!("{caption}: {answer}"),
+/// Whether a name is that of a run: its subject, the fabric where there are several, the simulator where there are two.
+fn is_run(name: &str, subject: &str, simulator: &str, both: bool) -> bool {
+    let rest = name.strip_prefix(subject).unwrap_or("another");
+    let rest = if both { rest.strip_suffix(&format!(" {simulator}")).unwrap_or("another") } else { rest };
+    rest.is_empty() || rest.starts_with(", ")
+}
+
+/// Where lengths come from: a table or query with garment, size, subject, simulator, number, L2D, L3D, chi, and whether each
+/// measurement is a free edge or controlled.
+struct Lengths<'a>(&'a str);
+
+impl Lengths<'_> {
+    fn rows(&self, place: &Place, query: &str) -> Vec<Vec<String>> {
+        let with = format!(
+            "WITH l(garment, size, subject, simulator, no, l2d, l3d, chi, free, controlled) AS ({}) {query}",
+            self.0
         );
+        place.sql(&with).iter().map(|line| line.split(',').map(str::to_owned).collect()).collect()
     }
-    answers.len()
+
+    /// Every L2D, L3D and chi, in its table and in the heat map; how many there are.
+    fn cases(&self, place: &Place, tables: &[Table], both: bool) -> usize {
+        let answers = self.rows(place, "SELECT garment, size, subject, simulator, no, l2d, l3d, chi FROM l");
+        for cell in &answers {
+            let title = format!("{}, size {}", cell[0], cell[1]);
+            let series = table(tables, &format!("{title}, {}", name(&cell[3])));
+            let row = series.row(&format!("#{} ", cell[4]));
+            let at = series.groups.iter().position(|subject| *subject == cell[2]).expect("a column of the subject");
+            are_shown(series, row, &[(1, &cell[5], 1), (2 + 2 * at, &cell[6], 1), (3 + 2 * at, &cell[7], 3)]);
+            let heat = table(tables, &format!("{title}: chi, every run"));
+            let at = heat
+                .columns
+                .iter()
+                .position(|name| is_run(name, &cell[2], &cell[3], both))
+                .expect("a column of the run");
+            are_shown(heat, heat.row(&format!("#{} ", cell[4])), &[(at, &cell[7], 3)]);
+        }
+        answers.len()
+    }
+
+    /// Mean and SD of every measurement over the subjects, wherever they stand.
+    fn over_subjects(&self, place: &Place, tables: &[Table]) {
+        let query =
+            "SELECT garment, size, simulator, no, avg(chi), coalesce(stddev(chi), 0) FROM l GROUP BY 1, 2, 3, 4";
+        for cell in self.rows(place, query) {
+            let title = format!("{}, size {}", cell[0], cell[1]);
+            let head = format!("#{} ", cell[3]);
+            let of = |table: &&Table| table.caption.starts_with(&format!("{title}, {}", name(&cell[2])));
+            let same: Vec<&Table> = tables.iter().filter(of).collect();
+            assert_eq!(same.len(), 2, "{title}: the lengths, and what is free and controlled");
+            for table in same {
+                let (row, last) = (table.row(&head), table.rows[table.row(&head)].len() - 1);
+                are_shown(table, row, &[(last - 1, &cell[4], 3), (last, &cell[5], 3)]);
+            }
+            if let Some(means) = tables.iter().find(|t| t.caption.starts_with(&format!("{title}: chi, mean"))) {
+                let at = means.columns.iter().position(|series| series.starts_with(name(&cell[2]))).expect("a series");
+                are_shown(means, means.row(&head), &[(at, &cell[4], 3)]);
+            }
+        }
+    }
+
+    /// E, SD and EI of every case, below its lengths and in the table of its group.
+    fn truth(&self, place: &Place, tables: &[Table], both: bool) {
+        let query = "SELECT garment, size, subject, simulator, count(*), avg(chi), coalesce(stddev(chi), 0), avg(abs(chi - 1)),
+            avg(abs(chi - 1)) FILTER (WHERE NOT free), avg(abs(chi - 1)) FILTER (WHERE NOT controlled), max(abs(chi - 1))
+            FROM l GROUP BY 1, 2, 3, 4";
+        for cell in self.rows(place, query) {
+            let title = format!("{}, size {}", cell[0], cell[1]);
+            let series = table(tables, &format!("{title}, {}", name(&cell[3])));
+            let at = 3 + 2 * series.groups.iter().position(|subject| *subject == cell[2]).expect("a column");
+            for (head, value) in [("E (", 5), ("SD (", 6), ("EI (", 7)] {
+                are_shown(series, series.row(head), &[(at, &cell[value], 3)]);
+            }
+            for (head, value) in [("EI without free", 8), ("EI without controlled", 9)] {
+                if let Some(row) = series.rows.iter().position(|row| row[0].starts_with(head)) {
+                    are_shown(series, row, &[(at, &cell[value], 3)]);
+                }
+            }
+            let group = table(tables, &format!("{title}: truth"));
+            let row =
+                group.rows.iter().position(|row| is_run(&row[0], &cell[2], &cell[3], both)).expect("a row of the run");
+            let columns = [(2, 4, 0), (3, 5, 3), (4, 6, 3), (5, 7, 3), (6, 8, 3), (7, 9, 3), (8, 10, 3)];
+            are_shown(
+                group,
+                row,
+                &columns.map(|(at, of, decimals): (usize, usize, usize)| (at, cell[of].as_str(), decimals)),
+            );
+        }
+    }
+
+    fn all(&self, place: &Place, tables: &[Table], both: bool) -> usize {
+        self.over_subjects(place, tables);
+        self.truth(place, tables, both);
+        self.cases(place, tables, both)
+    }
 }
 
-/// Every number of the page of a study that the views `v_chi`, `v_metrics`, `v_ease` and `v_recommendation` have.
+/// Every number of the page of a study of one simulator that is in a view.
 pub fn numbers_are_those_of_the_views(place: &Place, page: &str) {
     let tables = tables(page);
-    let lengths = "SELECT garment, size, subject, simulator, measurement_no, l2d_mm, l3d_mm, chi FROM v_chi
-        WHERE stage = 'drape'";
-    assert_ne!(chis(place, &tables, lengths), 0);
+    let lengths = Lengths(
+        "SELECT garment, size, subject, simulator, measurement_no, l2d_mm, l3d_mm, chi, is_free_edge, is_controlled
+        FROM v_chi WHERE stage = 'drape'",
+    );
+    assert_ne!(lengths.all(place, &tables, false), 0);
 
-    let metrics = "SELECT garment, size, subject, simulator, n, e_chi, sd_chi, ei, max_abs_error, residual * 100,
+    let metrics = "SELECT garment, size, subject, n, e_chi, sd_chi, ei, max_abs_error, residual * 100,
         penetration_max_mm, seam_gap_max_mm, iterations, vertices, faces FROM v_metrics";
     for answer in place.sql(metrics) {
         let cell: Vec<&str> = answer.split(',').collect();
         let title = format!("{}, size {}", cell[0], cell[1]);
-        let (_, truth) = row(&tables, &format!("{title}: truth"), cell[2]);
-        let columns = [(2, 4, 0), (3, 5, 3), (4, 6, 3), (5, 7, 3), (8, 8, 3)];
-        are_shown(&columns.map(|(at, of, decimals): (usize, usize, usize)| (&truth[at], cell[of], decimals)), &title);
-        let (_, course) = row(&tables, &format!("{title}: how"), cell[2]);
-        let columns = [(2, 9, 2), (3, 10, 1), (4, 11, 1), (5, 12, 0), (6, 13, 0), (7, 14, 0)];
-        are_shown(&columns.map(|(at, of, decimals): (usize, usize, usize)| (&course[at], cell[of], decimals)), &title);
+        let truth = table(&tables, &format!("{title}: truth"));
+        let columns = [(2, 3, 0), (3, 4, 3), (4, 5, 3), (5, 6, 3), (8, 7, 3)];
+        are_shown(
+            truth,
+            truth.row(cell[2]),
+            &columns.map(|(at, of, decimals): (usize, usize, usize)| (at, cell[of], decimals)),
+        );
+        let course = table(&tables, &format!("{title}: how"));
+        let columns = [(2, 8, 2), (3, 9, 1), (4, 10, 1), (5, 11, 0), (6, 12, 0), (7, 13, 0)];
+        are_shown(
+            course,
+            course.row(cell[2]),
+            &columns.map(|(at, of, decimals): (usize, usize, usize)| (at, cell[of], decimals)),
+        );
     }
 
     for answer in place.sql("SELECT garment, size, subject, ease_mm FROM v_ease WHERE decides") {
         let cell: Vec<&str> = answer.split(',').collect();
-        let (_, sizes) = row(&tables, &format!("{}: ease in mm", cell[0]), cell[1]);
-        assert!(
-            sizes[1..].iter().any(|shown| is_shown(shown.trim_start_matches('+'), cell[3], 1)),
-            "{answer}: {sizes:?}"
-        );
+        let matrix = table(&tables, &format!("{}: ease in mm", cell[0]));
+        let at = matrix.columns.iter().position(|subject| subject == cell[2]).expect("a column of the subject");
+        are_shown(matrix, matrix.row(cell[1]), &[(at, cell[3], 1)]);
     }
     let columns = "garment, fit_class, verdict, recommended, coalesce(effect, ''), coalesce(ci_low, ''), coalesce(ci_high, ''), n_subjects";
     cards_are(page, &place.sql(&format!("SELECT {columns} FROM v_recommendation")));
+    all_are_compared(&tables, &place.sql("SELECT DISTINCT name FROM fabric"));
+}
+
+/// The paired analysis, for answers as `toile recommend --json` has them, which begin the table in their order.
+fn pairs_are(tables: &[Table], answers: &[serde_json::Value]) {
+    let table = table(tables, "Paired analysis");
+    let mut cases = 0;
+    for (row, answer) in answers.iter().enumerate() {
+        assert_eq!(Some(table.cell(row, 0)), answer["garment"].as_str());
+        for (column, key, decimals) in [(2, "n_subjects", 0), (4, "effect", 4), (6, "effect_size", 2)] {
+            let value = answer[key].as_f64().map_or_else(String::new, |value| value.to_string());
+            are_shown(table, row, &[(column, &value, decimals)]);
+        }
+        for (column, key) in [(7, "p"), (8, "p_holm"), (9, "p_equivalence")] {
+            match answer[key].as_f64() {
+                Some(p) if p < 0.001 => assert_eq!(table.cell(row, column), "&lt; 0.001"),
+                p => are_shown(table, row, &[(column, &p.map_or_else(String::new, |p| p.to_string()), 3)]),
+            }
+        }
+        let ends = table.cell(row, 5).to_owned();
+        for (end, key) in ends.split(" to ").zip(["ci_low", "ci_high"]) {
+            let agrees = |value: f64| is_shown(end.trim_start_matches('+'), &value.to_string(), 4);
+            assert!(answer[key].as_f64().map_or(end == "–", agrees), "{answer}: {ends}");
+        }
+        cases += table.cell(row, 3).parse::<u32>().expect("a count");
+    }
+    assert_eq!(cases, 54, "every case belongs to one answer");
 }
 
 /// The verdict cards, for answers of garment, fit class, verdict, recommended, effect, its ends and subjects.
@@ -154,9 +313,12 @@ fn the_report_on_the_printed_tables_has_all_their_numbers_and_marks_the_wrong_on
     place.toile("report thesis-published -o published").ends_with(0);
     let page = std::fs::read_to_string(place.path("published/index.html")).expect("the page is there");
     let tables = tables(&page);
-    let lengths = "SELECT garment, size, substr(garment, 1, instr(garment, '_') - 1) || '-' || subject, simulator,
-        measurement_no, l2d_mm, l3d_mm, chi FROM v_published";
-    assert_eq!(chis(&place, &tables, lengths), 888);
+    let lengths = Lengths(
+        "SELECT garment, size, substr(garment, 1, instr(garment, '_') - 1) || '-' || subject, simulator, measurement_no, l2d_mm,
+            l3d_mm, chi, measurement GLOB 'Hem*' OR measurement GLOB 'Neck Opening*' OR measurement GLOB 'Sleeve Opening*',
+            measurement GLOB 'Hem*' FROM v_published",
+    );
+    assert_eq!(lengths.all(&place, &tables, true), 888);
     assert_eq!(page.matches("✗ printed").count(), 48, "every misprinted ratio is marked");
     for told in ["25 of 43 loose or tight cases", "without #6 Neck Opening", "hem less chest"] {
         assert!(page.contains(told), "{told}");
@@ -174,6 +336,7 @@ fn the_report_on_the_printed_tables_has_all_their_numbers_and_marks_the_wrong_on
             .join(",")
     };
     assert_eq!(answers.len(), 11);
+    pairs_are(&tables, answers);
     cards_are(&page, &answers.iter().map(line).collect::<Vec<_>>());
     assert!(answers.iter().all(|row| row["basis"] == "rule"), "the tables prove no rule");
     let explained = place.toile("recommend thesis-published --explain").ends_with(0).out;

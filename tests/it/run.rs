@@ -52,6 +52,7 @@ fn a_study_is_run_cached_changed_and_reported() {
     results_keep_the_contract(&place);
     report_is_self_contained(&place, &first.out);
     a_size_is_advised(&place);
+    pictures_are_made_to_order(&place);
 
     let lengths = place.sql(LENGTHS);
     let finished = "SELECT job_id, attempts, started_at, finished_at FROM v_jobs ORDER BY 1";
@@ -111,7 +112,45 @@ fn a_size_is_advised(place: &Place) {
     assert!(rows.iter().any(|row| row["reason"].as_str().is_some_and(|why| why.contains("the level that decides"))));
     assert!(place.toile("recommend . --size-for vii").ends_with(2).err.contains("no subject `vii`"));
     let explained = place.toile("recommend . --explain").ends_with(0).out;
-    assert!(explained.contains("by the rule") && explained.contains("6 subjects more"), "{explained}");
+    assert!(explained.contains("by the rule") && explained.contains("6 subjects with this fit"), "{explained}");
+}
+
+/// One result or several, from any side, in any cloth; what cannot be drawn says why.
+fn pictures_are_made_to_order(place: &Place) {
+    let stripes = image::RgbImage::from_fn(8, 4, |x, _| image::Rgb(if x < 4 { [200, 30, 30] } else { [230, 60, 60] }));
+    stripes.save(place.path("stripes.png")).expect("a folder to write to");
+    let drawn = |arguments: &str| {
+        place.toile(&format!("render {arguments} --width 60 --height 80 -o p.png")).ends_with(0);
+        std::fs::read(place.path("p.png")).expect("it is there")
+    };
+    let picture = |arguments: &str| image::load_from_memory(&drawn(arguments)).expect("a picture").to_rgb8();
+    let plain = picture("1");
+    assert_eq!(plain.dimensions(), (60, 80));
+    let sheet = picture("1 2 --view front,back");
+    assert!(sheet.width() > 120 && sheet.height() > 160, "{:?}", sheet.dimensions());
+    let red = |picture: &image::RgbImage| picture.pixels().filter(|p| p[0] > p[1].saturating_add(40)).count();
+    let [all, sleeve] =
+        ["stripes.png@30", "sleeve_left=stripes.png@30"].map(|cloth| red(&picture(&format!("1 --cloth {cloth}"))));
+    assert!(red(&plain) == 0 && 0 < sleeve && 3 * sleeve < all, "{all} red pixels, {sleeve} on a sleeve");
+    for other in ["--turn 30", "--view close-up", "--zoom 200", "--cloth twill", "--skin #dcb094", "--map stretch"] {
+        assert_ne!(picture(&format!("1 {other}")), plain, "{other}");
+    }
+    let turning = drawn("1 --turntable 5");
+    let frames = turning.windows(8).find(|bytes| bytes.starts_with(b"acTL")).expect("an animation")[7];
+    assert_eq!(frames, 5);
+
+    let refused = |arguments: &str, says: &str| {
+        let said = place.toile(&format!("render {arguments} -o q.png")).ends_with(2);
+        assert!(said.err.contains(says) && !place.path("q.png").exists(), "{arguments}: {}", said.err);
+    };
+    refused("1 --cloth hood=twill", "no piece `hood`; there are: ");
+    refused("1 --cloth nowhere.png", "nowhere.png");
+    refused("1 --cloth study.toml", "accepted: PNG and JPEG");
+    refused("1 --cloth check@-3", "a repeat of -3 mm");
+    refused("1 --skin pink", "pink is no colour");
+    refused("1 2 --turntable 8", "one job");
+    refused("1 --turntable 8 --view back", "cannot be used with");
+    refused("99", "no job `99`");
 }
 
 /// One number of one cloth: its garment is draped anew from the old body, field and mesh; the other is left alone.

@@ -371,6 +371,8 @@ pub enum View {
     Back,
     /// Between front and side.
     Quarter,
+    /// From near, so that the cloth shows.
+    CloseUp,
 }
 
 /// What colours the cloth of a picture.
@@ -391,14 +393,34 @@ pub enum Map {
 /// Arguments of `render`.
 #[derive(Debug, Args)]
 pub struct Render {
-    /// Number of the job (`toile queue ls`).
-    pub job: i64,
-    /// Side.
-    #[arg(long, value_enum, default_value_t = View::Front)]
-    pub view: View,
+    /// Numbers of the jobs (`toile queue ls`); several come on one sheet, at one scale.
+    #[arg(required = true, value_name = "JOB")]
+    pub jobs: Vec<i64>,
+    /// Side; several come on one sheet (front,side,back,quarter).
+    #[arg(long, value_enum, value_delimiter = ',', default_values_t = [View::Front])]
+    pub view: Vec<View>,
+    /// Turned by this angle from the front towards the subject's right, degrees.
+    #[arg(long, value_name = "DEG", conflicts_with = "view", allow_negative_numbers = true)]
+    pub turn: Option<f64>,
+    /// Turn once about the vertical: an animated PNG of so many pictures.
+    #[arg(long, value_name = "PICTURES", conflicts_with_all = ["view", "turn"], value_parser = clap::value_parser!(u32).range(2..=360))]
+    pub turntable: Option<u32>,
+    /// Enlarge the garment, percent; at 100 it fills the picture.
+    #[arg(long, value_name = "PCT", value_parser = clap::value_parser!(u32).range(10..=20000))]
+    pub zoom: Option<u32>,
+    /// How far the middle of an enlarged picture lies above the garment's, percent of half its height.
+    #[arg(long, value_name = "PCT", default_value_t = 0, requires = "zoom", allow_negative_numbers = true, value_parser = clap::value_parser!(i32).range(-200..=200))]
+    pub rise: i32,
     /// Colours.
     #[arg(long, value_enum, default_value_t = Map::Plain)]
     pub map: Map,
+    /// Cut the garment, or one piece, from a cloth: fabric, plain, twill, jersey, rib, check, or an image file. MM is one
+    /// repeat; without it yarns have their true size and an image comes once on each piece.
+    #[arg(long, value_name = "[PIECE=]WHAT[#RRGGBB][@MM]")]
+    pub cloth: Vec<String>,
+    /// Colour of the skin, like #dcb094; a dress form without.
+    #[arg(long, value_name = "#RRGGBB")]
+    pub skin: Option<String>,
     /// Pixels across.
     #[arg(long, default_value_t = 800, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=8192))]
     pub width: u32,

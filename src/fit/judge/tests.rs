@@ -99,7 +99,7 @@ fn the_evidence_speaks_or_says_why_not() {
     check(&none, 4, Loose, Finding::InsufficientEvidence, Fem, "1 subject more");
     check(&sure, 5, Tight, Finding::InsufficientEvidence, Hybrid, "fewer than 6");
     check(&sure, 5, Tight, Finding::InsufficientEvidence, Hybrid, "1 subject more");
-    check(&sure, 0, Loose, Finding::InsufficientEvidence, Fem, "6 subjects more");
+    check(&sure, 0, Loose, Finding::InsufficientEvidence, Fem, "6 subjects with this fit");
     check(&[(0.03, 0.04), (0.03, 0.04)], 8, Loose, Finding::InsufficientEvidence, Fem, "the rule stands");
     // One measurement decides: without it the sign turns.
     let neck = [(0.03, 0.04), (0.25, 0.05), (0.03, 0.04)];

@@ -126,7 +126,7 @@ fn bar(canvas: &Canvas<'_>, metric: Metric, axis: &Axis, run: &Run, upper: i32) 
 /// Colours of the simulators that ran.
 fn key(canvas: &Canvas<'_>, runs: &[&Run]) -> Result<(), ReportError> {
     let mut x = LEFT;
-    for simulator in [Simulator::Fem, Simulator::Hybrid] {
+    for simulator in Simulator::ALL {
         if runs.iter().any(|run| run.simulator == simulator) {
             canvas.bar((x, 18), (x + 28, 46), theme::simulator(simulator))?;
             let name = simulator_name(simulator);

@@ -4,12 +4,14 @@ mod canvas;
 mod chi;
 mod difference;
 mod metric;
+mod repeat;
 mod residual;
 mod scatter;
 
 pub use chi::{chi_chart, mean_sd_chart};
 pub use difference::{Difference, crossover_chart, difference_chart};
 pub use metric::{Metric, metric_chart};
+pub(super) use repeat::repeat_chart;
 pub use residual::residual_chart;
 pub use scatter::{ease_chart, time_chart};
 

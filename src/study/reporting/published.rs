@@ -133,6 +133,8 @@ impl Workspace {
 fn printed_run([garment, size, subject]: &[String; 3], simulator: Simulator, ease: Option<Ease>) -> Run {
     Run {
         garment: garment.clone(),
+        case: garment.clone(),
+        repeat: 1,
         size: size.clone(),
         subject: subject.clone(),
         simulator,

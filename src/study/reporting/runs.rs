@@ -85,6 +85,18 @@ impl Workspace {
         Ok(runs)
     }
 
+    /// The garment of a job without the seed that a sweep may have given it.
+    fn case(&self, job: &JobRow) -> Result<String> {
+        let swept = self.one(&format!(
+            "SELECT style || coalesce(group_concat(' ' || parameter || '=' || value, '')
+                    FILTER (WHERE parameter NOT GLOB '*.seed'), '')
+            FROM v_sweep WHERE study = {} AND garment = {} GROUP BY garment",
+            quoted(&job.study),
+            quoted(&job.garment)
+        ))?;
+        Ok(if swept.is_empty() { job.garment.clone() } else { swept })
+    }
+
     /// Where a garment of Hybrid-GS does not close around the body, for the caption of its gap map.
     fn lacks(&self, id: JobId) -> Result<Option<String>> {
         let sql = format!(
@@ -131,6 +143,8 @@ impl Workspace {
         }
         Ok(Run {
             garment: job.garment.clone(),
+            case: self.case(job)?,
+            repeat: job.repeat,
             size: job.size.clone(),
             subject: job.subject.clone(),
             simulator: job.simulator,
@@ -164,8 +178,9 @@ fn add_pictures(
     let mut cells = Vec::new();
     let what = format!("{} {} on {}, {}", job.garment, job.size, job.subject, job.simulator.as_str());
     let on_page = [PICTURE.0, PICTURE.1].map(|side| (f64::from(side) * shrink).round() as u32);
+    let mut scene = worn.scene(Map::Plain)?;
     for (map, views) in &SHOTS {
-        let scene = worn.scene(*map)?;
+        worn.repaint(&mut scene, *map)?;
         for view in *views {
             let camera = Camera::new(*view, frame);
             let shot = render::render(&scene, &camera, PICTURE.0, PICTURE.1).map_err(StudyError::stage("render"))?;
