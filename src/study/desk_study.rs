@@ -72,15 +72,6 @@ pub fn wearables(sizes: &[SizeRow]) -> Vec<Wearable> {
 }
 
 impl Workspace {
-    /// Names of the fabrics of the catalogue.
-    ///
-    /// # Errors
-    /// When the database cannot be read.
-    pub fn fabric_names(&self) -> Result<Vec<String>> {
-        let known = super::catalogue::known(Some(&self.reader))?;
-        Ok(known.fabrics.into_keys().collect())
-    }
-
     /// Writes a new study into a folder of its own and queues its jobs, which then wait to be run; returns its file.
     ///
     /// # Errors

@@ -54,8 +54,8 @@ pub use advice::{LevelFit, SizeAnswer, SizeOn};
 pub use attempt::{Attempt, Tried, TriedChi, TriedEase, TriedGap, attempt};
 pub use audit::{Audit, Finding};
 pub use catalogue::{
-    Deed, FABRIC_NUMBERS, Field, Given, MEASUREMENTS, Mode, Part, Removed, Saved, SizeRow, StyleGiven, SubjectRow,
-    doubts, is_doubtful, percentile, percentile_text, sex,
+    Deed, FABRIC_NUMBERS, FabricRow, Field, Given, MEASUREMENTS, Mode, Part, Removed, Saved, SizeRow, StyleGiven,
+    SubjectRow, doubts, is_doubtful, percentile, percentile_text, sex,
 };
 pub use desk_report::{ReportRow, reports};
 pub use desk_sql::{Relation, SqlAnswer};

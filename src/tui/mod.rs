@@ -15,6 +15,7 @@ mod clerk;
 mod compare;
 mod copy;
 mod editor;
+mod entries;
 mod feed;
 mod form;
 mod go;
@@ -34,7 +35,6 @@ mod state;
 mod study_form;
 mod style_form;
 mod styles;
-mod subjects;
 mod tailor;
 mod terminal;
 #[cfg(test)]

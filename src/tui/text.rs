@@ -58,6 +58,12 @@ pub fn mm(metres: f64) -> String {
     format!("{:.1}", metres * 1000.0)
 }
 
+/// A number as it can be typed, exactly: small ones with an exponent.
+#[must_use]
+pub fn exact(value: f64) -> String {
+    if value != 0.0 && value.abs() < 1e-3 { format!("{value:e}") } else { value.to_string() }
+}
+
 /// A whole number with a true minus sign.
 #[must_use]
 pub fn whole(value: f64) -> String {

@@ -266,26 +266,28 @@ impl Reader {
 /// Acts on the queue or the catalogue; says what was done.
 pub(super) fn do_act(workspace: &mut Workspace, act: &Act) -> Result<String, StudyError> {
     match act {
-        Act::SaveSubject(mode, name, given) => {
-            let saved = workspace.save_subject(*mode, name, given)?;
+        Act::Save(part, mode, name, given) => {
+            let saved = match part {
+                Part::Fabric => workspace.save_fabric(*mode, name, None, given)?,
+                _ => workspace.save_subject(*mode, name, given)?,
+            };
             Ok(format!("{saved}{}", saved.doubts.iter().map(|doubt| format!("; {doubt}")).collect::<String>()))
         }
-        Act::ImportSubjects(path) => {
-            let saved = workspace.import(Part::Subject, std::slice::from_ref(path))?;
+        Act::Import(part, path) => {
+            let saved = workspace.import(*part, std::slice::from_ref(path))?;
             let count = |deed: Deed| saved.iter().filter(|saved| saved.deed == deed).count();
             let changed = count(Deed::Revised) + count(Deed::Restored);
             let doubts = saved.iter().filter(|saved| !saved.doubts.is_empty()).count();
             let doubts = if doubts > 0 { format!("; {doubts} with doubtful values (!)") } else { String::new() };
             Ok(format!(
-                "{} subjects: {} added, {changed} changed, {} as before{doubts}",
+                "{} {part}s: {} added, {changed} changed, {} as before{doubts}",
                 saved.len(),
                 count(Deed::Added),
                 count(Deed::Unchanged)
             ))
         }
-        Act::RemoveSubject(name) => Ok(workspace.remove(Part::Subject, name)?.to_string()),
+        Act::Remove(part, name) => Ok(workspace.remove(*part, name)?.to_string()),
         Act::ImportStyle(name, given) => import_style(workspace, name, given),
-        Act::RemoveStyle(part, name) => Ok(workspace.remove(*part, name)?.to_string()),
         Act::SaveSeams(style, seams) => Ok(said(&workspace.save_seams(style, seams)?)),
         Act::WriteSeams(path, before, after) => {
             write_seams(path, before, after)?;

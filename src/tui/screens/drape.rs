@@ -34,7 +34,7 @@ pub fn picture_places(state: &State) -> Vec<(Sitter, Size)> {
             body.into_iter().collect()
         }
         Screen::Compare => compare::picture_panes(body, state),
-        Screen::Styles | Screen::Jobs | Screen::Sql | Screen::Reports => vec![],
+        Screen::Styles | Screen::Fabrics | Screen::Jobs | Screen::Sql | Screen::Reports => vec![],
     };
     let sized = panes.into_iter().map(|(of, pane)| (of, parts(Block::bordered().inner(pane)).0.as_size()));
     sized.filter(|(_, size)| size.width >= 4 && size.height >= 3).collect()

@@ -3,6 +3,7 @@
 mod chi;
 mod compare;
 mod drape;
+mod fabrics;
 mod forms;
 mod jobs;
 mod overlays;
@@ -17,7 +18,7 @@ mod styles;
 mod subjects;
 
 use ratatui::Frame;
-use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::layout::{Constraint, Layout, Position, Rect};
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph};
@@ -28,12 +29,14 @@ use super::overlay::Overlay;
 use super::state::State;
 use super::text;
 use super::theme::{Theme, glyph};
-use crate::study::Status;
+use crate::study::{MEASUREMENTS, Status};
 
 pub use drape::picture_places;
 
 /// Terminals with fewer columns or rows than this get lists instead of grids and panes.
 const NARROW: (u16, u16) = (60, 16);
+/// Terminals with at least so many columns have the names of all screens in the first line, if short ones.
+const SHORT: u16 = 66;
 /// Terminals with at least so many columns get panes side by side.
 const WIDE: u16 = 120;
 
@@ -44,6 +47,7 @@ pub fn draw(frame: &mut Frame<'_>, state: &State) {
     match state.screen {
         _ if state.data.is_none() => frame.render_widget(Paragraph::new(" reading the database…"), body),
         Screen::Subjects => subjects::draw(frame, body, state),
+        Screen::Fabrics => fabrics::draw(frame, body, state),
         Screen::Styles => styles::draw(frame, body, state),
         Screen::Sql => sql::draw(frame, body, state),
         Screen::Reports => reports::draw(frame, body, state),
@@ -91,13 +95,41 @@ fn first_shown(selected: usize, lines: usize, height: usize) -> usize {
     selected.saturating_sub(height / 2).min(lines.saturating_sub(height))
 }
 
+/// A table of which there is no room for all lines: its header stays, the lines below it are scrolled; a mark in the header
+/// says that there is more.
+fn scrolled(mut table: Vec<Line<'static>>, down: usize, height: usize) -> Vec<Line<'static>> {
+    let hidden = table.len().saturating_sub(height);
+    let down = down.min(hidden);
+    if hidden > 0 && !table.is_empty() {
+        table.drain(1..=down);
+        let mark = match (down > 0, down < hidden) {
+            (true, true) => " ↑↓",
+            (true, false) => " ↑",
+            _ => " ↓",
+        };
+        table[0].push_span(mark);
+    }
+    table
+}
+
+/// Lines that the table of the selected subject or fabric can be scrolled down.
+#[must_use]
+pub fn table_hidden(state: &State) -> usize {
+    let [_, body, _] = rows(Rect::from((Position::ORIGIN, state.size)));
+    match state.screen {
+        Screen::Subjects => MEASUREMENTS.len().saturating_sub(subjects::table_rows(body)),
+        Screen::Fabrics => fabrics::TABLE_LINES.saturating_sub(fabrics::table_rows(body)),
+        _ => 0,
+    }
+}
+
 /// The tabs with their texts: whole names where there is room, short ones, or, but for the screen shown, numbers.
 fn tab_texts(state: &State, width: u16) -> Vec<(Screen, String)> {
     let text = |(k, screen): (usize, Screen)| {
         let [name, short] = screen.names();
         let text = match width {
             WIDE.. => format!(" {} {name} ", k + 1),
-            60.. => format!(" {} {}", k + 1, if screen == state.screen { name } else { short }),
+            SHORT.. => format!(" {} {}", k + 1, if screen == state.screen { name } else { short }),
             _ if screen == state.screen => format!(" {} {name}", k + 1),
             _ => format!(" {}", k + 1),
         };

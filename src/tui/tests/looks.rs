@@ -49,6 +49,16 @@ fn the_form_of_a_style() {
 }
 
 #[test]
+fn fabrics() {
+    looks_like!("fabrics", "9j");
+}
+
+#[test]
+fn the_form_of_a_fabric() {
+    looks_like!("fabric_form", "9ja<Enter>poplin<Tab><Tab><C-u>1.2");
+}
+
+#[test]
 fn jobs() {
     looks_like!("jobs", "4jjjj");
 }
@@ -87,6 +97,7 @@ fn small_terminals_show_lists_and_none_is_refused() {
     assert_snapshot!("study_40x10", bench.screen());
     assert_snapshot!("jobs_40x10", bench.press("4").screen());
     assert_snapshot!("subjects_40x10", bench.press("2").screen());
+    assert_snapshot!("fabrics_40x10", bench.press("9").screen());
     assert_snapshot!("styles_40x10", bench.press("3").screen());
     assert_snapshot!("seams_40x10", bench.press("<Enter>").screen());
     for (width, height) in [(1, 1), (3, 2), (12, 4), (59, 15), (60, 16), (119, 20), (250, 90), (80, 3)] {
@@ -96,6 +107,9 @@ fn small_terminals_show_lists_and_none_is_refused() {
             "2a<Enter>",
             "2i",
             "2d",
+            "9",
+            "9<Tab>G",
+            "9a",
             "3",
             "3<Enter>zl<Tab>",
             "3i",
