@@ -3,12 +3,13 @@
 //! Nothing is asked of the terminal: its answer may come late, or take the first key with it (tmux: 1.8 s). What the
 //! environment and the window size say is enough; otherwise half blocks, which every terminal can show.
 
-use image::{DynamicImage, Rgba, RgbaImage, imageops};
+use image::{DynamicImage, RgbaImage, imageops};
 use ratatui::layout::Size;
 use ratatui_image::picker::{Picker, ProtocolType};
 use ratatui_image::protocol::Protocol;
 use ratatui_image::{FontSize, Resize};
 
+use super::mosaic::{Blocks, cropped, letters};
 use super::theme::Colours;
 use crate::study::{JobId, Look, Map, SubjectId, View};
 
@@ -124,8 +125,10 @@ pub struct Shot {
 
 /// A picture as the terminal shows it.
 pub enum Drawn {
-    /// Pixels or half blocks.
-    Cells(Protocol),
+    /// Pixels.
+    Pixels(Protocol),
+    /// Half blocks.
+    Blocks(Blocks),
     /// Letters of growing density, for terminals without colours.
     Letters(Vec<String>),
 }
@@ -133,7 +136,8 @@ pub enum Drawn {
 impl std::fmt::Debug for Drawn {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
-            Self::Cells(_) => "Cells",
+            Self::Pixels(_) => "Pixels",
+            Self::Blocks(_) => "Blocks",
             Self::Letters(_) => "Letters",
         })
     }
@@ -178,11 +182,14 @@ impl Canvas {
         if self.letters {
             return Ok(Drawn::Letters(letters(&picture, size)));
         }
+        if self.picker.protocol_type() == ProtocolType::Halfblocks {
+            return Ok(Drawn::Blocks(Blocks::of(&picture, size)));
+        }
         // Whole cells, so that nothing of the terminal shines through along the edges.
         let (width, height) = (u32::from(size.width * cell.width), u32::from(size.height * cell.height));
         let exact = imageops::resize(&picture, width, height, imageops::FilterType::CatmullRom);
         let protocol = self.picker.new_protocol(DynamicImage::ImageRgba8(exact), size, Resize::Fit(None));
-        protocol.map(Drawn::Cells).map_err(|error| error.to_string())
+        protocol.map(Drawn::Pixels).map_err(|error| error.to_string())
     }
 }
 
@@ -227,48 +234,14 @@ fn fitted(picture: &RgbaImage, pane: Size, cell: FontSize) -> Size {
     Size::new(cells(columns, pane.width), cells(rows, pane.height))
 }
 
-/// The part of a picture that differs from its background, with a small margin.
-fn cropped(picture: &RgbaImage) -> RgbaImage {
-    let (width, height) = picture.dimensions();
-    let shown = picture.enumerate_pixels().filter(|(_, y, pixel)| !is_background(picture, *y, pixel));
-    let bounds = shown.fold(None, |bounds: Option<[u32; 4]>, (x, y, _)| {
-        let [left, top, right, bottom] = bounds.unwrap_or([x, y, x, y]);
-        Some([left.min(x), top.min(y), right.max(x), bottom.max(y)])
-    });
-    let Some([left, top, right, bottom]) = bounds else { return picture.clone() };
-    let margin = width.max(height) / 50;
-    let (left, top) = (left.saturating_sub(margin), top.saturating_sub(margin));
-    let (right, bottom) = ((right + margin).min(width - 1), (bottom + margin).min(height - 1));
-    imageops::crop_imm(picture, left, top, right - left + 1, bottom - top + 1).to_image()
-}
-
-/// Whether a pixel is transparent or near the colour its row begins with: backgrounds may change from top to bottom.
-fn is_background(picture: &RgbaImage, row: u32, pixel: &Rgba<u8>) -> bool {
-    let edge = picture.get_pixel(0, row);
-    pixel[3] < 8 || (0..4).all(|k| pixel[k].abs_diff(edge[k]) < 12)
-}
-
-/// A picture as letters: the darker, the denser; background stays empty.
-fn letters(picture: &RgbaImage, size: Size) -> Vec<String> {
-    const RAMP: [char; 4] = ['░', '▒', '▓', '█'];
-    let (columns, rows) = (u32::from(size.width), u32::from(size.height));
-    let small = imageops::resize(picture, columns, rows, imageops::FilterType::Triangle);
-    let letter = |row: u32, pixel: &Rgba<u8>| {
-        if is_background(picture, row * picture.height() / rows, pixel) {
-            return ' ';
-        }
-        let light = 0.2126 * f64::from(pixel[0]) + 0.7152 * f64::from(pixel[1]) + 0.0722 * f64::from(pixel[2]);
-        RAMP[((255.0 - light) / 64.0) as usize % RAMP.len()]
-    };
-    (0..).zip(small.rows()).map(|(y, row)| row.map(|pixel| letter(y, pixel)).collect()).collect()
-}
-
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
+    use image::Rgba;
+
     use super::*;
 
     /// A dark cross of a shirt's proportions in the middle of a light picture.
-    fn shirt() -> RgbaImage {
+    pub fn shirt() -> RgbaImage {
         RgbaImage::from_fn(200, 200, |x, y| {
             let body = (80..120).contains(&x) && (60..140).contains(&y);
             let sleeves = (50..150).contains(&x) && (60..85).contains(&y);
@@ -281,19 +254,11 @@ mod tests {
     }
 
     #[test]
-    fn crops_to_what_is_shown() {
-        let cut = cropped(&shirt());
-        assert_eq!(cut.dimensions(), (108, 88));
-        let empty = RgbaImage::from_pixel(30, 20, Rgba([9, 9, 9, 255]));
-        assert_eq!(cropped(&empty).dimensions(), (30, 20));
-    }
-
-    #[test]
     fn half_blocks_fill_the_pane_in_one_direction() {
         let canvas = Canvas::new(Images::Halfblocks, Colours::True, &|_| None).expect("pictures are on");
-        let Ok(Drawn::Cells(protocol)) = canvas.draw(&shirt(), &shot(30, 20)) else { panic!("cells") };
-        assert_eq!(protocol.size().width, 30);
-        assert!(protocol.size().height <= 20);
+        let Ok(Drawn::Blocks(blocks)) = canvas.draw(&shirt(), &shot(30, 20)) else { panic!("blocks") };
+        assert_eq!(blocks.size.width, 30);
+        assert!(blocks.size.height <= 20);
     }
 
     #[test]

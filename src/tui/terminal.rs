@@ -5,19 +5,27 @@ use std::os::unix::net::UnixStream;
 use std::panic;
 use std::sync::Once;
 use std::thread;
+use std::time::{Duration, Instant};
 
 use crossterm::event::{DisableMouseCapture, EnableMouseCapture};
 use crossterm::{cursor, execute, terminal};
 use ratatui::Terminal;
-use ratatui::backend::CrosstermBackend;
+use ratatui::layout::Size;
 
+use super::line::{Late, Line};
 use super::screens;
 use super::state::State;
 
+/// Time between two frames of what was drawn at once.
+const PAUSE: Duration = Duration::from_millis(25);
+/// Time without a key after which pictures are sent: longer than between two repeats of a key that is held.
+const REST: Duration = Duration::from_millis(80);
+
 /// The terminal while the workbench has it; dropping it gives it back.
 pub struct Screen {
-    /// What is drawn on.
-    pub terminal: Terminal<CrosstermBackend<Stdout>>,
+    terminal: Terminal<Line<Stdout>>,
+    /// When a key was pressed last.
+    last_key: Option<Instant>,
 }
 
 impl Screen {
@@ -43,9 +51,9 @@ impl Screen {
         });
         terminal::enable_raw_mode()?;
         let entered = execute!(io::stdout(), terminal::EnterAlternateScreen, cursor::Hide)
-            .and_then(|()| Terminal::new(CrosstermBackend::new(io::stdout())));
+            .and_then(|()| Terminal::new(Line::new(io::stdout(), None)?));
         match entered {
-            Ok(terminal) => Ok(Self { terminal }),
+            Ok(terminal) => Ok(Self { terminal, last_key: None }),
             Err(error) => {
                 restore();
                 Err(error)
@@ -53,12 +61,54 @@ impl Screen {
         }
     }
 
-    /// Draws the state.
+    /// Size of the terminal.
+    ///
+    /// # Errors
+    /// When the terminal is gone.
+    pub fn size(&self) -> io::Result<Size> {
+        self.terminal.size()
+    }
+
+    /// Draws the state and sends a frame of what has changed.
     ///
     /// # Errors
     /// When the terminal is gone.
     pub fn draw(&mut self, state: &State) -> io::Result<()> {
-        self.terminal.draw(|frame| screens::draw(frame, state)).map(|_| ())
+        self.terminal.draw(|frame| screens::draw(frame, state))?;
+        self.go_on()
+    }
+
+    /// Sends the next frame of what is drawn: pictures too, once the keys rest.
+    ///
+    /// # Errors
+    /// When the terminal is gone.
+    pub fn go_on(&mut self) -> io::Result<()> {
+        let is_at_rest = self.last_key.is_none_or(|key| key.elapsed() >= REST);
+        self.terminal.backend_mut().send(is_at_rest).map(|_| ())
+    }
+
+    /// Time until the next frame is sent; `None` where all is sent.
+    #[must_use]
+    pub fn pause(&self) -> Option<Duration> {
+        let rest = self.last_key.map_or(Duration::ZERO, |key| REST.saturating_sub(key.elapsed()));
+        match self.terminal.backend().late() {
+            Late::Nothing => None,
+            Late::Texts => Some(PAUSE),
+            Late::Pictures => Some(PAUSE.max(rest)),
+        }
+    }
+
+    /// Takes note that a key was pressed.
+    pub fn key_pressed(&mut self) {
+        self.last_key = Some(Instant::now());
+    }
+
+    /// Has everything drawn anew.
+    ///
+    /// # Errors
+    /// When the terminal is gone.
+    pub fn clear(&mut self) -> io::Result<()> {
+        self.terminal.clear()
     }
 }
 

@@ -192,20 +192,23 @@ fn watch_signals(sender: &Sender<Message>) {
 fn serve_database(workspace: Workspace, asked: &Receiver<Request>, sender: &Sender<Message>) {
     let mut reader = Reader { workspace, focus: Focus::default(), last: None, rest: LOOK };
     loop {
-        let is_wanted = match asked.recv_timeout(reader.rest) {
-            Ok(Request::Read(wanted)) => {
-                reader.focus = wanted;
-                true
-            }
-            Ok(Request::Do(act)) => {
-                if sender.send(reader.do_act(act)).is_err() {
-                    return;
-                }
-                true
-            }
-            Err(RecvTimeoutError::Timeout) => false,
+        let first = match asked.recv_timeout(reader.rest) {
+            Ok(request) => Some(request),
+            Err(RecvTimeoutError::Timeout) => None,
             Err(RecvTimeoutError::Disconnected) => return,
         };
+        let is_wanted = first.is_some();
+        // Of what was looked at meanwhile, only the latest is read.
+        for request in first.into_iter().chain(asked.try_iter()) {
+            match request {
+                Request::Read(wanted) => reader.focus = wanted,
+                Request::Do(act) => {
+                    if sender.send(reader.do_act(act)).is_err() {
+                        return;
+                    }
+                }
+            }
+        }
         let message = match reader.read(is_wanted) {
             Ok(None) => continue,
             Ok(Some(data)) => Message::Data(Box::new(data)),

@@ -129,10 +129,10 @@ pub(super) fn draw_legend(frame: &mut Frame<'_>, area: Rect, state: &State) {
 /// The picture in the middle of its pane.
 fn draw_cells(frame: &mut Frame<'_>, area: Rect, drawn: &Drawn, state: &State) {
     match drawn {
-        Drawn::Cells(protocol) => {
-            let size = protocol.size();
-            let place = centred(area, size);
-            frame.render_widget(Image::new(protocol), place);
+        Drawn::Pixels(protocol) => frame.render_widget(Image::new(protocol), centred(area, protocol.size())),
+        Drawn::Blocks(blocks) => {
+            let place = centred(area, blocks.size);
+            blocks.render(place, frame.buffer_mut());
             state.theme.adapt(frame.buffer_mut(), place);
         }
         Drawn::Letters(rows) => {
