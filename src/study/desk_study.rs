@@ -7,6 +7,7 @@ use super::catalogue::SizeRow;
 use super::enqueue::{self, Planned};
 use super::error::{Result, StudyError};
 use super::file::Study;
+use super::new_study::{Outline, Worn, drafted_size};
 use super::spec::Selection;
 use super::store;
 use super::tools::{self, Model};
@@ -107,13 +108,21 @@ impl Workspace {
         let mut files: Vec<(String, Vec<u8>)> = Vec::new();
         let mut garments = Vec::new();
         for style in styles(new) {
-            let mut garment = Garment { style, ..Garment::default() };
+            let mut garment = Worn { style, ..Worn::default() };
             for wearable in new.sizes.iter().filter(|wearable| wearable.style == style) {
                 self.add_size(wearable, &mut garment, &mut files)?;
             }
             garments.push(garment);
         }
-        files.push(("study.toml".to_owned(), text(new, &garments).into_bytes()));
+        let outline = Outline {
+            name: Some(&new.name),
+            simulators: &new.simulators,
+            known: new.subjects.iter().map(String::as_str).collect(),
+            measured: vec![],
+            garments,
+            fabric: &new.fabric,
+        };
+        files.push(("study.toml".to_owned(), outline.text().into_bytes()));
         Ok(files)
     }
 
@@ -121,7 +130,7 @@ impl Workspace {
     fn add_size<'a>(
         &self,
         wearable: &'a Wearable,
-        garment: &mut Garment<'a>,
+        garment: &mut Worn<'a>,
         files: &mut Vec<(String, Vec<u8>)>,
     ) -> Result<()> {
         let mut add = |name: String, bytes: Vec<u8>| {
@@ -137,35 +146,24 @@ impl Workspace {
                 // Files of two styles may be called the same.
                 let own = |name: &str| format!("{}/{name}", file_name(&wearable.style));
                 let path = add(own(&base(&piece.pattern.name)), piece.pattern.bytes.to_vec());
-                garment.sizes.push((&wearable.size, path));
+                garment.sizes.push((wearable.size.clone(), path));
                 garment.unit = piece.unit.map(|unit| unit.as_str().to_owned()).or(garment.unit.take());
                 if let Some(seams) = &piece.seams {
                     garment.seams = Some(add(own(&base(&seams.name)), seams.bytes.to_vec()));
                 }
             }
             PatternSource::Drafted(model) => {
-                let ending = format!("-{}.dxf", wearable.size.to_lowercase());
                 for (name, bytes) in tools::drafted(model) {
-                    if name.ends_with(&ending) {
-                        garment.sizes.push((&wearable.size, add(name, bytes)));
-                    } else if name.ends_with(".toml") {
-                        garment.seams = Some(add(name, bytes));
+                    match drafted_size(&name) {
+                        Some(size) if size == wearable.size => garment.sizes.push((size, add(name, bytes))),
+                        Some(_) => {}
+                        None => garment.seams = Some(add(name, bytes)),
                     }
                 }
             }
         }
         Ok(())
     }
-}
-
-/// A garment as the study file has it.
-#[derive(Default)]
-struct Garment<'a> {
-    style: &'a str,
-    seams: Option<String>,
-    unit: Option<String>,
-    /// Sizes with their patterns.
-    sizes: Vec<(&'a str, String)>,
 }
 
 /// Refuses a study without something it needs.
@@ -189,44 +187,6 @@ fn check(new: &NewStudy) -> Result<()> {
 fn styles(new: &NewStudy) -> Vec<&str> {
     let mut seen = BTreeSet::new();
     new.sizes.iter().map(|wearable| wearable.style.as_str()).filter(|style| seen.insert(*style)).collect()
-}
-
-/// The text of the study file.
-fn text(new: &NewStudy, garments: &[Garment<'_>]) -> String {
-    let list = |names: &[String]| format!("[{}]", names.iter().map(|name| quoted(name)).collect::<Vec<_>>().join(", "));
-    let simulators: Vec<String> = new.simulators.iter().map(|simulator| simulator.as_str().to_owned()).collect();
-    let jobs = new.subjects.len() * new.sizes.len() * new.simulators.len();
-    let mut text = format!(
-        "# {} subjects, {} sizes, {} simulators: {jobs} simulations. Run it with `toile run` and this folder.\n\n\
-         name = {}\nsimulators = {}\nedge_length_mm = 15  # of the finest cloth mesh\n\n\
-         # Subjects of the catalogue, as they are there when the study is run; `toile subject ls` lists them.\n",
-        new.subjects.len(),
-        new.sizes.len(),
-        new.simulators.len(),
-        quoted(&new.name),
-        list(&simulators)
-    );
-    for subject in &new.subjects {
-        text += &format!("[[subject]]\nid = {0}\nlike = {0}\n\n", quoted(subject));
-    }
-    for garment in garments {
-        text += &format!("[[garment]]\nname = {}\n", quoted(garment.style));
-        for (key, value) in [("seams", &garment.seams), ("unit", &garment.unit)] {
-            text += &value.as_ref().map_or(String::new(), |value| format!("{key} = {}\n", quoted(value)));
-        }
-        text += &format!("fabric = {}\nsizes = [\n", quoted(&new.fabric));
-        for (size, pattern) in &garment.sizes {
-            text += &format!("    {{ name = {}, pattern = {} }},\n", quoted(size), quoted(pattern));
-        }
-        text += "]\n\n";
-    }
-    text.truncate(text.trim_end().len());
-    text + "\n"
-}
-
-/// A TOML string.
-fn quoted(text: &str) -> String {
-    toml::Value::String(text.to_owned()).to_string()
 }
 
 /// The last part of a path.

@@ -109,6 +109,9 @@ impl<W: Write> Line<W> {
             }
         }
         frame.write(Pen::default().style);
+        if frame.bytes.is_empty() {
+            return Ok(0);
+        }
         self.out.write_all(&frame.bytes)?;
         self.out.flush()?;
         Ok(frame.bytes.len())

@@ -135,14 +135,14 @@ fn event_loop(screen: &mut terminal::Screen, state: &mut State, workers: &Worker
     let mut silence = None;
     workers.read(state.focus.clone());
     terminal::take_mouse(state.has_mouse)?;
-    screen.draw(state)?;
+    screen.show(state)?;
     loop {
         let message = match screen.pause().filter(|_| !state.detached) {
             None => workers.messages.recv().ok(),
             Some(pause) => match workers.messages.recv_timeout(pause) {
                 Err(RecvTimeoutError::Timeout) => {
                     // A terminal that is gone is noticed at the next message.
-                    let _ = screen.go_on();
+                    let _ = screen.go_on(state);
                     continue;
                 }
                 message => message.ok(),
@@ -169,7 +169,7 @@ fn event_loop(screen: &mut terminal::Screen, state: &mut State, workers: &Worker
             }
         }
         if !state.detached
-            && let Err(error) = screen.draw(state)
+            && let Err(error) = screen.show(state)
             && state.update(Message::Hangup).contains(&Effect::Quit)
         {
             return Err(error);

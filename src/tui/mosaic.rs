@@ -21,12 +21,9 @@ impl Blocks {
     #[must_use]
     pub fn of(picture: &RgbaImage, size: Size) -> Self {
         let (columns, rows) = (u32::from(size.width), u32::from(size.height));
-        let small = imageops::resize(picture, columns, 2 * rows, imageops::FilterType::Triangle);
         let half = |x: u32, y: u32| {
-            let pixel = small.get_pixel(x, y);
-            let Rgba([r, g, b, _]) = *pixel;
-            let row = (y * picture.height() + picture.height() / 2) / (2 * rows);
-            (!is_background(picture, row, pixel)).then(|| [r, g, b].map(|v| v.saturating_add(STEP / 2) / STEP * STEP))
+            let level = |v: u8| v.saturating_add(STEP / 2) / STEP * STEP;
+            mean(picture, (x, columns), (y, 2 * rows)).map(|colour| colour.map(level))
         };
         let cells = (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y)));
         Self { size, halves: cells.map(|(x, y)| [half(x, 2 * y), half(x, 2 * y + 1)]).collect() }
@@ -56,22 +53,40 @@ impl Blocks {
 pub fn letters(picture: &RgbaImage, size: Size) -> Vec<String> {
     const RAMP: [char; 4] = ['░', '▒', '▓', '█'];
     let (columns, rows) = (u32::from(size.width), u32::from(size.height));
-    let small = imageops::resize(picture, columns, rows, imageops::FilterType::Triangle);
-    let letter = |row: u32, pixel: &Rgba<u8>| {
-        if is_background(picture, row * picture.height() / rows, pixel) {
-            return ' ';
-        }
-        let light = 0.2126 * f64::from(pixel[0]) + 0.7152 * f64::from(pixel[1]) + 0.0722 * f64::from(pixel[2]);
+    let letter = |x: u32, y: u32| {
+        let Some([r, g, b]) = mean(picture, (x, columns), (y, rows)) else { return ' ' };
+        let light = 0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b);
         RAMP[((255.0 - light) / 64.0) as usize % RAMP.len()]
     };
-    (0..).zip(small.rows()).map(|(y, row)| row.map(|pixel| letter(y, pixel)).collect()).collect()
+    (0..rows).map(|y| (0..columns).map(|x| letter(x, y)).collect()).collect()
 }
 
-/// The part of a picture that differs from its background, with a small margin.
+/// The mean colour of what is opaque in one of so many columns and one of so many rows of a picture; none where that is
+/// less than half.
+fn mean(picture: &RgbaImage, (column, columns): (u32, u32), (row, rows): (u32, u32)) -> Option<[u8; 3]> {
+    let part = |k: u32, of: u32, pixels: u32| {
+        let from = (k * pixels / of).min(pixels.saturating_sub(1));
+        from..((k + 1) * pixels / of).clamp(from + 1, pixels)
+    };
+    let (mut sum, mut opaque, mut all) = ([0u32; 3], 0, 0);
+    for y in part(row, rows, picture.height()) {
+        for x in part(column, columns, picture.width()) {
+            let pixel = picture.get_pixel(x, y);
+            all += 1;
+            if is_opaque(pixel) {
+                opaque += 1;
+                sum.iter_mut().zip(pixel.0).for_each(|(sum, v)| *sum += u32::from(v));
+            }
+        }
+    }
+    (2 * opaque >= all && opaque > 0).then(|| sum.map(|sum| (sum / opaque) as u8))
+}
+
+/// The part of a picture that is not transparent, with a small margin.
 #[must_use]
 pub fn cropped(picture: &RgbaImage) -> RgbaImage {
     let (width, height) = picture.dimensions();
-    let shown = picture.enumerate_pixels().filter(|(_, y, pixel)| !is_background(picture, *y, pixel));
+    let shown = picture.enumerate_pixels().filter(|(.., pixel)| is_opaque(pixel));
     let bounds = shown.fold(None, |bounds: Option<[u32; 4]>, (x, y, _)| {
         let [left, top, right, bottom] = bounds.unwrap_or([x, y, x, y]);
         Some([left.min(x), top.min(y), right.max(x), bottom.max(y)])
@@ -83,10 +98,8 @@ pub fn cropped(picture: &RgbaImage) -> RgbaImage {
     imageops::crop_imm(picture, left, top, right - left + 1, bottom - top + 1).to_image()
 }
 
-/// Whether a pixel is transparent or near the colour its row begins with: backgrounds may change from top to bottom.
-fn is_background(picture: &RgbaImage, row: u32, pixel: &Rgba<u8>) -> bool {
-    let edge = picture.get_pixel(0, row);
-    pixel[3] < 8 || (0..4).all(|k| pixel[k].abs_diff(edge[k]) < 12)
+fn is_opaque(pixel: &Rgba<u8>) -> bool {
+    pixel[3] >= 128
 }
 
 #[cfg(test)]
@@ -98,7 +111,7 @@ mod tests {
     fn crops_to_what_is_shown() {
         let cut = cropped(&shirt());
         assert_eq!(cut.dimensions(), (108, 88));
-        let empty = RgbaImage::from_pixel(30, 20, Rgba([9, 9, 9, 255]));
+        let empty = RgbaImage::from_pixel(30, 20, Rgba([9, 9, 9, 0]));
         assert_eq!(cropped(&empty).dimensions(), (30, 20));
     }
 

@@ -38,6 +38,8 @@ impl std::str::FromStr for Images {
     }
 }
 
+/// Pixels that are drawn of a cell that shows two of them or a letter.
+const SMALL: FontSize = FontSize::new(6, 12);
 /// Degrees of one turn.
 const TURN_DEG: i32 = 15;
 /// Least and greatest enlargement, percent; one step multiplies or divides by 5/4.
@@ -146,8 +148,11 @@ impl std::fmt::Debug for Drawn {
 /// Turns pictures into cells.
 #[derive(Clone, Debug)]
 pub struct Canvas {
-    picker: Picker,
+    /// How pixels are sent, where they are.
+    picker: Option<Picker>,
     letters: bool,
+    /// Pixels of a cell.
+    cell: FontSize,
 }
 
 impl Canvas {
@@ -160,15 +165,14 @@ impl Canvas {
             Images::Auto if !letters => pixel_protocol(env).zip(cell_size()),
             _ => None,
         };
-        let picker = pixels.map_or_else(Picker::halfblocks, |(protocol, cell)| picker_of(protocol, cell));
-        Some(Self { picker, letters })
+        let picker = pixels.map(|(protocol, cell)| picker_of(protocol, cell));
+        Some(Self { picker, letters, cell: pixels.map_or(SMALL, |(_, cell)| cell) })
     }
 
     /// Pixels to render for a picture, width by height.
     #[must_use]
     pub fn pixels(&self, shot: &Shot) -> (u32, u32) {
-        let cell = self.picker.font_size();
-        (u32::from(shot.columns) * u32::from(cell.width), u32::from(shot.rows) * u32::from(cell.height))
+        (u32::from(shot.columns) * u32::from(self.cell.width), u32::from(shot.rows) * u32::from(self.cell.height))
     }
 
     /// Crops a picture to what it shows and fits it into its pane.
@@ -177,18 +181,20 @@ impl Canvas {
     /// When the picture cannot be encoded for this terminal.
     pub fn draw(&self, picture: &RgbaImage, shot: &Shot) -> Result<Drawn, String> {
         let picture = cropped(picture);
-        let cell = self.picker.font_size();
+        let cell = self.cell;
         let size = fitted(&picture, Size::new(shot.columns, shot.rows), cell);
         if self.letters {
             return Ok(Drawn::Letters(letters(&picture, size)));
         }
-        if self.picker.protocol_type() == ProtocolType::Halfblocks {
-            return Ok(Drawn::Blocks(Blocks::of(&picture, size)));
-        }
-        // Whole cells, so that nothing of the terminal shines through along the edges.
+        let Some(picker) = &self.picker else { return Ok(Drawn::Blocks(Blocks::of(&picture, size))) };
+        // Terminals differ in what shines through: the backdrop is part of it. Whole cells, so that nothing of the terminal shines through along the edges.
         let (width, height) = (u32::from(size.width * cell.width), u32::from(size.height * cell.height));
-        let exact = imageops::resize(&picture, width, height, imageops::FilterType::CatmullRom);
-        let protocol = self.picker.new_protocol(DynamicImage::ImageRgba8(exact), size, Resize::Fit(None));
+        let opaque = |mut picture: RgbaImage| {
+            picture.pixels_mut().for_each(|pixel| pixel.0[3] = 255);
+            picture
+        };
+        let exact = imageops::resize(&opaque(picture), width, height, imageops::FilterType::CatmullRom);
+        let protocol = picker.new_protocol(DynamicImage::ImageRgba8(exact), size, Resize::Fit(None));
         protocol.map(Drawn::Pixels).map_err(|error| error.to_string())
     }
 }
@@ -240,12 +246,12 @@ pub(super) mod tests {
 
     use super::*;
 
-    /// A dark cross of a shirt's proportions in the middle of a light picture.
+    /// A dark cross of a shirt's proportions in the middle of an empty picture.
     pub fn shirt() -> RgbaImage {
         RgbaImage::from_fn(200, 200, |x, y| {
             let body = (80..120).contains(&x) && (60..140).contains(&y);
             let sleeves = (50..150).contains(&x) && (60..85).contains(&y);
-            if body || sleeves { Rgba([40, 90, 160, 255]) } else { Rgba([240, 240, 240, 255]) }
+            if body || sleeves { Rgba([40, 90, 160, 255]) } else { Rgba([240, 240, 240, 0]) }
         })
     }
 

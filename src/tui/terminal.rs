@@ -16,8 +16,8 @@ use super::line::{Late, Line};
 use super::screens;
 use super::state::State;
 
-/// Time between two frames of what was drawn at once.
-const PAUSE: Duration = Duration::from_millis(25);
+/// Least time between two frames: keys that come faster share one, and a slow line gets no more than it can take.
+const PAUSE: Duration = Duration::from_millis(20);
 /// Time without a key after which pictures are sent: longer than between two repeats of a key that is held.
 const REST: Duration = Duration::from_millis(80);
 
@@ -26,6 +26,10 @@ pub struct Screen {
     terminal: Terminal<Line<Stdout>>,
     /// When a key was pressed last.
     last_key: Option<Instant>,
+    /// When a frame was sent last.
+    last_frame: Option<Instant>,
+    /// Whether the state has changed since it was drawn.
+    is_stale: bool,
 }
 
 impl Screen {
@@ -53,7 +57,7 @@ impl Screen {
         let entered = execute!(io::stdout(), terminal::EnterAlternateScreen, cursor::Hide)
             .and_then(|()| Terminal::new(Line::new(io::stdout(), None)?));
         match entered {
-            Ok(terminal) => Ok(Self { terminal, last_key: None }),
+            Ok(terminal) => Ok(Self { terminal, last_key: None, last_frame: None, is_stale: false }),
             Err(error) => {
                 restore();
                 Err(error)
@@ -69,33 +73,52 @@ impl Screen {
         self.terminal.size()
     }
 
-    /// Draws the state and sends a frame of what has changed.
+    /// Has the state drawn, now or when the frame before is old enough.
     ///
     /// # Errors
     /// When the terminal is gone.
-    pub fn draw(&mut self, state: &State) -> io::Result<()> {
-        self.terminal.draw(|frame| screens::draw(frame, state))?;
-        self.go_on()
+    pub fn show(&mut self, state: &State) -> io::Result<()> {
+        self.is_stale = true;
+        self.go_on(state)
     }
 
-    /// Sends the next frame of what is drawn: pictures too, once the keys rest.
+    /// Draws the state where it has changed and sends the next frame, pictures too once the keys rest; nothing where the
+    /// frame before is too young.
     ///
     /// # Errors
     /// When the terminal is gone.
-    pub fn go_on(&mut self) -> io::Result<()> {
-        let is_at_rest = self.last_key.is_none_or(|key| key.elapsed() >= REST);
-        self.terminal.backend_mut().send(is_at_rest).map(|_| ())
+    pub fn go_on(&mut self, state: &State) -> io::Result<()> {
+        if !self.age_left().is_zero() {
+            return Ok(());
+        }
+        if std::mem::take(&mut self.is_stale) {
+            self.terminal.draw(|frame| screens::draw(frame, state))?;
+        }
+        let is_at_rest = self.rest_left().is_zero();
+        if self.terminal.backend_mut().send(is_at_rest)? > 0 {
+            self.last_frame = Some(Instant::now());
+        }
+        Ok(())
     }
 
-    /// Time until the next frame is sent; `None` where all is sent.
+    /// Time until the next frame is due; `None` where nothing is left to send.
     #[must_use]
     pub fn pause(&self) -> Option<Duration> {
-        let rest = self.last_key.map_or(Duration::ZERO, |key| REST.saturating_sub(key.elapsed()));
         match self.terminal.backend().late() {
-            Late::Nothing => None,
-            Late::Texts => Some(PAUSE),
-            Late::Pictures => Some(PAUSE.max(rest)),
+            Late::Nothing if !self.is_stale => None,
+            Late::Pictures if !self.is_stale => Some(self.age_left().max(self.rest_left())),
+            _ => Some(self.age_left()),
         }
+    }
+
+    /// Time until the last frame is old enough for another.
+    fn age_left(&self) -> Duration {
+        self.last_frame.map_or(Duration::ZERO, |frame| PAUSE.saturating_sub(frame.elapsed()))
+    }
+
+    /// Time until the keys rest.
+    fn rest_left(&self) -> Duration {
+        self.last_key.map_or(Duration::ZERO, |key| REST.saturating_sub(key.elapsed()))
     }
 
     /// Takes note that a key was pressed.

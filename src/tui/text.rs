@@ -199,7 +199,14 @@ pub fn why(job: &JobRow, paused: bool) -> String {
         Status::Failed => job.error.clone().unwrap_or_else(|| "failed".into()),
         Status::NotConverged => "not at rest".into(),
         Status::Queued if paused => "study is paused".into(),
-        Status::Queued => job.error.clone().unwrap_or_else(|| "waits".into()),
+        Status::Queued => {
+            let reason = job.error.clone().unwrap_or_else(|| "waits".into());
+            if job.priority == 0 {
+                reason
+            } else {
+                format!("{reason}, priority {:+}", job.priority).replace('-', "−")
+            }
+        }
         Status::Cancelled => "cancelled".into(),
         Status::Running if job.attempts > 1 => format!("attempt {}", job.attempts),
         Status::Running => "in work".into(),

@@ -15,4 +15,5 @@ mod report;
 mod run;
 mod seat;
 mod tidy;
+mod together;
 mod workbench;

@@ -149,7 +149,7 @@ fn without_colours_glyphs_tell_everything_and_the_shirt_is_seen() {
         let (x, y) = (f64::from(x) / f64::from(width), f64::from(y) / f64::from(height));
         let is_trunk = (0.3..0.7).contains(&x) && (0.2..0.8).contains(&y);
         let is_sleeves = (0.05..0.95).contains(&x) && (0.2..0.4).contains(&y);
-        if is_trunk || is_sleeves { Rgba([60, 150, 110, 255]) } else { Rgba([250, 250, 250, 255]) }
+        if is_trunk || is_sleeves { Rgba([60, 150, 110, 255]) } else { Rgba([250, 250, 250, 0]) }
     });
     bench.send(Message::Picture(shot, canvas.draw(&picture, &shot)));
     assert_snapshot!("results_letters_80x24", bench.screen());
