@@ -1,12 +1,13 @@
 //! A new study from what the catalogue has: a folder with a `study.toml` to read and edit, and the patterns beside it.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::catalogue::SizeRow;
 use super::enqueue::{self, Planned};
 use super::error::{Result, StudyError};
-use super::file::Study;
+use super::export::{Files, place};
+use super::file::{SourceFile, Study};
 use super::new_study::{Outline, Worn, drafted_size};
 use super::spec::Selection;
 use super::store;
@@ -105,7 +106,7 @@ impl Workspace {
 
     /// The files of a new study: its patterns, their seam files, `study.toml`.
     fn files_of(&self, new: &NewStudy) -> Result<Vec<(String, Vec<u8>)>> {
-        let mut files: Vec<(String, Vec<u8>)> = Vec::new();
+        let mut files = Files::new();
         let mut garments = Vec::new();
         for style in styles(new) {
             let mut garment = Worn { style, ..Worn::default() };
@@ -122,42 +123,28 @@ impl Workspace {
             garments,
             fabric: &new.fabric,
         };
-        files.push(("study.toml".to_owned(), outline.text().into_bytes()));
-        Ok(files)
+        files.insert("study.toml".to_owned(), outline.text().into_bytes());
+        Ok(files.into_iter().collect())
     }
 
     /// Adds the files of a size, each once.
-    fn add_size<'a>(
-        &self,
-        wearable: &'a Wearable,
-        garment: &mut Worn<'a>,
-        files: &mut Vec<(String, Vec<u8>)>,
-    ) -> Result<()> {
-        let mut add = |name: String, bytes: Vec<u8>| {
-            let path = format!("patterns/{name}");
-            if !files.iter().any(|(known, _)| *known == path) {
-                files.push((path.clone(), bytes));
-            }
-            path
-        };
+    fn add_size<'a>(&self, wearable: &'a Wearable, garment: &mut Worn<'a>, files: &mut Files) -> Result<()> {
+        let mut add = |source: &SourceFile| place(files, "patterns", source);
         match wearable.source {
             PatternSource::Catalogue(key) => {
                 let piece = self.workpiece(key)?;
-                // Files of two styles may be called the same.
-                let own = |name: &str| format!("{}/{name}", file_name(&wearable.style));
-                let path = add(own(&base(&piece.pattern.name)), piece.pattern.bytes.to_vec());
-                garment.sizes.push((wearable.size.clone(), path));
+                garment.sizes.push((wearable.size.clone(), add(&piece.pattern)));
                 garment.unit = piece.unit.map(|unit| unit.as_str().to_owned()).or(garment.unit.take());
-                if let Some(seams) = &piece.seams {
-                    garment.seams = Some(add(own(&base(&seams.name)), seams.bytes.to_vec()));
-                }
+                garment.seams = piece.seams.as_ref().map(add).or(garment.seams.take());
             }
             PatternSource::Drafted(model) => {
                 for (name, bytes) in tools::drafted(model) {
-                    match drafted_size(&name) {
-                        Some(size) if size == wearable.size => garment.sizes.push((size, add(name, bytes))),
+                    let size = drafted_size(&name);
+                    let source = SourceFile { name, bytes: bytes.into() };
+                    match size {
+                        Some(size) if size == wearable.size => garment.sizes.push((size, add(&source))),
                         Some(_) => {}
-                        None => garment.seams = Some(add(name, bytes)),
+                        None => garment.seams = Some(add(&source)),
                     }
                 }
             }
@@ -189,18 +176,10 @@ fn styles(new: &NewStudy) -> Vec<&str> {
     new.sizes.iter().map(|wearable| wearable.style.as_str()).filter(|style| seen.insert(*style)).collect()
 }
 
-/// The last part of a path.
-fn base(path: &str) -> String {
-    Path::new(path).file_name().unwrap_or_default().to_string_lossy().into_owned()
-}
-
-/// A name as that of a folder.
-fn file_name(name: &str) -> String {
-    name.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect()
-}
-
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
 
     fn new_study(folder: &Path) -> NewStudy {
@@ -243,6 +222,27 @@ mod tests {
         let new = NewStudy { sizes, ..new_study(folder.path()) };
         let path = workspace.create_study(&new).expect("whole");
         assert_eq!(workspace.load_study(&path).expect("good").garments[0].sizes.len(), 3);
+    }
+
+    #[test]
+    fn a_pattern_that_is_a_folder_of_pieces_comes_as_one() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let shirt = folder.path().join("shirt");
+        let files =
+            tools::drafted(Model::Tshirt).into_iter().filter(|(name, _)| !name.contains("-m") && !name.contains("-l"));
+        tools::write_files(&shirt, &files.collect::<Vec<_>>()).expect("writable");
+        let mut workspace = Workspace::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
+        let given = super::super::StyleGiven {
+            seams: Some(shirt.join("tshirt.seams.toml")),
+            patterns: vec![(Some("S".to_owned()), shirt)],
+            ..Default::default()
+        };
+        workspace.save_style(super::super::Mode::Add, "folded", &given).expect("its only drawing is a whole shirt");
+        let sizes = wearables(&workspace.sizes().expect("readable"));
+        let sizes = sizes.into_iter().filter(|wearable| wearable.style == "folded").collect();
+        let path = workspace.create_study(&NewStudy { sizes, ..new_study(folder.path()) }).expect("whole");
+        assert!(path.with_file_name("patterns/shirt/tshirt-s.dxf").exists());
+        assert_eq!(workspace.load_study(&path).expect("good").garments[0].sizes[0].name, "S");
     }
 
     #[test]

@@ -55,7 +55,7 @@ pub fn export_study(study: &Study) -> Vec<(String, Vec<u8>)> {
 }
 
 /// Contents by path within the folder.
-type Files = BTreeMap<String, Vec<u8>>;
+pub(super) type Files = BTreeMap<String, Vec<u8>>;
 
 fn write_subject(text: &mut String, files: &mut Files, subject: &Subject) {
     let _ =
@@ -101,7 +101,7 @@ fn write_garment(text: &mut String, files: &mut Files, garment: &GarmentEntry) {
 
 /// Puts a file, or the files of a folder, below `folder` under its own name, which is one of a result's inputs; another
 /// file of that name goes one folder deeper. Returns its path.
-fn place(files: &mut Files, folder: &str, source: &SourceFile) -> String {
+pub(super) fn place(files: &mut Files, folder: &str, source: &SourceFile) -> String {
     let mut folder = folder.to_owned();
     loop {
         let path = format!("{folder}/{}", source.name);

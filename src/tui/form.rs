@@ -176,7 +176,8 @@ impl Form {
     /// Where a number stands among the fabrics of the catalogue: far from all of them it is in another unit, perhaps.
     fn fabric_note(&self, k: usize, text: &str) -> Result<Note, String> {
         let value = FABRIC_NUMBERS[k].read(text)?;
-        let Some((value, [low, high])) = value.zip(self.known.get(k).copied()).filter(|(_, [low, high])| low <= high)
+        let Some((value, [low, high])) =
+            value.zip(self.known.get(k).copied()).filter(|(_, [low, high])| low <= high && *high > 0.0)
         else {
             return Ok(Note::None);
         };

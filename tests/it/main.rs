@@ -8,6 +8,7 @@ mod bad_input;
 mod cli;
 mod durability;
 mod engine;
+mod figures;
 mod pattern_files;
 mod pictures;
 mod program;

@@ -76,7 +76,7 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let block = pane(state.theme, title, !focused);
     let inner = block.inner(table_area);
     let lines = fabric.map_or_else(Vec::new, |row| table(state, row, usize::from(inner.width)));
-    let lines = scrolled(lines, state.table_down, usize::from(inner.height));
+    let lines = scrolled(lines, state.table_down, inner);
     frame.render_widget(Paragraph::new(lines).block(block), table_area);
     draw_facts(frame, facts_area, state, fabric);
 }

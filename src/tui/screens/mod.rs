@@ -95,20 +95,23 @@ fn first_shown(selected: usize, lines: usize, height: usize) -> usize {
     selected.saturating_sub(height / 2).min(lines.saturating_sub(height))
 }
 
-/// A table of which there is no room for all lines: its header stays, the lines below it are scrolled; a mark in the header
-/// says that there is more.
-fn scrolled(mut table: Vec<Line<'static>>, down: usize, height: usize) -> Vec<Line<'static>> {
-    let hidden = table.len().saturating_sub(height);
-    let down = down.min(hidden);
-    if hidden > 0 && !table.is_empty() {
-        table.drain(1..=down);
-        let mark = match (down > 0, down < hidden) {
-            (true, true) => " ↑↓",
-            (true, false) => " ↑",
-            _ => " ↓",
-        };
-        table[0].push_span(mark);
+/// A table of which there is no room for all lines: its header stays, the lines below it are scrolled; a mark at the end of
+/// the header says that there is more.
+fn scrolled(mut table: Vec<Line<'static>>, down: usize, inner: Rect) -> Vec<Line<'static>> {
+    let hidden = table.len().saturating_sub(usize::from(inner.height));
+    if hidden == 0 || table.is_empty() {
+        return table;
     }
+    let down = down.min(hidden);
+    table.drain(1..=down);
+    let mark = match (down > 0, down < hidden) {
+        (true, true) => "↑↓",
+        (true, false) => " ↑",
+        _ => " ↓",
+    };
+    let style = table[0].style;
+    let head: String = table[0].spans.iter().map(|span| span.content.as_ref()).collect();
+    table[0] = Line::styled(text::left(&head, usize::from(inner.width).saturating_sub(2)) + mark, style);
     table
 }
 

@@ -131,7 +131,7 @@ fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State, subject: &Subjec
     let block = pane(state.theme, title, state.in_second_pane());
     let inner = block.inner(area);
     let lines = table(state, subject, usize::from(inner.width));
-    let lines = scrolled(lines, state.table_down, usize::from(inner.height));
+    let lines = scrolled(lines, state.table_down, inner);
     frame.render_widget(Paragraph::new(lines).block(block), area);
 }
 
@@ -141,7 +141,7 @@ fn table(state: &State, subject: &SubjectRow, columns: usize) -> Vec<Line<'stati
     let girths = measured.and_then(|measured| measured.as_ref().ok());
     let wait = if measured.is_none() { "…" } else { "—" };
     let bar = columns.saturating_sub(17 + 9 + 10 + 8).min(20);
-    let head = format!("{}{}{}  {}", left("mm, kg", 17), right("asked", 9), right("measured", 10), "percentile");
+    let head = format!("{}{}{}  {}", left("mm, kg", 17), right("asked", 9), right("measured", 10), "centile");
     let mut lines = vec![Line::styled(shortened(&head, columns), state.theme.dim())];
     if let Some(Err(error)) = measured {
         let wrapped = super::chi::wrapped(error, columns);

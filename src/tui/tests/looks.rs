@@ -3,6 +3,7 @@
 use image::{Rgba, RgbaImage};
 use insta::assert_snapshot;
 
+use super::super::ascii::stand_in;
 use super::super::message::{Effect, Message};
 use super::super::picture::{Canvas, Images};
 use super::super::theme::Colours;
@@ -84,6 +85,15 @@ fn maps_say_what_their_colours_mean() {
 #[test]
 fn help() {
     looks_like!("help", "?job");
+}
+
+#[test]
+fn every_sign_has_a_stand_in_in_ascii() {
+    for keys in ["", "2j", "2a", "3<Enter>pym", "3i", "4jjjj", "5", "c", "7", "8", "9", "9j<Tab>", "9a", "?", "1a"] {
+        let screen = Bench::example(160, 50).press(keys).screen();
+        let odd: String = screen.chars().filter(|sign| !sign.is_ascii() && stand_in(*sign) == '?').collect();
+        assert!(odd.is_empty(), "{keys}: {odd}");
+    }
 }
 
 #[test]
