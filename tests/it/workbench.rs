@@ -80,7 +80,7 @@ fn run_cancel_retry(seat: &Seat) {
     seat.press("p");
     seat.wait_for("paused");
     seat.press("R");
-    seat.wait_for("run here");
+    seat.wait_for("run started");
     seat.press("4");
     seat.wait_for("took");
     // The jobs of the finer mesh are no longer the study's own.
@@ -174,9 +174,14 @@ fn a_key_costs_less_than_four_kilobytes(columns: u16, rows: u16, frames: usize) 
         let sent = seat.bytes() - before;
         assert!(sent < frames * 4096, "{keys} sends {sent} bytes:\n{}", seat.screen());
     };
-    for (screen, keys) in
-        [("9", "<Down> G <Tab> e <C-c>"), ("2", "j j s"), ("8", ": q <C-c>"), ("?", "n <C-c>"), ("7", "s e l")]
-    {
+    for (screen, keys) in [
+        ("9", "<Down> G <Tab> e <C-c>"),
+        ("2", "j j s"),
+        ("8", "j"),
+        (":", "q <C-c>"),
+        ("?", "n <C-c>"),
+        ("7", "s e l"),
+    ] {
         check(screen, frames);
         keys.split(' ').for_each(|key| check(key, 1));
     }

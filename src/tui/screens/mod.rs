@@ -160,7 +160,7 @@ fn tabs(state: &State, width: u16) -> Line<'static> {
     let used: usize = spans.iter().map(Span::width).sum();
     let room = usize::from(width).saturating_sub(used);
     let columns = |spans: &[(u8, Span<'_>)]| spans.iter().map(|(_, span)| span.width()).sum::<usize>();
-    let mut summary = summary(state);
+    let mut summary = summary(state, width);
     while columns(&summary) >= room && !summary.is_empty() {
         let least = (0..summary.len()).min_by_key(|k| summary[*k].0).unwrap_or(0);
         summary.remove(least);
@@ -171,19 +171,20 @@ fn tabs(state: &State, width: u16) -> Line<'static> {
 }
 
 /// The study and how far it has come, each part with its weight: the least is left out first where there is no room.
-fn summary(state: &State) -> Vec<(u8, Span<'static>)> {
+fn summary(state: &State, width: u16) -> Vec<(u8, Span<'static>)> {
     let Some(study) = state.data.as_ref().and_then(|data| data.study()) else { return vec![] };
     let mut spans = vec![(1, Span::styled(study.name.clone(), state.theme.bold()))];
     if study.paused {
         spans.push((9, Span::styled(" paused", state.theme.warn())));
     }
     if state.run.is_some() {
-        spans.push((8, Span::styled(" run here", state.theme.busy())));
+        let text = if width >= WIDE { " run here" } else { " run" };
+        spans.push((5, Span::styled(text, state.theme.busy())));
     }
     spans.push((0, Span::raw(format!(" {} jobs", study.total()))));
     for status in Status::ALL.into_iter().filter(|status| study.count(*status) > 0) {
         let text = format!(" {}{}", glyph(status), study.count(status));
-        spans.push((if status == Status::Cancelled { 2 } else { 3 }, Span::styled(text, state.theme.status(status))));
+        spans.push((if status == Status::Cancelled { 6 } else { 7 }, Span::styled(text, state.theme.status(status))));
     }
     spans.push((10, Span::raw(" ")));
     spans
