@@ -61,7 +61,7 @@ fn on_screen(keys: &str) -> Rehearsal {
 }
 
 /// A key and the frame after it, on the screens with the longest lists.
-#[divan::bench(args = ["1", "4", "5", "4/subject 4"])]
+#[divan::bench(args = ["1", "4", "5", "9", "4/subject 4"])]
 fn key_and_frame(bencher: Bencher, keys: &str) {
     let mut workbench = on_screen(keys);
     let mut is_down = false;

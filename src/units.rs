@@ -11,3 +11,36 @@ pub fn mm(metres: f64) -> f64 {
 pub fn from_mm(millimetres: f64) -> f64 {
     millimetres * 1e-3
 }
+
+/// A number with at most so many significant digits and no trailing zeros; very small and very large ones with an exponent.
+#[must_use]
+pub fn significant(number: f64, digits: i32) -> String {
+    if number == 0.0 || !number.is_finite() {
+        return number.to_string();
+    }
+    let magnitude = number.abs().log10().floor() as i32;
+    if !(-5..15).contains(&magnitude) {
+        return format!("{number:.*e}", (digits - 1).max(0) as usize);
+    }
+    let decimals = (digits - 1 - magnitude).max(0) as usize;
+    let text = format!("{number:.decimals$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_for_reading() {
+        let check = |number: f64, expected: &str| assert_eq!(significant(number, 6), expected);
+        check(0.0, "0");
+        check(1.0, "1");
+        check(974.1, "974.1");
+        check(0.012_345_678, "0.0123457");
+        check(1_234_567.8, "1234568");
+        check(1.5e-9, "1.50000e-9");
+        check(-0.25, "-0.25");
+        assert_eq!([significant(7.204e-6, 2), significant(3801.4, 2)], ["7.2e-6", "3801"]);
+    }
+}

@@ -7,6 +7,7 @@ use serde_json::{Map, Value as Json};
 
 use super::args::Format;
 use crate::study::{Table, Value};
+use crate::units::significant;
 
 /// Writes text to standard output; a closed pipe (`| head`) is no error.
 pub fn text(text: &str) -> io::Result<()> {
@@ -78,23 +79,9 @@ pub fn pretty(table: &Table) -> String {
 /// A value for reading.
 fn short(value: &Value) -> String {
     match value {
-        Value::Real(number) => significant(*number),
+        Value::Real(number) => significant(*number, 6),
         other => other.to_string(),
     }
-}
-
-/// A number with six significant digits and no trailing zeros.
-fn significant(number: f64) -> String {
-    if number == 0.0 || !number.is_finite() {
-        return number.to_string();
-    }
-    let magnitude = number.abs().log10().floor() as i32;
-    if !(-5..15).contains(&magnitude) {
-        return format!("{number:.5e}");
-    }
-    let decimals = (5 - magnitude).max(0) as usize;
-    let text = format!("{number:.decimals$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 fn csv(table: &Table) -> io::Result<String> {
@@ -131,18 +118,6 @@ mod tests {
                 vec![Value::Text("M".into()), Value::Real(974.1), Value::Text("a, \"b\"".into())],
             ],
         }
-    }
-
-    #[test]
-    fn numbers_are_short_for_reading() {
-        let check = |number: f64, expected: &str| assert_eq!(significant(number), expected);
-        check(0.0, "0");
-        check(1.0, "1");
-        check(974.1, "974.1");
-        check(0.012_345_678, "0.0123457");
-        check(1_234_567.8, "1234568");
-        check(1.5e-9, "1.50000e-9");
-        check(-0.25, "-0.25");
     }
 
     #[test]

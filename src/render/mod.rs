@@ -21,7 +21,7 @@ mod weave;
 pub use camera::{Camera, Frame, View};
 pub use colour::{ColourMap, Rgb, Scale};
 pub use scene::{Layer, Material, Paint, Print, Scene, Values};
-pub use shade::render;
+pub use shade::{cutout, render};
 pub use sheet::{Cell, contact_sheet, draw_legend};
 pub use svg::rasterise_svg;
 pub use texture::{Mapping, Texture, texture_coordinates};

@@ -38,6 +38,19 @@ fn taps() -> [(f32, f32, f32); TAPS] {
 /// # Errors
 /// [`RenderError::Size`] where a side has no pixels or more than 8192.
 pub fn render(scene: &Scene, camera: &Camera, width: u32, height: u32) -> Result<RgbaImage, RenderError> {
+    shoot(scene, camera, (width, height), 255)
+}
+
+/// [`render`], transparent where nothing stands: the colours there are those of backdrop and floor still.
+///
+/// # Errors
+/// As there.
+pub fn cutout(scene: &Scene, camera: &Camera, width: u32, height: u32) -> Result<RgbaImage, RenderError> {
+    shoot(scene, camera, (width, height), 0)
+}
+
+/// A picture whose backdrop and floor are as opaque as asked.
+fn shoot(scene: &Scene, camera: &Camera, (width, height): (u32, u32), backdrop: u8) -> Result<RgbaImage, RenderError> {
     if !(1..=8192).contains(&width) || !(1..=8192).contains(&height) {
         return Err(RenderError::Size { width, height });
     }
@@ -47,7 +60,8 @@ pub fn render(scene: &Scene, camera: &Camera, width: u32, height: u32) -> Result
     let mut picture = RgbaImage::new(width, height);
     for (pixel, (out, gain)) in picture.pixels_mut().zip(gain).enumerate() {
         let [r, g, b] = encoder.encode(studio.pixel(pixel, gain).into());
-        out.0 = [r, g, b, 255];
+        let alpha = if studio.visible.depth[pixel].is_finite() { 255 } else { backdrop };
+        out.0 = [r, g, b, alpha];
     }
     Ok(picture)
 }

@@ -1,12 +1,14 @@
 //! A new study from what the catalogue has: a folder with a `study.toml` to read and edit, and the patterns beside it.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::catalogue::SizeRow;
 use super::enqueue::{self, Planned};
 use super::error::{Result, StudyError};
-use super::file::Study;
+use super::export::{Files, place};
+use super::file::{SourceFile, Study};
+use super::new_study::{Outline, Worn, drafted_size};
 use super::spec::Selection;
 use super::store;
 use super::tools::{self, Model};
@@ -72,15 +74,6 @@ pub fn wearables(sizes: &[SizeRow]) -> Vec<Wearable> {
 }
 
 impl Workspace {
-    /// Names of the fabrics of the catalogue.
-    ///
-    /// # Errors
-    /// When the database cannot be read.
-    pub fn fabric_names(&self) -> Result<Vec<String>> {
-        let known = super::catalogue::known(Some(&self.reader))?;
-        Ok(known.fabrics.into_keys().collect())
-    }
-
     /// Writes a new study into a folder of its own and queues its jobs, which then wait to be run; returns its file.
     ///
     /// # Errors
@@ -113,68 +106,51 @@ impl Workspace {
 
     /// The files of a new study: its patterns, their seam files, `study.toml`.
     fn files_of(&self, new: &NewStudy) -> Result<Vec<(String, Vec<u8>)>> {
-        let mut files: Vec<(String, Vec<u8>)> = Vec::new();
+        let mut files = Files::new();
         let mut garments = Vec::new();
         for style in styles(new) {
-            let mut garment = Garment { style, ..Garment::default() };
+            let mut garment = Worn { style, ..Worn::default() };
             for wearable in new.sizes.iter().filter(|wearable| wearable.style == style) {
                 self.add_size(wearable, &mut garment, &mut files)?;
             }
             garments.push(garment);
         }
-        files.push(("study.toml".to_owned(), text(new, &garments).into_bytes()));
-        Ok(files)
+        let outline = Outline {
+            name: Some(&new.name),
+            simulators: &new.simulators,
+            known: new.subjects.iter().map(String::as_str).collect(),
+            measured: vec![],
+            garments,
+            fabric: &new.fabric,
+        };
+        files.insert("study.toml".to_owned(), outline.text().into_bytes());
+        Ok(files.into_iter().collect())
     }
 
     /// Adds the files of a size, each once.
-    fn add_size<'a>(
-        &self,
-        wearable: &'a Wearable,
-        garment: &mut Garment<'a>,
-        files: &mut Vec<(String, Vec<u8>)>,
-    ) -> Result<()> {
-        let mut add = |name: String, bytes: Vec<u8>| {
-            let path = format!("patterns/{name}");
-            if !files.iter().any(|(known, _)| *known == path) {
-                files.push((path.clone(), bytes));
-            }
-            path
-        };
+    fn add_size<'a>(&self, wearable: &'a Wearable, garment: &mut Worn<'a>, files: &mut Files) -> Result<()> {
+        let mut add = |source: &SourceFile| place(files, "patterns", source);
         match wearable.source {
             PatternSource::Catalogue(key) => {
                 let piece = self.workpiece(key)?;
-                // Files of two styles may be called the same.
-                let own = |name: &str| format!("{}/{name}", file_name(&wearable.style));
-                let path = add(own(&base(&piece.pattern.name)), piece.pattern.bytes.to_vec());
-                garment.sizes.push((&wearable.size, path));
+                garment.sizes.push((wearable.size.clone(), add(&piece.pattern)));
                 garment.unit = piece.unit.map(|unit| unit.as_str().to_owned()).or(garment.unit.take());
-                if let Some(seams) = &piece.seams {
-                    garment.seams = Some(add(own(&base(&seams.name)), seams.bytes.to_vec()));
-                }
+                garment.seams = piece.seams.as_ref().map(add).or(garment.seams.take());
             }
             PatternSource::Drafted(model) => {
-                let ending = format!("-{}.dxf", wearable.size.to_lowercase());
                 for (name, bytes) in tools::drafted(model) {
-                    if name.ends_with(&ending) {
-                        garment.sizes.push((&wearable.size, add(name, bytes)));
-                    } else if name.ends_with(".toml") {
-                        garment.seams = Some(add(name, bytes));
+                    let size = drafted_size(&name);
+                    let source = SourceFile { name, bytes: bytes.into() };
+                    match size {
+                        Some(size) if size == wearable.size => garment.sizes.push((size, add(&source))),
+                        Some(_) => {}
+                        None => garment.seams = Some(add(&source)),
                     }
                 }
             }
         }
         Ok(())
     }
-}
-
-/// A garment as the study file has it.
-#[derive(Default)]
-struct Garment<'a> {
-    style: &'a str,
-    seams: Option<String>,
-    unit: Option<String>,
-    /// Sizes with their patterns.
-    sizes: Vec<(&'a str, String)>,
 }
 
 /// Refuses a study without something it needs.
@@ -200,56 +176,10 @@ fn styles(new: &NewStudy) -> Vec<&str> {
     new.sizes.iter().map(|wearable| wearable.style.as_str()).filter(|style| seen.insert(*style)).collect()
 }
 
-/// The text of the study file.
-fn text(new: &NewStudy, garments: &[Garment<'_>]) -> String {
-    let list = |names: &[String]| format!("[{}]", names.iter().map(|name| quoted(name)).collect::<Vec<_>>().join(", "));
-    let simulators: Vec<String> = new.simulators.iter().map(|simulator| simulator.as_str().to_owned()).collect();
-    let jobs = new.subjects.len() * new.sizes.len() * new.simulators.len();
-    let mut text = format!(
-        "# {} subjects, {} sizes, {} simulators: {jobs} simulations. Run it with `toile run` and this folder.\n\n\
-         name = {}\nsimulators = {}\nedge_length_mm = 15  # of the finest cloth mesh\n\n\
-         # Subjects of the catalogue, as they are there when the study is run; `toile subject ls` lists them.\n",
-        new.subjects.len(),
-        new.sizes.len(),
-        new.simulators.len(),
-        quoted(&new.name),
-        list(&simulators)
-    );
-    for subject in &new.subjects {
-        text += &format!("[[subject]]\nid = {0}\nlike = {0}\n\n", quoted(subject));
-    }
-    for garment in garments {
-        text += &format!("[[garment]]\nname = {}\n", quoted(garment.style));
-        for (key, value) in [("seams", &garment.seams), ("unit", &garment.unit)] {
-            text += &value.as_ref().map_or(String::new(), |value| format!("{key} = {}\n", quoted(value)));
-        }
-        text += &format!("fabric = {}\nsizes = [\n", quoted(&new.fabric));
-        for (size, pattern) in &garment.sizes {
-            text += &format!("    {{ name = {}, pattern = {} }},\n", quoted(size), quoted(pattern));
-        }
-        text += "]\n\n";
-    }
-    text.truncate(text.trim_end().len());
-    text + "\n"
-}
-
-/// A TOML string.
-fn quoted(text: &str) -> String {
-    toml::Value::String(text.to_owned()).to_string()
-}
-
-/// The last part of a path.
-fn base(path: &str) -> String {
-    Path::new(path).file_name().unwrap_or_default().to_string_lossy().into_owned()
-}
-
-/// A name as that of a folder.
-fn file_name(name: &str) -> String {
-    name.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect()
-}
-
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
 
     fn new_study(folder: &Path) -> NewStudy {
@@ -292,6 +222,27 @@ mod tests {
         let new = NewStudy { sizes, ..new_study(folder.path()) };
         let path = workspace.create_study(&new).expect("whole");
         assert_eq!(workspace.load_study(&path).expect("good").garments[0].sizes.len(), 3);
+    }
+
+    #[test]
+    fn a_pattern_that_is_a_folder_of_pieces_comes_as_one() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let shirt = folder.path().join("shirt");
+        let files =
+            tools::drafted(Model::Tshirt).into_iter().filter(|(name, _)| !name.contains("-m") && !name.contains("-l"));
+        tools::write_files(&shirt, &files.collect::<Vec<_>>()).expect("writable");
+        let mut workspace = Workspace::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
+        let given = super::super::StyleGiven {
+            seams: Some(shirt.join("tshirt.seams.toml")),
+            patterns: vec![(Some("S".to_owned()), shirt)],
+            ..Default::default()
+        };
+        workspace.save_style(super::super::Mode::Add, "folded", &given).expect("its only drawing is a whole shirt");
+        let sizes = wearables(&workspace.sizes().expect("readable"));
+        let sizes = sizes.into_iter().filter(|wearable| wearable.style == "folded").collect();
+        let path = workspace.create_study(&NewStudy { sizes, ..new_study(folder.path()) }).expect("whole");
+        assert!(path.with_file_name("patterns/shirt/tshirt-s.dxf").exists());
+        assert_eq!(workspace.load_study(&path).expect("good").garments[0].sizes[0].name, "S");
     }
 
     #[test]

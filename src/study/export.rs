@@ -1,14 +1,11 @@
-//! Study files written by the program: a first one to edit, and one that reproduces a study elsewhere.
+//! The study file that reproduces a study elsewhere, with all it needs.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::path::Path;
 
 use super::catalogue::{FABRIC_NUMBERS, MEASUREMENTS};
-use super::error::{Result, StudyError};
 use super::file::{GarmentEntry, ScanFile, SourceFile, Study, Subject};
 use super::spec::{self, millimetres, sex_name};
-use super::tools::Model;
 use crate::sim::Fabric;
 use crate::units::mm;
 
@@ -18,71 +15,6 @@ impl Study {
     pub fn jobs(&self) -> usize {
         spec::jobs(self).len()
     }
-}
-
-/// Files of a first study: a `study.toml` that says what may be in it, with a drafted style beside it.
-///
-/// # Errors
-/// When the folder has a study already.
-pub fn new_study(folder: &Path, model: Model) -> Result<Vec<(String, Vec<u8>)>> {
-    let path = folder.join("study.toml");
-    if path.exists() {
-        return Err(StudyError::Exists { what: "study", name: path.display().to_string() });
-    }
-    let style = model.as_str();
-    let is_mens = matches!(model, Model::Tshirt | Model::Trousers);
-    let (sex, known) = if is_mens { ("male", "male-ii") } else { ("female", "female-ii") };
-    let drafted = model.files();
-    let sizes: String = drafted
-        .iter()
-        .filter_map(|(file, _)| Some((file, file.strip_prefix(style)?.strip_prefix('-')?.strip_suffix(".dxf")?)))
-        .map(|(file, size)| format!("    {{ name = \"{}\", pattern = \"patterns/{file}\" }},\n", size.to_uppercase()))
-        .collect();
-    let text = format!(
-        r#"# A study: who wears what, by which simulators. `toile study check` checks it, `toile run` runs it.
-
-# name = "..."              # default: the folder's name
-simulators = ["fem", "hybrid"]
-edge_length_mm = 15         # of the finest cloth mesh: 25 is quick, 10 is fine
-# repeats = 1
-# fit = {{ tight_below_mm = 50, loose_above_mm = 100 }}
-
-# Somebody of the catalogue (`toile subject ls`).
-[[subject]]
-id = "{known}"
-like = "{known}"
-
-# Somebody of whom this is known. A scan will do instead: scan = "me.ply", sex = "{sex}", unit = "mm".
-[[subject]]
-id = "me"
-sex = "{sex}"
-stature_mm = {stature}
-chest_girth_mm = {chest}
-waist_girth_mm = {waist}
-hip_girth_mm = {hip}
-
-# A style of the catalogue (`toile style ls`) needs no files: style = "...", sizes = ["S"].
-[[garment]]
-name = "{style}"
-seams = "patterns/{style}.seams.toml"
-fabric = "cotton_shirting_light"   # of `toile fabric ls`, or a [[fabric]] of this file
-# subjects = ["me"]                # default: all
-# unit = "mm"                      # only where the DXF files name none
-sizes = [
-{sizes}]
-
-# Everything again in other cloths and on finer meshes; parameters of the simulators too, such as fem.offset_mu.
-# [[sweep]]
-# fabric = ["cotton_shirting_light", "interlock_tshirt"]
-# edge_length_mm = [20, 15]
-"#,
-        stature = if is_mens { 1780 } else { 1660 },
-        chest = if is_mens { 980 } else { 900 },
-        waist = if is_mens { 850 } else { 720 },
-        hip = if is_mens { 1000 } else { 970 },
-    );
-    let patterns = drafted.into_iter().map(|(file, bytes)| (format!("patterns/{file}"), bytes));
-    Ok([("study.toml".to_owned(), text.into_bytes())].into_iter().chain(patterns).collect())
 }
 
 /// Files that reproduce a study anywhere: measurements, cloths and parameters as numbers, patterns and scans beside it.
@@ -123,7 +55,7 @@ pub fn export_study(study: &Study) -> Vec<(String, Vec<u8>)> {
 }
 
 /// Contents by path within the folder.
-type Files = BTreeMap<String, Vec<u8>>;
+pub(super) type Files = BTreeMap<String, Vec<u8>>;
 
 fn write_subject(text: &mut String, files: &mut Files, subject: &Subject) {
     let _ =
@@ -169,7 +101,7 @@ fn write_garment(text: &mut String, files: &mut Files, garment: &GarmentEntry) {
 
 /// Puts a file, or the files of a folder, below `folder` under its own name, which is one of a result's inputs; another
 /// file of that name goes one folder deeper. Returns its path.
-fn place(files: &mut Files, folder: &str, source: &SourceFile) -> String {
+pub(super) fn place(files: &mut Files, folder: &str, source: &SourceFile) -> String {
     let mut folder = folder.to_owned();
     loop {
         let path = format!("{folder}/{}", source.name);
@@ -187,18 +119,22 @@ fn place(files: &mut Files, folder: &str, source: &SourceFile) -> String {
 }
 
 /// A text as TOML writes it.
-fn quoted(text: &str) -> String {
+pub(super) fn quoted(text: &str) -> String {
     toml::Value::from(text).to_string()
 }
 
-fn list(texts: &[&str]) -> String {
+/// Texts as a list of TOML.
+pub(super) fn list(texts: &[&str]) -> String {
     format!("[{}]", texts.iter().map(|text| quoted(text)).collect::<Vec<_>>().join(", "))
 }
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::super::catalogue;
-    use super::super::tools;
+    use super::super::new_study::new_study;
+    use super::super::tools::{self, Model};
     use super::*;
 
     fn hashes(study: &Study) -> Vec<String> {

@@ -77,7 +77,7 @@ impl Figure {
         })
     }
 
-    /// The body from the front and from the side, at one scale, side by side.
+    /// The body from the front and from the side, at one scale, side by side; transparent around it.
     ///
     /// # Errors
     /// When the picture is too small or too large.
@@ -94,7 +94,7 @@ impl Figure {
         let left = ((f64::from(width) * across[0] / all) as u32).clamp(1, width - 1);
         let mut whole = RgbaImage::new(width, height);
         for (view, at, across) in [(View::Front, 0, left), (View::Side, left, width - left)] {
-            let picture = render::render(&self.scene, &Camera::new(view, frame), across, height);
+            let picture = render::cutout(&self.scene, &Camera::new(view, frame), across, height);
             let picture = picture.map_err(StudyError::stage("render"))?;
             whole.copy_from(&picture, at, 0).map_err(StudyError::stage("render"))?;
         }
@@ -125,8 +125,7 @@ mod tests {
         assert_eq!(*figure.girths(), girths);
         assert!((Figure::reading(&girths, "stature_mm").expect("read") - 1650.0).abs() < 5.0);
         let picture = figure.picture(120, 160).expect("drawn");
-        let is_body =
-            |x: u32, y: u32| (0..3).any(|k| picture.get_pixel(x, y)[k].abs_diff(picture.get_pixel(0, y)[k]) > 12);
+        let is_body = |x: u32, y: u32| picture.get_pixel(x, y)[3] > 0;
         let columns: Vec<u32> = (0..120).filter(|&x| (30..110).any(|y| is_body(x, y))).collect();
         let gaps = columns.windows(2).filter(|pair| pair[1] > pair[0] + 1).count();
         assert!(columns.len() > 30 && gaps >= 1, "front and side stand apart: {columns:?}");

@@ -23,6 +23,7 @@ mod file;
 mod handout;
 mod inputs;
 mod live;
+mod new_study;
 mod outcome;
 mod owner;
 mod parameters;
@@ -54,8 +55,8 @@ pub use advice::{LevelFit, SizeAnswer, SizeOn};
 pub use attempt::{Attempt, Tried, TriedChi, TriedEase, TriedGap, attempt};
 pub use audit::{Audit, Finding};
 pub use catalogue::{
-    Deed, FABRIC_NUMBERS, Field, Given, MEASUREMENTS, Mode, Part, Removed, Saved, SizeRow, StyleGiven, SubjectRow,
-    doubts, is_doubtful, percentile, percentile_text, sex,
+    Deed, FABRIC_NUMBERS, FabricRow, Field, Given, MEASUREMENTS, Mode, Part, Removed, Saved, SizeRow, StyleGiven,
+    SubjectRow, doubts, is_doubtful, percentile, percentile_text, sex,
 };
 pub use desk_report::{ReportRow, reports};
 pub use desk_sql::{Relation, SqlAnswer};
@@ -64,12 +65,13 @@ pub use doctor::{Check, checks};
 pub use enqueue::{Planned, Why};
 pub use error::{Result, StudyError};
 pub use evidence::PUBLISHED;
-pub use export::{export_study, new_study};
+pub use export::export_study;
 pub use figure::Figure;
 pub use file::{Problem, Study, study_file};
 pub use handout::{HandedOut, Merged, Ran, run_job};
 pub use inputs::{Change, Inputs, StageKind};
 pub use live::{Live, LiveFrame};
+pub use new_study::new_study;
 pub use outcome::{Executor, Measured, Outcome};
 pub use parameters::Parameters;
 pub use picture::{Cloth, Look, Map, Order, Shot, Zoom};

@@ -164,36 +164,44 @@ pub(super) fn tension_near(worn: &Dressed, level: &str) -> Result<Option<f64>> {
     Ok((!near.is_empty()).then(|| near.iter().sum::<f64>() / near.len() as f64))
 }
 
+/// Width over height of a picture.
+fn aspect(width: u32, height: u32) -> f64 {
+    f64::from(width.max(1)) / f64::from(height.max(1))
+}
+
 impl Workspace {
     /// A picture of a result. The result last shown is kept ready, so that other views of it come quickly.
     ///
     /// # Errors
     /// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
     pub fn picture(&self, id: JobId, view: View, width: u32, height: u32, map: Map) -> Result<RgbaImage> {
-        self.shot(id, (width, height), map, |stage, aspect| Camera::new(view, stage.frame(aspect)))
+        self.shot(id, map, |stage| {
+            let camera = Camera::new(view, stage.frame(aspect(width, height)));
+            render::render(&stage.scene, &camera, width, height)
+        })
     }
 
     /// A result from any side, the garment as large as it can be times the look's own enlargement: the body is cut off
-    /// where it goes beyond. For small pictures.
+    /// where it goes beyond, and transparent where nothing is. For small pictures.
     ///
     /// # Errors
     /// As [`Workspace::picture`].
     pub fn look(&self, id: JobId, look: Look, width: u32, height: u32, map: Map) -> Result<RgbaImage> {
-        self.shot(id, (width, height), map, |stage, aspect| {
-            let mut frame = Frame::enclosing(&stage.meshes[1..], aspect);
+        self.shot(id, map, |stage| {
+            let mut frame = Frame::enclosing(&stage.meshes[1..], aspect(width, height));
             frame.centre.z += f64::from(look.rise_pct) / 100.0 * frame.height_m / 2.0;
             frame.height_m *= 100.0 / f64::from(look.zoom_pct.max(1));
-            Camera { azimuth_deg: f64::from(look.azimuth_deg), ..Camera::new(View::Front, frame) }
+            let camera = Camera { azimuth_deg: f64::from(look.azimuth_deg), ..Camera::new(View::Front, frame) };
+            render::cutout(&stage.scene, &camera, width, height)
         })
     }
 
-    /// A picture of what a camera shows, given the picture's width over height.
+    /// A picture that is taken of a result's stage.
     fn shot(
         &self,
         id: JobId,
-        (width, height): (u32, u32),
         map: Map,
-        camera: impl Fn(&Stage, f64) -> Camera,
+        take: impl Fn(&Stage) -> std::result::Result<RgbaImage, render::RenderError>,
     ) -> Result<RgbaImage> {
         let mut kept = self.scenes.borrow_mut();
         let known = kept.iter().position(|(of, with, _)| (*of, *with) == (id, map));
@@ -204,8 +212,7 @@ impl Workspace {
         if kept.len() == SCENES_KEPT {
             kept.remove(0);
         }
-        let camera = camera(&entry.2, f64::from(width.max(1)) / f64::from(height.max(1)));
-        let picture = render::render(&entry.2.scene, &camera, width, height);
+        let picture = take(&entry.2);
         kept.push(entry);
         picture.map_err(StudyError::stage("render"))
     }

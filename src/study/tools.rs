@@ -24,6 +24,8 @@ pub use crate::pattern::propose::Proposal;
 pub use crate::pattern::seam_edit::Edit as SeamEdit;
 pub use crate::pattern::{MeshQuality, Style};
 pub use crate::render::View;
+pub use crate::sim::Fabric;
+pub use crate::sim::fabric::Stretched;
 
 /// Writes files into a folder, which is made where it is missing; returns their paths.
 ///

@@ -2,12 +2,12 @@
 
 use super::action::{Action, Screen};
 use super::copy;
+use super::entries;
 use super::message::{Act, Effect, Target};
 use super::overlay::{List, Overlay};
 use super::picture;
 use super::state::{ChiOrder, Place, State};
-use super::subjects;
-use crate::study::{JobId, why_no_retry};
+use crate::study::{JobId, Part, why_no_retry};
 
 impl State {
     /// Does an action; returns what others have to do.
@@ -51,7 +51,7 @@ impl State {
             Action::Differences => {
                 (self.differences_only, self.contrast) = (!self.differences_only, 0);
             }
-            Action::NewStudy => return self.new_study(),
+            Action::NewStudy => self.new_study(),
             Action::EditQuery => self.second_pane[Screen::Sql as usize] = false,
             Action::SavedQueries => self.offer_queries(),
             Action::OlderQuery => self.recall(-1),
@@ -69,12 +69,12 @@ impl State {
             }
             Action::NextMap => self.map = picture::next_map(self.map),
             Action::Enlarge => self.enlarged = !self.enlarged,
-            Action::AddSubject => self.add_subject(),
-            Action::EditSubject => self.edit_subject(),
-            Action::ImportSubjects => self.import_subjects(),
-            Action::RemoveSubject => self.remove_subject(),
-            Action::ImportStyle => self.import_style(),
-            Action::RemoveSize => self.remove_size(),
+            Action::Add(part) => self.add_entry(part),
+            Action::Edit(part) => self.edit_entry(part),
+            Action::Import(Part::Style | Part::Size) => self.import_style(),
+            Action::Import(part) => self.import_entries(part),
+            Action::Remove(Part::Style | Part::Size) => self.remove_size(),
+            Action::Remove(part) => self.remove_entry(part),
             Action::EnlargePieces => self.enlarge_pieces(),
             Action::MarkEdge => self.mark_edge(),
             Action::AddSeam => return self.add_seam(),
@@ -164,7 +164,8 @@ impl State {
     fn sort(&mut self) {
         match self.screen {
             Screen::Styles => self.say("styles are listed by name, sizes as they came"),
-            Screen::Subjects => self.subject_order.by = self.subject_order.by.next(subjects::SHOWN),
+            Screen::Subjects => self.subject_order.by = self.subject_order.by.next(entries::SHOWN),
+            Screen::Fabrics => self.fabric_order.by = self.fabric_order.by.next(),
             Screen::Jobs => self.job_order.by = self.job_order.by.next(),
             Screen::Compare => self.sorts_contrasts = !self.sorts_contrasts,
             Screen::Reports => self.reports_by_time = !self.reports_by_time,
@@ -187,6 +188,7 @@ impl State {
         let reversed = match self.screen {
             Screen::Styles => return self.say("styles are listed by name, sizes as they came"),
             Screen::Subjects => &mut self.subject_order.reversed,
+            Screen::Fabrics => &mut self.fabric_order.reversed,
             Screen::Jobs => &mut self.job_order.reversed,
             Screen::Study | Screen::Results => &mut self.chi_order.reversed,
             Screen::Compare => &mut self.sorts_contrasts,

@@ -4,6 +4,8 @@ use std::fmt;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
+use crate::study::Part;
+
 /// A screen of the workbench; its number is its key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Screen {
@@ -23,12 +25,23 @@ pub enum Screen {
     Sql,
     /// Reports that were built.
     Reports,
+    /// The fabrics of the catalogue.
+    Fabrics,
 }
 
 impl Screen {
     /// All screens, in order of their numbers.
-    pub const ALL: [Self; 8] =
-        [Self::Study, Self::Subjects, Self::Styles, Self::Jobs, Self::Results, Self::Compare, Self::Sql, Self::Reports];
+    pub const ALL: [Self; 9] = [
+        Self::Study,
+        Self::Subjects,
+        Self::Styles,
+        Self::Jobs,
+        Self::Results,
+        Self::Compare,
+        Self::Sql,
+        Self::Reports,
+        Self::Fabrics,
+    ];
 
     /// Name, and a short one for tabs with little room.
     #[must_use]
@@ -42,6 +55,7 @@ impl Screen {
             Self::Compare => ["Compare", "Cmp"],
             Self::Sql => ["SQL", "SQL"],
             Self::Reports => ["Reports", "Rep"],
+            Self::Fabrics => ["Fabrics", "Fab"],
         }
     }
 }
@@ -135,18 +149,14 @@ pub enum Action {
     Ascii,
     /// Takes the mouse, or gives it back to the terminal.
     Mouse,
-    /// Asks for the values of a new subject.
-    AddSubject,
-    /// Asks for other values of the selected subject.
-    EditSubject,
-    /// Asks for a file with subjects.
-    ImportSubjects,
-    /// Removes the selected subject.
-    RemoveSubject,
-    /// Asks for the files of a style.
-    ImportStyle,
-    /// Removes the selected size.
-    RemoveSize,
+    /// Asks for the values of a new subject or fabric.
+    Add(Part),
+    /// Asks for other values of the selected subject or fabric.
+    Edit(Part),
+    /// Asks for a file with subjects or fabrics, or for the files of a style.
+    Import(Part),
+    /// Removes the selected subject, fabric or size.
+    Remove(Part),
     /// Gives the pieces all the room, or less again.
     EnlargePieces,
     /// Marks the selected edge.

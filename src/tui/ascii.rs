@@ -3,7 +3,7 @@
 use ratatui::buffer::Buffer;
 
 /// Signs and what stands for them. Those of states differ from each other.
-const STAND_INS: [(char, char); 62] = [
+const STAND_INS: [(char, char); 65] = [
     ('─', '-'),
     ('━', '-'),
     ('│', '|'),
@@ -66,6 +66,9 @@ const STAND_INS: [(char, char); 62] = [
     ('χ', 'x'),
     ('±', '~'),
     ('▕', '|'),
+    ('²', '2'),
+    ('µ', 'u'),
+    ('◆', '#'),
 ];
 /// Letters of growing density, for dots of braille.
 const DENSITY: [char; 9] = [' ', '.', '.', ':', ':', '+', '+', '#', '#'];
@@ -78,8 +81,8 @@ pub fn translate(buffer: &mut Buffer) {
     }
 }
 
-/// What stands for a sign.
-fn stand_in(sign: char) -> char {
+/// What stands for a sign; `?` for one that nobody thought of.
+pub fn stand_in(sign: char) -> char {
     if ('\u{2800}'..='\u{28ff}').contains(&sign) {
         return DENSITY[(sign as u32 - 0x2800).count_ones() as usize];
     }

@@ -3,7 +3,8 @@
 use crossterm::event::KeyCode;
 
 use super::action::{Action, Binding, Key, Screen};
-use Screen::{Compare, Jobs, Reports, Results, Sql, Study, Styles, Subjects};
+use crate::study::Part;
+use Screen::{Compare, Fabrics, Jobs, Reports, Results, Sql, Study, Styles, Subjects};
 
 const fn ch(letter: char) -> Key {
     Key::new(KeyCode::Char(letter), false)
@@ -32,7 +33,7 @@ const fn bind(
 const RESULTS: &[Screen] = &[Study, Jobs, Results];
 
 /// Screens with lists that are sorted.
-const SORTED: &[Screen] = &[Study, Subjects, Jobs, Results, Compare, Sql, Reports];
+const SORTED: &[Screen] = &[Study, Subjects, Fabrics, Jobs, Results, Compare, Sql, Reports];
 
 /// The table of keys, which a file may change (see `keys`). Ctrl-A, B, S, Q, H, I, J and M stay free: tmux, screen, flow control and the terminal use them.
 pub const BINDINGS: &[Binding] = &[
@@ -46,16 +47,16 @@ pub const BINDINGS: &[Binding] = &[
         "Give the picture all the room, or less again",
     ),
     bind(
-        Action::EditSubject,
+        Action::Edit(Part::Subject),
         "edit-subject",
         &[ch('e'), key(KeyCode::Enter)],
         &[Subjects],
         "edit",
         "Change the selected subject; results keep theirs",
     ),
-    bind(Action::AddSubject, "add-subject", &[ch('a')], &[Subjects], "add", "Add a subject"),
+    bind(Action::Add(Part::Subject), "add-subject", &[ch('a')], &[Subjects], "add", "Add a subject"),
     bind(
-        Action::ImportSubjects,
+        Action::Import(Part::Subject),
         "import-subjects",
         &[ch('i')],
         &[Subjects],
@@ -63,12 +64,37 @@ pub const BINDINGS: &[Binding] = &[
         "Add or change the subjects of a CSV or TOML file",
     ),
     bind(
-        Action::RemoveSubject,
+        Action::Remove(Part::Subject),
         "delete-subject",
         &[ch('d')],
         &[Subjects],
         "delete",
         "Remove the selected subject; asks",
+    ),
+    bind(
+        Action::Edit(Part::Fabric),
+        "edit-fabric",
+        &[ch('e'), key(KeyCode::Enter)],
+        &[Fabrics],
+        "edit",
+        "Change the selected fabric; results keep theirs",
+    ),
+    bind(Action::Add(Part::Fabric), "add-fabric", &[ch('a')], &[Fabrics], "add", "Add a fabric like the selected one"),
+    bind(
+        Action::Import(Part::Fabric),
+        "import-fabrics",
+        &[ch('i')],
+        &[Fabrics],
+        "import",
+        "Add or change the fabrics of a TOML or CSV file",
+    ),
+    bind(
+        Action::Remove(Part::Fabric),
+        "delete-fabric",
+        &[ch('d')],
+        &[Fabrics],
+        "delete",
+        "Remove the selected fabric; asks",
     ),
     bind(
         Action::ConfirmSeam,
@@ -104,7 +130,7 @@ pub const BINDINGS: &[Binding] = &[
         "Save the seams: catalogue, and study folder if asked",
     ),
     bind(
-        Action::ImportStyle,
+        Action::Import(Part::Style),
         "import-style",
         &[ch('i')],
         &[Styles],
@@ -130,7 +156,7 @@ pub const BINDINGS: &[Binding] = &[
         "Give the pieces all the room, or less again",
     ),
     bind(
-        Action::RemoveSize,
+        Action::Remove(Part::Size),
         "delete-size",
         &[ch('d')],
         &[Styles],
@@ -280,6 +306,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Show(Results), "results", &[ch('5')], &[], "", "Screen 5: one result, its numbers and picture"),
     bind(Action::Show(Sql), "sql", &[ch('7')], &[], "", "Screen 7: questions in SQL"),
     bind(Action::Show(Reports), "reports", &[ch('8')], &[], "", "Screen 8: the reports that were built"),
+    bind(Action::Show(Fabrics), "fabrics", &[ch('9')], &[], "", "Screen 9: the fabrics, their numbers and sources"),
     bind(Action::NextGarment, "next-garment", &[ch(']')], &[], "", "Next garment of the study"),
     bind(Action::PreviousGarment, "previous-garment", &[ch('[')], &[], "", "Garment before"),
     bind(Action::NextStudy, "next-study", &[ch('}')], &[], "", "Next study"),
@@ -339,7 +366,7 @@ mod tests {
         let check = |k: Key, screen, expect| assert_eq!(action_of(BINDINGS, k, screen), expect, "{k} on {screen:?}");
         check(key(KeyCode::Enter), Jobs, Some(Action::Open));
         check(key(KeyCode::Enter), Results, Some(Action::Enlarge));
-        check(key(KeyCode::Enter), Subjects, Some(Action::EditSubject));
+        check(key(KeyCode::Enter), Subjects, Some(Action::Edit(Part::Subject)));
         check(key(KeyCode::Enter), Styles, Some(Action::ConfirmSeam));
         check(ch('x'), Styles, Some(Action::RemoveSeam));
         check(ch('x'), Subjects, None);

@@ -15,8 +15,6 @@ pub enum Errand {
     BuildReport(String),
     /// Write a new study.
     CreateStudy(NewStudy),
-    /// List the fabrics there are.
-    ListFabrics,
 }
 
 /// Does what is asked until nobody asks or listens any more; reports lie in folders below `reports_folder`.
@@ -40,9 +38,6 @@ pub fn serve(
             Errand::CreateStudy(new) => {
                 let path = workspace.and_then(|it| it.create_study(&new).map_err(|error| error.to_string()));
                 Ok(Message::StudyCreated(new.name, path))
-            }
-            Errand::ListFabrics => {
-                workspace.and_then(|it| it.fabric_names().map_err(|error| error.to_string())).map(Message::Fabrics)
             }
         };
         if sender.send(done.unwrap_or_else(Message::Failed)).is_err() {

@@ -103,19 +103,7 @@ pub fn verdict(runs: &[Compared], recommended: Option<&RecommendationRow>) -> Ve
     let jobs: Vec<&JobRow> = runs.iter().map(|run| &run.job).collect();
     let names = labels(&jobs);
     let mut said = Vec::new();
-    let mut ranked: Vec<(usize, f64)> =
-        runs.iter().enumerate().filter_map(|(k, run)| Some((k, run.metrics.as_ref()?.ei))).collect();
-    ranked.sort_by(|a, b| a.1.total_cmp(&b.1));
-    if let [(best, least), (second, next), ..] = ranked[..] {
-        let apart = next - least;
-        let weight = if apart < MARGIN { "within 0.01, no practical difference" } else { "more than 0.01 apart" };
-        said.push(format!(
-            "{} is truest: EI {least:.4}, {} {next:.4}; {apart:.4} apart, {weight}",
-            names[best], names[second]
-        ));
-    } else {
-        said.push("fewer than two of these runs have a result yet".to_owned());
-    }
+    said.push(truest(runs, &names));
     let rows = contrasts(runs);
     let won = |k: usize| rows.iter().filter(|row| row.nearest() == Some(k)).count();
     let wins: Vec<String> = names.iter().enumerate().map(|(k, name)| format!("{name} {}", won(k))).collect();
@@ -139,6 +127,26 @@ pub fn verdict(runs: &[Compared], recommended: Option<&RecommendationRow>) -> Ve
         ));
     }
     said
+}
+
+/// Which run has the least EI, or which of them nothing tells apart in practice.
+fn truest(runs: &[Compared], names: &[String]) -> String {
+    let mut ranked: Vec<(&str, f64)> =
+        runs.iter().zip(names).filter_map(|(run, name)| Some((name.as_str(), run.metrics.as_ref()?.ei))).collect();
+    ranked.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let list = |runs: &[(&str, f64)]| {
+        let words: Vec<String> = runs.iter().map(|(name, ei)| format!("{name} {ei:.4}")).collect();
+        words.join(", ")
+    };
+    let [(best, least), (_, next), ..] = ranked[..] else {
+        return "fewer than two of these runs have a result yet".to_owned();
+    };
+    let (near, far) = ranked.split_at(ranked.partition_point(|(_, ei)| ei - least < MARGIN));
+    match (near, far) {
+        (_, []) => format!("no practical difference: EI {}, less than {MARGIN} apart", list(near)),
+        ([_], _) => format!("{best} is truest: EI {least:.4}, {:.4} less than the next; {}", next - least, list(far)),
+        _ => format!("truest, less than {MARGIN} apart: EI {}; then {}", list(near), list(far)),
+    }
 }
 
 /// Names of the inputs in which the runs differ from the first, without those of the same cell's other simulator.

@@ -8,7 +8,7 @@ use super::compare;
 use super::state::State;
 use super::text;
 use crate::study::tools::Measurements;
-use crate::study::{Field, JobRow, MEASUREMENTS};
+use crate::study::{FABRIC_NUMBERS, Field, JobRow, MEASUREMENTS};
 
 /// The text that stands for what is selected, tab-separated, and what it is.
 #[must_use]
@@ -16,6 +16,7 @@ pub fn selection(state: &State) -> Option<(String, &'static str)> {
     match state.screen {
         Screen::Results => chi_table(state).map(|table| (table, "the table of measurements")),
         Screen::Subjects => subject_line(state).map(|line| (line, "the subject")),
+        Screen::Fabrics => fabric_line(state).map(|line| (line, "the fabric")),
         Screen::Styles => seam_table(state).map(|table| (table, "the table of seams")),
         Screen::Compare => contrast_table(state).map(|table| (table, "the comparison")),
         Screen::Sql => sheet_row(state).map(|rows| (rows, "the row")),
@@ -45,6 +46,12 @@ fn subject_line(state: &State) -> Option<String> {
     let value = |field: &Field<Measurements>| field.get(&subject.measurements).map_or(String::new(), |v| v.to_string());
     let values: Vec<String> = MEASUREMENTS.iter().map(value).collect();
     Some(format!("{}\t{}\t{}", subject.name, text::sex(subject), values.join("\t")))
+}
+
+fn fabric_line(state: &State) -> Option<String> {
+    let fabric = &state.fabric()?.fabric;
+    let values = FABRIC_NUMBERS.iter().map(|field| field.get(fabric).map_or(String::new(), |value| value.to_string()));
+    Some(format!("{}\t{}\t{}", fabric.name, values.collect::<Vec<_>>().join("\t"), fabric.source))
 }
 
 fn seam_table(state: &State) -> Option<String> {

@@ -1,8 +1,8 @@
 //! What the screens show, read from the workspace in one go on a background thread.
 
 use crate::study::{
-    ChiRow, EaseRow, Grid, Inputs, JobFilter, JobId, JobRow, LogLine, MetricsRow, RecommendationRow, Result, SizeRow,
-    StageRow, Step, StudyError, StudyRow, SubjectRow, Why, Workspace, now_ms,
+    ChiRow, EaseRow, FabricRow, Grid, Inputs, JobFilter, JobId, JobRow, LogLine, MetricsRow, RecommendationRow, Result,
+    SizeRow, StageRow, Step, StudyError, StudyRow, SubjectRow, Why, Workspace, now_ms,
 };
 
 /// What the user looks at; whatever is `None` or gone is chosen by [`snapshot`].
@@ -25,6 +25,8 @@ pub struct Snapshot {
     pub now_ms: i64,
     /// The subjects of the catalogue, by name.
     pub subjects: Vec<SubjectRow>,
+    /// The fabrics of the catalogue, by name.
+    pub fabrics: Vec<FabricRow>,
     /// The sizes of the styles of the catalogue.
     pub sizes: Vec<SizeRow>,
     /// All studies.
@@ -99,11 +101,13 @@ pub fn snapshot(workspace: &Workspace, focus: &Focus) -> Result<Snapshot> {
     let studies = workspace.studies()?;
     let study = studies.iter().position(|study| Some(&study.name) == focus.study.as_ref()).unwrap_or(0);
     let subjects = workspace.subjects()?;
+    let fabrics = workspace.fabrics()?;
     let sizes = workspace.sizes()?;
     let (jobs, ease) = (vec![], vec![]);
     let mut snapshot = Snapshot {
         now_ms: now_ms(),
         subjects,
+        fabrics,
         sizes,
         studies,
         study,

@@ -1,4 +1,4 @@
-//! What is filled in: the values of a subject, each checked while it is typed, and the path of a file to import.
+//! What is filled in: the values of a subject or a fabric, each checked while it is typed, and the path of a file.
 
 use std::path::PathBuf;
 
@@ -9,11 +9,15 @@ use super::message::{Act, Effect};
 use super::overlay::{Outcome, edit};
 use super::text;
 use crate::study::tools::Sex;
-use crate::study::{Given, MEASUREMENTS, Mode, SubjectRow, is_doubtful, percentile, percentile_text, sex};
+use crate::study::{
+    FABRIC_NUMBERS, FabricRow, Given, MEASUREMENTS, Mode, Part, SubjectRow, is_doubtful, percentile, percentile_text,
+    sex,
+};
+use crate::units::significant;
 
-/// Lines of a form before its measurements: name and sex.
+/// Lines of a form before its numbers: the name, and the sex of a subject or the source of a fabric's numbers.
 const NAME: usize = 0;
-const SEX: usize = 1;
+const WORD: usize = 1;
 const FIRST_NUMBER: usize = 2;
 
 /// What stands beside a value.
@@ -21,21 +25,27 @@ const FIRST_NUMBER: usize = 2;
 pub enum Note {
     /// Nothing.
     None,
-    /// Where it stands among adults of the sex.
-    Percentile(String),
+    /// Where it stands among adults of the sex, or among the fabrics of the catalogue.
+    Place(String),
     /// It is possible but rare.
     Doubt(String),
     /// It cannot be.
     Problem(String),
 }
 
-/// The values of a subject, as typed.
+/// The values of a subject or a fabric, as typed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Form {
-    /// Whether the subject is new.
+    /// What is filled in: a subject or a fabric.
+    pub part: Part,
+    /// Whether the entry is new.
     pub mode: Mode,
-    /// Name, sex, and the measurements.
+    /// The entry whose values a new one starts with.
+    pub like: Option<String>,
+    /// Name, sex or source, and the numbers.
     pub texts: Vec<String>,
+    /// The least and the greatest of each number in the catalogue; none for subjects, who have percentiles.
+    known: Vec<[f64; 2]>,
     /// Line that is typed in.
     pub at: usize,
     /// Whether all problems are told, also those of empty lines.
@@ -47,52 +57,89 @@ pub struct Form {
 }
 
 impl Form {
+    fn new(part: Part, mode: Mode, texts: Vec<String>) -> Self {
+        let at = if mode == Mode::Add { NAME } else { FIRST_NUMBER };
+        Self { part, mode, like: None, texts, known: vec![], at, is_tried: false, is_busy: false, problem: None }
+    }
+
     /// The form of a new subject.
     #[must_use]
-    pub fn empty() -> Self {
+    pub fn new_subject() -> Self {
         let mut texts = vec![String::new(); FIRST_NUMBER + MEASUREMENTS.len()];
-        texts[SEX] = "female".to_owned();
-        Self { mode: Mode::Add, texts, at: NAME, is_tried: false, is_busy: false, problem: None }
+        texts[WORD] = "female".to_owned();
+        Self::new(Part::Subject, Mode::Add, texts)
     }
 
     /// The form of a subject that is there.
     #[must_use]
-    pub fn of(subject: &SubjectRow) -> Self {
+    pub fn of_subject(subject: &SubjectRow) -> Self {
         let value = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
         let mut texts = vec![subject.name.clone(), text::sex(subject).to_owned()];
         texts.extend(MEASUREMENTS.iter().map(|field| value(field.get(&subject.measurements))));
-        Self { mode: Mode::Edit, texts, at: FIRST_NUMBER, ..Self::empty() }
+        Self::new(Part::Subject, Mode::Edit, texts)
     }
 
-    /// Name of the subject.
+    /// The form of a fabric that is there, or of a new one that starts with its numbers; `all` tells which are usual.
+    #[must_use]
+    pub fn of_fabric(row: &FabricRow, mode: Mode, all: &[FabricRow]) -> Self {
+        let is_new = mode == Mode::Add;
+        let fabric = &row.fabric;
+        let head = if is_new {
+            [String::new(), format!("like {}", fabric.name)]
+        } else {
+            [&fabric.name, &fabric.source].map(Clone::clone)
+        };
+        let mut texts = head.to_vec();
+        texts.extend(FABRIC_NUMBERS.iter().map(|field| field.get(fabric).map_or(String::new(), text::exact)));
+        let known = FABRIC_NUMBERS.iter().map(|field| {
+            let values = all.iter().filter_map(|row| field.get(&row.fabric));
+            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
+        });
+        let known = known.collect();
+        Self { like: is_new.then(|| fabric.name.clone()), known, ..Self::new(Part::Fabric, mode, texts) }
+    }
+
+    /// Name of the entry.
     #[must_use]
     pub fn name(&self) -> &str {
         self.texts[NAME].trim()
     }
 
-    /// Whether a line can be typed in: the name of a subject stays.
+    /// Whether a line can be typed in: the name of an entry stays.
     fn is_open(&self, line: usize) -> bool {
         line != NAME || self.mode == Mode::Add
     }
 
+    /// Whether a line holds a number.
+    #[must_use]
+    pub fn is_number(line: usize) -> bool {
+        line >= FIRST_NUMBER
+    }
+
+    /// Key and name of a number.
+    fn number(&self, line: usize) -> (&'static str, &'static str) {
+        let k = line - FIRST_NUMBER;
+        match self.part {
+            Part::Fabric => (FABRIC_NUMBERS[k].key, fabric_label(k)),
+            _ => (MEASUREMENTS[k].key, MEASUREMENTS[k].label),
+        }
+    }
+
     /// Name of a line.
     #[must_use]
-    pub fn label(line: usize) -> &'static str {
+    pub fn label(&self, line: usize) -> &'static str {
         match line {
             NAME => "name",
-            SEX => "sex",
-            number => MEASUREMENTS[number - FIRST_NUMBER].label,
+            WORD if self.part == Part::Fabric => "source of the numbers",
+            WORD => "sex",
+            number => self.number(number).1,
         }
     }
 
     /// Unit of a line.
     #[must_use]
-    pub fn unit(line: usize) -> &'static str {
-        match line {
-            NAME | SEX => "",
-            number if MEASUREMENTS[number - FIRST_NUMBER].key.ends_with("_kg") => "kg",
-            _ => "mm",
-        }
+    pub fn unit(&self, line: usize) -> &'static str {
+        if Self::is_number(line) { unit_of(self.number(line).0) } else { "" }
     }
 
     /// What stands beside a line.
@@ -103,24 +150,44 @@ impl Form {
             return Note::None;
         }
         let noted = match line {
-            NAME if text.trim().is_empty() => Err("a subject needs a name".to_owned()),
+            NAME if text.trim().is_empty() => Err(format!("a {} needs a name", self.part)),
             NAME => Ok(Note::None),
-            SEX => sex(text).map(|_| Note::None),
-            number => {
-                let field = &MEASUREMENTS[number - FIRST_NUMBER];
-                let stands = |value: f64| percentile(self.sex()?, field.key, value);
-                field.read(text).map(|value| match value.and_then(stands) {
-                    None => Note::None,
-                    Some(percentile) if is_doubtful(percentile) => Note::Doubt(percentile_text(percentile)),
-                    Some(percentile) => Note::Percentile(percentile_text(percentile)),
-                })
-            }
+            WORD if self.part == Part::Fabric => Ok(Note::None),
+            WORD => sex(text).map(|_| Note::None),
+            number if self.part == Part::Fabric => self.fabric_note(number - FIRST_NUMBER, text),
+            number => self.subject_note(number - FIRST_NUMBER, text),
         };
         noted.unwrap_or_else(Note::Problem)
     }
 
+    /// Where a measurement stands among adults.
+    fn subject_note(&self, k: usize, text: &str) -> Result<Note, String> {
+        let field = &MEASUREMENTS[k];
+        let stands = |value: f64| percentile(self.sex()?, field.key, value);
+        Ok(match field.read(text)?.and_then(stands) {
+            None => Note::None,
+            Some(percentile) if is_doubtful(percentile) => {
+                Note::Doubt(format!("{} ! doubtful", percentile_text(percentile)))
+            }
+            Some(percentile) => Note::Place(percentile_text(percentile)),
+        })
+    }
+
+    /// Where a number stands among the fabrics of the catalogue: far from all of them it is in another unit, perhaps.
+    fn fabric_note(&self, k: usize, text: &str) -> Result<Note, String> {
+        let value = FABRIC_NUMBERS[k].read(text)?;
+        let Some((value, [low, high])) =
+            value.zip(self.known.get(k).copied()).filter(|(_, [low, high])| low <= high && *high > 0.0)
+        else {
+            return Ok(Note::None);
+        };
+        let words = format!("known {} to {}", significant(low, 2), significant(high, 2));
+        let is_far = value > FAR * high || value < low / FAR;
+        Ok(if is_far { Note::Doubt(format!("! {words}")) } else { Note::Place(words) })
+    }
+
     fn sex(&self) -> Option<Sex> {
-        sex(&self.texts[SEX]).ok()
+        sex(&self.texts[WORD]).ok()
     }
 
     /// Handles a key.
@@ -132,9 +199,9 @@ impl Form {
             KeyCode::Enter => return self.save(),
             KeyCode::Tab | KeyCode::Down => self.step(1),
             KeyCode::BackTab | KeyCode::Up => self.step(self.texts.len() - 1),
-            KeyCode::Left | KeyCode::Right | KeyCode::Char(' ') if self.at == SEX => {
+            KeyCode::Left | KeyCode::Right | KeyCode::Char(' ') if self.at == WORD && self.part == Part::Subject => {
                 let other = if self.sex() == Some(Sex::Female) { "male" } else { "female" };
-                self.texts[SEX] = other.to_owned();
+                self.texts[WORD] = other.to_owned();
             }
             _ => {
                 edit(&mut self.texts[self.at], event);
@@ -159,18 +226,37 @@ impl Form {
             return Outcome::Open;
         }
         (self.is_busy, self.problem) = (true, None);
-        let mut given: Vec<Given> = vec![("sex".to_owned(), self.texts[SEX].clone())];
-        let numbers = MEASUREMENTS.iter().zip(&self.texts[FIRST_NUMBER..]);
-        given.extend(numbers.map(|(field, text)| (field.key.to_owned(), text.clone())));
-        Outcome::Sent(vec![Effect::Do(Act::SaveSubject(self.mode, self.name().to_owned(), given))])
+        let word = if self.part == Part::Fabric { "source" } else { "sex" };
+        let mut given: Vec<Given> = vec![(word.to_owned(), self.texts[WORD].clone())];
+        let numbers = (FIRST_NUMBER..self.texts.len()).map(|line| (self.number(line).0, &self.texts[line]));
+        given.extend(numbers.map(|(key, text)| (key.to_owned(), text.clone())));
+        Outcome::Sent(vec![Effect::Do(Act::Save(self.part, self.mode, self.name().to_owned(), given))])
     }
+}
+
+/// A number beyond the least or greatest of the catalogue by such a factor is doubtful.
+const FAR: f64 = 3.0;
+
+/// Name of a number of fabrics, without what the command line adds to it.
+#[must_use]
+pub fn fabric_label(k: usize) -> &'static str {
+    let label = FABRIC_NUMBERS[k].label;
+    label.split_once(" [").map_or(label, |(name, _)| name)
+}
+
+/// The unit that the end of a key names.
+#[must_use]
+pub fn unit_of(key: &str) -> &'static str {
+    const UNITS: [(&str, &str); 6] =
+        [("_kg_m2", "kg/m²"), ("_n_m", "N/m"), ("_nm", "N m"), ("_pct", "%"), ("_kg", "kg"), ("_mm", "mm")];
+    UNITS.iter().find(|(end, _)| key.ends_with(end)).map_or("", |(_, unit)| *unit)
 }
 
 /// What a path is asked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// Subjects to import.
-    ImportSubjects,
+    /// Subjects or fabrics to import.
+    Import(Part),
     /// The rows of a query to write.
     Export(String),
 }
@@ -180,7 +266,8 @@ impl Purpose {
     #[must_use]
     pub fn title(&self) -> &'static str {
         match self {
-            Self::ImportSubjects => "import subjects from",
+            Self::Import(Part::Fabric) => "import fabrics from",
+            Self::Import(_) => "import subjects from",
             Self::Export(_) => "write all rows of the query into",
         }
     }
@@ -189,7 +276,8 @@ impl Purpose {
     #[must_use]
     pub fn hint(&self) -> &'static str {
         match self {
-            Self::ImportSubjects => "CSV with columns name, sex, stature_mm, …, or a study.toml",
+            Self::Import(Part::Fabric) => "TOML with [[fabric]] tables, or CSV with columns name, density_kg_m2, …",
+            Self::Import(_) => "CSV with columns name, sex, stature_mm, …, or a study.toml",
             Self::Export(_) => "a new file: NAME.csv or NAME.json",
         }
     }
@@ -198,7 +286,8 @@ impl Purpose {
     #[must_use]
     pub fn busy(&self) -> &'static str {
         match self {
-            Self::ImportSubjects => "reading, and building each body…",
+            Self::Import(Part::Fabric) => "reading…",
+            Self::Import(_) => "reading, and building each body…",
             Self::Export(_) => "writing…",
         }
     }
@@ -207,7 +296,7 @@ impl Purpose {
     #[must_use]
     pub fn keys(&self) -> &'static str {
         match self {
-            Self::ImportSubjects => " ↵ import all or none  Esc cancel ",
+            Self::Import(_) => " ↵ import all or none  Esc cancel ",
             Self::Export(_) => " ↵ write  Esc cancel ",
         }
     }
@@ -227,16 +316,16 @@ pub struct PathPrompt {
 }
 
 impl PathPrompt {
-    /// Asks for a file with subjects.
+    /// Asks for a file with subjects or fabrics.
     #[must_use]
-    pub fn subjects() -> Self {
-        Self { purpose: Purpose::ImportSubjects, text: String::new(), is_busy: false, problem: None }
+    pub fn import(part: Part) -> Self {
+        Self { purpose: Purpose::Import(part), text: String::new(), is_busy: false, problem: None }
     }
 
     /// Asks for the file that the rows of a query go into.
     #[must_use]
     pub fn export(query: String) -> Self {
-        Self { purpose: Purpose::Export(query), text: "query.csv".to_owned(), ..Self::subjects() }
+        Self { purpose: Purpose::Export(query), text: "query.csv".to_owned(), is_busy: false, problem: None }
     }
 
     /// Handles a key.
@@ -255,7 +344,7 @@ impl PathPrompt {
         (self.is_busy, self.problem) = (true, None);
         let path = path_of(path);
         Outcome::Sent(vec![match &self.purpose {
-            Purpose::ImportSubjects => Effect::Do(Act::ImportSubjects(path)),
+            Purpose::Import(part) => Effect::Do(Act::Import(*part, path)),
             Purpose::Export(query) => Effect::Ask(Question::Export(query.clone(), path)),
         }])
     }

@@ -3,6 +3,7 @@
 use super::act::stepped;
 use super::action::{Action, Screen};
 use super::picture;
+use super::screens;
 use super::state::{Place, State};
 use crate::study::JobId;
 
@@ -15,7 +16,9 @@ impl State {
         let page = usize::from(self.size.height.saturating_sub(FRAME_LINES)).max(2) / 2;
         match (self.screen, self.in_second_pane()) {
             (Screen::Study, false) => self.go_in_grid(action, page),
-            (Screen::Subjects, _) => self.go_in_subjects(action, page),
+            (Screen::Subjects | Screen::Fabrics, true) => self.go_in_table(action, page),
+            (Screen::Subjects, false) => self.go_in_subjects(action, page),
+            (Screen::Fabrics, false) => self.go_in_fabrics(action, page),
             (Screen::Styles, false) => self.go_in_sizes(action, page),
             (Screen::Styles, true) => self.go_in_desk(action, page),
             (Screen::Jobs, false) => self.go_in_jobs(action, page),
@@ -54,6 +57,19 @@ impl State {
         let subjects = self.subjects();
         let at = subjects.iter().position(|row| Some(row.id) == selected).unwrap_or(0);
         self.subject = subjects.get(moved(at, subjects.len(), action, page)).map(|row| row.name.clone());
+    }
+
+    fn go_in_fabrics(&mut self, action: Action, page: usize) {
+        let selected = self.fabric().map(|row| row.fabric.name.clone());
+        let fabrics = self.fabrics();
+        let at = fabrics.iter().position(|row| Some(&row.fabric.name) == selected.as_ref()).unwrap_or(0);
+        self.fabric = fabrics.get(moved(at, fabrics.len(), action, page)).map(|row| row.fabric.name.clone());
+    }
+
+    /// Scrolls the table of the selected subject or fabric.
+    fn go_in_table(&mut self, action: Action, page: usize) {
+        let hidden = screens::table_hidden(self);
+        self.table_down = moved(self.table_down.min(hidden), hidden + 1, action, page);
     }
 
     fn go_in_sizes(&mut self, action: Action, page: usize) {
@@ -97,7 +113,10 @@ impl State {
             (Screen::Sql, _) => self.sql.sheet.iter_mut().for_each(|sheet| sheet.sideways(step)),
             (Screen::Results, false) => self.step_result(step),
             (Screen::Styles, true) => self.step_edge(step),
-            (Screen::Subjects | Screen::Styles | Screen::Jobs | Screen::Compare | Screen::Reports, _) => {}
+            (
+                Screen::Subjects | Screen::Fabrics | Screen::Styles | Screen::Jobs | Screen::Compare | Screen::Reports,
+                _,
+            ) => {}
         }
     }
 
@@ -131,6 +150,12 @@ impl State {
                 let subjects = self.subjects();
                 let at = subjects.iter().position(|row| Some(row.id) == selected).unwrap_or(0);
                 self.subject = stepped(at, step, subjects.len()).map(|next| subjects[next].name.clone());
+            }
+            Screen::Fabrics => {
+                let selected = self.fabric().map(|row| row.fabric.name.clone());
+                let fabrics = self.fabrics();
+                let at = fabrics.iter().position(|row| Some(&row.fabric.name) == selected.as_ref()).unwrap_or(0);
+                self.fabric = stepped(at, step, fabrics.len()).map(|next| fabrics[next].fabric.name.clone());
             }
             Screen::Styles => {
                 let selected = self.size_row().map(|row| row.key);

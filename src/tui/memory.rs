@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use super::action::Screen;
+use super::entries::FabricOrder;
 use super::state::{ChiOrder, JobOrder, Order, State, SubjectOrder};
 use crate::study::JobId;
 
@@ -19,10 +20,12 @@ pub struct Memory {
     garment: Option<String>,
     job: Option<i64>,
     subject: Option<String>,
+    fabric: Option<String>,
     size: Option<(String, String)>,
     marks: Vec<i64>,
     filters: Vec<String>,
     subject_order: Order<SubjectOrder>,
+    fabric_order: Order<FabricOrder>,
     job_order: Order<JobOrder>,
     chi_order: Order<ChiOrder>,
     reports_by_time: bool,
@@ -44,10 +47,12 @@ impl Memory {
             garment: state.focus.garment.clone(),
             job: state.focus.job.map(|job| job.0),
             subject: state.subject.clone(),
+            fabric: state.fabric.clone(),
             size: state.styles.selected.clone(),
             marks: state.marks.iter().map(|job| job.0).collect(),
             filters: state.filters.to_vec(),
             subject_order: state.subject_order,
+            fabric_order: state.fabric_order,
             job_order: state.job_order,
             chi_order: state.chi_order,
             reports_by_time: state.reports_by_time,
@@ -64,12 +69,13 @@ impl Memory {
     pub fn recall(self, state: &mut State) {
         state.screen = Screen::ALL.get(self.screen).copied().unwrap_or(Screen::Study);
         (state.focus.study, state.focus.garment, state.focus.job) = (self.study, self.garment, self.job.map(JobId));
-        (state.subject, state.styles.selected) = (self.subject, self.size);
+        (state.subject, state.fabric, state.styles.selected) = (self.subject, self.fabric, self.size);
         state.marks = self.marks.into_iter().map(JobId).collect();
         for (filter, kept) in state.filters.iter_mut().zip(self.filters) {
             *filter = kept;
         }
         (state.subject_order, state.job_order, state.chi_order) = (self.subject_order, self.job_order, self.chi_order);
+        state.fabric_order = self.fabric_order;
         (state.reports_by_time, state.sorts_contrasts) = (self.reports_by_time, self.sorts_contrasts);
         state.differences_only = self.differences_only;
         state.theme.ascii |= self.is_ascii == Some(true);

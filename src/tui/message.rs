@@ -47,8 +47,6 @@ pub enum Message {
     Reports(Vec<ReportRow>),
     /// A report is built, its page here, or could not be; and the reports there are now.
     ReportBuilt(Result<PathBuf, String>, Vec<ReportRow>),
-    /// The fabrics there are.
-    Fabrics(Vec<String>),
     /// A new study of a name is written, its file here, or could not be.
     StudyCreated(String, Result<PathBuf, String>),
     /// The garment of the watched job as it is now.
@@ -99,16 +97,14 @@ pub enum Effect {
 /// An action on the queue or the catalogue.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Act {
-    /// Add or edit a subject.
-    SaveSubject(Mode, String, Vec<Given>),
-    /// Import the subjects of a file.
-    ImportSubjects(PathBuf),
-    /// Remove a subject.
-    RemoveSubject(String),
+    /// Add or edit a subject or a fabric.
+    Save(Part, Mode, String, Vec<Given>),
+    /// Import the subjects or fabrics of a file.
+    Import(Part, PathBuf),
+    /// Remove an entry.
+    Remove(Part, String),
     /// Add a style or sizes of it, or the styles of a study file.
     ImportStyle(String, StyleGiven),
-    /// Remove a style or a size.
-    RemoveStyle(Part, String),
     /// Save the seams of a style.
     SaveSeams(String, SourceFile),
     /// Write seams over a file that still says what it said before.
@@ -129,7 +125,7 @@ impl Act {
     /// Whether a form waits for the answer.
     #[must_use]
     pub fn is_filled_in(&self) -> bool {
-        matches!(self, Self::SaveSubject(..) | Self::ImportSubjects(_) | Self::ImportStyle(..))
+        matches!(self, Self::Save(..) | Self::Import(..) | Self::ImportStyle(..))
     }
 }
 

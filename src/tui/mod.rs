@@ -15,13 +15,16 @@ mod clerk;
 mod compare;
 mod copy;
 mod editor;
+mod entries;
 mod feed;
 mod form;
 mod go;
 mod keys;
+mod line;
 mod live;
 mod memory;
 mod message;
+mod mosaic;
 mod overlay;
 mod painter;
 mod picture;
@@ -34,7 +37,6 @@ mod state;
 mod study_form;
 mod style_form;
 mod styles;
-mod subjects;
 mod tailor;
 mod terminal;
 #[cfg(test)]
@@ -46,6 +48,7 @@ mod worker;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::mpsc::RecvTimeoutError;
 
 pub use action::{Action, Binding, Screen};
 pub use bindings::BINDINGS;
@@ -106,7 +109,7 @@ pub fn run(options: Options) -> Result<(), TuiError> {
     let abilities = Abilities { run: !options.readonly, pictures: canvas.is_some(), quickstart: quickstart.is_some() };
 
     let mut screen = terminal::Screen::enter()?;
-    let size = screen.terminal.size()?;
+    let size = screen.size()?;
     let mut state = State { bindings, places, ..State::new(theme, abilities, size) };
     let memory = memory::place(&options.database, &env);
     memory.as_deref().map(Memory::read).unwrap_or_default().recall(&mut state);
@@ -132,10 +135,25 @@ fn event_loop(screen: &mut terminal::Screen, state: &mut State, workers: &Worker
     let mut silence = None;
     workers.read(state.focus.clone());
     terminal::take_mouse(state.has_mouse)?;
-    screen.draw(state)?;
-    while let Ok(message) = workers.messages.recv() {
+    screen.show(state)?;
+    loop {
+        let message = match screen.pause().filter(|_| !state.detached) {
+            None => workers.messages.recv().ok(),
+            Some(pause) => match workers.messages.recv_timeout(pause) {
+                Err(RecvTimeoutError::Timeout) => {
+                    // A terminal that is gone is noticed at the next message.
+                    let _ = screen.go_on(state);
+                    continue;
+                }
+                message => message.ok(),
+            },
+        };
+        let Some(message) = message else { return Ok(()) };
         // All that waits is taken in before the next frame, so that a flood of keys or progress costs one frame.
         for message in std::iter::once(message).chain(workers.messages.try_iter()) {
+            if matches!(message, Message::Key(_)) {
+                screen.key_pressed();
+            }
             if cfg!(debug_assertions) && matches!(message, Message::Key(_)) && std::env::var_os("TOILE_BREAK").is_some()
             {
                 panic!("a key was pressed and TOILE_BREAK is set");
@@ -144,14 +162,14 @@ fn event_loop(screen: &mut terminal::Screen, state: &mut State, workers: &Worker
                 match effect {
                     Effect::Quit => return Ok(()),
                     Effect::Copy(text) => print_raw(&copy::osc52(&text))?,
-                    Effect::Clear => screen.terminal.clear()?,
+                    Effect::Clear => screen.clear()?,
                     Effect::Mouse(is_taken) => terminal::take_mouse(is_taken)?,
                     other => workers.carry_out(other),
                 }
             }
         }
         if !state.detached
-            && let Err(error) = screen.draw(state)
+            && let Err(error) = screen.show(state)
             && state.update(Message::Hangup).contains(&Effect::Quit)
         {
             return Err(error);
@@ -160,7 +178,6 @@ fn event_loop(screen: &mut terminal::Screen, state: &mut State, workers: &Worker
             silence = Some(terminal::silence_input()?);
         }
     }
-    Ok(())
 }
 
 fn print_raw(sequence: &str) -> io::Result<()> {

@@ -3,12 +3,13 @@
 //! Nothing is asked of the terminal: its answer may come late, or take the first key with it (tmux: 1.8 s). What the
 //! environment and the window size say is enough; otherwise half blocks, which every terminal can show.
 
-use image::{DynamicImage, Rgba, RgbaImage, imageops};
+use image::{DynamicImage, RgbaImage, imageops};
 use ratatui::layout::Size;
 use ratatui_image::picker::{Picker, ProtocolType};
 use ratatui_image::protocol::Protocol;
 use ratatui_image::{FontSize, Resize};
 
+use super::mosaic::{Blocks, cropped, letters};
 use super::theme::Colours;
 use crate::study::{JobId, Look, Map, SubjectId, View};
 
@@ -37,6 +38,8 @@ impl std::str::FromStr for Images {
     }
 }
 
+/// Pixels that are drawn of a cell that shows two of them or a letter.
+const SMALL: FontSize = FontSize::new(6, 12);
 /// Degrees of one turn.
 const TURN_DEG: i32 = 15;
 /// Least and greatest enlargement, percent; one step multiplies or divides by 5/4.
@@ -124,8 +127,10 @@ pub struct Shot {
 
 /// A picture as the terminal shows it.
 pub enum Drawn {
-    /// Pixels or half blocks.
-    Cells(Protocol),
+    /// Pixels.
+    Pixels(Protocol),
+    /// Half blocks.
+    Blocks(Blocks),
     /// Letters of growing density, for terminals without colours.
     Letters(Vec<String>),
 }
@@ -133,7 +138,8 @@ pub enum Drawn {
 impl std::fmt::Debug for Drawn {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
-            Self::Cells(_) => "Cells",
+            Self::Pixels(_) => "Pixels",
+            Self::Blocks(_) => "Blocks",
             Self::Letters(_) => "Letters",
         })
     }
@@ -142,8 +148,11 @@ impl std::fmt::Debug for Drawn {
 /// Turns pictures into cells.
 #[derive(Clone, Debug)]
 pub struct Canvas {
-    picker: Picker,
+    /// How pixels are sent, where they are.
+    picker: Option<Picker>,
     letters: bool,
+    /// Pixels of a cell.
+    cell: FontSize,
 }
 
 impl Canvas {
@@ -156,15 +165,14 @@ impl Canvas {
             Images::Auto if !letters => pixel_protocol(env).zip(cell_size()),
             _ => None,
         };
-        let picker = pixels.map_or_else(Picker::halfblocks, |(protocol, cell)| picker_of(protocol, cell));
-        Some(Self { picker, letters })
+        let picker = pixels.map(|(protocol, cell)| picker_of(protocol, cell));
+        Some(Self { picker, letters, cell: pixels.map_or(SMALL, |(_, cell)| cell) })
     }
 
     /// Pixels to render for a picture, width by height.
     #[must_use]
     pub fn pixels(&self, shot: &Shot) -> (u32, u32) {
-        let cell = self.picker.font_size();
-        (u32::from(shot.columns) * u32::from(cell.width), u32::from(shot.rows) * u32::from(cell.height))
+        (u32::from(shot.columns) * u32::from(self.cell.width), u32::from(shot.rows) * u32::from(self.cell.height))
     }
 
     /// Crops a picture to what it shows and fits it into its pane.
@@ -173,16 +181,21 @@ impl Canvas {
     /// When the picture cannot be encoded for this terminal.
     pub fn draw(&self, picture: &RgbaImage, shot: &Shot) -> Result<Drawn, String> {
         let picture = cropped(picture);
-        let cell = self.picker.font_size();
+        let cell = self.cell;
         let size = fitted(&picture, Size::new(shot.columns, shot.rows), cell);
         if self.letters {
             return Ok(Drawn::Letters(letters(&picture, size)));
         }
-        // Whole cells, so that nothing of the terminal shines through along the edges.
+        let Some(picker) = &self.picker else { return Ok(Drawn::Blocks(Blocks::of(&picture, size))) };
+        // Terminals differ in what shines through: the backdrop is part of it. Whole cells, so that nothing of the terminal shines through along the edges.
         let (width, height) = (u32::from(size.width * cell.width), u32::from(size.height * cell.height));
-        let exact = imageops::resize(&picture, width, height, imageops::FilterType::CatmullRom);
-        let protocol = self.picker.new_protocol(DynamicImage::ImageRgba8(exact), size, Resize::Fit(None));
-        protocol.map(Drawn::Cells).map_err(|error| error.to_string())
+        let opaque = |mut picture: RgbaImage| {
+            picture.pixels_mut().for_each(|pixel| pixel.0[3] = 255);
+            picture
+        };
+        let exact = imageops::resize(&opaque(picture), width, height, imageops::FilterType::CatmullRom);
+        let protocol = picker.new_protocol(DynamicImage::ImageRgba8(exact), size, Resize::Fit(None));
+        protocol.map(Drawn::Pixels).map_err(|error| error.to_string())
     }
 }
 
@@ -227,52 +240,18 @@ fn fitted(picture: &RgbaImage, pane: Size, cell: FontSize) -> Size {
     Size::new(cells(columns, pane.width), cells(rows, pane.height))
 }
 
-/// The part of a picture that differs from its background, with a small margin.
-fn cropped(picture: &RgbaImage) -> RgbaImage {
-    let (width, height) = picture.dimensions();
-    let shown = picture.enumerate_pixels().filter(|(_, y, pixel)| !is_background(picture, *y, pixel));
-    let bounds = shown.fold(None, |bounds: Option<[u32; 4]>, (x, y, _)| {
-        let [left, top, right, bottom] = bounds.unwrap_or([x, y, x, y]);
-        Some([left.min(x), top.min(y), right.max(x), bottom.max(y)])
-    });
-    let Some([left, top, right, bottom]) = bounds else { return picture.clone() };
-    let margin = width.max(height) / 50;
-    let (left, top) = (left.saturating_sub(margin), top.saturating_sub(margin));
-    let (right, bottom) = ((right + margin).min(width - 1), (bottom + margin).min(height - 1));
-    imageops::crop_imm(picture, left, top, right - left + 1, bottom - top + 1).to_image()
-}
-
-/// Whether a pixel is transparent or near the colour its row begins with: backgrounds may change from top to bottom.
-fn is_background(picture: &RgbaImage, row: u32, pixel: &Rgba<u8>) -> bool {
-    let edge = picture.get_pixel(0, row);
-    pixel[3] < 8 || (0..4).all(|k| pixel[k].abs_diff(edge[k]) < 12)
-}
-
-/// A picture as letters: the darker, the denser; background stays empty.
-fn letters(picture: &RgbaImage, size: Size) -> Vec<String> {
-    const RAMP: [char; 4] = ['░', '▒', '▓', '█'];
-    let (columns, rows) = (u32::from(size.width), u32::from(size.height));
-    let small = imageops::resize(picture, columns, rows, imageops::FilterType::Triangle);
-    let letter = |row: u32, pixel: &Rgba<u8>| {
-        if is_background(picture, row * picture.height() / rows, pixel) {
-            return ' ';
-        }
-        let light = 0.2126 * f64::from(pixel[0]) + 0.7152 * f64::from(pixel[1]) + 0.0722 * f64::from(pixel[2]);
-        RAMP[((255.0 - light) / 64.0) as usize % RAMP.len()]
-    };
-    (0..).zip(small.rows()).map(|(y, row)| row.map(|pixel| letter(y, pixel)).collect()).collect()
-}
-
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
+    use image::Rgba;
+
     use super::*;
 
-    /// A dark cross of a shirt's proportions in the middle of a light picture.
-    fn shirt() -> RgbaImage {
+    /// A dark cross of a shirt's proportions in the middle of an empty picture.
+    pub fn shirt() -> RgbaImage {
         RgbaImage::from_fn(200, 200, |x, y| {
             let body = (80..120).contains(&x) && (60..140).contains(&y);
             let sleeves = (50..150).contains(&x) && (60..85).contains(&y);
-            if body || sleeves { Rgba([40, 90, 160, 255]) } else { Rgba([240, 240, 240, 255]) }
+            if body || sleeves { Rgba([40, 90, 160, 255]) } else { Rgba([240, 240, 240, 0]) }
         })
     }
 
@@ -281,19 +260,11 @@ mod tests {
     }
 
     #[test]
-    fn crops_to_what_is_shown() {
-        let cut = cropped(&shirt());
-        assert_eq!(cut.dimensions(), (108, 88));
-        let empty = RgbaImage::from_pixel(30, 20, Rgba([9, 9, 9, 255]));
-        assert_eq!(cropped(&empty).dimensions(), (30, 20));
-    }
-
-    #[test]
     fn half_blocks_fill_the_pane_in_one_direction() {
         let canvas = Canvas::new(Images::Halfblocks, Colours::True, &|_| None).expect("pictures are on");
-        let Ok(Drawn::Cells(protocol)) = canvas.draw(&shirt(), &shot(30, 20)) else { panic!("cells") };
-        assert_eq!(protocol.size().width, 30);
-        assert!(protocol.size().height <= 20);
+        let Ok(Drawn::Blocks(blocks)) = canvas.draw(&shirt(), &shot(30, 20)) else { panic!("blocks") };
+        assert_eq!(blocks.size.width, 30);
+        assert!(blocks.size.height <= 20);
     }
 
     #[test]

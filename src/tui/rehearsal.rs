@@ -6,11 +6,11 @@ use std::path::Path;
 use std::rc::Rc;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
-use ratatui::backend::CrosstermBackend;
 use ratatui::layout::{Rect, Size};
 use ratatui::{Terminal, TerminalOptions, Viewport};
 
 use super::feed;
+use super::line::Line;
 use super::message::{Effect, Message};
 use super::screens;
 use super::state::{Abilities, State};
@@ -36,7 +36,7 @@ pub struct Rehearsal {
     workspace: Workspace,
     state: State,
     sent: Rc<Cell<usize>>,
-    terminal: Terminal<CrosstermBackend<Counter>>,
+    terminal: Terminal<Line<Counter>>,
 }
 
 impl Rehearsal {
@@ -50,7 +50,9 @@ impl Rehearsal {
         let state = State::new(Theme { colours: Colours::Indexed, ascii: false }, abilities, Size::new(width, height));
         let options = TerminalOptions { viewport: Viewport::Fixed(Rect::new(0, 0, width, height)) };
         let sent = Rc::new(Cell::new(0));
-        let terminal = Terminal::with_options(CrosstermBackend::new(Counter(sent.clone())), options)
+        let line = Line::new(Counter(sent.clone()), Some(Size::new(width, height)));
+        let terminal = line
+            .and_then(|line| Terminal::with_options(line, options))
             .map_err(crate::study::StudyError::io("a screen in memory"))?;
         let mut rehearsal = Self { workspace, state, sent, terminal };
         rehearsal.read()?;
@@ -73,11 +75,12 @@ impl Rehearsal {
         effects.iter().any(|effect| matches!(effect, Effect::Read(_)))
     }
 
-    /// Draws; returns the bytes a terminal is sent.
+    /// Draws; returns the bytes a terminal is sent in the first frame.
     pub fn draw(&mut self) -> usize {
         let Self { terminal, state, sent, .. } = self;
         // A screen in memory refuses nothing.
         let _ = terminal.draw(|frame| screens::draw(frame, state));
+        let _ = terminal.backend_mut().send(true);
         sent.take()
     }
 }

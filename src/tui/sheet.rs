@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use super::text;
 use crate::study::{SqlAnswer, Value};
+use crate::units::significant;
 
 /// Rows whose values say how wide a column is and whether it holds numbers.
 const LOOKED_AT: usize = 300;
@@ -153,23 +154,9 @@ impl Sheet {
 pub fn cell_text(value: &Value) -> String {
     match value {
         Value::Null => "—".to_owned(),
-        Value::Real(number) => significant(*number),
+        Value::Real(number) => significant(*number, 6),
         other => other.to_string().split_whitespace().collect::<Vec<_>>().join(" "),
     }
-}
-
-/// A number with at most six significant digits.
-fn significant(number: f64) -> String {
-    if number == 0.0 || !number.is_finite() {
-        return number.to_string();
-    }
-    let magnitude = number.abs().log10().floor() as i32;
-    if !(-5..15).contains(&magnitude) {
-        return format!("{number:.5e}");
-    }
-    let decimals = (5 - magnitude).max(0) as usize;
-    let text = format!("{number:.decimals$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 /// The order of two values as SQLite has it: nothing, numbers, texts, bytes.

@@ -8,6 +8,7 @@ use ratatui::layout::Size;
 use super::action::{Binding, Screen};
 use super::bindings::BINDINGS;
 use super::clerk::Reports;
+use super::entries::FabricOrder;
 use super::feed::{Detail, Focus, Snapshot};
 use super::message::Target;
 use super::overlay::Overlay;
@@ -170,6 +171,12 @@ pub struct State {
     pub arranged: Arranged,
     /// Subject selected.
     pub subject: Option<String>,
+    /// Fabric selected.
+    pub fabric: Option<String>,
+    /// Order of fabrics.
+    pub fabric_order: Order<FabricOrder>,
+    /// Lines that the table of the selected subject or fabric is scrolled down.
+    pub table_down: usize,
     /// Where the user is among the styles.
     pub styles: Styles,
     /// Order of subjects.
@@ -249,6 +256,9 @@ impl State {
             reads: 0,
             arranged: Arranged::default(),
             subject: None,
+            fabric: None,
+            fabric_order: Order::default(),
+            table_down: 0,
             styles: Styles::default(),
             subject_order: Order::default(),
             measured: BTreeMap::new(),

@@ -173,12 +173,6 @@ impl StudyForm {
         }
     }
 
-    /// Takes in the fabrics there are.
-    pub fn take_fabrics(&mut self, fabrics: Vec<String>) {
-        self.fabric = fabrics.iter().position(|name| name == USUAL_FABRIC).unwrap_or(0);
-        self.fabrics = fabrics;
-    }
-
     /// Sends it off, or goes to what is missing.
     fn save(&mut self) -> Outcome {
         let [subjects, sizes, simulators] = self.jobs();
@@ -187,7 +181,7 @@ impl StudyForm {
             (sizes == 0, "styles and sizes", "choose a size of a style with Space; a chooses all"),
             (subjects == 0, "subjects", "choose a subject with Space; a chooses all"),
             (simulators == 0, "simulators", "choose a simulator with Space"),
-            (self.fabrics.is_empty(), "fabric", "the fabrics are being read"),
+            (self.fabrics.is_empty(), "fabric", "the catalogue has no fabric: screen 9 imports some"),
         ];
         if let Some((_, section, problem)) = missing.into_iter().find(|(is_missing, ..)| *is_missing) {
             self.at = self.lines().iter().position(|line| line.section() == section).unwrap_or(0);
@@ -212,19 +206,20 @@ impl StudyForm {
 
 impl State {
     /// Asks what a new study is made of.
-    pub(super) fn new_study(&mut self) -> Vec<Effect> {
-        let Some(data) = &self.data else { return vec![] };
+    pub(super) fn new_study(&mut self) {
+        let Some(data) = &self.data else { return };
         if !self.abilities.run {
             self.complain("this workbench is read-only: start it without --readonly to make a study");
-            return vec![];
+            return;
         }
         let names: Vec<&str> = data.studies.iter().map(|study| study.name.as_str()).collect();
         let name = (1..).map(|k| format!("study-{k}")).find(|name| !names.contains(&name.as_str())).unwrap_or_default();
+        let fabrics: Vec<String> = data.fabrics.iter().map(|row| row.fabric.name.clone()).collect();
         let form = StudyForm {
             name,
             folder: self.places.studies.clone(),
-            fabrics: vec![],
-            fabric: 0,
+            fabric: fabrics.iter().position(|name| name == USUAL_FABRIC).unwrap_or(0),
+            fabrics,
             simulators: crate::study::SIMULATORS.map(|simulator| (simulator, true)).to_vec(),
             sizes: wearables(&data.sizes).into_iter().map(|wearable| (wearable, false)).collect(),
             subjects: data.subjects.iter().map(|row| (row.name.clone(), false)).collect(),
@@ -233,7 +228,6 @@ impl State {
             problem: None,
         };
         self.overlay = Some(Overlay::StudyForm(Box::new(form)));
-        vec![Effect::Errand(Errand::ListFabrics)]
     }
 
     /// Opens a study that was made, or says in the form why it was not.

@@ -5,6 +5,7 @@ use crossterm::event::{KeyCode, KeyEvent};
 use super::form::path_of;
 use super::message::{Act, Effect};
 use super::overlay::{Outcome, edit};
+use super::text;
 use crate::study::StyleGiven;
 
 /// Lines of the form.
@@ -13,6 +14,8 @@ const STYLE: usize = 1;
 const SIZE: usize = 2;
 const UNIT: usize = 3;
 
+/// Letters of what is said of many sizes: the first tells enough.
+const LONGEST: usize = 400;
 /// Names of the lines.
 pub const LABELS: [&str; 5] = ["pattern", "style", "size", "unit", "seam file"];
 
@@ -109,6 +112,8 @@ impl StyleForm {
         } else if problem.contains("names no size") {
             self.at = SIZE;
         }
-        self.problem = Some(problem);
+        let is_nest = self.size().is_empty() && problem.matches("size ").count() > 1;
+        let hint = "; a size above imports that one alone";
+        self.problem = Some(if is_nest { text::shortened(&problem, LONGEST) + hint } else { problem });
     }
 }

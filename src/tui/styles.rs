@@ -184,14 +184,14 @@ impl State {
 
     /// Asks for the files of a style.
     pub(super) fn import_style(&mut self) {
-        if self.may_change_styles() {
+        if self.may_change(Part::Style) {
             self.overlay = Some(Overlay::StyleForm(Box::default()));
         }
     }
 
     /// Removes the selected size, with its style where it is the last, once that is confirmed.
     pub(super) fn remove_size(&mut self) {
-        if !self.may_change_styles() {
+        if !self.may_change(Part::Style) {
             return;
         }
         let Some(row) = self.size_row() else { return self.say("no size is selected") };
@@ -202,21 +202,12 @@ impl State {
             false => (Part::Size, format!("{}/{}", row.style, row.size)),
         };
         let text = format!("Remove {part} {name}? Results that use it stay as they are.");
-        self.ask(text, vec![Effect::Do(Act::RemoveStyle(part, name))]);
-    }
-
-    /// Goes to the Styles screen; says why where nothing may be changed.
-    fn may_change_styles(&mut self) -> bool {
-        self.show(Screen::Styles);
-        if !self.abilities.run {
-            self.complain("this workbench is read-only: start it without --readonly to change styles");
-        }
-        self.abilities.run
+        self.ask(text, vec![Effect::Do(Act::Remove(part, name))]);
     }
 
     /// Gives the desk the focus; whether what lies on it can be worked on now.
     fn may_sew(&mut self) -> bool {
-        if !self.may_change_styles() {
+        if !self.may_change(Part::Style) {
             return false;
         }
         self.second_pane[Screen::Styles as usize] = true;
@@ -334,7 +325,7 @@ impl State {
     /// Proposes the seams of the selected style; asks where that replaces seams that somebody has made or confirmed.
     pub(super) fn propose_seams(&mut self) -> Vec<Effect> {
         // What cannot be laid out with the seams it has may get others.
-        if !self.may_change_styles() || self.styles.is_busy {
+        if !self.may_change(Part::Style) || self.styles.is_busy {
             return vec![];
         }
         let Some(style) = self.size_row().map(|row| row.style.clone()) else { return vec![] };
@@ -386,7 +377,7 @@ impl State {
 
     /// Saves the edited seams of the selected style.
     pub(super) fn save_seams(&mut self) -> Vec<Effect> {
-        if !self.may_change_styles() {
+        if !self.may_change(Part::Style) {
             return vec![];
         }
         let Some(style) = self.size_row().map(|row| row.style.clone()) else { return vec![] };

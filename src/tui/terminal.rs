@@ -5,19 +5,31 @@ use std::os::unix::net::UnixStream;
 use std::panic;
 use std::sync::Once;
 use std::thread;
+use std::time::{Duration, Instant};
 
 use crossterm::event::{DisableMouseCapture, EnableMouseCapture};
 use crossterm::{cursor, execute, terminal};
 use ratatui::Terminal;
-use ratatui::backend::CrosstermBackend;
+use ratatui::layout::Size;
 
+use super::line::{Late, Line};
 use super::screens;
 use super::state::State;
 
+/// Least time between two frames: keys that come faster share one, and a slow line gets no more than it can take.
+const PAUSE: Duration = Duration::from_millis(20);
+/// Time without a key after which pictures are sent: longer than between two repeats of a key that is held.
+const REST: Duration = Duration::from_millis(80);
+
 /// The terminal while the workbench has it; dropping it gives it back.
 pub struct Screen {
-    /// What is drawn on.
-    pub terminal: Terminal<CrosstermBackend<Stdout>>,
+    terminal: Terminal<Line<Stdout>>,
+    /// When a key was pressed last.
+    last_key: Option<Instant>,
+    /// When a frame was sent last.
+    last_frame: Option<Instant>,
+    /// Whether the state has changed since it was drawn.
+    is_stale: bool,
 }
 
 impl Screen {
@@ -43,9 +55,9 @@ impl Screen {
         });
         terminal::enable_raw_mode()?;
         let entered = execute!(io::stdout(), terminal::EnterAlternateScreen, cursor::Hide)
-            .and_then(|()| Terminal::new(CrosstermBackend::new(io::stdout())));
+            .and_then(|()| Terminal::new(Line::new(io::stdout(), None)?));
         match entered {
-            Ok(terminal) => Ok(Self { terminal }),
+            Ok(terminal) => Ok(Self { terminal, last_key: None, last_frame: None, is_stale: false }),
             Err(error) => {
                 restore();
                 Err(error)
@@ -53,12 +65,73 @@ impl Screen {
         }
     }
 
-    /// Draws the state.
+    /// Size of the terminal.
     ///
     /// # Errors
     /// When the terminal is gone.
-    pub fn draw(&mut self, state: &State) -> io::Result<()> {
-        self.terminal.draw(|frame| screens::draw(frame, state)).map(|_| ())
+    pub fn size(&self) -> io::Result<Size> {
+        self.terminal.size()
+    }
+
+    /// Has the state drawn, now or when the frame before is old enough.
+    ///
+    /// # Errors
+    /// When the terminal is gone.
+    pub fn show(&mut self, state: &State) -> io::Result<()> {
+        self.is_stale = true;
+        self.go_on(state)
+    }
+
+    /// Draws the state where it has changed and sends the next frame, pictures too once the keys rest; nothing where the
+    /// frame before is too young.
+    ///
+    /// # Errors
+    /// When the terminal is gone.
+    pub fn go_on(&mut self, state: &State) -> io::Result<()> {
+        if !self.age_left().is_zero() {
+            return Ok(());
+        }
+        if std::mem::take(&mut self.is_stale) {
+            self.terminal.draw(|frame| screens::draw(frame, state))?;
+        }
+        let is_at_rest = self.rest_left().is_zero();
+        if self.terminal.backend_mut().send(is_at_rest)? > 0 {
+            self.last_frame = Some(Instant::now());
+        }
+        Ok(())
+    }
+
+    /// Time until the next frame is due; `None` where nothing is left to send.
+    #[must_use]
+    pub fn pause(&self) -> Option<Duration> {
+        match self.terminal.backend().late() {
+            Late::Nothing if !self.is_stale => None,
+            Late::Pictures if !self.is_stale => Some(self.age_left().max(self.rest_left())),
+            _ => Some(self.age_left()),
+        }
+    }
+
+    /// Time until the last frame is old enough for another.
+    fn age_left(&self) -> Duration {
+        self.last_frame.map_or(Duration::ZERO, |frame| PAUSE.saturating_sub(frame.elapsed()))
+    }
+
+    /// Time until the keys rest.
+    fn rest_left(&self) -> Duration {
+        self.last_key.map_or(Duration::ZERO, |key| REST.saturating_sub(key.elapsed()))
+    }
+
+    /// Takes note that a key was pressed.
+    pub fn key_pressed(&mut self) {
+        self.last_key = Some(Instant::now());
+    }
+
+    /// Has everything drawn anew.
+    ///
+    /// # Errors
+    /// When the terminal is gone.
+    pub fn clear(&mut self) -> io::Result<()> {
+        self.terminal.clear()
     }
 }
 

@@ -58,6 +58,12 @@ pub fn mm(metres: f64) -> String {
     format!("{:.1}", metres * 1000.0)
 }
 
+/// A number as it can be typed, exactly: small ones with an exponent.
+#[must_use]
+pub fn exact(value: f64) -> String {
+    if value != 0.0 && value.abs() < 1e-3 { format!("{value:e}") } else { value.to_string() }
+}
+
 /// A whole number with a true minus sign.
 #[must_use]
 pub fn whole(value: f64) -> String {
@@ -193,7 +199,14 @@ pub fn why(job: &JobRow, paused: bool) -> String {
         Status::Failed => job.error.clone().unwrap_or_else(|| "failed".into()),
         Status::NotConverged => "not at rest".into(),
         Status::Queued if paused => "study is paused".into(),
-        Status::Queued => job.error.clone().unwrap_or_else(|| "waits".into()),
+        Status::Queued => {
+            let reason = job.error.clone().unwrap_or_else(|| "waits".into());
+            if job.priority == 0 {
+                reason
+            } else {
+                format!("{reason}, priority {:+}", job.priority).replace('-', "−")
+            }
+        }
         Status::Cancelled => "cancelled".into(),
         Status::Running if job.attempts > 1 => format!("attempt {}", job.attempts),
         Status::Running => "in work".into(),

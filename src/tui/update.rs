@@ -6,7 +6,7 @@ use ratatui::layout::Size;
 use super::action::{Action, Key, Screen, action_of};
 use super::feed::{Focus, Snapshot};
 use super::message::{Effect, Message};
-use super::overlay::{Outcome, Overlay};
+use super::overlay::Outcome;
 use super::picture::{Drawn, FRONT, Shot, Sitter};
 use super::screens;
 use super::state::{Place, State};
@@ -76,12 +76,6 @@ impl State {
             }
             Message::ReportBuilt(page, rows) => {
                 self.report_built(page, rows);
-                vec![]
-            }
-            Message::Fabrics(fabrics) => {
-                if let Some(Overlay::StudyForm(form)) = &mut self.overlay {
-                    form.take_fabrics(fabrics);
-                }
                 vec![]
             }
             Message::StudyCreated(name, outcome) => {
@@ -171,6 +165,7 @@ impl State {
         self.reads += 1;
         self.arrange_jobs();
         self.subject = self.subject().map(|row| row.name.clone());
+        self.fabric = self.fabric().map(|row| row.fabric.name.clone());
         self.clamp_place();
         self.chi_row = self.chi_row.min(self.chi().len().saturating_sub(1));
         let known = self.focus.job.filter(|id| self.data.as_ref().is_some_and(|data| data.job(*id).is_some()));

@@ -192,20 +192,23 @@ fn watch_signals(sender: &Sender<Message>) {
 fn serve_database(workspace: Workspace, asked: &Receiver<Request>, sender: &Sender<Message>) {
     let mut reader = Reader { workspace, focus: Focus::default(), last: None, rest: LOOK };
     loop {
-        let is_wanted = match asked.recv_timeout(reader.rest) {
-            Ok(Request::Read(wanted)) => {
-                reader.focus = wanted;
-                true
-            }
-            Ok(Request::Do(act)) => {
-                if sender.send(reader.do_act(act)).is_err() {
-                    return;
-                }
-                true
-            }
-            Err(RecvTimeoutError::Timeout) => false,
+        let first = match asked.recv_timeout(reader.rest) {
+            Ok(request) => Some(request),
+            Err(RecvTimeoutError::Timeout) => None,
             Err(RecvTimeoutError::Disconnected) => return,
         };
+        let is_wanted = first.is_some();
+        // Of what was looked at meanwhile, only the latest is read.
+        for request in first.into_iter().chain(asked.try_iter()) {
+            match request {
+                Request::Read(wanted) => reader.focus = wanted,
+                Request::Do(act) => {
+                    if sender.send(reader.do_act(act)).is_err() {
+                        return;
+                    }
+                }
+            }
+        }
         let message = match reader.read(is_wanted) {
             Ok(None) => continue,
             Ok(Some(data)) => Message::Data(Box::new(data)),
@@ -266,26 +269,28 @@ impl Reader {
 /// Acts on the queue or the catalogue; says what was done.
 pub(super) fn do_act(workspace: &mut Workspace, act: &Act) -> Result<String, StudyError> {
     match act {
-        Act::SaveSubject(mode, name, given) => {
-            let saved = workspace.save_subject(*mode, name, given)?;
+        Act::Save(part, mode, name, given) => {
+            let saved = match part {
+                Part::Fabric => workspace.save_fabric(*mode, name, None, given)?,
+                _ => workspace.save_subject(*mode, name, given)?,
+            };
             Ok(format!("{saved}{}", saved.doubts.iter().map(|doubt| format!("; {doubt}")).collect::<String>()))
         }
-        Act::ImportSubjects(path) => {
-            let saved = workspace.import(Part::Subject, std::slice::from_ref(path))?;
+        Act::Import(part, path) => {
+            let saved = workspace.import(*part, std::slice::from_ref(path))?;
             let count = |deed: Deed| saved.iter().filter(|saved| saved.deed == deed).count();
             let changed = count(Deed::Revised) + count(Deed::Restored);
             let doubts = saved.iter().filter(|saved| !saved.doubts.is_empty()).count();
             let doubts = if doubts > 0 { format!("; {doubts} with doubtful values (!)") } else { String::new() };
             Ok(format!(
-                "{} subjects: {} added, {changed} changed, {} as before{doubts}",
+                "{} {part}s: {} added, {changed} changed, {} as before{doubts}",
                 saved.len(),
                 count(Deed::Added),
                 count(Deed::Unchanged)
             ))
         }
-        Act::RemoveSubject(name) => Ok(workspace.remove(Part::Subject, name)?.to_string()),
+        Act::Remove(part, name) => Ok(workspace.remove(*part, name)?.to_string()),
         Act::ImportStyle(name, given) => import_style(workspace, name, given),
-        Act::RemoveStyle(part, name) => Ok(workspace.remove(*part, name)?.to_string()),
         Act::SaveSeams(style, seams) => Ok(said(&workspace.save_seams(style, seams)?)),
         Act::WriteSeams(path, before, after) => {
             write_seams(path, before, after)?;

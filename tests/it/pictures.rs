@@ -62,6 +62,17 @@ struct Painted {
     is_bold: bool,
 }
 
+impl Painted {
+    /// Where a half block begins, as a share of its cell.
+    fn half(&self) -> Option<f64> {
+        match self.text.as_str() {
+            "▀" => Some(0.0),
+            "▄" => Some(0.5),
+            _ => None,
+        }
+    }
+}
+
 fn painted(cell: &vt100::Cell) -> Painted {
     let (mut front, mut back) = (rgb(cell.fgcolor(), PLAIN.0), rgb(cell.bgcolor(), PLAIN.1));
     if cell.inverse() {
@@ -97,20 +108,20 @@ fn drawn(screen: &vt100::Screen) -> String {
                 hex(colour)
             );
         };
-        for (from, to) in runs(&|a, b| a.back == b.back && (a.text == "▀") == (b.text == "▀")) {
+        for (from, to) in runs(&|a, b| a.back == b.back) {
             if cells[from].back != PLAIN.1 {
                 rectangle(from, to, y, CELL.1 + 0.3, cells[from].back);
             }
         }
-        for (from, to) in runs(&|a, b| a.front == b.front && (a.text == "▀") == (b.text == "▀")) {
-            if cells[from].text == "▀" {
-                rectangle(from, to, y, CELL.1 / 2.0, cells[from].front);
+        for (from, to) in runs(&|a, b| a.front == b.front && a.half() == b.half()) {
+            if let Some(down) = cells[from].half() {
+                rectangle(from, to, y + down * CELL.1, CELL.1 / 2.0 + 0.3, cells[from].front);
             }
         }
         for (from, to) in
-            runs(&|a, b| a.front == b.front && a.is_bold == b.is_bold && (a.text == "▀") == (b.text == "▀"))
+            runs(&|a, b| a.front == b.front && a.is_bold == b.is_bold && a.half().is_some() == b.half().is_some())
         {
-            if cells[from].text == "▀" {
+            if cells[from].half().is_some() {
                 continue;
             }
             let text: String = cells[from..to].iter().map(|cell| cell.text.as_str()).collect();
@@ -172,7 +183,7 @@ fn picture(frames: &[(String, f64)], columns: u16, rows: u16) -> String {
 type Scene<'a> = (&'a str, f64, Option<&'a str>);
 
 /// A walk through the screens.
-const SCENES: [Scene; 17] = [
+const SCENES: [Scene; 19] = [
     ("", 2.0, Some("study")),
     ("<Down>", 0.6, None),
     ("<Right>", 0.6, None),
@@ -189,6 +200,8 @@ const SCENES: [Scene; 17] = [
     ("SELECT garment, size, subject, simulator, ei FROM v_m", 0.8, None),
     ("<Tab> ORDER BY ei DESC<F5>", 1.0, None),
     ("<Tab>", 2.4, Some("sql")),
+    ("9", 1.4, None),
+    ("jjjjj", 2.0, Some("fabrics")),
     ("?", 2.0, None),
 ];
 

@@ -83,6 +83,7 @@ impl Seat {
             ("<Up>", "\x1b[A"),
             ("<Right>", "\x1b[C"),
             ("<F5>", "\x1b[15~"),
+            ("<PgDn>", "\x1b[6~"),
             ("<C-c>", "\x03"),
         ] {
             sent = sent.replace(name, code);
@@ -103,6 +104,24 @@ impl Seat {
     /// Bytes the program has sent.
     pub fn bytes(&self) -> usize {
         self.bytes.load(Ordering::Relaxed)
+    }
+
+    /// Time from a moment until more was sent than before it.
+    #[track_caller]
+    pub fn first_byte(&self, before: usize, start: Instant) -> Duration {
+        while self.bytes() == before && start.elapsed() < PATIENCE {
+            thread::sleep(Duration::from_micros(200));
+        }
+        start.elapsed()
+    }
+
+    /// Time that cores have worked for the program; none where the system does not tell.
+    pub fn cpu(&self) -> Duration {
+        let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.child.id())).unwrap_or_default();
+        let fields = stat.rsplit(')').next().unwrap_or_default().split_whitespace();
+        // User and system time are the 14th and 15th field, the first two being before the bracket; ticks of 10 ms.
+        let ticks: u64 = fields.skip(11).take(2).filter_map(|field| field.parse::<u64>().ok()).sum();
+        Duration::from_millis(10 * ticks)
     }
 
     /// Waits until the screen contains a text; returns the screen.

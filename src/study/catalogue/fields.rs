@@ -172,7 +172,7 @@ pub static FABRIC_NUMBERS: [Field<Fabric>; 13] = [
     Field {
         key: "stretch_pct",
         flag: "stretch-pct",
-        label: "elongation at which a knit has the two moduli after it [default: none]",
+        label: "stretch of a knit's second moduli [default: none]",
         is_required: false,
         range: || 1.0..=200.0,
         get: |fabric| fabric.stretched.map(|law| (law.stretch * 1e10).round() / 1e8),
@@ -181,7 +181,7 @@ pub static FABRIC_NUMBERS: [Field<Fabric>; 13] = [
     Field {
         key: "stretched_warp_n_m",
         flag: "stretched-warp-n-m",
-        label: "secant modulus there, along the grain",
+        label: "secant modulus there, warp",
         is_required: false,
         range: || 1.0..=1e6,
         get: |fabric| fabric.stretched.map(|law| law.membrane_warp_n_m),
@@ -190,7 +190,7 @@ pub static FABRIC_NUMBERS: [Field<Fabric>; 13] = [
     Field {
         key: "stretched_weft_n_m",
         flag: "stretched-weft-n-m",
-        label: "secant modulus there, across the grain",
+        label: "secant modulus there, weft",
         is_required: false,
         range: || 1.0..=1e6,
         get: |fabric| fabric.stretched.map(|law| law.membrane_weft_n_m),

@@ -64,18 +64,8 @@ pub(crate) fn known(connection: Option<&Connection>) -> Result<Known> {
         });
     };
     let subjects = subjects(connection)?.into_iter().map(|row| (row.name, row.measurements));
-    let sql = format!(
-        "SELECT fabric, source, {} FROM v_fabrics WHERE is_latest AND NOT is_retired",
-        columns(&FABRIC_NUMBERS)
-    );
-    let mut statement = connection.prepare_cached(&sql)?;
-    let row = |row: &Row<'_>| {
-        let mut cloth = Fabric { source: row.get(1)?, ..Fabric::blank(&row.get::<_, String>(0)?) };
-        read_numbers(row, 2, &FABRIC_NUMBERS, &mut cloth)?;
-        Ok((cloth.name.clone(), cloth))
-    };
-    let fabrics = statement.query_map([], row)?.collect::<rusqlite::Result<_>>()?;
-    Ok(Known { subjects: subjects.collect(), fabrics, styles: styles(connection)? })
+    let fabrics = super::fabrics::fabrics(connection)?.into_iter().map(|row| (row.fabric.name.clone(), row.fabric));
+    Ok(Known { subjects: subjects.collect(), fabrics: fabrics.collect(), styles: styles(connection)? })
 }
 
 /// The current styles with their current sizes, by name.
@@ -128,12 +118,12 @@ pub(crate) fn read_fabric(connection: &Connection, id: i64) -> Result<Fabric> {
 }
 
 /// Columns of fields, for SQL.
-fn columns<T>(fields: &[Field<T>]) -> String {
+pub(super) fn columns<T>(fields: &[Field<T>]) -> String {
     fields.iter().map(|field| field.key).collect::<Vec<_>>().join(", ")
 }
 
 /// Reads fields from the columns of a row from `first` on.
-fn read_numbers<T>(row: &Row<'_>, first: usize, fields: &[Field<T>], entry: &mut T) -> rusqlite::Result<()> {
+pub(super) fn read_numbers<T>(row: &Row<'_>, first: usize, fields: &[Field<T>], entry: &mut T) -> rusqlite::Result<()> {
     for (k, field) in fields.iter().enumerate() {
         field.set(entry, row.get(first + k)?);
     }

@@ -1,6 +1,7 @@
 //! The catalogue: subjects, styles, sizes and fabrics with revisions. An edit adds a revision, content seen before is
 //! found again, and nothing a result came from is ever changed: an entry that results use is hidden when it is removed.
 
+mod fabrics;
 mod fields;
 mod import;
 mod known;
@@ -23,6 +24,7 @@ use super::workspace::Workspace;
 use crate::body::Measurements;
 use crate::sim::Fabric;
 
+pub use fabrics::FabricRow;
 pub(crate) use fields::{Entry, filled, keys};
 pub use fields::{FABRIC_NUMBERS, Field, Given, MEASUREMENTS, sex};
 pub use known::SubjectRow;

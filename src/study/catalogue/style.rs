@@ -105,7 +105,7 @@ impl Workspace {
             ([(_, path)], unit) => {
                 let before = self.sizes_of(style)?.into_iter().find(|(before, _)| before.name == size);
                 let unit = unit.clone().or(before.and_then(|(_, unit)| unit));
-                vec![(SizeFile { name: size.to_owned(), pattern: SourceFile::read(path)? }, unit)]
+                vec![(SizeFile { name: size.to_owned(), pattern: SourceFile::read_pattern(path)? }, unit)]
             }
             ([], Some(unit)) => {
                 let before = self.sizes_of(style)?.into_iter().filter(|(before, _)| before.name == size);
@@ -177,7 +177,7 @@ impl Workspace {
         }
         let mut sizes = Vec::new();
         for (name, path) in &given.patterns {
-            let pattern = SourceFile::read(path)?;
+            let pattern = SourceFile::read_pattern(path)?;
             let names = match name {
                 Some(name) => vec![name.clone()],
                 None => sizes_in(&pattern, unit.as_deref())?,

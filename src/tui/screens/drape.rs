@@ -34,7 +34,7 @@ pub fn picture_places(state: &State) -> Vec<(Sitter, Size)> {
             body.into_iter().collect()
         }
         Screen::Compare => compare::picture_panes(body, state),
-        Screen::Styles | Screen::Jobs | Screen::Sql | Screen::Reports => vec![],
+        Screen::Styles | Screen::Fabrics | Screen::Jobs | Screen::Sql | Screen::Reports => vec![],
     };
     let sized = panes.into_iter().map(|(of, pane)| (of, parts(Block::bordered().inner(pane)).0.as_size()));
     sized.filter(|(_, size)| size.width >= 4 && size.height >= 3).collect()
@@ -129,10 +129,10 @@ pub(super) fn draw_legend(frame: &mut Frame<'_>, area: Rect, state: &State) {
 /// The picture in the middle of its pane.
 fn draw_cells(frame: &mut Frame<'_>, area: Rect, drawn: &Drawn, state: &State) {
     match drawn {
-        Drawn::Cells(protocol) => {
-            let size = protocol.size();
-            let place = centred(area, size);
-            frame.render_widget(Image::new(protocol), place);
+        Drawn::Pixels(protocol) => frame.render_widget(Image::new(protocol), centred(area, protocol.size())),
+        Drawn::Blocks(blocks) => {
+            let place = centred(area, blocks.size);
+            blocks.render(place, frame.buffer_mut());
             state.theme.adapt(frame.buffer_mut(), place);
         }
         Drawn::Letters(rows) => {

@@ -7,37 +7,40 @@ use ratatui::widgets::{Clear, Paragraph};
 
 use super::super::form::{Form, Note, PathPrompt};
 use super::super::style_form::{self, StyleForm};
-use super::super::text::{left, right, shortened};
+use super::super::text::{self, left, right, shortened};
 use super::super::theme::Theme;
 use super::chi::wrapped;
 use super::overlays::middle;
 use super::{first_shown, pane};
-use crate::study::Mode;
+use crate::study::{Mode, Part};
 
-/// Columns of names and of values in a form.
-const LABEL: usize = 17;
+/// Columns of values in a form.
 const VALUE: usize = 12;
 
-/// Draws the values of a subject.
+/// Draws the values of a subject or a fabric.
 pub(super) fn draw_form(frame: &mut Frame<'_>, area: Rect, form: &Form, theme: Theme) {
     let title = match form.mode {
         Mode::Edit => format!("edit {}: a new revision, results keep theirs", form.name()),
-        _ => "new subject".to_owned(),
+        _ => format!("new {}{}", form.part, form.like.as_ref().map_or(String::new(), |name| format!(", like {name}"))),
     };
-    let width = area.width.min(76);
+    let width = area.width.min(if form.part == Part::Fabric { 100 } else { 76 });
     let columns = usize::from(width.saturating_sub(2));
     // The line has little room for what is wrong with its value.
     let wrong = match form.note(form.at) {
         Note::Problem(problem) => Some(problem),
         _ => form.problem.clone(),
     };
-    let end = end(form.is_busy.then_some("building the body…"), wrong.as_deref(), columns, theme);
+    let busy = if form.part == Part::Fabric { "saving…" } else { "building the body…" };
+    let end = end(form.is_busy.then_some(busy), wrong.as_deref(), columns, theme);
     let room = usize::from(area.height.saturating_sub(2)).saturating_sub(end.len());
     let first = first_shown(form.at, form.texts.len(), room);
     let shown = (first..form.texts.len()).take(room);
     let mut lines: Vec<Line<'_>> = shown.map(|k| line(form, k, columns, theme)).collect();
     lines.extend(end);
-    let keys = " Tab ↑↓ line  ↵ save  Esc cancel  empty = not known ";
+    let keys = match form.part {
+        Part::Fabric => " Tab ↑↓ line  C-u empties it  ↵ save  Esc cancel ",
+        _ => " Tab ↑↓ line  ↵ save  Esc cancel  empty = not known ",
+    };
     draw(frame, area, width, title, keys, lines, theme);
 }
 
@@ -48,16 +51,27 @@ fn line(form: &Form, k: usize, columns: usize, theme: Theme) -> Line<'static> {
     let value = if is_focused { format!("{}▏", form.texts[k]) } else { form.texts[k].clone() };
     let (note, style) = match form.note(k) {
         Note::None => (String::new(), theme.dim()),
-        Note::Percentile(words) => (words, theme.dim()),
-        Note::Doubt(words) => (format!("{words} ! doubtful"), theme.warn()),
+        Note::Place(words) => (words, theme.dim()),
+        Note::Doubt(words) => (words, theme.warn()),
         Note::Problem(problem) => (format!("✗ {problem}"), theme.bad()),
     };
-    // A long name takes the room of its note.
-    let value = if k == 0 { value } else { right(&value, VALUE) };
-    let text = format!("{mark} {}{value} {} ", left(Form::label(k), LABEL), left(Form::unit(k), 2));
-    let room = columns.saturating_sub(super::super::text::width(&text));
+    let lines = 0..form.texts.len();
+    let widest = |of: &dyn Fn(usize) -> &'static str| lines.clone().map(|k| text::width(of(k))).max().unwrap_or(0);
+    let head = format!("{mark} {} ", left(form.label(k), widest(&|k| form.label(k))));
+    let typed = match Form::is_number(k) {
+        true => format!("{head}{} {} ", right(&value, VALUE), left(form.unit(k), widest(&|k| form.unit(k)))),
+        // A long word takes the room of its note; its end is what is being typed.
+        false => format!("{head}{} ", ended(&value, columns.saturating_sub(text::width(&head) + 1), is_focused)),
+    };
+    let room = columns.saturating_sub(text::width(&typed));
     let style_of_text = if is_focused { theme.bold() } else { ratatui::style::Style::new() };
-    Line::from(vec![Span::styled(text, style_of_text), Span::styled(shortened(&note, room), style)])
+    Line::from(vec![Span::styled(typed, style_of_text), Span::styled(shortened(&note, room), style)])
+}
+
+/// A text in at most so many columns: its end while it is typed, its beginning else.
+fn ended(text: &str, columns: usize, is_typed: bool) -> String {
+    let letters: Vec<char> = text.chars().collect();
+    if is_typed { letters[letters.len().saturating_sub(columns)..].iter().collect() } else { shortened(text, columns) }
 }
 
 /// Draws the prompt for a file.
@@ -65,9 +79,7 @@ pub(super) fn draw_path(frame: &mut Frame<'_>, area: Rect, prompt: &PathPrompt, 
     let width = area.width.min(100);
     let columns = usize::from(width.saturating_sub(2));
     // The end of a long path is what is being typed.
-    let typed: Vec<char> = format!(" {}▏", prompt.text).chars().collect();
-    let shown: String = typed[typed.len().saturating_sub(columns)..].iter().collect();
-    let mut lines = vec![Line::styled(shown, theme.bold())];
+    let mut lines = vec![Line::styled(ended(&format!(" {}▏", prompt.text), columns, true), theme.bold())];
     lines.extend(end(prompt.is_busy.then_some(prompt.purpose.busy()), prompt.problem.as_deref(), columns, theme));
     if lines.len() == 1 {
         lines.push(Line::styled(format!(" {}; ~/ is home", prompt.purpose.hint()), theme.dim()));
@@ -83,13 +95,12 @@ pub(super) fn draw_style(frame: &mut Frame<'_>, area: Rect, form: &StyleForm, th
         let is_focused = k == form.at && !form.is_busy;
         let (mark, end) = if is_focused { ("▸", "▏") } else { (" ", "") };
         let head = format!("{mark} {}", left(style_form::LABELS[k], 11));
-        let room = columns.saturating_sub(super::super::text::width(&head));
-        // The end of a long path is what is being typed.
-        let typed: Vec<char> = format!("{text}{end}").chars().collect();
-        let shown: String = typed[typed.len().saturating_sub(room)..].iter().collect();
+        let room = columns.saturating_sub(text::width(&head));
+        // The end of a long path is what tells it from others.
+        let shown = ended(&format!("{text}{end}"), room, true);
         let style = if is_focused { theme.bold() } else { ratatui::style::Style::new() };
         let hint = if text.is_empty() { format!(" {}", form.hint(k)) } else { String::new() };
-        let hint = shortened(&hint, room.saturating_sub(typed.len().min(room)));
+        let hint = shortened(&hint, room.saturating_sub(text::width(&shown)));
         Line::from(vec![Span::styled(head + &shown, style), Span::styled(hint, theme.dim())])
     };
     let mut lines: Vec<Line<'_>> = form.texts.iter().enumerate().map(line).collect();

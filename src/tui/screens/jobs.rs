@@ -20,7 +20,9 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let [table_area, log_area] = Layout::vertical([Constraint::Fill(1), Constraint::Length(log_height)]).areas(area);
     let shown = state.jobs().len();
     let all = state.data.as_ref().map_or(0, |data| data.jobs.len());
-    let title = if shown == all { format!("{all} jobs") } else { format!("{shown} of {all} jobs") };
+    let study = state.data.as_ref().and_then(|data| data.study()).map_or("", |study| &study.name);
+    let title =
+        if shown == all { format!("{study} · {all} jobs") } else { format!("{study} · {shown} of {all} jobs") };
     let block = pane(state.theme, title, !state.in_second_pane());
     let inner = block.inner(table_area);
     let lines = table(state, inner.width, inner.height, !state.in_second_pane());
@@ -33,6 +35,7 @@ const PROGRESS: usize = 10;
 
 /// Widths of the columns that depend on what is in them and on the room.
 struct Columns {
+    id: usize,
     garment: usize,
     size: usize,
     subject: usize,
@@ -42,7 +45,7 @@ struct Columns {
 
 impl Columns {
     /// Columns of number, status, simulator, progress, two times, EI, and gaps.
-    const FIXED: usize = 5 + 2 + 4 + PROGRESS + 6 + 7 + 8 + 2 + 4;
+    const FIXED: usize = 1 + 2 + 4 + PROGRESS + 6 + 7 + 8 + 2 + 4;
 
     fn new(jobs: &[&JobRow], width: usize) -> Self {
         let longest = |field: fn(&JobRow) -> &str, least, most: usize| {
@@ -53,9 +56,15 @@ impl Columns {
         let size = longest(|job| &job.size, 4, 6);
         let subject = longest(|job| &job.subject, 4, subject);
         let bar = if width >= 120 { 14 } else { 0 };
-        let used = Self::FIXED + garment + size + subject + 3 + bar;
-        Self { garment, size, subject, bar, why: width.saturating_sub(used) }
+        let id = longest_id(jobs);
+        let used = Self::FIXED + id + garment + size + subject + 3 + bar;
+        Self { id, garment, size, subject, bar, why: width.saturating_sub(used) }
     }
+}
+
+/// Columns of the numbers of jobs.
+fn longest_id(jobs: &[&JobRow]) -> usize {
+    jobs.iter().map(|job| job.id.0).max().unwrap_or(0).to_string().len().max(4)
 }
 
 fn table(state: &State, width: u16, height: u16, focused: bool) -> Vec<Line<'static>> {
@@ -93,7 +102,7 @@ fn header(state: &State, columns: &Columns) -> Line<'static> {
     };
     let text = format!(
         "{} {} {} {} {} {}{}{}{}{}  {}",
-        right(&name("ID", JobOrder::Number), 4),
+        right(&name("ID", JobOrder::Number), columns.id),
         left(&name("S", JobOrder::Status), 2),
         left("style", columns.garment),
         left("size", columns.size),
@@ -121,7 +130,7 @@ fn line(state: &State, job: &JobRow, columns: &Columns) -> Line<'static> {
     let status = state.theme.status(job.status);
     let why = text::why(job, is_paused);
     Line::from(vec![
-        Span::raw(format!("{}{}", right(&job.id.to_string(), 4), left(state.mark_of(Some(job.id)), 1))),
+        Span::raw(format!("{}{}", right(&job.id.to_string(), columns.id), left(state.mark_of(Some(job.id)), 1))),
         Span::styled(left(glyph(job.status), 2), status),
         Span::raw(format!(
             " {} {} {} {}",
@@ -197,11 +206,12 @@ fn list(state: &State, area: Rect) -> Vec<Line<'static>> {
     let at = jobs.iter().position(|job| Some(job.id) == state.focus.job).unwrap_or(0);
     let height = usize::from(area.height);
     let first = first_shown(at, jobs.len(), height);
+    let id = longest_id(&jobs);
     let line = |(k, job): (usize, &&JobRow)| {
         let share = job.progress.as_ref().map(|progress| format!("{:.0}%", progress.fraction * 100.0));
         let number = share.or(job.ei.map(|ei| format!("{ei:.4}"))).unwrap_or_default();
         let cell = format!("{} {} {} {}", job.garment, job.size, job.subject, text::sim(job.simulator));
-        let text = format!("{} {} {} {cell}", right(&job.id.to_string(), 4), glyph(job.status), left(&number, 6));
+        let text = format!("{} {} {} {cell}", right(&job.id.to_string(), id), glyph(job.status), left(&number, 6));
         let style = if k == at { state.theme.selected() } else { state.theme.status(job.status) };
         Line::styled(text::shortened(&text, usize::from(area.width)), style)
     };

@@ -3,6 +3,7 @@
 mod chi;
 mod compare;
 mod drape;
+mod fabrics;
 mod forms;
 mod jobs;
 mod overlays;
@@ -17,7 +18,7 @@ mod styles;
 mod subjects;
 
 use ratatui::Frame;
-use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::layout::{Constraint, Layout, Position, Rect};
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph};
@@ -28,12 +29,14 @@ use super::overlay::Overlay;
 use super::state::State;
 use super::text;
 use super::theme::{Theme, glyph};
-use crate::study::Status;
+use crate::study::{MEASUREMENTS, Status};
 
 pub use drape::picture_places;
 
 /// Terminals with fewer columns or rows than this get lists instead of grids and panes.
 const NARROW: (u16, u16) = (60, 16);
+/// Terminals with at least so many columns have the names of all screens in the first line, if short ones.
+const SHORT: u16 = 66;
 /// Terminals with at least so many columns get panes side by side.
 const WIDE: u16 = 120;
 
@@ -44,6 +47,7 @@ pub fn draw(frame: &mut Frame<'_>, state: &State) {
     match state.screen {
         _ if state.data.is_none() => frame.render_widget(Paragraph::new(" reading the database…"), body),
         Screen::Subjects => subjects::draw(frame, body, state),
+        Screen::Fabrics => fabrics::draw(frame, body, state),
         Screen::Styles => styles::draw(frame, body, state),
         Screen::Sql => sql::draw(frame, body, state),
         Screen::Reports => reports::draw(frame, body, state),
@@ -91,13 +95,44 @@ fn first_shown(selected: usize, lines: usize, height: usize) -> usize {
     selected.saturating_sub(height / 2).min(lines.saturating_sub(height))
 }
 
+/// A table of which there is no room for all lines: its header stays, the lines below it are scrolled; a mark at the end of
+/// the header says that there is more.
+fn scrolled(mut table: Vec<Line<'static>>, down: usize, inner: Rect) -> Vec<Line<'static>> {
+    let hidden = table.len().saturating_sub(usize::from(inner.height));
+    if hidden == 0 || table.is_empty() {
+        return table;
+    }
+    let down = down.min(hidden);
+    table.drain(1..=down);
+    let mark = match (down > 0, down < hidden) {
+        (true, true) => "↑↓",
+        (true, false) => " ↑",
+        _ => " ↓",
+    };
+    let style = table[0].style;
+    let head: String = table[0].spans.iter().map(|span| span.content.as_ref()).collect();
+    table[0] = Line::styled(text::left(&head, usize::from(inner.width).saturating_sub(2)) + mark, style);
+    table
+}
+
+/// Lines that the table of the selected subject or fabric can be scrolled down.
+#[must_use]
+pub fn table_hidden(state: &State) -> usize {
+    let [_, body, _] = rows(Rect::from((Position::ORIGIN, state.size)));
+    match state.screen {
+        Screen::Subjects => MEASUREMENTS.len().saturating_sub(subjects::table_rows(body)),
+        Screen::Fabrics => fabrics::TABLE_LINES.saturating_sub(fabrics::table_rows(body)),
+        _ => 0,
+    }
+}
+
 /// The tabs with their texts: whole names where there is room, short ones, or, but for the screen shown, numbers.
 fn tab_texts(state: &State, width: u16) -> Vec<(Screen, String)> {
     let text = |(k, screen): (usize, Screen)| {
         let [name, short] = screen.names();
         let text = match width {
             WIDE.. => format!(" {} {name} ", k + 1),
-            60.. => format!(" {} {}", k + 1, if screen == state.screen { name } else { short }),
+            SHORT.. => format!(" {} {}", k + 1, if screen == state.screen { name } else { short }),
             _ if screen == state.screen => format!(" {} {name}", k + 1),
             _ => format!(" {}", k + 1),
         };
@@ -125,7 +160,7 @@ fn tabs(state: &State, width: u16) -> Line<'static> {
     let used: usize = spans.iter().map(Span::width).sum();
     let room = usize::from(width).saturating_sub(used);
     let columns = |spans: &[(u8, Span<'_>)]| spans.iter().map(|(_, span)| span.width()).sum::<usize>();
-    let mut summary = summary(state);
+    let mut summary = summary(state, width);
     while columns(&summary) >= room && !summary.is_empty() {
         let least = (0..summary.len()).min_by_key(|k| summary[*k].0).unwrap_or(0);
         summary.remove(least);
@@ -136,19 +171,20 @@ fn tabs(state: &State, width: u16) -> Line<'static> {
 }
 
 /// The study and how far it has come, each part with its weight: the least is left out first where there is no room.
-fn summary(state: &State) -> Vec<(u8, Span<'static>)> {
+fn summary(state: &State, width: u16) -> Vec<(u8, Span<'static>)> {
     let Some(study) = state.data.as_ref().and_then(|data| data.study()) else { return vec![] };
     let mut spans = vec![(1, Span::styled(study.name.clone(), state.theme.bold()))];
     if study.paused {
         spans.push((9, Span::styled(" paused", state.theme.warn())));
     }
     if state.run.is_some() {
-        spans.push((8, Span::styled(" run here", state.theme.busy())));
+        let text = if width >= WIDE { " run here" } else { " run" };
+        spans.push((5, Span::styled(text, state.theme.busy())));
     }
     spans.push((0, Span::raw(format!(" {} jobs", study.total()))));
     for status in Status::ALL.into_iter().filter(|status| study.count(*status) > 0) {
         let text = format!(" {}{}", glyph(status), study.count(status));
-        spans.push((if status == Status::Cancelled { 2 } else { 3 }, Span::styled(text, state.theme.status(status))));
+        spans.push((if status == Status::Cancelled { 6 } else { 7 }, Span::styled(text, state.theme.status(status))));
     }
     spans.push((10, Span::raw(" ")));
     spans

@@ -11,7 +11,7 @@ use ratatui::widgets::canvas::{Canvas, Line as Stroke};
 use super::super::state::State;
 use super::super::styles::EdgeAt;
 use super::super::tailor::Laid;
-use super::super::text::width;
+use super::super::text::{shortened, width};
 use super::pane;
 use super::styles::letter;
 use crate::study::tools::{DeskEdge, DeskPiece};
@@ -22,8 +22,9 @@ const OFFSETS: [f64; 6] = [6.0, 9.0, 3.0, 13.0, -6.0, -9.0];
 /// Draws the pane.
 pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
     let title = state.size_row().map_or("pieces".to_owned(), |row| format!("{} {}", row.style, row.size));
+    let room = usize::from(area.width).saturating_sub(26);
     let legend = " ● edge  ○ sewn to it  ◆ marked ";
-    let block = pane(state.theme, format!("{title} · fronts up, right →"), focused)
+    let block = pane(state.theme, format!("{} · fronts up, right →", shortened(&title, room)), focused)
         .title_bottom(Line::styled(legend, state.theme.legend()));
     let inner = block.inner(area);
     frame.render_widget(block, area);

@@ -87,13 +87,13 @@ fn draw_grid(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
     frame.render_widget(Paragraph::new(lines).block(block), area);
 }
 
-/// Garment, and which of how many.
+/// Study and garment, and which of how many.
 fn title(state: &State, grid: &Grid) -> String {
     let garments = state.data.as_ref().and_then(|data| data.study()).map_or(&[][..], |study| &study.garments);
     let at = garments.iter().position(|name| *name == grid.garment).unwrap_or(0);
     match garments.len() {
-        0 | 1 => grid.garment.clone(),
-        n => format!("{} · garment {} of {n}, ] next", grid.garment, at + 1),
+        0 | 1 => format!("{} · {}", grid.study, grid.garment),
+        n => format!("{} · {} · garment {} of {n}, ] next", grid.study, grid.garment, at + 1),
     }
 }
 

@@ -59,7 +59,7 @@ fn line(form: &StudyForm, k: usize, is_first_shown: bool, columns: usize, theme:
         FormLine::Name => format!("{}{}", form.name, if is_focused { "▏" } else { "" }),
         FormLine::Fabric => match form.fabrics.get(form.fabric) {
             Some(name) => format!("◂ {name} ▸  {} of {}", form.fabric + 1, form.fabrics.len()),
-            None => "reading…".to_owned(),
+            None => "none".to_owned(),
         },
         FormLine::Simulator(k) => text::sim(form.simulators[k].0).to_owned(),
         FormLine::Size(k) => {

@@ -9,7 +9,7 @@ use ratatui::widgets::{Block, Paragraph};
 use super::super::state::State;
 use super::super::styles::{DeskLine, EdgeAt};
 use super::super::tailor::Laid;
-use super::super::text::{left, right, shortened, whole};
+use super::super::text::{left, right, shortened, whole, width};
 use super::chi::wrapped;
 use super::{WIDE, first_shown, is_narrow, pane, pieces, selected as as_selected};
 use crate::study::SizeRow;
@@ -110,7 +110,12 @@ fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
             frame.render_widget(Paragraph::new(lines).block(pane(state.theme, name, focused)), area);
         }
         Some(Ok(laid)) => {
-            let title = format!("{name} · {} seams, {} to decide", laid.out.desk.seams.len(), to_decide(laid));
+            let title = {
+                let counts = format!(" · {} seams, {} to decide", laid.out.desk.seams.len(), to_decide(laid));
+                // Four columns are the border's and the mark of the focus.
+                let room = columns.saturating_sub(width(&counts) + 4);
+                shortened(&name, room) + &counts
+            };
             let below = shortened(&selection(state, laid), columns);
             let block = pane(state.theme, title, focused).title_bottom(Line::styled(below, state.theme.legend()));
             let inner = block.inner(area);

@@ -5,11 +5,11 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph};
 
+use super::super::entries::SHOWN;
 use super::super::picture::Sitter;
 use super::super::state::{State, SubjectOrder};
-use super::super::subjects::SHOWN;
 use super::super::text::{self, left, right, shortened};
-use super::{WIDE, drape, first_shown, is_narrow, pane, selected as as_selected};
+use super::{WIDE, drape, first_shown, is_narrow, pane, scrolled, selected as as_selected};
 use crate::study::{Figure, MEASUREMENTS, SubjectRow, is_doubtful, percentile, percentile_text};
 
 /// Headings of the first measurements in the list, and their columns.
@@ -34,17 +34,24 @@ pub(super) fn picture_pane(area: Rect) -> Option<Rect> {
     (!is_narrow(area)).then(|| panes(area)[2])
 }
 
+/// Lines of the table that are shown at a time.
+pub(super) fn table_rows(area: Rect) -> usize {
+    usize::from(panes(area)[1].height).saturating_sub(3)
+}
+
 pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     if is_narrow(area) {
-        frame.render_widget(Paragraph::new(list(state, area.width, area.height)), area);
+        frame.render_widget(Paragraph::new(list(state, area.width, area.height, true)), area);
         return;
     }
     let [list_area, table_area, picture_area] = panes(area);
     let (shown, all) = (state.subjects().len(), state.data.as_ref().map_or(0, |data| data.subjects.len()));
     let title = if shown == all { format!("{all} subjects") } else { format!("{shown} of {all} subjects") };
-    let block = pane(state.theme, title, true).title_bottom(Line::styled("mm", state.theme.legend()).right_aligned());
+    let focused = !state.in_second_pane();
+    let block =
+        pane(state.theme, title, focused).title_bottom(Line::styled("mm", state.theme.legend()).right_aligned());
     let inner = block.inner(list_area);
-    frame.render_widget(Paragraph::new(list(state, inner.width, inner.height)).block(block), list_area);
+    frame.render_widget(Paragraph::new(list(state, inner.width, inner.height, focused)).block(block), list_area);
     let Some(subject) = state.subject() else {
         frame.render_widget(Block::bordered().border_style(state.theme.dim()), table_area);
         frame.render_widget(Block::bordered().border_style(state.theme.dim()), picture_area);
@@ -55,7 +62,7 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
 }
 
 /// The list with its header; the name takes what the numbers leave.
-fn list(state: &State, width: u16, height: u16) -> Vec<Line<'static>> {
+fn list(state: &State, width: u16, height: u16, focused: bool) -> Vec<Line<'static>> {
     let subjects = state.subjects();
     let width = usize::from(width);
     let (name, shown) = columns(width);
@@ -66,7 +73,7 @@ fn list(state: &State, width: u16, height: u16) -> Vec<Line<'static>> {
     let mut lines = vec![header(state, name, shown)];
     for (k, row) in subjects.iter().enumerate().skip(first).take(height) {
         let line = Line::raw(shortened(&list_line(row, name, shown), width));
-        lines.push(if k == at { as_selected(line, state.theme.selected()) } else { line });
+        lines.push(if k == at { as_selected(line, state.theme.selection(focused)) } else { line });
     }
     if subjects.is_empty() {
         let is_filtered = !state.filter().is_empty();
@@ -121,9 +128,10 @@ fn number(value: Option<f64>, key: &str) -> String {
 
 fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State, subject: &SubjectRow) {
     let title = format!("{} · {} · revision {}", subject.name, text::sex(subject), subject.revision);
-    let block = pane(state.theme, title, false);
+    let block = pane(state.theme, title, state.in_second_pane());
     let inner = block.inner(area);
     let lines = table(state, subject, usize::from(inner.width));
+    let lines = scrolled(lines, state.table_down, inner);
     frame.render_widget(Paragraph::new(lines).block(block), area);
 }
 
@@ -133,7 +141,7 @@ fn table(state: &State, subject: &SubjectRow, columns: usize) -> Vec<Line<'stati
     let girths = measured.and_then(|measured| measured.as_ref().ok());
     let wait = if measured.is_none() { "…" } else { "—" };
     let bar = columns.saturating_sub(17 + 9 + 10 + 8).min(20);
-    let head = format!("{}{}{}  {}", left("mm, kg", 17), right("asked", 9), right("measured", 10), "percentile");
+    let head = format!("{}{}{}  {}", left("mm, kg", 17), right("asked", 9), right("measured", 10), "centile");
     let mut lines = vec![Line::styled(shortened(&head, columns), state.theme.dim())];
     if let Some(Err(error)) = measured {
         let wrapped = super::chi::wrapped(error, columns);
@@ -157,7 +165,7 @@ fn table(state: &State, subject: &SubjectRow, columns: usize) -> Vec<Line<'stati
 }
 
 /// A percentile as a mark on a line of so many columns, its middle at the median.
-fn place_bar(percentile: f64, columns: usize) -> String {
+pub(super) fn place_bar(percentile: f64, columns: usize) -> String {
     if columns < 5 {
         return String::new();
     }

@@ -3,11 +3,11 @@
 use super::super::feed::{Compared, Detail, Snapshot};
 use super::super::message::Message;
 use super::super::tailor::{Laid, Task};
-use crate::study::tools::{Girths, Measurements, Model, Sex, SourceFile, Workpiece, drafted};
+use crate::study::tools::{Fabric, Girths, Measurements, Model, Sex, SourceFile, Stretched, Workpiece, drafted};
 use crate::study::{
-    Cell, Change, ChiRow, EaseRow, FitCell, FitClass, Grid, JobId, JobProgress, JobRow, LogLine, MEASUREMENTS,
-    MetricsRow, RecommendationRow, Simulator, SizeKey, SizeRow, StageRow, Status, Step, StudyRow, SubjectId,
-    SubjectRow, Why,
+    Cell, Change, ChiRow, EaseRow, FabricRow, FitCell, FitClass, Grid, JobId, JobProgress, JobRow, LogLine,
+    MEASUREMENTS, MetricsRow, RecommendationRow, Simulator, SizeKey, SizeRow, StageRow, Status, Step, StudyRow,
+    SubjectId, SubjectRow, Why,
 };
 
 /// When it is, ms since 1970: 2023-11-14 22:13:20 UTC.
@@ -129,6 +129,7 @@ pub fn snapshot() -> Snapshot {
     Snapshot {
         now_ms: NOW_MS,
         subjects: subjects(),
+        fabrics: fabrics(),
         sizes: sizes(),
         studies: vec![study],
         study: 0,
@@ -185,6 +186,36 @@ pub fn work(task: Task) -> Message {
     }
 }
 
+/// Three fabrics: a woven of the library that jobs use, a knit, and one of somebody's own.
+fn fabrics() -> Vec<FabricRow> {
+    let cotton = Fabric {
+        name: "cotton_shirting_light".into(),
+        density_kg_m2: 0.1036,
+        thickness_m: 0.18e-3,
+        membrane_warp_n_m: 3801.0,
+        membrane_weft_n_m: 2365.0,
+        membrane_coupling_n_m: 0.0,
+        shear_n_m: 96.84,
+        bending_warp_nm: 7.204e-6,
+        bending_weft_nm: 5.051e-6,
+        friction_body: 0.31,
+        friction_self: 0.5,
+        source: "a light cotton, as it was measured; bending: the median of many of its weight".into(),
+        stretched: None,
+    };
+    let stretched = Some(Stretched { stretch: 0.2, membrane_warp_n_m: 80.0, membrane_weft_n_m: 60.0 });
+    let knit =
+        Fabric { name: "jersey".into(), membrane_warp_n_m: 40.0, membrane_weft_n_m: 25.0, stretched, ..cotton.clone() };
+    let own = Fabric { name: "stiff".into(), bending_warp_nm: 2e-5, membrane_coupling_n_m: 50.0, ..cotton.clone() };
+    let row = |(k, fabric): (usize, Fabric)| FabricRow {
+        fabric,
+        revision: k as i64 + 1,
+        is_own: k == 2,
+        jobs: if k == 0 { 12 } else { 0 },
+    };
+    [cotton, knit, own].into_iter().enumerate().map(row).collect()
+}
+
 /// Three subjects: two men of the thesis and a woman of whom little is known.
 fn subjects() -> Vec<SubjectRow> {
     let subject = |id: i64, name: &str, sex: Sex, values: &[f64]| {
@@ -238,6 +269,7 @@ pub fn empty() -> Snapshot {
     Snapshot {
         now_ms: NOW_MS,
         subjects: vec![],
+        fabrics: vec![],
         sizes: vec![],
         studies: vec![],
         study: 0,

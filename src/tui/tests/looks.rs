@@ -3,6 +3,7 @@
 use image::{Rgba, RgbaImage};
 use insta::assert_snapshot;
 
+use super::super::ascii::stand_in;
 use super::super::message::{Effect, Message};
 use super::super::picture::{Canvas, Images};
 use super::super::theme::Colours;
@@ -49,6 +50,16 @@ fn the_form_of_a_style() {
 }
 
 #[test]
+fn fabrics() {
+    looks_like!("fabrics", "9j");
+}
+
+#[test]
+fn the_form_of_a_fabric() {
+    looks_like!("fabric_form", "9ja<Enter>poplin<Tab><Tab><C-u>1.2");
+}
+
+#[test]
 fn jobs() {
     looks_like!("jobs", "4jjjj");
 }
@@ -77,6 +88,15 @@ fn help() {
 }
 
 #[test]
+fn every_sign_has_a_stand_in_in_ascii() {
+    for keys in ["", "2j", "2a", "3<Enter>pym", "3i", "4jjjj", "5", "c", "7", "8", "9", "9j<Tab>", "9a", "?", "1a"] {
+        let screen = Bench::example(160, 50).press(keys).screen();
+        let odd: String = screen.chars().filter(|sign| !sign.is_ascii() && stand_in(*sign) == '?').collect();
+        assert!(odd.is_empty(), "{keys}: {odd}");
+    }
+}
+
+#[test]
 fn first_start() {
     assert_snapshot!("first_start_80x24", Bench::new(80, 24, fixture::empty()).screen());
 }
@@ -87,6 +107,7 @@ fn small_terminals_show_lists_and_none_is_refused() {
     assert_snapshot!("study_40x10", bench.screen());
     assert_snapshot!("jobs_40x10", bench.press("4").screen());
     assert_snapshot!("subjects_40x10", bench.press("2").screen());
+    assert_snapshot!("fabrics_40x10", bench.press("9").screen());
     assert_snapshot!("styles_40x10", bench.press("3").screen());
     assert_snapshot!("seams_40x10", bench.press("<Enter>").screen());
     for (width, height) in [(1, 1), (3, 2), (12, 4), (59, 15), (60, 16), (119, 20), (250, 90), (80, 3)] {
@@ -96,6 +117,9 @@ fn small_terminals_show_lists_and_none_is_refused() {
             "2a<Enter>",
             "2i",
             "2d",
+            "9",
+            "9<Tab>G",
+            "9a",
             "3",
             "3<Enter>zl<Tab>",
             "3i",
@@ -135,7 +159,7 @@ fn without_colours_glyphs_tell_everything_and_the_shirt_is_seen() {
         let (x, y) = (f64::from(x) / f64::from(width), f64::from(y) / f64::from(height));
         let is_trunk = (0.3..0.7).contains(&x) && (0.2..0.8).contains(&y);
         let is_sleeves = (0.05..0.95).contains(&x) && (0.2..0.4).contains(&y);
-        if is_trunk || is_sleeves { Rgba([60, 150, 110, 255]) } else { Rgba([250, 250, 250, 255]) }
+        if is_trunk || is_sleeves { Rgba([60, 150, 110, 255]) } else { Rgba([250, 250, 250, 0]) }
     });
     bench.send(Message::Picture(shot, canvas.draw(&picture, &shot)));
     assert_snapshot!("results_letters_80x24", bench.screen());

@@ -1,6 +1,7 @@
 //! The workbench from outside: keys go in, screens and effects come out; no terminal, no threads.
 
 mod behaviour;
+mod fabrics;
 mod fixture;
 mod looks;
 mod questions;
@@ -71,11 +72,13 @@ impl Bench {
         let mut rest = keys;
         while let Some(first) = rest.chars().next() {
             let named = rest.strip_prefix('<').and_then(|tail| tail.split_once('>'));
-            let (code, tail) = match named {
-                Some((name, tail)) => (code_of(name), tail),
-                None => (KeyCode::Char(first), &rest[first.len_utf8()..]),
+            let (name, tail) = named.unwrap_or(("", &rest[first.len_utf8()..]));
+            let (code, modifiers) = match name.strip_prefix("C-").and_then(|letter| letter.chars().next()) {
+                Some(letter) => (KeyCode::Char(letter), KeyModifiers::CONTROL),
+                None if name.is_empty() => (KeyCode::Char(first), KeyModifiers::NONE),
+                None => (code_of(name), KeyModifiers::NONE),
             };
-            self.send(Message::Key(KeyEvent::new(code, KeyModifiers::NONE)));
+            self.send(Message::Key(KeyEvent::new(code, modifiers)));
             rest = tail;
         }
         self

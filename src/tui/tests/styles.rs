@@ -186,7 +186,7 @@ fn removing_asks_and_readonly_changes_nothing() {
     let mut bench = Bench::example(80, 24);
     bench.press("3d");
     assert!(bench.screen().contains("Remove size tshirt/S?"));
-    assert_eq!(bench.press("y").asked(), [Effect::Do(Act::RemoveStyle(Part::Size, "tshirt/S".into()))]);
+    assert_eq!(bench.press("y").asked(), [Effect::Do(Act::Remove(Part::Size, "tshirt/S".into()))]);
     let mut data = fixture::snapshot();
     data.sizes.truncate(1);
     bench.send(Message::Data(Box::new(data)));

@@ -5,7 +5,7 @@ use super::super::message::{Act, Effect, Message};
 use super::super::overlay::Overlay;
 use super::super::picture::{Shot, Sitter};
 use super::{Bench, fixture};
-use crate::study::{Mode, SubjectId};
+use crate::study::{Mode, Part, SubjectId};
 
 fn selected(bench: &Bench) -> &str {
     bench.state.subject().map_or("", |row| row.name.as_str())
@@ -14,7 +14,7 @@ fn selected(bench: &Bench) -> &str {
 /// The last thing that was asked for, when it is a subject to save.
 fn saved(bench: &mut Bench) -> (Mode, String, Vec<(String, String)>) {
     match bench.asked().pop() {
-        Some(Effect::Do(Act::SaveSubject(mode, name, given))) => (mode, name, given),
+        Some(Effect::Do(Act::Save(Part::Subject, mode, name, given))) => (mode, name, given),
         other => panic!("{other:?}"),
     }
 }
@@ -93,7 +93,7 @@ fn an_edit_starts_from_what_is_known_and_keeps_the_name() {
 fn files_are_imported_and_their_errors_read() {
     let mut bench = Bench::example(80, 24);
     bench.press("2ipeople.csv<Enter>");
-    assert_eq!(bench.asked(), [Effect::Do(Act::ImportSubjects("people.csv".into()))]);
+    assert_eq!(bench.asked(), [Effect::Do(Act::Import(Part::Subject, "people.csv".into()))]);
     bench.send(Message::Saved(Err("people.csv:3: no name\npeople.csv:4: no sex".into())));
     let screen = bench.screen();
     assert!(screen.contains("✗ people.csv:3: no name") && screen.contains("  people.csv:4: no sex"), "{screen}");
@@ -109,7 +109,7 @@ fn removing_asks() {
     bench.press("2d");
     assert!(bench.screen().contains("Remove subject anna?") && bench.asked().is_empty());
     bench.press("y");
-    assert_eq!(bench.asked(), [Effect::Do(Act::RemoveSubject("anna".into()))]);
+    assert_eq!(bench.asked(), [Effect::Do(Act::Remove(Part::Subject, "anna".into()))]);
 }
 
 #[test]
