@@ -3,7 +3,7 @@
 use ratatui::buffer::Buffer;
 
 /// Signs and what stands for them. Those of states differ from each other.
-const STAND_INS: [(char, char); 65] = [
+const STAND_INS: [(char, char); 66] = [
     ('─', '-'),
     ('━', '-'),
     ('│', '|'),
@@ -40,6 +40,7 @@ const STAND_INS: [(char, char); 65] = [
     ('←', '<'),
     ('↑', '^'),
     ('↓', 'v'),
+    ('↕', '|'),
     ('↵', '<'),
     ('▏', '|'),
     ('▎', '|'),

@@ -105,13 +105,13 @@ fn scrolled(mut table: Vec<Line<'static>>, down: usize, inner: Rect) -> Vec<Line
     let down = down.min(hidden);
     table.drain(1..=down);
     let mark = match (down > 0, down < hidden) {
-        (true, true) => "↑↓",
-        (true, false) => " ↑",
-        _ => " ↓",
+        (true, true) => "↕",
+        (true, false) => "↑",
+        _ => "↓",
     };
     let style = table[0].style;
     let head: String = table[0].spans.iter().map(|span| span.content.as_ref()).collect();
-    table[0] = Line::styled(text::left(&head, usize::from(inner.width).saturating_sub(2)) + mark, style);
+    table[0] = Line::styled(text::left(head.trim_end(), usize::from(inner.width).saturating_sub(1)) + mark, style);
     table
 }
 
