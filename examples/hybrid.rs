@@ -123,9 +123,10 @@ fn pair(name: &str, dressed: &(Body, DistanceField), garment: &Garment) -> Resul
     };
     let errors: Vec<f64> = drape.history.iter().filter(|s| s.level < 2).map(|s| s.e_chi - 1.0).collect();
     let back = errors.windows(2).map(|e| if e[0] * e[1] < 0.0 { e[1].abs() } else { e[1].abs() - e[0].abs() });
-    let worst = chis(garment, &drape.positions).map(|c| (c - 1.0).abs()).fold(0.0, f64::max);
+    let off = chis(garment, &drape.positions).map(|c| (c - 1.0).abs()).zip(&garment.measurements);
+    let (worst, of) = off.max_by(|a, b| a.0.total_cmp(&b.0)).map_or((0.0, ""), |(off, m)| (off, m.name.as_str()));
     println!(
-        "{name:22} popup {:.4} {:.4} {:2}  drape {:.4} {:.4} {:2} max {worst:.4}  flips {} back {:.5}  inside {:4.1} mm {}  {}",
+        "{name:22} popup {:.4} {:.4} {:2}  drape {:.4} {:.4} {:2} max {worst:.4} {of:12.12}  flips {} back {:.5}  inside {:4.1} mm {}  {}",
         ei(garment, popup),
         edges_off(garment, popup),
         crossing(popup),

@@ -52,6 +52,8 @@ pub struct Elastic {
     control_weight: f64,
     /// Weight of each vertex's target.
     weights: Vec<f64>,
+    /// Stiffness with which each vertex is held by its neighbours: the diagonal of the matrix without the targets.
+    held: Vec<f64>,
     factor: Factor,
 }
 
@@ -106,9 +108,11 @@ impl Elastic {
         }
         let first_stretch = triangles.iter().map(|t| t.polar(x).1).collect();
         let first_m = controls.iter().map(|c| c.way(x).norm()).collect();
+        let mut held = vec![0.0; x.len()];
+        entries.iter().filter(|(i, j, _)| i == j).for_each(|(i, _, value)| held[*i] += value);
         entries.extend(weights.iter().enumerate().map(|(v, w)| (v, v, *w)));
         let factor = Factor::new(x.len(), &entries)?;
-        Some(Self { count: x.len(), triangles, controls, first_stretch, first_m, control_weight, weights, factor })
+        Some(Self { count: x.len(), triangles, controls, first_stretch, first_m, control_weight, weights, held, factor })
     }
 
     /// Gives the targets other weights.
@@ -119,6 +123,12 @@ impl Elastic {
         if self.factor.add_to_diagonal(&added) {
             self.weights = weights;
         }
+    }
+
+    /// Stiffness with which each sewn vertex is held by its neighbours, without unit as the targets' weights.
+    #[must_use]
+    pub fn held(&self) -> &[f64] {
+        &self.held
     }
 
     /// One local and one global step from `x`; returns the new positions.

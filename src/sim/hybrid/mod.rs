@@ -13,6 +13,7 @@ pub mod harmonic;
 mod layers;
 mod locate;
 pub mod mapping;
+mod obstacle;
 pub mod outline;
 pub mod patch;
 pub mod path;
@@ -44,21 +45,23 @@ pub struct Params {
     pub uncontrolled: Vec<u32>,
     /// Pop-up and drape.
     pub relax: RelaxParams,
-    /// Steps of the drape in which the body pushes without limit.
+    /// Steps of the drape in which the cloth slides over the body.
     pub push_steps: u32,
-    /// Steps after them, in which it yields.
-    pub yield_steps: u32,
+    /// Steps after them, in which contact is firm.
+    pub firm_steps: u32,
 }
 
 impl Default for Params {
     fn default() -> Self {
-        Self { uncontrolled: Vec::new(), relax: RelaxParams::default(), push_steps: 25, yield_steps: 30 }
+        Self { uncontrolled: Vec::new(), relax: RelaxParams::default(), push_steps: 40, firm_steps: 15 }
     }
 }
 
 /// Rms movement in a step below which a drape counts as come to rest, m.
 const AT_REST_M: f64 = 1e-3;
 
+/// Steps of the drape after which it is judged anew where the garment is too small: it slides.
+const JUDGE_EVERY: u32 = 20;
 /// Last steps after each of which cloth that is large enough is lifted out of the body.
 const LIFTS: u32 = 3;
 /// Rounds in which cloth that runs through itself is pulled apart in the end.
@@ -120,13 +123,15 @@ pub fn phases(
     })?;
     relaxation.part_layers(PARTINGS);
     let popped = sewn.unsewn(&relaxation.x);
-    let steps = params.push_steps + params.yield_steps;
+    let steps = params.push_steps + params.firm_steps;
     let (mut last, mut self_crossings) = (f64::MAX, 0);
     for step in 1..=steps {
-        if step == params.push_steps + 1 {
+        if step % JUDGE_EVERY == 1 {
             relaxation.judge(&body.mesh);
+        } else {
+            relaxation.correct();
         }
-        last = relaxation.step(Push { unlimited: step <= params.push_steps, gravity: 1.0, share: 1.0 });
+        last = relaxation.step(Push { firm: step > params.push_steps, gravity: 1.0, share: 1.0 });
         if step + LIFTS > steps {
             relaxation.lift_out();
         }

@@ -1,6 +1,8 @@
 //! Phase 3: pop-up (5.4). The sewn garment leaves the body's surface and takes its pattern's size, as rigid as possible and
 //! under control of every measurement of the style.
 
+use std::cmp::Ordering;
+
 use super::relax::{Push, Relaxation};
 use crate::geom::{TriMesh, V3};
 
@@ -36,9 +38,11 @@ pub fn reconstruct<E>(
     let mut last = error(&relaxation.x);
     for step in 1..=steps() {
         let share = f64::from(step) / f64::from(STEPS[0]);
-        let push = Push { unlimited: share < 1.0, gravity: 0.0, share: share.min(1.0) };
-        if step == STEPS[0] {
-            relaxation.judge(body);
+        let push = Push { firm: false, gravity: 0.0, share: share.min(1.0) };
+        match step.cmp(&STEPS[0]) {
+            Ordering::Less => {}
+            Ordering::Equal => relaxation.judge(body),
+            Ordering::Greater => relaxation.correct(),
         }
         let before = relaxation.place();
         let mut moved = relaxation.step(push);

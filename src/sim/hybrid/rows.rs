@@ -11,7 +11,7 @@ use super::sewn::Sewn;
 use crate::geom::hull::tape_girth;
 use crate::geom::section::{Plane, section};
 use crate::geom::{TriMesh, V2, V3};
-use crate::pattern::{Garment, Role};
+use crate::pattern::{Garment, Role, SeamMesh};
 
 /// The part of the body that a piece goes round together with others.
 fn limb(role: Role) -> Role {
@@ -23,8 +23,32 @@ fn limb(role: Role) -> Role {
     }
 }
 
+/// Share of what the stretch of a ring says that its inset is corrected by at once.
+const GAIN: f64 = 0.3;
+/// Inset by which a judgement may be wrong besides half of it, m: rings are not quite level.
+const DOUBT_M: f64 = 3e-3;
+/// Inset that a ring keeps that was too small once, m: it may become so again.
+const LEAST_INSET_M: f64 = 1e-6;
+
+/// Distance from the nearest ring over which cloth that goes round nothing by itself is set in less and less, m.
+const FADE_M: f64 = 0.15;
+
 /// Height of a row in the piece's plane, m.
 const HEIGHT_M: f64 = 0.02;
+
+/// The pairs of a seam, and whether it runs upright there, across the rows: round the body cloth goes on over sides and
+/// inseams, not over shoulders.
+fn upright<'a>(garment: &'a Garment, seam: &'a SeamMesh) -> impl Iterator<Item = ([usize; 2], bool)> + 'a {
+    let pairs = &seam.pairs;
+    pairs.iter().enumerate().map(move |(k, &pair)| {
+        let (before, after) = (pairs[k.saturating_sub(1)], pairs[(k + 1).min(pairs.len() - 1)]);
+        let is_upright = |side: usize| {
+            let way = garment.rest[after[side]] - garment.rest[before[side]];
+            way.y.abs() > way.x.abs()
+        };
+        (pair, is_upright(0) && is_upright(1))
+    })
+}
 
 /// The rows of a garment's pieces.
 pub struct Rows {
@@ -40,8 +64,10 @@ pub struct Rows {
     closed: Vec<Option<usize>>,
     /// Width of each row in the piece's plane, m.
     widths_m: Vec<f64>,
-    /// Whether the ring of each row is too small for the body.
-    tight: Vec<bool>,
+    /// By how much the body must be smaller all round for the ring of each row to close on it, m; 0 where it does.
+    insets_m: Vec<f64>,
+    /// The same as it was judged last, before corrections.
+    judged_m: Vec<f64>,
 }
 
 impl Rows {
@@ -55,7 +81,8 @@ impl Rows {
             rings: Vec::new(),
             closed: Vec::new(),
             widths_m: Vec::new(),
-            tight: Vec::new(),
+            insets_m: Vec::new(),
+            judged_m: Vec::new(),
         };
         for piece in &garment.pieces {
             let low = garment.rest[piece.vertices.clone()].iter().map(|p| p.y).fold(f64::MAX, f64::min);
@@ -77,7 +104,8 @@ impl Rows {
             }
         }
         rows.find_rings(garment);
-        rows.tight = vec![false; rows.goes_on.len()];
+        rows.insets_m = vec![0.0; rows.goes_on.len()];
+        rows.judged_m.clone_from(&rows.insets_m);
         rows
     }
 
@@ -104,13 +132,15 @@ impl Rows {
         // Seam vertices that a row shares with each row of other pieces of its limb.
         let mut joined: BTreeSet<usize> = BTreeSet::new();
         let mut shared: BTreeMap<(usize, usize), BTreeMap<usize, usize>> = BTreeMap::new();
-        for &pair in garment.seams.iter().flat_map(|s| &s.pairs) {
+        for (pair, is_upright) in garment.seams.iter().flat_map(|s| upright(garment, s)) {
             let pieces = pair.map(piece_of);
             let limbs = pieces.map(|p| limb(garment.pieces[p].role));
             if limbs[0] != limbs[1] {
                 continue;
             }
-            joined.extend(pair);
+            if is_upright {
+                joined.extend(pair);
+            }
             if pieces[0] == pieces[1] {
                 continue;
             }
@@ -158,8 +188,8 @@ impl Rows {
         }
     }
 
-    /// Judges which rings are too small, where the cloth is now: a tape round the body inside them, `offset_m` off the skin, is
-    /// longer than their cloth by more than a share. Positions `x` in m.
+    /// Judges by how much rings are too small, where the cloth is now: a tape round the body inside them, `offset_m` off the
+    /// skin, is longer than their cloth stretched by a share. Positions `x` in m.
     pub fn judge(&mut self, body: &TriMesh, x: &[V3], offset_m: f64, share: f64) {
         let mut members = vec![Vec::new(); self.goes_on.len()];
         for &(row, v) in &self.of_vertex {
@@ -170,7 +200,7 @@ impl Rows {
                 rows.flat_map(|r| &members[r]).fold((V3::zeros(), 0.0), |(sum, n), &v| (sum + x[v], n + 1.0));
             (n > 0.0).then(|| sum / n)
         };
-        let is_tight = |row: usize| {
+        let lack = |row: usize| {
             let ring = &self.rings[row];
             let centre = middle(&mut ring.iter().copied())?;
             let above = middle(&mut ring.iter().map(|&r| if self.goes_on[r] { r + 1 } else { r }))?;
@@ -179,38 +209,69 @@ impl Rows {
             let outlines = section(body, &plane);
             let inside = outlines.iter().find(|o| o.closed && o.contains(plane.project(centre)))?;
             let body_m = tape_girth(&inside.points) + std::f64::consts::TAU * offset_m;
-            let cloth_m: f64 = ring.iter().map(|&r| self.widths_m[r]).sum();
-            Some(body_m > (1.0 + share) * cloth_m)
+            Some(body_m - (1.0 + share) * self.girth_m(row))
         };
         let is_closed = |row: usize| self.closed[row] == Some(row);
-        let own: Vec<bool> = (0..members.len()).map(|row| is_closed(row) && is_tight(row).unwrap_or(false)).collect();
-        self.tight = self.closed.iter().map(|closed| closed.is_some_and(|row| own[row])).collect();
+        let inset = |row: usize| lack(row).map_or(0.0, |lack| lack.max(0.0) / std::f64::consts::TAU);
+        let own: Vec<f64> = (0..members.len()).map(|row| if is_closed(row) { inset(row) } else { 0.0 }).collect();
+        self.judged_m.clone_from(&own);
+        self.spread(&own);
     }
 
-    /// Stretch beyond 1 of the row through each sewn vertex where its ring was judged too small, and -1 elsewhere: of the most
-    /// stretched row where pieces meet.
+    /// Gives every row the inset of its ring, and those that do not close that of the nearest that does, less with the distance.
+    fn spread(&mut self, own: &[f64]) {
+        let inset = |(row, closed): (usize, &Option<usize>)| {
+            let fade = |closed: usize| 1.0 - HEIGHT_M * row.abs_diff(closed) as f64 / FADE_M;
+            closed.map_or(0.0, |closed| own[closed] * fade(closed).max(0.0))
+        };
+        self.insets_m = self.closed.iter().enumerate().map(inset).collect();
+    }
+
+    /// Length of the cloth of the ring of a row, m.
+    fn girth_m(&self, row: usize) -> f64 {
+        self.rings[row].iter().map(|&r| self.widths_m[r]).sum()
+    }
+
+    /// Corrects the insets of rings that were judged too small: until their cloth is stretched by a share, no more and no less.
+    pub fn correct(&mut self, elastic: &Elastic, x: &[V3], share: f64) {
+        let means = self.means(elastic, x);
+        let corrected = |row: usize| {
+            let lack = (means[row] - share) * self.girth_m(row);
+            let most = 1.5 * self.judged_m[row] + DOUBT_M;
+            (self.insets_m[row] + GAIN * lack / std::f64::consts::TAU).clamp(LEAST_INSET_M, most)
+        };
+        let is_tight = |row: usize| self.closed[row] == Some(row) && self.insets_m[row] > 0.0;
+        let own: Vec<f64> = (0..means.len()).map(|row| if is_tight(row) { corrected(row) } else { 0.0 }).collect();
+        self.spread(&own);
+    }
+
+    /// Inset of the body for each of `count` sewn vertices, m: the greatest where pieces meet.
     #[must_use]
-    pub fn stretch(&self, elastic: &Elastic, x: &[V3]) -> Vec<f64> {
+    pub fn insets_m(&self, count: usize) -> Vec<f64> {
+        let mut insets = vec![0.0_f64; count];
+        for &(row, v) in &self.of_vertex {
+            insets[v] = insets[v].max(self.insets_m[row]);
+        }
+        insets
+    }
+
+    /// Mean stretch beyond 1 of each ring: rows with their neighbours, as single ones are few triangles high.
+    fn means(&self, elastic: &Elastic, x: &[V3]) -> Vec<f64> {
         let mut sums = vec![(0.0, 0.0); self.goes_on.len()];
         for (&row, (stretch, area)) in self.of_triangle.iter().zip(elastic.stretches(x)) {
             sums[row].0 += (stretch[(0, 0)] - 1.0) * area;
             sums[row].1 += area;
         }
-        // Each row with its neighbours: single rows are few triangles high.
         let wide = |row: usize| {
             let above = self.goes_on[row].then_some(row + 1);
             let below = row.checked_sub(1).filter(|&below| self.goes_on[below]);
             [Some(row), above, below].into_iter().flatten()
         };
         let mean = |row: usize| {
-            let (stretch, area) = wide(row).fold((0.0, 0.0), |sum, row| (sum.0 + sums[row].0, sum.1 + sums[row].1));
+            let rows = self.rings[row].iter().flat_map(|&r| wide(r));
+            let (stretch, area) = rows.fold((0.0, 0.0), |sum, row| (sum.0 + sums[row].0, sum.1 + sums[row].1));
             stretch / area.max(f64::MIN_POSITIVE)
         };
-        let means: Vec<f64> = (0..sums.len()).map(mean).collect();
-        let mut greatest = vec![f64::MIN; x.len()];
-        for &(row, v) in &self.of_vertex {
-            greatest[v] = greatest[v].max(if self.tight[row] { means[row] } else { -1.0 });
-        }
-        greatest
+        (0..sums.len()).map(mean).collect()
     }
 }
