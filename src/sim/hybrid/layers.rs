@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::geom::V3;
+use crate::sim::contact::tangle::{Release, Wings};
 use crate::sim::contact::{Crossing, crossings};
 use crate::sim::solver::PairList;
 
@@ -11,7 +12,7 @@ const APART_M: f64 = 5e-4;
 /// A vertex is moved by this at most in a round, m.
 const STRIDE_M: f64 = 3e-3;
 /// Rounds without fewer crossings after which it is given up.
-const PATIENCE: u32 = 5;
+const PATIENCE: u32 = 12;
 
 /// Cloth within this distance of a crossing is looked at again, m.
 const NEAR_M: f64 = 0.05;
@@ -30,6 +31,8 @@ impl Layers {
         Self { edges, triangles: triangles.to_vec() }
     }
 
+    pub fn edges(&self) -> &[[usize; 2]] { self.edges.pairs() }
+    pub fn triangles(&self) -> &[[usize; 3]] { &self.triangles }
     /// Moves vertices `x` (m) until no edge pierces a triangle, in so many rounds at most, or as few do as can be reached;
     /// returns how many.
     ///
@@ -42,8 +45,9 @@ impl Layers {
         }
         let near = self.near(&pierced, x);
         let (mut best, mut least, mut waited) = (x.to_vec(), pierced.len(), 0);
-        for _ in 0..rounds {
-            apart(&pierced, x);
+        let wings = Wings::new(&near.triangles);
+        for round in 0..rounds {
+            if round % 2 == 0 { apart(&pierced, x); } else { release(&pierced, &wings, x); }
             pierced = crossings(x, near.edges.pairs(), &near.triangles).collect();
             waited += 1;
             if pierced.len() < least {
@@ -82,6 +86,19 @@ fn apart(pierced: &[Crossing], x: &mut [V3]) {
         for (v, way) in std::iter::once((edge[through], half)).chain(triangle.iter().map(|&v| (v, -half))) {
             let (sum, n) = moves.entry(v).or_insert((V3::zeros(), 0.0));
             *sum += way;
+            *n += 1.0;
+        }
+    }
+    moves.into_iter().for_each(|(v, (sum, n))| x[v] += sum / n);
+}
+
+/// One round along the way in which the lines of the crossings grow shorter.
+fn release(pierced: &[Crossing], wings: &Wings, x: &mut [V3]) {
+    let mut moves: BTreeMap<usize, (V3, f64)> = BTreeMap::new();
+    for release in pierced.iter().filter_map(|crossing| Release::of(x, wings, crossing)) {
+        for (v, weight) in release.vertices.into_iter().zip(release.weights) {
+            let (sum, n) = moves.entry(v).or_insert((V3::zeros(), 0.0));
+            *sum += release.fall * (weight * STRIDE_M);
             *n += 1.0;
         }
     }

@@ -10,6 +10,7 @@ mod follow;
 pub mod form;
 pub mod gap;
 pub mod harmonic;
+mod inset;
 mod layers;
 mod locate;
 pub mod mapping;
@@ -111,7 +112,9 @@ pub fn phases(
     let walls = Walls::new(body, garment, &sewn);
     let mut relaxation = Relaxation::new(field, garment, &sewn, fabric, &controls, walls, params.relax)?
         .over_feet(body.control.ring_centre(Layer::AnkleRight).z);
-    relaxation.part_layers(PARTINGS);
+    if std::env::var("DBG").is_ok() { eprintln!("sewn {}", relaxation.part_layers(0)); }
+    let nn = relaxation.part_layers(PARTINGS);
+    if std::env::var("DBG").is_ok() { eprintln!("sewn parted {nn}"); }
     let on_skin = sewn.unsewn(&relaxation.x);
     let lift: f64 = relaxation.x.iter().zip(&sewn.x).map(|(a, b)| (a - b).norm_squared()).sum();
     run.record("sew", 0.2, 0, &on_skin, (lift / sewn.x.len() as f64).sqrt() / AT_REST_M)?;
@@ -121,7 +124,9 @@ pub fn phases(
         done += 1.0;
         run.record("popup", 0.2 + 0.4 * done / f64::from(popup::steps()), 1, &sewn.unsewn(&now.x), moved / AT_REST_M)
     })?;
-    relaxation.part_layers(PARTINGS);
+    if std::env::var("DBG").is_ok() { eprintln!("popup {}", relaxation.part_layers(0)); }
+    let nn = relaxation.part_layers(PARTINGS);
+    if std::env::var("DBG").is_ok() { eprintln!("popup parted {nn}"); }
     let popped = sewn.unsewn(&relaxation.x);
     let steps = params.push_steps + params.firm_steps;
     let (mut last, mut self_crossings) = (f64::MAX, 0);
@@ -141,6 +146,7 @@ pub fn phases(
         let fraction = 0.6 + 0.4 * f64::from(step) / f64::from(steps);
         run.record("drape", fraction, 2, &sewn.unsewn(&relaxation.x), last / AT_REST_M)?;
     }
+    if std::env::var("DBG").is_ok() { relaxation.debug(garment, &sewn); }
     let x = relaxation.x;
     let positions = sewn.unsewn(&x);
     let drape = Drape {

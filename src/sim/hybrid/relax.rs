@@ -6,6 +6,7 @@
 use super::elastic::{Elastic, Pull};
 use super::layers::Layers;
 use super::obstacle::Obstacle;
+use super::inset::Insets;
 use super::rows::Rows;
 use super::sewn::Sewn;
 use super::walls::Walls;
@@ -47,7 +48,7 @@ impl Default for RelaxParams {
             offset_m: 2e-3,
             stiffness_n_m: 500.0,
             contact: 400.0,
-            firm_contact: 2.0,
+            firm_contact: 0.3,
             hold: 1.0,
             control_width_m: 0.5,
             yield_stretch: 2e-3,
@@ -70,7 +71,7 @@ pub struct Relaxation<'a> {
     areas: Vec<f64>,
     /// Weight of each sewn vertex over the membrane's stiffness, m.
     weight: Vec<f64>,
-    rows: Rows,
+    insets: Insets,
     walls: Walls,
     /// Vertices that had the weight of contact at the last look.
     touching: Vec<bool>,
@@ -143,7 +144,7 @@ impl<'a> Relaxation<'a> {
             elastic,
             areas: cloth.areas,
             weight,
-            rows: Rows::new(garment, sewn),
+            insets: Insets::new(Rows::new(garment, sewn)),
             walls,
             touching,
             is_firm: false,
@@ -170,20 +171,37 @@ impl<'a> Relaxation<'a> {
         }
     }
 
+    pub fn debug(&mut self, garment: &Garment, sewn: &Sewn) {
+        for piece in &garment.pieces {
+            let mut worst = (0.0, 0);
+            for v in piece.vertices.clone() {
+                let v = sewn.vertex_of[v];
+                let d = self.obstacle.debug(&self.x[v]);
+                if d < worst.0 { worst = (d, v); }
+            }
+            let v = worst.1;
+            eprintln!("{} d {:.4} at {:?} inset {:.4} touching {} last {:?} walls {:?}", piece.id, worst.0, self.x[v], self.obstacle.inset(v), self.touching[v], self.last[v].norm(), self.walls.back(v, &self.x[v], 0.002));
+        }
+        for c in crate::sim::contact::crossings(&self.x, self.layers.edges(), self.layers.triangles()) {
+            eprintln!("crossing at {:?} pieces {:?} {:?}", self.x[c.edge[0]], garment.pieces.iter().filter(|p| p.vertices.clone().any(|v| sewn.vertex_of[v]==c.edge[0])).map(|p| &p.id).collect::<Vec<_>>(), garment.pieces.iter().filter(|p| p.vertices.clone().any(|v| sewn.vertex_of[v]==c.triangle[0])).map(|p| &p.id).collect::<Vec<_>>());
+        }
+        self.insets.debug();
+    }
+
     /// Judges anew where the garment is too small for a body: there the body counts as smaller.
     pub fn judge(&mut self, body: &TriMesh) {
-        self.rows.judge(body, &self.x, self.params.offset_m, self.params.yield_stretch);
+        self.insets.judge(body, &self.x, self.params.offset_m, self.params.yield_stretch);
         self.shrink();
     }
 
     /// Corrects by how much the body counts as smaller.
     pub fn correct(&mut self) {
-        self.rows.correct(&self.elastic, &self.x, self.params.yield_stretch);
+        self.insets.correct(&self.elastic, &self.x, self.params.yield_stretch);
         self.shrink();
     }
 
     fn shrink(&mut self) {
-        let mut insets = self.rows.insets_m(self.x.len());
+        let mut insets = self.insets.of_vertices(self.x.len());
         insets.iter_mut().zip(&self.x).filter(|(_, p)| p.z < self.feet_m).for_each(|(inset, _)| *inset = 0.0);
         self.obstacle.shrink(insets);
     }
