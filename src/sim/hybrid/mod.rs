@@ -112,9 +112,7 @@ pub fn phases(
     let walls = Walls::new(body, garment, &sewn);
     let mut relaxation = Relaxation::new(field, garment, &sewn, fabric, &controls, walls, params.relax)?
         .over_feet(body.control.ring_centre(Layer::AnkleRight).z);
-    if std::env::var("DBG").is_ok() { eprintln!("sewn {}", relaxation.part_layers(0)); }
-    let nn = relaxation.part_layers(PARTINGS);
-    if std::env::var("DBG").is_ok() { eprintln!("sewn parted {nn}"); }
+    if std::env::var("NOPART").is_err() { relaxation.part_layers(PARTINGS); }
     let on_skin = sewn.unsewn(&relaxation.x);
     let lift: f64 = relaxation.x.iter().zip(&sewn.x).map(|(a, b)| (a - b).norm_squared()).sum();
     run.record("sew", 0.2, 0, &on_skin, (lift / sewn.x.len() as f64).sqrt() / AT_REST_M)?;

@@ -72,6 +72,8 @@ pub struct Relaxation<'a> {
     /// Weight of each sewn vertex over the membrane's stiffness, m.
     weight: Vec<f64>,
     insets: Insets,
+    /// Edges of the cloth with their lengths in the pattern, m.
+    sides: Vec<([usize; 2], f64)>,
     walls: Walls,
     /// Vertices that had the weight of contact at the last look.
     touching: Vec<bool>,
@@ -145,6 +147,7 @@ impl<'a> Relaxation<'a> {
             areas: cloth.areas,
             weight,
             insets: Insets::new(Rows::new(garment, sewn)),
+            sides: sides(garment, sewn),
             walls,
             touching,
             is_firm: false,
@@ -185,7 +188,7 @@ impl<'a> Relaxation<'a> {
         for c in crate::sim::contact::crossings(&self.x, self.layers.edges(), self.layers.triangles()) {
             eprintln!("crossing at {:?} pieces {:?} {:?}", self.x[c.edge[0]], garment.pieces.iter().filter(|p| p.vertices.clone().any(|v| sewn.vertex_of[v]==c.edge[0])).map(|p| &p.id).collect::<Vec<_>>(), garment.pieces.iter().filter(|p| p.vertices.clone().any(|v| sewn.vertex_of[v]==c.triangle[0])).map(|p| &p.id).collect::<Vec<_>>());
         }
-        self.insets.debug();
+        self.insets.debug(&self.elastic, &self.x);
     }
 
     /// Judges anew where the garment is too small for a body: there the body counts as smaller.
@@ -201,7 +204,7 @@ impl<'a> Relaxation<'a> {
     }
 
     fn shrink(&mut self) {
-        let mut insets = self.insets.of_vertices(self.x.len());
+        let mut insets = self.insets.of_vertices(self.x.len(), &self.sides);
         insets.iter_mut().zip(&self.x).filter(|(_, p)| p.z < self.feet_m).for_each(|(inset, _)| *inset = 0.0);
         self.obstacle.shrink(insets);
     }
@@ -274,6 +277,13 @@ const LET_GO_M: f64 = 1e-3;
 const LEAST_CLEARANCE_M: f64 = 1e-3;
 /// Cloth is lifted out by this at most, m.
 const MOST_LIFT_M: f64 = 3e-3;
+
+/// Sides of all triangles, as sewn, with their lengths in the pattern, m.
+fn sides(garment: &Garment, sewn: &Sewn) -> Vec<([usize; 2], f64)> {
+    let of = |&[a, b, c]: &[usize; 3]| [[a, b], [b, c], [c, a]];
+    let side = |[a, b]: [usize; 2]| ([sewn.vertex_of[a], sewn.vertex_of[b]], (garment.rest[a] - garment.rest[b]).norm());
+    garment.triangles.iter().flat_map(of).map(side).collect()
+}
 
 /// Positions lifted out of the body: the control mesh, on which pieces are laid, cuts through the fine one.
 fn lifted(obstacle: &mut Obstacle, x: &[V3]) -> Vec<V3> {

@@ -21,7 +21,7 @@ fn limb(role: Role) -> Role {
 }
 
 /// Height of a row in the piece's plane, m.
-pub const HEIGHT_M: f64 = 0.02;
+const HEIGHT_M: f64 = 0.02;
 
 /// The pairs of a seam, and whether it runs upright there, across the rows: round the body cloth goes on over sides and
 /// inseams, not over shoulders.
@@ -47,8 +47,8 @@ pub struct Rows {
     goes_on: Vec<bool>,
     /// Rows that go on in each other round the body, each with itself.
     rings: Vec<Vec<usize>>,
-    /// The row itself where its ring closes, else the nearest of its piece that does.
-    closed: Vec<Option<usize>>,
+    /// Whether the ring of each row closes.
+    closed: Vec<bool>,
     /// Width of each row in the piece's plane, m.
     widths_m: Vec<f64>,
     /// Where the middle line of each row begins and ends: its `u`, m, and the edge of the mesh that it crosses there.
@@ -82,7 +82,7 @@ impl Rows {
             rows.goes_on.resize(last, true);
             rows.goes_on.push(false);
             rows.widths_m.resize(rows.goes_on.len(), 0.0);
-            rows.ends.resize(rows.goes_on.len(), [(f64::MAX, [0; 2]), (f64::MIN, [0; 2])]);
+            rows.ends.resize(rows.goes_on.len(), [(f64::MAX, [usize::MAX; 2]), (f64::MIN, [usize::MAX; 2])]);
             for t in &garment.triangles[piece.triangles.clone()] {
                 let corners = t.map(|v| garment.rest[v] - V2::new(0.0, low));
                 rows.add_cuts(first, t, &corners);
@@ -154,21 +154,19 @@ impl Rows {
             ring
         };
         self.rings = (0..beside.len()).map(ring).collect();
-        self.close_rings(garment, &joined);
+        self.close_rings(&joined);
     }
 
-    /// Finds the rows that close: cloth of the same limb goes on at both their ends, in vertices that are `joined`. Beside an
-    /// armhole a front is as tight as in the nearest ring below it.
-    fn close_rings(&mut self, garment: &Garment, joined: &BTreeSet<usize>) {
+    /// Finds the rows that close: cloth of the same limb goes on at both their ends, in vertices that are `joined`.
+    fn close_rings(&mut self, joined: &BTreeSet<usize>) {
         let closes = |row: &usize| self.ends[*row].iter().all(|(_, edge)| edge.iter().all(|v| joined.contains(v)));
-        self.closed = vec![None; self.goes_on.len()];
-        for piece in &garment.pieces {
-            let own: BTreeSet<usize> = piece.vertices.clone().map(|v| self.of_vertex[v].0).collect();
-            let whole: Vec<usize> = own.iter().copied().filter(closes).collect();
-            for row in own {
-                self.closed[row] = whole.iter().copied().min_by_key(|other| other.abs_diff(row));
-            }
-        }
+        self.closed = (0..self.len()).map(|row| closes(&row)).collect();
+    }
+
+    /// Whether two rows are of one piece.
+    #[must_use]
+    pub fn are_of_one_piece(&self, a: usize, b: usize) -> bool {
+        self.goes_on[a.min(b)..a.max(b)].iter().all(|goes_on| *goes_on)
     }
 
     /// Number of rows.
@@ -177,9 +175,9 @@ impl Rows {
         self.goes_on.len()
     }
 
-    /// The row itself where its ring closes, else the nearest of its piece that does.
+    /// Whether the ring of a row closes.
     #[must_use]
-    pub fn closed(&self, row: usize) -> Option<usize> {
+    pub fn is_closed(&self, row: usize) -> bool {
         self.closed[row]
     }
 
