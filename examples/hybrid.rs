@@ -111,13 +111,7 @@ fn dress(
 /// point inside the body; CPU time.
 fn pair(name: &str, dressed: &(Body, DistanceField), garment: &Garment) -> Result<(), Box<dyn Error>> {
     let (start, mut watch) = (cpu_s(), Watch::default());
-    let mut params = Params::default();
-    let env = |k: &str| std::env::var(k).ok().and_then(|v| v.parse::<f64>().ok());
-    if let Some(f) = env("FIRM") { params.relax.firm_contact = f; }
-    if let Some(f) = env("PUSH") { params.push_steps = f as u32; }
-    if let Some(f) = env("NFIRM") { params.firm_steps = f as u32; }
-    if let Some(f) = env("CW") { params.relax.control_width_m = f; }
-    let phases = dress(dressed, garment, &params, &mut watch)?;
+    let phases = dress(dressed, garment, &Params::default(), &mut watch)?;
     let end = cpu_s();
     let drape = &phases.drape;
     let popup = &drape.earlier[1].positions;

@@ -23,6 +23,15 @@ pub struct Layers {
     triangles: Vec<[usize; 3]>,
 }
 
+/// Edges that pierced cloth, and those that still do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Parted {
+    /// Before.
+    pub found: usize,
+    /// After.
+    pub left: usize,
+}
+
 impl Layers {
     /// The layers of sewn triangles.
     #[must_use]
@@ -31,23 +40,26 @@ impl Layers {
         Self { edges, triangles: triangles.to_vec() }
     }
 
-    pub fn edges(&self) -> &[[usize; 2]] { self.edges.pairs() }
-    pub fn triangles(&self) -> &[[usize; 3]] { &self.triangles }
-    /// Moves vertices `x` (m) until no edge pierces a triangle, in so many rounds at most, or as few do as can be reached;
-    /// returns how many.
+    /// Moves vertices `x` (m) until no edge pierces a triangle, in so many rounds at most, or as few do as can be reached.
     ///
     /// The end of an edge that has come through least goes back, and the triangle meets it half way: while cloth moves
     /// little between two looks, that is the end which should not have come through.
-    pub fn part(&self, x: &mut [V3], rounds: u32) -> usize {
+    pub fn part(&self, x: &mut [V3], rounds: u32) -> Parted {
         let mut pierced: Vec<Crossing> = crossings(x, self.edges.pairs(), &self.triangles).collect();
         if pierced.is_empty() {
-            return 0;
+            return Parted { found: 0, left: 0 };
         }
+        let found = pierced.len();
         let near = self.near(&pierced, x);
         let (mut best, mut least, mut waited) = (x.to_vec(), pierced.len(), 0);
         let wings = Wings::new(&near.triangles);
         for round in 0..rounds {
-            if round % 2 == 0 { apart(&pierced, x); } else { release(&pierced, &wings, x); }
+            // One way out gets stuck where the other goes on.
+            if round % 2 == 0 {
+                apart(&pierced, x);
+            } else {
+                release(&pierced, &wings, x);
+            }
             pierced = crossings(x, near.edges.pairs(), &near.triangles).collect();
             waited += 1;
             if pierced.len() < least {
@@ -59,7 +71,7 @@ impl Layers {
             }
         }
         x.copy_from_slice(&best);
-        least
+        Parted { found, left: least }
     }
 
     /// The cloth round crossings.
@@ -121,8 +133,8 @@ mod tests {
         let upper = rest.iter().map(|p| V3::new(p.x + 2e-3, p.y + 1e-3, sag(p.x, p.y)));
         let mut x: Vec<V3> = rest.iter().map(|p| V3::new(p.x, p.y, 0.0)).chain(upper).collect();
         let layers = Layers::new(&triangles);
-        assert!(layers.part(&mut x.clone(), 0) > 0);
-        assert_eq!(layers.part(&mut x, 30), 0);
+        assert!(layers.part(&mut x.clone(), 0).found > 0);
+        assert_eq!(layers.part(&mut x, 30).left, 0);
         assert!(x[count..].iter().zip(&x[..count]).all(|(above, below)| above.z > below.z - 1e-3));
     }
 }

@@ -36,6 +36,7 @@ pub use mapping::OnForm;
 pub use relax::RelaxParams;
 pub use sewn::Sewn;
 
+use layers::Parted;
 use relax::{Push, Relaxation};
 use walls::Walls;
 
@@ -65,6 +66,9 @@ const AT_REST_M: f64 = 1e-3;
 const JUDGE_EVERY: u32 = 20;
 /// Last steps after each of which cloth that is large enough is lifted out of the body.
 const LIFTS: u32 = 3;
+/// Steps that the drape goes on after cloth was pulled apart, and how often it does at most.
+const AGAIN: u32 = 6;
+const MOST_AGAIN: u32 = 2;
 /// Rounds in which cloth that runs through itself is pulled apart in the end.
 const PARTINGS: u32 = 40;
 
@@ -112,7 +116,7 @@ pub fn phases(
     let walls = Walls::new(body, garment, &sewn);
     let mut relaxation = Relaxation::new(field, garment, &sewn, fabric, &controls, walls, params.relax)?
         .over_feet(body.control.ring_centre(Layer::AnkleRight).z);
-    if std::env::var("NOPART").is_err() { relaxation.part_layers(PARTINGS); }
+    relaxation.part_layers(PARTINGS);
     let on_skin = sewn.unsewn(&relaxation.x);
     let lift: f64 = relaxation.x.iter().zip(&sewn.x).map(|(a, b)| (a - b).norm_squared()).sum();
     run.record("sew", 0.2, 0, &on_skin, (lift / sewn.x.len() as f64).sqrt() / AT_REST_M)?;
@@ -122,29 +126,9 @@ pub fn phases(
         done += 1.0;
         run.record("popup", 0.2 + 0.4 * done / f64::from(popup::steps()), 1, &sewn.unsewn(&now.x), moved / AT_REST_M)
     })?;
-    if std::env::var("DBG").is_ok() { eprintln!("popup {}", relaxation.part_layers(0)); }
-    let nn = relaxation.part_layers(PARTINGS);
-    if std::env::var("DBG").is_ok() { eprintln!("popup parted {nn}"); }
+    relaxation.part_layers(PARTINGS);
     let popped = sewn.unsewn(&relaxation.x);
-    let steps = params.push_steps + params.firm_steps;
-    let (mut last, mut self_crossings) = (f64::MAX, 0);
-    for step in 1..=steps {
-        if step % JUDGE_EVERY == 1 {
-            relaxation.judge(&body.mesh);
-        } else {
-            relaxation.correct();
-        }
-        last = relaxation.step(Push { firm: step > params.push_steps, gravity: 1.0, share: 1.0 });
-        if step + LIFTS > steps {
-            relaxation.lift_out();
-        }
-        if step == steps {
-            self_crossings = relaxation.part_layers(PARTINGS);
-        }
-        let fraction = 0.6 + 0.4 * f64::from(step) / f64::from(steps);
-        run.record("drape", fraction, 2, &sewn.unsewn(&relaxation.x), last / AT_REST_M)?;
-    }
-    if std::env::var("DBG").is_ok() { relaxation.debug(garment, &sewn); }
+    let (last, self_crossings) = run.drape(&mut relaxation, body, &sewn, params)?;
     let x = relaxation.x;
     let positions = sewn.unsewn(&x);
     let drape = Drape {
@@ -180,6 +164,39 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
+    /// Phase 4; returns the rms movement of the last step, m, and how many edges still pierce the cloth.
+    fn drape(
+        &mut self,
+        relaxation: &mut Relaxation,
+        body: &Body,
+        sewn: &Sewn,
+        params: &Params,
+    ) -> Result<(f64, usize), SimError> {
+        let steps = params.push_steps + params.firm_steps;
+        let (mut step, mut end) = (0, steps);
+        loop {
+            step += 1;
+            if step % JUDGE_EVERY == 1 && step <= params.push_steps {
+                relaxation.judge(&body.mesh);
+            } else {
+                relaxation.correct();
+            }
+            let last = relaxation.step(Push { firm: step > params.push_steps, gravity: 1.0, share: 1.0 });
+            if step + LIFTS > end {
+                relaxation.lift_out();
+            }
+            let parted = (step >= end).then(|| relaxation.part_layers(PARTINGS));
+            let fraction = 0.6 + 0.4 * f64::from(step.min(steps)) / f64::from(steps.max(1));
+            self.record("drape", fraction, 2, &sewn.unsewn(&relaxation.x), last / AT_REST_M)?;
+            match parted {
+                // What was pulled apart has lost its size there.
+                Some(Parted { found, .. }) if found > 0 && end < steps + MOST_AGAIN * AGAIN => end += AGAIN,
+                Some(Parted { left, .. }) => return Ok((last, left)),
+                None => {}
+            }
+        }
+    }
+
     fn record(
         &mut self,
         phase: &'static str,

@@ -41,13 +41,7 @@ pub fn reconstruct<E>(
         let push = Push { firm: false, gravity: 0.0, share: share.min(1.0) };
         match step.cmp(&STEPS[0]) {
             Ordering::Less => {}
-            Ordering::Equal => {
-                if std::env::var("NOPART").is_ok() {
-                    let n = relaxation.part_layers(0);
-                    eprintln!("grown {n} {}", relaxation.part_layers(40));
-                }
-                relaxation.judge(body);
-            }
+            Ordering::Equal => relaxation.judge(body),
             Ordering::Greater => relaxation.correct(),
         }
         let before = relaxation.place();

@@ -4,7 +4,7 @@
 //! as the ring needs: the cloth keeps its size and lies inside the body, evenly. Where the pattern is large enough it lies outside.
 
 use super::elastic::{Elastic, Pull};
-use super::layers::Layers;
+use super::layers::{Layers, Parted};
 use super::obstacle::Obstacle;
 use super::inset::Insets;
 use super::rows::Rows;
@@ -174,23 +174,6 @@ impl<'a> Relaxation<'a> {
         }
     }
 
-    pub fn debug(&mut self, garment: &Garment, sewn: &Sewn) {
-        for piece in &garment.pieces {
-            let mut worst = (0.0, 0);
-            for v in piece.vertices.clone() {
-                let v = sewn.vertex_of[v];
-                let d = self.obstacle.debug(&self.x[v]);
-                if d < worst.0 { worst = (d, v); }
-            }
-            let v = worst.1;
-            eprintln!("{} d {:.4} at {:?} inset {:.4} touching {} last {:?} walls {:?}", piece.id, worst.0, self.x[v], self.obstacle.inset(v), self.touching[v], self.last[v].norm(), self.walls.back(v, &self.x[v], 0.002));
-        }
-        for c in crate::sim::contact::crossings(&self.x, self.layers.edges(), self.layers.triangles()) {
-            eprintln!("crossing at {:?} pieces {:?} {:?}", self.x[c.edge[0]], garment.pieces.iter().filter(|p| p.vertices.clone().any(|v| sewn.vertex_of[v]==c.edge[0])).map(|p| &p.id).collect::<Vec<_>>(), garment.pieces.iter().filter(|p| p.vertices.clone().any(|v| sewn.vertex_of[v]==c.triangle[0])).map(|p| &p.id).collect::<Vec<_>>());
-        }
-        self.insets.debug(&self.elastic, &self.x);
-    }
-
     /// Judges anew where the garment is too small for a body: there the body counts as smaller.
     pub fn judge(&mut self, body: &TriMesh) {
         self.insets.judge(body, &self.x, self.params.offset_m, self.params.yield_stretch);
@@ -222,8 +205,8 @@ impl<'a> Relaxation<'a> {
         self.steps = place.steps;
     }
 
-    /// Pulls cloth apart that runs through itself; returns how many edges still do.
-    pub fn part_layers(&mut self, rounds: u32) -> usize {
+    /// Pulls cloth apart that runs through itself.
+    pub fn part_layers(&mut self, rounds: u32) -> Parted {
         self.layers.part(&mut self.x, rounds)
     }
 
