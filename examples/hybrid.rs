@@ -1,6 +1,6 @@
 //! Hybrid-GS on the thesis's 54 pairs of subject and garment: the tables of docs/hybrid.md.
 //!
-//! `cargo run --release --example hybrid [pairs | left-out | short] [WORD ...]` prints one of them, for the pairs whose line
+//! `cargo run --release --example hybrid [pairs | pyramid | left-out | short] [WORD ...]` prints one of them, for the pairs whose line
 //! (such as `tshirt S male-i`) contains one of the words. Bodies are built from `db/subjects.csv`, patterns are drafted.
 
 #![allow(clippy::print_stdout, reason = "an example speaks to whoever runs it")]
@@ -12,7 +12,7 @@ use toile::body::{self, Body, Measurements, Sex};
 use toile::geom::{DistanceField, V3};
 use toile::pattern::draft::Model;
 use toile::pattern::{Garment, Style};
-use toile::sim::hybrid::{self, Params, Phases, Sewn};
+use toile::sim::hybrid::{self, Backend, Params, Phases, Sewn};
 use toile::sim::{Monitor, Progress, fabric, quality};
 
 /// Spacing of the distance field, m: that of studies.
@@ -35,7 +35,8 @@ fn main() -> Result<(), Box<dyn Error>> {
                     match what {
                         "left-out" => left_out(&name, dressed, &garment)?,
                         "short" => short(&name, dressed, &garment)?,
-                        _ => pair(&name, dressed, &garment)?,
+                        "pyramid" => pair(&name, dressed, &garment, Backend::Pyramid)?,
+                        _ => pair(&name, dressed, &garment, Backend::Rigid)?,
                     }
                 }
             }
@@ -109,9 +110,9 @@ fn dress(
 
 /// One line: EI, mean error of all edges and crossings after pop-up and drape; how far E ever goes back; flips; the deepest
 /// point inside the body; CPU time.
-fn pair(name: &str, dressed: &(Body, DistanceField), garment: &Garment) -> Result<(), Box<dyn Error>> {
+fn pair(name: &str, dressed: &(Body, DistanceField), garment: &Garment, popup: Backend) -> Result<(), Box<dyn Error>> {
     let (start, mut watch) = (cpu_s(), Watch::default());
-    let phases = dress(dressed, garment, &Params::default(), &mut watch)?;
+    let phases = dress(dressed, garment, &Params { popup, ..Params::default() }, &mut watch)?;
     let end = cpu_s();
     let drape = &phases.drape;
     let popup = &drape.earlier[1].positions;

@@ -114,7 +114,17 @@ impl Elastic {
         let first_m = controls.iter().map(|c| c.way(x).norm()).collect();
         entries.extend(weights.iter().enumerate().map(|(v, w)| (v, v, *w)));
         let factor = Factor::new(x.len(), &entries)?;
-        Some(Self { count: x.len(), triangles, controls, first_stretch, first_m, control_weight, weights, held, factor })
+        Some(Self {
+            count: x.len(),
+            triangles,
+            controls,
+            first_stretch,
+            first_m,
+            control_weight,
+            weights,
+            held,
+            factor,
+        })
     }
 
     /// Gives the targets other weights.

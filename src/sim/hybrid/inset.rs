@@ -66,7 +66,8 @@ impl Insets {
             let lack_m = tape_girth(&inside.points) + TAU * offset_m - (1.0 + share) * cloth_m;
             (lack_m < MOST_LACK * cloth_m).then_some(lack_m)
         };
-        let lacks: Vec<Option<f64>> = (0..self.rows.len()).map(|row| lack(row).filter(|_| self.rows.is_closed(row))).collect();
+        let lacks: Vec<Option<f64>> =
+            (0..self.rows.len()).map(|row| lack(row).filter(|_| self.rows.is_closed(row))).collect();
         let judged = |row: usize| {
             let of_piece = (0..lacks.len()).filter(|&other| self.rows.are_of_one_piece(row, other));
             let known: Vec<(usize, f64)> =

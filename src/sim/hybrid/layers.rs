@@ -12,7 +12,7 @@ const APART_M: f64 = 5e-4;
 /// A vertex is moved by this at most in a round, m.
 const STRIDE_M: f64 = 3e-3;
 /// Rounds without fewer crossings after which it is given up.
-const PATIENCE: u32 = 12;
+const PATIENCE: u32 = 24;
 
 /// Cloth within this distance of a crossing is looked at again, m.
 const NEAR_M: f64 = 0.05;

@@ -19,9 +19,11 @@ pub mod outline;
 pub mod patch;
 pub mod path;
 pub mod popup;
+pub mod pyramid;
 pub mod relax;
 mod rows;
 pub mod sewn;
+mod silhouette;
 pub mod sparse;
 mod untangle;
 mod walls;
@@ -33,6 +35,7 @@ use crate::sim::{Drape, Fabric, Monitor, Progress, SimError, Stage, Staged, Step
 
 pub use gap::{Closure, closures};
 pub use mapping::OnForm;
+pub use popup::Backend;
 pub use relax::RelaxParams;
 pub use sewn::Sewn;
 
@@ -45,6 +48,8 @@ use walls::Walls;
 pub struct Params {
     /// Numbers of measurements that are not controlled: what their chi is without.
     pub uncontrolled: Vec<u32>,
+    /// How the size comes back in the pop-up.
+    pub popup: Backend,
     /// Pop-up and drape.
     pub relax: RelaxParams,
     /// Steps of the drape in which the cloth slides over the body.
@@ -55,7 +60,13 @@ pub struct Params {
 
 impl Default for Params {
     fn default() -> Self {
-        Self { uncontrolled: Vec::new(), relax: RelaxParams::default(), push_steps: 40, firm_steps: 15 }
+        Self {
+            uncontrolled: Vec::new(),
+            popup: Backend::default(),
+            relax: RelaxParams::default(),
+            push_steps: 40,
+            firm_steps: 15,
+        }
     }
 }
 
@@ -70,7 +81,7 @@ const LIFTS: u32 = 3;
 const AGAIN: u32 = 6;
 const MOST_AGAIN: u32 = 2;
 /// Rounds in which cloth that runs through itself is pulled apart in the end.
-const PARTINGS: u32 = 40;
+const PARTINGS: u32 = 80;
 
 /// What each phase left, positions of the garment's vertices in metres.
 #[derive(Clone, Debug)]
@@ -122,7 +133,8 @@ pub fn phases(
     run.record("sew", 0.2, 0, &on_skin, (lift / sewn.x.len() as f64).sqrt() / AT_REST_M)?;
     let mut done = 0.0;
     let error = |x: &[V3]| mean_chi(garment, &sewn.unsewn(x)) - 1.0;
-    popup::reconstruct(&mut relaxation, &body.mesh, error, |now, moved| {
+    let cloth = popup::Cloth { garment, sewn: &sewn };
+    popup::reconstruct(params.popup, cloth, &mut relaxation, &body.mesh, error, |now, moved| {
         done += 1.0;
         run.record("popup", 0.2 + 0.4 * done / f64::from(popup::steps()), 1, &sewn.unsewn(&now.x), moved / AT_REST_M)
     })?;

@@ -5,6 +5,8 @@
 //! wherever it was moved or turned to. With the weights and lengths of the pattern (5.7, 5.8) and the angles in between
 //! (5.9) a garment gets its size back while its curvature stays.
 
+use std::collections::BTreeMap;
+
 use crate::geom::{V2, V3};
 
 /// A vertex in terms of its ring.
@@ -48,7 +50,7 @@ impl Base {
     }
 }
 
-/// Mean value weights (5.7) of the arms from a point to its ring, in one plane; `None` where they are not all finite and positive in sum.
+/// Mean value weights (5.7) of the arms from a point to its ring, in one plane; `None` where they have no sum.
 fn mean_value_weights(arms: &[V3]) -> Option<Vec<f64>> {
     let n = arms.len();
     let half_tangent = |i: usize| {
@@ -77,13 +79,14 @@ impl Pyramids {
         Self { apexes: rings.into_iter().filter_map(apex).collect() }
     }
 
-    /// The pyramids of a sewn garment with the weights and lengths of its pattern: `sides` gives the way along each directed edge of each triangle in its piece's plane.
+    /// The pyramids of a sewn garment of `count` vertices with the weights and lengths of its pattern: `rest` are the corners of each
+    /// triangle in its piece's plane, m.
     ///
     /// Round a vertex on a seam the triangles of its pieces are laid side by side, and their angles count as they are.
     #[must_use]
     pub fn of_pattern(triangles: &[[usize; 3]], rest: &[[V2; 3]], count: usize) -> Self {
         // Angle and lengths of each triangle at each of its corners.
-        let mut fans = vec![std::collections::BTreeMap::new(); count];
+        let mut fans = vec![BTreeMap::new(); count];
         for (t, at) in triangles.iter().zip(rest) {
             for k in 0..3 {
                 let [next, last] = [at[(k + 1) % 3] - at[k], at[(k + 2) % 3] - at[k]];
@@ -104,18 +107,6 @@ impl Pyramids {
         };
         let rings = rings(triangles, count);
         Self { apexes: rings.into_iter().filter_map(apex).collect() }
-    }
-
-    /// Number of vertices that have a pyramid: those not on the mesh's edge.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.apexes.len()
-    }
-
-    /// Whether there are none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.apexes.is_empty()
     }
 
     /// One round of the reconstruction: every vertex goes where its pyramid over its ring as it is now has its apex.
@@ -158,13 +149,13 @@ impl Apex {
 
 /// The closed rings of inner vertices, counter-clockwise.
 fn rings(triangles: &[[usize; 3]], count: usize) -> Vec<(usize, Vec<usize>)> {
-    let mut next = vec![std::collections::BTreeMap::new(); count];
+    let mut next = vec![BTreeMap::new(); count];
     for t in triangles {
         for k in 0..3 {
             next[t[k]].insert(t[(k + 1) % 3], t[(k + 2) % 3]);
         }
     }
-    let ring = |(vertex, next): (usize, &std::collections::BTreeMap<usize, usize>)| {
+    let ring = |(vertex, next): (usize, &BTreeMap<usize, usize>)| {
         let (&first, _) = next.first_key_value()?;
         let mut ring = vec![first];
         let mut at = *next.get(&first)?;
@@ -175,4 +166,94 @@ fn rings(triangles: &[[usize; 3]], count: usize) -> Vec<(usize, Vec<usize>)> {
         (at == first && ring.len() == next.len() && ring.len() > 2).then_some((vertex, ring))
     };
     next.iter().enumerate().filter_map(ring).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::shapes::sphere;
+    use crate::sim::laboratory::sheets::{hexagonal_sheet, noise};
+
+    /// A bumpy sheet.
+    fn bumpy() -> (Vec<V3>, Vec<[usize; 3]>) {
+        let (rest, triangles) = hexagonal_sheet(12, 10, 0.02);
+        let x =
+            rest.iter().map(|p| V3::new(p.x, p.y, 0.01 * (40.0 * p.x).sin() * (30.0 * p.y).cos() + 0.3 * p.x * p.x));
+        (x.collect(), triangles)
+    }
+
+    fn moved(x: &[V3]) -> Vec<V3> {
+        let turn = nalgebra::Rotation3::from_euler_angles(0.4, -1.1, 2.3);
+        x.iter().map(|p| turn * p + V3::new(3.0, -2.0, 0.7)).collect()
+    }
+
+    fn farthest(a: &[V3], b: &[V3]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn coordinates_do_not_change_when_the_shape_is_moved_and_turned() {
+        let (x, triangles) = bumpy();
+        let [here, there] = [x.clone(), moved(&x)].map(|x| Pyramids::of_shape(&triangles, &x));
+        assert_eq!(here.apexes.len(), there.apexes.len());
+        for (a, b) in here.apexes.iter().zip(&there.apexes) {
+            let same = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9);
+            assert!(same(&a.weights, &b.weights) && same(&a.lengths_m, &b.lengths_m), "{a:?} and {b:?}");
+        }
+    }
+
+    #[test]
+    fn a_shape_is_what_its_own_coordinates_say() {
+        let (bump, triangles) = bumpy();
+        let ball = sphere(0.3, 12);
+        for (x, triangles) in [(bump, triangles), (ball.positions, ball.triangles)] {
+            let pyramids = Pyramids::of_shape(&triangles, &x);
+            assert!(pyramids.apexes.len() > 50);
+            let off = farthest(&pyramids.rebuild(&x, 1.0), &x);
+            assert!(off < 1e-9, "{off}");
+            let other = moved(&x);
+            assert!(farthest(&pyramids.rebuild(&other, 1.0), &other) < 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_disturbed_shape_comes_back() {
+        let (x, triangles) = bumpy();
+        let pyramids = Pyramids::of_shape(&triangles, &x);
+        let inner: Vec<usize> = pyramids.apexes.iter().map(|apex| apex.vertex).collect();
+        let mut now = x.clone();
+        for (v, by) in inner.iter().zip(noise(inner.len(), 3)) {
+            now[*v].x += 2e-3 * by;
+        }
+        let before = farthest(&now, &x);
+        for _ in 0..100 {
+            now = pyramids.rebuild(&now, 1.0);
+        }
+        assert!(farthest(&now, &x) < 0.5 * before, "{} after {before}", farthest(&now, &x));
+    }
+
+    #[test]
+    fn a_bulge_grows_to_the_lengths_of_its_pattern() {
+        // A shallow dome over a sheet whose pattern is 3 % larger than its plan: only height can make up for it.
+        let (plan, triangles) = hexagonal_sheet(12, 10, 0.02);
+        let middle = plan.iter().sum::<V2>() / plan.len() as f64;
+        let dome = |p: &V2| V3::new(p.x, p.y, 0.02 * (1.0 - (p - middle).norm_squared() / 0.03).max(0.0));
+        let mut x: Vec<V3> = plan.iter().map(dome).collect();
+        let rest: Vec<[V2; 3]> = triangles.iter().map(|t| t.map(|v| plan[v] * 1.03)).collect();
+        let pyramids = Pyramids::of_pattern(&triangles, &rest, x.len());
+        let chi = |x: &[V3]| {
+            let sides = || {
+                pyramids
+                    .apexes
+                    .iter()
+                    .flat_map(|a| a.ring.iter().zip(&a.lengths_m).map(move |(w, l)| (a.vertex, *w, *l)))
+            };
+            sides().map(|(v, w, length_m)| (x[v] - x[w]).norm() / length_m).sum::<f64>() / sides().count() as f64
+        };
+        let before = chi(&x);
+        for _ in 0..10 {
+            x = pyramids.rebuild(&x, 1.0);
+        }
+        assert!(before < chi(&x) && chi(&x) < 1.01, "{before}, then {}", chi(&x));
+    }
 }

@@ -4,9 +4,9 @@
 //! as the ring needs: the cloth keeps its size and lies inside the body, evenly. Where the pattern is large enough it lies outside.
 
 use super::elastic::{Elastic, Pull};
+use super::inset::Insets;
 use super::layers::{Layers, Parted};
 use super::obstacle::Obstacle;
-use super::inset::Insets;
 use super::rows::Rows;
 use super::sewn::Sewn;
 use super::walls::Walls;
@@ -174,6 +174,16 @@ impl<'a> Relaxation<'a> {
         }
     }
 
+    /// Puts the cloth somewhere else, m, from where the body pushes it out; returns the rms movement of the vertices, m.
+    pub fn put(&mut self, x: Vec<V3>) -> f64 {
+        let from = std::mem::replace(&mut self.x, x);
+        for (v, p) in self.x.iter_mut().enumerate() {
+            let (depth, out) = self.obstacle.contact(v, p);
+            *p += out * depth;
+        }
+        (from.iter().zip(&self.x).map(|(a, b)| (a - b).norm_squared()).sum::<f64>() / from.len() as f64).sqrt()
+    }
+
     /// Judges anew where the garment is too small for a body: there the body counts as smaller.
     pub fn judge(&mut self, body: &TriMesh) {
         self.insets.judge(body, &self.x, self.params.offset_m, self.params.yield_stretch);
@@ -264,7 +274,8 @@ const MOST_LIFT_M: f64 = 3e-3;
 /// Sides of all triangles, as sewn, with their lengths in the pattern, m.
 fn sides(garment: &Garment, sewn: &Sewn) -> Vec<([usize; 2], f64)> {
     let of = |&[a, b, c]: &[usize; 3]| [[a, b], [b, c], [c, a]];
-    let side = |[a, b]: [usize; 2]| ([sewn.vertex_of[a], sewn.vertex_of[b]], (garment.rest[a] - garment.rest[b]).norm());
+    let side =
+        |[a, b]: [usize; 2]| ([sewn.vertex_of[a], sewn.vertex_of[b]], (garment.rest[a] - garment.rest[b]).norm());
     garment.triangles.iter().flat_map(of).map(side).collect()
 }
 
