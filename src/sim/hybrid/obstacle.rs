@@ -43,3 +43,24 @@ impl<'a> Obstacle<'a> {
         ((reach - distance).max(0.0), gradient.try_normalize(1e-9).unwrap_or_else(V3::zeros))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::shapes::sphere;
+
+    #[test]
+    fn a_ball_pushes_out_to_its_offset_and_less_where_it_is_shrunk() {
+        let field = DistanceField::build(&sphere(0.2, 24), 0.01).expect("a closed mesh");
+        let mut ball = Obstacle::new(&field, 2e-3, 2);
+        ball.shrink(vec![0.0, 0.01]);
+        let inside = V3::new(0.19, 0.0, 0.0);
+        let [(full, out), (shrunk, _)] = [0, 1].map(|v| ball.contact(v, &inside));
+        assert!((full - 0.012).abs() < 1.5e-3 && out.x > 0.99, "{full} along {out:?}");
+        assert!((full - shrunk - 0.01).abs() < 1e-9, "{shrunk} of {full}");
+        // Far off nothing is asked again until the way could have led there.
+        assert_eq!(ball.contact(0, &V3::new(0.22, 0.0, 0.0)).0, 0.0);
+        assert_eq!(ball.contact(0, &V3::new(0.215, 0.0, 0.0)).0, 0.0);
+        assert_eq!(ball.contact(0, &inside).0, full);
+    }
+}
