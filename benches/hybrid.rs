@@ -43,8 +43,8 @@ impl Monitor for Silent {
 }
 
 /// All phases, with so many steps of the drape.
-fn dress(push_steps: u32, yield_steps: u32) -> Drape {
-    let params = Params { push_steps, yield_steps, ..Params::default() };
+fn dress(push_steps: u32, firm_steps: u32) -> Drape {
+    let params = Params { push_steps, firm_steps, ..Params::default() };
     hybrid::simulate(&BODY, &FIELD, &SHIRT, &fabric::library()[0], &params, &mut Silent).expect("it can be dressed")
 }
 
@@ -73,8 +73,8 @@ fn until_popup(bencher: Bencher) {
 #[divan::bench]
 fn whole(bencher: Bencher) {
     LazyLock::force(&FIELD);
-    let Params { push_steps, yield_steps, .. } = Params::default();
-    bencher.bench(|| dress(push_steps, yield_steps));
+    let Params { push_steps, firm_steps, .. } = Params::default();
+    bencher.bench(|| dress(push_steps, firm_steps));
 }
 
 /// One path from hip to chest at the side: by plain Dijkstra, and restricted and directed (table 5-3).

@@ -52,6 +52,8 @@ pub struct Elastic {
     control_weight: f64,
     /// Weight of each vertex's target.
     weights: Vec<f64>,
+    /// Stiffness with which each vertex is held by its neighbours: the diagonal of the membrane's matrix.
+    held: Vec<f64>,
     factor: Factor,
 }
 
@@ -84,7 +86,11 @@ impl Elastic {
                 entries.push((i, j, value));
             }
         };
+        let mut held = vec![0.0; x.len()];
         for t in &triangles {
+            for (&i, g) in t.vertices.iter().zip(&t.gradients) {
+                held[i] += t.area_m2 * g.norm_squared();
+            }
             for (&i, gi) in t.vertices.iter().zip(&t.gradients) {
                 for (&j, gj) in t.vertices.iter().zip(&t.gradients) {
                     add(i, j, t.area_m2 * gi.dot(gj));
@@ -108,7 +114,17 @@ impl Elastic {
         let first_m = controls.iter().map(|c| c.way(x).norm()).collect();
         entries.extend(weights.iter().enumerate().map(|(v, w)| (v, v, *w)));
         let factor = Factor::new(x.len(), &entries)?;
-        Some(Self { count: x.len(), triangles, controls, first_stretch, first_m, control_weight, weights, factor })
+        Some(Self {
+            count: x.len(),
+            triangles,
+            controls,
+            first_stretch,
+            first_m,
+            control_weight,
+            weights,
+            held,
+            factor,
+        })
     }
 
     /// Gives the targets other weights.
@@ -119,6 +135,12 @@ impl Elastic {
         if self.factor.add_to_diagonal(&added) {
             self.weights = weights;
         }
+    }
+
+    /// Stiffness of the membrane round each sewn vertex, in the unit of the targets' weights.
+    #[must_use]
+    pub fn held(&self) -> &[f64] {
+        &self.held
     }
 
     /// One local and one global step from `x`; returns the new positions.

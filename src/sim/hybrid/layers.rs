@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::geom::V3;
+use crate::sim::contact::tangle::{Release, Wings};
 use crate::sim::contact::{Crossing, crossings};
 use crate::sim::solver::PairList;
 
@@ -11,7 +12,7 @@ const APART_M: f64 = 5e-4;
 /// A vertex is moved by this at most in a round, m.
 const STRIDE_M: f64 = 3e-3;
 /// Rounds without fewer crossings after which it is given up.
-const PATIENCE: u32 = 5;
+const PATIENCE: u32 = 24;
 
 /// Cloth within this distance of a crossing is looked at again, m.
 const NEAR_M: f64 = 0.05;
@@ -22,6 +23,15 @@ pub struct Layers {
     triangles: Vec<[usize; 3]>,
 }
 
+/// Edges that pierced cloth, and those that still do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Parted {
+    /// Before.
+    pub found: usize,
+    /// After.
+    pub left: usize,
+}
+
 impl Layers {
     /// The layers of sewn triangles.
     #[must_use]
@@ -30,20 +40,26 @@ impl Layers {
         Self { edges, triangles: triangles.to_vec() }
     }
 
-    /// Moves vertices `x` (m) until no edge pierces a triangle, in so many rounds at most, or as few do as can be reached;
-    /// returns how many.
+    /// Moves vertices `x` (m) until no edge pierces a triangle, in so many rounds at most, or as few do as can be reached.
     ///
     /// The end of an edge that has come through least goes back, and the triangle meets it half way: while cloth moves
     /// little between two looks, that is the end which should not have come through.
-    pub fn part(&self, x: &mut [V3], rounds: u32) -> usize {
+    pub fn part(&self, x: &mut [V3], rounds: u32) -> Parted {
         let mut pierced: Vec<Crossing> = crossings(x, self.edges.pairs(), &self.triangles).collect();
         if pierced.is_empty() {
-            return 0;
+            return Parted { found: 0, left: 0 };
         }
+        let found = pierced.len();
         let near = self.near(&pierced, x);
         let (mut best, mut least, mut waited) = (x.to_vec(), pierced.len(), 0);
-        for _ in 0..rounds {
-            apart(&pierced, x);
+        let wings = Wings::new(&near.triangles);
+        for round in 0..rounds {
+            // One way out gets stuck where the other goes on.
+            if round % 2 == 0 {
+                apart(&pierced, x);
+            } else {
+                release(&pierced, &wings, x);
+            }
             pierced = crossings(x, near.edges.pairs(), &near.triangles).collect();
             waited += 1;
             if pierced.len() < least {
@@ -55,7 +71,7 @@ impl Layers {
             }
         }
         x.copy_from_slice(&best);
-        least
+        Parted { found, left: least }
     }
 
     /// The cloth round crossings.
@@ -88,6 +104,19 @@ fn apart(pierced: &[Crossing], x: &mut [V3]) {
     moves.into_iter().for_each(|(v, (sum, n))| x[v] += sum / n);
 }
 
+/// One round along the way in which the lines of the crossings grow shorter.
+fn release(pierced: &[Crossing], wings: &Wings, x: &mut [V3]) {
+    let mut moves: BTreeMap<usize, (V3, f64)> = BTreeMap::new();
+    for release in pierced.iter().filter_map(|crossing| Release::of(x, wings, crossing)) {
+        for (v, weight) in release.vertices.into_iter().zip(release.weights) {
+            let (sum, n) = moves.entry(v).or_insert((V3::zeros(), 0.0));
+            *sum += release.fall * (weight * STRIDE_M);
+            *n += 1.0;
+        }
+    }
+    moves.into_iter().for_each(|(v, (sum, n))| x[v] += sum / n);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -104,8 +133,8 @@ mod tests {
         let upper = rest.iter().map(|p| V3::new(p.x + 2e-3, p.y + 1e-3, sag(p.x, p.y)));
         let mut x: Vec<V3> = rest.iter().map(|p| V3::new(p.x, p.y, 0.0)).chain(upper).collect();
         let layers = Layers::new(&triangles);
-        assert!(layers.part(&mut x.clone(), 0) > 0);
-        assert_eq!(layers.part(&mut x, 30), 0);
+        assert!(layers.part(&mut x.clone(), 0).found > 0);
+        assert_eq!(layers.part(&mut x, 30).left, 0);
         assert!(x[count..].iter().zip(&x[..count]).all(|(above, below)| above.z > below.z - 1e-3));
     }
 }

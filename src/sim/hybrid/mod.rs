@@ -10,16 +10,20 @@ mod follow;
 pub mod form;
 pub mod gap;
 pub mod harmonic;
+mod inset;
 mod layers;
 mod locate;
 pub mod mapping;
+mod obstacle;
 pub mod outline;
 pub mod patch;
 pub mod path;
 pub mod popup;
+pub mod pyramid;
 pub mod relax;
 mod rows;
 pub mod sewn;
+mod silhouette;
 pub mod sparse;
 mod untangle;
 mod walls;
@@ -31,9 +35,11 @@ use crate::sim::{Drape, Fabric, Monitor, Progress, SimError, Stage, Staged, Step
 
 pub use gap::{Closure, closures};
 pub use mapping::OnForm;
+pub use popup::Backend;
 pub use relax::RelaxParams;
 pub use sewn::Sewn;
 
+use layers::Parted;
 use relax::{Push, Relaxation};
 use walls::Walls;
 
@@ -42,27 +48,40 @@ use walls::Walls;
 pub struct Params {
     /// Numbers of measurements that are not controlled: what their chi is without.
     pub uncontrolled: Vec<u32>,
+    /// How the size comes back in the pop-up.
+    pub popup: Backend,
     /// Pop-up and drape.
     pub relax: RelaxParams,
-    /// Steps of the drape in which the body pushes without limit.
+    /// Steps of the drape in which the cloth slides over the body.
     pub push_steps: u32,
-    /// Steps after them, in which it yields.
-    pub yield_steps: u32,
+    /// Steps after them, in which contact is firm.
+    pub firm_steps: u32,
 }
 
 impl Default for Params {
     fn default() -> Self {
-        Self { uncontrolled: Vec::new(), relax: RelaxParams::default(), push_steps: 25, yield_steps: 30 }
+        Self {
+            uncontrolled: Vec::new(),
+            popup: Backend::default(),
+            relax: RelaxParams::default(),
+            push_steps: 40,
+            firm_steps: 15,
+        }
     }
 }
 
 /// Rms movement in a step below which a drape counts as come to rest, m.
 const AT_REST_M: f64 = 1e-3;
 
+/// Steps of the drape after which it is judged anew where the garment is too small: it slides.
+const JUDGE_EVERY: u32 = 20;
 /// Last steps after each of which cloth that is large enough is lifted out of the body.
 const LIFTS: u32 = 3;
+/// Steps that the drape goes on after cloth was pulled apart, and how often it does at most.
+const AGAIN: u32 = 6;
+const MOST_AGAIN: u32 = 2;
 /// Rounds in which cloth that runs through itself is pulled apart in the end.
-const PARTINGS: u32 = 40;
+const PARTINGS: u32 = 80;
 
 /// What each phase left, positions of the garment's vertices in metres.
 #[derive(Clone, Debug)]
@@ -114,28 +133,14 @@ pub fn phases(
     run.record("sew", 0.2, 0, &on_skin, (lift / sewn.x.len() as f64).sqrt() / AT_REST_M)?;
     let mut done = 0.0;
     let error = |x: &[V3]| mean_chi(garment, &sewn.unsewn(x)) - 1.0;
-    popup::reconstruct(&mut relaxation, &body.mesh, error, |now, moved| {
+    let cloth = popup::Cloth { garment, sewn: &sewn };
+    popup::reconstruct(params.popup, cloth, &mut relaxation, &body.mesh, error, |now, moved| {
         done += 1.0;
         run.record("popup", 0.2 + 0.4 * done / f64::from(popup::steps()), 1, &sewn.unsewn(&now.x), moved / AT_REST_M)
     })?;
     relaxation.part_layers(PARTINGS);
     let popped = sewn.unsewn(&relaxation.x);
-    let steps = params.push_steps + params.yield_steps;
-    let (mut last, mut self_crossings) = (f64::MAX, 0);
-    for step in 1..=steps {
-        if step == params.push_steps + 1 {
-            relaxation.judge(&body.mesh);
-        }
-        last = relaxation.step(Push { unlimited: step <= params.push_steps, gravity: 1.0, share: 1.0 });
-        if step + LIFTS > steps {
-            relaxation.lift_out();
-        }
-        if step == steps {
-            self_crossings = relaxation.part_layers(PARTINGS);
-        }
-        let fraction = 0.6 + 0.4 * f64::from(step) / f64::from(steps);
-        run.record("drape", fraction, 2, &sewn.unsewn(&relaxation.x), last / AT_REST_M)?;
-    }
+    let (last, self_crossings) = run.drape(&mut relaxation, body, &sewn, params)?;
     let x = relaxation.x;
     let positions = sewn.unsewn(&x);
     let drape = Drape {
@@ -171,6 +176,39 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
+    /// Phase 4; returns the rms movement of the last step, m, and how many edges still pierce the cloth.
+    fn drape(
+        &mut self,
+        relaxation: &mut Relaxation,
+        body: &Body,
+        sewn: &Sewn,
+        params: &Params,
+    ) -> Result<(f64, usize), SimError> {
+        let steps = params.push_steps + params.firm_steps;
+        let (mut step, mut end) = (0, steps);
+        loop {
+            step += 1;
+            if step % JUDGE_EVERY == 1 && step <= params.push_steps {
+                relaxation.judge(&body.mesh);
+            } else {
+                relaxation.correct();
+            }
+            let last = relaxation.step(Push { firm: step > params.push_steps, gravity: 1.0, share: 1.0 });
+            if step + LIFTS > end {
+                relaxation.lift_out();
+            }
+            let parted = (step >= end).then(|| relaxation.part_layers(PARTINGS));
+            let fraction = 0.6 + 0.4 * f64::from(step.min(steps)) / f64::from(steps.max(1));
+            self.record("drape", fraction, 2, &sewn.unsewn(&relaxation.x), last / AT_REST_M)?;
+            match parted {
+                // What was pulled apart has lost its size there.
+                Some(Parted { found, .. }) if found > 0 && end < steps + MOST_AGAIN * AGAIN => end += AGAIN,
+                Some(Parted { left, .. }) => return Ok((last, left)),
+                None => {}
+            }
+        }
+    }
+
     fn record(
         &mut self,
         phase: &'static str,

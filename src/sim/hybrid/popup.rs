@@ -1,8 +1,13 @@
 //! Phase 3: pop-up (5.4). The sewn garment leaves the body's surface and takes its pattern's size, as rigid as possible and
 //! under control of every measurement of the style.
 
+use std::cmp::Ordering;
+
 use super::relax::{Push, Relaxation};
+use super::sewn::Sewn;
+use super::silhouette::Silhouette;
 use crate::geom::{TriMesh, V3};
+use crate::pattern::Garment;
 
 /// Steps in which it grows, and in which it then comes to rest.
 const STEPS: [u32; 2] = [12, 16];
@@ -18,16 +23,64 @@ const CORRECTIONS: u32 = 2;
 /// What a change of all controls' lengths changes their mean by, at first guess.
 const RESPONSE: f64 = 0.7;
 
-/// Pops a garment up; calls `each` with it and the rms movement (m) after every step, which ends it early with an error.
-///
-/// Triangles and controls go from the size they were sewn at to that of the pattern in equal steps. Until then the body
-/// pushes the cloth out, or sleeves would swing through the arms while they grow; then it yields where the garment is too small. `error` is how far the
-/// garment is from its size on average, signed: a step that would go past, on its momentum or because controls are soft, or
-/// lead away from it, is done again with the controls' lengths set against that.
+/// How the size comes back.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Backend {
+    /// As rigid as possible with the pattern as rest shape, every measurement under control.
+    #[default]
+    Rigid,
+    /// Pyramid coordinates between free edges of the pattern's length [T 5.4].
+    Pyramid,
+}
+
+/// A sewn garment.
+#[derive(Clone, Copy)]
+pub struct Cloth<'a> {
+    /// As cut.
+    pub garment: &'a Garment,
+    /// As sewn.
+    pub sewn: &'a Sewn,
+}
+
+/// Pops a garment up with one of the backends; calls `each` with it and the rms movement (m) after every step, which ends it
+/// early with an error. `error` is how far the garment is from its size on average, signed.
 ///
 /// # Errors
 /// Those of `each`.
 pub fn reconstruct<E>(
+    backend: Backend,
+    cloth: Cloth,
+    relaxation: &mut Relaxation,
+    body: &TriMesh,
+    error: impl Fn(&[V3]) -> f64,
+    mut each: impl FnMut(&Relaxation, f64) -> Result<(), E>,
+) -> Result<(), E> {
+    match backend {
+        Backend::Rigid => rigid(relaxation, body, error, each),
+        Backend::Pyramid => {
+            let silhouette = Silhouette::new(cloth.garment, cloth.sewn);
+            for step in 1..=steps() {
+                let left = f64::from(STEPS[0].saturating_sub(step)) + 1.0;
+                if step == STEPS[0] {
+                    relaxation.judge(body);
+                }
+                let next = silhouette.step(&relaxation.x, 1.0 / left);
+                let moved = relaxation.put(next);
+                each(relaxation, moved)?;
+            }
+            Ok(())
+        }
+    }
+}
+
+/// Pops up as rigid as possible.
+///
+/// Triangles and controls go from the size they were sewn at to that of the pattern in equal steps. Until then the body
+/// pushes the cloth out, or sleeves would swing through the arms while they grow; then it yields where the garment is too small.
+/// A step that would go past the size, on its momentum or because controls are soft, or lead away from it, is done again with
+/// the controls' lengths set against that.
+fn rigid<E>(
     relaxation: &mut Relaxation,
     body: &TriMesh,
     error: impl Fn(&[V3]) -> f64,
@@ -36,9 +89,11 @@ pub fn reconstruct<E>(
     let mut last = error(&relaxation.x);
     for step in 1..=steps() {
         let share = f64::from(step) / f64::from(STEPS[0]);
-        let push = Push { unlimited: share < 1.0, gravity: 0.0, share: share.min(1.0) };
-        if step == STEPS[0] {
-            relaxation.judge(body);
+        let push = Push { firm: false, gravity: 0.0, share: share.min(1.0) };
+        match step.cmp(&STEPS[0]) {
+            Ordering::Less => {}
+            Ordering::Equal => relaxation.judge(body),
+            Ordering::Greater => relaxation.correct(),
         }
         let before = relaxation.place();
         let mut moved = relaxation.step(push);

@@ -1,11 +1,12 @@
 //! Steps of a sewn garment against a body: its size, gravity, bending, contact.
 //!
-//! Contact pushes the cloth out of the body, but it can be made to yield: where the cloth is stretched by more than a little,
-//! contact weakens step by step until it is not. Where the pattern is large enough nothing changes; where it is too small the
-//! body wins no more: the cloth goes back to its size and into the body.
+//! Contact pushes the cloth out of the body. Where a ring of cloth is too small to close round it, the body counts as smaller there, all round by as much
+//! as the ring needs: the cloth keeps its size and lies inside the body, evenly. Where the pattern is large enough it lies outside.
 
 use super::elastic::{Elastic, Pull};
-use super::layers::Layers;
+use super::inset::Insets;
+use super::layers::{Layers, Parted};
+use super::obstacle::Obstacle;
 use super::rows::Rows;
 use super::sewn::Sewn;
 use super::walls::Walls;
@@ -23,6 +24,9 @@ pub struct RelaxParams {
     pub stiffness_n_m: f64,
     /// Weight of contact, per area and over the stiffness, 1/m2.
     pub contact: f64,
+    /// Weight of contact at the end, as a multiple of the stiffness with which a vertex is held by its neighbours: the
+    /// cloth slides no more then, as it would stick.
+    pub firm_contact: f64,
     /// Weight of a free vertex's last place, likewise: how far a step goes.
     pub hold: f64,
     /// Weight of a control: that of a strip of cloth this wide along it, m.
@@ -44,6 +48,7 @@ impl Default for RelaxParams {
             offset_m: 2e-3,
             stiffness_n_m: 500.0,
             contact: 400.0,
+            firm_contact: 0.3,
             hold: 1.0,
             control_width_m: 0.5,
             yield_stretch: 2e-3,
@@ -60,18 +65,20 @@ const GRAVITY: f64 = 9.80665;
 /// A garment under way from the body's surface to its rest.
 pub struct Relaxation<'a> {
     params: RelaxParams,
-    field: &'a DistanceField,
+    obstacle: Obstacle<'a>,
     elastic: Elastic,
     /// Rest areas of the sewn vertices, m2.
     areas: Vec<f64>,
     /// Weight of each sewn vertex over the membrane's stiffness, m.
     weight: Vec<f64>,
-    rows: Rows,
+    insets: Insets,
+    /// Edges of the cloth with their lengths in the pattern, m.
+    sides: Vec<([usize; 2], f64)>,
     walls: Walls,
     /// Vertices that had the weight of contact at the last look.
     touching: Vec<bool>,
-    /// Greatest depth that contact still pushes against at each sewn vertex, m.
-    most_m: Vec<f64>,
+    /// Whether that was the firm one.
+    is_firm: bool,
     /// Position of each sewn vertex, m.
     pub x: Vec<V3>,
     /// Displacement of the last step, m.
@@ -89,15 +96,14 @@ pub struct Relaxation<'a> {
 pub struct Place {
     x: Vec<V3>,
     last: Vec<V3>,
-    most_m: Vec<f64>,
     steps: u32,
 }
 
 /// What a step does besides keeping size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Push {
-    /// Whether contact pushes without limit.
-    pub unlimited: bool,
+    /// Whether contact is firm: at the end.
+    pub firm: bool,
     /// Share of its weight that the cloth has.
     pub gravity: f64,
     /// Size that it wants: 0 as it was sewn, 1 the pattern's.
@@ -127,24 +133,24 @@ impl<'a> Relaxation<'a> {
         let pairs = cloth.bending.pairs.pairs().iter().zip(&cloth.bending.entries);
         let bending: Vec<([usize; 2], f64)> =
             pairs.map(|(pair, entry)| (*pair, entry / params.stiffness_n_m)).collect();
-        let x = lifted(field, params.offset_m, &sewn.x);
-        let touching = touching(field, params.offset_m, &walls, &x);
-        let weights = weights(&params, &cloth.areas, &touching);
+        let mut obstacle = Obstacle::new(field, params.offset_m, sewn.x.len());
+        let x = lifted(&mut obstacle, &sewn.x);
+        let touching = touching(&mut obstacle, &walls, params.offset_m, &x);
+        let weights = soft_weights(&params, &cloth.areas, &touching);
         let elastic = Elastic::new(garment, &sewn.vertex_of, &x, controls, params.control_width_m, &bending, weights)
             .ok_or_else(|| SimError::Degenerate { piece: garment.name.clone(), at: garment.rest[0] })?;
         let weight = cloth.masses.iter().map(|m| m * GRAVITY / params.stiffness_n_m).collect();
-        let rows = Rows::new(garment, sewn);
-        let most_m = vec![f64::MAX; x.len()];
         Ok(Self {
             params,
-            field,
+            obstacle,
             elastic,
             areas: cloth.areas,
             weight,
-            rows,
+            insets: Insets::new(Rows::new(garment, sewn)),
+            sides: sides(garment, sewn),
             walls,
             touching,
-            most_m,
+            is_firm: false,
             last: vec![V3::zeros(); x.len()],
             layers: Layers::new(&sewn.triangles),
             control: 1.0,
@@ -154,68 +160,79 @@ impl<'a> Relaxation<'a> {
         })
     }
 
-    /// Says how high the ankles are, m: below them contact does not yield.
+    /// Says how high the ankles are, m: below them the body stays as it is.
     #[must_use]
     pub fn over_feet(self, ankles_m: f64) -> Self {
         Self { feet_m: ankles_m, ..self }
     }
 
-    /// Lifts cloth out of the body where it is not too small for it and lies shallow: what contact, which is soft, left inside.
-    /// What lies deeper would lose its size.
+    /// Lifts out what contact, which is soft, left inside. What lies deeper would lose its size.
     pub fn lift_out(&mut self) {
-        let stretch = self.rows.stretch(&self.elastic, &self.x);
-        for (p, stretch) in self.x.iter_mut().zip(stretch) {
-            if stretch < 0.0 || p.z < self.feet_m {
-                let (depth, out) = contact(self.field, LEAST_CLEARANCE_M, p);
-                *p += out * if depth < MOST_LIFT_M { depth } else { 0.0 };
-            }
+        for (v, p) in self.x.iter_mut().enumerate() {
+            let (depth, out) = self.obstacle.contact_at(LEAST_CLEARANCE_M, v, p);
+            *p += out * if depth < MOST_LIFT_M { depth } else { 0.0 };
         }
     }
 
-    /// Judges anew where the garment is too small for a body: there contact yields.
+    /// Puts the cloth somewhere else, m, from where the body pushes it out; returns the rms movement of the vertices, m.
+    pub fn put(&mut self, x: Vec<V3>) -> f64 {
+        let from = std::mem::replace(&mut self.x, x);
+        for (v, p) in self.x.iter_mut().enumerate() {
+            let (depth, out) = self.obstacle.contact(v, p);
+            *p += out * depth;
+        }
+        (from.iter().zip(&self.x).map(|(a, b)| (a - b).norm_squared()).sum::<f64>() / from.len() as f64).sqrt()
+    }
+
+    /// Judges anew where the garment is too small for a body: there the body counts as smaller.
     pub fn judge(&mut self, body: &TriMesh) {
-        self.rows.judge(body, &self.x, self.params.offset_m, self.params.yield_stretch);
+        self.insets.judge(body, &self.x, self.params.offset_m, self.params.yield_stretch);
+        self.shrink();
+    }
+
+    /// Corrects by how much the body counts as smaller.
+    pub fn correct(&mut self) {
+        self.insets.correct(&self.elastic, &self.x, self.params.yield_stretch);
+        self.shrink();
+    }
+
+    fn shrink(&mut self) {
+        let mut insets = self.insets.of_vertices(self.x.len(), &self.sides);
+        insets.iter_mut().zip(&self.x).filter(|(_, p)| p.z < self.feet_m).for_each(|(inset, _)| *inset = 0.0);
+        self.obstacle.shrink(insets);
     }
 
     /// Where it is now.
     #[must_use]
     pub fn place(&self) -> Place {
-        Place { x: self.x.clone(), last: self.last.clone(), most_m: self.most_m.clone(), steps: self.steps }
+        Place { x: self.x.clone(), last: self.last.clone(), steps: self.steps }
     }
 
     /// Goes back to a place.
     pub fn go_back(&mut self, place: &Place) {
         self.x.clone_from(&place.x);
         self.last.clone_from(&place.last);
-        self.most_m.clone_from(&place.most_m);
         self.steps = place.steps;
     }
 
-    /// Pulls cloth apart that runs through itself; returns how many edges still do.
-    pub fn part_layers(&mut self, rounds: u32) -> usize {
+    /// Pulls cloth apart that runs through itself.
+    pub fn part_layers(&mut self, rounds: u32) -> Parted {
         self.layers.part(&mut self.x, rounds)
     }
 
     /// Takes one step; returns the rms movement of the vertices, m.
     pub fn step(&mut self, push: Push) -> f64 {
-        if self.steps > 0 && self.steps.is_multiple_of(self.params.refresh) {
-            self.look_for_contacts();
+        if push.firm || (self.steps > 0 && self.steps.is_multiple_of(self.params.refresh)) {
+            self.look_for_contacts(push.firm);
         }
         self.steps += 1;
         let from: Vec<V3> = self.x.iter().zip(&self.last).map(|(p, d)| p + d * self.params.momentum).collect();
-        let contacts: Vec<(f64, V3)> = from.iter().map(|p| contact(self.field, self.params.offset_m, p)).collect();
-        if push.unlimited {
-            self.most_m.fill(f64::MAX);
-        } else {
-            self.give_way(&contacts);
-        }
-        let target = |((p, (depth, out)), most): ((&V3, &(f64, V3)), &f64)| p + out * depth.min(*most);
-        let mut targets: Vec<V3> = from.iter().zip(&contacts).zip(&self.most_m).map(target).collect();
-        for (v, target) in targets.iter_mut().enumerate() {
-            if let Some(back) = self.walls.back(v, target, self.params.offset_m) {
-                *target = back;
-            }
-        }
+        let mut target = |(v, p): (usize, &V3)| {
+            let (depth, out) = self.obstacle.contact(v, p);
+            let target = p + out * depth;
+            self.walls.back(v, &target, self.params.offset_m).unwrap_or(target)
+        };
+        let targets: Vec<V3> = from.iter().enumerate().map(&mut target).collect();
         let loads: Vec<V3> = self.weight.iter().map(|w| V3::new(0.0, 0.0, -w * push.gravity)).collect();
         let next = self
             .elastic
@@ -226,61 +243,58 @@ impl<'a> Relaxation<'a> {
     }
 
     /// Gives the vertices their weights anew, where enough of them have come into contact or left it.
-    fn look_for_contacts(&mut self) {
-        let touching = touching(self.field, self.params.offset_m, &self.walls, &self.x);
-        let changed = touching.iter().zip(&self.touching).filter(|(a, b)| a != b).count();
-        if changed as f64 > SAME_CONTACTS * touching.len() as f64 {
-            self.elastic.set_weights(weights(&self.params, &self.areas, &touching));
-            self.touching = touching;
+    fn look_for_contacts(&mut self, firm: bool) {
+        let mut now = touching(&mut self.obstacle, &self.walls, self.params.offset_m, &self.x);
+        // Firm contact brings cloth to where it is pushed no more: it must go on being held there.
+        for (v, touches) in now.iter_mut().enumerate().filter(|(v, _)| firm && self.touching[*v]) {
+            *touches |= self.obstacle.contact_at(self.params.offset_m + LET_GO_M, v, &self.x[v]).0 > 0.0;
         }
-    }
-
-    /// Weakens contact where the cloth is stretched too much, and lets it recover where it is not.
-    fn give_way(&mut self, contacts: &[(f64, V3)]) {
-        let stretch = self.rows.stretch(&self.elastic, &self.x);
-        for (v, (depth, _)) in contacts.iter().enumerate() {
-            if self.x[v].z < self.feet_m {
-                continue;
+        let changed = now.iter().zip(&self.touching).filter(|(a, b)| a != b).count();
+        if firm != self.is_firm || changed as f64 > SAME_CONTACTS * now.len() as f64 {
+            let mut weights = soft_weights(&self.params, &self.areas, &now);
+            if firm {
+                let touching = weights.iter_mut().zip(self.elastic.held()).zip(&now).filter(|(_, touches)| **touches);
+                touching.for_each(|((weight, held), _)| *weight = self.params.firm_contact * held);
             }
-            let excess = (stretch[v] - self.params.yield_stretch) / self.params.yield_stretch;
-            let now = self.most_m[v].min(depth.max(LEAST_PUSH_M));
-            self.most_m[v] = now * (1.0 - 0.5 * excess).clamp(0.5, 1.2);
+            self.elastic.set_weights(weights);
+            (self.touching, self.is_firm) = (now, firm);
         }
     }
 }
 
 /// Share of the vertices whose contact may have changed before the system is factorised again.
 const SAME_CONTACTS: f64 = 0.01;
+/// Cloth that contact held firmly is let go of when it is further out than it is pushed by this, m.
+const LET_GO_M: f64 = 1e-3;
 /// Cloth that is large enough is this far from the skin in the end at least, m.
 const LEAST_CLEARANCE_M: f64 = 1e-3;
 /// Cloth is lifted out by this at most, m.
 const MOST_LIFT_M: f64 = 3e-3;
-/// Contact that has yielded comes back from this, m.
-const LEAST_PUSH_M: f64 = 2e-5;
 
-/// Depth below the offset (m, 0 outside) and the direction out.
-fn contact(field: &DistanceField, offset_m: f64, p: &V3) -> (f64, V3) {
-    let (distance, gradient) = field.value_and_gradient(p);
-    ((offset_m - distance).max(0.0), gradient.try_normalize(1e-9).unwrap_or_else(V3::zeros))
+/// Sides of all triangles, as sewn, with their lengths in the pattern, m.
+fn sides(garment: &Garment, sewn: &Sewn) -> Vec<([usize; 2], f64)> {
+    let of = |&[a, b, c]: &[usize; 3]| [[a, b], [b, c], [c, a]];
+    let side =
+        |[a, b]: [usize; 2]| ([sewn.vertex_of[a], sewn.vertex_of[b]], (garment.rest[a] - garment.rest[b]).norm());
+    garment.triangles.iter().flat_map(of).map(side).collect()
 }
 
 /// Positions lifted out of the body: the control mesh, on which pieces are laid, cuts through the fine one.
-fn lifted(field: &DistanceField, offset_m: f64, x: &[V3]) -> Vec<V3> {
-    let lift = |p: &V3| {
-        let (depth, out) = contact(field, offset_m, p);
+fn lifted(obstacle: &mut Obstacle, x: &[V3]) -> Vec<V3> {
+    let mut lift = |(v, p): (usize, &V3)| {
+        let (depth, out) = obstacle.contact(v, p);
         p + out * depth
     };
-    x.iter().map(lift).collect()
+    x.iter().enumerate().map(&mut lift).collect()
 }
 
 /// Which vertices contact acts on: those near the body or beyond a wall.
-fn touching(field: &DistanceField, offset_m: f64, walls: &Walls, x: &[V3]) -> Vec<bool> {
-    let touches =
-        |(v, p): (usize, &V3)| field.value_and_gradient(p).0 < offset_m || walls.back(v, p, offset_m).is_some();
-    x.iter().enumerate().map(touches).collect()
+fn touching(obstacle: &mut Obstacle, walls: &Walls, offset_m: f64, x: &[V3]) -> Vec<bool> {
+    let mut touches = |(v, p): (usize, &V3)| obstacle.contact(v, p).0 > 0.0 || walls.back(v, p, offset_m).is_some();
+    x.iter().enumerate().map(&mut touches).collect()
 }
 
 /// Weights of the vertices' targets: those in contact stay where contact wants them, the others may go.
-fn weights(params: &RelaxParams, areas: &[f64], touching: &[bool]) -> Vec<f64> {
+fn soft_weights(params: &RelaxParams, areas: &[f64], touching: &[bool]) -> Vec<f64> {
     touching.iter().zip(areas).map(|(touches, a)| a * if *touches { params.contact } else { params.hold }).collect()
 }

@@ -1,17 +1,14 @@
-//! Where the cloth is too small to go round the body, over whole rings of rows.
+//! The rings in which a garment goes round the body.
 //!
 //! A piece is drawn upright, so that its rows (the `u` direction) go round trunk or limb, and on in the piece beside it: front
-//! and back make a ring. A bust stretches the front and leaves the back slack; only where the body inside a ring is
-//! wider than its cloth is the pattern too small.
+//! and back make a ring.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::elastic::Elastic;
 use super::sewn::Sewn;
-use crate::geom::hull::tape_girth;
-use crate::geom::section::{Plane, section};
-use crate::geom::{TriMesh, V2, V3};
-use crate::pattern::{Garment, Role};
+use crate::geom::{V2, V3};
+use crate::pattern::{Garment, Role, SeamMesh};
 
 /// The part of the body that a piece goes round together with others.
 fn limb(role: Role) -> Role {
@@ -26,6 +23,20 @@ fn limb(role: Role) -> Role {
 /// Height of a row in the piece's plane, m.
 const HEIGHT_M: f64 = 0.02;
 
+/// The pairs of a seam, and whether it runs upright there, across the rows: round the body cloth goes on over sides and
+/// inseams, not over shoulders.
+fn upright<'a>(garment: &'a Garment, seam: &'a SeamMesh) -> impl Iterator<Item = ([usize; 2], bool)> + 'a {
+    let pairs = &seam.pairs;
+    pairs.iter().enumerate().map(move |(k, &pair)| {
+        let (before, after) = (pairs[k.saturating_sub(1)], pairs[(k + 1).min(pairs.len() - 1)]);
+        let is_upright = |side: usize| {
+            let way = garment.rest[after[side]] - garment.rest[before[side]];
+            way.y.abs() > way.x.abs()
+        };
+        (pair, is_upright(0) && is_upright(1))
+    })
+}
+
 /// The rows of a garment's pieces.
 pub struct Rows {
     /// Row of each triangle.
@@ -36,12 +47,12 @@ pub struct Rows {
     goes_on: Vec<bool>,
     /// Rows that go on in each other round the body, each with itself.
     rings: Vec<Vec<usize>>,
-    /// The row itself where its ring closes, else the nearest of its piece that does.
-    closed: Vec<Option<usize>>,
+    /// Whether the ring of each row closes.
+    closed: Vec<bool>,
     /// Width of each row in the piece's plane, m.
     widths_m: Vec<f64>,
-    /// Whether the ring of each row is too small for the body.
-    tight: Vec<bool>,
+    /// Where the middle line of each row begins and ends: its `u`, m, and the edge of the mesh that it crosses there.
+    ends: Vec<[(f64, [usize; 2]); 2]>,
 }
 
 impl Rows {
@@ -55,7 +66,7 @@ impl Rows {
             rings: Vec::new(),
             closed: Vec::new(),
             widths_m: Vec::new(),
-            tight: Vec::new(),
+            ends: Vec::new(),
         };
         for piece in &garment.pieces {
             let low = garment.rest[piece.vertices.clone()].iter().map(|p| p.y).fold(f64::MAX, f64::min);
@@ -71,29 +82,35 @@ impl Rows {
             rows.goes_on.resize(last, true);
             rows.goes_on.push(false);
             rows.widths_m.resize(rows.goes_on.len(), 0.0);
+            rows.ends.resize(rows.goes_on.len(), [(f64::MAX, [usize::MAX; 2]), (f64::MIN, [usize::MAX; 2])]);
             for t in &garment.triangles[piece.triangles.clone()] {
                 let corners = t.map(|v| garment.rest[v] - V2::new(0.0, low));
-                rows.add_widths(first, &corners);
+                rows.add_cuts(first, t, &corners);
             }
         }
         rows.find_rings(garment);
-        rows.tight = vec![false; rows.goes_on.len()];
         rows
     }
 
-    /// Adds a triangle to the widths of the rows whose middle lines cut it; `first` is the row at height 0.
-    fn add_widths(&mut self, first: usize, corners: &[V2; 3]) {
+    /// Adds a triangle to the rows whose middle lines cut it; `first` is the row at height 0.
+    fn add_cuts(&mut self, first: usize, t: &[usize; 3], corners: &[V2; 3]) {
         let heights = corners.map(|p| p.y / HEIGHT_M - 0.5);
         let [low, high] =
             [heights.iter().copied().fold(f64::MAX, f64::min), heights.iter().copied().fold(0.0, f64::max)];
         for row in low.max(0.0).ceil() as usize..=high as usize {
             let cuts = (0..3).filter_map(|k| {
-                let (below, above) = (heights[k] - row as f64, heights[(k + 1) % 3] - row as f64);
-                let along = below / (below - above);
-                ((below < 0.0) != (above < 0.0)).then(|| corners[k].x + (corners[(k + 1) % 3].x - corners[k].x) * along)
+                let next = (k + 1) % 3;
+                let (below, above) = (heights[k] - row as f64, heights[next] - row as f64);
+                let u = corners[k].x + (corners[next].x - corners[k].x) * below / (below - above);
+                ((below < 0.0) != (above < 0.0)).then_some((u, [t[k], t[next]]))
             });
-            if let ([a, b], Some(width)) = (cuts.collect::<Vec<_>>().as_slice(), self.widths_m.get_mut(first + row)) {
-                *width += (b - a).abs();
+            if let ([a, b], true) = (cuts.collect::<Vec<_>>().as_slice(), first + row < self.widths_m.len()) {
+                self.widths_m[first + row] += (b.0 - a.0).abs();
+                let [left, right] = &mut self.ends[first + row];
+                for cut in [a, b] {
+                    *left = if cut.0 < left.0 { *cut } else { *left };
+                    *right = if cut.0 > right.0 { *cut } else { *right };
+                }
             }
         }
     }
@@ -104,13 +121,15 @@ impl Rows {
         // Seam vertices that a row shares with each row of other pieces of its limb.
         let mut joined: BTreeSet<usize> = BTreeSet::new();
         let mut shared: BTreeMap<(usize, usize), BTreeMap<usize, usize>> = BTreeMap::new();
-        for &pair in garment.seams.iter().flat_map(|s| &s.pairs) {
+        for (pair, is_upright) in garment.seams.iter().flat_map(|s| upright(garment, s)) {
             let pieces = pair.map(piece_of);
             let limbs = pieces.map(|p| limb(garment.pieces[p].role));
             if limbs[0] != limbs[1] {
                 continue;
             }
-            joined.extend(pair);
+            if is_upright {
+                joined.extend(pair);
+            }
             if pieces[0] == pieces[1] {
                 continue;
             }
@@ -135,82 +154,70 @@ impl Rows {
             ring
         };
         self.rings = (0..beside.len()).map(ring).collect();
-        self.close_rings(garment, &joined);
+        self.close_rings(&joined);
     }
 
-    /// Finds the rows that close: cloth of the same limb goes on at both their ends, in vertices that are `joined`. Beside an
-    /// armhole a front is as tight as in the nearest ring below it.
-    fn close_rings(&mut self, garment: &Garment, joined: &BTreeSet<usize>) {
-        self.closed = vec![None; self.goes_on.len()];
-        for piece in &garment.pieces {
-            let mut ends: BTreeMap<usize, [usize; 2]> = BTreeMap::new();
-            for v in piece.vertices.clone() {
-                let u = |w: usize| garment.rest[w].x;
-                let [left, right] = ends.entry(self.of_vertex[v].0).or_insert([v, v]);
-                *left = if u(v) < u(*left) { v } else { *left };
-                *right = if u(v) > u(*right) { v } else { *right };
-            }
-            let closes = |ends: &[usize; 2]| ends.iter().all(|v| joined.contains(v));
-            let whole: Vec<usize> = ends.iter().filter(|(_, ends)| closes(ends)).map(|(row, _)| *row).collect();
-            for row in ends.into_keys() {
-                self.closed[row] = whole.iter().copied().min_by_key(|other| other.abs_diff(row));
-            }
-        }
+    /// Finds the rows that close: cloth of the same limb goes on at both their ends, in vertices that are `joined`.
+    fn close_rings(&mut self, joined: &BTreeSet<usize>) {
+        let closes = |row: &usize| self.ends[*row].iter().all(|(_, edge)| edge.iter().all(|v| joined.contains(v)));
+        self.closed = (0..self.len()).map(|row| closes(&row)).collect();
     }
 
-    /// Judges which rings are too small, where the cloth is now: a tape round the body inside them, `offset_m` off the skin, is
-    /// longer than their cloth by more than a share. Positions `x` in m.
-    pub fn judge(&mut self, body: &TriMesh, x: &[V3], offset_m: f64, share: f64) {
-        let mut members = vec![Vec::new(); self.goes_on.len()];
-        for &(row, v) in &self.of_vertex {
-            members[row].push(v);
-        }
-        let middle = |rows: &mut dyn Iterator<Item = usize>| {
-            let (sum, n) =
-                rows.flat_map(|r| &members[r]).fold((V3::zeros(), 0.0), |(sum, n), &v| (sum + x[v], n + 1.0));
-            (n > 0.0).then(|| sum / n)
-        };
-        let is_tight = |row: usize| {
-            let ring = &self.rings[row];
-            let centre = middle(&mut ring.iter().copied())?;
-            let above = middle(&mut ring.iter().map(|&r| if self.goes_on[r] { r + 1 } else { r }))?;
-            let below = middle(&mut ring.iter().map(|&r| r.checked_sub(1).filter(|&b| self.goes_on[b]).unwrap_or(r)))?;
-            let plane = Plane::normal_to(centre, (above - below).try_normalize(1e-6)?);
-            let outlines = section(body, &plane);
-            let inside = outlines.iter().find(|o| o.closed && o.contains(plane.project(centre)))?;
-            let body_m = tape_girth(&inside.points) + std::f64::consts::TAU * offset_m;
-            let cloth_m: f64 = ring.iter().map(|&r| self.widths_m[r]).sum();
-            Some(body_m > (1.0 + share) * cloth_m)
-        };
-        let is_closed = |row: usize| self.closed[row] == Some(row);
-        let own: Vec<bool> = (0..members.len()).map(|row| is_closed(row) && is_tight(row).unwrap_or(false)).collect();
-        self.tight = self.closed.iter().map(|closed| closed.is_some_and(|row| own[row])).collect();
-    }
-
-    /// Stretch beyond 1 of the row through each sewn vertex where its ring was judged too small, and -1 elsewhere: of the most
-    /// stretched row where pieces meet.
+    /// Whether two rows are of one piece.
     #[must_use]
-    pub fn stretch(&self, elastic: &Elastic, x: &[V3]) -> Vec<f64> {
-        let mut sums = vec![(0.0, 0.0); self.goes_on.len()];
+    pub fn are_of_one_piece(&self, a: usize, b: usize) -> bool {
+        self.goes_on[a.min(b)..a.max(b)].iter().all(|goes_on| *goes_on)
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.goes_on.len()
+    }
+
+    /// Whether the ring of a row closes.
+    #[must_use]
+    pub fn is_closed(&self, row: usize) -> bool {
+        self.closed[row]
+    }
+
+    /// Row and sewn vertex of each garment vertex.
+    #[must_use]
+    pub fn of_vertex(&self) -> &[(usize, usize)] {
+        &self.of_vertex
+    }
+
+    /// Rows that go on in each other round the body, with the one asked for.
+    #[must_use]
+    pub fn ring(&self, row: usize) -> &[usize] {
+        &self.rings[row]
+    }
+
+    /// The rows next to one on its piece: above and below.
+    #[must_use]
+    pub fn beside(&self, row: usize) -> [Option<usize>; 2] {
+        [self.goes_on[row].then_some(row + 1), row.checked_sub(1).filter(|&below| self.goes_on[below])]
+    }
+
+    /// Length of the cloth of the ring of a row, m.
+    #[must_use]
+    pub fn girth_m(&self, row: usize) -> f64 {
+        self.rings[row].iter().map(|&r| self.widths_m[r]).sum()
+    }
+
+    /// Mean stretch of each ring along its rows beyond 1: rows with their neighbours, as single ones are few triangles high.
+    #[must_use]
+    pub fn stretches(&self, elastic: &Elastic, x: &[V3]) -> Vec<f64> {
+        let mut sums = vec![(0.0, 0.0); self.len()];
         for (&row, (stretch, area)) in self.of_triangle.iter().zip(elastic.stretches(x)) {
             sums[row].0 += (stretch[(0, 0)] - 1.0) * area;
             sums[row].1 += area;
         }
-        // Each row with its neighbours: single rows are few triangles high.
-        let wide = |row: usize| {
-            let above = self.goes_on[row].then_some(row + 1);
-            let below = row.checked_sub(1).filter(|&below| self.goes_on[below]);
-            [Some(row), above, below].into_iter().flatten()
-        };
         let mean = |row: usize| {
-            let (stretch, area) = wide(row).fold((0.0, 0.0), |sum, row| (sum.0 + sums[row].0, sum.1 + sums[row].1));
+            let rows = self.rings[row].iter().flat_map(|&r| self.beside(r).into_iter().flatten().chain([r]));
+            let (stretch, area) = rows.fold((0.0, 0.0), |sum, row| (sum.0 + sums[row].0, sum.1 + sums[row].1));
             stretch / area.max(f64::MIN_POSITIVE)
         };
-        let means: Vec<f64> = (0..sums.len()).map(mean).collect();
-        let mut greatest = vec![f64::MIN; x.len()];
-        for &(row, v) in &self.of_vertex {
-            greatest[v] = greatest[v].max(if self.tight[row] { means[row] } else { -1.0 });
-        }
-        greatest
+        (0..self.len()).map(mean).collect()
     }
 }
