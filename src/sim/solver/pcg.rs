@@ -14,13 +14,16 @@ pub struct PcgParams {
     pub max_iterations: usize,
 }
 
+/// Writes `z = P r` for `(r, z)`.
+pub type Preconditioner<'a, T> = dyn Fn(&[Quad<T>], &mut [Quad<T>]) + 'a;
+
 /// Improves `x` towards the solution of `K x = b` with a preconditioner `z = P r`, starting at the best multiple of it; says
 /// whether the tolerance was met.
 ///
 /// Every iterate descends the quadratic `x.K x / 2 - b.x`, so a run cut short still yields a descent direction.
 pub fn solve<T: RealField + Copy>(
     operator: &Rows<T>,
-    precondition: &dyn Fn(&[Quad<T>], &mut [Quad<T>]),
+    precondition: &Preconditioner<T>,
     b: &[V3],
     x: &mut [V3],
     params: &PcgParams,
@@ -37,7 +40,7 @@ pub fn solve<T: RealField + Copy>(
 
 fn improve<T: RealField + Copy>(
     operator: &Rows<T>,
-    precondition: &dyn Fn(&[Quad<T>], &mut [Quad<T>]),
+    precondition: &Preconditioner<T>,
     b: &[Quad<T>],
     x: &mut [Quad<T>],
     params: &PcgParams,
