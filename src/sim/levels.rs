@@ -1,14 +1,62 @@
 //! Coarse to fine: a drape of a coarse mesh as the start for a finer mesh of the same pieces.
 
+use nalgebra::Matrix3;
+
+use super::cloth::Cloth;
+use super::sewing::welded;
+use super::solver::pcg::PcgParams;
+use super::solver::{Operator, linear};
+use super::{Fabric, SimError};
 use crate::geom::{V2, V3};
 use crate::pattern::Garment;
 
-/// World positions for the vertices of `fine`, by evaluating the drape of `coarse` at their places in the pieces' planes.
+/// Wavelength at which rounding takes half the height of a wave, in edges of the coarser mesh.
+const ROUNDED_EDGES: f64 = 3.0;
+
+/// World positions for the vertices of `fine`, sewn: the drape of `coarse` at their places in the pieces' planes, its facets
+/// rounded.
+///
+/// Left in, the facets stay: a dimple is nearly an isometry, and stretching keeps it from popping out.
+///
+/// # Errors
+/// When a triangle of the pattern mesh has no area.
+pub fn prolong(
+    coarse: &Garment,
+    coarse_positions: &[V3],
+    fine: &Garment,
+    fabric: &Fabric,
+) -> Result<Vec<V3>, SimError> {
+    let cloth = Cloth::new(fine, fabric, welded(fine))?;
+    let mut x = cloth.weld(&evaluate(coarse, coarse_positions, fine));
+    round_off(&cloth, fabric, ROUNDED_EDGES * coarse.edge_length_m, &mut x);
+    Ok(cloth.unweld(&x))
+}
+
+/// Lets the cloth bend, and nothing else, until waves of length `wave_m` have lost half their height.
+fn round_off(cloth: &Cloth, fabric: &Fabric, wave_m: f64, x: &mut [V3]) {
+    let rigidity_nm = (fabric.bending_warp_nm * fabric.bending_weft_nm).sqrt();
+    let stiffness_n_m3 = rigidity_nm * (std::f64::consts::TAU / wave_m).powi(4);
+    let operator = Operator {
+        diagonal: cloth.areas.iter().map(|area| Matrix3::identity() * (area * stiffness_n_m3)).collect(),
+        membrane_pairs: &cloth.membrane.pairs,
+        membrane: Vec::new(),
+        bending_pairs: &cloth.bending.pairs,
+        bending: &cloth.bending.entries,
+        springs: Vec::new(),
+        contacts: Vec::new(),
+    };
+    let mut forces = vec![V3::zeros(); x.len()];
+    cloth.bending.add_forces(x, &mut forces);
+    let mut moved = vec![V3::zeros(); x.len()];
+    linear::jacobi(&operator, &forces, &mut moved, &PcgParams { tolerance: 1e-3, max_iterations: 500 });
+    x.iter_mut().zip(moved).for_each(|(p, d)| *p += d);
+}
+
+/// The drape of `coarse` at the places that the vertices of `fine` have in the pieces' planes.
 ///
 /// Vertices outside the coarse outline (a chord cuts a curve) are extrapolated from the nearest triangle. The two sides
 /// of a seam then differ by a little; welding takes their mean.
-#[must_use]
-pub fn prolong(coarse: &Garment, coarse_positions: &[V3], fine: &Garment) -> Vec<V3> {
+fn evaluate(coarse: &Garment, coarse_positions: &[V3], fine: &Garment) -> Vec<V3> {
     let mut positions = vec![V3::zeros(); fine.rest.len()];
     for (piece, source) in fine.pieces.iter().zip(&coarse.pieces) {
         let locator = Locator::new(coarse, source.triangles.clone());
@@ -97,5 +145,34 @@ impl<'a> Locator<'a> {
         let wb = (p - a).perp(&(c - a)) / area;
         let wc = (b - a).perp(&(p - a)) / area;
         [1.0 - wb - wc, wb, wc]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::laboratory::{self, Specimen, sheets::sheet};
+
+    #[test]
+    fn short_waves_are_rounded_off_and_long_ones_stay() {
+        let fabric = laboratory::isotropic(0.1, 500.0, 1e-5);
+        let rounded = 0.08;
+        let check = |wave: f64, expect: f64| {
+            let height = |p: &V2| 1e-3 * (std::f64::consts::TAU * p.y / wave).cos();
+            // A whole number of waves between free edges, where a cosine has its crests.
+            let rows = (4.0 * wave / 0.005).round() as usize;
+            let specimen = Specimen::new(sheet(6, rows, 0.005), &fabric, |p| V3::new(p.x, p.y, height(p)));
+            let Specimen { garment, cloth, mut positions, .. } = specimen.expect("a sound mesh");
+            round_off(&cloth, &fabric, rounded, &mut positions);
+            let within = |p: &V2| (p.y / wave - 2.0).abs() < 0.5;
+            let kept = |v: usize| positions[v].z * height(&garment.rest[v]);
+            let norm = |v: usize| height(&garment.rest[v]).powi(2);
+            let inner: Vec<usize> = (0..positions.len()).filter(|v| within(&garment.rest[*v])).collect();
+            let share = inner.iter().map(|v| kept(*v)).sum::<f64>() / inner.iter().map(|v| norm(*v)).sum::<f64>();
+            assert!((share - expect).abs() < 0.04, "waves of {wave} m keep {share}, expected {expect}");
+        };
+        check(rounded, 0.5);
+        check(2.0 * rounded, 1.0 / (1.0 + 0.5_f64.powi(4)));
+        check(0.5 * rounded, 1.0 / (1.0 + 2.0_f64.powi(4)));
     }
 }

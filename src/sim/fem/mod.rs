@@ -51,7 +51,7 @@ pub fn simulate(
     let around = Around { skin: skin.as_ref(), field };
     let mut last = settle(around, level, fabric, params, positions, &mut run, 0)?;
     for (index, next) in finer.iter().enumerate() {
-        positions = prolong(level, &last.positions, next);
+        positions = prolong(level, &last.positions, next, fabric)?;
         last = settle(around, next, fabric, params, positions, &mut run, index + 1)?;
         level = next;
     }
