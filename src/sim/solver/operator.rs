@@ -1,8 +1,9 @@
 //! The stiffness of a cloth as a linear operator.
 //!
 //! Membrane and bending stiffness are invariant under translation: the blocks of a row sum to zero. They are therefore
-//! kept as one block per *pair* of vertices and applied to differences, `y_i += A_ij (x_j - x_i)`. That halves memory,
-//! needs no diagonal, and a uniform translation is annihilated exactly, however the blocks were rounded.
+//! assembled as one block per *pair* of vertices and applied to differences, `y_i += A_ij (x_j - x_i)`: that needs no
+//! diagonal, and a uniform translation is annihilated exactly, however the blocks were rounded. The linear solves take the
+//! pairs as rows ([`super::rows`]).
 
 use nalgebra::Matrix3;
 

@@ -66,7 +66,7 @@ impl Default for StepParams {
 pub struct StepInfo {
     /// Rms force over mean vertex weight *before* the step.
     pub residual: f64,
-    /// Share of the full step that was taken.
+    /// Share of the full step that was taken; more than 1 where it was lengthened, 0 where no share was good.
     pub share: f64,
 }
 
