@@ -9,17 +9,40 @@ pub struct BoxGrid {
     size: [usize; 3],
     /// Where each cell's boxes begin, and one more.
     starts: Vec<u32>,
-    boxes: Vec<u32>,
+    /// By cells, so that a search reads on through memory.
+    boxes: Vec<(Bounds, u32)>,
 }
 
 /// Most cells: beyond that they grow.
 const MOST_CELLS: f64 = 1e6;
 
+/// Lowest and highest corner in single precision; never smaller than what they bound.
+#[derive(Clone, Copy, Default)]
+struct Bounds {
+    low: [f32; 3],
+    high: [f32; 3],
+}
+
+impl Bounds {
+    fn new(low: &V3, high: &V3) -> Self {
+        Self {
+            low: [low.x, low.y, low.z].map(|c| (c as f32).next_down()),
+            high: [high.x, high.y, high.z].map(|c| (c as f32).next_up()),
+        }
+    }
+
+    fn meets(&self, other: &Self) -> bool {
+        // Without branches: they could not be foretold.
+        (0..3).fold(true, |all, k| all & (self.low[k] <= other.high[k]) & (other.low[k] <= self.high[k]))
+    }
+}
+
 impl BoxGrid {
-    /// Sorts the boxes of point sets, each widened by `reach_m`, into cells of `cell_m` or more.
+    /// Sorts the boxes of point sets, each widened by `reach_m`, into cells of `cell_m` or more, for searches about boxes
+    /// that extend no farther than `half_m` from their middles.
     #[must_use]
-    pub fn new<const N: usize>(x: &[V3], sets: &[[usize; N]], reach_m: f64, cell_m: f64) -> Self {
-        let reach = V3::repeat(reach_m);
+    pub fn new<const N: usize>(x: &[V3], sets: &[[usize; N]], reach_m: f64, half_m: f64, cell_m: f64) -> Self {
+        let (reach, half) = (V3::repeat(reach_m), V3::repeat(half_m));
         let mut bounds = Vec::with_capacity(sets.len());
         let (mut lowest, mut highest) = (V3::repeat(f64::MAX), V3::repeat(f64::MIN));
         for set in sets {
@@ -28,7 +51,7 @@ impl BoxGrid {
                 (low, high) = (low.inf(&x[*v]), high.sup(&x[*v]));
             }
             (low, high) = (low - reach, high + reach);
-            (lowest, highest) = (lowest.inf(&low), highest.sup(&high));
+            (lowest, highest) = (lowest.inf(&(low - half)), highest.sup(&(high + half)));
             bounds.push((low, high));
         }
         if sets.is_empty() {
@@ -41,7 +64,8 @@ impl BoxGrid {
         let size = [count(extent.x), count(extent.y), count(extent.z)];
         let mut grid =
             Self { cell_m, low: lowest, size, starts: vec![0; size.iter().product::<usize>() + 1], boxes: Vec::new() };
-        let ranges: Vec<_> = bounds.iter().map(|(low, high)| (grid.cell(low), grid.cell(high))).collect();
+        let ranges: Vec<_> =
+            bounds.iter().map(|(low, high)| (grid.cell(&(low - half)), grid.cell(&(high + half)))).collect();
         for range in &ranges {
             grid.each(range, |grid, cell| grid.starts[cell + 1] += 1);
         }
@@ -49,27 +73,30 @@ impl BoxGrid {
             grid.starts[cell] += grid.starts[cell - 1];
         }
         let mut next = grid.starts.clone();
-        grid.boxes = vec![0; next[next.len() - 1] as usize];
-        for (index, range) in ranges.iter().enumerate() {
+        grid.boxes = vec![Default::default(); next[next.len() - 1] as usize];
+        for (index, (range, (low, high))) in ranges.iter().zip(&bounds).enumerate() {
+            let entry = (Bounds::new(low, high), index as u32);
             grid.each(range, |grid, cell| {
-                grid.boxes[next[cell] as usize] = index as u32;
+                grid.boxes[next[cell] as usize] = entry;
                 next[cell] += 1;
             });
         }
         grid
     }
 
-    /// Boxes that may hold a point, in increasing order.
-    pub fn near(&self, p: &V3) -> impl Iterator<Item = usize> + '_ {
-        let local = (p - self.low) / self.cell_m;
+    /// Sets within reach of the box of some points, in increasing order: all of them, and few others.
+    pub fn near<const N: usize>(&self, points: [&V3; N]) -> impl Iterator<Item = usize> + '_ {
+        let (low, high) = points.iter().fold((*points[0], *points[0]), |(low, high), p| (low.inf(p), high.sup(p)));
+        let local = ((low + high) / 2.0 - self.low) / self.cell_m;
         let is_inside = (0..3).all(|k| local[k] >= 0.0 && local[k] < self.size[k] as f64);
         let range = if is_inside {
-            let cell = self.number(self.cell(p));
+            let cell = self.number(self.cell(&((low + high) / 2.0)));
             self.starts[cell] as usize..self.starts[cell + 1] as usize
         } else {
             0..0
         };
-        self.boxes[range].iter().map(|index| *index as usize)
+        let wanted = Bounds::new(&low, &high);
+        self.boxes[range].iter().filter(move |(bounds, _)| bounds.meets(&wanted)).map(|(_, index)| *index as usize)
     }
 
     fn each(&mut self, (low, high): &([usize; 3], [usize; 3]), mut act: impl FnMut(&mut Self, usize)) {

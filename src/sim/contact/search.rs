@@ -62,13 +62,12 @@ impl<'a> Neighbours<'a> {
     }
 
     fn vertex_triangle_pairs(&self, x: &[V3], reach: f64) -> Vec<Primitives> {
-        let boxes = boxes(x, self.triangles);
-        let grid = BoxGrid::new(x, self.triangles, reach, (2.0 * reach).max(CELL_M));
+        let grid = BoxGrid::new(x, self.triangles, reach, 0.0, (2.0 * reach).max(CELL_M));
         let mut pairs = Vec::new();
         for v in 0..x.len() {
-            for t in grid.near(&x[v]) {
+            for t in grid.near([&x[v]]) {
                 let triangle = self.triangles[t];
-                if within_box(&boxes[t], &(x[v], x[v]), reach) && self.apart(&[v], &triangle) {
+                if self.apart(&[v], &triangle) {
                     let [a, b, c] = triangle;
                     pairs.push(Primitives::VertexTriangle([v, a, b, c]));
                 }
@@ -79,15 +78,13 @@ impl<'a> Neighbours<'a> {
 
     fn edge_edge_pairs(&self, x: &[V3], reach: f64) -> Vec<Primitives> {
         let edges = self.edges.pairs();
-        let boxes = boxes(x, edges);
         let longest = edges.iter().map(|&[a, b]| (x[a] - x[b]).norm()).fold(0.0, f64::max);
-        // Two edges within reach of each other: the middle of one is within that and half its length of the other's box.
-        let grid = BoxGrid::new(x, edges, reach + 0.5 * longest, 2.0 * reach + longest);
+        let grid = BoxGrid::new(x, edges, reach, 0.5 * longest, 2.0 * reach + longest);
         let mut pairs = Vec::new();
         for (e, &[a, b]) in edges.iter().enumerate() {
-            for f in grid.near(&((x[a] + x[b]) / 2.0)).filter(|&f| f > e) {
+            for f in grid.near([&x[a], &x[b]]).filter(|&f| f > e) {
                 let [c, d] = edges[f];
-                if within_box(&boxes[e], &boxes[f], reach) && self.apart(&[a, b], &[c, d]) {
+                if self.apart(&[a, b], &[c, d]) {
                     pairs.push(Primitives::EdgeEdge([a, b, c, d]));
                 }
             }
@@ -109,14 +106,4 @@ fn sort_each(rings: &mut [Vec<usize>]) {
         ring.sort_unstable();
         ring.dedup();
     }
-}
-
-fn boxes<const N: usize>(x: &[V3], sets: &[[usize; N]]) -> Vec<(V3, V3)> {
-    let start = (V3::repeat(f64::MAX), V3::repeat(f64::MIN));
-    let around = |set: &[usize; N]| set.iter().fold(start, |(low, high), &v| (low.inf(&x[v]), high.sup(&x[v])));
-    sets.iter().map(around).collect()
-}
-
-fn within_box(one: &(V3, V3), other: &(V3, V3), reach: f64) -> bool {
-    (0..3).all(|k| one.0[k] - reach < other.1[k] && other.0[k] - reach < one.1[k])
 }

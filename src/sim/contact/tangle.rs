@@ -27,10 +27,9 @@ pub fn crossings<'s>(
     triangles: &'s [[usize; 3]],
 ) -> impl Iterator<Item = Crossing> + 's {
     let length = edges.iter().map(|&[a, b]| (x[a] - x[b]).norm()).fold(0.0, f64::max);
-    // Every point of an edge is within half the greatest length of the edge's middle.
-    let grid = BoxGrid::new(x, triangles, 0.5 * length, length.max(1e-6));
+    let grid = BoxGrid::new(x, triangles, 0.0, 0.5 * length, length.max(1e-6));
     edges.iter().flat_map(move |&[a, b]| {
-        let near: Vec<usize> = grid.near(&((x[a] + x[b]) / 2.0)).collect();
+        let near: Vec<usize> = grid.near([&x[a], &x[b]]).collect();
         let hits = move |t: &usize| {
             let triangle = triangles[*t];
             !triangle.contains(&a) && !triangle.contains(&b) && segment_hits(x[a], x[b], triangle.map(|v| x[v]))

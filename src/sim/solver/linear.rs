@@ -4,22 +4,27 @@ use nalgebra::Matrix3;
 
 use super::factor::Factor;
 use super::operator::Operator;
+use super::patches::Patches;
 use super::pcg::{self, PcgParams};
-use super::rows::{self, Quad, Rows};
+use super::rows::{self, Block, Quad, Rows};
 use crate::geom::V3;
 
 /// How the linear systems of a cloth are solved.
-#[derive(Default)]
 pub enum LinearSolver {
-    /// Block-Jacobi: cheap, approximate, for garments.
-    #[default]
-    Jacobi,
+    /// Block-Jacobi and patches that move rigidly: approximate, for garments.
+    Patches(Option<Box<Patches>>),
     /// A Cholesky factor, renewed when it has aged: exact, for specimens whose answer is compared with mechanics.
     Factor(Option<Box<Factor>>),
 }
 
 /// Iterations with an old factor after which a new one is made: about as many solves as a factorisation costs.
 const PATIENCE: usize = 6;
+
+impl Default for LinearSolver {
+    fn default() -> Self {
+        Self::Patches(None)
+    }
+}
 
 impl LinearSolver {
     /// The solver that factorises.
@@ -28,10 +33,13 @@ impl LinearSolver {
         Self::Factor(None)
     }
 
-    /// Solves `K x = b` approximately, improving `x`.
-    pub fn solve(&mut self, operator: &Operator, b: &[V3], x: &mut [V3], params: &PcgParams) {
+    /// Solves `K x = b` approximately, improving `x`, with the cloth at `positions`.
+    pub fn solve(&mut self, operator: &Operator, positions: &[V3], b: &[V3], x: &mut [V3], params: &PcgParams) {
         match self {
-            Self::Jacobi => jacobi(operator, b, x, params),
+            Self::Patches(kept) => {
+                let patches = kept.get_or_insert_with(|| Box::new(Patches::new(operator)));
+                two_level(patches, operator, positions, b, x, params);
+            }
             Self::Factor(kept) => {
                 let aged = kept.is_some();
                 let factor = kept.get_or_insert_with(|| Box::new(Factor::new(operator)));
@@ -49,12 +57,29 @@ impl LinearSolver {
 
 /// Solves `K x = b` with block-Jacobi in single precision: a direction of descent need not be better.
 pub fn jacobi(operator: &Operator, b: &[V3], x: &mut [V3], params: &PcgParams) {
-    let inverse = |d: &Matrix3<f64>| rows::block::<f32>(&d.try_inverse().unwrap_or_else(Matrix3::zeros));
-    let inverses: Vec<_> = operator.diagonal_blocks().iter().map(inverse).collect();
+    let inverses = inverses(&operator.diagonal_blocks());
+    pcg::solve(&Rows::new(operator), &|r, z| times(&inverses, r, z), b, x, params);
+}
+
+/// The same with the rigid motions of patches added.
+fn two_level(patches: &Patches, operator: &Operator, positions: &[V3], b: &[V3], x: &mut [V3], params: &PcgParams) {
+    let diagonal = operator.diagonal_blocks();
+    let coarse = patches.factorise(operator, &diagonal, positions);
+    let inverses = inverses(&diagonal);
     let precondition = |r: &[Quad<f32>], z: &mut [Quad<f32>]| {
-        for ((z, r), d) in z.iter_mut().zip(r).zip(&inverses) {
-            *z = rows::add_times([0.0; 4], d, r);
-        }
+        times(&inverses, r, z);
+        coarse.add(r, z);
     };
     pcg::solve(&Rows::new(operator), &precondition, b, x, params);
+}
+
+fn inverses(diagonal: &[Matrix3<f64>]) -> Vec<Block<f32>> {
+    diagonal.iter().map(|d| rows::block(&d.try_inverse().unwrap_or_else(Matrix3::zeros))).collect()
+}
+
+/// `z = D r` for blocks on a diagonal.
+fn times(blocks: &[Block<f32>], r: &[Quad<f32>], z: &mut [Quad<f32>]) {
+    for ((z, r), block) in z.iter_mut().zip(r).zip(blocks) {
+        *z = rows::add_times([0.0; 4], block, r);
+    }
 }

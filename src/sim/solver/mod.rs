@@ -3,6 +3,7 @@
 pub mod factor;
 pub mod linear;
 pub mod operator;
+pub mod patches;
 pub mod pcg;
 pub mod proximal;
 pub mod rows;

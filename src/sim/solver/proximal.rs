@@ -52,7 +52,7 @@ impl Default for StepParams {
             h_max_s: 2.0,
             growth: 2.0,
             clamp_m: 0.01,
-            linear_tolerance: 0.005,
+            linear_tolerance: 0.06,
             linear_iterations: 1000,
             correction_h_s: 0.03,
             correction_tolerance: 0.1,
@@ -110,7 +110,7 @@ impl Stepper {
         let linear =
             PcgParams { tolerance: self.params.linear_tolerance, max_iterations: self.params.linear_iterations };
         let mut direction = self.last.take().unwrap_or_else(|| vec![V3::zeros(); x.len()]);
-        system.linear.solve(&operator, &forces, &mut direction, &linear);
+        system.linear.solve(&operator, x, &forces, &mut direction, &linear);
         self.clamp(&mut direction);
         operator.diagonal = contacts;
         let bend = self.correction(system, operator, x, &direction);

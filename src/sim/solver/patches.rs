@@ -1,0 +1,233 @@
+//! A coarse space for the linear solves: the cloth in patches that move as rigid bodies.
+//!
+//! What block-Jacobi is slow at are motions of many vertices together: a sleeve that swings, a fold that travels. Cloth
+//! resists those hardly at all where each patch of it moves rigidly, so rigid motions of patches, six degrees of freedom each,
+//! span them well (smoothed aggregation's near null space [Vanek 1996]), without smoothing: what remains at the borders of
+//! patches is local, and block-Jacobi's. The stiffness between patches is small enough to be factorised each step.
+
+use faer::linalg::solvers::Solve;
+use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
+use faer::{MatMut, Par, Side};
+use nalgebra::{Matrix3, Matrix6, Vector6};
+
+use super::operator::Operator;
+use super::rows::Quad;
+use crate::geom::V3;
+
+/// Least distance, in edges, between the middles of patches.
+const APART: usize = 4;
+/// What is added to the stiffness of a patch against rotation, as a share of that against translation times its radius
+/// squared: the vertices of a patch may lie on a line.
+const REGULARISATION: f64 = 1e-6;
+
+/// The patches of a cloth and how they couple.
+pub struct Patches {
+    /// Patch of each vertex.
+    of: Vec<usize>,
+    count: usize,
+    /// Pairs of patches, the smaller first, a patch with itself too.
+    pairs: Vec<[usize; 2]>,
+    /// Pair of patches of each membrane pair, bending pair and spring.
+    slots: [Vec<usize>; 3],
+    /// Lower triangle by columns, six rows and columns a patch.
+    pattern: SymbolicSparseColMat<usize>,
+    symbolic: SymbolicLlt<usize>,
+}
+
+impl Patches {
+    /// Divides a cloth into patches.
+    #[must_use]
+    pub fn new(operator: &Operator) -> Self {
+        // Other threads run other simulations: this one stays on its own. Also, sums then do not depend on their number.
+        faer::set_global_parallelism(Par::Seq);
+        let springs: Vec<[usize; 2]> = operator.springs.iter().map(|s| s.0).collect();
+        let lists = [operator.membrane_pairs.pairs(), operator.bending_pairs.pairs(), &springs];
+        let (of, count) = divide(operator.diagonal.len(), lists[0]);
+        let coupled = |&[i, j]: &[usize; 2]| [of[i].min(of[j]), of[i].max(of[j])];
+        let mut pairs: Vec<[usize; 2]> = (0..count).map(|a| [a, a]).collect();
+        pairs.extend(lists.iter().flat_map(|list| list.iter().map(coupled)));
+        pairs.sort_unstable();
+        pairs.dedup();
+        let slot = |pair: &[usize; 2]| pairs.binary_search(&coupled(pair)).expect("the pair was just collected");
+        let slots = lists.map(|list| list.iter().map(slot).collect());
+        let (mut columns, mut rows) = (vec![0], Vec::new());
+        for column in pairs.chunk_by(|p, q| p[0] == q[0]) {
+            for c in 0..6 {
+                rows.extend(column.iter().flat_map(|&[a, b]| (if a == b { c } else { 0 }..6).map(move |r| 6 * b + r)));
+                columns.push(rows.len());
+            }
+        }
+        let pattern = SymbolicSparseColMat::new_checked(6 * count, 6 * count, columns, None, rows);
+        let symbolic = SymbolicLlt::try_new(pattern.as_ref(), Side::Lower).expect("a checked pattern has a factor");
+        Self { of, count, pairs, slots, pattern, symbolic }
+    }
+
+    /// The stiffness between the patches, factorised, with the cloth at `x`; `diagonal` are the diagonal blocks of the operator.
+    #[must_use]
+    pub fn factorise<'a>(&'a self, operator: &Operator, diagonal: &[Matrix3<f64>], x: &[V3]) -> Coarse<'a> {
+        let arms = self.arms(x);
+        let mut blocks = vec![Matrix6::zeros(); self.pairs.len()];
+        let mut add = |slot: usize, i: usize, j: usize, m: &Matrix3<f64>| {
+            let swapped = self.of[i] > self.of[j];
+            let block =
+                if swapped { between(&arms[j], &m.transpose(), &arms[i]) } else { between(&arms[i], m, &arms[j]) };
+            blocks[slot] += block;
+            if self.of[i] == self.of[j] {
+                blocks[slot] += block.transpose();
+            }
+        };
+        let [membrane, bending, springs] = &self.slots;
+        for ((&[i, j], &slot), m) in operator.membrane_pairs.pairs().iter().zip(membrane).zip(&operator.membrane) {
+            add(slot, i, j, m);
+        }
+        for ((&[i, j], &slot), q) in operator.bending_pairs.pairs().iter().zip(bending).zip(operator.bending) {
+            add(slot, i, j, &Matrix3::from_diagonal_element(*q));
+        }
+        for ((&[i, j], k), &slot) in operator.springs.iter().map(|(p, k)| (p, k)).zip(springs) {
+            add(slot, i, j, &Matrix3::from_diagonal_element(-k));
+        }
+        let own: Vec<usize> = (0..self.count).map(|a| self.pairs.partition_point(|p| *p < [a, a])).collect();
+        for ((a, arm), block) in self.of.iter().zip(&arms).zip(diagonal) {
+            blocks[own[*a]] += between(arm, block, arm);
+        }
+        self.add_contacts(operator, &arms, &mut blocks);
+        for &slot in &own {
+            regularise(&mut blocks[slot]);
+        }
+        let values = self.values(&blocks);
+        let matrix = SparseColMatRef::new(self.pattern.as_ref(), &values);
+        let factor = Llt::try_new_with_symbolic(self.symbolic.clone(), matrix, Side::Lower).ok();
+        Coarse { patches: self, arms, factor }
+    }
+
+    /// From the middle of its patch to each vertex.
+    fn arms(&self, x: &[V3]) -> Vec<V3> {
+        let mut sums = vec![(V3::zeros(), 0.0); self.count];
+        for (a, p) in self.of.iter().zip(x) {
+            sums[*a].0 += p;
+            sums[*a].1 += 1.0;
+        }
+        self.of.iter().zip(x).map(|(a, p)| p - sums[*a].0 / sums[*a].1).collect()
+    }
+
+    /// Couplings of contacts between patches that are coupled anyhow; the diagonal blocks have the rest.
+    fn add_contacts(&self, operator: &Operator, arms: &[V3], blocks: &mut [Matrix6<f64>]) {
+        for contact in &operator.contacts {
+            let wrench = |k: usize| {
+                let (v, w) = (contact.vertices[k], contact.normal * contact.weights[k]);
+                let turn = arms[v].cross(&w);
+                Vector6::new(w.x, w.y, w.z, turn.x, turn.y, turn.z)
+            };
+            for k in 0..4 {
+                for l in (0..4).filter(|l| *l != k) {
+                    let [a, b] = [k, l].map(|k| self.of[contact.vertices[k]]);
+                    if let Ok(slot) = self.pairs.binary_search(&[a, b]) {
+                        blocks[slot] += wrench(k) * wrench(l).transpose() * contact.stiffness;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Values of the lower triangle by columns.
+    fn values(&self, blocks: &[Matrix6<f64>]) -> Vec<f64> {
+        let mut values = Vec::with_capacity(self.pattern.row_idx().len());
+        let mut from = 0;
+        for column in self.pairs.chunk_by(|p, q| p[0] == q[0]) {
+            let blocks = &blocks[from..from + column.len()];
+            from += column.len();
+            for c in 0..6 {
+                for (pair, block) in column.iter().zip(blocks) {
+                    let first = if pair[0] == pair[1] { c } else { 0 };
+                    // The block is that of the smaller patch's row: below the diagonal stands its transpose.
+                    values.extend((first..6).map(|r| block[(c, r)]));
+                }
+            }
+        }
+        values
+    }
+}
+
+/// A factorised stiffness between patches.
+pub struct Coarse<'a> {
+    patches: &'a Patches,
+    arms: Vec<V3>,
+    factor: Option<Llt<usize, f64>>,
+}
+
+impl Coarse<'_> {
+    /// Adds to `z` the rigid motions of the patches that the forces `r` cause.
+    pub fn add(&self, r: &[Quad<f32>], z: &mut [Quad<f32>]) {
+        let Some(factor) = &self.factor else { return };
+        let mut flat = vec![0.0; 6 * self.patches.count];
+        for ((a, arm), r) in self.patches.of.iter().zip(&self.arms).zip(r) {
+            let force = V3::new(f64::from(r[0]), f64::from(r[1]), f64::from(r[2]));
+            let turn = arm.cross(&force);
+            for k in 0..3 {
+                flat[6 * a + k] += force[k];
+                flat[6 * a + 3 + k] += turn[k];
+            }
+        }
+        let rows = flat.len();
+        factor.solve_in_place(MatMut::from_column_major_slice_mut(&mut flat, rows, 1));
+        for ((a, arm), z) in self.patches.of.iter().zip(&self.arms).zip(z) {
+            let motion = &flat[6 * a..6 * a + 6];
+            let moved = V3::new(motion[3], motion[4], motion[5]).cross(arm);
+            for k in 0..3 {
+                z[k] += (motion[k] + moved[k]) as f32;
+            }
+        }
+    }
+}
+
+/// `P^T m Q` for the rigid motions `P = [I, -[p]x]`, `Q = [I, -[q]x]` of two vertices at arms `p` and `q`.
+fn between(p: &V3, m: &Matrix3<f64>, q: &V3) -> Matrix6<f64> {
+    let [p, q] = [p.cross_matrix(), q.cross_matrix()];
+    let (pm, mq) = (p * m, m * q);
+    let mut block = Matrix6::zeros();
+    block.fixed_view_mut::<3, 3>(0, 0).copy_from(m);
+    block.fixed_view_mut::<3, 3>(0, 3).copy_from(&-mq);
+    block.fixed_view_mut::<3, 3>(3, 0).copy_from(&pm);
+    block.fixed_view_mut::<3, 3>(3, 3).copy_from(&(-p * mq));
+    block
+}
+
+fn regularise(block: &mut Matrix6<f64>) {
+    let [translation, rotation] = [0, 3].map(|from| (from..from + 3).map(|k| block[(k, k)]).sum::<f64>());
+    for k in 0..3 {
+        block[(k, k)] += REGULARISATION * translation;
+        block[(k + 3, k + 3)] += REGULARISATION * rotation + f64::MIN_POSITIVE;
+    }
+}
+
+/// Patch of each vertex and their number: each vertex goes to the nearest of middles that are at least [`APART`] edges
+/// apart.
+fn divide(vertices: usize, edges: &[[usize; 2]]) -> (Vec<usize>, usize) {
+    let mut neighbours = vec![Vec::new(); vertices];
+    for &[i, j] in edges {
+        neighbours[i].push(j);
+        neighbours[j].push(i);
+    }
+    let mut distance = vec![usize::MAX; vertices];
+    let mut of = vec![0; vertices];
+    let mut count = 0;
+    let mut queue = std::collections::VecDeque::new();
+    for seed in 0..vertices {
+        if distance[seed] < APART {
+            continue;
+        }
+        (distance[seed], of[seed]) = (0, count);
+        queue.push_back(seed);
+        while let Some(v) = queue.pop_front() {
+            for &w in &neighbours[v] {
+                if distance[v] + 1 < distance[w] {
+                    (distance[w], of[w]) = (distance[v] + 1, count);
+                    queue.push_back(w);
+                }
+            }
+        }
+        count += 1;
+    }
+    (of, count)
+}
