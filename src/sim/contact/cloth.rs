@@ -166,14 +166,16 @@ impl<'a> ClothContact<'a> {
     }
 
     fn seek(&mut self, x: &[V3]) {
-        self.pairs.sort_unstable_by_key(|pair| pair.primitives);
+        // All others have stayed apart: they lie on the side where they are.
+        let mut known: Vec<Pair> = self.near(x).map(|(_, pair)| *pair).collect();
+        known.sort_unstable_by_key(|pair| pair.primitives);
         let mut found = Vec::new();
         for primitives in self.neighbours.within(x, self.reach_m) {
             let nearest = Nearest::of(x, primitives);
             let distance_m = nearest.gap.norm();
             let Some(away) = nearest.gap.try_normalize(0.0).filter(|_| distance_m < self.reach_m) else { continue };
-            match self.pairs.binary_search_by_key(&primitives, |p| p.primitives) {
-                Ok(known) => found.push(Pair { distance_m, ..self.pairs[known] }),
+            match known.binary_search_by_key(&primitives, |p| p.primitives) {
+                Ok(index) => found.push(Pair { distance_m, ..known[index] }),
                 Err(_) => found.push(Pair {
                     primitives,
                     distance_m,
@@ -183,7 +185,7 @@ impl<'a> ClothContact<'a> {
                 }),
             }
         }
-        found.sort_by(|a, b| a.distance_m.total_cmp(&b.distance_m).then(a.primitives.cmp(&b.primitives)));
+        found.sort_unstable_by(|a, b| a.distance_m.total_cmp(&b.distance_m).then(a.primitives.cmp(&b.primitives)));
         self.pairs = found;
         self.found_at = x.to_vec();
     }

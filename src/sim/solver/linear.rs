@@ -1,4 +1,4 @@
-//! The linear solves of a step: conjugate gradients with one of two preconditioners.
+//! The linear solves of a step: conjugate gradients with one of three preconditioners.
 
 use nalgebra::Matrix3;
 

@@ -231,3 +231,94 @@ fn divide(vertices: usize, edges: &[[usize; 2]]) -> (Vec<usize>, usize) {
     }
     (of, count)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::{DistanceField, shapes};
+    use crate::sim::cloth::Cloth;
+    use crate::sim::contact::{BodyContact, ContactParams};
+    use crate::sim::laboratory::{self, sheets::sheet};
+    use crate::sim::sewing::unsewn;
+    use crate::sim::solver::{System, linear, pcg::PcgParams, rows};
+    use crate::sim::testing::fabric;
+
+    #[test]
+    fn every_vertex_is_in_a_patch_near_its_middle() {
+        let edges: Vec<[usize; 2]> = (0..99).map(|v| [v, v + 1]).collect();
+        let (of, count) = divide(100, &edges);
+        let sizes: Vec<usize> = (0..count).map(|a| of.iter().filter(|b| **b == a).count()).collect();
+        assert!(sizes.iter().all(|n| (2..=APART + 1).contains(n)), "{sizes:?}");
+        // Cloth in two pieces, and a vertex of no edge.
+        assert_eq!(divide(4, &[[0, 1]]), (vec![0, 0, 1, 2], 3));
+    }
+
+    #[test]
+    fn the_stiffness_between_patches_is_that_of_their_rigid_motions() {
+        let garment = laboratory::garment(sheet(12, 9, 0.02));
+        let cloth = Cloth::new(&garment, &fabric(), unsewn(&garment)).expect("sound");
+        let x: Vec<V3> = garment.rest.iter().map(|p| V3::new(p.x, p.y, 0.3 * p.x * p.x)).collect();
+        let field = DistanceField::build(&shapes::sphere(0.06, 24), 0.006).expect("a closed sphere");
+        let mut system = System::new(&cloth, BodyContact::new(&field, ContactParams::default(), &cloth.areas), None);
+        let (_, mut operator) = system.assemble(&x, None);
+        for (v, block) in operator.diagonal.iter_mut().enumerate() {
+            *block += Matrix3::identity() * (1.0 + v as f64);
+        }
+        let patches = Patches::new(&operator);
+        let coarse = patches.factorise(&operator, &operator.diagonal_blocks(), &x);
+        // Rigid motions q give forces K P q; of these, the patches must find q again.
+        let q = |a: usize, k: usize| (1.0 + (7 * a + 3 * k) as f64).sin() * if k < 3 { 1.0 } else { 20.0 };
+        let moved: Vec<Quad<f64>> = patches
+            .of
+            .iter()
+            .zip(&coarse.arms)
+            .map(|(&a, arm)| {
+                let [t, w] = [0, 3].map(|from| V3::new(q(a, from), q(a, from + 1), q(a, from + 2)));
+                rows::quad(&(t + w.cross(arm)))
+            })
+            .collect();
+        let mut forces = vec![[0.0; 4]; x.len()];
+        rows::Rows::<f64>::new(&operator).apply(&moved, &mut forces);
+        let forces: Vec<Quad<f32>> = forces.iter().map(|f| f.map(|c| c as f32)).collect();
+        let mut found = vec![[0.0; 4]; x.len()];
+        coarse.add(&forces, &mut found);
+        for (found, moved) in found.iter().zip(&moved) {
+            for k in 0..3 {
+                assert!((f64::from(found[k]) - moved[k]).abs() < 0.01, "{found:?} for {moved:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn both_solvers_find_the_same_and_patches_sooner() {
+        let garment = laboratory::garment(sheet(30, 30, 0.02));
+        let cloth = Cloth::new(&garment, &fabric(), unsewn(&garment)).expect("sound");
+        let x: Vec<V3> = garment.rest.iter().map(|p| V3::new(p.x, p.y, 0.5 + 0.3 * p.x * p.x)).collect();
+        let field = DistanceField::build(&shapes::sphere(0.06, 24), 0.006).expect("a closed sphere");
+        let mut system = System::new(&cloth, BodyContact::new(&field, ContactParams::default(), &cloth.areas), None);
+        let (forces, mut operator) = system.assemble(&x, None);
+        for (block, mass) in operator.diagonal.iter_mut().zip(&cloth.masses) {
+            *block += Matrix3::identity() * (mass / 0.01);
+        }
+        let within = |most: usize, system: &mut System, is_coarse: bool| {
+            let params = PcgParams { tolerance: 1e-4, max_iterations: most };
+            let mut found = vec![V3::zeros(); x.len()];
+            if is_coarse {
+                system.linear.solve(&operator, &x, &forces, &mut found, &params);
+            } else {
+                linear::jacobi(&operator, &forces, &mut found, &params);
+            }
+            found
+        };
+        let exact = within(5000, &mut system, false);
+        let far = |found: Vec<V3>| {
+            let [error, size] = [0.0, 1.0].map(|share: f64| {
+                found.iter().zip(&exact).map(|(p, q)| (p * (1.0 - share) - q).norm_squared()).sum::<f64>().sqrt()
+            });
+            error / size
+        };
+        let (few, jacobi) = (far(within(40, &mut system, true)), far(within(40, &mut system, false)));
+        assert!(far(within(5000, &mut system, true)) < 0.01, "the patches end elsewhere");
+        assert!(few < 0.1 * jacobi, "after 40 iterations {few} with patches, {jacobi} without");
+    }
+}
