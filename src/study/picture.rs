@@ -69,6 +69,8 @@ impl Stage {
 /// A stored result: the body and the garment on it.
 pub(super) struct Dressed {
     simulator: Simulator,
+    /// How far the garment shown has come.
+    stage: sim::Stage,
     garment: Garment,
     fabric: Orthotropic,
     looks: Looks,
@@ -76,23 +78,35 @@ pub(super) struct Dressed {
     levels: BTreeMap<&'static str, f64>,
     pub body: TriMesh,
     pub cloth: TriMesh,
-    /// Hybrid-GS: the garment as the pop-up left it.
-    popup: Option<TriMesh>,
+    /// The garment as earlier stages left it, where the simulator tells them apart.
+    earlier: Vec<sim::Staged>,
 }
 
 impl Dressed {
     /// The lit scene of the pop-up, where there is one.
     pub fn popup_scene(&self) -> Option<Result<Scene>> {
-        let cloth = self.popup.as_ref()?;
-        let layers = vec![Layer::new(&self.body, Material::form()), Layer::new(cloth, Material::popup())];
+        let popup = self.earlier.iter().find(|staged| staged.stage == sim::Stage::Popup)?;
+        let cloth = TriMesh { positions: popup.positions.clone(), triangles: self.cloth.triangles.clone() };
+        let layers = vec![Layer::new(&self.body, Material::form()), Layer::new(&cloth, Material::popup())];
         Some(Scene::new(layers).map_err(StudyError::stage("render")))
     }
 
-    /// The cloth in its simulator's colour.
+    /// The same with the garment as a stage left it; `None` where the simulator keeps no such stage.
+    fn at(mut self, stage: sim::Stage) -> Option<Self> {
+        if stage != self.stage {
+            let place = self.earlier.iter().position(|staged| staged.stage == stage)?;
+            self.cloth.positions = self.earlier.swap_remove(place).positions;
+            self.stage = stage;
+        }
+        Some(self)
+    }
+
+    /// The cloth in its simulator's colour, yellow before the drape.
     fn material(&self) -> Material {
-        match self.simulator {
-            Simulator::Fem => Material::fem(),
-            Simulator::Hybrid => Material::hybrid(),
+        match (self.stage, self.simulator) {
+            (sim::Stage::Sewn | sim::Stage::Popup, _) => Material::popup(),
+            (sim::Stage::Drape, Simulator::Fem) => Material::fem(),
+            (sim::Stage::Drape, Simulator::Hybrid) => Material::hybrid(),
         }
     }
 
@@ -264,14 +278,13 @@ impl Workspace {
             .pop()
             .filter(fits)
             .ok_or_else(|| StudyError::stage("store")(format!("the mesh of job {id} does not fit its drape")))?;
-        let mesh = |positions| TriMesh { positions, triangles: garment.triangles.clone() };
-        let popup = drape.earlier.into_iter().find(|staged| staged.stage == sim::Stage::Popup);
-        let (cloth, popup) = (mesh(drape.positions), popup.map(|staged| mesh(staged.positions)));
+        let cloth = TriMesh { positions: drape.positions, triangles: garment.triangles.clone() };
         let (fabric, looks) = (self.membrane_of(id)?, self.looks_of(id)?);
         let at = &model.body.levels;
         let levels = [("chest", at.chest_m), ("underbust", at.underbust_m), ("waist", at.waist_m), ("hip", at.hip_m)];
         let levels = BTreeMap::from(levels);
-        Ok(Dressed { simulator: job.simulator, garment, fabric, looks, levels, body: model.body.mesh, cloth, popup })
+        let (simulator, stage, earlier, body) = (job.simulator, drape.stage, drape.earlier, model.body.mesh);
+        Ok(Dressed { simulator, stage, garment, fabric, looks, levels, body, cloth, earlier })
     }
 
     /// The membrane law of a job's fabric.
@@ -323,3 +336,7 @@ impl Workspace {
         cache::stored(&self.reader, &used.ok_or_else(missing)?.hash)
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+mod tests;
