@@ -71,7 +71,9 @@ fn map(argument: MapArgument) -> Map {
         MapArgument::Check => Map::Check,
         MapArgument::Stretch => Map::Stretch,
         MapArgument::Tension => Map::Tension,
+        MapArgument::Pressure => Map::Pressure,
         MapArgument::Gap => Map::Gap,
+        MapArgument::Chi => Map::Chi,
     }
 }
 

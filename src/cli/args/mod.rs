@@ -397,8 +397,12 @@ pub enum Map {
     Stretch,
     /// Tension in the cloth.
     Tension,
+    /// Pressure of the cloth on the body (FEM-GS).
+    Pressure,
     /// Gap between cloth and body.
     Gap,
+    /// chi of each measurement, where it is measured.
+    Chi,
 }
 
 /// Arguments of `render`.

@@ -44,12 +44,10 @@ fn dressed(simulator: Simulator) -> Dressed {
             hybrid::simulate(&body, &field, &garment, &fabric, &hybrid::Params::default(), &mut Silent)
         }
     };
-    let looks =
-        Looks { name: fabric.name.clone(), density_kg_m2: 0.1, thickness_m: fabric.thickness_m, is_knit: false };
     let drape = drape.unwrap();
     let cloth = TriMesh { positions: drape.positions, triangles: garment.triangles.clone() };
-    let (fabric, levels, body) = (Orthotropic::of(&fabric), BTreeMap::new(), body.mesh);
-    Dressed { simulator, stage: drape.stage, garment, fabric, looks, levels, body, cloth, earlier: drape.earlier }
+    let (levels, body) = (BTreeMap::new(), body.mesh);
+    Dressed { simulator, stage: drape.stage, garment, fabric, levels, body, cloth, earlier: drape.earlier }
 }
 
 /// A stretch of cloth along a line of the check, from where one square ends to where the next one does.
@@ -71,7 +69,7 @@ type Key = (usize, i64, i64);
 
 /// The sides along weft (`along` 0) or warp (1) on the lines whose other coordinate is a whole number of squares and `off`.
 fn sides(worn: &Dressed, along: usize, off: f64) -> BTreeMap<Key, Side> {
-    let print = cloth::print(&[Cloth::CHECK], &worn.garment, &worn.looks, worn.material().front).unwrap();
+    let print = cloth::print(&[Cloth::CHECK], &worn.garment, &worn.fabric, worn.material().front).unwrap();
     let mut sides: BTreeMap<Key, Side> = BTreeMap::new();
     for (number, piece) in worn.garment.pieces.iter().enumerate() {
         for triangle in &worn.garment.triangles[piece.triangles.clone()] {
