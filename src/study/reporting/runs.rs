@@ -22,7 +22,7 @@ pub(super) const SHEETS: &str = "pictures/try-on-";
 /// Room around the garments, as a share of the least frame: shoulders, neck and hips belong to a fit.
 const ROOM: f64 = 1.12;
 /// Runs whose pictures the page holds at full size within its 3 MB; of more runs they are smaller, the files beside not.
-const FULL_SIZE: usize = 7;
+const FULL_SIZE: usize = 6;
 /// Pictures are not made smaller than this share of their full size, where they would show nothing: a page of 108 runs is
 /// then about 8 MB, which can still be mailed.
 const LEAST_SHRINK: f64 = 0.42;
