@@ -150,12 +150,12 @@ mod tests {
         assert!((mean(&MICE) - 86.86).abs() < 0.005);
         // 23.36 with endlessly many draws.
         assert!((sd(&means) - 23.36).abs() < 0.4, "{}", sd(&means));
-        // Table 13.1: of 1000 draws 2.5 % lie below 45.9 and above 135.4.
+        // Table 13.1: of 1000 draws 2.5 % lie below 45.9 and above 135.4; such a percentile has a standard error of 2 days.
         let mut sorted = means;
         sorted.sort_by(f64::total_cmp);
         for (share, table) in [(0.025, 45.9), (0.975, 135.4)] {
             let found = quantile(&sorted, share);
-            assert!((found / table - 1.0).abs() < 0.03, "{share}: {found}, {table}");
+            assert!((found - table).abs() < 4.0, "{share}: {found}, {table}");
         }
         let t = 2.447 * sd(&MICE) / 7f64.sqrt();
         let (low, high) = interval(&MICE, 0.05).expect("seven mice");
