@@ -109,6 +109,12 @@ impl Dressed {
         }
     }
 
+    /// The cloth under a map: its wrong side, which has no values, in grey.
+    fn material_under(&self, map: Map) -> Material {
+        let own = self.material();
+        if map.scale().is_some() { Material { back: Rgb(0x6c, 0x70, 0x76), ..own } } else { own }
+    }
+
     /// A map's value at each vertex of the cloth, in the unit of its scale; none where it has none.
     fn values(&self, map: Map) -> Result<Vec<f64>> {
         let positions = &self.cloth.positions;
@@ -140,14 +146,16 @@ impl Dressed {
     /// The lit scene of a map; on a plain one the garment cut from these cloths, on a body of this skin.
     fn scene_in(&self, map: Map, cloths: &[Cloth], skin: Option<Rgb>) -> Result<Scene> {
         let (form, paint) = self.look(map, cloths, skin)?;
-        let layers = vec![Layer::new(&self.body, form), Layer::new(&self.cloth, self.material()).painted(paint)];
+        let layers =
+            vec![Layer::new(&self.body, form), Layer::new(&self.cloth, self.material_under(map)).painted(paint)];
         Scene::new(layers).map_err(StudyError::stage("render"))
     }
 
     /// Shows another map in a scene of this result, which need not be lit again.
     pub fn repaint(&self, scene: &mut Scene, map: Map) -> Result<()> {
         let (form, paint) = self.look(map, &[], None)?;
-        let painted = scene.paint(BODY, form, Paint::Plain).and_then(|()| scene.paint(CLOTH, self.material(), paint));
+        let painted = scene.paint(BODY, form, Paint::Plain);
+        let painted = painted.and_then(|()| scene.paint(CLOTH, self.material_under(map), paint));
         painted.map_err(StudyError::stage("render"))
     }
 

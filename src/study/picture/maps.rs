@@ -32,8 +32,8 @@ pub enum Map {
 const STRETCH_REACH: f64 = 8.0;
 /// Tension at the end of its colour scale, N/m: a strip 1 cm wide that carries 100 g.
 const TENSION_REACH: f64 = 100.0;
-/// Pressure at the end of its colour scale, kPa: a light hand on the skin; tights press 2 to 4.
-const PRESSURE_REACH_KPA: f64 = 1.0;
+/// Pressure at the end of its colour scale, kPa: where clothes begin to be felt as tight; compression stockings press 2 to 4.
+const PRESSURE_REACH_KPA: f64 = 2.0;
 /// chi at the ends of its colour scale, to both sides of 1, as in the report's tables.
 const CHI_REACH: f64 = 0.15;
 /// Standard gravity, m/s2.
