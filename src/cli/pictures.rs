@@ -3,10 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
-use super::args::{Export, Map as MapArgument, MeshFormat as FormatArgument, Render, Report, View as ViewArgument};
+use super::args::{
+    Export, Map as MapArgument, MeshFormat as FormatArgument, Render, Report, Stage as StageArgument,
+    View as ViewArgument,
+};
 use super::context::{Context, project_folder};
 use super::{CliError, End, Outcome, output};
-use crate::study::{Cloth, JobId, Map, MeshFormat, Order, Rgb, Shot, Study, View, Workspace, Zoom, tools};
+use crate::study::{Cloth, JobId, Map, MeshFormat, Order, Rgb, Shot, Stage, Study, View, Workspace, Zoom, tools};
 
 /// `toile render`.
 pub fn render(context: &Context, arguments: &Render) -> Outcome {
@@ -21,8 +24,14 @@ pub fn render(context: &Context, arguments: &Render) -> Outcome {
         Some(degrees) => vec![Shot::Turned(degrees)],
         None => arguments.view.iter().map(shot).collect(),
     };
+    let stage = |stage: &StageArgument| match stage {
+        StageArgument::Sewn => Stage::Sewn,
+        StageArgument::Popup => Stage::Popup,
+        StageArgument::Drape => Stage::Drape,
+    };
     let order = Order {
         shots,
+        stages: arguments.stage.iter().map(stage).collect(),
         map: map(arguments.map),
         cloths: arguments.cloth.iter().map(|text| Cloth::parse(text)).collect::<Result<_, _>>()?,
         skin: arguments.skin.as_deref().map(colour).transpose()?,
@@ -62,7 +71,9 @@ fn map(argument: MapArgument) -> Map {
         MapArgument::Check => Map::Check,
         MapArgument::Stretch => Map::Stretch,
         MapArgument::Tension => Map::Tension,
+        MapArgument::Pressure => Map::Pressure,
         MapArgument::Gap => Map::Gap,
+        MapArgument::Chi => Map::Chi,
     }
 }
 

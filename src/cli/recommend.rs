@@ -93,7 +93,8 @@ fn explained(workspace: &Workspace, study: &str, answers: &[&Answer]) -> Result<
         }
         line(&mut text, "settles it", &answer.would_settle);
     }
-    for (garment, analysis, p_holm) in &workspace.evidence(study)?.garments {
+    let is_asked = |garment: &str| answers.iter().any(|answer| answer.garment == garment);
+    for (garment, analysis, p_holm) in workspace.evidence(study)?.garments.iter().filter(|(name, ..)| is_asked(name)) {
         let _ = write!(text, "\n{garment}, all fits\n");
         analysed(&mut text, analysis, *p_holm);
         line(&mut text, "crossover", &workspace.crossover_words(study, Some(garment))?);

@@ -65,7 +65,8 @@ mod tests {
 
     #[test]
     fn equivalence_is_that_of_the_replication() {
-        // Lakens 2017: 5.25 (SD 0.95, 95 people) and 5.22 (0.83, 89), bounds of 0.384: t(182.69) = -2.69, p = 0.004.
+        // The example of Lakens's package TOSTER (TOSTtwo.raw): 5.25 (SD 0.95, 95 people) and 5.22 (0.83, 89), bounds of
+        // 0.384: "t(182) = -2.69, p = 0.004".
         let error = (0.95f64.powi(2) / 95.0 + 0.83f64.powi(2) / 89.0).sqrt();
         let t = (0.03 - 0.384) / error;
         assert!((t + 2.69).abs() < 0.01, "{t}");

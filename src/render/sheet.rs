@@ -95,12 +95,11 @@ pub fn draw_legend(picture: &mut RgbaImage, scale: &Scale) -> Result<(), RenderE
         "<rect x=\"{left}\" y=\"{top}\" width=\"{bar_width}\" height=\"{bar_height}\" fill=\"none\" stroke=\"{INK}\" stroke-width=\"{:.1}\"/>",
         text / 16.0
     );
-    let decimals = if scale.high - scale.low >= 10.0 {
-        0
-    } else if scale.high - scale.low >= 1.0 {
-        1
-    } else {
-        2
+    let decimals = match scale.high - scale.low {
+        range if range >= 10.0 => 0,
+        range if range >= 1.0 => 1,
+        range if range >= 0.4 => 2,
+        _ => 3,
     };
     for tick in 0..5 {
         let t = f64::from(tick) / 4.0;

@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 use image::RgbaImage;
 
 use super::cache;
+use super::catalogue::read_fabric;
 use super::error::{Result, StudyError};
 use super::inputs::StageKind;
 use super::pipeline::{Meshes, Model};
@@ -24,10 +25,9 @@ use crate::pattern::Garment;
 use crate::pattern::garment::Role;
 use crate::render::export::{MeshFormat, Part};
 use crate::render::{self, Camera, Frame, Layer, Material, Paint, Rgb, Scene, Values, View};
-use crate::sim::cloth::membrane::{Fibre, Orthotropic};
-use crate::sim::{self, Drape};
+use crate::sim::cloth::membrane::Orthotropic;
+use crate::sim::{self, Drape, Fabric};
 use crate::units::mm;
-use cloth::Looks;
 
 /// How far from a level of the body cloth still counts as at it, m.
 const NEAR_M: f64 = 0.02;
@@ -69,31 +69,50 @@ impl Stage {
 /// A stored result: the body and the garment on it.
 pub(super) struct Dressed {
     simulator: Simulator,
+    /// How far the garment shown has come.
+    stage: sim::Stage,
     garment: Garment,
-    fabric: Orthotropic,
-    looks: Looks,
+    fabric: Fabric,
     /// Heights of the body's levels, m.
     levels: BTreeMap<&'static str, f64>,
     pub body: TriMesh,
     pub cloth: TriMesh,
-    /// Hybrid-GS: the garment as the pop-up left it.
-    popup: Option<TriMesh>,
+    /// The garment as earlier stages left it, where the simulator tells them apart.
+    earlier: Vec<sim::Staged>,
 }
 
 impl Dressed {
     /// The lit scene of the pop-up, where there is one.
     pub fn popup_scene(&self) -> Option<Result<Scene>> {
-        let cloth = self.popup.as_ref()?;
-        let layers = vec![Layer::new(&self.body, Material::form()), Layer::new(cloth, Material::popup())];
+        let popup = self.earlier.iter().find(|staged| staged.stage == sim::Stage::Popup)?;
+        let cloth = TriMesh { positions: popup.positions.clone(), triangles: self.cloth.triangles.clone() };
+        let layers = vec![Layer::new(&self.body, Material::form()), Layer::new(&cloth, Material::popup())];
         Some(Scene::new(layers).map_err(StudyError::stage("render")))
     }
 
-    /// The cloth in its simulator's colour.
-    fn material(&self) -> Material {
-        match self.simulator {
-            Simulator::Fem => Material::fem(),
-            Simulator::Hybrid => Material::hybrid(),
+    /// The same with the garment as a stage left it; `None` where the simulator keeps no such stage.
+    fn at(mut self, stage: sim::Stage) -> Option<Self> {
+        if stage != self.stage {
+            let place = self.earlier.iter().position(|staged| staged.stage == stage)?;
+            self.cloth.positions = self.earlier.swap_remove(place).positions;
+            self.stage = stage;
         }
+        Some(self)
+    }
+
+    /// The cloth in its simulator's colour, yellow before the drape.
+    fn material(&self) -> Material {
+        match (self.stage, self.simulator) {
+            (sim::Stage::Sewn | sim::Stage::Popup, _) => Material::popup(),
+            (sim::Stage::Drape, Simulator::Fem) => Material::fem(),
+            (sim::Stage::Drape, Simulator::Hybrid) => Material::hybrid(),
+        }
+    }
+
+    /// The cloth under a map: its wrong side, which has no values, in grey.
+    fn material_under(&self, map: Map) -> Material {
+        let own = self.material();
+        if map.scale().is_some() { Material { back: Rgb(0x6c, 0x70, 0x76), ..own } } else { own }
     }
 
     /// A map's value at each vertex of the cloth, in the unit of its scale; none where it has none.
@@ -102,7 +121,15 @@ impl Dressed {
         Ok(match map {
             Map::Plain | Map::Check => vec![],
             Map::Stretch => maps::stretches(&self.garment, positions),
-            Map::Tension => maps::tensions(&self.garment, &self.fabric, positions),
+            Map::Tension => maps::tensions(&self.garment, &Orthotropic::of(&self.fabric), positions),
+            Map::Chi => maps::chis(&self.garment, positions),
+            // Only FEM-GS brings cloth and body into balance.
+            Map::Pressure if (self.simulator, self.stage) != (Simulator::Fem, sim::Stage::Drape) => {
+                vec![f64::NAN; positions.len()]
+            }
+            Map::Pressure => {
+                maps::pressures(&self.garment, &self.fabric, positions).map_err(StudyError::stage("render"))?
+            }
             Map::Gap => {
                 // The field that contact asks ends a few centimetres off the body; a gap may be wider.
                 let surface = Surface::new(&self.body).map_err(StudyError::stage("render"))?;
@@ -119,14 +146,16 @@ impl Dressed {
     /// The lit scene of a map; on a plain one the garment cut from these cloths, on a body of this skin.
     fn scene_in(&self, map: Map, cloths: &[Cloth], skin: Option<Rgb>) -> Result<Scene> {
         let (form, paint) = self.look(map, cloths, skin)?;
-        let layers = vec![Layer::new(&self.body, form), Layer::new(&self.cloth, self.material()).painted(paint)];
+        let layers =
+            vec![Layer::new(&self.body, form), Layer::new(&self.cloth, self.material_under(map)).painted(paint)];
         Scene::new(layers).map_err(StudyError::stage("render"))
     }
 
     /// Shows another map in a scene of this result, which need not be lit again.
     pub fn repaint(&self, scene: &mut Scene, map: Map) -> Result<()> {
         let (form, paint) = self.look(map, &[], None)?;
-        let painted = scene.paint(BODY, form, Paint::Plain).and_then(|()| scene.paint(CLOTH, self.material(), paint));
+        let painted = scene.paint(BODY, form, Paint::Plain);
+        let painted = painted.and_then(|()| scene.paint(CLOTH, self.material_under(map), paint));
         painted.map_err(StudyError::stage("render"))
     }
 
@@ -135,7 +164,7 @@ impl Dressed {
         let values = self.values(map)?;
         let bare = skin.map_or_else(Material::form, Material::skin);
         let cut = |cloths: &[Cloth]| {
-            cloth::print(cloths, &self.garment, &self.looks, self.material().front).map(Paint::Printed)
+            cloth::print(cloths, &self.garment, &self.fabric, self.material().front).map(Paint::Printed)
         };
         Ok(match map.scale() {
             None if map == Map::Check => (bare, cut(&[Cloth::CHECK])?),
@@ -264,54 +293,20 @@ impl Workspace {
             .pop()
             .filter(fits)
             .ok_or_else(|| StudyError::stage("store")(format!("the mesh of job {id} does not fit its drape")))?;
-        let mesh = |positions| TriMesh { positions, triangles: garment.triangles.clone() };
-        let popup = drape.earlier.into_iter().find(|staged| staged.stage == sim::Stage::Popup);
-        let (cloth, popup) = (mesh(drape.positions), popup.map(|staged| mesh(staged.positions)));
-        let (fabric, looks) = (self.membrane_of(id)?, self.looks_of(id)?);
+        let cloth = TriMesh { positions: drape.positions, triangles: garment.triangles.clone() };
+        let fabric = self.fabric_of(id)?;
         let at = &model.body.levels;
         let levels = [("chest", at.chest_m), ("underbust", at.underbust_m), ("waist", at.waist_m), ("hip", at.hip_m)];
         let levels = BTreeMap::from(levels);
-        Ok(Dressed { simulator: job.simulator, garment, fabric, looks, levels, body: model.body.mesh, cloth, popup })
+        let (simulator, stage, earlier, body) = (job.simulator, drape.stage, drape.earlier, model.body.mesh);
+        Ok(Dressed { simulator, stage, garment, fabric, levels, body, cloth, earlier })
     }
 
-    /// The membrane law of a job's fabric.
-    fn membrane_of(&self, id: JobId) -> Result<Orthotropic> {
-        let table = self.query(&format!(
-            "SELECT membrane_weft_n_m, membrane_coupling_n_m, membrane_warp_n_m, shear_n_m,
-                stretch_pct / 100, stretched_warp_n_m, stretched_weft_n_m
-            FROM fabric JOIN job USING (fabric_id) WHERE job_id = {id}"
-        ))?;
-        let optional = |column: usize| match table.rows.first().and_then(|row| row.get(column)) {
-            Some(Value::Real(number)) => Some(*number),
-            _ => None,
-        };
-        let missing = || StudyError::NotFound { what: "fabric of job", name: id.to_string(), known: vec![] };
-        let number = |column: usize| optional(column).ok_or_else(missing);
-        let law = |rest: f64, stretched: Option<f64>| match (stretched, optional(4)) {
-            (Some(stretched), Some(stretch)) => Fibre::stiffening(rest, stretched, stretch),
-            _ => Fibre::linear(rest),
-        };
-        Ok(Orthotropic {
-            weft: law(number(0)?, optional(6)),
-            c12: number(1)?,
-            warp: law(number(2)?, optional(5)),
-            shear: number(3)?,
-        })
-    }
-
-    /// What a job's fabric looks like.
-    fn looks_of(&self, id: JobId) -> Result<Looks> {
-        let table = self.query(&format!(
-            "SELECT name, density_kg_m2, thickness_mm / 1000, stretch_pct IS NOT NULL
-            FROM fabric JOIN job USING (fabric_id) WHERE job_id = {id}"
-        ))?;
-        match table.rows.first().map(Vec::as_slice) {
-            Some(
-                [Value::Text(name), Value::Real(density_kg_m2), Value::Real(thickness_m), Value::Integer(stretches)],
-            ) => {
-                let (density_kg_m2, thickness_m) = (*density_kg_m2, *thickness_m);
-                Ok(Looks { name: name.clone(), density_kg_m2, thickness_m, is_knit: *stretches != 0 })
-            }
+    /// The fabric a job was simulated in.
+    fn fabric_of(&self, id: JobId) -> Result<Fabric> {
+        let table = self.query(&format!("SELECT fabric_id FROM job WHERE job_id = {id}"))?;
+        match table.rows.first().and_then(|row| row.first()) {
+            Some(Value::Integer(fabric)) => read_fabric(&self.reader, *fabric),
             _ => Err(StudyError::NotFound { what: "fabric of job", name: id.to_string(), known: vec![] }),
         }
     }
@@ -323,3 +318,7 @@ impl Workspace {
         cache::stored(&self.reader, &used.ok_or_else(missing)?.hash)
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+mod tests;

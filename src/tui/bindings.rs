@@ -236,7 +236,7 @@ pub const BINDINGS: &[Binding] = &[
         &[ch('m')],
         &[Results, Compare],
         "map",
-        "Colour it: plain, check, stretch, tension, gap",
+        "Colour it: plain, check, stretch, tension, ...",
     ),
     bind(
         Action::OtherSimulator,

@@ -43,7 +43,7 @@ fn all_are_compared(tables: &[Table], fabrics: &[String]) {
     for table in tables.iter().filter(is_of_view) {
         for (row, cells) in table.rows.iter().enumerate() {
             for (column, cell) in cells.iter().enumerate().skip(1) {
-                let is_number = cell.trim_start_matches('+').parse::<f64>().is_ok();
+                let is_number = cell.trim_start_matches('+').parse::<f64>().is_ok() || seconds(cell).is_some();
                 let is_compared = table.compared.borrow().contains(&(row, column));
                 assert!(!is_number || is_compared, "{}, {}: {cell} is compared with nothing", table.caption, cells[0]);
             }
@@ -92,6 +92,26 @@ fn table<'a>(tables: &'a [Table], caption: &str) -> &'a Table {
     table.unwrap_or_else(|| panic!("no table {caption}"))
 }
 
+/// The value of a tile at the head of a page.
+#[track_caller]
+fn tile(page: &str, name: &str) -> String {
+    let tiles = between(page, "<ul class=\"tiles\">", "</ul>").next().expect("tiles");
+    let value =
+        between(tiles, "<li><b>", "</li>").find_map(|tile| tile.strip_suffix(&format!("</b><span>{name}</span>")));
+    value.unwrap_or_else(|| panic!("no tile {name} in {tiles}")).to_owned()
+}
+
+/// What each chart of a page says it shows, and the texts in the colour of what is to be read; axes are muted.
+fn charts(page: &str) -> Vec<(String, Vec<String>)> {
+    let chart = |svg: &str| {
+        let label = between(svg, "aria-label=\"", "\"").next().expect("a label").to_owned();
+        let texts = svg.split("<text ").skip(1).filter_map(|text| text.split_once('>'));
+        let read = texts.filter(|(style, _)| style.contains("var(--ink)")).map(|(_, text)| plain(text));
+        (label, read.collect())
+    };
+    between(page, "<svg class=\"chart\"", "</svg>").map(chart).collect()
+}
+
 fn name(simulator: &str) -> &'static str {
     if simulator == "fem" { "FEM-GS" } else { "Hybrid-GS" }
 }
@@ -112,6 +132,26 @@ fn are_shown(table: &Table, row: usize, numbers: &[(usize, &str, usize)]) {
         let agrees = if value.is_empty() { ["–", ""].contains(&shown) } else { is_shown(shown, value, *decimals) };
         assert!(agrees, "{place}, column {column}: the page shows {shown:?}, the view has {value:?}");
     }
+}
+
+/// A time as the page writes it, s, and half of its last digit.
+fn seconds(shown: &str) -> Option<(f64, f64)> {
+    let (number, unit) = shown.split_once(' ')?;
+    let (second, digit) = match unit {
+        "ms" => (1e-3, 1.0),
+        "s" => (1.0, 0.1),
+        "min" => (60.0, 0.1),
+        _ => return None,
+    };
+    Some((number.parse::<f64>().ok()? * second, 0.5 * digit * second))
+}
+
+/// Checks a time against the view's, ms.
+#[track_caller]
+fn is_time(shown: &str, ms: &str) {
+    let ms: f64 = ms.parse().expect("a time");
+    let agrees = seconds(shown).is_some_and(|(shown, half)| (shown - ms / 1e3).abs() <= half * (1.0 + 1e-6));
+    assert!(agrees, "the page shows {shown}, the view has {ms} ms");
 }
 
 /// Whether a name is that of a run: its subject, the fabric where there are several, the simulator where there are two.
@@ -204,7 +244,54 @@ impl Lengths<'_> {
         }
     }
 
-    fn all(&self, place: &Place, tables: &[Table], both: bool) -> usize {
+    /// The tiles at the head of the page that come from lengths, and the sentence above them.
+    fn head(&self, place: &Place, page: &str) {
+        let mean = "SELECT simulator, avg(ei) FROM (SELECT simulator, avg(abs(chi - 1)) AS ei FROM l
+            GROUP BY garment, size, subject, simulator) GROUP BY 1";
+        for cell in self.rows(place, mean) {
+            let shown = tile(page, &format!("mean EI, {}", name(&cell[0])));
+            assert!(is_shown(&shown, &cell[1], 3), "{shown}, {cell:?}");
+            assert!(page.contains(&format!("(mean EI {shown})")), "{shown}");
+        }
+        let range = tile(page, "range of chi");
+        let ends: Vec<&str> = range.split('–').collect();
+        let [least, most] = ends.as_slice() else { panic!("{range}") };
+        let cell = &self.rows(place, "SELECT min(chi), max(chi) FROM l")[0];
+        assert!(is_shown(least, &cell[0], 3) && is_shown(most, &cell[1], 3), "{range}, {cell:?}");
+        let cell = &self.rows(place, "SELECT no, chi FROM l ORDER BY abs(chi - 1) DESC LIMIT 1")[0];
+        let said = between(page, "The greatest departure is #", ", on subject").next().expect("a sentence");
+        let (no, chi) = (said.split(' ').next(), said.rsplit(' ').next());
+        assert!(no == Some(&cell[0]) && is_shown(chi.unwrap_or_default(), &cell[1], 3), "{said}, {cell:?}");
+    }
+
+    /// The number at each bar of E, SD and EI.
+    fn bars(&self, place: &Place, page: &str) {
+        let query =
+            "SELECT garment, size, subject, simulator, avg(chi), coalesce(stddev(chi), 0), avg(abs(chi - 1)) FROM l
+            GROUP BY 1, 2, 3, 4 ORDER BY 1, 2, 3, 4";
+        let charts = charts(page);
+        let mut bars = 0;
+        let answers = self.rows(place, query);
+        for cell in &answers {
+            for (metric, value) in [("E", 4), ("SD", 5), ("EI", 6)] {
+                let label = format!("{}, size {}: {metric} of ", cell[0], cell[1]);
+                let (_, texts) = charts.iter().find(|(of, _)| of.starts_with(&label)).expect("a chart");
+                let at = texts.iter().position(|text| is_run(text, &cell[2], "", false)).expect("a subject");
+                let numbers = texts[at + 1..].iter().take_while(|text| text.parse::<f64>().is_ok());
+                let found = numbers.clone().filter(|shown| is_shown(shown, &cell[value], 3)).count();
+                assert!(found > 0, "{label}{cell:?}: {:?}", numbers.collect::<Vec<_>>());
+                bars += 1;
+            }
+        }
+        let is_metric = |(label, _): &&(String, Vec<String>)| label.contains(" runs as bars");
+        let numbers = charts.iter().filter(is_metric).flat_map(|(_, texts)| texts);
+        let all = numbers.filter(|text| text.parse::<f64>().is_ok()).count();
+        assert_eq!(all, bars, "every bar of a chart is compared");
+    }
+
+    fn all(&self, place: &Place, page: &str, tables: &[Table], both: bool) -> usize {
+        self.head(place, page);
+        self.bars(place, page);
         self.over_subjects(place, tables);
         self.truth(place, tables, both);
         self.cases(place, tables, both)
@@ -218,10 +305,11 @@ pub fn numbers_are_those_of_the_views(place: &Place, page: &str) {
         "SELECT garment, size, subject, simulator, measurement_no, l2d_mm, l3d_mm, chi, is_free_edge, is_controlled
         FROM v_chi WHERE stage = 'drape'",
     );
-    assert_ne!(lengths.all(place, &tables, false), 0);
+    assert_ne!(lengths.all(place, page, &tables, false), 0);
+    tiles_are(place, page);
 
     let metrics = "SELECT garment, size, subject, n, e_chi, sd_chi, ei, max_abs_error, residual * 100,
-        penetration_max_mm, seam_gap_max_mm, iterations, vertices, faces FROM v_metrics";
+        penetration_max_mm, seam_gap_max_mm, iterations, vertices, faces, wall_ms FROM v_metrics";
     for answer in place.sql(metrics) {
         let cell: Vec<&str> = answer.split(',').collect();
         let title = format!("{}, size {}", cell[0], cell[1]);
@@ -239,6 +327,7 @@ pub fn numbers_are_those_of_the_views(place: &Place, page: &str) {
             course.row(cell[2]),
             &columns.map(|(at, of, decimals): (usize, usize, usize)| (at, cell[of], decimals)),
         );
+        is_time(course.cell(course.row(cell[2]), 8), cell[14]);
     }
 
     for answer in place.sql("SELECT garment, size, subject, ease_mm FROM v_ease WHERE decides") {
@@ -250,6 +339,59 @@ pub fn numbers_are_those_of_the_views(place: &Place, page: &str) {
     let columns = "garment, fit_class, verdict, recommended, coalesce(effect, ''), coalesce(ci_low, ''), coalesce(ci_high, ''), n_subjects";
     cards_are(page, &place.sql(&format!("SELECT {columns} FROM v_recommendation")));
     all_are_compared(&tables, &place.sql("SELECT DISTINCT name FROM fabric"));
+}
+
+/// The tiles that come from how the runs went.
+fn tiles_are(place: &Place, page: &str) {
+    let [runs] = &place.sql("SELECT count(*) FILTER (WHERE status = 'done') || ' / ' || count(*) FROM v_jobs")[..]
+    else {
+        panic!("one row")
+    };
+    assert_eq!(tile(page, "runs converged"), *runs);
+    is_time(&tile(page, "mean time of a run"), &place.sql("SELECT avg(wall_ms) FROM v_metrics")[0]);
+    for answer in place.sql("SELECT simulator, max(penetration_max_mm) FROM v_metrics GROUP BY 1") {
+        let (simulator, deepest) = answer.split_once(',').expect("two columns");
+        let shown = tile(page, &format!("deepest in the body, {}", name(simulator)));
+        assert!(is_shown(shown.trim_end_matches(" mm"), deepest, 1), "{shown}, {answer}");
+    }
+}
+
+/// The rows of the charts of differences: each answer and garment as in the table of the pairs, and each garment without one
+/// measurement after another, from the lengths by themselves. How many numbers there were.
+fn differences_are(place: &Place, page: &str, tables: &[Table], lengths: &Lengths<'_>) -> usize {
+    let pairs = table(tables, "Paired analysis");
+    let charts = charts(page);
+    let texts = |label: &str| -> &[String] {
+        &charts.iter().find(|(of, _)| of.starts_with(label)).unwrap_or_else(|| panic!("no chart {label}")).1
+    };
+    let (all, mut compared) = (texts("thesis-published: EI difference of"), 0);
+    for (row, cells) in pairs.rows.iter().enumerate() {
+        let (effect, subjects) = (pairs.cell(row, 4), pairs.cell(row, 2));
+        if effect != "–" {
+            let head = format!("{}, ", cells[0]);
+            let tail = format!("({subjects})");
+            let shown =
+                all.chunks(2).find(|pair| pair[0].starts_with(&head) && pair[0].ends_with(&tail) && pair[1] == effect);
+            assert!(shown.is_some(), "{cells:?} is not in {all:?}");
+            compared += 1;
+        }
+    }
+    assert_eq!(all.len(), 2 * compared, "{all:?}");
+    let query = "SELECT garment, left_out, name, avg(d) FROM (
+            SELECT garment, subject, left_out, avg(d) AS d FROM (
+                SELECT l.garment, size, subject, left_out, avg(abs(chi - 1)) FILTER (WHERE simulator = 'fem')
+                    - avg(abs(chi - 1)) FILTER (WHERE simulator = 'hybrid') AS d
+                FROM l JOIN (SELECT DISTINCT garment AS of, no AS left_out FROM l) ON of = l.garment AND no <> left_out
+                GROUP BY 1, 2, 3, 4) GROUP BY 1, 2, 3)
+        JOIN (SELECT DISTINCT garment AS g, measurement_no AS n, measurement AS name FROM v_published) ON g = garment AND n = left_out
+        GROUP BY 1, 2";
+    for cell in lengths.rows(place, query) {
+        let rows = texts(&format!("{}: EI difference of without", cell[0]));
+        let row = rows.chunks(2).find(|pair| pair[0].starts_with(&format!("without #{} ", cell[1]))).expect("a row");
+        assert!(is_shown(row[1].trim_start_matches('+'), &cell[3], 4), "{cell:?}: {row:?}");
+        compared += 1;
+    }
+    compared
 }
 
 /// The paired analysis, for answers as `toile recommend --json` has them, which begin the table in their order.
@@ -318,7 +460,11 @@ fn the_report_on_the_printed_tables_has_all_their_numbers_and_marks_the_wrong_on
             l3d_mm, chi, measurement GLOB 'Hem*' OR measurement GLOB 'Neck Opening*' OR measurement GLOB 'Sleeve Opening*',
             measurement GLOB 'Hem*' FROM v_published",
     );
-    assert_eq!(lengths.all(&place, &tables, true), 888);
+    assert_eq!(lengths.all(&place, &page, &tables, true), 888);
+    let drapes =
+        &place.sql("SELECT count(*) FROM (SELECT DISTINCT garment, size, subject, simulator FROM v_published)")[0];
+    assert_eq!(tile(&page, "drapes, as printed"), *drapes);
+    assert!(differences_are(&place, &page, &tables, &lengths) > 30);
     assert_eq!(page.matches("✗ printed").count(), 48, "every misprinted ratio is marked");
     for told in ["25 of 43 loose or tight cases", "without #6 Neck Opening", "hem less chest"] {
         assert!(page.contains(told), "{told}");

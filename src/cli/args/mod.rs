@@ -375,6 +375,17 @@ pub enum View {
     CloseUp,
 }
 
+/// How far the garment of a picture has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Stage {
+    /// Hybrid-GS: seams closed.
+    Sewn,
+    /// Hybrid-GS: popped up to the size of its pattern.
+    Popup,
+    /// At rest on the body.
+    Drape,
+}
+
 /// What colours the cloth of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Map {
@@ -386,8 +397,12 @@ pub enum Map {
     Stretch,
     /// Tension in the cloth.
     Tension,
+    /// Pressure of the cloth on the body (FEM-GS).
+    Pressure,
     /// Gap between cloth and body.
     Gap,
+    /// chi of each measurement, where it is measured.
+    Chi,
 }
 
 /// Arguments of `render`.
@@ -399,6 +414,9 @@ pub struct Render {
     /// Side; several come on one sheet (front,side,back,quarter).
     #[arg(long, value_enum, value_delimiter = ',', default_values_t = [View::Front])]
     pub view: Vec<View>,
+    /// How far the garment has come; several come on one sheet (popup,drape for before and after).
+    #[arg(long, value_enum, value_delimiter = ',', default_values_t = [Stage::Drape], conflicts_with = "turntable")]
+    pub stage: Vec<Stage>,
     /// Turned by this angle from the front towards the subject's right, degrees.
     #[arg(long, value_name = "DEG", conflicts_with = "view", allow_negative_numbers = true)]
     pub turn: Option<f64>,

@@ -7,6 +7,7 @@ use image::{Rgba, RgbaImage};
 use super::super::error::{Result, StudyError};
 use crate::pattern::Garment;
 use crate::render::{self, Mapping, Print, Rgb, Texture, Weave};
+use crate::sim::Fabric;
 use crate::units::from_mm;
 
 /// One repeat of the check: squares of 20 mm, m.
@@ -79,7 +80,7 @@ impl Cloth {
     }
 
     /// The picture of one repeat, and how it lies on the pieces.
-    fn texture(&self, fabric: &Looks, own: Rgb) -> Result<(Texture, Mapping)> {
+    fn texture(&self, fabric: &Fabric, own: Rgb) -> Result<(Texture, Mapping)> {
         let colour = self.colour.unwrap_or(own);
         let woven = |weave: Weave| {
             let weft = if weave == Weave::Twill { UNDYED } else { colour };
@@ -88,7 +89,7 @@ impl Cloth {
             (Texture::new(&weave.picture(colour, weft)), Mapping::Fabric { repeat_m })
         };
         Ok(match &self.kind {
-            Kind::Own => woven(fabric.weave()),
+            Kind::Own => woven(weave(fabric)),
             Kind::Weave(weave) => woven(*weave),
             Kind::Check => {
                 let repeat_m = [self.repeat_mm.map_or(CHECK_M, from_mm); 2];
@@ -108,34 +109,23 @@ impl Cloth {
     }
 }
 
-/// What a fabric's numbers say of its looks.
-pub(in crate::study) struct Looks {
-    pub name: String,
-    pub density_kg_m2: f64,
-    pub thickness_m: f64,
-    /// Whether it stiffens as it stretches.
-    pub is_knit: bool,
-}
-
-impl Looks {
-    /// Told from the words of its name, and from whether it stretches like a knit.
-    fn weave(&self) -> Weave {
-        let name = self.name.to_lowercase();
-        let has = |wanted: &[&str]| name.split(|c: char| !c.is_alphanumeric()).any(|word| wanted.contains(&word));
-        if has(&["rib", "ribbing"]) {
-            Weave::Rib
-        } else if has(&["denim", "twill", "drill", "gabardine", "chino"]) {
-            Weave::Twill
-        } else if self.is_knit || has(&["jersey", "knit", "interlock"]) {
-            Weave::Jersey
-        } else {
-            Weave::Plain
-        }
+/// What a fabric is woven or knitted like, told from the words of its name and from whether it stretches like a knit.
+fn weave(fabric: &Fabric) -> Weave {
+    let name = fabric.name.to_lowercase();
+    let has = |wanted: &[&str]| name.split(|c: char| !c.is_alphanumeric()).any(|word| wanted.contains(&word));
+    if has(&["rib", "ribbing"]) {
+        Weave::Rib
+    } else if has(&["denim", "twill", "drill", "gabardine", "chino"]) {
+        Weave::Twill
+    } else if fabric.stretched.is_some() || has(&["jersey", "knit", "interlock"]) {
+        Weave::Jersey
+    } else {
+        Weave::Plain
     }
 }
 
 /// The cloths on a garment; a piece that none of them names keeps its simulator's colour.
-pub(super) fn print(cloths: &[Cloth], garment: &Garment, fabric: &Looks, own: Rgb) -> Result<Print> {
+pub(super) fn print(cloths: &[Cloth], garment: &Garment, fabric: &Fabric, own: Rgb) -> Result<Print> {
     let bare = RgbaImage::from_pixel(1, 1, Rgba([own.0, own.1, own.2, 255]));
     let mut drawn = vec![(Texture::new(&bare), Mapping::Piece)];
     for cloth in cloths {
@@ -163,6 +153,7 @@ pub(super) fn print(cloths: &[Cloth], garment: &Garment, fabric: &Looks, own: Rg
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sim::fabric;
 
     #[test]
     fn cloths_are_read_as_written() {
@@ -189,9 +180,11 @@ mod tests {
 
     #[test]
     fn a_fabric_is_woven_as_its_name_and_its_stretch_say() {
-        let check = |name: &str, is_knit: bool, weave: Weave| {
-            let looks = Looks { name: name.into(), density_kg_m2: 0.2, thickness_m: 4e-4, is_knit };
-            assert_eq!(looks.weave(), weave, "{name}");
+        let stretched = fabric::library().iter().find_map(|known| known.stretched);
+        let check = |name: &str, is_knit: bool, expect: Weave| {
+            let like = fabric::library()[0].clone();
+            let fabric = Fabric { name: name.into(), stretched: stretched.filter(|_| is_knit), ..like };
+            assert_eq!(weave(&fabric), expect, "{name}");
         };
         check("cotton_shirting_light", false, Weave::Plain);
         check("denim_rigid", false, Weave::Twill);

@@ -1,11 +1,13 @@
-//! What colours the cloth: stretch, tension and gap, each on one fixed scale so that all pictures compare.
+//! What colours the cloth: stretch, tension, pressure, gap and chi, each on one fixed scale so that all pictures compare.
 
 use nalgebra::Matrix2;
 
-use crate::geom::V3;
+use crate::geom::{TriMesh, V3};
 use crate::pattern::Garment;
 use crate::render::Scale;
+use crate::sim::cloth::Cloth;
 use crate::sim::cloth::membrane::{Element, Orthotropic};
+use crate::sim::{Fabric, SimError, sewing};
 
 /// What colours the cloth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,20 +20,31 @@ pub enum Map {
     Stretch,
     /// Tension: the greatest principal membrane force, N/m.
     Tension,
+    /// Pressure of the cloth on the body, kPa; of FEM-GS, which alone brings the two into balance.
+    Pressure,
     /// Gap between cloth and body, mm.
     Gap,
+    /// chi of each measurement, along where it is measured.
+    Chi,
 }
 
 /// Stretch at the ends of its colour scale, %.
 const STRETCH_REACH: f64 = 8.0;
 /// Tension at the end of its colour scale, N/m: a strip 1 cm wide that carries 100 g.
 const TENSION_REACH: f64 = 100.0;
+/// Pressure at the end of its colour scale, kPa: where clothes begin to be felt as tight; compression stockings press 2 to 4.
+const PRESSURE_REACH_KPA: f64 = 2.0;
+/// chi at the ends of its colour scale, to both sides of 1, as in the report's tables.
+const CHI_REACH: f64 = 0.15;
+/// Standard gravity, m/s2.
+const GRAVITY: f64 = 9.806_65;
 /// Gap at the ends of its colour scale, mm; below 0 the cloth lies within the body.
 const GAP_REACH_MM: f64 = 100.0;
 
 impl Map {
     /// All maps.
-    pub const ALL: [Self; 5] = [Self::Plain, Self::Check, Self::Stretch, Self::Tension, Self::Gap];
+    pub const ALL: [Self; 7] =
+        [Self::Plain, Self::Check, Self::Stretch, Self::Tension, Self::Pressure, Self::Gap, Self::Chi];
 
     /// Name on screens and in the command line.
     #[must_use]
@@ -41,7 +54,9 @@ impl Map {
             Self::Check => "check",
             Self::Stretch => "stretch",
             Self::Tension => "tension",
+            Self::Pressure => "pressure",
             Self::Gap => "gap",
+            Self::Chi => "chi",
         }
     }
 
@@ -52,7 +67,9 @@ impl Map {
             Self::Plain | Self::Check => None,
             Self::Stretch => Some(Scale::diverging(0.0, STRETCH_REACH, "stretch", "%")),
             Self::Tension => Some(Scale::rising(TENSION_REACH, "tension", "N/m")),
+            Self::Pressure => Some(Scale::rising(PRESSURE_REACH_KPA, "pressure", "kPa")),
             Self::Gap => Some(Scale::diverging(0.0, GAP_REACH_MM, "gap", "mm")),
+            Self::Chi => Some(Scale::diverging(1.0, CHI_REACH, "chi", "")),
         }
     }
 }
@@ -75,6 +92,52 @@ pub(super) fn tensions(garment: &Garment, material: &Orthotropic, positions: &[V
         let area_ratio = c.determinant().max(0.0).sqrt().max(1e-6);
         (greater_eigenvalue(&(stress * c)) / area_ratio).max(0.0)
     })
+}
+
+/// Pressure at each vertex, kPa, never below 0: what a drape at rest needs besides its own forces and its weight to stay where
+/// it is, along its normal and over its area. On the body that is what the body holds it up with; elsewhere it is near 0.
+///
+/// # Errors
+/// When a triangle of the pattern mesh has no area.
+pub(super) fn pressures(garment: &Garment, fabric: &Fabric, positions: &[V3]) -> Result<Vec<f64>, SimError> {
+    let cloth = Cloth::new(garment, fabric, sewing::welded(garment))?;
+    let x = cloth.weld(positions);
+    let mut forces: Vec<V3> = cloth.masses.iter().map(|mass| V3::new(0.0, 0.0, -mass * GRAVITY)).collect();
+    cloth.membrane.add_forces(&x, &mut forces);
+    cloth.bending.add_forces(&x, &mut forces);
+    cloth.bands.add_forces(&x, &mut forces);
+    let sewn = TriMesh { positions: x, triangles: cloth.triangles.clone() };
+    let normals = sewn.vertex_normals();
+    let pressing: Vec<f64> = forces.iter().zip(&normals).map(|(force, normal)| -force.dot(normal)).collect();
+    let mut areas = vec![0.0; sewn.positions.len()];
+    for triangle in &sewn.triangles {
+        let [a, b, c] = triangle.map(|v| sewn.positions[v]);
+        triangle.iter().for_each(|v| areas[*v] += (b - a).cross(&(c - a)).norm() / 6.0);
+    }
+    // Contacts hold single vertices: forces and areas are summed over the triangles round each.
+    let mut sums = vec![(0.0, 0.0); sewn.positions.len()];
+    for triangle in &sewn.triangles {
+        let force: f64 = triangle.iter().map(|v| pressing[*v]).sum();
+        let area: f64 = triangle.iter().map(|v| areas[*v]).sum();
+        for vertex in triangle {
+            sums[*vertex].0 += force;
+            sums[*vertex].1 += area;
+        }
+    }
+    let pressure = |(force, area): (f64, f64)| if area > 0.0 { (1e-3 * force / area).max(0.0) } else { 0.0 };
+    Ok(cloth.vertex_of.iter().map(|v| pressure(sums[*v])).collect())
+}
+
+/// chi of the measurements at the vertices of the triangles they run through; no number elsewhere.
+pub(super) fn chis(garment: &Garment, positions: &[V3]) -> Vec<f64> {
+    let mut chis = vec![f64::NAN; positions.len()];
+    for measurement in &garment.measurements {
+        let chi = measurement.length_m(&garment.rest, positions) / measurement.l2d_m;
+        for point in measurement.runs.iter().flat_map(|run| &run.points) {
+            point.vertices.iter().for_each(|v| chis[*v] = chi);
+        }
+    }
+    chis
 }
 
 /// The greater of the two real eigenvalues, from trace and determinant.
@@ -105,7 +168,8 @@ fn at_vertices(garment: &Garment, value: impl Fn(&Element) -> f64) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::geom::V2;
-    use crate::pattern::garment::{PieceMesh, Role};
+    use crate::pattern::SeamMesh;
+    use crate::pattern::garment::{MaterialPoint, Measurement, MeasurementKind, PieceMesh, Role, Run};
     use crate::sim::cloth::membrane::Fibre;
 
     /// A square metre of cloth, its grain along `y`.
@@ -161,5 +225,72 @@ mod tests {
         check(&|p| V3::new(p.x, 1.02 * p.y, 0.0), force(4000.0));
         check(&|p| V3::new(0.95 * p.x, 0.9 * p.y, 0.0), 0.0);
         check(&|p| V3::new(p.y, 0.0, p.x), 0.0);
+    }
+
+    /// A tube of cloth round a cylinder, its grain up, its ends sewn together.
+    fn tube(radius: f64, around: usize, rows: usize, edge: f64) -> Garment {
+        let at = |row: usize, column: usize| row * (around + 1) + column;
+        let mut tube = square();
+        tube.rest = (0..rows * (around + 1))
+            .map(|k| {
+                V2::new(
+                    (k % (around + 1)) as f64 * std::f64::consts::TAU * radius / around as f64,
+                    (k / (around + 1)) as f64 * edge,
+                )
+            })
+            .collect();
+        tube.triangles = (0..rows - 1)
+            .flat_map(|row| (0..around).map(move |column| (row, column)))
+            .flat_map(|(row, column)| {
+                let corners = [at(row, column), at(row, column + 1), at(row + 1, column + 1), at(row + 1, column)];
+                [[corners[0], corners[1], corners[2]], [corners[0], corners[2], corners[3]]]
+            })
+            .collect();
+        tube.pieces[0].vertices = 0..tube.rest.len();
+        tube.pieces[0].triangles = 0..tube.triangles.len();
+        tube.seams =
+            vec![SeamMesh { pairs: (0..rows).map(|row| [at(row, 0), at(row, around)]).collect(), name: "back".into() }];
+        tube
+    }
+
+    /// Hoop tension over radius [Laplace's law]: what a stretched tube presses with.
+    #[test]
+    fn a_stretched_tube_presses_with_its_tension_over_its_radius() {
+        const RADIUS: f64 = 0.15;
+        const STRETCH: f64 = 1.03;
+        let tube = tube(RADIUS, 60, 12, 0.016);
+        let worn = |p: &V2| {
+            let (sin, cos) = (p.x / RADIUS).sin_cos();
+            V3::new(STRETCH * RADIUS * cos, STRETCH * RADIUS * sin, p.y)
+        };
+        let positions: Vec<V3> = tube.rest.iter().map(worn).collect();
+        let fabric = crate::sim::fabric::library()[0].clone();
+        let found = pressures(&tube, &fabric, &positions).expect("a tube");
+        let tension = tensions(&tube, &Orthotropic::of(&fabric), &positions);
+        // Away from the free ends, whose vertices have less cloth above or below them.
+        for v in 4 * 61..8 * 61 {
+            let expect = 1e-3 * tension[v] / (STRETCH * RADIUS);
+            assert!((found[v] - expect).abs() < 0.03 * expect, "{v}: {} kPa, {expect}", found[v]);
+        }
+        assert!(
+            pressures(&tube, &fabric, &tube.rest.iter().map(|p| V3::new(p.x, 0.0, p.y)).collect::<Vec<_>>()).is_ok()
+        );
+    }
+
+    #[test]
+    fn chi_stands_where_it_is_measured_and_nowhere_else() {
+        let mut garment = square();
+        let corner =
+            |v: usize| MaterialPoint { vertices: [0, 1, 2], weights: [0, 1, 2].map(|k| f64::from(u8::from(k == v))) };
+        garment.measurements = vec![Measurement {
+            no: 1,
+            name: "width".into(),
+            kind: MeasurementKind::OpenLength,
+            is_free_edge: true,
+            l2d_m: 1.0,
+            runs: vec![Run { points: vec![corner(0), corner(1)], arc_m: vec![1.0] }],
+        }];
+        let found = chis(&garment, &deformed(&|p| V3::new(1.1 * p.x, 0.0, p.y)));
+        assert!(found[..3].iter().all(|chi| (chi - 1.1).abs() < 1e-12) && found[3].is_nan(), "{found:?}");
     }
 }

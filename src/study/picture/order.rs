@@ -8,6 +8,7 @@ use super::super::workspace::Workspace;
 use super::{Cloth, Dressed, Map};
 use crate::geom::TriMesh;
 use crate::render::{self, Camera, Cell, Frame, Rgb, Scene, View};
+use crate::sim::Stage;
 
 /// Time of one turn of a turntable, ms.
 const TURN_MS: u32 = 6000;
@@ -49,6 +50,8 @@ impl Shot {
 pub struct Order {
     /// Its shots, each a picture of its own.
     pub shots: Vec<Shot>,
+    /// How far the garment has come, each a picture of its own: before and after.
+    pub stages: Vec<Stage>,
     /// What colours the cloth.
     pub map: Map,
     /// What the garment is cut from, on a plain map.
@@ -106,27 +109,45 @@ impl Workspace {
     /// Results as a PNG file: one shot of one result by itself, more of them on a sheet, all at one scale.
     ///
     /// # Errors
-    /// [`StudyError::NotFound`] while there is no result or a cloth names no piece; a file that is no image.
+    /// [`StudyError::NotFound`] while there is no result, where its simulator keeps no such stage or a cloth names no piece;
+    /// a file that is no image.
     pub fn pictures(&self, ids: &[JobId], order: &Order) -> Result<Vec<u8>> {
-        let dressed = ids.iter().map(|id| self.dressed(*id)).collect::<Result<Vec<_>>>()?;
+        let worn = ids.iter().flat_map(|id| order.stages.iter().map(move |stage| (*id, *stage)));
+        let worn: Vec<(JobId, Stage)> = worn.collect();
+        let dressed = worn.iter().map(|(id, stage)| self.dressed_at(*id, *stage)).collect::<Result<Vec<_>>>()?;
         let [whole, garments] = order.frames(&dressed);
         let mut cells = Vec::new();
-        for (id, worn) in ids.iter().zip(&dressed) {
+        for ((id, stage), worn) in worn.iter().zip(&dressed) {
             let scene = worn.scene_in(order.map, &order.cloths, order.skin)?;
             let job = self.job(*id)?;
+            let before = if *stage == Stage::Drape { String::new() } else { format!(" {}", stage.as_str()) };
             for shot in &order.shots {
                 let picture = order.draw(&scene, &order.camera(*shot, whole, garments))?;
                 let simulator = job.simulator.as_str();
-                let label = format!("{} {}, {}, {simulator}, {}", job.garment, job.size, job.subject, shot.name());
+                let label =
+                    format!("{} {}, {}, {simulator}{before}, {}", job.garment, job.size, job.subject, shot.name());
                 cells.push(Cell { picture, label });
             }
         }
-        let columns = if order.shots.len() > 1 { order.shots.len() } else { ids.len().min(4) };
+        let columns = match (order.shots.len(), order.stages.len()) {
+            (1, 1) => ids.len().min(4),
+            (1, stages) => stages,
+            (shots, _) => shots,
+        };
         let picture = match cells.as_slice() {
             [one] => render::png(&one.picture),
             _ => render::contact_sheet("", &cells, columns).and_then(|sheet| render::png(&sheet)),
         };
         picture.map_err(StudyError::stage("render"))
+    }
+
+    /// A result as a stage of its simulation left it.
+    fn dressed_at(&self, id: JobId, stage: Stage) -> Result<Dressed> {
+        let worn = self.dressed(id)?;
+        let known = worn.earlier.iter().map(|staged| staged.stage).chain([worn.stage]);
+        let known: Vec<String> = known.map(|stage| stage.as_str().to_owned()).collect();
+        let name = format!("{} of job {id}", stage.as_str());
+        worn.at(stage).ok_or(StudyError::NotFound { what: "stage", name, known })
     }
 
     /// A result turned once about the vertical, as an animated PNG file of so many pictures that repeats for ever.

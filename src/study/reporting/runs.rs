@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use image::imageops;
+use image::{RgbaImage, imageops};
 
 use super::super::error::{Result, StudyError};
 use super::super::picture::{Dressed, Map};
@@ -10,7 +10,7 @@ use super::super::types::{JobId, JobRow, MetricsRow, Status, Value};
 use super::super::workspace::Workspace;
 use super::quoted;
 use crate::measure::Chi;
-use crate::render::{self, Camera, Cell, Frame, View};
+use crate::render::{self, Camera, Cell, Frame, Scale, Scene, View};
 use crate::report::data::{FieldMap, Measured, Outcome, Picture, Run};
 use crate::sim::Stage;
 use crate::units::mm;
@@ -22,14 +22,13 @@ pub(super) const SHEETS: &str = "pictures/try-on-";
 /// Room around the garments, as a share of the least frame: shoulders, neck and hips belong to a fit.
 const ROOM: f64 = 1.12;
 /// Runs whose pictures the page holds at full size within its 3 MB; of more runs they are smaller, the files beside not.
-const FULL_SIZE: usize = 8;
+const FULL_SIZE: usize = 6;
 /// Pictures are not made smaller than this share of their full size, where they would show nothing: a page of 108 runs is
-/// then about 8 MB, which can still be mailed.
-const LEAST_SHRINK: f64 = 0.42;
-/// The pictures of a run.
-const SHOTS: [(Map, &[View]); 4] = [
-    (Map::Plain, &View::ALL),
-    (Map::Stretch, &[View::Front]),
+/// then about 9 MB, which can still be mailed.
+const LEAST_SHRINK: f64 = 0.38;
+/// The maps of a run: with four views and one picture more, two rows of five.
+const MAPS: [(Map, &[View]); 3] = [
+    (Map::Stretch, &[View::Front, View::Back]),
     (Map::Tension, &[View::Front, View::Back]),
     (Map::Gap, &[View::Front]),
 ];
@@ -167,7 +166,38 @@ impl Workspace {
     }
 }
 
-/// The four views and the maps of a run; as JPEG on the page, shrunk, as PNG beside it. Returns the four views.
+/// Takes the pictures of a run: as JPEG on the page, shrunk, as PNG among the files beside it.
+struct Photographer<'a> {
+    job: &'a JobRow,
+    frame: Frame,
+    shrink: f64,
+    files: &'a mut Vec<(String, Vec<u8>)>,
+}
+
+impl Photographer<'_> {
+    fn shot(&self, scene: &Scene, view: View) -> Result<RgbaImage> {
+        render::render(scene, &Camera::new(view, self.frame), PICTURE.0, PICTURE.1).map_err(StudyError::stage("render"))
+    }
+
+    /// A picture for the page; the file beside it has the legend of its scale drawn in.
+    fn keep(&mut self, shot: RgbaImage, name: &str, caption: String, scale: Option<&Scale>) -> Result<Picture> {
+        let on_page = [PICTURE.0, PICTURE.1].map(|side| (f64::from(side) * self.shrink).round() as u32);
+        let small = imageops::resize(&shot, on_page[0], on_page[1], imageops::FilterType::CatmullRom);
+        let bytes = render::jpeg(&small).map_err(StudyError::stage("render"))?;
+        let mut full = shot;
+        if let Some(scale) = scale {
+            render::draw_legend(&mut full, scale).map_err(StudyError::stage("render"))?;
+        }
+        let job = self.job;
+        let file = format!("pictures/job-{}-{name}.png", job.id);
+        self.files.push((file.clone(), render::png(&full).map_err(StudyError::stage("render"))?));
+        let alt = format!("{} {} on {}, {}, {caption}", job.garment, job.size, job.subject, job.simulator.as_str());
+        Ok(Picture { bytes, file, alt, caption })
+    }
+}
+
+/// Four views, what came before the drape (Hybrid-GS) or its check of 20 mm (FEM-GS), and the maps of a run. Returns the four
+/// views.
 fn add_pictures(
     run: &mut Run,
     job: &JobRow,
@@ -175,46 +205,34 @@ fn add_pictures(
     (frame, shrink): (Frame, f64),
     files: &mut Vec<(String, Vec<u8>)>,
 ) -> Result<Vec<Cell>> {
-    let mut cells = Vec::new();
-    let what = format!("{} {} on {}, {}", job.garment, job.size, job.subject, job.simulator.as_str());
-    let on_page = [PICTURE.0, PICTURE.1].map(|side| (f64::from(side) * shrink).round() as u32);
+    let mut photographer = Photographer { job, frame, shrink, files };
     let mut scene = worn.scene(Map::Plain)?;
-    for (map, views) in &SHOTS {
+    let mut cells = Vec::new();
+    for view in View::ALL {
+        let picture = photographer.shot(&scene, view)?;
+        let label = format!("{} {}, {}", job.subject, job.simulator.as_str(), view.as_str());
+        cells.push(Cell { picture: picture.clone(), label });
+        let name = format!("{}-plain", view.as_str());
+        run.views.push(photographer.keep(picture, &name, view.as_str().to_owned(), None)?);
+    }
+    if let Some(popup) = worn.popup_scene() {
+        let picture = photographer.shot(&popup?, View::Front)?;
+        run.views.push(photographer.keep(picture, "popup", "pop-up".into(), None)?);
+    } else {
+        worn.repaint(&mut scene, Map::Check)?;
+        let picture = photographer.shot(&scene, View::Front)?;
+        run.views.push(photographer.keep(picture, "front-check", "check of 20 mm".into(), None)?);
+    }
+    for (map, views) in &MAPS {
+        let Some(scale) = map.scale() else { continue };
         worn.repaint(&mut scene, *map)?;
         for view in *views {
-            let camera = Camera::new(*view, frame);
-            let shot = render::render(&scene, &camera, PICTURE.0, PICTURE.1).map_err(StudyError::stage("render"))?;
-            let file = format!("pictures/job-{}-{}-{}.png", job.id, view.as_str(), map.as_str());
-            let small = imageops::resize(&shot, on_page[0], on_page[1], imageops::FilterType::CatmullRom);
-            let bytes = render::jpeg(&small).map_err(StudyError::stage("render"))?;
-            let mut full = shot;
-            let scale = map.scale();
-            if let Some(scale) = &scale {
-                render::draw_legend(&mut full, scale).map_err(StudyError::stage("render"))?;
-            }
-            files.push((file.clone(), render::png(&full).map_err(StudyError::stage("render"))?));
-            let caption =
-                scale.as_ref().map_or(view.as_str().to_owned(), |s| format!("{}, {}", s.label, view.as_str()));
-            let picture = Picture { bytes, file, alt: format!("{what}, {caption}"), caption };
-            match scale {
-                None => {
-                    let label = format!("{} {}, {}", job.subject, job.simulator.as_str(), picture.caption);
-                    cells.push(Cell { picture: full, label });
-                    run.views.push(picture);
-                }
-                Some(scale) => run.maps.push(FieldMap { picture, scale }),
-            }
+            let shot = photographer.shot(&scene, *view)?;
+            let name = format!("{}-{}", view.as_str(), map.as_str());
+            let caption = format!("{}, {}", scale.label, view.as_str());
+            let picture = photographer.keep(shot, &name, caption, Some(&scale))?;
+            run.maps.push(FieldMap { picture, scale: scale.clone() });
         }
-    }
-    if let Some(scene) = worn.popup_scene() {
-        let shot = render::render(&scene?, &Camera::new(View::Front, frame), PICTURE.0, PICTURE.1)
-            .map_err(StudyError::stage("render"))?;
-        let small = imageops::resize(&shot, on_page[0], on_page[1], imageops::FilterType::CatmullRom);
-        let file = format!("pictures/job-{}-popup.png", job.id);
-        files.push((file.clone(), render::png(&shot).map_err(StudyError::stage("render"))?));
-        let caption = "pop-up".to_owned();
-        let bytes = render::jpeg(&small).map_err(StudyError::stage("render"))?;
-        run.views.push(Picture { bytes, file, alt: format!("{what}, {caption}"), caption });
     }
     Ok(cells)
 }
