@@ -23,6 +23,8 @@ fn main() {
 const FINE_M: f64 = 0.015;
 /// Edge length of a mesh that drapes in a moment, m.
 const COARSE_M: f64 = 0.040;
+/// Edges of the dress's mesh, m.
+const DRESS_M: f64 = 0.0065;
 /// Spacing of the distance field, m.
 const SPACING_M: f64 = 0.005;
 
@@ -42,17 +44,23 @@ static BODY: LazyLock<Body> = LazyLock::new(|| body::build(&subject()).expect("a
 static FIELD: LazyLock<DistanceField> =
     LazyLock::new(|| DistanceField::build(&BODY.mesh, SPACING_M).expect("a closed mesh"));
 /// Bytes of the drafted T-shirt in size M, and of its seam file.
-static FILES: LazyLock<[Vec<u8>; 2]> = LazyLock::new(|| {
-    let files = draft::Model::Tshirt.files();
-    ["tshirt-m.dxf", "tshirt.seams.toml"].map(|wanted| {
+static FILES: LazyLock<[Vec<u8>; 2]> =
+    LazyLock::new(|| drafted(draft::Model::Tshirt, ["tshirt-m.dxf", "tshirt.seams.toml"]));
+static STYLE: LazyLock<Style> = LazyLock::new(|| style(&FILES));
+
+fn drafted(model: draft::Model, wanted: [&str; 2]) -> [Vec<u8>; 2] {
+    let files = model.files();
+    wanted.map(|wanted| {
         let file = files.iter().find(|(name, _)| name == wanted);
         file.unwrap_or_else(|| panic!("no {wanted} is drafted")).1.clone()
     })
-});
-static STYLE: LazyLock<Style> = LazyLock::new(|| {
-    let file = dxf::read(&FILES[0], "tshirt-m.dxf", None).expect("our own file");
-    Style::read(&file.to_sew(None).expect("one size"), &FILES[1], "tshirt.seams.toml").expect("our own seams")
-});
+}
+
+fn style([pattern, seams]: &[Vec<u8>; 2]) -> Style {
+    let file = dxf::read(pattern, "drafted.dxf", None).expect("our own file");
+    Style::read(&file.to_sew(None).expect("one size"), seams, "drafted.seams.toml").expect("our own seams")
+}
+
 static CLOTH: LazyLock<Fabric> = LazyLock::new(|| {
     fabric::library().into_iter().find(|fabric| fabric.name == "cotton_shirting_light").expect("in the library")
 });
@@ -154,6 +162,25 @@ fn fem_drape(bencher: Bencher, edge_mm: u32) {
 #[divan::bench(args = [14, 10, 7, 5], sample_count = 1, sample_size = 1, ignore)]
 fn fem_drape_growth(bencher: Bencher, edge_mm: u32) {
     fem_drape(bencher, edge_mm);
+}
+
+/// A dress of about 20 thousand sewn vertices: `cargo bench -- --ignored`.
+#[divan::bench(sample_count = 1, sample_size = 1, ignore)]
+fn fem_drape_dress(bencher: Bencher) {
+    let wearer = Measurements {
+        weight_kg: Some(54.0),
+        chest_girth_m: Some(0.919),
+        waist_girth_m: Some(0.779),
+        hip_girth_m: Some(0.973),
+        ..Measurements::of(Sex::Female, 1.650)
+    };
+    let body = body::build(&wearer).expect("a person that can be");
+    let field = DistanceField::build(&body.mesh, SPACING_M).expect("a closed mesh");
+    let dress = style(&drafted(draft::Model::Dress, ["dress-one.dxf", "dress.seams.toml"]));
+    let garments: Vec<Garment> =
+        fem::level_edges(DRESS_M).into_iter().map(|edge| dress.mesh(edge).expect("it meshes")).collect();
+    let dress_on = || fem::simulate(&body, &field, &garments, &CLOTH, &Params::default(), &mut Silent);
+    bencher.bench_local(|| dress_on().expect("it drapes"));
 }
 
 /// A square metre of cloth, 71 x 71 vertices, over a sphere of 0.3 m, to a residual of 1 %.
