@@ -108,10 +108,10 @@ impl Run<'_> {
     fn work_on(&self, connection: &mut Connection) -> Result<()> {
         queue::want(connection, &self.ids)?;
         while !self.stop.load(Ordering::Relaxed) {
-            let transaction = store::write(connection)?;
-            let claimed = queue::claim(&transaction, &self.owner, &mut lock(&self.watch))?;
-            let is_open = claimed.is_some() || queue::is_open(&transaction)?;
-            transaction.commit()?;
+            let (claimed, is_open) = store::lightly(connection, |transaction| {
+                let claimed = queue::claim(transaction, &self.owner, &mut lock(&self.watch))?;
+                Ok((claimed, claimed.is_some() || queue::is_open(transaction)?))
+            })?;
             match claimed {
                 Some(id) => self.execute(connection, id)?,
                 None if is_open => thread::sleep(TICK),

@@ -11,6 +11,7 @@ use super::enqueue::{self, Planned};
 use super::error::{Result, StudyError};
 use super::evidence;
 use super::file::{Problem, Study};
+use super::isolated::Isolated;
 use super::live::Live;
 use super::outcome::{self, Executor, Provenance};
 use super::pipeline::Pipeline;
@@ -122,7 +123,8 @@ impl Workspace {
         let (database, of_study, stages) = (self.path().to_owned(), study.clone(), pipeline.clone());
         // Ease is there long before the first drape. What cannot be made fails its own jobs, which then say why.
         let aside = move || drop(store_ease(&database, &of_study, &stages));
-        self.launch(study, options, pipeline, aside)
+        let executor = Arc::new(Isolated::new(self.path(), pipeline));
+        self.launch(study, options, executor, aside)
     }
 
     /// Finds the ease of every size of a study on every subject, and stores it.
