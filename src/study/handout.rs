@@ -3,6 +3,7 @@
 //! A job file holds all that a job is made from, a result file all that came of it; neither needs a database. Results are
 //! merged in one transaction, and merging them again changes nothing.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -134,10 +135,14 @@ impl Workspace {
         let owner = Owner::new();
         let mut merged = Merged::default();
         let transaction = store::write(self.writer()?)?;
+        let mut studies = BTreeSet::new();
         for path in &files {
-            merge_one(&transaction, path, &owner, &mut merged)?;
+            studies.insert(merge_one(&transaction, path, &owner, &mut merged)?);
         }
         transaction.commit()?;
+        for study in &studies {
+            self.update_evidence(study)?;
+        }
         Ok(merged)
     }
 }
@@ -226,7 +231,8 @@ fn products(connection: &Connection) -> Result<Vec<Product>> {
     Ok(products)
 }
 
-fn merge_one(transaction: &Transaction<'_>, path: &Path, owner: &Owner, merged: &mut Merged) -> Result<()> {
+/// Merges one result file; the name of its study.
+fn merge_one(transaction: &Transaction<'_>, path: &Path, owner: &Owner, merged: &mut Merged) -> Result<String> {
     let result: ResultFile = read_json(path, "result")?;
     let spec = &result.spec;
     let refuse =
@@ -275,7 +281,7 @@ fn merge_one(transaction: &Transaction<'_>, path: &Path, owner: &Owner, merged: 
             if is_failed { merged.failed.push(id) } else { merged.stored.push(id) }
         }
     }
-    Ok(())
+    Ok(result.study)
 }
 
 /// Stores products that are not here yet.

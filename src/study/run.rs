@@ -169,14 +169,16 @@ impl Workspace {
         let folder = study.path.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
         // What was the study's before needs nothing beside it: all of that was found with its results.
         let is_settled = planned.iter().all(|job| job.was_current && !job.why.will_run());
+        let name = study.name.clone();
         let work = move || {
             if is_settled {
-                return Ok(());
+                // A run that was killed may not have come to judge its last results.
+                return evidence::update(&mut store::open(&database, Access::Volatile)?, &name);
             }
             let provenance = Provenance::of(&folder);
             thread::scope(|scope| {
                 scope.spawn(aside);
-                engine::run(&database, &jobs, &*executor, workers, provenance, &stopped, &live)
+                engine::run(&database, &name, &jobs, &*executor, workers, provenance, &stopped, &live)
             })
         };
         let thread = thread::Builder::new().name("toile-run".into()).spawn(work).map_err(StudyError::io("thread"))?;

@@ -210,13 +210,14 @@ pub(crate) fn write(connection: &mut Connection) -> rusqlite::Result<Transaction
 /// Does something in a transaction that a power cut may undo, though nothing else may: what a queue is told need not wait
 /// for the disk. The next result that is stored makes it last, too.
 pub(crate) fn lightly<T>(connection: &mut Connection, act: impl FnOnce(&Transaction<'_>) -> Result<T>) -> Result<T> {
+    let usual: i64 = connection.pragma_query_value(None, "synchronous", |row| row.get(0))?;
     connection.pragma_update(None, "synchronous", "normal")?;
     let done = write(connection).map_err(StudyError::from).and_then(|transaction| {
         let done = act(&transaction)?;
         transaction.commit()?;
         Ok(done)
     });
-    connection.pragma_update(None, "synchronous", "full")?;
+    connection.pragma_update(None, "synchronous", usual)?;
     done
 }
 

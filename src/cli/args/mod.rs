@@ -463,7 +463,7 @@ pub enum MeshFormat {
     Obj,
     /// Stanford: one mesh, with colours and the map's values.
     Ply,
-    /// Stereolithography: one mesh.
+    /// Stereolithography: one mesh, coloured by triangle.
     Stl,
 }
 
