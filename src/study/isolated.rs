@@ -2,7 +2,7 @@
 //! over, whatever it is doing. Other jobs of the run do not notice.
 
 use std::io::{BufRead, BufReader, Read};
-use std::os::unix::process::{CommandExt, ExitStatusExt};
+use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::{Mutex, PoisonError};
@@ -25,8 +25,6 @@ const LOOK: Duration = Duration::from_millis(50);
 const LINES: Duration = Duration::from_millis(200);
 /// What simulators call their phases.
 const PHASES: [&str; 4] = ["sew", "popup", "settle", "drape"];
-/// Number of the signal by which a process ends itself.
-const SIGABRT: i32 = 6;
 /// What is said where memory is not given.
 const NO_MEMORY: [&str; 3] = ["memory allocation of", "out of memory", "Cannot allocate memory"];
 
@@ -53,7 +51,10 @@ impl Executor for Isolated {
         handout::write_job(&job, spec)?;
         let limits = spec.schedule.limits;
         let (status, said) = watch(start(&job, &result, &self.database)?, &limits, monitor)?;
-        if result.exists() { handout::read_outcome(&result) } else { Err(ended(status, &said, &limits)) }
+        if !result.exists() {
+            return Err(ended(status, &said, &limits));
+        }
+        handout::read_outcome(&result).map_err(|error| out_of_memory(&error.to_string(), &limits).unwrap_or(error))
     }
 }
 
@@ -115,12 +116,15 @@ fn watch(mut child: Child, limits: &Limits, monitor: &mut dyn Monitor) -> Result
 
 /// Why a process left no result.
 fn ended(status: ExitStatus, said: &str, limits: &Limits) -> StudyError {
-    let is_memory = status.signal() == Some(SIGABRT) || NO_MEMORY.iter().any(|words| said.contains(words));
-    if let Some(megabytes) = limits.memory_mb.filter(|_| is_memory) {
-        return StudyError::stage("limit")(format!("needed more than its memory limit of {megabytes} MB"));
-    }
     let last = said.lines().rfind(|line| !line.trim().is_empty()).unwrap_or("it said nothing");
-    StudyError::stage("job")(format!("its process ended with {status}: {last}"))
+    let other = || StudyError::stage("job")(format!("its process ended with {status}: {last}"));
+    out_of_memory(said, limits).unwrap_or_else(other)
+}
+
+/// The error of a job with a memory limit that says in some words that it got no more.
+fn out_of_memory(said: &str, limits: &Limits) -> Option<StudyError> {
+    let megabytes = limits.memory_mb.filter(|_| NO_MEMORY.iter().any(|words| said.contains(words)))?;
+    Some(StudyError::stage("limit")(format!("needed more than its memory limit of {megabytes} MB")))
 }
 
 /// Time that a job may take.
@@ -203,5 +207,37 @@ impl Line {
         let Self { phase, fraction, step } = serde_json::from_str(text).ok()?;
         let phase = PHASES.into_iter().find(|known| *known == phase).unwrap_or("works");
         Some(Progress { phase, fraction, step })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::os::unix::process::ExitStatusExt;
+
+    use super::*;
+
+    #[test]
+    fn an_end_is_put_down_to_memory_where_memory_was_not_given() {
+        let check = |code: i32, said: &str, memory_mb: Option<u32>, expect: &str| {
+            let error = ended(ExitStatus::from_raw(code), said, &Limits { memory_mb, time_s: None });
+            assert_eq!(error.to_string(), expect);
+        };
+        let aborted = "memory allocation of 4096 bytes failed\n";
+        check(6, aborted, Some(80), "limit: needed more than its memory limit of 80 MB");
+        check(
+            6,
+            aborted,
+            None,
+            "job: its process ended with signal: 6 (SIGABRT): memory allocation of 4096 bytes failed",
+        );
+        check(9, "", Some(80), "job: its process ended with signal: 9 (SIGKILL): it said nothing");
+    }
+
+    #[test]
+    fn lines_of_progress_are_read_and_others_are_not() {
+        let step = Step { iteration: 3, level: 1, residual: 0.25, seam_gap_m: 0.0, e_chi: 1.0 };
+        let line = serde_json::to_string(&Line { phase: "settle".into(), fraction: 0.5, step }).expect("finite");
+        assert_eq!(Line::read(&line), Some(Progress { phase: "settle", fraction: 0.5, step }));
+        assert_eq!(Line::read("/tmp/1.result.json"), None);
     }
 }
