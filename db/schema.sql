@@ -106,7 +106,7 @@ CREATE TABLE job (
     subject_id INTEGER NOT NULL REFERENCES subject,
     style_id INTEGER NOT NULL REFERENCES style,
     size_id INTEGER NOT NULL REFERENCES size,
-    fabric_id INTEGER NOT NULL REFERENCES fabric,
+    fabric_id INTEGER NOT NULL REFERENCES fabric, time_limit_s REAL, memory_limit_mb INTEGER,
     UNIQUE (study_id, garment, size, subject, simulator, repeat, input_hash),
     CHECK ((status = 'running') = (owner IS NOT NULL)),
     CHECK (status <> 'running' OR heartbeat_at IS NOT NULL)
@@ -158,23 +158,6 @@ CREATE TABLE chi (
     PRIMARY KEY (job_id, stage, measurement_no)
 ) STRICT, WITHOUT ROWID;
 
-CREATE TABLE metrics (
-    job_id INTEGER PRIMARY KEY REFERENCES job ON DELETE CASCADE,
-    n INTEGER NOT NULL,
-    e_chi REAL NOT NULL,
-    sd_chi REAL NOT NULL,
-    ei REAL NOT NULL,
-    max_abs_error REAL NOT NULL,
-    vertices INTEGER NOT NULL,
-    faces INTEGER NOT NULL,
-    iterations INTEGER NOT NULL,
-    residual REAL NOT NULL,
-    converged INTEGER NOT NULL,
-    penetration_max_mm REAL NOT NULL,
-    seam_gap_max_mm REAL NOT NULL,
-    self_crossings INTEGER NOT NULL
-) STRICT;
-
 CREATE TABLE history (
     job_id INTEGER NOT NULL REFERENCES job ON DELETE CASCADE,
     step INTEGER NOT NULL,
@@ -221,24 +204,10 @@ CREATE TABLE provenance (
     seed INTEGER NOT NULL
 ) STRICT;
 
-CREATE VIEW v_jobs AS
-SELECT job_id, study.name AS study, garment, size, subject, simulator, repeat, status, attempts, error,
-    strftime('%Y-%m-%dT%H:%M:%fZ', queued_at / 1000.0, 'unixepoch') AS queued_at,
-    strftime('%Y-%m-%dT%H:%M:%fZ', started_at / 1000.0, 'unixepoch') AS started_at,
-    strftime('%Y-%m-%dT%H:%M:%fZ', finished_at / 1000.0, 'unixepoch') AS finished_at,
-    wall_ms, priority, is_current, phase, fraction
-FROM job JOIN study USING (study_id) LEFT JOIN job_progress USING (job_id);
-
 CREATE VIEW v_chi AS
 SELECT study.name AS study, garment, size, subject, simulator, stage, measurement_no, measurement, kind,
     is_free_edge, is_controlled, l2d_mm, l3d_mm, l3d_mm / l2d_mm AS chi, repeat, job_id
 FROM chi JOIN job USING (job_id) JOIN study USING (study_id)
-WHERE is_current;
-
-CREATE VIEW v_metrics AS
-SELECT study.name AS study, garment, size, subject, simulator, n, e_chi, sd_chi, ei, max_abs_error, vertices, faces,
-    iterations, residual, converged, penetration_max_mm, seam_gap_max_mm, wall_ms, repeat, self_crossings, job_id
-FROM metrics JOIN job USING (job_id) JOIN study USING (study_id)
 WHERE is_current;
 
 CREATE VIEW v_ease AS
@@ -460,3 +429,46 @@ SELECT study, garment, fit_class,
     effect_size, p, p_holm, p_equivalence,
     coalesce(would_settle, '`toile recommend` judges them.') AS would_settle
 FROM present LEFT JOIN judged USING (study, garment, fit_class);
+
+CREATE TABLE job_need (
+    job_id INTEGER NOT NULL REFERENCES job ON DELETE CASCADE,
+    needs INTEGER NOT NULL REFERENCES job ON DELETE CASCADE,
+    PRIMARY KEY (job_id, needs)
+) STRICT, WITHOUT ROWID;
+
+CREATE INDEX job_need_needs ON job_need (needs);
+
+CREATE INDEX chi_measurement ON chi (measurement_no);
+
+CREATE VIEW v_jobs AS
+SELECT job_id, study.name AS study, garment, size, subject, simulator, repeat, status, attempts, error,
+    strftime('%Y-%m-%dT%H:%M:%fZ', queued_at / 1000.0, 'unixepoch') AS queued_at,
+    strftime('%Y-%m-%dT%H:%M:%fZ', started_at / 1000.0, 'unixepoch') AS started_at,
+    strftime('%Y-%m-%dT%H:%M:%fZ', finished_at / 1000.0, 'unixepoch') AS finished_at,
+    wall_ms, priority, is_current, phase, fraction, time_limit_s, memory_limit_mb,
+    (SELECT count(*) FROM job_need JOIN job AS needed ON needed.job_id = needs
+        WHERE job_need.job_id = job.job_id AND needed.status IN ('queued', 'running')) AS waits_for
+FROM job JOIN study USING (study_id) LEFT JOIN job_progress USING (job_id);
+
+CREATE TABLE metrics (
+    job_id INTEGER PRIMARY KEY REFERENCES job ON DELETE CASCADE,
+    n INTEGER NOT NULL,
+    e_chi REAL NOT NULL,
+    sd_chi REAL NOT NULL,
+    ei REAL NOT NULL,
+    max_abs_error REAL NOT NULL,
+    vertices INTEGER NOT NULL,
+    faces INTEGER NOT NULL,
+    iterations INTEGER NOT NULL,
+    residual REAL NOT NULL,
+    converged INTEGER NOT NULL,
+    penetration_max_mm REAL NOT NULL,
+    seam_gap_max_mm REAL NOT NULL,
+    self_crossings INTEGER
+) STRICT;
+
+CREATE VIEW v_metrics AS
+SELECT study.name AS study, garment, size, subject, simulator, n, e_chi, sd_chi, ei, max_abs_error, vertices, faces,
+    iterations, residual, converged, penetration_max_mm, seam_gap_max_mm, wall_ms, repeat, self_crossings, job_id
+FROM metrics JOIN job USING (job_id) JOIN study USING (study_id)
+WHERE is_current;

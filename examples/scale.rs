@@ -1,7 +1,7 @@
 //! A database of 10,000 jobs and 1,000,000 measurements, made through the real queue, and how long it takes to work with.
 //!
-//! `cargo run --release --example scale [STUDIES]` prints the table of docs/studies.md: queue operations, and a typical
-//! question to each view.
+//! `cargo run --release --example scale [STUDIES [SUBJECTS]]` prints the table of docs/studies.md: queue operations, and a
+//! typical question to each view. One study of 1680 subjects has as many jobs as 20 of 84.
 
 #![allow(clippy::print_stdout, reason = "an example speaks to whoever runs it")]
 
@@ -21,34 +21,34 @@ use toile::study::{
 
 /// Measurements of a result.
 const LENGTHS: u32 = 100;
-/// Subjects of one study; with three sizes and two simulators 504 jobs.
+/// Subjects of one study where nothing else is said; with three sizes and two simulators 504 jobs.
 const SUBJECTS: usize = 84;
 
 /// Questions that users ask of a study, and of all.
 const QUESTIONS: [(&str, &str); 14] = [
-    ("v_jobs: how far is a study", "SELECT status, count(*) FROM v_jobs WHERE study = 'study7' GROUP BY status"),
+    ("v_jobs: how far is a study", "SELECT status, count(*) FROM v_jobs WHERE study = 'study0' GROUP BY status"),
     ("v_jobs: what failed, anywhere", "SELECT * FROM v_jobs WHERE status IN ('failed', 'cancelled')"),
     ("v_jobs: the slowest of all", "SELECT study, size, subject, wall_ms FROM v_jobs ORDER BY wall_ms DESC LIMIT 20"),
-    ("v_chi: one result", "SELECT * FROM v_chi WHERE study = 'study7' AND size = 'M' AND subject = 's3'"),
+    ("v_chi: one result", "SELECT * FROM v_chi WHERE study = 'study0' AND size = 'M' AND subject = 's3'"),
     (
         "v_chi: each measurement of a study",
-        "SELECT measurement_no, count(*), avg(chi), stddev(chi) FROM v_chi WHERE study = 'study7' GROUP BY 1",
+        "SELECT measurement_no, count(*), avg(chi), stddev(chi) FROM v_chi WHERE study = 'study0' GROUP BY 1",
     ),
     (
         "v_chi: one measurement over all studies",
         "SELECT study, simulator, avg(chi) FROM v_chi WHERE measurement_no = 6 GROUP BY 1, 2",
     ),
-    ("v_chi: the worst of a study", "SELECT * FROM v_chi WHERE study = 'study7' ORDER BY abs(chi - 1) DESC LIMIT 10"),
+    ("v_chi: the worst of a study", "SELECT * FROM v_chi WHERE study = 'study0' ORDER BY abs(chi - 1) DESC LIMIT 10"),
     (
         "v_metrics: EI of all studies",
         "SELECT study, simulator, median(ei), quantile(ei, 0.9) FROM v_metrics GROUP BY 1, 2",
     ),
     (
         "v_ease: fits of a study",
-        "SELECT size, fit_class, count(*) FROM v_ease WHERE study = 'study7' AND decides GROUP BY 1, 2",
+        "SELECT size, fit_class, count(*) FROM v_ease WHERE study = 'study0' AND decides GROUP BY 1, 2",
     ),
-    ("v_pair: pairs of a study", "SELECT * FROM v_pair WHERE study = 'study7'"),
-    ("v_recommendation: of a study", "SELECT * FROM v_recommendation WHERE study = 'study7'"),
+    ("v_pair: pairs of a study", "SELECT * FROM v_pair WHERE study = 'study0'"),
+    ("v_recommendation: of a study", "SELECT * FROM v_recommendation WHERE study = 'study0'"),
     (
         "v_provenance: programs and machines",
         "SELECT program_version, machine, count(*) FROM v_provenance GROUP BY 1, 2",
@@ -61,11 +61,12 @@ const QUESTIONS: [(&str, &str); 14] = [
 ];
 
 fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
-    let studies: usize = std::env::args().nth(1).map_or(Ok(20), |text| text.parse())?;
+    let given = |place: usize, usual: usize| std::env::args().nth(place).map_or(Ok(usual), |text| text.parse());
+    let (studies, subjects) = (given(1, 20)?, given(2, SUBJECTS)?);
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("toile.sqlite");
     let mut workspace = Workspace::open(&path, false)?;
-    write_study(folder.path())?;
+    write_study(folder.path(), subjects)?;
     let mut spent = 0.0;
     for number in 0..studies {
         let mut study = workspace.load_study(folder.path())?;
@@ -83,7 +84,7 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
     println!("{:8.2} ms  queue, claim and finish a job, on average", spent * 1e3 / made);
 
     let mut study = workspace.load_study(folder.path())?;
-    study.name = "study7".to_owned();
+    study.name = "study0".to_owned();
     let id = JobId(made as i64 / 2);
     let filter = JobFilter { study: Some(study.name.clone()), status: Some(Status::Done), ..JobFilter::default() };
     time("list the jobs of a study", || workspace.jobs(&filter).map(drop))?;
@@ -119,14 +120,14 @@ fn time(what: &str, mut act: impl FnMut() -> Result<()>) -> Result<()> {
 }
 
 /// A study of the drafted T-shirt on many men.
-fn write_study(folder: &Path) -> Result<()> {
+fn write_study(folder: &Path, people: usize) -> Result<()> {
     let mut files = new_study(folder, tools::Model::Tshirt)?;
     let text = String::from_utf8_lossy(&files[0].1).into_owned();
-    let subjects = text.find("# Somebody of the").unwrap_or_default();
+    let subjects = text.find("# Of the catalogue").unwrap_or_default();
     let garments = text.find("# A style of").unwrap_or(text.len());
     let mut many = text[..subjects].to_owned();
-    for number in 0..SUBJECTS {
-        let stature_mm = 1600 + number * 4;
+    for number in 0..people {
+        let stature_mm = 1500.0 + 500.0 * number as f64 / people as f64;
         // Writing into a text does not fail.
         let _ = writeln!(many, "[[subject]]\nid = \"s{number}\"\nsex = \"male\"\nstature_mm = {stature_mm}");
     }

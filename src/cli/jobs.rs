@@ -19,8 +19,8 @@ pub fn run(context: &Context, command: &Job) -> Outcome {
             output::text(&files.iter().map(|file| format!("{}\n", file.display())).collect::<String>())?;
             context.say(format_args!("{}: {} jobs, {} handed out", study.name, handed.len(), files.len()));
         }
-        Job::Run { file, output } => {
-            let ran = run_job(file, output.as_deref())?;
+        Job::Run { file, output, database } => {
+            let ran = run_job(file, output.as_deref(), database.as_deref())?;
             output::text(&format!("{}\n", ran.file.display()))?;
             if let Some(error) = ran.error {
                 eprintln!("toile: {error}");

@@ -2,8 +2,9 @@
 
 use super::args::{Jobs, Queue};
 use super::context::Context;
-use super::{End, Outcome};
-use crate::study::{JobFilter, JobId, StudyError, Table, Value, Workspace, why_no_retry};
+use super::run::selection;
+use super::{CliError, End, Outcome};
+use crate::study::{JobFilter, JobId, Selection, StudyError, Table, Value, Workspace, why_no_retry};
 
 /// Runs a queue command.
 pub fn run(context: &Context, command: &Queue) -> Outcome {
@@ -18,6 +19,11 @@ pub fn run(context: &Context, command: &Queue) -> Outcome {
             context.say(format_args!("cancelled {changed} of {} jobs", ids.len()));
         }
         Queue::Retry(jobs) => return retry(context, &mut workspace, jobs),
+        Queue::Priority { to, jobs } => {
+            let ids = ids(&workspace, jobs)?;
+            workspace.set_priority(&ids, *to)?;
+            context.say(format_args!("{} jobs have priority {to}", ids.len()));
+        }
         Queue::Log { job } => context.print(&log(&workspace, JobId(*job))?)?,
     }
     Ok(End::Done)
@@ -36,8 +42,12 @@ fn retry(context: &Context, workspace: &mut Workspace, jobs: &Jobs) -> Outcome {
     Ok(End::Done)
 }
 
-/// Jobs named one by one, and all current ones of a study.
-fn ids(workspace: &Workspace, jobs: &Jobs) -> Result<Vec<JobId>, StudyError> {
+/// Jobs named one by one, and the current ones of a study or of a part of it.
+fn ids(workspace: &Workspace, jobs: &Jobs) -> Result<Vec<JobId>, CliError> {
+    let part = selection(&jobs.part);
+    if jobs.study.is_none() && part != Selection::default() {
+        return Err(CliError::Usage("a part of which study? give --study NAME".into()));
+    }
     let mut ids: Vec<JobId> = jobs.jobs.iter().copied().map(JobId).collect();
     for &id in &ids {
         workspace.job(id)?;
@@ -45,7 +55,7 @@ fn ids(workspace: &Workspace, jobs: &Jobs) -> Result<Vec<JobId>, StudyError> {
     if let Some(study) = &jobs.study {
         workspace.study(study)?;
         let filter = JobFilter { study: Some(study.clone()), ..JobFilter::default() };
-        ids.extend(workspace.jobs(&filter)?.iter().map(|job| job.id));
+        ids.extend(workspace.jobs(&filter)?.iter().filter(|job| part.takes_row(job)).map(|job| job.id));
     }
     Ok(ids)
 }
@@ -56,8 +66,9 @@ fn list(workspace: &Workspace, study: Option<&str>, all: bool) -> Result<Table, 
         workspace.study(study)?;
     }
     let filter = JobFilter { study: study.map(str::to_owned), superseded: all, ..JobFilter::default() };
-    let columns =
-        ["job", "study", "garment", "size", "subject", "sim", "status", "done", "ei", "wall_s", "tries", "error"];
+    let columns = [
+        "job", "study", "garment", "size", "subject", "sim", "status", "prio", "done", "ei", "wall_s", "tries", "error",
+    ];
     let rows = workspace.jobs(&filter)?.into_iter().map(|job| {
         let real = |number: Option<f64>| number.map_or(Value::Null, Value::Real);
         let percent =
@@ -70,6 +81,7 @@ fn list(workspace: &Workspace, study: Option<&str>, all: bool) -> Result<Table, 
             Value::Text(job.subject),
             Value::Text(job.simulator.as_str().to_owned()),
             Value::Text(job.status.as_str().to_owned()),
+            Value::Integer(job.priority),
             percent.map_or(Value::Null, Value::Text),
             real(job.ei),
             real(job.wall_ms.map(|ms| ms as f64 / 1e3)),

@@ -13,8 +13,8 @@ use super::context::Context;
 use super::progress::Progress;
 use super::{CliError, End, Outcome, detached, output, pictures, runs};
 use crate::study::{
-    JobFilter, JobId, JobRow, Planned, RunOptions, Selection, SlurmOptions, Stage, Status, Study, StudyError, Table,
-    Value, Workspace,
+    JobFilter, JobId, JobRow, Limits, Planned, RunOptions, Selection, SlurmOptions, Stage, Status, Study, StudyError,
+    Table, Value, Workspace,
 };
 
 /// Time between two looks at the running jobs.
@@ -34,7 +34,8 @@ pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
         let name = context.study_name(&workspace, path)?;
         return detached::follow(context, &workspace, &name);
     }
-    let study = context.study(&workspace, path)?;
+    let mut study = context.study(&workspace, path)?;
+    study.limit(Limits { time_s: arguments.limits.time_limit, memory_mb: arguments.limits.memory_limit });
     let selection = selection(&arguments.part);
     if arguments.dry_run {
         let planned = workspace.plan(&study, &selection)?;

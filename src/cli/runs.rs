@@ -44,8 +44,8 @@ fn show(context: &Context, id: JobId) -> Outcome {
         let made = if stage.was_cached { "from the cache" } else { "made" };
         ("stage", format!("{} {} {made}", stage.stage, &stage.hash[..stage.hash.len().min(16)]))
     }));
-    facts
-        .extend(record.metrics.iter().flat_map(|metrics| numbers(metrics).map(|(name, number)| (name, short(number)))));
+    let numbers = record.metrics.iter().flat_map(numbers);
+    facts.extend(numbers.filter_map(|(name, number)| Some((name, short(number?)))));
     output::text(&output::pretty(&two_columns(["what", "value"], facts)))?;
     let inputs = record.inputs.iter().map(|(name, value)| (name, value.to_owned())).collect();
     output::text(&output::pretty(&two_columns(["input", "value"], inputs)))?;
@@ -69,7 +69,7 @@ fn diff(context: &Context, before: JobId, after: JobId) -> Outcome {
     let metrics = found.metrics.each_ref().map(|metrics| metrics.as_ref().map(numbers));
     let names: Vec<&str> =
         metrics.iter().flatten().next().map(|all| all.iter().map(|(name, _)| *name).collect()).unwrap_or_default();
-    let value = |side: usize, k: usize| metrics[side].map(|numbers| numbers[k].1);
+    let value = |side: usize, k: usize| metrics[side].and_then(|numbers| numbers[k].1);
     if context.json {
         let differ: Vec<Json> = (0..names.len())
             .filter(|&k| value(0, k) != value(1, k))
@@ -118,21 +118,21 @@ fn rerun(context: &Context, id: JobId) -> Outcome {
     Ok(End::CheckFailed)
 }
 
-/// The numbers of a result with their names in SQL.
-fn numbers(m: &MetricsRow) -> [(&'static str, f64); 12] {
+/// The numbers of a result with their names in SQL; `None` is one that its program did not know.
+fn numbers(m: &MetricsRow) -> [(&'static str, Option<f64>); 12] {
     [
-        ("n", f64::from(m.n)),
-        ("e_chi", m.e_chi),
-        ("sd_chi", m.sd_chi),
-        ("ei", m.ei),
-        ("max_abs_error", m.max_abs_error),
-        ("vertices", f64::from(m.vertices)),
-        ("faces", f64::from(m.faces)),
-        ("iterations", f64::from(m.iterations)),
-        ("residual", m.residual),
-        ("penetration_max_mm", mm(m.penetration_max_m)),
-        ("seam_gap_max_mm", mm(m.seam_gap_max_m)),
-        ("self_crossings", f64::from(m.self_crossings)),
+        ("n", Some(f64::from(m.n))),
+        ("e_chi", Some(m.e_chi)),
+        ("sd_chi", Some(m.sd_chi)),
+        ("ei", Some(m.ei)),
+        ("max_abs_error", Some(m.max_abs_error)),
+        ("vertices", Some(f64::from(m.vertices))),
+        ("faces", Some(f64::from(m.faces))),
+        ("iterations", Some(f64::from(m.iterations))),
+        ("residual", Some(m.residual)),
+        ("penetration_max_mm", Some(mm(m.penetration_max_m))),
+        ("seam_gap_max_mm", Some(mm(m.seam_gap_max_m))),
+        ("self_crossings", m.self_crossings.map(f64::from)),
     ]
 }
 

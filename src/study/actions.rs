@@ -15,26 +15,34 @@ impl Workspace {
         self.change(ids, &Event::Cancel, "cancelled")
     }
 
-    /// Queues failed or cancelled jobs again; returns how many were. A job with a result keeps it.
+    /// Queues failed or cancelled jobs again, and those of which they need the result; returns how many were. A job with a
+    /// result keeps it.
     ///
     /// # Errors
     /// When the workspace is read-only or a job does not exist.
     pub fn retry(&mut self, ids: &[JobId]) -> Result<usize> {
-        self.change(ids, &Event::Retry, "queued again")
+        let mut all = ids.to_vec();
+        let mut next = 0;
+        while let Some(&id) = all.get(next) {
+            let needed = queue::needs(&self.reader, id)?;
+            all.extend(needed.into_iter().filter(|needed| !all.contains(needed)).collect::<Vec<_>>());
+            next += 1;
+        }
+        self.change(&all, &Event::Retry, "queued again")
     }
 
     /// Applies one event to several jobs, all or none.
     fn change(&mut self, ids: &[JobId], event: &Event<'_>, done: &str) -> Result<usize> {
-        let transaction = store::write(self.writer()?)?;
-        let mut changed = 0;
-        for &id in ids {
-            if queue::apply(&transaction, id, event, None)?.is_some() {
-                queue::log(&transaction, id, "info", done)?;
-                changed += 1;
+        store::lightly(self.writer()?, |transaction| {
+            let mut changed = 0;
+            for &id in ids {
+                if queue::apply(transaction, id, event, None)?.is_some() {
+                    queue::log(transaction, id, "info", done)?;
+                    changed += 1;
+                }
             }
-        }
-        transaction.commit()?;
-        Ok(changed)
+            Ok(changed)
+        })
     }
 
     /// Sets the priority of jobs: greater runs earlier.
@@ -42,11 +50,13 @@ impl Workspace {
     /// # Errors
     /// When the workspace is read-only.
     pub fn set_priority(&mut self, ids: &[JobId], priority: i64) -> Result<()> {
-        let transaction = store::write(self.writer()?)?;
-        for id in ids {
-            transaction.execute("UPDATE job SET priority = ? WHERE job_id = ?", (priority, id.0))?;
-        }
-        Ok(transaction.commit()?)
+        store::lightly(self.writer()?, |transaction| {
+            let mut statement = transaction.prepare_cached("UPDATE job SET priority = ? WHERE job_id = ?")?;
+            for id in ids {
+                statement.execute((priority, id.0))?;
+            }
+            Ok(())
+        })
     }
 
     /// Lets no new jobs of a study start; running ones go on.
@@ -67,8 +77,10 @@ impl Workspace {
 
     fn set_paused(&mut self, study: &str, paused: bool) -> Result<()> {
         self.study(study)?;
-        self.writer()?.execute("UPDATE study SET paused = ? WHERE name = ?", (paused, study))?;
-        Ok(())
+        store::lightly(self.writer()?, |transaction| {
+            transaction.execute("UPDATE study SET paused = ? WHERE name = ?", (paused, study))?;
+            Ok(())
+        })
     }
 }
 

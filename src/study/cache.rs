@@ -1,8 +1,8 @@
-//! What the stages made, kept by the hash of everything it was made from: in memory while a run lasts, in the database
-//! beyond. Two workers that need the same thing at once make it once.
+//! What the stages made, kept by the hash of everything it was made from: the latest in memory while a run lasts, all in
+//! the database. Two workers that need the same thing at once make it once.
 
 use std::any::Any;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::io::{Read, Write};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
@@ -41,6 +41,10 @@ impl std::fmt::Display for Used {
     }
 }
 
+/// Memory that the products of one run may take, bytes as they are stored before packing: bodies and distance fields of
+/// a dozen subjects. A population would take gigabytes.
+const KEPT_BYTES: usize = 512 << 20;
+
 type Product = Arc<dyn Any + Send + Sync>;
 /// Filled by whoever comes first; the others wait for the lock.
 type Slot = Arc<Mutex<Option<Product>>>;
@@ -49,13 +53,15 @@ type Slot = Arc<Mutex<Option<Product>>>;
 pub struct Cache {
     path: PathBuf,
     slots: Mutex<BTreeMap<String, Slot>>,
+    /// Hashes of filled slots with their sizes, the oldest first.
+    filled: Mutex<VecDeque<(String, usize)>>,
 }
 
 impl Cache {
     /// The cache of a database.
     #[must_use]
     pub fn new(database: PathBuf) -> Self {
-        Self { path: database, slots: Mutex::default() }
+        Self { path: database, slots: Mutex::default(), filled: Mutex::default() }
     }
 
     /// The product of a stage: from memory, from the database, or made now (then stored).
@@ -75,21 +81,36 @@ impl Cache {
             return Ok((product, used(true)));
         }
         let connection = store::open(&self.path, Access::Write)?;
-        let stored = load(&connection, hash)?.and_then(|product| T::decode(&product).ok());
+        let stored = load(&connection, hash)?.and_then(|bytes| Some((T::decode(&bytes).ok()?, bytes.len())));
         let was_cached = stored.is_some();
-        let product = match stored {
-            Some(product) => product,
+        let (product, size) = match stored {
+            Some(found) => found,
             None => {
                 let product = make()?;
-                save(&connection, stage, hash, &product.encode()?)?;
-                product
+                let bytes = product.encode()?;
+                save(&connection, stage, hash, &bytes)?;
+                (product, bytes.len())
             }
         };
         let product = Arc::new(product);
         if stage != StageKind::Drape {
             *slot = Some(product.clone());
+            self.keep(hash, size, KEPT_BYTES);
         }
         Ok((product, used(was_cached)))
+    }
+
+    /// Notes a product that was put into memory, and forgets the oldest ones beyond what may be kept. Whoever uses one of
+    /// those still has it.
+    fn keep(&self, hash: &str, size: usize, most: usize) {
+        let mut filled = lock(&self.filled);
+        filled.push_back((hash.to_owned(), size));
+        let mut all: usize = filled.iter().map(|(_, size)| size).sum();
+        while all > most && filled.len() > 1 {
+            let Some((oldest, size)) = filled.pop_front() else { break };
+            lock(&self.slots).remove(&oldest);
+            all -= size;
+        }
     }
 }
 
@@ -184,6 +205,24 @@ mod tests {
         save(&connection, StageKind::Body, "hash", &[0xff]).expect("writable");
         assert_eq!(get(&Cache::new(path.clone()), StageKind::Body, "again"), ("again".to_owned(), false));
         assert_eq!(get(&Cache::new(path), StageKind::Body, "more"), ("again".to_owned(), true));
+    }
+
+    #[test]
+    fn the_oldest_products_leave_memory_but_not_the_database() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let cache = new_cache(&folder.path().join("toile.sqlite"));
+        let get = |hash: &str| {
+            let make = || Ok(hash.repeat(100));
+            let (product, used) = cache.get(StageKind::Body, hash, make).expect("the database works");
+            assert_eq!(*product, hash.repeat(100));
+            used.was_cached
+        };
+        assert_eq!(["a", "b", "c"].map(get), [false; 3]);
+        cache.keep("d", 100, 250);
+        let kept: Vec<String> = lock(&cache.filled).iter().map(|(hash, _)| hash.clone()).collect();
+        assert_eq!(kept, ["c", "d"]);
+        assert_eq!(lock(&cache.slots).keys().collect::<Vec<_>>(), ["c"]);
+        assert_eq!(["a", "b", "c"].map(get), [true; 3]);
     }
 
     #[test]

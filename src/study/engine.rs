@@ -10,12 +10,13 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use rusqlite::{Connection, named_params};
 
 use super::enqueue::Planned;
 use super::error::{Result, StudyError};
+use super::evidence;
 use super::live::Live as LiveView;
 use super::outcome::{self, Executor, Outcome, Provenance};
 use super::owner::{Owner, Watch};
@@ -38,9 +39,13 @@ struct Live {
     lost: AtomicBool,
 }
 
+/// While results come, the evidence of their study is judged again after so many times as long as that took.
+const JUDGED_SHARE: u32 = 20;
+
 /// One run of the planned jobs by this process.
 struct Run<'a> {
     database: &'a Path,
+    study: &'a str,
     specs: BTreeMap<JobId, &'a JobSpec>,
     ids: Vec<JobId>,
     executor: &'a dyn Executor,
@@ -51,6 +56,8 @@ struct Run<'a> {
     watch: Mutex<Watch>,
     live: Mutex<BTreeMap<JobId, Arc<Live>>>,
     busy_workers: AtomicUsize,
+    /// Whether a job has ended since the evidence was judged.
+    has_news: AtomicBool,
 }
 
 /// Runs jobs until none of them is queued or running any more (jobs of other processes are waited for), or until
@@ -60,6 +67,7 @@ struct Run<'a> {
 /// When the database fails: the run stops, and its jobs stay queued. A failing job is no error here.
 pub(crate) fn run(
     database: &Path,
+    study: &str,
     planned: &[Planned],
     executor: &dyn Executor,
     workers: usize,
@@ -69,6 +77,7 @@ pub(crate) fn run(
 ) -> Result<()> {
     let run = Run {
         database,
+        study,
         specs: planned.iter().map(|job| (job.id, &job.spec)).collect(),
         ids: planned.iter().map(|job| job.id).collect(),
         executor,
@@ -79,6 +88,7 @@ pub(crate) fn run(
         watch: Mutex::default(),
         live: Mutex::default(),
         busy_workers: AtomicUsize::new(workers.max(1)),
+        has_news: AtomicBool::default(),
     };
     thread::scope(|scope| {
         let handles: Vec<_> = (0..workers.max(1)).map(|_| scope.spawn(|| run.work())).collect();
@@ -91,7 +101,8 @@ pub(crate) fn run(
             Err(panic) => std::panic::resume_unwind(panic),
         });
         worked.fold(pumped, Result::and)
-    })
+    })?;
+    evidence::update(&mut store::open(database, Access::Volatile)?, study)
 }
 
 impl Run<'_> {
@@ -108,10 +119,10 @@ impl Run<'_> {
     fn work_on(&self, connection: &mut Connection) -> Result<()> {
         queue::want(connection, &self.ids)?;
         while !self.stop.load(Ordering::Relaxed) {
-            let transaction = store::write(connection)?;
-            let claimed = queue::claim(&transaction, &self.owner, &mut lock(&self.watch))?;
-            let is_open = claimed.is_some() || queue::is_open(&transaction)?;
-            transaction.commit()?;
+            let (claimed, is_open) = store::lightly(connection, |transaction| {
+                let claimed = queue::claim(transaction, &self.owner, &mut lock(&self.watch))?;
+                Ok((claimed, claimed.is_some() || queue::is_open(transaction)?))
+            })?;
             match claimed {
                 Some(id) => self.execute(connection, id)?,
                 None if is_open => thread::sleep(TICK),
@@ -139,6 +150,7 @@ impl Run<'_> {
             result => self.finish(connection, id, &result),
         };
         lock(&self.live).remove(&id);
+        self.has_news.store(true, Ordering::Relaxed);
         written
     }
 
@@ -158,12 +170,18 @@ impl Run<'_> {
     /// Tells the database how running jobs fare, until the workers are done.
     fn pump(&self) -> Result<()> {
         let mut connection = store::open(self.database, Access::Volatile)?;
+        let mut next_judged = Instant::now();
         while self.busy_workers.load(Ordering::Acquire) > 0 {
             thread::sleep(TICK);
             store::still_there(self.database)?;
             let live: Vec<(JobId, Arc<Live>)> = lock(&self.live).iter().map(|(id, live)| (*id, live.clone())).collect();
             if !live.is_empty() {
                 self.report(&mut connection, &live)?;
+            }
+            let began = Instant::now();
+            if began > next_judged && self.has_news.swap(false, Ordering::Relaxed) {
+                evidence::update(&mut connection, self.study)?;
+                next_judged = Instant::now() + JUDGED_SHARE * began.elapsed();
             }
         }
         Ok(())

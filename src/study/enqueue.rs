@@ -1,6 +1,6 @@
 //! Bringing the queue in line with a study: a job for every cell whose inputs are new, and the reason for each.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rusqlite::{OptionalExtension, Transaction, params};
 
@@ -11,7 +11,7 @@ use super::inputs::{Change, Inputs};
 use super::owner::Watch;
 use super::queue::{self, Event};
 use super::read;
-use super::spec::{self, JobSpec, Selection};
+use super::spec::{self, JobSpec, Limits, Selection};
 use super::store::now_ms;
 use super::types::{JobId, Status};
 use super::workspace::Workspace;
@@ -89,7 +89,33 @@ pub(crate) fn enqueue(transaction: &Transaction<'_>, study: &Study, selection: &
         let (id, why, was_current) = enqueue_one(transaction, study_id, &spec)?;
         planned.push(Planned { id, spec, why, was_current });
     }
+    chain(transaction, &planned)?;
     Ok(planned)
+}
+
+/// Lets jobs that are to be run wait for those their garments come after, of the same run.
+fn chain(transaction: &Transaction<'_>, planned: &[Planned]) -> Result<()> {
+    if planned.iter().all(|job| job.spec.schedule.after.is_empty()) {
+        return Ok(());
+    }
+    type Place<'a> = (&'a str, &'a str, Simulator);
+    let mut places: BTreeMap<Place<'_>, Vec<JobId>> = BTreeMap::new();
+    for Planned { id, spec, .. } in planned {
+        places.entry((&spec.garment, &spec.subject, spec.simulator)).or_default().push(*id);
+    }
+    for Planned { id, spec, why, .. } in planned.iter().filter(|job| job.why.will_run()) {
+        let before = spec.schedule.after.iter().filter_map(|garment| {
+            let place: Place<'_> = (garment, &spec.subject, spec.simulator);
+            places.get(&place)
+        });
+        let needs: Vec<JobId> = before.flatten().copied().collect();
+        queue::set_needs(transaction, *id, &needs)?;
+        if !needs.is_empty() && *why != Why::Waiting {
+            let numbers: Vec<String> = needs.iter().map(ToString::to_string).collect();
+            queue::log(transaction, *id, "info", &format!("waits for jobs {}", numbers.join(", ")))?;
+        }
+    }
+    Ok(())
 }
 
 /// Brings the study's own row and the order of its axes up to date.
@@ -183,6 +209,7 @@ fn enqueue_one(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec) -> 
     let earlier = latest_of_cell(transaction, study_id, spec)?;
     if let Some((id, status)) = same {
         make_current(transaction, id, earlier)?;
+        set_limits(transaction, id, spec)?;
         let why = match status {
             Status::Done | Status::NotConverged => Why::UpToDate(status),
             Status::Queued | Status::Running => Why::Waiting,
@@ -222,8 +249,18 @@ fn make_current(transaction: &Transaction<'_>, id: JobId, current: Option<JobId>
     Ok(())
 }
 
-/// Takes a job out of its cell; what has not begun need not run any more.
+/// What a job may take, as its study says now.
+fn set_limits(transaction: &Transaction<'_>, id: JobId, spec: &JobSpec) -> Result<()> {
+    let Limits { time_s, memory_mb } = spec.schedule.limits;
+    let sql = "UPDATE job SET time_limit_s = ?1, memory_limit_mb = ?2
+        WHERE job_id = ?3 AND (time_limit_s IS NOT ?1 OR memory_limit_mb IS NOT ?2)";
+    transaction.prepare_cached(sql)?.execute(params![time_s, memory_mb, id.0])?;
+    Ok(())
+}
+
+/// Takes a job out of its cell; what has not begun need not run any more, and nobody waits for it.
 fn supersede(transaction: &Transaction<'_>, id: JobId) -> Result<()> {
+    transaction.prepare_cached("DELETE FROM job_need WHERE needs = ?")?.execute([id.0])?;
     transaction.prepare_cached("UPDATE job SET is_current = 0 WHERE job_id = ?")?.execute([id.0])?;
     if queue::apply(transaction, id, &Event::Cancel, None)?.is_some() {
         queue::log(transaction, id, "info", "cancelled: an input of the study changed")?;
@@ -239,9 +276,9 @@ fn insert(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec, hash: &s
     let fabric = catalogue::fabric(transaction, &spec.fabric, by)?.id;
     transaction
         .prepare_cached(
-            "INSERT INTO job (study_id, garment, size, subject, simulator, repeat, input_hash, status, queued_at,
+            "INSERT INTO job (study_id, garment, size, subject, simulator, repeat, input_hash, priority, status, queued_at,
                 subject_id, style_id, size_id, fabric_id)
-            VALUES (?, ?, ?, ?, ?, ?, ?, 'queued', ?, ?, ?, ?, ?)",
+            VALUES (?, ?, ?, ?, ?, ?, ?, ?, 'queued', ?, ?, ?, ?, ?)",
         )?
         .execute(params![
             study_id,
@@ -251,6 +288,7 @@ fn insert(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec, hash: &s
             spec.simulator.as_str(),
             spec.repeat,
             hash,
+            spec.schedule.priority,
             now_ms(),
             subject,
             style,
@@ -258,6 +296,7 @@ fn insert(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec, hash: &s
             fabric
         ])?;
     let id = JobId(transaction.last_insert_rowid());
+    set_limits(transaction, id, spec)?;
     let mut statement = transaction.prepare_cached("INSERT INTO job_input (job_id, name, value) VALUES (?, ?, ?)")?;
     for (name, value) in spec.inputs.iter() {
         statement.execute(params![id.0, name, value])?;

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use super::catalogue::{FABRIC_NUMBERS, MEASUREMENTS};
 use super::file::{GarmentEntry, ScanFile, SourceFile, Study, Subject};
-use super::spec::{self, millimetres, sex_name};
+use super::spec::{self, Schedule, millimetres, sex_name};
 use crate::sim::Fabric;
 use crate::units::mm;
 
@@ -96,6 +96,19 @@ fn write_garment(text: &mut String, files: &mut Files, garment: &GarmentEntry) {
     text.push_str("]\n");
     for (name, value) in garment.parameters.iter() {
         let _ = writeln!(text, "parameters.{name} = {value}");
+    }
+    let Schedule { priority, after, limits } = &garment.schedule;
+    if *priority != 0 {
+        let _ = writeln!(text, "priority = {priority}");
+    }
+    if !after.is_empty() {
+        let _ = writeln!(text, "after = {}", list(&after.iter().map(String::as_str).collect::<Vec<_>>()));
+    }
+    if let Some(seconds) = limits.time_s {
+        let _ = writeln!(text, "time_limit_s = {seconds:?}");
+    }
+    if let Some(megabytes) = limits.memory_mb {
+        let _ = writeln!(text, "memory_limit_mb = {megabytes}");
     }
 }
 

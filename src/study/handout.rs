@@ -3,6 +3,7 @@
 //! A job file holds all that a job is made from, a result file all that came of it; neither needs a database. Results are
 //! merged in one transaction, and merging them again changes nothing.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -14,6 +15,7 @@ use super::cache::Cache;
 use super::enqueue::{self, Planned};
 use super::error::{Result, StudyError};
 use super::file::Study;
+use super::isolated::{self, Clock, Teller};
 use super::outcome::{self, Executor, Outcome, Provenance};
 use super::owner::Owner;
 use super::pipeline::Pipeline;
@@ -133,27 +135,43 @@ impl Workspace {
         let owner = Owner::new();
         let mut merged = Merged::default();
         let transaction = store::write(self.writer()?)?;
+        let mut studies = BTreeSet::new();
         for path in &files {
-            merge_one(&transaction, path, &owner, &mut merged)?;
+            studies.insert(merge_one(&transaction, path, &owner, &mut merged)?);
         }
         transaction.commit()?;
+        for study in &studies {
+            self.update_evidence(study)?;
+        }
         Ok(merged)
     }
 }
 
-/// Runs a job file and writes its result beside it, or where it is wanted. A job that fails has a result that says why.
+/// Runs a job file within its limits and writes its result beside it, or where it is wanted. A job that fails has a result
+/// that says why. With a database the products of the stages stay there, the process ends with the one that started it,
+/// and says how far it is on standard output.
 ///
 /// # Errors
 /// When the job file cannot be read, or the result cannot be written.
-pub fn run_job(path: &Path, output: Option<&Path>) -> Result<Ran> {
+pub fn run_job(path: &Path, output: Option<&Path>, database: Option<&Path>) -> Result<Ran> {
     let job: JobFile = read_json(path, "job")?;
+    if database.is_some() {
+        isolated::end_with_parent();
+    }
+    isolated::keep_to(&job.spec.schedule.limits)?;
     let folder = tempfile::tempdir().map_err(StudyError::io(std::env::temp_dir()))?;
     let scratch = folder.path().join("job.sqlite");
     let connection = store::open(&scratch, Access::Create)?;
     let began = Instant::now();
     // Versions of the stages are this program's: a result of other ones is refused where it is merged.
     let spec = job.spec.with_inputs();
-    let outcome = Pipeline::over(Cache::new(scratch)).execute(&spec, &mut Untold);
+    let clock = Clock::start(&spec.schedule.limits);
+    let mut teller = Teller { clock, is_heard: database.is_some(), last: None };
+    let pipeline = Pipeline::over(Cache::new(database.map_or(scratch, Path::to_owned)));
+    let outcome = match pipeline.execute(&spec, &mut teller) {
+        Err(StudyError::Interrupted) => Err(teller.clock.error()),
+        outcome => outcome,
+    };
     let outcome = outcome.map_err(|error| error.to_string());
     let error = outcome.as_ref().err().cloned();
     let result = ResultFile {
@@ -169,6 +187,18 @@ pub fn run_job(path: &Path, output: Option<&Path>) -> Result<Ran> {
     let file = output.map_or_else(|| result_of(path), Path::to_owned);
     write_json(&file, &result)?;
     Ok(Ran { file, error })
+}
+
+/// Writes a job file for a process that this one starts; where it is made does not go along.
+pub(super) fn write_job(path: &Path, spec: &JobSpec) -> Result<()> {
+    let (study, provenance) = (String::new(), Provenance::default());
+    write_json(path, &JobFile { format: FORMAT, study, provenance, spec: spec.clone() })
+}
+
+/// What came of a job, from its result file.
+pub(super) fn read_outcome(path: &Path) -> Result<Outcome> {
+    let result: ResultFile = read_json(path, "result")?;
+    result.outcome.map_err(|message| StudyError::Elsewhere { message })
 }
 
 /// Where the result of a job file is written.
@@ -201,7 +231,8 @@ fn products(connection: &Connection) -> Result<Vec<Product>> {
     Ok(products)
 }
 
-fn merge_one(transaction: &Transaction<'_>, path: &Path, owner: &Owner, merged: &mut Merged) -> Result<()> {
+/// Merges one result file; the name of its study.
+fn merge_one(transaction: &Transaction<'_>, path: &Path, owner: &Owner, merged: &mut Merged) -> Result<String> {
     let result: ResultFile = read_json(path, "result")?;
     let spec = &result.spec;
     let refuse =
@@ -250,7 +281,7 @@ fn merge_one(transaction: &Transaction<'_>, path: &Path, owner: &Owner, merged: 
             if is_failed { merged.failed.push(id) } else { merged.stored.push(id) }
         }
     }
-    Ok(())
+    Ok(result.study)
 }
 
 /// Stores products that are not here yet.

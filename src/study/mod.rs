@@ -22,6 +22,7 @@ mod figure;
 mod file;
 mod handout;
 mod inputs;
+mod isolated;
 mod live;
 mod new_study;
 mod outcome;
@@ -81,7 +82,7 @@ pub use read::JobFilter;
 pub use record::{ChiPair, Comparison, ProvenanceRow, Record, Rerun};
 pub use run::{Run, RunOptions};
 pub use slurm::{SlurmOptions, SlurmRun};
-pub use spec::{JobSpec, Selection};
+pub use spec::{JobSpec, Limits, Schedule, Selection};
 pub use sql::{Interrupter, SavedQuery, saved_queries, saved_query};
 pub use store::now_ms;
 pub use types::{

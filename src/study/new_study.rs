@@ -60,6 +60,7 @@ simulators = {}
 edge_length_mm = 15         # of the finest cloth mesh: 25 is quick, 10 is fine
 # repeats = 1
 # fit = {{ tight_below_mm = 50, loose_above_mm = 100 }}
+# time_limit_s = 600          # also of one garment, as memory_limit_mb, priority and after = ["..."]
 "#,
             simulators.len(),
             subjects * sizes * simulators.len(),

@@ -4,7 +4,6 @@ use rusqlite::{Connection, OptionalExtension, Transaction, params};
 
 use super::cache::Used;
 use super::error::{Result, StudyError};
-use super::evidence;
 use super::owner::host;
 use super::queue::{self, Event};
 use super::spec::JobSpec;
@@ -185,9 +184,6 @@ fn write_result(
     let study_id: Option<i64> = transaction.query_row(is_current, [id.0], |row| row.get(0)).optional()?;
     if let Some(study_id) = study_id {
         write_ease(transaction, study_id, spec, &outcome.eases)?;
-        let study: String =
-            transaction.query_row("SELECT name FROM study WHERE study_id = ?", [study_id], |row| row.get(0))?;
-        evidence::refresh(transaction, &study)?;
     }
     let (commit, dirty) = provenance.git.clone().unzip();
     transaction

@@ -91,7 +91,34 @@ pub(crate) fn apply(
     if after.status != Status::Running {
         transaction.prepare_cached("DELETE FROM job_progress WHERE job_id = ?")?.execute([id.0])?;
     }
+    if matches!(after.status, Status::Failed | Status::Cancelled) {
+        cancel_dependents(transaction, id, after.status)?;
+    }
     Ok(Some(after))
+}
+
+/// Cancels the queued jobs that need the result of one that has come to have none.
+fn cancel_dependents(transaction: &Transaction<'_>, id: JobId, status: Status) -> Result<()> {
+    let sql = "SELECT job_id FROM job_need JOIN job USING (job_id) WHERE needs = ? AND status = 'queued'";
+    let mut statement = transaction.prepare_cached(sql)?;
+    let waiting = statement.query_map([id.0], |row| row.get(0).map(JobId))?.collect::<rusqlite::Result<Vec<_>>>()?;
+    for job in waiting {
+        let text = format!("job {id}, which it waits for, is {}", status.as_str());
+        if apply(transaction, job, &Event::Cancel, Some(&text))?.is_some() {
+            log(transaction, job, "warn", &text)?;
+        }
+    }
+    Ok(())
+}
+
+/// Lets a job start only after others have results; in place of what it waited for before.
+pub(crate) fn set_needs(transaction: &Transaction<'_>, id: JobId, needs: &[JobId]) -> Result<()> {
+    transaction.prepare_cached("DELETE FROM job_need WHERE job_id = ?")?.execute([id.0])?;
+    let mut statement = transaction.prepare_cached("INSERT INTO job_need (job_id, needs) VALUES (?, ?)")?;
+    for needed in needs {
+        statement.execute((id.0, needed.0))?;
+    }
+    Ok(())
 }
 
 /// The stored state of a job.
@@ -103,6 +130,13 @@ fn load(connection: &Connection, id: JobId) -> Result<State> {
     state.ok_or_else(|| StudyError::NotFound { what: "job", name: id.to_string(), known: vec![] })
 }
 
+/// The jobs of which one needs the result.
+pub(crate) fn needs(connection: &Connection, id: JobId) -> Result<Vec<JobId>> {
+    let mut statement = connection.prepare_cached("SELECT needs FROM job_need WHERE job_id = ? ORDER BY needs")?;
+    let needs = statement.query_map([id.0], |row| row.get(0).map(JobId))?.collect::<rusqlite::Result<_>>()?;
+    Ok(needs)
+}
+
 /// Names the jobs that this connection works on: [`claim`] and [`is_open`] see no others. Ten thousand of them are looked
 /// up faster in a table than in a list that goes along with every question.
 pub(crate) fn want(connection: &Connection, ids: &[JobId]) -> Result<()> {
@@ -112,7 +146,8 @@ pub(crate) fn want(connection: &Connection, ids: &[JobId]) -> Result<()> {
     Ok(())
 }
 
-/// Takes the next queued job that is wanted for `owner`: greatest priority first, then in order of queueing.
+/// Takes the next queued job that is wanted for `owner` and waits for no other: greatest priority first, then in order of
+/// queueing.
 pub(crate) fn claim(transaction: &Transaction<'_>, owner: &Owner, watch: &mut Watch) -> Result<Option<JobId>> {
     take_over(transaction, watch)?;
     let next = transaction
@@ -120,6 +155,9 @@ pub(crate) fn claim(transaction: &Transaction<'_>, owner: &Owner, watch: &mut Wa
             "SELECT job_id FROM job
             WHERE status = 'queued' AND is_current AND job_id IN wanted
                 AND (SELECT NOT paused FROM study WHERE study.study_id = job.study_id)
+                AND NOT EXISTS (
+                    SELECT 1 FROM job_need JOIN job AS needed ON needed.job_id = needs
+                    WHERE job_need.job_id = job.job_id AND needed.status IN ('queued', 'running'))
             ORDER BY priority DESC, job_id LIMIT 1",
         )?
         .query_row([], |row| row.get(0).map(JobId))

@@ -13,7 +13,7 @@ use super::inputs::{Change, Inputs};
 use super::outcome::{Executor, Outcome};
 use super::parameters::Parameters;
 use super::pipeline::Pipeline;
-use super::spec::JobSpec;
+use super::spec::{JobSpec, Schedule};
 use super::store::{self, Access};
 use super::types::{ChiRow, JobId, JobRow, MetricsRow, StageRow, SubjectId};
 use super::workspace::Workspace;
@@ -215,6 +215,7 @@ impl Workspace {
             fabric: read_fabric(&self.reader, keys[3])?,
             edge_length_m: from_mm(edge_mm),
             parameters: Parameters::of_inputs(&inputs).map_err(refuse)?,
+            schedule: Schedule::default(),
             inputs: Inputs::default(),
         };
         Ok(spec.with_inputs())

@@ -11,6 +11,7 @@ use super::enqueue::{self, Planned};
 use super::error::{Result, StudyError};
 use super::evidence;
 use super::file::{Problem, Study};
+use super::isolated::Isolated;
 use super::live::Live;
 use super::outcome::{self, Executor, Provenance};
 use super::pipeline::Pipeline;
@@ -122,7 +123,8 @@ impl Workspace {
         let (database, of_study, stages) = (self.path().to_owned(), study.clone(), pipeline.clone());
         // Ease is there long before the first drape. What cannot be made fails its own jobs, which then say why.
         let aside = move || drop(store_ease(&database, &of_study, &stages));
-        self.launch(study, options, pipeline, aside)
+        let executor = Arc::new(Isolated::new(self.path(), pipeline));
+        self.launch(study, options, executor, aside)
     }
 
     /// Finds the ease of every size of a study on every subject, and stores it.
@@ -167,14 +169,16 @@ impl Workspace {
         let folder = study.path.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
         // What was the study's before needs nothing beside it: all of that was found with its results.
         let is_settled = planned.iter().all(|job| job.was_current && !job.why.will_run());
+        let name = study.name.clone();
         let work = move || {
             if is_settled {
-                return Ok(());
+                // A run that was killed may not have come to judge its last results.
+                return evidence::update(&mut store::open(&database, Access::Volatile)?, &name);
             }
             let provenance = Provenance::of(&folder);
             thread::scope(|scope| {
                 scope.spawn(aside);
-                engine::run(&database, &jobs, &*executor, workers, provenance, &stopped, &live)
+                engine::run(&database, &name, &jobs, &*executor, workers, provenance, &stopped, &live)
             })
         };
         let thread = thread::Builder::new().name("toile-run".into()).spawn(work).map_err(StudyError::io("thread"))?;

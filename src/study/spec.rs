@@ -5,10 +5,45 @@ use super::file::{GarmentEntry, ScanFile, SizeFile, SourceFile, Study, Subject};
 use super::inputs::Inputs;
 use super::parameters::Parameters;
 use super::pipeline;
+use super::types::JobRow;
 use crate::body::Measurements;
 use crate::fit::Simulator;
 use crate::sim::Fabric;
 use crate::units::mm;
+
+/// What a job may take; one that takes more is ended and has failed. Results do not depend on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Limits {
+    /// Time, s.
+    pub time_s: Option<f64>,
+    /// Memory, MB (10^6 bytes).
+    pub memory_mb: Option<u32>,
+}
+
+impl Limits {
+    /// Whether there is one.
+    #[must_use]
+    pub fn is_some(&self) -> bool {
+        self.time_s.is_some() || self.memory_mb.is_some()
+    }
+
+    /// These limits, and others where these say nothing.
+    #[must_use]
+    pub fn or(self, others: Self) -> Self {
+        Self { time_s: self.time_s.or(others.time_s), memory_mb: self.memory_mb.or(others.memory_mb) }
+    }
+}
+
+/// When a job is started, and what it may take: nothing of this is an input of its result.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Schedule {
+    /// Greater runs earlier.
+    pub priority: i64,
+    /// Garments whose jobs on the same subject, by the same simulator, must have results before.
+    pub after: Vec<String>,
+    /// What it may take.
+    pub limits: Limits,
+}
 
 /// One simulation with everything it needs.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -41,7 +76,10 @@ pub struct JobSpec {
     pub edge_length_m: f64,
     /// Values of the simulators' parameters that are not the default ones.
     pub parameters: Parameters,
-    /// All of the above, and the versions of the stages, as named values.
+    /// When it is started, and what it may take.
+    #[serde(default)]
+    pub schedule: Schedule,
+    /// All of the above but the schedule, and the versions of the stages, as named values.
     pub inputs: Inputs,
 }
 
@@ -62,11 +100,21 @@ impl Selection {
     /// Whether a job is selected.
     #[must_use]
     pub fn takes(&self, spec: &JobSpec) -> bool {
+        self.takes_cell([spec.simulator.as_str(), &spec.size, &spec.subject, &spec.garment])
+    }
+
+    /// Whether a stored job is selected.
+    #[must_use]
+    pub fn takes_row(&self, job: &JobRow) -> bool {
+        self.takes_cell([job.simulator.as_str(), &job.size, &job.subject, &job.garment])
+    }
+
+    fn takes_cell(&self, [simulator, size, subject, garment]: [&str; 4]) -> bool {
         let among = |list: &[String], name: &str| list.is_empty() || list.iter().any(|x| x.eq_ignore_ascii_case(name));
-        among(&self.simulators, spec.simulator.as_str())
-            && among(&self.sizes, &spec.size)
-            && among(&self.subjects, &spec.subject)
-            && among(&self.garments, &spec.garment)
+        among(&self.simulators, simulator)
+            && among(&self.sizes, size)
+            && among(&self.subjects, subject)
+            && among(&self.garments, garment)
     }
 }
 
@@ -102,6 +150,7 @@ fn job(garment: &GarmentEntry, size: &SizeFile, subject: &Subject, simulator: Si
         fabric: garment.fabric.clone(),
         edge_length_m: garment.edge_length_m,
         parameters: garment.parameters.clone(),
+        schedule: garment.schedule.clone(),
         inputs: Inputs::default(),
     };
     spec.with_inputs()

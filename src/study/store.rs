@@ -10,7 +10,7 @@ use super::error::{Result, StudyError, database_error};
 use super::{evidence, sql};
 
 /// Schema changes in order, never edited once released: `user_version` counts how many a database has.
-const MIGRATIONS: [&str; 9] = [
+const MIGRATIONS: [&str; 10] = [
     include_str!("../../db/migrations/0001_store.sql"),
     include_str!("../../db/migrations/0002_views.sql"),
     include_str!("../../db/migrations/0003_published.sql"),
@@ -20,6 +20,7 @@ const MIGRATIONS: [&str; 9] = [
     include_str!("../../db/migrations/0007_hybrid_gap.sql"),
     include_str!("../../db/migrations/0008_engine.sql"),
     include_str!("../../db/migrations/0009_evidence.sql"),
+    include_str!("../../db/migrations/0010_queue.sql"),
 ];
 
 /// How long a statement waits for another process's write, s, where `TOILE_PATIENCE_S` says nothing else.
@@ -206,6 +207,20 @@ pub(crate) fn write(connection: &mut Connection) -> rusqlite::Result<Transaction
     connection.transaction_with_behavior(TransactionBehavior::Immediate)
 }
 
+/// Does something in a transaction that a power cut may undo, though nothing else may: what a queue is told need not wait
+/// for the disk. The next result that is stored makes it last, too.
+pub(crate) fn lightly<T>(connection: &mut Connection, act: impl FnOnce(&Transaction<'_>) -> Result<T>) -> Result<T> {
+    let usual: i64 = connection.pragma_query_value(None, "synchronous", |row| row.get(0))?;
+    connection.pragma_update(None, "synchronous", "normal")?;
+    let done = write(connection).map_err(StudyError::from).and_then(|transaction| {
+        let done = act(&transaction)?;
+        transaction.commit()?;
+        Ok(done)
+    });
+    connection.pragma_update(None, "synchronous", usual)?;
+    done
+}
+
 /// The clock, ms since 1970 (UTC). Only queue bookkeeping reads it; results never depend on it.
 #[must_use]
 pub fn now_ms() -> i64 {
@@ -244,6 +259,54 @@ mod tests {
             std::fs::write(SCHEMA, &schema).expect("db/ is writable");
         }
         assert_eq!(std::fs::read_to_string(SCHEMA).expect("db/schema.sql"), schema);
+    }
+
+    /// The migrations as they were before crossings were counted and reports remembered: both came in without a version.
+    fn of_the_first_days() -> [String; 9] {
+        std::array::from_fn(|k| {
+            let sql = MIGRATIONS[k];
+            match k {
+                0 => sql.replace(",\n    self_crossings INTEGER NOT NULL", ""),
+                1 => sql.replace(" self_crossings,", ""),
+                7 => sql.split("-- The page of a study's report").next().unwrap_or_default().to_owned(),
+                _ => sql.to_owned(),
+            }
+        })
+    }
+
+    #[test]
+    fn a_database_of_any_earlier_day_is_brought_up_to_date_with_its_results() {
+        let fill = "INSERT INTO study VALUES (1, 'tops', 'p', 50, 100, 0, 0);
+            INSERT INTO subject (subject_id, name, revision, hash, sex, stature_mm, created_at)
+                VALUES (1, 'ii', 1, 'h', 'male', 1690, 0);
+            INSERT INTO style VALUES (1, 'tee', 1, 'h', 's', '', 0);
+            INSERT INTO size VALUES (1, 'tee', 's', 1, 'h', 'p', NULL, x'', 0);
+            INSERT INTO fabric (fabric_id, name, revision, hash, density_kg_m2, thickness_mm, membrane_warp_n_m,
+                    membrane_weft_n_m, membrane_coupling_n_m, shear_n_m, bending_warp_nm, bending_weft_nm, friction_body,
+                    friction_self, source, created_at)
+                VALUES (1, 'poplin', 1, 'h', 0.1, 0.2, 1, 1, 0, 1, 1, 1, 0, 0, '', 0);
+            INSERT INTO job (job_id, study_id, garment, size, subject, simulator, input_hash, status, queued_at, subject_id,
+                    style_id, size_id, fabric_id)
+                VALUES (1, 1, 'tee', 's', 'ii', 'fem', 'h', 'done', 0, 1, 1, 1, 1);";
+        let released = MIGRATIONS[..9].iter().map(ToString::to_string).collect::<Vec<_>>();
+        let check = |migrations: &[String], result: &str, crossings: Option<i64>| {
+            let folder = tempfile::tempdir().expect("a folder");
+            let path = folder.path().join("toile.sqlite");
+            let connection = Connection::open(&path).expect("a new database");
+            connection.execute_batch(&migrations.concat()).expect("valid");
+            connection.execute_batch(&format!("{fill} INSERT INTO metrics VALUES ({result})")).expect("valid");
+            connection.pragma_update(None, "user_version", migrations.len() as i64).expect("writable");
+            drop(connection);
+            let connection = open(&path, Access::Create).expect("brought up to date");
+            let row = |row: &rusqlite::Row<'_>| Ok((row.get::<_, f64>(0)?, row.get::<_, Option<i64>>(1)?));
+            let found = connection.query_row("SELECT ei, self_crossings FROM v_metrics", [], row);
+            assert_eq!(found.expect("one result"), (0.01, crossings));
+            let names = "SELECT group_concat(name) FROM (SELECT name FROM sqlite_schema ORDER BY name)";
+            let names = |of: &Connection| of.query_row(names, [], |row| row.get::<_, String>(0)).expect("some");
+            assert_eq!(names(&connection), names(&migrated()));
+        };
+        check(&of_the_first_days(), "1, 9, 1, 0, 0.01, 0, 5, 5, 5, 0, 1, 0, 0", None);
+        check(&released, "1, 9, 1, 0, 0.01, 0, 5, 5, 5, 0, 1, 0, 0, 7", Some(7));
     }
 
     #[test]

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::file::{GarmentEntry, SizeFile, SourceFile, Subject};
 use super::queue::{self, Event};
+use super::spec::Schedule;
 use super::store::{self, Access};
 use super::*;
 use crate::body::{Measurements, Sex};
@@ -89,6 +90,7 @@ fn study(density_kg_m2: f64) -> Study {
             edge_length_m: 0.015,
             parameters: Parameters::default(),
             swept: vec![],
+            schedule: Schedule::default(),
         }],
         simulators: vec![Simulator::Fem],
         repeats: 1,
@@ -354,6 +356,59 @@ fn stopping_puts_running_jobs_back_and_a_pause_holds_new_ones() {
     assert!(bench.statuses().values().all(|&status| status == Status::Queued));
     bench.workspace.resume("tops").expect("there");
     run.join().expect("works");
+    assert!(bench.statuses().values().all(|status| status.has_result()));
+}
+
+/// The study with a second garment, which has priority but comes after the first.
+fn chained() -> Study {
+    let mut both = study(0.1);
+    let mut over = both.garments[0].clone();
+    over.name = "over".into();
+    over.schedule = Schedule { priority: 5, after: vec!["tee".into()], ..Schedule::default() };
+    both.garments.push(over);
+    both
+}
+
+#[test]
+fn a_garment_waits_for_another_whatever_its_priority() {
+    let mut bench = Bench::new();
+    let order = Arc::new(Mutex::new(Vec::new()));
+    let noted = order.clone();
+    bench.run(&chained(), 2, move |spec: &JobSpec, _: &mut dyn Monitor| {
+        noted.lock().expect("no panic").push((spec.subject.clone(), spec.garment.clone()));
+        Ok(outcome(spec))
+    });
+    let order = order.lock().expect("no panic").clone();
+    for subject in ["ii", "v"] {
+        let garments: Vec<&str> =
+            order.iter().filter(|(who, _)| who == subject).map(|(_, what)| what.as_str()).collect();
+        assert_eq!(garments, ["tee", "tee", "over", "over"], "{order:?}");
+    }
+    let waits = bench.workspace.query("SELECT priority, waits_for, count(*) FROM v_jobs GROUP BY 1, 2").expect("valid");
+    let number = Value::Integer;
+    assert_eq!(waits.rows, [vec![number(0), number(0), number(4)], vec![number(5), number(0), number(4)]]);
+}
+
+#[test]
+fn what_waits_for_a_failed_job_is_cancelled_and_retried_with_it() {
+    let mut bench = Bench::new();
+    let planned =
+        bench.run(&chained(), 2, |spec: &JobSpec, _: &mut dyn Monitor| match (&*spec.garment, &*spec.subject) {
+            ("tee", "v") => Err(StudyError::Stage { stage: "sim", message: "diverged".into() }),
+            _ => Ok(outcome(spec)),
+        });
+    let status = |bench: &Bench, garment: &str, subject: &str| -> Vec<Status> {
+        let cells = planned.iter().filter(|job| (&*job.spec.garment, &*job.spec.subject) == (garment, subject));
+        cells.map(|job| bench.workspace.job(job.id).expect("there").status).collect()
+    };
+    assert!(status(&bench, "over", "ii").iter().all(|status| status.has_result()));
+    assert_eq!(status(&bench, "tee", "v"), [Status::Failed; 2]);
+    assert_eq!(status(&bench, "over", "v"), [Status::Cancelled; 2]);
+    let over = planned.last().expect("eight").id;
+    let error = bench.workspace.job(over).expect("there").error.unwrap_or_default();
+    assert!(error.starts_with("job ") && error.ends_with(", which it waits for, is failed"), "{error}");
+    assert_eq!(bench.workspace.retry(&[over]).expect("writable"), 3, "with the two it needs");
+    bench.run(&chained(), 2, quick);
     assert!(bench.statuses().values().all(|status| status.has_result()));
 }
 

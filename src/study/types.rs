@@ -292,8 +292,8 @@ pub struct MetricsRow {
     pub penetration_max_m: f64,
     /// Greatest seam gap, m.
     pub seam_gap_max_m: f64,
-    /// Edges that pierce the garment's own cloth.
-    pub self_crossings: u32,
+    /// Edges that pierce the garment's own cloth; `None` for results of programs that did not count them.
+    pub self_crossings: Option<u32>,
 }
 
 /// Ease of a size on a subject at one level.

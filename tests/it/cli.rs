@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 85] = [
+const COMMANDS: [&str; 86] = [
     "",
     "run",
     "run show",
@@ -57,6 +57,7 @@ const COMMANDS: [&str; 85] = [
     "queue resume",
     "queue cancel",
     "queue retry",
+    "queue priority",
     "queue log",
     "subject",
     "subject ls",

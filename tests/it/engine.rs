@@ -158,3 +158,37 @@ fn a_population_stands_for_somebody_new() {
     let svg = std::fs::read_to_string(place.path("sizes.svg")).expect("written");
     assert!(svg.contains("m: 2, a just fit for") && svg.matches("<title>").count() == 2, "{svg}");
 }
+
+#[test]
+fn jobs_keep_to_their_limits_and_results_do_not_depend_on_them() {
+    let place = place("");
+    let said = place.toile("run . --no-report --time-limit 0.01").ends_with(4);
+    assert!(said.err.contains("limit: took longer than its time limit of 0.01 s"), "{}", said.err);
+    let said = place.toile("run . --no-report --memory-limit 50").ends_with(4);
+    assert!(said.err.contains("limit: needed more than its memory limit of 50 MB"), "{}", said.err);
+    assert_eq!(place.one("SELECT status || ' ' || memory_limit_mb || ' ' || attempts FROM v_jobs"), "failed 50 1");
+    place.toile("run . --no-report --time-limit 600 --memory-limit 4000 --quiet").ends_with(0);
+    let limited = results(&place);
+    let free = self::place("");
+    free.toile("run . --no-report --quiet").ends_with(0);
+    assert_eq!(limited, results(&free), "bit by bit");
+    assert!(place.toile("run . --no-report").ends_with(0).err.contains("1 jobs, 0 to run"));
+}
+
+#[test]
+fn groups_of_jobs_are_put_first_and_cancelled() {
+    let place = place("\n[[sweep]]\nedge_length_mm = [60, 50]\n");
+    place.toile("job handout . -o jobs").ends_with(0);
+    place.toile("queue priority --to 3 --study coarse --garment tee_edge --quiet").ends_with(0);
+    assert_eq!(place.one("SELECT max(priority) FROM v_jobs"), "0", "no garment of that name");
+    place.toile("queue priority --to 3 2 --quiet").ends_with(0);
+    assert!(place.toile("queue cancel --size m").ends_with(2).err.contains("--study"));
+    place.toile("queue cancel --study coarse --size x --quiet").ends_with(0);
+    place.toile("queue cancel --study coarse --size M --sim hybrid --quiet").ends_with(0);
+    let jobs = place.sql("SELECT job_id, status, priority FROM v_jobs ORDER BY 1");
+    assert_eq!(jobs, ["1,cancelled,0", "2,cancelled,3"]);
+    place.toile("queue retry --study coarse --quiet").ends_with(0);
+    place.toile("run . --workers 1 --no-report --quiet").ends_with(0);
+    let first = "SELECT job_id FROM v_jobs ORDER BY started_at LIMIT 1";
+    assert_eq!(place.one(first), "2", "it has priority");
+}

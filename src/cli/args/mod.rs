@@ -136,6 +136,8 @@ pub struct Run {
     pub workers: Option<u16>,
     #[command(flatten)]
     pub part: StudyPart,
+    #[command(flatten)]
+    pub limits: JobLimits,
     /// Who works: threads of this process, or tasks of a Slurm cluster.
     #[arg(long, value_enum, default_value_t = Engine::Local)]
     pub engine: Engine,
@@ -177,6 +179,23 @@ pub struct StudyPart {
     /// Only these garments.
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     pub garment: Vec<String>,
+}
+
+/// What one job may take; over what the study file says.
+#[derive(Debug, Args)]
+pub struct JobLimits {
+    /// End a simulation that takes longer; it has failed.
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    pub time_limit: Option<f64>,
+    /// End a simulation that needs more memory; it has failed.
+    #[arg(long, value_name = "MB", value_parser = clap::value_parser!(u32).range(50..))]
+    pub memory_limit: Option<u32>,
+}
+
+/// A number above zero.
+fn positive(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
+    number.ok_or_else(|| "not a number above 0".into())
 }
 
 /// Who works on jobs.
@@ -223,13 +242,16 @@ pub enum Job {
         #[command(flatten)]
         part: StudyPart,
     },
-    /// Run a job file, on any machine and without a database; its result lies beside it.
+    /// Run a job file within its limits, on any machine and without a database; its result lies beside it.
     Run {
         /// Job file.
         file: PathBuf,
         /// Result file to write.
         #[arg(long, short, value_name = "FILE")]
         output: Option<PathBuf>,
+        /// Keep what the stages make in a database of this machine: so a run starts its jobs that have limits.
+        #[arg(long, hide = true)]
+        database: Option<PathBuf>,
     },
     /// Store results of job files: all of them or none; again changes nothing.
     Merge {
@@ -459,7 +481,7 @@ pub enum MeshFormat {
     Obj,
     /// Stanford: one mesh, with colours and the map's values.
     Ply,
-    /// Stereolithography: one mesh.
+    /// Stereolithography: one mesh, coloured by triangle.
     Stl,
 }
 
@@ -479,7 +501,7 @@ pub struct Export {
     pub output: PathBuf,
 }
 
-/// Jobs by number, or all of a study.
+/// Jobs by number, or a group of them: all of a study, or of a part of it.
 #[derive(Debug, Args)]
 #[command(group = clap::ArgGroup::new("which").required(true).multiple(true))]
 pub struct Jobs {
@@ -489,6 +511,8 @@ pub struct Jobs {
     /// All jobs of a study.
     #[arg(long, group = "which", value_name = "NAME")]
     pub study: Option<String>,
+    #[command(flatten)]
+    pub part: StudyPart,
 }
 
 /// Commands on the queue.
@@ -514,8 +538,16 @@ pub enum Queue {
     },
     /// Cancel queued or running jobs.
     Cancel(Jobs),
-    /// Queue failed or cancelled jobs again.
+    /// Queue failed or cancelled jobs again, and those they wait for.
     Retry(Jobs),
+    /// Set the priority of jobs: greater runs earlier, 0 is that of most.
+    Priority {
+        /// Priority.
+        #[arg(long, value_name = "N", allow_negative_numbers = true)]
+        to: i64,
+        #[command(flatten)]
+        jobs: Jobs,
+    },
     /// A job's log.
     Log {
         /// Job number.

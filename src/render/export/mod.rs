@@ -34,7 +34,7 @@ pub enum MeshFormat {
     Obj,
     /// Stanford PLY, binary: the parts as one mesh, with colours, values (`value`, NaN without) and the part's number.
     Ply,
-    /// STL, binary: the parts as one mesh.
+    /// STL, binary: the parts as one mesh, coloured by triangle.
     Stl,
 }
 

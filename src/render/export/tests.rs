@@ -72,10 +72,12 @@ fn ply_is_read_back() {
 }
 
 #[test]
-fn stl_holds_every_triangle_with_its_normal() {
+fn stl_holds_every_triangle_with_its_normal_and_colour() {
     let file = written(MeshFormat::Stl);
     assert_eq!(file.len(), 84 + 8 * 50);
     assert_eq!(u32::from_le_bytes(file[80..84].try_into().expect("four bytes")), 8);
     let normal = &file[84..96];
     assert_eq!(normal, [0.0_f32, 0.0, -1.0].map(f32::to_le_bytes).concat());
+    let colour = u16::from_le_bytes([file[132], file[133]]);
+    assert_eq!((colour >> 15, colour >> 10 & 31, colour >> 5 & 31, colour & 31), (1, 31, 0, 51 >> 3));
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::Part;
+use super::{Part, Rgb};
 
 /// Wavefront OBJ.
 pub(super) fn obj(parts: &[Part<'_>]) -> String {
@@ -67,7 +67,7 @@ pub(super) fn ply(parts: &[Part<'_>]) -> Vec<u8> {
     file
 }
 
-/// Binary STL.
+/// Binary STL, each triangle with its colour.
 pub(super) fn stl(parts: &[Part<'_>]) -> Vec<u8> {
     let faces: usize = parts.iter().map(|part| part.mesh.triangles.len()).sum();
     let mut file = vec![0; 80];
@@ -85,8 +85,15 @@ pub(super) fn stl(parts: &[Part<'_>]) -> Vec<u8> {
             ] {
                 file.extend(vector.iter().flat_map(|x| (*x as f32).to_le_bytes()));
             }
-            file.extend([0, 0]);
+            file.extend(face_colour(triangle.map(|v| part.colours[v])).to_le_bytes());
         }
     }
     file
+}
+
+/// Colour of a triangle as STL has it in VisCAM, MeshLab and others: the mean of its corners in five bits each, blue
+/// lowest, and the highest bit to say that there is one.
+fn face_colour(corners: [Rgb; 3]) -> u16 {
+    let mean = |of: fn(&Rgb) -> u8| corners.iter().map(|colour| u16::from(of(colour))).sum::<u16>() / 3;
+    1 << 15 | (mean(|c| c.0) >> 3) << 10 | (mean(|c| c.1) >> 3) << 5 | mean(|c| c.2) >> 3
 }

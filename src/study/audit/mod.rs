@@ -8,6 +8,7 @@ mod equations;
 mod metrics;
 mod published;
 mod ratios;
+mod references;
 mod results;
 mod structure;
 mod tables;

@@ -1,7 +1,7 @@
 //! The audit of the thesis's tables: each kind of check over all of them.
 
 use super::tables::Tables;
-use super::{Audit, Finding, claims, equations, metrics, ratios, structure};
+use super::{Audit, Finding, claims, equations, metrics, ratios, references, structure};
 
 /// How far a recomputed number may lie from one printed with three decimals: half of the last digit.
 const HALF_DIGIT: f64 = 0.0005 + 1e-6;
@@ -10,8 +10,10 @@ const HALF_DIGIT: f64 = 0.0005 + 1e-6;
 type Check = fn(&Tables) -> (usize, Vec<Finding>);
 
 /// Every kind of check, in the order of its findings.
-const CHECKS: [Check; 6] =
-    [ratios::check, metrics::check, structure::check, metrics::subjects, claims::check, |_| equations::check()];
+const CHECKS: [Check; 7] =
+    [ratios::check, metrics::check, structure::check, metrics::subjects, references::check, claims::check, |_| {
+        equations::check()
+    }];
 
 /// Recomputes every printed number and statement.
 pub(super) fn audit(tables: &Tables) -> Audit {

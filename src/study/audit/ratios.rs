@@ -1,7 +1,7 @@
 //! Ratios L3D / L2D, and mean and SD of each row.
 
 use super::published::{blur, mean, prints_as, variance};
-use super::tables::{Row, SUBJECTS, Tables};
+use super::tables::{Row, SUBJECTS, Sized, Tables};
 use super::{Finding, three, threes};
 use crate::fit::Simulator;
 
@@ -10,6 +10,7 @@ pub(super) fn check(tables: &Tables) -> (usize, Vec<Finding>) {
     let mut findings: Vec<Finding> =
         tables.rows.iter().flat_map(|row| ratios(row).into_iter().chain(summary(row))).collect();
     findings.extend(winners(tables));
+    findings.extend(shifts(tables));
     (tables.rows.len() * 8, findings)
 }
 
@@ -72,6 +73,37 @@ fn summary(row: &Row) -> Option<Finding> {
         recomputed: threes([mean, sd]),
         says: "mean or sample SD of the row's own ratios is another number".into(),
     })
+}
+
+/// What the wrong ratios do to E and EI where they do most.
+fn shifts(tables: &Tables) -> Vec<Finding> {
+    let of_garment = |of: Sized| {
+        let cells =
+            [Simulator::Fem, Simulator::Hybrid].into_iter().flat_map(|simulator| (0..6).map(move |s| (simulator, s)));
+        cells.map(move |(simulator, subject)| (of.clone(), simulator, subject))
+    };
+    let cells: Vec<(Sized, Simulator, usize)> = tables.garments().into_iter().flat_map(of_garment).collect();
+    let greatest = |name: &str, error: fn(f64) -> f64| {
+        let both = |(of, simulator, subject): &(Sized, Simulator, usize)| {
+            let rows = tables.table(of, *simulator);
+            let over =
+                |ratio: &dyn Fn(&Row) -> f64| mean(&rows.iter().map(|row| error(ratio(row))).collect::<Vec<_>>());
+            let place = format!("{name} of {of} ({}), {}", simulator.as_str(), SUBJECTS[*subject]);
+            (place, over(&|row| as_computed(row, *subject)), over(&|row| row.ratio(*subject)))
+        };
+        let shift = |(_, stated, mended): &(String, f64, f64)| (stated - mended).abs();
+        let found = cells.iter().map(both).max_by(|a, b| shift(a).total_cmp(&shift(b)));
+        found.filter(|found| shift(found) > 0.0)
+    };
+    let worst = [greatest("E", |ratio| ratio), greatest("EI", |ratio| (ratio - 1.0).abs())];
+    let finding = |(place, stated, mended): (String, f64, f64)| Finding {
+        kind: "shift",
+        place,
+        stated: three(stated),
+        recomputed: three(mended),
+        says: format!("nowhere do the wrong ratios change it more: by {}", three((stated - mended).abs())),
+    };
+    worst.into_iter().flatten().map(finding).collect()
 }
 
 /// Cases in which the wrong ratios change which simulator has the lower EI.

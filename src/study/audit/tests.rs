@@ -32,13 +32,18 @@ fn every_kind_of_error_is_found_as_often_as_it_is_there() {
     check("metric", "of measurement #2 alone", 11);
     check("metric", "the sum over the 11", 6);
     check("metric", "another number", 1);
+    check("metric", "wrong ones included", 8);
+    check("shift", "", 2);
+    check("reference", "", 2);
+    check("word", "", 2);
+    check("statement", "other numbers of iterations", 1);
     check("row", "this is no Waist Girth", 1);
     check("row", "mean or sample SD", 0);
     check("copy", "copy of the other", 1);
     let missing = audit.findings.iter().filter(|f| f.kind == "missing");
     assert_eq!(missing.map(|f| f.says.matches(['E', 'S']).count()).sum::<usize>(), 21, "E, SD or EI");
     check("equation", "", 4);
-    check("caption", "", 2);
+    check("caption", "", 3);
     let wrong: usize = audit
         .findings
         .iter()

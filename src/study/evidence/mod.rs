@@ -75,25 +75,61 @@ impl Workspace {
     /// # Errors
     /// When the database cannot be read or written.
     pub fn update_evidence(&mut self, study: &str) -> Result<()> {
-        let Some(writer) = self.writer.as_mut() else { return Ok(()) };
-        let transaction = store::write(writer)?;
-        refresh(&transaction, study)?;
-        Ok(transaction.commit()?)
+        self.writer.as_mut().map_or(Ok(()), |writer| update(writer, study))
     }
+}
+
+/// What the results of a study say, and what they were then.
+struct Judged {
+    evidence: Evidence,
+    pairs: i64,
+    checksum: f64,
+}
+
+/// Judges a study's results again, if they are others than those that were judged, and keeps that. While it is judged,
+/// others may write: the view sees whether the results are still the same.
+pub(super) fn update(connection: &mut Connection, study: &str) -> Result<()> {
+    let reading = connection.transaction()?;
+    let judged = if is_judged(&reading, study)? { None } else { Some(judge(&reading, study)?) };
+    drop(reading);
+    judged.map_or(Ok(()), |judged| store::lightly(connection, |transaction| keep(transaction, study, &judged)))
 }
 
 /// Judges the results of a study by name and keeps what comes of it.
 pub(super) fn refresh(connection: &Connection, study: &str) -> Result<()> {
+    keep(connection, study, &judge(connection, study)?)
+}
+
+/// Whether what is kept of a study is of its results as they are, and of all its garments and fit classes.
+fn is_judged(connection: &Connection, study: &str) -> Result<bool> {
+    let kept =
+        "SELECT count(*) FROM evidence JOIN study USING (study_id) WHERE name = ? AND pairs = ? AND checksum = ?";
+    let (pairs, checksum) = basis(connection, study)?;
+    let kept: i64 = connection.prepare_cached(kept)?.query_row(params![study, pairs, checksum], |row| row.get(0))?;
+    Ok(kept == cells(connection, study)?.len() as i64)
+}
+
+/// What the evidence of a study is judged from: number of pairs, and a sum that is another one when they are others.
+fn basis(connection: &Connection, study: &str) -> Result<(i64, f64)> {
+    let sql = "SELECT count(*), total(d_ei) + total(ease_mm) FROM v_pair WHERE study = ?";
+    Ok(connection.prepare_cached(sql)?.query_row([study], |row| Ok((row.get(0)?, row.get(1)?)))?)
+}
+
+fn judge(connection: &Connection, study: &str) -> Result<Judged> {
     let evidence = fit::judge(&cells(connection, study)?, &pairs(connection, study)?);
+    let (pairs, checksum) = basis(connection, study)?;
+    Ok(Judged { evidence, pairs, checksum })
+}
+
+fn keep(connection: &Connection, study: &str, judged: &Judged) -> Result<()> {
     connection
         .prepare_cached("DELETE FROM evidence WHERE study_id = (SELECT study_id FROM study WHERE name = ?)")?
         .execute([study])?;
     let mut statement = connection.prepare_cached(
         "INSERT INTO evidence
-        SELECT study_id, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, basis.pairs, basis.checksum
-        FROM study JOIN v_evidence_basis AS basis ON basis.study = study.name WHERE study.name = ?1",
+        SELECT study_id, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16 FROM study WHERE name = ?1",
     )?;
-    for answer in &evidence.answers {
+    for answer in &judged.evidence.answers {
         let estimate = answer.analysis.estimate;
         let interval = estimate.and_then(|e| e.interval);
         statement.execute(params![
@@ -110,7 +146,9 @@ pub(super) fn refresh(connection: &Connection, study: &str) -> Result<()> {
             estimate.and_then(|e| e.p_equivalence),
             answer.analysis.subjects.len() as i64,
             answer.reason,
-            answer.would_settle
+            answer.would_settle,
+            judged.pairs,
+            judged.checksum
         ])?;
     }
     Ok(())

@@ -6,15 +6,30 @@ use std::path::Path;
 use toml::Spanned;
 
 use super::super::parameters::Parameters;
+use super::super::spec::Limits;
 use super::parse::{lookup, source, unique};
 use super::reader::{Place, Reader};
+use super::schedule;
 use super::sweep::{self, EDGE_MM};
 use super::{GarmentEntry, KnownStyle, Placed, Sewn, SizeFile, SourceFile, Subject};
 use crate::sim::Fabric;
 use crate::units::from_mm;
 
-const GARMENT_KEYS: [&str; 9] =
-    ["name", "subjects", "seams", "unit", "fabric", "sizes", "style", "edge_length_mm", "parameters"];
+const GARMENT_KEYS: [&str; 13] = [
+    "name",
+    "subjects",
+    "seams",
+    "unit",
+    "fabric",
+    "sizes",
+    "style",
+    "edge_length_mm",
+    "parameters",
+    "priority",
+    "after",
+    "time_limit_s",
+    "memory_limit_mb",
+];
 
 /// What garments of a file have in common.
 pub(super) struct Common<'a> {
@@ -28,6 +43,8 @@ pub(super) struct Common<'a> {
     pub edge_length_m: f64,
     /// Parameters of the simulators, likewise.
     pub parameters: Parameters,
+    /// What a simulation may take, likewise.
+    pub limits: Limits,
 }
 
 /// All garments with their cloth and those who wear them.
@@ -44,7 +61,9 @@ pub(super) fn garments(
     let mut garments = Vec::new();
     let mut names = BTreeSet::new();
     for mut place in places {
+        let before = names.clone();
         let name = named(reader, &mut place, &mut names);
+        let schedule = schedule::schedule(reader, &place, &before, common.limits);
         let subjects = wearers(reader, &place, top, subjects);
         let style = reader.text(&place, "style");
         let Sewn { seams, unit, sizes } = match &style {
@@ -82,6 +101,7 @@ pub(super) fn garments(
                 edge_length_m,
                 parameters,
                 swept,
+                schedule,
             });
         }
     }

@@ -6,6 +6,8 @@
 //! edge_length_mm = 15               # of the finest cloth mesh; default 15
 //! repeats = 1                       # default 1
 //! fit = { tight_below_mm = 50, loose_above_mm = 100 }   # default: these
+//! time_limit_s = 600                # a simulation that takes longer is ended and has failed; default: none
+//! memory_limit_mb = 2000            # likewise one that takes more memory; default: none
 //!
 //! [[subject]]
 //! id = "ii"                         # its name in results
@@ -23,6 +25,9 @@
 //! style = "tee"                     # in place of files: a style of the catalogue; default: the garment's name
 //! edge_length_mm = 12               # default: the study's
 //! parameters = { fem.offset_mu = 0.4 }  # over the study's
+//! priority = 1                      # greater runs earlier; default 0
+//! after = ["trousers"]              # garments that must have their results on the same subject before
+//! time_limit_s = 60                 # and memory_limit_mb: over the study's
 //! sizes = [{ name = "S", pattern = "patterns/tshirt-s.dxf" }]   # DXF, a folder of DXF files, or GarmentCode JSON
 //! # with a style of the catalogue: sizes = ["S"]; default: all of the style
 //!
@@ -44,6 +49,7 @@
 mod garments;
 mod parse;
 mod reader;
+mod schedule;
 mod source;
 mod subjects;
 mod sweep;
@@ -57,6 +63,7 @@ use std::path::{Path, PathBuf};
 pub use self::source::SourceFile;
 use super::error::{Result, StudyError};
 use super::parameters::Parameters;
+use super::spec::{Limits, Schedule};
 use crate::body::{LengthUnit, Measurements};
 use crate::fit::Cuts;
 use crate::fit::Simulator;
@@ -154,6 +161,19 @@ pub struct GarmentEntry {
     pub parameters: Parameters,
     /// Names and values that a sweep gave it.
     pub swept: Vec<(String, String)>,
+    /// When its jobs are started, and what each may take.
+    pub schedule: Schedule,
+}
+
+impl GarmentEntry {
+    /// Its name in the file, where a sweep made it.
+    #[must_use]
+    pub fn unswept_name(&self) -> &str {
+        self.swept.iter().rev().fold(&self.name, |name, (axis, value)| {
+            let short = axis.rsplit('.').next().unwrap_or(axis);
+            name.strip_suffix(&format!(" {short}={value}")).unwrap_or(name)
+        })
+    }
 }
 
 /// A study, checked and with all its inputs read.
@@ -239,6 +259,13 @@ pub fn study_file(path: &Path) -> PathBuf {
 }
 
 impl Study {
+    /// Sets what each simulation may take, over what the file says.
+    pub fn limit(&mut self, limits: Limits) {
+        for garment in &mut self.garments {
+            garment.schedule.limits = limits.or(garment.schedule.limits);
+        }
+    }
+
     /// Reads and checks a study: the file or its folder.
     ///
     /// # Errors

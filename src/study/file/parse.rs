@@ -11,16 +11,27 @@ use super::super::error::{StudyError, nearest};
 use super::garments::{Common, garments};
 use super::reader::{Place, Reader};
 use super::subjects::{measurements, subjects};
-use super::sweep;
-use super::{Known, Placed, Problem, SourceFile, Study, Subject};
+use super::{Known, Placed, Problem, SourceFile, Study, Subject, schedule, sweep};
 use crate::body::Measurements;
 use crate::fit::Cuts;
 use crate::fit::Simulator;
 use crate::sim::Fabric;
 use crate::units::{from_mm, mm};
 
-const STUDY_KEYS: [&str; 10] =
-    ["name", "simulators", "edge_length_mm", "repeats", "fit", "subject", "garment", "fabric", "parameters", "sweep"];
+const STUDY_KEYS: [&str; 12] = [
+    "name",
+    "simulators",
+    "edge_length_mm",
+    "repeats",
+    "fit",
+    "subject",
+    "garment",
+    "fabric",
+    "parameters",
+    "sweep",
+    "time_limit_s",
+    "memory_limit_mb",
+];
 
 /// Checks the text of a study file; files it names are looked up beside it.
 pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec<Problem>> {
@@ -42,6 +53,7 @@ pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec
         styles: &known.styles,
         edge_length_m: from_mm(reader.number(&top, "edge_length_mm", sweep::EDGE_MM).unwrap_or(15.0)),
         parameters: sweep::parameters(&mut reader, &top),
+        limits: schedule::limits(&mut reader, &top),
     };
     let worn = garments(&mut reader, &top, &common, &subjects);
     let study = Study {
@@ -50,7 +62,7 @@ pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec
         simulators: simulators(&mut reader, &top),
         repeats: reader.number(&top, "repeats", 1.0..=100.0).unwrap_or(1.0) as u32,
         cuts: cuts(&mut reader, &top),
-        garments: sweep::swept(&mut reader, &top, worn, &fabrics),
+        garments: schedule::unfolded(sweep::swept(&mut reader, &top, worn, &fabrics)),
         subjects,
     };
     if study.subjects.is_empty() && !top.table.contains_key("subject") {

@@ -189,3 +189,29 @@ proptest::proptest! {
         }
     }
 }
+
+#[test]
+fn schedules_are_read_and_circles_refused() {
+    let two = |more: &str| {
+        let over = GOOD[GOOD.find("[[garment]]").expect("there")..].replace("\"tee\"", "\"over\"");
+        load(&format!("time_limit_s = 60\n{GOOD}{over}{more}"))
+    };
+    let check = |more: &str, says: &str| {
+        let told = two(more).expect_err("wrong");
+        assert!(told.contains(says), "{told}");
+    };
+    check("after = [\"over\"]", "no [[garment]] before this one `over`");
+    check("after = [\"tea\"]", "did you mean `tee`?");
+    check("time_limit_s = 0", "`time_limit_s` is 0; accepted: 0.001 to 2592000");
+    check("memory_limit_mb = 1", "`memory_limit_mb` is 1; accepted: 50 to 4000000");
+    check("priority = 1e6", "`priority` is 1000000; accepted: -1000 to 1000");
+    let sweep = "[[sweep]]\ngarments = [\"tee\"]\nedge_length_mm = [20, 15]\n";
+    let study = two(&format!("after = [\"tee\"]\npriority = 2\nmemory_limit_mb = 500\n{sweep}")).expect("good");
+    let [plain, over] = [&study.garments[0], study.garments.last().expect("three")].map(|garment| &garment.schedule);
+    assert_eq!(over.after, ["tee edge_length_mm=20", "tee edge_length_mm=15"]);
+    assert_eq!((over.priority, over.limits), (2, Limits { time_s: Some(60.0), memory_mb: Some(500) }));
+    assert_eq!((plain.after.len(), plain.limits.time_s), (0, Some(60.0)));
+    let mut study = study;
+    study.limit(Limits { time_s: Some(5.0), memory_mb: None });
+    assert_eq!(study.garments[2].schedule.limits, Limits { time_s: Some(5.0), memory_mb: Some(500) });
+}

@@ -307,7 +307,7 @@ pub fn detail(id: JobId) -> Detail {
             residual: 7.9e-3,
             converged: status == Status::Done,
             penetration_max_m: 0.0002,
-            self_crossings: 0,
+            self_crossings: Some(0),
             seam_gap_max_m: 0.0001,
         }),
         history: if has_result { (1..=100).map(step).collect() } else { vec![] },
