@@ -12,7 +12,7 @@ use crate::geom::{TriMesh, V2, V3};
 
 /// Share of what the stretch of a ring says that its inset is corrected by at once.
 const GAIN: f64 = 0.3;
-/// Inset that a ring may come to need besides four times the judged one, m: rings are not quite level, and the cloth beside a ring
+/// Inset that a ring may come to need besides the judged one, m: a tape is straighter than the body, and the cloth beside a ring
 /// pulls at it.
 const DOUBT_M: f64 = 6e-3;
 /// Inset that a ring keeps that was too small once, m: it may become so again.
@@ -20,8 +20,8 @@ const LEAST_INSET_M: f64 = 1e-6;
 /// Inset that a ring may come to need besides what it has where it is worn, m: one that could yield more would slide over what is
 /// wider.
 const SLIP_M: f64 = 1e-3;
-/// By how much an inset is less per length of the cloth away from its ring.
-const FADE: f64 = 0.05;
+/// By how much an inset is less per length of the cloth away from its ring: over a slope of 0.1 the cloth is longer by 0.5 %.
+const FADE: f64 = 0.1;
 /// By how much an inset may be greater from one ring to the next, m.
 const STEEPEST_M: f64 = 6e-3;
 /// A ring is not too small by more than this share: what it is compared with is another part of the body, as the trunk
@@ -36,7 +36,7 @@ pub struct Insets {
     beside: Vec<[usize; 2]>,
     /// Of each ring, m; 0 where it is large enough.
     now_m: Vec<f64>,
-    /// What each may grow to, m.
+    /// What each may grow to, m; 0 where the ring must not yield.
     most_m: Vec<f64>,
 }
 
@@ -80,7 +80,6 @@ impl Insets {
             lacks[a] = lacks[a].min(lacks[b] + STEEPEST_M);
             lacks[b] = lacks[b].min(lacks[a] + STEEPEST_M);
         }
-        if std::env::var("ROWS").is_ok() { for (k,r) in self.rings.iter().enumerate() { let q:Vec<V3>=r.points(x).collect(); let z=q.iter().map(|p|p.z).sum::<f64>()/q.len() as f64; eprintln!("ring {k} z {z:.3} rest {:.3} inside {:?} now {:?} lack {:.4} eased {:.4}",r.rest_m,inside_m(body,r,x),self.now_m.get(k),lack(r).unwrap_or(9.0),lacks[k]);} eprintln!("--"); }
         lacks.iter_mut().filter(|lack| lack.is_infinite()).for_each(|lack| *lack = 0.0);
         lacks
     }
@@ -101,7 +100,7 @@ impl Insets {
         }
         for (k, now) in self.now_m.iter_mut().enumerate().filter(|(k, _)| self.most_m[*k] > 0.0) {
             let lack_m = (sums[k][0] / sums[k][1] - 1.0 - share) * self.rings[k].rest_m;
-            *now = (*now + GAIN * lack_m / TAU).clamp(LEAST_INSET_M, self.most_m[k].max(LEAST_INSET_M));
+            *now = (*now + GAIN * lack_m / TAU).clamp(LEAST_INSET_M, self.most_m[k]);
         }
     }
 

@@ -1,6 +1,6 @@
 //! The rings in which cloth goes round trunk, legs and arms: closed lines that planes cut into it, and that stay on it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::sewn::Sewn;
 use crate::body::{Body, Layer};
@@ -79,7 +79,8 @@ fn cut(garment: &Garment, sewn: &Sewn, x: &[V3], limb: &Limb) -> Vec<Ring> {
         let low = heights.iter().copied().fold(f64::MAX, f64::min).ceil() as i32;
         let high = heights.iter().copied().fold(f64::MIN, f64::max).ceil() as i32;
         for level in low..high {
-            let cuts: Vec<(Cut, V2)> = (0..3).filter_map(|k| crossing(garment, sewn, corners, heights, k, level)).collect();
+            let cuts: Vec<(Cut, V2)> =
+                (0..3).filter_map(|k| crossing(garment, sewn, corners, heights, k, level)).collect();
             if let [(a, from), (b, to)] = cuts.as_slice() {
                 let segment = Segment { ends: [*a, *b], rest_m: (to - from).norm() };
                 levels.entry(level).or_default().push(segment);
@@ -124,7 +125,8 @@ fn chained(level: i32, segments: &[Segment]) -> Vec<Ring> {
         let (mut index, mut edge) = (start, segments[start].ends[0].edge);
         while !std::mem::replace(&mut used[index], true) {
             let segment = &segments[index];
-            let [from, to] = if segment.ends[0].edge == edge { segment.ends } else { [segment.ends[1], segment.ends[0]] };
+            let [from, to] =
+                if segment.ends[0].edge == edge { segment.ends } else { [segment.ends[1], segment.ends[0]] };
             ring.cuts.push(from);
             ring.rest_m += segment.rest_m;
             edge = to.edge;
@@ -157,9 +159,9 @@ impl Ring {
         self.cuts.iter().flat_map(|cut| cut.edge)
     }
 
-    /// Whether a vertex is next to this ring and to another, or two such vertices are one edge apart.
+    /// Whether a vertex is next to this ring and to another.
     fn is_beside(&self, other: &Self) -> bool {
-        let own: std::collections::BTreeSet<usize> = self.vertices().collect();
+        let own: BTreeSet<usize> = self.vertices().collect();
         other.vertices().any(|v| own.contains(&v))
     }
 
@@ -184,5 +186,73 @@ impl Ring {
         let next = points.iter().cycle().skip(1);
         let area: V3 = points.iter().zip(next).map(|(a, b)| (a - middle).cross(&(b - middle))).sum();
         Some(Plane::normal_to(middle, area.try_normalize(1e-9)?))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::super::inset::Insets;
+    use super::*;
+    use crate::geom::shapes::sphere;
+
+    const COUNT: usize = 48;
+
+    /// A ring over its own vertices.
+    fn ring(rest_m: f64) -> (Vec<Ring>, Vec<[usize; 2]>) {
+        let cuts = (0..COUNT).map(|v| Cut { edge: [v, v], share: 0.0 }).collect();
+        (vec![Ring { cuts, rest_m, level: 0 }], vec![])
+    }
+
+    /// A level circle of vertices, m.
+    fn circle(radius: f64, z: f64) -> Vec<V3> {
+        let at = |k: usize| (k as f64 / COUNT as f64 * TAU).sin_cos();
+        (0..COUNT).map(at).map(|(sin, cos)| V3::new(radius * cos, radius * sin, z)).collect()
+    }
+
+    /// Inset at the first vertex, m.
+    fn inset(insets: &Insets) -> f64 {
+        insets.of_vertices(COUNT, &[])[0]
+    }
+
+    #[test]
+    fn a_ring_knows_its_length_and_its_plane() {
+        let (rings, _) = ring(0.7);
+        let x = circle(0.1, 0.15);
+        assert!((rings[0].length_m(&x) - TAU * 0.1).abs() < 1e-3);
+        let plane = rings[0].plane(&x).expect("it has an area");
+        assert!((plane.normal().z.abs() - 1.0).abs() < 1e-9 && (plane.origin - V3::new(0.0, 0.0, 0.15)).norm() < 1e-9);
+    }
+
+    #[test]
+    fn a_body_is_smaller_by_what_a_ring_lacks_over_a_turn_and_little_more() {
+        let ball = sphere(0.2, 48);
+        let [offset, share] = [2e-3, 2e-3];
+        // The ball's girth 0.15 above its middle.
+        let radius = (0.2_f64.powi(2) - 0.15_f64.powi(2)).sqrt();
+        let x = circle(radius, 0.15);
+        let mut insets = Insets::judged(ring(0.7), &ball, &x, offset, share);
+        let lack = radius + offset - 0.7 * (1.0 + share) / TAU;
+        assert!((inset(&insets) - lack).abs() < 1e-3, "{} instead of {lack}", inset(&insets));
+        // The cloth is still as wide as the body: that must not make the body smaller and smaller.
+        (0..50).for_each(|_| insets.correct(&x, share));
+        assert!((inset(&insets) - lack - 6e-3).abs() < 1e-3, "{}", inset(&insets));
+        // Once it has closed and is slack, the body takes its size again.
+        let slack = circle(0.6 / TAU, 0.15);
+        (0..50).for_each(|_| insets.correct(&slack, share));
+        assert!(inset(&insets) < 1e-5, "{}", inset(&insets));
+    }
+
+    #[test]
+    fn a_ring_that_is_large_enough_is_held_up_where_the_body_is_wider() {
+        let ball = sphere(0.2, 48);
+        let mut insets = Insets::judged(ring(0.9), &ball, &circle(0.14, 0.15), 2e-3, 2e-3);
+        assert_eq!(inset(&insets), 0.0);
+        // Round the ball's middle it would lack 0.36.
+        let below = circle(0.2, 0.0);
+        insets.judge_again(&ball, &below, 2e-3, 2e-3);
+        insets.correct(&below, 2e-3);
+        assert_eq!(inset(&insets), 0.0);
     }
 }
