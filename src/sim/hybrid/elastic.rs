@@ -176,13 +176,6 @@ impl Elastic {
     }
 }
 
-impl Elastic {
-    /// Stretch of every triangle in its piece's plane, the root of `F^T F`, and its pattern area, m2.
-    pub fn stretches<'s>(&'s self, x: &'s [V3]) -> impl Iterator<Item = (Matrix2<f64>, f64)> + 's {
-        self.triangles.iter().map(|t| (t.polar(x).1, t.area_m2))
-    }
-}
-
 impl Triangle {
     fn new(vertices: [usize; 3], rest: [V2; 3]) -> Option<Self> {
         let edges = Matrix2::from_columns(&[rest[1] - rest[0], rest[2] - rest[0]]);

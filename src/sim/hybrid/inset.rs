@@ -5,104 +5,112 @@
 
 use std::f64::consts::TAU;
 
-use super::elastic::Elastic;
-use super::rows::Rows;
+use super::ring::Ring;
 use crate::geom::hull::tape_girth;
-use crate::geom::section::{Plane, section};
-use crate::geom::{TriMesh, V3};
+use crate::geom::section::{Outline, section};
+use crate::geom::{TriMesh, V2, V3};
 
 /// Share of what the stretch of a ring says that its inset is corrected by at once.
 const GAIN: f64 = 0.3;
-/// Inset that a ring may come to need besides four times the judged one, m: rings are not quite level, and the cloth beside a ring
+/// Inset that a ring may come to need besides the judged one, m: a tape is straighter than the body, and the cloth beside a ring
 /// pulls at it.
 const DOUBT_M: f64 = 6e-3;
 /// Inset that a ring keeps that was too small once, m: it may become so again.
 const LEAST_INSET_M: f64 = 1e-6;
-/// By how much an inset is less per length of the cloth away from its ring.
-const FADE: f64 = 0.05;
-/// By how much an inset may be greater from one row to the next, m.
+/// Inset that a ring may come to need besides what it has where it is worn, m: one that could yield more would slide over what is
+/// wider.
+const SLIP_M: f64 = 1e-3;
+/// By how much an inset is less per length of the cloth away from its ring: over a slope of 0.1 the cloth is longer by 0.5 %.
+const FADE: f64 = 0.1;
+/// By how much an inset may be greater from one ring to the next, m.
 const STEEPEST_M: f64 = 6e-3;
 /// A ring is not too small by more than this share: what it is compared with is another part of the body, as the trunk
 /// with an arm.
 const MOST_LACK: f64 = 0.5;
 
-/// The insets of a garment's rows.
+/// The insets of a garment's rings.
+#[derive(Default)]
 pub struct Insets {
-    rows: Rows,
-    /// Of each row, m; 0 where its ring is large enough.
+    rings: Vec<Ring>,
+    /// Rings that lie next to each other.
+    beside: Vec<[usize; 2]>,
+    /// Of each ring, m; 0 where it is large enough.
     now_m: Vec<f64>,
-    /// The same as they were judged last, before corrections.
-    judged_m: Vec<f64>,
+    /// What each may grow to, m; 0 where the ring must not yield.
+    most_m: Vec<f64>,
 }
 
 impl Insets {
-    /// None at first.
+    /// Judges by how much rings are too small. `offset_m` is how far off the skin they lie, `share` how far they may
+    /// be stretched, positions `x` are in m.
     #[must_use]
-    pub fn new(rows: Rows) -> Self {
-        let none = vec![0.0; rows.len()];
-        Self { rows, now_m: none.clone(), judged_m: none }
+    pub fn judged(
+        (rings, beside): (Vec<Ring>, Vec<[usize; 2]>),
+        body: &TriMesh,
+        x: &[V3],
+        offset_m: f64,
+        share: f64,
+    ) -> Self {
+        let mut insets = Self { rings, beside, now_m: Vec::new(), most_m: Vec::new() };
+        insets.now_m = insets.lacks(body, x, offset_m, share);
+        insets.most_m = insets.now_m.iter().map(|now| if *now > 0.0 { now + DOUBT_M } else { 0.0 }).collect();
+        insets
     }
 
-    /// Judges by how much rings are too small, where the cloth is now: a tape round the body inside them, `offset_m` off the
-    /// skin, is longer than their cloth stretched by a share. Positions `x` in m.
-    pub fn judge(&mut self, body: &TriMesh, x: &[V3], offset_m: f64, share: f64) {
-        let mut members = vec![Vec::new(); self.rows.len()];
-        for &(row, v) in self.rows.of_vertex() {
-            members[row].push(v);
+    /// Judges again, when the cloth has slid: a ring that was large enough where it is worn does not become too small by
+    /// sliding to where the body is wider, which holds it up.
+    pub fn judge_again(&mut self, body: &TriMesh, x: &[V3], offset_m: f64, share: f64) {
+        let lacks = self.lacks(body, x, offset_m, share);
+        for ((now, most), lack) in self.now_m.iter_mut().zip(&mut self.most_m).zip(lacks) {
+            *most = if lack > 0.0 && *now > 0.0 { now.min(lack + DOUBT_M) + SLIP_M } else { 0.0 };
+            *now = now.min(*most);
         }
-        let middle = |rows: &mut dyn Iterator<Item = usize>| {
-            let (sum, n) =
-                rows.flat_map(|r| &members[r]).fold((V3::zeros(), 0.0), |(sum, n), &v| (sum + x[v], n + 1.0));
-            (n > 0.0).then(|| sum / n)
+    }
+
+    /// By how much the body must be smaller for each ring, m: a tape round it inside the ring is longer than the ring's cloth.
+    fn lacks(&self, body: &TriMesh, x: &[V3], offset_m: f64, share: f64) -> Vec<f64> {
+        let lack = |ring: &Ring| {
+            let lack_m = inside_m(body, ring, x)? + TAU * offset_m - (1.0 + share) * ring.rest_m;
+            (lack_m < MOST_LACK * ring.rest_m).then_some(lack_m.max(0.0) / TAU)
         };
-        let lack = |row: usize| {
-            let ring = self.rows.ring(row);
-            let centre = middle(&mut ring.iter().copied())?;
-            let [above, below] = [0, 1].map(|k| middle(&mut ring.iter().map(|&r| self.rows.beside(r)[k].unwrap_or(r))));
-            let plane = Plane::normal_to(centre, (above? - below?).try_normalize(1e-6)?);
-            let outlines = section(body, &plane);
-            let inside = outlines.iter().find(|o| o.closed && o.contains(plane.project(centre)))?;
-            let cloth_m = self.rows.girth_m(row);
-            let lack_m = tape_girth(&inside.points) + TAU * offset_m - (1.0 + share) * cloth_m;
-            (lack_m < MOST_LACK * cloth_m).then_some(lack_m)
-        };
-        let lacks: Vec<Option<f64>> =
-            (0..self.rows.len()).map(|row| lack(row).filter(|_| self.rows.is_closed(row))).collect();
-        let judged = |row: usize| {
-            let of_piece = (0..lacks.len()).filter(|&other| self.rows.are_of_one_piece(row, other));
-            let known: Vec<(usize, f64)> =
-                of_piece.filter_map(|other| Some((other, lacks[other]?.max(0.0) / TAU))).collect();
-            let &(nearest, _) = known.iter().min_by_key(|(other, _)| other.abs_diff(row))?;
-            // Girths change little from row to row: one that stands out is that of trunk and arm together.
-            let steepest = |&(other, inset): &(usize, f64)| inset + STEEPEST_M * other.abs_diff(nearest) as f64;
-            known.iter().map(steepest).min_by(f64::total_cmp).filter(|_| self.rows.is_closed(row))
-        };
-        self.judged_m = (0..self.rows.len()).map(|row| judged(row).unwrap_or(0.0)).collect();
-        self.now_m.clone_from(&self.judged_m);
+        let mut lacks: Vec<f64> = self.rings.iter().map(|ring| lack(ring).unwrap_or(f64::INFINITY)).collect();
+        // Girths change little from ring to ring: one that stands out is that of trunk and arm together.
+        let (up, down) = (self.beside.iter(), self.beside.iter().rev());
+        for &[a, b] in up.chain(down) {
+            lacks[a] = lacks[a].min(lacks[b] + STEEPEST_M);
+            lacks[b] = lacks[b].min(lacks[a] + STEEPEST_M);
+        }
+        lacks.iter_mut().filter(|lack| lack.is_infinite()).for_each(|lack| *lack = 0.0);
+        lacks
     }
 
     /// Corrects the insets of rings that were judged too small: until their cloth is stretched by a share, no more and no less.
-    pub fn correct(&mut self, elastic: &Elastic, x: &[V3], share: f64) {
-        if self.judged_m.iter().all(|inset| *inset == 0.0) {
+    pub fn correct(&mut self, x: &[V3], share: f64) {
+        if self.now_m.iter().all(|inset| *inset == 0.0) {
             return;
         }
-        let stretches = self.rows.stretches(elastic, x);
-        let corrected = |(row, &judged): (usize, &f64)| {
-            let lack_m = (stretches[row] - share) * self.rows.girth_m(row);
-            let now = (self.now_m[row] + GAIN * lack_m / TAU).clamp(LEAST_INSET_M, 4.0 * judged + DOUBT_M);
-            if judged > 0.0 { now } else { 0.0 }
-        };
-        let own: Vec<f64> = self.judged_m.iter().enumerate().map(corrected).collect();
-        self.now_m = own;
+        let lengths: Vec<[f64; 2]> = self.rings.iter().map(|ring| [ring.length_m(x), ring.rest_m]).collect();
+        // With its neighbours: a single ring wavers.
+        let mut sums = lengths.clone();
+        for &[a, b] in &self.beside {
+            for k in 0..2 {
+                sums[a][k] += lengths[b][k];
+                sums[b][k] += lengths[a][k];
+            }
+        }
+        for (k, now) in self.now_m.iter_mut().enumerate().filter(|(k, _)| self.most_m[*k] > 0.0) {
+            let lack_m = (sums[k][0] / sums[k][1] - 1.0 - share) * self.rings[k].rest_m;
+            *now = (*now + GAIN * lack_m / TAU).clamp(LEAST_INSET_M, self.most_m[k]);
+        }
     }
 
-    /// Inset for each sewn vertex, m: that of its ring, the greatest where pieces meet, and about rings less and less with
+    /// Inset for each sewn vertex, m: that of its ring, the greatest where it has several, and about rings less and less with
     /// the distance over the cloth. `sides` are the lengths of the cloth's edges in the pattern, m.
     #[must_use]
     pub fn of_vertices(&self, count: usize, sides: &[([usize; 2], f64)]) -> Vec<f64> {
         let mut insets = vec![0.0_f64; count];
-        for &(row, v) in self.rows.of_vertex() {
-            insets[v] = insets[v].max(self.now_m[row]);
+        for (ring, now) in self.rings.iter().zip(&self.now_m) {
+            ring.vertices().for_each(|v| insets[v] = insets[v].max(*now));
         }
         let mut spreads = insets.iter().any(|inset| *inset > 0.0);
         while spreads {
@@ -119,4 +127,22 @@ impl Insets {
         }
         insets
     }
+}
+
+/// Length of a tape round what a ring holds of the body, m: a part of the body in which its middle lies, or whose middle lies
+/// within it, as both legs' do in a skirt. `None` where it holds nothing.
+fn inside_m(body: &TriMesh, ring: &Ring, x: &[V3]) -> Option<f64> {
+    let plane = ring.plane(x)?;
+    let line = Outline { points: ring.points(x).map(|p| plane.project(p)).collect(), closed: true };
+    let middle = |outline: &Outline| {
+        let (low, high) = outline.bounds();
+        (low + high) / 2.0
+    };
+    let own = middle(&line);
+    let held: Vec<V2> = section(body, &plane)
+        .into_iter()
+        .filter(|part| part.closed && (part.contains(own) || line.contains(middle(part))))
+        .flat_map(|part| part.points)
+        .collect();
+    (!held.is_empty()).then(|| tape_girth(&held))
 }

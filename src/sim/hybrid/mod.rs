@@ -21,7 +21,7 @@ pub mod path;
 pub mod popup;
 pub mod pyramid;
 pub mod relax;
-mod rows;
+mod ring;
 pub mod sewn;
 mod silhouette;
 pub mod sparse;
@@ -134,7 +134,7 @@ pub fn phases(
     let mut done = 0.0;
     let error = |x: &[V3]| mean_chi(garment, &sewn.unsewn(x)) - 1.0;
     let cloth = popup::Cloth { garment, sewn: &sewn };
-    popup::reconstruct(params.popup, cloth, &mut relaxation, &body.mesh, error, |now, moved| {
+    popup::reconstruct(params.popup, cloth, &mut relaxation, body, error, |now, moved| {
         done += 1.0;
         run.record("popup", 0.2 + 0.4 * done / f64::from(popup::steps()), 1, &sewn.unsewn(&now.x), moved / AT_REST_M)
     })?;
@@ -189,7 +189,7 @@ impl Run<'_> {
         loop {
             step += 1;
             if step % JUDGE_EVERY == 1 && step <= params.push_steps {
-                relaxation.judge(&body.mesh);
+                relaxation.judge_again(&body.mesh);
             } else {
                 relaxation.correct();
             }

@@ -6,7 +6,8 @@ use std::cmp::Ordering;
 use super::relax::{Push, Relaxation};
 use super::sewn::Sewn;
 use super::silhouette::Silhouette;
-use crate::geom::{TriMesh, V3};
+use crate::body::Body;
+use crate::geom::V3;
 use crate::pattern::Garment;
 
 /// Steps in which it grows, and in which it then comes to rest.
@@ -52,18 +53,18 @@ pub fn reconstruct<E>(
     backend: Backend,
     cloth: Cloth,
     relaxation: &mut Relaxation,
-    body: &TriMesh,
+    body: &Body,
     error: impl Fn(&[V3]) -> f64,
     mut each: impl FnMut(&Relaxation, f64) -> Result<(), E>,
 ) -> Result<(), E> {
     match backend {
-        Backend::Rigid => rigid(relaxation, body, error, each),
+        Backend::Rigid => rigid(cloth, relaxation, body, error, each),
         Backend::Pyramid => {
             let silhouette = Silhouette::new(cloth.garment, cloth.sewn);
             for step in 1..=steps() {
                 let left = f64::from(STEPS[0].saturating_sub(step)) + 1.0;
                 if step == STEPS[0] {
-                    relaxation.judge(body);
+                    relaxation.judge(body, cloth.garment, cloth.sewn);
                 }
                 let next = silhouette.step(&relaxation.x, 1.0 / left);
                 let moved = relaxation.put(next);
@@ -81,8 +82,9 @@ pub fn reconstruct<E>(
 /// A step that would go past the size, on its momentum or because controls are soft, or lead away from it, is done again with
 /// the controls' lengths set against that.
 fn rigid<E>(
+    cloth: Cloth,
     relaxation: &mut Relaxation,
-    body: &TriMesh,
+    body: &Body,
     error: impl Fn(&[V3]) -> f64,
     mut each: impl FnMut(&Relaxation, f64) -> Result<(), E>,
 ) -> Result<(), E> {
@@ -92,7 +94,7 @@ fn rigid<E>(
         let push = Push { firm: false, gravity: 0.0, share: share.min(1.0) };
         match step.cmp(&STEPS[0]) {
             Ordering::Less => {}
-            Ordering::Equal => relaxation.judge(body),
+            Ordering::Equal => relaxation.judge(body, cloth.garment, cloth.sewn),
             Ordering::Greater => relaxation.correct(),
         }
         let before = relaxation.place();

@@ -7,9 +7,10 @@ use super::elastic::{Elastic, Pull};
 use super::inset::Insets;
 use super::layers::{Layers, Parted};
 use super::obstacle::Obstacle;
-use super::rows::Rows;
+use super::ring::rings;
 use super::sewn::Sewn;
 use super::walls::Walls;
+use crate::body::Body;
 use crate::geom::{DistanceField, TriMesh, V3};
 use crate::pattern::{Garment, Measurement};
 use crate::sim::cloth::Cloth;
@@ -146,7 +147,7 @@ impl<'a> Relaxation<'a> {
             elastic,
             areas: cloth.areas,
             weight,
-            insets: Insets::new(Rows::new(garment, sewn)),
+            insets: Insets::default(),
             sides: sides(garment, sewn),
             walls,
             touching,
@@ -185,14 +186,21 @@ impl<'a> Relaxation<'a> {
     }
 
     /// Judges anew where the garment is too small for a body: there the body counts as smaller.
-    pub fn judge(&mut self, body: &TriMesh) {
-        self.insets.judge(body, &self.x, self.params.offset_m, self.params.yield_stretch);
+    pub fn judge(&mut self, body: &Body, garment: &Garment, sewn: &Sewn) {
+        let rings = rings(body, garment, sewn, &self.x);
+        self.insets = Insets::judged(rings, &body.mesh, &self.x, self.params.offset_m, self.params.yield_stretch);
+        self.shrink();
+    }
+
+    /// Judges again where the garment is still too small.
+    pub fn judge_again(&mut self, body: &TriMesh) {
+        self.insets.judge_again(body, &self.x, self.params.offset_m, self.params.yield_stretch);
         self.shrink();
     }
 
     /// Corrects by how much the body counts as smaller.
     pub fn correct(&mut self) {
-        self.insets.correct(&self.elastic, &self.x, self.params.yield_stretch);
+        self.insets.correct(&self.x, self.params.yield_stretch);
         self.shrink();
     }
 
