@@ -39,14 +39,6 @@ pub fn crossings<'s>(
 }
 
 fn segment_hits(p: V3, q: V3, [a, b, c]: [V3; 3]) -> bool {
-    // Most triangles near an edge lie beside it: their boxes do not meet.
-    let is_beside = |k: usize| {
-        let (low, high) = (p[k].min(q[k]), p[k].max(q[k]));
-        (a[k] > high && b[k] > high && c[k] > high) || (a[k] < low && b[k] < low && c[k] < low)
-    };
-    if (0..3).any(is_beside) {
-        return false;
-    }
     let volume = |u: V3, v: V3, w: V3, z: V3| (v - u).cross(&(w - u)).dot(&(z - u));
     let (above, below) = (volume(a, b, c, p), volume(a, b, c, q));
     if above * below >= 0.0 {
