@@ -60,6 +60,14 @@ struct Run<'a> {
     has_news: AtomicBool,
 }
 
+/// What is to be done.
+pub(crate) struct Work<'a> {
+    /// Name of the study.
+    pub study: &'a str,
+    /// Its jobs.
+    pub jobs: &'a [Planned],
+}
+
 /// Runs jobs until none of them is queued or running any more (jobs of other processes are waited for), or until
 /// `stop`; then what runs goes back into the queue.
 ///
@@ -67,8 +75,7 @@ struct Run<'a> {
 /// When the database fails: the run stops, and its jobs stay queued. A failing job is no error here.
 pub(crate) fn run(
     database: &Path,
-    study: &str,
-    planned: &[Planned],
+    work: &Work,
     executor: &dyn Executor,
     workers: usize,
     provenance: Provenance,
@@ -77,9 +84,9 @@ pub(crate) fn run(
 ) -> Result<()> {
     let run = Run {
         database,
-        study,
-        specs: planned.iter().map(|job| (job.id, &job.spec)).collect(),
-        ids: planned.iter().map(|job| job.id).collect(),
+        study: work.study,
+        specs: work.jobs.iter().map(|job| (job.id, &job.spec)).collect(),
+        ids: work.jobs.iter().map(|job| job.id).collect(),
         executor,
         owner: Owner::new(),
         provenance,
@@ -102,7 +109,7 @@ pub(crate) fn run(
         });
         worked.fold(pumped, Result::and)
     })?;
-    evidence::update(&mut store::open(database, Access::Volatile)?, study)
+    evidence::update(&mut store::open(database, Access::Volatile)?, work.study)
 }
 
 impl Run<'_> {

@@ -178,7 +178,8 @@ impl Workspace {
             let provenance = Provenance::of(&folder);
             thread::scope(|scope| {
                 scope.spawn(aside);
-                engine::run(&database, &name, &jobs, &*executor, workers, provenance, &stopped, &live)
+                let work = engine::Work { study: &name, jobs: &jobs };
+                engine::run(&database, &work, &*executor, workers, provenance, &stopped, &live)
             })
         };
         let thread = thread::Builder::new().name("toile-run".into()).spawn(work).map_err(StudyError::io("thread"))?;

@@ -223,16 +223,9 @@ fn a_check_of_20_mm_on_a_drape_measures_20_mm_times_the_stretch_of_the_cloth() {
                 assert!((side.flat_m - SQUARE_M).abs() < 1e-9, "{key:?}: {} m on the pattern", side.flat_m);
                 assert!((side.worn_m - side.stretched_m).abs() < 1e-9, "{key:?}: {} {}", side.worn_m, side.stretched_m);
             }
-            let mm = || sides.values().map(|side| 1e3 * side.worn_m);
-            let (least, most) = (mm().fold(f64::MAX, f64::min), mm().fold(f64::MIN, f64::max));
             let errors = errors_in_the_picture(&worn, along);
             let mean = errors.iter().sum::<f64>() / errors.len() as f64;
             let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
-            println!(
-                "{simulator:?}, {name}: {} sides of {least:.2} to {most:.2} mm; {} in the picture, off by {mean:+.3} mm, rms {rms:.3}",
-                sides.len(),
-                errors.len()
-            );
             assert!(errors.len() > 80, "{simulator:?} {name}: {} in the picture", errors.len());
             assert!(mean.abs() < 0.1 && rms < 0.5, "{simulator:?} {name}: {mean} {rms} mm");
         }
