@@ -79,7 +79,8 @@ fn maps_say_what_their_colours_mean() {
     };
     check("5mm", "stretch −8 ", " 8 %");
     check("5mmm", "tension 0 ", " 100 N/m");
-    check("5mmmm", "gap −100 ", " 100 mm");
+    check("5mmmm", "pressure 0 ", " 2 kPa");
+    check("5mmmmm", "gap −100 ", " 100 mm");
 }
 
 #[test]
