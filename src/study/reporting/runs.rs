@@ -1,6 +1,7 @@
 //! The runs of a report, with their pictures.
 
 use std::collections::BTreeMap;
+use std::thread;
 
 use image::{RgbaImage, imageops};
 
@@ -11,7 +12,7 @@ use super::super::workspace::Workspace;
 use super::quoted;
 use crate::measure::Chi;
 use crate::render::{self, Camera, Cell, Frame, Scale, Scene, View};
-use crate::report::data::{FieldMap, Measured, Outcome, Picture, Run};
+use crate::report::data::{EaseMatrix, FieldMap, Measured, Outcome, Picture, Run};
 use crate::sim::Stage;
 use crate::units::mm;
 
@@ -52,8 +53,34 @@ impl Workspace {
         let shown = dressed.iter().flatten().count().max(FULL_SIZE);
         let shrink = (FULL_SIZE as f64 / shown as f64).sqrt().max(LEAST_SHRINK);
         let mut runs = Vec::new();
-        let mut cells: BTreeMap<(&str, &str), Vec<Cell>> = BTreeMap::new();
-        for (job, worn) in jobs.iter().zip(&dressed) {
+        let mut sheets = Sheets::of(study, jobs);
+        let threads = thread::available_parallelism().map_or(1, usize::from);
+        for (jobs, dressed) in jobs.chunks(threads).zip(dressed.chunks(threads)) {
+            let mut taken = self.report_runs_of(jobs, &eases)?;
+            for (((run, worn), job), shots) in
+                taken.iter_mut().zip(dressed).zip(jobs).zip(photograph(jobs, dressed, (frame, shrink)))
+            {
+                if worn.is_some() {
+                    let Shots { views, maps, cells, files: kept } = shots?;
+                    (run.views, run.maps) = (views, maps);
+                    if let Some(lacks) = self.lacks(job.id)? {
+                        let gap =
+                            run.maps.iter_mut().map(|m| &mut m.picture).rfind(|picture| picture.file.contains("gap"));
+                        gap.into_iter().for_each(|picture| picture.caption.push_str(&lacks));
+                    }
+                    files.extend(kept);
+                    sheets.add(job, cells);
+                }
+                files.extend(sheets.finish(job)?);
+            }
+            runs.extend(taken);
+        }
+        Ok(runs)
+    }
+
+    /// Runs with their ease, without pictures.
+    fn report_runs_of(&self, jobs: &[JobRow], eases: &[EaseMatrix]) -> Result<Vec<Run>> {
+        let of = |job: &JobRow| {
             let outcome = match job.status {
                 Status::Done => Outcome::Converged,
                 Status::NotConverged => Outcome::NotConverged,
@@ -65,23 +92,9 @@ impl Workspace {
                 let subject = matrix.subjects.iter().position(|subject| *subject == job.subject)?;
                 matrix.cells[size][subject].clone()
             });
-            if let Some(worn) = worn {
-                let shots = add_pictures(&mut run, job, worn, (frame, shrink), files)?;
-                if let Some(lacks) = self.lacks(job.id)? {
-                    let gap =
-                        run.maps.iter_mut().map(|map| &mut map.picture).rfind(|picture| picture.file.contains("gap"));
-                    gap.into_iter().for_each(|picture| picture.caption.push_str(&lacks));
-                }
-                cells.entry((&job.garment, &job.size)).or_default().extend(shots);
-            }
-            runs.push(run);
-        }
-        for ((garment, size), cells) in cells {
-            let title = format!("{study}: {garment}, size {size}");
-            let sheet = render::contact_sheet(&title, &cells, View::ALL.len()).and_then(|sheet| render::png(&sheet));
-            files.push((format!("{SHEETS}{garment}-{size}.png"), sheet.map_err(StudyError::stage("render"))?));
-        }
-        Ok(runs)
+            Ok(run)
+        };
+        jobs.iter().map(of).collect()
     }
 
     /// The garment of a job without the seed that a sweep may have given it.
@@ -166,12 +179,75 @@ impl Workspace {
     }
 }
 
+/// Sheets with all try-ons of a garment and size. Each is made as soon as its last job is through: those of a large study
+/// together would not fit into memory.
+struct Sheets<'a> {
+    study: &'a str,
+    /// Jobs to come of each garment and size.
+    left: BTreeMap<(&'a str, &'a str), usize>,
+    cells: BTreeMap<(&'a str, &'a str), Vec<Cell>>,
+}
+
+impl<'a> Sheets<'a> {
+    fn of(study: &'a str, jobs: &'a [JobRow]) -> Self {
+        let mut left = BTreeMap::new();
+        for job in jobs {
+            *left.entry((job.garment.as_str(), job.size.as_str())).or_default() += 1;
+        }
+        Self { study, left, cells: BTreeMap::new() }
+    }
+
+    fn add(&mut self, job: &'a JobRow, cells: Vec<Cell>) {
+        self.cells.entry((&job.garment, &job.size)).or_default().extend(cells);
+    }
+
+    /// The sheet that a job completes, as a file.
+    fn finish(&mut self, job: &'a JobRow) -> Result<Option<(String, Vec<u8>)>> {
+        let (garment, size) = (job.garment.as_str(), job.size.as_str());
+        let left = self.left.entry((garment, size)).or_insert(1);
+        *left -= 1;
+        if *left > 0 {
+            return Ok(None);
+        }
+        let Some(cells) = self.cells.remove(&(garment, size)) else { return Ok(None) };
+        let title = format!("{}: {garment}, size {size}", self.study);
+        let sheet = render::contact_sheet(&title, &cells, View::ALL.len()).and_then(|sheet| render::png(&sheet));
+        Ok(Some((format!("{SHEETS}{garment}-{size}.png"), sheet.map_err(StudyError::stage("render"))?)))
+    }
+}
+
+/// The pictures of a run, the four views for a sheet, and the files beside the page.
+#[derive(Default)]
+struct Shots {
+    views: Vec<Picture>,
+    maps: Vec<FieldMap>,
+    cells: Vec<Cell>,
+    files: Vec<(String, Vec<u8>)>,
+}
+
+/// Takes the pictures of some jobs side by side, a thread each.
+fn photograph(jobs: &[JobRow], dressed: &[Option<Dressed>], look: (Frame, f64)) -> Vec<Result<Shots>> {
+    thread::scope(|scope| {
+        let shoot = |(job, worn): (&'_ _, &'_ Option<Dressed>)| {
+            worn.as_ref()
+                .map(|worn| (job, worn))
+                .map_or_else(|| Ok(Shots::default()), |(job, worn)| shots(job, worn, look))
+        };
+        let threads: Vec<_> = jobs.iter().zip(dressed).map(|pair| scope.spawn(move || shoot(pair))).collect();
+        let join = |thread: thread::ScopedJoinHandle<_>| match thread.join() {
+            Ok(shots) => shots,
+            Err(panic) => std::panic::resume_unwind(panic),
+        };
+        threads.into_iter().map(join).collect()
+    })
+}
+
 /// Takes the pictures of a run: as JPEG on the page, shrunk, as PNG among the files beside it.
 struct Photographer<'a> {
     job: &'a JobRow,
     frame: Frame,
     shrink: f64,
-    files: &'a mut Vec<(String, Vec<u8>)>,
+    files: Vec<(String, Vec<u8>)>,
 }
 
 impl Photographer<'_> {
@@ -196,43 +272,36 @@ impl Photographer<'_> {
     }
 }
 
-/// Four views, what came before the drape (Hybrid-GS) or its check of 20 mm (FEM-GS), and the maps of a run. Returns the four
-/// views.
-fn add_pictures(
-    run: &mut Run,
-    job: &JobRow,
-    worn: &Dressed,
-    (frame, shrink): (Frame, f64),
-    files: &mut Vec<(String, Vec<u8>)>,
-) -> Result<Vec<Cell>> {
-    let mut photographer = Photographer { job, frame, shrink, files };
+/// Four views, what came before the drape (Hybrid-GS) or its check of 20 mm (FEM-GS), and the maps of a run.
+fn shots(job: &JobRow, worn: &Dressed, (frame, shrink): (Frame, f64)) -> Result<Shots> {
+    let mut photographer = Photographer { job, frame, shrink, files: Vec::new() };
     let mut scene = worn.scene(Map::Plain)?;
-    let mut cells = Vec::new();
+    let (mut views, mut field_maps, mut cells) = (Vec::new(), Vec::new(), Vec::new());
     for view in View::ALL {
         let picture = photographer.shot(&scene, view)?;
         let label = format!("{} {}, {}", job.subject, job.simulator.as_str(), view.as_str());
         cells.push(Cell { picture: picture.clone(), label });
         let name = format!("{}-plain", view.as_str());
-        run.views.push(photographer.keep(picture, &name, view.as_str().to_owned(), None)?);
+        views.push(photographer.keep(picture, &name, view.as_str().to_owned(), None)?);
     }
     if let Some(popup) = worn.popup_scene() {
         let picture = photographer.shot(&popup?, View::Front)?;
-        run.views.push(photographer.keep(picture, "popup", "pop-up".into(), None)?);
+        views.push(photographer.keep(picture, "popup", "pop-up".into(), None)?);
     } else {
         worn.repaint(&mut scene, Map::Check)?;
         let picture = photographer.shot(&scene, View::Front)?;
-        run.views.push(photographer.keep(picture, "front-check", "check of 20 mm".into(), None)?);
+        views.push(photographer.keep(picture, "front-check", "check of 20 mm".into(), None)?);
     }
-    for (map, views) in &MAPS {
+    for (map, sides) in &MAPS {
         let Some(scale) = map.scale() else { continue };
         worn.repaint(&mut scene, *map)?;
-        for view in *views {
+        for view in *sides {
             let shot = photographer.shot(&scene, *view)?;
             let name = format!("{}-{}", view.as_str(), map.as_str());
             let caption = format!("{}, {}", scale.label, view.as_str());
             let picture = photographer.keep(shot, &name, caption, Some(&scale))?;
-            run.maps.push(FieldMap { picture, scale: scale.clone() });
+            field_maps.push(FieldMap { picture, scale: scale.clone() });
         }
     }
-    Ok(cells)
+    Ok(Shots { views, maps: field_maps, cells, files: photographer.files })
 }
