@@ -11,7 +11,7 @@ use super::super::types::{JobId, JobRow, MetricsRow, Status, Value};
 use super::super::workspace::Workspace;
 use super::quoted;
 use crate::measure::Chi;
-use crate::render::{self, Camera, Cell, Frame, Scale, Scene, View};
+use crate::render::{self, Camera, Cell, Frame, RenderError, Scale, Scene, View};
 use crate::report::data::{EaseMatrix, FieldMap, Measured, Outcome, Picture, Run};
 use crate::sim::Stage;
 use crate::units::mm;
@@ -27,6 +27,10 @@ const FULL_SIZE: usize = 6;
 /// Pictures are not made smaller than this share of their full size, where they would show nothing: a page of 108 runs is
 /// then about 9 MB, which can still be mailed.
 const LEAST_SHRINK: f64 = 0.38;
+/// Longest side of a sheet, without labels, pixels.
+const SHEET_SIDE: f64 = 5500.0;
+/// Jobs one below the other on a sheet of one column of jobs.
+const JOBS_HIGH: f64 = 10.0;
 /// The maps of a run: with four views and one picture more, two rows of five.
 const MAPS: [(Map, &[View]); 3] = [
     (Map::Stretch, &[View::Front, View::Back]),
@@ -60,8 +64,8 @@ impl Workspace {
             for (((run, worn), job), shots) in
                 taken.iter_mut().zip(dressed).zip(jobs).zip(photograph(jobs, dressed, (frame, shrink)))
             {
+                let Shots { views, maps, cells, files: kept } = shots?;
                 if worn.is_some() {
-                    let Shots { views, maps, cells, files: kept } = shots?;
                     (run.views, run.maps) = (views, maps);
                     if let Some(lacks) = self.lacks(job.id)? {
                         let gap =
@@ -69,9 +73,8 @@ impl Workspace {
                         gap.into_iter().for_each(|picture| picture.caption.push_str(&lacks));
                     }
                     files.extend(kept);
-                    sheets.add(job, cells);
                 }
-                files.extend(sheets.finish(job)?);
+                files.extend(sheets.add(job, cells)?);
             }
             runs.extend(taken);
         }
@@ -183,36 +186,70 @@ impl Workspace {
 /// together would not fit into memory.
 struct Sheets<'a> {
     study: &'a str,
-    /// Jobs to come of each garment and size.
-    left: BTreeMap<(&'a str, &'a str), usize>,
-    cells: BTreeMap<(&'a str, &'a str), Vec<Cell>>,
+    open: BTreeMap<(&'a str, &'a str), Sheet>,
+}
+
+/// A sheet to come.
+struct Sheet {
+    /// Jobs that are to come yet.
+    left: usize,
+    columns: usize,
+    /// Pixels of a picture.
+    size: [u32; 2],
+    cells: Vec<Cell>,
+}
+
+impl Sheet {
+    /// For some jobs, a few of them side by side where there are many, so that the sheet stays about square and below
+    /// [`SHEET_SIDE`].
+    fn new(jobs: usize) -> Self {
+        let beside = (jobs as f64 / JOBS_HIGH).sqrt().ceil().max(1.0);
+        let rows = (jobs as f64 / beside).ceil();
+        let columns = beside * View::ALL.len() as f64;
+        let [width, height] = [PICTURE.0, PICTURE.1].map(f64::from);
+        let shrink = (SHEET_SIDE / (columns * width)).min(SHEET_SIDE / (rows * height)).min(1.0);
+        let size = [width, height].map(|side| (side * shrink).max(1.0) as u32);
+        Self { left: jobs, columns: columns as usize, size, cells: Vec::new() }
+    }
+
+    fn add(&mut self, cell: Cell) {
+        let [width, height] = self.size;
+        let picture = if width == PICTURE.0 {
+            cell.picture
+        } else {
+            imageops::resize(&cell.picture, width, height, imageops::FilterType::CatmullRom)
+        };
+        self.cells.push(Cell { picture, ..cell });
+    }
 }
 
 impl<'a> Sheets<'a> {
     fn of(study: &'a str, jobs: &'a [JobRow]) -> Self {
-        let mut left = BTreeMap::new();
+        let mut counts: BTreeMap<_, usize> = BTreeMap::new();
         for job in jobs {
-            *left.entry((job.garment.as_str(), job.size.as_str())).or_default() += 1;
+            *counts.entry((job.garment.as_str(), job.size.as_str())).or_default() += 1;
         }
-        Self { study, left, cells: BTreeMap::new() }
+        Self { study, open: counts.into_iter().map(|(key, count)| (key, Sheet::new(count))).collect() }
     }
 
-    fn add(&mut self, job: &'a JobRow, cells: Vec<Cell>) {
-        self.cells.entry((&job.garment, &job.size)).or_default().extend(cells);
-    }
-
-    /// The sheet that a job completes, as a file.
-    fn finish(&mut self, job: &'a JobRow) -> Result<Option<(String, Vec<u8>)>> {
+    /// Adds what a job shows; gives the sheet that it completes, as a file.
+    fn add(&mut self, job: &'a JobRow, cells: Vec<Cell>) -> Result<Option<(String, Vec<u8>)>> {
         let (garment, size) = (job.garment.as_str(), job.size.as_str());
-        let left = self.left.entry((garment, size)).or_insert(1);
-        *left -= 1;
-        if *left > 0 {
+        let Some(sheet) = self.open.get_mut(&(garment, size)) else { return Ok(None) };
+        sheet.left -= 1;
+        cells.into_iter().for_each(|cell| sheet.add(cell));
+        if sheet.left > 0 || sheet.cells.is_empty() {
             return Ok(None);
         }
-        let Some(cells) = self.cells.remove(&(garment, size)) else { return Ok(None) };
         let title = format!("{}: {garment}, size {size}", self.study);
-        let sheet = render::contact_sheet(&title, &cells, View::ALL.len()).and_then(|sheet| render::png(&sheet));
-        Ok(Some((format!("{SHEETS}{garment}-{size}.png"), sheet.map_err(StudyError::stage("render"))?)))
+        let picture = render::contact_sheet(&title, &sheet.cells, sheet.columns).and_then(|sheet| render::png(&sheet));
+        self.open.remove(&(garment, size));
+        match picture {
+            Ok(picture) => Ok(Some((format!("{SHEETS}{garment}-{size}.png"), picture))),
+            // Thousands of runs fit on no sheet; each has its own pictures.
+            Err(RenderError::Size { .. }) => Ok(None),
+            Err(error) => Err(StudyError::stage("render")(error)),
+        }
     }
 }
 
@@ -304,4 +341,25 @@ fn shots(job: &JobRow, worn: &Dressed, (frame, shrink): (Frame, f64)) -> Result<
         }
     }
     Ok(Shots { views, maps: field_maps, cells, files: photographer.files })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sheet_of_many_runs_is_as_many_across_as_keep_it_square() {
+        let check = |jobs: usize, columns: usize, size: [u32; 2]| {
+            let sheet = Sheet::new(jobs);
+            assert_eq!((sheet.left, sheet.columns, sheet.size), (jobs, columns, size));
+            let empty = RgbaImage::new(size[0], size[1]);
+            let cells: Vec<Cell> =
+                (0..jobs * View::ALL.len()).map(|_| Cell { picture: empty.clone(), label: String::new() }).collect();
+            render::contact_sheet("all", &cells, columns).expect("a sheet that fits");
+        };
+        check(1, 4, [480, 540]);
+        check(10, 4, [480, 540]);
+        check(12, 8, [480, 540]);
+        check(50, 12, [287, 323]);
+    }
 }
