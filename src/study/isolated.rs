@@ -238,6 +238,6 @@ mod tests {
         let step = Step { iteration: 3, level: 1, residual: 0.25, seam_gap_m: 0.0, e_chi: 1.0 };
         let line = serde_json::to_string(&Line { phase: "settle".into(), fraction: 0.5, step }).expect("finite");
         assert_eq!(Line::read(&line), Some(Progress { phase: "settle", fraction: 0.5, step }));
-        assert_eq!(Line::read("/tmp/1.result.json"), None);
+        assert_eq!(Line::read("jobs/1.result.json"), None);
     }
 }
