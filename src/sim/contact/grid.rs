@@ -87,10 +87,11 @@ impl BoxGrid {
     /// Sets within reach of the box of some points, in increasing order: all of them, and few others.
     pub fn near<const N: usize>(&self, points: [&V3; N]) -> impl Iterator<Item = usize> + '_ {
         let (low, high) = points.iter().fold((*points[0], *points[0]), |(low, high), p| (low.inf(p), high.sup(p)));
-        let local = ((low + high) / 2.0 - self.low) / self.cell_m;
+        let middle = (low + high) / 2.0;
+        let local = (middle - self.low) / self.cell_m;
         let is_inside = (0..3).all(|k| local[k] >= 0.0 && local[k] < self.size[k] as f64);
         let range = if is_inside {
-            let cell = self.number(self.cell(&((low + high) / 2.0)));
+            let cell = self.number(self.cell(&middle));
             self.starts[cell] as usize..self.starts[cell + 1] as usize
         } else {
             0..0

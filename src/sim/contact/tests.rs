@@ -1,5 +1,6 @@
 //! What contact does with single triangles.
 
+use super::grid::BoxGrid;
 use super::tangle::{Release, Wings, crossings, edges_of};
 use super::{BodyContact, ContactParams, Skin};
 use crate::geom::{DistanceField, V3, shapes};
@@ -52,4 +53,26 @@ fn a_corner_that_pokes_through_cloth_is_drawn_back() {
     }
     assert!(forces[3].z > 0.5 && forces[..3].iter().map(|f| f.z).sum::<f64>() < -0.5, "{forces:?}");
     assert!(forces.iter().sum::<V3>().norm() < 1e-12 && potential.is_finite());
+}
+
+#[test]
+fn the_grid_finds_all_boxes_within_reach_and_no_others() {
+    let wave = |k: usize, f: f64| 0.2 * (f * k as f64).sin();
+    let x: Vec<V3> = (0..300).map(|k| V3::new(wave(k, 1.7), wave(k, 2.3), wave(k, 0.9))).collect();
+    let near = |k: usize| [3 * k, 3 * k + 1, 3 * k + 2];
+    let sets: Vec<[usize; 3]> = (0..100).map(near).collect();
+    let reach = 0.03;
+    let bounds = |set: &[usize]| set.iter().fold((x[set[0]], x[set[0]]), |(l, h), v| (l.inf(&x[*v]), h.sup(&x[*v])));
+    let edges: Vec<[usize; 2]> = (0..299).map(|v| [v, v + 1]).collect();
+    let half = edges.iter().map(|&[a, b]| (x[a] - x[b]).norm() / 2.0).fold(0.0, f64::max);
+    let grid = BoxGrid::new(&x, &sets, reach, half, 0.05);
+    for edge in &edges {
+        let (low, high) = bounds(edge);
+        let meets = |set: &[usize; 3]| {
+            let (l, h) = bounds(set);
+            (0..3).all(|k| l[k] - reach <= high[k] && low[k] <= h[k] + reach)
+        };
+        let expected: Vec<usize> = (0..sets.len()).filter(|k| meets(&sets[*k])).collect();
+        assert_eq!(grid.near([&x[edge[0]], &x[edge[1]]]).collect::<Vec<_>>(), expected);
+    }
 }

@@ -3,6 +3,7 @@
 mod facts;
 mod published;
 mod runs;
+mod sheets;
 
 use super::error::{Result, StudyError};
 use super::evidence::PUBLISHED;
@@ -72,7 +73,7 @@ impl Workspace {
         let link = |(href, label): (&str, &str)| RawLink { href: href.to_owned(), label: label.to_owned() };
         let raw = RAW.iter().map(|(_, href, label)| link((href, &format!("{href}: {label}"))));
         let sheet = |(path, _): &(String, Vec<u8>)| {
-            let name = path.strip_prefix(runs::SHEETS)?.strip_suffix(".png")?;
+            let name = path.strip_prefix(sheets::SHEETS)?.strip_suffix(".png")?;
             Some(link((path, &format!("all try-ons of {name} on one sheet"))))
         };
         let sheets: Vec<RawLink> = files.iter().filter_map(sheet).collect();

@@ -1,6 +1,5 @@
 //! The runs of a report, with their pictures.
 
-use std::collections::BTreeMap;
 use std::thread;
 
 use image::{RgbaImage, imageops};
@@ -10,16 +9,15 @@ use super::super::picture::{Dressed, Map};
 use super::super::types::{JobId, JobRow, MetricsRow, Status, Value};
 use super::super::workspace::Workspace;
 use super::quoted;
+use super::sheets::Sheets;
 use crate::measure::Chi;
-use crate::render::{self, Camera, Cell, Frame, RenderError, Scale, Scene, View};
+use crate::render::{self, Camera, Cell, Frame, Scale, Scene, View};
 use crate::report::data::{EaseMatrix, FieldMap, Measured, Outcome, Picture, Run};
 use crate::sim::Stage;
 use crate::units::mm;
 
 /// Pixels of a picture on the page.
-const PICTURE: (u32, u32) = (480, 540);
-/// Where sheets with all try-ons of a garment and size begin.
-pub(super) const SHEETS: &str = "pictures/try-on-";
+pub(super) const PICTURE: (u32, u32) = (480, 540);
 /// Room around the garments, as a share of the least frame: shoulders, neck and hips belong to a fit.
 const ROOM: f64 = 1.12;
 /// Runs whose pictures the page holds at full size within its 3 MB; of more runs they are smaller, the files beside not.
@@ -27,10 +25,6 @@ const FULL_SIZE: usize = 6;
 /// Pictures are not made smaller than this share of their full size, where they would show nothing: a page of 108 runs is
 /// then about 9 MB, which can still be mailed.
 const LEAST_SHRINK: f64 = 0.38;
-/// Longest side of a sheet, without labels, pixels.
-const SHEET_SIDE: f64 = 5500.0;
-/// Jobs one below the other on a sheet of one column of jobs.
-const JOBS_HIGH: f64 = 10.0;
 /// The maps of a run: with four views and one picture more, two rows of five.
 const MAPS: [(Map, &[View]); 3] = [
     (Map::Stretch, &[View::Front, View::Back]),
@@ -182,77 +176,6 @@ impl Workspace {
     }
 }
 
-/// Sheets with all try-ons of a garment and size. Each is made as soon as its last job is through: those of a large study
-/// together would not fit into memory.
-struct Sheets<'a> {
-    study: &'a str,
-    open: BTreeMap<(&'a str, &'a str), Sheet>,
-}
-
-/// A sheet to come.
-struct Sheet {
-    /// Jobs that are to come yet.
-    left: usize,
-    columns: usize,
-    /// Pixels of a picture.
-    size: [u32; 2],
-    cells: Vec<Cell>,
-}
-
-impl Sheet {
-    /// For some jobs, a few of them side by side where there are many, so that the sheet stays about square and below
-    /// [`SHEET_SIDE`].
-    fn new(jobs: usize) -> Self {
-        let beside = (jobs as f64 / JOBS_HIGH).sqrt().ceil().max(1.0);
-        let rows = (jobs as f64 / beside).ceil();
-        let columns = beside * View::ALL.len() as f64;
-        let [width, height] = [PICTURE.0, PICTURE.1].map(f64::from);
-        let shrink = (SHEET_SIDE / (columns * width)).min(SHEET_SIDE / (rows * height)).min(1.0);
-        let size = [width, height].map(|side| (side * shrink).max(1.0) as u32);
-        Self { left: jobs, columns: columns as usize, size, cells: Vec::new() }
-    }
-
-    fn add(&mut self, cell: Cell) {
-        let [width, height] = self.size;
-        let picture = if width == PICTURE.0 {
-            cell.picture
-        } else {
-            imageops::resize(&cell.picture, width, height, imageops::FilterType::CatmullRom)
-        };
-        self.cells.push(Cell { picture, ..cell });
-    }
-}
-
-impl<'a> Sheets<'a> {
-    fn of(study: &'a str, jobs: &'a [JobRow]) -> Self {
-        let mut counts: BTreeMap<_, usize> = BTreeMap::new();
-        for job in jobs {
-            *counts.entry((job.garment.as_str(), job.size.as_str())).or_default() += 1;
-        }
-        Self { study, open: counts.into_iter().map(|(key, count)| (key, Sheet::new(count))).collect() }
-    }
-
-    /// Adds what a job shows; gives the sheet that it completes, as a file.
-    fn add(&mut self, job: &'a JobRow, cells: Vec<Cell>) -> Result<Option<(String, Vec<u8>)>> {
-        let (garment, size) = (job.garment.as_str(), job.size.as_str());
-        let Some(sheet) = self.open.get_mut(&(garment, size)) else { return Ok(None) };
-        sheet.left -= 1;
-        cells.into_iter().for_each(|cell| sheet.add(cell));
-        if sheet.left > 0 || sheet.cells.is_empty() {
-            return Ok(None);
-        }
-        let title = format!("{}: {garment}, size {size}", self.study);
-        let picture = render::contact_sheet(&title, &sheet.cells, sheet.columns).and_then(|sheet| render::png(&sheet));
-        self.open.remove(&(garment, size));
-        match picture {
-            Ok(picture) => Ok(Some((format!("{SHEETS}{garment}-{size}.png"), picture))),
-            // Thousands of runs fit on no sheet; each has its own pictures.
-            Err(RenderError::Size { .. }) => Ok(None),
-            Err(error) => Err(StudyError::stage("render")(error)),
-        }
-    }
-}
-
 /// The pictures of a run, the four views for a sheet, and the files beside the page.
 #[derive(Default)]
 struct Shots {
@@ -341,25 +264,4 @@ fn shots(job: &JobRow, worn: &Dressed, (frame, shrink): (Frame, f64)) -> Result<
         }
     }
     Ok(Shots { views, maps: field_maps, cells, files: photographer.files })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_sheet_of_many_runs_is_as_many_across_as_keep_it_square() {
-        let check = |jobs: usize, columns: usize, size: [u32; 2]| {
-            let sheet = Sheet::new(jobs);
-            assert_eq!((sheet.left, sheet.columns, sheet.size), (jobs, columns, size));
-            let empty = RgbaImage::new(size[0], size[1]);
-            let cells: Vec<Cell> =
-                (0..jobs * View::ALL.len()).map(|_| Cell { picture: empty.clone(), label: String::new() }).collect();
-            render::contact_sheet("all", &cells, columns).expect("a sheet that fits");
-        };
-        check(1, 4, [480, 540]);
-        check(10, 4, [480, 540]);
-        check(12, 8, [480, 540]);
-        check(50, 12, [287, 323]);
-    }
 }
