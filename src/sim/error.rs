@@ -46,6 +46,18 @@ pub enum SimError {
         /// Iteration.
         iteration: u32,
     },
+    /// Nothing holds it up.
+    #[error(
+        "{garment:?} slides off this body: it has come down by {:.0} mm, friction and all; a smaller size, a stiffer fabric or a \
+         waistband ([[reinforce]] in the seam file) may hold it",
+        .descent_m * 1e3
+    )]
+    SlidOff {
+        /// Garment.
+        garment: String,
+        /// How far it has come down when it was given up, m.
+        descent_m: f64,
+    },
     /// Asked to stop.
     #[error("cancelled")]
     Cancelled,

@@ -29,10 +29,11 @@ const HOLDING_ROUNDS: usize = 5;
 ///
 /// `garments` are meshes of the same garment, coarse to fine; the drape is on the last. The coarsest is placed, sewn and
 /// roughly draped, each finer one starts from the one before. All settle without friction first, so that the drape
-/// does not depend on how the seams were closed; only then does friction hold it.
+/// does not depend on how the seams were closed; only then does friction hold it. What slides off without is settled again
+/// with friction throughout.
 ///
 /// # Errors
-/// When the garment cannot be placed, is degenerate, diverges, or the monitor cancels. Not converging is no error.
+/// When the garment cannot be placed, is degenerate, diverges, slides off the body even so, or the monitor cancels. Not converging is no error.
 pub fn simulate(
     body: &Body,
     field: &DistanceField,
@@ -41,33 +42,60 @@ pub fn simulate(
     params: &Params,
     monitor: &mut dyn Monitor,
 ) -> Result<Drape, SimError> {
-    let [coarsest, finer @ ..] = garments else {
+    let (Some(coarsest), Some(finest)) = (garments.first(), garments.last()) else {
         return Err(SimError::NoMesh);
     };
-    let mut run = Run::new(params, monitor, finer.len());
-    let mut positions = sew(body, field, coarsest, fabric, params, &mut run)?;
-    let mut level = coarsest;
+    let mut run = Run::new(params, monitor, garments.len() - 1);
+    let sewn = sew(body, field, coarsest, fabric, params, &mut run)?;
+    run.keep_up(&sewn);
     let skin = Skin::new(&body.mesh).ok();
     let around = Around { skin: skin.as_ref(), field };
-    let mut last = settle(around, level, fabric, params, positions, &mut run, 0)?;
-    for (index, next) in finer.iter().enumerate() {
-        positions = prolong(level, &last.positions, next, fabric)?;
-        last = settle(around, next, fabric, params, positions, &mut run, index + 1)?;
-        level = next;
-    }
+    let mut from_sewn = |grip| refine(around, garments, fabric, params, &sewn, &mut run, grip);
+    let last = match from_sewn(Grip::AtTheEnd) {
+        // Nothing but friction may hold it up.
+        Err(SimError::SlidOff { .. }) => from_sewn(Grip::Throughout)?,
+        other => other?,
+    };
     Ok(Drape {
         stage: Stage::Drape,
         converged: last.residual <= params.tolerance,
         iterations: run.iterations(),
         residual: last.residual,
-        penetration_max_m: quality::penetration_m(body, level, &last.positions),
-        seam_gap_max_m: quality::seam_gap_m(level, &last.positions),
+        penetration_max_m: quality::penetration_m(body, finest, &last.positions),
+        seam_gap_max_m: quality::seam_gap_m(finest, &last.positions),
         self_crossings: quality::self_crossings(&last.sewn, &last.triangles),
         welded_vertices: last.sewn.len(),
         positions: last.positions,
         history: run.into_history(),
         earlier: Vec::new(),
     })
+}
+
+/// From when on friction holds a garment.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Grip {
+    /// Once it has come to rest without: then the drape does not depend on how the seams were closed.
+    AtTheEnd,
+    /// From the sewing on: for what would slide off the body without.
+    Throughout,
+}
+
+/// Settles a sewn garment on the coarsest mesh, and on each finer one from the one before.
+fn refine(
+    around: Around,
+    garments: &[Garment],
+    fabric: &Fabric,
+    params: &Params,
+    sewn: &[V3],
+    run: &mut Run,
+    grip: Grip,
+) -> Result<Settled, SimError> {
+    let mut last = settle(around, &garments[0], fabric, params, sewn.to_vec(), run, 0, grip)?;
+    for (index, level) in garments.windows(2).enumerate() {
+        let positions = prolong(&level[0], &last.positions, &level[1], fabric)?;
+        last = settle(around, &level[1], fabric, params, positions, run, index + 1, grip)?;
+    }
+    Ok(last)
 }
 
 /// Places a garment and draws its seams together; returns garment positions with all seams (nearly) closed.
@@ -110,6 +138,7 @@ struct Around<'a> {
 }
 
 /// Welds the seams and lets the garment come to rest, without friction and then, on the finest level, with it.
+#[allow(clippy::too_many_arguments)]
 fn settle(
     around: Around,
     garment: &Garment,
@@ -118,6 +147,7 @@ fn settle(
     positions: Vec<V3>,
     run: &mut Run,
     level: usize,
+    grip: Grip,
 ) -> Result<Settled, SimError> {
     let cloth = Cloth::new(garment, fabric, sewing::welded(garment))?;
     let mut x = cloth.weld(&positions);
@@ -135,6 +165,9 @@ fn settle(
     if is_finest {
         hold_out(&mut system, &x, false);
     }
+    if grip == Grip::Throughout {
+        system.contact.set_friction(Some(fabric.friction_body));
+    }
     let mut residual = run.drape(garment, &mut system, &mut x, Phase::frictionless(params, level, run.levels()))?;
     if is_finest {
         hold_out(&mut system, &x, residual <= params.coarse_tolerance);
@@ -148,4 +181,52 @@ fn settle(
         }
     }
     Ok(Settled { positions: cloth.unweld(&x), residual, sewn: x, triangles: cloth.triangles })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{self, Measurements, Sex};
+    use crate::pattern::Style;
+    use crate::pattern::draft::Model;
+    use crate::sim::{Progress, fabric};
+
+    struct Silent;
+
+    impl Monitor for Silent {
+        fn progress(&mut self, _: &Progress) {}
+    }
+
+    /// Trousers of a soft, slippery knit, with more at the end of their seam file.
+    fn slippery_trousers(more: &str) -> Result<Drape, SimError> {
+        let measurements = Measurements {
+            chest_girth_m: Some(0.94),
+            waist_girth_m: Some(0.8),
+            hip_girth_m: Some(0.95),
+            ..Measurements::of(Sex::Male, 1.75)
+        };
+        let body = body::build(&measurements).expect("a body");
+        let field = DistanceField::build(&body.mesh, 0.012).expect("a closed body");
+        let seams = Model::Trousers.seams().to_vec();
+        let style = Style::read(&Model::Trousers.drafts()[1].pieces, &[&seams, more.as_bytes()].concat(), "seams");
+        let garment = style.expect("drafted").mesh(0.05).expect("it meshes");
+        let knit = fabric::library().into_iter().find(|f| f.name == "interlock_tshirt").expect("in the library");
+        let slippery = Fabric { friction_body: 0.05, ..knit };
+        simulate(&body, &field, &[garment], &slippery, &Params::default(), &mut Silent)
+    }
+
+    #[test]
+    fn what_nothing_holds_up_is_given_up_and_a_waistband_holds_it() {
+        let error = slippery_trousers("").err().map(|e| e.to_string()).unwrap_or_default();
+        assert!(error.contains("slides off this body: it has come down by 25"), "{error}");
+        let waist = r#"
+            [[reinforce]]
+            edges = ["leg_front_left.waist", "leg_front_right.waist", "leg_back_right.waist", "leg_back_left.waist"]
+            kind = "waistband"
+            stiffness_n = 200.0
+            length_factor = 0.95
+        "#;
+        let drape = slippery_trousers(waist).map_err(|e| e.to_string());
+        assert!(drape.is_ok_and(|drape| drape.converged));
+    }
 }

@@ -41,11 +41,17 @@ impl Phase {
     }
 }
 
+/// How far a garment may come down from where it was sewn, m: trousers and skirts that do not hold at the waist hold at the
+/// hips, a fifth of a metre lower, or not at all.
+const MOST_DESCENT_M: f64 = 0.25;
+
 /// A simulation under way.
 pub struct Run<'a> {
     params: &'a Params,
     monitor: &'a mut dyn Monitor,
     levels: usize,
+    /// Height of the garment as it was sewn, m.
+    worn_at_m: Option<f64>,
     iteration: u32,
     fraction: f64,
     history: Vec<Step>,
@@ -54,7 +60,12 @@ pub struct Run<'a> {
 impl<'a> Run<'a> {
     /// Starts a run over levels 0 to `levels`.
     pub fn new(params: &'a Params, monitor: &'a mut dyn Monitor, levels: usize) -> Self {
-        Self { params, monitor, levels, iteration: 0, fraction: 0.0, history: Vec::new() }
+        Self { params, monitor, levels, worn_at_m: None, iteration: 0, fraction: 0.0, history: Vec::new() }
+    }
+
+    /// From here on a garment that comes down far from `sewn` ends the run.
+    pub fn keep_up(&mut self, sewn: &[V3]) {
+        self.worn_at_m = Some(height_m(sewn));
     }
 
     /// The finest level.
@@ -153,6 +164,10 @@ impl<'a> Run<'a> {
         if !x.iter().all(|p| p.iter().all(|c| c.is_finite())) {
             return Err(SimError::Diverged { garment: garment.name.clone(), iteration: self.iteration });
         }
+        let descent_m = self.worn_at_m.map_or(0.0, |worn_at| worn_at - height_m(positions));
+        if descent_m > MOST_DESCENT_M {
+            return Err(SimError::SlidOff { garment: garment.name.clone(), descent_m });
+        }
         let step = Step {
             iteration: self.iteration,
             level: level as u32,
@@ -168,6 +183,11 @@ impl<'a> Run<'a> {
         }
         if self.monitor.cancelled() { Err(SimError::Cancelled) } else { Ok(()) }
     }
+}
+
+/// Mean height of the vertices, m.
+fn height_m(positions: &[V3]) -> f64 {
+    positions.iter().map(|p| p.z).sum::<f64>() / positions.len().max(1) as f64
 }
 
 /// E of the moment: the mean of L3D / L2D over the garment's measurements; not a number when it has none.
