@@ -2,34 +2,25 @@
 
 use nalgebra::Matrix3;
 
+use super::Fabric;
 use super::cloth::Cloth;
-use super::sewing::welded;
 use super::solver::pcg::PcgParams;
 use super::solver::{Operator, linear};
-use super::{Fabric, SimError};
 use crate::geom::{V2, V3};
 use crate::pattern::Garment;
 
 /// Wavelength at which rounding takes half the height of a wave, in edges of the coarser mesh.
 const ROUNDED_EDGES: f64 = 3.0;
 
-/// World positions for the vertices of `fine`, sewn: the drape of `coarse` at their places in the pieces' planes, its facets
-/// rounded.
+/// World positions for the vertices of `cloth`, which is `fine` sewn: the drape of `coarse` at their places in the pieces'
+/// planes, its facets rounded.
 ///
 /// Left in, the facets stay: a dimple is nearly an isometry, and stretching keeps it from popping out.
-///
-/// # Errors
-/// When a triangle of the pattern mesh has no area.
-pub fn prolong(
-    coarse: &Garment,
-    coarse_positions: &[V3],
-    fine: &Garment,
-    fabric: &Fabric,
-) -> Result<Vec<V3>, SimError> {
-    let cloth = Cloth::new(fine, fabric, welded(fine))?;
+#[must_use]
+pub fn prolong(coarse: &Garment, coarse_positions: &[V3], fine: &Garment, cloth: &Cloth, fabric: &Fabric) -> Vec<V3> {
     let mut x = cloth.weld(&evaluate(coarse, coarse_positions, fine));
-    round_off(&cloth, fabric, ROUNDED_EDGES * coarse.edge_length_m, &mut x);
-    Ok(cloth.unweld(&x))
+    round_off(cloth, fabric, ROUNDED_EDGES * coarse.edge_length_m, &mut x);
+    x
 }
 
 /// Lets the cloth bend, and nothing else, until waves of length `wave_m` have lost half their height.

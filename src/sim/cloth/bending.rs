@@ -91,6 +91,28 @@ impl Plate {
         }
         form
     }
+
+    /// Entries of the stiffness above its diagonal: its hinges', each with each. Corners sewn into one vertex couple it to
+    /// itself, which adds nothing.
+    fn push_terms(&self, hinges: &[Hinge], fabric: &Fabric, terms: &mut Vec<([usize; 2], f64)>) {
+        let form = self.form(fabric);
+        let own = self.hinges.map(|hinge| hinge.map(|h| &hinges[h]));
+        let mut corners: Vec<usize> = own.iter().flatten().flat_map(|hinge| hinge.vertices).collect();
+        corners.sort_unstable();
+        corners.dedup();
+        // What each hinge makes of each corner.
+        let share = |hinge: Option<&Hinge>, corner: usize| {
+            let of = |h: &Hinge| (0..4).filter(|&k| h.vertices[k] == corner).map(|k| h.coefficients[k]).sum();
+            hinge.map_or(0.0, of)
+        };
+        let shares: Vec<[f64; 3]> = corners.iter().map(|&corner| own.map(|hinge| share(hinge, corner))).collect();
+        for (i, of_i) in shares.iter().enumerate() {
+            let row = [0, 1, 2].map(|f| (0..3).map(|e| form[e][f] * of_i[e]).sum::<f64>() * self.area);
+            for (j, of_j) in shares.iter().enumerate().skip(i + 1) {
+                terms.push(([corners[i], corners[j]], (0..3).map(|f| row[f] * of_j[f]).sum()));
+            }
+        }
+    }
 }
 
 /// The bending of a garment.
@@ -108,22 +130,17 @@ impl Bending {
     pub fn new(hinges: &[Hinge], plates: &[Plate], fabric: &Fabric) -> Self {
         let mut terms = Vec::with_capacity(15 * plates.len());
         for plate in plates {
-            let form = plate.form(fabric);
-            for (e, f) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)] {
-                if let [Some(a), Some(b)] = [plate.hinges[e], plate.hinges[f]] {
-                    let (a, b) = (&hinges[a], &hinges[b]);
-                    push_product(a, b, form[e][f] * plate.area, &mut terms);
-                    if e != f {
-                        push_product(b, a, form[e][f] * plate.area, &mut terms);
-                    }
-                }
+            plate.push_terms(hinges, fabric, &mut terms);
+        }
+        terms.sort_by_key(|&([i, j], _)| [i, j]);
+        let mut entries: Vec<f64> = Vec::with_capacity(terms.len() / 2);
+        for (k, &(pair, value)) in terms.iter().enumerate() {
+            match entries.last_mut().filter(|_| terms[k - 1].0 == pair) {
+                Some(sum) => *sum += value,
+                None => entries.push(value),
             }
         }
-        let pairs = PairList::new(terms.iter().map(|t| t.0));
-        let mut entries = vec![0.0; pairs.pairs().len()];
-        for ([i, j], value) in terms {
-            entries[pairs.slot(i, j).expect("the pair was just collected")] += value;
-        }
+        let pairs = PairList::new(terms.into_iter().map(|t| t.0));
         Self { pairs, entries }
     }
 
@@ -141,17 +158,6 @@ impl Bending {
             let pull = (x[j] - x[i]) * *q;
             forces[i] -= pull;
             forces[j] += pull;
-        }
-    }
-}
-
-/// Upper-triangle entries of `scale a b^T`. Corners sewn into one vertex couple it to itself, which adds nothing.
-fn push_product(a: &Hinge, b: &Hinge, scale: f64, terms: &mut Vec<([usize; 2], f64)>) {
-    for (&i, ca) in a.vertices.iter().zip(&a.coefficients) {
-        for (&j, cb) in b.vertices.iter().zip(&b.coefficients) {
-            if i < j {
-                terms.push(([i, j], scale * ca * cb));
-            }
         }
     }
 }

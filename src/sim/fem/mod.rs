@@ -50,7 +50,7 @@ pub fn simulate(
     run.keep_up(&sewn);
     let skin = Skin::new(&body.mesh).ok();
     let around = Around { skin: skin.as_ref(), field };
-    let mut from_sewn = |grip| refine(around, garments, fabric, params, &sewn, &mut run, grip);
+    let mut from_sewn = |grip| refine(around, garments, fabric, &sewn, &mut run, grip);
     let last = match from_sewn(Grip::AtTheEnd) {
         // Nothing but friction may hold it up.
         Err(SimError::SlidOff { .. }) => from_sewn(Grip::Throughout)?,
@@ -85,17 +85,20 @@ fn refine(
     around: Around,
     garments: &[Garment],
     fabric: &Fabric,
-    params: &Params,
     sewn: &[V3],
     run: &mut Run,
     grip: Grip,
 ) -> Result<Settled, SimError> {
-    let mut last = settle(around, &garments[0], fabric, params, sewn.to_vec(), run, 0, grip)?;
-    for (index, level) in garments.windows(2).enumerate() {
-        let positions = prolong(&level[0], &last.positions, &level[1], fabric)?;
-        last = settle(around, &level[1], fabric, params, positions, run, index + 1, grip)?;
+    let mut last: Option<(&Garment, Settled)> = None;
+    for (level, garment) in garments.iter().enumerate() {
+        let cloth = Cloth::new(garment, fabric, sewing::welded(garment))?;
+        let x = match &last {
+            None => cloth.weld(sewn),
+            Some((coarser, drape)) => prolong(coarser, &drape.positions, garment, &cloth, fabric),
+        };
+        last = Some((garment, settle(around, garment, &cloth, x, fabric, run, level, grip)?));
     }
-    Ok(last)
+    last.map(|(_, settled)| settled).ok_or(SimError::NoMesh)
 }
 
 /// Places a garment and draws its seams together; returns garment positions with all seams (nearly) closed.
@@ -137,26 +140,25 @@ struct Around<'a> {
     field: &'a DistanceField,
 }
 
-/// Welds the seams and lets the garment come to rest, without friction and then, on the finest level, with it.
+/// Lets a sewn garment come to rest from `x`, without friction and then, on the finest level, with it.
 #[allow(clippy::too_many_arguments)]
 fn settle(
     around: Around,
     garment: &Garment,
+    cloth: &Cloth,
+    mut x: Vec<V3>,
     fabric: &Fabric,
-    params: &Params,
-    positions: Vec<V3>,
     run: &mut Run,
     level: usize,
     grip: Grip,
 ) -> Result<Settled, SimError> {
-    let cloth = Cloth::new(garment, fabric, sewing::welded(garment))?;
-    let mut x = cloth.weld(&positions);
+    let params = run.params();
     let is_finest = level == run.levels();
     let mut contact = BodyContact::new(around.field, params.contact, &cloth.areas);
     if !is_finest {
         contact = contact.with_points_between(&cloth.triangles);
     }
-    let mut system = System::new(&cloth, contact, None);
+    let mut system = System::new(cloth, contact, None);
     system.self_contact = Some(ClothContact::new(params.self_contact, &cloth.triangles, &cloth.areas));
     let hold_out = |system: &mut System, x: &[V3], is_at_rest: bool| {
         let deepest = |skin| system.contact.hold_out(skin, &cloth.triangles, x, is_at_rest);
@@ -180,7 +182,7 @@ fn settle(
             }
         }
     }
-    Ok(Settled { positions: cloth.unweld(&x), residual, sewn: x, triangles: cloth.triangles })
+    Ok(Settled { positions: cloth.unweld(&x), residual, sewn: x, triangles: cloth.triangles.clone() })
 }
 
 #[cfg(test)]

@@ -63,6 +63,11 @@ impl<'a> Run<'a> {
         Self { params, monitor, levels, worn_at_m: None, iteration: 0, fraction: 0.0, history: Vec::new() }
     }
 
+    /// How it simulates.
+    pub fn params(&self) -> &'a Params {
+        self.params
+    }
+
     /// From here on a garment that comes down far from `sewn` ends the run.
     pub fn keep_up(&mut self, sewn: &[V3]) {
         self.worn_at_m = Some(height_m(sewn));
