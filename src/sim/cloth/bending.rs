@@ -34,8 +34,9 @@ pub struct Flap {
 
 impl Flap {
     fn area(&self) -> f64 {
+        // From the corner that neither end is: the same bits whichever way the edge runs.
         let [a, b, c] = self.rest;
-        0.5 * (b - a).perp(&(c - a)).abs()
+        0.5 * (a - c).perp(&(b - c)).abs()
     }
 
     /// Cotangents of the interior angles at the edge's start and end.
@@ -76,10 +77,13 @@ impl Plate {
         let mut form = [[0.0; 3]; 3];
         for e in 0..3 {
             for f in 0..3 {
-                form[e][f] = (weft * n[e].x * n[f].x + warp * n[e].y * n[f].y).powi(2);
+                form[e][f] = (weft * (n[e].x * n[f].x) + warp * (n[e].y * n[f].y)).powi(2);
             }
         }
-        for free in (0..3).filter(|&e| self.hinges[e].is_none()) {
+        // The stiffest first, so that which corner comes first does not matter.
+        let mut free: Vec<usize> = (0..3).filter(|&e| self.hinges[e].is_none()).collect();
+        free.sort_by(|&e, &f| form[f][f].total_cmp(&form[e][e]));
+        for free in free {
             let row = form[free];
             for e in 0..3 {
                 for f in 0..3 {
@@ -119,6 +123,8 @@ impl Bending {
                 }
             }
         }
+        // Summed in an order that does not depend on which corner of a triangle comes first: rounded alike if mirrored.
+        terms.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         let pairs = PairList::new(terms.iter().map(|t| t.0));
         let mut entries = vec![0.0; pairs.pairs().len()];
         for ([i, j], value) in terms {

@@ -149,3 +149,6 @@ fn settle(
     }
     Ok(Settled { positions: cloth.unweld(&x), residual, sewn: x, triangles: cloth.triangles })
 }
+
+#[cfg(test)]
+mod mirror_tests;
