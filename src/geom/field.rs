@@ -302,7 +302,7 @@ mod tests {
             triangles: mesh.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect(),
         };
         let [one, other] = [&mesh, &mirrored].map(|mesh| DistanceField::build(mesh, 0.006).expect("closed"));
-        let signs = nalgebra::Matrix3::from_diagonal(&V3::new(-1.0, 1.0, 1.0));
+        let signs = Matrix3::from_diagonal(&V3::new(-1.0, 1.0, 1.0));
         for p in &mesh.positions {
             for q in [p * 0.9, p + V3::new(1e-3, -2e-3, 3e-3), p * 1.05] {
                 let (value, gradient) = one.value_and_gradient(&q);

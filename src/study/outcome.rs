@@ -62,6 +62,8 @@ pub struct Outcome {
     pub eases: Vec<Ease>,
     /// Hybrid-GS: girths of garment and body at each fit level.
     pub closures: Vec<Closure>,
+    /// What its reader should know of it, as sentences; they go to the job's log.
+    pub warnings: Vec<String>,
     /// Products of stages it used.
     pub used: Vec<Used>,
 }
@@ -149,6 +151,9 @@ pub(crate) fn finish_in(
             write_result(transaction, id, spec, outcome, provenance)?;
             let stages: Vec<String> = outcome.used.iter().map(Used::to_string).collect();
             queue::log(transaction, id, "info", &stages.join(", "))?;
+            for warning in &outcome.warnings {
+                queue::log(transaction, id, "warn", warning)?;
+            }
             let text = format!("{}: EI {:.4}", after.status.as_str().replace('_', " "), outcome.metrics.ei);
             queue::log(transaction, id, if outcome.converged { "info" } else { "warn" }, &text)?;
         }

@@ -14,7 +14,7 @@ use crate::fit::{self, Cuts, Ease, Simulator};
 use crate::geom::DistanceField;
 use crate::measure;
 use crate::pattern::{Garment, Style};
-use crate::sim::{self, Drape, Monitor, SimError};
+use crate::sim::{self, Distortion, Drape, Monitor, SimError};
 use crate::units::from_mm;
 
 /// The simulators there are.
@@ -233,9 +233,22 @@ impl Executor for Pipeline {
                 Simulator::Fem => Vec::new(),
                 Simulator::Hybrid => sim::hybrid::closures(&model.body, garment, &drape.positions),
             },
+            warnings: match spec.simulator {
+                Simulator::Fem => distorted(&spec.parameters.fem()?, garment, &drape)?.1.into_iter().collect(),
+                Simulator::Hybrid => Vec::new(),
+            },
             used: vec![used_body, used_field, used_mesh, used_drape],
         })
     }
+}
+
+/// How far FEM-GS stretched a garment, and what is to be said of it where that is too far.
+pub(super) fn distorted(params: &sim::fem::Params, garment: &Garment, drape: &Drape) -> Result<(f64, Option<String>)> {
+    let distortion = Distortion::of(garment, &drape.positions).map_err(StudyError::stage("sim"))?;
+    let limit = params.distortion_limit;
+    let told = (distortion.stretch > limit)
+        .then(|| format!("distorted: {distortion}; the limit is {:.1} % (`fem.distortion_limit`)", 100.0 * limit));
+    Ok((distortion.stretch, told))
 }
 
 /// A simulator's error; being told to stop is an interruption.

@@ -16,7 +16,7 @@ use crate::sim::levels::prolong;
 use crate::sim::quality;
 use crate::sim::sewing::{self, Springs};
 use crate::sim::solver::System;
-use crate::sim::{Drape, Fabric, Monitor, SimError, Stage};
+use crate::sim::{Distortion, Drape, Fabric, Monitor, SimError, Stage};
 
 use run::{Phase, Run};
 
@@ -32,7 +32,8 @@ const HOLDING_ROUNDS: usize = 5;
 /// does not depend on how the seams were closed; only then does friction hold it.
 ///
 /// # Errors
-/// When the garment cannot be placed, is degenerate, diverges, or the monitor cancels. Not converging is no error.
+/// When the garment cannot be placed, is degenerate, diverges, is stretched beyond a limit that is to end it, or the monitor
+/// cancels. Not converging is no error.
 pub fn simulate(
     body: &Body,
     field: &DistanceField,
@@ -50,9 +51,11 @@ pub fn simulate(
     let skin = Skin::new(&body.mesh).ok();
     let around = Around { skin: skin.as_ref(), field };
     let mut last = settle(around, level, fabric, params, positions, &mut run, 0)?;
+    control(level, &last.positions, params)?;
     for (index, next) in finer.iter().enumerate() {
         positions = prolong(level, &last.positions, next, fabric)?;
         last = settle(around, next, fabric, params, positions, &mut run, index + 1)?;
+        control(next, &last.positions, params)?;
         level = next;
     }
     Ok(Drape {
@@ -68,6 +71,16 @@ pub fn simulate(
         history: run.into_history(),
         earlier: Vec::new(),
     })
+}
+
+/// Ends a simulation whose cloth is stretched too far, where that is asked for.
+fn control(garment: &Garment, positions: &[V3], params: &Params) -> Result<(), SimError> {
+    if !params.distortion_stops {
+        return Ok(());
+    }
+    let distortion = Distortion::of(garment, positions)?;
+    let limit = params.distortion_limit;
+    if distortion.stretch > limit { Err(SimError::Distorted { distortion, limit }) } else { Ok(()) }
 }
 
 /// Places a garment and draws its seams together; returns garment positions with all seams (nearly) closed.
@@ -151,4 +164,4 @@ fn settle(
 }
 
 #[cfg(test)]
-mod mirror_tests;
+mod tests;

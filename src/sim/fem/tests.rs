@@ -1,4 +1,4 @@
-//! Left and right: mirrored input gives the mirrored result.
+//! Whole simulations: left and right, and a garment that is too small.
 
 use super::*;
 use crate::body::{self, Joint, Landmarks, Measurements, Sex, Skeleton};
@@ -110,4 +110,27 @@ fn mirrored_input_gives_the_mirrored_result_and_the_same_input_the_same_bits() {
     };
     check(Model::Tshirt, 0.04);
     check(Model::Trousers, 0.06);
+}
+
+#[test]
+fn a_garment_stretched_too_far_is_told_or_ends_the_simulation() {
+    let big =
+        Measurements { chest_girth_m: Some(1.30), waist_girth_m: Some(1.25), ..Measurements::of(Sex::Male, 1.75) };
+    let cotton = fabric::library().into_iter().find(|f| f.name == "cotton_shirting_light").expect("in the library");
+    let garments = levels(Model::Tshirt, 0.06);
+    let drape = |measurements: &Measurements, params: &Params| {
+        let body = body::build(measurements).expect("a body");
+        let field = DistanceField::build(&body.mesh, 0.01).expect("a closed body");
+        simulate(&body, &field, &garments, &cotton, params, &mut Silent)
+    };
+    let stretch = |drape: &Drape| Distortion::of(&garments[0], &drape.positions).expect("a sound mesh").stretch;
+    let tight = stretch(&drape(&big, &Params::default()).expect("stretched or not, it is a result"));
+    let loose = stretch(&drape(&Measurements::of(Sex::Male, 1.65), &Params::default()).expect("it drapes"));
+    assert!(tight > Params::default().distortion_limit, "tight {tight}, loose {loose}");
+    assert!(loose < 0.5 * tight, "tight {tight}, loose {loose}");
+    let strict = Params { distortion_stops: true, ..Params::default() };
+    assert!(drape(&Measurements::of(Sex::Male, 1.65), &strict).is_ok(), "a loose garment goes on");
+    let error = drape(&big, &strict).expect_err("it is too small").to_string();
+    assert!(error.contains("1 % of the cloth is stretched by more than"), "{error}");
+    assert!(garments[0].pieces.iter().any(|piece| error.contains(&piece.id)), "{error}");
 }
