@@ -211,6 +211,18 @@ mod tests {
     }
 
     #[test]
+    fn an_angle_of_nothing_leaves_the_trunk_flat() {
+        let (body, garment) = (body(), garment(Model::Tshirt));
+        let params = Params { bend_angle_rad: Some(0.0), ..Params::default() };
+        let x = place(&body, &garment, &params).expect("all roles are known");
+        for piece in garment.pieces.iter().filter(|piece| [Role::Front, Role::Back].contains(&piece.role)) {
+            let depths = || piece.vertices.clone().map(|v| x[v].y);
+            let [near, far] = [depths().fold(f64::MAX, f64::min), depths().fold(f64::MIN, f64::max)];
+            assert!(far - near < 0.01, "{} lies between {near} and {far} m", piece.id);
+        }
+    }
+
+    #[test]
     fn legs_start_on_their_own_side() {
         let garment = garment(Model::Trousers);
         let x = place(&body(), &garment, &Params::default()).expect("all roles are known");
