@@ -62,6 +62,8 @@ pub struct Outcome {
     pub eases: Vec<Ease>,
     /// Hybrid-GS: girths of garment and body at each fit level.
     pub closures: Vec<Closure>,
+    /// FEM-GS: principal stretch beyond 1 that 1 % of the cloth exceeds.
+    pub distortion: Option<f64>,
     /// What its reader should know of it, as sentences; they go to the job's log.
     pub warnings: Vec<String>,
     /// Products of stages it used.
@@ -216,7 +218,7 @@ fn write_measured(transaction: &Transaction<'_>, id: JobId, outcome: &Outcome) -
         statement.execute(row)?;
     }
     let metrics = &outcome.metrics;
-    transaction.prepare_cached("INSERT INTO metrics VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")?.execute(
+    transaction.prepare_cached("INSERT INTO metrics VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")?.execute(
         params![
             id.0,
             metrics.n as i64,
@@ -231,7 +233,8 @@ fn write_measured(transaction: &Transaction<'_>, id: JobId, outcome: &Outcome) -
             outcome.converged,
             mm(outcome.penetration_max_m),
             mm(outcome.seam_gap_max_m),
-            outcome.self_crossings as i64
+            outcome.self_crossings as i64,
+            outcome.distortion
         ],
     )?;
     Ok(())

@@ -216,6 +216,10 @@ impl Executor for Pipeline {
                 chi,
             })
         });
+        let distorted = match spec.simulator {
+            Simulator::Fem => Some(distorted(&spec.parameters.fem()?, garment, &drape)?),
+            Simulator::Hybrid => None,
+        };
         Ok(Outcome {
             converged: drape.converged,
             measured: measured.collect(),
@@ -233,10 +237,8 @@ impl Executor for Pipeline {
                 Simulator::Fem => Vec::new(),
                 Simulator::Hybrid => sim::hybrid::closures(&model.body, garment, &drape.positions),
             },
-            warnings: match spec.simulator {
-                Simulator::Fem => distorted(&spec.parameters.fem()?, garment, &drape)?.1.into_iter().collect(),
-                Simulator::Hybrid => Vec::new(),
-            },
+            distortion: distorted.as_ref().map(|(stretch, _)| *stretch),
+            warnings: distorted.and_then(|(_, told)| told).into_iter().collect(),
             used: vec![used_body, used_field, used_mesh, used_drape],
         })
     }
