@@ -465,10 +465,10 @@ CREATE TABLE metrics (
     penetration_max_mm REAL NOT NULL,
     seam_gap_max_mm REAL NOT NULL,
     self_crossings INTEGER
-) STRICT;
+, distortion REAL) STRICT;
 
 CREATE VIEW v_metrics AS
 SELECT study.name AS study, garment, size, subject, simulator, n, e_chi, sd_chi, ei, max_abs_error, vertices, faces,
-    iterations, residual, converged, penetration_max_mm, seam_gap_max_mm, wall_ms, repeat, self_crossings, job_id
+    iterations, residual, converged, penetration_max_mm, seam_gap_max_mm, wall_ms, repeat, self_crossings, distortion, job_id
 FROM metrics JOIN job USING (job_id) JOIN study USING (study_id)
 WHERE is_current;

@@ -118,7 +118,7 @@ fn drape(folder: Option<&Path>) -> Outcome {
     let mut points = Vec::new();
     let mut published = Vec::new();
     for f in &library {
-        let draped = cusick(f, 15)?;
+        let draped = cusick(f, 15, 0)?;
         let known = measured.iter().find(|m| m.0 == f.name).map(|m| m.1);
         let known_text = known.map_or(String::new(), |k| format!("({k})"));
         let (length, percent) = (length_mm(f), 100.0 * draped.coefficient);

@@ -181,6 +181,8 @@ fn quick(spec: &JobSpec, _: &mut dyn Monitor) -> Result<Outcome> {
         history: history.collect(),
         closures: Vec::new(),
         eases: vec![ease],
+        distortion: None,
+        warnings: vec![],
         used: vec![],
     })
 }

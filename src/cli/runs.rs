@@ -119,7 +119,7 @@ fn rerun(context: &Context, id: JobId) -> Outcome {
 }
 
 /// The numbers of a result with their names in SQL; `None` is one that its program did not know.
-fn numbers(m: &MetricsRow) -> [(&'static str, Option<f64>); 12] {
+fn numbers(m: &MetricsRow) -> [(&'static str, Option<f64>); 13] {
     [
         ("n", Some(f64::from(m.n))),
         ("e_chi", Some(m.e_chi)),
@@ -133,6 +133,7 @@ fn numbers(m: &MetricsRow) -> [(&'static str, Option<f64>); 12] {
         ("penetration_max_mm", Some(mm(m.penetration_max_m))),
         ("seam_gap_max_mm", Some(mm(m.seam_gap_max_m))),
         ("self_crossings", m.self_crossings.map(f64::from)),
+        ("distortion", m.distortion),
     ]
 }
 

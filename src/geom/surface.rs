@@ -1,5 +1,10 @@
 //! Exact signed distance to a closed triangle mesh, by parry's bounding volume hierarchy and pseudo-normals.
+//!
+//! Parry tells the side, and the distance but for rounding: which of two triangles with a common edge answers, and so the
+//! last bits, depends on how the mesh is stored. Here the distance is the least of all triangles near that, each asked with
+//! its corners in one order, so that a mirrored mesh has exactly the same distances.
 
+use parry3d::partitioning::BvhNode;
 use parry3d::query::PointQuery;
 use parry3d::shape::{TriMesh as ParryMesh, TriMeshFlags};
 
@@ -37,12 +42,102 @@ impl Surface {
     pub fn signed_distance(&self, point: &V3) -> f64 {
         let point = to_parry(point);
         let projection = self.mesh.project_local_point(point, false);
-        let distance = f64::from((projection.point - point).length());
+        let distance = self.nearest((projection.point - point).length(), point);
         if projection.is_inside { -distance } else { distance }
+    }
+
+    /// Least distance of a point from any triangle, m, when it is known to be about `expected`.
+    fn nearest(&self, expected: f32, point: parry3d::math::Vector) -> f64 {
+        let p = from_parry(point);
+        let within = expected * (1.0 + ROUNDED) + ROUNDED;
+        let box_distance = |node: &BvhNode, _: f32| node.aabb().distance_to_local_point(point, true) * (1.0 - ROUNDED);
+        let triangle_distance = |triangle: u32, _: f32| {
+            let mut corners = *self.mesh.indices().get(triangle as usize)?;
+            corners.sort_unstable();
+            let corners = corners.map(|corner| from_parry(self.mesh.vertices()[corner as usize]));
+            #[allow(clippy::cast_possible_truncation)]
+            Some((distance_to_triangle(&p, &corners) as f32, ()))
+        };
+        let found = self.mesh.bvh().find_best(within, box_distance, triangle_distance);
+        f64::from(found.map_or(expected, |(_, (distance, ()))| distance))
+    }
+}
+
+/// Relative error, and error in m, that is granted to single precision.
+const ROUNDED: f32 = 1e-5;
+
+/// Distance of a point from a triangle [Ericson 2005, 5.1.5].
+fn distance_to_triangle(p: &V3, [a, b, c]: &[V3; 3]) -> f64 {
+    let (ab, ac, ap, bp, cp) = (b - a, c - a, p - a, p - b, p - c);
+    let (d1, d2, d3) = (ab.dot(&ap), ac.dot(&ap), ab.dot(&bp));
+    let (d4, d5, d6) = (ac.dot(&bp), ab.dot(&cp), ac.dot(&cp));
+    let (va, vb, vc) = (d3 * d6 - d5 * d4, d5 * d2 - d1 * d6, d1 * d4 - d3 * d2);
+    let to = |wb: f64, wc: f64| (ap - ab * wb - ac * wc).norm();
+    if d1 <= 0.0 && d2 <= 0.0 {
+        to(0.0, 0.0)
+    } else if d3 >= 0.0 && d4 <= d3 {
+        bp.norm()
+    } else if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        to(d1 / (d1 - d3), 0.0)
+    } else if d6 >= 0.0 && d5 <= d6 {
+        cp.norm()
+    } else if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        to(0.0, d2 / (d2 - d6))
+    } else if va <= 0.0 && d4 >= d3 && d5 >= d6 {
+        let share = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+        to(1.0 - share, share)
+    } else {
+        let sum = va + vb + vc;
+        to(vb / sum, vc / sum)
     }
 }
 
 #[allow(clippy::cast_possible_truncation)]
 fn to_parry(p: &V3) -> parry3d::math::Vector {
     parry3d::math::Vector::new(p.x as f32, p.y as f32, p.z as f32)
+}
+
+fn from_parry(p: parry3d::math::Vector) -> V3 {
+    V3::new(f64::from(p.x), f64::from(p.y), f64::from(p.z))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::shapes;
+
+    #[test]
+    fn a_mirrored_mesh_has_the_same_distances_to_the_bit() {
+        let flipped = |p: &V3| V3::new(-p.x, p.y, p.z);
+        let bumpy = |p: &V3| p * (1.0 + 0.2 * (17.0 * p.x).sin() * (11.0 * p.y + 3.0 * p.z).cos());
+        let sphere = shapes::sphere(0.1, 30);
+        let mesh = TriMesh { positions: sphere.positions.iter().map(bumpy).collect(), triangles: sphere.triangles };
+        let mirrored = TriMesh {
+            positions: mesh.positions.iter().map(flipped).collect(),
+            triangles: mesh.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect(),
+        };
+        let [one, other] = [&mesh, &mirrored].map(|mesh| Surface::new(mesh).expect("closed"));
+        for p in &mesh.positions {
+            // On the surface, just off it, and well inside and outside.
+            for q in [*p, p * 1.003, p * 0.5, p * 1.4, p + V3::new(1e-3, -2e-3, 3e-3)] {
+                assert_eq!(one.signed_distance(&q).abs(), other.signed_distance(&flipped(&q)).abs(), "{q}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_distance_from_a_triangle_is_that_of_its_nearest_sample() {
+        let triangle = [V3::new(0.0, 0.0, 0.0), V3::new(1.0, 0.1, 0.0), V3::new(0.2, 0.8, 0.3)];
+        let [a, b, c] = triangle;
+        let steps = || (0..=100).map(|k| f64::from(k) / 100.0);
+        for p in
+            [[2.0, 0.0, 0.0], [-1.0, -1.0, 0.2], [0.3, 2.0, 0.0], [0.4, 0.3, 1.0], [0.5, -1.0, 0.1], [0.9, 0.9, 0.0]]
+        {
+            let p = V3::from(p);
+            let samples = steps().flat_map(|s| steps().map(move |t| a + ((b - a) * s + (c - b) * (s * t))));
+            let least = samples.map(|q| (p - q).norm()).fold(f64::MAX, f64::min);
+            let found = distance_to_triangle(&p, &triangle);
+            assert!(found <= least + 1e-12 && found > least - 0.02, "{found} for {least} at {p}");
+        }
+    }
 }

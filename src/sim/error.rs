@@ -1,5 +1,6 @@
 //! What can go wrong before there is a drape. Not converging is not among it: that is a result.
 
+use super::Distortion;
 use crate::geom::V2;
 use crate::pattern::Role;
 
@@ -57,6 +58,17 @@ pub enum SimError {
         garment: String,
         /// How far it has come down when it was given up, m.
         descent_m: f64,
+    },
+    /// Stretched too far, where that is to end a simulation.
+    #[error(
+        "too small for this body: {distortion}, the limit is {:.1} %; a larger size, another fabric, or a higher `fem.distortion_limit` would do",
+        100.0 * .limit
+    )]
+    Distorted {
+        /// How far and where.
+        distortion: Distortion,
+        /// Stretch beyond 1 that was allowed.
+        limit: f64,
     },
     /// Asked to stop.
     #[error("cancelled")]

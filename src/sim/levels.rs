@@ -4,6 +4,7 @@ use nalgebra::Matrix3;
 
 use super::Fabric;
 use super::cloth::Cloth;
+use super::contact::tangle::sorted;
 use super::solver::pcg::PcgParams;
 use super::solver::{Operator, linear};
 use crate::geom::{V2, V3};
@@ -53,7 +54,7 @@ fn evaluate(coarse: &Garment, coarse_positions: &[V3], fine: &Garment) -> Vec<V3
         let locator = Locator::new(coarse, source.triangles.clone());
         for v in piece.vertices.clone() {
             let (triangle, weights) = locator.locate(fine.rest[v]);
-            let corners = coarse.triangles[triangle];
+            let corners = sorted(coarse.triangles[triangle]);
             positions[v] = (0..3).map(|k| coarse_positions[corners[k]] * weights[k]).sum();
         }
     }
@@ -78,6 +79,9 @@ impl<'a> Locator<'a> {
         let cell = garment.edge_length_m;
         let count = |extent: f64| (extent / cell) as usize + 1;
         let (columns, rows) = (count(high.x - low.x), count(high.y - low.y));
+        // In the middle, so that a mirrored piece has the mirrored buckets.
+        let spare = V2::new(columns as f64 * cell, rows as f64 * cell) - (high - low);
+        let low = low - spare * 0.5;
         let mut locator = Self { garment, low, cell, columns, rows, buckets: vec![Vec::new(); columns * rows] };
         for t in triangles {
             let points = garment.triangles[t].map(|v| garment.rest[v]);
@@ -99,7 +103,8 @@ impl<'a> Locator<'a> {
         [at(p.x - self.low.x, self.columns), at(p.y - self.low.y, self.rows)]
     }
 
-    /// The triangle that contains a point, or else the one it is least outside of, with barycentric weights.
+    /// The triangle that contains a point, or else the one it is least outside of, with the barycentric weights of its
+    /// sorted corners.
     fn locate(&self, p: V2) -> (usize, [f64; 3]) {
         let [column, row] = self.bucket(p);
         for ring in 0.. {
@@ -131,7 +136,7 @@ impl<'a> Locator<'a> {
     }
 
     fn barycentric(&self, triangle: usize, p: V2) -> [f64; 3] {
-        let [a, b, c] = self.garment.triangles[triangle].map(|v| self.garment.rest[v]);
+        let [a, b, c] = sorted(self.garment.triangles[triangle]).map(|v| self.garment.rest[v]);
         let area = (b - a).perp(&(c - a));
         let wb = (p - a).perp(&(c - a)) / area;
         let wc = (b - a).perp(&(p - a)) / area;

@@ -5,6 +5,7 @@
 
 pub mod cloth;
 pub mod contact;
+pub mod distortion;
 pub mod drape;
 pub mod error;
 pub mod fabric;
@@ -18,6 +19,7 @@ pub mod solver;
 #[cfg(test)]
 mod testing;
 
+pub use distortion::Distortion;
 pub use drape::{Drape, Monitor, Progress, Stage, Staged, Step};
 pub use error::SimError;
 pub use fabric::Fabric;

@@ -6,7 +6,7 @@ use std::time::Instant;
 use serde::Serialize;
 
 use super::error::{Result, StudyError};
-use super::pipeline::{FIELD_SPACING_M, ease_on};
+use super::pipeline::{FIELD_SPACING_M, distorted, ease_on};
 use super::tools::{self, LengthUnit, Sex, SourceFile, Unit};
 use crate::body::Body;
 use crate::fit::Simulator;
@@ -116,6 +116,8 @@ pub struct Tried {
     pub penetration_max_mm: f64,
     pub seam_gap_max_mm: f64,
     pub self_crossings: usize,
+    /// FEM: principal stretch beyond 1 that 1 % of the cloth exceeds.
+    pub distortion: Option<f64>,
     pub wall_ms: u64,
     /// Greatest spread of a chi over the repeated simulations.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -181,6 +183,11 @@ pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<T
         .collect();
     if asked.simulator == Simulator::Hybrid {
         tried.lacks(&sim::hybrid::closures(&body, garment, &drape.positions));
+    }
+    if asked.simulator == Simulator::Fem {
+        let (stretch, told) = distorted(&sim::fem::Params::default(), garment, &drape)?;
+        tried.distortion = Some(stretch);
+        notes.extend(told);
     }
     tried.notes = notes;
     tried.files = files(asked.simulator, &body, garment, &drape)?;
@@ -340,6 +347,7 @@ fn measured(asked: &Attempt, style: &Style, garment: &Garment, drape: &Drape, fa
         penetration_max_mm,
         seam_gap_max_mm: mm(drape.seam_gap_max_m),
         self_crossings: drape.self_crossings,
+        distortion: None,
         wall_ms: 0,
         chi_spread_max: None,
         chi: chi.collect(),

@@ -62,6 +62,10 @@ pub struct Outcome {
     pub eases: Vec<Ease>,
     /// Hybrid-GS: girths of garment and body at each fit level.
     pub closures: Vec<Closure>,
+    /// FEM-GS: principal stretch beyond 1 that 1 % of the cloth exceeds.
+    pub distortion: Option<f64>,
+    /// What its reader should know of it, as sentences; they go to the job's log.
+    pub warnings: Vec<String>,
     /// Products of stages it used.
     pub used: Vec<Used>,
 }
@@ -149,6 +153,9 @@ pub(crate) fn finish_in(
             write_result(transaction, id, spec, outcome, provenance)?;
             let stages: Vec<String> = outcome.used.iter().map(Used::to_string).collect();
             queue::log(transaction, id, "info", &stages.join(", "))?;
+            for warning in &outcome.warnings {
+                queue::log(transaction, id, "warn", warning)?;
+            }
             let text = format!("{}: EI {:.4}", after.status.as_str().replace('_', " "), outcome.metrics.ei);
             queue::log(transaction, id, if outcome.converged { "info" } else { "warn" }, &text)?;
         }
@@ -211,7 +218,7 @@ fn write_measured(transaction: &Transaction<'_>, id: JobId, outcome: &Outcome) -
         statement.execute(row)?;
     }
     let metrics = &outcome.metrics;
-    transaction.prepare_cached("INSERT INTO metrics VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")?.execute(
+    transaction.prepare_cached("INSERT INTO metrics VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")?.execute(
         params![
             id.0,
             metrics.n as i64,
@@ -226,7 +233,8 @@ fn write_measured(transaction: &Transaction<'_>, id: JobId, outcome: &Outcome) -
             outcome.converged,
             mm(outcome.penetration_max_m),
             mm(outcome.seam_gap_max_m),
-            outcome.self_crossings as i64
+            outcome.self_crossings as i64,
+            outcome.distortion
         ],
     )?;
     Ok(())

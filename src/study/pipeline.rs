@@ -14,14 +14,14 @@ use crate::fit::{self, Cuts, Ease, Simulator};
 use crate::geom::DistanceField;
 use crate::measure;
 use crate::pattern::{Garment, Style};
-use crate::sim::{self, Drape, Monitor, SimError};
+use crate::sim::{self, Distortion, Drape, Monitor, SimError};
 use crate::units::from_mm;
 
 /// The simulators there are.
 pub const SIMULATORS: [Simulator; 2] = [Simulator::Fem, Simulator::Hybrid];
 
 /// Versions of the stages, raised whenever one may give other numbers for the same inputs.
-const VERSIONS: [(&str, u32); 3] = [("body.version", 6), ("field.version", 2), ("mesh.version", 3)];
+const VERSIONS: [(&str, u32); 3] = [("body.version", 6), ("field.version", 3), ("mesh.version", 3)];
 /// Version of the simulators, likewise; their default parameters count as inputs by themselves.
 const SIM_VERSION: u32 = 10;
 
@@ -216,6 +216,10 @@ impl Executor for Pipeline {
                 chi,
             })
         });
+        let distorted = match spec.simulator {
+            Simulator::Fem => Some(distorted(&spec.parameters.fem()?, garment, &drape)?),
+            Simulator::Hybrid => None,
+        };
         Ok(Outcome {
             converged: drape.converged,
             measured: measured.collect(),
@@ -233,9 +237,20 @@ impl Executor for Pipeline {
                 Simulator::Fem => Vec::new(),
                 Simulator::Hybrid => sim::hybrid::closures(&model.body, garment, &drape.positions),
             },
+            distortion: distorted.as_ref().map(|(stretch, _)| *stretch),
+            warnings: distorted.and_then(|(_, told)| told).into_iter().collect(),
             used: vec![used_body, used_field, used_mesh, used_drape],
         })
     }
+}
+
+/// How far FEM-GS stretched a garment, and what is to be said of it where that is too far.
+pub(super) fn distorted(params: &sim::fem::Params, garment: &Garment, drape: &Drape) -> Result<(f64, Option<String>)> {
+    let distortion = Distortion::of(garment, &drape.positions).map_err(StudyError::stage("sim"))?;
+    let limit = params.distortion_limit;
+    let told = (distortion.stretch > limit)
+        .then(|| format!("distorted: {distortion}; the limit is {:.1} % (`fem.distortion_limit`)", 100.0 * limit));
+    Ok((distortion.stretch, told))
 }
 
 /// A simulator's error; being told to stop is an interruption.

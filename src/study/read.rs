@@ -172,7 +172,7 @@ impl Workspace {
     /// When the database cannot be read.
     pub fn metrics(&self, id: JobId) -> Result<Option<MetricsRow>> {
         let sql = "SELECT n, e_chi, sd_chi, ei, max_abs_error, vertices, faces, iterations, residual, converged,
-                penetration_max_mm, seam_gap_max_mm, self_crossings
+                penetration_max_mm, seam_gap_max_mm, self_crossings, distortion
             FROM metrics WHERE job_id = ?";
         let row = |row: &Row<'_>| {
             Ok(MetricsRow {
@@ -189,6 +189,7 @@ impl Workspace {
                 penetration_max_m: from_mm(row.get(10)?),
                 seam_gap_max_m: from_mm(row.get(11)?),
                 self_crossings: row.get(12)?,
+                distortion: row.get(13)?,
             })
         };
         Ok(self.reader.prepare_cached(sql)?.query_row([id.0], row).optional()?)

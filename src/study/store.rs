@@ -10,7 +10,7 @@ use super::error::{Result, StudyError, database_error};
 use super::{evidence, sql};
 
 /// Schema changes in order, never edited once released: `user_version` counts how many a database has.
-const MIGRATIONS: [&str; 10] = [
+const MIGRATIONS: [&str; 11] = [
     include_str!("../../db/migrations/0001_store.sql"),
     include_str!("../../db/migrations/0002_views.sql"),
     include_str!("../../db/migrations/0003_published.sql"),
@@ -21,6 +21,7 @@ const MIGRATIONS: [&str; 10] = [
     include_str!("../../db/migrations/0008_engine.sql"),
     include_str!("../../db/migrations/0009_evidence.sql"),
     include_str!("../../db/migrations/0010_queue.sql"),
+    include_str!("../../db/migrations/0011_distortion.sql"),
 ];
 
 /// How long a statement waits for another process's write, s, where `TOILE_PATIENCE_S` says nothing else.

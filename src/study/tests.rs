@@ -132,6 +132,8 @@ fn outcome(spec: &JobSpec) -> Outcome {
         history: vec![step],
         eases: vec![ease],
         closures: (spec.size == "m").then(gap).into_iter().collect(),
+        distortion: None,
+        warnings: vec![],
         used: vec![],
     }
 }

@@ -294,6 +294,9 @@ pub struct MetricsRow {
     pub seam_gap_max_m: f64,
     /// Edges that pierce the garment's own cloth; `None` for results of programs that did not count them.
     pub self_crossings: Option<u32>,
+    /// FEM-GS: principal stretch beyond 1 that 1 % of the cloth exceeds; `None` for results of programs that did not
+    /// measure it.
+    pub distortion: Option<f64>,
 }
 
 /// Ease of a size on a subject at one level.

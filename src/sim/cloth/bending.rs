@@ -34,8 +34,9 @@ pub struct Flap {
 
 impl Flap {
     fn area(&self) -> f64 {
+        // From the corner that neither end is: the same bits whichever way the edge runs.
         let [a, b, c] = self.rest;
-        0.5 * (b - a).perp(&(c - a)).abs()
+        0.5 * (a - c).perp(&(b - c)).abs()
     }
 
     /// Cotangents of the interior angles at the edge's start and end.
@@ -76,10 +77,13 @@ impl Plate {
         let mut form = [[0.0; 3]; 3];
         for e in 0..3 {
             for f in 0..3 {
-                form[e][f] = (weft * n[e].x * n[f].x + warp * n[e].y * n[f].y).powi(2);
+                form[e][f] = (weft * (n[e].x * n[f].x) + warp * (n[e].y * n[f].y)).powi(2);
             }
         }
-        for free in (0..3).filter(|&e| self.hinges[e].is_none()) {
+        // The stiffest first, so that which corner comes first does not matter.
+        let mut free: Vec<usize> = (0..3).filter(|&e| self.hinges[e].is_none()).collect();
+        free.sort_by(|&e, &f| form[f][f].total_cmp(&form[e][e]));
+        for free in free {
             let row = form[free];
             for e in 0..3 {
                 for f in 0..3 {
@@ -97,6 +101,8 @@ impl Plate {
     fn push_terms(&self, hinges: &[Hinge], fabric: &Fabric, terms: &mut Vec<([usize; 2], f64)>) {
         let form = self.form(fabric);
         let own = self.hinges.map(|hinge| hinge.map(|h| &hinges[h]));
+        let mut order = [0, 1, 2];
+        order.sort_by_key(|&e| own[e].map(|h| (h.vertices[0].min(h.vertices[1]), h.vertices[0].max(h.vertices[1]))));
         let mut corners: Vec<usize> = own.iter().flatten().flat_map(|hinge| hinge.vertices).collect();
         corners.sort_unstable();
         corners.dedup();
@@ -107,9 +113,10 @@ impl Plate {
         };
         let shares: Vec<[f64; 3]> = corners.iter().map(|&corner| own.map(|hinge| share(hinge, corner))).collect();
         for (i, of_i) in shares.iter().enumerate() {
-            let row = [0, 1, 2].map(|f| (0..3).map(|e| form[e][f] * of_i[e]).sum::<f64>() * self.area);
+            let row = order.map(|f| order.map(|e| form[e][f] * of_i[e]).iter().sum::<f64>() * self.area);
             for (j, of_j) in shares.iter().enumerate().skip(i + 1) {
-                terms.push(([corners[i], corners[j]], (0..3).map(|f| row[f] * of_j[f]).sum()));
+                let value = (0..3).map(|k| row[k] * of_j[order[k]]).sum();
+                terms.push(([corners[i], corners[j]], value));
             }
         }
     }
@@ -132,7 +139,8 @@ impl Bending {
         for plate in plates {
             plate.push_terms(hinges, fabric, &mut terms);
         }
-        terms.sort_by_key(|&([i, j], _)| [i, j]);
+        // Summed in an order that does not depend on which corner of a triangle comes first: rounded alike if mirrored.
+        terms.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         let mut entries: Vec<f64> = Vec::with_capacity(terms.len() / 2);
         for (k, &(pair, value)) in terms.iter().enumerate() {
             match entries.last_mut().filter(|_| terms[k - 1].0 == pair) {

@@ -16,6 +16,7 @@ use std::collections::BTreeMap;
 use nalgebra::Matrix3;
 
 use super::skin::Skin;
+use super::tangle::sorted;
 use crate::geom::{DistanceField, V3};
 use crate::sim::solver::Contact4;
 
@@ -246,7 +247,7 @@ impl<'a> BodyContact<'a> {
         edges.dedup();
         let vertices = self.samples[..self.vertices].iter().copied();
         let middles = edges.into_iter().map(|[a, b]| between([a, b, b], [0.5, 0.5, 0.0]));
-        let centres = triangles.iter().map(|&t| between(t, [1.0 / 3.0; 3]));
+        let centres = triangles.iter().map(|&t| between(sorted(t), [1.0 / 3.0; 3]));
         vertices.chain(middles).chain(centres).collect()
     }
 

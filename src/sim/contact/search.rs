@@ -2,7 +2,7 @@
 
 use super::grid::BoxGrid;
 use super::nearest::Primitives;
-use super::tangle::edges_of;
+use super::tangle::{edges_of, sorted};
 use crate::geom::V3;
 use crate::sim::solver::PairList;
 
@@ -68,7 +68,7 @@ impl<'a> Neighbours<'a> {
             for t in grid.near([&x[v]]) {
                 let triangle = self.triangles[t];
                 if self.apart(&[v], &triangle) {
-                    let [a, b, c] = triangle;
+                    let [a, b, c] = sorted(triangle);
                     pairs.push(Primitives::VertexTriangle([v, a, b, c]));
                 }
             }

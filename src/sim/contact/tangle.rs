@@ -34,8 +34,14 @@ pub fn crossings<'s>(
             let triangle = triangles[*t];
             !triangle.contains(&a) && !triangle.contains(&b) && segment_hits(x[a], x[b], triangle.map(|v| x[v]))
         };
-        near.into_iter().filter(hits).map(move |t| Crossing { edge: [a, b], triangle: triangles[t] })
+        near.into_iter().filter(hits).map(move |t| Crossing { edge: [a, b], triangle: sorted(triangles[t]) })
     })
+}
+
+/// Corners in one order, whichever way the triangle goes round: mirrored cloth is then rounded alike.
+pub fn sorted(mut triangle: [usize; 3]) -> [usize; 3] {
+    triangle.sort_unstable();
+    triangle
 }
 
 fn segment_hits(p: V3, q: V3, [a, b, c]: [V3; 3]) -> bool {

@@ -16,7 +16,7 @@ use crate::sim::levels::prolong;
 use crate::sim::quality;
 use crate::sim::sewing::{self, Springs};
 use crate::sim::solver::System;
-use crate::sim::{Drape, Fabric, Monitor, SimError, Stage};
+use crate::sim::{Distortion, Drape, Fabric, Monitor, SimError, Stage};
 
 use run::{Phase, Run};
 
@@ -33,7 +33,8 @@ const HOLDING_ROUNDS: usize = 5;
 /// with friction throughout.
 ///
 /// # Errors
-/// When the garment cannot be placed, is degenerate, diverges, slides off the body even so, or the monitor cancels. Not converging is no error.
+/// When the garment cannot be placed, is degenerate, diverges, slides off the body even so, is stretched beyond a limit that
+/// is to end it, or the monitor cancels. Not converging is no error.
 pub fn simulate(
     body: &Body,
     field: &DistanceField,
@@ -96,9 +97,21 @@ fn refine(
             None => cloth.weld(sewn),
             Some((coarser, drape)) => prolong(coarser, &drape.positions, garment, &cloth, fabric),
         };
-        last = Some((garment, settle(around, garment, &cloth, x, fabric, run, level, grip)?));
+        let settled = settle(around, garment, &cloth, x, fabric, run, level, grip)?;
+        control(garment, &settled.positions, run.params())?;
+        last = Some((garment, settled));
     }
     last.map(|(_, settled)| settled).ok_or(SimError::NoMesh)
+}
+
+/// Ends a simulation whose cloth is stretched too far, where that is asked for.
+fn control(garment: &Garment, positions: &[V3], params: &Params) -> Result<(), SimError> {
+    if !params.distortion_stops {
+        return Ok(());
+    }
+    let distortion = Distortion::of(garment, positions)?;
+    let limit = params.distortion_limit;
+    if distortion.stretch > limit { Err(SimError::Distorted { distortion, limit }) } else { Ok(()) }
 }
 
 /// Places a garment and draws its seams together; returns garment positions with all seams (nearly) closed.
@@ -186,49 +199,4 @@ fn settle(
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::body::{self, Measurements, Sex};
-    use crate::pattern::Style;
-    use crate::pattern::draft::Model;
-    use crate::sim::{Progress, fabric};
-
-    struct Silent;
-
-    impl Monitor for Silent {
-        fn progress(&mut self, _: &Progress) {}
-    }
-
-    /// Trousers of a soft, slippery knit, with more at the end of their seam file.
-    fn slippery_trousers(more: &str) -> Result<Drape, SimError> {
-        let measurements = Measurements {
-            chest_girth_m: Some(0.94),
-            waist_girth_m: Some(0.8),
-            hip_girth_m: Some(0.95),
-            ..Measurements::of(Sex::Male, 1.75)
-        };
-        let body = body::build(&measurements).expect("a body");
-        let field = DistanceField::build(&body.mesh, 0.012).expect("a closed body");
-        let seams = Model::Trousers.seams().to_vec();
-        let style = Style::read(&Model::Trousers.drafts()[1].pieces, &[&seams, more.as_bytes()].concat(), "seams");
-        let garment = style.expect("drafted").mesh(0.05).expect("it meshes");
-        let knit = fabric::library().into_iter().find(|f| f.name == "interlock_tshirt").expect("in the library");
-        let slippery = Fabric { friction_body: 0.05, ..knit };
-        simulate(&body, &field, &[garment], &slippery, &Params::default(), &mut Silent)
-    }
-
-    #[test]
-    fn what_nothing_holds_up_is_given_up_and_a_waistband_holds_it() {
-        let error = slippery_trousers("").err().map(|e| e.to_string()).unwrap_or_default();
-        assert!(error.contains("slides off this body: it has come down by 25"), "{error}");
-        let waist = r#"
-            [[reinforce]]
-            edges = ["leg_front_left.waist", "leg_front_right.waist", "leg_back_right.waist", "leg_back_left.waist"]
-            kind = "waistband"
-            stiffness_n = 200.0
-            length_factor = 0.95
-        "#;
-        let drape = slippery_trousers(waist).map_err(|e| e.to_string());
-        assert!(drape.is_ok_and(|drape| drape.converged));
-    }
-}
+mod tests;

@@ -55,6 +55,11 @@ pub struct Params {
     pub tolerance: f64,
     /// Most steps of the last phase, with friction.
     pub max_iterations: u32,
+    /// Principal stretch beyond 1 that 1 % of the cloth may exceed ([`Distortion`](crate::sim::Distortion)); more is reported. Just
+    /// below the 17 % up to which the laws of the library's fabrics are measured.
+    pub distortion_limit: f64,
+    /// Whether more than that ends the simulation, as soon as a mesh has settled.
+    pub distortion_stops: bool,
     /// Body contact.
     pub contact: ContactParams,
     /// Contact of the cloth with itself.
@@ -84,6 +89,8 @@ impl Default for Params {
             finest_frictionless_steps: 12,
             tolerance: 0.01,
             max_iterations: 600,
+            distortion_limit: 0.15,
+            distortion_stops: false,
             contact: ContactParams::default(),
             self_contact: ClothContactParams::default(),
             step: StepParams::default(),

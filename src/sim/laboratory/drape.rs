@@ -29,21 +29,23 @@ pub struct Draped {
     pub rim: Vec<V3>,
 }
 
-/// Drapes a fabric, meshed in `rings` rings, 5 a carried radius of 9 cm at the least.
+/// Drapes a fabric, meshed in `rings` rings, 5 a carried radius of 9 cm at the least. Which folds form is chance, as on the bench:
+/// specimens of other numbers start from other noise.
 ///
 /// # Errors
 /// When the mesh is degenerate.
-pub fn cusick(fabric: &Fabric, rings: usize) -> Result<Draped, SimError> {
+pub fn cusick(fabric: &Fabric, rings: usize, number: u64) -> Result<Draped, SimError> {
+    let seed = 17 + 100 * number;
     let specimen = Specimen::new(disc(rings, SPECIMEN_M), fabric, |p| V3::new(p.x, p.y, 0.0))?;
     let mut specimen = specimen.hold(|p| p.norm() < DISC_M + 1e-9);
     // Folds need something to start from: height noise of a hundredth of a ring.
-    let start = shaken(&specimen.positions, 0.01 * SPECIMEN_M / rings as f64, 17);
+    let start = shaken(&specimen.positions, 0.01 * SPECIMEN_M / rings as f64, seed);
     for v in (0..start.len()).filter(|v| !specimen.held.contains(v)) {
         specimen.positions[v].z = start[v].z;
     }
     let mut residual = specimen.rest(1.0, 0.02, 400);
     for bounce in 1..=BOUNCES {
-        let bounced = shaken(&specimen.positions, BOUNCE_M, 17 + bounce);
+        let bounced = shaken(&specimen.positions, BOUNCE_M, seed + bounce);
         for v in (0..start.len()).filter(|v| !specimen.held.contains(v)) {
             specimen.positions[v] = bounced[v];
         }
@@ -105,6 +107,9 @@ mod tests {
     use super::*;
     use crate::sim::fabric;
 
+    /// Specimens of a fabric: chance folds put a single one off by up to 0.1.
+    const SPECIMENS: u64 = 3;
+
     #[test]
     fn drape_coefficients_rank_as_bending_lengths() {
         // Bending lengths 12.2, 16.0, 18.8 and 21.2 mm; measured 28.3, 49.8, 50.7 and 82.9 % [Matsudaira 2015].
@@ -118,12 +123,12 @@ mod tests {
         let mut last = 0.0;
         for (name, expect) in measured {
             let fabric = library.iter().find(|f| f.name == name).expect("in the library");
-            let draped = cusick(fabric, 12).expect("a sound mesh");
-            assert!(draped.coefficient > last, "{name}: {} after {last}", draped.coefficient);
+            let draped = |number| cusick(fabric, 12, number).expect("a sound mesh").coefficient;
+            let mean = (0..SPECIMENS).map(draped).sum::<f64>() / SPECIMENS as f64;
+            assert!(mean > last, "{name}: {mean} after {last}");
             // An elastic specimen lies lower than one held up by the friction of its yarns.
-            let off = draped.coefficient - expect;
-            assert!((-0.25..0.15).contains(&off), "{name}: {} for {expect}", draped.coefficient);
-            last = draped.coefficient;
+            assert!((-0.25..0.15).contains(&(mean - expect)), "{name}: {mean} for {expect}");
+            last = mean;
         }
     }
 }

@@ -308,6 +308,7 @@ pub fn detail(id: JobId) -> Detail {
             converged: status == Status::Done,
             penetration_max_m: 0.0002,
             self_crossings: Some(0),
+            distortion: Some(0.012),
             seam_gap_max_m: 0.0001,
         }),
         history: if has_result { (1..=100).map(step).collect() } else { vec![] },

@@ -112,8 +112,8 @@ impl<'a> Leg<'a> {
         // Outwards is to the right on the back of the right leg and on the front of the left one.
         let outward = -self.hand * face.side;
         let (low, high) = face.row(self.joins.garment, p.y).unwrap_or((p.x, p.x));
-        let from_left = if high > low { ((p.x - low) / (high - low)).clamp(0.0, 1.0) } else { 0.5 };
-        let inwards = if outward > 0.0 { 1.0 - from_left } else { from_left };
+        let from_outside = if outward > 0.0 { high - p.x } else { p.x - low };
+        let inwards = if high > low { (from_outside / (high - low)).clamp(0.0, 1.0) } else { 0.5 };
         let girth: f64 = self.faces.iter().filter_map(|other| self.width(other, above)).sum();
         let on = |ring: Ring, angle: f64, full: f64| {
             let size = (girth / (full * 0.5 * (ring.half.x + ring.half.y))).max(1.0);

@@ -1,13 +1,15 @@
 //! Automatic preposition (4.2): every piece before, behind or about the limb it is worn on.
 //!
 //! Pieces of one side of the trunk or of a leg are laid out flat as they are sewn ([`sheet`]), then bent as one; sleeves
-//! go about the arms; a piece of no such role follows what it is sewn to ([`follow`]).
+//! go about the arms; a skirt of one piece goes round the trunk ([`round`]); a piece of no such role follows what it is sewn
+//! to ([`follow`]).
 
 mod arm;
 mod ellipse;
 mod follow;
 mod form;
 mod leg;
+mod round;
 mod sheet;
 mod trunk;
 
@@ -37,6 +39,7 @@ pub fn place(body: &Body, garment: &Garment, params: &Params) -> Result<Vec<V3>,
     placing.trunk(params);
     placing.legs();
     placing.arms();
+    placing.round();
     placing.followers()?;
     Ok(placing.positions)
 }
@@ -102,6 +105,20 @@ impl Placing<'_> {
         }
     }
 
+    /// Where no piece has a place by its role, the largest that is sewn to itself goes round the trunk.
+    fn round(&mut self) {
+        if self.limb.iter().any(Option::is_some) {
+            return;
+        }
+        let pieces = &self.joins.garment.pieces;
+        let closed = (0..pieces.len()).rev().filter(|&p| !self.joins.between(p, p).is_empty());
+        if let Some(piece) = closed.max_by_key(|&p| pieces[p].vertices.len()) {
+            let places = round::place(&self.form, &self.joins, piece);
+            self.positions[pieces[piece].vertices.clone()].copy_from_slice(&places);
+            self.limb[piece] = Some(self.form.trunk_axis());
+        }
+    }
+
     /// Places what is left, each piece by those it is sewn to, the longest seams first.
     fn followers(&mut self) -> Result<(), SimError> {
         while let Some(open) = self.limb.iter().position(Option::is_none) {
@@ -112,8 +129,8 @@ impl Placing<'_> {
             let longest = seams.max_by_key(|(_, pairs)| pairs.len()).filter(|(_, pairs)| !pairs.is_empty());
             let Some((piece, pairs)) = longest else {
                 let piece = &joins.garment.pieces[open];
-                let accepted =
-                    "pieces of the trunk, arms and legs by role, any other piece that is sewn to one of these";
+                let accepted = "pieces of the trunk, arms and legs by role, one sewn to itself round the trunk, any other piece that is \
+                    sewn to one of these";
                 return Err(SimError::CannotPlace { piece: piece.id.clone(), role: piece.role, accepted });
             };
             let mut axes = placed.iter().filter(|&&p| !joins.between(piece, p).is_empty()).filter_map(|&p| limb[p]);
@@ -208,6 +225,18 @@ mod tests {
         check(Model::Teetop, 0.03, 0.2);
         check(Model::Dress, 0.03, 0.2);
         check(Model::Trousers, 0.05, 0.1);
+    }
+
+    #[test]
+    fn an_angle_of_nothing_leaves_the_trunk_flat() {
+        let (body, garment) = (body(), garment(Model::Tshirt));
+        let params = Params { bend_angle_rad: Some(0.0), ..Params::default() };
+        let x = place(&body, &garment, &params).expect("all roles are known");
+        for piece in garment.pieces.iter().filter(|piece| [Role::Front, Role::Back].contains(&piece.role)) {
+            let depths = || piece.vertices.clone().map(|v| x[v].y);
+            let [near, far] = [depths().fold(f64::MAX, f64::min), depths().fold(f64::MIN, f64::max)];
+            assert!(far - near < 0.01, "{} lies between {near} and {far} m", piece.id);
+        }
     }
 
     #[test]

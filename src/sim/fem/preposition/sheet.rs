@@ -167,7 +167,8 @@ impl Sheet {
             let sides = garment.triangles[garment.pieces[part.piece].triangles.clone()].iter();
             let sides = sides.flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
             sides.filter_map(move |side| {
-                let [p, q] = side.map(|v| part.at(garment.rest[v]));
+                // In one order, whichever way the triangle goes round.
+                let [p, q] = [side[0].min(side[1]), side[0].max(side[1])].map(|v| part.at(garment.rest[v]));
                 let within = (p.y.min(q.y)..=p.y.max(q.y)).contains(&height);
                 let share = if p.y == q.y { 0.0 } else { (height - p.y) / (q.y - p.y) };
                 within.then(|| p.x + share * (q.x - p.x))
@@ -186,15 +187,17 @@ impl Sheet {
 
     /// Puts sheets side by side from left to right, their upper edges at the same height, the middle at 0.
     pub fn beside(sheets: Vec<Self>, garment: &Garment) -> Self {
+        let bounds: Vec<(V2, V2)> = sheets.iter().map(|sheet| sheet.bounds(garment)).collect();
+        let taken = |(low, high): &(V2, V2)| high.x - low.x + BESIDE_M;
         let mut all = Self::default();
-        let mut right = 0.0;
-        for mut sheet in sheets {
-            let (low, high) = sheet.bounds(garment);
-            sheet.shift(V2::new(right - low.x, -high.y));
-            right += high.x - low.x + BESIDE_M;
+        for (k, mut sheet) in sheets.into_iter().enumerate() {
+            let (low, high) = bounds[k];
+            // Of what lies to the left and to the right, each summed from here outwards.
+            let [left, right]: [f64; 2] =
+                [bounds[..k].iter().rev().map(taken).sum(), bounds[k + 1..].iter().map(taken).sum()];
+            sheet.shift(V2::new(0.5 * (left - right) - 0.5 * (low.x + high.x), -high.y));
             all.parts.extend(sheet.parts);
         }
-        all.shift(V2::new(-0.5 * (right - BESIDE_M), 0.0));
         all
     }
 }

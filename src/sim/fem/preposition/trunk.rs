@@ -20,6 +20,9 @@ const SHOULDER_SLOPE: f64 = 1.0;
 /// The offset and the angle of [T], where only one of them is asked for.
 const USUAL: (f64, f64) = (2.1, PI);
 
+/// Angle up to which a piece counts as flat, rad: one that is not bent at all has no radius.
+const FLAT_RAD: f64 = 0.01;
+
 /// Roles that hang from the shoulders.
 pub const TOPS: [Role; 4] = [Role::Front, Role::Back, Role::BodiceFront, Role::BodiceBack];
 /// Roles in front of the trunk.
@@ -53,7 +56,7 @@ impl Bent {
         if params.offset_mu.is_some() || params.bend_angle_rad.is_some() {
             let level = if has_tops(joins, sheet) { form.body.levels.chest_m } else { form.body.levels.hip_m };
             let depth = form.depth(level);
-            let radius = width / params.bend_angle_rad.unwrap_or(USUAL.1);
+            let radius = width / params.bend_angle_rad.unwrap_or(USUAL.1).max(FLAT_RAD);
             let apex = 0.5 * params.offset_mu.unwrap_or(USUAL.0) * (depth.y - depth.x);
             let centre_y = axis + side * (apex - radius);
             return Self { side, curve: Ellipse::new(radius, radius), centre_y, lift };

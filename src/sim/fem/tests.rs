@@ -1,0 +1,169 @@
+//! Whole simulations: left and right, and a garment that is too small.
+
+use super::*;
+use crate::body::{self, Joint, Landmarks, Measurements, Sex, Skeleton};
+use crate::geom::TriMesh;
+use crate::pattern::draft::Model;
+use crate::pattern::{Role, Style};
+use crate::sim::{Progress, fabric};
+
+/// Listens to nothing.
+struct Silent;
+
+impl Monitor for Silent {
+    fn progress(&mut self, _: &Progress) {}
+}
+
+fn flipped(p: &V3) -> V3 {
+    V3::new(-p.x, p.y, p.z)
+}
+
+fn turned(triangles: &[[usize; 3]]) -> Vec<[usize; 3]> {
+    triangles.iter().map(|&[a, b, c]| [a, c, b]).collect()
+}
+
+/// A body whose left differs from its right: bent to one side as it goes up, one side a little stouter.
+fn lopsided() -> Body {
+    let mut body = body::build(&Measurements::of(Sex::Male, 1.75)).expect("a body");
+    let bend = |p: &V3| V3::new(p.x * (1.0 + 0.04 * (3.0 * p.x).tanh()) + 0.02 * (p.z - 1.0).powi(2), p.y, p.z);
+    body.mesh.positions.iter_mut().for_each(|p| *p = bend(p));
+    body.skeleton.joints.iter_mut().for_each(|p| *p = bend(p));
+    let Landmarks { side_neck, shoulder, back_neck, front_neck, armpit, bust, crotch } = &mut body.landmarks;
+    for p in [side_neck, shoulder, armpit, bust].into_iter().flatten().chain([back_neck, front_neck, crotch]) {
+        *p = bend(p);
+    }
+    body
+}
+
+fn mirrored_body(body: &Body) -> Body {
+    let mesh = TriMesh {
+        positions: body.mesh.positions.iter().map(flipped).collect(),
+        triangles: turned(&body.mesh.triangles),
+    };
+    let mut joints = body.skeleton.joints.map(|p| flipped(&p));
+    for [first_right, first_left] in [[Joint::ShoulderRight, Joint::ShoulderLeft], [Joint::HipRight, Joint::HipLeft]] {
+        (0..3).for_each(|k| joints.swap(first_right as usize + k, first_left as usize + k));
+    }
+    let pair = |[right, left]: [V3; 2]| [flipped(&left), flipped(&right)];
+    let marks = &body.landmarks;
+    let landmarks = Landmarks {
+        side_neck: pair(marks.side_neck),
+        shoulder: pair(marks.shoulder),
+        back_neck: flipped(&marks.back_neck),
+        front_neck: flipped(&marks.front_neck),
+        armpit: pair(marks.armpit),
+        bust: pair(marks.bust),
+        crotch: flipped(&marks.crotch),
+    };
+    Body { mesh, skeleton: Skeleton { joints }, landmarks, ..body.clone() }
+}
+
+fn mirrored_garment(garment: &Garment) -> Garment {
+    let mut garment = garment.clone();
+    garment.rest.iter_mut().for_each(|p| p.x = -p.x);
+    garment.triangles = turned(&garment.triangles);
+    for piece in &mut garment.pieces {
+        piece.grain.x = -piece.grain.x;
+        piece.role = match piece.role {
+            Role::SleeveRight => Role::SleeveLeft,
+            Role::SleeveLeft => Role::SleeveRight,
+            Role::LegFrontRight => Role::LegFrontLeft,
+            Role::LegFrontLeft => Role::LegFrontRight,
+            Role::LegBackRight => Role::LegBackLeft,
+            Role::LegBackLeft => Role::LegBackRight,
+            role => role,
+        };
+    }
+    garment
+}
+
+/// Greatest distance of a place from the mirror image of its counterpart, mm.
+fn apart_mm(x: &[V3], mirrored: &[V3]) -> f64 {
+    1e3 * x.iter().zip(mirrored).map(|(p, q)| (flipped(p) - q).norm()).fold(0.0, f64::max)
+}
+
+fn levels(model: Model, edge_m: f64) -> Vec<Garment> {
+    let style = Style::read(&model.drafts()[0].pieces, model.seams(), "seams").expect("a style");
+    level_edges(edge_m).into_iter().map(|edge| style.mesh(edge).expect("a mesh")).collect()
+}
+
+#[test]
+fn mirrored_input_gives_the_mirrored_result_and_the_same_input_the_same_bits() {
+    let body = lopsided();
+    let other = mirrored_body(&body);
+    let [field, other_field] = [&body, &other].map(|b| DistanceField::build(&b.mesh, 0.01).expect("a closed body"));
+    let cotton = fabric::library().into_iter().find(|f| f.name == "cotton_shirting_light").expect("in the library");
+    let params = Params::default();
+    let check = |model: Model, edge_m: f64| {
+        let garments = levels(model, edge_m);
+        let others: Vec<Garment> = garments.iter().map(mirrored_garment).collect();
+        let drape = |body: &Body, field: &DistanceField, garments: &[Garment]| {
+            simulate(body, field, garments, &cotton, &params, &mut Silent).expect("it drapes").positions
+        };
+        let draped = drape(&body, &field, &garments);
+        let apart = apart_mm(&draped, &drape(&other, &other_field, &others));
+        assert!(apart < 0.1, "{}: mirrored by up to {apart} mm elsewhere", garments[0].name);
+        assert!(draped == drape(&body, &field, &garments), "{}: draped again it lies elsewhere", garments[0].name);
+        // What is compared is no symmetric thing.
+        let own = apart_mm(&draped, &draped);
+        assert!(own > 100.0, "{own}");
+    };
+    check(Model::Tshirt, 0.04);
+    check(Model::Trousers, 0.06);
+}
+
+#[test]
+fn a_garment_stretched_too_far_is_told_or_ends_the_simulation() {
+    let big =
+        Measurements { chest_girth_m: Some(1.30), waist_girth_m: Some(1.25), ..Measurements::of(Sex::Male, 1.75) };
+    let cotton = fabric::library().into_iter().find(|f| f.name == "cotton_shirting_light").expect("in the library");
+    let garments = levels(Model::Tshirt, 0.06);
+    let drape = |measurements: &Measurements, params: &Params| {
+        let body = body::build(measurements).expect("a body");
+        let field = DistanceField::build(&body.mesh, 0.01).expect("a closed body");
+        simulate(&body, &field, &garments, &cotton, params, &mut Silent)
+    };
+    let stretch = |drape: &Drape| Distortion::of(&garments[0], &drape.positions).expect("a sound mesh").stretch;
+    let tight = stretch(&drape(&big, &Params::default()).expect("stretched or not, it is a result"));
+    let loose = stretch(&drape(&Measurements::of(Sex::Male, 1.65), &Params::default()).expect("it drapes"));
+    assert!(tight > Params::default().distortion_limit, "tight {tight}, loose {loose}");
+    assert!(loose < 0.5 * tight, "tight {tight}, loose {loose}");
+    let strict = Params { distortion_stops: true, ..Params::default() };
+    assert!(drape(&Measurements::of(Sex::Male, 1.65), &strict).is_ok(), "a loose garment goes on");
+    let error = drape(&big, &strict).expect_err("it is too small").to_string();
+    assert!(error.contains("1 % of the cloth is stretched by more than"), "{error}");
+    assert!(garments[0].pieces.iter().any(|piece| error.contains(&piece.id)), "{error}");
+}
+
+/// Trousers of a soft, slippery knit, with more at the end of their seam file.
+fn slippery_trousers(more: &str) -> Result<Drape, SimError> {
+    let measurements = Measurements {
+        chest_girth_m: Some(0.94),
+        waist_girth_m: Some(0.8),
+        hip_girth_m: Some(0.95),
+        ..Measurements::of(Sex::Male, 1.75)
+    };
+    let body = body::build(&measurements).expect("a body");
+    let field = DistanceField::build(&body.mesh, 0.012).expect("a closed body");
+    let seams = Model::Trousers.seams().to_vec();
+    let style = Style::read(&Model::Trousers.drafts()[1].pieces, &[&seams, more.as_bytes()].concat(), "seams");
+    let garment = style.expect("drafted").mesh(0.05).expect("it meshes");
+    let knit = fabric::library().into_iter().find(|f| f.name == "interlock_tshirt").expect("in the library");
+    let slippery = Fabric { friction_body: 0.05, ..knit };
+    simulate(&body, &field, &[garment], &slippery, &Params::default(), &mut Silent)
+}
+
+#[test]
+fn what_nothing_holds_up_is_given_up_and_a_waistband_holds_it() {
+    let error = slippery_trousers("").err().map(|e| e.to_string()).unwrap_or_default();
+    assert!(error.contains("slides off this body: it has come down by 25"), "{error}");
+    let waist = r#"
+        [[reinforce]]
+        edges = ["leg_front_left.waist", "leg_front_right.waist", "leg_back_right.waist", "leg_back_left.waist"]
+        kind = "waistband"
+        stiffness_n = 200.0
+        length_factor = 0.95
+    "#;
+    let drape = slippery_trousers(waist).map_err(|e| e.to_string());
+    assert!(drape.is_ok_and(|drape| drape.converged));
+}
