@@ -147,7 +147,7 @@ fn slippery_trousers(more: &str) -> Result<Drape, SimError> {
     let field = DistanceField::build(&body.mesh, 0.012).expect("a closed body");
     let seams = Model::Trousers.seams().to_vec();
     let style = Style::read(&Model::Trousers.drafts()[1].pieces, &[&seams, more.as_bytes()].concat(), "seams");
-    let garment = style.expect("drafted").mesh(0.05).expect("it meshes");
+    let garment = style.expect("drafted").mesh(0.04).expect("it meshes");
     let knit = fabric::library().into_iter().find(|f| f.name == "interlock_tshirt").expect("in the library");
     let slippery = Fabric { friction_body: 0.05, ..knit };
     simulate(&body, &field, &[garment], &slippery, &Params::default(), &mut Silent)
