@@ -18,6 +18,7 @@ pub mod sewing;
 pub mod solver;
 #[cfg(test)]
 mod testing;
+mod walls;
 
 pub use distortion::Distortion;
 pub use drape::{Drape, Monitor, Progress, Stage, Staged, Step};

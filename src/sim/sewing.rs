@@ -33,6 +33,18 @@ pub fn welded(garment: &Garment) -> Vec<usize> {
         .collect()
 }
 
+/// Positions of the simulated vertices: the mean of the garment vertices of each group.
+#[must_use]
+pub fn merged(vertex_of: &[usize], positions: &[V3]) -> Vec<V3> {
+    let count = vertex_of.iter().max().map_or(0, |m| m + 1);
+    let mut sums = vec![(V3::zeros(), 0.0); count];
+    for (&v, p) in vertex_of.iter().zip(positions) {
+        sums[v].0 += p;
+        sums[v].1 += 1.0;
+    }
+    sums.into_iter().map(|(sum, n)| sum / n).collect()
+}
+
 /// Every garment vertex on its own: nothing is sewn yet.
 #[must_use]
 pub fn unsewn(garment: &Garment) -> Vec<usize> {

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use crate::geom::{V2, V3};
 use crate::pattern::Garment;
-use crate::sim::{Fabric, SimError};
+use crate::sim::{Fabric, SimError, sewing};
 
 use band::Bands;
 use bending::{Bending, Flap, Hinge, Plate};
@@ -89,12 +89,7 @@ impl Cloth {
     /// Positions of the simulated vertices: the mean of the garment vertices of each group.
     #[must_use]
     pub fn weld(&self, positions: &[V3]) -> Vec<V3> {
-        let mut sums = vec![(V3::zeros(), 0.0); self.len()];
-        for (&v, p) in self.vertex_of.iter().zip(positions) {
-            sums[v].0 += p;
-            sums[v].1 += 1.0;
-        }
-        sums.into_iter().map(|(sum, n)| sum / n).collect()
+        sewing::merged(&self.vertex_of, positions)
     }
 }
 

@@ -16,6 +16,7 @@ use crate::sim::levels::prolong;
 use crate::sim::quality;
 use crate::sim::sewing::{self, Springs};
 use crate::sim::solver::System;
+use crate::sim::walls::Walls;
 use crate::sim::{Distortion, Drape, Fabric, Monitor, SimError, Stage};
 
 use run::{Phase, Run};
@@ -132,6 +133,8 @@ fn sew(
     let mut system = System::new(&cloth, contact, Some(springs));
     let apart = ClothContact::new(params.self_contact, &cloth.triangles, &cloth.areas);
     system.self_contact = Some(apart.but_near(sewn.into_iter()));
+    let vertex_of = sewing::welded(garment);
+    system.walls = Some(Walls::new(body, garment, &vertex_of, &sewing::merged(&vertex_of, &x)).unsewn(&vertex_of));
     run.sew(garment, &mut system, &mut x)?;
     Ok(x)
 }

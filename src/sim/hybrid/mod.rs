@@ -26,11 +26,11 @@ pub mod sewn;
 mod silhouette;
 pub mod sparse;
 mod untangle;
-mod walls;
 
 use crate::body::{Body, Layer};
 use crate::geom::{DistanceField, V3};
 use crate::pattern::{Garment, Measurement};
+use crate::sim::walls::Walls;
 use crate::sim::{Drape, Fabric, Monitor, Progress, SimError, Stage, Staged, Step, quality};
 
 pub use gap::{Closure, closures};
@@ -41,7 +41,6 @@ pub use sewn::Sewn;
 
 use layers::Parted;
 use relax::{Push, Relaxation};
-use walls::Walls;
 
 /// Parameters of Hybrid-GS.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -124,7 +123,7 @@ pub fn phases(
         garment.measurements.iter().filter(|m| !params.uncontrolled.contains(&m.no)).collect();
     let mapped = mapping::map(body, garment)?;
     let sewn = Sewn::new(garment, &mapped.positions);
-    let walls = Walls::new(body, garment, &sewn);
+    let walls = Walls::new(body, garment, &sewn.vertex_of, &sewn.x);
     let mut relaxation = Relaxation::new(field, garment, &sewn, fabric, &controls, walls, params.relax)?
         .over_feet(body.control.ring_centre(Layer::AnkleRight).z);
     relaxation.part_layers(PARTINGS);

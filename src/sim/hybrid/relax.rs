@@ -9,11 +9,11 @@ use super::layers::{Layers, Parted};
 use super::obstacle::Obstacle;
 use super::ring::rings;
 use super::sewn::Sewn;
-use super::walls::Walls;
 use crate::body::Body;
 use crate::geom::{DistanceField, TriMesh, V3};
 use crate::pattern::{Garment, Measurement};
 use crate::sim::cloth::Cloth;
+use crate::sim::walls::Walls;
 use crate::sim::{Fabric, SimError};
 
 /// Parameters of the steps of pop-up and drape.

@@ -8,12 +8,16 @@ use crate::geom::V3;
 use crate::sim::cloth::Cloth;
 use crate::sim::contact::{BodyContact, ClothContact};
 use crate::sim::sewing::Springs;
+use crate::sim::walls::Walls;
 
 /// Standard gravity, m/s2.
 const GRAVITY: f64 = 9.80665;
 
 /// Stiffness that holds a vertex, N/m: beyond that of any fabric by six orders.
 const HELD_STIFFNESS: f64 = 1e10;
+
+/// Penalty of walls, N/m3.
+const WALL_STIFFNESS: f64 = 1e5;
 
 /// A cloth with everything that acts on it.
 pub struct System<'a> {
@@ -27,6 +31,8 @@ pub struct System<'a> {
     pub self_contact: Option<ClothContact<'a>>,
     /// Seam springs, until the seams are welded.
     pub springs: Option<Springs>,
+    /// Walls between the cloth of limbs, until the seams are welded.
+    pub walls: Option<Walls>,
     /// Vertices that do not move.
     pub held: Vec<usize>,
     /// Solver of the linear systems; remembers factors from step to step.
@@ -40,7 +46,16 @@ impl<'a> System<'a> {
     pub fn new(cloth: &'a Cloth, contact: BodyContact<'a>, springs: Option<Springs>) -> Self {
         let gravity = if springs.is_some() { 0.0 } else { GRAVITY };
         let weights = cloth.masses.iter().map(|m| m * gravity).collect();
-        Self { cloth, weights, contact, self_contact: None, springs, held: Vec::new(), linear: LinearSolver::default() }
+        Self {
+            cloth,
+            weights,
+            contact,
+            self_contact: None,
+            springs,
+            walls: None,
+            held: Vec::new(),
+            linear: LinearSolver::default(),
+        }
     }
 
     /// Mean weight of a vertex, N: the yardstick of the residual.
@@ -60,6 +75,10 @@ impl<'a> System<'a> {
             + self.contact.energy(x)
             + self.self_contact.as_ref().map_or(0.0, |c| c.energy(x))
             + self.springs.as_ref().map_or(0.0, |s| s.energy(x))
+            + self
+                .trespasses(x)
+                .map(|(v, depth, _)| 0.5 * WALL_STIFFNESS * self.cloth.areas[v] * depth * depth)
+                .sum::<f64>()
     }
 
     /// Forces (N) and stiffness (N/m) at `x`; `predicted` are the membrane stresses that stiffen the cloth geometrically,
@@ -77,6 +96,11 @@ impl<'a> System<'a> {
         if let Some(c) = &mut self.self_contact {
             c.update(x);
             contacts.extend(c.assemble(x, &mut forces));
+        }
+        for (v, depth, back) in self.trespasses(x) {
+            let stiffness = WALL_STIFFNESS * cloth.areas[v];
+            forces[v] += back * (stiffness * depth);
+            diagonal[v] += back * back.transpose() * stiffness;
         }
         for &v in &self.held {
             forces[v] = V3::zeros();
@@ -111,6 +135,12 @@ impl<'a> System<'a> {
         let mut diagonal = operator.diagonal;
         self.contact.stiffen(&end, &mut diagonal);
         (excess, Operator { diagonal, membrane: blocks, bending: &[], ..operator })
+    }
+
+    /// Vertices on the wrong side of a wall, how far, m, and the way back.
+    fn trespasses(&self, x: &[V3]) -> impl Iterator<Item = (usize, f64, V3)> {
+        let walls = self.walls.iter();
+        walls.flat_map(|walls| x.iter().enumerate().filter_map(|(v, p)| walls.trespass(v, p).map(|(d, n)| (v, d, n))))
     }
 
     /// Forces of the contacts, N, with those found at the last [`System::assemble`].

@@ -1,7 +1,6 @@
-//! Planes that part the cloth of two limbs, in place of its contact with itself: legs keep to their side of the median plane, a
-//! sleeve and the side of the trunk to theirs of the plane between arm and trunk.
+//! Planes that part the cloth of two limbs where its contact with itself does not: legs keep to their side of the median plane,
+//! a sleeve and the side of the trunk to theirs of the plane between arm and trunk.
 
-use super::sewn::Sewn;
 use crate::body::{Body, Layer};
 use crate::geom::V3;
 use crate::pattern::{Garment, Role};
@@ -24,18 +23,18 @@ pub struct Walls {
 }
 
 impl Walls {
-    /// The walls between the limbs of a body for a garment.
+    /// The walls between the limbs of a body for a garment whose vertices are sewn together as `vertex_of` says, at `x`.
     #[must_use]
-    pub fn new(body: &Body, garment: &Garment, sewn: &Sewn) -> Self {
+    pub fn new(body: &Body, garment: &Garment, vertex_of: &[usize], x: &[V3]) -> Self {
         let median = Wall { point: V3::zeros(), normal: V3::x(), onwards: None };
         let arms = [0, 1].map(|side| Wall::beside_arm(body, side));
         let walls: Vec<Wall> = std::iter::once(median).chain(arms).collect();
         // Sums over the pieces that meet in a vertex: wall, side, number.
-        let mut sums = vec![(0, 0.0, 0.0); sewn.x.len()];
+        let mut sums = vec![(0, 0.0, 0.0); x.len()];
         for piece in &garment.pieces {
             for v in piece.vertices.clone() {
-                let sewn_v = sewn.vertex_of[v];
-                if let Some((wall, side)) = side_of(piece.role, &sewn.x[sewn_v]) {
+                let sewn_v = vertex_of[v];
+                if let Some((wall, side)) = side_of(piece.role, &x[sewn_v]) {
                     let sum = &mut sums[sewn_v];
                     *sum = (wall, sum.1 + side, sum.2 + 1.0);
                 }
@@ -47,6 +46,25 @@ impl Walls {
             (is_clear || (n > 0.0 && wall == MEDIAN)).then_some((wall, if is_clear { sum.signum() } else { 0.0 }))
         };
         Self { walls, keeps: sums.into_iter().map(keep).collect() }
+    }
+
+    /// The same for the vertices before they are sewn.
+    #[must_use]
+    pub fn unsewn(mut self, vertex_of: &[usize]) -> Self {
+        self.keeps = vertex_of.iter().map(|&v| self.keeps[v]).collect();
+        self
+    }
+
+    /// By how much a vertex at `p` is on the wrong side, m, and the unit direction of the shortest way back, past the wall's
+    /// end if that is nearer; `None` where it is on its side.
+    #[must_use]
+    pub fn trespass(&self, vertex: usize, p: &V3) -> Option<(f64, V3)> {
+        let (wall, side) = self.keeps[vertex].filter(|(_, side)| *side != 0.0)?;
+        let Wall { point, normal, onwards } = &self.walls[wall];
+        let from = p - point;
+        let through = (-side * from.dot(normal), normal * side);
+        let ways = onwards.map(|d| (from.dot(&d), -d)).into_iter().chain([through]);
+        ways.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(depth, _)| *depth > 0.0)
     }
 
     /// Where a vertex at `p` goes to be `offset_m` on its side; `None` where it is there.
