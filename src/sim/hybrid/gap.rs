@@ -33,17 +33,18 @@ impl Closure {
 
 /// Girths at each level of the body that the garment goes round; positions in m.
 ///
-/// At the chest it is the length of the cloth from underarm to underarm in front and behind, as the pattern's is; a level plane
-/// would cut armholes there. At the other levels it is what a tape reads.
+/// Where the style says which line of the pattern goes round a level, the drape is measured along that line, wherever it lies:
+/// a plane would cut the cloth along another one. Otherwise it is the length of the cloth from underarm to underarm at the
+/// chest, where a level plane would cut armholes, and what a tape reads at the other levels.
 #[must_use]
 pub fn closures(body: &Body, garment: &Garment, positions: &[V3]) -> Vec<Closure> {
     let trunk = trunk(garment, positions);
     let (levels, girths) = (&body.levels, &body.girths);
+    let at = |z: f64| Some((z, girth_at(&trunk, z)?));
     let closure = |(name, found, girth_mm): (&str, Option<(f64, f64)>, f64)| {
-        let (height_m, garment_girth_m) = found?;
+        let (height_m, garment_girth_m) = along_fit_line(garment, name, positions).or(found)?;
         Some(Closure { level: name.to_owned(), height_m, body_girth_m: from_mm(girth_mm), garment_girth_m })
     };
-    let at = |z: f64| Some((z, girth_at(&trunk, z)?));
     let levels = [
         ("chest", at_underarm(garment, positions), girths.chest_girth_mm),
         ("underbust", at(levels.underbust_m), girths.underbust_girth_mm),
@@ -51,6 +52,14 @@ pub fn closures(body: &Body, garment: &Garment, positions: &[V3]) -> Vec<Closure
         ("hip", at(levels.hip_m), girths.hip_girth_mm),
     ];
     levels.into_iter().filter_map(closure).collect()
+}
+
+/// Mean height and length of the line that the style gives for a level, m; `None` where it gives none on the cloth.
+fn along_fit_line(garment: &Garment, level: &str, positions: &[V3]) -> Option<(f64, f64)> {
+    let runs = &garment.fit_levels.iter().find(|fit| fit.level == level)?.runs;
+    let heights: Vec<f64> = runs.iter().flat_map(|run| &run.points).map(|point| point.at(positions).z).collect();
+    let length_m = runs.iter().map(|run| run.length_m(&garment.rest, positions)).sum();
+    (!heights.is_empty()).then(|| (heights.iter().sum::<f64>() / heights.len() as f64, length_m))
 }
 
 /// Height of the underarms and length of the cloth between them, front and back, m; `None` for garments without.

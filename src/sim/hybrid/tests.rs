@@ -211,13 +211,13 @@ fn the_fast_search_finds_the_path_of_the_full_one() {
     let normals = form.mesh.triangle_normals();
     let graph = PathGraph::new(&form.mesh, 3);
     let allowed = |face: usize| can_touch(Role::Front, form.regions[face], &normals[face]);
-    // Both ends on the front of the chest.
-    let inside: Vec<usize> = (0..graph.len())
-        .filter(|&n| !graph.faces(n).is_empty())
-        .filter(|&n| graph.faces(n).iter().all(|&f| form.regions[f] == Region::Chest && normals[f].y > 0.0))
-        .collect();
-    let (from, to) = (picks(500, inside.len(), 1), picks(500, inside.len(), 2));
-    for (a, b) in from.into_iter().zip(to).map(|(a, b)| (inside[a], inside[b])) {
+    // Both ends on the front of the chest: where it looks forward more than to the side.
+    let is_front = |&f: &usize| form.regions[f] == Region::Chest && normals[f].y > normals[f].x.abs();
+    let features: Vec<usize> =
+        (0..graph.len()).filter(|&n| !graph.faces(n).is_empty() && graph.faces(n).iter().all(is_front)).collect();
+    assert!(features.len() > 100, "{}", features.len());
+    let (from, to) = (picks(500, features.len(), 1), picks(500, features.len(), 2));
+    for (a, b) in from.into_iter().zip(to).map(|(a, b)| (features[a], features[b])) {
         let full = graph.shortest(a, b).expect("connected");
         let fast = graph.shortest_within(a, b, allowed, &Taken::default()).expect("connected");
         let (full_m, fast_m) = (graph.length(&full), graph.length(&fast));
