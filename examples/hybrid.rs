@@ -282,7 +282,9 @@ fn side_by_side(dressed: &(Body, DistanceField)) -> Result<(), Box<dyn Error>> {
     let pairs: usize = coarse.seams.iter().map(|seam| seam.pairs.len()).sum();
     let ms = timed(|| Sewn::new(&coarse, &mapped.positions));
     let [vertices, seams] = [sewn.x.len(), coarse.seams.len()];
-    println!("| 5-4 | sewing: 1,147 vertices, 12 seams, 324 pairs; here {vertices}, {seams}, {pairs} | 720 | {ms:.2} |");
+    println!(
+        "| 5-4 | sewing: 1,147 vertices, 12 seams, 324 pairs; here {vertices}, {seams}, {pairs} | 720 | {ms:.2} |"
+    );
     for (iterations, thesis) in [(50, 16), (100, 17), (150, 18), (200, 19)] {
         let ms = timed(|| sewn.clone().smooth(iterations));
         println!("| 5-5 | smoothing, {iterations} iterations | {thesis} | {ms:.2} |");

@@ -64,8 +64,17 @@ fn along_fit_line(garment: &Garment, level: &str, positions: &[V3]) -> Option<(f
 
 /// Height of the underarms and length of the cloth between them, front and back, m; `None` for garments without.
 fn at_underarm(garment: &Garment, positions: &[V3]) -> Option<(f64, f64)> {
-    let is_top = |p: &PieceMesh| matches!(p.role, Role::Front | Role::Back | Role::BodiceFront | Role::BodiceBack);
-    let tops: Vec<&PieceMesh> = garment.pieces.iter().filter(|p| is_top(p)).collect();
+    let underarms = underarms(garment);
+    let length = |(piece, v): &(&PieceMesh, usize)| across_m(garment, piece, garment.rest[*v].y, positions);
+    let length_m = underarms.iter().map(length).sum();
+    let heights = underarms.iter().map(|(_, v)| positions[*v].z);
+    (!underarms.is_empty()).then(|| (heights.sum::<f64>() / underarms.len() as f64, length_m))
+}
+
+/// Fronts and backs of a top with their underarms: the upper end of the side seam. None where one of them has no side.
+pub fn underarms(garment: &Garment) -> Vec<(&PieceMesh, usize)> {
+    let is_top = |p: &&PieceMesh| matches!(p.role, Role::Front | Role::Back | Role::BodiceFront | Role::BodiceBack);
+    let tops: Vec<&PieceMesh> = garment.pieces.iter().filter(is_top).collect();
     let of = |v: usize| tops.iter().find(|p| p.vertices.contains(&v)).map(|p| face(p.role));
     // Front to back, upright: the sides.
     let is_side = |seam: &&SeamMesh| {
@@ -76,14 +85,11 @@ fn at_underarm(garment: &Garment, positions: &[V3]) -> Option<(f64, f64)> {
     };
     let sides: Vec<usize> =
         garment.seams.iter().filter(is_side).flat_map(|s| s.pairs.iter().flatten().copied()).collect();
-    let (mut heights, mut length) = (Vec::new(), 0.0);
-    for piece in &tops {
+    let underarm = |piece: &&PieceMesh| {
         let own = sides.iter().copied().filter(|v| piece.vertices.contains(v));
-        let underarm = own.max_by(|&a, &b| garment.rest[a].y.total_cmp(&garment.rest[b].y))?;
-        heights.push(positions[underarm].z);
-        length += across_m(garment, piece, garment.rest[underarm].y, positions);
-    }
-    (!heights.is_empty()).then(|| (heights.iter().sum::<f64>() / heights.len() as f64, length))
+        own.max_by(|&a, &b| garment.rest[a].y.total_cmp(&garment.rest[b].y))
+    };
+    tops.iter().map(|piece| Some((*piece, underarm(piece)?))).collect::<Option<Vec<_>>>().unwrap_or_default()
 }
 
 /// Length in space of the line at height `v` across a piece, m.

@@ -12,14 +12,14 @@ use crate::geom::{TriMesh, V2, V3};
 
 /// Share of what the stretch of a ring says that its inset is corrected by at once.
 const GAIN: f64 = 0.3;
-/// Inset that a ring may come to need besides the judged one, m: a tape is straighter than the body, and the cloth beside a ring
-/// pulls at it.
-const DOUBT_M: f64 = 6e-3;
+/// Inset that a ring may come to need besides the judged one, m: a tape is straighter than the body, the cloth beside a ring
+/// pulls at it, and over a bust the front is tight before the back is.
+const DOUBT_M: f64 = 20e-3;
 /// Inset that a ring keeps that was too small once, m: it may become so again.
 const LEAST_INSET_M: f64 = 1e-6;
-/// Inset that a ring may come to need besides what it has where it is worn, m: one that could yield more would slide over what is
-/// wider.
-const SLIP_M: f64 = 1e-3;
+/// Inset that a ring may come to need besides what it has where it is worn, m, until it is judged again: one that could yield
+/// more would slide over what is wider.
+const SLIP_M: f64 = 4e-3;
 /// By how much an inset is less per length of the cloth away from its ring: over a slope of 0.1 the cloth is longer by 0.5 %.
 const FADE: f64 = 0.1;
 /// By how much an inset may be greater from one ring to the next, m.
