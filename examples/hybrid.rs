@@ -253,7 +253,7 @@ fn paths(body: &Body) -> Result<(), Box<dyn Error>> {
 
 /// CPU time that something takes on average, ms.
 fn timed<T>(mut work: impl FnMut() -> T) -> f64 {
-    const TIMES: u32 = 20;
+    const TIMES: u32 = 200;
     let start = cpu_s();
     for _ in 0..TIMES {
         std::hint::black_box(work());

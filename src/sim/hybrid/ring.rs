@@ -267,7 +267,7 @@ mod tests {
         // The ball's girth 0.15 above its middle.
         let radius = (0.2_f64.powi(2) - 0.15_f64.powi(2)).sqrt();
         let x = circle(radius, 0.15);
-        let mut insets = Insets::judged(ring(0.7), &ball, &x, offset, share);
+        let mut insets = Insets::judged(ring(0.7), &ball, &x, offset, share, true);
         let lack = radius + offset - 0.7 * (1.0 + share) / TAU;
         assert!((inset(&insets) - lack).abs() < 1e-3, "{} instead of {lack}", inset(&insets));
         // The cloth is still as wide as the body: that must not make the body smaller and smaller.
@@ -282,7 +282,7 @@ mod tests {
     #[test]
     fn a_ring_that_is_large_enough_is_held_up_where_the_body_is_wider() {
         let ball = sphere(0.2, 48);
-        let mut insets = Insets::judged(ring(0.9), &ball, &circle(0.14, 0.15), 2e-3, 2e-3);
+        let mut insets = Insets::judged(ring(0.9), &ball, &circle(0.14, 0.15), 2e-3, 2e-3, false);
         assert_eq!(inset(&insets), 0.0);
         // Round the ball's middle it would lack 0.36.
         let below = circle(0.2, 0.0);
