@@ -178,6 +178,14 @@ fn both_backends_of_the_pop_up_bring_the_size_back() {
 }
 
 #[test]
+fn pyramids_do_not_diverge_where_the_garment_is_too_small() {
+    let garment = garment(Model::Tshirt, 0, 0.03);
+    let phases = dressed(&LARGE, &garment, &Params { popup: Backend::Pyramid, ..Params::default() });
+    let popped = mean_edge_error(&garment, &phases.drape.earlier[1].positions);
+    assert!(popped < 0.3, "{popped}");
+}
+
+#[test]
 fn trousers_and_a_dress_are_mapped() {
     let trousers = garment(Model::Trousers, 1, 0.03);
     let mapped = mapping::map(&SLIM, &trousers).expect("trousers");
