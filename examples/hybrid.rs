@@ -2,17 +2,23 @@
 //!
 //! `cargo run --release --example hybrid [pairs | pyramid | left-out | short] [WORD ...]` prints one of them, for the pairs whose line
 //! (such as `tshirt S male-i`) contains one of the words. Bodies are built from `db/subjects.csv`, patterns are drafted.
+//! `... --example hybrid times` sets the times of the phases beside those of the thesis, and `paths` the fast path search beside
+//! the full one.
 
 #![allow(clippy::print_stdout, reason = "an example speaks to whoever runs it")]
 
 use std::collections::BTreeMap;
 use std::error::Error;
 
-use toile::body::{self, Body, Measurements, Sex};
+use toile::body::{self, Body, Measurements, Region, Sex};
 use toile::geom::{DistanceField, V3};
 use toile::pattern::draft::Model;
-use toile::pattern::{Garment, Style};
+use toile::pattern::{Garment, Role, Style};
+use toile::sim::hybrid::form::{Form, Tube};
+use toile::sim::hybrid::mapping::{self, PATH_POINTS, can_touch};
+use toile::sim::hybrid::path::{PathGraph, Taken};
 use toile::sim::hybrid::{self, Backend, Params, Phases, Sewn};
+use toile::sim::laboratory::sheets::noise;
 use toile::sim::{Monitor, Progress, fabric, quality};
 
 /// Spacing of the distance field, m: that of studies.
@@ -25,6 +31,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (what, words) = asked.split_first().map_or(("pairs", &[][..]), |(what, words)| (what.as_str(), words));
     let is_asked = |name: &str| words.is_empty() || words.iter().any(|word| name.contains(word.as_str()));
     let mut bodies = Bodies::default();
+    let slim = subjects().find(|s| s[0] == "male-ii").ok_or("no such subject")?;
+    match what {
+        "times" => return side_by_side(bodies.of(&slim)?),
+        "paths" => return paths(&bodies.of(&slim)?.0),
+        _ => {}
+    }
     for model in Model::ALL {
         for draft in model.drafts() {
             let garment = Style::read(&draft.pieces, model.seams(), "seams")?.mesh(EDGE_M)?;
@@ -202,6 +214,119 @@ fn short(name: &str, dressed: &(Body, DistanceField), garment: &Garment) -> Resu
         let lacks = garment.fit_levels.iter().find(|l| l.level == closure.level);
         let pattern = lacks.map_or(String::new(), |l| format!("{:.1}", 1e3 * (closure.body_girth_m - l.girth_m)));
         println!("{name:22} {:9} lacks {:6.1} mm, pattern {pattern}", closure.level, 1e3 * closure.shortfall_m());
+    }
+    Ok(())
+}
+
+/// The fast path search beside the full one: pairs of points on the front of the chest, where it looks forward more than to the
+/// side.
+fn paths(body: &Body) -> Result<(), Box<dyn Error>> {
+    const PAIRS: usize = 500;
+    let form = Form::hung(body);
+    let normals = form.mesh.triangle_normals();
+    let graph = PathGraph::new(&form.mesh, PATH_POINTS);
+    let is_front = |&f: &usize| form.regions[f] == Region::Chest && normals[f].y > normals[f].x.abs();
+    let ends: Vec<usize> =
+        (0..graph.len()).filter(|&n| !graph.faces(n).is_empty() && graph.faces(n).iter().all(is_front)).collect();
+    let pick = |r: &f64| ends[(((r + 1.0) / 2.0 * ends.len() as f64) as usize).min(ends.len() - 1)];
+    for seed in 1..=4 {
+        let pairs: Vec<Vec<usize>> = noise(2 * PAIRS, seed).chunks(2).map(|r| r.iter().map(pick).collect()).collect();
+        let start = cpu_s();
+        let full: Vec<_> = pairs.iter().map(|p| graph.shortest(p[0], p[1])).collect();
+        let middle = cpu_s();
+        let allowed = |face: usize| can_touch(Role::Front, form.regions[face], &normals[face]);
+        let fast: Vec<_> =
+            pairs.iter().map(|p| graph.shortest_within(p[0], p[1], allowed, &Taken::default())).collect();
+        let times = [middle - start, cpu_s() - middle].map(|s| 1e3 * s / PAIRS as f64);
+        let length = |path: &Option<Vec<usize>>| path.as_ref().map_or(f64::INFINITY, |path| graph.length(path));
+        let same = full.iter().zip(&fast).filter(|(a, b)| a == b || (length(a) - length(b)).abs() < 1e-12).count();
+        println!(
+            "seed {seed}, {} points: {same} of {PAIRS} the same, full {:.2} ms, fast {:.2} ms, {:.1} times faster",
+            ends.len(),
+            times[0],
+            times[1],
+            times[0] / times[1]
+        );
+    }
+    Ok(())
+}
+
+/// CPU time that something takes on average, ms.
+fn timed<T>(mut work: impl FnMut() -> T) -> f64 {
+    const TIMES: u32 = 200;
+    let start = cpu_s();
+    for _ in 0..TIMES {
+        std::hint::black_box(work());
+    }
+    1e3 * (cpu_s() - start) / f64::from(TIMES)
+}
+
+/// CPU time at the end of every step, s.
+#[derive(Default)]
+struct Steps(Vec<(&'static str, f64)>);
+
+impl Monitor for Steps {
+    fn progress(&mut self, progress: &Progress) {
+        self.0.push((progress.phase, cpu_s()));
+    }
+}
+
+/// Times of the phases for the T-shirt M beside those of the thesis (tables 5-3, 5-4, 5-5 and 5-8), CPU ms.
+fn side_by_side(dressed: &(Body, DistanceField)) -> Result<(), Box<dyn Error>> {
+    println!("| table | what | thesis, ms | Toile, CPU ms |\n| --- | --- | --- | --- |");
+    path_times(&dressed.0)?;
+    let style = Style::read(&Model::Tshirt.drafts()[1].pieces, Model::Tshirt.seams(), "seams")?;
+    let coarse = style.mesh(0.029)?;
+    let mapped = mapping::map(&dressed.0, &coarse)?;
+    let sewn = Sewn::new(&coarse, &mapped.positions);
+    let pairs: usize = coarse.seams.iter().map(|seam| seam.pairs.len()).sum();
+    let ms = timed(|| Sewn::new(&coarse, &mapped.positions));
+    let [vertices, seams] = [sewn.x.len(), coarse.seams.len()];
+    println!(
+        "| 5-4 | sewing: 1,147 vertices, 12 seams, 324 pairs; here {vertices}, {seams}, {pairs} | 720 | {ms:.2} |"
+    );
+    for (iterations, thesis) in [(50, 16), (100, 17), (150, 18), (200, 19)] {
+        let ms = timed(|| sewn.clone().smooth(iterations));
+        println!("| 5-5 | smoothing, {iterations} iterations | {thesis} | {ms:.2} |");
+    }
+    let fine = style.mesh(0.014)?;
+    let (mut steps, start) = (Steps::default(), cpu_s());
+    let params = Params::default();
+    let phases = hybrid::phases(&dressed.0, &dressed.1, &fine, &fabric::library()[0], &params, &mut steps)?;
+    let since = |at: f64| 1e3 * (at - start);
+    let last = |phase: &str| steps.0.iter().rfind(|(p, _)| *p == phase).map_or(start, |(_, at)| *at);
+    let popup: Vec<f64> = steps.0.iter().filter(|(p, _)| *p == "popup").map(|(_, at)| at - last("sew")).collect();
+    for (step, thesis) in [(1, "1210"), (5, "7780"), (10, "15890"), (popup.len(), "")] {
+        println!("| 5-8 | pop-up up to step {step} | {thesis} | {:.0} |", 1e3 * popup[step - 1]);
+    }
+    println!("| | onto the body and sewing | | {:.0} |", since(last("sew")));
+    println!("| | drape | | {:.0} |", 1e3 * (last("drape") - last("popup")));
+    let vertices = phases.drape.welded_vertices;
+    println!("| | all, {vertices} vertices | 2 to 3 minutes | {:.0} |", since(cpu_s()));
+    Ok(())
+}
+
+/// The searches of table 5-3: the full one and the fast one.
+fn path_times(body: &Body) -> Result<(), Box<dyn Error>> {
+    let (hung, legs) = (Form::hung(body), Form::legs(body));
+    let forward = |line: &i32| hung.trunk.at(&hung.mesh, *line, 1.0).y;
+    let foremost = (0..24).max_by(|a, b| forward(a).total_cmp(&forward(b))).unwrap_or(0);
+    let rearmost = (0..24).min_by(|a, b| forward(a).total_cmp(&forward(b))).unwrap_or(0);
+    let searches: [(&str, &Form, &Tube, i32, Role, [u32; 2]); 4] = [
+        ("arm line", &hung, &hung.arms[0], 0, Role::SleeveRight, [379, 28]),
+        ("front line", &hung, &hung.trunk, foremost, Role::Front, [386, 125]),
+        ("leg line", &legs, &legs.legs[0], 0, Role::LegFrontRight, [389, 79]),
+        ("back line", &hung, &hung.trunk, rearmost, Role::Back, [434, 160]),
+    ];
+    for (what, form, tube, line, role, thesis) in searches {
+        let normals = form.mesh.triangle_normals();
+        let graph = PathGraph::new(&form.mesh, PATH_POINTS);
+        let node = |along: f64| graph.nearest(&tube.at(&form.mesh, line, along), |_| true).ok_or("no node");
+        let (from, to) = (node(0.0)?, node(tube.end())?);
+        let allowed = |face: usize| can_touch(role, form.regions[face], &normals[face]);
+        let full = timed(|| graph.shortest(from, to));
+        let fast = timed(|| graph.shortest_within(from, to, allowed, &Taken::default()));
+        println!("| 5-3 | {what}: full search, fast search | {}, {} | {full:.2}, {fast:.2} |", thesis[0], thesis[1]);
     }
     Ok(())
 }

@@ -100,6 +100,22 @@ pub struct Run {
     pub arc_m: Vec<f64>,
 }
 
+impl Run {
+    /// Length (m) when the garment's vertices are at `positions`; `rest` are their places in the pieces' planes.
+    ///
+    /// Each segment stretches by the ratio of its chords; that ratio scales the arc of the drawn curve, so that an
+    /// unstretched garment has its pattern length exactly, however coarse its mesh.
+    #[must_use]
+    pub fn length_m(&self, rest: &[V2], positions: &[V3]) -> f64 {
+        let stretched = |(ends, arc): (&[MaterialPoint], &f64)| {
+            let flat = (ends[1].at_rest(rest) - ends[0].at_rest(rest)).norm();
+            let draped = (ends[1].at(positions) - ends[0].at(positions)).norm();
+            arc * draped / flat
+        };
+        self.points.windows(2).zip(&self.arc_m).map(stretched).sum()
+    }
+}
+
 /// Whether a measurement goes once round or from one end to another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -129,17 +145,9 @@ pub struct Measurement {
 
 impl Measurement {
     /// Length L3D (m) when the garment's vertices are at `positions`; `rest` are their places in the pieces' planes.
-    ///
-    /// Each segment of a run stretches by the ratio of its chords; that ratio scales the arc of the drawn curve, so that
-    /// an unstretched garment has its pattern length exactly, however coarse its mesh.
     #[must_use]
     pub fn length_m(&self, rest: &[V2], positions: &[V3]) -> f64 {
-        let stretched = |(ends, arc): (&[MaterialPoint], &f64)| {
-            let flat = (ends[1].at_rest(rest) - ends[0].at_rest(rest)).norm();
-            let draped = (ends[1].at(positions) - ends[0].at(positions)).norm();
-            arc * draped / flat
-        };
-        self.runs.iter().flat_map(|run| run.points.windows(2).zip(&run.arc_m)).map(stretched).sum()
+        self.runs.iter().map(|run| run.length_m(rest, positions)).sum()
     }
 }
 
@@ -150,6 +158,9 @@ pub struct FitLevel {
     pub level: String,
     /// Pattern girth there, m.
     pub girth_m: f64,
+    /// Where it runs on the mesh, the lengths adding up; empty where it does not lie on the cloth throughout.
+    #[serde(default)]
+    pub runs: Vec<Run>,
 }
 
 /// What strengthens an edge.

@@ -9,7 +9,7 @@ use std::ops::Range;
 use self::sampling::{EdgeSamples, sample};
 use self::triangulate::{Triangulation, triangulate};
 use super::garment::{FitLevel, Garment, Measurement, PieceMesh, Reinforcement, SeamMesh};
-use super::style::{EdgeRef, Style};
+use super::style::{EdgeRef, PathPart, Style};
 use crate::geom::V2;
 use crate::units::mm;
 
@@ -141,7 +141,15 @@ impl Style {
                 })
             })
             .collect();
+        let fit_level = |(level, path): &(String, Vec<PathPart>)| FitLevel {
+            level: level.clone(),
+            girth_m: self.path_length_m(path),
+            // A line that leaves its piece has a length all the same.
+            runs: layer.runs(level, path).unwrap_or_default(),
+        };
+        let fit_levels = self.fit_levels.iter().map(fit_level).collect();
         garment.measurements = measurements?;
+        garment.fit_levels = fit_levels;
         garment.reinforcements = self
             .reinforcements
             .iter()
@@ -151,11 +159,6 @@ impl Style {
                 length_factor: r.length_factor,
                 vertices: assembly.boundary[r.edge.piece][r.edge.edge].clone(),
             })
-            .collect();
-        garment.fit_levels = self
-            .fit_levels
-            .iter()
-            .map(|(level, path)| FitLevel { level: level.clone(), girth_m: self.path_length_m(path) })
             .collect();
         Ok(garment)
     }

@@ -33,17 +33,18 @@ impl Closure {
 
 /// Girths at each level of the body that the garment goes round; positions in m.
 ///
-/// At the chest it is the length of the cloth from underarm to underarm in front and behind, as the pattern's is; a level plane
-/// would cut armholes there. At the other levels it is what a tape reads.
+/// Where the style says which line of the pattern goes round a level, the drape is measured along that line, wherever it lies:
+/// a plane would cut the cloth along another one. Otherwise it is the length of the cloth from underarm to underarm at the
+/// chest, where a level plane would cut armholes, and what a tape reads at the other levels.
 #[must_use]
 pub fn closures(body: &Body, garment: &Garment, positions: &[V3]) -> Vec<Closure> {
     let trunk = trunk(garment, positions);
     let (levels, girths) = (&body.levels, &body.girths);
+    let at = |z: f64| Some((z, girth_at(&trunk, z)?));
     let closure = |(name, found, girth_mm): (&str, Option<(f64, f64)>, f64)| {
-        let (height_m, garment_girth_m) = found?;
+        let (height_m, garment_girth_m) = along_fit_line(garment, name, positions).or(found)?;
         Some(Closure { level: name.to_owned(), height_m, body_girth_m: from_mm(girth_mm), garment_girth_m })
     };
-    let at = |z: f64| Some((z, girth_at(&trunk, z)?));
     let levels = [
         ("chest", at_underarm(garment, positions), girths.chest_girth_mm),
         ("underbust", at(levels.underbust_m), girths.underbust_girth_mm),
@@ -53,10 +54,27 @@ pub fn closures(body: &Body, garment: &Garment, positions: &[V3]) -> Vec<Closure
     levels.into_iter().filter_map(closure).collect()
 }
 
+/// Mean height and length of the line that the style gives for a level, m; `None` where it gives none on the cloth.
+fn along_fit_line(garment: &Garment, level: &str, positions: &[V3]) -> Option<(f64, f64)> {
+    let runs = &garment.fit_levels.iter().find(|fit| fit.level == level)?.runs;
+    let heights: Vec<f64> = runs.iter().flat_map(|run| &run.points).map(|point| point.at(positions).z).collect();
+    let length_m = runs.iter().map(|run| run.length_m(&garment.rest, positions)).sum();
+    (!heights.is_empty()).then(|| (heights.iter().sum::<f64>() / heights.len() as f64, length_m))
+}
+
 /// Height of the underarms and length of the cloth between them, front and back, m; `None` for garments without.
 fn at_underarm(garment: &Garment, positions: &[V3]) -> Option<(f64, f64)> {
-    let is_top = |p: &PieceMesh| matches!(p.role, Role::Front | Role::Back | Role::BodiceFront | Role::BodiceBack);
-    let tops: Vec<&PieceMesh> = garment.pieces.iter().filter(|p| is_top(p)).collect();
+    let underarms = underarms(garment);
+    let length = |(piece, v): &(&PieceMesh, usize)| across_m(garment, piece, garment.rest[*v].y, positions);
+    let length_m = underarms.iter().map(length).sum();
+    let heights = underarms.iter().map(|(_, v)| positions[*v].z);
+    (!underarms.is_empty()).then(|| (heights.sum::<f64>() / underarms.len() as f64, length_m))
+}
+
+/// Fronts and backs of a top with their underarms: the upper end of the side seam. None where one of them has no side.
+pub fn underarms(garment: &Garment) -> Vec<(&PieceMesh, usize)> {
+    let is_top = |p: &&PieceMesh| matches!(p.role, Role::Front | Role::Back | Role::BodiceFront | Role::BodiceBack);
+    let tops: Vec<&PieceMesh> = garment.pieces.iter().filter(is_top).collect();
     let of = |v: usize| tops.iter().find(|p| p.vertices.contains(&v)).map(|p| face(p.role));
     // Front to back, upright: the sides.
     let is_side = |seam: &&SeamMesh| {
@@ -67,14 +85,11 @@ fn at_underarm(garment: &Garment, positions: &[V3]) -> Option<(f64, f64)> {
     };
     let sides: Vec<usize> =
         garment.seams.iter().filter(is_side).flat_map(|s| s.pairs.iter().flatten().copied()).collect();
-    let (mut heights, mut length) = (Vec::new(), 0.0);
-    for piece in &tops {
+    let underarm = |piece: &&PieceMesh| {
         let own = sides.iter().copied().filter(|v| piece.vertices.contains(v));
-        let underarm = own.max_by(|&a, &b| garment.rest[a].y.total_cmp(&garment.rest[b].y))?;
-        heights.push(positions[underarm].z);
-        length += across_m(garment, piece, garment.rest[underarm].y, positions);
-    }
-    (!heights.is_empty()).then(|| (heights.iter().sum::<f64>() / heights.len() as f64, length))
+        own.max_by(|&a, &b| garment.rest[a].y.total_cmp(&garment.rest[b].y))
+    };
+    tops.iter().map(|piece| Some((*piece, underarm(piece)?))).collect::<Option<Vec<_>>>().unwrap_or_default()
 }
 
 /// Length in space of the line at height `v` across a piece, m.

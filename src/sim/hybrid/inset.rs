@@ -12,14 +12,16 @@ use crate::geom::{TriMesh, V2, V3};
 
 /// Share of what the stretch of a ring says that its inset is corrected by at once.
 const GAIN: f64 = 0.3;
-/// Inset that a ring may come to need besides the judged one, m: a tape is straighter than the body, and the cloth beside a ring
-/// pulls at it.
-const DOUBT_M: f64 = 6e-3;
+/// Inset that a ring may come to need besides the judged one, m: a tape is straighter than the body, the cloth beside a ring
+/// pulls at it, and over a bust the front is tight before the back is.
+const DOUBT_M: f64 = 20e-3;
 /// Inset that a ring keeps that was too small once, m: it may become so again.
 const LEAST_INSET_M: f64 = 1e-6;
-/// Inset that a ring may come to need besides what it has where it is worn, m: one that could yield more would slide over what is
-/// wider.
-const SLIP_M: f64 = 1e-3;
+/// Inset that a ring may come to need besides what it has where it is worn, m, until it is judged again. What hangs from the
+/// shoulders does not slide.
+const SLIP_M: f64 = 4e-3;
+/// The same for what is held up by its rings alone, m: one that could yield more would slide over what is wider.
+const SLIP_ON_HIPS_M: f64 = 1e-3;
 /// By how much an inset is less per length of the cloth away from its ring: over a slope of 0.1 the cloth is longer by 0.5 %.
 const FADE: f64 = 0.1;
 /// By how much an inset may be greater from one ring to the next, m.
@@ -38,11 +40,13 @@ pub struct Insets {
     now_m: Vec<f64>,
     /// What each may grow to, m; 0 where the ring must not yield.
     most_m: Vec<f64>,
+    /// What each may grow by between two judgements, m.
+    slip_m: f64,
 }
 
 impl Insets {
     /// Judges by how much rings are too small. `offset_m` is how far off the skin they lie, `share` how far they may
-    /// be stretched, positions `x` are in m.
+    /// be stretched, positions `x` are in m; `is_hung` says whether the garment hangs from the shoulders.
     #[must_use]
     pub fn judged(
         (rings, beside): (Vec<Ring>, Vec<[usize; 2]>),
@@ -50,8 +54,10 @@ impl Insets {
         x: &[V3],
         offset_m: f64,
         share: f64,
+        is_hung: bool,
     ) -> Self {
-        let mut insets = Self { rings, beside, now_m: Vec::new(), most_m: Vec::new() };
+        let slip_m = if is_hung { SLIP_M } else { SLIP_ON_HIPS_M };
+        let mut insets = Self { rings, beside, now_m: Vec::new(), most_m: Vec::new(), slip_m };
         insets.now_m = insets.lacks(body, x, offset_m, share);
         insets.most_m = insets.now_m.iter().map(|now| if *now > 0.0 { now + DOUBT_M } else { 0.0 }).collect();
         insets
@@ -62,7 +68,7 @@ impl Insets {
     pub fn judge_again(&mut self, body: &TriMesh, x: &[V3], offset_m: f64, share: f64) {
         let lacks = self.lacks(body, x, offset_m, share);
         for ((now, most), lack) in self.now_m.iter_mut().zip(&mut self.most_m).zip(lacks) {
-            *most = if lack > 0.0 && *now > 0.0 { now.min(lack + DOUBT_M) + SLIP_M } else { 0.0 };
+            *most = if lack > 0.0 && *now > 0.0 { now.min(lack + DOUBT_M) + self.slip_m } else { 0.0 };
             *now = now.min(*most);
         }
     }

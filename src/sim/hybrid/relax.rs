@@ -4,6 +4,7 @@
 //! as the ring needs: the cloth keeps its size and lies inside the body, evenly. Where the pattern is large enough it lies outside.
 
 use super::elastic::{Elastic, Pull};
+use super::gap::underarms;
 use super::inset::Insets;
 use super::layers::{Layers, Parted};
 use super::obstacle::Obstacle;
@@ -188,7 +189,9 @@ impl<'a> Relaxation<'a> {
     /// Judges anew where the garment is too small for a body: there the body counts as smaller.
     pub fn judge(&mut self, body: &Body, garment: &Garment, sewn: &Sewn) {
         let rings = rings(body, garment, sewn, &self.x);
-        self.insets = Insets::judged(rings, &body.mesh, &self.x, self.params.offset_m, self.params.yield_stretch);
+        let RelaxParams { offset_m, yield_stretch, .. } = self.params;
+        let is_hung = !underarms(garment).is_empty();
+        self.insets = Insets::judged(rings, &body.mesh, &self.x, offset_m, yield_stretch, is_hung);
         self.shrink();
     }
 

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::gap::underarms;
 use super::sewn::Sewn;
 use crate::body::{Body, Layer};
 use crate::geom::section::Plane;
@@ -10,6 +11,8 @@ use crate::pattern::{Garment, Role};
 
 /// Distance between the planes, m.
 const STEP_M: f64 = 0.02;
+/// How far below the underarms the last line round the trunk runs, in edges: where both sides cross one edge of the seam.
+const BELOW_UNDERARM: f64 = 0.3;
 
 /// Where a ring crosses an edge of the cloth: sewn vertices, and the share of the way from the first to the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +27,8 @@ pub struct Ring {
     cuts: Vec<Cut>,
     /// Length in the pattern, m.
     pub rest_m: f64,
-    /// Number of its plane: those with the next numbers are the rings above and below.
+    /// Number of its plane, of no meaning for the line below the underarms: those with the next numbers are the rings above and
+    /// below.
     level: i32,
 }
 
@@ -32,6 +36,8 @@ pub struct Ring {
 struct Limb {
     triangles: Vec<usize>,
     axis: V3,
+    /// Whether it may have armholes.
+    is_trunk: bool,
 }
 
 /// The rings of a sewn garment with positions `x` (m), limb by limb, and which of them lie next to each other on the cloth.
@@ -42,6 +48,14 @@ pub fn rings(body: &Body, garment: &Garment, sewn: &Sewn, x: &[V3]) -> (Vec<Ring
         let first = rings.len();
         rings.extend(cut(garment, sewn, x, &limb));
         beside.extend(neighbours(&rings, first));
+        // Planes leave out the last stretch below the armholes, which do not lie level.
+        if limb.is_trunk {
+            let highest = (first..rings.len()).max_by_key(|&k| rings[k].level);
+            for ring in at_underarm(garment, sewn) {
+                beside.extend(highest.map(|highest| [highest, rings.len()]));
+                rings.push(ring);
+            }
+        }
     }
     (rings, beside)
 }
@@ -58,9 +72,13 @@ fn limbs(body: &Body, garment: &Garment) -> [Limb; 3] {
     };
     let is_sleeve = |role| matches!(role, Role::SleeveRight | Role::SleeveLeft);
     [
-        Limb { triangles: of(&|role| !is_sleeve(role)), axis: V3::z() },
-        Limb { triangles: of(&|role| role == Role::SleeveRight), axis: arm([ArmscyeRight, ElbowRight]) },
-        Limb { triangles: of(&|role| role == Role::SleeveLeft), axis: arm([ArmscyeLeft, ElbowLeft]) },
+        Limb { triangles: of(&|role| !is_sleeve(role)), axis: V3::z(), is_trunk: true },
+        Limb {
+            triangles: of(&|role| role == Role::SleeveRight),
+            axis: arm([ArmscyeRight, ElbowRight]),
+            is_trunk: false,
+        },
+        Limb { triangles: of(&|role| role == Role::SleeveLeft), axis: arm([ArmscyeLeft, ElbowLeft]), is_trunk: false },
     ]
 }
 
@@ -79,15 +97,32 @@ fn cut(garment: &Garment, sewn: &Sewn, x: &[V3], limb: &Limb) -> Vec<Ring> {
         let low = heights.iter().copied().fold(f64::MAX, f64::min).ceil() as i32;
         let high = heights.iter().copied().fold(f64::MIN, f64::max).ceil() as i32;
         for level in low..high {
-            let cuts: Vec<(Cut, V2)> =
-                (0..3).filter_map(|k| crossing(garment, sewn, corners, heights, k, level)).collect();
-            if let [(a, from), (b, to)] = cuts.as_slice() {
-                let segment = Segment { ends: [*a, *b], rest_m: (to - from).norm() };
-                levels.entry(level).or_default().push(segment);
-            }
+            let segment = segment(garment, sewn, corners, heights, level);
+            levels.entry(level).or_default().extend(segment);
         }
     }
     levels.iter().flat_map(|(&level, segments)| chained(level, segments)).collect()
+}
+
+/// The closed line round the trunk just below the underarms, level in each piece; none where it does not close.
+fn at_underarm(garment: &Garment, sewn: &Sewn) -> Vec<Ring> {
+    let below_m = garment.edge_length_m * BELOW_UNDERARM;
+    let mut segments = Vec::new();
+    for (piece, underarm) in underarms(garment) {
+        let v = garment.rest[underarm].y - below_m;
+        for &corners in &garment.triangles[piece.triangles.clone()] {
+            let heights = corners.map(|corner| garment.rest[corner].y - v);
+            segments.extend(segment(garment, sewn, corners, heights, 0));
+        }
+    }
+    chained(0, &segments)
+}
+
+/// The way of a level through a triangle.
+fn segment(garment: &Garment, sewn: &Sewn, corners: [usize; 3], heights: [f64; 3], level: i32) -> Option<Segment> {
+    let cuts: Vec<(Cut, V2)> = (0..3).filter_map(|k| crossing(garment, sewn, corners, heights, k, level)).collect();
+    let [(a, from), (b, to)] = cuts.as_slice() else { return None };
+    Some(Segment { ends: [*a, *b], rest_m: (to - from).norm() })
 }
 
 /// Where side `k` of a triangle passes through a level, on the sewn cloth and in the pattern.
@@ -232,12 +267,12 @@ mod tests {
         // The ball's girth 0.15 above its middle.
         let radius = (0.2_f64.powi(2) - 0.15_f64.powi(2)).sqrt();
         let x = circle(radius, 0.15);
-        let mut insets = Insets::judged(ring(0.7), &ball, &x, offset, share);
+        let mut insets = Insets::judged(ring(0.7), &ball, &x, offset, share, true);
         let lack = radius + offset - 0.7 * (1.0 + share) / TAU;
         assert!((inset(&insets) - lack).abs() < 1e-3, "{} instead of {lack}", inset(&insets));
         // The cloth is still as wide as the body: that must not make the body smaller and smaller.
         (0..50).for_each(|_| insets.correct(&x, share));
-        assert!((inset(&insets) - lack - 6e-3).abs() < 1e-3, "{}", inset(&insets));
+        assert!((inset(&insets) - lack - 20e-3).abs() < 1e-3, "{}", inset(&insets));
         // Once it has closed and is slack, the body takes its size again.
         let slack = circle(0.6 / TAU, 0.15);
         (0..50).for_each(|_| insets.correct(&slack, share));
@@ -247,7 +282,7 @@ mod tests {
     #[test]
     fn a_ring_that_is_large_enough_is_held_up_where_the_body_is_wider() {
         let ball = sphere(0.2, 48);
-        let mut insets = Insets::judged(ring(0.9), &ball, &circle(0.14, 0.15), 2e-3, 2e-3);
+        let mut insets = Insets::judged(ring(0.9), &ball, &circle(0.14, 0.15), 2e-3, 2e-3, false);
         assert_eq!(inset(&insets), 0.0);
         // Round the ball's middle it would lack 0.36.
         let below = circle(0.2, 0.0);

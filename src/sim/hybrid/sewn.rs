@@ -39,7 +39,7 @@ impl Sewn {
         let triangles: Vec<[usize; 3]> = garment.triangles.iter().map(|t| t.map(|v| vertex_of[v])).collect();
         let loops = free_edges(&triangles);
         let mut sewn = Self { vertex_of, triangles, x: sums.into_iter().map(|(sum, n)| sum / n).collect(), loops };
-        sewn.smooth();
+        sewn.smooth(TIMES);
         sewn
     }
 
@@ -49,11 +49,11 @@ impl Sewn {
         self.vertex_of.iter().map(|&v| x[v]).collect()
     }
 
-    /// Laplacian smoothing of the free edges (5.3).
-    fn smooth(&mut self) {
+    /// Laplacian smoothing of the free edges (5.3), so many times.
+    pub fn smooth(&mut self, times: u32) {
         for ring in &self.loops {
             let n = ring.len();
-            for _ in 0..TIMES {
+            for _ in 0..times {
                 let old: Vec<V3> = ring.iter().map(|&v| self.x[v]).collect();
                 for (k, &v) in ring.iter().enumerate() {
                     let middle = (old[(k + n - 1) % n] + old[(k + 1) % n]) / 2.0;

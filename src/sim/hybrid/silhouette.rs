@@ -86,7 +86,9 @@ impl Loop {
         let longer = share * lacks.sum::<f64>() / self.inwards.len().max(1) as f64;
         for &v in &self.vertices {
             let out = (x[v] - centre) - normal * (x[v] - centre).dot(&normal);
-            x[v] += out.try_normalize(1e-9).unwrap_or_else(V3::zeros) * wider + normal * longer;
+            // Never past the middle: beyond it, the edge would get longer by what it has to lose.
+            let by = wider.max(-0.5 * out.norm());
+            x[v] += out.try_normalize(1e-9).unwrap_or_else(V3::zeros) * by + normal * longer;
         }
     }
 }
