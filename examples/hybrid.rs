@@ -312,7 +312,7 @@ fn path_times(body: &Body) -> Result<(), Box<dyn Error>> {
     let forward = |line: &i32| hung.trunk.at(&hung.mesh, *line, 1.0).y;
     let foremost = (0..24).max_by(|a, b| forward(a).total_cmp(&forward(b))).unwrap_or(0);
     let rearmost = (0..24).min_by(|a, b| forward(a).total_cmp(&forward(b))).unwrap_or(0);
-    let searches: [(&str, &Form, &Tube, i32, Role, [u32; 2]); 4] = [
+    let searches = [
         ("arm line", &hung, &hung.arms[0], 0, Role::SleeveRight, [379, 28]),
         ("front line", &hung, &hung.trunk, foremost, Role::Front, [386, 125]),
         ("leg line", &legs, &legs.legs[0], 0, Role::LegFrontRight, [389, 79]),
