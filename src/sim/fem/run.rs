@@ -41,7 +41,7 @@ impl Phase {
     }
 }
 
-/// How far a garment may come down from where it was sewn, m: trousers and skirts that do not hold at the waist hold at the
+/// How far the top of a garment may come down from where it was sewn, m: trousers and skirts that do not hold at the waist hold at the
 /// hips, a fifth of a metre lower, or not at all.
 const MOST_DESCENT_M: f64 = 0.25;
 
@@ -50,7 +50,7 @@ pub struct Run<'a> {
     params: &'a Params,
     monitor: &'a mut dyn Monitor,
     levels: usize,
-    /// Height of the garment as it was sewn, m.
+    /// Height of the garment's top as it was sewn, m.
     worn_at_m: Option<f64>,
     iteration: u32,
     fraction: f64,
@@ -68,7 +68,7 @@ impl<'a> Run<'a> {
         self.params
     }
 
-    /// From here on a garment that comes down far from `sewn` ends the run.
+    /// From here on a garment whose top comes down far from that of `sewn` ends the run.
     pub fn keep_up(&mut self, sewn: &[V3]) {
         self.worn_at_m = Some(height_m(sewn));
     }
@@ -190,9 +190,9 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Mean height of the vertices, m.
+/// Height of the highest vertex, m: what flares comes down, but its top does not.
 fn height_m(positions: &[V3]) -> f64 {
-    positions.iter().map(|p| p.z).sum::<f64>() / positions.len().max(1) as f64
+    positions.iter().map(|p| p.z).fold(f64::MIN, f64::max)
 }
 
 /// E of the moment: the mean of L3D / L2D over the garment's measurements; not a number when it has none.
