@@ -14,7 +14,7 @@ use toile::body::{self, Body, Measurements, Region, Sex};
 use toile::geom::{DistanceField, V3};
 use toile::pattern::draft::Model;
 use toile::pattern::{Garment, Role, Style};
-use toile::sim::hybrid::form::{Form, Tube};
+use toile::sim::hybrid::form::Form;
 use toile::sim::hybrid::mapping::{self, PATH_POINTS, can_touch};
 use toile::sim::hybrid::path::{PathGraph, Taken};
 use toile::sim::hybrid::{self, Backend, Params, Phases, Sewn};
