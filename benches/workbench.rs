@@ -32,7 +32,7 @@ const FILL: &str = "
             iif(x % 50 = 7, 'queued', 'done'), NULL, NULL, 0, 1, 2, 9000 + x, (SELECT min(subject_id) FROM subject), 1, 1,
             (SELECT min(fabric_id) FROM fabric)
         FROM n;
-    INSERT INTO metrics SELECT job_id, 100, 1.01, 0.02, 0.0001 * (job_id % 700), 0.05, 5000, 10000, 400, 0.009, 1, 0.1, 0, 0
+    INSERT INTO metrics SELECT job_id, 100, 1.01, 0.02, 0.0001 * (job_id % 700), 0.05, 5000, 10000, 400, 0.009, 1, 0.1, 0, 0, 0.02
         FROM job WHERE status = 'done';
     INSERT INTO chi SELECT job_id, 'drape', n.x + 1, 'Measurement ' || n.x, 'open_length', 0, 0, 500, 500 + n.x
         FROM job JOIN n ON n.x < 100;
