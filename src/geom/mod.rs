@@ -11,6 +11,7 @@ pub mod polyline;
 pub mod section;
 pub mod shapes;
 pub mod surface;
+pub mod triangle;
 
 pub use field::DistanceField;
 pub use mesh::TriMesh;

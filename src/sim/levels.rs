@@ -4,9 +4,9 @@ use nalgebra::Matrix3;
 
 use super::Fabric;
 use super::cloth::Cloth;
-use super::contact::tangle::sorted;
 use super::solver::pcg::PcgParams;
 use super::solver::{Operator, linear};
+use crate::geom::triangle::sorted;
 use crate::geom::{V2, V3};
 use crate::pattern::Garment;
 

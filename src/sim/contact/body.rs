@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use nalgebra::Matrix3;
 
 use super::skin::Skin;
-use super::tangle::sorted;
+use crate::geom::triangle::sorted;
 use crate::geom::{DistanceField, V3};
 use crate::sim::solver::Contact4;
 

@@ -1,6 +1,6 @@
 //! Nearest points of a vertex and a triangle, or of two edges [Ericson 2005, 5.1].
 
-use crate::geom::V3;
+use crate::geom::{V3, triangle};
 
 /// Vertices of a pair: `[vertex, triangle]` or `[edge, edge]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -39,7 +39,11 @@ impl Nearest {
     pub fn of(x: &[V3], primitives: Primitives) -> Self {
         let corners = primitives.vertices().map(|v| x[v]);
         let (weights, within) = match primitives {
-            Primitives::VertexTriangle(_) => vertex_triangle(&corners),
+            Primitives::VertexTriangle(_) => {
+                let [p, a, b, c] = corners;
+                let ([wa, wb, wc], is_within) = triangle::nearest(&p, &[a, b, c]);
+                ([1.0, -wa, -wb, -wc], is_within)
+            }
             Primitives::EdgeEdge(_) => edge_edge(&corners),
         };
         let gap: V3 = (0..4).map(|k| corners[k] * weights[k]).sum();
@@ -50,41 +54,6 @@ impl Nearest {
         let normal = if within { cross.try_normalize(0.0) } else { None };
         Self { weights, gap, normal }
     }
-}
-
-/// Weights of the nearest points, and whether the foot point is inside the triangle.
-fn vertex_triangle([p, a, b, c]: &[V3; 4]) -> ([f64; 4], bool) {
-    let (ab, ac, ap) = (b - a, c - a, p - a);
-    let (d1, d2) = (ab.dot(&ap), ac.dot(&ap));
-    let on = |wb: f64, wc: f64| [1.0, wb + wc - 1.0, -wb, -wc];
-    if d1 <= 0.0 && d2 <= 0.0 {
-        return (on(0.0, 0.0), false);
-    }
-    let bp = p - b;
-    let (d3, d4) = (ab.dot(&bp), ac.dot(&bp));
-    if d3 >= 0.0 && d4 <= d3 {
-        return (on(1.0, 0.0), false);
-    }
-    let vc = d1 * d4 - d3 * d2;
-    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
-        return (on(d1 / (d1 - d3), 0.0), false);
-    }
-    let cp = p - c;
-    let (d5, d6) = (ab.dot(&cp), ac.dot(&cp));
-    if d6 >= 0.0 && d5 <= d6 {
-        return (on(0.0, 1.0), false);
-    }
-    let vb = d5 * d2 - d1 * d6;
-    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
-        return (on(0.0, d2 / (d2 - d6)), false);
-    }
-    let va = d3 * d6 - d5 * d4;
-    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
-        let share = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-        return (on(1.0 - share, share), false);
-    }
-    let sum = va + vb + vc;
-    (on(vb / sum, vc / sum), true)
 }
 
 /// Weights of the nearest points, and whether both are inside their edges.

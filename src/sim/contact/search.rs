@@ -2,8 +2,9 @@
 
 use super::grid::BoxGrid;
 use super::nearest::Primitives;
-use super::tangle::{edges_of, sorted};
+use super::tangle::edges_of;
 use crate::geom::V3;
+use crate::geom::triangle::sorted;
 use crate::sim::solver::PairList;
 
 /// The cloth as the search sees it.

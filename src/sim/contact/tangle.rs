@@ -6,6 +6,7 @@
 
 use super::grid::BoxGrid;
 use crate::geom::V3;
+use crate::geom::triangle::sorted;
 use crate::sim::solver::{Contact4, PairList};
 
 /// Sine between edge and pierced triangle below which the way out along the normal is not taken longer still.
@@ -36,12 +37,6 @@ pub fn crossings<'s>(
         };
         near.into_iter().filter(hits).map(move |t| Crossing { edge: [a, b], triangle: sorted(triangles[t]) })
     })
-}
-
-/// Corners in one order, whichever way the triangle goes round: mirrored cloth is then rounded alike.
-pub fn sorted(mut triangle: [usize; 3]) -> [usize; 3] {
-    triangle.sort_unstable();
-    triangle
 }
 
 fn segment_hits(p: V3, q: V3, [a, b, c]: [V3; 3]) -> bool {

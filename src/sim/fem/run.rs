@@ -41,8 +41,8 @@ impl Phase {
     }
 }
 
-/// How far the top of a garment may come down from where it was sewn, m: trousers and skirts that do not hold at the waist hold at the
-/// hips, a fifth of a metre lower, or not at all.
+/// How far the top of a garment may come down from where it was sewn, m: trousers and skirts that do not hold at the waist
+/// hold at the hips, a fifth of a metre lower, or not at all.
 const MOST_DESCENT_M: f64 = 0.25;
 
 /// A simulation under way.
