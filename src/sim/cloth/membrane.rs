@@ -9,7 +9,7 @@
 //!
 //! A step that turns triangles also stretches them, in second order, and at the stiffness of cloth that spurious stress
 //! outweighs the true one: the stiffness at its end would hold the cloth like a drum. So `S+` may be taken from the stress
-//! that the last linear solve predicted instead ([`Membrane::predicted_stress`]), which has no such part; the equilibrium is
+//! that the last linear solve predicted instead ([`Membrane::foresee`]), which has no such part; the equilibrium is
 //! the same, and is reached in fewer steps [Magisano 2017].
 
 use nalgebra::{Matrix2, Matrix3, Matrix3x2};
@@ -148,30 +148,57 @@ impl Element {
         Some(Self { vertices, area, gradients: [-g1 - g2, g1, g2], slots: [(0, false); 3] })
     }
 
+    /// What has become of a unit length of weft and of warp: the columns of the deformation gradient.
+    fn fibres(&self, x: &[V3]) -> [V3; 2] {
+        let [a, b, c] = self.vertices;
+        let (p, q) = (x[b] - x[a], x[c] - x[a]);
+        let [_, g, h] = self.gradients;
+        [p * g.x + q * h.x, p * g.y + q * h.y]
+    }
+
     /// Deformation gradient, columns along weft and warp.
     #[must_use]
     pub fn deformation_gradient(&self, x: &[V3]) -> Matrix3x2<f64> {
-        let [a, b, c] = self.vertices;
-        (x[b] - x[a]) * self.gradients[1].transpose() + (x[c] - x[a]) * self.gradients[2].transpose()
+        Matrix3x2::from_columns(&self.fibres(x))
     }
 
     /// Green strain in (weft, warp).
     #[must_use]
     pub fn strain(&self, x: &[V3]) -> Matrix2<f64> {
-        green(&self.deformation_gradient(x))
+        green(&self.fibres(x))
     }
 
-    fn add_forces(&self, f: &Matrix3x2<f64>, stress: &Matrix2<f64>, forces: &mut [V3]) {
-        let first_piola = f * stress * -self.area;
-        for k in 0..3 {
-            forces[self.vertices[k]] += first_piola * self.gradients[k];
+    fn add_forces(&self, [weft, warp]: &[V3; 2], stress: &Matrix2<f64>, forces: &mut [V3]) {
+        // The first Piola-Kirchhoff stress, by columns.
+        let s = stress * -self.area;
+        let (p, q) = (weft * s[(0, 0)] + warp * s[(1, 0)], weft * s[(0, 1)] + warp * s[(1, 1)]);
+        for (v, g) in self.vertices.iter().zip(&self.gradients) {
+            forces[*v] += p * g.x + q * g.y;
         }
     }
 }
 
-/// Green strain of a deformation gradient.
-fn green(f: &Matrix3x2<f64>) -> Matrix2<f64> {
-    (f.transpose() * f - Matrix2::identity()) * 0.5
+/// Green strain of what has become of weft and warp.
+fn green([weft, warp]: &[V3; 2]) -> Matrix2<f64> {
+    let shear = 0.5 * weft.dot(warp);
+    Matrix2::new(0.5 * (weft.norm_squared() - 1.0), shear, shear, 0.5 * (warp.norm_squared() - 1.0))
+}
+
+/// Stress of an element, and what a displacement adds to it in first order, N/m.
+#[derive(Clone, Copy, Debug)]
+pub struct Foreseen {
+    /// Stress before.
+    pub stress: Matrix2<f64>,
+    /// What the displacement adds.
+    pub change: Matrix2<f64>,
+}
+
+impl Foreseen {
+    /// Stress after a share of the displacement.
+    #[must_use]
+    pub fn after(&self, share: f64) -> Matrix2<f64> {
+        self.stress + self.change * share
+    }
 }
 
 /// The membrane of a garment.
@@ -213,7 +240,7 @@ impl Membrane {
     /// Adds the elastic forces, N.
     pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
         for element in &self.elements {
-            let f = element.deformation_gradient(x);
+            let f = element.fibres(x);
             let stress = self.material.stress(&green(&f));
             element.add_forces(&f, &stress, forces);
         }
@@ -224,7 +251,7 @@ impl Membrane {
     pub fn assemble(&self, x: &[V3], forces: &mut [V3], predicted: Option<&[Matrix2<f64>]>) -> Vec<Matrix3<f64>> {
         let mut blocks = vec![Matrix3::zeros(); self.pairs.pairs().len()];
         for (index, element) in self.elements.iter().enumerate() {
-            let f = element.deformation_gradient(x);
+            let f = element.fibres(x);
             let strain = green(&f);
             let stress = self.material.stress(&strain);
             element.add_forces(&f, &stress, forces);
@@ -233,26 +260,27 @@ impl Membrane {
         blocks
     }
 
-    /// Stress of each element, N/m, that a linear solve at `x` foresees of a displacement `d`: what it adds in first order.
+    /// What a linear solve at `x` foresees of a displacement `d` in each element.
     #[must_use]
-    pub fn predicted_stress(&self, x: &[V3], d: &[V3]) -> Vec<Matrix2<f64>> {
+    pub fn foresee(&self, x: &[V3], d: &[V3]) -> Vec<Foreseen> {
         let of = |element: &Element| {
-            let f = element.deformation_gradient(x);
-            let product = f.transpose() * element.deformation_gradient(d);
+            let (f, moved) = (element.fibres(x), element.fibres(d));
             let strain = green(&f);
-            self.material.stress(&strain) + self.material.tangent(&strain, &((product + product.transpose()) * 0.5))
+            let shear = 0.5 * (f[0].dot(&moved[1]) + f[1].dot(&moved[0]));
+            let change = Matrix2::new(f[0].dot(&moved[0]), shear, shear, f[1].dot(&moved[1]));
+            Foreseen { stress: self.material.stress(&strain), change: self.material.tangent(&strain, &change) }
         };
         self.elements.iter().map(of).collect()
     }
 
-    /// Adds the forces (N) that would bring the stresses at `x` to `wanted`, one an element, and returns the off-diagonal
+    /// Adds the forces (N) that would bring the stresses at `x` to those foreseen, and returns the off-diagonal
     /// blocks of the stiffness that stretching alone has there, N/m.
-    pub fn assemble_towards(&self, x: &[V3], wanted: &[Matrix2<f64>], forces: &mut [V3]) -> Vec<Matrix3<f64>> {
+    pub fn assemble_towards(&self, x: &[V3], foreseen: &[Foreseen], forces: &mut [V3]) -> Vec<Matrix3<f64>> {
         let mut blocks = vec![Matrix3::zeros(); self.pairs.pairs().len()];
-        for (element, wanted) in self.elements.iter().zip(wanted) {
-            let f = element.deformation_gradient(x);
+        for (element, foreseen) in self.elements.iter().zip(foreseen) {
+            let f = element.fibres(x);
             let strain = green(&f);
-            element.add_forces(&f, &(self.material.stress(&strain) - wanted), forces);
+            element.add_forces(&f, &(self.material.stress(&strain) - foreseen.after(1.0)), forces);
             self.add_stiffness(element, &f, &strain, &Matrix2::zeros(), &mut blocks);
         }
         blocks
@@ -261,24 +289,31 @@ impl Membrane {
     fn add_stiffness(
         &self,
         element: &Element,
-        f: &Matrix3x2<f64>,
+        [weft, warp]: &[V3; 2],
         strain: &Matrix2<f64>,
         stress: &Matrix2<f64>,
         blocks: &mut [Matrix3<f64>],
     ) {
         let m = &self.material;
-        let (c11, c22) = (m.weft.tangent(strain[(0, 0)]), m.warp.tangent(strain[(1, 1)]));
-        let (f1, f2) = (f.column(0), f.column(1));
-        let tension = without_compression(stress);
-        let shear_row = element.gradients.map(|g| f2 * g.x + f1 * g.y);
+        let area = element.area;
+        let [c11, c12, c22] = [m.weft.tangent(strain[(0, 0)]), m.c12, m.warp.tangent(strain[(1, 1)])].map(|c| c * area);
+        let tension = without_compression(stress) * area;
+        let sheared = element.gradients.map(|g| warp * g.x + weft * g.y);
         for (k, &(slot, swapped)) in element.slots.iter().enumerate() {
             let (i, j) = if swapped { ((k + 1) % 3, k) } else { (k, (k + 1) % 3) };
             let (gi, gj) = (element.gradients[i], element.gradients[j]);
-            let a = f1 * (c11 * gi.x * gj.x) + f2 * (m.c12 * gi.y * gj.x);
-            let b = f1 * (m.c12 * gi.x * gj.y) + f2 * (c22 * gi.y * gj.y);
-            let material = a * f1.transpose() + b * f2.transpose() + shear_row[i] * shear_row[j].transpose() * m.shear;
-            let geometric = Matrix3::identity() * gi.dot(&(tension * gj));
-            blocks[slot] += (material + geometric) * element.area;
+            let a = weft * (c11 * gi.x * gj.x) + warp * (c12 * gi.y * gj.x);
+            let b = weft * (c12 * gi.x * gj.y) + warp * (c22 * gi.y * gj.y);
+            let c = sheared[i] * (m.shear * area);
+            let geometric = gi.dot(&(tension * gj));
+            let block = &mut blocks[slot];
+            for column in 0..3 {
+                let sum = a * weft[column] + b * warp[column] + c * sheared[j][column];
+                for row in 0..3 {
+                    block[(row, column)] += sum[row];
+                }
+                block[(column, column)] += geometric;
+            }
         }
     }
 }
@@ -390,8 +425,9 @@ mod tests {
             let error = |size: f64| {
                 let end = shaken(&x, size, 6);
                 let d: Vec<V3> = end.iter().zip(&x).map(|(p, q)| p - q).collect();
-                let predicted = membrane.predicted_stress(&x, &d);
-                let off = |(e, p): (&Element, &Matrix2<f64>)| (membrane.material.stress(&e.strain(&end)) - p).norm();
+                let predicted = membrane.foresee(&x, &d);
+                let off =
+                    |(e, p): (&Element, &Foreseen)| (membrane.material.stress(&e.strain(&end)) - p.after(1.0)).norm();
                 membrane.elements.iter().zip(&predicted).map(off).fold(0.0, f64::max)
             };
             // A tenth of the displacement leaves a hundredth of the error.

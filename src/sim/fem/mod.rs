@@ -63,7 +63,7 @@ pub fn simulate(
         converged: last.residual <= params.tolerance,
         iterations: run.iterations(),
         residual: last.residual,
-        penetration_max_m: quality::penetration_m(body, finest, &last.positions),
+        penetration_max_m: quality::penetration_by_field_m(body, field, finest, &last.positions),
         seam_gap_max_m: quality::seam_gap_m(finest, &last.positions),
         self_crossings: quality::self_crossings(&last.sewn, &last.triangles),
         welded_vertices: last.sewn.len(),

@@ -84,7 +84,7 @@ impl Default for Params {
             sewing_h_max_s: 0.1,
             sewing_steps: 300,
             weld_gap_m: 2e-3,
-            coarse_tolerance: 0.2,
+            coarse_tolerance: 1.0,
             coarse_steps: 300,
             finest_frictionless_steps: 12,
             tolerance: 0.01,

@@ -4,7 +4,7 @@ use nalgebra::Matrix3;
 
 use super::factor::Factor;
 use super::operator::Operator;
-use super::patches::Patches;
+use super::patches::{Coarse, Patches};
 use super::pcg::{self, PcgParams};
 use super::rows::{self, Block, Quad, Rows};
 use crate::geom::V3;
@@ -12,7 +12,7 @@ use crate::geom::V3;
 /// How the linear systems of a cloth are solved.
 pub enum LinearSolver {
     /// Block-Jacobi and patches that move rigidly: approximate, for garments.
-    Patches(Option<Box<Patches>>),
+    Patches(Option<Box<TwoLevel>>),
     /// A Cholesky factor, renewed when it has aged: exact, for specimens whose answer is compared with mechanics.
     Factor(Option<Box<Factor>>),
 }
@@ -37,15 +37,15 @@ impl LinearSolver {
     pub fn solve(&mut self, operator: &Operator, positions: &[V3], b: &[V3], x: &mut [V3], params: &PcgParams) {
         match self {
             Self::Patches(kept) => {
-                let patches = kept.get_or_insert_with(|| Box::new(Patches::new(operator)));
-                two_level(patches, operator, positions, b, x, params);
+                let two_level = kept.get_or_insert_with(|| Box::new(TwoLevel::new(operator)));
+                two_level.solve(operator, positions, b, x, params);
             }
             Self::Factor(kept) => {
                 let aged = kept.is_some();
                 let factor = kept.get_or_insert_with(|| Box::new(Factor::new(operator)));
                 let attempt = PcgParams { max_iterations: PATIENCE, ..*params };
                 let rows = Rows::<f64>::new(operator);
-                if aged && pcg::solve(&rows, &|r, z| factor.solve(r, z), b, x, &attempt) {
+                if aged && pcg::solve(&rows, &|r, z| factor.solve(r, z), b, x, &attempt).is_solved {
                     return;
                 }
                 factor.refresh(operator);
@@ -61,16 +61,42 @@ pub fn jacobi(operator: &Operator, b: &[V3], x: &mut [V3], params: &PcgParams) {
     pcg::solve(&Rows::new(operator), &|r, z| times(&inverses, r, z), b, x, params);
 }
 
-/// The same with the rigid motions of patches added.
-fn two_level(patches: &Patches, operator: &Operator, positions: &[V3], b: &[V3], x: &mut [V3], params: &PcgParams) {
-    let diagonal = operator.diagonal_blocks();
-    let coarse = patches.factorise(operator, &diagonal, positions);
-    let inverses = inverses(&diagonal);
-    let precondition = |r: &[Quad<f32>], z: &mut [Quad<f32>]| {
-        times(&inverses, r, z);
-        coarse.add(r, z);
-    };
-    pcg::solve(&Rows::new(operator), &precondition, b, x, params);
+/// Block-Jacobi with the rigid motions of patches added, whose stiffness is factorised now and then.
+pub struct TwoLevel {
+    patches: Patches,
+    coarse: Option<Coarse>,
+    /// Iterations that the factor took when it was new.
+    when_new: usize,
+    /// Iterations that its age has cost since.
+    lost: usize,
+}
+
+/// Iterations that a new factor costs.
+const FACTOR_COST: usize = 12;
+
+impl TwoLevel {
+    fn new(operator: &Operator) -> Self {
+        Self { patches: Patches::new(operator), coarse: None, when_new: 0, lost: 0 }
+    }
+
+    fn solve(&mut self, operator: &Operator, positions: &[V3], b: &[V3], x: &mut [V3], params: &PcgParams) {
+        let diagonal = operator.diagonal_blocks();
+        let inverses = inverses(&diagonal);
+        let kept = self.coarse.take().filter(|_| self.lost < FACTOR_COST);
+        let is_new = kept.is_none();
+        let coarse = kept.unwrap_or_else(|| self.patches.factorise(operator, &diagonal, positions));
+        let precondition = |r: &[Quad<f32>], z: &mut [Quad<f32>]| {
+            times(&inverses, r, z);
+            self.patches.add(&coarse, r, z);
+        };
+        let iterations = pcg::solve(&Rows::new(operator), &precondition, b, x, params).iterations;
+        if is_new {
+            (self.when_new, self.lost) = (iterations, 0);
+        } else {
+            self.lost += iterations.saturating_sub(self.when_new);
+        }
+        self.coarse = Some(coarse);
+    }
 }
 
 fn inverses(diagonal: &[Matrix3<f64>]) -> Vec<Block<f32>> {

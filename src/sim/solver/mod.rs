@@ -1,5 +1,6 @@
 //! The solver: one proximal Newton step at a time towards static equilibrium.
 
+pub mod blocks;
 pub mod factor;
 pub mod linear;
 pub mod operator;

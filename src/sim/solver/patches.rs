@@ -3,16 +3,14 @@
 //! What block-Jacobi is slow at are motions of many vertices together: a sleeve that swings, a fold that travels. Cloth
 //! resists those hardly at all where each patch of it moves rigidly, so rigid motions of patches, six degrees of freedom each,
 //! span them well (smoothed aggregation's near null space [Vanek 1996]), without smoothing: what remains at the borders of
-//! patches is local, and block-Jacobi's. The stiffness between patches is small enough to be factorised each step.
+//! patches is local, and block-Jacobi's. The stiffness between patches is small enough to be factorised ([`super::blocks`]), and a
+//! factor serves for several steps.
 
-use faer::linalg::solvers::Solve;
-use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
-use faer::{MatMut, Par, Side};
 use nalgebra::{Matrix3, Matrix6, Vector6};
 
+use super::blocks::{Dense, Lanes, Numeric, Symbolic};
 use super::operator::Operator;
-use super::rows::Quad;
+use super::rows::{self, Quad};
 use crate::geom::V3;
 
 /// Least distance, in edges, between the middles of patches.
@@ -30,17 +28,13 @@ pub struct Patches {
     pairs: Vec<[usize; 2]>,
     /// Pair of patches of each membrane pair, bending pair and spring.
     slots: [Vec<usize>; 3],
-    /// Lower triangle by columns, six rows and columns a patch.
-    pattern: SymbolicSparseColMat<usize>,
-    symbolic: SymbolicLlt<usize>,
+    symbolic: Symbolic,
 }
 
 impl Patches {
     /// Divides a cloth into patches.
     #[must_use]
     pub fn new(operator: &Operator) -> Self {
-        // Other threads run other simulations: this one stays on its own. Also, sums then do not depend on their number.
-        faer::set_global_parallelism(Par::Seq);
         let springs: Vec<[usize; 2]> = operator.springs.iter().map(|s| s.0).collect();
         let lists = [operator.membrane_pairs.pairs(), operator.bending_pairs.pairs(), &springs];
         let (of, count) = divide(operator.diagonal.len(), lists[0]);
@@ -51,21 +45,13 @@ impl Patches {
         pairs.dedup();
         let slot = |pair: &[usize; 2]| pairs.binary_search(&coupled(pair)).expect("the pair was just collected");
         let slots = lists.map(|list| list.iter().map(slot).collect());
-        let (mut columns, mut rows) = (vec![0], Vec::new());
-        for column in pairs.chunk_by(|p, q| p[0] == q[0]) {
-            for c in 0..6 {
-                rows.extend(column.iter().flat_map(|&[a, b]| (if a == b { c } else { 0 }..6).map(move |r| 6 * b + r)));
-                columns.push(rows.len());
-            }
-        }
-        let pattern = SymbolicSparseColMat::new_checked(6 * count, 6 * count, columns, None, rows);
-        let symbolic = SymbolicLlt::try_new(pattern.as_ref(), Side::Lower).expect("a checked pattern has a factor");
-        Self { of, count, pairs, slots, pattern, symbolic }
+        let symbolic = Symbolic::new(count, &pairs);
+        Self { of, count, pairs, slots, symbolic }
     }
 
     /// The stiffness between the patches, factorised, with the cloth at `x`; `diagonal` are the diagonal blocks of the operator.
     #[must_use]
-    pub fn factorise<'a>(&'a self, operator: &Operator, diagonal: &[Matrix3<f64>], x: &[V3]) -> Coarse<'a> {
+    pub fn factorise(&self, operator: &Operator, diagonal: &[Matrix3<f64>], x: &[V3]) -> Coarse {
         let arms = self.arms(x);
         let mut blocks = vec![Matrix6::zeros(); self.pairs.len()];
         let mut add = |slot: usize, i: usize, j: usize, m: &Matrix3<f64>| {
@@ -95,10 +81,8 @@ impl Patches {
         for &slot in &own {
             regularise(&mut blocks[slot]);
         }
-        let values = self.values(&blocks);
-        let matrix = SparseColMatRef::new(self.pattern.as_ref(), &values);
-        let factor = Llt::try_new_with_symbolic(self.symbolic.clone(), matrix, Side::Lower).ok();
-        Coarse { patches: self, arms, factor }
+        let blocks: Vec<Dense> = blocks.into_iter().map(Into::into).collect();
+        Coarse { arms: arms.iter().map(|arm| rows::quad(arm)).collect(), factor: self.symbolic.factorise(&blocks) }
     }
 
     /// From the middle of its patch to each vertex.
@@ -130,55 +114,39 @@ impl Patches {
         }
     }
 
-    /// Values of the lower triangle by columns.
-    fn values(&self, blocks: &[Matrix6<f64>]) -> Vec<f64> {
-        let mut values = Vec::with_capacity(self.pattern.row_idx().len());
-        let mut from = 0;
-        for column in self.pairs.chunk_by(|p, q| p[0] == q[0]) {
-            let blocks = &blocks[from..from + column.len()];
-            from += column.len();
-            for c in 0..6 {
-                for (pair, block) in column.iter().zip(blocks) {
-                    let first = if pair[0] == pair[1] { c } else { 0 };
-                    // The block is that of the smaller patch's row: below the diagonal stands its transpose.
-                    values.extend((first..6).map(|r| block[(c, r)]));
-                }
+    /// Adds to `z` the rigid motions of the patches that the forces `r` cause.
+    pub fn add(&self, coarse: &Coarse, r: &[Quad<f32>], z: &mut [Quad<f32>]) {
+        let Some(factor) = &coarse.factor else { return };
+        let mut motions: Vec<Lanes> = vec![[0.0; 8]; self.count];
+        for ((a, arm), r) in self.of.iter().zip(&coarse.arms).zip(r) {
+            let turn = cross(arm, r);
+            let wrench = &mut motions[*a];
+            for k in 0..3 {
+                wrench[k] += r[k];
+                wrench[3 + k] += turn[k];
             }
         }
-        values
+        self.symbolic.solve(factor, &mut motions, &mut vec![[0.0; 8]; self.count]);
+        for ((a, arm), z) in self.of.iter().zip(&coarse.arms).zip(z) {
+            let motion = &motions[*a];
+            let moved = cross(&[motion[3], motion[4], motion[5], 0.0], arm);
+            for k in 0..3 {
+                z[k] += motion[k] + moved[k];
+            }
+        }
     }
 }
 
 /// A factorised stiffness between patches.
-pub struct Coarse<'a> {
-    patches: &'a Patches,
-    arms: Vec<V3>,
-    factor: Option<Llt<usize, f64>>,
+pub struct Coarse {
+    /// From the middle of its patch to each vertex.
+    arms: Vec<Quad<f32>>,
+    /// `None` where the stiffness was not positive definite.
+    factor: Option<Numeric>,
 }
 
-impl Coarse<'_> {
-    /// Adds to `z` the rigid motions of the patches that the forces `r` cause.
-    pub fn add(&self, r: &[Quad<f32>], z: &mut [Quad<f32>]) {
-        let Some(factor) = &self.factor else { return };
-        let mut flat = vec![0.0; 6 * self.patches.count];
-        for ((a, arm), r) in self.patches.of.iter().zip(&self.arms).zip(r) {
-            let force = V3::new(f64::from(r[0]), f64::from(r[1]), f64::from(r[2]));
-            let turn = arm.cross(&force);
-            for k in 0..3 {
-                flat[6 * a + k] += force[k];
-                flat[6 * a + 3 + k] += turn[k];
-            }
-        }
-        let rows = flat.len();
-        factor.solve_in_place(MatMut::from_column_major_slice_mut(&mut flat, rows, 1));
-        for ((a, arm), z) in self.patches.of.iter().zip(&self.arms).zip(z) {
-            let motion = &flat[6 * a..6 * a + 6];
-            let moved = V3::new(motion[3], motion[4], motion[5]).cross(arm);
-            for k in 0..3 {
-                z[k] += (motion[k] + moved[k]) as f32;
-            }
-        }
-    }
+fn cross(a: &Quad<f32>, b: &Quad<f32>) -> [f32; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// `P^T m Q` for the rigid motions `P = [I, -[p]x]`, `Q = [I, -[q]x]` of two vertices at arms `p` and `q`.
@@ -274,14 +242,14 @@ mod tests {
             .zip(&coarse.arms)
             .map(|(&a, arm)| {
                 let [t, w] = [0, 3].map(|from| V3::new(q(a, from), q(a, from + 1), q(a, from + 2)));
-                rows::quad(&(t + w.cross(arm)))
+                rows::quad(&(t + w.cross(&V3::from_fn(|k, _| f64::from(arm[k])))))
             })
             .collect();
         let mut forces = vec![[0.0; 4]; x.len()];
         rows::Rows::<f64>::new(&operator).apply(&moved, &mut forces);
         let forces: Vec<Quad<f32>> = forces.iter().map(|f| f.map(|c| c as f32)).collect();
         let mut found = vec![[0.0; 4]; x.len()];
-        coarse.add(&forces, &mut found);
+        patches.add(&coarse, &forces, &mut found);
         for (found, moved) in found.iter().zip(&moved) {
             for k in 0..3 {
                 assert!((f64::from(found[k]) - moved[k]).abs() < 0.01, "{found:?} for {moved:?}");

@@ -14,11 +14,20 @@ pub struct PcgParams {
     pub max_iterations: usize,
 }
 
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Outcome {
+    /// Whether the tolerance was met.
+    pub is_solved: bool,
+    /// Iterations.
+    pub iterations: usize,
+}
+
 /// Writes `z = P r` for `(r, z)`.
 pub type Preconditioner<'a, T> = dyn Fn(&[Quad<T>], &mut [Quad<T>]) + 'a;
 
 /// Improves `x` towards the solution of `K x = b` with a preconditioner `z = P r`, starting at the best multiple of it; says
-/// whether the tolerance was met.
+/// how that ended.
 ///
 /// Every iterate descends the quadratic `x.K x / 2 - b.x`, so a run cut short still yields a descent direction.
 pub fn solve<T: RealField + Copy>(
@@ -27,7 +36,7 @@ pub fn solve<T: RealField + Copy>(
     b: &[V3],
     x: &mut [V3],
     params: &PcgParams,
-) -> bool {
+) -> Outcome {
     let n = b.len();
     let mut state: Vec<Quad<T>> = x.iter().map(rows::quad).collect();
     let solved = improve(operator, precondition, &b.iter().map(rows::quad).collect::<Vec<_>>(), &mut state, params);
@@ -44,7 +53,7 @@ fn improve<T: RealField + Copy>(
     b: &[Quad<T>],
     x: &mut [Quad<T>],
     params: &PcgParams,
-) -> bool {
+) -> Outcome {
     let n = b.len();
     let tolerance: T = nalgebra::convert(params.tolerance);
     let mut z = vec![[T::zero(); 4]; n];
@@ -62,14 +71,14 @@ fn improve<T: RealField + Copy>(
     let mut p = z.clone();
     let mut rz = dot(&r, &z);
     let nothing = T::default_epsilon().powi(3);
-    for _ in 0..params.max_iterations {
+    for iterations in 0..params.max_iterations {
         if rz <= goal || rz <= nothing {
-            return true;
+            return Outcome { is_solved: true, iterations };
         }
         operator.apply(&p, &mut kp);
         let curvature = dot(&p, &kp);
         if curvature <= T::zero() {
-            return true;
+            return Outcome { is_solved: true, iterations };
         }
         let alpha = rz / curvature;
         add_scaled(x, alpha, &p);
@@ -84,7 +93,7 @@ fn improve<T: RealField + Copy>(
             }
         }
     }
-    rz <= goal
+    Outcome { is_solved: rz <= goal, iterations: params.max_iterations }
 }
 
 fn add_scaled<T: RealField + Copy>(a: &mut [Quad<T>], scale: T, b: &[Quad<T>]) {

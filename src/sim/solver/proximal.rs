@@ -16,6 +16,7 @@ use super::operator::Operator;
 use super::pcg::PcgParams;
 use super::system::System;
 use crate::geom::V3;
+use crate::sim::cloth::membrane::Foreseen;
 
 /// How to step.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -113,11 +114,11 @@ impl Stepper {
         system.linear.solve(&operator, x, &forces, &mut direction, &linear);
         self.clamp(&mut direction);
         operator.diagonal = contacts;
-        let bend = self.correction(system, operator, x, &direction);
+        let foreseen = system.cloth.membrane.foresee(x, &direction);
+        let bend = self.correction(system, operator, x, &direction, &foreseen);
         let may_lengthen = self.h_s >= LENGTHENED_FROM_S;
         let (share, next) = search(system, x, [&direction, &bend], &forces, &inertia, may_lengthen);
-        direction.iter_mut().for_each(|d| *d *= share);
-        self.predicted = Some(system.cloth.membrane.predicted_stress(x, &direction));
+        self.predicted = Some(foreseen.iter().map(|f| f.after(share)).collect());
         self.last = Some(next.iter().zip(x.iter()).map(|(p, q)| p - q).collect());
         *x = next;
         system.contact.drag_anchors(x);
@@ -132,8 +133,15 @@ impl Stepper {
     }
 
     /// Second-order correction of a step; `operator` is that at `x`, without inertia.
-    fn correction(&self, system: &mut System, operator: Operator, x: &[V3], direction: &[V3]) -> Vec<V3> {
-        let (excess, mut operator) = system.excess(operator, x, direction);
+    fn correction(
+        &self,
+        system: &System,
+        operator: Operator,
+        x: &[V3],
+        direction: &[V3],
+        foreseen: &[Foreseen],
+    ) -> Vec<V3> {
+        let (excess, mut operator) = system.excess(operator, x, direction, foreseen);
         let h2 = self.params.correction_h_s * self.params.correction_h_s;
         let inertia: Vec<f64> = system.cloth.masses.iter().map(|m| m / h2).collect();
         add_inertia(&mut operator.diagonal, &inertia);

@@ -6,6 +6,7 @@ use super::linear::LinearSolver;
 use super::operator::Operator;
 use crate::geom::V3;
 use crate::sim::cloth::Cloth;
+use crate::sim::cloth::membrane::Foreseen;
 use crate::sim::contact::{BodyContact, ClothContact};
 use crate::sim::sewing::Springs;
 use crate::sim::walls::Walls;
@@ -120,15 +121,14 @@ impl<'a> System<'a> {
 
     /// Forces (N) by which stretching and contact at the end of a step `d` from `x` differ from what a linear solve at `x`
     /// foresaw, and the stiffness (N/m) that they have there, without bending and geometric parts. `operator` is that of
-    /// [`System::assemble`] at `x`.
-    pub fn excess(&self, operator: Operator<'a>, x: &[V3], d: &[V3]) -> (Vec<V3>, Operator<'a>) {
+    /// [`System::assemble`] at `x`, `membrane` what it foresees.
+    pub fn excess(&self, operator: Operator<'a>, x: &[V3], d: &[V3], membrane: &[Foreseen]) -> (Vec<V3>, Operator<'a>) {
         let end: Vec<V3> = x.iter().zip(d).map(|(p, d)| p + d).collect();
-        let membrane = &self.cloth.membrane;
         let mut excess = self.contact_forces(&end);
         let foreseen = self.contact_forces(x).into_iter().zip(operator.contact_forces(d)).map(|(f, kd)| f - kd);
         excess.iter_mut().zip(foreseen).for_each(|(e, f)| *e -= f);
-        let mut blocks = membrane.assemble_towards(&end, &membrane.predicted_stress(x, d), &mut excess);
-        self.cloth.bands.assemble_towards(x, &end, &membrane.pairs, &mut excess, &mut blocks);
+        let mut blocks = self.cloth.membrane.assemble_towards(&end, membrane, &mut excess);
+        self.cloth.bands.assemble_towards(x, &end, operator.membrane_pairs, &mut excess, &mut blocks);
         for &v in &self.held {
             excess[v] = V3::zeros();
         }
