@@ -82,7 +82,7 @@ impl Patches {
             regularise(&mut blocks[slot]);
         }
         let blocks: Vec<Dense> = blocks.into_iter().map(Into::into).collect();
-        Coarse { arms: arms.iter().map(|arm| rows::quad(arm)).collect(), factor: self.symbolic.factorise(&blocks) }
+        Coarse { arms: arms.iter().map(rows::quad).collect(), factor: self.symbolic.factorise(&blocks) }
     }
 
     /// From the middle of its patch to each vertex.
