@@ -7,6 +7,7 @@
 //! unseen. Cloth that already crosses when it is first seen passes through itself while the line along which it crosses
 //! is drawn out of it ([`super::tangle`]). There is no friction between layers.
 
+use super::advance;
 use super::nearest::{Nearest, Primitives, spanned_squared};
 use super::search::Neighbours;
 use super::tangle::{Crossing, Release, Wings, crossings};
@@ -34,6 +35,54 @@ impl Default for ClothContactParams {
     }
 }
 
+/// What a contact does at some distance, over its penalty stiffness.
+#[derive(Clone, Copy, Debug)]
+struct Push {
+    /// Energy, m2.
+    energy: f64,
+    /// Force, m.
+    force: f64,
+    stiffness: f64,
+}
+
+impl ClothContactParams {
+    /// At a distance: a spring over the thickness, and within half of it a barrier that no force overcomes [Li 2020].
+    /// `None` beyond the thickness.
+    fn push(&self, distance_m: f64, size_m: f64) -> Option<Push> {
+        let t = self.thickness_m.min(size_m);
+        let depth = t - distance_m;
+        // Not a number where a triangle has collapsed.
+        if depth.is_nan() || depth <= 0.0 {
+            return None;
+        }
+        let mut push = Push { energy: 0.5 * depth * depth, force: depth, stiffness: 1.0 };
+        let (knee, least) = (BARRIER_FROM * t, BARRIER_TO * t);
+        if distance_m < knee {
+            let d = distance_m.max(least);
+            let (u, log) = (knee - d, (knee / d).ln());
+            let barrier = Push {
+                energy: u * u * log,
+                force: u * (2.0 * log + u / d),
+                stiffness: 2.0 * log + 4.0 * u / d + u * u / (d * d),
+            };
+            // Nearer still it runs on as a parabola.
+            let below = d - distance_m;
+            push.energy += BARRIER * (barrier.energy + below * (barrier.force + 0.5 * below * barrier.stiffness));
+            push.force += BARRIER * (barrier.force + below * barrier.stiffness);
+            push.stiffness += BARRIER * barrier.stiffness;
+        }
+        Some(push)
+    }
+}
+
+/// Share of the thickness below which the barrier rises.
+const BARRIER_FROM: f64 = 0.5;
+/// Share of the thickness down to which it rises as a logarithm.
+const BARRIER_TO: f64 = 0.01;
+const SIZE: f64 = 0.5;
+/// Its strength over that of the spring.
+const BARRIER: f64 = 4.0;
+
 /// Squared sine of the angle between two edges below which their contact fades out: parallel edges have no one direction
 /// in which they face each other.
 const PARALLEL: f64 = 0.01;
@@ -48,20 +97,6 @@ struct Pair {
     primitives: Primitives,
     /// Distance when the pairs were sought, m.
     distance_m: f64,
-    /// Unit normal of the second primitive on the side where the first one was last seen within it.
-    away: V3,
-    /// Whether the nearest points then lay within both primitives.
-    is_within: bool,
-    /// Whether the first one was then on the wrong side: such a pair counts however far it is through.
-    has_slipped: bool,
-}
-
-impl Pair {
-    /// On which side of the second primitive the first belongs, 1 where its normal points: where it was seen, or where it
-    /// now is if it has come over a rim since.
-    fn side(&self, normal: &V3, gap: &V3) -> f64 {
-        normal.dot(if self.is_within { &self.away } else { gap }).signum()
-    }
 }
 
 /// How deep a pair is in contact at some positions.
@@ -70,8 +105,7 @@ struct Press {
     weights: [f64; 4],
     /// Direction away from the second primitive.
     normal: V3,
-    /// By how much the pair is nearer than the thickness, m.
-    depth: f64,
+    push: Push,
     /// Share of the contact that counts: less than 1 for nearly parallel edges.
     share: f64,
     /// Gradient of that share by the first edge and by the second.
@@ -142,7 +176,6 @@ impl<'a> ClothContact<'a> {
         if self.is_tangled {
             self.untangle(x);
         }
-        self.see_sides(x);
     }
 
     /// Finds what crosses, lets it pass, and the way out of it.
@@ -153,11 +186,6 @@ impl<'a> ClothContact<'a> {
         for v in found.iter().flat_map(|crossing| crossing.edge.into_iter().chain(crossing.triangle)) {
             self.tangled[v] = true;
         }
-        for pair in &mut self.pairs {
-            if pair.primitives.vertices().iter().any(|v| self.tangled[*v]) {
-                pair.is_within = false;
-            }
-        }
         self.releases.clear();
         if self.released < self.params.release_steps {
             self.released += 1;
@@ -166,84 +194,65 @@ impl<'a> ClothContact<'a> {
     }
 
     fn seek(&mut self, x: &[V3]) {
-        // All others have stayed apart: they lie on the side where they are.
-        let mut known: Vec<Pair> = self.near(x).map(|(_, pair)| *pair).collect();
-        known.sort_unstable_by_key(|pair| pair.primitives);
-        let mut found = Vec::new();
+        self.pairs.clear();
         for primitives in self.neighbours.within(x, self.reach_m) {
-            let nearest = Nearest::of(x, primitives);
-            let distance_m = nearest.gap.norm();
-            let Some(away) = nearest.gap.try_normalize(0.0).filter(|_| distance_m < self.reach_m) else { continue };
-            match known.binary_search_by_key(&primitives, |p| p.primitives) {
-                Ok(index) => found.push(Pair { distance_m, ..known[index] }),
-                Err(_) => found.push(Pair {
-                    primitives,
-                    distance_m,
-                    away,
-                    is_within: nearest.normal.is_some(),
-                    has_slipped: false,
-                }),
+            let distance_m = Nearest::of(x, primitives).gap.norm();
+            if distance_m < self.reach_m {
+                self.pairs.push(Pair { primitives, distance_m });
             }
         }
-        found.sort_unstable_by(|a, b| a.distance_m.total_cmp(&b.distance_m).then(a.primitives.cmp(&b.primitives)));
-        self.pairs = found;
+        let order = |a: &Pair, b: &Pair| a.distance_m.total_cmp(&b.distance_m).then(a.primitives.cmp(&b.primitives));
+        self.pairs.sort_unstable_by(order);
         self.found_at = x.to_vec();
     }
 
-    /// Remembers on which side the near pairs lie.
-    fn see_sides(&mut self, x: &[V3]) {
-        let near: Vec<(usize, Nearest)> = self.near(x).map(|(k, pair)| (k, Nearest::of(x, pair.primitives))).collect();
-        for (k, nearest) in near {
-            let pair = &mut self.pairs[k];
-            if let Some(normal) = nearest.normal {
-                pair.away = normal * pair.side(&normal, &nearest.gap);
-            }
-            pair.is_within = nearest.normal.is_some();
-            pair.has_slipped = pair.is_within && pair.away.dot(&nearest.gap) < 0.0;
-        }
+    /// How far each vertex has come since the pairs were sought, m.
+    fn moved(&self, x: &[V3]) -> Vec<f64> {
+        x.iter().zip(&self.found_at).map(|(p, q)| (p - q).norm()).collect()
     }
 
-    /// Pairs that can be in contact at `x`, with their places.
-    fn near<'s>(&'s self, x: &[V3]) -> impl Iterator<Item = (usize, &'s Pair)> + 's {
-        let moved: Vec<f64> = if self.pairs.is_empty() {
-            Vec::new()
-        } else {
-            x.iter().zip(&self.found_at).map(|(p, q)| (p - q).norm()).collect()
-        };
+    /// Pairs that can be nearer than `within_m` where their vertices have come as far as `moved`.
+    fn near<'s>(&'s self, moved: Vec<f64>, within_m: f64) -> impl Iterator<Item = Primitives> + 's {
         let most = moved.iter().copied().fold(0.0, f64::max);
-        let thickness = self.params.thickness_m;
-        let nearest = self.pairs.partition_point(|pair| pair.distance_m < thickness + 2.0 * most);
-        self.pairs.iter().enumerate().filter(move |(k, pair)| {
-            if !pair.has_slipped && *k >= nearest {
-                return false;
-            }
+        let nearest = self.pairs.partition_point(|pair| pair.distance_m < within_m + 2.0 * most);
+        let is_near = move |pair: &&Pair| {
             let [a, b, c, d] = pair.primitives.vertices().map(|v| moved[v]);
             let closing = match pair.primitives {
                 Primitives::VertexTriangle(_) => a + b.max(c).max(d),
                 Primitives::EdgeEdge(_) => a.max(b) + c.max(d),
             };
-            let is_near = pair.has_slipped || pair.distance_m < thickness + closing;
-            is_near && !pair.primitives.vertices().iter().any(|v| self.tangled[*v])
-        })
+            pair.distance_m < within_m + closing && !self.passes(pair.primitives)
+        };
+        self.pairs[..nearest].iter().filter(is_near).map(|pair| pair.primitives)
     }
 
-    fn press(&self, x: &[V3], pair: &Pair) -> Option<Press> {
-        let vertices = pair.primitives.vertices();
-        let nearest = Nearest::of(x, pair.primitives);
-        let (normal, height) = match nearest.normal {
-            Some(normal) => {
-                let normal = normal * pair.side(&normal, &nearest.gap);
-                (normal, normal.dot(&nearest.gap))
-            }
-            None => nearest.gap.try_normalize(0.0).map(|normal| (normal, nearest.gap.norm()))?,
-        };
-        let depth = self.params.thickness_m - height;
-        // Not a number where a triangle has collapsed.
-        if depth.is_nan() || depth <= 0.0 {
-            return None;
+    /// Whether both sides of a pair are tangled, so that neither hinders the other.
+    fn passes(&self, primitives: Primitives) -> bool {
+        let tangled = primitives.vertices().map(|v| self.tangled[v]);
+        match primitives {
+            Primitives::VertexTriangle(_) => tangled[0] && tangled[1..].contains(&true),
+            Primitives::EdgeEdge(_) => (tangled[0] || tangled[1]) && (tangled[2] || tangled[3]),
         }
-        let mut press = Press { vertices, weights: nearest.weights, normal, depth, share: 1.0, fading: None };
-        if let Primitives::EdgeEdge([a, b, c, d]) = pair.primitives {
+    }
+
+    /// Whether cloth would go through itself on the straight way from the last step to `x`.
+    fn is_barred(&self, x: &[V3]) -> bool {
+        let moved = self.moved(x);
+        if 2.0 * moved.iter().copied().fold(0.0, f64::max) >= self.reach_m {
+            return true;
+        }
+        let farthest = moved.iter().zip(self.moved(&self.last)).map(|(a, b)| a.max(b)).collect();
+        self.near(farthest, 0.0).any(|primitives| advance::meets(&self.last, x, primitives))
+    }
+
+    fn press(&self, x: &[V3], primitives: Primitives) -> Option<Press> {
+        let vertices = primitives.vertices();
+        let nearest = Nearest::of(x, primitives);
+        let height = nearest.gap.norm();
+        let normal = nearest.gap.try_normalize(0.0)?;
+        let push = self.params.push(height, SIZE * vertices.map(|v| self.areas[v]).into_iter().fold(f64::MAX, f64::min).sqrt())?;
+        let mut press = Press { vertices, weights: nearest.weights, normal, push, share: 1.0, fading: None };
+        if let Primitives::EdgeEdge([a, b, c, d]) = primitives {
             let edges_at = |x: &[V3]| [x[b] - x[a], x[d] - x[c]];
             let [u, w] = edges_at(&self.found_at);
             let full = PARALLEL * u.norm_squared() * w.norm_squared();
@@ -259,7 +268,7 @@ impl<'a> ClothContact<'a> {
     }
 
     fn presses<'s>(&'s self, x: &'s [V3]) -> impl Iterator<Item = Press> + 's {
-        self.near(x).filter_map(|(_, pair)| self.press(x, pair))
+        self.near(self.moved(x), self.params.thickness_m).filter_map(|primitives| self.press(x, primitives))
     }
 
     /// Penalty stiffness of a contact, N/m: by the smallest rest area among its vertices.
@@ -270,7 +279,10 @@ impl<'a> ClothContact<'a> {
     /// Contact energy, J.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {
-        let pressed = |press: Press| 0.5 * self.stiffness(&press) * press.share * press.depth * press.depth;
+        if self.is_barred(x) {
+            return f64::INFINITY;
+        }
+        let pressed = |press: Press| self.stiffness(&press) * press.share * press.push.energy;
         let released: f64 = self.releases.iter().map(|release| release.potential(x)).sum();
         self.presses(x).map(pressed).sum::<f64>() + self.params.release_n * released
     }
@@ -280,18 +292,18 @@ impl<'a> ClothContact<'a> {
         let mut contacts = Vec::new();
         for press in self.presses(x) {
             let k = self.stiffness(&press);
-            let Press { vertices, weights, normal, depth, share, fading } = press;
+            let Press { vertices, weights, normal, push, share, fading } = press;
             for i in 0..4 {
-                forces[vertices[i]] += normal * (share * k * depth * weights[i]);
+                forces[vertices[i]] += normal * (share * k * push.force * weights[i]);
             }
             if let Some(slopes) = fading {
                 for (slope, ends) in slopes.iter().zip([[0, 1], [2, 3]]) {
-                    let force = slope * (0.5 * k * depth * depth);
+                    let force = slope * (k * push.energy);
                     forces[vertices[ends[0]]] += force;
                     forces[vertices[ends[1]]] -= force;
                 }
             }
-            contacts.push(Contact4 { vertices, weights, normal, stiffness: share * k });
+            contacts.push(Contact4 { vertices, weights, normal, stiffness: share * k * push.stiffness });
         }
         for release in &self.releases {
             release.add_force(self.params.release_n, forces);

@@ -1,5 +1,6 @@
 //! Contact: cloth with body, cloth with itself.
 
+mod advance;
 pub mod body;
 pub mod cloth;
 pub mod grid;

@@ -11,7 +11,7 @@ use crate::sim::solver::PairList;
 pub struct Neighbours<'a> {
     triangles: &'a [[usize; 3]],
     edges: PairList,
-    /// Vertices that share a triangle with a vertex, itself included, sorted.
+    /// Vertices that a vertex, itself one of them, never meets, sorted.
     ring: Vec<Vec<usize>>,
 }
 
@@ -19,23 +19,22 @@ impl<'a> Neighbours<'a> {
     /// Of `vertices` vertices.
     #[must_use]
     pub fn new(triangles: &'a [[usize; 3]], vertices: usize) -> Self {
-        let mut ring = vec![Vec::new(); vertices];
-        for t in triangles {
-            for &v in t {
-                ring[v].extend_from_slice(t);
-            }
-        }
-        sort_each(&mut ring);
-        Self { triangles, edges: edges_of(triangles), ring }
+        Self { triangles, edges: edges_of(triangles), ring: (0..vertices).map(|v| vec![v]).collect() }
     }
 
-    /// Takes the neighbours of `sewn` pairs for neighbours of each other.
+    /// Takes what is next to either of a `sewn` pair for one.
     pub fn join(&mut self, sewn: impl Iterator<Item = [usize; 2]>) {
-        let unsewn = self.ring.clone();
+        let mut next = self.ring.clone();
+        for t in self.triangles {
+            for &v in t {
+                next[v].extend_from_slice(t);
+            }
+        }
+        sort_each(&mut next);
         for [a, b] in sewn {
             for (own, other) in [(a, b), (b, a)] {
-                for &v in &unsewn[own] {
-                    self.ring[v].extend_from_slice(&unsewn[other]);
+                for &v in &next[own] {
+                    self.ring[v].extend_from_slice(&next[other]);
                 }
             }
         }
@@ -93,7 +92,7 @@ impl<'a> Neighbours<'a> {
         pairs
     }
 
-    /// Whether no vertex of one side shares a triangle with one of the other.
+    /// Whether the two sides can meet.
     fn apart(&self, one: &[usize], other: &[usize]) -> bool {
         one.iter().all(|&v| other.iter().all(|w| self.ring[v].binary_search(w).is_err()))
     }
