@@ -126,7 +126,7 @@ pub struct ClothContact<'a> {
     last: Vec<V3>,
     is_tangled: bool,
     /// Vertices of what crosses: it has no right side, and passes until it has come free.
-    tangled: Vec<bool>,
+    tangled: Vec<[usize; 2]>,
     released: u32,
     releases: Vec<Release>,
 }
@@ -145,7 +145,7 @@ impl<'a> ClothContact<'a> {
             reach_m: params.reach_m,
             last: Vec::new(),
             is_tangled: false,
-            tangled: vec![false; areas.len()],
+            tangled: Vec::new(),
             released: 0,
             releases: Vec::new(),
         }
@@ -182,10 +182,13 @@ impl<'a> ClothContact<'a> {
     fn untangle(&mut self, x: &[V3]) {
         let found: Vec<Crossing> = crossings(x, self.neighbours.edges(), self.neighbours.triangles()).collect();
         self.is_tangled = !found.is_empty();
-        self.tangled = vec![false; x.len()];
-        for v in found.iter().flat_map(|crossing| crossing.edge.into_iter().chain(crossing.triangle)) {
-            self.tangled[v] = true;
+        self.tangled.clear();
+        for crossing in &found {
+            let each = crossing.edge.into_iter().flat_map(|v| crossing.triangle.map(|w| [v, w]));
+            self.tangled.extend(each.flat_map(|[v, w]| [[v, w], [w, v]]));
         }
+        self.tangled.sort_unstable();
+        self.tangled.dedup();
         self.releases.clear();
         if self.released < self.params.release_steps {
             self.released += 1;
@@ -228,10 +231,14 @@ impl<'a> ClothContact<'a> {
 
     /// Whether both sides of a pair are tangled, so that neither hinders the other.
     fn passes(&self, primitives: Primitives) -> bool {
-        let tangled = primitives.vertices().map(|v| self.tangled[v]);
+        if self.tangled.is_empty() {
+            return false;
+        }
+        let [a, b, c, d] = primitives.vertices();
+        let cross = |v: usize, w: usize| self.tangled.binary_search(&[v, w]).is_ok();
         match primitives {
-            Primitives::VertexTriangle(_) => tangled[0] && tangled[1..].contains(&true),
-            Primitives::EdgeEdge(_) => (tangled[0] || tangled[1]) && (tangled[2] || tangled[3]),
+            Primitives::VertexTriangle(_) => [b, c, d].into_iter().any(|w| cross(a, w)),
+            Primitives::EdgeEdge(_) => [a, b].into_iter().any(|v| cross(v, c) || cross(v, d)),
         }
     }
 

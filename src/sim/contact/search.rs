@@ -24,18 +24,10 @@ impl<'a> Neighbours<'a> {
 
     /// Takes what is next to either of a `sewn` pair for one.
     pub fn join(&mut self, sewn: impl Iterator<Item = [usize; 2]>) {
-        let mut next = self.ring.clone();
-        for t in self.triangles {
-            for &v in t {
-                next[v].extend_from_slice(t);
-            }
-        }
-        sort_each(&mut next);
         for [a, b] in sewn {
-            for (own, other) in [(a, b), (b, a)] {
-                for &v in &next[own] {
-                    self.ring[v].extend_from_slice(&next[other]);
-                }
+            let together: Vec<usize> = self.ring[a].iter().chain(&self.ring[b]).copied().collect();
+            for &v in &together {
+                self.ring[v].extend_from_slice(&together);
             }
         }
         sort_each(&mut self.ring);
