@@ -88,6 +88,12 @@ const BARRIER: f64 = 4.0;
 const PARALLEL: f64 = 0.01;
 /// Least movement that a search foresees, m.
 const LEAST_SLACK_M: f64 = 2e-3;
+/// Steps without fewer crossings after which they are drawn out harder.
+const PATIENCE: u32 = 4;
+/// Factor of that.
+const RELEASE_GROWTH: f64 = 1.5;
+/// Most that the force grows by in all.
+const MOST_RELEASE: f64 = 100.0;
 /// How far a step against a releasing force goes at most, m.
 const RELEASE_STEP_M: f64 = 2e-3;
 
@@ -128,6 +134,11 @@ pub struct ClothContact<'a> {
     /// Vertices of what crosses: it has no right side, and passes until it has come free.
     tangled: Vec<[usize; 2]>,
     released: u32,
+    /// Force that draws a crossing out, N: it grows where they do not get fewer.
+    release_n: f64,
+    /// Fewest crossings of the tangle so far, and for how many steps they have not got fewer.
+    least_tangled: usize,
+    stalled: u32,
     releases: Vec<Release>,
 }
 
@@ -147,6 +158,9 @@ impl<'a> ClothContact<'a> {
             is_tangled: false,
             tangled: Vec::new(),
             released: 0,
+            release_n: params.release_n,
+            least_tangled: usize::MAX,
+            stalled: 0,
             releases: Vec::new(),
         }
     }
@@ -190,6 +204,18 @@ impl<'a> ClothContact<'a> {
         self.tangled.sort_unstable();
         self.tangled.dedup();
         self.releases.clear();
+        if found.len() < self.least_tangled {
+            (self.least_tangled, self.stalled) = (found.len(), 0);
+        } else {
+            self.stalled += 1;
+        }
+        if self.stalled >= PATIENCE {
+            self.stalled = 0;
+            self.release_n = (self.release_n * RELEASE_GROWTH).min(MOST_RELEASE * self.params.release_n);
+        }
+        if found.is_empty() {
+            (self.least_tangled, self.stalled, self.release_n) = (usize::MAX, 0, self.params.release_n);
+        }
         if self.released < self.params.release_steps {
             self.released += 1;
             self.releases = found.iter().filter_map(|crossing| Release::of(x, &self.wings, crossing)).collect();
@@ -257,7 +283,9 @@ impl<'a> ClothContact<'a> {
         let nearest = Nearest::of(x, primitives);
         let height = nearest.gap.norm();
         let normal = nearest.gap.try_normalize(0.0)?;
-        let push = self.params.push(height, SIZE * vertices.map(|v| self.areas[v]).into_iter().fold(f64::MAX, f64::min).sqrt())?;
+        let push = self
+            .params
+            .push(height, SIZE * vertices.map(|v| self.areas[v]).into_iter().fold(f64::MAX, f64::min).sqrt())?;
         let mut press = Press { vertices, weights: nearest.weights, normal, push, share: 1.0, fading: None };
         if let Primitives::EdgeEdge([a, b, c, d]) = primitives {
             let edges_at = |x: &[V3]| [x[b] - x[a], x[d] - x[c]];
@@ -291,7 +319,7 @@ impl<'a> ClothContact<'a> {
         }
         let pressed = |press: Press| self.stiffness(&press) * press.share * press.push.energy;
         let released: f64 = self.releases.iter().map(|release| release.potential(x)).sum();
-        self.presses(x).map(pressed).sum::<f64>() + self.params.release_n * released
+        self.presses(x).map(pressed).sum::<f64>() + self.release_n * released
     }
 
     /// Adds the contact forces and returns the stiffness.
@@ -313,8 +341,8 @@ impl<'a> ClothContact<'a> {
             contacts.push(Contact4 { vertices, weights, normal, stiffness: share * k * push.stiffness });
         }
         for release in &self.releases {
-            release.add_force(self.params.release_n, forces);
-            contacts.extend(release.couplings(self.params.release_n / RELEASE_STEP_M));
+            release.add_force(self.release_n, forces);
+            contacts.extend(release.couplings(self.release_n / RELEASE_STEP_M));
         }
         contacts
     }
