@@ -11,7 +11,8 @@ const ADVANCE: f64 = 0.9;
 const MOST_ADVANCES: usize = 40;
 
 /// Whether a pair comes nearer than a tenth of its distance on the way from `x` to `y`, its vertices moving evenly: by
-/// conservative advancement, which goes on by as much as cannot use the distance up [Li 2021].
+/// conservative advancement, which goes on by as much as cannot use the distance up [Li 2021]. A pair that touches already
+/// has nothing to keep.
 #[must_use]
 pub fn meets(x: &[V3], y: &[V3], primitives: Primitives) -> bool {
     let vertices = primitives.vertices();
@@ -26,7 +27,7 @@ pub fn meets(x: &[V3], y: &[V3], primitives: Primitives) -> bool {
         Primitives::EdgeEdge(_) => a.max(b) + c.max(d),
     };
     let mut distance = Nearest::at(&at, primitives).gap.norm();
-    if distance > closing {
+    if distance > closing || distance == 0.0 {
         return false;
     }
     let least = KEPT * distance;

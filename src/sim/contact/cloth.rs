@@ -1,16 +1,19 @@
 //! Contact of the cloth with itself: vertices are kept a thickness away from triangles, edges from edges.
 //!
 //! Each pair is pushed apart by the true distance of its two primitives, which runs on smoothly where a nearest point
-//! slides over a rim (as in [Li 2020]): the energy has no steps, and a line search no place to stop at. While the nearest
-//! points lie within both primitives, the side on which the pair lies is remembered, so cloth that slips through in a
-//! step is pushed back to where it came from. Pairs are sought within a reach that no step can cross, so none is met
-//! unseen. Cloth that already crosses when it is first seen passes through itself while the line along which it crosses
-//! is drawn out of it ([`super::tangle`]). There is no friction between layers.
+//! slides over a rim [Li 2020]: the energy has no steps, and a line search no place to stop at. The push grows without
+//! bounds as two layers come near ([`super::barrier`]), so that no tension draws one through the other, and no step may
+//! take it through: where a pair would meet on the way from the last step ([`super::advance`]) the energy is infinite. All
+//! pairs that share no vertex are watched, so what does not cross never comes to. Pairs are sought within a reach that no
+//! step can cross, so none is met unseen. Cloth that already crosses when it is first seen passes through itself there,
+//! while the line along which it crosses is drawn out of it ([`super::knots`]). There is no friction between layers.
 
 use super::advance;
+use super::barrier::{Push, push};
+use super::knots::Knots;
 use super::nearest::{Nearest, Primitives, spanned_squared};
 use super::search::Neighbours;
-use super::tangle::{Crossing, Release, Wings, crossings};
+use super::tangle::{Crossing, crossings};
 use crate::geom::V3;
 use crate::sim::solver::Contact4;
 
@@ -23,9 +26,9 @@ pub struct ClothContactParams {
     pub stiffness_n_m3: f64,
     /// Pairs are sought up to this distance at most, m: twice what a vertex moves in a step.
     pub reach_m: f64,
-    /// Force that draws a crossing out, N.
+    /// Force that draws a crossing out, N; it grows where that does not do.
     pub release_n: f64,
-    /// Steps for which crossings are drawn out: what is still tangled then is held so by the body.
+    /// Steps for which crossings are drawn out.
     pub release_steps: u32,
 }
 
@@ -35,67 +38,15 @@ impl Default for ClothContactParams {
     }
 }
 
-/// What a contact does at some distance, over its penalty stiffness.
-#[derive(Clone, Copy, Debug)]
-struct Push {
-    /// Energy, m2.
-    energy: f64,
-    /// Force, m.
-    force: f64,
-    stiffness: f64,
-}
-
-impl ClothContactParams {
-    /// At a distance: a spring over the thickness, and within half of it a barrier that no force overcomes [Li 2020].
-    /// `None` beyond the thickness.
-    fn push(&self, distance_m: f64, size_m: f64) -> Option<Push> {
-        let t = self.thickness_m.min(size_m);
-        let depth = t - distance_m;
-        // Not a number where a triangle has collapsed.
-        if depth.is_nan() || depth <= 0.0 {
-            return None;
-        }
-        let mut push = Push { energy: 0.5 * depth * depth, force: depth, stiffness: 1.0 };
-        let (knee, least) = (BARRIER_FROM * t, BARRIER_TO * t);
-        if distance_m < knee {
-            let d = distance_m.max(least);
-            let (u, log) = (knee - d, (knee / d).ln());
-            let barrier = Push {
-                energy: u * u * log,
-                force: u * (2.0 * log + u / d),
-                stiffness: 2.0 * log + 4.0 * u / d + u * u / (d * d),
-            };
-            // Nearer still it runs on as a parabola.
-            let below = d - distance_m;
-            push.energy += BARRIER * (barrier.energy + below * (barrier.force + 0.5 * below * barrier.stiffness));
-            push.force += BARRIER * (barrier.force + below * barrier.stiffness);
-            push.stiffness += BARRIER * barrier.stiffness;
-        }
-        Some(push)
-    }
-}
-
-/// Share of the thickness below which the barrier rises.
-const BARRIER_FROM: f64 = 0.5;
-/// Share of the thickness down to which it rises as a logarithm.
-const BARRIER_TO: f64 = 0.01;
-const SIZE: f64 = 0.5;
-/// Its strength over that of the spring.
-const BARRIER: f64 = 4.0;
-
 /// Squared sine of the angle between two edges below which their contact fades out: parallel edges have no one direction
 /// in which they face each other.
 const PARALLEL: f64 = 0.01;
 /// Least movement that a search foresees, m.
 const LEAST_SLACK_M: f64 = 2e-3;
-/// Steps without fewer crossings after which they are drawn out harder.
-const PATIENCE: u32 = 4;
-/// Factor of that.
-const RELEASE_GROWTH: f64 = 1.5;
-/// Most that the force grows by in all.
-const MOST_RELEASE: f64 = 100.0;
-/// How far a step against a releasing force goes at most, m.
-const RELEASE_STEP_M: f64 = 2e-3;
+/// Search distance over the size of triangles: what moves farther than that on a fine mesh could as well be seen twice.
+const REACH_SIZES: f64 = 2.0;
+/// Thickness of a contact over the size of triangles, at most: within a flat cloth none pushes its neighbours.
+const THICKNESS_SIZES: f64 = 0.5;
 
 /// A pair that is near.
 #[derive(Clone, Copy, Debug)]
@@ -112,6 +63,8 @@ struct Press {
     /// Direction away from the second primitive.
     normal: V3,
     push: Push,
+    /// Penalty stiffness: by the smallest rest area among the vertices.
+    stiffness_n_m: f64,
     /// Share of the contact that counts: less than 1 for nearly parallel edges.
     share: f64,
     /// Gradient of that share by the first edge and by the second.
@@ -122,7 +75,6 @@ struct Press {
 pub struct ClothContact<'a> {
     params: ClothContactParams,
     neighbours: Neighbours<'a>,
-    wings: Wings,
     areas: &'a [f64],
     /// Nearest first.
     pairs: Vec<Pair>,
@@ -130,95 +82,53 @@ pub struct ClothContact<'a> {
     reach_m: f64,
     /// Where the cloth was at the last step.
     last: Vec<V3>,
-    is_tangled: bool,
-    /// Vertices of what crosses: it has no right side, and passes until it has come free.
-    tangled: Vec<[usize; 2]>,
-    released: u32,
-    /// Force that draws a crossing out, N: it grows where they do not get fewer.
-    release_n: f64,
-    /// Fewest crossings of the tangle so far, and for how many steps they have not got fewer.
-    least_tangled: usize,
-    stalled: u32,
-    releases: Vec<Release>,
+    knots: Knots,
 }
 
 impl<'a> ClothContact<'a> {
     /// Self-contact over the triangles of a cloth; `areas` are the vertices' rest areas, m2.
     #[must_use]
     pub fn new(params: ClothContactParams, triangles: &'a [[usize; 3]], areas: &'a [f64]) -> Self {
+        let least = params.thickness_m + 3.0 * LEAST_SLACK_M;
+        let size = (areas.iter().sum::<f64>() / areas.len().max(1) as f64).sqrt();
+        let reach_m = params.reach_m.min((REACH_SIZES * size).max(least));
         Self {
-            params,
+            params: ClothContactParams { reach_m, ..params },
             neighbours: Neighbours::new(triangles, areas.len()),
-            wings: Wings::new(triangles),
             areas,
             pairs: Vec::new(),
             found_at: Vec::new(),
-            reach_m: params.reach_m,
+            reach_m,
             last: Vec::new(),
-            is_tangled: false,
-            tangled: Vec::new(),
-            released: 0,
-            release_n: params.release_n,
-            least_tangled: usize::MAX,
-            stalled: 0,
-            releases: Vec::new(),
+            knots: Knots::new(triangles, params.release_n, params.release_steps),
         }
     }
 
-    /// Leaves alone what is near `sewn` pairs, which will join, and what crosses: for cloth that is being sewn.
+    /// Takes `sewn` pairs for one vertex each, and leaves alone what crosses: for cloth that is being sewn.
     #[must_use]
     pub fn but_near(mut self, sewn: impl Iterator<Item = [usize; 2]>) -> Self {
         self.neighbours.join(sewn);
-        self.params.release_steps = 0;
+        self.knots.leave();
         self
     }
 
     /// Looks at where the cloth has come in a step: seeks near pairs anew where it has moved so far that one could be
-    /// missed in the next, remembers on which side each lies, and finds the way out of crossings.
+    /// missed in the next, and finds the way out of crossings.
     pub fn update(&mut self, x: &[V3]) {
         let step = if self.last.len() == x.len() { farthest(x, &self.last) } else { self.params.reach_m };
         self.last = x.to_vec();
         let expected = 1.5 * step;
         let moved = if self.found_at.len() == x.len() { farthest(x, &self.found_at) } else { f64::MAX };
-        if moved + expected > 0.5 * (self.reach_m - self.params.thickness_m) {
+        let is_to_seek = moved + expected > 0.5 * (self.reach_m - self.params.thickness_m);
+        if is_to_seek {
             let wanted = self.params.thickness_m + 2.0 * (expected + expected.max(LEAST_SLACK_M));
             self.reach_m = wanted.min(self.params.reach_m);
             self.seek(x);
-            // Only cloth that has moved can have come to cross.
-            self.is_tangled = true;
         }
-        if self.is_tangled {
-            self.untangle(x);
-        }
-    }
-
-    /// Finds what crosses, lets it pass, and the way out of it.
-    fn untangle(&mut self, x: &[V3]) {
-        let found: Vec<Crossing> = crossings(x, self.neighbours.edges(), self.neighbours.triangles()).collect();
-        self.is_tangled = !found.is_empty();
-        self.tangled.clear();
-        for crossing in &found {
-            let each = crossing.edge.into_iter().flat_map(|v| crossing.triangle.map(|w| [v, w]));
-            self.tangled.extend(each.flat_map(|[v, w]| [[v, w], [w, v]]));
-        }
-        self.tangled.sort_unstable();
-        self.tangled.dedup();
-        self.releases.clear();
-        if found.len() < self.least_tangled {
-            (self.least_tangled, self.stalled) = (found.len(), 0);
-        } else {
-            self.stalled += 1;
-        }
-        if self.stalled >= PATIENCE {
-            self.stalled = 0;
-            self.release_n = (self.release_n * RELEASE_GROWTH).min(MOST_RELEASE * self.params.release_n);
-        }
-        if found.is_empty() {
-            (self.least_tangled, self.stalled, self.release_n) = (usize::MAX, 0, self.params.release_n);
-        }
-        if self.released < self.params.release_steps {
-            self.released += 1;
-            self.releases = found.iter().filter_map(|crossing| Release::of(x, &self.wings, crossing)).collect();
+        // Nothing comes to cross in a step; but cloth may have been moved by others.
+        if is_to_seek || !self.knots.is_empty() {
+            let found: Vec<Crossing> = crossings(x, self.neighbours.edges(), self.neighbours.triangles()).collect();
+            self.knots.see(x, &found);
         }
     }
 
@@ -250,22 +160,9 @@ impl<'a> ClothContact<'a> {
                 Primitives::VertexTriangle(_) => a + b.max(c).max(d),
                 Primitives::EdgeEdge(_) => a.max(b) + c.max(d),
             };
-            pair.distance_m < within_m + closing && !self.passes(pair.primitives)
+            pair.distance_m < within_m + closing && !self.knots.pass(pair.primitives)
         };
         self.pairs[..nearest].iter().filter(is_near).map(|pair| pair.primitives)
-    }
-
-    /// Whether both sides of a pair are tangled, so that neither hinders the other.
-    fn passes(&self, primitives: Primitives) -> bool {
-        if self.tangled.is_empty() {
-            return false;
-        }
-        let [a, b, c, d] = primitives.vertices();
-        let cross = |v: usize, w: usize| self.tangled.binary_search(&[v, w]).is_ok();
-        match primitives {
-            Primitives::VertexTriangle(_) => [b, c, d].into_iter().any(|w| cross(a, w)),
-            Primitives::EdgeEdge(_) => [a, b].into_iter().any(|v| cross(v, c) || cross(v, d)),
-        }
     }
 
     /// Whether cloth would go through itself on the straight way from the last step to `x`.
@@ -281,12 +178,12 @@ impl<'a> ClothContact<'a> {
     fn press(&self, x: &[V3], primitives: Primitives) -> Option<Press> {
         let vertices = primitives.vertices();
         let nearest = Nearest::of(x, primitives);
-        let height = nearest.gap.norm();
         let normal = nearest.gap.try_normalize(0.0)?;
-        let push = self
-            .params
-            .push(height, SIZE * vertices.map(|v| self.areas[v]).into_iter().fold(f64::MAX, f64::min).sqrt())?;
-        let mut press = Press { vertices, weights: nearest.weights, normal, push, share: 1.0, fading: None };
+        let area = vertices.iter().map(|&v| self.areas[v]).fold(f64::MAX, f64::min);
+        let push = push(nearest.gap.norm(), self.params.thickness_m.min(THICKNESS_SIZES * area.sqrt()))?;
+        let stiffness_n_m = self.params.stiffness_n_m3 * area;
+        let mut press =
+            Press { vertices, weights: nearest.weights, normal, push, stiffness_n_m, share: 1.0, fading: None };
         if let Primitives::EdgeEdge([a, b, c, d]) = primitives {
             let edges_at = |x: &[V3]| [x[b] - x[a], x[d] - x[c]];
             let [u, w] = edges_at(&self.found_at);
@@ -306,28 +203,22 @@ impl<'a> ClothContact<'a> {
         self.near(self.moved(x), self.params.thickness_m).filter_map(|primitives| self.press(x, primitives))
     }
 
-    /// Penalty stiffness of a contact, N/m: by the smallest rest area among its vertices.
-    fn stiffness(&self, press: &Press) -> f64 {
-        self.params.stiffness_n_m3 * press.vertices.iter().map(|&v| self.areas[v]).fold(f64::MAX, f64::min)
-    }
-
-    /// Contact energy, J.
+    /// Contact energy, J; infinite where the cloth would go through itself on the way from the last step, so that no line
+    /// search goes there.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {
         if self.is_barred(x) {
             return f64::INFINITY;
         }
-        let pressed = |press: Press| self.stiffness(&press) * press.share * press.push.energy;
-        let released: f64 = self.releases.iter().map(|release| release.potential(x)).sum();
-        self.presses(x).map(pressed).sum::<f64>() + self.release_n * released
+        let pressed = |press: Press| press.stiffness_n_m * press.share * press.push.energy;
+        self.presses(x).map(pressed).sum::<f64>() + self.knots.energy(x)
     }
 
     /// Adds the contact forces and returns the stiffness.
     pub fn assemble(&self, x: &[V3], forces: &mut [V3]) -> Vec<Contact4> {
         let mut contacts = Vec::new();
         for press in self.presses(x) {
-            let k = self.stiffness(&press);
-            let Press { vertices, weights, normal, push, share, fading } = press;
+            let Press { vertices, weights, normal, push, stiffness_n_m: k, share, fading } = press;
             for i in 0..4 {
                 forces[vertices[i]] += normal * (share * k * push.force * weights[i]);
             }
@@ -340,10 +231,7 @@ impl<'a> ClothContact<'a> {
             }
             contacts.push(Contact4 { vertices, weights, normal, stiffness: share * k * push.stiffness });
         }
-        for release in &self.releases {
-            release.add_force(self.release_n, forces);
-            contacts.extend(release.couplings(self.release_n / RELEASE_STEP_M));
-        }
+        self.knots.assemble(forces, &mut contacts);
         contacts
     }
 }
