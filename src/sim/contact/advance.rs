@@ -27,10 +27,10 @@ pub fn meets(x: &[V3], y: &[V3], primitives: Primitives) -> bool {
         Primitives::EdgeEdge(_) => a.max(b) + c.max(d),
     };
     let mut distance = Nearest::at(&at, primitives).gap.norm();
-    if distance > closing || distance == 0.0 {
+    let least = KEPT * distance;
+    if distance - least > closing || distance == 0.0 {
         return false;
     }
-    let least = KEPT * distance;
     let mut time = 0.0;
     for _ in 0..MOST_ADVANCES {
         let advance = ADVANCE * (distance - least) / closing;
@@ -45,4 +45,36 @@ pub fn meets(x: &[V3], y: &[V3], primitives: Primitives) -> bool {
         }
     }
     true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_passes_does_not_meet_and_what_goes_through_does() {
+        let triangle = [V3::zeros(), V3::new(0.02, 0.0, 0.0), V3::new(0.0, 0.02, 0.0)];
+        let check = |from: [f64; 3], to: [f64; 3], expect: bool| {
+            let with = |p: [f64; 3]| [vec![V3::from(p)], triangle.to_vec()].concat();
+            let pair = Primitives::VertexTriangle([0, 1, 2, 3]);
+            assert_eq!(meets(&with(from), &with(to), pair), expect, "{from:?} to {to:?}");
+            // Together with the triangle it may go wherever it likes.
+            let [x, mut y] = [from, from].map(with);
+            y.iter_mut().for_each(|p| *p += V3::new(0.3, -0.2, 1.0));
+            assert!(!meets(&x, &y, pair));
+        };
+        check([0.005, 0.005, 1e-3], [0.005, 0.005, -1e-3], true);
+        check([0.005, 0.005, 1e-3], [0.005, 0.005, 5e-5], true);
+        check([0.005, 0.005, 1e-3], [0.005, 0.005, 2e-4], false);
+        check([0.002, 0.002, 1e-4], [0.009, 0.009, 1e-4], false);
+        check([-0.005, 0.005, 1e-3], [-0.005, 0.005, -1e-3], false);
+        check([-0.005, 0.005, 1e-3], [0.005, 0.005, -1e-3], true);
+        let crossed = |height: f64| {
+            let [a, b] = [V3::new(-0.01, 0.0, height), V3::new(0.01, 0.0, height)];
+            [a, b, V3::new(0.0, -0.01, 0.0), V3::new(0.0, 0.01, 0.0)]
+        };
+        let edges = Primitives::EdgeEdge([0, 1, 2, 3]);
+        assert!(meets(&crossed(1e-3), &crossed(-2e-3), edges));
+        assert!(!meets(&crossed(1e-3), &crossed(4e-4), edges));
+    }
 }

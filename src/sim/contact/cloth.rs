@@ -42,9 +42,13 @@ impl Default for ClothContactParams {
 /// in which they face each other.
 const PARALLEL: f64 = 0.01;
 /// Least movement that a search foresees, m.
-const LEAST_SLACK_M: f64 = 2e-3;
-/// Search distance over the size of triangles: what moves farther than that on a fine mesh could as well be seen twice.
+const LEAST_SLACK_M: f64 = 1e-3;
+/// Greatest search distance over the size of triangles: about a vertex of a finer mesh lie no more pairs.
 const REACH_SIZES: f64 = 2.0;
+/// Least greatest search distance, m: a step goes half as far at most.
+const LEAST_REACH_M: f64 = 8e-3;
+/// Shells of distance by which pairs are sorted.
+const SHELLS: f64 = 64.0;
 /// Thickness of a contact over the size of triangles, at most: within a flat cloth none pushes its neighbours.
 const THICKNESS_SIZES: f64 = 0.5;
 
@@ -76,7 +80,7 @@ pub struct ClothContact<'a> {
     params: ClothContactParams,
     neighbours: Neighbours<'a>,
     areas: &'a [f64],
-    /// Nearest first.
+    /// Nearest first, as far as shells tell.
     pairs: Vec<Pair>,
     found_at: Vec<V3>,
     reach_m: f64,
@@ -89,9 +93,8 @@ impl<'a> ClothContact<'a> {
     /// Self-contact over the triangles of a cloth; `areas` are the vertices' rest areas, m2.
     #[must_use]
     pub fn new(params: ClothContactParams, triangles: &'a [[usize; 3]], areas: &'a [f64]) -> Self {
-        let least = params.thickness_m + 3.0 * LEAST_SLACK_M;
         let size = (areas.iter().sum::<f64>() / areas.len().max(1) as f64).sqrt();
-        let reach_m = params.reach_m.min((REACH_SIZES * size).max(least));
+        let reach_m = params.reach_m.min((REACH_SIZES * size).max(LEAST_REACH_M));
         Self {
             params: ClothContactParams { reach_m, ..params },
             neighbours: Neighbours::new(triangles, areas.len()),
@@ -140,8 +143,8 @@ impl<'a> ClothContact<'a> {
                 self.pairs.push(Pair { primitives, distance_m });
             }
         }
-        let order = |a: &Pair, b: &Pair| a.distance_m.total_cmp(&b.distance_m).then(a.primitives.cmp(&b.primitives));
-        self.pairs.sort_unstable_by(order);
+        let reach_m = self.reach_m;
+        self.pairs.sort_by_key(|pair| shell(pair.distance_m, reach_m));
         self.found_at = x.to_vec();
     }
 
@@ -153,7 +156,8 @@ impl<'a> ClothContact<'a> {
     /// Pairs that can be nearer than `within_m` where their vertices have come as far as `moved`.
     fn near<'s>(&'s self, moved: Vec<f64>, within_m: f64) -> impl Iterator<Item = Primitives> + 's {
         let most = moved.iter().copied().fold(0.0, f64::max);
-        let nearest = self.pairs.partition_point(|pair| pair.distance_m < within_m + 2.0 * most);
+        let last = shell(within_m + 2.0 * most, self.reach_m);
+        let nearest = self.pairs.partition_point(|pair| shell(pair.distance_m, self.reach_m) <= last);
         let is_near = move |pair: &&Pair| {
             let [a, b, c, d] = pair.primitives.vertices().map(|v| moved[v]);
             let closing = match pair.primitives {
@@ -234,6 +238,11 @@ impl<'a> ClothContact<'a> {
         self.knots.assemble(forces, &mut contacts);
         contacts
     }
+}
+
+/// Which of the shells that part the reach a distance falls in.
+fn shell(distance_m: f64, reach_m: f64) -> u8 {
+    (SHELLS * distance_m / reach_m) as u8
 }
 
 /// Greatest distance of a vertex from where it was, m.
