@@ -42,7 +42,7 @@ impl Default for ClothContactParams {
 /// in which they face each other.
 const PARALLEL: f64 = 0.01;
 /// Least movement that a search foresees, m.
-const LEAST_SLACK_M: f64 = 1e-3;
+const LEAST_SLACK_M: f64 = 2e-3;
 /// Greatest search distance over the size of triangles: about a vertex of a finer mesh lie no more pairs.
 const REACH_SIZES: f64 = 2.0;
 /// Least greatest search distance, m: a step goes half as far at most.
