@@ -11,7 +11,7 @@ const ADVANCE: f64 = 0.9;
 const MOST_ADVANCES: usize = 40;
 
 /// Whether a pair comes nearer than a tenth of its distance on the way from `x` to `y`, its vertices moving evenly: by
-/// conservative advancement, which goes on by as much as cannot use the distance up [Li 2021]. A pair that touches already
+/// conservative advancement, which goes on by as much as cannot use the distance up [Li, Kaufman, Jiang 2021]. A pair that touches already
 /// has nothing to keep.
 #[must_use]
 pub fn meets(x: &[V3], y: &[V3], primitives: Primitives) -> bool {
