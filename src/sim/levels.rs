@@ -4,6 +4,7 @@ use nalgebra::Matrix3;
 
 use super::Fabric;
 use super::cloth::Cloth;
+use super::contact::tangle::held_apart;
 use super::solver::pcg::PcgParams;
 use super::solver::{Operator, linear};
 use crate::geom::triangle::sorted;
@@ -14,14 +15,15 @@ use crate::pattern::Garment;
 const ROUNDED_EDGES: f64 = 3.0;
 
 /// World positions for the vertices of `cloth`, which is `fine` sewn: the drape of `coarse` at their places in the pieces'
-/// planes, its facets rounded.
+/// planes, its facets rounded where that does not make it pierce itself.
 ///
 /// Left in, the facets stay: a dimple is nearly an isometry, and stretching keeps it from popping out.
 #[must_use]
 pub fn prolong(coarse: &Garment, coarse_positions: &[V3], fine: &Garment, cloth: &Cloth, fabric: &Fabric) -> Vec<V3> {
-    let mut x = cloth.weld(&evaluate(coarse, coarse_positions, fine));
-    round_off(cloth, fabric, ROUNDED_EDGES * coarse.edge_length_m, &mut x);
-    x
+    let x = cloth.weld(&evaluate(coarse, coarse_positions, fine));
+    let mut rounded = x.clone();
+    round_off(cloth, fabric, ROUNDED_EDGES * coarse.edge_length_m, &mut rounded);
+    held_apart(&x, &rounded, &cloth.triangles)
 }
 
 /// Lets the cloth bend, and nothing else, until waves of length `wave_m` have lost half their height.

@@ -1,8 +1,11 @@
 //! Contact: cloth with body, cloth with itself.
 
+mod advance;
+mod barrier;
 pub mod body;
 pub mod cloth;
 pub mod grid;
+mod knots;
 pub mod nearest;
 pub mod search;
 pub mod skin;

@@ -37,14 +37,19 @@ impl Nearest {
     /// Nearest points at `x`.
     #[must_use]
     pub fn of(x: &[V3], primitives: Primitives) -> Self {
-        let corners = primitives.vertices().map(|v| x[v]);
+        Self::at(&primitives.vertices().map(|v| x[v]), primitives)
+    }
+
+    /// Nearest points of a pair whose vertices are at `corners`.
+    #[must_use]
+    pub fn at(corners: &[V3; 4], primitives: Primitives) -> Self {
         let (weights, within) = match primitives {
             Primitives::VertexTriangle(_) => {
-                let [p, a, b, c] = corners;
+                let [p, a, b, c] = *corners;
                 let ([wa, wb, wc], is_within) = triangle::nearest(&p, &[a, b, c]);
                 ([1.0, -wa, -wb, -wc], is_within)
             }
-            Primitives::EdgeEdge(_) => edge_edge(&corners),
+            Primitives::EdgeEdge(_) => edge_edge(corners),
         };
         let gap: V3 = (0..4).map(|k| corners[k] * weights[k]).sum();
         let cross = match primitives {

@@ -1,4 +1,4 @@
-//! The search for parts of a cloth that are near each other and not neighbours in it.
+//! The search for parts of a cloth that are near each other and share no vertex.
 
 use super::grid::BoxGrid;
 use super::nearest::Primitives;
@@ -11,35 +11,23 @@ use crate::sim::solver::PairList;
 pub struct Neighbours<'a> {
     triangles: &'a [[usize; 3]],
     edges: PairList,
-    /// Vertices that share a triangle with a vertex, itself included, sorted.
-    ring: Vec<Vec<usize>>,
+    /// One of the vertices that a vertex is sewn to, the same for all of them.
+    joined: Vec<usize>,
 }
 
 impl<'a> Neighbours<'a> {
     /// Of `vertices` vertices.
     #[must_use]
     pub fn new(triangles: &'a [[usize; 3]], vertices: usize) -> Self {
-        let mut ring = vec![Vec::new(); vertices];
-        for t in triangles {
-            for &v in t {
-                ring[v].extend_from_slice(t);
-            }
-        }
-        sort_each(&mut ring);
-        Self { triangles, edges: edges_of(triangles), ring }
+        Self { triangles, edges: edges_of(triangles), joined: (0..vertices).collect() }
     }
 
-    /// Takes the neighbours of `sewn` pairs for neighbours of each other.
+    /// Takes the two of each `sewn` pair for one vertex.
     pub fn join(&mut self, sewn: impl Iterator<Item = [usize; 2]>) {
-        let unsewn = self.ring.clone();
         for [a, b] in sewn {
-            for (own, other) in [(a, b), (b, a)] {
-                for &v in &unsewn[own] {
-                    self.ring[v].extend_from_slice(&unsewn[other]);
-                }
-            }
+            let (kept, gone) = (self.joined[a], self.joined[b]);
+            self.joined.iter_mut().filter(|v| **v == gone).for_each(|v| *v = kept);
         }
-        sort_each(&mut self.ring);
     }
 
     /// The cloth's edges.
@@ -93,18 +81,11 @@ impl<'a> Neighbours<'a> {
         pairs
     }
 
-    /// Whether no vertex of one side shares a triangle with one of the other.
+    /// Whether the two sides have no vertex in common.
     fn apart(&self, one: &[usize], other: &[usize]) -> bool {
-        one.iter().all(|&v| other.iter().all(|w| self.ring[v].binary_search(w).is_err()))
+        one.iter().all(|&v| other.iter().all(|&w| self.joined[v] != self.joined[w]))
     }
 }
 
 /// Least cell of the grid, m: smaller ones hold each triangle many times.
 const CELL_M: f64 = 0.02;
-
-fn sort_each(rings: &mut [Vec<usize>]) {
-    for ring in rings {
-        ring.sort_unstable();
-        ring.dedup();
-    }
-}

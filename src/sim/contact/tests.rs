@@ -1,10 +1,15 @@
 //! What contact does with single triangles.
 
 use super::grid::BoxGrid;
-use super::tangle::{Release, Wings, crossings, edges_of};
-use super::{BodyContact, ContactParams, Skin};
-use crate::geom::{DistanceField, V3, shapes};
-use crate::sim::testing::check_forces;
+use super::tangle::{Release, Wings, crossings, edges_of, held_apart};
+use super::{BodyContact, ClothContact, ClothContactParams, ContactParams, Skin};
+use crate::geom::{DistanceField, V2, V3, shapes};
+use crate::sim::cloth::Cloth;
+use crate::sim::laboratory::{self, settle, sheets::sheet};
+use crate::sim::quality;
+use crate::sim::sewing::unsewn;
+use crate::sim::solver::System;
+use crate::sim::testing::{check_forces, fabric};
 
 #[test]
 fn a_chord_through_the_body_is_held_out() {
@@ -36,11 +41,16 @@ fn a_chord_through_the_body_is_held_out() {
     assert!(contact.energy(&x) > before);
 }
 
+/// A triangle, and another whose corner is at some height above it, pointing down.
+fn poking(height: f64) -> Vec<V3> {
+    let sheet = [V3::new(-0.05, -0.05, 0.0), V3::new(0.05, -0.05, 0.0), V3::new(0.0, 0.08, 0.0)];
+    let poking = [V3::zeros(), V3::new(0.03, 0.0, 0.04), V3::new(-0.03, 0.002, 0.04)];
+    sheet.into_iter().chain(poking.map(|p| p + V3::new(0.0, 0.0, height))).collect()
+}
+
 #[test]
 fn a_corner_that_pokes_through_cloth_is_drawn_back() {
-    let sheet = [V3::new(-0.05, -0.05, 0.0), V3::new(0.05, -0.05, 0.0), V3::new(0.0, 0.08, 0.0)];
-    let poking = [V3::new(0.0, 0.0, -0.01), V3::new(0.03, 0.0, 0.03), V3::new(-0.03, 0.002, 0.03)];
-    let x: Vec<V3> = sheet.into_iter().chain(poking).collect();
+    let x = poking(-0.01);
     let triangles = [[0, 1, 2], [3, 4, 5]];
     let wings = Wings::new(&triangles);
     let edges = edges_of(&triangles);
@@ -75,4 +85,133 @@ fn the_grid_finds_all_boxes_within_reach_and_no_others() {
         let expected: Vec<usize> = (0..sets.len()).filter(|k| meets(&sets[*k])).collect();
         assert_eq!(grid.near([&x[edge[0]], &x[edge[1]]]).collect::<Vec<_>>(), expected);
     }
+}
+
+/// Triangles of a large sheet and a small one.
+fn two_sheets() -> (Vec<V2>, Vec<V2>, Vec<[usize; 3]>) {
+    let ((large, mut triangles), (small, others)) = (sheet(4, 4, 0.02), sheet(1, 1, 0.005));
+    triangles.extend(others.iter().map(|t| t.map(|v| v + large.len())));
+    (large, small, triangles)
+}
+
+#[test]
+fn cloth_is_pushed_off_cloth_and_no_step_takes_it_through() {
+    let (large, small, triangles) = two_sheets();
+    let at = |[x, y, z]: [f64; 3]| -> Vec<V3> {
+        let upper = small.iter().map(|p| V3::new(p.x + 0.033 + x, p.y + 0.0305 + y, z));
+        large.iter().map(|p| V3::new(p.x, p.y, 0.0)).chain(upper).collect()
+    };
+    let areas = vec![1e-4; large.len() + small.len()];
+    let contact_at = |place: [f64; 3]| {
+        let mut contact = ClothContact::new(ClothContactParams::default(), &triangles, &areas);
+        contact.update(&at(place));
+        contact
+    };
+    let above = contact_at([0.0, 0.0, 3e-3]);
+    assert_eq!(above.energy(&at([0.0, 0.0, 2.5e-3])), 0.0);
+    for height in [1.3e-3, 4e-4] {
+        let x = at([0.0, 0.0, height]);
+        let mut forces = vec![V3::zeros(); areas.len()];
+        assert!(above.assemble(&x, &mut forces).len() >= 4);
+        assert!(forces[large.len()..].iter().all(|f| f.z > 0.0));
+        check_forces(|x| above.energy(x), &forces, &x, 1e-9, 1e-5);
+    }
+    // Through it, or past what has been sought: never. Along it: freely.
+    assert_eq!(above.energy(&at([0.0, 0.0, -1e-3])), f64::INFINITY);
+    assert_eq!(above.energy(&at([0.0, 0.0, -5e-3])), f64::INFINITY);
+    assert_eq!(above.energy(&at([0.0, 0.0, 0.05])), f64::INFINITY);
+    let near = contact_at([0.0, 0.0, 3e-4]);
+    assert!(near.energy(&at([2e-3, -1e-3, 3e-4])).is_finite());
+}
+
+#[test]
+fn triangles_side_by_side_do_not_fold_through_each_other() {
+    // A strip of three squares; the last is turned about its edge onto the first, and through it.
+    let (rest, triangles) = sheet(3, 1, 0.015);
+    let turned = |degrees: f64| -> Vec<V3> {
+        let place = |p: &V2| {
+            let bend = |from: f64, angle: f64| ((p.x - from).max(0.0), angle.to_radians());
+            let (past, angle) = bend(0.015, degrees);
+            let (further, second) = bend(0.03, 2.0 * degrees);
+            let along = past - further;
+            let x = p.x.min(0.015) + along * angle.cos() + further * second.cos();
+            V3::new(x, p.y, along * angle.sin() + further * second.sin())
+        };
+        rest.iter().map(place).collect()
+    };
+    let areas = vec![1e-4; rest.len()];
+    let edges = edges_of(&triangles);
+    let count = |x: &[V3]| crossings(x, edges.pairs(), &triangles).count();
+    // 120 degrees closes the strip to a triangle; 128 takes its end through its beginning.
+    assert_eq!((count(&turned(112.0)), count(&turned(128.0)) > 0), (0, true));
+    let mut contact = ClothContact::new(ClothContactParams::default(), &triangles, &areas);
+    contact.update(&turned(112.0));
+    assert!(contact.energy(&turned(114.0)).is_finite());
+    assert_eq!(contact.energy(&turned(128.0)), f64::INFINITY);
+}
+
+#[test]
+fn a_load_does_not_press_cloth_through_cloth() {
+    // On a sheet held at its rim lies another under 20 kPa: ten times what a spring over the thickness takes.
+    let ((large, mut triangles), (small, others)) = (sheet(6, 6, 0.015), sheet(2, 2, 0.012));
+    triangles.extend(others.iter().map(|t| t.map(|v| v + large.len())));
+    let rest: Vec<V2> = large.iter().copied().chain(small.iter().map(|p| p + V2::new(0.2, 0.0))).collect();
+    let mut x: Vec<V3> = large.iter().map(|p| V3::new(p.x, p.y, 0.0)).collect();
+    x.extend(small.iter().map(|p| V3::new(p.x + 0.031, p.y + 0.034, 3e-3)));
+    let garment = laboratory::garment((rest, triangles));
+    let cloth = Cloth::new(&garment, &fabric(), unsewn(&garment)).expect("sound");
+    let field = laboratory::nowhere();
+    let mut system = System::new(&cloth, BodyContact::new(&field, ContactParams::default(), &cloth.areas), None);
+    system.self_contact = Some(ClothContact::new(ClothContactParams::default(), &cloth.triangles, &cloth.areas));
+    let is_rim = |p: &V2| p.x < 1e-9 || p.y < 1e-9 || p.x > 0.0899 || p.y > 0.0899;
+    system.held = (0..large.len()).filter(|&v| is_rim(&large[v])).collect();
+    for v in 0..x.len() {
+        system.weights[v] = if v < large.len() { 0.0 } else { 2e4 * cloth.areas[v] };
+    }
+    settle(&mut system, &mut x, 1e-2, 150);
+    assert_eq!(quality::self_crossings(&x, &cloth.triangles), 0);
+    let lowest = x[large.len()..].iter().map(|p| p.z).fold(f64::MAX, f64::min);
+    assert!(lowest < -3e-3, "the load is felt: {lowest}");
+    // Where it went, there is cloth below it.
+    let below = x[..large.len()].iter().map(|p| p.z).fold(f64::MAX, f64::min);
+    assert!((lowest - below).abs() < 4e-3, "{lowest} over {below}");
+}
+
+#[test]
+fn what_does_not_come_free_is_drawn_harder_until_it_does() {
+    let areas = [1e-4; 6];
+    let mut contact = ClothContact::new(ClothContactParams::default(), &[[0, 1, 2], [3, 4, 5]], &areas);
+    let mut pull = |x: &[V3]| {
+        contact.update(x);
+        let mut forces = vec![V3::zeros(); areas.len()];
+        contact.assemble(x, &mut forces);
+        forces[3..].iter().sum::<V3>().z
+    };
+    let at = poking;
+    let first = pull(&at(-0.01));
+    assert!(first > 0.0);
+    let later: Vec<f64> = (0..20).map(|_| pull(&at(-0.01))).collect();
+    assert!(later[19] > 3.0 * first && later.windows(2).all(|w| w[1] >= w[0]), "{first}, then {later:?}");
+    // Free, cloth is pushed apart by contact alone, and the next crossing begins anew.
+    assert_eq!(pull(&at(0.01)), 0.0);
+    assert_eq!(pull(&at(-0.01)), first);
+}
+
+#[test]
+fn a_move_is_held_back_only_where_cloth_would_pierce_itself() {
+    let (large, small, triangles) = two_sheets();
+    let at = |height: f64, corner: f64| -> Vec<V3> {
+        let upper = small.iter().map(|p| V3::new(p.x + 0.033, p.y + 0.0305, height + 0.1 * p.x));
+        let mut x: Vec<V3> = large.iter().map(|p| V3::new(p.x, p.y, 0.0)).chain(upper).collect();
+        x[0].z = corner;
+        x
+    };
+    let edges = edges_of(&triangles);
+    let count = |x: &[V3]| crossings(x, edges.pairs(), &triangles).count();
+    let (from, to) = (at(1e-3, 0.0), at(-2e-4, 5e-3));
+    assert!(count(&from) == 0 && count(&to) > 0);
+    let reached = held_apart(&from, &to, &triangles);
+    assert_eq!(count(&reached), 0);
+    assert_eq!(reached[0], to[0]);
+    assert_eq!(held_apart(&from, &at(5e-4, 1e-3), &triangles), at(5e-4, 1e-3));
 }

@@ -1,0 +1,80 @@
+//! Whether two parts of the cloth meet on the straight way from one place to another.
+
+use super::nearest::{Nearest, Primitives};
+use crate::geom::V3;
+
+/// Share of its distance that a pair keeps on its way at least.
+const KEPT: f64 = 0.1;
+/// Share of the distance that is gone at once.
+const ADVANCE: f64 = 0.9;
+/// Most advances: a pair that takes more glides along so near that it may as well be said to meet.
+const MOST_ADVANCES: usize = 40;
+
+/// Whether a pair comes nearer than a tenth of its distance on the way from `x` to `y`, its vertices moving evenly: by
+/// conservative advancement, which goes on by as much as cannot use the distance up [Li, Kaufman, Jiang 2021]. A pair that touches already
+/// has nothing to keep.
+#[must_use]
+pub fn meets(x: &[V3], y: &[V3], primitives: Primitives) -> bool {
+    let vertices = primitives.vertices();
+    let mut at = vertices.map(|v| x[v]);
+    let mut moves = vertices.map(|v| y[v] - x[v]);
+    // What all have in common brings none nearer.
+    let mean = moves.iter().sum::<V3>() / 4.0;
+    moves.iter_mut().for_each(|d| *d -= mean);
+    let [a, b, c, d] = moves.map(|d| d.norm());
+    let closing = match primitives {
+        Primitives::VertexTriangle(_) => a + b.max(c).max(d),
+        Primitives::EdgeEdge(_) => a.max(b) + c.max(d),
+    };
+    let mut distance = Nearest::at(&at, primitives).gap.norm();
+    let least = KEPT * distance;
+    if distance - least > closing || distance == 0.0 {
+        return false;
+    }
+    let mut time = 0.0;
+    for _ in 0..MOST_ADVANCES {
+        let advance = ADVANCE * (distance - least) / closing;
+        time += advance;
+        if time >= 1.0 {
+            return false;
+        }
+        at.iter_mut().zip(&moves).for_each(|(p, d)| *p += d * advance);
+        distance = Nearest::at(&at, primitives).gap.norm();
+        if distance <= least + KEPT * least {
+            return true;
+        }
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_passes_does_not_meet_and_what_goes_through_does() {
+        let triangle = [V3::zeros(), V3::new(0.02, 0.0, 0.0), V3::new(0.0, 0.02, 0.0)];
+        let check = |from: [f64; 3], to: [f64; 3], expect: bool| {
+            let with = |p: [f64; 3]| [vec![V3::from(p)], triangle.to_vec()].concat();
+            let pair = Primitives::VertexTriangle([0, 1, 2, 3]);
+            assert_eq!(meets(&with(from), &with(to), pair), expect, "{from:?} to {to:?}");
+            // Together with the triangle it may go wherever it likes.
+            let [x, mut y] = [from, from].map(with);
+            y.iter_mut().for_each(|p| *p += V3::new(0.3, -0.2, 1.0));
+            assert!(!meets(&x, &y, pair));
+        };
+        check([0.005, 0.005, 1e-3], [0.005, 0.005, -1e-3], true);
+        check([0.005, 0.005, 1e-3], [0.005, 0.005, 5e-5], true);
+        check([0.005, 0.005, 1e-3], [0.005, 0.005, 2e-4], false);
+        check([0.002, 0.002, 1e-3], [0.009, 0.009, 1e-3], false);
+        check([-0.005, 0.005, 1e-3], [-0.005, 0.005, -1e-3], false);
+        check([-0.005, 0.005, 1e-3], [0.005, 0.005, -1e-3], true);
+        let crossed = |height: f64| {
+            let [a, b] = [V3::new(-0.01, 0.0, height), V3::new(0.01, 0.0, height)];
+            [a, b, V3::new(0.0, -0.01, 0.0), V3::new(0.0, 0.01, 0.0)]
+        };
+        let edges = Primitives::EdgeEdge([0, 1, 2, 3]);
+        assert!(meets(&crossed(1e-3), &crossed(-2e-3), edges));
+        assert!(!meets(&crossed(1e-3), &crossed(4e-4), edges));
+    }
+}
