@@ -1,5 +1,6 @@
 //! FEM-GS (chapter 4): preposition, sewing and draping by physics alone.
 
+mod hands;
 pub mod params;
 pub mod preposition;
 mod run;
@@ -19,10 +20,13 @@ use crate::sim::solver::System;
 use crate::sim::walls::Walls;
 use crate::sim::{Distortion, Drape, Fabric, Monitor, SimError, Stage};
 
+use hands::Hands;
 use run::{Phase, Run};
 
 /// Deepest point of a drape that is good, m.
 const DEEPEST_M: f64 = 3e-4;
+/// Steps on each shape of a hand that opens.
+const OPENING_STEPS: u32 = 12;
 /// Times at most that a drape is taken up again, because it is not at rest yet or to hold out points inside the body.
 const HOLDING_ROUNDS: usize = 5;
 
@@ -48,10 +52,14 @@ pub fn simulate(
         return Err(SimError::NoMesh);
     };
     let mut run = Run::new(params, monitor, garments.len() - 1);
-    let sewn = sew(body, field, coarsest, fabric, params, &mut run)?;
+    let mut placed = preposition::place(body, coarsest, params)?;
+    let force = start::perturb(params.seed, &mut placed);
+    let hands = Hands::near(body, field, &placed);
+    let folded = hands.as_ref().map(Hands::folded);
+    let sewn = sew(body, folded.as_ref().unwrap_or(field), coarsest, fabric, placed, force, &mut run)?;
     run.keep_up(&sewn);
     let skin = Skin::new(&body.mesh).ok();
-    let around = Around { skin: skin.as_ref(), field };
+    let around = Around { skin: skin.as_ref(), field, hands: hands.as_ref() };
     let mut from_sewn = |grip| refine(around, garments, fabric, &sewn, &mut run, grip);
     let last = match from_sewn(Grip::AtTheEnd) {
         // Nothing but friction may hold it up.
@@ -115,17 +123,18 @@ fn control(garment: &Garment, positions: &[V3], params: &Params) -> Result<(), S
     if distortion.stretch > limit { Err(SimError::Distorted { distortion, limit }) } else { Ok(()) }
 }
 
-/// Places a garment and draws its seams together; returns garment positions with all seams (nearly) closed.
+/// Draws the seams of a garment placed at `x` together, with `force` times the usual force; returns garment positions with
+/// all seams (nearly) closed.
 fn sew(
     body: &Body,
     field: &DistanceField,
     garment: &Garment,
     fabric: &Fabric,
-    params: &Params,
+    mut x: Vec<V3>,
+    force: f64,
     run: &mut Run,
 ) -> Result<Vec<V3>, SimError> {
-    let mut x = preposition::place(body, garment, params)?;
-    let force = start::perturb(params.seed, &mut x);
+    let params = run.params();
     let cloth = Cloth::new(garment, fabric, sewing::unsewn(garment))?;
     let contact = BodyContact::new(field, params.contact, &cloth.areas).with_points_between(&cloth.triangles);
     let springs = Springs::new(garment, params.seam_stiffness_n_m, force * params.seam_cap_n);
@@ -154,6 +163,21 @@ struct Around<'a> {
     /// `None` where the mesh bounds no solid: then only the field holds the cloth.
     skin: Option<&'a Skin<'a>>,
     field: &'a DistanceField,
+    /// Hands that the cloth comes near.
+    hands: Option<&'a Hands<'a>>,
+}
+
+impl Around<'_> {
+    /// The fields in which a level settles without friction, one after the other, where they are not the body's own: hands are
+    /// folded on the coarsest level and opened on the next.
+    fn before_fingers(&self, level: usize, finest: usize) -> Vec<DistanceField> {
+        let Some(hands) = self.hands else { return Vec::new() };
+        match level {
+            0 if finest > 0 => vec![hands.folded()],
+            0 | 1 => hands.opening().collect(),
+            _ => hands.opening().last().into_iter().collect(),
+        }
+    }
 }
 
 /// Lets a sewn garment come to rest from `x`, without friction and then, on the finest level, with it.
@@ -170,30 +194,43 @@ fn settle(
 ) -> Result<Settled, SimError> {
     let params = run.params();
     let is_finest = level == run.levels();
-    let mut contact = BodyContact::new(around.field, params.contact, &cloth.areas);
-    if !is_finest {
-        contact = contact.with_points_between(&cloth.triangles);
-    }
-    let mut system = System::new(cloth, contact, None);
-    system.self_contact = Some(ClothContact::new(params.self_contact, &cloth.triangles, &cloth.areas));
-    let hold_out = |system: &mut System, x: &[V3], is_at_rest: bool| {
-        let deepest = |skin| system.contact.hold_out(skin, &cloth.triangles, x, is_at_rest);
+    let hold_out = |contact: &mut BodyContact, x: &[V3], is_at_rest: bool| {
+        let deepest = |skin| contact.hold_out(skin, &cloth.triangles, x, is_at_rest);
         around.skin.map_or(0.0, deepest)
     };
-    if is_finest {
-        hold_out(&mut system, &x, false);
-    }
-    if grip == Grip::Throughout {
-        system.contact.set_friction(Some(fabric.friction_body));
+    let meet = |field, x: &[V3]| {
+        let mut contact = BodyContact::new(field, params.contact, &cloth.areas);
+        if is_finest {
+            hold_out(&mut contact, x, false);
+        } else {
+            contact = contact.with_points_between(&cloth.triangles);
+        }
+        if grip == Grip::Throughout {
+            contact.set_friction(Some(fabric.friction_body));
+        }
+        contact
+    };
+    let stages = around.before_fingers(level, run.levels());
+    let (last, opening) = stages.split_last().map_or((around.field, &[][..]), |(last, opening)| (last, opening));
+    let mut system = System::new(cloth, meet(opening.first().unwrap_or(last), &x), None);
+    system.self_contact = Some(ClothContact::new(params.self_contact, &cloth.triangles, &cloth.areas));
+    let brief = Params { coarse_steps: OPENING_STEPS, finest_frictionless_steps: OPENING_STEPS, ..*params };
+    for next in opening.iter().skip(1).chain([last]).take(opening.len()) {
+        run.drape(garment, &mut system, &mut x, Phase::frictionless(&brief, level, run.levels()))?;
+        system.contact = meet(next, &x);
     }
     let mut residual = run.drape(garment, &mut system, &mut x, Phase::frictionless(params, level, run.levels()))?;
     if is_finest {
-        hold_out(&mut system, &x, residual <= params.coarse_tolerance);
+        if stages.is_empty() {
+            hold_out(&mut system.contact, &x, residual <= params.coarse_tolerance);
+        } else {
+            system.contact = meet(around.field, &x);
+        }
         system.contact.set_friction(Some(fabric.friction_body));
         for _ in 0..HOLDING_ROUNDS {
             residual = run.drape(garment, &mut system, &mut x, Phase::final_drape(params, level))?;
             let is_at_rest = residual <= params.tolerance;
-            if hold_out(&mut system, &x, is_at_rest) <= DEEPEST_M && is_at_rest {
+            if hold_out(&mut system.contact, &x, is_at_rest) <= DEEPEST_M && is_at_rest {
                 break;
             }
         }

@@ -2,11 +2,12 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::form::{Axis, Form, Hand};
+use super::form::{Axis, Form, Hand, arm_bones};
 use super::sheet::{Joins, Part, Sheet};
 use super::trunk::{BACKS, FRONTS};
 use crate::geom::{V2, V3};
 use crate::pattern::Role;
+use crate::sim::fem::hands;
 
 /// Least clearance of a sleeve from the arm before sewing, m.
 const SLEEVE_CLEARANCE_M: f64 = 0.012;
@@ -16,6 +17,8 @@ const SLEEVE_TURN: f64 = 0.95;
 const HALF_SLEEVE: f64 = 0.2;
 /// One in so many vertices of a sleeve counts as its far end.
 const FAR_SHARE: usize = 10;
+/// A joint less than this below the one before is not followed, m.
+const BENT_BACK_M: f64 = 0.05;
 /// Where along the arm its girth is read, from the shoulder joint, m.
 const UPPER_ARM_M: std::ops::Range<f64> = 0.15..0.25;
 
@@ -26,6 +29,8 @@ pub struct Sleeve {
     pub parts: Vec<(Sheet, f64)>,
     radius: f64,
     top: f64,
+    /// Middles of the arm below the elbow: height along the axis, and how far beside it, m.
+    course: Vec<(f64, V3)>,
 }
 
 impl Sleeve {
@@ -65,12 +70,36 @@ impl Sleeve {
         level(joins, &mut parts);
         let axis = form.arm_axis(hand);
         let radius = (turn / (SLEEVE_TURN * TAU)).max(arm_radius(form, &axis) + SLEEVE_CLEARANCE_M);
-        Self { axis, parts, radius, top: form.shoulder_height(hand) }
+        Self { axis, parts, radius, top: form.shoulder_height(hand), course: course(form, &axis, hand) }
     }
 
     /// Where a point of a part's sheet goes.
     pub fn at(&self, p: V2, middle: f64) -> V3 {
-        self.axis.point(middle + p.x / self.radius, self.radius, self.top + p.y)
+        let height = self.top + p.y;
+        self.axis.point(middle + p.x / self.radius, self.radius, height) + beside(&self.course, height)
+    }
+}
+
+/// Where an arm goes from the elbow over the wrist to the end of the hand, by heights along the axis of the upper arm and from
+/// it; straight on where the arm is bent back.
+fn course(form: &Form, axis: &Axis, hand: Hand) -> Vec<(f64, V3)> {
+    let [_, elbow, wrist] = arm_bones(form.body, hand);
+    let mut course = vec![(axis.coordinates(&elbow).2, V3::zeros())];
+    for joint in [Some(wrist), hands::tip(form.body, hand)].into_iter().flatten() {
+        let height = axis.coordinates(&joint).2;
+        if course.last().is_some_and(|(above, _)| height < above - BENT_BACK_M) {
+            course.push((height, joint - axis.point(0.0, 0.0, height)));
+        }
+    }
+    course
+}
+
+/// How far beside its axis an arm is at a height; beyond its ends as there.
+fn beside(course: &[(f64, V3)], height: f64) -> V3 {
+    let within = course.windows(2).find(|ends| height > ends[1].0);
+    match within {
+        Some(&[(high, from), (low, to)]) => from.lerp(&to, ((high - height) / (high - low)).clamp(0.0, 1.0)),
+        _ => course.last().map_or(V3::zeros(), |(_, at)| *at),
     }
 }
 

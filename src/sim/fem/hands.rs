@@ -1,0 +1,184 @@
+//! Hands as they slip into a sleeve: folded while a garment is sewn, then opened inside it.
+//!
+//! Fingers and thumbs are thinner than the triangles of a coarse mesh, and poke through between points that are kept out; a
+//! narrow sleeve that is drawn together about an open hand leaves its thumb outside. So until the finest mesh has settled
+//! the cloth meets, for a hand that it is near, a convex solid: folded, beyond the wrist no wider than the wrist and narrowing,
+//! and then widened to one that holds the whole hand. It pushes the cloth outwards from within; what lies on it lies
+//! outside the hand. Only the last phase knows fingers.
+//!
+//! The solid is where `n . p <= h(n)` for directions `n` all around, and the greatest `n . p - h(n)` is taken for the distance
+//! from it; between folded and open that changes evenly.
+
+use std::collections::BTreeSet;
+
+use crate::body::{Body, Joint};
+use crate::geom::{DistanceField, V3};
+
+/// Farthest that a hand reaches from the wrist, m.
+const REACH_M: f64 = 0.25;
+/// Farthest from its own axis that skin beyond the wrist is taken for a hand's, m: else a scan's hand has grown together
+/// with the thigh.
+const WIDEST_M: f64 = 0.15;
+/// Share of the hand's length, at its end, whose middle says where it points.
+const END: f64 = 0.4;
+/// Length of the wrist whose half width a folded hand begins with, m.
+const WRIST_M: f64 = 0.02;
+/// Half width of a folded hand's end over that of the wrist.
+const NARROWING: f64 = 0.5;
+/// Cloth nearer than this to a hand meets the solid, m.
+const NEAR_M: f64 = 0.08;
+/// Farther from the solid than this the field is left alone, m: what a field tells of its outside ends there.
+const SHELL_M: f64 = 0.0125;
+/// Steps in which a hand opens.
+const OPENINGS: u32 = 4;
+
+/// A hand on its own.
+struct Hand {
+    /// Its end, m.
+    tip: V3,
+    /// Vertices of the body's mesh, in order.
+    skin: Vec<usize>,
+    /// Supports of the solid, folded and open, m.
+    supports: [Vec<f64>; 2],
+}
+
+impl Hand {
+    /// The hand beyond the wrist on a side (1 right, -1 left); `None` where no skin is a hand's.
+    fn of(body: &Body, side: f64) -> Option<Self> {
+        let joints =
+            if side > 0.0 { [Joint::ElbowRight, Joint::WristRight] } else { [Joint::ElbowLeft, Joint::WristLeft] };
+        let [elbow, wrist] = joints.map(|joint| body.skeleton.at(joint));
+        let skin = skin_beyond(body, wrist, (wrist - elbow).try_normalize(0.0)?);
+        let points: Vec<V3> = skin.iter().map(|&v| body.mesh.positions[v] - wrist).collect();
+        let tip = *points.iter().max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))?;
+        let end = points.iter().filter(|p| p.norm() > (1.0 - END) * tip.norm());
+        let along = end.sum::<V3>().try_normalize(0.0)?;
+        let length = points.iter().map(|p| p.dot(&along)).fold(0.0, f64::max);
+        let across = |p: &V3| p - along * p.dot(&along);
+        if points.iter().any(|p| across(p).norm() > WIDEST_M) {
+            return None;
+        }
+        let at_wrist = points.iter().filter(|p| p.dot(&along) < WRIST_M);
+        let half_width = at_wrist.map(|p| across(p).norm()).reduce(f64::max)?;
+        let fold = |p: &V3| {
+            let share = (p.dot(&along) / length).clamp(0.0, 1.0);
+            let most = half_width * (1.0 - (1.0 - NARROWING) * share);
+            let from_axis = across(p);
+            p - from_axis * (1.0 - most / from_axis.norm().max(most))
+        };
+        let support = |place: &dyn Fn(&V3) -> V3| {
+            let most = |n: V3| points.iter().map(|p| n.dot(&(wrist + place(p)))).fold(f64::MIN, f64::max);
+            directions().map(most).collect()
+        };
+        Some(Self { tip: wrist + tip, supports: [support(&fold), support(&|p| *p)], skin })
+    }
+
+    /// About how far a point is from the solid, folded and open, m, negative inside.
+    fn distances(&self, p: &V3) -> [f64; 2] {
+        let most = |supports: &Vec<f64>| directions().zip(supports).map(|(n, h)| n.dot(p) - h).fold(f64::MIN, f64::max);
+        [most(&self.supports[0]), most(&self.supports[1])]
+    }
+
+    /// The nodes of a body's field about the open hand.
+    fn nodes(&self, body: &Body, field: &DistanceField) -> Vec<Node> {
+        let reach = V3::repeat(SHELL_M);
+        let points = || self.skin.iter().map(|&v| body.mesh.positions[v]);
+        let low = points().fold(V3::repeat(f64::MAX), |low, p| low.inf(&p)) - reach;
+        let high = points().fold(V3::repeat(f64::MIN), |high, p| high.sup(&p)) + reach;
+        let is_near = |p: &V3| (p - low).min() > -SHELL_M && (high - p).min() > -SHELL_M;
+        let near: Vec<usize> = (0..body.mesh.positions.len()).filter(|&v| is_near(&body.mesh.positions[v])).collect();
+        let node = |(index, place, value): (usize, V3, f64)| {
+            let distances = self.distances(&place);
+            (distances[1] < SHELL_M).then(|| {
+                let from = |v: &usize| (body.mesh.positions[*v] - place).norm_squared();
+                let nearest = near.iter().min_by(|a, b| from(a).total_cmp(&from(b)));
+                let is_hands = nearest.is_some_and(|v| self.skin.binary_search(v).is_ok());
+                Node { index, distances, value, is_hands }
+            })
+        };
+        field.nodes_within(low, high).filter_map(node).collect()
+    }
+}
+
+/// The end of the hand on a side (1 right, -1 left), m; `None` where no skin is a hand's.
+pub fn tip(body: &Body, side: f64) -> Option<V3> {
+    Hand::of(body, side).map(|hand| hand.tip)
+}
+
+/// Directions all around, in mirrored pairs: from the middle of a cube to a grid on its faces.
+fn directions() -> impl Iterator<Item = V3> {
+    let of = |k: i32| f64::from(k - 2);
+    let grid = (0..125).map(move |i| V3::new(of(i / 25), of(i / 5 % 5), of(i % 5)));
+    grid.filter(|n| n.amax() == 2.0).map(|n| n.normalize())
+}
+
+/// Vertices beyond the plane through the wrist that hang together with the nearest of them, in order.
+fn skin_beyond(body: &Body, wrist: V3, along: V3) -> Vec<usize> {
+    let positions = &body.mesh.positions;
+    let is_beyond = |v: usize| {
+        let p = positions[v] - wrist;
+        p.dot(&along) > 0.0 && p.norm() < REACH_M
+    };
+    let triangles: Vec<[usize; 3]> =
+        body.mesh.triangles.iter().copied().filter(|t| t.iter().all(|v| is_beyond(*v))).collect();
+    let distance = |v: &usize| (positions[*v] - wrist).norm_squared();
+    let nearest = triangles.iter().flatten().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let mut skin: BTreeSet<usize> = nearest.into_iter().collect();
+    let mut count = 0;
+    while skin.len() > count {
+        count = skin.len();
+        for t in &triangles {
+            if t.iter().any(|v| skin.contains(v)) {
+                skin.extend(t);
+            }
+        }
+    }
+    skin.into_iter().collect()
+}
+
+/// A node of the body's field near a hand.
+struct Node {
+    index: usize,
+    /// About how far it is from the folded and the open hand, m.
+    distances: [f64; 2],
+    /// What the field says, m.
+    value: f64,
+    /// Whether the nearest skin is the hand's.
+    is_hands: bool,
+}
+
+/// The hands that a garment comes near.
+pub struct Hands<'a> {
+    field: &'a DistanceField,
+    nodes: Vec<Node>,
+}
+
+impl<'a> Hands<'a> {
+    /// The hands of a body that cloth at `x` comes near; `None` where it comes near none.
+    pub fn near(body: &Body, field: &'a DistanceField, x: &[V3]) -> Option<Self> {
+        let hands = [1.0, -1.0].into_iter().filter_map(|side| Hand::of(body, side));
+        let near = hands.filter(|hand| x.iter().any(|p| hand.distances(p)[1] < NEAR_M));
+        let nodes: Vec<Node> = near.flat_map(|hand| hand.nodes(body, field)).collect();
+        (!nodes.is_empty()).then_some(Self { field, nodes })
+    }
+
+    /// The field of the body with folded hands.
+    pub fn folded(&self) -> DistanceField {
+        self.opened(0.0)
+    }
+
+    /// Fields of the body with hands that open, the last one's fully.
+    pub fn opening(&self) -> impl Iterator<Item = DistanceField> {
+        (1..=OPENINGS).map(|step| self.opened(f64::from(step) / f64::from(OPENINGS)))
+    }
+
+    /// The field of the body with hands open by a share.
+    fn opened(&self, share: f64) -> DistanceField {
+        let value = |node: &Node| {
+            let [folded, open] = node.distances;
+            let solid = folded + (open - folded) * share;
+            (node.index, if node.is_hands { solid } else { solid.min(node.value) })
+        };
+        self.field.with(self.nodes.iter().map(value))
+    }
+}
