@@ -29,6 +29,8 @@ const NARROWING: f64 = 0.5;
 const NEAR_M: f64 = 0.08;
 /// Farther from the solid than this the field is left alone, m: what a field tells of its outside ends there.
 const SHELL_M: f64 = 0.0125;
+/// Room that the open solid leaves about the hand, m: triangles of 15 mm cut its corners.
+const ROOM_M: f64 = 4e-3;
 /// Steps in which a hand opens.
 const OPENINGS: u32 = 4;
 
@@ -66,11 +68,11 @@ impl Hand {
             let from_axis = across(p);
             p - from_axis * (1.0 - most / from_axis.norm().max(most))
         };
-        let support = |place: &dyn Fn(&V3) -> V3| {
-            let most = |n: V3| points.iter().map(|p| n.dot(&(wrist + place(p)))).fold(f64::MIN, f64::max);
+        let support = |room_m: f64, place: &dyn Fn(&V3) -> V3| {
+            let most = |n: V3| points.iter().map(|p| n.dot(&(wrist + place(p)))).fold(f64::MIN, f64::max) + room_m;
             directions().map(most).collect()
         };
-        Some(Self { tip: wrist + tip, supports: [support(&fold), support(&|p| *p)], skin })
+        Some(Self { tip: wrist + tip, supports: [support(0.0, &fold), support(ROOM_M, &|p| *p)], skin })
     }
 
     /// About how far a point is from the solid, folded and open, m, negative inside.
@@ -79,9 +81,14 @@ impl Hand {
         [most(&self.supports[0]), most(&self.supports[1])]
     }
 
+    /// Whether cloth at `p` may come to touch the hand.
+    fn is_near(&self, p: &V3) -> bool {
+        self.distances(p)[1] < NEAR_M
+    }
+
     /// The nodes of a body's field about the open hand.
     fn nodes(&self, body: &Body, field: &DistanceField) -> Vec<Node> {
-        let reach = V3::repeat(SHELL_M);
+        let reach = V3::repeat(SHELL_M + ROOM_M);
         let points = || self.skin.iter().map(|&v| body.mesh.positions[v]);
         let low = points().fold(V3::repeat(f64::MAX), |low, p| low.inf(&p)) - reach;
         let high = points().fold(V3::repeat(f64::MIN), |high, p| high.sup(&p)) + reach;
@@ -150,6 +157,7 @@ struct Node {
 /// The hands that a garment comes near.
 pub struct Hands<'a> {
     field: &'a DistanceField,
+    hands: Vec<Hand>,
     nodes: Vec<Node>,
 }
 
@@ -157,9 +165,15 @@ impl<'a> Hands<'a> {
     /// The hands of a body that cloth at `x` comes near; `None` where it comes near none.
     pub fn near(body: &Body, field: &'a DistanceField, x: &[V3]) -> Option<Self> {
         let hands = [1.0, -1.0].into_iter().filter_map(|side| Hand::of(body, side));
-        let near = hands.filter(|hand| x.iter().any(|p| hand.distances(p)[1] < NEAR_M));
-        let nodes: Vec<Node> = near.flat_map(|hand| hand.nodes(body, field)).collect();
-        (!nodes.is_empty()).then_some(Self { field, nodes })
+        let hands: Vec<Hand> = hands.filter(|hand| x.iter().any(|p| hand.is_near(p))).collect();
+        let nodes: Vec<Node> = hands.iter().flat_map(|hand| hand.nodes(body, field)).collect();
+        (!nodes.is_empty()).then_some(Self { field, hands, nodes })
+    }
+
+    /// The triangles of a cloth at `x` that are near.
+    pub fn near_triangles(&self, triangles: &[[usize; 3]], x: &[V3]) -> Vec<[usize; 3]> {
+        let is_near: Vec<bool> = x.iter().map(|p| self.hands.iter().any(|hand| hand.is_near(p))).collect();
+        triangles.iter().copied().filter(|t| t.iter().any(|v| is_near[*v])).collect()
     }
 
     /// The field of the body with folded hands.

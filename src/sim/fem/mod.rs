@@ -200,10 +200,13 @@ fn settle(
     };
     let meet = |field, x: &[V3]| {
         let mut contact = BodyContact::new(field, params.contact, &cloth.areas);
-        if is_finest {
-            hold_out(&mut contact, x, false);
-        } else {
+        if !is_finest {
             contact = contact.with_points_between(&cloth.triangles);
+        } else {
+            if let Some(hands) = around.hands {
+                contact = contact.with_points_between(&hands.near_triangles(&cloth.triangles, x));
+            }
+            hold_out(&mut contact, x, false);
         }
         if grip == Grip::Throughout {
             contact.set_friction(Some(fabric.friction_body));
