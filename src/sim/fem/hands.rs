@@ -33,6 +33,8 @@ const SHELL_M: f64 = 0.0125;
 const ROOM_M: f64 = 4e-3;
 /// Steps in which a hand opens.
 const OPENINGS: u32 = 4;
+/// Steps in which the solid shrinks to the hand itself.
+const BARINGS: u32 = 6;
 
 /// A hand on its own.
 struct Hand {
@@ -154,6 +156,14 @@ struct Node {
     is_hands: bool,
 }
 
+impl Node {
+    /// About how far it is from the hand open by a share, m.
+    fn solid(&self, share: f64) -> f64 {
+        let [folded, open] = self.distances;
+        folded + (open - folded) * share
+    }
+}
+
 /// The hands that a garment comes near.
 pub struct Hands<'a> {
     field: &'a DistanceField,
@@ -186,11 +196,22 @@ impl<'a> Hands<'a> {
         (1..=OPENINGS).map(|step| self.opened(f64::from(step) / f64::from(OPENINGS)))
     }
 
+    /// Fields of the body between that with open hands and its own.
+    pub fn baring(&self) -> impl Iterator<Item = DistanceField> {
+        (1..BARINGS).map(|step| {
+            let share = f64::from(step) / f64::from(BARINGS);
+            self.changed(|node| node.solid(1.0) + (node.value - node.solid(1.0)) * share)
+        })
+    }
+
     /// The field of the body with hands open by a share.
     fn opened(&self, share: f64) -> DistanceField {
+        self.changed(|node| node.solid(share))
+    }
+
+    fn changed(&self, solid: impl Fn(&Node) -> f64) -> DistanceField {
         let value = |node: &Node| {
-            let [folded, open] = node.distances;
-            let solid = folded + (open - folded) * share;
+            let solid = solid(node);
             (node.index, if node.is_hands { solid } else { solid.min(node.value) })
         };
         self.field.with(self.nodes.iter().map(value))

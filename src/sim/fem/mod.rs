@@ -12,7 +12,7 @@ use crate::body::Body;
 use crate::geom::{DistanceField, V3};
 use crate::pattern::Garment;
 use crate::sim::cloth::Cloth;
-use crate::sim::contact::{BodyContact, ClothContact, Skin};
+use crate::sim::contact::{BodyContact, ClothContact, ContactParams, Skin};
 use crate::sim::levels::prolong;
 use crate::sim::quality;
 use crate::sim::sewing::{self, Springs};
@@ -25,6 +25,12 @@ use run::{Phase, Run};
 
 /// Deepest point of a drape that is good, m.
 const DEEPEST_M: f64 = 3e-4;
+/// Penalty of the contact with the body where cloth is drawn tight or over a hand, N/m3: fingertips press through a softer one.
+const HARD_N_M3: f64 = 1e9;
+/// A sewn garment that yields this much has been drawn into the body, m.
+const SEWN_INTO_M: f64 = 4e-3;
+/// A garment that yields this much on a coarse mesh is tight, m: it is about to leave the offset that keeps it outside.
+const TIGHT_M: f64 = 8e-4;
 /// Steps on each shape of a hand that opens.
 const OPENING_STEPS: u32 = 12;
 /// Times at most that a drape is taken up again, because it is not at rest yet or to hold out points inside the body.
@@ -56,10 +62,18 @@ pub fn simulate(
     let force = start::perturb(params.seed, &mut placed);
     let hands = Hands::near(body, field, &placed);
     let folded = hands.as_ref().map(Hands::folded);
-    let sewn = sew(body, folded.as_ref().unwrap_or(field), coarsest, fabric, placed, force, &mut run)?;
-    run.keep_up(&sewn);
     let skin = Skin::new(&body.mesh).ok();
-    let around = Around { skin: skin.as_ref(), field, hands: hands.as_ref() };
+    let soft = Around { skin: skin.as_ref(), field, hands: hands.as_ref(), contact: params.contact };
+    let sewing_field = folded.as_ref().unwrap_or(field);
+    let mut sew =
+        |around: Around| sew(body, sewing_field, around.contact, coarsest, fabric, placed.clone(), force, &mut run);
+    let (mut sewn, yields_m) = sew(soft)?;
+    let mut around = if hands.is_some() { soft.hardened() } else { soft };
+    if yields_m > SEWN_INTO_M {
+        around = soft.hardened();
+        (sewn, _) = sew(around)?;
+    }
+    run.keep_up(&sewn);
     let mut from_sewn = |grip| refine(around, garments, fabric, &sewn, &mut run, grip);
     let last = match from_sewn(Grip::AtTheEnd) {
         // Nothing but friction may hold it up.
@@ -92,7 +106,7 @@ enum Grip {
 
 /// Settles a sewn garment on the coarsest mesh, and on each finer one from the one before.
 fn refine(
-    around: Around,
+    mut around: Around,
     garments: &[Garment],
     fabric: &Fabric,
     sewn: &[V3],
@@ -108,6 +122,9 @@ fn refine(
         };
         let settled = settle(around, garment, &cloth, x, fabric, run, level, grip)?;
         control(garment, &settled.positions, run.params())?;
+        if settled.yields_m > TIGHT_M {
+            around = around.hardened();
+        }
         last = Some((garment, settled));
     }
     last.map(|(_, settled)| settled).ok_or(SimError::NoMesh)
@@ -124,19 +141,21 @@ fn control(garment: &Garment, positions: &[V3], params: &Params) -> Result<(), S
 }
 
 /// Draws the seams of a garment placed at `x` together, with `force` times the usual force; returns garment positions with
-/// all seams (nearly) closed.
+/// all seams (nearly) closed, and how far the contact with the body yields there, m.
+#[allow(clippy::too_many_arguments)]
 fn sew(
     body: &Body,
     field: &DistanceField,
+    contact: ContactParams,
     garment: &Garment,
     fabric: &Fabric,
     mut x: Vec<V3>,
     force: f64,
     run: &mut Run,
-) -> Result<Vec<V3>, SimError> {
+) -> Result<(Vec<V3>, f64), SimError> {
     let params = run.params();
     let cloth = Cloth::new(garment, fabric, sewing::unsewn(garment))?;
-    let contact = BodyContact::new(field, params.contact, &cloth.areas).with_points_between(&cloth.triangles);
+    let contact = BodyContact::new(field, contact, &cloth.areas).with_points_between(&cloth.triangles);
     let springs = Springs::new(garment, params.seam_stiffness_n_m, force * params.seam_cap_n);
     let sewn = springs.pairs.clone();
     let mut system = System::new(&cloth, contact, Some(springs));
@@ -145,13 +164,16 @@ fn sew(
     let vertex_of = sewing::welded(garment);
     system.walls = Some(Walls::new(body, garment, &vertex_of, &sewing::merged(&vertex_of, &x)).unsewn(&vertex_of));
     run.sew(garment, &mut system, &mut x)?;
-    Ok(x)
+    let yields_m = system.contact.yields_m(&x);
+    Ok((x, yields_m))
 }
 
 /// A settled level.
 struct Settled {
     positions: Vec<V3>,
     residual: f64,
+    /// How far the contact with the body yields, m.
+    yields_m: f64,
     /// Positions and triangles of the sewn vertices.
     sewn: Vec<V3>,
     triangles: Vec<[usize; 3]>,
@@ -165,9 +187,16 @@ struct Around<'a> {
     field: &'a DistanceField,
     /// Hands that the cloth comes near.
     hands: Option<&'a Hands<'a>>,
+    contact: ContactParams,
 }
 
 impl Around<'_> {
+    /// The same with a contact that does not give way under cloth that is drawn tight.
+    fn hardened(self) -> Self {
+        let stiffness_n_m3 = self.contact.stiffness_n_m3.max(HARD_N_M3);
+        Self { contact: ContactParams { stiffness_n_m3, ..self.contact }, ..self }
+    }
+
     /// The fields in which a level settles without friction, one after the other, where they are not the body's own: hands are
     /// folded on the coarsest level and opened on the next.
     fn before_fingers(&self, level: usize, finest: usize) -> Vec<DistanceField> {
@@ -199,7 +228,7 @@ fn settle(
         around.skin.map_or(0.0, deepest)
     };
     let meet = |field, x: &[V3]| {
-        let mut contact = BodyContact::new(field, params.contact, &cloth.areas);
+        let mut contact = BodyContact::new(field, around.contact, &cloth.areas);
         if !is_finest {
             contact = contact.with_points_between(&cloth.triangles);
         } else {
@@ -213,6 +242,8 @@ fn settle(
         }
         contact
     };
+    let baring: Vec<DistanceField> =
+        around.hands.filter(|_| is_finest).map_or(Vec::new(), |hands| hands.baring().collect());
     let stages = around.before_fingers(level, run.levels());
     let (last, opening) = stages.split_last().map_or((around.field, &[][..]), |(last, opening)| (last, opening));
     let mut system = System::new(cloth, meet(opening.first().unwrap_or(last), &x), None);
@@ -227,18 +258,27 @@ fn settle(
         if stages.is_empty() {
             hold_out(&mut system.contact, &x, residual <= params.coarse_tolerance);
         } else {
+            for field in &baring {
+                system.contact = meet(field, &x);
+                run.drape(garment, &mut system, &mut x, Phase::frictionless(&brief, level, run.levels()))?;
+            }
             system.contact = meet(around.field, &x);
         }
         system.contact.set_friction(Some(fabric.friction_body));
-        for _ in 0..HOLDING_ROUNDS {
+        for round in 0..HOLDING_ROUNDS {
             residual = run.drape(garment, &mut system, &mut x, Phase::final_drape(params, level))?;
             let is_at_rest = residual <= params.tolerance;
-            if hold_out(&mut system.contact, &x, is_at_rest) <= DEEPEST_M && is_at_rest {
+            let deepest_m = hold_out(&mut system.contact, &x, is_at_rest);
+            if deepest_m <= DEEPEST_M && is_at_rest {
                 break;
+            }
+            if deepest_m > DEEPEST_M && round > 0 {
+                system.contact.set_stiffness(around.hardened().contact.stiffness_n_m3);
             }
         }
     }
-    Ok(Settled { positions: cloth.unweld(&x), residual, sewn: x, triangles: cloth.triangles.clone() })
+    let yields_m = system.contact.yields_m(&x);
+    Ok(Settled { positions: cloth.unweld(&x), residual, yields_m, sewn: x, triangles: cloth.triangles.clone() })
 }
 
 #[cfg(test)]
