@@ -34,7 +34,7 @@ const ROOM_M: f64 = 4e-3;
 /// Steps in which a hand opens.
 const OPENINGS: u32 = 4;
 /// Steps in which the solid shrinks to the hand itself.
-const BARINGS: u32 = 6;
+const BARINGS: u32 = 4;
 
 /// A hand on its own.
 struct Hand {
@@ -156,14 +156,6 @@ struct Node {
     is_hands: bool,
 }
 
-impl Node {
-    /// About how far it is from the hand open by a share, m.
-    fn solid(&self, share: f64) -> f64 {
-        let [folded, open] = self.distances;
-        folded + (open - folded) * share
-    }
-}
-
 /// The hands that a garment comes near.
 pub struct Hands<'a> {
     field: &'a DistanceField,
@@ -188,32 +180,143 @@ impl<'a> Hands<'a> {
 
     /// The field of the body with folded hands.
     pub fn folded(&self) -> DistanceField {
-        self.opened(0.0)
+        self.field(Shape { open: 0.0, bare: 0.0, is_passing: false })
     }
 
-    /// Fields of the body with hands that open, the last one's fully.
-    pub fn opening(&self) -> impl Iterator<Item = DistanceField> {
-        (1..=OPENINGS).map(|step| self.opened(f64::from(step) / f64::from(OPENINGS)))
+    /// The shapes that a level meets without friction, with their fields.
+    pub fn of_level(&self, level: usize, finest: usize) -> impl Iterator<Item = (Shape, DistanceField)> {
+        Shape::of_level(level, finest).into_iter().map(|shape| (shape, self.field(shape)))
     }
 
-    /// Fields of the body between that with open hands and its own.
-    pub fn baring(&self) -> impl Iterator<Item = DistanceField> {
-        (1..BARINGS).map(|step| {
-            let share = f64::from(step) / f64::from(BARINGS);
-            self.changed(|node| node.solid(1.0) + (node.value - node.solid(1.0)) * share)
-        })
-    }
-
-    /// The field of the body with hands open by a share.
-    fn opened(&self, share: f64) -> DistanceField {
-        self.changed(|node| node.solid(share))
-    }
-
-    fn changed(&self, solid: impl Fn(&Node) -> f64) -> DistanceField {
+    /// The field of the body with hands of some shape.
+    fn field(&self, shape: Shape) -> DistanceField {
         let value = |node: &Node| {
-            let solid = solid(node);
-            (node.index, if node.is_hands { solid } else { solid.min(node.value) })
+            let [folded, open] = node.distances;
+            let solid = folded + (open - folded) * shape.open;
+            let hand = solid + (node.value - solid) * shape.bare;
+            (node.index, if node.is_hands { hand } else { hand.min(node.value) })
         };
         self.field.with(self.nodes.iter().map(value))
+    }
+}
+
+/// A shape of hands before the last phase.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shape {
+    /// From 0 for the folded hand to 1 for the open solid.
+    open: f64,
+    /// From 0 for the solid to 1 for the hand itself.
+    bare: f64,
+    /// Whether cloth only passes through it on its way to the next.
+    pub is_passing: bool,
+}
+
+impl Shape {
+    /// The shapes that a level meets without friction: hands are folded on the coarsest, open on the next, and are laid bare on the
+    /// finest.
+    fn of_level(level: usize, finest: usize) -> Vec<Self> {
+        let steps = |count: u32| (1..count).map(move |step| f64::from(step) / f64::from(count));
+        if level == 0 && finest > 0 {
+            return vec![Self { open: 0.0, bare: 0.0, is_passing: false }];
+        }
+        let opening = steps(OPENINGS).filter(|_| level <= 1).map(|open| Self { open, bare: 0.0, is_passing: true });
+        let open = Self { open: 1.0, bare: 0.0, is_passing: false };
+        let baring = steps(BARINGS).filter(|_| level == finest).map(|bare| Self { bare, is_passing: true, ..open });
+        opening.chain([open]).chain(baring).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{self, Measurements, Pose, Sex};
+    use crate::geom::V2;
+    use crate::pattern::Garment;
+    use crate::pattern::garment::SeamMesh;
+    use crate::sim::cloth::Cloth;
+    use crate::sim::contact::Skin;
+    use crate::sim::fem::settle::{Around, Grip, Settling};
+    use crate::sim::fem::{Params, Run};
+    use crate::sim::laboratory::{self, sheets::sheet};
+    use crate::sim::{Monitor, Progress, fabric, quality, sewing};
+
+    /// Listens to nothing.
+    struct Silent;
+
+    impl Monitor for Silent {
+        fn progress(&mut self, _: &Progress) {}
+    }
+
+    /// A body with its arms stretched out, and its field.
+    fn stretched_out() -> (Body, DistanceField) {
+        let body = body::build(&Measurements::of(Sex::Male, 1.75)).expect("a body");
+        let body = body::pose(&body, Pose { arm_deg: Some(90.0), leg_deg: None }).expect("arms reach so far");
+        let field = DistanceField::build(&body.mesh, 0.006).expect("a closed body");
+        (body, field)
+    }
+
+    #[test]
+    fn the_open_solid_holds_the_hand_and_the_folded_one_leaves_its_thumb_out() {
+        let (body, field) = stretched_out();
+        let wrist = body.skeleton.at(Joint::WristRight);
+        let hand = Hand::of(&body, 1.0).expect("it has a right hand");
+        let hands = Hands::near(&body, &field, &[wrist]).expect("the wrist is near");
+        let greatest = |shape: Shape| {
+            let field = hands.field(shape);
+            let places = hand.skin.iter().map(|&v| field.value_and_gradient(&body.mesh.positions[v]).0);
+            places.fold(f64::MIN, f64::max)
+        };
+        let shapes = Shape::of_level(0, 0);
+        let open = shapes.iter().copied().find(|shape| !shape.is_passing).expect("one is settled on");
+        assert!(greatest(open) < 0.0, "skin {} m outside of the open solid", greatest(open));
+        let folded = Shape { open: 0.0, ..open };
+        assert!(greatest(folded) > 0.01, "skin no more than {} m outside of the folded hand", greatest(folded));
+        for pair in shapes.windows(2).filter(|pair| pair[1].bare == 0.0) {
+            assert!(greatest(pair[1]) < greatest(pair[0]), "it opens from {:?} to {:?}", pair[0], pair[1]);
+        }
+        let chest = body.landmarks.front_neck;
+        assert_eq!(hands.field(open).value_and_gradient(&chest), field.value_and_gradient(&chest));
+        assert!(Hands::near(&body, &field, &[chest]).is_none(), "the neck is far from the hands");
+    }
+
+    /// A narrow tube, its seam closed, about the right hand's axis.
+    fn tube(body: &Body, girth: f64, edge: f64) -> (Garment, Vec<V3>) {
+        let wrist = body.skeleton.at(Joint::WristRight);
+        let end = tip(body, 1.0).expect("it has a right hand");
+        let along = (end - wrist).normalize();
+        let (columns, rows) = ((girth / edge).round() as usize, ((end - wrist).norm() / edge).round() as usize + 4);
+        let mut garment = laboratory::garment(sheet(columns, rows, edge));
+        let pairs = (0..=rows).map(|row| [row * (columns + 1), row * (columns + 1) + columns]).collect();
+        garment.seams = vec![SeamMesh { name: "tube".to_owned(), pairs }];
+        let [across, other] = [V3::z(), along.cross(&V3::z())].map(|d| (d - along * d.dot(&along)).normalize());
+        let place = |p: &V2| {
+            let (sin, cos) = (std::f64::consts::TAU * p.x / (columns as f64 * edge)).sin_cos();
+            let radius = 1.2 * girth / std::f64::consts::TAU;
+            wrist + along * (p.y - 2.0 * edge) + (across * cos + other * sin) * radius
+        };
+        let x = garment.rest.iter().map(place).collect();
+        (garment, x)
+    }
+
+    #[test]
+    fn a_narrow_tube_about_a_hand_takes_the_thumb_in() {
+        let (body, field) = stretched_out();
+        let cotton = fabric::library().into_iter().find(|f| f.name == "cotton_shirting_light").expect("in the library");
+        let (garment, x) = tube(&body, 0.21, 0.015);
+        let cloth = Cloth::new(&garment, &cotton, sewing::welded(&garment)).expect("a sound mesh");
+        let hands = Hands::near(&body, &field, &x).expect("it is about the hand");
+        let skin = Skin::new(&body.mesh).expect("a closed body");
+        let (params, mut silent) = (Params::default(), Silent);
+        let mut inside_mm = |hands| {
+            let around = Around { skin: Some(&skin), field: &field, hands, contact: params.contact };
+            let around = if hands.is_some() { around.hardened() } else { around };
+            let level =
+                Settling { around, garment: &garment, cloth: &cloth, fabric: &cotton, level: 0, grip: Grip::AtTheEnd };
+            let settled = level.settle(cloth.weld(&x), &mut Run::new(&params, &mut silent, 0)).expect("it settles");
+            1e3 * quality::penetration_m(&body, &garment, &settled.positions)
+        };
+        let (folded, open) = (inside_mm(Some(&hands)), inside_mm(None));
+        assert!(folded < 0.5, "{folded} mm inside the hand");
+        assert!(open > 2.0, "an open hand would do: {open} mm");
     }
 }

@@ -1,7 +1,6 @@
 //! One level of a sewn garment comes to rest: without friction, and on the finest mesh with it and held outside the body.
 
-use super::Params;
-use super::hands::Hands;
+use super::hands::{Hands, Shape};
 use super::run::{Phase, Run};
 use crate::geom::{DistanceField, V3};
 use crate::pattern::Garment;
@@ -16,8 +15,8 @@ const DEEPEST_M: f64 = 3e-4;
 const HOLDING_ROUNDS: usize = 5;
 /// Penalty of the contact with the body where cloth is drawn tight or over a hand, N/m3: fingertips press through a softer one.
 const HARD_N_M3: f64 = 1e9;
-/// Steps on each shape of a hand that opens or is laid bare.
-const OPENING_STEPS: u32 = 12;
+/// Steps on each shape that a hand passes through.
+const PASSING_STEPS: u32 = 12;
 
 /// From when on friction holds a garment.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -46,17 +45,6 @@ impl Around<'_> {
     pub fn hardened(self) -> Self {
         let stiffness_n_m3 = self.contact.stiffness_n_m3.max(HARD_N_M3);
         Self { contact: ContactParams { stiffness_n_m3, ..self.contact }, ..self }
-    }
-
-    /// The fields in which a level settles without friction, one after the other, where they are not the body's own: hands
-    /// are folded on the coarsest level and opened on the next.
-    fn without_fingers(&self, level: usize, finest: usize) -> Vec<DistanceField> {
-        let Some(hands) = self.hands else { return Vec::new() };
-        match level {
-            0 if finest > 0 => vec![hands.folded()],
-            0 | 1 => hands.opening().collect(),
-            _ => hands.opening().last().into_iter().collect(),
-        }
     }
 }
 
@@ -98,30 +86,44 @@ impl Settling<'_> {
     pub fn settle(&self, mut x: Vec<V3>, run: &mut Run) -> Result<Settled, SimError> {
         let Self { around, cloth, level, .. } = *self;
         let params = run.params();
-        let is_finest = level == run.levels();
-        let stages = around.without_fingers(level, run.levels());
-        let baring: Vec<DistanceField> =
-            around.hands.filter(|_| is_finest).into_iter().flat_map(Hands::baring).collect();
-        let (last, opening) = stages.split_last().map_or((around.field, &[][..]), |(last, opening)| (last, opening));
-        let mut system = System::new(cloth, self.contact(last, &x, run), None);
+        let (hands, finest) = (around.hands.into_iter(), run.levels());
+        let shapes: Vec<(Shape, DistanceField)> = hands.flat_map(|hands| hands.of_level(level, finest)).collect();
+        let begin = shapes.first().map_or(around.field, |(_, field)| field);
+        let mut system = System::new(cloth, self.contact(begin, &x, run), None);
         system.self_contact = Some(ClothContact::new(params.self_contact, &cloth.triangles, &cloth.areas));
-        if !opening.is_empty() {
-            self.pass_through(opening, &mut system, &mut x, run)?;
-            system.contact = self.contact(last, &x, run);
+        let mut residual = f64::MAX;
+        for (shape, field) in &shapes {
+            system.contact = self.contact(field, &x, run);
+            residual = self.frictionless(&mut system, &mut x, shape.is_passing, run)?;
         }
-        let frictionless = Phase::frictionless(params, level, run.levels());
-        let mut residual = run.drape(self.garment, &mut system, &mut x, frictionless)?;
-        if is_finest {
-            if baring.is_empty() {
+        if shapes.is_empty() {
+            residual = self.frictionless(&mut system, &mut x, false, run)?;
+        }
+        let yields_m = system.contact.yields_m(&x);
+        if level == run.levels() {
+            if shapes.is_empty() {
                 self.hold_out(&mut system.contact, &x, residual <= params.coarse_tolerance);
             } else {
-                self.pass_through(&baring, &mut system, &mut x, run)?;
                 system.contact = self.contact(around.field, &x, run);
             }
             residual = self.hold(&mut system, &mut x, run)?;
         }
-        let yields_m = system.contact.yields_m(&x);
         Ok(Settled { positions: cloth.unweld(&x), residual, yields_m, sewn: x, triangles: cloth.triangles.clone() })
+    }
+
+    /// Steps without friction until it is at rest, or a few; returns the residual.
+    fn frictionless(
+        &self,
+        system: &mut System,
+        x: &mut Vec<V3>,
+        is_passing: bool,
+        run: &mut Run,
+    ) -> Result<f64, SimError> {
+        let mut params = *run.params();
+        if is_passing {
+            (params.coarse_steps, params.finest_frictionless_steps) = (PASSING_STEPS, PASSING_STEPS);
+        }
+        run.drape(self.garment, system, x, Phase::frictionless(&params, self.level, run.levels()))
     }
 
     /// Contact in a field of cloth that begins at `x`.
@@ -146,23 +148,6 @@ impl Settling<'_> {
     fn hold_out(&self, contact: &mut BodyContact, x: &[V3], is_at_rest: bool) -> f64 {
         let deepest = |skin| contact.hold_out(skin, &self.cloth.triangles, x, is_at_rest);
         self.around.skin.map_or(0.0, deepest)
-    }
-
-    /// A few steps in each of some fields.
-    fn pass_through<'f>(
-        &self,
-        fields: &'f [DistanceField],
-        system: &mut System<'f>,
-        x: &mut Vec<V3>,
-        run: &mut Run,
-    ) -> Result<(), SimError> {
-        let brief = Params { coarse_steps: OPENING_STEPS, finest_frictionless_steps: OPENING_STEPS, ..*run.params() };
-        let phase = Phase::frictionless(&brief, self.level, run.levels());
-        for field in fields {
-            system.contact = self.contact(field, x, run);
-            run.drape(self.garment, system, x, phase)?;
-        }
-        Ok(())
     }
 
     /// The end of the drape, with friction, until no point lies inside the body; returns the residual.
