@@ -251,7 +251,7 @@ mod tests {
     fn stretched_out() -> (Body, DistanceField) {
         let body = body::build(&Measurements::of(Sex::Male, 1.75)).expect("a body");
         let body = body::pose(&body, Pose { arm_deg: Some(90.0), leg_deg: None }).expect("arms reach so far");
-        let field = DistanceField::build(&body.mesh, 0.006).expect("a closed body");
+        let field = DistanceField::build(&body.mesh, 0.008).expect("a closed body");
         (body, field)
     }
 
@@ -306,7 +306,7 @@ mod tests {
         let cloth = Cloth::new(&garment, &cotton, sewing::welded(&garment)).expect("a sound mesh");
         let hands = Hands::near(&body, &field, &x).expect("it is about the hand");
         let skin = Skin::new(&body.mesh).expect("a closed body");
-        let (params, mut silent) = (Params::default(), Silent);
+        let (params, mut silent) = (Params { max_iterations: 100, ..Params::default() }, Silent);
         let mut inside_mm = |hands| {
             let around = Around { skin: Some(&skin), field: &field, hands, contact: params.contact };
             let around = if hands.is_some() { around.hardened() } else { around };

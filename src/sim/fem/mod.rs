@@ -27,6 +27,8 @@ use settle::{Around, Grip, Settled, Settling};
 
 /// A sewn garment that yields this much has been drawn into the body, m.
 const SEWN_INTO_M: f64 = 4e-3;
+/// Gap of seams that a body which does not give way may leave where one that does leaves less, m.
+const CLOSED_M: f64 = 1e-2;
 /// A garment that yields this much on a coarse mesh is tight, m: it is about to leave the offset that keeps it outside.
 const TIGHT_M: f64 = 8e-4;
 
@@ -63,10 +65,13 @@ pub fn simulate(
         sew(body, folded, coarsest, fabric, placed.clone(), force, &mut run)
     };
     let (mut sewn, yields_m) = sew(soft)?;
-    let mut around = if hands.is_some() { soft.hardened() } else { soft };
-    if yields_m > SEWN_INTO_M {
-        around = soft.hardened();
-        (sewn, _) = sew(around)?;
+    let is_drawn_in = yields_m > SEWN_INTO_M;
+    let around = if hands.is_some() || is_drawn_in { soft.hardened() } else { soft };
+    if is_drawn_in {
+        let (again, _) = sew(around)?;
+        if quality::seam_gap_m(coarsest, &again) <= quality::seam_gap_m(coarsest, &sewn).max(CLOSED_M) {
+            sewn = again;
+        }
     }
     run.keep_up(&sewn);
     let mut from_sewn = |grip| refine(around, garments, fabric, &sewn, &mut run, grip);
