@@ -230,22 +230,6 @@ impl Shape {
 mod tests {
     use super::*;
     use crate::body::{self, Measurements, Pose, Sex};
-    use crate::geom::V2;
-    use crate::pattern::Garment;
-    use crate::pattern::garment::SeamMesh;
-    use crate::sim::cloth::Cloth;
-    use crate::sim::contact::Skin;
-    use crate::sim::fem::settle::{Around, Grip, Settling};
-    use crate::sim::fem::{Params, Run};
-    use crate::sim::laboratory::{self, sheets::sheet};
-    use crate::sim::{Monitor, Progress, fabric, quality, sewing};
-
-    /// Listens to nothing.
-    struct Silent;
-
-    impl Monitor for Silent {
-        fn progress(&mut self, _: &Progress) {}
-    }
 
     /// A body with its arms stretched out, and its field.
     fn stretched_out() -> (Body, DistanceField) {
@@ -277,46 +261,5 @@ mod tests {
         let chest = body.landmarks.front_neck;
         assert_eq!(hands.field(open).value_and_gradient(&chest), field.value_and_gradient(&chest));
         assert!(Hands::near(&body, &field, &[chest]).is_none(), "the neck is far from the hands");
-    }
-
-    /// A narrow tube, its seam closed, about the right hand's axis.
-    fn tube(body: &Body, girth: f64, edge: f64) -> (Garment, Vec<V3>) {
-        let wrist = body.skeleton.at(Joint::WristRight);
-        let end = tip(body, 1.0).expect("it has a right hand");
-        let along = (end - wrist).normalize();
-        let (columns, rows) = ((girth / edge).round() as usize, ((end - wrist).norm() / edge).round() as usize + 4);
-        let mut garment = laboratory::garment(sheet(columns, rows, edge));
-        let pairs = (0..=rows).map(|row| [row * (columns + 1), row * (columns + 1) + columns]).collect();
-        garment.seams = vec![SeamMesh { name: "tube".to_owned(), pairs }];
-        let [across, other] = [V3::z(), along.cross(&V3::z())].map(|d| (d - along * d.dot(&along)).normalize());
-        let place = |p: &V2| {
-            let (sin, cos) = (std::f64::consts::TAU * p.x / (columns as f64 * edge)).sin_cos();
-            let radius = 1.2 * girth / std::f64::consts::TAU;
-            wrist + along * (p.y - 2.0 * edge) + (across * cos + other * sin) * radius
-        };
-        let x = garment.rest.iter().map(place).collect();
-        (garment, x)
-    }
-
-    #[test]
-    fn a_narrow_tube_about_a_hand_takes_the_thumb_in() {
-        let (body, field) = stretched_out();
-        let cotton = fabric::library().into_iter().find(|f| f.name == "cotton_shirting_light").expect("in the library");
-        let (garment, x) = tube(&body, 0.21, 0.015);
-        let cloth = Cloth::new(&garment, &cotton, sewing::welded(&garment)).expect("a sound mesh");
-        let hands = Hands::near(&body, &field, &x).expect("it is about the hand");
-        let skin = Skin::new(&body.mesh).expect("a closed body");
-        let (params, mut silent) = (Params { max_iterations: 100, ..Params::default() }, Silent);
-        let mut inside_mm = |hands| {
-            let around = Around { skin: Some(&skin), field: &field, hands, contact: params.contact };
-            let around = if hands.is_some() { around.hardened() } else { around };
-            let level =
-                Settling { around, garment: &garment, cloth: &cloth, fabric: &cotton, level: 0, grip: Grip::AtTheEnd };
-            let settled = level.settle(cloth.weld(&x), &mut Run::new(&params, &mut silent, 0)).expect("it settles");
-            1e3 * quality::penetration_m(&body, &garment, &settled.positions)
-        };
-        let (folded, open) = (inside_mm(Some(&hands)), inside_mm(None));
-        assert!(folded < 0.5, "{folded} mm inside the hand");
-        assert!(open > 2.0, "an open hand would do: {open} mm");
     }
 }

@@ -1,4 +1,4 @@
-//! Sleeves: bent to a cylinder about the upper arm's bone, cap towards the shoulder (4.2.5).
+//! Sleeves: bent to a cylinder about the upper arm's bone, cap towards the shoulder (4.2.5), and below the elbow about the arm.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -154,4 +154,25 @@ fn arm_radius(form: &Form, axis: &Axis, below: std::ops::Range<f64>) -> f64 {
         (below.contains(&-height) && radius < 0.1).then_some(radius)
     });
     near.fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sleeve_follows_the_arm_from_the_elbow_on() {
+        let elbow = Station { height: -0.3, beside: V3::zeros(), radius: 0.07 };
+        let wrist = Station { height: -0.55, beside: V3::new(0.0, 0.1, 0.0), radius: 0.04 };
+        let check = |height: f64, beside: f64, radius: f64| {
+            let found = station(&[elbow, wrist], height);
+            assert!((found.beside.y - beside).abs() < 1e-12, "{beside} m at {height}: {}", found.beside);
+            assert!((found.radius - radius).abs() < 1e-12, "{radius} m at {height}: {}", found.radius);
+        };
+        check(0.1, 0.0, 0.07);
+        check(-0.3, 0.0, 0.07);
+        check(-0.425, 0.05, 0.055);
+        check(-0.55, 0.1, 0.04);
+        check(-0.8, 0.1, 0.04);
+    }
 }
