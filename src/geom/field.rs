@@ -157,6 +157,30 @@ impl DistanceField {
         is_within.then(|| (self.index(axis, centre) - 1, local - centre))
     }
 
+    /// The nodes within a box: number, place and value, m.
+    pub fn nodes_within(&self, low: V3, high: V3) -> impl Iterator<Item = (usize, V3, f64)> {
+        let [low, high] = [self.local(&low).map(f64::ceil), self.local(&high).map(f64::floor)];
+        let [along_x, along_y, along_z] = [0, 1, 2].map(|k| self.index(k, low[k])..=self.index(k, high[k]));
+        let columns = along_x.flat_map(move |i| along_y.clone().map(move |j| (i, j)));
+        columns.flat_map(move |(i, j)| along_z.clone().map(move |k| (i, j, k))).map(|(i, j, k)| {
+            let node = self.node(i, j, k);
+            (node, self.position(i, j, k), f64::from(self.values[node]))
+        })
+    }
+
+    /// The field with other values, m, at some nodes, by their numbers.
+    #[must_use]
+    pub fn with(&self, changes: impl Iterator<Item = (usize, f64)>) -> Self {
+        let mut field = self.clone();
+        let far = SHELL_CELLS * self.spacing_m;
+        for (node, value) in changes {
+            if let Some(old) = field.values.get_mut(node) {
+                *old = value.min(far) as f32;
+            }
+        }
+        field
+    }
+
     /// Signed distance (m) and its gradient at a point; beyond the exact shell a positive constant and zero.
     #[must_use]
     pub fn value_and_gradient(&self, p: &V3) -> (f64, V3) {

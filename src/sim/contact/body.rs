@@ -173,6 +173,17 @@ impl<'a> BodyContact<'a> {
         }
     }
 
+    /// Takes another penalty from now on.
+    pub fn set_stiffness(&mut self, stiffness_n_m3: f64) {
+        self.params.stiffness_n_m3 = stiffness_n_m3;
+    }
+
+    /// How far the penalty yields at `x`, m: what the hardest pressed sample is nearer than its offset.
+    #[must_use]
+    pub fn yields_m(&self, x: &[V3]) -> f64 {
+        self.samples.iter().filter_map(|sample| self.depth(sample, x)).map(|(depth, _)| depth).fold(0.0, f64::max)
+    }
+
     /// Switches friction on with a Coulomb coefficient, or off. Anchors are set where the cloth now lies.
     pub fn set_friction(&mut self, coefficient: Option<f64>) {
         self.friction = coefficient;

@@ -43,10 +43,13 @@ impl Default for ClothContactParams {
 const PARALLEL: f64 = 0.01;
 /// Least movement that a search foresees, m.
 const LEAST_SLACK_M: f64 = 2e-3;
-/// Greatest search distance over the size of triangles: about a vertex of a finer mesh lie no more pairs.
-const REACH_SIZES: f64 = 2.0;
+/// Greatest search distance over the size of triangles: about a vertex of a finer mesh lie no more pairs, and a quarter as many
+/// as within twice as far.
+const REACH_SIZES: f64 = 0.7;
 /// Least greatest search distance, m: a step goes half as far at most.
 const LEAST_REACH_M: f64 = 8e-3;
+/// Share of the way that is known to be free which a step may take: corrections come on top.
+const FREE_SHARE: f64 = 0.9;
 /// Shells of distance by which pairs are sorted.
 const SHELLS: f64 = 64.0;
 /// Thickness of a contact over the size of triangles, at most: within a flat cloth none pushes its neighbours.
@@ -82,6 +85,8 @@ pub struct ClothContact<'a> {
     areas: &'a [f64],
     /// Nearest first, as far as shells tell.
     pairs: Vec<Pair>,
+    /// The same as they were found.
+    found: Vec<Pair>,
     found_at: Vec<V3>,
     reach_m: f64,
     /// Where the cloth was at the last step.
@@ -100,6 +105,7 @@ impl<'a> ClothContact<'a> {
             neighbours: Neighbours::new(triangles, areas.len()),
             areas,
             pairs: Vec::new(),
+            found: Vec::new(),
             found_at: Vec::new(),
             reach_m,
             last: Vec::new(),
@@ -135,16 +141,35 @@ impl<'a> ClothContact<'a> {
         }
     }
 
+    /// How far vertices may go from where the cloth was at the last [`ClothContact::update`], m: farther, near pairs would be
+    /// unknown.
+    #[must_use]
+    pub fn free_path_m(&self) -> f64 {
+        FREE_SHARE * (0.5 * self.reach_m - farthest(&self.last, &self.found_at))
+    }
+
     fn seek(&mut self, x: &[V3]) {
-        self.pairs.clear();
-        for primitives in self.neighbours.within(x, self.reach_m) {
+        let (reach_m, found) = (self.reach_m, &mut self.found);
+        found.clear();
+        let mut ends = [0; SHELLS as usize + 1];
+        self.neighbours.each_within(x, reach_m, |primitives| {
             let distance_m = Nearest::of(x, primitives).gap.norm();
-            if distance_m < self.reach_m {
-                self.pairs.push(Pair { primitives, distance_m });
+            if distance_m < reach_m {
+                found.push(Pair { primitives, distance_m });
+                ends[usize::from(shell(distance_m, reach_m)) + 1] += 1;
             }
+        });
+        // Sorted by counting: where each shell begins.
+        for shell in 1..ends.len() {
+            ends[shell] += ends[shell - 1];
         }
-        let reach_m = self.reach_m;
-        self.pairs.sort_by_key(|pair| shell(pair.distance_m, reach_m));
+        self.pairs.clear();
+        self.pairs.resize(found.len(), Pair { primitives: Primitives::EdgeEdge([0; 4]), distance_m: 0.0 });
+        for pair in found {
+            let at = &mut ends[usize::from(shell(pair.distance_m, reach_m))];
+            self.pairs[*at] = *pair;
+            *at += 1;
+        }
         self.found_at = x.to_vec();
     }
 

@@ -42,43 +42,37 @@ impl<'a> Neighbours<'a> {
         self.triangles
     }
 
-    /// Pairs whose boxes are within `reach` of each other; all that are within it are among them.
-    #[must_use]
-    pub fn within(&self, x: &[V3], reach: f64) -> Vec<Primitives> {
-        let mut pairs = self.vertex_triangle_pairs(x, reach);
-        pairs.extend(self.edge_edge_pairs(x, reach));
-        pairs
+    /// Takes each pair whose boxes are within `reach` of each other; all that are within it are among them.
+    pub fn each_within(&self, x: &[V3], reach: f64, mut take: impl FnMut(Primitives)) {
+        self.vertex_triangle_pairs(x, reach, &mut take);
+        self.edge_edge_pairs(x, reach, &mut take);
     }
 
-    fn vertex_triangle_pairs(&self, x: &[V3], reach: f64) -> Vec<Primitives> {
+    fn vertex_triangle_pairs(&self, x: &[V3], reach: f64, take: &mut impl FnMut(Primitives)) {
         let grid = BoxGrid::new(x, self.triangles, reach, 0.0, (2.0 * reach).max(CELL_M));
-        let mut pairs = Vec::new();
         for v in 0..x.len() {
             for t in grid.near([&x[v]]) {
                 let triangle = self.triangles[t];
                 if self.apart(&[v], &triangle) {
                     let [a, b, c] = sorted(triangle);
-                    pairs.push(Primitives::VertexTriangle([v, a, b, c]));
+                    take(Primitives::VertexTriangle([v, a, b, c]));
                 }
             }
         }
-        pairs
     }
 
-    fn edge_edge_pairs(&self, x: &[V3], reach: f64) -> Vec<Primitives> {
+    fn edge_edge_pairs(&self, x: &[V3], reach: f64, take: &mut impl FnMut(Primitives)) {
         let edges = self.edges.pairs();
         let longest = edges.iter().map(|&[a, b]| (x[a] - x[b]).norm()).fold(0.0, f64::max);
         let grid = BoxGrid::new(x, edges, reach, 0.5 * longest, 2.0 * reach + longest);
-        let mut pairs = Vec::new();
         for (e, &[a, b]) in edges.iter().enumerate() {
             for f in grid.near([&x[a], &x[b]]).filter(|&f| f > e) {
                 let [c, d] = edges[f];
                 if self.apart(&[a, b], &[c, d]) {
-                    pairs.push(Primitives::EdgeEdge([a, b, c, d]));
+                    take(Primitives::EdgeEdge([a, b, c, d]));
                 }
             }
         }
-        pairs
     }
 
     /// Whether the two sides have no vertex in common.

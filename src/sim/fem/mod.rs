@@ -1,8 +1,10 @@
 //! FEM-GS (chapter 4): preposition, sewing and draping by physics alone.
 
+mod hands;
 pub mod params;
 pub mod preposition;
 mod run;
+mod settle;
 mod start;
 
 pub use params::{Params, level_edges};
@@ -19,12 +21,16 @@ use crate::sim::solver::System;
 use crate::sim::walls::Walls;
 use crate::sim::{Distortion, Drape, Fabric, Monitor, SimError, Stage};
 
-use run::{Phase, Run};
+use hands::Hands;
+use run::Run;
+use settle::{Around, Grip, Settled, Settling};
 
-/// Deepest point of a drape that is good, m.
-const DEEPEST_M: f64 = 3e-4;
-/// Times at most that a drape is taken up again, because it is not at rest yet or to hold out points inside the body.
-const HOLDING_ROUNDS: usize = 5;
+/// A sewn garment that yields this much has been drawn into the body, m.
+const SEWN_INTO_M: f64 = 4e-3;
+/// Gap of seams that a body which does not give way may leave where one that does leaves less, m.
+const CLOSED_M: f64 = 1e-2;
+/// A garment that yields this much on a coarse mesh is tight, m: it is about to leave the offset that keeps it outside.
+const TIGHT_M: f64 = 8e-4;
 
 /// Dresses a body in a garment.
 ///
@@ -48,10 +54,26 @@ pub fn simulate(
         return Err(SimError::NoMesh);
     };
     let mut run = Run::new(params, monitor, garments.len() - 1);
-    let sewn = sew(body, field, coarsest, fabric, params, &mut run)?;
-    run.keep_up(&sewn);
+    let mut placed = preposition::place(body, coarsest, params)?;
+    let force = start::perturb(params.seed, &mut placed);
+    let hands = Hands::near(body, field, &placed);
+    let folded = hands.as_ref().map(Hands::folded);
     let skin = Skin::new(&body.mesh).ok();
-    let around = Around { skin: skin.as_ref(), field };
+    let soft = Around { skin: skin.as_ref(), field, hands: hands.as_ref(), contact: params.contact };
+    let mut sew = |around: Around| {
+        let folded = Around { field: folded.as_ref().unwrap_or(field), ..around };
+        sew(body, folded, coarsest, fabric, placed.clone(), force, &mut run)
+    };
+    let (mut sewn, yields_m) = sew(soft)?;
+    let is_drawn_in = yields_m > SEWN_INTO_M;
+    let around = if hands.is_some() || is_drawn_in { soft.hardened() } else { soft };
+    if is_drawn_in {
+        let (again, _) = sew(around)?;
+        if quality::seam_gap_m(coarsest, &again) <= quality::seam_gap_m(coarsest, &sewn).max(CLOSED_M) {
+            sewn = again;
+        }
+    }
+    run.keep_up(&sewn);
     let mut from_sewn = |grip| refine(around, garments, fabric, &sewn, &mut run, grip);
     let last = match from_sewn(Grip::AtTheEnd) {
         // Nothing but friction may hold it up.
@@ -73,18 +95,9 @@ pub fn simulate(
     })
 }
 
-/// From when on friction holds a garment.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Grip {
-    /// Once it has come to rest without: then the drape does not depend on how the seams were closed.
-    AtTheEnd,
-    /// From the sewing on: for what would slide off the body without.
-    Throughout,
-}
-
 /// Settles a sewn garment on the coarsest mesh, and on each finer one from the one before.
 fn refine(
-    around: Around,
+    mut around: Around,
     garments: &[Garment],
     fabric: &Fabric,
     sewn: &[V3],
@@ -98,8 +111,11 @@ fn refine(
             None => cloth.weld(sewn),
             Some((coarser, drape)) => prolong(coarser, &drape.positions, garment, &cloth, fabric),
         };
-        let settled = settle(around, garment, &cloth, x, fabric, run, level, grip)?;
+        let settled = Settling { around, garment, cloth: &cloth, fabric, level, grip }.settle(x, run)?;
         control(garment, &settled.positions, run.params())?;
+        if settled.yields_m > TIGHT_M {
+            around = around.hardened();
+        }
         last = Some((garment, settled));
     }
     last.map(|(_, settled)| settled).ok_or(SimError::NoMesh)
@@ -115,19 +131,20 @@ fn control(garment: &Garment, positions: &[V3], params: &Params) -> Result<(), S
     if distortion.stretch > limit { Err(SimError::Distorted { distortion, limit }) } else { Ok(()) }
 }
 
-/// Places a garment and draws its seams together; returns garment positions with all seams (nearly) closed.
+/// Draws the seams of a garment placed at `x` together, with `force` times the usual force; returns garment positions with
+/// all seams (nearly) closed, and how far the contact with the body yields there, m.
 fn sew(
     body: &Body,
-    field: &DistanceField,
+    around: Around,
     garment: &Garment,
     fabric: &Fabric,
-    params: &Params,
+    mut x: Vec<V3>,
+    force: f64,
     run: &mut Run,
-) -> Result<Vec<V3>, SimError> {
-    let mut x = preposition::place(body, garment, params)?;
-    let force = start::perturb(params.seed, &mut x);
+) -> Result<(Vec<V3>, f64), SimError> {
+    let params = run.params();
     let cloth = Cloth::new(garment, fabric, sewing::unsewn(garment))?;
-    let contact = BodyContact::new(field, params.contact, &cloth.areas).with_points_between(&cloth.triangles);
+    let contact = BodyContact::new(around.field, around.contact, &cloth.areas).with_points_between(&cloth.triangles);
     let springs = Springs::new(garment, params.seam_stiffness_n_m, force * params.seam_cap_n);
     let sewn = springs.pairs.clone();
     let mut system = System::new(&cloth, contact, Some(springs));
@@ -136,69 +153,8 @@ fn sew(
     let vertex_of = sewing::welded(garment);
     system.walls = Some(Walls::new(body, garment, &vertex_of, &sewing::merged(&vertex_of, &x)).unsewn(&vertex_of));
     run.sew(garment, &mut system, &mut x)?;
-    Ok(x)
-}
-
-/// A settled level.
-struct Settled {
-    positions: Vec<V3>,
-    residual: f64,
-    /// Positions and triangles of the sewn vertices.
-    sewn: Vec<V3>,
-    triangles: Vec<[usize; 3]>,
-}
-
-/// The body as contact sees it: exactly, and as a field.
-#[derive(Clone, Copy)]
-struct Around<'a> {
-    /// `None` where the mesh bounds no solid: then only the field holds the cloth.
-    skin: Option<&'a Skin<'a>>,
-    field: &'a DistanceField,
-}
-
-/// Lets a sewn garment come to rest from `x`, without friction and then, on the finest level, with it.
-#[allow(clippy::too_many_arguments)]
-fn settle(
-    around: Around,
-    garment: &Garment,
-    cloth: &Cloth,
-    mut x: Vec<V3>,
-    fabric: &Fabric,
-    run: &mut Run,
-    level: usize,
-    grip: Grip,
-) -> Result<Settled, SimError> {
-    let params = run.params();
-    let is_finest = level == run.levels();
-    let mut contact = BodyContact::new(around.field, params.contact, &cloth.areas);
-    if !is_finest {
-        contact = contact.with_points_between(&cloth.triangles);
-    }
-    let mut system = System::new(cloth, contact, None);
-    system.self_contact = Some(ClothContact::new(params.self_contact, &cloth.triangles, &cloth.areas));
-    let hold_out = |system: &mut System, x: &[V3], is_at_rest: bool| {
-        let deepest = |skin| system.contact.hold_out(skin, &cloth.triangles, x, is_at_rest);
-        around.skin.map_or(0.0, deepest)
-    };
-    if is_finest {
-        hold_out(&mut system, &x, false);
-    }
-    if grip == Grip::Throughout {
-        system.contact.set_friction(Some(fabric.friction_body));
-    }
-    let mut residual = run.drape(garment, &mut system, &mut x, Phase::frictionless(params, level, run.levels()))?;
-    if is_finest {
-        hold_out(&mut system, &x, residual <= params.coarse_tolerance);
-        system.contact.set_friction(Some(fabric.friction_body));
-        for _ in 0..HOLDING_ROUNDS {
-            residual = run.drape(garment, &mut system, &mut x, Phase::final_drape(params, level))?;
-            let is_at_rest = residual <= params.tolerance;
-            if hold_out(&mut system, &x, is_at_rest) <= DEEPEST_M && is_at_rest {
-                break;
-            }
-        }
-    }
-    Ok(Settled { positions: cloth.unweld(&x), residual, sewn: x, triangles: cloth.triangles.clone() })
+    let yields_m = system.contact.yields_m(&x);
+    Ok((x, yields_m))
 }
 
 #[cfg(test)]

@@ -112,7 +112,8 @@ impl Stepper {
             PcgParams { tolerance: self.params.linear_tolerance, max_iterations: self.params.linear_iterations };
         let mut direction = self.last.take().unwrap_or_else(|| vec![V3::zeros(); x.len()]);
         system.linear.solve(&operator, x, &forces, &mut direction, &linear);
-        self.clamp(&mut direction);
+        let farthest_m = self.params.clamp_m.min(system.free_path_m());
+        shorten(&mut direction, farthest_m);
         operator.diagonal = contacts;
         let foreseen = system.cloth.membrane.foresee(x, &direction);
         let bend = self.correction(system, operator, x, &direction, &foreseen);
@@ -151,16 +152,16 @@ impl Stepper {
         };
         let mut bend = vec![V3::zeros(); x.len()];
         linear::jacobi(&operator, &excess, &mut bend, &params);
-        self.clamp(&mut bend);
+        shorten(&mut bend, self.params.clamp_m);
         bend
     }
+}
 
-    /// Shortens a direction so that no vertex moves further than allowed.
-    fn clamp(&self, direction: &mut [V3]) {
-        let longest = direction.iter().map(V3::norm).fold(0.0, f64::max);
-        if longest > self.params.clamp_m {
-            direction.iter_mut().for_each(|d| *d *= self.params.clamp_m / longest);
-        }
+/// Shortens a direction so that no vertex moves further than allowed.
+fn shorten(direction: &mut [V3], farthest_m: f64) {
+    let longest = direction.iter().map(V3::norm).fold(0.0, f64::max);
+    if longest > farthest_m {
+        direction.iter_mut().for_each(|d| *d *= farthest_m / longest);
     }
 }
 

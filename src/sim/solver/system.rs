@@ -137,6 +137,12 @@ impl<'a> System<'a> {
         (excess, Operator { diagonal, membrane: blocks, bending: &[], ..operator })
     }
 
+    /// How far vertices may go in the step that was assembled last, m.
+    #[must_use]
+    pub fn free_path_m(&self) -> f64 {
+        self.self_contact.as_ref().map_or(f64::INFINITY, ClothContact::free_path_m)
+    }
+
     /// Vertices on the wrong side of a wall, how far, m, and the way back.
     fn trespasses(&self, x: &[V3]) -> impl Iterator<Item = (usize, f64, V3)> {
         let walls = self.walls.iter();

@@ -1,12 +1,13 @@
-//! Sleeves: bent to a cylinder about the upper arm's bone, cap towards the shoulder (4.2.5).
+//! Sleeves: bent to a cylinder about the upper arm's bone, cap towards the shoulder (4.2.5), and below the elbow about the arm.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::form::{Axis, Form, Hand};
+use super::form::{Axis, Form, Hand, arm_bones};
 use super::sheet::{Joins, Part, Sheet};
 use super::trunk::{BACKS, FRONTS};
 use crate::geom::{V2, V3};
 use crate::pattern::Role;
+use crate::sim::fem::hands;
 
 /// Least clearance of a sleeve from the arm before sewing, m.
 const SLEEVE_CLEARANCE_M: f64 = 0.012;
@@ -16,16 +17,22 @@ const SLEEVE_TURN: f64 = 0.95;
 const HALF_SLEEVE: f64 = 0.2;
 /// One in so many vertices of a sleeve counts as its far end.
 const FAR_SHARE: usize = 10;
-/// Where along the arm its girth is read, from the shoulder joint, m.
+/// A joint less than this below the one before is not followed, m.
+const BENT_BACK_M: f64 = 0.05;
+/// Where along the arm its girth is read, from the shoulder joint, m: well below the armpit.
 const UPPER_ARM_M: std::ops::Range<f64> = 0.15..0.25;
+/// How far on either side of the wrist its girth is read, m.
+const WRIST_M: f64 = 0.02;
 
 /// Sleeve pieces of one arm, placed: where the points of each go.
 pub struct Sleeve {
     pub axis: Axis,
     /// Pieces with the angle of their middle.
     pub parts: Vec<(Sheet, f64)>,
-    radius: f64,
+    /// Height along the axis of the sheet's 0, m.
     top: f64,
+    /// From the elbow down; never empty.
+    course: Vec<Station>,
 }
 
 impl Sleeve {
@@ -64,14 +71,59 @@ impl Sleeve {
         }
         level(joins, &mut parts);
         let axis = form.arm_axis(hand);
-        let radius = (turn / (SLEEVE_TURN * TAU)).max(arm_radius(form, &axis) + SLEEVE_CLEARANCE_M);
-        Self { axis, parts, radius, top: form.shoulder_height(hand) }
+        let radius = (turn / (SLEEVE_TURN * TAU)).max(arm_radius(form, &axis, UPPER_ARM_M) + SLEEVE_CLEARANCE_M);
+        let top = form.shoulder_height(hand);
+        let width = |height: f64| {
+            let rows = parts.iter().filter_map(|(sheet, _)| sheet.row(joins.garment, height - top));
+            rows.map(|(low, high)| high - low).sum()
+        };
+        let course = course(form, &axis, hand, width, radius);
+        Self { axis, parts, top, course }
     }
 
     /// Where a point of a part's sheet goes.
     pub fn at(&self, p: V2, middle: f64) -> V3 {
-        self.axis.point(middle + p.x / self.radius, self.radius, self.top + p.y)
+        let Station { height, beside, radius } = station(&self.course, self.top + p.y);
+        self.axis.point(middle + p.x / radius, radius, height) + beside
     }
+}
+
+/// A place below the elbow that a sleeve goes about.
+#[derive(Clone, Copy)]
+struct Station {
+    /// Along the axis of the upper arm, m.
+    height: f64,
+    /// From that axis to the arm's middle, m.
+    beside: V3,
+    /// Of the sleeve, m.
+    radius: f64,
+}
+
+/// Where an arm goes from the elbow over the wrist to the end of the hand, straight on where it is bent back, and how wide a
+/// sleeve begins there that is `width` wide at a height and has some radius at the elbow.
+fn course(form: &Form, axis: &Axis, hand: Hand, width: impl Fn(f64) -> f64, radius: f64) -> Vec<Station> {
+    let [_, elbow, wrist] = arm_bones(form.body, hand);
+    let mut course = vec![Station { height: axis.coordinates(&elbow).2, beside: V3::zeros(), radius }];
+    for joint in [Some(wrist), hands::tip(form.body, hand)].into_iter().flatten() {
+        let height = axis.coordinates(&joint).2;
+        let above = course[course.len() - 1];
+        if height < above.height - BENT_BACK_M {
+            let beside = joint - axis.point(0.0, 0.0, height);
+            let needed = arm_radius(form, &Axis { origin: wrist, ..*axis }, -WRIST_M..WRIST_M) + SLEEVE_CLEARANCE_M;
+            let radius = (width(height) / (SLEEVE_TURN * TAU)).max(needed).min(above.radius);
+            course.push(Station { height, beside, radius });
+        }
+    }
+    course
+}
+
+/// The place at a height; beyond the ends as there.
+fn station(course: &[Station], height: f64) -> Station {
+    let within = course.windows(2).find(|ends| height > ends[1].height);
+    let (from, to) = within.map_or((course[course.len() - 1], course[course.len() - 1]), |ends| (ends[0], ends[1]));
+    let share = ((from.height - height) / (from.height - to.height).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    let radius = from.radius + (to.radius - from.radius) * share;
+    Station { height, beside: from.beside.lerp(&to.beside, share), radius }
 }
 
 /// Middle of what lies farthest from the cap of a sleeve.
@@ -95,11 +147,32 @@ fn level(joins: &Joins, parts: &mut [(Sheet, f64)]) {
     other.shift(V2::new(0.0, rise / pairs.len().max(1) as f64));
 }
 
-/// Greatest distance of the skin from the bone of the upper arm, well below the armpit, m.
-fn arm_radius(form: &Form, axis: &Axis) -> f64 {
+/// Greatest distance of the skin from an arm's axis where it is some range below the origin, m.
+fn arm_radius(form: &Form, axis: &Axis, below: std::ops::Range<f64>) -> f64 {
     let near = form.arms.iter().filter_map(|p| {
         let (_, radius, height) = axis.coordinates(p);
-        (UPPER_ARM_M.contains(&-height) && radius < 0.1).then_some(radius)
+        (below.contains(&-height) && radius < 0.1).then_some(radius)
     });
     near.fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sleeve_follows_the_arm_from_the_elbow_on() {
+        let elbow = Station { height: -0.3, beside: V3::zeros(), radius: 0.07 };
+        let wrist = Station { height: -0.55, beside: V3::new(0.0, 0.1, 0.0), radius: 0.04 };
+        let check = |height: f64, beside: f64, radius: f64| {
+            let found = station(&[elbow, wrist], height);
+            assert!((found.beside.y - beside).abs() < 1e-12, "{beside} m at {height}: {}", found.beside);
+            assert!((found.radius - radius).abs() < 1e-12, "{radius} m at {height}: {}", found.radius);
+        };
+        check(0.1, 0.0, 0.07);
+        check(-0.3, 0.0, 0.07);
+        check(-0.425, 0.05, 0.055);
+        check(-0.55, 0.1, 0.04);
+        check(-0.8, 0.1, 0.04);
+    }
 }

@@ -104,7 +104,8 @@ impl<'a> Form<'a> {
     }
 }
 
-fn arm_bones(body: &Body, hand: Hand) -> [V3; 3] {
+/// Shoulder, elbow and wrist of an arm.
+pub fn arm_bones(body: &Body, hand: Hand) -> [V3; 3] {
     let joints = if hand > 0.0 {
         [Joint::ShoulderRight, Joint::ElbowRight, Joint::WristRight]
     } else {

@@ -1,0 +1,265 @@
+//! Hands as they slip into a sleeve: folded while a garment is sewn, then opened inside it.
+//!
+//! Fingers and thumbs are thinner than the triangles of a coarse mesh, and poke through between points that are kept out; a
+//! narrow sleeve that is drawn together about an open hand leaves its thumb outside. So until the finest mesh has settled
+//! the cloth meets, for a hand that it is near, a convex solid: folded, beyond the wrist no wider than the wrist and narrowing,
+//! and then widened to one that holds the whole hand. It pushes the cloth outwards from within; what lies on it lies
+//! outside the hand. Only the last phase knows fingers.
+//!
+//! The solid is where `n . p <= h(n)` for directions `n` all around, and the greatest `n . p - h(n)` is taken for the distance
+//! from it; between folded and open that changes evenly.
+
+use std::collections::BTreeSet;
+
+use crate::body::{Body, Joint};
+use crate::geom::{DistanceField, V3};
+
+/// Farthest that a hand reaches from the wrist, m.
+const REACH_M: f64 = 0.25;
+/// Farthest from its own axis that skin beyond the wrist is taken for a hand's, m: else a scan's hand has grown together
+/// with the thigh.
+const WIDEST_M: f64 = 0.15;
+/// Share of the hand's length, at its end, whose middle says where it points.
+const END: f64 = 0.4;
+/// Length of the wrist whose half width a folded hand begins with, m.
+const WRIST_M: f64 = 0.02;
+/// Half width of a folded hand's end over that of the wrist.
+const NARROWING: f64 = 0.5;
+/// Cloth nearer than this to a hand meets the solid, m.
+const NEAR_M: f64 = 0.08;
+/// Farther from the solid than this the field is left alone, m: what a field tells of its outside ends there.
+const SHELL_M: f64 = 0.0125;
+/// Room that the open solid leaves about the hand, m: triangles of 15 mm cut its corners.
+const ROOM_M: f64 = 4e-3;
+/// Steps in which a hand opens.
+const OPENINGS: u32 = 4;
+/// Steps in which the solid shrinks to the hand itself.
+const BARINGS: u32 = 4;
+
+/// A hand on its own.
+struct Hand {
+    /// Its end, m.
+    tip: V3,
+    /// Vertices of the body's mesh, in order.
+    skin: Vec<usize>,
+    /// Supports of the solid, folded and open, m.
+    supports: [Vec<f64>; 2],
+}
+
+impl Hand {
+    /// The hand beyond the wrist on a side (1 right, -1 left); `None` where no skin is a hand's.
+    fn of(body: &Body, side: f64) -> Option<Self> {
+        let joints =
+            if side > 0.0 { [Joint::ElbowRight, Joint::WristRight] } else { [Joint::ElbowLeft, Joint::WristLeft] };
+        let [elbow, wrist] = joints.map(|joint| body.skeleton.at(joint));
+        let skin = skin_beyond(body, wrist, (wrist - elbow).try_normalize(0.0)?);
+        let points: Vec<V3> = skin.iter().map(|&v| body.mesh.positions[v] - wrist).collect();
+        let tip = *points.iter().max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))?;
+        let end = points.iter().filter(|p| p.norm() > (1.0 - END) * tip.norm());
+        let along = end.sum::<V3>().try_normalize(0.0)?;
+        let length = points.iter().map(|p| p.dot(&along)).fold(0.0, f64::max);
+        let across = |p: &V3| p - along * p.dot(&along);
+        if points.iter().any(|p| across(p).norm() > WIDEST_M) {
+            return None;
+        }
+        let at_wrist = points.iter().filter(|p| p.dot(&along) < WRIST_M);
+        let half_width = at_wrist.map(|p| across(p).norm()).reduce(f64::max)?;
+        let fold = |p: &V3| {
+            let share = (p.dot(&along) / length).clamp(0.0, 1.0);
+            let most = half_width * (1.0 - (1.0 - NARROWING) * share);
+            let from_axis = across(p);
+            p - from_axis * (1.0 - most / from_axis.norm().max(most))
+        };
+        let support = |room_m: f64, place: &dyn Fn(&V3) -> V3| {
+            let most = |n: V3| points.iter().map(|p| n.dot(&(wrist + place(p)))).fold(f64::MIN, f64::max) + room_m;
+            directions().map(most).collect()
+        };
+        Some(Self { tip: wrist + tip, supports: [support(0.0, &fold), support(ROOM_M, &|p| *p)], skin })
+    }
+
+    /// About how far a point is from the solid, folded and open, m, negative inside.
+    fn distances(&self, p: &V3) -> [f64; 2] {
+        let most = |supports: &Vec<f64>| directions().zip(supports).map(|(n, h)| n.dot(p) - h).fold(f64::MIN, f64::max);
+        [most(&self.supports[0]), most(&self.supports[1])]
+    }
+
+    /// Whether cloth at `p` may come to touch the hand.
+    fn is_near(&self, p: &V3) -> bool {
+        self.distances(p)[1] < NEAR_M
+    }
+
+    /// The nodes of a body's field about the open hand.
+    fn nodes(&self, body: &Body, field: &DistanceField) -> Vec<Node> {
+        let reach = V3::repeat(SHELL_M + ROOM_M);
+        let points = || self.skin.iter().map(|&v| body.mesh.positions[v]);
+        let low = points().fold(V3::repeat(f64::MAX), |low, p| low.inf(&p)) - reach;
+        let high = points().fold(V3::repeat(f64::MIN), |high, p| high.sup(&p)) + reach;
+        let is_near = |p: &V3| (p - low).min() > -SHELL_M && (high - p).min() > -SHELL_M;
+        let near: Vec<usize> = (0..body.mesh.positions.len()).filter(|&v| is_near(&body.mesh.positions[v])).collect();
+        let node = |(index, place, value): (usize, V3, f64)| {
+            let distances = self.distances(&place);
+            (distances[1] < SHELL_M).then(|| {
+                let from = |v: &usize| (body.mesh.positions[*v] - place).norm_squared();
+                let nearest = near.iter().min_by(|a, b| from(a).total_cmp(&from(b)));
+                let is_hands = nearest.is_some_and(|v| self.skin.binary_search(v).is_ok());
+                Node { index, distances, value, is_hands }
+            })
+        };
+        field.nodes_within(low, high).filter_map(node).collect()
+    }
+}
+
+/// The end of the hand on a side (1 right, -1 left), m; `None` where no skin is a hand's.
+pub fn tip(body: &Body, side: f64) -> Option<V3> {
+    Hand::of(body, side).map(|hand| hand.tip)
+}
+
+/// Directions all around, in mirrored pairs: from the middle of a cube to a grid on its faces.
+fn directions() -> impl Iterator<Item = V3> {
+    let of = |k: i32| f64::from(k - 2);
+    let grid = (0..125).map(move |i| V3::new(of(i / 25), of(i / 5 % 5), of(i % 5)));
+    grid.filter(|n| n.amax() == 2.0).map(|n| n.normalize())
+}
+
+/// Vertices beyond the plane through the wrist that hang together with the nearest of them, in order.
+fn skin_beyond(body: &Body, wrist: V3, along: V3) -> Vec<usize> {
+    let positions = &body.mesh.positions;
+    let is_beyond = |v: usize| {
+        let p = positions[v] - wrist;
+        p.dot(&along) > 0.0 && p.norm() < REACH_M
+    };
+    let triangles: Vec<[usize; 3]> =
+        body.mesh.triangles.iter().copied().filter(|t| t.iter().all(|v| is_beyond(*v))).collect();
+    let distance = |v: &usize| (positions[*v] - wrist).norm_squared();
+    let nearest = triangles.iter().flatten().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let mut skin: BTreeSet<usize> = nearest.into_iter().collect();
+    let mut count = 0;
+    while skin.len() > count {
+        count = skin.len();
+        for t in &triangles {
+            if t.iter().any(|v| skin.contains(v)) {
+                skin.extend(t);
+            }
+        }
+    }
+    skin.into_iter().collect()
+}
+
+/// A node of the body's field near a hand.
+struct Node {
+    index: usize,
+    /// About how far it is from the folded and the open hand, m.
+    distances: [f64; 2],
+    /// What the field says, m.
+    value: f64,
+    /// Whether the nearest skin is the hand's.
+    is_hands: bool,
+}
+
+/// The hands that a garment comes near.
+pub struct Hands<'a> {
+    field: &'a DistanceField,
+    hands: Vec<Hand>,
+    nodes: Vec<Node>,
+}
+
+impl<'a> Hands<'a> {
+    /// The hands of a body that cloth at `x` comes near; `None` where it comes near none.
+    pub fn near(body: &Body, field: &'a DistanceField, x: &[V3]) -> Option<Self> {
+        let hands = [1.0, -1.0].into_iter().filter_map(|side| Hand::of(body, side));
+        let hands: Vec<Hand> = hands.filter(|hand| x.iter().any(|p| hand.is_near(p))).collect();
+        let nodes: Vec<Node> = hands.iter().flat_map(|hand| hand.nodes(body, field)).collect();
+        (!nodes.is_empty()).then_some(Self { field, hands, nodes })
+    }
+
+    /// The triangles of a cloth at `x` that are near.
+    pub fn near_triangles(&self, triangles: &[[usize; 3]], x: &[V3]) -> Vec<[usize; 3]> {
+        let is_near: Vec<bool> = x.iter().map(|p| self.hands.iter().any(|hand| hand.is_near(p))).collect();
+        triangles.iter().copied().filter(|t| t.iter().any(|v| is_near[*v])).collect()
+    }
+
+    /// The field of the body with folded hands.
+    pub fn folded(&self) -> DistanceField {
+        self.field(Shape { open: 0.0, bare: 0.0, is_passing: false })
+    }
+
+    /// The shapes that a level meets without friction, with their fields.
+    pub fn of_level(&self, level: usize, finest: usize) -> impl Iterator<Item = (Shape, DistanceField)> {
+        Shape::of_level(level, finest).into_iter().map(|shape| (shape, self.field(shape)))
+    }
+
+    /// The field of the body with hands of some shape.
+    fn field(&self, shape: Shape) -> DistanceField {
+        let value = |node: &Node| {
+            let [folded, open] = node.distances;
+            let solid = folded + (open - folded) * shape.open;
+            let hand = solid + (node.value - solid) * shape.bare;
+            (node.index, if node.is_hands { hand } else { hand.min(node.value) })
+        };
+        self.field.with(self.nodes.iter().map(value))
+    }
+}
+
+/// A shape of hands before the last phase.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shape {
+    /// From 0 for the folded hand to 1 for the open solid.
+    open: f64,
+    /// From 0 for the solid to 1 for the hand itself.
+    bare: f64,
+    /// Whether cloth only passes through it on its way to the next.
+    pub is_passing: bool,
+}
+
+impl Shape {
+    /// The shapes that a level meets without friction: hands are folded on the coarsest, open on the next, and are laid bare on the
+    /// finest.
+    fn of_level(level: usize, finest: usize) -> Vec<Self> {
+        let steps = |count: u32| (1..count).map(move |step| f64::from(step) / f64::from(count));
+        if level == 0 && finest > 0 {
+            return vec![Self { open: 0.0, bare: 0.0, is_passing: false }];
+        }
+        let opening = steps(OPENINGS).filter(|_| level <= 1).map(|open| Self { open, bare: 0.0, is_passing: true });
+        let open = Self { open: 1.0, bare: 0.0, is_passing: false };
+        let baring = steps(BARINGS).filter(|_| level == finest).map(|bare| Self { bare, is_passing: true, ..open });
+        opening.chain([open]).chain(baring).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{self, Measurements, Pose, Sex};
+
+    /// A body with its arms stretched out, and its field.
+    fn stretched_out() -> (Body, DistanceField) {
+        let body = body::build(&Measurements::of(Sex::Male, 1.75)).expect("a body");
+        let body = body::pose(&body, Pose { arm_deg: Some(90.0), leg_deg: None }).expect("arms reach so far");
+        let field = DistanceField::build(&body.mesh, 0.008).expect("a closed body");
+        (body, field)
+    }
+
+    #[test]
+    fn the_open_solid_holds_the_hand_and_the_folded_one_leaves_its_thumb_out() {
+        let (body, field) = stretched_out();
+        let wrist = body.skeleton.at(Joint::WristRight);
+        let hand = Hand::of(&body, 1.0).expect("it has a right hand");
+        let hands = Hands::near(&body, &field, &[wrist]).expect("the wrist is near");
+        let greatest = |shape: Shape| {
+            let field = hands.field(shape);
+            let places = hand.skin.iter().map(|&v| field.value_and_gradient(&body.mesh.positions[v]).0);
+            places.fold(f64::MIN, f64::max)
+        };
+        let shapes = Shape::of_level(0, 0);
+        let open = shapes.iter().copied().find(|shape| !shape.is_passing).expect("one is settled on");
+        assert!(greatest(open) < 0.0, "skin {} m outside of the open solid", greatest(open));
+        let folded = Shape { open: 0.0, ..open };
+        assert!(greatest(folded) > 0.01, "skin no more than {} m outside of the folded hand", greatest(folded));
+        for pair in shapes.windows(2).filter(|pair| pair[1].bare == 0.0) {
+            assert!(greatest(pair[1]) < greatest(pair[0]), "it opens from {:?} to {:?}", pair[0], pair[1]);
+        }
+        let chest = body.landmarks.front_neck;
+        assert_eq!(hands.field(open).value_and_gradient(&chest), field.value_and_gradient(&chest));
+        assert!(Hands::near(&body, &field, &[chest]).is_none(), "the neck is far from the hands");
+    }
+}

@@ -1,0 +1,171 @@
+//! One level of a sewn garment comes to rest: without friction, and on the finest mesh with it and held outside the body.
+
+use super::hands::{Hands, Shape};
+use super::run::{Phase, Run};
+use crate::geom::{DistanceField, V3};
+use crate::pattern::Garment;
+use crate::sim::cloth::Cloth;
+use crate::sim::contact::{BodyContact, ClothContact, ContactParams, Skin};
+use crate::sim::solver::System;
+use crate::sim::{Fabric, SimError};
+
+/// Deepest point of a drape that is good, m.
+const DEEPEST_M: f64 = 3e-4;
+/// Times at most that a drape is taken up again, because it is not at rest yet or to hold out points inside the body.
+const HOLDING_ROUNDS: usize = 5;
+/// Penalty of the contact with the body where cloth is drawn tight or over a hand, N/m3: fingertips press through a softer one.
+const HARD_N_M3: f64 = 1e9;
+/// Steps on each shape that a hand passes through.
+const PASSING_STEPS: u32 = 12;
+
+/// From when on friction holds a garment.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Grip {
+    /// Once it has come to rest without: then the drape does not depend on how the seams were closed.
+    AtTheEnd,
+    /// From the sewing on: for what would slide off the body without.
+    Throughout,
+}
+
+/// The body as contact sees it: exactly, and as a field.
+#[derive(Clone, Copy)]
+pub struct Around<'a> {
+    /// `None` where the mesh bounds no solid: then only the field holds the cloth.
+    pub skin: Option<&'a Skin<'a>>,
+    /// Distance from the body.
+    pub field: &'a DistanceField,
+    /// Hands that the cloth comes near.
+    pub hands: Option<&'a Hands<'a>>,
+    /// How the body pushes.
+    pub contact: ContactParams,
+}
+
+impl Around<'_> {
+    /// The same with a contact that does not give way under cloth that is drawn tight.
+    pub fn hardened(self) -> Self {
+        let stiffness_n_m3 = self.contact.stiffness_n_m3.max(HARD_N_M3);
+        Self { contact: ContactParams { stiffness_n_m3, ..self.contact }, ..self }
+    }
+}
+
+/// A settled level.
+pub struct Settled {
+    /// Of the garment's vertices, m.
+    pub positions: Vec<V3>,
+    /// Rms force over mean vertex weight.
+    pub residual: f64,
+    /// How far the contact with the body yields, m.
+    pub yields_m: f64,
+    /// Positions of the sewn vertices, m.
+    pub sewn: Vec<V3>,
+    /// Triangles of the sewn vertices.
+    pub triangles: Vec<[usize; 3]>,
+}
+
+/// A level that is to settle.
+pub struct Settling<'a> {
+    /// What it lies on.
+    pub around: Around<'a>,
+    /// Its mesh.
+    pub garment: &'a Garment,
+    /// The same, sewn.
+    pub cloth: &'a Cloth,
+    /// What it is made of.
+    pub fabric: &'a Fabric,
+    /// Its number, coarsest first.
+    pub level: usize,
+    /// When friction begins.
+    pub grip: Grip,
+}
+
+impl Settling<'_> {
+    /// Lets the sewn vertices come to rest from `x`.
+    ///
+    /// # Errors
+    /// When they diverge or slide off the body, or the monitor cancels.
+    pub fn settle(&self, mut x: Vec<V3>, run: &mut Run) -> Result<Settled, SimError> {
+        let Self { around, cloth, level, .. } = *self;
+        let params = run.params();
+        let (hands, finest) = (around.hands.into_iter(), run.levels());
+        let shapes: Vec<(Shape, DistanceField)> = hands.flat_map(|hands| hands.of_level(level, finest)).collect();
+        let begin = shapes.first().map_or(around.field, |(_, field)| field);
+        let mut system = System::new(cloth, self.contact(begin, &x, run), None);
+        system.self_contact = Some(ClothContact::new(params.self_contact, &cloth.triangles, &cloth.areas));
+        let mut residual = f64::MAX;
+        for (shape, field) in &shapes {
+            system.contact = self.contact(field, &x, run);
+            residual = self.frictionless(&mut system, &mut x, shape.is_passing, run)?;
+        }
+        if shapes.is_empty() {
+            residual = self.frictionless(&mut system, &mut x, false, run)?;
+        }
+        let yields_m = system.contact.yields_m(&x);
+        if level == run.levels() {
+            if shapes.is_empty() {
+                self.hold_out(&mut system.contact, &x, residual <= params.coarse_tolerance);
+            } else {
+                system.contact = self.contact(around.field, &x, run);
+            }
+            residual = self.hold(&mut system, &mut x, run)?;
+        }
+        Ok(Settled { positions: cloth.unweld(&x), residual, yields_m, sewn: x, triangles: cloth.triangles.clone() })
+    }
+
+    /// Steps without friction until it is at rest, or a few; returns the residual.
+    fn frictionless(
+        &self,
+        system: &mut System,
+        x: &mut Vec<V3>,
+        is_passing: bool,
+        run: &mut Run,
+    ) -> Result<f64, SimError> {
+        let mut params = *run.params();
+        if is_passing {
+            (params.coarse_steps, params.finest_frictionless_steps) = (PASSING_STEPS, PASSING_STEPS);
+        }
+        run.drape(self.garment, system, x, Phase::frictionless(&params, self.level, run.levels()))
+    }
+
+    /// Contact in a field of cloth that begins at `x`.
+    fn contact<'f>(&self, field: &'f DistanceField, x: &[V3], run: &Run) -> BodyContact<'f> {
+        let triangles = &self.cloth.triangles;
+        let mut contact = BodyContact::new(field, self.around.contact, &self.cloth.areas);
+        if self.level < run.levels() {
+            contact = contact.with_points_between(triangles);
+        } else {
+            if let Some(hands) = self.around.hands {
+                contact = contact.with_points_between(&hands.near_triangles(triangles, x));
+            }
+            self.hold_out(&mut contact, x, false);
+        }
+        if self.grip == Grip::Throughout {
+            contact.set_friction(Some(self.fabric.friction_body));
+        }
+        contact
+    }
+
+    /// Holds points inside the body out from now on; returns how deep the deepest lies, m.
+    fn hold_out(&self, contact: &mut BodyContact, x: &[V3], is_at_rest: bool) -> f64 {
+        let deepest = |skin| contact.hold_out(skin, &self.cloth.triangles, x, is_at_rest);
+        self.around.skin.map_or(0.0, deepest)
+    }
+
+    /// The end of the drape, with friction, until no point lies inside the body; returns the residual.
+    fn hold(&self, system: &mut System, x: &mut Vec<V3>, run: &mut Run) -> Result<f64, SimError> {
+        let params = run.params();
+        system.contact.set_friction(Some(self.fabric.friction_body));
+        let mut residual = f64::MAX;
+        for round in 0..HOLDING_ROUNDS {
+            residual = run.drape(self.garment, system, x, Phase::final_drape(params, self.level))?;
+            let is_at_rest = residual <= params.tolerance;
+            let deepest_m = self.hold_out(&mut system.contact, x, is_at_rest);
+            if deepest_m <= DEEPEST_M && is_at_rest {
+                break;
+            }
+            if deepest_m > DEEPEST_M && round > 0 {
+                system.contact.set_stiffness(self.around.hardened().contact.stiffness_n_m3);
+            }
+        }
+        Ok(residual)
+    }
+}
