@@ -7,12 +7,14 @@ use crate::geom::V3;
 const KEPT: f64 = 0.1;
 /// Share of the distance that is gone at once.
 const ADVANCE: f64 = 0.9;
+/// Distance below which two parts touch, m: a twentieth of what layers are pressed to by the strongest push.
+const TOUCHING_M: f64 = 1e-6;
 /// Most advances: a pair that takes more glides along so near that it may as well be said to meet.
 const MOST_ADVANCES: usize = 40;
 
 /// Whether a pair comes nearer than a tenth of its distance on the way from `x` to `y`, its vertices moving evenly: by
 /// conservative advancement, which goes on by as much as cannot use the distance up [Li, Kaufman, Jiang 2021]. A pair that touches already
-/// has nothing to keep.
+/// has nothing to keep: it would bar every step of the whole cloth, and what then comes to cross is drawn out again.
 #[must_use]
 pub fn meets(x: &[V3], y: &[V3], primitives: Primitives) -> bool {
     let vertices = primitives.vertices();
@@ -28,7 +30,7 @@ pub fn meets(x: &[V3], y: &[V3], primitives: Primitives) -> bool {
     };
     let mut distance = Nearest::at(&at, primitives).gap.norm();
     let least = KEPT * distance;
-    if distance - least > closing || distance == 0.0 {
+    if distance - least > closing || distance < TOUCHING_M {
         return false;
     }
     let mut time = 0.0;
