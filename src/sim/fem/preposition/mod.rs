@@ -129,8 +129,8 @@ impl Placing<'_> {
             let longest = seams.max_by_key(|(_, pairs)| pairs.len()).filter(|(_, pairs)| !pairs.is_empty());
             let Some((piece, pairs)) = longest else {
                 let piece = &joins.garment.pieces[open];
-                let accepted = "pieces of the trunk, arms and legs by role, one sewn to itself round the trunk, any other piece that is \
-                    sewn to one of these";
+                let accepted = "pieces of the trunk and the legs by role, sleeves that are sewn to an armhole, one piece sewn to itself round \
+                    the trunk, any other piece that is sewn to one of these; this one is sewn to none";
                 return Err(SimError::CannotPlace { piece: piece.id.clone(), role: piece.role, accepted });
             };
             let mut axes = placed.iter().filter(|&&p| !joins.between(piece, p).is_empty()).filter_map(|&p| limb[p]);
