@@ -34,7 +34,7 @@ pub struct ClothContactParams {
 
 impl Default for ClothContactParams {
     fn default() -> Self {
-        Self { thickness_m: 2e-3, stiffness_n_m3: 1e6, reach_m: 0.02, release_n: 0.02, release_steps: 150 }
+        Self { thickness_m: 2e-3, stiffness_n_m3: 1e6, reach_m: 0.02, release_n: 0.02, release_steps: 400 }
     }
 }
 
