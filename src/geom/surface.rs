@@ -54,7 +54,7 @@ impl Surface {
         let triangle_distance = |index: u32, _: f32| {
             let corners = triangle::sorted(*self.mesh.indices().get(index as usize)?);
             let corners = corners.map(|corner| from_parry(self.mesh.vertices()[corner as usize]));
-            let (weights, _) = triangle::nearest(&p, &corners);
+            let weights = triangle::nearest(&p, &corners);
             let gap: V3 = (0..3).map(|k| (p - corners[k]) * weights[k]).sum();
             #[allow(clippy::cast_possible_truncation)]
             Some((gap.norm() as f32, ()))

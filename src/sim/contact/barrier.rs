@@ -18,8 +18,8 @@ const TO: f64 = 0.01;
 /// Strength of the barrier over that of the spring.
 const STRENGTH: f64 = 4.0;
 
-/// The push at a distance: a spring over the thickness, and within half of it a barrier `-(d - d0)^2 ln(d / d0)` besides,
-/// which no force overcomes [Li 2020]. `None` beyond the thickness.
+/// The push at a distance: a spring over the thickness, and within half of it a barrier `-(d - d0)^2 ln(d / d0)` besides
+/// [Li 2020], whose slope grows ten-thousandfold before it is cut off. `None` beyond the thickness.
 #[must_use]
 pub fn push(distance_m: f64, thickness_m: f64) -> Option<Push> {
     let depth = thickness_m - distance_m;

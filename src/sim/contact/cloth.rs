@@ -1,10 +1,11 @@
 //! Contact of the cloth with itself: vertices are kept a thickness away from triangles, edges from edges.
 //!
 //! Each pair is pushed apart by the true distance of its two primitives, which runs on smoothly where a nearest point
-//! slides over a rim [Li 2020]: the energy has no steps, and a line search no place to stop at. The push grows without
-//! bounds as two layers come near ([`super::barrier`]), so that no tension draws one through the other, and no step may
+//! slides over a rim [Li 2020]: the energy has no steps, and a line search no place to stop at. The push rises steeply
+//! as two layers come near ([`super::barrier`]), so that tension does not draw one through the other, and no step may
 //! take it through: where a pair would meet on the way from the last step ([`super::advance`]) the energy is infinite. All
-//! pairs that share no vertex are watched, so what does not cross never comes to. Pairs are sought within a reach that no
+//! pairs that share no vertex are watched, so what does not cross hardly ever comes to: only what is pressed to within a
+//! thousandth of a millimetre may pass. Pairs are sought within a reach that no
 //! step can cross, so none is met unseen. Cloth that already crosses when it is first seen passes through itself there,
 //! while the line along which it crosses is drawn out of it ([`super::knots`]). There is no friction between layers.
 
@@ -134,7 +135,7 @@ impl<'a> ClothContact<'a> {
             self.reach_m = wanted.min(self.params.reach_m);
             self.seek(x);
         }
-        // Nothing comes to cross in a step; but cloth may have been moved by others.
+        // What is not near comes to cross in no step; but cloth may have been moved by others, and what touched may have passed.
         if is_to_seek || !self.knots.is_empty() {
             let found: Vec<Crossing> = crossings(x, self.neighbours.edges(), self.neighbours.triangles()).collect();
             self.knots.see(x, &found);

@@ -3,7 +3,7 @@
 use crate::geom::{V3, triangle};
 
 /// Vertices of a pair: `[vertex, triangle]` or `[edge, edge]`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Primitives {
     /// A vertex, then the corners of a triangle.
     VertexTriangle([usize; 4]),
@@ -28,9 +28,6 @@ pub struct Nearest {
     pub weights: [f64; 4],
     /// From the nearest point of the second primitive to that of the first, m.
     pub gap: V3,
-    /// Unit normal of the triangle, or common perpendicular of the edges, where the nearest points lie within both
-    /// primitives; else one of them is on a rim.
-    pub normal: Option<V3>,
 }
 
 impl Nearest {
@@ -43,26 +40,20 @@ impl Nearest {
     /// Nearest points of a pair whose vertices are at `corners`.
     #[must_use]
     pub fn at(corners: &[V3; 4], primitives: Primitives) -> Self {
-        let (weights, within) = match primitives {
+        let weights = match primitives {
             Primitives::VertexTriangle(_) => {
                 let [p, a, b, c] = *corners;
-                let ([wa, wb, wc], is_within) = triangle::nearest(&p, &[a, b, c]);
-                ([1.0, -wa, -wb, -wc], is_within)
+                let [wa, wb, wc] = triangle::nearest(&p, &[a, b, c]);
+                [1.0, -wa, -wb, -wc]
             }
             Primitives::EdgeEdge(_) => edge_edge(corners),
         };
-        let gap: V3 = (0..4).map(|k| corners[k] * weights[k]).sum();
-        let cross = match primitives {
-            Primitives::VertexTriangle(_) => (corners[2] - corners[1]).cross(&(corners[3] - corners[1])),
-            Primitives::EdgeEdge(_) => (corners[1] - corners[0]).cross(&(corners[3] - corners[2])),
-        };
-        let normal = if within { cross.try_normalize(0.0) } else { None };
-        Self { weights, gap, normal }
+        Self { weights, gap: (0..4).map(|k| corners[k] * weights[k]).sum() }
     }
 }
 
-/// Weights of the nearest points, and whether both are inside their edges.
-fn edge_edge([a, b, c, d]: &[V3; 4]) -> ([f64; 4], bool) {
+/// Weights of the nearest points of two edges.
+fn edge_edge([a, b, c, d]: &[V3; 4]) -> [f64; 4] {
     let (u, w, r) = (b - a, d - c, a - c);
     let (uu, ww, uw) = (u.norm_squared(), w.norm_squared(), u.dot(&w));
     let (ur, wr) = (u.dot(&r), w.dot(&r));
@@ -74,8 +65,7 @@ fn edge_edge([a, b, c, d]: &[V3; 4]) -> ([f64; 4], bool) {
     if t != free_t {
         s = along(t * uw - ur, uu);
     }
-    let inside = |q: f64| q > 0.0 && q < 1.0;
-    ([1.0 - s, s, t - 1.0, -t], inside(s) && inside(t))
+    [1.0 - s, s, t - 1.0, -t]
 }
 
 /// Twice the area that two edges span, squared, and its gradient by the first edge and by the second: it vanishes where

@@ -26,7 +26,8 @@ pub struct Symbolic {
     starts: Vec<usize>,
     /// Their rows, ascending.
     rows: Vec<usize>,
-    /// Where each pair of the matrix stands: its column, and its block below the diagonal or `None` on it.
+    /// Where each pair of the matrix stands: its column, its block below the diagonal or `None` on it, and whether its first row is the
+    /// one eliminated later, so that it stands there as it is and not transposed.
     entries: Vec<(usize, Option<usize>, bool)>,
 }
 
@@ -258,11 +259,10 @@ mod tests {
     use super::*;
     use crate::sim::laboratory::sheets::noise;
 
-    /// A positive definite matrix over pairs, and the product of it with a vector.
-    fn matrix(count: usize, pairs: &[[usize; 2]]) -> Vec<Dense> {
+    /// A positive definite matrix over pairs.
+    fn matrix(pairs: &[[usize; 2]]) -> Vec<Dense> {
         let draw = noise(pairs.len() * 36, 7);
         let degree = |a: usize| pairs.iter().filter(|p| p.contains(&a)).count() as f64;
-        assert!(count > 0);
         pairs
             .iter()
             .enumerate()
@@ -300,7 +300,7 @@ mod tests {
     fn check(count: usize, mut pairs: Vec<[usize; 2]>) {
         pairs.extend((0..count).map(|a| [a, a]));
         pairs.sort_unstable();
-        let blocks = matrix(count, &pairs);
+        let blocks = matrix(&pairs);
         let symbolic = Symbolic::new(count, &pairs);
         let numeric = symbolic.factorise(&blocks).expect("positive definite");
         let expect: Vec<Lanes> = (0..count)

@@ -117,7 +117,7 @@ impl Patches {
     /// Adds to `z` the rigid motions of the patches that the forces `r` cause.
     pub fn add(&self, coarse: &Coarse, r: &[Quad<f32>], z: &mut [Quad<f32>]) {
         let Some(factor) = &coarse.factor else { return };
-        let mut motions: Vec<Lanes> = vec![[0.0; 8]; self.count];
+        let mut motions: Vec<Lanes> = vec![Lanes::default(); self.count];
         for ((a, arm), r) in self.of.iter().zip(&coarse.arms).zip(r) {
             let turn = cross(arm, r);
             let wrench = &mut motions[*a];
@@ -126,7 +126,7 @@ impl Patches {
                 wrench[3 + k] += turn[k];
             }
         }
-        self.symbolic.solve(factor, &mut motions, &mut vec![[0.0; 8]; self.count]);
+        self.symbolic.solve(factor, &mut motions, &mut vec![Lanes::default(); self.count]);
         for ((a, arm), z) in self.of.iter().zip(&coarse.arms).zip(z) {
             let motion = &motions[*a];
             let moved = cross(&[motion[3], motion[4], motion[5], 0.0], arm);
