@@ -5,6 +5,7 @@
 
 use nalgebra::Matrix3;
 
+use super::part::Part;
 use crate::geom::V3;
 use crate::pattern::Garment;
 use crate::sim::solver::PairList;
@@ -50,6 +51,13 @@ impl Bands {
             }
         }
         Self { links }
+    }
+
+    /// Those of which one end may move in a part.
+    #[must_use]
+    pub fn part(&self, part: &Part) -> Self {
+        let renamed = |link: &Link| Some(Link { vertices: part.names(link.vertices)?, ..*link });
+        Self { links: self.links.iter().filter_map(renamed).collect() }
     }
 
     /// Energy, J.

@@ -12,6 +12,7 @@
 //!
 //! Hinges run on across sewn seams: each side uses its own rest triangle and grain.
 
+use super::part::Part;
 use crate::geom::{V2, V3};
 use crate::sim::Fabric;
 use crate::sim::solver::PairList;
@@ -150,6 +151,16 @@ impl Bending {
         }
         let pairs = PairList::new(terms.into_iter().map(|t| t.0));
         Self { pairs, entries }
+    }
+
+    /// That of the pairs of which one may move in a part.
+    #[must_use]
+    pub fn part(&self, part: &Part) -> Self {
+        let renamed = |(pair, entry): (&[usize; 2], &f64)| Some((part.names(*pair)?, *entry));
+        let (pairs, entries): (Vec<[usize; 2]>, _) =
+            self.pairs.pairs().iter().zip(&self.entries).filter_map(renamed).unzip();
+        // The order stays: that of the vertices does.
+        Self { pairs: PairList::new(pairs), entries }
     }
 
     /// Bending energy, J.

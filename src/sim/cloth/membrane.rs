@@ -148,6 +148,12 @@ impl Element {
         Some(Self { vertices, area, gradients: [-g1 - g2, g1, g2], slots: [(0, false); 3] })
     }
 
+    /// The same triangle with its vertices called otherwise, not yet in a membrane.
+    #[must_use]
+    pub fn renamed(&self, vertices: [usize; 3]) -> Self {
+        Self { vertices, ..self.clone() }
+    }
+
     /// What has become of a unit length of weft and of warp: the columns of the deformation gradient.
     fn fibres(&self, x: &[V3]) -> [V3; 2] {
         let [a, b, c] = self.vertices;

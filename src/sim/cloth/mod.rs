@@ -3,6 +3,7 @@
 pub mod band;
 pub mod bending;
 pub mod membrane;
+pub mod part;
 
 use std::collections::BTreeMap;
 

@@ -8,7 +8,7 @@ const KEPT: f64 = 0.1;
 /// Share of the distance that is gone at once.
 const ADVANCE: f64 = 0.9;
 /// Distance below which two parts touch, m: a twentieth of what layers are pressed to by the strongest push.
-const TOUCHING_M: f64 = 1e-6;
+pub const TOUCHING_M: f64 = 1e-6;
 /// Most advances: a pair that takes more glides along so near that it may as well be said to meet.
 const MOST_ADVANCES: usize = 40;
 

@@ -18,6 +18,7 @@ use nalgebra::Matrix3;
 use super::skin::Skin;
 use crate::geom::triangle::sorted;
 use crate::geom::{DistanceField, V3};
+use crate::sim::cloth::part::Part;
 use crate::sim::solver::Contact4;
 
 /// Parameters of body contact.
@@ -171,6 +172,33 @@ impl<'a> BodyContact<'a> {
             friction: None,
             touching: Vec::new(),
         }
+    }
+
+    /// The contact of a part of the cloth.
+    #[must_use]
+    pub fn part(&self, part: &Part) -> Self {
+        let vertex = |(name, &v): (usize, &usize)| Sample { vertices: [name; 3], ..self.samples[v] };
+        let renamed = |sample: &Sample| Some(Sample { vertices: part.names(sample.vertices)?, ..*sample });
+        let vertices = part.vertices.iter().enumerate().map(vertex);
+        let between = self.samples[self.vertices..].iter().filter_map(renamed);
+        Self {
+            field: self.field,
+            params: self.params,
+            samples: vertices.chain(between).collect(),
+            vertices: part.vertices.len(),
+            friction: self.friction,
+            touching: Vec::new(),
+        }
+    }
+
+    /// Takes over where friction has come to hold a part of the cloth.
+    pub fn take_anchors(&mut self, part: &Part, contact: &BodyContact) {
+        let (vertices, between) = contact.samples.split_at(contact.vertices);
+        for (&v, sample) in part.vertices.iter().zip(vertices) {
+            self.samples[v].anchor = sample.anchor;
+        }
+        let own = self.samples[self.vertices..].iter_mut().filter(|sample| part.names(sample.vertices).is_some());
+        own.zip(between).for_each(|(own, sample)| own.anchor = sample.anchor);
     }
 
     /// Takes another penalty from now on.

@@ -16,6 +16,7 @@ use super::nearest::{Nearest, Primitives, spanned_squared};
 use super::search::Neighbours;
 use super::tangle::{Crossing, crossings};
 use crate::geom::V3;
+use crate::sim::cloth::part::Part;
 use crate::sim::solver::Contact4;
 
 /// Parameters of self-contact.
@@ -82,7 +83,8 @@ struct Press {
 /// Self-contact of one cloth.
 pub struct ClothContact<'a> {
     params: ClothContactParams,
-    neighbours: Neighbours<'a>,
+    /// `None` in a part of the cloth.
+    neighbours: Option<Neighbours<'a>>,
     areas: &'a [f64],
     /// Nearest first, as far as shells tell.
     pairs: Vec<Pair>,
@@ -103,7 +105,7 @@ impl<'a> ClothContact<'a> {
         let reach_m = params.reach_m.min((REACH_SIZES * size).max(LEAST_REACH_M));
         Self {
             params: ClothContactParams { reach_m, ..params },
-            neighbours: Neighbours::new(triangles, areas.len()),
+            neighbours: Some(Neighbours::new(triangles, areas.len())),
             areas,
             pairs: Vec::new(),
             found: Vec::new(),
@@ -117,29 +119,74 @@ impl<'a> ClothContact<'a> {
     /// Takes `sewn` pairs for one vertex each, and leaves alone what crosses: for cloth that is being sewn.
     #[must_use]
     pub fn but_near(mut self, sewn: impl Iterator<Item = [usize; 2]>) -> Self {
-        self.neighbours.join(sewn);
+        if let Some(neighbours) = &mut self.neighbours {
+            neighbours.join(sewn);
+        }
         self.knots.leave();
         self
     }
 
-    /// Looks at where the cloth has come in a step: seeks near pairs anew where it has moved so far that one could be
-    /// missed in the next, and finds the way out of crossings.
+    /// Whether nothing crosses.
+    #[must_use]
+    pub fn is_untangled(&self) -> bool {
+        self.knots.is_empty()
+    }
+
+    /// Vertices of pairs of which one is `free`.
+    pub fn partners<'s>(&'s self, free: &'s [bool]) -> impl Iterator<Item = usize> + 's {
+        let vertices = self.pairs.iter().map(|pair| pair.primitives.vertices());
+        vertices.filter(|vertices| vertices.iter().any(|&v| free[v])).flatten()
+    }
+
+    /// The contact of a part of the cloth, which lies at `x`, with itself and with the rest: it knows the near pairs that were found
+    /// already, and seeks no others.
+    #[must_use]
+    pub fn part<'p>(&self, part: &Part, areas: &'p [f64], x: &[V3]) -> ClothContact<'p> {
+        let renamed =
+            |pair: &Pair| Some(Pair { primitives: pair.primitives.renamed(|vertices| part.names(vertices))?, ..*pair });
+        ClothContact {
+            params: self.params,
+            neighbours: None,
+            areas,
+            pairs: self.pairs.iter().filter_map(renamed).collect(),
+            found: Vec::new(),
+            found_at: part.of(&self.found_at),
+            reach_m: self.reach_m,
+            last: x.to_vec(),
+            knots: Knots::new(&[], 0.0, 0),
+        }
+    }
+
+    /// Looks at where the cloth has come in a step: seeks near pairs anew where it has moved so far, or folded so sharply, that one
+    /// could be missed in the next, and finds the way out of crossings.
     pub fn update(&mut self, x: &[V3]) {
+        let may_cross = self.may_cross(x);
         let step = if self.last.len() == x.len() { farthest(x, &self.last) } else { self.params.reach_m };
         self.last = x.to_vec();
+        let Some(mut neighbours) = self.neighbours.take() else { return };
         let expected = 1.5 * step;
         let moved = if self.found_at.len() == x.len() { farthest(x, &self.found_at) } else { f64::MAX };
-        let is_to_seek = moved + expected > 0.5 * (self.reach_m - self.params.thickness_m);
-        if is_to_seek {
+        let is_far = moved + expected > 0.5 * (self.reach_m - self.params.thickness_m);
+        if is_far || !neighbours.stay_flat(x) {
             let wanted = self.params.thickness_m + 2.0 * (expected + expected.max(LEAST_SLACK_M));
             self.reach_m = wanted.min(self.params.reach_m);
-            self.seek(x);
+            self.seek(&mut neighbours, x);
         }
-        // What is not near comes to cross in no step; but cloth may have been moved by others, and what touched may have passed.
-        if is_to_seek || !self.knots.is_empty() {
-            let found: Vec<Crossing> = crossings(x, self.neighbours.edges(), self.neighbours.triangles()).collect();
+        if may_cross {
+            let found: Vec<Crossing> = crossings(x, neighbours.edges(), neighbours.triangles()).collect();
             self.knots.see(x, &found);
         }
+        self.neighbours = Some(neighbours);
+    }
+
+    /// Whether the cloth may have come to cross itself: it did already, or touched at the last step and may have passed since, or was
+    /// moved by others. What was near in a step is kept from it.
+    fn may_cross(&self, x: &[V3]) -> bool {
+        let touches = |primitives| Nearest::of(&self.last, primitives).gap.norm() < advance::TOUCHING_M;
+        self.found_at.len() != x.len()
+            || 2.0 * farthest(x, &self.found_at) >= self.reach_m
+            || !self.knots.is_empty()
+            || self.near(self.moved(&self.last), advance::TOUCHING_M).any(touches)
     }
 
     /// How far vertices may go from where the cloth was at the last [`ClothContact::update`], m: farther, near pairs would be
@@ -149,11 +196,11 @@ impl<'a> ClothContact<'a> {
         FREE_SHARE * (0.5 * self.reach_m - farthest(&self.last, &self.found_at))
     }
 
-    fn seek(&mut self, x: &[V3]) {
+    fn seek(&mut self, neighbours: &mut Neighbours, x: &[V3]) {
         let (reach_m, found) = (self.reach_m, &mut self.found);
         found.clear();
         let mut ends = [0; SHELLS as usize + 1];
-        self.neighbours.each_within(x, reach_m, |primitives| {
+        neighbours.each_within(x, reach_m, |primitives| {
             let distance_m = Nearest::of(x, primitives).gap.norm();
             if distance_m < reach_m {
                 found.push(Pair { primitives, distance_m });

@@ -18,12 +18,49 @@ const MOST_CELLS: f64 = 1e6;
 
 /// Lowest and highest corner in single precision; never smaller than what they bound.
 #[derive(Clone, Copy, Default)]
-struct Bounds {
+pub struct Bounds {
     low: [f32; 3],
     high: [f32; 3],
 }
 
 impl Bounds {
+    /// Of no points.
+    pub const NOTHING: Self = Self { low: [f32::MAX; 3], high: [f32::MIN; 3] };
+
+    /// Of some points, widened by `reach_m`.
+    #[must_use]
+    pub fn around<const N: usize>(points: [&V3; N], reach_m: f64) -> Self {
+        let (mut low, mut high) = (*points[0], *points[0]);
+        for p in &points[1..] {
+            (low, high) = (low.inf(p), high.sup(p));
+        }
+        Self::new(&(low - V3::repeat(reach_m)), &(high + V3::repeat(reach_m)))
+    }
+
+    /// About both.
+    #[must_use]
+    pub fn with(&self, other: &Self) -> Self {
+        let mut sum = *self;
+        for k in 0..3 {
+            sum.low[k] = sum.low[k].min(other.low[k]);
+            sum.high[k] = sum.high[k].max(other.high[k]);
+        }
+        sum
+    }
+
+    /// Lowest and highest corner.
+    #[must_use]
+    pub fn corners(&self) -> [V3; 2] {
+        [self.low, self.high].map(|corner| V3::from(corner.map(f64::from)))
+    }
+
+    /// Half of the longest side, m.
+    #[must_use]
+    pub fn half_m(&self) -> f64 {
+        let [low, high] = self.corners();
+        0.5 * (high - low).max()
+    }
+
     fn new(low: &V3, high: &V3) -> Self {
         Self {
             low: [low.x, low.y, low.z].map(|c| (c as f32).next_down()),
@@ -31,7 +68,9 @@ impl Bounds {
         }
     }
 
-    fn meets(&self, other: &Self) -> bool {
+    /// Whether they overlap.
+    #[must_use]
+    pub fn meets(&self, other: &Self) -> bool {
         // Without branches: they could not be foretold.
         (0..3).fold(true, |all, k| all & (self.low[k] <= other.high[k]) & (other.low[k] <= self.high[k]))
     }

@@ -4,6 +4,7 @@ mod advance;
 mod barrier;
 pub mod body;
 pub mod cloth;
+mod clusters;
 pub mod grid;
 mod knots;
 pub mod nearest;

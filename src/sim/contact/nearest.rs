@@ -19,6 +19,14 @@ impl Primitives {
             Self::VertexTriangle(vertices) | Self::EdgeEdge(vertices) => vertices,
         }
     }
+
+    /// The same pair with its vertices called otherwise, if they have such names.
+    pub fn renamed(self, names: impl Fn([usize; 4]) -> Option<[usize; 4]>) -> Option<Self> {
+        match self {
+            Self::VertexTriangle(vertices) => names(vertices).map(Self::VertexTriangle),
+            Self::EdgeEdge(vertices) => names(vertices).map(Self::EdgeEdge),
+        }
+    }
 }
 
 /// Nearest points of a pair: the vector from the second to the first is `sum w_k x_k`.

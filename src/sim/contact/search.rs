@@ -1,6 +1,7 @@
 //! The search for parts of a cloth that are near each other and share no vertex.
 
-use super::grid::BoxGrid;
+use super::clusters::Clusters;
+use super::grid::{Bounds, BoxGrid};
 use super::nearest::Primitives;
 use super::tangle::edges_of;
 use crate::geom::V3;
@@ -11,6 +12,7 @@ use crate::sim::solver::PairList;
 pub struct Neighbours<'a> {
     triangles: &'a [[usize; 3]],
     edges: PairList,
+    clusters: Clusters,
     /// One of the vertices that a vertex is sewn to, the same for all of them.
     joined: Vec<usize>,
 }
@@ -19,7 +21,9 @@ impl<'a> Neighbours<'a> {
     /// Of `vertices` vertices.
     #[must_use]
     pub fn new(triangles: &'a [[usize; 3]], vertices: usize) -> Self {
-        Self { triangles, edges: edges_of(triangles), joined: (0..vertices).collect() }
+        let edges = edges_of(triangles);
+        let clusters = Clusters::new(vertices, triangles, &edges);
+        Self { triangles, edges, clusters, joined: (0..vertices).collect() }
     }
 
     /// Takes the two of each `sewn` pair for one vertex.
@@ -42,32 +46,59 @@ impl<'a> Neighbours<'a> {
         self.triangles
     }
 
-    /// Takes each pair whose boxes are within `reach` of each other; all that are within it are among them.
-    pub fn each_within(&self, x: &[V3], reach: f64, mut take: impl FnMut(Primitives)) {
-        self.vertex_triangle_pairs(x, reach, &mut take);
-        self.edge_edge_pairs(x, reach, &mut take);
+    /// Whether what the last search left out as flat is so at `x` still.
+    #[must_use]
+    pub fn stay_flat(&self, x: &[V3]) -> bool {
+        self.clusters.stay_flat(x, self.triangles)
     }
 
-    fn vertex_triangle_pairs(&self, x: &[V3], reach: f64, take: &mut impl FnMut(Primitives)) {
-        let grid = BoxGrid::new(x, self.triangles, reach, 0.0, (2.0 * reach).max(CELL_M));
-        for v in 0..x.len() {
-            for t in grid.near([&x[v]]) {
-                let triangle = self.triangles[t];
-                if self.apart(&[v], &triangle) {
-                    let [a, b, c] = sorted(triangle);
-                    take(Primitives::VertexTriangle([v, a, b, c]));
+    /// Takes each pair whose boxes are within `reach` of each other; all that are within it are among them, but for those within
+    /// flat cloth.
+    pub fn each_within(&mut self, x: &[V3], reach: f64, mut take: impl FnMut(Primitives)) {
+        self.clusters.look(x, self.triangles);
+        let boxes = Boxes::new(self, x, reach);
+        let clusters = &self.clusters.members;
+        let extents: Vec<Bounds> = clusters.iter().map(|members| boxes.around(members)).collect();
+        let corners: Vec<V3> = extents.iter().flat_map(Bounds::corners).collect();
+        let sets: Vec<[usize; 2]> = (0..clusters.len()).map(|c| [2 * c, 2 * c + 1]).collect();
+        let half = extents.iter().map(Bounds::half_m).fold(0.0, f64::max);
+        let grid = BoxGrid::new(&corners, &sets, 0.0, half, (2.0 * half).max(CELL_M));
+        for p in 0..clusters.len() {
+            for q in grid.near([&corners[2 * p], &corners[2 * p + 1]]).filter(|&q| q >= p) {
+                if !self.clusters.are_flat([p, q]) {
+                    self.between([p, q], &boxes, &extents, &mut take);
                 }
             }
         }
     }
 
-    fn edge_edge_pairs(&self, x: &[V3], reach: f64, take: &mut impl FnMut(Primitives)) {
-        let edges = self.edges.pairs();
-        let longest = edges.iter().map(|&[a, b]| (x[a] - x[b]).norm()).fold(0.0, f64::max);
-        let grid = BoxGrid::new(x, edges, reach, 0.5 * longest, 2.0 * reach + longest);
-        for (e, &[a, b]) in edges.iter().enumerate() {
-            for f in grid.near([&x[a], &x[b]]).filter(|&f| f > e) {
-                let [c, d] = edges[f];
+    /// Takes the pairs of two clusters.
+    fn between(&self, [p, q]: [usize; 2], boxes: &Boxes, extents: &[Bounds], take: &mut impl FnMut(Primitives)) {
+        let [one, other] = [p, q].map(|c| &self.clusters.members[c]);
+        let near = |members: &[usize], bounds: &[Bounds], of: usize| -> Vec<usize> {
+            members.iter().copied().filter(|&m| bounds[m].meets(&extents[of])).collect()
+        };
+        let mut vertices_triangles = |vertices: &[usize], triangles: &[usize], [p, q]: [usize; 2]| {
+            let triangles = near(triangles, &boxes.triangles, p);
+            for v in near(vertices, &boxes.vertices, q) {
+                for &t in triangles.iter().filter(|&&t| boxes.triangles[t].meets(&boxes.vertices[v])) {
+                    let triangle = self.triangles[t];
+                    if self.apart(&[v], &triangle) {
+                        let [a, b, c] = sorted(triangle);
+                        take(Primitives::VertexTriangle([v, a, b, c]));
+                    }
+                }
+            }
+        };
+        vertices_triangles(&one.vertices, &other.triangles, [p, q]);
+        if p != q {
+            vertices_triangles(&other.vertices, &one.triangles, [q, p]);
+        }
+        let pairs = self.edges.pairs();
+        let others = near(&other.edges, &boxes.edges, p);
+        for e in near(&one.edges, &boxes.edges, q) {
+            for &f in others.iter().filter(|&&f| (p != q || f > e) && boxes.edges[f].meets(&boxes.edges[e])) {
+                let ([a, b], [c, d]) = (pairs[e.min(f)], pairs[e.max(f)]);
                 if self.apart(&[a, b], &[c, d]) {
                     take(Primitives::EdgeEdge([a, b, c, d]));
                 }
@@ -81,5 +112,108 @@ impl<'a> Neighbours<'a> {
     }
 }
 
-/// Least cell of the grid, m: smaller ones hold each triangle many times.
+/// Least cell of the grid, m: smaller ones hold each cluster many times.
 const CELL_M: f64 = 0.02;
+
+/// Boxes about all parts of a cloth, each widened by half the reach.
+struct Boxes {
+    vertices: Vec<Bounds>,
+    triangles: Vec<Bounds>,
+    edges: Vec<Bounds>,
+}
+
+impl Boxes {
+    fn new(neighbours: &Neighbours, x: &[V3], reach: f64) -> Self {
+        let half = 0.5 * reach;
+        Self {
+            vertices: x.iter().map(|p| Bounds::around([p], half)).collect(),
+            triangles: neighbours.triangles.iter().map(|t| Bounds::around(t.map(|v| &x[v]), half)).collect(),
+            edges: neighbours.edges.pairs().iter().map(|e| Bounds::around(e.map(|v| &x[v]), half)).collect(),
+        }
+    }
+
+    /// The box about all that belongs to a cluster.
+    fn around(&self, members: &super::clusters::Members) -> Bounds {
+        let vertices = members.vertices.iter().map(|&v| &self.vertices[v]);
+        let triangles = members.triangles.iter().map(|&t| &self.triangles[t]);
+        let edges = members.edges.iter().map(|&e| &self.edges[e]);
+        vertices.chain(triangles).chain(edges).fold(Bounds::NOTHING, |sum, bounds| sum.with(bounds))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::V2;
+    use crate::sim::contact::nearest::Nearest;
+    use crate::sim::laboratory::sheets::{shaken, sheet};
+
+    const EDGE_M: f64 = 0.01;
+
+    /// Vertices of a pair, and whether it is of two edges.
+    type Tagged = ([usize; 4], bool);
+
+    fn tagged(primitives: Primitives) -> Tagged {
+        (primitives.vertices(), matches!(primitives, Primitives::EdgeEdge(_)))
+    }
+
+    /// Pairs nearer than `reach` that share no vertex, each with its distance, by looking at all.
+    fn all_within(x: &[V3], triangles: &[[usize; 3]], reach: f64) -> Vec<(Tagged, f64)> {
+        let edges = edges_of(triangles);
+        let edge_pairs = edges.pairs().iter().enumerate().flat_map(|(e, one)| {
+            edges.pairs()[e + 1..].iter().map(|other| Primitives::EdgeEdge([one[0], one[1], other[0], other[1]]))
+        });
+        let corners = (0..x.len()).flat_map(|v| triangles.iter().map(move |t| (v, sorted(*t))));
+        let pairs = corners.map(|(v, [a, b, c])| Primitives::VertexTriangle([v, a, b, c])).chain(edge_pairs);
+        let apart = |p: &Primitives| match p.vertices() {
+            [a, b, c, d] if matches!(p, Primitives::EdgeEdge(_)) => a != c && a != d && b != c && b != d,
+            [v, a, b, c] => v != a && v != b && v != c,
+        };
+        let with_distance = |p: Primitives| (tagged(p), Nearest::of(x, p).gap.norm());
+        pairs.filter(apart).map(with_distance).filter(|(_, distance)| *distance < reach).collect()
+    }
+
+    #[test]
+    fn only_pairs_within_flat_cloth_are_left_out() {
+        let (rest, triangles) = sheet(24, 8, EDGE_M);
+        let reach = 0.9 * EDGE_M;
+        // Rolled up, so that layers lie 6 mm from each other, with a sharp crease, and as flat as it comes.
+        let rolled = |p: &V2| {
+            let angle = (2.0 * p.x / 9e-4).sqrt();
+            V3::new(9e-4 * angle * angle.cos(), p.y, 9e-4 * angle * angle.sin())
+        };
+        let creased = |p: &V2| V3::new((p.x - 0.12).abs(), p.y, if p.x > 0.12 { 2e-3 } else { 0.0 });
+        let check = |place: &dyn Fn(&V2) -> V3, must_find: bool| {
+            let x = shaken(&rest.iter().map(place).collect::<Vec<_>>(), 2e-4, 3);
+            let mut neighbours = Neighbours::new(&triangles, x.len());
+            let mut found: Vec<Tagged> = Vec::new();
+            neighbours.each_within(&x, reach, |primitives| found.push(tagged(primitives)));
+            found.sort_unstable();
+            assert!(found.windows(2).all(|two| two[0] != two[1]), "a pair is found twice");
+            let mut layers = 0;
+            for (pair, distance) in all_within(&x, &triangles, reach) {
+                let [first, .., last] = pair.0.map(|v| rest[v]);
+                let is_layer = (first - last).norm() > 6.0 * EDGE_M;
+                layers += usize::from(is_layer);
+                if found.binary_search(&pair).is_err() {
+                    assert!(!is_layer && distance > 0.4 * EDGE_M, "{pair:?} at {distance} is missing");
+                }
+            }
+            assert_eq!(layers > 0, must_find);
+        };
+        check(&rolled, true);
+        check(&creased, true);
+        check(&|p| V3::new(p.x, p.y, 0.0), false);
+    }
+
+    #[test]
+    fn cloth_that_folds_is_searched_again() {
+        let (rest, triangles) = sheet(24, 24, EDGE_M);
+        let flat: Vec<V3> = rest.iter().map(|p| V3::new(p.x, p.y, 0.0)).collect();
+        let mut neighbours = Neighbours::new(&triangles, flat.len());
+        neighbours.each_within(&flat, 0.9 * EDGE_M, |_| ());
+        assert!(neighbours.stay_flat(&shaken(&flat, 5e-4, 1)));
+        let folded: Vec<V3> = flat.iter().map(|p| V3::new((p.x - 0.12).abs(), p.y, p.z)).collect();
+        assert!(!neighbours.stay_flat(&folded));
+    }
+}

@@ -4,6 +4,7 @@ pub mod blocks;
 pub mod factor;
 pub mod linear;
 pub mod operator;
+pub mod part;
 pub mod patches;
 pub mod pcg;
 pub mod proximal;

@@ -40,6 +40,38 @@ impl PairList {
         &self.rows
     }
 
+    /// Divides vertices that the pairs couple into patches: the patch of each, and their number. Each goes to the nearest of
+    /// middles that are at least `apart` pairs from each other.
+    #[must_use]
+    pub fn divide(&self, vertices: usize, apart: usize) -> (Vec<usize>, usize) {
+        let mut neighbours = vec![Vec::new(); vertices];
+        for &[i, j] in &self.pairs {
+            neighbours[i].push(j);
+            neighbours[j].push(i);
+        }
+        let mut distance = vec![usize::MAX; vertices];
+        let mut of = vec![0; vertices];
+        let mut count = 0;
+        let mut queue = std::collections::VecDeque::new();
+        for seed in 0..vertices {
+            if distance[seed] < apart {
+                continue;
+            }
+            (distance[seed], of[seed]) = (0, count);
+            queue.push_back(seed);
+            while let Some(v) = queue.pop_front() {
+                for &w in &neighbours[v] {
+                    if distance[v] + 1 < distance[w] {
+                        (distance[w], of[w]) = (distance[v] + 1, count);
+                        queue.push_back(w);
+                    }
+                }
+            }
+            count += 1;
+        }
+        (of, count)
+    }
+
     /// The pairs.
     #[must_use]
     pub fn pairs(&self) -> &[[usize; 2]] {
@@ -133,5 +165,20 @@ impl Operator<'_> {
             }
         }
         blocks
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_vertex_is_in_a_patch_near_its_middle() {
+        let line = PairList::new((0..99).map(|v| [v, v + 1]));
+        let (of, count) = line.divide(100, 4);
+        let sizes: Vec<usize> = (0..count).map(|a| of.iter().filter(|b| **b == a).count()).collect();
+        assert!(sizes.iter().all(|n| (2..=5).contains(n)), "{sizes:?}");
+        // Cloth in two pieces, and a vertex of no pair.
+        assert_eq!(PairList::new([[0, 1]]).divide(4, 4), (vec![0, 0, 1, 2], 3));
     }
 }

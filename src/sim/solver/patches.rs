@@ -37,7 +37,7 @@ impl Patches {
     pub fn new(operator: &Operator) -> Self {
         let springs: Vec<[usize; 2]> = operator.springs.iter().map(|s| s.0).collect();
         let lists = [operator.membrane_pairs.pairs(), operator.bending_pairs.pairs(), &springs];
-        let (of, count) = divide(operator.diagonal.len(), lists[0]);
+        let (of, count) = operator.membrane_pairs.divide(operator.diagonal.len(), APART);
         let coupled = |&[i, j]: &[usize; 2]| [of[i].min(of[j]), of[i].max(of[j])];
         let mut pairs: Vec<[usize; 2]> = (0..count).map(|a| [a, a]).collect();
         pairs.extend(lists.iter().flat_map(|list| list.iter().map(coupled)));
@@ -165,39 +165,8 @@ fn regularise(block: &mut Matrix6<f64>) {
     let [translation, rotation] = [0, 3].map(|from| (from..from + 3).map(|k| block[(k, k)]).sum::<f64>());
     for k in 0..3 {
         block[(k, k)] += REGULARISATION * translation;
-        block[(k + 3, k + 3)] += REGULARISATION * rotation + f64::MIN_POSITIVE;
+        block[(k + 3, k + 3)] += REGULARISATION * (rotation + 1e-6 * translation);
     }
-}
-
-/// Patch of each vertex and their number: each vertex goes to the nearest of middles that are at least [`APART`] edges
-/// apart.
-fn divide(vertices: usize, edges: &[[usize; 2]]) -> (Vec<usize>, usize) {
-    let mut neighbours = vec![Vec::new(); vertices];
-    for &[i, j] in edges {
-        neighbours[i].push(j);
-        neighbours[j].push(i);
-    }
-    let mut distance = vec![usize::MAX; vertices];
-    let mut of = vec![0; vertices];
-    let mut count = 0;
-    let mut queue = std::collections::VecDeque::new();
-    for seed in 0..vertices {
-        if distance[seed] < APART {
-            continue;
-        }
-        (distance[seed], of[seed]) = (0, count);
-        queue.push_back(seed);
-        while let Some(v) = queue.pop_front() {
-            for &w in &neighbours[v] {
-                if distance[v] + 1 < distance[w] {
-                    (distance[w], of[w]) = (distance[v] + 1, count);
-                    queue.push_back(w);
-                }
-            }
-        }
-        count += 1;
-    }
-    (of, count)
 }
 
 #[cfg(test)]
@@ -210,16 +179,6 @@ mod tests {
     use crate::sim::sewing::unsewn;
     use crate::sim::solver::{System, linear, pcg::PcgParams, rows};
     use crate::sim::testing::fabric;
-
-    #[test]
-    fn every_vertex_is_in_a_patch_near_its_middle() {
-        let edges: Vec<[usize; 2]> = (0..99).map(|v| [v, v + 1]).collect();
-        let (of, count) = divide(100, &edges);
-        let sizes: Vec<usize> = (0..count).map(|a| of.iter().filter(|b| **b == a).count()).collect();
-        assert!(sizes.iter().all(|n| (2..=APART + 1).contains(n)), "{sizes:?}");
-        // Cloth in two pieces, and a vertex of no edge.
-        assert_eq!(divide(4, &[[0, 1]]), (vec![0, 0, 1, 2], 3));
-    }
 
     #[test]
     fn the_stiffness_between_patches_is_that_of_their_rigid_motions() {

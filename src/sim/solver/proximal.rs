@@ -13,6 +13,7 @@ use nalgebra::{Matrix2, Matrix3};
 
 use super::linear;
 use super::operator::Operator;
+use super::part;
 use super::pcg::PcgParams;
 use super::system::System;
 use crate::geom::V3;
@@ -88,6 +89,8 @@ const MOST_HALVINGS: usize = 12;
 /// for as long as the energy falls.
 const LENGTHENING: f64 = 1.5;
 const MOST_LENGTHENINGS: usize = 6;
+/// Share of the forces that a step leaves at best, as far as it is worth looking.
+const GREATEST_FALL: f64 = 0.02;
 /// Step size from which on that is done, s: cloth that has only begun to settle is thrown off the body by it.
 const LENGTHENED_FROM_S: f64 = 0.2;
 
@@ -98,8 +101,33 @@ impl Stepper {
         Self { params, h_s: params.h_start_s, last: None, predicted: None }
     }
 
-    /// Takes one step from `x`, unless the residual is already below `tolerance`; says what it did.
+    /// Goes on where another left off, at the greatest step, with the membrane stresses that it foresaw.
+    #[must_use]
+    pub fn going_on(params: StepParams, predicted: Vec<Matrix2<f64>>) -> Self {
+        Self { params, h_s: params.h_max_s, last: None, predicted: Some(predicted) }
+    }
+
+    /// Membrane stresses foreseen by the last step, N/m; none before the first.
+    #[must_use]
+    pub fn predicted(&self) -> &[Matrix2<f64>] {
+        self.predicted.as_deref().unwrap_or_default()
+    }
+
+    /// Takes one step from `x`, unless the residual is already below `tolerance`, and where it has moved a small part of the cloth
+    /// only, some more of that part; says what the step did.
     pub fn step(&mut self, system: &mut System, x: &mut Vec<V3>, tolerance: f64) -> StepInfo {
+        let info = self.step_whole(system, x, tolerance);
+        let has_settled = info.residual > tolerance && self.h_s >= self.params.h_max_s;
+        let moving = self.last.as_ref().filter(|_| has_settled).and_then(|moved| part::moving(system, moved));
+        if let (Some(moving), Some(predicted)) = (moving, &mut self.predicted) {
+            part::relax(system, x, &moving, predicted, self.params, tolerance);
+            self.last = None;
+        }
+        info
+    }
+
+    /// Takes one step of the whole cloth from `x`, unless the residual is already below `tolerance`; says what it did.
+    pub fn step_whole(&mut self, system: &mut System, x: &mut Vec<V3>, tolerance: f64) -> StepInfo {
         let (forces, mut operator) = system.assemble(x, self.predicted.as_deref());
         let residual = rms(&forces) / system.mean_weight();
         if residual <= tolerance {
@@ -117,8 +145,8 @@ impl Stepper {
         operator.diagonal = contacts;
         let foreseen = system.cloth.membrane.foresee(x, &direction);
         let bend = self.correction(system, operator, x, &direction, &foreseen);
-        let may_lengthen = self.h_s >= LENGTHENED_FROM_S;
-        let (share, next) = search(system, x, [&direction, &bend], &forces, &inertia, may_lengthen);
+        let enough_n = (self.h_s >= LENGTHENED_FROM_S).then(|| tolerance * system.mean_weight());
+        let (share, next) = search(system, x, [&direction, &bend], &forces, &inertia, enough_n);
         self.predicted = Some(foreseen.iter().map(|f| f.after(share)).collect());
         self.last = Some(next.iter().zip(x.iter()).map(|(p, q)| p - q).collect());
         *x = next;
@@ -172,14 +200,15 @@ fn add_inertia(diagonal: &mut [Matrix3<f64>], inertia: &[f64]) {
 }
 
 /// The longest share of a step that decreases the proximal energy enough, corrected where that does, else along the
-/// direction alone, and where it leads; 0 where no share does. A full step may be lengthened while the energy falls.
+/// direction alone, and where it leads; 0 where no share does. A full step is lengthened while the energy falls, but for one
+/// that leaves rms forces of `enough_n` or less (it would call the stiff forces back that it has just balanced), or without that.
 fn search(
     system: &System,
     x: &[V3],
     [direction, bend]: [&[V3]; 2],
     forces: &[V3],
     inertia: &[f64],
-    may_lengthen: bool,
+    enough_n: Option<f64>,
 ) -> (f64, Vec<V3>) {
     let slope: f64 = forces.iter().zip(direction).map(|(f, d)| f.dot(d)).sum();
     let start = system.energy(x);
@@ -198,9 +227,11 @@ fn search(
             let positions = at(share, bent);
             let reached = energy(&positions);
             if reached <= start - SUFFICIENT_DECREASE * share * slope.max(0.0) {
-                let is_lengthened = may_lengthen && share == 1.0;
+                let is_enough =
+                    |enough_n| enough_n > GREATEST_FALL * rms(forces) && rms(&system.forces(&positions)) <= enough_n;
+                let goes_on = share == 1.0 && enough_n.is_some_and(|enough_n| !is_enough(enough_n));
                 let further = |share: f64| at(share, bent);
-                return if is_lengthened { lengthen(energy, further, reached, positions) } else { (share, positions) };
+                return if goes_on { lengthen(energy, further, reached, positions) } else { (share, positions) };
             }
         }
         share *= 0.5;

@@ -82,6 +82,24 @@ impl<'a> System<'a> {
                 .sum::<f64>()
     }
 
+    /// Forces at `x`, N, with the contacts found at the last [`System::assemble`].
+    #[must_use]
+    pub fn forces(&self, x: &[V3]) -> Vec<V3> {
+        let mut forces = self.contact_forces(x);
+        forces.iter_mut().zip(&self.weights).for_each(|(f, w)| f.z -= w);
+        self.cloth.membrane.add_forces(x, &mut forces);
+        self.cloth.bending.add_forces(x, &mut forces);
+        self.cloth.bands.add_forces(x, &mut forces);
+        if let Some(springs) = &self.springs {
+            springs.assemble(x, &mut forces);
+        }
+        for (v, depth, back) in self.trespasses(x) {
+            forces[v] += back * (WALL_STIFFNESS * self.cloth.areas[v] * depth);
+        }
+        self.held.iter().for_each(|&v| forces[v] = V3::zeros());
+        forces
+    }
+
     /// Forces (N) and stiffness (N/m) at `x`; `predicted` are the membrane stresses that stiffen the cloth geometrically,
     /// where they are not those at `x` ([`Membrane::assemble`](crate::sim::cloth::membrane::Membrane::assemble)).
     pub fn assemble(&mut self, x: &[V3], predicted: Option<&[Matrix2<f64>]>) -> (Vec<V3>, Operator<'a>) {

@@ -28,11 +28,7 @@ fn all_forces_together_are_the_energys() {
     let x = shaken(&flat, 3e-4, 7);
     assert!(system.contact.count() > 0);
     // As the step sees them: with the anchors set where the cloth lay flat.
-    let mut forces: Vec<V3> = system.weights.iter().map(|w| V3::new(0.0, 0.0, -w)).collect();
-    cloth.membrane.add_forces(&x, &mut forces);
-    cloth.bending.add_forces(&x, &mut forces);
-    system.contact.add_forces(&x, &mut forces);
-    check_forces(|x| system.energy(x), &forces, &x, 1e-7, 1e-6);
+    check_forces(|x| system.energy(x), &system.forces(&x), &x, 1e-7, 1e-6);
 }
 
 /// A slab whose upper face, through the origin, rises towards +y by `angle`.

@@ -1,0 +1,67 @@
+//! A part of a cloth by itself: the vertices that may move, and those around them that hold them.
+
+use super::Cloth;
+use super::band::Bands;
+use super::bending::Bending;
+use super::membrane::{Element, Membrane};
+
+/// Which vertices make a part, and what they are called there: their order stays.
+pub struct Part {
+    /// The cloth's vertices in the part, ascending.
+    pub vertices: Vec<usize>,
+    /// Whether each of them may move.
+    pub is_free: Vec<bool>,
+    /// Name in the part of each of the cloth's vertices.
+    names: Vec<Option<usize>>,
+}
+
+impl Part {
+    /// The vertices that are `free`, everything that stretching and bending couple to them, and `others`.
+    #[must_use]
+    pub fn new(cloth: &Cloth, free: &[bool], others: &[usize]) -> Self {
+        let mut is_in = free.to_vec();
+        for &[i, j] in cloth.membrane.pairs.pairs().iter().chain(cloth.bending.pairs.pairs()) {
+            is_in[i] |= free[j];
+            is_in[j] |= free[i];
+        }
+        others.iter().for_each(|&v| is_in[v] = true);
+        let vertices: Vec<usize> = (0..free.len()).filter(|&v| is_in[v]).collect();
+        let mut names = vec![None; free.len()];
+        vertices.iter().enumerate().for_each(|(name, &v)| names[v] = Some(name));
+        Self { is_free: vertices.iter().map(|&v| free[v]).collect(), vertices, names }
+    }
+
+    /// Names of vertices in the part, if all are in it and one of them may move.
+    #[must_use]
+    pub fn names<const N: usize>(&self, vertices: [usize; N]) -> Option<[usize; N]> {
+        let names = vertices.map(|v| self.names[v]);
+        let is_free = names.iter().flatten().any(|&name| self.is_free[name]);
+        (is_free && names.iter().all(Option::is_some)).then(|| names.map(Option::unwrap_or_default))
+    }
+
+    /// What belongs to the part's vertices.
+    #[must_use]
+    pub fn of<T: Copy>(&self, values: &[T]) -> Vec<T> {
+        self.vertices.iter().map(|&v| values[v]).collect()
+    }
+}
+
+impl Cloth {
+    /// A part by itself, with the energies that change when its free vertices move, and the triangles that these belong to.
+    #[must_use]
+    pub fn part(&self, part: &Part) -> (Self, Vec<usize>) {
+        let renamed = |(t, e): (usize, &Element)| Some((t, e.renamed(part.names(e.vertices)?)));
+        let (numbers, elements): (Vec<usize>, Vec<Element>) =
+            self.membrane.elements.iter().enumerate().filter_map(renamed).unzip();
+        let cloth = Self {
+            vertex_of: (0..part.vertices.len()).collect(),
+            triangles: elements.iter().map(|e| e.vertices).collect(),
+            masses: part.of(&self.masses),
+            areas: part.of(&self.areas),
+            membrane: Membrane::new(self.membrane.material, elements),
+            bending: Bending::part(&self.bending, part),
+            bands: Bands::part(&self.bands, part),
+        };
+        (cloth, numbers)
+    }
+}
