@@ -6,6 +6,8 @@
 
 mod align;
 mod choose;
+#[cfg(test)]
+mod garment_tests;
 mod names;
 mod notched;
 mod pose;
@@ -21,8 +23,8 @@ mod wear;
 mod worn;
 mod write;
 
-pub use self::wear::{SURE, Unwearable};
 pub(super) use self::pose::{Pose, named_face_and_hand, pose};
+pub use self::wear::{SURE, Unwearable};
 use super::garment::Role;
 use super::piece::Piece;
 use super::seams::{PieceEntry, SeamEntry};

@@ -75,7 +75,19 @@ const CLASSES: [(Class, &[&str]); 7] = [
     ),
     (
         Class::Yoke,
-        &["yoke", "passe", "sattel", "empiec", "canesú", "canesu", "sprone", "schouderstuk", "pala", "karczek", "кокетк"],
+        &[
+            "yoke",
+            "passe",
+            "sattel",
+            "empiec",
+            "canesú",
+            "canesu",
+            "sprone",
+            "schouderstuk",
+            "pala",
+            "karczek",
+            "кокетк",
+        ],
     ),
     (
         Class::Waistband,

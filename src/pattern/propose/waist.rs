@@ -74,11 +74,13 @@ impl<'w> Tailor<'w, '_> {
             let (a, b) = ends(band, band, Label::End);
             self.add("waistband".to_owned(), a, b, &[band], PLAIN_DOUBT);
         } else if let [Some(right), Some(left)] = Hand::BOTH.map(side) {
-            self.questions.push("where do the waistbands open? They are taken to meet at centre front and back".to_owned());
+            self.questions
+                .push("where do the waistbands open? They are taken to meet at centre front and back".to_owned());
             for band in [right, left] {
                 self.band(band, band.hand);
             }
-            for (face, [one, other]) in Face::BOTH.into_iter().zip([[left, right], [right, left]]) {
+            // Each runs to the wearer's left: the right one from behind, the left one from the front.
+            for (face, [one, other]) in Face::BOTH.into_iter().zip([[right, left], [left, right]]) {
                 let (a, b) = ends(one, other, Label::End);
                 self.add(format!("waistband_{}", face.as_str()), a, b, &[one, other], PLAIN_DOUBT);
             }
@@ -120,11 +122,13 @@ impl<'w> Tailor<'w, '_> {
             }
             None if fronts.len() > 1 => {
                 // From centre front to the wearer's left.
-                let (right, left): (Vec<&Worn>, Vec<&Worn>) = fronts.into_iter().partition(|one| is_of(one, Hand::Right));
+                let (right, left): (Vec<&Worn>, Vec<&Worn>) =
+                    fronts.into_iter().partition(|one| is_of(one, Hand::Right));
                 [left, backs, right].concat()
             }
             None => {
-                let (right, left): (Vec<&Worn>, Vec<&Worn>) = backs.into_iter().partition(|one| is_of(one, Hand::Right));
+                let (right, left): (Vec<&Worn>, Vec<&Worn>) =
+                    backs.into_iter().partition(|one| is_of(one, Hand::Right));
                 [right, fronts, left].concat()
             }
         }

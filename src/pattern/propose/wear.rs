@@ -58,7 +58,8 @@ impl Proposal {
 
     /// Whether a seam joins pieces of `class` to another kind of piece that it is worn on.
     fn is_hold(&self, seam: &ProposedSeam, class: Option<Class>) -> bool {
-        let of = |id: &str| self.pieces.iter().find(|piece| piece.id.as_deref() == Some(id)).and_then(|piece| piece.class);
+        let of =
+            |id: &str| self.pieces.iter().find(|piece| piece.id.as_deref() == Some(id)).and_then(|piece| piece.class);
         ids(seam).any(|id| of(id) != class)
     }
 
@@ -68,8 +69,12 @@ impl Proposal {
         let gone = |piece: &ProposedPiece| piece.class == Some(class);
         let ids_gone: Vec<String> =
             self.pieces.iter().filter(|piece| gone(piece)).filter_map(|piece| piece.id.clone()).collect();
-        let mut names: Vec<String> =
-            self.pieces.iter().filter(|piece| gone(piece) && piece.id.is_some()).map(|p| format!("`{}`", p.name)).collect();
+        let mut names: Vec<String> = self
+            .pieces
+            .iter()
+            .filter(|piece| gone(piece) && piece.id.is_some())
+            .map(|p| format!("`{}`", p.name))
+            .collect();
         names.dedup();
         self.questions.push(format!("left out: {}: {reason}", names.join(", ")));
         let is_gone = |id: &str| ids_gone.iter().any(|gone| gone == id);
@@ -96,7 +101,8 @@ impl Proposal {
         }
         let has = |class: Class| self.worn().any(|piece| piece.class == Some(class));
         let is_sewn = |name: &str| self.seams.iter().any(|seam| seam.entry.name == name);
-        let has_shoulder = self.entries.iter().any(|(_, entry)| entry.edges.keys().any(|edge| edge.starts_with("shoulder")));
+        let has_shoulder =
+            self.entries.iter().any(|(_, entry)| entry.edges.keys().any(|edge| edge.starts_with("shoulder")));
         let mut need = |name: String| {
             if !is_sewn(&name) {
                 missing.push(format!("the seam {name} was not found"));
@@ -118,7 +124,9 @@ impl Proposal {
             }
         }
         for face in Face::BOTH {
-            let of = |class: Class| self.worn().filter(|piece| piece.class == Some(class) && piece.face == Some(face)).count();
+            let of = |class: Class| {
+                self.worn().filter(|piece| piece.class == Some(class) && piece.face == Some(face)).count()
+            };
             let is_under_yoke = |(id, entry): &(String, PieceEntry)| id.starts_with(face.as_str()) && has_top(entry);
             if self.entries.iter().any(is_under_yoke) {
                 need(format!("yoke_{}", face.as_str()));

@@ -70,7 +70,8 @@ pub fn worn(
     let skirts = recognised.iter().filter(|one| one.class == Class::Skirt).count();
     let mut all: Vec<Worn> = Vec::new();
     for one in recognised {
-        let needs_face = matches!(one.class, Class::Body | Class::Leg | Class::Yoke) || (one.class == Class::Skirt && skirts > 1);
+        let needs_face =
+            matches!(one.class, Class::Body | Class::Leg | Class::Yoke) || (one.class == Class::Skirt && skirts > 1);
         if needs_face && one.face.is_none() {
             continue;
         }
