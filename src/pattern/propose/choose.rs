@@ -117,5 +117,5 @@ fn waist_m(chosen: &[Recognised]) -> f64 {
 /// Length of what a piece calls so, darts closed, m.
 fn length_m(one: &Recognised, label: Label) -> f64 {
     let parts = one.alignment.parts.iter().filter(|part| part.label == label);
-    parts.map(|part| one.shape.stretch(part.from, part.span).length).sum()
+    parts.map(|part| one.shape.sewn_length(part.from, part.span)).sum()
 }

@@ -153,6 +153,13 @@ impl Shape {
         1 + (2..=(n - 1) / 2).take_while(is_on).count()
     }
 
+    /// Length of a stretch once its darts are sewn, m.
+    #[must_use]
+    pub fn sewn_length(&self, from: usize, span: usize) -> f64 {
+        let edges = (from..from + span).map(|edge| edge % self.len());
+        edges.filter(|&edge| !self.is_leg(edge)).map(|edge| self.length(edge)).sum()
+    }
+
     /// The least and greatest `v` of a stretch.
     #[must_use]
     pub fn heights(&self, from: usize, span: usize) -> [f64; 2] {
