@@ -71,8 +71,11 @@ impl<'w> Tailor<'w, '_> {
         if let Some(band) = bands.iter().copied().find(|band| band.hand.is_none()) {
             self.questions.push(format!("where does `{}` open, and at which seam does it begin?", band.id));
             self.band(band, None);
-            let (a, b) = ends(band, band, Label::End);
-            self.add("waistband".to_owned(), a, b, &[band], PLAIN_DOUBT);
+            // On a skirt of one piece the waist is closed by the skirt; the band may well lap over there.
+            if self.skirt_round().is_none() {
+                let (a, b) = ends(band, band, Label::End);
+                self.add("waistband".to_owned(), a, b, &[band], PLAIN_DOUBT);
+            }
         } else if let [Some(right), Some(left)] = Hand::BOTH.map(side) {
             self.questions
                 .push("where do the waistbands open? They are taken to meet at centre front and back".to_owned());
