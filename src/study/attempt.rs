@@ -23,8 +23,6 @@ use crate::units::mm;
 const PENETRATION_MM: f64 = 0.5;
 /// Least shortfall that is told as a problem, mm.
 const SHORTFALL_MM: f64 = 5.0;
-/// Least confidence of a proposed seam that is sewn without asking.
-const SURE: f64 = 0.4;
 /// Size of each picture, pixels.
 const PICTURE: [u32; 2] = [480, 800];
 
@@ -272,21 +270,13 @@ fn style(asked: &Attempt, notes: &mut Vec<String>) -> Result<Style> {
         return tools::style(&asked.pattern, asked.seams.as_deref(), size, asked.unit);
     }
     let proposal = tools::propose(&asked.pattern, size, asked.unit)?.proposal;
-    let unsure: Vec<String> = proposal
-        .seams
-        .iter()
-        .filter(|seam| seam.confidence < SURE)
-        .map(|seam| format!("is {} sewn to {}?", seam.entry.a.join(" "), seam.entry.b.join(" ")))
-        .collect();
-    if proposal.seams.is_empty() || !unsure.is_empty() {
-        let questions: Vec<String> = proposal.questions.iter().cloned().chain(unsure).collect();
-        let message = format!(
-            "{}: how it is sewn is not sure enough: {}; say --seams FILE (`toile pattern propose -o FILE` writes one to edit)",
-            asked.pattern.display(),
-            if questions.is_empty() { "no seams were found".to_owned() } else { questions.join("; ") }
-        );
-        return Err(StudyError::Stage { stage: "pattern", message });
-    }
+    let proposal = proposal.to_drape().map_err(|unwearable| StudyError::Stage {
+        stage: "pattern",
+        message: format!(
+            "{}: {unwearable}; say --seams FILE (`toile pattern propose -o FILE` writes one to edit)",
+            asked.pattern.display()
+        ),
+    })?;
     notes.push("sewn as proposed: no seam file was given".to_owned());
     notes.extend(proposal.questions.iter().cloned());
     let name = asked.pattern.file_stem().unwrap_or_default().to_string_lossy();

@@ -109,7 +109,7 @@ struct Stretches {
 impl Stretches {
     fn of(shape: &Shape) -> Self {
         let n = shape.len();
-        let is_cut = |corner: usize| shape.apexes().contains(&(corner % n));
+        let is_cut = |corner: usize| shape.is_in_dart(corner % n);
         let row = |from: usize| {
             let stretch = |span: usize| (!is_cut(from) && !is_cut(from + span)).then(|| shape.stretch(from, span));
             (1..n).map(stretch).collect()

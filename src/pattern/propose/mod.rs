@@ -5,6 +5,9 @@
 //! is unsure becomes a question to the person who edits the file.
 
 mod align;
+mod choose;
+#[cfg(test)]
+mod garment_tests;
 mod names;
 mod notched;
 mod pose;
@@ -15,10 +18,13 @@ mod shape;
 mod templates;
 #[cfg(test)]
 mod tests;
+mod waist;
+mod wear;
 mod worn;
 mod write;
 
 pub(super) use self::pose::{Pose, named_face_and_hand, pose};
+pub use self::wear::{SURE, Unwearable};
 use super::garment::Role;
 use super::piece::Piece;
 use super::seams::{PieceEntry, SeamEntry};
@@ -35,6 +41,8 @@ pub enum Class {
     Sleeve,
     /// Front or back of a skirt.
     Skirt,
+    /// Yoke: the part of a front or back over the shoulder, or of a leg or skirt below the waist, that is cut by itself.
+    Yoke,
     /// Waistband.
     Waistband,
     /// Cuff.
@@ -50,6 +58,7 @@ impl Class {
             Self::Leg => "leg",
             Self::Sleeve => "sleeve",
             Self::Skirt => "skirt",
+            Self::Yoke => "yoke",
             Self::Waistband => "waistband",
             Self::Cuff => "cuff",
             Self::Other => "part",
@@ -277,7 +286,14 @@ impl Proposal {
 #[must_use]
 pub fn propose(pieces: &[Piece]) -> Proposal {
     let mut questions = Vec::new();
+    let is_detail = |piece: &&Piece| names::read(&piece.name).class == Some(Class::Other);
+    let mut details: Vec<String> = pieces.iter().filter(is_detail).map(|piece| format!("`{}`", piece.name)).collect();
+    details.dedup();
+    if !details.is_empty() {
+        questions.push(format!("left out: {}: by their names details that a drape does without", details.join(", ")));
+    }
     let recognised = recognise::recognise(pieces, &mut questions);
+    let recognised = choose::choose(pieces, recognised, &mut questions);
     // Which sleeve is drawn shows only once its notches are laid beside those of the armhole.
     let first = worn::worn(pieces, &recognised, None, &mut Vec::new());
     let worn = worn::worn(pieces, &recognised, notched::drawn_sleeve(&first), &mut questions);

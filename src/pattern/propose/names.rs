@@ -15,7 +15,7 @@ pub struct Named {
 
 /// Parts of words that name a kind of piece; the first that is found counts, so small parts stand before what they are
 /// sewn to (`front pocket bag` is a pocket, `sleeve cuff` a cuff).
-const CLASSES: [(Class, &[&str]); 6] = [
+const CLASSES: [(Class, &[&str]); 7] = [
     (
         Class::Other,
         &[
@@ -51,12 +51,6 @@ const CLASSES: [(Class, &[&str]); 6] = [
             "воротник",
             "комір",
             "комир",
-            "yoke",
-            "passe",
-            "empiec",
-            "canesu",
-            "canes",
-            "кокетк",
             "hood",
             "kapuze",
             "capuche",
@@ -65,6 +59,34 @@ const CLASSES: [(Class, &[&str]); 6] = [
             "binding",
             "gusset",
             "loop",
+            "interlin",
+            "einlage",
+            "entoilage",
+            "entretela",
+            "flap",
+            "patka",
+            "клапан",
+            "welt",
+            "paspel",
+            "passepoil",
+            "stay",
+            "tab",
+        ],
+    ),
+    (
+        Class::Yoke,
+        &[
+            "yoke",
+            "passe",
+            "sattel",
+            "empiec",
+            "canesú",
+            "canesu",
+            "sprone",
+            "schouderstuk",
+            "pala",
+            "karczek",
+            "кокетк",
         ],
     ),
     (
@@ -189,7 +211,7 @@ mod tests {
         let check = |name: &str, class: Option<Class>, face: Option<Face>, hand: Option<Hand>| {
             assert_eq!(read(name), Named { class, face, hand }, "{name}");
         };
-        use Class::{Cuff, Leg, Other, Skirt, Sleeve, Waistband};
+        use Class::{Cuff, Leg, Other, Skirt, Sleeve, Waistband, Yoke};
         use Face::{Back, Front};
         check("TEAGAN FRONT", None, Some(Front), None);
         check("Front_636968_M", None, Some(Front), None);
@@ -210,6 +232,12 @@ mod tests {
         check("Спинка", None, Some(Back), None);
         check("Полочка", None, Some(Front), None);
         check("Підборт", Some(Other), None, None);
+        check("YOKE", Some(Yoke), None, None);
+        check("Back Yoke", Some(Yoke), Some(Back), None);
+        check("YOKE LINING", Some(Other), None, None);
+        check("Кокетка спинки", Some(Yoke), Some(Back), None);
+        check("CUFFINTERFACE", Some(Other), None, None);
+        check("Pattentasche", Some(Other), None, None);
         check("?????", None, None, None);
         check("DETAIL", None, None, None);
     }

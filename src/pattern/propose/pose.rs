@@ -36,7 +36,9 @@ pub fn natural_hand(face: Face, is_mirrored: bool) -> Hand {
 /// without corners.
 #[must_use]
 pub fn pose(piece: &StylePiece) -> Option<Pose> {
+    let is_yoke = names::read(&piece.id).class == Some(Class::Yoke);
     let class = match piece.role {
+        Role::Front | Role::Back | Role::BodiceFront | Role::BodiceBack if is_yoke => Class::Yoke,
         Role::Front | Role::Back | Role::BodiceFront | Role::BodiceBack => Class::Body,
         Role::SleeveRight | Role::SleeveLeft => Class::Sleeve,
         Role::LegFrontRight | Role::LegFrontLeft | Role::LegBackRight | Role::LegBackLeft => Class::Leg,
@@ -55,8 +57,16 @@ pub fn pose(piece: &StylePiece) -> Option<Pose> {
     let shape = Shape::new(outline, corners)?;
     // As in a proposal, a sleeve that is called front or back is half of one.
     let is_whole_sleeve = names::read(&piece.id).face.is_none();
+    let hangs_from_yoke =
+        piece.edges.iter().any(|edge| edge.name.as_deref().is_some_and(|name| name.starts_with("top")));
     let fits = |template: &&Template| {
-        template.class == class && (class != Class::Sleeve || template.is_whole == is_whole_sleeve)
+        let is_it = match class {
+            Class::Sleeve => template.is_whole == is_whole_sleeve,
+            Class::Body => template.has_shoulder() != hangs_from_yoke,
+            Class::Yoke => template.has_shoulder(),
+            _ => true,
+        };
+        template.class == class && is_it
     };
     // The grain runs up and down, except along a band.
     let is_along =

@@ -12,7 +12,8 @@ const LEAST_NAMED_FIT: f64 = 0.35;
 /// Least fit of an outline that nothing else tells of.
 const LEAST_UNNAMED_FIT: f64 = 0.6;
 /// Kinds that have templates, in the order in which equal fits count.
-const CLASSES: [Class; 6] = [Class::Body, Class::Leg, Class::Sleeve, Class::Skirt, Class::Waistband, Class::Cuff];
+const CLASSES: [Class; 7] =
+    [Class::Body, Class::Leg, Class::Sleeve, Class::Skirt, Class::Yoke, Class::Waistband, Class::Cuff];
 /// Confidence in front and back told by comparing outlines.
 const COMPARED: f64 = 0.75;
 /// Least difference of two outlines that tells front from back, in units of the piece's longer side.
@@ -44,22 +45,45 @@ pub struct Recognised {
     pub confidence: f64,
     /// The next best reading of an outline whose name says no kind.
     rival: Option<Alignment>,
+    /// Whether it is cut twice, for both sides of the wearer, though nothing in its outline says so: half a waistband.
+    pub is_pair: bool,
+}
+
+/// What the other pieces of a file say of a piece.
+#[derive(Clone, Copy)]
+struct Around {
+    /// A file with a sleeve holds no legs unless it calls them so.
+    has_sleeve: bool,
+    /// A piece is called a yoke: a front or back may have no shoulders.
+    has_yoke: bool,
+    /// A yoke is one over the shoulders.
+    has_trunk: bool,
 }
 
 /// Recognises pieces; those that are left out have a question each, except what needs no seam of ours.
 pub fn recognise(pieces: &[Piece], questions: &mut Vec<String>) -> Vec<Recognised> {
-    let mut found = Vec::new();
-    let has_sleeve = pieces.iter().any(|piece| names::read(&piece.name).class == Some(Class::Sleeve));
-    for (index, piece) in pieces.iter().enumerate() {
-        match recognise_one(index, piece, has_sleeve, questions) {
-            Ok(recognised) => found.push(recognised),
-            Err(question) => questions.push(question),
+    let mut found: Vec<Recognised> = Vec::new();
+    let is_called = |piece: &Piece, class: Class| names::read(&piece.name).class == Some(class);
+    let [has_sleeve, has_yoke] =
+        [Class::Sleeve, Class::Yoke].map(|class| pieces.iter().any(|piece| is_called(piece, class)));
+    for are_yokes in [false, true] {
+        let has_trunk = found.iter().any(|one| one.class == Class::Body);
+        let around = Around { has_sleeve, has_yoke, has_trunk };
+        for (index, piece) in pieces.iter().enumerate() {
+            if is_called(piece, Class::Yoke) == are_yokes && !is_called(piece, Class::Other) {
+                match recognise_one(index, piece, around, questions) {
+                    Ok(recognised) => found.push(recognised),
+                    Err(question) => questions.push(question),
+                }
+            }
         }
     }
+    found.sort_by_key(|one| one.piece);
     reread_lone_legs(pieces, &mut found, questions);
     for class in [Class::Body, Class::Leg] {
         tell_faces(class, &mut found);
     }
+    tell_yoke_faces(&mut found);
     let skirts = found.iter().filter(|one| one.class == Class::Skirt).count();
     for one in &found {
         // A single piece may go all round.
@@ -74,22 +98,19 @@ pub fn recognise(pieces: &[Piece], questions: &mut Vec<String>) -> Vec<Recognise
     found
 }
 
-/// A file with a sleeve (`has_sleeve`) holds no legs unless it calls them so.
 fn recognise_one(
     index: usize,
     piece: &Piece,
-    has_sleeve: bool,
+    around: Around,
     questions: &mut Vec<String>,
 ) -> Result<Recognised, String> {
     let named = names::read(&piece.name);
     let ask = |what: &str| format!("piece `{}`: {what}; it is in no proposed seam", piece.name);
-    if named.class == Some(Class::Other) {
-        return Err(ask("its name says a part that is not sewn automatically"));
-    }
     let shape = Shape::of(piece).ok_or_else(|| ask("its corners cannot be told"))?;
     let is_candidate = |class: Class| match (named.class, named.face) {
         (Some(named), _) => class == named,
-        (None, _) if has_sleeve && class == Class::Leg => false,
+        (None, _) if around.has_sleeve && class == Class::Leg => false,
+        (None, _) if around.has_sleeve && around.has_yoke && class == Class::Skirt => false,
         (None, Some(_)) => matches!(class, Class::Body | Class::Leg | Class::Skirt),
         // Bands and skirts are rectangles: so is anything.
         (None, None) => matches!(class, Class::Body | Class::Leg | Class::Sleeve),
@@ -98,7 +119,13 @@ fn recognise_one(
     let is_half_sleeve = named.face.is_some();
     let as_class = |class: Class| {
         let of_class = |template: &&Template| {
-            template.class == class && (class != Class::Sleeve || template.is_whole != is_half_sleeve)
+            let fits = match class {
+                Class::Sleeve => template.is_whole != is_half_sleeve,
+                Class::Yoke => template.has_shoulder() == around.has_trunk,
+                Class::Body => template.has_shoulder() || around.has_yoke,
+                _ => true,
+            };
+            template.class == class && fits
         };
         // Pieces are mostly drawn upright.
         let cost = |quarter_turns| if quarter_turns == 0 { 0.0 } else { TURNED };
@@ -114,6 +141,7 @@ fn recognise_one(
             alignment: ring,
             confidence: ring::CONFIDENCE,
             rival: None,
+            is_pair: false,
         });
     }
     let mut readings: Vec<Alignment> =
@@ -155,6 +183,7 @@ fn recognise_one(
         alignment,
         confidence,
         rival,
+        is_pair: false,
     })
 }
 
@@ -190,18 +219,37 @@ fn tell_faces(class: Class, found: &mut [Recognised]) {
             found[only].confidence *= COMPARED;
         }
         (&[first, second], []) => {
-            let values = [frontness(&found[first]), frontness(&found[second])];
-            let (Some(a), Some(b)) = (values[0], values[1]) else { return };
-            if (a - b).abs() < LEAST_DIFFERENCE {
-                return;
-            }
-            let (front, back) = if a > b { (first, second) } else { (second, first) };
+            // A yoke is the back's.
+            let has_shoulder = |i: usize| class != Class::Body || found[i].alignment.template.has_shoulder();
+            let by_shoulder = match [first, second].map(has_shoulder) {
+                [true, false] => Some((first, second)),
+                [false, true] => Some((second, first)),
+                _ => None,
+            };
+            let by_outline = || {
+                let (a, b) = (frontness(&found[first])?, frontness(&found[second])?);
+                let is_clear = (a - b).abs() >= LEAST_DIFFERENCE;
+                is_clear.then_some(if a > b { (first, second) } else { (second, first) })
+            };
+            let Some((front, back)) = by_shoulder.or_else(by_outline) else { return };
             for (index, face) in [(front, Face::Front), (back, Face::Back)] {
                 found[index].face = Some(face);
                 found[index].confidence *= COMPARED;
             }
         }
         _ => {}
+    }
+}
+
+/// A yoke that its name does not place is sewn to what has no shoulders, the back first.
+fn tell_yoke_faces(found: &mut [Recognised]) {
+    let is_under = |face: Face| {
+        let is_it = |one: &Recognised| one.class == Class::Body && one.face == Some(face);
+        found.iter().any(|one| is_it(one) && !one.alignment.template.has_shoulder())
+    };
+    let face = if !is_under(Face::Back) && is_under(Face::Front) { Face::Front } else { Face::Back };
+    for yoke in found.iter_mut().filter(|one| one.class == Class::Yoke) {
+        yoke.face = yoke.face.or(Some(face));
     }
 }
 

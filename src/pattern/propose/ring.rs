@@ -18,7 +18,7 @@ pub const CONFIDENCE: f64 = 0.9;
 /// The edges of a ring: its hem is the longer arc, its waist the shorter, hollow one, its sides are straight.
 #[must_use]
 pub fn read(shape: &Shape) -> Option<Alignment> {
-    if shape.len() != 4 || !shape.apexes().is_empty() {
+    if shape.len() != 4 || !shape.darts().is_empty() {
         return None;
     }
     // The hem bulges outwards; the other three edges follow counter-clockwise.

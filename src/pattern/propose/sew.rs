@@ -10,9 +10,11 @@ use crate::pattern::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamEntry};
 use crate::units::mm;
 
 /// Difference of length, share of the longer side, at which a seam of straight edges is not believed.
-const PLAIN_DOUBT: f64 = 0.06;
+pub(super) const PLAIN_DOUBT: f64 = 0.06;
 /// The same for a sleeve, which is eased into its armhole, and a waist, which may be gathered or open.
-const EASED_DOUBT: f64 = 0.15;
+pub(super) const EASED_DOUBT: f64 = 0.15;
+/// The same for the end of a sleeve, which is laid in pleats or gathered into its cuff.
+const GATHERED_DOUBT: f64 = 0.3;
 /// Confidence in a seam at centre front or back.
 const CENTRE_CONFIDENCE: f64 = 0.7;
 /// Least confidence of a seam that is proposed; less sure ones are asked about.
@@ -24,7 +26,7 @@ const NOTCHED_GAIN: f64 = 0.4;
 const NOTCHED_DOUBT: f64 = 0.6;
 
 /// Edges in order with their lengths, m.
-type Chain = Vec<(String, f64)>;
+pub(super) type Chain = Vec<(String, f64)>;
 
 /// Proposes the seams of a garment.
 pub fn sew(worn: &[Worn], questions: &mut Vec<String>) -> Vec<ProposedSeam> {
@@ -37,9 +39,11 @@ pub fn sew(worn: &[Worn], questions: &mut Vec<String>) -> Vec<ProposedSeam> {
     }
     for face in Face::BOTH {
         tailor.centre(face);
+        tailor.yoke(face);
         tailor.waist(face);
     }
-    tailor.waistband();
+    tailor.ring();
+    tailor.waistbands();
     tailor.seams
 }
 
@@ -56,21 +60,21 @@ pub fn open(worn: &[Worn], seams: &[ProposedSeam]) -> Vec<String> {
     edges.filter(|name| !is_sewn(name)).collect()
 }
 
-struct Tailor<'w, 'q> {
-    worn: &'w [Worn],
+pub(super) struct Tailor<'w, 'q> {
+    pub worn: &'w [Worn],
     seams: Vec<ProposedSeam>,
-    questions: &'q mut Vec<String>,
+    pub questions: &'q mut Vec<String>,
 }
 
 impl<'w> Tailor<'w, '_> {
     /// The piece of a kind for a side; a whole piece is for both.
-    fn find(&self, class: Class, face: Option<Face>, hand: Hand) -> Option<&'w Worn> {
+    pub fn find(&self, class: Class, face: Option<Face>, hand: Hand) -> Option<&'w Worn> {
         self.worn
             .iter()
             .find(|one| one.class == class && one.face == face && (one.hand == Some(hand) || one.hand.is_none()))
     }
 
-    fn add(&mut self, name: String, a: Chain, b: Chain, pieces: &[&Worn], doubt: f64) {
+    pub fn add(&mut self, name: String, a: Chain, b: Chain, pieces: &[&Worn], doubt: f64) {
         let length = |chain: &Chain| chain.iter().map(|(_, length)| mm(*length)).sum::<f64>();
         let (a_mm, b_mm) = (length(&a), length(&b));
         if a.is_empty() || b.is_empty() {
@@ -129,17 +133,40 @@ impl<'w> Tailor<'w, '_> {
             (Class::Waistband, Label::End),
         ];
         for (class, label) in pairs {
-            let found = [Face::Front, Face::Back].map(|face| self.find(class, Some(face), hand));
-            if let [Some(front), Some(back)] = found {
+            let [front, back] = Face::BOTH.map(|face| self.along(class, label, face, hand));
+            if !front.is_empty() && !back.is_empty() {
                 let name = match class {
                     Class::Body | Class::Leg => format!("{}_{}", label.as_str(), hand.as_str()),
                     Class::Skirt => format!("skirt_{}_{}", label.as_str(), hand.as_str()),
                     Class::Waistband => format!("waistband_{}", hand.as_str()),
                     _ => format!("sleeve_{}_{}", label.as_str(), hand.as_str()),
                 };
-                let (a, b) = (front.chain(label, Some(hand)), back.chain_back(label, Some(hand)));
-                self.add(name, a, b, &[front, back], PLAIN_DOUBT);
+                let a = front.iter().flat_map(|(one, label)| one.chain(*label, Some(hand))).collect();
+                let b = back.iter().flat_map(|(one, label)| one.chain_back(*label, Some(hand))).collect();
+                let pieces: Vec<&Worn> = front.iter().chain(&back).map(|(one, _)| *one).collect();
+                self.add(name, a, b, &pieces, PLAIN_DOUBT);
             }
+        }
+    }
+
+    /// Pieces of a face along a seam of one side, with what they call it, in the order of the walk: a yoke has the shoulder
+    /// of what hangs from it, or the upper end of the seams of what it lies on.
+    fn along(&self, class: Class, label: Label, face: Face, hand: Hand) -> Vec<(&'w Worn, Label)> {
+        let Some(main) = self.find(class, Some(face), hand) else { return Vec::new() };
+        let yoke = self.find(Class::Yoke, Some(face), hand);
+        match yoke {
+            Some(yoke) if label == Label::Shoulder && !main.has(label) => vec![(yoke, label)],
+            Some(yoke) if label != Label::Inseam && class != Class::Body && yoke.has(Label::Waist) => {
+                let is_middle = matches!(label, Label::Crotch | Label::Centre);
+                let of_yoke = if is_middle { Label::Centre } else { Label::Side };
+                let mut walk = vec![(yoke, of_yoke), (main, label)];
+                // Outside it goes down on the right and up on the left, in the middle down behind and up in front.
+                if if is_middle { face == Face::Front } else { hand == Hand::Left } {
+                    walk.reverse();
+                }
+                walk
+            }
+            _ => vec![(main, label)],
         }
     }
 
@@ -163,9 +190,14 @@ impl<'w> Tailor<'w, '_> {
             }
         }
         let mut armhole = Chain::new();
-        for body in order.iter().filter_map(|&face| self.find(Class::Body, Some(face), hand)) {
-            pieces.push(body);
-            armhole.extend(body.chain_back(Label::Armhole, Some(hand)));
+        // Up the first face, over its yoke and that of the second, and down.
+        let walk = [(Class::Body, order[0]), (Class::Yoke, order[0]), (Class::Yoke, order[1]), (Class::Body, order[1])];
+        for body in walk.iter().filter_map(|&(class, face)| self.find(class, Some(face), hand)) {
+            let edges = body.chain_back(Label::Armhole, Some(hand));
+            if !edges.is_empty() {
+                pieces.push(body);
+                armhole.extend(edges);
+            }
         }
         self.add(format!("armhole_{}", hand.as_str()), cap, armhole, &pieces, EASED_DOUBT);
     }
@@ -182,7 +214,7 @@ impl<'w> Tailor<'w, '_> {
                 sleeve.chain(Label::Hem, None),
                 cuff.chain_back(Label::Top, None),
                 &[cuff, sleeve],
-                EASED_DOUBT,
+                GATHERED_DOUBT,
             );
         }
         let sleeve = self.worn.iter().find(|one| one.class == Class::Sleeve && one.is_whole && one.hand == Some(hand));
@@ -190,7 +222,9 @@ impl<'w> Tailor<'w, '_> {
             self.worn.iter().find(|one| one.class == Class::Cuff && one.face.is_none() && one.hand == Some(hand));
         if let (Some(sleeve), Some(cuff)) = (sleeve, cuff) {
             let (a, b) = (sleeve.chain(Label::Hem, None), cuff.chain_back(Label::Top, None));
-            self.add(format!("cuff_{}", hand.as_str()), a, b, &[cuff, sleeve], EASED_DOUBT);
+            self.add(format!("cuff_{}", hand.as_str()), a, b, &[cuff, sleeve], GATHERED_DOUBT);
+            let (a, b) = (cuff.chain(Label::End, Some(Hand::Right)), cuff.chain_back(Label::End, Some(Hand::Left)));
+            self.add(format!("cuff_{}_ends", hand.as_str()), a, b, &[cuff], PLAIN_DOUBT);
         }
         if let [(Some(front), _), (Some(back), _)] = halves {
             for (name, of_front, of_back) in [("a", Hand::Right, Hand::Left), ("b", Hand::Left, Hand::Right)] {
@@ -204,69 +238,25 @@ impl<'w> Tailor<'w, '_> {
     fn centre(&mut self, face: Face) {
         for (class, label, name) in [
             (Class::Body, Label::Centre, "centre"),
+            (Class::Yoke, Label::Centre, "yoke_centre"),
             (Class::Skirt, Label::Centre, "skirt_centre"),
             (Class::Leg, Label::Crotch, "crotch"),
         ] {
-            let found = Hand::BOTH.map(|hand| self.find(class, Some(face), hand));
-            if let [Some(right), Some(left)] = found.map(|one| one.filter(|one| one.hand.is_some())) {
-                let (a, b) = (right.chain(label, None), left.chain_back(label, None));
-                let name = format!("{name}_{}", face.as_str());
-                if label == Label::Centre {
-                    self.questions.push(format!("{name}: a seam, a fold, or an opening? A seam is proposed"));
-                }
-                self.add(name, a, b, &[right, left], PLAIN_DOUBT);
+            let is_half = |hand: Hand| self.find(class, Some(face), hand).is_some_and(|one| one.hand.is_some());
+            // A yoke below the waist is sewn with what it lies on.
+            let is_low = |one: &Worn| one.class == Class::Yoke && one.has(Label::Waist);
+            if !Hand::BOTH.into_iter().all(is_half) || self.find(class, Some(face), Hand::Right).is_some_and(is_low) {
+                continue;
             }
-        }
-    }
-
-    /// Pieces of a kind and face, as their lower edges follow one another counter-clockwise.
-    fn row(&self, class: Class, face: Face) -> Vec<&'w Worn> {
-        let order = if face == Face::Front { Hand::BOTH } else { [Hand::Left, Hand::Right] };
-        let mut row: Vec<&Worn> = Vec::new();
-        for one in order.iter().filter_map(|&hand| self.find(class, Some(face), hand)) {
-            if !row.iter().any(|other| other.id == one.id) {
-                row.push(one);
+            let [right, left] = Hand::BOTH.map(|hand| self.along(class, label, face, hand));
+            let a = right.iter().flat_map(|(one, label)| one.chain(*label, None)).collect();
+            let b = left.iter().flat_map(|(one, label)| one.chain_back(*label, None)).collect();
+            let pieces: Vec<&Worn> = right.iter().chain(&left).map(|(one, _)| *one).collect();
+            let name = format!("{name}_{}", face.as_str());
+            if label == Label::Centre {
+                self.questions.push(format!("{name}: a seam, a fold, or an opening? A seam is proposed"));
             }
-        }
-        row
-    }
-
-    /// Lower edge of what is above to the upper edge of what is below: bodice, waistband, skirt or legs.
-    fn waist(&mut self, face: Face) {
-        let levels: Vec<Vec<&Worn>> = [Class::Body, Class::Waistband, Class::Skirt, Class::Leg]
-            .into_iter()
-            .map(|class| self.row(class, face))
-            .filter(|row| !row.is_empty())
-            .collect();
-        for (index, pair) in levels.windows(2).enumerate() {
-            let (above, below) = (&pair[0], &pair[1]);
-            let lower = if above[0].class == Class::Body { Label::Hem } else { Label::Lower };
-            let upper = if below[0].class == Class::Waistband { Label::Top } else { Label::Waist };
-            let a = above.iter().flat_map(|one| one.chain(lower, None)).collect();
-            let b = below.iter().flat_map(|one| one.chain_back(upper, None)).collect();
-            let pieces: Vec<&Worn> = above.iter().chain(below).copied().collect();
-            self.add(format!("waist_{}_{}", face.as_str(), index + 1), a, b, &pieces, EASED_DOUBT);
-        }
-    }
-
-    /// A waistband of one piece: where it begins depends on the opening, which a pattern does not say.
-    fn waistband(&mut self) {
-        let alone =
-            |class: Class| self.worn.iter().find(|one| one.class == class && one.face.is_none() && one.hand.is_none());
-        let [skirt, band] = [Class::Skirt, Class::Waistband].map(alone);
-        let ends =
-            |one: &Worn, label: Label| (one.chain(label, Some(Hand::Right)), one.chain_back(label, Some(Hand::Left)));
-        if let Some(skirt) = skirt {
-            let (a, b) = ends(skirt, Label::Side);
-            self.add("skirt_side".to_owned(), a, b, &[skirt], PLAIN_DOUBT);
-        }
-        if let (Some(skirt), Some(band)) = (skirt, band) {
-            let (a, b) = (skirt.chain(Label::Waist, None), band.chain_back(Label::Lower, None));
-            self.add("waist".to_owned(), a, b, &[skirt, band], EASED_DOUBT);
-        }
-        let band = self.worn.iter().find(|one| one.class == Class::Waistband && one.face.is_none());
-        if let Some(band) = band {
-            self.questions.push(format!("where does `{}` open, and at which seam does it begin?", band.id));
+            self.add(name, a, b, &pieces, PLAIN_DOUBT);
         }
     }
 }

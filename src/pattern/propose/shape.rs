@@ -12,6 +12,8 @@ const LEG_DIFFERENCE: f64 = 0.04;
 const WIDEST_MOUTH: f64 = 0.7;
 /// Least leg of a dart, m.
 const LEAST_LEG_M: f64 = 20e-3;
+/// Growth of a mouth that is none, m.
+const LEAST_STEP_M: f64 = 1e-3;
 /// Most corners of a piece that is looked at; more are no pattern's, and alignment takes the square of their number.
 const MOST_CORNERS: usize = 100;
 
@@ -22,8 +24,17 @@ pub struct Shape {
     outline: Vec<V2>,
     /// Corners, as [`corner_vertices`] numbers them.
     corners: Vec<usize>,
-    /// Corners that are the apex of a dart; its legs are the edges before and after.
-    apexes: Vec<usize>,
+    /// Darts.
+    darts: Vec<Dart>,
+}
+
+/// A dart in an outline: as many edges before its apex as after it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Dart {
+    /// Corner at its tip.
+    pub apex: usize,
+    /// Edges of each leg: one, or several where the dart narrows again towards the edge it is cut into.
+    pub span: usize,
 }
 
 /// A stretch of outline over some edges, in the frame of a [`Shape::framed`] outline.
@@ -54,8 +65,9 @@ impl Shape {
         if !(3..=MOST_CORNERS).contains(&corners.len()) {
             return None;
         }
-        let mut shape = Self { outline, corners, apexes: Vec::new() };
-        shape.apexes = (0..shape.corners.len()).filter(|&corner| shape.is_apex(corner)).collect();
+        let mut shape = Self { outline, corners, darts: Vec::new() };
+        let apexes = (0..shape.corners.len()).filter(|&corner| shape.is_apex(corner));
+        shape.darts = apexes.map(|apex| Dart { apex, span: shape.leg_span(apex) }).collect();
         Some(shape)
     }
 
@@ -65,16 +77,31 @@ impl Shape {
         self.corners.len()
     }
 
-    /// Corners that are the apex of a dart.
+    /// Darts, by the number of their apex.
     #[must_use]
-    pub fn apexes(&self) -> &[usize] {
-        &self.apexes
+    pub fn darts(&self) -> &[Dart] {
+        &self.darts
+    }
+
+    /// The dart of which an edge is a leg, or part of one.
+    #[must_use]
+    pub fn dart_of(&self, edge: usize) -> Option<Dart> {
+        let n = self.len();
+        self.darts.iter().copied().find(|dart| (edge + n + dart.span - dart.apex) % n < 2 * dart.span)
     }
 
     /// Whether an edge is a leg of a dart.
     #[must_use]
     pub fn is_leg(&self, edge: usize) -> bool {
-        self.apexes.contains(&edge) || self.apexes.contains(&((edge + 1) % self.len()))
+        self.dart_of(edge).is_some()
+    }
+
+    /// Whether a corner is the apex of a dart, or lies within one of its legs.
+    #[must_use]
+    pub fn is_in_dart(&self, corner: usize) -> bool {
+        let n = self.len();
+        let is_in = |dart: &Dart| (corner + n + dart.span - dart.apex - 1) % n < 2 * dart.span - 1;
+        self.darts.iter().any(is_in)
     }
 
     /// Points of an edge, both ends included.
@@ -110,6 +137,27 @@ impl Shape {
             && short > LEAST_LEG_M
             && mouth < WIDEST_MOUTH * short
             && long - short < LEG_DIFFERENCE * long.max(LEAST_LEG_M)
+    }
+
+    /// Edges of each leg of the dart with this apex: a dart that is widest inside the piece narrows again on its way out.
+    fn leg_span(&self, apex: usize) -> usize {
+        let n = self.len();
+        let place = |corner: usize| self.outline[self.corners[corner % n]];
+        let mouth = |span: usize| (place(apex + span) - place(apex + n - span)).norm();
+        let is_on = |span: &usize| {
+            let legs = [self.length((apex + n - span) % n), self.length((apex + span - 1) % n)];
+            let (short, long) = (legs[0].min(legs[1]), legs[0].max(legs[1]));
+            long - short < LEG_DIFFERENCE * long.max(LEAST_LEG_M) && mouth(*span) <= mouth(span - 1) + LEAST_STEP_M
+        };
+        // At least one edge stays outside.
+        1 + (2..=(n - 1) / 2).take_while(is_on).count()
+    }
+
+    /// Length of a stretch once its darts are sewn, m.
+    #[must_use]
+    pub fn sewn_length(&self, from: usize, span: usize) -> f64 {
+        let edges = (from..from + span).map(|edge| edge % self.len());
+        edges.filter(|&edge| !self.is_leg(edge)).map(|edge| self.length(edge)).sum()
     }
 
     /// The least and greatest `v` of a stretch.

@@ -30,6 +30,20 @@ pub struct Template {
     pub parts: &'static [Part],
 }
 
+impl Template {
+    /// Whether it has such a part.
+    #[must_use]
+    pub fn has(&self, label: Label) -> bool {
+        self.parts.iter().any(|part| part.label == label)
+    }
+
+    /// Whether it is worn under or over shoulders: a yoke of which not, is one below the waist.
+    #[must_use]
+    pub fn has_shoulder(&self) -> bool {
+        self.has(Shoulder)
+    }
+}
+
 const fn part(label: Label, direction_deg: f64, bow: f64, at: [f64; 2], share: f64) -> Part {
     Part { label, direction_deg, bow, at, share }
 }
@@ -39,7 +53,7 @@ use Label::{
 };
 
 /// All templates. Halves are aligned as their mirror images too.
-pub const TEMPLATES: [Template; 9] = [
+pub const TEMPLATES: [Template; 15] = [
     Template {
         class: Class::Body,
         is_whole: true,
@@ -64,6 +78,75 @@ pub const TEMPLATES: [Template; 9] = [
             part(Shoulder, 160.0, 0.0, [0.55, 0.96], 0.07),
             part(Neck, 215.0, -1.0, [0.15, 0.92], 0.09),
             part(Centre, 270.0, 0.0, [0.0, 0.4], 0.28),
+        ],
+    },
+    // What hangs from a yoke over the shoulders.
+    Template {
+        class: Class::Body,
+        is_whole: true,
+        parts: &[
+            part(Hem, 0.0, 0.0, [0.5, 0.0], 0.27),
+            part(Side, 90.0, 0.0, [1.0, 0.3], 0.2),
+            part(Armhole, 100.0, -1.0, [0.93, 0.8], 0.08),
+            part(Top, 180.0, 0.0, [0.5, 1.0], 0.17),
+            part(Armhole, 260.0, -1.0, [0.07, 0.8], 0.08),
+            part(Side, 270.0, 0.0, [0.0, 0.3], 0.2),
+        ],
+    },
+    Template {
+        class: Class::Body,
+        is_whole: false,
+        parts: &[
+            part(Hem, 0.0, 0.0, [0.5, 0.0], 0.17),
+            part(Side, 90.0, 0.0, [0.98, 0.3], 0.23),
+            part(Armhole, 105.0, -1.0, [0.88, 0.8], 0.12),
+            part(Top, 180.0, 0.0, [0.4, 1.0], 0.15),
+            part(Centre, 270.0, 0.0, [0.0, 0.5], 0.33),
+        ],
+    },
+    // Over the shoulders.
+    Template {
+        class: Class::Yoke,
+        is_whole: true,
+        parts: &[
+            part(Lower, 0.0, 0.0, [0.5, 0.0], 0.34),
+            part(Armhole, 90.0, 0.0, [1.0, 0.15], 0.08),
+            part(Shoulder, 160.0, 0.0, [0.83, 0.4], 0.16),
+            part(Neck, 180.0, -1.0, [0.5, 0.35], 0.18),
+            part(Shoulder, 200.0, 0.0, [0.17, 0.4], 0.16),
+            part(Armhole, 270.0, 0.0, [0.0, 0.15], 0.08),
+        ],
+    },
+    Template {
+        class: Class::Yoke,
+        is_whole: false,
+        parts: &[
+            part(Lower, 0.0, 0.0, [0.5, 0.0], 0.33),
+            part(Armhole, 90.0, 0.0, [1.0, 0.15], 0.11),
+            part(Shoulder, 162.0, 0.0, [0.65, 0.4], 0.25),
+            part(Neck, 215.0, -1.0, [0.15, 0.4], 0.15),
+            part(Centre, 270.0, 0.0, [0.0, 0.15], 0.14),
+        ],
+    },
+    // Below the waist.
+    Template {
+        class: Class::Yoke,
+        is_whole: true,
+        parts: &[
+            part(Lower, 0.0, 0.0, [0.5, 0.0], 0.42),
+            part(Side, 90.0, 0.0, [1.0, 0.12], 0.08),
+            part(Waist, 180.0, 0.0, [0.5, 0.25], 0.42),
+            part(Side, 270.0, 0.0, [0.0, 0.12], 0.08),
+        ],
+    },
+    Template {
+        class: Class::Yoke,
+        is_whole: false,
+        parts: &[
+            part(Lower, 0.0, 0.0, [0.5, 0.0], 0.37),
+            part(Side, 90.0, 0.0, [1.0, 0.15], 0.11),
+            part(Waist, 180.0, 0.0, [0.5, 0.3], 0.37),
+            part(Centre, 270.0, 0.0, [0.0, 0.15], 0.15),
         ],
     },
     Template {

@@ -77,7 +77,16 @@ fn freesewing_garments_are_sewn() {
     check("freesewing/bella_cisFemaleAdult36_aama-net.dxf", &with(&["centre_back"]), 6);
     check("freesewing/sandy_cisFemaleAdult36_aama.dxf", &["skirt_side", "waist"], 0);
     check("valentina/TShirt_test.v1.1.1.aama-r12.dxf", &with(&["centre_back", "centre_front"]), 0);
-    check("valentina/Trousers.v1.1.1.aama-r12.dxf", &TROUSERS, 6);
+    let mut trousers = [&TROUSERS[..], &["waist_left", "waist_right", "waistband_back", "waistband_front"]].concat();
+    trousers.sort_unstable();
+    check("valentina/Trousers.v1.1.1.aama-r12.dxf", &trousers, 6);
+    check(
+        "valentina/MaleShirt.v1.1.1.aama-r12.dxf",
+        &with(&["centre_back", "centre_front", "yoke_back", "yoke_centre_back"]),
+        2,
+    );
+    check("valentina/jacketM1_52-176.size50.v1.1.1.astm-r12.cp1251.dxf", &with(&["centre_back", "centre_front"]), 0);
+    check("valentina/pantsM1_52-176.v1.1.1.astm-r12.dxf", &TROUSERS, 0);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::recognise::Recognised;
+use super::shape::Dart;
 use super::{Class, Face, Hand, Label, pose, role_of};
 use crate::geom::V2;
 use crate::geom::polyline::Polyline;
@@ -69,7 +70,8 @@ pub fn worn(
     let skirts = recognised.iter().filter(|one| one.class == Class::Skirt).count();
     let mut all: Vec<Worn> = Vec::new();
     for one in recognised {
-        let needs_face = matches!(one.class, Class::Body | Class::Leg) || (one.class == Class::Skirt && skirts > 1);
+        let needs_face =
+            matches!(one.class, Class::Body | Class::Leg | Class::Yoke) || (one.class == Class::Skirt && skirts > 1);
         if needs_face && one.face.is_none() {
             continue;
         }
@@ -84,7 +86,10 @@ pub fn worn(
                 }
                 break;
             }
-            let role = role_of(Some(one.class), one.face, hand, is_bodice);
+            // A yoke over the shoulders is placed with the trunk; one below the waist follows what it is sewn to.
+            let is_trunk = one.class == Class::Yoke && one.alignment.template.has_shoulder();
+            let class = if is_trunk { Class::Body } else { one.class };
+            let role = role_of(Some(class), one.face, hand, is_bodice);
             all.push(wear(pieces, one, id, hand, is_mirror, role));
         }
         if one.class == Class::Sleeve && one.alignment.template.is_whole && one.hand.is_none() && drawn.is_none() {
@@ -112,6 +117,8 @@ fn copies(one: &Recognised, backs_face_inwards: bool, drawn: Option<Hand>) -> Ve
             (Class::Sleeve | Class::Cuff, Some(hand)) => {
                 vec![(Some(hand), backs_face_inwards && one.face == Some(Face::Back))]
             }
+            (Class::Waistband, Some(hand)) => vec![(Some(hand), false)],
+            (Class::Waistband, None) if one.is_pair => vec![(Some(Hand::Right), false), (Some(Hand::Left), true)],
             (Class::Cuff, None) => vec![(Some(Hand::Right), false), (Some(Hand::Left), true)],
             _ => vec![(None, backs_face_inwards && one.face == Some(Face::Back))],
         };
@@ -123,12 +130,14 @@ fn copies(one: &Recognised, backs_face_inwards: bool, drawn: Option<Hand>) -> Ve
     }
 }
 
-fn id_of(one: &Recognised, hand: Option<Hand>) -> String {
+/// What a piece is called in the seam file, of one side of the wearer or of both.
+pub fn id_of(one: &Recognised, hand: Option<Hand>) -> String {
     let class = match one.class {
         Class::Body | Class::Other => None,
         Class::Leg => Some("leg"),
         Class::Sleeve => Some("sleeve"),
         Class::Skirt => Some("skirt"),
+        Class::Yoke => Some("yoke"),
         Class::Waistband => Some("waistband"),
         Class::Cuff => Some("cuff"),
     };
@@ -178,9 +187,10 @@ fn wear(
         let mut k = 0;
         while k < part.span {
             let from = (part.from + k) % n;
-            let is_leg = shape.is_leg(from);
-            let span =
-                if is_leg { 1 } else { (k..part.span).take_while(|&k| !shape.is_leg((part.from + k) % n)).count() };
+            let dart = shape.dart_of(from);
+            let is_leg = dart.is_some();
+            let plain = (k..part.span).take_while(|&k| !shape.is_leg((part.from + k) % n)).count();
+            let span = dart.map_or(plain, |dart| dart.span);
             let name = unique(if is_leg { "dart_leg".to_owned() } else { base.clone() });
             if is_leg {
                 legs.insert(from, name.clone());
@@ -198,7 +208,8 @@ fn wear(
     if is_mirror {
         edges.reverse();
     }
-    let dart = |apex: &usize| Some([legs.get(&((apex + n - 1) % n))?.clone(), legs.get(apex)?.clone()]);
+    let dart =
+        |dart: &Dart| Some([legs.get(&((dart.apex + n - dart.span) % n))?.clone(), legs.get(&dart.apex)?.clone()]);
     Worn {
         piece: one.piece,
         id,
@@ -206,7 +217,7 @@ fn wear(
         face: one.face,
         hand,
         is_whole: one.alignment.template.is_whole,
-        darts: shape.apexes().iter().filter_map(dart).collect(),
+        darts: shape.darts().iter().filter_map(dart).collect(),
         entry: PieceEntry { block: reference(pieces, one.piece), role, mirror: is_mirror, edges: corners },
         edges,
         confidence: one.confidence,
@@ -250,6 +261,11 @@ fn side_of(one: &Recognised, is_right: bool, hand: Option<Hand>, is_mirror: bool
 }
 
 impl Worn {
+    /// Whether it has an edge of this kind.
+    pub fn has(&self, label: Label) -> bool {
+        self.edges.iter().any(|edge| edge.label == Some(label))
+    }
+
     /// Edges with a label, counter-clockwise as worn, of one side where the piece has it on both.
     pub fn chain(&self, label: Label, hand: Option<Hand>) -> Vec<(String, f64)> {
         let is_it = |edge: &&WornEdge| {

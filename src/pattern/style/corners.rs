@@ -11,8 +11,13 @@ use crate::pattern::piece::Piece;
 const ON_OUTLINE_M: f64 = 0.5e-3;
 /// Turn of an outline at which a vertex is a corner where the file marks none, degrees.
 const CORNER_TURN_DEG: f64 = 30.0;
+/// Turn at which a vertex is a corner beside those that the file marks, degrees: no sample of a curve turns as much.
+const SHARP_TURN_DEG: f64 = 45.0;
+/// Least distance along the outline of such a vertex from the next corner, m: nearer ones are a notch or a step.
+const APART_M: f64 = 15e-3;
 
-/// Outline vertices that are corners, counter-clockwise from the first turn point in the file.
+/// Outline vertices that are corners, counter-clockwise from the first turn point in the file: those that it marks, and where
+/// it marks none, or leaves a sharp one out, those at which the outline turns.
 pub(in crate::pattern) fn corner_vertices(piece: &Piece) -> Vec<usize> {
     let outline = piece.seam_outline();
     let nearest = |point: &V2| {
@@ -23,14 +28,42 @@ pub(in crate::pattern) fn corner_vertices(piece: &Piece) -> Vec<usize> {
     let distinct: BTreeSet<usize> = marked.iter().copied().collect();
     // Some writers mark every vertex as a turn point; then the marks say nothing.
     if distinct.len() >= 2 && (distinct.len() < outline.len() || outline.len() <= 8) {
-        let mut corners: Vec<usize> = distinct.into_iter().collect();
+        let mut corners: Vec<usize> = with_unmarked(outline, distinct).into_iter().collect();
         let start = corners.iter().position(|&vertex| vertex == marked[0]).unwrap_or(0);
         corners.rotate_left(start);
         return corners;
     }
+    (0..outline.len()).filter(|&i| turn_deg(outline, i) >= CORNER_TURN_DEG).collect()
+}
+
+/// Turn of an outline at a vertex to either side, degrees.
+fn turn_deg(outline: &[V2], i: usize) -> f64 {
     let n = outline.len();
-    let turn = |i: usize| (outline[i] - outline[(i + n - 1) % n]).angle(&(outline[(i + 1) % n] - outline[i]));
-    (0..n).filter(|&i| turn(i).to_degrees() >= CORNER_TURN_DEG).collect()
+    (outline[i] - outline[(i + n - 1) % n]).angle(&(outline[(i + 1) % n] - outline[i])).to_degrees()
+}
+
+/// Marked corners with the sharp vertices that stand by themselves.
+fn with_unmarked(outline: &[V2], marked: BTreeSet<usize>) -> BTreeSet<usize> {
+    let n = outline.len();
+    let is_corner = |i: usize| marked.contains(&i) || turn_deg(outline, i) >= SHARP_TURN_DEG;
+    // Whether no corner is near when the outline is walked on by `step` vertices at a time.
+    let is_apart = |from: usize, step: usize| {
+        let (mut at, mut way) = (from, 0.0);
+        loop {
+            let next = (at + step) % n;
+            way += (outline[next] - outline[at]).norm();
+            at = next;
+            if way >= APART_M || at == from {
+                return true;
+            }
+            if is_corner(at) {
+                return false;
+            }
+        }
+    };
+    let unmarked = (0..n).filter(|&i| !marked.contains(&i) && is_corner(i) && is_apart(i, 1) && is_apart(i, n - 1));
+    let found: Vec<usize> = unmarked.collect();
+    marked.into_iter().chain(found).collect()
 }
 
 /// The stretch of an outline from one corner over `span` corners, counter-clockwise.

@@ -101,10 +101,22 @@ fn corners_come_from_turn_points_or_else_from_the_outline() {
         corner_vertices(&piece)
     };
     let corner = |x: f64, y: f64| V2::new(x, y);
-    assert_eq!(square(vec![corner(1.0, 1.0), corner(0.0, 0.0), corner(0.5, 0.0)]), [20, 0, 5]);
+    // Sharp corners that the file leaves out are corners too, from the first that it marks.
+    assert_eq!(square(vec![corner(1.0, 1.0), corner(0.0, 0.0), corner(0.5, 0.0)]), [20, 30, 0, 5, 10]);
     // Marks off the outline, as of a cut line when the sew line is sewn, are no marks.
     assert_eq!(square(vec![corner(2.0, 2.0)]), [0, 10, 20, 30]);
     assert_eq!(square(Vec::new()), [0, 10, 20, 30]);
+}
+
+#[test]
+fn notches_cut_into_a_marked_outline_are_no_corners() {
+    let mut piece = tshirt(TshirtSize::S).pieces.remove(0);
+    let point = |x: f64, y: f64| V2::new(x, y);
+    let notch = [point(0.495, 0.0), point(0.5, 0.006), point(0.505, 0.0)];
+    let square = [point(1.0, 0.0), point(1.0, 1.0), point(0.0, 1.0)];
+    piece.outline = [&[point(0.0, 0.0)][..], &notch, &square].concat();
+    piece.turn_points = [&[point(0.0, 0.0)][..], &square].concat();
+    assert_eq!(corner_vertices(&piece), [0, 4, 5, 6]);
 }
 
 #[test]

@@ -134,8 +134,9 @@ impl Placing<'_> {
                 return Err(SimError::CannotPlace { piece: piece.id.clone(), role: piece.role, accepted });
             };
             let mut axes = placed.iter().filter(|&&p| !joins.between(piece, p).is_empty()).filter_map(|&p| limb[p]);
-            // What joins several limbs goes about the trunk.
-            let first = axes.next();
+            // What joins several limbs goes about the trunk, and so does half a waistband on one leg.
+            let is_waist = joins.garment.pieces[piece].role == Role::Waistband;
+            let first = axes.next().filter(|_| !is_waist);
             let axis = first.filter(|first| axes.all(|axis| axis == *first)).unwrap_or(self.form.trunk_axis());
             let places = follow::place(&self.form, joins, piece, &pairs, &self.positions, &axis);
             self.positions[joins.garment.pieces[piece].vertices.clone()].copy_from_slice(&places);

@@ -1,0 +1,219 @@
+//! Whole garments with yokes, bands, cuffs and details: small patterns of straight lines and a few curve points.
+
+use super::*;
+use crate::geom::V2;
+use crate::pattern::style::Style;
+
+/// A piece in mm; the third number of a vertex says whether it is a corner.
+fn piece(name: &str, vertices: &[(f64, f64, u8)]) -> Piece {
+    let place = |&(x, y, _): &(f64, f64, u8)| V2::new(x, y) * 1e-3;
+    Piece {
+        block: name.to_owned(),
+        name: name.to_owned(),
+        outline: vertices.iter().map(place).collect(),
+        turn_points: vertices.iter().filter(|vertex| vertex.2 == 1).map(place).collect(),
+        ..Piece::default()
+    }
+}
+
+fn strip(name: &str, length: f64, width: f64) -> Piece {
+    piece(name, &[(0.0, 0.0, 1), (length, 0.0, 1), (length, width, 1), (0.0, width, 1)])
+}
+
+/// Half front, half back without shoulders, half yoke, sleeve and cuff of a shirt.
+fn shirt() -> Vec<Piece> {
+    let front =
+        [(0.0, 0.0, 1), (260.0, 0.0, 1), (260.0, 420.0, 1), (215.0, 440.0, 0), (195.0, 500.0, 0), (190.0, 560.0, 0)];
+    let front =
+        [&front[..], &[(200.0, 640.0, 1), (80.0, 690.0, 1), (70.0, 640.0, 0), (40.0, 615.0, 0), (0.0, 605.0, 1)]];
+    let back = [(0.0, 0.0, 1), (260.0, 0.0, 1), (260.0, 420.0, 1), (220.0, 440.0, 0), (200.0, 500.0, 0)];
+    let back = [&back[..], &[(200.0, 560.0, 1), (0.0, 560.0, 1)]];
+    let yoke = [(0.0, 0.0, 1), (200.0, 0.0, 1), (200.0, 70.0, 1), (80.0, 120.0, 1), (50.0, 80.0, 0), (0.0, 70.0, 1)];
+    vec![
+        piece("FRONT", &front.concat()),
+        piece("BACK", &back.concat()),
+        piece("YOKE", &yoke),
+        sleeve(1.0),
+        strip("CUFF", 330.0, 60.0),
+        strip("POCKET", 110.0, 130.0),
+        strip("COLLAR", 210.0, 80.0),
+    ]
+}
+
+/// A sleeve so many times as wide as the armholes need.
+fn sleeve(wide: f64) -> Piece {
+    let cap = [(380.0, 300.0, 1), (290.0, 340.0, 0), (230.0, 400.0, 0), (180.0, 420.0, 0)];
+    let rest = [(130.0, 400.0, 0), (70.0, 340.0, 0), (-20.0, 300.0, 1)];
+    let all = [&[(0.0, 0.0, 1), (360.0, 0.0, 1)][..], &cap, &rest].concat();
+    let all: Vec<(f64, f64, u8)> = all.into_iter().map(|(x, y, corner)| (wide * x, y, corner)).collect();
+    piece("SLEEVE", &all)
+}
+
+/// Half front and half back of trousers, the back up to a waist at so many mm.
+fn legs(back_waist: f64) -> Vec<Piece> {
+    let crotch = [(85.0, 850.0, 0), (60.0, 790.0, 0), (10.0, 770.0, 1)];
+    let front = [&[(60.0, 0.0, 1), (280.0, 0.0, 1), (300.0, 1000.0, 1), (90.0, 1000.0, 1)][..], &crotch].concat();
+    let seat = [(90.0, 850.0, 0), (40.0, 790.0, 0), (-40.0, 770.0, 1)];
+    let outer = 290.0 + 0.02 * back_waist;
+    let back = [(60.0, 0.0, 1), (290.0, 0.0, 1), (outer, back_waist, 1), (100.0, back_waist + 20.0, 1)];
+    vec![piece("TROUSER FRONT", &front), piece("TROUSER BACK", &[&back[..], &seat].concat())]
+}
+
+fn seam<'p>(proposal: &'p Proposal, name: &str) -> &'p ProposedSeam {
+    let all = || proposal.seams.iter().map(|seam| seam.entry.name.as_str()).collect::<Vec<_>>();
+    proposal.seams.iter().find(|seam| seam.entry.name == name).unwrap_or_else(|| panic!("no {name} in {:?}", all()))
+}
+
+/// What is draped with nobody to ask, as a style; once it is sewn, no piece meets itself but where `closed` says so.
+fn draped(pieces: &[Piece], closed: &[&str]) -> Proposal {
+    let proposal = propose(pieces).to_drape().expect("it can be worn");
+    let style = Style::read(pieces, proposal.toml("x").as_bytes(), "x").expect("a style");
+    let garment = style.mesh(0.05).expect("a mesh");
+    let mut meets: Vec<usize> = (0..garment.rest.len()).collect();
+    let root = |meets: &[usize], mut v: usize| {
+        while meets[v] != v {
+            v = meets[v];
+        }
+        v
+    };
+    for [a, b] in garment.seams.iter().flat_map(|seam| &seam.pairs) {
+        let (a, b) = (root(&meets, *a), root(&meets, *b));
+        meets[a] = b;
+    }
+    for piece in garment.pieces.iter().filter(|piece| !closed.iter().any(|id| piece.id.starts_with(id))) {
+        let mut own: Vec<usize> = piece.vertices.clone().map(|v| root(&meets, v)).collect();
+        own.sort_unstable();
+        let count = own.len();
+        own.dedup();
+        assert_eq!(own.len(), count, "{} is sewn to itself", piece.id);
+    }
+    proposal
+}
+
+#[test]
+fn a_shirt_with_a_yoke_is_sewn_whole_and_its_details_are_left_out() {
+    let proposal = draped(&shirt(), &["sleeve", "cuff"]);
+    assert_eq!(
+        seam(&proposal, "armhole_right").entry.b,
+        ["front_right.armhole", "yoke_back_right.armhole", "back_right.armhole"]
+    );
+    assert_eq!(
+        seam(&proposal, "armhole_left").entry.b,
+        ["back_left.armhole", "yoke_back_left.armhole", "front_left.armhole"]
+    );
+    assert_eq!(seam(&proposal, "shoulder_left").entry.b, ["yoke_back_left.shoulder"]);
+    let yoke = seam(&proposal, "yoke_back");
+    assert!((yoke.a_mm - 400.0).abs() < 1e-6 && (yoke.b_mm - 400.0).abs() < 1e-6, "{yoke:?}");
+    for name in ["yoke_centre_back", "cuff_right", "cuff_left_ends", "side_left", "underarm_right"] {
+        seam(&proposal, name);
+    }
+    let roles: Vec<Role> = proposal.entries.iter().filter(|(id, _)| id.contains("yoke")).map(|e| e.1.role).collect();
+    assert_eq!(roles, [Role::Back; 2]);
+    let left_out = proposal.questions.iter().find(|question| question.starts_with("left out")).expect("it is said");
+    assert!(left_out.contains("`POCKET`, `COLLAR`"), "{left_out}");
+}
+
+#[test]
+fn what_cannot_be_sewn_for_sure_is_left_out_where_the_rest_can_be_worn() {
+    let mut pieces = shirt();
+    pieces[3] = sleeve(2.5);
+    let whole = propose(&pieces);
+    assert!(whole.pieces.iter().any(|piece| piece.id.as_deref() == Some("sleeve_right")), "a person may sew it");
+    let proposal = draped(&pieces, &[]);
+    assert!(
+        proposal.entries.iter().all(|(id, _)| !id.contains("sleeve") && !id.contains("cuff")),
+        "{:?}",
+        proposal.seams
+    );
+    let said = proposal.questions.join("\n");
+    assert!(said.contains("left out: `SLEEVE`") && said.contains("left out: `CUFF`"), "{said}");
+    // Nothing else can be spared.
+    for (gone, expect) in [("BACK", "side_right"), ("FRONT", "side_right"), ("YOKE", "shoulder_right")] {
+        let rest: Vec<Piece> = shirt().into_iter().filter(|piece| piece.name != gone).collect();
+        let error = propose(&rest).to_drape().expect_err(gone).to_string();
+        assert!(error.contains(expect), "{gone}: {error}");
+    }
+    // Two garments are not one.
+    let skirt = ["SKIRT FRONT", "SKIRT BACK"].map(|name| strip(name, 420.0, 500.0));
+    let error = propose(&[&skirt[..], &legs(1000.0)].concat()).to_drape().expect_err("two garments").to_string();
+    assert!(error.contains("no seam joins"), "{error}");
+}
+
+#[test]
+fn waistbands_go_round_however_they_are_cut() {
+    let with = |bands: &[Piece]| [&legs(1000.0)[..], bands].concat();
+    // All round, from centre front.
+    let one = draped(&with(&[strip("WAISTBAND", 880.0, 40.0)]), &["waistband"]);
+    let waist = ["leg_front_left.waist", "leg_back_left.waist", "leg_back_right.waist", "leg_front_right.waist"];
+    assert_eq!(seam(&one, "waist").entry.b, waist);
+    assert!((seam(&one, "waistband").a_mm - 40.0).abs() < 1e-6);
+    // Right and left, by two pieces or by one cut twice.
+    for bands in
+        [&[strip("WAISTBAND1", 430.0, 40.0), strip("WAISTBAND2", 460.0, 40.0)][..], &[strip("WAISTBAND", 430.0, 40.0)]]
+    {
+        let two = draped(&with(bands), &[]);
+        assert_eq!(seam(&two, "waist_right").entry.b, [waist[2], waist[3]]);
+        assert_eq!(seam(&two, "waist_left").entry.b, [waist[0], waist[1]]);
+        assert!(seam(&two, "waistband_front").entry.a[0].starts_with("waistband_right"));
+        seam(&two, "waistband_back");
+    }
+    // One that fits nothing is left out; of two all round one is taken.
+    let none = draped(&with(&[strip("WAISTBAND", 1500.0, 40.0)]), &[]);
+    assert!(none.questions.iter().any(|question| question.contains("left out: `WAISTBAND`")), "{:?}", none.questions);
+    let outer =
+        draped(&with(&[strip("WAISTBAND OUTER", 1000.0, 40.0), strip("WAISTBAND INNER", 850.0, 40.0)]), &["waistband"]);
+    assert!((seam(&outer, "waist").a_mm - 850.0).abs() < 1e-6);
+    assert!(
+        outer.questions.iter().any(|question| question.contains("`WAISTBAND INNER` is taken")),
+        "{:?}",
+        outer.questions
+    );
+}
+
+#[test]
+fn a_yoke_on_legs_lies_between_them_and_the_waistband() {
+    let yoke = piece("BACK YOKE", &[(0.0, 0.0, 1), (210.0, 0.0, 1), (210.0, 100.0, 1), (5.0, 120.0, 1)]);
+    let proposal = draped(&[legs(900.0), vec![yoke, strip("WAISTBAND", 850.0, 40.0)]].concat(), &["waistband"]);
+    assert_eq!(seam(&proposal, "outseam_right").entry.b, ["yoke_back_right.side", "leg_back_right.outseam"]);
+    assert_eq!(seam(&proposal, "outseam_left").entry.b, ["leg_back_left.outseam", "yoke_back_left.side"]);
+    assert_eq!(seam(&proposal, "crotch_back").entry.a, ["yoke_back_right.centre", "leg_back_right.crotch"]);
+    let round = ["leg_front_left.waist", "yoke_back_left.waist", "yoke_back_right.waist", "leg_front_right.waist"];
+    assert_eq!(seam(&proposal, "waist").entry.b, round);
+}
+
+#[test]
+fn of_several_pieces_for_one_place_the_one_that_fits_is_taken() {
+    let mut pieces = legs(1000.0);
+    let mut short = pieces[0].clone();
+    short.name = "TROUSER FRONT SHORT".to_owned();
+    short.block = short.name.clone();
+    short.outline.iter_mut().chain(&mut short.turn_points).for_each(|p| p.y *= 0.9);
+    pieces.insert(0, short);
+    let proposal = draped(&pieces, &[]);
+    let fronts: Vec<&str> =
+        proposal.entries.iter().filter(|e| e.0.contains("front")).map(|e| e.1.block.as_str()).collect();
+    assert_eq!(fronts, ["TROUSER FRONT"; 2]);
+    assert!(
+        proposal.questions.iter().any(|question| question.contains("`TROUSER FRONT` is taken")),
+        "{:?}",
+        proposal.questions
+    );
+}
+
+#[test]
+fn a_dart_that_is_widest_inside_is_one_dart() {
+    // Open to the hem by a slit, 200 mm up to its waist, 150 mm on to its tip.
+    let slit =
+        [(100.0, 0.0, 1), (100.0, 60.0, 1), (90.0, 200.0, 1), (101.0, 350.0, 1), (112.0, 200.0, 1), (102.0, 60.0, 1)];
+    let front = [
+        &[(0.0, 0.0, 1)][..],
+        &slit,
+        &[(102.0, 0.0, 1), (260.0, 0.0, 1), (260.0, 200.0, 0), (260.0, 420.0, 1), (0.0, 420.0, 1)],
+    ];
+    let shape = shape::Shape::of(&piece("x", &front.concat())).expect("corners");
+    let [dart] = shape.darts() else { panic!("{:?}", shape.darts()) };
+    assert_eq!((dart.apex, dart.span), (4, 3));
+    assert_eq!((0..shape.len()).filter(|&edge| shape.is_leg(edge)).collect::<Vec<_>>(), [1, 2, 3, 4, 5, 6]);
+    assert_eq!((0..shape.len()).filter(|&corner| shape.is_in_dart(corner)).collect::<Vec<_>>(), [2, 3, 4, 5, 6]);
+    assert!((shape.sewn_length(0, 8) - 0.258).abs() < 1e-9, "the hem is measured without it");
+}
