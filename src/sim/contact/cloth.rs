@@ -160,18 +160,20 @@ impl<'a> ClothContact<'a> {
     /// Looks at where the cloth has come in a step: seeks near pairs anew where it has moved so far, or folded so sharply, that one
     /// could be missed in the next, and finds the way out of crossings.
     pub fn update(&mut self, x: &[V3]) {
-        let may_cross = self.may_cross(x);
+        let mut may_cross = self.may_cross(x);
         let step = if self.last.len() == x.len() { farthest(x, &self.last) } else { self.params.reach_m };
         self.last = x.to_vec();
         let Some(mut neighbours) = self.neighbours.take() else { return };
         let expected = 1.5 * step;
         let moved = if self.found_at.len() == x.len() { farthest(x, &self.found_at) } else { f64::MAX };
         let is_far = moved + expected > 0.5 * (self.reach_m - self.params.thickness_m);
-        if is_far || !neighbours.stay_flat(x) {
+        let stays_flat = neighbours.stay_flat(x);
+        if is_far || !stays_flat {
             let wanted = self.params.thickness_m + 2.0 * (expected + expected.max(LEAST_SLACK_M));
             self.reach_m = wanted.min(self.params.reach_m);
             self.seek(&mut neighbours, x);
         }
+        may_cross |= !stays_flat;
         if may_cross {
             let found: Vec<Crossing> = crossings(x, neighbours.edges(), neighbours.triangles()).collect();
             self.knots.see(x, &found);
@@ -180,13 +182,19 @@ impl<'a> ClothContact<'a> {
     }
 
     /// Whether the cloth may have come to cross itself: it did already, or touched at the last step and may have passed since, or was
-    /// moved by others. What was near in a step is kept from it.
+    /// moved by others. What is near, and does not touch, is kept from it.
     fn may_cross(&self, x: &[V3]) -> bool {
-        let touches = |primitives| Nearest::of(&self.last, primitives).gap.norm() < advance::TOUCHING_M;
         self.found_at.len() != x.len()
             || 2.0 * farthest(x, &self.found_at) >= self.reach_m
             || !self.knots.is_empty()
-            || self.near(self.moved(&self.last), advance::TOUCHING_M).any(touches)
+            || self.touches()
+    }
+
+    /// Whether parts of the cloth touched at the last [`ClothContact::update`], and so may pass each other in the next step.
+    #[must_use]
+    pub fn touches(&self) -> bool {
+        let touches = |primitives| Nearest::of(&self.last, primitives).gap.norm() < advance::TOUCHING_M;
+        self.near(self.moved(&self.last), advance::TOUCHING_M).any(touches)
     }
 
     /// How far vertices may go from where the cloth was at the last [`ClothContact::update`], m: farther, near pairs would be

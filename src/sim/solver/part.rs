@@ -77,7 +77,11 @@ pub fn relax(
     let enough = TOLERANCE_SHARE * tolerance * of_all;
     for _ in 0..MOST_STEPS {
         let info = stepper.step_whole(&mut alone, &mut own, enough);
-        if info.residual <= enough || info.share == 0.0 || alone.free_path_m() < LEAST_PATH_M {
+        let must_be_seen = alone.self_contact.as_mut().is_some_and(|contact| {
+            contact.update(&own);
+            contact.touches()
+        });
+        if info.residual <= enough || info.share == 0.0 || must_be_seen || alone.free_path_m() < LEAST_PATH_M {
             break;
         }
     }
