@@ -1,6 +1,7 @@
 //! Contact: cloth with body, cloth with itself.
 
 mod advance;
+mod areas;
 mod barrier;
 pub mod body;
 pub mod cloth;
@@ -12,6 +13,7 @@ pub mod search;
 pub mod skin;
 pub mod tangle;
 
+pub use areas::contact_areas;
 pub use body::{BodyContact, ContactParams};
 pub use cloth::{ClothContact, ClothContactParams};
 pub use skin::Skin;

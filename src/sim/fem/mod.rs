@@ -1,5 +1,6 @@
 //! FEM-GS (chapter 4): preposition, sewing and draping by physics alone.
 
+mod dress;
 mod hands;
 pub mod params;
 pub mod preposition;
@@ -12,25 +13,19 @@ pub use params::{Params, level_edges};
 use crate::body::Body;
 use crate::geom::{DistanceField, V3};
 use crate::pattern::Garment;
-use crate::sim::cloth::Cloth;
-use crate::sim::contact::{BodyContact, ClothContact, Skin};
-use crate::sim::levels::prolong;
+use crate::sim::contact::Skin;
 use crate::sim::quality;
-use crate::sim::sewing::{self, Springs};
-use crate::sim::solver::System;
-use crate::sim::walls::Walls;
 use crate::sim::{Distortion, Drape, Fabric, Monitor, SimError, Stage};
 
+use dress::Dressing;
 use hands::Hands;
 use run::Run;
-use settle::{Around, Grip, Settled, Settling};
+use settle::{Grip, Settled};
 
-/// A sewn garment that yields this much has been drawn into the body, m.
-const SEWN_INTO_M: f64 = 4e-3;
-/// Gap of seams that a body which does not give way may leave where one that does leaves less, m.
-const CLOSED_M: f64 = 1e-2;
-/// A garment that yields this much on a coarse mesh is tight, m: it is about to leave the offset that keeps it outside.
-const TIGHT_M: f64 = 8e-4;
+/// Deepest point inside the body of a drape without fault, m.
+const DEEPEST_M: f64 = 5e-4;
+/// A garment whose top has come this far up from where it was placed has been squeezed off the body, m.
+const MOST_RISE_M: f64 = 0.25;
 
 /// Dresses a body in a garment.
 ///
@@ -38,6 +33,10 @@ const TIGHT_M: f64 = 8e-4;
 /// roughly draped, each finer one starts from the one before. All settle without friction first, so that the drape
 /// does not depend on how the seams were closed; only then does friction hold it. What slides off without is settled again
 /// with friction throughout.
+///
+/// A garment that is much too small is squeezed along the body by its own seams as they close, folds into itself at a
+/// narrower place or comes off over the head. Where a tight one ends with a fault it is therefore sewn once more with
+/// friction from the first seam on, and that drape is taken if it has none.
 ///
 /// # Errors
 /// When the garment cannot be placed, is degenerate, diverges, slides off the body even so, is stretched beyond a limit that
@@ -57,104 +56,44 @@ pub fn simulate(
     let mut placed = preposition::place(body, coarsest, params)?;
     let force = start::perturb(params.seed, &mut placed);
     let hands = Hands::near(body, field, &placed);
-    let folded = hands.as_ref().map(Hands::folded);
     let skin = Skin::new(&body.mesh).ok();
-    let soft = Around { skin: skin.as_ref(), field, hands: hands.as_ref(), contact: params.contact };
-    let mut sew = |around: Around| {
-        let folded = Around { field: folded.as_ref().unwrap_or(field), ..around };
-        sew(body, folded, coarsest, fabric, placed.clone(), force, &mut run)
-    };
-    let (mut sewn, yields_m) = sew(soft)?;
-    let is_drawn_in = yields_m > SEWN_INTO_M;
-    let around = if hands.is_some() || is_drawn_in { soft.hardened() } else { soft };
-    if is_drawn_in {
-        let (again, _) = sew(around)?;
-        if quality::seam_gap_m(coarsest, &again) <= quality::seam_gap_m(coarsest, &sewn).max(CLOSED_M) {
-            sewn = again;
-        }
-    }
-    run.keep_up(&sewn);
-    let mut from_sewn = |grip| refine(around, garments, fabric, &sewn, &mut run, grip);
-    let last = match from_sewn(Grip::AtTheEnd) {
-        // Nothing but friction may hold it up.
-        Err(SimError::SlidOff { .. }) => from_sewn(Grip::Throughout)?,
-        other => other?,
-    };
-    Ok(Drape {
+    let (hands, skin) = (hands.as_ref(), skin.as_ref());
+    let dressing = Dressing { body, skin, field, hands, garments, fabric, placed: &placed, force };
+    let ended = |settled: Settled| Drape {
         stage: Stage::Drape,
-        converged: last.residual <= params.tolerance,
-        iterations: run.iterations(),
-        residual: last.residual,
-        penetration_max_m: quality::penetration_by_field_m(body, field, finest, &last.positions),
-        seam_gap_max_m: quality::seam_gap_m(finest, &last.positions),
-        self_crossings: quality::self_crossings(&last.sewn, &last.triangles),
-        welded_vertices: last.sewn.len(),
-        positions: last.positions,
-        history: run.into_history(),
+        converged: settled.residual <= params.tolerance,
+        iterations: 0,
+        residual: settled.residual,
+        penetration_max_m: quality::penetration_by_field_m(body, field, finest, &settled.positions),
+        seam_gap_max_m: quality::seam_gap_m(finest, &settled.positions),
+        self_crossings: quality::self_crossings(&settled.sewn, &settled.triangles),
+        welded_vertices: settled.sewn.len(),
+        positions: settled.positions,
+        history: Vec::new(),
         earlier: Vec::new(),
-    })
-}
-
-/// Settles a sewn garment on the coarsest mesh, and on each finer one from the one before.
-fn refine(
-    mut around: Around,
-    garments: &[Garment],
-    fabric: &Fabric,
-    sewn: &[V3],
-    run: &mut Run,
-    grip: Grip,
-) -> Result<Settled, SimError> {
-    let mut last: Option<(&Garment, Settled)> = None;
-    for (level, garment) in garments.iter().enumerate() {
-        let cloth = Cloth::new(garment, fabric, sewing::welded(garment))?;
-        let x = match &last {
-            None => cloth.weld(sewn),
-            Some((coarser, drape)) => prolong(coarser, &drape.positions, garment, &cloth, fabric),
-        };
-        let settled = Settling { around, garment, cloth: &cloth, fabric, level, grip }.settle(x, run)?;
-        control(garment, &settled.positions, run.params())?;
-        if settled.yields_m > TIGHT_M {
-            around = around.hardened();
+    };
+    let mut drape = ended(dressing.dress(Grip::AtTheEnd, &mut run)?);
+    let is_off = has_come_off(&placed, &drape.positions);
+    let is_tight = Distortion::of(finest, &drape.positions)?.stretch > params.distortion_limit;
+    if is_off || (is_tight && !is_faultless(&drape)) {
+        match dressing.dress(Grip::Throughout, &mut run).map(&ended) {
+            Err(SimError::Cancelled) => return Err(SimError::Cancelled),
+            Ok(held) if is_faultless(&held) && !has_come_off(&placed, &held.positions) => drape = held,
+            _ => {}
         }
-        last = Some((garment, settled));
     }
-    last.map(|(_, settled)| settled).ok_or(SimError::NoMesh)
+    Ok(Drape { iterations: run.iterations(), history: run.into_history(), ..drape })
 }
 
-/// Ends a simulation whose cloth is stretched too far, where that is asked for.
-fn control(garment: &Garment, positions: &[V3], params: &Params) -> Result<(), SimError> {
-    if !params.distortion_stops {
-        return Ok(());
-    }
-    let distortion = Distortion::of(garment, positions)?;
-    let limit = params.distortion_limit;
-    if distortion.stretch > limit { Err(SimError::Distorted { distortion, limit }) } else { Ok(()) }
+/// Whether a drape is what was asked for: at rest, outside the body, and not through itself.
+fn is_faultless(drape: &Drape) -> bool {
+    drape.converged && drape.penetration_max_m <= DEEPEST_M && drape.self_crossings == 0
 }
 
-/// Draws the seams of a garment placed at `x` together, with `force` times the usual force; returns garment positions with
-/// all seams (nearly) closed, and how far the contact with the body yields there, m.
-fn sew(
-    body: &Body,
-    around: Around,
-    garment: &Garment,
-    fabric: &Fabric,
-    mut x: Vec<V3>,
-    force: f64,
-    run: &mut Run,
-) -> Result<(Vec<V3>, f64), SimError> {
-    let params = run.params();
-    let cloth = Cloth::new(garment, fabric, sewing::unsewn(garment))?;
-    let contact = BodyContact::new(around.field, around.contact, &cloth.areas).with_points_between(&cloth.triangles);
-    let springs = Springs::new(garment, params.seam_stiffness_n_m, force * params.seam_cap_n);
-    let sewn = springs.pairs.clone();
-    let mut system = System::new(&cloth, contact, Some(springs));
-    let apart = ClothContact::new(params.self_contact, &cloth.triangles, &cloth.areas);
-    system.self_contact = Some(apart.but_near(sewn.into_iter()));
-    let vertex_of = sewing::welded(garment);
-    system.walls = Some(Walls::new(body, garment, &vertex_of, &sewing::merged(&vertex_of, &x)).unsewn(&vertex_of));
-    run.sew(garment, &mut system, &mut x)?;
-    let yields_m = system.contact.yields_m(&x);
-    Ok((x, yields_m))
+/// Whether a garment has been squeezed off upwards from where it was placed.
+fn has_come_off(placed: &[V3], draped: &[V3]) -> bool {
+    let top_m = |x: &[V3]| x.iter().map(|p| p.z).fold(f64::MIN, f64::max);
+    top_m(draped) - top_m(placed) > MOST_RISE_M
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use super::run::{Phase, Run};
 use crate::geom::{DistanceField, V3};
 use crate::pattern::Garment;
 use crate::sim::cloth::Cloth;
-use crate::sim::contact::{BodyContact, ClothContact, ContactParams, Skin};
+use crate::sim::contact::{BodyContact, ClothContact, ContactParams, Skin, contact_areas};
 use crate::sim::solver::System;
 use crate::sim::{Fabric, SimError};
 
@@ -89,8 +89,10 @@ impl Settling<'_> {
         let (hands, finest) = (around.hands.into_iter(), run.levels());
         let shapes: Vec<(Shape, DistanceField)> = hands.flat_map(|hands| hands.of_level(level, finest)).collect();
         let begin = shapes.first().map_or(around.field, |(_, field)| field);
+        let own = params.self_contact;
+        let areas = contact_areas(self.garment, &cloth.vertex_of, &cloth.areas, 2.0 * own.thickness_m);
         let mut system = System::new(cloth, self.contact(begin, &x, run), None);
-        system.self_contact = Some(ClothContact::new(params.self_contact, &cloth.triangles, &cloth.areas));
+        system.self_contact = Some(ClothContact::new(own, &cloth.triangles, &areas));
         let mut residual = f64::MAX;
         for (shape, field) in &shapes {
             system.contact = self.contact(field, &x, run);

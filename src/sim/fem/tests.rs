@@ -167,3 +167,30 @@ fn what_nothing_holds_up_is_given_up_and_a_waistband_holds_it() {
     let drape = slippery_trousers(waist).map_err(|e| e.to_string());
     assert!(drape.is_ok_and(|drape| drape.converged));
 }
+
+#[test]
+fn a_garment_that_its_seams_squeeze_off_the_body_is_sewn_again_with_friction() {
+    let measurements = Measurements { weight_kg: Some(130.0), ..Measurements::of(Sex::Female, 1.95) };
+    let body = body::build(&measurements).expect("a body");
+    let field = DistanceField::build(&body.mesh, 0.01).expect("a closed body");
+    let cotton = fabric::library().into_iter().find(|f| f.name == "cotton_shirting_light").expect("in the library");
+    let garments = levels(Model::Teetop, 0.06);
+    let params = Params::default();
+    let placed = preposition::place(&body, &garments[0], &params).expect("all roles are known");
+    let skin = Skin::new(&body.mesh).expect("a closed body");
+    let dressing = Dressing {
+        body: &body,
+        skin: Some(&skin),
+        field: &field,
+        hands: None,
+        garments: &garments,
+        fabric: &cotton,
+        placed: &placed,
+        force: 1.0,
+    };
+    let once = dressing.dress(Grip::AtTheEnd, &mut Run::new(&params, &mut Silent, 0)).expect("it comes to rest");
+    assert!(has_come_off(&placed, &once.positions), "without friction it stays on, and shows nothing");
+    let drape = simulate(&body, &field, &garments, &cotton, &params, &mut Silent).expect("friction holds it");
+    assert!(!has_come_off(&placed, &drape.positions), "it has come off over the head");
+    assert!(is_faultless(&drape), "{} mm inside, {} crossings", 1e3 * drape.penetration_max_m, drape.self_crossings);
+}

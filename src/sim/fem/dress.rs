@@ -1,0 +1,131 @@
+//! A garment put on once: sewn as it was placed, then settled mesh by mesh.
+
+use super::hands::Hands;
+use super::params::Params;
+use super::run::Run;
+use super::settle::{Around, Grip, Settled, Settling};
+use crate::body::Body;
+use crate::geom::{DistanceField, V3};
+use crate::pattern::Garment;
+use crate::sim::cloth::Cloth;
+use crate::sim::contact::{BodyContact, ClothContact, Skin};
+use crate::sim::levels::prolong;
+use crate::sim::quality;
+use crate::sim::sewing::{self, Springs};
+use crate::sim::solver::System;
+use crate::sim::walls::Walls;
+use crate::sim::{Distortion, Fabric, SimError};
+
+/// A sewn garment that yields this much has been drawn into the body, m.
+const SEWN_INTO_M: f64 = 4e-3;
+/// Gap of seams that a body which does not give way may leave where one that does leaves less, m.
+const CLOSED_M: f64 = 1e-2;
+/// A garment that yields this much on a coarse mesh is tight, m: it is about to leave the offset that keeps it outside.
+const TIGHT_M: f64 = 8e-4;
+
+/// A garment, placed, and the body that is to wear it.
+pub struct Dressing<'a> {
+    /// The body.
+    pub body: &'a Body,
+    /// Its exact surface, where it bounds a solid.
+    pub skin: Option<&'a Skin<'a>>,
+    /// Distance from it.
+    pub field: &'a DistanceField,
+    /// Hands that the garment comes near.
+    pub hands: Option<&'a Hands<'a>>,
+    /// Meshes of the garment, coarse to fine.
+    pub garments: &'a [Garment],
+    /// What it is made of.
+    pub fabric: &'a Fabric,
+    /// Where the coarsest mesh's vertices are placed, m.
+    pub placed: &'a [V3],
+    /// Factor on the sewing force.
+    pub force: f64,
+}
+
+impl Dressing<'_> {
+    /// Sews the garment and lets it come to rest. What slides off without friction is settled again with friction
+    /// throughout; `Grip::Throughout` has friction hold it from the first seam on.
+    ///
+    /// # Errors
+    /// When it diverges, slides off, is stretched beyond a limit that is to end it, or the monitor cancels.
+    pub fn dress(&self, grip: Grip, run: &mut Run) -> Result<Settled, SimError> {
+        let Some(coarsest) = self.garments.first() else { return Err(SimError::NoMesh) };
+        let soft = Around { skin: self.skin, field: self.field, hands: self.hands, contact: run.params().contact };
+        if grip == Grip::Throughout {
+            run.keep_up(self.placed);
+        }
+        let (mut sewn, yields_m) = self.sew(coarsest, soft, grip, run)?;
+        let is_drawn_in = yields_m > SEWN_INTO_M;
+        let around = if self.hands.is_some() || is_drawn_in { soft.hardened() } else { soft };
+        if is_drawn_in {
+            let (again, _) = self.sew(coarsest, around, grip, run)?;
+            if quality::seam_gap_m(coarsest, &again) <= quality::seam_gap_m(coarsest, &sewn).max(CLOSED_M) {
+                sewn = again;
+            }
+        }
+        run.keep_up(&sewn);
+        match self.refine(around, &sewn, grip, run) {
+            // Nothing but friction may hold it up.
+            Err(SimError::SlidOff { .. }) if grip == Grip::AtTheEnd => {
+                self.refine(around, &sewn, Grip::Throughout, run)
+            }
+            other => other,
+        }
+    }
+
+    /// Draws the seams of the garment together; returns garment positions with all seams (nearly) closed, and how far the contact
+    /// with the body yields there, m.
+    fn sew(&self, garment: &Garment, around: Around, grip: Grip, run: &mut Run) -> Result<(Vec<V3>, f64), SimError> {
+        let params = run.params();
+        let mut x = self.placed.to_vec();
+        let cloth = Cloth::new(garment, self.fabric, sewing::unsewn(garment))?;
+        let folded = self.hands.map(Hands::folded);
+        let field = folded.as_ref().unwrap_or(around.field);
+        let mut contact = BodyContact::new(field, around.contact, &cloth.areas).with_points_between(&cloth.triangles);
+        if grip == Grip::Throughout {
+            contact.set_friction(Some(self.fabric.friction_body));
+        }
+        let springs = Springs::new(garment, params.seam_stiffness_n_m, self.force * params.seam_cap_n);
+        let sewn = springs.pairs.clone();
+        let mut system = System::new(&cloth, contact, Some(springs));
+        let apart = ClothContact::new(params.self_contact, &cloth.triangles, &cloth.areas);
+        system.self_contact = Some(apart.but_near(sewn.into_iter()));
+        let vertex_of = sewing::welded(garment);
+        let walls = Walls::new(self.body, garment, &vertex_of, &sewing::merged(&vertex_of, &x));
+        system.walls = Some(walls.unsewn(&vertex_of));
+        run.sew(garment, &mut system, &mut x)?;
+        let yields_m = system.contact.yields_m(&x);
+        Ok((x, yields_m))
+    }
+
+    /// Settles the sewn garment on the coarsest mesh, and on each finer one from the one before.
+    fn refine(&self, mut around: Around, sewn: &[V3], grip: Grip, run: &mut Run) -> Result<Settled, SimError> {
+        let mut last: Option<(&Garment, Settled)> = None;
+        for (level, garment) in self.garments.iter().enumerate() {
+            let cloth = Cloth::new(garment, self.fabric, sewing::welded(garment))?;
+            let x = match &last {
+                None => cloth.weld(sewn),
+                Some((coarser, drape)) => prolong(coarser, &drape.positions, garment, &cloth, self.fabric),
+            };
+            let settled =
+                Settling { around, garment, cloth: &cloth, fabric: self.fabric, level, grip }.settle(x, run)?;
+            control(garment, &settled.positions, run.params())?;
+            if settled.yields_m > TIGHT_M {
+                around = around.hardened();
+            }
+            last = Some((garment, settled));
+        }
+        last.map(|(_, settled)| settled).ok_or(SimError::NoMesh)
+    }
+}
+
+/// Ends a simulation whose cloth is stretched too far, where that is asked for.
+fn control(garment: &Garment, positions: &[V3], params: &Params) -> Result<(), SimError> {
+    if !params.distortion_stops {
+        return Ok(());
+    }
+    let distortion = Distortion::of(garment, positions)?;
+    let limit = params.distortion_limit;
+    if distortion.stretch > limit { Err(SimError::Distorted { distortion, limit }) } else { Ok(()) }
+}
