@@ -170,7 +170,7 @@ fn what_nothing_holds_up_is_given_up_and_a_waistband_holds_it() {
 
 #[test]
 fn a_garment_that_its_seams_squeeze_off_the_body_is_sewn_again_with_friction() {
-    let measurements = Measurements { weight_kg: Some(130.0), ..Measurements::of(Sex::Female, 1.95) };
+    let measurements = Measurements { weight_kg: Some(150.0), ..Measurements::of(Sex::Female, 1.95) };
     let body = body::build(&measurements).expect("a body");
     let field = DistanceField::build(&body.mesh, 0.01).expect("a closed body");
     let cotton = fabric::library().into_iter().find(|f| f.name == "cotton_shirting_light").expect("in the library");
