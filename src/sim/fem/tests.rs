@@ -108,7 +108,8 @@ fn mirrored_input_gives_the_mirrored_result_and_the_same_input_the_same_bits() {
         let own = apart_mm(&draped, &draped);
         assert!(own > 100.0, "{own}");
     };
-    check(Model::Tshirt, 0.04);
+    // Fine enough that what moves late is stepped by itself.
+    check(Model::Tshirt, 0.03);
     check(Model::Trousers, 0.06);
 }
 
