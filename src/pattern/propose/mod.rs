@@ -24,7 +24,7 @@ mod worn;
 mod write;
 
 pub(super) use self::pose::{Pose, named_face_and_hand, pose};
-pub use self::wear::{SURE, Unwearable};
+pub use self::wear::Unwearable;
 use super::garment::Role;
 use super::piece::Piece;
 use super::seams::{PieceEntry, SeamEntry};

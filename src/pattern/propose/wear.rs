@@ -5,7 +5,7 @@ use super::{Class, Face, Hand, Proposal, ProposedPiece, ProposedSeam};
 use crate::pattern::seams::PieceEntry;
 
 /// Least confidence of a seam that is sewn with nobody to ask.
-pub const SURE: f64 = 0.4;
+const SURE: f64 = 0.4;
 
 /// Kinds of piece that a garment can be worn without, the outermost first.
 const SPARED: [Class; 3] = [Class::Cuff, Class::Waistband, Class::Sleeve];

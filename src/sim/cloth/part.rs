@@ -1,8 +1,6 @@
 //! A part of a cloth by itself: the vertices that may move, and those around them that hold them.
 
 use super::Cloth;
-use super::band::Bands;
-use super::bending::Bending;
 use super::membrane::{Element, Membrane};
 
 /// Which vertices make a part, and what they are called there: their order stays.
@@ -59,8 +57,8 @@ impl Cloth {
             masses: part.of(&self.masses),
             areas: part.of(&self.areas),
             membrane: Membrane::new(self.membrane.material, elements),
-            bending: Bending::part(&self.bending, part),
-            bands: Bands::part(&self.bands, part),
+            bending: self.bending.part(part),
+            bands: self.bands.part(part),
         };
         (cloth, numbers)
     }

@@ -4,8 +4,8 @@
 //! slides over a rim [Li 2020]: the energy has no steps, and a line search no place to stop at. The push rises steeply
 //! as two layers come near ([`super::barrier`]), so that tension does not draw one through the other, and no step may
 //! take it through: where a pair would meet on the way from the last step ([`super::advance`]) the energy is infinite. All
-//! pairs that share no vertex are watched, so what does not cross hardly ever comes to: only what is pressed to within a
-//! thousandth of a millimetre may pass. Pairs are sought within a reach that no
+//! pairs that share no vertex are watched, but for those within flat cloth ([`super::clusters`]), so what does not cross hardly
+//! ever comes to: only what is pressed to within a thousandth of a millimetre may pass. Pairs are sought within a reach that no
 //! step can cross, so none is met unseen. Cloth that already crosses when it is first seen passes through itself there,
 //! while the line along which it crosses is drawn out of it ([`super::knots`]). There is no friction between layers.
 

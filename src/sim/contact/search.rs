@@ -1,6 +1,6 @@
 //! The search for parts of a cloth that are near each other and share no vertex.
 
-use super::clusters::Clusters;
+use super::clusters::{Clusters, Members};
 use super::grid::{Bounds, BoxGrid};
 use super::nearest::Primitives;
 use super::tangle::edges_of;
@@ -133,7 +133,7 @@ impl Boxes {
     }
 
     /// The box about all that belongs to a cluster.
-    fn around(&self, members: &super::clusters::Members) -> Bounds {
+    fn around(&self, members: &Members) -> Bounds {
         let vertices = members.vertices.iter().map(|&v| &self.vertices[v]);
         let triangles = members.triangles.iter().map(|&t| &self.triangles[t]);
         let edges = members.edges.iter().map(|&e| &self.edges[e]);

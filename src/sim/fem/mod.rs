@@ -23,7 +23,7 @@ use run::Run;
 use settle::{Grip, Settled};
 
 /// Deepest point inside the body of a drape without fault, m.
-const DEEPEST_M: f64 = 5e-4;
+const FAULTLESS_DEPTH_M: f64 = 5e-4;
 /// A garment whose top has come this far up from where it was placed has been squeezed off the body, m.
 const MOST_RISE_M: f64 = 0.25;
 
@@ -87,7 +87,7 @@ pub fn simulate(
 
 /// Whether a drape is what was asked for: at rest, outside the body, and not through itself.
 fn is_faultless(drape: &Drape) -> bool {
-    drape.converged && drape.penetration_max_m <= DEEPEST_M && drape.self_crossings == 0
+    drape.converged && drape.penetration_max_m <= FAULTLESS_DEPTH_M && drape.self_crossings == 0
 }
 
 /// Whether a garment has been squeezed off upwards from where it was placed.
