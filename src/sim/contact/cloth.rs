@@ -9,6 +9,8 @@
 //! step can cross, so none is met unseen. Cloth that already crosses when it is first seen passes through itself there,
 //! while the line along which it crosses is drawn out of it ([`super::knots`]). There is no friction between layers.
 
+use std::borrow::Cow;
+
 use super::advance;
 use super::barrier::{Push, push};
 use super::knots::Knots;
@@ -85,7 +87,7 @@ pub struct ClothContact<'a> {
     params: ClothContactParams,
     /// `None` in a part of the cloth.
     neighbours: Option<Neighbours<'a>>,
-    areas: &'a [f64],
+    areas: Cow<'a, [f64]>,
     /// Nearest first, as far as shells tell.
     pairs: Vec<Pair>,
     /// The same as they were found.
@@ -106,7 +108,7 @@ impl<'a> ClothContact<'a> {
         Self {
             params: ClothContactParams { reach_m, ..params },
             neighbours: Some(Neighbours::new(triangles, areas.len())),
-            areas,
+            areas: Cow::Borrowed(areas),
             pairs: Vec::new(),
             found: Vec::new(),
             found_at: Vec::new(),
@@ -141,13 +143,13 @@ impl<'a> ClothContact<'a> {
     /// The contact of a part of the cloth, which lies at `x`, with itself and with the rest: it knows the near pairs that were found
     /// already, and seeks no others.
     #[must_use]
-    pub fn part<'p>(&self, part: &Part, areas: &'p [f64], x: &[V3]) -> ClothContact<'p> {
+    pub fn part<'p>(&self, part: &Part, x: &[V3]) -> ClothContact<'p> {
         let renamed =
             |pair: &Pair| Some(Pair { primitives: pair.primitives.renamed(|vertices| part.names(vertices))?, ..*pair });
         ClothContact {
             params: self.params,
             neighbours: None,
-            areas,
+            areas: Cow::Owned(part.of(&self.areas)),
             pairs: self.pairs.iter().filter_map(renamed).collect(),
             found: Vec::new(),
             found_at: part.of(&self.found_at),

@@ -96,7 +96,7 @@ pub fn relax(
 fn alone<'c>(system: &System<'c>, part: &Part, cloth: &'c Cloth, own: &[V3]) -> System<'c> {
     let mut alone = System::new(cloth, system.contact.part(part), None);
     alone.weights = part.of(&system.weights);
-    alone.self_contact = system.self_contact.as_ref().map(|contact| contact.part(part, &cloth.areas, own));
+    alone.self_contact = system.self_contact.as_ref().map(|contact| contact.part(part, own));
     alone.held = (0..cloth.len()).filter(|&v| !part.is_free[v]).collect();
     alone
 }
@@ -139,7 +139,9 @@ mod tests {
         // Its top pokes 0.3 mm through the lower layer.
         let flat: Vec<V3> = flat.iter().map(|p| p + V3::new(0.0, 0.0, 0.0597)).collect();
         let mut system = System::new(&cloth, BodyContact::new(&field, ContactParams::default(), &cloth.areas), None);
-        system.self_contact = Some(ClothContact::new(ClothContactParams::default(), &cloth.triangles, &cloth.areas));
+        // A contact has areas of its own.
+        let areas: Vec<f64> = cloth.areas.iter().map(|area| 0.3 * area).collect();
+        system.self_contact = Some(ClothContact::new(ClothContactParams::default(), &cloth.triangles, &areas));
         system.contact.set_friction(Some(0.3));
         system.assemble(&flat, None);
         for middle in [V3::new(0.0, 0.0, 0.06), V3::new(0.0, -0.1, 0.06)] {
