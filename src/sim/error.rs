@@ -59,6 +59,17 @@ pub enum SimError {
         /// How far it has come down when it was given up, m.
         descent_m: f64,
     },
+    /// Its seams squeeze it off the body as they close.
+    #[error(
+        "{garment:?} comes off this body upwards: as its seams close it rises by {:.0} mm, friction and all; a larger size would stay on",
+        .rise_m * 1e3
+    )]
+    CameOff {
+        /// Garment.
+        garment: String,
+        /// How far its top has come up, m.
+        rise_m: f64,
+    },
     /// Stretched too far, where that is to end a simulation.
     #[error(
         "too small for this body: {distortion}, the limit is {:.1} %; a larger size, another fabric, or a higher `fem.distortion_limit` would do",

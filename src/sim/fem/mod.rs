@@ -36,10 +36,10 @@ const MOST_RISE_M: f64 = 0.25;
 ///
 /// A garment that is much too small is squeezed along the body by its own seams as they close, folds into itself at a
 /// narrower place or comes off over the head. Where a tight one ends with a fault it is therefore sewn once more with
-/// friction from the first seam on, and that drape is taken if it has none.
+/// friction from the first seam on. That drape is taken if it has none, or if the first has come off.
 ///
 /// # Errors
-/// When the garment cannot be placed, is degenerate, diverges, slides off the body even so, is stretched beyond a limit that
+/// When the garment cannot be placed, is degenerate, diverges, slides off the body even so or comes off upwards, is stretched beyond a limit that
 /// is to end it, or the monitor cancels. Not converging is no error.
 pub fn simulate(
     body: &Body,
@@ -73,12 +73,15 @@ pub fn simulate(
         earlier: Vec::new(),
     };
     let mut drape = ended(dressing.dress(Grip::AtTheEnd, &mut run)?);
-    let is_off = has_come_off(&placed, &drape.positions);
+    let rise_m = rise_m(&placed, &drape.positions);
+    let is_off = rise_m > MOST_RISE_M;
     let is_tight = Distortion::of(finest, &drape.positions)?.stretch > params.distortion_limit;
     if is_off || (is_tight && !is_faultless(&drape)) {
+        let stays_on = |held: &Drape| self::rise_m(&placed, &held.positions) <= MOST_RISE_M;
         match dressing.dress(Grip::Throughout, &mut run).map(&ended) {
             Err(SimError::Cancelled) => return Err(SimError::Cancelled),
-            Ok(held) if is_faultless(&held) && !has_come_off(&placed, &held.positions) => drape = held,
+            Ok(held) if stays_on(&held) && (is_off || is_faultless(&held)) => drape = held,
+            _ if is_off => return Err(SimError::CameOff { garment: finest.name.clone(), rise_m }),
             _ => {}
         }
     }
@@ -90,10 +93,10 @@ fn is_faultless(drape: &Drape) -> bool {
     drape.converged && drape.penetration_max_m <= FAULTLESS_DEPTH_M && drape.self_crossings == 0
 }
 
-/// Whether a garment has been squeezed off upwards from where it was placed.
-fn has_come_off(placed: &[V3], draped: &[V3]) -> bool {
+/// How far the top of a garment has come up from where it was placed, m.
+fn rise_m(placed: &[V3], draped: &[V3]) -> f64 {
     let top_m = |x: &[V3]| x.iter().map(|p| p.z).fold(f64::MIN, f64::max);
-    top_m(draped) - top_m(placed) > MOST_RISE_M
+    top_m(draped) - top_m(placed)
 }
 
 #[cfg(test)]

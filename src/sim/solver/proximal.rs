@@ -89,6 +89,9 @@ const MOST_HALVINGS: usize = 12;
 /// for as long as the energy falls.
 const LENGTHENING: f64 = 1.5;
 const MOST_LENGTHENINGS: usize = 6;
+/// Forces left by a full step that is not lengthened, over those asked for at the end: what the linear solve leaves of them, the next
+/// step takes.
+const ENOUGH: f64 = 2.0;
 /// Share of the forces that a step leaves at best, as far as it is worth looking.
 const GREATEST_FALL: f64 = 0.02;
 /// Step size from which on that is done, s: cloth that has only begun to settle is thrown off the body by it.
@@ -145,7 +148,7 @@ impl Stepper {
         operator.diagonal = contacts;
         let foreseen = system.cloth.membrane.foresee(x, &direction);
         let bend = self.correction(system, operator, x, &direction, &foreseen);
-        let enough_n = (self.h_s >= LENGTHENED_FROM_S).then(|| tolerance * system.mean_weight());
+        let enough_n = (self.h_s >= LENGTHENED_FROM_S).then(|| ENOUGH * tolerance * system.mean_weight());
         let (share, next) = search(system, x, [&direction, &bend], &forces, &inertia, enough_n);
         self.predicted = Some(foreseen.iter().map(|f| f.after(share)).collect());
         self.last = Some(next.iter().zip(x.iter()).map(|(p, q)| p - q).collect());
