@@ -39,8 +39,8 @@ const MOST_RISE_M: f64 = 0.25;
 /// friction from the first seam on. That drape is taken if it has none, or if the first has come off.
 ///
 /// # Errors
-/// When the garment cannot be placed, is degenerate, diverges, slides off the body even so or comes off upwards, is stretched beyond a limit that
-/// is to end it, or the monitor cancels. Not converging is no error.
+/// When the garment cannot be placed, is degenerate, diverges, slides off the body even so or comes off upwards, is
+/// stretched beyond a limit that is to end it, or the monitor cancels. Not converging is no error.
 pub fn simulate(
     body: &Body,
     field: &DistanceField,
@@ -73,15 +73,15 @@ pub fn simulate(
         earlier: Vec::new(),
     };
     let mut drape = ended(dressing.dress(Grip::AtTheEnd, &mut run)?);
-    let rise_m = rise_m(&placed, &drape.positions);
-    let is_off = rise_m > MOST_RISE_M;
+    let risen_m = rise_m(&placed, &drape.positions);
+    let is_off = risen_m > MOST_RISE_M;
     let is_tight = Distortion::of(finest, &drape.positions)?.stretch > params.distortion_limit;
     if is_off || (is_tight && !is_faultless(&drape)) {
-        let stays_on = |held: &Drape| self::rise_m(&placed, &held.positions) <= MOST_RISE_M;
+        let stays_on = |held: &Drape| rise_m(&placed, &held.positions) <= MOST_RISE_M;
         match dressing.dress(Grip::Throughout, &mut run).map(&ended) {
             Err(SimError::Cancelled) => return Err(SimError::Cancelled),
             Ok(held) if stays_on(&held) && (is_off || is_faultless(&held)) => drape = held,
-            _ if is_off => return Err(SimError::CameOff { garment: finest.name.clone(), rise_m }),
+            _ if is_off => return Err(SimError::CameOff { garment: finest.name.clone(), rise_m: risen_m }),
             _ => {}
         }
     }
