@@ -6,7 +6,7 @@ use super::Fabric;
 use super::cloth::Cloth;
 use super::contact::tangle::held_apart;
 use super::solver::pcg::PcgParams;
-use super::solver::{Operator, linear};
+use super::solver::{Operator, PairList, linear};
 use crate::geom::triangle::sorted;
 use crate::geom::{V2, V3};
 use crate::pattern::Garment;
@@ -32,7 +32,7 @@ fn round_off(cloth: &Cloth, fabric: &Fabric, wave_m: f64, x: &mut [V3]) {
     let stiffness_n_m3 = rigidity_nm * (std::f64::consts::TAU / wave_m).powi(4);
     let operator = Operator {
         diagonal: cloth.areas.iter().map(|area| Matrix3::identity() * (area * stiffness_n_m3)).collect(),
-        membrane_pairs: &cloth.membrane.pairs,
+        membrane_pairs: PairList::EMPTY,
         membrane: Vec::new(),
         bending_pairs: &cloth.bending.pairs,
         bending: &cloth.bending.entries,

@@ -2,21 +2,19 @@
 //!
 //! It is made in double precision and kept in single. The rounding of the factor is harmless where that of the matrix would
 //! not be: `(L + dL)(L + dL)^T` stays positive definite, and the softest mode is off by `eps` times the square *root* of the
-//! condition number. Blocks stand in columns of eight, so that a column fills whole vector registers, and half the bytes
-//! make twice the speed: a solve is one run through memory each way.
+//! condition number. A solve is one run through memory each way; what is kept fills whole vector registers.
 
 use std::collections::BTreeSet;
 
+use wide::f32x4;
+
 /// Degrees of freedom of a block.
 pub const SIZE: usize = 6;
-/// Rows of a stored column: [`SIZE`], padded.
-const LANES: usize = 8;
 
 /// A block by columns.
 pub type Dense = [[f64; SIZE]; SIZE];
-type Packed = [[f32; LANES]; SIZE];
-/// Forces on a block row, or its motion; padded.
-pub type Lanes = [f32; LANES];
+/// Forces on a block row, or its motion.
+pub type Row = [f32; SIZE];
 
 /// The order of elimination and the pattern of the factor, which last as long as the pattern of the matrix.
 pub struct Symbolic {
@@ -89,7 +87,10 @@ impl Symbolic {
             }
             self.update(own, &mut diagonal, &mut below);
         }
-        Some(Numeric { diagonal: diagonal.iter().map(packed).collect(), below: below.iter().map(packed).collect() })
+        Some(Numeric {
+            diagonal: diagonal.iter().map(Packed::new).collect(),
+            below: below.iter().map(Packed::new).collect(),
+        })
     }
 
     /// Takes the products of a column's blocks from the columns that it reaches.
@@ -108,42 +109,32 @@ impl Symbolic {
         }
     }
 
-    /// Solves in place, `x` by block rows of the matrix; `scratch` has as many.
-    pub fn solve(&self, numeric: &Numeric, x: &mut [Lanes], scratch: &mut [Lanes]) {
+    /// Solves in place, `x` by block rows of the matrix.
+    pub fn solve(&self, numeric: &Numeric, x: &mut [Row]) {
+        let mut solved = vec![Lanes::default(); x.len()];
         for (row, place) in x.iter().zip(&self.place) {
-            scratch[*place] = *row;
+            solved[*place] = Lanes::of(row);
         }
-        for column in 0..scratch.len() {
-            let y = apply(&numeric.diagonal[column], &scratch[column]);
-            scratch[column] = y;
-            for k in self.starts[column]..self.starts[column + 1] {
-                let row = &mut scratch[self.rows[k]];
-                for (below, y) in numeric.below[k].iter().zip(&y) {
-                    for lane in 0..LANES {
-                        row[lane] -= below[lane] * y;
-                    }
-                }
+        for (column, own) in self.starts.windows(2).map(|w| w[0]..w[1]).enumerate() {
+            let y = numeric.diagonal[column].times(&solved[column].row());
+            let factors = Packed::factors(&y);
+            for (row, below) in self.rows[own.clone()].iter().zip(&numeric.below[own]) {
+                solved[*row].subtract(below.products(&factors));
             }
+            solved[column] = Lanes::of(&y);
         }
-        for column in (0..scratch.len()).rev() {
-            let mut sums = [[0.0; LANES]; SIZE];
-            for k in self.starts[column]..self.starts[column + 1] {
-                add_products(&mut sums, &numeric.below[k], &scratch[self.rows[k]]);
+        for (column, own) in self.starts.windows(2).map(|w| w[0]..w[1]).enumerate().rev() {
+            let mut sums = Packed::default();
+            for (row, below) in self.rows[own.clone()].iter().zip(&numeric.below[own]) {
+                sums.add_products(below, &solved[*row]);
             }
-            let mut y = scratch[column];
-            for (y, sum) in y.iter_mut().zip(&sums) {
-                *y -= total(sum);
-            }
-            let mut products = [[0.0; LANES]; SIZE];
-            add_products(&mut products, &numeric.diagonal[column], &y);
-            let solved = &mut scratch[column];
-            *solved = [0.0; LANES];
-            for (x, product) in solved.iter_mut().zip(&products) {
-                *x = total(product);
-            }
+            let (y, known) = (solved[column].row(), sums.totals());
+            let mut sums = Packed::default();
+            sums.add_products(&numeric.diagonal[column], &Lanes::doubled(&std::array::from_fn(|k| y[k] - known[k])));
+            solved[column] = Lanes::doubled(&sums.totals());
         }
         for (row, place) in x.iter_mut().zip(&self.place) {
-            *row = scratch[*place];
+            *row = solved[*place].first();
         }
     }
 }
@@ -225,33 +216,111 @@ fn subtract_product(target: &mut Dense, a: &Dense, b: &Dense) {
     }
 }
 
-fn packed(block: &Dense) -> Packed {
-    block.map(|column| std::array::from_fn(|r| if r < SIZE { column[r] as f32 } else { 0.0 }))
+/// A block, or what multiplies or sums up its entries: of each column the first four, then the last two of each pair of columns.
+#[derive(Clone, Copy, Default)]
+struct Packed {
+    heads: [f32x4; 6],
+    tails: [f32x4; 3],
 }
 
-/// `block y`.
-fn apply(block: &Packed, y: &Lanes) -> Lanes {
-    let mut product = [0.0; LANES];
-    for (column, y) in block.iter().zip(y) {
-        for lane in 0..LANES {
-            product[lane] += column[lane] * y;
+/// A row as it meets [`Packed`]: its first four numbers, and the last two twice, of which either half may hold a part.
+#[derive(Clone, Copy, Default)]
+struct Lanes {
+    head: f32x4,
+    tail: f32x4,
+}
+
+impl Packed {
+    fn new(block: &Dense) -> Self {
+        let entry = |c: usize, r: usize| block[c][r] as f32;
+        Self {
+            heads: std::array::from_fn(|c| f32x4::from([entry(c, 0), entry(c, 1), entry(c, 2), entry(c, 3)])),
+            tails: std::array::from_fn(|p| {
+                let c = 2 * p;
+                f32x4::from([entry(c, 4), entry(c, 5), entry(c + 1, 4), entry(c + 1, 5)])
+            }),
         }
     }
-    product
-}
 
-/// Adds, lane by lane, each column's products with `y`: their totals are `block^T y`.
-fn add_products(sums: &mut Packed, block: &Packed, y: &Lanes) {
-    for (sum, column) in sums.iter_mut().zip(block) {
-        for lane in 0..LANES {
-            sum[lane] += column[lane] * y[lane];
+    /// What a row multiplies the columns of a block with.
+    #[inline(always)]
+    fn factors(y: &Row) -> Self {
+        let tail = |c: usize| f32x4::from([y[c], y[c], y[c + 1], y[c + 1]]);
+        Self { heads: y.map(f32x4::splat), tails: [tail(0), tail(2), tail(4)] }
+    }
+
+    /// `block y` for the factors of `y`.
+    #[inline(always)]
+    fn products(&self, factors: &Self) -> Lanes {
+        let head = |c: usize| self.heads[c] * factors.heads[c];
+        let tail = |p: usize| self.tails[p] * factors.tails[p];
+        Lanes {
+            head: (head(0) + head(1)) + (head(2) + head(3)) + (head(4) + head(5)),
+            tail: tail(0) + tail(1) + tail(2),
         }
+    }
+
+    fn times(&self, y: &Row) -> Row {
+        self.products(&Self::factors(y)).row()
+    }
+
+    /// Adds each column's products with `x`: their totals are `block^T x`.
+    #[inline(always)]
+    fn add_products(&mut self, block: &Self, x: &Lanes) {
+        for (sum, head) in self.heads.iter_mut().zip(&block.heads) {
+            *sum += *head * x.head;
+        }
+        for (sum, tail) in self.tails.iter_mut().zip(&block.tails) {
+            *sum += *tail * x.tail;
+        }
+    }
+
+    /// Sums of the columns.
+    #[inline(always)]
+    fn totals(&self) -> Row {
+        std::array::from_fn(|c| {
+            let ([a, b, c, d], tail) = (self.heads[c].to_array(), half(self.tails[c / 2], c % 2));
+            ((a + b) + (c + d)) + (tail[0] + tail[1])
+        })
     }
 }
 
-fn total(lanes: &Lanes) -> f32 {
-    let [a, b, c, d, e, f, ..] = lanes;
-    ((a + e) + c) + ((b + f) + d)
+impl Lanes {
+    fn of(row: &Row) -> Self {
+        let [a, b, c, d, e, f] = *row;
+        Self { head: f32x4::from([a, b, c, d]), tail: f32x4::from([e, f, 0.0, 0.0]) }
+    }
+
+    #[inline(always)]
+    fn doubled(row: &Row) -> Self {
+        let [a, b, c, d, e, f] = *row;
+        Self { head: f32x4::from([a, b, c, d]), tail: f32x4::from([e, f, e, f]) }
+    }
+
+    #[inline(always)]
+    fn subtract(&mut self, other: Self) {
+        self.head -= other.head;
+        self.tail -= other.tail;
+    }
+
+    /// The row, of both halves of the tail.
+    #[inline(always)]
+    fn row(&self) -> Row {
+        let ([a, b, c, d], [e, f, g, h]) = (self.head.to_array(), self.tail.to_array());
+        [a, b, c, d, e + g, f + h]
+    }
+
+    /// The row, of the first half of the tail.
+    fn first(&self) -> Row {
+        let ([a, b, c, d], [e, f, ..]) = (self.head.to_array(), self.tail.to_array());
+        [a, b, c, d, e, f]
+    }
+}
+
+#[inline(always)]
+fn half(quad: f32x4, second: usize) -> [f32; 2] {
+    let [a, b, c, d] = quad.to_array();
+    if second == 0 { [a, b] } else { [c, d] }
 }
 
 #[cfg(test)]
@@ -282,7 +351,7 @@ mod tests {
             .collect()
     }
 
-    fn times(pairs: &[[usize; 2]], blocks: &[Dense], x: &[Lanes]) -> Vec<[f64; SIZE]> {
+    fn times(pairs: &[[usize; 2]], blocks: &[Dense], x: &[Row]) -> Vec<[f64; SIZE]> {
         let mut y = vec![[0.0; SIZE]; x.len()];
         for (&[a, b], block) in pairs.iter().zip(blocks) {
             for c in 0..SIZE {
@@ -303,13 +372,10 @@ mod tests {
         let blocks = matrix(&pairs);
         let symbolic = Symbolic::new(count, &pairs);
         let numeric = symbolic.factorise(&blocks).expect("positive definite");
-        let expect: Vec<Lanes> = (0..count)
-            .map(|a| std::array::from_fn(|k| if k < SIZE { ((7 * a + k) as f32).sin() } else { 0.0 }))
-            .collect();
+        let expect: Vec<Row> = (0..count).map(|a| std::array::from_fn(|k| ((7 * a + k) as f32).sin())).collect();
         let forces = times(&pairs, &blocks, &expect);
-        let mut x: Vec<Lanes> =
-            forces.iter().map(|f| std::array::from_fn(|k| f.get(k).map_or(0.0, |f| *f as f32))).collect();
-        symbolic.solve(&numeric, &mut x, &mut vec![[0.0; LANES]; count]);
+        let mut x: Vec<Row> = forces.iter().map(|f| f.map(|f| f as f32)).collect();
+        symbolic.solve(&numeric, &mut x);
         for (found, expect) in x.iter().flatten().zip(expect.iter().flatten()) {
             assert!((found - expect).abs() < 1e-4, "{found} for {expect}");
         }

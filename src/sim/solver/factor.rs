@@ -8,9 +8,10 @@ use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{MatMut, Par, Side};
 use nalgebra::Matrix3;
+use wide::f64x4;
 
 use super::operator::{Operator, PairList};
-use super::rows::Quad;
+use super::quad::Quad;
 
 /// The pattern of a stiffness with its symbolic factor, and the latest numeric one.
 pub struct Factor {
@@ -112,14 +113,14 @@ impl Factor {
     }
 
     /// `z = K^-1 r` with the stiffness of the last [`Factor::refresh`]; `r` itself before the first.
-    pub fn solve(&self, r: &[Quad<f64>], z: &mut [Quad<f64>]) {
-        let mut flat: Vec<f64> = r.iter().flat_map(|v| [v[0], v[1], v[2]]).collect();
+    pub fn solve(&self, r: &[f64x4], z: &mut [f64x4]) {
+        let mut flat: Vec<f64> = r.iter().flat_map(|v| <[f64; 3]>::from(v.vector())).collect();
         if let Some(factor) = &self.numeric {
             let rows = flat.len();
             factor.solve_in_place(MatMut::from_column_major_slice_mut(&mut flat, rows, 1));
         }
         for (z, v) in z.iter_mut().zip(flat.chunks_exact(3)) {
-            *z = [v[0], v[1], v[2], 0.0];
+            *z = f64x4::from([v[0], v[1], v[2], 0.0]);
         }
     }
 }

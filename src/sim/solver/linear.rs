@@ -1,12 +1,14 @@
 //! The linear solves of a step: conjugate gradients with one of three preconditioners.
 
 use nalgebra::Matrix3;
+use wide::{f32x4, f64x4};
 
 use super::factor::Factor;
 use super::operator::Operator;
 use super::patches::{Coarse, Patches};
 use super::pcg::{self, PcgParams};
-use super::rows::{self, Block, Quad, Rows};
+use super::quad::{self, Block};
+use super::rows::Rows;
 use crate::geom::V3;
 
 /// How the linear systems of a cloth are solved.
@@ -44,7 +46,7 @@ impl LinearSolver {
                 let aged = kept.is_some();
                 let factor = kept.get_or_insert_with(|| Box::new(Factor::new(operator)));
                 let attempt = PcgParams { max_iterations: PATIENCE, ..*params };
-                let rows = Rows::<f64>::new(operator);
+                let rows = Rows::<f64x4>::new(operator);
                 if aged && pcg::solve(&rows, &|r, z| factor.solve(r, z), b, x, &attempt).is_solved {
                     return;
                 }
@@ -85,7 +87,7 @@ impl TwoLevel {
         let kept = self.coarse.take().filter(|_| self.lost < FACTOR_COST);
         let is_new = kept.is_none();
         let coarse = kept.unwrap_or_else(|| self.patches.factorise(operator, &diagonal, positions));
-        let precondition = |r: &[Quad<f32>], z: &mut [Quad<f32>]| {
+        let precondition = |r: &[f32x4], z: &mut [f32x4]| {
             times(&inverses, r, z);
             self.patches.add(&coarse, r, z);
         };
@@ -99,13 +101,13 @@ impl TwoLevel {
     }
 }
 
-fn inverses(diagonal: &[Matrix3<f64>]) -> Vec<Block<f32>> {
-    diagonal.iter().map(|d| rows::block(&d.try_inverse().unwrap_or_else(Matrix3::zeros))).collect()
+fn inverses(diagonal: &[Matrix3<f64>]) -> Vec<Block<f32x4>> {
+    diagonal.iter().map(|d| quad::block(&d.try_inverse().unwrap_or_else(Matrix3::zeros))).collect()
 }
 
-/// `z = D r` for blocks on a diagonal.
-fn times(blocks: &[Block<f32>], r: &[Quad<f32>], z: &mut [Quad<f32>]) {
+/// `z = D r` for symmetric blocks on a diagonal.
+fn times(blocks: &[Block<f32x4>], r: &[f32x4], z: &mut [f32x4]) {
     for ((z, r), block) in z.iter_mut().zip(r).zip(blocks) {
-        *z = rows::add_times([0.0; 4], block, r);
+        *z = quad::transposed_times(block, *r);
     }
 }

@@ -8,6 +8,7 @@ pub mod part;
 pub mod patches;
 pub mod pcg;
 pub mod proximal;
+pub mod quad;
 pub mod rows;
 pub mod system;
 

@@ -3,29 +3,32 @@
 //! Membrane and bending stiffness are invariant under translation: the blocks of a row sum to zero. They are therefore
 //! assembled as one block per *pair* of vertices and applied to differences, `y_i += A_ij (x_j - x_i)`: that needs no
 //! diagonal, and a uniform translation is annihilated exactly, however the blocks were rounded. The linear solves take the
-//! pairs as rows ([`super::rows`]).
+//! pairs by rows ([`super::rows`]).
 
 use nalgebra::Matrix3;
 
-use super::rows::RowTable;
+use super::rows::Upper;
 use crate::geom::V3;
 
 /// Pairs of vertices `i < j`, sorted, that some element couples.
 #[derive(Clone, Debug, Default)]
 pub struct PairList {
     pairs: Vec<[usize; 2]>,
-    rows: RowTable,
+    upper: Upper,
 }
 
 impl PairList {
+    /// No pairs.
+    pub const EMPTY: &'static Self = &Self { pairs: Vec::new(), upper: Upper::EMPTY };
+
     /// Collects the distinct unordered pairs.
     #[must_use]
     pub fn new(pairs: impl IntoIterator<Item = [usize; 2]>) -> Self {
         let mut pairs: Vec<[usize; 2]> = pairs.into_iter().map(|[i, j]| [i.min(j), i.max(j)]).collect();
         pairs.sort_unstable();
         pairs.dedup();
-        let rows = RowTable::new(&pairs);
-        Self { pairs, rows }
+        let upper = Upper::new(&pairs);
+        Self { pairs, upper }
     }
 
     /// Position of the pair `{i, j}` in the list.
@@ -34,10 +37,10 @@ impl PairList {
         self.pairs.binary_search(&[i.min(j), i.max(j)]).ok()
     }
 
-    /// Where the pairs stand in rows.
+    /// The pairs by their smaller vertex.
     #[must_use]
-    pub fn rows(&self) -> &RowTable {
-        &self.rows
+    pub fn upper(&self) -> &Upper {
+        &self.upper
     }
 
     /// Divides vertices that the pairs couple into patches: the patch of each, and their number. Each goes to the nearest of

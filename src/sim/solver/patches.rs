@@ -6,11 +6,14 @@
 //! patches is local, and block-Jacobi's. The stiffness between patches is small enough to be factorised ([`super::blocks`]), and a
 //! factor serves for several steps.
 
-use nalgebra::{Matrix3, Matrix6, Vector6};
+use std::cmp::Ordering;
 
-use super::blocks::{Dense, Lanes, Numeric, Symbolic};
+use nalgebra::{Matrix3, Matrix6, Vector6};
+use wide::f32x4;
+
+use super::blocks::{Dense, Numeric, Row, Symbolic};
 use super::operator::Operator;
-use super::rows::{self, Quad};
+use super::quad::Quad;
 use crate::geom::V3;
 
 /// Least distance, in edges, between the middles of patches.
@@ -54,24 +57,23 @@ impl Patches {
     pub fn factorise(&self, operator: &Operator, diagonal: &[Matrix3<f64>], x: &[V3]) -> Coarse {
         let arms = self.arms(x);
         let mut blocks = vec![Matrix6::zeros(); self.pairs.len()];
-        let mut add = |slot: usize, i: usize, j: usize, m: &Matrix3<f64>| {
-            let swapped = self.of[i] > self.of[j];
-            let block =
-                if swapped { between(&arms[j], &m.transpose(), &arms[i]) } else { between(&arms[i], m, &arms[j]) };
-            blocks[slot] += block;
-            if self.of[i] == self.of[j] {
-                blocks[slot] += block.transpose();
-            }
+        let mut add = |slot: usize, [i, j]: [usize; 2], block: Matrix6<f64>| match self.of[i].cmp(&self.of[j]) {
+            Ordering::Less => blocks[slot] += block,
+            Ordering::Greater => blocks[slot] += block.transpose(),
+            Ordering::Equal => blocks[slot] += block + block.transpose(),
         };
         let [membrane, bending, springs] = &self.slots;
-        for ((&[i, j], &slot), m) in operator.membrane_pairs.pairs().iter().zip(membrane).zip(&operator.membrane) {
-            add(slot, i, j, m);
+        for ((&pair, &slot), m) in operator.membrane_pairs.pairs().iter().zip(membrane).zip(&operator.membrane) {
+            let [p, q] = pair.map(|v| &arms[v]);
+            add(slot, pair, between(p, m, q));
         }
-        for ((&[i, j], &slot), q) in operator.bending_pairs.pairs().iter().zip(bending).zip(operator.bending) {
-            add(slot, i, j, &Matrix3::from_diagonal_element(*q));
+        for ((&pair, &slot), k) in operator.bending_pairs.pairs().iter().zip(bending).zip(operator.bending) {
+            let [p, q] = pair.map(|v| &arms[v]);
+            add(slot, pair, between_alike(p, *k, q));
         }
-        for ((&[i, j], k), &slot) in operator.springs.iter().map(|(p, k)| (p, k)).zip(springs) {
-            add(slot, i, j, &Matrix3::from_diagonal_element(-k));
+        for ((pair, k), &slot) in operator.springs.iter().zip(springs) {
+            let [p, q] = pair.map(|v| &arms[v]);
+            add(slot, *pair, between_alike(p, -k, q));
         }
         let own: Vec<usize> = (0..self.count).map(|a| self.pairs.partition_point(|p| *p < [a, a])).collect();
         for ((a, arm), block) in self.of.iter().zip(&arms).zip(diagonal) {
@@ -82,7 +84,7 @@ impl Patches {
             regularise(&mut blocks[slot]);
         }
         let blocks: Vec<Dense> = blocks.into_iter().map(Into::into).collect();
-        Coarse { arms: arms.iter().map(rows::quad).collect(), factor: self.symbolic.factorise(&blocks) }
+        Coarse { arms: arms.iter().map(f32x4::from_vector).collect(), factor: self.symbolic.factorise(&blocks) }
     }
 
     /// From the middle of its patch to each vertex.
@@ -115,24 +117,21 @@ impl Patches {
     }
 
     /// Adds to `z` the rigid motions of the patches that the forces `r` cause.
-    pub fn add(&self, coarse: &Coarse, r: &[Quad<f32>], z: &mut [Quad<f32>]) {
+    pub fn add(&self, coarse: &Coarse, r: &[f32x4], z: &mut [f32x4]) {
         let Some(factor) = &coarse.factor else { return };
-        let mut motions: Vec<Lanes> = vec![Lanes::default(); self.count];
+        let mut wrenches = vec![[f32x4::ZERO; 2]; self.count];
         for ((a, arm), r) in self.of.iter().zip(&coarse.arms).zip(r) {
-            let turn = cross(arm, r);
-            let wrench = &mut motions[*a];
-            for k in 0..3 {
-                wrench[k] += r[k];
-                wrench[3 + k] += turn[k];
-            }
+            let [force, moment] = &mut wrenches[*a];
+            *force += *r;
+            *moment += cross(*arm, *r);
         }
-        self.symbolic.solve(factor, &mut motions, &mut vec![Lanes::default(); self.count]);
+        let mut rows: Vec<Row> = wrenches.iter().map(|wrench| six(wrench.map(f32x4::to_array))).collect();
+        self.symbolic.solve(factor, &mut rows);
+        let motion = |[x, y, z, a, b, c]: Row| [f32x4::from([x, y, z, 0.0]), f32x4::from([a, b, c, 0.0])];
+        let motions: Vec<[f32x4; 2]> = rows.into_iter().map(motion).collect();
         for ((a, arm), z) in self.of.iter().zip(&coarse.arms).zip(z) {
-            let motion = &motions[*a];
-            let moved = cross(&[motion[3], motion[4], motion[5], 0.0], arm);
-            for k in 0..3 {
-                z[k] += motion[k] + moved[k];
-            }
+            let [shift, turn] = motions[*a];
+            *z += shift + cross(turn, *arm);
         }
     }
 }
@@ -140,13 +139,18 @@ impl Patches {
 /// A factorised stiffness between patches.
 pub struct Coarse {
     /// From the middle of its patch to each vertex.
-    arms: Vec<Quad<f32>>,
+    arms: Vec<f32x4>,
     /// `None` where the stiffness was not positive definite.
     factor: Option<Numeric>,
 }
 
-fn cross(a: &Quad<f32>, b: &Quad<f32>) -> [f32; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+fn cross(a: f32x4, b: f32x4) -> f32x4 {
+    let ([a, b, c, _], [x, y, z, _]) = (a.to_array(), b.to_array());
+    f32x4::from([b * z - c * y, c * x - a * z, a * y - b * x, 0.0])
+}
+
+fn six([[a, b, c, _], [x, y, z, _]]: [[f32; 4]; 2]) -> Row {
+    [a, b, c, x, y, z]
 }
 
 /// `P^T m Q` for the rigid motions `P = [I, -[p]x]`, `Q = [I, -[q]x]` of two vertices at arms `p` and `q`.
@@ -159,6 +163,21 @@ fn between(p: &V3, m: &Matrix3<f64>, q: &V3) -> Matrix6<f64> {
     block.fixed_view_mut::<3, 3>(3, 0).copy_from(&pm);
     block.fixed_view_mut::<3, 3>(3, 3).copy_from(&(-p * mq));
     block
+}
+
+/// [`between`] for a stiffness of `k` in all directions: `-[p]x [q]x = (p.q) I - q p^T`.
+fn between_alike(p: &V3, k: f64, q: &V3) -> Matrix6<f64> {
+    let dot = p.dot(q);
+    #[rustfmt::skip]
+    let block = Matrix6::new(
+        1.0,   0.0,  0.0,  0.0,             q.z,            -q.y,
+        0.0,   1.0,  0.0, -q.z,             0.0,             q.x,
+        0.0,   0.0,  1.0,  q.y,            -q.x,             0.0,
+        0.0,  -p.z,  p.y,  dot - q.x * p.x, -q.x * p.y,      -q.x * p.z,
+        p.z,   0.0, -p.x, -q.y * p.x,       dot - q.y * p.y, -q.y * p.z,
+       -p.y,   p.x,  0.0, -q.z * p.x,       -q.z * p.y,      dot - q.z * p.z,
+    );
+    block * k
 }
 
 fn regularise(block: &mut Matrix6<f64>) {
@@ -177,8 +196,9 @@ mod tests {
     use crate::sim::contact::{BodyContact, ContactParams};
     use crate::sim::laboratory::{self, sheets::sheet};
     use crate::sim::sewing::unsewn;
-    use crate::sim::solver::{System, linear, pcg::PcgParams, rows};
+    use crate::sim::solver::{System, linear, pcg::PcgParams, rows::Rows};
     use crate::sim::testing::fabric;
+    use wide::f64x4;
 
     #[test]
     fn the_stiffness_between_patches_is_that_of_their_rigid_motions() {
@@ -195,25 +215,30 @@ mod tests {
         let coarse = patches.factorise(&operator, &operator.diagonal_blocks(), &x);
         // Rigid motions q give forces K P q; of these, the patches must find q again.
         let q = |a: usize, k: usize| (1.0 + (7 * a + 3 * k) as f64).sin() * if k < 3 { 1.0 } else { 20.0 };
-        let moved: Vec<Quad<f64>> = patches
+        let moved: Vec<f64x4> = patches
             .of
             .iter()
             .zip(&coarse.arms)
             .map(|(&a, arm)| {
                 let [t, w] = [0, 3].map(|from| V3::new(q(a, from), q(a, from + 1), q(a, from + 2)));
-                rows::quad(&(t + w.cross(&V3::from_fn(|k, _| f64::from(arm[k])))))
+                f64x4::from_vector(&(t + w.cross(&arm.vector())))
             })
             .collect();
-        let mut forces = vec![[0.0; 4]; x.len()];
-        rows::Rows::<f64>::new(&operator).apply(&moved, &mut forces);
-        let forces: Vec<Quad<f32>> = forces.iter().map(|f| f.map(|c| c as f32)).collect();
-        let mut found = vec![[0.0; 4]; x.len()];
+        let mut forces = vec![f64x4::ZERO; x.len()];
+        Rows::<f64x4>::new(&operator).apply(&moved, &mut forces);
+        let forces: Vec<f32x4> = forces.iter().map(|f| f32x4::from_vector(&f.vector())).collect();
+        let mut found = vec![f32x4::ZERO; x.len()];
         patches.add(&coarse, &forces, &mut found);
         for (found, moved) in found.iter().zip(&moved) {
-            for k in 0..3 {
-                assert!((f64::from(found[k]) - moved[k]).abs() < 0.01, "{found:?} for {moved:?}");
-            }
+            assert!((found.vector() - moved.vector()).amax() < 0.01, "{found:?} for {moved:?}");
         }
+    }
+
+    #[test]
+    fn a_stiffness_alike_in_all_directions_is_a_stiffness() {
+        let (p, q) = (V3::new(1.0, 2.0, -3.0), V3::new(0.5, -0.7, 0.2));
+        let expect = between(&p, &Matrix3::from_diagonal_element(1.7), &q);
+        assert!((between_alike(&p, 1.7, &q) - expect).amax() < 1e-14);
     }
 
     #[test]

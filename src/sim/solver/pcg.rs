@@ -1,8 +1,7 @@
 //! Preconditioned conjugate gradients.
 
-use nalgebra::RealField;
-
-use super::rows::{self, Quad, Rows};
+use super::quad::Quad;
+use super::rows::Rows;
 use crate::geom::V3;
 
 /// When to stop.
@@ -24,93 +23,90 @@ pub struct Outcome {
 }
 
 /// Writes `z = P r` for `(r, z)`.
-pub type Preconditioner<'a, T> = dyn Fn(&[Quad<T>], &mut [Quad<T>]) + 'a;
+pub type Preconditioner<'a, Q> = dyn Fn(&[Q], &mut [Q]) + 'a;
 
 /// Improves `x` towards the solution of `K x = b` with a preconditioner `z = P r`, starting at the best multiple of it; says
 /// how that ended.
 ///
 /// Every iterate descends the quadratic `x.K x / 2 - b.x`, so a run cut short still yields a descent direction.
-pub fn solve<T: RealField + Copy>(
-    operator: &Rows<T>,
-    precondition: &Preconditioner<T>,
+pub fn solve<Q: Quad>(
+    operator: &Rows<Q>,
+    precondition: &Preconditioner<Q>,
     b: &[V3],
     x: &mut [V3],
     params: &PcgParams,
 ) -> Outcome {
-    let n = b.len();
-    let mut state: Vec<Quad<T>> = x.iter().map(rows::quad).collect();
-    let solved = improve(operator, precondition, &b.iter().map(rows::quad).collect::<Vec<_>>(), &mut state, params);
-    for v in 0..n {
-        let component = |k: usize| state[v][k].to_subset().unwrap_or(f64::NAN);
-        x[v] = V3::new(component(0), component(1), component(2));
+    let mut state: Vec<Q> = x.iter().map(Q::from_vector).collect();
+    let outcome =
+        improve(operator, precondition, &b.iter().map(Q::from_vector).collect::<Vec<_>>(), &mut state, params);
+    for (x, state) in x.iter_mut().zip(state) {
+        *x = state.vector();
     }
-    solved
+    outcome
 }
 
-fn improve<T: RealField + Copy>(
-    operator: &Rows<T>,
-    precondition: &Preconditioner<T>,
-    b: &[Quad<T>],
-    x: &mut [Quad<T>],
+fn improve<Q: Quad>(
+    operator: &Rows<Q>,
+    precondition: &Preconditioner<Q>,
+    b: &[Q],
+    x: &mut [Q],
     params: &PcgParams,
 ) -> Outcome {
-    let n = b.len();
-    let tolerance: T = nalgebra::convert(params.tolerance);
-    let mut z = vec![[T::zero(); 4]; n];
+    let mut z = vec![Q::ZERO; b.len()];
     let mut kp = z.clone();
     precondition(b, &mut z);
-    let goal = dot(b, &z) * tolerance * tolerance;
+    let goal = dot(b, &z) * params.tolerance * params.tolerance;
     operator.apply(x, &mut kp);
     // Never worse than zero.
     let scale = dot(x, b) / dot(x, &kp);
-    let scale = if scale.is_finite() { scale.clamp(T::zero(), T::one()) } else { T::zero() };
-    x.iter_mut().flatten().for_each(|x| *x *= scale);
+    let scale = if scale.is_finite() { scale.clamp(0.0, 1.0) } else { 0.0 };
+    let spread = |number: f64| Q::splat(Q::scalar(number));
+    x.iter_mut().for_each(|x| *x = *x * spread(scale));
     let mut r = b.to_vec();
-    add_scaled(&mut r, -scale, &kp);
+    add_scaled(&mut r, spread(-scale), &kp);
     precondition(&r, &mut z);
     let mut p = z.clone();
     let mut rz = dot(&r, &z);
-    let nothing = T::default_epsilon().powi(3);
     for iterations in 0..params.max_iterations {
-        if rz <= goal || rz <= nothing {
+        if rz <= goal || rz <= Q::NEGLIGIBLE {
             return Outcome { is_solved: true, iterations };
         }
         operator.apply(&p, &mut kp);
         let curvature = dot(&p, &kp);
-        if curvature <= T::zero() {
+        if curvature <= 0.0 {
             return Outcome { is_solved: true, iterations };
         }
         let alpha = rz / curvature;
-        add_scaled(x, alpha, &p);
-        add_scaled(&mut r, -alpha, &kp);
+        add_scaled(x, spread(alpha), &p);
+        add_scaled(&mut r, spread(-alpha), &kp);
         precondition(&r, &mut z);
         let rz_next = dot(&r, &z);
-        let beta = rz_next / rz;
+        let beta = spread(rz_next / rz);
         rz = rz_next;
         for (p, z) in p.iter_mut().zip(&z) {
-            for k in 0..4 {
-                p[k] = z[k] + beta * p[k];
-            }
+            *p = *z + beta * *p;
         }
     }
     Outcome { is_solved: rz <= goal, iterations: params.max_iterations }
 }
 
-fn add_scaled<T: RealField + Copy>(a: &mut [Quad<T>], scale: T, b: &[Quad<T>]) {
+fn add_scaled<Q: Quad>(a: &mut [Q], scale: Q, b: &[Q]) {
     for (a, b) in a.iter_mut().zip(b) {
-        for k in 0..4 {
-            a[k] += scale * b[k];
-        }
+        *a += scale * *b;
     }
 }
 
-/// Inner product; four sums side by side.
-fn dot<T: RealField + Copy>(a: &[Quad<T>], b: &[Quad<T>]) -> T {
-    let mut sums = [T::zero(); 4];
+/// Inner product; sums side by side, so that none waits for the other.
+fn dot<Q: Quad>(a: &[Q], b: &[Q]) -> f64 {
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
+    let mut sums = [Q::ZERO; 4];
     for (a, b) in a.iter().zip(b) {
         for k in 0..4 {
             sums[k] += a[k] * b[k];
         }
     }
-    (sums[0] + sums[2]) + (sums[1] + sums[3])
+    for (a, b) in a_rest.iter().zip(b_rest) {
+        sums[0] += *a * *b;
+    }
+    ((sums[0] + sums[1]) + (sums[2] + sums[3])).total()
 }

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix2, Matrix3};
 
 use super::linear::LinearSolver;
-use super::operator::Operator;
+use super::operator::{Operator, PairList};
 use crate::geom::V3;
 use crate::sim::cloth::Cloth;
 use crate::sim::cloth::membrane::Foreseen;
@@ -152,7 +152,7 @@ impl<'a> System<'a> {
         }
         let mut diagonal = operator.diagonal;
         self.contact.stiffen(&end, &mut diagonal);
-        (excess, Operator { diagonal, membrane: blocks, bending: &[], ..operator })
+        (excess, Operator { diagonal, membrane: blocks, bending_pairs: PairList::EMPTY, bending: &[], ..operator })
     }
 
     /// How far vertices may go in the step that was assembled last, m.

@@ -1,0 +1,105 @@
+//! Three components and a zero in one vector register: what the loops of the linear solves are made of.
+//!
+//! Written as arrays, most of these loops come out of the compiler a number at a time; so they say what they mean.
+
+use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
+
+use nalgebra::Matrix3;
+use wide::{f32x4, f64x4};
+
+use crate::geom::V3;
+
+/// Four numbers in the precision of a solve.
+pub trait Quad:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + AddAssign + SubAssign + 'static
+{
+    /// One of the numbers.
+    type Scalar: Copy;
+    /// Nothing.
+    const ZERO: Self;
+    /// Products of forces and displacements below which a solve has nothing left to do.
+    const NEGLIGIBLE: f64;
+    /// Four numbers, rounded.
+    fn of(numbers: [f64; 4]) -> Self;
+    /// One number, rounded.
+    fn scalar(number: f64) -> Self::Scalar;
+    /// The same number four times.
+    fn splat(number: Self::Scalar) -> Self;
+    /// The numbers.
+    fn numbers(self) -> [Self::Scalar; 4];
+    /// Their sum.
+    fn total(self) -> f64;
+    /// The sums of three, and a zero.
+    fn totals(of: [Self; 3]) -> Self;
+    /// The first three.
+    fn vector(self) -> V3;
+
+    /// A vector, rounded.
+    #[must_use]
+    fn from_vector(v: &V3) -> Self {
+        Self::of([v.x, v.y, v.z, 0.0])
+    }
+}
+
+macro_rules! quad {
+    ($quad:ty, $scalar:ty) => {
+        impl Quad for $quad {
+            type Scalar = $scalar;
+            const ZERO: Self = <$quad>::ZERO;
+            const NEGLIGIBLE: f64 = {
+                let epsilon = <$scalar>::EPSILON as f64;
+                epsilon * epsilon * epsilon
+            };
+            #[inline(always)]
+            fn of(numbers: [f64; 4]) -> Self {
+                Self::from(numbers.map(Self::scalar))
+            }
+            #[inline(always)]
+            fn scalar(number: f64) -> $scalar {
+                number as $scalar
+            }
+            #[inline(always)]
+            fn splat(number: $scalar) -> Self {
+                <$quad>::splat(number)
+            }
+            #[inline(always)]
+            fn numbers(self) -> [$scalar; 4] {
+                self.to_array()
+            }
+            #[inline(always)]
+            fn total(self) -> f64 {
+                let [a, b, c, d] = self.to_array();
+                f64::from((a + c) + (b + d))
+            }
+            #[inline(always)]
+            fn totals(of: [Self; 3]) -> Self {
+                let [a, b, c] = of.map(|quad| quad.to_array()).map(|[a, b, c, d]| (a + c) + (b + d));
+                Self::from([a, b, c, 0.0])
+            }
+            #[inline(always)]
+            fn vector(self) -> V3 {
+                let [x, y, z, _] = self.to_array();
+                V3::new(f64::from(x), f64::from(y), f64::from(z))
+            }
+        }
+    };
+}
+
+quad!(f32x4, f32);
+quad!(f64x4, f64);
+
+/// A 3x3 block by rows.
+pub type Block<Q> = [Q; 3];
+
+/// A block, rounded.
+#[must_use]
+pub fn block<Q: Quad>(m: &Matrix3<f64>) -> Block<Q> {
+    [0, 1, 2].map(|r| Q::of([m[(r, 0)], m[(r, 1)], m[(r, 2)], 0.0]))
+}
+
+/// The transpose of a block times a vector.
+#[inline(always)]
+pub fn transposed_times<Q: Quad>(block: &Block<Q>, v: Q) -> Q {
+    let [x, y, z, _] = v.numbers();
+    (block[0] * Q::splat(x) + block[1] * Q::splat(y)) + block[2] * Q::splat(z)
+}
