@@ -18,6 +18,10 @@ use crate::geom::V3;
 
 /// Least distance, in edges, between the middles of patches.
 const APART: usize = 4;
+/// The same in large cloth, where the factor between patches would outgrow the rest.
+const APART_IN_LARGE: usize = 5;
+/// Vertices of large cloth.
+const LARGE: usize = 30_000;
 /// What is added to the stiffness of a patch against rotation, as a share of that against translation times its radius
 /// squared: the vertices of a patch may lie on a line.
 const REGULARISATION: f64 = 1e-6;
@@ -40,7 +44,9 @@ impl Patches {
     pub fn new(operator: &Operator) -> Self {
         let springs: Vec<[usize; 2]> = operator.springs.iter().map(|s| s.0).collect();
         let lists = [operator.membrane_pairs.pairs(), operator.bending_pairs.pairs(), &springs];
-        let (of, count) = operator.membrane_pairs.divide(operator.diagonal.len(), APART);
+        let vertices = operator.diagonal.len();
+        let apart = if vertices < LARGE { APART } else { APART_IN_LARGE };
+        let (of, count) = operator.membrane_pairs.divide(vertices, apart);
         let coupled = |&[i, j]: &[usize; 2]| [of[i].min(of[j]), of[i].max(of[j])];
         let mut pairs: Vec<[usize; 2]> = (0..count).map(|a| [a, a]).collect();
         pairs.extend(lists.iter().flat_map(|list| list.iter().map(coupled)));
