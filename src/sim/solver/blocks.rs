@@ -2,11 +2,11 @@
 //!
 //! It is made in double precision and kept in single. The rounding of the factor is harmless where that of the matrix would
 //! not be: `(L + dL)(L + dL)^T` stays positive definite, and the softest mode is off by `eps` times the square *root* of the
-//! condition number. A solve is one run through memory each way; what is kept fills whole vector registers.
+//! condition number. A solve is one run through memory each way, over blocks that fill vector registers ([`super::packed`]).
 
 use std::collections::BTreeSet;
 
-use wide::f32x4;
+use super::packed::{Lanes, Packed};
 
 /// Degrees of freedom of a block.
 pub const SIZE: usize = 6;
@@ -58,6 +58,11 @@ impl Symbolic {
         let [p, q] = [self.place[a], self.place[b]];
         let column = p.min(q);
         (column, (p != q).then(|| self.below(column, p.max(q))), p > q)
+    }
+
+    /// The blocks below the diagonal of each column, column by column.
+    fn columns(&self) -> impl DoubleEndedIterator<Item = (usize, std::ops::Range<usize>)> + ExactSizeIterator {
+        self.starts.windows(2).map(|ends| ends[0]..ends[1]).enumerate()
     }
 
     /// Number of a block below the diagonal.
@@ -115,7 +120,7 @@ impl Symbolic {
         for (row, place) in x.iter().zip(&self.place) {
             solved[*place] = Lanes::of(row);
         }
-        for (column, own) in self.starts.windows(2).map(|w| w[0]..w[1]).enumerate() {
+        for (column, own) in self.columns() {
             let y = numeric.diagonal[column].times(&solved[column].row());
             let factors = Packed::factors(&y);
             for (row, below) in self.rows[own.clone()].iter().zip(&numeric.below[own]) {
@@ -123,7 +128,7 @@ impl Symbolic {
             }
             solved[column] = Lanes::of(&y);
         }
-        for (column, own) in self.starts.windows(2).map(|w| w[0]..w[1]).enumerate().rev() {
+        for (column, own) in self.columns().rev() {
             let mut sums = Packed::default();
             for (row, below) in self.rows[own.clone()].iter().zip(&numeric.below[own]) {
                 sums.add_products(below, &solved[*row]);
@@ -214,113 +219,6 @@ fn subtract_product(target: &mut Dense, a: &Dense, b: &Dense) {
         }
         target[c] = column;
     }
-}
-
-/// A block, or what multiplies or sums up its entries: of each column the first four, then the last two of each pair of columns.
-#[derive(Clone, Copy, Default)]
-struct Packed {
-    heads: [f32x4; 6],
-    tails: [f32x4; 3],
-}
-
-/// A row as it meets [`Packed`]: its first four numbers, and the last two twice, of which either half may hold a part.
-#[derive(Clone, Copy, Default)]
-struct Lanes {
-    head: f32x4,
-    tail: f32x4,
-}
-
-impl Packed {
-    fn new(block: &Dense) -> Self {
-        let entry = |c: usize, r: usize| block[c][r] as f32;
-        Self {
-            heads: std::array::from_fn(|c| f32x4::from([entry(c, 0), entry(c, 1), entry(c, 2), entry(c, 3)])),
-            tails: std::array::from_fn(|p| {
-                let c = 2 * p;
-                f32x4::from([entry(c, 4), entry(c, 5), entry(c + 1, 4), entry(c + 1, 5)])
-            }),
-        }
-    }
-
-    /// What a row multiplies the columns of a block with.
-    #[inline(always)]
-    fn factors(y: &Row) -> Self {
-        let tail = |c: usize| f32x4::from([y[c], y[c], y[c + 1], y[c + 1]]);
-        Self { heads: y.map(f32x4::splat), tails: [tail(0), tail(2), tail(4)] }
-    }
-
-    /// `block y` for the factors of `y`.
-    #[inline(always)]
-    fn products(&self, factors: &Self) -> Lanes {
-        let head = |c: usize| self.heads[c] * factors.heads[c];
-        let tail = |p: usize| self.tails[p] * factors.tails[p];
-        Lanes {
-            head: (head(0) + head(1)) + (head(2) + head(3)) + (head(4) + head(5)),
-            tail: tail(0) + tail(1) + tail(2),
-        }
-    }
-
-    fn times(&self, y: &Row) -> Row {
-        self.products(&Self::factors(y)).row()
-    }
-
-    /// Adds each column's products with `x`: their totals are `block^T x`.
-    #[inline(always)]
-    fn add_products(&mut self, block: &Self, x: &Lanes) {
-        for (sum, head) in self.heads.iter_mut().zip(&block.heads) {
-            *sum += *head * x.head;
-        }
-        for (sum, tail) in self.tails.iter_mut().zip(&block.tails) {
-            *sum += *tail * x.tail;
-        }
-    }
-
-    /// Sums of the columns.
-    #[inline(always)]
-    fn totals(&self) -> Row {
-        std::array::from_fn(|c| {
-            let ([a, b, c, d], tail) = (self.heads[c].to_array(), half(self.tails[c / 2], c % 2));
-            ((a + b) + (c + d)) + (tail[0] + tail[1])
-        })
-    }
-}
-
-impl Lanes {
-    fn of(row: &Row) -> Self {
-        let [a, b, c, d, e, f] = *row;
-        Self { head: f32x4::from([a, b, c, d]), tail: f32x4::from([e, f, 0.0, 0.0]) }
-    }
-
-    #[inline(always)]
-    fn doubled(row: &Row) -> Self {
-        let [a, b, c, d, e, f] = *row;
-        Self { head: f32x4::from([a, b, c, d]), tail: f32x4::from([e, f, e, f]) }
-    }
-
-    #[inline(always)]
-    fn subtract(&mut self, other: Self) {
-        self.head -= other.head;
-        self.tail -= other.tail;
-    }
-
-    /// The row, of both halves of the tail.
-    #[inline(always)]
-    fn row(&self) -> Row {
-        let ([a, b, c, d], [e, f, g, h]) = (self.head.to_array(), self.tail.to_array());
-        [a, b, c, d, e + g, f + h]
-    }
-
-    /// The row, of the first half of the tail.
-    fn first(&self) -> Row {
-        let ([a, b, c, d], [e, f, ..]) = (self.head.to_array(), self.tail.to_array());
-        [a, b, c, d, e, f]
-    }
-}
-
-#[inline(always)]
-fn half(quad: f32x4, second: usize) -> [f32; 2] {
-    let [a, b, c, d] = quad.to_array();
-    if second == 0 { [a, b] } else { [c, d] }
 }
 
 #[cfg(test)]

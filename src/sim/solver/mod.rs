@@ -4,6 +4,7 @@ pub mod blocks;
 pub mod factor;
 pub mod linear;
 pub mod operator;
+mod packed;
 pub mod part;
 pub mod patches;
 pub mod pcg;

@@ -110,11 +110,11 @@ pub struct Operator<'a> {
     pub diagonal: Vec<Matrix3<f64>>,
     /// Pairs coupled by the membrane.
     pub membrane_pairs: &'a PairList,
-    /// Their off-diagonal blocks `K_ij` for `i < j`, N/m.
+    /// Their off-diagonal blocks `K_ij` for `i < j`, one a pair, N/m.
     pub membrane: Vec<Matrix3<f64>>,
     /// Pairs coupled by bending.
     pub bending_pairs: &'a PairList,
-    /// Their off-diagonal entries, N/m, the same in x, y and z.
+    /// Their off-diagonal entries, one a pair, N/m, the same in x, y and z.
     pub bending: &'a [f64],
     /// Springs between two vertices: stiffness, N/m.
     pub springs: Vec<([usize; 2], f64)>,

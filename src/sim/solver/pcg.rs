@@ -60,10 +60,9 @@ fn improve<Q: Quad>(
     // Never worse than zero.
     let scale = dot(x, b) / dot(x, &kp);
     let scale = if scale.is_finite() { scale.clamp(0.0, 1.0) } else { 0.0 };
-    let spread = |number: f64| Q::splat(Q::scalar(number));
-    x.iter_mut().for_each(|x| *x = *x * spread(scale));
+    x.iter_mut().for_each(|x| *x = *x * Q::spread(scale));
     let mut r = b.to_vec();
-    add_scaled(&mut r, spread(-scale), &kp);
+    add_scaled(&mut r, Q::spread(-scale), &kp);
     precondition(&r, &mut z);
     let mut p = z.clone();
     let mut rz = dot(&r, &z);
@@ -77,11 +76,11 @@ fn improve<Q: Quad>(
             return Outcome { is_solved: true, iterations };
         }
         let alpha = rz / curvature;
-        add_scaled(x, spread(alpha), &p);
-        add_scaled(&mut r, spread(-alpha), &kp);
+        add_scaled(x, Q::spread(alpha), &p);
+        add_scaled(&mut r, Q::spread(-alpha), &kp);
         precondition(&r, &mut z);
         let rz_next = dot(&r, &z);
-        let beta = spread(rz_next / rz);
+        let beta = Q::spread(rz_next / rz);
         rz = rz_next;
         for (p, z) in p.iter_mut().zip(&z) {
             *p = *z + beta * *p;

@@ -34,6 +34,12 @@ pub trait Quad:
     /// The first three.
     fn vector(self) -> V3;
 
+    /// The same number four times, rounded.
+    #[must_use]
+    fn spread(number: f64) -> Self {
+        Self::splat(Self::scalar(number))
+    }
+
     /// A vector, rounded.
     #[must_use]
     fn from_vector(v: &V3) -> Self {

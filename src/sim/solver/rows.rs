@@ -61,10 +61,9 @@ impl<'a, Q: Quad> Rows<'a, Q> {
     /// Writes an operator into rows.
     #[must_use]
     pub fn new(operator: &Operator<'a>) -> Self {
-        let spread = |number: f64| Q::splat(Q::scalar(number));
         let contact = |c: &Contact4| Contact {
             vertices: c.vertices,
-            weights: c.weights.map(spread),
+            weights: c.weights.map(Q::spread),
             along: Q::from_vector(&(c.normal * c.stiffness.sqrt())),
         };
         Self {
@@ -73,7 +72,7 @@ impl<'a, Q: Quad> Rows<'a, Q> {
             blocks: operator.membrane.iter().map(quad::block).collect(),
             bending: operator.bending_pairs.upper(),
             entries: operator.bending.iter().map(|q| Q::scalar(*q)).collect(),
-            springs: operator.springs.iter().map(|(pair, k)| (*pair, spread(*k))).collect(),
+            springs: operator.springs.iter().map(|(pair, k)| (*pair, Q::spread(*k))).collect(),
             contacts: operator.contacts.iter().map(contact).collect(),
         }
     }
@@ -116,7 +115,7 @@ impl<Q: Quad> Contact<Q> {
         for (v, weight) in self.vertices.iter().zip(&self.weights) {
             moved += x[*v] * *weight;
         }
-        let force = self.along * Q::splat(Q::scalar((moved * self.along).total()));
+        let force = self.along * Q::spread((moved * self.along).total());
         for (v, weight) in self.vertices.iter().zip(&self.weights) {
             y[*v] += force * *weight;
         }
