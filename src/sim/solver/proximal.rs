@@ -37,8 +37,8 @@ pub struct StepParams {
     pub linear_tolerance: f64,
     /// Most iterations of the linear solve.
     pub linear_iterations: usize,
-    /// Step size of the second-order correction, s: small enough that bending hardly moves, so that of all ways to take the
-    /// stretch out the shortest is found.
+    /// Step size of the second-order correction, s: small enough that a vertex's weight moves it by less than a fifth of a
+    /// millimetre, so that of all ways to take the stretch out the shortest is found.
     pub correction_h_s: f64,
     /// Relative tolerance of the correction's linear solve.
     pub correction_tolerance: f64,
@@ -56,7 +56,7 @@ impl Default for StepParams {
             clamp_m: 0.01,
             linear_tolerance: 0.06,
             linear_iterations: 1000,
-            correction_h_s: 0.03,
+            correction_h_s: 0.004,
             correction_tolerance: 0.1,
             correction_iterations: 100,
         }

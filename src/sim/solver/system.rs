@@ -3,7 +3,7 @@
 use nalgebra::{Matrix2, Matrix3};
 
 use super::linear::LinearSolver;
-use super::operator::{Operator, PairList};
+use super::operator::Operator;
 use crate::geom::V3;
 use crate::sim::cloth::Cloth;
 use crate::sim::cloth::membrane::Foreseen;
@@ -138,8 +138,8 @@ impl<'a> System<'a> {
     }
 
     /// Forces (N) by which stretching and contact at the end of a step `d` from `x` differ from what a linear solve at `x`
-    /// foresaw, and the stiffness (N/m) that they have there, without bending and geometric parts. `operator` is that of
-    /// [`System::assemble`] at `x`, `membrane` what it foresees.
+    /// foresaw, and the stiffness (N/m) there, without the geometric part of stretching. Bending is foreseen exactly: it is
+    /// linear. `operator` is that of [`System::assemble`] at `x`, `membrane` what it foresees.
     pub fn excess(&self, operator: Operator<'a>, x: &[V3], d: &[V3], membrane: &[Foreseen]) -> (Vec<V3>, Operator<'a>) {
         let end: Vec<V3> = x.iter().zip(d).map(|(p, d)| p + d).collect();
         let mut excess = self.contact_forces(&end);
@@ -152,7 +152,7 @@ impl<'a> System<'a> {
         }
         let mut diagonal = operator.diagonal;
         self.contact.stiffen(&end, &mut diagonal);
-        (excess, Operator { diagonal, membrane: blocks, bending_pairs: PairList::EMPTY, bending: &[], ..operator })
+        (excess, Operator { diagonal, membrane: blocks, ..operator })
     }
 
     /// How far vertices may go in the step that was assembled last, m.
