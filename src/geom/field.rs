@@ -122,7 +122,9 @@ impl DistanceField {
                 for i in 1..self.size[0] {
                     let node = self.node(i, j, k);
                     if self.values[node] == far && self.values[node - 1] < 0.0 {
-                        self.values[node] = -surface.signed_distance(&self.position(i, j, k)).abs() as f32;
+                        // The node before is as near but for the way from it.
+                        let most_m = f64::from(-self.values[node - 1]) + self.spacing_m;
+                        self.values[node] = -surface.distance_within(&self.position(i, j, k), most_m) as f32;
                     }
                 }
             }

@@ -40,16 +40,20 @@ impl Surface {
     /// Distance to the surface, m; negative inside.
     #[must_use]
     pub fn signed_distance(&self, point: &V3) -> f64 {
-        let point = to_parry(point);
-        let projection = self.mesh.project_local_point(point, false);
-        let distance = self.nearest((projection.point - point).length(), point);
+        let projection = self.mesh.project_local_point(to_parry(point), false);
+        let expected = (projection.point - to_parry(point)).length();
+        let distance = self.distance_within(point, f64::from(expected));
         if projection.is_inside { -distance } else { distance }
     }
 
-    /// Least distance of a point from any triangle, m, when it is known to be about `expected`.
-    fn nearest(&self, expected: f32, point: parry3d::math::Vector) -> f64 {
+    /// Distance to the surface, m, whichever side the point is on, when it is known to be at most `most_m`, but for rounding: the
+    /// nearer that is, the less is looked at. The bits do not depend on it.
+    #[must_use]
+    pub fn distance_within(&self, point: &V3, most_m: f64) -> f64 {
+        let point = to_parry(point);
         let p = from_parry(point);
-        let within = expected * (1.0 + ROUNDED) + ROUNDED;
+        #[allow(clippy::cast_possible_truncation)]
+        let within = most_m as f32 * (1.0 + ROUNDED) + ROUNDED;
         let box_distance = |node: &BvhNode, _: f32| node.aabb().distance_to_local_point(point, true) * (1.0 - ROUNDED);
         let triangle_distance = |index: u32, _: f32| {
             let corners = triangle::sorted(*self.mesh.indices().get(index as usize)?);
@@ -60,7 +64,7 @@ impl Surface {
             Some((gap.norm() as f32, ()))
         };
         let found = self.mesh.bvh().find_best(within, box_distance, triangle_distance);
-        f64::from(found.map_or(expected, |(_, (distance, ()))| distance))
+        found.map_or(most_m, |(_, (distance, ()))| f64::from(distance))
     }
 }
 

@@ -12,7 +12,7 @@ use crate::sim::{Fabric, SimError};
 /// Deepest point of a drape that is good, m.
 const DEEPEST_M: f64 = 3e-4;
 /// Times at most that a drape is taken up again, because it is not at rest yet or to hold out points inside the body.
-const HOLDING_ROUNDS: usize = 5;
+const HOLDING_ROUNDS: usize = 8;
 /// Penalty of the contact with the body where cloth is drawn tight or over a hand, N/m3: fingertips press through a softer one.
 const HARD_N_M3: f64 = 1e9;
 /// Steps on each shape that a hand passes through.
