@@ -110,10 +110,17 @@ pub fn segment_meeting(a: (V2, V2), b: (V2, V2)) -> Option<(f64, f64)> {
 }
 
 /// The first place where two sides of a closed polygon that are not neighbours meet.
+#[must_use]
+pub fn self_crossing(polygon: &[V2]) -> Option<V2> {
+    crossing_sides(polygon).map(|(_, place)| place)
+}
+
+/// Two sides of a closed polygon, not neighbours, that meet, by the index of their first vertex in rising order, and
+/// where; the first such pair.
 ///
 /// The sides are swept by their least `x`, so that a polygon of many sides costs little more than sorting them.
 #[must_use]
-pub fn self_crossing(polygon: &[V2]) -> Option<V2> {
+pub fn crossing_sides(polygon: &[V2]) -> Option<([usize; 2], V2)> {
     let all: Vec<(V2, V2)> = sides(polygon).collect();
     let n = all.len();
     let mut order: Vec<usize> = (0..n).collect();
@@ -127,7 +134,7 @@ pub fn self_crossing(polygon: &[V2]) -> Option<V2> {
                 continue;
             }
             if let Some((s, _)) = segment_meeting(all[i], all[j]) {
-                return Some(all[i].0.lerp(&all[i].1, s));
+                return Some(([i.min(j), i.max(j)], all[i].0.lerp(&all[i].1, s)));
             }
         }
     }

@@ -7,7 +7,9 @@ use dxf::entities::{Entity, EntityType};
 
 use super::figures::{Figure, Placement, figure};
 use super::guard::Foreign;
-use super::outline::{Line, MOST_LINES, check_simple, counter_clockwise, joined, sew_line, without_copies};
+use super::outline::{
+    Line, MOST_LINES, check_simple, counter_clockwise, cut_loops, joined, sew_line, text_mm, without_copies,
+};
 use crate::geom::V2;
 use crate::geom::polyline::signed_area;
 use crate::pattern::piece::{GradePoint, Notch, Piece};
@@ -225,16 +227,24 @@ impl Drawn {
         }
     }
 
-    /// The piece that the block draws.
+    /// The piece that the block draws; what a user should know of it is added to `remarks`.
     ///
     /// # Errors
     /// A sentence that says why it is no usable piece, with the place in millimetres.
-    pub fn into_piece(mut self, block: &str) -> Result<Piece, String> {
+    pub fn into_piece(mut self, block: &str, remarks: &mut Vec<String>) -> Result<Piece, String> {
         if let Some(reason) = self.unreadable.into_iter().next() {
             return Err(reason);
         }
         let mut outline = joined(&self.boundary, "outline (layer 1)")?;
-        check_simple(&outline, "outline")?;
+        if self.sew_lines.is_empty() {
+            check_simple(&outline, "outline")?;
+        } else if let [first, others @ ..] = &cut_loops(&mut outline)?[..] {
+            remarks.push(format!(
+                "block `{block}`: its cut line crosses itself at {}{}: loops cut away, the sew line is as drawn",
+                text_mm(first),
+                if others.is_empty() { String::new() } else { format!(" and {} more places", others.len()) }
+            ));
+        }
         let area = signed_area(&outline);
         if area.abs() < LEAST_AREA_M2 {
             return Err(format!("the outline encloses {:.3} mm2; accepted: an area", area.abs() * 1e6));

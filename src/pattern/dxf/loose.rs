@@ -85,7 +85,7 @@ impl Loose {
             (key.is_empty() && !value.is_empty() && !value.starts_with('#')).then_some(value)
         };
         let label = drawn.texts.iter().find_map(keyless);
-        match drawn.into_piece(NO_BLOCK) {
+        match drawn.into_piece(NO_BLOCK, &mut self.remarks) {
             Ok(mut piece) => {
                 if let Some(label) = label.filter(|_| piece.name == NO_BLOCK) {
                     piece.texts.retain(|(key, value)| !(key.is_empty() && *value == label));

@@ -266,7 +266,7 @@ impl PatternFile {
     }
 
     fn add(&mut self, block: &str, line: Option<usize>, drawn: Drawn) {
-        match drawn.into_piece(block) {
+        match drawn.into_piece(block, &mut self.warnings) {
             Ok(piece) => self.pieces.push(piece),
             Err(reason) => self.refused.push(Refused { block: block.to_owned(), line, reason }),
         }

@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashMap};
 
 use crate::geom::V2;
-use crate::geom::polyline::{contains, self_crossing, signed_area};
+use crate::geom::polyline::{contains, crossing_sides, self_crossing, signed_area};
 use crate::units::mm;
 
 /// Greatest gap between the ends of boundary lines that join, m.
@@ -16,6 +16,10 @@ const MOST_VERTICES: usize = 20_000;
 pub const MOST_LINES: usize = 5_000;
 /// Least share of the outline's area that a closed line on layer 8 must enclose to be an old Valentina sew line.
 const SEW_LINE_SHARE: f64 = 0.5;
+/// Greatest share of a piece that loops of its cut line may enclose; those of trousers with pockets enclose a thousandth.
+const LOOPS_SHARE: f64 = 0.01;
+/// Most loops of a cut line; there are some at each inner corner at most.
+const MOST_LOOPS: usize = 200;
 
 /// A line as drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -195,6 +199,31 @@ pub fn check_simple(outline: &[V2], what: &str) -> Result<(), String> {
     }
 }
 
+/// Cuts away the loops that a cut line makes where it was drawn at a distance from the sew line and runs over itself
+/// (at inner corners, pocket mouths); the place of each.
+///
+/// # Errors
+/// A sentence with the place of a crossing where the loops are no trifle of the piece.
+pub fn cut_loops(outline: &mut Vec<V2>) -> Result<Vec<V2>, String> {
+    let trifle = LOOPS_SHARE * signed_area(outline).abs();
+    let (mut places, mut cut) = (Vec::new(), 0.0);
+    while let Some(([first, second], at)) = crossing_sides(outline) {
+        let between: Vec<V2> = outline.splice(first + 1..=second, [at]).chain([at]).collect();
+        let (small, large) = if signed_area(&between).abs() < signed_area(outline).abs() {
+            (between, std::mem::take(outline))
+        } else {
+            (std::mem::take(outline), between)
+        };
+        cut += signed_area(&small).abs();
+        if cut > trifle || places.len() == MOST_LOOPS {
+            return Err(format!("the cut line crosses itself at {}", text_mm(&at)));
+        }
+        *outline = large;
+        places.push(at);
+    }
+    Ok(places)
+}
+
 /// Turns a clockwise polygon round, its first vertex kept; whether it was.
 pub fn counter_clockwise(polygon: &mut [V2]) -> bool {
     let is_clockwise = signed_area(polygon) < 0.0;
@@ -274,6 +303,29 @@ mod tests {
         let reason = joined(&two, "outline").expect_err("two");
         assert!(reason.contains("a second outline at (20.00, 0.00) mm"), "{reason}");
         assert!(joined(&[], "outline").expect_err("none").contains("no outline"));
+    }
+
+    #[test]
+    fn loops_of_a_cut_line_are_cut_away() {
+        // A square of 100 mm with a loop of 8 by 4 mm that is run through outside its lower side.
+        let corners = [(0.0, 0.0), (40.0, 0.0), (48.0, -4.0), (40.0, -4.0), (48.0, 0.0), (100.0, 0.0), (100.0, 100.0)];
+        let outline = |first: usize| {
+            let mut points = line(&corners).points;
+            points.push(V2::new(0.0, 0.1));
+            points.rotate_left(first);
+            points
+        };
+        for first in 0..8 {
+            let mut cut = outline(first);
+            let places = cut_loops(&mut cut).expect("a trifle");
+            assert_eq!(places.len(), 1, "{first}");
+            assert!((places[0] - V2::new(0.044, -0.002)).norm() < 1e-9, "{first}: {:?}", places[0]);
+            assert_eq!((cut.len(), self_crossing(&cut)), (7, None), "{first}");
+            assert!((signed_area(&cut) - 0.01).abs() < 1e-5, "{first}: {}", signed_area(&cut));
+        }
+        let mut bow = line(&[(0.0, 0.0), (100.0, 100.0), (100.0, 0.0), (0.0, 80.0)]).points;
+        let reason = cut_loops(&mut bow).expect_err("two halves");
+        assert_eq!(reason, "the cut line crosses itself at (44.44, 44.44) mm");
     }
 
     #[test]

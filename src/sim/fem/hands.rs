@@ -114,6 +114,11 @@ pub fn tip(body: &Body, side: f64) -> Option<V3> {
     Hand::of(body, side).map(|hand| hand.tip)
 }
 
+/// Vertices of the hand on a side (1 right, -1 left), in order; none where no skin is a hand's.
+pub fn skin(body: &Body, side: f64) -> Vec<usize> {
+    Hand::of(body, side).map(|hand| hand.skin).unwrap_or_default()
+}
+
 /// Directions all around, in mirrored pairs: from the middle of a cube to a grid on its faces.
 fn directions() -> impl Iterator<Item = V3> {
     let of = |k: i32| f64::from(k - 2);

@@ -1,7 +1,10 @@
 //! What preposition needs to know of the body: its trunk and legs without the arms, and cylinders about its limbs.
 
+use std::collections::BTreeSet;
+
 use crate::body::{Body, Joint};
 use crate::geom::{V2, V3};
+use crate::sim::fem::hands;
 
 /// Half height of the band of the body in which its depth is read, m.
 const LEVEL_BAND_M: f64 = 0.02;
@@ -56,8 +59,11 @@ pub struct Form<'a> {
 impl<'a> Form<'a> {
     /// Tells the arms from the rest.
     pub fn of(body: &'a Body) -> Self {
-        let (arms, trunk) = body.mesh.positions.iter().partition(|p| is_arm(body, p));
-        Self { body, trunk, arms }
+        let hands: BTreeSet<usize> = [1.0, -1.0].into_iter().flat_map(|side| hands::skin(body, side)).collect();
+        let points = body.mesh.positions.iter().enumerate();
+        let (arms, trunk): (Vec<_>, Vec<_>) = points.partition(|(v, p)| hands.contains(v) || is_arm(body, p));
+        let places = |points: Vec<(usize, &V3)>| points.into_iter().map(|(_, p)| *p).collect();
+        Self { body, trunk: places(trunk), arms: places(arms) }
     }
 
     /// Least and greatest `y` of the trunk at a height.

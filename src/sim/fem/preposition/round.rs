@@ -20,22 +20,37 @@ const BAND_M: f64 = 0.02;
 const SHIFT_RAD: f64 = 0.05;
 /// Sides of a seam nearer than this lie on each other: a full circle, cut open, m.
 const CUT_M: f64 = 1e-3;
-/// Least slope of a cone: a full circle lies nearly flat.
-const SLOPE: f64 = 0.1;
+/// Greatest and least sine of the angle between a cone and its axis, where a wide skirt would take more, and the steps between.
+const SPREADS: (f64, f64, u32) = (0.7, 0.2, 10);
+/// Waves of a skirt that is wider than its cone, and the directions in which their length is taken.
+const WAVES: (f64, u32) = (8.0, 32);
 
 /// Places of the vertices of `piece`, its upper edge at the waist.
 pub fn place(form: &Form, joins: &Joins, piece: usize) -> Vec<V3> {
     let rest = &joins.garment.rest;
     let points: Vec<V2> = joins.garment.pieces[piece].vertices.clone().map(|v| rest[v]).collect();
-    let rolled = match apex(&joins.between(piece, piece), rest, &points) {
-        Some((apex, front)) => about(apex, front, &points),
-        None => along(joins.up(piece, V2::y()), &points),
-    };
     let top = form.body.levels.waist_m;
+    let off_body = |rolled: Vec<Rolled>| {
+        let short = rolled.iter().map(|p| body_radius(form, top - p.below) + CLEARANCE_M - p.radius);
+        let wider = short.fold(0.0, f64::max);
+        rolled.into_iter().map(|p| Rolled { radius: p.radius + wider, ..p }).collect::<Vec<_>>()
+    };
+    let room = |rolled: &[Rolled]| {
+        rolled.iter().map(|p| arm_radius(form, top - p.below) - p.radius).fold(f64::INFINITY, f64::min)
+    };
+    let rolled = match apex(&joins.between(piece, piece), rest, &points) {
+        Some((apex, front)) => {
+            let (wide, narrow, steps) = SPREADS;
+            let spread = |k: u32| wide + (narrow - wide) * f64::from(k) / f64::from(steps);
+            let cones = (0..=steps).map(|k| off_body(about(apex, front, &points, spread(k))));
+            // The widest that is clear of the arms, else the one that comes nearest to it.
+            let clear = |cone: &[Rolled]| room(cone).min(CLEARANCE_M);
+            cones.rev().max_by(|a, b| clear(a).total_cmp(&clear(b))).unwrap_or_default()
+        }
+        None => off_body(along(joins.up(piece, V2::y()), &points)),
+    };
     let axis = form.trunk_axis();
-    let short = rolled.iter().map(|p| body_radius(form, top - p.below) + CLEARANCE_M - p.radius);
-    let wider = short.fold(0.0, f64::max);
-    rolled.iter().map(|p| axis.point(p.angle, p.radius + wider, top - p.below)).collect()
+    rolled.iter().map(|p| axis.point(p.angle, p.radius, top - p.below)).collect()
 }
 
 /// A point on the cone or cylinder.
@@ -73,8 +88,8 @@ fn apex(pairs: &[[usize; 2]], rest: &[V2], points: &[V2]) -> Option<(V2, V2)> {
     Some((apex, points.iter().map(|p| p - apex).sum()))
 }
 
-/// On a cone, the apex above.
-fn about(apex: V2, front: V2, points: &[V2]) -> Vec<Rolled> {
+/// On a cone, the apex above, that spreads by at most the sine `spread`; in waves where the piece is wider.
+fn about(apex: V2, front: V2, points: &[V2], spread: f64) -> Vec<Rolled> {
     let polar = |p: &V2| {
         let d = p - apex;
         (front.perp(&d).atan2(front.dot(&d)), d.norm())
@@ -83,13 +98,30 @@ fn about(apex: V2, front: V2, points: &[V2]) -> Vec<Rolled> {
     let span = 2.0 * polar.iter().map(|p| p.0.abs()).fold(SHIFT_RAD, f64::max);
     let inner = polar.iter().map(|p| p.1).fold(f64::MAX, f64::min);
     let share = span / (TAU * ROUND);
-    let slope = (1.0 - share * share).max(SLOPE * SLOPE).sqrt();
-    let roll = |(angle, length): (f64, f64)| Rolled {
-        angle: angle / share,
-        radius: length * share,
-        below: (length - inner) * slope,
+    let spread = share.min(spread);
+    let steep = (1.0 - spread * spread).sqrt();
+    let roll = |(angle, length): (f64, f64)| {
+        let angle = angle / share;
+        let mean = inner * share + (length - inner) * spread;
+        let wave = wave(length * share / mean) * (WAVES.0 * angle).cos();
+        Rolled { angle, radius: mean * (1.0 + wave), below: (length - inner) * steep }
     };
     polar.into_iter().map(roll).collect()
+}
+
+/// Height of waves about a circle over its radius that makes them `ratio` times as long as the circle.
+fn wave(ratio: f64) -> f64 {
+    let (count, samples) = WAVES;
+    let length = |height: f64| {
+        let at = |k: u32| height * count * (TAU * f64::from(k) / f64::from(samples)).sin();
+        (0..samples).map(|k| at(k).hypot(1.0)).sum::<f64>() / f64::from(samples)
+    };
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..30 {
+        let middle = 0.5 * (low + high);
+        if length(middle) < ratio { low = middle } else { high = middle }
+    }
+    low
 }
 
 /// On a cylinder.
@@ -105,8 +137,14 @@ fn along(up: V2, points: &[V2]) -> Vec<Rolled> {
 /// Greatest distance of the trunk's skin from its axis about a height.
 fn body_radius(form: &Form, height: f64) -> f64 {
     let axis = form.trunk_axis();
-    let near = form.between(height - BAND_M, height + BAND_M);
-    near.map(|p| (p.x - axis.origin.x).hypot(p.y - axis.origin.y)).fold(0.0, f64::max)
+    form.between(height - BAND_M, height + BAND_M).map(|p| axis.coordinates(p).1).fold(0.0, f64::max)
+}
+
+/// Least distance of the arms' skin from the axis of the trunk about a height.
+fn arm_radius(form: &Form, height: f64) -> f64 {
+    let axis = form.trunk_axis();
+    let near = form.arms.iter().filter(|p| (p.z - height).abs() < BAND_M);
+    near.map(|p| axis.coordinates(p).1).fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]
@@ -124,8 +162,9 @@ mod tests {
         let body = body::build(&Measurements::of(Sex::Female, 1.65)).expect("a body");
         let surface = Surface::new(&body.mesh).expect("a closed body");
         let (columns, rows) = (40, 10);
+        let form = Form::of(&body);
         // A strip of 1 by 0.25 bent to a sector, or left as it is.
-        let check = |bent: &dyn Fn(f64, f64) -> V2| {
+        let check = |bent: &dyn Fn(f64, f64) -> V2, is_within_arms: bool| {
             let (flat, triangles) = sheet(columns, rows, 1.0 / columns as f64);
             let rest: Vec<V2> = flat.iter().map(|p| bent(p.x, p.y)).collect();
             let mut garment = laboratory::garment((rest, triangles));
@@ -133,26 +172,42 @@ mod tests {
             let pairs = (0..=rows).map(|row| [row * (columns + 1), row * (columns + 1) + columns]).collect();
             garment.seams = vec![SeamMesh { name: "side".to_owned(), pairs }];
             let x = preposition::place(&body, &garment, &Params::default()).expect("it goes round");
-            // A wide skirt may start in the hands.
             let inside = x.iter().filter(|p| surface.signed_distance(p) < 0.0).count();
-            assert!(50 * inside < x.len(), "{inside} of {} inside the body", x.len());
+            assert_eq!(inside, 0, "of {} inside the body", x.len());
             let gap = garment.seams[0].pairs.iter().map(|[a, b]| (x[*a] - x[*b]).norm()).fold(0.0, f64::max);
             assert!(gap < 0.4, "the seam starts {gap} m open");
             // Outwards is outside: counter-clockwise triangles face away from the axis.
             let [a, b, c] = garment.triangles[garment.triangles.len() / 2].map(|v| x[v]);
             assert!((b - a).cross(&(c - a)).dot(&V3::new(a.x, a.y, 0.0)) > 0.0, "inside out");
+            let clears = |p: &V3| form.trunk_axis().coordinates(p).1 < arm_radius(&form, p.z);
+            assert!(!is_within_arms || x.iter().all(clears), "about the arms");
             // The hem lies lower than the waist.
             assert!(x[0].z < x[rows * (columns + 1)].z, "upside down");
         };
-        check(&|u, v| V2::new(u, v));
-        let sector = |angle: f64| {
+        check(&|u, v| V2::new(u, v), false);
+        let sector = |angle: f64, inner: f64| {
             move |u: f64, v: f64| {
                 let (sin, cos) = (angle * (u - 0.5)).sin_cos();
-                V2::new(sin, -cos) * (0.6 / angle + 0.5 - v) + V2::new(0.2, 0.7)
+                V2::new(sin, -cos) * (inner + 0.25 - v) + V2::new(0.2, 0.7)
             }
         };
-        check(&sector(0.5 * TAU));
-        check(&sector(0.25 * TAU));
-        check(&sector(TAU));
+        check(&sector(0.25 * TAU, 0.6), false);
+        check(&sector(0.5 * TAU, 0.26), true);
+        check(&sector(TAU, 0.13), true);
+    }
+
+    #[test]
+    fn waves_are_as_long_as_asked() {
+        assert!(wave(1.0) < 1e-4);
+        for ratio in [1.1, 1.5, 3.0] {
+            let at = |k: u32| {
+                let angle = TAU * f64::from(k) / 20_000.0;
+                let radius = 1.0 + wave(ratio) * (WAVES.0 * angle).cos();
+                V2::new(angle, radius)
+            };
+            // Unrolled: the waves lie along a line, not about a circle.
+            let length: f64 = (0..20_000).map(|k| (at(k + 1) - at(k)).norm()).sum();
+            assert!((length / (ratio * TAU) - 1.0).abs() < 2e-3, "{ratio}: {}", length / TAU);
+        }
     }
 }
