@@ -256,7 +256,7 @@ fn styles(folder: &Path) -> Outcome<Vec<(String, Outcome<Style>)>> {
 
 fn proposed(file: &dxf::PatternFile, size: Option<&str>, name: &str) -> Outcome<Style> {
     let pieces = file.to_sew(size)?;
-    let seams = propose::propose(&pieces).toml(name);
+    let seams = propose::propose(&pieces).to_drape()?.toml(name);
     Ok(measured(Style::read(&pieces, seams.as_bytes(), "the proposal")?))
 }
 

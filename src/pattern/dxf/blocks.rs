@@ -238,12 +238,14 @@ impl Drawn {
         let mut outline = joined(&self.boundary, "outline (layer 1)")?;
         if self.sew_lines.is_empty() {
             check_simple(&outline, "outline")?;
-        } else if let [first, others @ ..] = &cut_loops(&mut outline)?[..] {
-            remarks.push(format!(
-                "block `{block}`: its cut line crosses itself at {}{}: loops cut away, the sew line is as drawn",
-                text_mm(first),
-                if others.is_empty() { String::new() } else { format!(" and {} more places", others.len()) }
-            ));
+        } else {
+            let loops = cut_loops(&mut outline)?;
+            if !loops.is_empty() {
+                let places = loops.iter().map(text_mm).collect::<Vec<_>>().join(", ");
+                remarks.push(format!(
+                    "block `{block}`: its cut line crosses itself at {places}: loops cut away, the sew line is as drawn"
+                ));
+            }
         }
         let area = signed_area(&outline);
         if area.abs() < LEAST_AREA_M2 {

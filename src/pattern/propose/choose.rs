@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::recognise::Recognised;
 use super::worn::{self, id_of};
-use super::{Class, Face, Hand, Label, sew};
+use super::{Class, Face, Hand, Label, names, sew};
 use crate::pattern::piece::Piece;
 
 /// Most combinations of pieces that are tried.
@@ -16,7 +16,8 @@ const HALF: std::ops::RangeInclusive<f64> = 0.42..=0.68;
 
 /// The pieces that make a garment, one for each place: of several those whose edges fit their neighbours' best. Those left
 /// over have a question each.
-pub fn choose(pieces: &[Piece], recognised: Vec<Recognised>, questions: &mut Vec<String>) -> Vec<Recognised> {
+pub fn choose(pieces: &[Piece], mut recognised: Vec<Recognised>, questions: &mut Vec<String>) -> Vec<Recognised> {
+    leave_out_sleeves_in_two(pieces, &mut recognised, questions);
     let mut places: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (index, one) in recognised.iter().enumerate().filter(|(_, one)| !is_round_band(one)) {
         places.entry(id_of(one, one.hand)).or_default().push(index);
@@ -55,6 +56,22 @@ pub fn choose(pieces: &[Piece], recognised: Vec<Recognised>, questions: &mut Vec
         }
     }
     chosen
+}
+
+/// Takes out an upper and an under sleeve: where their seams meet the armhole no outline says, and one of them alone is no
+/// sleeve.
+fn leave_out_sleeves_in_two(pieces: &[Piece], recognised: &mut Vec<Recognised>, questions: &mut Vec<String>) {
+    let is_whole_sleeve = |one: &&Recognised| one.class == Class::Sleeve && one.face.is_none();
+    let names: Vec<&str> =
+        recognised.iter().filter(is_whole_sleeve).map(|one| pieces[one.piece].name.as_str()).collect();
+    let unders = names.iter().filter(|name| names::is_under_sleeve(name)).count();
+    if unders > 0 && unders < names.len() {
+        let names = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        questions.push(format!(
+            "left out: {names}: a sleeve in two pieces; at which place of the armhole do its seams begin?"
+        ));
+        recognised.retain(|one| !is_whole_sleeve(&one));
+    }
 }
 
 /// A waistband that its name gives to no side and no face.

@@ -201,6 +201,17 @@ fn of_several_pieces_for_one_place_the_one_that_fits_is_taken() {
 }
 
 #[test]
+fn half_of_a_sleeve_in_two_is_not_taken_for_a_sleeve() {
+    let mut pieces = shirt();
+    let named = |name: &str| Piece { name: name.to_owned(), block: name.to_owned(), ..sleeve(0.5) };
+    pieces.splice(3..4, [named("TOPSLEEVE"), named("UNDERSLEEVE")]);
+    let proposal = draped(&pieces, &[]);
+    assert!(proposal.entries.iter().all(|(id, _)| !id.contains("sleeve")), "{:?}", proposal.entries);
+    let said = proposal.questions.join("\n");
+    assert!(said.contains("left out: `TOPSLEEVE`, `UNDERSLEEVE`: a sleeve in two pieces"), "{said}");
+}
+
+#[test]
 fn a_dart_that_is_widest_inside_is_one_dart() {
     // Open to the hem by a slit, 200 mm up to its waist, 150 mm on to its tip.
     let slit =

@@ -172,6 +172,9 @@ const HANDS: [(Hand, &[&str]); 2] = [
     (Hand::Left, &["left", "links", "gauche", "izquierda", "sinistra", "lewy", "левый", "ліва", "l"]),
 ];
 
+/// Parts of words that say the lower piece of a sleeve in two.
+const UNDER: [&str; 8] = ["under", "lower", "unter", "dessous", "inferior", "onder", "spodni", "нижн"];
+
 /// Words after which a name tells only of a detail (`front with pocket`).
 const DETAILS: [&str; 13] =
     ["no", "with", "without", "ohne", "mit", "sans", "avec", "con", "sin", "senza", "met", "zonder", "без"];
@@ -200,6 +203,13 @@ pub fn read(name: &str) -> Named {
     });
     let hand = HANDS.iter().find(|(_, parts)| parts.iter().any(|part| words.contains(part))).map(|(hand, _)| *hand);
     Named { class, face, hand }
+}
+
+/// Whether the name of a sleeve says that it is the piece below the arm of a sleeve in two.
+#[must_use]
+pub fn is_under_sleeve(name: &str) -> bool {
+    let lower = name.to_lowercase();
+    UNDER.iter().any(|part| lower.contains(part))
 }
 
 #[cfg(test)]
@@ -240,5 +250,8 @@ mod tests {
         check("Pattentasche", Some(Other), None, None);
         check("?????", None, None, None);
         check("DETAIL", None, None, None);
+        for (name, expect) in [("UNDERSLEEVE", true), ("Unterärmel", true), ("TOPSLEEVE", false), ("Sleeve", false)] {
+            assert_eq!(is_under_sleeve(name), expect, "{name}");
+        }
     }
 }

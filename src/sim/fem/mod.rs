@@ -36,7 +36,8 @@ const MOST_RISE_M: f64 = 0.25;
 ///
 /// A garment that is much too small is squeezed along the body by its own seams as they close, folds into itself at a
 /// narrower place or comes off over the head. Where a tight one ends with a fault it is therefore sewn once more with
-/// friction from the first seam on. That drape is taken if it has none, or if the first has come off.
+/// friction from the first seam on; any other that does, from pieces that are bent otherwise: a cuff drawn through a wrist, a fold
+/// through a fold are chance. That drape is taken if it has no fault, or if the first has come off.
 ///
 /// # Errors
 /// When the garment cannot be placed, is degenerate, diverges, slides off the body even so or comes off upwards, is
@@ -75,12 +76,18 @@ pub fn simulate(
     let mut drape = ended(dressing.dress(Grip::AtTheEnd, &mut run)?);
     let risen_m = rise_m(&placed, &drape.positions);
     let is_off = risen_m > MOST_RISE_M;
-    let is_tight = Distortion::of(finest, &drape.positions)?.stretch > params.distortion_limit;
-    if is_off || (is_tight && !is_faultless(&drape)) {
-        let stays_on = |held: &Drape| rise_m(&placed, &held.positions) <= MOST_RISE_M;
-        match dressing.dress(Grip::Throughout, &mut run).map(&ended) {
+    if is_off || !is_faultless(&drape) {
+        let is_tight = Distortion::of(finest, &drape.positions)?.stretch > params.distortion_limit;
+        let again = if is_off || is_tight {
+            dressing.dress(Grip::Throughout, &mut run)
+        } else {
+            let elsewhere = preposition::place(body, coarsest, &params.otherwise_bent())?;
+            Dressing { placed: &elsewhere, ..dressing }.dress(Grip::AtTheEnd, &mut run)
+        };
+        let stays_on = |again: &Drape| rise_m(&placed, &again.positions) <= MOST_RISE_M;
+        match again.map(&ended) {
             Err(SimError::Cancelled) => return Err(SimError::Cancelled),
-            Ok(held) if stays_on(&held) && (is_off || is_faultless(&held)) => drape = held,
+            Ok(again) if stays_on(&again) && (is_off || is_faultless(&again)) => drape = again,
             _ if is_off => return Err(SimError::CameOff { garment: finest.name.clone(), rise_m: risen_m }),
             _ => {}
         }

@@ -98,9 +98,30 @@ impl Default for Params {
     }
 }
 
+/// Angle, rad, of pieces that are bent otherwise than by the body: that of [T] for the slim.
+const OTHER_BEND_RAD: f64 = 2.0 * std::f64::consts::PI / 3.0;
+
+impl Params {
+    /// The same with pieces of the trunk bent to the arc of [T] where they would follow the body, and the other way round.
+    #[must_use]
+    pub fn otherwise_bent(&self) -> Self {
+        let follow_body = self.offset_mu.is_none() && self.bend_angle_rad.is_none();
+        Self { offset_mu: None, bend_angle_rad: follow_body.then_some(OTHER_BEND_RAD), ..*self }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn otherwise_is_never_as_before() {
+        let own = Params::default();
+        let bent = own.otherwise_bent();
+        assert_ne!(bent.bend_angle_rad, own.bend_angle_rad);
+        assert_eq!(bent.otherwise_bent().bend_angle_rad, None);
+        assert_eq!(Params { offset_mu: Some(1.0), ..own }.otherwise_bent().offset_mu, None);
+    }
 
     #[test]
     fn levels_halve_and_stay_fine_enough() {
