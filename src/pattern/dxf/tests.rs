@@ -111,9 +111,7 @@ fn what_is_written_is_read_back() {
                 (&read.block, &read.name, &read.size, &read.quantity, &read.texts),
                 (&drawn.block, &drawn.name, &drawn.size, &drawn.quantity, &drawn.texts)
             );
-            let same = |a: &[V2], b: &[V2]| {
-                a.len() == b.len() && a.iter().zip(b).all(|(p, q)| (p - q).norm() < 1e-7)
-            };
+            let same = |a: &[V2], b: &[V2]| a.len() == b.len() && a.iter().zip(b).all(|(p, q)| (p - q).norm() < 1e-7);
             assert!(same(&read.outline, &drawn.outline));
             assert!(same(&read.turn_points, &drawn.turn_points) && same(&read.curve_points, &drawn.curve_points));
             assert_eq!(read.notches.len(), drawn.notches.len());
