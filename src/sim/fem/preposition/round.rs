@@ -2,11 +2,11 @@
 //!
 //! The seam says what they are: the motion in the plane that takes one of its sides onto the other is a turn about the middle
 //! of a circle skirt, or a shift along a tube. The piece is rolled to the cone or the cylinder on which that closes it,
-//! with the seam behind.
+//! with the seam behind; what is wider than fits between the arms to a steeper cone, about which it goes in waves.
 
 use std::f64::consts::TAU;
 
-use super::form::Form;
+use super::form::{Axis, Form};
 use super::sheet::Joins;
 use crate::geom::{V2, V3};
 
@@ -29,14 +29,14 @@ const WAVES: (f64, u32) = (8.0, 32);
 pub fn place(form: &Form, joins: &Joins, piece: usize) -> Vec<V3> {
     let rest = &joins.garment.rest;
     let points: Vec<V2> = joins.garment.pieces[piece].vertices.clone().map(|v| rest[v]).collect();
-    let top = form.body.levels.waist_m;
+    let (top, axis) = (form.body.levels.waist_m, form.trunk_axis());
     let off_body = |rolled: Vec<Rolled>| {
-        let short = rolled.iter().map(|p| body_radius(form, top - p.below) + CLEARANCE_M - p.radius);
+        let short = rolled.iter().map(|p| body_radius(form, &axis, top - p.below) + CLEARANCE_M - p.radius);
         let wider = short.fold(0.0, f64::max);
         rolled.into_iter().map(|p| Rolled { radius: p.radius + wider, ..p }).collect::<Vec<_>>()
     };
     let room = |rolled: &[Rolled]| {
-        rolled.iter().map(|p| arm_radius(form, top - p.below) - p.radius).fold(f64::INFINITY, f64::min)
+        rolled.iter().map(|p| arm_radius(form, &axis, top - p.below) - p.radius).fold(f64::INFINITY, f64::min)
     };
     let rolled = match apex(&joins.between(piece, piece), rest, &points) {
         Some((apex, front)) => {
@@ -49,7 +49,6 @@ pub fn place(form: &Form, joins: &Joins, piece: usize) -> Vec<V3> {
         }
         None => off_body(along(joins.up(piece, V2::y()), &points)),
     };
-    let axis = form.trunk_axis();
     rolled.iter().map(|p| axis.point(p.angle, p.radius, top - p.below)).collect()
 }
 
@@ -135,14 +134,12 @@ fn along(up: V2, points: &[V2]) -> Vec<Rolled> {
 }
 
 /// Greatest distance of the trunk's skin from its axis about a height.
-fn body_radius(form: &Form, height: f64) -> f64 {
-    let axis = form.trunk_axis();
+fn body_radius(form: &Form, axis: &Axis, height: f64) -> f64 {
     form.between(height - BAND_M, height + BAND_M).map(|p| axis.coordinates(p).1).fold(0.0, f64::max)
 }
 
 /// Least distance of the arms' skin from the axis of the trunk about a height.
-fn arm_radius(form: &Form, height: f64) -> f64 {
-    let axis = form.trunk_axis();
+fn arm_radius(form: &Form, axis: &Axis, height: f64) -> f64 {
     let near = form.arms.iter().filter(|p| (p.z - height).abs() < BAND_M);
     near.map(|p| axis.coordinates(p).1).fold(f64::INFINITY, f64::min)
 }
@@ -179,7 +176,7 @@ mod tests {
             // Outwards is outside: counter-clockwise triangles face away from the axis.
             let [a, b, c] = garment.triangles[garment.triangles.len() / 2].map(|v| x[v]);
             assert!((b - a).cross(&(c - a)).dot(&V3::new(a.x, a.y, 0.0)) > 0.0, "inside out");
-            let clears = |p: &V3| form.trunk_axis().coordinates(p).1 < arm_radius(&form, p.z);
+            let clears = |p: &V3| form.trunk_axis().coordinates(p).1 < arm_radius(&form, &form.trunk_axis(), p.z);
             assert!(!is_within_arms || x.iter().all(clears), "about the arms");
             // The hem lies lower than the waist.
             assert!(x[0].z < x[rows * (columns + 1)].z, "upside down");
