@@ -36,7 +36,7 @@ const MOST_RISE_M: f64 = 0.25;
 ///
 /// A garment that is much too small is squeezed along the body by its own seams as they close, folds into itself at a
 /// narrower place or comes off over the head. Where a tight one ends with a fault it is therefore sewn once more with
-/// friction from the first seam on; any other that does, from pieces that are bent otherwise: a cuff drawn through a wrist, a fold
+/// friction from the first seam on; any other that does, from pieces that are bent otherwise, unless how was asked for: a cuff drawn through a wrist, a fold
 /// through a fold are chance. That drape is taken if it has no fault, or if the first has come off.
 ///
 /// # Errors
@@ -78,16 +78,19 @@ pub fn simulate(
     let is_off = risen_m > MOST_RISE_M;
     if is_off || !is_faultless(&drape) {
         let is_tight = Distortion::of(finest, &drape.positions)?.stretch > params.distortion_limit;
-        let again = if is_off || is_tight {
-            dressing.dress(Grip::Throughout, &mut run)
-        } else {
-            let elsewhere = preposition::place(body, coarsest, &params.otherwise_bent())?;
-            Dressing { placed: &elsewhere, ..dressing }.dress(Grip::AtTheEnd, &mut run)
+        let again = match params.otherwise_bent() {
+            _ if is_off || is_tight => Some(dressing.dress(Grip::Throughout, &mut run)),
+            Some(other) => {
+                let mut elsewhere = preposition::place(body, coarsest, &other)?;
+                let force = start::perturb(params.seed, &mut elsewhere);
+                Some(Dressing { placed: &elsewhere, force, ..dressing }.dress(Grip::AtTheEnd, &mut run))
+            }
+            None => None,
         };
         let stays_on = |again: &Drape| rise_m(&placed, &again.positions) <= MOST_RISE_M;
-        match again.map(&ended) {
-            Err(SimError::Cancelled) => return Err(SimError::Cancelled),
-            Ok(again) if stays_on(&again) && (is_off || is_faultless(&again)) => drape = again,
+        match again.map(|settled| settled.map(&ended)) {
+            Some(Err(SimError::Cancelled)) => return Err(SimError::Cancelled),
+            Some(Ok(again)) if stays_on(&again) && (is_off || is_faultless(&again)) => drape = again,
             _ if is_off => return Err(SimError::CameOff { garment: finest.name.clone(), rise_m: risen_m }),
             _ => {}
         }

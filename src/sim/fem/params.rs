@@ -102,11 +102,11 @@ impl Default for Params {
 const OTHER_BEND_RAD: f64 = 2.0 * std::f64::consts::PI / 3.0;
 
 impl Params {
-    /// The same with pieces of the trunk bent to the arc of [T] where they would follow the body, and the other way round.
+    /// The same with pieces of the trunk bent to the arc of [T]; `None` where an offset or an angle was asked for.
     #[must_use]
-    pub fn otherwise_bent(&self) -> Self {
+    pub fn otherwise_bent(&self) -> Option<Self> {
         let follow_body = self.offset_mu.is_none() && self.bend_angle_rad.is_none();
-        Self { offset_mu: None, bend_angle_rad: follow_body.then_some(OTHER_BEND_RAD), ..*self }
+        follow_body.then_some(Self { bend_angle_rad: Some(OTHER_BEND_RAD), ..*self })
     }
 }
 
@@ -115,12 +115,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn otherwise_is_never_as_before() {
+    fn what_was_asked_for_is_not_bent_otherwise() {
         let own = Params::default();
-        let bent = own.otherwise_bent();
-        assert_ne!(bent.bend_angle_rad, own.bend_angle_rad);
-        assert_eq!(bent.otherwise_bent().bend_angle_rad, None);
-        assert_eq!(Params { offset_mu: Some(1.0), ..own }.otherwise_bent().offset_mu, None);
+        let bent = own.otherwise_bent().expect("nothing was asked for");
+        assert!(bent.bend_angle_rad.is_some() && bent.otherwise_bent().is_none());
+        assert!(Params { offset_mu: Some(1.0), ..own }.otherwise_bent().is_none());
     }
 
     #[test]
