@@ -37,18 +37,18 @@ const OPENINGS: u32 = 4;
 const BARINGS: u32 = 4;
 
 /// A hand on its own.
-struct Hand {
+pub struct Hand {
     /// Its end, m.
-    tip: V3,
+    pub tip: V3,
     /// Vertices of the body's mesh, in order.
-    skin: Vec<usize>,
+    pub skin: Vec<usize>,
     /// Supports of the solid, folded and open, m.
     supports: [Vec<f64>; 2],
 }
 
 impl Hand {
     /// The hand beyond the wrist on a side (1 right, -1 left); `None` where no skin is a hand's.
-    fn of(body: &Body, side: f64) -> Option<Self> {
+    pub fn of(body: &Body, side: f64) -> Option<Self> {
         let joints =
             if side > 0.0 { [Joint::ElbowRight, Joint::WristRight] } else { [Joint::ElbowLeft, Joint::WristLeft] };
         let [elbow, wrist] = joints.map(|joint| body.skeleton.at(joint));
@@ -107,16 +107,6 @@ impl Hand {
         };
         field.nodes_within(low, high).filter_map(node).collect()
     }
-}
-
-/// The end of the hand on a side (1 right, -1 left), m; `None` where no skin is a hand's.
-pub fn tip(body: &Body, side: f64) -> Option<V3> {
-    Hand::of(body, side).map(|hand| hand.tip)
-}
-
-/// Vertices of the hand on a side (1 right, -1 left), in order; none where no skin is a hand's.
-pub fn skin(body: &Body, side: f64) -> Vec<usize> {
-    Hand::of(body, side).map(|hand| hand.skin).unwrap_or_default()
 }
 
 /// Directions all around, in mirrored pairs: from the middle of a cube to a grid on its faces.

@@ -54,8 +54,7 @@ pub fn simulate(
         return Err(SimError::NoMesh);
     };
     let mut run = Run::new(params, monitor, garments.len() - 1);
-    let mut placed = preposition::place(body, coarsest, params)?;
-    let force = start::perturb(params.seed, &mut placed);
+    let (placed, force) = placed_at_start(body, coarsest, params)?;
     let hands = Hands::near(body, field, &placed);
     let skin = Skin::new(&body.mesh).ok();
     let (hands, skin) = (hands.as_ref(), skin.as_ref());
@@ -78,14 +77,15 @@ pub fn simulate(
     let is_off = risen_m > MOST_RISE_M;
     if is_off || !is_faultless(&drape) {
         let is_tight = Distortion::of(finest, &drape.positions)?.stretch > params.distortion_limit;
-        let again = match params.otherwise_bent() {
-            _ if is_off || is_tight => Some(dressing.dress(Grip::Throughout, &mut run)),
-            Some(other) => {
-                let mut elsewhere = preposition::place(body, coarsest, &other)?;
-                let force = start::perturb(params.seed, &mut elsewhere);
-                Some(Dressing { placed: &elsewhere, force, ..dressing }.dress(Grip::AtTheEnd, &mut run))
-            }
-            None => None,
+        let again = if is_off || is_tight {
+            Some(dressing.dress(Grip::Throughout, &mut run))
+        } else {
+            let place = |bent: Params| placed_at_start(body, coarsest, &bent);
+            let elsewhere = params.otherwise_bent().map(place).transpose()?;
+            // Trousers and what goes round alone are not bent: from the same start comes the same drape.
+            let elsewhere = elsewhere.filter(|(elsewhere, _)| *elsewhere != placed);
+            elsewhere
+                .map(|(placed, force)| Dressing { placed: &placed, force, ..dressing }.dress(Grip::AtTheEnd, &mut run))
         };
         let stays_on = |again: &Drape| rise_m(&placed, &again.positions) <= MOST_RISE_M;
         match again.map(|settled| settled.map(&ended)) {
@@ -96,6 +96,13 @@ pub fn simulate(
         }
     }
     Ok(Drape { iterations: run.iterations(), history: run.into_history(), ..drape })
+}
+
+/// Where a garment starts, as perturbed, m, and the factor on its sewing force.
+fn placed_at_start(body: &Body, garment: &Garment, params: &Params) -> Result<(Vec<V3>, f64), SimError> {
+    let mut placed = preposition::place(body, garment, params)?;
+    let force = start::perturb(params.seed, &mut placed);
+    Ok((placed, force))
 }
 
 /// Whether a drape is what was asked for: at rest, outside the body, and not through itself.

@@ -7,7 +7,6 @@ use super::sheet::{Joins, Part, Sheet};
 use super::trunk::{BACKS, FRONTS};
 use crate::geom::{V2, V3};
 use crate::pattern::Role;
-use crate::sim::fem::hands;
 
 /// Least clearance of a sleeve from the arm before sewing, m.
 const SLEEVE_CLEARANCE_M: f64 = 0.012;
@@ -104,7 +103,7 @@ struct Station {
 fn course(form: &Form, axis: &Axis, hand: Hand, width: impl Fn(f64) -> f64, radius: f64) -> Vec<Station> {
     let [_, elbow, wrist] = arm_bones(form.body, hand);
     let mut course = vec![Station { height: axis.coordinates(&elbow).2, beside: V3::zeros(), radius }];
-    for joint in [Some(wrist), hands::tip(form.body, hand)].into_iter().flatten() {
+    for joint in [Some(wrist), form.tip(hand)].into_iter().flatten() {
         let height = axis.coordinates(&joint).2;
         let above = course[course.len() - 1];
         if height < above.height - BENT_BACK_M {

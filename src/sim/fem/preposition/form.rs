@@ -1,7 +1,5 @@
 //! What preposition needs to know of the body: its trunk and legs without the arms, and cylinders about its limbs.
 
-use std::collections::BTreeSet;
-
 use crate::body::{Body, Joint};
 use crate::geom::{V2, V3};
 use crate::sim::fem::hands;
@@ -54,16 +52,25 @@ pub struct Form<'a> {
     pub trunk: Vec<V3>,
     /// Skin of the arms.
     pub arms: Vec<V3>,
+    /// Ends of the right and the left hand, m, where they are told from the rest.
+    tips: [Option<V3>; 2],
 }
 
 impl<'a> Form<'a> {
     /// Tells the arms from the rest.
     pub fn of(body: &'a Body) -> Self {
-        let hands: BTreeSet<usize> = [1.0, -1.0].into_iter().flat_map(|side| hands::skin(body, side)).collect();
+        let hands = [1.0, -1.0].map(|side| hands::Hand::of(body, side));
+        let is_hand = |v: &usize| hands.iter().flatten().any(|hand| hand.skin.binary_search(v).is_ok());
         let points = body.mesh.positions.iter().enumerate();
-        let (arms, trunk): (Vec<_>, Vec<_>) = points.partition(|(v, p)| hands.contains(v) || is_arm(body, p));
+        let (arms, trunk): (Vec<_>, Vec<_>) = points.partition(|(v, p)| is_hand(v) || is_arm(body, p));
         let places = |points: Vec<(usize, &V3)>| points.into_iter().map(|(_, p)| *p).collect();
-        Self { body, trunk: places(trunk), arms: places(arms) }
+        let tips = hands.map(|hand| hand.map(|hand| hand.tip));
+        Self { body, trunk: places(trunk), arms: places(arms), tips }
+    }
+
+    /// The end of a hand, m; `None` where no skin is a hand's.
+    pub fn tip(&self, hand: Hand) -> Option<V3> {
+        self.tips[usize::from(hand < 0.0)]
     }
 
     /// Least and greatest `y` of the trunk at a height.
