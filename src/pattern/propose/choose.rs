@@ -19,7 +19,7 @@ const HALF: std::ops::RangeInclusive<f64> = 0.42..=0.68;
 pub fn choose(pieces: &[Piece], mut recognised: Vec<Recognised>, questions: &mut Vec<String>) -> Vec<Recognised> {
     leave_out_sleeves_in_two(pieces, &mut recognised, questions);
     let mut places: BTreeMap<String, Vec<usize>> = BTreeMap::new();
-    for (index, one) in recognised.iter().enumerate().filter(|(_, one)| !is_round_band(one)) {
+    for (index, one) in recognised.iter().enumerate().filter(|(_, one)| !is_round_band(one) && one.gore.is_none()) {
         places.entry(id_of(one, one.hand)).or_default().push(index);
     }
     let contested: Vec<&Vec<usize>> = places.values().filter(|rivals| rivals.len() > 1).collect();
@@ -113,7 +113,11 @@ fn go_round(chosen: &mut Vec<Recognised>) {
 /// Length of all edges that a waistband is sewn to, as worn, m: of skirt or legs, or else of the lower edge of a trunk.
 fn waist_m(chosen: &[Recognised]) -> f64 {
     let of = |class: Class, label: Label| -> f64 {
-        let copies = |one: &Recognised| if one.alignment.template.is_whole || one.hand.is_some() { 1.0 } else { 2.0 };
+        let copies = |one: &Recognised| match one.gore {
+            Some(cut) => f64::from(cut.times()),
+            None if one.alignment.template.is_whole || one.hand.is_some() => 1.0,
+            None => 2.0,
+        };
         // A yoke stands for what it lies on.
         let has_yoke = |face: Option<Face>| {
             let is_low = |one: &Recognised| one.class == Class::Yoke && one.alignment.template.has(Label::Waist);

@@ -228,3 +228,38 @@ fn a_dart_that_is_widest_inside_is_one_dart() {
     assert_eq!((0..shape.len()).filter(|&corner| shape.is_in_dart(corner)).collect::<Vec<_>>(), [2, 3, 4, 5, 6]);
     assert!((shape.sewn_length(0, 8) - 0.258).abs() < 1e-9, "the hem is measured without it");
 }
+
+#[test]
+fn gores_are_sewn_all_round_and_to_their_band() {
+    let gore = |name: &str, quantity: &str| Piece {
+        quantity: Some(quantity.to_owned()),
+        ..piece(name, &[(0.0, 0.0, 1), (240.0, 0.0, 1), (170.0, 600.0, 1), (70.0, 600.0, 1)])
+    };
+    // One edge for each gore, as GarmentCode has it.
+    let half_band = |name: &str| {
+        let lower: Vec<(f64, f64, u8)> = (0..=4).map(|k| (100.0 * f64::from(k), 0.0, 1)).collect();
+        piece(name, &[&lower[..], &[(400.0, 40.0, 1), (0.0, 40.0, 1)]].concat())
+    };
+    let check = |pieces: &[Piece], gores: usize, others: &[&str]| {
+        let proposal = propose(pieces);
+        let sides = (1..=gores).map(|k| format!("skirt_side_{k}"));
+        let mut expected: Vec<String> = sides.chain(others.iter().map(|name| (*name).to_owned())).collect();
+        let mut names: Vec<String> = proposal.seams.iter().map(|seam| seam.entry.name.clone()).collect();
+        expected.sort_unstable();
+        names.sort_unstable();
+        assert_eq!(names, expected, "{:?}", proposal.questions);
+        assert!(proposal.seams.iter().all(|seam| seam.confidence > 0.6), "{:?}", proposal.seams);
+        let text = proposal.to_drape().expect("it is sure").toml("gores");
+        let style =
+            Style::read(pieces, text.as_bytes(), "gores.toml").unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let garment = style.mesh(0.03).expect("a mesh");
+        // A closed tube: every gore is sewn to two others.
+        let open = garment.pieces.iter().filter(|piece| piece.id.starts_with("skirt")).count();
+        assert_eq!(open, gores);
+    };
+    check(&[gore("GORE", "8"), strip("WAISTBAND", 800.0, 40.0)], 8, &["waist"]);
+    check(&[gore("SKIRT GORE", "3,3")], 6, &[]);
+    let numbered: Vec<Piece> = (0..8).map(|k| gore(&format!("panel_{k}"), "1")).collect();
+    let banded = [numbered, vec![half_band("wb_front"), half_band("wb_back")]].concat();
+    check(&banded, 8, &["waist_back_1", "waist_front_1", "waistband_left", "waistband_right"]);
+}

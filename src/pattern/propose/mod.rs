@@ -8,6 +8,7 @@ mod align;
 mod choose;
 #[cfg(test)]
 mod garment_tests;
+mod gore;
 mod names;
 mod notched;
 mod pose;

@@ -205,6 +205,16 @@ pub fn read(name: &str) -> Named {
     Named { class, face, hand }
 }
 
+/// Parts of words that name a gore of a skirt, or may.
+const GORES: [&str; 6] = ["gore", "panel", "paneel", "bahn", "nesga", "клин"];
+
+/// Whether a name may be that of a gore: one part of a skirt among several alike.
+#[must_use]
+pub fn is_gore(name: &str) -> bool {
+    let lower = name.to_lowercase();
+    GORES.iter().any(|part| lower.contains(part))
+}
+
 /// Whether the name of a sleeve says that it is the piece below the arm of a sleeve in two.
 #[must_use]
 pub fn is_under_sleeve(name: &str) -> bool {

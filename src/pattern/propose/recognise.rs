@@ -1,6 +1,7 @@
 //! What each piece is: from its name first, then from its outline, then from the other pieces.
 
 use super::align::{Alignment, TURNED, align};
+use super::gore::{self, Cut};
 use super::names;
 use super::shape::Shape;
 use super::templates::{TEMPLATES, Template};
@@ -47,6 +48,8 @@ pub struct Recognised {
     rival: Option<Alignment>,
     /// Whether it is cut twice, for both sides of the wearer, though nothing in its outline says so: half a waistband.
     pub is_pair: bool,
+    /// How it is cut as a gore of a skirt; `None` of what is none.
+    pub gore: Option<Cut>,
 }
 
 /// What the other pieces of a file say of a piece.
@@ -66,12 +69,13 @@ pub fn recognise(pieces: &[Piece], questions: &mut Vec<String>) -> Vec<Recognise
     let is_called = |piece: &Piece, class: Class| names::read(&piece.name).class == Some(class);
     let [has_sleeve, has_yoke] =
         [Class::Sleeve, Class::Yoke].map(|class| pieces.iter().any(|piece| is_called(piece, class)));
+    let gores = gore::gores(pieces);
     for are_yokes in [false, true] {
         let has_trunk = found.iter().any(|one| one.class == Class::Body);
         let around = Around { has_sleeve, has_yoke, has_trunk };
         for (index, piece) in pieces.iter().enumerate() {
             if is_called(piece, Class::Yoke) == are_yokes && !is_called(piece, Class::Other) {
-                match recognise_one(index, piece, around, questions) {
+                match recognise_one(index, piece, around, gores[index], questions) {
                     Ok(recognised) => found.push(recognised),
                     Err(question) => questions.push(question),
                 }
@@ -86,8 +90,8 @@ pub fn recognise(pieces: &[Piece], questions: &mut Vec<String>) -> Vec<Recognise
     tell_yoke_faces(&mut found);
     let skirts = found.iter().filter(|one| one.class == Class::Skirt).count();
     for one in &found {
-        // A single piece may go all round.
-        if one.class == Class::Skirt && skirts == 1 {
+        // A single piece may go all round, as gores do.
+        if one.class == Class::Skirt && (skirts == 1 || one.gore.is_some()) {
             continue;
         }
         let needs_face = matches!(one.class, Class::Body | Class::Leg | Class::Skirt);
@@ -102,12 +106,14 @@ fn recognise_one(
     index: usize,
     piece: &Piece,
     around: Around,
+    gore: Option<Cut>,
     questions: &mut Vec<String>,
 ) -> Result<Recognised, String> {
     let named = names::read(&piece.name);
     let ask = |what: &str| format!("piece `{}`: {what}; it is in no proposed seam", piece.name);
     let shape = Shape::of(piece).ok_or_else(|| ask("its corners cannot be told"))?;
     let is_candidate = |class: Class| match (named.class, named.face) {
+        _ if gore.is_some() => class == Class::Skirt,
         (Some(named), _) => class == named,
         (None, _) if around.has_sleeve && class == Class::Leg => false,
         (None, _) if around.has_sleeve && around.has_yoke && class == Class::Skirt => false,
@@ -121,6 +127,7 @@ fn recognise_one(
         let of_class = |template: &&Template| {
             let fits = match class {
                 Class::Sleeve => template.is_whole != is_half_sleeve,
+                Class::Skirt if gore.is_some() => template.is_whole,
                 Class::Yoke => template.has_shoulder() == around.has_trunk,
                 Class::Body => template.has_shoulder() || around.has_yoke,
                 _ => true,
@@ -131,7 +138,7 @@ fn recognise_one(
         let cost = |quarter_turns| if quarter_turns == 0 { 0.0 } else { TURNED };
         align(&shape, TEMPLATES.iter().filter(of_class), cost)
     };
-    if let Some(ring) = ring::read(&shape).filter(|_| named.class == Some(Class::Skirt)) {
+    if let Some(ring) = ring::read(&shape).filter(|_| named.class == Some(Class::Skirt) || gore.is_some()) {
         return Ok(Recognised {
             piece: index,
             class: Class::Skirt,
@@ -142,6 +149,7 @@ fn recognise_one(
             confidence: ring::CONFIDENCE,
             rival: None,
             is_pair: false,
+            gore,
         });
     }
     let mut readings: Vec<Alignment> =
@@ -150,7 +158,7 @@ fn recognise_one(
     let mut readings = readings.into_iter();
     let alignment = readings.next().ok_or_else(|| ask("it has too few corners for what it is called"))?;
     let rival = readings.next().filter(|rival| rival.score >= LEAST_NAMED_FIT);
-    let is_named = named.class.is_some() || named.face.is_some();
+    let is_named = named.class.is_some() || named.face.is_some() || gore.is_some();
     let least = if is_named { LEAST_NAMED_FIT } else { LEAST_UNNAMED_FIT };
     if alignment.score < least {
         return Err(ask("neither its name nor its outline tells what it is"));
@@ -184,6 +192,7 @@ fn recognise_one(
         confidence,
         rival,
         is_pair: false,
+        gore,
     })
 }
 

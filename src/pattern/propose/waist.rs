@@ -28,9 +28,13 @@ impl<'w> Tailor<'w, '_> {
 
     /// Lower edge of what is above to the upper edge of what is below, of one face: bodice, waistband, yoke, skirt or legs.
     pub fn waist(&mut self, face: Face) {
+        let level = |class: Class| match self.row(class, face) {
+            row if row.is_empty() && class == Class::Skirt => self.gores(face),
+            row => row,
+        };
         let levels: Vec<Vec<&Worn>> = [Class::Body, Class::Waistband, Class::Yoke, Class::Skirt, Class::Leg]
             .into_iter()
-            .map(|class| self.row(class, face))
+            .map(level)
             .filter(|row| row.iter().any(|one| one.class != Class::Yoke || one.has(Label::Waist)))
             .collect();
         let has_band_round = !self.bands_round().is_empty();
@@ -46,16 +50,28 @@ impl<'w> Tailor<'w, '_> {
         }
     }
 
-    /// A skirt of one piece, sewn to itself.
+    /// A skirt of one piece, sewn to itself, or gores to each other.
     pub fn ring(&mut self) {
-        if let Some(skirt) = self.skirt_round() {
-            let (a, b) = ends(skirt, skirt, Label::Side);
-            self.add("skirt_side".to_owned(), a, b, &[skirt], PLAIN_DOUBT);
+        let skirt = self.skirt_round();
+        for (k, &one) in skirt.iter().enumerate() {
+            let next = skirt[(k + 1) % skirt.len()];
+            let (a, b) = ends(one, next, Label::Side);
+            let name = if one.is_gore { format!("skirt_side_{}", k + 1) } else { "skirt_side".to_owned() };
+            self.add(name, a, b, &[one, next], PLAIN_DOUBT);
         }
     }
 
-    fn skirt_round(&self) -> Option<&'w Worn> {
-        self.worn.iter().find(|one| one.class == Class::Skirt && one.face.is_none() && one.hand.is_none())
+    /// Gores, as they follow one another to the right seen from outside, or a skirt of one piece.
+    fn skirt_round(&self) -> Vec<&'w Worn> {
+        let is_round = |one: &&Worn| one.class == Class::Skirt && one.face.is_none() && one.hand.is_none();
+        self.worn.iter().filter(is_round).collect()
+    }
+
+    /// Gores below the front or the back of a band in halves.
+    fn gores(&self, face: Face) -> Vec<&'w Worn> {
+        let gores: Vec<&Worn> = self.skirt_round().into_iter().filter(|one| one.is_gore).collect();
+        let [front, back] = [&gores[..gores.len().div_ceil(2)], &gores[gores.len().div_ceil(2)..]];
+        if face == Face::Front { front.to_vec() } else { back.to_vec() }
     }
 
     /// Waistbands that belong to no face: one all round, or one for each side.
@@ -72,7 +88,7 @@ impl<'w> Tailor<'w, '_> {
             self.questions.push(format!("where does `{}` open, and at which seam does it begin?", band.id));
             self.band(band, None);
             // On a skirt of one piece the waist is closed by the skirt; the band may well lap over there.
-            if self.skirt_round().is_none() {
+            if self.skirt_round().is_empty() {
                 let (a, b) = ends(band, band, Label::End);
                 self.add("waistband".to_owned(), a, b, &[band], PLAIN_DOUBT);
             }
@@ -115,7 +131,7 @@ impl<'w> Tailor<'w, '_> {
         };
         let [fronts, backs] = Face::BOTH.map(of_face);
         if class == Class::Skirt && fronts.is_empty() && backs.is_empty() {
-            return self.skirt_round().into_iter().collect();
+            return self.skirt_round();
         }
         let is_of = |one: &&Worn, hand: Hand| one.hand == Some(hand);
         match hand {

@@ -101,6 +101,8 @@ impl Proposal {
         }
         let has = |class: Class| self.worn().any(|piece| piece.class == Some(class));
         let is_sewn = |name: &str| self.seams.iter().any(|seam| seam.entry.name == name);
+        let skirts_round =
+            self.worn().filter(|piece| piece.class == Some(Class::Skirt) && piece.face.is_none()).count();
         let has_shoulder =
             self.entries.iter().any(|(_, entry)| entry.edges.keys().any(|edge| edge.starts_with("shoulder")));
         let mut need = |name: String| {
@@ -119,9 +121,12 @@ impl Proposal {
                 need(format!("inseam_{hand}"));
                 need(format!("outseam_{hand}"));
             }
-            if has(Class::Skirt) && !is_sewn("skirt_side") {
+            if has(Class::Skirt) && skirts_round == 0 {
                 need(format!("skirt_side_{hand}"));
             }
+        }
+        for k in 1..=skirts_round {
+            need(if skirts_round > 1 { format!("skirt_side_{k}") } else { "skirt_side".to_owned() });
         }
         for face in Face::BOTH {
             let of = |class: Class| {

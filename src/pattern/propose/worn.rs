@@ -2,11 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use super::gore::Cut;
 use super::recognise::Recognised;
 use super::shape::Dart;
 use super::{Class, Face, Hand, Label, pose, role_of};
 use crate::geom::V2;
 use crate::geom::polyline::Polyline;
+use crate::pattern::Role;
 use crate::pattern::piece::Piece;
 use crate::pattern::seams::PieceEntry;
 
@@ -41,6 +43,8 @@ pub struct Worn {
     pub hand: Option<Hand>,
     /// Whether the whole width is drawn.
     pub is_whole: bool,
+    /// Whether it is a gore.
+    pub is_gore: bool,
     /// Edges, counter-clockwise as worn.
     pub edges: Vec<WornEdge>,
     /// Names of the two legs of every dart.
@@ -70,6 +74,13 @@ pub fn worn(
     let skirts = recognised.iter().filter(|one| one.class == Class::Skirt).count();
     let mut all: Vec<Worn> = Vec::new();
     for one in recognised {
+        for is_mirror in one.gore.into_iter().flat_map(Cut::copies) {
+            let id = format!("{}_{}", id_of(one, None), all.iter().filter(|worn| worn.is_gore).count() + 1);
+            all.push(wear(pieces, one, id, None, is_mirror, Role::Other));
+        }
+        if one.gore.is_some() {
+            continue;
+        }
         let needs_face =
             matches!(one.class, Class::Body | Class::Leg | Class::Yoke) || (one.class == Class::Skirt && skirts > 1);
         if needs_face && one.face.is_none() {
@@ -159,14 +170,7 @@ fn reference(pieces: &[Piece], index: usize) -> String {
     }
 }
 
-fn wear(
-    pieces: &[Piece],
-    one: &Recognised,
-    id: String,
-    hand: Option<Hand>,
-    is_mirror: bool,
-    role: crate::pattern::Role,
-) -> Worn {
+fn wear(pieces: &[Piece], one: &Recognised, id: String, hand: Option<Hand>, is_mirror: bool, role: Role) -> Worn {
     let (shape, n) = (&one.shape, one.shape.len());
     let mut names: BTreeMap<String, usize> = BTreeMap::new();
     let mut unique = |base: String| {
@@ -217,6 +221,7 @@ fn wear(
         face: one.face,
         hand,
         is_whole: one.alignment.template.is_whole,
+        is_gore: one.gore.is_some(),
         darts: shape.darts().iter().filter_map(dart).collect(),
         entry: PieceEntry { block: reference(pieces, one.piece), role, mirror: is_mirror, edges: corners },
         edges,

@@ -1,17 +1,20 @@
 //! Automatic preposition (4.2): every piece before, behind or about the limb it is worn on.
 //!
 //! Pieces of one side of the trunk or of a leg are laid out flat as they are sewn ([`sheet`]), then bent as one; sleeves
-//! go about the arms; a skirt of one piece goes round the trunk ([`round`]); a piece of no such role follows what it is sewn
-//! to ([`follow`]).
+//! go about the arms; circle skirts, gores and what is sewn to itself go round the trunk ([`ring`], [`round`]); a piece of no
+//! such role follows what it is sewn to ([`follow`]).
 
 mod arm;
 mod ellipse;
 mod follow;
 mod form;
 mod leg;
+mod ring;
 mod round;
 mod sheet;
 mod trunk;
+
+use std::f64::consts::TAU;
 
 use crate::body::Body;
 use crate::geom::{V2, V3};
@@ -22,8 +25,14 @@ use super::params::Params;
 use arm::Sleeve;
 use form::{Axis, Form};
 use leg::Leg;
+use ring::{Flat, Ring};
 use sheet::{Joins, Part, Sheet};
 use trunk::Bent;
+
+/// Turn of a ring from which on it goes round as one, rad: as two sheets it comes to rest as a tent, not in folds.
+const WIDE_RAD: f64 = 0.35 * TAU;
+/// Longest inner edge of a wide ring that hangs from the neck, as a cape does, m.
+const NECK_M: f64 = 0.55;
 
 /// World positions of all garment vertices before sewing, m.
 ///
@@ -36,10 +45,11 @@ pub fn place(body: &Body, garment: &Garment, params: &Params) -> Result<Vec<V3>,
         positions: vec![V3::zeros(); garment.rest.len()],
         limb: vec![None; garment.pieces.len()],
     };
-    placing.trunk(params);
+    let wide = placing.wide_rings();
+    placing.trunk(&wide, params);
     placing.legs();
     placing.arms();
-    placing.round();
+    placing.rings(wide);
     placing.followers()?;
     Ok(placing.positions)
 }
@@ -53,6 +63,12 @@ struct Placing<'a> {
     limb: Vec<Option<Axis>>,
 }
 
+/// Pieces that go round the trunk, laid out flat.
+struct Round {
+    pieces: Vec<usize>,
+    flat: Flat,
+}
+
 impl Placing<'_> {
     fn put(&mut self, sheet: &Sheet, limb: Axis, at: impl Fn(V2) -> V3) {
         for (v, p) in sheet.points(self.joins.garment) {
@@ -63,8 +79,26 @@ impl Placing<'_> {
         }
     }
 
-    fn trunk(&mut self, params: &Params) {
-        let sheets = trunk_sheets(&self.joins);
+    /// Rings of fronts and backs that would lie badly as two sheets.
+    fn wide_rings(&self) -> Vec<Round> {
+        let joins = &self.joins;
+        let skirts = Ring::of_several(joins, &joins.worn_as(&[Role::SkirtFront, Role::SkirtBack]));
+        let others = Ring::of_several(joins, &joins.worn_as(&[Role::Front, Role::Back]));
+        let round =
+            |ring: Ring| Round { pieces: ring.pieces(), flat: ring.flat(joins, &joins.worn_as(&trunk::FRONTS)) };
+        let skirts =
+            skirts.into_iter().map(round).filter(|ring| ring.pieces.len() > 2 || ring.flat.turn_rad() > WIDE_RAD);
+        let sides = [trunk::FRONTS, trunk::BACKS].map(|roles| joins.worn_as(&roles));
+        let is_of_one_side =
+            |ring: &Round| sides.iter().any(|side| ring.pieces.iter().all(|piece| side.contains(piece)));
+        // What is narrower at its upper edge hangs from the neck.
+        let is_skirt =
+            |ring: &Round| (ring.flat.turn_rad() > WIDE_RAD || is_of_one_side(ring)) && ring.flat.inner_m() > NECK_M;
+        skirts.chain(others.into_iter().map(round).filter(is_skirt)).collect()
+    }
+
+    fn trunk(&mut self, wide: &[Round], params: &Params) {
+        let sheets = trunk_sheets(&self.joins, &wide.iter().flat_map(|ring| ring.pieces.clone()).collect::<Vec<_>>());
         for (k, side) in [1.0, -1.0].into_iter().enumerate() {
             if sheets[k].parts.is_empty() {
                 continue;
@@ -105,16 +139,31 @@ impl Placing<'_> {
         }
     }
 
-    /// Where no piece has a place by its role, the largest that is sewn to itself goes round the trunk.
-    fn round(&mut self) {
+    /// Wide rings go round the trunk below what they are sewn to; where no piece has a place by its role, the largest of all
+    /// rings does.
+    fn rings(&mut self, wide: Vec<Round>) {
+        wide.iter().for_each(|ring| self.roll(ring));
         if self.limb.iter().any(Option::is_some) {
             return;
         }
-        let pieces = &self.joins.garment.pieces;
-        let closed = (0..pieces.len()).rev().filter(|&p| !self.joins.between(p, p).is_empty());
-        if let Some(piece) = closed.max_by_key(|&p| pieces[p].vertices.len()) {
-            let places = round::place(&self.form, &self.joins, piece);
-            self.positions[pieces[piece].vertices.clone()].copy_from_slice(&places);
+        let (joins, others) = (&self.joins, self.joins.worn_as(&[Role::Other]));
+        let size = |ring: &Ring| ring.pieces().iter().map(|&p| joins.garment.pieces[p].vertices.len()).sum::<usize>();
+        let rings = Ring::of_several(joins, &others).into_iter().chain(Ring::of_one(joins, &others));
+        if let Some(ring) = rings.max_by_key(size) {
+            self.roll(&Round { pieces: ring.pieces(), flat: ring.flat(joins, &[]) });
+        }
+    }
+
+    fn roll(&mut self, ring: &Round) {
+        let placed: Vec<usize> = (0..self.limb.len()).filter(|&p| self.limb[p].is_some()).collect();
+        let partners = ring.pieces.iter().flat_map(|&p| self.joins.to_any(p, &placed));
+        let heights: Vec<f64> = partners.map(|[_, v]| self.positions[v].z).collect();
+        let mean = heights.iter().sum::<f64>() / heights.len() as f64;
+        let top = if heights.is_empty() { self.form.body.levels.waist_m } else { mean };
+        for (v, place) in round::place(&self.form, &ring.flat, top) {
+            self.positions[v] = place;
+        }
+        for &piece in &ring.pieces {
             self.limb[piece] = Some(self.form.trunk_axis());
         }
     }
@@ -129,8 +178,8 @@ impl Placing<'_> {
             let longest = seams.max_by_key(|(_, pairs)| pairs.len()).filter(|(_, pairs)| !pairs.is_empty());
             let Some((piece, pairs)) = longest else {
                 let piece = &joins.garment.pieces[open];
-                let accepted = "pieces of the trunk and the legs by role, sleeves that are sewn to an armhole, one piece sewn to itself round \
-                    the trunk, any other piece that is sewn to one of these; this one is sewn to none";
+                let accepted = "pieces of the trunk and the legs by role, sleeves that are sewn to an armhole, pieces that go round the \
+                    trunk one after the other, any other piece that is sewn to one of these; this one is sewn to none";
                 return Err(SimError::CannotPlace { piece: piece.id.clone(), role: piece.role, accepted });
             };
             let mut axes = placed.iter().filter(|&&p| !joins.between(piece, p).is_empty()).filter_map(|&p| limb[p]);
@@ -146,9 +195,12 @@ impl Placing<'_> {
     }
 }
 
-/// Front and back of the trunk, each laid out as one sheet.
-fn trunk_sheets(joins: &Joins) -> [Sheet; 2] {
-    let [in_front, behind] = [&trunk::FRONTS, &trunk::BACKS].map(|roles| joins.worn_as(roles));
+/// Front and back of the trunk but for some pieces, each laid out as one sheet.
+fn trunk_sheets(joins: &Joins, without: &[usize]) -> [Sheet; 2] {
+    let [in_front, behind] = [&trunk::FRONTS, &trunk::BACKS].map(|roles| {
+        let pieces = joins.worn_as(roles).into_iter();
+        pieces.filter(|piece| !without.contains(piece)).collect::<Vec<_>>()
+    });
     let lay = |own: &[usize], other: &[usize]| {
         // A band between two pieces of this side lies with them.
         let bands = joins.worn_as(&[Role::Waistband, Role::Other]).into_iter();

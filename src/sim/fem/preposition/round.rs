@@ -1,35 +1,30 @@
-//! Pieces that go round the trunk alone, sewn to themselves: circle skirts, tubes.
+//! Rings of pieces rolled about the trunk.
 //!
-//! The seam says what they are: the motion in the plane that takes one of its sides onto the other is a turn about the middle
-//! of a circle skirt, or a shift along a tube. The piece is rolled to the cone or the cylinder on which that closes it,
-//! with the seam behind; what is wider than fits between the arms to a steeper cone, about which it goes in waves.
+//! A sector is rolled to the cone on which it closes, and what is wider than fits between the arms to a steeper cone, about which
+//! it goes in waves; a strip to a cylinder.
 
 use std::f64::consts::TAU;
 
 use super::form::{Axis, Form};
-use super::sheet::Joins;
+use super::ring::{Flat, bounds};
 use crate::geom::{V2, V3};
 
-/// Share of a turn that the piece takes: its seam starts open.
+/// Share of a turn that a ring takes: its last seam starts open.
 const ROUND: f64 = 0.95;
 /// Least distance from the skin, m.
 const CLEARANCE_M: f64 = 0.02;
 /// Half height of the band of the body that a point keeps clear of, m.
 const BAND_M: f64 = 0.02;
-/// A turn by less than this is a shift, rad.
-const SHIFT_RAD: f64 = 0.05;
-/// Sides of a seam nearer than this lie on each other: a full circle, cut open, m.
-const CUT_M: f64 = 1e-3;
+/// Least angle that a sector is taken to span, rad.
+const LEAST_SPAN_RAD: f64 = 0.1;
 /// Greatest and least sine of the angle between a cone and its axis, where a wide skirt would take more, and the steps between.
-const SPREADS: (f64, f64, u32) = (0.7, 0.2, 10);
+const SPREADS: (f64, f64, u32) = (0.35, 0.2, 5);
 /// Waves of a skirt that is wider than its cone, and the directions in which their length is taken.
 const WAVES: (f64, u32) = (8.0, 32);
 
-/// Places of the vertices of `piece`, its upper edge at the waist.
-pub fn place(form: &Form, joins: &Joins, piece: usize) -> Vec<V3> {
-    let rest = &joins.garment.rest;
-    let points: Vec<V2> = joins.garment.pieces[piece].vertices.clone().map(|v| rest[v]).collect();
-    let (top, axis) = (form.body.levels.waist_m, form.trunk_axis());
+/// Vertices of a ring with their places, its upper edge at the height `top`.
+pub fn place(form: &Form, flat: &Flat, top: f64) -> Vec<(usize, V3)> {
+    let axis = form.trunk_axis();
     let off_body = |rolled: Vec<Rolled>| {
         let short = rolled.iter().map(|p| body_radius(form, &axis, top - p.below) + CLEARANCE_M - p.radius);
         let wider = short.fold(0.0, f64::max);
@@ -38,22 +33,23 @@ pub fn place(form: &Form, joins: &Joins, piece: usize) -> Vec<V3> {
     let room = |rolled: &[Rolled]| {
         rolled.iter().map(|p| arm_radius(form, &axis, top - p.below) - p.radius).fold(f64::INFINITY, f64::min)
     };
-    let rolled = match apex(&joins.between(piece, piece), rest, &points) {
-        Some((apex, front)) => {
+    let rolled = match flat {
+        Flat::Sector(points) => {
             let (wide, narrow, steps) = SPREADS;
             let spread = |k: u32| wide + (narrow - wide) * f64::from(k) / f64::from(steps);
-            let cones = (0..=steps).map(|k| off_body(about(apex, front, &points, spread(k))));
+            let cones = (0..=steps).map(|k| off_body(about(points, spread(k))));
             // The widest that is clear of the arms, else the one that comes nearest to it.
             let clear = |cone: &[Rolled]| room(cone).min(CLEARANCE_M);
             cones.rev().max_by(|a, b| clear(a).total_cmp(&clear(b))).unwrap_or_default()
         }
-        None => off_body(along(joins.up(piece, V2::y()), &points)),
+        Flat::Strip(points) => off_body(along(points)),
     };
-    rolled.iter().map(|p| axis.point(p.angle, p.radius, top - p.below)).collect()
+    rolled.iter().map(|p| (p.vertex, axis.point(p.angle, p.radius, top - p.below))).collect()
 }
 
 /// A point on the cone or cylinder.
 struct Rolled {
+    vertex: usize,
     /// From the front to the right seen from outside, rad.
     angle: f64,
     radius: f64,
@@ -61,51 +57,20 @@ struct Rolled {
     below: f64,
 }
 
-/// The point about which one side of a seam turns onto the other, and the direction from it to the middle of the piece; `None`
-/// where the side is shifted.
-fn apex(pairs: &[[usize; 2]], rest: &[V2], points: &[V2]) -> Option<(V2, V2)> {
-    let n = pairs.len().max(1) as f64;
-    let [to, from] = [0, 1].map(|side| pairs.iter().map(|pair| rest[pair[side]]).sum::<V2>() / n);
-    let (mut dot, mut perp) = (0.0, 0.0);
-    for pair in pairs {
-        let (a, b) = (rest[pair[0]] - to, rest[pair[1]] - from);
-        dot += b.dot(&a);
-        perp += b.perp(&a);
-    }
-    let turn = perp.atan2(dot);
-    if (to - from).norm() < CUT_M {
-        let centre = points.iter().sum::<V2>() / points.len().max(1) as f64;
-        return Some((centre, centre - to));
-    }
-    if turn.abs() < SHIFT_RAD {
-        return None;
-    }
-    // The middle of the base of an equal-legged triangle with this angle at its tip.
-    let base = to - from;
-    let height = 0.5 / (0.5 * turn).tan();
-    let apex = (to + from) * 0.5 + V2::new(-base.y, base.x) * height;
-    Some((apex, points.iter().map(|p| p - apex).sum()))
-}
-
-/// On a cone, the apex above, that spreads by at most the sine `spread`; in waves where the piece is wider.
-fn about(apex: V2, front: V2, points: &[V2], spread: f64) -> Vec<Rolled> {
-    let polar = |p: &V2| {
-        let d = p - apex;
-        (front.perp(&d).atan2(front.dot(&d)), d.norm())
-    };
-    let polar: Vec<(f64, f64)> = points.iter().map(polar).collect();
-    let span = 2.0 * polar.iter().map(|p| p.0.abs()).fold(SHIFT_RAD, f64::max);
-    let inner = polar.iter().map(|p| p.1).fold(f64::MAX, f64::min);
-    let share = span / (TAU * ROUND);
+/// On a cone, the tip above, that spreads by at most the sine `spread`; in waves where the sector is wider.
+fn about(points: &[(usize, f64, f64)], spread: f64) -> Vec<Rolled> {
+    let [low, high] = bounds(points.iter().map(|p| p.1));
+    let [inner, _] = bounds(points.iter().map(|p| p.2));
+    let share = (high - low).max(LEAST_SPAN_RAD) / (TAU * ROUND);
     let spread = share.min(spread);
     let steep = (1.0 - spread * spread).sqrt();
-    let roll = |(angle, length): (f64, f64)| {
+    let roll = |&(vertex, angle, length): &(usize, f64, f64)| {
         let angle = angle / share;
         let mean = inner * share + (length - inner) * spread;
         let wave = wave(length * share / mean) * (WAVES.0 * angle).cos();
-        Rolled { angle, radius: mean * (1.0 + wave), below: (length - inner) * steep }
+        Rolled { vertex, angle, radius: mean * (1.0 + wave), below: (length - inner) * steep }
     };
-    polar.into_iter().map(roll).collect()
+    points.iter().map(roll).collect()
 }
 
 /// Height of waves about a circle over its radius that makes them `ratio` times as long as the circle.
@@ -124,13 +89,14 @@ fn wave(ratio: f64) -> f64 {
 }
 
 /// On a cylinder.
-fn along(up: V2, points: &[V2]) -> Vec<Rolled> {
-    let upright: Vec<V2> = points.iter().map(|p| V2::new(p.x * up.y - p.y * up.x, p.dot(&up))).collect();
-    let low = upright.iter().fold(V2::repeat(f64::MAX), |low, p| low.inf(p));
-    let high = upright.iter().fold(V2::repeat(f64::MIN), |high, p| high.sup(p));
-    let radius = ((high.x - low.x) / (TAU * ROUND)).max(1e-3);
-    let middle = 0.5 * (low.x + high.x);
-    upright.iter().map(|p| Rolled { angle: (p.x - middle) / radius, radius, below: high.y - p.y }).collect()
+fn along(points: &[(usize, V2)]) -> Vec<Rolled> {
+    let [left, right] = bounds(points.iter().map(|(_, p)| p.x));
+    let [_, high] = bounds(points.iter().map(|(_, p)| p.y));
+    let radius = ((right - left) / (TAU * ROUND)).max(1e-3);
+    let middle = 0.5 * (left + right);
+    let roll =
+        |&(vertex, p): &(usize, V2)| Rolled { vertex, angle: (p.x - middle) / radius, radius, below: high - p.y };
+    points.iter().map(roll).collect()
 }
 
 /// Greatest distance of the trunk's skin from its axis about a height.

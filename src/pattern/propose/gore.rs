@@ -1,0 +1,107 @@
+//! Gores: pieces of a skirt that are alike, sewn side to side all round.
+//!
+//! What is called a skirt, a gore or a panel, neither front nor back, and cut three times or more in all, is one. A pair cut
+//! for left and right alternates with its mirror image.
+
+use super::Class;
+use super::names;
+use crate::pattern::piece::Piece;
+
+/// Fewest gores of a skirt.
+const LEAST: u32 = 3;
+/// Most that are believed of a quantity.
+const MOST: u32 = 40;
+
+/// How often a piece is cut: as drawn, and as its mirror image.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cut {
+    /// As drawn.
+    pub plain: u32,
+    /// Mirrored.
+    pub mirrored: u32,
+}
+
+impl Cut {
+    /// Of a quantity as pattern files have it: one number, or those of left and right; once where it says none.
+    fn of(piece: &Piece) -> Self {
+        let text = piece.quantity.as_deref().unwrap_or_default();
+        let mut numbers = text.split(|c: char| !c.is_ascii_digit()).filter_map(|number| number.parse().ok());
+        let plain = numbers.next().unwrap_or(1);
+        Self { plain, mirrored: numbers.next().unwrap_or(0) }
+    }
+
+    /// In all.
+    pub fn times(self) -> u32 {
+        self.plain + self.mirrored
+    }
+
+    /// Whether each copy is a mirror image, in the order in which they are sewn.
+    pub fn copies(self) -> impl Iterator<Item = bool> {
+        // A straight side meets a straight side.
+        let is_pair = self.plain == self.mirrored;
+        (0..self.times()).map(move |k| if is_pair { k % 2 == 1 } else { k >= self.plain })
+    }
+}
+
+/// How each piece is cut as a gore; `None` of what is none.
+pub fn gores(pieces: &[Piece]) -> Vec<Option<Cut>> {
+    // "Panel" says nothing beside fronts, backs and sleeves.
+    let is_plain = |piece: &Piece| {
+        let named = names::read(&piece.name);
+        match named.class {
+            Some(Class::Waistband | Class::Other) => true,
+            Some(Class::Skirt) | None => named.face.is_none(),
+            _ => false,
+        }
+    };
+    let are_plain = pieces.iter().all(is_plain);
+    let is_gore = |piece: &Piece| {
+        let named = names::read(&piece.name);
+        let is_called = named.class == Some(Class::Skirt) || named.class.is_none() && names::is_gore(&piece.name);
+        are_plain && is_called && named.hand.is_none()
+    };
+    let cuts: Vec<Option<Cut>> = pieces.iter().map(|piece| is_gore(piece).then(|| Cut::of(piece))).collect();
+    let times: u32 = cuts.iter().flatten().map(|cut| cut.times().min(MOST + 1)).sum();
+    if (LEAST..=MOST).contains(&times) { cuts } else { vec![None; pieces.len()] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quantity_says_how_often_a_gore_is_cut() {
+        let check = |quantity: Option<&str>, mirrored: &[bool]| {
+            let piece = Piece { quantity: quantity.map(str::to_owned), ..Piece::default() };
+            assert_eq!(Cut::of(&piece).copies().collect::<Vec<_>>(), mirrored, "{quantity:?}");
+        };
+        check(None, &[false]);
+        check(Some("3"), &[false; 3]);
+        check(Some("cut 4"), &[false; 4]);
+        check(Some("2,2"), &[false, true, false, true]);
+        check(Some("2,0"), &[false, false]);
+        check(Some("1,2"), &[false, true, true]);
+    }
+
+    #[test]
+    fn gores_are_told_by_name_and_number() {
+        let check = |pieces: &[(&str, &str)], are: &[bool]| {
+            let piece = |&(name, quantity): &(&str, &str)| Piece {
+                name: name.to_owned(),
+                quantity: Some(quantity.to_owned()),
+                ..Piece::default()
+            };
+            let pieces: Vec<Piece> = pieces.iter().map(piece).collect();
+            assert_eq!(gores(&pieces).iter().map(Option::is_some).collect::<Vec<_>>(), are, "{pieces:?}");
+        };
+        check(&[("GORE", "8"), ("WAISTBAND", "1")], &[true, false]);
+        check(&[("SKIRT GORE", "3,3")], &[true]);
+        check(&[("panel_0", "1"), ("panel_1", "1"), ("panel_2", "1"), ("wb_front", "1")], &[true, true, true, false]);
+        // Too few, or beside other pieces.
+        check(&[("SKIRT", "1"), ("WAISTBAND", "1")], &[false, false]);
+        check(&[("SKIRT", "2")], &[false]);
+        check(&[("PANEL", "4"), ("FRONT", "1"), ("BACK", "1")], &[false, false, false]);
+        check(&[("PANEL", "4"), ("SLEEVE", "2")], &[false, false]);
+        check(&[("GORE", "4000000000")], &[false]);
+    }
+}

@@ -1,0 +1,353 @@
+//! Rings of pieces about the trunk: gores, the halves of a circle skirt, a circle skirt or a tube of one piece.
+//!
+//! A ring is cut open at one seam and laid out flat, each piece moved so that its side lies on that of the piece before. The
+//! motion that takes the side at one end onto that at the other says what it is: a turn about the tip of a sector, or a shift
+//! along a strip.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{Isometry2, Matrix2, Point2, Rotation2};
+
+use super::sheet::Joins;
+use crate::geom::V2;
+
+/// Sides of a ring lie on each other when laid out flat, up to this, rms m.
+const FLAT_M: f64 = 0.03;
+/// A turn by less than this is a shift, rad.
+const SHIFT_RAD: f64 = 0.05;
+/// Ends nearer than this lie on each other: a full circle, m.
+const CLOSED_M: f64 = 0.01;
+
+/// Pieces each of which is sewn to the next, and the last to the first; or one piece sewn to itself.
+pub struct Ring {
+    members: Vec<Member>,
+    /// Takes the first piece's side at the cut onto the last one's.
+    closing: Isometry2<f64>,
+}
+
+struct Member {
+    piece: usize,
+    /// From the piece's plane to that of the ring.
+    motion: Isometry2<f64>,
+    /// Seam to the member before, its vertices first; none of the first.
+    seam: Vec<[usize; 2]>,
+}
+
+/// A ring laid out flat: its vertices with their places.
+pub enum Flat {
+    /// Angle about the tip, counter-clockwise from the middle, rad, and distance from it, m.
+    Sector(Vec<(usize, f64, f64)>),
+    /// To the right and up, m.
+    Strip(Vec<(usize, V2)>),
+}
+
+impl Flat {
+    /// What a sector takes of a turn, rad; 0 of a strip.
+    pub fn turn_rad(&self) -> f64 {
+        match self {
+            Self::Sector(points) => {
+                let [low, high] = bounds(points.iter().map(|p| p.1));
+                high - low
+            }
+            Self::Strip(_) => 0.0,
+        }
+    }
+
+    /// Length of the upper edge, m: nearest the tip of a sector, or all along a strip.
+    pub fn inner_m(&self) -> f64 {
+        match self {
+            Self::Sector(points) => self.turn_rad() * bounds(points.iter().map(|p| p.2))[0],
+            Self::Strip(points) => {
+                let [left, right] = bounds(points.iter().map(|(_, p)| p.x));
+                right - left
+            }
+        }
+    }
+}
+
+/// A seam between two pieces or within one, in however many parts.
+struct Link {
+    pieces: [usize; 2],
+    /// The first piece's vertex first.
+    pairs: Vec<[usize; 2]>,
+}
+
+impl Ring {
+    /// Some of a garment's pieces that are sewn to themselves, each as a ring.
+    pub fn of_one(joins: &Joins, some: &[usize]) -> Vec<Self> {
+        let links = links(joins, some);
+        let alone = |&piece: &usize| {
+            // Shorter seams of a piece to itself are darts.
+            let own = links.iter().filter(|link| link.pieces == [piece, piece]);
+            let longest = own.max_by_key(|link| link.pairs.len())?;
+            let member = Member { piece, motion: Isometry2::identity(), seam: Vec::new() };
+            Some(Self { closing: onto(joins, &longest.pairs, &member.motion), members: vec![member] })
+        };
+        some.iter().filter_map(alone).collect()
+    }
+
+    /// Rings of several pieces among some; what else these are sewn to is left out of account.
+    pub fn of_several(joins: &Joins, some: &[usize]) -> Vec<Self> {
+        let links: Vec<Link> = links(joins, some).into_iter().filter(|link| link.pieces[0] != link.pieces[1]).collect();
+        let mut ends: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for (index, link) in links.iter().enumerate() {
+            link.pieces.iter().for_each(|&piece| ends.entry(piece).or_default().push(index));
+        }
+        some.iter().filter_map(|&first| Self::beginning(joins, &links, &ends, first)).collect()
+    }
+
+    /// The ring of several pieces in which `first` is the least; each must be sewn to two others, or twice to the only other.
+    fn beginning(joins: &Joins, links: &[Link], ends: &BTreeMap<usize, Vec<usize>>, first: usize) -> Option<Self> {
+        let two = |piece: usize| <[usize; 2]>::try_from(ends.get(&piece)?.as_slice()).ok();
+        let [mut at, cut] = two(first)?;
+        let mut members = vec![Member { piece: first, motion: Isometry2::identity(), seam: Vec::new() }];
+        loop {
+            let last = members.last()?;
+            let (next, seam) = links[at].from(last.piece);
+            let motion = onto(joins, &seam, &last.motion);
+            if at == cut {
+                return Some(Self { members, closing: motion });
+            }
+            if next < first || misfit_m(joins, &seam, &last.motion, &motion) > FLAT_M {
+                return None;
+            }
+            let [one, other] = two(next)?;
+            at = if one == at { other } else { one };
+            members.push(Member { piece: next, motion, seam: seam.iter().map(|&[a, b]| [b, a]).collect() });
+        }
+    }
+
+    /// Its pieces, in order.
+    pub fn pieces(&self) -> Vec<usize> {
+        self.members.iter().map(|member| member.piece).collect()
+    }
+
+    /// The ring laid out, with the middle of `in_front`, or of all, at the front.
+    pub fn flat(&self, joins: &Joins, in_front: &[usize]) -> Flat {
+        match self.tip(joins) {
+            Some(tip) => Flat::Sector(self.sector(joins, in_front, &tip)),
+            None => Flat::Strip(self.strip(joins)),
+        }
+    }
+
+    /// Where the ring's ends turn onto each other; `None` where they are shifted.
+    fn tip(&self, joins: &Joins) -> Option<Point2<f64>> {
+        let points: Vec<V2> =
+            self.members.iter().flat_map(|member| member.places(joins)).map(|(_, p)| p.coords).collect();
+        let middle = Point2::from(points.iter().sum::<V2>() / points.len().max(1) as f64);
+        let turn = self.closing.rotation;
+        if turn.angle().abs() >= SHIFT_RAD {
+            let apart = Matrix2::identity() - turn.to_rotation_matrix().into_inner();
+            return apart.lu().solve(&self.closing.translation.vector).map(Point2::from);
+        }
+        ((self.closing * middle - middle).norm() < CLOSED_M).then_some(middle)
+    }
+
+    fn sector(&self, joins: &Joins, in_front: &[usize], tip: &Point2<f64>) -> Vec<(usize, f64, f64)> {
+        let mut points = Vec::new();
+        let mut fronts = Vec::new();
+        // Of the member before: the angle of its middle, and that of each of its vertices from there.
+        let mut before: (f64, BTreeMap<usize, f64>) = (0.0, BTreeMap::new());
+        for member in &self.members {
+            let polar = member.polar(joins, tip);
+            let own: BTreeMap<usize, f64> = polar.iter().map(|&(v, angle, _)| (v, angle)).collect();
+            let apart = |&[a, b]: &[usize; 2]| before.1[&b] - own[&a];
+            let middle = before.0 + member.seam.iter().map(apart).sum::<f64>() / member.seam.len().max(1) as f64;
+            points.extend(polar.into_iter().map(|(v, angle, length)| (v, middle + angle, length)));
+            if in_front.contains(&member.piece) {
+                fronts.push(middle);
+            }
+            before = (middle, own);
+        }
+        let [low, high] = bounds(points.iter().map(|p| p.1));
+        let front =
+            if fronts.is_empty() { 0.5 * (low + high) } else { fronts.iter().sum::<f64>() / fronts.len() as f64 };
+        points.iter_mut().for_each(|p| p.1 -= front);
+        points
+    }
+
+    fn strip(&self, joins: &Joins) -> Vec<(usize, V2)> {
+        let up = joins.up(self.members[0].piece, V2::y());
+        let upright = Rotation2::rotation_between(&up, &V2::y());
+        self.members.iter().flat_map(|member| member.places(joins)).map(|(v, p)| (v, upright * p.coords)).collect()
+    }
+}
+
+impl Member {
+    /// Its vertices in the ring's plane.
+    fn places(&self, joins: &Joins) -> Vec<(usize, Point2<f64>)> {
+        let vertices = joins.garment.pieces[self.piece].vertices.clone();
+        vertices.map(|v| (v, self.motion * Point2::from(joins.garment.rest[v]))).collect()
+    }
+
+    /// Its vertices with the angle about a tip from the piece's middle, rad, and the distance from the tip, m.
+    fn polar(&self, joins: &Joins, tip: &Point2<f64>) -> Vec<(usize, f64, f64)> {
+        let places = self.places(joins);
+        let middle: V2 = places.iter().map(|(_, p)| p - tip).sum();
+        let polar = |(v, p): &(usize, Point2<f64>)| {
+            let d = p - tip;
+            (*v, middle.perp(&d).atan2(middle.dot(&d)), d.norm())
+        };
+        places.iter().map(polar).collect()
+    }
+}
+
+impl Link {
+    /// The piece at the other end than `piece`, and the pairs with this one's vertices first.
+    fn from(&self, piece: usize) -> (usize, Vec<[usize; 2]>) {
+        if piece == self.pieces[0] {
+            (self.pieces[1], self.pairs.clone())
+        } else {
+            (self.pieces[0], self.pairs.iter().map(|&[a, b]| [b, a]).collect())
+        }
+    }
+
+    /// Whether another joins the same pieces and goes on where this one ends.
+    fn meets(&self, other: &Self) -> bool {
+        let shares = |p: &[usize; 2]| other.pairs.iter().any(|q| p[0] == q[0] || p[1] == q[1]);
+        self.pieces == other.pieces && self.pairs.iter().any(shares)
+    }
+}
+
+/// Seams between some pieces; parts that share a vertex are one.
+fn links(joins: &Joins, some: &[usize]) -> Vec<Link> {
+    let link = |&[a, b]: &[usize; 2]| match [a, b].map(|v| joins.piece_of[v]) {
+        [p, q] if p <= q => Link { pieces: [p, q], pairs: vec![[a, b]] },
+        [p, q] => Link { pieces: [q, p], pairs: vec![[b, a]] },
+    };
+    let mut links: Vec<Link> = Vec::new();
+    for seam in &joins.garment.seams {
+        let mut parts: Vec<Link> = Vec::new();
+        for pair in seam.pairs.iter().map(link).filter(|pair| pair.pieces.iter().all(|piece| some.contains(piece))) {
+            match parts.last_mut() {
+                Some(part) if part.pieces == pair.pieces => part.pairs.extend(pair.pairs),
+                _ => parts.push(pair),
+            }
+        }
+        for mut part in parts {
+            let (joined, apart): (Vec<Link>, Vec<Link>) = links.into_iter().partition(|link| link.meets(&part));
+            part.pairs.extend(joined.into_iter().flat_map(|link| link.pairs));
+            links = apart;
+            links.push(part);
+        }
+    }
+    links
+}
+
+/// The motion that brings the second vertices of some pairs nearest to the first, which `placed` moves.
+fn onto(joins: &Joins, pairs: &[[usize; 2]], placed: &Isometry2<f64>) -> Isometry2<f64> {
+    let rest = &joins.garment.rest;
+    let n = pairs.len().max(1) as f64;
+    let goals: Vec<V2> = pairs.iter().map(|pair| (placed * Point2::from(rest[pair[0]])).coords).collect();
+    let (to, from) = (goals.iter().sum::<V2>() / n, pairs.iter().map(|pair| rest[pair[1]]).sum::<V2>() / n);
+    let (mut dot, mut perp) = (0.0, 0.0);
+    for (goal, pair) in goals.iter().zip(pairs) {
+        let (p, q) = (rest[pair[1]] - from, goal - to);
+        dot += p.dot(&q);
+        perp += p.perp(&q);
+    }
+    let turn = Rotation2::new(perp.atan2(dot));
+    Isometry2::new(to - turn * from, turn.angle())
+}
+
+/// How far apart the sides of a seam lie when laid out, rms m.
+fn misfit_m(joins: &Joins, pairs: &[[usize; 2]], placed: &Isometry2<f64>, motion: &Isometry2<f64>) -> f64 {
+    let rest = |v: usize| Point2::from(joins.garment.rest[v]);
+    let squares = pairs.iter().map(|&[a, b]| (placed * rest(a) - motion * rest(b)).norm_squared());
+    (squares.sum::<f64>() / pairs.len().max(1) as f64).sqrt()
+}
+
+/// Least and greatest.
+pub fn bounds(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::MAX, f64::MIN], |[low, high], value| [low.min(value), high.max(value)])
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use serde_json::json;
+
+    use super::*;
+    use crate::pattern::{Garment, garmentcode};
+
+    /// `count` gores of a sector: a turn in all, an inner radius and a length, cm; each drawn where `moved` puts it.
+    fn gores(count: usize, turn_rad: f64, inner: f64, length: f64, moved: impl Fn(usize) -> Isometry2<f64>) -> Garment {
+        let half = 0.5 * turn_rad / count as f64;
+        let point = |k: usize, side: f64, radius: f64| {
+            let at = Point2::new(side * half.sin(), -half.cos()) * radius;
+            let p = moved(k) * at;
+            [p.x, p.y]
+        };
+        let arc = |radius: f64, sweep: u8| json!({ "type": "circle", "params": [radius, 0, sweep] });
+        let panel = |k: usize| {
+            let outer = inner + length;
+            let edges = json!([
+                { "endpoints": [0, 1], "curvature": arc(outer, 1) },
+                { "endpoints": [1, 2] },
+                { "endpoints": [2, 3], "curvature": arc(inner, 0) },
+                { "endpoints": [3, 0] }
+            ]);
+            let vertices = [point(k, -1.0, outer), point(k, 1.0, outer), point(k, 1.0, inner), point(k, -1.0, inner)];
+            json!({ "translation": [0, 0, 0], "rotation": [0, 0, 0], "vertices": vertices, "edges": edges })
+        };
+        let name = |k: usize| format!("panel_{}", k % count);
+        let panels: serde_json::Map<_, _> = (0..count).map(|k| (name(k), panel(k))).collect();
+        let stitch = |k: usize| json!([{ "panel": name(k), "edge": 1 }, { "panel": name(k + 1), "edge": 3 }]);
+        let document = json!({
+            "pattern": { "panels": panels, "stitches": (0..count).map(stitch).collect::<Vec<_>>() },
+            "properties": { "curvature_coords": "relative", "units_in_meter": 100 }
+        });
+        let read = garmentcode::read(document.to_string().as_bytes(), "gores").expect("a specification");
+        read.style().mesh(0.05).expect("a mesh")
+    }
+
+    #[test]
+    fn gores_are_laid_out_as_the_sector_that_they_were_cut_from() {
+        let scattered = |k: usize| Isometry2::new(V2::new(150.0 * k as f64, 20.0), 2.0 * k as f64);
+        let check = |count: usize, turn_rad: f64| {
+            let (inner, length) = (80.0 / turn_rad, 50.0);
+            let garment = gores(count, turn_rad, inner, length, scattered);
+            let joins = Joins::of(&garment);
+            let all: Vec<usize> = (0..count).collect();
+            let rings = Ring::of_several(&joins, &all);
+            assert_eq!(rings.len(), 1, "{count} gores");
+            let flat = rings[0].flat(&joins, &[]);
+            // Arcs are drawn as chords of a few degrees.
+            assert!((flat.turn_rad() / turn_rad - 1.0).abs() < 0.01, "{count} gores turn by {}", flat.turn_rad());
+            assert!((flat.inner_m() / 0.8 - 1.0).abs() < 0.02, "{count} gores: {} m round", flat.inner_m());
+            let Flat::Sector(points) = flat else { panic!("{count} gores are no strip") };
+            let places: BTreeMap<usize, (f64, f64)> = points.into_iter().map(|(v, a, r)| (v, (a, r))).collect();
+            // Sides meet, but for one seam, which is a whole turn of the sector apart.
+            for seam in &garment.seams {
+                let apart = |[a, b]: &[usize; 2]| (places[a].0 - places[b].0).abs();
+                let [least, most] = bounds(seam.pairs.iter().map(apart));
+                let is_cut = most > 0.5 * turn_rad;
+                assert!(is_cut || most < 0.03, "{}: {least} to {most} rad apart", seam.name);
+                assert!(seam.pairs.iter().all(|[a, b]| (places[a].1 - places[b].1).abs() < 5e-3), "{}", seam.name);
+            }
+        };
+        check(8, 0.25 * TAU);
+        check(12, 0.9 * TAU);
+        check(2, TAU);
+        check(4, 1.5 * TAU);
+    }
+
+    #[test]
+    fn straight_gores_are_a_strip() {
+        let garment = gores(6, 0.02, 4000.0, 50.0, |k| Isometry2::new(V2::new(30.0 * k as f64, 4000.0), 0.0));
+        let joins = Joins::of(&garment);
+        let rings = Ring::of_several(&joins, &[0, 1, 2, 3, 4, 5]);
+        let flat = rings[0].flat(&joins, &[]);
+        assert!(matches!(flat, Flat::Strip(_)));
+        assert!((flat.inner_m() - 0.81).abs() < 0.01, "{} m", flat.inner_m());
+    }
+
+    #[test]
+    fn a_row_is_no_ring() {
+        let garment = gores(4, 0.3 * TAU, 40.0, 50.0, |_| Isometry2::identity());
+        let joins = Joins::of(&garment);
+        assert!(Ring::of_several(&joins, &[0, 1, 2]).is_empty());
+        assert!(Ring::of_one(&joins, &[0, 1, 2, 3]).is_empty());
+    }
+}
