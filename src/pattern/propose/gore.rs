@@ -1,16 +1,19 @@
 //! Gores: pieces of a skirt that are alike, sewn side to side all round.
 //!
-//! What is called a skirt, a gore or a panel, neither front nor back, and cut three times or more in all, is one. A pair cut
-//! for left and right alternates with its mirror image.
+//! What is called a skirt or a gore, neither front nor back, and cut three times or more in all, is one, where all else is bands
+//! and details; so are panels that are alike. A pair cut for left and right alternates with its mirror image.
 
 use super::Class;
 use super::names;
+use crate::geom::polyline::{perimeter, signed_area};
 use crate::pattern::piece::Piece;
 
 /// Fewest gores of a skirt.
 const LEAST: u32 = 3;
 /// Most that are believed of a quantity.
 const MOST: u32 = 40;
+/// Greatest difference of panels that are alike, share of the greater.
+const ALIKE: f64 = 0.05;
 
 /// How often a piece is cut: as drawn, and as its mirror image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -22,17 +25,19 @@ pub struct Cut {
 }
 
 impl Cut {
-    /// Of a quantity as pattern files have it: one number, or those of left and right; once where it says none.
+    /// Of a quantity as pattern files have it: one number, or those of left and right; once where it says none, or nought.
     fn of(piece: &Piece) -> Self {
         let text = piece.quantity.as_deref().unwrap_or_default();
         let mut numbers = text.split(|c: char| !c.is_ascii_digit()).filter_map(|number| number.parse().ok());
-        let plain = numbers.next().unwrap_or(1);
-        Self { plain, mirrored: numbers.next().unwrap_or(0) }
+        match (numbers.next().unwrap_or(0), numbers.next().unwrap_or(0)) {
+            (0, 0) => Self { plain: 1, mirrored: 0 },
+            (plain, mirrored) => Self { plain, mirrored },
+        }
     }
 
     /// In all.
     pub fn times(self) -> u32 {
-        self.plain + self.mirrored
+        self.plain.saturating_add(self.mirrored)
     }
 
     /// Whether each copy is a mirror image, in the order in which they are sewn.
@@ -45,7 +50,6 @@ impl Cut {
 
 /// How each piece is cut as a gore; `None` of what is none.
 pub fn gores(pieces: &[Piece]) -> Vec<Option<Cut>> {
-    // "Panel" says nothing beside fronts, backs and sleeves.
     let is_plain = |piece: &Piece| {
         let named = names::read(&piece.name);
         match named.class {
@@ -55,9 +59,13 @@ pub fn gores(pieces: &[Piece]) -> Vec<Option<Cut>> {
         }
     };
     let are_plain = pieces.iter().all(is_plain);
+    // A panel may be anything: its name alone says less than that there are others like it.
+    let are_alike = alike(pieces.iter().filter(|piece| names::is_panel(&piece.name)));
     let is_gore = |piece: &Piece| {
         let named = names::read(&piece.name);
-        let is_called = named.class == Some(Class::Skirt) || named.class.is_none() && names::is_gore(&piece.name);
+        let is_called = named.class == Some(Class::Skirt)
+            || named.class.is_none() && names::is_gore(&piece.name)
+            || named.class.is_none() && names::is_panel(&piece.name) && are_alike;
         are_plain && is_called && named.hand.is_none()
     };
     let cuts: Vec<Option<Cut>> = pieces.iter().map(|piece| is_gore(piece).then(|| Cut::of(piece))).collect();
@@ -65,9 +73,20 @@ pub fn gores(pieces: &[Piece]) -> Vec<Option<Cut>> {
     if (LEAST..=MOST).contains(&times) { cuts } else { vec![None; pieces.len()] }
 }
 
+/// Whether outlines enclose the same area, nearly, and are as long.
+fn alike<'p>(pieces: impl Iterator<Item = &'p Piece>) -> bool {
+    let of = |piece: &Piece| [signed_area(&piece.outline).abs(), perimeter(&piece.outline)];
+    let sizes: Vec<[f64; 2]> = pieces.map(of).collect();
+    (0..2).all(|k| {
+        let greatest = sizes.iter().map(|size| size[k]).fold(0.0, f64::max);
+        sizes.iter().all(|size| size[k] >= (1.0 - ALIKE) * greatest)
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::V2;
 
     #[test]
     fn a_quantity_says_how_often_a_gore_is_cut() {
@@ -81,6 +100,7 @@ mod tests {
         check(Some("2,2"), &[false, true, false, true]);
         check(Some("2,0"), &[false, false]);
         check(Some("1,2"), &[false, true, true]);
+        check(Some("0"), &[false]);
     }
 
     #[test]
@@ -103,5 +123,21 @@ mod tests {
         check(&[("PANEL", "4"), ("FRONT", "1"), ("BACK", "1")], &[false, false, false]);
         check(&[("PANEL", "4"), ("SLEEVE", "2")], &[false, false]);
         check(&[("GORE", "4000000000")], &[false]);
+        check(&[("GORE", "4000000000,4000000000")], &[false]);
+    }
+
+    #[test]
+    fn panels_of_different_shapes_are_no_gores() {
+        let check = |widths: &[f64], are: bool| {
+            let panel = |&width: &f64| Piece {
+                name: "PANEL".to_owned(),
+                outline: [(0.0, 0.0), (width, 0.0), (width, 0.6), (0.0, 0.6)].map(|(x, y)| V2::new(x, y)).to_vec(),
+                ..Piece::default()
+            };
+            let pieces: Vec<Piece> = widths.iter().map(panel).collect();
+            assert!(gores(&pieces).iter().all(|gore| gore.is_some() == are), "{widths:?}");
+        };
+        check(&[0.2, 0.2, 0.201], true);
+        check(&[0.2, 0.2, 0.3], false);
     }
 }

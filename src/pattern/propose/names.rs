@@ -205,14 +205,23 @@ pub fn read(name: &str) -> Named {
     Named { class, face, hand }
 }
 
-/// Parts of words that name a gore of a skirt, or may.
-const GORES: [&str; 6] = ["gore", "panel", "paneel", "bahn", "nesga", "клин"];
+/// Parts of words that name a gore of a skirt.
+const GORES: [&str; 4] = ["gore", "bahn", "nesga", "клин"];
+/// Parts of words that name any part of a garment.
+const PANELS: [&str; 2] = ["panel", "paneel"];
 
-/// Whether a name may be that of a gore: one part of a skirt among several alike.
+/// Whether a name is that of a gore: one part of a skirt among several alike.
 #[must_use]
 pub fn is_gore(name: &str) -> bool {
     let lower = name.to_lowercase();
     GORES.iter().any(|part| lower.contains(part))
+}
+
+/// Whether a name says no more than that it is a part.
+#[must_use]
+pub fn is_panel(name: &str) -> bool {
+    let lower = name.to_lowercase();
+    PANELS.iter().any(|part| lower.contains(part))
 }
 
 /// Whether the name of a sleeve says that it is the piece below the arm of a sleeve in two.

@@ -52,7 +52,7 @@ fn unwrapped(own: &[V2], angles: &[f64]) -> Vec<f64> {
 const SCALE: [f64; 2] = [0.3, 4.0];
 
 /// A rotation about a centre, and the scale that goes with it.
-struct Similarity {
+pub struct Similarity {
     from: V2,
     to: V2,
     rotation: nalgebra::Rotation2<f64>,
@@ -61,7 +61,7 @@ struct Similarity {
 
 impl Similarity {
     /// The least-squares similarity that takes `own` to `goal`, without mirroring.
-    fn of(own: &[V2], goal: &[V2]) -> Self {
+    pub fn of(own: &[V2], goal: &[V2]) -> Self {
         let mean = |points: &[V2]| points.iter().sum::<V2>() / points.len() as f64;
         let (from, to) = (mean(own), mean(goal));
         let (mut dot, mut perp, mut size) = (0.0, 0.0, 0.0);
@@ -73,6 +73,11 @@ impl Similarity {
         }
         let scale = if size > 0.0 { dot.hypot(perp) / size } else { 1.0 };
         Self { from, to, rotation: nalgebra::Rotation2::new(perp.atan2(dot)), scale: scale.clamp(SCALE[0], SCALE[1]) }
+    }
+
+    /// The same without the scale.
+    pub fn motion(&self) -> nalgebra::Isometry2<f64> {
+        nalgebra::Isometry2::new(self.to - self.rotation * self.from, self.rotation.angle())
     }
 
     /// A point turned about the centre, not scaled, relative to it.

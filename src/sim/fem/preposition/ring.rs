@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Isometry2, Matrix2, Point2, Rotation2};
 
+use super::follow::Similarity;
 use super::sheet::Joins;
 use crate::geom::V2;
 
@@ -17,12 +18,16 @@ const FLAT_M: f64 = 0.03;
 const SHIFT_RAD: f64 = 0.05;
 /// Ends nearer than this lie on each other: a full circle, m.
 const CLOSED_M: f64 = 0.01;
+/// Mean direction from the tip, of unit vectors, below which a piece goes all round it.
+const ALL_ROUND: f64 = 0.01;
 
 /// Pieces each of which is sewn to the next, and the last to the first; or one piece sewn to itself.
 pub struct Ring {
     members: Vec<Member>,
     /// Takes the first piece's side at the cut onto the last one's.
     closing: Isometry2<f64>,
+    /// Middle of the last piece's side at the cut.
+    cut: Point2<f64>,
 }
 
 struct Member {
@@ -81,7 +86,7 @@ impl Ring {
             let own = links.iter().filter(|link| link.pieces == [piece, piece]);
             let longest = own.max_by_key(|link| link.pairs.len())?;
             let member = Member { piece, motion: Isometry2::identity(), seam: Vec::new() };
-            Some(Self { closing: onto(joins, &longest.pairs, &member.motion), members: vec![member] })
+            Some(Self::cut_at(joins, &longest.pairs, vec![member]))
         };
         some.iter().filter_map(alone).collect()
     }
@@ -104,10 +109,10 @@ impl Ring {
         loop {
             let last = members.last()?;
             let (next, seam) = links[at].from(last.piece);
-            let motion = onto(joins, &seam, &last.motion);
             if at == cut {
-                return Some(Self { members, closing: motion });
+                return Some(Self::cut_at(joins, &seam, members));
             }
+            let motion = onto(joins, &seam, &last.motion);
             if next < first || misfit_m(joins, &seam, &last.motion, &motion) > FLAT_M {
                 return None;
             }
@@ -115,6 +120,13 @@ impl Ring {
             at = if one == at { other } else { one };
             members.push(Member { piece: next, motion, seam: seam.iter().map(|&[a, b]| [b, a]).collect() });
         }
+    }
+
+    /// The ring of some pieces that is cut open at a seam, the last piece's vertices first.
+    fn cut_at(joins: &Joins, seam: &[[usize; 2]], members: Vec<Member>) -> Self {
+        let placed = members.last().map_or_else(Isometry2::identity, |last| last.motion);
+        let side = seam.iter().map(|pair| joins.garment.rest[pair[0]]).sum::<V2>() / seam.len().max(1) as f64;
+        Self { closing: onto(joins, seam, &placed), cut: placed * Point2::from(side), members }
     }
 
     /// Its pieces, in order.
@@ -149,7 +161,7 @@ impl Ring {
         // Of the member before: the angle of its middle, and that of each of its vertices from there.
         let mut before: (f64, BTreeMap<usize, f64>) = (0.0, BTreeMap::new());
         for member in &self.members {
-            let polar = member.polar(joins, tip);
+            let polar = member.polar(joins, tip, &self.cut);
             let own: BTreeMap<usize, f64> = polar.iter().map(|&(v, angle, _)| (v, angle)).collect();
             let apart = |&[a, b]: &[usize; 2]| before.1[&b] - own[&a];
             let middle = before.0 + member.seam.iter().map(apart).sum::<f64>() / member.seam.len().max(1) as f64;
@@ -180,10 +192,13 @@ impl Member {
         vertices.map(|v| (v, self.motion * Point2::from(joins.garment.rest[v]))).collect()
     }
 
-    /// Its vertices with the angle about a tip from the piece's middle, rad, and the distance from the tip, m.
-    fn polar(&self, joins: &Joins, tip: &Point2<f64>) -> Vec<(usize, f64, f64)> {
+    /// Its vertices with the angle about a tip from the piece's middle, which lies opposite `cut` where it goes all round, rad, and the
+    /// distance from the tip, m.
+    fn polar(&self, joins: &Joins, tip: &Point2<f64>, cut: &Point2<f64>) -> Vec<(usize, f64, f64)> {
         let places = self.places(joins);
-        let middle: V2 = places.iter().map(|(_, p)| p - tip).sum();
+        let mean: V2 = places.iter().map(|(_, p)| p - tip).sum();
+        let far: f64 = places.iter().map(|(_, p)| (p - tip).norm()).sum();
+        let middle = if mean.norm() < ALL_ROUND * far { tip - cut } else { mean };
         let polar = |(v, p): &(usize, Point2<f64>)| {
             let d = p - tip;
             (*v, middle.perp(&d).atan2(middle.dot(&d)), d.norm())
@@ -237,17 +252,9 @@ fn links(joins: &Joins, some: &[usize]) -> Vec<Link> {
 /// The motion that brings the second vertices of some pairs nearest to the first, which `placed` moves.
 fn onto(joins: &Joins, pairs: &[[usize; 2]], placed: &Isometry2<f64>) -> Isometry2<f64> {
     let rest = &joins.garment.rest;
-    let n = pairs.len().max(1) as f64;
+    let own: Vec<V2> = pairs.iter().map(|pair| rest[pair[1]]).collect();
     let goals: Vec<V2> = pairs.iter().map(|pair| (placed * Point2::from(rest[pair[0]])).coords).collect();
-    let (to, from) = (goals.iter().sum::<V2>() / n, pairs.iter().map(|pair| rest[pair[1]]).sum::<V2>() / n);
-    let (mut dot, mut perp) = (0.0, 0.0);
-    for (goal, pair) in goals.iter().zip(pairs) {
-        let (p, q) = (rest[pair[1]] - from, goal - to);
-        dot += p.dot(&q);
-        perp += p.perp(&q);
-    }
-    let turn = Rotation2::new(perp.atan2(dot));
-    Isometry2::new(to - turn * from, turn.angle())
+    Similarity::of(&own, &goals).motion()
 }
 
 /// How far apart the sides of a seam lie when laid out, rms m.

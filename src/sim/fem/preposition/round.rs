@@ -144,6 +144,13 @@ mod tests {
             assert!((b - a).cross(&(c - a)).dot(&V3::new(a.x, a.y, 0.0)) > 0.0, "inside out");
             let clears = |p: &V3| form.trunk_axis().coordinates(p).1 < arm_radius(&form, &form.trunk_axis(), p.z);
             assert!(!is_within_arms || x.iter().all(clears), "about the arms");
+            // No triangle reaches over the gap that is left open.
+            let angle = |v: &usize| form.trunk_axis().coordinates(&x[*v]).0;
+            for triangle in &garment.triangles {
+                let [low, high] = bounds(triangle.iter().map(angle));
+                let spread = (high - low).min(TAU - (high - low));
+                assert!(spread < 0.317, "a triangle spans {spread} rad");
+            }
             // The hem lies lower than the waist.
             assert!(x[0].z < x[rows * (columns + 1)].z, "upside down");
         };
