@@ -198,10 +198,22 @@ impl Member {
         let places = self.places(joins);
         let mean: V2 = places.iter().map(|(_, p)| p - tip).sum();
         let far: f64 = places.iter().map(|(_, p)| (p - tip).norm()).sum();
-        let middle = if mean.norm() < ALL_ROUND * far { tip - cut } else { mean };
+        if mean.norm() >= ALL_ROUND * far {
+            let polar = |(v, p): &(usize, Point2<f64>)| (*v, angle(&mean, &(p - tip)), (p - tip).norm());
+            return places.iter().map(polar).collect();
+        }
+        // Both sides of the cut lie where the angle jumps: on which side of it a vertex is, its triangles say.
+        let opposite = tip - cut;
+        let mut within: BTreeMap<usize, V2> = BTreeMap::new();
+        for triangle in &joins.garment.triangles[joins.garment.pieces[self.piece].triangles.clone()] {
+            let centre = triangle.iter().map(|&v| joins.garment.rest[v]).sum::<V2>() / 3.0;
+            for &v in triangle {
+                *within.entry(v).or_default() += self.motion * Point2::from(centre) - tip;
+            }
+        }
         let polar = |(v, p): &(usize, Point2<f64>)| {
-            let d = p - tip;
-            (*v, middle.perp(&d).atan2(middle.dot(&d)), d.norm())
+            let side = within.get(v).map_or(0.0, |within| opposite.perp(within));
+            (*v, angle(&opposite, &(p - tip)).abs().copysign(side), (p - tip).norm())
         };
         places.iter().map(polar).collect()
     }
@@ -247,6 +259,11 @@ fn links(joins: &Joins, some: &[usize]) -> Vec<Link> {
         }
     }
     links
+}
+
+/// Angle from one direction to another, counter-clockwise, rad.
+fn angle(from: &V2, to: &V2) -> f64 {
+    from.perp(to).atan2(from.dot(to))
 }
 
 /// The motion that brings the second vertices of some pairs nearest to the first, which `placed` moves.
