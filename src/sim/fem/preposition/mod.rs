@@ -139,19 +139,29 @@ impl Placing<'_> {
         }
     }
 
-    /// Wide rings go round the trunk below what they are sewn to; where no piece has a place by its role, the largest of all
-    /// rings does.
+    /// Wide rings go round the trunk below what they are sewn to, and so do gores; where no piece has a place then, the largest of
+    /// all rings does.
     fn rings(&mut self, wide: Vec<Round>) {
-        wide.iter().for_each(|ring| self.roll(ring));
-        if self.limb.iter().any(Option::is_some) {
-            return;
+        let others = self.joins.worn_as(&[Role::Other]);
+        let round = |ring: Ring| Round { pieces: ring.pieces(), flat: ring.flat(&self.joins, &[]) };
+        let (mut rest, gores): (Vec<Round>, Vec<Round>) =
+            Ring::of_several(&self.joins, &others).into_iter().map(round).partition(|ring| !self.are_gores(ring));
+        rest.extend(Ring::of_one(&self.joins, &others).into_iter().map(round));
+        wide.iter().chain(&gores).for_each(|ring| self.roll(ring));
+        if self.limb.iter().all(Option::is_none) {
+            let size =
+                |ring: &&Round| ring.pieces.iter().map(|&p| self.joins.garment.pieces[p].vertices.len()).sum::<usize>();
+            if let Some(ring) = rest.iter().max_by_key(size) {
+                self.roll(ring);
+            }
         }
-        let (joins, others) = (&self.joins, self.joins.worn_as(&[Role::Other]));
-        let size = |ring: &Ring| ring.pieces().iter().map(|&p| joins.garment.pieces[p].vertices.len()).sum::<usize>();
-        let rings = Ring::of_several(joins, &others).into_iter().chain(Ring::of_one(joins, &others));
-        if let Some(ring) = rings.max_by_key(size) {
-            self.roll(&Round { pieces: ring.pieces(), flat: ring.flat(joins, &[]) });
-        }
+    }
+
+    /// Whether a ring of pieces without a role can be the gores of a skirt: more than two, as wide as a trunk, and on no limb.
+    fn are_gores(&self, ring: &Round) -> bool {
+        let partners = (0..self.limb.len()).filter(|&p| !self.joins.to_any(p, &ring.pieces).is_empty());
+        let is_on_limb = partners.filter_map(|p| self.limb[p]).any(|axis| axis != self.form.trunk_axis());
+        ring.pieces.len() > 2 && ring.flat.inner_m() > NECK_M && !is_on_limb
     }
 
     fn roll(&mut self, ring: &Round) {
@@ -245,11 +255,14 @@ fn ordered(joins: &Joins, sheets: Vec<Sheet>, other: &Sheet) -> Vec<Sheet> {
 
 #[cfg(test)]
 mod tests {
+    use serde_json::{Value, json};
+
     use super::*;
     use crate::body::{self, Measurements, Sex};
     use crate::geom::Surface;
-    use crate::pattern::Style;
     use crate::pattern::draft::Model;
+    use crate::pattern::garment::SeamMesh;
+    use crate::pattern::{Style, garmentcode};
 
     fn body() -> Body {
         body::build(&Measurements::of(Sex::Male, 1.75)).expect("a body")
@@ -300,6 +313,61 @@ mod tests {
             let side = if piece.id.ends_with("right") { 1.0 } else { -1.0 };
             assert!(piece.vertices.clone().all(|v| x[v].x * side > 0.0), "{}", piece.id);
         }
+    }
+
+    /// A front and a back with six gores below, three sewn to each.
+    fn gored_dress() -> Garment {
+        let panel = |corners: &[[f64; 2]], x: f64, z: f64| {
+            let edges: Vec<Value> =
+                (0..corners.len()).map(|k| json!({ "endpoints": [k, (k + 1) % corners.len()] })).collect();
+            json!({ "translation": [x, 0, z], "rotation": [0, 0, 0], "vertices": corners, "edges": edges })
+        };
+        let top = [[-24.0, 0.0], [-8.0, 0.0], [8.0, 0.0], [24.0, 0.0], [24.0, 40.0], [-24.0, 40.0]];
+        let gore = [[-16.0, -50.0], [16.0, -50.0], [8.0, 0.0], [-8.0, 0.0]];
+        // Behind, the same as seen from outside.
+        let mirrored = |corners: &[[f64; 2]]| -> Vec<[f64; 2]> { corners.iter().map(|[x, y]| [-x, *y]).collect() };
+        let mut panels = json!({ "front": panel(&top, 0.0, 20.0), "back": panel(&mirrored(&top), 0.0, -20.0) });
+        let mut stitches = vec![
+            json!([{ "panel": "front", "edge": 3 }, { "panel": "back", "edge": 5 }]),
+            json!([{ "panel": "front", "edge": 5 }, { "panel": "back", "edge": 3 }]),
+        ];
+        for k in 0..6 {
+            let (name, place) = (format!("panel_{k}"), 16.0 * (k % 3) as f64 - 16.0);
+            let side = if k < 3 { "front" } else { "back" };
+            panels[&name] = if k < 3 { panel(&gore, place, 20.0) } else { panel(&mirrored(&gore), -place, -20.0) };
+            stitches.push(json!([{ "panel": name, "edge": 2 }, { "panel": side, "edge": k % 3 }]));
+            let next = format!("panel_{}", (k + 1) % 6);
+            stitches.push(json!([{ "panel": name, "edge": 1 }, { "panel": next, "edge": 3 }]));
+        }
+        let document = json!({
+            "pattern": { "panels": panels, "stitches": stitches },
+            "properties": { "curvature_coords": "relative", "units_in_meter": 100 }
+        });
+        let read = garmentcode::read(document.to_string().as_bytes(), "dress").expect("a specification");
+        let mut garment = read.style().mesh(0.04).expect("a mesh");
+        for piece in &mut garment.pieces {
+            piece.role = match piece.id.as_str() {
+                "front" => Role::BodiceFront,
+                "back" => Role::BodiceBack,
+                _ => Role::Other,
+            };
+        }
+        garment
+    }
+
+    #[test]
+    fn gores_below_a_bodice_go_round_as_one() {
+        let garment = gored_dress();
+        let x = place(&body(), &garment, &Params::default()).expect("it goes round");
+        let gap = |seam: &SeamMesh| seam.pairs.iter().map(|[a, b]| (x[*a] - x[*b]).norm()).fold(0.0, f64::max);
+        let piece = |v: usize| garment.pieces.iter().find(|piece| piece.vertices.contains(&v)).expect("a piece's");
+        let are_gores = |seam: &&SeamMesh| seam.pairs[0].iter().all(|&v| piece(v).role == Role::Other);
+        let open = garment.seams.iter().filter(are_gores).filter(|seam| gap(seam) > 0.01).count();
+        assert_eq!(open, 1, "all seams of the gores begin closed, but for one");
+        let is_bodice = |v: &usize| piece(*v).role != Role::Other;
+        let bodice = (0..x.len()).filter(is_bodice).map(|v| x[v].z).fold(f64::MAX, f64::min);
+        let gores = (0..x.len()).filter(|v| !is_bodice(v)).map(|v| x[v].z).fold(f64::MIN, f64::max);
+        assert!((bodice - gores).abs() < 0.02, "the gores begin at {gores} m, the bodice ends at {bodice}");
     }
 
     #[test]

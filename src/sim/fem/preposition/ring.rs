@@ -16,8 +16,11 @@ use crate::geom::V2;
 const FLAT_M: f64 = 0.03;
 /// A turn by less than this is a shift, rad.
 const SHIFT_RAD: f64 = 0.05;
-/// Ends nearer than this lie on each other: a full circle, m.
-const CLOSED_M: f64 = 0.01;
+/// Shift of a ring's middle by the motion of its ends, over the rms distance of its points from there, below which it goes all
+/// round: along a strip it is 1.5 or more.
+const CLOSED: f64 = 0.5;
+/// What a motion moves its points apart by, over their distance, below which it does not say where it turns about.
+const SURE: f64 = 0.15;
 /// Mean direction from the tip, of unit vectors, below which a piece goes all round it.
 const ALL_ROUND: f64 = 0.01;
 
@@ -146,13 +149,20 @@ impl Ring {
     fn tip(&self, joins: &Joins) -> Option<Point2<f64>> {
         let points: Vec<V2> =
             self.members.iter().flat_map(|member| member.places(joins)).map(|(_, p)| p.coords).collect();
-        let middle = Point2::from(points.iter().sum::<V2>() / points.len().max(1) as f64);
+        let count = points.len().max(1) as f64;
+        let middle = points.iter().sum::<V2>() / count;
+        let size = (points.iter().map(|p| (p - middle).norm_squared()).sum::<f64>() / count).sqrt();
+        let shift = self.closing * Point2::from(middle) - Point2::from(middle);
         let turn = self.closing.rotation;
-        if turn.angle().abs() >= SHIFT_RAD {
-            let apart = Matrix2::identity() - turn.to_rotation_matrix().into_inner();
-            return apart.lu().solve(&self.closing.translation.vector).map(Point2::from);
+        // A full circle turns by nothing about its middle, one of unlike halves is shifted a little besides.
+        let damping = if shift.norm() < CLOSED * size { SURE * SURE } else { 0.0 };
+        if damping == 0.0 && turn.angle().abs() < SHIFT_RAD {
+            return None;
         }
-        ((self.closing * middle - middle).norm() < CLOSED_M).then_some(middle)
+        // The point that moves least, and of those the nearest to the middle.
+        let apart = Matrix2::identity() - turn.to_rotation_matrix().into_inner();
+        let normal = apart.transpose() * apart + Matrix2::identity() * damping;
+        normal.lu().solve(&(apart.transpose() * shift)).map(|from_middle| Point2::from(middle + from_middle))
     }
 
     fn sector(&self, joins: &Joins, in_front: &[usize], tip: &Point2<f64>) -> Vec<(usize, f64, f64)> {
@@ -295,8 +305,15 @@ mod tests {
     use super::*;
     use crate::pattern::{Garment, garmentcode};
 
-    /// `count` gores of a sector: a turn in all, an inner radius and a length, cm; each drawn where `moved` puts it.
-    fn gores(count: usize, turn_rad: f64, inner: f64, length: f64, moved: impl Fn(usize) -> Isometry2<f64>) -> Garment {
+    /// `count` gores of a sector: a turn in all, an inner radius, on the left half larger by a little, and a length, cm; each drawn
+    /// where `moved` puts it.
+    fn gores(
+        count: usize,
+        turn_rad: f64,
+        [inner, larger]: [f64; 2],
+        length: f64,
+        moved: impl Fn(usize) -> Isometry2<f64>,
+    ) -> Garment {
         let half = 0.5 * turn_rad / count as f64;
         let point = |k: usize, side: f64, radius: f64| {
             let at = Point2::new(side * half.sin(), -half.cos()) * radius;
@@ -305,6 +322,7 @@ mod tests {
         };
         let arc = |radius: f64, sweep: u8| json!({ "type": "circle", "params": [radius, 0, sweep] });
         let panel = |k: usize| {
+            let inner = if 2 * k < count { inner } else { inner + larger };
             let outer = inner + length;
             let edges = json!([
                 { "endpoints": [0, 1], "curvature": arc(outer, 1) },
@@ -331,7 +349,7 @@ mod tests {
         let scattered = |k: usize| Isometry2::new(V2::new(150.0 * k as f64, 20.0), 2.0 * k as f64);
         let check = |count: usize, turn_rad: f64| {
             let (inner, length) = (80.0 / turn_rad, 50.0);
-            let garment = gores(count, turn_rad, inner, length, scattered);
+            let garment = gores(count, turn_rad, [inner, 0.0], length, scattered);
             let joins = Joins::of(&garment);
             let all: Vec<usize> = (0..count).collect();
             let rings = Ring::of_several(&joins, &all);
@@ -358,8 +376,18 @@ mod tests {
     }
 
     #[test]
+    fn unlike_halves_go_round_as_well() {
+        for (turn_rad, larger) in [(TAU, 2.0), (TAU, -3.0), (0.95 * TAU, 1.0)] {
+            let garment = gores(2, turn_rad, [15.0, larger], 55.0, |_| Isometry2::identity());
+            let flat = Ring::of_several(&Joins::of(&garment), &[0, 1])[0].flat(&Joins::of(&garment), &[]);
+            let turn = flat.turn_rad() / turn_rad;
+            assert!((0.9..1.1).contains(&turn), "{larger} cm larger: {turn} of the turn");
+        }
+    }
+
+    #[test]
     fn straight_gores_are_a_strip() {
-        let garment = gores(6, 0.02, 4000.0, 50.0, |k| Isometry2::new(V2::new(30.0 * k as f64, 4000.0), 0.0));
+        let garment = gores(6, 0.02, [4000.0, 0.0], 50.0, |k| Isometry2::new(V2::new(30.0 * k as f64, 4000.0), 0.0));
         let joins = Joins::of(&garment);
         let rings = Ring::of_several(&joins, &[0, 1, 2, 3, 4, 5]);
         let flat = rings[0].flat(&joins, &[]);
@@ -369,7 +397,7 @@ mod tests {
 
     #[test]
     fn a_row_is_no_ring() {
-        let garment = gores(4, 0.3 * TAU, 40.0, 50.0, |_| Isometry2::identity());
+        let garment = gores(4, 0.3 * TAU, [40.0, 0.0], 50.0, |_| Isometry2::identity());
         let joins = Joins::of(&garment);
         assert!(Ring::of_several(&joins, &[0, 1, 2]).is_empty());
         assert!(Ring::of_one(&joins, &[0, 1, 2, 3]).is_empty());
