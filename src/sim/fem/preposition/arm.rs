@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::form::{Axis, Form, Hand, arm_bones};
+use super::limb::{Limb, Station};
 use super::sheet::{Joins, Part, Sheet};
 use super::trunk::{BACKS, FRONTS};
 use crate::geom::{V2, V3};
@@ -25,13 +26,14 @@ const WRIST_M: f64 = 0.02;
 
 /// Sleeve pieces of one arm, placed: where the points of each go.
 pub struct Sleeve {
-    pub axis: Axis,
+    /// The arm.
+    pub limb: Limb,
     /// Pieces with the angle of their middle.
     pub parts: Vec<(Sheet, f64)>,
     /// Height along the axis of the sheet's 0, m.
     top: f64,
-    /// From the elbow down; never empty.
-    course: Vec<Station>,
+    /// About the upper arm, m.
+    radius: f64,
 }
 
 impl Sleeve {
@@ -77,25 +79,15 @@ impl Sleeve {
             rows.map(|(low, high)| high - low).sum()
         };
         let course = course(form, &axis, hand, width, radius);
-        Self { axis, parts, top, course }
+        Self { limb: Limb::bent(axis, course), parts, top, radius }
     }
 
     /// Where a point of a part's sheet goes.
     pub fn at(&self, p: V2, middle: f64) -> V3 {
-        let Station { height, beside, radius } = station(&self.course, self.top + p.y);
-        self.axis.point(middle + p.x / radius, radius, height) + beside
+        let height = self.top + p.y;
+        let radius = self.limb.station(height).map_or(self.radius, |station| station.radius);
+        self.limb.point(middle + p.x / radius, radius, height)
     }
-}
-
-/// A place below the elbow that a sleeve goes about.
-#[derive(Clone, Copy)]
-struct Station {
-    /// Along the axis of the upper arm, m.
-    height: f64,
-    /// From that axis to the arm's middle, m.
-    beside: V3,
-    /// Of the sleeve, m.
-    radius: f64,
 }
 
 /// Where an arm goes from the elbow over the wrist to the end of the hand, straight on where it is bent back, and how wide a
@@ -114,15 +106,6 @@ fn course(form: &Form, axis: &Axis, hand: Hand, width: impl Fn(f64) -> f64, radi
         }
     }
     course
-}
-
-/// The place at a height; beyond the ends as there.
-fn station(course: &[Station], height: f64) -> Station {
-    let within = course.windows(2).find(|ends| height > ends[1].height);
-    let (from, to) = within.map_or((course[course.len() - 1], course[course.len() - 1]), |ends| (ends[0], ends[1]));
-    let share = ((from.height - height) / (from.height - to.height).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    let radius = from.radius + (to.radius - from.radius) * share;
-    Station { height, beside: from.beside.lerp(&to.beside, share), radius }
 }
 
 /// Middle of what lies farthest from the cap of a sleeve.
@@ -153,25 +136,4 @@ fn arm_radius(form: &Form, axis: &Axis, below: std::ops::Range<f64>) -> f64 {
         (below.contains(&-height) && radius < 0.1).then_some(radius)
     });
     near.fold(0.0, f64::max)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_sleeve_follows_the_arm_from_the_elbow_on() {
-        let elbow = Station { height: -0.3, beside: V3::zeros(), radius: 0.07 };
-        let wrist = Station { height: -0.55, beside: V3::new(0.0, 0.1, 0.0), radius: 0.04 };
-        let check = |height: f64, beside: f64, radius: f64| {
-            let found = station(&[elbow, wrist], height);
-            assert!((found.beside.y - beside).abs() < 1e-12, "{beside} m at {height}: {}", found.beside);
-            assert!((found.radius - radius).abs() < 1e-12, "{radius} m at {height}: {}", found.radius);
-        };
-        check(0.1, 0.0, 0.07);
-        check(-0.3, 0.0, 0.07);
-        check(-0.425, 0.05, 0.055);
-        check(-0.55, 0.1, 0.04);
-        check(-0.8, 0.1, 0.04);
-    }
 }

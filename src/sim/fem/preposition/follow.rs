@@ -1,11 +1,12 @@
 //! Pieces that follow what they are sewn to: waistbands, cuffs, collars, hoods, pockets.
 //!
-//! The places of their partners are unrolled about the limb's axis; the similarity that takes the piece's seam nearest to
+//! The places of their partners are unrolled about the limb; the similarity that takes the piece's seam nearest to
 //! them says how the piece is turned, where it lies and how wide it is bent.
 
 use std::f64::consts::{PI, TAU};
 
-use super::form::{Axis, Form};
+use super::form::Form;
+use super::limb::Limb;
 use super::sheet::Joins;
 use crate::geom::{V2, V3};
 
@@ -13,10 +14,10 @@ use crate::geom::{V2, V3};
 const CLEARANCE_M: f64 = 0.012;
 
 /// Places of the vertices of `piece`, which `pairs` join (own vertex first) to vertices at `placed`.
-pub fn place(form: &Form, joins: &Joins, piece: usize, pairs: &[[usize; 2]], placed: &[V3], axis: &Axis) -> Vec<V3> {
+pub fn place(form: &Form, joins: &Joins, piece: usize, pairs: &[[usize; 2]], placed: &[V3], limb: &Limb) -> Vec<V3> {
     let rest = &joins.garment.rest;
     let own: Vec<V2> = pairs.iter().map(|pair| rest[pair[0]]).collect();
-    let partners: Vec<_> = pairs.iter().map(|pair| axis.coordinates(&placed[pair[1]])).collect();
+    let partners: Vec<_> = pairs.iter().map(|pair| limb.coordinates(&placed[pair[1]])).collect();
     let radius = partners.iter().map(|p| p.1).sum::<f64>() / partners.len() as f64;
     let angles = unwrapped(&own, &partners.iter().map(|p| p.0).collect::<Vec<_>>());
     let goal: Vec<V2> = angles.iter().zip(&partners).map(|(angle, p)| V2::new(angle * radius, p.2)).collect();
@@ -26,10 +27,10 @@ pub fn place(form: &Form, joins: &Joins, piece: usize, pairs: &[[usize; 2]], pla
     let heights = places.iter().map(|p| fit.to.y + p.y);
     let (low, high) = heights.fold((f64::MAX, f64::MIN), |(low, high), h| (low.min(h), high.max(h)));
     // Bent to the angle its partners take up; no nearer to the axis than the body lets it.
-    let bent = (radius / fit.scale).min(radius).max(body_radius(form, axis, low, high) + CLEARANCE_M);
+    let bent = (radius / fit.scale).min(radius).max(body_radius(form, limb, low, high) + CLEARANCE_M);
     let span = places.iter().fold(0.0, |most: f64, p| most.max(p.x.abs())) * fit.scale / radius;
     let per_m = fit.scale / radius * (0.97 * PI / span.max(0.97 * PI)).min(1.0);
-    places.iter().map(|p| axis.point(fit.to.x / radius + p.x * per_m, bent, fit.to.y + p.y)).collect()
+    places.iter().map(|p| limb.point(fit.to.x / radius + p.x * per_m, bent, fit.to.y + p.y)).collect()
 }
 
 /// Angles made continuous along the piece: neighbours on its longer side differ by less than half a turn.
@@ -86,13 +87,13 @@ impl Similarity {
     }
 }
 
-/// Greatest distance of the limb's skin from its axis between two heights.
-fn body_radius(form: &Form, axis: &Axis, low: f64, high: f64) -> f64 {
+/// Greatest distance of the limb's skin from its middle between two heights.
+fn body_radius(form: &Form, limb: &Limb, low: f64, high: f64) -> f64 {
     // An arm's axis slopes, the others are upright.
-    let skin = if axis.up == V3::z() { &form.trunk } else { &form.arms };
-    let own_side = |p: &&V3| axis.origin.x == 0.0 || p.x * axis.origin.x > 0.0;
+    let skin = if limb.axis.up == V3::z() { &form.trunk } else { &form.arms };
+    let own_side = |p: &&V3| limb.axis.origin.x == 0.0 || p.x * limb.axis.origin.x > 0.0;
     let near = skin.iter().filter(own_side).filter_map(|p| {
-        let (_, radius, height) = axis.coordinates(p);
+        let (_, radius, height) = limb.coordinates(p);
         (low..=high).contains(&height).then_some(radius)
     });
     near.fold(0.0, f64::max)

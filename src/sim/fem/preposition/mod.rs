@@ -9,6 +9,7 @@ mod ellipse;
 mod follow;
 mod form;
 mod leg;
+mod limb;
 mod ring;
 mod round;
 mod sheet;
@@ -23,8 +24,9 @@ use crate::sim::SimError;
 
 use super::params::Params;
 use arm::Sleeve;
-use form::{Axis, Form};
+use form::Form;
 use leg::Leg;
+use limb::Limb;
 use ring::{Flat, Ring};
 use sheet::{Joins, Part, Sheet};
 use trunk::Bent;
@@ -60,7 +62,7 @@ struct Placing<'a> {
     joins: Joins<'a>,
     positions: Vec<V3>,
     /// Limb of each piece placed so far.
-    limb: Vec<Option<Axis>>,
+    limb: Vec<Option<Limb>>,
 }
 
 /// Pieces that go round the trunk, laid out flat.
@@ -70,13 +72,17 @@ struct Round {
 }
 
 impl Placing<'_> {
-    fn put(&mut self, sheet: &Sheet, limb: Axis, at: impl Fn(V2) -> V3) {
+    fn put(&mut self, sheet: &Sheet, limb: &Limb, at: impl Fn(V2) -> V3) {
         for (v, p) in sheet.points(self.joins.garment) {
             self.positions[v] = at(p);
         }
         for piece in sheet.pieces() {
-            self.limb[piece] = Some(limb);
+            self.limb[piece] = Some(limb.clone());
         }
+    }
+
+    fn about_trunk(&self) -> Limb {
+        Limb::straight(self.form.trunk_axis())
     }
 
     /// Rings of fronts and backs that would lie badly as two sheets.
@@ -105,7 +111,7 @@ impl Placing<'_> {
             }
             let is_alone = sheets[1 - k].parts.is_empty();
             let bent = Bent::new(&self.form, &self.joins, &sheets[k], side, is_alone, params);
-            self.put(&sheets[k], self.form.trunk_axis(), |p| bent.at(p));
+            self.put(&sheets[k], &self.about_trunk(), |p| bent.at(p));
         }
     }
 
@@ -124,7 +130,7 @@ impl Placing<'_> {
                     self.positions[v] = place;
                 }
                 for piece in sheet.pieces() {
-                    self.limb[piece] = Some(self.form.leg_axis(hand));
+                    self.limb[piece] = Some(Limb::straight(self.form.leg_axis(hand)));
                 }
             }
         }
@@ -134,7 +140,7 @@ impl Placing<'_> {
         for hand in [1.0, -1.0] {
             let sleeve = Sleeve::new(&self.form, &self.joins, hand);
             for (sheet, middle) in &sleeve.parts {
-                self.put(sheet, sleeve.axis, |p| sleeve.at(p, *middle));
+                self.put(sheet, &sleeve.limb, |p| sleeve.at(p, *middle));
             }
         }
     }
@@ -160,7 +166,7 @@ impl Placing<'_> {
     /// Whether a ring of pieces without a role can be the gores of a skirt: more than two, as wide as a trunk, and on no limb.
     fn are_gores(&self, ring: &Round) -> bool {
         let partners = (0..self.limb.len()).filter(|&p| !self.joins.to_any(p, &ring.pieces).is_empty());
-        let is_on_limb = partners.filter_map(|p| self.limb[p]).any(|axis| axis != self.form.trunk_axis());
+        let is_on_limb = partners.filter_map(|p| self.limb[p].as_ref()).any(|limb| *limb != self.about_trunk());
         ring.pieces.len() > 2 && ring.flat.inner_m() > NECK_M && !is_on_limb
     }
 
@@ -174,7 +180,7 @@ impl Placing<'_> {
             self.positions[v] = place;
         }
         for &piece in &ring.pieces {
-            self.limb[piece] = Some(self.form.trunk_axis());
+            self.limb[piece] = Some(self.about_trunk());
         }
     }
 
@@ -192,14 +198,16 @@ impl Placing<'_> {
                     trunk one after the other, any other piece that is sewn to one of these; this one is sewn to none";
                 return Err(SimError::CannotPlace { piece: piece.id.clone(), role: piece.role, accepted });
             };
-            let mut axes = placed.iter().filter(|&&p| !joins.between(piece, p).is_empty()).filter_map(|&p| limb[p]);
+            let mut limbs =
+                placed.iter().filter(|&&p| !joins.between(piece, p).is_empty()).filter_map(|&p| limb[p].as_ref());
             // What joins several limbs goes about the trunk, and so does half a waistband on one leg.
             let is_waist = joins.garment.pieces[piece].role == Role::Waistband;
-            let first = axes.next().filter(|_| !is_waist);
-            let axis = first.filter(|first| axes.all(|axis| axis == *first)).unwrap_or(self.form.trunk_axis());
-            let places = follow::place(&self.form, joins, piece, &pairs, &self.positions, &axis);
+            let first = limbs.next().filter(|_| !is_waist);
+            let only = first.filter(|first| limbs.all(|limb| limb == *first));
+            let about = only.cloned().unwrap_or_else(|| self.about_trunk());
+            let places = follow::place(&self.form, joins, piece, &pairs, &self.positions, &about);
             self.positions[joins.garment.pieces[piece].vertices.clone()].copy_from_slice(&places);
-            self.limb[piece] = Some(axis);
+            self.limb[piece] = Some(about);
         }
         Ok(())
     }
