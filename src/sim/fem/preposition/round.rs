@@ -19,6 +19,8 @@ const BAND_M: f64 = 0.02;
 const LEAST_SPAN_RAD: f64 = 0.1;
 /// Greatest and least sine of the angle between a cone and its axis, where a wide skirt would take more, and the steps between.
 const SPREADS: (f64, f64, u32) = (0.35, 0.2, 5);
+/// Sine of the steepest cone that a sector starts on over that of the one on which it closes without waves: from there its hem would turn in.
+const STEEPER: f64 = 0.7;
 /// Waves of a skirt that is wider than its cone, and the directions in which their length is taken.
 const WAVES: (f64, u32) = (8.0, 32);
 
@@ -62,7 +64,7 @@ fn about(points: &[(usize, f64, f64)], spread: f64) -> Vec<Rolled> {
     let [low, high] = bounds(points.iter().map(|p| p.1));
     let [inner, _] = bounds(points.iter().map(|p| p.2));
     let share = (high - low).max(LEAST_SPAN_RAD) / (TAU * ROUND);
-    let spread = share.min(spread);
+    let spread = (STEEPER * share).min(spread);
     let steep = (1.0 - spread * spread).sqrt();
     let roll = |&(vertex, angle, length): &(usize, f64, f64)| {
         let angle = angle / share;
