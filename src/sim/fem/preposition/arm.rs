@@ -32,8 +32,6 @@ pub struct Sleeve {
     pub parts: Vec<(Sheet, f64)>,
     /// Height along the axis of the sheet's 0, m.
     top: f64,
-    /// About the upper arm, m.
-    radius: f64,
 }
 
 impl Sleeve {
@@ -78,34 +76,35 @@ impl Sleeve {
             let rows = parts.iter().filter_map(|(sheet, _)| sheet.row(joins.garment, height - top));
             rows.map(|(low, high)| high - low).sum()
         };
-        let course = course(form, &axis, hand, width, radius);
-        Self { limb: Limb::bent(axis, course), parts, top, radius }
+        let limb = arm(form, axis, hand, width, radius);
+        Self { limb, parts, top }
     }
 
     /// Where a point of a part's sheet goes.
     pub fn at(&self, p: V2, middle: f64) -> V3 {
         let height = self.top + p.y;
-        let radius = self.limb.station(height).map_or(self.radius, |station| station.radius);
+        let radius = self.limb.station(height).radius;
         self.limb.point(middle + p.x / radius, radius, height)
     }
 }
 
-/// Where an arm goes from the elbow over the wrist to the end of the hand, straight on where it is bent back, and how wide a
-/// sleeve begins there that is `width` wide at a height and has some radius at the elbow.
-fn course(form: &Form, axis: &Axis, hand: Hand, width: impl Fn(f64) -> f64, radius: f64) -> Vec<Station> {
+/// An arm from the elbow over the wrist to the end of the hand, straight on where it is bent back, and how wide a sleeve begins
+/// there that is `width` wide at a height and has some radius at the elbow.
+fn arm(form: &Form, axis: Axis, hand: Hand, width: impl Fn(f64) -> f64, radius: f64) -> Limb {
     let [_, elbow, wrist] = arm_bones(form.body, hand);
-    let mut course = vec![Station { height: axis.coordinates(&elbow).2, beside: V3::zeros(), radius }];
+    let elbow = Station { height: axis.coordinates(&elbow).2, beside: V3::zeros(), radius };
+    let mut below: Vec<Station> = Vec::new();
     for joint in [Some(wrist), form.tip(hand)].into_iter().flatten() {
         let height = axis.coordinates(&joint).2;
-        let above = course[course.len() - 1];
+        let above = below.last().copied().unwrap_or(elbow);
         if height < above.height - BENT_BACK_M {
             let beside = joint - axis.point(0.0, 0.0, height);
-            let needed = arm_radius(form, &Axis { origin: wrist, ..*axis }, -WRIST_M..WRIST_M) + SLEEVE_CLEARANCE_M;
+            let needed = arm_radius(form, &Axis { origin: wrist, ..axis }, -WRIST_M..WRIST_M) + SLEEVE_CLEARANCE_M;
             let radius = (width(height) / (SLEEVE_TURN * TAU)).max(needed).min(above.radius);
-            course.push(Station { height, beside, radius });
+            below.push(Station { height, beside, radius });
         }
     }
-    course
+    Limb::bent(axis, elbow, below)
 }
 
 /// Middle of what lies farthest from the cap of a sleeve.

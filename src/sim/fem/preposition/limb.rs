@@ -10,7 +10,7 @@ pub struct Station {
     pub height: f64,
     /// From that axis to the arm's middle, across it, m.
     pub beside: V3,
-    /// Of the sleeve, m.
+    /// Of the sleeve, m; 0 where there is none.
     pub radius: f64,
 }
 
@@ -18,44 +18,40 @@ pub struct Station {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limb {
     pub axis: Axis,
-    /// From the elbow of an arm down; empty of a straight limb.
+    /// From the elbow of an arm down, one on the axis of a straight limb; never empty.
     course: Vec<Station>,
 }
 
 impl Limb {
     /// One that goes along its axis.
     pub fn straight(axis: Axis) -> Self {
-        Self { axis, course: Vec::new() }
+        Self::bent(axis, Station { height: 0.0, beside: V3::zeros(), radius: 0.0 }, Vec::new())
     }
 
     /// An arm that goes on from the elbow over some stations, downwards.
-    pub fn bent(axis: Axis, course: Vec<Station>) -> Self {
-        Self { axis, course }
+    pub fn bent(axis: Axis, elbow: Station, below: Vec<Station>) -> Self {
+        Self { axis, course: [vec![elbow], below].concat() }
     }
 
-    /// The place at a height, beyond the ends as there; `None` where all is straight.
-    pub fn station(&self, height: f64) -> Option<Station> {
+    /// The place at a height, beyond the ends as there.
+    pub fn station(&self, height: f64) -> Station {
         let within = self.course.windows(2).find(|ends| height > ends[1].height);
-        let last = *self.course.last()?;
+        let last = self.course[self.course.len() - 1];
         let (from, to) = within.map_or((last, last), |ends| (ends[0], ends[1]));
         let share = ((from.height - height) / (from.height - to.height).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
         let radius = from.radius + (to.radius - from.radius) * share;
-        Some(Station { height, beside: from.beside.lerp(&to.beside, share), radius })
+        Station { height, beside: from.beside.lerp(&to.beside, share), radius }
     }
 
     /// The point at an angle (rad), a distance from the limb's middle and a height.
     pub fn point(&self, angle: f64, radius: f64, height: f64) -> V3 {
-        self.axis.point(angle, radius, height) + self.beside(height)
+        self.axis.point(angle, radius, height) + self.station(height).beside
     }
 
     /// Angle (rad, within half a turn), distance from the limb's middle and height of a point.
     pub fn coordinates(&self, p: &V3) -> (f64, f64, f64) {
         let (_, _, height) = self.axis.coordinates(p);
-        self.axis.coordinates(&(p - self.beside(height)))
-    }
-
-    fn beside(&self, height: f64) -> V3 {
-        self.station(height).map_or_else(V3::zeros, |station| station.beside)
+        self.axis.coordinates(&(p - self.station(height).beside))
     }
 }
 
@@ -67,13 +63,13 @@ mod tests {
         let axis = Axis { origin: V3::new(0.2, 0.0, 1.4), up: V3::z(), outward: V3::x() };
         let elbow = Station { height: -0.3, beside: V3::zeros(), radius: 0.07 };
         let wrist = Station { height: -0.55, beside: V3::new(0.0, 0.1, 0.0), radius: 0.04 };
-        Limb::bent(axis, vec![elbow, wrist])
+        Limb::bent(axis, elbow, vec![wrist])
     }
 
     #[test]
     fn a_sleeve_follows_the_arm_from_the_elbow_on() {
         let check = |height: f64, beside: f64, radius: f64| {
-            let found = arm().station(height).expect("it is bent");
+            let found = arm().station(height);
             assert!((found.beside.y - beside).abs() < 1e-12, "{beside} m at {height}: {}", found.beside);
             assert!((found.radius - radius).abs() < 1e-12, "{radius} m at {height}: {}", found.radius);
         };

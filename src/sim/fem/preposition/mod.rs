@@ -85,22 +85,25 @@ impl Placing<'_> {
         Limb::straight(self.form.trunk_axis())
     }
 
+    /// A ring laid out flat, the middle of its fronts at the front.
+    fn laid_out(&self, ring: &Ring) -> Round {
+        Round { pieces: ring.pieces(), flat: ring.flat(&self.joins, &self.joins.worn_as(&trunk::FRONTS)) }
+    }
+
     /// Rings of fronts and backs that would lie badly as two sheets.
     fn wide_rings(&self) -> Vec<Round> {
         let joins = &self.joins;
         let skirts = Ring::of_several(joins, &joins.worn_as(&[Role::SkirtFront, Role::SkirtBack]));
         let others = Ring::of_several(joins, &joins.worn_as(&trunk::TOPS));
-        let round =
-            |ring: Ring| Round { pieces: ring.pieces(), flat: ring.flat(joins, &joins.worn_as(&trunk::FRONTS)) };
-        let skirts =
-            skirts.into_iter().map(round).filter(|ring| ring.pieces.len() > 2 || ring.flat.turn_rad() > WIDE_RAD);
+        let skirts = skirts.iter().map(|ring| self.laid_out(ring));
+        let skirts = skirts.filter(|ring| ring.pieces.len() > 2 || ring.flat.turn_rad() > WIDE_RAD);
         let sides = [trunk::FRONTS, trunk::BACKS].map(|roles| joins.worn_as(&roles));
         let is_of_one_side =
             |ring: &Round| sides.iter().any(|side| ring.pieces.iter().all(|piece| side.contains(piece)));
         // What is narrower at its upper edge hangs from the neck.
         let is_skirt =
             |ring: &Round| (ring.flat.turn_rad() > WIDE_RAD || is_of_one_side(ring)) && ring.flat.inner_m() > NECK_M;
-        skirts.chain(others.into_iter().map(round).filter(is_skirt)).collect()
+        skirts.chain(others.iter().map(|ring| self.laid_out(ring)).filter(is_skirt)).collect()
     }
 
     fn trunk(&mut self, wide: &[Round], params: &Params) {
@@ -149,12 +152,12 @@ impl Placing<'_> {
     /// all rings does.
     fn rings(&mut self, wide: Vec<Round>) {
         let others = self.joins.worn_as(&[Role::Other]);
-        let round = |ring: Ring| Round { pieces: ring.pieces(), flat: ring.flat(&self.joins, &[]) };
-        let (mut rest, gores): (Vec<Round>, Vec<Round>) =
-            Ring::of_several(&self.joins, &others).into_iter().map(round).partition(|ring| !self.are_gores(ring));
-        rest.extend(Ring::of_one(&self.joins, &others).into_iter().map(round));
+        let several = Ring::of_several(&self.joins, &others);
+        let (gores, mut rest): (Vec<Round>, Vec<Round>) =
+            several.iter().map(|ring| self.laid_out(ring)).partition(|ring| self.are_gores(ring));
         wide.iter().chain(&gores).for_each(|ring| self.roll(ring));
         if self.limb.iter().all(Option::is_none) {
+            rest.extend(Ring::of_one(&self.joins, &others).iter().map(|ring| self.laid_out(ring)));
             let size =
                 |ring: &&Round| ring.pieces.iter().map(|&p| self.joins.garment.pieces[p].vertices.len()).sum::<usize>();
             if let Some(ring) = rest.iter().max_by_key(size) {
