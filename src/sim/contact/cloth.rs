@@ -128,10 +128,17 @@ impl<'a> ClothContact<'a> {
         self
     }
 
-    /// Whether nothing crosses.
+    /// Whether nothing crosses, nor did so of late.
     #[must_use]
     pub fn is_untangled(&self) -> bool {
-        self.knots.is_empty()
+        self.knots.is_empty() && !self.knots.is_fresh()
+    }
+
+    /// Gives contacts the thickness that they are still growing to, and says whether there were any: cloth is not at rest before.
+    pub fn ripen(&mut self) -> bool {
+        let is_fresh = self.knots.is_fresh();
+        self.knots.ripen();
+        is_fresh
     }
 
     /// Vertices of pairs of which one is `free`.
@@ -162,6 +169,7 @@ impl<'a> ClothContact<'a> {
     /// Looks at where the cloth has come in a step: seeks near pairs anew where it has moved so far, or folded so sharply, that one
     /// could be missed in the next, and finds the way out of crossings.
     pub fn update(&mut self, x: &[V3]) {
+        self.knots.grow();
         let mut may_cross = self.may_cross(x);
         let step = if self.last.len() == x.len() { farthest(x, &self.last) } else { self.params.reach_m };
         self.last = x.to_vec();
@@ -267,7 +275,8 @@ impl<'a> ClothContact<'a> {
         let nearest = Nearest::of(x, primitives);
         let normal = nearest.gap.try_normalize(0.0)?;
         let area = vertices.iter().map(|&v| self.areas[v]).fold(f64::MAX, f64::min);
-        let push = push(nearest.gap.norm(), self.params.thickness_m.min(THICKNESS_SIZES * area.sqrt()))?;
+        let grown_m = self.params.thickness_m.min(THICKNESS_SIZES * area.sqrt());
+        let push = push(nearest.gap.norm(), grown_m * self.knots.thickness_share(primitives))?;
         let stiffness_n_m = self.params.stiffness_n_m3 * area;
         let mut press =
             Press { vertices, weights: nearest.weights, normal, push, stiffness_n_m, share: 1.0, fading: None };

@@ -11,15 +11,22 @@ const PATIENCE: u32 = 4;
 const GROWTH: f64 = 1.5;
 /// Most that it grows by in all.
 const MOST_GROWTH: f64 = 100.0;
+/// Steps over which the contact of what has come free grows to its thickness.
+const FRESH_STEPS: u32 = 20;
 /// How far a step against a releasing force goes at most, m.
 const STEP_M: f64 = 2e-3;
 
 /// What crosses at a step. It has no right side: its edges and triangles let each other pass until they have come free, and
 /// forces draw them out. These grow for as long as the crossings do not get fewer, as cloth may be drawn tight there.
+///
+/// What comes free lies far nearer than cloth that was never crossed. Pushed apart at once by all that a contact can, it is thrown
+/// through whatever lies behind it, caught there, drawn out, and thrown again. So its contact starts thin, and grows.
 pub struct Knots {
     wings: Wings,
     /// Pairs of vertices, one of an edge and one of a triangle that it pierces, both ways round, sorted.
     passing: Vec<[usize; 2]>,
+    /// Such pairs that have come free, and for how many steps they have been, sorted.
+    fresh: Vec<([usize; 2], u32)>,
     releases: Vec<Release>,
     /// Force that draws a crossing out, at first and now, N.
     force_n: [f64; 2],
@@ -36,6 +43,7 @@ impl Knots {
         Self {
             wings: Wings::new(triangles),
             passing: Vec::new(),
+            fresh: Vec::new(),
             releases: Vec::new(),
             force_n: [force_n; 2],
             steps_left: steps,
@@ -54,15 +62,36 @@ impl Knots {
         self.passing.is_empty()
     }
 
+    /// Whether something has come free of late, so that its contact has not got its thickness yet.
+    #[must_use]
+    pub fn is_fresh(&self) -> bool {
+        !self.fresh.is_empty()
+    }
+
+    /// Gives all that has come free the thickness of its contact.
+    pub fn ripen(&mut self) {
+        self.fresh.clear();
+    }
+
+    /// Lets the contacts of what has come free grow by a step.
+    pub fn grow(&mut self) {
+        self.fresh.iter_mut().for_each(|(_, age)| *age += 1);
+        self.fresh.retain(|(_, age)| *age < FRESH_STEPS);
+    }
+
     /// Takes up what crosses at `x`.
     pub fn see(&mut self, x: &[V3], found: &[Crossing]) {
-        self.passing.clear();
+        let before = std::mem::take(&mut self.passing);
         for Crossing { edge, triangle } in found {
             let each = edge.iter().flat_map(|&v| triangle.map(|w| [[v, w], [w, v]]));
             self.passing.extend(each.flatten());
         }
         self.passing.sort_unstable();
         self.passing.dedup();
+        let free = before.into_iter().filter(|pair| self.passing.binary_search(pair).is_err());
+        self.fresh.extend(free.map(|pair| (pair, 0)));
+        self.fresh.sort_unstable();
+        self.fresh.dedup_by_key(|(pair, _)| *pair);
         self.releases.clear();
         if self.steps_left > 0 && !found.is_empty() {
             self.steps_left -= 1;
@@ -93,12 +122,18 @@ impl Knots {
         if self.passing.is_empty() {
             return false;
         }
-        let [a, b, c, d] = primitives.vertices();
-        let pass = |v: usize, w: usize| self.passing.binary_search(&[v, w]).is_ok();
-        match primitives {
-            Primitives::VertexTriangle(_) => [b, c, d].into_iter().any(|w| pass(a, w)),
-            Primitives::EdgeEdge(_) => [a, b].into_iter().any(|v| pass(v, c) || pass(v, d)),
+        primitives.across().any(|pair| self.passing.binary_search(&pair).is_ok())
+    }
+
+    /// Share of its thickness that the contact of a pair has: less than 1 where it has come free of late.
+    #[must_use]
+    pub fn thickness_share(&self, primitives: Primitives) -> f64 {
+        if self.fresh.is_empty() {
+            return 1.0;
         }
+        let age = |pair| self.fresh.binary_search_by_key(&pair, |(pair, _)| *pair).ok().map(|at| self.fresh[at].1);
+        let youngest = primitives.across().filter_map(age).min();
+        youngest.map_or(1.0, |age| f64::from(age + 1) / f64::from(FRESH_STEPS + 1))
     }
 
     /// Energy of the forces, J.

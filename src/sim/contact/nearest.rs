@@ -20,6 +20,16 @@ impl Primitives {
         }
     }
 
+    /// The pairs of vertices, one of either primitive.
+    pub fn across(self) -> impl Iterator<Item = [usize; 2]> {
+        let vertices = self.vertices();
+        let split = match self {
+            Self::VertexTriangle(_) => 1,
+            Self::EdgeEdge(_) => 2,
+        };
+        (0..split).flat_map(move |k| (split..4).map(move |l| [vertices[k], vertices[l]]))
+    }
+
     /// The same pair with its vertices called otherwise, if they have such names.
     pub fn renamed(self, names: impl Fn([usize; 4]) -> Option<[usize; 4]>) -> Option<Self> {
         match self {

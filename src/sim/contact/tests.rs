@@ -198,6 +198,34 @@ fn what_does_not_come_free_is_drawn_harder_until_it_does() {
 }
 
 #[test]
+fn what_has_come_free_is_pushed_apart_little_by_little() {
+    let (areas, triangles) = ([1e-4; 6], [[0, 1, 2], [3, 4, 5]]);
+    let contact = || ClothContact::new(ClothContactParams::default(), &triangles, &areas);
+    let push = |contact: &mut ClothContact, x: &[V3]| {
+        contact.update(x);
+        let mut forces = vec![V3::zeros(); areas.len()];
+        contact.assemble(x, &mut forces);
+        forces[3].z
+    };
+    let (crossed, free) = (poking(-1e-3), poking(1e-4));
+    let whole = push(&mut contact(), &free);
+    let freed = || {
+        let mut freed = contact();
+        freed.update(&crossed);
+        freed
+    };
+    let mut pushed = freed();
+    let growing: Vec<f64> = (0..30).map(|_| push(&mut pushed, &free)).collect();
+    assert!(growing[0] < 1e-3 * whole, "{growing:?} of {whole}");
+    assert!(growing.windows(2).all(|w| w[1] >= w[0]) && growing[15] < whole && growing[29] == whole, "{growing:?}");
+    // Nothing is at rest on a contact that is still to grow, and no part of it is stepped by itself.
+    let mut fresh = freed();
+    push(&mut fresh, &free);
+    assert!(!fresh.is_untangled() && fresh.ripen() && fresh.is_untangled() && !fresh.ripen());
+    assert_eq!(push(&mut fresh, &free), whole);
+}
+
+#[test]
 fn a_move_is_held_back_only_where_cloth_would_pierce_itself() {
     let (large, small, triangles) = two_sheets();
     let at = |height: f64, corner: f64| -> Vec<V3> {

@@ -18,6 +18,7 @@ use super::pcg::PcgParams;
 use super::system::System;
 use crate::geom::V3;
 use crate::sim::cloth::membrane::Foreseen;
+use crate::sim::contact::ClothContact;
 
 /// How to step.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -131,8 +132,12 @@ impl Stepper {
 
     /// Takes one step of the whole cloth from `x`, unless the residual is already below `tolerance`; says what it did.
     pub fn step_whole(&mut self, system: &mut System, x: &mut Vec<V3>, tolerance: f64) -> StepInfo {
-        let (forces, mut operator) = system.assemble(x, self.predicted.as_deref());
-        let residual = rms(&forces) / system.mean_weight();
+        let (mut forces, mut operator) = system.assemble(x, self.predicted.as_deref());
+        let mut residual = rms(&forces) / system.mean_weight();
+        if residual <= tolerance && system.self_contact.as_mut().is_some_and(ClothContact::ripen) {
+            (forces, operator) = system.assemble(x, self.predicted.as_deref());
+            residual = rms(&forces) / system.mean_weight();
+        }
         if residual <= tolerance {
             return StepInfo { residual, share: 1.0 };
         }
