@@ -136,9 +136,7 @@ impl<'a> ClothContact<'a> {
 
     /// Gives contacts the thickness that they are still growing to, and says whether there were any: cloth is not at rest before.
     pub fn ripen(&mut self) -> bool {
-        let is_fresh = self.knots.is_fresh();
-        self.knots.ripen();
-        is_fresh
+        self.knots.ripen()
     }
 
     /// Vertices of pairs of which one is `free`.

@@ -68,9 +68,9 @@ impl Knots {
         !self.fresh.is_empty()
     }
 
-    /// Gives all that has come free the thickness of its contact.
-    pub fn ripen(&mut self) {
-        self.fresh.clear();
+    /// Gives all that has come free the thickness of its contact, and says whether there was any.
+    pub fn ripen(&mut self) -> bool {
+        !std::mem::take(&mut self.fresh).is_empty()
     }
 
     /// Lets the contacts of what has come free grow by a step.
