@@ -370,19 +370,25 @@ impl<'a> BodyContact<'a> {
         stiffness * self.samples[touch.sample].area_m2 + friction
     }
 
-    /// Adds what vertices that touch at `x` lack of stiffness in `diagonal`, which [`BodyContact::assemble`] has filled for
-    /// the start of the step: those that come to touch, and those that go deeper.
-    pub fn stiffen(&self, x: &[V3], diagonal: &mut [Matrix3<f64>]) {
-        let mut has = vec![0.0; self.vertices];
-        for touch in self.touching.iter().filter(|touch| touch.sample < self.vertices) {
+    /// What samples that touch at `x` lack of the stiffness that [`BodyContact::assemble`] has found for the start of the step: those
+    /// that come to touch, and those that go deeper. Adds that of vertices to `diagonal` and returns that of points between.
+    #[must_use]
+    pub fn stiffen(&self, x: &[V3], diagonal: &mut [Matrix3<f64>]) -> Vec<Contact4> {
+        let mut has = vec![0.0; self.samples.len()];
+        for touch in &self.touching {
             has[touch.sample] = touch.push.stiffness_n_m3;
         }
-        for (vertex, sample) in self.samples[..self.vertices].iter().enumerate() {
-            if let Some((depth, gradient)) = self.depth(sample, x) {
-                let lacks = self.params.push(depth).stiffness_n_m3 - has[vertex];
-                diagonal[vertex] += gradient * gradient.transpose() * (sample.area_m2 * lacks.max(0.0));
+        let mut couplings = Vec::new();
+        for (k, sample) in self.samples.iter().enumerate() {
+            let Some((depth, gradient)) = self.depth(sample, x) else { continue };
+            let lacks = sample.area_m2 * (self.params.push(depth).stiffness_n_m3 - has[k]).max(0.0);
+            if k < self.vertices {
+                diagonal[k] += gradient * gradient.transpose() * lacks;
+            } else {
+                couplings.push(sample.coupling(gradient, lacks));
             }
         }
+        couplings
     }
 
     fn find_touching(&mut self, x: &[V3]) {

@@ -18,7 +18,12 @@ pub struct Phase {
     max_steps: u32,
     /// Share of the whole work done before and after it, for the progress.
     share: [f64; 2],
+    /// First step size, s.
+    h_start_s: f64,
 }
+
+/// First step size of the end of a drape, s: it goes on with cloth that has lain down already.
+const LAIN_DOWN_S: f64 = 0.5;
 
 impl Phase {
     /// Coming to rest without friction on level `level` of `last`.
@@ -32,12 +37,20 @@ impl Phase {
             tolerance: params.coarse_tolerance,
             max_steps: if has_settled { params.finest_frictionless_steps } else { params.coarse_steps },
             share: [at(level), at(level + 1)],
+            h_start_s: params.step.h_start_s,
         }
     }
 
     /// The end of the drape, with friction.
     pub fn final_drape(params: &Params, level: usize) -> Self {
-        Self { name: "drape", level, tolerance: params.tolerance, max_steps: params.max_iterations, share: [0.8, 1.0] }
+        Self {
+            name: "drape",
+            level,
+            tolerance: params.tolerance,
+            max_steps: params.max_iterations,
+            share: [0.8, 1.0],
+            h_start_s: LAIN_DOWN_S.min(params.step.h_max_s),
+        }
     }
 }
 
@@ -133,7 +146,7 @@ impl<'a> Run<'a> {
         x: &mut Vec<V3>,
         phase: Phase,
     ) -> Result<f64, SimError> {
-        let mut stepper = Stepper::new(self.params.step);
+        let mut stepper = Stepper::new(StepParams { h_start_s: phase.h_start_s, ..self.params.step });
         let mut first = 0.0;
         let mut residual = f64::MAX;
         for step in 0..=phase.max_steps {

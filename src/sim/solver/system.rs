@@ -3,7 +3,7 @@
 use nalgebra::{Matrix2, Matrix3};
 
 use super::linear::LinearSolver;
-use super::operator::Operator;
+use super::operator::{Contact4, Operator};
 use crate::geom::V3;
 use crate::sim::cloth::Cloth;
 use crate::sim::cloth::membrane::Foreseen;
@@ -85,16 +85,13 @@ impl<'a> System<'a> {
     /// Forces at `x`, N, with the contacts found at the last [`System::assemble`].
     #[must_use]
     pub fn forces(&self, x: &[V3]) -> Vec<V3> {
-        let mut forces = self.contact_forces(x);
+        let (mut forces, _) = self.contact_forces(x);
         forces.iter_mut().zip(&self.weights).for_each(|(f, w)| f.z -= w);
         self.cloth.membrane.add_forces(x, &mut forces);
         self.cloth.bending.add_forces(x, &mut forces);
         self.cloth.bands.add_forces(x, &mut forces);
         if let Some(springs) = &self.springs {
             springs.assemble(x, &mut forces);
-        }
-        for (v, depth, back) in self.trespasses(x) {
-            forces[v] += back * (WALL_STIFFNESS * self.cloth.areas[v] * depth);
         }
         self.held.iter().for_each(|&v| forces[v] = V3::zeros());
         forces
@@ -138,21 +135,23 @@ impl<'a> System<'a> {
     }
 
     /// Forces (N) by which stretching and contact at the end of a step `d` from `x` differ from what a linear solve at `x`
-    /// foresaw, and the stiffness (N/m) there, without the geometric part of stretching. Bending is foreseen exactly: it is
-    /// linear. `operator` is that of [`System::assemble`] at `x`, `membrane` what it foresees.
+    /// foresaw, and the stiffness (N/m) there, without the geometric part of stretching and with contacts at either end of the
+    /// step: those that it makes would throw their vertices out by centimetres if they had a force there and no stiffness. Bending
+    /// is foreseen exactly: it is linear. `operator` is that of [`System::assemble`] at `x`, `membrane` what it foresees.
     pub fn excess(&self, operator: Operator<'a>, x: &[V3], d: &[V3], membrane: &[Foreseen]) -> (Vec<V3>, Operator<'a>) {
         let end: Vec<V3> = x.iter().zip(d).map(|(p, d)| p + d).collect();
-        let mut excess = self.contact_forces(&end);
-        let foreseen = self.contact_forces(x).into_iter().zip(operator.contact_forces(d)).map(|(f, kd)| f - kd);
+        let (mut excess, meeting) = self.contact_forces(&end);
+        let foreseen = self.contact_forces(x).0.into_iter().zip(operator.contact_forces(d)).map(|(f, kd)| f - kd);
         excess.iter_mut().zip(foreseen).for_each(|(e, f)| *e -= f);
         let mut blocks = self.cloth.membrane.assemble_towards(&end, membrane, &mut excess);
         self.cloth.bands.assemble_towards(x, &end, operator.membrane_pairs, &mut excess, &mut blocks);
         for &v in &self.held {
             excess[v] = V3::zeros();
         }
-        let mut diagonal = operator.diagonal;
-        self.contact.stiffen(&end, &mut diagonal);
-        (excess, Operator { diagonal, membrane: blocks, ..operator })
+        let Operator { mut diagonal, mut contacts, .. } = operator;
+        contacts.extend(self.contact.stiffen(&end, &mut diagonal));
+        contacts.extend(meeting);
+        (excess, Operator { diagonal, contacts, membrane: blocks, ..operator })
     }
 
     /// How far vertices may go in the step that was assembled last, m.
@@ -167,13 +166,15 @@ impl<'a> System<'a> {
         walls.flat_map(|walls| x.iter().enumerate().filter_map(|(v, p)| walls.trespass(v, p).map(|(d, n)| (v, d, n))))
     }
 
-    /// Forces of the contacts, N, with those found at the last [`System::assemble`].
-    fn contact_forces(&self, x: &[V3]) -> Vec<V3> {
+    /// Forces of contacts and walls, N, with the contacts found at the last [`System::assemble`], and the stiffness of those of the cloth
+    /// with itself.
+    fn contact_forces(&self, x: &[V3]) -> (Vec<V3>, Vec<Contact4>) {
         let mut forces = vec![V3::zeros(); x.len()];
         self.contact.add_forces(x, &mut forces);
-        if let Some(contact) = &self.self_contact {
-            contact.assemble(x, &mut forces);
+        for (v, depth, back) in self.trespasses(x) {
+            forces[v] += back * (WALL_STIFFNESS * self.cloth.areas[v] * depth);
         }
-        forces
+        let contacts = self.self_contact.as_ref().map_or_else(Vec::new, |contact| contact.assemble(x, &mut forces));
+        (forces, contacts)
     }
 }
