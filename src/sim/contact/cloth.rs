@@ -13,6 +13,7 @@ use std::borrow::Cow;
 
 use super::advance;
 use super::barrier::{Push, push};
+use super::clusters::Motion;
 use super::knots::Knots;
 use super::nearest::{Nearest, Primitives, spanned_squared};
 use super::search::Neighbours;
@@ -45,14 +46,16 @@ impl Default for ClothContactParams {
 /// Squared sine of the angle between two edges below which their contact fades out: parallel edges have no one direction
 /// in which they face each other.
 const PARALLEL: f64 = 0.01;
-/// Least movement that a search foresees, m.
-const LEAST_SLACK_M: f64 = 2e-3;
+/// Steps like the last that pairs are known for at least, and at best.
+const STEPS_AHEAD: [f64; 2] = [1.5, 3.0];
+/// Least that a search foresees a pair to come nearer, m.
+const LEAST_SLACK_M: f64 = 4e-3;
 /// Greatest search distance over the size of triangles: about a vertex of a finer mesh lie no more pairs, and a quarter as many
 /// as within twice as far.
 const REACH_SIZES: f64 = 0.7;
 /// Least greatest search distance, m: a step goes half as far at most.
 const LEAST_REACH_M: f64 = 8e-3;
-/// Share of the way that is known to be free which a step may take: corrections come on top.
+/// Share of the way to what is unknown that a step may take: corrections come on top.
 const FREE_SHARE: f64 = 0.9;
 /// Shells of distance by which pairs are sorted.
 const SHELLS: f64 = 64.0;
@@ -96,6 +99,8 @@ pub struct ClothContact<'a> {
     reach_m: f64,
     /// Where the cloth was at the last step.
     last: Vec<V3>,
+    /// How much nearer than there unknown pairs may come before they could meet, m.
+    room_m: f64,
     knots: Knots,
 }
 
@@ -114,6 +119,7 @@ impl<'a> ClothContact<'a> {
             found_at: Vec::new(),
             reach_m,
             last: Vec::new(),
+            room_m: 0.0,
             knots: Knots::new(triangles, params.release_n, params.release_steps),
         }
     }
@@ -160,6 +166,7 @@ impl<'a> ClothContact<'a> {
             found_at: part.of(&self.found_at),
             reach_m: self.reach_m,
             last: x.to_vec(),
+            room_m: self.room_m,
             knots: Knots::new(&[], 0.0, 0),
         }
     }
@@ -169,17 +176,21 @@ impl<'a> ClothContact<'a> {
     pub fn update(&mut self, x: &[V3]) {
         self.knots.grow();
         let mut may_cross = self.may_cross(x);
-        let step = if self.last.len() == x.len() { farthest(x, &self.last) } else { self.params.reach_m };
-        self.last = x.to_vec();
-        let Some(mut neighbours) = self.neighbours.take() else { return };
-        let expected = 1.5 * step;
-        let moved = if self.found_at.len() == x.len() { farthest(x, &self.found_at) } else { f64::MAX };
-        let is_far = moved + expected > 0.5 * (self.reach_m - self.params.thickness_m);
+        let last = std::mem::replace(&mut self.last, x.to_vec());
+        let Some(mut neighbours) = self.neighbours.take() else {
+            self.room_m -= 2.0 * farthest(x, &last);
+            return;
+        };
+        let step = (last.len() == x.len()).then(|| neighbours.motion(&differences(x, &last)));
         let stays_flat = neighbours.stay_flat(x);
-        if is_far || !stays_flat {
-            let wanted = self.params.thickness_m + 2.0 * (expected + expected.max(LEAST_SLACK_M));
-            self.reach_m = wanted.min(self.params.reach_m);
-            self.seek(&mut neighbours, x);
+        let must_seek = !stays_flat
+            || step.as_ref().is_none_or(|step| {
+                let made = neighbours.motion(&differences(x, &self.found_at));
+                self.room_m = neighbours.room_m(self.reach_m, [(&made, 1.0)]);
+                neighbours.room_m(self.reach_m, [(&made, 1.0), (step, STEPS_AHEAD[0])]) < self.params.thickness_m
+            });
+        if must_seek {
+            self.seek(&mut neighbours, x, step.as_ref());
         }
         may_cross |= !stays_flat;
         if may_cross {
@@ -192,28 +203,60 @@ impl<'a> ClothContact<'a> {
     /// Whether the cloth may have come to cross itself: it did already, or touched at the last step and may have passed since, or was
     /// moved by others. What is near, and does not touch, is kept from it.
     fn may_cross(&self, x: &[V3]) -> bool {
-        self.found_at.len() != x.len()
-            || 2.0 * farthest(x, &self.found_at) >= self.reach_m
-            || !self.knots.is_empty()
-            || self.touches()
+        self.found_at.len() != x.len() || !self.is_known(x) || !self.knots.is_empty() || self.touches()
     }
 
     /// Whether parts of the cloth touched at the last [`ClothContact::update`], and so may pass each other in the next step.
     #[must_use]
     pub fn touches(&self) -> bool {
         let touches = |primitives| Nearest::of(&self.last, primitives).gap.norm() < advance::TOUCHING_M;
-        self.near(self.moved(&self.last), advance::TOUCHING_M).any(touches)
+        self.near([&self.last], advance::TOUCHING_M).any(touches)
     }
 
-    /// How far vertices may go from where the cloth was at the last [`ClothContact::update`], m: farther, near pairs would be
-    /// unknown.
+    /// How far vertices may go, each its own way, from where the cloth was at the last [`ClothContact::update`], m: farther, near
+    /// pairs could be unknown.
     #[must_use]
     pub fn free_path_m(&self) -> f64 {
-        FREE_SHARE * (0.5 * self.reach_m - farthest(&self.last, &self.found_at))
+        0.5 * FREE_SHARE * self.room_m
     }
 
-    fn seek(&mut self, neighbours: &mut Neighbours, x: &[V3]) {
-        let (reach_m, found) = (self.reach_m, &mut self.found);
+    /// Share of these displacements that vertices may go for the same reason: what many do together brings them no nearer.
+    #[must_use]
+    pub fn free_share(&self, displacements: &[V3]) -> f64 {
+        let longest_m = displacements.iter().map(V3::norm_squared).fold(0.0, f64::max).sqrt();
+        let share = self.free_path_m() / longest_m;
+        match &self.neighbours {
+            Some(neighbours) if share < 1.0 => {
+                let made = neighbours.motion(&differences(&self.last, &self.found_at));
+                let next = neighbours.motion(displacements);
+                FREE_SHARE * neighbours.free_share(self.reach_m, &made, &next)
+            }
+            _ => share,
+        }
+    }
+
+    /// Whether no unknown pair can meet at `x`.
+    fn is_known(&self, x: &[V3]) -> bool {
+        2.0 * farthest(x, &self.last) < self.room_m
+            || self.neighbours.as_ref().is_some_and(|neighbours| {
+                let made = neighbours.motion(&differences(x, &self.found_at));
+                neighbours.room_m(self.reach_m, [(&made, 1.0)]) > 0.0
+            })
+    }
+
+    /// Seeks near pairs at `x`, for steps like the last.
+    fn seek(&mut self, neighbours: &mut Neighbours, x: &[V3], step: Option<&Motion>) {
+        let ClothContactParams { thickness_m, reach_m: most_m, .. } = self.params;
+        let [least_steps, steps] = STEPS_AHEAD;
+        neighbours.look(x, step.map_or(2.0 * most_m, |step| (2.0 * steps * step.farthest_m).max(most_m)));
+        let reach_m = step.map_or(most_m, |step| {
+            let closing = |clusters| {
+                let closing_m = step.closing_m(clusters);
+                thickness_m + (steps * closing_m).max(least_steps * closing_m + LEAST_SLACK_M)
+            };
+            neighbours.wanted_m(closing).clamp(thickness_m + LEAST_SLACK_M, most_m)
+        });
+        let found = &mut self.found;
         found.clear();
         let mut ends = [0; SHELLS as usize + 1];
         neighbours.each_within(x, reach_m, |primitives| {
@@ -234,38 +277,27 @@ impl<'a> ClothContact<'a> {
             self.pairs[*at] = *pair;
             *at += 1;
         }
-        self.found_at = x.to_vec();
+        (self.reach_m, self.found_at) = (reach_m, x.to_vec());
+        self.room_m = neighbours.room_m(reach_m, []);
     }
 
-    /// How far each vertex has come since the pairs were sought, m.
-    fn moved(&self, x: &[V3]) -> Vec<f64> {
-        x.iter().zip(&self.found_at).map(|(p, q)| (p - q).norm()).collect()
-    }
-
-    /// Pairs that can be nearer than `within_m` where their vertices have come as far as `moved`.
-    fn near<'s>(&'s self, moved: Vec<f64>, within_m: f64) -> impl Iterator<Item = Primitives> + 's {
-        let most = moved.iter().copied().fold(0.0, f64::max);
+    /// Pairs that can be nearer than `within_m` at any of some places, or on the way between them.
+    fn near<const N: usize>(&self, places: [&[V3]; N], within_m: f64) -> impl Iterator<Item = Primitives> {
+        let moved = places.map(|x| differences(x, &self.found_at));
+        let most = moved.iter().flatten().map(V3::norm_squared).fold(0.0, f64::max).sqrt();
         let last = shell(within_m + 2.0 * most, self.reach_m);
         let nearest = self.pairs.partition_point(|pair| shell(pair.distance_m, self.reach_m) <= last);
         let is_near = move |pair: &&Pair| {
-            let [a, b, c, d] = pair.primitives.vertices().map(|v| moved[v]);
-            let closing = match pair.primitives {
-                Primitives::VertexTriangle(_) => a + b.max(c).max(d),
-                Primitives::EdgeEdge(_) => a.max(b) + c.max(d),
-            };
-            pair.distance_m < within_m + closing && !self.knots.pass(pair.primitives)
+            let spare_m = pair.distance_m - within_m;
+            let closes = |[a, b]: [usize; 2]| moved.iter().any(|d| (d[a] - d[b]).norm_squared() > spare_m * spare_m);
+            (spare_m < 0.0 || pair.primitives.across().any(closes)) && !self.knots.pass(pair.primitives)
         };
         self.pairs[..nearest].iter().filter(is_near).map(|pair| pair.primitives)
     }
 
     /// Whether cloth would go through itself on the straight way from the last step to `x`.
     fn is_barred(&self, x: &[V3]) -> bool {
-        let moved = self.moved(x);
-        if 2.0 * moved.iter().copied().fold(0.0, f64::max) >= self.reach_m {
-            return true;
-        }
-        let farthest = moved.iter().zip(self.moved(&self.last)).map(|(a, b)| a.max(b)).collect();
-        self.near(farthest, 0.0).any(|primitives| advance::meets(&self.last, x, primitives))
+        !self.is_known(x) || self.near([x, &self.last], 0.0).any(|primitives| advance::meets(&self.last, x, primitives))
     }
 
     fn press(&self, x: &[V3], primitives: Primitives) -> Option<Press> {
@@ -294,7 +326,7 @@ impl<'a> ClothContact<'a> {
     }
 
     fn presses<'s>(&'s self, x: &'s [V3]) -> impl Iterator<Item = Press> + 's {
-        self.near(self.moved(x), self.params.thickness_m).filter_map(|primitives| self.press(x, primitives))
+        self.near([x], self.params.thickness_m).filter_map(|primitives| self.press(x, primitives))
     }
 
     /// Contact energy, J; infinite where the cloth would go through itself on the way from the last step, so that no line
@@ -333,6 +365,11 @@ impl<'a> ClothContact<'a> {
 /// Which of the shells that part the reach a distance falls in.
 fn shell(distance_m: f64, reach_m: f64) -> u8 {
     (SHELLS * distance_m / reach_m) as u8
+}
+
+/// How far each vertex is from where it was, m.
+fn differences(x: &[V3], from: &[V3]) -> Vec<V3> {
+    x.iter().zip(from).map(|(p, q)| p - q).collect()
 }
 
 /// Greatest distance of a vertex from where it was, m.

@@ -36,6 +36,26 @@ pub struct Members {
     pub triangles: Vec<usize>,
     /// Edges, by their first vertex.
     pub edges: Vec<usize>,
+    /// All vertices of these, sorted.
+    pub corners: Vec<usize>,
+}
+
+/// How the clusters of a cloth have moved, or are to.
+pub struct Motion {
+    /// Mean displacement of a cluster's corners, m.
+    means: Vec<V3>,
+    /// How far anything in it strays from that at most, m.
+    strays_m: Vec<f64>,
+    /// Longest displacement of a vertex, m.
+    pub farthest_m: f64,
+}
+
+impl Motion {
+    /// How much nearer any part of one cluster may come to any of another, m: what they have in common brings them no nearer.
+    #[must_use]
+    pub fn closing_m(&self, [p, q]: [usize; 2]) -> f64 {
+        (self.means[p] - self.means[q]).norm() + self.strays_m[p] + self.strays_m[q]
+    }
 }
 
 /// The normals of a cluster.
@@ -80,6 +100,19 @@ impl Clusters {
         }
         joined.sort_unstable();
         joined.dedup();
+        for members in &mut members {
+            let ends = members.edges.iter().flat_map(|&e| edges.pairs()[e]);
+            let all = members
+                .vertices
+                .iter()
+                .copied()
+                .chain(ends)
+                .chain(members.triangles.iter().flat_map(|&t| triangles[t]));
+            let mut corners: Vec<usize> = all.collect();
+            corners.sort_unstable();
+            corners.dedup();
+            members.corners = corners;
+        }
         Self { members, around, is_at_rim, joined, flat: Vec::new() }
     }
 
@@ -103,6 +136,21 @@ impl Clusters {
     pub fn stay_flat(&self, x: &[V3], triangles: &[[usize; 3]]) -> bool {
         let cones = self.cones(x, triangles);
         self.flat.iter().all(|&[a, b]| spread_rad(&cones[a], &cones[b]) < STILL_FLAT_RAD)
+    }
+
+    /// How the clusters move where vertices are displaced like this.
+    #[must_use]
+    pub fn motion(&self, displacements: &[V3]) -> Motion {
+        let mean = |members: &Members| {
+            members.corners.iter().map(|&v| displacements[v]).sum::<V3>() / members.corners.len() as f64
+        };
+        let means: Vec<V3> = self.members.iter().map(mean).collect();
+        let stray = |(members, mean): (&Members, &V3)| {
+            members.corners.iter().map(|&v| (displacements[v] - mean).norm_squared()).fold(0.0, f64::max).sqrt()
+        };
+        let strays_m = self.members.iter().zip(&means).map(stray).collect();
+        let farthest_m = displacements.iter().map(V3::norm_squared).fold(0.0, f64::max).sqrt();
+        Motion { means, strays_m, farthest_m }
     }
 
     fn cones(&self, x: &[V3], triangles: &[[usize; 3]]) -> Vec<Cone> {

@@ -61,6 +61,13 @@ impl Bounds {
         0.5 * (high - low).max()
     }
 
+    /// How far apart two boxes are at least, m; 0 where they overlap.
+    #[must_use]
+    pub fn apart_m(&self, other: &Self) -> f64 {
+        let between = |k: usize| f64::from((self.low[k] - other.high[k]).max(other.low[k] - self.high[k])).max(0.0);
+        (0..3).map(|k| between(k) * between(k)).sum::<f64>().sqrt()
+    }
+
     fn new(low: &V3, high: &V3) -> Self {
         Self {
             low: [low.x, low.y, low.z].map(|c| (c as f32).next_down()),

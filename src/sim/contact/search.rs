@@ -1,6 +1,6 @@
 //! The search for parts of a cloth that are near each other and share no vertex.
 
-use super::clusters::{Clusters, Members};
+use super::clusters::{Clusters, Members, Motion};
 use super::grid::{Bounds, BoxGrid};
 use super::nearest::Primitives;
 use super::tangle::edges_of;
@@ -15,6 +15,24 @@ pub struct Neighbours<'a> {
     clusters: Clusters,
     /// One of the vertices that a vertex is sewn to, the same for all of them.
     joined: Vec<usize>,
+    /// Clusters that were near each other when the cloth was last looked at, but for flat ones.
+    near: Vec<Near>,
+    /// How near, m.
+    horizon_m: f64,
+}
+
+/// Two clusters, the first no later than the second, or one twice.
+struct Near {
+    clusters: [usize; 2],
+    /// Distance of their boxes, m.
+    apart_m: f64,
+}
+
+impl Near {
+    /// How far apart any of their parts are of which it is unknown, where those within `reach_m` are known, m.
+    fn unknown_m(&self, reach_m: f64) -> f64 {
+        self.apart_m.max(reach_m)
+    }
 }
 
 impl<'a> Neighbours<'a> {
@@ -23,7 +41,7 @@ impl<'a> Neighbours<'a> {
     pub fn new(triangles: &'a [[usize; 3]], vertices: usize) -> Self {
         let edges = edges_of(triangles);
         let clusters = Clusters::new(vertices, triangles, &edges);
-        Self { triangles, edges, clusters, joined: (0..vertices).collect() }
+        Self { triangles, edges, clusters, joined: (0..vertices).collect(), near: Vec::new(), horizon_m: 0.0 }
     }
 
     /// Takes the two of each `sewn` pair for one vertex.
@@ -46,29 +64,73 @@ impl<'a> Neighbours<'a> {
         self.triangles
     }
 
-    /// Whether what the last search left out as flat is so at `x` still.
+    /// Whether what was left out as flat is so at `x` still.
     #[must_use]
     pub fn stay_flat(&self, x: &[V3]) -> bool {
         self.clusters.stay_flat(x, self.triangles)
     }
 
-    /// Takes each pair whose boxes are within `reach` of each other; all that are within it are among them, but for those within
-    /// flat cloth.
-    pub fn each_within(&mut self, x: &[V3], reach: f64, mut take: impl FnMut(Primitives)) {
+    /// How the cloth moves where its vertices are displaced like this.
+    #[must_use]
+    pub fn motion(&self, displacements: &[V3]) -> Motion {
+        self.clusters.motion(displacements)
+    }
+
+    /// Looks at the cloth at `x`: what is flat, and which of the other clusters are within `horizon_m` of each other.
+    pub fn look(&mut self, x: &[V3], horizon_m: f64) {
         self.clusters.look(x, self.triangles);
-        let boxes = Boxes::new(self, x, reach);
-        let clusters = &self.clusters.members;
-        let extents: Vec<Bounds> = clusters.iter().map(|members| boxes.around(members)).collect();
+        let extent = |members: &Members| {
+            members.corners.iter().map(|&v| Bounds::around([&x[v]], 0.0)).fold(Bounds::NOTHING, |sum, b| sum.with(&b))
+        };
+        let extents: Vec<Bounds> = self.clusters.members.iter().map(extent).collect();
         let corners: Vec<V3> = extents.iter().flat_map(Bounds::corners).collect();
-        let sets: Vec<[usize; 2]> = (0..clusters.len()).map(|c| [2 * c, 2 * c + 1]).collect();
+        let sets: Vec<[usize; 2]> = (0..extents.len()).map(|c| [2 * c, 2 * c + 1]).collect();
         let half = extents.iter().map(Bounds::half_m).fold(0.0, f64::max);
-        let grid = BoxGrid::new(&corners, &sets, 0.0, half, (2.0 * half).max(CELL_M));
-        for p in 0..clusters.len() {
+        let grid = BoxGrid::new(&corners, &sets, horizon_m, half, (2.0 * half + horizon_m).max(CELL_M));
+        (self.horizon_m, self.near) = (horizon_m, Vec::new());
+        for p in 0..extents.len() {
             for q in grid.near([&corners[2 * p], &corners[2 * p + 1]]).filter(|&q| q >= p) {
-                if !self.clusters.are_flat([p, q]) {
-                    self.between([p, q], &boxes, &extents, &mut take);
+                let apart_m = extents[p].apart_m(&extents[q]);
+                if apart_m < horizon_m && !self.clusters.are_flat([p, q]) {
+                    self.near.push(Near { clusters: [p, q], apart_m });
                 }
             }
+        }
+    }
+
+    /// How much nearer than it was when the cloth was looked at anything may still come to anything, when pairs within `reach_m` are known and
+    /// the cloth has made these `motions` since, each so many times, m: what is left of that may be used up before unknown pairs can meet.
+    #[must_use]
+    pub fn room_m<const N: usize>(&self, reach_m: f64, motions: [(&Motion, f64); N]) -> f64 {
+        let used = |of: &dyn Fn(&Motion) -> f64| motions.iter().map(|(motion, times)| of(motion) * times).sum::<f64>();
+        let far = self.horizon_m - 2.0 * used(&|motion| motion.farthest_m);
+        let left = |near: &Near| near.unknown_m(reach_m) - used(&|motion| motion.closing_m(near.clusters));
+        self.near.iter().map(left).fold(far, f64::min)
+    }
+
+    /// Largest share of a motion that can be made after another before unknown pairs can meet.
+    #[must_use]
+    pub fn free_share(&self, reach_m: f64, made: &Motion, next: &Motion) -> f64 {
+        let far = (self.horizon_m - 2.0 * made.farthest_m) / (2.0 * next.farthest_m);
+        let share =
+            |near: &Near| (near.unknown_m(reach_m) - made.closing_m(near.clusters)) / next.closing_m(near.clusters);
+        self.near.iter().map(share).fold(far, f64::min)
+    }
+
+    /// Distance within which pairs have to be known, m, so that for what it was found `by` a cluster's motion no unknown ones meet.
+    #[must_use]
+    pub fn wanted_m(&self, by: impl Fn([usize; 2]) -> f64) -> f64 {
+        let wanted = |near: &Near| Some(by(near.clusters)).filter(|wanted| near.apart_m < *wanted);
+        self.near.iter().filter_map(wanted).fold(0.0, f64::max)
+    }
+
+    /// Takes each pair whose boxes are within `reach` of each other; all that are within it are among them, but for those within
+    /// flat cloth.
+    pub fn each_within(&self, x: &[V3], reach: f64, mut take: impl FnMut(Primitives)) {
+        let boxes = Boxes::new(self, x, reach);
+        let extents: Vec<Bounds> = self.clusters.members.iter().map(|members| boxes.around(members)).collect();
+        for near in self.near.iter().filter(|near| near.apart_m <= reach) {
+            self.between(near.clusters, &boxes, &extents, &mut take);
         }
     }
 
@@ -187,6 +249,7 @@ mod tests {
             let x = shaken(&rest.iter().map(place).collect::<Vec<_>>(), 2e-4, 3);
             let mut neighbours = Neighbours::new(&triangles, x.len());
             let mut found: Vec<Tagged> = Vec::new();
+            neighbours.look(&x, 2.0 * reach);
             neighbours.each_within(&x, reach, |primitives| found.push(tagged(primitives)));
             found.sort_unstable();
             assert!(found.windows(2).all(|two| two[0] != two[1]), "a pair is found twice");
@@ -211,7 +274,7 @@ mod tests {
         let (rest, triangles) = sheet(24, 24, EDGE_M);
         let flat: Vec<V3> = rest.iter().map(|p| V3::new(p.x, p.y, 0.0)).collect();
         let mut neighbours = Neighbours::new(&triangles, flat.len());
-        neighbours.each_within(&flat, 0.9 * EDGE_M, |_| ());
+        neighbours.look(&flat, EDGE_M);
         assert!(neighbours.stay_flat(&shaken(&flat, 5e-4, 1)));
         let folded: Vec<V3> = flat.iter().map(|p| V3::new((p.x - 0.12).abs(), p.y, p.z)).collect();
         assert!(!neighbours.stay_flat(&folded));

@@ -79,9 +79,9 @@ pub fn relax(
         let info = stepper.step_whole(&mut alone, &mut own, enough);
         let must_be_seen = alone.self_contact.as_mut().is_some_and(|contact| {
             contact.update(&own);
-            contact.touches()
+            contact.touches() || contact.free_path_m() < LEAST_PATH_M
         });
-        if info.residual <= enough || info.share == 0.0 || must_be_seen || alone.free_path_m() < LEAST_PATH_M {
+        if info.residual <= enough || info.share == 0.0 || must_be_seen {
             break;
         }
     }

@@ -148,8 +148,9 @@ impl Stepper {
             PcgParams { tolerance: self.params.linear_tolerance, max_iterations: self.params.linear_iterations };
         let mut direction = self.last.take().unwrap_or_else(|| vec![V3::zeros(); x.len()]);
         system.linear.solve(&operator, x, &forces, &mut direction, &linear);
-        let farthest_m = self.params.clamp_m.min(system.free_path_m());
-        shorten(&mut direction, farthest_m);
+        shorten(&mut direction, self.params.clamp_m);
+        let free_share = system.free_share(&direction).min(1.0);
+        direction.iter_mut().for_each(|d| *d *= free_share);
         operator.diagonal = contacts;
         let foreseen = system.cloth.membrane.foresee(x, &direction);
         let bend = self.correction(system, operator, x, &direction, &foreseen);

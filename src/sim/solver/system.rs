@@ -154,10 +154,10 @@ impl<'a> System<'a> {
         (excess, Operator { diagonal, contacts, membrane: blocks, ..operator })
     }
 
-    /// How far vertices may go in the step that was assembled last, m.
+    /// Share of these displacements that may be gone in the step that was assembled last.
     #[must_use]
-    pub fn free_path_m(&self) -> f64 {
-        self.self_contact.as_ref().map_or(f64::INFINITY, ClothContact::free_path_m)
+    pub fn free_share(&self, displacements: &[V3]) -> f64 {
+        self.self_contact.as_ref().map_or(f64::INFINITY, |contact| contact.free_share(displacements))
     }
 
     /// Vertices on the wrong side of a wall, how far, m, and the way back.
