@@ -5,8 +5,9 @@
 //! as two layers come near ([`super::barrier`]), so that tension does not draw one through the other, and no step may
 //! take it through: where a pair would meet on the way from the last step ([`super::advance`]) the energy is infinite. All
 //! pairs that share no vertex are watched, but for those within flat cloth ([`super::clusters`]), so what does not cross hardly
-//! ever comes to: only what is pressed to within a thousandth of a millimetre may pass. Pairs are sought within a reach that no
-//! step can cross, so none is met unseen. Cloth that already crosses when it is first seen passes through itself there,
+//! ever comes to: only what is pressed to within a thousandth of a millimetre may pass. Pairs are sought within a reach, and
+//! steps go no farther than pairs beyond it need to meet, so none is met unseen; what many vertices do together brings none nearer
+//! ([`super::clusters`]). Cloth that already crosses when it is first seen passes through itself there,
 //! while the line along which it crosses is drawn out of it ([`super::knots`]). There is no friction between layers.
 
 use std::borrow::Cow;

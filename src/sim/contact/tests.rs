@@ -125,6 +125,28 @@ fn cloth_is_pushed_off_cloth_and_no_step_takes_it_through() {
 }
 
 #[test]
+fn what_falls_together_goes_far_and_what_closes_in_does_not() {
+    let (large, small, triangles) = two_sheets();
+    let at = |fallen: f64, height: f64| -> Vec<V3> {
+        let upper = small.iter().map(|p| V3::new(p.x + 0.033, p.y + 0.0305, height - fallen));
+        large.iter().map(|p| V3::new(p.x, p.y, -fallen)).chain(upper).collect()
+    };
+    let areas = vec![1e-4; large.len() + small.len()];
+    let mut contact = ClothContact::new(ClothContactParams::default(), &triangles, &areas);
+    contact.update(&at(0.0, 5e-3));
+    contact.update(&at(5e-3, 5e-3));
+    let by = |to: &[V3]| -> Vec<V3> { to.iter().zip(at(5e-3, 5e-3)).map(|(p, q)| p - q).collect() };
+    let (together, closing) = (at(0.015, 5e-3), at(5e-3, -5e-3));
+    assert!(contact.free_path_m() < 5e-3 && contact.free_share(&by(&together)) > 1.0);
+    assert_eq!(contact.energy(&together), 0.0);
+    let share = contact.free_share(&by(&closing));
+    assert!((0.1..1.0).contains(&share), "{share}");
+    assert_eq!(contact.energy(&closing), f64::INFINITY);
+    // Farther than it was looked at, not even together.
+    assert_eq!(contact.energy(&at(0.05, 5e-3)), f64::INFINITY);
+}
+
+#[test]
 fn triangles_side_by_side_do_not_fold_through_each_other() {
     // A strip of three squares; the last is turned about its edge onto the first, and through it.
     let (rest, triangles) = sheet(3, 1, 0.015);

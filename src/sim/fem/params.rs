@@ -80,7 +80,7 @@ impl Default for Params {
             sewing_progress: 0.98,
             sewing_patience: 3,
             sewing_h_min_s: 0.02,
-            sewing_clamp_m: 0.01,
+            sewing_clamp_m: 0.005,
             sewing_h_max_s: 0.1,
             sewing_steps: 300,
             weld_gap_m: 2e-3,

@@ -272,3 +272,48 @@ fn lengthen(
 pub fn rms(vectors: &[V3]) -> f64 {
     (vectors.iter().map(V3::norm_squared).sum::<f64>() / vectors.len().max(1) as f64).sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::{DistanceField, V2, shapes};
+    use crate::sim::cloth::Cloth;
+    use crate::sim::contact::{BodyContact, ClothContactParams, ContactParams};
+    use crate::sim::laboratory::{self, sheets};
+    use crate::sim::sewing::unsewn;
+    use crate::sim::testing::fabric;
+
+    #[test]
+    fn a_contact_that_a_step_makes_does_not_throw_the_cloth() {
+        // Two layers 3 mm apart, the lower 2 mm above a ball.
+        let (radius, apart) = (0.1, V2::new(0.5, 0.0));
+        let field = DistanceField::build(&shapes::sphere(radius, 32), 0.006).expect("a closed ball");
+        let ((lower, mut triangles), (upper, others)) = (sheets::sheet(8, 8, 0.02), sheets::sheet(4, 4, 0.02));
+        triangles.extend(others.iter().map(|t| t.map(|v| v + lower.len())));
+        let rest: Vec<V2> = lower.iter().copied().chain(upper.iter().map(|p| p + apart)).collect();
+        let garment = laboratory::garment((rest, triangles));
+        let is_upper: Vec<bool> = garment.rest.iter().map(|p| p.x >= apart.x).collect();
+        let place = |(p, is_upper): (&V2, &bool)| {
+            let (p, height) = if *is_upper { (p - apart + V2::new(0.043, 0.037), 3e-3) } else { (*p, 0.0) };
+            V3::new(p.x - 0.08, p.y - 0.08, radius + 3e-3 + height)
+        };
+        let x: Vec<V3> = garment.rest.iter().zip(&is_upper).map(place).collect();
+        let cloth = Cloth::new(&garment, &fabric(), unsewn(&garment)).expect("sound");
+        let body = BodyContact::new(&field, ContactParams::default(), &cloth.areas);
+        let mut system = System::new(&cloth, body.with_points_between(&cloth.triangles), None);
+        system.self_contact = Some(ClothContact::new(ClothContactParams::default(), &cloth.triangles, &cloth.areas));
+        let stepper = Stepper::new(StepParams::default());
+        let mut check = |lower: f64, upper: f64| {
+            let (_, operator) = system.assemble(&x, None);
+            let d: Vec<V3> =
+                is_upper.iter().map(|&is_upper| V3::z() * -(if is_upper { upper } else { lower })).collect();
+            let foreseen = cloth.membrane.foresee(&x, &d);
+            let bend = stepper.correction(&system, operator, &x, &d, &foreseen);
+            let longest = bend.iter().map(V3::norm).fold(0.0, f64::max);
+            assert!(longest > 1e-4 && longest < 1.5 * lower.max(upper), "{longest} after {lower} and {upper}");
+        };
+        // Onto the ball, and one layer onto the other.
+        check(4e-3, 4e-3);
+        check(0.0, 2.8e-3);
+    }
+}
