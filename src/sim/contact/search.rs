@@ -98,8 +98,8 @@ impl<'a> Neighbours<'a> {
         }
     }
 
-    /// How much nearer than it was when the cloth was looked at anything may still come to anything, when pairs within `reach_m` are known and
-    /// the cloth has made these `motions` since, each so many times, m: what is left of that may be used up before unknown pairs can meet.
+    /// How much nearer parts of the cloth may still come before pairs that are unknown can meet, m: those within `reach_m` are known, and
+    /// the cloth has made these `motions` since it was looked at, each so many times.
     #[must_use]
     pub fn room_m<const N: usize>(&self, reach_m: f64, motions: [(&Motion, f64); N]) -> f64 {
         let used = |of: &dyn Fn(&Motion) -> f64| motions.iter().map(|(motion, times)| of(motion) * times).sum::<f64>();
@@ -124,8 +124,8 @@ impl<'a> Neighbours<'a> {
         self.near.iter().filter_map(wanted).fold(0.0, f64::max)
     }
 
-    /// Takes each pair whose boxes are within `reach` of each other; all that are within it are among them, but for those within
-    /// flat cloth.
+    /// Takes each pair whose boxes are within `reach` of each other, which is no more than the horizon that the cloth was looked at with;
+    /// all that are within it are among them, but for those within flat cloth.
     pub fn each_within(&self, x: &[V3], reach: f64, mut take: impl FnMut(Primitives)) {
         let boxes = Boxes::new(self, x, reach);
         let extents: Vec<Bounds> = self.clusters.members.iter().map(|members| boxes.around(members)).collect();
