@@ -14,7 +14,7 @@ use std::borrow::Cow;
 
 use super::advance;
 use super::barrier::{Push, push};
-use super::clusters::Motion;
+use super::clusters::{Motion, longest_m};
 use super::knots::Knots;
 use super::nearest::{Nearest, Primitives, spanned_squared};
 use super::search::Neighbours;
@@ -30,7 +30,7 @@ pub struct ClothContactParams {
     pub thickness_m: f64,
     /// Penalty, N/m3.
     pub stiffness_n_m3: f64,
-    /// Pairs are sought up to this distance at most, m: twice what a vertex moves in a step.
+    /// Pairs are sought up to this distance at most, m: twice what two vertices move towards each other in a step.
     pub reach_m: f64,
     /// Force that draws a crossing out, N; it grows where that does not do.
     pub release_n: f64,
@@ -54,7 +54,7 @@ const LEAST_SLACK_M: f64 = 4e-3;
 /// Greatest search distance over the size of triangles: about a vertex of a finer mesh lie no more pairs, and a quarter as many
 /// as within twice as far.
 const REACH_SIZES: f64 = 0.7;
-/// Least greatest search distance, m: a step goes half as far at most.
+/// Least greatest search distance, m: two vertices go half as far towards each other in a step at most.
 const LEAST_REACH_M: f64 = 8e-3;
 /// Share of the way to what is unknown that a step may take: corrections come on top.
 const FREE_SHARE: f64 = 0.9;
@@ -184,13 +184,7 @@ impl<'a> ClothContact<'a> {
         };
         let step = (last.len() == x.len()).then(|| neighbours.motion(&differences(x, &last)));
         let stays_flat = neighbours.stay_flat(x);
-        let must_seek = !stays_flat
-            || step.as_ref().is_none_or(|step| {
-                let made = neighbours.motion(&differences(x, &self.found_at));
-                self.room_m = neighbours.room_m(self.reach_m, [(&made, 1.0)]);
-                neighbours.room_m(self.reach_m, [(&made, 1.0), (step, STEPS_AHEAD[0])]) < self.params.thickness_m
-            });
-        if must_seek {
+        if !stays_flat || !step.as_ref().is_some_and(|step| self.lasts(&neighbours, x, step)) {
             self.seek(&mut neighbours, x, step.as_ref());
         }
         may_cross |= !stays_flat;
@@ -199,6 +193,13 @@ impl<'a> ClothContact<'a> {
             self.knots.see(x, &found);
         }
         self.neighbours = Some(neighbours);
+    }
+
+    /// Whether what is known of near pairs does for more steps like the one that led to `x`; finds how much room is left there.
+    fn lasts(&mut self, neighbours: &Neighbours, x: &[V3], step: &Motion) -> bool {
+        let made = neighbours.motion(&differences(x, &self.found_at));
+        self.room_m = neighbours.room_m(self.reach_m, [(&made, 1.0)]);
+        neighbours.room_m(self.reach_m, [(&made, 1.0), (step, STEPS_AHEAD[0])]) >= self.params.thickness_m
     }
 
     /// Whether the cloth may have come to cross itself: it did already, or touched at the last step and may have passed since, or was
@@ -224,8 +225,7 @@ impl<'a> ClothContact<'a> {
     /// Share of these displacements that vertices may go for the same reason: what many do together brings them no nearer.
     #[must_use]
     pub fn free_share(&self, displacements: &[V3]) -> f64 {
-        let longest_m = displacements.iter().map(V3::norm_squared).fold(0.0, f64::max).sqrt();
-        let share = self.free_path_m() / longest_m;
+        let share = self.free_path_m() / longest_m(displacements);
         match &self.neighbours {
             Some(neighbours) if share < 1.0 => {
                 let made = neighbours.motion(&differences(&self.last, &self.found_at));
@@ -285,8 +285,8 @@ impl<'a> ClothContact<'a> {
     /// Pairs that can be nearer than `within_m` at any of some places, or on the way between them.
     fn near<const N: usize>(&self, places: [&[V3]; N], within_m: f64) -> impl Iterator<Item = Primitives> {
         let moved = places.map(|x| differences(x, &self.found_at));
-        let most = moved.iter().flatten().map(V3::norm_squared).fold(0.0, f64::max).sqrt();
-        let last = shell(within_m + 2.0 * most, self.reach_m);
+        let most_m = moved.iter().map(|d| longest_m(d)).fold(0.0, f64::max);
+        let last = shell(within_m + 2.0 * most_m, self.reach_m);
         let nearest = self.pairs.partition_point(|pair| shell(pair.distance_m, self.reach_m) <= last);
         let is_near = move |pair: &&Pair| {
             let spare_m = pair.distance_m - within_m;

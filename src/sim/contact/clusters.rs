@@ -101,14 +101,9 @@ impl Clusters {
         joined.sort_unstable();
         joined.dedup();
         for members in &mut members {
-            let ends = members.edges.iter().flat_map(|&e| edges.pairs()[e]);
-            let all = members
-                .vertices
-                .iter()
-                .copied()
-                .chain(ends)
-                .chain(members.triangles.iter().flat_map(|&t| triangles[t]));
-            let mut corners: Vec<usize> = all.collect();
+            let mut corners = members.vertices.clone();
+            corners.extend(members.edges.iter().flat_map(|&e| edges.pairs()[e]));
+            corners.extend(members.triangles.iter().flat_map(|&t| triangles[t]));
             corners.sort_unstable();
             corners.dedup();
             members.corners = corners;
@@ -149,8 +144,7 @@ impl Clusters {
             members.corners.iter().map(|&v| (displacements[v] - mean).norm_squared()).fold(0.0, f64::max).sqrt()
         };
         let strays_m = self.members.iter().zip(&means).map(stray).collect();
-        let farthest_m = displacements.iter().map(V3::norm_squared).fold(0.0, f64::max).sqrt();
-        Motion { means, strays_m, farthest_m }
+        Motion { means, strays_m, farthest_m: longest_m(displacements) }
     }
 
     fn cones(&self, x: &[V3], triangles: &[[usize; 3]]) -> Vec<Cone> {
@@ -164,6 +158,12 @@ impl Clusters {
         };
         self.around.iter().map(cone).collect()
     }
+}
+
+/// Length of the longest vector, m.
+#[must_use]
+pub fn longest_m(vectors: &[V3]) -> f64 {
+    vectors.iter().map(V3::norm_squared).fold(0.0, f64::max).sqrt()
 }
 
 /// Half the angle of the cone about the normals of two clusters, rad.

@@ -117,7 +117,7 @@ impl<'a> Neighbours<'a> {
         self.near.iter().map(share).fold(far, f64::min)
     }
 
-    /// Distance within which pairs have to be known, m, so that for what it was found `by` a cluster's motion no unknown ones meet.
+    /// Distance within which pairs have to be known, m: the greatest of those asked for `by` two clusters that are nearer than that.
     #[must_use]
     pub fn wanted_m(&self, by: impl Fn([usize; 2]) -> f64) -> f64 {
         let wanted = |near: &Near| Some(by(near.clusters)).filter(|wanted| near.apart_m < *wanted);
