@@ -70,6 +70,29 @@ pub enum SimError {
         /// How far its top has come up, m.
         rise_m: f64,
     },
+    /// Its seams cannot be drawn together.
+    #[error(
+        "the seams of {garment:?} do not close on this body: {:?} and {:?} stay {:.0} mm apart, however hard they are drawn; a larger \
+         size, or other seams, may close",
+        .pieces[0], .pieces[1], .gap_m * 1e3
+    )]
+    Open {
+        /// Garment.
+        garment: String,
+        /// Pieces that are farthest from each other where they are sewn together.
+        pieces: [String; 2],
+        /// How far, m.
+        gap_m: f64,
+    },
+    /// Stretched farther than cloth can be.
+    #[error(
+        "much too small for this body: {distortion}, and cloth tears before that; a larger size would do, or, for cloth that is made to \
+         stretch so far, a higher `fem.distortion_limit`"
+    )]
+    Torn {
+        /// How far and where.
+        distortion: Distortion,
+    },
     /// Stretched too far, where that is to end a simulation.
     #[error(
         "too small for this body: {distortion}, the limit is {:.1} %; a larger size, another fabric, or a higher `fem.distortion_limit` would do",

@@ -42,8 +42,15 @@ fn deepest_m(body: &Body, samples: impl Iterator<Item = V3>) -> f64 {
 /// Greatest distance between the two vertices of a seam pair, m.
 #[must_use]
 pub fn seam_gap_m(garment: &Garment, positions: &[V3]) -> f64 {
+    widest_seam(garment, positions).map_or(0.0, |(gap_m, _)| gap_m)
+}
+
+/// The seam pair whose vertices are farthest from each other, and how far, m; `None` where nothing is sewn.
+#[must_use]
+pub fn widest_seam(garment: &Garment, positions: &[V3]) -> Option<(f64, [usize; 2])> {
     let pairs = garment.seams.iter().flat_map(|s| &s.pairs);
-    pairs.map(|&[a, b]| (positions[a] - positions[b]).norm()).fold(0.0, f64::max)
+    let gaps = pairs.map(|&[a, b]| ((positions[a] - positions[b]).norm(), [a, b]));
+    gaps.max_by(|one, other| one.0.total_cmp(&other.0))
 }
 
 /// Number of edges that pierce a triangle of the same cloth with which they share no vertex. `triangles` index sewn

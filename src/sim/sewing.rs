@@ -60,13 +60,23 @@ pub struct Springs {
     pub stiffness_n_m: f64,
     /// Greatest force, N.
     pub cap_n: f64,
+    /// The same at first, N.
+    first_cap_n: f64,
 }
+
+/// Most that springs grow by: garments that are stretched by half took up to 2e4.
+const MOST_GROWTH: f64 = 1e6;
 
 impl Springs {
     /// Springs on all seams of a garment that is not welded.
     #[must_use]
     pub fn new(garment: &Garment, stiffness_n_m: f64, cap_n: f64) -> Self {
-        Self { pairs: garment.seams.iter().flat_map(|s| s.pairs.iter().copied()).collect(), stiffness_n_m, cap_n }
+        Self {
+            pairs: garment.seams.iter().flat_map(|s| s.pairs.iter().copied()).collect(),
+            stiffness_n_m,
+            cap_n,
+            first_cap_n: cap_n,
+        }
     }
 
     /// Greatest distance of a pair, m.
@@ -81,10 +91,15 @@ impl Springs {
         self.pairs.iter().map(|&[a, b]| (x[a] - x[b]).norm()).sum::<f64>() / self.pairs.len().max(1) as f64
     }
 
-    /// Makes the springs stronger: both what far pairs feel and what near ones do.
-    pub fn tighten(&mut self, factor: f64) {
-        self.stiffness_n_m *= factor;
-        self.cap_n *= factor;
+    /// Makes the springs stronger: both what far pairs feel and what near ones do; says whether it did, since there is an end to
+    /// that.
+    pub fn tighten(&mut self, factor: f64) -> bool {
+        let is_weaker = self.cap_n < MOST_GROWTH * self.first_cap_n;
+        if is_weaker {
+            self.stiffness_n_m *= factor;
+            self.cap_n *= factor;
+        }
+        is_weaker
     }
 
     /// Energy, J: quadratic up to the cap, linear beyond.
@@ -115,5 +130,19 @@ impl Springs {
                 (*pair, k)
             })
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::laboratory::{self, sheets::sheet};
+
+    #[test]
+    fn springs_grow_and_not_for_ever() {
+        let mut springs = Springs::new(&laboratory::garment(sheet(2, 2, 0.1)), 10.0, 1.0);
+        let times = (0..1000).take_while(|_| springs.tighten(2.0)).count();
+        assert_eq!(times, 20);
+        assert!((springs.cap_n / MOST_GROWTH - 1.0).abs() < 0.1 && springs.stiffness_n_m == 10.0 * springs.cap_n);
     }
 }

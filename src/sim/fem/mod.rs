@@ -40,8 +40,8 @@ const MOST_RISE_M: f64 = 0.25;
 /// through a fold are chance. That drape is taken if it has no fault, or if the first has come off.
 ///
 /// # Errors
-/// When the garment cannot be placed, is degenerate, diverges, slides off the body even so or comes off upwards, is
-/// stretched beyond a limit that is to end it, or the monitor cancels. Not converging is no error.
+/// When the garment cannot be placed, is degenerate, its seams stay open, it diverges, slides off the body even so or comes off
+/// upwards, is stretched beyond what cloth can be or a limit that is to end it, or the monitor cancels. Not converging is no error.
 pub fn simulate(
     body: &Body,
     field: &DistanceField,

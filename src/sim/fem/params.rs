@@ -82,7 +82,7 @@ impl Default for Params {
             sewing_h_min_s: 0.02,
             sewing_clamp_m: 0.005,
             sewing_h_max_s: 0.1,
-            sewing_steps: 300,
+            sewing_steps: 1000,
             weld_gap_m: 2e-3,
             coarse_tolerance: 1.0,
             coarse_steps: 300,

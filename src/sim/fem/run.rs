@@ -130,8 +130,8 @@ impl<'a> Run<'a> {
             }
             if stalled >= params.sewing_patience && info.share >= 0.25 {
                 stalled = 0;
-                if let Some(springs) = &mut system.springs {
-                    springs.tighten(params.seam_growth);
+                if !system.springs.as_mut().is_some_and(|springs| springs.tighten(params.seam_growth)) {
+                    break;
                 }
             }
         }

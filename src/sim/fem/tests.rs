@@ -136,6 +136,26 @@ fn a_garment_stretched_too_far_is_told_or_ends_the_simulation() {
     assert!(garments[0].pieces.iter().any(|piece| error.contains(&piece.id)), "{error}");
 }
 
+#[test]
+fn what_cannot_be_drawn_on_is_given_up() {
+    let big =
+        Measurements { chest_girth_m: Some(1.30), waist_girth_m: Some(1.25), ..Measurements::of(Sex::Male, 1.75) };
+    let body = body::build(&big).expect("a body");
+    let field = DistanceField::build(&body.mesh, 0.012).expect("a closed body");
+    let cotton = fabric::library().into_iter().find(|f| f.name == "cotton_shirting_light").expect("in the library");
+    let style = Style::read(&Model::Trousers.drafts()[0].pieces, Model::Trousers.seams(), "seams").expect("drafted");
+    let trousers = style.mesh(0.06).expect("it meshes");
+    let check = |size: f64, expect: &[&str]| {
+        let mut garment = trousers.clone();
+        garment.rest.iter_mut().for_each(|p| *p *= size);
+        let drape = simulate(&body, &field, &[garment], &cotton, &Params::default(), &mut Silent);
+        let error = drape.err().map(|error| error.to_string()).unwrap_or_default();
+        assert!(expect.iter().all(|part| error.contains(part)), "at {size} of its size: {error:?}");
+    };
+    check(0.5, &["much too small for this body: 1 % of the cloth is stretched by more than 1", "most of it in leg_"]);
+    check(0.35, &["do not close on this body: \"leg_", "mm apart"]);
+}
+
 /// Trousers of a soft, slippery knit, with more at the end of their seam file.
 fn slippery_trousers(more: &str) -> Result<Drape, SimError> {
     let measurements = Measurements {
