@@ -2,7 +2,7 @@
 
 use super::hands::Hands;
 use super::params::Params;
-use super::run::Run;
+use super::run::{OPEN_M, Run};
 use super::settle::{Around, Grip, Settled, Settling};
 use crate::body::Body;
 use crate::geom::{DistanceField, V3};
@@ -20,8 +20,6 @@ use crate::sim::{Distortion, Fabric, SimError};
 const SEWN_INTO_M: f64 = 4e-3;
 /// Gap of seams that a body which does not give way may leave where one that does leaves less, m.
 const CLOSED_M: f64 = 1e-2;
-/// Gap of seams from which on they are not welded, m: what that would make of a garment is no garment.
-const OPEN_M: f64 = 5e-2;
 /// Principal stretch beyond 1 that 1 % of the cloth may exceed on any mesh, unless more is allowed: what is drawn on all the same
 /// ends inside the body. Coarse meshes are stretched more than fine ones (1.06 where the drape has 0.54).
 const TORN: f64 = 1.25;
@@ -79,6 +77,14 @@ impl Dressing<'_> {
             }
             other => other,
         }
+    }
+
+    /// The same with friction throughout, after it failed without: where that fails as well, the first error tells.
+    pub fn dress_or(&self, first: SimError, run: &mut Run) -> Result<Settled, SimError> {
+        self.dress(Grip::Throughout, run).map_err(|error| match error {
+            SimError::Cancelled => error,
+            _ => first,
+        })
     }
 
     /// Draws the seams of the garment together; returns garment positions with all seams (nearly) closed, and how far the contact

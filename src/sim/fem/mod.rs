@@ -35,7 +35,7 @@ const MOST_RISE_M: f64 = 0.25;
 /// with friction throughout.
 ///
 /// A garment that is much too small is squeezed along the body by its own seams as they close, folds into itself at a
-/// narrower place or comes off over the head. Where a tight one ends with a fault it is therefore sewn once more with
+/// narrower place or comes off over the head. Where a tight one ends with a fault or open seams it is therefore sewn once more with
 /// friction from the first seam on; any other that does, from pieces that are bent otherwise, unless how was asked for: a cuff drawn through a wrist, a fold
 /// through a fold are chance. That drape is taken if it has no fault, or if the first has come off.
 ///
@@ -72,12 +72,18 @@ pub fn simulate(
         history: Vec::new(),
         earlier: Vec::new(),
     };
-    let mut drape = ended(dressing.dress(Grip::AtTheEnd, &mut run)?);
+    let (settled, is_gripped) = match dressing.dress(Grip::AtTheEnd, &mut run) {
+        Err(open @ SimError::Open { .. }) => (dressing.dress_or(open, &mut run)?, true),
+        other => (other?, false),
+    };
+    let mut drape = ended(settled);
     let risen_m = rise_m(&placed, &drape.positions);
     let is_off = risen_m > MOST_RISE_M;
     if is_off || !is_faultless(&drape) {
         let is_tight = Distortion::of(finest, &drape.positions)?.stretch > params.distortion_limit;
-        let again = if is_off || is_tight {
+        let again = if is_gripped {
+            None
+        } else if is_off || is_tight {
             Some(dressing.dress(Grip::Throughout, &mut run))
         } else {
             let place = |bent: Params| placed_at_start(body, coarsest, &bent);

@@ -41,7 +41,7 @@ pub struct Params {
     pub sewing_h_max_s: f64,
     /// Greatest displacement of a vertex in a step of sewing, m.
     pub sewing_clamp_m: f64,
-    /// Most steps of sewing.
+    /// Most steps of sewing, where seams are nearly closed by then; others take up to three times as many.
     pub sewing_steps: u32,
     /// Gap at which seams are welded, m.
     pub weld_gap_m: f64,
@@ -82,7 +82,7 @@ impl Default for Params {
             sewing_h_min_s: 0.02,
             sewing_clamp_m: 0.005,
             sewing_h_max_s: 0.1,
-            sewing_steps: 1000,
+            sewing_steps: 300,
             weld_gap_m: 2e-3,
             coarse_tolerance: 1.0,
             coarse_steps: 300,

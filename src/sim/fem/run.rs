@@ -54,6 +54,11 @@ impl Phase {
     }
 }
 
+/// Gap of seams from which on they count as open, m: what welding them would make of a garment is no garment.
+pub const OPEN_M: f64 = 8e-2;
+/// Steps of sewing at most over those that nearly closed seams get: these have met what holds them up, and are drawn through it.
+const PATIENCE: u32 = 3;
+
 /// How far the top of a garment may come down from where it was sewn, m: trousers and skirts that do not hold at the waist
 /// hold at the hips, a fifth of a metre lower, or not at all.
 const MOST_DESCENT_M: f64 = 0.25;
@@ -115,12 +120,12 @@ impl<'a> Run<'a> {
             |system: &System, x: &[V3]| system.springs.as_ref().map_or((0.0, 0.0), |s| (s.gap_m(x), s.mean_gap_m(x)));
         let start = gaps(system, x).0.max(f64::MIN_POSITIVE);
         let (mut least, mut stalled) = (start, 0);
-        for _ in 0..params.sewing_steps {
+        for step in 1..=PATIENCE * params.sewing_steps {
             let info = stepper.step(system, x, 0.0);
             let (widest, mean) = gaps(system, x);
             let done = (1.0 - (widest / start).sqrt()).clamp(0.0, 1.0);
             self.record(garment, x, x, info, "sew", 0, widest, 0.2 * done)?;
-            if widest <= params.weld_gap_m {
+            if widest <= params.weld_gap_m || (step >= params.sewing_steps && widest <= OPEN_M) {
                 break;
             }
             if mean < least * params.sewing_progress {
