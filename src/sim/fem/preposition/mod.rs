@@ -96,14 +96,24 @@ impl Placing<'_> {
         let skirts = Ring::of_several(joins, &joins.worn_as(&[Role::SkirtFront, Role::SkirtBack]));
         let others = Ring::of_several(joins, &joins.worn_as(&trunk::TOPS));
         let skirts = skirts.iter().map(|ring| self.laid_out(ring));
-        let skirts = skirts.filter(|ring| ring.pieces.len() > 2 || ring.flat.turn_rad() > WIDE_RAD);
+        let (mut skirts, mut narrow): (Vec<Round>, Vec<Round>) =
+            skirts.partition(|ring| ring.pieces.len() > 2 || ring.flat.turn_rad() > WIDE_RAD);
+        // A narrow tier that hangs from a wide one goes round with it.
+        let above = joins.worn_as(&[&trunk::TOPS[..], &[Role::Waistband]].concat());
+        let hangs = |ring: &Round, wide: &[Round]| {
+            let is_sewn = |pieces: &[usize]| ring.pieces.iter().any(|&p| !joins.to_any(p, pieces).is_empty());
+            wide.iter().any(|other| is_sewn(&other.pieces)) && !is_sewn(&above)
+        };
+        while let Some(next) = narrow.iter().position(|ring| hangs(ring, &skirts)) {
+            skirts.push(narrow.remove(next));
+        }
         let sides = [trunk::FRONTS, trunk::BACKS].map(|roles| joins.worn_as(&roles));
         let is_of_one_side =
             |ring: &Round| sides.iter().any(|side| ring.pieces.iter().all(|piece| side.contains(piece)));
         // What is narrower at its upper edge hangs from the neck.
         let is_skirt =
             |ring: &Round| (ring.flat.turn_rad() > WIDE_RAD || is_of_one_side(ring)) && ring.flat.inner_m() > NECK_M;
-        skirts.chain(others.iter().map(|ring| self.laid_out(ring)).filter(is_skirt)).collect()
+        skirts.into_iter().chain(others.iter().map(|ring| self.laid_out(ring)).filter(is_skirt)).collect()
     }
 
     fn trunk(&mut self, wide: &[Round], params: &Params) {
@@ -155,15 +165,35 @@ impl Placing<'_> {
         let several = Ring::of_several(&self.joins, &others);
         let (gores, mut rest): (Vec<Round>, Vec<Round>) =
             several.iter().map(|ring| self.laid_out(ring)).partition(|ring| self.are_gores(ring));
-        wide.iter().chain(&gores).for_each(|ring| self.roll(ring));
+        self.tiers(wide.into_iter().chain(gores).collect());
         if self.limb.iter().all(Option::is_none) {
             rest.extend(Ring::of_one(&self.joins, &others).iter().map(|ring| self.laid_out(ring)));
             let size =
                 |ring: &&Round| ring.pieces.iter().map(|&p| self.joins.garment.pieces[p].vertices.len()).sum::<usize>();
             if let Some(ring) = rest.iter().max_by_key(size) {
-                self.roll(ring);
+                self.roll(ring, &[]);
             }
         }
+    }
+
+    /// Rolls rings from the top down: what is sewn most to what has a place comes next, of what is sewn to nothing the narrowest.
+    fn tiers(&mut self, mut rings: Vec<Round>) {
+        let mut rolled = Vec::new();
+        while let Some(ring) = (0..rings.len()).min_by(|&a, &b| {
+            let rank = |k: usize| (std::cmp::Reverse(self.held(&rings[k]).len()), rings[k].flat.inner_m());
+            let (a, b) = (rank(a), rank(b));
+            a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+        }) {
+            let ring = rings.remove(ring);
+            self.roll(&ring, &rolled);
+            rolled.extend(ring.pieces);
+        }
+    }
+
+    /// Vertices with a place to which a ring is sewn.
+    fn held(&self, ring: &Round) -> Vec<usize> {
+        let placed: Vec<usize> = (0..self.limb.len()).filter(|&p| self.limb[p].is_some()).collect();
+        ring.pieces.iter().flat_map(|&p| self.joins.to_any(p, &placed)).map(|[_, v]| v).collect()
     }
 
     /// Whether a ring of pieces without a role can be the gores of a skirt: more than two, as wide as a trunk, and on no limb.
@@ -173,13 +203,15 @@ impl Placing<'_> {
         ring.pieces.len() > 2 && ring.flat.inner_m() > NECK_M && !is_on_limb
     }
 
-    fn roll(&mut self, ring: &Round) {
-        let placed: Vec<usize> = (0..self.limb.len()).filter(|&p| self.limb[p].is_some()).collect();
-        let partners = ring.pieces.iter().flat_map(|&p| self.joins.to_any(p, &placed));
-        let heights: Vec<f64> = partners.map(|[_, v]| self.positions[v].z).collect();
-        let mean = heights.iter().sum::<f64>() / heights.len() as f64;
-        let top = if heights.is_empty() { self.form.body.levels.waist_m } else { mean };
-        for (v, place) in round::place(&self.form, &ring.flat, top) {
+    /// Rolls a ring about the trunk below what it is sewn to, and within it where that is one of `rolled`.
+    fn roll(&mut self, ring: &Round, rolled: &[usize]) {
+        let mean = |values: Vec<f64>| (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64);
+        let held = self.held(ring);
+        let top = mean(held.iter().map(|&v| self.positions[v].z).collect()).unwrap_or(self.form.body.levels.waist_m);
+        let axis = self.form.trunk_axis();
+        let hems = held.iter().filter(|&&v| rolled.contains(&self.joins.piece_of[v]));
+        let radius = mean(hems.map(|&v| axis.coordinates(&self.positions[v]).1).collect());
+        for (v, place) in round::place(&self.form, &ring.flat, top, radius) {
             self.positions[v] = place;
         }
         for &piece in &ring.pieces {
@@ -386,6 +418,67 @@ mod tests {
         };
         check([Role::BodiceFront, Role::BodiceBack, Role::Other]);
         check([Role::Waistband, Role::Waistband, Role::BodiceFront]);
+    }
+
+    /// A skirt of half circles: tiers each of a front and a back of some inner radius, cm, 30 cm long.
+    fn tiered(radii: &[f64]) -> Garment {
+        let (mut panels, mut stitches) = (json!({}), Vec::new());
+        let arc = |radius: f64, sweep: u8| json!({ "type": "circle", "params": [radius, 0, sweep] });
+        for (tier, &inner) in radii.iter().enumerate() {
+            let outer = inner + 30.0;
+            let edges = json!([
+                { "endpoints": [0, 1], "curvature": arc(outer, 1) },
+                { "endpoints": [1, 2] },
+                { "endpoints": [2, 3], "curvature": arc(inner, 0) },
+                { "endpoints": [3, 0] }
+            ]);
+            let vertices = [[-outer, 0.0], [outer, 0.0], [inner, 0.0], [-inner, 0.0]];
+            let [front, back] = ["front", "back"].map(|side| format!("{side}_{tier}"));
+            for (name, below) in [(&front, format!("front_{}", tier + 1)), (&back, format!("back_{}", tier + 1))] {
+                panels[name] =
+                    json!({ "translation": [0, 0, 0], "rotation": [0, 0, 0], "vertices": vertices, "edges": edges });
+                if tier + 1 < radii.len() {
+                    stitches.push(json!([{ "panel": name, "edge": 0 }, { "panel": below, "edge": 2 }]));
+                }
+            }
+            stitches.push(json!([{ "panel": front, "edge": 1 }, { "panel": back, "edge": 3 }]));
+            stitches.push(json!([{ "panel": front, "edge": 3 }, { "panel": back, "edge": 1 }]));
+        }
+        let document = json!({
+            "pattern": { "panels": panels, "stitches": stitches },
+            "properties": { "curvature_coords": "relative", "units_in_meter": 100 }
+        });
+        let read = garmentcode::read(document.to_string().as_bytes(), "tiers").expect("a specification");
+        let mut garment = read.style().mesh(0.04).expect("a mesh");
+        for piece in &mut garment.pieces {
+            piece.role = if piece.id.starts_with("front") { Role::SkirtFront } else { Role::SkirtBack };
+        }
+        garment
+    }
+
+    #[test]
+    fn tiers_of_circles_hang_within_each_other() {
+        let body = body();
+        let surface = Surface::new(&body.mesh).expect("a closed body");
+        let check = |radii: &[f64]| {
+            let garment = tiered(radii);
+            let x = place(&body, &garment, &Params::default()).expect("it goes round");
+            assert!(x.iter().all(|p| surface.signed_distance(p) > 0.0), "{radii:?}: inside the body");
+            let tier = |v: usize| {
+                let piece = garment.pieces.iter().find(|piece| piece.vertices.contains(&v)).expect("a piece's");
+                piece.id.rsplit('_').next().map(str::to_owned)
+            };
+            for seam in &garment.seams {
+                let gaps: Vec<f64> = seam.pairs.iter().map(|[a, b]| (x[*a] - x[*b]).norm()).collect();
+                let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
+                let [a, b] = seam.pairs[0];
+                let is_between = tier(a) != tier(b);
+                // Of the sides of a tier one begins open.
+                assert!(mean < if is_between { 0.05 } else { 0.3 }, "{radii:?}, {}: {mean} m open", seam.name);
+            }
+        };
+        check(&[15.0, 45.0]);
+        check(&[15.0, 55.0, 100.0]);
     }
 
     #[test]

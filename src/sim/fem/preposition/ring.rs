@@ -94,9 +94,16 @@ impl Ring {
         some.iter().filter_map(alone).collect()
     }
 
-    /// Rings of several pieces among some; what else these are sewn to is left out of account.
+    /// Rings of several pieces among some; what else these are sewn to is left out of account, and of two that are sewn to
+    /// each other at both sides, as those of a tier are, all that is above and below.
     pub fn of_several(joins: &Joins, some: &[usize]) -> Vec<Self> {
-        let links: Vec<Link> = links(joins, some).into_iter().filter(|link| link.pieces[0] != link.pieces[1]).collect();
+        let mut links: Vec<Link> = links(joins, some);
+        links.retain(|link| link.pieces[0] != link.pieces[1]);
+        let pairs: Vec<[usize; 2]> = links.iter().map(|link| link.pieces).collect();
+        let both_sides = |pair: &[usize; 2]| pairs.iter().filter(|other| *other == pair).count() == 2;
+        let twins: Vec<[usize; 2]> = pairs.iter().copied().filter(both_sides).collect();
+        let is_apart = |pair: &[usize; 2]| !twins.iter().flatten().any(|piece| pair.contains(piece));
+        links.retain(|link| twins.contains(&link.pieces) || is_apart(&link.pieces));
         let mut ends: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (index, link) in links.iter().enumerate() {
             link.pieces.iter().for_each(|&piece| ends.entry(piece).or_default().push(index));

@@ -24,8 +24,8 @@ const STEEPER: f64 = 0.7;
 /// Waves of a skirt that is wider than its cone, and the directions in which their length is taken.
 const WAVES: (f64, u32) = (8.0, 32);
 
-/// Vertices of a ring with their places, its upper edge at the height `top`.
-pub fn place(form: &Form, flat: &Flat, top: f64) -> Vec<(usize, V3)> {
+/// Vertices of a ring with their places, its upper edge at the height `top` and, of a sector, no further from the axis than `within`.
+pub fn place(form: &Form, flat: &Flat, top: f64, within: Option<f64>) -> Vec<(usize, V3)> {
     let axis = form.trunk_axis();
     let off_body = |rolled: Vec<Rolled>| {
         let short = rolled.iter().map(|p| body_radius(form, &axis, top - p.below) + CLEARANCE_M - p.radius);
@@ -39,7 +39,7 @@ pub fn place(form: &Form, flat: &Flat, top: f64) -> Vec<(usize, V3)> {
         Flat::Sector(points) => {
             let (wide, narrow, steps) = SPREADS;
             let spread = |k: u32| wide + (narrow - wide) * f64::from(k) / f64::from(steps);
-            let cones = (0..=steps).map(|k| off_body(about(points, spread(k))));
+            let cones = (0..=steps).map(|k| off_body(about(points, spread(k), within)));
             // The widest that is clear of the arms, else the one that comes nearest to it.
             let clear = |cone: &[Rolled]| room(cone).min(CLEARANCE_M);
             cones.rev().max_by(|a, b| clear(a).total_cmp(&clear(b))).unwrap_or_default()
@@ -59,16 +59,17 @@ struct Rolled {
     below: f64,
 }
 
-/// On a cone, the tip above, that spreads by at most the sine `spread`; in waves where the sector is wider.
-fn about(points: &[(usize, f64, f64)], spread: f64) -> Vec<Rolled> {
+/// On a cone, the tip above, that spreads by at most the sine `spread` from `within` at most; in waves where the sector is wider.
+fn about(points: &[(usize, f64, f64)], spread: f64, within: Option<f64>) -> Vec<Rolled> {
     let [low, high] = bounds(points.iter().map(|p| p.1));
     let [inner, _] = bounds(points.iter().map(|p| p.2));
     let share = (high - low).max(LEAST_SPAN_RAD) / (TAU * ROUND);
     let spread = (STEEPER * share).min(spread);
+    let upper = within.unwrap_or(f64::INFINITY).min(inner * share);
     let steep = (1.0 - spread * spread).sqrt();
     let roll = |&(vertex, angle, length): &(usize, f64, f64)| {
         let angle = angle / share;
-        let mean = inner * share + (length - inner) * spread;
+        let mean = upper + (length - inner) * spread;
         let wave = wave(length * share / mean) * (WAVES.0 * angle).cos();
         Rolled { vertex, angle, radius: mean * (1.0 + wave), below: (length - inner) * steep }
     };
