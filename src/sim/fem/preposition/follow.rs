@@ -1,7 +1,8 @@
 //! Pieces that follow what they are sewn to: waistbands, cuffs, collars, hoods, pockets.
 //!
 //! The places of their partners are unrolled about the limb; the similarity that takes the piece's seam nearest to
-//! them says how the piece is turned, where it lies and how wide it is bent.
+//! them says how the piece is turned, where it lies and how wide it is bent. A godet, both sides of which are sewn into one slit, is
+//! folded outwards there.
 
 use std::f64::consts::{PI, TAU};
 
@@ -12,6 +13,13 @@ use crate::geom::{V2, V3};
 
 /// Least distance from the skin, m.
 const CLEARANCE_M: f64 = 0.012;
+
+/// Sideways scale from a piece's seams to its partners', over that upwards, below which they are the two sides of a slit.
+const SLIT: f64 = 0.4;
+/// Least mean square of the height of such seams over that of their breadth.
+const UPRIGHT: f64 = 0.1;
+/// Least share of its width that a piece in a slit takes up sideways.
+const OPEN: f64 = 0.2;
 
 /// Places of the vertices of `piece`, which `pairs` join (own vertex first) to vertices at `placed`.
 pub fn place(form: &Form, joins: &Joins, piece: usize, pairs: &[[usize; 2]], placed: &[V3], limb: &Limb) -> Vec<V3> {
@@ -24,6 +32,10 @@ pub fn place(form: &Form, joins: &Joins, piece: usize, pairs: &[[usize; 2]], pla
     let fit = Similarity::of(&own, &goal);
     let vertices = joins.garment.pieces[piece].vertices.clone();
     let places: Vec<V2> = vertices.map(|v| fit.turned(rest[v])).collect();
+    let sides = Sides::new(&fit, &own, &goal, partners.iter().map(|p| p.1));
+    if sides.are_a_slit {
+        return places.iter().map(|p| sides.fold(p, &fit.to, radius, limb)).collect();
+    }
     let heights = places.iter().map(|p| fit.to.y + p.y);
     let (low, high) = heights.fold((f64::MAX, f64::MIN), |(low, high), h| (low.min(h), high.max(h)));
     // Bent to the angle its partners take up; no nearer to the axis than the body lets it.
@@ -31,6 +43,63 @@ pub fn place(form: &Form, joins: &Joins, piece: usize, pairs: &[[usize; 2]], pla
     let span = places.iter().fold(0.0, |most: f64, p| most.max(p.x.abs())) * fit.scale / radius;
     let per_m = fit.scale / radius * (0.97 * PI / span.max(0.97 * PI)).min(1.0);
     places.iter().map(|p| limb.point(fit.to.x / radius + p.x * per_m, bent, fit.to.y + p.y)).collect()
+}
+
+/// Whether a piece is sewn to one other only, with both its sides into a slit in that: a godet.
+pub fn is_in_a_slit(joins: &Joins, piece: usize) -> bool {
+    let rest = &joins.garment.rest;
+    let others: Vec<usize> = (0..joins.garment.pieces.len()).filter(|&other| other != piece).collect();
+    let pairs = joins.to_any(piece, &others);
+    let Some(partner) = pairs.first().map(|pair| joins.piece_of[pair[1]]) else { return false };
+    let own: Vec<V2> = pairs.iter().map(|pair| rest[pair[0]]).collect();
+    let goal: Vec<V2> = pairs.iter().map(|pair| rest[pair[1]]).collect();
+    let fit = Similarity::of(&own, &goal);
+    let sides = Sides::new(&fit, &own, &goal, std::iter::repeat(0.0));
+    pairs.iter().all(|pair| joins.piece_of[pair[1]] == partner) && sides.are_a_slit
+}
+
+/// The points at which a piece is sewn, in its own plane.
+struct Sides {
+    /// Sideways and up from the middle, and the distance of the partner from the axis, m.
+    points: Vec<(V2, f64)>,
+    /// How far apart, sideways, the partners lie over how far apart the points do.
+    squeezed: f64,
+    /// Whether both sides are sewn into one slit.
+    are_a_slit: bool,
+}
+
+impl Sides {
+    fn new(fit: &Similarity, own: &[V2], goals: &[V2], from_axis: impl Iterator<Item = f64>) -> Self {
+        let own: Vec<V2> = own.iter().map(|p| fit.turned(*p)).collect();
+        let (mut size, mut partners) = (V2::zeros(), V2::zeros());
+        for (p, goal) in own.iter().zip(goals) {
+            size += p.component_mul(p);
+            partners += p.component_mul(&(goal - fit.to));
+        }
+        let scale = partners.component_div(&size.map(|s| s.max(f64::MIN_POSITIVE)));
+        let are_a_slit = size.y > UPRIGHT * size.x && scale.x < SLIT * scale.y;
+        Self { points: own.into_iter().zip(from_axis).collect(), squeezed: scale.x, are_a_slit }
+    }
+
+    /// A point of what is folded outwards from the slit at `middle`, like a tent.
+    fn fold(&self, p: &V2, middle: &V2, radius: f64, limb: &Limb) -> V3 {
+        let [half_width, from_axis] = self.beside(p).unwrap_or([p.x.abs(), radius]);
+        let open = self.squeezed.max(OPEN);
+        let outwards = (half_width - p.x.abs()).max(0.0) * (1.0 - open * open).sqrt();
+        limb.point((middle.x + p.x * open) / radius, from_axis + CLEARANCE_M + outwards, middle.y + p.y)
+    }
+
+    /// Of the side nearer to a point, at its height: the distance from the middle, and the partner's from the axis, m.
+    fn beside(&self, p: &V2) -> Option<[f64; 2]> {
+        let own_side = || self.points.iter().filter(|(side, _)| side.x * p.x >= 0.0);
+        let from = |y: f64| move |a: &&(V2, f64), b: &&(V2, f64)| (a.0.y - y).abs().total_cmp(&(b.0.y - y).abs());
+        let below = own_side().filter(|(side, _)| side.y <= p.y).min_by(from(p.y));
+        let above = own_side().filter(|(side, _)| side.y > p.y).min_by(from(p.y));
+        let (low, high) = (below.or(above)?, above.or(below)?);
+        let share = ((p.y - low.0.y) / (high.0.y - low.0.y).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let between = |low: f64, high: f64| low + (high - low) * share;
+        Some([between(low.0.x.abs(), high.0.x.abs()), between(low.1, high.1)])
+    }
 }
 
 /// Angles made continuous along the piece: neighbours on its longer side differ by less than half a turn.
@@ -88,7 +157,7 @@ impl Similarity {
 }
 
 /// Greatest distance of the limb's skin from its middle between two heights.
-fn body_radius(form: &Form, limb: &Limb, low: f64, high: f64) -> f64 {
+pub fn body_radius(form: &Form, limb: &Limb, low: f64, high: f64) -> f64 {
     // An arm's axis slopes, the others are upright.
     let skin = if limb.axis.up == V3::z() { &form.trunk } else { &form.arms };
     let own_side = |p: &&V3| limb.axis.origin.x == 0.0 || p.x * limb.axis.origin.x > 0.0;

@@ -1,8 +1,8 @@
 //! Automatic preposition (4.2): every piece before, behind or about the limb it is worn on.
 //!
 //! Pieces of one side of the trunk or of a leg are laid out flat as they are sewn ([`sheet`]), then bent as one; sleeves
-//! go about the arms; circle skirts, gores and what is sewn to itself go round the trunk ([`ring`], [`round`]); a piece of no
-//! such role follows what it is sewn to ([`follow`]).
+//! go about the arms; circle skirts, their tiers, gores and what is sewn to itself go round the trunk ([`tiers`], [`ring`],
+//! [`round`]); a piece of no such role follows what it is sewn to ([`follow`]).
 
 mod arm;
 mod ellipse;
@@ -13,9 +13,8 @@ mod limb;
 mod ring;
 mod round;
 mod sheet;
+mod tiers;
 mod trunk;
-
-use std::f64::consts::TAU;
 
 use crate::body::Body;
 use crate::geom::{V2, V3};
@@ -27,14 +26,9 @@ use arm::Sleeve;
 use form::Form;
 use leg::Leg;
 use limb::Limb;
-use ring::{Flat, Ring};
 use sheet::{Joins, Part, Sheet};
+use tiers::Round;
 use trunk::Bent;
-
-/// Turn of a ring from which on it goes round as one, rad: as two sheets it comes to rest as a tent, not in folds.
-const WIDE_RAD: f64 = 0.35 * TAU;
-/// Longest inner edge of a wide ring that hangs from the neck, as a cape does, m.
-const NECK_M: f64 = 0.55;
 
 /// World positions of all garment vertices before sewing, m.
 ///
@@ -65,55 +59,29 @@ struct Placing<'a> {
     limb: Vec<Option<Limb>>,
 }
 
-/// Pieces that go round the trunk, laid out flat.
-struct Round {
-    pieces: Vec<usize>,
-    flat: Flat,
-}
-
 impl Placing<'_> {
     fn put(&mut self, sheet: &Sheet, limb: &Limb, at: impl Fn(V2) -> V3) {
-        for (v, p) in sheet.points(self.joins.garment) {
-            self.positions[v] = at(p);
+        let places: Vec<(usize, V3)> = sheet.points(self.joins.garment).map(|(v, p)| (v, at(p))).collect();
+        self.assign(&sheet.pieces(), limb, places);
+    }
+
+    /// Gives the vertices of some pieces about a limb their places.
+    fn assign(&mut self, pieces: &[usize], limb: &Limb, places: impl IntoIterator<Item = (usize, V3)>) {
+        for (v, place) in places {
+            self.positions[v] = place;
         }
-        for piece in sheet.pieces() {
+        for &piece in pieces {
             self.limb[piece] = Some(limb.clone());
         }
     }
 
+    /// Pieces that have a place.
+    fn placed(&self) -> Vec<usize> {
+        (0..self.limb.len()).filter(|&p| self.limb[p].is_some()).collect()
+    }
+
     fn about_trunk(&self) -> Limb {
         Limb::straight(self.form.trunk_axis())
-    }
-
-    /// A ring laid out flat, the middle of its fronts at the front.
-    fn laid_out(&self, ring: &Ring) -> Round {
-        Round { pieces: ring.pieces(), flat: ring.flat(&self.joins, &self.joins.worn_as(&trunk::FRONTS)) }
-    }
-
-    /// Rings of fronts and backs that would lie badly as two sheets.
-    fn wide_rings(&self) -> Vec<Round> {
-        let joins = &self.joins;
-        let skirts = Ring::of_several(joins, &joins.worn_as(&[Role::SkirtFront, Role::SkirtBack]));
-        let others = Ring::of_several(joins, &joins.worn_as(&trunk::TOPS));
-        let skirts = skirts.iter().map(|ring| self.laid_out(ring));
-        let (mut skirts, mut narrow): (Vec<Round>, Vec<Round>) =
-            skirts.partition(|ring| ring.pieces.len() > 2 || ring.flat.turn_rad() > WIDE_RAD);
-        // A narrow tier that hangs from a wide one goes round with it.
-        let above = joins.worn_as(&[&trunk::TOPS[..], &[Role::Waistband]].concat());
-        let hangs = |ring: &Round, wide: &[Round]| {
-            let is_sewn = |pieces: &[usize]| ring.pieces.iter().any(|&p| !joins.to_any(p, pieces).is_empty());
-            wide.iter().any(|other| is_sewn(&other.pieces)) && !is_sewn(&above)
-        };
-        while let Some(next) = narrow.iter().position(|ring| hangs(ring, &skirts)) {
-            skirts.push(narrow.remove(next));
-        }
-        let sides = [trunk::FRONTS, trunk::BACKS].map(|roles| joins.worn_as(&roles));
-        let is_of_one_side =
-            |ring: &Round| sides.iter().any(|side| ring.pieces.iter().all(|piece| side.contains(piece)));
-        // What is narrower at its upper edge hangs from the neck.
-        let is_skirt =
-            |ring: &Round| (ring.flat.turn_rad() > WIDE_RAD || is_of_one_side(ring)) && ring.flat.inner_m() > NECK_M;
-        skirts.into_iter().chain(others.iter().map(|ring| self.laid_out(ring)).filter(is_skirt)).collect()
     }
 
     fn trunk(&mut self, wide: &[Round], params: &Params) {
@@ -138,13 +106,10 @@ impl Placing<'_> {
             let sheets = leg::roles(hand).into_iter().zip([1.0, -1.0]).map(sheet);
             let sheets = sheets.filter(|(sheet, _)| !sheet.parts.is_empty());
             let leg = Leg::new(&self.form, &self.joins, hand, sheets, &others);
-            for (sheet, places) in leg.places() {
-                for (v, place) in places {
-                    self.positions[v] = place;
-                }
-                for piece in sheet.pieces() {
-                    self.limb[piece] = Some(Limb::straight(self.form.leg_axis(hand)));
-                }
+            let limb = Limb::straight(self.form.leg_axis(hand));
+            let sheets: Vec<_> = leg.places().map(|(sheet, places)| (sheet.pieces(), places)).collect();
+            for (pieces, places) in sheets {
+                self.assign(&pieces, &limb, places);
             }
         }
     }
@@ -158,93 +123,47 @@ impl Placing<'_> {
         }
     }
 
-    /// Wide rings go round the trunk below what they are sewn to, and so do gores; where no piece has a place then, the largest of
-    /// all rings does.
-    fn rings(&mut self, wide: Vec<Round>) {
-        let others = self.joins.worn_as(&[Role::Other]);
-        let several = Ring::of_several(&self.joins, &others);
-        let (gores, mut rest): (Vec<Round>, Vec<Round>) =
-            several.iter().map(|ring| self.laid_out(ring)).partition(|ring| self.are_gores(ring));
-        self.tiers(wide.into_iter().chain(gores).collect());
-        if self.limb.iter().all(Option::is_none) {
-            rest.extend(Ring::of_one(&self.joins, &others).iter().map(|ring| self.laid_out(ring)));
-            let size =
-                |ring: &&Round| ring.pieces.iter().map(|&p| self.joins.garment.pieces[p].vertices.len()).sum::<usize>();
-            if let Some(ring) = rest.iter().max_by_key(size) {
-                self.roll(ring, &[]);
-            }
-        }
-    }
-
-    /// Rolls rings from the top down: what is sewn most to what has a place comes next, of what is sewn to nothing the narrowest.
-    fn tiers(&mut self, mut rings: Vec<Round>) {
-        let mut rolled = Vec::new();
-        while let Some(ring) = (0..rings.len()).min_by(|&a, &b| {
-            let rank = |k: usize| (std::cmp::Reverse(self.held(&rings[k]).len()), rings[k].flat.inner_m());
-            let (a, b) = (rank(a), rank(b));
-            a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
-        }) {
-            let ring = rings.remove(ring);
-            self.roll(&ring, &rolled);
-            rolled.extend(ring.pieces);
-        }
-    }
-
-    /// Vertices with a place to which a ring is sewn.
-    fn held(&self, ring: &Round) -> Vec<usize> {
-        let placed: Vec<usize> = (0..self.limb.len()).filter(|&p| self.limb[p].is_some()).collect();
-        ring.pieces.iter().flat_map(|&p| self.joins.to_any(p, &placed)).map(|[_, v]| v).collect()
-    }
-
-    /// Whether a ring of pieces without a role can be the gores of a skirt: more than two, as wide as a trunk, and on no limb.
-    fn are_gores(&self, ring: &Round) -> bool {
-        let partners = (0..self.limb.len()).filter(|&p| !self.joins.to_any(p, &ring.pieces).is_empty());
-        let is_on_limb = partners.filter_map(|p| self.limb[p].as_ref()).any(|limb| *limb != self.about_trunk());
-        ring.pieces.len() > 2 && ring.flat.inner_m() > NECK_M && !is_on_limb
-    }
-
-    /// Rolls a ring about the trunk below what it is sewn to, and within it where that is one of `rolled`.
-    fn roll(&mut self, ring: &Round, rolled: &[usize]) {
-        let mean = |values: Vec<f64>| (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64);
-        let held = self.held(ring);
-        let top = mean(held.iter().map(|&v| self.positions[v].z).collect()).unwrap_or(self.form.body.levels.waist_m);
-        let axis = self.form.trunk_axis();
-        let hems = held.iter().filter(|&&v| rolled.contains(&self.joins.piece_of[v]));
-        let radius = mean(hems.map(|&v| axis.coordinates(&self.positions[v]).1).collect());
-        for (v, place) in round::place(&self.form, &ring.flat, top, radius) {
-            self.positions[v] = place;
-        }
-        for &piece in &ring.pieces {
-            self.limb[piece] = Some(self.about_trunk());
-        }
-    }
-
-    /// Places what is left, each piece by those it is sewn to, the longest seams first.
+    /// Places what is left, each piece by those it is sewn to, the longest seams first; halves that flare go together.
     fn followers(&mut self) -> Result<(), SimError> {
+        let halves = self.flared_halves();
         while let Some(open) = self.limb.iter().position(Option::is_none) {
-            let (joins, limb) = (&self.joins, &self.limb);
-            let placed: Vec<usize> = (0..limb.len()).filter(|&p| limb[p].is_some()).collect();
-            let loose = (0..limb.len()).rev().filter(|&p| limb[p].is_none());
-            let seams = loose.map(|p| (p, joins.to_any(p, &placed)));
-            let longest = seams.max_by_key(|(_, pairs)| pairs.len()).filter(|(_, pairs)| !pairs.is_empty());
-            let Some((piece, pairs)) = longest else {
-                let piece = &joins.garment.pieces[open];
-                let accepted = "pieces of the trunk and the legs by role, sleeves that are sewn to an armhole, pieces that go round the \
-                    trunk one after the other, any other piece that is sewn to one of these; this one is sewn to none";
-                return Err(SimError::CannotPlace { piece: piece.id.clone(), role: piece.role, accepted });
-            };
-            let mut limbs =
-                placed.iter().filter(|&&p| !joins.between(piece, p).is_empty()).filter_map(|&p| limb[p].as_ref());
-            // What joins several limbs goes about the trunk, and so does half a waistband on one leg.
-            let is_waist = joins.garment.pieces[piece].role == Role::Waistband;
-            let first = limbs.next().filter(|_| !is_waist);
-            let only = first.filter(|first| limbs.all(|limb| limb == *first));
-            let about = only.cloned().unwrap_or_else(|| self.about_trunk());
-            let places = follow::place(&self.form, joins, piece, &pairs, &self.positions, &about);
-            self.positions[joins.garment.pieces[piece].vertices.clone()].copy_from_slice(&places);
-            self.limb[piece] = Some(about);
+            let (piece, pairs) = self.next_follower().ok_or_else(|| self.cannot_place(open))?;
+            let about = self.limb_of_partners(piece);
+            if let Some(ring) = halves.iter().find(|ring| ring.pieces.contains(&piece)) {
+                self.roll_about(ring, &about);
+                continue;
+            }
+            let places = follow::place(&self.form, &self.joins, piece, &pairs, &self.positions, &about);
+            let vertices = self.joins.garment.pieces[piece].vertices.clone();
+            self.assign(&[piece], &about, vertices.zip(places));
         }
         Ok(())
+    }
+
+    /// The piece without a place that is sewn most to those with one, and where it is.
+    fn next_follower(&self) -> Option<(usize, Vec<[usize; 2]>)> {
+        let placed = self.placed();
+        let loose = (0..self.limb.len()).rev().filter(|&p| self.limb[p].is_none());
+        let seams = loose.map(|p| (p, self.joins.to_any(p, &placed)));
+        seams.max_by_key(|(_, pairs)| pairs.len()).filter(|(_, pairs)| !pairs.is_empty())
+    }
+
+    /// The limb about which a piece goes: that of those it is sewn to.
+    fn limb_of_partners(&self, piece: usize) -> Limb {
+        let partners = self.placed().into_iter().filter(|&p| !self.joins.between(piece, p).is_empty());
+        let mut limbs = partners.filter_map(|p| self.limb[p].as_ref());
+        // What joins several limbs goes about the trunk, and so does half a waistband on one leg.
+        let is_waist = self.joins.garment.pieces[piece].role == Role::Waistband;
+        let first = limbs.next().filter(|_| !is_waist);
+        let only = first.filter(|first| limbs.all(|limb| limb == *first));
+        only.cloned().unwrap_or_else(|| self.about_trunk())
+    }
+
+    fn cannot_place(&self, piece: usize) -> SimError {
+        let piece = &self.joins.garment.pieces[piece];
+        let accepted = "pieces of the trunk and the legs by role, sleeves that are sewn to an armhole, pieces that go round the \
+            trunk one after the other, any other piece that is sewn to one of these; this one is sewn to none";
+        SimError::CannotPlace { piece: piece.id.clone(), role: piece.role, accepted }
     }
 }
 
@@ -252,7 +171,7 @@ impl Placing<'_> {
 fn trunk_sheets(joins: &Joins, without: &[usize]) -> [Sheet; 2] {
     let [in_front, behind] = [&trunk::FRONTS, &trunk::BACKS].map(|roles| {
         let pieces = joins.worn_as(roles).into_iter();
-        pieces.filter(|piece| !without.contains(piece)).collect::<Vec<_>>()
+        pieces.filter(|&piece| !without.contains(&piece) && !follow::is_in_a_slit(joins, piece)).collect::<Vec<_>>()
     });
     let lay = |own: &[usize], other: &[usize]| {
         // A band between two pieces of this side lies with them.
@@ -358,44 +277,60 @@ mod tests {
         }
     }
 
-    /// A front and a back of some roles with six gores of another below, three sewn to each.
-    fn gored_dress([front, back, gores]: [Role; 3]) -> Garment {
-        let panel = |corners: &[[f64; 2]], x: f64, z: f64| {
-            let edges: Vec<Value> =
-                (0..corners.len()).map(|k| json!({ "endpoints": [k, (k + 1) % corners.len()] })).collect();
-            json!({ "translation": [x, 0, z], "rotation": [0, 0, 0], "vertices": corners, "edges": edges })
+    /// A panel of straight edges, or of those that say otherwise, cm.
+    fn panel(corners: &[[f64; 2]], [x, z]: [f64; 2], curved: &[(usize, Value)]) -> Value {
+        let edge = |k: usize| {
+            let mut edge = json!({ "endpoints": [k, (k + 1) % corners.len()] });
+            if let Some((_, curvature)) = curved.iter().find(|(at, _)| *at == k) {
+                edge["curvature"] = curvature.clone();
+            }
+            edge
         };
-        let top = [[-24.0, 0.0], [-8.0, 0.0], [8.0, 0.0], [24.0, 0.0], [24.0, 40.0], [-24.0, 40.0]];
-        let gore = [[-16.0, -50.0], [16.0, -50.0], [8.0, 0.0], [-8.0, 0.0]];
-        // Behind, the same as seen from outside.
-        let mirrored = |corners: &[[f64; 2]]| -> Vec<[f64; 2]> { corners.iter().map(|[x, y]| [-x, *y]).collect() };
-        let mut panels = json!({ "front": panel(&top, 0.0, 20.0), "back": panel(&mirrored(&top), 0.0, -20.0) });
-        let mut stitches = vec![
-            json!([{ "panel": "front", "edge": 3 }, { "panel": "back", "edge": 5 }]),
-            json!([{ "panel": "front", "edge": 5 }, { "panel": "back", "edge": 3 }]),
-        ];
-        for k in 0..6 {
-            let (name, place) = (format!("panel_{k}"), 16.0 * (k % 3) as f64 - 16.0);
-            let side = if k < 3 { "front" } else { "back" };
-            panels[&name] = if k < 3 { panel(&gore, place, 20.0) } else { panel(&mirrored(&gore), -place, -20.0) };
-            stitches.push(json!([{ "panel": name, "edge": 2 }, { "panel": side, "edge": k % 3 }]));
-            let next = format!("panel_{}", (k + 1) % 6);
-            stitches.push(json!([{ "panel": name, "edge": 1 }, { "panel": next, "edge": 3 }]));
-        }
+        let edges: Vec<Value> = (0..corners.len()).map(edge).collect();
+        json!({ "translation": [x, 0, z], "rotation": [0, 0, 0], "vertices": corners, "edges": edges })
+    }
+
+    fn stitch(one: (&str, usize), other: (&str, usize)) -> Value {
+        let side = |(panel, edge): (&str, usize)| json!({ "panel": panel, "edge": edge });
+        json!([side(one), side(other)])
+    }
+
+    /// A mesh of panels and stitches; `role` says what each piece is.
+    fn sewn(panels: &Value, stitches: &[Value], role: impl Fn(&str) -> Role) -> Garment {
         let document = json!({
             "pattern": { "panels": panels, "stitches": stitches },
             "properties": { "curvature_coords": "relative", "units_in_meter": 100 }
         });
-        let read = garmentcode::read(document.to_string().as_bytes(), "dress").expect("a specification");
+        let read = garmentcode::read(document.to_string().as_bytes(), "garment").expect("a specification");
         let mut garment = read.style().mesh(0.04).expect("a mesh");
         for piece in &mut garment.pieces {
-            piece.role = match piece.id.as_str() {
-                "front" => front,
-                "back" => back,
-                _ => gores,
-            };
+            piece.role = role(&piece.id);
         }
         garment
+    }
+
+    /// A front and a back of some roles with six gores of another below, three sewn to each.
+    fn gored_dress([front, back, gores]: [Role; 3]) -> Garment {
+        let top = [[-24.0, 0.0], [-8.0, 0.0], [8.0, 0.0], [24.0, 0.0], [24.0, 40.0], [-24.0, 40.0]];
+        let gore = [[-16.0, -50.0], [16.0, -50.0], [8.0, 0.0], [-8.0, 0.0]];
+        // Behind, the same as seen from outside.
+        let mirrored = |corners: &[[f64; 2]]| -> Vec<[f64; 2]> { corners.iter().map(|[x, y]| [-x, *y]).collect() };
+        let mut panels =
+            json!({ "front": panel(&top, [0.0, 20.0], &[]), "back": panel(&mirrored(&top), [0.0, -20.0], &[]) });
+        let mut stitches = vec![stitch(("front", 3), ("back", 5)), stitch(("front", 5), ("back", 3))];
+        for k in 0..6 {
+            let (name, place) = (format!("panel_{k}"), 16.0 * (k % 3) as f64 - 16.0);
+            let side = if k < 3 { "front" } else { "back" };
+            panels[&name] =
+                if k < 3 { panel(&gore, [place, 20.0], &[]) } else { panel(&mirrored(&gore), [-place, -20.0], &[]) };
+            stitches.push(stitch((&name, 2), (side, k % 3)));
+            stitches.push(stitch((&name, 1), (&format!("panel_{}", (k + 1) % 6), 3)));
+        }
+        sewn(&panels, &stitches, |id| match id {
+            "front" => front,
+            "back" => back,
+            _ => gores,
+        })
     }
 
     #[test]
@@ -403,7 +338,7 @@ mod tests {
         let check = |roles: [Role; 3]| {
             let garment = gored_dress(roles);
             let x = place(&body(), &garment, &Params::default()).expect("it goes round");
-            let gap = |seam: &SeamMesh| seam.pairs.iter().map(|[a, b]| (x[*a] - x[*b]).norm()).fold(0.0, f64::max);
+            let gap = |seam: &SeamMesh| gaps(seam, &x).into_iter().fold(0.0, f64::max);
             let piece = |v: usize| garment.pieces.iter().find(|piece| piece.vertices.contains(&v)).expect("a piece's");
             let is_gore = |v: &usize| piece(*v).role == roles[2];
             let between = garment.seams.iter().filter(|seam| seam.pairs[0].iter().all(is_gore));
@@ -420,40 +355,110 @@ mod tests {
         check([Role::Waistband, Role::Waistband, Role::BodiceFront]);
     }
 
+    /// Front or back of a skirt, by name.
+    fn skirt_role(id: &str) -> Role {
+        if id.starts_with("back") { Role::SkirtBack } else { Role::SkirtFront }
+    }
+
     /// A skirt of half circles: tiers each of a front and a back of some inner radius, cm, 30 cm long.
     fn tiered(radii: &[f64]) -> Garment {
         let (mut panels, mut stitches) = (json!({}), Vec::new());
         let arc = |radius: f64, sweep: u8| json!({ "type": "circle", "params": [radius, 0, sweep] });
         for (tier, &inner) in radii.iter().enumerate() {
             let outer = inner + 30.0;
-            let edges = json!([
-                { "endpoints": [0, 1], "curvature": arc(outer, 1) },
-                { "endpoints": [1, 2] },
-                { "endpoints": [2, 3], "curvature": arc(inner, 0) },
-                { "endpoints": [3, 0] }
-            ]);
-            let vertices = [[-outer, 0.0], [outer, 0.0], [inner, 0.0], [-inner, 0.0]];
+            let corners = [[-outer, 0.0], [outer, 0.0], [inner, 0.0], [-inner, 0.0]];
             let [front, back] = ["front", "back"].map(|side| format!("{side}_{tier}"));
-            for (name, below) in [(&front, format!("front_{}", tier + 1)), (&back, format!("back_{}", tier + 1))] {
-                panels[name] =
-                    json!({ "translation": [0, 0, 0], "rotation": [0, 0, 0], "vertices": vertices, "edges": edges });
-                if tier + 1 < radii.len() {
-                    stitches.push(json!([{ "panel": name, "edge": 0 }, { "panel": below, "edge": 2 }]));
-                }
+            for side in [&front, &back] {
+                panels[side] = panel(&corners, [0.0, 0.0], &[(0, arc(outer, 1)), (2, arc(inner, 0))]);
             }
-            stitches.push(json!([{ "panel": front, "edge": 1 }, { "panel": back, "edge": 3 }]));
-            stitches.push(json!([{ "panel": front, "edge": 3 }, { "panel": back, "edge": 1 }]));
+            if tier + 1 < radii.len() {
+                stitches.push(stitch((&front, 0), (&format!("front_{}", tier + 1), 2)));
+                stitches.push(stitch((&back, 0), (&format!("back_{}", tier + 1), 2)));
+            }
+            stitches.push(stitch((&front, 1), (&back, 3)));
+            stitches.push(stitch((&front, 3), (&back, 1)));
         }
-        let document = json!({
-            "pattern": { "panels": panels, "stitches": stitches },
-            "properties": { "curvature_coords": "relative", "units_in_meter": 100 }
+        sewn(&panels, &stitches, skirt_role)
+    }
+
+    /// Distances of the sides of a seam, m.
+    fn gaps(seam: &SeamMesh, x: &[V3]) -> Vec<f64> {
+        seam.pairs.iter().map(|[a, b]| (x[*a] - x[*b]).norm()).collect()
+    }
+
+    #[test]
+    fn a_flounce_of_half_circles_goes_round_as_one() {
+        let straight = [[-28.0, 0.0], [28.0, 0.0], [28.0, 40.0], [-28.0, 40.0]];
+        let (inner, outer) = (36.0, 60.0);
+        let half = [[-outer, 0.0], [outer, 0.0], [inner, 0.0], [-inner, 0.0]];
+        let arc = |radius: f64, sweep: u8| json!({ "type": "circle", "params": [radius, 0, sweep] });
+        let half = panel(&half, [0.0, 0.0], &[(0, arc(outer, 1)), (2, arc(inner, 0))]);
+        let panels = json!({
+            "front": panel(&straight, [0.0, 20.0], &[]),
+            "back": panel(&straight, [0.0, -20.0], &[]),
+            "flounce_a": half.clone(),
+            "flounce_b": half,
         });
-        let read = garmentcode::read(document.to_string().as_bytes(), "tiers").expect("a specification");
-        let mut garment = read.style().mesh(0.04).expect("a mesh");
-        for piece in &mut garment.pieces {
-            piece.role = if piece.id.starts_with("front") { Role::SkirtFront } else { Role::SkirtBack };
+        let stitches = [
+            stitch(("front", 1), ("back", 3)),
+            stitch(("front", 3), ("back", 1)),
+            stitch(("front", 0), ("flounce_a", 2)),
+            stitch(("back", 0), ("flounce_b", 2)),
+            stitch(("flounce_a", 1), ("flounce_b", 3)),
+            stitch(("flounce_a", 3), ("flounce_b", 1)),
+        ];
+        let role = |id: &str| if id.starts_with("flounce") { Role::Other } else { skirt_role(id) };
+        let garment = sewn(&panels, &stitches, role);
+        let body = body();
+        let x = place(&body, &garment, &Params::default()).expect("it goes round");
+        let surface = Surface::new(&body.mesh).expect("a closed body");
+        let of_flounce = |v: usize| {
+            let piece = garment.pieces.iter().find(|piece| piece.vertices.contains(&v)).expect("a piece's");
+            piece.role == Role::Other
+        };
+        assert!((0..x.len()).all(|v| !of_flounce(v) || surface.signed_distance(&x[v]) > 0.0), "inside the body");
+        for seam in garment.seams.iter().filter(|seam| seam.pairs[0].iter().any(|&v| of_flounce(v))) {
+            let gaps = gaps(seam, &x);
+            let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
+            // Of its sides one begins open.
+            assert!(mean < 0.15, "{}: {mean} m open", seam.name);
         }
-        garment
+    }
+
+    #[test]
+    fn a_godet_is_folded_outwards_from_its_slit() {
+        let slit = [[-30.0, 0.0], [-1.0, 0.0], [0.0, 30.0], [1.0, 0.0], [30.0, 0.0], [25.0, 60.0], [-25.0, 60.0]];
+        let whole = [[-30.0, 0.0], [30.0, 0.0], [25.0, 60.0], [-25.0, 60.0]];
+        let half_width = 12.0;
+        let godet = [[-half_width, 0.0], [half_width, 0.0], [0.0, 30.0]];
+        let panels = json!({
+            "front": panel(&slit, [0.0, 20.0], &[]),
+            "back": panel(&whole, [0.0, -20.0], &[]),
+            "front_godet": panel(&godet, [0.0, 40.0], &[])
+        });
+        let stitches = [
+            stitch(("front", 4), ("back", 3)),
+            stitch(("front", 6), ("back", 1)),
+            stitch(("front_godet", 1), ("front", 2)),
+            stitch(("front_godet", 2), ("front", 1)),
+        ];
+        let garment = sewn(&panels, &stitches, skirt_role);
+        let piece = |name: &str| garment.pieces.iter().position(|piece| piece.id == name).expect("a piece");
+        let joins = Joins::of(&garment);
+        let in_slits: Vec<bool> =
+            ["front", "back", "front_godet"].map(|name| follow::is_in_a_slit(&joins, piece(name))).to_vec();
+        assert_eq!(in_slits, [false, false, true]);
+        let body = body();
+        let x = place(&body, &garment, &Params::default()).expect("a skirt");
+        let is_godet = |v: usize| joins.piece_of[v] == piece("front_godet");
+        let sides: Vec<[usize; 2]> = garment.seams.iter().flat_map(|seam| seam.pairs.clone()).collect();
+        let own = sides.iter().filter(|pair| pair.iter().any(|&v| is_godet(v)));
+        let widest = own.map(|[a, b]| (x[*a] - x[*b]).norm()).fold(0.0, f64::max);
+        assert!(widest < 0.05, "its seams begin {widest} m open");
+        let axis = Form::of(&body).trunk_axis();
+        let hem = garment.pieces[piece("front_godet")].vertices.clone().filter(|&v| garment.rest[v].y < 1e-6);
+        let [near, far] = ring::bounds(hem.map(|v| axis.coordinates(&x[v]).1));
+        assert!(far - near > 0.9e-2 * half_width, "its hem lies from {near} to {far} m");
     }
 
     #[test]
@@ -469,7 +474,7 @@ mod tests {
                 piece.id.rsplit('_').next().map(str::to_owned)
             };
             for seam in &garment.seams {
-                let gaps: Vec<f64> = seam.pairs.iter().map(|[a, b]| (x[*a] - x[*b]).norm()).collect();
+                let gaps = gaps(seam, &x);
                 let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
                 let [a, b] = seam.pairs[0];
                 let is_between = tier(a) != tier(b);

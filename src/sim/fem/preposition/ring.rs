@@ -21,6 +21,8 @@ const SHIFT_RAD: f64 = 0.05;
 const CLOSED: f64 = 0.5;
 /// What a motion moves its points apart by, over their distance, below which it does not say where it turns about.
 const SURE: f64 = 0.15;
+/// Weight of the ring's middle against that of a side's line, in where the lines meet.
+const UNSURE: f64 = 1e-3;
 /// Mean direction from the tip, of unit vectors, below which a piece goes all round it.
 const ALL_ROUND: f64 = 0.01;
 
@@ -29,8 +31,8 @@ pub struct Ring {
     members: Vec<Member>,
     /// Takes the first piece's side at the cut onto the last one's.
     closing: Isometry2<f64>,
-    /// Middle of the last piece's side at the cut.
-    cut: Point2<f64>,
+    /// The last piece's side at the cut.
+    cut: Vec<Point2<f64>>,
 }
 
 struct Member {
@@ -94,21 +96,29 @@ impl Ring {
         some.iter().filter_map(alone).collect()
     }
 
-    /// Rings of several pieces among some; what else these are sewn to is left out of account, and of two that are sewn to
-    /// each other at both sides, as those of a tier are, all that is above and below.
+    /// Rings of several pieces among some; what else these are sewn to is left out of account.
     pub fn of_several(joins: &Joins, some: &[usize]) -> Vec<Self> {
-        let mut links: Vec<Link> = links(joins, some);
-        links.retain(|link| link.pieces[0] != link.pieces[1]);
+        Self::among(joins, some, &between_pieces(joins, some))
+    }
+
+    /// The same of skirts: of two pieces that are sewn to each other at both sides, as those of a tier are, all that is above and below
+    /// is left out of account as well.
+    pub fn of_tiers(joins: &Joins, some: &[usize]) -> Vec<Self> {
+        let mut links = between_pieces(joins, some);
         let pairs: Vec<[usize; 2]> = links.iter().map(|link| link.pieces).collect();
         let both_sides = |pair: &[usize; 2]| pairs.iter().filter(|other| *other == pair).count() == 2;
-        let twins: Vec<[usize; 2]> = pairs.iter().copied().filter(both_sides).collect();
-        let is_apart = |pair: &[usize; 2]| !twins.iter().flatten().any(|piece| pair.contains(piece));
-        links.retain(|link| twins.contains(&link.pieces) || is_apart(&link.pieces));
+        let tiers: Vec<[usize; 2]> = pairs.iter().copied().filter(both_sides).collect();
+        let is_apart = |pair: &[usize; 2]| !tiers.iter().flatten().any(|piece| pair.contains(piece));
+        links.retain(|link| tiers.contains(&link.pieces) || is_apart(&link.pieces));
+        Self::among(joins, some, &links)
+    }
+
+    fn among(joins: &Joins, some: &[usize], links: &[Link]) -> Vec<Self> {
         let mut ends: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (index, link) in links.iter().enumerate() {
             link.pieces.iter().for_each(|&piece| ends.entry(piece).or_default().push(index));
         }
-        some.iter().filter_map(|&first| Self::beginning(joins, &links, &ends, first)).collect()
+        some.iter().filter_map(|&first| Self::beginning(joins, links, &ends, first)).collect()
     }
 
     /// The ring of several pieces in which `first` is the least; each must be sewn to two others, or twice to the only other.
@@ -135,8 +145,8 @@ impl Ring {
     /// The ring of some pieces that is cut open at a seam, the last piece's vertices first.
     fn cut_at(joins: &Joins, seam: &[[usize; 2]], members: Vec<Member>) -> Self {
         let placed = members.last().map_or_else(Isometry2::identity, |last| last.motion);
-        let side = seam.iter().map(|pair| joins.garment.rest[pair[0]]).sum::<V2>() / seam.len().max(1) as f64;
-        Self { closing: onto(joins, seam, &placed), cut: placed * Point2::from(side), members }
+        let cut = seam.iter().map(|pair| placed * Point2::from(joins.garment.rest[pair[0]])).collect();
+        Self { closing: onto(joins, seam, &placed), cut, members }
     }
 
     /// Its pieces, in order.
@@ -166,10 +176,33 @@ impl Ring {
         if damping == 0.0 && turn.angle().abs() < SHIFT_RAD {
             return None;
         }
-        // The point that moves least, and of those the nearest to the middle.
+        // The point that moves least, and of those the nearest to where all sides point.
+        let middle = self.focus(joins, &middle);
+        let shift = self.closing * Point2::from(middle) - Point2::from(middle);
         let apart = Matrix2::identity() - turn.to_rotation_matrix().into_inner();
         let normal = apart.transpose() * apart + Matrix2::identity() * damping;
         normal.lu().solve(&(apart.transpose() * shift)).map(|from_middle| Point2::from(middle + from_middle))
+    }
+
+    /// Each side that is sewn to a piece before, and the last at the cut.
+    fn sides(&self, joins: &Joins) -> Vec<Vec<Point2<f64>>> {
+        let side = |member: &Member| member.seam.iter().map(|pair| member.place(joins, pair[0])).collect();
+        self.members.iter().skip(1).map(side).chain([self.cut.clone()]).collect()
+    }
+
+    /// Where the lines on which the sides lie meet; what these leave open is as near to `middle` as can be.
+    fn focus(&self, joins: &Joins, middle: &V2) -> V2 {
+        let (mut matrix, mut goal) = (Matrix2::identity() * UNSURE, middle * UNSURE);
+        for side in self.sides(joins).into_iter().filter(|side| side.len() > 1) {
+            let mean = mean(&side).coords;
+            let spread: Matrix2<f64> = side.iter().map(|p| (p.coords - mean) * (p.coords - mean).transpose()).sum();
+            let across = spread.symmetric_eigen();
+            let normal = across.eigenvectors.column(across.eigenvalues.imin()).into_owned();
+            let weight = normal * normal.transpose();
+            matrix += weight;
+            goal += weight * mean;
+        }
+        matrix.try_inverse().map_or(*middle, |inverse| inverse * goal)
     }
 
     fn sector(&self, joins: &Joins, in_front: &[usize], tip: &Point2<f64>) -> Vec<(usize, f64, f64)> {
@@ -178,7 +211,7 @@ impl Ring {
         // Of the member before: the angle of its middle, and that of each of its vertices from there.
         let mut before: (f64, BTreeMap<usize, f64>) = (0.0, BTreeMap::new());
         for member in &self.members {
-            let polar = member.polar(joins, tip, &self.cut);
+            let polar = member.polar(joins, tip, &mean(&self.cut));
             let own: BTreeMap<usize, f64> = polar.iter().map(|&(v, angle, _)| (v, angle)).collect();
             let apart = |&[a, b]: &[usize; 2]| before.1[&b] - own[&a];
             let middle = before.0 + member.seam.iter().map(apart).sum::<f64>() / member.seam.len().max(1) as f64;
@@ -206,7 +239,11 @@ impl Member {
     /// Its vertices in the ring's plane.
     fn places(&self, joins: &Joins) -> Vec<(usize, Point2<f64>)> {
         let vertices = joins.garment.pieces[self.piece].vertices.clone();
-        vertices.map(|v| (v, self.motion * Point2::from(joins.garment.rest[v]))).collect()
+        vertices.map(|v| (v, self.place(joins, v))).collect()
+    }
+
+    fn place(&self, joins: &Joins, v: usize) -> Point2<f64> {
+        self.motion * Point2::from(joins.garment.rest[v])
     }
 
     /// Its vertices with the angle about a tip from the piece's middle, which lies opposite `cut` where it goes all round, rad, and the
@@ -253,6 +290,11 @@ impl Link {
     }
 }
 
+/// Seams between different ones of some pieces.
+fn between_pieces(joins: &Joins, some: &[usize]) -> Vec<Link> {
+    links(joins, some).into_iter().filter(|link| link.pieces[0] != link.pieces[1]).collect()
+}
+
 /// Seams between some pieces; parts that share a vertex are one.
 fn links(joins: &Joins, some: &[usize]) -> Vec<Link> {
     let link = |&[a, b]: &[usize; 2]| match [a, b].map(|v| joins.piece_of[v]) {
@@ -281,6 +323,10 @@ fn links(joins: &Joins, some: &[usize]) -> Vec<Link> {
 /// Angle from one direction to another, counter-clockwise, rad.
 fn angle(from: &V2, to: &V2) -> f64 {
     from.perp(to).atan2(from.dot(to))
+}
+
+fn mean(points: &[Point2<f64>]) -> Point2<f64> {
+    Point2::from(points.iter().map(|p| p.coords).sum::<V2>() / points.len().max(1) as f64)
 }
 
 /// The motion that brings the second vertices of some pairs nearest to the first, which `placed` moves.
@@ -390,6 +436,36 @@ mod tests {
             let turn = flat.turn_rad() / turn_rad;
             assert!((0.9..1.1).contains(&turn), "{larger} cm larger: {turn} of the turn");
         }
+    }
+
+    #[test]
+    fn a_hem_off_the_middle_leaves_the_tip_at_the_waist() {
+        let arc = |radius: f64, large: u8, sweep: u8| json!({ "type": "circle", "params": [radius, large, sweep] });
+        // Half circles of 15 cm, 45 cm at the sides, one shorter and one longer than that in the middle.
+        let panel = |outer: serde_json::Value| {
+            let edges = json!([
+                { "endpoints": [0, 1], "curvature": outer },
+                { "endpoints": [1, 2] },
+                { "endpoints": [2, 3], "curvature": arc(15.0, 0, 0) },
+                { "endpoints": [3, 0] }
+            ]);
+            let vertices = [[-60.0, 0.0], [60.0, 0.0], [15.0, 0.0], [-15.0, 0.0]];
+            json!({ "translation": [0, 0, 0], "rotation": [0, 0, 0], "vertices": vertices, "edges": edges })
+        };
+        let stitch = |a: &str, b: &str| json!([{ "panel": a, "edge": 1 }, { "panel": b, "edge": 3 }]);
+        let document = json!({
+            "pattern": {
+                "panels": { "front": panel(arc(75.0, 0, 1)), "back": panel(arc(62.0, 1, 1)) },
+                "stitches": [stitch("front", "back"), stitch("back", "front")]
+            },
+            "properties": { "curvature_coords": "relative", "units_in_meter": 100 }
+        });
+        let read = garmentcode::read(document.to_string().as_bytes(), "skirt").expect("a specification");
+        let garment = read.style().mesh(0.05).expect("a mesh");
+        let joins = Joins::of(&garment);
+        let flat = Ring::of_several(&joins, &[0, 1])[0].flat(&joins, &[]);
+        assert!((flat.turn_rad() / TAU - 1.0).abs() < 0.01, "{} rad round", flat.turn_rad());
+        assert!((flat.inner_m() / (0.15 * TAU) - 1.0).abs() < 0.03, "{} m at the waist", flat.inner_m());
     }
 
     #[test]

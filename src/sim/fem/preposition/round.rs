@@ -1,11 +1,14 @@
-//! Rings of pieces rolled about the trunk.
+//! Rings of pieces rolled about the trunk or another limb.
 //!
-//! A sector is rolled to the cone on which it closes, and what is wider than fits between the arms to a steeper cone, about which
-//! it goes in waves; a strip to a cylinder.
+//! A sector is rolled to the cone on which it closes, a strip to a cylinder; what is wider than fits between the arms to a steeper
+//! cone, and what is gathered into an edge to one that begins at that, about which it goes in waves.
 
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
+use super::follow::body_radius as body_radius_about;
 use super::form::{Axis, Form};
+use super::limb::Limb;
 use super::ring::{Flat, bounds};
 use crate::geom::{V2, V3};
 
@@ -21,12 +24,15 @@ const LEAST_SPAN_RAD: f64 = 0.1;
 const SPREADS: (f64, f64, u32) = (0.35, 0.2, 5);
 /// Sine of the steepest cone that a sector starts on over that of the one on which it closes without waves: from there its hem would turn in.
 const STEEPER: f64 = 0.7;
-/// Waves of a skirt that is wider than its cone, and the directions in which their length is taken.
-const WAVES: (f64, u32) = (8.0, 32);
+/// Waves of a skirt that is wider than its cone.
+const WAVES: f64 = 8.0;
+/// Directions in which the length of a wave is taken.
+const SAMPLES: u32 = 32;
 
-/// Vertices of a ring with their places, its upper edge at the height `top` and, of a sector, no further from the axis than `within`.
+/// Vertices of a ring with their places, its upper edge at the height `top` and no further from the axis than `within`.
 pub fn place(form: &Form, flat: &Flat, top: f64, within: Option<f64>) -> Vec<(usize, V3)> {
     let axis = form.trunk_axis();
+    let unrolled = Unrolled::of(flat);
     let off_body = |rolled: Vec<Rolled>| {
         let short = rolled.iter().map(|p| body_radius(form, &axis, top - p.below) + CLEARANCE_M - p.radius);
         let wider = short.fold(0.0, f64::max);
@@ -35,18 +41,50 @@ pub fn place(form: &Form, flat: &Flat, top: f64, within: Option<f64>) -> Vec<(us
     let room = |rolled: &[Rolled]| {
         rolled.iter().map(|p| arm_radius(form, &axis, top - p.below) - p.radius).fold(f64::INFINITY, f64::min)
     };
-    let rolled = match flat {
-        Flat::Sector(points) => {
-            let (wide, narrow, steps) = SPREADS;
-            let spread = |k: u32| wide + (narrow - wide) * f64::from(k) / f64::from(steps);
-            let cones = (0..=steps).map(|k| off_body(about(points, spread(k), within)));
-            // The widest that is clear of the arms, else the one that comes nearest to it.
-            let clear = |cone: &[Rolled]| room(cone).min(CLEARANCE_M);
-            cones.rev().max_by(|a, b| clear(a).total_cmp(&clear(b))).unwrap_or_default()
-        }
-        Flat::Strip(points) => off_body(along(points)),
-    };
+    let (wide, narrow, steps) = SPREADS;
+    let spread = |k: u32| wide + (narrow - wide) * f64::from(k) / f64::from(steps);
+    let cones = (0..=steps).map(|k| off_body(unrolled.rolled(spread(k), within.unwrap_or(f64::INFINITY))));
+    // The widest that is clear of the arms, else the one that comes nearest to it.
+    let clear = |cone: &[Rolled]| room(cone).min(CLEARANCE_M);
+    let rolled = cones.rev().max_by(|a, b| clear(a).total_cmp(&clear(b))).unwrap_or_default();
     rolled.iter().map(|p| (p.vertex, axis.point(p.angle, p.radius, top - p.below))).collect()
+}
+
+/// A vertex, and the angle, the distance from a limb's middle and the height of what it is sewn to.
+pub type Held = (usize, (f64, f64, f64));
+
+/// Mean of one of the coordinates.
+pub fn mean(held: &[Held], of: fn(&(f64, f64, f64)) -> f64) -> f64 {
+    held.iter().map(|(_, p)| of(p)).sum::<f64>() / held.len() as f64
+}
+
+/// Vertices of a ring with their places about a limb, below and turned as those that are `held`.
+pub fn place_about(form: &Form, limb: &Limb, flat: &Flat, held: &[Held]) -> Vec<(usize, V3)> {
+    let (within, top) = (mean(held, |p| p.1), mean(held, |p| p.2));
+    let rolled = Unrolled::of(flat).rolled(SPREADS.0, within);
+    let angles: BTreeMap<usize, f64> = rolled.iter().map(|p| (p.vertex, p.angle)).collect();
+    let (sin, cos) = held.iter().fold((0.0, 0.0), |(sin, cos), (vertex, p)| {
+        let turn = p.0 - angles.get(vertex).unwrap_or(&0.0);
+        (sin + turn.sin(), cos + turn.cos())
+    });
+    let lowest = rolled.iter().map(|p| top - p.below).fold(top, f64::min);
+    let skin = body_radius_about(form, limb, lowest, top) + CLEARANCE_M;
+    let wider = rolled.iter().map(|p| skin - p.radius).fold(0.0, f64::max);
+    let turn = sin.atan2(cos);
+    rolled.iter().map(|p| (p.vertex, limb.point(p.angle + turn, p.radius + wider, top - p.below))).collect()
+}
+
+/// A ring as it is rolled: on the cone, or the cylinder, on which it closes.
+struct Unrolled {
+    /// Vertex, angle from the front to the right seen from outside, rad, radius of the circle that is as long as the ring there, and
+    /// distance from the upper edge, m.
+    points: Vec<(usize, f64, f64, f64)>,
+    /// Radius of the upper edge, m.
+    upper: f64,
+    /// Greatest distance from the upper edge, m.
+    height: f64,
+    /// Sine of the angle between the cone and its axis.
+    spread: f64,
 }
 
 /// A point on the cone or cylinder.
@@ -59,29 +97,48 @@ struct Rolled {
     below: f64,
 }
 
-/// On a cone, the tip above, that spreads by at most the sine `spread` from `within` at most; in waves where the sector is wider.
-fn about(points: &[(usize, f64, f64)], spread: f64, within: Option<f64>) -> Vec<Rolled> {
-    let [low, high] = bounds(points.iter().map(|p| p.1));
-    let [inner, _] = bounds(points.iter().map(|p| p.2));
-    let share = (high - low).max(LEAST_SPAN_RAD) / (TAU * ROUND);
-    let spread = (STEEPER * share).min(spread);
-    let upper = within.unwrap_or(f64::INFINITY).min(inner * share);
-    let steep = (1.0 - spread * spread).sqrt();
-    let roll = |&(vertex, angle, length): &(usize, f64, f64)| {
-        let angle = angle / share;
-        let mean = upper + (length - inner) * spread;
-        let wave = wave(length * share / mean) * (WAVES.0 * angle).cos();
-        Rolled { vertex, angle, radius: mean * (1.0 + wave), below: (length - inner) * steep }
-    };
-    points.iter().map(roll).collect()
+impl Unrolled {
+    fn of(flat: &Flat) -> Self {
+        match flat {
+            Flat::Sector(points) => {
+                let [low, high] = bounds(points.iter().map(|p| p.1));
+                let [inner, outer] = bounds(points.iter().map(|p| p.2));
+                let share = (high - low).max(LEAST_SPAN_RAD) / (TAU * ROUND);
+                let of = |&(v, angle, length): &(usize, f64, f64)| (v, angle / share, length * share, length - inner);
+                let points = points.iter().map(of).collect();
+                Self { points, upper: inner * share, height: outer - inner, spread: share }
+            }
+            Flat::Strip(points) => {
+                let [left, right] = bounds(points.iter().map(|(_, p)| p.x));
+                let [low, high] = bounds(points.iter().map(|(_, p)| p.y));
+                let radius = ((right - left) / (TAU * ROUND)).max(1e-3);
+                let middle = 0.5 * (left + right);
+                let of = |&(v, p): &(usize, V2)| (v, (p.x - middle) / radius, radius, high - p.y);
+                Self { points: points.iter().map(of).collect(), upper: radius, height: high - low, spread: 0.0 }
+            }
+        }
+    }
+
+    /// On a cone, the tip above, that spreads by at most the sine `spread` from `within` at most; in waves where the ring is wider.
+    fn rolled(&self, spread: f64, within: f64) -> Vec<Rolled> {
+        let upper = self.upper.min(within);
+        let gathered = (self.upper - upper) / self.height.max(f64::MIN_POSITIVE);
+        let spread = (STEEPER * self.spread + gathered).min(spread);
+        let steep = (1.0 - spread * spread).sqrt();
+        let roll = |&(vertex, angle, widest, length): &(usize, f64, f64, f64)| {
+            let mean = upper + length * spread;
+            let wave = wave(widest / mean) * (WAVES * angle).cos();
+            Rolled { vertex, angle, radius: mean * (1.0 + wave), below: length * steep }
+        };
+        self.points.iter().map(roll).collect()
+    }
 }
 
 /// Height of waves about a circle over its radius that makes them `ratio` times as long as the circle.
 fn wave(ratio: f64) -> f64 {
-    let (count, samples) = WAVES;
     let length = |height: f64| {
-        let at = |k: u32| height * count * (TAU * f64::from(k) / f64::from(samples)).sin();
-        (0..samples).map(|k| at(k).hypot(1.0)).sum::<f64>() / f64::from(samples)
+        let at = |k: u32| height * WAVES * (TAU * f64::from(k) / f64::from(SAMPLES)).sin();
+        (0..SAMPLES).map(|k| at(k).hypot(1.0)).sum::<f64>() / f64::from(SAMPLES)
     };
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..30 {
@@ -89,17 +146,6 @@ fn wave(ratio: f64) -> f64 {
         if length(middle) < ratio { low = middle } else { high = middle }
     }
     low
-}
-
-/// On a cylinder.
-fn along(points: &[(usize, V2)]) -> Vec<Rolled> {
-    let [left, right] = bounds(points.iter().map(|(_, p)| p.x));
-    let [_, high] = bounds(points.iter().map(|(_, p)| p.y));
-    let radius = ((right - left) / (TAU * ROUND)).max(1e-3);
-    let middle = 0.5 * (left + right);
-    let roll =
-        |&(vertex, p): &(usize, V2)| Rolled { vertex, angle: (p.x - middle) / radius, radius, below: high - p.y };
-    points.iter().map(roll).collect()
 }
 
 /// Greatest distance of the trunk's skin from its axis about a height.
@@ -175,7 +221,7 @@ mod tests {
         for ratio in [1.1, 1.5, 3.0] {
             let at = |k: u32| {
                 let angle = TAU * f64::from(k) / 20_000.0;
-                let radius = 1.0 + wave(ratio) * (WAVES.0 * angle).cos();
+                let radius = 1.0 + wave(ratio) * (WAVES * angle).cos();
                 V2::new(angle, radius)
             };
             // Unrolled: the waves lie along a line, not about a circle.
