@@ -1,0 +1,281 @@
+use serde_json::{Value, json};
+
+use super::*;
+use crate::body::{self, Measurements, Sex};
+use crate::geom::Surface;
+use crate::pattern::draft::Model;
+use crate::pattern::garment::SeamMesh;
+use crate::pattern::{Style, garmentcode};
+
+fn body() -> Body {
+    body::build(&Measurements::of(Sex::Male, 1.75)).expect("a body")
+}
+
+fn garment(model: Model) -> Garment {
+    let style = Style::read(&model.drafts()[0].pieces, model.seams(), "seams").expect("a style");
+    style.mesh(0.04).expect("a mesh")
+}
+
+#[test]
+fn drafted_garments_start_outside_the_body_with_near_seams() {
+    let body = body();
+    let surface = Surface::new(&body.mesh).expect("a closed body");
+    // Greatest share of vertices inside, and greatest mean gap of the seams.
+    let check = |model: Model, inside: f64, gap_m: f64| {
+        let garment = garment(model);
+        let x = place(&body, &garment, &Params::default()).expect("all roles are known");
+        let count = x.iter().filter(|p| surface.signed_distance(p) < 0.0).count();
+        assert!((count as f64) <= inside * x.len() as f64, "{}: {count} of {} inside", garment.name, x.len());
+        let pairs: Vec<_> = garment.seams.iter().flat_map(|seam| &seam.pairs).collect();
+        let mean = pairs.iter().map(|[a, b]| (x[*a] - x[*b]).norm()).sum::<f64>() / pairs.len() as f64;
+        assert!(mean < gap_m, "{}: mean gap {mean} m", garment.name);
+    };
+    check(Model::Tshirt, 0.03, 0.2);
+    check(Model::Teetop, 0.03, 0.2);
+    check(Model::Dress, 0.03, 0.2);
+    check(Model::Trousers, 0.05, 0.1);
+}
+
+#[test]
+fn an_angle_of_nothing_leaves_the_trunk_flat() {
+    let (body, garment) = (body(), garment(Model::Tshirt));
+    let params = Params { bend_angle_rad: Some(0.0), ..Params::default() };
+    let x = place(&body, &garment, &params).expect("all roles are known");
+    for piece in garment.pieces.iter().filter(|piece| [Role::Front, Role::Back].contains(&piece.role)) {
+        let depths = || piece.vertices.clone().map(|v| x[v].y);
+        let [near, far] = [depths().fold(f64::MAX, f64::min), depths().fold(f64::MIN, f64::max)];
+        assert!(far - near < 0.01, "{} lies between {near} and {far} m", piece.id);
+    }
+}
+
+#[test]
+fn legs_start_on_their_own_side() {
+    let garment = garment(Model::Trousers);
+    let x = place(&body(), &garment, &Params::default()).expect("all roles are known");
+    for piece in &garment.pieces {
+        let side = if piece.id.ends_with("right") { 1.0 } else { -1.0 };
+        assert!(piece.vertices.clone().all(|v| x[v].x * side > 0.0), "{}", piece.id);
+    }
+}
+
+/// A panel of straight edges, or of those that say otherwise, cm.
+fn panel(corners: &[[f64; 2]], [x, z]: [f64; 2], curved: &[(usize, Value)]) -> Value {
+    let edge = |k: usize| {
+        let mut edge = json!({ "endpoints": [k, (k + 1) % corners.len()] });
+        if let Some((_, curvature)) = curved.iter().find(|(at, _)| *at == k) {
+            edge["curvature"] = curvature.clone();
+        }
+        edge
+    };
+    let edges: Vec<Value> = (0..corners.len()).map(edge).collect();
+    json!({ "translation": [x, 0, z], "rotation": [0, 0, 0], "vertices": corners, "edges": edges })
+}
+
+fn stitch(one: (&str, usize), other: (&str, usize)) -> Value {
+    let side = |(panel, edge): (&str, usize)| json!({ "panel": panel, "edge": edge });
+    json!([side(one), side(other)])
+}
+
+/// A mesh of panels and stitches; `role` says what each piece is.
+fn sewn(panels: &Value, stitches: &[Value], role: impl Fn(&str) -> Role) -> Garment {
+    let document = json!({
+        "pattern": { "panels": panels, "stitches": stitches },
+        "properties": { "curvature_coords": "relative", "units_in_meter": 100 }
+    });
+    let read = garmentcode::read(document.to_string().as_bytes(), "garment").expect("a specification");
+    let mut garment = read.style().mesh(0.04).expect("a mesh");
+    for piece in &mut garment.pieces {
+        piece.role = role(&piece.id);
+    }
+    garment
+}
+
+/// A front and a back of some roles with six gores of another below, three sewn to each.
+fn gored_dress([front, back, gores]: [Role; 3]) -> Garment {
+    let top = [[-24.0, 0.0], [-8.0, 0.0], [8.0, 0.0], [24.0, 0.0], [24.0, 40.0], [-24.0, 40.0]];
+    let gore = [[-16.0, -50.0], [16.0, -50.0], [8.0, 0.0], [-8.0, 0.0]];
+    // Behind, the same as seen from outside.
+    let mirrored = |corners: &[[f64; 2]]| -> Vec<[f64; 2]> { corners.iter().map(|[x, y]| [-x, *y]).collect() };
+    let mut panels =
+        json!({ "front": panel(&top, [0.0, 20.0], &[]), "back": panel(&mirrored(&top), [0.0, -20.0], &[]) });
+    let mut stitches = vec![stitch(("front", 3), ("back", 5)), stitch(("front", 5), ("back", 3))];
+    for k in 0..6 {
+        let (name, place) = (format!("panel_{k}"), 16.0 * (k % 3) as f64 - 16.0);
+        let side = if k < 3 { "front" } else { "back" };
+        panels[&name] =
+            if k < 3 { panel(&gore, [place, 20.0], &[]) } else { panel(&mirrored(&gore), [-place, -20.0], &[]) };
+        stitches.push(stitch((&name, 2), (side, k % 3)));
+        stitches.push(stitch((&name, 1), (&format!("panel_{}", (k + 1) % 6), 3)));
+    }
+    sewn(&panels, &stitches, |id| match id {
+        "front" => front,
+        "back" => back,
+        _ => gores,
+    })
+}
+
+#[test]
+fn gores_go_round_as_one() {
+    let check = |roles: [Role; 3]| {
+        let garment = gored_dress(roles);
+        let x = place(&body(), &garment, &Params::default()).expect("it goes round");
+        let gap = |seam: &SeamMesh| gaps(seam, &x).into_iter().fold(0.0, f64::max);
+        let piece = |v: usize| garment.pieces.iter().find(|piece| piece.vertices.contains(&v)).expect("a piece's");
+        let is_gore = |v: &usize| piece(*v).role == roles[2];
+        let between = garment.seams.iter().filter(|seam| seam.pairs[0].iter().all(is_gore));
+        let open = between.filter(|seam| gap(seam) > 0.01).count();
+        assert_eq!(open, 1, "{roles:?}: all seams of the gores begin closed, but for one");
+        let above = (0..x.len()).filter(|v| !is_gore(v)).map(|v| x[v].z).fold(f64::MAX, f64::min);
+        let below = (0..x.len()).filter(is_gore).map(|v| x[v].z).fold(f64::MIN, f64::max);
+        assert!((above - below).abs() < 0.02, "{roles:?}: the gores begin at {below} m, what is above ends at {above}");
+    };
+    check([Role::BodiceFront, Role::BodiceBack, Role::Other]);
+    check([Role::Waistband, Role::Waistband, Role::BodiceFront]);
+}
+
+/// Front or back of a skirt, by name.
+fn skirt_role(id: &str) -> Role {
+    if id.starts_with("back") { Role::SkirtBack } else { Role::SkirtFront }
+}
+
+/// A skirt of half circles: tiers each of a front and a back of some inner radius, cm, 30 cm long.
+fn tiered(radii: &[f64]) -> Garment {
+    let (mut panels, mut stitches) = (json!({}), Vec::new());
+    let arc = |radius: f64, sweep: u8| json!({ "type": "circle", "params": [radius, 0, sweep] });
+    for (tier, &inner) in radii.iter().enumerate() {
+        let outer = inner + 30.0;
+        let corners = [[-outer, 0.0], [outer, 0.0], [inner, 0.0], [-inner, 0.0]];
+        let [front, back] = ["front", "back"].map(|side| format!("{side}_{tier}"));
+        for side in [&front, &back] {
+            panels[side] = panel(&corners, [0.0, 0.0], &[(0, arc(outer, 1)), (2, arc(inner, 0))]);
+        }
+        if tier + 1 < radii.len() {
+            stitches.push(stitch((&front, 0), (&format!("front_{}", tier + 1), 2)));
+            stitches.push(stitch((&back, 0), (&format!("back_{}", tier + 1), 2)));
+        }
+        stitches.push(stitch((&front, 1), (&back, 3)));
+        stitches.push(stitch((&front, 3), (&back, 1)));
+    }
+    sewn(&panels, &stitches, skirt_role)
+}
+
+/// Distances of the sides of a seam, m.
+fn gaps(seam: &SeamMesh, x: &[V3]) -> Vec<f64> {
+    seam.pairs.iter().map(|[a, b]| (x[*a] - x[*b]).norm()).collect()
+}
+
+#[test]
+fn a_flounce_of_half_circles_goes_round_as_one() {
+    let straight = [[-28.0, 0.0], [28.0, 0.0], [28.0, 40.0], [-28.0, 40.0]];
+    let (inner, outer) = (36.0, 60.0);
+    let half = [[-outer, 0.0], [outer, 0.0], [inner, 0.0], [-inner, 0.0]];
+    let arc = |radius: f64, sweep: u8| json!({ "type": "circle", "params": [radius, 0, sweep] });
+    let half = panel(&half, [0.0, 0.0], &[(0, arc(outer, 1)), (2, arc(inner, 0))]);
+    let panels = json!({
+        "front": panel(&straight, [0.0, 20.0], &[]),
+        "back": panel(&straight, [0.0, -20.0], &[]),
+        "flounce_a": half.clone(),
+        "flounce_b": half,
+    });
+    let stitches = [
+        stitch(("front", 1), ("back", 3)),
+        stitch(("front", 3), ("back", 1)),
+        stitch(("front", 0), ("flounce_a", 2)),
+        stitch(("back", 0), ("flounce_b", 2)),
+        stitch(("flounce_a", 1), ("flounce_b", 3)),
+        stitch(("flounce_a", 3), ("flounce_b", 1)),
+    ];
+    let role = |id: &str| if id.starts_with("flounce") { Role::Other } else { skirt_role(id) };
+    let garment = sewn(&panels, &stitches, role);
+    let body = body();
+    let x = place(&body, &garment, &Params::default()).expect("it goes round");
+    let surface = Surface::new(&body.mesh).expect("a closed body");
+    let of_flounce = |v: usize| {
+        let piece = garment.pieces.iter().find(|piece| piece.vertices.contains(&v)).expect("a piece's");
+        piece.role == Role::Other
+    };
+    assert!((0..x.len()).all(|v| !of_flounce(v) || surface.signed_distance(&x[v]) > 0.0), "inside the body");
+    for seam in garment.seams.iter().filter(|seam| seam.pairs[0].iter().any(|&v| of_flounce(v))) {
+        let gaps = gaps(seam, &x);
+        let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
+        // Of its sides one begins open.
+        assert!(mean < 0.15, "{}: {mean} m open", seam.name);
+    }
+}
+
+#[test]
+fn a_godet_is_folded_outwards_from_its_slit() {
+    let slit = [[-30.0, 0.0], [-1.0, 0.0], [0.0, 30.0], [1.0, 0.0], [30.0, 0.0], [25.0, 60.0], [-25.0, 60.0]];
+    let whole = [[-30.0, 0.0], [30.0, 0.0], [25.0, 60.0], [-25.0, 60.0]];
+    let half_width = 12.0;
+    let godet = [[-half_width, 0.0], [half_width, 0.0], [0.0, 30.0]];
+    let panels = json!({
+        "front": panel(&slit, [0.0, 20.0], &[]),
+        "back": panel(&whole, [0.0, -20.0], &[]),
+        "front_godet": panel(&godet, [0.0, 40.0], &[])
+    });
+    let stitches = [
+        stitch(("front", 4), ("back", 3)),
+        stitch(("front", 6), ("back", 1)),
+        stitch(("front_godet", 1), ("front", 2)),
+        stitch(("front_godet", 2), ("front", 1)),
+    ];
+    let garment = sewn(&panels, &stitches, skirt_role);
+    let piece = |name: &str| garment.pieces.iter().position(|piece| piece.id == name).expect("a piece");
+    let joins = Joins::of(&garment);
+    let in_slits: Vec<bool> =
+        ["front", "back", "front_godet"].map(|name| follow::is_in_a_slit(&joins, piece(name))).to_vec();
+    assert_eq!(in_slits, [false, false, true]);
+    let body = body();
+    let x = place(&body, &garment, &Params::default()).expect("a skirt");
+    let is_godet = |v: usize| joins.piece_of[v] == piece("front_godet");
+    let sides: Vec<[usize; 2]> = garment.seams.iter().flat_map(|seam| seam.pairs.clone()).collect();
+    let own = sides.iter().filter(|pair| pair.iter().any(|&v| is_godet(v)));
+    let widest = own.map(|[a, b]| (x[*a] - x[*b]).norm()).fold(0.0, f64::max);
+    assert!(widest < 0.05, "its seams begin {widest} m open");
+    let axis = Form::of(&body).trunk_axis();
+    let hem = garment.pieces[piece("front_godet")].vertices.clone().filter(|&v| garment.rest[v].y < 1e-6);
+    let [near, far] = ring::bounds(hem.map(|v| axis.coordinates(&x[v]).1));
+    assert!(far - near > 0.9e-2 * half_width, "its hem lies from {near} to {far} m");
+}
+
+#[test]
+fn tiers_of_circles_hang_within_each_other() {
+    let body = body();
+    let surface = Surface::new(&body.mesh).expect("a closed body");
+    let check = |radii: &[f64]| {
+        let garment = tiered(radii);
+        let x = place(&body, &garment, &Params::default()).expect("it goes round");
+        assert!(x.iter().all(|p| surface.signed_distance(p) > 0.0), "{radii:?}: inside the body");
+        let tier = |v: usize| {
+            let piece = garment.pieces.iter().find(|piece| piece.vertices.contains(&v)).expect("a piece's");
+            piece.id.rsplit('_').next().map(str::to_owned)
+        };
+        for seam in &garment.seams {
+            let gaps = gaps(seam, &x);
+            let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
+            let [a, b] = seam.pairs[0];
+            let is_between = tier(a) != tier(b);
+            // Of the sides of a tier one begins open.
+            assert!(mean < if is_between { 0.05 } else { 0.3 }, "{radii:?}, {}: {mean} m open", seam.name);
+        }
+    };
+    check(&[15.0, 45.0]);
+    check(&[15.0, 55.0, 100.0]);
+}
+
+#[test]
+fn a_piece_without_a_role_follows_its_seams() {
+    let body = body();
+    let mut garment = garment(Model::Teetop);
+    let known = place(&body, &garment, &Params::default()).expect("all roles are known");
+    let sleeve = garment.pieces.iter().position(|piece| piece.id == "sleeve_right").expect("it has sleeves");
+    garment.pieces[sleeve].role = Role::Other;
+    let followed = place(&body, &garment, &Params::default()).expect("it is sewn to known ones");
+    let vertices = garment.pieces[sleeve].vertices.clone();
+    let mean = |x: &[V3]| x[vertices.clone()].iter().sum::<V3>() / vertices.len() as f64;
+    assert!((mean(&known) - mean(&followed)).norm() < 0.25, "{} {}", mean(&known), mean(&followed));
+    garment.seams.retain(|seam| !seam.pairs.iter().flatten().any(|v| vertices.contains(v)));
+    let error = place(&body, &garment, &Params::default()).expect_err("nothing holds it").to_string();
+    assert!(error.contains("sleeve_right") && error.contains("cannot place role"), "{error}");
+}
