@@ -132,7 +132,8 @@ impl Placing<'_> {
         while let Some(open) = self.limb.iter().position(Option::is_none) {
             let (piece, pairs) = self.next_follower().ok_or_else(|| self.cannot_place(open))?;
             let about = self.limb_of_partners(piece);
-            if let Some(ring) = halves.iter().find(|ring| ring.pieces.contains(&piece)) {
+            let is_open = |ring: &&Round| ring.pieces.iter().all(|&p| self.limb[p].is_none());
+            if let Some(ring) = halves.iter().filter(is_open).find(|ring| ring.pieces.contains(&piece)) {
                 self.roll_about(ring, &about);
                 continue;
             }
