@@ -125,7 +125,8 @@ fn waist_m(chosen: &[Recognised]) -> f64 {
         };
         let is_it = |one: &&Recognised| {
             let is_yoke = one.class == Class::Yoke && class != Class::Body && one.alignment.template.has(label);
-            is_yoke || (one.class == class && (class == Class::Body || !has_yoke(one.face)))
+            let is_panel = class == Class::Body && one.class == Class::SidePanel;
+            is_yoke || is_panel || (one.class == class && (class == Class::Body || !has_yoke(one.face)))
         };
         chosen.iter().filter(is_it).map(|one| copies(one) * length_m(one, label)).sum()
     };

@@ -263,3 +263,93 @@ fn gores_are_sewn_all_round_and_to_their_band() {
     let banded = [numbered, vec![half_band("wb_front"), half_band("wb_back")]].concat();
     check(&banded, 8, &["waist_back_1", "waist_front_1", "waistband_left", "waistband_right"]);
 }
+
+/// Mirrored left to right, so that what is drawn for one side of the wearer is drawn for the other.
+fn mirrored(name: &str, vertices: &[(f64, f64, u8)]) -> Piece {
+    let turned: Vec<(f64, f64, u8)> = vertices.iter().rev().map(|&(x, y, corner)| (-x, y, corner)).collect();
+    piece(name, &turned)
+}
+
+#[test]
+fn a_raglan_sleeve_is_sewn_to_front_and_back_up_to_the_neck() {
+    let trunk = |name: &str, top: f64, neck: f64| {
+        let right = [(260.0, 0.0, 1), (260.0, 420.0, 1), (215.0, 440.0, 0), (80.0, top, 1)];
+        let left: Vec<(f64, f64, u8)> = right.iter().rev().map(|&(x, y, corner)| (-x, y, corner)).collect();
+        piece(name, &[&right[..], &[(0.0, neck, 0)], &left].concat())
+    };
+    // The front up to 640 mm, the back up to 690; the left side of the sleeve is the longer one.
+    let sleeve = [(160.0, 0.0, 1), (200.0, 300.0, 1), (155.0, 320.0, 0), (30.0, 525.0, 1), (-30.0, 570.0, 1)];
+    let sleeve = [&sleeve[..], &[(-155.0, 320.0, 0), (-200.0, 300.0, 1), (-160.0, 0.0, 1)]].concat();
+    let check = |sleeve: Piece| {
+        let proposal = draped(&[trunk("FRONT", 640.0, 560.0), trunk("BACK", 690.0, 670.0), sleeve], &["sleeve"]);
+        for hand in ["right", "left"] {
+            for face in ["front", "back"] {
+                let seam = seam(&proposal, &format!("raglan_{face}_{hand}"));
+                assert_eq!(seam.entry.b, [format!("{face}.armhole_{hand}")]);
+                assert!((seam.ratio() - 1.0).abs() < 0.03, "{seam:?}");
+            }
+        }
+        assert!(!proposal.seams.iter().any(|seam| seam.entry.name.contains("shoulder")));
+    };
+    // As drawn the shorter side, the front's, is to the right: a right sleeve; and its mirror image.
+    check(piece("RAGLAN SLEEVE", &sleeve));
+    check(mirrored("SLEEVE", &sleeve));
+}
+
+#[test]
+fn without_its_sleeves_a_raglan_cannot_be_worn() {
+    let half =
+        [(0.0, 0.0, 1), (260.0, 0.0, 1), (260.0, 420.0, 1), (215.0, 440.0, 0), (80.0, 640.0, 1), (0.0, 560.0, 1)];
+    let sleeve = [(160.0, 0.0, 1), (200.0, 600.0, 1), (155.0, 620.0, 0), (30.0, 1125.0, 1), (-30.0, 1125.0, 1)];
+    let sleeve = [&sleeve[..], &[(-155.0, 620.0, 0), (-200.0, 600.0, 1), (-160.0, 0.0, 1)]].concat();
+    let pieces = [piece("FRONT", &half), piece("BACK", &half), piece("SLEEVE", &sleeve)];
+    let reason = propose(&pieces).to_drape().expect_err("sleeves twice as high as the trunk").reason;
+    assert!(reason.contains("raglan_front_right"), "{reason}");
+}
+
+/// Half a front cut by a princess seam from the shoulder or from the armhole, its middle first, and a half back.
+fn princess(from_shoulder: bool) -> [Piece; 3] {
+    let neck = [(80.0, 690.0, 1), (70.0, 640.0, 0), (40.0, 615.0, 0), (0.0, 605.0, 1), (0.0, 0.0, 1), (120.0, 0.0, 1)];
+    let (middle, side) = if from_shoulder {
+        (vec![(130.0, 300.0, 0), (140.0, 665.0, 1)], vec![(190.0, 560.0, 0), (200.0, 640.0, 1), (140.0, 665.0, 1)])
+    } else {
+        (vec![(130.0, 250.0, 0), (195.0, 500.0, 1), (190.0, 560.0, 0), (200.0, 640.0, 1)], vec![])
+    };
+    let low = [(120.0, 0.0, 1), (260.0, 0.0, 1), (260.0, 420.0, 1), (215.0, 440.0, 0)];
+    let bust = [(195.0, 500.0, u8::from(!from_shoulder))];
+    let back = [(0.0, 0.0, 1), (260.0, 0.0, 1), (260.0, 420.0, 1), (215.0, 440.0, 0), (195.0, 500.0, 0)];
+    let back_top = [(190.0, 560.0, 0), (200.0, 640.0, 1), (80.0, 690.0, 1), (50.0, 680.0, 0), (0.0, 675.0, 1)];
+    [
+        piece("FRONT INSIDE", &[&neck[..], &middle].concat()),
+        piece("FRONT OUTSIDE", &[&low[..], &bust, &side, &[(103.0, 280.0, 0)]].concat()),
+        piece("BACK", &[&back[..], &back_top].concat()),
+    ]
+}
+
+#[test]
+fn princess_seams_are_sewn_from_the_shoulder_or_the_armhole() {
+    let check = |from_shoulder: bool, shoulder: &[&str], armhole: &[&str]| {
+        let mut pieces = princess(from_shoulder).to_vec();
+        pieces.push(sleeve(1.0));
+        let proposal = draped(&pieces, &["sleeve"]);
+        assert_eq!(seam(&proposal, "princess_front_right").entry.a, ["side_front_right.princess"]);
+        assert_eq!(seam(&proposal, "princess_front_left").entry.b, ["front_left.princess"]);
+        assert_eq!(seam(&proposal, "side_right").entry.a, ["side_front_right.side"]);
+        assert_eq!(seam(&proposal, "shoulder_right").entry.a, shoulder);
+        assert_eq!(seam(&proposal, "armhole_right").entry.b, armhole);
+        let roles = proposal.entries.iter().filter(|(id, _)| id.contains("front")).map(|entry| entry.1.role);
+        assert!(roles.eq([Role::Front; 4]));
+    };
+    let [side, middle, back] = ["side_front_right.armhole", "front_right.armhole", "back_right.armhole"];
+    check(true, &["front_right.shoulder", "side_front_right.shoulder"], &[side, back]);
+    check(false, &["front_right.shoulder"], &[side, middle, back]);
+}
+
+#[test]
+fn two_whole_fronts_are_no_panels() {
+    let [_, _, back] = princess(true);
+    let front = &shirt()[0];
+    let pockets = Piece { block: "POCKETS".to_owned(), name: "FRONT WITH POCKETS".to_owned(), ..front.clone() };
+    let proposal = draped(&[front.clone(), pockets, back], &[]);
+    assert!(!proposal.seams.iter().any(|seam| seam.entry.name.contains("princess")));
+}

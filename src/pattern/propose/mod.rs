@@ -11,7 +11,9 @@ mod garment_tests;
 mod gore;
 mod names;
 mod notched;
+mod panels;
 mod pose;
+mod raglan;
 mod recognise;
 mod ring;
 mod sew;
@@ -36,6 +38,8 @@ use super::seams::{PieceEntry, SeamEntry};
 pub enum Class {
     /// Front or back of the trunk.
     Body,
+    /// Outer part of a front or back that is cut lengthwise: between the princess seam and the side.
+    SidePanel,
     /// Front or back of a leg.
     Leg,
     /// Sleeve, or front or back of one.
@@ -56,6 +60,7 @@ impl Class {
     fn as_str(self) -> &'static str {
         match self {
             Self::Body => "trunk",
+            Self::SidePanel => "side panel",
             Self::Leg => "leg",
             Self::Sleeve => "sleeve",
             Self::Skirt => "skirt",
@@ -132,7 +137,9 @@ pub enum Label {
     Hem,
     /// Side seam.
     Side,
-    /// Armhole.
+    /// Princess seam: between a side panel and the panel in the middle.
+    Princess,
+    /// Armhole; of a raglan, the whole edge up to the neck.
     Armhole,
     /// Shoulder.
     Shoulder,
@@ -148,7 +155,7 @@ pub enum Label {
     Inseam,
     /// Seat seam.
     Crotch,
-    /// Edge of a sleeve that meets the armhole.
+    /// Edge of a sleeve that meets the armhole; of a raglan sleeve, either side of its neck.
     Cap,
     /// Lower lengthwise edge of a sleeve.
     Underarm,
@@ -165,6 +172,7 @@ impl Label {
         match self {
             Self::Hem => "hem",
             Self::Side => "side",
+            Self::Princess => "princess",
             Self::Armhole => "armhole",
             Self::Shoulder => "shoulder",
             Self::Neck => "neck",
@@ -185,14 +193,14 @@ impl Label {
 /// What a piece is worn as; a trunk `is_bodice` where something is sewn to its lower edge.
 fn role_of(class: Option<Class>, face: Option<Face>, hand: Option<Hand>, is_bodice: bool) -> Role {
     match (class, face, hand) {
-        (Some(Class::Body) | None, Some(Face::Front), _) => {
+        (Some(Class::Body | Class::SidePanel) | None, Some(Face::Front), _) => {
             if is_bodice {
                 Role::BodiceFront
             } else {
                 Role::Front
             }
         }
-        (Some(Class::Body) | None, Some(Face::Back), _) => {
+        (Some(Class::Body | Class::SidePanel) | None, Some(Face::Back), _) => {
             if is_bodice {
                 Role::BodiceBack
             } else {

@@ -77,16 +77,34 @@ fn shares(worn: &[Worn], side: &Side, is_forwards: bool) -> Vec<f64> {
 pub fn drawn_sleeve(worn: &[Worn]) -> Option<Hand> {
     let right = Some(Hand::Right);
     let cap = worn.iter().find(|one| one.class == Class::Sleeve && one.is_whole && one.hand == right)?;
-    let body = |face| {
-        worn.iter().find(|one| one.class == Class::Body && one.face == Some(face) && one.hand != Some(Hand::Left))
+    let of = |class, face| {
+        let is_it = |one: &&Worn| one.class == class && one.face == Some(face) && one.hand != Some(Hand::Left);
+        worn.iter().find(is_it).map_or_else(Vec::new, |one| one.chain_back(Label::Armhole, right))
     };
-    let armhole: Vec<(String, f64)> =
-        Face::BOTH.into_iter().filter_map(body).flat_map(|one| one.chain_back(Label::Armhole, right)).collect();
-    match evidence(worn, &cap.chain(Label::Cap, None), &armhole) {
+    let [front, back] = [[Class::SidePanel, Class::Body], [Class::Body, Class::SidePanel]];
+    let front: Vec<_> = front.into_iter().flat_map(|class| of(class, Face::Front)).collect();
+    let back: Vec<_> = back.into_iter().flat_map(|class| of(class, Face::Back)).collect();
+    // Either side of a raglan sleeve is sewn by itself, and its notches stand at like shares.
+    let sides = Hand::BOTH.map(|side| length(&cap.chain(Label::Cap, Some(side))));
+    let by_lengths = cap.has(Label::Neck).then(|| by_lengths(sides, [length(&front), length(&back)])).flatten();
+    by_lengths.or_else(|| match evidence(worn, &cap.chain(Label::Cap, None), &[front, back].concat()) {
         Evidence::For => Some(Hand::Right),
         Evidence::Turned => Some(Hand::Left),
         Evidence::None => None,
-    }
+    })
+}
+
+/// The sleeve that a raglan sleeve is drawn as, by the lengths, m, of its right and left side beside those of front and back.
+fn by_lengths([right, left]: [f64; 2], [front, back]: [f64; 2]) -> Option<Hand> {
+    let as_right = (right - front).abs() + (left - back).abs();
+    let as_left = (right - back).abs() + (left - front).abs();
+    let is_clear = (as_right - as_left).abs() > SAME_SHARE * (front + back);
+    is_clear.then_some(if as_right < as_left { Hand::Right } else { Hand::Left })
+}
+
+/// Length of a side, m.
+fn length(side: &Side) -> f64 {
+    side.iter().map(|(_, length)| length).sum()
 }
 
 #[cfg(test)]

@@ -2,10 +2,11 @@
 
 use super::align::{Alignment, TURNED, align};
 use super::gore::{self, Cut};
-use super::names;
+use super::panels::{self, Panel};
 use super::shape::Shape;
 use super::templates::{TEMPLATES, Template};
 use super::{Class, Face, Hand, Label, ring};
+use super::{names, raglan};
 use crate::pattern::piece::Piece;
 
 /// Least fit of an outline whose name tells what it is.
@@ -13,8 +14,16 @@ const LEAST_NAMED_FIT: f64 = 0.35;
 /// Least fit of an outline that nothing else tells of.
 const LEAST_UNNAMED_FIT: f64 = 0.6;
 /// Kinds that have templates, in the order in which equal fits count.
-const CLASSES: [Class; 7] =
-    [Class::Body, Class::Leg, Class::Sleeve, Class::Skirt, Class::Yoke, Class::Waistband, Class::Cuff];
+const CLASSES: [Class; 8] = [
+    Class::Body,
+    Class::SidePanel,
+    Class::Leg,
+    Class::Sleeve,
+    Class::Skirt,
+    Class::Yoke,
+    Class::Waistband,
+    Class::Cuff,
+];
 /// Confidence in front and back told by comparing outlines.
 const COMPARED: f64 = 0.75;
 /// Least difference of two outlines that tells front from back, in units of the piece's longer side.
@@ -61,6 +70,15 @@ struct Around {
     has_yoke: bool,
     /// A yoke is one over the shoulders.
     has_trunk: bool,
+    /// Sleeves go up to the neck.
+    is_raglan: bool,
+}
+
+/// What a piece is taken for before its outline is read, because of others.
+#[derive(Clone, Copy)]
+struct Among {
+    gore: Option<Cut>,
+    panel: Option<Panel>,
 }
 
 /// Recognises pieces; those that are left out have a question each, except what needs no seam of ours.
@@ -69,13 +87,14 @@ pub fn recognise(pieces: &[Piece], questions: &mut Vec<String>) -> Vec<Recognise
     let is_called = |piece: &Piece, class: Class| names::read(&piece.name).class == Some(class);
     let [has_sleeve, has_yoke] =
         [Class::Sleeve, Class::Yoke].map(|class| pieces.iter().any(|piece| is_called(piece, class)));
-    let gores = gore::gores(pieces);
+    let (gores, panels, is_raglan) = (gore::gores(pieces), panels::panels(pieces), raglan::is_raglan(pieces));
     for are_yokes in [false, true] {
         let has_trunk = found.iter().any(|one| one.class == Class::Body);
-        let around = Around { has_sleeve, has_yoke, has_trunk };
+        let around = Around { has_sleeve, has_yoke, has_trunk, is_raglan };
         for (index, piece) in pieces.iter().enumerate() {
             if is_called(piece, Class::Yoke) == are_yokes && !is_called(piece, Class::Other) {
-                match recognise_one(index, piece, around, gores[index], questions) {
+                let among = Among { gore: gores[index], panel: panels[index] };
+                match recognise_one(index, piece, around, among, questions) {
                     Ok(recognised) => found.push(recognised),
                     Err(question) => questions.push(question),
                 }
@@ -106,7 +125,7 @@ fn recognise_one(
     index: usize,
     piece: &Piece,
     around: Around,
-    gore: Option<Cut>,
+    Among { gore, panel }: Among,
     questions: &mut Vec<String>,
 ) -> Result<Recognised, String> {
     let named = names::read(&piece.name);
@@ -114,6 +133,7 @@ fn recognise_one(
     let shape = Shape::of(piece).ok_or_else(|| ask("its corners cannot be told"))?;
     let is_candidate = |class: Class| match (named.class, named.face) {
         _ if gore.is_some() => class == Class::Skirt,
+        _ if panel.is_some() => panel.is_some_and(|panel| class == panel.class),
         (Some(named), _) => class == named,
         (None, _) if around.has_sleeve && class == Class::Leg => false,
         (None, _) if around.has_sleeve && around.has_yoke && class == Class::Skirt => false,
@@ -126,9 +146,12 @@ fn recognise_one(
     let as_class = |class: Class| {
         let of_class = |template: &&Template| {
             let fits = match class {
-                Class::Sleeve => template.is_whole != is_half_sleeve,
+                Class::Sleeve if is_half_sleeve => !template.is_whole,
+                Class::Sleeve => template.is_whole && template.is_raglan() == around.is_raglan,
                 Class::Skirt if gore.is_some() => template.is_whole,
                 Class::Yoke => template.has_shoulder() == around.has_trunk,
+                _ if panel.is_some() || template.is_panel() => panel.is_some_and(|panel| panel.fits(template)),
+                Class::Body if around.is_raglan || template.is_raglan() => around.is_raglan == template.is_raglan(),
                 Class::Body => template.has_shoulder() || around.has_yoke,
                 _ => true,
             };

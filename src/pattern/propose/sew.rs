@@ -16,7 +16,7 @@ pub(super) const EASED_DOUBT: f64 = 0.15;
 /// The same for the end of a sleeve, which is laid in pleats or gathered into its cuff.
 const GATHERED_DOUBT: f64 = 0.3;
 /// Confidence in a seam at centre front or back.
-const CENTRE_CONFIDENCE: f64 = 0.7;
+pub(super) const CENTRE_CONFIDENCE: f64 = 0.7;
 /// Least confidence of a seam that is proposed; less sure ones are asked about.
 const LEAST_CONFIDENCE: f64 = 0.25;
 
@@ -33,6 +33,7 @@ pub fn sew(worn: &[Worn], questions: &mut Vec<String>) -> Vec<ProposedSeam> {
     let mut tailor = Tailor { worn, seams: Vec::new(), questions };
     tailor.darts();
     for hand in Hand::BOTH {
+        tailor.princess(hand);
         tailor.sides(hand);
         tailor.sleeve(hand);
         tailor.cuff(hand);
@@ -153,8 +154,19 @@ impl<'w> Tailor<'w, '_> {
     /// of what hangs from it, or the upper end of the seams of what it lies on.
     fn along(&self, class: Class, label: Label, face: Face, hand: Hand) -> Vec<(&'w Worn, Label)> {
         let Some(main) = self.find(class, Some(face), hand) else { return Vec::new() };
+        let panel = self.find(Class::SidePanel, Some(face), hand).filter(|panel| panel.has(label));
         let yoke = self.find(Class::Yoke, Some(face), hand);
         match yoke {
+            _ if class == Class::Body && panel.is_some() => {
+                let mut walk = vec![main];
+                walk.extend(panel);
+                walk.retain(|one| one.has(label));
+                // From the neck outwards on the right.
+                if hand == Hand::Left {
+                    walk.reverse();
+                }
+                walk.into_iter().map(|one| (one, label)).collect()
+            }
             Some(yoke) if label == Label::Shoulder && !main.has(label) => vec![(yoke, label)],
             Some(yoke) if label != Label::Inseam && class != Class::Body && yoke.has(Label::Waist) => {
                 let is_middle = matches!(label, Label::Crotch | Label::Centre);
@@ -170,6 +182,28 @@ impl<'w> Tailor<'w, '_> {
         }
     }
 
+    /// Side panels to what lies between them.
+    fn princess(&mut self, hand: Hand) {
+        for face in Face::BOTH {
+            let of = |class: Class| self.find(class, Some(face), hand);
+            if let (Some(panel), Some(middle)) = (of(Class::SidePanel), of(Class::Body)) {
+                let (a, b) = (panel.chain(Label::Princess, None), middle.chain_back(Label::Princess, Some(hand)));
+                let name = format!("princess_{}_{}", face.as_str(), hand.as_str());
+                self.add(name, a, b, &[panel, middle], PLAIN_DOUBT);
+            }
+        }
+    }
+
+    /// A raglan sleeve to the front and the back.
+    fn raglan(&mut self, sleeve: &'w Worn, hand: Hand) {
+        for (face, side) in [(Face::Front, hand), (Face::Back, hand.other())] {
+            let Some(body) = self.find(Class::Body, Some(face), hand) else { continue };
+            let (a, b) = (sleeve.chain(Label::Cap, Some(side)), body.chain_back(Label::Armhole, Some(hand)));
+            let name = format!("raglan_{}_{}", face.as_str(), hand.as_str());
+            self.add(name, a, b, &[sleeve, body], EASED_DOUBT);
+        }
+    }
+
     /// A sleeve to itself and to its armhole.
     fn sleeve(&mut self, hand: Hand) {
         let whole = self.worn.iter().find(|one| one.class == Class::Sleeve && one.is_whole && one.hand == Some(hand));
@@ -181,6 +215,10 @@ impl<'w> Tailor<'w, '_> {
             let front = sleeve.chain(Label::Underarm, Some(Hand::Right));
             let back = sleeve.chain_back(Label::Underarm, Some(Hand::Left));
             self.add(format!("underarm_{}", hand.as_str()), front, back, &[sleeve], PLAIN_DOUBT);
+            if sleeve.has(Label::Neck) {
+                self.raglan(sleeve, hand);
+                return;
+            }
             pieces.push(sleeve);
             cap = sleeve.chain(Label::Cap, None);
         } else {
@@ -191,8 +229,9 @@ impl<'w> Tailor<'w, '_> {
         }
         let mut armhole = Chain::new();
         // Up the first face, over its yoke and that of the second, and down.
-        let walk = [(Class::Body, order[0]), (Class::Yoke, order[0]), (Class::Yoke, order[1]), (Class::Body, order[1])];
-        for body in walk.iter().filter_map(|&(class, face)| self.find(class, Some(face), hand)) {
+        let up = [Class::SidePanel, Class::Body, Class::Yoke].map(|class| (class, order[0]));
+        let down = [Class::Yoke, Class::Body, Class::SidePanel].map(|class| (class, order[1]));
+        for body in up.into_iter().chain(down).filter_map(|(class, face)| self.find(class, Some(face), hand)) {
             let edges = body.chain_back(Label::Armhole, Some(hand));
             if !edges.is_empty() {
                 pieces.push(body);

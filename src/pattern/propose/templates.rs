@@ -42,6 +42,18 @@ impl Template {
     pub fn has_shoulder(&self) -> bool {
         self.has(Shoulder)
     }
+
+    /// Whether it is sewn raglan: a trunk or a sleeve that meets the other from the underarm to the neck.
+    #[must_use]
+    pub fn is_raglan(&self) -> bool {
+        matches!(self.class, Class::Body | Class::Sleeve) && self.has(Neck) && !self.has(Shoulder)
+    }
+
+    /// Whether it is a part of a front or back that is cut lengthwise.
+    #[must_use]
+    pub fn is_panel(&self) -> bool {
+        self.has(Princess)
+    }
 }
 
 const fn part(label: Label, direction_deg: f64, bow: f64, at: [f64; 2], share: f64) -> Part {
@@ -49,11 +61,12 @@ const fn part(label: Label, direction_deg: f64, bow: f64, at: [f64; 2], share: f
 }
 
 use Label::{
-    Armhole, Cap, Centre, Crotch, End, Hem, Inseam, Lower, Neck, Outseam, Shoulder, Side, Top, Underarm, Waist,
+    Armhole, Cap, Centre, Crotch, End, Hem, Inseam, Lower, Neck, Outseam, Princess, Shoulder, Side, Top, Underarm,
+    Waist,
 };
 
 /// All templates. Halves are aligned as their mirror images too.
-pub const TEMPLATES: [Template; 15] = [
+pub const TEMPLATES: [Template; 24] = [
     Template {
         class: Class::Body,
         is_whole: true,
@@ -102,6 +115,103 @@ pub const TEMPLATES: [Template; 15] = [
             part(Armhole, 105.0, -1.0, [0.88, 0.8], 0.12),
             part(Top, 180.0, 0.0, [0.4, 1.0], 0.15),
             part(Centre, 270.0, 0.0, [0.0, 0.5], 0.33),
+        ],
+    },
+    // Raglan.
+    Template {
+        class: Class::Body,
+        is_whole: true,
+        parts: &[
+            part(Hem, 0.0, 0.0, [0.5, 0.0], 0.25),
+            part(Side, 90.0, 0.0, [1.0, 0.3], 0.19),
+            part(Armhole, 128.0, -0.5, [0.82, 0.8], 0.14),
+            part(Neck, 180.0, -1.0, [0.5, 0.95], 0.1),
+            part(Armhole, 232.0, -0.5, [0.18, 0.8], 0.14),
+            part(Side, 270.0, 0.0, [0.0, 0.3], 0.19),
+        ],
+    },
+    Template {
+        class: Class::Body,
+        is_whole: false,
+        parts: &[
+            part(Hem, 0.0, 0.0, [0.5, 0.0], 0.17),
+            part(Side, 90.0, 0.0, [0.98, 0.3], 0.23),
+            part(Armhole, 125.0, -0.5, [0.65, 0.8], 0.18),
+            part(Neck, 215.0, -1.0, [0.15, 0.95], 0.08),
+            part(Centre, 270.0, 0.0, [0.0, 0.45], 0.32),
+        ],
+    },
+    // Between princess seams that begin at the shoulders.
+    Template {
+        class: Class::Body,
+        is_whole: true,
+        parts: &[
+            part(Hem, 0.0, 0.0, [0.5, 0.0], 0.13),
+            part(Princess, 85.0, 0.0, [0.9, 0.5], 0.28),
+            part(Shoulder, 165.0, 0.0, [0.85, 0.97], 0.06),
+            part(Neck, 180.0, -1.0, [0.5, 0.9], 0.14),
+            part(Shoulder, 195.0, 0.0, [0.15, 0.97], 0.06),
+            part(Princess, 275.0, 0.0, [0.1, 0.5], 0.28),
+        ],
+    },
+    Template {
+        class: Class::Body,
+        is_whole: false,
+        parts: &[
+            part(Hem, 0.0, 0.0, [0.5, 0.0], 0.1),
+            part(Princess, 85.0, 0.0, [0.9, 0.5], 0.36),
+            part(Shoulder, 165.0, 0.0, [0.85, 0.97], 0.05),
+            part(Neck, 215.0, -1.0, [0.3, 0.85], 0.14),
+            part(Centre, 270.0, 0.0, [0.0, 0.35], 0.27),
+        ],
+    },
+    // Between princess seams that begin at the armholes.
+    Template {
+        class: Class::Body,
+        is_whole: true,
+        parts: &[
+            part(Hem, 0.0, 0.0, [0.5, 0.0], 0.16),
+            part(Princess, 85.0, 0.0, [0.85, 0.35], 0.22),
+            part(Armhole, 85.0, -0.5, [0.92, 0.8], 0.06),
+            part(Shoulder, 160.0, 0.0, [0.83, 0.97], 0.08),
+            part(Neck, 180.0, -1.0, [0.5, 0.9], 0.13),
+            part(Shoulder, 200.0, 0.0, [0.17, 0.97], 0.08),
+            part(Armhole, 275.0, -0.5, [0.08, 0.8], 0.06),
+            part(Princess, 275.0, 0.0, [0.15, 0.35], 0.22),
+        ],
+    },
+    Template {
+        class: Class::Body,
+        is_whole: false,
+        parts: &[
+            part(Hem, 0.0, 0.0, [0.4, 0.0], 0.12),
+            part(Princess, 85.0, 0.0, [0.75, 0.35], 0.27),
+            part(Armhole, 85.0, -0.5, [0.9, 0.8], 0.08),
+            part(Shoulder, 160.0, 0.0, [0.7, 0.97], 0.08),
+            part(Neck, 215.0, -1.0, [0.2, 0.9], 0.12),
+            part(Centre, 270.0, 0.0, [0.0, 0.4], 0.3),
+        ],
+    },
+    // Outside a princess seam that begins at the shoulder, and at the armhole.
+    Template {
+        class: Class::SidePanel,
+        is_whole: false,
+        parts: &[
+            part(Hem, 0.0, 0.0, [0.55, 0.0], 0.13),
+            part(Side, 90.0, 0.0, [0.97, 0.27], 0.19),
+            part(Armhole, 95.0, -1.0, [0.8, 0.72], 0.2),
+            part(Shoulder, 160.0, 0.0, [0.65, 0.97], 0.06),
+            part(Princess, 265.0, 0.5, [0.1, 0.45], 0.4),
+        ],
+    },
+    Template {
+        class: Class::SidePanel,
+        is_whole: false,
+        parts: &[
+            part(Hem, 0.0, 0.0, [0.5, 0.0], 0.18),
+            part(Side, 90.0, 0.0, [0.97, 0.3], 0.28),
+            part(Armhole, 140.0, -0.5, [0.6, 0.85], 0.18),
+            part(Princess, 265.0, 0.5, [0.05, 0.45], 0.36),
         ],
     },
     // Over the shoulders.
@@ -168,6 +278,19 @@ pub const TEMPLATES: [Template; 15] = [
             part(Underarm, 80.0, 0.0, [0.93, 0.35], 0.22),
             part(Cap, 180.0, 1.0, [0.5, 1.0], 0.36),
             part(Underarm, 280.0, 0.0, [0.07, 0.35], 0.22),
+        ],
+    },
+    // Raglan.
+    Template {
+        class: Class::Sleeve,
+        is_whole: true,
+        parts: &[
+            part(Hem, 0.0, 0.0, [0.5, 0.0], 0.14),
+            part(Underarm, 82.0, 0.0, [0.93, 0.3], 0.2),
+            part(Cap, 115.0, -0.5, [0.75, 0.8], 0.2),
+            part(Neck, 180.0, 0.0, [0.5, 1.0], 0.05),
+            part(Cap, 245.0, -0.5, [0.25, 0.8], 0.2),
+            part(Underarm, 278.0, 0.0, [0.07, 0.3], 0.2),
         ],
     },
     Template {

@@ -14,6 +14,10 @@ impl<'w> Tailor<'w, '_> {
                 row.push(one);
             }
         }
+        if class == Class::Body && !row.is_empty() {
+            let [first, last] = order.map(|hand| self.find(Class::SidePanel, Some(face), hand));
+            row = first.into_iter().chain(row).chain(last).collect();
+        }
         row
     }
 
@@ -40,7 +44,7 @@ impl<'w> Tailor<'w, '_> {
         let has_band_round = !self.bands_round().is_empty();
         for (index, pair) in levels.windows(2).enumerate() {
             let (above, below) = (&pair[0], &pair[1]);
-            if above[0].class == Class::Body && has_band_round {
+            if above.iter().any(|one| one.class == Class::Body) && has_band_round {
                 continue;
             }
             let a = above.iter().flat_map(|one| one.chain(lower_edge(one), None)).collect();
@@ -160,7 +164,7 @@ fn ends(one: &Worn, next: &Worn, label: Label) -> (Chain, Chain) {
 }
 
 fn lower_edge(one: &Worn) -> Label {
-    if one.class == Class::Body { Label::Hem } else { Label::Lower }
+    if matches!(one.class, Class::Body | Class::SidePanel) { Label::Hem } else { Label::Lower }
 }
 
 fn upper_edge(one: &Worn) -> Label {

@@ -1,7 +1,7 @@
 //! What of a proposal can be draped with nobody to ask: pieces that are not sewn for sure are left out, and what is left must
 //! be closed on the body.
 
-use super::{Class, Face, Hand, Proposal, ProposedPiece, ProposedSeam};
+use super::{Class, Face, Hand, Proposal, ProposedPiece, ProposedSeam, sew};
 use crate::pattern::seams::PieceEntry;
 
 /// Least confidence of a seam that is sewn with nobody to ask.
@@ -44,7 +44,7 @@ impl Proposal {
         let mut of_seams = spared.filter_map(|piece| {
             let id = piece.id.as_deref()?;
             let own = self.seams.iter().filter(|seam| touches(seam, id));
-            let unsure = own.clone().find(|seam| seam.confidence < SURE);
+            let unsure = own.clone().find(|seam| !is_sure(seam));
             let is_held = own.clone().any(|seam| self.is_hold(seam, piece.class));
             let reason = match unsure {
                 Some(seam) => format!("seam {} is not sure", seam.entry.name),
@@ -92,7 +92,7 @@ impl Proposal {
         let mut missing: Vec<String> = self
             .seams
             .iter()
-            .filter(|seam| seam.confidence < SURE)
+            .filter(|seam| !is_sure(seam))
             .map(|seam| format!("is {} sewn to {}?", seam.entry.a.join(" "), seam.entry.b.join(" ")))
             .collect();
         if self.seams.is_empty() {
@@ -105,6 +105,10 @@ impl Proposal {
             self.worn().filter(|piece| piece.class == Some(Class::Skirt) && piece.face.is_none()).count();
         let has_shoulder =
             self.entries.iter().any(|(_, entry)| entry.edges.keys().any(|edge| edge.starts_with("shoulder")));
+        // Nothing else joins front and back of a raglan at the top.
+        let is_raglan = !has_shoulder
+            && self.worn().any(|piece| piece.class == Some(Class::Body))
+            && self.entries.iter().any(|(_, entry)| entry.edges.keys().any(|edge| edge.starts_with("neck")));
         let mut need = |name: String| {
             if !is_sewn(&name) {
                 missing.push(format!("the seam {name} was not found"));
@@ -113,6 +117,9 @@ impl Proposal {
         for hand in Hand::BOTH.map(Hand::as_str) {
             if has(Class::Body) {
                 need(format!("side_{hand}"));
+                for face in Face::BOTH.into_iter().filter(|_| is_raglan) {
+                    need(format!("raglan_{}_{hand}", face.as_str()));
+                }
                 if has_shoulder {
                     need(format!("shoulder_{hand}"));
                 }
@@ -138,6 +145,11 @@ impl Proposal {
             }
             if of(Class::Leg) > 0 {
                 need(format!("crotch_{}", face.as_str()));
+            }
+            if of(Class::SidePanel) > 0 {
+                for hand in Hand::BOTH {
+                    need(format!("princess_{}_{}", face.as_str(), hand.as_str()));
+                }
             }
             if of(Class::Body) > 1 {
                 need(format!("centre_{}", face.as_str()));
@@ -171,6 +183,13 @@ impl Proposal {
     fn worn(&self) -> impl Iterator<Item = &ProposedPiece> {
         self.pieces.iter().filter(|piece| piece.id.is_some())
     }
+}
+
+/// Whether a seam is sewn with nobody to ask. Two halves that are each other's mirror image are closed in the middle, be that a
+/// seam, buttons or a fold.
+fn is_sure(seam: &ProposedSeam) -> bool {
+    let is_centre = seam.entry.name.contains("centre");
+    seam.confidence >= if is_centre { SURE * sew::CENTRE_CONFIDENCE } else { SURE }
 }
 
 /// Pieces of a seam, by identifier, as often as they have edges in it.

@@ -81,8 +81,8 @@ pub fn worn(
         if one.gore.is_some() {
             continue;
         }
-        let needs_face =
-            matches!(one.class, Class::Body | Class::Leg | Class::Yoke) || (one.class == Class::Skirt && skirts > 1);
+        let needs_face = matches!(one.class, Class::Body | Class::SidePanel | Class::Leg | Class::Yoke)
+            || (one.class == Class::Skirt && skirts > 1);
         if needs_face && one.face.is_none() {
             continue;
         }
@@ -145,6 +145,7 @@ fn copies(one: &Recognised, backs_face_inwards: bool, drawn: Option<Hand>) -> Ve
 pub fn id_of(one: &Recognised, hand: Option<Hand>) -> String {
     let class = match one.class {
         Class::Body | Class::Other => None,
+        Class::SidePanel => Some("side"),
         Class::Leg => Some("leg"),
         Class::Sleeve => Some("sleeve"),
         Class::Skirt => Some("skirt"),
