@@ -215,3 +215,51 @@ pub struct Garment {
     /// Edge length asked of the mesher, m.
     pub edge_length_m: f64,
 }
+
+impl Garment {
+    /// The garment without some of its pieces, measured nowhere, and for each of its vertices the one that it was.
+    #[must_use]
+    pub fn without(&self, gone: &[usize]) -> (Self, Vec<usize>) {
+        let mut kept: Vec<usize> = Vec::new();
+        let mut number = vec![None; self.rest.len()];
+        let mut rest = Self {
+            pieces: Vec::new(),
+            rest: Vec::new(),
+            triangles: Vec::new(),
+            seams: Vec::new(),
+            measurements: Vec::new(),
+            fit_levels: Vec::new(),
+            reinforcements: Vec::new(),
+            ..self.clone()
+        };
+        for (_, piece) in self.pieces.iter().enumerate().filter(|(index, _)| !gone.contains(index)) {
+            let (vertex, triangle) = (kept.len(), rest.triangles.len());
+            for v in piece.vertices.clone() {
+                number[v] = Some(kept.len());
+                kept.push(v);
+            }
+            let moved = |v: usize| v - piece.vertices.start + vertex;
+            rest.triangles.extend(self.triangles[piece.triangles.clone()].iter().map(|corners| corners.map(moved)));
+            let edges = piece.edges.iter().map(|(name, edge)| (name.clone(), edge.iter().map(|&v| moved(v)).collect()));
+            rest.pieces.push(PieceMesh {
+                vertices: vertex..kept.len(),
+                triangles: triangle..rest.triangles.len(),
+                edges: edges.collect(),
+                ..piece.clone()
+            });
+        }
+        rest.rest = kept.iter().map(|&v| self.rest[v]).collect();
+        let both = |pair: &[usize; 2]| Some([number[pair[0]]?, number[pair[1]]?]);
+        let seams = self
+            .seams
+            .iter()
+            .map(|seam| SeamMesh { pairs: seam.pairs.iter().filter_map(both).collect(), ..seam.clone() });
+        rest.seams = seams.filter(|seam| !seam.pairs.is_empty()).collect();
+        let all = |band: &Reinforcement| {
+            let vertices: Option<Vec<usize>> = band.vertices.iter().map(|&v| number[v]).collect();
+            Some(Reinforcement { vertices: vertices?, ..band.clone() })
+        };
+        rest.reinforcements = self.reinforcements.iter().filter_map(all).collect();
+        (rest, kept)
+    }
+}

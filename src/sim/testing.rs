@@ -1,6 +1,10 @@
-//! Helpers for the tests of the simulators: finite differences.
+//! Helpers for the tests of the simulators: finite differences, and a garment with lapels.
 
-use crate::geom::V3;
+use crate::geom::{V2, V3};
+use crate::pattern::draft::Model;
+use crate::pattern::piece::Piece;
+use crate::pattern::style::EdgeRef;
+use crate::pattern::{Garment, Style};
 use crate::sim::Fabric;
 
 /// A fabric with different numbers everywhere, so that a mix-up shows.
@@ -38,4 +42,46 @@ pub fn check_forces(energy: impl Fn(&[V3]) -> f64, forces: &[V3], x: &[V3], h: f
             assert!(error <= relative * scale, "vertex {i} axis {k}: {} for {expected}", forces[i][k]);
         }
     }
+}
+
+/// The smallest drafted T-shirt with a collar on its back neck and a lapel on either side of its V, folded outwards where
+/// `is_folded`, else continuing the cloth.
+pub fn lapelled(edge_m: f64, is_folded: bool) -> Garment {
+    const WIDE_M: f64 = 0.06;
+    let mut pieces = Model::Tshirt.drafts()[0].pieces.clone();
+    let plain = Style::read(&pieces, Model::Tshirt.seams(), "seams").expect("a style");
+    let length_m = |piece: &str, name: &str| {
+        let piece = plain.pieces.iter().position(|one| one.id == piece).expect("it has one");
+        let edge =
+            plain.pieces[piece].edges.iter().position(|edge| edge.name.as_deref() == Some(name)).expect("it has one");
+        plain.edge(EdgeRef { piece, edge }).line.length()
+    };
+    let (side, behind) = (length_m("front", "neck_left"), length_m("back", "neck"));
+    let mut add = |block: &str, outline: &[[f64; 2]]| {
+        let outline: Vec<V2> = outline.iter().map(|[x, y]| V2::new(*x, *y)).collect();
+        pieces.push(Piece { block: block.to_owned(), turn_points: outline.clone(), outline, ..Piece::default() });
+    };
+    add("LAPEL", &[[0.0, 0.0], [side, 0.0], [0.0, WIDE_M]]);
+    add("COLLAR", &[[0.0, 0.0], [behind, 0.0], [behind, WIDE_M], [0.0, WIDE_M]]);
+    let piece = |id: &str, block: &str, more: &str, edges: &str| {
+        format!(
+            "[piece.{id}]\nblock = \"{block}\"\nrole = \"other\"\n{more}\n[piece.{id}.edges]\nlow = [0, 1]\n{edges}\n"
+        )
+    };
+    let seam = |a: &str, b: &str, is_folded: bool| {
+        format!("[[seam]]\nname = \"{a}\"\na = [\"{a}\"]\nb = [\"{b}\"]\nsame_direction = {is_folded}\n")
+    };
+    let more = [
+        "\n".to_owned(),
+        piece("lapel_left", "LAPEL", "", "end = [2, 0]"),
+        piece("lapel_right", "LAPEL", "mirror = true", "end = [2, 0]"),
+        piece("collar", "COLLAR", "", "left = [1, 2]\nright = [3, 0]"),
+        seam("lapel_left.low", "front.neck_left", is_folded),
+        seam("lapel_right.low", "front.neck_right", is_folded),
+        seam("collar.low", "back.neck", is_folded),
+        seam("collar.left", "lapel_left.end", false),
+        seam("collar.right", "lapel_right.end", false),
+    ];
+    let style = Style::read(&pieces, &[Model::Tshirt.seams(), more.concat().as_bytes()].concat(), "seams");
+    style.expect("a style").mesh(edge_m).expect("a mesh")
 }

@@ -201,3 +201,29 @@ fn pieces_of_other_programs_mesh() {
     );
     assert!(unforced.is_empty(), "{unforced:#?}");
 }
+
+#[test]
+fn a_garment_without_some_pieces_is_the_rest_of_it() {
+    let garment = style(TshirtSize::M).mesh(0.03).expect("it meshes");
+    let back = garment.pieces.iter().position(|piece| piece.id == "back").expect("it has one");
+    let (rest, kept) = garment.without(&[back]);
+    assert_eq!((rest.pieces.len(), rest.rest.len()), (garment.pieces.len() - 1, kept.len()));
+    assert!(rest.rest.iter().zip(&kept).all(|(p, &v)| *p == garment.rest[v]));
+    for piece in &rest.pieces {
+        let whole = garment.pieces.iter().find(|other| other.id == piece.id).expect("it was there");
+        let there = |triangle: &[usize; 3]| triangle.map(|v| kept[v]);
+        let triangles = rest.triangles[piece.triangles.clone()].iter().map(there);
+        assert!(triangles.eq(garment.triangles[whole.triangles.clone()].iter().copied()), "{}", piece.id);
+        assert!(piece.vertices.clone().map(|v| kept[v]).eq(whole.vertices.clone()), "{}", piece.id);
+        for (name, edge) in &piece.edges {
+            assert_eq!(&edge.iter().map(|&v| kept[v]).collect::<Vec<_>>(), &whole.edges[name], "{}.{name}", piece.id);
+        }
+    }
+    // Sleeves keep their underarm and the front half of their armhole.
+    let names: Vec<&str> = rest.seams.iter().map(|seam| seam.name.as_str()).collect();
+    assert!(names.iter().all(|name| !name.contains("side") && !name.contains("shoulder")), "{names:?}");
+    let pairs = |garment: &Garment| garment.seams.iter().map(|seam| seam.pairs.len()).sum::<usize>();
+    assert!(pairs(&rest) > 0 && pairs(&rest) < pairs(&garment));
+    let is_pair = |[a, b]: &[usize; 2]| garment.seams.iter().any(|seam| seam.pairs.contains(&[kept[*a], kept[*b]]));
+    assert!(rest.seams.iter().flat_map(|seam| &seam.pairs).all(is_pair));
+}

@@ -2,6 +2,7 @@
 
 use super::hands::Hands;
 use super::params::Params;
+use super::preposition::Folded;
 use super::run::{OPEN_M, Run};
 use super::settle::{Around, Grip, Settled, Settling};
 use crate::body::Body;
@@ -87,11 +88,38 @@ impl Dressing<'_> {
         })
     }
 
-    /// Draws the seams of the garment together; returns garment positions with all seams (nearly) closed, and how far the contact
-    /// with the body yields there, m.
+    /// Draws the seams of the garment together, those of what is folded onto it once all others are closed; returns garment
+    /// positions with all seams (nearly) closed, and how far the contact with the body yields there, m.
     fn sew(&self, garment: &Garment, around: Around, grip: Grip, run: &mut Run) -> Result<(Vec<V3>, f64), SimError> {
         let params = run.params();
         let mut x = self.placed.to_vec();
+        if let Some(folded) = Folded::of(garment) {
+            let (under, kept) = garment.without(&folded.pieces);
+            let whole = |sewn: &[V3]| {
+                let mut all = self.placed.to_vec();
+                kept.iter().zip(sewn).for_each(|(&v, p)| all[v] = *p);
+                all
+            };
+            let mut sewn: Vec<V3> = kept.iter().map(|&v| x[v]).collect();
+            self.draw_together(&under, params, around, grip, &mut sewn, |part, x| run.sew(garment, part, x, whole))?;
+            x = whole(&sewn);
+            folded.turn_up(garment, &mut x);
+        }
+        let sew = |system: &mut System, x: &mut Vec<V3>| run.sew(garment, system, x, <[V3]>::to_vec);
+        let yields_m = self.draw_together(garment, params, around, grip, &mut x, sew)?;
+        Ok((x, yields_m))
+    }
+
+    /// Draws all seams of pieces together by `sew`, from `x`; returns how far the contact with the body yields then, m.
+    fn draw_together(
+        &self,
+        garment: &Garment,
+        params: &Params,
+        around: Around,
+        grip: Grip,
+        x: &mut Vec<V3>,
+        sew: impl FnOnce(&mut System, &mut Vec<V3>) -> Result<(), SimError>,
+    ) -> Result<f64, SimError> {
         let cloth = Cloth::new(garment, self.fabric, sewing::unsewn(garment))?;
         let folded = self.hands.map(Hands::folded);
         let field = folded.as_ref().unwrap_or(around.field);
@@ -105,11 +133,10 @@ impl Dressing<'_> {
         let apart = ClothContact::new(params.self_contact, &cloth.triangles, &cloth.areas);
         system.self_contact = Some(apart.but_near(sewn.into_iter()));
         let vertex_of = sewing::welded(garment);
-        let walls = Walls::new(self.body, garment, &vertex_of, &sewing::merged(&vertex_of, &x));
+        let walls = Walls::new(self.body, garment, &vertex_of, &sewing::merged(&vertex_of, x));
         system.walls = Some(walls.unsewn(&vertex_of));
-        run.sew(garment, &mut system, &mut x)?;
-        let yields_m = system.contact.yields_m(&x);
-        Ok((x, yields_m))
+        sew(&mut system, x)?;
+        Ok(system.contact.yields_m(x))
     }
 
     /// Settles the sewn garment on the coarsest mesh, and on each finer one from the one before.

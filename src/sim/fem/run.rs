@@ -108,7 +108,14 @@ impl<'a> Run<'a> {
 
     /// Draws the seams together until they can be welded. The springs grow stronger while the seams do not get closer, so
     /// that a tight garment is pulled as hard as it needs and a loose one is not torn about.
-    pub fn sew(&mut self, garment: &Garment, system: &mut System, x: &mut Vec<V3>) -> Result<(), SimError> {
+    /// `whole` are the positions of all of the garment's vertices, of which the system may have a part.
+    pub fn sew(
+        &mut self,
+        garment: &Garment,
+        system: &mut System,
+        x: &mut Vec<V3>,
+        whole: impl Fn(&[V3]) -> Vec<V3>,
+    ) -> Result<(), SimError> {
         let params = self.params;
         let mut stepper = Stepper::new(StepParams {
             h_start_s: params.sewing_h_min_s,
@@ -124,7 +131,7 @@ impl<'a> Run<'a> {
             let info = stepper.step(system, x, 0.0);
             let (widest, mean) = gaps(system, x);
             let done = (1.0 - (widest / start).sqrt()).clamp(0.0, 1.0);
-            self.record(garment, x, x, info, "sew", 0, widest, 0.2 * done)?;
+            self.record(garment, x, &whole(x), info, "sew", 0, widest, 0.2 * done)?;
             if widest <= params.weld_gap_m || (step >= params.sewing_steps && widest <= OPEN_M) {
                 break;
             }

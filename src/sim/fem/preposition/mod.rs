@@ -6,6 +6,7 @@
 
 mod arm;
 mod ellipse;
+mod folded;
 mod follow;
 mod form;
 mod leg;
@@ -24,6 +25,7 @@ use crate::geom::{V2, V3};
 use crate::pattern::{Garment, Role};
 use crate::sim::SimError;
 
+pub use self::folded::Folded;
 use super::params::Params;
 use arm::Sleeve;
 use form::Form;

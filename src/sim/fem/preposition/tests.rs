@@ -6,6 +6,7 @@ use crate::geom::Surface;
 use crate::pattern::draft::Model;
 use crate::pattern::garment::SeamMesh;
 use crate::pattern::{Style, garmentcode};
+use crate::sim::testing::lapelled;
 
 fn body() -> Body {
     body::build(&Measurements::of(Sex::Male, 1.75)).expect("a body")
@@ -278,4 +279,32 @@ fn a_piece_without_a_role_follows_its_seams() {
     garment.seams.retain(|seam| !seam.pairs.iter().flatten().any(|v| vertices.contains(v)));
     let error = place(&body, &garment, &Params::default()).expect_err("nothing holds it").to_string();
     assert!(error.contains("sleeve_right") && error.contains("cannot place role"), "{error}");
+}
+
+#[test]
+fn what_is_folded_begins_turned_up_and_nothing_else_does() {
+    assert!(Folded::of(&garment(Model::Tshirt)).is_none());
+    assert!(Folded::of(&lapelled(0.03, false)).is_none());
+    let garment = lapelled(0.03, true);
+    let folded = Folded::of(&garment).expect("lapels and a collar");
+    let ids: Vec<&str> = folded.pieces.iter().map(|&piece| garment.pieces[piece].id.as_str()).collect();
+    assert_eq!(ids, ["collar", "lapel_left", "lapel_right"]);
+
+    let mut x = place(&body(), &garment, &Params::default()).expect("all are placed");
+    let before = x.clone();
+    folded.turn_up(&garment, &mut x);
+    let piece = |id: &str| garment.pieces.iter().find(|piece| piece.id == id).expect("it has one");
+    // In the V of the front: nearer to the middle than the edge that it is sewn to, and no deeper.
+    let lapel = piece("lapel_left").vertices.clone();
+    let seam = garment.seams.iter().find(|seam| seam.name == "lapel_left.low").expect("it is sewn");
+    let middle = |v: &mut dyn Iterator<Item = usize>| {
+        let (sum, n) = v.fold((V3::zeros(), 0.0), |(sum, n), v| (sum + x[v], n + 1.0));
+        sum / n
+    };
+    let [lapel, edge] = [middle(&mut lapel.clone()), middle(&mut seam.pairs.iter().map(|pair| pair[1]))];
+    assert!(lapel.x.abs() < edge.x.abs() - 0.005 && (lapel.y - edge.y).abs() < 0.03, "{lapel} beside {edge}");
+    for seam in garment.seams.iter().filter(|seam| seam.name.ends_with(".low")) {
+        assert!(gaps(seam, &x).into_iter().fold(0.0, f64::max) < 0.04, "{}", seam.name);
+    }
+    assert!(piece("front").vertices.clone().all(|v| x[v] == before[v]));
 }

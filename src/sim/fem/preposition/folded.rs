@@ -1,0 +1,100 @@
+//! Pieces that are folded onto the garment along their seam: lapels, collars that are turned down.
+//!
+//! Both sides of such a seam run the same way round. Sewn together with all else the piece would slip under a shoulder that is still
+//! open. So the garment is sewn without it, and it begins turned up: as the sewn cloth would go on beyond the seam. Begun as it
+//! is folded, flat on cloth into whose seam it runs, it ends within that cloth.
+
+use std::collections::BTreeSet;
+
+use nalgebra::Point2;
+
+use super::follow::Similarity;
+use super::sheet::Joins;
+use crate::geom::{V2, V3, triangle};
+use crate::pattern::{Garment, Role};
+
+/// How far outside the cloth that it continues a piece begins, m.
+const ABOVE_M: f64 = 0.01;
+
+/// Pieces of a garment that are folded onto others.
+pub struct Folded {
+    /// Their numbers.
+    pub pieces: Vec<usize>,
+}
+
+impl Folded {
+    /// Of a garment; `None` where nothing is folded onto it.
+    #[must_use]
+    pub fn of(garment: &Garment) -> Option<Self> {
+        let joins = Joins::of(garment);
+        let is_loose = |piece: usize| garment.pieces[piece].role == Role::Other;
+        let turned = Turned::of(garment);
+        let is_folded = |&piece: &usize| {
+            let partners = (0..garment.pieces.len()).filter(|&other| !is_loose(other));
+            is_loose(piece) && partners.into_iter().any(|other| turned.is_folded(&joins.between(piece, other)))
+        };
+        let pieces: Vec<usize> = (0..garment.pieces.len()).filter(is_folded).collect();
+        (!pieces.is_empty()).then_some(Self { pieces })
+    }
+
+    /// Places the pieces, turned up, beside the others, which are at `x`.
+    pub fn turn_up(&self, garment: &Garment, x: &mut [V3]) {
+        let joins = Joins::of(garment);
+        for &piece in &self.pieces {
+            let others = (0..garment.pieces.len()).filter(|other| !self.pieces.contains(other));
+            let onto = others.map(|other| (other, joins.between(piece, other))).max_by_key(|(_, pairs)| pairs.len());
+            let Some((onto, pairs)) = onto.filter(|(_, pairs)| !pairs.is_empty()) else { continue };
+            let own: Vec<V2> = pairs.iter().map(|pair| over(garment.rest[pair[0]])).collect();
+            let seam: Vec<V2> = pairs.iter().map(|pair| garment.rest[pair[1]]).collect();
+            let motion = Similarity::of(&own, &seam).motion();
+            let under = &garment.triangles[garment.pieces[onto].triangles.clone()];
+            for v in garment.pieces[piece].vertices.clone() {
+                let p = motion * Point2::from(over(garment.rest[v]));
+                if let Some(place) = above(&garment.rest, under, p.coords, x) {
+                    x[v] = place;
+                }
+            }
+        }
+    }
+}
+
+/// A point of a piece that is seen from its other side, so that its seam runs against that which it is sewn to.
+fn over(p: V2) -> V2 {
+    V2::new(-p.x, p.y)
+}
+
+/// Above a point of a piece in its plane, where its triangles are at `x`; beyond its edge as the nearest of them goes on.
+fn above(rest: &[V2], triangles: &[[usize; 3]], p: V2, x: &[V3]) -> Option<V3> {
+    let flat = |p: V2| V3::new(p.x, p.y, 0.0);
+    let distance = |corners: &[usize; 3]| {
+        let places = corners.map(|v| flat(rest[v]));
+        let weights = triangle::nearest(&flat(p), &places);
+        (places.iter().zip(weights).map(|(q, w)| q * w).sum::<V3>() - flat(p)).norm()
+    };
+    let nearest = triangles.iter().min_by(|s, t| distance(s).total_cmp(&distance(t)))?;
+    let [a, b, c] = nearest.map(|v| rest[v]);
+    let area = (b - a).perp(&(c - a));
+    let (second, third) = ((p - a).perp(&(c - a)) / area, (b - a).perp(&(p - a)) / area);
+    let [a, b, c] = nearest.map(|v| x[v]);
+    let outwards = (b - a).cross(&(c - a)).try_normalize(0.0)?;
+    Some(a + (b - a) * second + (c - a) * third + outwards * ABOVE_M)
+}
+
+/// Sides of triangles, each as it runs round its triangle counter-clockwise.
+struct Turned(BTreeSet<[usize; 2]>);
+
+impl Turned {
+    fn of(garment: &Garment) -> Self {
+        Self(garment.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect())
+    }
+
+    /// Whether both sides of the seams between two pieces run the same way round.
+    fn is_folded(&self, pairs: &[[usize; 2]]) -> bool {
+        let side = |ends: &[[usize; 2]], k: usize| {
+            let [from, to] = [ends[0][k], ends[1][k]];
+            (self.0.contains(&[from, to]) != self.0.contains(&[to, from])).then_some(self.0.contains(&[from, to]))
+        };
+        let ways = pairs.windows(2).filter_map(|ends| Some(side(ends, 0)? == side(ends, 1)?));
+        ways.map(|is_same| if is_same { 1 } else { -1 }).sum::<i32>() > 0
+    }
+}
