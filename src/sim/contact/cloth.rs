@@ -189,8 +189,10 @@ impl<'a> ClothContact<'a> {
         }
         may_cross |= !stays_flat;
         if may_cross {
-            let found: Vec<Crossing> = crossings(x, neighbours.edges(), neighbours.triangles()).collect();
-            self.knots.see(x, &found);
+            // What is about to be one vertex does not cross; taken for a crossing, it would let all else about it pass.
+            let are_apart = |crossing: &Crossing| neighbours.are_apart(&crossing.edge, &crossing.triangle);
+            let found = crossings(x, neighbours.edges(), neighbours.triangles()).filter(are_apart);
+            self.knots.see(x, &found.collect::<Vec<Crossing>>());
         }
         self.neighbours = Some(neighbours);
     }

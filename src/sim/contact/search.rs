@@ -145,7 +145,7 @@ impl<'a> Neighbours<'a> {
             for v in near(vertices, &boxes.vertices, q) {
                 for &t in triangles.iter().filter(|&&t| boxes.triangles[t].meets(&boxes.vertices[v])) {
                     let triangle = self.triangles[t];
-                    if self.apart(&[v], &triangle) {
+                    if self.are_apart(&[v], &triangle) {
                         let [a, b, c] = sorted(triangle);
                         take(Primitives::VertexTriangle([v, a, b, c]));
                     }
@@ -161,15 +161,16 @@ impl<'a> Neighbours<'a> {
         for e in near(&one.edges, &boxes.edges, q) {
             for &f in others.iter().filter(|&&f| (p != q || f > e) && boxes.edges[f].meets(&boxes.edges[e])) {
                 let ([a, b], [c, d]) = (pairs[e.min(f)], pairs[e.max(f)]);
-                if self.apart(&[a, b], &[c, d]) {
+                if self.are_apart(&[a, b], &[c, d]) {
                     take(Primitives::EdgeEdge([a, b, c, d]));
                 }
             }
         }
     }
 
-    /// Whether the two sides have no vertex in common.
-    fn apart(&self, one: &[usize], other: &[usize]) -> bool {
+    /// Whether the two sides have no vertex in common, nor any that are sewn to each other.
+    #[must_use]
+    pub fn are_apart(&self, one: &[usize], other: &[usize]) -> bool {
         one.iter().all(|&v| other.iter().all(|&w| self.joined[v] != self.joined[w]))
     }
 }
