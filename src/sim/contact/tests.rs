@@ -272,7 +272,8 @@ fn what_is_about_to_be_sewn_does_not_let_the_rest_of_its_cloth_pass() {
     // millimetre, beside their partners, its third corner lies above its middle.
     let below = V3::new(0.0, 0.01, -1e-3);
     let corners = [V3::new(0.0, 0.0, 0.0), V3::new(0.06, 0.0, 0.0), V3::new(0.03, 0.06, 0.0)];
-    let x = vec![corners[0], corners[1], corners[2], corners[0] + below, corners[1] + below, V3::new(0.03, 0.03, 1.5e-3)];
+    let x =
+        vec![corners[0], corners[1], corners[2], corners[0] + below, corners[1] + below, V3::new(0.03, 0.03, 1.5e-3)];
     let triangles = [[0, 1, 2], [4, 3, 5]];
     let areas = [1e-4; 6];
     assert!(crossings(&x, edges_of(&triangles).pairs(), &triangles).count() > 0, "nothing pierces the triangle");
