@@ -2,7 +2,7 @@
 
 use super::Label;
 use super::shape::{Shape, Stretch};
-use super::templates::{Part, Template};
+use super::templates::{Part, TEMPLATES, Template};
 use crate::geom::V2;
 
 /// Weight of the distance between where a stretch lies and where its part should lie, squared.
@@ -44,6 +44,16 @@ pub struct Alignment {
     pub parts: Vec<Labelled>,
     /// Goodness of fit, at most 1.
     pub score: f64,
+}
+
+/// Least fit of an outline that anything else, its name or other pieces, tells of.
+pub const LEAST_FIT: f64 = 0.35;
+
+/// The best way to lay one of some templates round a shape, as pieces are mostly drawn: upright.
+#[must_use]
+pub fn upright(shape: &Shape, is_one: impl Fn(&Template) -> bool) -> Option<Alignment> {
+    let cost = |quarter_turns| if quarter_turns == 0 { 0.0 } else { TURNED };
+    align(shape, TEMPLATES.iter().filter(|template| is_one(template)), cost)
 }
 
 /// The best way to lay one of the templates round a shape; `cost` is what each number of quarter turns loses.

@@ -1,8 +1,8 @@
 //! Fronts and backs that are cut lengthwise by princess seams: a part in the middle and one at either side.
 
-use super::align::{Alignment, TURNED, align};
+use super::align::{Alignment, LEAST_FIT, upright};
 use super::shape::Shape;
-use super::templates::{TEMPLATES, Template};
+use super::templates::Template;
 use super::{Class, Face, Label, names};
 use crate::pattern::piece::Piece;
 
@@ -26,8 +26,6 @@ impl Panel {
     }
 }
 
-/// Least fit of each outline.
-const LEAST_FIT: f64 = 0.35;
 /// Greatest difference of the two sides of a princess seam, share of the longer: the bust is eased in at most.
 const UNLIKE: f64 = 0.08;
 
@@ -59,13 +57,13 @@ pub fn panels(pieces: &[Piece]) -> Vec<Option<Panel>> {
 /// `None` where they do not.
 fn together(outlines: [&Shape; 2]) -> Option<(f64, [Panel; 2])> {
     let of_trunk = |template: &Template| template.class == Class::Body && !template.is_panel();
-    let plain: f64 = outlines.into_iter().filter_map(|shape| fit(shape, of_trunk)).map(|found| found.score).sum();
+    let plain: f64 = outlines.into_iter().filter_map(|shape| upright(shape, of_trunk)).map(|found| found.score).sum();
     let from = |from_shoulder: bool| {
         let panels = [Class::Body, Class::SidePanel].map(|class| Panel { class, from_shoulder });
         let mut sum = 0.0;
         let mut seams = [0.0; 2];
         for ((shape, panel), seam) in outlines.into_iter().zip(panels).zip(&mut seams) {
-            let found = fit(shape, |template| panel.fits(template)).filter(|found| found.score >= LEAST_FIT)?;
+            let found = upright(shape, |template| panel.fits(template)).filter(|found| found.score >= LEAST_FIT)?;
             sum += found.score;
             *seam = seam_m(shape, &found)?;
         }
@@ -73,12 +71,6 @@ fn together(outlines: [&Shape; 2]) -> Option<(f64, [Panel; 2])> {
         ((a - b).abs() <= UNLIKE * a.max(b)).then_some((sum - plain, panels))
     };
     [true, false].into_iter().filter_map(from).max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(gain, _)| *gain > 0.0)
-}
-
-/// The best of some templates round an outline.
-fn fit(shape: &Shape, is_one: impl Fn(&Template) -> bool) -> Option<Alignment> {
-    let cost = |quarter_turns| if quarter_turns == 0 { 0.0 } else { TURNED };
-    align(shape, TEMPLATES.iter().filter(|template| is_one(template)), cost)
 }
 
 /// Length of the princess seam on one side, m.

@@ -4,7 +4,7 @@ use super::align::{TURNED, align};
 use super::names;
 use super::shape::Shape;
 use super::templates::{TEMPLATES, Template};
-use super::{Class, Face, Hand};
+use super::{Class, Face, Hand, Label};
 use crate::pattern::garment::Role;
 use crate::pattern::style::StylePiece;
 
@@ -57,16 +57,23 @@ pub fn pose(piece: &StylePiece) -> Option<Pose> {
     let shape = Shape::new(outline, corners)?;
     // As in a proposal, a sleeve that is called front or back is half of one.
     let is_whole_sleeve = names::read(&piece.id).face.is_none();
-    let hangs_from_yoke =
-        piece.edges.iter().any(|edge| edge.name.as_deref().is_some_and(|name| name.starts_with("top")));
-    let fits = |template: &&Template| {
-        let is_it = match class {
-            Class::Sleeve => template.is_whole == is_whole_sleeve,
-            Class::Body => template.has_shoulder() != hangs_from_yoke,
-            Class::Yoke => template.has_shoulder(),
-            _ => true,
-        };
-        template.class == class && is_it
+    let has = |label: Label| {
+        piece.edges.iter().any(|edge| edge.name.as_deref().is_some_and(|name| name.starts_with(label.as_str())))
+    };
+    let (hangs_from_yoke, is_panel) = (has(Label::Top), has(Label::Princess));
+    let is_raglan = has(Label::Neck) && !has(Label::Shoulder);
+    let fits = |template: &&Template| match class {
+        Class::Body if is_panel => template.is_panel(),
+        Class::Body if is_raglan || template.is_raglan() => {
+            template.class == class && template.is_raglan() == is_raglan
+        }
+        Class::Body => template.class == class && !template.is_panel() && template.has_shoulder() != hangs_from_yoke,
+        Class::Sleeve => {
+            let is_it = template.is_whole == is_whole_sleeve && template.is_raglan() == has(Label::Neck);
+            template.class == class && is_it
+        }
+        Class::Yoke => template.class == class && template.has_shoulder(),
+        _ => template.class == class,
     };
     // The grain runs up and down, except along a band.
     let is_along =

@@ -1,13 +1,10 @@
 //! Raglan: sleeves that go up to the neck, and a trunk without shoulders.
 
-use super::align::{TURNED, align};
+use super::align::{LEAST_FIT, upright};
 use super::shape::Shape;
-use super::templates::{TEMPLATES, Template};
+use super::templates::Template;
 use super::{Class, names};
 use crate::pattern::piece::Piece;
-
-/// Least fit of a sleeve's outline.
-const LEAST_FIT: f64 = 0.35;
 
 /// Whether fronts, backs and sleeves fit raglan templates better, all in all, than plain ones.
 pub fn is_raglan(pieces: &[Piece]) -> bool {
@@ -22,10 +19,10 @@ pub fn is_raglan(pieces: &[Piece]) -> bool {
         };
         let Some(shape) = Shape::of(piece) else { continue };
         let [raglan, plain] = [true, false].map(|is_raglan| {
-            let is_one = |template: &&Template| template.class == class && template.is_raglan() == is_raglan;
-            let fits = |template: &&Template| is_one(template) && !template.is_panel();
-            let cost = |quarter_turns| if quarter_turns == 0 { 0.0 } else { TURNED };
-            align(&shape, TEMPLATES.iter().filter(fits), cost).map_or(0.0, |found| found.score.max(0.0))
+            let is_one = |template: &Template| {
+                template.class == class && template.is_raglan() == is_raglan && !template.is_panel()
+            };
+            upright(&shape, is_one).map_or(0.0, |found| found.score.max(0.0))
         });
         has_sleeve |= class == Class::Sleeve && raglan >= LEAST_FIT;
         gain += raglan - plain;

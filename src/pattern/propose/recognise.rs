@@ -1,16 +1,14 @@
 //! What each piece is: from its name first, then from its outline, then from the other pieces.
 
-use super::align::{Alignment, TURNED, align};
+use super::align::{Alignment, LEAST_FIT, upright};
 use super::gore::{self, Cut};
 use super::panels::{self, Panel};
 use super::shape::Shape;
-use super::templates::{TEMPLATES, Template};
+use super::templates::Template;
 use super::{Class, Face, Hand, Label, ring};
 use super::{names, raglan};
 use crate::pattern::piece::Piece;
 
-/// Least fit of an outline whose name tells what it is.
-const LEAST_NAMED_FIT: f64 = 0.35;
 /// Least fit of an outline that nothing else tells of.
 const LEAST_UNNAMED_FIT: f64 = 0.6;
 /// Kinds that have templates, in the order in which equal fits count.
@@ -144,7 +142,7 @@ fn recognise_one(
     // A sleeve that is called front or back is half of one.
     let is_half_sleeve = named.face.is_some();
     let as_class = |class: Class| {
-        let of_class = |template: &&Template| {
+        let of_class = |template: &Template| {
             let fits = match class {
                 Class::Sleeve if is_half_sleeve => !template.is_whole,
                 Class::Sleeve => template.is_whole && template.is_raglan() == around.is_raglan,
@@ -157,9 +155,7 @@ fn recognise_one(
             };
             template.class == class && fits
         };
-        // Pieces are mostly drawn upright.
-        let cost = |quarter_turns| if quarter_turns == 0 { 0.0 } else { TURNED };
-        align(&shape, TEMPLATES.iter().filter(of_class), cost)
+        upright(&shape, of_class)
     };
     if let Some(ring) = ring::read(&shape).filter(|_| named.class == Some(Class::Skirt) || gore.is_some()) {
         return Ok(Recognised {
@@ -180,13 +176,13 @@ fn recognise_one(
     readings.sort_by(|a, b| b.score.total_cmp(&a.score));
     let mut readings = readings.into_iter();
     let alignment = readings.next().ok_or_else(|| ask("it has too few corners for what it is called"))?;
-    let rival = readings.next().filter(|rival| rival.score >= LEAST_NAMED_FIT);
+    let rival = readings.next().filter(|rival| rival.score >= LEAST_FIT);
     let is_named = named.class.is_some() || named.face.is_some() || gore.is_some();
-    let least = if is_named { LEAST_NAMED_FIT } else { LEAST_UNNAMED_FIT };
+    let least = if is_named { LEAST_FIT } else { LEAST_UNNAMED_FIT };
     if alignment.score < least {
         return Err(ask("neither its name nor its outline tells what it is"));
     }
-    let fit = ((alignment.score - LEAST_NAMED_FIT) / (0.85 - LEAST_NAMED_FIT)).clamp(0.0, 1.0);
+    let fit = ((alignment.score - LEAST_FIT) / (0.85 - LEAST_FIT)).clamp(0.0, 1.0);
     let mut confidence = if is_named { 0.6 + 0.4 * fit } else { 0.3 + 0.5 * fit };
     if let Some(rival) = &rival {
         let margin = ((alignment.score - rival.score) / CLEAR_MARGIN).min(1.0);
@@ -233,7 +229,7 @@ fn reread_lone_legs(pieces: &[Piece], found: &mut [Recognised], questions: &mut 
             rival.template.class.as_str()
         ));
         one.class = rival.template.class;
-        let fit = ((rival.score - LEAST_NAMED_FIT) / (0.85 - LEAST_NAMED_FIT)).clamp(0.0, 1.0);
+        let fit = ((rival.score - LEAST_FIT) / (0.85 - LEAST_FIT)).clamp(0.0, 1.0);
         one.confidence = DOUBTED * (0.3 + 0.5 * fit);
         one.alignment = rival;
     }
