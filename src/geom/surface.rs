@@ -46,6 +46,14 @@ impl Surface {
         if projection.is_inside { -distance } else { distance }
     }
 
+    /// Distance of a point inside to the surface, m; `None` for one outside, which is quicker to know.
+    #[must_use]
+    pub fn depth(&self, point: &V3) -> Option<f64> {
+        let projection = self.mesh.project_local_point(to_parry(point), false);
+        let expected = (projection.point - to_parry(point)).length();
+        projection.is_inside.then(|| self.distance_within(point, f64::from(expected)))
+    }
+
     /// Distance to the surface, m, whichever side the point is on, when it is known to be at most `most_m`, but for rounding: the
     /// nearer that is, the less is looked at. The bits do not depend on it.
     #[must_use]

@@ -1,6 +1,6 @@
 //! Fabrics: areal density, orthotropic membrane, bending, friction.
 
-use super::cloth::membrane::Fibre;
+use super::cloth::law::Fibre;
 
 /// Moduli of a knit under stretch, where they differ from those at rest.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

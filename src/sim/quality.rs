@@ -33,8 +33,7 @@ fn samples<'a>(garment: &'a Garment, positions: &'a [V3]) -> impl Iterator<Item 
 
 fn deepest_m(body: &Body, samples: impl Iterator<Item = V3>) -> f64 {
     let Ok(skin) = Skin::new(&body.mesh) else { return f64::NAN };
-    let mut inside: Vec<(f64, V3)> =
-        samples.map(|p| (skin.quick_depth(&p), p)).filter(|(depth, _)| *depth > 0.0).collect();
+    let mut inside: Vec<(f64, V3)> = samples.filter_map(|p| Some((skin.quick_depth(&p)?, p))).collect();
     inside.sort_by(|a, b| b.0.total_cmp(&a.0));
     inside.iter().find(|(_, p)| skin.contains(p)).map_or(0.0, |(depth, _)| *depth)
 }

@@ -25,7 +25,7 @@ use crate::pattern::Garment;
 use crate::pattern::garment::Role;
 use crate::render::export::{MeshFormat, Part};
 use crate::render::{self, Camera, Frame, Layer, Material, Paint, Rgb, Scene, Values, View};
-use crate::sim::cloth::membrane::Orthotropic;
+use crate::sim::cloth::law::Orthotropic;
 use crate::sim::{self, Drape, Fabric};
 use crate::units::mm;
 

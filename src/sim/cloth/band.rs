@@ -4,11 +4,13 @@
 //! `k/2 (l/L' - 1)^2 L'`, `l` their distance. In the stiffness a slack band keeps no sideways part, which would be negative.
 
 use nalgebra::Matrix3;
+use wide::f32x4;
 
 use super::part::Part;
 use crate::geom::V3;
 use crate::pattern::Garment;
 use crate::sim::solver::PairList;
+use crate::sim::solver::quad::{self, Block};
 
 /// A band between two simulated vertices.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,7 +86,7 @@ impl Bands {
         end: &[V3],
         pairs: &PairList,
         forces: &mut [V3],
-        blocks: &mut [Matrix3<f64>],
+        blocks: &mut [Block<f32x4>],
     ) {
         for link in &self.links {
             let [i, j] = link.vertices;
@@ -94,20 +96,21 @@ impl Bands {
             forces[i] += direction * (after - foreseen);
             forces[j] -= direction * (after - foreseen);
             if let Some(slot) = pairs.slot(i, j) {
-                blocks[slot] -= direction * direction.transpose() * stiffness;
+                quad::subtract(&mut blocks[slot], &(direction * direction.transpose() * stiffness));
             }
         }
     }
 
     /// Adds the off-diagonal stiffness blocks (N/m) to those of the membrane, whose pairs the links are among.
-    pub fn add_stiffness(&self, x: &[V3], pairs: &PairList, blocks: &mut [Matrix3<f64>]) {
+    pub fn add_stiffness(&self, x: &[V3], pairs: &PairList, blocks: &mut [Block<f32x4>]) {
         for link in &self.links {
             let [i, j] = link.vertices;
             let (tension, direction) = link.pull(x);
             let along = direction * direction.transpose();
             let sideways = tension.max(0.0) / (x[j] - x[i]).norm().max(f64::MIN_POSITIVE);
             if let Some(slot) = pairs.slot(i, j) {
-                blocks[slot] -= along * (link.stiffness_n / link.length_m) + (Matrix3::identity() - along) * sideways;
+                let stretched = along * (link.stiffness_n / link.length_m);
+                quad::subtract(&mut blocks[slot], &(stretched + (Matrix3::identity() - along) * sideways));
             }
         }
     }
@@ -140,7 +143,7 @@ mod tests {
         bands.add_forces(&x, &mut forces);
         check_forces(|x| bands.energy(x), &forces, &x, 1e-7, 1e-6);
         let pairs = PairList::new([[0, 1], [1, 2], [2, 3]]);
-        let mut blocks = vec![Matrix3::zeros(); 3];
+        let mut blocks = vec![[f32x4::ZERO; 3]; 3];
         bands.add_stiffness(&x, &pairs, &mut blocks);
         let force = |d: f64| {
             let mut moved = x.clone();
@@ -149,8 +152,9 @@ mod tests {
             bands.add_forces(&moved, &mut forces);
             forces[0]
         };
+        let block = quad::matrix(&blocks[0]);
         let column = -(force(1e-7) - force(-1e-7)) / 2e-7;
-        assert!((column - blocks[0].column(2)).norm() < 1e-6 * blocks[0].norm());
+        assert!((column - block.column(2)).norm() < 1e-6 * block.norm());
     }
 
     #[test]

@@ -11,11 +11,17 @@
 //! eighth too soft. At a free edge of the cloth the curvature is the one of least energy: no moment acts there.
 //!
 //! Hinges run on across sewn seams: each side uses its own rest triangle and grain.
+//!
+//! Linear solves take hinges that know nothing of each other ([`Tangent`]): a quarter of the couplings, and three quarters of those
+//! lie along sides of triangles, which stretching couples anyway. The direction of a step need not be more exact.
+
+use wide::f32x4;
 
 use super::part::Part;
 use crate::geom::{V2, V3};
 use crate::sim::Fabric;
 use crate::sim::solver::PairList;
+use crate::sim::solver::quad::{self, Block};
 
 /// One interior edge with its two triangles.
 #[derive(Clone, Copy, Debug)]
@@ -123,6 +129,76 @@ impl Plate {
     }
 }
 
+/// Stiffness of hinges that know nothing of each other, as stiff as the plate is against being rolled up: N/m, the same in x, y and
+/// z.
+#[derive(Clone, Debug)]
+pub struct Tangent {
+    /// Off-diagonal entries for the sides of the triangles, in the order of the membrane's pairs.
+    pub along: Vec<f64>,
+    /// Pairs of vertices that face each other across a side.
+    pub pairs: PairList,
+    /// Their off-diagonal entries.
+    pub across: Vec<f64>,
+}
+
+/// Rolled up, equilateral triangles of an isotropic plate are by so much stiffer than their hinges one by one.
+const ROLLED: f64 = 1.25;
+
+impl Tangent {
+    /// Adds the entries along sides to the membrane's blocks.
+    pub fn add_along(&self, blocks: &mut [Block<f32x4>]) {
+        for (block, entry) in blocks.iter_mut().zip(&self.along) {
+            for (row, alike) in block.iter_mut().zip(quad::alike(*entry)) {
+                *row += alike;
+            }
+        }
+    }
+
+    fn new(hinges: &[Hinge], plates: &[Plate], fabric: &Fabric, sides: &PairList) -> Self {
+        let mut stiffness = vec![0.0; hinges.len()];
+        for plate in plates {
+            let form = plate.form(fabric);
+            for (e, hinge) in plate.hinges.iter().enumerate() {
+                if let Some(hinge) = *hinge {
+                    stiffness[hinge] += ROLLED * plate.area * form[e][e];
+                }
+            }
+        }
+        let mut along = Vec::with_capacity(5 * hinges.len());
+        let mut across = Vec::with_capacity(hinges.len());
+        for (hinge, k) in hinges.iter().zip(stiffness) {
+            for (a, b) in [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)] {
+                let [i, j] = [a, b].map(|end| hinge.vertices[end]);
+                let term = ([i.min(j), i.max(j)], k * hinge.coefficients[a] * hinge.coefficients[b]);
+                match sides.slot(i, j) {
+                    _ if i == j => {}
+                    Some(_) => along.push(term),
+                    None => across.push(term),
+                }
+            }
+        }
+        let mut entries = vec![0.0; sides.pairs().len()];
+        let (pairs, sums) = summed(&along);
+        for (&[i, j], sum) in pairs.pairs().iter().zip(sums) {
+            entries[sides.slot(i, j).expect("a side")] = sum;
+        }
+        let (pairs, across) = summed(&across);
+        Self { along: entries, pairs, across }
+    }
+
+    /// That of the pairs of which one may move in a part; `sides` are the cloth's and then the part's.
+    fn part(&self, part: &Part, sides: [&PairList; 2]) -> Self {
+        let mut along = vec![0.0; sides[1].pairs().len()];
+        for (&pair, entry) in sides[0].pairs().iter().zip(&self.along) {
+            if let Some(slot) = part.names(pair).and_then(|[i, j]| sides[1].slot(i, j)) {
+                along[slot] = *entry;
+            }
+        }
+        let (pairs, across) = renamed(part, &self.pairs, &self.across);
+        Self { along, pairs, across }
+    }
+}
+
 /// The bending of a garment.
 #[derive(Clone, Debug)]
 pub struct Bending {
@@ -130,54 +206,102 @@ pub struct Bending {
     pub pairs: PairList,
     /// Off-diagonal entries of the stiffness for those pairs, N/m, the same in x, y and z.
     pub entries: Vec<f64>,
+    /// What linear solves take for it.
+    pub tangent: Tangent,
+}
+
+/// Distinct pairs with the sums of their terms, in an order that does not depend on that of the terms: rounded alike if mirrored.
+fn summed(terms: &[([usize; 2], f64)]) -> (PairList, Vec<f64>) {
+    // Sorted by counting those of each smaller vertex, and then each vertex's few.
+    let count = terms.iter().map(|(pair, _)| pair[0] + 1).max().unwrap_or(0);
+    let mut ends = vec![0; count + 1];
+    terms.iter().for_each(|(pair, _)| ends[pair[0] + 1] += 1);
+    for v in 0..count {
+        ends[v + 1] += ends[v];
+    }
+    let mut sorted = vec![(0, 0.0); terms.len()];
+    for ([i, j], value) in terms {
+        sorted[ends[*i]] = (*j, *value);
+        ends[*i] += 1;
+    }
+    let (mut pairs, mut entries): (Vec<[usize; 2]>, Vec<f64>) = (Vec::new(), Vec::new());
+    let mut from = 0;
+    for (i, &to) in ends[..count].iter().enumerate() {
+        let row = &mut sorted[from..to];
+        row.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        for (j, value) in row {
+            match entries.last_mut().filter(|_| pairs.last() == Some(&[i, *j])) {
+                Some(sum) => *sum += *value,
+                None => {
+                    pairs.push([i, *j]);
+                    entries.push(*value);
+                }
+            }
+        }
+        from = to;
+    }
+    (PairList::new(pairs), entries)
+}
+
+/// The pairs of which one may move in a part, as they are called there, with their entries. Their order stays: that of the vertices
+/// does.
+fn renamed(part: &Part, pairs: &PairList, entries: &[f64]) -> (PairList, Vec<f64>) {
+    let renamed = |(pair, entry): (&[usize; 2], &f64)| Some((part.names(*pair)?, *entry));
+    let (pairs, entries): (Vec<[usize; 2]>, _) = pairs.pairs().iter().zip(entries).filter_map(renamed).unzip();
+    (PairList::new(pairs), entries)
 }
 
 impl Bending {
-    /// Adds up the triangles.
+    /// Adds up the triangles, whose sides are `sides`.
     #[must_use]
-    pub fn new(hinges: &[Hinge], plates: &[Plate], fabric: &Fabric) -> Self {
+    pub fn new(hinges: &[Hinge], plates: &[Plate], fabric: &Fabric, sides: &PairList) -> Self {
         let mut terms = Vec::with_capacity(15 * plates.len());
         for plate in plates {
             plate.push_terms(hinges, fabric, &mut terms);
         }
-        // Summed in an order that does not depend on which corner of a triangle comes first: rounded alike if mirrored.
-        terms.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        let mut entries: Vec<f64> = Vec::with_capacity(terms.len() / 2);
-        for (k, &(pair, value)) in terms.iter().enumerate() {
-            match entries.last_mut().filter(|_| terms[k - 1].0 == pair) {
-                Some(sum) => *sum += value,
-                None => entries.push(value),
-            }
-        }
-        let pairs = PairList::new(terms.into_iter().map(|t| t.0));
-        Self { pairs, entries }
+        let (pairs, entries) = summed(&terms);
+        Self { pairs, entries, tangent: Tangent::new(hinges, plates, fabric, sides) }
     }
 
-    /// That of the pairs of which one may move in a part.
+    /// That of the pairs of which one may move in a part; `sides` are those of the cloth's triangles and then of the part's.
     #[must_use]
-    pub fn part(&self, part: &Part) -> Self {
-        let renamed = |(pair, entry): (&[usize; 2], &f64)| Some((part.names(*pair)?, *entry));
-        let (pairs, entries): (Vec<[usize; 2]>, _) =
-            self.pairs.pairs().iter().zip(&self.entries).filter_map(renamed).unzip();
-        // The order stays: that of the vertices does.
-        Self { pairs: PairList::new(pairs), entries }
+    pub fn part(&self, part: &Part, sides: [&PairList; 2]) -> Self {
+        let (pairs, entries) = renamed(part, &self.pairs, &self.entries);
+        Self { pairs, entries, tangent: self.tangent.part(part, sides) }
     }
 
     /// Bending energy, J.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {
-        // Rows of Q sum to zero, so x^T Q x = -sum over pairs of Q_ij |x_i - x_j|^2.
-        let of = |(&[i, j], q): (&[usize; 2], &f64)| -0.5 * q * (x[j] - x[i]).norm_squared();
-        self.pairs.pairs().iter().zip(&self.entries).map(of).sum()
+        self.gather(x, |_, _, _| {})
     }
 
     /// Adds the bending forces, N.
     pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
-        for (&[i, j], q) in self.pairs.pairs().iter().zip(&self.entries) {
-            let pull = (x[j] - x[i]) * *q;
+        self.assemble(x, forces);
+    }
+
+    /// Adds the bending forces, N, and returns the energy, J.
+    pub fn assemble(&self, x: &[V3], forces: &mut [V3]) -> f64 {
+        self.gather(x, |i, j, pull| {
             forces[i] -= pull;
             forces[j] += pull;
+        })
+    }
+
+    /// The energy, J, with the force between each pair for whoever wants it, N. Rows of the stiffness `Q` sum to zero, so `x^T Q x` is
+    /// minus the sum over pairs of `Q_ij |x_i - x_j|^2`.
+    #[inline(always)]
+    fn gather(&self, x: &[V3], mut each: impl FnMut(usize, usize, V3)) -> f64 {
+        let mut energy = 0.0;
+        for (i, here) in x.iter().enumerate() {
+            for (j, entry) in self.pairs.upper().of(i, &self.entries) {
+                let apart = x[j] - here;
+                energy -= 0.5 * entry * apart.norm_squared();
+                each(i, j, apart * *entry);
+            }
         }
+        energy
     }
 }
 

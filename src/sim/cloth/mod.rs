@@ -2,6 +2,7 @@
 
 pub mod band;
 pub mod bending;
+pub mod law;
 pub mod membrane;
 pub mod part;
 
@@ -9,11 +10,13 @@ use std::collections::BTreeMap;
 
 use crate::geom::{V2, V3};
 use crate::pattern::Garment;
+use crate::sim::solver::PairList;
 use crate::sim::{Fabric, SimError, sewing};
 
 use band::Bands;
 use bending::{Bending, Flap, Hinge, Plate};
-use membrane::{Element, Membrane, Orthotropic};
+use law::Orthotropic;
+use membrane::{Element, Membrane};
 
 /// A garment as the solver sees it. *Simulated* vertices are groups of garment vertices that are sewn together.
 #[derive(Clone, Debug)]
@@ -58,12 +61,13 @@ impl Cloth {
                 elements.push(element);
             }
         }
+        let membrane = Membrane::new(Orthotropic::of(fabric), elements);
         Ok(Self {
-            triangles: elements.iter().map(|e| e.vertices).collect(),
+            triangles: membrane.elements.iter().map(Element::vertices).collect(),
             masses: areas.iter().map(|a| a * fabric.density_kg_m2).collect(),
             areas,
-            membrane: Membrane::new(Orthotropic::of(fabric), elements),
-            bending: plates.finish(fabric),
+            bending: plates.finish(fabric, &membrane.pairs),
+            membrane,
             bands: Bands::new(garment, &vertex_of),
             vertex_of,
         })
@@ -133,7 +137,7 @@ impl PlateBuilder {
         }
     }
 
-    fn finish(&self, fabric: &Fabric) -> Bending {
-        Bending::new(&self.hinges, &self.plates, fabric)
+    fn finish(&self, fabric: &Fabric, sides: &PairList) -> Bending {
+        Bending::new(&self.hinges, &self.plates, fabric, sides)
     }
 }

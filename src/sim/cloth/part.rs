@@ -48,16 +48,17 @@ impl Cloth {
     /// A part by itself, with the energies that change when its free vertices move, and the triangles that these belong to.
     #[must_use]
     pub fn part(&self, part: &Part) -> (Self, Vec<usize>) {
-        let renamed = |(t, e): (usize, &Element)| Some((t, e.renamed(part.names(e.vertices)?)));
+        let renamed = |(t, e): (usize, &Element)| Some((t, e.renamed(part.names(e.vertices())?)));
         let (numbers, elements): (Vec<usize>, Vec<Element>) =
             self.membrane.elements.iter().enumerate().filter_map(renamed).unzip();
+        let membrane = Membrane::new(self.membrane.material, elements);
         let cloth = Self {
             vertex_of: (0..part.vertices.len()).collect(),
-            triangles: elements.iter().map(|e| e.vertices).collect(),
+            triangles: membrane.elements.iter().map(Element::vertices).collect(),
             masses: part.of(&self.masses),
             areas: part.of(&self.areas),
-            membrane: Membrane::new(self.membrane.material, elements),
-            bending: self.bending.part(part),
+            bending: self.bending.part(part, [&self.membrane.pairs, &membrane.pairs]),
+            membrane,
             bands: self.bands.part(part),
         };
         (cloth, numbers)

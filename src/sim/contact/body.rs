@@ -250,10 +250,7 @@ impl<'a> BodyContact<'a> {
             if distance > self.params.offset_m + FIELD_ERROR_M {
                 continue;
             }
-            let depth = skin.depth(&p, distance);
-            if depth <= 0.0 {
-                continue;
-            }
+            let Some(depth) = skin.depth(&p, distance) else { continue };
             deepest = deepest.max(depth);
             let is_held = known.contains_key(&sample.vertices);
             let index = *known.entry(sample.vertices).or_insert_with(|| {
@@ -320,6 +317,10 @@ impl<'a> BodyContact<'a> {
                 sample.add_force(&(gradient * force_n), forces);
             }
         }
+        self.add_friction(x, forces);
+    }
+
+    fn add_friction(&self, x: &[V3], forces: &mut [V3]) {
         for touch in &self.touching {
             if let Some(f) = self.friction_at(touch, x) {
                 self.samples[touch.sample].add_force(&f.force, forces);
@@ -327,16 +328,20 @@ impl<'a> BodyContact<'a> {
         }
     }
 
-    /// Finds the touching samples and adds their forces and the stiffness of vertices; returns that of points between.
-    pub fn assemble(&mut self, x: &[V3], forces: &mut [V3], diagonal: &mut [Matrix3<f64>]) -> Vec<Contact4> {
+    /// Finds the touching samples and adds their forces and the stiffness of vertices; returns their energy, J, and the stiffness of
+    /// points between.
+    pub fn assemble(&mut self, x: &[V3], forces: &mut [V3], diagonal: &mut [Matrix3<f64>]) -> (f64, Vec<Contact4>) {
         self.find_touching(x);
+        let (mut pushed, mut rubbed) = (0.0, 0.0);
         let mut couplings = Vec::new();
         for touch in &self.touching {
             let sample = &self.samples[touch.sample];
             let friction = self.friction_at(touch, x);
             sample.add_force(&(touch.gradient * (sample.area_m2 * touch.push.pressure_n_m2)), forces);
+            pushed += sample.area_m2 * touch.push.energy_n_m;
             if let Some(f) = &friction {
                 sample.add_force(&f.force, forces);
+                rubbed += f.energy;
             }
             let stiffness = self.stiffness_at(touch, &sample.at(x), friction.map_or(0.0, |f| f.stiffness));
             if touch.sample < self.vertices {
@@ -347,7 +352,7 @@ impl<'a> BodyContact<'a> {
                 couplings.extend(directions.filter(|(_, k)| *k > 0.0).map(|(n, k)| sample.coupling(n, k)));
             }
         }
-        couplings
+        (pushed + rubbed, couplings)
     }
 
     /// Stiffness of a touching sample at `p`: the second derivative of its energy without what would pull it in, and
@@ -370,10 +375,11 @@ impl<'a> BodyContact<'a> {
         stiffness * self.samples[touch.sample].area_m2 + friction
     }
 
-    /// What samples that touch at `x` lack of the stiffness that [`BodyContact::assemble`] has found for the start of the step: those
-    /// that come to touch, and those that go deeper. Adds that of vertices to `diagonal` and returns that of points between.
+    /// Adds the forces of samples that touch at `x`, and what these lack of the stiffness that [`BodyContact::assemble`] has found for
+    /// the start of the step: those that come to touch, and those that go deeper. Adds that of vertices to `diagonal` and returns that
+    /// of points between.
     #[must_use]
-    pub fn stiffen(&self, x: &[V3], diagonal: &mut [Matrix3<f64>]) -> Vec<Contact4> {
+    pub fn meet(&self, x: &[V3], forces: &mut [V3], diagonal: &mut [Matrix3<f64>]) -> Vec<Contact4> {
         let mut has = vec![0.0; self.samples.len()];
         for touch in &self.touching {
             has[touch.sample] = touch.push.stiffness_n_m3;
@@ -381,13 +387,16 @@ impl<'a> BodyContact<'a> {
         let mut couplings = Vec::new();
         for (k, sample) in self.samples.iter().enumerate() {
             let Some((depth, gradient)) = self.depth(sample, x) else { continue };
-            let lacks = sample.area_m2 * (self.params.push(depth).stiffness_n_m3 - has[k]).max(0.0);
+            let push = self.params.push(depth);
+            sample.add_force(&(gradient * (sample.area_m2 * push.pressure_n_m2)), forces);
+            let lacks = sample.area_m2 * (push.stiffness_n_m3 - has[k]).max(0.0);
             if k < self.vertices {
                 diagonal[k] += gradient * gradient.transpose() * lacks;
             } else {
                 couplings.push(sample.coupling(gradient, lacks));
             }
         }
+        self.add_friction(x, forces);
         couplings
     }
 

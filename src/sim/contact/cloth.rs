@@ -336,9 +336,12 @@ impl<'a> ClothContact<'a> {
     /// search goes there.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {
-        if self.is_barred(x) {
-            return f64::INFINITY;
-        }
+        if self.is_barred(x) { f64::INFINITY } else { self.pressed_energy(x) }
+    }
+
+    /// Contact energy, J, wherever that leads.
+    #[must_use]
+    pub fn pressed_energy(&self, x: &[V3]) -> f64 {
         let pressed = |press: Press| press.stiffness_n_m * press.share * press.push.energy;
         self.presses(x).map(pressed).sum::<f64>() + self.knots.energy(x)
     }

@@ -22,11 +22,11 @@ impl<'a> Skin<'a> {
         Ok(Self { mesh, surface: Surface::new(mesh)? })
     }
 
-    /// Depth of a point inside, m, negative outside, by the nearest feature alone: quick, and wrong in places on a
-    /// crumpled mesh, where that feature's normal points the wrong way.
+    /// Depth of a point inside, m, by the nearest feature alone: quick, and wrong in places on a crumpled mesh, where that feature's
+    /// normal points the wrong way.
     #[must_use]
-    pub fn quick_depth(&self, p: &V3) -> f64 {
-        -self.surface.signed_distance(p)
+    pub fn quick_depth(&self, p: &V3) -> Option<f64> {
+        self.surface.depth(p)
     }
 
     /// Whether a point is inside, by how often the surface winds round it: slow, and never wrong.
@@ -35,11 +35,9 @@ impl<'a> Skin<'a> {
         winding_number(self.mesh, *p) > 0.5
     }
 
-    /// Depth of a point inside, m, negative outside; asks twice where `field_m`, the distance in the field, has it
-    /// outside.
+    /// Depth of a point inside, m; asks twice where `field_m`, the distance in the field, has it outside.
     #[must_use]
-    pub fn depth(&self, p: &V3, field_m: f64) -> f64 {
-        let depth = self.quick_depth(p);
-        if depth > SHALLOW_M && field_m > 0.0 && !self.contains(p) { -depth } else { depth }
+    pub fn depth(&self, p: &V3, field_m: f64) -> Option<f64> {
+        self.quick_depth(p).filter(|depth| *depth <= SHALLOW_M || field_m <= 0.0 || self.contains(p))
     }
 }

@@ -11,7 +11,7 @@ use nalgebra::Matrix3;
 use wide::f64x4;
 
 use super::operator::{Operator, PairList};
-use super::quad::Quad;
+use super::quad::{self, Quad};
 
 /// The pattern of a stiffness with its symbolic factor, and the latest numeric one.
 pub struct Factor {
@@ -75,7 +75,7 @@ impl Factor {
         }
         let [membrane, bending, springs] = std::mem::take(&mut self.slots);
         for (&slot, block) in membrane.iter().zip(&operator.membrane) {
-            self.add_pair(slot, block);
+            self.add_pair(slot, &quad::matrix(block));
         }
         for (&slot, entry) in bending.iter().zip(operator.bending) {
             self.add_pair(slot, &Matrix3::from_diagonal_element(*entry));

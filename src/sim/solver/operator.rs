@@ -6,7 +6,9 @@
 //! pairs by rows ([`super::rows`]).
 
 use nalgebra::Matrix3;
+use wide::f32x4;
 
+use super::quad::{self, Block};
 use super::rows::Upper;
 use crate::geom::V3;
 
@@ -34,7 +36,7 @@ impl PairList {
     /// Position of the pair `{i, j}` in the list.
     #[must_use]
     pub fn slot(&self, i: usize, j: usize) -> Option<usize> {
-        self.pairs.binary_search(&[i.min(j), i.max(j)]).ok()
+        self.upper.slot(i.min(j), i.max(j))
     }
 
     /// The pairs by their smaller vertex.
@@ -110,9 +112,9 @@ pub struct Operator<'a> {
     pub diagonal: Vec<Matrix3<f64>>,
     /// Pairs coupled by the membrane.
     pub membrane_pairs: &'a PairList,
-    /// Their off-diagonal blocks `K_ij` for `i < j`, one a pair, N/m.
-    pub membrane: Vec<Matrix3<f64>>,
-    /// Pairs coupled by bending.
+    /// Their off-diagonal blocks `K_ij` for `i < j`, one a pair, N/m, with what bending has there.
+    pub membrane: Vec<Block<f32x4>>,
+    /// Pairs coupled by bending alone.
     pub bending_pairs: &'a PairList,
     /// Their off-diagonal entries, one a pair, N/m, the same in x, y and z.
     pub bending: &'a [f64],
@@ -136,11 +138,17 @@ impl Operator<'_> {
     /// The 3x3 blocks on the diagonal of `K`, for a block-Jacobi preconditioner.
     #[must_use]
     pub fn diagonal_blocks(&self) -> Vec<Matrix3<f64>> {
-        let mut blocks = self.diagonal.clone();
+        // Rows and columns of couplings summed by themselves: what the diagonal lacks for both to come to nothing.
+        let mut sums = vec![[[f32x4::ZERO; 3]; 2]; self.diagonal.len()];
         for (&[i, j], block) in self.membrane_pairs.pairs().iter().zip(&self.membrane) {
-            blocks[i] -= block;
-            blocks[j] -= block.transpose();
+            for k in 0..3 {
+                sums[i][0][k] += block[k];
+                sums[j][1][k] += block[k];
+            }
         }
+        let lacking = |[rows, columns]: &[Block<f32x4>; 2]| quad::matrix(rows) + quad::matrix(columns).transpose();
+        let mut blocks: Vec<Matrix3<f64>> =
+            self.diagonal.iter().zip(&sums).map(|(own, sums)| own - lacking(sums)).collect();
         for (&[i, j], entry) in self.bending_pairs.pairs().iter().zip(self.bending) {
             for v in [i, j] {
                 blocks[v] -= Matrix3::identity() * *entry;

@@ -4,13 +4,12 @@
 //! millimetre. Where a step has moved a small part only, that part takes some steps by itself, held by what lies around it, at the cost
 //! of its own size; the whole cloth then answers to what has come of it.
 
-use nalgebra::Matrix2;
-
 use super::linear::LinearSolver;
 use super::proximal::{StepParams, Stepper};
 use super::system::System;
 use crate::geom::V3;
 use crate::sim::cloth::Cloth;
+use crate::sim::cloth::law::Tensor;
 use crate::sim::cloth::part::Part;
 
 /// Share of the farthest movement from which on a vertex counts as moving.
@@ -59,7 +58,7 @@ pub fn relax(
     system: &mut System,
     x: &mut [V3],
     free: &[bool],
-    predicted: &mut [Matrix2<f64>],
+    predicted: &mut [Tensor],
     params: StepParams,
     tolerance: f64,
 ) {
@@ -181,7 +180,7 @@ mod tests {
         assert!(pulled.iter().zip(&free).all(|(pulled, free)| !pulled || *free));
         let (start, rest) = (x.clone(), system.energy(&flat));
         let before = system.energy(&x) - rest;
-        let mut predicted = vec![Matrix2::zeros(); cloth.triangles.len()];
+        let mut predicted = vec![Tensor::default(); cloth.triangles.len()];
         relax(&mut system, &mut x, &free, &mut predicted, StepParams::default(), 0.01);
         let after = system.energy(&x) - rest;
         assert!(after < 0.1 * before, "{after} after {before}");

@@ -13,7 +13,7 @@ use wide::f32x4;
 
 use super::blocks::{Dense, Numeric, Row, Symbolic};
 use super::operator::Operator;
-use super::quad::Quad;
+use super::quad::{self, Quad};
 use crate::geom::V3;
 
 /// Least distance, in edges, between the middles of patches.
@@ -71,7 +71,7 @@ impl Patches {
         let [membrane, bending, springs] = &self.slots;
         for ((&pair, &slot), m) in operator.membrane_pairs.pairs().iter().zip(membrane).zip(&operator.membrane) {
             let [p, q] = pair.map(|v| &arms[v]);
-            add(slot, pair, between(p, m, q));
+            add(slot, pair, between(p, &quad::matrix(m), q));
         }
         for ((&pair, &slot), k) in operator.bending_pairs.pairs().iter().zip(bending).zip(operator.bending) {
             let [p, q] = pair.map(|v| &arms[v]);
@@ -202,7 +202,7 @@ mod tests {
     use crate::sim::contact::{BodyContact, ContactParams};
     use crate::sim::laboratory::{self, sheets::sheet};
     use crate::sim::sewing::unsewn;
-    use crate::sim::solver::{System, linear, pcg::PcgParams, rows::Rows};
+    use crate::sim::solver::{System, linear, system::Assembled, pcg::PcgParams, rows::Rows};
     use crate::sim::testing::fabric;
     use wide::f64x4;
 
@@ -213,7 +213,7 @@ mod tests {
         let x: Vec<V3> = garment.rest.iter().map(|p| V3::new(p.x, p.y, 0.3 * p.x * p.x)).collect();
         let field = DistanceField::build(&shapes::sphere(0.06, 24), 0.006).expect("a closed sphere");
         let mut system = System::new(&cloth, BodyContact::new(&field, ContactParams::default(), &cloth.areas), None);
-        let (_, mut operator) = system.assemble(&x, None);
+        let mut operator = system.assemble(&x, None).operator;
         for (v, block) in operator.diagonal.iter_mut().enumerate() {
             *block += Matrix3::identity() * (1.0 + v as f64);
         }
@@ -254,7 +254,7 @@ mod tests {
         let x: Vec<V3> = garment.rest.iter().map(|p| V3::new(p.x, p.y, 0.5 + 0.3 * p.x * p.x)).collect();
         let field = DistanceField::build(&shapes::sphere(0.06, 24), 0.006).expect("a closed sphere");
         let mut system = System::new(&cloth, BodyContact::new(&field, ContactParams::default(), &cloth.areas), None);
-        let (forces, mut operator) = system.assemble(&x, None);
+        let Assembled { forces, mut operator, .. } = system.assemble(&x, None);
         for (block, mass) in operator.diagonal.iter_mut().zip(&cloth.masses) {
             *block += Matrix3::identity() * (mass / 0.01);
         }

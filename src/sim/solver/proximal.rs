@@ -9,14 +9,14 @@
 //! it, as inextensible cloth is projected onto its constraints [Goldenthal 2007], and the step runs along
 //! `x + t d + t^2 b`.
 
-use nalgebra::{Matrix2, Matrix3};
+use nalgebra::Matrix3;
 
 use super::linear;
-use super::operator::Operator;
 use super::part;
 use super::pcg::PcgParams;
-use super::system::System;
+use super::system::{Assembled, Excess, System};
 use crate::geom::V3;
+use crate::sim::cloth::law::Tensor;
 use crate::sim::cloth::membrane::Foreseen;
 use crate::sim::contact::ClothContact;
 
@@ -80,7 +80,7 @@ pub struct Stepper {
     /// Displacement of the last step: soft modes go on in their direction for many steps.
     last: Option<Vec<V3>>,
     /// Stress of each membrane element that the last linear solve foresaw, N/m.
-    predicted: Option<Vec<Matrix2<f64>>>,
+    predicted: Option<Vec<Tensor>>,
 }
 
 /// Armijo's constant.
@@ -107,13 +107,13 @@ impl Stepper {
 
     /// Goes on where another left off, at the greatest step, with the membrane stresses that it foresaw.
     #[must_use]
-    pub fn going_on(params: StepParams, predicted: Vec<Matrix2<f64>>) -> Self {
+    pub fn going_on(params: StepParams, predicted: Vec<Tensor>) -> Self {
         Self { params, h_s: params.h_max_s, last: None, predicted: Some(predicted) }
     }
 
     /// Membrane stresses foreseen by the last step, N/m; none before the first.
     #[must_use]
-    pub fn predicted(&self) -> &[Matrix2<f64>] {
+    pub fn predicted(&self) -> &[Tensor] {
         self.predicted.as_deref().unwrap_or_default()
     }
 
@@ -132,30 +132,29 @@ impl Stepper {
 
     /// Takes one step of the whole cloth from `x`, unless the residual is already below `tolerance`; says what it did.
     pub fn step_whole(&mut self, system: &mut System, x: &mut Vec<V3>, tolerance: f64) -> StepInfo {
-        let (mut forces, mut operator) = system.assemble(x, self.predicted.as_deref());
-        let mut residual = rms(&forces) / system.mean_weight();
+        let mut start = system.assemble(x, self.predicted.as_deref());
+        let mut residual = rms(&start.forces) / system.mean_weight();
         if residual <= tolerance && system.self_contact.as_mut().is_some_and(ClothContact::ripen) {
-            (forces, operator) = system.assemble(x, self.predicted.as_deref());
-            residual = rms(&forces) / system.mean_weight();
+            start = system.assemble(x, self.predicted.as_deref());
+            residual = rms(&start.forces) / system.mean_weight();
         }
         if residual <= tolerance {
             return StepInfo { residual, share: 1.0 };
         }
-        let contacts = operator.diagonal.clone();
+        let without_inertia = start.operator.diagonal.clone();
         let inertia: Vec<f64> = system.cloth.masses.iter().map(|m| m / (self.h_s * self.h_s)).collect();
-        add_inertia(&mut operator.diagonal, &inertia);
+        add_inertia(&mut start.operator.diagonal, &inertia);
         let linear =
             PcgParams { tolerance: self.params.linear_tolerance, max_iterations: self.params.linear_iterations };
         let mut direction = self.last.take().unwrap_or_else(|| vec![V3::zeros(); x.len()]);
-        system.linear.solve(&operator, x, &forces, &mut direction, &linear);
+        system.linear.solve(&start.operator, x, &start.forces, &mut direction, &linear);
         shorten(&mut direction, self.params.clamp_m);
         let free_share = system.free_share(&direction).min(1.0);
         direction.iter_mut().for_each(|d| *d *= free_share);
-        operator.diagonal = contacts;
-        let foreseen = system.cloth.membrane.foresee(x, &direction);
-        let bend = self.correction(system, operator, x, &direction, &foreseen);
+        start.operator.diagonal = without_inertia;
+        let (bend, foreseen) = self.correction(system, &start, x, &direction);
         let enough_n = (self.h_s >= LENGTHENED_FROM_S).then(|| ENOUGH * tolerance * system.mean_weight());
-        let (share, next) = search(system, x, [&direction, &bend], &forces, &inertia, enough_n);
+        let (share, next) = search(system, x, [&direction, &bend], &start, &inertia, enough_n);
         self.predicted = Some(foreseen.iter().map(|f| f.after(share)).collect());
         self.last = Some(next.iter().zip(x.iter()).map(|(p, q)| p - q).collect());
         *x = next;
@@ -170,16 +169,15 @@ impl Stepper {
         StepInfo { residual, share }
     }
 
-    /// Second-order correction of a step; `operator` is that at `x`, without inertia.
+    /// Second-order correction of a step from `x`, where `start` acts, without inertia; and the stresses foreseen at its end.
     fn correction(
         &self,
         system: &System,
-        operator: Operator,
+        start: &Assembled,
         x: &[V3],
         direction: &[V3],
-        foreseen: &[Foreseen],
-    ) -> Vec<V3> {
-        let (excess, mut operator) = system.excess(operator, x, direction, foreseen);
+    ) -> (Vec<V3>, Vec<Foreseen>) {
+        let Excess { forces, mut operator, foreseen } = system.excess(start, x, direction);
         let h2 = self.params.correction_h_s * self.params.correction_h_s;
         let inertia: Vec<f64> = system.cloth.masses.iter().map(|m| m / h2).collect();
         add_inertia(&mut operator.diagonal, &inertia);
@@ -188,9 +186,9 @@ impl Stepper {
             max_iterations: self.params.correction_iterations,
         };
         let mut bend = vec![V3::zeros(); x.len()];
-        linear::jacobi(&operator, &excess, &mut bend, &params);
+        linear::jacobi(&operator, &forces, &mut bend, &params);
         shorten(&mut bend, self.params.clamp_m);
-        bend
+        (bend, foreseen)
     }
 }
 
@@ -215,12 +213,11 @@ fn search(
     system: &System,
     x: &[V3],
     [direction, bend]: [&[V3]; 2],
-    forces: &[V3],
+    start: &Assembled,
     inertia: &[f64],
     enough_n: Option<f64>,
 ) -> (f64, Vec<V3>) {
-    let slope: f64 = forces.iter().zip(direction).map(|(f, d)| f.dot(d)).sum();
-    let start = system.energy(x);
+    let slope: f64 = start.forces.iter().zip(direction).map(|(f, d)| f.dot(d)).sum();
     let energy = |trial: &[V3]| {
         let moved = trial.iter().zip(x).zip(inertia).map(|((p, q), m)| 0.5 * m * (p - q).norm_squared());
         system.energy(trial) + moved.sum::<f64>()
@@ -235,9 +232,9 @@ fn search(
         for bent in [1.0, 0.0] {
             let positions = at(share, bent);
             let reached = energy(&positions);
-            if reached <= start - SUFFICIENT_DECREASE * share * slope.max(0.0) {
+            if reached <= start.energy - SUFFICIENT_DECREASE * share * slope.max(0.0) {
                 let is_enough =
-                    |enough_n| enough_n > GREATEST_FALL * rms(forces) && rms(&system.forces(&positions)) <= enough_n;
+                    |enough_n| enough_n > GREATEST_FALL * rms(&start.forces) && rms(&system.forces(&positions)) <= enough_n;
                 let goes_on = share == 1.0 && enough_n.is_some_and(|enough_n| !is_enough(enough_n));
                 let further = |share: f64| at(share, bent);
                 return if goes_on { lengthen(energy, further, reached, positions) } else { (share, positions) };
@@ -304,11 +301,10 @@ mod tests {
         system.self_contact = Some(ClothContact::new(ClothContactParams::default(), &cloth.triangles, &cloth.areas));
         let stepper = Stepper::new(StepParams::default());
         let mut check = |lower: f64, upper: f64| {
-            let (_, operator) = system.assemble(&x, None);
+            let start = system.assemble(&x, None);
             let d: Vec<V3> =
                 is_upper.iter().map(|&is_upper| V3::z() * -(if is_upper { upper } else { lower })).collect();
-            let foreseen = cloth.membrane.foresee(&x, &d);
-            let bend = stepper.correction(&system, operator, &x, &d, &foreseen);
+            let (bend, _) = stepper.correction(&system, &start, &x, &d);
             let longest = bend.iter().map(V3::norm).fold(0.0, f64::max);
             assert!(longest > 1e-4 && longest < 1.5 * lower.max(upper), "{longest} after {lower} and {upper}");
         };

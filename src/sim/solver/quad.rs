@@ -2,6 +2,7 @@
 //!
 //! Written as arrays, most of these loops come out of the compiler a number at a time; so they say what they mean.
 
+use std::borrow::Cow;
 use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 
 use nalgebra::Matrix3;
@@ -40,6 +41,9 @@ pub trait Quad:
         Self::splat(Self::scalar(number))
     }
 
+    /// Blocks in this precision.
+    fn blocks(of: &[Block<f32x4>]) -> Cow<'_, [Block<Self>]>;
+
     /// A vector, rounded.
     #[must_use]
     fn from_vector(v: &V3) -> Self {
@@ -48,7 +52,7 @@ pub trait Quad:
 }
 
 macro_rules! quad {
-    ($quad:ty, $scalar:ty) => {
+    ($quad:ty, $scalar:ty, $blocks:expr) => {
         impl Quad for $quad {
             type Scalar = $scalar;
             const ZERO: Self = <$quad>::ZERO;
@@ -56,6 +60,9 @@ macro_rules! quad {
                 let epsilon = <$scalar>::EPSILON as f64;
                 epsilon * epsilon * epsilon
             };
+            fn blocks(of: &[Block<f32x4>]) -> Cow<'_, [Block<Self>]> {
+                $blocks(of)
+            }
             #[inline(always)]
             fn of(numbers: [f64; 4]) -> Self {
                 Self::from(numbers.map(Self::scalar))
@@ -91,16 +98,37 @@ macro_rules! quad {
     };
 }
 
-quad!(f32x4, f32);
-quad!(f64x4, f64);
+quad!(f32x4, f32, Cow::Borrowed);
+quad!(f64x4, f64, |blocks: &[Block<f32x4>]| blocks.iter().map(|block| block.map(|row| f64x4::from(row.to_array().map(f64::from)))).collect());
 
 /// A 3x3 block by rows.
 pub type Block<Q> = [Q; 3];
+
+/// A block that does the same to x, y and z.
+#[inline(always)]
+#[must_use]
+pub fn alike(number: f64) -> Block<f32x4> {
+    let n = number as f32;
+    [f32x4::from([n, 0.0, 0.0, 0.0]), f32x4::from([0.0, n, 0.0, 0.0]), f32x4::from([0.0, 0.0, n, 0.0])]
+}
+
+/// A block as a matrix.
+#[must_use]
+pub fn matrix<Q: Quad>(block: &Block<Q>) -> Matrix3<f64> {
+    Matrix3::from_rows(&block.map(|row| row.vector().transpose()))
+}
 
 /// A block, rounded.
 #[must_use]
 pub fn block<Q: Quad>(m: &Matrix3<f64>) -> Block<Q> {
     [0, 1, 2].map(|r| Q::of([m[(r, 0)], m[(r, 1)], m[(r, 2)], 0.0]))
+}
+
+/// Takes a matrix from a block.
+pub fn subtract(from: &mut Block<f32x4>, matrix: &Matrix3<f64>) {
+    for (row, taken) in from.iter_mut().zip(block::<f32x4>(matrix)) {
+        *row -= taken;
+    }
 }
 
 /// The transpose of a block times a vector.

@@ -4,6 +4,9 @@
 //! stood in the rows of both, and a large cloth fills the caches with little else. All is applied to differences: in single precision,
 //! membrane and bending would otherwise drown each other.
 
+use std::borrow::Cow;
+use std::ops::Range;
+
 use super::operator::{Contact4, Operator};
 use super::quad::{self, Block, Quad};
 
@@ -28,13 +31,27 @@ impl Upper {
         Self { starts, others: pairs.iter().map(|pair| pair[1] as u32).collect() }
     }
 
-    /// The larger vertices of the couplings of `v`, each with what is kept of it.
+    /// Number of the coupling of `v` with the larger `other`.
+    #[must_use]
+    pub fn slot(&self, v: usize, other: usize) -> Option<usize> {
+        let row = self.row(v);
+        let at = self.others[row.clone()].binary_search(&(other as u32)).ok()?;
+        Some(row.start + at)
+    }
+
+    /// Numbers of the couplings of `v`.
     #[inline(always)]
-    fn of<'a, T>(&'a self, v: usize, kept: &'a [T]) -> impl Iterator<Item = (usize, &'a T)> {
-        let row = match self.starts.get(v..v + 2) {
+    fn row(&self, v: usize) -> Range<usize> {
+        match self.starts.get(v..v + 2) {
             Some(&[from, to]) => from as usize..to as usize,
             _ => 0..0,
-        };
+        }
+    }
+
+    /// The larger vertices of the couplings of `v`, each with what is kept of it.
+    #[inline(always)]
+    pub fn of<'a, T>(&'a self, v: usize, kept: &'a [T]) -> impl Iterator<Item = (usize, &'a T)> {
+        let row = self.row(v);
         self.others[row.clone()].iter().map(|other| *other as usize).zip(&kept[row])
     }
 }
@@ -43,7 +60,7 @@ impl Upper {
 pub struct Rows<'a, Q: Quad> {
     diagonal: Vec<Block<Q>>,
     membrane: &'a Upper,
-    blocks: Vec<Block<Q>>,
+    blocks: Cow<'a, [Block<Q>]>,
     bending: &'a Upper,
     entries: Vec<Q::Scalar>,
     springs: Vec<([usize; 2], Q)>,
@@ -60,7 +77,7 @@ struct Contact<Q> {
 impl<'a, Q: Quad> Rows<'a, Q> {
     /// Writes an operator into rows.
     #[must_use]
-    pub fn new(operator: &Operator<'a>) -> Self {
+    pub fn new(operator: &'a Operator) -> Self {
         let contact = |c: &Contact4| Contact {
             vertices: c.vertices,
             weights: c.weights.map(Q::spread),
@@ -69,7 +86,7 @@ impl<'a, Q: Quad> Rows<'a, Q> {
         Self {
             diagonal: operator.diagonal.iter().map(quad::block).collect(),
             membrane: operator.membrane_pairs.upper(),
-            blocks: operator.membrane.iter().map(quad::block).collect(),
+            blocks: Q::blocks(&operator.membrane),
             bending: operator.bending_pairs.upper(),
             entries: operator.bending.iter().map(|q| Q::scalar(*q)).collect(),
             springs: operator.springs.iter().map(|(pair, k)| (*pair, Q::spread(*k))).collect(),

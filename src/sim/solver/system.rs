@@ -1,11 +1,12 @@
 //! The forces on a cloth, their energy and their stiffness, gathered from every source.
 
-use nalgebra::{Matrix2, Matrix3};
+use nalgebra::Matrix3;
 
 use super::linear::LinearSolver;
-use super::operator::{Contact4, Operator};
+use super::operator::Operator;
 use crate::geom::V3;
 use crate::sim::cloth::Cloth;
+use crate::sim::cloth::law::Tensor;
 use crate::sim::cloth::membrane::Foreseen;
 use crate::sim::contact::{BodyContact, ClothContact};
 use crate::sim::sewing::Springs;
@@ -19,6 +20,28 @@ const HELD_STIFFNESS: f64 = 1e10;
 
 /// Penalty of walls, N/m3.
 const WALL_STIFFNESS: f64 = 1e5;
+
+/// What acts on a cloth somewhere.
+pub struct Assembled<'a> {
+    /// Potential energy, J.
+    pub energy: f64,
+    /// Forces, N.
+    pub forces: Vec<V3>,
+    /// What contacts and walls have of them, N.
+    pub contact_forces: Vec<V3>,
+    /// Stiffness, N/m.
+    pub operator: Operator<'a>,
+}
+
+/// What a linear solve did not foresee of the end of a step.
+pub struct Excess<'a> {
+    /// Forces there that it did not foresee, N.
+    pub forces: Vec<V3>,
+    /// Stiffness there, N/m.
+    pub operator: Operator<'a>,
+    /// The stresses of the membrane that it foresaw.
+    pub foreseen: Vec<Foreseen>,
+}
 
 /// A cloth with everything that acts on it.
 pub struct System<'a> {
@@ -68,24 +91,31 @@ impl<'a> System<'a> {
     /// Potential energy, J.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {
+        let (stretched_j, bent_j) = (self.cloth.membrane.energy(x), self.cloth.bending.energy(x));
+        let pressed_j = self.self_contact.as_ref().map_or(0.0, |c| c.energy(x));
+        self.energy_but(x, [stretched_j, bent_j, self.contact.energy(x), pressed_j])
+    }
+
+    /// Potential energy of which those of membrane, bending, body contact and self-contact are known, J.
+    fn energy_but(&self, x: &[V3], [stretched_j, bent_j, touching_j, pressed_j]: [f64; 4]) -> f64 {
         let height: f64 = self.weights.iter().zip(x).map(|(w, p)| w * p.z).sum();
-        height
-            + self.cloth.membrane.energy(x)
-            + self.cloth.bending.energy(x)
-            + self.cloth.bands.energy(x)
-            + self.contact.energy(x)
-            + self.self_contact.as_ref().map_or(0.0, |c| c.energy(x))
-            + self.springs.as_ref().map_or(0.0, |s| s.energy(x))
-            + self
-                .trespasses(x)
-                .map(|(v, depth, _)| 0.5 * WALL_STIFFNESS * self.cloth.areas[v] * depth * depth)
-                .sum::<f64>()
+        let trespass = |(v, depth, _): (usize, f64, V3)| 0.5 * WALL_STIFFNESS * self.cloth.areas[v] * depth * depth;
+        let sewn_j = self.springs.as_ref().map_or(0.0, |s| s.energy(x));
+        let walls_j: f64 = self.trespasses(x).map(trespass).sum();
+        height + stretched_j + bent_j + self.cloth.bands.energy(x) + touching_j + pressed_j + sewn_j + walls_j
     }
 
     /// Forces at `x`, N, with the contacts found at the last [`System::assemble`].
     #[must_use]
     pub fn forces(&self, x: &[V3]) -> Vec<V3> {
-        let (mut forces, _) = self.contact_forces(x);
+        let mut forces = vec![V3::zeros(); x.len()];
+        self.contact.add_forces(x, &mut forces);
+        if let Some(contact) = &self.self_contact {
+            contact.assemble(x, &mut forces);
+        }
+        for (v, depth, back) in self.trespasses(x) {
+            forces[v] += back * (WALL_STIFFNESS * self.cloth.areas[v] * depth);
+        }
         forces.iter_mut().zip(&self.weights).for_each(|(f, w)| f.z -= w);
         self.cloth.membrane.add_forces(x, &mut forces);
         self.cloth.bending.add_forces(x, &mut forces);
@@ -97,61 +127,73 @@ impl<'a> System<'a> {
         forces
     }
 
-    /// Forces (N) and stiffness (N/m) at `x`; `predicted` are the membrane stresses that stiffen the cloth geometrically,
-    /// where they are not those at `x` ([`Membrane::assemble`](crate::sim::cloth::membrane::Membrane::assemble)).
-    pub fn assemble(&mut self, x: &[V3], predicted: Option<&[Matrix2<f64>]>) -> (Vec<V3>, Operator<'a>) {
+    /// What acts on the cloth at `x`; `predicted` are the membrane stresses that stiffen the cloth geometrically, where they are not
+    /// those at `x` ([`Membrane::assemble`](crate::sim::cloth::membrane::Membrane::assemble)).
+    pub fn assemble(&mut self, x: &[V3], predicted: Option<&[Tensor]>) -> Assembled<'a> {
         let cloth = self.cloth;
-        let mut forces: Vec<V3> = self.weights.iter().map(|w| V3::new(0.0, 0.0, -w)).collect();
-        let mut diagonal = vec![Matrix3::zeros(); cloth.len()];
-        let mut membrane = cloth.membrane.assemble(x, &mut forces, predicted);
-        cloth.bending.add_forces(x, &mut forces);
-        cloth.bands.add_forces(x, &mut forces);
-        cloth.bands.add_stiffness(x, &cloth.membrane.pairs, &mut membrane);
-        let mut contacts = self.contact.assemble(x, &mut forces, &mut diagonal);
-        let springs = self.springs.as_ref().map_or_else(Vec::new, |s| s.assemble(x, &mut forces));
         if let Some(c) = &mut self.self_contact {
             c.update(x);
-            contacts.extend(c.assemble(x, &mut forces));
         }
+        let mut contact_forces = vec![V3::zeros(); x.len()];
+        let mut diagonal = vec![Matrix3::zeros(); cloth.len()];
+        let (touching_j, mut contacts) = self.contact.assemble(x, &mut contact_forces, &mut diagonal);
+        contacts.extend(self.self_contact.iter().flat_map(|c| c.assemble(x, &mut contact_forces)));
+        let pressed_j = self.self_contact.as_ref().map_or(0.0, |c| c.pressed_energy(x));
         for (v, depth, back) in self.trespasses(x) {
             let stiffness = WALL_STIFFNESS * cloth.areas[v];
-            forces[v] += back * (stiffness * depth);
+            contact_forces[v] += back * (stiffness * depth);
             diagonal[v] += back * back.transpose() * stiffness;
         }
+        let mut forces = contact_forces.clone();
+        forces.iter_mut().zip(&self.weights).for_each(|(f, w)| f.z -= w);
+        let mut membrane = cloth.membrane.blocks();
+        let stretched_j = cloth.membrane.assemble(x, &mut forces, predicted, &mut membrane);
+        let bent_j = cloth.bending.assemble(x, &mut forces);
+        cloth.bending.tangent.add_along(&mut membrane);
+        cloth.bands.add_forces(x, &mut forces);
+        cloth.bands.add_stiffness(x, &cloth.membrane.pairs, &mut membrane);
+        let springs = self.springs.as_ref().map_or_else(Vec::new, |s| s.assemble(x, &mut forces));
         for &v in &self.held {
             forces[v] = V3::zeros();
             diagonal[v] += Matrix3::identity() * HELD_STIFFNESS;
         }
+        let energy = self.energy_but(x, [stretched_j, bent_j, touching_j, pressed_j]);
         let operator = Operator {
             diagonal,
             membrane_pairs: &cloth.membrane.pairs,
             membrane,
-            bending_pairs: &cloth.bending.pairs,
-            bending: &cloth.bending.entries,
+            bending_pairs: &cloth.bending.tangent.pairs,
+            bending: &cloth.bending.tangent.across,
             springs,
             contacts,
         };
-        (forces, operator)
+        Assembled { energy, forces, contact_forces, operator }
     }
 
-    /// Forces (N) by which stretching and contact at the end of a step `d` from `x` differ from what a linear solve at `x`
-    /// foresaw, and the stiffness (N/m) there, without the geometric part of stretching and with contacts at either end of the
-    /// step: those that it makes would throw their vertices out by centimetres if they had a force there and no stiffness. Bending
-    /// is foreseen exactly: it is linear. `operator` is that of [`System::assemble`] at `x`, `membrane` what it foresees.
-    pub fn excess(&self, operator: Operator<'a>, x: &[V3], d: &[V3], membrane: &[Foreseen]) -> (Vec<V3>, Operator<'a>) {
+    /// What a linear solve at `x` did not foresee of stretching and contact at the end of a step `d`. The stiffness there is
+    /// without the geometric part of stretching and with contacts at either end of the step: those that it makes would throw their
+    /// vertices out by centimetres if they had a force there and no stiffness. Bending is left as foreseen: it is linear.
+    /// `start` is what acts at `x`, without inertia.
+    pub fn excess(&self, start: &Assembled<'a>, x: &[V3], d: &[V3]) -> Excess<'a> {
         let end: Vec<V3> = x.iter().zip(d).map(|(p, d)| p + d).collect();
-        let (mut excess, meeting) = self.contact_forces(&end);
-        let foreseen = self.contact_forces(x).0.into_iter().zip(operator.contact_forces(d)).map(|(f, kd)| f - kd);
-        excess.iter_mut().zip(foreseen).for_each(|(e, f)| *e -= f);
-        let mut blocks = self.cloth.membrane.assemble_towards(&end, membrane, &mut excess);
-        self.cloth.bands.assemble_towards(x, &end, operator.membrane_pairs, &mut excess, &mut blocks);
-        for &v in &self.held {
-            excess[v] = V3::zeros();
+        let operator = &start.operator;
+        let foreseen = start.contact_forces.iter().zip(operator.contact_forces(d)).map(|(f, kd)| kd - f);
+        let mut forces: Vec<V3> = foreseen.collect();
+        let (mut diagonal, mut contacts) = (operator.diagonal.clone(), operator.contacts.clone());
+        contacts.extend(self.contact.meet(&end, &mut forces, &mut diagonal));
+        contacts.extend(self.self_contact.iter().flat_map(|contact| contact.assemble(&end, &mut forces)));
+        for (v, depth, back) in self.trespasses(&end) {
+            forces[v] += back * (WALL_STIFFNESS * self.cloth.areas[v] * depth);
         }
-        let Operator { mut diagonal, mut contacts, .. } = operator;
-        contacts.extend(self.contact.stiffen(&end, &mut diagonal));
-        contacts.extend(meeting);
-        (excess, Operator { diagonal, contacts, membrane: blocks, ..operator })
+        let mut membrane = self.cloth.membrane.blocks();
+        let foreseen = self.cloth.membrane.assemble_towards(x, d, &mut forces, &mut membrane);
+        self.cloth.bands.assemble_towards(x, &end, operator.membrane_pairs, &mut forces, &mut membrane);
+        self.cloth.bending.tangent.add_along(&mut membrane);
+        for &v in &self.held {
+            forces[v] = V3::zeros();
+        }
+        let operator = Operator { diagonal, contacts, membrane, springs: operator.springs.clone(), ..*operator };
+        Excess { forces, operator, foreseen }
     }
 
     /// Share of these displacements that may be gone in the step that was assembled last.
@@ -164,17 +206,5 @@ impl<'a> System<'a> {
     fn trespasses(&self, x: &[V3]) -> impl Iterator<Item = (usize, f64, V3)> {
         let walls = self.walls.iter();
         walls.flat_map(|walls| x.iter().enumerate().filter_map(|(v, p)| walls.trespass(v, p).map(|(d, n)| (v, d, n))))
-    }
-
-    /// Forces of contacts and walls, N, with the contacts found at the last [`System::assemble`], and the stiffness of those of the cloth
-    /// with itself.
-    fn contact_forces(&self, x: &[V3]) -> (Vec<V3>, Vec<Contact4>) {
-        let mut forces = vec![V3::zeros(); x.len()];
-        self.contact.add_forces(x, &mut forces);
-        for (v, depth, back) in self.trespasses(x) {
-            forces[v] += back * (WALL_STIFFNESS * self.cloth.areas[v] * depth);
-        }
-        let contacts = self.self_contact.as_ref().map_or_else(Vec::new, |contact| contact.assemble(x, &mut forces));
-        (forces, contacts)
     }
 }

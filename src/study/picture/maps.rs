@@ -6,7 +6,8 @@ use crate::geom::{TriMesh, V3};
 use crate::pattern::Garment;
 use crate::render::Scale;
 use crate::sim::cloth::Cloth;
-use crate::sim::cloth::membrane::{Element, Orthotropic};
+use crate::sim::cloth::law::{Orthotropic, Tensor};
+use crate::sim::cloth::membrane::Element;
 use crate::sim::{Fabric, SimError, sewing};
 
 /// What colours the cloth.
@@ -88,7 +89,7 @@ pub(super) fn tensions(garment: &Garment, material: &Orthotropic, positions: &[V
     at_vertices(garment, |element| {
         let f = element.deformation_gradient(positions);
         let c = f.transpose() * f;
-        let stress = material.stress(&((c - Matrix2::identity()) * 0.5));
+        let stress = material.stress(Tensor::of(&((c - Matrix2::identity()) * 0.5))).matrix();
         let area_ratio = c.determinant().max(0.0).sqrt().max(1e-6);
         (greater_eigenvalue(&(stress * c)) / area_ratio).max(0.0)
     })
@@ -170,7 +171,7 @@ mod tests {
     use crate::geom::V2;
     use crate::pattern::SeamMesh;
     use crate::pattern::garment::{MaterialPoint, Measurement, MeasurementKind, PieceMesh, Role, Run};
-    use crate::sim::cloth::membrane::Fibre;
+    use crate::sim::cloth::law::Fibre;
 
     /// A square metre of cloth, its grain along `y`.
     fn square() -> Garment {
