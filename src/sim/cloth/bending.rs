@@ -317,7 +317,8 @@ mod tests {
         for &t in triangles {
             builder.add(t, t.map(|v| rest[v]), V2::new(0.0, 1.0));
         }
-        builder.finish(fabric)
+        let sides = PairList::new(triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]));
+        builder.finish(fabric, &sides)
     }
 
     fn bending(columns: usize, rows: usize, step: f64, fabric: &Fabric) -> (Bending, Vec<V2>) {

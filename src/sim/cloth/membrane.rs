@@ -105,11 +105,9 @@ impl Element {
             let ends = [k, (k + 1) % 3].map(|corner| gradients[corner]);
             let [i, j] = if slot & 1 == 1 { [ends[1], ends[0]] } else { ends };
             let (xx, xy, yx, yy) = (i.x * j.x, i.x * j.y, i.y * j.x, i.y * j.y);
-            let [of_weft, of_warp] = [
-                [c11 * xx + shear * yy, c12 * xy + shear * yx],
-                [c12 * yx + shear * xy, c22 * yy + shear * xx],
-            ]
-            .map(|[by_weft, by_warp]| weft * f32x4::spread(by_weft) + warp * f32x4::spread(by_warp));
+            let [of_weft, of_warp] =
+                [[c11 * xx + shear * yy, c12 * xy + shear * yx], [c12 * yx + shear * xy, c22 * yy + shear * xx]]
+                    .map(|[by_weft, by_warp]| weft * f32x4::spread(by_weft) + warp * f32x4::spread(by_warp));
             let geometric = quad::alike(tension.weft * xx + tension.shear * (xy + yx) + tension.warp * yy);
             let block = &mut blocks[(slot >> 1) as usize];
             for ((row, [weft, warp]), geometric) in block.iter_mut().zip(&of_rows).zip(geometric) {
@@ -234,8 +232,7 @@ impl Membrane {
             let strain = green(&[weft, warp]);
             let shear = 0.5 * (weft.dot(&moved[1]) + warp.dot(&moved[0]));
             let change = Tensor { weft: weft.dot(&moved[0]), warp: warp.dot(&moved[1]), shear };
-            let here =
-                Foreseen { stress: self.material.stress(strain), change: self.material.tangent(strain, change) };
+            let here = Foreseen { stress: self.material.stress(strain), change: self.material.tangent(strain, change) };
             let fibres = [weft + moved[0], warp + moved[1]];
             let strain = green(&fibres);
             element.add_forces(&fibres, self.material.stress(strain) - here.after(1.0), forces);

@@ -35,6 +35,12 @@ impl LinearSolver {
         Self::Factor(None)
     }
 
+    /// Whether it factorises.
+    #[must_use]
+    pub fn is_exact(&self) -> bool {
+        matches!(self, Self::Factor(_))
+    }
+
     /// Solves `K x = b` approximately, improving `x`, with the cloth at `positions`.
     pub fn solve(&mut self, operator: &Operator, positions: &[V3], b: &[V3], x: &mut [V3], params: &PcgParams) {
         match self {

@@ -4,7 +4,6 @@
 //! millimetre. Where a step has moved a small part only, that part takes some steps by itself, held by what lies around it, at the cost
 //! of its own size; the whole cloth then answers to what has come of it.
 
-use super::linear::LinearSolver;
 use super::proximal::{StepParams, Stepper};
 use super::system::System;
 use crate::geom::V3;
@@ -34,7 +33,7 @@ pub fn moving(system: &System, moved: &[V3]) -> Option<Vec<bool>> {
         || system.springs.is_some()
         || system.walls.is_some()
         || !system.held.is_empty()
-        || matches!(system.linear, LinearSolver::Factor(_))
+        || system.linear.is_exact()
         || system.self_contact.as_ref().is_some_and(|contact| !contact.is_untangled());
     if is_whole {
         return None;

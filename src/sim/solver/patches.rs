@@ -202,7 +202,7 @@ mod tests {
     use crate::sim::contact::{BodyContact, ContactParams};
     use crate::sim::laboratory::{self, sheets::sheet};
     use crate::sim::sewing::unsewn;
-    use crate::sim::solver::{System, linear, system::Assembled, pcg::PcgParams, rows::Rows};
+    use crate::sim::solver::{System, linear, pcg::PcgParams, rows::Rows, system::Assembled};
     use crate::sim::testing::fabric;
     use wide::f64x4;
 

@@ -55,7 +55,7 @@ impl Default for StepParams {
             h_max_s: 2.0,
             growth: 2.0,
             clamp_m: 0.01,
-            linear_tolerance: 0.06,
+            linear_tolerance: 0.04,
             linear_iterations: 1000,
             correction_h_s: 0.004,
             correction_tolerance: 0.1,
@@ -170,13 +170,7 @@ impl Stepper {
     }
 
     /// Second-order correction of a step from `x`, where `start` acts, without inertia; and the stresses foreseen at its end.
-    fn correction(
-        &self,
-        system: &System,
-        start: &Assembled,
-        x: &[V3],
-        direction: &[V3],
-    ) -> (Vec<V3>, Vec<Foreseen>) {
+    fn correction(&self, system: &System, start: &Assembled, x: &[V3], direction: &[V3]) -> (Vec<V3>, Vec<Foreseen>) {
         let Excess { forces, mut operator, foreseen } = system.excess(start, x, direction);
         let h2 = self.params.correction_h_s * self.params.correction_h_s;
         let inertia: Vec<f64> = system.cloth.masses.iter().map(|m| m / h2).collect();
@@ -233,8 +227,9 @@ fn search(
             let positions = at(share, bent);
             let reached = energy(&positions);
             if reached <= start.energy - SUFFICIENT_DECREASE * share * slope.max(0.0) {
-                let is_enough =
-                    |enough_n| enough_n > GREATEST_FALL * rms(&start.forces) && rms(&system.forces(&positions)) <= enough_n;
+                let is_enough = |enough_n| {
+                    enough_n > GREATEST_FALL * rms(&start.forces) && rms(&system.forces(&positions)) <= enough_n
+                };
                 let goes_on = share == 1.0 && enough_n.is_some_and(|enough_n| !is_enough(enough_n));
                 let further = |share: f64| at(share, bent);
                 return if goes_on { lengthen(energy, further, reached, positions) } else { (share, positions) };

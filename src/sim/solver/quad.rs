@@ -99,7 +99,10 @@ macro_rules! quad {
 }
 
 quad!(f32x4, f32, Cow::Borrowed);
-quad!(f64x4, f64, |blocks: &[Block<f32x4>]| blocks.iter().map(|block| block.map(|row| f64x4::from(row.to_array().map(f64::from)))).collect());
+quad!(f64x4, f64, |blocks: &[Block<f32x4>]| blocks
+    .iter()
+    .map(|block| block.map(|row| f64x4::from(row.to_array().map(f64::from))))
+    .collect());
 
 /// A 3x3 block by rows.
 pub type Block<Q> = [Q; 3];

@@ -1,11 +1,14 @@
 //! The forces on a cloth, their energy and their stiffness, gathered from every source.
 
 use nalgebra::Matrix3;
+use wide::f32x4;
 
 use super::linear::LinearSolver;
-use super::operator::Operator;
+use super::operator::{Operator, PairList};
+use super::quad::Block;
 use crate::geom::V3;
 use crate::sim::cloth::Cloth;
+use crate::sim::cloth::bending::Bending;
 use crate::sim::cloth::law::Tensor;
 use crate::sim::cloth::membrane::Foreseen;
 use crate::sim::contact::{BodyContact, ClothContact};
@@ -149,7 +152,7 @@ impl<'a> System<'a> {
         let mut membrane = cloth.membrane.blocks();
         let stretched_j = cloth.membrane.assemble(x, &mut forces, predicted, &mut membrane);
         let bent_j = cloth.bending.assemble(x, &mut forces);
-        cloth.bending.tangent.add_along(&mut membrane);
+        let (bending_pairs, bending) = self.bending(&mut membrane);
         cloth.bands.add_forces(x, &mut forces);
         cloth.bands.add_stiffness(x, &cloth.membrane.pairs, &mut membrane);
         let springs = self.springs.as_ref().map_or_else(Vec::new, |s| s.assemble(x, &mut forces));
@@ -162,8 +165,8 @@ impl<'a> System<'a> {
             diagonal,
             membrane_pairs: &cloth.membrane.pairs,
             membrane,
-            bending_pairs: &cloth.bending.tangent.pairs,
-            bending: &cloth.bending.tangent.across,
+            bending_pairs,
+            bending,
             springs,
             contacts,
         };
@@ -188,12 +191,23 @@ impl<'a> System<'a> {
         let mut membrane = self.cloth.membrane.blocks();
         let foreseen = self.cloth.membrane.assemble_towards(x, d, &mut forces, &mut membrane);
         self.cloth.bands.assemble_towards(x, &end, operator.membrane_pairs, &mut forces, &mut membrane);
-        self.cloth.bending.tangent.add_along(&mut membrane);
+        self.bending(&mut membrane);
         for &v in &self.held {
             forces[v] = V3::zeros();
         }
         let operator = Operator { diagonal, contacts, membrane, springs: operator.springs.clone(), ..*operator };
         Excess { forces, operator, foreseen }
+    }
+
+    /// Bending as linear solves take it: adds what it has in the membrane's blocks, and returns the pairs that it couples besides, with
+    /// their entries, N/m. An exact solver takes it whole.
+    fn bending(&self, membrane: &mut [Block<f32x4>]) -> (&'a PairList, &'a [f64]) {
+        let Bending { pairs, entries, tangent } = &self.cloth.bending;
+        if self.linear.is_exact() {
+            return (pairs, entries);
+        }
+        tangent.add_along(membrane);
+        (&tangent.pairs, &tangent.across)
     }
 
     /// Share of these displacements that may be gone in the step that was assembled last.
