@@ -9,6 +9,7 @@
 //! inwards: a body mirrored left to right has the mirrored field, to the bit.
 
 use nalgebra::Matrix3;
+use wide::f64x2;
 
 use super::surface::{Surface, SurfaceError};
 use super::{TriMesh, V3};
@@ -198,21 +199,22 @@ impl DistanceField {
             weight[k] = [0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)];
             slope[k] = [t - 0.5, -2.0 * t, t + 0.5];
         }
-        let (mut value, mut gx, mut gy, mut gz) = (0.0, 0.0, 0.0, 0.0);
         let ([wx, wy, wz], [sx, sy, sz]) = (weight, slope);
+        // The value beside its slope along x, and those along y and z beside each other.
+        let pair = |a: f64, b: f64| f64x2::from([a, b]);
+        let along_x = [0, 1, 2].map(|k| pair(wx[k], sx[k]));
+        let (mut value_gx, mut gy_gz) = (f64x2::ZERO, f64x2::ZERO);
         for c in 0..3 {
             for b in 0..3 {
                 let row = self.node(first[0], first[1] + b, first[2] + c);
                 let Some(&[v0, v1, v2]) = self.values.get(row..row + 3) else { continue };
-                let (v0, v1, v2) = (f64::from(v0), f64::from(v1), f64::from(v2));
-                let along = (v0 * wx[0] + v2 * wx[2]) + v1 * wx[1];
-                let across = wy[b] * wz[c];
-                value += along * across;
-                gx += ((v0 * sx[0] + v2 * sx[2]) + v1 * sx[1]) * across;
-                gy += along * sy[b] * wz[c];
-                gz += along * wy[b] * sz[c];
+                let [v0, v1, v2] = [v0, v1, v2].map(|v| f64x2::splat(f64::from(v)));
+                let along = (v0 * along_x[0] + v2 * along_x[2]) + v1 * along_x[1];
+                value_gx += along * f64x2::splat(wy[b] * wz[c]);
+                gy_gz += f64x2::splat(along.to_array()[0]) * pair(sy[b], wy[b]) * pair(wz[c], sz[c]);
             }
         }
+        let ([value, gx], [gy, gz]) = (value_gx.to_array(), gy_gz.to_array());
         let gradient = V3::new(gx, gy, gz);
         (value, gradient / self.spacing_m)
     }

@@ -10,14 +10,19 @@ use crate::sim::contact::{Skin, crossings};
 /// 0 when none is inside.
 #[must_use]
 pub fn penetration_m(body: &Body, garment: &Garment, positions: &[V3]) -> f64 {
-    deepest_m(body, samples(garment, positions))
+    Skin::new(&body.mesh).map_or(f64::NAN, |skin| deepest_m(&skin, samples(garment, positions)))
 }
 
-/// [`penetration_m`], asked only where a distance field does not say that the cloth is clearly outside: much quicker.
+/// [`penetration_m`], asked only where a distance field does not say that the cloth is clearly outside: much quicker. Not a number
+/// without a skin, which a mesh that bounds no solid has not.
 #[must_use]
-pub fn penetration_by_field_m(body: &Body, field: &DistanceField, garment: &Garment, positions: &[V3]) -> f64 {
-    let doubtful: Vec<V3> = samples(garment, positions).filter(|p| field.value_and_gradient(p).0 < CLEAR_M).collect();
-    if doubtful.is_empty() { 0.0 } else { deepest_m(body, doubtful.into_iter()) }
+pub fn penetration_by_field_m(skin: Option<&Skin>, field: &DistanceField, garment: &Garment, positions: &[V3]) -> f64 {
+    let mut doubtful = samples(garment, positions).filter(|p| field.value_and_gradient(p).0 < CLEAR_M).peekable();
+    match skin {
+        _ if doubtful.peek().is_none() => 0.0,
+        Some(skin) => deepest_m(skin, doubtful),
+        None => f64::NAN,
+    }
 }
 
 /// Farthest that a field may lie from the true surface, m: it is blurred, and so short of fingers and creases.
@@ -31,8 +36,7 @@ fn samples<'a>(garment: &'a Garment, positions: &'a [V3]) -> impl Iterator<Item 
     positions.iter().copied().chain(middles).chain(centres)
 }
 
-fn deepest_m(body: &Body, samples: impl Iterator<Item = V3>) -> f64 {
-    let Ok(skin) = Skin::new(&body.mesh) else { return f64::NAN };
+fn deepest_m(skin: &Skin, samples: impl Iterator<Item = V3>) -> f64 {
     let mut inside: Vec<(f64, V3)> = samples.filter_map(|p| Some((skin.quick_depth(&p)?, p))).collect();
     inside.sort_by(|a, b| b.0.total_cmp(&a.0));
     inside.iter().find(|(_, p)| skin.contains(p)).map_or(0.0, |(depth, _)| *depth)

@@ -102,6 +102,9 @@ impl Fibre {
     /// Stress, N/m.
     #[must_use]
     pub fn stress(&self, strain: f64) -> f64 {
+        if self.rise == 0.0 {
+            return self.rest * strain;
+        }
         let within = strain.clamp(0.0, self.until);
         self.rest * strain + self.rise * within * (within + 2.0 * (strain.max(0.0) - within))
     }
@@ -109,12 +112,15 @@ impl Fibre {
     /// Slope of the stress, N/m.
     #[must_use]
     pub fn tangent(&self, strain: f64) -> f64 {
-        self.rest + 2.0 * self.rise * strain.clamp(0.0, self.until)
+        if self.rise == 0.0 { self.rest } else { self.rest + 2.0 * self.rise * strain.clamp(0.0, self.until) }
     }
 
     /// Energy per area, N/m.
     #[must_use]
     pub fn energy(&self, strain: f64) -> f64 {
+        if self.rise == 0.0 {
+            return 0.5 * self.rest * strain * strain;
+        }
         let within = strain.clamp(0.0, self.until);
         let beyond = strain.max(0.0) - within;
         let rising = within * (within * within / 3.0 + beyond * (within + beyond));

@@ -64,7 +64,7 @@ pub fn simulate(
         converged: settled.residual <= params.tolerance,
         iterations: 0,
         residual: settled.residual,
-        penetration_max_m: quality::penetration_by_field_m(body, field, finest, &settled.positions),
+        penetration_max_m: quality::penetration_by_field_m(skin, field, finest, &settled.positions),
         seam_gap_max_m: quality::seam_gap_m(finest, &settled.positions),
         self_crossings: quality::self_crossings(&settled.sewn, &settled.triangles),
         welded_vertices: settled.sewn.len(),

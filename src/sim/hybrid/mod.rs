@@ -30,6 +30,7 @@ mod untangle;
 use crate::body::{Body, Layer};
 use crate::geom::{DistanceField, V3};
 use crate::pattern::{Garment, Measurement};
+use crate::sim::contact::Skin;
 use crate::sim::walls::Walls;
 use crate::sim::{Drape, Fabric, Monitor, Progress, SimError, Stage, Staged, Step, quality};
 
@@ -147,7 +148,12 @@ pub fn phases(
         converged: last <= AT_REST_M,
         iterations: run.history.len() as u32,
         residual: last / AT_REST_M,
-        penetration_max_m: quality::penetration_by_field_m(body, field, garment, &positions),
+        penetration_max_m: quality::penetration_by_field_m(
+            Skin::new(&body.mesh).ok().as_ref(),
+            field,
+            garment,
+            &positions,
+        ),
         seam_gap_max_m: quality::seam_gap_m(garment, &positions),
         self_crossings,
         welded_vertices: x.len(),

@@ -116,9 +116,7 @@ impl<'a> System<'a> {
         if let Some(contact) = &self.self_contact {
             contact.assemble(x, &mut forces);
         }
-        for (v, depth, back) in self.trespasses(x) {
-            forces[v] += back * (WALL_STIFFNESS * self.cloth.areas[v] * depth);
-        }
+        self.add_walls(x, &mut forces);
         forces.iter_mut().zip(&self.weights).for_each(|(f, w)| f.z -= w);
         self.cloth.membrane.add_forces(x, &mut forces);
         self.cloth.bending.add_forces(x, &mut forces);
@@ -175,7 +173,7 @@ impl<'a> System<'a> {
 
     /// What a linear solve at `x` did not foresee of stretching and contact at the end of a step `d`. The stiffness there is
     /// without the geometric part of stretching and with contacts at either end of the step: those that it makes would throw their
-    /// vertices out by centimetres if they had a force there and no stiffness. Bending is left as foreseen: it is linear.
+    /// vertices out by centimetres if they had a force there and no stiffness. Bending is left as foreseen: it is linear, and hinges one by one are near enough to it.
     /// `start` is what acts at `x`, without inertia.
     pub fn excess(&self, start: &Assembled<'a>, x: &[V3], d: &[V3]) -> Excess<'a> {
         let end: Vec<V3> = x.iter().zip(d).map(|(p, d)| p + d).collect();
@@ -185,9 +183,7 @@ impl<'a> System<'a> {
         let (mut diagonal, mut contacts) = (operator.diagonal.clone(), operator.contacts.clone());
         contacts.extend(self.contact.meet(&end, &mut forces, &mut diagonal));
         contacts.extend(self.self_contact.iter().flat_map(|contact| contact.assemble(&end, &mut forces)));
-        for (v, depth, back) in self.trespasses(&end) {
-            forces[v] += back * (WALL_STIFFNESS * self.cloth.areas[v] * depth);
-        }
+        self.add_walls(&end, &mut forces);
         let mut membrane = self.cloth.membrane.blocks();
         let foreseen = self.cloth.membrane.assemble_towards(x, d, &mut forces, &mut membrane);
         self.cloth.bands.assemble_towards(x, &end, operator.membrane_pairs, &mut forces, &mut membrane);
@@ -214,6 +210,13 @@ impl<'a> System<'a> {
     #[must_use]
     pub fn free_share(&self, displacements: &[V3]) -> f64 {
         self.self_contact.as_ref().map_or(f64::INFINITY, |contact| contact.free_share(displacements))
+    }
+
+    /// Adds the forces of walls, N.
+    fn add_walls(&self, x: &[V3], forces: &mut [V3]) {
+        for (v, depth, back) in self.trespasses(x) {
+            forces[v] += back * (WALL_STIFFNESS * self.cloth.areas[v] * depth);
+        }
     }
 
     /// Vertices on the wrong side of a wall, how far, m, and the way back.
