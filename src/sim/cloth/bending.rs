@@ -12,8 +12,8 @@
 //!
 //! Hinges run on across sewn seams: each side uses its own rest triangle and grain.
 //!
-//! Linear solves take hinges that know nothing of each other ([`Tangent`]): a quarter of the couplings, and three quarters of those
-//! lie along sides of triangles, which stretching couples anyway. The direction of a step need not be more exact.
+//! Linear solves take hinges that know nothing of each other ([`Tangent`]): half of the couplings, and half of those lie
+//! along sides of triangles, which stretching couples anyway. The direction of a step need not be more exact.
 
 use wide::f32x4;
 
