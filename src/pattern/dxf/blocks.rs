@@ -8,7 +8,7 @@ use dxf::entities::{Entity, EntityType};
 use super::figures::{Figure, Placement, figure};
 use super::guard::Foreign;
 use super::outline::{
-    Line, MOST_LINES, check_simple, counter_clockwise, cut_loops, joined, sew_line, text_mm, without_copies,
+    Line, MOST_LINES, check_simple, counter_clockwise, cut_loops, cut_spikes, joined, sew_line, text_mm, without_copies,
 };
 use crate::geom::V2;
 use crate::geom::polyline::signed_area;
@@ -236,12 +236,18 @@ impl Drawn {
             return Err(reason);
         }
         let mut outline = joined(&self.boundary, "outline (layer 1)")?;
+        let places = |points: &[V2]| points.iter().map(text_mm).collect::<Vec<_>>().join(", ");
+        let spikes = cut_spikes(&mut outline);
+        if !spikes.is_empty() {
+            let places = places(&spikes);
+            remarks.push(format!("block `{block}`: its outline runs out to {places} and back over itself: cut away"));
+        }
         if self.sew_lines.is_empty() {
             check_simple(&outline, "outline")?;
         } else {
             let loops = cut_loops(&mut outline)?;
             if !loops.is_empty() {
-                let places = loops.iter().map(text_mm).collect::<Vec<_>>().join(", ");
+                let places = places(&loops);
                 remarks.push(format!(
                     "block `{block}`: its cut line crosses itself at {places}: loops cut away, the sew line is as drawn"
                 ));

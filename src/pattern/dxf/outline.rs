@@ -21,6 +21,12 @@ const LOOPS_SHARE: f64 = 0.01;
 /// Most loops of a cut line; there are some at each inner corner at most.
 const MOST_LOOPS: usize = 200;
 
+/// Greatest width of a spike, m: what runs out and back over itself to within rounding.
+const SPIKE_M: f64 = 0.01e-3;
+
+/// Greatest slope of one side of a spike against the other: a short one is no corner that happens to be sharp.
+const SPIKE_SLOPE: f64 = 1e-3;
+
 /// A line as drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
@@ -224,6 +230,40 @@ pub fn cut_loops(outline: &mut Vec<V2>) -> Result<Vec<V2>, String> {
     Ok(places)
 }
 
+/// Cuts away the spikes of an outline, where it runs out and back along the same line and encloses nothing; the tip of each.
+pub fn cut_spikes(outline: &mut Vec<V2>) -> Vec<V2> {
+    let (mut tips, mut at, mut passed) = (Vec::new(), 0, 0);
+    while outline.len() > 3 && passed < outline.len() {
+        let n = outline.len();
+        let [before, tip, after] = [n - 1, 0, 1].map(|k| outline[(at + k) % n]);
+        if !is_spike(&before, &tip, &after) {
+            (at, passed) = ((at + 1) % n, passed + 1);
+            continue;
+        }
+        // What is left of it is looked at next, and is the same spike.
+        if passed > 0 || tips.is_empty() {
+            tips.push(tip);
+        }
+        outline.remove(at);
+        at %= outline.len();
+        if (before - after).norm() < SPIKE_M {
+            outline.remove(at);
+        }
+        (at, passed) = ((at + outline.len() - 1) % outline.len(), 0);
+    }
+    tips
+}
+
+/// Whether the nearer neighbour of a tip lies on the side to the other.
+fn is_spike(before: &V2, tip: &V2, after: &V2) -> bool {
+    let [mut short, mut long] = [before - tip, after - tip];
+    if short.norm() > long.norm() {
+        std::mem::swap(&mut short, &mut long);
+    }
+    let apart_m = short.perp(&long).abs() / long.norm();
+    short.dot(&long) > 0.0 && apart_m < SPIKE_M.min(SPIKE_SLOPE * short.norm())
+}
+
 /// Turns a clockwise polygon round, its first vertex kept; whether it was.
 pub fn counter_clockwise(polygon: &mut [V2]) -> bool {
     let is_clockwise = signed_area(polygon) < 0.0;
@@ -326,6 +366,43 @@ mod tests {
         let mut bow = line(&[(0.0, 0.0), (100.0, 100.0), (100.0, 0.0), (0.0, 80.0)]).points;
         let reason = cut_loops(&mut bow).expect_err("two halves");
         assert_eq!(reason, "the cut line crosses itself at (44.44, 44.44) mm");
+    }
+
+    #[test]
+    fn spikes_are_cut_away_and_sharp_corners_stay() {
+        let check = |drawn: &[(f64, f64)], expect: &[(f64, f64)], tips: usize| {
+            for first in 0..drawn.len() {
+                let mut outline = line(drawn).points;
+                outline.rotate_left(first);
+                assert_eq!(cut_spikes(&mut outline).len(), tips, "{drawn:?} from {first}");
+                let start = outline.iter().position(|p| (p - line(expect).points[0]).norm() < 1e-9);
+                outline.rotate_left(start.expect("the first corner is left"));
+                assert_eq!(outline, line(expect).points, "{drawn:?} from {first}");
+                assert_eq!(self_crossing(&outline), None);
+            }
+        };
+        let square = [(0.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0)];
+        check(&square, &square, 0);
+        // Out beyond a corner and back, a side walked three times, a slash inwards of two parts, and one of 0.001 mm.
+        let overshot = [(0.0, 0.0), (140.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0)];
+        check(&overshot, &square, 1);
+        let again = [(0.0, 0.0), (50.0, 0.0), (100.0, 0.0), (50.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0)];
+        check(&again, &[(0.0, 0.0), (50.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0)], 1);
+        let slashed = [
+            (0.0, 0.0),
+            (50.0, 0.0),
+            (50.0, 20.0),
+            (60.0, 40.0),
+            (50.0, 20.001),
+            (50.0, 0.0),
+            (100.0, 0.0),
+            (100.0, 100.0),
+            (0.0, 100.0),
+        ];
+        check(&slashed, &[(0.0, 0.0), (50.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0)], 1);
+        // A dart, however narrow, is none.
+        let dart = [(0.0, 0.0), (49.9, 0.0), (50.0, 60.0), (50.1, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0)];
+        check(&dart, &dart, 0);
     }
 
     #[test]

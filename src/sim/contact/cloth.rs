@@ -262,7 +262,7 @@ impl<'a> ClothContact<'a> {
         let found = &mut self.found;
         found.clear();
         let mut ends = [0; SHELLS as usize + 1];
-        neighbours.each_within(x, reach_m, |primitives| {
+        neighbours.each_within(reach_m, |primitives| {
             let distance_m = Nearest::of(x, primitives).gap.norm();
             if distance_m < reach_m {
                 found.push(Pair { primitives, distance_m });

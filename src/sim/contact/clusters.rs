@@ -1,9 +1,9 @@
 //! A cloth in small clusters, and which of them need not be held against each other.
 //!
-//! Cloth that is nearly flat comes nowhere near itself: where all normals of two clusters that hang together lie within a narrow
-//! cone, no part of one can touch a part of the other [Volino & Magnenat-Thalmann 1994]. That is nearly all of a drape, so
-//! what is left to be searched are folds and layers. At the cloth's rim flat parts could yet meet within their plane, as the two
-//! sides of a slit do: there nothing is left out.
+//! Cloth that is nearly flat comes nowhere near itself: where all normals of two clusters that hang together, and of those that lie
+//! between them, are within a narrow cone, no part of one can touch a part of the other [Volino & Magnenat-Thalmann 1994]. That is
+//! nearly all of a drape, so what is left to be searched are folds and layers. At the cloth's rim flat parts could yet meet within
+//! their plane, as the two sides of a slit do: there nothing is left out.
 
 use crate::geom::V3;
 use crate::sim::solver::PairList;
@@ -21,10 +21,12 @@ pub struct Clusters {
     /// Triangles at a cluster's vertices.
     around: Vec<Vec<usize>>,
     is_at_rim: Vec<bool>,
-    /// Pairs of clusters that an edge joins, and each with itself.
-    joined: Vec<[usize; 2]>,
-    /// Of those, what was flat when the cloth was searched last.
-    flat: Vec<[usize; 2]>,
+    /// Pairs of clusters that hang together: that an edge joins, or two edges by way of others between them, and each with itself.
+    joined: PairList,
+    /// Of each pair, the clusters between.
+    between: Vec<Vec<usize>>,
+    /// Of each pair, whether it was flat when the cloth was searched last.
+    is_flat: Vec<bool>,
 }
 
 /// What belongs to a cluster.
@@ -58,12 +60,19 @@ impl Motion {
     }
 }
 
-/// The normals of a cluster.
+/// The normals of a cluster, as far as it takes to tell which others are flat with it.
 #[derive(Clone, Copy)]
 struct Cone {
     axis: V3,
-    /// Greatest angle of a normal to the axis, rad.
-    half_rad: f64,
+    /// Least cosine of the angle between its axis and that of another.
+    nearest: f64,
+}
+
+impl Cone {
+    /// Whether the normals of both lie within a cone of the angle that they were made for.
+    fn is_flat_with(&self, other: &Self) -> bool {
+        self.axis.dot(&other.axis) >= self.nearest.max(other.nearest)
+    }
 }
 
 impl Clusters {
@@ -89,17 +98,13 @@ impl Clusters {
             }
         }
         let mut is_at_rim = vec![false; count];
-        let mut joined: Vec<[usize; 2]> = (0..count).map(|c| [c, c]).collect();
         for (e, &[i, j]) in edges.pairs().iter().enumerate() {
             members[of[i]].edges.push(e);
-            joined.push([of[i].min(of[j]), of[i].max(of[j])]);
             if sides[e] != 2 {
                 is_at_rim[of[i]] = true;
                 is_at_rim[of[j]] = true;
             }
         }
-        joined.sort_unstable();
-        joined.dedup();
         for members in &mut members {
             let mut corners = members.vertices.clone();
             corners.extend(members.edges.iter().flat_map(|&e| edges.pairs()[e]));
@@ -108,29 +113,31 @@ impl Clusters {
             corners.dedup();
             members.corners = corners;
         }
-        Self { members, around, is_at_rim, joined, flat: Vec::new() }
+        let (joined, between) = hanging_together(count, edges.pairs().iter().map(|pair| pair.map(|v| of[v])));
+        Self { members, around, is_at_rim, is_flat: vec![false; between.len()], joined, between }
     }
 
     /// Looks which clusters that hang together are flat.
     pub fn look(&mut self, x: &[V3], triangles: &[[usize; 3]]) {
-        let cones = self.cones(x, triangles);
-        let is_flat = |&&[a, b]: &&[usize; 2]| {
-            !(self.is_at_rim[a] && self.is_at_rim[b]) && spread_rad(&cones[a], &cones[b]) < FLAT_RAD
+        let cones = self.cones(x, triangles, FLAT_RAD);
+        let is_flat = |(&[a, b], between): (&[usize; 2], &Vec<usize>)| {
+            !(self.is_at_rim[a] && self.is_at_rim[b]) && are_flat(&cones, [a, b], between)
         };
-        self.flat = self.joined.iter().filter(is_flat).copied().collect();
+        self.is_flat = self.joined.pairs().iter().zip(&self.between).map(is_flat).collect();
     }
 
-    /// Whether two clusters, the first no later than the second, were flat together.
+    /// Whether two clusters were flat together.
     #[must_use]
-    pub fn are_flat(&self, pair: [usize; 2]) -> bool {
-        self.flat.binary_search(&pair).is_ok()
+    pub fn are_flat(&self, [a, b]: [usize; 2]) -> bool {
+        self.joined.slot(a, b).is_some_and(|slot| self.is_flat[slot])
     }
 
     /// Whether all that was flat is so still.
     #[must_use]
     pub fn stay_flat(&self, x: &[V3], triangles: &[[usize; 3]]) -> bool {
-        let cones = self.cones(x, triangles);
-        self.flat.iter().all(|&[a, b]| spread_rad(&cones[a], &cones[b]) < STILL_FLAT_RAD)
+        let cones = self.cones(x, triangles, STILL_FLAT_RAD);
+        let mut pairs = self.joined.pairs().iter().zip(&self.between).zip(&self.is_flat);
+        pairs.all(|((&pair, between), was_flat)| !was_flat || are_flat(&cones, pair, between))
     }
 
     /// How the clusters move where vertices are displaced like this.
@@ -147,27 +154,53 @@ impl Clusters {
         Motion { means, strays_m, farthest_m: longest_m(displacements) }
     }
 
-    fn cones(&self, x: &[V3], triangles: &[[usize; 3]]) -> Vec<Cone> {
+    /// The cones of all clusters, for those flat within `half_rad`.
+    fn cones(&self, x: &[V3], triangles: &[[usize; 3]], half_rad: f64) -> Vec<Cone> {
         let normal =
             |&[a, b, c]: &[usize; 3]| (x[b] - x[a]).cross(&(x[c] - x[a])).try_normalize(0.0).unwrap_or_default();
         let normals: Vec<V3> = triangles.iter().map(normal).collect();
         let cone = |around: &Vec<usize>| {
             let axis = around.iter().map(|&t| normals[t]).sum::<V3>().try_normalize(0.0).unwrap_or_default();
             let least = around.iter().map(|&t| axis.dot(&normals[t])).fold(1.0, f64::min);
-            Cone { axis, half_rad: least.clamp(-1.0, 1.0).acos() }
+            let left_rad = half_rad - least.clamp(-1.0, 1.0).acos();
+            // Nothing is flat with what is not so itself.
+            let nearest = if left_rad > 0.0 { (2.0 * left_rad).cos() } else { f64::MAX };
+            Cone { axis, nearest }
         };
         self.around.iter().map(cone).collect()
     }
+}
+
+/// Whether two clusters are flat with each other and with all between them.
+fn are_flat(cones: &[Cone], [a, b]: [usize; 2], between: &[usize]) -> bool {
+    let [one, other] = [&cones[a], &cones[b]];
+    one.is_flat_with(other) && between.iter().all(|&c| one.is_flat_with(&cones[c]) && cones[c].is_flat_with(other))
+}
+
+/// Of `count` clusters that `links` join: the pairs that are joined, also by way of others, or one twice, and the clusters between
+/// those that no link joins.
+fn hanging_together(count: usize, links: impl Iterator<Item = [usize; 2]>) -> (PairList, Vec<Vec<usize>>) {
+    let links = PairList::new(links.chain((0..count).map(|c| [c, c])));
+    let mut next_to = vec![Vec::new(); count];
+    for &[a, b] in links.pairs().iter().filter(|[a, b]| a != b) {
+        next_to[a].push(b);
+        next_to[b].push(a);
+    }
+    let by_way = next_to.iter().flat_map(|around| around.iter().flat_map(|&a| around.iter().map(move |&b| [a, b])));
+    let joined = PairList::new(links.pairs().iter().copied().chain(by_way));
+    let mut between = vec![Vec::new(); joined.pairs().len()];
+    for (c, around) in next_to.iter().enumerate() {
+        for (k, &a) in around.iter().enumerate() {
+            for &b in around[k + 1..].iter().filter(|b| links.slot(a, **b).is_none()) {
+                between[joined.slot(a, b).expect("both are next to it")].push(c);
+            }
+        }
+    }
+    (joined, between)
 }
 
 /// Length of the longest vector, m.
 #[must_use]
 pub fn longest_m(vectors: &[V3]) -> f64 {
     vectors.iter().map(V3::norm_squared).fold(0.0, f64::max).sqrt()
-}
-
-/// Half the angle of the cone about the normals of two clusters, rad.
-fn spread_rad(a: &Cone, b: &Cone) -> f64 {
-    let apart = a.axis.dot(&b.axis).clamp(-1.0, 1.0).acos();
-    0.5 * apart + a.half_rad.max(b.half_rad)
 }

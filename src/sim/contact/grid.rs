@@ -1,5 +1,6 @@
 //! Things by place: a uniform grid, filled by counting, so that its order never depends on a hash.
 
+use super::bounds::Bounds;
 use crate::geom::V3;
 
 /// Boxes by the grid cells they touch.
@@ -15,73 +16,6 @@ pub struct BoxGrid {
 
 /// Most cells: beyond that they grow.
 const MOST_CELLS: f64 = 1e6;
-
-/// Lowest and highest corner in single precision; never smaller than what they bound.
-#[derive(Clone, Copy, Default)]
-pub struct Bounds {
-    low: [f32; 3],
-    high: [f32; 3],
-}
-
-impl Bounds {
-    /// Of no points.
-    pub const NOTHING: Self = Self { low: [f32::MAX; 3], high: [f32::MIN; 3] };
-
-    /// Of some points, widened by `reach_m`.
-    #[must_use]
-    pub fn around<const N: usize>(points: [&V3; N], reach_m: f64) -> Self {
-        let (mut low, mut high) = (*points[0], *points[0]);
-        for p in &points[1..] {
-            (low, high) = (low.inf(p), high.sup(p));
-        }
-        Self::new(&(low - V3::repeat(reach_m)), &(high + V3::repeat(reach_m)))
-    }
-
-    /// About both.
-    #[must_use]
-    pub fn with(&self, other: &Self) -> Self {
-        let mut sum = *self;
-        for k in 0..3 {
-            sum.low[k] = sum.low[k].min(other.low[k]);
-            sum.high[k] = sum.high[k].max(other.high[k]);
-        }
-        sum
-    }
-
-    /// Lowest and highest corner.
-    #[must_use]
-    pub fn corners(&self) -> [V3; 2] {
-        [self.low, self.high].map(|corner| V3::from(corner.map(f64::from)))
-    }
-
-    /// Half of the longest side, m.
-    #[must_use]
-    pub fn half_m(&self) -> f64 {
-        let [low, high] = self.corners();
-        0.5 * (high - low).max()
-    }
-
-    /// How far apart two boxes are at least, m; 0 where they overlap.
-    #[must_use]
-    pub fn apart_m(&self, other: &Self) -> f64 {
-        let between = |k: usize| f64::from((self.low[k] - other.high[k]).max(other.low[k] - self.high[k])).max(0.0);
-        (0..3).map(|k| between(k) * between(k)).sum::<f64>().sqrt()
-    }
-
-    fn new(low: &V3, high: &V3) -> Self {
-        Self {
-            low: [low.x, low.y, low.z].map(|c| (c as f32).next_down()),
-            high: [high.x, high.y, high.z].map(|c| (c as f32).next_up()),
-        }
-    }
-
-    /// Whether they overlap.
-    #[must_use]
-    pub fn meets(&self, other: &Self) -> bool {
-        // Without branches: they could not be foretold.
-        (0..3).fold(true, |all, k| all & (self.low[k] <= other.high[k]) & (other.low[k] <= self.high[k]))
-    }
-}
 
 impl BoxGrid {
     /// Sorts the boxes of point sets, each widened by `reach_m`, into cells of `cell_m` or more, for searches about boxes
@@ -119,7 +53,7 @@ impl BoxGrid {
             grid.starts[cell] += grid.starts[cell - 1];
         }
         let mut next = grid.starts.clone();
-        grid.boxes = vec![Default::default(); next[next.len() - 1] as usize];
+        grid.boxes = vec![(Bounds::NOTHING, 0); next[next.len() - 1] as usize];
         for (index, (range, (low, high))) in ranges.iter().zip(&bounds).enumerate() {
             let entry = (Bounds::new(low, high), index as u32);
             grid.each(range, |grid, cell| {

@@ -4,6 +4,7 @@ mod advance;
 mod areas;
 mod barrier;
 pub mod body;
+mod bounds;
 pub mod cloth;
 mod clusters;
 pub mod grid;

@@ -1,7 +1,10 @@
 //! The search for parts of a cloth that are near each other and share no vertex.
 
-use super::clusters::{Clusters, Members, Motion};
-use super::grid::{Bounds, BoxGrid};
+use wide::f32x4;
+
+use super::bounds::{Bounds, rounded};
+use super::clusters::{Clusters, Motion};
+use super::grid::BoxGrid;
 use super::nearest::Primitives;
 use super::tangle::edges_of;
 use crate::geom::V3;
@@ -15,6 +18,10 @@ pub struct Neighbours<'a> {
     clusters: Clusters,
     /// One of the vertices that a vertex is sewn to, the same for all of them.
     joined: Vec<usize>,
+    /// Positions when the cloth was last looked at, rounded.
+    seen: Vec<f32x4>,
+    /// Boxes about the clusters then.
+    extents: Vec<Bounds>,
     /// Clusters that were near each other when the cloth was last looked at, but for flat ones.
     near: Vec<Near>,
     /// How near, m.
@@ -41,7 +48,17 @@ impl<'a> Neighbours<'a> {
     pub fn new(triangles: &'a [[usize; 3]], vertices: usize) -> Self {
         let edges = edges_of(triangles);
         let clusters = Clusters::new(vertices, triangles, &edges);
-        Self { triangles, edges, clusters, joined: (0..vertices).collect(), near: Vec::new(), horizon_m: 0.0 }
+        let (seen, extents) = (Vec::new(), Vec::new());
+        Self {
+            triangles,
+            edges,
+            clusters,
+            joined: (0..vertices).collect(),
+            seen,
+            extents,
+            near: Vec::new(),
+            horizon_m: 0.0,
+        }
     }
 
     /// Takes the two of each `sewn` pair for one vertex.
@@ -79,10 +96,12 @@ impl<'a> Neighbours<'a> {
     /// Looks at the cloth at `x`: what is flat, and which of the other clusters are within `horizon_m` of each other.
     pub fn look(&mut self, x: &[V3], horizon_m: f64) {
         self.clusters.look(x, self.triangles);
-        let extent = |members: &Members| {
-            members.corners.iter().map(|&v| Bounds::around([&x[v]], 0.0)).fold(Bounds::NOTHING, |sum, b| sum.with(&b))
+        self.seen = x.iter().map(rounded).collect();
+        let extent = |corners: &Vec<usize>| {
+            corners.iter().map(|&v| Bounds::around([self.seen[v]], 0.0)).fold(Bounds::NOTHING, |sum, b| sum.with(&b))
         };
-        let extents: Vec<Bounds> = self.clusters.members.iter().map(extent).collect();
+        self.extents = self.clusters.members.iter().map(|members| extent(&members.corners)).collect();
+        let extents = &self.extents;
         let corners: Vec<V3> = extents.iter().flat_map(Bounds::corners).collect();
         let sets: Vec<[usize; 2]> = (0..extents.len()).map(|c| [2 * c, 2 * c + 1]).collect();
         let half = extents.iter().map(Bounds::half_m).fold(0.0, f64::max);
@@ -124,43 +143,48 @@ impl<'a> Neighbours<'a> {
         self.near.iter().filter_map(wanted).fold(0.0, f64::max)
     }
 
-    /// Takes each pair whose boxes are within `reach` of each other, which is no more than the horizon that the cloth was looked at with;
-    /// all that are within it are among them, but for those within flat cloth.
-    pub fn each_within(&self, x: &[V3], reach: f64, mut take: impl FnMut(Primitives)) {
-        let boxes = Boxes::new(self, x, reach);
-        let extents: Vec<Bounds> = self.clusters.members.iter().map(|members| boxes.around(members)).collect();
-        for near in self.near.iter().filter(|near| near.apart_m <= reach) {
-            self.between(near.clusters, &boxes, &extents, &mut take);
+    /// Takes each pair whose boxes are within `reach_m` of each other where the cloth was last looked at; no farther than the horizon
+    /// then, all that are within it are among them, but for those within flat cloth.
+    pub fn each_within(&self, reach_m: f64, mut take: impl FnMut(Primitives)) {
+        let mut boxes: Vec<Option<Boxes>> = self.clusters.members.iter().map(|_| None).collect();
+        let mut scratch = [Vec::new(), Vec::new()];
+        for near in self.near.iter().filter(|near| near.apart_m <= reach_m) {
+            for c in near.clusters {
+                boxes[c].get_or_insert_with(|| Boxes::new(self, c, reach_m));
+            }
+            if let [Some(one), Some(other)] = near.clusters.map(|c| boxes[c].as_ref()) {
+                self.between([one, other], near.clusters[0] == near.clusters[1], &mut scratch, &mut take);
+            }
         }
     }
 
-    /// Takes the pairs of two clusters.
-    fn between(&self, [p, q]: [usize; 2], boxes: &Boxes, extents: &[Bounds], take: &mut impl FnMut(Primitives)) {
-        let [one, other] = [p, q].map(|c| &self.clusters.members[c]);
-        let near = |members: &[usize], bounds: &[Bounds], of: usize| -> Vec<usize> {
-            members.iter().copied().filter(|&m| bounds[m].meets(&extents[of])).collect()
-        };
-        let mut vertices_triangles = |vertices: &[usize], triangles: &[usize], [p, q]: [usize; 2]| {
-            let triangles = near(triangles, &boxes.triangles, p);
-            for v in near(vertices, &boxes.vertices, q) {
-                for &t in triangles.iter().filter(|&&t| boxes.triangles[t].meets(&boxes.vertices[v])) {
-                    let triangle = self.triangles[t];
-                    if self.are_apart(&[v], &triangle) {
+    /// Takes the pairs of two clusters, or of one with itself.
+    fn between(
+        &self,
+        [one, other]: [&Boxes; 2],
+        is_one: bool,
+        [these, those]: &mut [Vec<Boxed>; 2],
+        take: &mut impl FnMut(Primitives),
+    ) {
+        for [of_vertices, of_triangles] in [[one, other], [other, one]].into_iter().take(if is_one { 1 } else { 2 }) {
+            let vertices = near(&of_vertices.vertices, &of_triangles.all, these);
+            let triangles = near(&of_triangles.triangles, &of_vertices.all, those);
+            for (v, of_vertex) in vertices {
+                for (t, _) in triangles.iter().filter(|(_, of_triangle)| of_triangle.meets(of_vertex)) {
+                    let triangle = self.triangles[*t as usize];
+                    if self.are_apart(&[*v as usize], &triangle) {
                         let [a, b, c] = sorted(triangle);
-                        take(Primitives::VertexTriangle([v, a, b, c]));
+                        take(Primitives::VertexTriangle([*v as usize, a, b, c]));
                     }
                 }
             }
-        };
-        vertices_triangles(&one.vertices, &other.triangles, [p, q]);
-        if p != q {
-            vertices_triangles(&other.vertices, &one.triangles, [q, p]);
         }
         let pairs = self.edges.pairs();
-        let others = near(&other.edges, &boxes.edges, p);
-        for e in near(&one.edges, &boxes.edges, q) {
-            for &f in others.iter().filter(|&&f| (p != q || f > e) && boxes.edges[f].meets(&boxes.edges[e])) {
-                let ([a, b], [c, d]) = (pairs[e.min(f)], pairs[e.max(f)]);
+        let edges = near(&one.edges, &other.all, these);
+        let others = near(&other.edges, &one.all, those);
+        for (e, of_edge) in edges {
+            for (f, _) in others.iter().filter(|(f, of_other)| (!is_one || f > e) && of_other.meets(of_edge)) {
+                let ([a, b], [c, d]) = (pairs[*e.min(f) as usize], pairs[*e.max(f) as usize]);
                 if self.are_apart(&[a, b], &[c, d]) {
                     take(Primitives::EdgeEdge([a, b, c, d]));
                 }
@@ -178,30 +202,38 @@ impl<'a> Neighbours<'a> {
 /// Least cell of the grid, m: smaller ones hold each cluster many times.
 const CELL_M: f64 = 0.02;
 
-/// Boxes about all parts of a cloth, each widened by half the reach.
+/// A vertex, triangle or edge with the box about it.
+type Boxed = (u32, Bounds);
+
+/// Boxes about what belongs to a cluster, each widened by half the reach, and about all of it.
 struct Boxes {
-    vertices: Vec<Bounds>,
-    triangles: Vec<Bounds>,
-    edges: Vec<Bounds>,
+    vertices: Vec<Boxed>,
+    triangles: Vec<Boxed>,
+    edges: Vec<Boxed>,
+    all: Bounds,
 }
 
 impl Boxes {
-    fn new(neighbours: &Neighbours, x: &[V3], reach: f64) -> Self {
-        let half = 0.5 * reach;
+    fn new(neighbours: &Neighbours, cluster: usize, reach_m: f64) -> Self {
+        let (half_m, seen) = (0.5 * reach_m as f32, &neighbours.seen);
+        let members = &neighbours.clusters.members[cluster];
+        let vertex = |&v: &usize| (v as u32, Bounds::around([seen[v]], half_m));
+        let triangle = |&t: &usize| (t as u32, Bounds::around(neighbours.triangles[t].map(|v| seen[v]), half_m));
+        let edge = |&e: &usize| (e as u32, Bounds::around(neighbours.edges()[e].map(|v| seen[v]), half_m));
         Self {
-            vertices: x.iter().map(|p| Bounds::around([p], half)).collect(),
-            triangles: neighbours.triangles.iter().map(|t| Bounds::around(t.map(|v| &x[v]), half)).collect(),
-            edges: neighbours.edges.pairs().iter().map(|e| Bounds::around(e.map(|v| &x[v]), half)).collect(),
+            vertices: members.vertices.iter().map(vertex).collect(),
+            triangles: members.triangles.iter().map(triangle).collect(),
+            edges: members.edges.iter().map(edge).collect(),
+            all: neighbours.extents[cluster].widened(half_m),
         }
     }
+}
 
-    /// The box about all that belongs to a cluster.
-    fn around(&self, members: &Members) -> Bounds {
-        let vertices = members.vertices.iter().map(|&v| &self.vertices[v]);
-        let triangles = members.triangles.iter().map(|&t| &self.triangles[t]);
-        let edges = members.edges.iter().map(|&e| &self.edges[e]);
-        vertices.chain(triangles).chain(edges).fold(Bounds::NOTHING, |sum, bounds| sum.with(bounds))
-    }
+/// Those of `boxed` that reach into a box, in `scratch`.
+fn near<'s>(boxed: &[Boxed], into: &Bounds, scratch: &'s mut Vec<Boxed>) -> &'s [Boxed] {
+    scratch.clear();
+    scratch.extend(boxed.iter().filter(|(_, bounds)| bounds.meets(into)));
+    scratch
 }
 
 #[cfg(test)]
@@ -251,7 +283,7 @@ mod tests {
             let mut neighbours = Neighbours::new(&triangles, x.len());
             let mut found: Vec<Tagged> = Vec::new();
             neighbours.look(&x, 2.0 * reach);
-            neighbours.each_within(&x, reach, |primitives| found.push(tagged(primitives)));
+            neighbours.each_within(reach, |primitives| found.push(tagged(primitives)));
             found.sort_unstable();
             assert!(found.windows(2).all(|two| two[0] != two[1]), "a pair is found twice");
             let mut layers = 0;
@@ -268,6 +300,28 @@ mod tests {
         check(&rolled, true);
         check(&creased, true);
         check(&|p| V3::new(p.x, p.y, 0.0), false);
+    }
+
+    #[test]
+    fn the_sides_of_a_slit_are_held_against_each_other() {
+        let (mut rest, mut triangles) = sheet(24, 8, EDGE_M);
+        let beside = |p: &V2| p.x > 0.12 + 1e-9;
+        let is_cut = |p: &V2| (p.x - 0.12).abs() < 1e-9 && p.y < 0.05 - 1e-9;
+        let cut: Vec<usize> = (0..rest.len()).filter(|&v| is_cut(&rest[v])).collect();
+        let first = rest.len();
+        rest.extend(cut.iter().map(|&v| rest[v]).collect::<Vec<_>>());
+        for triangle in triangles.iter_mut().filter(|t| t.iter().any(|&v| beside(&rest[v]))) {
+            *triangle = triangle.map(|v| cut.iter().position(|&w| w == v).map_or(v, |k| first + k));
+        }
+        let x: Vec<V3> = rest.iter().map(|p| V3::new(p.x, p.y, 0.0)).collect();
+        let mut neighbours = Neighbours::new(&triangles, x.len());
+        neighbours.look(&x, 2.0 * EDGE_M);
+        let mut found: Vec<[usize; 2]> = Vec::new();
+        neighbours.each_within(0.5 * EDGE_M, |primitives| found.extend(primitives.across()));
+        assert_eq!(cut.len(), 5);
+        for (k, &v) in cut.iter().enumerate() {
+            assert!(found.iter().any(|pair| *pair == [v, first + k] || *pair == [first + k, v]), "at {:?}", rest[v]);
+        }
     }
 
     #[test]

@@ -26,6 +26,9 @@ use settle::{Grip, Settled};
 const FAULTLESS_DEPTH_M: f64 = 5e-4;
 /// A garment whose top has come this far up from where it was placed has been squeezed off the body, m.
 const MOST_RISE_M: f64 = 0.25;
+/// Factors on the sewing force with which cloth that crosses itself, and has no other fault, is sewn again: whether a fold that is
+/// drawn tight goes through another is chance, and these keep what is mirrored so.
+const RESEWN: [f64; 2] = [1.5, 0.67];
 
 /// Dresses a body in a garment.
 ///
@@ -37,7 +40,8 @@ const MOST_RISE_M: f64 = 0.25;
 /// A garment that is much too small is squeezed along the body by its own seams as they close, folds into itself at a
 /// narrower place or comes off over the head. Where a tight one ends with a fault or open seams it is therefore sewn once more with
 /// friction from the first seam on; any other that does, from pieces that are bent otherwise, unless how was asked for: a cuff drawn through a wrist, a fold
-/// through a fold are chance. That drape is taken if it has no fault, or if the first has come off.
+/// through a fold are chance. What does nothing worse than cross itself is then sewn with more force, and with less. The first such
+/// drape that has no fault is taken, or, if the garment came off at first, that stays on.
 ///
 /// # Errors
 /// When the garment cannot be placed, is degenerate, its seams stay open, it diverges, slides off the body even so or comes off
@@ -72,36 +76,69 @@ pub fn simulate(
         history: Vec::new(),
         earlier: Vec::new(),
     };
-    let (settled, is_gripped) = match dressing.dress(Grip::AtTheEnd, &mut run) {
-        Err(open @ SimError::Open { .. }) => (dressing.dress_or(open, &mut run)?, true),
-        other => (other?, false),
+    let (settled, grip) = match dressing.dress(Grip::AtTheEnd, &mut run) {
+        Err(open @ SimError::Open { .. }) => (dressing.dress_or(open, &mut run)?, Grip::Throughout),
+        other => (other?, Grip::AtTheEnd),
     };
     let mut drape = ended(settled);
-    let risen_m = rise_m(&placed, &drape.positions);
-    let is_off = risen_m > MOST_RISE_M;
-    if is_off || !is_faultless(&drape) {
-        let is_tight = Distortion::of(finest, &drape.positions)?.stretch > params.distortion_limit;
-        let again = if is_gripped {
-            None
-        } else if is_off || is_tight {
-            Some(dressing.dress(Grip::Throughout, &mut run))
-        } else {
-            let place = |bent: Params| placed_at_start(body, coarsest, &bent);
-            let elsewhere = params.otherwise_bent().map(place).transpose()?;
-            // Trousers and what goes round alone are not bent: from the same start comes the same drape.
-            let elsewhere = elsewhere.filter(|(elsewhere, _)| *elsewhere != placed);
-            elsewhere
-                .map(|(placed, force)| Dressing { placed: &placed, force, ..dressing }.dress(Grip::AtTheEnd, &mut run))
-        };
-        let stays_on = |again: &Drape| rise_m(&placed, &again.positions) <= MOST_RISE_M;
-        match again.map(|settled| settled.map(&ended)) {
-            Some(Err(SimError::Cancelled)) => return Err(SimError::Cancelled),
-            Some(Ok(again)) if stays_on(&again) && (is_off || is_faultless(&again)) => drape = again,
-            _ if is_off => return Err(SimError::CameOff { garment: finest.name.clone(), rise_m: risen_m }),
+    let is_off = |drape: &Drape| rise_m(&placed, &drape.positions) > MOST_RISE_M;
+    let came_off = is_off(&drape);
+    for Start { placed, force, grip } in other_starts(&dressing, grip, &drape, came_off, params)? {
+        match (Dressing { placed: &placed, force, ..dressing }).dress(grip, &mut run).map(&ended) {
+            Err(SimError::Cancelled) => return Err(SimError::Cancelled),
+            Ok(again) if !is_off(&again) && (came_off || is_faultless(&again)) => {
+                drape = again;
+                break;
+            }
             _ => {}
         }
     }
+    if is_off(&drape) {
+        return Err(SimError::CameOff { garment: finest.name.clone(), rise_m: rise_m(&placed, &drape.positions) });
+    }
     Ok(Drape { iterations: run.iterations(), history: run.into_history(), ..drape })
+}
+
+/// A way to put a garment on.
+struct Start {
+    /// Where the vertices of its coarsest mesh are placed, m.
+    placed: Vec<V3>,
+    /// Factor on the sewing force.
+    force: f64,
+    /// When friction begins.
+    grip: Grip,
+}
+
+/// Other ways to put a garment on that was put on as `dressing` says, with this grip, and came off or ended with a fault; in the
+/// order in which to try them.
+fn other_starts(
+    dressing: &Dressing,
+    grip: Grip,
+    drape: &Drape,
+    came_off: bool,
+    params: &Params,
+) -> Result<Vec<Start>, SimError> {
+    let mut starts = Vec::new();
+    let (Some(coarsest), Some(finest)) = (dressing.garments.first(), dressing.garments.last()) else {
+        return Ok(starts);
+    };
+    if !came_off && is_faultless(drape) {
+        return Ok(starts);
+    }
+    let (placed, force) = (dressing.placed.to_vec(), dressing.force);
+    if grip == Grip::AtTheEnd {
+        if came_off || Distortion::of(finest, &drape.positions)?.stretch > params.distortion_limit {
+            starts.push(Start { placed: placed.clone(), force, grip: Grip::Throughout });
+        } else if let Some(bent) = params.otherwise_bent() {
+            let (elsewhere, force) = placed_at_start(dressing.body, coarsest, &bent)?;
+            // Trousers and what goes round alone are not bent: from the same start comes the same drape.
+            starts.extend((elsewhere != placed).then_some(Start { placed: elsewhere, force, grip }));
+        }
+    }
+    if !came_off && only_crosses(drape) {
+        starts.extend(RESEWN.map(|factor| Start { placed: placed.clone(), force: factor * force, grip }));
+    }
+    Ok(starts)
 }
 
 /// Where a garment starts, as perturbed, m, and the factor on its sewing force.
@@ -114,6 +151,11 @@ fn placed_at_start(body: &Body, garment: &Garment, params: &Params) -> Result<(V
 /// Whether a drape is what was asked for: at rest, outside the body, and not through itself.
 fn is_faultless(drape: &Drape) -> bool {
     drape.converged && drape.penetration_max_m <= FAULTLESS_DEPTH_M && drape.self_crossings == 0
+}
+
+/// Whether nothing but crossings is at fault.
+fn only_crosses(drape: &Drape) -> bool {
+    drape.self_crossings > 0 && is_faultless(&Drape { self_crossings: 0, ..drape.clone() })
 }
 
 /// How far the top of a garment has come up from where it was placed, m.

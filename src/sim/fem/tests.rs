@@ -232,3 +232,53 @@ fn lapels_are_sewn_onto_the_closed_garment_and_cross_nothing() {
     // In the first run: a second would say that the first had a fault.
     assert!(drape.history.windows(2).filter(|two| two[1].level < two[0].level).count() == 0);
 }
+
+#[test]
+fn what_ends_with_a_fault_is_put_on_otherwise() {
+    let body = body::build(&Measurements::of(Sex::Male, 1.75)).expect("a body");
+    let field = DistanceField::build(&body.mesh, 0.01).expect("a closed body");
+    let cotton = fabric::library().into_iter().find(|f| f.name == "cotton_shirting_light").expect("in the library");
+    let (garments, params) = (levels(Model::Tshirt, 0.06), Params::default());
+    let placed = preposition::place(&body, &garments[0], &params).expect("all roles are known");
+    let dressing = Dressing {
+        body: &body,
+        skin: None,
+        field: &field,
+        hands: None,
+        garments: &garments,
+        fabric: &cotton,
+        placed: &placed,
+        force: 1.0,
+    };
+    let flat =
+        |stretch: f64| -> Vec<V3> { garments[0].rest.iter().map(|p| V3::new(p.x, stretch * p.y, 0.0)).collect() };
+    let check =
+        |what: &str, grip: Grip, fault: (f64, usize), stretch: f64, came_off: bool, expect: &[(Grip, f64, bool)]| {
+            let drape = Drape {
+                stage: Stage::Drape,
+                converged: true,
+                iterations: 1,
+                residual: 0.0,
+                penetration_max_m: fault.0,
+                seam_gap_max_m: 0.0,
+                self_crossings: fault.1,
+                welded_vertices: 1,
+                positions: flat(stretch),
+                history: Vec::new(),
+                earlier: Vec::new(),
+            };
+            let starts = other_starts(&dressing, grip, &drape, came_off, &params).expect("it can be placed");
+            let found: Vec<_> = starts.iter().map(|s| (s.grip, s.force, s.placed == placed)).collect();
+            assert!(found == expect, "{what}: {} starts", found.len());
+        };
+    let (late, early) = (Grip::AtTheEnd, Grip::Throughout);
+    let resewn = |grip| RESEWN.map(|force| (grip, force, true));
+    check("faultless", late, (1e-4, 0), 1.0, false, &[]);
+    check("deep", late, (2e-3, 0), 1.0, false, &[(late, 1.0, false)]);
+    check("deep and crossed", late, (2e-3, 4), 1.0, false, &[(late, 1.0, false)]);
+    check("crossed", late, (1e-4, 4), 1.0, false, &[&[(late, 1.0, false)][..], &resewn(late)].concat());
+    check("tight and crossed", late, (1e-4, 4), 1.5, false, &[&[(early, 1.0, true)][..], &resewn(late)].concat());
+    check("crossed with friction", early, (1e-4, 4), 1.5, false, &resewn(early));
+    check("come off", late, (1e-4, 4), 1.0, true, &[(early, 1.0, true)]);
+    check("come off with friction", early, (1e-4, 4), 1.0, true, &[]);
+}

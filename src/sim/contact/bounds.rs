@@ -1,0 +1,120 @@
+//! Boxes along the axes, in vector registers: the search for near cloth compares a hundred thousand of them.
+
+use wide::f32x4;
+
+use crate::geom::V3;
+
+/// Lowest and highest corner in single precision; never smaller than what they bound. The fourth number is zero.
+#[derive(Clone, Copy, Debug)]
+pub struct Bounds {
+    low: f32x4,
+    high: f32x4,
+}
+
+/// What boxes are widened by, as a share of where they lie and of what is added: all that rounding can have taken.
+const ROUNDING: f32 = 2.0 * f32::EPSILON;
+
+/// A point in single precision, as [`Bounds::around`] takes it.
+#[must_use]
+#[inline(always)]
+pub fn rounded(p: &V3) -> f32x4 {
+    f32x4::from([p.x as f32, p.y as f32, p.z as f32, 0.0])
+}
+
+impl Bounds {
+    /// Of no points.
+    pub const NOTHING: Self = Self {
+        low: f32x4::new([f32::MAX, f32::MAX, f32::MAX, 0.0]),
+        high: f32x4::new([f32::MIN, f32::MIN, f32::MIN, 0.0]),
+    };
+
+    /// From the lowest to the highest corner.
+    #[must_use]
+    pub fn new(low: &V3, high: &V3) -> Self {
+        Self { low: rounded(low), high: rounded(high) }.widened(0.0)
+    }
+
+    /// Of some points, widened by `reach_m`.
+    #[must_use]
+    #[inline(always)]
+    pub fn around<const N: usize>(points: [f32x4; N], reach_m: f32) -> Self {
+        let (mut low, mut high) = (points[0], points[0]);
+        for p in &points[1..] {
+            (low, high) = (low.fast_min(*p), high.fast_max(*p));
+        }
+        Self { low, high }.widened(reach_m)
+    }
+
+    /// Wider by so much on all sides.
+    #[must_use]
+    #[inline(always)]
+    pub fn widened(&self, reach_m: f32) -> Self {
+        let reach = f32x4::from([reach_m, reach_m, reach_m, 0.0]);
+        let rounding = f32x4::splat(ROUNDING);
+        let (low, high) = (self.low - reach, self.high + reach);
+        Self { low: low - (low.abs() + reach) * rounding, high: high + (high.abs() + reach) * rounding }
+    }
+
+    /// About both.
+    #[must_use]
+    pub fn with(&self, other: &Self) -> Self {
+        Self { low: self.low.fast_min(other.low), high: self.high.fast_max(other.high) }
+    }
+
+    /// Lowest and highest corner.
+    #[must_use]
+    pub fn corners(&self) -> [V3; 2] {
+        [self.low, self.high].map(|corner| {
+            let [x, y, z, _] = corner.to_array().map(f64::from);
+            V3::new(x, y, z)
+        })
+    }
+
+    /// Half of the longest side, m.
+    #[must_use]
+    pub fn half_m(&self) -> f64 {
+        let [low, high] = self.corners();
+        0.5 * (high - low).max()
+    }
+
+    /// How far apart two boxes are at least, m; 0 where they overlap.
+    #[must_use]
+    pub fn apart_m(&self, other: &Self) -> f64 {
+        let between = (self.low - other.high).fast_max(other.low - self.high).fast_max(f32x4::ZERO);
+        between.to_array().iter().map(|d| f64::from(*d) * f64::from(*d)).sum::<f64>().sqrt()
+    }
+
+    /// Whether they overlap.
+    #[must_use]
+    #[inline(always)]
+    pub fn meets(&self, other: &Self) -> bool {
+        (self.low.simd_le(other.high) & other.low.simd_le(self.high)).all()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::laboratory::sheets::noise;
+
+    #[test]
+    fn boxes_hold_what_they_bound_and_know_how_far_apart_they_are() {
+        let numbers = noise(600, 5);
+        let points: Vec<V3> = numbers.chunks(3).map(|c| V3::new(c[0], 3.0 * c[1], 0.01 * c[2])).collect();
+        for (k, two) in points.windows(2).enumerate() {
+            let reach_m = 1e-3 * k as f64;
+            let bounds = Bounds::around([rounded(&two[0]), rounded(&two[1])], reach_m as f32);
+            let [low, high] = bounds.corners();
+            let reach = V3::repeat(reach_m);
+            let slack = [two[0].inf(&two[1]) - reach - low, high - two[0].sup(&two[1]) - reach];
+            assert!(slack.iter().all(|s| s.min() >= 0.0 && s.max() < 3e-6), "{two:?} in {bounds:?}");
+        }
+        let at = |x: f64, y: f64| Bounds::new(&V3::new(x, y, 0.0), &V3::new(x + 1.0, y + 1.0, 1.0));
+        for (x, y, expect) in [(0.5, 0.5, 0.0), (1.0, 0.0, 0.0), (4.0, 0.0, 3.0), (-4.0, 5.0, 5.0)] {
+            let (one, other) = (at(0.0, 0.0), at(x, y));
+            assert!((one.apart_m(&other) - expect).abs() < 1e-5 && one.meets(&other) == (expect == 0.0), "{x}, {y}");
+            assert!(Bounds::NOTHING.with(&other).meets(&one) == (expect == 0.0));
+        }
+        assert!(!Bounds::NOTHING.meets(&at(0.0, 0.0)));
+    }
+}
