@@ -71,6 +71,16 @@ const CLASSES: [(Class, &[&str]); 7] = [
             "passepoil",
             "stay",
             "tab",
+            "zip",
+            "zipper",
+            "reißverschluss",
+            "reissverschluss",
+            "fermeture",
+            "cremallera",
+            "cerniera",
+            "ritssluiting",
+            "молни",
+            "блискавк",
         ],
     ),
     (
@@ -261,6 +271,8 @@ mod tests {
         check("Спинка", None, Some(Back), None);
         check("Полочка", None, Some(Front), None);
         check("Підборт", Some(Other), None, None);
+        check("CORNELIUS ZIPPERGUARD", Some(Other), None, None);
+        check("Застёжка-молния", Some(Other), None, None);
         check("YOKE", Some(Yoke), None, None);
         check("Back Yoke", Some(Yoke), Some(Back), None);
         check("YOKE LINING", Some(Other), None, None);
