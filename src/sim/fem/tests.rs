@@ -88,6 +88,17 @@ fn levels(model: Model, edge_m: f64) -> Vec<Garment> {
     level_edges(edge_m).into_iter().map(|edge| style.mesh(edge).expect("a mesh")).collect()
 }
 
+/// A garment that is put on a body without hands or exact skin.
+fn dressing<'a>(
+    body: &'a Body,
+    field: &'a DistanceField,
+    garments: &'a [Garment],
+    fabric: &'a Fabric,
+    placed: &'a [V3],
+) -> Dressing<'a> {
+    Dressing { body, skin: None, field, hands: None, garments, fabric, placed, force: 1.0 }
+}
+
 #[test]
 fn mirrored_input_gives_the_mirrored_result_and_the_same_input_the_same_bits() {
     let body = lopsided();
@@ -200,16 +211,7 @@ fn a_garment_that_its_seams_squeeze_off_the_body_is_sewn_again_with_friction_or_
     let params = Params::default();
     let placed = preposition::place(&body, &garments[0], &params).expect("all roles are known");
     let skin = Skin::new(&body.mesh).expect("a closed body");
-    let dressing = Dressing {
-        body: &body,
-        skin: Some(&skin),
-        field: &field,
-        hands: None,
-        garments: &garments,
-        fabric: &cotton,
-        placed: &placed,
-        force: 1.0,
-    };
+    let dressing = Dressing { skin: Some(&skin), ..dressing(&body, &field, &garments, &cotton, &placed) };
     let once = dressing.dress(Grip::AtTheEnd, &mut Run::new(&params, &mut Silent, 0)).expect("it comes to rest");
     assert!(rise_m(&placed, &once.positions) > MOST_RISE_M, "without friction it stays on, and shows nothing");
     let worn = |fabric: &Fabric| simulate(&body, &field, &garments, fabric, &params, &mut Silent);
@@ -240,16 +242,7 @@ fn what_ends_with_a_fault_is_put_on_otherwise() {
     let cotton = fabric::library().into_iter().find(|f| f.name == "cotton_shirting_light").expect("in the library");
     let (garments, params) = (levels(Model::Tshirt, 0.06), Params::default());
     let placed = preposition::place(&body, &garments[0], &params).expect("all roles are known");
-    let dressing = Dressing {
-        body: &body,
-        skin: None,
-        field: &field,
-        hands: None,
-        garments: &garments,
-        fabric: &cotton,
-        placed: &placed,
-        force: 1.0,
-    };
+    let dressing = dressing(&body, &field, &garments, &cotton, &placed);
     let flat =
         |stretch: f64| -> Vec<V3> { garments[0].rest.iter().map(|p| V3::new(p.x, stretch * p.y, 0.0)).collect() };
     let check =
