@@ -135,7 +135,7 @@ fn other_starts(
             starts.extend((elsewhere != placed).then_some(Start { placed: elsewhere, force, grip }));
         }
     }
-    if !came_off && only_crosses(drape) {
+    if !came_off && rests_outside(drape) {
         starts.extend(RESEWN.map(|factor| Start { placed: placed.clone(), force: factor * force, grip }));
     }
     Ok(starts)
@@ -150,12 +150,12 @@ fn placed_at_start(body: &Body, garment: &Garment, params: &Params) -> Result<(V
 
 /// Whether a drape is what was asked for: at rest, outside the body, and not through itself.
 fn is_faultless(drape: &Drape) -> bool {
-    drape.converged && drape.penetration_max_m <= FAULTLESS_DEPTH_M && drape.self_crossings == 0
+    rests_outside(drape) && drape.self_crossings == 0
 }
 
-/// Whether nothing but crossings is at fault.
-fn only_crosses(drape: &Drape) -> bool {
-    drape.self_crossings > 0 && is_faultless(&Drape { self_crossings: 0, ..drape.clone() })
+/// Whether it is at rest and outside the body.
+fn rests_outside(drape: &Drape) -> bool {
+    drape.converged && drape.penetration_max_m <= FAULTLESS_DEPTH_M
 }
 
 /// How far the top of a garment has come up from where it was placed, m.
