@@ -241,8 +241,8 @@ impl<'a> BodyContact<'a> {
     /// is given back. Where the cloth `is_at_rest` and a point held before is inside all the same, the cloth presses so
     /// hard there that the penalty yields: its offset grows by as much (an augmented penalty).
     pub fn hold_out(&mut self, skin: &Skin, triangles: &[[usize; 3]], x: &[V3], is_at_rest: bool) -> f64 {
-        let mut known: BTreeMap<[usize; 3], usize> =
-            self.samples.iter().enumerate().map(|(k, sample)| (sample.vertices, k)).collect();
+        let between = self.samples.iter().enumerate().skip(self.vertices);
+        let mut known: BTreeMap<[usize; 3], usize> = between.map(|(k, sample)| (sample.vertices, k)).collect();
         let mut deepest = 0.0_f64;
         for sample in self.candidates(triangles) {
             let p = sample.at(x);
@@ -252,8 +252,11 @@ impl<'a> BodyContact<'a> {
             }
             let Some(depth) = skin.depth(&p, distance) else { continue };
             deepest = deepest.max(depth);
-            let is_held = known.contains_key(&sample.vertices);
-            let index = *known.entry(sample.vertices).or_insert_with(|| {
+            let [first, _, last] = sample.vertices;
+            let held_as = if first == last { Some(first) } else { known.get(&sample.vertices).copied() };
+            let is_held = held_as.is_some();
+            let index = held_as.unwrap_or_else(|| {
+                known.insert(sample.vertices, self.samples.len());
                 self.samples.push(sample);
                 self.samples.len() - 1
             });

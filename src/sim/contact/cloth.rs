@@ -5,9 +5,9 @@
 //! as two layers come near ([`super::barrier`]), so that tension does not draw one through the other, and no step may
 //! take it through: where a pair would meet on the way from the last step ([`super::advance`]) the energy is infinite. All
 //! pairs that share no vertex are watched, but for those within flat cloth ([`super::clusters`]), so what does not cross hardly
-//! ever comes to: only what is pressed to within a thousandth of a millimetre may pass. Pairs are sought within a reach, and
-//! steps go no farther than pairs beyond it need to meet, so none is met unseen; what many vertices do together brings none nearer
-//! ([`super::clusters`]). Cloth that already crosses when it is first seen passes through itself there,
+//! ever comes to: only what is pressed to within a thousandth of a millimetre may pass. Pairs are sought within a reach, farther where
+//! clusters of cloth close in on each other faster, and steps go no farther than pairs beyond it need to meet, so none is met unseen;
+//! what many vertices do together brings none nearer ([`super::clusters`]). Cloth that already crosses when it is first seen passes through itself there,
 //! while the line along which it crosses is drawn out of it ([`super::knots`]). There is no friction between layers.
 
 use std::borrow::Cow;
@@ -97,7 +97,6 @@ pub struct ClothContact<'a> {
     /// The same as they were found.
     found: Vec<Pair>,
     found_at: Vec<V3>,
-    reach_m: f64,
     /// Where the cloth was at the last step.
     last: Vec<V3>,
     /// How much nearer than there unknown pairs may come before they could meet, m.
@@ -118,7 +117,6 @@ impl<'a> ClothContact<'a> {
             pairs: Vec::new(),
             found: Vec::new(),
             found_at: Vec::new(),
-            reach_m,
             last: Vec::new(),
             room_m: 0.0,
             knots: Knots::new(triangles, params.release_n, params.release_steps),
@@ -165,7 +163,6 @@ impl<'a> ClothContact<'a> {
             pairs: self.pairs.iter().filter_map(renamed).collect(),
             found: Vec::new(),
             found_at: part.of(&self.found_at),
-            reach_m: self.reach_m,
             last: x.to_vec(),
             room_m: self.room_m,
             knots: Knots::new(&[], 0.0, 0),
@@ -200,8 +197,8 @@ impl<'a> ClothContact<'a> {
     /// Whether what is known of near pairs does for more steps like the one that led to `x`; finds how much room is left there.
     fn lasts(&mut self, neighbours: &Neighbours, x: &[V3], step: &Motion) -> bool {
         let made = neighbours.motion(&differences(x, &self.found_at));
-        self.room_m = neighbours.room_m(self.reach_m, [(&made, 1.0)]);
-        neighbours.room_m(self.reach_m, [(&made, 1.0), (step, STEPS_AHEAD[0])]) >= self.params.thickness_m
+        self.room_m = neighbours.room_m([(&made, 1.0)]);
+        neighbours.room_m([(&made, 1.0), (step, STEPS_AHEAD[0])]) >= self.params.thickness_m
     }
 
     /// Whether the cloth may have come to cross itself: it did already, or touched at the last step and may have passed since, or was
@@ -232,7 +229,7 @@ impl<'a> ClothContact<'a> {
             Some(neighbours) if share < 1.0 => {
                 let made = neighbours.motion(&differences(&self.last, &self.found_at));
                 let next = neighbours.motion(displacements);
-                FREE_SHARE * neighbours.free_share(self.reach_m, &made, &next)
+                FREE_SHARE * neighbours.free_share(&made, &next)
             }
             _ => share,
         }
@@ -243,7 +240,7 @@ impl<'a> ClothContact<'a> {
         2.0 * farthest(x, &self.last) < self.room_m
             || self.neighbours.as_ref().is_some_and(|neighbours| {
                 let made = neighbours.motion(&differences(x, &self.found_at));
-                neighbours.room_m(self.reach_m, [(&made, 1.0)]) > 0.0
+                neighbours.room_m([(&made, 1.0)]) > 0.0
             })
     }
 
@@ -252,21 +249,19 @@ impl<'a> ClothContact<'a> {
         let ClothContactParams { thickness_m, reach_m: most_m, .. } = self.params;
         let [least_steps, steps] = STEPS_AHEAD;
         neighbours.look(x, step.map_or(2.0 * most_m, |step| (2.0 * steps * step.farthest_m).max(most_m)));
-        let reach_m = step.map_or(most_m, |step| {
-            let closing = |clusters| {
-                let closing_m = step.closing_m(clusters);
-                thickness_m + (steps * closing_m).max(least_steps * closing_m + LEAST_SLACK_M)
-            };
-            neighbours.wanted_m(closing).clamp(thickness_m + LEAST_SLACK_M, most_m)
-        });
+        let reach_m = |clusters| {
+            let closing_m = step.map_or(f64::INFINITY, |step| step.closing_m(clusters));
+            let slack_m = (steps * closing_m).max(least_steps * closing_m + LEAST_SLACK_M);
+            (thickness_m + slack_m).min(most_m)
+        };
         let found = &mut self.found;
         found.clear();
         let mut ends = [0; SHELLS as usize + 1];
-        neighbours.each_within(reach_m, |primitives| {
+        neighbours.each_within(reach_m, |primitives, reach_m| {
             let distance_m = Nearest::of(x, primitives).gap.norm();
             if distance_m < reach_m {
                 found.push(Pair { primitives, distance_m });
-                ends[usize::from(shell(distance_m, reach_m)) + 1] += 1;
+                ends[usize::from(shell(distance_m, most_m)) + 1] += 1;
             }
         });
         // Sorted by counting: where each shell begins.
@@ -276,20 +271,20 @@ impl<'a> ClothContact<'a> {
         self.pairs.clear();
         self.pairs.resize(found.len(), Pair { primitives: Primitives::EdgeEdge([0; 4]), distance_m: 0.0 });
         for pair in found {
-            let at = &mut ends[usize::from(shell(pair.distance_m, reach_m))];
+            let at = &mut ends[usize::from(shell(pair.distance_m, most_m))];
             self.pairs[*at] = *pair;
             *at += 1;
         }
-        (self.reach_m, self.found_at) = (reach_m, x.to_vec());
-        self.room_m = neighbours.room_m(reach_m, []);
+        self.found_at = x.to_vec();
+        self.room_m = neighbours.room_m([]);
     }
 
     /// Pairs that can be nearer than `within_m` at any of some places, or on the way between them.
     fn near<const N: usize>(&self, places: [&[V3]; N], within_m: f64) -> impl Iterator<Item = Primitives> {
         let moved = places.map(|x| differences(x, &self.found_at));
         let most_m = moved.iter().map(|d| longest_m(d)).fold(0.0, f64::max);
-        let last = shell(within_m + 2.0 * most_m, self.reach_m);
-        let nearest = self.pairs.partition_point(|pair| shell(pair.distance_m, self.reach_m) <= last);
+        let last = shell(within_m + 2.0 * most_m, self.params.reach_m);
+        let nearest = self.pairs.partition_point(|pair| shell(pair.distance_m, self.params.reach_m) <= last);
         let is_near = move |pair: &&Pair| {
             let spare_m = pair.distance_m - within_m;
             let closes = |[a, b]: [usize; 2]| moved.iter().any(|d| (d[a] - d[b]).norm_squared() > spare_m * spare_m);

@@ -21,6 +21,9 @@ const STEP_M: f64 = 2e-3;
 ///
 /// What comes free lies far nearer than cloth that was never crossed. Pushed apart at once by all that a contact can, it is thrown
 /// through whatever lies behind it, caught there, drawn out, and thrown again. So its contact starts thin, and grows.
+///
+/// What still crosses when it has been drawn for long enough is left: from then on all that crosses may pass for good. At the edge of
+/// such a knot pairs would come free, be pushed back into it as soon as their contact has grown, and come free again for ever.
 pub struct Knots {
     wings: Wings,
     /// Pairs of vertices, one of an edge and one of a triangle that it pierces, both ways round, sorted.
@@ -32,6 +35,8 @@ pub struct Knots {
     force_n: [f64; 2],
     /// Steps for which crossings are still drawn out.
     steps_left: u32,
+    /// Whether they are not to be.
+    are_left_alone: bool,
     /// Fewest crossings since there have been any, and for how many steps they have not got fewer.
     least: (usize, u32),
 }
@@ -47,13 +52,14 @@ impl Knots {
             releases: Vec::new(),
             force_n: [force_n; 2],
             steps_left: steps,
+            are_left_alone: false,
             least: (usize::MAX, 0),
         }
     }
 
     /// Leaves what crosses alone.
     pub fn leave(&mut self) {
-        self.steps_left = 0;
+        self.are_left_alone = true;
     }
 
     /// Whether nothing crosses.
@@ -86,6 +92,9 @@ impl Knots {
             let each = edge.iter().flat_map(|&v| triangle.map(|w| [[v, w], [w, v]]));
             self.passing.extend(each.flatten());
         }
+        if self.steps_left == 0 {
+            self.passing.extend(&before);
+        }
         self.passing.sort_unstable();
         self.passing.dedup();
         let free = before.into_iter().filter(|pair| self.passing.binary_search(pair).is_err());
@@ -93,7 +102,7 @@ impl Knots {
         self.fresh.sort_unstable();
         self.fresh.dedup_by_key(|(pair, _)| *pair);
         self.releases.clear();
-        if self.steps_left > 0 && !found.is_empty() {
+        if self.steps_left > 0 && !found.is_empty() && !self.are_left_alone {
             self.steps_left -= 1;
             self.releases.extend(found.iter().filter_map(|crossing| Release::of(x, &self.wings, crossing)));
         }

@@ -220,6 +220,25 @@ fn what_does_not_come_free_is_drawn_harder_until_it_does() {
 }
 
 #[test]
+fn what_has_been_drawn_for_long_enough_passes_for_good() {
+    let (areas, triangles) = ([1e-4; 6], [[0, 1, 2], [3, 4, 5]]);
+    let check = |crossed_for: usize, passes: bool| {
+        let params = ClothContactParams { release_steps: 3, ..ClothContactParams::default() };
+        let mut contact = ClothContact::new(params, &triangles, &areas);
+        (0..crossed_for).for_each(|_| contact.update(&poking(-1e-3)));
+        // Free again and at rest: its contact would have its whole thickness.
+        contact.update(&poking(1e-4));
+        assert_eq!(contact.ripen(), !passes, "after {crossed_for} steps");
+        assert_eq!(contact.pressed_energy(&poking(1e-4)) == 0.0, passes, "after {crossed_for} steps");
+        assert_eq!(contact.is_untangled(), !passes, "after {crossed_for} steps");
+    };
+    check(1, false);
+    check(2, false);
+    check(3, true);
+    check(9, true);
+}
+
+#[test]
 fn what_has_come_free_is_pushed_apart_little_by_little() {
     let (areas, triangles) = ([1e-4; 6], [[0, 1, 2], [3, 4, 5]]);
     let contact = || ClothContact::new(ClothContactParams::default(), &triangles, &areas);
