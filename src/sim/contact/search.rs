@@ -307,7 +307,7 @@ mod tests {
         };
         // Pairs of clusters that go by themselves are sought less far than others.
         let mixed = |[p, q]: [usize; 2]| if (p + q) % 3 == 0 { reach } else { 0.7 * reach };
-        for within in [&|_| reach as f64, &mixed as &dyn Fn([usize; 2]) -> f64] {
+        for within in [&|_| reach, &mixed as &dyn Fn([usize; 2]) -> f64] {
             check(&rolled, within, true);
             check(&creased, within, true);
             check(&|p| V3::new(p.x, p.y, 0.0), within, false);
