@@ -137,8 +137,8 @@ impl<'a> Neighbours<'a> {
         self.near.iter().map(share).fold(far, f64::min)
     }
 
-    /// Takes each pair whose boxes are `within_m` of each other where the cloth was last looked at, which its two clusters tell, with that
-    /// distance; no farther than the horizon then, all that are within it are among them, but for those within flat cloth.
+    /// Takes each pair whose boxes were near each other when the cloth was last looked at: as near as `within_m` asks for their two
+    /// clusters, which it is told too. If that is within the horizon, all pairs so near are among them, but for those within flat cloth.
     pub fn each_within(&mut self, within_m: impl Fn([usize; 2]) -> f64, mut take: impl FnMut(Primitives, f64)) {
         let mut near = std::mem::take(&mut self.near);
         let mut boxes: Vec<Option<Boxes>> = self.clusters.members.iter().map(|_| None).collect();
