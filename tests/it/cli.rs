@@ -294,6 +294,22 @@ fn sql_reads_and_never_writes() {
 }
 
 #[test]
+fn every_question_in_the_documentation_is_answered() {
+    let place = Place::new();
+    place.toile("info").ends_with(0);
+    let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/sql.md")).expect("in the repository");
+    let queries: Vec<&str> =
+        text.split("```sql\n").skip(1).filter_map(|rest| Some(rest.split_once("```")?.0)).collect();
+    assert_eq!(queries.len(), 20);
+    for query in queries {
+        let output = place.command("sql").arg(query).output().expect("it starts");
+        assert!(output.status.success(), "{query}: {}", String::from_utf8_lossy(&output.stderr));
+        // Chi is stored for every stage of Hybrid-GS: a question about both simulators has to say which it means.
+        assert!(!query.contains("v_chi") || query.contains("'drape'") || query.contains("job_id = 1"), "{query}");
+    }
+}
+
+#[test]
 fn pattern_inspect_has_its_keys() {
     let place = Place::new();
     place.draft();
