@@ -252,6 +252,7 @@ impl<'a> BodyContact<'a> {
             }
             let Some(depth) = skin.depth(&p, distance) else { continue };
             deepest = deepest.max(depth);
+            // The vertices are the first samples, each by its number.
             let [first, _, last] = sample.vertices;
             let held_as = if first == last { Some(first) } else { known.get(&sample.vertices).copied() };
             let is_held = held_as.is_some();

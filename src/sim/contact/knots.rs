@@ -35,7 +35,7 @@ pub struct Knots {
     force_n: [f64; 2],
     /// Steps for which crossings are still drawn out.
     steps_left: u32,
-    /// Whether they are not to be.
+    /// Whether they are left alone from the first.
     are_left_alone: bool,
     /// Fewest crossings since there have been any, and for how many steps they have not got fewer.
     least: (usize, u32),
