@@ -8,7 +8,8 @@ use dxf::entities::{Entity, EntityType};
 use super::figures::{Figure, Placement, figure};
 use super::guard::Foreign;
 use super::outline::{
-    Line, MOST_LINES, check_simple, counter_clockwise, cut_loops, cut_spikes, joined, sew_line, text_mm, without_copies,
+    Line, MOST_LINES, check_simple, counter_clockwise, cut_loops, cut_spikes, joined, part_touching, sew_line, text_mm,
+    without_copies,
 };
 use crate::geom::V2;
 use crate::geom::polyline::signed_area;
@@ -241,6 +242,12 @@ impl Drawn {
         if !spikes.is_empty() {
             let places = places(&spikes);
             remarks.push(format!("block `{block}`: its outline runs out to {places} and back over itself: cut away"));
+        }
+        let parted = part_touching(&mut outline);
+        if !parted.is_empty() {
+            let places = places(&parted);
+            remarks
+                .push(format!("block `{block}`: its outline touches itself at {places}: parted by a hair's breadth"));
         }
         if self.sew_lines.is_empty() {
             check_simple(&outline, "outline")?;

@@ -27,6 +27,9 @@ const SPIKE_M: f64 = 0.01e-3;
 /// Greatest slope of one side of a spike against the other: a short one is no corner that happens to be sharp.
 const SPIKE_SLOPE: f64 = 1e-3;
 
+/// How far the corners of an outline that touches itself go inwards there, m.
+const PARTED_M: f64 = 0.02e-3;
+
 /// A line as drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
@@ -264,6 +267,37 @@ fn is_spike(before: &V2, tip: &V2, after: &V2) -> bool {
     short.dot(&long) > 0.0 && apart_m < SPIKE_M.min(SPIKE_SLOPE * short.norm())
 }
 
+/// Parts an outline where it touches itself, corner on corner, as a dart's legs do that run on together to the hem: they go
+/// a hair's breadth inwards; the place of each.
+pub fn part_touching(outline: &mut [V2]) -> Vec<V2> {
+    if self_crossing(outline).is_none() {
+        return Vec::new();
+    }
+    let n = outline.len();
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|&i, &j| outline[i].x.total_cmp(&outline[j].x));
+    let mut touches = vec![false; n];
+    for (k, &i) in order.iter().enumerate() {
+        for &j in order[k + 1..].iter().take_while(|&&j| outline[j].x - outline[i].x < SPIKE_M) {
+            let are_neighbours = (i + 1) % n == j || (j + 1) % n == i;
+            if !are_neighbours && (outline[i] - outline[j]).norm() < SPIKE_M {
+                (touches[i], touches[j]) = (true, true);
+            }
+        }
+    }
+    let inwards = signed_area(outline).signum();
+    let drawn = outline.to_vec();
+    let touching: Vec<usize> = (0..n).filter(|&v| touches[v]).collect();
+    for &v in &touching {
+        let side = |a: usize, b: usize| (drawn[b % n] - drawn[a % n]).normalize();
+        let along = side(v + n - 1, v) + side(v, v + 1);
+        if let Some(along) = along.try_normalize(1e-6) {
+            outline[v] += V2::new(-along.y, along.x) * (inwards * PARTED_M);
+        }
+    }
+    touching.into_iter().map(|v| drawn[v]).collect()
+}
+
 /// Turns a clockwise polygon round, its first vertex kept; whether it was.
 pub fn counter_clockwise(polygon: &mut [V2]) -> bool {
     let is_clockwise = signed_area(polygon) < 0.0;
@@ -403,6 +437,47 @@ mod tests {
         // A dart, however narrow, is none.
         let dart = [(0.0, 0.0), (49.9, 0.0), (50.0, 60.0), (50.1, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0)];
         check(&dart, &dart, 0);
+    }
+
+    #[test]
+    fn an_outline_that_touches_itself_is_parted() {
+        let check = |drawn: &[(f64, f64)], places: usize| {
+            let whole = line(drawn).points;
+            let area = signed_area(&whole);
+            for first in 0..drawn.len() {
+                let mut outline = whole.clone();
+                outline.rotate_left(first);
+                assert_eq!(part_touching(&mut outline).len(), places, "{drawn:?} from {first}");
+                assert_eq!(self_crossing(&outline), None, "{drawn:?} from {first}");
+                let lost = 1.0 - signed_area(&outline) / area;
+                assert!((-1e-12..2e-4).contains(&lost), "{lost}");
+                let mut mirrored: Vec<V2> = outline.iter().rev().copied().collect();
+                assert_eq!(part_touching(&mut mirrored).len(), 0, "once is enough");
+            }
+        };
+        // A dart whose legs run on together for 6 mm to the lower side, either way round.
+        let dart = [
+            (0.0, 0.0),
+            (50.0, 0.0),
+            (50.0, 6.0),
+            (48.0, 40.0),
+            (50.0, 70.0),
+            (52.0, 40.0),
+            (50.0, 6.0),
+            (50.0, 0.0),
+            (100.0, 0.0),
+            (100.0, 100.0),
+            (0.0, 100.0),
+        ];
+        check(&dart, 4);
+        let turned: Vec<(f64, f64)> = dart.iter().rev().copied().collect();
+        check(&turned, 4);
+        check(&dart[6..], 0);
+        // What crosses itself at a corner still does.
+        let bow = [(0.0, 0.0), (50.0, 50.0), (100.0, 100.0), (100.0, 0.0), (50.0, 50.0), (0.0, 80.0)];
+        let mut outline = line(&bow).points;
+        part_touching(&mut outline);
+        assert!(self_crossing(&outline).is_some());
     }
 
     #[test]
