@@ -17,7 +17,7 @@ use super::barrier::{Push, push};
 use super::clusters::{Motion, longest_m};
 use super::knots::Knots;
 use super::nearest::{Nearest, Primitives, spanned_squared};
-use super::search::Neighbours;
+use super::search::{Neighbours, Pair, Within};
 use super::tangle::{Crossing, crossings};
 use crate::geom::V3;
 use crate::sim::cloth::part::Part;
@@ -49,8 +49,8 @@ impl Default for ClothContactParams {
 const PARALLEL: f64 = 0.01;
 /// Steps like the last that pairs are known for at least, and at best.
 const STEPS_AHEAD: [f64; 2] = [1.5, 3.0];
-/// Least that a search foresees a pair to come nearer, m.
-const LEAST_SLACK_M: f64 = 4e-3;
+/// How much nearer a pair is to come at least before it is sought again; and, where it is, until then, m.
+const SLACK_M: [f64; 2] = [1e-3, 4e-3];
 /// Greatest search distance over the size of triangles: about a vertex of a finer mesh lie no more pairs, and a quarter as many
 /// as within twice as far.
 const REACH_SIZES: f64 = 0.7;
@@ -62,14 +62,6 @@ const FREE_SHARE: f64 = 0.9;
 const SHELLS: f64 = 64.0;
 /// Thickness of a contact over the size of triangles, at most: within a flat cloth none pushes its neighbours.
 const THICKNESS_SIZES: f64 = 0.5;
-
-/// A pair that is near.
-#[derive(Clone, Copy, Debug)]
-struct Pair {
-    primitives: Primitives,
-    /// Distance when the pairs were sought, m.
-    distance_m: f64,
-}
 
 /// How deep a pair is in contact at some positions.
 struct Press {
@@ -94,8 +86,6 @@ pub struct ClothContact<'a> {
     areas: Cow<'a, [f64]>,
     /// Nearest first, as far as shells tell.
     pairs: Vec<Pair>,
-    /// The same as they were found.
-    found: Vec<Pair>,
     found_at: Vec<V3>,
     /// Where the cloth was at the last step.
     last: Vec<V3>,
@@ -115,7 +105,6 @@ impl<'a> ClothContact<'a> {
             neighbours: Some(Neighbours::new(triangles, areas.len())),
             areas: Cow::Borrowed(areas),
             pairs: Vec::new(),
-            found: Vec::new(),
             found_at: Vec::new(),
             last: Vec::new(),
             room_m: 0.0,
@@ -161,7 +150,6 @@ impl<'a> ClothContact<'a> {
             neighbours: None,
             areas: Cow::Owned(part.of(&self.areas)),
             pairs: self.pairs.iter().filter_map(renamed).collect(),
-            found: Vec::new(),
             found_at: part.of(&self.found_at),
             last: x.to_vec(),
             room_m: self.room_m,
@@ -248,22 +236,21 @@ impl<'a> ClothContact<'a> {
     fn seek(&mut self, neighbours: &mut Neighbours, x: &[V3], step: Option<&Motion>) {
         let ClothContactParams { thickness_m, reach_m: most_m, .. } = self.params;
         let [least_steps, steps] = STEPS_AHEAD;
-        neighbours.look(x, step.map_or(2.0 * most_m, |step| (2.0 * steps * step.farthest_m).max(most_m)));
-        let reach_m = |clusters| {
+        let horizon_m = step.map_or(2.0 * most_m, |step| (2.0 * steps * step.farthest_m).max(most_m));
+        let made = (self.found_at.len() == x.len()).then(|| neighbours.motion(&differences(x, &self.found_at)));
+        let within = |clusters| {
             let closing_m = step.map_or(f64::INFINITY, |step| step.closing_m(clusters));
-            let slack_m = (steps * closing_m).max(least_steps * closing_m + LEAST_SLACK_M);
-            (thickness_m + slack_m).min(most_m)
+            let [at_least_m, at_best_m] = SLACK_M.map(|slack_m| {
+                let slack_m = (steps * closing_m).max(least_steps * closing_m + slack_m);
+                (thickness_m + slack_m).min(most_m)
+            });
+            Within { at_least_m, at_best_m }
         };
-        let found = &mut self.found;
-        found.clear();
+        let found = neighbours.seek(x, horizon_m, made.as_ref(), within);
         let mut ends = [0; SHELLS as usize + 1];
-        neighbours.each_within(reach_m, |primitives, reach_m| {
-            let distance_m = Nearest::of(x, primitives).gap.norm();
-            if distance_m < reach_m {
-                found.push(Pair { primitives, distance_m });
-                ends[usize::from(shell(distance_m, most_m)) + 1] += 1;
-            }
-        });
+        for pair in found {
+            ends[usize::from(shell(pair.distance_m, most_m)) + 1] += 1;
+        }
         // Sorted by counting: where each shell begins.
         for shell in 1..ends.len() {
             ends[shell] += ends[shell - 1];

@@ -1,11 +1,13 @@
 //! The search for parts of a cloth that are near each other and share no vertex.
 
+use std::ops::Range;
+
 use wide::f32x4;
 
 use super::bounds::{Bounds, rounded};
 use super::clusters::{Clusters, Motion};
 use super::grid::BoxGrid;
-use super::nearest::Primitives;
+use super::nearest::{Nearest, Primitives};
 use super::tangle::edges_of;
 use crate::geom::V3;
 use crate::geom::triangle::sorted;
@@ -22,10 +24,29 @@ pub struct Neighbours<'a> {
     seen: Vec<f32x4>,
     /// Boxes about the clusters then.
     extents: Vec<Bounds>,
-    /// Clusters that were near each other when the cloth was last looked at, but for flat ones.
+    /// Clusters that were near each other when the cloth was last looked at, but for flat ones, in rising order.
     near: Vec<Near>,
     /// How near, m.
     horizon_m: f64,
+    /// The pairs that are known, by clusters that are near.
+    pairs: Vec<Pair>,
+}
+
+/// Two parts of the cloth that share no vertex.
+#[derive(Clone, Copy, Debug)]
+pub struct Pair {
+    /// A vertex and a triangle, or two edges.
+    pub primitives: Primitives,
+    /// Their distance when the cloth was last looked at, m.
+    pub distance_m: f64,
+}
+
+/// How far apart parts of two clusters are at most that are to be known, m.
+pub struct Within {
+    /// Where more is known than this, they are not sought again.
+    pub at_least_m: f64,
+    /// How far they are sought, if they are.
+    pub at_best_m: f64,
 }
 
 /// Two clusters, the first no later than the second, or one twice.
@@ -35,6 +56,8 @@ struct Near {
     apart_m: f64,
     /// Distance within which pairs of their parts are known, m.
     known_m: f64,
+    /// Where those stand.
+    pairs: Range<usize>,
 }
 
 impl Near {
@@ -60,6 +83,7 @@ impl<'a> Neighbours<'a> {
             extents,
             near: Vec::new(),
             horizon_m: 0.0,
+            pairs: Vec::new(),
         }
     }
 
@@ -95,8 +119,52 @@ impl<'a> Neighbours<'a> {
         self.clusters.motion(displacements)
     }
 
-    /// Looks at the cloth at `x`: what is flat, and which of the other clusters are within `horizon_m` of each other.
-    pub fn look(&mut self, x: &[V3], horizon_m: f64) {
+    /// Looks at the cloth at `x`, where it has `made` a motion since it was last looked at, and finds the pairs of its parts that are
+    /// as near as `within` asks for their two clusters. If that is within `horizon_m`, all pairs so near are among them, but for those
+    /// within flat cloth.
+    pub fn seek(
+        &mut self,
+        x: &[V3],
+        horizon_m: f64,
+        made: Option<&Motion>,
+        within: impl Fn([usize; 2]) -> Within,
+    ) -> &[Pair] {
+        self.look(x, horizon_m, made);
+        let (mut near, known) = (std::mem::take(&mut self.near), std::mem::take(&mut self.pairs));
+        let mut boxes: Vec<Option<Boxes>> = self.clusters.members.iter().map(|_| None).collect();
+        let mut scratch = [Vec::new(), Vec::new()];
+        let mut pairs: Vec<Pair> = Vec::with_capacity(known.len());
+        for near in &mut near {
+            let Within { at_least_m, at_best_m } = within(near.clusters);
+            let start = pairs.len();
+            let is_known = near.known_m >= at_least_m;
+            near.known_m = if is_known { near.known_m } else { at_best_m };
+            let mut take = |primitives| {
+                let distance_m = Nearest::of(x, primitives).gap.norm();
+                if distance_m < near.known_m {
+                    pairs.push(Pair { primitives, distance_m });
+                }
+            };
+            if is_known {
+                known[near.pairs.clone()].iter().for_each(|pair| take(pair.primitives));
+            } else if near.apart_m < near.known_m {
+                for c in near.clusters {
+                    boxes[c].get_or_insert_with(|| Boxes::new(self, c));
+                }
+                if let [Some(one), Some(other)] = near.clusters.map(|c| boxes[c].as_ref()) {
+                    let is_one = near.clusters[0] == near.clusters[1];
+                    self.between([one, other], is_one, near.known_m, &mut scratch, &mut take);
+                }
+            }
+            near.pairs = start..pairs.len();
+        }
+        (self.near, self.pairs) = (near, pairs);
+        &self.pairs
+    }
+
+    /// Looks at the cloth at `x`: what is flat, and which of the other clusters are within `horizon_m` of each other; what was known
+    /// of them is known less far, by as much as they have come nearer.
+    fn look(&mut self, x: &[V3], horizon_m: f64, made: Option<&Motion>) {
         self.clusters.look(x, self.triangles);
         self.seen = x.iter().map(rounded).collect();
         let extent = |corners: &Vec<usize>| {
@@ -108,12 +176,18 @@ impl<'a> Neighbours<'a> {
         let sets: Vec<[usize; 2]> = (0..extents.len()).map(|c| [2 * c, 2 * c + 1]).collect();
         let half = extents.iter().map(Bounds::half_m).fold(0.0, f64::max);
         let grid = BoxGrid::new(&corners, &sets, horizon_m, half, (2.0 * half + horizon_m).max(CELL_M));
-        (self.horizon_m, self.near) = (horizon_m, Vec::new());
+        let before = std::mem::take(&mut self.near);
+        let still_known = |clusters: [usize; 2]| {
+            let known = before.binary_search_by_key(&clusters, |near| near.clusters).ok().map(|at| &before[at]);
+            known.zip(made).map(|(near, made)| (near.unknown_m() - made.closing_m(clusters), near.pairs.clone()))
+        };
+        self.horizon_m = horizon_m;
         for p in 0..extents.len() {
             for q in grid.near([&corners[2 * p], &corners[2 * p + 1]]).filter(|&q| q >= p) {
                 let apart_m = extents[p].apart_m(&extents[q]);
                 if apart_m < horizon_m && !self.clusters.are_flat([p, q]) {
-                    self.near.push(Near { clusters: [p, q], apart_m, known_m: 0.0 });
+                    let (known_m, pairs) = still_known([p, q]).unwrap_or((0.0, 0..0));
+                    self.near.push(Near { clusters: [p, q], apart_m, known_m, pairs });
                 }
             }
         }
@@ -135,28 +209,6 @@ impl<'a> Neighbours<'a> {
         let far = (self.horizon_m - 2.0 * made.farthest_m) / (2.0 * next.farthest_m);
         let share = |near: &Near| (near.unknown_m() - made.closing_m(near.clusters)) / next.closing_m(near.clusters);
         self.near.iter().map(share).fold(far, f64::min)
-    }
-
-    /// Takes each pair whose boxes were near each other when the cloth was last looked at: as near as `within_m` asks for their two
-    /// clusters, which it is told too. If that is within the horizon, all pairs so near are among them, but for those within flat cloth.
-    pub fn each_within(&mut self, within_m: impl Fn([usize; 2]) -> f64, mut take: impl FnMut(Primitives, f64)) {
-        let mut near = std::mem::take(&mut self.near);
-        let mut boxes: Vec<Option<Boxes>> = self.clusters.members.iter().map(|_| None).collect();
-        let mut scratch = [Vec::new(), Vec::new()];
-        for Near { clusters, apart_m, known_m } in &mut near {
-            *known_m = within_m(*clusters);
-            if *apart_m > *known_m {
-                continue;
-            }
-            for c in *clusters {
-                boxes[c].get_or_insert_with(|| Boxes::new(self, c));
-            }
-            if let [Some(one), Some(other)] = clusters.map(|c| boxes[c].as_ref()) {
-                let is_one = clusters[0] == clusters[1];
-                self.between([one, other], is_one, *known_m, &mut scratch, &mut |pair| take(pair, *known_m));
-            }
-        }
-        self.near = near;
     }
 
     /// Takes the pairs of two clusters, or of one with itself.
@@ -283,34 +335,41 @@ mod tests {
             V3::new(9e-4 * angle * angle.cos(), p.y, 9e-4 * angle * angle.sin())
         };
         let creased = |p: &V2| V3::new((p.x - 0.12).abs(), p.y, if p.x > 0.12 { 2e-3 } else { 0.0 });
-        let check = |place: &dyn Fn(&V2) -> V3, within: &dyn Fn([usize; 2]) -> f64, must_find: bool| {
-            let x = shaken(&rest.iter().map(place).collect::<Vec<_>>(), 2e-4, 3);
+        let check = |place: &dyn Fn(&V2) -> V3, reach_m: &dyn Fn([usize; 2]) -> f64, must_find: bool| {
+            let mut x = shaken(&rest.iter().map(place).collect::<Vec<_>>(), 2e-4, 3);
             let mut neighbours = Neighbours::new(&triangles, x.len());
-            let mut found: Vec<Tagged> = Vec::new();
-            neighbours.look(&x, 2.0 * reach);
-            neighbours.each_within(within, |primitives, _| found.push(tagged(primitives)));
-            let room = neighbours.room_m([]);
-            assert!(room >= 0.6 * reach, "{room}");
-            found.sort_unstable();
-            assert!(found.windows(2).all(|two| two[0] != two[1]), "a pair is found twice");
-            let mut layers = 0;
-            for (pair, distance) in all_within(&x, &triangles, reach) {
-                let [first, .., last] = pair.0.map(|v| rest[v]);
-                let is_layer = (first - last).norm() > 6.0 * EDGE_M;
-                layers += usize::from(is_layer);
-                if found.binary_search(&pair).is_err() {
-                    let is_flat = !is_layer && distance > 0.4 * EDGE_M;
-                    assert!(is_flat || distance >= room, "{pair:?} at {distance} is missing");
+            let mut made = None;
+            // Sought everywhere, then only where too much has become unknown.
+            for at_least_m in [reach, 0.8 * reach] {
+                let within = |clusters| Within { at_least_m, at_best_m: reach_m(clusters) };
+                let pairs = neighbours.seek(&x, 2.0 * reach, made.as_ref(), within);
+                let mut found: Vec<Tagged> = pairs.iter().map(|pair| tagged(pair.primitives)).collect();
+                let room = neighbours.room_m([]);
+                assert!(room >= 0.6 * reach, "{room}");
+                found.sort_unstable();
+                assert!(found.windows(2).all(|two| two[0] != two[1]), "a pair is found twice");
+                let mut layers = 0;
+                for (pair, distance) in all_within(&x, &triangles, reach) {
+                    let [first, .., last] = pair.0.map(|v| rest[v]);
+                    let is_layer = (first - last).norm() > 6.0 * EDGE_M;
+                    layers += usize::from(is_layer);
+                    if found.binary_search(&pair).is_err() {
+                        let is_flat = !is_layer && distance > 0.4 * EDGE_M;
+                        assert!(is_flat || distance >= room, "{pair:?} at {distance} is missing");
+                    }
                 }
+                assert_eq!(layers > 0, must_find);
+                let next = shaken(&x, 4e-4, 5);
+                let displacements: Vec<V3> = next.iter().zip(&x).map(|(p, q)| p - q).collect();
+                (made, x) = (Some(neighbours.motion(&displacements)), next);
             }
-            assert_eq!(layers > 0, must_find);
         };
         // Pairs of clusters that go by themselves are sought less far than others.
         let mixed = |[p, q]: [usize; 2]| if (p + q) % 3 == 0 { reach } else { 0.7 * reach };
-        for within in [&|_| reach, &mixed as &dyn Fn([usize; 2]) -> f64] {
-            check(&rolled, within, true);
-            check(&creased, within, true);
-            check(&|p| V3::new(p.x, p.y, 0.0), within, false);
+        for reach_m in [&|_| reach, &mixed as &dyn Fn([usize; 2]) -> f64] {
+            check(&rolled, reach_m, true);
+            check(&creased, reach_m, true);
+            check(&|p| V3::new(p.x, p.y, 0.0), reach_m, false);
         }
     }
 
@@ -327,9 +386,9 @@ mod tests {
         }
         let x: Vec<V3> = rest.iter().map(|p| V3::new(p.x, p.y, 0.0)).collect();
         let mut neighbours = Neighbours::new(&triangles, x.len());
-        neighbours.look(&x, 2.0 * EDGE_M);
-        let mut found: Vec<[usize; 2]> = Vec::new();
-        neighbours.each_within(|_| 0.5 * EDGE_M, |primitives, _| found.extend(primitives.across()));
+        let pairs =
+            neighbours.seek(&x, 2.0 * EDGE_M, None, |_| Within { at_least_m: 0.5 * EDGE_M, at_best_m: 0.5 * EDGE_M });
+        let found: Vec<[usize; 2]> = pairs.iter().flat_map(|pair| pair.primitives.across()).collect();
         assert_eq!(cut.len(), 5);
         for (k, &v) in cut.iter().enumerate() {
             assert!(found.iter().any(|pair| *pair == [v, first + k] || *pair == [first + k, v]), "at {:?}", rest[v]);
@@ -341,7 +400,7 @@ mod tests {
         let (rest, triangles) = sheet(24, 24, EDGE_M);
         let flat: Vec<V3> = rest.iter().map(|p| V3::new(p.x, p.y, 0.0)).collect();
         let mut neighbours = Neighbours::new(&triangles, flat.len());
-        neighbours.look(&flat, EDGE_M);
+        neighbours.look(&flat, EDGE_M, None);
         assert!(neighbours.stay_flat(&shaken(&flat, 5e-4, 1)));
         let folded: Vec<V3> = flat.iter().map(|p| V3::new((p.x - 0.12).abs(), p.y, p.z)).collect();
         assert!(!neighbours.stay_flat(&folded));

@@ -18,6 +18,9 @@ const CLEARANCE_M: f64 = 0.012;
 const SLIT: f64 = 0.4;
 /// Least mean square of the height of such seams over that of their breadth.
 const UPRIGHT: f64 = 0.1;
+/// Greatest mean square by which partners miss the mirror image of a piece's seams, over that by which they miss the seams as they are,
+/// where the piece is their other half.
+const OTHER_HALF: f64 = 0.5;
 /// Least share of its width that a piece in a slit takes up sideways.
 const OPEN: f64 = 0.2;
 
@@ -55,7 +58,20 @@ pub fn is_in_a_slit(joins: &Joins, piece: usize) -> bool {
     let goal: Vec<V2> = pairs.iter().map(|pair| rest[pair[1]]).collect();
     let fit = Similarity::of(&own, &goal);
     let sides = Sides::new(&fit, &own, &goal, std::iter::repeat(0.0));
-    pairs.iter().all(|pair| joins.piece_of[pair[1]] == partner) && sides.are_a_slit
+    let is_only_partner = pairs.iter().all(|pair| joins.piece_of[pair[1]] == partner);
+    is_only_partner && sides.are_a_slit && !is_other_half(&own, &goal)
+}
+
+/// Whether places lie as the mirror image of their partners, as those of front and back of a skirt do; along the two sides of a slit
+/// they lie so as well as not.
+fn is_other_half(own: &[V2], goal: &[V2]) -> bool {
+    let error = |own: &[V2]| {
+        let fit = Similarity::of(own, goal);
+        let miss = |(p, q): (&V2, &V2)| (fit.to + fit.turned(*p) * fit.scale - q).norm_squared();
+        own.iter().zip(goal).map(miss).sum::<f64>()
+    };
+    let mirrored: Vec<V2> = own.iter().map(|p| V2::new(-p.x, p.y)).collect();
+    error(&mirrored) < OTHER_HALF * error(own)
 }
 
 /// The points at which a piece is sewn, in its own plane.

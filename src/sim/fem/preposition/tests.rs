@@ -241,6 +241,23 @@ fn a_godet_is_folded_outwards_from_its_slit() {
 }
 
 #[test]
+fn the_halves_of_a_skirt_are_no_godets() {
+    // About as wide as the sides of a skirt are long, no turn takes one half's sides nearer to the other's than another does.
+    for half_width in [20.0, 24.0, 25.0, 26.0, 30.0] {
+        let half = [[-half_width, 0.0], [half_width - 2.0, 1.0], [half_width, 86.0], [1.0 - half_width, 86.0]];
+        let mirrored: Vec<[f64; 2]> = half.iter().rev().map(|[x, y]| [-x, *y]).collect();
+        let panels = json!({ "front": panel(&half, [0.0, 20.0], &[]), "back": panel(&mirrored, [0.0, -20.0], &[]) });
+        let stitches = [stitch(("front", 1), ("back", 1)), stitch(("front", 3), ("back", 3))];
+        let garment = sewn(&panels, &stitches, skirt_role);
+        let joins = Joins::of(&garment);
+        assert_eq!([0, 1].map(|piece| follow::is_in_a_slit(&joins, piece)), [false, false], "{half_width}");
+        let x = place(&body(), &garment, &Params::default()).expect("a skirt");
+        let gap = garment.seams.iter().flat_map(|seam| gaps(seam, &x)).fold(0.0, f64::max);
+        assert!(gap < 0.3, "{half_width}: its sides begin {gap} m open");
+    }
+}
+
+#[test]
 fn tiers_of_circles_hang_within_each_other() {
     let body = body();
     let surface = Surface::new(&body.mesh).expect("a closed body");
