@@ -26,7 +26,7 @@ use settle::{Grip, Settled};
 const FAULTLESS_DEPTH_M: f64 = 5e-4;
 /// A garment whose top has come this far up from where it was placed has been squeezed off the body, m.
 const MOST_RISE_M: f64 = 0.25;
-/// Factors on the sewing force with which cloth that crosses itself, and has no other fault, is sewn again: whether a fold that is
+/// Factors on the sewing force with which cloth that comes to rest and crosses itself is sewn again: whether a fold that is
 /// drawn tight goes through another is chance, and these keep what is mirrored so.
 const RESEWN: [f64; 2] = [1.5, 0.67];
 
@@ -90,6 +90,7 @@ pub fn simulate(
                 drape = again;
                 break;
             }
+            Ok(again) if !is_off(&again) && is_better(&again, &drape) => drape = again,
             _ => {}
         }
     }
@@ -135,7 +136,7 @@ fn other_starts(
             starts.extend((elsewhere != placed).then_some(Start { placed: elsewhere, force, grip }));
         }
     }
-    if !came_off && rests_outside(drape) {
+    if !came_off && drape.converged && drape.self_crossings > 0 {
         starts.extend(RESEWN.map(|factor| Start { placed: placed.clone(), force: factor * force, grip }));
     }
     Ok(starts)
@@ -150,12 +151,15 @@ fn placed_at_start(body: &Body, garment: &Garment, params: &Params) -> Result<(V
 
 /// Whether a drape is what was asked for: at rest, outside the body, and not through itself.
 fn is_faultless(drape: &Drape) -> bool {
-    rests_outside(drape) && drape.self_crossings == 0
+    drape.converged && drape.penetration_max_m <= FAULTLESS_DEPTH_M && drape.self_crossings == 0
 }
 
-/// Whether it is at rest and outside the body.
-fn rests_outside(drape: &Drape) -> bool {
-    drape.converged && drape.penetration_max_m <= FAULTLESS_DEPTH_M
+/// Whether one drape's faults are fewer than another's, and none of them worse.
+fn is_better(one: &Drape, other: &Drape) -> bool {
+    let faults =
+        |drape: &Drape| (!drape.converged, drape.self_crossings, drape.penetration_max_m.max(FAULTLESS_DEPTH_M));
+    let ((moves, crossings, depth_m), (others, other_crossings, other_m)) = (faults(one), faults(other));
+    moves <= others && crossings <= other_crossings && depth_m <= other_m && faults(one) != faults(other)
 }
 
 /// How far the top of a garment has come up from where it was placed, m.

@@ -14,6 +14,8 @@ use crate::geom::{V2, V3};
 /// Least distance from the skin, m.
 const CLEARANCE_M: f64 = 0.012;
 
+/// Share of the room round a limb that a piece takes.
+const ROUND: f64 = 0.97;
 /// Sideways scale from a piece's seams to its partners', over that upwards, below which they are the two sides of a slit.
 const SLIT: f64 = 0.4;
 /// Least mean square of the height of such seams over that of their breadth.
@@ -24,16 +26,45 @@ const OTHER_HALF: f64 = 0.5;
 /// Least share of its width that a piece in a slit takes up sideways.
 const OPEN: f64 = 0.2;
 
-/// Places of the vertices of `piece`, which `pairs` join (own vertex first) to vertices at `placed`.
-pub fn place(form: &Form, joins: &Joins, piece: usize, pairs: &[[usize; 2]], placed: &[V3], limb: &Limb) -> Vec<V3> {
+/// A piece that is to follow others.
+pub struct Follower {
+    pub piece: usize,
+    /// Its vertices that are sewn to what has a place, each before the vertex there.
+    pub pairs: Vec<[usize; 2]>,
+    /// What it goes about.
+    pub limb: Limb,
+}
+
+impl Follower {
+    /// About which angle its partners, which are `placed`, lie, rad.
+    fn angle(&self, placed: &[V3]) -> f64 {
+        let angles = self.pairs.iter().map(|pair| self.limb.coordinates(&placed[pair[1]]).0);
+        let (sin, cos) = angles.fold((0.0, 0.0), |(sin, cos), angle: f64| (sin + angle.sin(), cos + angle.cos()));
+        sin.atan2(cos)
+    }
+
+    /// How far it may go round to either side, rad: half a turn, or half the way to the nearest of those that go round beside it.
+    pub fn room_rad(&self, beside: &[Self], placed: &[V3]) -> f64 {
+        let others = beside.iter().filter(|other| other.piece != self.piece && other.limb == self.limb);
+        let apart = |other: &Self| {
+            let turn = (other.angle(placed) - self.angle(placed)).rem_euclid(TAU);
+            0.5 * turn.min(TAU - turn)
+        };
+        others.map(apart).fold(PI, f64::min)
+    }
+}
+
+/// Places of the vertices of a follower of vertices at `placed`, no farther round than there is room.
+pub fn place(form: &Form, joins: &Joins, follower: &Follower, room_rad: f64, placed: &[V3]) -> Vec<V3> {
     let rest = &joins.garment.rest;
+    let Follower { piece, pairs, limb } = follower;
     let own: Vec<V2> = pairs.iter().map(|pair| rest[pair[0]]).collect();
     let partners: Vec<_> = pairs.iter().map(|pair| limb.coordinates(&placed[pair[1]])).collect();
     let radius = partners.iter().map(|p| p.1).sum::<f64>() / partners.len() as f64;
     let angles = unwrapped(&own, &partners.iter().map(|p| p.0).collect::<Vec<_>>());
     let goal: Vec<V2> = angles.iter().zip(&partners).map(|(angle, p)| V2::new(angle * radius, p.2)).collect();
     let fit = Similarity::of(&own, &goal);
-    let vertices = joins.garment.pieces[piece].vertices.clone();
+    let vertices = joins.garment.pieces[*piece].vertices.clone();
     let places: Vec<V2> = vertices.map(|v| fit.turned(rest[v])).collect();
     let sides = Sides::new(&fit, &own, &goal, partners.iter().map(|p| p.1));
     if sides.are_a_slit {
@@ -44,7 +75,7 @@ pub fn place(form: &Form, joins: &Joins, piece: usize, pairs: &[[usize; 2]], pla
     // Bent to the angle its partners take up; no nearer to the axis than the body lets it.
     let bent = (radius / fit.scale).min(radius).max(body_radius(form, limb, low, high) + CLEARANCE_M);
     let span = places.iter().fold(0.0, |most: f64, p| most.max(p.x.abs())) * fit.scale / radius;
-    let per_m = fit.scale / radius * (0.97 * PI / span.max(0.97 * PI)).min(1.0);
+    let per_m = fit.scale / radius * (ROUND * room_rad / span).min(1.0);
     places.iter().map(|p| limb.point(fit.to.x / radius + p.x * per_m, bent, fit.to.y + p.y)).collect()
 }
 

@@ -28,6 +28,7 @@ use crate::sim::SimError;
 pub use self::folded::Folded;
 use super::params::Params;
 use arm::Sleeve;
+use follow::Follower;
 use form::Form;
 use leg::Leg;
 use limb::Limb;
@@ -54,6 +55,9 @@ pub fn place(body: &Body, garment: &Garment, params: &Params) -> Result<Vec<V3>,
     placing.followers()?;
     Ok(placing.positions)
 }
+
+/// Share of its seams to what has a place that another piece sewn to it has, where the two are halves of one thing.
+const TWIN: f64 = 0.75;
 
 /// A garment half placed.
 struct Placing<'a> {
@@ -128,30 +132,48 @@ impl Placing<'_> {
         }
     }
 
-    /// Places what is left, each piece by those it is sewn to, the longest seams first; halves that flare go together.
+    /// Places what is left by what it is sewn to, the longest seams first; halves that flare go together.
     fn followers(&mut self) -> Result<(), SimError> {
         let halves = self.flared_halves();
         while let Some(open) = self.limb.iter().position(Option::is_none) {
-            let (piece, pairs) = self.next_follower().ok_or_else(|| self.cannot_place(open))?;
-            let about = self.limb_of_partners(piece);
+            let next = self.next_followers();
+            let Follower { piece, limb, .. } = next.first().ok_or_else(|| self.cannot_place(open))?;
             let is_open = |ring: &&Round| ring.pieces.iter().all(|&p| self.limb[p].is_none());
-            if let Some(ring) = halves.iter().filter(is_open).find(|ring| ring.pieces.contains(&piece)) {
-                self.roll_about(ring, &about);
+            if let Some(ring) = halves.iter().filter(is_open).find(|ring| ring.pieces.contains(piece)) {
+                self.roll_about(ring, limb);
                 continue;
             }
-            let places = follow::place(&self.form, &self.joins, piece, &pairs, &self.positions, &about);
-            let vertices = self.joins.garment.pieces[piece].vertices.clone();
-            self.assign(&[piece], &about, vertices.zip(places));
+            let places = |follower| {
+                let room_rad = Follower::room_rad(follower, &next, &self.positions);
+                follow::place(&self.form, &self.joins, follower, room_rad, &self.positions)
+            };
+            let places: Vec<Vec<V3>> = next.iter().map(places).collect();
+            for (Follower { piece, limb, .. }, places) in next.iter().zip(places) {
+                let vertices = self.joins.garment.pieces[*piece].vertices.clone();
+                self.assign(&[*piece], limb, vertices.zip(places));
+            }
         }
         Ok(())
     }
 
-    /// The piece without a place that is sewn most to those with one, and where it is.
-    fn next_follower(&self) -> Option<(usize, Vec<[usize; 2]>)> {
+    /// The piece without a place that is sewn most to those with one; and what is sewn to it and as much to those, as the other half
+    /// of a hood is: one placed by the other would not lie beside it but follow it.
+    fn next_followers(&self) -> Vec<Follower> {
         let placed = self.placed();
         let loose = (0..self.limb.len()).rev().filter(|&p| self.limb[p].is_none());
-        let seams = loose.map(|p| (p, self.joins.to_any(p, &placed)));
-        seams.max_by_key(|(_, pairs)| pairs.len()).filter(|(_, pairs)| !pairs.is_empty())
+        let seams: Vec<_> = loose.map(|p| (p, self.joins.to_any(p, &placed))).collect();
+        let Some((first, most)) = seams.iter().max_by_key(|(_, pairs)| pairs.len()) else { return Vec::new() };
+        let is_next = |(p, pairs): &&(usize, Vec<[usize; 2]>)| {
+            let is_twin = pairs.len() as f64 > TWIN * most.len() as f64 && !self.joins.between(*first, *p).is_empty();
+            !pairs.is_empty() && (p == first || is_twin)
+        };
+        let follower = |(piece, pairs): &(usize, Vec<[usize; 2]>)| {
+            let limb = self.limb_of_partners(*piece);
+            Follower { piece: *piece, pairs: pairs.clone(), limb }
+        };
+        let mut next: Vec<Follower> = seams.iter().filter(is_next).map(follower).collect();
+        next.sort_by_key(|follower| follower.piece != *first);
+        next
     }
 
     /// The limb about which a piece goes: that of those it is sewn to.

@@ -1,3 +1,5 @@
+use std::f64::consts::PI;
+
 use serde_json::{Value, json};
 
 use super::*;
@@ -254,6 +256,38 @@ fn the_halves_of_a_skirt_are_no_godets() {
         let x = place(&body(), &garment, &Params::default()).expect("a skirt");
         let gap = garment.seams.iter().flat_map(|seam| gaps(seam, &x)).fold(0.0, f64::max);
         assert!(gap < 0.3, "{half_width}: its sides begin {gap} m open");
+    }
+}
+
+#[test]
+fn halves_that_follow_stay_beside_each_other() {
+    // Two flaps on a skirt's waist, as the halves of a hood stand on a neck, each with a wing that would reach into the other.
+    let half = [[-30.0, 0.0], [30.0, 0.0], [25.0, 60.0], [0.0, 60.0], [-25.0, 60.0]];
+    let flap = [[-25.0, 0.0], [0.0, 0.0], [25.0, 0.0], [25.0, 20.0], [-65.0, 20.0], [-65.0, 0.0]];
+    let panels = json!({
+        "front": panel(&half, [0.0, 20.0], &[]),
+        "back": panel(&half, [0.0, -20.0], &[]),
+        "flap_left": panel(&flap, [40.0, 0.0], &[]),
+        "flap_right": panel(&flap, [-40.0, 0.0], &[])
+    });
+    let stitches = [
+        stitch(("front", 1), ("back", 4)),
+        stitch(("front", 4), ("back", 1)),
+        stitch(("flap_left", 0), ("front", 2)),
+        stitch(("flap_left", 1), ("back", 3)),
+        stitch(("flap_right", 0), ("back", 2)),
+        stitch(("flap_right", 1), ("front", 3)),
+        stitch(("flap_left", 4), ("flap_right", 2)),
+    ];
+    let role = |id: &str| if id.starts_with("flap") { Role::Other } else { skirt_role(id) };
+    let garment = sewn(&panels, &stitches, role);
+    let body = body();
+    let x = place(&body, &garment, &Params::default()).expect("a skirt with flaps");
+    let axis = Form::of(&body).trunk_axis();
+    for (id, side) in [("flap_left", 1.0), ("flap_right", -1.0)] {
+        let flap = garment.pieces.iter().find(|piece| piece.id == id).expect("a piece");
+        let [low, high] = ring::bounds(flap.vertices.clone().map(|v| side * axis.coordinates(&x[v]).0));
+        assert!(low > -0.1 && high < PI + 0.1, "{id} goes from {low} to {high} rad");
     }
 }
 
