@@ -88,6 +88,17 @@ impl Dressing<'_> {
         })
     }
 
+    /// The same with other sewing forces, after it was torn with its own: where it is with all of them, the first error tells.
+    pub fn resewn_or(&self, first: SimError, factors: &[f64], run: &mut Run) -> Result<Settled, SimError> {
+        for factor in factors {
+            match (Dressing { force: factor * self.force, ..*self }).dress(Grip::AtTheEnd, run) {
+                Err(error) if !matches!(error, SimError::Cancelled) => {}
+                ended => return ended,
+            }
+        }
+        Err(first)
+    }
+
     /// Draws the seams of the garment together, those of what is folded onto it once all others are closed; returns garment
     /// positions with all seams (nearly) closed, and how far the contact with the body yields there, m.
     fn sew(&self, garment: &Garment, around: Around, grip: Grip, run: &mut Run) -> Result<(Vec<V3>, f64), SimError> {

@@ -26,8 +26,8 @@ use settle::{Grip, Settled};
 const FAULTLESS_DEPTH_M: f64 = 5e-4;
 /// A garment whose top has come this far up from where it was placed has been squeezed off the body, m.
 const MOST_RISE_M: f64 = 0.25;
-/// Factors on the sewing force with which cloth that comes to rest and crosses itself is sewn again: whether a fold that is
-/// drawn tight goes through another is chance, and these keep what is mirrored so.
+/// Factors on the sewing force with which cloth that comes to rest and crosses itself, or is torn as it is sewn, is sewn again: whether a
+/// fold that is drawn tight goes through another is chance, and so is how a ruffle is drawn out; these keep what is mirrored so.
 const RESEWN: [f64; 2] = [1.5, 0.67];
 
 /// Dresses a body in a garment.
@@ -78,6 +78,7 @@ pub fn simulate(
     };
     let (settled, grip) = match dressing.dress(Grip::AtTheEnd, &mut run) {
         Err(open @ SimError::Open { .. }) => (dressing.dress_or(open, &mut run)?, Grip::Throughout),
+        Err(torn @ SimError::Torn { .. }) => (dressing.resewn_or(torn, &RESEWN, &mut run)?, Grip::AtTheEnd),
         other => (other?, Grip::AtTheEnd),
     };
     let mut drape = ended(settled);

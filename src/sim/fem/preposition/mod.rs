@@ -156,8 +156,8 @@ impl Placing<'_> {
         Ok(())
     }
 
-    /// The piece without a place that is sewn most to those with one; and what is sewn to it and as much to those, as the other half
-    /// of a hood is: one placed by the other would not lie beside it but follow it.
+    /// The piece without a place that is sewn most to those with one; and, about the trunk, what is sewn to it and as much to those, as
+    /// the other half of a hood is: one placed by the other would not lie beside it but follow it, as halves of a cuff are to.
     fn next_followers(&self) -> Vec<Follower> {
         let placed = self.placed();
         let loose = (0..self.limb.len()).rev().filter(|&p| self.limb[p].is_none());
@@ -165,7 +165,7 @@ impl Placing<'_> {
         let Some((first, most)) = seams.iter().max_by_key(|(_, pairs)| pairs.len()) else { return Vec::new() };
         let is_next = |(p, pairs): &&(usize, Vec<[usize; 2]>)| {
             let is_twin = pairs.len() as f64 > TWIN * most.len() as f64 && !self.joins.between(*first, *p).is_empty();
-            !pairs.is_empty() && (p == first || is_twin)
+            !pairs.is_empty() && (p == first || (is_twin && self.limb_of_partners(*p) == self.about_trunk()))
         };
         let follower = |(piece, pairs): &(usize, Vec<[usize; 2]>)| {
             let limb = self.limb_of_partners(*piece);
