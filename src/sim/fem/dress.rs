@@ -88,15 +88,23 @@ impl Dressing<'_> {
         })
     }
 
-    /// The same with other sewing forces, after it was torn with its own: where it is with all of them, the first error tells.
+    /// The same with other sewing forces, after it was torn with its own, as a ruffle is by chance: where it is with all of them, or
+    /// tight, the first error tells.
     pub fn resewn_or(&self, first: SimError, factors: &[f64], run: &mut Run) -> Result<Settled, SimError> {
+        let limit = run.params().distortion_limit;
         for factor in factors {
             match (Dressing { force: factor * self.force, ..*self }).dress(Grip::AtTheEnd, run) {
-                Err(error) if !matches!(error, SimError::Cancelled) => {}
-                ended => return ended,
+                Err(SimError::Cancelled) => return Err(SimError::Cancelled),
+                Ok(settled) if self.distortion(&settled)?.stretch <= limit => return Ok(settled),
+                _ => {}
             }
         }
         Err(first)
+    }
+
+    /// How far the finest mesh is stretched.
+    fn distortion(&self, settled: &Settled) -> Result<Distortion, SimError> {
+        Distortion::of(&self.garments[self.garments.len() - 1], &settled.positions)
     }
 
     /// Draws the seams of the garment together, those of what is folded onto it once all others are closed; returns garment
