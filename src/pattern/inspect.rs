@@ -48,7 +48,7 @@ pub struct PieceReport {
     pub size: Option<String>,
     /// Number to cut, as written.
     pub quantity: Option<String>,
-    /// Length of the outline.
+    /// Length of the outline as the file draws it, with what was cut away to mend it.
     pub perimeter_mm: f64,
     /// Area within the outline.
     pub area_mm2: f64,
@@ -134,7 +134,7 @@ impl From<&Piece> for PieceReport {
             name: piece.name.clone(),
             size: piece.size.clone(),
             quantity: piece.quantity.clone(),
-            perimeter_mm: mm(piece.perimeter_m()),
+            perimeter_mm: mm(piece.drawn_perimeter_m.unwrap_or_else(|| piece.perimeter_m())),
             area_mm2: piece.area_m2() * MM2_PER_M2,
             closed: true,
             clockwise: piece.is_clockwise_in_file,

@@ -38,6 +38,8 @@ pub struct Piece {
     pub texts: Vec<(String, String)>,
     /// Closed outline (cut line where the file has a sew line too), counter-clockwise, first vertex not repeated.
     pub outline: Vec<V2>,
+    /// Length of the outline as the file draws it, m, where that had to be mended (loops and spikes cut away).
+    pub drawn_perimeter_m: Option<f64>,
     /// Whether the file drew the outline clockwise.
     pub is_clockwise_in_file: bool,
     /// Turn points (corners), in the order of the file.

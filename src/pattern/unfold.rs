@@ -89,6 +89,7 @@ impl Piece {
             drill_holes: both(&self.drill_holes),
             mirror_line: None,
             outline,
+            drawn_perimeter_m: None,
             sew_line,
             ..self.clone()
         })

@@ -12,7 +12,7 @@ use super::outline::{
     without_copies,
 };
 use crate::geom::V2;
-use crate::geom::polyline::signed_area;
+use crate::geom::polyline::{perimeter, signed_area};
 use crate::pattern::piece::{GradePoint, Notch, Piece};
 use crate::units::mm;
 
@@ -238,6 +238,7 @@ impl Drawn {
         }
         let mut outline = joined(&self.boundary, "outline (layer 1)")?;
         let places = |points: &[V2]| points.iter().map(text_mm).collect::<Vec<_>>().join(", ");
+        let drawn = outline.clone();
         let spikes = cut_spikes(&mut outline);
         if !spikes.is_empty() {
             let places = places(&spikes);
@@ -264,6 +265,7 @@ impl Drawn {
         if area.abs() < LEAST_AREA_M2 {
             return Err(format!("the outline encloses {:.3} mm2; accepted: an area", area.abs() * 1e6));
         }
+        let drawn_perimeter_m = (outline != drawn).then(|| perimeter(&drawn));
         let is_clockwise_in_file = counter_clockwise(&mut outline);
         let sew_line = sew_line(self.sew_lines, &mut self.internal, &outline)?;
         let grade_points = self.texts.iter().filter_map(grade_point).collect();
@@ -282,6 +284,7 @@ impl Drawn {
             quantity: take(&mut texts, "quantity"),
             texts,
             outline,
+            drawn_perimeter_m,
             is_clockwise_in_file,
             turn_points: self.turn_points,
             curve_points: self.curve_points,

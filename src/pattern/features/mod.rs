@@ -229,6 +229,7 @@ impl PieceFeatures {
             quantity: self.information.quantity,
             texts,
             outline: points(&self.outline),
+            drawn_perimeter_m: None,
             is_clockwise_in_file: self.drawn_clockwise,
             turn_points: points(&self.reference_points.turn_points),
             curve_points: points(&self.reference_points.curve_points),

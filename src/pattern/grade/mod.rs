@@ -82,6 +82,7 @@ fn graded_piece(piece: &Piece, table: &GradeTable, size: usize) -> Result<Piece,
     }
     Ok(Piece {
         outline,
+        drawn_perimeter_m: None,
         turn_points: moved_all(&piece.turn_points),
         curve_points: moved_all(&piece.curve_points),
         notches: piece.notches.iter().map(|notch| Notch { at: moved(&notch.at), ..*notch }).collect(),

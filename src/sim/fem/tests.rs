@@ -235,6 +235,42 @@ fn lapels_are_sewn_onto_the_closed_garment_and_cross_nothing() {
     assert!(drape.history.windows(2).filter(|two| two[1].level < two[0].level).count() == 0);
 }
 
+/// A drape that ended so deep inside the body, m, with so many crossings.
+fn ended(converged: bool, (depth_m, crossings): (f64, usize)) -> Drape {
+    Drape {
+        stage: Stage::Drape,
+        converged,
+        iterations: 1,
+        residual: 0.0,
+        penetration_max_m: depth_m,
+        seam_gap_max_m: 0.0,
+        self_crossings: crossings,
+        welded_vertices: 1,
+        positions: Vec::new(),
+        history: Vec::new(),
+        earlier: Vec::new(),
+    }
+}
+
+#[test]
+fn what_is_better_in_one_thing_must_not_be_worse_in_another() {
+    let check = |one: (bool, f64, usize), other: (bool, f64, usize), expect: bool| {
+        let [is_better, is_worse] = [(one, other), (other, one)]
+            .map(|(one, other)| is_better(&ended(one.0, (one.1, one.2)), &ended(other.0, (other.1, other.2))));
+        assert!(is_better == expect && !(is_better && is_worse), "{one:?} beside {other:?}");
+    };
+    check((true, 1e-4, 3), (true, 1e-4, 5), true);
+    check((true, 2e-3, 5), (true, 4e-3, 5), true);
+    check((true, 4e-3, 5), (false, 4e-3, 5), true);
+    check((true, 4e-3, 5), (true, 4e-3, 5), false);
+    // Both are as good as outside.
+    check((true, 1e-4, 5), (true, 3e-4, 5), false);
+    check((true, 3e-4, 3), (true, 1e-4, 5), true);
+    // Fewer crossings, but deeper or not at rest.
+    check((true, 4e-3, 3), (true, 1e-4, 5), false);
+    check((false, 1e-4, 0), (true, 1e-4, 5), false);
+}
+
 #[test]
 fn what_ends_with_a_fault_is_put_on_otherwise() {
     let body = body::build(&Measurements::of(Sex::Male, 1.75)).expect("a body");
@@ -247,19 +283,7 @@ fn what_ends_with_a_fault_is_put_on_otherwise() {
         |stretch: f64| -> Vec<V3> { garments[0].rest.iter().map(|p| V3::new(p.x, stretch * p.y, 0.0)).collect() };
     let check =
         |what: &str, grip: Grip, fault: (f64, usize), stretch: f64, came_off: bool, expect: &[(Grip, f64, bool)]| {
-            let drape = Drape {
-                stage: Stage::Drape,
-                converged: true,
-                iterations: 1,
-                residual: 0.0,
-                penetration_max_m: fault.0,
-                seam_gap_max_m: 0.0,
-                self_crossings: fault.1,
-                welded_vertices: 1,
-                positions: flat(stretch),
-                history: Vec::new(),
-                earlier: Vec::new(),
-            };
+            let drape = Drape { positions: flat(stretch), ..ended(true, fault) };
             let starts = other_starts(&dressing, grip, &drape, came_off, &params).expect("it can be placed");
             let found: Vec<_> = starts.iter().map(|s| (s.grip, s.force, s.placed == placed)).collect();
             assert!(found == expect, "{what}: {} starts", found.len());
