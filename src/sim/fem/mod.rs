@@ -26,7 +26,7 @@ use settle::{Grip, Settled};
 const FAULTLESS_DEPTH_M: f64 = 5e-4;
 /// A garment whose top has come this far up from where it was placed has been squeezed off the body, m.
 const MOST_RISE_M: f64 = 0.25;
-/// Factors on the sewing force with which cloth that comes to rest and crosses itself, or is torn as it is sewn, is sewn again: whether a
+/// Factors on the sewing force with which cloth that ends crossing itself, or is torn as it is sewn, is sewn again: whether a
 /// fold that is drawn tight goes through another is chance, and so is how a ruffle is drawn out; these keep what is mirrored so.
 const RESEWN: [f64; 2] = [1.5, 0.67];
 
@@ -40,8 +40,8 @@ const RESEWN: [f64; 2] = [1.5, 0.67];
 /// A garment that is much too small is squeezed along the body by its own seams as they close, folds into itself at a
 /// narrower place or comes off over the head. Where a tight one ends with a fault or open seams it is therefore sewn once more with
 /// friction from the first seam on; any other that does, from pieces that are bent otherwise, unless how was asked for: a cuff drawn through a wrist, a fold
-/// through a fold are chance. What does nothing worse than cross itself is then sewn with more force, and with less. The first such
-/// drape that has no fault is taken, or, if the garment came off at first, that stays on.
+/// through a fold are chance. What still crosses itself is then sewn with more force, and with less. The first such
+/// drape that has no fault is taken, or, if the garment came off at first, that stays on; failing that, the best of them.
 ///
 /// # Errors
 /// When the garment cannot be placed, is degenerate, its seams stay open, it diverges, slides off the body even so or comes off
@@ -137,7 +137,7 @@ fn other_starts(
             starts.extend((elsewhere != placed).then_some(Start { placed: elsewhere, force, grip }));
         }
     }
-    if !came_off && drape.converged && drape.self_crossings > 0 {
+    if !came_off && drape.self_crossings > 0 {
         starts.extend(RESEWN.map(|factor| Start { placed: placed.clone(), force: factor * force, grip }));
     }
     Ok(starts)
