@@ -201,7 +201,11 @@ const SIZES: [&str; 3] = ["28", "36", "44"];
 
 fn others(patterns: &Path, bodies: &Path, words: &[&str]) -> Outcome {
     let cotton = of_library("cotton_shirting_light")?;
-    for path in files(bodies, &["obj", "ply"])? {
+    let scans = files(bodies, &["obj", "ply"])?;
+    if scans.is_empty() {
+        return Err(format!("{}: found no body; accepted: a folder with .obj or .ply files", bodies.display()).into());
+    }
+    for path in scans {
         let scan = body::from_scan(&std::fs::read(&path)?, None, None)?;
         let body = Dressed::new(scan.into_body()?)?;
         for (name, style) in styles(patterns)? {
@@ -244,9 +248,9 @@ fn styles(folder: &Path) -> Outcome<Vec<(String, Outcome<Style>)>> {
             found.push((size.map_or(name.clone(), |size| format!("{name}, {size}")), style));
         }
     }
-    for path in
-        files(&folder.join("garmentcode"), &["json"])?.into_iter().filter(|p| stem(p).ends_with("_specification"))
-    {
+    let mut specifications = files(&folder.join("garmentcode"), &["json"])?;
+    specifications.extend(files(&folder.join("garmentcode/upstream"), &["json"])?);
+    for path in specifications.into_iter().filter(|p| stem(p).ends_with("_specification")) {
         let name = stem(&path);
         let style = garmentcode::read(&std::fs::read(&path)?, &name).map(|file| measured(file.style()));
         found.push((name.trim_end_matches("_specification").to_owned(), style.map_err(Into::into)));

@@ -114,6 +114,8 @@ struct Stretches {
     /// By first edge, then span less one; `None` where a dart would be cut.
     table: Vec<Vec<Option<Stretch>>>,
     total: f64,
+    /// Of an outline that is its own mirror image, left to right: the sum, modulo the number of corners, of a corner and its image.
+    mirror: Option<usize>,
 }
 
 impl Stretches {
@@ -125,11 +127,12 @@ impl Stretches {
             (1..n).map(stretch).collect()
         };
         let total = (0..n).filter(|&edge| !shape.is_leg(edge)).map(|edge| shape.length(edge)).sum();
-        Self { edges: n, table: (0..n).map(row).collect(), total }
+        Self { edges: n, table: (0..n).map(row).collect(), total, mirror: shape.mirror() }
     }
 
-    /// The mean goodness of the best cut of the outline into the parts, with `(first corner, span)` of each.
-    fn best(&self, parts: &[Part], size: V2) -> Option<(f64, Vec<(usize, usize)>)> {
+    /// The mean goodness of the best cut of the outline into the parts, with `(first corner, span)` of each. Where outline and template are
+    /// both their own mirror images the cut is as well: else half of a neckline that rises in the middle was taken for a shoulder.
+    fn best(&self, parts: &[Part], size: V2) -> Option<Cut> {
         let n = self.edges;
         if n < parts.len() {
             return None;
@@ -140,56 +143,102 @@ impl Stretches {
             self.table.iter().map(|row| row.iter().map(|stretch| value(stretch, part)).collect()).collect()
         };
         let values: Vec<Values> = parts.iter().map(of_part).collect();
-        let mut best: Option<(f64, Vec<(usize, usize)>)> = None;
-        for start in 0..n {
-            if let Some((sum, cuts)) = best_from(start, &values) {
-                let mean = sum / parts.len() as f64;
-                if best.as_ref().is_none_or(|(found, _)| mean > *found) {
-                    best = Some((mean, cuts));
-                }
-            }
-        }
-        best
+        let mirror = self.mirror.filter(|_| is_symmetric(parts));
+        let symmetric = mirror.and_then(|mirror| greatest((0..n).map(|start| symmetric_from(start, mirror, &values))));
+        let (sum, cuts) = symmetric.or_else(|| greatest((0..n).map(|start| Reached::new(start, &values).cut(n))))?;
+        Some((sum / parts.len() as f64, cuts))
     }
+}
+
+/// The sum of its goodnesses, and `(first corner, span)` of each part.
+type Cut = (f64, Vec<(usize, usize)>);
+
+/// The first of the best cuts.
+fn greatest(cuts: impl Iterator<Item = Option<Cut>>) -> Option<Cut> {
+    cuts.flatten().reduce(|best, cut| if cut.0 > best.0 { cut } else { best })
+}
+
+/// Whether parts are their own mirror image: the first and the one half way round lie on the axis, the others right and left of it.
+fn is_symmetric(parts: &[Part]) -> bool {
+    let n = parts.len();
+    n % 2 == 0 && (1..n).all(|k| parts[k].label == parts[n - k].label && parts[k].at[1] == parts[n - k].at[1])
+}
+
+/// The best cut that begins at a corner and is its own mirror image; `mirror` is the sum of a corner and its image.
+fn symmetric_from(start: usize, mirror: usize, values: &[Values]) -> Option<Cut> {
+    let (n, half) = (values.first()?.len(), values.len() / 2);
+    // From a corner to its image.
+    let across = |from: usize| (mirror + 2 * n - 2 * from) % n;
+    let axis = |part: usize, from: usize| {
+        let span = across(from);
+        (span > 0).then(|| values[part][from][span - 1].map(|value| (value, (from, span))))?
+    };
+    let (first, hem) = axis(0, start)?;
+    let right = Reached::new((start + hem.1) % n, &values[1..half]);
+    let ends = (1..n).map(|used| {
+        let (sum, side) = right.cut(used)?;
+        let (top, upper) = axis(half, (start + hem.1 + used) % n)?;
+        let image = |&(from, span): &(usize, usize)| ((mirror + 2 * n - from - span) % n, span);
+        let left = side.iter().rev().map(image);
+        let cuts: Vec<_> = [hem].into_iter().chain(side.iter().copied()).chain([upper]).chain(left).collect();
+        (cuts.iter().map(|(_, span)| span).sum::<usize>() == n).then_some((first + 2.0 * sum + top, cuts))
+    });
+    greatest(ends)
 }
 
 /// Goodness of every stretch for one part: by first edge, then span less one.
 type Values = Vec<Vec<Option<f64>>>;
 
-/// Dynamic programme over the edges passed since the corner `start`.
-fn best_from(start: usize, values: &[Values]) -> Option<(f64, Vec<(usize, usize)>)> {
-    let n = values.first()?.len();
-    // Best sum with so many edges used, and the span of the last part.
-    let mut sums = vec![None; n + 1];
-    sums[0] = Some(0.0);
-    let mut spans = Vec::new();
-    for values in values {
-        let mut next: Vec<Option<f64>> = vec![None; n + 1];
-        let mut chosen = vec![0; n + 1];
-        for used in 0..n {
-            let Some(sum) = sums[used] else { continue };
-            for span in 1..=(n - used).min(n - 1) {
-                let Some(value) = values[(start + used) % n][span - 1] else { continue };
-                let value = sum + value;
-                if next[used + span].is_none_or(|found| value > found) {
-                    next[used + span] = Some(value);
-                    chosen[used + span] = span;
+/// Dynamic programme over the edges passed since a corner.
+struct Reached {
+    /// The corner.
+    start: usize,
+    /// Number of edges.
+    edges: usize,
+    /// Best sum of all parts with so many edges used.
+    sums: Vec<Option<f64>>,
+    /// For each part the span that it has in the best sum up to it, by edges used.
+    spans: Vec<Vec<usize>>,
+}
+
+impl Reached {
+    fn new(start: usize, values: &[Values]) -> Self {
+        let n = values.first().map_or(0, Vec::len);
+        let mut sums = vec![None; n + 1];
+        sums[0] = Some(0.0);
+        let mut spans = Vec::new();
+        for values in values {
+            let mut next: Vec<Option<f64>> = vec![None; n + 1];
+            let mut chosen = vec![0; n + 1];
+            for used in 0..n {
+                let Some(sum) = sums[used] else { continue };
+                for span in 1..=(n - used).min(n - 1) {
+                    let Some(value) = values[(start + used) % n][span - 1] else { continue };
+                    let value = sum + value;
+                    if next[used + span].is_none_or(|found| value > found) {
+                        next[used + span] = Some(value);
+                        chosen[used + span] = span;
+                    }
                 }
             }
+            sums = next;
+            spans.push(chosen);
         }
-        sums = next;
-        spans.push(chosen);
+        Self { start, edges: n, sums, spans }
     }
-    let sum = sums[n]?;
-    let mut cuts = Vec::new();
-    let mut used = n;
-    for chosen in spans.iter().rev() {
-        let span = chosen[used];
-        used -= span;
-        cuts.push(((start + used) % n, span));
+
+    /// The best cut of the `used` edges from the corner on.
+    fn cut(&self, mut used: usize) -> Option<Cut> {
+        let sum = (*self.sums.get(used)?)?;
+        let mut cuts = Vec::new();
+        for chosen in self.spans.iter().rev() {
+            let span = chosen[used];
+            used -= span;
+            cuts.push(((self.start + used) % self.edges, span));
+        }
+        cuts.reverse();
+        Some((sum, cuts))
     }
-    cuts.reverse();
-    Some((sum, cuts))
 }
 
 /// How well a stretch does for a part, at most 1.

@@ -297,6 +297,23 @@ fn a_raglan_sleeve_is_sewn_to_front_and_back_up_to_the_neck() {
 }
 
 #[test]
+fn a_cowl_that_rises_in_the_middle_is_a_neck_all_along() {
+    let trunk = |name: &str, half: &[(f64, f64, u8)], neck: (f64, f64, u8)| {
+        let left: Vec<(f64, f64, u8)> = half.iter().rev().map(|&(x, y, corner)| (-x, y, corner)).collect();
+        piece(name, &[half, &[neck], &left].concat())
+    };
+    let low = [(250.0, 0.0, 1), (205.0, 130.0, 1), (255.0, 310.0, 1), (238.0, 335.0, 0)];
+    let front = [&low[..], &[(260.0, 430.0, 0), (295.0, 525.0, 1), (250.0, 553.0, 1)]].concat();
+    let back = [&low[..], &[(225.0, 430.0, 0), (215.0, 520.0, 1), (165.0, 538.0, 1)]].concat();
+    let pieces = [trunk("FRONT", &front, (0.0, 620.0, 1)), trunk("BACK", &back, (0.0, 520.0, 1))];
+    let proposal = draped(&pieces, &["side", "shoulder"]);
+    let shoulders = ["shoulder_right", "shoulder_left"].map(|name| seam(&proposal, name).a_mm);
+    assert!((shoulders[0] - shoulders[1]).abs() < 1e-6 && shoulders[0] < 60.0, "{shoulders:?}");
+    let (_, front) = proposal.entries.iter().find(|(id, _)| id == "front").expect("a front");
+    assert_eq!(front.edges.keys().filter(|edge| edge.starts_with("neck")).count(), 1, "{:?}", front.edges);
+}
+
+#[test]
 fn without_its_sleeves_a_raglan_cannot_be_worn() {
     let half =
         [(0.0, 0.0, 1), (260.0, 0.0, 1), (260.0, 420.0, 1), (215.0, 440.0, 0), (80.0, 640.0, 1), (0.0, 560.0, 1)];

@@ -14,6 +14,8 @@ const WIDEST_MOUTH: f64 = 0.7;
 const LEAST_LEG_M: f64 = 20e-3;
 /// Growth of a mouth that is none, m.
 const LEAST_STEP_M: f64 = 1e-3;
+/// Greatest distance of corners from the images of others in an outline that is its own mirror image, share of its size.
+const MIRRORED: f64 = 0.003;
 /// Most corners of a piece that is looked at; more are no pattern's, and alignment takes the square of their number.
 const MOST_CORNERS: usize = 100;
 
@@ -183,6 +185,16 @@ impl Shape {
         let scale = (high - low).max().max(f64::MIN_POSITIVE);
         let outline = points.iter().map(|p| (p - low) / scale).collect();
         (Self { outline, ..self.clone() }, (high - low) / scale)
+    }
+
+    /// Of a framed outline that is its own mirror image, left to right: the sum, modulo the number of corners, of a corner and its image.
+    #[must_use]
+    pub fn mirror(&self) -> Option<usize> {
+        let n = self.len();
+        let place = |corner: usize| self.outline[self.corners[corner % n]];
+        let middle = 0.5 * self.outline.iter().map(|p| p.x).fold(0.0, f64::max);
+        let is_image = |a: V2, b: V2| (V2::new(2.0 * middle - a.x, a.y) - b).norm() < MIRRORED;
+        (0..n).find(|sum| (0..n).all(|corner| is_image(place(corner), place(sum + n - corner))))
     }
 
     /// The stretch over `span` edges from the edge `from` on.

@@ -438,25 +438,29 @@ impl<'a> BodyContact<'a> {
         let k = stiffest.min(limit / self.params.slip_m);
         let length = slip.norm();
         Some(if k * length <= limit {
-            Friction { energy: 0.5 * k * length * length, force: slip * -k, stiffness: k, excess: V3::zeros() }
+            Friction { energy: 0.5 * k * length * length, force: slip * -k, stiffness: k, held: slip }
         } else {
             let direction = slip / length;
             Friction {
                 energy: limit * (length - 0.5 * limit / k),
                 force: direction * -limit,
                 stiffness: k * SLIDING_STIFFNESS_SHARE,
-                excess: direction * (length - limit / k),
+                held: direction * (limit / k),
             }
         })
     }
 
-    /// Drags the anchors of sliding samples along, after a step has been taken to `x`.
+    /// Sets the anchors after a step has been taken to `x`: those of sliding samples are dragged along, and all come to lie level with their
+    /// samples. An anchor that stayed behind along the normal would pull sideways as soon as that turns, which it does by degrees a
+    /// micrometre in the crease of an armpit: vertices hopped to and fro there for ever.
     pub fn drag_anchors(&mut self, x: &[V3]) {
         for k in 0..self.touching.len() {
             let touch = self.touching[k];
-            let excess = self.friction_at(&touch, x).map(|f| f.excess);
-            if let (Some(anchor), Some(excess)) = (&mut self.samples[touch.sample].anchor, excess) {
-                *anchor += excess;
+            let held = self.friction_at(&touch, x).map(|f| f.held);
+            let sample = &mut self.samples[touch.sample];
+            let p = sample.at(x);
+            if let (Some(anchor), Some(held)) = (&mut sample.anchor, held) {
+                *anchor = p - held;
             }
         }
     }
@@ -467,6 +471,6 @@ struct Friction {
     force: V3,
     /// Across the normal, N/m.
     stiffness: f64,
-    /// How far the anchor lags behind the Coulomb limit.
-    excess: V3,
+    /// How far the sample may be from its anchor: as far as it is across the normal, or the Coulomb limit allows.
+    held: V3,
 }

@@ -41,6 +41,29 @@ fn a_chord_through_the_body_is_held_out() {
     assert!(contact.energy(&x) > before);
 }
 
+#[test]
+fn friction_forgets_how_deep_a_contact_was_before() {
+    let radius = 5e-3;
+    let field = DistanceField::build(&shapes::sphere(radius, 48), 5e-4).expect("a closed ball");
+    let on = |angle: f64, height_m: f64| vec![V3::new(angle.sin(), 0.0, angle.cos()) * (radius + height_m)];
+    // Pressed in at the pole by steps, then moved along the ball, whose normal turns.
+    let held = |heights_m: &[f64]| {
+        let mut contact = BodyContact::new(&field, ContactParams::default(), &[1e-4]);
+        contact.set_friction(Some(0.3));
+        let mut assembled = |x: &[V3]| {
+            let (mut forces, mut diagonal) = (vec![V3::zeros()], vec![nalgebra::Matrix3::zeros()]);
+            contact.assemble(x, &mut forces, &mut diagonal);
+            contact.drag_anchors(x);
+            forces[0]
+        };
+        heights_m.iter().for_each(|&height_m| drop(assembled(&on(0.0, height_m))));
+        assembled(&on(0.02, 1e-4))
+    };
+    let (at_once, by_steps) = (held(&[1e-4]), held(&[9e-4, 5e-4, 1e-4]));
+    assert!(at_once.dot(&V3::new(0.02_f64.cos(), 0.0, -0.02_f64.sin())) < 0.0, "it is not held: {at_once}");
+    assert!((at_once - by_steps).norm() < 1e-9 * at_once.norm(), "{by_steps} for {at_once}");
+}
+
 /// A triangle, and another whose corner is at some height above it, pointing down.
 fn poking(height: f64) -> Vec<V3> {
     let sheet = [V3::new(-0.05, -0.05, 0.0), V3::new(0.05, -0.05, 0.0), V3::new(0.0, 0.08, 0.0)];

@@ -26,9 +26,11 @@ use settle::{Grip, Settled};
 const FAULTLESS_DEPTH_M: f64 = 5e-4;
 /// A garment whose top has come this far up from where it was placed has been squeezed off the body, m.
 const MOST_RISE_M: f64 = 0.25;
-/// Factors on the sewing force with which cloth that ends crossing itself, or is torn as it is sewn, is sewn again: whether a
+/// Factors on the sewing force with which what ends with a fault, or is torn as it is sewn, is sewn again: whether a
 /// fold that is drawn tight goes through another is chance, and so is how a ruffle is drawn out; these keep what is mirrored so.
 const RESEWN: [f64; 2] = [1.5, 0.67];
+/// Steps times vertices (about 2.5 microseconds each) after which a fault is no longer tried to be put right: who waits has waited.
+const MOST_TRIED: u64 = 40_000_000;
 
 /// Dresses a body in a garment.
 ///
@@ -40,8 +42,9 @@ const RESEWN: [f64; 2] = [1.5, 0.67];
 /// A garment that is much too small is squeezed along the body by its own seams as they close, folds into itself at a
 /// narrower place or comes off over the head. Where a tight one ends with a fault or open seams it is therefore sewn once more with
 /// friction from the first seam on; any other that does, from pieces that are bent otherwise, unless how was asked for: a cuff drawn through a wrist, a fold
-/// through a fold are chance. What still crosses itself is then sewn with more force, and with less. The first such
-/// drape that has no fault is taken, or, if the garment came off at first, that stays on; failing that, the best of them.
+/// through a fold are chance. What still has a fault is then sewn with more force, and with less. The first such
+/// drape that has no fault is taken, or, if the garment came off at first, that stays on; failing that, the best of them. Where all
+/// tries so far have taken long, the best of them has to do.
 ///
 /// # Errors
 /// When the garment cannot be placed, is degenerate, its seams stay open, it diverges, slides off the body even so or comes off
@@ -85,6 +88,9 @@ pub fn simulate(
     let is_off = |drape: &Drape| rise_m(&placed, &drape.positions) > MOST_RISE_M;
     let came_off = is_off(&drape);
     for Start { placed, force, grip } in other_starts(&dressing, grip, &drape, came_off, params)? {
+        if !came_off && run.vertex_steps() > MOST_TRIED {
+            break;
+        }
         match (Dressing { placed: &placed, force, ..dressing }).dress(grip, &mut run).map(&ended) {
             Err(SimError::Cancelled) => return Err(SimError::Cancelled),
             Ok(again) if !is_off(&again) && (came_off || is_faultless(&again)) => {
@@ -137,7 +143,7 @@ fn other_starts(
             starts.extend((elsewhere != placed).then_some(Start { placed: elsewhere, force, grip }));
         }
     }
-    if !came_off && drape.self_crossings > 0 {
+    if !came_off {
         starts.extend(RESEWN.map(|factor| Start { placed: placed.clone(), force: factor * force, grip }));
     }
     Ok(starts)

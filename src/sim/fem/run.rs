@@ -71,6 +71,7 @@ pub struct Run<'a> {
     /// Height of the garment's top as it was sewn, m.
     worn_at_m: Option<f64>,
     iteration: u32,
+    vertex_steps: u64,
     fraction: f64,
     history: Vec<Step>,
 }
@@ -78,7 +79,8 @@ pub struct Run<'a> {
 impl<'a> Run<'a> {
     /// Starts a run over levels 0 to `levels`.
     pub fn new(params: &'a Params, monitor: &'a mut dyn Monitor, levels: usize) -> Self {
-        Self { params, monitor, levels, worn_at_m: None, iteration: 0, fraction: 0.0, history: Vec::new() }
+        let history = Vec::new();
+        Self { params, monitor, levels, worn_at_m: None, iteration: 0, vertex_steps: 0, fraction: 0.0, history }
     }
 
     /// How it simulates.
@@ -99,6 +101,11 @@ impl<'a> Run<'a> {
     /// Iterations so far.
     pub fn iterations(&self) -> u32 {
         self.iteration
+    }
+
+    /// Sum over all iterations of the vertices that were stepped.
+    pub fn vertex_steps(&self) -> u64 {
+        self.vertex_steps
     }
 
     /// Every recorded step.
@@ -191,6 +198,7 @@ impl<'a> Run<'a> {
         fraction: f64,
     ) -> Result<(), SimError> {
         self.iteration += 1;
+        self.vertex_steps += x.len() as u64;
         if !x.iter().all(|p| p.iter().all(|c| c.is_finite())) {
             return Err(SimError::Diverged { garment: garment.name.clone(), iteration: self.iteration });
         }

@@ -291,9 +291,8 @@ fn what_ends_with_a_fault_is_put_on_otherwise() {
     let (late, early) = (Grip::AtTheEnd, Grip::Throughout);
     let resewn = |grip| RESEWN.map(|force| (grip, force, true));
     check("faultless", late, (1e-4, 0), 1.0, false, &[]);
-    check("deep", late, (2e-3, 0), 1.0, false, &[(late, 1.0, false)]);
-    for (what, depth) in [("deep and crossed", 2e-3), ("crossed", 1e-4)] {
-        check(what, late, (depth, 4), 1.0, false, &[&[(late, 1.0, false)][..], &resewn(late)].concat());
+    for (what, fault) in [("deep", (2e-3, 0)), ("deep and crossed", (2e-3, 4)), ("crossed", (1e-4, 4))] {
+        check(what, late, fault, 1.0, false, &[&[(late, 1.0, false)][..], &resewn(late)].concat());
     }
     check("tight and crossed", late, (1e-4, 4), 1.5, false, &[&[(early, 1.0, true)][..], &resewn(late)].concat());
     check("crossed with friction", early, (1e-4, 4), 1.5, false, &resewn(early));
