@@ -5,12 +5,15 @@ use std::collections::BTreeMap;
 use super::{EdgeRef, PathPart, Style, StyleMeasurement};
 use crate::pattern::garment::MeasurementKind;
 
+/// Difference of its sides' lengths beyond which one is eased into the other, m.
+const EASED_M: f64 = 1e-3;
+
 /// One end of an edge: `true` for its last point.
 type EdgeEnd = (EdgeRef, bool);
 
 impl Style {
     /// Replaces the measurements by one for each opening (a loop of edges that no seam holds, such as a hem, a neckline or
-    /// a sleeve opening) and one for each seam, along its side `a`.
+    /// a sleeve opening) and one for each seam: along its side `a`, or `b` where `a` is longer, and so eased or gathered into it.
     pub fn measure_openings_and_seams(&mut self) {
         let mut found: Vec<(String, MeasurementKind, Vec<EdgeRef>)> = Vec::new();
         for opening in self.openings() {
@@ -22,7 +25,10 @@ impl Style {
             found.push((format!("opening {name}"), MeasurementKind::ClosedGirth, opening));
         }
         for seam in &self.seams {
-            found.push((format!("seam {}", seam.name), MeasurementKind::OpenLength, seam.a.clone()));
+            let length_m = |side: &[EdgeRef]| -> f64 { side.iter().map(|edge| self.edge(*edge).line.length()).sum() };
+            let is_eased = length_m(&seam.a) > length_m(&seam.b) + EASED_M;
+            let side = if is_eased { &seam.b } else { &seam.a };
+            found.push((format!("seam {}", seam.name), MeasurementKind::OpenLength, side.clone()));
         }
         let measured = found.into_iter().enumerate().map(|(k, (name, kind, edges))| {
             let path: Vec<PathPart> = edges.into_iter().map(PathPart::Edge).collect();
@@ -110,10 +116,24 @@ impl Style {
 
 #[cfg(test)]
 mod tests {
+    use super::PathPart;
     use crate::pattern::Style;
     use crate::pattern::draft::Model;
     use crate::pattern::garment::MeasurementKind;
     use crate::units::mm;
+
+    #[test]
+    fn a_gathered_seam_is_measured_along_the_side_that_it_is_gathered_into() {
+        let draft = Model::Tshirt.drafts().swap_remove(0);
+        let mut style = Style::read(&draft.pieces, Model::Tshirt.seams(), "a.toml").expect("it is a style");
+        let seam = style.seams.iter().position(|seam| seam.a.len() == 1 && seam.b.len() == 2).expect("an armhole");
+        // One of two edges that a cap is sewn to: what is left is about half as long.
+        style.seams[seam].b.pop();
+        let (name, held) = (format!("seam {}", style.seams[seam].name), style.seams[seam].b.clone());
+        style.measure_openings_and_seams();
+        let measured = style.measurements.iter().find(|m| m.name == name).expect("it is measured");
+        assert_eq!(measured.path, held.into_iter().map(PathPart::Edge).collect::<Vec<_>>());
+    }
 
     #[test]
     fn openings_of_the_drafted_styles_are_their_free_girths() {
