@@ -161,7 +161,7 @@ fn greatest(cuts: impl Iterator<Item = Option<Cut>>) -> Option<Cut> {
 /// Whether parts are their own mirror image: the first and the one half way round lie on the axis, the others right and left of it.
 fn is_symmetric(parts: &[Part]) -> bool {
     let n = parts.len();
-    n % 2 == 0 && (1..n).all(|k| parts[k].label == parts[n - k].label && parts[k].at[1] == parts[n - k].at[1])
+    n.is_multiple_of(2) && (1..n).all(|k| parts[k].label == parts[n - k].label && parts[k].at[1] == parts[n - k].at[1])
 }
 
 /// The best cut that begins at a corner and is its own mirror image; `mirror` is the sum of a corner and its image.

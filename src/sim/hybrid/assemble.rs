@@ -38,7 +38,7 @@ struct Stretch {
 pub fn assemble(garment: &Garment) -> Assembly {
     let stretches = stretches(garment);
     let parts = parts(garment, &stretches);
-    let marks = Marks::new(garment, &stretches);
+    let marks = Marks::new(garment, &stretches, &parts);
     let is_inner = |s: &Stretch| {
         let [a, b] = s.pieces.map(|p| parts[p]);
         a.is_some() && a == b && closes(garment, &marks, a, s)
@@ -102,35 +102,70 @@ fn parts(garment: &Garment, stretches: &[Stretch]) -> Vec<Option<Role>> {
     parts
 }
 
-/// Where front and back of the trunk meet along the sides.
+/// Where the underarm seams of sleeves meet the trunk.
 struct Marks {
     /// Welded vertex of each vertex.
     welded: Vec<usize>,
-    /// Welded vertices of the sides.
-    sides: BTreeSet<usize>,
+    /// Welded vertices at which sleeves in pieces are left open: those at the sides of the trunk, or what comes nearest to them.
+    roots: BTreeSet<usize>,
 }
 
 impl Marks {
-    fn new(garment: &Garment, stretches: &[Stretch]) -> Self {
-        use super::features::{Face, face};
-        let mut marks = Self { welded: sewing::welded(garment), sides: BTreeSet::new() };
-        for stretch in stretches {
-            let faces = stretch.pieces.map(|p| face(garment.pieces[p].role));
-            if !matches!(faces, [Face::Front, Face::Back] | [Face::Back, Face::Front]) {
-                continue;
-            }
-            let ends = [stretch.pairs[0][0], stretch.pairs[stretch.pairs.len() - 1][0]].map(|v| garment.rest[v]);
-            let chord = ends[1] - ends[0];
-            if chord.y.abs() > chord.x.abs() {
-                marks.sides.extend(stretch.pairs.iter().map(|pair| marks.welded[pair[0]]));
-            }
+    fn new(garment: &Garment, stretches: &[Stretch], parts: &[Option<Role>]) -> Self {
+        let welded = sewing::welded(garment);
+        let sides = sides(garment, stretches, &welded);
+        // How far from a side a welded vertex lies on the trunk, m.
+        let off = |sewn: usize| {
+            let on = |p: &PieceMesh| {
+                let of = |is_it: &dyn Fn(usize) -> bool| -> Vec<V2> {
+                    p.vertices.clone().filter(|&v| is_it(welded[v])).map(|v| garment.rest[v]).collect()
+                };
+                let at_sides = of(&|w| sides.contains(&w));
+                let distances = of(&|w| w == sewn)
+                    .into_iter()
+                    .flat_map(|v| at_sides.clone().into_iter().map(move |s| (s - v).norm()));
+                distances.fold(f64::MAX, f64::min)
+            };
+            let trunk = garment.pieces.iter().filter(|p| !is_sleeve(p.role));
+            trunk.map(on).fold(f64::MAX, f64::min)
+        };
+        let mut roots = BTreeSet::new();
+        for sleeve in [Role::SleeveRight, Role::SleeveLeft] {
+            let is_within =
+                |s: &&Stretch| s.pieces[0] != s.pieces[1] && s.pieces.iter().all(|p| parts[*p] == Some(sleeve));
+            let ends = stretches.iter().filter(is_within).flat_map(|s| [s.pairs[0][0], s.pairs[s.pairs.len() - 1][0]]);
+            let ends: Vec<(usize, f64)> = ends.map(|v| (welded[v], off(welded[v]))).collect();
+            let nearest = ends.iter().map(|end| end.1).fold(f64::MAX, f64::min);
+            roots.extend(ends.iter().filter(|end| end.1 == nearest && nearest < f64::MAX).map(|end| end.0));
         }
-        marks
+        Self { welded, roots }
     }
 
     fn is_underarm(&self, stretch: &Stretch) -> bool {
-        stretch.pairs.iter().any(|pair| self.sides.contains(&self.welded[pair[0]]))
+        stretch.pairs.iter().any(|pair| self.roots.contains(&self.welded[pair[0]]))
     }
+}
+
+fn is_sleeve(role: Role) -> bool {
+    matches!(role, Role::SleeveRight | Role::SleeveLeft)
+}
+
+/// Welded vertices of the upright seams between front and back.
+fn sides(garment: &Garment, stretches: &[Stretch], welded: &[usize]) -> BTreeSet<usize> {
+    use super::features::{Face, face};
+    let mut sides = BTreeSet::new();
+    for stretch in stretches {
+        let faces = stretch.pieces.map(|p| face(garment.pieces[p].role));
+        if !matches!(faces, [Face::Front, Face::Back] | [Face::Back, Face::Front]) {
+            continue;
+        }
+        let ends = [stretch.pairs[0][0], stretch.pairs[stretch.pairs.len() - 1][0]].map(|v| garment.rest[v]);
+        let chord = ends[1] - ends[0];
+        if chord.y.abs() > chord.x.abs() {
+            sides.extend(stretch.pairs.iter().map(|pair| welded[pair[0]]));
+        }
+    }
+    sides
 }
 
 /// Whether a stretch between pieces of one part is sewn beforehand: a dart is, the seam that makes a tube of a sleeve is not.
@@ -144,7 +179,7 @@ fn closes(garment: &Garment, marks: &Marks, part: Option<Role>, stretch: &Stretc
         return stretch.pairs.iter().any(|pair| is_edge(*pair));
     }
     match part {
-        Some(Role::SleeveRight | Role::SleeveLeft) => !marks.is_underarm(stretch),
+        Some(role) if is_sleeve(role) => !marks.is_underarm(stretch),
         _ => true,
     }
 }
@@ -301,8 +336,7 @@ impl Numbered {
                 grain: V2::y(),
                 edges: BTreeMap::new(),
             };
-            let is_sleeve = matches!(piece.role, Role::SleeveRight | Role::SleeveLeft);
-            if group.len() > 1 && is_sleeve {
+            if group.len() > 1 && is_sleeve(piece.role) {
                 let open = outer.iter().filter(|s| s.pieces.iter().all(|p| group.contains(p)));
                 upright(&mut rest, vertices.clone(), open, marks, number);
             }
@@ -328,7 +362,7 @@ impl Numbered {
     }
 }
 
-/// Turns a sleeve so that its underarm seams run upright: from where they are open to where they meet the side.
+/// Turns a sleeve so that its underarm seams run upright: from where they are open to where they meet the trunk.
 fn upright<'s>(
     rest: &mut [V2],
     vertices: std::ops::Range<usize>,
@@ -339,9 +373,9 @@ fn upright<'s>(
     let mut up = V2::zeros();
     for stretch in open {
         let [first, last] = [stretch.pairs[0], stretch.pairs[stretch.pairs.len() - 1]];
-        let sign = if marks.sides.contains(&marks.welded[last[0]]) {
+        let sign = if marks.roots.contains(&marks.welded[last[0]]) {
             1.0
-        } else if marks.sides.contains(&marks.welded[first[0]]) {
+        } else if marks.roots.contains(&marks.welded[first[0]]) {
             -1.0
         } else {
             continue;

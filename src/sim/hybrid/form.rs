@@ -117,6 +117,18 @@ impl Form {
         form
     }
 
+    /// The form for tops and trousers in one.
+    #[must_use]
+    pub fn suit(body: &Body) -> Self {
+        use Region::*;
+        let trunk = [Neck, Shoulders, Chest, Abdomen, Pelvis];
+        let limbs =
+            [UpperArmRight, ForearmRight, UpperArmLeft, ForearmLeft, ThighRight, ShankRight, ThighLeft, ShankLeft];
+        let mut form = Self::of(&body.control, &[&trunk[..], &limbs].concat());
+        form.straighten_feet();
+        form
+    }
+
     /// Sets the foot's girth straight below the ankle's: trouser legs do not follow the instep.
     fn straighten_feet(&mut self) {
         for leg in &self.legs {

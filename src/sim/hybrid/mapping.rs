@@ -48,9 +48,11 @@ pub fn map(body: &Body, garment: &Garment) -> Result<OnForm, SimError> {
     let form = match features::kind(joined)? {
         Kind::Hung => Form::hung(body),
         Kind::Legs => Form::legs(body),
+        Kind::Suit => Form::suit(body),
     };
-    let pieces = features::features(body, &form, joined)?;
     let graph = PathGraph::new(&form.mesh, PATH_POINTS);
+    let pieces: Vec<Mapped> =
+        features::features(body, &form, joined)?.into_iter().map(|piece| distinct(&graph, piece)).collect();
     let mut paths = Paths::new(&form, &graph, &pieces);
     let partners = outline::partners(joined);
     let count = joined.rest.len();
@@ -70,6 +72,20 @@ pub fn map(body: &Body, garment: &Garment) -> Result<OnForm, SimError> {
     }
     let (positions, flips) = spread(garment, &assembly, &laid)?;
     Ok(OnForm { positions, flips, patches })
+}
+
+/// A piece without the features that come to lie on the node of the one before: sides of a waist that miss each other by a millimetre.
+fn distinct(graph: &PathGraph, mut piece: Mapped) -> Mapped {
+    let nodes: Vec<_> = piece.features.iter().map(|f| node_of(graph, f)).collect();
+    let n = nodes.len();
+    let mut number = 0..n;
+    piece.features.retain(|_| number.next().is_none_or(|k| nodes[k] != nodes[(k + n - 1) % n]));
+    piece
+}
+
+/// Node of the path graph on which a feature lies.
+fn node_of(graph: &PathGraph, feature: &Feature) -> usize {
+    graph.nearest(&feature.place, |_| true).unwrap_or(0)
 }
 
 /// The closed outline of a piece on the form.
@@ -96,8 +112,8 @@ struct Paths<'a> {
 
 impl<'a> Paths<'a> {
     fn new(form: &'a Form, graph: &'a PathGraph<'a>, pieces: &[Mapped]) -> Self {
-        let node = |f: &Feature| graph.nearest(&f.place, |_| true).unwrap_or(0);
-        let ends: Vec<Vec<usize>> = pieces.iter().map(|p| p.features.iter().map(node).collect()).collect();
+        let nodes = |p: &Mapped| p.features.iter().map(|f| node_of(graph, f)).collect();
+        let ends: Vec<Vec<usize>> = pieces.iter().map(nodes).collect();
         let mut taken = Taken::default();
         ends.iter().flatten().for_each(|&n| taken.add_node(n));
         Self { form, graph, normals: form.mesh.triangle_normals(), found: BTreeMap::new(), taken, ends }
@@ -122,7 +138,9 @@ impl<'a> Paths<'a> {
             let (from, to) = (at(feature.vertex), at(mapped.features[next].vertex));
             let to = if to <= from { to + ring.len() } else { to };
             let vertices: Vec<usize> = (from..=to).map(|i| ring[i % ring.len()]).collect();
-            let pair = [vertices[0].min(vertices[1]), vertices[0].max(vertices[1])];
+            // Both sides of a seam go by its middle: they may begin with a millimetre of another.
+            let [a, b] = [vertices[(vertices.len() - 1) / 2], vertices[vertices.len().div_ceil(2)]];
+            let pair = [a.min(b), a.max(b)];
             let partner = partners.get(&pair).copied().unwrap_or(usize::MAX);
             let path = self.path(garment, [piece, partner], [ends[k], ends[next]])?;
             if path.len() < 2 {

@@ -12,7 +12,7 @@ use crate::body::{self, Measurements, Region, Sex};
 use crate::geom::V2;
 use crate::pattern::draft::Model;
 use crate::pattern::garment::PieceMesh;
-use crate::pattern::{Role, SeamMesh, Style};
+use crate::pattern::{Role, SeamMesh, Style, garmentcode};
 use crate::sim::fabric;
 use crate::sim::laboratory::sheets::{hexagonal_sheet, noise};
 
@@ -191,6 +191,48 @@ fn trousers_and_a_dress_are_mapped() {
     let mapped = mapping::map(&SLIM, &trousers).expect("trousers");
     assert_eq!(mapped.flips, 0);
     assert_eq!(mapping::map(&SLIM, &garment(Model::Dress, 0, 0.03)).expect("a dress").flips, 0);
+}
+
+/// Two garments worn together as one; measured nowhere.
+fn with(mut one: Garment, other: &Garment) -> Garment {
+    let (first, before) = (one.rest.len(), one.triangles.len());
+    one.rest.extend(&other.rest);
+    one.triangles.extend(other.triangles.iter().map(|t| t.map(|v| v + first)));
+    one.seams.extend(other.seams.iter().map(|seam| SeamMesh {
+        pairs: seam.pairs.iter().map(|pair| pair.map(|v| v + first)).collect(),
+        ..seam.clone()
+    }));
+    one.pieces.extend(other.pieces.iter().map(|piece| PieceMesh {
+        vertices: piece.vertices.start + first..piece.vertices.end + first,
+        triangles: piece.triangles.start + before..piece.triangles.end + before,
+        ..piece.clone()
+    }));
+    Garment { measurements: Vec::new(), fit_levels: Vec::new(), reinforcements: Vec::new(), ..one }
+}
+
+#[test]
+fn a_top_and_trousers_are_a_suit_but_a_skirt_over_trousers_is_not() {
+    let suit = with(garment(Model::Tshirt, 1, 0.05), &garment(Model::Trousers, 1, 0.05));
+    assert_eq!(features::kind(&suit).expect("a suit"), features::Kind::Suit);
+    let both = with(garment(Model::Dress, 0, 0.05), &garment(Model::Trousers, 1, 0.05));
+    let error = mapping::map(&SLIM, &both).expect_err("a skirt over trousers").to_string();
+    assert!(error.contains("cannot place role SkirtFront") && error.contains("leg pieces"), "{error}");
+}
+
+/// A jumpsuit, a dress whose bodice is wider than its skirt's front, and a shirt whose sleeve seams lie before its sides.
+#[test]
+fn sides_need_not_meet() {
+    for name in ["js_mean_all", "dress_pencil", "shirt_mean"] {
+        let path =
+            format!("{}/../shared/patterns/garmentcode/upstream/{name}_specification.json", env!("CARGO_MANIFEST_DIR"));
+        let Ok(bytes) = std::fs::read(&path) else {
+            eprintln!("skipped: {path} is not here");
+            continue;
+        };
+        let style = garmentcode::read(&bytes, name).expect("a specification").style();
+        let mapped = mapping::map(&LARGE, &style.mesh(0.03).expect("a mesh"));
+        assert!(mapped.unwrap_or_else(|error| panic!("{name}: {error}")).flips < 10, "{name}");
+    }
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! Features of what goes round a limb: sleeves, fronts and backs of legs, skirts in one piece.
 
 use super::line::{between, joined, nth, run};
-use super::{Face, Found, Mapper, OnTube, face};
+use super::{Face, Found, Mapper, OnTube, face, is_leg};
 use crate::body::RING;
+use crate::geom::V3;
 use crate::pattern::Role;
 use crate::sim::hybrid::outline::{self, Chain, Partner};
 
@@ -26,9 +27,10 @@ impl Mapper<'_> {
         };
         let opening = joined(run(falling, rising, chains));
         let cap = joined(run(rising, falling, chains));
-        let underarm = self.place(chains[rising].last()).ok_or("its underarm is not sewn to a side seam")?;
-        let top = cap.iter().copied().find(|&v| self.place(v).is_some_and(|p| p != underarm));
-        let top = top.ok_or("its cap is not sewn to a shoulder")?;
+        let underarm = self.underarm(&cap).ok_or("its underarm is not sewn to the trunk")?;
+        let height = |v: &usize| self.place(*v).map_or(f64::MIN, |p| p.z);
+        let top = cap.iter().copied().filter(|&v| self.place(v).is_some_and(|p| p != underarm));
+        let top = top.max_by(|a, b| height(a).total_cmp(&height(b))).ok_or("its cap is not sewn to a shoulder")?;
         let arm = self.form.arms[side].clone();
         let mesh = &self.form.mesh;
         let root = arm.at(mesh, UNDER_ARM, 0.0);
@@ -46,6 +48,23 @@ impl Mapper<'_> {
             along: below + (above - below) * 0.5 * (1.0 - (share * std::f64::consts::TAU).cos()),
         });
         Ok(())
+    }
+
+    /// Where the underarm seam of a sleeve meets the trunk, whose line along the armhole begins and ends there: at a side, or on the way
+    /// from the side to the shoulder, by its share of the armhole between.
+    fn underarm(&mut self, cap: &[usize]) -> Option<V3> {
+        let (first, last) = (*cap.first()?, *cap.last()?);
+        if let Some(place) = self.place(first) {
+            return Some(place);
+        }
+        let placed = |&i: &usize| self.place(cap[i]).is_some();
+        let (after, before) = ((0..cap.len()).find(placed)?, (0..cap.len()).rev().find(placed)?);
+        let [near, far] =
+            [outline::length_m(self.garment, &cap[..=after]), outline::length_m(self.garment, &cap[before..])];
+        let place = self.place(cap[after])?.lerp(&self.place(cap[before])?, near / (near + far));
+        self.set(first, place);
+        self.set(last, place);
+        Some(place)
     }
 
     /// A piece that goes all round the trunk, sewn to itself: its seam down the centre of the back from the waist.
@@ -80,7 +99,7 @@ impl Mapper<'_> {
         };
         let is_own_leg = |role: Role| {
             let right = matches!(role, Role::LegFrontRight | Role::LegBackRight);
-            right == (side == 0)
+            is_leg(role) && right == (side == 0)
         };
         // Seen from outside, the front's +u is the wearer's left: the right leg's inseam.
         let inseam_rises = (own == Face::Front) == (side == 0);
@@ -89,7 +108,8 @@ impl Mapper<'_> {
         let own_leg = |c: &Chain| role_of(c).is_some_and(is_own_leg);
         let inseam = find(&|c| own_leg(c) && up(c) == inseam_rises).ok_or("it has no inseam")?;
         let outseam = find(&|c| own_leg(c) && up(c) != inseam_rises).ok_or("it has no outseam")?;
-        let crotch = find(&|c| role_of(c).is_some_and(|r| !is_own_leg(r))).ok_or("it has no crotch seam")?;
+        let crotch =
+            find(&|c| role_of(c).is_some_and(|r| is_leg(r) && !is_own_leg(r))).ok_or("it has no crotch seam")?;
         let (hem, waist) = if inseam_rises {
             (joined(run(outseam, inseam, chains)), joined(run(crotch, outseam, chains)))
         } else {

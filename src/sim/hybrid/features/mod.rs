@@ -46,6 +46,8 @@ pub enum Kind {
     Hung,
     /// Trousers.
     Legs,
+    /// A top and trousers in one.
+    Suit,
 }
 
 /// Whether pieces of a role are worn on a leg.
@@ -57,21 +59,20 @@ pub fn is_leg(role: Role) -> bool {
 /// Kind of a garment.
 ///
 /// # Errors
-/// [`SimError::CannotPlace`] for a piece that belongs to the other kind than the first.
+/// [`SimError::CannotPlace`] for a skirt over trousers.
 pub fn kind(garment: &Garment) -> Result<Kind, SimError> {
-    let kind_of = |role: Role| if is_leg(role) { Kind::Legs } else { Kind::Hung };
-    let first = garment.pieces.first().map_or(Kind::Hung, |p| kind_of(p.role));
-    let strange = garment.pieces.iter().find(|p| kind_of(p.role) != first);
-    match strange {
-        None => Ok(first),
-        Some(piece) => Err(SimError::CannotPlace {
-            piece: piece.id.clone(),
-            role: piece.role,
-            accepted: match first {
-                Kind::Hung => "front, back, sleeve, bodice and skirt pieces",
-                Kind::Legs => "leg pieces",
-            },
+    let of = |is_it: fn(Role) -> bool| garment.pieces.iter().find(|piece| is_it(piece.role));
+    let is_top = |role: Role| !is_leg(role);
+    let is_round = |role: Role| is_skirt(role) || matches!(role, Role::Other | Role::Waistband);
+    match (of(is_leg), of(is_round), of(is_top)) {
+        (None, ..) => Ok(Kind::Hung),
+        (Some(_), Some(skirt), _) => Err(SimError::CannotPlace {
+            piece: skirt.id.clone(),
+            role: skirt.role,
+            accepted: "with legs: front, back, sleeve, bodice and leg pieces",
         }),
+        (Some(_), None, Some(_)) => Ok(Kind::Suit),
+        (Some(_), None, None) => Ok(Kind::Legs),
     }
 }
 
@@ -101,6 +102,11 @@ fn is_skirt(role: Role) -> bool {
     matches!(role, Role::SkirtFront | Role::SkirtBack)
 }
 
+/// Whether a piece is worn below the waist.
+fn is_low(role: Role) -> bool {
+    is_skirt(role) || is_leg(role)
+}
+
 /// A point of a tube: line and parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct OnTube {
@@ -123,8 +129,8 @@ pub fn features(body: &Body, form: &Form, garment: &Garment) -> Result<Vec<Mappe
     }
     let mut mapper = Mapper { body, form, garment, welded: sewing::welded(garment), places: BTreeMap::new() };
     let mut order: Vec<usize> = (0..pieces.len()).collect();
-    // Sleeves hang on bodices, skirts too: trunk first.
-    order.sort_by_key(|&p| (face(garment.pieces[p].role) == Face::Round, is_skirt(garment.pieces[p].role)));
+    // Sleeves hang on bodices, skirts and legs too: trunk first.
+    order.sort_by_key(|&p| (face(garment.pieces[p].role) == Face::Round, is_low(garment.pieces[p].role)));
     // Shoulders and underarms of all trunk pieces before anything is hung on them.
     for &p in &order {
         let piece = &garment.pieces[p];
@@ -178,6 +184,17 @@ impl Mapper<'_> {
         let features: Vec<Feature> =
             ring.iter().filter_map(|&vertex| Some(Feature { vertex, place: self.place(vertex)? })).collect();
         (features.len() >= 3).then_some(Mapped { ring, features })
+    }
+
+    /// Points along a line round a tube where it goes over from one piece that it is sewn to to the next.
+    fn joints(&mut self, tube: &Tube, vertices: &[usize], joints: &[usize], on_tube: &dyn Fn(f64) -> OnTube) {
+        let whole = outline::length_m(self.garment, vertices);
+        for joint in joints {
+            let Some(at) = vertices.iter().position(|v| v == joint) else { continue };
+            let OnTube { line, along } = on_tube(outline::length_m(self.garment, &vertices[..=at]) / whole);
+            let [before, after] = [line.floor(), line.ceil()].map(|l| tube.at(&self.form.mesh, l as i32, along));
+            self.set(*joint, before.lerp(&after, line - line.floor()));
+        }
     }
 
     /// Auxiliary points along a line round a tube, given by share of its length; ends without a place get theirs.

@@ -2,9 +2,10 @@
 
 use super::limb::TOP_OF_ARM;
 use super::line::{between, groups, joined};
-use super::{Face, Found, Mapper, OnTube, face};
+use super::{Face, Found, Mapper, OnTube, face, is_low};
 use crate::body::Layer;
 use crate::geom::V3;
+use crate::pattern::Role;
 use crate::sim::hybrid::outline::{Chain, Partner};
 
 /// A shoulder seam that is longer than the shoulder reaches onto the arm, at most by this share of the way from armscye to
@@ -25,8 +26,9 @@ enum Key {
 impl Mapper<'_> {
     /// A front or back piece, whole or half, with or without shoulders.
     pub(super) fn trunk(&mut self, piece: usize, chains: &[Chain]) -> Found {
-        let own = face(self.garment.pieces[piece].role);
-        let keys: Vec<Option<Key>> = chains.iter().map(|chain| self.key(own, chain)).collect();
+        let role = self.garment.pieces[piece].role;
+        let own = face(role);
+        let keys: Vec<Option<Key>> = chains.iter().map(|chain| self.key(role, chain)).collect();
         let count = |key: Key| keys.iter().filter(|k| **k == Some(key)).count();
         if count(Key::Side) + count(Key::Centre) != 2 || count(Key::Side) == 0 {
             return Err("it is not sewn to the other face of the trunk along two sides, or one and a centre seam");
@@ -52,6 +54,7 @@ impl Mapper<'_> {
             let (Some(a), Some(b)) = (keys[before], keys[after]) else { continue };
             let up = |c: usize| chains[c].chord(self.garment).y > 0.0;
             let vertices = joined(inner.iter().map(|&i| &chains[i % n]));
+            let joints: Vec<usize> = inner.iter().skip(1).map(|&i| chains[i % n].first()).collect();
             if vertices.len() < 2 {
                 continue;
             }
@@ -61,19 +64,20 @@ impl Mapper<'_> {
                         self.neck(own, &vertices, chains, &keys);
                     }
                 }
-                (_, false, _, true) => self.level(own, &vertices)?,
-                (_, true, _, false) => self.level(own, &vertices)?,
+                (_, false, _, true) | (_, true, _, false) => self.level(own, &vertices, &joints)?,
                 _ => return Err("its seams do not run round it as those of a front or back"),
             }
         }
         Ok(())
     }
 
-    fn key(&self, own: Face, chain: &Chain) -> Option<Key> {
+    fn key(&self, role: Role, chain: &Chain) -> Option<Key> {
         let Partner::Piece(other) = chain.partner else { return None };
-        let other = face(self.garment.pieces[other].role);
+        let other = self.garment.pieces[other].role;
         let chord = chain.chord(self.garment);
-        match (own, other) {
+        match (face(role), face(other)) {
+            // A waist, whose sides need not meet those of what hangs from it.
+            _ if is_low(role) != is_low(other) => None,
             (Face::Front, Face::Back) | (Face::Back, Face::Front) => {
                 Some(if chord.y.abs() > chord.x.abs() { Key::Side } else { Key::Shoulder })
             }
@@ -194,8 +198,9 @@ impl Mapper<'_> {
         }
     }
 
-    /// A hem or waist line round the trunk between two placed ends, with auxiliary points.
-    fn level(&mut self, own: Face, vertices: &[usize]) -> Found {
+    /// A hem or waist line round the trunk between two placed ends, with auxiliary points and, at `joints`, those where it goes over from
+    /// one piece that it is sewn to to the next.
+    fn level(&mut self, own: Face, vertices: &[usize], joints: &[usize]) -> Found {
         let ends = [vertices[0], vertices[vertices.len() - 1]];
         let lines = ends.map(|v| self.place(v).map(|p| self.trunk_line(own, &p)));
         // The end without a place is at the centre.
@@ -209,6 +214,7 @@ impl Mapper<'_> {
         });
         let trunk = self.form.trunk.clone();
         self.round(&trunk, vertices, &between(points));
+        self.joints(&trunk, vertices, joints, &between(points));
         Ok(())
     }
 
