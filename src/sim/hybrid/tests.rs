@@ -214,7 +214,7 @@ fn with(mut one: Garment, other: &Garment) -> Garment {
 fn a_top_and_trousers_are_a_suit_but_a_skirt_over_trousers_is_not() {
     let suit = with(garment(Model::Tshirt, 1, 0.05), &garment(Model::Trousers, 1, 0.05));
     assert_eq!(features::kind(&suit).expect("a suit"), features::Kind::Suit);
-    let both = with(garment(Model::Dress, 0, 0.05), &garment(Model::Trousers, 1, 0.05));
+    let both = with(garment(Model::Dress, 0, 0.03), &garment(Model::Trousers, 1, 0.05));
     let error = mapping::map(&SLIM, &both).expect_err("a skirt over trousers").to_string();
     assert!(error.contains("cannot place role SkirtFront") && error.contains("leg pieces"), "{error}");
 }
