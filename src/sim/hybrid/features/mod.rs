@@ -69,7 +69,7 @@ pub fn kind(garment: &Garment) -> Result<Kind, SimError> {
         (Some(_), Some(skirt), _) => Err(SimError::CannotPlace {
             piece: skirt.id.clone(),
             role: skirt.role,
-            accepted: "with legs: front, back, sleeve, bodice and leg pieces",
+            accepted: "over legs: front, back, sleeve and bodice pieces",
         }),
         (Some(_), None, Some(_)) => Ok(Kind::Suit),
         (Some(_), None, None) => Ok(Kind::Legs),
