@@ -114,27 +114,13 @@ impl Marks {
     fn new(garment: &Garment, stretches: &[Stretch], parts: &[Option<Role>]) -> Self {
         let welded = sewing::welded(garment);
         let sides = sides(garment, stretches, &welded);
-        // How far from a side a welded vertex lies on the trunk, m.
-        let off = |sewn: usize| {
-            let on = |p: &PieceMesh| {
-                let of = |is_it: &dyn Fn(usize) -> bool| -> Vec<V2> {
-                    p.vertices.clone().filter(|&v| is_it(welded[v])).map(|v| garment.rest[v]).collect()
-                };
-                let at_sides = of(&|w| sides.contains(&w));
-                let distances = of(&|w| w == sewn)
-                    .into_iter()
-                    .flat_map(|v| at_sides.clone().into_iter().map(move |s| (s - v).norm()));
-                distances.fold(f64::MAX, f64::min)
-            };
-            let trunk = garment.pieces.iter().filter(|p| !is_sleeve(p.role));
-            trunk.map(on).fold(f64::MAX, f64::min)
-        };
         let mut roots = BTreeSet::new();
         for sleeve in [Role::SleeveRight, Role::SleeveLeft] {
             let is_within =
                 |s: &&Stretch| s.pieces[0] != s.pieces[1] && s.pieces.iter().all(|p| parts[*p] == Some(sleeve));
             let ends = stretches.iter().filter(is_within).flat_map(|s| [s.pairs[0][0], s.pairs[s.pairs.len() - 1][0]]);
-            let ends: Vec<(usize, f64)> = ends.map(|v| (welded[v], off(welded[v]))).collect();
+            let ends: Vec<(usize, f64)> =
+                ends.map(|v| (welded[v], off_side_m(garment, &welded, &sides, welded[v]))).collect();
             let nearest = ends.iter().map(|end| end.1).fold(f64::MAX, f64::min);
             roots.extend(ends.iter().filter(|end| end.1 == nearest && nearest < f64::MAX).map(|end| end.0));
         }
@@ -148,6 +134,21 @@ impl Marks {
 
 fn is_sleeve(role: Role) -> bool {
     matches!(role, Role::SleeveRight | Role::SleeveLeft)
+}
+
+/// How far from a side a welded vertex lies on the trunk, m.
+fn off_side_m(garment: &Garment, welded: &[usize], sides: &BTreeSet<usize>, sewn: usize) -> f64 {
+    let mut nearest = f64::MAX;
+    for piece in garment.pieces.iter().filter(|p| !is_sleeve(p.role)) {
+        let places = |is_it: &dyn Fn(usize) -> bool| -> Vec<V2> {
+            piece.vertices.clone().filter(|&v| is_it(welded[v])).map(|v| garment.rest[v]).collect()
+        };
+        let at_sides = places(&|w| sides.contains(&w));
+        for own in places(&|w| w == sewn) {
+            nearest = at_sides.iter().map(|side| (side - own).norm()).fold(nearest, f64::min);
+        }
+    }
+    nearest
 }
 
 /// Welded vertices of the upright seams between front and back.
