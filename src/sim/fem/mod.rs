@@ -29,7 +29,7 @@ const MOST_RISE_M: f64 = 0.25;
 /// Factors on the sewing force with which what ends with a fault, or is torn as it is sewn, is sewn again: whether a
 /// fold that is drawn tight goes through another is chance, and so is how a ruffle is drawn out; these keep what is mirrored so.
 const RESEWN: [f64; 2] = [1.5, 0.67];
-/// Steps times vertices (about 2.5 microseconds each) after which a fault is no longer tried to be put right: who waits has waited.
+/// Steps times vertices (3 to 5 microseconds each) after which a fault is no longer tried to be put right: who waits has waited.
 const MOST_TRIED: u64 = 40_000_000;
 
 /// Dresses a body in a garment.

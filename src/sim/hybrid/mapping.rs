@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use super::assemble::{Assembly, assemble};
-use super::features::{self, Face, Feature, Kind, Mapped};
+use super::features::{self, Face, Kind, Mapped};
 use super::follow;
 use super::form::Form;
 use super::harmonic;
@@ -51,9 +51,9 @@ pub fn map(body: &Body, garment: &Garment) -> Result<OnForm, SimError> {
         Kind::Suit => Form::suit(body),
     };
     let graph = PathGraph::new(&form.mesh, PATH_POINTS);
-    let pieces: Vec<Mapped> =
-        features::features(body, &form, joined)?.into_iter().map(|piece| distinct(&graph, piece)).collect();
-    let mut paths = Paths::new(&form, &graph, &pieces);
+    let (pieces, ends): (Vec<Mapped>, Vec<Vec<usize>>) =
+        features::features(body, &form, joined)?.into_iter().map(|piece| on_nodes(&graph, piece)).unzip();
+    let mut paths = Paths::new(&form, &graph, ends);
     let partners = outline::partners(joined);
     let count = joined.rest.len();
     let mut laid = Laid { x: vec![V3::zeros(); count], outwards: vec![V3::zeros(); count] };
@@ -74,18 +74,14 @@ pub fn map(body: &Body, garment: &Garment) -> Result<OnForm, SimError> {
     Ok(OnForm { positions, flips, patches })
 }
 
-/// A piece without the features that come to lie on the node of the one before: sides of a waist that miss each other by a millimetre.
-fn distinct(graph: &PathGraph, mut piece: Mapped) -> Mapped {
-    let nodes: Vec<_> = piece.features.iter().map(|f| node_of(graph, f)).collect();
+/// The features of a piece with their nodes of the path graph, without those that come to lie on the node of the one before: sides of a
+/// waist that miss each other by a millimetre.
+fn on_nodes(graph: &PathGraph, mut piece: Mapped) -> (Mapped, Vec<usize>) {
+    let nodes: Vec<usize> = piece.features.iter().map(|f| graph.nearest(&f.place, |_| true).unwrap_or(0)).collect();
     let n = nodes.len();
-    let mut number = 0..n;
-    piece.features.retain(|_| number.next().is_none_or(|k| nodes[k] != nodes[(k + n - 1) % n]));
-    piece
-}
-
-/// Node of the path graph on which a feature lies.
-fn node_of(graph: &PathGraph, feature: &Feature) -> usize {
-    graph.nearest(&feature.place, |_| true).unwrap_or(0)
+    let kept: Vec<usize> = (0..n).filter(|&k| nodes[k] != nodes[(k + n - 1) % n]).collect();
+    piece.features = kept.iter().map(|&k| piece.features[k]).collect();
+    (piece, kept.into_iter().map(|k| nodes[k]).collect())
 }
 
 /// The closed outline of a piece on the form.
@@ -111,9 +107,7 @@ struct Paths<'a> {
 }
 
 impl<'a> Paths<'a> {
-    fn new(form: &'a Form, graph: &'a PathGraph<'a>, pieces: &[Mapped]) -> Self {
-        let nodes = |p: &Mapped| p.features.iter().map(|f| node_of(graph, f)).collect();
-        let ends: Vec<Vec<usize>> = pieces.iter().map(nodes).collect();
+    fn new(form: &'a Form, graph: &'a PathGraph<'a>, ends: Vec<Vec<usize>>) -> Self {
         let mut taken = Taken::default();
         ends.iter().flatten().for_each(|&n| taken.add_node(n));
         Self { form, graph, normals: form.mesh.triangle_normals(), found: BTreeMap::new(), taken, ends }
