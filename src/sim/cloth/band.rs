@@ -6,6 +6,7 @@
 use nalgebra::Matrix3;
 use wide::f32x4;
 
+use super::gathers::Gathers;
 use super::part::Part;
 use crate::geom::V3;
 use crate::pattern::Garment;
@@ -39,14 +40,16 @@ pub struct Bands {
 }
 
 impl Bands {
-    /// The bands of a garment whose vertices are merged as `vertex_of` says.
+    /// The bands of a garment whose vertices are merged as `vertex_of` says and whose edges are drawn together by `gathers`.
     #[must_use]
-    pub fn new(garment: &Garment, vertex_of: &[usize]) -> Self {
+    pub fn new(garment: &Garment, gathers: &Gathers, vertex_of: &[usize]) -> Self {
         let mut links = Vec::new();
         for r in &garment.reinforcements {
             for ends in r.vertices.windows(2) {
-                let length_m = r.length_factor * (garment.rest[ends[1]] - garment.rest[ends[0]]).norm();
-                let vertices = [vertex_of[ends[0]], vertex_of[ends[1]]];
+                let ends = [ends[0], ends[1]];
+                let drawn = garment.rest[ends[1]] - garment.rest[ends[0]];
+                let length_m = r.length_factor * gathers.length_m(ends, drawn);
+                let vertices = ends.map(|v| vertex_of[v]);
                 if vertices[0] != vertices[1] && length_m > 0.0 {
                     links.push(Link { vertices, length_m, stiffness_n: r.stiffness_n });
                 }
@@ -137,7 +140,7 @@ mod tests {
     #[test]
     fn forces_and_stiffness_are_the_energys() {
         let (garment, flat) = ribbed();
-        let bands = Bands::new(&garment, &unsewn(&garment));
+        let bands = Bands::new(&garment, &Gathers::of(&garment), &unsewn(&garment));
         let x = sheets::shaken(&flat, 1e-3, 9);
         let mut forces = vec![V3::zeros(); x.len()];
         bands.add_forces(&x, &mut forces);

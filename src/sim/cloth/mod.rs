@@ -2,12 +2,14 @@
 
 pub mod band;
 pub mod bending;
+pub mod gathers;
 pub mod law;
 pub mod membrane;
 pub mod part;
 
 use std::collections::BTreeMap;
 
+use crate::geom::polyline::signed_area;
 use crate::geom::{V2, V3};
 use crate::pattern::Garment;
 use crate::sim::solver::PairList;
@@ -15,6 +17,7 @@ use crate::sim::{Fabric, SimError, sewing};
 
 use band::Bands;
 use bending::{Bending, Flap, Hinge, Plate};
+use gathers::Gathers;
 use law::Orthotropic;
 use membrane::{Element, Membrane};
 
@@ -47,15 +50,17 @@ impl Cloth {
         let mut elements = Vec::with_capacity(garment.triangles.len());
         let mut areas = vec![0.0; count];
         let mut plates = PlateBuilder::default();
+        let gathers = Gathers::of(garment);
         for piece in &garment.pieces {
             for t in piece.triangles.clone() {
                 let corners = garment.triangles[t];
                 let vertices = corners.map(|v| vertex_of[v]);
-                let rest = corners.map(|v| garment.rest[v]);
+                let drawn = corners.map(|v| garment.rest[v]);
+                let rest = gathers.shape(corners, drawn);
                 let element = Element::new(vertices, rest, piece.grain)
-                    .ok_or_else(|| SimError::Degenerate { piece: piece.id.clone(), at: rest[0] })?;
+                    .ok_or_else(|| SimError::Degenerate { piece: piece.id.clone(), at: drawn[0] })?;
                 for v in vertices {
-                    areas[v] += element.area / 3.0;
+                    areas[v] += signed_area(&drawn) / 3.0;
                 }
                 plates.add(vertices, rest, piece.grain);
                 elements.push(element);
@@ -68,7 +73,7 @@ impl Cloth {
             areas,
             bending: plates.finish(fabric, &membrane.pairs),
             membrane,
-            bands: Bands::new(garment, &vertex_of),
+            bands: Bands::new(garment, &gathers, &vertex_of),
             vertex_of,
         })
     }
