@@ -18,8 +18,8 @@ const CLEARANCE_M: f64 = 0.012;
 const ROUND: f64 = 0.97;
 /// Sideways scale from a piece's seams to its partners', over that upwards, below which they are the two sides of a slit.
 const SLIT: f64 = 0.4;
-/// Least mean square of the height of such seams over that of their breadth.
-const UPRIGHT: f64 = 0.1;
+/// Least mean square of the height of such seams over that of their breadth, and where the slit is taller than it is broad.
+const UPRIGHT: [f64; 2] = [0.1, 0.01];
 /// Greatest mean square by which partners miss the mirror image of a piece's seams, over that by which they miss the seams as they are,
 /// where the piece is their other half.
 const OTHER_HALF: f64 = 0.5;
@@ -118,13 +118,15 @@ struct Sides {
 impl Sides {
     fn new(fit: &Similarity, own: &[V2], goals: &[V2], from_axis: impl Iterator<Item = f64>) -> Self {
         let own: Vec<V2> = own.iter().map(|p| fit.turned(*p)).collect();
-        let (mut size, mut partners) = (V2::zeros(), V2::zeros());
-        for (p, goal) in own.iter().zip(goals) {
+        let (mut size, mut partners, mut slit) = (V2::zeros(), V2::zeros(), V2::zeros());
+        for (p, goal) in own.iter().zip(goals.iter().map(|goal| goal - fit.to)) {
             size += p.component_mul(p);
-            partners += p.component_mul(&(goal - fit.to));
+            partners += p.component_mul(&goal);
+            slit += goal.component_mul(&goal);
         }
         let scale = partners.component_div(&size.map(|s| s.max(f64::MIN_POSITIVE)));
-        let are_a_slit = size.y > UPRIGHT * size.x && scale.x < SLIT * scale.y;
+        let upright = UPRIGHT[usize::from(slit.y > slit.x)];
+        let are_a_slit = size.y > upright * size.x && scale.x < SLIT * scale.y;
         Self { points: own.into_iter().zip(from_axis).collect(), squeezed: scale.x, are_a_slit }
     }
 
