@@ -13,6 +13,7 @@ mod leg;
 mod limb;
 mod ring;
 mod round;
+mod rows;
 mod sheet;
 mod tiers;
 mod trunk;

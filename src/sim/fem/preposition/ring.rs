@@ -5,10 +5,12 @@
 //! along a strip.
 
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 
 use nalgebra::{Isometry2, Matrix2, Point2, Rotation2};
 
 use super::follow::Similarity;
+use super::rows::{self, InRow};
 use super::sheet::Joins;
 use crate::geom::V2;
 
@@ -33,6 +35,8 @@ pub struct Ring {
     closing: Isometry2<f64>,
     /// The last piece's side at the cut.
     cut: Vec<Point2<f64>>,
+    /// The seam at the cut, the last piece's vertices first.
+    cut_seam: Vec<[usize; 2]>,
 }
 
 struct Member {
@@ -49,6 +53,8 @@ pub enum Flat {
     Sector(Vec<(usize, f64, f64)>),
     /// To the right and up, m.
     Strip(Vec<(usize, V2)>),
+    /// Row by row.
+    Rows(Vec<InRow>),
 }
 
 impl Flat {
@@ -60,6 +66,11 @@ impl Flat {
                 high - low
             }
             Self::Strip(_) => 0.0,
+            Self::Rows(points) => {
+                let [least, most] = bounds(points.iter().map(|p| p.row_m));
+                let [top, hem] = bounds(points.iter().map(|p| p.below_m));
+                ((most - least) / (hem - top)).min(TAU)
+            }
         }
     }
 
@@ -71,6 +82,7 @@ impl Flat {
                 let [left, right] = bounds(points.iter().map(|(_, p)| p.x));
                 right - left
             }
+            Self::Rows(points) => bounds(points.iter().map(|p| p.row_m))[0],
         }
     }
 }
@@ -146,7 +158,7 @@ impl Ring {
     fn cut_at(joins: &Joins, seam: &[[usize; 2]], members: Vec<Member>) -> Self {
         let placed = members.last().map_or_else(Isometry2::identity, |last| last.motion);
         let cut = seam.iter().map(|pair| placed * Point2::from(joins.garment.rest[pair[0]])).collect();
-        Self { closing: onto(joins, seam, &placed), cut, members }
+        Self { closing: onto(joins, seam, &placed), cut, cut_seam: seam.to_vec(), members }
     }
 
     /// Its pieces, in order.
@@ -156,10 +168,28 @@ impl Ring {
 
     /// The ring laid out, with the middle of `in_front`, or of all, at the front.
     pub fn flat(&self, joins: &Joins, in_front: &[usize]) -> Flat {
+        if let Some(strips) = self.strips(joins, in_front) {
+            return Flat::Rows(rows::laid_out(&strips));
+        }
         match self.tip(joins) {
             Some(tip) => Flat::Sector(self.sector(joins, in_front, &tip)),
             None => Flat::Strip(self.strip(joins)),
         }
+    }
+
+    /// The pieces of a ring of several that are all long and straight.
+    fn strips(&self, joins: &Joins, in_front: &[usize]) -> Option<Vec<rows::Strip>> {
+        let count = self.members.len();
+        // Of each seam in order, the first before the first piece: the vertices of the piece after it and of that before it.
+        let cut = self.cut_seam.iter().map(|&[a, b]| [b, a]).collect();
+        let seams: Vec<&Vec<[usize; 2]>> =
+            std::iter::once(&cut).chain(self.members.iter().skip(1).map(|member| &member.seam)).collect();
+        let strip = |(k, member): (usize, &Member)| {
+            let own = |k: usize, side: usize| seams[k % count].iter().map(|pair| pair[side]).collect::<Vec<_>>();
+            let is_in_front = in_front.contains(&member.piece);
+            rows::Strip::of(joins, member.piece, &own(k, 0), &own(k + 1, 1), is_in_front)
+        };
+        (count > 1).then(|| self.members.iter().enumerate().map(strip).collect())?
     }
 
     /// Where the ring's ends turn onto each other; `None` where they are shifted.

@@ -10,6 +10,7 @@ use super::follow::body_radius as body_radius_about;
 use super::form::{Axis, Form};
 use super::limb::Limb;
 use super::ring::{Flat, bounds};
+use super::rows::InRow;
 use crate::geom::{V2, V3};
 
 /// Share of a turn that a ring takes: its last seam starts open.
@@ -115,6 +116,12 @@ impl Unrolled {
                 let middle = 0.5 * (left + right);
                 let of = |&(v, p): &(usize, V2)| (v, (p.x - middle) / radius, radius, high - p.y);
                 Self { points: points.iter().map(of).collect(), upper: radius, height: high - low, spread: 0.0 }
+            }
+            Flat::Rows(points) => {
+                let [top, hem] = bounds(points.iter().map(|p| p.below_m));
+                let of = |p: &InRow| (p.vertex, p.share * TAU * ROUND, p.row_m / (TAU * ROUND), p.below_m - top);
+                let (upper, spread) = (flat.inner_m() / (TAU * ROUND), flat.turn_rad() / TAU);
+                Self { points: points.iter().map(of).collect(), upper, height: hem - top, spread }
             }
         }
     }
