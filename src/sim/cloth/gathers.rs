@@ -80,26 +80,37 @@ impl Gathers {
 
     /// Rest shape of a triangle of garment vertices that the pattern has at `rest`: the same where nothing is gathered.
     ///
-    /// Triangles that share a side agree on its length, unless one would become too thin: that is drawn together evenly.
+    /// Triangles that share a side agree on its length, unless one would become too thin: that is drawn together evenly. Corners are
+    /// taken by their numbers, so that a mirrored garment has the mirrored shapes to the bit.
     #[must_use]
     pub fn shape(&self, corners: [usize; 3], rest: [V2; 3]) -> [V2; 3] {
-        let at = corners.map(|v| self.drawn.get(&v));
+        let mut order = [0, 1, 2];
+        order.sort_unstable_by_key(|&k| corners[k]);
+        let at = order.map(|k| self.drawn.get(&corners[k]));
         let Some(most) = at.iter().copied().flatten().min_by(|a, b| a.share.total_cmp(&b.share)) else {
             return rest;
         };
         let share = at.iter().map(|d| d.map_or(1.0, |d| d.share)).sum::<f64>() / 3.0;
-        let evenly = rest.map(|p| rest[0] + most.apply(share, p - rest[0]));
+        let first = rest[order[0]];
+        let evenly = rest.map(|p| first + most.apply(share, p - first));
         let side = |a: usize, b: usize| self.length_m([corners[a], corners[b]], rest[b] - rest[a]);
-        let shape = with_sides(evenly, [side(0, 1), side(1, 2), side(2, 0)]);
+        let [a, b, c] = order;
+        let sides = [side(a, b), side(b, c), side(a, c)];
+        let mut shape = rest;
+        for (k, p) in order.into_iter().zip(with_sides(order.map(|k| evenly[k]), sides)) {
+            shape[k] = p;
+        }
         if signed_area(&shape) > LEAST_AREA * signed_area(&evenly) { shape } else { evenly }
     }
 }
 
-/// A counter-clockwise triangle with given sides (m), from its first corner and its first side's direction; of no area where there is none.
+/// A triangle with given sides (m), from the first corner, the first side's direction and the turning of one like it; of no area where
+/// there is none.
 fn with_sides(like: [V2; 3], [base, right, left]: [f64; 3]) -> [V2; 3] {
-    let along = (like[1] - like[0]).normalize();
+    let first = like[1] - like[0];
+    let along = first.normalize();
     let foot = (base * base + left * left - right * right) / (2.0 * base);
-    let height = (left * left - foot * foot).max(0.0).sqrt();
+    let height = (left * left - foot * foot).max(0.0).sqrt().copysign(first.perp(&(like[2] - like[0])));
     [like[0], like[0] + along * base, like[0] + along * foot + V2::new(-along.y, along.x) * height]
 }
 
@@ -107,13 +118,16 @@ fn with_sides(like: [V2; 3], [base, right, left]: [f64; 3]) -> [V2; 3] {
 fn spread(garment: &Garment, mut drawn: BTreeMap<usize, Drawn>) -> BTreeMap<usize, Drawn> {
     let mut last = drawn.clone();
     for row in 1..ROWS {
+        let sides = garment
+            .triangles
+            .iter()
+            .flat_map(|t| [[0, 1], [1, 2], [2, 0], [1, 0], [2, 1], [0, 2]].map(|s| s.map(|k| t[k])));
+        // In order, so that each takes after its neighbour of the least number.
+        let onwards: BTreeSet<[usize; 2]> =
+            sides.filter(|[from, to]| last.contains_key(from) && !drawn.contains_key(to)).collect();
         let mut next: BTreeMap<usize, Drawn> = BTreeMap::new();
-        for t in &garment.triangles {
-            for [from, to] in [[0, 1], [1, 2], [2, 0], [1, 0], [2, 1], [0, 2]].map(|side| side.map(|k| t[k])) {
-                if let Some(d) = last.get(&from).filter(|_| !drawn.contains_key(&to)) {
-                    next.entry(to).or_insert(*d);
-                }
-            }
+        for [from, to] in onwards {
+            next.entry(to).or_insert(last[&from]);
         }
         let share = |at_seam: f64| at_seam + (1.0 - at_seam) * f64::from(row) / f64::from(ROWS);
         drawn.extend(next.iter().map(|(&v, d)| (v, Drawn { share: share(d.share), ..*d })));

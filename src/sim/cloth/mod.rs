@@ -9,7 +9,6 @@ pub mod part;
 
 use std::collections::BTreeMap;
 
-use crate::geom::polyline::signed_area;
 use crate::geom::{V2, V3};
 use crate::pattern::Garment;
 use crate::sim::solver::PairList;
@@ -59,8 +58,9 @@ impl Cloth {
                 let rest = gathers.shape(corners, drawn);
                 let element = Element::new(vertices, rest, piece.grain)
                     .ok_or_else(|| SimError::Degenerate { piece: piece.id.clone(), at: drawn[0] })?;
+                let area = 0.5 * (drawn[1] - drawn[0]).perp(&(drawn[2] - drawn[0]));
                 for v in vertices {
-                    areas[v] += signed_area(&drawn) / 3.0;
+                    areas[v] += area / 3.0;
                 }
                 plates.add(vertices, rest, piece.grain);
                 elements.push(element);

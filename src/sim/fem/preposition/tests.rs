@@ -168,6 +168,32 @@ fn gaps(seam: &SeamMesh, x: &[V3]) -> Vec<f64> {
 }
 
 #[test]
+fn what_is_gathered_often_goes_round_as_one() {
+    let check = |ratio: f64, is_round: bool| {
+        let band = [[0.0, 0.0], [42.0, 0.0], [42.0, 9.0], [0.0, 9.0]];
+        let strip = [[0.0, 0.0], [42.0 * ratio, 0.0], [42.0 * ratio, 45.0], [0.0, 45.0]];
+        let panels = json!({
+            "front": panel(&strip, [0.0, 20.0], &[]),
+            "back": panel(&strip, [0.0, -20.0], &[]),
+            "waist_front": panel(&band, [0.0, 20.0], &[]),
+            "waist_back": panel(&band, [0.0, -20.0], &[])
+        });
+        let around = |a: &'static str, b: &'static str| [stitch((a, 1), (b, 3)), stitch((a, 3), (b, 1))];
+        let gathered = [stitch(("waist_front", 0), ("front", 2)), stitch(("waist_back", 0), ("back", 2))];
+        let stitches = [around("front", "back"), around("waist_front", "waist_back"), gathered].concat();
+        let role = |id: &str| if id.starts_with("waist") { Role::Waistband } else { skirt_role(id) };
+        let garment = sewn(&panels, &stitches, role);
+        let x = place(&body(), &garment, &Params::default()).expect("a skirt");
+        let axis = Form::of(&body()).trunk_axis();
+        let hem = garment.pieces.iter().filter(|piece| piece.role != Role::Waistband).flat_map(|p| p.vertices.clone());
+        let [near, far] = ring::bounds(hem.filter(|&v| garment.rest[v].y < 1e-6).map(|v| axis.coordinates(&x[v]).1));
+        assert_eq!(far - near < 1e-9, is_round, "gathered {ratio}: its hem lies {near} to {far} m from the axis");
+    };
+    check(2.0, false);
+    check(4.0, true);
+}
+
+#[test]
 fn a_flounce_of_half_circles_goes_round_as_one() {
     let straight = [[-28.0, 0.0], [28.0, 0.0], [28.0, 40.0], [-28.0, 40.0]];
     let (inner, outer) = (36.0, 60.0);

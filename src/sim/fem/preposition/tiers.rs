@@ -6,13 +6,16 @@ use std::f64::consts::TAU;
 use super::limb::Limb;
 use super::ring::{Flat, Ring};
 use super::round::{self, Held};
+use super::sheet::Joins;
 use super::{Placing, follow, trunk};
-use crate::pattern::Role;
+use crate::pattern::{Role, SeamMesh};
 
 /// Turn of a ring from which on it goes round as one, rad: as two sheets it comes to rest as a tent, not in folds.
 const WIDE_RAD: f64 = 0.35 * TAU;
 /// Turn of two halves sewn to each other from which on they go round a limb as one, rad: cuffs and peplums of half circles.
 const FLARED_RAD: f64 = 1.0;
+/// What is gathered more often than this goes round as one: as two sheets, strips gathered four times cannot be sewn.
+const GATHERED: f64 = 2.5;
 /// Longest inner edge of a wide ring that hangs from the neck, as a cape does, m.
 const NECK_M: f64 = 0.55;
 
@@ -60,7 +63,8 @@ impl Placing<'_> {
         let mut skirts = joins.worn_as(&[Role::SkirtFront, Role::SkirtBack]);
         skirts.retain(|&piece| !follow::is_in_a_slit(joins, piece));
         let rings = self.laid_out(&Ring::of_tiers(joins, &skirts));
-        let (mut wide, mut narrow): (Vec<Round>, Vec<Round>) = rings.into_iter().partition(Round::is_wide);
+        let goes_round = |ring: &Round| ring.is_wide() || self.gathers(ring) > GATHERED;
+        let (mut wide, mut narrow): (Vec<Round>, Vec<Round>) = rings.into_iter().partition(goes_round);
         let above = joins.worn_as(&[&trunk::TOPS[..], &[Role::Waistband]].concat());
         let hangs = |ring: &Round, wide: &[Round]| {
             let is_sewn = |pieces: &[usize]| ring.pieces.iter().any(|&p| !joins.to_any(p, pieces).is_empty());
@@ -70,6 +74,22 @@ impl Placing<'_> {
             wide.push(narrow.remove(next));
         }
         wide
+    }
+
+    /// How many times as long as what it is sewn to a ring is, in the seam that gathers it most.
+    fn gathers(&self, ring: &Round) -> f64 {
+        let Joins { garment, piece_of, .. } = &self.joins;
+        let length = |seam: &SeamMesh, side: usize| {
+            let stitch = |w: &[[usize; 2]]| (garment.rest[w[1][side]] - garment.rest[w[0][side]]).norm();
+            seam.pairs.windows(2).map(stitch).sum::<f64>()
+        };
+        let is_own = |seam: &SeamMesh, side: usize| seam.pairs.iter().all(|p| ring.pieces.contains(&piece_of[p[side]]));
+        let ratio = |seam: &SeamMesh| match [is_own(seam, 0), is_own(seam, 1)] {
+            [true, false] => length(seam, 0) / length(seam, 1),
+            [false, true] => length(seam, 1) / length(seam, 0),
+            _ => 0.0,
+        };
+        garment.seams.iter().map(ratio).fold(0.0, f64::max)
     }
 
     /// Wide rings go round the trunk below what they are sewn to, and so do gores; where no piece has a place then, the largest of
