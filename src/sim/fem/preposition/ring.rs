@@ -33,10 +33,8 @@ pub struct Ring {
     members: Vec<Member>,
     /// Takes the first piece's side at the cut onto the last one's.
     closing: Isometry2<f64>,
-    /// The last piece's side at the cut.
-    cut: Vec<Point2<f64>>,
     /// The seam at the cut, the last piece's vertices first.
-    cut_seam: Vec<[usize; 2]>,
+    cut: Vec<[usize; 2]>,
 }
 
 struct Member {
@@ -157,8 +155,13 @@ impl Ring {
     /// The ring of some pieces that is cut open at a seam, the last piece's vertices first.
     fn cut_at(joins: &Joins, seam: &[[usize; 2]], members: Vec<Member>) -> Self {
         let placed = members.last().map_or_else(Isometry2::identity, |last| last.motion);
-        let cut = seam.iter().map(|pair| placed * Point2::from(joins.garment.rest[pair[0]])).collect();
-        Self { closing: onto(joins, seam, &placed), cut, cut_seam: seam.to_vec(), members }
+        Self { closing: onto(joins, seam, &placed), cut: seam.to_vec(), members }
+    }
+
+    /// The last piece's side at the cut.
+    fn last_side(&self, joins: &Joins) -> Vec<Point2<f64>> {
+        let last = self.members.last();
+        last.map_or_else(Vec::new, |last| self.cut.iter().map(|pair| last.place(joins, pair[0])).collect())
     }
 
     /// Its pieces, in order.
@@ -181,7 +184,7 @@ impl Ring {
     fn strips(&self, joins: &Joins, in_front: &[usize]) -> Option<Vec<rows::Strip>> {
         let count = self.members.len();
         // Of each seam in order, the first before the first piece: the vertices of the piece after it and of that before it.
-        let cut = self.cut_seam.iter().map(|&[a, b]| [b, a]).collect();
+        let cut = self.cut.iter().map(|&[a, b]| [b, a]).collect();
         let seams: Vec<&Vec<[usize; 2]>> =
             std::iter::once(&cut).chain(self.members.iter().skip(1).map(|member| &member.seam)).collect();
         let strip = |(k, member): (usize, &Member)| {
@@ -217,7 +220,7 @@ impl Ring {
     /// Each side that is sewn to a piece before, and the last at the cut.
     fn sides(&self, joins: &Joins) -> Vec<Vec<Point2<f64>>> {
         let side = |member: &Member| member.seam.iter().map(|pair| member.place(joins, pair[0])).collect();
-        self.members.iter().skip(1).map(side).chain([self.cut.clone()]).collect()
+        self.members.iter().skip(1).map(side).chain([self.last_side(joins)]).collect()
     }
 
     /// Where the lines on which the sides lie meet; what these leave open is as near to `middle` as can be.
@@ -241,7 +244,7 @@ impl Ring {
         // Of the member before: the angle of its middle, and that of each of its vertices from there.
         let mut before: (f64, BTreeMap<usize, f64>) = (0.0, BTreeMap::new());
         for member in &self.members {
-            let polar = member.polar(joins, tip, &mean(&self.cut));
+            let polar = member.polar(joins, tip, &mean(&self.last_side(joins)));
             let own: BTreeMap<usize, f64> = polar.iter().map(|&(v, angle, _)| (v, angle)).collect();
             let apart = |&[a, b]: &[usize; 2]| before.1[&b] - own[&a];
             let middle = before.0 + member.seam.iter().map(apart).sum::<f64>() / member.seam.len().max(1) as f64;
