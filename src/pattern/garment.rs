@@ -68,6 +68,14 @@ pub struct SeamMesh {
     pub pairs: Vec<[usize; 2]>,
 }
 
+impl SeamMesh {
+    /// What lies between neighbouring pairs: of either side the two garment vertices. Where one side goes on to its next edge, the other
+    /// may stand still or leap.
+    pub fn stitches(&self) -> impl Iterator<Item = [[usize; 2]; 2]> {
+        self.pairs.windows(2).map(|ends| [0, 1].map(|side| [ends[0][side], ends[1][side]]))
+    }
+}
+
 /// A point of the cloth: a weighted mean of three vertices of one triangle (weights sum to 1).
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MaterialPoint {

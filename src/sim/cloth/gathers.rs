@@ -48,10 +48,8 @@ impl Gathers {
         let mut drawn = BTreeMap::new();
         let edges = sewn_edges(garment);
         for seam in &garment.seams {
-            let stitches = seam.pairs.windows(2).map(|w| [0, 1].map(|side| [w[0][side], w[1][side]]));
-            // Where one side goes on to its next edge, the other may stand still or leap.
             let is_edge = |side: &[usize; 2]| edges.contains(&sorted(*side));
-            let stitches = Vec::from_iter(stitches.filter(|sides| sides.iter().all(is_edge)));
+            let stitches = Vec::from_iter(seam.stitches().filter(|sides| sides.iter().all(is_edge)));
             let of = |[a, b]: [usize; 2]| garment.rest[b] - garment.rest[a];
             let [a, b] = [0, 1].map(|side| stitches.iter().map(|sides| of(sides[side]).norm()).sum::<f64>());
             let (longer, share) = if a < b { (1, a / b) } else { (0, b / a) };

@@ -58,6 +58,7 @@ impl Cloth {
                 let rest = gathers.shape(corners, drawn);
                 let element = Element::new(vertices, rest, piece.grain)
                     .ok_or_else(|| SimError::Degenerate { piece: piece.id.clone(), at: drawn[0] })?;
+                // What is gathered weighs what was cut.
                 let area = 0.5 * (drawn[1] - drawn[0]).perp(&(drawn[2] - drawn[0]));
                 for v in vertices {
                     areas[v] += area / 3.0;

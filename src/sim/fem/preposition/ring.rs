@@ -49,7 +49,7 @@ struct Member {
 pub enum Flat {
     /// Angle about the tip, counter-clockwise from the middle, rad, and distance from it, m.
     Sector(Vec<(usize, f64, f64)>),
-    /// To the right and up, m.
+    /// To the right of the middle and up, m.
     Strip(Vec<(usize, V2)>),
     /// Row by row.
     Rows(Vec<InRow>),
@@ -176,7 +176,7 @@ impl Ring {
         }
         match self.tip(joins) {
             Some(tip) => Flat::Sector(self.sector(joins, in_front, &tip)),
-            None => Flat::Strip(self.strip(joins)),
+            None => Flat::Strip(self.strip(joins, in_front)),
         }
     }
 
@@ -243,8 +243,9 @@ impl Ring {
         let mut fronts = Vec::new();
         // Of the member before: the angle of its middle, and that of each of its vertices from there.
         let mut before: (f64, BTreeMap<usize, f64>) = (0.0, BTreeMap::new());
+        let cut = mean(&self.last_side(joins));
         for member in &self.members {
-            let polar = member.polar(joins, tip, &mean(&self.last_side(joins)));
+            let polar = member.polar(joins, tip, &cut);
             let own: BTreeMap<usize, f64> = polar.iter().map(|&(v, angle, _)| (v, angle)).collect();
             let apart = |&[a, b]: &[usize; 2]| before.1[&b] - own[&a];
             let middle = before.0 + member.seam.iter().map(apart).sum::<f64>() / member.seam.len().max(1) as f64;
@@ -261,10 +262,20 @@ impl Ring {
         points
     }
 
-    fn strip(&self, joins: &Joins) -> Vec<(usize, V2)> {
+    fn strip(&self, joins: &Joins, in_front: &[usize]) -> Vec<(usize, V2)> {
         let up = joins.up(self.members[0].piece, V2::y());
         let upright = Rotation2::rotation_between(&up, &V2::y());
-        self.members.iter().flat_map(|member| member.places(joins)).map(|(v, p)| (v, upright * p.coords)).collect()
+        let upright = |member: &Member| -> Vec<(usize, V2)> {
+            member.places(joins).into_iter().map(|(v, p)| (v, upright * p.coords)).collect()
+        };
+        let members: Vec<Vec<(usize, V2)>> = self.members.iter().map(upright).collect();
+        let middle = |member: &[(usize, V2)]| 0.5 * bounds(member.iter().map(|(_, p)| p.x)).iter().sum::<f64>();
+        let is_in_front = |(member, _): &(&Member, _)| in_front.contains(&member.piece);
+        let fronts: Vec<f64> =
+            self.members.iter().zip(&members).filter(is_in_front).map(|(_, points)| middle(points)).collect();
+        let points: Vec<(usize, V2)> = members.into_iter().flatten().collect();
+        let front = if fronts.is_empty() { middle(&points) } else { fronts.iter().sum::<f64>() / fronts.len() as f64 };
+        points.into_iter().map(|(v, p)| (v, V2::new(p.x - front, p.y))).collect()
     }
 }
 
@@ -509,6 +520,17 @@ mod tests {
         let flat = rings[0].flat(&joins, &[]);
         assert!(matches!(flat, Flat::Strip(_)));
         assert!((flat.inner_m() - 0.81).abs() < 0.01, "{} m", flat.inner_m());
+        // Six gores of 0.135 m, from the left.
+        let check = |in_front: &[usize], ends: [f64; 2]| {
+            let Flat::Strip(points) = rings[0].flat(&joins, in_front) else { panic!("{in_front:?}: no strip") };
+            let found = bounds(points.iter().map(|(_, p)| p.x));
+            let is_there = found.iter().zip(ends).all(|(found, end)| (found - end).abs() < 5e-3);
+            assert!(is_there, "{in_front:?} in front: {found:?} m to the right of the middle instead of {ends:?}");
+        };
+        check(&[], [-0.405, 0.405]);
+        check(&[0], [-0.0675, 0.7425]);
+        check(&[4], [-0.6075, 0.2025]);
+        check(&[2, 3], [-0.405, 0.405]);
     }
 
     #[test]

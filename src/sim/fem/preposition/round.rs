@@ -14,7 +14,7 @@ use super::rows::InRow;
 use crate::geom::{V2, V3};
 
 /// Share of a turn that a ring takes: its last seam starts open.
-const ROUND: f64 = 0.95;
+pub const ROUND: f64 = 0.95;
 /// Least distance from the skin, m.
 const CLEARANCE_M: f64 = 0.02;
 /// Half height of the band of the body that a point keeps clear of, m.
@@ -113,8 +113,7 @@ impl Unrolled {
                 let [left, right] = bounds(points.iter().map(|(_, p)| p.x));
                 let [low, high] = bounds(points.iter().map(|(_, p)| p.y));
                 let radius = ((right - left) / (TAU * ROUND)).max(1e-3);
-                let middle = 0.5 * (left + right);
-                let of = |&(v, p): &(usize, V2)| (v, (p.x - middle) / radius, radius, high - p.y);
+                let of = |&(v, p): &(usize, V2)| (v, p.x / radius, radius, high - p.y);
                 Self { points: points.iter().map(of).collect(), upper: radius, height: high - low, spread: 0.0 }
             }
             Flat::Rows(points) => {

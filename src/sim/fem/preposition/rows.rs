@@ -55,7 +55,8 @@ impl Strip {
         let [low, top] = bounds(before.iter().chain(&next).map(|p| p.y));
         let [lowest, highest] = bounds(points.iter().map(|(_, p)| p.y));
         let width = (mean(&before) - mean(&next)).abs();
-        let is_strip = width > LONG * (top - low) && highest - lowest < STRAIGHT * (top - low);
+        let have_ends = before.len() > 1 && next.len() > 1;
+        let is_strip = have_ends && width > LONG * (top - low) && highest - lowest < STRAIGHT * (top - low);
         let sides = if is_rightwards { [before, next] } else { [next, before] };
         is_strip.then_some(Self { points, sides, is_rightwards, top, is_in_front })
     }

@@ -14,8 +14,9 @@ use crate::pattern::{Role, SeamMesh};
 const WIDE_RAD: f64 = 0.35 * TAU;
 /// Turn of two halves sewn to each other from which on they go round a limb as one, rad: cuffs and peplums of half circles.
 const FLARED_RAD: f64 = 1.0;
-/// What is gathered more often than this goes round as one: as two sheets, strips gathered four times cannot be sewn.
-const GATHERED: f64 = 2.5;
+/// What is this many times as long as the narrowest that a skirt is gathered into goes round as one: as two sheets, strips gathered
+/// four times cannot be sewn, nor three tiers each gathered by half.
+const GATHERED: f64 = 1.8;
 /// Longest inner edge of a wide ring that hangs from the neck, as a cape does, m.
 const NECK_M: f64 = 0.55;
 
@@ -63,7 +64,8 @@ impl Placing<'_> {
         let mut skirts = joins.worn_as(&[Role::SkirtFront, Role::SkirtBack]);
         skirts.retain(|&piece| !follow::is_in_a_slit(joins, piece));
         let rings = self.laid_out(&Ring::of_tiers(joins, &skirts));
-        let goes_round = |ring: &Round| ring.is_wide() || self.gathers(ring) > GATHERED;
+        let narrowest_m = rings.iter().map(|ring| self.gathered_m(ring)).fold(f64::MAX, f64::min);
+        let goes_round = |ring: &Round| ring.is_wide() || ring.flat.inner_m() > GATHERED * narrowest_m;
         let (mut wide, mut narrow): (Vec<Round>, Vec<Round>) = rings.into_iter().partition(goes_round);
         let above = joins.worn_as(&[&trunk::TOPS[..], &[Role::Waistband]].concat());
         let hangs = |ring: &Round, wide: &[Round]| {
@@ -76,20 +78,20 @@ impl Placing<'_> {
         wide
     }
 
-    /// How many times as long as what it is sewn to a ring is, in the seam that gathers it most.
-    fn gathers(&self, ring: &Round) -> f64 {
+    /// Length of what a ring is gathered into, m, by the seam that gathers it most; of its own upper edge where none does.
+    fn gathered_m(&self, ring: &Round) -> f64 {
         let Joins { garment, piece_of, .. } = &self.joins;
         let length = |seam: &SeamMesh, side: usize| {
-            let stitch = |w: &[[usize; 2]]| (garment.rest[w[1][side]] - garment.rest[w[0][side]]).norm();
-            seam.pairs.windows(2).map(stitch).sum::<f64>()
+            let of = |[a, b]: [usize; 2]| (garment.rest[b] - garment.rest[a]).norm();
+            seam.stitches().map(|sides| of(sides[side])).sum::<f64>()
         };
         let is_own = |seam: &SeamMesh, side: usize| seam.pairs.iter().all(|p| ring.pieces.contains(&piece_of[p[side]]));
         let ratio = |seam: &SeamMesh| match [is_own(seam, 0), is_own(seam, 1)] {
             [true, false] => length(seam, 0) / length(seam, 1),
             [false, true] => length(seam, 1) / length(seam, 0),
-            _ => 0.0,
+            _ => 1.0,
         };
-        garment.seams.iter().map(ratio).fold(0.0, f64::max)
+        ring.flat.inner_m() / garment.seams.iter().map(ratio).fold(1.0, f64::max)
     }
 
     /// Wide rings go round the trunk below what they are sewn to, and so do gores; where no piece has a place then, the largest of
@@ -139,7 +141,7 @@ impl Placing<'_> {
         let trunk = self.about_trunk();
         let held = self.held(ring, &trunk);
         let (top, within) = match held.as_slice() {
-            [] => (self.form.body.levels.waist_m, None),
+            [] => (self.form.body.levels.waist_m, Some(self.gathered_m(ring) / (TAU * round::ROUND))),
             held => (round::mean(held, |p| p.2), Some(round::mean(held, |p| p.1))),
         };
         let places = round::place(&self.form, &ring.flat, top, within);
