@@ -224,7 +224,33 @@ pub struct Garment {
     pub edge_length_m: f64,
 }
 
+/// A place on a piece, as messages name it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spot {
+    /// The piece.
+    pub piece: String,
+    /// Point of the piece's plane, m.
+    pub at: V2,
+}
+
+impl std::fmt::Display for Spot {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} about ({:.0}, {:.0}) mm", self.piece, 1e3 * self.at.x, 1e3 * self.at.y)
+    }
+}
+
 impl Garment {
+    /// Where some vertices lie: the piece that holds most of them, and the middle of those; `None` where there are none.
+    #[must_use]
+    pub fn spot(&self, vertices: &[usize]) -> Option<Spot> {
+        let of = |piece: &PieceMesh| -> Vec<V2> {
+            vertices.iter().filter(|v| piece.vertices.contains(v)).map(|&v| self.rest[v]).collect()
+        };
+        let held = self.pieces.iter().rev().map(|piece| (piece, of(piece)));
+        let (piece, points) = held.filter(|(_, points)| !points.is_empty()).max_by_key(|(_, points)| points.len())?;
+        Some(Spot { piece: piece.id.clone(), at: points.iter().sum::<V2>() / points.len() as f64 })
+    }
+
     /// The garment without some of its pieces, measured nowhere, and for each of its vertices the one that it was.
     #[must_use]
     pub fn without(&self, gone: &[usize]) -> (Self, Vec<usize>) {

@@ -24,7 +24,8 @@ pub mod style;
 mod unfold;
 
 pub use garment::{
-    Band, FitLevel, Garment, MaterialPoint, Measurement, MeasurementKind, PieceMesh, Reinforcement, Role, Run, SeamMesh,
+    Band, FitLevel, Garment, MaterialPoint, Measurement, MeasurementKind, PieceMesh, Reinforcement, Role, Run,
+    SeamMesh, Spot,
 };
 pub use mesh::{MeshError, MeshQuality};
 pub use piece::{Notch, Piece};

@@ -9,7 +9,7 @@ use nalgebra::Matrix2;
 use super::SimError;
 use super::cloth::membrane::Element;
 use crate::geom::{V2, V3};
-use crate::pattern::Garment;
+use crate::pattern::{Garment, Spot};
 
 /// Share of the cloth that may be stretched further.
 pub const SHARE: f64 = 0.01;
@@ -19,10 +19,8 @@ pub const SHARE: f64 = 0.01;
 pub struct Distortion {
     /// Greatest principal stretch beyond 1 that [`SHARE`] of the cloth exceeds.
     pub stretch: f64,
-    /// Piece that holds most of that share.
-    pub piece: String,
-    /// Middle of what the piece holds of it, in the piece's plane, m.
-    pub at: V2,
+    /// Piece that holds most of that share, and the middle of what it holds.
+    pub most_of_it: Spot,
 }
 
 impl Distortion {
@@ -56,7 +54,8 @@ impl Distortion {
         }
         let most = (0..sums.len()).rev().max_by(|&a, &b| sums[a].0.total_cmp(&sums[b].0));
         let most = most.filter(|&piece| sums[piece].0 > 0.0).ok_or(SimError::NoMesh)?;
-        Ok(Self { stretch: least, piece: garment.pieces[most].id.clone(), at: sums[most].1 / sums[most].0 })
+        let most_of_it = Spot { piece: garment.pieces[most].id.clone(), at: sums[most].1 / sums[most].0 };
+        Ok(Self { stretch: least, most_of_it })
     }
 }
 
@@ -79,12 +78,8 @@ fn stretch(element: &Element, positions: &[V3]) -> f64 {
 impl std::fmt::Display for Distortion {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let (share, percent) = (100.0 * SHARE, 100.0 * self.stretch);
-        let (x, y) = (1e3 * self.at.x, 1e3 * self.at.y);
-        let piece = &self.piece;
-        write!(
-            f,
-            "{share} % of the cloth is stretched by more than {percent:.1} %, most of it in {piece} about ({x:.0}, {y:.0}) mm"
-        )
+        let spot = &self.most_of_it;
+        write!(f, "{share} % of the cloth is stretched by more than {percent:.1} %, most of it in {spot}")
     }
 }
 
@@ -110,7 +105,7 @@ mod tests {
         check(0.0, 0.2);
         // The uppermost row alone is 5 % of the cloth.
         check(0.19, 0.3);
-        assert!(pulled(0.19, 0.3).at.y > 0.19);
+        assert!(pulled(0.19, 0.3).most_of_it.at.y > 0.19);
         // Sheared by half, the longer diagonal of the right angle: root of 1 + g^2/2 + g root(1 + g^2/4).
         let sheared: Vec<V3> = garment.rest.iter().map(|p| V3::new(p.x + 0.5 * p.y, p.y, 0.0)).collect();
         let found = Distortion::of(&garment, &sheared).expect("a sound mesh").stretch;

@@ -12,11 +12,11 @@ use crate::body::Body;
 use crate::fit::Simulator;
 use crate::geom::{DistanceField, TriMesh, V3};
 use crate::measure;
-use crate::pattern::{Garment, MeasurementKind, Style};
+use crate::pattern::{Garment, MeasurementKind, Spot, Style};
 use crate::render::export::{MeshFormat, Part};
 use crate::render::{self, Camera, Cell, Frame, Layer, Material, Rgb, Scene, View};
 use crate::sim::hybrid::Closure;
-use crate::sim::{self, Drape, Fabric, Monitor, Progress};
+use crate::sim::{self, Drape, Fabric, Monitor, Progress, quality};
 use crate::units::mm;
 
 /// Deepest penetration of a drape that is good, mm.
@@ -162,6 +162,7 @@ pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<T
     }
     .map_err(StudyError::stage("sim"))?;
     let mut tried = measured(asked, &style, garment, &drape, &fabric)?;
+    tried.problems = problems(&body, garment, &drape);
     if asked.repeat > 1 {
         let again = |seed: u64| {
             let params = sim::fem::Params { seed, ..sim::fem::Params::default() };
@@ -289,20 +290,28 @@ fn style(asked: &Attempt, notes: &mut Vec<String>) -> Result<Style> {
     Ok(style)
 }
 
-fn measured(asked: &Attempt, style: &Style, garment: &Garment, drape: &Drape, fabric: &Fabric) -> Result<Tried> {
-    let chis = measure::measure(garment, &drape.positions);
-    let metrics = measure::metrics(&chis).ok_or_else(|| StudyError::stage("measure")("nothing to measure"))?;
-    let penetration_max_mm = mm(drape.penetration_max_m);
+/// What is wrong with a drape, and where; the numbers alone do not say.
+fn problems(body: &Body, garment: &Garment, drape: &Drape) -> Vec<String> {
+    let at = |spot: Option<Spot>| spot.map_or_else(String::new, |spot| format!(", in {spot}"));
     let mut problems = Vec::new();
     if !drape.converged {
         problems.push(format!("not converged: residual {:.4}", drape.residual));
     }
-    if penetration_max_mm > PENETRATION_MM {
-        problems.push(format!("{penetration_max_mm:.1} mm inside the body"));
+    let depth_mm = mm(drape.penetration_max_m);
+    if depth_mm > PENETRATION_MM {
+        let deepest = at(quality::deepest_spot(body, garment, &drape.positions));
+        problems.push(format!("{depth_mm:.1} mm inside the body{deepest}"));
     }
     if drape.self_crossings > 0 {
-        problems.push(format!("the cloth crosses itself at {} edges", drape.self_crossings));
+        let most = at(quality::crossed_spot(garment, &drape.positions));
+        problems.push(format!("the cloth crosses itself at {} edges{most}", drape.self_crossings));
     }
+    problems
+}
+
+fn measured(asked: &Attempt, style: &Style, garment: &Garment, drape: &Drape, fabric: &Fabric) -> Result<Tried> {
+    let chis = measure::measure(garment, &drape.positions);
+    let metrics = measure::metrics(&chis).ok_or_else(|| StudyError::stage("measure")("nothing to measure"))?;
     let earlier = drape.earlier.iter().map(|staged| (staged.stage, measure::measure(garment, &staged.positions)));
     let chi = earlier.chain([(drape.stage, chis)]).flat_map(|(stage, chis)| {
         garment.measurements.iter().zip(chis).map(move |(measurement, chi)| TriedChi {
@@ -334,7 +343,7 @@ fn measured(asked: &Attempt, style: &Style, garment: &Garment, drape: &Drape, fa
         iterations: drape.iterations,
         residual: drape.residual,
         converged: drape.converged,
-        penetration_max_mm,
+        penetration_max_mm: mm(drape.penetration_max_m),
         seam_gap_max_mm: mm(drape.seam_gap_max_m),
         self_crossings: drape.self_crossings,
         distortion: None,
@@ -343,7 +352,7 @@ fn measured(asked: &Attempt, style: &Style, garment: &Garment, drape: &Drape, fa
         chi: chi.collect(),
         ease: Vec::new(),
         gap: Vec::new(),
-        problems,
+        problems: Vec::new(),
         notes: Vec::new(),
         files: Vec::new(),
     })

@@ -255,9 +255,7 @@ impl Ring {
             }
             before = (middle, own);
         }
-        let [low, high] = bounds(points.iter().map(|p| p.1));
-        let front =
-            if fronts.is_empty() { 0.5 * (low + high) } else { fronts.iter().sum::<f64>() / fronts.len() as f64 };
+        let front = front(&fronts, middle(points.iter().map(|p| p.1)));
         points.iter_mut().for_each(|p| p.1 -= front);
         points
     }
@@ -269,12 +267,10 @@ impl Ring {
             member.places(joins).into_iter().map(|(v, p)| (v, upright * p.coords)).collect()
         };
         let members: Vec<Vec<(usize, V2)>> = self.members.iter().map(upright).collect();
-        let middle = |member: &[(usize, V2)]| 0.5 * bounds(member.iter().map(|(_, p)| p.x)).iter().sum::<f64>();
-        let is_in_front = |(member, _): &(&Member, _)| in_front.contains(&member.piece);
-        let fronts: Vec<f64> =
-            self.members.iter().zip(&members).filter(is_in_front).map(|(_, points)| middle(points)).collect();
+        let in_front = self.members.iter().zip(&members).filter(|(member, _)| in_front.contains(&member.piece));
+        let fronts: Vec<f64> = in_front.map(|(_, points)| middle(points.iter().map(|(_, p)| p.x))).collect();
         let points: Vec<(usize, V2)> = members.into_iter().flatten().collect();
-        let front = if fronts.is_empty() { middle(&points) } else { fronts.iter().sum::<f64>() / fronts.len() as f64 };
+        let front = front(&fronts, middle(points.iter().map(|(_, p)| p.x)));
         points.into_iter().map(|(v, p)| (v, V2::new(p.x - front, p.y))).collect()
     }
 }
@@ -386,6 +382,17 @@ fn misfit_m(joins: &Joins, pairs: &[[usize; 2]], placed: &Isometry2<f64>, motion
     let rest = |v: usize| Point2::from(joins.garment.rest[v]);
     let squares = pairs.iter().map(|&[a, b]| (placed * rest(a) - motion * rest(b)).norm_squared());
     (squares.sum::<f64>() / pairs.len().max(1) as f64).sqrt()
+}
+
+/// Where the front of a ring lies: at the mean of its front pieces' middles, or, with none of these, at the middle of all.
+pub fn front(middles: &[f64], of_all: f64) -> f64 {
+    if middles.is_empty() { of_all } else { middles.iter().sum::<f64>() / middles.len() as f64 }
+}
+
+/// Half way between the least and the greatest.
+fn middle(values: impl Iterator<Item = f64>) -> f64 {
+    let [low, high] = bounds(values);
+    0.5 * (low + high)
 }
 
 /// Least and greatest.

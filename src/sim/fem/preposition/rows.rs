@@ -5,7 +5,7 @@
 
 use nalgebra::Rotation2;
 
-use super::ring::bounds;
+use super::ring::{self, bounds};
 use super::sheet::Joins;
 use crate::geom::V2;
 
@@ -84,12 +84,11 @@ pub fn laid_out(strips: &[Strip]) -> Vec<InRow> {
         (if strip.is_rightwards { begun - share } else { -begun }, share)
     });
     let starts: Vec<(f64, f64)> = starts.collect();
-    let middles = |is_one: &dyn Fn(&Strip) -> bool| {
-        let all = strips.iter().zip(&starts).filter(|(strip, _)| is_one(strip));
-        let middles: Vec<f64> = all.map(|(_, (start, share))| start + 0.5 * share).collect();
-        (!middles.is_empty()).then(|| middles.iter().sum::<f64>() / middles.len() as f64)
+    let middles = |is_in_front: bool| -> Vec<f64> {
+        let some = strips.iter().zip(&starts).filter(|(strip, _)| strip.is_in_front || !is_in_front);
+        some.map(|(_, (start, share))| start + 0.5 * share).collect()
     };
-    let front = middles(&|strip| strip.is_in_front).or_else(|| middles(&|_| true)).unwrap_or_default();
+    let front = ring::front(&middles(true), ring::front(&middles(false), 0.0));
     let of = |(strip, &(start, share)): (&Strip, &(f64, f64))| {
         let at = |&(vertex, p): &(usize, V2)| {
             let below = (strip.top - p.y).max(0.0);
