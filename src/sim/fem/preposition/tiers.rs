@@ -91,7 +91,8 @@ impl Placing<'_> {
             [false, true] => length(seam, 1) / length(seam, 0),
             _ => 1.0,
         };
-        ring.flat.inner_m() / garment.seams.iter().map(ratio).fold(1.0, f64::max)
+        let ratios = garment.seams.iter().map(ratio).filter(|ratio| ratio.is_finite());
+        ring.flat.inner_m() / ratios.fold(1.0, f64::max)
     }
 
     /// Wide rings go round the trunk below what they are sewn to, and so do gores; where no piece has a place then, the largest of
