@@ -217,6 +217,15 @@ impl Membrane {
         energy
     }
 
+    /// Adds a share of the forces (N) that the compressive part of `stresses`, one an element, has in first order along a displacement `d`:
+    /// what the stiffness, which leaves that part out, does not know of.
+    pub fn add_compression(&self, stresses: &[Tensor], d: &[V3], share: f64, forces: &mut [V3]) {
+        for (element, stress) in self.elements.iter().zip(stresses) {
+            let compression = *stress - stress.without_compression();
+            element.add_forces(&element.fibres(d), compression * share, forces);
+        }
+    }
+
     /// Adds the forces (N) that would bring the stresses at the end of a displacement `d` from `x` to those that a linear solve at `x`
     /// foresees there, which it returns, and the off-diagonal blocks of the stiffness that stretching alone has at that end, N/m.
     pub fn assemble_towards(
@@ -314,6 +323,40 @@ mod tests {
                 let block = quad::matrix(block);
                 let expected: V3 = block.column(k).into();
                 assert!((column - expected).norm() < 1e-6 * block.norm(), "{column} for {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_the_stiffness_leaves_out_is_the_compression() {
+        for fabric in [fabric(), knit()] {
+            let (membrane, flat) = membrane_of(&fabric, V2::new(0.6, 0.8));
+            let x: Vec<V3> = shaken(&flat, 2e-4, 2).iter().map(|p| V3::new(0.9 * p.x, 1.1 * p.y, p.z)).collect();
+            let d = shaken(&vec![V3::zeros(); x.len()], 1.0, 3);
+            let forces = |h: f64| {
+                let moved: Vec<V3> = x.iter().zip(&d).map(|(p, d)| p + d * h).collect();
+                let mut forces = vec![V3::zeros(); x.len()];
+                membrane.add_forces(&moved, &mut forces);
+                forces
+            };
+            let mut expected = vec![V3::zeros(); x.len()];
+            let stresses: Vec<Tensor> =
+                membrane.elements.iter().map(|e| membrane.material.stress(e.strain(&x))).collect();
+            membrane.add_compression(&stresses, &d, 1.0, &mut expected);
+            let left_out = expected.iter().map(V3::norm).fold(0.0, f64::max);
+            let mut blocks = membrane.blocks();
+            membrane.assemble(&x, &mut vec![V3::zeros(); x.len()], None, &mut blocks);
+            for (&[i, j], block) in membrane.pairs.pairs().iter().zip(&blocks) {
+                let block = quad::matrix(block);
+                expected[i] -= block * (d[j] - d[i]);
+                expected[j] -= block.transpose() * (d[i] - d[j]);
+            }
+            let h = 1e-6;
+            let greatest = expected.iter().map(V3::norm).fold(0.0, f64::max);
+            assert!(left_out > 1e-3 * greatest, "{left_out} of {greatest}");
+            for ((after, before), expected) in forces(h).iter().zip(&forces(-h)).zip(&expected) {
+                let change = (after - before) / (2.0 * h);
+                assert!((change - expected).norm() < 1e-6 * greatest, "{change} for {expected}");
             }
         }
     }
