@@ -2,8 +2,8 @@
 //!
 //! Fingers and thumbs are thinner than the triangles of a coarse mesh, and poke through between points that are kept out; a
 //! narrow sleeve that is drawn together about an open hand leaves its thumb outside. So until the finest mesh has settled
-//! the cloth meets, for a hand that it is near, a convex solid: folded, beyond the wrist no wider than the wrist and narrowing,
-//! and then widened to one that holds the whole hand. It pushes the cloth outwards from within; what lies on it lies
+//! the cloth meets, for a hand that it is near, a convex solid: folded, beyond the wrist narrower than the wrist and narrowing
+//! on, and then widened to one that holds the whole hand. It pushes the cloth outwards from within; what lies on it lies
 //! outside the hand. Only the last phase knows fingers.
 //!
 //! The solid is where `n . p <= h(n)` for directions `n` all around, and the greatest `n . p - h(n)` is taken for the distance
@@ -21,9 +21,12 @@ const REACH_M: f64 = 0.25;
 const WIDEST_M: f64 = 0.15;
 /// Share of the hand's length, at its end, whose middle says where it points.
 const END: f64 = 0.4;
-/// Length of the wrist whose half width a folded hand begins with, m.
+/// Length of the wrist whose half width a folded hand is measured by, m.
 const WRIST_M: f64 = 0.02;
-/// Half width of a folded hand's end over that of the wrist.
+/// Half width of a folded hand over that of the wrist: a narrow hem on the coarsest mesh has four corners or three, and closes only
+/// about what is so much thinner than a wrist (the circle in a triangle is 0.6 of the triangle's girth).
+const FOLDED: f64 = 0.65;
+/// Half width of a folded hand's end over that where it begins.
 const NARROWING: f64 = 0.5;
 /// Cloth nearer than this to a hand meets the solid, m.
 const NEAR_M: f64 = 0.08;
@@ -63,7 +66,7 @@ impl Hand {
             return None;
         }
         let at_wrist = points.iter().filter(|p| p.dot(&along) < WRIST_M);
-        let half_width = at_wrist.map(|p| across(p).norm()).reduce(f64::max)?;
+        let half_width = FOLDED * at_wrist.map(|p| across(p).norm()).reduce(f64::max)?;
         let fold = |p: &V3| {
             let share = (p.dot(&along) / length).clamp(0.0, 1.0);
             let most = half_width * (1.0 - (1.0 - NARROWING) * share);
