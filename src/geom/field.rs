@@ -32,6 +32,12 @@ pub struct FieldError(&'static str);
 
 /// Width of the exact shell outside the surface, in grid cells.
 const SHELL_CELLS: f64 = 2.5;
+/// No triangle.
+const NONE: u32 = u32::MAX;
+/// Nodes of one side that are asked for it at most.
+const MOST_ASKED: usize = 64;
+/// What rounding to single precision may make of a distance, m.
+const ROUNDED_M: f64 = 1e-5;
 const HEADER_BYTES: usize = 7 * 8;
 
 impl DistanceField {
@@ -48,47 +54,53 @@ impl DistanceField {
         let far = (SHELL_CELLS * spacing_m) as f32;
         let middle = (low + high) * 0.5;
         let mut field = Self { middle, spacing_m, size, values: vec![far; size.iter().product()] };
-        let sampled = field.sample_shell(mesh, &surface);
-        field.agree_on_signs(&sampled);
-        field.fill_inside(&surface);
+        let mut nearest = field.sample_shell(mesh, &surface);
+        field.tell_sides(&surface, &nearest);
+        field.fill_inside(&surface, &mut nearest);
         Ok(field)
     }
 
-    /// Exact values at the nodes near each triangle; says which those are.
-    fn sample_shell(&mut self, mesh: &TriMesh, surface: &Surface) -> Vec<bool> {
+    /// Exact values, all positive as yet, at the nodes that are near a triangle; returns the nearest one of each.
+    fn sample_shell(&mut self, mesh: &TriMesh, surface: &Surface) -> Vec<u32> {
         let reach = V3::repeat(SHELL_CELLS * self.spacing_m);
-        let far = SHELL_CELLS * self.spacing_m;
-        let mut done = vec![false; self.values.len()];
-        for triangle in &mesh.triangles {
+        let mut nearest = vec![NONE; self.values.len()];
+        for (index, triangle) in (0..).zip(&mesh.triangles) {
             let [a, b, c] = triangle.map(|v| mesh.positions[v]);
-            let low = self.local(&(a.inf(&b).inf(&c) - reach)).map(f64::ceil);
-            let high = self.local(&(a.sup(&b).sup(&c) + reach)).map(f64::floor);
+            let normal = (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_default();
+            let (lowest, highest) = (a.inf(&b).inf(&c), a.sup(&b).sup(&c));
+            let low = self.local(&(lowest - reach)).map(f64::ceil);
+            let high = self.local(&(highest + reach)).map(f64::floor);
             let [along_x, along_y, along_z] = [0, 1, 2].map(|k| self.index(k, low[k])..=self.index(k, high[k]));
-            for i in along_x {
+            for k in along_z {
                 for j in along_y.clone() {
-                    for k in along_z.clone() {
-                        let node = self.node(i, j, k);
-                        if !done[node] {
-                            done[node] = true;
-                            let distance = surface.signed_distance(&self.position(i, j, k));
-                            self.values[node] = distance.min(far) as f32;
+                    for i in along_x.clone() {
+                        let (node, p) = (self.node(i, j, k), self.position(i, j, k));
+                        // Its plane and its box are no farther than the triangle, but for rounding.
+                        let known_m = f64::from(self.values[node]) + ROUNDED_M;
+                        let to_box = (lowest - p).sup(&(p - highest)).sup(&V3::zeros());
+                        if normal.dot(&(p - a)).abs() > known_m || to_box.norm_squared() > known_m * known_m {
+                            continue;
+                        }
+                        let distance = surface.distance_to(index, &p).unwrap_or(f32::MAX);
+                        if distance < self.values[node] {
+                            (self.values[node], nearest[node]) = (distance, index);
                         }
                     }
                 }
             }
         }
-        done
+        nearest
     }
 
-    /// Mends single wrong signs: on a crumpled mesh the nearest feature's normal can point the wrong way. Where two
-    /// neighbouring nodes are together farther from the surface than from each other, it cannot lie between them: all
-    /// nodes that are joined so are on one side, that of most of them.
-    fn agree_on_signs(&mut self, sampled: &[bool]) {
+    /// Gives the nodes of the shell their signs. Where two neighbours are together farther from the surface than from each other, it
+    /// cannot lie between them: all nodes that are joined so are on one side. Some of them are asked, and most of those are right: on a
+    /// crumpled mesh the nearest feature's normal can point the wrong way.
+    fn tell_sides(&mut self, surface: &Surface, nearest: &[u32]) {
         // A flat surface across the axis is as far from both as they from each other, but for rounding.
         let apart = 1.05 * self.spacing_m as f32;
         let strides = [1, self.size[0], self.size[0] * self.size[1]];
-        let mut seen = vec![false; self.values.len()];
-        for start in (0..self.values.len()).filter(|node| sampled[*node]) {
+        let mut seen: Vec<bool> = nearest.iter().map(|triangle| *triangle == NONE).collect();
+        for start in 0..nearest.len() {
             if seen[start] {
                 continue;
             }
@@ -100,36 +112,46 @@ impl DistanceField {
                 // The shell keeps clear of the grid's ends, so that a neighbour's number is one of a neighbour.
                 for stride in strides {
                     for other in [node.wrapping_sub(stride), node + stride] {
-                        let is_open = sampled.get(other) == Some(&true) && !seen[other];
-                        if is_open && self.values[node].abs() + self.values[other].abs() > apart {
+                        if seen.get(other) == Some(&false) && self.values[node] + self.values[other] > apart {
                             seen[other] = true;
                             side.push(other);
                         }
                     }
                 }
             }
-            let inside = side.iter().filter(|node| self.values[**node] < 0.0).count();
-            let sign = if 2 * inside > side.len() { -1.0 } else { 1.0 };
-            side.into_iter().for_each(|node| self.values[node] = sign * self.values[node].abs());
+            let asked = side.iter().step_by(side.len().div_ceil(MOST_ASKED));
+            let count = asked.len();
+            let inside = asked.filter(|node| surface.is_inside(&self.position_of(**node))).count();
+            if 2 * inside > count {
+                side.into_iter().for_each(|node| self.values[node] = -self.values[node]);
+            }
         }
     }
 
     /// Exact values at the nodes deeper inside than the shell: they follow along x a negative node that is farther from
     /// the surface than from them.
-    fn fill_inside(&mut self, surface: &Surface) {
+    fn fill_inside(&mut self, surface: &Surface, nearest: &mut [u32]) {
         let far = (SHELL_CELLS * self.spacing_m) as f32;
         for k in 0..self.size[2] {
             for j in 0..self.size[1] {
                 for i in 1..self.size[0] {
                     let node = self.node(i, j, k);
                     if self.values[node] == far && self.values[node - 1] < 0.0 {
-                        // The node before is as near but for the way from it.
-                        let most_m = f64::from(-self.values[node - 1]) + self.spacing_m;
-                        self.values[node] = -surface.distance_within(&self.position(i, j, k), most_m) as f32;
+                        // What is nearest to the node before is not much farther than what is nearest here.
+                        let p = self.position(i, j, k);
+                        let most_m = surface.distance_to(nearest[node - 1], &p).map_or(f64::MAX, f64::from);
+                        let (distance_m, triangle) = surface.nearest_within(&p, most_m);
+                        self.values[node] = -distance_m as f32;
+                        nearest[node] = triangle.unwrap_or(nearest[node - 1]);
                     }
                 }
             }
         }
+    }
+
+    fn position_of(&self, node: usize) -> V3 {
+        let [x, y, _] = self.size;
+        self.position(node % x, node / x % y, node / (x * y))
     }
 
     fn node(&self, i: usize, j: usize, k: usize) -> usize {
@@ -317,6 +339,24 @@ mod tests {
         }
         let (value, gradient) = field.value_and_gradient(&V3::new(3.0, 0.0, 0.0));
         assert!(value > 0.01 && gradient == V3::zeros());
+    }
+
+    #[test]
+    fn nodes_have_the_exact_distance_inside_and_near_the_surface() {
+        let bumpy = |p: &V3| p * (1.0 + 0.2 * (17.0 * p.x).sin() * (11.0 * p.y + 3.0 * p.z).cos());
+        let sphere = sphere(0.1, 30);
+        let mesh = TriMesh { positions: sphere.positions.iter().map(bumpy).collect(), triangles: sphere.triangles };
+        let (spacing_m, surface) = (0.006, Surface::new(&mesh).expect("closed"));
+        let field = DistanceField::build(&mesh, spacing_m).expect("closed");
+        let (low, high) = mesh.bounds().expect("not empty");
+        let margin = V3::repeat(3.0 * spacing_m);
+        let mut count = [0; 3];
+        for (_, p, value) in field.nodes_within(low - margin, high + margin) {
+            let exact = surface.signed_distance(&p);
+            assert_eq!(value as f32, exact.min(SHELL_CELLS * spacing_m) as f32, "{p}");
+            count[if exact < 0.0 { 0 } else { 1 + usize::from(exact > SHELL_CELLS * spacing_m) }] += 1;
+        }
+        assert!(count.iter().all(|n| *n > 1000), "{count:?}");
     }
 
     #[test]

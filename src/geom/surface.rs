@@ -40,39 +40,57 @@ impl Surface {
     /// Distance to the surface, m; negative inside.
     #[must_use]
     pub fn signed_distance(&self, point: &V3) -> f64 {
-        let projection = self.mesh.project_local_point(to_parry(point), false);
-        let expected = (projection.point - to_parry(point)).length();
-        let distance = self.distance_within(point, f64::from(expected));
-        if projection.is_inside { -distance } else { distance }
+        let (is_inside, about_m) = self.project(point);
+        let (distance_m, _) = self.nearest_within(point, about_m);
+        if is_inside { -distance_m } else { distance_m }
     }
 
     /// Distance of a point inside to the surface, m; `None` for one outside, which is quicker to know.
     #[must_use]
     pub fn depth(&self, point: &V3) -> Option<f64> {
-        let projection = self.mesh.project_local_point(to_parry(point), false);
-        let expected = (projection.point - to_parry(point)).length();
-        projection.is_inside.then(|| self.distance_within(point, f64::from(expected)))
+        let (is_inside, about_m) = self.project(point);
+        is_inside.then(|| self.nearest_within(point, about_m).0)
     }
 
-    /// Distance to the surface, m, whichever side the point is on, when it is known to be at most `most_m`, but for rounding: the
-    /// nearer that is, the less is looked at. The bits do not depend on it.
+    /// Whether a point is inside, as the normal of the nearest feature tells.
     #[must_use]
-    pub fn distance_within(&self, point: &V3, most_m: f64) -> f64 {
-        let point = to_parry(point);
-        let p = from_parry(point);
+    pub fn is_inside(&self, point: &V3) -> bool {
+        self.project(point).0
+    }
+
+    /// Whether a point is inside, and its distance to the surface but for rounding, m.
+    fn project(&self, point: &V3) -> (bool, f64) {
+        let projection = self.mesh.project_local_point(to_parry(point), false);
+        (projection.is_inside, f64::from((projection.point - to_parry(point)).length()))
+    }
+
+    /// Distance to the surface, m, whichever side the point is on, and the triangle that is so near, when the distance is known to be at
+    /// most `most_m`, but for rounding: the nearer that is, the less is looked at. The bits of the distance do not depend on it.
+    #[must_use]
+    pub fn nearest_within(&self, point: &V3, most_m: f64) -> (f64, Option<u32>) {
+        let p = to_parry(point);
         #[allow(clippy::cast_possible_truncation)]
         let within = most_m as f32 * (1.0 + ROUNDED) + ROUNDED;
-        let box_distance = |node: &BvhNode, _: f32| node.aabb().distance_to_local_point(point, true) * (1.0 - ROUNDED);
-        let triangle_distance = |index: u32, _: f32| {
-            let corners = triangle::sorted(*self.mesh.indices().get(index as usize)?);
-            let corners = corners.map(|corner| from_parry(self.mesh.vertices()[corner as usize]));
-            let weights = triangle::nearest(&p, &corners);
-            let gap: V3 = (0..3).map(|k| (p - corners[k]) * weights[k]).sum();
-            #[allow(clippy::cast_possible_truncation)]
-            Some((gap.norm() as f32, ()))
-        };
+        let box_distance = |node: &BvhNode, _: f32| node.aabb().distance_to_local_point(p, true) * (1.0 - ROUNDED);
+        let at = from_parry(p);
+        let triangle_distance = |index: u32, _: f32| Some((self.distance_of(index, &at)?, ()));
         let found = self.mesh.bvh().find_best(within, box_distance, triangle_distance);
-        found.map_or(most_m, |(_, (distance, ()))| f64::from(distance))
+        found.map_or((most_m, None), |(index, (distance, ()))| (f64::from(distance), Some(index)))
+    }
+
+    /// Distance of a triangle from a point, m; `None` when there is no such triangle.
+    #[must_use]
+    pub fn distance_to(&self, triangle: u32, point: &V3) -> Option<f32> {
+        self.distance_of(triangle, &from_parry(to_parry(point)))
+    }
+
+    fn distance_of(&self, triangle: u32, p: &V3) -> Option<f32> {
+        let corners = triangle::sorted(*self.mesh.indices().get(triangle as usize)?);
+        let corners = corners.map(|corner| from_parry(self.mesh.vertices()[corner as usize]));
+        let weights = triangle::nearest(p, &corners);
+        let gap: V3 = (0..3).map(|k| (p - corners[k]) * weights[k]).sum();
+        #[allow(clippy::cast_possible_truncation)]
+        Some(gap.norm() as f32)
     }
 }
 

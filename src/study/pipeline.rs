@@ -21,7 +21,7 @@ use crate::units::from_mm;
 pub const SIMULATORS: [Simulator; 2] = [Simulator::Fem, Simulator::Hybrid];
 
 /// Versions of the stages, raised whenever one may give other numbers for the same inputs.
-const VERSIONS: [(&str, u32); 3] = [("body.version", 6), ("field.version", 3), ("mesh.version", 5)];
+const VERSIONS: [(&str, u32); 3] = [("body.version", 6), ("field.version", 4), ("mesh.version", 5)];
 /// Version of the simulators, likewise; their default parameters count as inputs by themselves.
 const SIM_VERSION: u32 = 36;
 
