@@ -149,6 +149,7 @@ impl DistanceField {
         }
     }
 
+    /// Place of a node by its number.
     fn position_of(&self, node: usize) -> V3 {
         let [x, y, _] = self.size;
         self.position(node % x, node / x % y, node / (x * y))
@@ -316,6 +317,12 @@ mod tests {
     use super::*;
     use crate::geom::shapes::sphere;
 
+    fn bumpy_sphere() -> TriMesh {
+        let bumpy = |p: &V3| p * (1.0 + 0.2 * (17.0 * p.x).sin() * (11.0 * p.y + 3.0 * p.z).cos());
+        let sphere = sphere(0.1, 30);
+        TriMesh { positions: sphere.positions.iter().map(bumpy).collect(), triangles: sphere.triangles }
+    }
+
     #[test]
     fn a_sphere_has_its_distance_and_normal() {
         let radius = 0.1;
@@ -343,9 +350,7 @@ mod tests {
 
     #[test]
     fn nodes_have_the_exact_distance_inside_and_near_the_surface() {
-        let bumpy = |p: &V3| p * (1.0 + 0.2 * (17.0 * p.x).sin() * (11.0 * p.y + 3.0 * p.z).cos());
-        let sphere = sphere(0.1, 30);
-        let mesh = TriMesh { positions: sphere.positions.iter().map(bumpy).collect(), triangles: sphere.triangles };
+        let mesh = bumpy_sphere();
         let (spacing_m, surface) = (0.006, Surface::new(&mesh).expect("closed"));
         let field = DistanceField::build(&mesh, spacing_m).expect("closed");
         let (low, high) = mesh.bounds().expect("not empty");
@@ -362,9 +367,7 @@ mod tests {
     #[test]
     fn a_mirrored_surface_has_the_mirrored_field_to_the_bit() {
         let flipped = |p: &V3| V3::new(-p.x, p.y, p.z);
-        let bumpy = |p: &V3| p * (1.0 + 0.2 * (17.0 * p.x).sin() * (11.0 * p.y + 3.0 * p.z).cos());
-        let sphere = sphere(0.1, 30);
-        let mesh = TriMesh { positions: sphere.positions.iter().map(bumpy).collect(), triangles: sphere.triangles };
+        let mesh = bumpy_sphere();
         let mirrored = TriMesh {
             positions: mesh.positions.iter().map(flipped).collect(),
             triangles: mesh.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect(),

@@ -78,7 +78,7 @@ impl Surface {
         found.map_or((most_m, None), |(index, (distance, ()))| (f64::from(distance), Some(index)))
     }
 
-    /// Distance of a triangle from a point, m; `None` when there is no such triangle.
+    /// Distance of a triangle, by its number in the mesh, from a point, m; `None` when there is no such triangle.
     #[must_use]
     pub fn distance_to(&self, triangle: u32, point: &V3) -> Option<f32> {
         self.distance_of(triangle, &from_parry(to_parry(point)))
