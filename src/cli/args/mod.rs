@@ -17,7 +17,7 @@ pub use pattern::{BesideFiles, DraftStyle, Pattern, PatternUnit, SeamCommand, St
 
 /// A fit-study workbench: dress bodies in sewing patterns, measure the drape, say which simulator to trust.
 #[derive(Debug, Parser)]
-#[command(name = "toile", version, max_term_width = 110, disable_help_subcommand = true)]
+#[command(name = "toile", version, max_term_width = 110, disable_help_subcommand = true, infer_long_args = true)]
 #[command(after_help = "Without a command the workbench (TUI) starts. Exit codes: 0 done, 2 usage or unusable input, \
     3 a check failed, 4 a job failed, 130 interrupted.")]
 pub struct Arguments {

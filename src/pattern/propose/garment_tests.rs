@@ -370,3 +370,24 @@ fn two_whole_fronts_are_no_panels() {
     let proposal = draped(&[front.clone(), pockets, back], &[]);
     assert!(!proposal.seams.iter().any(|seam| seam.entry.name.contains("princess")));
 }
+
+#[test]
+fn outlines_as_long_as_each_other_along_their_seams_are_what_they_look_like() {
+    let front = [(0.0, 0.0, 1), (260.0, 0.0, 1), (260.0, 420.0, 1), (215.0, 440.0, 0), (195.0, 500.0, 0)];
+    let front = [&front[..], &[(190.0, 560.0, 0), (200.0, 640.0, 1), (80.0, 690.0, 1)]].concat();
+    let front = [&front[..], &[(70.0, 640.0, 0), (40.0, 615.0, 0), (0.0, 605.0, 1)]].concat();
+    // The lengths of its side and of its shoulder more than the front's.
+    let back = |side: f64, shoulder: f64| {
+        let lower = [(0.0, 0.0, 1), (260.0, 0.0, 1), (260.0, 420.0 + side, 1), (222.0, 440.0, 0), (205.0, 500.0, 0)];
+        let upper =
+            [(200.0, 560.0, 0), (205.0, 640.0, 1), (85.0 - shoulder, 690.0, 1), (55.0, 672.0, 0), (0.0, 665.0, 1)];
+        piece("DETAIL", &[&lower[..], &upper].concat())
+    };
+    let sure = |side: f64, shoulder: f64| {
+        let proposal = propose(&[piece("DETAIL", &front), back(side, shoulder)]);
+        (seam(&proposal, "side_right").confidence, proposal.to_drape().is_ok())
+    };
+    let [both, one, none] = [(0.0, 0.0), (0.0, 2.0), (2.0, 2.0)].map(|(side, shoulder)| sure(side, shoulder));
+    assert!(both.0 > one.0 + 0.05 && one.0 > none.0 + 0.05, "{both:?}, {one:?}, {none:?}");
+    assert!(both.1 && !none.1, "{both:?}, {none:?}");
+}

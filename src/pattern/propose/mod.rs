@@ -4,6 +4,7 @@
 //! tells its edges apart; then edges that belong together are sewn ([`sew`]). Everything carries a confidence, and what
 //! is unsure becomes a question to the person who edits the file.
 
+mod agree;
 mod align;
 mod choose;
 #[cfg(test)]
@@ -306,6 +307,8 @@ pub fn propose(pieces: &[Piece]) -> Proposal {
     // Which sleeve is drawn shows only once its notches are laid beside those of the armhole.
     let first = worn::worn(pieces, &recognised, None, &mut Vec::new());
     let worn = worn::worn(pieces, &recognised, notched::drawn_sleeve(&first), &mut questions);
+    let fitted = sew::sew(&worn, &mut Vec::new());
+    let worn = agree::assured(worn, &fitted);
     let seams = sew::sew(&worn, &mut questions);
     let mut listed: Vec<ProposedPiece> = Vec::new();
     for (index, piece) in pieces.iter().enumerate() {
@@ -325,6 +328,7 @@ pub fn propose(pieces: &[Piece]) -> Proposal {
         listed.extend(of_this.iter().map(|worn| ProposedPiece {
             id: Some(worn.id.clone()),
             hand: worn.hand,
+            confidence: worn.confidence,
             ..plain.clone()
         }));
     }
