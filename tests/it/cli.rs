@@ -168,6 +168,15 @@ fn wrong_usage_ends_with_2_and_says_what_would_be_right() {
 }
 
 #[test]
+fn options_may_be_shortened_while_they_are_told_apart() {
+    let place = Place::new();
+    place.toile("pattern draft tshirt --out drafted").ends_with(0);
+    assert!(place.path("drafted/tshirt.seams.toml").exists());
+    let said = place.toile("run . --s tee").ends_with(2);
+    assert!(said.err.contains("unexpected argument '--s'"), "{}", said.err);
+}
+
+#[test]
 fn the_catalogue_is_edited() {
     let place = Place::new();
     place.draft();
