@@ -2,7 +2,6 @@
 
 pub mod band;
 pub mod bending;
-mod fours;
 pub mod gathers;
 pub mod law;
 pub mod membrane;

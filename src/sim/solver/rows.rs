@@ -7,7 +7,6 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use super::machine::{Machine, Task};
 use super::operator::{Contact4, Operator};
 use super::quad::{self, Block, Quad};
 
@@ -57,34 +56,6 @@ impl Upper {
     }
 }
 
-/// Couplings that are met vertex by vertex, with what is kept of each.
-struct Along<'a, T> {
-    starts: &'a [u32],
-    others: &'a [u32],
-    kept: &'a [T],
-}
-
-impl<'a, T> Along<'a, T> {
-    #[inline(always)]
-    fn new(upper: &'a Upper, kept: &'a [T]) -> Self {
-        Self { starts: &upper.starts, others: &upper.others, kept }
-    }
-
-    /// Those of the next vertex.
-    #[inline(always)]
-    fn next_row(&mut self) -> impl Iterator<Item = (usize, &'a T)> {
-        let mut count = 0;
-        if let [from, to, ..] = *self.starts {
-            count = (to - from) as usize;
-            self.starts = &self.starts[1..];
-        }
-        let ((others, kept), rest);
-        ((others, rest), (kept, self.kept)) = (self.others.split_at(count), self.kept.split_at(count));
-        self.others = rest;
-        others.iter().map(|other| *other as usize).zip(kept)
-    }
-}
-
 /// An [`Operator`] in rows.
 pub struct Rows<'a, Q: Quad> {
     diagonal: Vec<Block<Q>>,
@@ -123,73 +94,47 @@ impl<'a, Q: Quad> Rows<'a, Q> {
         }
     }
 
-    /// `y = K x` of states `[x, y]`, which lie side by side since they are met side by side.
-    #[inline(always)]
-    pub fn apply<M: Machine>(&self, machine: M, states: &mut [[Q; 2]]) {
-        machine.alone(Product { rows: self, states });
-    }
-
-    #[inline(always)]
-    fn product<M: Machine>(&self, machine: M, states: &mut [[Q; 2]]) {
-        states.iter_mut().for_each(|[_, y]| *y = Q::ZERO);
-        let mut membrane = Along::new(self.membrane, &self.blocks);
-        let mut bending = Along::new(self.bending, &self.entries);
+    /// `y = K x`.
+    pub fn apply(&self, x: &[Q], y: &mut [Q]) {
+        y.fill(Q::ZERO);
         for (i, diagonal) in self.diagonal.iter().enumerate() {
-            let [here, mut force] = states[i];
+            let here = x[i];
             let mut rows = diagonal.map(|row| row * here);
-            for (j, block) in membrane.next_row() {
-                let [x, y] = &mut states[j];
-                let difference = *x - here;
+            let mut force = y[i];
+            for (j, block) in self.membrane.of(i, &self.blocks) {
+                let difference = x[j] - here;
                 for (row, entries) in rows.iter_mut().zip(block) {
-                    *row = entries.times_plus(difference, *row, machine);
+                    *row += *entries * difference;
                 }
-                for (row, along) in block.iter().zip(quad::spread_out(difference)) {
-                    *y = row.times_from(along, *y, machine);
-                }
+                y[j] -= quad::transposed_times(block, difference);
             }
-            for (j, entry) in bending.next_row() {
-                let [x, y] = &mut states[j];
-                let (difference, entry) = (*x - here, Q::splat(*entry));
-                force = difference.times_plus(entry, force, machine);
-                *y = difference.times_from(entry, *y, machine);
+            for (j, entry) in self.bending.of(i, &self.entries) {
+                let pull = (x[j] - here) * Q::splat(*entry);
+                force += pull;
+                y[j] -= pull;
             }
-            states[i][1] = force + Q::totals(rows);
+            y[i] = force + Q::totals(rows);
         }
         for (pair, stiffness) in &self.springs {
-            let pull = (states[pair[0]][0] - states[pair[1]][0]) * *stiffness;
-            states[pair[0]][1] += pull;
-            states[pair[1]][1] -= pull;
+            let pull = (x[pair[0]] - x[pair[1]]) * *stiffness;
+            y[pair[0]] += pull;
+            y[pair[1]] -= pull;
         }
         for contact in &self.contacts {
-            contact.apply(states);
+            contact.apply(x, y);
         }
-    }
-}
-
-struct Product<'a, 'b, Q: Quad> {
-    rows: &'a Rows<'b, Q>,
-    states: &'a mut [[Q; 2]],
-}
-
-impl<Q: Quad> Task for Product<'_, '_, Q> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<M: Machine>(self, machine: M) {
-        self.rows.product(machine, self.states);
     }
 }
 
 impl<Q: Quad> Contact<Q> {
-    #[inline(always)]
-    fn apply(&self, states: &mut [[Q; 2]]) {
+    fn apply(&self, x: &[Q], y: &mut [Q]) {
         let mut moved = Q::ZERO;
         for (v, weight) in self.vertices.iter().zip(&self.weights) {
-            moved += states[*v][0] * *weight;
+            moved += x[*v] * *weight;
         }
         let force = self.along * Q::spread((moved * self.along).total());
         for (v, weight) in self.vertices.iter().zip(&self.weights) {
-            states[*v][1] += force * *weight;
+            y[*v] += force * *weight;
         }
     }
 }
