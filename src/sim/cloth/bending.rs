@@ -148,7 +148,7 @@ impl Tangent {
     /// Adds the entries along sides to the membrane's blocks.
     pub fn add_along(&self, blocks: &mut [Block<f32x4>]) {
         for (block, entry) in blocks.iter_mut().zip(&self.along) {
-            for (row, alike) in block.iter_mut().zip(quad::alike(*entry)) {
+            for (row, alike) in block.iter_mut().zip(quad::alike(*entry as f32)) {
                 *row += alike;
             }
         }

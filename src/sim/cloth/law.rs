@@ -5,16 +5,17 @@ use std::ops::{Add, Mul, Sub};
 use nalgebra::Matrix2;
 
 use crate::sim::Fabric;
+use crate::sim::solver::lanes::Number;
 
 /// A symmetric tensor in the cloth's plane, in the axes of its grain.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Tensor {
+pub struct Tensor<N = f64> {
     /// Entry along the weft.
-    pub weft: f64,
+    pub weft: N,
     /// Entry along the warp.
-    pub warp: f64,
+    pub warp: N,
     /// Entry off the diagonal.
-    pub shear: f64,
+    pub shear: N,
 }
 
 impl Tensor {
@@ -29,42 +30,44 @@ impl Tensor {
     pub fn matrix(self) -> Matrix2<f64> {
         Matrix2::new(self.weft, self.shear, self.shear, self.warp)
     }
+}
 
+impl<N: Number> Tensor<N> {
     /// Its positive part: negative eigenvalues set to zero.
     #[must_use]
+    #[inline(always)]
     pub fn without_compression(self) -> Self {
-        let mean = 0.5 * (self.weft + self.warp);
-        let half = 0.5 * (self.weft - self.warp);
-        let radius = (half * half + self.shear * self.shear).sqrt();
-        let (high, low) = (mean + radius, mean - radius);
-        if low >= 0.0 {
-            self
-        } else if high <= 0.0 {
-            Self::default()
-        } else {
-            // One eigenvalue of each sign: high * (S - low I) / (high - low) projects onto the positive one.
-            Self { weft: self.weft - low, warp: self.warp - low, ..self } * (high / (high - low))
-        }
+        let (zero, half) = (self.weft.same(0.0), self.weft.same(0.5));
+        let mean = half * (self.weft + self.warp);
+        let apart = half * (self.weft - self.warp);
+        let radius = self.shear.times_plus(self.shear, apart * apart).root();
+        let (high, low) = ((mean + radius).most(zero), (mean - radius).least(zero));
+        // Of eigenvalues of either sign, `high (S - low I) / (high - low)` projects onto the positive one.
+        let share = high / (high - low).most(high.same(f64::MIN_POSITIVE));
+        Self { weft: self.weft - low, warp: self.warp - low, ..self } * share
     }
 }
 
-impl Add for Tensor {
+impl<N: Number> Add for Tensor<N> {
     type Output = Self;
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         Self { weft: self.weft + other.weft, warp: self.warp + other.warp, shear: self.shear + other.shear }
     }
 }
 
-impl Sub for Tensor {
+impl<N: Number> Sub for Tensor<N> {
     type Output = Self;
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        self + other * -1.0
+        Self { weft: self.weft - other.weft, warp: self.warp - other.warp, shear: self.shear - other.shear }
     }
 }
 
-impl Mul<f64> for Tensor {
+impl<N: Number> Mul<N> for Tensor<N> {
     type Output = Self;
-    fn mul(self, factor: f64) -> Self {
+    #[inline(always)]
+    fn mul(self, factor: N) -> Self {
         Self { weft: self.weft * factor, warp: self.warp * factor, shear: self.shear * factor }
     }
 }
@@ -101,30 +104,35 @@ impl Fibre {
 
     /// Stress, N/m.
     #[must_use]
-    pub fn stress(&self, strain: f64) -> f64 {
-        if self.rise == 0.0 {
-            return self.rest * strain;
-        }
-        let within = strain.clamp(0.0, self.until);
-        self.rest * strain + self.rise * within * (within + 2.0 * (strain.max(0.0) - within))
+    #[inline(always)]
+    pub fn stress<N: Number>(&self, strain: N) -> N {
+        let (within, beyond) = self.parts(strain);
+        let rising = within * beyond.times_plus(strain.same(2.0), within);
+        strain.times_plus(strain.same(self.rest), rising * strain.same(self.rise))
     }
 
     /// Slope of the stress, N/m.
     #[must_use]
-    pub fn tangent(&self, strain: f64) -> f64 {
-        if self.rise == 0.0 { self.rest } else { self.rest + 2.0 * self.rise * strain.clamp(0.0, self.until) }
+    #[inline(always)]
+    pub fn tangent<N: Number>(&self, strain: N) -> N {
+        self.parts(strain).0.times_plus(strain.same(2.0 * self.rise), strain.same(self.rest))
     }
 
     /// Energy per area, N/m.
     #[must_use]
-    pub fn energy(&self, strain: f64) -> f64 {
-        if self.rise == 0.0 {
-            return 0.5 * self.rest * strain * strain;
-        }
-        let within = strain.clamp(0.0, self.until);
-        let beyond = strain.max(0.0) - within;
-        let rising = within * (within * within / 3.0 + beyond * (within + beyond));
-        0.5 * self.rest * strain * strain + self.rise * rising
+    #[inline(always)]
+    pub fn energy<N: Number>(&self, strain: N) -> N {
+        let (within, beyond) = self.parts(strain);
+        let rising = within * (within * within * strain.same(1.0 / 3.0) + beyond * (within + beyond));
+        (strain * strain).times_plus(strain.same(0.5 * self.rest), rising * strain.same(self.rise))
+    }
+
+    /// The stretch within which the modulus rises, and what is beyond.
+    #[inline(always)]
+    fn parts<N: Number>(&self, strain: N) -> (N, N) {
+        let stretch = strain.most(strain.same(0.0));
+        let within = stretch.least(strain.same(self.until));
+        (within, stretch - within)
     }
 }
 
@@ -155,38 +163,42 @@ impl Orthotropic {
 
     /// Stress of a strain, N/m.
     #[must_use]
-    pub fn stress(&self, strain: Tensor) -> Tensor {
+    #[inline(always)]
+    pub fn stress<N: Number>(&self, strain: Tensor<N>) -> Tensor<N> {
+        let c12 = strain.weft.same(self.c12);
         Tensor {
-            weft: self.weft.stress(strain.weft) + self.c12 * strain.warp,
-            warp: self.c12 * strain.weft + self.warp.stress(strain.warp),
-            shear: 2.0 * self.shear * strain.shear,
+            weft: strain.warp.times_plus(c12, self.weft.stress(strain.weft)),
+            warp: strain.weft.times_plus(c12, self.warp.stress(strain.warp)),
+            shear: strain.shear * strain.shear.same(2.0 * self.shear),
         }
     }
 
     /// Slopes of the stresses along weft and warp at a strain, N/m.
     #[must_use]
-    pub fn tangents(&self, strain: Tensor) -> [f64; 2] {
+    #[inline(always)]
+    pub fn tangents<N: Number>(&self, strain: Tensor<N>) -> [N; 2] {
         [self.weft.tangent(strain.weft), self.warp.tangent(strain.warp)]
     }
 
     /// What a small change of strain adds to the stress, N/m.
     #[must_use]
-    pub fn tangent(&self, strain: Tensor, change: Tensor) -> Tensor {
-        let [weft, warp] = self.tangents(strain);
+    #[inline(always)]
+    pub fn tangent<N: Number>(&self, strain: Tensor<N>, change: Tensor<N>) -> Tensor<N> {
+        let ([weft, warp], c12) = (self.tangents(strain), strain.weft.same(self.c12));
         Tensor {
-            weft: weft * change.weft + self.c12 * change.warp,
-            warp: self.c12 * change.weft + warp * change.warp,
-            shear: 2.0 * self.shear * change.shear,
+            weft: weft.times_plus(change.weft, c12 * change.warp),
+            warp: warp.times_plus(change.warp, c12 * change.weft),
+            shear: change.shear * change.shear.same(2.0 * self.shear),
         }
     }
 
     /// Energy per area of a strain, N/m.
     #[must_use]
-    pub fn energy(&self, strain: Tensor) -> f64 {
-        self.weft.energy(strain.weft)
-            + self.warp.energy(strain.warp)
-            + self.c12 * strain.weft * strain.warp
-            + 2.0 * self.shear * strain.shear * strain.shear
+    #[inline(always)]
+    pub fn energy<N: Number>(&self, strain: Tensor<N>) -> N {
+        let along = self.weft.energy(strain.weft) + self.warp.energy(strain.warp);
+        let across = strain.weft * strain.warp * strain.weft.same(self.c12);
+        along + across + strain.shear * strain.shear * strain.shear.same(2.0 * self.shear)
     }
 }
 

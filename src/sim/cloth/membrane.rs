@@ -15,18 +15,18 @@
 use nalgebra::{Matrix2, Matrix3x2};
 use wide::f32x4;
 
+use super::fours::{Assembly, Compression, Correction, Four};
 use super::law::{Orthotropic, Tensor};
 use crate::geom::{V2, V3};
 use crate::sim::solver::PairList;
-use crate::sim::solver::quad::{self, Block, Quad};
+use crate::sim::solver::machine;
+use crate::sim::solver::quad::Block;
 
-/// One triangle; a line of the processor's cache.
+/// One triangle.
 #[derive(Clone, Copy, Debug)]
 pub struct Element {
     /// Simulated vertices, counter-clockwise.
     vertices: [u32; 3],
-    /// Slots of the pairs (0,1), (1,2), (2,0), twice each, and one more where the pair's smaller vertex is the second one.
-    slots: [u32; 3],
     /// Rest area, m2.
     pub area: f64,
     /// Gradients of the second and third shape functions in (weft, warp), 1/m: that of the first is their sum's negative.
@@ -43,7 +43,7 @@ impl Element {
         let area = 0.5 * dm.determinant();
         let inverse = dm.try_inverse().filter(|_| area > 0.0)?;
         let gradients = [inverse.row(0).transpose(), inverse.row(1).transpose()];
-        Some(Self { vertices: vertices.map(|v| v as u32), slots: [0; 3], area, gradients })
+        Some(Self { vertices: vertices.map(|v| v as u32), area, gradients })
     }
 
     /// The same triangle with its vertices called otherwise, not yet in a membrane.
@@ -76,57 +76,15 @@ impl Element {
     /// Green strain.
     #[must_use]
     pub fn strain(&self, x: &[V3]) -> Tensor {
-        green(&self.fibres(x))
+        let [weft, warp] = self.fibres(x);
+        let along = |fibre: &V3| 0.5 * (fibre.norm_squared() - 1.0);
+        Tensor { weft: along(&weft), warp: along(&warp), shear: 0.5 * weft.dot(&warp) }
     }
 
-    #[inline]
-    fn add_forces(&self, [weft, warp]: &[V3; 2], stress: Tensor, forces: &mut [V3]) {
-        // The first Piola-Kirchhoff stress, by columns.
-        let s = stress * -self.area;
-        let (p, q) = (weft * s.weft + warp * s.shear, weft * s.shear + warp * s.warp);
-        let [second, third] = self.gradients.map(|g| p * g.x + q * g.y);
-        let [a, b, c] = self.vertices();
-        forces[a] -= second + third;
-        forces[b] += second;
-        forces[c] += third;
-    }
-
-    /// Adds the off-diagonal stiffness blocks where the law's slopes are `[c11, c22]`, its coupling `c12` and its shear `shear`, with
-    /// the geometric part of the stress `tension`: with the fibres `f`, `K_ij = sum f_a (m_ab f_b)^T`.
-    #[inline]
-    fn add_stiffness(&self, fibres: &[V3; 2], law: &Slopes, tension: Tensor, blocks: &mut [Block<f32x4>]) {
-        let [c11, c12, c22, shear] = law.0.map(|modulus| modulus * self.area);
-        let tension = tension.without_compression() * self.area;
-        let [g, h] = self.gradients;
-        let gradients = [-(g + h), g, h];
-        let [weft, warp] = fibres.map(|fibre| f32x4::from_vector(&fibre));
-        let of_rows = [0, 1, 2].map(|row| fibres.map(|fibre| f32x4::spread(fibre[row])));
-        for (k, slot) in self.slots.iter().enumerate() {
-            let ends = [k, (k + 1) % 3].map(|corner| gradients[corner]);
-            let [i, j] = if slot & 1 == 1 { [ends[1], ends[0]] } else { ends };
-            let (xx, xy, yx, yy) = (i.x * j.x, i.x * j.y, i.y * j.x, i.y * j.y);
-            let [of_weft, of_warp] =
-                [[c11 * xx + shear * yy, c12 * xy + shear * yx], [c12 * yx + shear * xy, c22 * yy + shear * xx]]
-                    .map(|[by_weft, by_warp]| weft * f32x4::spread(by_weft) + warp * f32x4::spread(by_warp));
-            let geometric = quad::alike(tension.weft * xx + tension.shear * (xy + yx) + tension.warp * yy);
-            let block = &mut blocks[(slot >> 1) as usize];
-            for ((row, [weft, warp]), geometric) in block.iter_mut().zip(&of_rows).zip(geometric) {
-                *row += (*weft * of_weft + *warp * of_warp) + geometric;
-            }
-        }
-    }
-}
-
-/// Slopes of a law at a strain: along the weft, across, along the warp, and in shear, N/m.
-struct Slopes([f64; 4]);
-
-/// Green strain of what has become of weft and warp.
-#[inline]
-fn green([weft, warp]: &[V3; 2]) -> Tensor {
-    Tensor {
-        weft: 0.5 * (weft.norm_squared() - 1.0),
-        warp: 0.5 * (warp.norm_squared() - 1.0),
-        shear: 0.5 * weft.dot(warp),
+    /// Gradients of the second and third shape functions in (weft, warp), 1/m.
+    #[must_use]
+    pub fn gradients(&self) -> [V2; 2] {
+        self.gradients
     }
 }
 
@@ -154,6 +112,8 @@ pub struct Membrane {
     pub material: Orthotropic,
     /// Triangles.
     pub elements: Vec<Element>,
+    /// The same as they are met.
+    fours: Vec<Four>,
     /// Pairs of vertices that share a triangle.
     pub pairs: PairList,
 }
@@ -161,18 +121,21 @@ pub struct Membrane {
 impl Membrane {
     /// Collects the elements of a garment.
     #[must_use]
-    pub fn new(material: Orthotropic, mut elements: Vec<Element>) -> Self {
+    pub fn new(material: Orthotropic, elements: Vec<Element>) -> Self {
         let sides = [[0, 1], [1, 2], [2, 0]];
         let pairs = PairList::new(elements.iter().flat_map(|e| sides.map(|s| s.map(|k| e.vertices()[k]))));
-        for element in &mut elements {
+        let with_slots = |element: &Element| {
             let vertices = element.vertices();
-            element.slots = sides.map(|side| {
+            let slots = sides.map(|side| {
                 let [i, j] = side.map(|corner| vertices[corner]);
                 let slot = pairs.slot(i, j).expect("the pair was just collected");
                 (slot << 1) as u32 | u32::from(i > j)
             });
-        }
-        Self { material, elements, pairs }
+            (*element, slots)
+        };
+        let with_slots: Vec<(Element, [u32; 3])> = elements.iter().map(with_slots).collect();
+        let fours = with_slots.chunks(4).map(Four::new).collect();
+        Self { material, elements, fours, pairs }
     }
 
     /// Stiffness blocks, one a pair, with nothing in them yet.
@@ -184,15 +147,12 @@ impl Membrane {
     /// Elastic energy, J.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {
-        self.elements.iter().map(|e| e.area * self.material.energy(e.strain(x))).sum()
+        machine::on_best(self.assembly(x))
     }
 
     /// Adds the elastic forces, N.
     pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
-        for element in &self.elements {
-            let fibres = element.fibres(x);
-            element.add_forces(&fibres, self.material.stress(green(&fibres)), forces);
-        }
+        machine::on_best(Assembly { forces: Some(forces), ..self.assembly(x) });
     }
 
     /// Adds the elastic forces (N) and the off-diagonal stiffness blocks (N/m), and returns the energy, J; the blocks' geometric part is
@@ -204,26 +164,18 @@ impl Membrane {
         predicted: Option<&[Tensor]>,
         blocks: &mut [Block<f32x4>],
     ) -> f64 {
-        let mut energy = 0.0;
-        for (index, element) in self.elements.iter().enumerate() {
-            let fibres = element.fibres(x);
-            let strain = green(&fibres);
-            let stress = self.material.stress(strain);
-            energy += element.area * self.material.energy(strain);
-            element.add_forces(&fibres, stress, forces);
-            let tension = predicted.map_or(stress, |all| all[index]);
-            element.add_stiffness(&fibres, &self.slopes(strain), tension, blocks);
-        }
-        energy
+        let all = Assembly { forces: Some(forces), blocks: Some(blocks), predicted, ..self.assembly(x) };
+        machine::on_best(all)
+    }
+
+    fn assembly<'a>(&'a self, x: &'a [V3]) -> Assembly<'a> {
+        Assembly { law: &self.material, fours: &self.fours, x, forces: None, blocks: None, predicted: None }
     }
 
     /// Adds a share of the forces (N) that the compressive part of `stresses`, one an element, has in first order along a displacement `d`:
     /// what the stiffness, which leaves that part out, does not know of.
     pub fn add_compression(&self, stresses: &[Tensor], d: &[V3], share: f64, forces: &mut [V3]) {
-        for (element, stress) in self.elements.iter().zip(stresses) {
-            let compression = *stress - stress.without_compression();
-            element.add_forces(&element.fibres(d), compression * share, forces);
-        }
+        machine::on_best(Compression { fours: &self.fours, stresses, d, share, forces });
     }
 
     /// Adds the forces (N) that would bring the stresses at the end of a displacement `d` from `x` to those that a linear solve at `x`
@@ -235,26 +187,11 @@ impl Membrane {
         forces: &mut [V3],
         blocks: &mut [Block<f32x4>],
     ) -> Vec<Foreseen> {
-        let mut foreseen = Vec::with_capacity(self.elements.len());
-        for element in &self.elements {
-            let ([weft, warp], moved) = (element.fibres(x), element.fibres(d));
-            let strain = green(&[weft, warp]);
-            let shear = 0.5 * (weft.dot(&moved[1]) + warp.dot(&moved[0]));
-            let change = Tensor { weft: weft.dot(&moved[0]), warp: warp.dot(&moved[1]), shear };
-            let here = Foreseen { stress: self.material.stress(strain), change: self.material.tangent(strain, change) };
-            let fibres = [weft + moved[0], warp + moved[1]];
-            let strain = green(&fibres);
-            element.add_forces(&fibres, self.material.stress(strain) - here.after(1.0), forces);
-            element.add_stiffness(&fibres, &self.slopes(strain), Tensor::default(), blocks);
-            foreseen.push(here);
-        }
+        let mut foreseen = Vec::with_capacity(4 * self.fours.len());
+        let (law, fours) = (&self.material, &self.fours[..]);
+        machine::on_best(Correction { law, fours, x, d, forces, blocks, foreseen: &mut foreseen });
+        foreseen.truncate(self.elements.len());
         foreseen
-    }
-
-    #[inline]
-    fn slopes(&self, strain: Tensor) -> Slopes {
-        let [weft, warp] = self.material.tangents(strain);
-        Slopes([weft, self.material.c12, warp, self.material.shear])
     }
 }
 
@@ -264,6 +201,8 @@ mod tests {
     use crate::sim::Fabric;
     use crate::sim::fabric::Stretched;
     use crate::sim::laboratory::sheets::{shaken, sheet};
+    use crate::sim::solver::machine::{Machine, Plain};
+    use crate::sim::solver::quad;
     use crate::sim::testing::{check_forces, fabric};
 
     fn membrane(grain: V2) -> (Membrane, Vec<V3>) {
@@ -291,6 +230,28 @@ mod tests {
             let mut forces = vec![V3::zeros(); x.len()];
             membrane.add_forces(&x, &mut forces);
             check_forces(|x| membrane.energy(x), &forces, &x, 1e-7, 1e-6);
+        }
+    }
+
+    #[test]
+    fn every_machine_finds_the_same() {
+        let (membrane, flat) = membrane_of(&knit(), V2::new(0.6, 0.8));
+        let x = shaken(&flat, 4e-3, 1);
+        let [mut forces, mut best_forces] = [0, 1].map(|_| vec![V3::zeros(); x.len()]);
+        let [mut blocks, mut best_blocks] = [0, 1].map(|_| membrane.blocks());
+        let parts = Assembly { forces: Some(&mut forces), blocks: Some(&mut blocks), ..membrane.assembly(&x) };
+        let energy = Plain.alone(parts);
+        let best = membrane.assemble(&x, &mut best_forces, None, &mut best_blocks);
+        assert!((energy - best).abs() < 1e-12 * best, "{energy} and {best}");
+        let size = forces.iter().map(V3::amax).fold(0.0, f64::max);
+        for (plain, best) in forces.iter().zip(&best_forces) {
+            assert!((plain - best).amax() < 1e-12 * size, "{plain} and {best}");
+        }
+        let [blocks, best_blocks] =
+            [blocks, best_blocks].map(|blocks| blocks.iter().map(quad::matrix).collect::<Vec<_>>());
+        let size = blocks.iter().map(nalgebra::Matrix::amax).fold(0.0, f64::max);
+        for (plain, best) in blocks.iter().zip(&best_blocks) {
+            assert!((plain - best).amax() < 1e-6 * size, "{plain} and {best}");
         }
     }
 

@@ -2,6 +2,7 @@
 
 pub mod band;
 pub mod bending;
+mod fours;
 pub mod gathers;
 pub mod law;
 pub mod membrane;

@@ -2,11 +2,16 @@
 //!
 //! It is made in double precision and kept in single. The rounding of the factor is harmless where that of the matrix would
 //! not be: `(L + dL)(L + dL)^T` stays positive definite, and the softest mode is off by `eps` times the square *root* of the
-//! condition number. A solve is one run through memory each way, over blocks that fill vector registers ([`super::packed`]).
+//! condition number. It is written `L D L^T` with identity on the diagonal of `L`, so that a solve, where each column waits for others, has
+//! nothing to wait for between them; `D` is met in between, all at once. A solve is one run through memory each way, over blocks that fill vector registers ([`super::packed`]).
 
 use std::collections::BTreeSet;
 
-use super::packed::{Lanes, Packed};
+use wide::f64x4;
+
+use super::machine::{self, Machine, Task, each};
+use super::packed::{Blockwise, Packed};
+use super::quad::Quad;
 
 /// Degrees of freedom of a block.
 pub const SIZE: usize = 6;
@@ -31,8 +36,9 @@ pub struct Symbolic {
 
 /// The numbers of a factor.
 pub struct Numeric {
-    /// Inverses of the diagonal blocks.
-    diagonal: Vec<Packed>,
+    /// Inverses of the pivots `D`.
+    pivots: Vec<Packed>,
+    /// The blocks of `L` below its diagonal.
     below: Vec<Packed>,
 }
 
@@ -75,71 +81,135 @@ impl Symbolic {
     /// definite.
     #[must_use]
     pub fn factorise(&self, blocks: &[Dense]) -> Option<Numeric> {
-        let mut diagonal = vec![[[0.0; SIZE]; SIZE]; self.place.len()];
-        let mut below = vec![[[0.0; SIZE]; SIZE]; self.rows.len()];
-        for (&(column, slot, is_below), block) in self.entries.iter().zip(blocks) {
-            match slot {
-                None => diagonal[column] = *block,
-                Some(slot) => below[slot] = if is_below { *block } else { transposed(block) },
-            }
-        }
-        for column in 0..diagonal.len() {
-            let inverse = inverse_factor(&diagonal[column])?;
-            diagonal[column] = inverse;
-            let own = self.starts[column]..self.starts[column + 1];
-            for block in &mut below[own.clone()] {
-                *block = times_transposed(block, &inverse);
-            }
-            self.update(own, &mut diagonal, &mut below);
-        }
-        Some(Numeric {
-            diagonal: diagonal.iter().map(Packed::new).collect(),
-            below: below.iter().map(Packed::new).collect(),
-        })
-    }
-
-    /// Takes the products of a column's blocks from the columns that it reaches.
-    fn update(&self, own: std::ops::Range<usize>, diagonal: &mut [Dense], below: &mut [Dense]) {
-        for k in own.clone() {
-            let (column, factor) = (self.rows[k], below[k]);
-            subtract_product(&mut diagonal[column], &factor, &factor);
-            let mut target = self.starts[column];
-            for l in k + 1..own.end {
-                while self.rows[target] < self.rows[l] {
-                    target += 1;
-                }
-                let other = below[l];
-                subtract_product(&mut below[target], &other, &factor);
-            }
-        }
+        machine::on_best(Factorisation { symbolic: self, blocks })
     }
 
     /// Solves in place, `x` by block rows of the matrix.
-    pub fn solve(&self, numeric: &Numeric, x: &mut [Row]) {
-        let mut solved = vec![Lanes::default(); x.len()];
+    #[inline(always)]
+    pub fn solve<M: Machine>(&self, machine: M, numeric: &Numeric, x: &mut [Row]) {
+        let blockwise = Blockwise(machine);
+        let mut solved = vec![blockwise.parts(Row::default()); x.len()];
         for (row, place) in x.iter().zip(&self.place) {
-            solved[*place] = Lanes::of(row);
+            solved[*place] = blockwise.parts(*row);
         }
         for (column, own) in self.columns() {
-            let y = numeric.diagonal[column].times(&solved[column].row());
-            let factors = Packed::factors(&y);
+            let y = blockwise.row(&solved[column]);
+            let factors = blockwise.factors(each!(k of 6 => -y[k]));
             for (row, below) in self.rows[own.clone()].iter().zip(&numeric.below[own]) {
-                solved[*row].subtract(below.products(&factors));
+                blockwise.add_times(&mut solved[*row], below, &factors);
             }
-            solved[column] = Lanes::of(&y);
+        }
+        for (row, pivot) in solved.iter_mut().zip(&numeric.pivots) {
+            let mut sums = blockwise.parts(Row::default());
+            blockwise.add_times(&mut sums, pivot, &blockwise.factors(blockwise.row(row)));
+            *row = sums;
         }
         for (column, own) in self.columns().rev() {
-            let mut sums = Packed::default();
+            let mut sums = blockwise.nothing();
             for (row, below) in self.rows[own.clone()].iter().zip(&numeric.below[own]) {
-                sums.add_products(below, &solved[*row]);
+                blockwise.add_products(&mut sums, below, &solved[*row]);
             }
-            let (y, known) = (solved[column].row(), sums.totals());
-            let mut sums = Packed::default();
-            sums.add_products(&numeric.diagonal[column], &Lanes::doubled(&std::array::from_fn(|k| y[k] - known[k])));
-            solved[column] = Lanes::doubled(&sums.totals());
+            let (y, known) = (blockwise.row(&solved[column]), blockwise.totals(&sums));
+            solved[column] = blockwise.repeated(each!(k of 6 => y[k] - known[k]));
         }
         for (row, place) in x.iter_mut().zip(&self.place) {
-            *row = solved[*place].first();
+            *row = blockwise.first(&solved[*place]);
+        }
+    }
+}
+
+struct Factorisation<'a> {
+    symbolic: &'a Symbolic,
+    blocks: &'a [Dense],
+}
+
+impl Task for Factorisation<'_> {
+    type Output = Option<Numeric>;
+
+    #[inline(always)]
+    fn run<M: Machine>(self, machine: M) -> Option<Numeric> {
+        let symbolic = self.symbolic;
+        let mut diagonal = vec![Padded::default(); symbolic.place.len()];
+        let mut below = vec![Padded::default(); symbolic.rows.len()];
+        for (&(column, slot, is_below), block) in symbolic.entries.iter().zip(self.blocks) {
+            match slot {
+                None => diagonal[column] = Padded::new(block),
+                Some(slot) => below[slot] = Padded::new(&if is_below { *block } else { transposed(block) }),
+            }
+        }
+        // `L` with its pivots' roots in it, whose inverses take the place of the diagonal.
+        for (column, own) in symbolic.columns() {
+            let root = Padded::new(&inverse_root(&diagonal[column].dense())?);
+            diagonal[column] = root;
+            let (known, rest) = below.split_at_mut(own.end);
+            for block in &mut known[own.clone()] {
+                let mut scaled = Padded::default();
+                scaled.add_product(machine, 1.0, block, &root);
+                *block = scaled;
+            }
+            for k in own.clone() {
+                let (row, factor) = (symbolic.rows[k], &known[k]);
+                diagonal[row].add_product(machine, -1.0, factor, factor);
+                let mut target = symbolic.starts[row];
+                for l in k + 1..own.end {
+                    while symbolic.rows[target] < symbolic.rows[l] {
+                        target += 1;
+                    }
+                    rest[target - own.end].add_product(machine, -1.0, &known[l], factor);
+                }
+            }
+        }
+        for (column, own) in symbolic.columns() {
+            let root = Padded::new(&transposed(&diagonal[column].dense()));
+            for block in &mut below[own] {
+                let mut scaled = Padded::default();
+                scaled.add_product(machine, 1.0, block, &root);
+                *block = scaled;
+            }
+            let mut pivot = Padded::default();
+            pivot.add_product(machine, 1.0, &root, &root);
+            diagonal[column] = pivot;
+        }
+        let packed = |block: &Padded| Packed::new(&block.dense());
+        Some(Numeric { pivots: diagonal.iter().map(packed).collect(), below: below.iter().map(packed).collect() })
+    }
+}
+
+/// A block by columns, each filled up with zeros to what registers hold.
+#[derive(Clone, Copy, Default)]
+#[repr(align(32))]
+struct Padded([[f64; 8]; SIZE]);
+
+impl Padded {
+    #[inline(always)]
+    fn new(block: &Dense) -> Self {
+        Self(block.map(|[a, b, c, d, e, f]| [a, b, c, d, e, f, 0.0, 0.0]))
+    }
+
+    #[inline(always)]
+    fn dense(&self) -> Dense {
+        self.0.map(|[a, b, c, d, e, f, ..]| [a, b, c, d, e, f])
+    }
+
+    #[inline(always)]
+    fn column(&self, c: usize) -> [f64x4; 2] {
+        let [a, b, c, d, e, f, g, h] = self.0[c];
+        [f64x4::from([a, b, c, d]), f64x4::from([e, f, g, h])]
+    }
+
+    /// Adds `sign a b^T`.
+    #[inline(always)]
+    fn add_product<M: Machine>(&mut self, machine: M, sign: f64, a: &Self, b: &Self) {
+        for c in 0..SIZE {
+            let [mut head, mut tail] = self.column(c);
+            for k in 0..SIZE {
+                let factor = f64x4::splat(sign * b.0[k][c]);
+                let [of_head, of_tail] = a.column(k);
+                head = of_head.times_plus(factor, head, machine);
+                tail = of_tail.times_plus(factor, tail, machine);
+            }
+            let ([a, b, c_, d], [e, f, g, h]) = (head.to_array(), tail.to_array());
+            self.0[c] = [a, b, c_, d, e, f, g, h];
         }
     }
 }
@@ -173,7 +243,7 @@ fn transposed(block: &Dense) -> Dense {
 }
 
 /// `L^-1` of `A = L L^T`.
-fn inverse_factor(a: &Dense) -> Option<Dense> {
+fn inverse_root(a: &Dense) -> Option<Dense> {
     let mut l = [[0.0; SIZE]; SIZE];
     for c in 0..SIZE {
         let pivot = a[c][c] - (0..c).map(|k| l[k][c] * l[k][c]).sum::<f64>();
@@ -195,36 +265,11 @@ fn inverse_factor(a: &Dense) -> Option<Dense> {
     Some(inverse)
 }
 
-/// `a b^T`.
-fn times_transposed(a: &Dense, b: &Dense) -> Dense {
-    let mut product = [[0.0; SIZE]; SIZE];
-    for k in 0..SIZE {
-        for c in 0..SIZE {
-            for r in 0..SIZE {
-                product[c][r] += a[k][r] * b[k][c];
-            }
-        }
-    }
-    product
-}
-
-/// `target -= a b^T`.
-fn subtract_product(target: &mut Dense, a: &Dense, b: &Dense) {
-    for c in 0..SIZE {
-        let mut column = target[c];
-        for k in 0..SIZE {
-            for r in 0..SIZE {
-                column[r] -= a[k][r] * b[k][c];
-            }
-        }
-        target[c] = column;
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::sim::laboratory::sheets::noise;
+    use crate::sim::solver::machine::Plain;
 
     /// A positive definite matrix over pairs.
     fn matrix(pairs: &[[usize; 2]]) -> Vec<Dense> {
@@ -267,15 +312,31 @@ mod tests {
     fn check(count: usize, mut pairs: Vec<[usize; 2]>) {
         pairs.extend((0..count).map(|a| [a, a]));
         pairs.sort_unstable();
-        let blocks = matrix(&pairs);
-        let symbolic = Symbolic::new(count, &pairs);
-        let numeric = symbolic.factorise(&blocks).expect("positive definite");
-        let expect: Vec<Row> = (0..count).map(|a| std::array::from_fn(|k| ((7 * a + k) as f32).sin())).collect();
-        let forces = times(&pairs, &blocks, &expect);
-        let mut x: Vec<Row> = forces.iter().map(|f| f.map(|f| f as f32)).collect();
-        symbolic.solve(&numeric, &mut x);
-        for (found, expect) in x.iter().flatten().zip(expect.iter().flatten()) {
-            assert!((found - expect).abs() < 1e-4, "{found} for {expect}");
+        let solves = Solves { count, blocks: matrix(&pairs), pairs };
+        machine::on_best(&solves);
+        Plain.alone(&solves);
+    }
+
+    struct Solves {
+        count: usize,
+        pairs: Vec<[usize; 2]>,
+        blocks: Vec<Dense>,
+    }
+
+    impl Task for &Solves {
+        type Output = ();
+
+        fn run<M: Machine>(self, machine: M) {
+            let Solves { count, pairs, blocks } = self;
+            let symbolic = Symbolic::new(*count, pairs);
+            let numeric = Factorisation { symbolic: &symbolic, blocks }.run(machine).expect("positive definite");
+            let expect: Vec<Row> = (0..*count).map(|a| std::array::from_fn(|k| ((7 * a + k) as f32).sin())).collect();
+            let forces = times(pairs, blocks, &expect);
+            let mut x: Vec<Row> = forces.iter().map(|f| f.map(|f| f as f32)).collect();
+            symbolic.solve(machine, &numeric, &mut x);
+            for (found, expect) in x.iter().flatten().zip(expect.iter().flatten()) {
+                assert!((found - expect).abs() < 1e-4, "{found} for {expect}");
+            }
         }
     }
 

@@ -4,9 +4,10 @@ use nalgebra::Matrix3;
 use wide::{f32x4, f64x4};
 
 use super::factor::Factor;
+use super::machine::Machine;
 use super::operator::Operator;
 use super::patches::{Coarse, Patches};
-use super::pcg::{self, PcgParams};
+use super::pcg::{self, PcgParams, Preconditioner};
 use super::quad::{self, Block};
 use super::rows::Rows;
 use crate::geom::V3;
@@ -53,11 +54,11 @@ impl LinearSolver {
                 let factor = kept.get_or_insert_with(|| Box::new(Factor::new(operator)));
                 let attempt = PcgParams { max_iterations: PATIENCE, ..*params };
                 let rows = Rows::<f64x4>::new(operator);
-                if aged && pcg::solve(&rows, &|r, z| factor.solve(r, z), b, x, &attempt).is_solved {
+                if aged && pcg::solve(&rows, &**factor, b, x, &attempt).is_solved {
                     return;
                 }
                 factor.refresh(operator);
-                pcg::solve(&rows, &|r, z| factor.solve(r, z), b, x, params);
+                pcg::solve(&rows, &**factor, b, x, params);
             }
         }
     }
@@ -65,8 +66,33 @@ impl LinearSolver {
 
 /// Solves `K x = b` with block-Jacobi in single precision: a direction of descent need not be better.
 pub fn jacobi(operator: &Operator, b: &[V3], x: &mut [V3], params: &PcgParams) {
-    let inverses = inverses(&operator.diagonal_blocks());
-    pcg::solve(&Rows::new(operator), &|r, z| times(&inverses, r, z), b, x, params);
+    pcg::solve(&Rows::new(operator), Jacobi::new(&operator.diagonal_blocks()), b, x, params);
+}
+
+/// Inverses of the diagonal blocks.
+struct Jacobi(Vec<Block<f32x4>>);
+
+impl Jacobi {
+    fn new(diagonal: &[Matrix3<f64>]) -> Self {
+        let inverse = |d: &Matrix3<f64>| quad::block(&d.try_inverse().unwrap_or_else(Matrix3::zeros));
+        Self(diagonal.iter().map(inverse).collect())
+    }
+}
+
+impl Preconditioner<f32x4> for Jacobi {
+    #[inline(always)]
+    fn apply<M: Machine>(&self, _: M, r: &[f32x4], z: &mut [f32x4]) {
+        for ((z, r), block) in z.iter_mut().zip(r).zip(&self.0) {
+            *z = quad::transposed_times(block, *r);
+        }
+    }
+}
+
+impl Preconditioner<f64x4> for &Factor {
+    #[inline(always)]
+    fn apply<M: Machine>(&self, _: M, r: &[f64x4], z: &mut [f64x4]) {
+        self.solve(r, z);
+    }
 }
 
 /// Block-Jacobi with the rigid motions of patches added, whose stiffness is factorised now and then.
@@ -89,15 +115,11 @@ impl TwoLevel {
 
     fn solve(&mut self, operator: &Operator, positions: &[V3], b: &[V3], x: &mut [V3], params: &PcgParams) {
         let diagonal = operator.diagonal_blocks();
-        let inverses = inverses(&diagonal);
         let kept = self.coarse.take().filter(|_| self.lost < FACTOR_COST);
         let is_new = kept.is_none();
         let coarse = kept.unwrap_or_else(|| self.patches.factorise(operator, &diagonal, positions));
-        let precondition = |r: &[f32x4], z: &mut [f32x4]| {
-            times(&inverses, r, z);
-            self.patches.add(&coarse, r, z);
-        };
-        let iterations = pcg::solve(&Rows::new(operator), &precondition, b, x, params).iterations;
+        let both = Both { jacobi: Jacobi::new(&diagonal), patches: &self.patches, coarse: &coarse };
+        let iterations = pcg::solve(&Rows::new(operator), both, b, x, params).iterations;
         if is_new {
             (self.when_new, self.lost) = (iterations, 0);
         } else {
@@ -107,13 +129,17 @@ impl TwoLevel {
     }
 }
 
-fn inverses(diagonal: &[Matrix3<f64>]) -> Vec<Block<f32x4>> {
-    diagonal.iter().map(|d| quad::block(&d.try_inverse().unwrap_or_else(Matrix3::zeros))).collect()
+/// Vertices one by one, and patches of them.
+struct Both<'a> {
+    jacobi: Jacobi,
+    patches: &'a Patches,
+    coarse: &'a Coarse,
 }
 
-/// `z = D r` for symmetric blocks on a diagonal.
-fn times(blocks: &[Block<f32x4>], r: &[f32x4], z: &mut [f32x4]) {
-    for ((z, r), block) in z.iter_mut().zip(r).zip(blocks) {
-        *z = quad::transposed_times(block, *r);
+impl Preconditioner<f32x4> for Both<'_> {
+    #[inline(always)]
+    fn apply<M: Machine>(&self, machine: M, r: &[f32x4], z: &mut [f32x4]) {
+        self.jacobi.apply(machine, r, z);
+        self.patches.add(machine, self.coarse, r, z);
     }
 }

@@ -2,7 +2,9 @@
 
 pub mod blocks;
 pub mod factor;
+pub mod lanes;
 pub mod linear;
+pub mod machine;
 pub mod operator;
 mod packed;
 pub mod part;

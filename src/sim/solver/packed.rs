@@ -3,115 +3,123 @@
 use wide::f32x4;
 
 use super::blocks::{Dense, Row};
+use super::machine::{Machine, each};
 
-/// A block, or what multiplies or sums up its entries: of each column the first four, then the last two of each pair of columns.
+/// A block: of each column the first four, two columns side by side; then the last two of each, four columns side by side.
 #[derive(Clone, Copy, Default)]
+#[repr(align(32))]
 pub struct Packed {
-    heads: [f32x4; 6],
-    tails: [f32x4; 3],
-}
-
-/// A row as it meets [`Packed`]: its first four numbers, and the last two twice, of which either half may hold a part.
-#[derive(Clone, Copy, Default)]
-pub struct Lanes {
-    head: f32x4,
-    tail: f32x4,
+    heads: [[f32x4; 2]; 3],
+    tails: [[f32x4; 2]; 2],
 }
 
 impl Packed {
     /// A block, rounded.
     pub fn new(block: &Dense) -> Self {
         let entry = |c: usize, r: usize| block[c][r] as f32;
-        Self {
-            heads: std::array::from_fn(|c| f32x4::from([entry(c, 0), entry(c, 1), entry(c, 2), entry(c, 3)])),
-            tails: std::array::from_fn(|p| {
-                let c = 2 * p;
-                f32x4::from([entry(c, 4), entry(c, 5), entry(c + 1, 4), entry(c + 1, 5)])
-            }),
-        }
+        let head = |c: usize| f32x4::from([entry(c, 0), entry(c, 1), entry(c, 2), entry(c, 3)]);
+        let tail = |c: usize| f32x4::from([entry(c, 4), entry(c, 5), entry(c + 1, 4), entry(c + 1, 5)]);
+        Self { heads: [0, 2, 4].map(|c| [head(c), head(c + 1)]), tails: [[tail(0), tail(2)], [tail(4), f32x4::ZERO]] }
+    }
+}
+
+/// What meets a block, or comes of it, entry by entry.
+#[derive(Clone, Copy)]
+pub struct Entries<T> {
+    heads: [T; 3],
+    tails: [T; 2],
+}
+
+/// A row whose numbers are sums of parts: two of each of the first four, four of each of the last two.
+#[derive(Clone, Copy)]
+pub struct Parts<T> {
+    head: T,
+    tail: T,
+}
+
+/// Arithmetic with blocks on a machine.
+#[derive(Clone, Copy)]
+pub struct Blockwise<M>(pub M);
+
+impl<M: Machine> Blockwise<M> {
+    /// Nothing, to sum up entries in.
+    #[inline(always)]
+    pub fn nothing(self) -> Entries<M::Twin> {
+        let zero = self.0.twin([f32x4::ZERO; 2]);
+        Entries { heads: [zero; 3], tails: [zero; 2] }
+    }
+
+    /// A row in one part each.
+    #[inline(always)]
+    pub fn parts(self, [a, b, c, d, e, f]: Row) -> Parts<M::Twin> {
+        let (head, tail) = (f32x4::from([a, b, c, d]), f32x4::from([e, f, 0.0, 0.0]));
+        Parts { head: self.0.twin([head, f32x4::ZERO]), tail: self.0.twin([tail, f32x4::ZERO]) }
+    }
+
+    /// A row that stands whole wherever a part would.
+    #[inline(always)]
+    pub fn repeated(self, [a, b, c, d, e, f]: Row) -> Parts<M::Twin> {
+        let (head, tail) = (f32x4::from([a, b, c, d]), f32x4::from([e, f, e, f]));
+        Parts { head: self.0.twin([head; 2]), tail: self.0.twin([tail; 2]) }
+    }
+
+    /// The row, of its parts.
+    #[inline(always)]
+    pub fn row(self, parts: &Parts<M::Twin>) -> Row {
+        let ([a, b], [c, d]) = (self.0.halves(parts.head), self.0.halves(parts.tail));
+        let (head, tail) = ((a + b).to_array(), (c + d).to_array());
+        [head[0], head[1], head[2], head[3], tail[0] + tail[2], tail[1] + tail[3]]
+    }
+
+    /// The row that stands whole in every part.
+    #[inline(always)]
+    pub fn first(self, parts: &Parts<M::Twin>) -> Row {
+        let ([a, b, c, d], [e, f, ..]) =
+            (self.0.halves(parts.head)[0].to_array(), self.0.halves(parts.tail)[0].to_array());
+        [a, b, c, d, e, f]
     }
 
     /// What a row multiplies the columns of a block with.
     #[inline(always)]
-    pub fn factors(y: &Row) -> Self {
-        let tail = |c: usize| f32x4::from([y[c], y[c], y[c + 1], y[c + 1]]);
-        Self { heads: y.map(f32x4::splat), tails: [tail(0), tail(2), tail(4)] }
-    }
-
-    /// `block y` for the factors of `y`.
-    #[inline(always)]
-    pub fn products(&self, factors: &Self) -> Lanes {
-        let head = |c: usize| self.heads[c] * factors.heads[c];
-        let tail = |p: usize| self.tails[p] * factors.tails[p];
-        Lanes {
-            head: (head(0) + head(1)) + (head(2) + head(3)) + (head(4) + head(5)),
-            tail: tail(0) + tail(1) + tail(2),
+    pub fn factors(self, y: Row) -> Entries<M::Twin> {
+        let tails = each!(k of 3 => f32x4::from([y[2 * k], y[2 * k], y[2 * k + 1], y[2 * k + 1]]));
+        Entries {
+            heads: each!(k of 3 => self.0.twin([f32x4::splat(y[2 * k]), f32x4::splat(y[2 * k + 1])])),
+            tails: [self.0.twin([tails[0], tails[1]]), self.0.twin([tails[2], f32x4::ZERO])],
         }
     }
 
-    /// `block y`.
-    pub fn times(&self, y: &Row) -> Row {
-        self.products(&Self::factors(y)).row()
+    /// Adds to `parts` a block times the row with these factors.
+    #[inline(always)]
+    pub fn add_times(self, parts: &mut Parts<M::Twin>, block: &Packed, factors: &Entries<M::Twin>) {
+        for (head, factor) in block.heads.iter().zip(&factors.heads) {
+            parts.head = self.0.twins_plus(self.0.twin(*head), *factor, parts.head);
+        }
+        for (tail, factor) in block.tails.iter().zip(&factors.tails) {
+            parts.tail = self.0.twins_plus(self.0.twin(*tail), *factor, parts.tail);
+        }
     }
 
-    /// Adds each column's products with `x`: their totals are `block^T x`.
+    /// Adds the products of each column with a repeated row: their totals are the block's transpose times it.
     #[inline(always)]
-    pub fn add_products(&mut self, block: &Self, x: &Lanes) {
-        for (sum, head) in self.heads.iter_mut().zip(&block.heads) {
-            *sum += *head * x.head;
+    pub fn add_products(self, sums: &mut Entries<M::Twin>, block: &Packed, row: &Parts<M::Twin>) {
+        for (sum, head) in sums.heads.iter_mut().zip(&block.heads) {
+            *sum = self.0.twins_plus(self.0.twin(*head), row.head, *sum);
         }
-        for (sum, tail) in self.tails.iter_mut().zip(&block.tails) {
-            *sum += *tail * x.tail;
+        for (sum, tail) in sums.tails.iter_mut().zip(&block.tails) {
+            *sum = self.0.twins_plus(self.0.twin(*tail), row.tail, *sum);
         }
     }
 
     /// Sums of the columns.
     #[inline(always)]
-    pub fn totals(&self) -> Row {
-        std::array::from_fn(|c| {
-            let ([a, b, c, d], tail) = (self.heads[c].to_array(), half(self.tails[c / 2], c % 2));
+    pub fn totals(self, sums: &Entries<M::Twin>) -> Row {
+        let heads = each!(k of 3 => self.0.halves(sums.heads[k]));
+        let tails = each!(k of 2 => self.0.halves(sums.tails[k]));
+        each!(column of 6 => {
+            let [a, b, c, d] = heads[column / 2][column % 2].to_array();
+            let tail = &tails[column / 4][column / 2 % 2].to_array()[2 * (column % 2)..];
             ((a + b) + (c + d)) + (tail[0] + tail[1])
         })
     }
-}
-
-impl Lanes {
-    /// A row whole in the first half of its tail.
-    pub fn of(row: &Row) -> Self {
-        let [a, b, c, d, e, f] = *row;
-        Self { head: f32x4::from([a, b, c, d]), tail: f32x4::from([e, f, 0.0, 0.0]) }
-    }
-
-    /// A row whole in either half of its tail: what a block's columns are multiplied with.
-    #[inline(always)]
-    pub fn doubled(row: &Row) -> Self {
-        let [a, b, c, d, e, f] = *row;
-        Self { head: f32x4::from([a, b, c, d]), tail: f32x4::from([e, f, e, f]) }
-    }
-
-    /// Takes away another, half by half.
-    #[inline(always)]
-    pub fn subtract(&mut self, other: Self) {
-        self.head -= other.head;
-        self.tail -= other.tail;
-    }
-
-    /// The row, of both halves of the tail.
-    #[inline(always)]
-    pub fn row(&self) -> Row {
-        let ([a, b, c, d], [e, f, g, h]) = (self.head.to_array(), self.tail.to_array());
-        [a, b, c, d, e + g, f + h]
-    }
-
-    /// The row, of the first half of the tail.
-    pub fn first(&self) -> Row {
-        let ([a, b, c, d], [e, f, ..]) = (self.head.to_array(), self.tail.to_array());
-        [a, b, c, d, e, f]
-    }
-}
-
-#[inline(always)]
-fn half(quad: f32x4, second: usize) -> [f32; 2] {
-    let [a, b, c, d] = quad.to_array();
-    if second == 0 { [a, b] } else { [c, d] }
 }

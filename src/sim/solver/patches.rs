@@ -12,8 +12,9 @@ use nalgebra::{Matrix3, Matrix6, Vector6};
 use wide::f32x4;
 
 use super::blocks::{Dense, Numeric, Row, Symbolic};
+use super::machine::Machine;
 use super::operator::Operator;
-use super::quad::{self, Quad};
+use super::quad;
 use crate::geom::V3;
 
 /// Least distance, in edges, between the middles of patches.
@@ -31,6 +32,10 @@ pub struct Patches {
     /// Patch of each vertex.
     of: Vec<usize>,
     count: usize,
+    /// Vertices, patch by patch.
+    members: Vec<u32>,
+    /// Where those of each patch end, and the first begins.
+    ends: Vec<usize>,
     /// Pairs of patches, the smaller first, a patch with itself too.
     pairs: Vec<[usize; 2]>,
     /// Pair of patches of each membrane pair, bending pair and spring.
@@ -55,7 +60,10 @@ impl Patches {
         let slot = |pair: &[usize; 2]| pairs.binary_search(&coupled(pair)).expect("the pair was just collected");
         let slots = lists.map(|list| list.iter().map(slot).collect());
         let symbolic = Symbolic::new(count, &pairs);
-        Self { of, count, pairs, slots, symbolic }
+        let mut members: Vec<u32> = (0..vertices as u32).collect();
+        members.sort_by_key(|v| of[*v as usize]);
+        let ends = (0..=count).map(|a| members.partition_point(|v| of[*v as usize] < a)).collect();
+        Self { of, count, members, ends, pairs, slots, symbolic }
     }
 
     /// The stiffness between the patches, factorised, with the cloth at `x`; `diagonal` are the diagonal blocks of the operator.
@@ -90,7 +98,8 @@ impl Patches {
             regularise(&mut blocks[slot]);
         }
         let blocks: Vec<Dense> = blocks.into_iter().map(Into::into).collect();
-        Coarse { arms: arms.iter().map(f32x4::from_vector).collect(), factor: self.symbolic.factorise(&blocks) }
+        let arms = self.members.iter().map(|v| Arm::new(&arms[*v as usize])).collect();
+        Coarse { arms, factor: self.symbolic.factorise(&blocks) }
     }
 
     /// From the middle of its patch to each vertex.
@@ -123,38 +132,67 @@ impl Patches {
     }
 
     /// Adds to `z` the rigid motions of the patches that the forces `r` cause.
-    pub fn add(&self, coarse: &Coarse, r: &[f32x4], z: &mut [f32x4]) {
+    #[inline(always)]
+    pub fn add<M: Machine>(&self, machine: M, coarse: &Coarse, r: &[f32x4], z: &mut [f32x4]) {
         let Some(factor) = &coarse.factor else { return };
-        let mut wrenches = vec![[f32x4::ZERO; 2]; self.count];
-        for ((a, arm), r) in self.of.iter().zip(&coarse.arms).zip(r) {
-            let [force, moment] = &mut wrenches[*a];
-            *force += *r;
-            *moment += cross(*arm, *r);
+        let patches =
+            self.ends.windows(2).map(|ends| (&self.members[ends[0]..ends[1]], &coarse.arms[ends[0]..ends[1]]));
+        let mut rows = vec![Row::default(); self.count];
+        for ((members, arms), row) in patches.clone().zip(&mut rows) {
+            let (mut force, mut moment) = (f32x4::ZERO, [f32x4::ZERO; 2]);
+            for (v, arm) in members.iter().zip(arms) {
+                let r = r[*v as usize];
+                force += r;
+                moment = arm.add_moment(machine, r, moment);
+            }
+            *row = six([force, moment[0] - moment[1]].map(f32x4::to_array));
         }
-        let mut rows: Vec<Row> = wrenches.iter().map(|wrench| six(wrench.map(f32x4::to_array))).collect();
-        self.symbolic.solve(factor, &mut rows);
-        let motion = |[x, y, z, a, b, c]: Row| [f32x4::from([x, y, z, 0.0]), f32x4::from([a, b, c, 0.0])];
-        let motions: Vec<[f32x4; 2]> = rows.into_iter().map(motion).collect();
-        for ((a, arm), z) in self.of.iter().zip(&coarse.arms).zip(z) {
-            let [shift, turn] = motions[*a];
-            *z += shift + cross(turn, *arm);
+        self.symbolic.solve(machine, factor, &mut rows);
+        for ((members, arms), [x, y, w, a, b, c]) in patches.zip(rows) {
+            let (shift, turn) =
+                (f32x4::from([x, y, w, 0.0]), [f32x4::from([b, c, a, 0.0]), f32x4::from([c, a, b, 0.0])]);
+            for (v, arm) in members.iter().zip(arms) {
+                let z = &mut z[*v as usize];
+                *z = arm.add_motion(machine, turn, *z + shift);
+            }
         }
+    }
+}
+
+/// From the middle of a patch to a vertex, as cross products take it: from y on, and from z on.
+#[derive(Clone, Copy)]
+struct Arm([f32x4; 2]);
+
+impl Arm {
+    fn new(arm: &V3) -> Self {
+        let [x, y, z] = [arm.x, arm.y, arm.z].map(|c| c as f32);
+        Self([f32x4::from([y, z, x, 0.0]), f32x4::from([z, x, y, 0.0])])
+    }
+
+    /// Adds what this arm makes of a force to the two terms of a moment, of which the second counts against the first.
+    #[inline(always)]
+    fn add_moment<M: Machine>(&self, machine: M, force: f32x4, [one, other]: [f32x4; 2]) -> [f32x4; 2] {
+        let [x, y, z, _] = force.to_array();
+        let (from_y, from_z) = (f32x4::from([y, z, x, 0.0]), f32x4::from([z, x, y, 0.0]));
+        [machine.plus(self.0[0], from_z, one), machine.plus(self.0[1], from_y, other)]
+    }
+
+    /// Adds how this arm's end moves by a turn, taken from y on and from z on.
+    #[inline(always)]
+    fn add_motion<M: Machine>(&self, machine: M, [from_y, from_z]: [f32x4; 2], to: f32x4) -> f32x4 {
+        machine.minus(from_z, self.0[0], machine.plus(from_y, self.0[1], to))
     }
 }
 
 /// A factorised stiffness between patches.
 pub struct Coarse {
-    /// From the middle of its patch to each vertex.
-    arms: Vec<f32x4>,
+    /// From the middle of its patch to each vertex, patch by patch.
+    arms: Vec<Arm>,
     /// `None` where the stiffness was not positive definite.
     factor: Option<Numeric>,
 }
 
-fn cross(a: f32x4, b: f32x4) -> f32x4 {
-    let ([a, b, c, _], [x, y, z, _]) = (a.to_array(), b.to_array());
-    f32x4::from([b * z - c * y, c * x - a * z, a * y - b * x, 0.0])
-}
-
+#[inline(always)]
 fn six([[a, b, c, _], [x, y, z, _]]: [[f32; 4]; 2]) -> Row {
     [a, b, c, x, y, z]
 }
@@ -202,6 +240,8 @@ mod tests {
     use crate::sim::contact::{BodyContact, ContactParams};
     use crate::sim::laboratory::{self, sheets::sheet};
     use crate::sim::sewing::unsewn;
+    use crate::sim::solver::machine::{self, Plain, Task};
+    use crate::sim::solver::quad::Quad;
     use crate::sim::solver::{System, linear, pcg::PcgParams, rows::Rows, system::Assembled};
     use crate::sim::testing::fabric;
     use wide::f64x4;
@@ -221,22 +261,35 @@ mod tests {
         let coarse = patches.factorise(&operator, &operator.diagonal_blocks(), &x);
         // Rigid motions q give forces K P q; of these, the patches must find q again.
         let q = |a: usize, k: usize| (1.0 + (7 * a + 3 * k) as f64).sin() * if k < 3 { 1.0 } else { 20.0 };
-        let moved: Vec<f64x4> = patches
+        let moved: Vec<V3> = patches
             .of
             .iter()
-            .zip(&coarse.arms)
+            .zip(patches.arms(&x))
             .map(|(&a, arm)| {
                 let [t, w] = [0, 3].map(|from| V3::new(q(a, from), q(a, from + 1), q(a, from + 2)));
-                f64x4::from_vector(&(t + w.cross(&arm.vector())))
+                t + w.cross(&arm)
             })
             .collect();
-        let mut forces = vec![f64x4::ZERO; x.len()];
-        Rows::<f64x4>::new(&operator).apply(&moved, &mut forces);
-        let forces: Vec<f32x4> = forces.iter().map(|f| f32x4::from_vector(&f.vector())).collect();
-        let mut found = vec![f32x4::ZERO; x.len()];
-        patches.add(&coarse, &forces, &mut found);
-        for (found, moved) in found.iter().zip(&moved) {
-            assert!((found.vector() - moved.vector()).amax() < 0.01, "{found:?} for {moved:?}");
+        let mut states: Vec<[f64x4; 2]> = moved.iter().map(|p| [f64x4::from_vector(p), f64x4::ZERO]).collect();
+        Rows::new(&operator).apply(Plain, &mut states);
+        let forces: Vec<f32x4> = states.iter().map(|[_, f]| f32x4::from_vector(&f.vector())).collect();
+        for found in [machine::on_best(Add(&patches, &coarse, &forces)), Plain.alone(Add(&patches, &coarse, &forces))] {
+            for (found, moved) in found.iter().zip(&moved) {
+                assert!((found.vector() - moved).amax() < 0.01, "{found:?} for {moved:?}");
+            }
+        }
+    }
+
+    /// What patches make of forces.
+    struct Add<'a>(&'a Patches, &'a Coarse, &'a [f32x4]);
+
+    impl Task for Add<'_> {
+        type Output = Vec<f32x4>;
+
+        fn run<M: Machine>(self, machine: M) -> Vec<f32x4> {
+            let mut found = vec![f32x4::ZERO; self.2.len()];
+            self.0.add(machine, self.1, self.2, &mut found);
+            found
         }
     }
 

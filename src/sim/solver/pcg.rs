@@ -1,5 +1,6 @@
 //! Preconditioned conjugate gradients.
 
+use super::machine::{self, Machine, Task};
 use super::quad::Quad;
 use super::rows::Rows;
 use crate::geom::V3;
@@ -22,90 +23,101 @@ pub struct Outcome {
     pub iterations: usize,
 }
 
-/// Writes `z = P r` for `(r, z)`.
-pub type Preconditioner<'a, Q> = dyn Fn(&[Q], &mut [Q]) + 'a;
+/// A preconditioner `P`.
+pub trait Preconditioner<Q: Quad> {
+    /// `z = P r`.
+    fn apply<M: Machine>(&self, machine: M, r: &[Q], z: &mut [Q]);
+}
 
-/// Improves `x` towards the solution of `K x = b` with a preconditioner `z = P r`, starting at the best multiple of it; says
-/// how that ended.
+/// Improves `x` towards the solution of `K x = b` with a preconditioner, starting at the best multiple of it; says how that ended.
 ///
 /// Every iterate descends the quadratic `x.K x / 2 - b.x`, so a run cut short still yields a descent direction.
 pub fn solve<Q: Quad>(
     operator: &Rows<Q>,
-    precondition: &Preconditioner<Q>,
+    preconditioner: impl Preconditioner<Q>,
     b: &[V3],
     x: &mut [V3],
     params: &PcgParams,
 ) -> Outcome {
     let mut state: Vec<Q> = x.iter().map(Q::from_vector).collect();
-    let outcome =
-        improve(operator, precondition, &b.iter().map(Q::from_vector).collect::<Vec<_>>(), &mut state, params);
+    let b: Vec<Q> = b.iter().map(Q::from_vector).collect();
+    let outcome = machine::on_best(Improvement { operator, preconditioner, b: &b, x: &mut state, params });
     for (x, state) in x.iter_mut().zip(state) {
         *x = state.vector();
     }
     outcome
 }
 
-fn improve<Q: Quad>(
-    operator: &Rows<Q>,
-    precondition: &Preconditioner<Q>,
-    b: &[Q],
-    x: &mut [Q],
-    params: &PcgParams,
-) -> Outcome {
-    let mut z = vec![Q::ZERO; b.len()];
-    let mut kp = z.clone();
-    precondition(b, &mut z);
-    let goal = dot(b, &z) * params.tolerance * params.tolerance;
-    operator.apply(x, &mut kp);
-    // Never worse than zero.
-    let scale = dot(x, b) / dot(x, &kp);
-    let scale = if scale.is_finite() { scale.clamp(0.0, 1.0) } else { 0.0 };
-    x.iter_mut().for_each(|x| *x = *x * Q::spread(scale));
-    let mut r = b.to_vec();
-    add_scaled(&mut r, Q::spread(-scale), &kp);
-    precondition(&r, &mut z);
-    let mut p = z.clone();
-    let mut rz = dot(&r, &z);
-    for iterations in 0..params.max_iterations {
-        if rz <= goal || rz <= Q::NEGLIGIBLE {
-            return Outcome { is_solved: true, iterations };
-        }
-        operator.apply(&p, &mut kp);
-        let curvature = dot(&p, &kp);
-        if curvature <= 0.0 {
-            return Outcome { is_solved: true, iterations };
-        }
-        let alpha = rz / curvature;
-        add_scaled(x, Q::spread(alpha), &p);
-        add_scaled(&mut r, Q::spread(-alpha), &kp);
-        precondition(&r, &mut z);
-        let rz_next = dot(&r, &z);
-        let beta = Q::spread(rz_next / rz);
-        rz = rz_next;
-        for (p, z) in p.iter_mut().zip(&z) {
-            *p = *z + beta * *p;
-        }
-    }
-    Outcome { is_solved: rz <= goal, iterations: params.max_iterations }
+struct Improvement<'a, Q: Quad, P> {
+    operator: &'a Rows<'a, Q>,
+    preconditioner: P,
+    b: &'a [Q],
+    x: &'a mut [Q],
+    params: &'a PcgParams,
 }
 
-fn add_scaled<Q: Quad>(a: &mut [Q], scale: Q, b: &[Q]) {
-    for (a, b) in a.iter_mut().zip(b) {
-        *a += scale * *b;
+impl<Q: Quad, P: Preconditioner<Q>> Task for Improvement<'_, Q, P> {
+    type Output = Outcome;
+
+    #[inline(always)]
+    fn run<M: Machine>(self, machine: M) -> Outcome {
+        let Self { operator, preconditioner, b, x, params } = self;
+        let (alike, within) = (|a: &Q, b: &Q| *a * *b, |[p, kp]: &[Q; 2], _: &[Q; 2]| *p * *kp);
+        let mut z = vec![Q::ZERO; b.len()];
+        preconditioner.apply(machine, b, &mut z);
+        let goal = dot(b, &z, alike) * params.tolerance * params.tolerance;
+        // The last displacement `p`, and what it is multiplied to.
+        let mut states: Vec<[Q; 2]> = x.iter().map(|x| [*x, Q::ZERO]).collect();
+        operator.apply(machine, &mut states);
+        // Never worse than zero.
+        let scale = dot(x, b, alike) / dot(&states, &states, within);
+        let mut alpha = if scale.is_finite() { scale.clamp(0.0, 1.0) } else { 0.0 };
+        x.fill(Q::ZERO);
+        let mut r = b.to_vec();
+        let mut rz = f64::INFINITY;
+        for iterations in 0..=params.max_iterations {
+            let share = Q::spread(alpha);
+            for ((x, r), [p, kp]) in x.iter_mut().zip(&mut r).zip(&states) {
+                *x = share.times_plus(*p, *x, machine);
+                *r = share.times_from(*kp, *r, machine);
+            }
+            preconditioner.apply(machine, &r, &mut z);
+            let rz_next = dot(&r, &z, alike);
+            if rz_next <= goal || rz_next <= Q::NEGLIGIBLE {
+                return Outcome { is_solved: true, iterations };
+            }
+            if iterations == params.max_iterations {
+                break;
+            }
+            // The first direction is the residual's own.
+            let beta = Q::spread(rz_next / rz);
+            rz = rz_next;
+            for ([p, _], z) in states.iter_mut().zip(&z) {
+                *p = beta.times_plus(*p, *z, machine);
+            }
+            operator.apply(machine, &mut states);
+            let curvature = dot(&states, &states, within);
+            if curvature <= 0.0 {
+                return Outcome { is_solved: true, iterations };
+            }
+            alpha = rz / curvature;
+        }
+        Outcome { is_solved: false, iterations: params.max_iterations }
     }
 }
 
-/// Inner product; sums side by side, so that none waits for the other.
-fn dot<Q: Quad>(a: &[Q], b: &[Q]) -> f64 {
+/// Sum of the products of pairs; sums side by side, so that none waits for the other.
+#[inline(always)]
+fn dot<Q: Quad, T, U>(a: &[T], b: &[U], product: impl Fn(&T, &U) -> Q) -> f64 {
     let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
     let mut sums = [Q::ZERO; 4];
     for (a, b) in a.iter().zip(b) {
         for k in 0..4 {
-            sums[k] += a[k] * b[k];
+            sums[k] += product(&a[k], &b[k]);
         }
     }
     for (a, b) in a_rest.iter().zip(b_rest) {
-        sums[0] += *a * *b;
+        sums[0] += product(a, b);
     }
     ((sums[0] + sums[1]) + (sums[2] + sums[3])).total()
 }

@@ -8,6 +8,7 @@ use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 use nalgebra::Matrix3;
 use wide::{f32x4, f64x4};
 
+use super::machine::Machine;
 use crate::geom::V3;
 
 /// Four numbers in the precision of a solve.
@@ -41,6 +42,11 @@ pub trait Quad:
         Self::splat(Self::scalar(number))
     }
 
+    /// `self factor + sum`.
+    fn times_plus<M: Machine>(self, factor: Self, sum: Self, machine: M) -> Self;
+    /// `from - self factor`.
+    fn times_from<M: Machine>(self, factor: Self, from: Self, machine: M) -> Self;
+
     /// Blocks in this precision.
     fn blocks(of: &[Block<f32x4>]) -> Cow<'_, [Block<Self>]>;
 
@@ -52,7 +58,7 @@ pub trait Quad:
 }
 
 macro_rules! quad {
-    ($quad:ty, $scalar:ty, $blocks:expr) => {
+    ($quad:ty, $scalar:ty, $on:expr, $plus:ident, $minus:ident, $blocks:expr) => {
         impl Quad for $quad {
             type Scalar = $scalar;
             const ZERO: Self = <$quad>::ZERO;
@@ -62,6 +68,14 @@ macro_rules! quad {
             };
             fn blocks(of: &[Block<f32x4>]) -> Cow<'_, [Block<Self>]> {
                 $blocks(of)
+            }
+            #[inline(always)]
+            fn times_plus<M: Machine>(self, factor: Self, sum: Self, machine: M) -> Self {
+                $on(machine, M::$plus, [self, factor, sum])
+            }
+            #[inline(always)]
+            fn times_from<M: Machine>(self, factor: Self, from: Self, machine: M) -> Self {
+                $on(machine, M::$minus, [self, factor, from])
             }
             #[inline(always)]
             fn of(numbers: [f64; 4]) -> Self {
@@ -98,8 +112,23 @@ macro_rules! quad {
     };
 }
 
-quad!(f32x4, f32, Cow::Borrowed);
-quad!(f64x4, f64, |blocks: &[Block<f32x4>]| blocks
+#[inline(always)]
+fn in_single<M>(machine: M, of: impl Fn(M, f32x4, f32x4, f32x4) -> f32x4, [a, b, c]: [f32x4; 3]) -> f32x4 {
+    of(machine, a, b, c)
+}
+
+#[inline(always)]
+fn in_double<M: Machine>(
+    machine: M,
+    of: impl Fn(M, M::Four, M::Four, M::Four) -> M::Four,
+    numbers: [f64x4; 3],
+) -> f64x4 {
+    let [a, b, c] = numbers.map(|quad| machine.four(quad.to_array()));
+    f64x4::from(machine.numbers(of(machine, a, b, c)))
+}
+
+quad!(f32x4, f32, in_single, plus, minus, Cow::Borrowed);
+quad!(f64x4, f64, in_double, fours_plus, fours_minus, |blocks: &[Block<f32x4>]| blocks
     .iter()
     .map(|block| block.map(|row| f64x4::from(row.to_array().map(f64::from))))
     .collect());
@@ -110,8 +139,7 @@ pub type Block<Q> = [Q; 3];
 /// A block that does the same to x, y and z.
 #[inline(always)]
 #[must_use]
-pub fn alike(number: f64) -> Block<f32x4> {
-    let n = number as f32;
+pub fn alike(n: f32) -> Block<f32x4> {
     [f32x4::from([n, 0.0, 0.0, 0.0]), f32x4::from([0.0, n, 0.0, 0.0]), f32x4::from([0.0, 0.0, n, 0.0])]
 }
 
@@ -134,9 +162,16 @@ pub fn subtract(from: &mut Block<f32x4>, matrix: &Matrix3<f64>) {
     }
 }
 
+/// Each of three components four times.
+#[inline(always)]
+pub fn spread_out<Q: Quad>(v: Q) -> [Q; 3] {
+    let [x, y, z, _] = v.numbers();
+    [x, y, z].map(Q::splat)
+}
+
 /// The transpose of a block times a vector.
 #[inline(always)]
 pub fn transposed_times<Q: Quad>(block: &Block<Q>, v: Q) -> Q {
-    let [x, y, z, _] = v.numbers();
-    (block[0] * Q::splat(x) + block[1] * Q::splat(y)) + block[2] * Q::splat(z)
+    let [x, y, z] = spread_out(v);
+    (block[0] * x + block[1] * y) + block[2] * z
 }

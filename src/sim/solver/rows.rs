@@ -7,6 +7,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use super::machine::{Machine, Task};
 use super::operator::{Contact4, Operator};
 use super::quad::{self, Block, Quad};
 
@@ -56,6 +57,34 @@ impl Upper {
     }
 }
 
+/// Couplings that are met vertex by vertex, with what is kept of each.
+struct Along<'a, T> {
+    starts: &'a [u32],
+    others: &'a [u32],
+    kept: &'a [T],
+}
+
+impl<'a, T> Along<'a, T> {
+    #[inline(always)]
+    fn new(upper: &'a Upper, kept: &'a [T]) -> Self {
+        Self { starts: &upper.starts, others: &upper.others, kept }
+    }
+
+    /// Those of the next vertex.
+    #[inline(always)]
+    fn next_row(&mut self) -> impl Iterator<Item = (usize, &'a T)> {
+        let mut count = 0;
+        if let [from, to, ..] = *self.starts {
+            count = (to - from) as usize;
+            self.starts = &self.starts[1..];
+        }
+        let ((others, kept), rest);
+        ((others, rest), (kept, self.kept)) = (self.others.split_at(count), self.kept.split_at(count));
+        self.others = rest;
+        others.iter().map(|other| *other as usize).zip(kept)
+    }
+}
+
 /// An [`Operator`] in rows.
 pub struct Rows<'a, Q: Quad> {
     diagonal: Vec<Block<Q>>,
@@ -94,47 +123,142 @@ impl<'a, Q: Quad> Rows<'a, Q> {
         }
     }
 
-    /// `y = K x`.
-    pub fn apply(&self, x: &[Q], y: &mut [Q]) {
-        y.fill(Q::ZERO);
+    /// `y = K x` of states `[x, y]`, which lie side by side since they are met side by side.
+    #[inline(always)]
+    pub fn apply<M: Machine>(&self, machine: M, states: &mut [[Q; 2]]) {
+        machine.alone(Product { rows: self, states });
+    }
+
+    #[inline(always)]
+    fn product<M: Machine>(&self, machine: M, states: &mut [[Q; 2]]) {
+        states.iter_mut().for_each(|[_, y]| *y = Q::ZERO);
+        let mut membrane = Along::new(self.membrane, &self.blocks);
+        let mut bending = Along::new(self.bending, &self.entries);
         for (i, diagonal) in self.diagonal.iter().enumerate() {
-            let here = x[i];
+            let [here, mut force] = states[i];
             let mut rows = diagonal.map(|row| row * here);
-            let mut force = y[i];
-            for (j, block) in self.membrane.of(i, &self.blocks) {
-                let difference = x[j] - here;
+            for (j, block) in membrane.next_row() {
+                let [x, y] = &mut states[j];
+                let difference = *x - here;
                 for (row, entries) in rows.iter_mut().zip(block) {
-                    *row += *entries * difference;
+                    *row = entries.times_plus(difference, *row, machine);
                 }
-                y[j] -= quad::transposed_times(block, difference);
+                for (row, along) in block.iter().zip(quad::spread_out(difference)) {
+                    *y = row.times_from(along, *y, machine);
+                }
             }
-            for (j, entry) in self.bending.of(i, &self.entries) {
-                let pull = (x[j] - here) * Q::splat(*entry);
-                force += pull;
-                y[j] -= pull;
+            for (j, entry) in bending.next_row() {
+                let [x, y] = &mut states[j];
+                let (difference, entry) = (*x - here, Q::splat(*entry));
+                force = difference.times_plus(entry, force, machine);
+                *y = difference.times_from(entry, *y, machine);
             }
-            y[i] = force + Q::totals(rows);
+            states[i][1] = force + Q::totals(rows);
         }
         for (pair, stiffness) in &self.springs {
-            let pull = (x[pair[0]] - x[pair[1]]) * *stiffness;
-            y[pair[0]] += pull;
-            y[pair[1]] -= pull;
+            let pull = (states[pair[0]][0] - states[pair[1]][0]) * *stiffness;
+            states[pair[0]][1] += pull;
+            states[pair[1]][1] -= pull;
         }
         for contact in &self.contacts {
-            contact.apply(x, y);
+            contact.apply(states);
         }
     }
 }
 
+struct Product<'a, 'b, Q: Quad> {
+    rows: &'a Rows<'b, Q>,
+    states: &'a mut [[Q; 2]],
+}
+
+impl<Q: Quad> Task for Product<'_, '_, Q> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<M: Machine>(self, machine: M) {
+        self.rows.product(machine, self.states);
+    }
+}
+
 impl<Q: Quad> Contact<Q> {
-    fn apply(&self, x: &[Q], y: &mut [Q]) {
+    #[inline(always)]
+    fn apply(&self, states: &mut [[Q; 2]]) {
         let mut moved = Q::ZERO;
         for (v, weight) in self.vertices.iter().zip(&self.weights) {
-            moved += x[*v] * *weight;
+            moved += states[*v][0] * *weight;
         }
         let force = self.along * Q::spread((moved * self.along).total());
         for (v, weight) in self.vertices.iter().zip(&self.weights) {
-            y[*v] += force * *weight;
+            states[*v][1] += force * *weight;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Matrix3;
+    use wide::{f32x4, f64x4};
+
+    use super::*;
+    use crate::geom::V3;
+    use crate::sim::solver::PairList;
+    use crate::sim::solver::machine::{self, Plain};
+
+    /// Products as they stand in the definition: pairs on differences, one by one.
+    fn expected(operator: &Operator, x: &[V3]) -> Vec<V3> {
+        let mut y = operator.contact_forces(x);
+        let mut couple = |[i, j]: [usize; 2], block: Matrix3<f64>| {
+            y[i] += block * (x[j] - x[i]);
+            y[j] += block.transpose() * (x[i] - x[j]);
+        };
+        for (pair, block) in operator.membrane_pairs.pairs().iter().zip(&operator.membrane) {
+            couple(*pair, quad::matrix(block));
+        }
+        for (pair, entry) in operator.bending_pairs.pairs().iter().zip(operator.bending) {
+            couple(*pair, Matrix3::identity() * *entry);
+        }
+        for (pair, stiffness) in &operator.springs {
+            couple(*pair, -Matrix3::identity() * *stiffness);
+        }
+        y
+    }
+
+    fn check<Q: Quad>(operator: &Operator, x: &[V3], tolerance: f64) {
+        let start: Vec<[Q; 2]> = x.iter().map(|p| [Q::from_vector(p), Q::spread(7.0)]).collect();
+        let (mut plain, mut best) = (start.clone(), start);
+        let rows = Rows::<Q>::new(operator);
+        rows.apply(Plain, &mut plain);
+        machine::on_best(Product { rows: &rows, states: &mut best });
+        for ((plain, best), expect) in plain.iter().zip(&best).zip(expected(operator, x)) {
+            for found in [plain[1], best[1]] {
+                assert!((found.vector() - expect).amax() < tolerance, "{} for {expect}", found.vector());
+            }
+        }
+    }
+
+    #[test]
+    fn rows_multiply_as_the_operator_on_every_machine() {
+        let membrane_pairs = PairList::new([[0, 1], [0, 3], [1, 2], [2, 3], [1, 3]]);
+        let bending_pairs = PairList::new([[0, 2], [2, 4]]);
+        let number = |k: usize| (1.0 + 3.0 * k as f64).sin();
+        let matrix = |k: usize| Matrix3::from_fn(|r, c| number(k + 3 * r + c));
+        let contact = |k: usize| Contact4 {
+            vertices: [k, k + 1, 3, 4],
+            weights: [0.4, 0.6, -0.7, -0.3],
+            normal: V3::y(),
+            stiffness: 2.0,
+        };
+        let operator = Operator {
+            diagonal: (0..5).map(|v| matrix(v) + matrix(v).transpose()).collect(),
+            membrane_pairs: &membrane_pairs,
+            membrane: (0..5).map(|k| quad::block::<f32x4>(&matrix(10 + k))).collect(),
+            bending_pairs: &bending_pairs,
+            bending: &[-0.7, 0.4],
+            springs: vec![([1, 4], 3.0)],
+            contacts: vec![contact(0), contact(1)],
+        };
+        let x: Vec<V3> = (0..5).map(|v| V3::new(number(v), number(v + 20), number(v + 40))).collect();
+        check::<f32x4>(&operator, &x, 1e-5);
+        check::<f64x4>(&operator, &x, 1e-6);
     }
 }

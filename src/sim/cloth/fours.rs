@@ -1,0 +1,305 @@
+//! Triangles of the membrane four by four: what each lane of a register does for one of them.
+
+use wide::f32x4;
+
+use super::law::{Orthotropic, Tensor};
+use super::membrane::{Element, Foreseen};
+use crate::geom::V3;
+use crate::sim::solver::lanes::{Lanes, Number};
+use crate::sim::solver::machine::{Machine, Task, each};
+use crate::sim::solver::quad::{self, Block, Quad};
+
+/// A vector in each lane.
+type Vectors<M> = [Lanes<M>; 3];
+
+/// Four triangles; the last of a membrane may be without area, on vertex and pair 0.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Four {
+    /// The vertices of each corner.
+    vertices: [[u32; 4]; 3],
+    /// Twice the pairs of the sides (0,1), (1,2), (2,0), and one more where the pair's smaller vertex is the second one.
+    slots: [[u32; 4]; 3],
+    areas: [f64; 4],
+    /// Gradients of the second and third shape functions in weft and warp, 1/m: that of the first is their sum's negative.
+    gradients: [[[f64; 4]; 2]; 2],
+}
+
+impl Four {
+    /// Up to four triangles, each with what it has for slots.
+    pub fn new(elements: &[(Element, [u32; 3])]) -> Self {
+        let mut four = Self::default();
+        for (lane, (element, slots)) in elements.iter().enumerate() {
+            four.areas[lane] = element.area;
+            for k in 0..3 {
+                four.vertices[k][lane] = element.vertices()[k] as u32;
+                four.slots[k][lane] = slots[k];
+            }
+            for (kept, gradient) in four.gradients.iter_mut().zip(element.gradients()) {
+                (kept[0][lane], kept[1][lane]) = (gradient.x, gradient.y);
+            }
+        }
+        four
+    }
+
+    /// What has become of a unit length of weft and of warp.
+    #[inline(always)]
+    fn fibres<M: Machine>(&self, machine: M, x: &[V3]) -> [Vectors<M>; 2] {
+        let [a, b, c] = each!(corner of 3 => {
+            let at = each!(lane of 4 => &x[self.vertices[corner][lane] as usize]);
+            each!(c of 3 => Lanes::of(machine, each!(lane of 4 => at[lane][c])))
+        });
+        let [p, q] = [each!(k of 3 => b[k] - a[k]), each!(k of 3 => c[k] - a[k])];
+        let [g, h] = self.lanes_of_gradients(machine);
+        // Not fused: that would round otherwise where the mirrored garment has these two corners the other way round.
+        each!(axis of 2 => each!(c of 3 => p[c] * g[axis] + q[c] * h[axis]))
+    }
+
+    #[inline(always)]
+    fn lanes_of_gradients<M: Machine>(&self, machine: M) -> [[Lanes<M>; 2]; 2] {
+        each!(corner of 2 => each!(axis of 2 => Lanes::of(machine, self.gradients[corner][axis])))
+    }
+
+    #[inline(always)]
+    fn lanes_of_areas<M: Machine>(&self, machine: M) -> Lanes<M> {
+        Lanes::of(machine, self.areas)
+    }
+
+    /// Adds the forces of a stress, N.
+    #[inline(always)]
+    fn add_forces<M: Machine>(
+        &self,
+        machine: M,
+        [weft, warp]: &[Vectors<M>; 2],
+        stress: Tensor<Lanes<M>>,
+        forces: &mut [V3],
+    ) {
+        // The first Piola-Kirchhoff stress, by columns.
+        let area = self.lanes_of_areas(machine);
+        let s = stress * (area.same(0.0) - area);
+        let p = each!(c of 3 => weft[c].times_plus(s.weft, warp[c] * s.shear));
+        let q = each!(c of 3 => weft[c].times_plus(s.shear, warp[c] * s.warp));
+        let gradients = self.lanes_of_gradients(machine);
+        let of = each!(corner of 2 => {
+            let [x, y] = gradients[corner];
+            each!(c of 3 => p[c].times_plus(x, q[c] * y).numbers())
+        });
+        for lane in 0..4 {
+            let [second, third] = each!(k of 2 => V3::new(of[k][0][lane], of[k][1][lane], of[k][2][lane]));
+            let [a, b, c] = each!(corner of 3 => self.vertices[corner][lane] as usize);
+            forces[a] -= second + third;
+            forces[b] += second;
+            forces[c] += third;
+        }
+    }
+
+    /// Adds the off-diagonal stiffness blocks of a law that has these slopes at the fibres' strain, with the geometric part of a stress
+    /// that has no compression: with the fibres `f`, `K_ij = sum f_a (m_ab f_b)^T`.
+    #[inline(always)]
+    fn add_stiffness<M: Machine>(
+        &self,
+        machine: M,
+        fibres: &[Vectors<M>; 2],
+        law: &Orthotropic,
+        slopes: [Lanes<M>; 2],
+        tension: Option<Tensor<Lanes<M>>>,
+        blocks: &mut [Block<f32x4>],
+    ) {
+        let area = self.lanes_of_areas(machine);
+        let (c11, c22) = (slopes[0] * area, slopes[1] * area);
+        let (c12, shear) = (area * area.same(law.c12), area * area.same(law.shear));
+        let [g, h] = self.lanes_of_gradients(machine);
+        let gradients = [each!(axis of 2 => area.same(0.0) - g[axis] - h[axis]), g, h];
+        let couplings = each!(k of 3 => {
+            let (i, j) = (gradients[k], gradients[(k + 1) % 3]);
+            let [xx, xy, yx, yy] = [i[0] * j[0], i[0] * j[1], i[1] * j[0], i[1] * j[1]];
+            let geometric = match tension {
+                Some(t) => xx.times_plus(t.weft, (xy + yx).times_plus(t.shear, yy * t.warp)) * area,
+                None => area.same(0.0),
+            };
+            [
+                c11.times_plus(xx, shear * yy).single(),
+                c12.times_plus(xy, shear * yx).single(),
+                c12.times_plus(yx, shear * xy).single(),
+                c22.times_plus(yy, shear * xx).single(),
+                geometric.single(),
+            ]
+        });
+        let fibres = each!(axis of 2 => each!(c of 3 => fibres[axis][c].single()));
+        for lane in 0..4 {
+            let [weft, warp] = each!(axis of 2 => {
+                let fibre = &fibres[axis];
+                f32x4::from([fibre[0][lane], fibre[1][lane], fibre[2][lane], 0.0])
+            });
+            for (coupling, slots) in couplings.iter().zip(&self.slots) {
+                let slot = slots[lane];
+                let [by_weft, mut across, mut back, by_warp, geometric] = each!(k of 5 => coupling[k][lane]);
+                if slot & 1 == 1 {
+                    (across, back) = (back, across);
+                }
+                let of_weft = weft.times_plus(f32x4::splat(by_weft), warp * f32x4::splat(across), machine);
+                let of_warp = weft.times_plus(f32x4::splat(back), warp * f32x4::splat(by_warp), machine);
+                let block = &mut blocks[(slot >> 1) as usize];
+                let alike = quad::alike(geometric);
+                for row in 0..3 {
+                    let [along_weft, along_warp] = each!(axis of 2 => f32x4::splat(fibres[axis][row][lane]));
+                    let sum = along_warp.times_plus(of_warp, block[row] + alike[row], machine);
+                    block[row] = along_weft.times_plus(of_weft, sum, machine);
+                }
+            }
+        }
+    }
+}
+
+/// Green strain of what has become of weft and warp.
+#[inline(always)]
+fn green<N: Number>([weft, warp]: &[[N; 3]; 2]) -> Tensor<N> {
+    let half = weft[0].same(0.5);
+    let one = weft[0].same(1.0);
+    Tensor { weft: half * (dot(weft, weft) - one), warp: half * (dot(warp, warp) - one), shear: half * dot(weft, warp) }
+}
+
+#[inline(always)]
+fn dot<N: Number>(a: &[N; 3], b: &[N; 3]) -> N {
+    a[0].times_plus(b[0], a[1].times_plus(b[1], a[2] * b[2]))
+}
+
+/// The tensors of up to four triangles, lane by lane; nothing where there are none.
+#[inline(always)]
+fn lanes_of<M: Machine>(machine: M, tensors: &[Tensor]) -> Tensor<Lanes<M>> {
+    let nothing = Tensor::default();
+    let all = each!(lane of 4 => match tensors.get(lane) {
+        Some(tensor) => tensor,
+        None => &nothing,
+    });
+    Tensor {
+        weft: Lanes::of(machine, each!(lane of 4 => all[lane].weft)),
+        warp: Lanes::of(machine, each!(lane of 4 => all[lane].warp)),
+        shear: Lanes::of(machine, each!(lane of 4 => all[lane].shear)),
+    }
+}
+
+/// The tensors of the lanes.
+#[inline(always)]
+fn apart<M: Machine>(tensor: Tensor<Lanes<M>>) -> [Tensor; 4] {
+    let (weft, warp, shear) = (tensor.weft.numbers(), tensor.warp.numbers(), tensor.shear.numbers());
+    each!(lane of 4 => Tensor { weft: weft[lane], warp: warp[lane], shear: shear[lane] })
+}
+
+/// The elastic energy somewhere, J, and what else is asked for there.
+pub struct Assembly<'a> {
+    /// Law of all.
+    pub law: &'a Orthotropic,
+    /// The triangles.
+    pub fours: &'a [Four],
+    /// Places of the vertices, m.
+    pub x: &'a [V3],
+    /// To add the forces to, N.
+    pub forces: Option<&'a mut [V3]>,
+    /// To add the off-diagonal stiffness blocks to, N/m.
+    pub blocks: Option<&'a mut [Block<f32x4>]>,
+    /// Stresses that make the blocks' geometric part, one a triangle, N/m; without them those at `x`.
+    pub predicted: Option<&'a [Tensor]>,
+}
+
+impl Task for Assembly<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<M: Machine>(mut self, machine: M) -> f64 {
+        let mut energy = Lanes::of(machine, [0.0; 4]);
+        for (k, four) in self.fours.iter().enumerate() {
+            let fibres = four.fibres(machine, self.x);
+            let strain = green(&fibres);
+            energy = four.lanes_of_areas(machine).times_plus(self.law.energy(strain), energy);
+            let stress = self.law.stress(strain);
+            if let Some(forces) = &mut self.forces {
+                four.add_forces(machine, &fibres, stress, forces);
+            }
+            if let Some(blocks) = &mut self.blocks {
+                let stress = match self.predicted {
+                    Some(all) => lanes_of(machine, &all[4 * k..]),
+                    None => stress,
+                };
+                let tension = Some(stress.without_compression());
+                four.add_stiffness(machine, &fibres, self.law, self.law.tangents(strain), tension, blocks);
+            }
+        }
+        energy.numbers().iter().sum()
+    }
+}
+
+/// A share of the forces (N) that the compressive part of stresses has in first order along a displacement.
+pub struct Compression<'a> {
+    /// The triangles.
+    pub fours: &'a [Four],
+    /// Their stresses, N/m.
+    pub stresses: &'a [Tensor],
+    /// The displacement, m.
+    pub d: &'a [V3],
+    /// The share.
+    pub share: f64,
+    /// To add the forces to.
+    pub forces: &'a mut [V3],
+}
+
+impl Task for Compression<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<M: Machine>(self, machine: M) {
+        for (k, four) in self.fours.iter().enumerate() {
+            let stress = lanes_of(machine, &self.stresses[4 * k..]);
+            let compression = stress - stress.without_compression();
+            let share = compression.weft.same(self.share);
+            four.add_forces(machine, &four.fibres(machine, self.d), compression * share, self.forces);
+        }
+    }
+}
+
+/// The forces (N) that would bring the stresses at the end of a displacement `d` from `x` to those foreseen there in first order, which
+/// it gives, and the stiffness of stretching alone at that end.
+pub struct Correction<'a> {
+    /// Law of all.
+    pub law: &'a Orthotropic,
+    /// The triangles.
+    pub fours: &'a [Four],
+    /// Places of the vertices before, m.
+    pub x: &'a [V3],
+    /// Where they go, m.
+    pub d: &'a [V3],
+    /// To add the forces to.
+    pub forces: &'a mut [V3],
+    /// To add the off-diagonal stiffness blocks to, N/m.
+    pub blocks: &'a mut [Block<f32x4>],
+    /// To add to what is foreseen, one a triangle and some more where fours are not full.
+    pub foreseen: &'a mut Vec<Foreseen>,
+}
+
+impl Task for Correction<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<M: Machine>(self, machine: M) {
+        for four in self.fours {
+            let (fibres, moved) = (four.fibres(machine, self.x), four.fibres(machine, self.d));
+            let [weft, warp] = &fibres;
+            let strain = green(&fibres);
+            let half = strain.weft.same(0.5);
+            let change = Tensor {
+                weft: dot(weft, &moved[0]),
+                warp: dot(warp, &moved[1]),
+                shear: half * (dot(weft, &moved[1]) + dot(warp, &moved[0])),
+            };
+            let (stress, change) = (self.law.stress(strain), self.law.tangent(strain, change));
+            let end = each!(axis of 2 => each!(c of 3 => fibres[axis][c] + moved[axis][c]));
+            let strain = green(&end);
+            let excess = self.law.stress(strain) - (stress + change);
+            four.add_forces(machine, &end, excess, self.forces);
+            four.add_stiffness(machine, &end, self.law, self.law.tangents(strain), None, self.blocks);
+            let (stress, change) = (apart(stress), apart(change));
+            for lane in 0..4 {
+                self.foreseen.push(Foreseen { stress: stress[lane], change: change[lane] });
+            }
+        }
+    }
+}
