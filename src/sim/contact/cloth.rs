@@ -89,6 +89,8 @@ pub struct ClothContact<'a> {
     found_at: Vec<V3>,
     /// Where the cloth was at the last step.
     last: Vec<V3>,
+    /// How it had come there from where pairs were found.
+    made: Option<Motion>,
     /// How much nearer than there unknown pairs may come before they could meet, m.
     room_m: f64,
     knots: Knots,
@@ -107,6 +109,7 @@ impl<'a> ClothContact<'a> {
             pairs: Vec::new(),
             found_at: Vec::new(),
             last: Vec::new(),
+            made: None,
             room_m: 0.0,
             knots: Knots::new(triangles, params.release_n, params.release_steps),
         }
@@ -152,6 +155,7 @@ impl<'a> ClothContact<'a> {
             pairs: self.pairs.iter().filter_map(renamed).collect(),
             found_at: part.of(&self.found_at),
             last: x.to_vec(),
+            made: None,
             room_m: self.room_m,
             knots: Knots::new(&[], 0.0, 0),
         }
@@ -161,15 +165,22 @@ impl<'a> ClothContact<'a> {
     /// could be missed in the next, and finds the way out of crossings.
     pub fn update(&mut self, x: &[V3]) {
         self.knots.grow();
-        let mut may_cross = self.may_cross(x);
-        let last = std::mem::replace(&mut self.last, x.to_vec());
         let Some(mut neighbours) = self.neighbours.take() else {
-            self.room_m -= 2.0 * farthest(x, &last);
+            self.room_m -= 2.0 * farthest(x, &self.last);
+            self.last = x.to_vec();
             return;
         };
+        let made = (self.found_at.len() == x.len()).then(|| neighbours.motion(&differences(x, &self.found_at)));
+        let mut may_cross = self.may_cross(&neighbours, x, made.as_ref());
+        let last = std::mem::replace(&mut self.last, x.to_vec());
         let step = (last.len() == x.len()).then(|| neighbours.motion(&differences(x, &last)));
         let stays_flat = neighbours.stay_flat(x);
-        if !stays_flat || !step.as_ref().is_some_and(|step| self.lasts(&neighbours, x, step)) {
+        let lasts = match (&made, &step) {
+            (Some(made), Some(step)) => self.lasts(&neighbours, made, step),
+            _ => false,
+        };
+        self.made = made;
+        if !stays_flat || !lasts {
             self.seek(&mut neighbours, x, step.as_ref());
         }
         may_cross |= !stays_flat;
@@ -182,17 +193,18 @@ impl<'a> ClothContact<'a> {
         self.neighbours = Some(neighbours);
     }
 
-    /// Whether what is known of near pairs does for more steps like the one that led to `x`; finds how much room is left there.
-    fn lasts(&mut self, neighbours: &Neighbours, x: &[V3], step: &Motion) -> bool {
-        let made = neighbours.motion(&differences(x, &self.found_at));
-        self.room_m = neighbours.room_m([(&made, 1.0)]);
-        neighbours.room_m([(&made, 1.0), (step, STEPS_AHEAD[0])]) >= self.params.thickness_m
+    /// Whether what is known of near pairs, since when the cloth has `made` a motion, does for more steps like the last; finds how much
+    /// room is left.
+    fn lasts(&mut self, neighbours: &Neighbours, made: &Motion, step: &Motion) -> bool {
+        self.room_m = neighbours.room_m([(made, 1.0)]);
+        neighbours.room_m([(made, 1.0), (step, STEPS_AHEAD[0])]) >= self.params.thickness_m
     }
 
-    /// Whether the cloth may have come to cross itself: it did already, or touched at the last step and may have passed since, or was
-    /// moved by others. What is near, and does not touch, is kept from it.
-    fn may_cross(&self, x: &[V3]) -> bool {
-        self.found_at.len() != x.len() || !self.is_known(x) || !self.knots.is_empty() || self.touches()
+    /// Whether the cloth, which has `made` a motion to `x` since pairs were found, may have come to cross itself: it did already, or touched
+    /// at the last step and may have passed since, or was moved by others. What is near, and does not touch, is kept from it.
+    fn may_cross(&self, neighbours: &Neighbours, x: &[V3], made: Option<&Motion>) -> bool {
+        let is_known = |made| 2.0 * farthest(x, &self.last) < self.room_m || neighbours.room_m([(made, 1.0)]) > 0.0;
+        !made.is_some_and(is_known) || !self.knots.is_empty() || self.touches()
     }
 
     /// Whether parts of the cloth touched at the last [`ClothContact::update`], and so may pass each other in the next step.
@@ -213,11 +225,9 @@ impl<'a> ClothContact<'a> {
     #[must_use]
     pub fn free_share(&self, displacements: &[V3]) -> f64 {
         let share = self.free_path_m() / longest_m(displacements);
-        match &self.neighbours {
-            Some(neighbours) if share < 1.0 => {
-                let made = neighbours.motion(&differences(&self.last, &self.found_at));
-                let next = neighbours.motion(displacements);
-                FREE_SHARE * neighbours.free_share(&made, &next)
+        match (&self.neighbours, &self.made) {
+            (Some(neighbours), Some(made)) if share < 1.0 => {
+                FREE_SHARE * neighbours.free_share(made, &neighbours.motion(displacements))
             }
             _ => share,
         }
@@ -237,7 +247,6 @@ impl<'a> ClothContact<'a> {
         let ClothContactParams { thickness_m, reach_m: most_m, .. } = self.params;
         let [least_steps, steps] = STEPS_AHEAD;
         let horizon_m = step.map_or(2.0 * most_m, |step| (2.0 * steps * step.farthest_m).max(most_m));
-        let made = (self.found_at.len() == x.len()).then(|| neighbours.motion(&differences(x, &self.found_at)));
         let within = |clusters| {
             let closing_m = step.map_or(f64::INFINITY, |step| step.closing_m(clusters));
             let [at_least_m, at_best_m] = SLACK_M.map(|slack_m| {
@@ -246,7 +255,7 @@ impl<'a> ClothContact<'a> {
             });
             Within { at_least_m, at_best_m }
         };
-        let found = neighbours.seek(x, horizon_m, made.as_ref(), within);
+        let found = neighbours.seek(x, horizon_m, self.made.as_ref(), within);
         let mut ends = [0; SHELLS as usize + 1];
         for pair in found {
             ends[usize::from(shell(pair.distance_m, most_m)) + 1] += 1;
@@ -263,6 +272,7 @@ impl<'a> ClothContact<'a> {
             *at += 1;
         }
         self.found_at = x.to_vec();
+        self.made = Some(neighbours.rest());
         self.room_m = neighbours.room_m([]);
     }
 

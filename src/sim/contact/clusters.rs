@@ -126,10 +126,9 @@ impl Clusters {
         self.is_flat = self.joined.pairs().iter().zip(&self.between).map(is_flat).collect();
     }
 
-    /// Whether two clusters were flat together.
-    #[must_use]
-    pub fn are_flat(&self, [a, b]: [usize; 2]) -> bool {
-        self.joined.slot(a, b).is_some_and(|slot| self.is_flat[slot])
+    /// Pairs of clusters that were flat together, in rising order.
+    pub fn flat(&self) -> impl Iterator<Item = [usize; 2]> {
+        self.joined.pairs().iter().zip(&self.is_flat).filter(|(_, is_flat)| **is_flat).map(|(pair, _)| *pair)
     }
 
     /// Whether all that was flat is so still.
@@ -138,6 +137,13 @@ impl Clusters {
         let cones = self.cones(x, triangles, STILL_FLAT_RAD);
         let mut pairs = self.joined.pairs().iter().zip(&self.between).zip(&self.is_flat);
         pairs.all(|((&pair, between), was_flat)| !was_flat || are_flat(&cones, pair, between))
+    }
+
+    /// Of clusters that stay where they are.
+    #[must_use]
+    pub fn rest(&self) -> Motion {
+        let count = self.members.len();
+        Motion { means: vec![V3::zeros(); count], strays_m: vec![0.0; count], farthest_m: 0.0 }
     }
 
     /// How the clusters move where vertices are displaced like this.

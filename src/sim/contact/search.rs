@@ -119,6 +119,12 @@ impl<'a> Neighbours<'a> {
         self.clusters.motion(displacements)
     }
 
+    /// No motion.
+    #[must_use]
+    pub fn rest(&self) -> Motion {
+        self.clusters.rest()
+    }
+
     /// Looks at the cloth at `x`, where it has `made` a motion since it was last looked at, and finds the pairs of its parts that are
     /// as near as `within` asks for their two clusters. If that is within `horizon_m`, all pairs so near are among them, but for those
     /// within flat cloth.
@@ -176,19 +182,22 @@ impl<'a> Neighbours<'a> {
         let sets: Vec<[usize; 2]> = (0..extents.len()).map(|c| [2 * c, 2 * c + 1]).collect();
         let half = extents.iter().map(Bounds::half_m).fold(0.0, f64::max);
         let grid = BoxGrid::new(&corners, &sets, horizon_m, half, (2.0 * half + horizon_m).max(CELL_M));
-        let before = std::mem::take(&mut self.near);
-        let still_known = |clusters: [usize; 2]| {
-            let known = before.binary_search_by_key(&clusters, |near| near.clusters).ok().map(|at| &before[at]);
-            known.zip(made).map(|(near, made)| (near.unknown_m() - made.closing_m(clusters), near.pairs.clone()))
-        };
         self.horizon_m = horizon_m;
+        // All in rising order of the two clusters, and met side by side.
+        let mut before = std::mem::take(&mut self.near).into_iter().peekable();
+        let mut flat = self.clusters.flat().peekable();
         for p in 0..extents.len() {
             for q in grid.near([&corners[2 * p], &corners[2 * p + 1]]).filter(|&q| q >= p) {
-                let apart_m = extents[p].apart_m(&extents[q]);
-                if apart_m < horizon_m && !self.clusters.are_flat([p, q]) {
-                    let (known_m, pairs) = still_known([p, q]).unwrap_or((0.0, 0..0));
-                    self.near.push(Near { clusters: [p, q], apart_m, known_m, pairs });
+                let (clusters, apart_m) = ([p, q], extents[p].apart_m(&extents[q]));
+                while flat.next_if(|flat| *flat < clusters).is_some() {}
+                if apart_m >= horizon_m || flat.peek() == Some(&clusters) {
+                    continue;
                 }
+                while before.next_if(|near| near.clusters < clusters).is_some() {}
+                let known = before.next_if(|near| near.clusters == clusters).zip(made);
+                let (known_m, pairs) =
+                    known.map_or((0.0, 0..0), |(near, made)| (near.unknown_m() - made.closing_m(clusters), near.pairs));
+                self.near.push(Near { clusters, apart_m, known_m, pairs });
             }
         }
     }
