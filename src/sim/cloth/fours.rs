@@ -297,9 +297,7 @@ impl Task for Correction<'_> {
             four.add_forces(machine, &end, excess, self.forces);
             four.add_stiffness(machine, &end, self.law, self.law.tangents(strain), None, self.blocks);
             let (stress, change) = (apart(stress), apart(change));
-            for lane in 0..4 {
-                self.foreseen.push(Foreseen { stress: stress[lane], change: change[lane] });
-            }
+            self.foreseen.extend_from_slice(&each!(k of 4 => Foreseen { stress: stress[k], change: change[k] }));
         }
     }
 }

@@ -143,32 +143,26 @@ impl Task for Factorisation<'_> {
             diagonal[column] = root;
             let (known, rest) = below.split_at_mut(own.end);
             for block in &mut known[own.clone()] {
-                let mut scaled = Padded::default();
-                scaled.add_product(machine, 1.0, block, &root);
-                *block = scaled;
+                *block = product(machine, block, &root);
             }
             for k in own.clone() {
                 let (row, factor) = (symbolic.rows[k], &known[k]);
-                diagonal[row].add_product(machine, -1.0, factor, factor);
+                diagonal[row].subtract_product(machine, factor, factor);
                 let mut target = symbolic.starts[row];
                 for l in k + 1..own.end {
                     while symbolic.rows[target] < symbolic.rows[l] {
                         target += 1;
                     }
-                    rest[target - own.end].add_product(machine, -1.0, &known[l], factor);
+                    rest[target - own.end].subtract_product(machine, &known[l], factor);
                 }
             }
         }
         for (column, own) in symbolic.columns() {
             let root = Padded::new(&transposed(&diagonal[column].dense()));
             for block in &mut below[own] {
-                let mut scaled = Padded::default();
-                scaled.add_product(machine, 1.0, block, &root);
-                *block = scaled;
+                *block = product(machine, block, &root);
             }
-            let mut pivot = Padded::default();
-            pivot.add_product(machine, 1.0, &root, &root);
-            diagonal[column] = pivot;
+            diagonal[column] = product(machine, &root, &root);
         }
         let packed = |block: &Padded| Packed::new(&block.dense());
         Some(Numeric { pivots: diagonal.iter().map(packed).collect(), below: below.iter().map(packed).collect() })
@@ -197,21 +191,38 @@ impl Padded {
         [f64x4::from([a, b, c, d]), f64x4::from([e, f, g, h])]
     }
 
-    /// Adds `sign a b^T`.
+    /// Takes `a b^T` away.
     #[inline(always)]
-    fn add_product<M: Machine>(&mut self, machine: M, sign: f64, a: &Self, b: &Self) {
+    fn subtract_product<M: Machine>(&mut self, machine: M, a: &Self, b: &Self) {
+        let columns = each!(k of 6 => a.column(k));
         for c in 0..SIZE {
             let [mut head, mut tail] = self.column(c);
-            for k in 0..SIZE {
-                let factor = f64x4::splat(sign * b.0[k][c]);
-                let [of_head, of_tail] = a.column(k);
-                head = of_head.times_plus(factor, head, machine);
-                tail = of_tail.times_plus(factor, tail, machine);
+            for (k, column) in columns.iter().enumerate() {
+                let factor = f64x4::splat(b.0[k][c]);
+                head = column[0].times_from(factor, head, machine);
+                tail = column[1].times_from(factor, tail, machine);
             }
-            let ([a, b, c_, d], [e, f, g, h]) = (head.to_array(), tail.to_array());
-            self.0[c] = [a, b, c_, d, e, f, g, h];
+            self.set_column(c, [head, tail]);
         }
     }
+
+    #[inline(always)]
+    fn set_column(&mut self, c: usize, [head, tail]: [f64x4; 2]) {
+        let ([a, b, c_, d], [e, f, g, h]) = (head.to_array(), tail.to_array());
+        self.0[c] = [a, b, c_, d, e, f, g, h];
+    }
+}
+
+/// `a b^T`.
+#[inline(always)]
+fn product<M: Machine>(machine: M, a: &Padded, b: &Padded) -> Padded {
+    let mut negative = Padded::default();
+    negative.subtract_product(machine, a, b);
+    for c in 0..SIZE {
+        let [head, tail] = negative.column(c);
+        negative.set_column(c, [-head, -tail]);
+    }
+    negative
 }
 
 /// Eliminates rows in order of least degree: the place of each, and for each place the rows that its elimination couples.
