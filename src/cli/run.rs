@@ -13,8 +13,8 @@ use super::context::Context;
 use super::progress::Progress;
 use super::{CliError, End, Outcome, detached, output, pictures, runs};
 use crate::study::{
-    JobFilter, JobId, JobRow, Limits, Planned, RunOptions, Selection, SlurmOptions, Stage, Status, Study, StudyError,
-    Table, Value, Workspace,
+    JobFilter, JobId, JobRow, JobSpec, Limits, Planned, RunOptions, Selection, SlurmOptions, Stage, Status, Study,
+    StudyError, Table, Value, Workspace,
 };
 
 /// Time between two looks at the running jobs.
@@ -102,7 +102,9 @@ fn interruption() -> Result<Arc<AtomicBool>, CliError> {
 fn tell_plan(context: &Context, study: &Study, planned: &[Planned], why: bool) -> BTreeSet<JobId> {
     if why || context.verbose {
         for job in planned {
-            context.say(format_args!("{}: {}", label(&job.spec.garment, &job.spec.size, &job.spec.subject), job.why));
+            let JobSpec { garment, size, subject, simulator, .. } = &job.spec;
+            let which = label(garment, size, subject);
+            context.say(format_args!("{which} {}: {}", simulator.as_str(), job.why));
         }
     }
     let todo: BTreeSet<JobId> = planned.iter().filter(|job| job.why.will_run()).map(|job| job.id).collect();

@@ -59,7 +59,7 @@ fn a_study_is_run_cached_changed_and_reported() {
     let before = place.sql(finished);
     let second = place.toile("run . --why").ends_with(0);
     assert!(second.err.contains("2 jobs, 0 to run, 2 up to date"), "{}", second.err);
-    assert!(second.err.contains("light m ii: up to date (done)"), "{}", second.err);
+    assert!(second.err.contains("light m ii fem: up to date (done)"), "{}", second.err);
     assert_eq!(place.sql(finished), before, "nothing is computed again");
     assert_eq!(second.out, first.out);
 
