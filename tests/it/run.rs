@@ -168,7 +168,7 @@ fn a_changed_number_recomputes_its_drape(place: &Place) {
     assert_eq!(place.one("SELECT count(*) FROM v_jobs"), jobs, "planning writes nothing");
 
     let run = place.toile("run . --why --no-report").ends_with(0);
-    assert!(run.err.contains(&format!("light m ii: changed since job 1: {named}")), "{}", run.err);
+    assert!(run.err.contains(&format!("light m ii fem: changed since job 1: {named}")), "{}", run.err);
     assert!(run.err.contains("2 jobs, 1 to run, 1 up to date"), "{}", run.err);
     let log = place.toile("queue log 3").ends_with(0).out;
     assert!(log.contains("body from the cache, field from the cache, mesh from the cache, drape made"), "{log}");
