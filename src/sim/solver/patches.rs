@@ -21,7 +21,7 @@ use crate::geom::V3;
 const APART: usize = 4;
 /// The same in large cloth, where the factor between patches would outgrow the rest.
 const APART_IN_LARGE: usize = 5;
-/// Vertices of large cloth: the factor between four edges' patches of more would not stay in the second cache from one iteration to the next.
+/// Vertices of large cloth: from there on solves between patches of four edges cost more than the iterations that they save.
 const LARGE: usize = 12_000;
 /// What is added to the stiffness of a patch against rotation, as a share of that against translation times its radius
 /// squared: the vertices of a patch may lie on a line.
