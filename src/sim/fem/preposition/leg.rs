@@ -2,7 +2,8 @@
 //!
 //! Rows below the fork (the lower end of the centre seam) go round the leg: from its outside over the front (or back) to
 //! its inside. Rows well above it go round half the body: from its side to the median plane. Between them rows pass from
-//! one to the other. A row takes its whole half ring, so that all seams start nearly closed.
+//! one to the other. A row takes its whole half ring, so that all seams start nearly closed. Where a leg would reach below the
+//! instep, its front is drawn up there, as one does who puts trousers on: else toes end up on the wrong side of the cloth.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -20,6 +21,10 @@ const BESIDE_MEDIAN_M: f64 = 4e-3;
 const PASSAGE_M: f64 = 0.12;
 /// Height of the ankles: what hangs lower is placed as if the foot were not there, m.
 const ANKLE_M: f64 = 0.09;
+/// Height of the instep, m: the front of a leg that began lower would have the foot through it.
+const INSTEP_M: f64 = 0.11;
+/// Sine of the angle from the side of a leg from which on all of it lies above the foot.
+const FRONT: f64 = 0.7;
 /// Where the fork is sought in a leg without a centre seam: share of its height.
 const USUAL_FORK: f64 = 0.75;
 
@@ -49,6 +54,8 @@ struct LegFace {
     side: f64,
     /// Height in the sheet of the fork.
     fork: f64,
+    /// Height in the sheet of its lowest point.
+    hem: f64,
     /// Heights between which rows go from side to side: beyond them slope the hem and the waist edge.
     full: [f64; 2],
 }
@@ -93,7 +100,7 @@ impl<'a> Leg<'a> {
             let (low, high) = sheet.bounds(joins.garment);
             let fork = seam.reduce(f64::min).unwrap_or(low.y + USUAL_FORK * (high.y - low.y));
             let full = full_rows(&sheet, joins.garment);
-            LegFace { sheet, side, fork, full }
+            LegFace { sheet, side, fork, hem: low.y, full }
         };
         Self { form, joins, hand, faces: sheets.into_iter().map(face).collect() }
     }
@@ -108,7 +115,7 @@ impl<'a> Leg<'a> {
 
     fn at(&self, face: &LegFace, p: V2) -> V3 {
         let above = p.y - face.fork;
-        let height = self.form.body.levels.crotch_m - BELOW_CROTCH_M + above;
+        let height = self.crotch_m() + above;
         // Outwards is to the right on the back of the right leg and on the front of the left one.
         let outward = -self.hand * face.side;
         let (low, high) = face.row(self.joins.garment, p.y).unwrap_or((p.x, p.x));
@@ -120,11 +127,31 @@ impl<'a> Leg<'a> {
             let (sin, cos) = (angle * inwards).sin_cos();
             ring.centre + V2::new(self.hand * ring.half.x * cos, face.side * ring.half.y * sin) * size
         };
+        let height = self.above_instep(face, height, (PI * inwards).sin());
         let about_leg = on(self.leg_ring(height), PI, 2.0 * PI);
         let about_body = on(self.body_ring(height), FRAC_PI_2, PI);
         let share = (above / PASSAGE_M).clamp(0.0, 1.0);
         let place = about_leg.lerp(&about_body, share * share * (3.0 - 2.0 * share));
         V3::new(self.hand * (self.hand * place.x).max(BESIDE_MEDIAN_M), place.y, height)
+    }
+
+    /// Where a point begins that would lie at `height` if its leg hung straight, `sin` the sine of its angle from the side: the front of
+    /// a leg that is too long is drawn up over the instep, all from half way down.
+    fn above_instep(&self, face: &LegFace, height: f64, sin: f64) -> f64 {
+        let instep = INSTEP_M.min(self.crotch_m());
+        let hem = self.crotch_m() + face.hem - face.fork;
+        let half_way = 0.5 * (self.crotch_m() + instep);
+        if face.side < 0.0 || height >= half_way || hem >= instep {
+            return height;
+        }
+        let drawn_up = half_way - (half_way - height) * (half_way - instep) / (half_way - hem);
+        let share = (sin / FRONT).clamp(0.0, 1.0);
+        height + (drawn_up - height) * share * share * (3.0 - 2.0 * share)
+    }
+
+    /// Height of the fork, m.
+    fn crotch_m(&self) -> f64 {
+        self.form.body.levels.crotch_m - BELOW_CROTCH_M
     }
 
     /// Width of a face at a height above its fork.
@@ -134,7 +161,7 @@ impl<'a> Leg<'a> {
 
     /// About the leg; above the crotch and below the ankle as there.
     fn leg_ring(&self, height: f64) -> Ring {
-        let crotch = self.form.body.levels.crotch_m - BELOW_CROTCH_M;
+        let crotch = self.crotch_m();
         self.ring(height.clamp(ANKLE_M.min(crotch), crotch), |p| p.x * self.hand > 0.0)
     }
 

@@ -61,6 +61,19 @@ fn legs_start_on_their_own_side() {
     }
 }
 
+#[test]
+fn legs_that_are_too_long_begin_clear_of_the_feet() {
+    let short = body::build(&Measurements::of(Sex::Male, 1.5)).expect("a body");
+    let surface = Surface::new(&short.mesh).expect("a closed body");
+    let garment = garment(Model::Trousers);
+    let x = place(&short, &garment, &Params::default()).expect("all roles are known");
+    let lowest = x.iter().map(|p| p.z).fold(f64::MAX, f64::min);
+    assert!(lowest < 0.02, "they reach down to {lowest} m");
+    let middles = garment.triangles.iter().map(|t| t.iter().map(|v| x[*v]).sum::<V3>() / 3.0);
+    let deepest = middles.filter(|p| p.z < 0.3).map(|p| surface.signed_distance(&p)).fold(f64::MAX, f64::min);
+    assert!(deepest > 0.0, "a triangle lies {deepest} m within a foot");
+}
+
 /// A panel of straight edges, or of those that say otherwise, cm.
 fn panel(corners: &[[f64; 2]], [x, z]: [f64; 2], curved: &[(usize, Value)]) -> Value {
     let edge = |k: usize| {
