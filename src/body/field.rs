@@ -1,7 +1,7 @@
 //! The skin as one implicit surface: body parts joined smoothly.
 
 use super::loft::{Loft, Part, Sample};
-use crate::geom::V3;
+use crate::geom::{V3, smooth_step};
 
 /// Spacing of the tables of the lofts, metres.
 const TABLE_STEP: f64 = 0.004;
@@ -74,7 +74,7 @@ impl Parts {
         let share = closeness(arm, ARM_SEAM).max(closeness(leg, LEG_SEAM));
         let on_hand =
             if arm < HAND_SKIN { ((self.arm.along(right) - self.hand_start) / HAND_SKIN).clamp(0.0, 1.0) } else { 0.0 };
-        (share * share * (3.0 - 2.0 * share)).max(HAND_FAIRING * on_hand)
+        smooth_step(share).max(HAND_FAIRING * on_hand)
     }
 
     /// The field alone.

@@ -5,7 +5,7 @@ use super::atlas::Atlas;
 use super::dimension::{COUNT, Dimension};
 use super::interpolate::Monotone;
 use super::loft::{Part, Shape, Station};
-use crate::geom::{V2, V3};
+use crate::geom::{V2, V3, smooth_step};
 
 /// Slope of the shoulder line, radians.
 const SHOULDER_SLOPE: f64 = 20.0 * std::f64::consts::PI / 180.0;
@@ -223,8 +223,7 @@ impl<'a> Figure<'a> {
         ];
         let section = |(at, half_width): (f64, f64)| {
             let [front, back] = outline.clone().map(|curve| curve.at(at / h) * h);
-            let upness = ((at - axilla.at) / (z_shoulder - axilla.at)).clamp(0.0, 1.0);
-            let fullness = 1.0 - upness * upness * (3.0 - 2.0 * upness);
+            let fullness = 1.0 - smooth_step((at - axilla.at) / (z_shoulder - axilla.at));
             let (front, back) = self.grown(axilla, at, front, back, neck);
             Station {
                 at,

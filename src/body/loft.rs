@@ -2,7 +2,7 @@
 //! surface through them.
 
 use super::interpolate::Monotone;
-use crate::geom::{V2, V3, hull};
+use crate::geom::{V2, V3, hull, smooth_step};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::LazyLock;
 
@@ -104,8 +104,7 @@ pub(super) struct Part {
 impl Part {
     /// How far a place is the part's own, more than 0 to 1.
     pub fn own(&self, at: f64) -> f64 {
-        let share = self.root.map_or(1.0, |[none, all]| ((at - none) / (all - none)).clamp(1e-3, 1.0));
-        share * share * (3.0 - 2.0 * share)
+        self.root.map_or(1.0, |[none, all]| smooth_step(((at - none) / (all - none)).max(1e-3)))
     }
 
     /// Sections at the given places along the axis, tabulated.

@@ -10,7 +10,7 @@ use super::loft::{Loft, Part, Ring, column};
 use super::surface::Skin;
 use super::{Measurements, Sex, anthropometry::Profile};
 use crate::geom::contour::Grid;
-use crate::geom::{TriMesh, V2, V3};
+use crate::geom::{TriMesh, V2, V3, smooth_step};
 use std::sync::LazyLock;
 
 /// Stature and body mass index of the figure whose skin it is, m and kg/m^2: amid the adults it is carried to.
@@ -189,7 +189,7 @@ impl Vertex {
             .into_iter()
             .filter_map(|((part, mirrored), distance)| {
                 let share = 1.0 - (distance - least) / MIXING;
-                let weight = share * share * (3.0 - 2.0 * share) * lofts[part].own(point);
+                let weight = smooth_step(share) * lofts[part].own(point);
                 let point = if mirrored { left } else { point };
                 (share > 0.0).then(|| Tie::new(lofts[part], part, mirrored, weight, point))
             })

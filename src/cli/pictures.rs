@@ -139,8 +139,10 @@ fn modified_ms(path: &Path) -> Option<i64> {
     i64::try_from(modified.duration_since(UNIX_EPOCH).ok()?.as_millis()).ok()
 }
 
-/// Prints the path of a report's page.
+/// Prints the path of a report's page, from the current folder where it lies within.
 fn tell_report(context: &Context, page: &Path) -> Result<(), CliError> {
+    let here = std::env::current_dir().unwrap_or_default();
+    let page = page.strip_prefix(here).unwrap_or(page);
     if context.json {
         context.say(format_args!("report: {}", page.display()));
     } else {

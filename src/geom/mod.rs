@@ -21,3 +21,10 @@ pub use surface::Surface;
 pub type V2 = nalgebra::Vector2<f64>;
 /// A point or vector of space, metres.
 pub type V3 = nalgebra::Vector3<f64>;
+
+/// A smooth step from 0 to 1 while `t` goes from 0 to 1, level at both ends.
+#[must_use]
+pub fn smooth_step(t: f64) -> f64 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}

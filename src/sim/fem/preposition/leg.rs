@@ -10,7 +10,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use super::form::{Form, Hand};
 use super::sheet::{Joins, Sheet};
 use super::trunk::CLEARANCE_M;
-use crate::geom::{V2, V3};
+use crate::geom::{V2, V3, smooth_step};
 use crate::pattern::{Garment, Role};
 
 /// How far below the body's crotch the garment's starts, m.
@@ -19,7 +19,7 @@ const BELOW_CROTCH_M: f64 = 0.02;
 const BESIDE_MEDIAN_M: f64 = 4e-3;
 /// Height over which rows pass from the leg to the body, m.
 const PASSAGE_M: f64 = 0.12;
-/// Height of the ankles: what hangs lower is placed as if the foot were not there, m.
+/// Height of the ankles: what hangs lower at the sides and behind is placed as if the foot were not there, m.
 const ANKLE_M: f64 = 0.09;
 /// Height of the instep, m: the front of a leg that began lower would have the foot through it.
 const INSTEP_M: f64 = 0.11;
@@ -130,8 +130,7 @@ impl<'a> Leg<'a> {
         let height = self.above_instep(face, height, (PI * inwards).sin());
         let about_leg = on(self.leg_ring(height), PI, 2.0 * PI);
         let about_body = on(self.body_ring(height), FRAC_PI_2, PI);
-        let share = (above / PASSAGE_M).clamp(0.0, 1.0);
-        let place = about_leg.lerp(&about_body, share * share * (3.0 - 2.0 * share));
+        let place = about_leg.lerp(&about_body, smooth_step(above / PASSAGE_M));
         V3::new(self.hand * (self.hand * place.x).max(BESIDE_MEDIAN_M), place.y, height)
     }
 
@@ -145,8 +144,7 @@ impl<'a> Leg<'a> {
             return height;
         }
         let drawn_up = half_way - (half_way - height) * (half_way - instep) / (half_way - hem);
-        let share = (sin / FRONT).clamp(0.0, 1.0);
-        height + (drawn_up - height) * share * share * (3.0 - 2.0 * share)
+        height + (drawn_up - height) * smooth_step(sin / FRONT)
     }
 
     /// Height of the fork, m.
