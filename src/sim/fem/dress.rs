@@ -56,7 +56,8 @@ impl Dressing<'_> {
     /// monitor cancels.
     pub fn dress(&self, grip: Grip, run: &mut Run) -> Result<Settled, SimError> {
         let Some(coarsest) = self.garments.first() else { return Err(SimError::NoMesh) };
-        let soft = Around { skin: self.skin, field: self.field, hands: self.hands, contact: run.params().contact };
+        let Params { contact, self_contact, .. } = *run.params();
+        let soft = Around { skin: self.skin, field: self.field, hands: self.hands, contact, self_contact };
         if grip == Grip::Throughout {
             run.keep_up(self.placed);
         }
@@ -149,7 +150,7 @@ impl Dressing<'_> {
         let springs = Springs::new(garment, params.seam_stiffness_n_m, self.force * params.seam_cap_n);
         let sewn = springs.pairs.clone();
         let mut system = System::new(&cloth, contact, Some(springs));
-        let apart = ClothContact::new(params.self_contact, &cloth.triangles, &cloth.areas);
+        let apart = ClothContact::new(around.self_contact, &cloth.triangles, &cloth.areas);
         system.self_contact = Some(apart.but_near(sewn.into_iter()));
         let vertex_of = sewing::welded(garment);
         let walls = Walls::new(self.body, garment, &vertex_of, &sewing::merged(&vertex_of, x));

@@ -5,7 +5,7 @@ use super::run::{Phase, Run};
 use crate::geom::{DistanceField, V3};
 use crate::pattern::Garment;
 use crate::sim::cloth::Cloth;
-use crate::sim::contact::{BodyContact, ClothContact, ContactParams, Skin, contact_areas};
+use crate::sim::contact::{BodyContact, ClothContact, ClothContactParams, ContactParams, Skin, contact_areas};
 use crate::sim::solver::System;
 use crate::sim::{Fabric, SimError};
 
@@ -15,6 +15,8 @@ const DEEPEST_M: f64 = 3e-4;
 const HOLDING_ROUNDS: usize = 8;
 /// Penalty of the contact with the body where cloth is drawn tight or over a hand, N/m3: fingertips press through a softer one.
 const HARD_N_M3: f64 = 1e9;
+/// Penalty of the cloth's contact with itself there, N/m3: where a seat is drawn tight, a softer one lets layers through.
+const HARD_LAYERS_N_M3: f64 = 1e7;
 /// Steps on each shape that a hand passes through.
 const PASSING_STEPS: u32 = 12;
 
@@ -38,13 +40,16 @@ pub struct Around<'a> {
     pub hands: Option<&'a Hands<'a>>,
     /// How the body pushes.
     pub contact: ContactParams,
+    /// How the cloth pushes itself.
+    pub self_contact: ClothContactParams,
 }
 
 impl Around<'_> {
-    /// The same with a contact that does not give way under cloth that is drawn tight.
-    pub fn hardened(self) -> Self {
-        let stiffness_n_m3 = self.contact.stiffness_n_m3.max(HARD_N_M3);
-        Self { contact: ContactParams { stiffness_n_m3, ..self.contact }, ..self }
+    /// The same with contacts that do not give way under cloth that is drawn tight.
+    pub fn hardened(mut self) -> Self {
+        self.contact.stiffness_n_m3 = self.contact.stiffness_n_m3.max(HARD_N_M3);
+        self.self_contact.stiffness_n_m3 = self.self_contact.stiffness_n_m3.max(HARD_LAYERS_N_M3);
+        self
     }
 }
 
@@ -89,7 +94,7 @@ impl Settling<'_> {
         let (hands, finest) = (around.hands.into_iter(), run.levels());
         let shapes: Vec<(Shape, DistanceField)> = hands.flat_map(|hands| hands.of_level(level, finest)).collect();
         let begin = shapes.first().map_or(around.field, |(_, field)| field);
-        let own = params.self_contact;
+        let own = around.self_contact;
         let areas = contact_areas(self.garment, &cloth.vertex_of, &cloth.areas, 2.0 * own.thickness_m);
         let mut system = System::new(cloth, self.contact(begin, &x, run), None);
         system.self_contact = Some(ClothContact::new(own, &cloth.triangles, &areas));
@@ -169,5 +174,25 @@ impl Settling<'_> {
             }
         }
         Ok(residual)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::fem::Params;
+    use crate::sim::laboratory;
+
+    #[test]
+    fn what_is_drawn_tight_meets_harder_contacts_but_none_softer_than_asked_for() {
+        let (field, params) = (laboratory::nowhere(), Params::default());
+        let check = |asked: [f64; 2], expect: [f64; 2]| {
+            let contact = ContactParams { stiffness_n_m3: asked[0], ..params.contact };
+            let self_contact = ClothContactParams { stiffness_n_m3: asked[1], ..params.self_contact };
+            let around = Around { skin: None, field: &field, hands: None, contact, self_contact }.hardened();
+            assert_eq!([around.contact.stiffness_n_m3, around.self_contact.stiffness_n_m3], expect);
+        };
+        check([params.contact.stiffness_n_m3, params.self_contact.stiffness_n_m3], [HARD_N_M3, HARD_LAYERS_N_M3]);
+        check([1e10, 1e8], [1e10, 1e8]);
     }
 }
