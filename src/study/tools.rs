@@ -149,7 +149,7 @@ pub fn drafted(model: Model) -> Vec<(String, Vec<u8>)> {
     model.files()
 }
 
-/// Measurements from a TOML file with the keys of a study's `[[subject]]`.
+/// Measurements from a TOML file with those of a study's `[[subject]]`.
 ///
 /// # Errors
 /// Everything that is wrong with the file, at once.

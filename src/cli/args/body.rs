@@ -86,7 +86,7 @@ pub struct BodyBuild {
     /// Sex.
     #[arg(long, value_enum, required_unless_present_any = ["subject", "measurements", "scan"])]
     pub sex: Option<Sex>,
-    /// TOML file with the keys of a study's [[subject]], without its id.
+    /// TOML file with the measurements of a study's [[subject]].
     #[arg(long, value_name = "FILE", conflicts_with = "subject")]
     pub measurements: Option<PathBuf>,
     /// Stature.

@@ -298,7 +298,7 @@ pub(super) fn garments(path: &Path, text: &str) -> std::result::Result<Vec<Place
     parse::entries(path, text, |reader, top| garments::all_sewn(reader, top, folder))
 }
 
-/// Measurements from the text of a file with the keys of a `[[subject]]`.
+/// Measurements from the text of a file with those of a `[[subject]]`.
 ///
 /// # Errors
 /// [`StudyError::File`] with everything that is wrong.

@@ -89,7 +89,7 @@ pub(super) fn measurements_file(path: &Path, text: &str) -> Result<Measurements,
     let (mut reader, document) = open(path, text)?;
     let top = Place { name: "measurements".into(), span: 0..0, table: document.get_ref() };
     reader.only(&top, &keys::<Measurements>());
-    match measurements(&mut reader, &top) {
+    match measurements(&mut reader, &top, "") {
         Some(measurements) if reader.problems.is_empty() => Ok(measurements),
         _ => Err(reader.problems),
     }

@@ -12,6 +12,9 @@ use super::reader::{Place, Reader};
 use super::{Placed, ScanFile, SourceFile, Subject};
 use crate::body::{LengthUnit, Measurements, Sex};
 
+/// What else a subject of a study may be.
+const OR_NAMED: &str = ", or name a catalogue entry with `like`";
+
 /// All subjects.
 pub(super) fn subjects(
     reader: &mut Reader<'_>,
@@ -36,7 +39,7 @@ pub(super) fn subjects(
                 alone(reader, &place, &["id", "scan", "sex", "unit"]);
                 scanned(reader, &place, &file, folder).map(|(measurements, scan)| (measurements, Some(scan)))
             }
-            (None, None) => measurements(reader, &place).map(|measurements| (measurements, None)),
+            (None, None) => measurements(reader, &place, OR_NAMED).map(|measurements| (measurements, None)),
         };
         subjects.extend(found.map(|(measurements, scan)| {
             let subject = Subject { id: (*id.get_ref()).to_owned(), measurements, scan };
@@ -80,9 +83,9 @@ fn scanned(
     }
 }
 
-/// The measurements of a place's keys.
-pub(super) fn measurements(reader: &mut Reader<'_>, place: &Place<'_>) -> Option<Measurements> {
-    let word = reader.need_text(place, "sex", "\"male\" or \"female\", or name a catalogue entry with `like`");
+/// The measurements of a place's keys; `or` is what it may be else.
+pub(super) fn measurements(reader: &mut Reader<'_>, place: &Place<'_>, or: &str) -> Option<Measurements> {
+    let word = reader.need_text(place, "sex", &format!("\"male\" or \"female\"{or}"));
     let sex = word.and_then(|word| sex_of(reader, place, &word));
     let measurements = numbers(reader, place, Measurements::blank(""), "millimetres, as in `toile subject ls`");
     Some(Measurements { sex: sex?, ..measurements? })

@@ -93,6 +93,14 @@ fn broken_toml_names_its_line() {
 }
 
 #[test]
+fn only_a_studys_subject_may_be_named() {
+    let told = |text: &str| measurements(Path::new("anna.toml"), text).expect_err("no sex").to_string();
+    assert!(load(&GOOD.replace("like = \"male-ii\"", "stature_mm = 1700")).expect_err("no sex").contains("`like`"));
+    let told = told("stature_mm = 1700");
+    assert!(told.contains("`sex` is missing") && !told.contains("like"), "{told}");
+}
+
+#[test]
 fn a_subject_may_be_a_scan() {
     let folder = tempfile::tempdir().expect("a folder");
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("writable");
