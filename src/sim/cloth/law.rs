@@ -102,6 +102,12 @@ impl Fibre {
         Self { rest, rise: (stretched - rest).max(0.0) / until, until }
     }
 
+    /// The same law with so many times the stiffness.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
+        Self { rest: factor * self.rest, rise: factor * self.rise, ..self }
+    }
+
     /// Stress, N/m.
     #[must_use]
     #[inline(always)]
@@ -161,6 +167,17 @@ impl Orthotropic {
         }
     }
 
+    /// The same law with so many times the stiffness.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
+        Self {
+            weft: self.weft.times(factor),
+            c12: factor * self.c12,
+            warp: self.warp.times(factor),
+            shear: factor * self.shear,
+        }
+    }
+
     /// Stress of a strain, N/m.
     #[must_use]
     #[inline(always)]
@@ -213,6 +230,8 @@ mod tests {
         let strain = |stretch: f64| stretch * (1.0 + 0.5 * stretch);
         assert!((law.stress(strain(0.17)) / strain(0.17) - 811.7).abs() < 1e-9);
         assert!((law.tangent(0.0) - 68.95).abs() < 1e-12 && (law.stress(-0.1) + 6.895).abs() < 1e-12);
+        let softer = law.times(0.1);
+        assert!((softer.stress(0.3) / law.stress(0.3) - 0.1).abs() < 1e-12);
         let h = 1e-6;
         let scale = law.stress(0.1);
         for e in [-0.2, -1e-3, 1e-3, 0.05, strain(0.17) - 2.0 * h, strain(0.17) + 2.0 * h, 0.4] {

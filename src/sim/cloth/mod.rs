@@ -80,6 +80,14 @@ impl Cloth {
         })
     }
 
+    /// The same cloth with so many times the stiffness in its plane; it bends as before.
+    #[must_use]
+    pub fn stretching(&self, factor: f64) -> Self {
+        let mut cloth = self.clone();
+        cloth.membrane.material = cloth.membrane.material.times(factor);
+        cloth
+    }
+
     /// Number of simulated vertices.
     #[must_use]
     pub fn len(&self) -> usize {

@@ -16,7 +16,7 @@ use crate::sim::sewing::Springs;
 use crate::sim::walls::Walls;
 
 /// Standard gravity, m/s2.
-const GRAVITY: f64 = 9.80665;
+pub const GRAVITY: f64 = 9.80665;
 
 /// Stiffness that holds a vertex, N/m: beyond that of any fabric by six orders.
 const HELD_STIFFNESS: f64 = 1e10;
