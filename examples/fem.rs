@@ -16,6 +16,7 @@ use toile::pattern::draft::Model;
 use toile::pattern::{Garment, Style, dxf, garmentcode, propose};
 use toile::sim::fem::{self, Params};
 use toile::sim::{Distortion, Drape, Fabric, Monitor, Progress, fabric};
+use toile::units::GRAVITY;
 
 type Outcome<T = ()> = Result<T, Box<dyn Error>>;
 
@@ -23,8 +24,6 @@ type Outcome<T = ()> = Result<T, Box<dyn Error>>;
 const SPACING_M: f64 = 0.005;
 /// Edge length of the meshes, m: likewise.
 const EDGE_M: f64 = 0.015;
-/// Standard gravity, m/s2.
-const GRAVITY: f64 = 9.80665;
 /// A rib as long as the neck's edge, added to the T-shirt's seam file.
 const RIB: &str = "
 [[reinforce]]

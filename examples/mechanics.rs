@@ -14,7 +14,8 @@ use toile::sim::Fabric;
 use toile::sim::fabric;
 use toile::sim::laboratory::bending::{Mesh, cantilever, elastica, lateral_buckling};
 use toile::sim::laboratory::drape::{cusick, over_sphere};
-use toile::sim::laboratory::{GRAVITY, isotropic};
+use toile::sim::laboratory::isotropic;
+use toile::units::GRAVITY;
 
 type Outcome = Result<(), Box<dyn Error>>;
 

@@ -1,4 +1,8 @@
-//! Conversions at the edges: SI inside, millimetres, degrees and milliseconds in what users read and write.
+//! Conversions at the edges: SI inside, millimetres, degrees and milliseconds in what users read and write; and what
+//! all weigh things by.
+
+/// Standard gravity, m/s2.
+pub const GRAVITY: f64 = 9.80665;
 
 /// Metres to millimetres.
 #[must_use]

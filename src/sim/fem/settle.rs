@@ -7,8 +7,8 @@ use crate::pattern::Garment;
 use crate::sim::cloth::Cloth;
 use crate::sim::contact::{BodyContact, ClothContact, ClothContactParams, ContactParams, Skin, contact_areas};
 use crate::sim::solver::System;
-use crate::sim::solver::system::GRAVITY;
 use crate::sim::{Fabric, SimError};
+use crate::units::GRAVITY;
 
 /// Deepest point of a drape that is good, m.
 const DEEPEST_M: f64 = 3e-4;
@@ -105,16 +105,14 @@ impl Settling<'_> {
         let (hands, finest) = (around.hands.into_iter(), run.levels());
         let shapes: Vec<(Shape, DistanceField)> = hands.flat_map(|hands| hands.of_level(level, finest)).collect();
         let begin = shapes.first().map_or(around.field, |(_, field)| field);
-        let own = around.self_contact;
-        let areas = contact_areas(self.garment, &cloth.vertex_of, &cloth.areas, 2.0 * own.thickness_m);
+        let thickness_m = around.self_contact.thickness_m;
+        let areas = contact_areas(self.garment, &cloth.vertex_of, &cloth.areas, 2.0 * thickness_m);
         for share in self.eased_shares(finest) {
             let eased = cloth.stretching(share);
-            let mut system = System::new(&eased, self.contact(begin, &x, run), None);
-            system.self_contact = Some(ClothContact::new(own, &cloth.triangles, &areas));
+            let mut system = self.system(&eased, &areas, self.contact(begin, &x, run));
             run.drape(self.garment, &mut system, &mut x, Phase::eased(params, level, finest))?;
         }
-        let mut system = System::new(cloth, self.contact(begin, &x, run), None);
-        system.self_contact = Some(ClothContact::new(own, &cloth.triangles, &areas));
+        let mut system = self.system(cloth, &areas, self.contact(begin, &x, run));
         let mut residual = f64::MAX;
         for (shape, field) in &shapes {
             system.contact = self.contact(field, &x, run);
@@ -133,6 +131,13 @@ impl Settling<'_> {
             residual = self.hold(&mut system, &mut x, run)?;
         }
         Ok(Settled { positions: cloth.unweld(&x), residual, yields_m, sewn: x, triangles: cloth.triangles.clone() })
+    }
+
+    /// A cloth of this mesh in contact with the body and with itself; `areas` are those of the latter.
+    fn system<'c>(&self, cloth: &'c Cloth, areas: &'c [f64], contact: BodyContact<'c>) -> System<'c> {
+        let mut system = System::new(cloth, contact, None);
+        system.self_contact = Some(ClothContact::new(self.around.self_contact, &cloth.triangles, areas));
+        system
     }
 
     /// Shares of its stiffness in the plane with which the cloth lies down at first, where `finest` is the last level.

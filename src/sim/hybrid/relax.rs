@@ -16,6 +16,7 @@ use crate::pattern::{Garment, Measurement};
 use crate::sim::cloth::Cloth;
 use crate::sim::walls::Walls;
 use crate::sim::{Fabric, SimError};
+use crate::units::GRAVITY;
 
 /// Parameters of the steps of pop-up and drape.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -60,9 +61,6 @@ impl Default for RelaxParams {
         }
     }
 }
-
-/// Standard gravity, m/s2.
-const GRAVITY: f64 = 9.80665;
 
 /// A garment under way from the body's surface to its rest.
 pub struct Relaxation<'a> {

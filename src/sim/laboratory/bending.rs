@@ -3,9 +3,10 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::sheets::{Flat, hexagonal_sheet, jittered, sheet};
-use super::{GRAVITY, Specimen, isotropic};
+use super::{Specimen, isotropic};
 use crate::geom::V3;
 use crate::sim::SimError;
+use crate::units::GRAVITY;
 
 /// How a specimen is meshed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -17,9 +17,6 @@ use crate::sim::{Fabric, SimError};
 
 use sheets::Flat;
 
-/// Standard gravity, m/s2.
-pub const GRAVITY: f64 = 9.80665;
-
 /// A flat piece of cloth, grain along v, that some vertices hold.
 pub struct Specimen {
     /// The piece as a garment without seams.

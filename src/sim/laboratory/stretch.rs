@@ -1,9 +1,10 @@
 //! Stretching in the plane: a patch, a biaxial sheet, a strip that hangs.
 
+use super::Specimen;
 use super::sheets::{hexagonal_sheet, jittered, shaken};
-use super::{GRAVITY, Specimen};
 use crate::geom::{V2, V3};
 use crate::sim::{Fabric, SimError};
+use crate::units::GRAVITY;
 
 /// A sheet whose sides are held where the deformation gradient `gradient` (columns: images of weft and warp) puts them:
 /// greatest distance of an inner vertex from where the same deformation would put it, and the tension across a line

@@ -14,9 +14,7 @@ use crate::sim::cloth::membrane::Foreseen;
 use crate::sim::contact::{BodyContact, ClothContact};
 use crate::sim::sewing::Springs;
 use crate::sim::walls::Walls;
-
-/// Standard gravity, m/s2.
-pub const GRAVITY: f64 = 9.80665;
+use crate::units::GRAVITY;
 
 /// Stiffness that holds a vertex, N/m: beyond that of any fabric by six orders.
 const HELD_STIFFNESS: f64 = 1e10;

@@ -7,9 +7,7 @@ use super::super::workspace::Workspace;
 use super::fields::{Entry, FABRIC_NUMBERS};
 use super::known::{columns, read_numbers};
 use crate::sim::Fabric;
-
-/// Standard gravity, m/s2.
-const GRAVITY: f64 = 9.80665;
+use crate::units::GRAVITY;
 
 /// A fabric of the catalogue.
 #[derive(Clone, Debug, PartialEq)]

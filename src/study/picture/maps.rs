@@ -9,6 +9,7 @@ use crate::sim::cloth::Cloth;
 use crate::sim::cloth::law::{Orthotropic, Tensor};
 use crate::sim::cloth::membrane::Element;
 use crate::sim::{Fabric, SimError, sewing};
+use crate::units::GRAVITY;
 
 /// What colours the cloth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,8 +38,6 @@ const TENSION_REACH: f64 = 100.0;
 const PRESSURE_REACH_KPA: f64 = 2.0;
 /// chi at the ends of its colour scale, to both sides of 1, as in the report's tables.
 const CHI_REACH: f64 = 0.15;
-/// Standard gravity, m/s2.
-const GRAVITY: f64 = 9.806_65;
 /// Gap at the ends of its colour scale, mm; below 0 the cloth lies within the body.
 const GAP_REACH_MM: f64 = 100.0;
 
