@@ -59,7 +59,7 @@ impl Dressing<'_> {
         let Params { contact, self_contact, .. } = *run.params();
         let soft = Around { skin: self.skin, field: self.field, hands: self.hands, contact, self_contact };
         if grip == Grip::Throughout {
-            run.keep_up(self.placed);
+            run.keep_up(coarsest, self.placed);
         }
         let (mut sewn, yields_m) = self.sew(coarsest, soft, grip, run)?;
         let is_drawn_in = yields_m > SEWN_INTO_M;
@@ -71,7 +71,7 @@ impl Dressing<'_> {
             }
         }
         closed(coarsest, &sewn)?;
-        run.keep_up(&sewn);
+        run.keep_up(coarsest, &sewn);
         match self.refine(around, &sewn, grip, run) {
             // Nothing but friction may hold it up.
             Err(SimError::SlidOff { .. }) if grip == Grip::AtTheEnd => {

@@ -19,7 +19,7 @@ use crate::sim::{Distortion, Drape, Fabric, Monitor, SimError, Stage};
 
 use dress::Dressing;
 use hands::Hands;
-use run::Run;
+use run::{Run, top_m};
 use settle::{Grip, Settled};
 
 /// Deepest point inside the body of a drape without fault, m.
@@ -85,7 +85,9 @@ pub fn simulate(
         other => (other?, Grip::AtTheEnd),
     };
     let mut drape = ended(settled);
-    let is_off = |drape: &Drape| rise_m(&placed, &drape.positions) > MOST_RISE_M;
+    // How far its top has come up from where it was placed.
+    let rise_m = |drape: &Drape| top_m(finest, &drape.positions) - top_m(coarsest, &placed);
+    let is_off = |drape: &Drape| rise_m(drape) > MOST_RISE_M;
     let came_off = is_off(&drape);
     for Start { placed, force, grip } in other_starts(&dressing, grip, &drape, came_off, params)? {
         if !came_off && run.vertex_steps() > MOST_TRIED {
@@ -102,7 +104,7 @@ pub fn simulate(
         }
     }
     if is_off(&drape) {
-        return Err(SimError::CameOff { garment: finest.name.clone(), rise_m: rise_m(&placed, &drape.positions) });
+        return Err(SimError::CameOff { garment: finest.name.clone(), rise_m: rise_m(&drape) });
     }
     Ok(Drape { iterations: run.iterations(), history: run.into_history(), ..drape })
 }
@@ -167,12 +169,6 @@ fn is_better(one: &Drape, other: &Drape) -> bool {
         |drape: &Drape| (!drape.converged, drape.self_crossings, drape.penetration_max_m.max(FAULTLESS_DEPTH_M));
     let ((moves, crossings, depth_m), (others, other_crossings, other_m)) = (faults(one), faults(other));
     moves <= others && crossings <= other_crossings && depth_m <= other_m && faults(one) != faults(other)
-}
-
-/// How far the top of a garment has come up from where it was placed, m.
-fn rise_m(placed: &[V3], draped: &[V3]) -> f64 {
-    let top_m = |x: &[V3]| x.iter().map(|p| p.z).fold(f64::MIN, f64::max);
-    top_m(draped) - top_m(placed)
 }
 
 #[cfg(test)]

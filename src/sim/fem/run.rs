@@ -1,7 +1,7 @@
 //! The loop that both phases of FEM-GS share: step, record, report, stop.
 
 use crate::geom::V3;
-use crate::pattern::{Garment, Measurement};
+use crate::pattern::{Garment, Measurement, Role};
 use crate::sim::solver::{StepInfo, StepParams, Stepper, System};
 use crate::sim::{Monitor, Progress, SimError, Step};
 
@@ -23,8 +23,8 @@ pub struct Phase {
 }
 
 /// Residual at which cloth that stretches more easily than its own has lain down for now.
-const EASED_TOLERANCE: f64 = 10.0;
-/// Most steps of such cloth: it takes about ten.
+const EASED_TOLERANCE: f64 = 3.0;
+/// Most steps of such cloth: it takes about twenty.
 const EASED_STEPS: u32 = 40;
 /// First step size of the end of a drape, s: it goes on with cloth that has lain down already.
 const LAIN_DOWN_S: f64 = 0.5;
@@ -98,8 +98,8 @@ impl<'a> Run<'a> {
     }
 
     /// From here on a garment whose top comes down far from that of `sewn` ends the run.
-    pub fn keep_up(&mut self, sewn: &[V3]) {
-        self.worn_at_m = Some(height_m(sewn));
+    pub fn keep_up(&mut self, garment: &Garment, sewn: &[V3]) {
+        self.worn_at_m = Some(top_m(garment, sewn));
     }
 
     /// The finest level.
@@ -211,7 +211,7 @@ impl<'a> Run<'a> {
         if !x.iter().all(|p| p.iter().all(|c| c.is_finite())) {
             return Err(SimError::Diverged { garment: garment.name.clone(), iteration: self.iteration });
         }
-        let descent_m = self.worn_at_m.map_or(0.0, |worn_at| worn_at - height_m(positions));
+        let descent_m = self.worn_at_m.map_or(0.0, |worn_at| worn_at - top_m(garment, positions));
         if descent_m > MOST_DESCENT_M {
             return Err(SimError::SlidOff { garment: garment.name.clone(), descent_m });
         }
@@ -232,13 +232,44 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Height of the highest vertex, m: what flares comes down, but its top does not.
-fn height_m(positions: &[V3]) -> f64 {
-    positions.iter().map(|p| p.z).fold(f64::MIN, f64::max)
+/// Height of the highest vertex of what is worn on trunk or limbs, m: what flares comes down, but its top does not; a hood falls back.
+pub fn top_m(garment: &Garment, positions: &[V3]) -> f64 {
+    let height_m = |vertices: &[V3]| vertices.iter().map(|p| p.z).fold(f64::MIN, f64::max);
+    let worn = garment.pieces.iter().filter(|piece| piece.role != Role::Other);
+    let top_m = worn.map(|piece| height_m(&positions[piece.vertices.clone()])).fold(f64::MIN, f64::max);
+    if top_m > f64::MIN { top_m } else { height_m(positions) }
 }
 
 /// E of the moment: the mean of L3D / L2D over the garment's measurements; not a number when it has none.
 fn mean_chi(garment: &Garment, positions: &[V3]) -> f64 {
     let chi = |m: &Measurement| m.length_m(&garment.rest, positions) / m.l2d_m;
     garment.measurements.iter().map(chi).sum::<f64>() / garment.measurements.len() as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pattern::PieceMesh;
+    use crate::sim::laboratory::{self, sheets};
+
+    #[test]
+    fn a_hood_that_falls_back_takes_no_garment_down() {
+        let mut garment = laboratory::garment(sheets::sheet(1, 2, 0.1));
+        let whole = garment.pieces[0].clone();
+        let at = |heights_m: [f64; 6]| heights_m.map(|z| V3::new(0.0, 0.0, z));
+        let check = |garment: &Garment, expect: f64| {
+            assert_eq!(top_m(garment, &at([1.1, 1.4, 1.2, 1.3, 1.6, 1.7])), expect);
+        };
+        let trunk_and = |role: Role| {
+            let trunk = PieceMesh { role: Role::Front, vertices: 0..4, ..whole.clone() };
+            vec![trunk, PieceMesh { role, vertices: 4..6, ..whole.clone() }]
+        };
+        garment.pieces = trunk_and(Role::Other);
+        check(&garment, 1.4);
+        garment.pieces = trunk_and(Role::Back);
+        check(&garment, 1.7);
+        // Where it is not known what anything is worn as, all counts.
+        garment.pieces.iter_mut().for_each(|piece| piece.role = Role::Other);
+        check(&garment, 1.7);
+    }
 }
