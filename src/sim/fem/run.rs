@@ -236,8 +236,8 @@ impl<'a> Run<'a> {
 pub fn top_m(garment: &Garment, positions: &[V3]) -> f64 {
     let height_m = |vertices: &[V3]| vertices.iter().map(|p| p.z).fold(f64::MIN, f64::max);
     let worn = garment.pieces.iter().filter(|piece| piece.role != Role::Other);
-    let top_m = worn.map(|piece| height_m(&positions[piece.vertices.clone()])).fold(f64::MIN, f64::max);
-    if top_m > f64::MIN { top_m } else { height_m(positions) }
+    let tops_m = worn.map(|piece| height_m(&positions[piece.vertices.clone()]));
+    tops_m.reduce(f64::max).unwrap_or_else(|| height_m(positions))
 }
 
 /// E of the moment: the mean of L3D / L2D over the garment's measurements; not a number when it has none.
