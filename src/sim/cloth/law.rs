@@ -72,6 +72,9 @@ impl<N: Number> Mul<N> for Tensor<N> {
     }
 }
 
+/// Green strain from which on slackened cloth is no longer slack.
+const SLACK: f64 = 0.01;
+
 /// The law of one direction of the grain: stress against Green strain, N/m.
 ///
 /// Knits stiffen as their loops straighten. Under stretch the secant modulus rises linearly with the strain from its value
@@ -102,10 +105,12 @@ impl Fibre {
         Self { rest, rise: (stretched - rest).max(0.0) / until, until }
     }
 
-    /// The same law with so many times the stiffness.
+    /// The same law with a share of its modulus at rest, whose slope rises to what it is anyway by [`SLACK`], or by where a law that
+    /// stiffens has its last: so drawn, cloth is a little longer, and as stiff as ever.
     #[must_use]
-    pub fn times(self, factor: f64) -> Self {
-        Self { rest: factor * self.rest, rise: factor * self.rise, ..self }
+    pub fn slackened(self, share: f64) -> Self {
+        let until = if self.until.is_finite() { self.until } else { SLACK };
+        Self { rest: share * self.rest, rise: self.rise + 0.5 * (1.0 - share) * self.rest / until, until }
     }
 
     /// Stress, N/m.
@@ -167,14 +172,14 @@ impl Orthotropic {
         }
     }
 
-    /// The same law with so many times the stiffness.
+    /// The same law with a share of its stiffness at rest; along the grain it stiffens as it is drawn ([`Fibre::slackened`]).
     #[must_use]
-    pub fn times(self, factor: f64) -> Self {
+    pub fn slackened(self, share: f64) -> Self {
         Self {
-            weft: self.weft.times(factor),
-            c12: factor * self.c12,
-            warp: self.warp.times(factor),
-            shear: factor * self.shear,
+            weft: self.weft.slackened(share),
+            c12: share * self.c12,
+            warp: self.warp.slackened(share),
+            shear: share * self.shear,
         }
     }
 
@@ -223,6 +228,17 @@ impl Orthotropic {
 mod tests {
     use super::*;
 
+    /// Checks that the stress is the slope of the energy, and the tangent that of the stress.
+    fn check_slopes(law: Fibre, scale: f64, strains: &[f64]) {
+        let h = 1e-6;
+        for &e in strains {
+            let slope = (law.energy(e + h) - law.energy(e - h)) / (2.0 * h);
+            assert!((slope - law.stress(e)).abs() < 1e-6 * scale, "stress at {e}");
+            let slope = (law.stress(e + h) - law.stress(e - h)) / (2.0 * h);
+            assert!((slope / law.tangent(e) - 1.0).abs() < 1e-6, "tangent at {e}");
+        }
+    }
+
     #[test]
     fn a_stiffening_law_goes_through_what_was_measured_and_is_its_energys_derivative() {
         // The warp of the gray interlock: 68.95 N/m at rest, 811.7 N/m at 17 % stretch.
@@ -230,15 +246,22 @@ mod tests {
         let strain = |stretch: f64| stretch * (1.0 + 0.5 * stretch);
         assert!((law.stress(strain(0.17)) / strain(0.17) - 811.7).abs() < 1e-9);
         assert!((law.tangent(0.0) - 68.95).abs() < 1e-12 && (law.stress(-0.1) + 6.895).abs() < 1e-12);
-        let softer = law.times(0.1);
-        assert!((softer.stress(0.3) / law.stress(0.3) - 0.1).abs() < 1e-12);
-        let h = 1e-6;
-        let scale = law.stress(0.1);
-        for e in [-0.2, -1e-3, 1e-3, 0.05, strain(0.17) - 2.0 * h, strain(0.17) + 2.0 * h, 0.4] {
-            let slope = (law.energy(e + h) - law.energy(e - h)) / (2.0 * h);
-            assert!((slope - law.stress(e)).abs() < 1e-6 * scale, "stress at {e}");
-            let slope = (law.stress(e + h) - law.stress(e - h)) / (2.0 * h);
-            assert!((slope / law.tangent(e) - 1.0).abs() < 1e-6, "tangent at {e}");
+        let until = strain(0.17);
+        check_slopes(law, law.stress(0.1), &[-0.2, -1e-3, 1e-3, 0.05, until - 2e-6, until + 2e-6, 0.4]);
+    }
+
+    #[test]
+    fn a_slackened_law_is_softer_at_rest_and_as_stiff_once_drawn() {
+        for law in [Fibre::linear(3801.0), Fibre::stiffening(68.95, 811.7, 0.17)] {
+            let slack = law.slackened(0.2);
+            assert!((slack.tangent(0.0) / law.rest - 0.2).abs() < 1e-12);
+            assert!((slack.stress(-0.1) / law.stress(-0.1) - 0.2).abs() < 1e-12);
+            let until = slack.until;
+            for drawn in [until, 0.2, 0.5] {
+                assert!((slack.tangent(drawn) / law.tangent(drawn) - 1.0).abs() < 1e-12);
+                assert!(slack.stress(drawn) < law.stress(drawn));
+            }
+            check_slopes(slack, law.stress(0.1), &[-0.2, -1e-3, 1e-3, until - 2e-6, until + 2e-6, 0.4]);
         }
     }
 

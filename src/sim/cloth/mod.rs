@@ -80,12 +80,11 @@ impl Cloth {
         })
     }
 
-    /// The same cloth with so many times the stiffness in its plane; it bends as before.
+    /// The same cloth with a share of its stiffness in its plane ([`Orthotropic::slackened`]); it bends as before.
     #[must_use]
-    pub fn stretching(&self, factor: f64) -> Self {
-        let mut cloth = self.clone();
-        cloth.membrane.material = cloth.membrane.material.times(factor);
-        cloth
+    pub fn slackened(mut self, share: f64) -> Self {
+        self.membrane.material = self.membrane.material.slackened(share);
+        self
     }
 
     /// Number of simulated vertices.

@@ -27,6 +27,15 @@ const TORN: f64 = 1.25;
 /// A garment that yields this much on a coarse mesh is tight, m: it is about to leave the offset that keeps it outside.
 const TIGHT_M: f64 = 8e-4;
 
+/// Share of its stiffness in the plane that cloth keeps on a mesh for each finer one to come.
+///
+/// A fold stretches the triangles that it does not run along, by the square of their size: coarse cloth folds less than fine cloth, which
+/// then has far to go. Slackened, it folds as the fine cloth will.
+const SLACKENED: f64 = 0.2;
+/// Principal stretch beyond 1 that 1 % of the sewn cloth exceeds where it is drawn tight: there are no folds then, and slack cloth is
+/// drawn out of shape.
+const DRAWN: f64 = 0.1;
+
 /// A garment, placed, and the body that is to wear it.
 pub struct Dressing<'a> {
     /// The body.
@@ -161,6 +170,7 @@ impl Dressing<'_> {
 
     /// Settles the sewn garment on the coarsest mesh, and on each finer one from the one before.
     fn refine(&self, mut around: Around, sewn: &[V3], grip: Grip, run: &mut Run) -> Result<Settled, SimError> {
+        let is_loose = Distortion::of(&self.garments[0], sewn)?.stretch <= DRAWN;
         let mut last: Option<(&Garment, Settled)> = None;
         for (level, garment) in self.garments.iter().enumerate() {
             let cloth = Cloth::new(garment, self.fabric, sewing::welded(garment))?;
@@ -168,6 +178,8 @@ impl Dressing<'_> {
                 None => cloth.weld(sewn),
                 Some((coarser, drape)) => prolong(coarser, &drape.positions, garment, &cloth, self.fabric),
             };
+            let finer = (self.garments.len() - 1 - level) as i32;
+            let cloth = if is_loose && finer > 0 { cloth.slackened(SLACKENED.powi(finer)) } else { cloth };
             let settled =
                 Settling { around, garment, cloth: &cloth, fabric: self.fabric, level, grip }.settle(x, run)?;
             control(garment, &settled.positions, run.params())?;

@@ -22,10 +22,6 @@ pub struct Phase {
     h_start_s: f64,
 }
 
-/// Residual at which cloth that stretches more easily than its own has lain down for now.
-const EASED_TOLERANCE: f64 = 3.0;
-/// Most steps of such cloth: it takes about twenty.
-const EASED_STEPS: u32 = 40;
 /// First step size of the end of a drape, s: it goes on with cloth that has lain down already.
 const LAIN_DOWN_S: f64 = 0.5;
 
@@ -43,11 +39,6 @@ impl Phase {
             share: [at(level), at(level + 1)],
             h_start_s: params.step.h_start_s,
         }
-    }
-
-    /// Lying down on level `level` of `last` as cloth that stretches more easily than its own.
-    pub fn eased(params: &Params, level: usize, last: usize) -> Self {
-        Self { tolerance: EASED_TOLERANCE, max_steps: EASED_STEPS, ..Self::frictionless(params, level, last) }
     }
 
     /// The end of the drape, with friction.

@@ -8,7 +8,6 @@ use crate::sim::cloth::Cloth;
 use crate::sim::contact::{BodyContact, ClothContact, ClothContactParams, ContactParams, Skin, contact_areas};
 use crate::sim::solver::System;
 use crate::sim::{Fabric, SimError};
-use crate::units::GRAVITY;
 
 /// Deepest point of a drape that is good, m.
 const DEEPEST_M: f64 = 3e-4;
@@ -20,16 +19,6 @@ const HARD_N_M3: f64 = 1e9;
 const HARD_LAYERS_N_M3: f64 = 1e7;
 /// Steps on each shape that a hand passes through.
 const PASSING_STEPS: u32 = 12;
-
-/// Share of its stiffness in the plane with which large cloth lies down at first.
-///
-/// The stiffer cloth is in its plane against its bending, the less far folds move in a step, and the more they have to the finer the mesh
-/// is: a T-shirt of 39 thousand vertices takes twice as many steps on it without, one of 20 thousand a third more; a dress as many.
-const EASED: f64 = 0.3;
-/// Vertices from which on cloth is large.
-const EASED_FROM: usize = 12_000;
-/// How far a metre of cloth may stretch under its own weight by that.
-const EASED_STRETCH: f64 = 5e-3;
 
 /// From when on friction holds a garment.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -107,11 +96,6 @@ impl Settling<'_> {
         let begin = shapes.first().map_or(around.field, |(_, field)| field);
         let thickness_m = around.self_contact.thickness_m;
         let areas = contact_areas(self.garment, &cloth.vertex_of, &cloth.areas, 2.0 * thickness_m);
-        if self.is_eased(finest) {
-            let eased = cloth.stretching(EASED);
-            let mut system = self.system(&eased, &areas, self.contact(begin, &x, run));
-            run.drape(self.garment, &mut system, &mut x, Phase::eased(params, level, finest))?;
-        }
         let mut system = self.system(cloth, &areas, self.contact(begin, &x, run));
         let mut residual = f64::MAX;
         for (shape, field) in &shapes {
@@ -138,13 +122,6 @@ impl Settling<'_> {
         let mut system = System::new(cloth, contact, None);
         system.self_contact = Some(ClothContact::new(self.around.self_contact, &cloth.triangles, areas));
         system
-    }
-
-    /// Whether the cloth lies down as softer cloth at first, where `finest` is the last level: not where that would sag.
-    fn is_eased(&self, finest: usize) -> bool {
-        let Fabric { membrane_warp_n_m, membrane_weft_n_m, density_kg_m2, .. } = *self.fabric;
-        let hangs = density_kg_m2 * GRAVITY <= EASED_STRETCH * EASED * membrane_warp_n_m.min(membrane_weft_n_m);
-        0 < self.level && self.level == finest && self.cloth.len() >= EASED_FROM && hangs
     }
 
     /// Steps without friction until it is at rest, or a few; returns the residual.
@@ -210,33 +187,7 @@ impl Settling<'_> {
 mod tests {
     use super::*;
     use crate::sim::fem::Params;
-    use crate::sim::{laboratory, sewing};
-
-    #[test]
-    fn large_cloth_lies_down_as_softer_cloth_but_not_as_none_that_would_sag() {
-        let sheet = |cells: usize| laboratory::garment(laboratory::sheets::sheet(cells, cells, 5e-3));
-        let (field, params) = (laboratory::nowhere(), Params::default());
-        let around = Around {
-            skin: None,
-            field: &field,
-            hands: None,
-            contact: params.contact,
-            self_contact: params.self_contact,
-        };
-        let check = |garment: &Garment, stiffness_n_m: f64, level: usize, expect: bool| {
-            // A metre of it weighs 1 N.
-            let fabric = laboratory::isotropic(1.0 / GRAVITY, stiffness_n_m, 1e-5);
-            let cloth = Cloth::new(garment, &fabric, sewing::unsewn(garment)).expect("sound");
-            let grip = Grip::AtTheEnd;
-            let settling = Settling { around, garment, cloth: &cloth, fabric: &fabric, level, grip };
-            assert_eq!(settling.is_eased(2), expect, "{stiffness_n_m} N/m on level {level}");
-        };
-        let (large, small) = (sheet(115), sheet(20));
-        check(&large, 700.0, 2, true);
-        check(&large, 600.0, 2, false);
-        check(&large, 700.0, 1, false);
-        check(&small, 700.0, 2, false);
-    }
+    use crate::sim::laboratory;
 
     #[test]
     fn what_is_drawn_tight_meets_harder_contacts_but_none_softer_than_asked_for() {
