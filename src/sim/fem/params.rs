@@ -86,7 +86,7 @@ impl Default for Params {
             weld_gap_m: 2e-3,
             coarse_tolerance: 1.0,
             coarse_steps: 300,
-            finest_frictionless_steps: 6,
+            finest_frictionless_steps: 2,
             tolerance: 0.01,
             max_iterations: 600,
             distortion_limit: 0.15,
