@@ -79,7 +79,7 @@ pub fn widest_seam(garment: &Garment, positions: &[V3]) -> Option<(f64, [usize; 
 #[must_use]
 pub fn self_crossings(x: &[V3], triangles: &[[usize; 3]]) -> usize {
     let edges = edges_of(triangles);
-    crossings(x, edges.pairs(), triangles).count()
+    crossings(x, edges.pairs(), triangles).len()
 }
 
 /// Where on its pieces a sewn garment crosses itself; `None` where it does not.
@@ -92,7 +92,7 @@ pub fn crossed_spot(garment: &Garment, positions: &[V3]) -> Option<Spot> {
     }
     let sewn: Vec<[usize; 3]> = garment.triangles.iter().map(|t| t.map(|v| first[group[v]])).collect();
     let crossed: Vec<usize> =
-        crossings(positions, edges_of(&sewn).pairs(), &sewn).flat_map(|crossing| crossing.edge).collect();
+        crossings(positions, edges_of(&sewn).pairs(), &sewn).into_iter().flat_map(|crossing| crossing.edge).collect();
     garment.spot(&crossed)
 }
 

@@ -9,6 +9,7 @@ use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
 
 use crate::geom::V2;
 use crate::geom::polyline::{boundary_distance, contains, self_crossing, signed_area};
+use crate::geom::triangle::sorted;
 
 /// Rounds of moving the inner points.
 const SMOOTHING_ROUNDS: usize = 12;
@@ -49,6 +50,11 @@ pub fn triangulate(outline: &[V2], h: f64) -> Result<Triangulation, String> {
     if (covered - area).abs() > AREA_TOLERANCE * area {
         return Err(format!("its triangles cover {covered:.6} m2 of {area:.6} m2"));
     }
+    // In the order of their last vertices, which follow each other row by row: whatever goes by triangles then reads on through memory.
+    triangles.sort_unstable_by_key(|triangle| {
+        let [first, second, last] = sorted(*triangle);
+        [last, second, first]
+    });
     Ok(Triangulation { points, triangles })
 }
 

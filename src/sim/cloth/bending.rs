@@ -21,6 +21,7 @@ use super::part::Part;
 use crate::geom::{V2, V3};
 use crate::sim::Fabric;
 use crate::sim::solver::PairList;
+use crate::sim::solver::operator::by_row;
 use crate::sim::solver::quad::{self, Block};
 
 /// One interior edge with its two triangles.
@@ -110,20 +111,26 @@ impl Plate {
         let own = self.hinges.map(|hinge| hinge.map(|h| &hinges[h]));
         let mut order = [0, 1, 2];
         order.sort_by_key(|&e| own[e].map(|h| (h.vertices[0].min(h.vertices[1]), h.vertices[0].max(h.vertices[1]))));
-        let mut corners: Vec<usize> = own.iter().flatten().flat_map(|hinge| hinge.vertices).collect();
-        corners.sort_unstable();
-        corners.dedup();
-        // What each hinge makes of each corner.
-        let share = |hinge: Option<&Hinge>, corner: usize| {
-            let of = |h: &Hinge| (0..4).filter(|&k| h.vertices[k] == corner).map(|k| h.coefficients[k]).sum();
-            hinge.map_or(0.0, of)
-        };
-        let shares: Vec<[f64; 3]> = corners.iter().map(|&corner| own.map(|hinge| share(hinge, corner))).collect();
-        for (i, of_i) in shares.iter().enumerate() {
+        // Each corner once, in rising order, with what each hinge makes of it: at most four corners of three hinges.
+        let mut shares = [(0, [0.0; 3]); 12];
+        let mut count = 0;
+        for (e, hinge) in own.iter().enumerate() {
+            for (corner, coefficient) in hinge.iter().flat_map(|h| h.vertices.into_iter().zip(h.coefficients)) {
+                let at = shares[..count].partition_point(|(other, _)| *other < corner);
+                if at == count || shares[at].0 != corner {
+                    shares[at..=count].rotate_right(1);
+                    shares[at] = (corner, [0.0; 3]);
+                    count += 1;
+                }
+                shares[at].1[e] += coefficient;
+            }
+        }
+        let shares = &shares[..count];
+        for (i, (corner, of_i)) in shares.iter().enumerate() {
             let row = order.map(|f| order.map(|e| form[e][f] * of_i[e]).iter().sum::<f64>() * self.area);
-            for (j, of_j) in shares.iter().enumerate().skip(i + 1) {
+            for (other, of_j) in &shares[i + 1..] {
                 let value = (0..3).map(|k| row[k] * of_j[order[k]]).sum();
-                terms.push(([corners[i], corners[j]], value));
+                terms.push(([*corner, *other], value));
             }
         }
     }
@@ -212,21 +219,10 @@ pub struct Bending {
 
 /// Distinct pairs with the sums of their terms, in an order that does not depend on that of the terms: rounded alike if mirrored.
 fn summed(terms: &[([usize; 2], f64)]) -> (PairList, Vec<f64>) {
-    // Sorted by counting those of each smaller vertex, and then each vertex's few.
-    let count = terms.iter().map(|(pair, _)| pair[0] + 1).max().unwrap_or(0);
-    let mut ends = vec![0; count + 1];
-    terms.iter().for_each(|(pair, _)| ends[pair[0] + 1] += 1);
-    for v in 0..count {
-        ends[v + 1] += ends[v];
-    }
-    let mut sorted = vec![(0, 0.0); terms.len()];
-    for ([i, j], value) in terms {
-        sorted[ends[*i]] = (*j, *value);
-        ends[*i] += 1;
-    }
+    let (ends, mut sorted) = by_row(terms, |([i, _], _)| *i, |([_, j], value)| (*j, *value));
     let (mut pairs, mut entries): (Vec<[usize; 2]>, Vec<f64>) = (Vec::new(), Vec::new());
     let mut from = 0;
-    for (i, &to) in ends[..count].iter().enumerate() {
+    for (i, to) in ends.into_iter().enumerate() {
         let row = &mut sorted[from..to];
         row.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         for (j, value) in row {

@@ -16,6 +16,7 @@ use std::collections::BTreeMap;
 use nalgebra::Matrix3;
 
 use super::skin::Skin;
+use super::tangle::edges_of;
 use crate::geom::triangle::sorted;
 use crate::geom::{DistanceField, V3};
 use crate::sim::cloth::part::Part;
@@ -89,40 +90,61 @@ const MOST_YIELD_M: f64 = 2e-3;
 /// Farthest that the blurred field may lie from the true skin where cloth touches, m.
 const FIELD_ERROR_M: f64 = 4e-3;
 
-/// The place of a sample that was not looked up yet.
-const UNSEEN: (V3, f64) = (V3::new(0.0, 0.0, 0.0), f64::MIN);
 /// The field rises no faster than this; a distance field by 1 a metre, but for rounding.
 const STEEPEST: f64 = 1.05;
+
+/// A point of the cloth: between vertices, by these weights.
+#[derive(Clone, Copy, Debug)]
+struct Point {
+    vertices: [usize; 3],
+    weights: [f64; 3],
+}
 
 /// A point of the cloth that is kept out of the body.
 #[derive(Clone, Copy, Debug)]
 struct Sample {
-    vertices: [usize; 3],
-    weights: [f64; 3],
+    point: Point,
     /// Distance in the field at which it begins to be pushed, m.
     offset_m: f64,
     /// Rest area that it stands for, m2.
     area_m2: f64,
-    /// Where friction holds it.
-    anchor: Option<V3>,
-    /// Where it was last looked up in the field, and how far it may go from there before it can touch, m.
-    seen: (V3, f64),
 }
 
-impl Sample {
-    fn vertex(vertex: usize, offset_m: f64, area_m2: f64) -> Self {
-        Self { vertices: [vertex; 3], weights: [1.0, 0.0, 0.0], offset_m, area_m2, anchor: None, seen: UNSEEN }
+/// When a sample was last looked up in the field.
+#[derive(Clone, Copy, Debug)]
+struct Seen {
+    /// Where it was.
+    place: V3,
+    /// How far it may go from there before it can touch, m.
+    slack_m: f64,
+}
+
+impl Seen {
+    /// Of a sample that was not looked up yet.
+    const NEVER: Self = Self { place: V3::new(0.0, 0.0, 0.0), slack_m: f64::MIN };
+
+    /// Whether the sample cannot touch at `p`.
+    #[inline(always)]
+    fn is_clear(&self, p: &V3) -> bool {
+        self.slack_m > 0.0 && (p - self.place).norm_squared() < self.slack_m * self.slack_m
+    }
+}
+
+impl Point {
+    fn vertex(vertex: usize) -> Self {
+        Self { vertices: [vertex; 3], weights: [1.0, 0.0, 0.0] }
+    }
+
+    /// The middles of edges and the centres of triangles.
+    fn between<'m>(edges: &'m [[usize; 2]], triangles: &'m [[usize; 3]]) -> impl Iterator<Item = Self> + 'm {
+        let middle = |&[a, b]: &[usize; 2]| Self { vertices: [a, b, b], weights: [0.5, 0.5, 0.0] };
+        let centre = |t: &[usize; 3]| Self { vertices: sorted(*t), weights: [1.0 / 3.0; 3] };
+        edges.iter().map(middle).chain(triangles.iter().map(centre))
     }
 
     fn at(&self, x: &[V3]) -> V3 {
         let ([a, b, c], [wa, wb, wc]) = (self.vertices, self.weights);
         if wa == 1.0 { x[a] } else { x[a] * wa + x[b] * wb + x[c] * wc }
-    }
-
-    /// Whether it cannot touch at `p`, by where it was last looked up.
-    fn is_clear(&self, p: &V3) -> bool {
-        let (place, slack) = self.seen;
-        slack > 0.0 && (p - place).norm_squared() < slack * slack
     }
 
     fn add_force(&self, force: &V3, forces: &mut [V3]) {
@@ -154,6 +176,10 @@ pub struct BodyContact<'a> {
     /// The vertices in their order, then points between them.
     samples: Vec<Sample>,
     vertices: usize,
+    /// Where friction holds each sample.
+    anchors: Vec<Option<V3>>,
+    /// By itself, since it is all that is asked of most samples.
+    seen: Vec<Seen>,
     /// Coulomb coefficient; `None` while friction is off.
     friction: Option<f64>,
     touching: Vec<Touch>,
@@ -163,12 +189,15 @@ impl<'a> BodyContact<'a> {
     /// Contact for vertices with rest areas `areas` (m2), without friction.
     #[must_use]
     pub fn new(field: &'a DistanceField, params: ContactParams, areas: &[f64]) -> Self {
-        let sample = |(v, area): (usize, &f64)| Sample::vertex(v, params.offset_m, *area);
+        let sample =
+            |(v, area): (usize, &f64)| Sample { point: Point::vertex(v), offset_m: params.offset_m, area_m2: *area };
         Self {
             field,
             params,
             samples: areas.iter().enumerate().map(sample).collect(),
             vertices: areas.len(),
+            anchors: vec![None; areas.len()],
+            seen: vec![Seen::NEVER; areas.len()],
             friction: None,
             touching: Vec::new(),
         }
@@ -177,28 +206,35 @@ impl<'a> BodyContact<'a> {
     /// The contact of a part of the cloth.
     #[must_use]
     pub fn part(&self, part: &Part) -> Self {
-        let vertex = |(name, &v): (usize, &usize)| Sample { vertices: [name; 3], ..self.samples[v] };
-        let renamed = |sample: &Sample| Some(Sample { vertices: part.names(sample.vertices)?, ..*sample });
+        let vertex = |(name, &v): (usize, &usize)| Sample { point: Point::vertex(name), ..self.samples[v] };
         let vertices = part.vertices.iter().enumerate().map(vertex);
-        let between = self.samples[self.vertices..].iter().filter_map(renamed);
+        let (between, renamed): (Vec<usize>, Vec<Sample>) = self.between(part).unzip();
+        let of_whole = || part.vertices.iter().chain(&between);
         Self {
             field: self.field,
             params: self.params,
-            samples: vertices.chain(between).collect(),
+            samples: vertices.chain(renamed).collect(),
             vertices: part.vertices.len(),
+            anchors: of_whole().map(|&k| self.anchors[k]).collect(),
+            seen: of_whole().map(|&k| self.seen[k]).collect(),
             friction: self.friction,
             touching: Vec::new(),
         }
     }
 
+    /// The points between vertices of a part, by their number, and as they are called there.
+    fn between(&self, part: &Part) -> impl Iterator<Item = (usize, Sample)> {
+        let renamed = |point: &Point| Some(Point { vertices: part.names(point.vertices)?, ..*point });
+        let between = self.samples.iter().enumerate().skip(self.vertices);
+        between.filter_map(move |(k, sample)| Some((k, Sample { point: renamed(&sample.point)?, ..*sample })))
+    }
+
     /// Takes over where friction has come to hold a part of the cloth.
     pub fn take_anchors(&mut self, part: &Part, contact: &BodyContact) {
-        let (vertices, between) = contact.samples.split_at(contact.vertices);
-        for (&v, sample) in part.vertices.iter().zip(vertices) {
-            self.samples[v].anchor = sample.anchor;
+        let between: Vec<usize> = self.between(part).map(|(k, _)| k).collect();
+        for (&k, anchor) in part.vertices.iter().chain(&between).zip(&contact.anchors) {
+            self.anchors[k] = *anchor;
         }
-        let own = self.samples[self.vertices..].iter_mut().filter(|sample| part.names(sample.vertices).is_some());
-        own.zip(between).for_each(|(own, sample)| own.anchor = sample.anchor);
     }
 
     /// Takes another penalty from now on.
@@ -209,13 +245,14 @@ impl<'a> BodyContact<'a> {
     /// How far the penalty yields at `x`, m: what the hardest pressed sample is nearer than its offset.
     #[must_use]
     pub fn yields_m(&self, x: &[V3]) -> f64 {
-        self.samples.iter().filter_map(|sample| self.depth(sample, x)).map(|(depth, _)| depth).fold(0.0, f64::max)
+        let depths = (0..self.samples.len()).filter_map(|k| self.depth(k, x));
+        depths.map(|(depth, _)| depth).fold(0.0, f64::max)
     }
 
     /// Switches friction on with a Coulomb coefficient, or off. Anchors are set where the cloth now lies.
     pub fn set_friction(&mut self, coefficient: Option<f64>) {
         self.friction = coefficient;
-        self.samples.iter_mut().for_each(|sample| sample.anchor = None);
+        self.anchors.fill(None);
     }
 
     /// Number of samples in contact at the last [`BodyContact::assemble`].
@@ -228,24 +265,40 @@ impl<'a> BodyContact<'a> {
     /// through an arm unseen.
     #[must_use]
     pub fn with_points_between(mut self, triangles: &[[usize; 3]]) -> Self {
-        let points = self.candidates(triangles).into_iter().skip(self.vertices);
-        let offset_m = self.params.offset_m;
-        self.samples.extend(points.map(|sample| Sample { offset_m, ..sample }));
+        let edges = edges_of(triangles);
+        for point in Point::between(edges.pairs(), triangles) {
+            self.push(point, self.params.offset_m);
+        }
         self
     }
 
-    /// Looks at vertices, edge middles and triangle centres against the exact surface, and has those that lie inside
+    /// Takes a point between vertices for a sample.
+    fn push(&mut self, point: Point, offset_m: f64) {
+        let area_m2 = (0..3).map(|k| self.samples[point.vertices[k]].area_m2 * point.weights[k]).sum();
+        self.samples.push(Sample { point, offset_m, area_m2 });
+        self.anchors.push(None);
+        self.seen.push(Seen::NEVER);
+    }
+
+    /// Looks at vertices and at the middles of these edges and centres of triangles against the exact surface, and has those that lie inside
     /// held [`ContactParams::clearance_m`] off it from now on; returns how deep the deepest lay, m (0 when none).
     ///
     /// The offset of such a point is told in the field, which is blurred: what the blur takes from a sharp convex place
     /// is given back. Where the cloth `is_at_rest` and a point held before is inside all the same, the cloth presses so
     /// hard there that the penalty yields: its offset grows by as much (an augmented penalty).
-    pub fn hold_out(&mut self, skin: &Skin, triangles: &[[usize; 3]], x: &[V3], is_at_rest: bool) -> f64 {
+    pub fn hold_out(
+        &mut self,
+        skin: &Skin,
+        (edges, triangles): (&[[usize; 2]], &[[usize; 3]]),
+        x: &[V3],
+        is_at_rest: bool,
+    ) -> f64 {
         let between = self.samples.iter().enumerate().skip(self.vertices);
-        let mut known: BTreeMap<[usize; 3], usize> = between.map(|(k, sample)| (sample.vertices, k)).collect();
+        let mut known: BTreeMap<[usize; 3], usize> = between.map(|(k, sample)| (sample.point.vertices, k)).collect();
         let mut deepest = 0.0_f64;
-        for sample in self.candidates(triangles) {
-            let p = sample.at(x);
+        let points = (0..self.vertices).map(Point::vertex);
+        for point in points.chain(Point::between(edges, triangles)) {
+            let p = point.at(x);
             let (distance, _) = self.field.value_and_gradient(&p);
             if distance > self.params.offset_m + FIELD_ERROR_M {
                 continue;
@@ -253,16 +306,16 @@ impl<'a> BodyContact<'a> {
             let Some(depth) = skin.depth(&p, distance) else { continue };
             deepest = deepest.max(depth);
             // The vertices are the first samples, each by its number.
-            let [first, _, last] = sample.vertices;
-            let held_as = if first == last { Some(first) } else { known.get(&sample.vertices).copied() };
+            let [first, _, last] = point.vertices;
+            let held_as = if first == last { Some(first) } else { known.get(&point.vertices).copied() };
             let is_held = held_as.is_some();
             let index = held_as.unwrap_or_else(|| {
-                known.insert(sample.vertices, self.samples.len());
-                self.samples.push(sample);
+                known.insert(point.vertices, self.samples.len());
+                self.push(point, f64::MIN);
                 self.samples.len() - 1
             });
+            self.seen[index] = Seen::NEVER;
             let held = &mut self.samples[index];
-            held.seen = UNSEEN;
             held.offset_m = if is_held && is_at_rest && distance < held.offset_m {
                 held.offset_m + depth.min(MOST_YIELD_M)
             } else {
@@ -272,42 +325,30 @@ impl<'a> BodyContact<'a> {
         deepest
     }
 
-    /// Every vertex, edge middle and triangle centre once.
-    fn candidates(&self, triangles: &[[usize; 3]]) -> Vec<Sample> {
-        let between = |vertices: [usize; 3], weights: [f64; 3]| {
-            let area_m2 = (0..3).map(|k| self.samples[vertices[k]].area_m2 * weights[k]).sum();
-            Sample { vertices, weights, offset_m: f64::MIN, area_m2, anchor: None, seen: UNSEEN }
-        };
-        let mut edges: Vec<[usize; 2]> = triangles
-            .iter()
-            .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
-            .map(|[a, b]| [a.min(b), a.max(b)])
-            .collect();
-        edges.sort_unstable();
-        edges.dedup();
-        let vertices = self.samples[..self.vertices].iter().copied();
-        let middles = edges.into_iter().map(|[a, b]| between([a, b, b], [0.5, 0.5, 0.0]));
-        let centres = triangles.iter().map(|&t| between(sorted(t), [1.0 / 3.0; 3]));
-        vertices.chain(middles).chain(centres).collect()
+    /// Where a sample is.
+    #[inline(always)]
+    fn at(&self, k: usize, x: &[V3]) -> V3 {
+        if k < self.vertices { x[k] } else { self.samples[k].point.at(x) }
     }
 
     /// How much nearer than its offset a sample is, m, and the gradient of the distance there; `None` where it is not.
-    fn depth(&self, sample: &Sample, x: &[V3]) -> Option<(f64, V3)> {
-        let p = sample.at(x);
-        if sample.is_clear(&p) {
+    #[inline(always)]
+    fn depth(&self, k: usize, x: &[V3]) -> Option<(f64, V3)> {
+        let p = self.at(k, x);
+        if self.seen[k].is_clear(&p) {
             return None;
         }
         let (distance, gradient) = self.field.value_and_gradient(&p);
-        Some((sample.offset_m - distance, gradient)).filter(|(depth, _)| *depth > 0.0)
+        Some((self.samples[k].offset_m - distance, gradient)).filter(|(depth, _)| *depth > 0.0)
     }
 
     /// Contact and friction energy, J; friction's with the normal forces and anchors of the current step.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {
         let mut energy = 0.0;
-        for sample in &self.samples {
-            if let Some((depth, _)) = self.depth(sample, x) {
-                energy += sample.area_m2 * self.params.push(depth).energy_n_m;
+        for k in 0..self.samples.len() {
+            if let Some((depth, _)) = self.depth(k, x) {
+                energy += self.samples[k].area_m2 * self.params.push(depth).energy_n_m;
             }
         }
         energy + self.touching.iter().filter_map(|t| self.friction_at(t, x)).map(|f| f.energy).sum::<f64>()
@@ -315,10 +356,11 @@ impl<'a> BodyContact<'a> {
 
     /// Adds the contact forces at `x`; friction's with the normal forces and anchors of the current step.
     pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
-        for sample in &self.samples {
-            if let Some((depth, gradient)) = self.depth(sample, x) {
+        for k in 0..self.samples.len() {
+            if let Some((depth, gradient)) = self.depth(k, x) {
+                let sample = &self.samples[k];
                 let force_n = sample.area_m2 * self.params.push(depth).pressure_n_m2;
-                sample.add_force(&(gradient * force_n), forces);
+                sample.point.add_force(&(gradient * force_n), forces);
             }
         }
         self.add_friction(x, forces);
@@ -327,7 +369,7 @@ impl<'a> BodyContact<'a> {
     fn add_friction(&self, x: &[V3], forces: &mut [V3]) {
         for touch in &self.touching {
             if let Some(f) = self.friction_at(touch, x) {
-                self.samples[touch.sample].add_force(&f.force, forces);
+                self.samples[touch.sample].point.add_force(&f.force, forces);
             }
         }
     }
@@ -341,19 +383,19 @@ impl<'a> BodyContact<'a> {
         for touch in &self.touching {
             let sample = &self.samples[touch.sample];
             let friction = self.friction_at(touch, x);
-            sample.add_force(&(touch.gradient * (sample.area_m2 * touch.push.pressure_n_m2)), forces);
+            sample.point.add_force(&(touch.gradient * (sample.area_m2 * touch.push.pressure_n_m2)), forces);
             pushed += sample.area_m2 * touch.push.energy_n_m;
             if let Some(f) = &friction {
-                sample.add_force(&f.force, forces);
+                sample.point.add_force(&f.force, forces);
                 rubbed += f.energy;
             }
-            let stiffness = self.stiffness_at(touch, &sample.at(x), friction.map_or(0.0, |f| f.stiffness));
+            let stiffness = self.stiffness_at(touch, &sample.point.at(x), friction.map_or(0.0, |f| f.stiffness));
             if touch.sample < self.vertices {
                 diagonal[touch.sample] += stiffness;
             } else {
                 let eigen = stiffness.symmetric_eigen();
                 let directions = (0..3).map(|k| (eigen.eigenvectors.column(k).into_owned(), eigen.eigenvalues[k]));
-                couplings.extend(directions.filter(|(_, k)| *k > 0.0).map(|(n, k)| sample.coupling(n, k)));
+                couplings.extend(directions.filter(|(_, k)| *k > 0.0).map(|(n, k)| sample.point.coupling(n, k)));
             }
         }
         (pushed + rubbed, couplings)
@@ -390,14 +432,14 @@ impl<'a> BodyContact<'a> {
         }
         let mut couplings = Vec::new();
         for (k, sample) in self.samples.iter().enumerate() {
-            let Some((depth, gradient)) = self.depth(sample, x) else { continue };
+            let Some((depth, gradient)) = self.depth(k, x) else { continue };
             let push = self.params.push(depth);
-            sample.add_force(&(gradient * (sample.area_m2 * push.pressure_n_m2)), forces);
+            sample.point.add_force(&(gradient * (sample.area_m2 * push.pressure_n_m2)), forces);
             let lacks = sample.area_m2 * (push.stiffness_n_m3 - has[k]).max(0.0);
             if k < self.vertices {
                 diagonal[k] += gradient * gradient.transpose() * lacks;
             } else {
-                couplings.push(sample.coupling(gradient, lacks));
+                couplings.push(sample.point.coupling(gradient, lacks));
             }
         }
         self.add_friction(x, forces);
@@ -407,22 +449,21 @@ impl<'a> BodyContact<'a> {
     fn find_touching(&mut self, x: &[V3]) {
         self.touching.clear();
         for k in 0..self.samples.len() {
-            let p = self.samples[k].at(x);
-            let sample = &mut self.samples[k];
-            if sample.is_clear(&p) {
-                sample.anchor = None;
+            let p = self.at(k, x);
+            if self.seen[k].is_clear(&p) {
+                self.anchors[k] = None;
                 continue;
             }
             let (distance, gradient) = self.field.value_and_gradient(&p);
-            let depth = sample.offset_m - distance;
-            sample.seen = (p, -depth / STEEPEST);
+            let depth = self.samples[k].offset_m - distance;
+            self.seen[k] = Seen { place: p, slack_m: -depth / STEEPEST };
             if depth <= 0.0 {
-                sample.anchor = None;
+                self.anchors[k] = None;
                 continue;
             }
             self.touching.push(Touch { sample: k, gradient, push: self.params.push(depth) });
             if self.friction.is_some() {
-                sample.anchor.get_or_insert(p);
+                self.anchors[k].get_or_insert(p);
             }
         }
     }
@@ -430,9 +471,9 @@ impl<'a> BodyContact<'a> {
     fn friction_at(&self, touch: &Touch, x: &[V3]) -> Option<Friction> {
         let sample = &self.samples[touch.sample];
         let limit = self.friction? * sample.area_m2 * touch.push.pressure_n_m2 * touch.gradient.norm();
-        let anchor = sample.anchor?;
+        let anchor = self.anchors[touch.sample]?;
         let normal = touch.gradient.try_normalize(0.0)?;
-        let offset = sample.at(x) - anchor;
+        let offset = sample.point.at(x) - anchor;
         let slip = offset - normal * normal.dot(&offset);
         let stiffest = sample.area_m2 * self.params.stiffness_n_m3 * self.params.tangential_share;
         let k = stiffest.min(limit / self.params.slip_m);
@@ -457,9 +498,8 @@ impl<'a> BodyContact<'a> {
         for k in 0..self.touching.len() {
             let touch = self.touching[k];
             let held = self.friction_at(&touch, x).map(|f| f.held);
-            let sample = &mut self.samples[touch.sample];
-            let p = sample.at(x);
-            if let (Some(anchor), Some(held)) = (&mut sample.anchor, held) {
+            let p = self.at(touch.sample, x);
+            if let (Some(anchor), Some(held)) = (&mut self.anchors[touch.sample], held) {
                 *anchor = p - held;
             }
         }

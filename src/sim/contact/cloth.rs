@@ -111,7 +111,7 @@ impl<'a> ClothContact<'a> {
             last: Vec::new(),
             made: None,
             room_m: 0.0,
-            knots: Knots::new(triangles, params.release_n, params.release_steps),
+            knots: Knots::new(params.release_n, params.release_steps),
         }
     }
 
@@ -157,7 +157,7 @@ impl<'a> ClothContact<'a> {
             last: x.to_vec(),
             made: None,
             room_m: self.room_m,
-            knots: Knots::new(&[], 0.0, 0),
+            knots: Knots::new(0.0, 0),
         }
     }
 
@@ -187,8 +187,9 @@ impl<'a> ClothContact<'a> {
         if may_cross {
             // What is about to be one vertex does not cross; taken for a crossing, it would let all else about it pass.
             let are_apart = |crossing: &Crossing| neighbours.are_apart(&crossing.edge, &crossing.triangle);
-            let found = crossings(x, neighbours.edges(), neighbours.triangles()).filter(are_apart);
-            self.knots.see(x, &found.collect::<Vec<Crossing>>());
+            let mut found = crossings(x, neighbours.edges(), neighbours.triangles());
+            found.retain(are_apart);
+            self.knots.see(x, neighbours.triangles(), &found);
         }
         self.neighbours = Some(neighbours);
     }

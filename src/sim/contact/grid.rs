@@ -3,11 +3,13 @@
 use super::bounds::Bounds;
 use crate::geom::V3;
 
-/// Boxes by the grid cells they touch.
+/// Boxes by the grid cell that their middle lies in.
 pub struct BoxGrid {
     cell_m: f64,
     low: V3,
     size: [usize; 3],
+    /// How far any box reaches from its middle along an axis at most, m.
+    half_m: f64,
     /// Where each cell's boxes begin, and one more.
     starts: Vec<u32>,
     /// By cells, so that a search reads on through memory.
@@ -16,85 +18,74 @@ pub struct BoxGrid {
 
 /// Most cells: beyond that they grow.
 const MOST_CELLS: f64 = 1e6;
+/// What is granted to rounding, as a share of [`BoxGrid::half_m`].
+const ROUNDED: f64 = 1.0 + 1e-5;
 
 impl BoxGrid {
-    /// Sorts the boxes of point sets, each widened by `reach_m`, into cells of `cell_m` or more, for searches about boxes
-    /// that extend no farther than `half_m` from their middles.
+    /// Sorts the boxes of point sets, each widened by `reach_m`, into cells of `cell_m` or more.
     #[must_use]
-    pub fn new<const N: usize>(x: &[V3], sets: &[[usize; N]], reach_m: f64, half_m: f64, cell_m: f64) -> Self {
-        let (reach, half) = (V3::repeat(reach_m), V3::repeat(half_m));
-        let mut bounds = Vec::with_capacity(sets.len());
-        let (mut lowest, mut highest) = (V3::repeat(f64::MAX), V3::repeat(f64::MIN));
-        for set in sets {
-            let (mut low, mut high) = (x[set[0]], x[set[0]]);
-            for v in &set[1..] {
-                (low, high) = (low.inf(&x[*v]), high.sup(&x[*v]));
-            }
-            (low, high) = (low - reach, high + reach);
-            (lowest, highest) = (lowest.inf(&(low - half)), highest.sup(&(high + half)));
-            bounds.push((low, high));
-        }
-        if sets.is_empty() {
-            (lowest, highest) = (V3::zeros(), V3::zeros());
-        }
-        let extent = highest - lowest;
-        let wanted = extent.iter().map(|e| e / cell_m + 1.0).product::<f64>();
+    pub fn new<const N: usize>(x: &[V3], sets: &[[usize; N]], reach_m: f64, cell_m: f64) -> Self {
+        let reach = V3::repeat(reach_m);
+        let corners = |set: &[usize; N]| {
+            let corner = x[set[0]];
+            let (low, high) = set[1..].iter().fold((corner, corner), |(l, h), v| (l.inf(&x[*v]), h.sup(&x[*v])));
+            (low - reach, high + reach)
+        };
+        let corners: Vec<(V3, V3)> = sets.iter().map(corners).collect();
+        let middles: Vec<V3> = corners.iter().map(|(low, high)| (low + high) / 2.0).collect();
+        let half_m = corners.iter().map(|(low, high)| (high - low).max()).fold(0.0, f64::max) / 2.0 * ROUNDED;
+        let first = middles.first().copied().unwrap_or_default();
+        let (low, high) = middles.iter().fold((first, first), |(l, h), m| (l.inf(m), h.sup(m)));
+        let wanted = (high - low).iter().map(|extent| extent / cell_m + 1.0).product::<f64>();
         let cell_m = cell_m * (wanted / MOST_CELLS).max(1.0).cbrt();
-        let count = |e: f64| (e / cell_m) as usize + 1;
-        let size = [count(extent.x), count(extent.y), count(extent.z)];
-        let mut grid =
-            Self { cell_m, low: lowest, size, starts: vec![0; size.iter().product::<usize>() + 1], boxes: Vec::new() };
-        let ranges: Vec<_> =
-            bounds.iter().map(|(low, high)| (grid.cell(&(low - half)), grid.cell(&(high + half)))).collect();
-        for range in &ranges {
-            grid.each(range, |grid, cell| grid.starts[cell + 1] += 1);
-        }
-        for cell in 1..grid.starts.len() {
-            grid.starts[cell] += grid.starts[cell - 1];
-        }
-        let mut next = grid.starts.clone();
-        grid.boxes = vec![(Bounds::NOTHING, 0); next[next.len() - 1] as usize];
-        for (index, (range, (low, high))) in ranges.iter().zip(&bounds).enumerate() {
-            let entry = (Bounds::new(low, high), index as u32);
-            grid.each(range, |grid, cell| {
-                grid.boxes[next[cell] as usize] = entry;
-                next[cell] += 1;
-            });
-        }
+        let size = [0, 1, 2].map(|k| ((high - low)[k] / cell_m) as usize + 1);
+        let mut grid = Self { cell_m, low, size, half_m, starts: Vec::new(), boxes: Vec::new() };
+        grid.fill(&middles, &corners);
         grid
     }
 
-    /// Sets within reach of the box of some points, in increasing order: all of them, and few others.
-    pub fn near<const N: usize>(&self, points: [&V3; N]) -> impl Iterator<Item = usize> + '_ {
-        let (low, high) = points.iter().fold((*points[0], *points[0]), |(low, high), p| (low.inf(p), high.sup(p)));
-        let middle = (low + high) / 2.0;
-        let local = (middle - self.low) / self.cell_m;
-        let is_inside = (0..3).all(|k| local[k] >= 0.0 && local[k] < self.size[k] as f64);
-        let range = if is_inside {
-            let cell = self.number(self.cell(&middle));
-            self.starts[cell] as usize..self.starts[cell + 1] as usize
-        } else {
-            0..0
-        };
-        let wanted = Bounds::new(&low, &high);
-        self.boxes[range].iter().filter(move |(bounds, _)| bounds.meets(&wanted)).map(|(_, index)| *index as usize)
+    fn fill(&mut self, middles: &[V3], corners: &[(V3, V3)]) {
+        let cells: Vec<usize> = middles.iter().map(|middle| self.number(self.cell(middle))).collect();
+        self.starts = vec![0; self.size.iter().product::<usize>() + 1];
+        for cell in &cells {
+            self.starts[cell + 1] += 1;
+        }
+        for cell in 1..self.starts.len() {
+            self.starts[cell] += self.starts[cell - 1];
+        }
+        let mut next = self.starts.clone();
+        self.boxes = vec![(Bounds::NOTHING, 0); corners.len()];
+        for (index, (cell, (low, high))) in cells.iter().zip(corners).enumerate() {
+            self.boxes[next[*cell] as usize] = (Bounds::new(low, high), index as u32);
+            next[*cell] += 1;
+        }
     }
 
-    fn each(&mut self, (low, high): &([usize; 3], [usize; 3]), mut act: impl FnMut(&mut Self, usize)) {
-        for k in low[2]..=high[2] {
-            for j in low[1]..=high[1] {
-                for i in low[0]..=high[0] {
-                    let cell = self.number([i, j, k]);
-                    act(self, cell);
-                }
+    /// Sets within reach of the box of some points, in increasing order: all of them, and few others; in `found`.
+    pub fn near<'f, const N: usize>(&self, points: [&V3; N], found: &'f mut Vec<usize>) -> &'f [usize] {
+        let (low, high) = points.iter().fold((*points[0], *points[0]), |(low, high), p| (low.inf(p), high.sup(p)));
+        let half = V3::repeat(self.half_m);
+        let wanted = Bounds::new(&low, &high);
+        let (from, to) = (self.cell(&(low - half)), self.cell(&(high + half)));
+        found.clear();
+        for k in from[2]..=to[2] {
+            for j in from[1]..=to[1] {
+                // Cells along x follow each other.
+                let row = [from[0], to[0]].map(|i| self.number([i, j, k]));
+                let boxes = &self.boxes[self.starts[row[0]] as usize..self.starts[row[1] + 1] as usize];
+                found
+                    .extend(boxes.iter().filter(|(bounds, _)| bounds.meets(&wanted)).map(|(_, which)| *which as usize));
             }
         }
+        found.sort_unstable();
+        found
     }
 
     fn number(&self, [i, j, k]: [usize; 3]) -> usize {
         i + self.size[0] * (j + self.size[1] * k)
     }
 
+    /// The cell that a point lies in, or the nearest to it.
     fn cell(&self, p: &V3) -> [usize; 3] {
         let local = (p - self.low) / self.cell_m;
         let at = |l: f64, n: usize| (l as usize).min(n - 1);

@@ -25,7 +25,8 @@ const STEP_M: f64 = 2e-3;
 /// What still crosses when it has been drawn for long enough is left: from then on all that crosses may pass for good. At the edge of
 /// such a knot pairs would come free, be pushed back into it as soon as their contact has grown, and come free again for ever.
 pub struct Knots {
-    wings: Wings,
+    /// Once there is a crossing.
+    wings: Option<Wings>,
     /// Pairs of vertices, one of an edge and one of a triangle that it pierces, both ways round, sorted.
     passing: Vec<[usize; 2]>,
     /// Such pairs that have come free, and for how many steps they have been, sorted.
@@ -44,9 +45,9 @@ pub struct Knots {
 impl Knots {
     /// None yet. Those to come are drawn out by `force_n` newtons at first, for `steps` steps in all.
     #[must_use]
-    pub fn new(triangles: &[[usize; 3]], force_n: f64, steps: u32) -> Self {
+    pub fn new(force_n: f64, steps: u32) -> Self {
         Self {
-            wings: Wings::new(triangles),
+            wings: None,
             passing: Vec::new(),
             fresh: Vec::new(),
             releases: Vec::new(),
@@ -85,8 +86,8 @@ impl Knots {
         self.fresh.retain(|(_, age)| *age < FRESH_STEPS);
     }
 
-    /// Takes up what crosses at `x`.
-    pub fn see(&mut self, x: &[V3], found: &[Crossing]) {
+    /// Takes up what crosses of these triangles at `x`.
+    pub fn see(&mut self, x: &[V3], triangles: &[[usize; 3]], found: &[Crossing]) {
         let before = std::mem::take(&mut self.passing);
         for Crossing { edge, triangle } in found {
             let each = edge.iter().flat_map(|&v| triangle.map(|w| [[v, w], [w, v]]));
@@ -104,7 +105,8 @@ impl Knots {
         self.releases.clear();
         if self.steps_left > 0 && !found.is_empty() && !self.are_left_alone {
             self.steps_left -= 1;
-            self.releases.extend(found.iter().filter_map(|crossing| Release::of(x, &self.wings, crossing)));
+            let wings = self.wings.get_or_insert_with(|| Wings::new(triangles));
+            self.releases.extend(found.iter().filter_map(|crossing| Release::of(x, wings, crossing)));
         }
         self.harden(found.len());
     }

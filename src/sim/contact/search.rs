@@ -181,13 +181,15 @@ impl<'a> Neighbours<'a> {
         let corners: Vec<V3> = extents.iter().flat_map(Bounds::corners).collect();
         let sets: Vec<[usize; 2]> = (0..extents.len()).map(|c| [2 * c, 2 * c + 1]).collect();
         let half = extents.iter().map(Bounds::half_m).fold(0.0, f64::max);
-        let grid = BoxGrid::new(&corners, &sets, horizon_m, half, (2.0 * half + horizon_m).max(CELL_M));
+        let grid = BoxGrid::new(&corners, &sets, horizon_m, (2.0 * half + horizon_m).max(CELL_M));
+        let mut around = Vec::new();
         self.horizon_m = horizon_m;
         // All in rising order of the two clusters, and met side by side.
         let mut before = std::mem::take(&mut self.near).into_iter().peekable();
         let mut flat = self.clusters.flat().peekable();
         for p in 0..extents.len() {
-            for q in grid.near([&corners[2 * p], &corners[2 * p + 1]]).filter(|&q| q >= p) {
+            let found = grid.near([&corners[2 * p], &corners[2 * p + 1]], &mut around);
+            for q in found.iter().copied().filter(|&q| q >= p) {
                 let (clusters, apart_m) = ([p, q], extents[p].apart_m(&extents[q]));
                 while flat.next_if(|flat| *flat < clusters).is_some() {}
                 if apart_m >= horizon_m || flat.peek() == Some(&clusters) {

@@ -22,21 +22,20 @@ pub struct Crossing {
 }
 
 /// Edges that pierce a triangle with which they share no vertex.
-pub fn crossings<'s>(
-    x: &'s [V3],
-    edges: &'s [[usize; 2]],
-    triangles: &'s [[usize; 3]],
-) -> impl Iterator<Item = Crossing> + 's {
+#[must_use]
+pub fn crossings(x: &[V3], edges: &[[usize; 2]], triangles: &[[usize; 3]]) -> Vec<Crossing> {
     let length = edges.iter().map(|&[a, b]| (x[a] - x[b]).norm()).fold(0.0, f64::max);
-    let grid = BoxGrid::new(x, triangles, 0.0, 0.5 * length, length.max(1e-6));
-    edges.iter().flat_map(move |&[a, b]| {
-        let near: Vec<usize> = grid.near([&x[a], &x[b]]).collect();
-        let hits = move |t: &usize| {
-            let triangle = triangles[*t];
+    let grid = BoxGrid::new(x, triangles, 0.0, length.max(1e-6));
+    let mut found = Vec::new();
+    let mut near = Vec::new();
+    for &[a, b] in edges {
+        let hits = |triangle: &[usize; 3]| {
             !triangle.contains(&a) && !triangle.contains(&b) && segment_hits(x[a], x[b], triangle.map(|v| x[v]))
         };
-        near.into_iter().filter(hits).map(move |t| Crossing { edge: [a, b], triangle: sorted(triangles[t]) })
-    })
+        let pierced = grid.near([&x[a], &x[b]], &mut near).iter().map(|t| triangles[*t]).filter(hits);
+        found.extend(pierced.map(|triangle| Crossing { edge: [a, b], triangle: sorted(triangle) }));
+    }
+    found
 }
 
 /// Times that what crosses is held back.
@@ -51,7 +50,7 @@ pub fn held_apart(x: &[V3], y: &[V3], triangles: &[[usize; 3]]) -> Vec<V3> {
     let mut reached = y.to_vec();
     let mut best = (usize::MAX, Vec::new());
     for _ in 0..=HALVINGS {
-        let found: Vec<Crossing> = crossings(&reached, edges.pairs(), triangles).collect();
+        let found = crossings(&reached, edges.pairs(), triangles);
         if found.len() < best.0 {
             best = (found.len(), reached.clone());
         }

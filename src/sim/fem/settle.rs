@@ -159,7 +159,8 @@ impl Settling<'_> {
 
     /// Holds points inside the body out from now on; returns how deep the deepest lies, m.
     fn hold_out(&self, contact: &mut BodyContact, x: &[V3], is_at_rest: bool) -> f64 {
-        let deepest = |skin| contact.hold_out(skin, &self.cloth.triangles, x, is_at_rest);
+        let Cloth { membrane, triangles, .. } = self.cloth;
+        let deepest = |skin| contact.hold_out(skin, (membrane.pairs.pairs(), triangles), x, is_at_rest);
         self.around.skin.map_or(0.0, deepest)
     }
 

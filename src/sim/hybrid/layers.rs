@@ -45,7 +45,7 @@ impl Layers {
     /// The end of an edge that has come through least goes back, and the triangle meets it half way: while cloth moves
     /// little between two looks, that is the end which should not have come through.
     pub fn part(&self, x: &mut [V3], rounds: u32) -> Parted {
-        let mut pierced: Vec<Crossing> = crossings(x, self.edges.pairs(), &self.triangles).collect();
+        let mut pierced = crossings(x, self.edges.pairs(), &self.triangles);
         if pierced.is_empty() {
             return Parted { found: 0, left: 0 };
         }
@@ -60,7 +60,7 @@ impl Layers {
             } else {
                 release(&pierced, &wings, x);
             }
-            pierced = crossings(x, near.edges.pairs(), &near.triangles).collect();
+            pierced = crossings(x, near.edges.pairs(), &near.triangles);
             waited += 1;
             if pierced.len() < least {
                 (least, waited) = (pierced.len(), 0);

@@ -69,9 +69,8 @@ impl Factor {
     /// Factorises the operator. Contacts of the cloth with itself come and go; they enter by their diagonal blocks alone.
     pub fn refresh(&mut self, operator: &Operator) {
         self.values.fill(0.0);
-        let contacts = operator.contact_blocks();
-        for (v, (block, contact)) in operator.diagonal.iter().zip(&contacts).enumerate() {
-            self.add_diagonal(v, &(block + contact));
+        for (v, block) in operator.own_blocks().iter().enumerate() {
+            self.add_diagonal(v, block);
         }
         let [membrane, bending, springs] = std::mem::take(&mut self.slots);
         for (&slot, block) in membrane.iter().zip(&operator.membrane) {

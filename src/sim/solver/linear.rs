@@ -3,12 +3,13 @@
 use nalgebra::Matrix3;
 use wide::{f32x4, f64x4};
 
+use super::blocks::Row;
 use super::factor::Factor;
 use super::machine::Machine;
 use super::operator::Operator;
 use super::patches::{Coarse, Patches};
 use super::pcg::{self, PcgParams, Preconditioner};
-use super::quad::{self, Block};
+use super::quad::{self, Block, Quad};
 use super::rows::Rows;
 use crate::geom::V3;
 
@@ -72,6 +73,9 @@ pub fn jacobi(operator: &Operator, b: &[V3], x: &mut [V3], params: &PcgParams) {
 /// Inverses of the diagonal blocks.
 struct Jacobi(Vec<Block<f32x4>>);
 
+/// Products that are summed up in single precision.
+const SUMMED: usize = 256;
+
 impl Jacobi {
     fn new(diagonal: &[Matrix3<f64>]) -> Self {
         let inverse = |d: &Matrix3<f64>| quad::block(&d.try_inverse().unwrap_or_else(Matrix3::zeros));
@@ -81,17 +85,25 @@ impl Jacobi {
 
 impl Preconditioner<f32x4> for Jacobi {
     #[inline(always)]
-    fn apply<M: Machine>(&self, _: M, r: &[f32x4], z: &mut [f32x4]) {
-        for ((z, r), block) in z.iter_mut().zip(r).zip(&self.0) {
-            *z = quad::transposed_times(block, *r);
+    fn begin<M: Machine>(&mut self, machine: M, r: &[f32x4], z: &mut [f32x4]) -> f64 {
+        let mut works = 0.0;
+        for ((z, r), blocks) in z.chunks_mut(SUMMED).zip(r.chunks(SUMMED)).zip(self.0.chunks(SUMMED)) {
+            let mut sum = f32x4::ZERO;
+            for ((z, r), block) in z.iter_mut().zip(r).zip(blocks) {
+                *z = quad::transposed_times(block, *r);
+                sum = machine.plus(*z, *r, sum);
+            }
+            works += sum.total();
         }
+        works
     }
 }
 
 impl Preconditioner<f64x4> for &Factor {
     #[inline(always)]
-    fn apply<M: Machine>(&self, _: M, r: &[f64x4], z: &mut [f64x4]) {
+    fn begin<M: Machine>(&mut self, _: M, r: &[f64x4], z: &mut [f64x4]) -> f64 {
         self.solve(r, z);
+        pcg::dot(r, z, |r, z| *r * *z)
     }
 }
 
@@ -118,7 +130,8 @@ impl TwoLevel {
         let kept = self.coarse.take().filter(|_| self.lost < FACTOR_COST);
         let is_new = kept.is_none();
         let coarse = kept.unwrap_or_else(|| self.patches.factorise(operator, &diagonal, positions));
-        let both = Both { jacobi: Jacobi::new(&diagonal), patches: &self.patches, coarse: &coarse };
+        let motions = Vec::new();
+        let both = Both { jacobi: Jacobi::new(&diagonal), patches: &self.patches, coarse: &coarse, motions };
         let iterations = pcg::solve(&Rows::new(operator), both, b, x, params).iterations;
         if is_new {
             (self.when_new, self.lost) = (iterations, 0);
@@ -134,12 +147,19 @@ struct Both<'a> {
     jacobi: Jacobi,
     patches: &'a Patches,
     coarse: &'a Coarse,
+    /// How the patches answer.
+    motions: Vec<Row>,
 }
 
 impl Preconditioner<f32x4> for Both<'_> {
     #[inline(always)]
-    fn apply<M: Machine>(&self, machine: M, r: &[f32x4], z: &mut [f32x4]) {
-        self.jacobi.apply(machine, r, z);
-        self.patches.add(machine, self.coarse, r, z);
+    fn begin<M: Machine>(&mut self, machine: M, r: &[f32x4], z: &mut [f32x4]) -> f64 {
+        let works = self.jacobi.begin(machine, r, z);
+        works + self.patches.answer(machine, self.coarse, r, &mut self.motions)
+    }
+
+    #[inline(always)]
+    fn turn<M: Machine>(&self, machine: M, z: &[f32x4], beta: f32x4, states: &mut [[f32x4; 2]]) {
+        self.patches.turn(machine, self.coarse, (&self.motions, z), beta, states);
     }
 }

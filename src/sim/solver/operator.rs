@@ -26,9 +26,21 @@ impl PairList {
     /// Collects the distinct unordered pairs.
     #[must_use]
     pub fn new(pairs: impl IntoIterator<Item = [usize; 2]>) -> Self {
-        let mut pairs: Vec<[usize; 2]> = pairs.into_iter().map(|[i, j]| [i.min(j), i.max(j)]).collect();
-        pairs.sort_unstable();
-        pairs.dedup();
+        let given: Vec<[usize; 2]> = pairs.into_iter().map(|[i, j]| [i.min(j), i.max(j)]).collect();
+        let (ends, mut others) = by_row(&given, |[i, _]| *i, |[_, j]| *j);
+        let mut pairs: Vec<[usize; 2]> = Vec::with_capacity(given.len());
+        let mut from = 0;
+        for (i, to) in ends.into_iter().enumerate() {
+            let row = &mut others[from..to];
+            row.sort_unstable();
+            for (k, j) in row.iter().enumerate() {
+                if k == 0 || row[k - 1] != *j {
+                    pairs.push([i, *j]);
+                }
+            }
+            from = to;
+        }
+        pairs.shrink_to_fit();
         let upper = Upper::new(&pairs);
         Self { pairs, upper }
     }
@@ -82,6 +94,29 @@ impl PairList {
     pub fn pairs(&self) -> &[[usize; 2]] {
         &self.pairs
     }
+}
+
+/// What is `kept` of each item, sorted by its row by counting, within a row in the order of the items; and where the rows end.
+pub fn by_row<I, T: Copy + Default>(
+    items: &[I],
+    row: impl Fn(&I) -> usize,
+    kept: impl Fn(&I) -> T,
+) -> (Vec<usize>, Vec<T>) {
+    let count = items.iter().map(|item| row(item) + 1).max().unwrap_or(0);
+    // Where each row begins, which is counted up to where it ends.
+    let mut ends = vec![0; count + 1];
+    items.iter().for_each(|item| ends[row(item) + 1] += 1);
+    for r in 0..count {
+        ends[r + 1] += ends[r];
+    }
+    let mut sorted = vec![T::default(); items.len()];
+    for item in items {
+        let at = &mut ends[row(item)];
+        sorted[*at] = kept(item);
+        *at += 1;
+    }
+    ends.truncate(count);
+    (ends, sorted)
 }
 
 /// Coupling of four vertices along one direction: the stiffness `k a a^T` with `a = (w_0 n, ..., w_3 n)`.
@@ -138,37 +173,38 @@ impl Operator<'_> {
     /// The 3x3 blocks on the diagonal of `K`, for a block-Jacobi preconditioner.
     #[must_use]
     pub fn diagonal_blocks(&self) -> Vec<Matrix3<f64>> {
-        // Rows and columns of couplings summed by themselves: what the diagonal lacks for both to come to nothing.
-        let mut sums = vec![[[f32x4::ZERO; 3]; 2]; self.diagonal.len()];
-        for (&[i, j], block) in self.membrane_pairs.pairs().iter().zip(&self.membrane) {
-            for k in 0..3 {
-                sums[i][0][k] += block[k];
-                sums[j][1][k] += block[k];
-            }
-        }
-        let lacking = |[rows, columns]: &[Block<f32x4>; 2]| quad::matrix(rows) + quad::matrix(columns).transpose();
-        let mut blocks: Vec<Matrix3<f64>> =
-            self.diagonal.iter().zip(&sums).map(|(own, sums)| own - lacking(sums)).collect();
-        for (&[i, j], entry) in self.bending_pairs.pairs().iter().zip(self.bending) {
-            for v in [i, j] {
-                blocks[v] -= Matrix3::identity() * *entry;
-            }
-        }
+        let mut blocks = self.own_blocks();
         for &([i, j], stiffness) in &self.springs {
             for v in [i, j] {
                 blocks[v] += Matrix3::identity() * stiffness;
             }
         }
-        for (block, contact) in blocks.iter_mut().zip(self.contact_blocks()) {
-            *block += contact;
+        // Rows and columns of couplings summed by themselves: what the diagonal lacks for both to come to nothing. Once a vertex is
+        // met, all smaller ones have been, and its column is whole.
+        let mut columns = vec![[f32x4::ZERO; 3]; blocks.len()];
+        let mut alike = vec![0.0; blocks.len()];
+        for (i, block) in blocks.iter_mut().enumerate() {
+            let mut rows = [f32x4::ZERO; 3];
+            for (j, coupling) in self.membrane_pairs.upper().of(i, &self.membrane) {
+                for (k, row) in coupling.iter().enumerate() {
+                    rows[k] += *row;
+                    columns[j][k] += *row;
+                }
+            }
+            for (j, entry) in self.bending_pairs.upper().of(i, self.bending) {
+                alike[i] += entry;
+                alike[j] += entry;
+            }
+            let lacking = quad::matrix(&rows) + quad::matrix(&columns[i]).transpose();
+            *block -= lacking + Matrix3::from_diagonal_element(alike[i]);
         }
         blocks
     }
 
-    /// What the contacts of the cloth with itself add to the diagonal blocks.
+    /// The diagonal blocks without what couplings of pairs and springs have there.
     #[must_use]
-    pub fn contact_blocks(&self) -> Vec<Matrix3<f64>> {
-        let mut blocks = vec![Matrix3::zeros(); self.diagonal.len()];
+    pub fn own_blocks(&self) -> Vec<Matrix3<f64>> {
+        let mut blocks = self.diagonal.clone();
         for contact in &self.contacts {
             let outer = contact.normal * contact.normal.transpose() * contact.stiffness;
             for k in 0..4 {

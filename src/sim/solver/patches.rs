@@ -13,7 +13,7 @@ use wide::f32x4;
 
 use super::blocks::{Dense, Numeric, Row, Symbolic};
 use super::machine::Machine;
-use super::operator::Operator;
+use super::operator::{Operator, PairList};
 use super::quad;
 use crate::geom::V3;
 
@@ -37,7 +37,7 @@ pub struct Patches {
     /// Where those of each patch end, and the first begins.
     ends: Vec<usize>,
     /// Pairs of patches, the smaller first, a patch with itself too.
-    pairs: Vec<[usize; 2]>,
+    pairs: PairList,
     /// Pair of patches of each membrane pair, bending pair and spring.
     slots: [Vec<usize>; 3],
     symbolic: Symbolic,
@@ -53,13 +53,14 @@ impl Patches {
         let apart = if vertices < LARGE { APART } else { APART_IN_LARGE };
         let (of, count) = operator.membrane_pairs.divide(vertices, apart);
         let coupled = |&[i, j]: &[usize; 2]| [of[i].min(of[j]), of[i].max(of[j])];
-        let mut pairs: Vec<[usize; 2]> = (0..count).map(|a| [a, a]).collect();
-        pairs.extend(lists.iter().flat_map(|list| list.iter().map(coupled)));
-        pairs.sort_unstable();
-        pairs.dedup();
-        let slot = |pair: &[usize; 2]| pairs.binary_search(&coupled(pair)).expect("the pair was just collected");
+        let own = (0..count).map(|a| [a, a]);
+        let pairs = PairList::new(own.chain(lists.iter().flat_map(|list| list.iter().map(coupled))));
+        let slot = |pair: &[usize; 2]| {
+            let [a, b] = coupled(pair);
+            pairs.slot(a, b).expect("the pair was just collected")
+        };
         let slots = lists.map(|list| list.iter().map(slot).collect());
-        let symbolic = Symbolic::new(count, &pairs);
+        let symbolic = Symbolic::new(count, pairs.pairs());
         let mut members: Vec<u32> = (0..vertices as u32).collect();
         members.sort_by_key(|v| of[*v as usize]);
         let ends = (0..=count).map(|a| members.partition_point(|v| of[*v as usize] < a)).collect();
@@ -70,7 +71,7 @@ impl Patches {
     #[must_use]
     pub fn factorise(&self, operator: &Operator, diagonal: &[Matrix3<f64>], x: &[V3]) -> Coarse {
         let arms = self.arms(x);
-        let mut blocks = vec![Matrix6::zeros(); self.pairs.len()];
+        let mut blocks = vec![Matrix6::zeros(); self.pairs.pairs().len()];
         let mut add = |slot: usize, [i, j]: [usize; 2], block: Matrix6<f64>| match self.of[i].cmp(&self.of[j]) {
             Ordering::Less => blocks[slot] += block,
             Ordering::Greater => blocks[slot] += block.transpose(),
@@ -89,7 +90,7 @@ impl Patches {
             let [p, q] = pair.map(|v| &arms[v]);
             add(slot, *pair, between_alike(p, -k, q));
         }
-        let own: Vec<usize> = (0..self.count).map(|a| self.pairs.partition_point(|p| *p < [a, a])).collect();
+        let own: Vec<usize> = (0..self.count).filter_map(|a| self.pairs.slot(a, a)).collect();
         for ((a, arm), block) in self.of.iter().zip(&arms).zip(diagonal) {
             blocks[own[*a]] += between(arm, block, arm);
         }
@@ -123,7 +124,10 @@ impl Patches {
             for k in 0..4 {
                 for l in (0..4).filter(|l| *l != k) {
                     let [a, b] = [k, l].map(|k| self.of[contact.vertices[k]]);
-                    if let Ok(slot) = self.pairs.binary_search(&[a, b]) {
+                    // The other half stands transposed in the same block.
+                    if a <= b
+                        && let Some(slot) = self.pairs.slot(a, b)
+                    {
                         blocks[slot] += wrench(k) * wrench(l).transpose() * contact.stiffness;
                     }
                 }
@@ -131,14 +135,13 @@ impl Patches {
         }
     }
 
-    /// Adds to `z` the rigid motions of the patches that the forces `r` cause.
+    /// The rigid motions of the patches that the forces `r` cause, in `motions`; returns what the forces work along them.
     #[inline(always)]
-    pub fn add<M: Machine>(&self, machine: M, coarse: &Coarse, r: &[f32x4], z: &mut [f32x4]) {
-        let Some(factor) = &coarse.factor else { return };
-        let patches =
-            self.ends.windows(2).map(|ends| (&self.members[ends[0]..ends[1]], &coarse.arms[ends[0]..ends[1]]));
-        let mut rows = vec![Row::default(); self.count];
-        for ((members, arms), row) in patches.clone().zip(&mut rows) {
+    pub fn answer<M: Machine>(&self, machine: M, coarse: &Coarse, r: &[f32x4], motions: &mut Vec<Row>) -> f64 {
+        motions.clear();
+        motions.resize(self.count, Row::default());
+        let Some(factor) = &coarse.factor else { return 0.0 };
+        for ((members, arms), row) in self.members(coarse).zip(motions.iter_mut()) {
             let (mut force, mut moment) = (f32x4::ZERO, [f32x4::ZERO; 2]);
             for (v, arm) in members.iter().zip(arms) {
                 let r = r[*v as usize];
@@ -147,15 +150,37 @@ impl Patches {
             }
             *row = six([force, moment[0] - moment[1]].map(f32x4::to_array));
         }
-        self.symbolic.solve(machine, factor, &mut rows);
-        for ((members, arms), [x, y, w, a, b, c]) in patches.zip(rows) {
-            let (shift, turn) =
-                (f32x4::from([x, y, w, 0.0]), [f32x4::from([b, c, a, 0.0]), f32x4::from([c, a, b, 0.0])]);
+        let forces = motions.clone();
+        self.symbolic.solve(machine, factor, motions);
+        let work = |(force, motion): (&Row, &Row)| -> f32 { force.iter().zip(motion).map(|(f, m)| f * m).sum() };
+        forces.iter().zip(motions.iter()).map(|pair| f64::from(work(pair))).sum()
+    }
+
+    /// The next direction `p = z + beta p` of states `[p, K p]`, with these `motions` of the patches in `z`.
+    #[inline(always)]
+    pub fn turn<M: Machine>(
+        &self,
+        machine: M,
+        coarse: &Coarse,
+        (motions, z): (&[Row], &[f32x4]),
+        beta: f32x4,
+        states: &mut [[f32x4; 2]],
+    ) {
+        for ((members, arms), [x, y, w, a, b, c]) in self.members(coarse).zip(motions) {
+            let shift = f32x4::from([*x, *y, *w, 0.0]);
+            let turn = [f32x4::from([*b, *c, *a, 0.0]), f32x4::from([*c, *a, *b, 0.0])];
             for (v, arm) in members.iter().zip(arms) {
-                let z = &mut z[*v as usize];
-                *z = arm.add_motion(machine, turn, *z + shift);
+                let v = *v as usize;
+                let p = &mut states[v][0];
+                *p = machine.plus(beta, *p, arm.add_motion(machine, turn, z[v] + shift));
             }
         }
+    }
+
+    /// The vertices of each patch, with their arms.
+    #[inline(always)]
+    fn members<'a>(&'a self, coarse: &'a Coarse) -> impl Iterator<Item = (&'a [u32], &'a [Arm])> {
+        self.ends.windows(2).map(|ends| (&self.members[ends[0]..ends[1]], &coarse.arms[ends[0]..ends[1]]))
     }
 }
 
@@ -273,7 +298,9 @@ mod tests {
         let mut states: Vec<[f64x4; 2]> = moved.iter().map(|p| [f64x4::from_vector(p), f64x4::ZERO]).collect();
         Rows::new(&operator).apply(Plain, &mut states);
         let forces: Vec<f32x4> = states.iter().map(|[_, f]| f32x4::from_vector(&f.vector())).collect();
-        for found in [machine::on_best(Add(&patches, &coarse, &forces)), Plain.alone(Add(&patches, &coarse, &forces))] {
+        for found in
+            [machine::on_best(Answer(&patches, &coarse, &forces)), Plain.alone(Answer(&patches, &coarse, &forces))]
+        {
             for (found, moved) in found.iter().zip(&moved) {
                 assert!((found.vector() - moved).amax() < 0.01, "{found:?} for {moved:?}");
             }
@@ -281,14 +308,21 @@ mod tests {
     }
 
     /// What patches make of forces.
-    struct Add<'a>(&'a Patches, &'a Coarse, &'a [f32x4]);
+    struct Answer<'a>(&'a Patches, &'a Coarse, &'a [f32x4]);
 
-    impl Task for Add<'_> {
+    impl Task for Answer<'_> {
         type Output = Vec<f32x4>;
 
         fn run<M: Machine>(self, machine: M) -> Vec<f32x4> {
-            let mut found = vec![f32x4::ZERO; self.2.len()];
-            self.0.add(machine, self.1, self.2, &mut found);
+            let Self(patches, coarse, forces) = self;
+            let (z, mut motions) = (vec![f32x4::ZERO; forces.len()], Vec::new());
+            let works = patches.answer(machine, coarse, forces, &mut motions);
+            let mut states = vec![[f32x4::ONE; 2]; forces.len()];
+            patches.turn(machine, coarse, (&motions, &z), f32x4::ZERO, &mut states);
+            let found: Vec<f32x4> = states.iter().map(|[p, _]| *p).collect();
+            let work = |(p, f): (&f32x4, &f32x4)| p.vector().dot(&f.vector());
+            let expect: f64 = found.iter().zip(forces).map(work).sum();
+            assert!((works / expect - 1.0).abs() < 1e-4, "{works} for {expect}");
             found
         }
     }

@@ -23,10 +23,18 @@ pub struct Outcome {
     pub iterations: usize,
 }
 
-/// A preconditioner `P`.
+/// A preconditioner `P`, met in two halves: all that is asked between them is what `r` works along `P r`.
 pub trait Preconditioner<Q: Quad> {
-    /// `z = P r`.
-    fn apply<M: Machine>(&self, machine: M, r: &[Q], z: &mut [Q]);
+    /// The first half of `P r`, in `z`; returns `r . P r`.
+    fn begin<M: Machine>(&mut self, machine: M, r: &[Q], z: &mut [Q]) -> f64;
+
+    /// The next direction of states `[p, K p]`: `p = P r + beta p`, where the first half came to `z`.
+    #[inline(always)]
+    fn turn<M: Machine>(&self, machine: M, z: &[Q], beta: Q, states: &mut [[Q; 2]]) {
+        for ([p, _], z) in states.iter_mut().zip(z) {
+            *p = beta.times_plus(*p, *z, machine);
+        }
+    }
 }
 
 /// Improves `x` towards the solution of `K x = b` with a preconditioner, starting at the best multiple of it; says how that ended.
@@ -61,11 +69,10 @@ impl<Q: Quad, P: Preconditioner<Q>> Task for Improvement<'_, Q, P> {
 
     #[inline(always)]
     fn run<M: Machine>(self, machine: M) -> Outcome {
-        let Self { operator, preconditioner, b, x, params } = self;
+        let Self { operator, mut preconditioner, b, x, params } = self;
         let (alike, within) = (|a: &Q, b: &Q| *a * *b, |[p, kp]: &[Q; 2], _: &[Q; 2]| *p * *kp);
         let mut z = vec![Q::ZERO; b.len()];
-        preconditioner.apply(machine, b, &mut z);
-        let goal = dot(b, &z, alike) * params.tolerance * params.tolerance;
+        let goal = preconditioner.begin(machine, b, &mut z) * params.tolerance * params.tolerance;
         // The last displacement `p`, and what it is multiplied to.
         let mut states: Vec<[Q; 2]> = x.iter().map(|x| [*x, Q::ZERO]).collect();
         operator.apply(machine, &mut states);
@@ -81,8 +88,7 @@ impl<Q: Quad, P: Preconditioner<Q>> Task for Improvement<'_, Q, P> {
                 *x = share.times_plus(*p, *x, machine);
                 *r = share.times_from(*kp, *r, machine);
             }
-            preconditioner.apply(machine, &r, &mut z);
-            let rz_next = dot(&r, &z, alike);
+            let rz_next = preconditioner.begin(machine, &r, &mut z);
             if rz_next <= goal || rz_next <= Q::NEGLIGIBLE {
                 return Outcome { is_solved: true, iterations };
             }
@@ -92,9 +98,7 @@ impl<Q: Quad, P: Preconditioner<Q>> Task for Improvement<'_, Q, P> {
             // The first direction is the residual's own.
             let beta = Q::spread(rz_next / rz);
             rz = rz_next;
-            for ([p, _], z) in states.iter_mut().zip(&z) {
-                *p = beta.times_plus(*p, *z, machine);
-            }
+            preconditioner.turn(machine, &z, beta, &mut states);
             operator.apply(machine, &mut states);
             let curvature = dot(&states, &states, within);
             if curvature <= 0.0 {
@@ -108,7 +112,7 @@ impl<Q: Quad, P: Preconditioner<Q>> Task for Improvement<'_, Q, P> {
 
 /// Sum of the products of pairs; sums side by side, so that none waits for the other.
 #[inline(always)]
-fn dot<Q: Quad, T, U>(a: &[T], b: &[U], product: impl Fn(&T, &U) -> Q) -> f64 {
+pub fn dot<Q: Quad, T, U>(a: &[T], b: &[U], product: impl Fn(&T, &U) -> Q) -> f64 {
     let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
     let mut sums = [Q::ZERO; 4];
     for (a, b) in a.iter().zip(b) {

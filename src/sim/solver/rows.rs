@@ -28,7 +28,11 @@ impl Upper {
     #[must_use]
     pub fn new(pairs: &[[usize; 2]]) -> Self {
         let count = pairs.last().map_or(0, |pair| pair[0] + 1);
-        let starts = (0..=count).map(|v| pairs.partition_point(|pair| pair[0] < v) as u32).collect();
+        let mut starts = vec![0; count + 1];
+        pairs.iter().for_each(|pair| starts[pair[0] + 1] += 1);
+        for v in 0..count {
+            starts[v + 1] += starts[v];
+        }
         Self { starts, others: pairs.iter().map(|pair| pair[1] as u32).collect() }
     }
 
