@@ -37,6 +37,14 @@ fn triangles_are_near_equilateral_counter_clockwise_and_fill_the_outline() {
 }
 
 #[test]
+fn triangles_come_in_the_order_of_their_last_vertices() {
+    for (_, garment) in garments() {
+        let order = |t: &[usize; 3]| t[0].max(t[1]).max(t[2]);
+        assert!(garment.triangles.is_sorted_by_key(order), "{} at {}", garment.size, garment.edge_length_m);
+    }
+}
+
+#[test]
 fn named_edges_run_counter_clockwise_round_the_whole_piece() {
     let (style, garment) = garments().next().expect("a garment");
     for (piece, drawn) in garment.pieces.iter().zip(&style.pieces) {

@@ -222,3 +222,30 @@ fn control(garment: &Garment, positions: &[V3], params: &Params) -> Result<(), S
     }
     if distortion.stretch > limit.max(TORN) { Err(SimError::Torn { distortion }) } else { Ok(()) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{self, Measurements, Sex};
+    use crate::sim::laboratory::{self, sheets::sheet};
+    use crate::sim::testing::fabric;
+
+    #[test]
+    fn coarse_meshes_are_slack_where_the_garment_is_large_and_not_drawn_tight() {
+        let body = body::build(&Measurements::of(Sex::Male, 1.75)).expect("a body");
+        let (field, fabric) = (laboratory::nowhere(), fabric());
+        let [small, large] = [20, 110].map(|n| laboratory::garment(sheet(n, n, 0.01)));
+        let check = |finest: &Garment, stretch: f64, expect: bool| {
+            let garments = [small.clone(), finest.clone()];
+            let sewn: Vec<V3> = small.rest.iter().map(|p| V3::new(stretch * p.x, p.y, 0.0)).collect();
+            let (body, field, fabric, garments) = (&body, &field, &fabric, &garments[..]);
+            let dressing =
+                Dressing { body, skin: None, field, hands: None, garments, fabric, placed: &sewn, force: 1.0 };
+            assert_eq!(dressing.is_slack(&sewn).expect("sound"), expect, "{stretch}");
+        };
+        check(&large, 1.0, true);
+        check(&large, 1.08, true);
+        check(&large, 1.12, false);
+        check(&small, 1.0, false);
+    }
+}

@@ -89,8 +89,9 @@ pub fn over_sphere(fabric: &Fabric, sphere: &DistanceField) -> Result<OverSphere
     contact.set_friction(Some(fabric.friction_body));
     let mut system = System::new(&cloth, contact, None);
     system.self_contact = Some(ClothContact::new(ClothContactParams::default(), &cloth.triangles, &cloth.areas));
-    // It falls by half a metre: as far in a step as contact allows.
-    let mut stepper = Stepper::new(StepParams { clamp_m: 0.03, ..StepParams::default() });
+    // It falls by half a metre: as far in a step as contact allows, and so there is more to correct.
+    let far = StepParams { clamp_m: 0.03, correction_iterations: 12, ..StepParams::default() };
+    let mut stepper = Stepper::new(far);
     let (mut residual, mut steps) = (f64::MAX, 0);
     while residual > 0.01 && steps < 600 {
         residual = stepper.step(&mut system, &mut positions, 0.01).residual;

@@ -62,7 +62,7 @@ impl Default for StepParams {
             linear_iterations: 1000,
             correction_h_s: 0.004,
             correction_tolerance: 0.1,
-            correction_iterations: 12,
+            correction_iterations: 6,
         }
     }
 }
