@@ -220,6 +220,19 @@ mod tests {
     use super::*;
 
     #[test]
+    fn pairs_are_kept_once_and_found_either_way_round() {
+        let list = PairList::new([[3, 1], [0, 2], [1, 3], [5, 5], [0, 1], [2, 0]]);
+        assert_eq!(list.pairs(), [[0, 1], [0, 2], [1, 3], [5, 5]]);
+        let check = |i: usize, j: usize, expect: Option<usize>| assert_eq!(list.slot(i, j), expect, "{i}, {j}");
+        check(2, 0, Some(1));
+        check(3, 1, Some(2));
+        check(5, 5, Some(3));
+        check(1, 2, None);
+        check(4, 6, None);
+        assert!(PairList::new([]).pairs().is_empty());
+    }
+
+    #[test]
     fn every_vertex_is_in_a_patch_near_its_middle() {
         let line = PairList::new((0..99).map(|v| [v, v + 1]));
         let (of, count) = line.divide(100, 4);

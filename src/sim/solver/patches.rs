@@ -52,7 +52,7 @@ impl Patches {
         let vertices = operator.diagonal.len();
         let apart = if vertices < LARGE { APART } else { APART_IN_LARGE };
         let (of, count) = operator.membrane_pairs.divide(vertices, apart);
-        let coupled = |&[i, j]: &[usize; 2]| [of[i].min(of[j]), of[i].max(of[j])];
+        let coupled = |pair: &[usize; 2]| pair.map(|v| of[v]);
         let own = (0..count).map(|a| [a, a]);
         let pairs = PairList::new(own.chain(lists.iter().flat_map(|list| list.iter().map(coupled))));
         let slot = |pair: &[usize; 2]| {
