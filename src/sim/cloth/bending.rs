@@ -21,8 +21,8 @@ use super::part::Part;
 use crate::geom::{V2, V3};
 use crate::sim::Fabric;
 use crate::sim::solver::PairList;
-use crate::sim::solver::operator::by_row;
 use crate::sim::solver::quad::{self, Block};
+use crate::sim::solver::rows::by_row;
 
 /// One interior edge with its two triangles.
 #[derive(Clone, Copy, Debug)]
@@ -219,11 +219,11 @@ pub struct Bending {
 
 /// Distinct pairs with the sums of their terms, in an order that does not depend on that of the terms: rounded alike if mirrored.
 fn summed(terms: &[([usize; 2], f64)]) -> (PairList, Vec<f64>) {
-    let (ends, mut sorted) = by_row(terms, |([i, _], _)| *i, |([_, j], value)| (*j, *value));
+    let rows = terms.iter().map(|([i, _], _)| i + 1).max().unwrap_or(0);
+    let (starts, mut sorted) = by_row(rows, terms, |([i, _], _)| *i, |([_, j], value)| (*j, *value));
     let (mut pairs, mut entries): (Vec<[usize; 2]>, Vec<f64>) = (Vec::new(), Vec::new());
-    let mut from = 0;
-    for (i, to) in ends.into_iter().enumerate() {
-        let row = &mut sorted[from..to];
+    for (i, ends) in starts.windows(2).enumerate() {
+        let row = &mut sorted[ends[0] as usize..ends[1] as usize];
         row.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         for (j, value) in row {
             match entries.last_mut().filter(|_| pairs.last() == Some(&[i, *j])) {
@@ -234,7 +234,6 @@ fn summed(terms: &[([usize; 2], f64)]) -> (PairList, Vec<f64>) {
                 }
             }
         }
-        from = to;
     }
     (PairList::new(pairs), entries)
 }

@@ -15,71 +15,13 @@ use std::collections::BTreeMap;
 
 use nalgebra::Matrix3;
 
+use super::point::Point;
+use super::pressure::{ContactParams, Push};
 use super::skin::Skin;
 use super::tangle::edges_of;
-use crate::geom::triangle::sorted;
 use crate::geom::{DistanceField, V3};
 use crate::sim::cloth::part::Part;
 use crate::sim::solver::Contact4;
-
-/// Parameters of body contact.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct ContactParams {
-    /// Distance from the skin at which cloth begins to be pushed, m.
-    pub offset_m: f64,
-    /// Penalty, N/m3 (pressure per depth).
-    pub stiffness_n_m3: f64,
-    /// Depth over which the pressure of a light contact grows e-fold, m.
-    pub softness_m: f64,
-    /// Pressure at which that growth begins, N/m2: about the weight of cloth.
-    pub light_n_m2: f64,
-    /// Greatest displacement of a sticking contact, m: a light one is held no more stiffly than that takes.
-    pub slip_m: f64,
-    /// Greatest tangential stiffness of a sticking contact over the penalty.
-    pub tangential_share: f64,
-    /// Distance from the skin that a point found inside is given, m.
-    pub clearance_m: f64,
-}
-
-impl Default for ContactParams {
-    fn default() -> Self {
-        Self {
-            offset_m: 1e-3,
-            stiffness_n_m3: 1e7,
-            softness_m: 5e-5,
-            light_n_m2: 2.0,
-            slip_m: 2e-4,
-            tangential_share: 0.03,
-            clearance_m: 4e-4,
-        }
-    }
-}
-
-/// What a contact does at some depth.
-#[derive(Clone, Copy, Debug)]
-struct Push {
-    /// Energy per area, N/m.
-    energy_n_m: f64,
-    pressure_n_m2: f64,
-    /// Slope of the pressure, N/m3.
-    stiffness_n_m3: f64,
-}
-
-impl ContactParams {
-    fn push(&self, depth: f64) -> Push {
-        let (l, p0, k) = (self.softness_m, self.light_n_m2, self.stiffness_n_m3);
-        let knee = l * (k * l / p0).max(1.0).ln();
-        let soft = depth.min(knee);
-        let hard = depth - soft;
-        let growth = (soft / l).exp();
-        let pressure = p0 * (growth - 1.0);
-        Push {
-            energy_n_m: p0 * (l * (growth - 1.0) - soft) + hard * (pressure + 0.5 * k * hard),
-            pressure_n_m2: pressure + k * hard,
-            stiffness_n_m3: if hard > 0.0 { k } else { p0 / l * growth },
-        }
-    }
-}
 
 /// Share of the sticking stiffness that a sliding contact keeps in the linear system, so that it stays regular.
 const SLIDING_STIFFNESS_SHARE: f64 = 0.1;
@@ -89,16 +31,8 @@ const NEARLY_FLAT: f64 = 0.02;
 const MOST_YIELD_M: f64 = 2e-3;
 /// Farthest that the blurred field may lie from the true skin where cloth touches, m.
 const FIELD_ERROR_M: f64 = 4e-3;
-
 /// The field rises no faster than this; a distance field by 1 a metre, but for rounding.
 const STEEPEST: f64 = 1.05;
-
-/// A point of the cloth: between vertices, by these weights.
-#[derive(Clone, Copy, Debug)]
-struct Point {
-    vertices: [usize; 3],
-    weights: [f64; 3],
-}
 
 /// A point of the cloth that is kept out of the body.
 #[derive(Clone, Copy, Debug)]
@@ -127,36 +61,6 @@ impl Seen {
     #[inline(always)]
     fn is_clear(&self, p: &V3) -> bool {
         self.slack_m > 0.0 && (p - self.place).norm_squared() < self.slack_m * self.slack_m
-    }
-}
-
-impl Point {
-    fn vertex(vertex: usize) -> Self {
-        Self { vertices: [vertex; 3], weights: [1.0, 0.0, 0.0] }
-    }
-
-    /// The middles of edges and the centres of triangles.
-    fn between<'m>(edges: &'m [[usize; 2]], triangles: &'m [[usize; 3]]) -> impl Iterator<Item = Self> + 'm {
-        let middle = |&[a, b]: &[usize; 2]| Self { vertices: [a, b, b], weights: [0.5, 0.5, 0.0] };
-        let centre = |t: &[usize; 3]| Self { vertices: sorted(*t), weights: [1.0 / 3.0; 3] };
-        edges.iter().map(middle).chain(triangles.iter().map(centre))
-    }
-
-    fn at(&self, x: &[V3]) -> V3 {
-        let ([a, b, c], [wa, wb, wc]) = (self.vertices, self.weights);
-        if wa == 1.0 { x[a] } else { x[a] * wa + x[b] * wb + x[c] * wc }
-    }
-
-    fn add_force(&self, force: &V3, forces: &mut [V3]) {
-        for k in 0..3 {
-            forces[self.vertices[k]] += force * self.weights[k];
-        }
-    }
-
-    /// Stiffness `k` along a direction, as the operator takes it.
-    fn coupling(&self, normal: V3, stiffness: f64) -> Contact4 {
-        let ([a, b, c], [wa, wb, wc]) = (self.vertices, self.weights);
-        Contact4 { vertices: [a, b, c, c], weights: [wa, wb, wc, 0.0], normal, stiffness }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::bounds::Bounds;
 use crate::geom::V3;
+use crate::sim::solver::rows::by_row;
 
 /// Boxes by the grid cell that their middle lies in.
 pub struct BoxGrid {
@@ -40,25 +41,12 @@ impl BoxGrid {
         let cell_m = cell_m * (wanted / MOST_CELLS).max(1.0).cbrt();
         let size = [0, 1, 2].map(|k| ((high - low)[k] / cell_m) as usize + 1);
         let mut grid = Self { cell_m, low, size, half_m, starts: Vec::new(), boxes: Vec::new() };
-        grid.fill(&middles, &corners);
+        let cells: Vec<(usize, u32)> = middles.iter().map(|m| grid.number(grid.cell(m))).zip(0..).collect();
+        let (starts, order) = by_row(size.iter().product(), &cells, |(cell, _)| *cell, |(_, which)| *which);
+        grid.starts = starts;
+        grid.boxes =
+            order.into_iter().map(|k| (Bounds::new(&corners[k as usize].0, &corners[k as usize].1), k)).collect();
         grid
-    }
-
-    fn fill(&mut self, middles: &[V3], corners: &[(V3, V3)]) {
-        let cells: Vec<usize> = middles.iter().map(|middle| self.number(self.cell(middle))).collect();
-        self.starts = vec![0; self.size.iter().product::<usize>() + 1];
-        for cell in &cells {
-            self.starts[cell + 1] += 1;
-        }
-        for cell in 1..self.starts.len() {
-            self.starts[cell] += self.starts[cell - 1];
-        }
-        let mut next = self.starts.clone();
-        self.boxes = vec![(Bounds::NOTHING, 0); corners.len()];
-        for (index, (cell, (low, high))) in cells.iter().zip(corners).enumerate() {
-            self.boxes[next[*cell] as usize] = (Bounds::new(low, high), index as u32);
-            next[*cell] += 1;
-        }
     }
 
     /// Sets within reach of the box of some points, in increasing order: all of them, and few others; in `found`.
@@ -73,8 +61,8 @@ impl BoxGrid {
                 // Cells along x follow each other.
                 let row = [from[0], to[0]].map(|i| self.number([i, j, k]));
                 let boxes = &self.boxes[self.starts[row[0]] as usize..self.starts[row[1] + 1] as usize];
-                found
-                    .extend(boxes.iter().filter(|(bounds, _)| bounds.meets(&wanted)).map(|(_, which)| *which as usize));
+                let met = boxes.iter().filter(|(bounds, _)| bounds.meets(&wanted));
+                found.extend(met.map(|(_, which)| *which as usize));
             }
         }
         found.sort_unstable();

@@ -9,7 +9,7 @@ use nalgebra::Matrix3;
 use wide::f32x4;
 
 use super::quad::{self, Block};
-use super::rows::Upper;
+use super::rows::{Upper, by_row};
 use crate::geom::V3;
 
 /// Pairs of vertices `i < j`, sorted, that some element couples.
@@ -27,18 +27,17 @@ impl PairList {
     #[must_use]
     pub fn new(pairs: impl IntoIterator<Item = [usize; 2]>) -> Self {
         let given: Vec<[usize; 2]> = pairs.into_iter().map(|[i, j]| [i.min(j), i.max(j)]).collect();
-        let (ends, mut others) = by_row(&given, |[i, _]| *i, |[_, j]| *j);
+        let rows = given.iter().map(|[i, _]| i + 1).max().unwrap_or(0);
+        let (starts, mut others) = by_row(rows, &given, |[i, _]| *i, |[_, j]| *j);
         let mut pairs: Vec<[usize; 2]> = Vec::with_capacity(given.len());
-        let mut from = 0;
-        for (i, to) in ends.into_iter().enumerate() {
-            let row = &mut others[from..to];
+        for (i, ends) in starts.windows(2).enumerate() {
+            let row = &mut others[ends[0] as usize..ends[1] as usize];
             row.sort_unstable();
             for (k, j) in row.iter().enumerate() {
                 if k == 0 || row[k - 1] != *j {
                     pairs.push([i, *j]);
                 }
             }
-            from = to;
         }
         pairs.shrink_to_fit();
         let upper = Upper::new(&pairs);
@@ -94,29 +93,6 @@ impl PairList {
     pub fn pairs(&self) -> &[[usize; 2]] {
         &self.pairs
     }
-}
-
-/// What is `kept` of each item, sorted by its row by counting, within a row in the order of the items; and where the rows end.
-pub fn by_row<I, T: Copy + Default>(
-    items: &[I],
-    row: impl Fn(&I) -> usize,
-    kept: impl Fn(&I) -> T,
-) -> (Vec<usize>, Vec<T>) {
-    let count = items.iter().map(|item| row(item) + 1).max().unwrap_or(0);
-    // Where each row begins, which is counted up to where it ends.
-    let mut ends = vec![0; count + 1];
-    items.iter().for_each(|item| ends[row(item) + 1] += 1);
-    for r in 0..count {
-        ends[r + 1] += ends[r];
-    }
-    let mut sorted = vec![T::default(); items.len()];
-    for item in items {
-        let at = &mut ends[row(item)];
-        sorted[*at] = kept(item);
-        *at += 1;
-    }
-    ends.truncate(count);
-    (ends, sorted)
 }
 
 /// Coupling of four vertices along one direction: the stiffness `k a a^T` with `a = (w_0 n, ..., w_3 n)`.

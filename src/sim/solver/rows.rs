@@ -28,12 +28,8 @@ impl Upper {
     #[must_use]
     pub fn new(pairs: &[[usize; 2]]) -> Self {
         let count = pairs.last().map_or(0, |pair| pair[0] + 1);
-        let mut starts = vec![0; count + 1];
-        pairs.iter().for_each(|pair| starts[pair[0] + 1] += 1);
-        for v in 0..count {
-            starts[v + 1] += starts[v];
-        }
-        Self { starts, others: pairs.iter().map(|pair| pair[1] as u32).collect() }
+        let (starts, others) = by_row(count, pairs, |pair| pair[0], |pair| pair[1] as u32);
+        Self { starts, others }
     }
 
     /// Number of the coupling of `v` with the larger `other`.
@@ -59,6 +55,29 @@ impl Upper {
         let row = self.row(v);
         self.others[row.clone()].iter().map(|other| *other as usize).zip(&kept[row])
     }
+}
+
+/// Where each of `rows` rows begins, and one more, and what is `kept` of each item: sorted by its row by counting, within a row in the
+/// order of the items.
+pub fn by_row<I, T: Copy + Default>(
+    rows: usize,
+    items: &[I],
+    row: impl Fn(&I) -> usize,
+    kept: impl Fn(&I) -> T,
+) -> (Vec<u32>, Vec<T>) {
+    let mut starts = vec![0; rows + 1];
+    items.iter().for_each(|item| starts[row(item) + 1] += 1);
+    for r in 0..rows {
+        starts[r + 1] += starts[r];
+    }
+    let mut next = starts.clone();
+    let mut sorted = vec![T::default(); items.len()];
+    for item in items {
+        let at = &mut next[row(item)];
+        sorted[*at as usize] = kept(item);
+        *at += 1;
+    }
+    (starts, sorted)
 }
 
 /// Couplings that are met vertex by vertex, with what is kept of each.

@@ -1,0 +1,50 @@
+//! Points of the cloth: vertices, middles of edges and centres of triangles, which forces act on through the vertices.
+
+use crate::geom::V3;
+use crate::geom::triangle::sorted;
+use crate::sim::solver::Contact4;
+
+/// A point of the cloth: between vertices, by these weights.
+#[derive(Clone, Copy, Debug)]
+pub struct Point {
+    /// Vertices; one alone three times, of two the second twice.
+    pub vertices: [usize; 3],
+    /// Their weights.
+    pub weights: [f64; 3],
+}
+
+impl Point {
+    /// A vertex itself.
+    #[must_use]
+    pub fn vertex(vertex: usize) -> Self {
+        Self { vertices: [vertex; 3], weights: [1.0, 0.0, 0.0] }
+    }
+
+    /// The middles of edges and the centres of triangles.
+    pub fn between<'m>(edges: &'m [[usize; 2]], triangles: &'m [[usize; 3]]) -> impl Iterator<Item = Self> + 'm {
+        let middle = |&[a, b]: &[usize; 2]| Self { vertices: [a, b, b], weights: [0.5, 0.5, 0.0] };
+        let centre = |t: &[usize; 3]| Self { vertices: sorted(*t), weights: [1.0 / 3.0; 3] };
+        edges.iter().map(middle).chain(triangles.iter().map(centre))
+    }
+
+    /// Where it is.
+    #[must_use]
+    pub fn at(&self, x: &[V3]) -> V3 {
+        let ([a, b, c], [wa, wb, wc]) = (self.vertices, self.weights);
+        if wa == 1.0 { x[a] } else { x[a] * wa + x[b] * wb + x[c] * wc }
+    }
+
+    /// Shares a force out among the vertices.
+    pub fn add_force(&self, force: &V3, forces: &mut [V3]) {
+        for k in 0..3 {
+            forces[self.vertices[k]] += force * self.weights[k];
+        }
+    }
+
+    /// A stiffness along a direction, N/m, as the operator takes it.
+    #[must_use]
+    pub fn coupling(&self, normal: V3, stiffness: f64) -> Contact4 {
+        let ([a, b, c], [wa, wb, wc]) = (self.vertices, self.weights);
+        Contact4 { vertices: [a, b, c, c], weights: [wa, wb, wc, 0.0], normal, stiffness }
+    }
+}
