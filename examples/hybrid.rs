@@ -172,7 +172,7 @@ fn edges_off(garment: &Garment, x: &[V3]) -> f64 {
 
 /// Where the deepest vertex of each piece lies that is inside, mm.
 fn deepest(body: &Body, garment: &Garment, x: &[V3]) -> String {
-    let Ok(surface) = toile::geom::Surface::new(&body.mesh) else { return String::new() };
+    let Ok(surface) = Surface::new(&body.mesh) else { return String::new() };
     let depth = |v: usize| -1e3 * surface.signed_distance(&x[v]);
     let deepest = garment.pieces.iter().map(|piece| {
         let v = piece.vertices.clone().max_by(|&a, &b| depth(a).total_cmp(&depth(b))).unwrap_or(0);

@@ -1,26 +1,24 @@
 //! Toile: a fit-study workbench. Bodies are dressed in sewing patterns by two simulators, each drape is measured
 //! against its pattern, and the evidence says which simulator to trust for which fit.
 //!
-//! The modules are the stages of the pipeline, in the order data flows: [`body`] and [`pattern`] make the inputs,
-//! [`sim`] drapes, [`measure`] and [`fit`] judge, [`render`] and [`report`] show, [`study`] keeps and runs it all,
-//! [`cli`] and [`tui`] are its two faces. SI units inside; millimetres, degrees and milliseconds at the edges.
+//! The crates are the stages of the pipeline, in the order data flows: [`body`] and [`pattern`] make the inputs,
+//! [`sim`] drapes by means of [`linalg`], [`fit`] measures and judges, [`render`] and [`report`] show, [`study`] keeps and runs it all,
+//! [`cli`] and [`tui`] are its two faces. All stand on [`geom`]. SI units inside; millimetres, degrees and milliseconds at the edges.
 
-pub mod units;
+pub use geom::{self, units};
 
-pub mod geom;
+pub use body;
+pub use pattern;
 
-pub mod body;
-pub mod pattern;
+pub use linalg;
+pub use sim;
 
-pub mod sim;
+pub use fit::{self, measure};
 
-pub mod fit;
-pub mod measure;
+pub use render;
+pub use report;
 
-pub mod render;
-pub mod report;
+pub use study;
 
-pub mod study;
-
-pub mod cli;
-pub mod tui;
+pub use cli;
+pub use tui;

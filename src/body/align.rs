@@ -2,8 +2,8 @@
 
 use super::clean::principal_axes;
 use super::tape;
-use crate::geom::section::{Plane, section};
-use crate::geom::{TriMesh, V2, V3, hull};
+use geom::section::{Plane, section};
+use geom::{TriMesh, V2, V3, hull};
 use nalgebra::{Rotation2, UnitQuaternion};
 
 /// A body whose long axis leans less than this from an axis of its file stands along that axis, radians.

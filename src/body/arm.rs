@@ -1,8 +1,8 @@
 //! The centre line of an arm, traced by sections across it: for bodies of which only the skin is known.
 
 use super::tape;
-use crate::geom::section::{Outline, Plane, section};
-use crate::geom::{TriMesh, V2, V3};
+use geom::section::{Outline, Plane, section};
+use geom::{TriMesh, V2, V3};
 
 /// Step along the arm, and how far a section's middle may lie off the line so far, over stature.
 const STEP: f64 = 0.012;

@@ -9,8 +9,8 @@ use super::limbs::UPPER_ARM;
 use super::measure::{self, Sites};
 use super::tape::{self, Neck};
 use super::{Body, BodyError, Dimension, Landmarks, Measurements};
-use crate::geom::section::Plane;
-use crate::geom::{TriMesh, V3};
+use geom::section::Plane;
+use geom::{TriMesh, V3};
 
 /// Builds a closed, measured mannequin.
 ///

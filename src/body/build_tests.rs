@@ -1,8 +1,8 @@
 use super::*;
-use crate::body::measure::Girths;
-use crate::body::survey::Survey;
-use crate::body::{ControlMesh, Dimension, Joint, Layer, RING, Sex};
-use crate::geom::{V2, crossing};
+use crate::measure::Girths;
+use crate::survey::Survey;
+use crate::{ControlMesh, Dimension, Joint, Layer, RING, Sex};
+use geom::{V2, crossing};
 use std::sync::LazyLock;
 
 /// The study's subjects (thesis tables 6-1 to 6-4): stature, mass, chest, waist, hip, across shoulder, neck; cm and kg.
@@ -216,7 +216,7 @@ fn check_meshes(body: &Body) {
 
 /// Distance of a point from the outlines of the horizontal section through it, metres.
 fn off_skin(mesh: &TriMesh, point: V3) -> f64 {
-    let outlines = crate::geom::section::section(mesh, &Plane::horizontal(point.z));
+    let outlines = geom::section::section(mesh, &Plane::horizontal(point.z));
     let sides = outlines.iter().flat_map(|outline| outline.points.iter().zip(outline.points.iter().cycle().skip(1)));
     let distance = |(a, b): (&V2, &V2)| {
         let (side, from_a) = (b - a, point.xy() - a);
@@ -236,7 +236,7 @@ fn meshes_are_closed_and_landmarks_lie_on_the_skin() {
             [(body.levels.waist_m, body.girths.waist_girth_mm), (body.levels.hip_m, body.girths.hip_girth_mm)]
         {
             let band: Vec<V2> = tapes.positions.iter().filter(|p| (p.z - z).abs() < 5e-3).map(|p| p.xy()).collect();
-            let off_mm = crate::geom::hull::tape_girth(&band) * 1e3 - girth_mm;
+            let off_mm = geom::hull::tape_girth(&band) * 1e3 - girth_mm;
             assert!((10.0..25.0).contains(&off_mm), "a tape 3 mm off the skin is {off_mm:.1} mm longer");
         }
         let marks = &body.landmarks;

@@ -1,6 +1,6 @@
 //! What of a scan is the body: stray pieces and the floor are left out.
 
-use crate::geom::{TriMesh, V3};
+use geom::{TriMesh, V3};
 use nalgebra::{Matrix3, SymmetricEigen};
 
 /// A piece of less than this share of the body's area is noise.

@@ -2,7 +2,7 @@
 //! Topology and vertex order are the same for every body.
 
 use super::{Joint, Landmarks, Skeleton};
-use crate::geom::{TriMesh, V3};
+use geom::{TriMesh, V3};
 
 /// Vertices of a ring. In horizontal rings vertex 0 is on the subject's right and 6 in front; in those of the arms 4 is
 /// below and 10 in front.

@@ -3,9 +3,9 @@
 use super::BodyError;
 use super::control::{ControlMesh, Layer, RING, Region, YOKE, YOKE_ROWS, YOKE_START};
 use super::tape;
-use crate::geom::section::{Outline, Plane, section};
-use crate::geom::{TriMesh, V2, V3, hull};
-use crate::units::mm;
+use geom::section::{Outline, Plane, section};
+use geom::units::mm;
+use geom::{TriMesh, V2, V3, hull};
 
 /// Heights and frames at which the rings are cut, metres.
 #[derive(Clone, Debug)]

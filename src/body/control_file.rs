@@ -75,7 +75,7 @@ impl ControlMesh {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::{Measurements, Sex, build};
+    use crate::{Measurements, Sex, build};
 
     #[test]
     fn a_control_mesh_is_read_as_it_was_written() {

@@ -10,7 +10,7 @@ const LIMITS: [(&str, &[(&str, f64)]); 4] = [
 
 #[test]
 fn the_reference_bodies_are_measured_within_the_limits() {
-    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/bodies"));
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/bodies"));
     if !folder.is_dir() {
         eprintln!("skipped: no reference bodies beside the project");
         return;

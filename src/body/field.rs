@@ -1,7 +1,7 @@
 //! The skin as one implicit surface: body parts joined smoothly.
 
 use super::loft::{Loft, Part, Sample};
-use crate::geom::{V3, smooth_step};
+use geom::{V3, smooth_step};
 
 /// Spacing of the tables of the lofts, metres.
 const TABLE_STEP: f64 = 0.004;

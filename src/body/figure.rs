@@ -5,7 +5,7 @@ use super::atlas::Atlas;
 use super::dimension::{COUNT, Dimension};
 use super::interpolate::Monotone;
 use super::loft::{Part, Shape, Station};
-use crate::geom::{V2, V3, smooth_step};
+use geom::{V2, V3, smooth_step};
 
 /// Slope of the shoulder line, radians.
 const SHOULDER_SLOPE: f64 = 20.0 * std::f64::consts::PI / 180.0;

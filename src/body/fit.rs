@@ -8,8 +8,8 @@ use super::measure::{self, Girths, Sites};
 use super::tape::Neck;
 use super::template::Template;
 use super::{BodyError, Sex, build};
-use crate::geom::TriMesh;
-use crate::units::from_mm;
+use geom::TriMesh;
+use geom::units::from_mm;
 use std::sync::LazyLock;
 
 /// Most rounds of the fit, and corrections in each. The levels of the tape are held in a round and found anew after it.

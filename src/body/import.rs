@@ -3,7 +3,7 @@
 //! Importers take bytes. The unit and the upright axis are given, or guessed from the extents and said in the result.
 
 use super::{BodyError, align, clean};
-use crate::geom::{TriMesh, V3};
+use geom::{TriMesh, V3};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::Cursor;

@@ -1,5 +1,5 @@
 use super::*;
-use crate::body::testing::{ascii_ply, ascii_stl, binary_ply, binary_stl};
+use crate::testing::{ascii_ply, ascii_stl, binary_ply, binary_stl};
 use proptest::prelude::*;
 
 /// A four-sided prism 1.7 m high, in metres, z up.

@@ -3,8 +3,8 @@
 use super::measure::{Sites, steps};
 use super::slices::{Sliced, Slices};
 use super::tape;
-use crate::geom::section::{Plane, section};
-use crate::geom::{TriMesh, V3};
+use geom::section::{Plane, section};
+use geom::{TriMesh, V3};
 
 /// Least girth of an outline between the legs that belongs to the trunk, metres.
 const LEAST_TRUNK: f64 = 0.03;

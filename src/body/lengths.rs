@@ -5,9 +5,9 @@ use super::landmarks;
 use super::measure::{self, Sites, steps};
 use super::slices::Slices;
 use super::{BodyError, Girths, Sex, tape};
-use crate::geom::section::{Plane, section};
-use crate::geom::{TriMesh, V2, V3, hull};
-use crate::units::mm;
+use geom::section::{Plane, section};
+use geom::units::mm;
+use geom::{TriMesh, V2, V3, hull};
 
 /// What `body measure` says beyond [`Girths`], millimetres; absent where the body does not show it.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]

@@ -1,9 +1,9 @@
 use super::*;
-use crate::body::from_scan;
+use crate::from_scan;
 
 #[test]
 fn lengths_of_the_reference_bodies_are_near_the_truth() {
-    let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/bodies"));
+    let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/bodies"));
     if !folder.is_dir() {
         eprintln!("skipped: no reference bodies beside the project");
         return;

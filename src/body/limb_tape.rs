@@ -3,9 +3,9 @@
 use super::figure::Figure;
 use super::measure::{Girths, Sites, steps};
 use super::tape;
-use crate::geom::section::{Outline, Plane, section};
-use crate::geom::{TriMesh, V2, V3};
-use crate::units::mm;
+use geom::section::{Outline, Plane, section};
+use geom::units::mm;
+use geom::{TriMesh, V2, V3};
 
 /// Half of the heights over stature among which the greatest calf and the smallest ankle are looked for.
 const CALF_REACH: f64 = 0.03;

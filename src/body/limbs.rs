@@ -3,7 +3,7 @@
 use super::dimension::Dimension;
 use super::figure::{ELLIPSE, Figure};
 use super::loft::{Part, Shape, Station, dome};
-use crate::geom::{V2, V3};
+use geom::{V2, V3};
 
 /// Angle of the arms from the vertical, radians.
 const ARM_ANGLE: f64 = 38.0 * std::f64::consts::PI / 180.0;

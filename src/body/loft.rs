@@ -2,7 +2,7 @@
 //! surface through them.
 
 use super::interpolate::Monotone;
-use crate::geom::{V2, V3, hull, smooth_step};
+use geom::{V2, V3, hull, smooth_step};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::LazyLock;
 

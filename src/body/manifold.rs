@@ -1,6 +1,6 @@
 //! Making one orientable surface of what a scanner joined wrongly: turned, doubled and branching triangles, touching vertices.
 
-use crate::geom::TriMesh;
+use geom::TriMesh;
 
 /// Turns, drops and separates until every edge has at most two triangles, which run along it in opposite directions, and the
 /// triangles round every vertex form one fan; how many were dropped.
@@ -132,7 +132,7 @@ fn part_fans(mesh: &mut TriMesh) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::shapes;
+    use geom::shapes;
 
     #[test]
     fn a_spoilt_sphere_becomes_one_surface() {

@@ -4,9 +4,9 @@ use super::landmarks::{Side, crotch, median_point, shoulder_top};
 use super::slices::{Sliced, Slices};
 use super::tape::{self, Neck};
 use super::{BodyError, Levels, Measurements, Sex};
-use crate::geom::section::{Plane, section};
-use crate::geom::{TriMesh, V2, V3};
-use crate::units::{from_mm, mm};
+use geom::section::{Plane, section};
+use geom::units::{from_mm, mm};
+use geom::{TriMesh, V2, V3};
 
 /// Measurements of a body as a tape takes them; the keys of `body measure`. Millimetres and litres.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

@@ -1,9 +1,9 @@
 use super::*;
-use crate::body::{Measurements, build, import, write_obj};
+use crate::{Measurements, build, import, write_obj};
 
 /// The reference bodies beside the project, where they are.
 fn reference_bodies() -> Option<std::path::PathBuf> {
-    let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/bodies"));
+    let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/bodies"));
     folder.is_dir().then(|| folder.to_path_buf())
 }
 

@@ -4,7 +4,7 @@ use super::outline::{Outlines, View};
 use super::segment;
 use super::silhouette::Mask;
 use super::{BodyError, Measurements, Sex};
-use crate::units::mm;
+use geom::units::mm;
 use image::DynamicImage;
 use std::io::Cursor;
 

@@ -1,10 +1,10 @@
 use super::*;
-use crate::body::testing::{Taken, placed, png, silhouette};
-use crate::geom::V3;
+use crate::testing::{Taken, placed, png, silhouette};
+use geom::V3;
 
 /// The reference bodies beside the project, where they are.
 fn reference() -> Option<std::path::PathBuf> {
-    let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/bodies"));
+    let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/bodies"));
     folder.is_dir().then(|| folder.to_path_buf())
 }
 
@@ -68,7 +68,7 @@ fn bad_pictures_are_refused_with_the_reason() {
 }
 
 /// Front and side silhouettes of a built body as PNG.
-fn silhouettes(mesh: &crate::geom::TriMesh, taken: Taken, size: [u32; 2]) -> [image::GrayImage; 2] {
+fn silhouettes(mesh: &geom::TriMesh, taken: Taken, size: [u32; 2]) -> [image::GrayImage; 2] {
     [false, true].map(|side| silhouette(mesh, side, taken, size))
 }
 
@@ -84,7 +84,7 @@ fn silhouettes_of_built_bodies_give_their_girths() {
         let mut off: std::collections::BTreeMap<&str, Vec<f64>> = std::collections::BTreeMap::new();
         for (sex, stature_m, weight_kg) in people {
             let known = measured(sex, stature_m, weight_kg);
-            let body = crate::body::build(&known).expect("an ordinary body");
+            let body = crate::build(&known).expect("an ordinary body");
             let [front, side] = silhouettes(&body.mesh, taken, size);
             let found = from_pictures(&png(&front), &png(&side), camera.as_ref(), sex, stature_m).expect("a person");
             let g = &body.girths;
@@ -106,7 +106,7 @@ fn measured(sex: Sex, stature_m: f64, weight_kg: f64) -> Measurements {
 
 #[test]
 fn tilted_and_mistaken_views_are_refused() {
-    let body = crate::body::build(&measured(Sex::Male, 1.76, 72.0)).expect("an ordinary man");
+    let body = crate::build(&measured(Sex::Male, 1.76, 72.0)).expect("an ordinary man");
     let [front, side] = silhouettes(&body.mesh, Taken::Orthographic(400.0), [900, 900]);
     let turned = |picture: &image::GrayImage, degrees: f64| {
         let (sin, cos) = degrees.to_radians().sin_cos();
@@ -130,7 +130,7 @@ fn tilted_and_mistaken_views_are_refused() {
 
 #[test]
 fn a_camera_that_looks_down_or_stands_elsewhere_is_doubted() {
-    let body = crate::body::build(&measured(Sex::Male, 1.76, 72.0)).expect("an ordinary man");
+    let body = crate::build(&measured(Sex::Male, 1.76, 72.0)).expect("an ordinary man");
     let (focal, distance, size) = (1900.0, 3.0, [1200, 1800]);
     // The camera of the silhouettes is 0.9 m high: what it turns by, the body turns about it the other way.
     let notes = |pitch_deg: f64, higher: f64, said_distance: f64| {

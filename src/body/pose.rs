@@ -5,8 +5,8 @@
 //! smoothly from the trunk into the limb, and are nought at the girth levels of the trunk.
 
 use super::{Body, BodyError, Joint, Landmarks};
-use crate::geom::section::{Outline, Plane, section};
-use crate::geom::{TriMesh, V3, hull};
+use geom::section::{Outline, Plane, section};
+use geom::{TriMesh, V3, hull};
 
 /// Angles of the limbs from the vertical, degrees; `None` leaves them as they are.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

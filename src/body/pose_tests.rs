@@ -1,5 +1,5 @@
 use super::*;
-use crate::body::{Measurements, Sex, build, tape};
+use crate::{Measurements, Sex, build, tape};
 
 fn bodies() -> Vec<Body> {
     let asked =

@@ -2,7 +2,7 @@
 
 use super::manifold::make_manifold;
 use super::{BodyError, clean};
-use crate::geom::{TriMesh, V3};
+use geom::{TriMesh, V3};
 use nalgebra::{DMatrix, DVector};
 
 /// Steps of Taubin's low-pass filter, inwards and outwards, and how often [Taubin 1995].

@@ -2,7 +2,7 @@
 
 use super::measure::{self, Girths};
 use super::{Body, BodyError, Imported, LengthUnit, Sex, import, repair, scanned};
-use crate::geom::V3;
+use geom::V3;
 
 /// A trunk farther before or behind the origin than this is moved over it, metres.
 const OFF_AXIS: f64 = 0.04;

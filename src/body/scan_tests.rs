@@ -1,7 +1,7 @@
 use super::*;
-use crate::body::testing::{Noise, ascii_ply, binary_ply, binary_stl, pierce, placed, roughen};
-use crate::body::{Joint, Measurements, build, write_obj};
-use crate::geom::{Surface, TriMesh};
+use crate::testing::{Noise, ascii_ply, binary_ply, binary_stl, pierce, placed, roughen};
+use crate::{Joint, Measurements, build, write_obj};
+use geom::{Surface, TriMesh};
 
 fn built(sex: Sex, stature_m: f64, weight_kg: f64) -> Body {
     let asked = Measurements { weight_kg: Some(weight_kg), ..Measurements::of(sex, stature_m) };
@@ -184,8 +184,7 @@ fn doubled_turned_and_branching_triangles_do_not_stop_a_scan() {
 #[test]
 fn arms_spread_to_the_horizontal_find_their_armpits() {
     let known = built(Sex::Female, 1.68, 62.0);
-    let spread =
-        crate::body::pose(&known, crate::body::Pose { arm_deg: Some(85.0), leg_deg: None }).expect("free arms");
+    let spread = crate::pose(&known, crate::Pose { arm_deg: Some(85.0), leg_deg: None }).expect("free arms");
     let scan = from_scan(&binary_ply(&spread.mesh), None, Some(Sex::Female)).expect("a scan of a body");
     let body = scan.into_body().expect("arms apart from the trunk");
     for side in [0, 1] {

@@ -10,9 +10,9 @@ use super::landmarks;
 use super::measure::{self, Sites};
 use super::tape;
 use super::{Body, BodyError, Landmarks, Sex};
-use crate::geom::section::Plane;
-use crate::geom::{TriMesh, V3};
-use crate::units::mm;
+use geom::section::Plane;
+use geom::units::mm;
+use geom::{TriMesh, V3};
 
 /// Everything of a measured, closed scan in the world frame that a [`Body`] holds.
 ///

@@ -7,7 +7,7 @@
 //! section: its factors are one hundredth more.
 
 use super::Sex;
-use crate::geom::{V2, hull};
+use geom::{V2, hull};
 
 /// A girth level that pictures show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

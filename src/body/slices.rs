@@ -1,7 +1,7 @@
 //! Horizontal sections of a mesh at many heights: its triangles sorted by height beforehand.
 
-use crate::geom::TriMesh;
-use crate::geom::section::{Outline, Plane, section, section_of};
+use geom::TriMesh;
+use geom::section::{Outline, Plane, section, section_of};
 
 /// What horizontal planes cut.
 pub(super) trait Sliced {
@@ -73,7 +73,7 @@ impl Sliced for Slices<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::V3;
+    use geom::V3;
 
     #[test]
     fn layers_give_the_sections_of_the_whole() {

@@ -2,7 +2,7 @@
 
 use super::BodyError;
 use super::import::{file_error, merge_equal_vertices};
-use crate::geom::{TriMesh, V3};
+use geom::{TriMesh, V3};
 
 /// Bytes of a binary file before its facets, and of one facet.
 const HEADER: usize = 84;

@@ -1,8 +1,8 @@
 //! From the implicit skin to a near-uniform, closed triangle mesh.
 
 use super::field::Parts;
-use crate::geom::contour::{Grid, QuadMesh, contour};
-use crate::geom::{TriMesh, V3};
+use geom::contour::{Grid, QuadMesh, contour};
+use geom::{TriMesh, V3};
 
 /// Passes of tangential smoothing.
 const PASSES: usize = 8;

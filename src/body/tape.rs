@@ -1,8 +1,8 @@
 //! The tape measure: girths of plane sections of a body mesh.
 
 use super::slices::{Sliced, Slices};
-use crate::geom::section::{Outline, Plane, section};
-use crate::geom::{TriMesh, V2, V3, hull};
+use geom::section::{Outline, Plane, section};
+use geom::{TriMesh, V2, V3, hull};
 
 /// Outlines shorter than this are jewellery, navels and folds, metres.
 const SMALLEST_PART: f64 = 0.10;

@@ -9,8 +9,8 @@ use super::figure::Figure;
 use super::loft::{Loft, Part, Ring, column};
 use super::surface::Skin;
 use super::{Measurements, Sex, anthropometry::Profile};
-use crate::geom::contour::Grid;
-use crate::geom::{TriMesh, V2, V3, smooth_step};
+use geom::contour::Grid;
+use geom::{TriMesh, V2, V3, smooth_step};
 use std::sync::LazyLock;
 
 /// Stature and body mass index of the figure whose skin it is, m and kg/m^2: amid the adults it is carried to.

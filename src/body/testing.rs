@@ -1,6 +1,6 @@
 //! What tests do to bodies: spoil them as scanners do, write them in every format, take their silhouettes.
 
-use crate::geom::{TriMesh, V3};
+use geom::{TriMesh, V3};
 use std::fmt::Write as _;
 
 /// Repeatable numbers, evenly spread over -0.5 to 0.5.

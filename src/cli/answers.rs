@@ -8,8 +8,8 @@ use signal_hook::iterator::Signals;
 use super::args::{Audit as AuditArguments, Format, Sql, StudyPath};
 use super::context::{Context, project_folder};
 use super::{CliError, End, Outcome, output};
-use crate::study::{Finding, StudyError, Table, Value, saved_queries, saved_query};
-use crate::units::mm;
+use geom::units::mm;
+use study::{Finding, StudyError, Table, Value, saved_queries, saved_query};
 
 /// `toile sql`. Ctrl-C ends a query that takes too long.
 pub fn sql(context: &Context, arguments: &Sql) -> Outcome {

@@ -3,9 +3,9 @@
 use super::args::{PatternUnit, Sex, Try, TrySimulator};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
-use crate::study::tools::{self, Unit};
-use crate::study::{self, Attempt, Simulator, Table, Tried, Value};
-use crate::units::from_mm;
+use geom::units::from_mm;
+use study::tools::{self, Unit};
+use study::{self, Attempt, Simulator, Table, Tried, Value};
 
 /// Runs a trial; writes its picture and meshes, prints what was measured.
 pub fn run(context: &Context, arguments: &Try) -> Outcome {

@@ -7,9 +7,9 @@ use serde_json::Value as Json;
 use super::args::{Body, BodyBuild, MeshUnit, Sex};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
-use crate::study::tools::{self, Accuracy, Lens, Measurements, View};
-use crate::study::{Table, Value};
-use crate::units::from_mm;
+use geom::units::from_mm;
+use study::tools::{self, Accuracy, Lens, Measurements, View};
+use study::{Table, Value};
 
 /// Size of the picture of a body, pixels.
 const PICTURE: (u32, u32) = (700, 1200);

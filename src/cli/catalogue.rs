@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use super::args::{Catalogue, FabricValues, PatternUnit, SizeValues, StyleValues, SubjectValues};
 use super::context::Context;
 use super::{CliError, End, Outcome};
-use crate::study::{Mode, Part, Saved, StudyError, StyleGiven, Table, Value, Workspace};
+use study::{Mode, Part, Saved, StudyError, StyleGiven, Table, Value, Workspace};
 
 /// The values of one part of the catalogue on the command line.
 pub trait Values: Args {

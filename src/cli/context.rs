@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::CliError;
 use super::args::{Format, Global};
-use crate::study::{PUBLISHED, Study, Table, Workspace};
+use study::{PUBLISHED, Study, Table, Workspace};
 
 /// The resolved global flags.
 pub struct Context {

@@ -14,7 +14,7 @@ use signal_hook::consts::SIGINT;
 use super::context::Context;
 use super::progress::Progress;
 use super::{End, Outcome, output};
-use crate::study::{JobFilter, JobId, JobRow, Status, StudyError, Workspace};
+use study::{JobFilter, JobId, JobRow, Status, StudyError, Workspace};
 
 /// Time between two looks at the running jobs.
 const LOOK: Duration = Duration::from_millis(250);

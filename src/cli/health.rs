@@ -2,7 +2,7 @@
 
 use super::context::{Context, project_folder};
 use super::{End, Outcome};
-use crate::study::{Check, Status, Table, Value, checks};
+use study::{Check, Status, Table, Value, checks};
 
 /// `toile doctor`: every check with what it found; exit code 3 when one failed.
 pub fn doctor(context: &Context) -> Outcome {

@@ -6,7 +6,7 @@ use super::args::Job;
 use super::context::Context;
 use super::run::selection;
 use super::{End, Outcome, output};
-use crate::study::run_job;
+use study::run_job;
 
 /// Runs a job command.
 pub fn run(context: &Context, command: &Job) -> Outcome {

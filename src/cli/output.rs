@@ -6,8 +6,8 @@ use comfy_table::{CellAlignment, ContentArrangement, Table as Grid, TableCompone
 use serde_json::{Map, Value as Json};
 
 use super::args::Format;
-use crate::study::{Table, Value};
-use crate::units::significant;
+use geom::units::significant;
+use study::{Table, Value};
 
 /// Writes text to standard output; a closed pipe (`| head`) is no error.
 pub fn text(text: &str) -> io::Result<()> {

@@ -6,10 +6,10 @@ use std::path::Path;
 use super::args::{DraftStyle, Pattern, PatternUnit, SeamCommand, StyleFiles};
 use super::context::Context;
 use super::{CliError, End, Outcome, output, pattern_files};
-use crate::study::pattern_files::inspect as inspect_files;
-use crate::study::tools::{self, CHECK_EDGE_MM, FileReport, Finding, Model, SeamEdit, SizeCheck, Unit};
-use crate::study::{Table, Value};
-use crate::units::{from_mm, mm};
+use geom::units::{from_mm, mm};
+use study::pattern_files::inspect as inspect_files;
+use study::tools::{self, CHECK_EDGE_MM, FileReport, Finding, Model, SeamEdit, SizeCheck, Unit};
+use study::{Table, Value};
 
 /// Runs a pattern command.
 pub fn run(context: &Context, command: &Pattern) -> Outcome {
@@ -204,7 +204,7 @@ fn check(context: &Context, files: &StyleFiles) -> Outcome {
     let checked = style(files).and_then(|style| Ok((tools::mesh(&style, from_mm(CHECK_EDGE_MM))?, style)));
     let ((garment, quality), style) = match checked {
         Ok(checked) => checked,
-        Err(CliError::Study(error @ crate::study::StudyError::Stage { .. })) => {
+        Err(CliError::Study(error @ study::StudyError::Stage { .. })) => {
             eprintln!("toile: {error}");
             return Ok(End::CheckFailed);
         }

@@ -5,8 +5,8 @@ use std::path::Path;
 use super::args::{BesideFiles, PatternUnit};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
-use crate::study::pattern_files::{self, Beside};
-use crate::study::tools::{self, Unit};
+use study::pattern_files::{self, Beside};
+use study::tools::{self, Unit};
 
 /// What the arguments say about a pattern beside its file.
 pub fn beside(files: &BesideFiles) -> Beside<'_> {

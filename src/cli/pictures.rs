@@ -9,7 +9,7 @@ use super::args::{
 };
 use super::context::{Context, project_folder};
 use super::{CliError, End, Outcome, output};
-use crate::study::{Cloth, JobId, Map, MeshFormat, Order, Rgb, Shot, Stage, Study, View, Workspace, Zoom, tools};
+use study::{Cloth, JobId, Map, MeshFormat, Order, Rgb, Shot, Stage, Study, View, Workspace, Zoom, tools};
 
 /// `toile render`.
 pub fn render(context: &Context, arguments: &Render) -> Outcome {

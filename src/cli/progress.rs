@@ -7,7 +7,7 @@ use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
 use super::context::Context;
 use super::run::label;
-use crate::study::{JobFilter, JobId, JobRow, Result, Status, Workspace};
+use study::{JobFilter, JobId, JobRow, Result, Status, Workspace};
 
 /// Steps of a job's bar.
 const STEPS: u64 = 1000;

@@ -4,7 +4,7 @@ use super::args::{Jobs, Queue};
 use super::context::Context;
 use super::run::selection;
 use super::{CliError, End, Outcome};
-use crate::study::{JobFilter, JobId, Selection, StudyError, Table, Value, Workspace, why_no_retry};
+use study::{JobFilter, JobId, Selection, StudyError, Table, Value, Workspace, why_no_retry};
 
 /// Runs a queue command.
 pub fn run(context: &Context, command: &Queue) -> Outcome {

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use super::args::Recommend;
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
-use crate::study::{Analysis, Answer, Estimate, PUBLISHED, Simulator, SizeAnswer, Table, Value, Without, Workspace};
-use crate::units::mm;
+use geom::units::mm;
+use study::{Analysis, Answer, Estimate, PUBLISHED, Simulator, SizeAnswer, Table, Value, Without, Workspace};
 
 /// `toile recommend`.
 pub fn recommend(context: &Context, arguments: &Recommend) -> Outcome {

@@ -12,7 +12,7 @@ use super::args::{Engine, Run as Arguments, StudyPart};
 use super::context::Context;
 use super::progress::Progress;
 use super::{CliError, End, Outcome, detached, output, pictures, runs};
-use crate::study::{
+use study::{
     JobFilter, JobId, JobRow, JobSpec, Limits, Planned, RunOptions, Selection, SlurmOptions, Stage, Status, Study,
     StudyError, Table, Value, Workspace,
 };
@@ -237,7 +237,7 @@ fn chi_table(workspace: &Workspace, jobs: &[&JobRow]) -> Result<Table, StudyErro
         let drape = Stage::Drape.as_str();
         for (index, chi) in workspace.chi(job.id)?.iter().filter(|chi| chi.stage == drape).enumerate() {
             if rows.len() == index {
-                let length = Value::Text(format!("{:.2}", crate::units::mm(chi.l2d_m)));
+                let length = Value::Text(format!("{:.2}", geom::units::mm(chi.l2d_m)));
                 rows.push(vec![Value::Integer(i64::from(chi.no)), Value::Text(chi.name.clone()), length]);
             }
             rows[index].push(Value::Text(format!("{:.3}", chi.chi())));

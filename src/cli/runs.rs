@@ -5,8 +5,8 @@ use serde_json::{Value as Json, json};
 use super::args::RunCommand;
 use super::context::Context;
 use super::{End, Outcome, output};
-use crate::study::{Change, ChiPair, Inputs, JobId, MetricsRow, Record, Table, Value};
-use crate::units::mm;
+use geom::units::mm;
+use study::{Change, ChiPair, Inputs, JobId, MetricsRow, Record, Table, Value};
 
 /// Runs one of the commands on stored runs.
 pub fn run(context: &Context, command: &RunCommand) -> Outcome {

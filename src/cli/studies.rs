@@ -7,7 +7,7 @@ use super::context::Context;
 use super::pattern::model;
 use super::pictures::write;
 use super::{End, Outcome, body, output};
-use crate::study::{PopulationOptions, export_study, new_study, representatives, subjects_text, tools};
+use study::{PopulationOptions, export_study, new_study, representatives, subjects_text, tools};
 
 /// Runs a study command.
 pub fn run(context: &Context, command: &StudyCommand) -> Outcome {

@@ -190,7 +190,7 @@ fn cell_edge(axis: usize, upper_p: bool, upper_q: bool) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::TriMesh;
+    use crate::TriMesh;
 
     fn sample(spacing: f64, field: impl Fn(V3) -> f64) -> QuadMesh {
         let count = (3.0 / spacing) as usize;

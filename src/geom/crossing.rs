@@ -67,7 +67,7 @@ fn segment_hits([p, q]: [V3; 2], [a, b, c]: [V3; 3]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::shapes;
+    use crate::shapes;
 
     #[test]
     fn a_spike_through_the_far_side_crosses_it() {

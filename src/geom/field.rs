@@ -315,7 +315,7 @@ impl DistanceField {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::shapes::sphere;
+    use crate::shapes::sphere;
 
     fn bumpy_sphere() -> TriMesh {
         let bumpy = |p: &V3| p * (1.0 + 0.2 * (17.0 * p.x).sin() * (11.0 * p.y + 3.0 * p.z).cos());

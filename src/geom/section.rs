@@ -194,7 +194,7 @@ mod tests {
             let outlines = section(&octahedron(), &Plane::horizontal(z));
             assert_eq!(outlines.len(), 1, "z = {z}");
             assert!(outlines[0].closed);
-            let girth = crate::geom::hull::tape_girth(&outlines[0].points);
+            let girth = crate::hull::tape_girth(&outlines[0].points);
             assert!((girth - 4.0 * half_diagonal * 2.0_f64.sqrt()).abs() < 1e-12, "z = {z}: {girth}");
         };
         check(0.0, 1.0);

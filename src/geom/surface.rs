@@ -109,7 +109,7 @@ fn from_parry(p: parry3d::math::Vector) -> V3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::shapes;
+    use crate::shapes;
 
     #[test]
     fn a_mirrored_mesh_has_the_same_distances_to_the_bit() {

@@ -8,8 +8,8 @@
 use super::garment::Role;
 use super::propose::{self, Face, Hand, Pose};
 use super::style::{Style, StylePiece};
-use crate::geom::V2;
-use crate::geom::polyline::Polyline;
+use geom::V2;
+use geom::polyline::Polyline;
 
 /// Room between pieces, and round the head, m.
 const GAP_M: f64 = 0.06;
@@ -203,7 +203,7 @@ fn beside(pieces: &[Piece], half_width: f64, placed: &mut [Placed]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pattern::draft::Model;
+    use crate::draft::Model;
 
     /// Bounding box of a placed piece, by its identifier.
     fn boxes(style: &Style) -> Vec<(String, V2, V2)> {

@@ -7,8 +7,8 @@ use super::garment::{Garment, MeasurementKind};
 use super::piece::{Notch, Piece};
 use super::seams::SeamFile;
 use super::style::{EdgeRef, PathPart, Seam, Style};
-use crate::geom::polyline::Polyline;
-use crate::units::mm;
+use geom::polyline::Polyline;
+use geom::units::mm;
 
 /// Ratio of the sides from which a seam counts as gathered.
 const GATHERED_RATIO: f64 = 1.2;
@@ -223,7 +223,7 @@ fn arc_of(line: &Polyline, notch: &Notch) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pattern::draft::{TSHIRT_SEAMS, TshirtSize, tshirt};
+    use crate::draft::{TSHIRT_SEAMS, TshirtSize, tshirt};
 
     fn of(edit: impl Fn(&str) -> String) -> Vec<Finding> {
         let text = edit(std::str::from_utf8(TSHIRT_SEAMS).expect("it is UTF-8"));
@@ -248,7 +248,7 @@ mod tests {
 
     #[test]
     fn girths_close_and_lengths_do_not() {
-        for model in crate::pattern::draft::Model::ALL {
+        for model in crate::draft::Model::ALL {
             for draft in model.drafts() {
                 let style = Style::read(&draft.pieces, model.seams(), "a.toml").expect("it is a style");
                 assert_eq!(of_garment(&style.mesh(30e-3).expect("it meshes")), [], "{model:?}");

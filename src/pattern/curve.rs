@@ -1,6 +1,6 @@
 //! Curves of drafts and of imported panels, and the solver of the drafts.
 
-use crate::geom::V2;
+use geom::V2;
 
 /// Segments of each drawn curve: chord error below 0.01 mm on the longest.
 pub const CURVE_SEGMENTS: usize = 48;

@@ -6,9 +6,9 @@ use serde::Serialize;
 
 use super::dxf::{PatternFile, Refused, UnitSource};
 use super::piece::Piece;
-use crate::geom::V2;
-use crate::geom::polyline::signed_area;
-use crate::units::mm;
+use geom::V2;
+use geom::polyline::signed_area;
+use geom::units::mm;
 
 /// Square millimetres in a square metre.
 const MM2_PER_M2: f64 = 1e6;

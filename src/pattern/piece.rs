@@ -1,7 +1,7 @@
 //! Pattern pieces as drawn: what a DXF block says, in metres, before anything is sewn.
 
-use crate::geom::V2;
-use crate::geom::polyline::{perimeter, signed_area};
+use geom::V2;
+use geom::polyline::{perimeter, signed_area};
 
 /// A notch: a mark cut into the edge so that partners can be matched.
 #[derive(Clone, Copy, Debug, PartialEq)]

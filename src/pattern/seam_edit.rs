@@ -9,7 +9,7 @@ use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, value};
 use super::piece::Piece;
 use super::seams::SeamFile;
 use super::style::{Style, StyleError};
-use crate::units::mm;
+use geom::units::mm;
 
 /// What is done to a seam file; sides as `PIECE.EDGE` or `PIECE.EDGE+PIECE.EDGE`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -248,7 +248,7 @@ impl Editor<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pattern::draft::{Model, TSHIRT_SEAMS, TshirtSize, tshirt};
+    use crate::draft::{Model, TSHIRT_SEAMS, TshirtSize, tshirt};
 
     fn text() -> String {
         String::from_utf8(TSHIRT_SEAMS.to_vec()).expect("it is UTF-8")

@@ -5,9 +5,9 @@ use std::fmt::Write as _;
 
 use super::arrange::arranged;
 use super::style::{PathPart, Style, StylePiece};
-use crate::geom::V2;
-use crate::geom::polyline::Polyline;
-use crate::units::{from_mm, mm};
+use geom::V2;
+use geom::polyline::Polyline;
+use geom::units::{from_mm, mm};
 
 /// Space round pieces and sheet, mm.
 const MARGIN_MM: f64 = 45.0;
@@ -217,7 +217,7 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pattern::draft::{TSHIRT_SEAMS, TshirtSize, tshirt};
+    use crate::draft::{TSHIRT_SEAMS, TshirtSize, tshirt};
 
     #[test]
     fn the_sheet_shows_every_piece_corner_and_measurement() {

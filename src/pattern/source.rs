@@ -79,8 +79,8 @@ impl From<Specification> for PatternFile {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pattern::Style;
-    use crate::pattern::draft::{Model, TshirtSize, tshirt};
+    use crate::Style;
+    use crate::draft::{Model, TshirtSize, tshirt};
 
     #[test]
     fn every_kind_is_told_by_its_content_and_gives_the_same_pieces() {
@@ -98,7 +98,7 @@ mod tests {
             let pieces = file.to_sew(None).expect("one size");
             assert!(pieces.len() >= draft.pieces.len(), "{expect:?}");
             for drawn in &draft.pieces {
-                let near = |piece: &&crate::pattern::Piece| (piece.area_m2() / drawn.area_m2() - 1.0).abs() < 1e-3;
+                let near = |piece: &&crate::Piece| (piece.area_m2() / drawn.area_m2() - 1.0).abs() < 1e-3;
                 assert!(pieces.iter().any(|piece| near(&piece)), "{expect:?}: {}", drawn.name);
             }
         }

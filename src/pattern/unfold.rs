@@ -1,7 +1,7 @@
 //! Opening a half piece at its fold (mirror) line.
 
 use super::piece::{Notch, Piece};
-use crate::geom::V2;
+use geom::V2;
 
 /// Distance within which a vertex lies on the fold line, m.
 const ON_FOLD_M: f64 = 0.1e-3;
@@ -107,9 +107,9 @@ fn turn_deg(outline: &[V2], point: &V2) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use crate::geom::V2;
-    use crate::geom::polyline::signed_area;
-    use crate::pattern::draft::{TshirtSize, tshirt};
+    use crate::draft::{TshirtSize, tshirt};
+    use geom::V2;
+    use geom::polyline::signed_area;
 
     /// Half of a drafted piece, cut along its centre line.
     #[test]

@@ -1,6 +1,6 @@
 //! Where pictures are taken from: orthographic cameras that share one frame, so that one scale.
 
-use crate::geom::{TriMesh, V3};
+use geom::{TriMesh, V3};
 use nalgebra::Vector3;
 
 /// The four views every drape is shown from.

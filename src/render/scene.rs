@@ -5,7 +5,7 @@ use super::bake::{self, Floor};
 use super::colour::{Rgb, Scale};
 use super::raster::NOTHING;
 use super::texture::Texture;
-use crate::geom::{TriMesh, V2, V3};
+use geom::{TriMesh, V2, V3};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 

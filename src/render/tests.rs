@@ -1,5 +1,5 @@
 use super::*;
-use crate::geom::{TriMesh, V2, V3};
+use geom::{TriMesh, V2, V3};
 
 /// A closed surface of revolution about `z` through (radius, z) profile points, bottom to top, bent by `shape`.
 fn lathe(profile: &[(f64, f64)], around: usize, shape: impl Fn(V3) -> V3) -> TriMesh {
@@ -278,7 +278,7 @@ fn sheets_and_legends_draw_text() {
 
 #[test]
 fn reference_bodies_render() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/bodies/meshes");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/bodies/meshes");
     let Ok(bytes) = std::fs::read(format!("{folder}/s01.obj")) else {
         eprintln!("skipped: {folder} is not here");
         return;

@@ -1,7 +1,7 @@
 //! Cloth with a picture on it (thesis 3.6): texture coordinates from the pattern, and pictures that repeat.
 
 use super::colour::Rgb;
-use crate::geom::V2;
+use geom::V2;
 use image::RgbaImage;
 use nalgebra::Vector3;
 use std::ops::Range;

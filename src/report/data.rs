@@ -1,8 +1,8 @@
 //! What a report is made from: plain values, lengths in metres, times in seconds. The page formats them.
 
-use crate::fit::{Basis, Cuts, Ease, Evidence, Finding, FitClass, Pair, Simulator};
-use crate::measure::{Chi, Metrics, metrics};
-use crate::render::Scale;
+use fit::measure::{Chi, Metrics, metrics};
+use fit::{Basis, Cuts, Ease, Evidence, Finding, FitClass, Pair, Simulator};
+use render::Scale;
 
 /// Everything one report shows.
 #[derive(Clone, Debug, Default)]

@@ -4,7 +4,7 @@ use super::ReportError;
 use super::chart::{Chart, Difference, crossover_chart, difference_chart};
 use super::data::ReportData;
 use super::text::{fit_glyph, number, signed};
-use crate::fit::{Analysis, Pair, crossover, rule_score};
+use fit::{Analysis, Pair, crossover, rule_score};
 
 /// The section on the evidence.
 pub(super) struct EvidencePart {
@@ -149,11 +149,8 @@ fn crossings(data: &ReportData) -> Result<Vec<Crossing>, ReportError> {
 
 /// The difference of a garment without each measurement in turn.
 fn without_chart(name: &str, analysis: &Analysis) -> Result<Option<Chart>, ReportError> {
-    let row = |rest: &crate::fit::Without| Difference {
-        label: format!("without {}", rest.what),
-        mean: rest.mean,
-        interval: None,
-    };
+    let row =
+        |rest: &fit::Without| Difference { label: format!("without {}", rest.what), mean: rest.mean, interval: None };
     let rows: Vec<Difference> = analysis.without.iter().map(row).collect();
     let whole = analysis.estimate.map(|estimate| estimate.mean);
     Ok(if rows.is_empty() { None } else { Some(difference_chart(name, "without", &rows, whole)?) })

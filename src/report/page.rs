@@ -10,8 +10,8 @@ use super::text::{
     count, distinct, duration, finding_words, fit_glyph, fit_words, mean_sd, mm, number, signed, signed_mm,
     simulator_name,
 };
-use crate::fit::{Basis, Ease, Finding, FitClass, Simulator, shown};
 use base64::Engine;
+use fit::{Basis, Ease, Finding, FitClass, Simulator, shown};
 
 /// What `report.html` is filled from.
 #[derive(askama::Template)]

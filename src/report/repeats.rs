@@ -4,7 +4,7 @@ use super::ReportError;
 use super::chart::{Chart, repeat_chart};
 use super::data::Run;
 use super::text::{count, distinct, number, simulator_name};
-use crate::fit::Simulator;
+use fit::Simulator;
 
 /// One case and what its repeats measured.
 pub(super) struct Repeats {

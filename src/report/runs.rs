@@ -275,7 +275,7 @@ fn chi_row(measured: &Measured, runs: &[&Run]) -> ChiRow {
 /// E, SD, EI under a table of chi, and EI without what is free or controlled.
 fn summary(runs: &[&Run]) -> Vec<(&'static str, Vec<String>)> {
     type Keep = fn(&Measured) -> bool;
-    type Pick = fn(&crate::measure::Metrics) -> f64;
+    type Pick = fn(&fit::measure::Metrics) -> f64;
     let line = |keep: Keep, pick: Pick| -> Vec<String> {
         runs.iter().map(|r| r.metrics(keep).as_ref().map_or("–".into(), |m| number(pick(m), 3))).collect()
     };

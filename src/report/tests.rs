@@ -1,8 +1,8 @@
 use super::data::*;
 use super::{ReportError, chart, html};
-use crate::fit::{Basis, Cuts, Ease, Finding, FitClass, Simulator};
-use crate::measure::Chi;
-use crate::render::{Rgb, Scale, png};
+use fit::measure::Chi;
+use fit::{Basis, Cuts, Ease, Finding, FitClass, Simulator};
+use render::{Rgb, Scale, png};
 
 fn ease(pattern_girth_m: f64, body_girth_m: f64) -> Ease {
     let cuts = Cuts::default();

@@ -1,6 +1,6 @@
 //! Numbers and names as readers see them, and the two statistics of a row.
 
-use crate::fit::{Ease, Finding, FitClass, Simulator};
+use fit::{Ease, Finding, FitClass, Simulator};
 
 /// Text with the characters replaced that mean something in HTML and SVG.
 pub(super) fn escape(text: &str) -> String {

@@ -1,8 +1,8 @@
 //! Colours of charts and tables. Charts name them by value; on the page the neutral ones become style variables, so that
 //! a chart follows the reader's light or dark scheme.
 
-use crate::fit::Simulator;
-use crate::render::{ColourMap, Rgb};
+use fit::Simulator;
+use render::{ColourMap, Rgb};
 
 /// Text and axes.
 pub(super) const INK: Rgb = Rgb(0x1b, 0x24, 0x30);
@@ -80,7 +80,7 @@ mod tests {
     /// The scheme colours of the style sheet, read from it.
     #[test]
     fn style_sheet_schemes_read() {
-        let css = include_str!("../../templates/report/style.css");
+        let css = include_str!("templates/report/style.css");
         let (light, dark) = css.split_once("prefers-color-scheme: dark").expect("a dark scheme");
         let colour = |scheme: &str, name: &str| {
             let (_, rest) = scheme.split_once(&format!("--{name}: #")).unwrap_or_else(|| panic!("--{name}"));

@@ -8,8 +8,8 @@ use nalgebra::Matrix2;
 
 use super::SimError;
 use super::cloth::membrane::Element;
-use crate::geom::{V2, V3};
-use crate::pattern::{Garment, Spot};
+use geom::{V2, V3};
+use pattern::{Garment, Spot};
 
 /// Share of the cloth that may be stretched further.
 pub const SHARE: f64 = 0.01;
@@ -86,7 +86,7 @@ impl std::fmt::Display for Distortion {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::laboratory::{self, sheets::sheet};
+    use crate::laboratory::{self, sheets::sheet};
 
     #[test]
     fn one_part_in_a_hundred_decides_and_says_where() {

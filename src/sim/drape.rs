@@ -1,6 +1,6 @@
 //! What both simulators return, and how they report while they run.
 
-use crate::geom::V3;
+use geom::V3;
 
 /// How far a garment has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

@@ -1,8 +1,8 @@
 //! What can go wrong before there is a drape. Not converging is not among it: that is a result.
 
 use super::Distortion;
-use crate::geom::V2;
-use crate::pattern::Role;
+use geom::V2;
+use pattern::Role;
 
 /// Why a simulation gave no drape.
 #[derive(Debug, thiserror::Error)]

@@ -5,11 +5,11 @@ use nalgebra::Matrix3;
 use super::Fabric;
 use super::cloth::Cloth;
 use super::contact::tangle::held_apart;
-use super::solver::pcg::PcgParams;
-use super::solver::{Operator, PairList, linear};
-use crate::geom::triangle::sorted;
-use crate::geom::{V2, V3};
-use crate::pattern::Garment;
+use geom::triangle::sorted;
+use geom::{V2, V3};
+use linalg::pcg::PcgParams;
+use linalg::{Operator, PairList, linear};
+use pattern::Garment;
 
 /// Wavelength at which rounding takes half the height of a wave, in edges of the coarser mesh.
 const ROUNDED_EDGES: f64 = 3.0;
@@ -149,7 +149,7 @@ impl<'a> Locator<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::laboratory::{self, Specimen, sheets::sheet};
+    use crate::laboratory::{self, Specimen, sheets::sheet};
 
     #[test]
     fn short_waves_are_rounded_off_and_long_ones_stay() {

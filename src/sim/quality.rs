@@ -1,11 +1,11 @@
 //! Checks on a finished drape, made on the meshes themselves and not on what the solver believed.
 
-use crate::body::Body;
-use crate::geom::{DistanceField, V3};
-use crate::pattern::{Garment, Spot};
-use crate::sim::contact::tangle::edges_of;
-use crate::sim::contact::{Skin, crossings};
-use crate::sim::sewing;
+use crate::contact::tangle::edges_of;
+use crate::contact::{Skin, crossings};
+use crate::sewing;
+use body::Body;
+use geom::{DistanceField, V3};
+use pattern::{Garment, Spot};
 
 /// A vertex, an edge middle or a triangle centre: the vertices that it lies between, some of them more than once, and its place.
 type Sample = ([usize; 3], V3);
@@ -99,9 +99,9 @@ pub fn crossed_spot(garment: &Garment, positions: &[V3]) -> Option<Spot> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::{self, Measurements, Sex};
-    use crate::geom::V2;
-    use crate::sim::laboratory::{self, sheets::sheet};
+    use crate::laboratory::{self, sheets::sheet};
+    use body::{self, Measurements, Sex};
+    use geom::V2;
 
     #[test]
     fn what_is_inside_is_told_with_its_place_on_the_piece() {

@@ -1,7 +1,7 @@
 //! Sewing: capped springs that draw the two sides of a seam together, then welding.
 
-use crate::geom::V3;
-use crate::pattern::Garment;
+use geom::V3;
+use pattern::Garment;
 
 /// Simulated vertex of each garment vertex once every seam is closed: groups of paired vertices, numbered by their
 /// smallest member (thesis, Algorithm 5.4).
@@ -136,7 +136,7 @@ impl Springs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::laboratory::{self, sheets::sheet};
+    use crate::laboratory::{self, sheets::sheet};
 
     #[test]
     fn springs_grow_and_not_for_ever() {

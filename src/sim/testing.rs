@@ -1,11 +1,11 @@
 //! Helpers for the tests of the simulators: finite differences, and a garment with lapels.
 
-use crate::geom::{V2, V3};
-use crate::pattern::draft::Model;
-use crate::pattern::piece::Piece;
-use crate::pattern::style::EdgeRef;
-use crate::pattern::{Garment, Style};
-use crate::sim::Fabric;
+use crate::Fabric;
+use geom::{V2, V3};
+use pattern::draft::Model;
+use pattern::piece::Piece;
+use pattern::style::EdgeRef;
+use pattern::{Garment, Style};
 
 /// A fabric with different numbers everywhere, so that a mix-up shows.
 pub fn fabric() -> Fabric {

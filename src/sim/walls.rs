@@ -1,9 +1,9 @@
 //! Planes that part the cloth of two limbs where its contact with itself does not: legs keep to their side of the median plane,
 //! a sleeve and the side of the trunk to theirs of the plane between arm and trunk.
 
-use crate::body::{Body, Layer};
-use crate::geom::V3;
-use crate::pattern::{Garment, Role};
+use body::{Body, Layer};
+use geom::V3;
+use pattern::{Garment, Role};
 
 /// A plane, or the half of it that lies beyond a point.
 struct Wall {

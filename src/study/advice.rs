@@ -6,7 +6,7 @@ use super::picture::tension_near;
 use super::read::JobFilter;
 use super::types::{EaseRow, JobId, JobRow, RecommendationRow};
 use super::workspace::Workspace;
-use crate::fit::{self, Ease, Simulator, SizeAdvice, SizeFit};
+use fit::{self, Ease, Simulator, SizeAdvice, SizeFit};
 
 /// Every size of a garment on a subject, and the one to wear.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,16 +8,16 @@ use serde::Serialize;
 use super::error::{Result, StudyError};
 use super::pipeline::{FIELD_SPACING_M, distorted, ease_on};
 use super::tools::{self, LengthUnit, Sex, SourceFile, Unit};
-use crate::body::Body;
-use crate::fit::Simulator;
-use crate::geom::{DistanceField, TriMesh, V3};
-use crate::measure;
-use crate::pattern::{Garment, MeasurementKind, Spot, Style};
-use crate::render::export::{MeshFormat, Part};
-use crate::render::{self, Camera, Cell, Frame, Layer, Material, Rgb, Scene, View};
-use crate::sim::hybrid::Closure;
-use crate::sim::{self, Drape, Fabric, Monitor, Progress, quality};
-use crate::units::mm;
+use body::Body;
+use fit::Simulator;
+use fit::measure;
+use geom::units::mm;
+use geom::{DistanceField, TriMesh, V3};
+use pattern::{Garment, MeasurementKind, Spot, Style};
+use render::export::{MeshFormat, Part};
+use render::{self, Camera, Cell, Frame, Layer, Material, Rgb, Scene, View};
+use sim::hybrid::Closure;
+use sim::{self, Drape, Fabric, Monitor, Progress, quality};
 
 /// Deepest penetration of a drape that is good, mm.
 const PENETRATION_MM: f64 = 0.5;

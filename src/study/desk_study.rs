@@ -14,7 +14,7 @@ use super::store;
 use super::tools::{self, Model};
 use super::types::SizeKey;
 use super::workspace::Workspace;
-use crate::fit::Simulator;
+use fit::Simulator;
 
 /// Where the pattern of a size comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -214,7 +214,7 @@ mod tests {
     fn sizes_of_the_catalogue_bring_their_files() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut workspace = Workspace::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
-        let quickstart = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/quickstart/study.toml");
+        let quickstart = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/quickstart/study.toml");
         workspace.import(super::super::Part::Style, &[quickstart]).expect("good styles");
         let sizes = wearables(&workspace.sizes().expect("readable"));
         assert!(!sizes.iter().any(|one| one.style == "tshirt" && matches!(one.source, PatternSource::Drafted(_))));

@@ -7,8 +7,8 @@ use super::outcome::machine;
 use super::tools;
 use super::types::Value;
 use super::workspace::Workspace;
-use crate::body::{Measurements, Sex};
-use crate::units::mm;
+use body::{Measurements, Sex};
+use geom::units::mm;
 
 /// One check and what it found.
 #[derive(Clone, Debug, PartialEq, Eq)]

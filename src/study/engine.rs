@@ -24,9 +24,9 @@ use super::queue;
 use super::spec::JobSpec;
 use super::store::{self, Access, now_ms};
 use super::types::{JobId, JobProgress};
-use crate::geom::V3;
-use crate::sim::{Monitor, Progress};
-use crate::units::mm;
+use geom::V3;
+use geom::units::mm;
+use sim::{Monitor, Progress};
 
 /// Time between two looks of the pump, and of a worker that waits for jobs of others.
 const TICK: Duration = Duration::from_millis(200);

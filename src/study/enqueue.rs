@@ -15,8 +15,8 @@ use super::spec::{self, JobSpec, Limits, Selection};
 use super::store::now_ms;
 use super::types::{JobId, Status};
 use super::workspace::Workspace;
-use crate::fit::Simulator;
-use crate::units::mm;
+use fit::Simulator;
+use geom::units::mm;
 
 /// Why a job runs, or why it need not.
 #[derive(Clone, Debug, PartialEq, Eq)]

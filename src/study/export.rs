@@ -6,8 +6,8 @@ use std::fmt::Write;
 use super::catalogue::{FABRIC_NUMBERS, MEASUREMENTS};
 use super::file::{GarmentEntry, ScanFile, SourceFile, Study, Subject};
 use super::spec::{self, Schedule, millimetres, sex_name};
-use crate::sim::Fabric;
-use crate::units::mm;
+use geom::units::mm;
+use sim::Fabric;
 
 impl Study {
     /// Number of its simulations.
@@ -169,7 +169,7 @@ mod tests {
 
     #[test]
     fn an_exported_study_has_the_same_inputs() {
-        let project = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies");
+        let project = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies");
         for name in ["quickstart", "thesis", "fabrics"] {
             check(&load(&project.join(name)));
         }

@@ -12,8 +12,8 @@ use super::pipeline::{self, Model};
 use super::tools;
 use super::types::SubjectId;
 use super::workspace::Workspace;
-use crate::body::{Girths, Mass};
-use crate::render::{self, Camera, Frame, Layer, Material, Scene, View};
+use body::{Girths, Mass};
+use render::{self, Camera, Frame, Layer, Material, Scene, View};
 
 /// Room around a body in its picture, m.
 const MARGIN_M: f64 = 0.12;

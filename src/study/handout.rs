@@ -26,7 +26,7 @@ use super::spec::{JobSpec, Selection};
 use super::store::{self, Access, now_ms};
 use super::types::{JobId, Status};
 use super::workspace::Workspace;
-use crate::sim::{Monitor, Progress};
+use sim::{Monitor, Progress};
 
 /// Layout of the files; raised when it changes.
 const FORMAT: u32 = 1;

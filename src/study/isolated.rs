@@ -17,7 +17,7 @@ use super::handout;
 use super::outcome::{Executor, Outcome};
 use super::pipeline::Pipeline;
 use super::spec::{JobSpec, Limits};
-use crate::sim::{Monitor, Progress, Step};
+use sim::{Monitor, Progress, Step};
 
 /// Time between two looks at a process.
 const LOOK: Duration = Duration::from_millis(50);

@@ -5,7 +5,7 @@ use std::sync::PoisonError;
 use std::sync::atomic::{AtomicI64, Ordering};
 
 use super::types::JobId;
-use crate::geom::V3;
+use geom::V3;
 
 /// Stands for no job; the database counts from 1.
 const NOBODY: i64 = 0;

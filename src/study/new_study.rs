@@ -9,9 +9,9 @@ use super::export::{list, quoted};
 use super::pipeline::SIMULATORS;
 use super::spec::sex_name;
 use super::tools::Model;
-use crate::body::{Measurements, Sex};
-use crate::fit::Simulator;
-use crate::units::from_mm;
+use body::{Measurements, Sex};
+use fit::Simulator;
+use geom::units::from_mm;
 
 /// What a new study says.
 pub(super) struct Outline<'a> {

@@ -9,12 +9,12 @@ use super::queue::{self, Event};
 use super::spec::JobSpec;
 use super::store;
 use super::types::{JobId, Status};
-use crate::fit::Ease;
-use crate::measure::{Chi, Metrics};
-use crate::pattern::MeasurementKind;
-use crate::sim::hybrid::Closure;
-use crate::sim::{Monitor, Stage, Step};
-use crate::units::mm;
+use fit::Ease;
+use fit::measure::{Chi, Metrics};
+use geom::units::mm;
+use pattern::MeasurementKind;
+use sim::hybrid::Closure;
+use sim::{Monitor, Stage, Step};
 
 /// One measurement of a result with what it is.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

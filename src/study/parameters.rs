@@ -9,8 +9,8 @@ use serde_json::Value;
 
 use super::error::{Result, StudyError, nearest};
 use super::inputs::Inputs;
-use crate::fit::Simulator;
-use crate::sim::{fem, hybrid};
+use fit::Simulator;
+use sim::{fem, hybrid};
 
 /// Values other than the default ones, by name; in the unit that ends the name.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -98,7 +98,7 @@ fn fill(tree: &mut Value, prefix: &str, given: &BTreeMap<String, Value>) {
             fill(value, &name, given);
         } else if let Some(number) = given.get(&name) {
             *value = match (unit, number.as_f64()) {
-                (Unit::Millimetre, Some(length)) => crate::units::from_mm(length).into(),
+                (Unit::Millimetre, Some(length)) => geom::units::from_mm(length).into(),
                 (Unit::Degree, Some(angle)) => angle.to_radians().into(),
                 _ => number.clone(),
             };

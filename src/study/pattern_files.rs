@@ -6,11 +6,11 @@ use std::path::Path;
 use super::error::{Result, StudyError};
 use super::file::SourceFile;
 use super::tools::drawings;
-use crate::pattern::dxf::{self, PatternFile, Unit};
-use crate::pattern::features::Features;
-use crate::pattern::inspect::FileReport;
-use crate::pattern::source::{self, Kind};
-use crate::pattern::{Style, garmentcode, grade, info};
+use pattern::dxf::{self, PatternFile, Unit};
+use pattern::features::Features;
+use pattern::inspect::FileReport;
+use pattern::source::{self, Kind};
+use pattern::{Style, garmentcode, grade, info};
 
 /// What is said about a pattern beside its file.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -19,15 +19,15 @@ use super::inputs::StageKind;
 use super::pipeline::{Meshes, Model};
 use super::types::{JobId, Value};
 use super::workspace::Workspace;
-use crate::fit::Simulator;
-use crate::geom::{Surface, TriMesh};
-use crate::pattern::Garment;
-use crate::pattern::garment::Role;
-use crate::render::export::{MeshFormat, Part};
-use crate::render::{self, Camera, Frame, Layer, Material, Paint, Rgb, Scene, Values, View};
-use crate::sim::cloth::law::Orthotropic;
-use crate::sim::{self, Drape, Fabric};
-use crate::units::mm;
+use fit::Simulator;
+use geom::units::mm;
+use geom::{Surface, TriMesh};
+use pattern::Garment;
+use pattern::garment::Role;
+use render::export::{MeshFormat, Part};
+use render::{self, Camera, Frame, Layer, Material, Paint, Rgb, Scene, Values, View};
+use sim::cloth::law::Orthotropic;
+use sim::{self, Drape, Fabric};
 
 /// How far from a level of the body cloth still counts as at it, m.
 const NEAR_M: f64 = 0.02;

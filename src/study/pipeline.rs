@@ -9,13 +9,13 @@ use super::inputs::{Inputs, StageKind};
 use super::outcome::{Executor, Measured, Outcome};
 use super::spec::{JobSpec, subject_inputs};
 use super::tools;
-use crate::body::{Body, Measurements};
-use crate::fit::{self, Cuts, Ease, Simulator};
-use crate::geom::DistanceField;
-use crate::measure;
-use crate::pattern::{Garment, Style};
-use crate::sim::{self, Distortion, Drape, Monitor, SimError};
-use crate::units::from_mm;
+use body::{Body, Measurements};
+use fit::measure;
+use fit::{self, Cuts, Ease, Simulator};
+use geom::DistanceField;
+use geom::units::from_mm;
+use pattern::{Garment, Style};
+use sim::{self, Distortion, Drape, Monitor, SimError};
 
 /// The simulators there are.
 pub const SIMULATORS: [Simulator; 2] = [Simulator::Fem, Simulator::Hybrid];
@@ -270,7 +270,7 @@ mod tests {
     use super::*;
 
     fn quickstart() -> Vec<JobSpec> {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/quickstart");
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/quickstart");
         let known = catalogue::known(None).expect("built in");
         let jobs = spec::jobs(&Study::load(&folder, &known).expect("a good study"));
         jobs.into_iter().filter(|job| job.simulator == Simulator::Fem).collect()

@@ -9,8 +9,8 @@ use super::error::{Result, StudyError};
 use super::spec::sex_name;
 use super::types::{JobId, SubjectId};
 use super::workspace::Workspace;
-use crate::body::{self, Dimension, Measurements, Sex};
-use crate::fit::Draw;
+use body::{self, Dimension, Measurements, Sex};
+use fit::Draw;
 
 /// Dimensions by which people are drawn and grouped: those that the thesis's subjects are known by.
 const DIMENSIONS: [Dimension; 7] = [

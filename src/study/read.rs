@@ -10,10 +10,10 @@ use super::types::{
     Status, StudyRow,
 };
 use super::workspace::Workspace;
-use crate::fit::FitClass;
-use crate::fit::Simulator;
-use crate::sim::Step;
-use crate::units::from_mm;
+use fit::FitClass;
+use fit::Simulator;
+use geom::units::from_mm;
+use sim::Step;
 
 /// Which jobs to list; empty fields accept all.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -17,7 +17,7 @@ use super::spec::{JobSpec, Schedule};
 use super::store::{self, Access};
 use super::types::{ChiRow, JobId, JobRow, MetricsRow, StageRow, SubjectId};
 use super::workspace::Workspace;
-use crate::units::{from_mm, mm};
+use geom::units::{from_mm, mm};
 
 /// Where a result was made.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
@@ -229,7 +229,7 @@ fn rows_of(outcome: &Outcome) -> Vec<ChiRow> {
         stage: m.stage.as_str().to_owned(),
         no: m.chi.no,
         name: m.name.clone(),
-        is_girth: m.kind == crate::pattern::MeasurementKind::ClosedGirth,
+        is_girth: m.kind == pattern::MeasurementKind::ClosedGirth,
         is_free_edge: m.is_free_edge,
         is_controlled: m.is_controlled,
         l2d_m: stored(m.chi.l2d_m),

@@ -19,7 +19,7 @@ use super::spec::{self, Selection};
 use super::store::{self, Access};
 use super::tools;
 use super::workspace::Workspace;
-use crate::body::Measurements;
+use body::Measurements;
 
 /// What to run, and how.
 #[derive(Clone, Debug, Default)]

@@ -7,12 +7,12 @@ use toml_edit::{DocumentMut, Item};
 use super::error::{Result, StudyError};
 use super::file::SourceFile;
 use super::tools::{self, Unit};
-use crate::pattern::propose::{self, Proposal};
-use crate::pattern::seam_edit::{Edit, edited};
-use crate::pattern::seams::SeamFile;
-use crate::pattern::style::{EdgeRef, Style};
-use crate::pattern::{Role, arrange};
-use crate::units::mm;
+use geom::units::mm;
+use pattern::propose::{self, Proposal};
+use pattern::seam_edit::{Edit, edited};
+use pattern::seams::SeamFile;
+use pattern::style::{EdgeRef, Style};
+use pattern::{Role, arrange};
 
 /// An edge of a piece where it lies in the arrangement.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]

@@ -7,9 +7,9 @@ use super::error::{Result, StudyError};
 use super::file::{GarmentEntry, SizeFile, SourceFile, Study};
 use super::store::{self, Access};
 use super::tools;
-use crate::pattern::check::{self, Finding, FindingKind};
-use crate::pattern::seams::SeamFile;
-use crate::units::{from_mm, mm};
+use geom::units::{from_mm, mm};
+use pattern::check::{self, Finding, FindingKind};
+use pattern::seams::SeamFile;
 
 /// Edge length of the mesh that a check makes, mm.
 pub const CHECK_EDGE_MM: f64 = 15.0;
@@ -114,7 +114,7 @@ mod tests {
 
     #[test]
     fn the_thesis_study_is_clean_and_a_broken_one_is_not() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/thesis");
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/thesis");
         let nowhere = Path::new("no.sqlite");
         let rows = check_study(&folder, nowhere).expect("it reads");
         assert_eq!(rows.len(), 9);

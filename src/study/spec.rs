@@ -6,10 +6,10 @@ use super::inputs::Inputs;
 use super::parameters::Parameters;
 use super::pipeline;
 use super::types::JobRow;
-use crate::body::Measurements;
-use crate::fit::Simulator;
-use crate::sim::Fabric;
-use crate::units::mm;
+use body::Measurements;
+use fit::Simulator;
+use geom::units::mm;
+use sim::Fabric;
 
 /// What a job may take; one that takes more is ended and has failed. Results do not depend on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -208,8 +208,8 @@ pub(super) fn fabric_inputs(inputs: &mut Inputs, fabric: &Fabric) {
 /// Name of a subject's sex in SQL and study files.
 pub(super) fn sex_name(m: &Measurements) -> &'static str {
     match m.sex {
-        crate::body::Sex::Male => "male",
-        crate::body::Sex::Female => "female",
+        body::Sex::Male => "male",
+        body::Sex::Female => "female",
     }
 }
 

@@ -232,7 +232,7 @@ pub fn now_ms() -> i64 {
 mod tests {
     use super::*;
 
-    const SCHEMA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/db/schema.sql");
+    const SCHEMA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../db/schema.sql");
 
     /// The schema the migrations add up to, as SQLite keeps it.
     fn dump(connection: &Connection) -> String {

@@ -11,12 +11,12 @@ use super::queue::{self, Event};
 use super::spec::Schedule;
 use super::store::{self, Access};
 use super::*;
-use crate::body::{Measurements, Sex};
-use crate::fit::{Cuts, Ease};
-use crate::measure::{Chi, metrics};
-use crate::pattern::MeasurementKind;
-use crate::sim::hybrid::Closure;
-use crate::sim::{Fabric, Monitor, Progress, Stage};
+use body::{Measurements, Sex};
+use fit::measure::{Chi, metrics};
+use fit::{Cuts, Ease};
+use pattern::MeasurementKind;
+use sim::hybrid::Closure;
+use sim::{Fabric, Monitor, Progress, Stage};
 
 /// A workspace in a folder of its own.
 struct Bench {
@@ -429,7 +429,7 @@ fn a_readonly_workspace_reads_and_refuses_to_write() {
 fn saved_queries_run() {
     let mut bench = Bench::new();
     bench.run(&study(0.1), 1, quick);
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("db/queries");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../db/queries");
     let mut seen = 0;
     for entry in std::fs::read_dir(folder).expect("db/queries").flatten() {
         let sql = std::fs::read_to_string(entry.path()).expect("text");

@@ -5,27 +5,27 @@ use std::path::{Path, PathBuf};
 use super::error::{Result, StudyError};
 pub use super::file::SourceFile;
 use super::sewing;
-use crate::body;
-use crate::pattern::{Garment, Piece, garmentcode, sheet, source};
-use crate::render::{self, Camera, Frame, Layer, Material, Scene};
+use body;
+use pattern::{Garment, Piece, garmentcode, sheet, source};
+use render::{self, Camera, Frame, Layer, Material, Scene};
 
 pub use super::seam_desk::{Desk, DeskEdge, DeskPiece, DeskSeam, Proposed, desk, edit_seams, propose};
 pub use super::sewing::{CHECK_EDGE_MM, SizeCheck, check_study};
 pub use super::workpiece::{DeskLength, LaidOut, SeamStep, Workpiece, seam_home, write_seams};
-pub use crate::body::{
+pub use body::{
     Accuracy, Body, Doubt, Evaluation, Girths, LengthUnit, Mass, Measured, Measurements, Pictured, PicturedLevel, Pose,
     Scan, Sex, write_obj,
 };
-pub use crate::pattern::check::{Finding, of_garment as garment_findings};
-pub use crate::pattern::draft::Model;
-pub use crate::pattern::dxf::Unit;
-pub use crate::pattern::inspect::{FileReport, PieceReport};
-pub use crate::pattern::propose::Proposal;
-pub use crate::pattern::seam_edit::Edit as SeamEdit;
-pub use crate::pattern::{MeshQuality, Style};
-pub use crate::render::View;
-pub use crate::sim::Fabric;
-pub use crate::sim::fabric::Stretched;
+pub use pattern::check::{Finding, of_garment as garment_findings};
+pub use pattern::draft::Model;
+pub use pattern::dxf::Unit;
+pub use pattern::inspect::{FileReport, PieceReport};
+pub use pattern::propose::Proposal;
+pub use pattern::seam_edit::Edit as SeamEdit;
+pub use pattern::{MeshQuality, Style};
+pub use render::View;
+pub use sim::Fabric;
+pub use sim::fabric::Stretched;
 
 /// Writes files into a folder, which is made where it is missing; returns their paths.
 ///

@@ -3,9 +3,9 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::fit::FitClass;
-use crate::fit::Simulator;
-use crate::sim::{Progress, Step};
+use fit::FitClass;
+use fit::Simulator;
+use sim::{Progress, Step};
 
 /// Number of a job in its database.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]

@@ -6,11 +6,11 @@ use super::error::{Result, StudyError};
 use super::file::{Problem, SourceFile};
 use super::seam_desk::{Desk, confidences, confirmed};
 use super::tools::{self, Unit};
-use crate::pattern::seam_edit::{Edit, edited};
-use crate::pattern::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamFile};
-use crate::pattern::style::Style;
-use crate::pattern::{check, propose};
-use crate::units::mm;
+use geom::units::mm;
+use pattern::seam_edit::{Edit, edited};
+use pattern::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamFile};
+use pattern::style::Style;
+use pattern::{check, propose};
 
 /// Begins a line of a proposed seam file that a person must answer.
 const QUESTION: &str = "# ASK: ";
@@ -88,11 +88,8 @@ impl Workpiece {
                 found.map(|finding| format!("{}: {}: {}", finding.kind.as_str(), finding.place, finding.found)),
             );
         }
-        let length = |m: &crate::pattern::style::StyleMeasurement| DeskLength {
-            no: m.no,
-            name: m.name.clone(),
-            l2d_mm: mm(m.l2d_m),
-        };
+        let length =
+            |m: &pattern::style::StyleMeasurement| DeskLength { no: m.no, name: m.name.clone(), l2d_mm: mm(m.l2d_m) };
         Ok(LaidOut { desk, lengths: style.measurements.iter().map(length).collect(), questions, tolerance_mm })
     }
 
@@ -183,7 +180,7 @@ pub fn write_seams(path: &Path, before: &SourceFile, after: &SourceFile) -> Resu
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pattern::draft::Model;
+    use pattern::draft::Model;
 
     /// The T-shirt, size S, with seams of a text or none.
     fn tshirt(seams: Option<String>) -> Workpiece {

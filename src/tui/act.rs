@@ -7,7 +7,7 @@ use super::message::{Act, Effect, Target};
 use super::overlay::{List, Overlay};
 use super::picture;
 use super::state::{ChiOrder, Place, State};
-use crate::study::{JobId, Part, why_no_retry};
+use study::{JobId, Part, why_no_retry};
 
 impl State {
     /// Does an action; returns what others have to do.

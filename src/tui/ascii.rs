@@ -93,8 +93,8 @@ pub fn stand_in(sign: char) -> char {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::Status;
-    use crate::tui::theme::glyph;
+    use crate::theme::glyph;
+    use study::Status;
 
     #[test]
     fn states_stay_apart() {

@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use super::message::Message;
 use super::sheet::Sheet;
-use crate::study::{Interrupter, StudyError, Workspace, saved_queries};
+use study::{Interrupter, StudyError, Workspace, saved_queries};
 
 /// Rows that are shown of an answer; a file gets all.
 const MOST_ROWS: usize = 20_000;

@@ -3,8 +3,8 @@
 use crossterm::event::KeyCode;
 
 use super::action::{Action, Binding, Key, Screen};
-use crate::study::Part;
 use Screen::{Compare, Fabrics, Jobs, Reports, Results, Sql, Study, Styles, Subjects};
+use study::Part;
 
 const fn ch(letter: char) -> Key {
     Key::new(KeyCode::Char(letter), false)

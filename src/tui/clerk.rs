@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender};
 
 use super::message::Message;
-use crate::study::{NewStudy, ReportRow, Workspace, reports};
+use study::{NewStudy, ReportRow, Workspace, reports};
 
 /// What the thread is asked for.
 #[derive(Clone, Debug, PartialEq)]

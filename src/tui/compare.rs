@@ -4,7 +4,7 @@ use super::action::Screen;
 use super::feed::Compared;
 use super::state::State;
 use super::text;
-use crate::study::{ChiRow, JobId, JobRow, RecommendationRow};
+use study::{ChiRow, JobId, JobRow, RecommendationRow};
 
 /// Runs that are compared at most.
 pub const MOST: usize = 6;

@@ -7,8 +7,8 @@ use super::action::Screen;
 use super::compare;
 use super::state::State;
 use super::text;
-use crate::study::tools::Measurements;
-use crate::study::{FABRIC_NUMBERS, Field, JobRow, MEASUREMENTS};
+use study::tools::Measurements;
+use study::{FABRIC_NUMBERS, Field, JobRow, MEASUREMENTS};
 
 /// The text that stands for what is selected, tab-separated, and what it is.
 #[must_use]

@@ -2,7 +2,7 @@
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use crate::study::Relation;
+use study::Relation;
 
 /// Words of SQL that are offered besides names.
 const WORDS: [&str; 24] = [

@@ -5,7 +5,7 @@ use super::form::{Form, PathPrompt};
 use super::message::{Act, Effect};
 use super::overlay::Overlay;
 use super::state::State;
-use crate::study::{FABRIC_NUMBERS, FabricRow, Mode, Part};
+use study::{FABRIC_NUMBERS, FabricRow, Mode, Part};
 
 /// Measurements in the list of subjects: stature, weight, chest, waist, hip.
 pub const SHOWN: usize = 5;

@@ -1,6 +1,6 @@
 //! What the screens show, read from the workspace in one go on a background thread.
 
-use crate::study::{
+use study::{
     ChiRow, EaseRow, FabricRow, Grid, Inputs, JobFilter, JobId, JobRow, LogLine, MetricsRow, RecommendationRow, Result,
     SizeRow, StageRow, Step, StudyError, StudyRow, SubjectRow, Why, Workspace, now_ms,
 };

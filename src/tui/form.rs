@@ -8,12 +8,12 @@ use super::asker::Question;
 use super::message::{Act, Effect};
 use super::overlay::{Outcome, edit};
 use super::text;
-use crate::study::tools::Sex;
-use crate::study::{
+use geom::units::significant;
+use study::tools::Sex;
+use study::{
     FABRIC_NUMBERS, FabricRow, Given, MEASUREMENTS, Mode, Part, SubjectRow, is_doubtful, percentile, percentile_text,
     sex,
 };
-use crate::units::significant;
 
 /// Lines of a form before its numbers: the name, and the sex of a subject or the source of a fabric's numbers.
 const NAME: usize = 0;

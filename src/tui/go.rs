@@ -5,7 +5,7 @@ use super::action::{Action, Screen};
 use super::picture;
 use super::screens;
 use super::state::{Place, State};
-use crate::study::JobId;
+use study::JobId;
 
 /// Lines that no list has: title, borders, headers, status line.
 const FRAME_LINES: u16 = 8;
@@ -122,7 +122,7 @@ impl State {
 
     /// Goes to the next or previous job that has a result.
     fn step_result(&mut self, step: isize) {
-        let is_shown = |job: &&crate::study::JobRow| job.status.has_result() || Some(job.id) == self.focus.job;
+        let is_shown = |job: &&study::JobRow| job.status.has_result() || Some(job.id) == self.focus.job;
         let Some(data) = &self.data else { return };
         let jobs: Vec<JobId> = data.jobs.iter().filter(is_shown).map(|job| job.id).collect();
         let at = jobs.iter().position(|id| Some(*id) == self.focus.job).unwrap_or(0);

@@ -1,6 +1,6 @@
 //! The garment of a running simulation in dots of braille: its vertices as they are, seen from where drapes are seen.
 
-use crate::study::{LiveFrame, Look};
+use study::{LiveFrame, Look};
 
 /// World lengths of a picture change in such steps, m, so that it does not tremble.
 const STEP_M: f64 = 0.1;
@@ -42,8 +42,8 @@ pub fn braille(frame: &LiveFrame, look: Look, columns: usize, rows: usize) -> Ve
 mod tests {
     use super::super::picture::FRONT;
     use super::*;
-    use crate::geom::V3;
-    use crate::study::JobId;
+    use geom::V3;
+    use study::JobId;
 
     #[test]
     fn the_subjects_right_is_at_the_pictures_left() {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::action::Screen;
 use super::entries::FabricOrder;
 use super::state::{ChiOrder, JobOrder, Order, State, SubjectOrder};
-use crate::study::JobId;
+use study::JobId;
 
 /// The longest name of a file.
 const LONGEST: usize = 200;

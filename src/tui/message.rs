@@ -11,8 +11,8 @@ use super::feed::{Focus, Snapshot};
 use super::picture::{Drawn, Shot};
 use super::sheet::Sheet;
 use super::tailor::{Laid, Laying, Task};
-use crate::study::tools::{Girths, SourceFile};
-use crate::study::{Given, JobId, LiveFrame, Mode, Part, Relation, ReportRow, SavedQuery, StyleGiven, SubjectId};
+use study::tools::{Girths, SourceFile};
+use study::{Given, JobId, LiveFrame, Mode, Part, Relation, ReportRow, SavedQuery, StyleGiven, SubjectId};
 
 /// Something that happened.
 #[derive(Debug)]

@@ -105,7 +105,7 @@ fn is_opaque(pixel: &Rgba<u8>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::picture::tests::shirt;
+    use crate::picture::tests::shirt;
 
     #[test]
     fn crops_to_what_is_shown() {

@@ -7,7 +7,7 @@ use image::RgbaImage;
 
 use super::message::Message;
 use super::picture::{Canvas, Shot, Sitter};
-use crate::study::{Figure, SubjectId, Workspace};
+use study::{Figure, SubjectId, Workspace};
 
 /// Makes the pictures asked for, those of the latest request only, until nobody asks or listens any more. Bodies are
 /// measured where there is no canvas, too.

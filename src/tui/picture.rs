@@ -11,7 +11,7 @@ use ratatui_image::{FontSize, Resize};
 
 use super::mosaic::{Blocks, cropped, letters};
 use super::theme::Colours;
-use crate::study::{JobId, Look, Map, SubjectId, View};
+use study::{JobId, Look, Map, SubjectId, View};
 
 /// How pictures are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -15,7 +15,7 @@ use super::message::{Effect, Message};
 use super::screens;
 use super::state::{Abilities, State};
 use super::theme::{Colours, Theme};
-use crate::study::{Result, Workspace};
+use study::{Result, Workspace};
 
 /// Counts what is written to it.
 struct Counter(Rc<Cell<usize>>);
@@ -53,7 +53,7 @@ impl Rehearsal {
         let line = Line::new(Counter(sent.clone()), Some(Size::new(width, height)));
         let terminal = line
             .and_then(|line| Terminal::with_options(line, options))
-            .map_err(crate::study::StudyError::io("a screen in memory"))?;
+            .map_err(study::StudyError::io("a screen in memory"))?;
         let mut rehearsal = Self { workspace, state, sent, terminal };
         rehearsal.read()?;
         Ok(rehearsal)

@@ -6,7 +6,7 @@ use super::action::Screen;
 use super::clerk::{Errand, address};
 use super::message::Effect;
 use super::state::State;
-use crate::study::ReportRow;
+use study::ReportRow;
 
 impl State {
     /// Reports that pass the filter of their screen.

@@ -3,8 +3,8 @@
 use std::cmp::Ordering;
 
 use super::text;
-use crate::study::{SqlAnswer, Value};
-use crate::units::significant;
+use geom::units::significant;
+use study::{SqlAnswer, Value};
 
 /// Rows whose values say how wide a column is and whether it holds numbers.
 const LOOKED_AT: usize = 300;
@@ -182,7 +182,7 @@ fn compared(a: &Value, b: &Value) -> Ordering {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::Table;
+    use study::Table;
 
     fn sheet() -> Sheet {
         let row = |name: &str, value: Value| vec![Value::Text(name.to_owned()), value, Value::Text("x".repeat(30))];

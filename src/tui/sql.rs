@@ -10,7 +10,7 @@ use super::message::Effect;
 use super::overlay::{Overlay, edit};
 use super::sheet::Sheet;
 use super::state::State;
-use crate::study::{Relation, SavedQuery};
+use study::{Relation, SavedQuery};
 
 /// Queries that the history keeps.
 const MOST_KEPT: usize = 200;

@@ -17,8 +17,8 @@ use super::sql::Sql;
 use super::styles::Styles;
 use super::text;
 use super::theme::Theme;
-use crate::study::tools::Girths;
-use crate::study::{
+use study::tools::Girths;
+use study::{
     Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobRow, LiveFrame, Look, MEASUREMENTS, Map, Status, Step, SubjectId,
     SubjectRow,
 };

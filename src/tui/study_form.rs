@@ -9,7 +9,7 @@ use super::clerk::Errand;
 use super::message::Effect;
 use super::overlay::{Outcome, Overlay, edit};
 use super::state::State;
-use crate::study::{NewStudy, Simulator, Wearable, wearables};
+use study::{NewStudy, Simulator, Wearable, wearables};
 
 /// The cloth that a new study starts with, where the catalogue has it.
 const USUAL_FABRIC: &str = "cotton_shirting_light";
@@ -220,7 +220,7 @@ impl State {
             folder: self.places.studies.clone(),
             fabric: fabrics.iter().position(|name| name == USUAL_FABRIC).unwrap_or(0),
             fabrics,
-            simulators: crate::study::SIMULATORS.map(|simulator| (simulator, true)).to_vec(),
+            simulators: study::SIMULATORS.map(|simulator| (simulator, true)).to_vec(),
             sizes: wearables(&data.sizes).into_iter().map(|wearable| (wearable, false)).collect(),
             subjects: data.subjects.iter().map(|row| (row.name.clone(), false)).collect(),
             at: 0,

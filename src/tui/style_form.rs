@@ -6,7 +6,7 @@ use super::form::path_of;
 use super::message::{Act, Effect};
 use super::overlay::{Outcome, edit};
 use super::text;
-use crate::study::StyleGiven;
+use study::StyleGiven;
 
 /// Lines of the form.
 const PATTERN: usize = 0;

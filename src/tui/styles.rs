@@ -7,8 +7,8 @@ use super::message::{Act, Effect};
 use super::overlay::Overlay;
 use super::state::State;
 use super::tailor::{Laid, Laying, Task};
-use crate::study::tools::{DeskSeam, SeamEdit, SeamStep, SourceFile};
-use crate::study::{Part, SizeRow};
+use study::tools::{DeskSeam, SeamEdit, SeamStep, SourceFile};
+use study::{Part, SizeRow};
 
 /// An edge by its piece and its place on it.
 pub type EdgeAt = (usize, usize);

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender};
 
 use super::message::Message;
-use crate::study::tools::{LaidOut, SeamStep, SourceFile, Workpiece, seam_home};
-use crate::study::{SizeKey, StudyError, Workspace};
+use study::tools::{LaidOut, SeamStep, SourceFile, Workpiece, seam_home};
+use study::{SizeKey, StudyError, Workspace};
 
 /// What is wanted on the desk.
 #[derive(Clone, Debug, PartialEq, Eq)]

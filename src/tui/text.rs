@@ -2,8 +2,8 @@
 
 use ratatui::text::Span;
 
-use crate::study::tools::Sex;
-use crate::study::{JobRow, Simulator, Status, SubjectRow};
+use study::tools::Sex;
+use study::{JobRow, Simulator, Status, SubjectRow};
 
 /// Columns a text takes.
 #[must_use]

@@ -10,7 +10,7 @@ use super::overlay::Outcome;
 use super::picture::{Drawn, FRONT, Shot, Sitter};
 use super::screens;
 use super::state::{Place, State};
-use crate::study::{Map, Status};
+use study::{Map, Status};
 
 /// Steps of a running job that are kept for its curves.
 const MAX_TRACE: usize = 4096;

@@ -20,8 +20,8 @@ use super::message::{Act, Effect, Message, Target};
 use super::painter;
 use super::picture::{Canvas, Shot};
 use super::tailor::{self, Task};
-use crate::study::tools::write_seams;
-use crate::study::{Deed, Live, Mode, Part, RunOptions, Saved, StudyError, StyleGiven, Workspace};
+use study::tools::write_seams;
+use study::{Deed, Live, Mode, Part, RunOptions, Saved, StudyError, StyleGiven, Workspace};
 
 /// Time between two looks at whether the database has changed; a look costs microseconds.
 const LOOK: Duration = Duration::from_millis(250);

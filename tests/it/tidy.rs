@@ -267,7 +267,7 @@ fn no_file_holds_the_path_of_a_machine() {
     let homes =
         [["/ro", "ot/"], ["/ho", "me/"], ["/wo", "rk/"], ["/Us", "ers/"], ["C:\\", "Users"]].map(|p| p.concat());
     let mut paths = Vec::new();
-    for folder in ["src", "tests", "benches", "studies", "db", "templates", ".ci"] {
+    for folder in ["src", "tests", "benches", "studies", "db", ".ci"] {
         paths.extend(files(&root().join(folder), &["rs", "toml", "sql", "csv", "html", "css", "dxf", "snap", "md"]));
     }
     paths.extend(["Cargo.toml", "README.md", "ARCHITECTURE.md", "deny.toml", ".ci/run"].map(|name| root().join(name)));
@@ -295,7 +295,7 @@ fn documents_name_what_exists() {
             let is_plain = word.chars().all(|c| c.is_ascii_alphanumeric() || "/._-".contains(c));
             // What a run writes is not there before it.
             let is_written = word.ends_with(".sqlite") || word.chars().any(|c| c.is_ascii_uppercase());
-            if ["src", "tests", "benches", "studies", "db", "templates"].contains(&folder) && is_plain && !is_written {
+            if ["src", "tests", "benches", "studies", "db"].contains(&folder) && is_plain && !is_written {
                 assert!(root().join(word).exists(), "{name} names {word}, which does not exist");
             }
         }

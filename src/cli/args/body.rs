@@ -24,7 +24,7 @@ pub enum MeshUnit {
     M,
 }
 
-impl From<MeshUnit> for crate::study::tools::LengthUnit {
+impl From<MeshUnit> for study::tools::LengthUnit {
     fn from(unit: MeshUnit) -> Self {
         match unit {
             MeshUnit::Mm => Self::Millimetre,

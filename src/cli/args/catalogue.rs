@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, Subcommand};
 
 use super::PatternUnit;
-use crate::study::{FABRIC_NUMBERS, Field, Given, MEASUREMENTS};
+use study::{FABRIC_NUMBERS, Field, Given, MEASUREMENTS};
 
 /// Commands on one part of the catalogue.
 #[derive(Debug, Subcommand)]

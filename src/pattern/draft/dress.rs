@@ -13,10 +13,10 @@
 use super::Draft;
 use super::marks::{mirrored, mirrored_notch, net, notch, notches_along};
 use super::trunk::{FrontNeck, Trunk, TrunkPlan};
-use crate::geom::V2;
-use crate::pattern::curve::{arc, bisect};
-use crate::pattern::piece::{Notch, Piece};
-use crate::units::from_mm;
+use crate::curve::{arc, bisect};
+use crate::piece::{Notch, Piece};
+use geom::V2;
+use geom::units::from_mm;
 
 /// Pattern girth at the underarm, m.
 const BUST_M: f64 = 0.960;

@@ -1,8 +1,8 @@
 //! What every drafted piece has beside its outline: notches, texts, size.
 
-use crate::geom::V2;
-use crate::geom::polyline::Polyline;
-use crate::pattern::piece::{Notch, Piece};
+use crate::piece::{Notch, Piece};
+use geom::V2;
+use geom::polyline::Polyline;
 
 /// Spacing of a double notch, m.
 pub const DOUBLE_NOTCH_M: f64 = 0.010;

@@ -10,8 +10,8 @@
 
 use super::Draft;
 use super::trunk::{FrontNeck, Trunk, TrunkPlan};
-use crate::geom::V2;
-use crate::units::from_mm;
+use geom::V2;
+use geom::units::from_mm;
 
 /// Depth of the back neck below the side-neck points, m.
 const BACK_NECK_DROP_M: f64 = 0.030;

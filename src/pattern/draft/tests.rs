@@ -2,10 +2,10 @@ use std::collections::BTreeMap;
 
 use super::trunk::SHOULDER_SLOPE_DEG;
 use super::*;
-use crate::geom::polyline::self_crossing;
-use crate::pattern::curve::CURVE_SEGMENTS;
-use crate::pattern::{MeshQuality, Style};
-use crate::units::{from_mm, mm};
+use crate::curve::CURVE_SEGMENTS;
+use crate::{MeshQuality, Style};
+use geom::polyline::self_crossing;
+use geom::units::{from_mm, mm};
 
 /// The style that the files of a draft make once read again.
 fn style(model: Model, (name, bytes): &(String, Vec<u8>)) -> Style {
@@ -44,7 +44,7 @@ fn the_files_sew_into_the_published_lengths() {
 
 /// Published pattern lengths by garment, size and number, from the table; the erroneous and the rejected are left out.
 fn published_table() -> Option<BTreeMap<(String, String, usize), f64>> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/thesis/published_measurements.csv");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/thesis/published_measurements.csv");
     let text = std::fs::read_to_string(path).ok()?;
     let rows = text.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>());
     // Tables 6-21 (a waist that is none) and 6-27 (two equal columns) are the ones the audit doubts.
@@ -116,7 +116,7 @@ fn the_pieces_are_whole_and_mesh_well() {
 #[test]
 fn the_studies_hold_what_is_drafted() {
     let check = |folder: &str, model: Model| {
-        let root = env!("CARGO_MANIFEST_DIR");
+        let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
         for (name, bytes) in model.files() {
             let kept = std::fs::read(format!("{root}/{folder}/{name}")).unwrap_or_else(|e| panic!("{name}: {e}"));
             let command = format!("toile pattern draft {} -o {folder}", model.as_str());
@@ -133,7 +133,7 @@ fn the_studies_hold_what_is_drafted() {
 fn curves_meet_their_neighbours_as_a_pattern_maker_draws_them() {
     for size in TshirtSize::ALL {
         let body = tshirt::trunk(&size.published_mm().map(from_mm));
-        let along = |curve: &[crate::geom::V2], k: usize| (curve[k + 1] - curve[k]).normalize();
+        let along = |curve: &[geom::V2], k: usize| (curve[k + 1] - curve[k]).normalize();
         let shoulder = (body.front_armhole[0] - body.front_neck[CURVE_SEGMENTS]).normalize();
         assert!(((-shoulder.y).asin().to_degrees() - SHOULDER_SLOPE_DEG).abs() < 1e-6);
         for curve in [&body.front_armhole, &body.back_armhole] {
@@ -164,7 +164,7 @@ fn the_legs_join_without_a_peak_at_fork_and_knee() {
             } else {
                 [inseam.length(), 0.0]
             };
-            let away = |line: &crate::geom::polyline::Polyline, arc: f64| {
+            let away = |line: &geom::polyline::Polyline, arc: f64| {
                 let near = if arc > 0.0 { arc - 1e-4 } else { 1e-4 };
                 (line.at(near) - line.at(arc)).normalize()
             };

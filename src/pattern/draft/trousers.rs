@@ -14,10 +14,10 @@
 
 use super::Draft;
 use super::marks::{DOUBLE_NOTCH_M, mirrored, mirrored_notch, net, notches_along};
-use crate::geom::V2;
-use crate::pattern::curve::{bezier, bisect, length};
-use crate::pattern::piece::Piece;
-use crate::units::from_mm;
+use crate::curve::{bezier, bisect, length};
+use crate::piece::Piece;
+use geom::V2;
+use geom::units::from_mm;
 
 /// Hip girth less waist girth, m.
 const HIP_OVER_WAIST_M: f64 = 0.040;

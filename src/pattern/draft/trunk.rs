@@ -1,9 +1,9 @@
 //! The upper body that T-shirt, tee-top and dress share: neck, shoulder, armhole and side, and the sleeve that fits it.
 
 use super::marks::{DOUBLE_NOTCH_M, mirrored, mirrored_notch, net, notch, notches_along};
-use crate::geom::V2;
-use crate::pattern::curve::{bezier, bisect, length};
-use crate::pattern::piece::{Notch, Piece};
+use crate::curve::{bezier, bisect, length};
+use crate::piece::{Notch, Piece};
+use geom::V2;
 
 /// Slope of the shoulder line below the horizontal, degrees.
 pub const SHOULDER_SLOPE_DEG: f64 = 20.0;

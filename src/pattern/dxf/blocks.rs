@@ -11,10 +11,10 @@ use super::outline::{
     Line, MOST_LINES, check_simple, counter_clockwise, cut_loops, cut_spikes, joined, part_touching, sew_line, text_mm,
     without_copies,
 };
-use crate::geom::V2;
-use crate::geom::polyline::{perimeter, signed_area};
-use crate::pattern::piece::{GradePoint, Notch, Piece};
-use crate::units::mm;
+use crate::piece::{GradePoint, Notch, Piece};
+use geom::V2;
+use geom::polyline::{perimeter, signed_area};
+use geom::units::mm;
 
 /// Least area of a piece, m2.
 const LEAST_AREA_M2: f64 = 1e-6;

@@ -5,7 +5,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use crate::geom::V2;
+use geom::V2;
 
 /// Greatest distance of a chord from its curve, m.
 pub const CHORD_ERROR_M: f64 = 0.01e-3;
@@ -162,7 +162,7 @@ impl Spline {
         let middle = 0.5 * (from + to);
         let inner = [0.25, 0.5, 0.75].map(|share| self.at(span, from + (to - from) * share));
         let chain = [start, inner[0], inner[1], inner[2], end];
-        let off = |point: &V2| crate::geom::polyline::segment_distance(&start, &end, point);
+        let off = |point: &V2| geom::polyline::segment_distance(&start, &end, point);
         let turn = |k: usize| (chain[k + 1] - chain[k]).angle(&(chain[k + 2] - chain[k + 1]));
         let is_straight = inner.iter().all(|point| off(point) <= tolerance)
             && ((end - start).norm() <= tolerance || (0..3).map(turn).sum::<f64>() <= MOST_TURN);
@@ -181,7 +181,7 @@ mod tests {
     use std::f64::consts::PI;
 
     use super::*;
-    use crate::pattern::curve::length;
+    use crate::curve::length;
 
     fn close(found: f64, expect: f64, share: f64) {
         assert!((found / expect - 1.0).abs() < share, "{found} for {expect}");
@@ -221,7 +221,7 @@ mod tests {
             let sagitta = |ends: &[V2]| radius - (0.5 * (ends[0] + ends[1]) - V2::new(0.1, 0.2)).norm();
             assert!(points.windows(2).map(sagitta).fold(0.0, f64::max) <= CHORD_ERROR_M * 1.001);
         }
-        close(crate::geom::polyline::perimeter(&circle(V2::zeros(), 0.05, CHORD_ERROR_M)), 0.1 * PI, 5e-5);
+        close(geom::polyline::perimeter(&circle(V2::zeros(), 0.05, CHORD_ERROR_M)), 0.1 * PI, 5e-5);
     }
 
     #[test]
@@ -238,7 +238,7 @@ mod tests {
         let control = [(0.0, 0.0), (0.1, 0.2), (0.3, -0.1), (0.4, 0.1)].map(|(x, y)| V2::new(x, y));
         let spline = Spline::new(3, &[0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0], &control, &[]).expect("a Bezier curve");
         let points = spline.flattened(CHORD_ERROR_M);
-        close(length(&points), length(&crate::pattern::curve::bezier(control)), 2e-4);
+        close(length(&points), length(&crate::curve::bezier(control)), 2e-4);
         assert_eq!((points[0], points[points.len() - 1]), (control[0], control[3]));
         // A rational quadratic of weight cos 45 is a quarter circle.
         let control = [(0.1, 0.0), (0.1, 0.1), (0.0, 0.1)].map(|(x, y)| V2::new(x, y));

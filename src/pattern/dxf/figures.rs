@@ -4,7 +4,7 @@ use dxf::entities::{Entity, EntityType, Insert};
 use dxf::{Point, Vector};
 
 use super::curves::{self, CHORD_ERROR_M, Spline};
-use crate::geom::V2;
+use geom::V2;
 
 /// Flags of a polyline and of its vertices [DXF reference, POLYLINE, VERTEX].
 const CLOSED: i32 = 1;

@@ -6,9 +6,9 @@ use super::blocks::{Drawn, Library, key_and_value};
 use super::figures::Placement;
 use super::outline::{Line, chains};
 use super::{NO_BLOCK, Refused};
-use crate::geom::V2;
-use crate::geom::polyline::{boundary_distance, contains};
-use crate::pattern::piece::Piece;
+use crate::piece::Piece;
+use geom::V2;
+use geom::polyline::{boundary_distance, contains};
 
 /// Points this near to an outline belong to it, m.
 const NEAR_M: f64 = 1e-3;

@@ -214,7 +214,7 @@ pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<Pattern
 impl PatternFile {
     /// Adds the pieces of all blocks and those outside of blocks.
     fn add_all(&mut self, drawing: &Drawing, inventory: &Inventory<'_>) {
-        let placement = Placement::scaled(crate::units::from_mm(self.unit.mm_per_unit()));
+        let placement = Placement::scaled(geom::units::from_mm(self.unit.mm_per_unit()));
         let blocks: Vec<&Block> = drawing.blocks().collect();
         let library = Library::of(&blocks);
         let outside = || {

@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use crate::geom::V2;
-use crate::geom::polyline::{contains, crossing_sides, self_crossing, signed_area};
-use crate::units::mm;
+use geom::V2;
+use geom::polyline::{contains, crossing_sides, self_crossing, signed_area};
+use geom::units::mm;
 
 /// Greatest gap between the ends of boundary lines that join, m.
 pub const JOIN_M: f64 = 0.05e-3;

@@ -7,7 +7,7 @@ use dxf::enums::AcadVersion;
 use dxf::{Drawing, LwPolylineVertex, Point};
 
 use super::*;
-use crate::pattern::piece::Piece;
+use crate::piece::Piece;
 
 /// Tags written as `code value` lines, separated by `;`.
 fn tags(text: &str) -> String {

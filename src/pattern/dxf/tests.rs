@@ -2,12 +2,12 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::*;
-use crate::geom::V2;
-use crate::pattern::draft::{TshirtSize, tshirt};
-use crate::pattern::inspect::{FileReport, PieceReport};
+use crate::draft::{TshirtSize, tshirt};
+use crate::inspect::{FileReport, PieceReport};
+use geom::V2;
 
 fn shared(folder: &str) -> Option<PathBuf> {
-    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/patterns")).join(folder);
+    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/patterns")).join(folder);
     if !path.is_dir() {
         eprintln!("skipped: {} is not here", path.display());
         return None;
@@ -421,7 +421,7 @@ proptest::proptest! {
             }
             for size in file.sizes() {
                 let Ok(pieces) = file.to_sew(Some(size)) else { continue };
-                for seam in crate::pattern::propose::propose(&pieces).seams {
+                for seam in crate::propose::propose(&pieces).seams {
                     proptest::prop_assert!((0.0..=1.0).contains(&seam.confidence));
                 }
             }

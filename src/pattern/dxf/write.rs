@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
-use crate::geom::V2;
-use crate::pattern::draft::Draft;
-use crate::pattern::piece::Piece;
-use crate::units::mm;
+use crate::draft::Draft;
+use crate::piece::Piece;
+use geom::V2;
+use geom::units::mm;
 
 /// Code pages that texts are tried in, by their names in `$DWGCODEPAGE`.
 const CODE_PAGES: [(&str, &encoding_rs::Encoding); 4] = [

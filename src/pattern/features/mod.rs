@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 use super::dxf::{PatternFile, Unit, UnitSource};
 use super::piece::{GradePoint, Notch, Piece};
 use super::style::corners::corner_vertices;
-use crate::geom::V2;
-use crate::geom::polyline::{self_crossing, signed_area};
-use crate::units::{from_mm, mm};
+use geom::V2;
+use geom::polyline::{self_crossing, signed_area};
+use geom::units::{from_mm, mm};
 
 /// What the file calls its format.
 const FORMAT: &str = "toile pattern features";

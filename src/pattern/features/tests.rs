@@ -1,6 +1,6 @@
 use super::*;
-use crate::pattern::draft::{TshirtSize, tshirt};
-use crate::pattern::dxf;
+use crate::draft::{TshirtSize, tshirt};
+use crate::dxf;
 
 fn written(pieces: &[Piece]) -> Vec<u8> {
     serde_json::to_vec(&Features::of(pieces, "a.dxf", &[("Style Name".to_owned(), "Tee".to_owned())])).expect("JSON")
@@ -31,7 +31,7 @@ fn assert_same(read: &Piece, piece: &Piece) {
 /// All pieces of the sample files and the drafts.
 fn samples() -> Vec<Piece> {
     let mut pieces = tshirt(TshirtSize::M).pieces;
-    let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/patterns"));
+    let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/patterns"));
     for name in [
         "freesewing/teagan_nest_aama-inch.dxf",
         "freesewing/brian_cisMaleAdult40_aama.dxf",
@@ -67,7 +67,7 @@ fn edges_go_once_round() {
         let features = PieceFeatures::of(&piece);
         assert_eq!(features.edges.len(), features.corners.len());
         let total: f64 = features.edges.iter().map(|edge| edge.length_mm).sum();
-        let round = mm(crate::geom::polyline::perimeter(piece.seam_outline()));
+        let round = mm(geom::polyline::perimeter(piece.seam_outline()));
         assert!(features.edges.is_empty() || (total - round).abs() < 1e-3, "{}: {total} for {round}", piece.name);
     }
 }

@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 use serde_json::Map;
 
 use super::format::{Curvature, Curve, Document, Panel, PanelEdge, Pattern, Properties, StitchItem};
-use crate::geom::V2;
-use crate::geom::polyline::Polyline;
-use crate::pattern::style::{EdgeRef, Seam, Style};
+use crate::style::{EdgeRef, Seam, Style};
+use geom::V2;
+use geom::polyline::Polyline;
 
 /// Greatest distance of a drawn curve from the cubic written for it, m.
 const TOLERANCE_M: f64 = 0.05e-3;
@@ -81,7 +81,7 @@ pub fn document(style: &Style) -> Document {
 }
 
 fn all_edges(style: &Style) -> impl Iterator<Item = EdgeRef> + '_ {
-    let of = |(piece, drawn): (usize, &crate::pattern::style::StylePiece)| {
+    let of = |(piece, drawn): (usize, &crate::style::StylePiece)| {
         (0..drawn.edges.len()).map(move |edge| EdgeRef { piece, edge })
     };
     style.pieces.iter().enumerate().flat_map(of)

@@ -20,9 +20,9 @@ use super::inspect::{FileReport, PieceReport};
 use super::piece::Piece;
 use super::propose::roles_by_name;
 use super::style::{Edge, EdgeRef, Seam, Style, StylePiece};
-use crate::geom::V2;
-use crate::geom::polyline::{Polyline, self_crossing, signed_area};
-use crate::units::mm;
+use geom::V2;
+use geom::polyline::{Polyline, self_crossing, signed_area};
+use geom::units::mm;
 
 /// Greatest coordinate and radius accepted, m.
 const GREATEST_M: f64 = 100.0;

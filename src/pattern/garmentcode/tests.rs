@@ -1,11 +1,11 @@
 use std::collections::BTreeMap;
 
 use super::*;
-use crate::pattern::draft::Model;
-use crate::pattern::{MeshQuality, dxf};
-use crate::units::from_mm;
+use crate::draft::Model;
+use crate::{MeshQuality, dxf};
+use geom::units::from_mm;
 
-const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/patterns/garmentcode");
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/patterns/garmentcode");
 
 /// The specifications beside the checkout, by garment; none where the folder is not there.
 fn specifications() -> BTreeMap<String, Specification> {
@@ -98,7 +98,7 @@ fn drafted_styles_come_back_from_the_format_as_they_were() {
             let outline = piece.outline();
             let area = signed_area(&outline);
             assert!((found.area_m2() / area - 1.0).abs() < 1e-4, "{model:?} {}", piece.id);
-            let perimeter = crate::geom::polyline::perimeter(&outline);
+            let perimeter = geom::polyline::perimeter(&outline);
             assert!((found.perimeter_m() / perimeter - 1.0).abs() < 1e-4, "{model:?} {}", piece.id);
         }
         // Every seam is still sewn over its whole length, edge by edge of equal lengths.

@@ -9,9 +9,9 @@ mod table;
 pub use self::table::{GradeError, GradeTable, read};
 use super::dxf::{PatternFile, Refused};
 use super::piece::{Notch, Piece};
-use crate::geom::V2;
-use crate::geom::polyline::{segment_distance, self_crossing, signed_area};
-use crate::units::mm;
+use geom::V2;
+use geom::polyline::{segment_distance, self_crossing, signed_area};
+use geom::units::mm;
 
 /// Distance within which a grade point lies on the outline, m.
 const ON_OUTLINE_M: f64 = 1e-3;

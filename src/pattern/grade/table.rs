@@ -16,9 +16,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::geom::V2;
-use crate::pattern::dxf::Unit;
-use crate::units::from_mm;
+use crate::dxf::Unit;
+use geom::V2;
+use geom::units::from_mm;
 
 /// Most bytes of a table that is read; a large one has some hundred thousand.
 const MOST_BYTES: usize = 8 << 20;

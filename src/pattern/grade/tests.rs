@@ -2,8 +2,8 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use super::*;
-use crate::pattern::dxf;
-use crate::pattern::piece::GradePoint;
+use crate::dxf;
+use crate::piece::GradePoint;
 
 const TABLE: &str = "ANSI/AAMA VERSION: 1.0.0\r\nAUTHOR: someone\r\nCREATION TIME: 14:03\r\nUNITS: METRIC\r\n\
 GRADE RULE TABLE: BLOUSE\r\nNUMBER OF SIZES: 3\r\nSIZE LIST: S M\r\n  L\r\nSAMPLE SIZE: M\r\nRULE: DELTA  1\r\n\
@@ -121,7 +121,7 @@ fn what_is_ambiguous_is_refused() {
 #[test]
 fn a_nest_is_what_its_own_rules_make_of_its_sample_size() {
     const SIZES: [&str; 4] = ["34", "36", "38", "40"];
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/patterns/freesewing/teagan_nest_aama-inch.dxf");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/patterns/freesewing/teagan_nest_aama-inch.dxf");
     let Ok(bytes) = std::fs::read(path) else {
         eprintln!("skipped: no {path}");
         return;

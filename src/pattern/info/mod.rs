@@ -10,7 +10,7 @@ mod xlsx;
 use super::dxf::PatternFile;
 use super::garment::Role;
 use super::piece::Piece;
-use crate::geom::V2;
+use geom::V2;
 
 /// Names of the column that says which piece a row is about.
 const PIECE: [&str; 4] = ["piece", "name", "piece name", "block"];

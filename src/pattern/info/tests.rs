@@ -4,8 +4,8 @@ use flate2::Compression;
 use flate2::write::DeflateEncoder;
 
 use super::*;
-use crate::pattern::draft::{TshirtSize, tshirt};
-use crate::pattern::dxf;
+use crate::draft::{TshirtSize, tshirt};
+use crate::dxf;
 
 const CSV: &str = "Piece,Quantity,Material,Role,Grain_deg,Interlining\n\
 Front,1,Jersey,front,90,\nback,1,Jersey,back,,\n\"SLEEVE\",\"1,1\",\"Rib, fine\",sleeve_left,,fused\n";

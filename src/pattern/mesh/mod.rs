@@ -10,8 +10,8 @@ use self::sampling::{EdgeSamples, sample};
 use self::triangulate::{Triangulation, triangulate};
 use super::garment::{FitLevel, Garment, Measurement, PieceMesh, Reinforcement, SeamMesh};
 use super::style::{EdgeRef, PathPart, Style};
-use crate::geom::V2;
-use crate::units::mm;
+use geom::V2;
+use geom::units::mm;
 
 /// Least and greatest edge length that can be asked for, m.
 pub const EDGE_LENGTH_RANGE_M: Range<f64> = 1e-3..0.2;

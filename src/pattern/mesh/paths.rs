@@ -2,10 +2,10 @@
 
 use super::MeshError;
 use super::sampling::EdgeSamples;
-use crate::geom::V2;
-use crate::geom::polyline::segment_meeting;
-use crate::pattern::garment::{Garment, MaterialPoint, Run};
-use crate::pattern::style::{EdgePoint, EdgeRef, PathPart, Style};
+use crate::garment::{Garment, MaterialPoint, Run};
+use crate::style::{EdgePoint, EdgeRef, PathPart, Style};
+use geom::V2;
+use geom::polyline::segment_meeting;
 
 /// Points of a straight path closer than this share of its length are one.
 const SAME_SHARE: f64 = 1e-6;

@@ -3,7 +3,7 @@
 //! An edge must have a vertex at each of its corners and wherever a straight measurement ends (its *marks*). The marks
 //! of one side of a seam are carried over to the other, and each stretch between marks is divided evenly [T 5.1].
 
-use crate::pattern::style::{EdgeRef, PathPart, Seam, Style};
+use crate::style::{EdgeRef, PathPart, Seam, Style};
 
 /// Two marks from different sides of a seam closer than this share of the edge length become one vertex pair.
 const MERGE_SHARE: f64 = 0.25;
@@ -58,7 +58,7 @@ pub fn sample(style: &Style, h: f64) -> Samples {
 
 /// Arc lengths at which each edge must have a vertex, both ends included.
 fn marks(style: &Style) -> Vec<Vec<Vec<f64>>> {
-    let edge_marks = |line: &crate::geom::polyline::Polyline, corners: &[f64]| {
+    let edge_marks = |line: &geom::polyline::Polyline, corners: &[f64]| {
         let mut marks = vec![0.0];
         marks.extend(corners);
         marks.push(line.length());

@@ -1,8 +1,8 @@
 use std::collections::BTreeMap;
 
 use super::*;
-use crate::geom::polyline::signed_area;
-use crate::pattern::draft::{TSHIRT_SEAMS, TshirtSize, tshirt};
+use crate::draft::{TSHIRT_SEAMS, TshirtSize, tshirt};
+use geom::polyline::signed_area;
 
 fn style(size: TshirtSize) -> Style {
     Style::read(&tshirt(size).pieces, TSHIRT_SEAMS, "tshirt.seams.toml").expect("the drafted style is whole")
@@ -171,7 +171,7 @@ fn pieces_of_other_programs_mesh() {
     let mut angles = Vec::new();
     let mut unforced: Vec<String> = Vec::new();
     for folder in ["freesewing", "valentina", "garmentcode", "jblockcreator"] {
-        let path = format!("{}/../shared/patterns/{folder}", env!("CARGO_MANIFEST_DIR"));
+        let path = format!("{}/../../../shared/patterns/{folder}", env!("CARGO_MANIFEST_DIR"));
         let Ok(entries) = std::fs::read_dir(&path) else {
             eprintln!("skipped: {path} is not here");
             return;
@@ -179,7 +179,7 @@ fn pieces_of_other_programs_mesh() {
         let files = entries.map(|entry| entry.expect("it can be listed").path());
         for file in files.filter(|p| p.extension().is_some_and(|e| e == "dxf")) {
             let bytes = std::fs::read(&file).expect("it can be read");
-            for piece in crate::pattern::dxf::read(&bytes, "a.dxf", None).expect("it reads").pieces {
+            for piece in crate::dxf::read(&bytes, "a.dxf", None).expect("it reads").pieces {
                 let seams =
                     format!("name = ''\n[piece.p]\nblock = '{}'\nrole = 'front'\nedges.e = [0, 1]", piece.block);
                 let name = format!("{} {}", file.file_name().unwrap_or_default().to_string_lossy(), piece.block);

@@ -7,9 +7,9 @@
 use spade::handles::FixedFaceHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
 
-use crate::geom::V2;
-use crate::geom::polyline::{boundary_distance, contains, self_crossing, signed_area};
-use crate::geom::triangle::sorted;
+use geom::V2;
+use geom::polyline::{boundary_distance, contains, self_crossing, signed_area};
+use geom::triangle::sorted;
 
 /// Rounds of moving the inner points.
 const SMOOTHING_ROUNDS: usize = 12;

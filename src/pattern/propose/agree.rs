@@ -3,7 +3,7 @@
 
 use super::ProposedSeam;
 use super::worn::Worn;
-use crate::units::mm;
+use geom::units::mm;
 
 /// Difference of length of sides that were drafted for each other, mm: what files round.
 const EXACT_MM: f64 = 0.5;

@@ -3,7 +3,7 @@
 use super::Label;
 use super::shape::{Shape, Stretch};
 use super::templates::{Part, TEMPLATES, Template};
-use crate::geom::V2;
+use geom::V2;
 
 /// Weight of the distance between where a stretch lies and where its part should lie, squared.
 const PLACE_WEIGHT: f64 = 1.5;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::recognise::Recognised;
 use super::worn::{self, id_of};
 use super::{Class, Face, Hand, Label, names, sew};
-use crate::pattern::piece::Piece;
+use crate::piece::Piece;
 
 /// Most combinations of pieces that are tried.
 const MOST_COMBINATIONS: usize = 256;

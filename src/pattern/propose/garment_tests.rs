@@ -1,8 +1,8 @@
 //! Whole garments with yokes, bands, cuffs and details: small patterns of straight lines and a few curve points.
 
 use super::*;
-use crate::geom::V2;
-use crate::pattern::style::Style;
+use crate::style::Style;
+use geom::V2;
 
 /// A piece in mm; the third number of a vertex says whether it is a corner.
 fn piece(name: &str, vertices: &[(f64, f64, u8)]) -> Piece {

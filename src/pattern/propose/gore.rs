@@ -5,8 +5,8 @@
 
 use super::Class;
 use super::names;
-use crate::geom::polyline::{perimeter, signed_area};
-use crate::pattern::piece::Piece;
+use crate::piece::Piece;
+use geom::polyline::{perimeter, signed_area};
 
 /// Fewest gores of a skirt.
 const LEAST: u32 = 3;
@@ -86,7 +86,7 @@ fn alike<'p>(pieces: impl Iterator<Item = &'p Piece>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::V2;
+    use geom::V2;
 
     #[test]
     fn a_quantity_says_how_often_a_gore_is_cut() {

@@ -4,7 +4,7 @@ use super::align::{Alignment, LEAST_FIT, upright};
 use super::shape::Shape;
 use super::templates::Template;
 use super::{Class, Face, Label, names};
-use crate::pattern::piece::Piece;
+use crate::piece::Piece;
 
 /// A part of a front or back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

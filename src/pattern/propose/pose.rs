@@ -5,8 +5,8 @@ use super::names;
 use super::shape::Shape;
 use super::templates::{TEMPLATES, Template};
 use super::{Class, Face, Hand, Label};
-use crate::pattern::garment::Role;
-use crate::pattern::style::StylePiece;
+use crate::garment::Role;
+use crate::style::StylePiece;
 
 /// How a piece is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,7 +47,7 @@ pub fn pose(piece: &StylePiece) -> Option<Pose> {
         Role::Other => return None,
     };
     let outline = piece.outline();
-    let nearest = |corner: &crate::geom::V2| {
+    let nearest = |corner: &geom::V2| {
         let distance = |i: &usize| (outline[*i] - corner).norm();
         (0..outline.len()).min_by(|i, j| distance(i).total_cmp(&distance(j)))
     };

@@ -4,7 +4,7 @@ use super::align::{LEAST_FIT, upright};
 use super::shape::Shape;
 use super::templates::Template;
 use super::{Class, names};
-use crate::pattern::piece::Piece;
+use crate::piece::Piece;
 
 /// Whether fronts, backs and sleeves fit raglan templates better, all in all, than plain ones.
 pub fn is_raglan(pieces: &[Piece]) -> bool {

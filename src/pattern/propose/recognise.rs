@@ -7,7 +7,7 @@ use super::shape::Shape;
 use super::templates::Template;
 use super::{Class, Face, Hand, Label, ring};
 use super::{names, raglan};
-use crate::pattern::piece::Piece;
+use crate::piece::Piece;
 
 /// Least fit of an outline that nothing else tells of.
 const LEAST_UNNAMED_FIT: f64 = 0.6;

@@ -72,7 +72,7 @@ fn turn_of(arc_over_chord: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::V2;
+    use geom::V2;
 
     fn ring(turn_deg: f64, radii: [f64; 2]) -> Shape {
         let arc = |radius: f64, share: f64| {

@@ -6,8 +6,8 @@
 use super::notched::{self, Evidence};
 use super::worn::Worn;
 use super::{Class, Face, Hand, Label, ProposedSeam};
-use crate::pattern::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamEntry};
-use crate::units::mm;
+use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamEntry};
+use geom::units::mm;
 
 /// Difference of length, share of the longer side, at which a seam of straight edges is not believed.
 pub(super) const PLAIN_DOUBT: f64 = 0.06;

@@ -1,8 +1,8 @@
 //! The outline of a piece as edges between corners, darts taken out.
 
-use crate::geom::V2;
-use crate::pattern::piece::Piece;
-use crate::pattern::style::corners::corner_vertices;
+use crate::piece::Piece;
+use crate::style::corners::corner_vertices;
+use geom::V2;
 
 /// Turn to the right at which a corner is the apex of a dart, degrees.
 const APEX_TURN_DEG: f64 = 120.0;
@@ -225,7 +225,7 @@ impl Shape {
         }
         let length = arcs[arcs.len() - 1];
         let half = arcs.partition_point(|&arc| arc < 0.5 * length).min(points.len() - 1);
-        let area = crate::geom::polyline::signed_area(&points);
+        let area = geom::polyline::signed_area(&points);
         Stretch { chord, middle: points[half], length, bow: area / chord.norm_squared().max(1e-12), turn }
     }
 }

@@ -1,14 +1,14 @@
 use std::path::{Path, PathBuf};
 
 use super::*;
-use crate::geom::V2;
-use crate::pattern::draft::{TSHIRT_SEAMS, TshirtSize, tshirt};
-use crate::pattern::dxf::{self, Unit};
-use crate::pattern::seams::SeamFile;
-use crate::pattern::style::Style;
+use crate::draft::{TSHIRT_SEAMS, TshirtSize, tshirt};
+use crate::dxf::{self, Unit};
+use crate::seams::SeamFile;
+use crate::style::Style;
+use geom::V2;
 
 fn shared(file: &str) -> Option<PathBuf> {
-    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/patterns")).join(file);
+    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/patterns")).join(file);
     if !path.exists() {
         eprintln!("skipped: {} is not here", path.display());
         return None;
@@ -133,7 +133,7 @@ fn our_own_tshirt_is_sewn_as_its_seam_file_says() {
         Style::read(&pieces, TSHIRT_SEAMS, "tshirt.seams.toml").expect("it is a style"),
     );
     let lengths = |style: &Style| {
-        let length = |seam: &crate::pattern::style::Seam| {
+        let length = |seam: &crate::style::Seam| {
             seam.a.iter().map(|&edge| (style.edge(edge).line.length() * 1e4).round() as i64).sum::<i64>()
         };
         let mut lengths: Vec<i64> = style.seams.iter().map(length).collect();
@@ -179,9 +179,9 @@ fn corners_by_curvature_are_corners_that_the_file_marks() {
     ] {
         let Some(pieces) = pieces(file, None) else { return };
         for piece in pieces {
-            let by_marks = crate::pattern::style::corners::corner_vertices(&piece);
+            let by_marks = crate::style::corners::corner_vertices(&piece);
             let unmarked = Piece { turn_points: Vec::new(), ..piece };
-            let by_curvature = crate::pattern::style::corners::corner_vertices(&unmarked);
+            let by_curvature = crate::style::corners::corner_vertices(&unmarked);
             marked += by_marks.len();
             curved += by_curvature.len();
             agree += by_curvature.iter().filter(|corner| by_marks.contains(corner)).count();
@@ -201,7 +201,7 @@ const SYMMETRIC_M: f64 = 1e-3;
 /// Whether the two sides of an outline are mirror images.
 fn is_symmetric(outline: &[V2]) -> bool {
     let (low, high) = outline.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p.x), high.max(p.x)));
-    let closed = |p: &V2| crate::geom::polyline::boundary_distance(outline, p);
+    let closed = |p: &V2| geom::polyline::boundary_distance(outline, p);
     outline.iter().all(|p| closed(&V2::new(low + high - p.x, p.y)) < SYMMETRIC_M)
 }
 
@@ -255,7 +255,7 @@ fn score_read(garment: &str, is_turned: bool) -> Option<(usize, usize)> {
         V2::new(low + high - p.x, p.y)
     };
     // Shares of a seam's side that a panel's edge takes, in the direction of sewing.
-    let place = |chain: &[crate::pattern::style::EdgeRef], is_forwards: bool, (panel, edge): &(String, usize)| {
+    let place = |chain: &[crate::style::EdgeRef], is_forwards: bool, (panel, edge): &(String, usize)| {
         let total: f64 = chain.iter().map(|&edge| style.edge(edge).line.length()).sum();
         let mut before = 0.0;
         for &part in chain {

@@ -2,7 +2,7 @@
 //! be closed on the body.
 
 use super::{Class, Face, Hand, Proposal, ProposedPiece, ProposedSeam, sew};
-use crate::pattern::seams::PieceEntry;
+use crate::seams::PieceEntry;
 
 /// Least confidence of a seam that is sewn with nobody to ask.
 const SURE: f64 = 0.4;

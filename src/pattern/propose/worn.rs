@@ -6,11 +6,11 @@ use super::gore::Cut;
 use super::recognise::Recognised;
 use super::shape::Dart;
 use super::{Class, Face, Hand, Label, pose, role_of};
-use crate::geom::V2;
-use crate::geom::polyline::Polyline;
-use crate::pattern::Role;
-use crate::pattern::piece::Piece;
-use crate::pattern::seams::PieceEntry;
+use crate::Role;
+use crate::piece::Piece;
+use crate::seams::PieceEntry;
+use geom::V2;
+use geom::polyline::Polyline;
 
 /// An edge of a piece as worn.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use super::{Proposal, ProposedSeam};
-use crate::pattern::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamFile};
+use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamFile};
 
 /// Ratio of the sides from which a seam is called eased or gathered.
 const EASED_RATIO: f64 = 1.01;

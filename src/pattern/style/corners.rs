@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::Edge;
-use crate::geom::V2;
-use crate::geom::polyline::Polyline;
-use crate::pattern::piece::Piece;
+use crate::piece::Piece;
+use geom::V2;
+use geom::polyline::Polyline;
 
 /// Distance within which a turn point is taken to lie on a vertex of the outline, m.
 const ON_OUTLINE_M: f64 = 0.5e-3;
@@ -18,7 +18,7 @@ const APART_M: f64 = 15e-3;
 
 /// Outline vertices that are corners, counter-clockwise from the first turn point in the file: those that it marks, and where
 /// it marks none, or leaves a sharp one out, those at which the outline turns.
-pub(in crate::pattern) fn corner_vertices(piece: &Piece) -> Vec<usize> {
+pub(crate) fn corner_vertices(piece: &Piece) -> Vec<usize> {
     let outline = piece.seam_outline();
     let nearest = |point: &V2| {
         let distance = |i: &usize| (outline[*i] - point).norm();

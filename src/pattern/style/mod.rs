@@ -8,8 +8,8 @@ use self::read::Reader;
 use super::garment::{Band, MeasurementKind, Role};
 use super::piece::{Notch, Piece};
 use super::seams::SeamFile;
-use crate::geom::V2;
-use crate::geom::polyline::Polyline;
+use geom::V2;
+use geom::polyline::Polyline;
 
 /// Why pieces and a seam file do not make a style.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

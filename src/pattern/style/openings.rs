@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{EdgeRef, PathPart, Style, StyleMeasurement};
-use crate::pattern::garment::MeasurementKind;
+use crate::garment::MeasurementKind;
 
 /// Difference of its sides' lengths beyond which one is eased into the other, m.
 const EASED_M: f64 = 1e-3;
@@ -117,10 +117,10 @@ impl Style {
 #[cfg(test)]
 mod tests {
     use super::PathPart;
-    use crate::pattern::Style;
-    use crate::pattern::draft::Model;
-    use crate::pattern::garment::MeasurementKind;
-    use crate::units::mm;
+    use crate::Style;
+    use crate::draft::Model;
+    use crate::garment::MeasurementKind;
+    use geom::units::mm;
 
     #[test]
     fn a_gathered_seam_is_measured_along_the_side_that_it_is_gathered_into() {

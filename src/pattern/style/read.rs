@@ -6,10 +6,10 @@ use super::corners::{corner_vertices, cut_edge, mirror_edge, mirrored};
 use super::{
     Edge, EdgePoint, EdgeRef, PathPart, Seam, Style, StyleError, StyleMeasurement, StylePiece, StyleReinforcement,
 };
-use crate::geom::V2;
-use crate::pattern::piece::Piece;
-use crate::pattern::seams::{PieceEntry, SeamEntry, SeamFile, Stretch};
-use crate::units::{from_mm, mm};
+use crate::piece::Piece;
+use crate::seams::{PieceEntry, SeamEntry, SeamFile, Stretch};
+use geom::V2;
+use geom::units::{from_mm, mm};
 
 /// Resolves the names of one seam file.
 pub(super) struct Reader<'a> {

@@ -1,7 +1,7 @@
 use super::corners::{corner_vertices, mirrored};
 use super::*;
-use crate::pattern::draft::{TSHIRT_SEAMS, TshirtSize, tshirt};
-use crate::pattern::seams::SeamFile;
+use crate::draft::{TSHIRT_SEAMS, TshirtSize, tshirt};
+use crate::seams::SeamFile;
 
 fn read(seams: &str) -> Result<Style, StyleError> {
     Style::read(&tshirt(TshirtSize::S).pieces, seams.as_bytes(), "a.toml")
@@ -74,7 +74,7 @@ fn a_mirrored_piece_is_the_mirror_image_still_counter_clockwise() {
     let style = read(seams()).expect("it is a style");
     let piece = |id: &str| style.pieces.iter().find(|piece| piece.id == id).expect("it is there");
     let (right, left) = (piece("sleeve_right"), piece("sleeve_left"));
-    let area = |piece: &StylePiece| crate::geom::polyline::signed_area(&piece.outline());
+    let area = |piece: &StylePiece| geom::polyline::signed_area(&piece.outline());
     assert!(area(left) > 0.0 && (area(left) - area(right)).abs() < 1e-12);
     let edge = |piece: &'static str, name: &str| {
         let found = style.pieces.iter().find(|p| p.id == piece).expect("it is there");

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::Part;
-use crate::geom::V3;
+use geom::V3;
 
 /// Component types and buffer targets of the standard.
 const UNSIGNED_INT: u32 = 5125;

@@ -6,7 +6,7 @@
 mod glb;
 mod text;
 
-use crate::geom::{TriMesh, V2};
+use geom::{TriMesh, V2};
 
 use super::Rgb;
 

@@ -1,5 +1,5 @@
 use super::*;
-use crate::geom::V3;
+use geom::V3;
 
 fn mesh() -> TriMesh {
     let positions = vec![V3::zeros(), V3::x(), V3::y(), V3::z()];

@@ -3,11 +3,11 @@
 //! Units are half CSS pixels, so that whole numbers place marks finely enough.
 
 use super::super::{ReportError, theme};
-use crate::render::Rgb;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::register_font;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+use render::Rgb;
 use std::sync::OnceLock;
 
 /// Width of every chart.

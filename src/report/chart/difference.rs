@@ -4,7 +4,7 @@ use super::super::text::{number, signed};
 use super::super::{ReportError, theme};
 use super::canvas::{Align, Axis, Canvas, ROW, TYPE, WIDTH, draw};
 use super::{Chart, shorten};
-use crate::fit::{Crossover, Cuts, MARGIN, Pair};
+use fit::{Crossover, Cuts, MARGIN, Pair};
 
 const LEFT: i32 = 560;
 const UNDER: i32 = 3 * TYPE + 30;
@@ -73,8 +73,8 @@ fn sides(canvas: &Canvas<'_>, (left, right): (i32, i32), y: i32) -> Result<(), R
 }
 
 /// Colour of the simulator that a difference speaks for.
-fn side(difference: f64) -> crate::render::Rgb {
-    theme::simulator(if difference < 0.0 { crate::fit::Simulator::Fem } else { crate::fit::Simulator::Hybrid })
+fn side(difference: f64) -> render::Rgb {
+    theme::simulator(if difference < 0.0 { fit::Simulator::Fem } else { fit::Simulator::Hybrid })
 }
 
 /// Every case's EI difference against its ease, the line through them, and the band in which it crosses 0 where one can be

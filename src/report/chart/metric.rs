@@ -5,7 +5,7 @@ use super::super::text::simulator_name;
 use super::super::{ReportError, theme};
 use super::canvas::{Align, Axis, Canvas, ROW, TYPE, WIDTH, draw};
 use super::{Chart, shorten};
-use crate::fit::Simulator;
+use fit::Simulator;
 
 const LEFT: i32 = 420;
 const TOP: i32 = 70;

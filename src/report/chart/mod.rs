@@ -16,8 +16,8 @@ pub use residual::residual_chart;
 pub use scatter::{ease_chart, time_chart};
 
 use super::{ReportError, theme};
-use crate::render::{png, rasterise_svg};
 use image::imageops;
+use render::{png, rasterise_svg};
 
 /// A drawn chart.
 #[derive(Clone, Debug)]

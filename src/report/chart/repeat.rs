@@ -5,7 +5,7 @@ use super::super::text::simulator_name;
 use super::super::{ReportError, theme};
 use super::canvas::{Align, Axis, ROW, TYPE, WIDTH, draw};
 use super::{Chart, row_label};
-use crate::fit::Simulator;
+use fit::Simulator;
 
 const LEFT: i32 = 560;
 const TOP: i32 = 80;
@@ -17,7 +17,7 @@ const LEAST: f64 = 1e-4;
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
-pub(in crate::report) fn repeat_chart(title: &str, cases: &[&Repeats]) -> Result<Chart, ReportError> {
+pub(crate) fn repeat_chart(title: &str, cases: &[&Repeats]) -> Result<Chart, ReportError> {
     let mut rows: Vec<(u32, &str)> =
         cases.iter().flat_map(|case| &case.spreads).map(|spread| (spread.no, spread.name.as_str())).collect();
     rows.sort_unstable();

@@ -5,8 +5,8 @@ use super::super::text::simulator_name;
 use super::super::{ReportError, theme};
 use super::Chart;
 use super::canvas::{Align, Axis, Canvas, TYPE, WIDTH, draw};
-use crate::fit::Cuts;
-use crate::fit::Simulator;
+use fit::Cuts;
+use fit::Simulator;
 
 const LEFT: i32 = 170;
 const TOP: i32 = 120;

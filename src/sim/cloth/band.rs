@@ -8,10 +8,10 @@ use wide::f32x4;
 
 use super::gathers::Gathers;
 use super::part::Part;
-use crate::geom::V3;
-use crate::pattern::Garment;
-use crate::sim::solver::PairList;
-use crate::sim::solver::quad::{self, Block};
+use geom::V3;
+use linalg::PairList;
+use linalg::quad::{self, Block};
+use pattern::Garment;
 
 /// A band between two simulated vertices.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -122,11 +122,11 @@ impl Bands {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pattern::garment::{Band, Reinforcement};
-    use crate::sim::cloth::Cloth;
-    use crate::sim::laboratory::{self, sheets};
-    use crate::sim::sewing::unsewn;
-    use crate::sim::testing::{check_forces, fabric};
+    use crate::cloth::Cloth;
+    use crate::laboratory::{self, sheets};
+    use crate::sewing::unsewn;
+    use crate::testing::{check_forces, fabric};
+    use pattern::garment::{Band, Reinforcement};
 
     /// A sheet of 3 x 3 squares whose lower edge carries a rib of nine tenths its length.
     fn ribbed() -> (Garment, Vec<V3>) {

@@ -18,11 +18,11 @@
 use wide::f32x4;
 
 use super::part::Part;
-use crate::geom::{V2, V3};
-use crate::sim::Fabric;
-use crate::sim::solver::PairList;
-use crate::sim::solver::quad::{self, Block};
-use crate::sim::solver::rows::by_row;
+use crate::Fabric;
+use geom::{V2, V3};
+use linalg::PairList;
+use linalg::quad::{self, Block};
+use linalg::rows::by_row;
 
 /// One interior edge with its two triangles.
 #[derive(Clone, Copy, Debug)]
@@ -303,9 +303,9 @@ impl Bending {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::cloth::PlateBuilder;
-    use crate::sim::laboratory::sheets::{hexagonal_sheet, jittered, shaken, sheet};
-    use crate::sim::testing::{check_forces, fabric};
+    use crate::cloth::PlateBuilder;
+    use crate::laboratory::sheets::{hexagonal_sheet, jittered, shaken, sheet};
+    use crate::testing::{check_forces, fabric};
 
     fn flat_bending(rest: &[V2], triangles: &[[usize; 3]], fabric: &Fabric) -> Bending {
         let mut builder = PlateBuilder::default();

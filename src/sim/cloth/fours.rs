@@ -4,10 +4,10 @@ use wide::f32x4;
 
 use super::law::{Orthotropic, Tensor};
 use super::membrane::{Element, Foreseen};
-use crate::geom::V3;
-use crate::sim::solver::lanes::{Lanes, Number};
-use crate::sim::solver::machine::{Machine, Task, each};
-use crate::sim::solver::quad::{self, Block, Quad};
+use geom::V3;
+use linalg::lanes::{Lanes, Number};
+use linalg::machine::{Machine, Task, each};
+use linalg::quad::{self, Block, Quad};
 
 /// A vector in each lane.
 type Vectors<M> = [Lanes<M>; 3];

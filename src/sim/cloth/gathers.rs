@@ -7,9 +7,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::geom::V2;
-use crate::geom::polyline::signed_area;
-use crate::pattern::Garment;
+use geom::V2;
+use geom::polyline::signed_area;
+use pattern::Garment;
 
 /// Rows of vertices over which the cloth goes from drawn together to its full length. Of seams gathered 1.1 to 1.7 times, one
 /// left the shorter side up to 0.6 % too long, two 0.45, three and four 0.35; none 22 %.
@@ -149,14 +149,15 @@ fn sorted([a, b]: [usize; 2]) -> [usize; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::V3;
-    use crate::pattern::{PieceMesh, Role, SeamMesh};
-    use crate::sim::cloth::Cloth;
-    use crate::sim::contact::{BodyContact, ContactParams};
-    use crate::sim::fabric;
-    use crate::sim::laboratory::{self, sheets};
-    use crate::sim::sewing::welded;
-    use crate::sim::solver::{LinearSolver, System};
+    use crate::cloth::Cloth;
+    use crate::contact::{BodyContact, ContactParams};
+    use crate::fabric;
+    use crate::laboratory::{self, sheets};
+    use crate::sewing::welded;
+    use crate::solver::System;
+    use geom::V3;
+    use linalg::LinearSolver;
+    use pattern::{PieceMesh, Role, SeamMesh};
 
     /// A band 0.3 m long over a skirt whose upper edge is `ratio` times that; the band's lower and the skirt's upper vertices.
     fn skirt(ratio: f64, step: f64) -> (Garment, [Vec<usize>; 2]) {

@@ -4,8 +4,8 @@ use std::ops::{Add, Mul, Sub};
 
 use nalgebra::Matrix2;
 
-use crate::sim::Fabric;
-use crate::sim::solver::lanes::Number;
+use crate::Fabric;
+use linalg::lanes::Number;
 
 /// A symmetric tensor in the cloth's plane, in the axes of its grain.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

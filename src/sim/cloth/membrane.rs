@@ -17,10 +17,10 @@ use wide::f32x4;
 
 use super::fours::{Assembly, Compression, Correction, Four};
 use super::law::{Orthotropic, Tensor};
-use crate::geom::{V2, V3};
-use crate::sim::solver::PairList;
-use crate::sim::solver::machine;
-use crate::sim::solver::quad::Block;
+use geom::{V2, V3};
+use linalg::PairList;
+use linalg::machine;
+use linalg::quad::Block;
 
 /// One triangle.
 #[derive(Clone, Copy, Debug)]
@@ -190,12 +190,12 @@ impl Membrane {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::Fabric;
-    use crate::sim::fabric::Stretched;
-    use crate::sim::laboratory::sheets::{shaken, sheet};
-    use crate::sim::solver::machine::{Machine, Plain};
-    use crate::sim::solver::quad;
-    use crate::sim::testing::{check_forces, fabric};
+    use crate::Fabric;
+    use crate::fabric::Stretched;
+    use crate::laboratory::sheets::{shaken, sheet};
+    use crate::testing::{check_forces, fabric};
+    use linalg::machine::{Machine, Plain};
+    use linalg::quad;
 
     fn membrane(grain: V2) -> (Membrane, Vec<V3>) {
         membrane_of(&fabric(), grain)

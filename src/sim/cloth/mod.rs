@@ -10,10 +10,10 @@ pub mod part;
 
 use std::collections::BTreeMap;
 
-use crate::geom::{V2, V3};
-use crate::pattern::Garment;
-use crate::sim::solver::PairList;
-use crate::sim::{Fabric, SimError, sewing};
+use crate::{Fabric, SimError, sewing};
+use geom::{V2, V3};
+use linalg::PairList;
+use pattern::Garment;
 
 use band::Bands;
 use bending::{Bending, Flap, Hinge, Plate};

@@ -1,7 +1,7 @@
 //! Whether two parts of the cloth meet on the straight way from one place to another.
 
 use super::nearest::{Nearest, Primitives};
-use crate::geom::V3;
+use geom::V3;
 
 /// Share of its distance that a pair keeps on its way at least.
 const KEPT: f64 = 0.1;

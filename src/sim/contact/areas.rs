@@ -1,6 +1,6 @@
 //! How much cloth a vertex stands for where cloth meets itself.
 
-use crate::pattern::Garment;
+use pattern::Garment;
 
 /// The rest areas of a sewn garment's vertices as its contact with itself takes them, m2: no more than a square as high as the
 /// lowest triangle is at the vertex, where one is lower than `least_m`.
@@ -27,9 +27,9 @@ pub fn contact_areas(garment: &Garment, vertex_of: &[usize], areas: &[f64], leas
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::{V2, V3};
-    use crate::sim::contact::{ClothContact, ClothContactParams};
-    use crate::sim::laboratory;
+    use crate::contact::{ClothContact, ClothContactParams};
+    use crate::laboratory;
+    use geom::{V2, V3};
 
     /// A flat strip of two rows whose middle two columns are `apart_m` apart, the others 0.02 m, and its areas.
     fn strip(apart_m: f64) -> (Garment, Vec<f64>) {

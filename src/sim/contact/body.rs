@@ -19,9 +19,9 @@ use super::point::Point;
 use super::pressure::{ContactParams, Push};
 use super::skin::Skin;
 use super::tangle::edges_of;
-use crate::geom::{DistanceField, V3};
-use crate::sim::cloth::part::Part;
-use crate::sim::solver::Contact4;
+use crate::cloth::part::Part;
+use geom::{DistanceField, V3};
+use linalg::Contact4;
 
 /// Share of the sticking stiffness that a sliding contact keeps in the linear system, so that it stays regular.
 const SLIDING_STIFFNESS_SHARE: f64 = 0.1;

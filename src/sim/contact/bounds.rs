@@ -2,7 +2,7 @@
 
 use wide::f32x4;
 
-use crate::geom::V3;
+use geom::V3;
 
 /// Lowest and highest corner in single precision; never smaller than what they bound. The fourth number is zero.
 #[derive(Clone, Copy, Debug)]
@@ -95,7 +95,7 @@ impl Bounds {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::laboratory::sheets::noise;
+    use crate::laboratory::sheets::noise;
 
     #[test]
     fn boxes_hold_what_they_bound_and_know_how_far_apart_they_are() {

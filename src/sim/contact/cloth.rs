@@ -19,9 +19,9 @@ use super::knots::Knots;
 use super::nearest::{Nearest, Primitives, spanned_squared};
 use super::search::{Neighbours, Pair, Within};
 use super::tangle::{Crossing, crossings};
-use crate::geom::V3;
-use crate::sim::cloth::part::Part;
-use crate::sim::solver::Contact4;
+use crate::cloth::part::Part;
+use geom::V3;
+use linalg::Contact4;
 
 /// Parameters of self-contact.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

@@ -5,8 +5,8 @@
 //! nearly all of a drape, so what is left to be searched are folds and layers. At the cloth's rim flat parts could yet meet within
 //! their plane, as the two sides of a slit do: there nothing is left out.
 
-use crate::geom::V3;
-use crate::sim::solver::PairList;
+use geom::V3;
+use linalg::PairList;
 
 /// Least distance, in edges, between the middles of clusters.
 const APART: usize = 3;

@@ -1,8 +1,8 @@
 //! Things by place: a uniform grid, filled by counting, so that its order never depends on a hash.
 
 use super::bounds::Bounds;
-use crate::geom::V3;
-use crate::sim::solver::rows::by_row;
+use geom::V3;
+use linalg::rows::by_row;
 
 /// Boxes by the grid cell that their middle lies in.
 pub struct BoxGrid {

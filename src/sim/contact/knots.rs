@@ -2,8 +2,8 @@
 
 use super::nearest::Primitives;
 use super::tangle::{Crossing, Release, Wings};
-use crate::geom::V3;
-use crate::sim::solver::Contact4;
+use geom::V3;
+use linalg::Contact4;
 
 /// Steps without fewer crossings after which they are drawn out harder.
 const PATIENCE: u32 = 4;

@@ -1,6 +1,6 @@
 //! Nearest points of a vertex and a triangle, or of two edges [Ericson 2005, 5.1].
 
-use crate::geom::{V3, triangle};
+use geom::{V3, triangle};
 
 /// Vertices of a pair: `[vertex, triangle]` or `[edge, edge]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! Points of the cloth: vertices, middles of edges and centres of triangles, which forces act on through the vertices.
 
-use crate::geom::V3;
-use crate::geom::triangle::sorted;
-use crate::sim::solver::Contact4;
+use geom::V3;
+use geom::triangle::sorted;
+use linalg::Contact4;
 
 /// A point of the cloth: between vertices, by these weights.
 #[derive(Clone, Copy, Debug)]

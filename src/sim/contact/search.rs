@@ -9,9 +9,9 @@ use super::clusters::{Clusters, Motion};
 use super::grid::BoxGrid;
 use super::nearest::{Nearest, Primitives};
 use super::tangle::edges_of;
-use crate::geom::V3;
-use crate::geom::triangle::sorted;
-use crate::sim::solver::PairList;
+use geom::V3;
+use geom::triangle::sorted;
+use linalg::PairList;
 
 /// The cloth as the search sees it.
 pub struct Neighbours<'a> {
@@ -307,9 +307,9 @@ fn near<'s>(boxed: &[Boxed], into: &Bounds, half_m: f32, scratch: &'s mut Vec<Bo
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::V2;
-    use crate::sim::contact::nearest::Nearest;
-    use crate::sim::laboratory::sheets::{shaken, sheet};
+    use crate::contact::nearest::Nearest;
+    use crate::laboratory::sheets::{shaken, sheet};
+    use geom::V2;
 
     const EDGE_M: f64 = 0.01;
 

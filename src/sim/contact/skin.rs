@@ -1,8 +1,8 @@
 //! The exact surface of the body, for questions that the blurred field cannot answer.
 
-use crate::geom::crossing::winding_number;
-use crate::geom::surface::SurfaceError;
-use crate::geom::{Surface, TriMesh, V3};
+use geom::crossing::winding_number;
+use geom::surface::SurfaceError;
+use geom::{Surface, TriMesh, V3};
 
 /// A body's surface.
 pub struct Skin<'a> {

@@ -5,9 +5,9 @@
 //! around it do [Volino & Magnenat-Thalmann 2006].
 
 use super::grid::BoxGrid;
-use crate::geom::V3;
-use crate::geom::triangle::sorted;
-use crate::sim::solver::{Contact4, PairList};
+use geom::V3;
+use geom::triangle::sorted;
+use linalg::{Contact4, PairList};
 
 /// Sine between edge and pierced triangle below which the way out along the normal is not taken longer still.
 const LEAST_SLOPE: f64 = 0.2;

@@ -3,13 +3,13 @@
 use super::grid::BoxGrid;
 use super::tangle::{Release, Wings, crossings, edges_of, held_apart};
 use super::{BodyContact, ClothContact, ClothContactParams, ContactParams, Skin};
-use crate::geom::{DistanceField, V2, V3, shapes};
-use crate::sim::cloth::Cloth;
-use crate::sim::laboratory::{self, settle, sheets::sheet};
-use crate::sim::quality;
-use crate::sim::sewing::unsewn;
-use crate::sim::solver::System;
-use crate::sim::testing::{check_forces, fabric};
+use crate::cloth::Cloth;
+use crate::laboratory::{self, settle, sheets::sheet};
+use crate::quality;
+use crate::sewing::unsewn;
+use crate::solver::System;
+use crate::testing::{check_forces, fabric};
+use geom::{DistanceField, V2, V3, shapes};
 
 #[test]
 fn a_chord_through_the_body_is_held_out() {

@@ -5,17 +5,17 @@ use super::params::Params;
 use super::preposition::Folded;
 use super::run::{OPEN_M, Run};
 use super::settle::{Around, Grip, Settled, Settling};
-use crate::body::Body;
-use crate::geom::{DistanceField, V3};
-use crate::pattern::Garment;
-use crate::sim::cloth::Cloth;
-use crate::sim::contact::{BodyContact, ClothContact, Skin};
-use crate::sim::levels::prolong;
-use crate::sim::quality;
-use crate::sim::sewing::{self, Springs};
-use crate::sim::solver::System;
-use crate::sim::walls::Walls;
-use crate::sim::{Distortion, Fabric, SimError};
+use crate::cloth::Cloth;
+use crate::contact::{BodyContact, ClothContact, Skin};
+use crate::levels::prolong;
+use crate::quality;
+use crate::sewing::{self, Springs};
+use crate::solver::System;
+use crate::walls::Walls;
+use crate::{Distortion, Fabric, SimError};
+use body::Body;
+use geom::{DistanceField, V3};
+use pattern::Garment;
 
 /// A sewn garment that yields this much has been drawn into the body, m.
 const SEWN_INTO_M: f64 = 4e-3;
@@ -226,9 +226,9 @@ fn control(garment: &Garment, positions: &[V3], params: &Params) -> Result<(), S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::{self, Measurements, Sex};
-    use crate::sim::laboratory::{self, sheets::sheet};
-    use crate::sim::testing::fabric;
+    use crate::laboratory::{self, sheets::sheet};
+    use crate::testing::fabric;
+    use body::{self, Measurements, Sex};
 
     #[test]
     fn coarse_meshes_are_slack_where_the_garment_is_large_and_not_drawn_tight() {

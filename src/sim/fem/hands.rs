@@ -11,8 +11,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::body::{Body, Joint};
-use crate::geom::{DistanceField, V3};
+use body::{Body, Joint};
+use geom::{DistanceField, V3};
 
 /// Farthest that a hand reaches from the wrist, m.
 const REACH_M: f64 = 0.25;
@@ -227,7 +227,7 @@ impl Shape {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::{self, Measurements, Pose, Sex};
+    use body::{self, Measurements, Pose, Sex};
 
     /// A body with its arms stretched out, and its field.
     fn stretched_out() -> (Body, DistanceField) {

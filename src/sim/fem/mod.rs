@@ -10,12 +10,12 @@ mod start;
 
 pub use params::{Params, level_edges};
 
-use crate::body::Body;
-use crate::geom::{DistanceField, V3};
-use crate::pattern::Garment;
-use crate::sim::contact::Skin;
-use crate::sim::quality;
-use crate::sim::{Distortion, Drape, Fabric, Monitor, SimError, Stage};
+use crate::contact::Skin;
+use crate::quality;
+use crate::{Distortion, Drape, Fabric, Monitor, SimError, Stage};
+use body::Body;
+use geom::{DistanceField, V3};
+use pattern::Garment;
 
 use dress::Dressing;
 use hands::Hands;

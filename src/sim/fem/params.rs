@@ -1,7 +1,7 @@
 //! Parameters of FEM-GS.
 
-use crate::sim::contact::{ClothContactParams, ContactParams};
-use crate::sim::solver::StepParams;
+use crate::contact::{ClothContactParams, ContactParams};
+use crate::solver::StepParams;
 
 /// Coarsest mesh that still wraps an arm: triangles of longer edges pass through it, m.
 const COARSEST_EDGE_M: f64 = 0.065;
@@ -55,7 +55,7 @@ pub struct Params {
     pub tolerance: f64,
     /// Most steps of the last phase, with friction.
     pub max_iterations: u32,
-    /// Principal stretch beyond 1 that 1 % of the cloth may exceed ([`Distortion`](crate::sim::Distortion)); more is reported. Just
+    /// Principal stretch beyond 1 that 1 % of the cloth may exceed ([`Distortion`](crate::Distortion)); more is reported. Just
     /// below the 17 % up to which the laws of the library's fabrics are measured.
     pub distortion_limit: f64,
     /// Whether more than that ends the simulation, as soon as a mesh has settled.

@@ -1,9 +1,9 @@
 //! The loop that both phases of FEM-GS share: step, record, report, stop.
 
-use crate::geom::V3;
-use crate::pattern::{Garment, Measurement, Role};
-use crate::sim::solver::{StepInfo, StepParams, Stepper, System};
-use crate::sim::{Monitor, Progress, SimError, Step};
+use crate::solver::{StepInfo, StepParams, Stepper, System};
+use crate::{Monitor, Progress, SimError, Step};
+use geom::V3;
+use pattern::{Garment, Measurement, Role};
 
 use super::params::Params;
 
@@ -240,8 +240,8 @@ fn mean_chi(garment: &Garment, positions: &[V3]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pattern::PieceMesh;
-    use crate::sim::laboratory::{self, sheets};
+    use crate::laboratory::{self, sheets};
+    use pattern::PieceMesh;
 
     #[test]
     fn a_hood_that_falls_back_takes_no_garment_down() {

@@ -2,12 +2,12 @@
 
 use super::hands::{Hands, Shape};
 use super::run::{Phase, Run};
-use crate::geom::{DistanceField, V3};
-use crate::pattern::Garment;
-use crate::sim::cloth::Cloth;
-use crate::sim::contact::{BodyContact, ClothContact, ClothContactParams, ContactParams, Skin, contact_areas};
-use crate::sim::solver::System;
-use crate::sim::{Fabric, SimError};
+use crate::cloth::Cloth;
+use crate::contact::{BodyContact, ClothContact, ClothContactParams, ContactParams, Skin, contact_areas};
+use crate::solver::System;
+use crate::{Fabric, SimError};
+use geom::{DistanceField, V3};
+use pattern::Garment;
 
 /// Deepest point of a drape that is good, m.
 const DEEPEST_M: f64 = 3e-4;
@@ -187,8 +187,8 @@ impl Settling<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::fem::Params;
-    use crate::sim::laboratory;
+    use crate::fem::Params;
+    use crate::laboratory;
 
     #[test]
     fn what_is_drawn_tight_meets_harder_contacts_but_none_softer_than_asked_for() {

@@ -1,7 +1,7 @@
 //! Starts that differ a little from the placed one, to see whether the drape depends on them.
 
-use crate::geom::V3;
-use crate::sim::laboratory::sheets::{noise, shaken};
+use crate::laboratory::sheets::{noise, shaken};
+use geom::V3;
 
 /// Greatest shift each way, m.
 const SHIFT_M: f64 = 5e-3;

@@ -1,12 +1,12 @@
 //! Whole simulations: left and right, and a garment that is too small.
 
 use super::*;
-use crate::body::{self, Joint, Landmarks, Measurements, Sex, Skeleton};
-use crate::geom::TriMesh;
-use crate::pattern::draft::Model;
-use crate::pattern::{Role, Style};
-use crate::sim::testing::lapelled;
-use crate::sim::{Progress, fabric};
+use crate::testing::lapelled;
+use crate::{Progress, fabric};
+use body::{self, Joint, Landmarks, Measurements, Sex, Skeleton};
+use geom::TriMesh;
+use pattern::draft::Model;
+use pattern::{Role, Style};
 
 /// Listens to nothing.
 struct Silent;

@@ -8,9 +8,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::elastic::{Elastic, Pull};
-use crate::geom::{V2, V3};
-use crate::pattern::{Garment, PieceMesh, Role, SeamMesh};
-use crate::sim::sewing;
+use crate::sewing;
+use geom::{V2, V3};
+use pattern::{Garment, PieceMesh, Role, SeamMesh};
 
 /// Steps in which pieces sewn together are laid flat.
 const FLATTENING: u32 = 12;

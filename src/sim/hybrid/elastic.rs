@@ -8,8 +8,8 @@
 use nalgebra::{Matrix2, Matrix3x2};
 
 use super::sparse::Factor;
-use crate::geom::{V2, V3};
-use crate::pattern::{Garment, Measurement};
+use geom::{V2, V3};
+use pattern::{Garment, Measurement};
 
 /// A triangle: sewn vertices, gradients of their hat functions in the pattern, area.
 #[derive(Clone, Copy, Debug)]
@@ -199,7 +199,7 @@ impl Triangle {
 
 impl Control {
     /// The segments of a run of a measurement.
-    fn of(garment: &Garment, vertex_of: &[usize], run: &crate::pattern::Run) -> Vec<Self> {
+    fn of(garment: &Garment, vertex_of: &[usize], run: &pattern::Run) -> Vec<Self> {
         run.points
             .windows(2)
             .map(|ends| {

@@ -1,8 +1,8 @@
 //! Pieces that follow others: cuffs, collars, bands. Such a piece goes on where the surface that it is sewn to ends.
 
-use crate::geom::{V2, V3};
-use crate::pattern::Garment;
-use crate::sim::SimError;
+use crate::SimError;
+use geom::{V2, V3};
+use pattern::Garment;
 
 /// A place of a seam from which a piece goes on.
 struct Anchor {

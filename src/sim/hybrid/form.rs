@@ -5,8 +5,8 @@
 //! them; below the hip one tube goes on to the floor, wide enough for both legs.
 //! Trousers lie on the legs as they are.
 
-use crate::body::{Body, ControlMesh, Layer, RING, Region};
-use crate::geom::{TriMesh, V3};
+use body::{Body, ControlMesh, Layer, RING, Region};
+use geom::{TriMesh, V3};
 
 /// Height between the rings below the hip, m.
 const SKIRT_STEP_M: f64 = 0.06;

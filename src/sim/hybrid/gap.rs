@@ -1,14 +1,14 @@
 //! How much a garment lacks where it does not close around the body: the message of Hybrid-GS to its user.
 
 use super::features::face;
-use crate::body::Body;
-use crate::geom::hull::tape_girth;
-use crate::geom::section::{Outline, Plane, section};
-use crate::geom::{TriMesh, V3};
-use crate::pattern::garment::SeamMesh;
-use crate::pattern::{Garment, PieceMesh, Role};
-use crate::sim::sewing;
-use crate::units::from_mm;
+use crate::sewing;
+use body::Body;
+use geom::hull::tape_girth;
+use geom::section::{Outline, Plane, section};
+use geom::units::from_mm;
+use geom::{TriMesh, V3};
+use pattern::garment::SeamMesh;
+use pattern::{Garment, PieceMesh, Role};
 
 /// Girth of a draped garment beside that of the body, at a level of the body.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

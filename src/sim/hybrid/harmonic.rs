@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::sparse::Factor;
-use crate::geom::{V2, V3};
+use geom::{V2, V3};
 
 /// Maps a triangulated disc into the plane: boundary vertices go where `fixed` says, every other one to the weighted mean
 /// of its neighbours, `sum_j w_ij (u_i - u_j) = 0`.
@@ -79,7 +79,7 @@ pub fn flips(mapped: &[V2], triangles: &[[usize; 3]]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::laboratory::sheets::sheet;
+    use crate::laboratory::sheets::sheet;
 
     fn lifted(rest: &[V2]) -> Vec<V3> {
         rest.iter().map(|p| V3::new(p.x, p.y, 0.0)).collect()

@@ -6,9 +6,9 @@
 use std::f64::consts::TAU;
 
 use super::ring::Ring;
-use crate::geom::hull::tape_girth;
-use crate::geom::section::{Outline, section};
-use crate::geom::{TriMesh, V2, V3};
+use geom::hull::tape_girth;
+use geom::section::{Outline, section};
+use geom::{TriMesh, V2, V3};
 
 /// Share of what the stretch of a ring says that its inset is corrected by at once.
 const GAIN: f64 = 0.3;

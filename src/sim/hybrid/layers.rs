@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::geom::V3;
-use crate::sim::contact::tangle::{Release, Wings};
-use crate::sim::contact::{Crossing, crossings};
-use crate::sim::solver::PairList;
+use crate::contact::tangle::{Release, Wings};
+use crate::contact::{Crossing, crossings};
+use geom::V3;
+use linalg::PairList;
 
 /// Layers are this far apart afterwards, m.
 const APART_M: f64 = 5e-4;
@@ -120,7 +120,7 @@ fn release(pierced: &[Crossing], wings: &Wings, x: &mut [V3]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::laboratory::sheets::sheet;
+    use crate::laboratory::sheets::sheet;
 
     #[test]
     fn two_sheets_that_dip_into_each_other_are_parted() {

@@ -1,6 +1,6 @@
 //! Finding the triangle of a plane mesh that holds a point.
 
-use crate::geom::V2;
+use geom::V2;
 
 /// Triangles of a plane mesh by place, in a uniform grid of buckets.
 pub struct Locator<'a> {

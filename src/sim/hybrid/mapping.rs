@@ -16,10 +16,10 @@ use super::outline;
 use super::patch::{self, Patch};
 use super::path::{PathGraph, Taken};
 use super::untangle::untangle;
-use crate::body::{Body, Region};
-use crate::geom::{TriMesh, V2, V3};
-use crate::pattern::{Garment, PieceMesh, Role};
-use crate::sim::{SimError, sewing};
+use crate::{SimError, sewing};
+use body::{Body, Region};
+use geom::{TriMesh, V2, V3};
+use pattern::{Garment, PieceMesh, Role};
 
 /// Points on each edge of the control mesh in path searches. Odd, so that an edge across the median plane has its middle.
 pub const PATH_POINTS: usize = 9;

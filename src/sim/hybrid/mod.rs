@@ -27,12 +27,12 @@ mod silhouette;
 pub mod sparse;
 mod untangle;
 
-use crate::body::{Body, Layer};
-use crate::geom::{DistanceField, V3};
-use crate::pattern::{Garment, Measurement};
-use crate::sim::contact::Skin;
-use crate::sim::walls::Walls;
-use crate::sim::{Drape, Fabric, Monitor, Progress, SimError, Stage, Staged, Step, quality};
+use crate::contact::Skin;
+use crate::walls::Walls;
+use crate::{Drape, Fabric, Monitor, Progress, SimError, Stage, Staged, Step, quality};
+use body::{Body, Layer};
+use geom::{DistanceField, V3};
+use pattern::{Garment, Measurement};
 
 pub use gap::{Closure, closures};
 pub use mapping::OnForm;

@@ -1,6 +1,6 @@
 //! The body as the cloth meets it: a distance field, off the skin by a little, and smaller where the garment cannot close.
 
-use crate::geom::{DistanceField, V3};
+use geom::{DistanceField, V3};
 
 /// A body that pushes sewn vertices out.
 pub struct Obstacle<'a> {
@@ -47,7 +47,7 @@ impl<'a> Obstacle<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::shapes::sphere;
+    use geom::shapes::sphere;
 
     #[test]
     fn a_ball_pushes_out_to_its_offset_and_less_where_it_is_shrunk() {

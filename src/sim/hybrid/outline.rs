@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::geom::V2;
-use crate::pattern::{Garment, PieceMesh};
+use geom::V2;
+use pattern::{Garment, PieceMesh};
 
 /// What a stretch of outline is sewn to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::path::PathGraph;
-use crate::geom::{TriMesh, V3};
+use geom::{TriMesh, V3};
 
 /// A patch: a disc of triangles with its boundary.
 pub struct Patch {

@@ -5,7 +5,7 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
-use crate::geom::{TriMesh, V3};
+use geom::{TriMesh, V3};
 
 /// A triangle mesh whose edges carry extra nodes. Nodes are numbered: vertices first, then the points of each edge.
 pub struct PathGraph<'a> {

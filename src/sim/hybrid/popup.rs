@@ -6,9 +6,9 @@ use std::cmp::Ordering;
 use super::relax::{Push, Relaxation};
 use super::sewn::Sewn;
 use super::silhouette::Silhouette;
-use crate::body::Body;
-use crate::geom::V3;
-use crate::pattern::Garment;
+use body::Body;
+use geom::V3;
+use pattern::Garment;
 
 /// Steps in which it grows, and in which it then comes to rest.
 const STEPS: [u32; 2] = [12, 16];

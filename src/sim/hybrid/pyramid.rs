@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::geom::{V2, V3};
+use geom::{V2, V3};
 
 /// A vertex in terms of its ring.
 #[derive(Clone, Debug)]
@@ -171,8 +171,8 @@ fn rings(triangles: &[[usize; 3]], count: usize) -> Vec<(usize, Vec<usize>)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::shapes::sphere;
-    use crate::sim::laboratory::sheets::{hexagonal_sheet, noise};
+    use crate::laboratory::sheets::{hexagonal_sheet, noise};
+    use geom::shapes::sphere;
 
     /// A bumpy sheet.
     fn bumpy() -> (Vec<V3>, Vec<[usize; 3]>) {

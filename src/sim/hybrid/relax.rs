@@ -10,13 +10,13 @@ use super::layers::{Layers, Parted};
 use super::obstacle::Obstacle;
 use super::ring::rings;
 use super::sewn::Sewn;
-use crate::body::Body;
-use crate::geom::{DistanceField, TriMesh, V3};
-use crate::pattern::{Garment, Measurement};
-use crate::sim::cloth::Cloth;
-use crate::sim::walls::Walls;
-use crate::sim::{Fabric, SimError};
-use crate::units::GRAVITY;
+use crate::cloth::Cloth;
+use crate::walls::Walls;
+use crate::{Fabric, SimError};
+use body::Body;
+use geom::units::GRAVITY;
+use geom::{DistanceField, TriMesh, V3};
+use pattern::{Garment, Measurement};
 
 /// Parameters of the steps of pop-up and drape.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

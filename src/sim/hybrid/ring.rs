@@ -4,10 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::gap::underarms;
 use super::sewn::Sewn;
-use crate::body::{Body, Layer};
-use crate::geom::section::Plane;
-use crate::geom::{V2, V3};
-use crate::pattern::{Garment, Role};
+use body::{Body, Layer};
+use geom::section::Plane;
+use geom::{V2, V3};
+use pattern::{Garment, Role};
 
 /// Distance between the planes, m.
 const STEP_M: f64 = 0.02;
@@ -230,7 +230,7 @@ mod tests {
 
     use super::super::inset::Insets;
     use super::*;
-    use crate::geom::shapes::sphere;
+    use geom::shapes::sphere;
 
     const COUNT: usize = 48;
 

@@ -3,9 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::geom::V3;
-use crate::pattern::Garment;
-use crate::sim::sewing;
+use crate::sewing;
+use geom::V3;
+use pattern::Garment;
 
 /// Share of the way to the middle of its neighbours that a vertex goes each time [T 5.3.3].
 const SMOOTHING: f64 = 0.1;

@@ -2,8 +2,8 @@
 
 use super::pyramid::Pyramids;
 use super::sewn::Sewn;
-use crate::geom::{V2, V3};
-use crate::pattern::Garment;
+use geom::{V2, V3};
+use pattern::Garment;
 
 /// Rounds of the reconstruction in a step.
 const ROUNDS: u32 = 10;

@@ -8,13 +8,13 @@ use super::form::Form;
 use super::mapping::can_touch;
 use super::path::{PathGraph, Taken};
 use super::*;
-use crate::body::{self, Measurements, Region, Sex};
-use crate::geom::V2;
-use crate::pattern::draft::Model;
-use crate::pattern::garment::PieceMesh;
-use crate::pattern::{Role, SeamMesh, Style, garmentcode};
-use crate::sim::fabric;
-use crate::sim::laboratory::sheets::{hexagonal_sheet, noise};
+use crate::fabric;
+use crate::laboratory::sheets::{hexagonal_sheet, noise};
+use body::{self, Measurements, Region, Sex};
+use geom::V2;
+use pattern::draft::Model;
+use pattern::garment::PieceMesh;
+use pattern::{Role, SeamMesh, Style, garmentcode};
 
 struct Silent;
 
@@ -223,8 +223,10 @@ fn a_top_and_trousers_are_a_suit_but_a_skirt_over_trousers_is_not() {
 #[test]
 fn sides_need_not_meet() {
     for name in ["js_mean_all", "dress_pencil", "shirt_mean"] {
-        let path =
-            format!("{}/../shared/patterns/garmentcode/upstream/{name}_specification.json", env!("CARGO_MANIFEST_DIR"));
+        let path = format!(
+            "{}/../../../shared/patterns/garmentcode/upstream/{name}_specification.json",
+            env!("CARGO_MANIFEST_DIR")
+        );
         let Ok(bytes) = std::fs::read(&path) else {
             eprintln!("skipped: {path} is not here");
             continue;

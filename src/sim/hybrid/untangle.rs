@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::geom::V3;
+use geom::V3;
 
 /// Rounds at most.
 const ROUNDS: usize = 120;
@@ -94,7 +94,7 @@ impl Sheet<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::laboratory::sheets::sheet;
+    use crate::laboratory::sheets::sheet;
 
     #[test]
     fn a_vertex_pulled_across_its_neighbours_goes_back() {

@@ -4,9 +4,9 @@ use nalgebra::{DMatrix, DVector};
 
 use super::sheets::{Flat, hexagonal_sheet, jittered, sheet};
 use super::{Specimen, isotropic};
-use crate::geom::V3;
-use crate::sim::SimError;
-use crate::units::GRAVITY;
+use crate::SimError;
+use geom::V3;
+use geom::units::GRAVITY;
 
 /// How a specimen is meshed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

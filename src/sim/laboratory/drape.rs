@@ -2,10 +2,10 @@
 
 use super::Specimen;
 use super::sheets::{disc, shaken, sheet};
-use crate::geom::{DistanceField, V2, V3};
-use crate::sim::contact::{BodyContact, ClothContact, ClothContactParams, ContactParams};
-use crate::sim::solver::{StepParams, Stepper, System};
-use crate::sim::{Fabric, SimError};
+use crate::contact::{BodyContact, ClothContact, ClothContactParams, ContactParams};
+use crate::solver::{StepParams, Stepper, System};
+use crate::{Fabric, SimError};
+use geom::{DistanceField, V2, V3};
 
 /// Radius of the specimen, m.
 const SPECIMEN_M: f64 = 0.15;
@@ -107,7 +107,7 @@ fn cross(a: &V2, b: &V2) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::fabric;
+    use crate::fabric;
 
     /// Specimens of a fabric: chance folds put a single one off by up to 0.1.
     const SPECIMENS: u64 = 3;

@@ -7,13 +7,14 @@ pub mod drape;
 pub mod sheets;
 pub mod stretch;
 
-use crate::geom::{DistanceField, V2, V3, shapes};
-use crate::pattern::{Garment, PieceMesh, Role};
-use crate::sim::cloth::Cloth;
-use crate::sim::contact::{BodyContact, ContactParams};
-use crate::sim::sewing::unsewn;
-use crate::sim::solver::{LinearSolver, StepParams, Stepper, System};
-use crate::sim::{Fabric, SimError};
+use crate::cloth::Cloth;
+use crate::contact::{BodyContact, ContactParams};
+use crate::sewing::unsewn;
+use crate::solver::{StepParams, Stepper, System};
+use crate::{Fabric, SimError};
+use geom::{DistanceField, V2, V3, shapes};
+use linalg::LinearSolver;
+use pattern::{Garment, PieceMesh, Role};
 
 use sheets::Flat;
 

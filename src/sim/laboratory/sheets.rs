@@ -1,6 +1,6 @@
 //! Flat meshes for specimens.
 
-use crate::geom::{V2, V3};
+use geom::{V2, V3};
 
 /// Vertices in a plane and counter-clockwise triangles.
 pub type Flat = (Vec<V2>, Vec<[usize; 3]>);

@@ -2,9 +2,9 @@
 
 use super::Specimen;
 use super::sheets::{hexagonal_sheet, jittered, shaken};
-use crate::geom::{V2, V3};
-use crate::sim::{Fabric, SimError};
-use crate::units::GRAVITY;
+use crate::{Fabric, SimError};
+use geom::units::GRAVITY;
+use geom::{V2, V3};
 
 /// A sheet whose sides are held where the deformation gradient `gradient` (columns: images of weft and warp) puts them:
 /// greatest distance of an inner vertex from where the same deformation would put it, and the tension across a line
@@ -74,8 +74,8 @@ pub fn hanging_thread(fabric: &Fabric, length: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::fabric;
-    use crate::sim::testing;
+    use crate::fabric;
+    use crate::testing;
 
     #[test]
     fn a_patch_deforms_as_its_sides_whatever_its_triangles() {

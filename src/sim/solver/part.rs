@@ -6,10 +6,10 @@
 
 use super::proximal::{StepParams, Stepper};
 use super::system::System;
-use crate::geom::V3;
-use crate::sim::cloth::Cloth;
-use crate::sim::cloth::law::Tensor;
-use crate::sim::cloth::part::Part;
+use crate::cloth::Cloth;
+use crate::cloth::law::Tensor;
+use crate::cloth::part::Part;
+use geom::V3;
 
 /// Share of the farthest movement from which on a vertex counts as moving.
 const MOVING_SHARE: f64 = 0.1;
@@ -102,12 +102,12 @@ fn alone<'c>(system: &System<'c>, part: &Part, cloth: &'c Cloth, own: &[V3]) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::{DistanceField, V2, shapes};
-    use crate::pattern::garment::{Band, Reinforcement};
-    use crate::sim::contact::{BodyContact, ClothContact, ClothContactParams, ContactParams};
-    use crate::sim::laboratory::{self, sheets};
-    use crate::sim::sewing::unsewn;
-    use crate::sim::testing::fabric;
+    use crate::contact::{BodyContact, ClothContact, ClothContactParams, ContactParams};
+    use crate::laboratory::{self, sheets};
+    use crate::sewing::unsewn;
+    use crate::testing::fabric;
+    use geom::{DistanceField, V2, shapes};
+    use pattern::garment::{Band, Reinforcement};
 
     const EDGE_M: f64 = 0.01;
 

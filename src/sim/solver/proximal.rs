@@ -14,14 +14,14 @@
 
 use nalgebra::Matrix3;
 
-use super::linear;
 use super::part;
-use super::pcg::PcgParams;
 use super::system::{Assembled, Excess, System};
-use crate::geom::V3;
-use crate::sim::cloth::law::Tensor;
-use crate::sim::cloth::membrane::Foreseen;
-use crate::sim::contact::ClothContact;
+use crate::cloth::law::Tensor;
+use crate::cloth::membrane::Foreseen;
+use crate::contact::ClothContact;
+use geom::V3;
+use linalg::linear;
+use linalg::pcg::PcgParams;
 
 /// How to step.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -291,12 +291,12 @@ pub fn rms(vectors: &[V3]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::{DistanceField, V2, shapes};
-    use crate::sim::cloth::Cloth;
-    use crate::sim::contact::{BodyContact, ClothContactParams, ContactParams};
-    use crate::sim::laboratory::{self, sheets};
-    use crate::sim::sewing::unsewn;
-    use crate::sim::testing::fabric;
+    use crate::cloth::Cloth;
+    use crate::contact::{BodyContact, ClothContactParams, ContactParams};
+    use crate::laboratory::{self, sheets};
+    use crate::sewing::unsewn;
+    use crate::testing::fabric;
+    use geom::{DistanceField, V2, shapes};
 
     #[test]
     fn a_contact_that_a_step_makes_does_not_throw_the_cloth() {

@@ -3,18 +3,18 @@
 use nalgebra::Matrix3;
 use wide::f32x4;
 
-use super::linear::LinearSolver;
-use super::operator::{Operator, PairList};
-use super::quad::Block;
-use crate::geom::V3;
-use crate::sim::cloth::Cloth;
-use crate::sim::cloth::bending::Bending;
-use crate::sim::cloth::law::Tensor;
-use crate::sim::cloth::membrane::Foreseen;
-use crate::sim::contact::{BodyContact, ClothContact};
-use crate::sim::sewing::Springs;
-use crate::sim::walls::Walls;
-use crate::units::GRAVITY;
+use crate::cloth::Cloth;
+use crate::cloth::bending::Bending;
+use crate::cloth::law::Tensor;
+use crate::cloth::membrane::Foreseen;
+use crate::contact::{BodyContact, ClothContact};
+use crate::sewing::Springs;
+use crate::walls::Walls;
+use geom::V3;
+use geom::units::GRAVITY;
+use linalg::linear::LinearSolver;
+use linalg::operator::{Operator, PairList};
+use linalg::quad::Block;
 
 /// Stiffness that holds a vertex, N/m: beyond that of any fabric by six orders.
 const HELD_STIFFNESS: f64 = 1e10;
@@ -127,7 +127,7 @@ impl<'a> System<'a> {
     }
 
     /// What acts on the cloth at `x`; `predicted` are the membrane stresses that stiffen the cloth geometrically, where they are not
-    /// those at `x` ([`Membrane::assemble`](crate::sim::cloth::membrane::Membrane::assemble)).
+    /// those at `x` ([`Membrane::assemble`](crate::cloth::membrane::Membrane::assemble)).
     pub fn assemble(&mut self, x: &[V3], predicted: Option<&[Tensor]>) -> Assembled<'a> {
         let cloth = self.cloth;
         if let Some(c) = &mut self.self_contact {

@@ -1,15 +1,19 @@
 //! Mechanics with known answers: what the solver settles at, whatever way it took.
 
-use crate::geom::{DistanceField, TriMesh, V2, V3, shapes};
-use crate::pattern::Garment;
-use crate::sim::cloth::Cloth;
-use crate::sim::contact::{BodyContact, ContactParams};
-use crate::sim::laboratory::sheets::{shaken, sheet};
-use crate::sim::laboratory::{self, settle};
-use crate::sim::sewing::unsewn;
-use crate::sim::solver::System;
-use crate::sim::testing::{check_forces, fabric};
-use crate::sim::{Fabric, quality};
+use crate::cloth::Cloth;
+use crate::contact::{BodyContact, ContactParams};
+use crate::laboratory::sheets::{shaken, sheet};
+use crate::laboratory::{self, settle};
+use crate::sewing::unsewn;
+use crate::solver::System;
+use crate::solver::system::Assembled;
+use crate::testing::{check_forces, fabric};
+use crate::{Fabric, quality};
+use geom::{DistanceField, TriMesh, V2, V3, shapes};
+use linalg::linear;
+use linalg::pcg::PcgParams;
+use nalgebra::Matrix3;
+use pattern::Garment;
 
 /// A rectangular piece, grain along v, as a garment without seams.
 fn rectangle(columns: usize, rows: usize, step: f64) -> Garment {
@@ -76,12 +80,12 @@ fn a_tube_too_small_is_stretched_onto_the_body_and_no_further() {
     let field = DistanceField::build(&post, 0.006).expect("a closed post");
     let columns = 60;
     let mut garment = rectangle(columns, 6, 0.9 * std::f64::consts::TAU * radius / 60.0);
-    garment.seams = vec![crate::pattern::SeamMesh {
+    garment.seams = vec![pattern::SeamMesh {
         name: "back".into(),
         pairs: (0..=6).map(|j| [j * (columns + 1), j * (columns + 1) + columns]).collect(),
     }];
     let light = Fabric { density_kg_m2: 1e-3, membrane_coupling_n_m: 0.0, ..fabric() };
-    let cloth = Cloth::new(&garment, &light, crate::sim::sewing::welded(&garment)).expect("sound");
+    let cloth = Cloth::new(&garment, &light, crate::sewing::welded(&garment)).expect("sound");
     let around = |p: &V2| {
         let angle = std::f64::consts::TAU * p.x / garment.rest[columns].x;
         V3::new(1.02 * radius * angle.cos(), 1.02 * radius * angle.sin(), p.y)
@@ -109,4 +113,37 @@ fn crossings_are_counted() {
     both.extend(triangles.iter().map(|t| t.map(|v| v + 4)));
     assert!(quality::self_crossings(&x, &both) > 0);
     assert_eq!(quality::self_crossings(&x[..4], &triangles), 0);
+}
+
+#[test]
+fn both_solvers_find_the_same_and_patches_sooner() {
+    let garment = laboratory::garment(sheet(30, 30, 0.02));
+    let cloth = Cloth::new(&garment, &fabric(), unsewn(&garment)).expect("sound");
+    let x: Vec<V3> = garment.rest.iter().map(|p| V3::new(p.x, p.y, 0.5 + 0.3 * p.x * p.x)).collect();
+    let field = DistanceField::build(&shapes::sphere(0.06, 24), 0.006).expect("a closed sphere");
+    let mut system = System::new(&cloth, BodyContact::new(&field, ContactParams::default(), &cloth.areas), None);
+    let Assembled { forces, mut operator, .. } = system.assemble(&x, None);
+    for (block, mass) in operator.diagonal.iter_mut().zip(&cloth.masses) {
+        *block += Matrix3::identity() * (mass / 0.01);
+    }
+    let within = |most: usize, system: &mut System, is_coarse: bool| {
+        let params = PcgParams { tolerance: 1e-4, max_iterations: most };
+        let mut found = vec![V3::zeros(); x.len()];
+        if is_coarse {
+            system.linear.solve(&operator, &x, &forces, &mut found, &params);
+        } else {
+            linear::jacobi(&operator, &forces, &mut found, &params);
+        }
+        found
+    };
+    let exact = within(5000, &mut system, false);
+    let far = |found: Vec<V3>| {
+        let [error, size] = [0.0, 1.0].map(|share: f64| {
+            found.iter().zip(&exact).map(|(p, q)| (p * (1.0 - share) - q).norm_squared()).sum::<f64>().sqrt()
+        });
+        error / size
+    };
+    let (few, jacobi) = (far(within(40, &mut system, true)), far(within(40, &mut system, false)));
+    assert!(far(within(5000, &mut system, true)) < 0.01, "the patches end elsewhere");
+    assert!(few < 0.1 * jacobi, "after 40 iterations {few} with patches, {jacobi} without");
 }

@@ -3,7 +3,7 @@
 use super::published::{mean, variance};
 use super::tables::{SUBJECTS, Sized, Tables};
 use super::{Finding, three};
-use crate::fit::Simulator::{self, Fem, Hybrid};
+use fit::Simulator::{self, Fem, Hybrid};
 
 /// How far a printed limit of a range may be from the number it rounds.
 const ROUNDING: f64 = 0.0005;

@@ -4,7 +4,7 @@ use super::published::{mean, prints_as, variance};
 use super::ratios::as_computed;
 use super::tables::{Metric, SUBJECTS, Sized, Summary, Tables};
 use super::{Finding, three};
-use crate::fit::Simulator;
+use fit::Simulator;
 
 /// More measurements than any style of the thesis has.
 const MOST_MEASUREMENTS: usize = 16;

@@ -3,7 +3,7 @@
 use super::published::{blur, mean, prints_as, variance};
 use super::tables::{Row, SUBJECTS, Sized, Tables};
 use super::{Finding, three, threes};
-use crate::fit::Simulator;
+use fit::Simulator;
 
 /// Checks every ratio, row mean and row SD.
 pub(super) fn check(tables: &Tables) -> (usize, Vec<Finding>) {

@@ -9,9 +9,9 @@ use super::super::read::JobFilter;
 use super::super::types::{ChiRow, JobRow, MetricsRow, Status, Value};
 use super::super::workspace::Workspace;
 use super::{Audit, Finding};
-use crate::measure::{self, Chi, Metrics};
-use crate::sim::{Drape, quality};
-use crate::units::mm;
+use fit::measure::{self, Chi, Metrics};
+use geom::units::mm;
+use sim::{Drape, quality};
 
 /// Lengths are stored as they were measured: they must come out the same but for the last digits, m.
 const SAME_M: f64 = 1e-9;

@@ -2,7 +2,7 @@
 
 use super::Finding;
 use super::tables::{Row, SUBJECTS, Sized, Tables};
-use crate::fit::Simulator;
+use fit::Simulator;
 
 /// Lengths are printed to 0.01 mm; sums of two may be off by as much.
 const PRINTED_MM: f64 = 0.0101;

@@ -4,7 +4,7 @@ use rusqlite::{Connection, Row as SqlRow};
 
 use super::super::error::{Result, StudyError};
 use super::super::read::simulator;
-use crate::fit::Simulator;
+use fit::Simulator;
 
 /// Subjects of every table, in its columns.
 pub(super) const SUBJECTS: [&str; 6] = ["i", "ii", "iii", "iv", "v", "vi"];

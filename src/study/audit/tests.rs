@@ -1,7 +1,7 @@
 use super::tables::{Row, Sized, Tables};
 use super::*;
-use crate::fit::Simulator;
-use crate::study::Workspace;
+use crate::Workspace;
+use fit::Simulator;
 
 fn thesis() -> Audit {
     let folder = tempfile::tempdir().expect("a folder");

@@ -6,8 +6,8 @@ use super::super::error::Result;
 use super::super::workspace::Workspace;
 use super::fields::{Entry, FABRIC_NUMBERS};
 use super::known::{columns, read_numbers};
-use crate::sim::Fabric;
-use crate::units::GRAVITY;
+use geom::units::GRAVITY;
+use sim::Fabric;
 
 /// A fabric of the catalogue.
 #[derive(Clone, Debug, PartialEq)]

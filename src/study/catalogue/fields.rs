@@ -5,10 +5,10 @@ use std::ops::RangeInclusive;
 
 use super::super::error::nearest;
 use super::super::spec::millimetres;
-use crate::body::{Dimension, Measurements, Sex};
-use crate::sim::Fabric;
-use crate::sim::fabric::Stretched;
-use crate::units::from_mm;
+use body::{Dimension, Measurements, Sex};
+use geom::units::from_mm;
+use sim::Fabric;
+use sim::fabric::Stretched;
 
 /// One number of an entry of the catalogue, in the unit its key ends with.
 pub struct Field<T: 'static> {

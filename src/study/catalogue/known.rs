@@ -12,8 +12,8 @@ use super::super::workspace::Workspace;
 use super::fields::{Entry, FABRIC_NUMBERS, MEASUREMENTS};
 use super::revision::{self, By};
 use super::{Field, Part, Removed};
-use crate::body::{Measurements, Sex};
-use crate::sim::{self, Fabric};
+use body::{Measurements, Sex};
+use sim::{self, Fabric};
 
 /// The thesis's twelve subjects [T tables 6-1 to 6-4].
 const THESIS_SUBJECTS: &str = include_str!("../../../db/subjects.csv");

@@ -21,8 +21,8 @@ use super::error::{Result, StudyError};
 use super::store;
 use super::tools;
 use super::workspace::Workspace;
-use crate::body::Measurements;
-use crate::sim::Fabric;
+use body::Measurements;
+use sim::Fabric;
 
 pub use fabrics::FabricRow;
 pub(crate) use fields::{Entry, filled, keys};

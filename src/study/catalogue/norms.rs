@@ -1,6 +1,6 @@
 //! Where a measurement stands among adults of the same sex, and which are so rare that they may be mistakes.
 
-use crate::body::{self, Dimension, Measurements, Sex};
+use body::{self, Dimension, Measurements, Sex};
 
 /// Percentiles below the first and above the second of these are doubted.
 const ORDINARY: (f64, f64) = (1.0, 99.0);

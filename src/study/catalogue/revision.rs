@@ -9,8 +9,8 @@ use super::super::spec::{fabric_inputs, sex_name, subject_inputs};
 use super::super::store::now_ms;
 use super::Part;
 use super::fields::{FABRIC_NUMBERS, MEASUREMENTS};
-use crate::body::Measurements;
-use crate::sim::Fabric;
+use body::Measurements;
+use sim::Fabric;
 
 /// Who brings a revision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -14,7 +14,7 @@ use super::super::workspace::Workspace;
 use super::import::{Format, format_of, text_of, unknown_format};
 use super::revision::{self, By};
 use super::{Mode, Part, Saved, check_name, refused, save};
-use crate::pattern::{Style, source};
+use pattern::{Style, source};
 
 /// What is given of a style or a size; an edit keeps what is not.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

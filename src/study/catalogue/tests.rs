@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use super::*;
-use crate::study::store::{self, Access};
-use crate::study::tools::SourceFile;
-use crate::units::from_mm;
+use crate::store::{self, Access};
+use crate::tools::SourceFile;
+use geom::units::from_mm;
 
 struct Bench {
     folder: tempfile::TempDir,
@@ -210,7 +210,7 @@ fn revisions_of_an_earlier_schema_become_current() {
 #[test]
 fn styles_without_a_seam_file_hold_their_seams_or_have_them_proposed() {
     let mut bench = Bench::new();
-    let files = crate::pattern::draft::Model::Tshirt.files();
+    let files = pattern::draft::Model::Tshirt.files();
     for (name, bytes) in &files {
         std::fs::write(bench.folder.path().join(name), bytes).expect("writable");
     }
@@ -237,7 +237,7 @@ fn styles_without_a_seam_file_hold_their_seams_or_have_them_proposed() {
 
     let style = piece.seams.as_ref().map(|seams| tools::read_style(&piece.pattern, Some(seams), Some("S"), None));
     let style = style.expect("it has seams").expect("they fit");
-    let json = serde_json::to_vec(&crate::pattern::garmentcode::document(&style)).expect("JSON");
+    let json = serde_json::to_vec(&pattern::garmentcode::document(&style)).expect("JSON");
     std::fs::write(folder.join("tee.json"), json).expect("writable");
     bench.workspace.save_style(Mode::Add, "coded", &given("one", "tee.json")).expect("it holds its seams");
     let sizes = bench.workspace.sizes().expect("readable");

@@ -8,8 +8,8 @@ use super::error::Result;
 use super::read::fit_class;
 use super::store;
 use super::workspace::Workspace;
-use crate::fit::{self, Cell, Errors, Evidence, Pair, RuleScore};
-use crate::units::from_mm;
+use fit::{self, Cell, Errors, Evidence, Pair, RuleScore};
+use geom::units::from_mm;
 
 /// Name under which the thesis's own printed numbers go as a study.
 pub const PUBLISHED: &str = "thesis-published";

@@ -4,8 +4,8 @@ use rusqlite::{Connection, Row};
 
 use super::super::error::Result;
 use super::super::read::simulator;
-use crate::fit::{Cuts, Errors, Pair, Simulator};
-use crate::units::from_mm;
+use fit::{Cuts, Errors, Pair, Simulator};
+use geom::units::from_mm;
 
 /// A row for each measurement of each case and simulator. No pattern girth at chest or hip is printed, so the fit is by a
 /// proxy: the hem's girth less the chest for tops and the dress, the waist's less the hip for trousers (FEM's L2D: Table
@@ -68,7 +68,7 @@ fn add(pair: &mut Pair, row: &Row<'_>) -> Result<()> {
 mod tests {
     use super::super::super::workspace::Workspace;
     use super::super::PUBLISHED;
-    use crate::fit::{Errors, Finding, FitClass, Pair, rule_score, wins};
+    use fit::{Errors, Finding, FitClass, Pair, rule_score, wins};
 
     fn open() -> (tempfile::TempDir, Workspace) {
         let folder = tempfile::tempdir().expect("a folder");

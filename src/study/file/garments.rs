@@ -12,8 +12,8 @@ use super::reader::{Place, Reader};
 use super::schedule;
 use super::sweep::{self, EDGE_MM};
 use super::{GarmentEntry, KnownStyle, Placed, Sewn, SizeFile, SourceFile, Subject};
-use crate::sim::Fabric;
-use crate::units::from_mm;
+use geom::units::from_mm;
+use sim::Fabric;
 
 const GARMENT_KEYS: [&str; 13] = [
     "name",

@@ -64,10 +64,10 @@ pub use self::source::SourceFile;
 use super::error::{Result, StudyError};
 use super::parameters::Parameters;
 use super::spec::{Limits, Schedule};
-use crate::body::{LengthUnit, Measurements};
-use crate::fit::Cuts;
-use crate::fit::Simulator;
-use crate::sim::Fabric;
+use body::{LengthUnit, Measurements};
+use fit::Cuts;
+use fit::Simulator;
+use sim::Fabric;
 
 /// One thing that is wrong with a study file.
 #[derive(Clone, Debug, PartialEq, Eq)]

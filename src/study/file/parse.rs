@@ -12,11 +12,11 @@ use super::garments::{Common, garments};
 use super::reader::{Place, Reader};
 use super::subjects::{measurements, subjects};
 use super::{Known, Placed, Problem, SourceFile, Study, Subject, schedule, sweep};
-use crate::body::Measurements;
-use crate::fit::Cuts;
-use crate::fit::Simulator;
-use crate::sim::Fabric;
-use crate::units::{from_mm, mm};
+use body::Measurements;
+use fit::Cuts;
+use fit::Simulator;
+use geom::units::{from_mm, mm};
+use sim::Fabric;
 
 const STUDY_KEYS: [&str; 12] = [
     "name",

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::super::error::{Result, StudyError};
-use crate::pattern::source::{self, Kind};
+use pattern::source::{self, Kind};
 
 /// A file that a study brings, as read, or the DXF files of a folder.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

@@ -10,7 +10,7 @@ use super::super::tools::read_scan;
 use super::parse::{lookup, numbers, source, unique};
 use super::reader::{Place, Reader};
 use super::{Placed, ScanFile, SourceFile, Subject};
-use crate::body::{LengthUnit, Measurements, Sex};
+use body::{LengthUnit, Measurements, Sex};
 
 /// What else a subject of a study may be.
 const OR_NAMED: &str = ", or name a catalogue entry with `like`";

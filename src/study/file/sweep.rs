@@ -13,8 +13,8 @@ use super::super::parameters::Parameters;
 use super::GarmentEntry;
 use super::parse::lookup;
 use super::reader::{Place, Reader};
-use crate::sim::Fabric;
-use crate::units::from_mm;
+use geom::units::from_mm;
+use sim::Fabric;
 
 /// Edge lengths a mesh may have, mm.
 pub(super) const EDGE_MM: std::ops::RangeInclusive<f64> = 2.0..=100.0;

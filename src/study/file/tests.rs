@@ -1,5 +1,5 @@
 use super::*;
-use crate::body::Sex;
+use body::Sex;
 
 fn known() -> Known {
     let male_ii =
@@ -107,8 +107,8 @@ fn a_subject_may_be_a_scan() {
     write("tee-s.dxf", "dxf");
     write("tee.seams.toml", "seams");
     let asked = &known().subjects["male-ii"];
-    let body = crate::body::build(asked).expect("an ordinary man");
-    write("ii.obj", &crate::body::write_obj(&body.mesh));
+    let body = body::build(asked).expect("an ordinary man");
+    write("ii.obj", &body::write_obj(&body.mesh));
     let load = |subject: &str| {
         let at = GOOD.find("like").expect("a subject");
         let end = at + GOOD[at..].find('\n').expect("a line");
@@ -133,7 +133,7 @@ fn a_subject_may_be_a_scan() {
 
 #[test]
 fn the_quickstart_is_a_good_study() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/quickstart");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/quickstart");
     let study = Study::load(&folder, &known()).expect("good");
     assert_eq!(super::super::spec::jobs(&study).len(), 12);
     let thesis = super::super::catalogue::known(None).expect("built in").subjects;
@@ -145,7 +145,7 @@ fn the_quickstart_is_a_good_study() {
 #[test]
 fn the_thesis_study_has_its_54_combinations_by_both_simulators() {
     let known = super::super::catalogue::known(None).expect("built in");
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/thesis");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/thesis");
     let jobs = super::super::spec::jobs(&Study::load(&folder, &known).expect("good"));
     let count = |garment: &str, sex: &str| {
         jobs.iter().filter(|job| job.garment == garment && job.subject.starts_with(sex)).count()

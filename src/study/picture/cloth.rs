@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use image::{Rgba, RgbaImage};
 
 use super::super::error::{Result, StudyError};
-use crate::pattern::Garment;
-use crate::render::{self, Mapping, Print, Rgb, Texture, Weave};
-use crate::sim::Fabric;
-use crate::units::from_mm;
+use geom::units::from_mm;
+use pattern::Garment;
+use render::{self, Mapping, Print, Rgb, Texture, Weave};
+use sim::Fabric;
 
 /// One repeat of the check: squares of 20 mm, m.
 const CHECK_M: f64 = 0.04;
@@ -153,7 +153,7 @@ pub(super) fn print(cloths: &[Cloth], garment: &Garment, fabric: &Fabric, own: R
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::fabric;
+    use sim::fabric;
 
     #[test]
     fn cloths_are_read_as_written() {

@@ -2,14 +2,14 @@
 
 use nalgebra::Matrix2;
 
-use crate::geom::{TriMesh, V3};
-use crate::pattern::Garment;
-use crate::render::Scale;
-use crate::sim::cloth::Cloth;
-use crate::sim::cloth::law::{Orthotropic, Tensor};
-use crate::sim::cloth::membrane::Element;
-use crate::sim::{Fabric, SimError, sewing};
-use crate::units::GRAVITY;
+use geom::units::GRAVITY;
+use geom::{TriMesh, V3};
+use pattern::Garment;
+use render::Scale;
+use sim::cloth::Cloth;
+use sim::cloth::law::{Orthotropic, Tensor};
+use sim::cloth::membrane::Element;
+use sim::{Fabric, SimError, sewing};
 
 /// What colours the cloth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -167,10 +167,10 @@ fn at_vertices(garment: &Garment, value: impl Fn(&Element) -> f64) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::V2;
-    use crate::pattern::SeamMesh;
-    use crate::pattern::garment::{MaterialPoint, Measurement, MeasurementKind, PieceMesh, Role, Run};
-    use crate::sim::cloth::law::Fibre;
+    use geom::V2;
+    use pattern::SeamMesh;
+    use pattern::garment::{MaterialPoint, Measurement, MeasurementKind, PieceMesh, Role, Run};
+    use sim::cloth::law::Fibre;
 
     /// A square metre of cloth, its grain along `y`.
     fn square() -> Garment {
@@ -264,7 +264,7 @@ mod tests {
             V3::new(STRETCH * RADIUS * cos, STRETCH * RADIUS * sin, p.y)
         };
         let positions: Vec<V3> = tube.rest.iter().map(worn).collect();
-        let fabric = crate::sim::fabric::library()[0].clone();
+        let fabric = sim::fabric::library()[0].clone();
         let found = pressures(&tube, &fabric, &positions).expect("a tube");
         let tension = tensions(&tube, &Orthotropic::of(&fabric), &positions);
         // Away from the free ends, whose vertices have less cloth above or below them.

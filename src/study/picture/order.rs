@@ -6,9 +6,9 @@ use super::super::error::{Result, StudyError};
 use super::super::types::JobId;
 use super::super::workspace::Workspace;
 use super::{Cloth, Dressed, Map};
-use crate::geom::TriMesh;
-use crate::render::{self, Camera, Cell, Frame, Rgb, Scene, View};
-use crate::sim::Stage;
+use geom::TriMesh;
+use render::{self, Camera, Cell, Frame, Rgb, Scene, View};
+use sim::Stage;
 
 /// Time of one turn of a turntable, ms.
 const TURN_MS: u32 = 6000;

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 
 use super::*;
-use crate::body::{self, Measurements, Sex};
-use crate::geom::{DistanceField, V2, V3};
-use crate::pattern::Style;
-use crate::pattern::draft::Model;
-use crate::sim::cloth::membrane::Element;
-use crate::sim::{Monitor, Progress, fabric, fem, hybrid};
+use body::{self, Measurements, Sex};
+use geom::{DistanceField, V2, V3};
+use pattern::Style;
+use pattern::draft::Model;
+use sim::cloth::membrane::Element;
+use sim::{Monitor, Progress, fabric, fem, hybrid};
 
 /// One square of the check, m, and in repeats.
 const SQUARE_M: f64 = 0.02;

@@ -7,10 +7,10 @@ use super::super::tools;
 use super::super::types::{EaseRow, JobRow, RecommendationRow, Status, Value};
 use super::super::workspace::Workspace;
 use super::quoted;
-use crate::body::Girths;
-use crate::fit::Simulator;
-use crate::fit::{Basis, Cuts, Ease, Finding};
-use crate::report::data::{
+use body::Girths;
+use fit::Simulator;
+use fit::{Basis, Cuts, Ease, Finding};
+use report::data::{
     AuditNote, Column, Drawing, EaseMatrix, FabricFacts, Fact, Severity, SizeTip, Subject, SubjectTable, Verdict,
 };
 
@@ -226,7 +226,7 @@ impl Workspace {
     }
 
     /// Where the fit classes of a study meet.
-    pub(in crate::study) fn cuts(&self, study: &str) -> Result<Cuts> {
+    pub(crate) fn cuts(&self, study: &str) -> Result<Cuts> {
         let sql =
             format!("SELECT tight_below_mm / 1000, loose_above_mm / 1000 FROM study WHERE name = {}", quoted(study));
         let cuts = match self.query(&sql)?.rows.first().map(Vec::as_slice) {

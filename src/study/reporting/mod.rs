@@ -10,8 +10,8 @@ use super::evidence::PUBLISHED;
 use super::read::JobFilter;
 use super::types::{Table, Value};
 use super::workspace::Workspace;
-use crate::report::data::{Fact, RawLink};
-use crate::report::{self, ReportData};
+use report::data::{Fact, RawLink};
+use report::{self, ReportData};
 
 /// Views of the raw data, their files, and what they hold.
 const RAW: [(&str, &str, &str); 5] = [
@@ -134,7 +134,7 @@ impl Workspace {
 
 /// A value of a table that is a length in millimetres, as metres.
 fn mm_value(value: &Value) -> f64 {
-    crate::units::from_mm(facts::number(value).unwrap_or(f64::NAN))
+    geom::units::from_mm(facts::number(value).unwrap_or(f64::NAN))
 }
 
 /// A text as SQL literal.

@@ -8,10 +8,10 @@ use super::super::types::Value;
 use super::super::workspace::Workspace;
 use super::facts::{self, number};
 use super::{csv_of, mm_value};
-use crate::fit::{Answer, Cuts, Ease, Simulator};
-use crate::measure::Chi;
-use crate::report::data::{AuditNote, EaseMatrix, Fact, Measured, Outcome, RawLink, Run, Severity, Verdict};
-use crate::report::{self, ReportData};
+use fit::measure::Chi;
+use fit::{Answer, Cuts, Ease, Simulator};
+use report::data::{AuditNote, EaseMatrix, Fact, Measured, Outcome, RawLink, Run, Severity, Verdict};
+use report::{self, ReportData};
 
 /// Tables of the raw data, their files, and what they hold.
 const RAW: [(&str, &str, &str); 2] = [

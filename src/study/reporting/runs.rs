@@ -10,11 +10,11 @@ use super::super::types::{JobId, JobRow, MetricsRow, Status, Value};
 use super::super::workspace::Workspace;
 use super::quoted;
 use super::sheets::Sheets;
-use crate::measure::Chi;
-use crate::render::{self, Camera, Cell, Frame, Scale, Scene, View};
-use crate::report::data::{EaseMatrix, FieldMap, Measured, Outcome, Picture, Run};
-use crate::sim::Stage;
-use crate::units::mm;
+use fit::measure::Chi;
+use geom::units::mm;
+use render::{self, Camera, Cell, Frame, Scale, Scene, View};
+use report::data::{EaseMatrix, FieldMap, Measured, Outcome, Picture, Run};
+use sim::Stage;
 
 /// Pixels of a picture on the page.
 pub(super) const PICTURE: (u32, u32) = (480, 540);

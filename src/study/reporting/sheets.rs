@@ -7,7 +7,7 @@ use image::imageops;
 use super::super::error::{Result, StudyError};
 use super::super::types::JobRow;
 use super::runs::PICTURE;
-use crate::render::{self, Cell, RenderError, View};
+use render::{self, Cell, RenderError, View};
 
 /// Where sheets with all try-ons of a garment and size begin.
 pub(super) const SHEETS: &str = "pictures/try-on-";

@@ -6,7 +6,7 @@ use super::super::state::{ChiOrder, State};
 use super::super::text::{self, chi_bar, chi_mark, ease_mm, left, mm, right};
 use super::super::theme::glyph;
 use super::first_shown;
-use crate::study::{ChiRow, FitCell, MetricsRow};
+use study::{ChiRow, FitCell, MetricsRow};
 
 /// What the marks after names mean.
 pub(super) const LEGEND: &str = "○ girth  ~ free edge  = controlled";

@@ -13,7 +13,7 @@ use super::super::state::State;
 use super::super::text::{self, left, mm, right, shortened};
 use super::super::theme::glyph;
 use super::{WIDE, chi, drape, first_shown, is_narrow, pane};
-use crate::study::{JobRow, MetricsRow};
+use study::{JobRow, MetricsRow};
 
 /// Columns of one run.
 const RUN: usize = 12;

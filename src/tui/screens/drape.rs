@@ -13,7 +13,7 @@ use super::super::picture::{Drawn, Shot, Sitter, look_name};
 use super::super::state::State;
 use super::super::text;
 use super::{compare, pane, results, rows, study, subjects};
-use crate::study::Status;
+use ::study::Status;
 
 /// The pictures that the screen shown has room for, each with its cells.
 #[must_use]

@@ -12,7 +12,7 @@ use super::super::state::State;
 use super::super::text::{self, left, right, shortened};
 use super::subjects::place_bar;
 use super::{WIDE, chi::wrapped, first_shown, is_narrow, pane, scrolled, selected as as_selected};
-use crate::study::{FABRIC_NUMBERS, FabricRow};
+use study::{FABRIC_NUMBERS, FabricRow};
 
 /// Headings of the numbers in the list, their columns, and what a number is multiplied by to be read with ease.
 const HEADINGS: [(&str, usize, f64); FABRIC_SHOWN.len()] = [

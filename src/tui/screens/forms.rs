@@ -12,7 +12,7 @@ use super::super::theme::Theme;
 use super::chi::wrapped;
 use super::overlays::middle;
 use super::{first_shown, pane};
-use crate::study::{Mode, Part};
+use study::{Mode, Part};
 
 /// Columns of values in a form.
 const VALUE: usize = 12;

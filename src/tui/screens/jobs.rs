@@ -9,7 +9,7 @@ use super::super::state::{JobOrder, State};
 use super::super::text::{self, left, right, sparkline};
 use super::super::theme::glyph;
 use super::{first_shown, is_narrow, pane, selected as as_selected};
-use crate::study::{JobRow, LogLine, Status};
+use study::{JobRow, LogLine, Status};
 
 pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     if is_narrow(area) {

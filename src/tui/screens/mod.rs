@@ -29,7 +29,7 @@ use super::overlay::Overlay;
 use super::state::State;
 use super::text;
 use super::theme::{Theme, glyph};
-use crate::study::{MEASUREMENTS, Status};
+use ::study::{MEASUREMENTS, Status};
 
 pub use drape::picture_places;
 

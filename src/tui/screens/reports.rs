@@ -10,7 +10,7 @@ use super::super::clerk::address;
 use super::super::state::State;
 use super::super::text::{self, left, right, shortened};
 use super::{first_shown, pane};
-use crate::study::ReportRow;
+use study::ReportRow;
 
 pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let [list, facts] =

@@ -13,7 +13,7 @@ use super::super::state::State;
 use super::super::text::{self, left, right, shortened};
 use super::overlays::middle;
 use super::{first_shown, pane};
-use crate::study::SavedQuery;
+use study::SavedQuery;
 
 /// Words that the editor sets off.
 const KEYWORDS: [&str; 34] = [
@@ -146,7 +146,7 @@ fn names(state: &State, width: usize) -> Vec<Line<'static>> {
     let relations = state.sql.relations.as_deref().unwrap_or_default();
     let views = relations.iter().filter(|relation| relation.name.starts_with("v_"));
     let longest = relations.iter().map(|relation| text::width(&relation.name)).max().unwrap_or(0) + 2;
-    let line = |relation: &crate::study::Relation| {
+    let line = |relation: &study::Relation| {
         let columns = shortened(&relation.columns.join(", "), width.saturating_sub(longest));
         let name = Span::styled(left(&relation.name, longest), state.theme.bold());
         Line::from(vec![name, Span::styled(columns, state.theme.dim())])

@@ -10,7 +10,7 @@ use super::super::state::{Place, State};
 use super::super::text::{self, ease_mm, left};
 use super::super::theme::{fit_glyph, glyph};
 use super::{WIDE, chi, drape, first_shown, is_narrow, pane};
-use crate::study::{Cell, Grid, Status};
+use study::{Cell, Grid, Status};
 
 /// Lines that make a picture below the grid worth while.
 const LEAST_PICTURE: u16 = 14;

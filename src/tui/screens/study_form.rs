@@ -9,7 +9,7 @@ use super::super::text::{self, left, shortened};
 use super::super::theme::Theme;
 use super::first_shown;
 use super::forms::{draw as draw_frame, end};
-use crate::study::PatternSource;
+use study::PatternSource;
 
 /// Columns of the names of the parts.
 const SECTION: usize = 17;

@@ -10,7 +10,7 @@ use super::super::picture::Sitter;
 use super::super::state::{State, SubjectOrder};
 use super::super::text::{self, left, right, shortened};
 use super::{WIDE, drape, first_shown, is_narrow, pane, scrolled, selected as as_selected};
-use crate::study::{Figure, MEASUREMENTS, SubjectRow, is_doubtful, percentile, percentile_text};
+use study::{Figure, MEASUREMENTS, SubjectRow, is_doubtful, percentile, percentile_text};
 
 /// Headings of the first measurements in the list, and their columns.
 const HEADINGS: [(&str, usize); SHOWN] = [("stature", 8), ("kg", 6), ("chest", 6), ("waist", 6), ("hip", 6)];

@@ -5,7 +5,7 @@ use super::super::message::{Act, Effect, Message, Target};
 use super::super::overlay::Overlay;
 use super::super::picture::{self, FRONT, Shot, Sitter};
 use super::{Bench, fixture};
-use crate::study::{JobId, Map, Status};
+use study::{JobId, Map, Status};
 
 fn selected(bench: &Bench) -> i64 {
     bench.state.focus.job.map_or(0, |id| id.0)

@@ -4,7 +4,7 @@ use super::super::action::Screen;
 use super::super::message::{Act, Effect, Message};
 use super::super::overlay::Overlay;
 use super::Bench;
-use crate::study::{Mode, Part};
+use study::{Mode, Part};
 
 fn selected(bench: &Bench) -> &str {
     bench.state.fabric().map_or("", |row| row.fabric.name.as_str())

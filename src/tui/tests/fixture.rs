@@ -3,8 +3,8 @@
 use super::super::feed::{Compared, Detail, Snapshot};
 use super::super::message::Message;
 use super::super::tailor::{Laid, Task};
-use crate::study::tools::{Fabric, Girths, Measurements, Model, Sex, SourceFile, Stretched, Workpiece, drafted};
-use crate::study::{
+use study::tools::{Fabric, Girths, Measurements, Model, Sex, SourceFile, Stretched, Workpiece, drafted};
+use study::{
     Cell, Change, ChiRow, EaseRow, FabricRow, FitCell, FitClass, Grid, JobId, JobProgress, JobRow, LogLine,
     MEASUREMENTS, MetricsRow, RecommendationRow, Simulator, SizeKey, SizeRow, StageRow, Status, Step, StudyRow,
     SubjectId, SubjectRow, Why,

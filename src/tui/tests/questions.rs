@@ -15,7 +15,7 @@ use super::super::overlay::Overlay;
 use super::super::sheet::Sheet;
 use super::super::state::State;
 use super::{Bench, fixture};
-use crate::study::{JobId, LiveFrame, Relation, ReportRow, SqlAnswer, Table, Value, Workspace, saved_queries};
+use study::{JobId, LiveFrame, Relation, ReportRow, SqlAnswer, Table, Value, Workspace, saved_queries};
 
 /// An answer with a name, two numbers and a long text a row.
 fn answer(rows: i64) -> SqlAnswer {
@@ -220,7 +220,7 @@ fn a_run_here_is_watched_and_one_elsewhere_is_not() {
     assert!(bench.screen().contains("another process"), "{}", bench.screen());
     bench.press("R");
     assert!(bench.asked().contains(&Effect::Watch(Some(JobId(7)))));
-    let at = |k: usize| crate::geom::V3::new(0.2 * (k as f64).cos(), 0.1, 1.0 + 0.3 * (k as f64 * 0.37).sin());
+    let at = |k: usize| geom::V3::new(0.2 * (k as f64).cos(), 0.1, 1.0 + 0.3 * (k as f64 * 0.37).sin());
     let positions: Vec<_> = (0..400).map(at).collect();
     bench.send(Message::Live(LiveFrame { job: JobId(7), positions }));
     let screen = bench.screen();

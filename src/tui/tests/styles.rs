@@ -6,8 +6,8 @@ use super::super::overlay::Overlay;
 use super::super::styles::DeskLine;
 use super::super::theme::Colours;
 use super::{Bench, fixture};
-use crate::study::tools::{DeskSeam, SourceFile};
-use crate::study::{Part, StyleGiven};
+use study::tools::{DeskSeam, SourceFile};
+use study::{Part, StyleGiven};
 
 /// Seams on the desk.
 fn seams(bench: &Bench) -> Vec<DeskSeam> {

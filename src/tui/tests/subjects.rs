@@ -5,7 +5,7 @@ use super::super::message::{Act, Effect, Message};
 use super::super::overlay::Overlay;
 use super::super::picture::{Shot, Sitter};
 use super::{Bench, fixture};
-use crate::study::{Mode, Part, SubjectId};
+use study::{Mode, Part, SubjectId};
 
 fn selected(bench: &Bench) -> &str {
     bench.state.subject().map_or("", |row| row.name.as_str())

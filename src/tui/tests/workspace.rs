@@ -6,7 +6,7 @@ use super::super::feed::{self, Focus};
 use super::super::message::{Act, Message};
 use super::super::worker::do_act;
 use super::Bench;
-use crate::study::{Executor, JobSpec, Monitor, Outcome, RunOptions, Status, StudyError, Workspace};
+use study::{Executor, JobSpec, Monitor, Outcome, RunOptions, Status, StudyError, Workspace};
 
 /// Refuses every job.
 struct Refusing;
@@ -26,7 +26,7 @@ fn follows_a_run_and_acts_on_it() {
     let mut bench = Bench::new(80, 24, read(&workspace, &Focus::default()));
     assert!(bench.state.is_first_start());
 
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/quickstart");
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/quickstart");
     let study = workspace.load_study(&path).expect("the quickstart is right");
     let run = workspace.start_with(&study, &RunOptions::default(), Arc::new(Refusing)).expect("queued");
     run.join().expect("the database works");

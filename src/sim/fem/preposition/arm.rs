@@ -6,8 +6,8 @@ use super::form::{Axis, Form, Hand, arm_bones};
 use super::limb::{Limb, Station};
 use super::sheet::{Joins, Part, Sheet};
 use super::trunk::{BACKS, FRONTS};
-use crate::geom::{V2, V3};
-use crate::pattern::Role;
+use geom::{V2, V3};
+use pattern::Role;
 
 /// Least clearance of a sleeve from the arm before sewing, m.
 const SLEEVE_CLEARANCE_M: f64 = 0.012;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::geom::V2;
+use geom::V2;
 
 /// Steps in which half the ellipse is measured.
 const STEPS: usize = 128;

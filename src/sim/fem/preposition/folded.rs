@@ -10,8 +10,8 @@ use nalgebra::Point2;
 
 use super::follow::Similarity;
 use super::sheet::Joins;
-use crate::geom::{V2, V3, triangle};
-use crate::pattern::{Garment, Role};
+use geom::{V2, V3, triangle};
+use pattern::{Garment, Role};
 
 /// How far outside the cloth that it continues a piece begins, m.
 const ABOVE_M: f64 = 0.01;

@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 use super::form::Form;
 use super::limb::Limb;
 use super::sheet::Joins;
-use crate::geom::{V2, V3};
+use geom::{V2, V3};
 
 /// Least distance from the skin, m.
 const CLEARANCE_M: f64 = 0.012;

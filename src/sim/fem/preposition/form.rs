@@ -1,8 +1,8 @@
 //! What preposition needs to know of the body: its trunk and legs without the arms, and cylinders about its limbs.
 
-use crate::body::{Body, Joint};
-use crate::geom::{V2, V3};
-use crate::sim::fem::hands;
+use crate::fem::hands;
+use body::{Body, Joint};
+use geom::{V2, V3};
 
 /// Half height of the band of the body in which its depth is read, m.
 const LEVEL_BAND_M: f64 = 0.02;

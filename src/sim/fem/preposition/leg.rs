@@ -10,8 +10,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use super::form::{Form, Hand};
 use super::sheet::{Joins, Sheet};
 use super::trunk::CLEARANCE_M;
-use crate::geom::{V2, V3, smooth_step};
-use crate::pattern::{Garment, Role};
+use geom::{V2, V3, smooth_step};
+use pattern::{Garment, Role};
 
 /// How far below the body's crotch the garment's starts, m.
 const BELOW_CROTCH_M: f64 = 0.02;

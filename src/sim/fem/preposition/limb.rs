@@ -1,7 +1,7 @@
 //! What a piece is worn about: a straight axis, and for an arm where it goes beside that from the elbow on.
 
 use super::form::Axis;
-use crate::geom::V3;
+use geom::V3;
 
 /// A place below the elbow that a sleeve goes about.
 #[derive(Clone, Copy, Debug, PartialEq)]

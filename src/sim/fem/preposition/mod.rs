@@ -21,10 +21,10 @@ mod trunk;
 #[cfg(test)]
 mod tests;
 
-use crate::body::Body;
-use crate::geom::{V2, V3};
-use crate::pattern::{Garment, Role};
-use crate::sim::SimError;
+use crate::SimError;
+use body::Body;
+use geom::{V2, V3};
+use pattern::{Garment, Role};
 
 pub use self::folded::Folded;
 use super::params::Params;

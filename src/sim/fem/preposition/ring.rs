@@ -12,7 +12,7 @@ use nalgebra::{Isometry2, Matrix2, Point2, Rotation2};
 use super::follow::Similarity;
 use super::rows::{self, InRow};
 use super::sheet::Joins;
-use crate::geom::V2;
+use geom::V2;
 
 /// Sides of a ring lie on each other when laid out flat, up to this, rms m.
 const FLAT_M: f64 = 0.03;
@@ -407,7 +407,7 @@ mod tests {
     use serde_json::json;
 
     use super::*;
-    use crate::pattern::{Garment, garmentcode};
+    use pattern::{Garment, garmentcode};
 
     /// `count` gores of a sector: a turn in all, an inner radius, on the left half larger by a little, and a length, cm; each drawn
     /// where `moved` puts it.

@@ -11,7 +11,7 @@ use super::form::{Axis, Form};
 use super::limb::Limb;
 use super::ring::{Flat, bounds};
 use super::rows::InRow;
-use crate::geom::{V2, V3};
+use geom::{V2, V3};
 
 /// Share of a turn that a ring takes: its last seam starts open.
 pub const ROUND: f64 = 0.95;
@@ -168,12 +168,12 @@ fn arm_radius(form: &Form, axis: &Axis, height: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::{self, Measurements, Sex};
-    use crate::geom::Surface;
-    use crate::pattern::Role;
-    use crate::pattern::garment::SeamMesh;
-    use crate::sim::fem::{Params, preposition};
-    use crate::sim::laboratory::{self, sheets::sheet};
+    use crate::fem::{Params, preposition};
+    use crate::laboratory::{self, sheets::sheet};
+    use body::{self, Measurements, Sex};
+    use geom::Surface;
+    use pattern::Role;
+    use pattern::garment::SeamMesh;
 
     #[test]
     fn a_skirt_sewn_to_itself_closes_round_the_body() {

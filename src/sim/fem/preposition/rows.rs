@@ -7,7 +7,7 @@ use nalgebra::Rotation2;
 
 use super::ring::{self, bounds};
 use super::sheet::Joins;
-use crate::geom::V2;
+use geom::V2;
 
 /// Least width of a piece over its height.
 const LONG: f64 = 4.0;
@@ -117,7 +117,7 @@ mod tests {
 
     use super::super::ring::{Flat, Ring};
     use super::*;
-    use crate::pattern::{Garment, garmentcode};
+    use pattern::{Garment, garmentcode};
 
     /// Two trapezoids sewn to each other at both sides: length of the upper edge, by how much the lower one is longer at each side,
     /// and height, cm.

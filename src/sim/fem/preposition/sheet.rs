@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::geom::V2;
-use crate::pattern::{Garment, Role};
+use geom::V2;
+use pattern::{Garment, Role};
 
 /// Space between parts of a sheet that no seam joins, m.
 const BESIDE_M: f64 = 0.01;

@@ -3,12 +3,12 @@ use std::f64::consts::PI;
 use serde_json::{Value, json};
 
 use super::*;
-use crate::body::{self, Measurements, Sex};
-use crate::geom::Surface;
-use crate::pattern::draft::Model;
-use crate::pattern::garment::SeamMesh;
-use crate::pattern::{Style, garmentcode};
-use crate::sim::testing::lapelled;
+use crate::testing::lapelled;
+use body::{self, Measurements, Sex};
+use geom::Surface;
+use pattern::draft::Model;
+use pattern::garment::SeamMesh;
+use pattern::{Style, garmentcode};
 
 fn body() -> Body {
     body::build(&Measurements::of(Sex::Male, 1.75)).expect("a body")

@@ -8,7 +8,7 @@ use super::ring::{Flat, Ring};
 use super::round::{self, Held};
 use super::sheet::Joins;
 use super::{Placing, follow, trunk};
-use crate::pattern::{Role, SeamMesh};
+use pattern::{Role, SeamMesh};
 
 /// Turn of a ring from which on it goes round as one, rad: as two sheets it comes to rest as a tent, not in folds.
 const WIDE_RAD: f64 = 0.35 * TAU;

@@ -5,9 +5,9 @@ use std::f64::consts::PI;
 use super::ellipse::Ellipse;
 use super::form::Form;
 use super::sheet::{Joins, Sheet};
-use crate::geom::{V2, V3};
-use crate::pattern::Role;
-use crate::sim::fem::params::Params;
+use crate::fem::params::Params;
+use geom::{V2, V3};
+use pattern::Role;
 
 /// Least distance of a piece from the skin before sewing, m.
 pub const CLEARANCE_M: f64 = 0.02;

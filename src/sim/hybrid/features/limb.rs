@@ -2,10 +2,10 @@
 
 use super::line::{between, joined, nth, run};
 use super::{Face, Found, Mapper, OnTube, face, is_leg};
-use crate::body::RING;
-use crate::geom::V3;
-use crate::pattern::Role;
-use crate::sim::hybrid::outline::{self, Chain, Partner};
+use crate::hybrid::outline::{self, Chain, Partner};
+use body::RING;
+use geom::V3;
+use pattern::Role;
 
 /// Line of an arm that runs along its top, and along its underside.
 pub(super) const TOP_OF_ARM: i32 = 16;

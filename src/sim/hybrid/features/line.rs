@@ -1,8 +1,8 @@
 //! Lines of garment vertices: stretches of outline put together and divided.
 
 use super::OnTube;
-use crate::pattern::Garment;
-use crate::sim::hybrid::outline::Chain;
+use crate::hybrid::outline::Chain;
+use pattern::Garment;
 
 /// A line round a tube from one point of it to another.
 pub(super) fn between([from, to]: [OnTube; 2]) -> impl Fn(f64) -> OnTube {

@@ -13,10 +13,10 @@ use std::collections::BTreeMap;
 
 use super::form::{Form, Tube};
 use super::outline;
-use crate::body::Body;
-use crate::geom::V3;
-use crate::pattern::{Garment, Role};
-use crate::sim::{SimError, sewing};
+use crate::{SimError, sewing};
+use body::Body;
+use geom::V3;
+use pattern::{Garment, Role};
 
 /// Auxiliary points on a hem, waist or opening: it is a curve round the body, which three points keep level.
 const AUXILIARY: usize = 3;

@@ -3,10 +3,10 @@
 use super::limb::TOP_OF_ARM;
 use super::line::{between, groups, joined};
 use super::{Face, Found, Mapper, OnTube, face, is_low};
-use crate::body::Layer;
-use crate::geom::V3;
-use crate::pattern::Role;
-use crate::sim::hybrid::outline::{Chain, Partner};
+use crate::hybrid::outline::{Chain, Partner};
+use body::Layer;
+use geom::V3;
+use pattern::Role;
 
 /// A shoulder seam that is longer than the shoulder reaches onto the arm, at most by this share of the way from armscye to
 /// the middle of the upper arm: what is longer still the pop-up gives back.

@@ -15,7 +15,7 @@ use super::blocks::{Dense, Numeric, Row, Symbolic};
 use super::machine::Machine;
 use super::operator::{Operator, PairList};
 use super::quad;
-use crate::geom::V3;
+use geom::V3;
 
 /// Least distance, in edges, between the middles of patches.
 const APART: usize = 4;
@@ -260,28 +260,46 @@ fn regularise(block: &mut Matrix6<f64>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::{DistanceField, shapes};
-    use crate::sim::cloth::Cloth;
-    use crate::sim::contact::{BodyContact, ContactParams};
-    use crate::sim::laboratory::{self, sheets::sheet};
-    use crate::sim::sewing::unsewn;
-    use crate::sim::solver::machine::{self, Plain, Task};
-    use crate::sim::solver::quad::Quad;
-    use crate::sim::solver::{System, linear, pcg::PcgParams, rows::Rows, system::Assembled};
-    use crate::sim::testing::fabric;
+    use crate::machine::{self, Plain, Task};
+    use crate::operator::Contact4;
+    use crate::quad::Quad;
+    use crate::rows::Rows;
     use wide::f64x4;
+
+    /// A sheet of `w` by `h` vertices, bent, 20 mm apart.
+    fn sheet(w: usize, h: usize) -> Vec<V3> {
+        let at = |v: usize| [v % w, v / w].map(|k| 0.02 * k as f64);
+        (0..w * h).map(at).map(|[x, y]| V3::new(x, y, 0.3 * x * x)).collect()
+    }
+
+    /// Pairs of a sheet's vertices that are `apart` from each other along either side.
+    fn pairs(w: usize, h: usize, apart: usize) -> PairList {
+        let across = (0..w * h).filter(|v| v % w + apart < w).map(|v| [v, v + apart]);
+        PairList::new(across.chain((0..w * (h - apart)).map(|v| [v, v + apart * w])))
+    }
 
     #[test]
     fn the_stiffness_between_patches_is_that_of_their_rigid_motions() {
-        let garment = laboratory::garment(sheet(12, 9, 0.02));
-        let cloth = Cloth::new(&garment, &fabric(), unsewn(&garment)).expect("sound");
-        let x: Vec<V3> = garment.rest.iter().map(|p| V3::new(p.x, p.y, 0.3 * p.x * p.x)).collect();
-        let field = DistanceField::build(&shapes::sphere(0.06, 24), 0.006).expect("a closed sphere");
-        let mut system = System::new(&cloth, BodyContact::new(&field, ContactParams::default(), &cloth.areas), None);
-        let mut operator = system.assemble(&x, None).operator;
-        for (v, block) in operator.diagonal.iter_mut().enumerate() {
-            *block += Matrix3::identity() * (1.0 + v as f64);
-        }
+        let x = sheet(12, 9);
+        let (near, far) = (pairs(12, 9, 1), pairs(12, 9, 2));
+        let along = |&[i, j]: &[usize; 2]| {
+            let d = (x[j] - x[i]).normalize();
+            quad::block(&(d * d.transpose() * -50.0))
+        };
+        let operator = Operator {
+            diagonal: (0..x.len()).map(|v| Matrix3::identity() * (1.0 + v as f64)).collect(),
+            membrane_pairs: &near,
+            membrane: near.pairs().iter().map(along).collect(),
+            bending_pairs: &far,
+            bending: &vec![-0.3; far.pairs().len()],
+            springs: vec![([0, 107], 20.0)],
+            contacts: vec![Contact4 {
+                vertices: [3, 4, 15, 90],
+                weights: [0.2, 0.3, 0.5, -1.0],
+                normal: V3::z(),
+                stiffness: 40.0,
+            }],
+        };
         let patches = Patches::new(&operator);
         let coarse = patches.factorise(&operator, &operator.diagonal_blocks(), &x);
         // Rigid motions q give forces K P q; of these, the patches must find q again.
@@ -332,38 +350,5 @@ mod tests {
         let (p, q) = (V3::new(1.0, 2.0, -3.0), V3::new(0.5, -0.7, 0.2));
         let expect = between(&p, &Matrix3::from_diagonal_element(1.7), &q);
         assert!((between_alike(&p, 1.7, &q) - expect).amax() < 1e-14);
-    }
-
-    #[test]
-    fn both_solvers_find_the_same_and_patches_sooner() {
-        let garment = laboratory::garment(sheet(30, 30, 0.02));
-        let cloth = Cloth::new(&garment, &fabric(), unsewn(&garment)).expect("sound");
-        let x: Vec<V3> = garment.rest.iter().map(|p| V3::new(p.x, p.y, 0.5 + 0.3 * p.x * p.x)).collect();
-        let field = DistanceField::build(&shapes::sphere(0.06, 24), 0.006).expect("a closed sphere");
-        let mut system = System::new(&cloth, BodyContact::new(&field, ContactParams::default(), &cloth.areas), None);
-        let Assembled { forces, mut operator, .. } = system.assemble(&x, None);
-        for (block, mass) in operator.diagonal.iter_mut().zip(&cloth.masses) {
-            *block += Matrix3::identity() * (mass / 0.01);
-        }
-        let within = |most: usize, system: &mut System, is_coarse: bool| {
-            let params = PcgParams { tolerance: 1e-4, max_iterations: most };
-            let mut found = vec![V3::zeros(); x.len()];
-            if is_coarse {
-                system.linear.solve(&operator, &x, &forces, &mut found, &params);
-            } else {
-                linear::jacobi(&operator, &forces, &mut found, &params);
-            }
-            found
-        };
-        let exact = within(5000, &mut system, false);
-        let far = |found: Vec<V3>| {
-            let [error, size] = [0.0, 1.0].map(|share: f64| {
-                found.iter().zip(&exact).map(|(p, q)| (p * (1.0 - share) - q).norm_squared()).sum::<f64>().sqrt()
-            });
-            error / size
-        };
-        let (few, jacobi) = (far(within(40, &mut system, true)), far(within(40, &mut system, false)));
-        assert!(far(within(5000, &mut system, true)) < 0.01, "the patches end elsewhere");
-        assert!(few < 0.1 * jacobi, "after 40 iterations {few} with patches, {jacobi} without");
     }
 }

@@ -4,7 +4,7 @@
 //! and draws when the state has changed. Everything that may take time (database, pictures, runs) is done by threads
 //! of `worker` that answer with messages; the loop itself only waits for the next one.
 //!
-//! *Invariant*: this module knows of the rest of the program only what [`crate::study`] shows; no SQL, no simulator.
+//! *Invariant*: this module knows of the rest of the program only what [`study`] shows; no SQL, no simulator.
 
 mod act;
 mod action;
@@ -58,10 +58,10 @@ pub use picture::{Images, Shot};
 pub use rehearsal::Rehearsal;
 pub use state::State;
 
-use crate::study::{StudyError, Workspace, study_file};
 use memory::Memory;
 use picture::Canvas;
 use state::{Abilities, Places};
+use study::{StudyError, Workspace, study_file};
 use theme::{Colours, Theme};
 use worker::Workers;
 

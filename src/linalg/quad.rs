@@ -9,7 +9,7 @@ use nalgebra::Matrix3;
 use wide::{f32x4, f64x4};
 
 use super::machine::Machine;
-use crate::geom::V3;
+use geom::V3;
 
 /// Four numbers in the precision of a solve.
 pub trait Quad:

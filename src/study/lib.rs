@@ -91,9 +91,9 @@ pub use types::{
 };
 pub use workspace::Workspace;
 
-pub use crate::fit::FitClass;
-pub use crate::fit::Simulator;
-pub use crate::fit::{Analysis, Answer, Estimate, Evidence, Finding as Verdict, SizeAdvice, SizeFit, Without};
-pub use crate::render::export::MeshFormat;
-pub use crate::render::{Rgb, View};
-pub use crate::sim::{Monitor, Stage, Step};
+pub use fit::FitClass;
+pub use fit::Simulator;
+pub use fit::{Analysis, Answer, Estimate, Evidence, Finding as Verdict, SizeAdvice, SizeFit, Without};
+pub use render::export::MeshFormat;
+pub use render::{Rgb, View};
+pub use sim::{Monitor, Stage, Step};

@@ -1,7 +1,7 @@
 //! Measures (thesis 3.5, 6.2.5): how true a drape stays to its pattern.
 
-use crate::geom::V3;
-use crate::pattern::{Garment, Measurement};
+use geom::V3;
+use pattern::{Garment, Measurement};
 
 /// One measurement of one drape.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

@@ -223,9 +223,9 @@ mod tests {
     use wide::{f32x4, f64x4};
 
     use super::*;
-    use crate::geom::V3;
-    use crate::sim::solver::PairList;
-    use crate::sim::solver::machine::{self, Plain};
+    use crate::PairList;
+    use crate::machine::{self, Plain};
+    use geom::V3;
 
     /// Products as they stand in the definition: pairs on differences, one by one.
     fn expected(operator: &Operator, x: &[V3]) -> Vec<V3> {

@@ -1,7 +1,7 @@
 //! The report of a study: one HTML page that needs nothing else, and its charts.
 //!
 //! [`ReportData`] holds plain values; [`html`] turns them into a page without scripts or addresses of other machines:
-//! pictures and pattern drawings are inside it. Pictures are best JPEG ([`crate::render::jpeg`]): six runs of five stay
+//! pictures and pattern drawings are inside it. Pictures are best JPEG ([`render::jpeg`]): six runs of five stay
 //! under 3 MB. Charts are SVG in the page; [`Chart::png`] gives the same as a file.
 
 pub mod chart;
@@ -26,7 +26,7 @@ pub enum ReportError {
     Chart(String),
     /// A picture could not be made.
     #[error("picture: {0}")]
-    Picture(#[from] crate::render::RenderError),
+    Picture(#[from] render::RenderError),
     /// The page could not be filled in.
     #[error("page: {0}")]
     Page(#[from] askama::Error),

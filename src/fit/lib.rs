@@ -11,6 +11,7 @@ mod class;
 mod distribution;
 mod ease;
 mod judge;
+pub mod measure;
 mod pair;
 mod resample;
 mod statistics;

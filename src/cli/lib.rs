@@ -1,7 +1,7 @@
 //! The command line: arguments in, data to standard output, messages and progress to standard error, an exit code out.
 //!
 //! Arguments are parsed once (`args`), resolved once (`context`), and each command is one function that uses
-//! [`crate::study`] only.
+//! [`study`] only.
 
 mod answers;
 mod args;
@@ -33,9 +33,9 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
 
-use crate::study::StudyError;
 use args::{Arguments, Command};
 use context::Context;
+use study::StudyError;
 
 /// How a command ended, as its exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -10,7 +10,7 @@ use wide::f32x4;
 
 use super::quad::{self, Block};
 use super::rows::{Upper, by_row};
-use crate::geom::V3;
+use geom::V3;
 
 /// Pairs of vertices `i < j`, sorted, that some element couples.
 #[derive(Clone, Debug, Default)]

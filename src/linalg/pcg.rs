@@ -3,7 +3,7 @@
 use super::machine::{self, Machine, Task};
 use super::quad::Quad;
 use super::rows::Rows;
-use crate::geom::V3;
+use geom::V3;
 
 /// When to stop.
 #[derive(Clone, Copy, Debug)]

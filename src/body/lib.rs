@@ -56,7 +56,7 @@ pub use pictures::{Camera, Pictured, PicturedLevel, from_pictures, picture_heigh
 pub use pose::{Pose, pose};
 pub use scan::{Scan, from_scan};
 
-use crate::geom::{TriMesh, V3};
+use geom::{TriMesh, V3};
 
 /// Why no body could be made or measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

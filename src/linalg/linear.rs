@@ -11,7 +11,7 @@ use super::patches::{Coarse, Patches};
 use super::pcg::{self, PcgParams, Preconditioner};
 use super::quad::{self, Block, Quad};
 use super::rows::Rows;
-use crate::geom::V3;
+use geom::V3;
 
 /// How the linear systems of a cloth are solved.
 pub enum LinearSolver {

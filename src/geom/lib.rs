@@ -12,6 +12,7 @@ pub mod section;
 pub mod shapes;
 pub mod surface;
 pub mod triangle;
+pub mod units;
 
 pub use field::DistanceField;
 pub use mesh::TriMesh;

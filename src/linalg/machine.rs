@@ -53,15 +53,16 @@ pub trait Machine: Copy {
 
 /// An array of what an expression makes of each index, written out: maps over arrays are not inlined into tasks, in which then each
 /// instruction is called as a function.
+#[macro_export]
 macro_rules! each {
-    ($k:ident of 2 => $made:expr) => { $crate::sim::solver::machine::each!([0, 1] $k $made) };
-    ($k:ident of 3 => $made:expr) => { $crate::sim::solver::machine::each!([0, 1, 2] $k $made) };
-    ($k:ident of 4 => $made:expr) => { $crate::sim::solver::machine::each!([0, 1, 2, 3] $k $made) };
-    ($k:ident of 5 => $made:expr) => { $crate::sim::solver::machine::each!([0, 1, 2, 3, 4] $k $made) };
-    ($k:ident of 6 => $made:expr) => { $crate::sim::solver::machine::each!([0, 1, 2, 3, 4, 5] $k $made) };
+    ($k:ident of 2 => $made:expr) => { $crate::each!([0, 1] $k $made) };
+    ($k:ident of 3 => $made:expr) => { $crate::each!([0, 1, 2] $k $made) };
+    ($k:ident of 4 => $made:expr) => { $crate::each!([0, 1, 2, 3] $k $made) };
+    ($k:ident of 5 => $made:expr) => { $crate::each!([0, 1, 2, 3, 4] $k $made) };
+    ($k:ident of 6 => $made:expr) => { $crate::each!([0, 1, 2, 3, 4, 5] $k $made) };
     ([$($index:literal),*] $k:ident $made:expr) => { [$({ let $k: usize = $index; $made }),*] };
 }
-pub(crate) use each;
+pub use each;
 
 /// What is to be done on a machine; to be inlined, with all that it calls.
 pub trait Task {
