@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::error::Error;
 
 use toile::body::{self, Body, Measurements, Region, Sex};
-use toile::geom::{DistanceField, V3};
+use toile::geom::{DistanceField, Surface, V3};
 use toile::pattern::draft::Model;
 use toile::pattern::{Garment, Role, Style};
 use toile::sim::hybrid::form::Form;
