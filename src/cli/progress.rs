@@ -6,8 +6,12 @@ use std::io::IsTerminal;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
 use super::context::Context;
-use super::run::label;
 use study::{JobFilter, JobId, JobRow, Result, Status, Workspace};
+
+/// `tshirt S ii`.
+pub fn label(garment: &str, size: &str, subject: &str) -> String {
+    format!("{garment} {size} {subject}")
+}
 
 /// Steps of a job's bar.
 const STEPS: u64 = 1000;

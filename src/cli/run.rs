@@ -10,7 +10,7 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 
 use super::args::{Engine, Run as Arguments, StudyPart};
 use super::context::Context;
-use super::progress::Progress;
+use super::progress::{Progress, label};
 use super::{CliError, End, Outcome, detached, output, pictures, runs};
 use study::{
     JobFilter, JobId, JobRow, JobSpec, Limits, Planned, RunOptions, Selection, SlurmOptions, Stage, Status, Study,
@@ -170,11 +170,6 @@ fn work(
     progress.show(workspace)?;
     progress.finish();
     Ok(interrupted.load(Ordering::Relaxed))
-}
-
-/// `tshirt S ii`.
-pub fn label(garment: &str, size: &str, subject: &str) -> String {
-    format!("{garment} {size} {subject}")
 }
 
 /// What would run, and why.

@@ -29,4 +29,5 @@ pub use garment::{
 };
 pub use mesh::{MeshError, MeshQuality};
 pub use piece::{Notch, Piece};
-pub use style::{Style, StyleError};
+pub use seams::StyleError;
+pub use style::Style;

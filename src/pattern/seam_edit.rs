@@ -8,7 +8,8 @@ use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, value};
 
 use super::piece::Piece;
 use super::seams::SeamFile;
-use super::style::{Style, StyleError};
+use super::seams::StyleError;
+use super::style::Style;
 use geom::units::mm;
 
 /// What is done to a seam file; sides as `PIECE.EDGE` or `PIECE.EDGE+PIECE.EDGE`.

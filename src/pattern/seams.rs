@@ -49,7 +49,45 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::garment::{Band, MeasurementKind, Role};
-use super::style::StyleError;
+
+/// Why pieces and a seam file do not make a style.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum StyleError {
+    /// The seam file is not the TOML it should be.
+    #[error("{file}: not a seam file: {reason}")]
+    Syntax {
+        /// Seam file.
+        file: String,
+        /// What the TOML reader found, with the line.
+        reason: String,
+    },
+    /// A name that is not there.
+    #[error("{file}: {place}: there is no {what} `{found}`; there is: {accepted}")]
+    Unknown {
+        /// Seam file.
+        file: String,
+        /// Entry of the seam file.
+        place: String,
+        /// Kind of thing named.
+        what: &'static str,
+        /// Name found.
+        found: String,
+        /// Names that exist.
+        accepted: String,
+    },
+    /// An entry that contradicts the pieces or another entry.
+    #[error("{file}: {place}: {found}; accepted: {accepted}")]
+    Contradiction {
+        /// Seam file.
+        file: String,
+        /// Entry of the seam file.
+        place: String,
+        /// What is wrong.
+        found: String,
+        /// What would be accepted.
+        accepted: String,
+    },
+}
 
 /// Greatest difference of length between the two sides of a seam where the file names none, mm.
 pub const DEFAULT_LENGTH_TOLERANCE_MM: f64 = 1.0;

@@ -1,6 +1,6 @@
 //! Toile from outside: the program as its users call it, and the rules that the sources keep.
 //!
-//! `tidy` reads the sources; `cli`, `bad_input` and `run` start the real program in folders of their own,
+//! `structure` and `tidy` read the sources; `cli`, `bad_input` and `run` start the real program in folders of their own,
 //! `workbench` in a pseudo-terminal. Tests that need
 //! the sample data beside the project say so and pass where it is not there.
 
@@ -15,6 +15,7 @@ mod program;
 mod report;
 mod run;
 mod seat;
+mod structure;
 mod tidy;
 mod together;
 mod workbench;

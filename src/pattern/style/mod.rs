@@ -7,48 +7,9 @@ mod read;
 use self::read::Reader;
 use super::garment::{Band, MeasurementKind, Role};
 use super::piece::{Notch, Piece};
-use super::seams::SeamFile;
+use super::seams::{SeamFile, StyleError};
 use geom::V2;
 use geom::polyline::Polyline;
-
-/// Why pieces and a seam file do not make a style.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum StyleError {
-    /// The seam file is not the TOML it should be.
-    #[error("{file}: not a seam file: {reason}")]
-    Syntax {
-        /// Seam file.
-        file: String,
-        /// What the TOML reader found, with the line.
-        reason: String,
-    },
-    /// A name that is not there.
-    #[error("{file}: {place}: there is no {what} `{found}`; there is: {accepted}")]
-    Unknown {
-        /// Seam file.
-        file: String,
-        /// Entry of the seam file.
-        place: String,
-        /// Kind of thing named.
-        what: &'static str,
-        /// Name found.
-        found: String,
-        /// Names that exist.
-        accepted: String,
-    },
-    /// An entry that contradicts the pieces or another entry.
-    #[error("{file}: {place}: {found}; accepted: {accepted}")]
-    Contradiction {
-        /// Seam file.
-        file: String,
-        /// Entry of the seam file.
-        place: String,
-        /// What is wrong.
-        found: String,
-        /// What would be accepted.
-        accepted: String,
-    },
-}
 
 /// An edge of a piece, counter-clockwise as worn.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,11 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::corners::{corner_vertices, cut_edge, mirror_edge, mirrored};
-use super::{
-    Edge, EdgePoint, EdgeRef, PathPart, Seam, Style, StyleError, StyleMeasurement, StylePiece, StyleReinforcement,
-};
+use super::{Edge, EdgePoint, EdgeRef, PathPart, Seam, Style, StyleMeasurement, StylePiece, StyleReinforcement};
 use crate::piece::Piece;
-use crate::seams::{PieceEntry, SeamEntry, SeamFile, Stretch};
+use crate::seams::{PieceEntry, SeamEntry, SeamFile, Stretch, StyleError};
 use geom::V2;
 use geom::units::{from_mm, mm};
 
