@@ -23,6 +23,9 @@ const TOUCHING: [&str; 3] = ["study", "cli", "tui"];
 /// Files that may import each other in a loop.
 const LOOP: usize = 2;
 
+/// Public fields that a struct may have.
+const FIELDS: usize = 20;
+
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
@@ -272,6 +275,38 @@ fn only_study_and_its_faces_touch_the_outside() {
             }
         }
     }
+}
+
+/// All that stands at the top of a crate's files, with where it stands.
+fn items(name: &str) -> Vec<(String, Item)> {
+    let modules = modules_of(name).into_iter();
+    modules.flat_map(|(path, module)| module.file.items.into_iter().map(move |item| (path.join("::"), item))).collect()
+}
+
+#[test]
+fn no_struct_has_too_many_public_fields() {
+    let mut told = Vec::new();
+    for (module, item) in CRATES.iter().flat_map(|name| items(name)) {
+        let Item::Struct(item) = item else { continue };
+        let count = item.fields.iter().filter(|field| matches!(field.vis, Visibility::Public(_))).count();
+        if count > FIELDS {
+            told.push(format!("{module}::{} has {count} public fields", item.ident));
+        }
+    }
+    assert!(told.is_empty(), "more than {FIELDS}:\n{}", told.join("\n"));
+}
+
+#[test]
+fn the_workspace_is_implemented_in_one_file() {
+    let is_workspace = |item: &Item| match item {
+        Item::Impl(item) => {
+            matches!(&*item.self_ty, syn::Type::Path(path) if path.path.is_ident("Workspace")) && item.trait_.is_none()
+        }
+        _ => false,
+    };
+    let found: BTreeSet<String> =
+        items("study").into_iter().filter(|(_, item)| is_workspace(item)).map(|(module, _)| module).collect();
+    assert_eq!(found.len(), 1, "{found:?}");
 }
 
 #[test]
