@@ -14,7 +14,7 @@ use toile::sim::hybrid::form::Form;
 use toile::sim::hybrid::mapping::{PATH_POINTS, can_touch};
 use toile::sim::hybrid::path::{PathGraph, Taken};
 use toile::sim::hybrid::{self, Params, Sewn, mapping};
-use toile::sim::{Drape, Monitor, Progress, fabric};
+use toile::sim::{Drape, Silent, fabric};
 
 fn main() {
     divan::main();
@@ -35,12 +35,6 @@ static SHIRT: LazyLock<Garment> = LazyLock::new(|| {
     let style = Style::read(&Model::Tshirt.drafts()[1].pieces, Model::Tshirt.seams(), "seams").expect("our own style");
     style.mesh(0.015).expect("it meshes")
 });
-
-struct Silent;
-
-impl Monitor for Silent {
-    fn progress(&mut self, _: &Progress) {}
-}
 
 /// All phases, with so many steps of the drape.
 fn dress(push_steps: u32, firm_steps: u32) -> Drape {

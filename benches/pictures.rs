@@ -11,16 +11,10 @@ use toile::pattern::draft::Model;
 use toile::pattern::{Garment, Style};
 use toile::render::{self, Camera, Frame, Layer, Mapping, Material, Paint, Print, Scene, Texture, View};
 use toile::sim::hybrid::{self, Params};
-use toile::sim::{Monitor, Progress, fabric};
+use toile::sim::{Silent, fabric};
 
 fn main() {
     divan::main();
-}
-
-struct Silent;
-
-impl Monitor for Silent {
-    fn progress(&mut self, _: &Progress) {}
 }
 
 static BODY: LazyLock<Body> = LazyLock::new(|| {

@@ -11,7 +11,7 @@ use toile::measure;
 use toile::pattern::{Garment, Style, draft, dxf};
 use toile::render::{self, Camera, Frame, Layer, Material, Scene, View};
 use toile::sim::fem::{self, Params};
-use toile::sim::{Drape, Fabric, Monitor, Progress, fabric, laboratory};
+use toile::sim::{Drape, Fabric, Silent, fabric, laboratory};
 use toile::study::pattern_files::{Beside, inspect};
 use toile::study::{RunOptions, Workspace};
 
@@ -76,12 +76,6 @@ fn finest(garments: &[Garment]) -> &Garment {
 }
 
 /// Listens to nothing.
-struct Silent;
-
-impl Monitor for Silent {
-    fn progress(&mut self, _: &Progress) {}
-}
-
 fn drape(garments: &[Garment]) -> Drape {
     drape_from(Params::default(), garments)
 }

@@ -15,7 +15,7 @@ use toile::measure;
 use toile::pattern::draft::Model;
 use toile::pattern::{Garment, Style, dxf, garmentcode, propose};
 use toile::sim::fem::{self, Params};
-use toile::sim::{Distortion, Drape, Fabric, Monitor, Progress, fabric};
+use toile::sim::{Distortion, Drape, Fabric, Silent, fabric};
 use toile::units::GRAVITY;
 
 type Outcome<T = ()> = Result<T, Box<dyn Error>>;
@@ -72,13 +72,6 @@ impl Dressed {
         let drape = fem::simulate(&self.0, &self.1, &meshes, fabric, &Params::default(), &mut Silent)?;
         Ok((meshes.pop().ok_or("no mesh")?, drape))
     }
-}
-
-/// Listens to nothing.
-struct Silent;
-
-impl Monitor for Silent {
-    fn progress(&mut self, _: &Progress) {}
 }
 
 fn of_library(name: &str) -> Outcome<Fabric> {

@@ -4,6 +4,41 @@
 //! The crates are the stages of the pipeline, in the order data flows: [`body`] and [`pattern`] make the inputs,
 //! [`sim`] drapes by means of [`linalg`], [`fit`] measures and judges, [`render`] and [`report`] show, [`study`] keeps and runs it all,
 //! [`cli`] and [`tui`] are its two faces. All stand on [`geom`]. SI units inside; millimetres, degrees and milliseconds at the edges.
+//!
+//! # Dressing a body
+//! A man of 1.76 m, the drafted T-shirt in size M, the first fabric of the library, and FEM-GS on a coarse mesh:
+//!
+//! ```
+//! use toile::body::{self, Measurements, Sex};
+//! use toile::geom::DistanceField;
+//! use toile::measure;
+//! use toile::pattern::{Style, draft::Model};
+//! use toile::sim::{Silent, fabric, fem};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! // What is not measured is estimated. The field says how far the skin is from any point.
+//! let body = body::build(&Measurements::of(Sex::Male, 1.76))?;
+//! let field = DistanceField::build(&body.mesh, 0.01)?;
+//!
+//! // Pieces and seams make a style; a style is meshed, and keeps its measurements.
+//! let medium = &Model::Tshirt.drafts()[1];
+//! let style = Style::read(&medium.pieces, Model::Tshirt.seams(), "tshirt.seams.toml")?;
+//! let garment = style.mesh(0.06)?;
+//!
+//! // The garment is placed, sewn and draped; meshes go from coarse to fine, here there is one.
+//! let cotton = &fabric::library()[0];
+//! let drape = fem::simulate(&body, &field, &[garment.clone()], cotton, &fem::Params::default(), &mut Silent)?;
+//!
+//! // chi is a length on the drape over its length in the pattern: 1 where nothing is stretched.
+//! let chis = measure::measure(&garment, &drape.positions);
+//! let metrics = measure::metrics(&chis).ok_or("no measurements")?;
+//! assert!(drape.converged && metrics.n == 9 && metrics.ei < 0.01);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! `examples/dress.rs` does the same on finer meshes and writes a file for Blender; `examples/compare.rs` sets both simulators
+//! beside each other. Whole studies, cached and reported, are [`study::Workspace`]'s.
 
 pub use geom::{self, units};
 

@@ -20,6 +20,15 @@ use geom::{TriMesh, V3};
 /// # Errors
 /// [`BodyError::OutOfRange`] for measurements that no adult has, [`BodyError::Contradiction`] and [`BodyError::Inconsistent`]
 /// for those that are not of one body.
+///
+/// # Examples
+/// ```
+/// use body::{Measurements, Sex};
+///
+/// let body = body::build(&Measurements::of(Sex::Female, 1.65))?;
+/// assert!(body.levels.hip_m < body.levels.waist_m && body.levels.waist_m < body.levels.chest_m);
+/// # Ok::<(), body::BodyError>(())
+/// ```
 pub fn build(known: &Measurements) -> Result<Body, BodyError> {
     let profile = Profile::new(known)?;
     fit::fit(&profile).and_then(describe).map_err(|error| match error {

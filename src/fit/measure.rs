@@ -38,6 +38,23 @@ pub struct Metrics {
 }
 
 /// Measures a garment whose vertices are at `positions`.
+///
+/// # Examples
+/// Laid out flat nothing is stretched, and every chi is 1:
+///
+/// ```
+/// use fit::measure;
+/// use geom::V3;
+/// use pattern::{Style, draft::Model};
+///
+/// let medium = &Model::Tshirt.drafts()[1];
+/// let garment = Style::read(&medium.pieces, Model::Tshirt.seams(), "tshirt.seams.toml")?.mesh(0.03)?;
+/// let flat: Vec<V3> = garment.rest.iter().map(|p| V3::new(p.x, p.y, 0.0)).collect();
+///
+/// let metrics = measure::metrics(&measure::measure(&garment, &flat)).ok_or("no measurements")?;
+/// assert!(metrics.max_abs_error < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn measure(garment: &Garment, positions: &[V3]) -> Vec<Chi> {
     let of = |m: &Measurement| Chi { no: m.no, l2d_m: m.l2d_m, l3d_m: m.length_m(&garment.rest, positions) };

@@ -101,14 +101,14 @@ impl MaterialPoint {
 
 /// A connected stretch of cloth along which is measured, within one piece.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Run {
+pub struct MaterialLine {
     /// Points in order; at least two.
     pub points: Vec<MaterialPoint>,
     /// Pattern length of each segment, m: the arc of the drawn curve, not its chord. One fewer than `points`.
     pub arc_m: Vec<f64>,
 }
 
-impl Run {
+impl MaterialLine {
     /// Length (m) when the garment's vertices are at `positions`; `rest` are their places in the pieces' planes.
     ///
     /// Each segment stretches by the ratio of its chords; that ratio scales the arc of the drawn curve, so that an
@@ -148,7 +148,7 @@ pub struct Measurement {
     /// Pattern length L2D, m: the sum of all arcs.
     pub l2d_m: f64,
     /// Where it runs; the lengths of the runs add up.
-    pub runs: Vec<Run>,
+    pub runs: Vec<MaterialLine>,
 }
 
 impl Measurement {
@@ -168,7 +168,7 @@ pub struct FitLevel {
     pub girth_m: f64,
     /// Where it runs on the mesh, the lengths adding up; empty where it does not lie on the cloth throughout.
     #[serde(default)]
-    pub runs: Vec<Run>,
+    pub runs: Vec<MaterialLine>,
 }
 
 /// What strengthens an edge.

@@ -4,6 +4,7 @@ pub mod arrange;
 pub mod check;
 mod curve;
 pub mod draft;
+pub mod drawing;
 pub mod dxf;
 pub mod features;
 #[cfg(test)]
@@ -18,13 +19,12 @@ pub mod piece;
 pub mod propose;
 pub mod seam_edit;
 pub mod seams;
-pub mod sheet;
 pub mod source;
 pub mod style;
 mod unfold;
 
 pub use garment::{
-    Band, FitLevel, Garment, MaterialPoint, Measurement, MeasurementKind, PieceMesh, Reinforcement, Role, Run,
+    Band, FitLevel, Garment, MaterialLine, MaterialPoint, Measurement, MeasurementKind, PieceMesh, Reinforcement, Role,
     SeamMesh, Spot,
 };
 pub use mesh::{MeshError, MeshQuality};

@@ -34,7 +34,7 @@ pub struct ReportData {
     /// Which size each subject should wear.
     pub sizes: Vec<SizeTip>,
     /// All runs, failed ones too.
-    pub runs: Vec<Run>,
+    pub runs: Vec<TryOn>,
     /// The cases that both simulators drew.
     pub pairs: Vec<Pair>,
     /// What they say.
@@ -264,7 +264,7 @@ pub struct FieldMap {
 
 /// One garment, in one size and fabric, on one subject, by one simulator.
 #[derive(Clone, Debug)]
-pub struct Run {
+pub struct TryOn {
     /// Garment.
     pub garment: String,
     /// The garment without the seed of its start: what is the same but for this is a repeat.
@@ -307,7 +307,7 @@ pub struct Run {
     pub maps: Vec<FieldMap>,
 }
 
-impl Run {
+impl TryOn {
     /// E, SD, EI over the measurements that `keep` keeps; `None` when none are left.
     #[must_use]
     pub fn metrics(&self, keep: impl Fn(&Measured) -> bool) -> Option<Metrics> {
@@ -323,7 +323,7 @@ impl Run {
 }
 
 /// The measurements that any of the runs has, by number; the first run's description of each.
-pub(super) fn measurements<'a>(runs: &[&'a Run]) -> Vec<&'a Measured> {
+pub(super) fn measurements<'a>(runs: &[&'a TryOn]) -> Vec<&'a Measured> {
     let mut all: Vec<&Measured> = runs.iter().flat_map(|r| &r.measured).collect();
     all.sort_by_key(|m| m.chi.no);
     all.dedup_by_key(|m| m.chi.no);

@@ -2,7 +2,7 @@
 
 use super::ReportError;
 use super::chart::{Chart, ease_chart, time_chart};
-use super::data::{Outcome, Picture, ReportData, Run, Severity, Verdict};
+use super::data::{Outcome, Picture, ReportData, Severity, TryOn, Verdict};
 use super::evidence::EvidencePart;
 use super::repeats::RepeatPart;
 use super::runs::{Group, groups};
@@ -204,18 +204,18 @@ impl<'a> Page<'a> {
 }
 
 /// Whether the runs are numbers of somebody's tables.
-fn are_printed(runs: &[Run]) -> bool {
+fn are_printed(runs: &[TryOn]) -> bool {
     runs.iter().all(|run| run.outcome == Outcome::Printed)
 }
 
-fn mean_ei(runs: &[Run], simulator: Simulator) -> Option<f64> {
+fn mean_ei(runs: &[TryOn], simulator: Simulator) -> Option<f64> {
     let (mean, _) =
         mean_sd(runs.iter().filter(|r| r.simulator == simulator).filter_map(|r| r.metrics(|_| true)).map(|m| m.ei));
     mean.is_finite().then_some(mean)
 }
 
 /// What the study found, in two or three sentences.
-fn summary(runs: &[Run]) -> String {
+fn summary(runs: &[TryOn]) -> String {
     let garments = distinct(runs.iter().map(|r| r.garment.as_str())).join(", ");
     let subjects = distinct(runs.iter().map(|r| r.subject.as_str())).len();
     let converged = runs.iter().filter(|r| r.outcome == Outcome::Converged).count();
@@ -252,7 +252,7 @@ fn percent(share: f64) -> String {
     format!("{} %", number(share * 100.0, 1))
 }
 
-fn tiles(runs: &[Run]) -> Vec<Tile> {
+fn tiles(runs: &[TryOn]) -> Vec<Tile> {
     let tile = |value: String, name: &str| Tile { value, name: name.into() };
     let converged = runs.iter().filter(|r| r.outcome == Outcome::Converged).count();
     let mut tiles = match are_printed(runs) {
@@ -297,7 +297,7 @@ fn verdicts(data: &ReportData) -> Vec<Garment> {
 }
 
 fn by_rule(data: &ReportData, garment: &str, class: FitClass) -> Verdict {
-    let fits = |r: &&Run| r.garment == garment && r.ease.as_ref().is_some_and(|e| e.class == class);
+    let fits = |r: &&TryOn| r.garment == garment && r.ease.as_ref().is_some_and(|e| e.class == class);
     let subjects = distinct(data.runs.iter().filter(fits).map(|r| r.subject.as_str())).len();
     let ran = distinct(data.runs.iter().filter(fits).map(|r| simulator_name(r.simulator)));
     let why = match ran.as_slice() {
@@ -347,7 +347,7 @@ fn card(verdict: &Verdict) -> Card {
 
 /// Failed and unconverged runs first, then what the study noted.
 fn audit(data: &ReportData) -> Vec<Note> {
-    let of_run = |run: &Run| {
+    let of_run = |run: &TryOn| {
         let name = format!(
             "{} {}, subject {}, {}, {}",
             run.garment,

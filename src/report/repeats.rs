@@ -2,7 +2,7 @@
 
 use super::ReportError;
 use super::chart::{Chart, repeat_chart};
-use super::data::Run;
+use super::data::TryOn;
 use super::text::{count, distinct, number, simulator_name};
 use fit::Simulator;
 
@@ -36,7 +36,7 @@ pub(super) struct RepeatPart {
 
 impl RepeatPart {
     /// The section; `None` where nothing was simulated twice.
-    pub fn new(runs: &[Run]) -> Result<Option<Self>, ReportError> {
+    pub fn new(runs: &[TryOn]) -> Result<Option<Self>, ReportError> {
         let cases = repeats(runs);
         if cases.is_empty() {
             return Ok(None);
@@ -82,9 +82,10 @@ impl Repeats {
 type Case = (String, String, Simulator);
 
 /// The cases with two results or more, in the order in which they first appear.
-fn repeats(runs: &[Run]) -> Vec<Repeats> {
-    let key = |run: &Run| (run.case.clone(), format!("{} on {}, {}", run.size, run.subject, run.fabric), run.simulator);
-    let mut cases: Vec<(Case, Vec<&Run>)> = Vec::new();
+fn repeats(runs: &[TryOn]) -> Vec<Repeats> {
+    let key =
+        |run: &TryOn| (run.case.clone(), format!("{} on {}, {}", run.size, run.subject, run.fabric), run.simulator);
+    let mut cases: Vec<(Case, Vec<&TryOn>)> = Vec::new();
     for run in runs.iter().filter(|run| !run.measured.is_empty()) {
         let key = key(run);
         match cases.iter_mut().find(|(known, _)| *known == key) {
@@ -95,7 +96,7 @@ fn repeats(runs: &[Run]) -> Vec<Repeats> {
     cases.into_iter().filter(|(_, same)| same.len() > 1).map(|(key, same)| repeats_of(key, &same)).collect()
 }
 
-fn repeats_of((garment, place, simulator): Case, runs: &[&Run]) -> Repeats {
+fn repeats_of((garment, place, simulator): Case, runs: &[&TryOn]) -> Repeats {
     let range = |values: &mut dyn Iterator<Item = f64>| {
         values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
     };

@@ -2,7 +2,7 @@
 
 use super::ReportError;
 use super::chart::{Chart, Metric, chi_chart, mean_sd_chart, metric_chart, residual_chart};
-use super::data::{Measured, Outcome, Run, measurements};
+use super::data::{Measured, Outcome, TryOn, measurements};
 use super::page::{Image, MapImage};
 use super::text::{duration, fit_glyph, fit_words, mean_sd, mm, number, signed_mm, simulator_name};
 use super::theme;
@@ -117,7 +117,7 @@ impl HeatCell {
 }
 
 /// Groups runs by garment and size, in the order in which they first appear.
-pub(super) fn groups(runs: &[Run]) -> Result<Vec<Group>, ReportError> {
+pub(super) fn groups(runs: &[TryOn]) -> Result<Vec<Group>, ReportError> {
     let fabrics = super::text::distinct(runs.iter().map(|r| r.fabric.as_str())).len();
     let mut keys: Vec<(&str, &str)> = Vec::new();
     for run in runs {
@@ -129,15 +129,15 @@ pub(super) fn groups(runs: &[Run]) -> Result<Vec<Group>, ReportError> {
     keys.iter()
         .enumerate()
         .map(|(k, &(garment, size))| {
-            let members: Vec<&Run> =
+            let members: Vec<&TryOn> =
                 runs.iter().filter(|r| (r.garment.as_str(), r.size.as_str()) == (garment, size)).collect();
             group(k, format!("{garment}, size {size}"), &members, fabrics > 1)
         })
         .collect()
 }
 
-fn group(index: usize, title: String, runs: &[&Run], name_fabric: bool) -> Result<Group, ReportError> {
-    let place = |r: &Run| if name_fabric { format!("{}, {}", wearer(r), r.fabric) } else { wearer(r) };
+fn group(index: usize, title: String, runs: &[&TryOn], name_fabric: bool) -> Result<Group, ReportError> {
+    let place = |r: &TryOn| if name_fabric { format!("{}, {}", wearer(r), r.fabric) } else { wearer(r) };
     let places: Vec<String> = runs.iter().map(|r| place(r)).collect();
     let both = runs.iter().any(|r| r.simulator != runs[0].simulator);
     let labels: Vec<String> = runs
@@ -164,18 +164,18 @@ fn group(index: usize, title: String, runs: &[&Run], name_fabric: bool) -> Resul
 }
 
 /// The subject, and which repeat where it is not the first.
-fn wearer(run: &Run) -> String {
+fn wearer(run: &TryOn) -> String {
     if run.repeat > 1 { format!("{}, repeat {}", run.subject, run.repeat) } else { run.subject.clone() }
 }
 
 /// Class and words of a run's fit.
-fn fit(run: &Run) -> (&'static str, String) {
+fn fit(run: &TryOn) -> (&'static str, String) {
     run.ease.as_ref().map_or(("unknown", "fit unknown".into()), |e| {
         (e.class.as_str(), format!("{} {}, {} mm", fit_glyph(e.class), fit_words(e), signed_mm(e.ease_m())))
     })
 }
 
-fn status(run: &Run) -> String {
+fn status(run: &TryOn) -> String {
     match &run.outcome {
         Outcome::Converged => "✓ converged".into(),
         Outcome::NotConverged => "! not converged".into(),
@@ -184,7 +184,7 @@ fn status(run: &Run) -> String {
     }
 }
 
-fn strip(run: &Run) -> Result<Strip, ReportError> {
+fn strip(run: &TryOn) -> Result<Strip, ReportError> {
     let (class, fit) = fit(run);
     Ok(Strip {
         simulator: run.simulator.as_str(),
@@ -201,7 +201,7 @@ fn strip(run: &Run) -> Result<Strip, ReportError> {
     })
 }
 
-fn series(title: &str, runs: &[&Run]) -> Result<Vec<Series>, ReportError> {
+fn series(title: &str, runs: &[&TryOn]) -> Result<Vec<Series>, ReportError> {
     let mut all = Vec::new();
     for (name, members) in by_series(runs) {
         let rows = measurements(&members);
@@ -221,8 +221,8 @@ fn series(title: &str, runs: &[&Run]) -> Result<Vec<Series>, ReportError> {
 }
 
 /// The measured runs by simulator and fabric.
-fn by_series<'a>(runs: &[&'a Run]) -> Vec<(String, Vec<&'a Run>)> {
-    let mut all: Vec<(String, Vec<&Run>)> = Vec::new();
+fn by_series<'a>(runs: &[&'a TryOn]) -> Vec<(String, Vec<&'a TryOn>)> {
+    let mut all: Vec<(String, Vec<&TryOn>)> = Vec::new();
     for &run in runs.iter().filter(|r| !r.measured.is_empty()) {
         let name = format!("{}, {}", simulator_name(run.simulator), run.fabric);
         match all.iter_mut().find(|(n, _)| *n == name) {
@@ -234,9 +234,9 @@ fn by_series<'a>(runs: &[&'a Run]) -> Vec<(String, Vec<&'a Run>)> {
 }
 
 /// Mean chi of each measurement in each series; `None` where there is only one.
-fn side_by_side(runs: &[&Run]) -> Option<Heat> {
+fn side_by_side(runs: &[&TryOn]) -> Option<Heat> {
     let all = by_series(runs);
-    let mean = |members: &[&Run], no: u32| {
+    let mean = |members: &[&TryOn], no: u32| {
         let (mean, _) = mean_sd(members.iter().filter_map(|r| r.measurement(no)).map(|m| m.chi.chi()));
         mean.is_finite().then(|| HeatCell::new(mean))
     };
@@ -247,9 +247,9 @@ fn side_by_side(runs: &[&Run]) -> Option<Heat> {
     (all.len() > 1).then(|| Heat { columns: all.iter().map(|(name, _)| name.clone()).collect(), rows })
 }
 
-fn chi_row(measured: &Measured, runs: &[&Run]) -> ChiRow {
+fn chi_row(measured: &Measured, runs: &[&TryOn]) -> ChiRow {
     let no = measured.chi.no;
-    let cell = |run: &&Run| match run.measurement(no) {
+    let cell = |run: &&TryOn| match run.measurement(no) {
         Some(m) => ChiCell {
             l3d: mm(m.chi.l3d_m),
             chi: number(m.chi.chi(), 3),
@@ -273,7 +273,7 @@ fn chi_row(measured: &Measured, runs: &[&Run]) -> ChiRow {
 }
 
 /// E, SD, EI under a table of chi, and EI without what is free or controlled.
-fn summary(runs: &[&Run]) -> Vec<(&'static str, Vec<String>)> {
+fn summary(runs: &[&TryOn]) -> Vec<(&'static str, Vec<String>)> {
     type Keep = fn(&Measured) -> bool;
     type Pick = fn(&fit::measure::Metrics) -> f64;
     let line = |keep: Keep, pick: Pick| -> Vec<String> {
@@ -294,7 +294,7 @@ fn summary(runs: &[&Run]) -> Vec<(&'static str, Vec<String>)> {
     rows
 }
 
-fn metrics_row(run: &Run, label: &str) -> MetricsRow {
+fn metrics_row(run: &TryOn, label: &str) -> MetricsRow {
     let (class, fit) = fit(run);
     let failed = matches!(run.outcome, Outcome::Failed(_) | Outcome::Printed);
     let with = |keep: fn(&Measured) -> bool| run.metrics(keep).map_or(f64::NAN, |m| m.ei);
@@ -321,9 +321,9 @@ fn metrics_row(run: &Run, label: &str) -> MetricsRow {
     MetricsRow { label: label.into(), class, fit, truth, status: status(run), course }
 }
 
-fn heat(runs: &[&Run], labels: &[String]) -> Heat {
+fn heat(runs: &[&TryOn], labels: &[String]) -> Heat {
     let row = |m: &&Measured| {
-        let cell = |run: &&Run| run.measurement(m.chi.no).map(|m| HeatCell::new(m.chi.chi()));
+        let cell = |run: &&TryOn| run.measurement(m.chi.no).map(|m| HeatCell::new(m.chi.chi()));
         (format!("#{} {}", m.chi.no, m.name), runs.iter().map(cell).collect())
     };
     Heat { columns: labels.to_vec(), rows: measurements(runs).iter().map(row).collect() }

@@ -38,8 +38,8 @@ fn picture(caption: &str) -> Picture {
     }
 }
 
-fn run(subject: &str, simulator: Simulator, neck: f64) -> Run {
-    Run {
+fn run(subject: &str, simulator: Simulator, neck: f64) -> TryOn {
+    TryOn {
         garment: "Tee".into(),
         case: "Tee".into(),
         repeat: 1,
@@ -199,8 +199,8 @@ fn every_fit_class_of_every_garment_has_an_answer() {
 fn repeats_are_compared_where_there_are_some() {
     assert!(!html(&sample()).unwrap().contains("Repeatability"));
     let mut data = sample();
-    let again = |from: &Run, garment: &str, repeat: u32, chi: f64| {
-        let mut run = Run { garment: garment.into(), repeat, ..from.clone() };
+    let again = |from: &TryOn, garment: &str, repeat: u32, chi: f64| {
+        let mut run = TryOn { garment: garment.into(), repeat, ..from.clone() };
         run.measured[0].chi.l3d_m = run.measured[0].chi.l2d_m * chi;
         run
     };
@@ -243,7 +243,7 @@ fn what_cannot_be_shown_is_refused() {
 #[test]
 fn charts_place_marks_where_values_are() {
     let runs = [run("i", Simulator::Fem, 1.04), run("i", Simulator::Hybrid, 0.90)];
-    let runs: Vec<&Run> = runs.iter().collect();
+    let runs: Vec<&TryOn> = runs.iter().collect();
     let labels = ["i".to_owned(), "i".to_owned()];
     let chi = chart::chi_chart("Tee", &runs, &labels).unwrap();
     assert!(chi.svg().contains("#6 neck girth") && chi.svg().contains("\n1.00\n"), "{}", chi.svg());
@@ -259,7 +259,7 @@ fn charts_place_marks_where_values_are() {
     assert!((ratio - 0.051 / 0.021).abs() < 0.1, "{ratio}");
     let residual = chart::residual_chart("Tee", &runs, &labels).unwrap();
     assert!(residual.svg().contains("<polyline") && !residual.png().unwrap().is_empty());
-    let all: Vec<Run> = runs.iter().map(|run| (*run).clone()).collect();
+    let all: Vec<TryOn> = runs.iter().map(|run| (*run).clone()).collect();
     let ease = chart::ease_chart(&all, &Cuts::default()).unwrap().unwrap();
     assert!(ease.svg().contains("S i") && ease.svg().contains("just | loose"), "{}", ease.svg());
     assert_eq!(ease.address("svg"), "charts/ei-against-ease.svg");

@@ -103,3 +103,11 @@ pub trait Monitor {
     /// Positions of the garment at this moment.
     fn snapshot(&mut self, _positions: &[V3]) {}
 }
+
+/// Listens to nothing.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Silent;
+
+impl Monitor for Silent {
+    fn progress(&mut self, _: &Progress) {}
+}

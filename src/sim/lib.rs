@@ -21,6 +21,6 @@ mod testing;
 mod walls;
 
 pub use distortion::Distortion;
-pub use drape::{Drape, Monitor, Progress, Stage, Staged, Step};
+pub use drape::{Drape, Monitor, Progress, Silent, Stage, Staged, Step};
 pub use error::SimError;
 pub use fabric::Fabric;

@@ -6,7 +6,7 @@ use super::error::{Result, StudyError};
 pub use super::file::SourceFile;
 use super::sewing;
 use body;
-use pattern::{Garment, Piece, garmentcode, sheet, source};
+use pattern::{Garment, Piece, drawing, garmentcode, source};
 use render::{self, Camera, Frame, Layer, Material, Scene};
 
 pub use super::seam_desk::{Desk, DeskEdge, DeskPiece, DeskSeam, Proposed, desk, edit_seams, propose};
@@ -140,7 +140,7 @@ pub fn mesh(style: &Style, edge_length_m: f64) -> Result<(Garment, MeshQuality)>
 /// The style's pieces on a sheet, as SVG with numbered measurements.
 #[must_use]
 pub fn sheet(style: &Style) -> String {
-    sheet::svg(style)
+    drawing::svg(style)
 }
 
 /// The files of a drafted style: a DXF a size and the seam file.

@@ -61,8 +61,7 @@ fn read(file: &Path, folder: &Path, path: Vec<String>, modules: &mut Modules) {
             read(&file, &below, [path.clone(), vec![name]].concat(), modules);
         }
     }
-    let mut module =
-        Module { file: parsed, names: BTreeMap::new(), globs: Vec::new(), defined: BTreeSet::new() };
+    let mut module = Module { file: parsed, names: BTreeMap::new(), globs: Vec::new(), defined: BTreeSet::new() };
     for item in module.file.items.clone() {
         match item {
             Item::Use(ItemUse { tree, .. }) => module.import(&tree, &path, &mut Vec::new()),

@@ -2,7 +2,7 @@
 
 use super::MeshError;
 use super::sampling::EdgeSamples;
-use crate::garment::{Garment, MaterialPoint, Run};
+use crate::garment::{Garment, MaterialLine, MaterialPoint};
 use crate::style::{EdgePoint, EdgeRef, PathPart, Style};
 use geom::V2;
 use geom::polyline::segment_meeting;
@@ -41,7 +41,7 @@ impl<'a> Layer<'a> {
     ///
     /// # Errors
     /// [`MeshError::LineLeavesPiece`].
-    pub fn runs(&self, place: &str, path: &[PathPart]) -> Result<Vec<Run>, MeshError> {
+    pub fn runs(&self, place: &str, path: &[PathPart]) -> Result<Vec<MaterialLine>, MeshError> {
         path.iter()
             .map(|part| match *part {
                 PathPart::Edge(edge) => Ok(self.edge_run(edge)),
@@ -51,10 +51,10 @@ impl<'a> Layer<'a> {
     }
 
     /// Along an edge, from vertex to vertex, with the arcs of the drawn curve.
-    fn edge_run(&self, edge: EdgeRef) -> Run {
+    fn edge_run(&self, edge: EdgeRef) -> MaterialLine {
         let arcs = &self.samples[edge.piece][edge.edge].arcs;
         let vertices = &self.boundary[edge.piece][edge.edge];
-        Run {
+        MaterialLine {
             points: vertices.iter().map(|&vertex| self.at_vertex(vertex)).collect(),
             arc_m: arcs.windows(2).map(|ends| ends[1] - ends[0]).collect(),
         }
@@ -66,7 +66,7 @@ impl<'a> Layer<'a> {
     }
 
     /// Straight across a piece, from mesh edge to mesh edge.
-    fn line_run(&self, place: &str, ends: [EdgePoint; 2]) -> Result<Run, MeshError> {
+    fn line_run(&self, place: &str, ends: [EdgePoint; 2]) -> Result<MaterialLine, MeshError> {
         let piece = &self.garment.pieces[ends[0].edge.piece];
         let [from, to] = ends.map(|end| self.style.place(end));
         let length = (to - from).norm();
@@ -99,7 +99,7 @@ impl<'a> Layer<'a> {
                 to: text(to),
             });
         }
-        Ok(Run {
+        Ok(MaterialLine {
             arc_m: places.windows(2).map(|ends| (ends[1] - ends[0]).norm()).collect(),
             points: crossings.into_iter().map(|(_, point)| point).collect(),
         })

@@ -107,7 +107,8 @@ fn a_shirt_with_a_yoke_is_sewn_whole_and_its_details_are_left_out() {
     for name in ["yoke_centre_back", "cuff_right", "cuff_left_ends", "side_left", "underarm_right"] {
         seam(&proposal, name);
     }
-    let roles: Vec<Role> = proposal.entries.iter().filter(|(id, _)| id.contains("yoke")).map(|e| e.1.role).collect();
+    let roles: Vec<Role> =
+        proposal.worn.iter().filter(|one| one.id.contains("yoke")).map(|one| one.entry.role).collect();
     assert_eq!(roles, [Role::Back; 2]);
     let left_out = proposal.questions.iter().find(|question| question.starts_with("left out")).expect("it is said");
     assert!(left_out.contains("`POCKET`, `COLLAR`"), "{left_out}");
@@ -121,7 +122,7 @@ fn what_cannot_be_sewn_for_sure_is_left_out_where_the_rest_can_be_worn() {
     assert!(whole.pieces.iter().any(|piece| piece.id.as_deref() == Some("sleeve_right")), "a person may sew it");
     let proposal = draped(&pieces, &[]);
     assert!(
-        proposal.entries.iter().all(|(id, _)| !id.contains("sleeve") && !id.contains("cuff")),
+        proposal.worn.iter().all(|one| !one.id.contains("sleeve") && !one.id.contains("cuff")),
         "{:?}",
         proposal.seams
     );
@@ -191,7 +192,7 @@ fn of_several_pieces_for_one_place_the_one_that_fits_is_taken() {
     pieces.insert(0, short);
     let proposal = draped(&pieces, &[]);
     let fronts: Vec<&str> =
-        proposal.entries.iter().filter(|e| e.0.contains("front")).map(|e| e.1.block.as_str()).collect();
+        proposal.worn.iter().filter(|one| one.id.contains("front")).map(|one| one.entry.block.as_str()).collect();
     assert_eq!(fronts, ["TROUSER FRONT"; 2]);
     assert!(
         proposal.questions.iter().any(|question| question.contains("`TROUSER FRONT` is taken")),
@@ -206,7 +207,7 @@ fn half_of_a_sleeve_in_two_is_not_taken_for_a_sleeve() {
     let named = |name: &str| Piece { name: name.to_owned(), block: name.to_owned(), ..sleeve(0.5) };
     pieces.splice(3..4, [named("TOPSLEEVE"), named("UNDERSLEEVE")]);
     let proposal = draped(&pieces, &[]);
-    assert!(proposal.entries.iter().all(|(id, _)| !id.contains("sleeve")), "{:?}", proposal.entries);
+    assert!(proposal.worn.iter().all(|one| !one.id.contains("sleeve")), "{:?}", proposal.worn);
     let said = proposal.questions.join("\n");
     assert!(said.contains("left out: `TOPSLEEVE`, `UNDERSLEEVE`: a sleeve in two pieces"), "{said}");
 }
@@ -309,7 +310,7 @@ fn a_cowl_that_rises_in_the_middle_is_a_neck_all_along() {
     let proposal = draped(&pieces, &["side", "shoulder"]);
     let shoulders = ["shoulder_right", "shoulder_left"].map(|name| seam(&proposal, name).a_mm);
     assert!((shoulders[0] - shoulders[1]).abs() < 1e-6 && shoulders[0] < 60.0, "{shoulders:?}");
-    let (_, front) = proposal.entries.iter().find(|(id, _)| id == "front").expect("a front");
+    let front = &proposal.worn.iter().find(|one| one.id == "front").expect("a front").entry;
     assert_eq!(front.edges.keys().filter(|edge| edge.starts_with("neck")).count(), 1, "{:?}", front.edges);
 }
 
@@ -354,7 +355,7 @@ fn princess_seams_are_sewn_from_the_shoulder_or_the_armhole() {
         assert_eq!(seam(&proposal, "side_right").entry.a, ["side_front_right.side"]);
         assert_eq!(seam(&proposal, "shoulder_right").entry.a, shoulder);
         assert_eq!(seam(&proposal, "armhole_right").entry.b, armhole);
-        let roles = proposal.entries.iter().filter(|(id, _)| id.contains("front")).map(|entry| entry.1.role);
+        let roles = proposal.worn.iter().filter(|one| one.id.contains("front")).map(|one| one.entry.role);
         assert!(roles.eq([Role::Front; 4]));
     };
     let [side, middle, back] = ["side_front_right.armhole", "front_right.armhole", "back_right.armhole"];

@@ -18,6 +18,7 @@ mod pose;
 mod raglan;
 mod recognise;
 mod ring;
+mod seam_kind;
 mod sew;
 mod shape;
 mod templates;
@@ -28,11 +29,15 @@ mod wear;
 mod worn;
 mod write;
 
+use std::fmt;
+
 pub(super) use self::pose::{Pose, named_face_and_hand, pose};
+pub use self::seam_kind::SeamKind;
 pub use self::wear::Unwearable;
+use self::worn::Worn;
 use super::garment::Role;
 use super::piece::Piece;
-use super::seams::{PieceEntry, SeamEntry};
+use super::seams::SeamEntry;
 
 /// Kind of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
@@ -113,6 +118,12 @@ impl Hand {
     }
 }
 
+impl fmt::Display for Hand {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.as_str())
+    }
+}
+
 impl Face {
     /// Both, the front first.
     pub const BOTH: [Self; 2] = [Self::Front, Self::Back];
@@ -129,6 +140,12 @@ impl Face {
             Self::Front => "front",
             Self::Back => "back",
         }
+    }
+}
+
+impl fmt::Display for Face {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.as_str())
     }
 }
 
@@ -253,6 +270,9 @@ pub struct ProposedSeam {
     /// As the seam file has it.
     #[serde(flatten)]
     pub entry: SeamEntry,
+    /// What it joins; the entry's name is its text.
+    #[serde(skip)]
+    pub kind: SeamKind,
     /// Length of side `a`, mm.
     pub a_mm: f64,
     /// Length of side `b`, mm.
@@ -280,16 +300,16 @@ pub struct Proposal {
     pub open: Vec<String>,
     /// What a person must decide.
     pub questions: Vec<String>,
-    /// Pieces of the seam file by identifier.
+    /// Pieces of the seam file.
     #[serde(skip)]
-    entries: Vec<(String, PieceEntry)>,
+    worn: Vec<Worn>,
 }
 
 impl Proposal {
     /// Whether no piece was recognised.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.entries.is_empty()
+        self.worn.is_empty()
     }
 }
 
@@ -334,6 +354,5 @@ pub fn propose(pieces: &[Piece]) -> Proposal {
         }));
     }
     let open = sew::open(&worn, &seams);
-    let entries = worn.iter().map(|worn| (worn.id.clone(), worn.entry.clone())).collect();
-    Proposal { pieces: listed, seams, open, questions, entries }
+    Proposal { pieces: listed, seams, open, questions, worn }
 }

@@ -5,7 +5,7 @@
 
 use super::notched::{self, Evidence};
 use super::worn::Worn;
-use super::{Class, Face, Hand, Label, ProposedSeam};
+use super::{Class, Face, Hand, Label, ProposedSeam, SeamKind};
 use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamEntry};
 use geom::units::mm;
 
@@ -75,7 +75,7 @@ impl<'w> Tailor<'w, '_> {
             .find(|one| one.class == class && one.face == face && (one.hand == Some(hand) || one.hand.is_none()))
     }
 
-    pub fn add(&mut self, name: String, a: Chain, b: Chain, pieces: &[&Worn], doubt: f64) {
+    pub fn add(&mut self, kind: SeamKind, a: Chain, b: Chain, pieces: &[&Worn], doubt: f64) {
         let length = |chain: &Chain| chain.iter().map(|(_, length)| mm(*length)).sum::<f64>();
         let (a_mm, b_mm) = (length(&a), length(&b));
         if a.is_empty() || b.is_empty() {
@@ -84,28 +84,28 @@ impl<'w> Tailor<'w, '_> {
         let difference = (a_mm - b_mm).abs() / a_mm.max(b_mm);
         let sure = pieces.iter().map(|piece| piece.confidence).fold(1.0, f64::min);
         // Half pieces say nothing of how they are joined in the middle.
-        let known = if name.contains("centre") { CENTRE_CONFIDENCE } else { 1.0 };
+        let known = if kind.is_centre() { CENTRE_CONFIDENCE } else { 1.0 };
         let mut confidence = known * sure / (1.0 + (difference / doubt).powi(2));
         match notched::evidence(self.worn, &a, &b) {
             Evidence::For => confidence += NOTCHED_GAIN * (1.0 - confidence),
             Evidence::Turned => {
                 confidence *= NOTCHED_DOUBT;
                 self.questions
-                    .push(format!("{name}: its notches match better with one side turned round; which is it?"));
+                    .push(format!("{kind}: its notches match better with one side turned round; which is it?"));
             }
             Evidence::None => {}
         }
         if confidence < LEAST_CONFIDENCE {
             self.questions.push(format!(
-                "{name}: sides of {a_mm:.0} and {b_mm:.0} mm look as if they do not belong together; what is sewn there?"
+                "{kind}: sides of {a_mm:.0} and {b_mm:.0} mm look as if they do not belong together; what is sewn there?"
             ));
             return;
         }
         let names = |chain: Chain| chain.into_iter().map(|(name, _)| name).collect();
         let excess = ((a_mm - b_mm) * 10.0).round() / 10.0;
         let ease_mm = if excess.abs() > 0.5 * DEFAULT_LENGTH_TOLERANCE_MM { excess } else { 0.0 };
-        let entry = SeamEntry { name, a: names(a), b: names(b), same_direction: false, ease_mm };
-        self.seams.push(ProposedSeam { entry, a_mm, b_mm, confidence });
+        let entry = SeamEntry { name: kind.to_string(), a: names(a), b: names(b), same_direction: false, ease_mm };
+        self.seams.push(ProposedSeam { entry, kind, a_mm, b_mm, confidence });
     }
 
     fn darts(&mut self) {
@@ -115,37 +115,31 @@ impl<'w> Tailor<'w, '_> {
                     let length = one.edges.iter().find(|edge| edge.name == *name).map_or(0.0, |edge| edge.length);
                     vec![(format!("{}.{name}", one.id), length)]
                 };
-                let name = format!("{}_dart_{}", one.id, number + 1);
-                self.add(name, leg(a), leg(b), &[one], PLAIN_DOUBT);
+                let kind = SeamKind::Dart { piece: one.id.clone(), number: number + 1 };
+                self.add(kind, leg(a), leg(b), &[one], PLAIN_DOUBT);
             }
         }
     }
 
     /// Front to back: side, shoulder, outseam, inseam, and the lengthwise edges of half sleeves and bands.
     fn sides(&mut self, hand: Hand) {
-        let pairs = [
-            (Class::Body, Label::Side),
-            (Class::Body, Label::Shoulder),
-            (Class::Skirt, Label::Side),
-            (Class::Leg, Label::Outseam),
-            (Class::Leg, Label::Inseam),
-            (Class::Sleeve, Label::Top),
-            (Class::Sleeve, Label::Underarm),
-            (Class::Waistband, Label::End),
+        let pairs: [(Class, Label, fn(Hand) -> SeamKind); 8] = [
+            (Class::Body, Label::Side, SeamKind::Side),
+            (Class::Body, Label::Shoulder, SeamKind::Shoulder),
+            (Class::Skirt, Label::Side, SeamKind::SkirtSide),
+            (Class::Leg, Label::Outseam, SeamKind::Outseam),
+            (Class::Leg, Label::Inseam, SeamKind::Inseam),
+            (Class::Sleeve, Label::Top, SeamKind::SleeveTop),
+            (Class::Sleeve, Label::Underarm, SeamKind::SleeveUnderarm),
+            (Class::Waistband, Label::End, SeamKind::WaistbandSide),
         ];
-        for (class, label) in pairs {
+        for (class, label, kind) in pairs {
             let [front, back] = Face::BOTH.map(|face| self.along(class, label, face, hand));
             if !front.is_empty() && !back.is_empty() {
-                let name = match class {
-                    Class::Body | Class::Leg => format!("{}_{}", label.as_str(), hand.as_str()),
-                    Class::Skirt => format!("skirt_{}_{}", label.as_str(), hand.as_str()),
-                    Class::Waistband => format!("waistband_{}", hand.as_str()),
-                    _ => format!("sleeve_{}_{}", label.as_str(), hand.as_str()),
-                };
                 let a = front.iter().flat_map(|(one, label)| one.chain(*label, Some(hand))).collect();
                 let b = back.iter().flat_map(|(one, label)| one.chain_back(*label, Some(hand))).collect();
                 let pieces: Vec<&Worn> = front.iter().chain(&back).map(|(one, _)| *one).collect();
-                self.add(name, a, b, &pieces, PLAIN_DOUBT);
+                self.add(kind(hand), a, b, &pieces, PLAIN_DOUBT);
             }
         }
     }
@@ -188,8 +182,7 @@ impl<'w> Tailor<'w, '_> {
             let of = |class: Class| self.find(class, Some(face), hand);
             if let (Some(panel), Some(middle)) = (of(Class::SidePanel), of(Class::Body)) {
                 let (a, b) = (panel.chain(Label::Princess, None), middle.chain_back(Label::Princess, Some(hand)));
-                let name = format!("princess_{}_{}", face.as_str(), hand.as_str());
-                self.add(name, a, b, &[panel, middle], PLAIN_DOUBT);
+                self.add(SeamKind::Princess(face, hand), a, b, &[panel, middle], PLAIN_DOUBT);
             }
         }
     }
@@ -199,8 +192,7 @@ impl<'w> Tailor<'w, '_> {
         for (face, side) in [(Face::Front, hand), (Face::Back, hand.other())] {
             let Some(body) = self.find(Class::Body, Some(face), hand) else { continue };
             let (a, b) = (sleeve.chain(Label::Cap, Some(side)), body.chain_back(Label::Armhole, Some(hand)));
-            let name = format!("raglan_{}_{}", face.as_str(), hand.as_str());
-            self.add(name, a, b, &[sleeve, body], EASED_DOUBT);
+            self.add(SeamKind::Raglan(face, hand), a, b, &[sleeve, body], EASED_DOUBT);
         }
     }
 
@@ -214,7 +206,7 @@ impl<'w> Tailor<'w, '_> {
         if let Some(sleeve) = whole {
             let front = sleeve.chain(Label::Underarm, Some(Hand::Right));
             let back = sleeve.chain_back(Label::Underarm, Some(Hand::Left));
-            self.add(format!("underarm_{}", hand.as_str()), front, back, &[sleeve], PLAIN_DOUBT);
+            self.add(SeamKind::Underarm(hand), front, back, &[sleeve], PLAIN_DOUBT);
             if sleeve.has(Label::Neck) {
                 self.raglan(sleeve, hand);
                 return;
@@ -238,7 +230,7 @@ impl<'w> Tailor<'w, '_> {
                 armhole.extend(edges);
             }
         }
-        self.add(format!("armhole_{}", hand.as_str()), cap, armhole, &pieces, EASED_DOUBT);
+        self.add(SeamKind::Armhole(hand), cap, armhole, &pieces, EASED_DOUBT);
     }
 
     /// Cuffs in halves to half sleeves, and to each other.
@@ -247,40 +239,35 @@ impl<'w> Tailor<'w, '_> {
             .map(|face| (self.find(Class::Cuff, Some(face), hand), self.find(Class::Sleeve, Some(face), hand)));
         for (face, (cuff, sleeve)) in Face::BOTH.into_iter().zip(halves) {
             let (Some(cuff), Some(sleeve)) = (cuff, sleeve) else { continue };
-            let name = format!("cuff_{}_{}", face.as_str(), hand.as_str());
-            self.add(
-                name,
-                sleeve.chain(Label::Hem, None),
-                cuff.chain_back(Label::Top, None),
-                &[cuff, sleeve],
-                GATHERED_DOUBT,
-            );
+            let (a, b) = (sleeve.chain(Label::Hem, None), cuff.chain_back(Label::Top, None));
+            self.add(SeamKind::CuffHalf(face, hand), a, b, &[cuff, sleeve], GATHERED_DOUBT);
         }
         let sleeve = self.worn.iter().find(|one| one.class == Class::Sleeve && one.is_whole && one.hand == Some(hand));
         let cuff =
             self.worn.iter().find(|one| one.class == Class::Cuff && one.face.is_none() && one.hand == Some(hand));
         if let (Some(sleeve), Some(cuff)) = (sleeve, cuff) {
             let (a, b) = (sleeve.chain(Label::Hem, None), cuff.chain_back(Label::Top, None));
-            self.add(format!("cuff_{}", hand.as_str()), a, b, &[cuff, sleeve], GATHERED_DOUBT);
+            self.add(SeamKind::Cuff(hand), a, b, &[cuff, sleeve], GATHERED_DOUBT);
             let (a, b) = (cuff.chain(Label::End, Some(Hand::Right)), cuff.chain_back(Label::End, Some(Hand::Left)));
-            self.add(format!("cuff_{}_ends", hand.as_str()), a, b, &[cuff], PLAIN_DOUBT);
+            self.add(SeamKind::CuffEnds(hand), a, b, &[cuff], PLAIN_DOUBT);
         }
         if let [(Some(front), _), (Some(back), _)] = halves {
-            for (name, of_front, of_back) in [("a", Hand::Right, Hand::Left), ("b", Hand::Left, Hand::Right)] {
-                let (a, b) = (front.chain(Label::End, Some(of_front)), back.chain_back(Label::End, Some(of_back)));
-                self.add(format!("cuff_{}_{name}", hand.as_str()), a, b, &[front, back], PLAIN_DOUBT);
+            for end in Hand::BOTH {
+                let (a, b) = (front.chain(Label::End, Some(end)), back.chain_back(Label::End, Some(end.other())));
+                self.add(SeamKind::CuffSide(hand, end), a, b, &[front, back], PLAIN_DOUBT);
             }
         }
     }
 
     /// Left to right half of the same face.
     fn centre(&mut self, face: Face) {
-        for (class, label, name) in [
-            (Class::Body, Label::Centre, "centre"),
-            (Class::Yoke, Label::Centre, "yoke_centre"),
-            (Class::Skirt, Label::Centre, "skirt_centre"),
-            (Class::Leg, Label::Crotch, "crotch"),
-        ] {
+        let halves: [(Class, Label, fn(Face) -> SeamKind); 4] = [
+            (Class::Body, Label::Centre, SeamKind::Centre),
+            (Class::Yoke, Label::Centre, SeamKind::YokeCentre),
+            (Class::Skirt, Label::Centre, SeamKind::SkirtCentre),
+            (Class::Leg, Label::Crotch, SeamKind::Crotch),
+        ];
+        for (class, label, kind) in halves {
             let is_half = |hand: Hand| self.find(class, Some(face), hand).is_some_and(|one| one.hand.is_some());
             // A yoke below the waist is sewn with what it lies on.
             let is_low = |one: &Worn| one.class == Class::Yoke && one.has(Label::Waist);
@@ -291,11 +278,11 @@ impl<'w> Tailor<'w, '_> {
             let a = right.iter().flat_map(|(one, label)| one.chain(*label, None)).collect();
             let b = left.iter().flat_map(|(one, label)| one.chain_back(*label, None)).collect();
             let pieces: Vec<&Worn> = right.iter().chain(&left).map(|(one, _)| *one).collect();
-            let name = format!("{name}_{}", face.as_str());
-            if label == Label::Centre {
-                self.questions.push(format!("{name}: a seam, a fold, or an opening? A seam is proposed"));
+            let kind = kind(face);
+            if kind.is_centre() {
+                self.questions.push(format!("{kind}: a seam, a fold, or an opening? A seam is proposed"));
             }
-            self.add(name, a, b, &pieces, PLAIN_DOUBT);
+            self.add(kind, a, b, &pieces, PLAIN_DOUBT);
         }
     }
 }

@@ -260,8 +260,7 @@ fn score_read(garment: &str, is_turned: bool) -> Option<(usize, usize)> {
         let mut before = 0.0;
         for &part in chain {
             let line = &style.edge(part).line;
-            let (_, entry) =
-                &proposal.entries[proposal.entries.iter().position(|(id, _)| *id == style.pieces[part.piece].id)?];
+            let entry = &proposal.worn.iter().find(|one| one.id == style.pieces[part.piece].id)?.entry;
             if entry.block == *panel {
                 let arcs = ends(panel, *edge).map(|p| {
                     let p = if entry.mirror { V2::new(-p.x, p.y) } else { p };

@@ -2,7 +2,7 @@
 
 use super::sew::{Chain, EASED_DOUBT, PLAIN_DOUBT, Tailor};
 use super::worn::Worn;
-use super::{Class, Face, Hand, Label};
+use super::{Class, Face, Hand, Label, SeamKind};
 
 impl<'w> Tailor<'w, '_> {
     /// Pieces of a kind and face, as their lower edges follow one another counter-clockwise.
@@ -27,7 +27,7 @@ impl<'w> Tailor<'w, '_> {
         let a: Chain = yokes.iter().flat_map(|one| one.chain(Label::Lower, None)).collect();
         let b: Chain = bodies.iter().flat_map(|one| one.chain_back(Label::Top, None)).collect();
         let pieces: Vec<&Worn> = yokes.iter().chain(&bodies).copied().collect();
-        self.add(format!("yoke_{}", face.as_str()), a, b, &pieces, EASED_DOUBT);
+        self.add(SeamKind::Yoke(face), a, b, &pieces, EASED_DOUBT);
     }
 
     /// Lower edge of what is above to the upper edge of what is below, of one face: bodice, waistband, yoke, skirt or legs.
@@ -50,7 +50,7 @@ impl<'w> Tailor<'w, '_> {
             let a = above.iter().flat_map(|one| one.chain(lower_edge(one), None)).collect();
             let b = below.iter().flat_map(|one| one.chain_back(upper_edge(one), None)).collect();
             let pieces: Vec<&Worn> = above.iter().chain(below).copied().collect();
-            self.add(format!("waist_{}_{}", face.as_str(), index + 1), a, b, &pieces, EASED_DOUBT);
+            self.add(SeamKind::WaistLevel(face, index + 1), a, b, &pieces, EASED_DOUBT);
         }
     }
 
@@ -60,8 +60,8 @@ impl<'w> Tailor<'w, '_> {
         for (k, &one) in skirt.iter().enumerate() {
             let next = skirt[(k + 1) % skirt.len()];
             let (a, b) = ends(one, next, Label::Side);
-            let name = if one.is_gore { format!("skirt_side_{}", k + 1) } else { "skirt_side".to_owned() };
-            self.add(name, a, b, &[one, next], PLAIN_DOUBT);
+            let kind = if one.is_gore { SeamKind::Gore(k + 1) } else { SeamKind::SkirtRound };
+            self.add(kind, a, b, &[one, next], PLAIN_DOUBT);
         }
     }
 
@@ -94,7 +94,7 @@ impl<'w> Tailor<'w, '_> {
             // On a skirt of one piece the waist is closed by the skirt; the band may well lap over there.
             if self.skirt_round().is_empty() {
                 let (a, b) = ends(band, band, Label::End);
-                self.add("waistband".to_owned(), a, b, &[band], PLAIN_DOUBT);
+                self.add(SeamKind::Waistband, a, b, &[band], PLAIN_DOUBT);
             }
         } else if let [Some(right), Some(left)] = Hand::BOTH.map(side) {
             self.questions
@@ -105,24 +105,23 @@ impl<'w> Tailor<'w, '_> {
             // Each runs to the wearer's left: the right one from behind, the left one from the front.
             for (face, [one, other]) in Face::BOTH.into_iter().zip([[right, left], [left, right]]) {
                 let (a, b) = ends(one, other, Label::End);
-                self.add(format!("waistband_{}", face.as_str()), a, b, &[one, other], PLAIN_DOUBT);
+                self.add(SeamKind::WaistbandCentre(face), a, b, &[one, other], PLAIN_DOUBT);
             }
         }
     }
 
     /// One band to all that is above and below it, of one side or all round.
     fn band(&mut self, band: &'w Worn, hand: Option<Hand>) {
-        let suffix = hand.map_or(String::new(), |hand| format!("_{}", hand.as_str()));
         let below = [Class::Skirt, Class::Leg].map(|class| self.round(class, hand));
         if let Some(below) = below.iter().find(|pieces| !pieces.is_empty()) {
             let b: Chain = below.iter().flat_map(|one| one.chain_back(Label::Waist, None)).collect();
             let pieces: Vec<&Worn> = below.iter().copied().chain([band]).collect();
-            self.add(format!("waist{suffix}"), band.chain(Label::Lower, None), b, &pieces, EASED_DOUBT);
+            self.add(SeamKind::Waist(hand), band.chain(Label::Lower, None), b, &pieces, EASED_DOUBT);
         }
         let above = self.round(Class::Body, hand);
         let a: Chain = above.iter().flat_map(|one| one.chain(Label::Hem, None)).collect();
         let pieces: Vec<&Worn> = above.iter().copied().chain([band]).collect();
-        self.add(format!("waist_above{suffix}"), a, band.chain_back(Label::Top, None), &pieces, EASED_DOUBT);
+        self.add(SeamKind::WaistAbove(hand), a, band.chain_back(Label::Top, None), &pieces, EASED_DOUBT);
     }
 
     /// Pieces of a kind all round the body, or round one side of it, as their lower edges follow one another; a yoke on a skirt

@@ -1,8 +1,7 @@
 //! What of a proposal can be draped with nobody to ask: pieces that are not sewn for sure are left out, and what is left must
 //! be closed on the body.
 
-use super::{Class, Face, Hand, Proposal, ProposedPiece, ProposedSeam, sew};
-use crate::seams::PieceEntry;
+use super::{Class, Face, Hand, Label, Proposal, ProposedPiece, ProposedSeam, SeamKind, sew};
 
 /// Least confidence of a seam that is sewn with nobody to ask.
 const SURE: f64 = 0.4;
@@ -47,7 +46,7 @@ impl Proposal {
             let unsure = own.clone().find(|seam| !is_sure(seam));
             let is_held = own.clone().any(|seam| self.is_hold(seam, piece.class));
             let reason = match unsure {
-                Some(seam) => format!("seam {} is not sure", seam.entry.name),
+                Some(seam) => format!("seam {} is not sure", seam.kind),
                 None if !is_held => "what it is sewn to was not found".to_owned(),
                 None => return None,
             };
@@ -79,7 +78,7 @@ impl Proposal {
         self.questions.push(format!("left out: {}: {reason}", names.join(", ")));
         let is_gone = |id: &str| ids_gone.iter().any(|gone| gone == id);
         self.seams.retain(|seam| !ids(seam).any(is_gone));
-        self.entries.retain(|(id, _)| !is_gone(id));
+        self.worn.retain(|one| !is_gone(&one.id));
         let was_open = |edge: &String| !edge.split_once('.').is_some_and(|(id, _)| is_gone(id));
         self.open.retain(was_open);
         for piece in self.pieces.iter_mut().filter(|piece| piece.id.as_deref().is_some_and(is_gone)) {
@@ -99,72 +98,73 @@ impl Proposal {
             missing.push("no seams were found".to_owned());
             return missing;
         }
-        let has = |class: Class| self.worn().any(|piece| piece.class == Some(class));
-        let is_sewn = |name: &str| self.seams.iter().any(|seam| seam.entry.name == name);
-        let skirts_round =
-            self.worn().filter(|piece| piece.class == Some(Class::Skirt) && piece.face.is_none()).count();
-        let has_shoulder =
-            self.entries.iter().any(|(_, entry)| entry.edges.keys().any(|edge| edge.starts_with("shoulder")));
-        // Nothing else joins front and back of a raglan at the top.
-        let is_raglan = !has_shoulder
-            && self.worn().any(|piece| piece.class == Some(Class::Body))
-            && self.entries.iter().any(|(_, entry)| entry.edges.keys().any(|edge| edge.starts_with("neck")));
-        let mut need = |name: String| {
-            if !is_sewn(&name) {
-                missing.push(format!("the seam {name} was not found"));
-            }
-        };
-        for hand in Hand::BOTH.map(Hand::as_str) {
-            if has(Class::Body) {
-                need(format!("side_{hand}"));
-                for face in Face::BOTH.into_iter().filter(|_| is_raglan) {
-                    need(format!("raglan_{}_{hand}", face.as_str()));
-                }
-                if has_shoulder {
-                    need(format!("shoulder_{hand}"));
-                }
-            }
-            if has(Class::Leg) {
-                need(format!("inseam_{hand}"));
-                need(format!("outseam_{hand}"));
-            }
-            if has(Class::Skirt) && skirts_round == 0 {
-                need(format!("skirt_side_{hand}"));
-            }
-        }
-        for k in 1..=skirts_round {
-            need(if skirts_round > 1 { format!("skirt_side_{k}") } else { "skirt_side".to_owned() });
-        }
-        for face in Face::BOTH {
-            let of = |class: Class| {
-                self.worn().filter(|piece| piece.class == Some(class) && piece.face == Some(face)).count()
-            };
-            let is_under_yoke = |(id, entry): &(String, PieceEntry)| id.starts_with(face.as_str()) && has_top(entry);
-            if self.entries.iter().any(is_under_yoke) {
-                need(format!("yoke_{}", face.as_str()));
-            }
-            if of(Class::Leg) > 0 {
-                need(format!("crotch_{}", face.as_str()));
-            }
-            if of(Class::SidePanel) > 0 {
-                for hand in Hand::BOTH {
-                    need(format!("princess_{}_{}", face.as_str(), hand.as_str()));
-                }
-            }
-            if of(Class::Body) > 1 {
-                need(format!("centre_{}", face.as_str()));
-            }
-            if of(Class::Skirt) > 1 {
-                need(format!("skirt_centre_{}", face.as_str()));
-            }
-        }
+        let needed = self.needed();
+        let not_sewn = needed.iter().filter(|kind| !self.seams.iter().any(|seam| seam.kind == **kind));
+        missing.extend(not_sewn.map(|kind| format!("the seam {kind} was not found")));
         missing.extend(self.apart());
         missing
     }
 
+    /// Seams without which what is worn is not closed.
+    fn needed(&self) -> Vec<SeamKind> {
+        let has = |class: Class| self.worn.iter().any(|one| one.class == class);
+        let has_edge = |label: Label| self.worn.iter().any(|one| one.has(label));
+        let has_shoulder = has_edge(Label::Shoulder);
+        // Nothing else joins front and back of a raglan at the top.
+        let is_raglan = !has_shoulder && has(Class::Body) && has_edge(Label::Neck);
+        let skirts_round = self.worn.iter().filter(|one| one.class == Class::Skirt && one.face.is_none()).count();
+        let mut needed = Vec::new();
+        for hand in Hand::BOTH {
+            if has(Class::Body) {
+                needed.push(SeamKind::Side(hand));
+                if is_raglan {
+                    needed.extend(Face::BOTH.map(|face| SeamKind::Raglan(face, hand)));
+                }
+                if has_shoulder {
+                    needed.push(SeamKind::Shoulder(hand));
+                }
+            }
+            if has(Class::Leg) {
+                needed.extend([SeamKind::Inseam(hand), SeamKind::Outseam(hand)]);
+            }
+            if has(Class::Skirt) && skirts_round == 0 {
+                needed.push(SeamKind::SkirtSide(hand));
+            }
+        }
+        match skirts_round {
+            0 => {}
+            1 => needed.push(SeamKind::SkirtRound),
+            gores => needed.extend((1..=gores).map(SeamKind::Gore)),
+        }
+        needed.extend(Face::BOTH.into_iter().flat_map(|face| self.needed_of(face)));
+        needed
+    }
+
+    /// The same, of one face alone.
+    fn needed_of(&self, face: Face) -> Vec<SeamKind> {
+        let of = |class: Class| self.worn.iter().filter(move |one| one.class == class && one.face == Some(face));
+        let mut needed = Vec::new();
+        if of(Class::Body).any(|one| one.has(Label::Top)) {
+            needed.push(SeamKind::Yoke(face));
+        }
+        if of(Class::Leg).count() > 0 {
+            needed.push(SeamKind::Crotch(face));
+        }
+        if of(Class::SidePanel).count() > 0 {
+            needed.extend(Hand::BOTH.map(|hand| SeamKind::Princess(face, hand)));
+        }
+        if of(Class::Body).count() > 1 {
+            needed.push(SeamKind::Centre(face));
+        }
+        if of(Class::Skirt).count() > 1 {
+            needed.push(SeamKind::SkirtCentre(face));
+        }
+        needed
+    }
+
     /// A piece that no seam, over however many others, joins to the first.
     fn apart(&self) -> Option<String> {
-        let mut joined: Vec<&str> = self.entries.first().map(|(id, _)| id.as_str()).into_iter().collect();
+        let mut joined: Vec<&str> = self.worn.first().map(|one| one.id.as_str()).into_iter().collect();
         let mut at = 0;
         while let Some(&id) = joined.get(at) {
             for seam in self.seams.iter().filter(|seam| touches(seam, id)) {
@@ -176,20 +176,15 @@ impl Proposal {
             }
             at += 1;
         }
-        let (apart, _) = self.entries.iter().find(|(id, _)| !joined.contains(&id.as_str()))?;
+        let apart = &self.worn.iter().find(|one| !joined.contains(&one.id.as_str()))?.id;
         Some(format!("no seam joins {apart} to {}", joined.first()?))
-    }
-
-    fn worn(&self) -> impl Iterator<Item = &ProposedPiece> {
-        self.pieces.iter().filter(|piece| piece.id.is_some())
     }
 }
 
 /// Whether a seam is sewn with nobody to ask. Two halves that are each other's mirror image are closed in the middle, be that a
 /// seam, buttons or a fold.
 fn is_sure(seam: &ProposedSeam) -> bool {
-    let is_centre = seam.entry.name.contains("centre");
-    seam.confidence >= if is_centre { SURE * sew::CENTRE_CONFIDENCE } else { SURE }
+    seam.confidence >= if seam.kind.is_centre() { SURE * sew::CENTRE_CONFIDENCE } else { SURE }
 }
 
 /// Pieces of a seam, by identifier, as often as they have edges in it.
@@ -199,9 +194,4 @@ fn ids(seam: &ProposedSeam) -> impl Iterator<Item = &str> {
 
 fn touches(seam: &ProposedSeam, id: &str) -> bool {
     ids(seam).any(|found| found == id)
-}
-
-/// Whether a piece ends in an edge that a yoke is sewn to.
-fn has_top(entry: &PieceEntry) -> bool {
-    entry.edges.keys().any(|edge| edge == "top" || edge.starts_with("top_"))
 }

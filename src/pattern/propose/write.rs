@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+use super::worn::Worn;
 use super::{Proposal, ProposedSeam};
 use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamFile};
 
@@ -17,7 +18,7 @@ impl Proposal {
             name: name.to_owned(),
             length_tolerance_mm: DEFAULT_LENGTH_TOLERANCE_MM,
             open: self.open.clone(),
-            piece: self.entries.iter().cloned().collect(),
+            piece: self.worn.iter().map(|one| (one.id.clone(), one.entry.clone())).collect(),
             seam: self.seams.iter().map(|seam| seam.entry.clone()).collect(),
             measurement: Vec::new(),
             reinforce: Vec::new(),
@@ -38,9 +39,8 @@ impl Proposal {
         if !self.open.is_empty() {
             let _ = writeln!(text, "open = [{}]", list(&self.open));
         }
-        for (id, entry) in &self.entries {
-            let sure = self.pieces.iter().find(|piece| piece.id.as_deref() == Some(id)).map_or(0.0, |p| p.confidence);
-            let _ = writeln!(text, "\n[piece.{id}]  # confidence {sure:.2}\nblock = {}", quoted(&entry.block));
+        for Worn { id, entry, confidence, .. } in &self.worn {
+            let _ = writeln!(text, "\n[piece.{id}]  # confidence {confidence:.2}\nblock = {}", quoted(&entry.block));
             let role = toml::Value::try_from(entry.role).map(|role| role.to_string()).unwrap_or_default();
             let _ = writeln!(text, "role = {role}");
             if entry.mirror {

@@ -146,6 +146,20 @@ impl Style {
     /// # Errors
     /// [`StyleError`] when the bytes are not a seam file, a name is not there, an edge is used twice, or the two sides of
     /// a seam differ in length by more than the stated ease and tolerance.
+    ///
+    /// # Examples
+    /// ```
+    /// use pattern::{Style, draft::Model};
+    ///
+    /// let medium = &Model::Tshirt.drafts()[1];
+    /// let style = Style::read(&medium.pieces, Model::Tshirt.seams(), "tshirt.seams.toml")?;
+    /// let pieces: Vec<&str> = style.pieces.iter().map(|piece| piece.id.as_str()).collect();
+    /// assert_eq!(pieces, ["back", "front", "sleeve_left", "sleeve_right"]);
+    ///
+    /// let garment = style.mesh(0.03)?;
+    /// assert_eq!((garment.seams.len(), garment.measurements.len()), (8, 9));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn read(pieces: &[Piece], seam_bytes: &[u8], file: &str) -> Result<Self, StyleError> {
         let entries = SeamFile::parse(seam_bytes, file)?;
         Reader { file, entries: &entries }.style(pieces)

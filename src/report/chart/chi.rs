@@ -1,6 +1,6 @@
 //! chi by measurement: every run as a mark, or mean and standard deviation over the runs.
 
-use super::super::data::{Measured, Run, measurements};
+use super::super::data::{Measured, TryOn, measurements};
 use super::super::{ReportError, theme};
 use super::canvas::{Align, Axis, Canvas, ROW, TYPE, WIDTH, draw};
 use super::{Chart, row_label};
@@ -37,7 +37,7 @@ fn frame(canvas: &Canvas<'_>, axis: &Axis, rows: &[&Measured], top: i32, row: i3
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
-pub fn chi_chart(title: &str, runs: &[&Run], labels: &[String]) -> Result<Chart, ReportError> {
+pub fn chi_chart(title: &str, runs: &[&TryOn], labels: &[String]) -> Result<Chart, ReportError> {
     let rows = measurements(runs);
     let published = runs.iter().flat_map(|r| &r.measured).filter_map(|m| m.published_chi);
     let axis = axis(runs.iter().flat_map(|r| &r.measured).map(|m| m.chi.chi()).chain(published));
@@ -69,7 +69,7 @@ pub fn chi_chart(title: &str, runs: &[&Run], labels: &[String]) -> Result<Chart,
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
-pub fn mean_sd_chart(title: &str, runs: &[&Run]) -> Result<Chart, ReportError> {
+pub fn mean_sd_chart(title: &str, runs: &[&TryOn]) -> Result<Chart, ReportError> {
     let rows = measurements(runs);
     let statistics: Vec<(f64, f64)> = rows
         .iter()

@@ -1,6 +1,6 @@
 //! E, SD or EI by run, the two simulators of a subject beside each other.
 
-use super::super::data::Run;
+use super::super::data::TryOn;
 use super::super::text::simulator_name;
 use super::super::{ReportError, theme};
 use super::canvas::{Align, Axis, Canvas, ROW, TYPE, WIDTH, draw};
@@ -37,7 +37,7 @@ impl Metric {
         }
     }
 
-    fn of(self, run: &Run) -> Option<f64> {
+    fn of(self, run: &TryOn) -> Option<f64> {
         let metrics = run.metrics(|_| true)?;
         Some(match self {
             Self::E => metrics.e_chi,
@@ -74,8 +74,8 @@ impl Metric {
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
-pub fn metric_chart(title: &str, metric: Metric, runs: &[&Run], labels: &[String]) -> Result<Chart, ReportError> {
-    let mut groups: Vec<(&String, Vec<&Run>)> = Vec::new();
+pub fn metric_chart(title: &str, metric: Metric, runs: &[&TryOn], labels: &[String]) -> Result<Chart, ReportError> {
+    let mut groups: Vec<(&String, Vec<&TryOn>)> = Vec::new();
     for (run, label) in runs.iter().zip(labels) {
         match groups.iter_mut().find(|(l, _)| *l == label) {
             Some((_, members)) => members.push(run),
@@ -111,7 +111,7 @@ pub fn metric_chart(title: &str, metric: Metric, runs: &[&Run], labels: &[String
 }
 
 /// The bar of a run from the base to its value, which stands beyond its end.
-fn bar(canvas: &Canvas<'_>, metric: Metric, axis: &Axis, run: &Run, upper: i32) -> Result<(), ReportError> {
+fn bar(canvas: &Canvas<'_>, metric: Metric, axis: &Axis, run: &TryOn, upper: i32) -> Result<(), ReportError> {
     let (base, middle) = (axis.at(metric.base()), upper + BAR / 2);
     let Some(value) = metric.of(run) else {
         return canvas.text((LEFT + 14, middle), "failed", theme::MUTED, Align::Left, false);
@@ -124,7 +124,7 @@ fn bar(canvas: &Canvas<'_>, metric: Metric, axis: &Axis, run: &Run, upper: i32) 
 }
 
 /// Colours of the simulators that ran.
-fn key(canvas: &Canvas<'_>, runs: &[&Run]) -> Result<(), ReportError> {
+fn key(canvas: &Canvas<'_>, runs: &[&TryOn]) -> Result<(), ReportError> {
     let mut x = LEFT;
     for simulator in Simulator::ALL {
         if runs.iter().any(|run| run.simulator == simulator) {

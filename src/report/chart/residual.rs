@@ -1,6 +1,6 @@
 //! How runs came to rest: residual by iteration.
 
-use super::super::data::Run;
+use super::super::data::TryOn;
 use super::super::{ReportError, theme};
 use super::Chart;
 use super::canvas::{Align, Axis, TYPE, WIDTH, draw};
@@ -12,7 +12,7 @@ const POINTS: usize = 300;
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
-pub fn residual_chart(title: &str, runs: &[&Run], labels: &[String]) -> Result<Chart, ReportError> {
+pub fn residual_chart(title: &str, runs: &[&TryOn], labels: &[String]) -> Result<Chart, ReportError> {
     let curves: Vec<Vec<(f64, f64)>> = runs.iter().map(|r| thin(&r.residuals)).collect();
     let points = || curves.iter().flatten();
     let last = points().map(|p| p.0).fold(1.0, f64::max);

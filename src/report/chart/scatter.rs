@@ -1,6 +1,6 @@
 //! EI of every run against a number of the run: ease, time.
 
-use super::super::data::Run;
+use super::super::data::TryOn;
 use super::super::text::simulator_name;
 use super::super::{ReportError, theme};
 use super::Chart;
@@ -26,7 +26,7 @@ struct Dot {
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
-pub fn ease_chart(runs: &[Run], cuts: &Cuts) -> Result<Option<Chart>, ReportError> {
+pub fn ease_chart(runs: &[TryOn], cuts: &Cuts) -> Result<Option<Chart>, ReportError> {
     let lines = [(cuts.tight_below_m * 1e3, "tight | just"), (cuts.loose_above_m * 1e3, "just | loose")];
     let dots = dots(runs, |run| run.ease.as_ref().map(|ease| ease.ease_m() * 1e3));
     let ends = lines.map(|(x, _)| x);
@@ -37,13 +37,13 @@ pub fn ease_chart(runs: &[Run], cuts: &Cuts) -> Result<Option<Chart>, ReportErro
 ///
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
-pub fn time_chart(runs: &[Run]) -> Result<Option<Chart>, ReportError> {
+pub fn time_chart(runs: &[TryOn]) -> Result<Option<Chart>, ReportError> {
     let dots = dots(runs, |run| (run.wall_s > 0.0).then_some(run.wall_s));
     scatter("EI against time", "time", "wall-clock time of the run, s", &dots, &[0.0], &[])
 }
 
-fn dots(runs: &[Run], x: impl Fn(&Run) -> Option<f64>) -> Vec<Dot> {
-    let dot = |run: &Run| {
+fn dots(runs: &[TryOn], x: impl Fn(&TryOn) -> Option<f64>) -> Vec<Dot> {
+    let dot = |run: &TryOn| {
         let name = format!("{} {}", run.size, run.subject);
         Some(Dot { x: x(run)?, ei: run.metrics(|_| true)?.ei, simulator: run.simulator, name })
     };

@@ -49,6 +49,25 @@ const MOST_TRIED: u64 = 40_000_000;
 /// # Errors
 /// When the garment cannot be placed, is degenerate, its seams stay open, it diverges, slides off the body even so or comes off
 /// upwards, is stretched beyond what cloth can be or a limit that is to end it, or the monitor cancels. Not converging is no error.
+///
+/// # Examples
+/// ```
+/// use body::{Measurements, Sex};
+/// use geom::DistanceField;
+/// use pattern::{Style, draft::Model};
+/// use sim::{Silent, fabric, fem};
+///
+/// let body = body::build(&Measurements::of(Sex::Male, 1.76))?;
+/// let field = DistanceField::build(&body.mesh, 0.01)?;
+/// let medium = &Model::Tshirt.drafts()[1];
+/// let style = Style::read(&medium.pieces, Model::Tshirt.seams(), "tshirt.seams.toml")?;
+/// let meshes = fem::level_edges(0.05).into_iter().map(|edge_m| style.mesh(edge_m)).collect::<Result<Vec<_>, _>>()?;
+///
+/// let cotton = &fabric::library()[0];
+/// let drape = fem::simulate(&body, &field, &meshes, cotton, &fem::Params::default(), &mut Silent)?;
+/// assert!(drape.converged && drape.seam_gap_max_m == 0.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn simulate(
     body: &Body,
     field: &DistanceField,

@@ -2,18 +2,11 @@
 
 use super::*;
 use crate::testing::lapelled;
-use crate::{Progress, fabric};
+use crate::{Silent, fabric};
 use body::{self, Joint, Landmarks, Measurements, Sex, Skeleton};
 use geom::TriMesh;
 use pattern::draft::Model;
 use pattern::{Role, Style};
-
-/// Listens to nothing.
-struct Silent;
-
-impl Monitor for Silent {
-    fn progress(&mut self, _: &Progress) {}
-}
 
 fn flipped(p: &V3) -> V3 {
     V3::new(-p.x, p.y, p.z)

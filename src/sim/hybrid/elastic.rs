@@ -199,7 +199,7 @@ impl Triangle {
 
 impl Control {
     /// The segments of a run of a measurement.
-    fn of(garment: &Garment, vertex_of: &[usize], run: &pattern::Run) -> Vec<Self> {
+    fn of(garment: &Garment, vertex_of: &[usize], run: &pattern::MaterialLine) -> Vec<Self> {
         run.points
             .windows(2)
             .map(|ends| {

@@ -96,6 +96,24 @@ pub struct Phases {
 ///
 /// # Errors
 /// When a piece cannot be placed or mapped, is degenerate, the positions diverge, or the monitor cancels.
+///
+/// # Examples
+/// ```
+/// use body::{Measurements, Sex};
+/// use geom::DistanceField;
+/// use pattern::{Style, draft::Model};
+/// use sim::{Silent, fabric, hybrid};
+///
+/// let body = body::build(&Measurements::of(Sex::Male, 1.76))?;
+/// let field = DistanceField::build(&body.mesh, 0.01)?;
+/// let medium = &Model::Tshirt.drafts()[1];
+/// let garment = Style::read(&medium.pieces, Model::Tshirt.seams(), "tshirt.seams.toml")?.mesh(0.05)?;
+///
+/// let cotton = &fabric::library()[0];
+/// let drape = hybrid::simulate(&body, &field, &garment, cotton, &hybrid::Params::default(), &mut Silent)?;
+/// assert!(drape.converged && drape.seam_gap_max_m == 0.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn simulate(
     body: &Body,
     field: &DistanceField,

@@ -8,19 +8,13 @@ use super::form::Form;
 use super::mapping::can_touch;
 use super::path::{PathGraph, Taken};
 use super::*;
-use crate::fabric;
 use crate::laboratory::sheets::{hexagonal_sheet, noise};
+use crate::{Silent, fabric};
 use body::{self, Measurements, Region, Sex};
 use geom::V2;
 use pattern::draft::Model;
 use pattern::garment::PieceMesh;
 use pattern::{Role, SeamMesh, Style, garmentcode};
-
-struct Silent;
-
-impl Monitor for Silent {
-    fn progress(&mut self, _: &Progress) {}
-}
 
 /// The thesis's men ii and vi: the slimmest and the largest.
 fn man(stature_m: f64, chest_m: f64, waist_m: f64, hip_m: f64) -> Body {

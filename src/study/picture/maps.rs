@@ -169,7 +169,7 @@ mod tests {
     use super::*;
     use geom::V2;
     use pattern::SeamMesh;
-    use pattern::garment::{MaterialPoint, Measurement, MeasurementKind, PieceMesh, Role, Run};
+    use pattern::garment::{MaterialLine, MaterialPoint, Measurement, MeasurementKind, PieceMesh, Role};
     use sim::cloth::law::Fibre;
 
     /// A square metre of cloth, its grain along `y`.
@@ -288,7 +288,7 @@ mod tests {
             kind: MeasurementKind::OpenLength,
             is_free_edge: true,
             l2d_m: 1.0,
-            runs: vec![Run { points: vec![corner(0), corner(1)], arc_m: vec![1.0] }],
+            runs: vec![MaterialLine { points: vec![corner(0), corner(1)], arc_m: vec![1.0] }],
         }];
         let found = chis(&garment, &deformed(&|p| V3::new(1.1 * p.x, 0.0, p.y)));
         assert!(found[..3].iter().all(|chi| (chi - 1.1).abs() < 1e-12) && found[3].is_nan(), "{found:?}");

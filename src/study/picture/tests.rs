@@ -8,17 +8,11 @@ use geom::{DistanceField, V2, V3};
 use pattern::Style;
 use pattern::draft::Model;
 use sim::cloth::membrane::Element;
-use sim::{Monitor, Progress, fabric, fem, hybrid};
+use sim::{Silent, fabric, fem, hybrid};
 
 /// One square of the check, m, and in repeats.
 const SQUARE_M: f64 = 0.02;
 const SQUARE: f64 = 0.5;
-
-struct Silent;
-
-impl Monitor for Silent {
-    fn progress(&mut self, _: &Progress) {}
-}
 
 /// The drafted T-shirt with triangles of 40 mm on the largest of the thesis's men: in size S, which strains, by FEM-GS, and
 /// in L by Hybrid-GS, which draws a garment that does not reach round the body within it.

@@ -10,7 +10,7 @@ use super::facts::{self, number};
 use super::{csv_of, mm_value};
 use fit::measure::Chi;
 use fit::{Answer, Cuts, Ease, Simulator};
-use report::data::{AuditNote, EaseMatrix, Fact, Measured, Outcome, RawLink, Run, Severity, Verdict};
+use report::data::{AuditNote, EaseMatrix, Fact, Measured, Outcome, RawLink, Severity, TryOn, Verdict};
 use report::{self, ReportData};
 
 /// Tables of the raw data, their files, and what they hold.
@@ -104,7 +104,7 @@ impl Workspace {
     }
 
     /// Every garment, size, subject and simulator of the tables.
-    fn published_runs(&self, eases: &BTreeMap<[String; 3], Ease>) -> Result<Vec<Run>> {
+    fn published_runs(&self, eases: &BTreeMap<[String; 3], Ease>) -> Result<Vec<TryOn>> {
         let table = self.query(
             "SELECT garment, size, substr(garment, 1, instr(garment, '_') - 1) || '-' || subject, simulator, measurement_no,
                 measurement, l2d_mm, l3d_mm, chi_printed, chi
@@ -112,12 +112,12 @@ impl Workspace {
             ORDER BY garment, instr('smlone', size), simulator, instr(' i ii iii iv v vi ', ' ' || subject || ' '),
                 measurement_no",
         )?;
-        let mut runs: Vec<Run> = Vec::new();
+        let mut runs: Vec<TryOn> = Vec::new();
         for row in &table.rows {
             let place = [0, 1, 2].map(|k: usize| row[k].to_string());
             let simulator = if row[3] == Value::Text("fem".into()) { Simulator::Fem } else { Simulator::Hybrid };
             let is_of =
-                |run: &Run| [&run.garment, &run.size, &run.subject] == place.each_ref() && run.simulator == simulator;
+                |run: &TryOn| [&run.garment, &run.size, &run.subject] == place.each_ref() && run.simulator == simulator;
             if !runs.last().is_some_and(is_of) {
                 runs.push(printed_run(&place, simulator, eases.get(&place).cloned()));
             }
@@ -130,8 +130,8 @@ impl Workspace {
 }
 
 /// A run of which only what follows is printed.
-fn printed_run([garment, size, subject]: &[String; 3], simulator: Simulator, ease: Option<Ease>) -> Run {
-    Run {
+fn printed_run([garment, size, subject]: &[String; 3], simulator: Simulator, ease: Option<Ease>) -> TryOn {
+    TryOn {
         garment: garment.clone(),
         case: garment.clone(),
         repeat: 1,

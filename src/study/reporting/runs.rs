@@ -13,7 +13,7 @@ use super::sheets::Sheets;
 use fit::measure::Chi;
 use geom::units::mm;
 use render::{self, Camera, Cell, Frame, Scale, Scene, View};
-use report::data::{EaseMatrix, FieldMap, Measured, Outcome, Picture, Run};
+use report::data::{EaseMatrix, FieldMap, Measured, Outcome, Picture, TryOn};
 use sim::Stage;
 
 /// Pixels of a picture on the page.
@@ -39,7 +39,7 @@ impl Workspace {
         study: &str,
         jobs: &[JobRow],
         files: &mut Vec<(String, Vec<u8>)>,
-    ) -> Result<Vec<Run>> {
+    ) -> Result<Vec<TryOn>> {
         let eases = self.ease_matrices(study)?;
         let mut dressed = Vec::new();
         for job in jobs {
@@ -76,7 +76,7 @@ impl Workspace {
     }
 
     /// Runs with their ease, without pictures.
-    fn report_runs_of(&self, jobs: &[JobRow], eases: &[EaseMatrix]) -> Result<Vec<Run>> {
+    fn report_runs_of(&self, jobs: &[JobRow], eases: &[EaseMatrix]) -> Result<Vec<TryOn>> {
         let of = |job: &JobRow| {
             let outcome = match job.status {
                 Status::Done => Outcome::Converged,
@@ -120,7 +120,7 @@ impl Workspace {
     }
 
     /// A run without ease and pictures.
-    fn report_run(&self, job: &JobRow, outcome: Outcome) -> Result<Run> {
+    fn report_run(&self, job: &JobRow, outcome: Outcome) -> Result<TryOn> {
         let metrics = self.metrics(job.id)?;
         let number = |get: fn(&MetricsRow) -> f64| metrics.as_ref().map_or(0.0, get);
         let mut measured = Vec::new();
@@ -150,7 +150,7 @@ impl Workspace {
                 misprint: None,
             });
         }
-        Ok(Run {
+        Ok(TryOn {
             garment: job.garment.clone(),
             case: self.case(job)?,
             repeat: job.repeat,

@@ -1,0 +1,170 @@
+//! What a proposed seam joins. Seam files and questions have it as text, and [`SeamKind`]'s `Display` is the one place that
+//! writes this text; which seam is which is told by its kind.
+
+use std::fmt;
+
+use super::{Face, Hand};
+
+/// What a proposed seam joins.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SeamKind {
+    /// The legs of a dart of a piece.
+    Dart {
+        /// The piece's identifier.
+        piece: String,
+        /// Which of its darts, from 1.
+        number: usize,
+    },
+    /// Front to back of the trunk, from hem to armhole.
+    Side(Hand),
+    /// Front to back, from neck to armhole.
+    Shoulder(Hand),
+    /// The middle of a front or back to its side panel.
+    Princess(Face, Hand),
+    /// Left to right half of a front or back.
+    Centre(Face),
+    /// A yoke over the shoulders to what hangs from it.
+    Yoke(Face),
+    /// Left to right half of a yoke.
+    YokeCentre(Face),
+    /// A sleeve to its armhole.
+    Armhole(Hand),
+    /// A raglan sleeve to the front or the back.
+    Raglan(Face, Hand),
+    /// A whole sleeve to itself.
+    Underarm(Hand),
+    /// The halves of a sleeve above the arm.
+    SleeveTop(Hand),
+    /// The halves of a sleeve below the arm.
+    SleeveUnderarm(Hand),
+    /// A sleeve to its cuff.
+    Cuff(Hand),
+    /// Half a sleeve to half a cuff.
+    CuffHalf(Face, Hand),
+    /// A whole cuff to itself.
+    CuffEnds(Hand),
+    /// The halves of a cuff; the second hand is the end of the front half.
+    CuffSide(Hand, Hand),
+    /// Front to back of a leg, outside.
+    Outseam(Hand),
+    /// Front to back of a leg, inside.
+    Inseam(Hand),
+    /// Right to left leg.
+    Crotch(Face),
+    /// Front to back of a skirt.
+    SkirtSide(Hand),
+    /// A skirt of one piece to itself.
+    SkirtRound,
+    /// A gore to the next one; its number, from 1.
+    Gore(usize),
+    /// Left to right half of a skirt.
+    SkirtCentre(Face),
+    /// What is above to what is below, of one face; which such seam, from 1 at the top.
+    WaistLevel(Face, usize),
+    /// A waistband to what is below it, of one side or all round.
+    Waist(Option<Hand>),
+    /// A waistband to what is above it, of one side or all round.
+    WaistAbove(Option<Hand>),
+    /// A waistband to itself.
+    Waistband,
+    /// Front to back of a waistband.
+    WaistbandSide(Hand),
+    /// Left to right half of a waistband.
+    WaistbandCentre(Face),
+}
+
+impl SeamKind {
+    /// Whether it closes two halves in the middle: a seam, an opening or a fold.
+    #[must_use]
+    pub fn is_centre(&self) -> bool {
+        matches!(self, Self::Centre(_) | Self::YokeCentre(_) | Self::SkirtCentre(_))
+    }
+}
+
+impl fmt::Display for SeamKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Dart { piece, number } => write!(f, "{piece}_dart_{number}"),
+            Self::Side(hand) => write!(f, "side_{hand}"),
+            Self::Shoulder(hand) => write!(f, "shoulder_{hand}"),
+            Self::Princess(face, hand) => write!(f, "princess_{face}_{hand}"),
+            Self::Centre(face) => write!(f, "centre_{face}"),
+            Self::Yoke(face) => write!(f, "yoke_{face}"),
+            Self::YokeCentre(face) => write!(f, "yoke_centre_{face}"),
+            Self::Armhole(hand) => write!(f, "armhole_{hand}"),
+            Self::Raglan(face, hand) => write!(f, "raglan_{face}_{hand}"),
+            Self::Underarm(hand) => write!(f, "underarm_{hand}"),
+            Self::SleeveTop(hand) => write!(f, "sleeve_top_{hand}"),
+            Self::SleeveUnderarm(hand) => write!(f, "sleeve_underarm_{hand}"),
+            Self::Cuff(hand) => write!(f, "cuff_{hand}"),
+            Self::CuffHalf(face, hand) => write!(f, "cuff_{face}_{hand}"),
+            Self::CuffEnds(hand) => write!(f, "cuff_{hand}_ends"),
+            Self::CuffSide(hand, Hand::Right) => write!(f, "cuff_{hand}_a"),
+            Self::CuffSide(hand, Hand::Left) => write!(f, "cuff_{hand}_b"),
+            Self::Outseam(hand) => write!(f, "outseam_{hand}"),
+            Self::Inseam(hand) => write!(f, "inseam_{hand}"),
+            Self::Crotch(face) => write!(f, "crotch_{face}"),
+            Self::SkirtSide(hand) => write!(f, "skirt_side_{hand}"),
+            Self::SkirtRound => f.write_str("skirt_side"),
+            Self::Gore(number) => write!(f, "skirt_side_{number}"),
+            Self::SkirtCentre(face) => write!(f, "skirt_centre_{face}"),
+            Self::WaistLevel(face, number) => write!(f, "waist_{face}_{number}"),
+            Self::Waist(None) => f.write_str("waist"),
+            Self::Waist(Some(hand)) => write!(f, "waist_{hand}"),
+            Self::WaistAbove(None) => f.write_str("waist_above"),
+            Self::WaistAbove(Some(hand)) => write!(f, "waist_above_{hand}"),
+            Self::Waistband => f.write_str("waistband"),
+            Self::WaistbandSide(hand) => write!(f, "waistband_{hand}"),
+            Self::WaistbandCentre(face) => write!(f, "waistband_{face}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seam_files_have_every_seam_by_its_own_name() {
+        use Face::{Back, Front};
+        use Hand::{Left, Right};
+        let table = [
+            (SeamKind::Dart { piece: "front_left".to_owned(), number: 2 }, "front_left_dart_2"),
+            (SeamKind::Side(Right), "side_right"),
+            (SeamKind::Shoulder(Left), "shoulder_left"),
+            (SeamKind::Princess(Front, Right), "princess_front_right"),
+            (SeamKind::Centre(Back), "centre_back"),
+            (SeamKind::Yoke(Back), "yoke_back"),
+            (SeamKind::YokeCentre(Back), "yoke_centre_back"),
+            (SeamKind::Armhole(Left), "armhole_left"),
+            (SeamKind::Raglan(Back, Left), "raglan_back_left"),
+            (SeamKind::Underarm(Right), "underarm_right"),
+            (SeamKind::SleeveTop(Right), "sleeve_top_right"),
+            (SeamKind::SleeveUnderarm(Left), "sleeve_underarm_left"),
+            (SeamKind::Cuff(Right), "cuff_right"),
+            (SeamKind::CuffHalf(Front, Right), "cuff_front_right"),
+            (SeamKind::CuffEnds(Left), "cuff_left_ends"),
+            (SeamKind::CuffSide(Left, Right), "cuff_left_a"),
+            (SeamKind::CuffSide(Left, Left), "cuff_left_b"),
+            (SeamKind::Outseam(Right), "outseam_right"),
+            (SeamKind::Inseam(Left), "inseam_left"),
+            (SeamKind::Crotch(Front), "crotch_front"),
+            (SeamKind::SkirtSide(Left), "skirt_side_left"),
+            (SeamKind::SkirtRound, "skirt_side"),
+            (SeamKind::Gore(3), "skirt_side_3"),
+            (SeamKind::SkirtCentre(Front), "skirt_centre_front"),
+            (SeamKind::WaistLevel(Front, 1), "waist_front_1"),
+            (SeamKind::Waist(None), "waist"),
+            (SeamKind::Waist(Some(Right)), "waist_right"),
+            (SeamKind::WaistAbove(None), "waist_above"),
+            (SeamKind::WaistAbove(Some(Left)), "waist_above_left"),
+            (SeamKind::Waistband, "waistband"),
+            (SeamKind::WaistbandSide(Right), "waistband_right"),
+            (SeamKind::WaistbandCentre(Front), "waistband_front"),
+        ];
+        for (kind, name) in table {
+            assert_eq!(kind.to_string(), name);
+            assert_eq!(kind.is_centre(), name.contains("centre"), "{name}");
+        }
+    }
+}
