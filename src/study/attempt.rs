@@ -5,12 +5,11 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-use super::error::{Result, StudyError};
-use super::pipeline::{FIELD_SPACING_M, distorted, ease_on};
-use super::tools::{self, LengthUnit, Sex, SourceFile, Unit};
+use crate::error::{Result, StudyError};
+use crate::run::pipeline::{FIELD_SPACING_M, distorted, ease_on};
+use crate::tools::{self, LengthUnit, Sex, SourceFile, Unit};
 use body::Body;
-use fit::Simulator;
-use fit::measure;
+use fit::{Simulator, measure};
 use geom::units::mm;
 use geom::{DistanceField, TriMesh, V3};
 use pattern::{Garment, MeasurementKind, Spot, Style};

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use rusqlite::ErrorCode;
 
-use super::file::Problem;
+use crate::spec::file::Problem;
 
 /// An error of the store, the study file, the queue or a stage.
 #[derive(Debug, thiserror::Error)]

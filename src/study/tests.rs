@@ -6,11 +6,11 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use super::file::{GarmentEntry, SizeFile, SourceFile, Subject};
-use super::queue::{self, Event};
-use super::spec::Schedule;
-use super::store::{self, Access};
-use super::*;
+use crate::spec::Schedule;
+use crate::spec::file::{GarmentEntry, SizeFile, SourceFile, Subject};
+use crate::store::queue::{self, Event};
+use crate::store::{self, Access};
+use crate::*;
 use body::{Measurements, Sex};
 use fit::measure::{Chi, metrics};
 use fit::{Cuts, Ease};
@@ -299,7 +299,7 @@ fn jobs_of_a_dead_process_are_taken_over_at_once_and_nothing_runs_twice() {
         )
         .expect("valid");
     // A process of this machine that has ended: same boot, a number that is no process's.
-    let dead = owner::Owner::new().as_str().replace(&format!("/{}/", std::process::id()), "/4194305/");
+    let dead = crate::store::owner::Owner::new().as_str().replace(&format!("/{}/", std::process::id()), "/4194305/");
     let transaction = store::write(&mut connection).expect("idle");
     queue::apply(&transaction, JobId(1), &Event::Claim(&dead), None).expect("queued").expect("queued");
     transaction.commit().expect("idle");

@@ -2,16 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use super::error::{Result, StudyError};
-pub use super::file::SourceFile;
-use super::sewing;
+use crate::error::{Result, StudyError};
+use crate::seams::check as sewing;
+pub use crate::spec::file::SourceFile;
 use body;
 use pattern::{Garment, Piece, drawing, garmentcode, source};
 use render::{self, Camera, Frame, Layer, Material, Scene};
 
-pub use super::seam_desk::{Desk, DeskEdge, DeskPiece, DeskSeam, Proposed, desk, edit_seams, propose};
-pub use super::sewing::{CHECK_EDGE_MM, SizeCheck, check_study};
-pub use super::workpiece::{DeskLength, LaidOut, SeamStep, Workpiece, seam_home, write_seams};
+pub use crate::seams::check::{CHECK_EDGE_MM, SizeCheck, check_study};
+pub use crate::seams::desk::{Desk, DeskEdge, DeskPiece, DeskSeam, Proposed, desk, edit_seams, propose};
+pub use crate::seams::workpiece::{DeskLength, LaidOut, SeamStep, Workpiece, seam_home, write_seams};
 pub use body::{
     Accuracy, Body, Doubt, Evaluation, Girths, LengthUnit, Mass, Measured, Measurements, Pictured, PicturedLevel, Pose,
     Scan, Sex, write_obj,
@@ -44,7 +44,7 @@ pub fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<Vec<Pat
 }
 
 /// The DXF files and GarmentCode specifications below a folder, by path.
-pub(super) fn drawings(folder: &Path) -> Result<Vec<PathBuf>> {
+pub(crate) fn drawings(folder: &Path) -> Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(folder) = folders.pop() {
@@ -83,7 +83,7 @@ pub fn findings(pattern: &Path, seams: &Path, size: Option<&str>, unit: Option<U
 }
 
 /// The pieces of one size of a pattern file, or of all of a folder.
-pub(super) fn pieces(pattern: &SourceFile, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<Piece>> {
+pub(crate) fn pieces(pattern: &SourceFile, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<Piece>> {
     let mut pieces = Vec::new();
     for part in pattern.parts() {
         let file = source::read(&part.bytes, &part.name, unit).map_err(StudyError::stage("pattern"))?;
@@ -95,12 +95,12 @@ pub(super) fn pieces(pattern: &SourceFile, size: Option<&str>, unit: Option<Unit
 }
 
 /// The unit of a name in a study file.
-pub(super) fn unit_of(name: &str) -> Option<Unit> {
+pub(crate) fn unit_of(name: &str) -> Option<Unit> {
     [Unit::Mm, Unit::Cm, Unit::In].into_iter().find(|unit| unit.as_str() == name)
 }
 
 /// [`style`] from files already read.
-pub(super) fn read_style(
+pub(crate) fn read_style(
     pattern: &SourceFile,
     seams: Option<&SourceFile>,
     size: Option<&str>,
@@ -155,7 +155,7 @@ pub fn drafted(model: Model) -> Vec<(String, Vec<u8>)> {
 /// Everything that is wrong with the file, at once.
 pub fn read_measurements(path: &Path) -> Result<Measurements> {
     let text = std::fs::read_to_string(path).map_err(StudyError::io(path))?;
-    super::file::measurements(path, &text)
+    crate::spec::file::measurements(path, &text)
 }
 
 /// A body built from measurements.

@@ -7,19 +7,19 @@ use std::path::{Path, PathBuf};
 
 use rusqlite::Connection;
 
-use super::catalogue;
-use super::error::{Result, StudyError};
-use super::picture::{Map, Stage};
-use super::store::{self, Access};
-use super::types::JobId;
+use crate::answers::picture::{Map, Stage};
+use crate::catalogue;
+use crate::error::{Result, StudyError};
+use crate::rows::JobId;
+use crate::store::{self, Access};
 
 /// An open database with its studies, jobs and results. `Send`, not `Sync`: one a thread.
 pub struct Workspace {
     path: PathBuf,
-    pub(super) reader: Connection,
-    pub(super) writer: Option<Connection>,
+    pub(crate) reader: Connection,
+    pub(crate) writer: Option<Connection>,
     /// The results last shown, the latest last, ready for more pictures.
-    pub(super) scenes: RefCell<Vec<(JobId, Map, Stage)>>,
+    pub(crate) scenes: RefCell<Vec<(JobId, Map, Stage)>>,
 }
 
 impl Workspace {
@@ -57,7 +57,7 @@ impl Workspace {
     }
 
     /// The connection for actions.
-    pub(super) fn writer(&mut self) -> Result<&mut Connection> {
+    pub(crate) fn writer(&mut self) -> Result<&mut Connection> {
         self.writer.as_mut().ok_or(StudyError::Readonly)
     }
 }

@@ -2,10 +2,10 @@
 
 use rusqlite::{Connection, Row};
 
-use super::super::error::Result;
-use super::super::workspace::Workspace;
-use super::fields::{Entry, FABRIC_NUMBERS};
-use super::known::{columns, read_numbers};
+use crate::catalogue::known::{columns, read_numbers};
+use crate::error::Result;
+use crate::spec::fields::{Entry, FABRIC_NUMBERS};
+use crate::workspace::Workspace;
 use geom::units::GRAVITY;
 use sim::Fabric;
 

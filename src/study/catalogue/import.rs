@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::super::error::{Result, StudyError};
-use super::super::file::{self, Placed, Problem};
-use super::super::store;
-use super::super::workspace::Workspace;
-use super::{Mode, Part, Saved, Stored, check_name, known, save, sheet};
+use crate::catalogue::{Mode, Part, Saved, Stored, check_name, known, save, sheet};
+use crate::error::{Result, StudyError};
+use crate::spec::file::{self, Placed, Problem};
+use crate::store;
+use crate::workspace::Workspace;
 
 impl Workspace {
     /// Brings all entries of some files into the catalogue, or none where anything is wrong with one of them: TOML with

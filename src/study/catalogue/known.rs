@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 
 use rusqlite::{Connection, Row, Transaction};
 
-use super::super::error::{Result, StudyError};
-use super::super::file::{Known, KnownStyle, SizeFile, SourceFile};
-use super::super::store;
-use super::super::types::SubjectId;
-use super::super::workspace::Workspace;
-use super::fields::{Entry, FABRIC_NUMBERS, MEASUREMENTS};
-use super::revision::{self, By};
-use super::{Field, Part, Removed};
+use crate::catalogue::revision::{self, By};
+use crate::catalogue::{Part, Removed};
+use crate::error::{Result, StudyError};
+use crate::rows::SubjectId;
+use crate::spec::fields::{Entry, FABRIC_NUMBERS, Field, MEASUREMENTS};
+use crate::spec::file::{Known, KnownStyle, SizeFile, SourceFile};
+use crate::store;
+use crate::workspace::Workspace;
 use body::{Measurements, Sex};
 use sim::{self, Fabric};
 
@@ -64,7 +64,8 @@ pub(crate) fn known(connection: Option<&Connection>) -> Result<Known> {
         });
     };
     let subjects = subjects(connection)?.into_iter().map(|row| (row.name, row.measurements));
-    let fabrics = super::fabrics::fabrics(connection)?.into_iter().map(|row| (row.fabric.name.clone(), row.fabric));
+    let fabrics =
+        crate::catalogue::fabrics::fabrics(connection)?.into_iter().map(|row| (row.fabric.name.clone(), row.fabric));
     Ok(Known { subjects: subjects.collect(), fabrics: fabrics.collect(), styles: styles(connection)? })
 }
 
@@ -158,7 +159,7 @@ fn subject_row(row: &Row<'_>) -> rusqlite::Result<SubjectRow> {
 /// The built-in subjects, by name.
 pub(super) fn thesis_subjects() -> Result<Vec<(String, Measurements)>> {
     let path = std::path::Path::new("db/subjects.csv");
-    let read = super::sheet::read::<Measurements>(path, Part::Subject, THESIS_SUBJECTS.as_bytes());
+    let read = crate::catalogue::sheet::read::<Measurements>(path, Part::Subject, THESIS_SUBJECTS.as_bytes());
     Ok(read.map_err(StudyError::File)?.into_iter().map(|placed| (placed.name, placed.entry)).collect())
 }
 

@@ -2,7 +2,6 @@
 //! found again, and nothing a result came from is ever changed: an entry that results use is hidden when it is removed.
 
 mod fabrics;
-mod fields;
 mod import;
 mod known;
 mod norms;
@@ -17,16 +16,14 @@ use std::fmt;
 
 use rusqlite::Transaction;
 
-use super::error::{Result, StudyError};
-use super::store;
-use super::tools;
-use super::workspace::Workspace;
+use crate::error::{Result, StudyError};
+use crate::spec::fields::{Entry, Given, filled};
+use crate::workspace::Workspace;
+use crate::{store, tools};
 use body::Measurements;
 use sim::Fabric;
 
 pub use fabrics::FabricRow;
-pub(crate) use fields::{Entry, filled, keys};
-pub use fields::{FABRIC_NUMBERS, Field, Given, MEASUREMENTS, sex};
 pub use known::SubjectRow;
 pub(crate) use known::{add_builtin, known, read_fabric, read_style};
 pub use norms::{doubts, is_doubtful, percentile, percentile_text};

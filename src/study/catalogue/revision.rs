@@ -2,13 +2,13 @@
 
 use rusqlite::{OptionalExtension, ToSql, Transaction, named_params, params};
 
-use super::super::error::Result;
-use super::super::file::SourceFile;
-use super::super::inputs::Inputs;
-use super::super::spec::{fabric_inputs, sex_name, subject_inputs};
-use super::super::store::now_ms;
-use super::Part;
-use super::fields::{FABRIC_NUMBERS, MEASUREMENTS};
+use crate::catalogue::Part;
+use crate::error::Result;
+use crate::spec::fields::{FABRIC_NUMBERS, MEASUREMENTS};
+use crate::spec::file::SourceFile;
+use crate::spec::inputs::Inputs;
+use crate::spec::{fabric_inputs, sex_name, subject_inputs};
+use crate::store::now_ms;
 use body::Measurements;
 use sim::Fabric;
 

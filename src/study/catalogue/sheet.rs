@@ -5,11 +5,11 @@ use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 
-use super::super::error::nearest;
-use super::super::file::{Placed, Problem};
-use super::fields::{Entry, Given, filled, keys};
-use super::import::text_of;
-use super::{Part, check_name};
+use crate::catalogue::import::text_of;
+use crate::catalogue::{Part, check_name};
+use crate::error::nearest;
+use crate::spec::fields::{Entry, Given, filled, keys};
+use crate::spec::file::{Placed, Problem};
 
 /// Columns that hold the name of an entry, besides that of its part (`subject`).
 const NAMES: [&str; 2] = ["name", "id"];

@@ -2,14 +2,14 @@
 
 use rusqlite::{OptionalExtension, Row};
 
-use super::super::error::{Result, StudyError};
-use super::super::file::SourceFile;
-use super::super::seam_desk::confidences;
-use super::super::tools;
-use super::super::types::SizeKey;
-use super::super::workpiece::Workpiece;
-use super::super::workspace::Workspace;
-use super::style::seam_file;
+use crate::catalogue::style::seam_file;
+use crate::error::{Result, StudyError};
+use crate::rows::SizeKey;
+use crate::seams::desk::confidences;
+use crate::seams::workpiece::Workpiece;
+use crate::spec::file::SourceFile;
+use crate::tools;
+use crate::workspace::Workspace;
 
 /// A size of a style of the catalogue.
 #[derive(Clone, Debug, PartialEq, Eq)]

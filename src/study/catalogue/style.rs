@@ -4,16 +4,15 @@ use std::path::PathBuf;
 
 use rusqlite::{OptionalExtension, Row, Transaction};
 
-use super::super::error::{Result, StudyError};
-use super::super::file::{self, Placed, Problem, Sewn, SizeFile, SourceFile};
-use super::super::store;
-use super::super::tools;
-use super::super::types::JobId;
-use super::super::workpiece::Workpiece;
-use super::super::workspace::Workspace;
-use super::import::{Format, format_of, text_of, unknown_format};
-use super::revision::{self, By};
-use super::{Mode, Part, Saved, check_name, refused, save};
+use crate::catalogue::import::{Format, format_of, text_of, unknown_format};
+use crate::catalogue::revision::{self, By};
+use crate::catalogue::{Mode, Part, Saved, check_name, refused, save};
+use crate::error::{Result, StudyError};
+use crate::rows::JobId;
+use crate::seams::workpiece::Workpiece;
+use crate::spec::file::{self, Placed, Problem, Sewn, SizeFile, SourceFile};
+use crate::workspace::Workspace;
+use crate::{store, tools};
 use pattern::{Style, source};
 
 /// What is given of a style or a size; an edit keeps what is not.

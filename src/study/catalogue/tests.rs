@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::*;
+use crate::catalogue::*;
 use crate::store::{self, Access};
 use crate::tools::SourceFile;
 use geom::units::from_mm;

@@ -1,0 +1,134 @@
+//! Which size a subject should wear: ease at every level, and how hard the cloth is pulled there.
+
+use crate::answers::picture::tension_near;
+use crate::error::{Result, StudyError};
+use crate::rows::{EaseRow, JobId, JobRow, RecommendationRow};
+use crate::store::evidence::PUBLISHED;
+use crate::store::read::JobFilter;
+use crate::workspace::Workspace;
+use fit::{self, Ease, Simulator, SizeAdvice, SizeFit};
+
+/// Every size of a garment on a subject, and the one to wear.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SizeAnswer {
+    /// Garment.
+    pub garment: String,
+    /// Subject.
+    pub subject: String,
+    /// The size to wear.
+    pub advice: SizeAdvice,
+    /// All sizes, in order of the study file.
+    pub sizes: Vec<SizeOn>,
+}
+
+/// One size on the subject.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SizeOn {
+    /// Size.
+    pub size: String,
+    /// Levels of the body at which the garment has a girth.
+    pub levels: Vec<LevelFit>,
+    /// Which picture a customer should see.
+    pub shown: &'static str,
+}
+
+/// A garment at one level of the body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LevelFit {
+    /// Ease there.
+    pub ease: EaseRow,
+    /// Mean greatest tension of the FEM-GS drape near that height, N/m; `None` without such a drape.
+    pub tension_n_m: Option<f64>,
+}
+
+impl Workspace {
+    /// Which size a subject should wear, for every garment of a study (or one) whose ease on it is known.
+    ///
+    /// # Errors
+    /// [`StudyError::NotFound`] when the study has no such subject or garment; when the database cannot be read.
+    pub fn size_advice(&self, study: &str, subject: &str, garment: Option<&str>) -> Result<Vec<SizeAnswer>> {
+        if study == PUBLISHED {
+            let known = self.studies()?.into_iter().map(|study| study.name).collect();
+            return Err(StudyError::NotFound { what: "study with pattern girths", name: study.to_owned(), known });
+        }
+        let eases = self.ease(study)?;
+        let names = |name: fn(&EaseRow) -> &String| -> Vec<String> {
+            let mut names: Vec<String> = eases.iter().map(|ease| name(ease).clone()).collect();
+            names.sort();
+            names.dedup();
+            names
+        };
+        let (subjects, garments) = (names(|ease| &ease.subject), names(|ease| &ease.garment));
+        if !subjects.iter().any(|name| name == subject) {
+            return Err(StudyError::NotFound { what: "subject", name: subject.to_owned(), known: subjects });
+        }
+        if let Some(garment) = garment.filter(|garment| !garments.iter().any(|name| name == garment)) {
+            return Err(StudyError::NotFound { what: "garment", name: garment.to_owned(), known: garments });
+        }
+        let jobs = self.jobs(&JobFilter { study: Some(study.to_owned()), ..JobFilter::default() })?;
+        let recommended = self.recommendations(study)?;
+        let mut answers = Vec::new();
+        for name in garments.iter().filter(|name| garment.is_none_or(|garment| garment == *name)) {
+            let of: Vec<&EaseRow> = eases.iter().filter(|e| e.subject == subject && e.garment == *name).collect();
+            answers.extend(self.size_answer(study, &of, &jobs, &recommended)?);
+        }
+        Ok(answers)
+    }
+
+    /// The answer for one garment and subject, given its eases; `None` where there are none.
+    fn size_answer(
+        &self,
+        study: &str,
+        eases: &[&EaseRow],
+        jobs: &[JobRow],
+        answers: &[RecommendationRow],
+    ) -> Result<Option<SizeAnswer>> {
+        let Some(first) = eases.first() else { return Ok(None) };
+        let mut sizes: Vec<SizeOn> = Vec::new();
+        for of_size in eases.chunk_by(|a, b| a.size == b.size) {
+            let worn = match drape_of(of_size[0], jobs) {
+                Some(id) => Some(self.dressed(id)?),
+                None => None,
+            };
+            let mut levels = Vec::new();
+            for ease in of_size {
+                let tension_n_m = worn.as_ref().map(|worn| tension_near(worn, &ease.level)).transpose()?.flatten();
+                levels.push(LevelFit { ease: (*ease).clone(), tension_n_m });
+            }
+            sizes.push(SizeOn { size: of_size[0].size.clone(), levels, shown: shown(of_size, answers) });
+        }
+        let fits: Vec<SizeFit> = sizes.iter().map(fit_of).collect();
+        let advice = fit::advise(&fits, &self.cuts(study)?);
+        let (garment, subject) = (first.garment.clone(), first.subject.clone());
+        Ok(advice.map(|advice| SizeAnswer { garment, subject, advice, sizes }))
+    }
+}
+
+/// Which picture of a size a customer should see, given the eases of that size.
+fn shown(of_size: &[&EaseRow], answers: &[RecommendationRow]) -> &'static str {
+    let Some(decides) = of_size.iter().find(|ease| ease.decides).or(of_size.first()) else { return "" };
+    let answer = answers.iter().find(|row| row.garment == decides.garment && row.class == decides.fit.class);
+    let recommended = answer.map_or_else(|| decides.fit.class.rule_says(), |row| row.recommended);
+    fit::shown(recommended, decides.fit.undersized).words()
+}
+
+/// The FEM-GS result of an ease's size on its subject.
+fn drape_of(ease: &EaseRow, jobs: &[JobRow]) -> Option<JobId> {
+    let is_it = |job: &&JobRow| {
+        (&job.garment, &job.size, &job.subject) == (&ease.garment, &ease.size, &ease.subject)
+            && job.simulator == Simulator::Fem
+            && job.status.has_result()
+    };
+    jobs.iter().find(is_it).map(|job| job.id)
+}
+
+fn fit_of(row: &SizeOn) -> SizeFit {
+    let level = |level: &LevelFit| Ease {
+        level: level.ease.level.clone(),
+        pattern_girth_m: level.ease.pattern_girth_m,
+        body_girth_m: level.ease.body_girth_m,
+        class: level.ease.fit.class,
+        borderline: level.ease.fit.borderline,
+    };
+    SizeFit { size: row.size.clone(), levels: row.levels.iter().map(level).collect() }
+}

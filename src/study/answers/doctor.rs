@@ -1,0 +1,72 @@
+//! Checks that everything the program needs is in order.
+
+use std::path::Path;
+
+use crate::error::Result;
+use crate::rows::Value;
+use crate::run::outcome::machine;
+use crate::tools;
+use crate::workspace::Workspace;
+use body::{Measurements, Sex};
+use geom::units::mm;
+
+/// One check and what it found.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Check {
+    /// What was checked.
+    pub name: &'static str,
+    /// Whether it is in order.
+    pub passed: bool,
+    /// What was found.
+    pub found: String,
+}
+
+/// Runs all checks: the machine, the database, and each stage on a small case of its own.
+#[must_use]
+pub fn checks(database: &Path, readonly: bool) -> Vec<Check> {
+    let check = |name, found: Result<String>| match found {
+        Ok(found) => Check { name, passed: true, found },
+        Err(error) => Check { name, passed: false, found: error.to_string() },
+    };
+    vec![
+        check("machine", Ok(machine())),
+        check("database", database_check(database, readonly)),
+        check("body", body_check()),
+        check("pattern", pattern_check()),
+    ]
+}
+
+/// Opens the database and lets SQLite check it.
+fn database_check(path: &Path, readonly: bool) -> Result<String> {
+    let workspace = Workspace::open(path, readonly)?;
+    let table = workspace.query("PRAGMA quick_check")?;
+    let said: Vec<String> = table.rows.iter().flatten().map(Value::to_string).collect();
+    let jobs = workspace.query("SELECT count(*) FROM job")?;
+    let count = jobs.rows.iter().flatten().map(Value::to_string).collect::<String>();
+    Ok(format!("{}: {}, {count} jobs", path.display(), said.join("; ")))
+}
+
+/// Builds a body and lays the tape on it.
+fn body_check() -> Result<String> {
+    let known = Measurements { weight_kg: Some(60.0), chest_girth_m: Some(0.9), ..Measurements::of(Sex::Female, 1.65) };
+    let body = tools::build_body(&known)?;
+    Ok(format!(
+        "{} triangles; chest asked 900 mm, measured {:.0} mm",
+        body.mesh.triangles.len(),
+        body.girths.chest_girth_mm
+    ))
+}
+
+/// Drafts, writes, reads, sews and meshes a T-shirt.
+fn pattern_check() -> Result<String> {
+    let folder = std::env::temp_dir().join(format!("toile-doctor-{}", std::process::id()));
+    let found = tools::write_files(&folder, &tools::drafted(tools::Model::Tshirt)).and_then(|_| {
+        let style = tools::style(&folder.join("tshirt-m.dxf"), Some(&folder.join("tshirt.seams.toml")), None, None)?;
+        let (garment, quality) = tools::mesh(&style, 0.02)?;
+        let edge = mm(quality.mean_edge_m);
+        Ok(format!("drafted T-shirt: {} triangles, mean edge {edge:.1} mm", garment.triangles.len()))
+    });
+    // Its own folder of a moment ago: what cannot be removed does no harm.
+    let _ = std::fs::remove_dir_all(&folder);
+    found
+}

@@ -1,0 +1,12 @@
+//! What is asked of results: reports, records, pictures, audits, advice.
+
+pub mod advice;
+pub mod audit;
+pub mod doctor;
+pub mod figure;
+pub mod picture;
+pub mod population;
+pub mod record;
+pub mod reporting;
+pub mod reports;
+pub mod size_map;

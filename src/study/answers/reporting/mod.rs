@@ -1,0 +1,153 @@
+//! The report of a study: gathering what the page shows, and the raw files beside it.
+
+mod facts;
+mod published;
+mod runs;
+mod sheets;
+
+use crate::error::{Result, StudyError};
+use crate::rows::{Table, Value};
+use crate::store::evidence::PUBLISHED;
+use crate::store::read::JobFilter;
+use crate::workspace::Workspace;
+use report::data::{Fact, RawLink};
+use report::{self, ReportData};
+
+/// Views of the raw data, their files, and what they hold.
+const RAW: [(&str, &str, &str); 5] = [
+    ("v_chi", "chi.csv", "L2D, L3D and chi of every measurement at every stage"),
+    ("v_gap", "gap.csv", "girths of garment and body where Hybrid-GS does not close"),
+    ("v_metrics", "metrics.csv", "E, SD, EI and the state of every drape"),
+    ("v_ease", "ease.csv", "ease and fit class of every size and subject"),
+    ("v_provenance", "provenance.csv", "hashes, versions and machine of every result"),
+];
+
+const METHODS: [&str; 5] = [
+    "Each subject's body is built from the measurements given; each size is read from its DXF file, sewn as its seam file \
+     says and meshed. FEM-GS drapes the sewn cloth on the body by its weight, membrane, bending, contact and friction until \
+     the residual force is a small share of the weight.",
+    "L2D is the length of a measurement on the pattern, L3D the length of the same line on the drape, chi = L3D / L2D. E is \
+     the mean of chi over the measurements, SD its sample standard deviation (n - 1), EI the mean of |chi - 1|.",
+    "Ease is the girth of the pattern at a level less the girth of the body there; the least ease of a garment decides its \
+     fit class.",
+    "Maps show values averaged at the vertices of the mesh. Stretch is the greatest principal stretch beyond the pattern's own \
+     size, which shear raises too; tension the greatest principal force in the cloth per metre of width, from that strain and \
+     the fabric's stiffness: 100 N/m is a strip 1 cm wide that carries about 100 g. Gap is the distance to the body.",
+    "Published values are those of the thesis for the same measurement, size and subject, recomputed from its printed \
+     lengths where the pattern length agrees within 0.5 mm.",
+];
+
+const LIMITS: [&str; 2] = [
+    "Bodies are shaped from a few measurements: where they differ from the person, so does the drape.",
+    "A fabric of the library stands for a class of cloth; several of its numbers are estimates.",
+];
+
+impl Workspace {
+    /// The files of a study's report by their relative paths: `index.html`, pictures, charts, drawings, CSV.
+    ///
+    /// # Errors
+    /// When there is no such study, or a stored result cannot be read.
+    pub fn report(&self, study: &str) -> Result<Vec<(String, Vec<u8>)>> {
+        if study == PUBLISHED {
+            return self.report_published();
+        }
+        self.study(study)?;
+        let mut files = Vec::new();
+        let data = self.report_data(study, &mut files)?;
+        for (view, file, _) in RAW {
+            files.push((file.to_owned(), csv_of(&self.of_study(view, study)?)?));
+        }
+        files.extend(report::files(&data).map_err(StudyError::stage("report"))?);
+        Ok(files)
+    }
+
+    fn report_data(&self, study: &str, files: &mut Vec<(String, Vec<u8>)>) -> Result<ReportData> {
+        let jobs = self.jobs(&JobFilter { study: Some(study.to_owned()), ..JobFilter::default() })?;
+        let bodies = self.bodies(study, &jobs)?;
+        let drawings = self.drawings(&jobs)?;
+        for drawing in &drawings {
+            let name = format!("pattern-{}-{}.svg", drawing.garment, drawing.size);
+            files.push((name, drawing.svg.clone().into_bytes()));
+        }
+        let runs = self.report_runs(study, &jobs, files)?;
+        let link = |(href, label): (&str, &str)| RawLink { href: href.to_owned(), label: label.to_owned() };
+        let raw = RAW.iter().map(|(_, href, label)| link((href, &format!("{href}: {label}"))));
+        let sheet = |(path, _): &(String, Vec<u8>)| {
+            let name = path.strip_prefix(sheets::SHEETS)?.strip_suffix(".png")?;
+            Some(link((path, &format!("all try-ons of {name} on one sheet"))))
+        };
+        let sheets: Vec<RawLink> = files.iter().filter_map(sheet).collect();
+        let today = self.one("SELECT date('now')")?;
+        Ok(ReportData {
+            title: study.to_owned(),
+            question: "How true does each drape stay to its pattern, and which simulator is to be trusted for which fit?".into(),
+            made: format!("{today}, toile {}", env!("CARGO_PKG_VERSION")),
+            verdicts: self.verdicts(study)?,
+            audit: self.audit(study, &jobs, &bodies)?,
+            provenance: self.facts(&format!(
+                "SELECT DISTINCT 'Program' AS name, 'toile ' || program_version AS value FROM v_provenance WHERE study = {0}
+                UNION SELECT 'Commit of the study', git_commit || iif(git_dirty, ', with uncommitted changes', '')
+                    FROM v_provenance WHERE study = {0} AND git_commit IS NOT NULL
+                UNION SELECT 'Machine', machine FROM v_provenance WHERE study = {0}
+                UNION SELECT job_input.name, value FROM job_input JOIN job USING (job_id) JOIN study USING (study_id)
+                    WHERE study.name = {0} AND is_current AND (job_input.name GLOB '*.version' OR job_input.name GLOB 'mesh.*'
+                        OR job_input.name GLOB 'field.*' OR job_input.name = 'sim.parameters')",
+                quoted(study)
+            ))?,
+            inputs: self.facts(&format!(
+                "SELECT DISTINCT substr(job_input.name, instr(job_input.name, '.') + 1), value
+                FROM job_input JOIN job USING (job_id) JOIN study USING (study_id)
+                WHERE study.name = {} AND is_current AND length(value) = 64 AND job_input.name NOT GLOB 'sim.*' ORDER BY 1",
+                quoted(study)
+            ))?,
+            fabrics: self.fabric_facts(study)?,
+            subjects: facts::subject_table(&bodies),
+            drawings,
+            cuts: self.cuts(study)?,
+            ease: self.ease_matrices(study)?,
+            sizes: self.size_tips(study, &bodies)?,
+            runs,
+            pairs: self.pairs(study)?,
+            evidence: Some(self.evidence(study)?),
+            methods: METHODS.map(str::to_owned).to_vec(),
+            limits: LIMITS.map(str::to_owned).to_vec(),
+            raw: raw.chain(sheets).collect(),
+        })
+    }
+
+    /// Rows of a contract view that belong to a study.
+    fn of_study(&self, view: &str, study: &str) -> Result<Table> {
+        self.query(&format!("SELECT * FROM {view} WHERE study = {}", quoted(study)))
+    }
+
+    /// Rows of two columns as named values.
+    fn facts(&self, sql: &str) -> Result<Vec<Fact>> {
+        let row = |row: &Vec<Value>| Fact { name: row[0].to_string(), value: row[1].to_string() };
+        Ok(self.query(sql)?.rows.iter().map(row).collect())
+    }
+
+    /// The first value of a query as text.
+    fn one(&self, sql: &str) -> Result<String> {
+        Ok(self.query(sql)?.rows.first().and_then(|row| row.first()).map(Value::to_string).unwrap_or_default())
+    }
+}
+
+/// A value of a table that is a length in millimetres, as metres.
+fn mm_value(value: &Value) -> f64 {
+    geom::units::from_mm(facts::number(value).unwrap_or(f64::NAN))
+}
+
+/// A text as SQL literal.
+fn quoted(text: &str) -> String {
+    format!("'{}'", text.replace('\'', "''"))
+}
+
+/// A table as CSV bytes.
+fn csv_of(table: &Table) -> Result<Vec<u8>> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(&table.columns).map_err(StudyError::stage("report"))?;
+    for row in &table.rows {
+        writer.write_record(row.iter().map(Value::to_string)).map_err(StudyError::stage("report"))?;
+    }
+    writer.into_inner().map_err(|error| StudyError::stage("report")(error.into_error()))
+}

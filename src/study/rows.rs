@@ -1,0 +1,407 @@
+//! The plain values the store hands out: identifiers, states, and the rows that screens and reports show.
+
+use std::fmt;
+use std::str::FromStr;
+
+use fit::{FitClass, Simulator};
+use sim::{Progress, Step};
+
+/// Number of a job in its database.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
+#[serde(transparent)]
+pub struct JobId(pub i64);
+
+impl fmt::Display for JobId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl FromStr for JobId {
+    type Err = std::num::ParseIntError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        text.parse().map(Self)
+    }
+}
+
+/// Number of a revision of a subject in its database: stands for one set of measurements for good.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SubjectId(pub i64);
+
+/// Revisions of a style and of a size of it in their database: stand for one pattern and one seam file for good.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SizeKey {
+    /// Row of the style.
+    pub style: i64,
+    /// Row of the size.
+    pub size: i64,
+}
+
+/// State of a job.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// Waits for a worker.
+    Queued,
+    /// A worker has it.
+    Running,
+    /// Has a converged result.
+    Done,
+    /// Has a result whose residual did not reach its tolerance.
+    NotConverged,
+    /// Ended with an error.
+    Failed,
+    /// Was told not to run.
+    Cancelled,
+}
+
+impl Status {
+    /// All states, in the order of a job's life.
+    pub const ALL: [Self; 6] =
+        [Self::Queued, Self::Running, Self::Done, Self::NotConverged, Self::Failed, Self::Cancelled];
+
+    /// Name in SQL.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Queued => "queued",
+            Self::Running => "running",
+            Self::Done => "done",
+            Self::NotConverged => "not_converged",
+            Self::Failed => "failed",
+            Self::Cancelled => "cancelled",
+        }
+    }
+
+    /// The state of a name in SQL.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|status| status.as_str() == name)
+    }
+
+    /// Whether a result is stored.
+    #[must_use]
+    pub fn has_result(self) -> bool {
+        matches!(self, Self::Done | Self::NotConverged)
+    }
+
+    /// Whether nothing will happen to the job by itself any more.
+    #[must_use]
+    pub fn is_final(self) -> bool {
+        !matches!(self, Self::Queued | Self::Running)
+    }
+}
+
+/// Where a running job stands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JobProgress {
+    /// What it is doing (`sew`, `drape`, ...).
+    pub phase: String,
+    /// Share done, 0 to 1.
+    pub fraction: f64,
+    /// The latest step.
+    pub step: Step,
+}
+
+impl From<&Progress> for JobProgress {
+    fn from(progress: &Progress) -> Self {
+        Self { phase: progress.phase.to_owned(), fraction: progress.fraction, step: progress.step }
+    }
+}
+
+/// A study and how far it has come; counts are of its current jobs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StudyRow {
+    /// Name.
+    pub name: String,
+    /// Its `study.toml`.
+    pub path: std::path::PathBuf,
+    /// Whether no new jobs of it are started.
+    pub paused: bool,
+    /// Jobs in each state, in the order of [`Status::ALL`].
+    pub counts: [usize; 6],
+    /// Garment names, in order of the study file.
+    pub garments: Vec<String>,
+}
+
+impl StudyRow {
+    /// Number of current jobs.
+    #[must_use]
+    pub fn total(&self) -> usize {
+        self.counts.iter().sum()
+    }
+
+    /// Number of current jobs in a state.
+    #[must_use]
+    pub fn count(&self, status: Status) -> usize {
+        self.counts[status as usize]
+    }
+}
+
+/// A job as lists show it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JobRow {
+    /// Number.
+    pub id: JobId,
+    /// Study.
+    pub study: String,
+    /// Garment.
+    pub garment: String,
+    /// Size.
+    pub size: String,
+    /// Subject.
+    pub subject: String,
+    /// Simulator.
+    pub simulator: Simulator,
+    /// Which repeat of the same cell, from 1.
+    pub repeat: u32,
+    /// State.
+    pub status: Status,
+    /// Whether its inputs are the study's own now.
+    pub is_current: bool,
+    /// Greater runs earlier.
+    pub priority: i64,
+    /// Times it was started.
+    pub attempts: u32,
+    /// Why it failed.
+    pub error: Option<String>,
+    /// When it was queued, ms since 1970 (UTC).
+    pub queued_at_ms: i64,
+    /// When it was last started, ms since 1970 (UTC).
+    pub started_at_ms: Option<i64>,
+    /// When it ended, ms since 1970 (UTC).
+    pub finished_at_ms: Option<i64>,
+    /// Duration, ms.
+    pub wall_ms: Option<i64>,
+    /// Where it stands, while it runs.
+    pub progress: Option<JobProgress>,
+    /// EI of its result.
+    pub ei: Option<f64>,
+}
+
+impl JobRow {
+    /// Estimated time left, ms: what it has taken so far, scaled by the share not done.
+    #[must_use]
+    pub fn eta_ms(&self, now_ms: i64) -> Option<i64> {
+        let fraction = self.progress.as_ref()?.fraction;
+        let elapsed = (now_ms - self.started_at_ms?).max(0) as f64;
+        (fraction > 0.0).then(|| (elapsed * (1.0 - fraction) / fraction) as i64)
+    }
+}
+
+/// One cell of a study's grid: a size on a subject, by one simulator.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cell {
+    /// The current job, if the study was queued.
+    pub job: Option<JobId>,
+    /// Its state.
+    pub status: Option<Status>,
+    /// Share done while it runs, 0 to 1.
+    pub fraction: Option<f64>,
+    /// EI of its result.
+    pub ei: Option<f64>,
+}
+
+/// The fit of one size on one subject: the ease that decides the fit class.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FitCell {
+    /// Class.
+    pub class: FitClass,
+    /// Pattern girth minus body girth, m.
+    pub ease_m: f64,
+    /// Whether the pattern is smaller than the body.
+    pub undersized: bool,
+    /// Whether the ease lies where the thesis's ranges overlap.
+    pub borderline: bool,
+}
+
+/// A study's garment as a grid of sizes (rows) by subjects (columns).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grid {
+    /// Study.
+    pub study: String,
+    /// Garment.
+    pub garment: String,
+    /// Sizes, in order of the study file.
+    pub sizes: Vec<String>,
+    /// Subjects, in order of the study file.
+    pub subjects: Vec<String>,
+    /// Simulators that have jobs.
+    pub simulators: Vec<Simulator>,
+    /// `cells[size][subject][simulator]`, first repeat.
+    pub cells: Vec<Vec<Vec<Cell>>>,
+    /// `fits[size][subject]`, where the ease is known.
+    pub fits: Vec<Vec<Option<FitCell>>>,
+}
+
+/// One measurement of one result.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChiRow {
+    /// Stage at which it was measured (`sewn`, `popup`, `drape`).
+    pub stage: String,
+    /// Number in the style.
+    pub no: u32,
+    /// Name.
+    pub name: String,
+    /// Whether it goes once round.
+    pub is_girth: bool,
+    /// Whether it runs along an edge that no seam holds.
+    pub is_free_edge: bool,
+    /// Whether the simulator restores it by construction.
+    pub is_controlled: bool,
+    /// Pattern length, m.
+    pub l2d_m: f64,
+    /// Garment length, m.
+    pub l3d_m: f64,
+}
+
+impl ChiRow {
+    /// Evaluation ratio L3D / L2D.
+    #[must_use]
+    pub fn chi(&self) -> f64 {
+        self.l3d_m / self.l2d_m
+    }
+}
+
+/// The numbers of one result.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MetricsRow {
+    /// Number of measurements.
+    pub n: u32,
+    /// Mean chi.
+    pub e_chi: f64,
+    /// Sample standard deviation of chi.
+    pub sd_chi: f64,
+    /// Mean |chi - 1|.
+    pub ei: f64,
+    /// Greatest |chi - 1|.
+    pub max_abs_error: f64,
+    /// Vertices once sewn.
+    pub vertices: u32,
+    /// Triangles.
+    pub faces: u32,
+    /// Iterations over all levels.
+    pub iterations: u32,
+    /// Rms residual force over the mean vertex weight.
+    pub residual: f64,
+    /// Whether the residual reached its tolerance.
+    pub converged: bool,
+    /// Deepest penetration into the body, m.
+    pub penetration_max_m: f64,
+    /// Greatest seam gap, m.
+    pub seam_gap_max_m: f64,
+    /// Edges that pierce the garment's own cloth; `None` for results of programs that did not count them.
+    pub self_crossings: Option<u32>,
+    /// FEM-GS: principal stretch beyond 1 that 1 % of the cloth exceeds; `None` for results of programs that did not
+    /// measure it.
+    pub distortion: Option<f64>,
+}
+
+/// Ease of a size on a subject at one level.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EaseRow {
+    /// Garment.
+    pub garment: String,
+    /// Size.
+    pub size: String,
+    /// Subject.
+    pub subject: String,
+    /// Body level (`chest`, `hip`, ...).
+    pub level: String,
+    /// Girth of the pattern there, m.
+    pub pattern_girth_m: f64,
+    /// Girth of the body there, m.
+    pub body_girth_m: f64,
+    /// Whether this level has the least ease and so decides the fit class.
+    pub decides: bool,
+    /// Its class and marks.
+    pub fit: FitCell,
+}
+
+/// Which simulator to use for one garment and fit class, and how strong the evidence is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecommendationRow {
+    /// Garment.
+    pub garment: String,
+    /// Fit class.
+    pub class: FitClass,
+    /// Simulator to use.
+    pub recommended: Simulator,
+    /// `evidence` or `rule`.
+    pub basis: String,
+    /// `fem`, `hybrid`, `no_difference` or `insufficient_evidence`.
+    pub verdict: String,
+    /// What the thesis's rule says.
+    pub rule_says: Simulator,
+    /// Mean EI difference FEM - Hybrid over subjects.
+    pub effect: Option<f64>,
+    /// Its confidence interval.
+    pub interval: Option<(f64, f64)>,
+    /// Subjects with both results.
+    pub n_subjects: u32,
+    /// The reason in words.
+    pub reason: String,
+    /// p of the sign-flip test after Holm, where there are subjects enough.
+    pub p_holm: Option<f64>,
+    /// What would settle or flip it.
+    pub would_settle: String,
+}
+
+/// One line of a job's log.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LogLine {
+    /// When, ms since 1970 (UTC).
+    pub at_ms: i64,
+    /// `info`, `warn` or `error`.
+    pub level: String,
+    /// What happened.
+    pub text: String,
+}
+
+/// A stage of a job: whether the cache had it, and from which inputs it is made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StageRow {
+    /// `body`, `field`, `mesh` or `drape`.
+    pub stage: String,
+    /// Content hash.
+    pub hash: String,
+    /// Whether it was there already.
+    pub was_cached: bool,
+}
+
+/// A table of text and numbers: catalogue listings and SQL answers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// Column names.
+    pub columns: Vec<String>,
+    /// Rows of values, in order of the columns.
+    pub rows: Vec<Vec<Value>>,
+}
+
+/// A value of a [`Table`].
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// SQL NULL.
+    Null,
+    /// A whole number.
+    Integer(i64),
+    /// A number.
+    Real(f64),
+    /// Text.
+    Text(String),
+    /// Bytes; only their number is kept.
+    Blob(usize),
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Null => Ok(()),
+            Self::Integer(value) => value.fmt(f),
+            Self::Real(value) => value.fmt(f),
+            Self::Text(value) => value.fmt(f),
+            Self::Blob(bytes) => write!(f, "<{bytes} bytes>"),
+        }
+    }
+}

@@ -1,0 +1,253 @@
+//! Starting a run of a study: checked, queued, and worked on in the background.
+
+pub mod actions;
+pub mod compose;
+pub mod engine;
+pub mod enqueue;
+pub mod handout;
+pub mod isolated;
+pub mod outcome;
+pub mod pipeline;
+pub mod slurm;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::{self, JoinHandle};
+
+use crate::error::{Result, StudyError};
+use crate::run::enqueue::Planned;
+use crate::run::isolated::Isolated;
+use crate::run::outcome::{Executor, Provenance};
+use crate::run::pipeline::Pipeline;
+use crate::spec::file::{Problem, Study};
+use crate::spec::{self, Selection};
+use crate::store::live::Live;
+use crate::store::{self, Access, evidence};
+use crate::workspace::Workspace;
+use crate::{catalogue, tools};
+use body::Measurements;
+
+/// What to run, and how.
+#[derive(Clone, Debug, Default)]
+pub struct RunOptions {
+    /// Which jobs of the study.
+    pub selection: Selection,
+    /// Worker threads, one simulation each; by default as many as there are cores.
+    pub workers: Option<usize>,
+    /// Where the run may be watched.
+    pub live: Arc<Live>,
+}
+
+/// A run in the background. Dropping it stops it: what runs goes back into the queue.
+pub struct Run {
+    /// Name of the study.
+    pub study: String,
+    /// Its jobs, with the reason for each.
+    pub planned: Vec<Planned>,
+    stop: Arc<AtomicBool>,
+    thread: Option<JoinHandle<Result<()>>>,
+}
+
+impl Run {
+    /// Asks the workers to stop; running jobs go back into the queue. Returns at once.
+    pub fn stop(&self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether all workers are done.
+    #[must_use]
+    pub fn is_finished(&self) -> bool {
+        self.thread.as_ref().is_none_or(JoinHandle::is_finished)
+    }
+
+    /// Waits for the workers.
+    ///
+    /// # Errors
+    /// When the database failed; failed jobs are not errors here.
+    pub fn join(mut self) -> Result<()> {
+        self.wait()
+    }
+
+    fn wait(&mut self) -> Result<()> {
+        match self.thread.take().map(JoinHandle::join) {
+            None => Ok(()),
+            Some(Ok(result)) => result,
+            Some(Err(panic)) => std::panic::resume_unwind(panic),
+        }
+    }
+}
+
+impl Drop for Run {
+    fn drop(&mut self) {
+        self.stop();
+        // An error was for whoever joins; here nobody listens.
+        let _ = self.thread.take().map(JoinHandle::join);
+    }
+}
+
+impl Workspace {
+    /// Reads and checks a study, its file or its folder, and the patterns and seam files it names.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the file, at once; else everything that is wrong with the patterns.
+    pub fn load_study(&self, path: &Path) -> Result<Study> {
+        let study = Study::load(path, &catalogue::known(Some(&self.reader))?)?;
+        check_patterns(&study)?;
+        Ok(study)
+    }
+
+    /// A subject of the catalogue, latest revision.
+    ///
+    /// # Errors
+    /// When there is none of that name.
+    pub fn subject(&self, name: &str) -> Result<Measurements> {
+        let mut subjects = catalogue::known(Some(&self.reader))?.subjects;
+        subjects.remove(name).ok_or_else(|| {
+            let known = subjects.into_keys().collect();
+            StudyError::NotFound { what: "subject", name: name.to_owned(), known }
+        })
+    }
+
+    /// What a run of a study would do; nothing is written.
+    ///
+    /// # Errors
+    /// When the workspace is read-only or a selection names what the study does not have.
+    pub fn plan(&mut self, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
+        check_names(study, selection)?;
+        let transaction = store::write(self.writer()?)?;
+        let planned = enqueue::enqueue(&transaction, study, selection);
+        transaction.rollback()?;
+        planned
+    }
+
+    /// Queues a study and starts working on it with the real pipeline.
+    ///
+    /// # Errors
+    /// When the workspace is read-only or a selection names what the study does not have.
+    pub fn start(&mut self, study: &Study, options: &RunOptions) -> Result<Run> {
+        let pipeline = Arc::new(Pipeline::new(self.path()));
+        let (database, of_study, stages) = (self.path().to_owned(), study.clone(), pipeline.clone());
+        // Ease is there long before the first drape. What cannot be made fails its own jobs, which then say why.
+        let aside = move || drop(store_ease(&database, &of_study, &stages));
+        let executor = Arc::new(Isolated::new(self.path(), pipeline));
+        self.launch(study, options, executor, aside)
+    }
+
+    /// Finds the ease of every size of a study on every subject, and stores it.
+    ///
+    /// # Errors
+    /// When the workspace is read-only, or a body or a pattern cannot be made.
+    pub fn update_ease(&mut self, study: &Study) -> Result<()> {
+        self.writer()?;
+        store_ease(self.path(), study, &Pipeline::new(self.path()))
+    }
+
+    /// [`Workspace::start`] with any executor.
+    ///
+    /// # Errors
+    /// When the workspace is read-only or a selection names what the study does not have.
+    pub fn start_with(
+        &mut self,
+        study: &Study,
+        options: &RunOptions,
+        executor: Arc<dyn Executor + Send>,
+    ) -> Result<Run> {
+        self.launch(study, options, executor, || ())
+    }
+
+    /// Queues a study and works on it in a thread, beside `aside`.
+    fn launch(
+        &mut self,
+        study: &Study,
+        options: &RunOptions,
+        executor: Arc<dyn Executor + Send>,
+        aside: impl FnOnce() + Send + 'static,
+    ) -> Result<Run> {
+        check_names(study, &options.selection)?;
+        let transaction = store::write(self.writer()?)?;
+        let planned = enqueue::enqueue(&transaction, study, &options.selection)?;
+        transaction.commit()?;
+
+        let stop = Arc::new(AtomicBool::new(false));
+        let workers = options.workers.unwrap_or_else(|| thread::available_parallelism().map_or(1, usize::from));
+        let (database, jobs, stopped) = (self.path().to_owned(), planned.clone(), stop.clone());
+        let live = options.live.clone();
+        let folder = study.path.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
+        // What was the study's before needs nothing beside it: all of that was found with its results.
+        let is_settled = planned.iter().all(|job| job.was_current && !job.why.will_run());
+        let name = study.name.clone();
+        let work = move || {
+            if is_settled {
+                // A run that was killed may not have come to judge its last results.
+                return evidence::update(&mut store::open(&database, Access::Volatile)?, &name);
+            }
+            let provenance = Provenance::of(&folder);
+            thread::scope(|scope| {
+                scope.spawn(aside);
+                let work = engine::Work { study: &name, jobs: &jobs };
+                engine::run(&database, &work, &*executor, workers, provenance, &stopped, &live)
+            })
+        };
+        let thread = thread::Builder::new().name("toile-run".into()).spawn(work).map_err(StudyError::io("thread"))?;
+        Ok(Run { study: study.name.clone(), planned, stop, thread: Some(thread) })
+    }
+}
+
+/// Finds the ease of every size of a study on every subject, and stores it.
+fn store_ease(database: &Path, study: &Study, pipeline: &Pipeline) -> Result<()> {
+    let mut found = Vec::new();
+    for spec in spec::jobs(study) {
+        if spec.repeat == 1 && study.simulators.first() == Some(&spec.simulator) {
+            let eases = pipeline.ease(&spec)?;
+            found.push((spec, eases));
+        }
+    }
+    let mut connection = store::open(database, Access::Write)?;
+    let transaction = store::write(&mut connection)?;
+    let study_id = enqueue::store_study(&transaction, study)?;
+    for (spec, eases) in &found {
+        outcome::write_ease(&transaction, study_id, spec, eases)?;
+    }
+    evidence::refresh(&transaction, &study.name)?;
+    Ok(transaction.commit()?)
+}
+
+/// Refuses a study with a pattern that cannot be sewn, before anything is written for it.
+fn check_patterns(study: &Study) -> Result<()> {
+    let mut problems = Vec::new();
+    for garment in &study.garments {
+        let unit = garment.unit.as_deref().and_then(tools::unit_of);
+        for size in &garment.sizes {
+            if let Err(error) = tools::read_style(&size.pattern, garment.seams.as_ref(), Some(&size.name), unit) {
+                let message = format!("garment {}, size {}: {error}", garment.name, size.name);
+                problems.push(Problem::of(&study.path, message));
+            }
+        }
+    }
+    if problems.is_empty() { Ok(()) } else { Err(StudyError::File(problems)) }
+}
+
+/// Refuses a selection with a name that the study does not have.
+pub(crate) fn check_names(study: &Study, selection: &Selection) -> Result<()> {
+    let specs = spec::jobs(study);
+    type Name = fn(&spec::JobSpec) -> String;
+    let axes: [(&'static str, &[String], Name); 4] = [
+        ("simulator", &selection.simulators, |spec| spec.simulator.as_str().to_owned()),
+        ("size", &selection.sizes, |spec| spec.size.clone()),
+        ("subject", &selection.subjects, |spec| spec.subject.clone()),
+        ("garment", &selection.garments, |spec| spec.garment.clone()),
+    ];
+    for (what, wanted, name) in axes {
+        let mut known: Vec<String> = Vec::new();
+        for found in specs.iter().map(name) {
+            if !known.contains(&found) {
+                known.push(found);
+            }
+        }
+        if let Some(name) = wanted.iter().find(|wanted| !known.iter().any(|k| k.eq_ignore_ascii_case(wanted))) {
+            return Err(StudyError::NotFound { what, name: name.clone(), known });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,335 @@
+//! The pipeline in earnest: body, distance field, garment meshes, simulation and measuring, each stage through the cache.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::error::{Result, StudyError};
+use crate::run::outcome::{Executor, Measured, Outcome};
+use crate::spec::inputs::{Inputs, StageKind};
+use crate::spec::{JobSpec, subject_inputs};
+use crate::store::cache::{Artefact, Cache, Used};
+use crate::tools;
+use body::{Body, Measurements};
+use fit::{self, Cuts, Ease, Simulator, measure};
+use geom::DistanceField;
+use geom::units::from_mm;
+use pattern::{Garment, Style};
+use sim::{self, Distortion, Drape, Monitor, SimError};
+
+/// The simulators there are.
+pub const SIMULATORS: [Simulator; 2] = [Simulator::Fem, Simulator::Hybrid];
+
+/// Versions of the stages, raised whenever one may give other numbers for the same inputs.
+const VERSIONS: [(&str, u32); 3] = [("body.version", 6), ("field.version", 4), ("mesh.version", 6)];
+/// Version of the simulators, likewise; their default parameters count as inputs by themselves.
+const SIM_VERSION: u32 = 42;
+
+/// Spacing of the distance field's nodes, m: the 99th percentile of its error is then about 0.1 mm.
+pub(crate) const FIELD_SPACING_M: f64 = 0.005;
+
+/// The inputs every job has besides the study's own: versions and parameters of the stages.
+pub(crate) fn versions(simulator: Simulator) -> Vec<(&'static str, String)> {
+    let mut versions: Vec<_> = VERSIONS.iter().map(|(name, version)| (*name, version.to_string())).collect();
+    versions.push(("field.spacing_mm", (FIELD_SPACING_M * 1e3).to_string()));
+    versions.push(("sim.version", SIM_VERSION.to_string()));
+    let parameters = match simulator {
+        Simulator::Fem => format!("{:?}", sim::fem::Params::default()),
+        Simulator::Hybrid => format!("{:?}", sim::hybrid::Params::default()),
+    };
+    versions.push(("sim.parameters", blake3::hash(parameters.as_bytes()).to_hex().to_string()));
+    versions
+}
+
+/// The inputs of a subject's body, the same as among those of any job on it.
+pub(crate) fn body_inputs(name: &str, measurements: &Measurements) -> Inputs {
+    let mut inputs = Inputs::default();
+    subject_inputs(&mut inputs, name, measurements);
+    for (name, version) in VERSIONS {
+        inputs.set(name, version);
+    }
+    inputs
+}
+
+/// A body, as the cache keeps it.
+#[derive(serde::Serialize, serde::Deserialize)]
+pub(crate) struct Model {
+    /// The human model.
+    pub body: Body,
+}
+
+/// Girth of a body at a level named in a style's fit references, m.
+fn girth_m(body: &Body, level: &str) -> Option<f64> {
+    let girths = &body.girths;
+    let mm = match level {
+        "neck" => girths.neck_girth_mm,
+        "chest" | "bust" => girths.chest_girth_mm,
+        "underbust" => girths.underbust_girth_mm,
+        "waist" => girths.waist_girth_mm,
+        "hip" => girths.hip_girth_mm,
+        "thigh" => girths.thigh_girth_mm,
+        "upper_arm" => girths.upper_arm_girth_mm?,
+        _ => return None,
+    };
+    Some(from_mm(mm))
+}
+
+/// Meshes of one garment, coarse to fine.
+#[derive(serde::Serialize, serde::Deserialize)]
+pub(crate) struct Meshes(pub Vec<Garment>);
+
+impl Meshes {
+    /// The mesh that results are on.
+    pub fn finest(&self) -> Result<&Garment> {
+        self.0.last().ok_or_else(|| StudyError::stage("mesh")("no mesh"))
+    }
+}
+
+/// Stored as JSON: exact for finite numbers, readable by other programs.
+macro_rules! json_artefact {
+    ($($stored:ty),*) => {$(
+        impl Artefact for $stored {
+            fn encode(&self) -> Result<Vec<u8>> {
+                serde_json::to_vec(self).map_err(StudyError::stage("store"))
+            }
+
+            fn decode(bytes: &[u8]) -> std::result::Result<Self, String> {
+                serde_json::from_slice(bytes).map_err(|error| error.to_string())
+            }
+        }
+    )*};
+}
+
+json_artefact!(Model, Meshes, Drape);
+
+impl Artefact for DistanceField {
+    fn encode(&self) -> Result<Vec<u8>> {
+        Ok(self.to_bytes())
+    }
+
+    fn decode(bytes: &[u8]) -> std::result::Result<Self, String> {
+        Self::from_bytes(bytes).map_err(|error| error.to_string())
+    }
+}
+
+/// The stages of one database.
+pub struct Pipeline {
+    cache: Cache,
+}
+
+impl Pipeline {
+    /// Stages whose products are kept in a database.
+    #[must_use]
+    pub fn new(database: &Path) -> Self {
+        Self::over(Cache::new(database.to_owned()))
+    }
+
+    /// Stages over a cache.
+    pub(crate) fn over(cache: Cache) -> Self {
+        Self { cache }
+    }
+
+    fn model(&self, spec: &JobSpec) -> Result<(Arc<Model>, Used)> {
+        self.cache.get(StageKind::Body, &spec.inputs.stage_hash(StageKind::Body), || {
+            let body = match &spec.scan {
+                None => tools::build_body(&spec.measurements)?,
+                Some(scan) => {
+                    let read = tools::read_scan(&scan.file, scan.unit, Some(spec.measurements.sex))?;
+                    tools::scanned_body(&scan.file, read)?
+                }
+            };
+            Ok(Model { body })
+        })
+    }
+
+    fn field(&self, spec: &JobSpec, model: &Model) -> Result<(Arc<DistanceField>, Used)> {
+        self.cache.get(StageKind::Field, &spec.inputs.stage_hash(StageKind::Field), || {
+            DistanceField::build(&model.body.mesh, FIELD_SPACING_M).map_err(StudyError::stage("field"))
+        })
+    }
+
+    fn meshes(&self, spec: &JobSpec) -> Result<(Arc<Meshes>, Used)> {
+        self.cache.get(StageKind::Mesh, &spec.inputs.stage_hash(StageKind::Mesh), || mesh(spec))
+    }
+
+    /// Ease of a job's size on its subject at each fit level; needs no simulation.
+    ///
+    /// # Errors
+    /// Those of body and pattern.
+    pub(crate) fn ease(&self, spec: &JobSpec) -> Result<Vec<Ease>> {
+        let (model, _) = self.model(spec)?;
+        let (meshes, _) = self.meshes(spec)?;
+        Ok(ease_on(meshes.finest()?, &model.body))
+    }
+}
+
+/// Ease at each fit level; a study's own cuts classify it when it is read.
+pub(crate) fn ease_on(garment: &Garment, body: &Body) -> Vec<Ease> {
+    let levels = garment.fit_levels.iter().map(|level| (level.level.as_str(), level.girth_m));
+    fit::ease(levels, |level| girth_m(body, level), &Cuts::default())
+}
+
+/// The style of a job's size.
+pub(crate) fn style(spec: &JobSpec) -> Result<Style> {
+    let unit = spec.unit.as_deref().and_then(tools::unit_of);
+    tools::read_style(&spec.pattern, spec.seams.as_ref(), Some(&spec.size), unit)
+}
+
+/// Meshes of a job's garment, coarse to fine.
+fn mesh(spec: &JobSpec) -> Result<Meshes> {
+    let style = style(spec)?;
+    let edges = sim::fem::level_edges(spec.edge_length_m).into_iter();
+    let meshes = edges.map(|edge| style.mesh(edge).map_err(StudyError::stage("mesh")));
+    Ok(Meshes(meshes.collect::<Result<_>>()?))
+}
+
+impl Executor for Pipeline {
+    fn execute(&self, spec: &JobSpec, monitor: &mut dyn Monitor) -> Result<Outcome> {
+        let (model, used_body) = self.model(spec)?;
+        let (meshes, used_mesh) = self.meshes(spec)?;
+        let (field, used_field) = self.field(spec, &model)?;
+        let garment = meshes.finest()?;
+        let (drape, used_drape) =
+            self.cache.get(StageKind::Drape, &spec.inputs.stage_hash(StageKind::Drape), || match spec.simulator {
+                Simulator::Fem => {
+                    let params = spec.parameters.fem()?;
+                    sim::fem::simulate(&model.body, &field, &meshes.0, &spec.fabric, &params, monitor)
+                        .map_err(sim_error)
+                }
+                Simulator::Hybrid => {
+                    let params = spec.parameters.hybrid()?;
+                    sim::hybrid::simulate(&model.body, &field, garment, &spec.fabric, &params, monitor)
+                        .map_err(sim_error)
+                }
+            })?;
+        let chis = measure::measure(garment, &drape.positions);
+        let metrics = measure::metrics(&chis)
+            .ok_or_else(|| StudyError::stage("measure")(format!("{} has no measurement", spec.garment)))?;
+        let earlier = drape.earlier.iter().map(|staged| (staged.stage, measure::measure(garment, &staged.positions)));
+        let measured = earlier.chain([(drape.stage, chis)]).flat_map(|(stage, chis)| {
+            garment.measurements.iter().zip(chis).map(move |(m, chi)| Measured {
+                stage,
+                name: m.name.clone(),
+                kind: m.kind,
+                is_free_edge: m.is_free_edge,
+                is_controlled: spec.simulator == Simulator::Hybrid,
+                chi,
+            })
+        });
+        let distorted = match spec.simulator {
+            Simulator::Fem => Some(distorted(&spec.parameters.fem()?, garment, &drape)?),
+            Simulator::Hybrid => None,
+        };
+        Ok(Outcome {
+            converged: drape.converged,
+            measured: measured.collect(),
+            metrics,
+            vertices: drape.welded_vertices,
+            faces: garment.triangles.len(),
+            iterations: drape.iterations,
+            residual: drape.residual,
+            penetration_max_m: drape.penetration_max_m,
+            seam_gap_max_m: drape.seam_gap_max_m,
+            self_crossings: drape.self_crossings,
+            history: drape.history.clone(),
+            eases: ease_on(garment, &model.body),
+            closures: match spec.simulator {
+                Simulator::Fem => Vec::new(),
+                Simulator::Hybrid => sim::hybrid::closures(&model.body, garment, &drape.positions),
+            },
+            distortion: distorted.as_ref().map(|(stretch, _)| *stretch),
+            warnings: distorted.and_then(|(_, told)| told).into_iter().collect(),
+            used: vec![used_body, used_field, used_mesh, used_drape],
+        })
+    }
+}
+
+/// How far FEM-GS stretched a garment, and what is to be said of it where that is too far.
+pub(crate) fn distorted(params: &sim::fem::Params, garment: &Garment, drape: &Drape) -> Result<(f64, Option<String>)> {
+    let distortion = Distortion::of(garment, &drape.positions).map_err(StudyError::stage("sim"))?;
+    let limit = params.distortion_limit;
+    let told = (distortion.stretch > limit)
+        .then(|| format!("distorted: {distortion}; the limit is {:.1} % (`fem.distortion_limit`)", 100.0 * limit));
+    Ok((distortion.stretch, told))
+}
+
+/// A simulator's error; being told to stop is an interruption.
+fn sim_error(error: SimError) -> StudyError {
+    match error {
+        SimError::Cancelled => StudyError::Interrupted,
+        other => StudyError::stage("sim")(other),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spec::file::Study;
+    use crate::store::{self, Access};
+    use crate::{catalogue, spec};
+
+    fn quickstart() -> Vec<JobSpec> {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/quickstart");
+        let known = catalogue::known(None).expect("built in");
+        let jobs = spec::jobs(&Study::load(&folder, &known).expect("a good study"));
+        jobs.into_iter().filter(|job| job.simulator == Simulator::Fem).collect()
+    }
+
+    #[test]
+    fn meshes_are_coarse_to_fine_and_survive_storage_exactly() {
+        let meshes = mesh(&quickstart()[0]).expect("it meshes");
+        assert_eq!(meshes.0.len(), 3);
+        let lengths = |garment: &Garment| garment.measurements.iter().map(|m| m.l2d_m).collect::<Vec<_>>();
+        for pair in meshes.0.windows(2) {
+            assert!(pair[0].rest.len() < pair[1].rest.len());
+            assert_eq!(lengths(&pair[0]), lengths(&pair[1]));
+        }
+        let stored = Meshes::decode(&meshes.encode().expect("finite")).expect("just written");
+        assert_eq!(stored.0, meshes.0);
+    }
+
+    #[test]
+    fn subjects_and_fabrics_are_the_inputs_that_a_reader_would_name() {
+        let jobs = quickstart();
+        let inputs: Vec<(&str, &str)> = jobs[0].inputs.iter().collect();
+        for input in [
+            ("subject.ii.chest_girth_mm", "863"),
+            ("fabric.cotton_shirting_light.density_kg_m2", "0.1036"),
+            ("mesh.edge_length_mm", "15"),
+            ("sim.name", "fem"),
+        ] {
+            assert!(inputs.contains(&input), "{input:?} in {inputs:?}");
+        }
+        let body = body_inputs(&jobs[0].subject, &jobs[0].measurements).stage_hash(StageKind::Body);
+        assert_eq!(body, jobs[0].inputs.stage_hash(StageKind::Body), "the catalogue's body is the job's");
+        let differ = |a: usize, b: usize, stage| jobs[a].inputs.stage_hash(stage) != jobs[b].inputs.stage_hash(stage);
+        assert!(!differ(0, 2, StageKind::Body) && differ(0, 1, StageKind::Body), "the body is the subject's");
+        assert!(!differ(0, 1, StageKind::Mesh) && differ(0, 2, StageKind::Mesh), "the mesh is the size's");
+    }
+
+    #[test]
+    fn ease_is_that_of_the_body_that_is_dressed() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("toile.sqlite");
+        store::open(&path, Access::Create).expect("a new database");
+        let pipeline = Pipeline::new(&path);
+        let jobs = quickstart();
+        let [ii, v] = [&jobs[0], &jobs[1]].map(|job| pipeline.ease(job).expect("it can be made"));
+        assert_eq!(ii[0].level, "chest");
+        assert!((ii[0].pattern_girth_m - 0.9741).abs() < 1e-4, "{}", ii[0].pattern_girth_m);
+        for (ease, chest_m) in [(&ii, 0.863), (&v, 0.956)] {
+            assert!((ease[0].body_girth_m - chest_m).abs() < 0.015 * chest_m, "{}", ease[0].body_girth_m);
+        }
+    }
+
+    #[test]
+    fn a_file_without_a_unit_is_not_sewn() {
+        let mut job = quickstart().swap_remove(0);
+        let text = String::from_utf8_lossy(&job.pattern.bytes).replace("METRIC", "").replace("Units", "Notes");
+        let text = text.replace("$INSUNITS", "$NOTHING").replace("$MEASUREMENT", "$NOTHING");
+        job.pattern.bytes = text.into_bytes().into();
+        let error = style(&job).expect_err("no unit").to_string();
+        assert!(error.contains("no unit"), "{error}");
+        job.unit = Some("mm".into());
+        assert!(style(&job).is_ok());
+    }
+}

@@ -1,0 +1,139 @@
+//! Checking how the patterns of a study are sewn.
+
+use std::path::Path;
+
+use crate::error::{Result, StudyError};
+use crate::spec::file::{GarmentEntry, SizeFile, SourceFile, Study};
+use crate::store::{self, Access};
+use crate::{catalogue, tools};
+use geom::units::{from_mm, mm};
+use pattern::check::{self, Finding, FindingKind};
+use pattern::seams::SeamFile;
+
+/// Edge length of the mesh that a check makes, mm.
+pub const CHECK_EDGE_MM: f64 = 15.0;
+
+/// What a check found of one size of a garment.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct SizeCheck {
+    /// Garment.
+    pub garment: String,
+    /// Size.
+    pub size: String,
+    /// Pieces as worn.
+    pub pieces: usize,
+    /// Seams.
+    pub seams: usize,
+    /// Measurements.
+    pub measurements: usize,
+    /// Girths for the fit by body level, mm.
+    pub fit_mm: Vec<(String, f64)>,
+    /// Vertices of the mesh at [`CHECK_EDGE_MM`].
+    pub vertices: usize,
+    /// Least angle of its triangles, degrees.
+    pub min_angle_deg: f64,
+    /// What a person should look at.
+    pub findings: Vec<Finding>,
+    /// Why it cannot be sewn or meshed at all.
+    pub error: Option<String>,
+}
+
+impl SizeCheck {
+    /// Whether something is wrong with it.
+    #[must_use]
+    pub fn is_bad(&self) -> bool {
+        let is_bad = |finding: &Finding| finding.kind.is_problem() || finding.kind == FindingKind::FitLevel;
+        self.error.is_some() || self.findings.iter().any(is_bad)
+    }
+}
+
+/// Checks every size of every garment of a study: its file or its folder. `database` may know subjects and fabrics that
+/// the file names; it need not be there.
+///
+/// # Errors
+/// What is wrong with the study file itself; what is wrong with a pattern is told in its row.
+pub fn check_study(path: &Path, database: &Path) -> Result<Vec<SizeCheck>> {
+    let connection = if database.exists() { Some(store::open(database, Access::Read)?) } else { None };
+    let study = Study::load(path, &catalogue::known(connection.as_ref())?)?;
+    let sizes = study.garments.iter().flat_map(|garment| garment.sizes.iter().map(move |size| (garment, size)));
+    Ok(sizes.map(|(garment, size)| check_size(garment, size)).collect())
+}
+
+fn check_size(garment: &GarmentEntry, size: &SizeFile) -> SizeCheck {
+    let mut row = SizeCheck {
+        garment: garment.name.clone(),
+        size: size.name.clone(),
+        pieces: 0,
+        seams: 0,
+        measurements: 0,
+        fit_mm: Vec::new(),
+        vertices: 0,
+        min_angle_deg: 0.0,
+        findings: Vec::new(),
+        error: None,
+    };
+    row.error = fill(&mut row, garment, size).err().map(|error| error.to_string());
+    row
+}
+
+fn fill(row: &mut SizeCheck, garment: &GarmentEntry, size: &SizeFile) -> Result<()> {
+    let unit = garment.unit.as_deref().and_then(tools::unit_of);
+    let style = tools::read_style(&size.pattern, garment.seams.as_ref(), Some(&size.name), unit)?;
+    (row.pieces, row.seams, row.measurements) = (style.pieces.len(), style.seams.len(), style.measurements.len());
+    let level = |(level, path): &(String, Vec<_>)| (level.clone(), mm(style.path_length_m(path)));
+    row.fit_mm = style.fit_levels.iter().map(level).collect();
+    if let Some(seams) = &garment.seams {
+        row.findings = of_files(&size.pattern, seams, Some(&size.name), unit)?;
+    }
+    let (mesh, quality) = tools::mesh(&style, from_mm(CHECK_EDGE_MM))?;
+    (row.vertices, row.min_angle_deg) = (mesh.rest.len(), quality.min_angle_deg);
+    row.findings.extend(check::of_garment(&mesh));
+    Ok(())
+}
+
+/// Findings of a pattern file and its seam file.
+pub(crate) fn of_files(
+    pattern: &SourceFile,
+    seams: &SourceFile,
+    size: Option<&str>,
+    unit: Option<tools::Unit>,
+) -> Result<Vec<Finding>> {
+    if pattern.holds_seams() {
+        return Ok(Vec::new());
+    }
+    let pieces = tools::pieces(pattern, size, unit)?;
+    let style = tools::Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?;
+    let entries = SeamFile::parse(&seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?;
+    Ok(check::findings(&pieces, &entries, &style))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_thesis_study_is_clean_and_a_broken_one_is_not() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/thesis");
+        let nowhere = Path::new("no.sqlite");
+        let rows = check_study(&folder, nowhere).expect("it reads");
+        assert_eq!(rows.len(), 9);
+        for row in &rows {
+            assert!(!row.is_bad() && row.findings.is_empty() && row.min_angle_deg > 20.0, "{row:?}");
+            let levels: Vec<&str> = row.fit_mm.iter().map(|(level, _)| level.as_str()).collect();
+            let expect: &[&str] = match row.garment.as_str() {
+                "trousers" => &["hip"],
+                "dress" => &["chest", "hip"],
+                _ => &["chest"],
+            };
+            assert_eq!(levels, expect, "{}", row.garment);
+        }
+        let text = std::fs::read_to_string(folder.join("study.toml")).expect("it reads");
+        let broken = tempfile::tempdir().expect("a folder");
+        let patterns = format!("{}/patterns/", folder.display());
+        let text = text.replace("patterns/", &patterns).replace("tshirt.seams.toml", "teetop.seams.toml");
+        std::fs::write(broken.path().join("study.toml"), text).expect("writable");
+        let rows = check_study(broken.path(), nowhere).expect("it reads");
+        let bad: Vec<&str> = rows.iter().filter(|row| row.is_bad()).map(|row| row.garment.as_str()).collect();
+        assert_eq!(bad, ["tshirt"; 3]);
+    }
+}

@@ -1,0 +1,180 @@
+//! Working on seams: the pieces as they lie with their edges, what is sewn, and edits of a seam file.
+
+use std::path::Path;
+
+use toml_edit::{DocumentMut, Item};
+
+use crate::error::{Result, StudyError};
+use crate::spec::file::SourceFile;
+use crate::tools::{self, Unit};
+use geom::units::mm;
+use pattern::propose::{self, Proposal};
+use pattern::seam_edit::{Edit, edited};
+use pattern::seams::SeamFile;
+use pattern::style::{EdgeRef, Style};
+use pattern::{Role, arrange};
+
+/// An edge of a piece where it lies in the arrangement.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct DeskEdge {
+    /// Number in the picture, from 1 counter-clockwise.
+    pub number: usize,
+    /// Name in the seam file; `None` where it has none yet.
+    pub name: Option<String>,
+    /// Points, counter-clockwise, mm: `x` to the wearer's right, `y` positive for fronts, the head at the origin.
+    pub line_mm: Vec<[f64; 2]>,
+    /// Length, mm.
+    pub length_mm: f64,
+    /// Name of the seam that holds it.
+    pub seam: Option<String>,
+}
+
+/// A piece where it lies in the arrangement.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct DeskPiece {
+    /// Identifier.
+    pub id: String,
+    /// What it is worn as.
+    pub role: Role,
+    /// How far it was turned counter-clockwise, degrees.
+    pub turned_deg: f64,
+    /// Edges, counter-clockwise; together they are the outline.
+    pub edges: Vec<DeskEdge>,
+}
+
+/// A seam, with the lengths of its sides.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct DeskSeam {
+    /// Name.
+    pub name: String,
+    /// Edges of one side as (index of the piece, index of the edge), in order.
+    pub a: Vec<(usize, usize)>,
+    /// Edges of the other side.
+    pub b: Vec<(usize, usize)>,
+    /// Whether both sides run counter-clockwise.
+    pub same_direction: bool,
+    /// Length of `a`, mm.
+    pub a_mm: f64,
+    /// Length of `b`, mm.
+    pub b_mm: f64,
+    /// How sure a proposal is, 0 to 1; `None` where a person said so.
+    pub confidence: Option<f64>,
+}
+
+/// All that is needed to draw and edit the seams of a style.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Desk {
+    /// Pieces as they lie.
+    pub pieces: Vec<DeskPiece>,
+    /// Seams.
+    pub seams: Vec<DeskSeam>,
+}
+
+impl Desk {
+    /// The pieces and seams of a style.
+    #[must_use]
+    pub fn of(style: &Style) -> Self {
+        let held = |edge: EdgeRef| {
+            let found = style.seams.iter().find(|seam| seam.a.contains(&edge) || seam.b.contains(&edge));
+            found.map(|seam| seam.name.clone())
+        };
+        let placed = arrange::arrange(style);
+        let pieces = style.pieces.iter().zip(&placed).enumerate().map(|(piece, (drawn, placed))| {
+            let edges = drawn.edges.iter().enumerate().map(|(edge, drawn)| DeskEdge {
+                number: edge + 1,
+                name: drawn.name.clone(),
+                line_mm: drawn.line.points().iter().map(|&p| <[f64; 2]>::from(placed.at(p).map(mm))).collect(),
+                length_mm: mm(drawn.line.length()),
+                seam: held(EdgeRef { piece, edge }),
+            });
+            DeskPiece {
+                id: drawn.id.clone(),
+                role: drawn.role,
+                turned_deg: placed.turn.to_degrees(),
+                edges: edges.collect(),
+            }
+        });
+        let refs = |chain: &[EdgeRef]| chain.iter().map(|edge| (edge.piece, edge.edge)).collect();
+        let length = |chain: &[EdgeRef]| chain.iter().map(|&edge| mm(style.edge(edge).line.length())).sum();
+        let seams = style.seams.iter().map(|seam| DeskSeam {
+            name: seam.name.clone(),
+            a: refs(&seam.a),
+            b: refs(&seam.b),
+            same_direction: seam.b_forwards,
+            a_mm: length(&seam.a),
+            b_mm: length(&seam.b),
+            confidence: None,
+        });
+        Self { pieces: pieces.collect(), seams: seams.collect() }
+    }
+}
+
+/// A proposal with the pieces as they lie.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Proposed {
+    /// What is proposed.
+    #[serde(flatten)]
+    pub proposal: Proposal,
+    /// The pieces that take part, arranged, and the seams between them.
+    pub desk: Desk,
+}
+
+/// A seam file proposed for the pieces of a DXF file, or of all DXF files in a folder together.
+///
+/// # Errors
+/// When a file cannot be read, or holds several sizes while none is named.
+pub fn propose(path: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Proposed> {
+    let pieces = tools::pieces(&SourceFile::read_pattern(path)?, size, unit)?;
+    let proposal = propose::propose(&pieces);
+    if proposal.is_empty() {
+        return Ok(Proposed { proposal, desk: Desk { pieces: Vec::new(), seams: Vec::new() } });
+    }
+    let text = proposal.toml("proposed");
+    let style = Style::read(&pieces, text.as_bytes(), "proposed").map_err(StudyError::stage("pattern"))?;
+    let mut desk = Desk::of(&style);
+    for (seam, proposed) in desk.seams.iter_mut().zip(&proposal.seams) {
+        seam.confidence = Some(proposed.confidence);
+    }
+    Ok(Proposed { proposal, desk })
+}
+
+/// The pieces and seams of a pattern with its seam file.
+///
+/// # Errors
+/// When a file cannot be read or does not fit the other.
+pub fn desk(pattern: &Path, seams: Option<&Path>, size: Option<&str>, unit: Option<Unit>) -> Result<Desk> {
+    Ok(Desk::of(&tools::style(pattern, seams, size, unit)?))
+}
+
+/// How sure the proposed seams of a seam file are that nobody has confirmed yet, by their places in it: what stands as
+/// `# confidence 0.83` beside their headers.
+pub(crate) fn confidences(text: &str) -> Vec<Option<f64>> {
+    let Ok(document) = text.parse::<DocumentMut>() else { return vec![] };
+    let seams = document.get("seam").and_then(Item::as_array_of_tables);
+    let sure = |seam: &toml_edit::Table| {
+        let remark = seam.decor().suffix()?.as_str()?.split_once("confidence ")?.1;
+        remark.split([',', ' ', '\n']).next()?.parse().ok()
+    };
+    seams.map_or(vec![], |seams| seams.iter().map(sure).collect())
+}
+
+/// The text of a seam file without the doubt about one of its seams; `None` where it has no such seam.
+pub(crate) fn confirmed(text: &str, seam: &str) -> Option<String> {
+    let mut document: DocumentMut = text.parse().ok()?;
+    let seams = document.get_mut("seam")?.as_array_of_tables_mut()?;
+    let is_named = |table: &&mut toml_edit::Table| table.get("name").and_then(Item::as_str) == Some(seam);
+    seams.iter_mut().find(is_named)?.decor_mut().set_suffix("");
+    Some(document.to_string())
+}
+
+/// The text of a seam file after an edit, checked against the pattern; comments stay.
+///
+/// # Errors
+/// When a file cannot be read, the edit names what is not there, or its result does not fit the pattern.
+pub fn edit_seams(pattern: &Path, seams: &Path, size: Option<&str>, unit: Option<Unit>, edit: &Edit) -> Result<String> {
+    let source = SourceFile::read(seams)?;
+    let pieces = tools::pieces(&SourceFile::read_pattern(pattern)?, size, unit)?;
+    SeamFile::parse(&source.bytes, &source.name).map_err(StudyError::stage("pattern"))?;
+    let text = String::from_utf8_lossy(&source.bytes);
+    edited(&text, &source.name, &pieces, edit).map_err(StudyError::stage("pattern"))
+}

@@ -1,0 +1,137 @@
+//! Pattern files with what lies beside them: a grade rule table, a table of piece information; looking into them,
+//! taking their features, writing them as other kinds of file.
+
+use std::path::Path;
+
+use crate::error::{Result, StudyError};
+use crate::spec::file::SourceFile;
+use crate::tools::drawings;
+use pattern::dxf::{self, PatternFile, Unit};
+use pattern::features::Features;
+use pattern::inspect::FileReport;
+use pattern::source::{self, Kind};
+use pattern::{Style, garmentcode, grade, info};
+
+/// What is said about a pattern beside its file.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Beside<'a> {
+    /// Only pieces of this size.
+    pub size: Option<&'a str>,
+    /// Unit of DXF files.
+    pub unit: Option<Unit>,
+    /// Grade rule table: the file is of the sample size, and all sizes are made.
+    pub rules: Option<&'a Path>,
+    /// Piece information.
+    pub info: Option<&'a Path>,
+}
+
+impl Beside<'_> {
+    /// A pattern in all its sizes: graded, and told what the table says.
+    fn complete(&self, mut pattern: PatternFile) -> Result<PatternFile> {
+        if let Some(path) = self.rules {
+            let source = SourceFile::read(path)?;
+            let table = grade::read(&source.bytes, &source.name).map_err(StudyError::stage("pattern"))?;
+            pattern = grade::grade(&pattern, &table).map_err(StudyError::stage("pattern"))?;
+        }
+        if let Some(path) = self.info {
+            let source = SourceFile::read(path)?;
+            let table = info::read(&source.bytes, &source.name).map_err(StudyError::stage("pattern"))?;
+            table.merge(&mut pattern).map_err(StudyError::stage("pattern"))?;
+        }
+        Ok(pattern)
+    }
+
+    /// The pattern of a file, of the size that is asked for, that may be handed on: no piece of it is refused, and its
+    /// unit is known.
+    fn usable_pattern(&self, source: &SourceFile) -> Result<PatternFile> {
+        let read = source::read(&source.bytes, &source.name, self.unit).map_err(StudyError::stage("pattern"))?;
+        let mut pattern = self.complete(read)?;
+        let sizes = pattern.sizes().into_iter().map(str::to_owned).collect::<Vec<_>>();
+        for size in self.size.map_or(sizes, |size| vec![size.to_owned()]) {
+            // A nest is no garment: every size for itself may be sewn.
+            pattern.to_sew(Some(&size)).map_err(StudyError::stage("pattern"))?;
+        }
+        self.keep_size(&mut pattern);
+        Ok(pattern)
+    }
+
+    fn keep_size(&self, pattern: &mut PatternFile) {
+        if let Some(size) = self.size {
+            let is_of = |name: &str| name.eq_ignore_ascii_case(size);
+            pattern.pieces.retain(|piece| is_of(piece.size.as_deref().unwrap_or_default()));
+        }
+    }
+}
+
+/// What is in a pattern file of any kind, or in every one below a folder, by name. A file that cannot be read has its
+/// error in its report.
+///
+/// # Errors
+/// When the path cannot be read, or a file beside it is wrong.
+pub fn inspect(path: &Path, beside: &Beside<'_>) -> Result<Vec<FileReport>> {
+    let files = if path.is_dir() { drawings(path)? } else { vec![path.to_owned()] };
+    files.iter().map(|file| report(&SourceFile::read(file)?.bytes, &file.to_string_lossy(), beside)).collect()
+}
+
+fn report(bytes: &[u8], name: &str, beside: &Beside<'_>) -> Result<FileReport> {
+    let is_alone = beside.size.is_none() && beside.rules.is_none() && beside.info.is_none();
+    if is_alone && source::kind(bytes) == Kind::GarmentCode {
+        // The specification knows more of its unit than a pattern does.
+        let read = garmentcode::read(bytes, name);
+        let unreadable = |error: &garmentcode::GarmentCodeError| FileReport::unreadable(name, error.to_string());
+        return Ok(read.as_ref().map_or_else(unreadable, FileReport::from));
+    }
+    // A file that cannot be read by itself is a finding; what lies beside it is the user's to put right.
+    let mut pattern = match source::read(bytes, name, beside.unit) {
+        Ok(read) => beside.complete(read)?,
+        Err(error) => return Ok(FileReport::unreadable(name, error.to_string())),
+    };
+    beside.keep_size(&mut pattern);
+    Ok(FileReport::from(&pattern))
+}
+
+/// The features of a pattern's pieces, as JSON.
+///
+/// # Errors
+/// When a file cannot be read, or a piece of it is refused.
+pub fn features(path: &Path, beside: &Beside<'_>) -> Result<String> {
+    let source = SourceFile::read(path)?;
+    let pattern = beside.usable_pattern(&source)?;
+    let features = Features::of(&pattern.pieces, &source.name, &pattern.texts);
+    serde_json::to_string_pretty(&features).map_err(StudyError::stage("pattern"))
+}
+
+/// A pattern as AAMA DXF: all its sizes, half pieces as halves.
+///
+/// # Errors
+/// As [`features`].
+pub fn convert_to_dxf(path: &Path, beside: &Beside<'_>) -> Result<Vec<u8>> {
+    let pattern = beside.usable_pattern(&SourceFile::read(path)?)?;
+    Ok(dxf::write_pieces(&pattern.pieces, &pattern.texts))
+}
+
+/// A pattern and its seams as GarmentCode JSON.
+///
+/// # Errors
+/// When a file cannot be read, or the seams do not fit the pattern.
+pub fn convert_to_garmentcode(path: &Path, seams: Option<&Path>, beside: &Beside<'_>) -> Result<String> {
+    let source = SourceFile::read(path)?;
+    let style = match (seams, source::kind(&source.bytes)) {
+        (Some(seams), _) => {
+            let file = beside.usable_pattern(&source)?;
+            // A file of one size is of that size, whatever it is called.
+            let size = beside.size.filter(|_| file.sizes().len() > 1);
+            let pieces = file.to_sew(size).map_err(StudyError::stage("pattern"))?;
+            let seams = SourceFile::read(seams)?;
+            Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?
+        }
+        (None, Kind::GarmentCode) => {
+            garmentcode::read(&source.bytes, &source.name).map_err(StudyError::stage("pattern"))?.style()
+        }
+        (None, _) => {
+            let message = format!("{}: GarmentCode JSON holds seams: name a seam file (--seams FILE)", source.name);
+            return Err(StudyError::Stage { stage: "pattern", message });
+        }
+    };
+    serde_json::to_string_pretty(&garmentcode::document(&style)).map_err(StudyError::stage("pattern"))
+}

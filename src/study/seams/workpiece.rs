@@ -1,0 +1,259 @@
+//! A size of a style while its seams are worked on: its pattern, and the seam file as text that edits change.
+
+use std::path::{Path, PathBuf};
+
+use crate::error::{Result, StudyError};
+use crate::seams::desk::{Desk, confidences, confirmed};
+use crate::spec::file::{Problem, SourceFile};
+use crate::tools::{self, Unit};
+use geom::units::mm;
+use pattern::seam_edit::{Edit, edited};
+use pattern::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamFile};
+use pattern::style::Style;
+use pattern::{check, propose};
+
+/// Begins a line of a proposed seam file that a person must answer.
+const QUESTION: &str = "# ASK: ";
+
+/// A pattern and the seams of one of its sizes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Workpiece {
+    /// Pattern.
+    pub pattern: SourceFile,
+    /// Seam file; `None` where the pattern holds its seams, or has none yet.
+    pub seams: Option<SourceFile>,
+    /// Size.
+    pub size: String,
+    /// Unit of the pattern, where its file names none.
+    pub unit: Option<Unit>,
+}
+
+/// One step of work on a seam file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SeamStep {
+    /// Add, remove or turn a seam.
+    Edit(Edit),
+    /// Take a proposed seam, by its name, for right.
+    Confirm(String),
+    /// Strike a question of a proposal out, its answer being in the file.
+    Decide(String),
+    /// Propose all seams anew; the text is the name of the style.
+    Propose(String),
+}
+
+/// A measurement on the pieces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DeskLength {
+    /// Number.
+    pub no: u32,
+    /// Name.
+    pub name: String,
+    /// Pattern length L2D, mm.
+    pub l2d_mm: f64,
+}
+
+/// A size as it lies on the desk.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LaidOut {
+    /// Pieces and seams; a seam that was proposed and not confirmed has its confidence.
+    pub desk: Desk,
+    /// Measurements.
+    pub lengths: Vec<DeskLength>,
+    /// What a person must decide: open questions of a proposal, and what a check finds.
+    pub questions: Vec<String>,
+    /// Greatest difference of length between the sides of a seam that needs no word, mm.
+    pub tolerance_mm: f64,
+}
+
+impl Workpiece {
+    /// Lays the pieces out with their seams.
+    ///
+    /// # Errors
+    /// When a file cannot be read or does not fit the other.
+    pub fn laid_out(&self) -> Result<LaidOut> {
+        let style = tools::read_style(&self.pattern, self.seams.as_ref(), Some(&self.size), self.unit)?;
+        let mut desk = Desk::of(&style);
+        let (mut questions, mut tolerance_mm) = (vec![], DEFAULT_LENGTH_TOLERANCE_MM);
+        if let Some((file, text)) = self.seams.as_ref().zip(self.text()).filter(|_| !self.pattern.holds_seams()) {
+            for (seam, confidence) in desk.seams.iter_mut().zip(confidences(&text)) {
+                seam.confidence = confidence;
+            }
+            questions.extend(text.lines().filter_map(|line| line.strip_prefix(QUESTION)).map(str::to_owned));
+            let entries = SeamFile::parse(&file.bytes, &file.name).map_err(StudyError::stage("pattern"))?;
+            tolerance_mm = entries.length_tolerance_mm;
+            let pieces = tools::pieces(&self.pattern, Some(&self.size), self.unit)?;
+            let found = check::findings(&pieces, &entries, &style);
+            let found = found.iter().filter(|finding| finding.kind.is_problem());
+            questions.extend(
+                found.map(|finding| format!("{}: {}: {}", finding.kind.as_str(), finding.place, finding.found)),
+            );
+        }
+        let length =
+            |m: &pattern::style::StyleMeasurement| DeskLength { no: m.no, name: m.name.clone(), l2d_mm: mm(m.l2d_m) };
+        Ok(LaidOut { desk, lengths: style.measurements.iter().map(length).collect(), questions, tolerance_mm })
+    }
+
+    /// The seam file after a step.
+    ///
+    /// # Errors
+    /// When the pattern holds its own seams, or the step cannot be done.
+    pub fn after(&self, step: &SeamStep) -> Result<SourceFile> {
+        let refused = |message: String| StudyError::Stage { stage: "pattern", message };
+        if self.pattern.holds_seams() {
+            let message = format!("{}: holds its own seams; they are edited where it was drawn", self.pattern.name);
+            return Err(refused(message));
+        }
+        if let SeamStep::Propose(style) = step {
+            return self.proposed(style);
+        }
+        let missing = || refused(format!("{}: has no seam file yet; propose one", self.pattern.name));
+        let (file, text) = self.seams.as_ref().zip(self.text()).ok_or_else(missing)?;
+        let text = match step {
+            SeamStep::Edit(edit) => {
+                let pieces = tools::pieces(&self.pattern, Some(&self.size), self.unit)?;
+                edited(&text, &file.name, &pieces, edit).map_err(StudyError::stage("pattern"))?
+            }
+            SeamStep::Confirm(seam) => {
+                confirmed(&text, seam).ok_or_else(|| refused(format!("{}: there is no seam `{seam}`", file.name)))?
+            }
+            SeamStep::Decide(question) => {
+                let lines = text.split_inclusive('\n');
+                let kept: String =
+                    lines.filter(|line| line.trim_end().strip_prefix(QUESTION) != Some(question)).collect();
+                if kept == text {
+                    let accepted = "sew the edge, or name it in `open` of the seam file";
+                    return Err(refused(format!("{question}: the check finds it, nobody asks it; {accepted}")));
+                }
+                kept
+            }
+            SeamStep::Propose(_) => text,
+        };
+        Ok(SourceFile { name: file.name.clone(), bytes: text.into_bytes().into() })
+    }
+
+    /// A seam file proposed for the pieces.
+    ///
+    /// # Errors
+    /// When the pattern cannot be read, or no piece of it is recognised.
+    pub fn proposed(&self, style: &str) -> Result<SourceFile> {
+        let pieces = tools::pieces(&self.pattern, Some(&self.size), self.unit)?;
+        let proposal = propose::propose(&pieces);
+        if proposal.is_empty() {
+            let message = format!("{}: no piece was recognised; give its seam file", self.pattern.name);
+            return Err(StudyError::Stage { stage: "pattern", message });
+        }
+        let name = self.seams.as_ref().map_or_else(|| format!("{style}.seams.toml"), |file| file.name.clone());
+        let text = proposal.toml(style);
+        Style::read(&pieces, text.as_bytes(), &name).map_err(StudyError::stage("pattern"))?;
+        Ok(SourceFile { name, bytes: text.into_bytes().into() })
+    }
+
+    fn text(&self) -> Option<String> {
+        Some(String::from_utf8_lossy(&self.seams.as_ref()?.bytes).into_owned())
+    }
+}
+
+/// Where the seam file of a style lies in the folder of a study, if it still says there what it said when it was stored.
+#[must_use]
+pub fn seam_home(study: &Path, style: &str, stored: &SourceFile) -> Option<PathBuf> {
+    let text = std::fs::read_to_string(study).ok()?;
+    let table: toml::Table = text.parse().ok()?;
+    let of_style = |garment: &&toml::Value| garment.get("name").and_then(toml::Value::as_str) == Some(style);
+    let garment = table.get("garment")?.as_array()?.iter().find(of_style)?;
+    let path = study.parent()?.join(garment.get("seams")?.as_str()?);
+    std::fs::read(&path).is_ok_and(|bytes| *bytes == *stored.bytes).then_some(path)
+}
+
+/// Writes a seam file over one that still says what it said `before`.
+///
+/// # Errors
+/// When it says something else meanwhile, or cannot be read or written.
+pub fn write_seams(path: &Path, before: &SourceFile, after: &SourceFile) -> Result<()> {
+    let found = std::fs::read(path).map_err(StudyError::io(path))?;
+    if *found != *before.bytes {
+        let problem = Problem::of(path, "it was changed meanwhile and stays as it is; the catalogue has the edits");
+        return Err(StudyError::File(vec![problem]));
+    }
+    std::fs::write(path, &after.bytes).map_err(StudyError::io(path))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pattern::draft::Model;
+
+    /// The T-shirt, size S, with seams of a text or none.
+    fn tshirt(seams: Option<String>) -> Workpiece {
+        let files = Model::Tshirt.files();
+        let (name, bytes) = files.into_iter().find(|(name, _)| name.ends_with("s.dxf")).expect("a size S");
+        let seams = seams.map(|text| SourceFile { name: "t.seams.toml".into(), bytes: text.into_bytes().into() });
+        Workpiece { pattern: SourceFile { name, bytes: bytes.into() }, seams, size: "S".into(), unit: None }
+    }
+
+    fn own_seams() -> String {
+        String::from_utf8(Model::Tshirt.seams().to_vec()).expect("it is UTF-8")
+    }
+
+    #[test]
+    fn a_style_is_laid_out_with_its_lengths_and_without_questions() {
+        let laid = tshirt(Some(own_seams())).laid_out().expect("it reads");
+        assert!(laid.desk.pieces.len() == 4 && laid.questions.is_empty(), "{:?}", laid.questions);
+        assert!(laid.desk.seams.iter().all(|seam| seam.confidence.is_none()));
+        let hem = laid.lengths.iter().find(|length| length.no == 1).expect("number 1");
+        assert!((hem.l2d_mm - 974.0).abs() < 0.2, "{hem:?}");
+    }
+
+    #[test]
+    fn a_proposal_is_confirmed_seam_by_seam_and_the_rest_of_its_text_stays() {
+        let mut piece = tshirt(None);
+        assert!(
+            piece.after(&SeamStep::Confirm("x".into())).expect_err("nothing yet").to_string().contains("propose one")
+        );
+        piece.seams = Some(piece.after(&SeamStep::Propose("tee".into())).expect("known pieces"));
+        let laid = piece.laid_out().expect("it fits");
+        let seams = laid.desk.seams.len();
+        assert!(seams >= 8 && laid.desk.seams.iter().all(|seam| seam.confidence.is_some()));
+        let name = laid.desk.seams[2].name.clone();
+        let before = piece.text().expect("proposed");
+        piece.seams = Some(piece.after(&SeamStep::Confirm(name.clone())).expect("it is there"));
+        let laid = piece.laid_out().expect("it fits");
+        let sure: Vec<&str> =
+            laid.desk.seams.iter().filter(|seam| seam.confidence.is_none()).map(|seam| seam.name.as_str()).collect();
+        assert_eq!(sure, [name.as_str()]);
+        let after = piece.text().expect("proposed");
+        let changed = before.lines().zip(after.lines()).filter(|(before, after)| before != after).count();
+        assert_eq!((before.lines().count(), changed), (after.lines().count(), 1));
+        assert!(piece.after(&SeamStep::Confirm("none".into())).is_err());
+
+        let question = laid.questions.first().expect("which sleeve is drawn").clone();
+        piece.seams = Some(piece.after(&SeamStep::Decide(question.clone())).expect("it is asked"));
+        let laid = piece.laid_out().expect("it fits");
+        assert!(!laid.questions.contains(&question));
+        assert!(piece.after(&SeamStep::Decide(question)).is_err());
+    }
+
+    #[test]
+    fn an_opened_seam_leaves_free_edges_to_decide_on() {
+        let mut piece = tshirt(Some(own_seams()));
+        let edit = Edit::Remove { a: "front.side_right".into(), b: "back.side_right".into() };
+        piece.seams = Some(piece.after(&SeamStep::Edit(edit)).expect("it is there"));
+        let questions = piece.laid_out().expect("it fits").questions;
+        assert!(questions.iter().any(|text| text.contains("back.side_right")), "{questions:?}");
+    }
+
+    #[test]
+    fn the_file_of_a_study_is_written_only_while_it_says_what_it_said() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let study = folder.path().join("study.toml");
+        std::fs::write(&study, "[[garment]]\nname = \"tee\"\nseams = \"a.toml\"\n").expect("writable");
+        let path = folder.path().join("a.toml");
+        std::fs::write(&path, "one").expect("writable");
+        let [one, two] = ["one", "two"].map(|text| SourceFile { name: "a.toml".into(), bytes: text.as_bytes().into() });
+        assert_eq!(seam_home(&study, "tee", &one), Some(path.clone()));
+        assert_eq!(seam_home(&study, "tee", &two), None);
+        assert_eq!(seam_home(&study, "dress", &one), None);
+        write_seams(&path, &one, &two).expect("it is as before");
+        assert_eq!(std::fs::read_to_string(&path).expect("readable"), "two");
+        assert!(write_seams(&path, &one, &two).expect_err("it is not").to_string().contains("changed meanwhile"));
+    }
+}

@@ -1,0 +1,139 @@
+//! Files that a study brings, as read; a pattern may be a folder with one piece a file.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::error::{Result, StudyError};
+use pattern::source::{self, Kind};
+
+/// A file that a study brings, as read, or the DXF files of a folder.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct SourceFile {
+    /// Name without folders; that of a folder ends in `/`.
+    pub name: String,
+    /// Contents (base64 in JSON); of a folder, each file's name, length and contents one after another.
+    #[serde(with = "base64_bytes")]
+    pub bytes: Arc<[u8]>,
+}
+
+mod base64_bytes {
+    use std::sync::Arc;
+
+    use base64::prelude::{BASE64_STANDARD, Engine};
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub fn serialize<S: Serializer>(bytes: &Arc<[u8]>, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&BASE64_STANDARD.encode(bytes))
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Arc<[u8]>, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        BASE64_STANDARD.decode(text).map(Arc::from).map_err(D::Error::custom)
+    }
+}
+
+impl SourceFile {
+    /// Whether it is a pattern that says itself how its pieces are sewn: GarmentCode JSON, by its contents.
+    #[must_use]
+    pub fn holds_seams(&self) -> bool {
+        !self.name.ends_with('/') && source::kind(&self.bytes) == Kind::GarmentCode
+    }
+
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn read(path: &Path) -> Result<Self> {
+        let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
+        Ok(Self { name: name_of(path), bytes: bytes.into() })
+    }
+
+    /// Reads a pattern: a file, or all DXF files that lie in a folder, by name.
+    ///
+    /// # Errors
+    /// When it cannot be read, or the folder has no DXF file.
+    pub fn read_pattern(path: &Path) -> Result<Self> {
+        if !path.is_dir() {
+            return Self::read(path);
+        }
+        let mut files: Vec<PathBuf> = Vec::new();
+        for entry in std::fs::read_dir(path).map_err(StudyError::io(path))? {
+            let file = entry.map_err(StudyError::io(path))?.path();
+            if file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf")) {
+                files.push(file);
+            }
+        }
+        files.sort();
+        if files.is_empty() {
+            let message =
+                format!("{}: a folder without a DXF file; accepted: one piece or more a file", path.display());
+            return Err(StudyError::Stage { stage: "pattern", message });
+        }
+        let mut bytes = Vec::new();
+        for file in files {
+            let part = Self::read(&file)?;
+            bytes.extend_from_slice(format!("{}\0{}\0", part.name, part.bytes.len()).as_bytes());
+            bytes.extend_from_slice(&part.bytes);
+        }
+        Ok(Self { name: format!("{}/", name_of(path)), bytes: bytes.into() })
+    }
+
+    /// The files it is made of: itself, or those of the folder.
+    #[must_use]
+    pub fn parts(&self) -> Vec<Self> {
+        if !self.name.ends_with('/') {
+            return vec![self.clone()];
+        }
+        let mut parts = Vec::new();
+        let mut rest = &self.bytes[..];
+        // What `read_pattern` wrote splits without a rest; other bytes end the list.
+        while let Some((name, after)) = split_zero(rest) {
+            let Some((length, after)) = split_zero(after) else { break };
+            let length = String::from_utf8_lossy(length).parse().unwrap_or(usize::MAX);
+            let Some((bytes, after)) = after.split_at_checked(length) else { break };
+            parts.push(Self { name: String::from_utf8_lossy(name).into_owned(), bytes: bytes.into() });
+            rest = after;
+        }
+        parts
+    }
+
+    /// BLAKE3 of the contents, hex.
+    #[must_use]
+    pub fn hash(&self) -> String {
+        blake3::hash(&self.bytes).to_hex().to_string()
+    }
+}
+
+fn name_of(path: &Path) -> String {
+    let full = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let named = if path.is_dir() { &full } else { path };
+    named.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// What stands before and after the first zero byte.
+fn split_zero(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
+    let at = bytes.iter().position(|&byte| byte == 0)?;
+    Some((&bytes[..at], &bytes[at + 1..]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_is_its_dxf_files_by_name() {
+        let folder = tempfile::tempdir().expect("a folder");
+        for (name, text) in [("b.DXF", "two\0"), ("a.dxf", "one"), ("notes.txt", "x"), ("c.dxf", "")] {
+            std::fs::write(folder.path().join(name), text).expect("writable");
+        }
+        let source = SourceFile::read_pattern(folder.path()).expect("it reads");
+        let parts: Vec<(String, Vec<u8>)> =
+            source.parts().into_iter().map(|part| (part.name, part.bytes.to_vec())).collect();
+        let expect = [("a.dxf", "one"), ("b.DXF", "two\0"), ("c.dxf", "")];
+        assert_eq!(parts, expect.map(|(name, text)| (name.to_owned(), text.as_bytes().to_vec())));
+        let cut = SourceFile { bytes: source.bytes[..source.bytes.len() - 3].into(), ..source };
+        assert_eq!(cut.parts().len(), 2);
+        assert!(SourceFile::read_pattern(&folder.path().join("none")).is_err());
+    }
+}

@@ -1,0 +1,211 @@
+//! The study file that reproduces a study elsewhere, with all it needs.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use crate::spec::fields::{FABRIC_NUMBERS, MEASUREMENTS};
+use crate::spec::file::{GarmentEntry, ScanFile, SourceFile, Study, Subject};
+use crate::spec::{self, Schedule, millimetres, sex_name};
+use geom::units::mm;
+use sim::Fabric;
+
+impl Study {
+    /// Number of its simulations.
+    #[must_use]
+    pub fn jobs(&self) -> usize {
+        spec::jobs(self).len()
+    }
+}
+
+/// Files that reproduce a study anywhere: measurements, cloths and parameters as numbers, patterns and scans beside it.
+/// Each simulation of it has the same inputs as before, whatever the catalogue says there.
+#[must_use]
+pub fn export_study(study: &Study) -> Vec<(String, Vec<u8>)> {
+    let mut files: Files = BTreeMap::new();
+    let mut text = "# Written by `toile study export`.\n\n".to_owned();
+    let simulators: Vec<&str> = study.simulators.iter().map(|simulator| simulator.as_str()).collect();
+    // Writing into a text does not fail, here and below.
+    let _ = writeln!(
+        text,
+        "name = {}\nsimulators = {}\nrepeats = {}",
+        quoted(&study.name),
+        list(&simulators),
+        study.repeats
+    );
+    let (tight, loose) = (mm(study.cuts.tight_below_m), mm(study.cuts.loose_above_m));
+    let _ = writeln!(text, "fit = {{ tight_below_mm = {tight}, loose_above_mm = {loose} }}");
+    for subject in &study.subjects {
+        write_subject(&mut text, &mut files, subject);
+    }
+    let mut fabrics: BTreeMap<&str, &Fabric> = BTreeMap::new();
+    for garment in &study.garments {
+        write_garment(&mut text, &mut files, garment);
+        fabrics.insert(&garment.fabric.name, &garment.fabric);
+    }
+    for fabric in fabrics.into_values() {
+        let _ = writeln!(text, "\n[[fabric]]\nname = {}\nsource = {}", quoted(&fabric.name), quoted(&fabric.source));
+        for field in &FABRIC_NUMBERS {
+            if let Some(number) = field.get(fabric) {
+                let _ = writeln!(text, "{} = {number:?}", field.key);
+            }
+        }
+    }
+    files.insert("study.toml".to_owned(), text.into_bytes());
+    files.into_iter().collect()
+}
+
+/// Contents by path within the folder.
+pub(crate) type Files = BTreeMap<String, Vec<u8>>;
+
+fn write_subject(text: &mut String, files: &mut Files, subject: &Subject) {
+    let _ =
+        writeln!(text, "\n[[subject]]\nid = {}\nsex = \"{}\"", quoted(&subject.id), sex_name(&subject.measurements));
+    if let Some(ScanFile { file, unit }) = &subject.scan {
+        let _ = writeln!(text, "scan = {}", quoted(&place(files, "scans", file)));
+        if let Some(unit) = unit {
+            let _ = writeln!(text, "unit = \"{}\"", unit.name());
+        }
+        return;
+    }
+    for field in &MEASUREMENTS {
+        if let Some(value) = field.get(&subject.measurements) {
+            let _ = writeln!(text, "{} = {value:?}", field.key);
+        }
+    }
+}
+
+fn write_garment(text: &mut String, files: &mut Files, garment: &GarmentEntry) {
+    let _ = writeln!(text, "\n[[garment]]\nname = {}", quoted(&garment.name));
+    if garment.style != garment.name {
+        let _ = writeln!(text, "style = {}", quoted(&garment.style));
+    }
+    let wearers: Vec<&str> = garment.subjects.iter().map(String::as_str).collect();
+    let _ = writeln!(text, "subjects = {}\nfabric = {}", list(&wearers), quoted(&garment.fabric.name));
+    let _ = writeln!(text, "edge_length_mm = {:?}", millimetres(garment.edge_length_m));
+    if let Some(unit) = &garment.unit {
+        let _ = writeln!(text, "unit = {}", quoted(unit));
+    }
+    if let Some(seams) = &garment.seams {
+        let _ = writeln!(text, "seams = {}", quoted(&place(files, "patterns", seams)));
+    }
+    text.push_str("sizes = [\n");
+    for size in &garment.sizes {
+        let pattern = quoted(&place(files, "patterns", &size.pattern));
+        let _ = writeln!(text, "    {{ name = {}, pattern = {pattern} }},", quoted(&size.name));
+    }
+    text.push_str("]\n");
+    for (name, value) in garment.parameters.iter() {
+        let _ = writeln!(text, "parameters.{name} = {value}");
+    }
+    let Schedule { priority, after, limits } = &garment.schedule;
+    if *priority != 0 {
+        let _ = writeln!(text, "priority = {priority}");
+    }
+    if !after.is_empty() {
+        let _ = writeln!(text, "after = {}", list(&after.iter().map(String::as_str).collect::<Vec<_>>()));
+    }
+    if let Some(seconds) = limits.time_s {
+        let _ = writeln!(text, "time_limit_s = {seconds:?}");
+    }
+    if let Some(megabytes) = limits.memory_mb {
+        let _ = writeln!(text, "memory_limit_mb = {megabytes}");
+    }
+}
+
+/// Puts a file, or the files of a folder, below `folder` under its own name, which is one of a result's inputs; another
+/// file of that name goes one folder deeper. Returns its path.
+pub(crate) fn place(files: &mut Files, folder: &str, source: &SourceFile) -> String {
+    let mut folder = folder.to_owned();
+    loop {
+        let path = format!("{folder}/{}", source.name);
+        let parts: Vec<(String, Vec<u8>)> = if source.name.ends_with('/') {
+            source.parts().into_iter().map(|part| (format!("{path}{}", part.name), part.bytes.to_vec())).collect()
+        } else {
+            vec![(path.clone(), source.bytes.to_vec())]
+        };
+        if parts.iter().all(|(path, bytes)| files.get(path).is_none_or(|there| there == bytes)) {
+            files.extend(parts);
+            return path;
+        }
+        folder.push_str("/other");
+    }
+}
+
+/// A text as TOML writes it.
+pub(crate) fn quoted(text: &str) -> String {
+    toml::Value::from(text).to_string()
+}
+
+/// Texts as a list of TOML.
+pub(crate) fn list(texts: &[&str]) -> String {
+    format!("[{}]", texts.iter().map(|text| quoted(text)).collect::<Vec<_>>().join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::catalogue;
+    use crate::spec::new_study::new_study;
+    use crate::tools::{self, Model};
+
+    fn hashes(study: &Study) -> Vec<String> {
+        spec::jobs(study).into_iter().map(|job| job.inputs.hash()).collect()
+    }
+
+    fn load(folder: &Path) -> Study {
+        Study::load(folder, &catalogue::known(None).expect("built in")).expect("a good study")
+    }
+
+    /// Exports a study, reads it back, and expects the same simulations.
+    fn check(study: &Study) {
+        let elsewhere = tempfile::tempdir().expect("a folder");
+        tools::write_files(elsewhere.path(), &export_study(study)).expect("writable");
+        let again = load(elsewhere.path());
+        assert_eq!(hashes(&again), hashes(study));
+        assert_eq!((again.name, again.cuts), (study.name.clone(), study.cuts));
+    }
+
+    #[test]
+    fn an_exported_study_has_the_same_inputs() {
+        let project = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies");
+        for name in ["quickstart", "thesis", "fabrics"] {
+            check(&load(&project.join(name)));
+        }
+    }
+
+    #[test]
+    fn a_new_study_runs_in_every_style_and_its_sweeps_are_exported() {
+        for model in Model::ALL {
+            let folder = tempfile::tempdir().expect("a folder");
+            let files = new_study(folder.path(), model).expect("nothing is there");
+            tools::write_files(folder.path(), &files).expect("writable");
+            let path = folder.path().join("study.toml");
+            let text = std::fs::read_to_string(&path).expect("written");
+            let plain = load(folder.path());
+            std::fs::write(
+                &path,
+                text.replace("# [[sweep]]\n# fabric", "[[sweep]]\nfabric")
+                    .replace("# edge_length_mm = [", "fem.offset_mu = [0.4]\nedge_length_mm = ["),
+            )
+            .expect("writable");
+            let swept = load(folder.path());
+            assert_eq!(swept.jobs(), 4 * plain.jobs(), "{}", model.as_str());
+            let first = format!("{} edge_length_mm=20 fabric=cotton_shirting_light offset_mu=0.4", model.as_str());
+            assert_eq!(swept.garments[0].name, first);
+            check(&swept);
+            assert!(new_study(folder.path(), model).is_err());
+        }
+    }
+
+    #[test]
+    fn files_of_one_name_do_not_overwrite_each_other() {
+        let mut files = Files::new();
+        let source = |text: &str| SourceFile { name: "s.dxf".into(), bytes: text.as_bytes().into() };
+        assert_eq!(place(&mut files, "patterns", &source("one")), "patterns/s.dxf");
+        assert_eq!(place(&mut files, "patterns", &source("two")), "patterns/other/s.dxf");
+        assert_eq!(place(&mut files, "patterns", &source("one")), "patterns/s.dxf");
+        assert_eq!(files.len(), 2);
+    }
+}

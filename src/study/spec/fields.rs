@@ -1,0 +1,405 @@
+//! The numbers of subjects and fabrics: their names, the values accepted, and how they are read from text. Study files,
+//! imported tables, flags and forms all go through these lists, so that a value is accepted everywhere or nowhere.
+
+use std::ops::RangeInclusive;
+
+use crate::error::nearest;
+use crate::spec::millimetres;
+use body::{Dimension, Measurements, Sex};
+use geom::units::from_mm;
+use sim::Fabric;
+use sim::fabric::Stretched;
+
+/// One number of an entry of the catalogue, in the unit its key ends with.
+pub struct Field<T: 'static> {
+    /// Key in study files, tables and SQL (`waist_girth_mm`).
+    pub key: &'static str,
+    /// Flag of the command line (`waist-girth-mm`).
+    pub flag: &'static str,
+    /// Name on screens and in help.
+    pub label: &'static str,
+    /// Whether no entry is without it.
+    pub is_required: bool,
+    range: fn() -> RangeInclusive<f64>,
+    get: fn(&T) -> Option<f64>,
+    set: fn(&mut T, Option<f64>),
+}
+
+impl<T> Field<T> {
+    /// Its value in an entry.
+    #[must_use]
+    pub fn get(&self, entry: &T) -> Option<f64> {
+        (self.get)(entry)
+    }
+
+    /// Gives it a value, or none.
+    pub fn set(&self, entry: &mut T, value: Option<f64>) {
+        (self.set)(entry, value);
+    }
+
+    /// Whether a number is one that it can have.
+    ///
+    /// # Errors
+    /// What was found and what would be accepted.
+    pub fn check(&self, number: f64) -> Result<f64, String> {
+        let range = (self.range)();
+        if range.contains(&number) {
+            return Ok(number);
+        }
+        Err(format!("`{}` is {number}; accepted: {} to {}", self.key, range.start(), range.end()))
+    }
+
+    /// A value from text; empty text is no value.
+    ///
+    /// # Errors
+    /// What was found and what would be accepted.
+    pub fn read(&self, text: &str) -> Result<Option<f64>, String> {
+        let range = (self.range)();
+        let accepted = format!("accepted: {} to {}", range.start(), range.end());
+        match text.trim() {
+            "" if self.is_required => Err(format!("`{}` is missing; {accepted}", self.key)),
+            "" => Ok(None),
+            text => match text.parse() {
+                Ok(number) => self.check(number).map(Some),
+                Err(_) => Err(format!("`{}` is `{text}`, which is no number; {accepted}", self.key)),
+            },
+        }
+    }
+}
+
+/// A measurement that need not be known, its value in the unit of its key.
+macro_rules! measurement {
+    ($dimension:ident, $field:ident, $flag:literal) => {
+        Field {
+            key: Dimension::$dimension.key(),
+            flag: $flag,
+            label: Dimension::$dimension.name(),
+            is_required: false,
+            range: || body_range(Dimension::$dimension),
+            get: |subject| subject.$field.map(millimetres),
+            set: |subject, value| subject.$field = value.map(from_mm),
+        }
+    };
+}
+
+/// The measurements of a subject, the most asked for first; names after ISO 8559-1.
+pub static MEASUREMENTS: [Field<Measurements>; Dimension::ALL.len()] = [
+    Field {
+        key: Dimension::Stature.key(),
+        flag: "stature-mm",
+        label: Dimension::Stature.name(),
+        is_required: true,
+        range: || body_range(Dimension::Stature),
+        get: |subject| Some(millimetres(subject.stature_m)),
+        set: |subject, value| subject.stature_m = from_mm(value.unwrap_or(f64::NAN)),
+    },
+    Field {
+        key: Dimension::Weight.key(),
+        flag: "weight-kg",
+        label: Dimension::Weight.name(),
+        is_required: false,
+        range: || body_range(Dimension::Weight),
+        get: |subject| subject.weight_kg,
+        set: |subject, value| subject.weight_kg = value,
+    },
+    measurement!(ChestGirth, chest_girth_m, "chest-girth-mm"),
+    measurement!(WaistGirth, waist_girth_m, "waist-girth-mm"),
+    measurement!(HipGirth, hip_girth_m, "hip-girth-mm"),
+    measurement!(NeckGirth, neck_girth_m, "neck-girth-mm"),
+    measurement!(AcrossShoulder, across_shoulder_m, "across-shoulder-mm"),
+    measurement!(UnderbustGirth, underbust_girth_m, "underbust-girth-mm"),
+    measurement!(ThighGirth, thigh_girth_m, "thigh-girth-mm"),
+    measurement!(KneeGirth, knee_girth_m, "knee-girth-mm"),
+    measurement!(CalfGirth, calf_girth_m, "calf-girth-mm"),
+    measurement!(AnkleGirth, ankle_girth_m, "ankle-girth-mm"),
+    measurement!(UpperArmGirth, upper_arm_girth_m, "upper-arm-girth-mm"),
+    measurement!(ForearmGirth, forearm_girth_m, "forearm-girth-mm"),
+    measurement!(WristGirth, wrist_girth_m, "wrist-girth-mm"),
+    measurement!(Inseam, inseam_m, "inseam-mm"),
+    measurement!(ArmLength, arm_length_m, "arm-length-mm"),
+    measurement!(FootLength, foot_length_m, "foot-length-mm"),
+];
+
+/// The values of a measurement that a body can be built with, in the unit of its key.
+fn body_range(dimension: Dimension) -> RangeInclusive<f64> {
+    let [least, greatest] = dimension.range().map(|bound| (bound * dimension.per_si() * 1e6).round() / 1e6);
+    least..=greatest
+}
+
+/// A number of [`Fabric`] in SI units.
+macro_rules! number {
+    ($field:ident, $flag:literal, $label:literal, $range:expr) => {
+        Field {
+            key: stringify!($field),
+            flag: $flag,
+            label: $label,
+            is_required: true,
+            range: || $range,
+            get: |fabric| Some(fabric.$field),
+            set: |fabric, value| fabric.$field = value.unwrap_or(f64::NAN),
+        }
+    };
+}
+
+/// The numbers of a fabric.
+pub static FABRIC_NUMBERS: [Field<Fabric>; 13] = [
+    number!(density_kg_m2, "density-kg-m2", "areal density", 0.005..=5.0),
+    Field {
+        key: "thickness_mm",
+        flag: "thickness-mm",
+        label: "thickness",
+        is_required: true,
+        range: || 0.01..=20.0,
+        get: |fabric| Some(millimetres(fabric.thickness_m)),
+        set: |fabric, value| fabric.thickness_m = from_mm(value.unwrap_or(f64::NAN)),
+    },
+    number!(membrane_warp_n_m, "membrane-warp-n-m", "strip modulus along the grain", 1.0..=1e6),
+    number!(membrane_weft_n_m, "membrane-weft-n-m", "strip modulus across the grain", 1.0..=1e6),
+    Field {
+        key: "membrane_coupling_n_m",
+        flag: "membrane-coupling-n-m",
+        label: "coupling of the two [default: 0]",
+        is_required: false,
+        range: || 0.0..=1e6,
+        get: |fabric| Some(fabric.membrane_coupling_n_m),
+        set: |fabric, value| fabric.membrane_coupling_n_m = value.unwrap_or(0.0),
+    },
+    number!(shear_n_m, "shear-n-m", "shear modulus", 0.1..=1e6),
+    number!(bending_warp_nm, "bending-warp-nm", "bending rigidity, warp", 1e-9..=1e-1),
+    number!(bending_weft_nm, "bending-weft-nm", "bending rigidity, weft", 1e-9..=1e-1),
+    number!(friction_body, "friction-body", "friction on the body", 0.0..=5.0),
+    number!(friction_self, "friction-self", "friction on itself", 0.0..=5.0),
+    Field {
+        key: "stretch_pct",
+        flag: "stretch-pct",
+        label: "stretch of a knit's second moduli [default: none]",
+        is_required: false,
+        range: || 1.0..=200.0,
+        get: |fabric| fabric.stretched.map(|law| (law.stretch * 1e10).round() / 1e8),
+        set: |fabric, value| set_stretched(fabric, value, |law, value| law.stretch = value / 100.0),
+    },
+    Field {
+        key: "stretched_warp_n_m",
+        flag: "stretched-warp-n-m",
+        label: "secant modulus there, warp",
+        is_required: false,
+        range: || 1.0..=1e6,
+        get: |fabric| fabric.stretched.map(|law| law.membrane_warp_n_m),
+        set: |fabric, value| set_stretched(fabric, value, |law, value| law.membrane_warp_n_m = value),
+    },
+    Field {
+        key: "stretched_weft_n_m",
+        flag: "stretched-weft-n-m",
+        label: "secant modulus there, weft",
+        is_required: false,
+        range: || 1.0..=1e6,
+        get: |fabric| fabric.stretched.map(|law| law.membrane_weft_n_m),
+        set: |fabric, value| set_stretched(fabric, value, |law, value| law.membrane_weft_n_m = value),
+    },
+];
+
+/// Sets one of the three numbers of a law that stiffens; one that is taken away takes the law with it.
+fn set_stretched(fabric: &mut Fabric, value: Option<f64>, set: fn(&mut Stretched, f64)) {
+    let unset = Stretched { stretch: f64::NAN, membrane_warp_n_m: f64::NAN, membrane_weft_n_m: f64::NAN };
+    match value {
+        Some(value) => set(fabric.stretched.get_or_insert(unset), value),
+        None => fabric.stretched = None,
+    }
+}
+
+/// The sex of a word.
+///
+/// # Errors
+/// What was found and what would be accepted.
+pub fn sex(word: &str) -> Result<Sex, String> {
+    match word.trim() {
+        "male" | "m" | "M" => Ok(Sex::Male),
+        "female" | "f" | "F" => Ok(Sex::Female),
+        other => Err(format!("sex `{other}`; accepted: male, female")),
+    }
+}
+
+/// A value that was given for one key of an entry.
+pub type Given = (String, String);
+
+/// What can be made from keys and texts: a subject or a fabric.
+pub(crate) trait Entry: Clone + 'static {
+    /// Its numbers.
+    fn fields() -> &'static [Field<Self>];
+
+    /// Its texts besides the name, and whether it must have them.
+    const TEXTS: &'static [(&'static str, bool)];
+
+    /// One without any value.
+    fn blank(name: &str) -> Self;
+
+    /// Gives it a text.
+    fn set_text(&mut self, key: &str, text: &str) -> Result<(), String>;
+
+    /// Whether its numbers go together; else the key with what is wrong.
+    fn check(&self) -> Result<(), Given> {
+        Ok(())
+    }
+}
+
+impl Entry for Measurements {
+    fn fields() -> &'static [Field<Self>] {
+        &MEASUREMENTS
+    }
+
+    const TEXTS: &'static [(&'static str, bool)] = &[("sex", true)];
+
+    fn blank(_: &str) -> Self {
+        Self::of(Sex::Female, f64::NAN)
+    }
+
+    fn set_text(&mut self, _: &str, text: &str) -> Result<(), String> {
+        self.sex = sex(text)?;
+        Ok(())
+    }
+}
+
+impl Entry for Fabric {
+    fn fields() -> &'static [Field<Self>] {
+        &FABRIC_NUMBERS
+    }
+
+    const TEXTS: &'static [(&'static str, bool)] = &[("source", false)];
+
+    fn blank(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            density_kg_m2: f64::NAN,
+            thickness_m: f64::NAN,
+            membrane_warp_n_m: f64::NAN,
+            membrane_weft_n_m: f64::NAN,
+            membrane_coupling_n_m: 0.0,
+            shear_n_m: f64::NAN,
+            bending_warp_nm: f64::NAN,
+            bending_weft_nm: f64::NAN,
+            friction_body: f64::NAN,
+            friction_self: f64::NAN,
+            source: "own".to_owned(),
+            stretched: None,
+        }
+    }
+
+    fn check(&self) -> Result<(), Given> {
+        let Some(law) = self.stretched else { return Ok(()) };
+        let numbers = [
+            ("stretch_pct", law.stretch),
+            ("stretched_warp_n_m", law.membrane_warp_n_m),
+            ("stretched_weft_n_m", law.membrane_weft_n_m),
+        ];
+        let missing = numbers.into_iter().find(|(_, number)| number.is_nan());
+        missing.map_or(Ok(()), |(key, _)| {
+            let problem = format!("`{key}` is missing; a knit that stiffens has a stretch and both moduli there");
+            Err((key.to_owned(), problem))
+        })
+    }
+
+    fn set_text(&mut self, _: &str, text: &str) -> Result<(), String> {
+        self.source = text.trim().to_owned();
+        Ok(())
+    }
+}
+
+/// All keys of an entry.
+pub(crate) fn keys<T: Entry>() -> Vec<&'static str> {
+    T::TEXTS.iter().map(|(key, _)| *key).chain(T::fields().iter().map(|field| field.key)).collect()
+}
+
+/// Lays given values over an entry, or over a blank one, which then needs all that is required.
+///
+/// # Errors
+/// Every key with what is wrong with its value.
+pub(crate) fn filled<T: Entry>(base: Option<&T>, name: &str, given: &[Given]) -> Result<T, Vec<Given>> {
+    let mut entry = base.cloned().unwrap_or_else(|| T::blank(name));
+    let mut problems = Vec::new();
+    for (key, text) in given {
+        let done = if T::TEXTS.iter().any(|(name, _)| name == key) {
+            entry.set_text(key, text)
+        } else if let Some(field) = T::fields().iter().find(|field| field.key == key) {
+            field.read(text).map(|value| field.set(&mut entry, value))
+        } else {
+            let hint = match nearest(key, keys::<T>()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("accepted: {}", keys::<T>().join(", ")),
+            };
+            Err(format!("unknown value `{key}`; {hint}"))
+        };
+        problems.extend(done.err().map(|problem| (key.clone(), problem)));
+    }
+    if base.is_none() {
+        let required = T::TEXTS.iter().copied().chain(T::fields().iter().map(|field| (field.key, field.is_required)));
+        let absent = required.filter(|(key, is_required)| *is_required && !given.iter().any(|(given, _)| given == key));
+        problems.extend(absent.map(|(key, _)| (key.to_owned(), format!("`{key}` is missing"))));
+    }
+    problems.extend(entry.check().err());
+    if problems.is_empty() { Ok(entry) } else { Err(problems) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn given(pairs: &[(&str, &str)]) -> Vec<Given> {
+        pairs.iter().map(|(key, text)| ((*key).to_owned(), (*text).to_owned())).collect()
+    }
+
+    #[test]
+    fn every_field_keeps_what_it_is_given() {
+        let mut subject = Measurements::blank("");
+        for field in &MEASUREMENTS {
+            let value = *(field.range)().start();
+            field.set(&mut subject, Some(value));
+            assert_eq!(field.get(&subject), Some(value), "{}", field.key);
+        }
+        let mut fabric = Fabric::blank("");
+        for field in &FABRIC_NUMBERS {
+            field.set(&mut fabric, Some(0.31));
+            assert_eq!(field.get(&fabric), Some(0.31), "{}", field.key);
+        }
+    }
+
+    #[test]
+    fn flags_are_keys_with_dashes() {
+        for (key, flag) in
+            MEASUREMENTS.iter().map(|f| (f.key, f.flag)).chain(FABRIC_NUMBERS.iter().map(|f| (f.key, f.flag)))
+        {
+            assert_eq!(key.replace('_', "-"), flag);
+        }
+    }
+
+    #[test]
+    fn every_wrong_value_is_named() {
+        let told = |pairs: &[(&str, &str)]| {
+            let problems = filled::<Measurements>(None, "anna", &given(pairs)).expect_err("wrong");
+            problems.into_iter().map(|(_, problem)| problem).collect::<Vec<_>>()
+        };
+        assert_eq!(told(&[("sex", "f")]), ["`stature_mm` is missing"]);
+        assert_eq!(
+            told(&[("sex", "woman"), ("stature_mm", "1,65"), ("waist_girth_mm", "70"), ("wiast_girth_mm", "700")]),
+            [
+                "sex `woman`; accepted: male, female",
+                "`stature_mm` is `1,65`, which is no number; accepted: 1300 to 2200",
+                "`waist_girth_mm` is 70; accepted: 450 to 1700",
+                "unknown value `wiast_girth_mm`; did you mean `waist_girth_mm`?",
+            ]
+        );
+        assert!(told(&[("sex", "f"), ("stature_mm", "NaN")])[0].contains("is NaN"));
+    }
+
+    #[test]
+    fn values_are_laid_over_an_entry_and_taken_away() {
+        let anna = given(&[("sex", "f"), ("stature_mm", "1650"), ("waist_girth_mm", "700")]);
+        let anna = filled::<Measurements>(None, "anna", &anna).expect("right");
+        assert_eq!(
+            (anna.sex, anna.stature_m, anna.waist_girth_m),
+            (Sex::Female, from_mm(1650.0), Some(from_mm(700.0)))
+        );
+        let edited =
+            filled(Some(&anna), "anna", &given(&[("waist_girth_mm", ""), ("weight_kg", " 60 ")])).expect("right");
+        assert_eq!(edited, Measurements { waist_girth_m: None, weight_kg: Some(60.0), ..anna });
+    }
+}

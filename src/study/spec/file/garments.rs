@@ -1,0 +1,224 @@
+//! The `[[garment]]` tables of a study file: who wears it, how it is sewn, in which cloth, its sizes.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use toml::Spanned;
+
+use crate::spec::Limits;
+use crate::spec::file::parse::{lookup, source, unique};
+use crate::spec::file::reader::{Place, Reader};
+use crate::spec::file::sweep::{self, EDGE_MM};
+use crate::spec::file::{GarmentEntry, KnownStyle, Placed, Sewn, SizeFile, SourceFile, Subject, schedule};
+use crate::spec::parameters::Parameters;
+use geom::units::from_mm;
+use sim::Fabric;
+
+const GARMENT_KEYS: [&str; 13] = [
+    "name",
+    "subjects",
+    "seams",
+    "unit",
+    "fabric",
+    "sizes",
+    "style",
+    "edge_length_mm",
+    "parameters",
+    "priority",
+    "after",
+    "time_limit_s",
+    "memory_limit_mb",
+];
+
+/// What garments of a file have in common.
+pub(super) struct Common<'a> {
+    /// Folder of the file.
+    pub folder: &'a Path,
+    /// Fabrics they may name.
+    pub fabrics: &'a BTreeMap<String, Fabric>,
+    /// Styles they may name.
+    pub styles: &'a BTreeMap<String, KnownStyle>,
+    /// Edge length of the finest mesh, m, where a garment says nothing else.
+    pub edge_length_m: f64,
+    /// Parameters of the simulators, likewise.
+    pub parameters: Parameters,
+    /// What a simulation may take, likewise.
+    pub limits: Limits,
+}
+
+/// All garments with their cloth and those who wear them.
+pub(super) fn garments(
+    reader: &mut Reader<'_>,
+    top: &Place<'_>,
+    common: &Common<'_>,
+    subjects: &[Subject],
+) -> Vec<GarmentEntry> {
+    let places = reader.tables(top, "garment", "garment");
+    if places.is_empty() {
+        reader.missing(top, "garment", "at least one [[garment]]");
+    }
+    let mut garments = Vec::new();
+    let mut names = BTreeSet::new();
+    for mut place in places {
+        let before = names.clone();
+        let name = named(reader, &mut place, &mut names);
+        let schedule = schedule::schedule(reader, &place, &before, common.limits);
+        let subjects = wearers(reader, &place, top, subjects);
+        let style = reader.text(&place, "style");
+        let Sewn { seams, unit, sizes } = match &style {
+            Some(style) if !place.table.contains_key("seams") => in_catalogue(reader, &place, style, common.styles),
+            _ => {
+                let sewn = sewn(reader, &place, common.folder);
+                let holds_seams = !sewn.sizes.is_empty() && sewn.sizes.iter().all(|size| size.pattern.holds_seams());
+                if !holds_seams && !place.table.contains_key("seams") {
+                    let wanted = "the file that says how its pieces are sewn, or a `style` of the catalogue";
+                    reader.missing(&place, "seams", wanted);
+                }
+                sewn
+            }
+        };
+        let edge_length_m = reader.number(&place, "edge_length_mm", EDGE_MM).map_or(common.edge_length_m, from_mm);
+        let mut parameters = common.parameters.clone();
+        for (name, value) in sweep::parameters(reader, &place).iter() {
+            // It was accepted when it was read.
+            let _ = parameters.set(name, value.clone());
+        }
+        let fabric = reader.need_text(&place, "fabric", "the name of a fabric");
+        let fabric = fabric.and_then(|name| lookup(reader, common.fabrics, &name, "fabric").cloned());
+        if let (Some(name), Some(fabric)) = (name, fabric) {
+            let name = (*name.get_ref()).to_owned();
+            let style = style.map_or_else(|| name.clone(), |style| style.into_inner().to_owned());
+            let swept = vec![];
+            garments.push(GarmentEntry {
+                name,
+                subjects,
+                seams,
+                unit,
+                fabric,
+                sizes,
+                style,
+                edge_length_m,
+                parameters,
+                swept,
+                schedule,
+            });
+        }
+    }
+    garments
+}
+
+/// A style of the catalogue in all of its sizes, or those that are named.
+fn in_catalogue(
+    reader: &mut Reader<'_>,
+    place: &Place<'_>,
+    name: &Spanned<&str>,
+    styles: &BTreeMap<String, KnownStyle>,
+) -> Sewn {
+    let mut sewn = Sewn { seams: None, unit: unit(reader, place), sizes: vec![] };
+    let Some(style) = lookup(reader, styles, name, "style in the catalogue") else { return sewn };
+    sewn.seams.clone_from(&style.seams);
+    let known: BTreeMap<String, ()> = style.sizes.iter().map(|(size, _)| (size.name.clone(), ())).collect();
+    let wanted = reader.texts(place, "sizes").map(|names| {
+        let found = names.iter().filter(|size| lookup(reader, &known, size, "size of the style").is_some());
+        found.map(|size| (*size.get_ref()).to_owned()).collect::<Vec<_>>()
+    });
+    let wanted = wanted.unwrap_or_else(|| style.sizes.iter().map(|(size, _)| size.name.clone()).collect());
+    for (size, unit) in wanted.iter().filter_map(|name| style.sizes.iter().find(|(size, _)| size.name == *name)) {
+        if unit.is_some() && sewn.unit.is_some() && *unit != sewn.unit {
+            let message =
+                format!("{}: sizes of `{}` are in different units; name those of one", place.name, name.get_ref());
+            reader.problem(&name.span(), message);
+        }
+        sewn.unit = sewn.unit.or(unit.clone());
+        sewn.sizes.push(size.clone());
+    }
+    sewn
+}
+
+/// Who wears a garment: the subjects it names, or else all of the file.
+fn wearers(reader: &mut Reader<'_>, garment: &Place<'_>, top: &Place<'_>, subjects: &[Subject]) -> Vec<String> {
+    let Some(names) = reader.texts(garment, "subjects") else {
+        return subjects.iter().map(|subject| subject.id.clone()).collect();
+    };
+    // Subjects that are in the file but wrong are told of once, at their own place.
+    let known: BTreeMap<String, ()> = reader
+        .tables(top, "subject", "subject")
+        .iter()
+        .filter_map(|place| place.table.get("id")?.get_ref().as_str().map(|id| (id.to_owned(), ())))
+        .collect();
+    let mut wearers: Vec<String> = Vec::new();
+    for name in &names {
+        if wearers.iter().any(|wearer| wearer == name.get_ref()) {
+            reader.problem(&name.span(), format!("{}: subject `{}` is named twice", garment.name, name.get_ref()));
+        } else if lookup(reader, &known, name, "[[subject]] with the id").is_some() {
+            wearers.push((*name.get_ref()).to_owned());
+        }
+    }
+    if names.is_empty() {
+        let span = garment.table.get("subjects").map_or(garment.span.clone(), Spanned::span);
+        let message = format!("{}: nobody wears it; name subjects, or leave `subjects` out for all", garment.name);
+        reader.problem(&span, message);
+    }
+    wearers
+}
+
+/// All garments without their cloth.
+pub(super) fn all_sewn(reader: &mut Reader<'_>, top: &Place<'_>, folder: &Path) -> Vec<Placed<Sewn>> {
+    let mut garments = Vec::new();
+    let mut names = BTreeSet::new();
+    for mut place in reader.tables(top, "garment", "garment") {
+        let name = named(reader, &mut place, &mut names);
+        let sewn = sewn(reader, &place, folder);
+        garments.extend(name.map(|name| reader.placed(&name.span(), name.get_ref(), sewn)));
+    }
+    garments
+}
+
+/// The name of a garment, which its place then bears.
+fn named<'t>(
+    reader: &mut Reader<'_>,
+    place: &mut Place<'t>,
+    names: &mut BTreeSet<&'t str>,
+) -> Option<Spanned<&'t str>> {
+    reader.only(place, &GARMENT_KEYS);
+    let name = reader.need_text(place, "name", "its name in results")?;
+    unique(reader, names, &name, "garment");
+    place.name = format!("garment {}", name.get_ref());
+    Some(name)
+}
+
+fn sewn(reader: &mut Reader<'_>, place: &Place<'_>, folder: &Path) -> Sewn {
+    let seams = reader.text(place, "seams").and_then(|file| source(reader, place, &file, folder, SourceFile::read));
+    Sewn { seams, unit: unit(reader, place), sizes: sizes(reader, place, folder) }
+}
+
+fn unit(reader: &mut Reader<'_>, place: &Place<'_>) -> Option<String> {
+    let unit = reader.text(place, "unit")?;
+    if !["mm", "cm", "in"].contains(unit.get_ref()) {
+        let message = format!("{}: unit `{}`; accepted: mm, cm, in", place.name, unit.get_ref());
+        reader.problem(&unit.span(), message);
+        return None;
+    }
+    Some(unit.into_inner().to_owned())
+}
+
+fn sizes(reader: &mut Reader<'_>, garment: &Place<'_>, folder: &Path) -> Vec<SizeFile> {
+    let places = reader.tables(garment, "sizes", "size");
+    if places.is_empty() {
+        reader.missing(garment, "sizes", "a list like [{ name = \"S\", pattern = \"s.dxf\" }]");
+    }
+    let mut sizes = Vec::new();
+    let mut names = BTreeSet::new();
+    for mut place in places {
+        place.name = format!("{}, {}", garment.name, place.name);
+        reader.only(&place, &["name", "pattern"]);
+        let name = reader.need_text(&place, "name", "the size's name");
+        let pattern = reader.need_text(&place, "pattern", "its DXF file, folder of DXF files, or GarmentCode JSON");
+        let pattern = pattern.and_then(|file| source(reader, &place, &file, folder, SourceFile::read_pattern));
+        if let Some(name) = name {
+            unique(reader, &mut names, &name, "size");
+            sizes.extend(pattern.map(|pattern| SizeFile { name: (*name.get_ref()).to_owned(), pattern }));
+        }
+    }
+    sizes
+}

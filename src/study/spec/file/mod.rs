@@ -1,0 +1,305 @@
+//! The study file `study.toml`: which subjects wear which garments, in which fabric, by which simulators.
+//!
+//! ```toml
+//! name = "tops"                     # default: the folder's name
+//! simulators = ["fem", "hybrid"]    # default: ["fem"]
+//! edge_length_mm = 15               # of the finest cloth mesh; default 15
+//! repeats = 1                       # default 1
+//! fit = { tight_below_mm = 50, loose_above_mm = 100 }   # default: these
+//! time_limit_s = 600                # a simulation that takes longer is ended and has failed; default: none
+//! memory_limit_mb = 2000            # likewise one that takes more memory; default: none
+//!
+//! [[subject]]
+//! id = "ii"                         # its name in results
+//! like = "male-ii"                  # an entry of the catalogue, or its own measurements:
+//! # sex = "male", stature_mm = 1690, weight_kg = 53, chest_girth_mm = 863, waist_girth_mm = 782,
+//! # hip_girth_mm = 914, neck_girth_mm = 378, across_shoulder_mm = 429
+//! # or a scan (OBJ, PLY, STL) that is the body: scan = "scans/ii.ply", sex = "male", unit = "mm"
+//!
+//! [[garment]]
+//! name = "tshirt"
+//! subjects = ["ii"]                 # who wears it; default: all subjects of the file
+//! seams = "patterns/tshirt.seams.toml"  # not needed for GarmentCode JSON, which holds its own seams
+//! fabric = "cotton_shirting_light"  # of the library, the catalogue, or a [[fabric]] of this file
+//! unit = "mm"                       # only where the DXF files name no unit
+//! style = "tee"                     # in place of files: a style of the catalogue; default: the garment's name
+//! edge_length_mm = 12               # default: the study's
+//! parameters = { fem.offset_mu = 0.4 }  # over the study's
+//! priority = 1                      # greater runs earlier; default 0
+//! after = ["trousers"]              # garments that must have their results on the same subject before
+//! time_limit_s = 60                 # and memory_limit_mb: over the study's
+//! sizes = [{ name = "S", pattern = "patterns/tshirt-s.dxf" }]   # DXF, a folder of DXF files, or GarmentCode JSON
+//! # with a style of the catalogue: sizes = ["S"]; default: all of the style
+//!
+//! [[fabric]]                        # numbers of a cloth of one's own, SI units as in the library
+//! name = "my_poplin"
+//! # density_kg_m2, thickness_mm, membrane_warp_n_m, membrane_weft_n_m, shear_n_m, bending_warp_nm, ...
+//!
+//! [parameters]                      # of the simulators, where they are not the default ones
+//! hybrid.push_steps = 20
+//!
+//! [[sweep]]                         # every combination becomes a garment: `tshirt offset_mu=0.4 bend_angle_deg=120`
+//! garments = ["tshirt"]             # default: all
+//! fem.offset_mu = [0.4, 0.3]        # any parameter, `edge_length_mm`, `fabric` or a number `fabric.shear_n_m`
+//! fem.bend_angle_deg = [180, 120]
+//! ```
+//!
+//! Everything is checked before anything runs, and all problems are told at once.
+
+mod garments;
+mod parse;
+mod reader;
+mod schedule;
+mod subjects;
+mod sweep;
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use crate::error::{Result, StudyError};
+pub use crate::source::SourceFile;
+use crate::spec::parameters::Parameters;
+use crate::spec::{Limits, Schedule};
+use body::{LengthUnit, Measurements};
+use fit::{Cuts, Simulator};
+use sim::Fabric;
+
+/// One thing that is wrong with a study file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// The file.
+    pub file: PathBuf,
+    /// Line, from 1.
+    pub line: Option<usize>,
+    /// Column of the line, in characters from 1.
+    pub column: Option<usize>,
+    /// What was found, and what would be accepted.
+    pub message: String,
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:", self.file.display())?;
+        for place in [self.line, self.column].into_iter().flatten() {
+            write!(f, "{place}:")?;
+        }
+        write!(f, " {}", self.message)
+    }
+}
+
+impl Problem {
+    /// A problem of a whole file.
+    pub(crate) fn of(file: &Path, message: impl Into<String>) -> Self {
+        Self { file: file.to_owned(), line: None, column: None, message: message.into() }
+    }
+
+    /// A problem of a line of a file.
+    pub(crate) fn at(file: &Path, line: usize, message: impl Into<String>) -> Self {
+        Self { line: Some(line), ..Self::of(file, message) }
+    }
+
+    /// All problems, one a line.
+    pub(crate) fn listing(problems: &[Self]) -> String {
+        problems.iter().map(Self::to_string).collect::<Vec<_>>().join("\n")
+    }
+}
+
+/// A subject of a study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Subject {
+    /// Name in results.
+    pub id: String,
+    /// What is known of the body.
+    pub measurements: Measurements,
+    /// The scan that is the body, where there is one.
+    pub scan: Option<ScanFile>,
+}
+
+/// A body scan of a study.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct ScanFile {
+    /// OBJ, PLY or STL.
+    pub file: SourceFile,
+    /// Unit of the file; told from its height where it is not given.
+    pub unit: Option<LengthUnit>,
+}
+
+/// One size of a garment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SizeFile {
+    /// Name (`S`).
+    pub name: String,
+    /// Its pattern.
+    pub pattern: SourceFile,
+}
+
+/// A garment of a study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GarmentEntry {
+    /// Name in results.
+    pub name: String,
+    /// Identifiers of the subjects who wear it, in order.
+    pub subjects: Vec<String>,
+    /// How its pieces are sewn and measured; `None` where the patterns hold their own seams (GarmentCode JSON).
+    pub seams: Option<SourceFile>,
+    /// Unit of the patterns, where their files name none: `mm`, `cm` or `in`.
+    pub unit: Option<String>,
+    /// The cloth.
+    pub fabric: Fabric,
+    /// Sizes, in order.
+    pub sizes: Vec<SizeFile>,
+    /// Its style in the catalogue.
+    pub style: String,
+    /// Edge length of the finest cloth mesh, m.
+    pub edge_length_m: f64,
+    /// Values of the simulators' parameters that are not the default ones.
+    pub parameters: Parameters,
+    /// Names and values that a sweep gave it.
+    pub swept: Vec<(String, String)>,
+    /// When its jobs are started, and what each may take.
+    pub schedule: Schedule,
+}
+
+impl GarmentEntry {
+    /// Its name in the file, where a sweep made it.
+    #[must_use]
+    pub fn unswept_name(&self) -> &str {
+        self.swept.iter().rev().fold(&self.name, |name, (axis, value)| {
+            let short = axis.rsplit('.').next().unwrap_or(axis);
+            name.strip_suffix(&format!(" {short}={value}")).unwrap_or(name)
+        })
+    }
+}
+
+/// A study, checked and with all its inputs read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Study {
+    /// Name.
+    pub name: String,
+    /// Its file.
+    pub path: PathBuf,
+    /// Subjects, in order.
+    pub subjects: Vec<Subject>,
+    /// Garments, in order.
+    pub garments: Vec<GarmentEntry>,
+    /// Simulators, in order.
+    pub simulators: Vec<Simulator>,
+    /// Simulations of each cell.
+    pub repeats: u32,
+    /// Where the fit classes meet.
+    pub cuts: Cuts,
+}
+
+/// What a study file may name instead of bringing it.
+#[derive(Clone, Debug, Default)]
+pub struct Known {
+    /// Subjects of the catalogue.
+    pub subjects: BTreeMap<String, Measurements>,
+    /// Fabrics of the catalogue and the library.
+    pub fabrics: BTreeMap<String, Fabric>,
+    /// Styles of the catalogue with their sizes.
+    pub styles: BTreeMap<String, KnownStyle>,
+}
+
+/// A style of the catalogue.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KnownStyle {
+    /// Seam file; `None` where the patterns hold their own seams.
+    pub seams: Option<SourceFile>,
+    /// Sizes, each with the unit of its pattern where its file names none.
+    pub sizes: Vec<(SizeFile, Option<String>)>,
+}
+
+/// An entry of a file, and where it stands.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Placed<T> {
+    /// The file.
+    pub file: PathBuf,
+    /// Its line, from 1.
+    pub line: usize,
+    /// Name of the entry.
+    pub name: String,
+    /// The entry.
+    pub entry: T,
+}
+
+impl<T> Placed<T> {
+    /// Something made of the entry, at the same place.
+    pub fn map<U>(self, make: impl FnOnce(T) -> U) -> Placed<U> {
+        let Self { file, line, name, entry } = self;
+        Placed { file, line, name, entry: make(entry) }
+    }
+
+    /// A problem of the entry.
+    pub fn problem(&self, message: impl Into<String>) -> Problem {
+        Problem::at(&self.file, self.line, message)
+    }
+}
+
+/// How a garment is sewn, and its sizes: a `[[garment]]` without its cloth.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Sewn {
+    /// Seam file; a file of sizes alone need not name it.
+    pub seams: Option<SourceFile>,
+    /// Unit of the patterns, where their files name none.
+    pub unit: Option<String>,
+    /// Sizes, in order.
+    pub sizes: Vec<SizeFile>,
+}
+
+/// The study file of a path that names it or its folder.
+#[must_use]
+pub fn study_file(path: &Path) -> PathBuf {
+    if path.is_dir() { path.join("study.toml") } else { path.to_owned() }
+}
+
+impl Study {
+    /// Sets what each simulation may take, over what the file says.
+    pub fn limit(&mut self, limits: Limits) {
+        for garment in &mut self.garments {
+            garment.schedule.limits = limits.or(garment.schedule.limits);
+        }
+    }
+
+    /// Reads and checks a study: the file or its folder.
+    ///
+    /// # Errors
+    /// [`StudyError::File`] with everything that is wrong; [`StudyError::Io`] when the file itself cannot be read.
+    pub fn load(path: &Path, known: &Known) -> Result<Self> {
+        let path = study_file(path);
+        let text = std::fs::read_to_string(&path).map_err(StudyError::io(&path))?;
+        parse::study(&path, &text, known).map_err(StudyError::File)
+    }
+}
+
+/// The subjects of the text of a study file, or of one that has nothing else.
+pub(crate) fn subjects(
+    path: &Path,
+    text: &str,
+    known: &Known,
+) -> std::result::Result<Vec<Placed<Subject>>, Vec<Problem>> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    parse::entries(path, text, |reader, top| subjects::subjects(reader, top, folder, &known.subjects))
+}
+
+/// The fabrics of the text of a study file, or of one that has nothing else.
+pub(crate) fn fabrics(path: &Path, text: &str) -> std::result::Result<Vec<Placed<Fabric>>, Vec<Problem>> {
+    parse::entries(path, text, parse::own_fabrics)
+}
+
+/// The garments of the text of a study file, or of one that has nothing else; without their cloth.
+pub(crate) fn garments(path: &Path, text: &str) -> std::result::Result<Vec<Placed<Sewn>>, Vec<Problem>> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    parse::entries(path, text, |reader, top| garments::all_sewn(reader, top, folder))
+}
+
+/// Measurements from the text of a file with those of a `[[subject]]`.
+///
+/// # Errors
+/// [`StudyError::File`] with everything that is wrong.
+pub(crate) fn measurements(path: &Path, text: &str) -> Result<Measurements> {
+    parse::measurements_file(path, text).map_err(StudyError::File)
+}

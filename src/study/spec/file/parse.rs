@@ -1,0 +1,247 @@
+//! From the text of a study file to a [`Study`], or to everything that is wrong with it.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use toml::Spanned;
+use toml::de::DeTable;
+
+use crate::error::{StudyError, nearest};
+use crate::spec::fields::{Entry, keys};
+use crate::spec::file::garments::{Common, garments};
+use crate::spec::file::reader::{Place, Reader};
+use crate::spec::file::subjects::{measurements, subjects};
+use crate::spec::file::{Known, Placed, Problem, SourceFile, Study, Subject, schedule, sweep};
+use body::Measurements;
+use fit::{Cuts, Simulator};
+use geom::units::{from_mm, mm};
+use sim::Fabric;
+
+const STUDY_KEYS: [&str; 12] = [
+    "name",
+    "simulators",
+    "edge_length_mm",
+    "repeats",
+    "fit",
+    "subject",
+    "garment",
+    "fabric",
+    "parameters",
+    "sweep",
+    "time_limit_s",
+    "memory_limit_mb",
+];
+
+/// Checks the text of a study file; files it names are looked up beside it.
+pub(super) fn study(path: &Path, text: &str, known: &Known) -> Result<Study, Vec<Problem>> {
+    let (mut reader, document) = open(path, text)?;
+    let top = Place { name: "study".into(), span: 0..0, table: document.get_ref() };
+    reader.only(&top, &STUDY_KEYS);
+
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let name = match reader.text(&top, "name") {
+        Some(name) => name.into_inner().to_owned(),
+        None => folder_name(folder),
+    };
+    let fabrics = fabrics(&mut reader, &top, &known.fabrics);
+    let subjects = subjects(&mut reader, &top, folder, &known.subjects);
+    let subjects: Vec<Subject> = subjects.into_iter().map(|placed| placed.entry).collect();
+    let common = Common {
+        folder,
+        fabrics: &fabrics,
+        styles: &known.styles,
+        edge_length_m: from_mm(reader.number(&top, "edge_length_mm", sweep::EDGE_MM).unwrap_or(15.0)),
+        parameters: sweep::parameters(&mut reader, &top),
+        limits: schedule::limits(&mut reader, &top),
+    };
+    let worn = garments(&mut reader, &top, &common, &subjects);
+    let study = Study {
+        name,
+        path: path.to_owned(),
+        simulators: simulators(&mut reader, &top),
+        repeats: reader.number(&top, "repeats", 1.0..=100.0).unwrap_or(1.0) as u32,
+        cuts: cuts(&mut reader, &top),
+        garments: schedule::unfolded(sweep::swept(&mut reader, &top, worn, &fabrics)),
+        subjects,
+    };
+    if study.subjects.is_empty() && !top.table.contains_key("subject") {
+        reader.missing(&top, "subject", "at least one [[subject]]");
+    }
+    reader.end(study)
+}
+
+/// Entries of one kind from the text of a file with tables like those of a study file.
+pub(super) fn entries<T>(
+    path: &Path,
+    text: &str,
+    read: impl FnOnce(&mut Reader<'_>, &Place<'_>) -> Vec<Placed<T>>,
+) -> Result<Vec<Placed<T>>, Vec<Problem>> {
+    let (mut reader, document) = open(path, text)?;
+    let top = Place { name: "file".into(), span: 0..0, table: document.get_ref() };
+    reader.only(&top, &STUDY_KEYS);
+    let entries = read(&mut reader, &top);
+    reader.end(entries)
+}
+
+/// Checks the text of a file with one subject's measurements.
+pub(super) fn measurements_file(path: &Path, text: &str) -> Result<Measurements, Vec<Problem>> {
+    let (mut reader, document) = open(path, text)?;
+    let top = Place { name: "measurements".into(), span: 0..0, table: document.get_ref() };
+    reader.only(&top, &keys::<Measurements>());
+    match measurements(&mut reader, &top, "") {
+        Some(measurements) if reader.problems.is_empty() => Ok(measurements),
+        _ => Err(reader.problems),
+    }
+}
+
+/// Parses TOML; where it is broken only that is told, since all else would follow from it.
+fn open<'t>(path: &'t Path, text: &'t str) -> Result<(Reader<'t>, Spanned<DeTable<'t>>), Vec<Problem>> {
+    let mut reader = Reader::new(path, text);
+    let (document, errors) = DeTable::parse_recoverable(text);
+    for error in errors {
+        reader.problem(&error.span().unwrap_or_default(), error.message());
+    }
+    if reader.problems.is_empty() { Ok((reader, document)) } else { Err(reader.problems) }
+}
+
+/// Name of the folder a study lies in.
+fn folder_name(folder: &Path) -> String {
+    let full = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    full.file_name().map_or_else(|| "study".into(), |name| name.to_string_lossy().into_owned())
+}
+
+fn simulators(reader: &mut Reader<'_>, top: &Place<'_>) -> Vec<Simulator> {
+    let Some(names) = reader.texts(top, "simulators") else { return vec![Simulator::Fem] };
+    let mut simulators = Vec::new();
+    for name in names {
+        match crate::run::pipeline::SIMULATORS.into_iter().find(|sim| sim.as_str() == *name.get_ref()) {
+            Some(simulator) if !simulators.contains(&simulator) => simulators.push(simulator),
+            Some(_) => reader.problem(&name.span(), format!("simulator `{}` is named twice", name.get_ref())),
+            None => {
+                let accepted = crate::run::pipeline::SIMULATORS.map(Simulator::as_str).join(", ");
+                reader.problem(&name.span(), format!("no simulator `{}`; accepted: {accepted}", name.get_ref()));
+            }
+        }
+    }
+    simulators
+}
+
+fn cuts(reader: &mut Reader<'_>, top: &Place<'_>) -> Cuts {
+    let default = Cuts::default();
+    let Some(value) = top.table.get("fit") else { return default };
+    let Some(table) = value.get_ref().as_table() else {
+        reader.problem(&value.span(), "study: `fit` is a table with tight_below_mm and loose_above_mm");
+        return default;
+    };
+    let place = Place { name: "fit".into(), span: value.span(), table };
+    reader.only(&place, &["tight_below_mm", "loose_above_mm"]);
+    let mut cut = |key, otherwise: f64| reader.number(&place, key, -500.0..=1000.0).map_or(otherwise, from_mm);
+    let cuts = Cuts {
+        tight_below_m: cut("tight_below_mm", default.tight_below_m),
+        loose_above_m: cut("loose_above_mm", default.loose_above_m),
+    };
+    if cuts.tight_below_m > cuts.loose_above_m {
+        let (tight, loose) = (mm(cuts.tight_below_m), mm(cuts.loose_above_m));
+        let message = format!("fit: tight_below_mm is {tight}, above loose_above_mm, {loose}; it must not be greater");
+        reader.problem(&place.span, message);
+    }
+    cuts
+}
+
+/// Reads the numbers of an entry over a blank one; `None` where one is wrong or missing.
+pub(super) fn numbers<T: Entry>(reader: &mut Reader<'_>, place: &Place<'_>, mut entry: T, wanted: &str) -> Option<T> {
+    let before = reader.problems.len();
+    for field in T::fields() {
+        if place.table.contains_key(field.key) {
+            if let Some(number) = reader.checked(place, field.key, |number| field.check(number)) {
+                field.set(&mut entry, Some(number));
+            }
+        } else if field.is_required {
+            reader.missing(place, field.key, wanted);
+        }
+    }
+    if let Err((_, problem)) = entry.check() {
+        reader.problem(&place.span, format!("{}: {problem}", place.name));
+    }
+    (reader.problems.len() == before).then_some(entry)
+}
+
+/// The known fabrics and those of the file itself, which win.
+fn fabrics(reader: &mut Reader<'_>, top: &Place<'_>, known: &BTreeMap<String, Fabric>) -> BTreeMap<String, Fabric> {
+    let mut fabrics = known.clone();
+    fabrics.extend(own_fabrics(reader, top).into_iter().map(|placed| (placed.name, placed.entry)));
+    fabrics
+}
+
+/// The fabrics of the file itself.
+pub(super) fn own_fabrics(reader: &mut Reader<'_>, top: &Place<'_>) -> Vec<Placed<Fabric>> {
+    let accepted = [&["name"], &keys::<Fabric>()[..]].concat();
+    let mut fabrics = Vec::new();
+    let mut names = BTreeSet::new();
+    for mut place in reader.tables(top, "fabric", "fabric") {
+        reader.only(&place, &accepted);
+        let Some(name) = reader.need_text(&place, "name", "its name") else { continue };
+        unique(reader, &mut names, &name, "fabric");
+        place.name = format!("fabric {}", name.get_ref());
+        let source = reader.text(&place, "source").map_or("study file", Spanned::into_inner).to_owned();
+        let blank = Fabric { source, ..Fabric::blank(name.get_ref()) };
+        let fabric = numbers(reader, &place, blank, "a number, SI units as in the library (`toile fabric ls`)");
+        fabrics.extend(fabric.map(|fabric| reader.placed(&name.span(), name.get_ref(), fabric)));
+    }
+    fabrics
+}
+
+/// Refuses a second entry of the same name.
+pub(super) fn unique<'t>(reader: &mut Reader<'_>, names: &mut BTreeSet<&'t str>, name: &Spanned<&'t str>, what: &str) {
+    if !names.insert(name.get_ref()) {
+        reader.problem(&name.span(), format!("{what} `{}` is there twice; names must differ", name.get_ref()));
+    }
+}
+
+/// An entry by name; a problem with a suggestion where there is none.
+pub(super) fn lookup<'k, T>(
+    reader: &mut Reader<'_>,
+    known: &'k BTreeMap<String, T>,
+    name: &Spanned<&str>,
+    what: &str,
+) -> Option<&'k T> {
+    let found = known.get(*name.get_ref());
+    if found.is_none() {
+        let hint = match nearest(name.get_ref(), known.keys().map(String::as_str)) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("there are: {}", known.keys().cloned().collect::<Vec<_>>().join(", ")),
+        };
+        reader.problem(&name.span(), format!("no {what} `{}`; {hint}", name.get_ref()));
+    }
+    found
+}
+
+/// A file beside the study file; a problem with a suggestion where it cannot be read.
+pub(super) fn source(
+    reader: &mut Reader<'_>,
+    place: &Place<'_>,
+    file: &Spanned<&str>,
+    folder: &Path,
+    read: fn(&Path) -> Result<SourceFile, StudyError>,
+) -> Option<SourceFile> {
+    let path = folder.join(file.get_ref());
+    match read(&path) {
+        Ok(source) => Some(source),
+        Err(error) => {
+            let wanted = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let beside: Vec<String> = path.parent().map(file_names).unwrap_or_default();
+            let hint = nearest(&wanted, beside.iter().map(String::as_str));
+            let hint = hint.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+            reader.problem(&file.span(), format!("{}: {error}{hint}", place.name));
+            None
+        }
+    }
+}
+
+/// Names of the files in a folder, sorted.
+fn file_names(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut names: Vec<String> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}

@@ -1,0 +1,96 @@
+//! The `[[subject]]` tables of a study file: measurements, a name of the catalogue, or a scan.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use toml::Spanned;
+
+use crate::spec::fields::{Entry, keys, sex};
+use crate::spec::file::parse::{lookup, numbers, source, unique};
+use crate::spec::file::reader::{Place, Reader};
+use crate::spec::file::{Placed, ScanFile, SourceFile, Subject};
+use crate::tools::read_scan;
+use body::{LengthUnit, Measurements, Sex};
+
+/// What else a subject of a study may be.
+const OR_NAMED: &str = ", or name a catalogue entry with `like`";
+
+/// All subjects.
+pub(super) fn subjects(
+    reader: &mut Reader<'_>,
+    top: &Place<'_>,
+    folder: &Path,
+    known: &BTreeMap<String, Measurements>,
+) -> Vec<Placed<Subject>> {
+    let accepted = [&["id", "like", "scan", "unit"], &keys::<Measurements>()[..]].concat();
+    let mut subjects = Vec::new();
+    let mut ids = BTreeSet::new();
+    for mut place in reader.tables(top, "subject", "subject") {
+        reader.only(&place, &accepted);
+        let Some(id) = reader.need_text(&place, "id", "its name in results") else { continue };
+        unique(reader, &mut ids, &id, "subject");
+        place.name = format!("subject {}", id.get_ref());
+        let found = match (reader.text(&place, "like"), reader.text(&place, "scan")) {
+            (Some(name), _) => {
+                alone(reader, &place, &["id", "like"]);
+                lookup(reader, known, &name, "subject in the catalogue").cloned().map(|known| (known, None))
+            }
+            (None, Some(file)) => {
+                alone(reader, &place, &["id", "scan", "sex", "unit"]);
+                scanned(reader, &place, &file, folder).map(|(measurements, scan)| (measurements, Some(scan)))
+            }
+            (None, None) => measurements(reader, &place, OR_NAMED).map(|measurements| (measurements, None)),
+        };
+        subjects.extend(found.map(|(measurements, scan)| {
+            let subject = Subject { id: (*id.get_ref()).to_owned(), measurements, scan };
+            reader.placed(&id.span(), id.get_ref(), subject)
+        }));
+    }
+    subjects
+}
+
+/// Refuses keys beside those of a subject that is named or scanned.
+fn alone(reader: &mut Reader<'_>, place: &Place<'_>, accepted: &[&str]) {
+    if let Some(key) = place.table.keys().find(|key| !accepted.contains(&key.get_ref().as_ref())) {
+        let message = format!("{}: `{}` beside `{}`; give one or the other", place.name, key.get_ref(), accepted[1]);
+        reader.problem(&key.span(), message);
+    }
+}
+
+/// A scan beside the study file, and what is measured on it.
+fn scanned(
+    reader: &mut Reader<'_>,
+    place: &Place<'_>,
+    file: &Spanned<&str>,
+    folder: &Path,
+) -> Option<(Measurements, ScanFile)> {
+    let sex = reader.text(place, "sex").and_then(|word| sex_of(reader, place, &word));
+    let unit = reader.text(place, "unit").and_then(|text| {
+        let unit = LengthUnit::ALL.into_iter().find(|unit| unit.name() == *text.get_ref());
+        if unit.is_none() {
+            let accepted = LengthUnit::ALL.map(LengthUnit::name).join(", ");
+            reader.problem(&text.span(), format!("{}: unit `{}`; accepted: {accepted}", place.name, text.get_ref()));
+        }
+        unit
+    });
+    let scan = ScanFile { file: source(reader, place, file, folder, SourceFile::read)?, unit };
+    match read_scan(&scan.file, unit, sex) {
+        Ok(found) => Some((found.girths.measurements(found.sex), scan)),
+        Err(error) => {
+            reader.problem(&file.span(), format!("{}: {error}", place.name));
+            None
+        }
+    }
+}
+
+/// The measurements of a place's keys; `or` is what it may be else.
+pub(super) fn measurements(reader: &mut Reader<'_>, place: &Place<'_>, or: &str) -> Option<Measurements> {
+    let word = reader.need_text(place, "sex", &format!("\"male\" or \"female\"{or}"));
+    let sex = word.and_then(|word| sex_of(reader, place, &word));
+    let measurements = numbers(reader, place, Measurements::blank(""), "millimetres, as in `toile subject ls`");
+    Some(Measurements { sex: sex?, ..measurements? })
+}
+
+fn sex_of(reader: &mut Reader<'_>, place: &Place<'_>, word: &Spanned<&str>) -> Option<Sex> {
+    sex(word.get_ref()).map_err(|problem| reader.problem(&word.span(), format!("{}: {problem}", place.name))).ok()
+}

@@ -1,0 +1,225 @@
+use crate::spec::file::*;
+use body::Sex;
+
+fn known() -> Known {
+    let male_ii =
+        Measurements { weight_kg: Some(53.0), chest_girth_m: Some(0.863), ..Measurements::of(Sex::Male, 1.69) };
+    let cotton = Fabric {
+        name: "cotton_shirting_light".into(),
+        density_kg_m2: 0.1036,
+        thickness_m: 0.2e-3,
+        membrane_warp_n_m: 3800.0,
+        membrane_weft_n_m: 2400.0,
+        membrane_coupling_n_m: 0.0,
+        shear_n_m: 97.0,
+        bending_warp_nm: 5e-6,
+        bending_weft_nm: 4e-6,
+        friction_body: 0.31,
+        friction_self: 0.5,
+        source: "test".into(),
+        stretched: None,
+    };
+    Known {
+        subjects: [("male-ii".to_owned(), male_ii)].into(),
+        fabrics: [("cotton_shirting_light".to_owned(), cotton)].into(),
+        styles: BTreeMap::new(),
+    }
+}
+
+/// Writes a study into a folder with its two input files and loads it.
+fn load(text: &str) -> std::result::Result<Study, String> {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("tee-s.dxf"), "dxf").expect("writable");
+    std::fs::write(folder.path().join("tee.json"), "{}").expect("writable");
+    std::fs::write(folder.path().join("tee.seams.toml"), "seams").expect("writable");
+    let path = folder.path().join("study.toml");
+    std::fs::write(&path, text).expect("writable");
+    let prefix = format!("{}/", folder.path().display());
+    Study::load(&path, &known()).map_err(|error| error.to_string().replace(&prefix, ""))
+}
+
+const GOOD: &str = r#"
+name = "tops"
+[[subject]]
+id = "ii"
+like = "male-ii"
+[[subject]]
+id = "x"
+sex = "female"
+stature_mm = 1650
+[[garment]]
+name = "tee"
+seams = "tee.seams.toml"
+fabric = "cotton_shirting_light"
+sizes = [{ name = "S", pattern = "tee-s.dxf" }]
+"#;
+
+#[test]
+fn a_good_file_is_read_with_its_inputs() {
+    let study = load(GOOD).expect("good");
+    assert_eq!((study.name.as_str(), study.repeats, study.simulators.as_slice()), ("tops", 1, &[Simulator::Fem][..]));
+    assert_eq!(study.subjects.iter().map(|s| s.id.as_str()).collect::<Vec<_>>(), ["ii", "x"]);
+    assert_eq!(&*study.garments[0].sizes[0].pattern.bytes, b"dxf");
+}
+
+#[test]
+fn every_problem_is_told_at_once_with_its_line() {
+    let told = load(
+        r#"
+nam = "tops"
+simulators = ["fem", "fen"]
+edge_length_mm = "15"
+fit = { tight_below_mm = 120 }
+[[subject]]
+id = "ii"
+like = "male-i1"
+[[subject]]
+id = "ii"
+sex = "man"
+stature_mm = 17
+[[garment]]
+name = "tee"
+seams = "tee.seam.toml"
+fabric = "cotton_shirting_ligth"
+sizes = [{ name = "S", patern = "tee-s.dxf" }]
+"#,
+    );
+    insta::assert_snapshot!(told.expect_err("bad"));
+}
+
+#[test]
+fn broken_toml_names_its_line() {
+    insta::assert_snapshot!(load("name = \"a\"\n[[subject]\nid = 1\n").expect_err("bad"));
+}
+
+#[test]
+fn only_a_studys_subject_may_be_named() {
+    let told = |text: &str| measurements(Path::new("anna.toml"), text).expect_err("no sex").to_string();
+    assert!(load(&GOOD.replace("like = \"male-ii\"", "stature_mm = 1700")).expect_err("no sex").contains("`like`"));
+    let told = told("stature_mm = 1700");
+    assert!(told.contains("`sex` is missing") && !told.contains("like"), "{told}");
+}
+
+#[test]
+fn a_subject_may_be_a_scan() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("writable");
+    write("tee-s.dxf", "dxf");
+    write("tee.seams.toml", "seams");
+    let asked = &known().subjects["male-ii"];
+    let body = body::build(asked).expect("an ordinary man");
+    write("ii.obj", &body::write_obj(&body.mesh));
+    let load = |subject: &str| {
+        let at = GOOD.find("like").expect("a subject");
+        let end = at + GOOD[at..].find('\n').expect("a line");
+        write("study.toml", &[&GOOD[..at], subject, &GOOD[end..]].concat());
+        Study::load(folder.path(), &known())
+    };
+    let study = load("scan = \"ii.obj\"\nsex = \"male\"").expect("a scan of a man");
+    let subject = &study.subjects[0];
+    assert!((subject.measurements.stature_m - asked.stature_m).abs() < 2e-3, "{subject:?}");
+    let chest = subject.measurements.chest_girth_m.expect("measured");
+    assert!((chest - 0.863).abs() < 3e-3, "{chest}");
+    let jobs = crate::spec::jobs(&study);
+    let hash = |name: &str| jobs[0].inputs.iter().find(|(key, _)| *key == name).map(|(_, value)| value.to_owned());
+    let scan = subject.scan.as_ref().expect("a scan");
+    assert_eq!(hash("subject.ii.scan"), Some(scan.file.hash()));
+    let told = |subject: &str| load(subject).expect_err("bad").to_string();
+    assert!(told("scan = \"i.obj\"").contains("did you mean `ii.obj`?"));
+    assert!(told("scan = \"ii.obj\"\nstature_mm = 1700").contains("`stature_mm` beside `scan`"));
+    assert!(told("scan = \"ii.obj\"\nunit = \"mm\"").contains("is the unit right?"));
+    assert!(told("scan = \"tee-s.dxf\"").contains("no faces"));
+}
+
+#[test]
+fn the_quickstart_is_a_good_study() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/quickstart");
+    let study = Study::load(&folder, &known()).expect("good");
+    assert_eq!(crate::spec::jobs(&study).len(), 12);
+    let thesis = crate::catalogue::known(None).expect("built in").subjects;
+    for subject in &study.subjects {
+        assert_eq!(subject.measurements, thesis[&format!("male-{}", subject.id)], "{}", subject.id);
+    }
+}
+
+#[test]
+fn the_thesis_study_has_its_54_combinations_by_both_simulators() {
+    let known = crate::catalogue::known(None).expect("built in");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/thesis");
+    let jobs = crate::spec::jobs(&Study::load(&folder, &known).expect("good"));
+    let count = |garment: &str, sex: &str| {
+        jobs.iter().filter(|job| job.garment == garment && job.subject.starts_with(sex)).count()
+    };
+    let counts = [("tshirt", "male"), ("trousers", "male"), ("teetop", "female"), ("dress", "female")];
+    assert_eq!(counts.map(|(garment, sex)| count(garment, sex)), [36, 36, 24, 12]);
+    assert_eq!(jobs.len(), 108);
+}
+
+#[test]
+fn garments_are_worn_by_the_subjects_they_name() {
+    let wearers = |subjects: &str| {
+        let text = GOOD.replace("name = \"tee\"", &format!("name = \"tee\"\nsubjects = {subjects}"));
+        load(&text).map(|study| study.garments[0].subjects.join(" "))
+    };
+    assert_eq!(wearers("[\"x\"]").as_deref(), Ok("x"));
+    assert_eq!(load(GOOD).expect("good").garments[0].subjects, ["ii", "x"]);
+    let refused = |subjects: &str, message: &str| assert_eq!(wearers(subjects).expect_err("bad"), message);
+    let twice = "study.toml:12:18: garment tee: subject `x` is named twice";
+    let unknown = "study.toml:12:23: no [[subject]] with the id `i`; there are: ii, x";
+    refused("[\"x\", \"x\", \"i\"]", &format!("{twice}\n{unknown}"));
+    refused("[]", "study.toml:12:12: garment tee: nobody wears it; name subjects, or leave `subjects` out for all");
+    refused("\"x\"", "study.toml:12:12: garment tee: `subjects` must be a list of texts, found string");
+}
+
+#[test]
+fn a_seam_file_is_needed_unless_the_pattern_holds_seams() {
+    let without = GOOD.replace("seams = \"tee.seams.toml\"\n", "");
+    let expect = "study.toml:10:1: garment tee: `seams` is missing; give the file that says how its pieces are sewn, or a \
+        `style` of the catalogue";
+    assert_eq!(load(&without).expect_err("bad"), expect);
+    // Any file will do: what is in it is read later.
+    let json = load(&without.replace("tee-s.dxf", "tee.json")).expect("good");
+    assert_eq!((json.garments[0].seams.is_none(), json.garments[0].sizes.len()), (true, 1));
+}
+
+proptest::proptest! {
+    #[test]
+    fn no_text_makes_the_reader_panic(edits in proptest::collection::vec((0usize..GOOD.len(), "[\\[\\]{}=\"a-z0-9.\n -]{0,3}"), 1..6)) {
+        let mut text = GOOD.to_owned();
+        for (at, insert) in edits {
+            let at = (0..=at.min(text.len())).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
+            let end = (at + insert.len()).min(text.len());
+            text.replace_range(at..end, &insert);
+        }
+        let problems = parse::study(Path::new("study.toml"), &text, &known()).err().unwrap_or_default();
+        for problem in problems {
+            proptest::prop_assert!(problem.line.is_some_and(|line| line <= text.lines().count() + 1), "{problem}");
+        }
+    }
+}
+
+#[test]
+fn schedules_are_read_and_circles_refused() {
+    let two = |more: &str| {
+        let over = GOOD[GOOD.find("[[garment]]").expect("there")..].replace("\"tee\"", "\"over\"");
+        load(&format!("time_limit_s = 60\n{GOOD}{over}{more}"))
+    };
+    let check = |more: &str, says: &str| {
+        let told = two(more).expect_err("wrong");
+        assert!(told.contains(says), "{told}");
+    };
+    check("after = [\"over\"]", "no [[garment]] before this one `over`");
+    check("after = [\"tea\"]", "did you mean `tee`?");
+    check("time_limit_s = 0", "`time_limit_s` is 0; accepted: 0.001 to 2592000");
+    check("memory_limit_mb = 1", "`memory_limit_mb` is 1; accepted: 50 to 4000000");
+    check("priority = 1e6", "`priority` is 1000000; accepted: -1000 to 1000");
+    let sweep = "[[sweep]]\ngarments = [\"tee\"]\nedge_length_mm = [20, 15]\n";
+    let study = two(&format!("after = [\"tee\"]\npriority = 2\nmemory_limit_mb = 500\n{sweep}")).expect("good");
+    let [plain, over] = [&study.garments[0], study.garments.last().expect("three")].map(|garment| &garment.schedule);
+    assert_eq!(over.after, ["tee edge_length_mm=20", "tee edge_length_mm=15"]);
+    assert_eq!((over.priority, over.limits), (2, Limits { time_s: Some(60.0), memory_mb: Some(500) }));
+    assert_eq!((plain.after.len(), plain.limits.time_s), (0, Some(60.0)));
+    let mut study = study;
+    study.limit(Limits { time_s: Some(5.0), memory_mb: None });
+    assert_eq!(study.garments[2].schedule.limits, Limits { time_s: Some(5.0), memory_mb: Some(500) });
+}

@@ -1,0 +1,226 @@
+//! From a study to its jobs: one specification for every garment, size, subject, simulator and repeat.
+
+pub mod export;
+pub mod fields;
+pub mod file;
+pub mod inputs;
+pub mod new_study;
+pub mod parameters;
+
+use crate::rows::JobRow;
+use crate::run::pipeline;
+use crate::spec::fields::{FABRIC_NUMBERS, MEASUREMENTS};
+use crate::spec::file::{GarmentEntry, ScanFile, SizeFile, SourceFile, Study, Subject};
+use crate::spec::inputs::Inputs;
+use crate::spec::parameters::Parameters;
+use body::Measurements;
+use fit::Simulator;
+use geom::units::mm;
+use sim::Fabric;
+
+/// What a job may take; one that takes more is ended and has failed. Results do not depend on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Limits {
+    /// Time, s.
+    pub time_s: Option<f64>,
+    /// Memory, MB (10^6 bytes).
+    pub memory_mb: Option<u32>,
+}
+
+impl Limits {
+    /// Whether there is one.
+    #[must_use]
+    pub fn is_some(&self) -> bool {
+        self.time_s.is_some() || self.memory_mb.is_some()
+    }
+
+    /// These limits, and others where these say nothing.
+    #[must_use]
+    pub fn or(self, others: Self) -> Self {
+        Self { time_s: self.time_s.or(others.time_s), memory_mb: self.memory_mb.or(others.memory_mb) }
+    }
+}
+
+/// When a job is started, and what it may take: nothing of this is an input of its result.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Schedule {
+    /// Greater runs earlier.
+    pub priority: i64,
+    /// Garments whose jobs on the same subject, by the same simulator, must have results before.
+    pub after: Vec<String>,
+    /// What it may take.
+    pub limits: Limits,
+}
+
+/// One simulation with everything it needs.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct JobSpec {
+    /// Garment.
+    pub garment: String,
+    /// Its style in the catalogue.
+    pub style: String,
+    /// Size.
+    pub size: String,
+    /// Subject.
+    pub subject: String,
+    /// Simulator.
+    pub simulator: Simulator,
+    /// Which repeat, from 1.
+    pub repeat: u32,
+    /// What is known of the subject's body.
+    pub measurements: Measurements,
+    /// The scan that is the body, where there is one.
+    pub scan: Option<ScanFile>,
+    /// Pattern of the size.
+    pub pattern: SourceFile,
+    /// Unit of the pattern where its file names none.
+    pub unit: Option<String>,
+    /// Seam file; `None` where the pattern holds its own seams.
+    pub seams: Option<SourceFile>,
+    /// Cloth.
+    pub fabric: Fabric,
+    /// Edge length of the finest mesh, m.
+    pub edge_length_m: f64,
+    /// Values of the simulators' parameters that are not the default ones.
+    pub parameters: Parameters,
+    /// When it is started, and what it may take.
+    #[serde(default)]
+    pub schedule: Schedule,
+    /// All of the above but the schedule, and the versions of the stages, as named values.
+    pub inputs: Inputs,
+}
+
+/// Which part of a study to run; empty lists take all.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Selection {
+    /// Simulators.
+    pub simulators: Vec<String>,
+    /// Sizes; case does not matter.
+    pub sizes: Vec<String>,
+    /// Subjects.
+    pub subjects: Vec<String>,
+    /// Garments.
+    pub garments: Vec<String>,
+}
+
+impl Selection {
+    /// Whether a job is selected.
+    #[must_use]
+    pub fn takes(&self, spec: &JobSpec) -> bool {
+        self.takes_cell([spec.simulator.as_str(), &spec.size, &spec.subject, &spec.garment])
+    }
+
+    /// Whether a stored job is selected.
+    #[must_use]
+    pub fn takes_row(&self, job: &JobRow) -> bool {
+        self.takes_cell([job.simulator.as_str(), &job.size, &job.subject, &job.garment])
+    }
+
+    fn takes_cell(&self, [simulator, size, subject, garment]: [&str; 4]) -> bool {
+        let among = |list: &[String], name: &str| list.is_empty() || list.iter().any(|x| x.eq_ignore_ascii_case(name));
+        among(&self.simulators, simulator)
+            && among(&self.sizes, size)
+            && among(&self.subjects, subject)
+            && among(&self.garments, garment)
+    }
+}
+
+/// All jobs of a study, in the order of its file: garments, sizes, subjects, simulators, repeats.
+#[must_use]
+pub fn jobs(study: &Study) -> Vec<JobSpec> {
+    let mut jobs = Vec::new();
+    for garment in &study.garments {
+        for size in &garment.sizes {
+            for subject in study.subjects.iter().filter(|subject| garment.subjects.contains(&subject.id)) {
+                for &simulator in &study.simulators {
+                    jobs.extend((1..=study.repeats).map(|n| job(garment, size, subject, simulator, n)));
+                }
+            }
+        }
+    }
+    jobs
+}
+
+fn job(garment: &GarmentEntry, size: &SizeFile, subject: &Subject, simulator: Simulator, repeat: u32) -> JobSpec {
+    let spec = JobSpec {
+        garment: garment.name.clone(),
+        style: garment.style.clone(),
+        size: size.name.clone(),
+        subject: subject.id.clone(),
+        simulator,
+        repeat,
+        measurements: subject.measurements.clone(),
+        scan: subject.scan.clone(),
+        pattern: size.pattern.clone(),
+        unit: garment.unit.clone(),
+        seams: garment.seams.clone(),
+        fabric: garment.fabric.clone(),
+        edge_length_m: garment.edge_length_m,
+        parameters: garment.parameters.clone(),
+        schedule: garment.schedule.clone(),
+        inputs: Inputs::default(),
+    };
+    spec.with_inputs()
+}
+
+impl JobSpec {
+    /// The same with its inputs as named values, for this program's versions of the stages.
+    pub(crate) fn with_inputs(self) -> Self {
+        let mut inputs = Inputs::default();
+        inputs.set("sim.name", self.simulator.as_str());
+        inputs.set("sim.repeat", self.repeat);
+        inputs.set("mesh.edge_length_mm", millimetres(self.edge_length_m));
+        self.parameters.add_inputs(self.simulator, &mut inputs);
+        if let Some(seams) = &self.seams {
+            inputs.set(format!("seams.{}", seams.name), seams.hash());
+        }
+        inputs.set(format!("pattern.{}", self.pattern.name), self.pattern.hash());
+        if let Some(unit) = &self.unit {
+            inputs.set("pattern.unit", unit);
+        }
+        subject_inputs(&mut inputs, &self.subject, &self.measurements);
+        if let Some(scan) = &self.scan {
+            inputs.set(format!("subject.{}.scan", self.subject), scan.file.hash());
+            if let Some(unit) = scan.unit {
+                inputs.set(format!("subject.{}.scan_unit", self.subject), unit.name());
+            }
+        }
+        fabric_inputs(&mut inputs, &self.fabric);
+        for (name, version) in pipeline::versions(self.simulator) {
+            inputs.set(name, version);
+        }
+        Self { inputs, ..self }
+    }
+}
+
+/// A subject's measurements as inputs; absent ones are left out.
+pub(crate) fn subject_inputs(inputs: &mut Inputs, id: &str, m: &Measurements) {
+    inputs.set(format!("subject.{id}.sex"), sex_name(m));
+    for field in &MEASUREMENTS {
+        if let Some(value) = field.get(m) {
+            inputs.set(format!("subject.{id}.{}", field.key), value);
+        }
+    }
+}
+
+/// A fabric's numbers as inputs; where they are from does not matter to a result.
+pub(crate) fn fabric_inputs(inputs: &mut Inputs, fabric: &Fabric) {
+    for field in &FABRIC_NUMBERS {
+        if let Some(number) = field.get(fabric) {
+            inputs.set(format!("fabric.{}.{}", fabric.name, field.key), number);
+        }
+    }
+}
+
+/// Name of a subject's sex in SQL and study files.
+pub(crate) fn sex_name(m: &Measurements) -> &'static str {
+    match m.sex {
+        body::Sex::Male => "male",
+        body::Sex::Female => "female",
+    }
+}
+
+/// A length as written in millimetres, to a nanometre: metres and back do not change it.
+pub(crate) fn millimetres(length_m: f64) -> f64 {
+    (mm(length_m) * 1e6).round() / 1e6
+}
