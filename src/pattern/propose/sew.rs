@@ -27,6 +27,8 @@ const NOTCHED_DOUBT: f64 = 0.6;
 
 /// Edges in order with their lengths, m.
 pub(super) type Chain = Vec<(String, f64)>;
+/// What edges of a kind of piece are joined by, on each hand or face.
+type Joined<Place> = (Class, Label, fn(Place) -> SeamKind);
 
 /// Proposes the seams of a garment.
 pub fn sew(worn: &[Worn], questions: &mut Vec<String>) -> Vec<ProposedSeam> {
@@ -123,7 +125,7 @@ impl<'w> Tailor<'w, '_> {
 
     /// Front to back: side, shoulder, outseam, inseam, and the lengthwise edges of half sleeves and bands.
     fn sides(&mut self, hand: Hand) {
-        let pairs: [(Class, Label, fn(Hand) -> SeamKind); 8] = [
+        let pairs: [Joined<Hand>; 8] = [
             (Class::Body, Label::Side, SeamKind::Side),
             (Class::Body, Label::Shoulder, SeamKind::Shoulder),
             (Class::Skirt, Label::Side, SeamKind::SkirtSide),
@@ -261,7 +263,7 @@ impl<'w> Tailor<'w, '_> {
 
     /// Left to right half of the same face.
     fn centre(&mut self, face: Face) {
-        let halves: [(Class, Label, fn(Face) -> SeamKind); 4] = [
+        let halves: [Joined<Face>; 4] = [
             (Class::Body, Label::Centre, SeamKind::Centre),
             (Class::Yoke, Label::Centre, SeamKind::YokeCentre),
             (Class::Skirt, Label::Centre, SeamKind::SkirtCentre),
