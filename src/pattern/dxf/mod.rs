@@ -1,7 +1,7 @@
 //! Reading and writing AAMA/ASTM DXF: bytes in, pieces out, nothing lost in silence.
 //!
 //! Layers [AAMA-292, ASTM D6673]: 1 boundary, 2 turn points, 3 curve points, 4 notches, 6 mirror line, 7 grain line,
-//! 5 grade reference, 8 internal lines, 11 cut-outs, 13 drill holes, 14 sew line; curves are flattened. A file is read in three steps: its tags are scanned and counted ([`guard`]), the `dxf`
+//! 5 grade reference, 8 internal lines, 11 cut-outs, 13 drill holes, 14 sew line; curves are flattened. A file is read in three steps: its tags are scanned and counted (`guard`), the `dxf`
 //! crate reads them, and its entities are counted against the tags; then each block becomes a piece or is refused.
 
 mod blocks;

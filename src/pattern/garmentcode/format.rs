@@ -1,4 +1,4 @@
-//! The JSON of a GarmentCode specification, as `pygarment` writes it [GarmentCode].
+//! The JSON of a GarmentCode specification, as `pygarment` writes it.
 
 use std::collections::BTreeMap;
 

@@ -1,8 +1,8 @@
 //! A seam file proposed for the pieces of one size: what each piece is, and what is sewn to what.
 //!
-//! Names say what they can ([`names`]); the outline of every piece is aligned with templates of pieces ([`align`]), which
-//! tells its edges apart; then edges that belong together are sewn ([`sew`]), and where they are as long as each other the
-//! pieces are surer ([`agree`]). Everything carries a confidence, and what is unsure becomes a question to the person who
+//! Names say what they can (`names`); the outline of every piece is aligned with templates of pieces (`align`), which
+//! tells its edges apart; then edges that belong together are sewn (`sew`), and where they are as long as each other the
+//! pieces are surer (`agree`). Everything carries a confidence, and what is unsure becomes a question to the person who
 //! edits the file.
 
 mod agree;

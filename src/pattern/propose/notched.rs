@@ -1,6 +1,6 @@
 //! What notches say: whether two sides belong together, and which way round.
 
-use super::worn::Worn;
+use super::worn::{Along, Worn};
 use super::{Class, Face, Hand, Label};
 
 /// Greatest difference of two notches that match, share of the length of the seam.
@@ -8,8 +8,8 @@ const SAME_SHARE: f64 = 0.03;
 /// Difference of agreement that tells one way round from the other.
 const CLEAR: f64 = 0.3;
 
-/// A side of a seam: `piece.edge` with its length, m, in order.
-type Side = [(String, f64)];
+/// A side of a seam: edges in order.
+type Side<'w> = [Along<'w>];
 
 /// What the notches of two sides say.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,8 +24,8 @@ pub enum Evidence {
 
 /// What the notches of side `a`, walked counter-clockwise, and of side `b`, walked clockwise, say.
 #[must_use]
-pub fn evidence(worn: &[Worn], a: &Side, b: &Side) -> Evidence {
-    let (a, b) = (shares(worn, a, true), shares(worn, b, false));
+pub fn evidence(a: &Side<'_>, b: &Side<'_>) -> Evidence {
+    let (a, b) = (shares(a, true), shares(b, false));
     if a.is_empty() || b.is_empty() {
         return Evidence::None;
     }
@@ -55,18 +55,15 @@ fn agreement(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Places of the notches along a side, as shares of its length in the direction of the walk.
-fn shares(worn: &[Worn], side: &Side, is_forwards: bool) -> Vec<f64> {
-    let total: f64 = side.iter().map(|(_, length)| length).sum();
+fn shares(side: &Side<'_>, is_forwards: bool) -> Vec<f64> {
+    let total = length(side);
     let mut shares = Vec::new();
     let mut before = 0.0;
-    for (name, length) in side {
-        let found = name
-            .split_once('.')
-            .and_then(|(id, edge)| worn.iter().find(|one| one.id == id)?.edges.iter().find(|found| found.name == edge));
-        for &arc in found.map_or(&[][..], |edge| &edge.notches) {
-            shares.push((before + if is_forwards { arc } else { length - arc }) / total);
+    for Along { edge, .. } in side {
+        for &arc in &edge.notches {
+            shares.push((before + if is_forwards { arc } else { edge.length - arc }) / total);
         }
-        before += length;
+        before += edge.length;
     }
     shares
 }
@@ -87,7 +84,7 @@ pub fn drawn_sleeve(worn: &[Worn]) -> Option<Hand> {
     // Either side of a raglan sleeve is sewn by itself, and its notches stand at like shares.
     let sides = Hand::BOTH.map(|side| length(&cap.chain(Label::Cap, Some(side))));
     let by_lengths = cap.has(Label::Neck).then(|| by_lengths(sides, [length(&front), length(&back)])).flatten();
-    by_lengths.or_else(|| match evidence(worn, &cap.chain(Label::Cap, None), &[front, back].concat()) {
+    by_lengths.or_else(|| match evidence(&cap.chain(Label::Cap, None), &[front, back].concat()) {
         Evidence::For => Some(Hand::Right),
         Evidence::Turned => Some(Hand::Left),
         Evidence::None => None,
@@ -103,8 +100,8 @@ fn by_lengths([right, left]: [f64; 2], [front, back]: [f64; 2]) -> Option<Hand> 
 }
 
 /// Length of a side, m.
-fn length(side: &Side) -> f64 {
-    side.iter().map(|(_, length)| length).sum()
+fn length(side: &Side<'_>) -> f64 {
+    side.iter().map(|along| along.edge.length).sum()
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 //! round its piece, `b` clockwise, and a chain over several pieces is written in the order of the walk.
 
 use super::notched::{self, Evidence};
-use super::worn::Worn;
+use super::worn::{Along, Worn};
 use super::{Class, Face, Hand, Label, ProposedSeam, SeamKind};
 use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamEntry};
 use geom::units::mm;
@@ -25,8 +25,10 @@ const NOTCHED_GAIN: f64 = 0.4;
 /// Confidence in a seam whose notches match better the other way round.
 const NOTCHED_DOUBT: f64 = 0.6;
 
-/// Edges in order with their lengths, m.
-pub(super) type Chain = Vec<(String, f64)>;
+/// Edges in order.
+pub(super) type Chain<'w> = Vec<Along<'w>>;
+/// What edges of a kind of piece are joined by, on each hand or face.
+type Joined<Place> = (Class, Label, fn(Place) -> SeamKind);
 
 /// Proposes the seams of a garment.
 pub fn sew(worn: &[Worn], questions: &mut Vec<String>) -> Vec<ProposedSeam> {
@@ -56,7 +58,7 @@ pub fn open(worn: &[Worn], seams: &[ProposedSeam]) -> Vec<String> {
     };
     let edges = worn.iter().flat_map(|one| {
         let free = one.edges.iter().filter(|edge| edge.label.is_some_and(may_be_open));
-        free.map(|edge| format!("{}.{}", one.id, edge.name))
+        free.map(|edge| Along { piece: one, edge }.to_string())
     });
     edges.filter(|name| !is_sewn(name)).collect()
 }
@@ -75,8 +77,8 @@ impl<'w> Tailor<'w, '_> {
             .find(|one| one.class == class && one.face == face && (one.hand == Some(hand) || one.hand.is_none()))
     }
 
-    pub fn add(&mut self, kind: SeamKind, a: Chain, b: Chain, pieces: &[&Worn], doubt: f64) {
-        let length = |chain: &Chain| chain.iter().map(|(_, length)| mm(*length)).sum::<f64>();
+    pub fn add(&mut self, kind: SeamKind, a: Chain<'_>, b: Chain<'_>, pieces: &[&Worn], doubt: f64) {
+        let length = |chain: &[Along<'_>]| chain.iter().map(|along| mm(along.edge.length)).sum::<f64>();
         let (a_mm, b_mm) = (length(&a), length(&b));
         if a.is_empty() || b.is_empty() {
             return;
@@ -86,7 +88,7 @@ impl<'w> Tailor<'w, '_> {
         // Half pieces say nothing of how they are joined in the middle.
         let known = if kind.is_centre() { CENTRE_CONFIDENCE } else { 1.0 };
         let mut confidence = known * sure / (1.0 + (difference / doubt).powi(2));
-        match notched::evidence(self.worn, &a, &b) {
+        match notched::evidence(&a, &b) {
             Evidence::For => confidence += NOTCHED_GAIN * (1.0 - confidence),
             Evidence::Turned => {
                 confidence *= NOTCHED_DOUBT;
@@ -101,7 +103,7 @@ impl<'w> Tailor<'w, '_> {
             ));
             return;
         }
-        let names = |chain: Chain| chain.into_iter().map(|(name, _)| name).collect();
+        let names = |chain: Chain<'_>| chain.iter().map(Along::to_string).collect();
         let excess = ((a_mm - b_mm) * 10.0).round() / 10.0;
         let ease_mm = if excess.abs() > 0.5 * DEFAULT_LENGTH_TOLERANCE_MM { excess } else { 0.0 };
         let entry = SeamEntry { name: kind.to_string(), a: names(a), b: names(b), same_direction: false, ease_mm };
@@ -112,8 +114,7 @@ impl<'w> Tailor<'w, '_> {
         for one in self.worn {
             for (number, [a, b]) in one.darts.iter().enumerate() {
                 let leg = |name: &String| {
-                    let length = one.edges.iter().find(|edge| edge.name == *name).map_or(0.0, |edge| edge.length);
-                    vec![(format!("{}.{name}", one.id), length)]
+                    one.edges.iter().filter(|edge| edge.name == *name).map(|edge| Along { piece: one, edge }).collect()
                 };
                 let kind = SeamKind::Dart { piece: one.id.clone(), number: number + 1 };
                 self.add(kind, leg(a), leg(b), &[one], PLAIN_DOUBT);
@@ -123,7 +124,7 @@ impl<'w> Tailor<'w, '_> {
 
     /// Front to back: side, shoulder, outseam, inseam, and the lengthwise edges of half sleeves and bands.
     fn sides(&mut self, hand: Hand) {
-        let pairs: [(Class, Label, fn(Hand) -> SeamKind); 8] = [
+        let pairs: [Joined<Hand>; 8] = [
             (Class::Body, Label::Side, SeamKind::Side),
             (Class::Body, Label::Shoulder, SeamKind::Shoulder),
             (Class::Skirt, Label::Side, SeamKind::SkirtSide),
@@ -261,7 +262,7 @@ impl<'w> Tailor<'w, '_> {
 
     /// Left to right half of the same face.
     fn centre(&mut self, face: Face) {
-        let halves: [(Class, Label, fn(Face) -> SeamKind); 4] = [
+        let halves: [Joined<Face>; 4] = [
             (Class::Body, Label::Centre, SeamKind::Centre),
             (Class::Yoke, Label::Centre, SeamKind::YokeCentre),
             (Class::Skirt, Label::Centre, SeamKind::SkirtCentre),

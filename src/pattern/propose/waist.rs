@@ -24,8 +24,8 @@ impl<'w> Tailor<'w, '_> {
     /// A yoke over the shoulders to what hangs from it.
     pub fn yoke(&mut self, face: Face) {
         let (yokes, bodies) = (self.row(Class::Yoke, face), self.row(Class::Body, face));
-        let a: Chain = yokes.iter().flat_map(|one| one.chain(Label::Lower, None)).collect();
-        let b: Chain = bodies.iter().flat_map(|one| one.chain_back(Label::Top, None)).collect();
+        let a: Chain<'_> = yokes.iter().flat_map(|one| one.chain(Label::Lower, None)).collect();
+        let b: Chain<'_> = bodies.iter().flat_map(|one| one.chain_back(Label::Top, None)).collect();
         let pieces: Vec<&Worn> = yokes.iter().chain(&bodies).copied().collect();
         self.add(SeamKind::Yoke(face), a, b, &pieces, EASED_DOUBT);
     }
@@ -114,12 +114,12 @@ impl<'w> Tailor<'w, '_> {
     fn band(&mut self, band: &'w Worn, hand: Option<Hand>) {
         let below = [Class::Skirt, Class::Leg].map(|class| self.round(class, hand));
         if let Some(below) = below.iter().find(|pieces| !pieces.is_empty()) {
-            let b: Chain = below.iter().flat_map(|one| one.chain_back(Label::Waist, None)).collect();
+            let b: Chain<'_> = below.iter().flat_map(|one| one.chain_back(Label::Waist, None)).collect();
             let pieces: Vec<&Worn> = below.iter().copied().chain([band]).collect();
             self.add(SeamKind::Waist(hand), band.chain(Label::Lower, None), b, &pieces, EASED_DOUBT);
         }
         let above = self.round(Class::Body, hand);
-        let a: Chain = above.iter().flat_map(|one| one.chain(Label::Hem, None)).collect();
+        let a: Chain<'_> = above.iter().flat_map(|one| one.chain(Label::Hem, None)).collect();
         let pieces: Vec<&Worn> = above.iter().copied().chain([band]).collect();
         self.add(SeamKind::WaistAbove(hand), a, band.chain_back(Label::Top, None), &pieces, EASED_DOUBT);
     }
@@ -158,7 +158,7 @@ impl<'w> Tailor<'w, '_> {
 }
 
 /// Side `a` at the right end of one band as drawn, and side `b` at the left end of the other that follows it.
-fn ends(one: &Worn, next: &Worn, label: Label) -> (Chain, Chain) {
+fn ends<'w>(one: &'w Worn, next: &'w Worn, label: Label) -> (Chain<'w>, Chain<'w>) {
     (one.chain(label, Some(Hand::Left)), next.chain_back(label, Some(Hand::Right)))
 }
 

@@ -1,6 +1,7 @@
 //! Pieces as worn: which are cut twice, which side of the wearer they are for, and their edges by name.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use super::gore::Cut;
 use super::recognise::Recognised;
@@ -53,6 +54,21 @@ pub struct Worn {
     pub entry: PieceEntry,
     /// 0 to 1.
     pub confidence: f64,
+}
+
+/// An edge of a piece, as one side of a seam runs along it; its text is that of seam files.
+#[derive(Clone, Copy, Debug)]
+pub struct Along<'w> {
+    /// The piece.
+    pub piece: &'w Worn,
+    /// Its edge.
+    pub edge: &'w WornEdge,
+}
+
+impl fmt::Display for Along<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{}", self.piece.id, self.edge.name)
+    }
 }
 
 /// Distance within which a notch belongs to an edge, m.
@@ -273,15 +289,15 @@ impl Worn {
     }
 
     /// Edges with a label, counter-clockwise as worn, of one side where the piece has it on both.
-    pub fn chain(&self, label: Label, hand: Option<Hand>) -> Vec<(String, f64)> {
+    pub fn chain(&self, label: Label, hand: Option<Hand>) -> Vec<Along<'_>> {
         let is_it = |edge: &&WornEdge| {
             edge.label == Some(label) && (hand.is_none() || edge.hand.is_none() || edge.hand == hand)
         };
-        self.edges.iter().filter(is_it).map(|edge| (format!("{}.{}", self.id, edge.name), edge.length)).collect()
+        self.edges.iter().filter(is_it).map(|edge| Along { piece: self, edge }).collect()
     }
 
     /// [`Worn::chain`] in the order in which the other side of a seam is written: clockwise.
-    pub fn chain_back(&self, label: Label, hand: Option<Hand>) -> Vec<(String, f64)> {
+    pub fn chain_back(&self, label: Label, hand: Option<Hand>) -> Vec<Along<'_>> {
         self.chain(label, hand).into_iter().rev().collect()
     }
 }
