@@ -128,7 +128,7 @@ fn slurm(
     let todo = tell_plan(context, study, &run.planned, why);
     let mut progress = Progress::new(context, &study.name, todo);
     let mut told = Vec::new();
-    while !run.step(workspace)? {
+    while !workspace.step_slurm(&mut run)? {
         if interrupted.load(Ordering::Relaxed) {
             break;
         }

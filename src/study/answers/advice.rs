@@ -1,11 +1,14 @@
 //! Which size a subject should wear: ease at every level, and how hard the cloth is pulled there.
 
+use crate::answers::picture;
 use crate::answers::picture::tension_near;
+use crate::answers::reporting::facts;
 use crate::error::{Result, StudyError};
 use crate::rows::{EaseRow, JobId, JobRow, RecommendationRow};
+use crate::store::Store;
 use crate::store::evidence::PUBLISHED;
+use crate::store::read;
 use crate::store::read::JobFilter;
-use crate::workspace::Workspace;
 use fit::{self, Ease, Simulator, SizeAdvice, SizeFit};
 
 /// Every size of a garment on a subject, and the one to wear.
@@ -41,67 +44,65 @@ pub struct LevelFit {
     pub tension_n_m: Option<f64>,
 }
 
-impl Workspace {
-    /// Which size a subject should wear, for every garment of a study (or one) whose ease on it is known.
-    ///
-    /// # Errors
-    /// [`StudyError::NotFound`] when the study has no such subject or garment; when the database cannot be read.
-    pub fn size_advice(&self, study: &str, subject: &str, garment: Option<&str>) -> Result<Vec<SizeAnswer>> {
-        if study == PUBLISHED {
-            let known = self.studies()?.into_iter().map(|study| study.name).collect();
-            return Err(StudyError::NotFound { what: "study with pattern girths", name: study.to_owned(), known });
-        }
-        let eases = self.ease(study)?;
-        let names = |name: fn(&EaseRow) -> &String| -> Vec<String> {
-            let mut names: Vec<String> = eases.iter().map(|ease| name(ease).clone()).collect();
-            names.sort();
-            names.dedup();
-            names
-        };
-        let (subjects, garments) = (names(|ease| &ease.subject), names(|ease| &ease.garment));
-        if !subjects.iter().any(|name| name == subject) {
-            return Err(StudyError::NotFound { what: "subject", name: subject.to_owned(), known: subjects });
-        }
-        if let Some(garment) = garment.filter(|garment| !garments.iter().any(|name| name == garment)) {
-            return Err(StudyError::NotFound { what: "garment", name: garment.to_owned(), known: garments });
-        }
-        let jobs = self.jobs(&JobFilter { study: Some(study.to_owned()), ..JobFilter::default() })?;
-        let recommended = self.recommendations(study)?;
-        let mut answers = Vec::new();
-        for name in garments.iter().filter(|name| garment.is_none_or(|garment| garment == *name)) {
-            let of: Vec<&EaseRow> = eases.iter().filter(|e| e.subject == subject && e.garment == *name).collect();
-            answers.extend(self.size_answer(study, &of, &jobs, &recommended)?);
-        }
-        Ok(answers)
+/// Which size a subject should wear, for every garment of a study (or one) whose ease on it is known.
+///
+/// # Errors
+/// [`StudyError::NotFound`] when the study has no such subject or garment; when the database cannot be read.
+pub fn size_advice(store: &Store, study: &str, subject: &str, garment: Option<&str>) -> Result<Vec<SizeAnswer>> {
+    if study == PUBLISHED {
+        let known = read::studies(store)?.into_iter().map(|study| study.name).collect();
+        return Err(StudyError::NotFound { what: "study with pattern girths", name: study.to_owned(), known });
     }
+    let eases = read::ease(store, study)?;
+    let names = |name: fn(&EaseRow) -> &String| -> Vec<String> {
+        let mut names: Vec<String> = eases.iter().map(|ease| name(ease).clone()).collect();
+        names.sort();
+        names.dedup();
+        names
+    };
+    let (subjects, garments) = (names(|ease| &ease.subject), names(|ease| &ease.garment));
+    if !subjects.iter().any(|name| name == subject) {
+        return Err(StudyError::NotFound { what: "subject", name: subject.to_owned(), known: subjects });
+    }
+    if let Some(garment) = garment.filter(|garment| !garments.iter().any(|name| name == garment)) {
+        return Err(StudyError::NotFound { what: "garment", name: garment.to_owned(), known: garments });
+    }
+    let jobs = read::jobs(store, &JobFilter { study: Some(study.to_owned()), ..JobFilter::default() })?;
+    let recommended = read::recommendations(store, study)?;
+    let mut answers = Vec::new();
+    for name in garments.iter().filter(|name| garment.is_none_or(|garment| garment == *name)) {
+        let of: Vec<&EaseRow> = eases.iter().filter(|e| e.subject == subject && e.garment == *name).collect();
+        answers.extend(size_answer(store, study, &of, &jobs, &recommended)?);
+    }
+    Ok(answers)
+}
 
-    /// The answer for one garment and subject, given its eases; `None` where there are none.
-    fn size_answer(
-        &self,
-        study: &str,
-        eases: &[&EaseRow],
-        jobs: &[JobRow],
-        answers: &[RecommendationRow],
-    ) -> Result<Option<SizeAnswer>> {
-        let Some(first) = eases.first() else { return Ok(None) };
-        let mut sizes: Vec<SizeOn> = Vec::new();
-        for of_size in eases.chunk_by(|a, b| a.size == b.size) {
-            let worn = match drape_of(of_size[0], jobs) {
-                Some(id) => Some(self.dressed(id)?),
-                None => None,
-            };
-            let mut levels = Vec::new();
-            for ease in of_size {
-                let tension_n_m = worn.as_ref().map(|worn| tension_near(worn, &ease.level)).transpose()?.flatten();
-                levels.push(LevelFit { ease: (*ease).clone(), tension_n_m });
-            }
-            sizes.push(SizeOn { size: of_size[0].size.clone(), levels, shown: shown(of_size, answers) });
+/// The answer for one garment and subject, given its eases; `None` where there are none.
+fn size_answer(
+    store: &Store,
+    study: &str,
+    eases: &[&EaseRow],
+    jobs: &[JobRow],
+    answers: &[RecommendationRow],
+) -> Result<Option<SizeAnswer>> {
+    let Some(first) = eases.first() else { return Ok(None) };
+    let mut sizes: Vec<SizeOn> = Vec::new();
+    for of_size in eases.chunk_by(|a, b| a.size == b.size) {
+        let worn = match drape_of(of_size[0], jobs) {
+            Some(id) => Some(picture::dressed(store, id)?),
+            None => None,
+        };
+        let mut levels = Vec::new();
+        for ease in of_size {
+            let tension_n_m = worn.as_ref().map(|worn| tension_near(worn, &ease.level)).transpose()?.flatten();
+            levels.push(LevelFit { ease: (*ease).clone(), tension_n_m });
         }
-        let fits: Vec<SizeFit> = sizes.iter().map(fit_of).collect();
-        let advice = fit::advise(&fits, &self.cuts(study)?);
-        let (garment, subject) = (first.garment.clone(), first.subject.clone());
-        Ok(advice.map(|advice| SizeAnswer { garment, subject, advice, sizes }))
+        sizes.push(SizeOn { size: of_size[0].size.clone(), levels, shown: shown(of_size, answers) });
     }
+    let fits: Vec<SizeFit> = sizes.iter().map(fit_of).collect();
+    let advice = fit::advise(&fits, &facts::cuts(store, study)?);
+    let (garment, subject) = (first.garment.clone(), first.subject.clone());
+    Ok(advice.map(|advice| SizeAnswer { garment, subject, advice, sizes }))
 }
 
 /// Which picture of a size a customer should see, given the eases of that size.

@@ -5,13 +5,14 @@ use std::sync::Arc;
 use image::{GenericImage, RgbaImage};
 
 use crate::catalogue::SubjectRow;
+use crate::catalogue::known;
 use crate::error::{Result, StudyError};
 use crate::rows::SubjectId;
 use crate::run::pipeline::{self, Model};
 use crate::spec::inputs::StageKind;
+use crate::store::Store;
 use crate::store::cache::{self, Cache};
 use crate::tools;
-use crate::workspace::Workspace;
 use body::{Girths, Mass};
 use render::{self, Camera, Frame, Layer, Material, Scene, View};
 
@@ -24,25 +25,23 @@ pub struct Figure {
     scene: Scene,
 }
 
-impl Workspace {
-    /// The body of a revision of a subject: from the cache, or built now and kept there unless the workspace is
-    /// read-only.
-    ///
-    /// # Errors
-    /// When there is none of that number, or no body can be built from its measurements.
-    pub fn figure(&self, id: SubjectId) -> Result<Figure> {
-        let SubjectRow { name, measurements, .. } = self.subject_revision(id)?;
-        let hash = pipeline::body_inputs(&name, &measurements).stage_hash(StageKind::Body);
-        let make = || Ok(Model { body: tools::build_body(&measurements)? });
-        let model = if self.is_readonly() {
-            Arc::new(cache::stored(&self.reader, &hash).or_else(|_| make())?)
-        } else {
-            Cache::new(self.path().to_owned()).get(StageKind::Body, &hash, make)?.0
-        };
-        let scene = Scene::new(vec![Layer::new(&model.body.mesh, Material::form())]);
-        let scene = scene.map_err(StudyError::stage("render"))?;
-        Ok(Figure { model, scene })
-    }
+/// The body of a revision of a subject: from the cache, or built now and kept there unless the workspace is
+/// read-only.
+///
+/// # Errors
+/// When there is none of that number, or no body can be built from its measurements.
+pub fn figure(store: &Store, id: SubjectId) -> Result<Figure> {
+    let SubjectRow { name, measurements, .. } = known::subject_revision(store, id)?;
+    let hash = pipeline::body_inputs(&name, &measurements).stage_hash(StageKind::Body);
+    let make = || Ok(Model { body: tools::build_body(&measurements)? });
+    let model = if store.is_readonly() {
+        Arc::new(cache::stored(&store.reader, &hash).or_else(|_| make())?)
+    } else {
+        Cache::new(store.path().to_owned()).get(StageKind::Body, &hash, make)?.0
+    };
+    let scene = Scene::new(vec![Layer::new(&model.body.mesh, Material::form())]);
+    let scene = scene.map_err(StudyError::stage("render"))?;
+    Ok(Figure { model, scene })
 }
 
 impl Figure {
@@ -105,6 +104,7 @@ impl Figure {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Workspace;
     use crate::catalogue::Mode;
 
     #[test]

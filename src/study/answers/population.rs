@@ -4,11 +4,13 @@
 
 use std::fmt::Write;
 
+use crate::catalogue::known;
 use crate::error::{Result, StudyError};
 use crate::rows::{JobId, SubjectId};
 use crate::spec::fields::{Given, MEASUREMENTS, filled};
 use crate::spec::sex_name;
-use crate::workspace::Workspace;
+use crate::store::Store;
+use crate::store::read;
 use body::{self, Dimension, Measurements, Sex};
 use fit::Draw;
 
@@ -97,44 +99,41 @@ pub fn subjects_text(representatives: &[Representative]) -> String {
     text
 }
 
-impl Workspace {
-    /// The subject of a study most like somebody, among those of the same sex.
-    ///
-    /// # Errors
-    /// When a value is wrong, there is no such study, or it has nobody of that sex.
-    pub fn nearest(&self, study: &str, given: &[Given]) -> Result<Nearest> {
-        self.study(study)?;
-        let subject = &filled::<Measurements>(None, "", given).map_err(|problems| StudyError::Refused {
-            what: "subject",
-            name: "to compare".to_owned(),
-            problems: problems.into_iter().map(|(_, problem)| problem).collect(),
-        })?;
-        let sql = "SELECT DISTINCT job.subject, subject_id FROM job JOIN study USING (study_id)
-            WHERE study.name = ? AND is_current ORDER BY job.subject";
-        let mut statement = self.reader.prepare_cached(sql)?;
-        let known: Vec<(String, i64)> =
-            statement.query_map([study], |row| Ok((row.get(0)?, row.get(1)?)))?.collect::<rusqlite::Result<_>>()?;
-        let mut best: Option<Nearest> = None;
-        for (name, id) in known {
-            let theirs = self.subject_revision(SubjectId(id))?.measurements;
-            let Some((distance, widest)) = distance(subject, &theirs) else { continue };
-            if best.as_ref().is_none_or(|best| distance < best.distance) {
-                best = Some(Nearest { subject: name, distance, widest, jobs: vec![] });
-            }
+/// The subject of a study most like somebody, among those of the same sex.
+///
+/// # Errors
+/// When a value is wrong, there is no such study, or it has nobody of that sex.
+pub fn nearest(store: &Store, study: &str, given: &[Given]) -> Result<Nearest> {
+    read::study(store, study)?;
+    let subject = &filled::<Measurements>(None, "", given).map_err(|problems| StudyError::Refused {
+        what: "subject",
+        name: "to compare".to_owned(),
+        problems: problems.into_iter().map(|(_, problem)| problem).collect(),
+    })?;
+    let sql = "SELECT DISTINCT job.subject, subject_id FROM job JOIN study USING (study_id)
+        WHERE study.name = ? AND is_current ORDER BY job.subject";
+    let mut statement = store.reader.prepare_cached(sql)?;
+    let known: Vec<(String, i64)> =
+        statement.query_map([study], |row| Ok((row.get(0)?, row.get(1)?)))?.collect::<rusqlite::Result<_>>()?;
+    let mut best: Option<Nearest> = None;
+    for (name, id) in known {
+        let theirs = known::subject_revision(store, SubjectId(id))?.measurements;
+        let Some((distance, widest)) = distance(subject, &theirs) else { continue };
+        if best.as_ref().is_none_or(|best| distance < best.distance) {
+            best = Some(Nearest { subject: name, distance, widest, jobs: vec![] });
         }
-        let mut best = best.ok_or_else(|| StudyError::NotFound {
-            what: "subject of the study who is",
-            name: sex_name(subject).to_owned(),
-            known: vec![],
-        })?;
-        let sql =
-            "SELECT job_id FROM job JOIN study USING (study_id) WHERE study.name = ? AND subject = ? AND is_current
-            AND status IN ('done', 'not_converged') ORDER BY job_id";
-        let mut statement = self.reader.prepare_cached(sql)?;
-        let jobs = statement.query_map([study, &best.subject], |row| row.get(0).map(JobId))?;
-        best.jobs = jobs.collect::<rusqlite::Result<_>>()?;
-        Ok(best)
     }
+    let mut best = best.ok_or_else(|| StudyError::NotFound {
+        what: "subject of the study who is",
+        name: sex_name(subject).to_owned(),
+        known: vec![],
+    })?;
+    let sql = "SELECT job_id FROM job JOIN study USING (study_id) WHERE study.name = ? AND subject = ? AND is_current
+        AND status IN ('done', 'not_converged') ORDER BY job_id";
+    let mut statement = store.reader.prepare_cached(sql)?;
+    let jobs = statement.query_map([study, &best.subject], |row| row.get(0).map(JobId))?;
+    best.jobs = jobs.collect::<rusqlite::Result<_>>()?;
+    Ok(best)
 }
 
 /// Difference of two people of one sex over the dimensions known of both, and the greatest of them.
@@ -202,7 +201,7 @@ fn group(points: &[Point], count: usize, random: &mut Draw) -> Vec<(usize, usize
     let mut middles = seeds(points, count, random);
     let mut of = vec![usize::MAX; points.len()];
     for _ in 0..ROUNDS {
-        let next: Vec<usize> = points.iter().map(|point| nearest(point, &middles)).collect();
+        let next: Vec<usize> = points.iter().map(|point| nearest_middle(point, &middles)).collect();
         if next == of {
             break;
         }
@@ -246,7 +245,7 @@ fn seeds(points: &[Point], count: usize, random: &mut Draw) -> Vec<Point> {
     middles
 }
 
-fn nearest(point: &Point, middles: &[Point]) -> usize {
+fn nearest_middle(point: &Point, middles: &[Point]) -> usize {
     let far = |k: &usize| off(point, &middles[*k]);
     (0..middles.len()).min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0)
 }
@@ -283,7 +282,7 @@ mod tests {
         let mut random = Draw::new(9);
         let far: Vec<f64> = (0..500)
             .map(|_| point(&draw(Sex::Female, &mut random)))
-            .map(|p| (off(&p, &middles[nearest(&p, &middles)]) / 7.0).sqrt())
+            .map(|p| (off(&p, &middles[nearest_middle(&p, &middles)]) / 7.0).sqrt())
             .collect();
         let mean = far.iter().sum::<f64>() / 500.0;
         assert!(mean < 0.75, "{mean}");

@@ -5,18 +5,21 @@ use std::path::Path;
 
 use rusqlite::{OptionalExtension, Row};
 
+use crate::catalogue::known;
 use crate::catalogue::{read_fabric, read_style};
 use crate::error::{Result, StudyError};
 use crate::rows::{ChiRow, JobId, JobRow, MetricsRow, StageRow, SubjectId};
+use crate::run::enqueue;
 use crate::run::handout::Untold;
 use crate::run::outcome::{Executor, Outcome};
 use crate::run::pipeline::Pipeline;
 use crate::spec::inputs::{Change, Inputs};
 use crate::spec::parameters::Parameters;
 use crate::spec::{JobSpec, Schedule};
+use crate::store::Store;
 use crate::store::cache::Cache;
+use crate::store::read;
 use crate::store::{self, Access};
-use crate::workspace::Workspace;
 use geom::units::{from_mm, mm};
 
 /// Where a result was made.
@@ -99,127 +102,125 @@ pub struct Rerun {
     pub ei: [f64; 2],
 }
 
-impl Workspace {
-    /// Everything that is stored of a run.
-    ///
-    /// # Errors
-    /// When there is no such job.
-    pub fn record(&self, id: JobId) -> Result<Record> {
-        let sql = "SELECT program_version, git_commit, git_dirty, machine, seed FROM provenance WHERE job_id = ?";
-        let row = |row: &Row<'_>| {
-            Ok(ProvenanceRow {
-                program_version: row.get(0)?,
-                git_commit: row.get(1)?,
-                git_dirty: row.get(2)?,
-                machine: row.get(3)?,
-                seed: row.get(4)?,
-            })
-        };
-        Ok(Record {
-            job: self.job(id)?,
-            inputs: self.inputs(id)?,
-            stages: self.stages(id)?,
-            provenance: self.reader.prepare_cached(sql)?.query_row([id.0], row).optional()?,
-            metrics: self.metrics(id)?,
-            chi: self.chi(id)?,
+/// Everything that is stored of a run.
+///
+/// # Errors
+/// When there is no such job.
+pub fn record(store: &Store, id: JobId) -> Result<Record> {
+    let sql = "SELECT program_version, git_commit, git_dirty, machine, seed FROM provenance WHERE job_id = ?";
+    let row = |row: &Row<'_>| {
+        Ok(ProvenanceRow {
+            program_version: row.get(0)?,
+            git_commit: row.get(1)?,
+            git_dirty: row.get(2)?,
+            machine: row.get(3)?,
+            seed: row.get(4)?,
         })
-    }
+    };
+    Ok(Record {
+        job: read::job(store, id)?,
+        inputs: enqueue::inputs(store, id)?,
+        stages: read::stages(store, id)?,
+        provenance: store.reader.prepare_cached(sql)?.query_row([id.0], row).optional()?,
+        metrics: read::metrics(store, id)?,
+        chi: read::chi(store, id)?,
+    })
+}
 
-    /// Two runs side by side.
-    ///
-    /// # Errors
-    /// When one of the jobs does not exist.
-    pub fn compare(&self, before: JobId, after: JobId) -> Result<Comparison> {
-        let [a, b] = [self.record(before)?, self.record(after)?];
-        Ok(Comparison {
-            inputs: b.inputs.changes_since(&a.inputs),
-            metrics: [a.metrics, b.metrics],
-            chi: paired(&a.chi, &b.chi),
-        })
-    }
+/// Two runs side by side.
+///
+/// # Errors
+/// When one of the jobs does not exist.
+pub fn compare(store: &Store, before: JobId, after: JobId) -> Result<Comparison> {
+    let [a, b] = [record(store, before)?, record(store, after)?];
+    Ok(Comparison {
+        inputs: b.inputs.changes_since(&a.inputs),
+        metrics: [a.metrics, b.metrics],
+        chi: paired(&a.chi, &b.chi),
+    })
+}
 
-    /// Makes a run again from its stored inputs, nothing of it from the cache. What is stored stays as it is.
-    ///
-    /// # Errors
-    /// When it has no result yet, its body is a scan (which is not stored), or a stage refuses.
-    pub fn rerun(&self, id: JobId) -> Result<Rerun> {
-        let metrics = self.metrics(id)?.ok_or_else(|| StudyError::NotFound {
-            what: "result of job",
-            name: id.to_string(),
-            known: vec![],
-        })?;
-        let spec = self.stored_spec(id)?;
-        let folder = tempfile::tempdir().map_err(StudyError::io(std::env::temp_dir()))?;
-        let scratch = folder.path().join("again.sqlite");
-        drop(store::open(&scratch, Access::Create)?);
-        let outcome = Pipeline::over(Cache::new(scratch)).execute(&spec, &mut Untold)?;
-        Ok(Rerun {
-            inputs: spec.inputs.changes_since(&self.inputs(id)?),
-            chi: paired(&self.chi(id)?, &rows_of(&outcome)),
-            ei: [metrics.ei, outcome.metrics.ei],
-        })
-    }
+/// Makes a run again from its stored inputs, nothing of it from the cache. What is stored stays as it is.
+///
+/// # Errors
+/// When it has no result yet, its body is a scan (which is not stored), or a stage refuses.
+pub fn rerun(store: &Store, id: JobId) -> Result<Rerun> {
+    let metrics = read::metrics(store, id)?.ok_or_else(|| StudyError::NotFound {
+        what: "result of job",
+        name: id.to_string(),
+        known: vec![],
+    })?;
+    let spec = stored_spec(store, id)?;
+    let folder = tempfile::tempdir().map_err(StudyError::io(std::env::temp_dir()))?;
+    let scratch = folder.path().join("again.sqlite");
+    drop(store::open(&scratch, Access::Create)?);
+    let outcome = Pipeline::over(Cache::new(scratch)).execute(&spec, &mut Untold)?;
+    Ok(Rerun {
+        inputs: spec.inputs.changes_since(&enqueue::inputs(store, id)?),
+        chi: paired(&read::chi(store, id)?, &rows_of(&outcome)),
+        ei: [metrics.ei, outcome.metrics.ei],
+    })
+}
 
-    /// Whether a study's report was last written from this database, as the page that has this time (ms since 1970).
-    ///
-    /// # Errors
-    /// When the database cannot be read.
-    pub fn knows_report(&self, study: &str, page: &Path, written_ms: i64) -> Result<bool> {
-        let sql = "SELECT EXISTS (SELECT 1 FROM study_report JOIN study USING (study_id)
-            WHERE name = ? AND page = ? AND written_at = ?)";
-        let page = page.to_string_lossy();
-        Ok(self.reader.prepare_cached(sql)?.query_row((study, page, written_ms), |row| row.get(0))?)
-    }
+/// Whether a study's report was last written from this database, as the page that has this time (ms since 1970).
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn knows_report(store: &Store, study: &str, page: &Path, written_ms: i64) -> Result<bool> {
+    let sql = "SELECT EXISTS (SELECT 1 FROM study_report JOIN study USING (study_id)
+        WHERE name = ? AND page = ? AND written_at = ?)";
+    let page = page.to_string_lossy();
+    Ok(store.reader.prepare_cached(sql)?.query_row((study, page, written_ms), |row| row.get(0))?)
+}
 
-    /// Remembers the page that a study's report was just written to, and its time (ms since 1970).
-    ///
-    /// # Errors
-    /// When the workspace is read-only.
-    pub fn remember_report(&mut self, study: &str, page: &Path, written_ms: i64) -> Result<()> {
-        let sql = "INSERT OR REPLACE INTO study_report (study_id, page, written_at)
-            SELECT study_id, ?, ? FROM study WHERE name = ?";
-        self.writer()?.execute(sql, (page.to_string_lossy(), written_ms, study))?;
-        Ok(())
-    }
+/// Remembers the page that a study's report was just written to, and its time (ms since 1970).
+///
+/// # Errors
+/// When the workspace is read-only.
+pub fn remember_report(store: &mut Store, study: &str, page: &Path, written_ms: i64) -> Result<()> {
+    let sql = "INSERT OR REPLACE INTO study_report (study_id, page, written_at)
+        SELECT study_id, ?, ? FROM study WHERE name = ?";
+    store.writer()?.execute(sql, (page.to_string_lossy(), written_ms, study))?;
+    Ok(())
+}
 
-    /// What a job does, from what the database has of it.
-    pub(crate) fn stored_spec(&self, id: JobId) -> Result<JobSpec> {
-        let job = self.job(id)?;
-        let inputs = self.inputs(id)?;
-        let refuse = |message: String| StudyError::Stage { stage: "rerun", message };
-        if inputs.iter().any(|(name, _)| name.starts_with("subject.") && name.ends_with(".scan")) {
-            return Err(refuse("its body is a scan, which is not stored; run its study again".into()));
-        }
-        let edge_mm: f64 = inputs
-            .iter()
-            .find_map(|(name, value)| (name == "mesh.edge_length_mm").then(|| value.parse().ok())?)
-            .ok_or_else(|| refuse(format!("job {id} has no mesh.edge_length_mm")))?;
-        let keys = "SELECT subject_id, style_id, size_id, fabric_id FROM job WHERE job_id = ?";
-        let keys: [i64; 4] = self
-            .reader
-            .prepare_cached(keys)?
-            .query_row([id.0], |row| Ok([row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?]))?;
-        let (style, seams, size, unit) = read_style(&self.reader, keys[1], keys[2])?;
-        let spec = JobSpec {
-            garment: job.garment,
-            style,
-            size: job.size,
-            subject: job.subject,
-            simulator: job.simulator,
-            repeat: job.repeat,
-            measurements: self.subject_revision(SubjectId(keys[0]))?.measurements,
-            scan: None,
-            pattern: size,
-            unit,
-            seams,
-            fabric: read_fabric(&self.reader, keys[3])?,
-            edge_length_m: from_mm(edge_mm),
-            parameters: Parameters::of_inputs(&inputs).map_err(refuse)?,
-            schedule: Schedule::default(),
-            inputs: Inputs::default(),
-        };
-        Ok(spec.with_inputs())
+/// What a job does, from what the database has of it.
+pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
+    let job = read::job(store, id)?;
+    let inputs = enqueue::inputs(store, id)?;
+    let refuse = |message: String| StudyError::Stage { stage: "rerun", message };
+    if inputs.iter().any(|(name, _)| name.starts_with("subject.") && name.ends_with(".scan")) {
+        return Err(refuse("its body is a scan, which is not stored; run its study again".into()));
     }
+    let edge_mm: f64 = inputs
+        .iter()
+        .find_map(|(name, value)| (name == "mesh.edge_length_mm").then(|| value.parse().ok())?)
+        .ok_or_else(|| refuse(format!("job {id} has no mesh.edge_length_mm")))?;
+    let keys = "SELECT subject_id, style_id, size_id, fabric_id FROM job WHERE job_id = ?";
+    let keys: [i64; 4] = store
+        .reader
+        .prepare_cached(keys)?
+        .query_row([id.0], |row| Ok([row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?]))?;
+    let (style, seams, size, unit) = read_style(&store.reader, keys[1], keys[2])?;
+    let spec = JobSpec {
+        garment: job.garment,
+        style,
+        size: job.size,
+        subject: job.subject,
+        simulator: job.simulator,
+        repeat: job.repeat,
+        measurements: known::subject_revision(store, SubjectId(keys[0]))?.measurements,
+        scan: None,
+        pattern: size,
+        unit,
+        seams,
+        fabric: read_fabric(&store.reader, keys[3])?,
+        edge_length_m: from_mm(edge_mm),
+        parameters: Parameters::of_inputs(&inputs).map_err(refuse)?,
+        schedule: Schedule::default(),
+        inputs: Inputs::default(),
+    };
+    Ok(spec.with_inputs())
 }
 
 /// The measurements of an outcome as they would be read back: millimetres are what is stored.

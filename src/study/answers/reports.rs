@@ -4,9 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
+use crate::answers::reporting;
 use crate::error::Result;
+use crate::store::Store;
 use crate::tools;
-use crate::workspace::Workspace;
 
 /// A report in a folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -51,16 +52,14 @@ fn count(folder: &Path) -> usize {
     entries.map(|entry| if entry.path().is_dir() { count(&entry.path()) } else { 1 }).sum()
 }
 
-impl Workspace {
-    /// Builds the report of a study in a folder of its own below `folder`; returns its page.
-    ///
-    /// # Errors
-    /// When there is no such study, a stored result cannot be read, or a file cannot be written.
-    pub fn build_report(&self, study: &str, folder: &Path) -> Result<PathBuf> {
-        let folder = folder.join(study);
-        tools::write_files(&folder, &self.report(study)?)?;
-        Ok(folder.join("index.html"))
-    }
+/// Builds the report of a study in a folder of its own below `folder`; returns its page.
+///
+/// # Errors
+/// When there is no such study, a stored result cannot be read, or a file cannot be written.
+pub fn build_report(store: &Store, study: &str, folder: &Path) -> Result<PathBuf> {
+    let folder = folder.join(study);
+    tools::write_files(&folder, &reporting::report(store, study)?)?;
+    Ok(folder.join("index.html"))
 }
 
 #[cfg(test)]

@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use crate::error::Result;
-use crate::workspace::Workspace;
+use crate::store::Store;
+use crate::store::read;
 
 /// Colours that differ in lightness too [Okabe & Ito 2008].
 const COLOURS: [&str; 7] = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442"];
@@ -24,59 +25,57 @@ struct Dot {
     fit: String,
 }
 
-impl Workspace {
-    /// An SVG picture of a study: one panel a garment, a dot a subject, in the colour of the size whose ease is nearest the
-    /// middle of a just fit; hollow where even that is not a just fit.
-    ///
-    /// # Errors
-    /// When there is no such study.
-    pub fn size_map(&self, study: &str) -> Result<String> {
-        self.study(study)?;
-        let dots = self.dots(study)?;
-        let mut garments: Vec<&str> = dots.iter().map(|dot| dot.garment.as_str()).collect();
-        garments.dedup();
-        let width = (PANEL + MARGIN) * garments.len().max(1) as f64 + MARGIN;
-        let height = PANEL + 2.0 * MARGIN;
-        let mut svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" \
-            font-family=\"DejaVu Sans, sans-serif\" font-size=\"12\" fill=\"#222\">\n<rect width=\"100%\" height=\"100%\" \
-            fill=\"white\"/>\n"
-        );
-        for (number, garment) in garments.into_iter().enumerate() {
-            let of_garment: Vec<&Dot> = dots.iter().filter(|dot| dot.garment == garment).collect();
-            panel(&mut svg, garment, &of_garment, MARGIN + number as f64 * (PANEL + MARGIN));
-        }
-        svg.push_str("</svg>\n");
-        Ok(svg)
+/// An SVG picture of a study: one panel a garment, a dot a subject, in the colour of the size whose ease is nearest the
+/// middle of a just fit; hollow where even that is not a just fit.
+///
+/// # Errors
+/// When there is no such study.
+pub fn size_map(store: &Store, study: &str) -> Result<String> {
+    read::study(store, study)?;
+    let dots = dots(store, study)?;
+    let mut garments: Vec<&str> = dots.iter().map(|dot| dot.garment.as_str()).collect();
+    garments.dedup();
+    let width = (PANEL + MARGIN) * garments.len().max(1) as f64 + MARGIN;
+    let height = PANEL + 2.0 * MARGIN;
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" \
+        font-family=\"DejaVu Sans, sans-serif\" font-size=\"12\" fill=\"#222\">\n<rect width=\"100%\" height=\"100%\" \
+        fill=\"white\"/>\n"
+    );
+    for (number, garment) in garments.into_iter().enumerate() {
+        let of_garment: Vec<&Dot> = dots.iter().filter(|dot| dot.garment == garment).collect();
+        panel(&mut svg, garment, &of_garment, MARGIN + number as f64 * (PANEL + MARGIN));
     }
+    svg.push_str("</svg>\n");
+    Ok(svg)
+}
 
-    /// Every subject in every garment with its best size, by garment.
-    fn dots(&self, study: &str) -> Result<Vec<Dot>> {
-        let sql = "WITH best AS (
-                SELECT *, row_number() OVER (
-                    PARTITION BY garment, subject ORDER BY undersized, abs(ease_mm - :just), size) AS place
-                FROM v_ease WHERE study = :study AND decides
-            ),
-            known AS (
-                SELECT DISTINCT job.subject, stature_mm FROM job JOIN subject USING (subject_id) JOIN study USING (study_id)
-                WHERE study.name = :study AND is_current
-            )
-            SELECT garment, best.subject, stature_mm, body_girth_mm, level, size, fit_class
-            FROM best JOIN known USING (subject) WHERE place = 1 ORDER BY garment, subject";
-        let mut statement = self.reader.prepare_cached(sql)?;
-        let dots = statement.query_map(rusqlite::named_params! { ":study": study, ":just": JUST_MM }, |row| {
-            Ok(Dot {
-                garment: row.get(0)?,
-                subject: row.get(1)?,
-                stature_mm: row.get(2)?,
-                girth_mm: row.get(3)?,
-                level: row.get(4)?,
-                size: row.get(5)?,
-                fit: row.get(6)?,
-            })
-        })?;
-        Ok(dots.collect::<rusqlite::Result<_>>()?)
-    }
+/// Every subject in every garment with its best size, by garment.
+fn dots(store: &Store, study: &str) -> Result<Vec<Dot>> {
+    let sql = "WITH best AS (
+            SELECT *, row_number() OVER (
+                PARTITION BY garment, subject ORDER BY undersized, abs(ease_mm - :just), size) AS place
+            FROM v_ease WHERE study = :study AND decides
+        ),
+        known AS (
+            SELECT DISTINCT job.subject, stature_mm FROM job JOIN subject USING (subject_id) JOIN study USING (study_id)
+            WHERE study.name = :study AND is_current
+        )
+        SELECT garment, best.subject, stature_mm, body_girth_mm, level, size, fit_class
+        FROM best JOIN known USING (subject) WHERE place = 1 ORDER BY garment, subject";
+    let mut statement = store.reader.prepare_cached(sql)?;
+    let dots = statement.query_map(rusqlite::named_params! { ":study": study, ":just": JUST_MM }, |row| {
+        Ok(Dot {
+            garment: row.get(0)?,
+            subject: row.get(1)?,
+            stature_mm: row.get(2)?,
+            girth_mm: row.get(3)?,
+            level: row.get(4)?,
+            size: row.get(5)?,
+            fit: row.get(6)?,
+        })
+    })?;
+    Ok(dots.collect::<rusqlite::Result<_>>()?)
 }
 
 /// One garment: axes, dots, and what the colours mean.

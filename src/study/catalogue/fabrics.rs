@@ -5,7 +5,7 @@ use rusqlite::{Connection, Row};
 use crate::catalogue::known::{columns, read_numbers};
 use crate::error::Result;
 use crate::spec::fields::{Entry, FABRIC_NUMBERS};
-use crate::workspace::Workspace;
+use crate::store::Store;
 use geom::units::GRAVITY;
 use sim::Fabric;
 
@@ -42,7 +42,7 @@ impl FabricRow {
 }
 
 /// The current fabrics, by name, without the number of their jobs.
-pub(super) fn fabrics(connection: &Connection) -> Result<Vec<FabricRow>> {
+pub(super) fn stored_fabrics(connection: &Connection) -> Result<Vec<FabricRow>> {
     let sql = format!(
         "SELECT name, revision, is_own, source, {} FROM fabric JOIN catalogue_entry AS entry USING (name, revision)
         WHERE part = 'fabric' AND NOT is_retired ORDER BY name",
@@ -58,23 +58,21 @@ pub(super) fn fabrics(connection: &Connection) -> Result<Vec<FabricRow>> {
     Ok(rows)
 }
 
-impl Workspace {
-    /// The fabrics of the catalogue, by name.
-    ///
-    /// # Errors
-    /// When the database cannot be read.
-    pub fn fabrics(&self) -> Result<Vec<FabricRow>> {
-        let mut fabrics = fabrics(&self.reader)?;
-        let sql = "SELECT name, sum(jobs) FROM fabric JOIN
-            (SELECT fabric_id, count(*) AS jobs FROM job GROUP BY fabric_id) USING (fabric_id) GROUP BY name";
-        let mut statement = self.reader.prepare_cached(sql)?;
-        let mut used = statement.query([])?;
-        while let Some(row) = used.next()? {
-            let name: String = row.get(0)?;
-            if let Some(found) = fabrics.iter_mut().find(|found| found.fabric.name == name) {
-                found.jobs = row.get(1)?;
-            }
+/// The fabrics of the catalogue, by name.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn fabrics(store: &Store) -> Result<Vec<FabricRow>> {
+    let mut fabrics = stored_fabrics(&store.reader)?;
+    let sql = "SELECT name, sum(jobs) FROM fabric JOIN
+        (SELECT fabric_id, count(*) AS jobs FROM job GROUP BY fabric_id) USING (fabric_id) GROUP BY name";
+    let mut statement = store.reader.prepare_cached(sql)?;
+    let mut used = statement.query([])?;
+    while let Some(row) = used.next()? {
+        let name: String = row.get(0)?;
+        if let Some(found) = fabrics.iter_mut().find(|found| found.fabric.name == name) {
+            found.jobs = row.get(1)?;
         }
-        Ok(fabrics)
     }
+    Ok(fabrics)
 }

@@ -2,71 +2,70 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::catalogue::style;
 use crate::catalogue::{Mode, Part, Saved, Stored, check_name, known, save, sheet};
 use crate::error::{Result, StudyError};
 use crate::spec::file::{self, Placed, Problem};
 use crate::store;
-use crate::workspace::Workspace;
+use crate::store::Store;
 
-impl Workspace {
-    /// Brings all entries of some files into the catalogue, or none where anything is wrong with one of them: TOML with
-    /// the tables of a study file (a study file itself will do), or, for subjects and fabrics, CSV with the same keys.
-    ///
-    /// # Errors
-    /// Everything that is wrong with the files, each with its line.
-    pub fn import(&mut self, part: Part, files: &[PathBuf]) -> Result<Vec<Saved>> {
-        match part {
-            Part::Subject => {
-                let known = known(Some(&self.reader))?;
-                self.import_entries(files, |path, text| {
-                    let subjects = file::subjects(path, text, &known)?;
-                    Ok(subjects.into_iter().map(|placed| placed.map(|subject| subject.measurements)).collect())
-                })
-            }
-            Part::Fabric => self.import_entries(files, file::fabrics),
-            Part::Style | Part::Size => self.import_styles(part, files),
+/// Brings all entries of some files into the catalogue, or none where anything is wrong with one of them: TOML with
+/// the tables of a study file (a study file itself will do), or, for subjects and fabrics, CSV with the same keys.
+///
+/// # Errors
+/// Everything that is wrong with the files, each with its line.
+pub fn import(store: &mut Store, part: Part, files: &[PathBuf]) -> Result<Vec<Saved>> {
+    match part {
+        Part::Subject => {
+            let known = known(Some(&store.reader))?;
+            import_entries(store, files, |path, text| {
+                let subjects = file::subjects(path, text, &known)?;
+                Ok(subjects.into_iter().map(|placed| placed.map(|subject| subject.measurements)).collect())
+            })
+        }
+        Part::Fabric => import_entries(store, files, file::fabrics),
+        Part::Style | Part::Size => style::import_styles(store, part, files),
+    }
+}
+
+fn import_entries<T: Stored>(
+    store: &mut Store,
+    files: &[PathBuf],
+    of_toml: impl Fn(&Path, &str) -> std::result::Result<Vec<Placed<T>>, Vec<Problem>>,
+) -> Result<Vec<Saved>> {
+    let mut entries = Vec::new();
+    let mut problems = Vec::new();
+    for path in files {
+        let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
+        let read = match format_of(path) {
+            Some(Format::Csv) => sheet::read::<T>(path, T::PART, &bytes),
+            Some(Format::Toml) => text_of(path, &bytes).and_then(|text| of_toml(path, text)),
+            None => Err(vec![unknown_format(path, "CSV (.csv) or TOML (.toml)")]),
+        };
+        match read {
+            Ok(read) if read.is_empty() => problems.push(Problem::of(path, format!("no {} in it", T::PART))),
+            Ok(read) => entries.extend(read),
+            Err(found) => problems.extend(found),
         }
     }
-
-    fn import_entries<T: Stored>(
-        &mut self,
-        files: &[PathBuf],
-        of_toml: impl Fn(&Path, &str) -> std::result::Result<Vec<Placed<T>>, Vec<Problem>>,
-    ) -> Result<Vec<Saved>> {
-        let mut entries = Vec::new();
-        let mut problems = Vec::new();
-        for path in files {
-            let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
-            let read = match format_of(path) {
-                Some(Format::Csv) => sheet::read::<T>(path, T::PART, &bytes),
-                Some(Format::Toml) => text_of(path, &bytes).and_then(|text| of_toml(path, text)),
-                None => Err(vec![unknown_format(path, "CSV (.csv) or TOML (.toml)")]),
-            };
-            match read {
-                Ok(read) if read.is_empty() => problems.push(Problem::of(path, format!("no {} in it", T::PART))),
-                Ok(read) => entries.extend(read),
-                Err(found) => problems.extend(found),
-            }
-        }
-        let checked = verified(&entries);
-        let wrong = entries.iter().zip(&checked).filter_map(|(placed, outcome)| {
-            let named = check_name(&placed.name);
-            let problem = outcome.as_ref().err().or(named.as_ref().err())?;
-            Some(placed.problem(format!("{} {}: {problem}", T::PART, placed.name)))
-        });
-        problems.extend(wrong);
-        if !problems.is_empty() {
-            return Err(StudyError::File(problems));
-        }
-        let transaction = store::write(self.writer()?)?;
-        let mut saved = Vec::new();
-        for (Placed { name, entry, .. }, doubts) in entries.iter().zip(checked) {
-            let done = save(&transaction, T::PART, name, Mode::Import, || entry.store(&transaction, name))?;
-            saved.push(Saved { doubts: doubts.unwrap_or_default(), ..done });
-        }
-        transaction.commit()?;
-        Ok(saved)
+    let checked = verified(&entries);
+    let wrong = entries.iter().zip(&checked).filter_map(|(placed, outcome)| {
+        let named = check_name(&placed.name);
+        let problem = outcome.as_ref().err().or(named.as_ref().err())?;
+        Some(placed.problem(format!("{} {}: {problem}", T::PART, placed.name)))
+    });
+    problems.extend(wrong);
+    if !problems.is_empty() {
+        return Err(StudyError::File(problems));
     }
+    let transaction = store::write(store.writer()?)?;
+    let mut saved = Vec::new();
+    for (Placed { name, entry, .. }, doubts) in entries.iter().zip(checked) {
+        let done = save(&transaction, T::PART, name, Mode::Import, || entry.store(&transaction, name))?;
+        saved.push(Saved { doubts: doubts.unwrap_or_default(), ..done });
+    }
+    transaction.commit()?;
+    Ok(saved)
 }
 
 /// Verifies entries on all cores: a body takes a while to build.

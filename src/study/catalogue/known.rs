@@ -11,7 +11,7 @@ use crate::rows::SubjectId;
 use crate::spec::fields::{Entry, FABRIC_NUMBERS, Field, MEASUREMENTS};
 use crate::spec::file::{Known, KnownStyle, SizeFile, SourceFile};
 use crate::store;
-use crate::workspace::Workspace;
+use crate::store::Store;
 use body::{Measurements, Sex};
 use sim::{self, Fabric};
 
@@ -63,9 +63,10 @@ pub(crate) fn known(connection: Option<&Connection>) -> Result<Known> {
             styles: BTreeMap::new(),
         });
     };
-    let subjects = subjects(connection)?.into_iter().map(|row| (row.name, row.measurements));
-    let fabrics =
-        crate::catalogue::fabrics::fabrics(connection)?.into_iter().map(|row| (row.fabric.name.clone(), row.fabric));
+    let subjects = stored_subjects(connection)?.into_iter().map(|row| (row.name, row.measurements));
+    let fabrics = crate::catalogue::fabrics::stored_fabrics(connection)?
+        .into_iter()
+        .map(|row| (row.fabric.name.clone(), row.fabric));
     Ok(Known { subjects: subjects.collect(), fabrics: fabrics.collect(), styles: styles(connection)? })
 }
 
@@ -132,7 +133,7 @@ pub(super) fn read_numbers<T>(row: &Row<'_>, first: usize, fields: &[Field<T>], 
 }
 
 /// The current subjects, by name.
-fn subjects(connection: &Connection) -> Result<Vec<SubjectRow>> {
+fn stored_subjects(connection: &Connection) -> Result<Vec<SubjectRow>> {
     let sql = format!(
         "{} JOIN catalogue_entry AS entry USING (name, revision)
         WHERE part = 'subject' AND NOT is_retired ORDER BY name",
@@ -209,27 +210,25 @@ fn sizes(transaction: &Transaction<'_>, style: &str) -> Result<Vec<String>> {
     Ok(sizes)
 }
 
-impl Workspace {
-    /// The subjects of the catalogue, by name.
-    ///
-    /// # Errors
-    /// When the database cannot be read.
-    pub fn subjects(&self) -> Result<Vec<SubjectRow>> {
-        subjects(&self.reader)
-    }
+/// The subjects of the catalogue, by name.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn subjects(store: &Store) -> Result<Vec<SubjectRow>> {
+    stored_subjects(&store.reader)
+}
 
-    /// A revision of a subject, current or not.
-    ///
-    /// # Errors
-    /// When there is none of that number.
-    pub(in super::super) fn subject_revision(&self, id: SubjectId) -> Result<SubjectRow> {
-        let sql = format!("{} WHERE subject_id = ?", select_subject());
-        let found = self.reader.prepare_cached(&sql)?.query_row([id.0], subject_row);
-        found.map_err(|error| match error {
-            rusqlite::Error::QueryReturnedNoRows => {
-                StudyError::NotFound { what: "revision of a subject", name: id.0.to_string(), known: vec![] }
-            }
-            error => error.into(),
-        })
-    }
+/// A revision of a subject, current or not.
+///
+/// # Errors
+/// When there is none of that number.
+pub(crate) fn subject_revision(store: &Store, id: SubjectId) -> Result<SubjectRow> {
+    let sql = format!("{} WHERE subject_id = ?", select_subject());
+    let found = store.reader.prepare_cached(&sql)?.query_row([id.0], subject_row);
+    found.map_err(|error| match error {
+        rusqlite::Error::QueryReturnedNoRows => {
+            StudyError::NotFound { what: "revision of a subject", name: id.0.to_string(), known: vec![] }
+        }
+        error => error.into(),
+    })
 }

@@ -1,14 +1,14 @@
 //! The catalogue: subjects, styles, sizes and fabrics with revisions. An edit adds a revision, content seen before is
 //! found again, and nothing a result came from is ever changed: an entry that results use is hidden when it is removed.
 
-mod fabrics;
-mod import;
-mod known;
+pub mod fabrics;
+pub mod import;
+pub mod known;
 mod norms;
 mod revision;
 mod sheet;
-mod sizes;
-mod style;
+pub mod sizes;
+pub mod style;
 #[cfg(test)]
 mod tests;
 
@@ -17,8 +17,9 @@ use std::fmt;
 use rusqlite::Transaction;
 
 use crate::error::{Result, StudyError};
+use crate::run;
 use crate::spec::fields::{Entry, Given, filled};
-use crate::workspace::Workspace;
+use crate::store::Store;
 use crate::{store, tools};
 use body::Measurements;
 use sim::Fabric;
@@ -220,65 +221,69 @@ fn save(
     Ok(Saved { part, name: name.to_owned(), revision: after.number, deed, doubts: vec![] })
 }
 
-impl Workspace {
-    /// Saves a subject: given values over those it has, or over none. The body is built to see that it can be.
-    ///
-    /// # Errors
-    /// When a value or the body is impossible, the name is taken (`Add`) or unknown (`Edit`), or the workspace is
-    /// read-only.
-    pub fn save_subject(&mut self, mode: Mode, name: &str, given: &[Given]) -> Result<Saved> {
-        let base = match mode {
-            Mode::Edit => Some(self.subject(name)?),
-            _ => None,
-        };
-        self.save_entry(mode, name, base.as_ref(), given)
-    }
+/// Saves a subject: given values over those it has, or over none. The body is built to see that it can be.
+///
+/// # Errors
+/// When a value or the body is impossible, the name is taken (`Add`) or unknown (`Edit`), or the workspace is
+/// read-only.
+pub fn save_subject(store: &mut Store, mode: Mode, name: &str, given: &[Given]) -> Result<Saved> {
+    let base = match mode {
+        Mode::Edit => Some(run::subject(store, name)?),
+        _ => None,
+    };
+    save_entry(store, mode, name, base.as_ref(), given)
+}
 
-    /// Saves a fabric: given values over those it has, over those of the fabric `like`, or over none.
-    ///
-    /// # Errors
-    /// As [`Workspace::save_subject`].
-    pub fn save_fabric(&mut self, mode: Mode, name: &str, like: Option<&str>, given: &[Given]) -> Result<Saved> {
-        let base = match (like, mode) {
-            (Some(like), _) => Some(Fabric { name: name.to_owned(), ..self.fabric(like)? }),
-            (None, Mode::Edit) => Some(self.fabric(name)?),
-            _ => None,
-        };
-        self.save_entry(mode, name, base.as_ref(), given)
-    }
+/// Saves a fabric: given values over those it has, over those of the fabric `like`, or over none.
+///
+/// # Errors
+/// As [`Workspace::save_subject`](crate::Workspace::save_subject).
+pub fn save_fabric(store: &mut Store, mode: Mode, name: &str, like: Option<&str>, given: &[Given]) -> Result<Saved> {
+    let base = match (like, mode) {
+        (Some(like), _) => Some(Fabric { name: name.to_owned(), ..stored_fabric(store, like)? }),
+        (None, Mode::Edit) => Some(stored_fabric(store, name)?),
+        _ => None,
+    };
+    save_entry(store, mode, name, base.as_ref(), given)
+}
 
-    /// A fabric of the catalogue, its current revision.
-    ///
-    /// # Errors
-    /// When there is none of that name.
-    fn fabric(&self, name: &str) -> Result<Fabric> {
-        let mut fabrics = known(Some(&self.reader))?.fabrics;
-        fabrics.remove(name).ok_or_else(|| {
-            let known = fabrics.into_keys().collect();
-            StudyError::NotFound { what: "fabric", name: name.to_owned(), known }
-        })
-    }
+/// A fabric of the catalogue, its current revision.
+///
+/// # Errors
+/// When there is none of that name.
+fn stored_fabric(store: &Store, name: &str) -> Result<Fabric> {
+    let mut fabrics = known(Some(&store.reader))?.fabrics;
+    fabrics.remove(name).ok_or_else(|| {
+        let known = fabrics.into_keys().collect();
+        StudyError::NotFound { what: "fabric", name: name.to_owned(), known }
+    })
+}
 
-    fn save_entry<T: Stored>(&mut self, mode: Mode, name: &str, base: Option<&T>, given: &[Given]) -> Result<Saved> {
-        let refuse = |problems| refused(T::PART, name, problems);
-        check_name(name).map_err(|problem| refuse(vec![problem]))?;
-        let entry = filled(base, name, given);
-        let entry = entry.map_err(|problems| refuse(problems.into_iter().map(|(_, problem)| problem).collect()))?;
-        let doubts = entry.verify().map_err(|problem| refuse(vec![problem]))?;
-        let transaction = store::write(self.writer()?)?;
-        let saved = save(&transaction, T::PART, name, mode, || entry.store(&transaction, name))?;
-        transaction.commit()?;
-        Ok(Saved { doubts, ..saved })
-    }
+fn save_entry<T: Stored>(
+    store: &mut Store,
+    mode: Mode,
+    name: &str,
+    base: Option<&T>,
+    given: &[Given],
+) -> Result<Saved> {
+    let refuse = |problems| refused(T::PART, name, problems);
+    check_name(name).map_err(|problem| refuse(vec![problem]))?;
+    let entry = filled(base, name, given);
+    let entry = entry.map_err(|problems| refuse(problems.into_iter().map(|(_, problem)| problem).collect()))?;
+    let doubts = entry.verify().map_err(|problem| refuse(vec![problem]))?;
+    let transaction = store::write(store.writer()?)?;
+    let saved = save(&transaction, T::PART, name, mode, || entry.store(&transaction, name))?;
+    transaction.commit()?;
+    Ok(Saved { doubts, ..saved })
+}
 
-    /// Removes an entry: for good, or, where jobs use it or it is built in, from all lists. A style goes with its sizes.
-    ///
-    /// # Errors
-    /// When there is none of that name, or the workspace is read-only.
-    pub fn remove(&mut self, part: Part, name: &str) -> Result<Removed> {
-        let transaction = store::write(self.writer()?)?;
-        let removed = known::remove(&transaction, part, name)?;
-        transaction.commit()?;
-        Ok(removed)
-    }
+/// Removes an entry: for good, or, where jobs use it or it is built in, from all lists. A style goes with its sizes.
+///
+/// # Errors
+/// When there is none of that name, or the workspace is read-only.
+pub fn remove(store: &mut Store, part: Part, name: &str) -> Result<Removed> {
+    let transaction = store::write(store.writer()?)?;
+    let removed = known::remove(&transaction, part, name)?;
+    transaction.commit()?;
+    Ok(removed)
 }

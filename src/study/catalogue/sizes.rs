@@ -8,8 +8,8 @@ use crate::rows::SizeKey;
 use crate::seams::desk::confidences;
 use crate::seams::workpiece::Workpiece;
 use crate::spec::file::SourceFile;
+use crate::store::Store;
 use crate::tools;
-use crate::workspace::Workspace;
 
 /// A size of a style of the catalogue.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -34,62 +34,56 @@ pub struct SizeRow {
     pub unconfirmed: usize,
 }
 
-impl Workspace {
-    /// The current sizes of all styles, by style and in the order in which they came.
-    ///
-    /// # Errors
-    /// When the database cannot be read.
-    pub fn sizes(&self) -> Result<Vec<SizeRow>> {
-        let sql = "SELECT style_id, size_id, style.name, style.revision, size.name, size.revision, pattern_file,
-                seam_file, unit, seams
-            FROM size
-                JOIN catalogue_entry AS sized ON sized.part = 'size' AND sized.name = size.style || '/' || size.name
-                    AND sized.revision = size.revision AND NOT sized.is_retired
-                JOIN style ON style.name = size.style
-                JOIN catalogue_entry AS styled ON styled.part = 'style' AND styled.name = style.name
-                    AND styled.revision = style.revision AND NOT styled.is_retired
-            ORDER BY style.name, size_id";
-        let row = |row: &Row<'_>| {
-            let seam_file: String = row.get(7)?;
-            let unsure = confidences(&row.get::<_, String>(9)?).into_iter().flatten();
-            Ok(SizeRow {
-                key: SizeKey { style: row.get(0)?, size: row.get(1)? },
-                style: row.get(2)?,
-                style_revision: row.get(3)?,
-                size: row.get(4)?,
-                revision: row.get(5)?,
-                pattern_file: row.get(6)?,
-                seam_file: (!seam_file.is_empty()).then_some(seam_file),
-                unit: row.get(8)?,
-                unconfirmed: unsure.count(),
-            })
-        };
-        let mut statement = self.reader.prepare_cached(sql)?;
-        let sizes = statement.query_map([], row)?.collect::<rusqlite::Result<_>>()?;
-        Ok(sizes)
-    }
-
-    /// The pattern and the seam file of a size.
-    ///
-    /// # Errors
-    /// When there are no such revisions.
-    pub fn workpiece(&self, key: SizeKey) -> Result<Workpiece> {
-        let sql = "SELECT pattern_file, pattern, seam_file, seams, size.name, unit
-            FROM size, style WHERE size_id = ? AND style_id = ?";
-        let row = |row: &Row<'_>| {
-            let unit: Option<String> = row.get(5)?;
-            Ok(Workpiece {
-                pattern: SourceFile { name: row.get(0)?, bytes: row.get::<_, Vec<u8>>(1)?.into() },
-                seams: seam_file(row.get(2)?, row.get(3)?),
-                size: row.get(4)?,
-                unit: unit.as_deref().and_then(tools::unit_of),
-            })
-        };
-        let found = self.reader.prepare_cached(sql)?.query_row([key.size, key.style], row).optional()?;
-        found.ok_or_else(|| StudyError::NotFound {
-            what: "revision of a size",
-            name: key.size.to_string(),
-            known: vec![],
+/// The current sizes of all styles, by style and in the order in which they came.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn sizes(store: &Store) -> Result<Vec<SizeRow>> {
+    let sql = "SELECT style_id, size_id, style.name, style.revision, size.name, size.revision, pattern_file,
+            seam_file, unit, seams
+        FROM size
+            JOIN catalogue_entry AS sized ON sized.part = 'size' AND sized.name = size.style || '/' || size.name
+                AND sized.revision = size.revision AND NOT sized.is_retired
+            JOIN style ON style.name = size.style
+            JOIN catalogue_entry AS styled ON styled.part = 'style' AND styled.name = style.name
+                AND styled.revision = style.revision AND NOT styled.is_retired
+        ORDER BY style.name, size_id";
+    let row = |row: &Row<'_>| {
+        let seam_file: String = row.get(7)?;
+        let unsure = confidences(&row.get::<_, String>(9)?).into_iter().flatten();
+        Ok(SizeRow {
+            key: SizeKey { style: row.get(0)?, size: row.get(1)? },
+            style: row.get(2)?,
+            style_revision: row.get(3)?,
+            size: row.get(4)?,
+            revision: row.get(5)?,
+            pattern_file: row.get(6)?,
+            seam_file: (!seam_file.is_empty()).then_some(seam_file),
+            unit: row.get(8)?,
+            unconfirmed: unsure.count(),
         })
-    }
+    };
+    let mut statement = store.reader.prepare_cached(sql)?;
+    let sizes = statement.query_map([], row)?.collect::<rusqlite::Result<_>>()?;
+    Ok(sizes)
+}
+
+/// The pattern and the seam file of a size.
+///
+/// # Errors
+/// When there are no such revisions.
+pub fn workpiece(store: &Store, key: SizeKey) -> Result<Workpiece> {
+    let sql = "SELECT pattern_file, pattern, seam_file, seams, size.name, unit
+        FROM size, style WHERE size_id = ? AND style_id = ?";
+    let row = |row: &Row<'_>| {
+        let unit: Option<String> = row.get(5)?;
+        Ok(Workpiece {
+            pattern: SourceFile { name: row.get(0)?, bytes: row.get::<_, Vec<u8>>(1)?.into() },
+            seams: seam_file(row.get(2)?, row.get(3)?),
+            size: row.get(4)?,
+            unit: unit.as_deref().and_then(tools::unit_of),
+        })
+    };
+    let found = store.reader.prepare_cached(sql)?.query_row([key.size, key.style], row).optional()?;
+    found.ok_or_else(|| StudyError::NotFound { what: "revision of a size", name: key.size.to_string(), known: vec![] })
 }

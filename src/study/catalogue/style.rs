@@ -11,7 +11,7 @@ use crate::error::{Result, StudyError};
 use crate::rows::JobId;
 use crate::seams::workpiece::Workpiece;
 use crate::spec::file::{self, Placed, Problem, Sewn, SizeFile, SourceFile};
-use crate::workspace::Workspace;
+use crate::store::Store;
 use crate::{store, tools};
 use pattern::{Style, source};
 
@@ -46,219 +46,210 @@ struct Draft {
     sizes: Vec<Sized>,
 }
 
-impl Workspace {
-    /// Saves a style: its seam file, and its sizes. Every size, given now or earlier, must be sewable by the seams.
-    ///
-    /// # Errors
-    /// When a file cannot be read or sewn, the name is taken (`Add`) or unknown (`Edit`), or the workspace is read-only.
-    pub fn save_style(&mut self, mode: Mode, name: &str, given: &StyleGiven) -> Result<Vec<Saved>> {
-        check_name(name).map_err(|problem| refused(Part::Style, name, vec![problem]))?;
-        let sizes = self.sizes_given(name, given)?;
-        let seams = match (&given.seams, sizes.first()) {
-            (Some(path), first) if mode != Mode::Add || first.is_some() => Seams::Given(Some(SourceFile::read(path)?)),
-            (None, _) if mode != Mode::Add => Seams::Kept,
-            (None, Some(_)) if sizes.iter().all(|(size, _)| size.pattern.holds_seams()) => Seams::Given(None),
-            (None, Some((size, unit))) if given.is_proposed => {
-                let unit = unit.as_deref().and_then(tools::unit_of);
-                let workpiece = Workpiece { pattern: size.pattern.clone(), seams: None, size: size.name.clone(), unit };
-                Seams::Given(Some(workpiece.proposed(name)?))
-            }
-            _ => {
-                let problem = "a new style needs at least one pattern, and a seam file unless its patterns are \
-                    GarmentCode JSON";
-                return Err(refused(Part::Style, name, vec![problem.to_owned()]));
-            }
-        };
-        self.store_style(mode, Draft { name: name.to_owned(), seams, sizes })
-    }
-
-    /// Saves other seams of a style that is there. Every size must be sewable by them.
-    ///
-    /// # Errors
-    /// As [`Workspace::save_style`].
-    pub fn save_seams(&mut self, name: &str, seams: &SourceFile) -> Result<Vec<Saved>> {
-        let seams = Seams::Given(Some(seams.clone()));
-        self.store_style(Mode::Edit, Draft { name: name.to_owned(), seams, sizes: vec![] })
-    }
-
-    fn store_style(&mut self, mode: Mode, draft: Draft) -> Result<Vec<Saved>> {
-        let problems = self.unsewable(&draft)?;
-        if !problems.is_empty() {
-            return Err(refused(Part::Style, &draft.name, problems));
-        }
-        let transaction = store::write(self.writer()?)?;
-        let saved = store_draft(&transaction, [mode, Mode::Import], &draft)?;
-        transaction.commit()?;
-        Ok(saved)
-    }
-
-    /// Saves a size, named `STYLE/SIZE`, of a style that is there.
-    ///
-    /// # Errors
-    /// As [`Workspace::save_style`].
-    pub fn save_size(&mut self, mode: Mode, name: &str, given: &StyleGiven) -> Result<Saved> {
-        let refuse = |problem: &str| refused(Part::Size, name, vec![problem.to_owned()]);
-        let (style, size) = name.split_once('/').ok_or_else(|| refuse("its name; accepted: STYLE/SIZE"))?;
-        check_name(size).map_err(|problem| refuse(&problem))?;
-        let sizes = match (given.patterns.as_slice(), &given.unit) {
-            ([(_, path)], unit) => {
-                let before = self.sizes_of(style)?.into_iter().find(|(before, _)| before.name == size);
-                let unit = unit.clone().or(before.and_then(|(_, unit)| unit));
-                vec![(SizeFile { name: size.to_owned(), pattern: SourceFile::read_pattern(path)? }, unit)]
-            }
-            ([], Some(unit)) => {
-                let before = self.sizes_of(style)?.into_iter().filter(|(before, _)| before.name == size);
-                before.map(|(before, _)| (before, Some(unit.clone()))).collect()
-            }
-            _ => return Err(refuse("a size has one pattern")),
-        };
-        let draft = Draft { name: style.to_owned(), seams: Seams::Kept, sizes };
-        let problems = self.unsewable(&draft)?;
-        if !problems.is_empty() {
-            return Err(refused(Part::Size, name, problems));
-        }
-        let transaction = store::write(self.writer()?)?;
-        let mut saved = store_draft(&transaction, [mode; 2], &draft)?;
-        transaction.commit()?;
-        saved.pop().ok_or_else(|| StudyError::NotFound { what: "size", name: name.to_owned(), known: vec![] })
-    }
-
-    /// Brings the garments of study files, or of files with nothing else, into the catalogue: for [`Part::Size`] only
-    /// their sizes.
-    pub(super) fn import_styles(&mut self, part: Part, files: &[PathBuf]) -> Result<Vec<Saved>> {
-        let mut drafts: Vec<Placed<Draft>> = Vec::new();
-        let mut problems = Vec::new();
-        for path in files {
-            let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
-            let read = match format_of(path) {
-                Some(Format::Toml) => text_of(path, &bytes).and_then(|text| file::garments(path, text)),
-                _ => Err(vec![unknown_format(path, "TOML (.toml)")]),
-            };
-            match read {
-                Ok(garments) if garments.is_empty() => problems.push(Problem::of(path, "no [[garment]] in it")),
-                Ok(garments) => drafts.extend(garments.into_iter().map(|placed| {
-                    let name = placed.name.clone();
-                    placed.map(|sewn| draft(part, name, sewn))
-                })),
-                Err(found) => problems.extend(found),
-            }
-        }
-        for placed in &drafts {
-            let found = match check_name(&placed.name) {
-                Ok(()) => self.unsewable(&placed.entry)?,
-                Err(problem) => vec![problem],
-            };
-            problems
-                .extend(found.into_iter().map(|problem| placed.problem(format!("garment {}: {problem}", placed.name))));
-        }
-        if !problems.is_empty() {
-            return Err(StudyError::File(problems));
-        }
-        let transaction = store::write(self.writer()?)?;
-        let mut saved = Vec::new();
-        for placed in &drafts {
-            saved.extend(store_draft(&transaction, [Mode::Import; 2], &placed.entry)?);
-        }
-        transaction.commit()?;
-        Ok(saved)
-    }
-
-    /// The sizes that are given of a style, with their units; all it has, where only the unit is given.
-    fn sizes_given(&self, style: &str, given: &StyleGiven) -> Result<Vec<Sized>> {
-        let unit = given.unit.clone();
-        if given.patterns.is_empty() {
-            let with_unit = |(size, _): Sized| (size, unit.clone());
-            return Ok(if unit.is_some() {
-                self.sizes_of(style)?.into_iter().map(with_unit).collect()
-            } else {
-                vec![]
-            });
-        }
-        let mut sizes = Vec::new();
-        for (name, path) in &given.patterns {
-            let pattern = SourceFile::read_pattern(path)?;
-            let names = match name {
-                Some(name) => vec![name.clone()],
-                None => sizes_in(&pattern, unit.as_deref())?,
-            };
-            for name in names {
-                check_name(&name).map_err(|_| {
-                    let problem =
-                        format!("{}: it names no size; say which it is: SIZE={}", pattern.name, path.display());
-                    refused(Part::Style, style, vec![problem])
-                })?;
-                sizes.push((SizeFile { name, pattern: pattern.clone() }, unit.clone()));
-            }
-        }
-        Ok(sizes)
-    }
-
-    /// Why sizes of a style could not be sewn were a draft stored: its own, and with new seams those there are as well.
-    fn unsewable(&self, draft: &Draft) -> Result<Vec<String>> {
-        let (seams, is_new) = match (&draft.seams, self.seams_of(&draft.name)?) {
-            (Seams::Given(seams), _) => (seams.clone(), true),
-            (Seams::Kept, Some(own)) => (own, false),
-            (Seams::Kept, None) => {
-                return Ok(vec![format!("no style `{}` in the catalogue; give its seam file", draft.name)]);
-            }
-        };
-        let mut sizes = draft.sizes.clone();
-        if is_new {
-            let is_kept = |(before, _): &Sized| !draft.sizes.iter().any(|(size, _)| size.name == before.name);
-            sizes.extend(self.sizes_of(&draft.name)?.into_iter().filter(is_kept));
-        }
-        let problem = |(size, unit): &Sized| {
+/// Saves a style: its seam file, and its sizes. Every size, given now or earlier, must be sewable by the seams.
+///
+/// # Errors
+/// When a file cannot be read or sewn, the name is taken (`Add`) or unknown (`Edit`), or the workspace is read-only.
+pub fn save_style(store: &mut Store, mode: Mode, name: &str, given: &StyleGiven) -> Result<Vec<Saved>> {
+    check_name(name).map_err(|problem| refused(Part::Style, name, vec![problem]))?;
+    let sizes = sizes_given(store, name, given)?;
+    let seams = match (&given.seams, sizes.first()) {
+        (Some(path), first) if mode != Mode::Add || first.is_some() => Seams::Given(Some(SourceFile::read(path)?)),
+        (None, _) if mode != Mode::Add => Seams::Kept,
+        (None, Some(_)) if sizes.iter().all(|(size, _)| size.pattern.holds_seams()) => Seams::Given(None),
+        (None, Some((size, unit))) if given.is_proposed => {
             let unit = unit.as_deref().and_then(tools::unit_of);
-            let read = tools::read_style(&size.pattern, seams.as_ref(), Some(&size.name), unit);
-            read.err().map(|error| format!("size {}: {error}", size.name))
-        };
-        Ok(sizes.iter().filter_map(problem).collect())
-    }
+            let workpiece = Workpiece { pattern: size.pattern.clone(), seams: None, size: size.name.clone(), unit };
+            Seams::Given(Some(workpiece.proposed(name)?))
+        }
+        _ => {
+            let problem = "a new style needs at least one pattern, and a seam file unless its patterns are \
+                GarmentCode JSON";
+            return Err(refused(Part::Style, name, vec![problem.to_owned()]));
+        }
+    };
+    store_style(store, mode, Draft { name: name.to_owned(), seams, sizes })
+}
 
-    /// The seam file of a style, where it has one, current revision; `None` where there is no such style.
-    fn seams_of(&self, style: &str) -> Result<Option<Option<SourceFile>>> {
-        let sql = "SELECT seam_file, seams FROM style JOIN catalogue_entry AS entry USING (name, revision)
-            WHERE part = 'style' AND name = ? AND NOT is_retired";
-        let row = |row: &Row<'_>| {
-            let text: String = row.get(1)?;
-            Ok(seam_file(row.get(0)?, text))
-        };
-        Ok(self.reader.prepare_cached(sql)?.query_row([style], row).optional()?)
-    }
+/// Saves other seams of a style that is there. Every size must be sewable by them.
+///
+/// # Errors
+/// As [`Workspace::save_style`](crate::Workspace::save_style).
+pub fn save_seams(store: &mut Store, name: &str, seams: &SourceFile) -> Result<Vec<Saved>> {
+    let seams = Seams::Given(Some(seams.clone()));
+    store_style(store, Mode::Edit, Draft { name: name.to_owned(), seams, sizes: vec![] })
+}
 
-    /// The sizes of a style, current revisions.
-    fn sizes_of(&self, style: &str) -> Result<Vec<Sized>> {
-        let sql = "SELECT size.name, pattern_file, pattern, unit
-            FROM size JOIN catalogue_entry AS entry
-                ON entry.name = style || '/' || size.name AND entry.revision = size.revision
-            WHERE part = 'size' AND style = ? AND NOT is_retired ORDER BY size_id";
-        let mut statement = self.reader.prepare_cached(sql)?;
-        let row = |row: &Row<'_>| {
-            let pattern = SourceFile { name: row.get(1)?, bytes: row.get::<_, Vec<u8>>(2)?.into() };
-            Ok((SizeFile { name: row.get(0)?, pattern }, row.get(3)?))
-        };
-        let sizes = statement.query_map([style], row)?.collect::<rusqlite::Result<_>>()?;
-        Ok(sizes)
+fn store_style(store: &mut Store, mode: Mode, draft: Draft) -> Result<Vec<Saved>> {
+    let problems = unsewable(store, &draft)?;
+    if !problems.is_empty() {
+        return Err(refused(Part::Style, &draft.name, problems));
     }
+    let transaction = store::write(store.writer()?)?;
+    let saved = store_draft(&transaction, [mode, Mode::Import], &draft)?;
+    transaction.commit()?;
+    Ok(saved)
+}
 
-    /// The style a job was made from.
-    ///
-    /// # Errors
-    /// When there is no such job.
-    pub(in super::super) fn style_of(&self, id: JobId) -> Result<Style> {
-        let sql = "SELECT pattern_file, pattern, seam_file, seams, unit, size.name
-            FROM job JOIN size USING (size_id) JOIN style USING (style_id) WHERE job_id = ?";
-        type Stored = (String, Vec<u8>, String, String, Option<String>, String);
-        let row = |row: &Row<'_>| {
-            Ok::<Stored, _>((row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?, row.get(4)?, row.get(5)?))
-        };
-        let found = self.reader.prepare_cached(sql)?.query_row([id.0], row).optional()?;
-        let missing = || StudyError::NotFound { what: "job", name: id.to_string(), known: vec![] };
-        let (pattern_file, pattern, seam_file, seams, unit, size) = found.ok_or_else(missing)?;
-        let pattern = SourceFile { name: pattern_file, bytes: pattern.into() };
-        let seams = self::seam_file(seam_file, seams);
-        tools::read_style(&pattern, seams.as_ref(), Some(&size), unit.as_deref().and_then(tools::unit_of))
+/// Saves a size, named `STYLE/SIZE`, of a style that is there.
+///
+/// # Errors
+/// As [`Workspace::save_style`](crate::Workspace::save_style).
+pub fn save_size(store: &mut Store, mode: Mode, name: &str, given: &StyleGiven) -> Result<Saved> {
+    let refuse = |problem: &str| refused(Part::Size, name, vec![problem.to_owned()]);
+    let (style, size) = name.split_once('/').ok_or_else(|| refuse("its name; accepted: STYLE/SIZE"))?;
+    check_name(size).map_err(|problem| refuse(&problem))?;
+    let sizes = match (given.patterns.as_slice(), &given.unit) {
+        ([(_, path)], unit) => {
+            let before = sizes_of(store, style)?.into_iter().find(|(before, _)| before.name == size);
+            let unit = unit.clone().or(before.and_then(|(_, unit)| unit));
+            vec![(SizeFile { name: size.to_owned(), pattern: SourceFile::read_pattern(path)? }, unit)]
+        }
+        ([], Some(unit)) => {
+            let before = sizes_of(store, style)?.into_iter().filter(|(before, _)| before.name == size);
+            before.map(|(before, _)| (before, Some(unit.clone()))).collect()
+        }
+        _ => return Err(refuse("a size has one pattern")),
+    };
+    let draft = Draft { name: style.to_owned(), seams: Seams::Kept, sizes };
+    let problems = unsewable(store, &draft)?;
+    if !problems.is_empty() {
+        return Err(refused(Part::Size, name, problems));
     }
+    let transaction = store::write(store.writer()?)?;
+    let mut saved = store_draft(&transaction, [mode; 2], &draft)?;
+    transaction.commit()?;
+    saved.pop().ok_or_else(|| StudyError::NotFound { what: "size", name: name.to_owned(), known: vec![] })
+}
+
+/// Brings the garments of study files, or of files with nothing else, into the catalogue: for [`Part::Size`] only
+/// their sizes.
+pub(super) fn import_styles(store: &mut Store, part: Part, files: &[PathBuf]) -> Result<Vec<Saved>> {
+    let mut drafts: Vec<Placed<Draft>> = Vec::new();
+    let mut problems = Vec::new();
+    for path in files {
+        let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
+        let read = match format_of(path) {
+            Some(Format::Toml) => text_of(path, &bytes).and_then(|text| file::garments(path, text)),
+            _ => Err(vec![unknown_format(path, "TOML (.toml)")]),
+        };
+        match read {
+            Ok(garments) if garments.is_empty() => problems.push(Problem::of(path, "no [[garment]] in it")),
+            Ok(garments) => drafts.extend(garments.into_iter().map(|placed| {
+                let name = placed.name.clone();
+                placed.map(|sewn| draft(part, name, sewn))
+            })),
+            Err(found) => problems.extend(found),
+        }
+    }
+    for placed in &drafts {
+        let found = match check_name(&placed.name) {
+            Ok(()) => unsewable(store, &placed.entry)?,
+            Err(problem) => vec![problem],
+        };
+        problems.extend(found.into_iter().map(|problem| placed.problem(format!("garment {}: {problem}", placed.name))));
+    }
+    if !problems.is_empty() {
+        return Err(StudyError::File(problems));
+    }
+    let transaction = store::write(store.writer()?)?;
+    let mut saved = Vec::new();
+    for placed in &drafts {
+        saved.extend(store_draft(&transaction, [Mode::Import; 2], &placed.entry)?);
+    }
+    transaction.commit()?;
+    Ok(saved)
+}
+
+/// The sizes that are given of a style, with their units; all it has, where only the unit is given.
+fn sizes_given(store: &Store, style: &str, given: &StyleGiven) -> Result<Vec<Sized>> {
+    let unit = given.unit.clone();
+    if given.patterns.is_empty() {
+        let with_unit = |(size, _): Sized| (size, unit.clone());
+        return Ok(if unit.is_some() { sizes_of(store, style)?.into_iter().map(with_unit).collect() } else { vec![] });
+    }
+    let mut sizes = Vec::new();
+    for (name, path) in &given.patterns {
+        let pattern = SourceFile::read_pattern(path)?;
+        let names = match name {
+            Some(name) => vec![name.clone()],
+            None => sizes_in(&pattern, unit.as_deref())?,
+        };
+        for name in names {
+            check_name(&name).map_err(|_| {
+                let problem = format!("{}: it names no size; say which it is: SIZE={}", pattern.name, path.display());
+                refused(Part::Style, style, vec![problem])
+            })?;
+            sizes.push((SizeFile { name, pattern: pattern.clone() }, unit.clone()));
+        }
+    }
+    Ok(sizes)
+}
+
+/// Why sizes of a style could not be sewn were a draft stored: its own, and with new seams those there are as well.
+fn unsewable(store: &Store, draft: &Draft) -> Result<Vec<String>> {
+    let (seams, is_new) = match (&draft.seams, seams_of(store, &draft.name)?) {
+        (Seams::Given(seams), _) => (seams.clone(), true),
+        (Seams::Kept, Some(own)) => (own, false),
+        (Seams::Kept, None) => {
+            return Ok(vec![format!("no style `{}` in the catalogue; give its seam file", draft.name)]);
+        }
+    };
+    let mut sizes = draft.sizes.clone();
+    if is_new {
+        let is_kept = |(before, _): &Sized| !draft.sizes.iter().any(|(size, _)| size.name == before.name);
+        sizes.extend(sizes_of(store, &draft.name)?.into_iter().filter(is_kept));
+    }
+    let problem = |(size, unit): &Sized| {
+        let unit = unit.as_deref().and_then(tools::unit_of);
+        let read = tools::read_style(&size.pattern, seams.as_ref(), Some(&size.name), unit);
+        read.err().map(|error| format!("size {}: {error}", size.name))
+    };
+    Ok(sizes.iter().filter_map(problem).collect())
+}
+
+/// The seam file of a style, where it has one, current revision; `None` where there is no such style.
+fn seams_of(store: &Store, style: &str) -> Result<Option<Option<SourceFile>>> {
+    let sql = "SELECT seam_file, seams FROM style JOIN catalogue_entry AS entry USING (name, revision)
+        WHERE part = 'style' AND name = ? AND NOT is_retired";
+    let row = |row: &Row<'_>| {
+        let text: String = row.get(1)?;
+        Ok(seam_file(row.get(0)?, text))
+    };
+    Ok(store.reader.prepare_cached(sql)?.query_row([style], row).optional()?)
+}
+
+/// The sizes of a style, current revisions.
+fn sizes_of(store: &Store, style: &str) -> Result<Vec<Sized>> {
+    let sql = "SELECT size.name, pattern_file, pattern, unit
+        FROM size JOIN catalogue_entry AS entry
+            ON entry.name = style || '/' || size.name AND entry.revision = size.revision
+        WHERE part = 'size' AND style = ? AND NOT is_retired ORDER BY size_id";
+    let mut statement = store.reader.prepare_cached(sql)?;
+    let row = |row: &Row<'_>| {
+        let pattern = SourceFile { name: row.get(1)?, bytes: row.get::<_, Vec<u8>>(2)?.into() };
+        Ok((SizeFile { name: row.get(0)?, pattern }, row.get(3)?))
+    };
+    let sizes = statement.query_map([style], row)?.collect::<rusqlite::Result<_>>()?;
+    Ok(sizes)
+}
+
+/// The style a job was made from.
+///
+/// # Errors
+/// When there is no such job.
+pub(crate) fn style_of(store: &Store, id: JobId) -> Result<Style> {
+    let sql = "SELECT pattern_file, pattern, seam_file, seams, unit, size.name
+        FROM job JOIN size USING (size_id) JOIN style USING (style_id) WHERE job_id = ?";
+    type Stored = (String, Vec<u8>, String, String, Option<String>, String);
+    let row =
+        |row: &Row<'_>| Ok::<Stored, _>((row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?, row.get(4)?, row.get(5)?));
+    let found = store.reader.prepare_cached(sql)?.query_row([id.0], row).optional()?;
+    let missing = || StudyError::NotFound { what: "job", name: id.to_string(), known: vec![] };
+    let (pattern_file, pattern, seam_file, seams, unit, size) = found.ok_or_else(missing)?;
+    let pattern = SourceFile { name: pattern_file, bytes: pattern.into() };
+    let seams = self::seam_file(seam_file, seams);
+    tools::read_style(&pattern, seams.as_ref(), Some(&size), unit.as_deref().and_then(tools::unit_of))
 }
 
 /// A seam file as stored; a style without one has an empty name there.

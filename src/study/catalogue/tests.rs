@@ -1,5 +1,6 @@
 //! The catalogue as a user changes it, on a real database.
 
+use crate::Workspace;
 use std::path::PathBuf;
 
 use crate::catalogue::*;

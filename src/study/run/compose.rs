@@ -4,16 +4,18 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use crate::catalogue::SizeRow;
+use crate::catalogue::sizes;
 use crate::error::{Result, StudyError};
 use crate::rows::SizeKey;
+use crate::run;
 use crate::run::enqueue::{self, Planned};
 use crate::spec::Selection;
 use crate::spec::export::{Files, place};
 use crate::spec::file::{SourceFile, Study};
 use crate::spec::new_study::{Outline, Worn, drafted_size};
 use crate::store;
+use crate::store::Store;
 use crate::tools::{self, Model};
-use crate::workspace::Workspace;
 use fit::Simulator;
 
 /// Where the pattern of a size comes from.
@@ -73,84 +75,82 @@ pub fn wearables(sizes: &[SizeRow]) -> Vec<Wearable> {
     of_catalogue.chain(drafted).collect()
 }
 
-impl Workspace {
-    /// Writes a new study into a folder of its own and queues its jobs, which then wait to be run; returns its file.
-    ///
-    /// # Errors
-    /// When something is missing from it, its folder is there already, or a file cannot be written.
-    pub fn create_study(&mut self, new: &NewStudy) -> Result<PathBuf> {
-        self.writer()?;
-        check(new)?;
-        let folder = new.folder.join(&new.name);
-        if folder.exists() {
-            return Err(StudyError::Exists { what: "study folder", name: folder.display().to_string() });
+/// Writes a new study into a folder of its own and queues its jobs, which then wait to be run; returns its file.
+///
+/// # Errors
+/// When something is missing from it, its folder is there already, or a file cannot be written.
+pub fn create_study(store: &mut Store, new: &NewStudy) -> Result<PathBuf> {
+    store.writer()?;
+    check(new)?;
+    let folder = new.folder.join(&new.name);
+    if folder.exists() {
+        return Err(StudyError::Exists { what: "study folder", name: folder.display().to_string() });
+    }
+    let files = files_of(store, new)?;
+    tools::write_files(&folder, &files)?;
+    let path = folder.join("study.toml");
+    let study = run::load_study(store, &path)?;
+    queue(store, &study, &Selection::default())?;
+    Ok(path)
+}
+
+/// Queues the jobs of a study without working on them.
+///
+/// # Errors
+/// When the workspace is read-only.
+pub fn queue(store: &mut Store, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
+    let transaction = store::write(store.writer()?)?;
+    let planned = enqueue::enqueue(&transaction, study, selection)?;
+    transaction.commit()?;
+    Ok(planned)
+}
+
+/// The files of a new study: its patterns, their seam files, `study.toml`.
+fn files_of(store: &Store, new: &NewStudy) -> Result<Vec<(String, Vec<u8>)>> {
+    let mut files = Files::new();
+    let mut garments = Vec::new();
+    for style in styles(new) {
+        let mut garment = Worn { style, ..Worn::default() };
+        for wearable in new.sizes.iter().filter(|wearable| wearable.style == style) {
+            add_size(store, wearable, &mut garment, &mut files)?;
         }
-        let files = self.files_of(new)?;
-        tools::write_files(&folder, &files)?;
-        let path = folder.join("study.toml");
-        let study = self.load_study(&path)?;
-        self.queue(&study, &Selection::default())?;
-        Ok(path)
+        garments.push(garment);
     }
+    let outline = Outline {
+        name: Some(&new.name),
+        simulators: &new.simulators,
+        known: new.subjects.iter().map(String::as_str).collect(),
+        measured: vec![],
+        garments,
+        fabric: &new.fabric,
+    };
+    files.insert("study.toml".to_owned(), outline.text().into_bytes());
+    Ok(files.into_iter().collect())
+}
 
-    /// Queues the jobs of a study without working on them.
-    ///
-    /// # Errors
-    /// When the workspace is read-only.
-    pub fn queue(&mut self, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
-        let transaction = store::write(self.writer()?)?;
-        let planned = enqueue::enqueue(&transaction, study, selection)?;
-        transaction.commit()?;
-        Ok(planned)
-    }
-
-    /// The files of a new study: its patterns, their seam files, `study.toml`.
-    fn files_of(&self, new: &NewStudy) -> Result<Vec<(String, Vec<u8>)>> {
-        let mut files = Files::new();
-        let mut garments = Vec::new();
-        for style in styles(new) {
-            let mut garment = Worn { style, ..Worn::default() };
-            for wearable in new.sizes.iter().filter(|wearable| wearable.style == style) {
-                self.add_size(wearable, &mut garment, &mut files)?;
-            }
-            garments.push(garment);
+/// Adds the files of a size, each once.
+fn add_size<'a>(store: &Store, wearable: &'a Wearable, garment: &mut Worn<'a>, files: &mut Files) -> Result<()> {
+    let mut add = |source: &SourceFile| place(files, "patterns", source);
+    match wearable.source {
+        PatternSource::Catalogue(key) => {
+            let piece = sizes::workpiece(store, key)?;
+            garment.sizes.push((wearable.size.clone(), add(&piece.pattern)));
+            garment.unit = piece.unit.map(|unit| unit.as_str().to_owned()).or(garment.unit.take());
+            garment.seams = piece.seams.as_ref().map(add).or(garment.seams.take());
         }
-        let outline = Outline {
-            name: Some(&new.name),
-            simulators: &new.simulators,
-            known: new.subjects.iter().map(String::as_str).collect(),
-            measured: vec![],
-            garments,
-            fabric: &new.fabric,
-        };
-        files.insert("study.toml".to_owned(), outline.text().into_bytes());
-        Ok(files.into_iter().collect())
-    }
-
-    /// Adds the files of a size, each once.
-    fn add_size<'a>(&self, wearable: &'a Wearable, garment: &mut Worn<'a>, files: &mut Files) -> Result<()> {
-        let mut add = |source: &SourceFile| place(files, "patterns", source);
-        match wearable.source {
-            PatternSource::Catalogue(key) => {
-                let piece = self.workpiece(key)?;
-                garment.sizes.push((wearable.size.clone(), add(&piece.pattern)));
-                garment.unit = piece.unit.map(|unit| unit.as_str().to_owned()).or(garment.unit.take());
-                garment.seams = piece.seams.as_ref().map(add).or(garment.seams.take());
-            }
-            PatternSource::Drafted(model) => {
-                for (name, bytes) in tools::drafted(model) {
-                    let size = drafted_size(&name);
-                    let source = SourceFile { name, bytes: bytes.into() };
-                    match size {
-                        Some(size) if size == wearable.size => garment.sizes.push((size, add(&source))),
-                        Some(_) => {}
-                        None => garment.seams = Some(add(&source)),
-                    }
+        PatternSource::Drafted(model) => {
+            for (name, bytes) in tools::drafted(model) {
+                let size = drafted_size(&name);
+                let source = SourceFile { name, bytes: bytes.into() };
+                match size {
+                    Some(size) if size == wearable.size => garment.sizes.push((size, add(&source))),
+                    Some(_) => {}
+                    None => garment.seams = Some(add(&source)),
                 }
             }
         }
-        Ok(())
     }
+    Ok(())
 }
 
 /// Refuses a study without something it needs.
@@ -178,6 +178,7 @@ fn styles(new: &NewStudy) -> Vec<&str> {
 
 #[cfg(test)]
 mod tests {
+    use crate::Workspace;
     use std::path::Path;
 
     use super::*;

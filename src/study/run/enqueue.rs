@@ -10,10 +10,10 @@ use crate::rows::{JobId, Status};
 use crate::spec::file::Study;
 use crate::spec::inputs::{Change, Inputs};
 use crate::spec::{self, JobSpec, Limits, Selection};
+use crate::store::Store;
 use crate::store::owner::Watch;
 use crate::store::queue::{self, Event};
 use crate::store::{now_ms, read};
-use crate::workspace::Workspace;
 use fit::Simulator;
 use geom::units::mm;
 
@@ -303,28 +303,27 @@ fn insert(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec, hash: &s
     Ok(id)
 }
 
-impl Workspace {
-    /// Why a job was not found in the cache: what differs from the latest earlier job of the same cell.
-    ///
-    /// # Errors
-    /// When there is no such job.
-    pub fn why(&self, id: JobId) -> Result<Why> {
-        self.job(id)?;
-        let sql = "SELECT earlier.job_id FROM job JOIN job AS earlier USING (study_id, garment, size, subject, simulator, repeat)
-            WHERE job.job_id = ?1 AND earlier.job_id < ?1 ORDER BY earlier.job_id DESC LIMIT 1";
-        let earlier = self.reader.prepare_cached(sql)?.query_row([id.0], |row| row.get(0).map(JobId)).optional()?;
-        let Some(since) = earlier else { return Ok(Why::New) };
-        let changes = inputs_of(&self.reader, id)?.changes_since(&inputs_of(&self.reader, since)?);
-        Ok(Why::Changed { since, changes })
-    }
+/// Why a job was not found in the cache: what differs from the latest earlier job of the same cell.
+///
+/// # Errors
+/// When there is no such job.
+pub fn why(store: &Store, id: JobId) -> Result<Why> {
+    read::job(store, id)?;
+    let sql =
+        "SELECT earlier.job_id FROM job JOIN job AS earlier USING (study_id, garment, size, subject, simulator, repeat)
+        WHERE job.job_id = ?1 AND earlier.job_id < ?1 ORDER BY earlier.job_id DESC LIMIT 1";
+    let earlier = store.reader.prepare_cached(sql)?.query_row([id.0], |row| row.get(0).map(JobId)).optional()?;
+    let Some(since) = earlier else { return Ok(Why::New) };
+    let changes = inputs_of(&store.reader, id)?.changes_since(&inputs_of(&store.reader, since)?);
+    Ok(Why::Changed { since, changes })
+}
 
-    /// The inputs of a job, by name.
-    ///
-    /// # Errors
-    /// When the database cannot be read.
-    pub fn inputs(&self, id: JobId) -> Result<Inputs> {
-        inputs_of(&self.reader, id)
-    }
+/// The inputs of a job, by name.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn inputs(store: &Store, id: JobId) -> Result<Inputs> {
+    inputs_of(&store.reader, id)
 }
 
 /// The stored inputs of a job.

@@ -20,11 +20,12 @@ use crate::run::outcome::{self, Executor, Outcome, Provenance};
 use crate::run::pipeline::Pipeline;
 use crate::spec::file::Study;
 use crate::spec::{JobSpec, Selection};
+use crate::store::Store;
 use crate::store::cache::Cache;
+use crate::store::evidence;
 use crate::store::owner::Owner;
 use crate::store::queue::{self, Event};
 use crate::store::{self, Access, now_ms, read};
-use crate::workspace::Workspace;
 use sim::{Monitor, Progress};
 
 /// Layout of the files; raised when it changes.
@@ -95,55 +96,53 @@ pub struct Ran {
     pub error: Option<String>,
 }
 
-impl Workspace {
-    /// Queues a study and writes a file for each of its jobs that is to be run. The same job gets the same file.
-    ///
-    /// # Errors
-    /// When the workspace is read-only, a selection names what the study does not have, or a file cannot be written.
-    pub fn hand_out(&mut self, study: &Study, selection: &Selection, folder: &Path) -> Result<Vec<HandedOut>> {
-        check_names(study, selection)?;
-        let transaction = store::write(self.writer()?)?;
-        let planned = enqueue::enqueue(&transaction, study, selection)?;
-        transaction.commit()?;
-        std::fs::create_dir_all(folder).map_err(StudyError::io(folder))?;
-        let provenance = Provenance::of(study.path.parent().unwrap_or(Path::new(".")));
-        let mut handed = Vec::with_capacity(planned.len());
-        for job in planned {
-            let mut file = None;
-            if job.why.will_run() {
-                // Cells may share all inputs, as variants of a sweep do where one simulator does not know the parameter.
-                let path = folder.join(format!("{}-{}{JOB}", job.id, &job.spec.inputs.hash()[..16]));
-                let (study, spec) = (study.name.clone(), job.spec.clone());
-                write_json(&path, &JobFile { format: FORMAT, study, provenance: provenance.clone(), spec })?;
-                file = Some(path);
-            }
-            handed.push(HandedOut { job, file });
+/// Queues a study and writes a file for each of its jobs that is to be run. The same job gets the same file.
+///
+/// # Errors
+/// When the workspace is read-only, a selection names what the study does not have, or a file cannot be written.
+pub fn hand_out(store: &mut Store, study: &Study, selection: &Selection, folder: &Path) -> Result<Vec<HandedOut>> {
+    check_names(study, selection)?;
+    let transaction = store::write(store.writer()?)?;
+    let planned = enqueue::enqueue(&transaction, study, selection)?;
+    transaction.commit()?;
+    std::fs::create_dir_all(folder).map_err(StudyError::io(folder))?;
+    let provenance = Provenance::of(study.path.parent().unwrap_or(Path::new(".")));
+    let mut handed = Vec::with_capacity(planned.len());
+    for job in planned {
+        let mut file = None;
+        if job.why.will_run() {
+            // Cells may share all inputs, as variants of a sweep do where one simulator does not know the parameter.
+            let path = folder.join(format!("{}-{}{JOB}", job.id, &job.spec.inputs.hash()[..16]));
+            let (study, spec) = (study.name.clone(), job.spec.clone());
+            write_json(&path, &JobFile { format: FORMAT, study, provenance: provenance.clone(), spec })?;
+            file = Some(path);
         }
-        Ok(handed)
+        handed.push(HandedOut { job, file });
     }
+    Ok(handed)
+}
 
-    /// Merges result files, and those in folders, in one transaction. What has a result here keeps it.
-    ///
-    /// # Errors
-    /// When the workspace is read-only, or a file is no result of a job of this database: nothing is then stored.
-    pub fn merge(&mut self, paths: &[PathBuf]) -> Result<Merged> {
-        let mut files = Vec::new();
-        for path in paths {
-            if path.is_dir() { files.extend(results_in(path)?) } else { files.push(path.clone()) }
-        }
-        let owner = Owner::new();
-        let mut merged = Merged::default();
-        let transaction = store::write(self.writer()?)?;
-        let mut studies = BTreeSet::new();
-        for path in &files {
-            studies.insert(merge_one(&transaction, path, &owner, &mut merged)?);
-        }
-        transaction.commit()?;
-        for study in &studies {
-            self.update_evidence(study)?;
-        }
-        Ok(merged)
+/// Merges result files, and those in folders, in one transaction. What has a result here keeps it.
+///
+/// # Errors
+/// When the workspace is read-only, or a file is no result of a job of this database: nothing is then stored.
+pub fn merge(store: &mut Store, paths: &[PathBuf]) -> Result<Merged> {
+    let mut files = Vec::new();
+    for path in paths {
+        if path.is_dir() { files.extend(results_in(path)?) } else { files.push(path.clone()) }
     }
+    let owner = Owner::new();
+    let mut merged = Merged::default();
+    let transaction = store::write(store.writer()?)?;
+    let mut studies = BTreeSet::new();
+    for path in &files {
+        studies.insert(merge_one(&transaction, path, &owner, &mut merged)?);
+    }
+    transaction.commit()?;
+    for study in &studies {
+        evidence::update_evidence(store, study)?;
+    }
+    Ok(merged)
 }
 
 /// Runs a job file within its limits and writes its result beside it, or where it is wanted. A job that fails has a result

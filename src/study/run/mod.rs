@@ -22,9 +22,9 @@ use crate::run::outcome::{Executor, Provenance};
 use crate::run::pipeline::Pipeline;
 use crate::spec::file::{Problem, Study};
 use crate::spec::{self, Selection};
+use crate::store::Store;
 use crate::store::live::Live;
 use crate::store::{self, Access, evidence};
-use crate::workspace::Workspace;
 use crate::{catalogue, tools};
 use body::Measurements;
 
@@ -86,112 +86,110 @@ impl Drop for Run {
     }
 }
 
-impl Workspace {
-    /// Reads and checks a study, its file or its folder, and the patterns and seam files it names.
-    ///
-    /// # Errors
-    /// Everything that is wrong with the file, at once; else everything that is wrong with the patterns.
-    pub fn load_study(&self, path: &Path) -> Result<Study> {
-        let study = Study::load(path, &catalogue::known(Some(&self.reader))?)?;
-        check_patterns(&study)?;
-        Ok(study)
-    }
+/// Reads and checks a study, its file or its folder, and the patterns and seam files it names.
+///
+/// # Errors
+/// Everything that is wrong with the file, at once; else everything that is wrong with the patterns.
+pub fn load_study(store: &Store, path: &Path) -> Result<Study> {
+    let study = Study::load(path, &catalogue::known(Some(&store.reader))?)?;
+    check_patterns(&study)?;
+    Ok(study)
+}
 
-    /// A subject of the catalogue, latest revision.
-    ///
-    /// # Errors
-    /// When there is none of that name.
-    pub fn subject(&self, name: &str) -> Result<Measurements> {
-        let mut subjects = catalogue::known(Some(&self.reader))?.subjects;
-        subjects.remove(name).ok_or_else(|| {
-            let known = subjects.into_keys().collect();
-            StudyError::NotFound { what: "subject", name: name.to_owned(), known }
+/// A subject of the catalogue, latest revision.
+///
+/// # Errors
+/// When there is none of that name.
+pub fn subject(store: &Store, name: &str) -> Result<Measurements> {
+    let mut subjects = catalogue::known(Some(&store.reader))?.subjects;
+    subjects.remove(name).ok_or_else(|| {
+        let known = subjects.into_keys().collect();
+        StudyError::NotFound { what: "subject", name: name.to_owned(), known }
+    })
+}
+
+/// What a run of a study would do; nothing is written.
+///
+/// # Errors
+/// When the workspace is read-only or a selection names what the study does not have.
+pub fn plan(store: &mut Store, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
+    check_names(study, selection)?;
+    let transaction = store::write(store.writer()?)?;
+    let planned = enqueue::enqueue(&transaction, study, selection);
+    transaction.rollback()?;
+    planned
+}
+
+/// Queues a study and starts working on it with the real pipeline.
+///
+/// # Errors
+/// When the workspace is read-only or a selection names what the study does not have.
+pub fn start(store: &mut Store, study: &Study, options: &RunOptions) -> Result<Run> {
+    let pipeline = Arc::new(Pipeline::new(store.path()));
+    let (database, of_study, stages) = (store.path().to_owned(), study.clone(), pipeline.clone());
+    // Ease is there long before the first drape. What cannot be made fails its own jobs, which then say why.
+    let aside = move || drop(store_ease(&database, &of_study, &stages));
+    let executor = Arc::new(Isolated::new(store.path(), pipeline));
+    launch(store, study, options, executor, aside)
+}
+
+/// Finds the ease of every size of a study on every subject, and stores it.
+///
+/// # Errors
+/// When the workspace is read-only, or a body or a pattern cannot be made.
+pub fn update_ease(store: &mut Store, study: &Study) -> Result<()> {
+    store.writer()?;
+    store_ease(store.path(), study, &Pipeline::new(store.path()))
+}
+
+/// [`Workspace::start`](crate::Workspace::start) with any executor.
+///
+/// # Errors
+/// When the workspace is read-only or a selection names what the study does not have.
+pub fn start_with(
+    store: &mut Store,
+    study: &Study,
+    options: &RunOptions,
+    executor: Arc<dyn Executor + Send>,
+) -> Result<Run> {
+    launch(store, study, options, executor, || ())
+}
+
+/// Queues a study and works on it in a thread, beside `aside`.
+fn launch(
+    store: &mut Store,
+    study: &Study,
+    options: &RunOptions,
+    executor: Arc<dyn Executor + Send>,
+    aside: impl FnOnce() + Send + 'static,
+) -> Result<Run> {
+    check_names(study, &options.selection)?;
+    let transaction = store::write(store.writer()?)?;
+    let planned = enqueue::enqueue(&transaction, study, &options.selection)?;
+    transaction.commit()?;
+
+    let stop = Arc::new(AtomicBool::new(false));
+    let workers = options.workers.unwrap_or_else(|| thread::available_parallelism().map_or(1, usize::from));
+    let (database, jobs, stopped) = (store.path().to_owned(), planned.clone(), stop.clone());
+    let live = options.live.clone();
+    let folder = study.path.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
+    // What was the study's before needs nothing beside it: all of that was found with its results.
+    let is_settled = planned.iter().all(|job| job.was_current && !job.why.will_run());
+    let name = study.name.clone();
+    let work = move || {
+        if is_settled {
+            // A run that was killed may not have come to judge its last results.
+            return evidence::update(&mut store::open(&database, Access::Volatile)?, &name);
+        }
+        let provenance = Provenance::of(&folder);
+        thread::scope(|scope| {
+            scope.spawn(aside);
+            let work = engine::Work { study: &name, jobs: &jobs };
+            engine::run(&database, &work, &*executor, workers, provenance, &stopped, &live)
         })
-    }
-
-    /// What a run of a study would do; nothing is written.
-    ///
-    /// # Errors
-    /// When the workspace is read-only or a selection names what the study does not have.
-    pub fn plan(&mut self, study: &Study, selection: &Selection) -> Result<Vec<Planned>> {
-        check_names(study, selection)?;
-        let transaction = store::write(self.writer()?)?;
-        let planned = enqueue::enqueue(&transaction, study, selection);
-        transaction.rollback()?;
-        planned
-    }
-
-    /// Queues a study and starts working on it with the real pipeline.
-    ///
-    /// # Errors
-    /// When the workspace is read-only or a selection names what the study does not have.
-    pub fn start(&mut self, study: &Study, options: &RunOptions) -> Result<Run> {
-        let pipeline = Arc::new(Pipeline::new(self.path()));
-        let (database, of_study, stages) = (self.path().to_owned(), study.clone(), pipeline.clone());
-        // Ease is there long before the first drape. What cannot be made fails its own jobs, which then say why.
-        let aside = move || drop(store_ease(&database, &of_study, &stages));
-        let executor = Arc::new(Isolated::new(self.path(), pipeline));
-        self.launch(study, options, executor, aside)
-    }
-
-    /// Finds the ease of every size of a study on every subject, and stores it.
-    ///
-    /// # Errors
-    /// When the workspace is read-only, or a body or a pattern cannot be made.
-    pub fn update_ease(&mut self, study: &Study) -> Result<()> {
-        self.writer()?;
-        store_ease(self.path(), study, &Pipeline::new(self.path()))
-    }
-
-    /// [`Workspace::start`] with any executor.
-    ///
-    /// # Errors
-    /// When the workspace is read-only or a selection names what the study does not have.
-    pub fn start_with(
-        &mut self,
-        study: &Study,
-        options: &RunOptions,
-        executor: Arc<dyn Executor + Send>,
-    ) -> Result<Run> {
-        self.launch(study, options, executor, || ())
-    }
-
-    /// Queues a study and works on it in a thread, beside `aside`.
-    fn launch(
-        &mut self,
-        study: &Study,
-        options: &RunOptions,
-        executor: Arc<dyn Executor + Send>,
-        aside: impl FnOnce() + Send + 'static,
-    ) -> Result<Run> {
-        check_names(study, &options.selection)?;
-        let transaction = store::write(self.writer()?)?;
-        let planned = enqueue::enqueue(&transaction, study, &options.selection)?;
-        transaction.commit()?;
-
-        let stop = Arc::new(AtomicBool::new(false));
-        let workers = options.workers.unwrap_or_else(|| thread::available_parallelism().map_or(1, usize::from));
-        let (database, jobs, stopped) = (self.path().to_owned(), planned.clone(), stop.clone());
-        let live = options.live.clone();
-        let folder = study.path.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
-        // What was the study's before needs nothing beside it: all of that was found with its results.
-        let is_settled = planned.iter().all(|job| job.was_current && !job.why.will_run());
-        let name = study.name.clone();
-        let work = move || {
-            if is_settled {
-                // A run that was killed may not have come to judge its last results.
-                return evidence::update(&mut store::open(&database, Access::Volatile)?, &name);
-            }
-            let provenance = Provenance::of(&folder);
-            thread::scope(|scope| {
-                scope.spawn(aside);
-                let work = engine::Work { study: &name, jobs: &jobs };
-                engine::run(&database, &work, &*executor, workers, provenance, &stopped, &live)
-            })
-        };
-        let thread = thread::Builder::new().name("toile-run".into()).spawn(work).map_err(StudyError::io("thread"))?;
-        Ok(Run { study: study.name.clone(), planned, stop, thread: Some(thread) })
-    }
+    };
+    let thread = thread::Builder::new().name("toile-run".into()).spawn(work).map_err(StudyError::io("thread"))?;
+    Ok(Run { study: study.name.clone(), planned, stop, thread: Some(thread) })
 }
 
 /// Finds the ease of every size of a study on every subject, and stores it.

@@ -10,10 +10,11 @@ use std::process::{Command, Stdio};
 use crate::error::{Result, StudyError};
 use crate::rows::JobId;
 use crate::run::enqueue::Planned;
+use crate::run::handout;
 use crate::run::handout::{HandedOut, Merged, result_of};
 use crate::spec::Selection;
 use crate::spec::file::Study;
-use crate::workspace::Workspace;
+use crate::store::Store;
 
 /// Tasks of one array: Slurm's own limit is 1001 where nobody raised it.
 const ARRAY: usize = 1000;
@@ -58,27 +59,30 @@ pub struct SlurmRun {
     arrays: Vec<String>,
 }
 
-impl Workspace {
-    /// Hands the jobs of a study to Slurm; [`SlurmRun::step`] does the rest.
-    ///
-    /// # Errors
-    /// Those of [`Workspace::hand_out`].
-    pub fn start_slurm(&mut self, study: &Study, selection: &Selection, options: &SlurmOptions) -> Result<SlurmRun> {
-        let folder = std::path::absolute(&options.folder).map_err(StudyError::io(&options.folder))?;
-        let handed = self.hand_out(study, selection, &folder)?;
-        let mut open = BTreeMap::new();
-        for HandedOut { job, file } in &handed {
-            open.extend(file.iter().map(|file| (job.id, (file.clone(), 0))));
-        }
-        let arrays = std::fs::read_to_string(folder.join(SUBMITTED)).unwrap_or_default();
-        Ok(SlurmRun {
-            planned: handed.into_iter().map(|handed| handed.job).collect(),
-            options: SlurmOptions { folder, ..options.clone() },
-            name: study.name.clone(),
-            open,
-            arrays: arrays.lines().map(str::to_owned).collect(),
-        })
+/// Hands the jobs of a study to Slurm; [`Workspace::step_slurm`](crate::Workspace::step_slurm) does the rest.
+///
+/// # Errors
+/// Those of [`Workspace::hand_out`](crate::Workspace::hand_out).
+pub fn start_slurm(
+    store: &mut Store,
+    study: &Study,
+    selection: &Selection,
+    options: &SlurmOptions,
+) -> Result<SlurmRun> {
+    let folder = std::path::absolute(&options.folder).map_err(StudyError::io(&options.folder))?;
+    let handed = handout::hand_out(store, study, selection, &folder)?;
+    let mut open = BTreeMap::new();
+    for HandedOut { job, file } in &handed {
+        open.extend(file.iter().map(|file| (job.id, (file.clone(), 0))));
     }
+    let arrays = std::fs::read_to_string(folder.join(SUBMITTED)).unwrap_or_default();
+    Ok(SlurmRun {
+        planned: handed.into_iter().map(|handed| handed.job).collect(),
+        options: SlurmOptions { folder, ..options.clone() },
+        name: study.name.clone(),
+        open,
+        arrays: arrays.lines().map(str::to_owned).collect(),
+    })
 }
 
 impl SlurmRun {
@@ -87,10 +91,10 @@ impl SlurmRun {
     ///
     /// # Errors
     /// When Slurm cannot be asked, or a job was given up.
-    pub fn step(&mut self, workspace: &mut Workspace) -> Result<bool> {
+    pub fn step(&mut self, store: &mut Store) -> Result<bool> {
         // Asked before the results are looked for: a task that ends in between is then found in the next step.
         let is_active = self.is_active()?;
-        self.merge(workspace)?;
+        self.merge(store)?;
         if self.open.is_empty() {
             self.forget()?;
             return Ok(true);
@@ -118,13 +122,13 @@ impl SlurmRun {
         &self.arrays
     }
 
-    fn merge(&mut self, workspace: &mut Workspace) -> Result<()> {
+    fn merge(&mut self, store: &mut Store) -> Result<()> {
         let there: Vec<PathBuf> =
             self.open.values().map(|(file, _)| result_of(file)).filter(|file| file.exists()).collect();
         if there.is_empty() {
             return Ok(());
         }
-        let Merged { stored, failed, known, running } = workspace.merge(&there)?;
+        let Merged { stored, failed, known, running } = handout::merge(store, &there)?;
         for id in stored.iter().chain(&failed).chain(&known).chain(&running) {
             self.open.remove(id);
         }

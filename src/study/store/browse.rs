@@ -10,8 +10,8 @@ use rusqlite::fallible_iterator::FallibleIterator;
 
 use crate::error::{Result, StudyError};
 use crate::rows::{Table, Value};
+use crate::store::Store;
 use crate::store::sql;
-use crate::workspace::Workspace;
 
 /// The rows of a query, as far as they were wanted.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -31,128 +31,126 @@ pub struct Relation {
     pub columns: Vec<String>,
 }
 
-impl Workspace {
-    /// Answers a query as [`Workspace::query`] does, with at most so many rows; `stop` ends it early.
-    ///
-    /// # Errors
-    /// What SQLite says of the query; [`StudyError::Interrupted`] when it was stopped.
-    pub fn answer(&self, text: &str, most: usize, stop: &AtomicBool) -> Result<SqlAnswer> {
-        let mut answer = SqlAnswer::default();
-        self.each_row(text, stop, |columns, row| {
-            if answer.table.columns != columns {
-                answer.table.columns = columns.to_vec();
+/// Answers a query as [`Workspace::query`](crate::Workspace::query) does, with at most so many rows; `stop` ends it early.
+///
+/// # Errors
+/// What SQLite says of the query; [`StudyError::Interrupted`] when it was stopped.
+pub fn answer(store: &Store, text: &str, most: usize, stop: &AtomicBool) -> Result<SqlAnswer> {
+    let mut answer = SqlAnswer::default();
+    each_row(store, text, stop, |columns, row| {
+        if answer.table.columns != columns {
+            answer.table.columns = columns.to_vec();
+        }
+        if let Some(row) = row {
+            answer.is_cut = answer.table.rows.len() == most;
+            if !answer.is_cut {
+                answer.table.rows.push(row);
             }
-            if let Some(row) = row {
-                answer.is_cut = answer.table.rows.len() == most;
-                if !answer.is_cut {
-                    answer.table.rows.push(row);
-                }
-            } else {
-                answer.table.rows.clear();
-            }
-            Ok(!answer.is_cut)
-        })?;
-        Ok(answer)
-    }
+        } else {
+            answer.table.rows.clear();
+        }
+        Ok(!answer.is_cut)
+    })?;
+    Ok(answer)
+}
 
-    /// Writes all rows of a query into a file: JSON where its name ends so, CSV otherwise. Returns how many rows.
-    ///
-    /// # Errors
-    /// What SQLite says of the query; when the file is there already or cannot be written; when it was stopped.
-    pub fn export_query(&self, text: &str, path: &Path, stop: &AtomicBool) -> Result<usize> {
-        let is_json = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
-        let file = File::create_new(path).map_err(StudyError::io(path))?;
-        let mut out = BufWriter::new(file);
-        let mut rows = 0;
-        let written = self.each_row(text, stop, |columns, row| {
-            let line = match (&row, is_json) {
-                (None, true) => String::new(),
-                (None, false) => csv_line(columns.iter().cloned()),
-                (Some(row), true) => format!("{}{}", if rows == 0 { "[\n" } else { ",\n" }, json_line(columns, row)),
-                (Some(row), false) => csv_line(row.iter().map(Value::to_string)),
-            };
-            rows += usize::from(row.is_some());
-            out.write_all(line.as_bytes()).map_err(StudyError::io(path))?;
-            Ok(true)
-        });
-        let end = match (is_json, rows) {
-            (false, _) => "",
-            (true, 0) => "[]\n",
-            (true, _) => "\n]\n",
+/// Writes all rows of a query into a file: JSON where its name ends so, CSV otherwise. Returns how many rows.
+///
+/// # Errors
+/// What SQLite says of the query; when the file is there already or cannot be written; when it was stopped.
+pub fn export_query(store: &Store, text: &str, path: &Path, stop: &AtomicBool) -> Result<usize> {
+    let is_json = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
+    let file = File::create_new(path).map_err(StudyError::io(path))?;
+    let mut out = BufWriter::new(file);
+    let mut rows = 0;
+    let written = each_row(store, text, stop, |columns, row| {
+        let line = match (&row, is_json) {
+            (None, true) => String::new(),
+            (None, false) => csv_line(columns.iter().cloned()),
+            (Some(row), true) => format!("{}{}", if rows == 0 { "[\n" } else { ",\n" }, json_line(columns, row)),
+            (Some(row), false) => csv_line(row.iter().map(Value::to_string)),
         };
-        let written = written
-            .and_then(|()| out.write_all(end.as_bytes()).and_then(|()| out.flush()).map_err(StudyError::io(path)));
-        if written.is_err() {
-            // Half a file would pass for a whole one; that it cannot be removed is the lesser error.
-            let _ = fs::remove_file(path);
+        rows += usize::from(row.is_some());
+        out.write_all(line.as_bytes()).map_err(StudyError::io(path))?;
+        Ok(true)
+    });
+    let end = match (is_json, rows) {
+        (false, _) => "",
+        (true, 0) => "[]\n",
+        (true, _) => "\n]\n",
+    };
+    let written =
+        written.and_then(|()| out.write_all(end.as_bytes()).and_then(|()| out.flush()).map_err(StudyError::io(path)));
+    if written.is_err() {
+        // Half a file would pass for a whole one; that it cannot be removed is the lesser error.
+        let _ = fs::remove_file(path);
+    }
+    written.map(|()| rows)
+}
+
+/// Takes the columns of the last statement of a text, then each of its rows, until `take` says that it has enough.
+fn each_row(
+    store: &Store,
+    text: &str,
+    stop: &AtomicBool,
+    take: impl FnMut(&[String], Option<Vec<Value>>) -> Result<bool>,
+) -> Result<()> {
+    walk_rows(store, text, stop, take).map_err(|error| match error {
+        StudyError::Database(error) if error.sqlite_error_code() == Some(ErrorCode::OperationInterrupted) => {
+            StudyError::Interrupted
         }
-        written.map(|()| rows)
-    }
+        error => error,
+    })
+}
 
-    /// Takes the columns of the last statement of a text, then each of its rows, until `take` says that it has enough.
-    fn each_row(
-        &self,
-        text: &str,
-        stop: &AtomicBool,
-        take: impl FnMut(&[String], Option<Vec<Value>>) -> Result<bool>,
-    ) -> Result<()> {
-        self.walk_rows(text, stop, take).map_err(|error| match error {
-            StudyError::Database(error) if error.sqlite_error_code() == Some(ErrorCode::OperationInterrupted) => {
-                StudyError::Interrupted
-            }
-            error => error,
-        })
-    }
-
-    fn walk_rows(
-        &self,
-        text: &str,
-        stop: &AtomicBool,
-        mut take: impl FnMut(&[String], Option<Vec<Value>>) -> Result<bool>,
-    ) -> Result<()> {
-        let mut batch = rusqlite::Batch::new(&self.reader, text);
-        let mut next = batch.next()?;
-        while let Some(mut statement) = next {
-            next = batch.next()?;
-            let columns: Vec<String> = statement.column_names().map(str::to_owned).collect();
-            let is_last = next.is_none();
-            if is_last {
-                take(&columns, None)?;
-            }
-            let mut found = statement.raw_query();
-            while let Some(row) = found.next()? {
-                if stop.load(Ordering::Relaxed) {
-                    return Err(StudyError::Interrupted);
-                }
-                let values =
-                    || (0..columns.len()).map(|k| row.get_ref(k).map(sql::value)).collect::<rusqlite::Result<_>>();
-                if is_last && !take(&columns, Some(values()?))? {
-                    return Ok(());
-                }
-            }
+fn walk_rows(
+    store: &Store,
+    text: &str,
+    stop: &AtomicBool,
+    mut take: impl FnMut(&[String], Option<Vec<Value>>) -> Result<bool>,
+) -> Result<()> {
+    let mut batch = rusqlite::Batch::new(&store.reader, text);
+    let mut next = batch.next()?;
+    while let Some(mut statement) = next {
+        next = batch.next()?;
+        let columns: Vec<String> = statement.column_names().map(str::to_owned).collect();
+        let is_last = next.is_none();
+        if is_last {
+            take(&columns, None)?;
         }
-        Ok(())
-    }
-
-    /// The views and tables there are, views first, with their columns: what a query may name.
-    ///
-    /// # Errors
-    /// When the database cannot be read.
-    pub fn relations(&self) -> Result<Vec<Relation>> {
-        let table = self.query(
-            "SELECT m.name, p.name FROM sqlite_schema AS m JOIN pragma_table_info(m.name) AS p
-            WHERE m.type IN ('view', 'table') AND m.name NOT GLOB 'sqlite_*' ORDER BY m.type DESC, m.name, p.cid",
-        )?;
-        let mut found: Vec<Relation> = Vec::new();
-        for row in &table.rows {
-            let (name, column) = (row[0].to_string(), row[1].to_string());
-            match found.last_mut().filter(|last| last.name == name) {
-                Some(last) => last.columns.push(column),
-                None => found.push(Relation { name, columns: vec![column] }),
+        let mut found = statement.raw_query();
+        while let Some(row) = found.next()? {
+            if stop.load(Ordering::Relaxed) {
+                return Err(StudyError::Interrupted);
+            }
+            let values = || (0..columns.len()).map(|k| row.get_ref(k).map(sql::value)).collect::<rusqlite::Result<_>>();
+            if is_last && !take(&columns, Some(values()?))? {
+                return Ok(());
             }
         }
-        Ok(found)
     }
+    Ok(())
+}
+
+/// The views and tables there are, views first, with their columns: what a query may name.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn relations(store: &Store) -> Result<Vec<Relation>> {
+    let table = sql::query(
+        store,
+        "SELECT m.name, p.name FROM sqlite_schema AS m JOIN pragma_table_info(m.name) AS p
+        WHERE m.type IN ('view', 'table') AND m.name NOT GLOB 'sqlite_*' ORDER BY m.type DESC, m.name, p.cid",
+    )?;
+    let mut found: Vec<Relation> = Vec::new();
+    for row in &table.rows {
+        let (name, column) = (row[0].to_string(), row[1].to_string());
+        match found.last_mut().filter(|last| last.name == name) {
+            Some(last) => last.columns.push(column),
+            None => found.push(Relation { name, columns: vec![column] }),
+        }
+    }
+    Ok(found)
 }
 
 /// A record of CSV; fields with separators, quotes or line ends are quoted.
@@ -180,6 +178,7 @@ fn json_line(columns: &[String], row: &[Value]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Workspace;
 
     fn workspace() -> (tempfile::TempDir, Workspace) {
         let folder = tempfile::tempdir().expect("a folder");

@@ -9,7 +9,7 @@ pub mod queue;
 pub mod read;
 pub mod sql;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use rusqlite::hooks::{AuthAction, AuthContext, Authorization};
@@ -31,6 +31,54 @@ const MIGRATIONS: [&str; 11] = [
     include_str!("../../../db/migrations/0010_queue.sql"),
     include_str!("../../../db/migrations/0011_distortion.sql"),
 ];
+
+/// An open database. Reading and acting use separate connections, so that [`Store::version`] also notices this process's
+/// own writes. `Send`, not `Sync`: one a thread.
+pub struct Store {
+    path: PathBuf,
+    pub(crate) reader: Connection,
+    writer: Option<Connection>,
+}
+
+impl Store {
+    /// Opens a database; without `readonly` it is created and brought up to date where needed.
+    ///
+    /// # Errors
+    /// When the file cannot be opened, is no database, or was written by a newer program.
+    pub fn open(path: &Path, readonly: bool) -> Result<Self> {
+        let writer = if readonly { None } else { Some(open(path, Access::Create)?) };
+        let reader = open(path, Access::Read)?;
+        Ok(Self { path: path.to_owned(), reader, writer })
+    }
+
+    /// The database file.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Whether actions are refused.
+    #[must_use]
+    pub fn is_readonly(&self) -> bool {
+        self.writer.is_none()
+    }
+
+    /// A number that changes whenever anything was written by any process; costs microseconds.
+    ///
+    /// # Errors
+    /// When the database cannot be read.
+    pub fn version(&self) -> Result<i64> {
+        Ok(self.reader.pragma_query_value(None, "data_version", |row| row.get(0))?)
+    }
+
+    /// The connection for actions.
+    ///
+    /// # Errors
+    /// When the database is open for reading only.
+    pub fn writer(&mut self) -> Result<&mut Connection> {
+        self.writer.as_mut().ok_or(StudyError::Readonly)
+    }
+}
 
 /// How long a statement waits for another process's write, s, where `TOILE_PATIENCE_S` says nothing else.
 const PATIENCE_S: f64 = 20.0;

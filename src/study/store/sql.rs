@@ -10,7 +10,8 @@ use rusqlite::{Connection, Error};
 
 use crate::error::{Result, StudyError};
 use crate::rows::{Table, Value};
-use crate::workspace::Workspace;
+use crate::store::Store;
+use crate::store::browse;
 
 /// Queries that come with the program.
 const SAVED: [(&str, &str); 8] = [
@@ -78,23 +79,21 @@ impl Interrupter {
     }
 }
 
-impl Workspace {
-    /// A handle that stops a running [`Workspace::query`] from another thread.
-    #[must_use]
-    pub fn interrupter(&self) -> Interrupter {
-        Interrupter(self.reader.get_interrupt_handle())
-    }
+/// A handle that stops a running [`Workspace::query`](crate::Workspace::query) from another thread.
+#[must_use]
+pub fn interrupter(store: &Store) -> Interrupter {
+    Interrupter(store.reader.get_interrupt_handle())
+}
 
-    /// Answers a query, or several separated by `;` (the last one's rows). Nothing can be written this way.
-    ///
-    /// Besides SQLite's own functions there are `median(x)`, `stddev(x)` (sample, n-1) and `quantile(x, p)` (p in 0 to
-    /// 1, linear between order statistics).
-    ///
-    /// # Errors
-    /// What SQLite says of the query; [`StudyError::Interrupted`] when an [`Interrupter`] stopped it.
-    pub fn query(&self, sql: &str) -> Result<Table> {
-        Ok(self.answer(sql, usize::MAX, &AtomicBool::new(false))?.table)
-    }
+/// Answers a query, or several separated by `;` (the last one's rows). Nothing can be written this way.
+///
+/// Besides SQLite's own functions there are `median(x)`, `stddev(x)` (sample, n-1) and `quantile(x, p)` (p in 0 to
+/// 1, linear between order statistics).
+///
+/// # Errors
+/// What SQLite says of the query; [`StudyError::Interrupted`] when an [`Interrupter`] stopped it.
+pub fn query(store: &Store, sql: &str) -> Result<Table> {
+    Ok(browse::answer(store, sql, usize::MAX, &AtomicBool::new(false))?.table)
 }
 
 pub(crate) fn value(value: ValueRef<'_>) -> Value {

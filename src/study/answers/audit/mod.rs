@@ -17,7 +17,7 @@ mod tests;
 
 use crate::error::Result;
 use crate::rows::{Table, Value};
-use crate::workspace::Workspace;
+use crate::store::Store;
 
 /// Something that does not add up.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,22 +56,20 @@ pub struct Audit {
     pub findings: Vec<Finding>,
 }
 
-impl Workspace {
-    /// Recomputes the thesis's printed tables.
-    ///
-    /// # Errors
-    /// When the database cannot be read.
-    pub fn audit_thesis(&self) -> Result<Audit> {
-        Ok(published::audit(&tables::Tables::read(&self.reader)?))
-    }
+/// Recomputes the thesis's printed tables.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn audit_thesis(store: &Store) -> Result<Audit> {
+    Ok(published::audit(&tables::Tables::read(&store.reader)?))
+}
 
-    /// Measures the stored meshes of a study's results again and compares them with what the tables say.
-    ///
-    /// # Errors
-    /// When there is no such study or the database cannot be read.
-    pub fn audit_study(&self, study: &str) -> Result<Audit> {
-        results::audit(self, study)
-    }
+/// Measures the stored meshes of a study's results again and compares them with what the tables say.
+///
+/// # Errors
+/// When there is no such study or the database cannot be read.
+pub fn audit_study(store: &Store, study: &str) -> Result<Audit> {
+    results::audit(store, study)
 }
 
 /// A number with three decimals, as the thesis prints ratios.

@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 
 use crate::answers::audit::{Audit, Finding};
+use crate::answers::picture;
 use crate::error::Result;
 use crate::rows::{ChiRow, JobRow, MetricsRow, Status, Value};
 use crate::run::pipeline::{Meshes, Model};
 use crate::spec::inputs::StageKind;
 use crate::store::read::JobFilter;
-use crate::workspace::Workspace;
+use crate::store::{Store, read, sql};
 use fit::measure::{self, Chi, Metrics};
 use geom::units::mm;
 use sim::{Drape, quality};
@@ -21,9 +22,9 @@ const SAME: f64 = 1e-9;
 const PENETRATION_M: f64 = 0.5e-3;
 
 /// Audits the current results of a study.
-pub(super) fn audit(workspace: &Workspace, study: &str) -> Result<Audit> {
-    workspace.study(study)?;
-    let jobs = workspace.jobs(&JobFilter { study: Some(study.to_owned()), ..JobFilter::default() })?;
+pub(super) fn audit(store: &Store, study: &str) -> Result<Audit> {
+    read::study(store, study)?;
+    let jobs = read::jobs(store, &JobFilter { study: Some(study.to_owned()), ..JobFilter::default() })?;
     let mut audit = Audit { recomputed: 0, findings: Vec::new() };
     let mut patterns = BTreeMap::new();
     let mut lengths = BTreeMap::new();
@@ -32,12 +33,12 @@ pub(super) fn audit(workspace: &Workspace, study: &str) -> Result<Audit> {
         if !job.status.has_result() {
             continue;
         }
-        let chis = workspace.chi(job.id)?;
-        audit.recomputed += remeasure(workspace, job, &chis, &mut audit.findings)?;
+        let chis = read::chi(store, job.id)?;
+        audit.recomputed += remeasure(store, job, &chis, &mut audit.findings)?;
         audit.findings.extend(pattern(job, &chis, &mut patterns));
         audit.findings.extend(copy(job, &chis, &mut lengths));
     }
-    audit.findings.extend(provenance(workspace, study)?);
+    audit.findings.extend(provenance(store, study)?);
     Ok(audit)
 }
 
@@ -66,12 +67,12 @@ fn state(job: &JobRow) -> Option<Finding> {
 }
 
 /// Measures a result's mesh again; returns how many numbers were recomputed.
-fn remeasure(workspace: &Workspace, job: &JobRow, chis: &[ChiRow], findings: &mut Vec<Finding>) -> Result<usize> {
-    let stored = workspace.metrics(job.id)?;
+fn remeasure(store: &Store, job: &JobRow, chis: &[ChiRow], findings: &mut Vec<Finding>) -> Result<usize> {
+    let stored = read::metrics(store, job.id)?;
     let read = || -> Result<_> {
-        let model: Model = workspace.product(job.id, StageKind::Body)?;
-        let meshes: Meshes = workspace.product(job.id, StageKind::Mesh)?;
-        let drape: Drape = workspace.product(job.id, StageKind::Drape)?;
+        let model: Model = picture::product(store, job.id, StageKind::Body)?;
+        let meshes: Meshes = picture::product(store, job.id, StageKind::Mesh)?;
+        let drape: Drape = picture::product(store, job.id, StageKind::Drape)?;
         Ok((model, meshes, drape))
     };
     let (model, meshes, drape) = match read() {
@@ -153,12 +154,15 @@ fn copy(job: &JobRow, chis: &[ChiRow], known: &mut BTreeMap<Vec<u64>, (String, S
 }
 
 /// Results whose program is not a commit that others can check out.
-fn provenance(workspace: &Workspace, study: &str) -> Result<Vec<Finding>> {
-    let table = workspace.query(&format!(
-        "SELECT coalesce(git_commit, ''), program_version, count(*) FROM v_provenance JOIN v_jobs USING (job_id)
+fn provenance(store: &Store, study: &str) -> Result<Vec<Finding>> {
+    let table = sql::query(
+        store,
+        &format!(
+            "SELECT coalesce(git_commit, ''), program_version, count(*) FROM v_provenance JOIN v_jobs USING (job_id)
         WHERE v_jobs.study = '{}' AND is_current AND git_dirty GROUP BY 1, 2 ORDER BY 1, 2",
-        study.replace('\'', "''")
-    ))?;
+            study.replace('\'', "''")
+        ),
+    )?;
     let text = |value: &Value| match value {
         Value::Text(text) => text.clone(),
         Value::Integer(number) => number.to_string(),

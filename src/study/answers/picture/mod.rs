@@ -6,8 +6,9 @@ mod order;
 
 pub use cloth::Cloth;
 pub use maps::Map;
-pub use order::{Order, Shot, Zoom};
+pub use order::{Order, Shot, Zoom, pictures, turntable};
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 use image::RgbaImage;
@@ -17,8 +18,10 @@ use crate::error::{Result, StudyError};
 use crate::rows::{JobId, Value};
 use crate::run::pipeline::{Meshes, Model};
 use crate::spec::inputs::StageKind;
+use crate::store::Store;
 use crate::store::cache;
-use crate::workspace::Workspace;
+use crate::store::read;
+use crate::store::sql;
 use fit::Simulator;
 use geom::units::mm;
 use geom::{Surface, TriMesh};
@@ -198,125 +201,126 @@ fn aspect(width: u32, height: u32) -> f64 {
     f64::from(width.max(1)) / f64::from(height.max(1))
 }
 
-impl Workspace {
-    /// A picture of a result. The result last shown is kept ready, so that other views of it come quickly.
-    ///
-    /// # Errors
-    /// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
-    pub fn picture(&self, id: JobId, view: View, width: u32, height: u32, map: Map) -> Result<RgbaImage> {
-        self.shot(id, map, |stage| {
-            let camera = Camera::new(view, stage.frame(aspect(width, height)));
-            render::render(&stage.scene, &camera, width, height)
-        })
-    }
+/// The results last shown, the latest last, ready for more pictures.
+pub type Scenes = RefCell<Vec<(JobId, Map, Stage)>>;
 
-    /// A result from any side, the garment as large as it can be times the look's own enlargement: the body is cut off
-    /// where it goes beyond, and transparent where nothing is. For small pictures.
-    ///
-    /// # Errors
-    /// As [`Workspace::picture`].
-    pub fn look(&self, id: JobId, look: Look, width: u32, height: u32, map: Map) -> Result<RgbaImage> {
-        self.shot(id, map, |stage| {
-            let mut frame = Frame::enclosing(&stage.meshes[1..], aspect(width, height));
-            frame.centre.z += f64::from(look.rise_pct) / 100.0 * frame.height_m / 2.0;
-            frame.height_m *= 100.0 / f64::from(look.zoom_pct.max(1));
-            let camera = Camera { azimuth_deg: f64::from(look.azimuth_deg), ..Camera::new(View::Front, frame) };
-            render::cutout(&stage.scene, &camera, width, height)
-        })
-    }
+/// A picture of a result. The result last shown is kept ready, so that other views of it come quickly.
+///
+/// # Errors
+/// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
+pub fn picture(at: (&Store, &Scenes), id: JobId, view: View, width: u32, height: u32, map: Map) -> Result<RgbaImage> {
+    shot(at, id, map, |stage| {
+        let camera = Camera::new(view, stage.frame(aspect(width, height)));
+        render::render(&stage.scene, &camera, width, height)
+    })
+}
 
-    /// A picture that is taken of a result's stage.
-    fn shot(
-        &self,
-        id: JobId,
-        map: Map,
-        take: impl Fn(&Stage) -> std::result::Result<RgbaImage, render::RenderError>,
-    ) -> Result<RgbaImage> {
-        let mut kept = self.scenes.borrow_mut();
-        let known = kept.iter().position(|(of, with, _)| (*of, *with) == (id, map));
-        let entry = match known {
-            Some(at) => kept.remove(at),
-            None => (id, map, self.stage(id, map)?),
-        };
-        if kept.len() == SCENES_KEPT {
-            kept.remove(0);
-        }
-        let picture = take(&entry.2);
-        kept.push(entry);
-        picture.map_err(StudyError::stage("render"))
-    }
+/// A result from any side, the garment as large as it can be times the look's own enlargement: the body is cut off
+/// where it goes beyond, and transparent where nothing is. For small pictures.
+///
+/// # Errors
+/// As [`Workspace::picture`](crate::Workspace::picture).
+pub fn look(at: (&Store, &Scenes), id: JobId, look: Look, width: u32, height: u32, map: Map) -> Result<RgbaImage> {
+    shot(at, id, map, |stage| {
+        let mut frame = Frame::enclosing(&stage.meshes[1..], aspect(width, height));
+        frame.centre.z += f64::from(look.rise_pct) / 100.0 * frame.height_m / 2.0;
+        frame.height_m *= 100.0 / f64::from(look.zoom_pct.max(1));
+        let camera = Camera { azimuth_deg: f64::from(look.azimuth_deg), ..Camera::new(View::Front, frame) };
+        render::cutout(&stage.scene, &camera, width, height)
+    })
+}
 
-    /// A result's body and garment as a mesh file. The garment's texture coordinates are its places in the pattern, m; a
-    /// map colours it and leaves its values in the formats that can hold them.
-    ///
-    /// # Errors
-    /// As [`Workspace::picture`].
-    pub fn mesh_file(&self, id: JobId, format: MeshFormat, map: Map) -> Result<Vec<u8>> {
-        let dressed = self.dressed(id)?;
-        let values = dressed.values(map)?;
-        let plain = |mesh: &TriMesh, material: Material| vec![material.front; mesh.positions.len()];
-        let scale = map.scale();
-        let colours = match &scale {
-            Some(scale) => values.iter().map(|value| scale.colour(*value)).collect(),
-            None => plain(&dressed.cloth, dressed.material()),
-        };
-        let label = scale.map(|scale| format!("{}, {}", scale.label, scale.unit));
-        let garment = Part {
-            name: "garment",
-            mesh: &dressed.cloth,
-            colours,
-            places: Some(&dressed.garment.rest),
-            values: label.as_deref().map(|label| (label, values.as_slice())),
-        };
-        let colours = plain(&dressed.body, Material::form());
-        let body = Part { name: "body", mesh: &dressed.body, colours, places: None, values: None };
-        Ok(format.write(&[body, garment]))
+/// A picture that is taken of a result's stage.
+fn shot(
+    (store, scenes): (&Store, &Scenes),
+    id: JobId,
+    map: Map,
+    take: impl Fn(&Stage) -> std::result::Result<RgbaImage, render::RenderError>,
+) -> Result<RgbaImage> {
+    let mut kept = scenes.borrow_mut();
+    let known = kept.iter().position(|(of, with, _)| (*of, *with) == (id, map));
+    let entry = match known {
+        Some(at) => kept.remove(at),
+        None => (id, map, stage(store, id, map)?),
+    };
+    if kept.len() == SCENES_KEPT {
+        kept.remove(0);
     }
+    let picture = take(&entry.2);
+    kept.push(entry);
+    picture.map_err(StudyError::stage("render"))
+}
 
-    fn stage(&self, id: JobId, map: Map) -> Result<Stage> {
-        let dressed = self.dressed(id)?;
-        let scene = dressed.scene(map)?;
-        Ok(Stage { scene, meshes: [dressed.body, dressed.cloth] })
-    }
+/// A result's body and garment as a mesh file. The garment's texture coordinates are its places in the pattern, m; a
+/// map colours it and leaves its values in the formats that can hold them.
+///
+/// # Errors
+/// As [`Workspace::picture`](crate::Workspace::picture).
+pub fn mesh_file(store: &Store, id: JobId, format: MeshFormat, map: Map) -> Result<Vec<u8>> {
+    let dressed = dressed(store, id)?;
+    let values = dressed.values(map)?;
+    let plain = |mesh: &TriMesh, material: Material| vec![material.front; mesh.positions.len()];
+    let scale = map.scale();
+    let colours = match &scale {
+        Some(scale) => values.iter().map(|value| scale.colour(*value)).collect(),
+        None => plain(&dressed.cloth, dressed.material()),
+    };
+    let label = scale.map(|scale| format!("{}, {}", scale.label, scale.unit));
+    let garment = Part {
+        name: "garment",
+        mesh: &dressed.cloth,
+        colours,
+        places: Some(&dressed.garment.rest),
+        values: label.as_deref().map(|label| (label, values.as_slice())),
+    };
+    let colours = plain(&dressed.body, Material::form());
+    let body = Part { name: "body", mesh: &dressed.body, colours, places: None, values: None };
+    Ok(format.write(&[body, garment]))
+}
 
-    /// A result as stored.
-    ///
-    /// # Errors
-    /// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
-    pub(crate) fn dressed(&self, id: JobId) -> Result<Dressed> {
-        let job = self.job(id)?;
-        let model: Model = self.product(id, StageKind::Body)?;
-        let Meshes(mut meshes) = self.product(id, StageKind::Mesh)?;
-        let drape: Drape = self.product(id, StageKind::Drape)?;
-        let fits = |garment: &Garment| garment.rest.len() == drape.positions.len();
-        let garment = meshes
-            .pop()
-            .filter(fits)
-            .ok_or_else(|| StudyError::stage("store")(format!("the mesh of job {id} does not fit its drape")))?;
-        let cloth = TriMesh { positions: drape.positions, triangles: garment.triangles.clone() };
-        let fabric = self.fabric_of(id)?;
-        let at = &model.body.levels;
-        let levels = [("chest", at.chest_m), ("underbust", at.underbust_m), ("waist", at.waist_m), ("hip", at.hip_m)];
-        let levels = BTreeMap::from(levels);
-        let (simulator, stage, earlier, body) = (job.simulator, drape.stage, drape.earlier, model.body.mesh);
-        Ok(Dressed { simulator, stage, garment, fabric, levels, body, cloth, earlier })
-    }
+fn stage(store: &Store, id: JobId, map: Map) -> Result<Stage> {
+    let dressed = dressed(store, id)?;
+    let scene = dressed.scene(map)?;
+    Ok(Stage { scene, meshes: [dressed.body, dressed.cloth] })
+}
 
-    /// The fabric a job was simulated in.
-    fn fabric_of(&self, id: JobId) -> Result<Fabric> {
-        let table = self.query(&format!("SELECT fabric_id FROM job WHERE job_id = {id}"))?;
-        match table.rows.first().and_then(|row| row.first()) {
-            Some(Value::Integer(fabric)) => read_fabric(&self.reader, *fabric),
-            _ => Err(StudyError::NotFound { what: "fabric of job", name: id.to_string(), known: vec![] }),
-        }
-    }
+/// A result as stored.
+///
+/// # Errors
+/// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
+pub(crate) fn dressed(store: &Store, id: JobId) -> Result<Dressed> {
+    let job = read::job(store, id)?;
+    let model: Model = product(store, id, StageKind::Body)?;
+    let Meshes(mut meshes) = product(store, id, StageKind::Mesh)?;
+    let drape: Drape = product(store, id, StageKind::Drape)?;
+    let fits = |garment: &Garment| garment.rest.len() == drape.positions.len();
+    let garment = meshes
+        .pop()
+        .filter(fits)
+        .ok_or_else(|| StudyError::stage("store")(format!("the mesh of job {id} does not fit its drape")))?;
+    let cloth = TriMesh { positions: drape.positions, triangles: garment.triangles.clone() };
+    let fabric = fabric_of(store, id)?;
+    let at = &model.body.levels;
+    let levels = [("chest", at.chest_m), ("underbust", at.underbust_m), ("waist", at.waist_m), ("hip", at.hip_m)];
+    let levels = BTreeMap::from(levels);
+    let (simulator, stage, earlier, body) = (job.simulator, drape.stage, drape.earlier, model.body.mesh);
+    Ok(Dressed { simulator, stage, garment, fabric, levels, body, cloth, earlier })
+}
 
-    /// A stored product of a job's stage.
-    pub(crate) fn product<T: cache::Artefact>(&self, id: JobId, stage: StageKind) -> Result<T> {
-        let used = self.stages(id)?.into_iter().find(|used| used.stage == stage.as_str());
-        let missing = || StudyError::NotFound { what: "result of job", name: id.to_string(), known: vec![] };
-        cache::stored(&self.reader, &used.ok_or_else(missing)?.hash)
+/// The fabric a job was simulated in.
+fn fabric_of(store: &Store, id: JobId) -> Result<Fabric> {
+    let table = sql::query(store, &format!("SELECT fabric_id FROM job WHERE job_id = {id}"))?;
+    match table.rows.first().and_then(|row| row.first()) {
+        Some(Value::Integer(fabric)) => read_fabric(&store.reader, *fabric),
+        _ => Err(StudyError::NotFound { what: "fabric of job", name: id.to_string(), known: vec![] }),
     }
+}
+
+/// A stored product of a job's stage.
+pub(crate) fn product<T: cache::Artefact>(store: &Store, id: JobId, stage: StageKind) -> Result<T> {
+    let used = read::stages(store, id)?.into_iter().find(|used| used.stage == stage.as_str());
+    let missing = || StudyError::NotFound { what: "result of job", name: id.to_string(), known: vec![] };
+    cache::stored(&store.reader, &used.ok_or_else(missing)?.hash)
 }
 
 #[cfg(test)]

@@ -2,10 +2,12 @@
 
 use image::RgbaImage;
 
+use crate::answers::picture;
 use crate::answers::picture::{Cloth, Dressed, Map};
 use crate::error::{Result, StudyError};
 use crate::rows::JobId;
-use crate::workspace::Workspace;
+use crate::store::Store;
+use crate::store::read;
 use geom::TriMesh;
 use render::{self, Camera, Cell, Frame, Rgb, Scene, View};
 use sim::Stage;
@@ -105,64 +107,61 @@ impl Order {
     }
 }
 
-impl Workspace {
-    /// Results as a PNG file: one shot of one result by itself, more of them on a sheet, all at one scale.
-    ///
-    /// # Errors
-    /// [`StudyError::NotFound`] while there is no result, where its simulator keeps no such stage or a cloth names no piece;
-    /// a file that is no image.
-    pub fn pictures(&self, ids: &[JobId], order: &Order) -> Result<Vec<u8>> {
-        let worn = ids.iter().flat_map(|id| order.stages.iter().map(move |stage| (*id, *stage)));
-        let worn: Vec<(JobId, Stage)> = worn.collect();
-        let dressed = worn.iter().map(|(id, stage)| self.dressed_at(*id, *stage)).collect::<Result<Vec<_>>>()?;
-        let [whole, garments] = order.frames(&dressed);
-        let mut cells = Vec::new();
-        for ((id, stage), worn) in worn.iter().zip(&dressed) {
-            let scene = worn.scene_in(order.map, &order.cloths, order.skin)?;
-            let job = self.job(*id)?;
-            let before = if *stage == Stage::Drape { String::new() } else { format!(" {}", stage.as_str()) };
-            for shot in &order.shots {
-                let picture = order.draw(&scene, &order.camera(*shot, whole, garments))?;
-                let simulator = job.simulator.as_str();
-                let label =
-                    format!("{} {}, {}, {simulator}{before}, {}", job.garment, job.size, job.subject, shot.name());
-                cells.push(Cell { picture, label });
-            }
+/// Results as a PNG file: one shot of one result by itself, more of them on a sheet, all at one scale.
+///
+/// # Errors
+/// [`StudyError::NotFound`] while there is no result, where its simulator keeps no such stage or a cloth names no piece;
+/// a file that is no image.
+pub fn pictures(store: &Store, ids: &[JobId], order: &Order) -> Result<Vec<u8>> {
+    let worn = ids.iter().flat_map(|id| order.stages.iter().map(move |stage| (*id, *stage)));
+    let worn: Vec<(JobId, Stage)> = worn.collect();
+    let dressed = worn.iter().map(|(id, stage)| dressed_at(store, *id, *stage)).collect::<Result<Vec<_>>>()?;
+    let [whole, garments] = order.frames(&dressed);
+    let mut cells = Vec::new();
+    for ((id, stage), worn) in worn.iter().zip(&dressed) {
+        let scene = worn.scene_in(order.map, &order.cloths, order.skin)?;
+        let job = read::job(store, *id)?;
+        let before = if *stage == Stage::Drape { String::new() } else { format!(" {}", stage.as_str()) };
+        for shot in &order.shots {
+            let picture = order.draw(&scene, &order.camera(*shot, whole, garments))?;
+            let simulator = job.simulator.as_str();
+            let label = format!("{} {}, {}, {simulator}{before}, {}", job.garment, job.size, job.subject, shot.name());
+            cells.push(Cell { picture, label });
         }
-        let columns = match (order.shots.len(), order.stages.len()) {
-            (1, 1) => ids.len().min(4),
-            (1, stages) => stages,
-            (shots, _) => shots,
-        };
-        let picture = match cells.as_slice() {
-            [one] => render::png(&one.picture),
-            _ => render::contact_sheet("", &cells, columns).and_then(|sheet| render::png(&sheet)),
-        };
-        picture.map_err(StudyError::stage("render"))
     }
+    let columns = match (order.shots.len(), order.stages.len()) {
+        (1, 1) => ids.len().min(4),
+        (1, stages) => stages,
+        (shots, _) => shots,
+    };
+    let picture = match cells.as_slice() {
+        [one] => render::png(&one.picture),
+        _ => render::contact_sheet("", &cells, columns).and_then(|sheet| render::png(&sheet)),
+    };
+    picture.map_err(StudyError::stage("render"))
+}
 
-    /// A result as a stage of its simulation left it.
-    fn dressed_at(&self, id: JobId, stage: Stage) -> Result<Dressed> {
-        let worn = self.dressed(id)?;
-        let known = worn.earlier.iter().map(|staged| staged.stage).chain([worn.stage]);
-        let known: Vec<String> = known.map(|stage| stage.as_str().to_owned()).collect();
-        let name = format!("{} of job {id}", stage.as_str());
-        worn.at(stage).ok_or(StudyError::NotFound { what: "stage", name, known })
-    }
+/// A result as a stage of its simulation left it.
+fn dressed_at(store: &Store, id: JobId, stage: Stage) -> Result<Dressed> {
+    let worn = picture::dressed(store, id)?;
+    let known = worn.earlier.iter().map(|staged| staged.stage).chain([worn.stage]);
+    let known: Vec<String> = known.map(|stage| stage.as_str().to_owned()).collect();
+    let name = format!("{} of job {id}", stage.as_str());
+    worn.at(stage).ok_or(StudyError::NotFound { what: "stage", name, known })
+}
 
-    /// A result turned once about the vertical, as an animated PNG file of so many pictures that repeats for ever.
-    ///
-    /// # Errors
-    /// As [`Workspace::pictures`].
-    pub fn turntable(&self, id: JobId, order: &Order, pictures: u32) -> Result<Vec<u8>> {
-        let dressed = [self.dressed(id)?];
-        let [whole, garments] = order.frames(&dressed);
-        let scene = dressed[0].scene_in(order.map, &order.cloths, order.skin)?;
-        let turned = (0..pictures).map(|k| {
-            let shot = Shot::Turned(360.0 * f64::from(k) / f64::from(pictures));
-            order.draw(&scene, &order.camera(shot, whole, garments))
-        });
-        let frames = turned.collect::<Result<Vec<_>>>()?;
-        render::animated_png(&frames, TURN_MS / pictures.max(1)).map_err(StudyError::stage("render"))
-    }
+/// A result turned once about the vertical, as an animated PNG file of so many pictures that repeats for ever.
+///
+/// # Errors
+/// As [`Workspace::pictures`](crate::Workspace::pictures).
+pub fn turntable(store: &Store, id: JobId, order: &Order, pictures: u32) -> Result<Vec<u8>> {
+    let dressed = [picture::dressed(store, id)?];
+    let [whole, garments] = order.frames(&dressed);
+    let scene = dressed[0].scene_in(order.map, &order.cloths, order.skin)?;
+    let turned = (0..pictures).map(|k| {
+        let shot = Shot::Turned(360.0 * f64::from(k) / f64::from(pictures));
+        order.draw(&scene, &order.camera(shot, whole, garments))
+    });
+    let frames = turned.collect::<Result<Vec<_>>>()?;
+    render::animated_png(&frames, TURN_MS / pictures.max(1)).map_err(StudyError::stage("render"))
 }

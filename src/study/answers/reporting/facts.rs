@@ -1,12 +1,17 @@
 //! What a report says besides its runs: verdicts, audit, subjects, fabrics, patterns, ease.
 
+use crate::answers::advice;
+use crate::answers::picture;
 use crate::answers::reporting::quoted;
+use crate::catalogue::style;
 use crate::error::Result;
 use crate::rows::{EaseRow, JobRow, RecommendationRow, Status, Value};
 use crate::run::pipeline::Model;
 use crate::spec::inputs::StageKind;
+use crate::store::Store;
+use crate::store::read;
+use crate::store::sql;
 use crate::tools;
-use crate::workspace::Workspace;
 use body::Girths;
 use fit::{Basis, Cuts, Ease, Finding, Simulator};
 use report::data::{
@@ -85,193 +90,195 @@ fn mismatches(bodies: &[BodyFacts]) -> Vec<String> {
     told
 }
 
-impl Workspace {
-    pub(super) fn verdicts(&self, study: &str) -> Result<Vec<Verdict>> {
-        let verdict = |row: RecommendationRow| Verdict {
-            garment: row.garment,
-            class: row.class,
-            recommended: row.recommended,
-            basis: if row.basis == "evidence" { Basis::Evidence } else { Basis::Rule },
-            finding: Finding::from_name(&row.verdict).unwrap_or(Finding::InsufficientEvidence),
-            effect: row.effect,
-            interval: row.interval,
-            p_holm: row.p_holm,
-            subjects: row.n_subjects as usize,
-            reason: row.reason,
-            would_settle: row.would_settle,
-        };
-        Ok(self.recommendations(study)?.into_iter().map(verdict).collect())
-    }
+pub(super) fn verdicts(store: &Store, study: &str) -> Result<Vec<Verdict>> {
+    let verdict = |row: RecommendationRow| Verdict {
+        garment: row.garment,
+        class: row.class,
+        recommended: row.recommended,
+        basis: if row.basis == "evidence" { Basis::Evidence } else { Basis::Rule },
+        finding: Finding::from_name(&row.verdict).unwrap_or(Finding::InsufficientEvidence),
+        effect: row.effect,
+        interval: row.interval,
+        p_holm: row.p_holm,
+        subjects: row.n_subjects as usize,
+        reason: row.reason,
+        would_settle: row.would_settle,
+    };
+    Ok(read::recommendations(store, study)?.into_iter().map(verdict).collect())
+}
 
-    /// Which size each subject of a study should wear.
-    pub(super) fn size_tips(&self, study: &str, bodies: &[BodyFacts]) -> Result<Vec<SizeTip>> {
-        let mut tips = Vec::new();
-        let eased = self.ease(study)?;
-        for body in bodies.iter().filter(|body| eased.iter().any(|ease| ease.subject == body.name)) {
-            for answer in self.size_advice(study, &body.name, None)? {
-                let Some(size) = answer.sizes.iter().find(|size| size.size == answer.advice.size) else { continue };
-                let pulls = size
-                    .levels
-                    .iter()
-                    .filter_map(|level| Some(format!("{} {:.0} N/m", level.ease.level, level.tension_n_m?)));
-                let tension = pulls.collect::<Vec<_>>().join(", ");
-                tips.push(SizeTip {
-                    garment: answer.garment,
-                    subject: answer.subject,
-                    size: size.size.clone(),
-                    reason: answer.advice.reason,
-                    tension: if tension.is_empty() { "no FEM-GS drape yet".into() } else { tension },
-                    shown: size.shown.to_owned(),
-                });
-            }
-        }
-        Ok(tips)
-    }
-
-    /// What a reader should know before believing the numbers.
-    pub(super) fn audit(&self, study: &str, jobs: &[JobRow], bodies: &[BodyFacts]) -> Result<Vec<AuditNote>> {
-        let mut notes = Vec::new();
-        let mut note = |severity, text: String| notes.push(AuditNote { severity, text });
-        let open = jobs.iter().filter(|job| !job.status.is_final()).count();
-        if open > 0 {
-            note(Severity::Warning, format!("{open} of {} jobs have not been run yet.", jobs.len()));
-        }
-        let cancelled = jobs.iter().filter(|job| job.status == Status::Cancelled).count();
-        if cancelled > 0 {
-            note(Severity::Warning, format!("{cancelled} jobs were cancelled."));
-        }
-        for (only, name) in [(Simulator::Fem, "FEM-GS"), (Simulator::Hybrid, "Hybrid-GS")] {
-            if !jobs.is_empty() && jobs.iter().all(|job| job.simulator == only) {
-                note(Severity::Note, format!("Only {name} was run: nothing here compares the two simulators."));
-            }
-        }
-        let mismatches = mismatches(bodies);
-        if !mismatches.is_empty() {
-            let text = format!("Bodies differ by more than 1 % from what was asked. {}.", mismatches.join("; "));
-            note(Severity::Warning, text);
-        }
-        let undersized: Vec<String> = self
-            .ease(study)?
-            .into_iter()
-            .filter(|ease| ease.decides && ease.fit.undersized)
-            .map(|ease| format!("{} {} on {}", ease.garment, ease.size, ease.subject))
-            .collect();
-        if !undersized.is_empty() {
-            note(Severity::Note, format!("Smaller than the body: {}.", undersized.join(", ")));
-        }
-        Ok(notes)
-    }
-
-    /// The subjects of a study, with the bodies that were dressed.
-    pub(super) fn bodies(&self, study: &str, jobs: &[JobRow]) -> Result<Vec<BodyFacts>> {
-        let keys = MEASUREMENTS.map(|(key, ..)| format!("subject.{key}")).join(", ");
-        let table = self.query(&format!(
-            "SELECT DISTINCT job.subject, subject.sex, {keys}
-            FROM job JOIN subject USING (subject_id) JOIN study USING (study_id)
-            JOIN study_axis ON study_axis.study_id = study.study_id AND axis = 'subject' AND study_axis.name = job.subject
-            WHERE study.name = {} AND is_current ORDER BY position",
-            quoted(study)
-        ))?;
-        let mut bodies = Vec::new();
-        for row in &table.rows {
-            let name = row[0].to_string();
-            let dressed = jobs.iter().find(|job| job.subject == name && job.status.has_result());
-            let measured = match dressed {
-                Some(job) => Some(readings(&self.product::<Model>(job.id, StageKind::Body)?.body.girths)),
-                None => None,
-            };
-            bodies.push(BodyFacts {
-                name,
-                sex: row[1].to_string(),
-                asked: row[2..].iter().map(number).collect(),
-                measured,
+/// Which size each subject of a study should wear.
+pub(super) fn size_tips(store: &Store, study: &str, bodies: &[BodyFacts]) -> Result<Vec<SizeTip>> {
+    let mut tips = Vec::new();
+    let eased = read::ease(store, study)?;
+    for body in bodies.iter().filter(|body| eased.iter().any(|ease| ease.subject == body.name)) {
+        for answer in advice::size_advice(store, study, &body.name, None)? {
+            let Some(size) = answer.sizes.iter().find(|size| size.size == answer.advice.size) else { continue };
+            let pulls = size
+                .levels
+                .iter()
+                .filter_map(|level| Some(format!("{} {:.0} N/m", level.ease.level, level.tension_n_m?)));
+            let tension = pulls.collect::<Vec<_>>().join(", ");
+            tips.push(SizeTip {
+                garment: answer.garment,
+                subject: answer.subject,
+                size: size.size.clone(),
+                reason: answer.advice.reason,
+                tension: if tension.is_empty() { "no FEM-GS drape yet".into() } else { tension },
+                shown: size.shown.to_owned(),
             });
         }
-        Ok(bodies)
     }
+    Ok(tips)
+}
 
-    /// The subjects of the thesis, as printed.
-    pub(super) fn published_bodies(&self) -> Result<Vec<BodyFacts>> {
-        let keys = MEASUREMENTS.map(|(key, ..)| key).join(", ");
-        let table = self.query(&format!(
-            "SELECT name, sex, {keys} FROM subject
-            WHERE revision = 1 AND (name GLOB 'male-[iv]*' OR name GLOB 'female-[iv]*') ORDER BY sex DESC, name"
-        ))?;
-        let body = |row: &Vec<Value>| BodyFacts {
-            name: row[0].to_string(),
+/// What a reader should know before believing the numbers.
+pub(super) fn audit(store: &Store, study: &str, jobs: &[JobRow], bodies: &[BodyFacts]) -> Result<Vec<AuditNote>> {
+    let mut notes = Vec::new();
+    let mut note = |severity, text: String| notes.push(AuditNote { severity, text });
+    let open = jobs.iter().filter(|job| !job.status.is_final()).count();
+    if open > 0 {
+        note(Severity::Warning, format!("{open} of {} jobs have not been run yet.", jobs.len()));
+    }
+    let cancelled = jobs.iter().filter(|job| job.status == Status::Cancelled).count();
+    if cancelled > 0 {
+        note(Severity::Warning, format!("{cancelled} jobs were cancelled."));
+    }
+    for (only, name) in [(Simulator::Fem, "FEM-GS"), (Simulator::Hybrid, "Hybrid-GS")] {
+        if !jobs.is_empty() && jobs.iter().all(|job| job.simulator == only) {
+            note(Severity::Note, format!("Only {name} was run: nothing here compares the two simulators."));
+        }
+    }
+    let mismatches = mismatches(bodies);
+    if !mismatches.is_empty() {
+        let text = format!("Bodies differ by more than 1 % from what was asked. {}.", mismatches.join("; "));
+        note(Severity::Warning, text);
+    }
+    let undersized: Vec<String> = read::ease(store, study)?
+        .into_iter()
+        .filter(|ease| ease.decides && ease.fit.undersized)
+        .map(|ease| format!("{} {} on {}", ease.garment, ease.size, ease.subject))
+        .collect();
+    if !undersized.is_empty() {
+        note(Severity::Note, format!("Smaller than the body: {}.", undersized.join(", ")));
+    }
+    Ok(notes)
+}
+
+/// The subjects of a study, with the bodies that were dressed.
+pub(super) fn bodies(store: &Store, study: &str, jobs: &[JobRow]) -> Result<Vec<BodyFacts>> {
+    let keys = MEASUREMENTS.map(|(key, ..)| format!("subject.{key}")).join(", ");
+    let table = sql::query(
+        store,
+        &format!(
+            "SELECT DISTINCT job.subject, subject.sex, {keys}
+        FROM job JOIN subject USING (subject_id) JOIN study USING (study_id)
+        JOIN study_axis ON study_axis.study_id = study.study_id AND axis = 'subject' AND study_axis.name = job.subject
+        WHERE study.name = {} AND is_current ORDER BY position",
+            quoted(study)
+        ),
+    )?;
+    let mut bodies = Vec::new();
+    for row in &table.rows {
+        let name = row[0].to_string();
+        let dressed = jobs.iter().find(|job| job.subject == name && job.status.has_result());
+        let measured = match dressed {
+            Some(job) => Some(readings(&picture::product::<Model>(store, job.id, StageKind::Body)?.body.girths)),
+            None => None,
+        };
+        bodies.push(BodyFacts {
+            name,
             sex: row[1].to_string(),
             asked: row[2..].iter().map(number).collect(),
-            measured: None,
-        };
-        Ok(table.rows.iter().map(body).collect())
+            measured,
+        });
     }
+    Ok(bodies)
+}
 
-    pub(super) fn fabric_facts(&self, study: &str) -> Result<Vec<FabricFacts>> {
-        let table = self.query(&format!(
-            "SELECT DISTINCT fabric.name, source, round(1000 * density_kg_m2, 1) AS 'Areal density, g/m²', thickness_mm AS 'Thickness, mm',
-                membrane_warp_n_m AS 'Strip modulus, warp, N/m', membrane_weft_n_m AS 'Strip modulus, weft, N/m',
-                shear_n_m AS 'Shear modulus, N/m', round(1e6 * bending_warp_nm, 3) AS 'Bending rigidity, warp, µN·m',
-                round(1e6 * bending_weft_nm, 3) AS 'Bending rigidity, weft, µN·m',
-                friction_body AS 'Friction coefficient, on the body', friction_self AS 'Friction coefficient, on itself'
-            FROM fabric JOIN job USING (fabric_id) JOIN study USING (study_id) WHERE study.name = {} AND is_current",
-            quoted(study)
-        ))?;
-        let facts = |row: &Vec<Value>| FabricFacts {
-            name: row[0].to_string(),
-            source: row[1].to_string(),
-            facts: table.columns.iter().zip(row).skip(2).map(fact).collect(),
-        };
-        Ok(table.rows.iter().map(facts).collect())
-    }
+/// The subjects of the thesis, as printed.
+pub(super) fn published_bodies(store: &Store) -> Result<Vec<BodyFacts>> {
+    let keys = MEASUREMENTS.map(|(key, ..)| key).join(", ");
+    let table = sql::query(
+        store,
+        &format!(
+            "SELECT name, sex, {keys} FROM subject
+        WHERE revision = 1 AND (name GLOB 'male-[iv]*' OR name GLOB 'female-[iv]*') ORDER BY sex DESC, name"
+        ),
+    )?;
+    let body = |row: &Vec<Value>| BodyFacts {
+        name: row[0].to_string(),
+        sex: row[1].to_string(),
+        asked: row[2..].iter().map(number).collect(),
+        measured: None,
+    };
+    Ok(table.rows.iter().map(body).collect())
+}
 
-    /// Where the fit classes of a study meet.
-    pub(crate) fn cuts(&self, study: &str) -> Result<Cuts> {
-        let sql =
-            format!("SELECT tight_below_mm / 1000, loose_above_mm / 1000 FROM study WHERE name = {}", quoted(study));
-        let cuts = match self.query(&sql)?.rows.first().map(Vec::as_slice) {
-            Some([Value::Real(tight_below_m), Value::Real(loose_above_m)]) => {
-                Cuts { tight_below_m: *tight_below_m, loose_above_m: *loose_above_m }
-            }
-            _ => Cuts::default(),
-        };
-        Ok(cuts)
-    }
+pub(super) fn fabric_facts(store: &Store, study: &str) -> Result<Vec<FabricFacts>> {
+    let table = sql::query(store, &format!(
+        "SELECT DISTINCT fabric.name, source, round(1000 * density_kg_m2, 1) AS 'Areal density, g/m²', thickness_mm AS 'Thickness, mm',
+            membrane_warp_n_m AS 'Strip modulus, warp, N/m', membrane_weft_n_m AS 'Strip modulus, weft, N/m',
+            shear_n_m AS 'Shear modulus, N/m', round(1e6 * bending_warp_nm, 3) AS 'Bending rigidity, warp, µN·m',
+            round(1e6 * bending_weft_nm, 3) AS 'Bending rigidity, weft, µN·m',
+            friction_body AS 'Friction coefficient, on the body', friction_self AS 'Friction coefficient, on itself'
+        FROM fabric JOIN job USING (fabric_id) JOIN study USING (study_id) WHERE study.name = {} AND is_current",
+        quoted(study)
+    ))?;
+    let facts = |row: &Vec<Value>| FabricFacts {
+        name: row[0].to_string(),
+        source: row[1].to_string(),
+        facts: table.columns.iter().zip(row).skip(2).map(fact).collect(),
+    };
+    Ok(table.rows.iter().map(facts).collect())
+}
 
-    /// The first size of each garment, drawn from what its job was made from.
-    pub(super) fn drawings(&self, jobs: &[JobRow]) -> Result<Vec<Drawing>> {
-        let mut drawings: Vec<Drawing> = Vec::new();
-        for job in jobs {
-            if drawings.iter().any(|drawing| drawing.garment == job.garment) {
-                continue;
-            }
-            let style = self.style_of(job.id)?;
-            let svg = tools::sheet(&style);
-            drawings.push(Drawing { garment: job.garment.clone(), size: job.size.clone(), svg });
+/// Where the fit classes of a study meet.
+pub(crate) fn cuts(store: &Store, study: &str) -> Result<Cuts> {
+    let sql = format!("SELECT tight_below_mm / 1000, loose_above_mm / 1000 FROM study WHERE name = {}", quoted(study));
+    let cuts = match sql::query(store, &sql)?.rows.first().map(Vec::as_slice) {
+        Some([Value::Real(tight_below_m), Value::Real(loose_above_m)]) => {
+            Cuts { tight_below_m: *tight_below_m, loose_above_m: *loose_above_m }
         }
-        Ok(drawings)
-    }
+        _ => Cuts::default(),
+    };
+    Ok(cuts)
+}
 
-    pub(super) fn ease_matrices(&self, study: &str) -> Result<Vec<EaseMatrix>> {
-        let eases: Vec<_> = self.ease(study)?.into_iter().filter(|ease| ease.decides).collect();
-        let mut matrices = Vec::new();
-        for garment in self.study(study)?.garments {
-            let grid = self.grid(study, &garment)?;
-            let cell = |size: &String, subject: &String| {
-                let of = |ease: &&EaseRow| (&ease.garment, &ease.size, &ease.subject) == (&garment, size, subject);
-                eases.iter().find(of).map(|row| Ease {
-                    level: row.level.clone(),
-                    pattern_girth_m: row.pattern_girth_m,
-                    body_girth_m: row.body_girth_m,
-                    class: row.fit.class,
-                    borderline: row.fit.borderline,
-                })
-            };
-            let row = |size: &String| grid.subjects.iter().map(|subject| cell(size, subject)).collect();
-            let cells = grid.sizes.iter().map(row).collect();
-            matrices.push(EaseMatrix { garment, sizes: grid.sizes.clone(), subjects: grid.subjects.clone(), cells });
+/// The first size of each garment, drawn from what its job was made from.
+pub(super) fn drawings(store: &Store, jobs: &[JobRow]) -> Result<Vec<Drawing>> {
+    let mut drawings: Vec<Drawing> = Vec::new();
+    for job in jobs {
+        if drawings.iter().any(|drawing| drawing.garment == job.garment) {
+            continue;
         }
-        Ok(matrices)
+        let style = style::style_of(store, job.id)?;
+        let svg = tools::sheet(&style);
+        drawings.push(Drawing { garment: job.garment.clone(), size: job.size.clone(), svg });
     }
+    Ok(drawings)
+}
+
+pub(super) fn ease_matrices(store: &Store, study: &str) -> Result<Vec<EaseMatrix>> {
+    let eases: Vec<_> = read::ease(store, study)?.into_iter().filter(|ease| ease.decides).collect();
+    let mut matrices = Vec::new();
+    for garment in read::study(store, study)?.garments {
+        let grid = read::grid(store, study, &garment)?;
+        let cell = |size: &String, subject: &String| {
+            let of = |ease: &&EaseRow| (&ease.garment, &ease.size, &ease.subject) == (&garment, size, subject);
+            eases.iter().find(of).map(|row| Ease {
+                level: row.level.clone(),
+                pattern_girth_m: row.pattern_girth_m,
+                body_girth_m: row.body_girth_m,
+                class: row.fit.class,
+                borderline: row.fit.borderline,
+            })
+        };
+        let row = |size: &String| grid.subjects.iter().map(|subject| cell(size, subject)).collect();
+        let cells = grid.sizes.iter().map(row).collect();
+        matrices.push(EaseMatrix { garment, sizes: grid.sizes.clone(), subjects: grid.subjects.clone(), cells });
+    }
+    Ok(matrices)
 }
 
 /// A value of a table as a number.

@@ -1,15 +1,18 @@
 //! The report of a study: gathering what the page shows, and the raw files beside it.
 
-mod facts;
+pub(crate) mod facts;
 mod published;
 mod runs;
 mod sheets;
 
 use crate::error::{Result, StudyError};
 use crate::rows::{Table, Value};
+use crate::store::Store;
+use crate::store::evidence;
 use crate::store::evidence::PUBLISHED;
+use crate::store::read;
 use crate::store::read::JobFilter;
-use crate::workspace::Workspace;
+use crate::store::sql;
 use report::data::{Fact, RawLink};
 use report::{self, ReportData};
 
@@ -42,94 +45,92 @@ const LIMITS: [&str; 2] = [
     "A fabric of the library stands for a class of cloth; several of its numbers are estimates.",
 ];
 
-impl Workspace {
-    /// The files of a study's report by their relative paths: `index.html`, pictures, charts, drawings, CSV.
-    ///
-    /// # Errors
-    /// When there is no such study, or a stored result cannot be read.
-    pub fn report(&self, study: &str) -> Result<Vec<(String, Vec<u8>)>> {
-        if study == PUBLISHED {
-            return self.report_published();
-        }
-        self.study(study)?;
-        let mut files = Vec::new();
-        let data = self.report_data(study, &mut files)?;
-        for (view, file, _) in RAW {
-            files.push((file.to_owned(), csv_of(&self.of_study(view, study)?)?));
-        }
-        files.extend(report::files(&data).map_err(StudyError::stage("report"))?);
-        Ok(files)
+/// The files of a study's report by their relative paths: `index.html`, pictures, charts, drawings, CSV.
+///
+/// # Errors
+/// When there is no such study, or a stored result cannot be read.
+pub fn report(store: &Store, study: &str) -> Result<Vec<(String, Vec<u8>)>> {
+    if study == PUBLISHED {
+        return published::report_published(store);
     }
+    read::study(store, study)?;
+    let mut files = Vec::new();
+    let data = report_data(store, study, &mut files)?;
+    for (view, file, _) in RAW {
+        files.push((file.to_owned(), csv_of(&of_study(store, view, study)?)?));
+    }
+    files.extend(report::files(&data).map_err(StudyError::stage("report"))?);
+    Ok(files)
+}
 
-    fn report_data(&self, study: &str, files: &mut Vec<(String, Vec<u8>)>) -> Result<ReportData> {
-        let jobs = self.jobs(&JobFilter { study: Some(study.to_owned()), ..JobFilter::default() })?;
-        let bodies = self.bodies(study, &jobs)?;
-        let drawings = self.drawings(&jobs)?;
-        for drawing in &drawings {
-            let name = format!("pattern-{}-{}.svg", drawing.garment, drawing.size);
-            files.push((name, drawing.svg.clone().into_bytes()));
-        }
-        let runs = self.report_runs(study, &jobs, files)?;
-        let link = |(href, label): (&str, &str)| RawLink { href: href.to_owned(), label: label.to_owned() };
-        let raw = RAW.iter().map(|(_, href, label)| link((href, &format!("{href}: {label}"))));
-        let sheet = |(path, _): &(String, Vec<u8>)| {
-            let name = path.strip_prefix(sheets::SHEETS)?.strip_suffix(".png")?;
-            Some(link((path, &format!("all try-ons of {name} on one sheet"))))
-        };
-        let sheets: Vec<RawLink> = files.iter().filter_map(sheet).collect();
-        let today = self.one("SELECT date('now')")?;
-        Ok(ReportData {
-            title: study.to_owned(),
-            question: "How true does each drape stay to its pattern, and which simulator is to be trusted for which fit?".into(),
-            made: format!("{today}, toile {}", env!("CARGO_PKG_VERSION")),
-            verdicts: self.verdicts(study)?,
-            audit: self.audit(study, &jobs, &bodies)?,
-            provenance: self.facts(&format!(
-                "SELECT DISTINCT 'Program' AS name, 'toile ' || program_version AS value FROM v_provenance WHERE study = {0}
-                UNION SELECT 'Commit of the study', git_commit || iif(git_dirty, ', with uncommitted changes', '')
-                    FROM v_provenance WHERE study = {0} AND git_commit IS NOT NULL
-                UNION SELECT 'Machine', machine FROM v_provenance WHERE study = {0}
-                UNION SELECT job_input.name, value FROM job_input JOIN job USING (job_id) JOIN study USING (study_id)
-                    WHERE study.name = {0} AND is_current AND (job_input.name GLOB '*.version' OR job_input.name GLOB 'mesh.*'
-                        OR job_input.name GLOB 'field.*' OR job_input.name = 'sim.parameters')",
-                quoted(study)
-            ))?,
-            inputs: self.facts(&format!(
-                "SELECT DISTINCT substr(job_input.name, instr(job_input.name, '.') + 1), value
-                FROM job_input JOIN job USING (job_id) JOIN study USING (study_id)
-                WHERE study.name = {} AND is_current AND length(value) = 64 AND job_input.name NOT GLOB 'sim.*' ORDER BY 1",
-                quoted(study)
-            ))?,
-            fabrics: self.fabric_facts(study)?,
-            subjects: facts::subject_table(&bodies),
-            drawings,
-            cuts: self.cuts(study)?,
-            ease: self.ease_matrices(study)?,
-            sizes: self.size_tips(study, &bodies)?,
-            runs,
-            pairs: self.pairs(study)?,
-            evidence: Some(self.evidence(study)?),
-            methods: METHODS.map(str::to_owned).to_vec(),
-            limits: LIMITS.map(str::to_owned).to_vec(),
-            raw: raw.chain(sheets).collect(),
-        })
+fn report_data(store: &Store, study: &str, files: &mut Vec<(String, Vec<u8>)>) -> Result<ReportData> {
+    let jobs = read::jobs(store, &JobFilter { study: Some(study.to_owned()), ..JobFilter::default() })?;
+    let bodies = facts::bodies(store, study, &jobs)?;
+    let drawings = facts::drawings(store, &jobs)?;
+    for drawing in &drawings {
+        let name = format!("pattern-{}-{}.svg", drawing.garment, drawing.size);
+        files.push((name, drawing.svg.clone().into_bytes()));
     }
+    let runs = runs::report_runs(store, study, &jobs, files)?;
+    let link = |(href, label): (&str, &str)| RawLink { href: href.to_owned(), label: label.to_owned() };
+    let raw = RAW.iter().map(|(_, href, label)| link((href, &format!("{href}: {label}"))));
+    let sheet = |(path, _): &(String, Vec<u8>)| {
+        let name = path.strip_prefix(sheets::SHEETS)?.strip_suffix(".png")?;
+        Some(link((path, &format!("all try-ons of {name} on one sheet"))))
+    };
+    let sheets: Vec<RawLink> = files.iter().filter_map(sheet).collect();
+    let today = one(store, "SELECT date('now')")?;
+    Ok(ReportData {
+        title: study.to_owned(),
+        question: "How true does each drape stay to its pattern, and which simulator is to be trusted for which fit?".into(),
+        made: format!("{today}, toile {}", env!("CARGO_PKG_VERSION")),
+        verdicts: facts::verdicts(store, study)?,
+        audit: facts::audit(store, study, &jobs, &bodies)?,
+        provenance: facts(store, &format!(
+            "SELECT DISTINCT 'Program' AS name, 'toile ' || program_version AS value FROM v_provenance WHERE study = {0}
+            UNION SELECT 'Commit of the study', git_commit || iif(git_dirty, ', with uncommitted changes', '')
+                FROM v_provenance WHERE study = {0} AND git_commit IS NOT NULL
+            UNION SELECT 'Machine', machine FROM v_provenance WHERE study = {0}
+            UNION SELECT job_input.name, value FROM job_input JOIN job USING (job_id) JOIN study USING (study_id)
+                WHERE study.name = {0} AND is_current AND (job_input.name GLOB '*.version' OR job_input.name GLOB 'mesh.*'
+                    OR job_input.name GLOB 'field.*' OR job_input.name = 'sim.parameters')",
+            quoted(study)
+        ))?,
+        inputs: facts(store, &format!(
+            "SELECT DISTINCT substr(job_input.name, instr(job_input.name, '.') + 1), value
+            FROM job_input JOIN job USING (job_id) JOIN study USING (study_id)
+            WHERE study.name = {} AND is_current AND length(value) = 64 AND job_input.name NOT GLOB 'sim.*' ORDER BY 1",
+            quoted(study)
+        ))?,
+        fabrics: facts::fabric_facts(store, study)?,
+        subjects: facts::subject_table(&bodies),
+        drawings,
+        cuts: facts::cuts(store, study)?,
+        ease: facts::ease_matrices(store, study)?,
+        sizes: facts::size_tips(store, study, &bodies)?,
+        runs,
+        pairs: evidence::pairs(store, study)?,
+        evidence: Some(evidence::evidence(store, study)?),
+        methods: METHODS.map(str::to_owned).to_vec(),
+        limits: LIMITS.map(str::to_owned).to_vec(),
+        raw: raw.chain(sheets).collect(),
+    })
+}
 
-    /// Rows of a contract view that belong to a study.
-    fn of_study(&self, view: &str, study: &str) -> Result<Table> {
-        self.query(&format!("SELECT * FROM {view} WHERE study = {}", quoted(study)))
-    }
+/// Rows of a contract view that belong to a study.
+fn of_study(store: &Store, view: &str, study: &str) -> Result<Table> {
+    sql::query(store, &format!("SELECT * FROM {view} WHERE study = {}", quoted(study)))
+}
 
-    /// Rows of two columns as named values.
-    fn facts(&self, sql: &str) -> Result<Vec<Fact>> {
-        let row = |row: &Vec<Value>| Fact { name: row[0].to_string(), value: row[1].to_string() };
-        Ok(self.query(sql)?.rows.iter().map(row).collect())
-    }
+/// Rows of two columns as named values.
+fn facts(store: &Store, sql: &str) -> Result<Vec<Fact>> {
+    let row = |row: &Vec<Value>| Fact { name: row[0].to_string(), value: row[1].to_string() };
+    Ok(sql::query(store, sql)?.rows.iter().map(row).collect())
+}
 
-    /// The first value of a query as text.
-    fn one(&self, sql: &str) -> Result<String> {
-        Ok(self.query(sql)?.rows.first().and_then(|row| row.first()).map(Value::to_string).unwrap_or_default())
-    }
+/// The first value of a query as text.
+fn one(store: &Store, sql: &str) -> Result<String> {
+    Ok(sql::query(store, sql)?.rows.first().and_then(|row| row.first()).map(Value::to_string).unwrap_or_default())
 }
 
 /// A value of a table that is a length in millimetres, as metres.

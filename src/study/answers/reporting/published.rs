@@ -2,12 +2,17 @@
 
 use std::collections::BTreeMap;
 
+use crate::answers::audit;
+use crate::answers::audit::Finding;
+use crate::answers::reporting;
 use crate::answers::reporting::facts::{self, number};
 use crate::answers::reporting::{csv_of, mm_value};
 use crate::error::{Result, StudyError};
 use crate::rows::Value;
+use crate::store::Store;
+use crate::store::evidence;
 use crate::store::evidence::PUBLISHED;
-use crate::workspace::Workspace;
+use crate::store::sql;
 use fit::measure::Chi;
 use fit::{Answer, Cuts, Ease, Simulator};
 use report::data::{AuditNote, EaseMatrix, Fact, Measured, Outcome, RawLink, Severity, TryOn, Verdict};
@@ -38,95 +43,90 @@ const LIMITS: [&str; 3] = [
     "Pop-up sets the hem to its pattern length by construction; the hem counts as controlled.",
 ];
 
-impl Workspace {
-    /// The files of the report on the printed numbers.
-    pub(super) fn report_published(&self) -> Result<Vec<(String, Vec<u8>)>> {
-        let eases = self.published_eases()?;
-        let evidence = self.evidence(PUBLISHED)?;
-        let bodies = self.published_bodies()?;
-        let data = ReportData {
-            title: PUBLISHED.to_owned(),
-            question: "What do the thesis's own tables say when every number is computed again?".into(),
-            made: format!("{}, toile {}", self.one("SELECT date('now')")?, env!("CARGO_PKG_VERSION")),
-            verdicts: evidence.answers.iter().map(verdict).collect(),
-            audit: self.misprints()?,
-            provenance: vec![Fact {
-                name: "Source".into(),
-                value: "Tables 6-1 to 6-31 of the thesis, as printed".into(),
-            }],
-            subjects: facts::subject_table(&bodies),
-            cuts: Cuts::default(),
-            ease: matrices(&eases),
-            runs: self.published_runs(&eases)?,
-            pairs: self.pairs(PUBLISHED)?,
-            evidence: Some(evidence),
-            methods: METHODS.map(str::to_owned).to_vec(),
-            limits: LIMITS.map(str::to_owned).to_vec(),
-            raw: RAW.map(|(_, href, label)| RawLink { href: href.into(), label: format!("{href}: {label}") }).to_vec(),
-            ..ReportData::default()
-        };
-        let mut files = report::files(&data).map_err(StudyError::stage("report"))?;
-        for (view, file, _) in RAW {
-            files.push((file.to_owned(), csv_of(&self.query(&format!("SELECT * FROM {view}"))?)?));
-        }
-        Ok(files)
+/// The files of the report on the printed numbers.
+pub(super) fn report_published(store: &Store) -> Result<Vec<(String, Vec<u8>)>> {
+    let eases = published_eases(store)?;
+    let evidence = evidence::evidence(store, PUBLISHED)?;
+    let bodies = facts::published_bodies(store)?;
+    let data = ReportData {
+        title: PUBLISHED.to_owned(),
+        question: "What do the thesis's own tables say when every number is computed again?".into(),
+        made: format!("{}, toile {}", reporting::one(store, "SELECT date('now')")?, env!("CARGO_PKG_VERSION")),
+        verdicts: evidence.answers.iter().map(verdict).collect(),
+        audit: misprints(store)?,
+        provenance: vec![Fact { name: "Source".into(), value: "Tables 6-1 to 6-31 of the thesis, as printed".into() }],
+        subjects: facts::subject_table(&bodies),
+        cuts: Cuts::default(),
+        ease: matrices(&eases),
+        runs: published_runs(store, &eases)?,
+        pairs: evidence::pairs(store, PUBLISHED)?,
+        evidence: Some(evidence),
+        methods: METHODS.map(str::to_owned).to_vec(),
+        limits: LIMITS.map(str::to_owned).to_vec(),
+        raw: RAW.map(|(_, href, label)| RawLink { href: href.into(), label: format!("{href}: {label}") }).to_vec(),
+        ..ReportData::default()
+    };
+    let mut files = report::files(&data).map_err(StudyError::stage("report"))?;
+    for (view, file, _) in RAW {
+        files.push((file.to_owned(), csv_of(&sql::query(store, &format!("SELECT * FROM {view}"))?)?));
     }
+    Ok(files)
+}
 
-    /// What the audit finds in the tables.
-    fn misprints(&self) -> Result<Vec<AuditNote>> {
-        let note = |finding: crate::answers::audit::Finding| AuditNote {
-            severity: Severity::Warning,
-            text: format!(
-                "{}: stated {}, recomputed {}. {}",
-                finding.place, finding.stated, finding.recomputed, finding.says
-            ),
-        };
-        Ok(self.audit_thesis()?.findings.into_iter().map(note).collect())
-    }
+/// What the audit finds in the tables.
+fn misprints(store: &Store) -> Result<Vec<AuditNote>> {
+    let note = |finding: Finding| AuditNote {
+        severity: Severity::Warning,
+        text: format!(
+            "{}: stated {}, recomputed {}. {}",
+            finding.place, finding.stated, finding.recomputed, finding.says
+        ),
+    };
+    Ok(audit::audit_thesis(store)?.findings.into_iter().map(note).collect())
+}
 
-    /// The proxy ease of every garment, size and subject.
-    fn published_eases(&self) -> Result<BTreeMap<[String; 3], Ease>> {
-        let table = self.query(
-            "SELECT garment, size, name, iif(garment = 'male_trousers', 'waist less hip', 'hem less chest'), l2d_mm,
-                iif(garment = 'male_trousers', hip_girth_mm, chest_girth_mm)
-            FROM published JOIN subject ON name GLOB substr(garment, 1, instr(garment, '_') - 1) || '-[iv]*' AND revision = 1
-            WHERE simulator = 'fem' AND measurement_no = iif(garment = 'male_trousers', 5, 1)",
-        )?;
-        let mut eases = BTreeMap::new();
-        for row in &table.rows {
-            let (pattern_girth_m, body_girth_m) = (mm_value(&row[4]), mm_value(&row[5]));
-            let ease_m = pattern_girth_m - body_girth_m;
-            let (class, borderline) = (Cuts::default().classify(ease_m), Cuts::default().is_borderline(ease_m));
-            let ease = Ease { level: row[3].to_string(), pattern_girth_m, body_girth_m, class, borderline };
-            eases.insert([0, 1, 2].map(|k: usize| row[k].to_string()), ease);
-        }
-        Ok(eases)
+/// The proxy ease of every garment, size and subject.
+fn published_eases(store: &Store) -> Result<BTreeMap<[String; 3], Ease>> {
+    let table = sql::query(store,
+        "SELECT garment, size, name, iif(garment = 'male_trousers', 'waist less hip', 'hem less chest'), l2d_mm,
+            iif(garment = 'male_trousers', hip_girth_mm, chest_girth_mm)
+        FROM published JOIN subject ON name GLOB substr(garment, 1, instr(garment, '_') - 1) || '-[iv]*' AND revision = 1
+        WHERE simulator = 'fem' AND measurement_no = iif(garment = 'male_trousers', 5, 1)",
+    )?;
+    let mut eases = BTreeMap::new();
+    for row in &table.rows {
+        let (pattern_girth_m, body_girth_m) = (mm_value(&row[4]), mm_value(&row[5]));
+        let ease_m = pattern_girth_m - body_girth_m;
+        let (class, borderline) = (Cuts::default().classify(ease_m), Cuts::default().is_borderline(ease_m));
+        let ease = Ease { level: row[3].to_string(), pattern_girth_m, body_girth_m, class, borderline };
+        eases.insert([0, 1, 2].map(|k: usize| row[k].to_string()), ease);
     }
+    Ok(eases)
+}
 
-    /// Every garment, size, subject and simulator of the tables.
-    fn published_runs(&self, eases: &BTreeMap<[String; 3], Ease>) -> Result<Vec<TryOn>> {
-        let table = self.query(
-            "SELECT garment, size, substr(garment, 1, instr(garment, '_') - 1) || '-' || subject, simulator, measurement_no,
-                measurement, l2d_mm, l3d_mm, chi_printed, chi
-            FROM v_published
-            ORDER BY garment, instr('smlone', size), simulator, instr(' i ii iii iv v vi ', ' ' || subject || ' '),
-                measurement_no",
-        )?;
-        let mut runs: Vec<TryOn> = Vec::new();
-        for row in &table.rows {
-            let place = [0, 1, 2].map(|k: usize| row[k].to_string());
-            let simulator = if row[3] == Value::Text("fem".into()) { Simulator::Fem } else { Simulator::Hybrid };
-            let is_of =
-                |run: &TryOn| [&run.garment, &run.size, &run.subject] == place.each_ref() && run.simulator == simulator;
-            if !runs.last().is_some_and(is_of) {
-                runs.push(printed_run(&place, simulator, eases.get(&place).cloned()));
-            }
-            if let Some(run) = runs.last_mut() {
-                run.measured.push(measured(row));
-            }
+/// Every garment, size, subject and simulator of the tables.
+fn published_runs(store: &Store, eases: &BTreeMap<[String; 3], Ease>) -> Result<Vec<TryOn>> {
+    let table = sql::query(store,
+        "SELECT garment, size, substr(garment, 1, instr(garment, '_') - 1) || '-' || subject, simulator, measurement_no,
+            measurement, l2d_mm, l3d_mm, chi_printed, chi
+        FROM v_published
+        ORDER BY garment, instr('smlone', size), simulator, instr(' i ii iii iv v vi ', ' ' || subject || ' '),
+            measurement_no",
+    )?;
+    let mut runs: Vec<TryOn> = Vec::new();
+    for row in &table.rows {
+        let place = [0, 1, 2].map(|k: usize| row[k].to_string());
+        let simulator = if row[3] == Value::Text("fem".into()) { Simulator::Fem } else { Simulator::Hybrid };
+        let is_of =
+            |run: &TryOn| [&run.garment, &run.size, &run.subject] == place.each_ref() && run.simulator == simulator;
+        if !runs.last().is_some_and(is_of) {
+            runs.push(printed_run(&place, simulator, eases.get(&place).cloned()));
         }
-        Ok(runs)
+        if let Some(run) = runs.last_mut() {
+            run.measured.push(measured(row));
+        }
     }
+    Ok(runs)
 }
 
 /// A run of which only what follows is printed.

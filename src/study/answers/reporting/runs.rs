@@ -4,12 +4,17 @@ use std::thread;
 
 use image::{RgbaImage, imageops};
 
+use crate::answers::picture;
 use crate::answers::picture::{Dressed, Map};
+use crate::answers::reporting;
+use crate::answers::reporting::facts;
 use crate::answers::reporting::quoted;
 use crate::answers::reporting::sheets::Sheets;
 use crate::error::{Result, StudyError};
 use crate::rows::{JobId, JobRow, MetricsRow, Status, Value};
-use crate::workspace::Workspace;
+use crate::store::Store;
+use crate::store::read;
+use crate::store::sql;
 use fit::measure::Chi;
 use geom::units::mm;
 use render::{self, Camera, Cell, Frame, Scale, Scene, View};
@@ -32,148 +37,150 @@ const MAPS: [(Map, &[View]); 3] = [
     (Map::Gap, &[View::Front]),
 ];
 
-impl Workspace {
-    /// All runs with their pictures, which share one frame; the pictures are also added to `files`.
-    pub(super) fn report_runs(
-        &self,
-        study: &str,
-        jobs: &[JobRow],
-        files: &mut Vec<(String, Vec<u8>)>,
-    ) -> Result<Vec<TryOn>> {
-        let eases = self.ease_matrices(study)?;
-        let mut dressed = Vec::new();
-        for job in jobs {
-            dressed.push(if job.status.has_result() { Some(self.dressed(job.id)?) } else { None });
-        }
-        let garments = dressed.iter().flatten().map(|worn: &Dressed| &worn.cloth);
-        let least = Frame::enclosing(garments, f64::from(PICTURE.0) / f64::from(PICTURE.1));
-        let frame = Frame { height_m: ROOM * least.height_m, ..least };
-        let shown = dressed.iter().flatten().count().max(FULL_SIZE);
-        let shrink = (FULL_SIZE as f64 / shown as f64).sqrt().max(LEAST_SHRINK);
-        let mut runs = Vec::new();
-        let mut sheets = Sheets::of(study, jobs);
-        let threads = thread::available_parallelism().map_or(1, usize::from);
-        for (jobs, dressed) in jobs.chunks(threads).zip(dressed.chunks(threads)) {
-            let mut taken = self.report_runs_of(jobs, &eases)?;
-            for (((run, worn), job), shots) in
-                taken.iter_mut().zip(dressed).zip(jobs).zip(photograph(jobs, dressed, (frame, shrink)))
-            {
-                let Shots { views, maps, cells, files: kept } = shots?;
-                if worn.is_some() {
-                    (run.views, run.maps) = (views, maps);
-                    if let Some(lacks) = self.lacks(job.id)? {
-                        let gap =
-                            run.maps.iter_mut().map(|m| &mut m.picture).rfind(|picture| picture.file.contains("gap"));
-                        gap.into_iter().for_each(|picture| picture.caption.push_str(&lacks));
-                    }
-                    files.extend(kept);
+/// All runs with their pictures, which share one frame; the pictures are also added to `files`.
+pub(super) fn report_runs(
+    store: &Store,
+    study: &str,
+    jobs: &[JobRow],
+    files: &mut Vec<(String, Vec<u8>)>,
+) -> Result<Vec<TryOn>> {
+    let eases = facts::ease_matrices(store, study)?;
+    let mut dressed = Vec::new();
+    for job in jobs {
+        dressed.push(if job.status.has_result() { Some(picture::dressed(store, job.id)?) } else { None });
+    }
+    let garments = dressed.iter().flatten().map(|worn: &Dressed| &worn.cloth);
+    let least = Frame::enclosing(garments, f64::from(PICTURE.0) / f64::from(PICTURE.1));
+    let frame = Frame { height_m: ROOM * least.height_m, ..least };
+    let shown = dressed.iter().flatten().count().max(FULL_SIZE);
+    let shrink = (FULL_SIZE as f64 / shown as f64).sqrt().max(LEAST_SHRINK);
+    let mut runs = Vec::new();
+    let mut sheets = Sheets::of(study, jobs);
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    for (jobs, dressed) in jobs.chunks(threads).zip(dressed.chunks(threads)) {
+        let mut taken = report_runs_of(store, jobs, &eases)?;
+        for (((run, worn), job), shots) in
+            taken.iter_mut().zip(dressed).zip(jobs).zip(photograph(jobs, dressed, (frame, shrink)))
+        {
+            let Shots { views, maps, cells, files: kept } = shots?;
+            if worn.is_some() {
+                (run.views, run.maps) = (views, maps);
+                if let Some(lacks) = lacks(store, job.id)? {
+                    let gap = run.maps.iter_mut().map(|m| &mut m.picture).rfind(|picture| picture.file.contains("gap"));
+                    gap.into_iter().for_each(|picture| picture.caption.push_str(&lacks));
                 }
-                files.extend(sheets.add(job, cells)?);
+                files.extend(kept);
             }
-            runs.extend(taken);
+            files.extend(sheets.add(job, cells)?);
         }
-        Ok(runs)
+        runs.extend(taken);
     }
+    Ok(runs)
+}
 
-    /// Runs with their ease, without pictures.
-    fn report_runs_of(&self, jobs: &[JobRow], eases: &[EaseMatrix]) -> Result<Vec<TryOn>> {
-        let of = |job: &JobRow| {
-            let outcome = match job.status {
-                Status::Done => Outcome::Converged,
-                Status::NotConverged => Outcome::NotConverged,
-                status => Outcome::Failed(job.error.clone().unwrap_or_else(|| status.as_str().to_owned())),
-            };
-            let mut run = self.report_run(job, outcome)?;
-            run.ease = eases.iter().find(|matrix| matrix.garment == job.garment).and_then(|matrix| {
-                let size = matrix.sizes.iter().position(|size| *size == job.size)?;
-                let subject = matrix.subjects.iter().position(|subject| *subject == job.subject)?;
-                matrix.cells[size][subject].clone()
-            });
-            Ok(run)
+/// Runs with their ease, without pictures.
+fn report_runs_of(store: &Store, jobs: &[JobRow], eases: &[EaseMatrix]) -> Result<Vec<TryOn>> {
+    let of = |job: &JobRow| {
+        let outcome = match job.status {
+            Status::Done => Outcome::Converged,
+            Status::NotConverged => Outcome::NotConverged,
+            status => Outcome::Failed(job.error.clone().unwrap_or_else(|| status.as_str().to_owned())),
         };
-        jobs.iter().map(of).collect()
-    }
+        let mut run = report_run(store, job, outcome)?;
+        run.ease = eases.iter().find(|matrix| matrix.garment == job.garment).and_then(|matrix| {
+            let size = matrix.sizes.iter().position(|size| *size == job.size)?;
+            let subject = matrix.subjects.iter().position(|subject| *subject == job.subject)?;
+            matrix.cells[size][subject].clone()
+        });
+        Ok(run)
+    };
+    jobs.iter().map(of).collect()
+}
 
-    /// The garment of a job without the seed that a sweep may have given it.
-    fn case(&self, job: &JobRow) -> Result<String> {
-        let swept = self.one(&format!(
+/// The garment of a job without the seed that a sweep may have given it.
+fn case(store: &Store, job: &JobRow) -> Result<String> {
+    let swept = reporting::one(
+        store,
+        &format!(
             "SELECT style || coalesce(group_concat(' ' || parameter || '=' || value, '')
-                    FILTER (WHERE parameter NOT GLOB '*.seed'), '')
-            FROM v_sweep WHERE study = {} AND garment = {} GROUP BY garment",
+                FILTER (WHERE parameter NOT GLOB '*.seed'), '')
+        FROM v_sweep WHERE study = {} AND garment = {} GROUP BY garment",
             quoted(&job.study),
             quoted(&job.garment)
-        ))?;
-        Ok(if swept.is_empty() { job.garment.clone() } else { swept })
-    }
+        ),
+    )?;
+    Ok(if swept.is_empty() { job.garment.clone() } else { swept })
+}
 
-    /// Where a garment of Hybrid-GS does not close around the body, for the caption of its gap map.
-    fn lacks(&self, id: JobId) -> Result<Option<String>> {
-        let sql = format!(
-            "SELECT group_concat(printf('%.0f mm at the %s', body_girth_mm - garment_girth_mm, level), ', ')
-            FROM gap WHERE job_id = {id} AND body_girth_mm - garment_girth_mm >= 0.5"
+/// Where a garment of Hybrid-GS does not close around the body, for the caption of its gap map.
+fn lacks(store: &Store, id: JobId) -> Result<Option<String>> {
+    let sql = format!(
+        "SELECT group_concat(printf('%.0f mm at the %s', body_girth_mm - garment_girth_mm, level), ', ')
+        FROM gap WHERE job_id = {id} AND body_girth_mm - garment_girth_mm >= 0.5"
+    );
+    let lacks = sql::query(store, &sql)?.rows.into_iter().flatten().next();
+    Ok(match lacks {
+        Some(Value::Text(lacks)) => Some(format!("; does not close by {lacks}")),
+        _ => None,
+    })
+}
+
+/// A run without ease and pictures.
+fn report_run(store: &Store, job: &JobRow, outcome: Outcome) -> Result<TryOn> {
+    let metrics = read::metrics(store, job.id)?;
+    let number = |get: fn(&MetricsRow) -> f64| metrics.as_ref().map_or(0.0, get);
+    let mut measured = Vec::new();
+    for chi in read::chi(store, job.id)?.into_iter().filter(|chi| chi.stage == Stage::Drape.as_str()) {
+        let published = format!(
+            "SELECT chi FROM v_published WHERE simulator = '{}' AND lower(size) = lower({}) AND subject = {}
+            AND measurement_no = {} AND abs(l2d_mm - {}) < 0.5
+            AND garment GLOB (SELECT sex FROM subject JOIN job USING (subject_id) WHERE job_id = {}) || '_*'",
+            job.simulator.as_str(),
+            quoted(&job.size),
+            quoted(&job.subject),
+            chi.no,
+            mm(chi.l2d_m),
+            job.id
         );
-        let lacks = self.query(&sql)?.rows.into_iter().flatten().next();
-        Ok(match lacks {
-            Some(Value::Text(lacks)) => Some(format!("; does not close by {lacks}")),
-            _ => None,
-        })
+        let published = sql::query(store, &published)?.rows.into_iter().flatten().next();
+        measured.push(Measured {
+            name: chi.name.clone(),
+            chi: Chi { no: chi.no, l2d_m: chi.l2d_m, l3d_m: chi.l3d_m },
+            closed: chi.is_girth,
+            free_edge: chi.is_free_edge,
+            controlled: chi.is_controlled,
+            published_chi: match published {
+                Some(Value::Real(chi)) => Some(chi),
+                _ => None,
+            },
+            misprint: None,
+        });
     }
-
-    /// A run without ease and pictures.
-    fn report_run(&self, job: &JobRow, outcome: Outcome) -> Result<TryOn> {
-        let metrics = self.metrics(job.id)?;
-        let number = |get: fn(&MetricsRow) -> f64| metrics.as_ref().map_or(0.0, get);
-        let mut measured = Vec::new();
-        for chi in self.chi(job.id)?.into_iter().filter(|chi| chi.stage == Stage::Drape.as_str()) {
-            let published = format!(
-                "SELECT chi FROM v_published WHERE simulator = '{}' AND lower(size) = lower({}) AND subject = {}
-                AND measurement_no = {} AND abs(l2d_mm - {}) < 0.5
-                AND garment GLOB (SELECT sex FROM subject JOIN job USING (subject_id) WHERE job_id = {}) || '_*'",
-                job.simulator.as_str(),
-                quoted(&job.size),
-                quoted(&job.subject),
-                chi.no,
-                mm(chi.l2d_m),
-                job.id
-            );
-            let published = self.query(&published)?.rows.into_iter().flatten().next();
-            measured.push(Measured {
-                name: chi.name.clone(),
-                chi: Chi { no: chi.no, l2d_m: chi.l2d_m, l3d_m: chi.l3d_m },
-                closed: chi.is_girth,
-                free_edge: chi.is_free_edge,
-                controlled: chi.is_controlled,
-                published_chi: match published {
-                    Some(Value::Real(chi)) => Some(chi),
-                    _ => None,
-                },
-                misprint: None,
-            });
-        }
-        Ok(TryOn {
-            garment: job.garment.clone(),
-            case: self.case(job)?,
-            repeat: job.repeat,
-            size: job.size.clone(),
-            subject: job.subject.clone(),
-            simulator: job.simulator,
-            fabric: self
-                .one(&format!("SELECT name FROM fabric JOIN job USING (fabric_id) WHERE job_id = {}", job.id))?,
-            outcome,
-            ease: None,
-            measured,
-            vertices: number(|m| f64::from(m.vertices)) as usize,
-            faces: number(|m| f64::from(m.faces)) as usize,
-            iterations: number(|m| f64::from(m.iterations)) as u32,
-            residual: number(|m| m.residual),
-            residuals: self.history(job.id)?.iter().map(|step| (step.iteration, step.residual)).collect(),
-            penetration_max_m: number(|m| m.penetration_max_m),
-            seam_gap_max_m: number(|m| m.seam_gap_max_m),
-            wall_s: job.wall_ms.unwrap_or_default() as f64 / 1e3,
-            views: Vec::new(),
-            maps: Vec::new(),
-        })
-    }
+    Ok(TryOn {
+        garment: job.garment.clone(),
+        case: case(store, job)?,
+        repeat: job.repeat,
+        size: job.size.clone(),
+        subject: job.subject.clone(),
+        simulator: job.simulator,
+        fabric: reporting::one(
+            store,
+            &format!("SELECT name FROM fabric JOIN job USING (fabric_id) WHERE job_id = {}", job.id),
+        )?,
+        outcome,
+        ease: None,
+        measured,
+        vertices: number(|m| f64::from(m.vertices)) as usize,
+        faces: number(|m| f64::from(m.faces)) as usize,
+        iterations: number(|m| f64::from(m.iterations)) as u32,
+        residual: number(|m| m.residual),
+        residuals: read::history(store, job.id)?.iter().map(|step| (step.iteration, step.residual)).collect(),
+        penetration_max_m: number(|m| m.penetration_max_m),
+        seam_gap_max_m: number(|m| m.seam_gap_max_m),
+        wall_s: job.wall_ms.unwrap_or_default() as f64 / 1e3,
+        views: Vec::new(),
+        maps: Vec::new(),
+    })
 }
 
 /// The pictures of a run, the four views for a sheet, and the files beside the page.

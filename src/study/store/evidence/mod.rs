@@ -6,8 +6,8 @@ use rusqlite::{Connection, Row, named_params, params};
 
 use crate::error::Result;
 use crate::store;
+use crate::store::Store;
 use crate::store::read::fit_class;
-use crate::workspace::Workspace;
 use fit::{self, Cell, Errors, Evidence, Pair, RuleScore};
 use geom::units::from_mm;
 
@@ -33,50 +33,48 @@ const PAIRS: &str = "
 
 const CELLS: &str = "SELECT DISTINCT garment, fit_class FROM v_ease WHERE study = :study AND decides ORDER BY 1, 2";
 
-impl Workspace {
-    /// What the results of a study say now: an answer for every garment and fit class that is there.
-    ///
-    /// # Errors
-    /// When the database cannot be read.
-    pub fn evidence(&self, study: &str) -> Result<Evidence> {
-        let cells = if study == PUBLISHED { cells_of(&self.pairs(study)?) } else { cells(&self.reader, study)? };
-        Ok(fit::judge(&cells, &self.pairs(study)?))
-    }
+/// What the results of a study say now: an answer for every garment and fit class that is there.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn evidence(store: &Store, study: &str) -> Result<Evidence> {
+    let cells = if study == PUBLISHED { cells_of(&pairs(store, study)?) } else { cells(&store.reader, study)? };
+    Ok(fit::judge(&cells, &pairs(store, study)?))
+}
 
-    /// The cases of a study that both simulators drew.
-    ///
-    /// # Errors
-    /// When the database cannot be read.
-    pub fn pairs(&self, study: &str) -> Result<Vec<Pair>> {
-        if study == PUBLISHED { published::pairs(&self.reader) } else { pairs(&self.reader, study) }
-    }
+/// The cases of a study that both simulators drew.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn pairs(store: &Store, study: &str) -> Result<Vec<Pair>> {
+    if study == PUBLISHED { published::pairs(&store.reader) } else { stored_pairs(&store.reader, study) }
+}
 
-    /// The ease at which the simulators change places, over all garments of a study or one, in words.
-    ///
-    /// # Errors
-    /// When the database cannot be read.
-    pub fn crossover_words(&self, study: &str, garment: Option<&str>) -> Result<String> {
-        let pairs = self.pairs(study)?;
-        let of: Vec<&Pair> = pairs.iter().filter(|pair| garment.is_none_or(|name| name == pair.garment)).collect();
-        Ok(fit::crossover(&of).map_or_else(|| "too few subjects, or one ease".to_owned(), |found| found.to_string()))
-    }
+/// The ease at which the simulators change places, over all garments of a study or one, in words.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn crossover_words(store: &Store, study: &str, garment: Option<&str>) -> Result<String> {
+    let pairs = pairs(store, study)?;
+    let of: Vec<&Pair> = pairs.iter().filter(|pair| garment.is_none_or(|name| name == pair.garment)).collect();
+    Ok(fit::crossover(&of).map_or_else(|| "too few subjects, or one ease".to_owned(), |found| found.to_string()))
+}
 
-    /// How often the thesis's rule names the simulator with the lower EI in a study, and of how many pairs.
-    ///
-    /// # Errors
-    /// When the database cannot be read.
-    pub fn rule_score(&self, study: &str) -> Result<(RuleScore, usize)> {
-        let pairs = self.pairs(study)?;
-        Ok((fit::rule_score(&pairs), pairs.len()))
-    }
+/// How often the thesis's rule names the simulator with the lower EI in a study, and of how many pairs.
+///
+/// # Errors
+/// When the database cannot be read.
+pub fn rule_score(store: &Store, study: &str) -> Result<(RuleScore, usize)> {
+    let pairs = pairs(store, study)?;
+    Ok((fit::rule_score(&pairs), pairs.len()))
+}
 
-    /// Judges a study's results again and keeps that for `v_recommendation`; nothing happens in a read-only workspace.
-    ///
-    /// # Errors
-    /// When the database cannot be read or written.
-    pub fn update_evidence(&mut self, study: &str) -> Result<()> {
-        self.writer.as_mut().map_or(Ok(()), |writer| update(writer, study))
-    }
+/// Judges a study's results again and keeps that for `v_recommendation`; nothing happens in a read-only workspace.
+///
+/// # Errors
+/// When the database cannot be read or written.
+pub fn update_evidence(store: &mut Store, study: &str) -> Result<()> {
+    store.writer.as_mut().map_or(Ok(()), |writer| update(writer, study))
 }
 
 /// What the results of a study say, and what they were then.
@@ -116,7 +114,7 @@ fn basis(connection: &Connection, study: &str) -> Result<(i64, f64)> {
 }
 
 fn judge(connection: &Connection, study: &str) -> Result<Judged> {
-    let evidence = fit::judge(&cells(connection, study)?, &pairs(connection, study)?);
+    let evidence = fit::judge(&cells(connection, study)?, &stored_pairs(connection, study)?);
     let (pairs, checksum) = basis(connection, study)?;
     Ok(Judged { evidence, pairs, checksum })
 }
@@ -181,7 +179,7 @@ fn cells_of(pairs: &[Pair]) -> Vec<Cell> {
     cells
 }
 
-fn pairs(connection: &Connection, study: &str) -> Result<Vec<Pair>> {
+fn stored_pairs(connection: &Connection, study: &str) -> Result<Vec<Pair>> {
     let mut statement = connection.prepare_cached(PAIRS)?;
     let mut rows = statement.query(named_params! { ":study": study })?;
     let mut pairs: Vec<Pair> = Vec::new();
