@@ -14,9 +14,11 @@ use toile::fit::{Ease, FitClass, Simulator};
 use toile::measure::{Chi, metrics};
 use toile::pattern::MeasurementKind;
 use toile::sim::{Monitor, Stage, Step};
+use toile::study::files;
+use toile::study::patterns;
 use toile::study::{
     JobFilter, JobId, JobSpec, Measured, Outcome, Result, RunOptions, Selection, Status, StudyError, Workspace,
-    new_study, tools,
+    new_study,
 };
 
 /// Measurements of a result.
@@ -121,7 +123,7 @@ fn time(what: &str, mut act: impl FnMut() -> Result<()>) -> Result<()> {
 
 /// A study of the drafted T-shirt on many men.
 fn write_study(folder: &Path, people: usize) -> Result<()> {
-    let mut files = new_study(folder, tools::Model::Tshirt)?;
+    let mut files = new_study(folder, patterns::Model::Tshirt)?;
     let text = String::from_utf8_lossy(&files[0].1).into_owned();
     let subjects = text.find("# Of the catalogue").unwrap_or_default();
     let garments = text.find("# A style of").unwrap_or(text.len());
@@ -133,7 +135,7 @@ fn write_study(folder: &Path, people: usize) -> Result<()> {
     }
     many.push_str(&text[garments..]);
     files[0].1 = many.into_bytes();
-    tools::write_files(folder, &files).map(drop)
+    files::write_files(folder, &files).map(drop)
 }
 
 /// A result that costs nothing: lengths that spread a little with everything.

@@ -4,7 +4,9 @@ use super::args::{PatternUnit, Sex, Try, TrySimulator};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
 use geom::units::from_mm;
-use study::tools::{self, Unit};
+use study::bodies;
+use study::files;
+use study::patterns::Unit;
 use study::{self, Attempt, Simulator, Table, Tried, Value};
 
 /// Runs a trial; writes its picture and meshes, prints what was measured.
@@ -13,8 +15,8 @@ pub fn run(context: &Context, arguments: &Try) -> Outcome {
         body: arguments.body.clone(),
         body_unit: arguments.body_unit.map(Into::into),
         sex: arguments.sex.map(|sex| match sex {
-            Sex::M => tools::Sex::Male,
-            Sex::F => tools::Sex::Female,
+            Sex::M => bodies::Sex::Male,
+            Sex::F => bodies::Sex::Female,
         }),
         pattern: arguments.pattern.clone(),
         seams: arguments.seams.clone(),
@@ -39,7 +41,7 @@ pub fn run(context: &Context, arguments: &Try) -> Outcome {
             phase.clone_into(&mut phase_before);
         }
     })?;
-    for path in tools::write_files(&arguments.output, &tried.files)? {
+    for path in files::write_files(&arguments.output, &tried.files)? {
         context.say(format_args!("wrote {}", path.display()));
     }
     for note in &tried.notes {

@@ -8,7 +8,10 @@ use super::args::{Body, BodyBuild, MeshUnit, Sex};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
 use geom::units::from_mm;
-use study::tools::{self, Accuracy, Lens, Measurements, View};
+use study::View;
+use study::bodies;
+use study::bodies::{Accuracy, Lens, Measurements};
+use study::files;
 use study::{Table, Value};
 
 /// Size of the picture of a body, pixels.
@@ -18,14 +21,14 @@ const PICTURE: (u32, u32) = (700, 1200);
 pub fn run(context: &Context, command: &Body) -> Outcome {
     match command {
         Body::Measure { file, unit, sex } => {
-            let source = tools::SourceFile::read(file)?;
-            print(context, &tools::measured(&read_scan(context, &source, *unit, *sex)?)?)?;
+            let source = files::SourceFile::read(file)?;
+            print(context, &bodies::measured(&read_scan(context, &source, *unit, *sex)?)?)?;
         }
         Body::Build(arguments) => build(context, arguments)?,
         Body::Pose { file, arm_deg, leg_deg, unit, sex, output } => {
-            let source = tools::SourceFile::read(file)?;
-            let body = tools::scanned_body(&source, read_scan(context, &source, *unit, *sex)?)?;
-            let posed = tools::pose_body(&body, tools::Pose { arm_deg: *arm_deg, leg_deg: *leg_deg })?;
+            let source = files::SourceFile::read(file)?;
+            let body = bodies::scanned_body(&source, read_scan(context, &source, *unit, *sex)?)?;
+            let posed = bodies::pose_body(&body, bodies::Pose { arm_deg: *arm_deg, leg_deg: *leg_deg })?;
             write(context, &posed, output)?;
         }
         Body::Evaluate { folder } => evaluate(context, folder)?,
@@ -33,16 +36,16 @@ pub fn run(context: &Context, command: &Body) -> Outcome {
     Ok(End::Done)
 }
 
-pub fn of(sex: Sex) -> tools::Sex {
+pub fn of(sex: Sex) -> bodies::Sex {
     match sex {
-        Sex::M => tools::Sex::Male,
-        Sex::F => tools::Sex::Female,
+        Sex::M => bodies::Sex::Male,
+        Sex::F => bodies::Sex::Female,
     }
 }
 
 /// Prints how well the bodies of a folder are measured.
 fn evaluate(context: &Context, folder: &Path) -> Result<(), CliError> {
-    let found = tools::evaluate_bodies(folder)?;
+    let found = bodies::evaluate_bodies(folder)?;
     if context.json {
         return Ok(output::json(&found)?);
     }
@@ -67,14 +70,14 @@ fn evaluate(context: &Context, folder: &Path) -> Result<(), CliError> {
 /// Builds a body and writes its mesh, picture and measurements.
 fn build(context: &Context, arguments: &BodyBuild) -> Result<(), CliError> {
     if let Some(file) = &arguments.scan {
-        let source = tools::SourceFile::read(file)?;
+        let source = files::SourceFile::read(file)?;
         let scan = read_scan(context, &source, arguments.unit, arguments.sex)?;
-        return write(context, &tools::scanned_body(&source, scan)?, &arguments.output);
+        return write(context, &bodies::scanned_body(&source, scan)?, &arguments.output);
     }
     let measurements = measurements(context, arguments)?;
-    let body = tools::build_body(&measurements)?;
+    let body = bodies::build_body(&measurements)?;
     write_files(context, &body, &arguments.output)?;
-    let judgement = tools::judge_body(&measurements, &body);
+    let judgement = bodies::judge_body(&measurements, &body);
     if context.json {
         return Ok(output::json(&judgement)?);
     }
@@ -86,21 +89,21 @@ fn build(context: &Context, arguments: &BodyBuild) -> Result<(), CliError> {
 }
 
 /// Writes a body's files and prints its measurements.
-fn write(context: &Context, body: &tools::Body, folder: &Path) -> Result<(), CliError> {
+fn write(context: &Context, body: &bodies::Body, folder: &Path) -> Result<(), CliError> {
     write_files(context, body, folder)?;
     if context.json { Ok(output::json(&body.girths)?) } else { print(context, &body.girths) }
 }
 
 /// Writes mesh, picture, measurements and control mesh of a body.
-fn write_files(context: &Context, body: &tools::Body, folder: &Path) -> Result<(), CliError> {
+fn write_files(context: &Context, body: &bodies::Body, folder: &Path) -> Result<(), CliError> {
     let document = serde_json::to_string_pretty(&body.girths).map_err(std::io::Error::from)?;
     let mut files = vec![
-        ("body.obj".to_owned(), tools::write_obj(&body.mesh).into_bytes()),
-        ("body.png".to_owned(), tools::body_picture(body, View::Quarter, PICTURE.0, PICTURE.1)?),
+        ("body.obj".to_owned(), bodies::write_obj(&body.mesh).into_bytes()),
+        ("body.png".to_owned(), bodies::body_picture(body, View::Quarter, PICTURE.0, PICTURE.1)?),
         ("measurements.json".to_owned(), document.into_bytes()),
     ];
-    files.extend(tools::control_files(body)?);
-    for path in tools::write_files(folder, &files)? {
+    files.extend(bodies::control_files(body)?);
+    for path in files::write_files(folder, &files)? {
         context.say(format_args!("wrote {}", path.display()));
     }
     Ok(())
@@ -109,11 +112,11 @@ fn write_files(context: &Context, body: &tools::Body, folder: &Path) -> Result<(
 /// Reads a scan; what was guessed or repaired is said.
 fn read_scan(
     context: &Context,
-    source: &tools::SourceFile,
+    source: &files::SourceFile,
     unit: Option<MeshUnit>,
     sex: Option<Sex>,
-) -> Result<tools::Scan, CliError> {
-    let scan = tools::read_scan(source, unit.map(Into::into), sex.map(of))?;
+) -> Result<bodies::Scan, CliError> {
+    let scan = bodies::read_scan(source, unit.map(Into::into), sex.map(of))?;
     for note in &scan.imported.notes {
         context.say(format_args!("{}: {note}", source.name));
     }
@@ -124,7 +127,7 @@ fn read_scan(
 fn measurements(context: &Context, arguments: &BodyBuild) -> Result<Measurements, CliError> {
     let mut known = match (&arguments.subject, &arguments.measurements) {
         (Some(name), _) => context.workspace()?.subject(name)?,
-        (None, Some(file)) => tools::read_measurements(file)?,
+        (None, Some(file)) => study::read_measurements(file)?,
         (None, None) => {
             let (Some(sex), Some(stature_mm)) = (arguments.sex, arguments.stature_mm) else {
                 return Err(CliError::Usage(
@@ -170,7 +173,7 @@ fn pictured(
     context: &Context,
     arguments: &BodyBuild,
     [front, side]: [&Path; 2],
-    sex: tools::Sex,
+    sex: bodies::Sex,
     stature_m: f64,
 ) -> Result<Measurements, CliError> {
     let lens = match (arguments.focal_px, arguments.fov_deg) {
@@ -179,12 +182,12 @@ fn pictured(
         (None, None) => None,
     };
     let camera = lens.zip(arguments.camera_distance_mm.map(from_mm));
-    let found = tools::read_pictures(front, side, camera, sex, stature_m)?;
+    let found = bodies::read_pictures(front, side, camera, sex, stature_m)?;
     for note in &found.notes {
         context.say(format_args!("{note}"));
     }
     for level in &found.levels {
-        let tools::PicturedLevel { name, level_mm, width_mm, depth_mm, girth_mm } = level;
+        let bodies::PicturedLevel { name, level_mm, width_mm, depth_mm, girth_mm } = level;
         context.say(format_args!(
             "{name}: {width_mm:.0} mm wide, {depth_mm:.0} mm deep at {level_mm:.0} mm, girth {girth_mm:.0} mm"
         ));

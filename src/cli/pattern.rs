@@ -7,8 +7,12 @@ use super::args::{DraftStyle, Pattern, PatternUnit, SeamCommand, StyleFiles};
 use super::context::Context;
 use super::{CliError, End, Outcome, output, pattern_files};
 use geom::units::{from_mm, mm};
-use study::pattern_files::inspect as inspect_files;
-use study::tools::{self, CHECK_EDGE_MM, FileReport, Finding, Model, SeamEdit, SizeCheck, Unit};
+use study::files;
+use study::patterns;
+use study::patterns::{FileReport, Finding, Model, Unit};
+use study::seams;
+use study::seams::pattern_files::inspect as inspect_files;
+use study::seams::{CHECK_EDGE_MM, SeamEdit, SizeCheck};
 use study::{Table, Value};
 
 /// Runs a pattern command.
@@ -19,19 +23,19 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
             inspect(context, &reports, if *by_file { outcomes } else { pieces })
         }
         Pattern::Propose { path, size, unit, output } => {
-            propose(context, path, &tools::propose(path, size.as_deref(), unit.map(of))?, output.as_deref())
+            propose(context, path, &seams::propose(path, size.as_deref(), unit.map(of))?, output.as_deref())
         }
         Pattern::Check(files) => check(context, files),
         Pattern::Seam(edit) => seam(context, edit),
         Pattern::Draft { style, output } => {
-            for path in tools::write_files(output, &tools::drafted(model(*style)))? {
+            for path in files::write_files(output, &patterns::drafted(model(*style)))? {
                 output::text(&format!("{}\n", path.display()))?;
             }
             Ok(End::Done)
         }
         Pattern::Mesh { files, edge_length_mm } => mesh(context, files, *edge_length_mm),
         Pattern::Sheet { files, output } => {
-            let sheet = tools::sheet(&style(files)?);
+            let sheet = patterns::sheet(&style(files)?);
             write(context, output, sheet)?;
             Ok(End::Done)
         }
@@ -55,13 +59,13 @@ pub fn model(style: DraftStyle) -> Model {
 fn write(context: &Context, output: &Path, text: String) -> Result<(), CliError> {
     let folder = output.parent().unwrap_or(Path::new(""));
     let name = output.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    tools::write_files(folder, &[(name, text.into_bytes())])?;
+    files::write_files(folder, &[(name, text.into_bytes())])?;
     context.say(format_args!("wrote {}", output.display()));
     Ok(())
 }
 
 /// Shows a proposal, or writes it as a seam file; what a person must decide goes to standard error.
-fn propose(context: &Context, path: &Path, proposed: &tools::Proposed, output: Option<&Path>) -> Outcome {
+fn propose(context: &Context, path: &Path, proposed: &seams::Proposed, output: Option<&Path>) -> Outcome {
     let proposal = &proposed.proposal;
     if context.json {
         output::json(proposed)?;
@@ -89,12 +93,12 @@ fn seam(context: &Context, command: &SeamCommand) -> Outcome {
         SeamCommand::Flip { files } => (files.clone(), SeamEdit::Flip { a: files.a, b: files.b }),
     };
     let unit = files.unit.map(of);
-    let text = tools::edit_seams(&files.pattern, &files.seams, files.size.as_deref(), unit, &edit)?;
+    let text = seams::edit_seams(&files.pattern, &files.seams, files.size.as_deref(), unit, &edit)?;
     write(context, &files.seams, text)?;
     Ok(End::Done)
 }
 
-fn seams(proposal: &tools::Proposal) -> Table {
+fn seams(proposal: &seams::Proposal) -> Table {
     let columns = ["seam", "a", "b", "a_mm", "b_mm", "ratio", "confidence"];
     let round = |value: f64, per: f64| Value::Real((value * per).round() / per);
     let rows = proposal.seams.iter().map(|seam| {
@@ -119,8 +123,8 @@ fn of(unit: PatternUnit) -> Unit {
     }
 }
 
-fn style(files: &StyleFiles) -> Result<tools::Style, CliError> {
-    Ok(tools::style(&files.file, files.seams.as_deref(), files.size.as_deref(), files.unit.map(of))?)
+fn style(files: &StyleFiles) -> Result<patterns::Style, CliError> {
+    Ok(patterns::style(&files.file, files.seams.as_deref(), files.size.as_deref(), files.unit.map(of))?)
 }
 
 /// Prints reports, as JSON or as the table that is made of them; a file that cannot be read, or a refused piece, makes the whole unusable.
@@ -201,7 +205,7 @@ fn check(context: &Context, files: &StyleFiles) -> Outcome {
     if is_study(&files.file) {
         return check_study(context, &files.file);
     }
-    let checked = style(files).and_then(|style| Ok((tools::mesh(&style, from_mm(CHECK_EDGE_MM))?, style)));
+    let checked = style(files).and_then(|style| Ok((patterns::mesh(&style, from_mm(CHECK_EDGE_MM))?, style)));
     let ((garment, quality), style) = match checked {
         Ok(checked) => checked,
         Err(CliError::Study(error @ study::StudyError::Stage { .. })) => {
@@ -217,9 +221,9 @@ fn check(context: &Context, files: &StyleFiles) -> Outcome {
         vec![Value::Integer(i64::from(m.no)), Value::Text(m.name.clone()), length, Value::Text(free.to_owned())]
     });
     context.print(&Table { columns, rows: rows.collect() })?;
-    let mut findings = tools::garment_findings(&garment);
+    let mut findings = patterns::garment_findings(&garment);
     if let Some(seams) = &files.seams {
-        findings.extend(tools::findings(&files.file, seams, files.size.as_deref(), files.unit.map(of))?);
+        findings.extend(seams::findings(&files.file, seams, files.size.as_deref(), files.unit.map(of))?);
     }
     findings.iter().for_each(|finding| eprintln!("{}", told(finding)));
     context.say(format_args!(
@@ -244,7 +248,7 @@ fn check_study(context: &Context, path: &Path) -> Outcome {
         // A study names entries of the catalogue: a database of an earlier version is brought up to date first.
         context.workspace()?;
     }
-    let checks = tools::check_study(path, &context.db)?;
+    let checks = seams::check_study(path, &context.db)?;
     if context.json {
         output::json(&checks)?;
     } else {
@@ -281,7 +285,7 @@ fn sizes(checks: &[SizeCheck]) -> Table {
 }
 
 fn mesh(context: &Context, files: &StyleFiles, edge_length_mm: f64) -> Outcome {
-    let (garment, quality) = tools::mesh(&style(files)?, from_mm(edge_length_mm))?;
+    let (garment, quality) = patterns::mesh(&style(files)?, from_mm(edge_length_mm))?;
     let numbers = [
         ("vertices", Value::Integer(garment.rest.len() as i64)),
         ("triangles", Value::Integer(garment.triangles.len() as i64)),

@@ -5,8 +5,9 @@ use std::path::Path;
 use super::args::{BesideFiles, PatternUnit};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
-use study::pattern_files::{self, Beside};
-use study::tools::{self, Unit};
+use study::files;
+use study::patterns::Unit;
+use study::seams::pattern_files::{self, Beside};
 
 /// What the arguments say about a pattern beside its file.
 pub fn beside(files: &BesideFiles) -> Beside<'_> {
@@ -51,7 +52,7 @@ pub fn convert(context: &Context, path: &Path, seams: Option<&Path>, files: &Bes
 fn write(context: &Context, output: &Path, bytes: Vec<u8>) -> Result<(), CliError> {
     let folder = output.parent().unwrap_or(Path::new(""));
     let name = output.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    tools::write_files(folder, &[(name, bytes)])?;
+    files::write_files(folder, &[(name, bytes)])?;
     context.say(format_args!("wrote {}", output.display()));
     Ok(())
 }

@@ -9,7 +9,8 @@ use super::args::{
 };
 use super::context::{Context, project_folder};
 use super::{CliError, End, Outcome, output};
-use study::{Cloth, JobId, Map, MeshFormat, Order, Rgb, Shot, Stage, Study, View, Workspace, Zoom, tools};
+use study::files;
+use study::{Cloth, JobId, Map, MeshFormat, Order, Rgb, Shot, Stage, Study, View, Workspace, Zoom};
 
 /// `toile render`.
 pub fn render(context: &Context, arguments: &Render) -> Outcome {
@@ -80,7 +81,7 @@ fn map(argument: MapArgument) -> Map {
 /// Writes one file and says so.
 pub fn write(context: &Context, path: &Path, bytes: Vec<u8>) -> Outcome {
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    tools::write_files(path.parent().unwrap_or(Path::new("")), &[(name, bytes)])?;
+    files::write_files(path.parent().unwrap_or(Path::new("")), &[(name, bytes)])?;
     context.say(format_args!("wrote {}", path.display()));
     Ok(End::Done)
 }
@@ -102,7 +103,7 @@ pub fn write_report(
 ) -> Result<(), CliError> {
     let folder = folder.map_or_else(|| default_folder(context, study), Path::to_owned);
     let files: Vec<(String, Vec<u8>)> = workspace.report(study)?;
-    tools::write_files(&folder, &files)?;
+    files::write_files(&folder, &files)?;
     tell_report(context, &folder.join(PAGE))
 }
 

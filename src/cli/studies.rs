@@ -7,13 +7,14 @@ use super::context::Context;
 use super::pattern::model;
 use super::pictures::write;
 use super::{End, Outcome, body, output};
-use study::{PopulationOptions, export_study, new_study, representatives, subjects_text, tools};
+use study::files;
+use study::{PopulationOptions, export_study, new_study, representatives, subjects_text};
 
 /// Runs a study command.
 pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
     match command {
         StudyCommand::New { folder, style } => {
-            for path in tools::write_files(folder, &new_study(folder, model(*style))?)? {
+            for path in files::write_files(folder, &new_study(folder, model(*style))?)? {
                 context.say(format_args!("wrote {}", path.display()));
             }
             context.say(format_args!("`toile run {}` runs it", folder.display()));
@@ -45,7 +46,7 @@ pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
         StudyCommand::Nearest { study, subject } => return nearest(context, study, subject),
         StudyCommand::Export { study, output } => {
             let study = context.study(&context.workspace()?, study)?;
-            for path in tools::write_files(output, &export_study(&study))? {
+            for path in files::write_files(output, &export_study(&study))? {
                 context.say(format_args!("wrote {}", path.display()));
             }
         }

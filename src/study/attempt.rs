@@ -5,9 +5,15 @@ use std::time::Instant;
 
 use serde::Serialize;
 
+use crate::bodies;
+use crate::bodies::{LengthUnit, Sex};
 use crate::error::{Result, StudyError};
-use crate::run::pipeline::{FIELD_SPACING_M, distorted, ease_on};
-use crate::tools::{self, LengthUnit, Sex, SourceFile, Unit};
+use crate::files::SourceFile;
+use crate::patterns;
+use crate::patterns::Unit;
+use crate::run::pipeline::{distorted, ease_on};
+use crate::seams;
+use crate::spec::versions::FIELD_SPACING_M;
 use body::Body;
 use fit::{Simulator, measure};
 use geom::units::mm;
@@ -255,21 +261,21 @@ fn fabric(name: &str) -> Result<Fabric> {
 
 fn body(asked: &Attempt, notes: &mut Vec<String>) -> Result<Body> {
     if asked.body.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
-        return tools::build_body(&tools::read_measurements(&asked.body)?);
+        return bodies::build_body(&crate::spec::file::read_measurements(&asked.body)?);
     }
     let source = SourceFile::read(&asked.body)?;
-    let scan = tools::read_scan(&source, asked.body_unit, asked.sex)?;
+    let scan = bodies::read_scan(&source, asked.body_unit, asked.sex)?;
     notes.extend(scan.imported.notes.iter().cloned());
-    tools::scanned_body(&source, scan)
+    bodies::scanned_body(&source, scan)
 }
 
 /// The style: with its seam file, by its own stitches, or as proposed where the proposal is sure.
 fn style(asked: &Attempt, notes: &mut Vec<String>) -> Result<Style> {
     let size = asked.size.as_deref();
     if asked.seams.is_some() || SourceFile::read_pattern(&asked.pattern)?.holds_seams() {
-        return tools::style(&asked.pattern, asked.seams.as_deref(), size, asked.unit);
+        return patterns::style(&asked.pattern, asked.seams.as_deref(), size, asked.unit);
     }
-    let proposal = tools::propose(&asked.pattern, size, asked.unit)?.proposal;
+    let proposal = seams::propose(&asked.pattern, size, asked.unit)?.proposal;
     let proposal = proposal.to_drape().map_err(|unwearable| StudyError::Stage {
         stage: "pattern",
         message: format!(
@@ -280,7 +286,7 @@ fn style(asked: &Attempt, notes: &mut Vec<String>) -> Result<Style> {
     notes.push("sewn as proposed: no seam file was given".to_owned());
     notes.extend(proposal.questions.iter().cloned());
     let name = asked.pattern.file_stem().unwrap_or_default().to_string_lossy();
-    let pieces = tools::pieces(&SourceFile::read_pattern(&asked.pattern)?, size, asked.unit)?;
+    let pieces = patterns::pieces(&SourceFile::read_pattern(&asked.pattern)?, size, asked.unit)?;
     let text = proposal.toml(&name);
     let mut style = Style::read(&pieces, text.as_bytes(), "the proposal").map_err(StudyError::stage("pattern"))?;
     if style.measurements.is_empty() {

@@ -1,10 +1,9 @@
 //! What can go wrong between a study file and its results.
 
-use std::path::PathBuf;
+use std::fmt;
+use std::path::{Path, PathBuf};
 
 use rusqlite::ErrorCode;
-
-use crate::spec::file::Problem;
 
 /// An error of the store, the study file, the queue or a stage.
 #[derive(Debug, thiserror::Error)]
@@ -106,8 +105,48 @@ impl StudyError {
     }
 
     /// A stage's error as text.
-    pub(crate) fn stage<E: std::fmt::Display>(stage: &'static str) -> impl FnOnce(E) -> Self {
+    pub(crate) fn stage<E: fmt::Display>(stage: &'static str) -> impl FnOnce(E) -> Self {
         move |error| Self::Stage { stage, message: error.to_string() }
+    }
+}
+
+/// One thing that is wrong with a study file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// The file.
+    pub file: PathBuf,
+    /// Line, from 1.
+    pub line: Option<usize>,
+    /// Column of the line, in characters from 1.
+    pub column: Option<usize>,
+    /// What was found, and what would be accepted.
+    pub message: String,
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:", self.file.display())?;
+        for place in [self.line, self.column].into_iter().flatten() {
+            write!(f, "{place}:")?;
+        }
+        write!(f, " {}", self.message)
+    }
+}
+
+impl Problem {
+    /// A problem of a whole file.
+    pub(crate) fn of(file: &Path, message: impl Into<String>) -> Self {
+        Self { file: file.to_owned(), line: None, column: None, message: message.into() }
+    }
+
+    /// A problem of a line of a file.
+    pub(crate) fn at(file: &Path, line: usize, message: impl Into<String>) -> Self {
+        Self { line: Some(line), ..Self::of(file, message) }
+    }
+
+    /// All problems, one a line.
+    pub(crate) fn listing(problems: &[Self]) -> String {
+        problems.iter().map(Self::to_string).collect::<Vec<_>>().join("\n")
     }
 }
 

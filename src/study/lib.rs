@@ -5,17 +5,18 @@
 
 mod answers;
 mod attempt;
+pub mod bodies;
 mod catalogue;
 mod error;
+pub mod files;
+pub mod patterns;
 mod rows;
 mod run;
 pub mod seams;
-mod source;
 mod spec;
 mod store;
 #[cfg(test)]
 mod tests;
-pub mod tools;
 mod workspace;
 
 pub use answers::advice::{LevelFit, SizeAnswer, SizeOn};
@@ -31,25 +32,26 @@ pub use catalogue::{
     Deed, FabricRow, Mode, Part, Removed, Saved, SizeRow, StyleGiven, SubjectRow, doubts, is_doubtful, percentile,
     percentile_text,
 };
-pub use error::{Result, StudyError};
+pub use error::{Problem, Result, StudyError};
 pub use rows::{
     Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, RecommendationRow, SizeKey,
-    StageRow, Status, StudyRow, SubjectId, Table, Value,
+    StageKind, StageRow, Status, StudyRow, SubjectId, Table, Value,
 };
 pub use run::actions::why_no_retry;
 pub use run::compose::{NewStudy, PatternSource, Wearable, wearables};
 pub use run::enqueue::{Planned, Why};
 pub use run::handout::{HandedOut, Merged, Ran, run_job};
 pub use run::outcome::{Executor, Measured, Outcome};
-pub use run::pipeline::{Pipeline, SIMULATORS};
+pub use run::pipeline::Pipeline;
 pub use run::slurm::{SlurmOptions, SlurmRun};
 pub use run::{Run, RunOptions};
 pub use spec::export::export_study;
 pub use spec::fields::{FABRIC_NUMBERS, Field, Given, MEASUREMENTS, sex};
-pub use spec::file::{Problem, Study, study_file};
-pub use spec::inputs::{Change, Inputs, StageKind};
+pub use spec::file::{Study, read_measurements, study_file};
+pub use spec::inputs::{Change, Inputs};
 pub use spec::new_study::new_study;
 pub use spec::parameters::Parameters;
+pub use spec::versions::SIMULATORS;
 pub use spec::{JobSpec, Limits, Schedule, Selection};
 pub use store::browse::{Relation, SqlAnswer};
 pub use store::evidence::PUBLISHED;
@@ -64,4 +66,5 @@ pub use fit::{
 };
 pub use render::export::MeshFormat;
 pub use render::{Rgb, View};
-pub use sim::{Monitor, Stage, Step};
+pub use sim::fabric::Stretched;
+pub use sim::{Fabric, Monitor, Stage, Step};

@@ -405,3 +405,33 @@ impl fmt::Display for Value {
         }
     }
 }
+
+/// A cached stage of a job; each depends on some of the job's inputs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum StageKind {
+    /// The human model.
+    Body,
+    /// Its distance field.
+    Field,
+    /// The garment, meshed.
+    Mesh,
+    /// The sewn, draped garment.
+    Drape,
+}
+
+impl StageKind {
+    /// All, in the order data flows.
+    pub const ALL: [Self; 4] = [Self::Body, Self::Field, Self::Mesh, Self::Drape];
+
+    /// Name in SQL.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Body => "body",
+            Self::Field => "field",
+            Self::Mesh => "mesh",
+            Self::Drape => "drape",
+        }
+    }
+}

@@ -17,6 +17,7 @@ use crate::answers::{advice, audit, figure, picture, population, record, reporti
 use crate::catalogue::{self, FabricRow, Mode, Part, Removed, Saved, SizeRow, StyleGiven, SubjectRow};
 use crate::catalogue::{fabrics, import, known, sizes, style};
 use crate::error::Result;
+use crate::files::SourceFile;
 use crate::rows::{
     ChiRow, EaseRow, Grid, JobId, JobRow, LogLine, MetricsRow, RecommendationRow, SizeKey, StageRow, StudyRow,
     SubjectId, Table,
@@ -28,7 +29,6 @@ use crate::run::outcome::Executor;
 use crate::run::slurm::{SlurmOptions, SlurmRun};
 use crate::run::{self, Run, RunOptions, actions, compose, enqueue, handout, slurm};
 use crate::seams::workpiece::Workpiece;
-use crate::source::SourceFile;
 use crate::spec::Selection;
 use crate::spec::fields::Given;
 use crate::spec::file::Study;

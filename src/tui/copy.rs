@@ -7,7 +7,7 @@ use super::action::Screen;
 use super::compare;
 use super::state::State;
 use super::text;
-use study::tools::Measurements;
+use study::bodies::Measurements;
 use study::{FABRIC_NUMBERS, Field, JobRow, MEASUREMENTS};
 
 /// The text that stands for what is selected, tab-separated, and what it is.

@@ -9,7 +9,7 @@ use super::message::{Act, Effect};
 use super::overlay::{Outcome, edit};
 use super::text;
 use geom::units::significant;
-use study::tools::Sex;
+use study::bodies::Sex;
 use study::{
     FABRIC_NUMBERS, FabricRow, Given, MEASUREMENTS, Mode, Part, SubjectRow, is_doubtful, percentile, percentile_text,
     sex,

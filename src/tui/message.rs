@@ -11,7 +11,8 @@ use super::feed::{Focus, Snapshot};
 use super::picture::{Drawn, Shot};
 use super::sheet::Sheet;
 use super::tailor::{Laid, Laying, Task};
-use study::tools::{Girths, SourceFile};
+use study::bodies::Girths;
+use study::files::SourceFile;
 use study::{Given, JobId, LiveFrame, Mode, Part, Relation, ReportRow, SavedQuery, StyleGiven, SubjectId};
 
 /// Something that happened.

@@ -17,7 +17,7 @@ use super::sql::Sql;
 use super::styles::Styles;
 use super::text;
 use super::theme::Theme;
-use study::tools::Girths;
+use study::bodies::Girths;
 use study::{
     Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobRow, LiveFrame, Look, MEASUREMENTS, Map, Status, Step, SubjectId,
     SubjectRow,

@@ -7,7 +7,8 @@ use super::message::{Act, Effect};
 use super::overlay::Overlay;
 use super::state::State;
 use super::tailor::{Laid, Laying, Task};
-use study::tools::{DeskSeam, SeamEdit, SeamStep, SourceFile};
+use study::files::SourceFile;
+use study::seams::{DeskSeam, SeamEdit, SeamStep};
 use study::{Part, SizeRow};
 
 /// An edge by its piece and its place on it.

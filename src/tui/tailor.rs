@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender};
 
 use super::message::Message;
-use study::tools::{LaidOut, SeamStep, SourceFile, Workpiece, seam_home};
+use study::files::SourceFile;
+use study::seams::{LaidOut, SeamStep, Workpiece, seam_home};
 use study::{SizeKey, StudyError, Workspace};
 
 /// What is wanted on the desk.

@@ -2,7 +2,7 @@
 
 use ratatui::text::Span;
 
-use study::tools::Sex;
+use study::bodies::Sex;
 use study::{JobRow, Simulator, Status, SubjectRow};
 
 /// Columns a text takes.

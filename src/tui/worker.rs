@@ -20,7 +20,7 @@ use super::message::{Act, Effect, Message, Target};
 use super::painter;
 use super::picture::{Canvas, Shot};
 use super::tailor::{self, Task};
-use study::tools::write_seams;
+use study::seams::write_seams;
 use study::{Deed, Live, Mode, Part, RunOptions, Saved, StudyError, StyleGiven, Workspace};
 
 /// Time between two looks at whether the database has changed; a look costs microseconds.

@@ -1,6 +1,7 @@
 //! Arguments of `toile body`.
 
 use std::path::PathBuf;
+use study::bodies;
 
 use clap::{Args, Subcommand, ValueEnum};
 
@@ -24,7 +25,7 @@ pub enum MeshUnit {
     M,
 }
 
-impl From<MeshUnit> for study::tools::LengthUnit {
+impl From<MeshUnit> for bodies::LengthUnit {
     fn from(unit: MeshUnit) -> Self {
         match unit {
             MeshUnit::Mm => Self::Millimetre,

@@ -2,10 +2,13 @@
 
 use std::path::Path;
 
+use crate::bodies;
 use crate::error::Result;
+use crate::files;
+use crate::patterns;
 use crate::rows::Value;
 use crate::run::outcome::machine;
-use crate::tools;
+
 use crate::workspace::Workspace;
 use body::{Measurements, Sex};
 use geom::units::mm;
@@ -49,7 +52,7 @@ fn database_check(path: &Path, readonly: bool) -> Result<String> {
 /// Builds a body and lays the tape on it.
 fn body_check() -> Result<String> {
     let known = Measurements { weight_kg: Some(60.0), chest_girth_m: Some(0.9), ..Measurements::of(Sex::Female, 1.65) };
-    let body = tools::build_body(&known)?;
+    let body = bodies::build_body(&known)?;
     Ok(format!(
         "{} triangles; chest asked 900 mm, measured {:.0} mm",
         body.mesh.triangles.len(),
@@ -60,9 +63,9 @@ fn body_check() -> Result<String> {
 /// Drafts, writes, reads, sews and meshes a T-shirt.
 fn pattern_check() -> Result<String> {
     let folder = std::env::temp_dir().join(format!("toile-doctor-{}", std::process::id()));
-    let found = tools::write_files(&folder, &tools::drafted(tools::Model::Tshirt)).and_then(|_| {
-        let style = tools::style(&folder.join("tshirt-m.dxf"), Some(&folder.join("tshirt.seams.toml")), None, None)?;
-        let (garment, quality) = tools::mesh(&style, 0.02)?;
+    let found = files::write_files(&folder, &patterns::drafted(patterns::Model::Tshirt)).and_then(|_| {
+        let style = patterns::style(&folder.join("tshirt-m.dxf"), Some(&folder.join("tshirt.seams.toml")), None, None)?;
+        let (garment, quality) = patterns::mesh(&style, 0.02)?;
         let edge = mm(quality.mean_edge_m);
         Ok(format!("drafted T-shirt: {} triangles, mean edge {edge:.1} mm", garment.triangles.len()))
     });

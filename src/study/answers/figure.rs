@@ -4,15 +4,16 @@ use std::sync::Arc;
 
 use image::{GenericImage, RgbaImage};
 
+use crate::bodies;
 use crate::catalogue::SubjectRow;
 use crate::catalogue::known;
 use crate::error::{Result, StudyError};
+use crate::rows::StageKind;
 use crate::rows::SubjectId;
 use crate::run::pipeline::{self, Model};
-use crate::spec::inputs::StageKind;
 use crate::store::Store;
 use crate::store::cache::{self, Cache};
-use crate::tools;
+
 use body::{Girths, Mass};
 use render::{self, Camera, Frame, Layer, Material, Scene, View};
 
@@ -33,7 +34,7 @@ pub struct Figure {
 pub fn figure(store: &Store, id: SubjectId) -> Result<Figure> {
     let SubjectRow { name, measurements, .. } = known::subject_revision(store, id)?;
     let hash = pipeline::body_inputs(&name, &measurements).stage_hash(StageKind::Body);
-    let make = || Ok(Model { body: tools::build_body(&measurements)? });
+    let make = || Ok(Model { body: bodies::build_body(&measurements)? });
     let model = if store.is_readonly() {
         Arc::new(cache::stored(&store.reader, &hash).or_else(|_| make())?)
     } else {

@@ -6,8 +6,8 @@ use std::time::UNIX_EPOCH;
 
 use crate::answers::reporting;
 use crate::error::Result;
+use crate::files;
 use crate::store::Store;
-use crate::tools;
 
 /// A report in a folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -58,7 +58,7 @@ fn count(folder: &Path) -> usize {
 /// When there is no such study, a stored result cannot be read, or a file cannot be written.
 pub fn build_report(store: &Store, study: &str, folder: &Path) -> Result<PathBuf> {
     let folder = folder.join(study);
-    tools::write_files(&folder, &reporting::report(store, study)?)?;
+    files::write_files(&folder, &reporting::report(store, study)?)?;
     Ok(folder.join("index.html"))
 }
 

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use crate::catalogue::style;
 use crate::catalogue::{Mode, Part, Saved, Stored, check_name, known, save, sheet};
+use crate::error::Problem;
 use crate::error::{Result, StudyError};
-use crate::spec::file::{self, Placed, Problem};
+use crate::spec::file::{self, Placed};
 use crate::store;
 use crate::store::Store;
 

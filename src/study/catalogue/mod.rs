@@ -16,11 +16,12 @@ use std::fmt;
 
 use rusqlite::Transaction;
 
+use crate::bodies;
 use crate::error::{Result, StudyError};
 use crate::run;
 use crate::spec::fields::{Entry, Given, filled};
+use crate::store;
 use crate::store::Store;
-use crate::{store, tools};
 use body::Measurements;
 use sim::Fabric;
 
@@ -155,7 +156,7 @@ impl Stored for Measurements {
 
     /// Builds the body: that alone tells whether the measurements are those of one person.
     fn verify(&self) -> std::result::Result<Vec<String>, String> {
-        tools::build_body(self).map_err(|error| error.to_string())?;
+        bodies::build_body(self).map_err(|error| error.to_string())?;
         Ok(doubts(self))
     }
 

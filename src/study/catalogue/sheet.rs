@@ -7,9 +7,10 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 
 use crate::catalogue::import::text_of;
 use crate::catalogue::{Part, check_name};
+use crate::error::Problem;
 use crate::error::nearest;
 use crate::spec::fields::{Entry, Given, filled, keys};
-use crate::spec::file::{Placed, Problem};
+use crate::spec::file::Placed;
 
 /// Columns that hold the name of an entry, besides that of its part (`subject`).
 const NAMES: [&str; 2] = ["name", "id"];

@@ -4,12 +4,12 @@ use rusqlite::{OptionalExtension, Row};
 
 use crate::catalogue::style::seam_file;
 use crate::error::{Result, StudyError};
+use crate::files::SourceFile;
+use crate::patterns;
 use crate::rows::SizeKey;
 use crate::seams::desk::confidences;
 use crate::seams::workpiece::Workpiece;
-use crate::spec::file::SourceFile;
 use crate::store::Store;
-use crate::tools;
 
 /// A size of a style of the catalogue.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -81,7 +81,7 @@ pub fn workpiece(store: &Store, key: SizeKey) -> Result<Workpiece> {
             pattern: SourceFile { name: row.get(0)?, bytes: row.get::<_, Vec<u8>>(1)?.into() },
             seams: seam_file(row.get(2)?, row.get(3)?),
             size: row.get(4)?,
-            unit: unit.as_deref().and_then(tools::unit_of),
+            unit: unit.as_deref().and_then(patterns::unit_of),
         })
     };
     let found = store.reader.prepare_cached(sql)?.query_row([key.size, key.style], row).optional()?;

@@ -7,12 +7,14 @@ use rusqlite::{OptionalExtension, Row, Transaction};
 use crate::catalogue::import::{Format, format_of, text_of, unknown_format};
 use crate::catalogue::revision::{self, By};
 use crate::catalogue::{Mode, Part, Saved, check_name, refused, save};
+use crate::error::Problem;
 use crate::error::{Result, StudyError};
+use crate::patterns;
 use crate::rows::JobId;
 use crate::seams::workpiece::Workpiece;
-use crate::spec::file::{self, Placed, Problem, Sewn, SizeFile, SourceFile};
+use crate::spec::file::{self, Placed, Sewn, SizeFile, SourceFile};
+use crate::store;
 use crate::store::Store;
-use crate::{store, tools};
 use pattern::{Style, source};
 
 /// What is given of a style or a size; an edit keeps what is not.
@@ -58,7 +60,7 @@ pub fn save_style(store: &mut Store, mode: Mode, name: &str, given: &StyleGiven)
         (None, _) if mode != Mode::Add => Seams::Kept,
         (None, Some(_)) if sizes.iter().all(|(size, _)| size.pattern.holds_seams()) => Seams::Given(None),
         (None, Some((size, unit))) if given.is_proposed => {
-            let unit = unit.as_deref().and_then(tools::unit_of);
+            let unit = unit.as_deref().and_then(patterns::unit_of);
             let workpiece = Workpiece { pattern: size.pattern.clone(), seams: None, size: size.name.clone(), unit };
             Seams::Given(Some(workpiece.proposed(name)?))
         }
@@ -201,8 +203,8 @@ fn unsewable(store: &Store, draft: &Draft) -> Result<Vec<String>> {
         sizes.extend(sizes_of(store, &draft.name)?.into_iter().filter(is_kept));
     }
     let problem = |(size, unit): &Sized| {
-        let unit = unit.as_deref().and_then(tools::unit_of);
-        let read = tools::read_style(&size.pattern, seams.as_ref(), Some(&size.name), unit);
+        let unit = unit.as_deref().and_then(patterns::unit_of);
+        let read = patterns::read_style(&size.pattern, seams.as_ref(), Some(&size.name), unit);
         read.err().map(|error| format!("size {}: {error}", size.name))
     };
     Ok(sizes.iter().filter_map(problem).collect())
@@ -249,7 +251,7 @@ pub(crate) fn style_of(store: &Store, id: JobId) -> Result<Style> {
     let (pattern_file, pattern, seam_file, seams, unit, size) = found.ok_or_else(missing)?;
     let pattern = SourceFile { name: pattern_file, bytes: pattern.into() };
     let seams = self::seam_file(seam_file, seams);
-    tools::read_style(&pattern, seams.as_ref(), Some(&size), unit.as_deref().and_then(tools::unit_of))
+    patterns::read_style(&pattern, seams.as_ref(), Some(&size), unit.as_deref().and_then(patterns::unit_of))
 }
 
 /// A seam file as stored; a style without one has an empty name there.
@@ -266,7 +268,7 @@ fn draft(part: Part, name: String, sewn: Sewn) -> Draft {
 
 /// Names of the sizes in a pattern file.
 fn sizes_in(pattern: &SourceFile, unit: Option<&str>) -> Result<Vec<String>> {
-    let read = source::read(&pattern.bytes, &pattern.name, unit.and_then(tools::unit_of));
+    let read = source::read(&pattern.bytes, &pattern.name, unit.and_then(patterns::unit_of));
     let file = read.map_err(StudyError::stage("pattern"))?;
     Ok(file.sizes().into_iter().map(str::to_owned).collect())
 }

@@ -1,11 +1,13 @@
 //! The catalogue as a user changes it, on a real database.
 
 use crate::Workspace;
+use crate::files;
+use crate::patterns;
 use std::path::PathBuf;
 
 use crate::catalogue::*;
+use crate::files::SourceFile;
 use crate::store::{self, Access};
-use crate::tools::SourceFile;
 use geom::units::from_mm;
 
 struct Bench {
@@ -168,7 +170,7 @@ fn study_files_are_imported_and_their_lines_told() {
 fn a_style_is_stored_with_sizes_that_can_be_sewn() {
     let mut bench = Bench::new();
     let folder = bench.folder.path().to_owned();
-    tools::write_files(&folder, &tools::drafted(tools::Model::Tshirt)).expect("writable");
+    files::write_files(&folder, &patterns::drafted(patterns::Model::Tshirt)).expect("writable");
     let given = |sizes: &[(&str, &str)]| StyleGiven {
         seams: Some(folder.join("tshirt.seams.toml")),
         patterns: sizes.iter().map(|(size, file)| (Some((*size).to_owned()), folder.join(file))).collect(),
@@ -236,7 +238,7 @@ fn styles_without_a_seam_file_hold_their_seams_or_have_them_proposed() {
     let piece = bench.workspace.workpiece(sizes[0].key).expect("stored");
     assert_eq!(piece.seams.as_ref().map(|file| &file.bytes), Some(&own.bytes));
 
-    let style = piece.seams.as_ref().map(|seams| tools::read_style(&piece.pattern, Some(seams), Some("S"), None));
+    let style = piece.seams.as_ref().map(|seams| patterns::read_style(&piece.pattern, Some(seams), Some("S"), None));
     let style = style.expect("it has seams").expect("they fit");
     let json = serde_json::to_vec(&pattern::garmentcode::document(&style)).expect("JSON");
     std::fs::write(folder.join("tee.json"), json).expect("writable");

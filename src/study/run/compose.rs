@@ -6,6 +6,9 @@ use std::path::PathBuf;
 use crate::catalogue::SizeRow;
 use crate::catalogue::sizes;
 use crate::error::{Result, StudyError};
+use crate::files;
+use crate::patterns;
+use crate::patterns::Model;
 use crate::rows::SizeKey;
 use crate::run;
 use crate::run::enqueue::{self, Planned};
@@ -15,7 +18,6 @@ use crate::spec::file::{SourceFile, Study};
 use crate::spec::new_study::{Outline, Worn, drafted_size};
 use crate::store;
 use crate::store::Store;
-use crate::tools::{self, Model};
 use fit::Simulator;
 
 /// Where the pattern of a size comes from.
@@ -87,7 +89,7 @@ pub fn create_study(store: &mut Store, new: &NewStudy) -> Result<PathBuf> {
         return Err(StudyError::Exists { what: "study folder", name: folder.display().to_string() });
     }
     let files = files_of(store, new)?;
-    tools::write_files(&folder, &files)?;
+    files::write_files(&folder, &files)?;
     let path = folder.join("study.toml");
     let study = run::load_study(store, &path)?;
     queue(store, &study, &Selection::default())?;
@@ -139,7 +141,7 @@ fn add_size<'a>(store: &Store, wearable: &'a Wearable, garment: &mut Worn<'a>, f
             garment.seams = piece.seams.as_ref().map(add).or(garment.seams.take());
         }
         PatternSource::Drafted(model) => {
-            for (name, bytes) in tools::drafted(model) {
+            for (name, bytes) in patterns::drafted(model) {
                 let size = drafted_size(&name);
                 let source = SourceFile { name, bytes: bytes.into() };
                 match size {
@@ -229,9 +231,10 @@ mod tests {
     fn a_pattern_that_is_a_folder_of_pieces_comes_as_one() {
         let folder = tempfile::tempdir().expect("a folder");
         let shirt = folder.path().join("shirt");
-        let files =
-            tools::drafted(Model::Tshirt).into_iter().filter(|(name, _)| !name.contains("-m") && !name.contains("-l"));
-        tools::write_files(&shirt, &files.collect::<Vec<_>>()).expect("writable");
+        let files = patterns::drafted(Model::Tshirt)
+            .into_iter()
+            .filter(|(name, _)| !name.contains("-m") && !name.contains("-l"));
+        files::write_files(&shirt, &files.collect::<Vec<_>>()).expect("writable");
         let mut workspace = Workspace::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
         let given = crate::StyleGiven {
             seams: Some(shirt.join("tshirt.seams.toml")),

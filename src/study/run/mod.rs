@@ -15,17 +15,19 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, JoinHandle};
 
+use crate::catalogue;
+use crate::error::Problem;
 use crate::error::{Result, StudyError};
+use crate::patterns;
 use crate::run::enqueue::Planned;
 use crate::run::isolated::Isolated;
 use crate::run::outcome::{Executor, Provenance};
 use crate::run::pipeline::Pipeline;
-use crate::spec::file::{Problem, Study};
+use crate::spec::file::Study;
 use crate::spec::{self, Selection};
 use crate::store::Store;
 use crate::store::live::Live;
 use crate::store::{self, Access, evidence};
-use crate::{catalogue, tools};
 use body::Measurements;
 
 /// What to run, and how.
@@ -215,9 +217,9 @@ fn store_ease(database: &Path, study: &Study, pipeline: &Pipeline) -> Result<()>
 fn check_patterns(study: &Study) -> Result<()> {
     let mut problems = Vec::new();
     for garment in &study.garments {
-        let unit = garment.unit.as_deref().and_then(tools::unit_of);
+        let unit = garment.unit.as_deref().and_then(patterns::unit_of);
         for size in &garment.sizes {
-            if let Err(error) = tools::read_style(&size.pattern, garment.seams.as_ref(), Some(&size.name), unit) {
+            if let Err(error) = patterns::read_style(&size.pattern, garment.seams.as_ref(), Some(&size.name), unit) {
                 let message = format!("garment {}, size {}: {error}", garment.name, size.name);
                 problems.push(Problem::of(&study.path, message));
             }

@@ -3,12 +3,16 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::bodies;
 use crate::error::{Result, StudyError};
+use crate::patterns;
+use crate::rows::StageKind;
 use crate::run::outcome::{Executor, Measured, Outcome};
-use crate::spec::inputs::{Inputs, StageKind};
+use crate::spec::inputs::Inputs;
+use crate::spec::versions;
 use crate::spec::{JobSpec, subject_inputs};
 use crate::store::cache::{Artefact, Cache, Used};
-use crate::tools;
+
 use body::{Body, Measurements};
 use fit::{self, Cuts, Ease, Simulator, measure};
 use geom::DistanceField;
@@ -16,35 +20,11 @@ use geom::units::from_mm;
 use pattern::{Garment, Style};
 use sim::{self, Distortion, Drape, Monitor, SimError};
 
-/// The simulators there are.
-pub const SIMULATORS: [Simulator; 2] = [Simulator::Fem, Simulator::Hybrid];
-
-/// Versions of the stages, raised whenever one may give other numbers for the same inputs.
-const VERSIONS: [(&str, u32); 3] = [("body.version", 6), ("field.version", 4), ("mesh.version", 6)];
-/// Version of the simulators, likewise; their default parameters count as inputs by themselves.
-const SIM_VERSION: u32 = 42;
-
-/// Spacing of the distance field's nodes, m: the 99th percentile of its error is then about 0.1 mm.
-pub(crate) const FIELD_SPACING_M: f64 = 0.005;
-
-/// The inputs every job has besides the study's own: versions and parameters of the stages.
-pub(crate) fn versions(simulator: Simulator) -> Vec<(&'static str, String)> {
-    let mut versions: Vec<_> = VERSIONS.iter().map(|(name, version)| (*name, version.to_string())).collect();
-    versions.push(("field.spacing_mm", (FIELD_SPACING_M * 1e3).to_string()));
-    versions.push(("sim.version", SIM_VERSION.to_string()));
-    let parameters = match simulator {
-        Simulator::Fem => format!("{:?}", sim::fem::Params::default()),
-        Simulator::Hybrid => format!("{:?}", sim::hybrid::Params::default()),
-    };
-    versions.push(("sim.parameters", blake3::hash(parameters.as_bytes()).to_hex().to_string()));
-    versions
-}
-
 /// The inputs of a subject's body, the same as among those of any job on it.
 pub(crate) fn body_inputs(name: &str, measurements: &Measurements) -> Inputs {
     let mut inputs = Inputs::default();
     subject_inputs(&mut inputs, name, measurements);
-    for (name, version) in VERSIONS {
+    for (name, version) in versions::VERSIONS {
         inputs.set(name, version);
     }
     inputs
@@ -131,10 +111,10 @@ impl Pipeline {
     fn model(&self, spec: &JobSpec) -> Result<(Arc<Model>, Used)> {
         self.cache.get(StageKind::Body, &spec.inputs.stage_hash(StageKind::Body), || {
             let body = match &spec.scan {
-                None => tools::build_body(&spec.measurements)?,
+                None => bodies::build_body(&spec.measurements)?,
                 Some(scan) => {
-                    let read = tools::read_scan(&scan.file, scan.unit, Some(spec.measurements.sex))?;
-                    tools::scanned_body(&scan.file, read)?
+                    let read = bodies::read_scan(&scan.file, scan.unit, Some(spec.measurements.sex))?;
+                    bodies::scanned_body(&scan.file, read)?
                 }
             };
             Ok(Model { body })
@@ -143,7 +123,7 @@ impl Pipeline {
 
     fn field(&self, spec: &JobSpec, model: &Model) -> Result<(Arc<DistanceField>, Used)> {
         self.cache.get(StageKind::Field, &spec.inputs.stage_hash(StageKind::Field), || {
-            DistanceField::build(&model.body.mesh, FIELD_SPACING_M).map_err(StudyError::stage("field"))
+            DistanceField::build(&model.body.mesh, versions::FIELD_SPACING_M).map_err(StudyError::stage("field"))
         })
     }
 
@@ -170,8 +150,8 @@ pub(crate) fn ease_on(garment: &Garment, body: &Body) -> Vec<Ease> {
 
 /// The style of a job's size.
 pub(crate) fn style(spec: &JobSpec) -> Result<Style> {
-    let unit = spec.unit.as_deref().and_then(tools::unit_of);
-    tools::read_style(&spec.pattern, spec.seams.as_ref(), Some(&spec.size), unit)
+    let unit = spec.unit.as_deref().and_then(patterns::unit_of);
+    patterns::read_style(&spec.pattern, spec.seams.as_ref(), Some(&spec.size), unit)
 }
 
 /// Meshes of a job's garment, coarse to fine.

@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
+use crate::catalogue;
 use crate::error::{Result, StudyError};
+use crate::patterns;
+use crate::patterns::Unit;
 use crate::spec::file::{GarmentEntry, SizeFile, SourceFile, Study};
 use crate::store::{self, Access};
-use crate::{catalogue, tools};
 use geom::units::{from_mm, mm};
 use pattern::check::{self, Finding, FindingKind};
 use pattern::seams::SeamFile;
@@ -77,15 +79,15 @@ fn check_size(garment: &GarmentEntry, size: &SizeFile) -> SizeCheck {
 }
 
 fn fill(row: &mut SizeCheck, garment: &GarmentEntry, size: &SizeFile) -> Result<()> {
-    let unit = garment.unit.as_deref().and_then(tools::unit_of);
-    let style = tools::read_style(&size.pattern, garment.seams.as_ref(), Some(&size.name), unit)?;
+    let unit = garment.unit.as_deref().and_then(patterns::unit_of);
+    let style = patterns::read_style(&size.pattern, garment.seams.as_ref(), Some(&size.name), unit)?;
     (row.pieces, row.seams, row.measurements) = (style.pieces.len(), style.seams.len(), style.measurements.len());
     let level = |(level, path): &(String, Vec<_>)| (level.clone(), mm(style.path_length_m(path)));
     row.fit_mm = style.fit_levels.iter().map(level).collect();
     if let Some(seams) = &garment.seams {
         row.findings = of_files(&size.pattern, seams, Some(&size.name), unit)?;
     }
-    let (mesh, quality) = tools::mesh(&style, from_mm(CHECK_EDGE_MM))?;
+    let (mesh, quality) = patterns::mesh(&style, from_mm(CHECK_EDGE_MM))?;
     (row.vertices, row.min_angle_deg) = (mesh.rest.len(), quality.min_angle_deg);
     row.findings.extend(check::of_garment(&mesh));
     Ok(())
@@ -96,15 +98,23 @@ pub(crate) fn of_files(
     pattern: &SourceFile,
     seams: &SourceFile,
     size: Option<&str>,
-    unit: Option<tools::Unit>,
+    unit: Option<Unit>,
 ) -> Result<Vec<Finding>> {
     if pattern.holds_seams() {
         return Ok(Vec::new());
     }
-    let pieces = tools::pieces(pattern, size, unit)?;
-    let style = tools::Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?;
+    let pieces = patterns::pieces(pattern, size, unit)?;
+    let style = patterns::Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?;
     let entries = SeamFile::parse(&seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?;
     Ok(check::findings(&pieces, &entries, &style))
+}
+
+/// What a person should know of a pattern and its seams that is no error.
+///
+/// # Errors
+/// As [`style`](crate::patterns::style).
+pub fn findings(pattern: &Path, seams: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<Finding>> {
+    of_files(&SourceFile::read_pattern(pattern)?, &SourceFile::read(seams)?, size, unit)
 }
 
 #[cfg(test)]

@@ -5,8 +5,9 @@ use std::path::Path;
 use toml_edit::{DocumentMut, Item};
 
 use crate::error::{Result, StudyError};
-use crate::spec::file::SourceFile;
-use crate::tools::{self, Unit};
+use crate::files::SourceFile;
+use crate::patterns;
+use crate::patterns::Unit;
 use geom::units::mm;
 use pattern::propose::{self, Proposal};
 use pattern::seam_edit::{Edit, edited};
@@ -124,7 +125,7 @@ pub struct Proposed {
 /// # Errors
 /// When a file cannot be read, or holds several sizes while none is named.
 pub fn propose(path: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Proposed> {
-    let pieces = tools::pieces(&SourceFile::read_pattern(path)?, size, unit)?;
+    let pieces = patterns::pieces(&SourceFile::read_pattern(path)?, size, unit)?;
     let proposal = propose::propose(&pieces);
     if proposal.is_empty() {
         return Ok(Proposed { proposal, desk: Desk { pieces: Vec::new(), seams: Vec::new() } });
@@ -143,7 +144,7 @@ pub fn propose(path: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Pr
 /// # Errors
 /// When a file cannot be read or does not fit the other.
 pub fn desk(pattern: &Path, seams: Option<&Path>, size: Option<&str>, unit: Option<Unit>) -> Result<Desk> {
-    Ok(Desk::of(&tools::style(pattern, seams, size, unit)?))
+    Ok(Desk::of(&patterns::style(pattern, seams, size, unit)?))
 }
 
 /// How sure the proposed seams of a seam file are that nobody has confirmed yet, by their places in it: what stands as
@@ -173,7 +174,7 @@ pub(crate) fn confirmed(text: &str, seam: &str) -> Option<String> {
 /// When a file cannot be read, the edit names what is not there, or its result does not fit the pattern.
 pub fn edit_seams(pattern: &Path, seams: &Path, size: Option<&str>, unit: Option<Unit>, edit: &Edit) -> Result<String> {
     let source = SourceFile::read(seams)?;
-    let pieces = tools::pieces(&SourceFile::read_pattern(pattern)?, size, unit)?;
+    let pieces = patterns::pieces(&SourceFile::read_pattern(pattern)?, size, unit)?;
     SeamFile::parse(&source.bytes, &source.name).map_err(StudyError::stage("pattern"))?;
     let text = String::from_utf8_lossy(&source.bytes);
     edited(&text, &source.name, &pieces, edit).map_err(StudyError::stage("pattern"))

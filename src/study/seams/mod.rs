@@ -4,3 +4,9 @@ pub mod check;
 pub mod desk;
 pub mod pattern_files;
 pub mod workpiece;
+
+pub use check::{CHECK_EDGE_MM, SizeCheck, check_study, findings};
+pub use desk::{Desk, DeskEdge, DeskPiece, DeskSeam, Proposed, desk, edit_seams, propose};
+pub use pattern::propose::Proposal;
+pub use pattern::seam_edit::Edit as SeamEdit;
+pub use workpiece::{DeskLength, LaidOut, SeamStep, Workpiece, seam_home, write_seams};

@@ -4,8 +4,8 @@
 use std::path::Path;
 
 use crate::error::{Result, StudyError};
-use crate::spec::file::SourceFile;
-use crate::tools::drawings;
+use crate::files::SourceFile;
+use crate::patterns::drawings;
 use pattern::dxf::{self, PatternFile, Unit};
 use pattern::features::Features;
 use pattern::inspect::FileReport;

@@ -2,10 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::error::Problem;
 use crate::error::{Result, StudyError};
+use crate::patterns;
+use crate::patterns::Unit;
 use crate::seams::desk::{Desk, confidences, confirmed};
-use crate::spec::file::{Problem, SourceFile};
-use crate::tools::{self, Unit};
+use crate::spec::file::SourceFile;
 use geom::units::mm;
 use pattern::seam_edit::{Edit, edited};
 use pattern::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamFile};
@@ -71,7 +73,7 @@ impl Workpiece {
     /// # Errors
     /// When a file cannot be read or does not fit the other.
     pub fn laid_out(&self) -> Result<LaidOut> {
-        let style = tools::read_style(&self.pattern, self.seams.as_ref(), Some(&self.size), self.unit)?;
+        let style = patterns::read_style(&self.pattern, self.seams.as_ref(), Some(&self.size), self.unit)?;
         let mut desk = Desk::of(&style);
         let (mut questions, mut tolerance_mm) = (vec![], DEFAULT_LENGTH_TOLERANCE_MM);
         if let Some((file, text)) = self.seams.as_ref().zip(self.text()).filter(|_| !self.pattern.holds_seams()) {
@@ -81,7 +83,7 @@ impl Workpiece {
             questions.extend(text.lines().filter_map(|line| line.strip_prefix(QUESTION)).map(str::to_owned));
             let entries = SeamFile::parse(&file.bytes, &file.name).map_err(StudyError::stage("pattern"))?;
             tolerance_mm = entries.length_tolerance_mm;
-            let pieces = tools::pieces(&self.pattern, Some(&self.size), self.unit)?;
+            let pieces = patterns::pieces(&self.pattern, Some(&self.size), self.unit)?;
             let found = check::findings(&pieces, &entries, &style);
             let found = found.iter().filter(|finding| finding.kind.is_problem());
             questions.extend(
@@ -110,7 +112,7 @@ impl Workpiece {
         let (file, text) = self.seams.as_ref().zip(self.text()).ok_or_else(missing)?;
         let text = match step {
             SeamStep::Edit(edit) => {
-                let pieces = tools::pieces(&self.pattern, Some(&self.size), self.unit)?;
+                let pieces = patterns::pieces(&self.pattern, Some(&self.size), self.unit)?;
                 edited(&text, &file.name, &pieces, edit).map_err(StudyError::stage("pattern"))?
             }
             SeamStep::Confirm(seam) => {
@@ -136,7 +138,7 @@ impl Workpiece {
     /// # Errors
     /// When the pattern cannot be read, or no piece of it is recognised.
     pub fn proposed(&self, style: &str) -> Result<SourceFile> {
-        let pieces = tools::pieces(&self.pattern, Some(&self.size), self.unit)?;
+        let pieces = patterns::pieces(&self.pattern, Some(&self.size), self.unit)?;
         let proposal = propose::propose(&pieces);
         if proposal.is_empty() {
             let message = format!("{}: no piece was recognised; give its seam file", self.pattern.name);

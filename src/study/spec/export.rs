@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use crate::files;
 use crate::spec::fields::{FABRIC_NUMBERS, MEASUREMENTS};
 use crate::spec::file::{GarmentEntry, ScanFile, SourceFile, Study, Subject};
 use crate::spec::{self, Schedule, millimetres, sex_name};
@@ -147,8 +148,8 @@ mod tests {
 
     use super::*;
     use crate::catalogue;
+    use crate::patterns::Model;
     use crate::spec::new_study::new_study;
-    use crate::tools::{self, Model};
 
     fn hashes(study: &Study) -> Vec<String> {
         spec::jobs(study).into_iter().map(|job| job.inputs.hash()).collect()
@@ -161,7 +162,7 @@ mod tests {
     /// Exports a study, reads it back, and expects the same simulations.
     fn check(study: &Study) {
         let elsewhere = tempfile::tempdir().expect("a folder");
-        tools::write_files(elsewhere.path(), &export_study(study)).expect("writable");
+        files::write_files(elsewhere.path(), &export_study(study)).expect("writable");
         let again = load(elsewhere.path());
         assert_eq!(hashes(&again), hashes(study));
         assert_eq!((again.name, again.cuts), (study.name.clone(), study.cuts));
@@ -180,7 +181,7 @@ mod tests {
         for model in Model::ALL {
             let folder = tempfile::tempdir().expect("a folder");
             let files = new_study(folder.path(), model).expect("nothing is there");
-            tools::write_files(folder.path(), &files).expect("writable");
+            files::write_files(folder.path(), &files).expect("writable");
             let path = folder.path().join("study.toml");
             let text = std::fs::read_to_string(&path).expect("written");
             let plain = load(folder.path());

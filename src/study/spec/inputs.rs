@@ -3,49 +3,21 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use crate::rows::StageKind;
+
 /// Named leaf values, such as `fabric.cotton_shirting_light.density_kg_m2 = 0.1036`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(transparent)]
 pub struct Inputs(BTreeMap<String, String>);
 
-/// A cached stage of a job; each depends on some of the job's inputs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum StageKind {
-    /// The human model.
-    Body,
-    /// Its distance field.
-    Field,
-    /// The garment, meshed.
-    Mesh,
-    /// The sewn, draped garment.
-    Drape,
-}
-
-impl StageKind {
-    /// All, in the order data flows.
-    pub const ALL: [Self; 4] = [Self::Body, Self::Field, Self::Mesh, Self::Drape];
-
-    /// Name in SQL.
-    #[must_use]
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Body => "body",
-            Self::Field => "field",
-            Self::Mesh => "mesh",
-            Self::Drape => "drape",
-        }
-    }
-
-    /// Whether an input matters to this stage, by the first part of its name.
-    fn depends_on(self, name: &str) -> bool {
-        let group = name.split('.').next().unwrap_or_default();
-        match self {
-            Self::Body => matches!(group, "subject" | "body"),
-            Self::Field => matches!(group, "subject" | "body" | "field"),
-            Self::Mesh => matches!(group, "pattern" | "seams" | "mesh"),
-            Self::Drape => true,
-        }
+/// Whether an input matters to this stage, by the first part of its name.
+fn depends_on(stage: StageKind, name: &str) -> bool {
+    let group = name.split('.').next().unwrap_or_default();
+    match stage {
+        StageKind::Body => matches!(group, "subject" | "body"),
+        StageKind::Field => matches!(group, "subject" | "body" | "field"),
+        StageKind::Mesh => matches!(group, "pattern" | "seams" | "mesh"),
+        StageKind::Drape => true,
     }
 }
 
@@ -99,7 +71,7 @@ impl Inputs {
     pub fn stage_hash(&self, stage: StageKind) -> String {
         let mut hasher = blake3::Hasher::new();
         hasher.update(stage.as_str().as_bytes());
-        hasher.update(self.hash_of(|name| stage.depends_on(name)).as_bytes());
+        hasher.update(self.hash_of(|name| depends_on(stage, name)).as_bytes());
         hasher.finalize().to_hex().to_string()
     }
 

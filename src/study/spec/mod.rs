@@ -6,9 +6,9 @@ pub mod file;
 pub mod inputs;
 pub mod new_study;
 pub mod parameters;
+pub mod versions;
 
 use crate::rows::JobRow;
-use crate::run::pipeline;
 use crate::spec::fields::{FABRIC_NUMBERS, MEASUREMENTS};
 use crate::spec::file::{GarmentEntry, ScanFile, SizeFile, SourceFile, Study, Subject};
 use crate::spec::inputs::Inputs;
@@ -186,7 +186,7 @@ impl JobSpec {
             }
         }
         fabric_inputs(&mut inputs, &self.fabric);
-        for (name, version) in pipeline::versions(self.simulator) {
+        for (name, version) in versions::versions(self.simulator) {
             inputs.set(name, version);
         }
         Self { inputs, ..self }

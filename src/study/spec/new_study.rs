@@ -4,11 +4,11 @@ use std::fmt::Write;
 use std::path::Path;
 
 use crate::error::{Result, StudyError};
-use crate::run::pipeline::SIMULATORS;
+use crate::patterns::Model;
 use crate::spec::export::{list, quoted};
 use crate::spec::fields::MEASUREMENTS;
 use crate::spec::sex_name;
-use crate::tools::Model;
+use crate::spec::versions::SIMULATORS;
 use body::{Measurements, Sex};
 use fit::Simulator;
 use geom::units::from_mm;

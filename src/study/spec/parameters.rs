@@ -153,6 +153,16 @@ fn defaults() -> BTreeMap<String, Value> {
     found
 }
 
+/// Hash of a simulator's default parameters by name and value, hex: a changed number changes it, a renamed type does not.
+pub(crate) fn default_hash(simulator: Simulator) -> String {
+    let prefix = format!("{}.", simulator.as_str());
+    let mut inputs = Inputs::default();
+    for (name, value) in defaults().into_iter().filter(|(name, _)| name.starts_with(&prefix)) {
+        inputs.set(name, value);
+    }
+    inputs.hash()
+}
+
 fn flatten(prefix: &str, tree: Value, found: &mut BTreeMap<String, Value>) {
     match tree {
         Value::Object(fields) => {
@@ -228,5 +238,23 @@ mod tests {
         check("fem.offset_mu", (-1).into(), "not negative");
         check("fem.max_iterations", 1.5.into(), "a whole number");
         check("hybrid.uncontrolled", 1.into(), "a list of whole numbers");
+    }
+
+    #[test]
+    fn default_parameters_are_keyed_by_names_and_values() {
+        let [fem, hybrid] = [Simulator::Fem, Simulator::Hybrid].map(default_hash);
+        assert_ne!(fem, hybrid);
+        let of = |pairs: &[(&str, &str)]| {
+            let pairs = pairs.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+            pairs.collect::<Inputs>().hash()
+        };
+        let known: Vec<(String, String)> =
+            defaults().into_iter().map(|(name, value)| (name, value.to_string())).collect();
+        let known: Vec<(&str, &str)> = known.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect();
+        let known: Vec<_> = known.into_iter().filter(|(name, _)| name.starts_with("fem.")).collect();
+        assert_eq!(fem, of(&known));
+        let changed: Vec<_> =
+            known.iter().map(|&(name, value)| (name, if name == "fem.tolerance" { "0.02" } else { value })).collect();
+        assert_ne!(fem, of(&changed));
     }
 }

@@ -13,7 +13,7 @@ use flate2::write::ZlibEncoder;
 use rusqlite::{Connection, OptionalExtension, params};
 
 use crate::error::{Result, StudyError};
-use crate::spec::inputs::StageKind;
+use crate::rows::StageKind;
 use crate::store::{self, Access, now_ms};
 
 /// A product that can be stored.

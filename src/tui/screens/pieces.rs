@@ -14,7 +14,7 @@ use super::super::tailor::Laid;
 use super::super::text::{shortened, width};
 use super::pane;
 use super::styles::letter;
-use study::tools::{DeskEdge, DeskPiece};
+use study::seams::{DeskEdge, DeskPiece};
 
 /// How far labels stand off their edge, in dots of braille: inside the piece first.
 const OFFSETS: [f64; 6] = [6.0, 9.0, 3.0, 13.0, -6.0, -9.0];

@@ -13,7 +13,7 @@ use super::super::text::{left, right, shortened, whole, width};
 use super::chi::wrapped;
 use super::{WIDE, first_shown, is_narrow, pane, pieces, selected as as_selected};
 use study::SizeRow;
-use study::tools::{Desk, DeskSeam};
+use study::seams::{Desk, DeskSeam};
 
 /// Columns of the table from which it has names of seams and both lengths.
 const FULL: usize = 66;

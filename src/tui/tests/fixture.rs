@@ -3,12 +3,16 @@
 use super::super::feed::{Compared, Detail, Snapshot};
 use super::super::message::Message;
 use super::super::tailor::{Laid, Task};
-use study::tools::{Fabric, Girths, Measurements, Model, Sex, SourceFile, Stretched, Workpiece, drafted};
+use study::bodies::{Girths, Measurements, Sex};
+use study::files::SourceFile;
+use study::patterns::{Model, drafted};
+use study::seams::Workpiece;
 use study::{
     Cell, Change, ChiRow, EaseRow, FabricRow, FitCell, FitClass, Grid, JobId, JobProgress, JobRow, LogLine,
     MEASUREMENTS, MetricsRow, RecommendationRow, Simulator, SizeKey, SizeRow, StageRow, Status, Step, StudyRow,
     SubjectId, SubjectRow, Why,
 };
+use study::{Fabric, Stretched};
 
 /// When it is, ms since 1970: 2023-11-14 22:13:20 UTC.
 const NOW_MS: i64 = 1_700_000_000_000;

@@ -6,7 +6,8 @@ use super::super::overlay::Overlay;
 use super::super::styles::DeskLine;
 use super::super::theme::Colours;
 use super::{Bench, fixture};
-use study::tools::{DeskSeam, SourceFile};
+use study::files::SourceFile;
+use study::seams::DeskSeam;
 use study::{Part, StyleGiven};
 
 /// Seams on the desk.

@@ -15,9 +15,9 @@ use image::RgbaImage;
 
 use crate::catalogue::read_fabric;
 use crate::error::{Result, StudyError};
+use crate::rows::StageKind;
 use crate::rows::{JobId, Value};
 use crate::run::pipeline::{Meshes, Model};
-use crate::spec::inputs::StageKind;
 use crate::store::Store;
 use crate::store::cache;
 use crate::store::read;

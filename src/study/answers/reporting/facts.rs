@@ -5,13 +5,14 @@ use crate::answers::picture;
 use crate::answers::reporting::quoted;
 use crate::catalogue::style;
 use crate::error::Result;
+use crate::patterns;
+use crate::rows::StageKind;
 use crate::rows::{EaseRow, JobRow, RecommendationRow, Status, Value};
 use crate::run::pipeline::Model;
-use crate::spec::inputs::StageKind;
 use crate::store::Store;
 use crate::store::read;
 use crate::store::sql;
-use crate::tools;
+
 use body::Girths;
 use fit::{Basis, Cuts, Ease, Finding, Simulator};
 use report::data::{
@@ -253,7 +254,7 @@ pub(super) fn drawings(store: &Store, jobs: &[JobRow]) -> Result<Vec<Drawing>> {
             continue;
         }
         let style = style::style_of(store, job.id)?;
-        let svg = tools::sheet(&style);
+        let svg = patterns::sheet(&style);
         drawings.push(Drawing { garment: job.garment.clone(), size: job.size.clone(), svg });
     }
     Ok(drawings)

@@ -56,56 +56,16 @@ mod sweep;
 mod tests;
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::path::{Path, PathBuf};
 
+use crate::error::Problem;
 use crate::error::{Result, StudyError};
-pub use crate::source::SourceFile;
+pub use crate::files::SourceFile;
 use crate::spec::parameters::Parameters;
 use crate::spec::{Limits, Schedule};
 use body::{LengthUnit, Measurements};
 use fit::{Cuts, Simulator};
 use sim::Fabric;
-
-/// One thing that is wrong with a study file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Problem {
-    /// The file.
-    pub file: PathBuf,
-    /// Line, from 1.
-    pub line: Option<usize>,
-    /// Column of the line, in characters from 1.
-    pub column: Option<usize>,
-    /// What was found, and what would be accepted.
-    pub message: String,
-}
-
-impl fmt::Display for Problem {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:", self.file.display())?;
-        for place in [self.line, self.column].into_iter().flatten() {
-            write!(f, "{place}:")?;
-        }
-        write!(f, " {}", self.message)
-    }
-}
-
-impl Problem {
-    /// A problem of a whole file.
-    pub(crate) fn of(file: &Path, message: impl Into<String>) -> Self {
-        Self { file: file.to_owned(), line: None, column: None, message: message.into() }
-    }
-
-    /// A problem of a line of a file.
-    pub(crate) fn at(file: &Path, line: usize, message: impl Into<String>) -> Self {
-        Self { line: Some(line), ..Self::of(file, message) }
-    }
-
-    /// All problems, one a line.
-    pub(crate) fn listing(problems: &[Self]) -> String {
-        problems.iter().map(Self::to_string).collect::<Vec<_>>().join("\n")
-    }
-}
 
 /// A subject of a study.
 #[derive(Clone, Debug, PartialEq)]
@@ -302,4 +262,13 @@ pub(crate) fn garments(path: &Path, text: &str) -> std::result::Result<Vec<Place
 /// [`StudyError::File`] with everything that is wrong.
 pub(crate) fn measurements(path: &Path, text: &str) -> Result<Measurements> {
     parse::measurements_file(path, text).map_err(StudyError::File)
+}
+
+/// Measurements from a TOML file with those of a study's `[[subject]]`.
+///
+/// # Errors
+/// Everything that is wrong with the file, at once.
+pub fn read_measurements(path: &Path) -> Result<Measurements> {
+    let text = std::fs::read_to_string(path).map_err(StudyError::io(path))?;
+    measurements(path, &text)
 }

@@ -6,12 +6,13 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::DeTable;
 
+use crate::error::Problem;
 use crate::error::{StudyError, nearest};
 use crate::spec::fields::{Entry, keys};
 use crate::spec::file::garments::{Common, garments};
 use crate::spec::file::reader::{Place, Reader};
 use crate::spec::file::subjects::{measurements, subjects};
-use crate::spec::file::{Known, Placed, Problem, SourceFile, Study, Subject, schedule, sweep};
+use crate::spec::file::{Known, Placed, SourceFile, Study, Subject, schedule, sweep};
 use body::Measurements;
 use fit::{Cuts, Simulator};
 use geom::units::{from_mm, mm};
@@ -114,11 +115,11 @@ fn simulators(reader: &mut Reader<'_>, top: &Place<'_>) -> Vec<Simulator> {
     let Some(names) = reader.texts(top, "simulators") else { return vec![Simulator::Fem] };
     let mut simulators = Vec::new();
     for name in names {
-        match crate::run::pipeline::SIMULATORS.into_iter().find(|sim| sim.as_str() == *name.get_ref()) {
+        match crate::spec::versions::SIMULATORS.into_iter().find(|sim| sim.as_str() == *name.get_ref()) {
             Some(simulator) if !simulators.contains(&simulator) => simulators.push(simulator),
             Some(_) => reader.problem(&name.span(), format!("simulator `{}` is named twice", name.get_ref())),
             None => {
-                let accepted = crate::run::pipeline::SIMULATORS.map(Simulator::as_str).join(", ");
+                let accepted = crate::spec::versions::SIMULATORS.map(Simulator::as_str).join(", ");
                 reader.problem(&name.span(), format!("no simulator `{}`; accepted: {accepted}", name.get_ref()));
             }
         }

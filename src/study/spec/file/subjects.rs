@@ -5,11 +5,11 @@ use std::path::Path;
 
 use toml::Spanned;
 
+use crate::bodies::read_scan;
 use crate::spec::fields::{Entry, keys, sex};
 use crate::spec::file::parse::{lookup, numbers, source, unique};
 use crate::spec::file::reader::{Place, Reader};
 use crate::spec::file::{Placed, ScanFile, SourceFile, Subject};
-use crate::tools::read_scan;
 use body::{LengthUnit, Measurements, Sex};
 
 /// What else a subject of a study may be.

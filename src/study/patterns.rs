@@ -1,0 +1,111 @@
+//! Patterns without a study: read as pieces and styles, meshed, drawn.
+
+use std::path::{Path, PathBuf};
+
+use crate::error::{Result, StudyError};
+use crate::files::SourceFile;
+use pattern::{Garment, Piece, drawing, garmentcode, source};
+
+pub use pattern::check::{Finding, of_garment as garment_findings};
+pub use pattern::draft::Model;
+pub use pattern::dxf::Unit;
+pub use pattern::inspect::{FileReport, PieceReport};
+pub use pattern::{MeshQuality, Style};
+
+/// The DXF files and GarmentCode specifications below a folder, by path.
+pub(crate) fn drawings(folder: &Path) -> Result<Vec<PathBuf>> {
+    let mut found = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).map_err(StudyError::io(&folder))? {
+            let entry = entry.map_err(StudyError::io(&folder))?;
+            let kind = entry.file_type().map_err(StudyError::io(entry.path()))?;
+            let is_dxf = entry.path().extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"));
+            // Other JSON lies beside patterns too; specifications are named so by the program that writes them.
+            let is_drawing = is_dxf || entry.path().to_string_lossy().ends_with("_specification.json");
+            match kind {
+                kind if kind.is_dir() => folders.push(entry.path()),
+                _ if is_drawing => found.push(entry.path()),
+                _ => {}
+            }
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// A style from the files of a pattern and its seams; `size` picks one where the pattern holds several.
+///
+/// # Errors
+/// When a file cannot be read, names no unit while none is given, or does not fit the other.
+pub fn style(pattern: &Path, seams: Option<&Path>, size: Option<&str>, unit: Option<Unit>) -> Result<Style> {
+    let seams = seams.map(SourceFile::read).transpose()?;
+    read_style(&SourceFile::read_pattern(pattern)?, seams.as_ref(), size, unit)
+}
+
+/// The pieces of one size of a pattern file, or of all of a folder.
+pub(crate) fn pieces(pattern: &SourceFile, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<Piece>> {
+    let mut pieces = Vec::new();
+    for part in pattern.parts() {
+        let file = source::read(&part.bytes, &part.name, unit).map_err(StudyError::stage("pattern"))?;
+        // A file of one size need not name it as the study does.
+        let size = size.filter(|_| file.sizes().len() > 1);
+        pieces.extend(file.to_sew(size).map_err(StudyError::stage("pattern"))?);
+    }
+    Ok(pieces)
+}
+
+/// The unit of a name in a study file.
+pub(crate) fn unit_of(name: &str) -> Option<Unit> {
+    [Unit::Mm, Unit::Cm, Unit::In].into_iter().find(|unit| unit.as_str() == name)
+}
+
+/// [`style`] from files already read.
+pub(crate) fn read_style(
+    pattern: &SourceFile,
+    seams: Option<&SourceFile>,
+    size: Option<&str>,
+    unit: Option<Unit>,
+) -> Result<Style> {
+    let mut style = if pattern.holds_seams() {
+        let read = garmentcode::read(&pattern.bytes, &pattern.name).map_err(StudyError::stage("pattern"))?;
+        let mut style = read.style();
+        if let Some(seams) = seams {
+            style.measure(&seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?;
+        }
+        style
+    } else {
+        let Some(seams) = seams else {
+            let message = format!("{}: holds no seams; give its seam file (`seams`, or --seams FILE)", pattern.name);
+            return Err(StudyError::Stage { stage: "pattern", message });
+        };
+        let pieces = pieces(pattern, size, unit)?;
+        Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?
+    };
+    if style.measurements.is_empty() {
+        style.measure_openings_and_seams();
+    }
+    Ok(style)
+}
+
+/// A style's mesh at an edge length, m, and how good its triangles are.
+///
+/// # Errors
+/// When the edge length is out of range or the outline cannot be meshed.
+pub fn mesh(style: &Style, edge_length_m: f64) -> Result<(Garment, MeshQuality)> {
+    let garment = style.mesh(edge_length_m).map_err(StudyError::stage("mesh"))?;
+    let quality = MeshQuality::of(&garment).ok_or_else(|| StudyError::stage("mesh")("no triangles"))?;
+    Ok((garment, quality))
+}
+
+/// The style's pieces on a sheet, as SVG with numbered measurements.
+#[must_use]
+pub fn sheet(style: &Style) -> String {
+    drawing::svg(style)
+}
+
+/// The files of a drafted style: a DXF a size and the seam file.
+#[must_use]
+pub fn drafted(model: Model) -> Vec<(String, Vec<u8>)> {
+    model.files()
+}
