@@ -12,7 +12,7 @@ use toile::pattern::{Garment, Style, draft, dxf};
 use toile::render::{self, Camera, Frame, Layer, Material, Scene, View};
 use toile::sim::fem::{self, Params};
 use toile::sim::{Drape, Fabric, Silent, fabric, laboratory};
-use toile::study::pattern_files::{Beside, inspect};
+use toile::study::seams::pattern_files::{Beside, inspect};
 use toile::study::{RunOptions, Workspace};
 
 fn main() {

@@ -394,7 +394,7 @@ impl Workspace {
     /// # Errors
     /// When there is none of that name.
     pub fn subject(&self, name: &str) -> Result<Measurements> {
-        run::subject(&self.store, name)
+        known::subject(&self.store, name)
     }
 
     /// What a run of a study would do; nothing is written.

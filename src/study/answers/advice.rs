@@ -2,7 +2,6 @@
 
 use crate::answers::picture;
 use crate::answers::picture::tension_near;
-use crate::answers::reporting::facts;
 use crate::error::{Result, StudyError};
 use crate::rows::{EaseRow, JobId, JobRow, RecommendationRow};
 use crate::store::Store;
@@ -100,7 +99,7 @@ fn size_answer(
         sizes.push(SizeOn { size: of_size[0].size.clone(), levels, shown: shown(of_size, answers) });
     }
     let fits: Vec<SizeFit> = sizes.iter().map(fit_of).collect();
-    let advice = fit::advise(&fits, &facts::cuts(store, study)?);
+    let advice = fit::advise(&fits, &read::cuts(store, study)?);
     let (garment, subject) = (first.garment.clone(), first.subject.clone());
     Ok(advice.map(|advice| SizeAnswer { garment, subject, advice, sizes }))
 }

@@ -9,7 +9,7 @@ use crate::patterns;
 use crate::rows::Value;
 use crate::run::outcome::machine;
 
-use crate::workspace::Workspace;
+use crate::store::{Store, sql};
 use body::{Measurements, Sex};
 use geom::units::mm;
 
@@ -41,10 +41,10 @@ pub fn checks(database: &Path, readonly: bool) -> Vec<Check> {
 
 /// Opens the database and lets SQLite check it.
 fn database_check(path: &Path, readonly: bool) -> Result<String> {
-    let workspace = Workspace::open(path, readonly)?;
-    let table = workspace.query("PRAGMA quick_check")?;
+    let store = Store::open(path, readonly)?;
+    let table = sql::query(&store, "PRAGMA quick_check")?;
     let said: Vec<String> = table.rows.iter().flatten().map(Value::to_string).collect();
-    let jobs = workspace.query("SELECT count(*) FROM job")?;
+    let jobs = sql::query(&store, "SELECT count(*) FROM job")?;
     let count = jobs.rows.iter().flatten().map(Value::to_string).collect::<String>();
     Ok(format!("{}: {}, {count} jobs", path.display(), said.join("; ")))
 }

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::catalogue::format::{Format, format_of, text_of, unknown_format};
 use crate::catalogue::style;
 use crate::catalogue::{Mode, Part, Saved, Stored, check_name, known, save, sheet};
 use crate::error::Problem;
@@ -80,35 +81,5 @@ fn verified<T: Stored>(entries: &[Placed<T>]) -> Vec<std::result::Result<Vec<Str
             .into_iter()
             .flat_map(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
             .collect()
-    })
-}
-
-/// Format of a file to import.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Format {
-    Csv,
-    Toml,
-}
-
-/// The format that a file's name tells.
-pub(super) fn format_of(path: &Path) -> Option<Format> {
-    match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
-        "csv" | "tsv" => Some(Format::Csv),
-        "toml" => Some(Format::Toml),
-        _ => None,
-    }
-}
-
-/// That a file is of no format that can be imported.
-pub(super) fn unknown_format(path: &Path, accepted: &str) -> Problem {
-    Problem::of(path, format!("its name tells no format that can be imported; accepted: {accepted}"))
-}
-
-/// The text of a file.
-pub(super) fn text_of<'b>(path: &Path, bytes: &'b [u8]) -> std::result::Result<&'b str, Vec<Problem>> {
-    std::str::from_utf8(bytes).map_err(|error| {
-        let line = 1 + bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count();
-        let message = "bytes that are no text; accepted: UTF-8".to_owned();
-        vec![Problem { line: Some(line), ..Problem::of(path, message) }]
     })
 }

@@ -232,3 +232,15 @@ pub(crate) fn subject_revision(store: &Store, id: SubjectId) -> Result<SubjectRo
         error => error.into(),
     })
 }
+
+/// A subject of the catalogue, latest revision.
+///
+/// # Errors
+/// When there is none of that name.
+pub fn subject(store: &Store, name: &str) -> Result<Measurements> {
+    let mut subjects = known(Some(&store.reader))?.subjects;
+    subjects.remove(name).ok_or_else(|| {
+        let known = subjects.into_keys().collect();
+        StudyError::NotFound { what: "subject", name: name.to_owned(), known }
+    })
+}

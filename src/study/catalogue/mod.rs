@@ -2,6 +2,7 @@
 //! found again, and nothing a result came from is ever changed: an entry that results use is hidden when it is removed.
 
 pub mod fabrics;
+mod format;
 pub mod import;
 pub mod known;
 mod norms;
@@ -18,7 +19,6 @@ use rusqlite::Transaction;
 
 use crate::bodies;
 use crate::error::{Result, StudyError};
-use crate::run;
 use crate::spec::fields::{Entry, Given, filled};
 use crate::store;
 use crate::store::Store;
@@ -229,7 +229,7 @@ fn save(
 /// read-only.
 pub fn save_subject(store: &mut Store, mode: Mode, name: &str, given: &[Given]) -> Result<Saved> {
     let base = match mode {
-        Mode::Edit => Some(run::subject(store, name)?),
+        Mode::Edit => Some(known::subject(store, name)?),
         _ => None,
     };
     save_entry(store, mode, name, base.as_ref(), given)

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 
-use crate::catalogue::import::text_of;
+use crate::catalogue::format::text_of;
 use crate::catalogue::{Part, check_name};
 use crate::error::Problem;
 use crate::error::nearest;

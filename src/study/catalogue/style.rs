@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use rusqlite::{OptionalExtension, Row, Transaction};
 
-use crate::catalogue::import::{Format, format_of, text_of, unknown_format};
+use crate::catalogue::format::{Format, format_of, text_of, unknown_format};
 use crate::catalogue::revision::{self, By};
 use crate::catalogue::{Mode, Part, Saved, check_name, refused, save};
 use crate::error::Problem;

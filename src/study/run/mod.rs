@@ -28,7 +28,6 @@ use crate::spec::{self, Selection};
 use crate::store::Store;
 use crate::store::live::Live;
 use crate::store::{self, Access, evidence};
-use body::Measurements;
 
 /// What to run, and how.
 #[derive(Clone, Debug, Default)]
@@ -96,18 +95,6 @@ pub fn load_study(store: &Store, path: &Path) -> Result<Study> {
     let study = Study::load(path, &catalogue::known(Some(&store.reader))?)?;
     check_patterns(&study)?;
     Ok(study)
-}
-
-/// A subject of the catalogue, latest revision.
-///
-/// # Errors
-/// When there is none of that name.
-pub fn subject(store: &Store, name: &str) -> Result<Measurements> {
-    let mut subjects = catalogue::known(Some(&store.reader))?.subjects;
-    subjects.remove(name).ok_or_else(|| {
-        let known = subjects.into_keys().collect();
-        StudyError::NotFound { what: "subject", name: name.to_owned(), known }
-    })
 }
 
 /// What a run of a study would do; nothing is written.

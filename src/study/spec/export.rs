@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use crate::files;
 use crate::spec::fields::{FABRIC_NUMBERS, MEASUREMENTS};
 use crate::spec::file::{GarmentEntry, ScanFile, SourceFile, Study, Subject};
 use crate::spec::{self, Schedule, millimetres, sex_name};
@@ -148,6 +147,7 @@ mod tests {
 
     use super::*;
     use crate::catalogue;
+    use crate::files;
     use crate::patterns::Model;
     use crate::spec::new_study::new_study;
 

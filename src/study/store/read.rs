@@ -10,7 +10,7 @@ use crate::rows::{
     Status, StudyRow,
 };
 use crate::store::Store;
-use fit::{FitClass, Simulator};
+use fit::{Cuts, FitClass, Simulator};
 use geom::units::from_mm;
 use sim::Step;
 
@@ -361,4 +361,11 @@ pub(crate) fn fit_class(row: &Row<'_>, column: usize) -> rusqlite::Result<FitCla
     named(row, column, |name| {
         [FitClass::Tight, FitClass::Just, FitClass::Loose].into_iter().find(|class| class.as_str() == name)
     })
+}
+
+/// Where the fit classes of a study meet; the usual places for a study that is not stored.
+pub(crate) fn cuts(store: &Store, study: &str) -> Result<Cuts> {
+    let sql = "SELECT tight_below_mm / 1000, loose_above_mm / 1000 FROM study WHERE name = ?";
+    let read = |row: &Row<'_>| Ok(Cuts { tight_below_m: row.get(0)?, loose_above_m: row.get(1)? });
+    Ok(store.reader.query_row(sql, [study], read).optional()?.unwrap_or_default())
 }

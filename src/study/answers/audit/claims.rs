@@ -1,6 +1,6 @@
 //! Statements of the text, held against the tables they speak of.
 
-use crate::answers::audit::published::{mean, variance};
+use crate::answers::audit::rounding::{mean, variance};
 use crate::answers::audit::tables::{SUBJECTS, Sized, Tables};
 use crate::answers::audit::{Finding, three};
 use fit::Simulator::{self, Fem, Hybrid};

@@ -1,7 +1,7 @@
 //! E, SD and EI of chapter 6, and the summaries of the subjects.
 
-use crate::answers::audit::published::{mean, prints_as, variance};
 use crate::answers::audit::ratios::as_computed;
+use crate::answers::audit::rounding::{mean, prints_as, variance};
 use crate::answers::audit::tables::{Metric, SUBJECTS, Sized, Summary, Tables};
 use crate::answers::audit::{Finding, three};
 use fit::Simulator;

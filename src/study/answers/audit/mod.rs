@@ -10,6 +10,7 @@ mod published;
 mod ratios;
 mod references;
 mod results;
+mod rounding;
 mod structure;
 mod tables;
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Ratios L3D / L2D, and mean and SD of each row.
 
-use crate::answers::audit::published::{blur, mean, prints_as, variance};
+use crate::answers::audit::rounding::{blur, mean, prints_as, variance};
 use crate::answers::audit::tables::{Row, SUBJECTS, Sized, Tables};
 use crate::answers::audit::{Finding, three, threes};
 use fit::Simulator;

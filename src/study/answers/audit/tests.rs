@@ -58,8 +58,8 @@ fn tables_without_errors_have_no_findings() {
     let row = |no: u32, simulator, l2d_mm: f64, grow: f64| {
         let l3d_mm = std::array::from_fn(|s| l2d_mm * (grow + 0.01 * s as f64 + 0.001 * f64::from(no)));
         let chi: [f64; 6] = std::array::from_fn(|s| l3d_mm[s] / l2d_mm);
-        let mean = published::mean(&chi);
-        let sd = published::variance(&chi, 1.0).sqrt();
+        let mean = rounding::mean(&chi);
+        let sd = rounding::variance(&chi, 1.0).sqrt();
         let of = Sized { garment: "male_tshirt".into(), size: "s".into() };
         Row { table: "1".into(), of, simulator, no, name: "Neck".into(), l2d_mm, l3d_mm, chi, mean, sd }
     };

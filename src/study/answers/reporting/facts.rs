@@ -14,7 +14,7 @@ use crate::store::read;
 use crate::store::sql;
 
 use body::Girths;
-use fit::{Basis, Cuts, Ease, Finding, Simulator};
+use fit::{Basis, Ease, Finding, Simulator};
 use report::data::{
     AuditNote, Column, Drawing, EaseMatrix, FabricFacts, Fact, Severity, SizeTip, Subject, SubjectTable, Verdict,
 };
@@ -232,18 +232,6 @@ pub(super) fn fabric_facts(store: &Store, study: &str) -> Result<Vec<FabricFacts
         facts: table.columns.iter().zip(row).skip(2).map(fact).collect(),
     };
     Ok(table.rows.iter().map(facts).collect())
-}
-
-/// Where the fit classes of a study meet.
-pub(crate) fn cuts(store: &Store, study: &str) -> Result<Cuts> {
-    let sql = format!("SELECT tight_below_mm / 1000, loose_above_mm / 1000 FROM study WHERE name = {}", quoted(study));
-    let cuts = match sql::query(store, &sql)?.rows.first().map(Vec::as_slice) {
-        Some([Value::Real(tight_below_m), Value::Real(loose_above_m)]) => {
-            Cuts { tight_below_m: *tight_below_m, loose_above_m: *loose_above_m }
-        }
-        _ => Cuts::default(),
-    };
-    Ok(cuts)
 }
 
 /// The first size of each garment, drawn from what its job was made from.

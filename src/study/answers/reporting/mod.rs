@@ -1,6 +1,6 @@
 //! The report of a study: gathering what the page shows, and the raw files beside it.
 
-pub(crate) mod facts;
+mod facts;
 mod published;
 mod runs;
 mod sheets;
@@ -105,7 +105,7 @@ fn report_data(store: &Store, study: &str, files: &mut Vec<(String, Vec<u8>)>) -
         fabrics: facts::fabric_facts(store, study)?,
         subjects: facts::subject_table(&bodies),
         drawings,
-        cuts: facts::cuts(store, study)?,
+        cuts: read::cuts(store, study)?,
         ease: facts::ease_matrices(store, study)?,
         sizes: facts::size_tips(store, study, &bodies)?,
         runs,

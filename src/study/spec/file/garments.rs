@@ -6,9 +6,9 @@ use std::path::Path;
 use toml::Spanned;
 
 use crate::spec::Limits;
-use crate::spec::file::parse::{lookup, source, unique};
 use crate::spec::file::reader::{Place, Reader};
 use crate::spec::file::sweep::{self, EDGE_MM};
+use crate::spec::file::values::{lookup, source, unique};
 use crate::spec::file::{GarmentEntry, KnownStyle, Placed, Sewn, SizeFile, SourceFile, Subject, schedule};
 use crate::spec::parameters::Parameters;
 use geom::units::from_mm;

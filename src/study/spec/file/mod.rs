@@ -54,6 +54,7 @@ mod subjects;
 mod sweep;
 #[cfg(test)]
 mod tests;
+mod values;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

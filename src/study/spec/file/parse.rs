@@ -7,12 +7,12 @@ use toml::Spanned;
 use toml::de::DeTable;
 
 use crate::error::Problem;
-use crate::error::{StudyError, nearest};
 use crate::spec::fields::{Entry, keys};
 use crate::spec::file::garments::{Common, garments};
 use crate::spec::file::reader::{Place, Reader};
 use crate::spec::file::subjects::{measurements, subjects};
-use crate::spec::file::{Known, Placed, SourceFile, Study, Subject, schedule, sweep};
+use crate::spec::file::values::{numbers, unique};
+use crate::spec::file::{Known, Placed, Study, Subject, schedule, sweep};
 use body::Measurements;
 use fit::{Cuts, Simulator};
 use geom::units::{from_mm, mm};
@@ -149,24 +149,6 @@ fn cuts(reader: &mut Reader<'_>, top: &Place<'_>) -> Cuts {
     cuts
 }
 
-/// Reads the numbers of an entry over a blank one; `None` where one is wrong or missing.
-pub(super) fn numbers<T: Entry>(reader: &mut Reader<'_>, place: &Place<'_>, mut entry: T, wanted: &str) -> Option<T> {
-    let before = reader.problems.len();
-    for field in T::fields() {
-        if place.table.contains_key(field.key) {
-            if let Some(number) = reader.checked(place, field.key, |number| field.check(number)) {
-                field.set(&mut entry, Some(number));
-            }
-        } else if field.is_required {
-            reader.missing(place, field.key, wanted);
-        }
-    }
-    if let Err((_, problem)) = entry.check() {
-        reader.problem(&place.span, format!("{}: {problem}", place.name));
-    }
-    (reader.problems.len() == before).then_some(entry)
-}
-
 /// The known fabrics and those of the file itself, which win.
 fn fabrics(reader: &mut Reader<'_>, top: &Place<'_>, known: &BTreeMap<String, Fabric>) -> BTreeMap<String, Fabric> {
     let mut fabrics = known.clone();
@@ -190,59 +172,4 @@ pub(super) fn own_fabrics(reader: &mut Reader<'_>, top: &Place<'_>) -> Vec<Place
         fabrics.extend(fabric.map(|fabric| reader.placed(&name.span(), name.get_ref(), fabric)));
     }
     fabrics
-}
-
-/// Refuses a second entry of the same name.
-pub(super) fn unique<'t>(reader: &mut Reader<'_>, names: &mut BTreeSet<&'t str>, name: &Spanned<&'t str>, what: &str) {
-    if !names.insert(name.get_ref()) {
-        reader.problem(&name.span(), format!("{what} `{}` is there twice; names must differ", name.get_ref()));
-    }
-}
-
-/// An entry by name; a problem with a suggestion where there is none.
-pub(super) fn lookup<'k, T>(
-    reader: &mut Reader<'_>,
-    known: &'k BTreeMap<String, T>,
-    name: &Spanned<&str>,
-    what: &str,
-) -> Option<&'k T> {
-    let found = known.get(*name.get_ref());
-    if found.is_none() {
-        let hint = match nearest(name.get_ref(), known.keys().map(String::as_str)) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("there are: {}", known.keys().cloned().collect::<Vec<_>>().join(", ")),
-        };
-        reader.problem(&name.span(), format!("no {what} `{}`; {hint}", name.get_ref()));
-    }
-    found
-}
-
-/// A file beside the study file; a problem with a suggestion where it cannot be read.
-pub(super) fn source(
-    reader: &mut Reader<'_>,
-    place: &Place<'_>,
-    file: &Spanned<&str>,
-    folder: &Path,
-    read: fn(&Path) -> Result<SourceFile, StudyError>,
-) -> Option<SourceFile> {
-    let path = folder.join(file.get_ref());
-    match read(&path) {
-        Ok(source) => Some(source),
-        Err(error) => {
-            let wanted = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            let beside: Vec<String> = path.parent().map(file_names).unwrap_or_default();
-            let hint = nearest(&wanted, beside.iter().map(String::as_str));
-            let hint = hint.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-            reader.problem(&file.span(), format!("{}: {error}{hint}", place.name));
-            None
-        }
-    }
-}
-
-/// Names of the files in a folder, sorted.
-fn file_names(folder: &Path) -> Vec<String> {
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let mut names: Vec<String> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
-    names.sort();
-    names
 }

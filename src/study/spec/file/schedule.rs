@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::spec::file::GarmentEntry;
-use crate::spec::file::parse::lookup;
 use crate::spec::file::reader::{Place, Reader};
+use crate::spec::file::values::lookup;
 use crate::spec::{Limits, Schedule};
 
 /// Longest time that a simulation may be given, s: thirty days.

@@ -7,8 +7,8 @@ use toml::Spanned;
 
 use crate::bodies::read_scan;
 use crate::spec::fields::{Entry, keys, sex};
-use crate::spec::file::parse::{lookup, numbers, source, unique};
 use crate::spec::file::reader::{Place, Reader};
+use crate::spec::file::values::{lookup, numbers, source, unique};
 use crate::spec::file::{Placed, ScanFile, SourceFile, Subject};
 use body::{LengthUnit, Measurements, Sex};
 

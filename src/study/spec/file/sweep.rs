@@ -10,8 +10,8 @@ use toml::de::{DeTable, DeValue};
 
 use crate::spec::fields::FABRIC_NUMBERS;
 use crate::spec::file::GarmentEntry;
-use crate::spec::file::parse::lookup;
 use crate::spec::file::reader::{Place, Reader};
+use crate::spec::file::values::lookup;
 use crate::spec::parameters::Parameters;
 use geom::units::from_mm;
 use sim::Fabric;
