@@ -11,7 +11,6 @@ mod control_cut;
 mod control_file;
 mod dimension;
 mod draw;
-mod evaluate;
 mod field;
 mod figure;
 mod fit;
@@ -48,7 +47,6 @@ pub use control::{ControlMesh, Layer, RING, Region};
 pub use control_file::{ControlFile, read_control, write_control};
 pub use dimension::Dimension;
 pub use draw::{person, scores};
-pub use evaluate::{Accuracy, Evaluated, Evaluation, evaluate};
 pub use import::{Imported, LengthUnit, import, write_obj};
 pub use lengths::{Lengths, Measured, lengths};
 pub use measure::{Girths, measure};
@@ -113,14 +111,6 @@ pub enum BodyError {
         /// Line, vertex or face.
         place: String,
         /// What is wrong there.
-        problem: String,
-    },
-    /// A table of a folder of bodies.
-    #[error("{path}: {problem}; accepted: CSV tables manifest.csv and measurements.csv with a column id")]
-    Table {
-        /// The table.
-        path: String,
-        /// What is wrong.
         problem: String,
     },
     /// A picture that no body can be read from.

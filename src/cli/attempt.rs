@@ -92,14 +92,14 @@ fn show(context: &Context, tried: &Tried) -> Result<(), CliError> {
     }
     let columns = ["n", "e_chi", "sd_chi", "ei", "residual", "penetration_mm", "crossings", "vertices", "wall_ms"];
     let row = vec![
-        Value::Integer(tried.n as i64),
-        Value::Real(tried.e_chi),
-        Value::Real(tried.sd_chi),
-        Value::Real(tried.ei),
-        Value::Real(tried.residual),
-        Value::Real(tried.penetration_max_mm),
-        Value::Integer(tried.self_crossings as i64),
-        Value::Integer(tried.vertices as i64),
+        Value::Integer(tried.errors.n as i64),
+        Value::Real(tried.errors.e_chi),
+        Value::Real(tried.errors.sd_chi),
+        Value::Real(tried.errors.ei),
+        Value::Real(tried.cloth.residual),
+        Value::Real(tried.cloth.penetration_max_mm),
+        Value::Integer(tried.cloth.self_crossings as i64),
+        Value::Integer(tried.cloth.vertices as i64),
         Value::Integer(i64::try_from(tried.wall_ms).unwrap_or(i64::MAX)),
     ];
     context.print(&Table { columns: columns.map(str::to_owned).to_vec(), rows: vec![row] })

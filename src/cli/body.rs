@@ -10,7 +10,8 @@ use super::{CliError, End, Outcome, output};
 use geom::units::from_mm;
 use study::View;
 use study::bodies;
-use study::bodies::{Accuracy, Lens, Measurements};
+use study::bodies::{Lens, Measurements};
+use study::evaluate::{self, Accuracy};
 use study::files;
 use study::{Table, Value};
 
@@ -45,7 +46,7 @@ pub fn of(sex: Sex) -> bodies::Sex {
 
 /// Prints how well the bodies of a folder are measured.
 fn evaluate(context: &Context, folder: &Path) -> Result<(), CliError> {
-    let found = bodies::evaluate_bodies(folder)?;
+    let found = evaluate::evaluate(folder)?;
     if context.json {
         return Ok(output::json(&found)?);
     }

@@ -97,20 +97,21 @@ pub struct TriedGap {
     pub shortfall_mm: f64,
 }
 
-/// What came of a trial, with the columns of `v_metrics`.
+/// How far a try is from its pattern, over all measurements: `v_metrics`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[expect(missing_docs, reason = "the columns of the view, which db/schema.sql describes")]
-pub struct Tried {
-    pub garment: String,
-    pub size: String,
-    pub subject: String,
-    pub simulator: String,
-    pub fabric: String,
+pub struct TriedErrors {
     pub n: usize,
     pub e_chi: f64,
     pub sd_chi: f64,
     pub ei: f64,
     pub max_abs_error: f64,
+}
+
+/// The draped cloth of a try: `v_metrics`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[expect(missing_docs, reason = "the columns of the view, which db/schema.sql describes")]
+pub struct TriedCloth {
     pub vertices: usize,
     pub faces: usize,
     pub iterations: u32,
@@ -121,6 +122,21 @@ pub struct Tried {
     pub self_crossings: usize,
     /// FEM: principal stretch beyond 1 that 1 % of the cloth exceeds.
     pub distortion: Option<f64>,
+}
+
+/// What came of a trial, with the columns of `v_metrics`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[expect(missing_docs, reason = "the columns of the view, which db/schema.sql describes")]
+pub struct Tried {
+    pub garment: String,
+    pub size: String,
+    pub subject: String,
+    pub simulator: String,
+    pub fabric: String,
+    #[serde(flatten)]
+    pub errors: TriedErrors,
+    #[serde(flatten)]
+    pub cloth: TriedCloth,
     pub wall_ms: u64,
     /// Greatest spread of a chi over the repeated simulations.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -190,7 +206,7 @@ pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<T
     }
     if asked.simulator == Simulator::Fem {
         let (stretch, told) = distorted(&sim::fem::Params::default(), garment, &drape)?;
-        tried.distortion = Some(stretch);
+        tried.cloth.distortion = Some(stretch);
         notes.extend(told);
     }
     tried.notes = notes;
@@ -338,20 +354,24 @@ fn measured(asked: &Attempt, style: &Style, garment: &Garment, drape: &Drape, fa
         subject: asked.body.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
         simulator: asked.simulator.as_str().to_owned(),
         fabric: fabric.name.clone(),
-        n: metrics.n,
-        e_chi: metrics.e_chi,
-        sd_chi: metrics.sd_chi,
-        ei: metrics.ei,
-        max_abs_error: metrics.max_abs_error,
-        vertices: drape.welded_vertices,
-        faces: garment.triangles.len(),
-        iterations: drape.iterations,
-        residual: drape.residual,
-        converged: drape.converged,
-        penetration_max_mm: mm(drape.penetration_max_m),
-        seam_gap_max_mm: mm(drape.seam_gap_max_m),
-        self_crossings: drape.self_crossings,
-        distortion: None,
+        errors: TriedErrors {
+            n: metrics.n,
+            e_chi: metrics.e_chi,
+            sd_chi: metrics.sd_chi,
+            ei: metrics.ei,
+            max_abs_error: metrics.max_abs_error,
+        },
+        cloth: TriedCloth {
+            vertices: drape.welded_vertices,
+            faces: garment.triangles.len(),
+            iterations: drape.iterations,
+            residual: drape.residual,
+            converged: drape.converged,
+            penetration_max_mm: mm(drape.penetration_max_m),
+            seam_gap_max_mm: mm(drape.seam_gap_max_m),
+            self_crossings: drape.self_crossings,
+            distortion: None,
+        },
         wall_ms: 0,
         chi_spread_max: None,
         chi: chi.collect(),

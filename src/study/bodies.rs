@@ -7,8 +7,7 @@ use crate::files::SourceFile;
 use render::{self, Camera, Frame, Layer, Material, Scene, View};
 
 pub use body::{
-    Accuracy, Body, Doubt, Evaluation, Girths, LengthUnit, Mass, Measured, Measurements, Pictured, PicturedLevel, Pose,
-    Scan, Sex, write_obj,
+    Body, Doubt, Girths, LengthUnit, Mass, Measured, Measurements, Pictured, PicturedLevel, Pose, Scan, Sex, write_obj,
 };
 
 /// A body built from measurements.
@@ -109,14 +108,6 @@ pub fn read_pictures(
     let camera = camera.transpose().map_err(StudyError::stage("body"))?;
     body::from_pictures(&sources[0].bytes, &sources[1].bytes, camera.as_ref(), sex, stature_m)
         .map_err(StudyError::stage("body"))
-}
-
-/// How well the bodies of a folder are measured from each of their sources.
-///
-/// # Errors
-/// When the folder lacks its tables.
-pub fn evaluate_bodies(folder: &Path) -> Result<Evaluation> {
-    body::evaluate(folder).map_err(StudyError::stage("body"))
 }
 
 /// The control mesh of a body as files: OBJ of its faces, and JSON with regions, joints, feature points, feature lines and

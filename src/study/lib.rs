@@ -8,6 +8,7 @@ mod attempt;
 pub mod bodies;
 mod catalogue;
 mod error;
+pub mod evaluate;
 pub mod files;
 pub mod patterns;
 mod rows;
@@ -27,7 +28,7 @@ pub use answers::picture::{Cloth, Look, Map, Order, Shot, Zoom};
 pub use answers::population::{Nearest, PopulationOptions, Representative, representatives, subjects_text};
 pub use answers::record::{ChiPair, Comparison, ProvenanceRow, Record, Rerun};
 pub use answers::reports::{ReportRow, reports};
-pub use attempt::{Attempt, Tried, TriedChi, TriedEase, TriedGap, attempt};
+pub use attempt::{Attempt, Tried, TriedChi, TriedCloth, TriedEase, TriedErrors, TriedGap, attempt};
 pub use catalogue::{
     Deed, FabricRow, Mode, Part, Removed, Saved, SizeRow, StyleGiven, SubjectRow, doubts, is_doubtful, percentile,
     percentile_text,

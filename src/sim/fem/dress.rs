@@ -159,7 +159,7 @@ impl Dressing<'_> {
         if grip == Grip::Throughout {
             contact.set_friction(Some(self.fabric.friction_body));
         }
-        let springs = Springs::new(garment, params.seam_stiffness_n_m, self.force * params.seam_cap_n);
+        let springs = Springs::new(garment, params.sewing.seam_stiffness_n_m, self.force * params.sewing.seam_cap_n);
         let sewn = springs.pairs.clone();
         let mut system = System::new(&cloth, contact, Some(springs));
         let apart = ClothContact::new(around.self_contact, &cloth.triangles, &cloth.areas);

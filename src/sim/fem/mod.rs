@@ -8,7 +8,7 @@ mod run;
 mod settle;
 mod start;
 
-pub use params::{Params, level_edges};
+pub use params::{Params, Sewing, level_edges};
 
 use crate::contact::Skin;
 use crate::quality;

@@ -15,16 +15,9 @@ pub fn level_edges(finest_m: f64) -> Vec<f64> {
     coarser.filter(|edge| *edge <= COARSEST_EDGE_M).chain([finest_m]).collect()
 }
 
-/// How FEM-GS places, sews and drapes.
+/// How FEM-GS closes seams.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Params {
-    /// Offset `mu`: the middle of a trunk piece starts `mu H / 2` before the trunk's centre, `H` the body depth (4.18).
-    /// `None`: the least that clears the body all along the piece and brings its sides to the body's sides.
-    pub offset_mu: Option<f64>,
-    /// Angle over which trunk pieces are bent before sewing, rad (4.6). `None`: bent to half an ellipse as wide as the body.
-    pub bend_angle_rad: Option<f64>,
-    /// Draws a start that differs a little from the placed one, to measure what the drape owes to it; 0 for the placed one.
-    pub seed: u64,
+pub struct Sewing {
     /// Stiffness of a seam spring, N/m.
     pub seam_stiffness_n_m: f64,
     /// Force of a seam spring at first, N.
@@ -45,6 +38,38 @@ pub struct Params {
     pub sewing_steps: u32,
     /// Gap at which seams are welded, m.
     pub weld_gap_m: f64,
+}
+
+impl Default for Sewing {
+    fn default() -> Self {
+        Self {
+            seam_stiffness_n_m: 50.0,
+            seam_cap_n: 0.05,
+            seam_growth: 1.5,
+            sewing_progress: 0.98,
+            sewing_patience: 3,
+            sewing_h_min_s: 0.02,
+            sewing_clamp_m: 0.005,
+            sewing_h_max_s: 0.1,
+            sewing_steps: 300,
+            weld_gap_m: 2e-3,
+        }
+    }
+}
+
+/// How FEM-GS places, sews and drapes.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Params {
+    /// Offset `mu`: the middle of a trunk piece starts `mu H / 2` before the trunk's centre, `H` the body depth (4.18).
+    /// `None`: the least that clears the body all along the piece and brings its sides to the body's sides.
+    pub offset_mu: Option<f64>,
+    /// Angle over which trunk pieces are bent before sewing, rad (4.6). `None`: bent to half an ellipse as wide as the body.
+    pub bend_angle_rad: Option<f64>,
+    /// Draws a start that differs a little from the placed one, to measure what the drape owes to it; 0 for the placed one.
+    pub seed: u64,
+    /// How seams are closed.
+    #[serde(flatten)]
+    pub sewing: Sewing,
     /// Residual without friction at which a level is good enough to start the next.
     pub coarse_tolerance: f64,
     /// Most steps without friction on a level.
@@ -74,16 +99,7 @@ impl Default for Params {
             offset_mu: None,
             bend_angle_rad: None,
             seed: 0,
-            seam_stiffness_n_m: 50.0,
-            seam_cap_n: 0.05,
-            seam_growth: 1.5,
-            sewing_progress: 0.98,
-            sewing_patience: 3,
-            sewing_h_min_s: 0.02,
-            sewing_clamp_m: 0.005,
-            sewing_h_max_s: 0.1,
-            sewing_steps: 300,
-            weld_gap_m: 2e-3,
+            sewing: Sewing::default(),
             coarse_tolerance: 1.0,
             coarse_steps: 300,
             finest_frictionless_steps: 2,

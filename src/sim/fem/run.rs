@@ -125,31 +125,31 @@ impl<'a> Run<'a> {
     ) -> Result<(), SimError> {
         let params = self.params;
         let mut stepper = Stepper::new(StepParams {
-            h_start_s: params.sewing_h_min_s,
-            h_max_s: params.sewing_h_max_s,
-            clamp_m: params.sewing_clamp_m,
+            h_start_s: params.sewing.sewing_h_min_s,
+            h_max_s: params.sewing.sewing_h_max_s,
+            clamp_m: params.sewing.sewing_clamp_m,
             ..params.step
         });
         let gaps =
             |system: &System, x: &[V3]| system.springs.as_ref().map_or((0.0, 0.0), |s| (s.gap_m(x), s.mean_gap_m(x)));
         let start = gaps(system, x).0.max(f64::MIN_POSITIVE);
         let (mut least, mut stalled) = (start, 0);
-        for step in 1..=PATIENCE * params.sewing_steps {
+        for step in 1..=PATIENCE * params.sewing.sewing_steps {
             let info = stepper.step(system, x, 0.0);
             let (widest, mean) = gaps(system, x);
             let done = (1.0 - (widest / start).sqrt()).clamp(0.0, 1.0);
             self.record(garment, x, &whole(x), info, "sew", 0, widest, 0.2 * done)?;
-            if widest <= params.weld_gap_m || (step >= params.sewing_steps && widest <= OPEN_M) {
+            if widest <= params.sewing.weld_gap_m || (step >= params.sewing.sewing_steps && widest <= OPEN_M) {
                 break;
             }
-            if mean < least * params.sewing_progress {
+            if mean < least * params.sewing.sewing_progress {
                 (least, stalled) = (mean, 0);
             } else {
                 stalled += 1;
             }
-            if stalled >= params.sewing_patience && info.share >= 0.25 {
+            if stalled >= params.sewing.sewing_patience && info.share >= 0.25 {
                 stalled = 0;
-                if !system.springs.as_mut().is_some_and(|springs| springs.tighten(params.seam_growth)) {
+                if !system.springs.as_mut().is_some_and(|springs| springs.tighten(params.sewing.seam_growth)) {
                     break;
                 }
             }

@@ -3,10 +3,11 @@
 //! The folder holds `manifest.csv` (id, sex, file), `measurements.csv` (the truth, cm), and where there are any `scans.csv`
 //! (id, file) and `images.csv` (id, kind, view, projection, file, camera).
 
-use super::pictures::Camera;
-use super::{BodyError, Girths, Sex, from_pictures, from_scan};
 use std::collections::BTreeMap;
 use std::path::Path;
+
+use crate::error::{Result, StudyError};
+use body::{Camera, Girths, Sex, from_pictures, from_scan};
 
 /// A row of a table: values by column.
 type Row = BTreeMap<String, String>;
@@ -85,9 +86,9 @@ pub struct Evaluation {
 /// Measures every body of a folder from its mesh, scans, silhouettes and photographs.
 ///
 /// # Errors
-/// [`BodyError::File`] for a table that is absent or lacks a column. A body that cannot be measured is no error: it is
+/// For a table that is absent or lacks a column. A body that cannot be measured is no error: it is
 /// listed with the reason.
-pub fn evaluate(folder: &Path) -> Result<Evaluation, BodyError> {
+pub fn evaluate(folder: &Path) -> Result<Evaluation> {
     let manifest = table(folder, "manifest.csv")?;
     let truth: BTreeMap<String, Row> =
         table(folder, "measurements.csv")?.into_iter().map(|row| (text(&row, "id").to_owned(), row)).collect();
@@ -108,13 +109,17 @@ pub fn evaluate(folder: &Path) -> Result<Evaluation, BodyError> {
     Ok(Evaluation { source: accuracy(&bodies), bodies })
 }
 
-fn table(folder: &Path, name: &str) -> Result<Vec<Row>, BodyError> {
+fn table(folder: &Path, name: &str) -> Result<Vec<Row>> {
     let path = folder.join(name);
-    let broken = |error: csv::Error| BodyError::Table { path: path.display().to_string(), problem: error.to_string() };
+    let refuse = |problem: String| {
+        let accepted = "CSV tables manifest.csv and measurements.csv with a column id";
+        StudyError::stage("body")(format!("{}: {problem}; accepted: {accepted}", path.display()))
+    };
+    let broken = |error: csv::Error| refuse(error.to_string());
     let mut reader = csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_path(&path).map_err(broken)?;
     let heads = reader.headers().map_err(broken)?.clone();
     if !heads.iter().any(|head| head == "id") {
-        return Err(BodyError::Table { path: path.display().to_string(), problem: "it has no column id".to_owned() });
+        return Err(refuse("it has no column id".to_owned()));
     }
     let row =
         |record: csv::StringRecord| heads.iter().zip(&record).map(|(h, v)| (h.to_owned(), v.to_owned())).collect();
@@ -227,7 +232,7 @@ fn compared(
     source: &'static str,
     files: Vec<String>,
     columns: &[Known],
-    found: Result<Vec<(&'static str, f64)>, String>,
+    found: std::result::Result<Vec<(&'static str, f64)>, String>,
     known: &Row,
 ) -> Evaluated {
     let truth = |name: &str| {
@@ -260,5 +265,4 @@ fn accuracy(bodies: &[Evaluated]) -> BTreeMap<&'static str, BTreeMap<&'static st
 }
 
 #[cfg(test)]
-#[path = "evaluate_tests.rs"]
 mod tests;
