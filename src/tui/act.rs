@@ -19,7 +19,7 @@ impl State {
             Action::Left => self.sideways(-1),
             Action::Right => self.sideways(1),
             Action::NextPane | Action::PreviousPane => {
-                let pane = &mut self.second_pane[self.screen as usize];
+                let pane = &mut self.nav.second_pane[self.nav.screen as usize];
                 *pane = !*pane;
             }
             Action::Show(screen) => self.show(screen),
@@ -43,16 +43,16 @@ impl State {
             Action::NextStudy => self.next_study(),
             Action::OtherSimulator => self.other_simulator(),
             Action::NextStage => self.next_stage(),
-            Action::NextView => self.look = picture::next_view(self.look),
-            Action::ZoomIn => self.look = picture::zoomed(self.look, 1),
-            Action::ZoomOut => self.look = picture::zoomed(self.look, -1),
+            Action::NextView => self.drapes.look = picture::next_view(self.drapes.look),
+            Action::ZoomIn => self.drapes.look = picture::zoomed(self.drapes.look, 1),
+            Action::ZoomOut => self.drapes.look = picture::zoomed(self.drapes.look, -1),
             Action::Mark => self.mark_run(),
             Action::Unmark => self.unmark_runs(),
             Action::Differences => {
-                (self.differences_only, self.contrast) = (!self.differences_only, 0);
+                (self.compare.differences_only, self.compare.contrast) = (!self.compare.differences_only, 0);
             }
             Action::NewStudy => self.new_study(),
-            Action::EditQuery => self.second_pane[Screen::Sql as usize] = false,
+            Action::EditQuery => self.nav.second_pane[Screen::Sql as usize] = false,
             Action::SavedQueries => self.offer_queries(),
             Action::OlderQuery => self.recall(-1),
             Action::NewerQuery => self.recall(1),
@@ -61,14 +61,17 @@ impl State {
             Action::OpenReport => return self.open_report(),
             Action::Ascii => self.theme.ascii = !self.theme.ascii,
             Action::Mouse => {
-                self.has_mouse = !self.has_mouse;
-                let text =
-                    if self.has_mouse { "the mouse is taken: tabs, wheel" } else { "the mouse is the terminal's" };
+                self.terminal.has_mouse = !self.terminal.has_mouse;
+                let text = if self.terminal.has_mouse {
+                    "the mouse is taken: tabs, wheel"
+                } else {
+                    "the mouse is the terminal's"
+                };
                 self.say(text);
-                return vec![Effect::Mouse(self.has_mouse)];
+                return vec![Effect::Mouse(self.terminal.has_mouse)];
             }
-            Action::NextMap => self.map = picture::next_map(self.map),
-            Action::Enlarge => self.enlarged = !self.enlarged,
+            Action::NextMap => self.drapes.map = picture::next_map(self.drapes.map),
+            Action::Enlarge => self.drapes.enlarged = !self.drapes.enlarged,
             Action::Add(part) => self.add_entry(part),
             Action::Edit(part) => self.edit_entry(part),
             Action::Import(Part::Style | Part::Size) => self.import_style(),
@@ -89,11 +92,11 @@ impl State {
             Action::Retry => return self.retry(),
             Action::Raise => return self.prioritise(1),
             Action::Lower => return self.prioritise(-1),
-            Action::Run if self.screen == Screen::Sql => return self.run_query(),
+            Action::Run if self.nav.screen == Screen::Sql => return self.run_query(),
             Action::Run => return self.start_run(),
             Action::Stop => self.stop_run(),
-            Action::Help => self.overlay = Some(Overlay::Help(List::of(self.bindings))),
-            Action::Palette => self.overlay = Some(Overlay::Palette(List::of(self.bindings))),
+            Action::Help => self.overlay = Some(Overlay::Help(List::of(self.setup.bindings))),
+            Action::Palette => self.overlay = Some(Overlay::Palette(List::of(self.setup.bindings))),
             Action::Redraw => return vec![Effect::Clear],
             Action::Quit if self.sql.asked.is_some() => return vec![Effect::StopAsking],
             Action::Quit => return self.quit(),
@@ -102,21 +105,21 @@ impl State {
     }
 
     pub(super) fn show(&mut self, screen: Screen) {
-        if screen == self.screen {
+        if screen == self.nav.screen {
             return;
         }
-        match self.trail.iter().position(|seen| *seen == screen) {
-            Some(at) => self.trail.truncate(at),
-            None => self.trail.push(self.screen),
+        match self.nav.trail.iter().position(|seen| *seen == screen) {
+            Some(at) => self.nav.trail.truncate(at),
+            None => self.nav.trail.push(self.nav.screen),
         }
-        self.screen = screen;
+        self.nav.screen = screen;
     }
 
     fn open(&mut self) -> Vec<Effect> {
         if self.is_first_start() {
             return self.run(Target::Quickstart);
         }
-        if self.focus.job.is_none() {
+        if self.cells.focus.job.is_none() {
             self.say("nothing to open here: this cell has no job yet; R runs the study");
         } else {
             self.show(Screen::Results);
@@ -126,15 +129,15 @@ impl State {
 
     /// Takes back the latest of filter, enlargement and screen; returns whether there was any.
     fn back(&mut self) -> bool {
-        let filter = &mut self.filters[self.screen as usize];
+        let filter = &mut self.nav.filters[self.nav.screen as usize];
         if !filter.is_empty() {
             filter.clear();
-        } else if self.enlarged && matches!(self.screen, Screen::Results | Screen::Compare) {
-            self.enlarged = false;
-        } else if self.styles.enlarged && self.screen == Screen::Styles {
+        } else if self.drapes.enlarged && matches!(self.nav.screen, Screen::Results | Screen::Compare) {
+            self.drapes.enlarged = false;
+        } else if self.styles.enlarged && self.nav.screen == Screen::Styles {
             self.styles.enlarged = false;
-        } else if let Some(screen) = self.trail.pop() {
-            self.screen = screen;
+        } else if let Some(screen) = self.nav.trail.pop() {
+            self.nav.screen = screen;
         } else {
             return false;
         }
@@ -143,10 +146,10 @@ impl State {
 
     fn quit(&mut self) -> Vec<Effect> {
         let unsaved = self.unsaved();
-        if self.run.is_none() && unsaved.is_empty() {
+        if self.running.target.is_none() && unsaved.is_empty() {
             return vec![Effect::Quit];
         }
-        if self.run.is_none() {
+        if self.running.target.is_none() {
             self.ask(format!("Seams of {unsaved} are not saved. Leave all the same?"), vec![Effect::Quit]);
             return vec![];
         }
@@ -162,12 +165,12 @@ impl State {
     }
 
     fn sort(&mut self) {
-        match self.screen {
+        match self.nav.screen {
             Screen::Styles => self.say("styles are listed by name, sizes as they came"),
-            Screen::Subjects => self.subject_order.by = self.subject_order.by.next(entries::SHOWN),
-            Screen::Fabrics => self.fabric_order.by = self.fabric_order.by.next(),
-            Screen::Jobs => self.job_order.by = self.job_order.by.next(),
-            Screen::Compare => self.sorts_contrasts = !self.sorts_contrasts,
+            Screen::Subjects => self.subjects.order.by = self.subjects.order.by.next(entries::SHOWN),
+            Screen::Fabrics => self.fabrics.order.by = self.fabrics.order.by.next(),
+            Screen::Jobs => self.jobs.order.by = self.jobs.order.by.next(),
+            Screen::Compare => self.compare.sorts_contrasts = !self.compare.sorts_contrasts,
             Screen::Reports => self.reports_by_time = !self.reports_by_time,
             Screen::Sql => {
                 let filter = self.filter().to_owned();
@@ -176,7 +179,7 @@ impl State {
                 }
             }
             Screen::Study | Screen::Results => {
-                self.chi_order.by = match self.chi_order.by {
+                self.chi.order.by = match self.chi.order.by {
                     ChiOrder::Number => ChiOrder::Error,
                     ChiOrder::Error => ChiOrder::Number,
                 };
@@ -185,13 +188,13 @@ impl State {
     }
 
     fn reverse(&mut self) {
-        let reversed = match self.screen {
+        let reversed = match self.nav.screen {
             Screen::Styles => return self.say("styles are listed by name, sizes as they came"),
-            Screen::Subjects => &mut self.subject_order.reversed,
-            Screen::Fabrics => &mut self.fabric_order.reversed,
-            Screen::Jobs => &mut self.job_order.reversed,
-            Screen::Study | Screen::Results => &mut self.chi_order.reversed,
-            Screen::Compare => &mut self.sorts_contrasts,
+            Screen::Subjects => &mut self.subjects.order.reversed,
+            Screen::Fabrics => &mut self.fabrics.order.reversed,
+            Screen::Jobs => &mut self.jobs.order.reversed,
+            Screen::Study | Screen::Results => &mut self.chi.order.reversed,
+            Screen::Compare => &mut self.compare.sorts_contrasts,
             Screen::Reports => &mut self.reports_by_time,
             Screen::Sql => {
                 let filter = self.filter().to_owned();
@@ -214,11 +217,11 @@ impl State {
         let Some(garments) = self.data.as_ref().and_then(|data| data.study()).map(|study| &study.garments) else {
             return;
         };
-        let at = garments.iter().position(|name| Some(name) == self.focus.garment.as_ref()).unwrap_or(0);
+        let at = garments.iter().position(|name| Some(name) == self.cells.focus.garment.as_ref()).unwrap_or(0);
         let Some(next) = stepped(at, step, garments.len()) else { return };
         if next != at {
-            self.focus.garment = Some(garments[next].clone());
-            self.focus.job = None;
+            self.cells.focus.garment = Some(garments[next].clone());
+            self.cells.focus.job = None;
         }
     }
 
@@ -229,14 +232,14 @@ impl State {
             self.say("there is one study only");
             return;
         }
-        self.focus.study = Some(data.studies[next].name.clone());
-        (self.focus.garment, self.focus.job, self.place) = (None, None, Place::default());
+        self.cells.focus.study = Some(data.studies[next].name.clone());
+        (self.cells.focus.garment, self.cells.focus.job, self.cells.place) = (None, None, Place::default());
     }
 
     fn other_simulator(&mut self) {
         let Some(job) = self.job() else { return };
         match self.same_by_other(job).map(|other| other.id) {
-            Some(id) => self.focus.job = Some(id),
+            Some(id) => self.cells.focus.job = Some(id),
             None => self.say("the study has no job of the other simulator here"),
         }
     }
@@ -246,7 +249,7 @@ impl State {
         let at = stages.iter().position(|stage| Some(*stage) == self.stage()).unwrap_or(0);
         let next = stepped(at, 1, stages.len()).map(|next| stages[next].to_owned());
         let is_only = stages.len() < 2;
-        self.stage = next.or(self.stage.take());
+        self.chi.stage = next.or(self.chi.stage.take());
         if is_only {
             self.say("this result was measured at one stage only");
         }
@@ -308,25 +311,25 @@ impl State {
     }
 
     fn run(&mut self, target: Target) -> Vec<Effect> {
-        if target == Target::Quickstart && !self.abilities.quickstart {
+        if target == Target::Quickstart && !self.setup.abilities.quickstart {
             self.complain("the quickstart study is not installed here: give `toile run` a folder with a study.toml");
             return vec![];
         }
-        if !self.abilities.run {
+        if !self.setup.abilities.run {
             self.complain("this workbench is read-only: start it without --readonly to run a study");
             return vec![];
         }
-        if self.run.is_some() {
+        if self.running.target.is_some() {
             self.say("a run goes on here already; X stops it");
             return vec![];
         }
-        self.run = Some(target.clone());
+        self.running.target = Some(target.clone());
         self.say("run started; it goes on in the background");
         vec![Effect::Run(target)]
     }
 
     fn stop_run(&mut self) {
-        if self.run.is_none() {
+        if self.running.target.is_none() {
             self.say("no run goes on here");
             return;
         }
@@ -335,7 +338,7 @@ impl State {
 
     /// Selects a job.
     pub(super) fn select(&mut self, id: JobId) {
-        self.focus.job = Some(id);
+        self.cells.focus.job = Some(id);
     }
 }
 

@@ -168,8 +168,8 @@ impl State {
     /// The runs to compare: those selected; else the job looked at and its cell by the other simulator.
     #[must_use]
     pub fn to_compare(&self) -> Vec<JobId> {
-        if self.marks.len() > 1 {
-            return self.marks.iter().copied().take(MOST).collect();
+        if self.compare.marks.len() > 1 {
+            return self.compare.marks.iter().copied().take(MOST).collect();
         }
         let Some(job) = self.job() else { return vec![] };
         let mut pair = vec![job.id];
@@ -200,11 +200,11 @@ impl State {
     /// The measurements shown: all, or those in which the runs differ.
     #[must_use]
     pub fn contrasts(&self) -> Vec<Contrast> {
-        let filter = self.filters[Screen::Compare as usize].to_lowercase();
+        let filter = self.nav.filters[Screen::Compare as usize].to_lowercase();
         let mut rows = contrasts(self.compared());
-        rows.retain(|row| !self.differences_only || row.differs());
+        rows.retain(|row| !self.compare.differences_only || row.differs());
         rows.retain(|row| format!("#{} {}", row.no, row.name).to_lowercase().contains(&filter));
-        if self.sorts_contrasts {
+        if self.compare.sorts_contrasts {
             let spread = |row: &Contrast| {
                 let known = || row.chi.iter().flatten();
                 known().fold(f64::MIN, |a, b| a.max(*b)) - known().fold(f64::MAX, |a, b| a.min(*b))
@@ -226,7 +226,7 @@ impl State {
     /// The sign of a run that is selected for a comparison.
     #[must_use]
     pub fn mark_of(&self, job: Option<JobId>) -> &'static str {
-        if job.is_some_and(|job| self.marks.contains(&job)) { "•" } else { "" }
+        if job.is_some_and(|job| self.compare.marks.contains(&job)) { "•" } else { "" }
     }
 
     /// Selects a run for a comparison, or no longer.
@@ -236,14 +236,14 @@ impl State {
             return;
         };
         let id = job.id;
-        if !self.marks.remove(&id) {
-            if self.marks.len() == MOST {
+        if !self.compare.marks.remove(&id) {
+            if self.compare.marks.len() == MOST {
                 self.say(format!("{MOST} runs are selected already; u takes all back"));
                 return;
             }
-            self.marks.insert(id);
+            self.compare.marks.insert(id);
         }
-        self.say(match self.marks.len() {
+        self.say(match self.compare.marks.len() {
             0 => "no run is selected".to_owned(),
             1 => "1 run is selected; another, then c compares".to_owned(),
             n => format!("{n} runs are selected; c compares, u takes all back"),
@@ -252,8 +252,8 @@ impl State {
 
     /// Takes all selections back.
     pub(super) fn unmark_runs(&mut self) {
-        self.say(format!("{} runs were selected, none is now", self.marks.len()));
-        self.marks.clear();
+        self.say(format!("{} runs were selected, none is now", self.compare.marks.len()));
+        self.compare.marks.clear();
     }
 }
 

@@ -13,7 +13,7 @@ use study::{FABRIC_NUMBERS, Field, JobRow, MEASUREMENTS};
 /// The text that stands for what is selected, tab-separated, and what it is.
 #[must_use]
 pub fn selection(state: &State) -> Option<(String, &'static str)> {
-    match state.screen {
+    match state.nav.screen {
         Screen::Results => chi_table(state).map(|table| (table, "the table of measurements")),
         Screen::Subjects => subject_line(state).map(|line| (line, "the subject")),
         Screen::Fabrics => fabric_line(state).map(|line| (line, "the fabric")),

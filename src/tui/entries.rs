@@ -48,15 +48,15 @@ impl State {
     #[must_use]
     pub fn fabrics(&self) -> Vec<&FabricRow> {
         let Some(data) = &self.data else { return vec![] };
-        let filter = self.filters[Screen::Fabrics as usize].to_lowercase();
+        let filter = self.nav.filters[Screen::Fabrics as usize].to_lowercase();
         let words = |row: &FabricRow| format!("{} {}", row.fabric.name, row.fabric.source).to_lowercase();
         let mut fabrics: Vec<&FabricRow> = data.fabrics.iter().filter(|row| words(row).contains(&filter)).collect();
-        if let FabricOrder::Number(k) = self.fabric_order.by {
+        if let FabricOrder::Number(k) = self.fabrics.order.by {
             let field = &FABRIC_NUMBERS[FABRIC_SHOWN[k]];
             let value = |row: &FabricRow| field.get(&row.fabric).unwrap_or(f64::INFINITY);
             fabrics.sort_by(|a, b| value(a).total_cmp(&value(b)));
         }
-        if self.fabric_order.reversed {
+        if self.fabrics.order.reversed {
             fabrics.reverse();
         }
         fabrics
@@ -66,7 +66,7 @@ impl State {
     #[must_use]
     pub fn fabric(&self) -> Option<&FabricRow> {
         let fabrics = self.fabrics();
-        fabrics.iter().find(|row| Some(&row.fabric.name) == self.fabric.as_ref()).or(fabrics.first()).copied()
+        fabrics.iter().find(|row| Some(&row.fabric.name) == self.fabrics.chosen.as_ref()).or(fabrics.first()).copied()
     }
 
     /// Asks for the values of a new entry: a fabric starts as the selected one, a style with its files.
@@ -126,11 +126,11 @@ impl State {
     pub(super) fn may_change(&mut self, part: Part) -> bool {
         let screen = screen_of(part);
         self.show(screen);
-        if !self.abilities.run {
+        if !self.setup.abilities.run {
             let what = screen.names()[0].to_lowercase();
             self.complain(format!("this workbench is read-only: start it without --readonly to change {what}"));
         }
-        self.abilities.run
+        self.setup.abilities.run
     }
 
     /// Closes what was filled in once it is saved, or says in it why it is not.
@@ -161,7 +161,8 @@ impl State {
                 if waits.is_some()
                     && let Some(Overlay::Form(form)) = self.overlay.take()
                 {
-                    let selected = if form.part == Part::Fabric { &mut self.fabric } else { &mut self.subject };
+                    let selected =
+                        if form.part == Part::Fabric { &mut self.fabrics.chosen } else { &mut self.subjects.chosen };
                     *selected = Some(form.name().to_owned());
                 }
                 self.say(text);

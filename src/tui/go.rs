@@ -13,8 +13,8 @@ const FRAME_LINES: u16 = 8;
 impl State {
     /// Moves up or down in the pane that has the focus.
     pub(super) fn go(&mut self, action: Action) {
-        let page = usize::from(self.size.height.saturating_sub(FRAME_LINES)).max(2) / 2;
-        match (self.screen, self.in_second_pane()) {
+        let page = usize::from(self.terminal.size.height.saturating_sub(FRAME_LINES)).max(2) / 2;
+        match (self.nav.screen, self.in_second_pane()) {
             (Screen::Study, false) => self.go_in_grid(action, page),
             (Screen::Subjects | Screen::Fabrics, true) => self.go_in_table(action, page),
             (Screen::Subjects, false) => self.go_in_subjects(action, page),
@@ -23,15 +23,17 @@ impl State {
             (Screen::Styles, true) => self.go_in_desk(action, page),
             (Screen::Jobs, false) => self.go_in_jobs(action, page),
             (Screen::Jobs, true) => self.go_in_log(action, page),
-            (Screen::Results | Screen::Compare, true) if self.look.zoom_pct > picture::FRONT.zoom_pct => {
+            (Screen::Results | Screen::Compare, true) if self.drapes.look.zoom_pct > picture::FRONT.zoom_pct => {
                 let steps = match action {
                     Action::Up | Action::PageUp => 1,
                     Action::Down | Action::PageDown => -1,
                     _ => 0,
                 };
-                self.look = picture::raised(self.look, steps);
+                self.drapes.look = picture::raised(self.drapes.look, steps);
             }
-            (Screen::Compare, _) => self.contrast = moved(self.contrast, self.contrasts().len(), action, page),
+            (Screen::Compare, _) => {
+                self.compare.contrast = moved(self.compare.contrast, self.contrasts().len(), action, page)
+            }
             (Screen::Reports, _) => self.reports.row = moved(self.reports.row, self.reports().len(), action, page),
             (Screen::Sql, _) => {
                 if let Some(sheet) = &mut self.sql.sheet {
@@ -39,7 +41,7 @@ impl State {
                 }
             }
             (Screen::Study, true) | (Screen::Results, _) => {
-                self.chi_row = moved(self.chi_row, self.chi().len(), action, page);
+                self.chi.row = moved(self.chi.row, self.chi().len(), action, page);
             }
         }
     }
@@ -48,22 +50,22 @@ impl State {
         let Some(grid) = self.grid() else { return };
         let simulators = grid.simulators.len().max(1);
         let rows = grid.sizes.len() * simulators;
-        let row = moved(self.place.size * simulators + self.place.simulator, rows, action, page);
-        self.go_to(Place { size: row / simulators, simulator: row % simulators, ..self.place });
+        let row = moved(self.cells.place.size * simulators + self.cells.place.simulator, rows, action, page);
+        self.go_to(Place { size: row / simulators, simulator: row % simulators, ..self.cells.place });
     }
 
     fn go_in_subjects(&mut self, action: Action, page: usize) {
         let selected = self.subject().map(|row| row.id);
         let subjects = self.subjects();
         let at = subjects.iter().position(|row| Some(row.id) == selected).unwrap_or(0);
-        self.subject = subjects.get(moved(at, subjects.len(), action, page)).map(|row| row.name.clone());
+        self.subjects.chosen = subjects.get(moved(at, subjects.len(), action, page)).map(|row| row.name.clone());
     }
 
     fn go_in_fabrics(&mut self, action: Action, page: usize) {
         let selected = self.fabric().map(|row| row.fabric.name.clone());
         let fabrics = self.fabrics();
         let at = fabrics.iter().position(|row| Some(&row.fabric.name) == selected.as_ref()).unwrap_or(0);
-        self.fabric = fabrics.get(moved(at, fabrics.len(), action, page)).map(|row| row.fabric.name.clone());
+        self.fabrics.chosen = fabrics.get(moved(at, fabrics.len(), action, page)).map(|row| row.fabric.name.clone());
     }
 
     /// Scrolls the table of the selected subject or fabric.
@@ -87,7 +89,7 @@ impl State {
 
     fn go_in_jobs(&mut self, action: Action, page: usize) {
         let jobs: Vec<JobId> = self.jobs().iter().map(|job| job.id).collect();
-        let at = jobs.iter().position(|id| Some(*id) == self.focus.job);
+        let at = jobs.iter().position(|id| Some(*id) == self.cells.focus.job);
         let next = at.map_or(0, |at| moved(at, jobs.len(), action, page));
         if let Some(id) = jobs.get(next) {
             self.select(*id);
@@ -96,20 +98,20 @@ impl State {
 
     fn go_in_log(&mut self, action: Action, page: usize) {
         let lines = self.detail().map_or(0, |detail| detail.log.len());
-        let from_top = lines.saturating_sub(1 + self.log_up);
-        self.log_up = lines.saturating_sub(1 + moved(from_top, lines, action, page));
+        let from_top = lines.saturating_sub(1 + self.jobs.log_up);
+        self.jobs.log_up = lines.saturating_sub(1 + moved(from_top, lines, action, page));
     }
 
     /// Moves left or right: subjects, results, or round the drape.
     pub(super) fn sideways(&mut self, step: isize) {
-        match (self.screen, self.in_second_pane()) {
+        match (self.nav.screen, self.in_second_pane()) {
             (Screen::Study, _) => {
                 let Some(grid) = self.grid() else { return };
                 let last = grid.subjects.len().saturating_sub(1);
-                let subject = self.place.subject.saturating_add_signed(step).min(last);
-                self.go_to(Place { subject, ..self.place });
+                let subject = self.cells.place.subject.saturating_add_signed(step).min(last);
+                self.go_to(Place { subject, ..self.cells.place });
             }
-            (Screen::Results | Screen::Compare, true) => self.look = picture::turned(self.look, step),
+            (Screen::Results | Screen::Compare, true) => self.drapes.look = picture::turned(self.drapes.look, step),
             (Screen::Sql, _) => self.sql.sheet.iter_mut().for_each(|sheet| sheet.sideways(step)),
             (Screen::Results, false) => self.step_result(step),
             (Screen::Styles, true) => self.step_edge(step),
@@ -122,10 +124,10 @@ impl State {
 
     /// Goes to the next or previous job that has a result.
     fn step_result(&mut self, step: isize) {
-        let is_shown = |job: &&study::JobRow| job.status.has_result() || Some(job.id) == self.focus.job;
+        let is_shown = |job: &&study::JobRow| job.status.has_result() || Some(job.id) == self.cells.focus.job;
         let Some(data) = &self.data else { return };
         let jobs: Vec<JobId> = data.jobs.iter().filter(is_shown).map(|job| job.id).collect();
-        let at = jobs.iter().position(|id| Some(*id) == self.focus.job).unwrap_or(0);
+        let at = jobs.iter().position(|id| Some(*id) == self.cells.focus.job).unwrap_or(0);
         if let Some(next) = stepped(at, step, jobs.len()) {
             self.select(jobs[next]);
         }
@@ -133,8 +135,8 @@ impl State {
 
     /// Selects a cell of the grid and its job, if it has one.
     fn go_to(&mut self, place: Place) {
-        self.place = place;
-        self.focus.job = self.cell_at(place).and_then(|cell| cell.job);
+        self.cells.place = place;
+        self.cells.focus.job = self.cell_at(place).and_then(|cell| cell.job);
     }
 
     /// Goes to the next or previous match of the filter.
@@ -143,19 +145,19 @@ impl State {
             self.say("no filter is set; / sets one");
             return;
         }
-        match self.screen {
+        match self.nav.screen {
             Screen::Study => self.go_to_matching_cell(step),
             Screen::Subjects => {
                 let selected = self.subject().map(|row| row.id);
                 let subjects = self.subjects();
                 let at = subjects.iter().position(|row| Some(row.id) == selected).unwrap_or(0);
-                self.subject = stepped(at, step, subjects.len()).map(|next| subjects[next].name.clone());
+                self.subjects.chosen = stepped(at, step, subjects.len()).map(|next| subjects[next].name.clone());
             }
             Screen::Fabrics => {
                 let selected = self.fabric().map(|row| row.fabric.name.clone());
                 let fabrics = self.fabrics();
                 let at = fabrics.iter().position(|row| Some(&row.fabric.name) == selected.as_ref()).unwrap_or(0);
-                self.fabric = stepped(at, step, fabrics.len()).map(|next| fabrics[next].fabric.name.clone());
+                self.fabrics.chosen = stepped(at, step, fabrics.len()).map(|next| fabrics[next].fabric.name.clone());
             }
             Screen::Styles => {
                 let selected = self.size_row().map(|row| row.key);
@@ -166,13 +168,15 @@ impl State {
             }
             Screen::Jobs => {
                 let jobs: Vec<JobId> = self.jobs().iter().map(|job| job.id).collect();
-                let at = jobs.iter().position(|id| Some(*id) == self.focus.job).unwrap_or(0);
+                let at = jobs.iter().position(|id| Some(*id) == self.cells.focus.job).unwrap_or(0);
                 if let Some(next) = stepped(at, step, jobs.len()) {
                     self.select(jobs[next]);
                 }
             }
-            Screen::Results => self.chi_row = stepped(self.chi_row, step, self.chi().len()).unwrap_or(0),
-            Screen::Compare => self.contrast = stepped(self.contrast, step, self.contrasts().len()).unwrap_or(0),
+            Screen::Results => self.chi.row = stepped(self.chi.row, step, self.chi().len()).unwrap_or(0),
+            Screen::Compare => {
+                self.compare.contrast = stepped(self.compare.contrast, step, self.contrasts().len()).unwrap_or(0)
+            }
             Screen::Reports => self.reports.row = stepped(self.reports.row, step, self.reports().len()).unwrap_or(0),
             Screen::Sql => {
                 if let Some(sheet) = &mut self.sql.sheet {
@@ -184,7 +188,7 @@ impl State {
 
     fn go_to_matching_cell(&mut self, step: isize) {
         let places = self.places();
-        let at = places.iter().position(|place| *place == self.place).unwrap_or(0);
+        let at = places.iter().position(|place| *place == self.cells.place).unwrap_or(0);
         let found = (1..=places.len())
             .filter_map(|k| stepped(at, step * k as isize, places.len()))
             .map(|next| places[next])

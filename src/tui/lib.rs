@@ -110,10 +110,11 @@ pub fn run(options: Options) -> Result<(), TuiError> {
 
     let mut screen = terminal::Screen::enter()?;
     let size = screen.size()?;
-    let mut state = State { bindings, places, ..State::new(theme, abilities, size) };
+    let mut state = State::new(theme, abilities, size);
+    (state.setup.bindings, state.setup.places) = (bindings, places);
     let memory = memory::place(&options.database, &env);
     memory.as_deref().map(Memory::read).unwrap_or_default().recall(&mut state);
-    let workers = Workers::start(workspace, canvas, quickstart, state.places.reports.clone());
+    let workers = Workers::start(workspace, canvas, quickstart, state.setup.places.reports.clone());
     let outcome = event_loop(&mut screen, &mut state, &workers);
     drop(screen);
     if let Some(path) = memory {
@@ -133,11 +134,11 @@ fn places(options: &Options) -> Places {
 /// Takes messages, changes the state, draws, until it is time to leave.
 fn event_loop(screen: &mut terminal::Screen, state: &mut State, workers: &Workers) -> io::Result<()> {
     let mut silence = None;
-    workers.read(state.focus.clone());
-    terminal::take_mouse(state.has_mouse)?;
+    workers.read(state.cells.focus.clone());
+    terminal::take_mouse(state.terminal.has_mouse)?;
     screen.show(state)?;
     loop {
-        let message = match screen.pause().filter(|_| !state.detached) {
+        let message = match screen.pause().filter(|_| !state.terminal.detached) {
             None => workers.messages.recv().ok(),
             Some(pause) => match workers.messages.recv_timeout(pause) {
                 Err(RecvTimeoutError::Timeout) => {
@@ -168,13 +169,13 @@ fn event_loop(screen: &mut terminal::Screen, state: &mut State, workers: &Worker
                 }
             }
         }
-        if !state.detached
+        if !state.terminal.detached
             && let Err(error) = screen.show(state)
             && state.update(Message::Hangup).contains(&Effect::Quit)
         {
             return Err(error);
         }
-        if state.detached && silence.is_none() {
+        if state.terminal.detached && silence.is_none() {
             silence = Some(terminal::silence_input()?);
         }
     }

@@ -42,24 +42,24 @@ impl Memory {
     #[must_use]
     pub fn of(state: &State) -> Self {
         Self {
-            screen: state.screen as usize,
-            study: state.focus.study.clone(),
-            garment: state.focus.garment.clone(),
-            job: state.focus.job.map(|job| job.0),
-            subject: state.subject.clone(),
-            fabric: state.fabric.clone(),
+            screen: state.nav.screen as usize,
+            study: state.cells.focus.study.clone(),
+            garment: state.cells.focus.garment.clone(),
+            job: state.cells.focus.job.map(|job| job.0),
+            subject: state.subjects.chosen.clone(),
+            fabric: state.fabrics.chosen.clone(),
             size: state.styles.selected.clone(),
-            marks: state.marks.iter().map(|job| job.0).collect(),
-            filters: state.filters.to_vec(),
-            subject_order: state.subject_order,
-            fabric_order: state.fabric_order,
-            job_order: state.job_order,
-            chi_order: state.chi_order,
+            marks: state.compare.marks.iter().map(|job| job.0).collect(),
+            filters: state.nav.filters.to_vec(),
+            subject_order: state.subjects.order,
+            fabric_order: state.fabrics.order,
+            job_order: state.jobs.order,
+            chi_order: state.chi.order,
             reports_by_time: state.reports_by_time,
-            sorts_contrasts: state.sorts_contrasts,
-            differences_only: state.differences_only,
+            sorts_contrasts: state.compare.sorts_contrasts,
+            differences_only: state.compare.differences_only,
             is_ascii: Some(state.theme.ascii),
-            has_mouse: Some(state.has_mouse),
+            has_mouse: Some(state.terminal.has_mouse),
             query: state.sql.editor.text().to_owned(),
             history: state.sql.history.clone(),
         }
@@ -67,19 +67,21 @@ impl Memory {
 
     /// Puts it into a new state. `ascii` and the mouse stay as they are where the environment asks for them.
     pub fn recall(self, state: &mut State) {
-        state.screen = Screen::ALL.get(self.screen).copied().unwrap_or(Screen::Study);
-        (state.focus.study, state.focus.garment, state.focus.job) = (self.study, self.garment, self.job.map(JobId));
-        (state.subject, state.fabric, state.styles.selected) = (self.subject, self.fabric, self.size);
-        state.marks = self.marks.into_iter().map(JobId).collect();
-        for (filter, kept) in state.filters.iter_mut().zip(self.filters) {
+        state.nav.screen = Screen::ALL.get(self.screen).copied().unwrap_or(Screen::Study);
+        (state.cells.focus.study, state.cells.focus.garment, state.cells.focus.job) =
+            (self.study, self.garment, self.job.map(JobId));
+        (state.subjects.chosen, state.fabrics.chosen, state.styles.selected) = (self.subject, self.fabric, self.size);
+        state.compare.marks = self.marks.into_iter().map(JobId).collect();
+        for (filter, kept) in state.nav.filters.iter_mut().zip(self.filters) {
             *filter = kept;
         }
-        (state.subject_order, state.job_order, state.chi_order) = (self.subject_order, self.job_order, self.chi_order);
-        state.fabric_order = self.fabric_order;
-        (state.reports_by_time, state.sorts_contrasts) = (self.reports_by_time, self.sorts_contrasts);
-        state.differences_only = self.differences_only;
+        (state.subjects.order, state.jobs.order, state.chi.order) =
+            (self.subject_order, self.job_order, self.chi_order);
+        state.fabrics.order = self.fabric_order;
+        (state.reports_by_time, state.compare.sorts_contrasts) = (self.reports_by_time, self.sorts_contrasts);
+        state.compare.differences_only = self.differences_only;
         state.theme.ascii |= self.is_ascii == Some(true);
-        state.has_mouse = self.has_mouse.unwrap_or(state.has_mouse);
+        state.terminal.has_mouse = self.has_mouse.unwrap_or(state.terminal.has_mouse);
         state.sql.editor.set(&self.query);
         state.sql.history = self.history;
     }

@@ -64,7 +64,7 @@ impl Rehearsal {
     /// # Errors
     /// When the database cannot be read.
     pub fn read(&mut self) -> Result<()> {
-        let data = feed::snapshot(&self.workspace, &self.state.focus)?;
+        let data = feed::snapshot(&self.workspace, &self.state.cells.focus)?;
         self.state.update(Message::Data(Box::new(data)));
         Ok(())
     }

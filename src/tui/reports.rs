@@ -12,7 +12,7 @@ impl State {
     /// Reports that pass the filter of their screen.
     #[must_use]
     pub fn reports(&self) -> Vec<&ReportRow> {
-        let filter = self.filters[Screen::Reports as usize].to_lowercase();
+        let filter = self.nav.filters[Screen::Reports as usize].to_lowercase();
         let rows = self.reports.rows.iter().flatten();
         let mut rows: Vec<&ReportRow> = rows.filter(|row| row.name.to_lowercase().contains(&filter)).collect();
         if self.reports_by_time {
@@ -30,7 +30,7 @@ impl State {
 
     /// Has the reports listed when the screen is first shown.
     pub(super) fn ask_for_reports(&mut self) -> Option<Effect> {
-        if self.screen != Screen::Reports || self.reports.rows.is_some() {
+        if self.nav.screen != Screen::Reports || self.reports.rows.is_some() {
             return None;
         }
         self.reports.rows = Some(vec![]);

@@ -81,14 +81,14 @@ impl State {
     /// Whether what is typed goes into the editor.
     #[must_use]
     pub fn is_editing(&self) -> bool {
-        self.screen == Screen::Sql && !self.in_second_pane()
+        self.nav.screen == Screen::Sql && !self.in_second_pane()
     }
 
     /// Hands a key to the editor; returns whether it took it. In an empty editor, keys that no query begins with mean what
     /// they mean elsewhere.
     pub(super) fn edit_query(&mut self, event: &KeyEvent) -> bool {
         if event.code == KeyCode::Esc {
-            self.second_pane[Screen::Sql as usize] = true;
+            self.nav.second_pane[Screen::Sql as usize] = true;
             return true;
         }
         let is_command = matches!(event.code, KeyCode::Char('?' | ':' | '1'..='9'));
@@ -100,7 +100,7 @@ impl State {
 
     /// Has names and saved queries read when the screen is first shown.
     pub(super) fn ask_for_names(&mut self) -> Option<Effect> {
-        if self.screen != Screen::Sql || self.sql.relations.is_some() {
+        if self.nav.screen != Screen::Sql || self.sql.relations.is_some() {
             return None;
         }
         self.sql.relations = Some(vec![]);
@@ -137,7 +137,7 @@ impl State {
                 let more = if sheet.is_cut() { "the first " } else { "" };
                 let rows = if sheet.total() == 1 { "row" } else { "rows" };
                 self.sql.told = Some(Ok(format!("{more}{} {rows} in {ms} ms", sheet.total())));
-                self.filters[Screen::Sql as usize].clear();
+                self.nav.filters[Screen::Sql as usize].clear();
                 (self.sql.sheet, self.sql.answered) = (Some(*sheet), text);
             }
             Err(error) => self.sql.told = Some(Err(error)),
@@ -152,7 +152,7 @@ impl State {
             self.say(if step < 0 { "no older query" } else { "no newer query" });
             return;
         };
-        self.second_pane[Screen::Sql as usize] = false;
+        self.nav.second_pane[Screen::Sql as usize] = false;
         let typed = self.sql.recalled.take().map_or_else(|| self.sql.editor.text().to_owned(), |(_, typed)| typed);
         if next == last {
             self.sql.editor.set(&typed);
@@ -171,7 +171,7 @@ impl State {
     /// Puts a chosen query into the editor.
     pub(super) fn take_query(&mut self, text: &str) {
         self.show(Screen::Sql);
-        self.second_pane[Screen::Sql as usize] = false;
+        self.nav.second_pane[Screen::Sql as usize] = false;
         self.sql.editor.set(text.trim_end());
     }
 
@@ -186,7 +186,7 @@ impl State {
 
     /// Goes on in the rows of the answer.
     pub(super) fn arrange_sheet(&mut self) {
-        let filter = self.filters[Screen::Sql as usize].clone();
+        let filter = self.nav.filters[Screen::Sql as usize].clone();
         if let Some(sheet) = &mut self.sql.sheet {
             sheet.arrange(&filter);
         }

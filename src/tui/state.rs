@@ -141,58 +141,32 @@ pub struct Places {
     pub reports: PathBuf,
 }
 
-/// The state of the workbench.
-pub struct State {
-    /// Styles.
-    pub theme: Theme,
-    /// Keys.
-    pub bindings: &'static [Binding],
-    /// What can be done.
-    pub abilities: Abilities,
-    /// Size of the terminal.
-    pub size: Size,
-    /// Screen shown.
-    pub screen: Screen,
-    /// Screens to go back to, the last first.
-    pub trail: Vec<Screen>,
-    /// What was last read; `None` before the first time.
-    pub data: Option<Box<Snapshot>>,
-    /// What is looked at.
-    pub focus: Focus,
-    /// Place in the grid.
-    pub place: Place,
-    /// Whether the second pane of each screen has the focus.
-    pub second_pane: [bool; Screen::ALL.len()],
-    /// The filter of each screen.
-    pub filters: [String; Screen::ALL.len()],
-    /// How often data came.
-    pub reads: u64,
+/// Where the user is among jobs.
+pub struct Jobs {
     /// The jobs shown, in order.
     pub arranged: Arranged,
-    /// Subject selected.
-    pub subject: Option<String>,
-    /// Fabric selected.
-    pub fabric: Option<String>,
-    /// Order of fabrics.
-    pub fabric_order: Order<FabricOrder>,
-    /// Lines that the table of the selected subject or fabric is scrolled down.
-    pub table_down: usize,
-    /// Where the user is among the styles.
-    pub styles: Styles,
-    /// Order of subjects.
-    pub subject_order: Order<SubjectOrder>,
-    /// What was read on bodies that were built.
-    pub measured: BTreeMap<SubjectId, Result<Box<Girths>, String>>,
     /// Order of jobs.
-    pub job_order: Order<JobOrder>,
-    /// Order of measurements.
-    pub chi_order: Order<ChiOrder>,
-    /// Measurement selected, a row of the table shown.
-    pub chi_row: usize,
-    /// Stage whose measurements are wanted.
-    pub stage: Option<String>,
+    pub order: Order<JobOrder>,
     /// Lines the log is scrolled up from its end.
     pub log_up: usize,
+    /// Steps of running jobs, as they came.
+    pub traces: BTreeMap<JobId, Vec<Step>>,
+    /// How often data came.
+    pub reads: u64,
+}
+
+/// The table of measurements that is shown.
+pub struct ChiTable {
+    /// Order of measurements.
+    pub order: Order<ChiOrder>,
+    /// Measurement selected, a row of the table shown.
+    pub row: usize,
+    /// Stage whose measurements are wanted.
+    pub stage: Option<String>,
+}
+
+/// How drapes are seen.
+pub struct Drapes {
     /// From where drapes are seen.
     pub look: Look,
     /// In which colours.
@@ -203,6 +177,10 @@ pub struct State {
     pub shots: Vec<Shot>,
     /// The picture of each that came last.
     pub pictures: Vec<(Shot, Result<Drawn, String>)>,
+}
+
+/// Runs that are compared.
+pub struct Compare {
     /// Runs selected for a comparison.
     pub marks: BTreeSet<JobId>,
     /// Whether only the measurements are shown in which compared runs differ.
@@ -211,30 +189,118 @@ pub struct State {
     pub sorts_contrasts: bool,
     /// Measurement selected in the comparison, a row of the table shown.
     pub contrast: usize,
+}
+
+/// Where the user is among subjects.
+pub struct Subjects {
+    /// Subject selected.
+    pub chosen: Option<String>,
+    /// Order of subjects.
+    pub order: Order<SubjectOrder>,
+    /// What was read on bodies that were built.
+    pub measured: BTreeMap<SubjectId, Result<Box<Girths>, String>>,
+}
+
+/// Where the user is among fabrics.
+pub struct Fabrics {
+    /// Fabric selected.
+    pub chosen: Option<String>,
+    /// Order of fabrics.
+    pub order: Order<FabricOrder>,
+}
+
+/// The run that was started here.
+pub struct Running {
+    /// The job of the run here that is watched.
+    pub watched: Option<JobId>,
+    /// Its garment as it was last seen.
+    pub live: Option<LiveFrame>,
+    /// The run started here, while it goes on.
+    pub target: Option<Target>,
+}
+
+/// The terminal.
+pub struct Terminal {
+    /// Size of the terminal.
+    pub size: Size,
+    /// Whether the mouse is taken.
+    pub has_mouse: bool,
+    /// Whether the terminal is gone and only the run is waited for.
+    pub detached: bool,
+}
+
+/// Which screen is shown, and what of it.
+pub struct Navigation {
+    /// Screen shown.
+    pub screen: Screen,
+    /// Screens to go back to, the last first.
+    pub trail: Vec<Screen>,
+    /// Whether the second pane of each screen has the focus.
+    pub second_pane: [bool; Screen::ALL.len()],
+    /// The filter of each screen.
+    pub filters: [String; Screen::ALL.len()],
+}
+
+/// What this session was started with.
+pub struct Setup {
+    /// Keys.
+    pub bindings: &'static [Binding],
+    /// What can be done.
+    pub abilities: Abilities,
+    /// Where new things are put.
+    pub places: Places,
+}
+
+/// Where the user is in the grid.
+pub struct Cells {
+    /// What is looked at.
+    pub focus: Focus,
+    /// Place in the grid.
+    pub place: Place,
+}
+
+/// The state of the workbench.
+pub struct State {
+    /// Styles.
+    pub theme: Theme,
+    /// What was last read; `None` before the first time.
+    pub data: Option<Box<Snapshot>>,
+    /// Lines that the table of the selected subject or fabric is scrolled down.
+    pub table_down: usize,
+    /// Where the user is among the styles.
+    pub styles: Styles,
     /// Where the user is among questions.
     pub sql: Sql,
     /// Where the user is among reports.
     pub reports: Reports,
     /// Whether the latest report comes first.
     pub reports_by_time: bool,
-    /// Where new things are put.
-    pub places: Places,
-    /// The job of the run here that is watched.
-    pub watched: Option<JobId>,
-    /// Its garment as it was last seen.
-    pub live: Option<LiveFrame>,
-    /// Whether the mouse is taken.
-    pub has_mouse: bool,
-    /// Steps of running jobs, as they came.
-    pub traces: BTreeMap<JobId, Vec<Step>>,
     /// What is open above the screen.
     pub overlay: Option<Overlay>,
     /// What the status line says.
     pub notice: Option<Notice>,
-    /// The run started here, while it goes on.
-    pub run: Option<Target>,
-    /// Whether the terminal is gone and only the run is waited for.
-    pub detached: bool,
+    /// Where the user is among jobs.
+    pub jobs: Jobs,
+    /// The table of measurements that is shown.
+    pub chi: ChiTable,
+    /// How drapes are seen.
+    pub drapes: Drapes,
+    /// Runs that are compared.
+    pub compare: Compare,
+    /// Where the user is among subjects.
+    pub subjects: Subjects,
+    /// Where the user is among fabrics.
+    pub fabrics: Fabrics,
+    /// The run that was started here.
+    pub running: Running,
+    /// The terminal.
+    pub terminal: Terminal,
+    /// Which screen is shown, and what of it.
+    pub nav: Navigation,
+    /// What this session was started with.
+    pub setup: Setup,
+    /// Where the user is in the grid.
+    pub cells: Cells,
 }
 
 impl State {
@@ -243,51 +309,36 @@ impl State {
     pub fn new(theme: Theme, abilities: Abilities, size: Size) -> Self {
         Self {
             theme,
-            bindings: BINDINGS,
-            abilities,
-            size,
-            screen: Screen::Study,
-            trail: vec![],
             data: None,
-            focus: Focus::default(),
-            place: Place::default(),
-            second_pane: [false; Screen::ALL.len()],
-            filters: Default::default(),
-            reads: 0,
-            arranged: Arranged::default(),
-            subject: None,
-            fabric: None,
-            fabric_order: Order::default(),
             table_down: 0,
             styles: Styles::default(),
-            subject_order: Order::default(),
-            measured: BTreeMap::new(),
-            job_order: Order::default(),
-            chi_order: Order::default(),
-            chi_row: 0,
-            stage: None,
-            log_up: 0,
-            look: FRONT,
-            map: Map::Plain,
-            enlarged: false,
-            shots: vec![],
-            pictures: vec![],
-            marks: BTreeSet::new(),
-            differences_only: false,
-            sorts_contrasts: false,
-            contrast: 0,
             sql: Sql::default(),
             reports: Reports::default(),
             reports_by_time: false,
-            places: Places::default(),
-            watched: None,
-            live: None,
-            has_mouse: false,
-            traces: BTreeMap::new(),
             overlay: None,
             notice: None,
-            run: None,
-            detached: false,
+            jobs: Jobs {
+                arranged: Arranged::default(),
+                order: Order::default(),
+                log_up: 0,
+                traces: BTreeMap::new(),
+                reads: 0,
+            },
+            chi: ChiTable { order: Order::default(), row: 0, stage: None },
+            drapes: Drapes { look: FRONT, map: Map::Plain, enlarged: false, shots: vec![], pictures: vec![] },
+            compare: Compare { marks: BTreeSet::new(), differences_only: false, sorts_contrasts: false, contrast: 0 },
+            subjects: Subjects { chosen: None, order: Order::default(), measured: BTreeMap::new() },
+            fabrics: Fabrics { chosen: None, order: Order::default() },
+            running: Running { watched: None, live: None, target: None },
+            terminal: Terminal { size, has_mouse: false, detached: false },
+            nav: Navigation {
+                screen: Screen::Study,
+                trail: vec![],
+                second_pane: [false; Screen::ALL.len()],
+                filters: Default::default(),
+            },
+            setup: Setup { bindings: BINDINGS, abilities, places: Places::default() },
+            cells: Cells { focus: Focus::default(), place: Place::default() },
         }
     }
 
@@ -300,20 +351,20 @@ impl State {
     /// The screen that is really there: without a study, those of studies show what may be done first.
     #[must_use]
     pub fn screen_shown(&self) -> Screen {
-        let needs_study = matches!(self.screen, Screen::Jobs | Screen::Results | Screen::Compare);
-        if needs_study && self.is_first_start() { Screen::Study } else { self.screen }
+        let needs_study = matches!(self.nav.screen, Screen::Jobs | Screen::Results | Screen::Compare);
+        if needs_study && self.is_first_start() { Screen::Study } else { self.nav.screen }
     }
 
     /// Whether the second pane of the screen has the focus.
     #[must_use]
     pub fn in_second_pane(&self) -> bool {
-        self.second_pane[self.screen as usize]
+        self.nav.second_pane[self.nav.screen as usize]
     }
 
     /// The filter of the screen.
     #[must_use]
     pub fn filter(&self) -> &str {
-        &self.filters[self.screen as usize]
+        &self.nav.filters[self.nav.screen as usize]
     }
 
     /// The grid.
@@ -343,55 +394,55 @@ impl State {
     /// The selected job.
     #[must_use]
     pub fn job(&self) -> Option<&JobRow> {
-        self.data.as_ref()?.job(self.focus.job?)
+        self.data.as_ref()?.job(self.cells.focus.job?)
     }
 
     /// What is stored of the selected job, once it was read.
     #[must_use]
     pub fn detail(&self) -> Option<&Detail> {
-        self.data.as_ref()?.detail.as_ref().filter(|detail| Some(detail.job) == self.focus.job)
+        self.data.as_ref()?.detail.as_ref().filter(|detail| Some(detail.job) == self.cells.focus.job)
     }
 
     /// Jobs that pass the filter of the Jobs screen, in its order.
     #[must_use]
     pub fn jobs(&self) -> Vec<&JobRow> {
         let Some(data) = &self.data else { return vec![] };
-        self.arranged.rows.iter().filter_map(|row| data.jobs.get(*row)).collect()
+        self.jobs.arranged.rows.iter().filter_map(|row| data.jobs.get(*row)).collect()
     }
 
     /// Finds which jobs pass the filter and in which order, where data, filter or order have changed since: with ten
     /// thousand jobs that takes too long for every frame.
     pub(super) fn arrange_jobs(&mut self) {
         let Some(data) = &self.data else { return };
-        let filter = self.filters[Screen::Jobs as usize].to_lowercase();
-        let wanted = (self.reads, filter, self.job_order);
-        if self.arranged.of.as_ref() == Some(&wanted) {
+        let filter = self.nav.filters[Screen::Jobs as usize].to_lowercase();
+        let wanted = (self.jobs.reads, filter, self.jobs.order);
+        if self.jobs.arranged.of.as_ref() == Some(&wanted) {
             return;
         }
         let jobs = &data.jobs;
         let passes = |row: &usize| wanted.1.is_empty() || words(&jobs[*row]).contains(&wanted.1);
         let mut rows: Vec<usize> = (0..jobs.len()).filter(passes).collect();
         let falling = |value: Option<f64>| value.map_or(f64::INFINITY, |v| -v);
-        match self.job_order.by {
+        match self.jobs.order.by {
             JobOrder::Number => {}
             JobOrder::Status => rows.sort_by_key(|row| attention(jobs[*row].status)),
             JobOrder::Ei => rows.sort_by(|a, b| falling(jobs[*a].ei).total_cmp(&falling(jobs[*b].ei))),
             JobOrder::Time => rows.sort_by_key(|row| -jobs[*row].wall_ms.unwrap_or(i64::MIN + 1)),
         }
-        if self.job_order.reversed {
+        if self.jobs.order.reversed {
             rows.reverse();
         }
-        self.arranged = Arranged { of: Some(wanted), rows };
+        self.jobs.arranged = Arranged { of: Some(wanted), rows };
     }
 
     /// Subjects that pass the filter of the Subjects screen, in its order.
     #[must_use]
     pub fn subjects(&self) -> Vec<&SubjectRow> {
         let Some(data) = &self.data else { return vec![] };
-        let filter = self.filters[Screen::Subjects as usize].to_lowercase();
+        let filter = self.nav.filters[Screen::Subjects as usize].to_lowercase();
         let matches = |row: &&SubjectRow| format!("{} {}", row.name, text::sex(row)).to_lowercase().contains(&filter);
         let mut subjects: Vec<&SubjectRow> = data.subjects.iter().filter(matches).collect();
-        match self.subject_order.by {
+        match self.subjects.order.by {
             SubjectOrder::Name => {}
             SubjectOrder::Sex => subjects.sort_by_key(|row| text::sex(row)),
             SubjectOrder::Measurement(k) => {
@@ -399,7 +450,7 @@ impl State {
                 subjects.sort_by(|a, b| value(a).total_cmp(&value(b)));
             }
         }
-        if self.subject_order.reversed {
+        if self.subjects.order.reversed {
             subjects.reverse();
         }
         subjects
@@ -409,7 +460,7 @@ impl State {
     #[must_use]
     pub fn subject(&self) -> Option<&SubjectRow> {
         let subjects = self.subjects();
-        subjects.iter().find(|row| Some(&row.name) == self.subject.as_ref()).or(subjects.first()).copied()
+        subjects.iter().find(|row| Some(&row.name) == self.subjects.chosen.as_ref()).or(subjects.first()).copied()
     }
 
     /// Stages of the selected result, in the order they are made.
@@ -426,21 +477,21 @@ impl State {
     #[must_use]
     pub fn stage(&self) -> Option<&str> {
         let stages = self.stages();
-        stages.iter().copied().find(|stage| Some(*stage) == self.stage.as_deref()).or(stages.last().copied())
+        stages.iter().copied().find(|stage| Some(*stage) == self.chi.stage.as_deref()).or(stages.last().copied())
     }
 
     /// Measurements of the selected result that pass the filter of the Results screen, in its order.
     #[must_use]
     pub fn chi(&self) -> Vec<&ChiRow> {
         let (Some(detail), Some(stage)) = (self.detail(), self.stage()) else { return vec![] };
-        let filter = self.filters[Screen::Results as usize].to_lowercase();
+        let filter = self.nav.filters[Screen::Results as usize].to_lowercase();
         let matches = |row: &ChiRow| format!("#{} {}", row.no, row.name).to_lowercase().contains(&filter);
         let mut rows: Vec<&ChiRow> = detail.chi.iter().filter(|row| row.stage == stage && matches(row)).collect();
-        if self.chi_order.by == ChiOrder::Error {
+        if self.chi.order.by == ChiOrder::Error {
             let error = |row: &ChiRow| (row.chi() - 1.0).abs();
             rows.sort_by(|a, b| error(b).total_cmp(&error(a)));
         }
-        if self.chi_order.reversed {
+        if self.chi.order.reversed {
             rows.reverse();
         }
         rows
@@ -464,14 +515,14 @@ impl State {
     #[must_use]
     pub fn steps(&self) -> &[Step] {
         let stored = self.detail().map(|detail| detail.history.as_slice()).filter(|steps| !steps.is_empty());
-        let seen = || self.focus.job.and_then(|id| self.traces.get(&id)).map(Vec::as_slice);
+        let seen = || self.cells.focus.job.and_then(|id| self.jobs.traces.get(&id)).map(Vec::as_slice);
         stored.or_else(seen).unwrap_or_default()
     }
 
     /// Whether a place of the grid contains the filter of the Study screen.
     #[must_use]
     pub fn is_match(&self, place: Place) -> bool {
-        let filter = self.filters[Screen::Study as usize].to_lowercase();
+        let filter = self.nav.filters[Screen::Study as usize].to_lowercase();
         let Some(grid) = self.grid() else { return false };
         let status = self.cell_at(place).and_then(|cell| cell.status).map_or("", text::status);
         let fit = self.fit_at(place).map_or("", |fit| fit.class.as_str());

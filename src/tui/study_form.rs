@@ -208,7 +208,7 @@ impl State {
     /// Asks what a new study is made of.
     pub(super) fn new_study(&mut self) {
         let Some(data) = &self.data else { return };
-        if !self.abilities.run {
+        if !self.setup.abilities.run {
             self.complain("this workbench is read-only: start it without --readonly to make a study");
             return;
         }
@@ -217,7 +217,7 @@ impl State {
         let fabrics: Vec<String> = data.fabrics.iter().map(|row| row.fabric.name.clone()).collect();
         let form = StudyForm {
             name,
-            folder: self.places.studies.clone(),
+            folder: self.setup.places.studies.clone(),
             fabric: fabrics.iter().position(|name| name == USUAL_FABRIC).unwrap_or(0),
             fabrics,
             simulators: study::SIMULATORS.map(|simulator| (simulator, true)).to_vec(),
@@ -238,7 +238,8 @@ impl State {
                     *overlay = None;
                 }
                 self.show(Screen::Study);
-                (self.focus.study, self.focus.garment, self.focus.job) = (Some(name.to_owned()), None, None);
+                (self.cells.focus.study, self.cells.focus.garment, self.cells.focus.job) =
+                    (Some(name.to_owned()), None, None);
                 self.say(format!("{} is written and its jobs are queued: R runs them", path.display()));
             }
             (Err(text), Some(Overlay::StudyForm(form))) => (form.is_busy, form.problem) = (false, Some(text)),

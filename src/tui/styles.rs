@@ -82,7 +82,7 @@ impl State {
     #[must_use]
     pub fn sizes(&self) -> Vec<&SizeRow> {
         let Some(data) = &self.data else { return vec![] };
-        let filter = self.filters[Screen::Styles as usize].to_lowercase();
+        let filter = self.nav.filters[Screen::Styles as usize].to_lowercase();
         let words = |row: &SizeRow| format!("{} {} {}", row.style, row.size, row.pattern_file).to_lowercase();
         data.sizes.iter().filter(|row| words(row).contains(&filter)).collect()
     }
@@ -114,7 +114,7 @@ impl State {
 
     /// Has the selected size laid out, where it is not what the desk was asked for already.
     pub(super) fn ask_for_desk(&mut self) -> Option<Effect> {
-        if self.screen != Screen::Styles {
+        if self.nav.screen != Screen::Styles {
             return None;
         }
         let wanted = self.laying();
@@ -211,7 +211,7 @@ impl State {
         if !self.may_change(Part::Style) {
             return false;
         }
-        self.second_pane[Screen::Styles as usize] = true;
+        self.nav.second_pane[Screen::Styles as usize] = true;
         let is_current =
             matches!(&self.styles.desk, Some((laying, Ok(_))) if Some(laying) == self.styles.asked.as_ref());
         let is_ready = is_current && self.laid().is_some() && !self.styles.is_busy;
@@ -302,11 +302,11 @@ impl State {
 
     /// Takes the selected proposed seam for right, or the selected question for answered; gives the desk the focus first where the list has it.
     pub(super) fn confirm_seam(&mut self) -> Vec<Effect> {
-        if self.screen == Screen::Styles && !self.in_second_pane() {
-            self.second_pane[Screen::Styles as usize] = true;
+        if self.nav.screen == Screen::Styles && !self.in_second_pane() {
+            self.nav.second_pane[Screen::Styles as usize] = true;
             return vec![];
         }
-        if let (true, Some(DeskLine::Question(k))) = (self.screen == Screen::Styles, self.desk_line()) {
+        if let (true, Some(DeskLine::Question(k))) = (self.nav.screen == Screen::Styles, self.desk_line()) {
             if !self.may_sew() {
                 return vec![];
             }

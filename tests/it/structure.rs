@@ -30,7 +30,7 @@ const LOOPING: [&str; 1] = ["tui"];
 const FIELDS: usize = 20;
 
 /// Structs that still have more.
-const WIDE: [&str; 3] = ["body::measure::Girths", "cli::args::body::BodyBuild", "tui::state::State"];
+const WIDE: [&str; 2] = ["body::measure::Girths", "cli::args::body::BodyBuild"];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))

@@ -42,10 +42,10 @@ pub(super) fn table(state: &State, columns: usize, lines: usize, selected: Optio
     let columns = Columns::new(&rows, columns);
     let mut table = vec![header(state, &columns)];
     let height = lines.saturating_sub(1);
-    let first = first_shown(state.chi_row, rows.len(), height);
+    let first = first_shown(state.chi.row, rows.len(), height);
     for (k, row) in rows.iter().enumerate().skip(first).take(height) {
         let line = line(state, row, &columns);
-        let style = selected.filter(|_| k == state.chi_row).map(|focused| state.theme.selection(focused));
+        let style = selected.filter(|_| k == state.chi.row).map(|focused| state.theme.selection(focused));
         table.push(match style {
             Some(style) => super::selected(line, style),
             None => line,
@@ -55,7 +55,7 @@ pub(super) fn table(state: &State, columns: usize, lines: usize, selected: Optio
 }
 
 fn header(state: &State, columns: &Columns) -> Line<'static> {
-    let (by_number, by_error) = match (state.chi_order.by, state.chi_order.reversed) {
+    let (by_number, by_error) = match (state.chi.order.by, state.chi.order.reversed) {
         (ChiOrder::Number, false) => ("▲", ""),
         (ChiOrder::Number, true) => ("▼", ""),
         (ChiOrder::Error, false) => ("", "▼"),

@@ -37,7 +37,7 @@ fn panes(area: Rect, state: &State) -> Panes {
         let n = runs.min(most);
         Layout::horizontal(vec![Constraint::Fill(1); n]).split(area).to_vec()
     };
-    if state.enlarged {
+    if state.drapes.enlarged {
         return Panes { table: None, verdict: None, pictures: pictures(area, (usize::from(area.width) / 24).max(1)) };
     }
     if is_narrow(area) {
@@ -105,7 +105,7 @@ fn said(state: &State, runs: &[Compared], width: usize) -> Vec<Line<'static>> {
 
 fn draw_picture(frame: &mut Frame<'_>, area: Rect, state: &State, job: &JobRow, name: &str) {
     let ei = job.ei.map_or(String::new(), |ei| format!(" · EI {ei:.4}"));
-    let block = pane(state.theme, format!("{name}{ei}"), state.in_second_pane() || state.enlarged);
+    let block = pane(state.theme, format!("{name}{ei}"), state.in_second_pane() || state.drapes.enlarged);
     let (inner, legend) = drape::parts(block.inner(area));
     frame.render_widget(block, area);
     if let Some(legend) = legend {
@@ -130,7 +130,7 @@ fn title(runs: &[Compared]) -> String {
 
 fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State, runs: &[Compared]) {
     let rows = state.contrasts();
-    let legend = if state.differences_only {
+    let legend = if state.compare.differences_only {
         " differences only, d shows all "
     } else {
         " d differences only  ◂ nearest to 1 "
@@ -141,10 +141,10 @@ fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State, runs: &[Compared
     let columns = Columns::new(&rows, runs.len(), usize::from(inner.width));
     let mut lines = header(state, runs, &columns);
     let room = usize::from(inner.height).saturating_sub(lines.len());
-    let first = first_shown(state.contrast, rows.len(), room);
+    let first = first_shown(state.compare.contrast, rows.len(), room);
     for (k, row) in rows.iter().enumerate().skip(first).take(room) {
         let line = line(state, row, &columns);
-        let is_selected = k == state.contrast;
+        let is_selected = k == state.compare.contrast;
         lines.push(if is_selected {
             super::selected(line, state.theme.selection(!state.in_second_pane()))
         } else {
@@ -152,7 +152,7 @@ fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State, runs: &[Compared
         });
     }
     if rows.is_empty() {
-        let is_cut = state.differences_only || !state.filter().is_empty();
+        let is_cut = state.compare.differences_only || !state.filter().is_empty();
         let text = if is_cut { "no measurement differs or matches the filter" } else { "no measurements yet" };
         lines.push(Line::raw(text));
     }
@@ -185,7 +185,7 @@ fn header(state: &State, runs: &[Compared], columns: &Columns) -> Vec<Line<'stat
     let start = format!("{} {}{}", right("#", 2), left("measurement", columns.name), right("L2D mm", 8));
     let over = |cells: Vec<String>| cells.iter().map(|cell| right(cell, RUN)).collect::<String>();
     let names = names.iter().take(columns.runs).map(|name| format!("{name}  ")).collect();
-    let mark = if state.sorts_contrasts { "▼" } else { "" };
+    let mark = if state.compare.sorts_contrasts { "▼" } else { "" };
     let delta = if columns.delta { right(&format!("diff{mark}"), DELTA - 2) } else { String::new() };
     let head = format!("{start}{}{delta}", over(names));
     let number = |of: fn(&MetricsRow) -> f64| -> Vec<String> {

@@ -18,15 +18,15 @@ use ::study::Status;
 /// The pictures that the screen shown has room for, each with its cells.
 #[must_use]
 pub fn picture_places(state: &State) -> Vec<(Sitter, Size)> {
-    if !state.abilities.pictures {
+    if !state.setup.abilities.pictures {
         return vec![];
     }
-    let [_, body, _] = rows(Rect::from((Position::ORIGIN, state.size)));
+    let [_, body, _] = rows(Rect::from((Position::ORIGIN, state.terminal.size)));
     let drape = |pane: Option<Rect>| {
         let job = state.job().filter(|job| job.status.has_result()).map(|job| Sitter::Drape(job.id));
         job.zip(pane).into_iter().collect()
     };
-    let panes: Vec<(Sitter, Rect)> = match state.screen {
+    let panes: Vec<(Sitter, Rect)> = match state.nav.screen {
         Screen::Study => drape(study::picture_pane(body, state)),
         Screen::Results => drape(results::picture_pane(body, state)),
         Screen::Subjects => {
@@ -52,7 +52,7 @@ pub(super) fn parts(inner: Rect) -> (Rect, Option<Rect>) {
 
 /// Draws the pane; `keys` are those that change the picture there.
 pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool, keys: &'static str) {
-    let title = format!("{} · {}", look_name(state.look), state.map.as_str());
+    let title = format!("{} · {}", look_name(state.drapes.look), state.drapes.map.as_str());
     let block = pane(state.theme, title, focused).title_bottom(Line::styled(keys, state.theme.legend()));
     let (inner, legend) = parts(block.inner(area));
     frame.render_widget(block, area);
@@ -64,7 +64,7 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bo
         draw_legend(frame, legend, state);
     }
     // While a picture is drawn anew, the one before stays, so that turning does not flicker.
-    draw_shot(frame, inner, state, state.focus.job.map(Sitter::Drape), "");
+    draw_shot(frame, inner, state, state.cells.focus.job.map(Sitter::Drape), "");
 }
 
 /// Draws the garment of the selected running job as it is now, below it how far it has come.
@@ -77,14 +77,14 @@ pub(super) fn draw_live(frame: &mut Frame<'_>, area: Rect, state: &State) {
         vec![Line::raw(share), Line::raw(format!("residual {:.1e}  E {:.4}", step.residual, step.e_chi))]
     });
     frame.render_widget(Paragraph::new(progress).alignment(Alignment::Center), facts);
-    match state.live.as_ref().filter(|frame| frame.job == job.id) {
+    match state.running.live.as_ref().filter(|frame| frame.job == job.id) {
         Some(seen) => {
-            let rows = braille(seen, state.look, usize::from(picture.width), usize::from(picture.height));
+            let rows = braille(seen, state.drapes.look, usize::from(picture.width), usize::from(picture.height));
             let lines: Vec<Line<'_>> = rows.into_iter().map(|row| Line::styled(row, state.theme.busy())).collect();
             frame.render_widget(Paragraph::new(lines), picture);
         }
         None => {
-            let text = if state.watched == Some(job.id) {
+            let text = if state.running.watched == Some(job.id) {
                 "the garment is being made ready…"
             } else {
                 "another process simulates it: its drape is shown when it is done"
@@ -97,12 +97,12 @@ pub(super) fn draw_live(frame: &mut Frame<'_>, area: Rect, state: &State) {
 /// Draws the picture of a sitter, or why there is none.
 pub(super) fn draw_shot(frame: &mut Frame<'_>, area: Rect, state: &State, of: Option<Sitter>, otherwise: &str) {
     let fits = |(shot, _): &&(Shot, _)| Some(shot.of) == of && shot.columns == area.width && shot.rows == area.height;
-    let drawn = state.pictures.iter().find(fits);
+    let drawn = state.drapes.pictures.iter().find(fits);
     let text = match drawn {
         Some((_, Ok(drawn))) => return draw_cells(frame, area, drawn, state),
         Some((_, Err(error))) => format!("no picture: {error}"),
-        None if !state.abilities.pictures => "pictures are off (--images off)".into(),
-        None if state.shots.iter().any(|shot| Some(shot.of) == of) => "drawing…".into(),
+        None if !state.setup.abilities.pictures => "pictures are off (--images off)".into(),
+        None if state.drapes.shots.iter().any(|shot| Some(shot.of) == of) => "drawing…".into(),
         None => otherwise.to_owned(),
     };
     frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), area);
@@ -110,7 +110,7 @@ pub(super) fn draw_shot(frame: &mut Frame<'_>, area: Rect, state: &State, of: Op
 
 /// What the colours mean: name, least value, the run of colours, greatest value with its unit.
 pub(super) fn draw_legend(frame: &mut Frame<'_>, area: Rect, state: &State) {
-    let Some(scale) = state.map.scale() else { return };
+    let Some(scale) = state.drapes.map.scale() else { return };
     let before = format!("{} {} ", scale.label, text::whole(scale.low));
     let after = format!(" {} {}", text::whole(scale.high), scale.unit);
     let room = usize::from(area.width).saturating_sub(text::width(&before) + text::width(&after));

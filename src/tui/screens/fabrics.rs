@@ -105,7 +105,7 @@ fn list(state: &State, width: u16, height: u16, focused: bool) -> Vec<Line<'stat
 }
 
 fn header(state: &State, name: usize, shown: usize) -> String {
-    let order = state.fabric_order;
+    let order = state.fabrics.order;
     let titled = |title: &str, by: FabricOrder| match (order.by == by, order.reversed) {
         (false, _) => title.to_owned(),
         (true, false) => format!("{title}▲"),

@@ -71,7 +71,7 @@ fn table(state: &State, width: u16, height: u16, focused: bool) -> Vec<Line<'sta
     let jobs = state.jobs();
     let columns = Columns::new(&jobs, usize::from(width));
     let height = usize::from(height).saturating_sub(1);
-    let selected = jobs.iter().position(|job| Some(job.id) == state.focus.job);
+    let selected = jobs.iter().position(|job| Some(job.id) == state.cells.focus.job);
     let first = first_shown(selected.unwrap_or(0), jobs.len(), height);
     let mut lines = vec![header(state, &columns)];
     for (k, job) in jobs.iter().enumerate().skip(first).take(height) {
@@ -88,7 +88,7 @@ fn table(state: &State, width: u16, height: u16, focused: bool) -> Vec<Line<'sta
 }
 
 fn header(state: &State, columns: &Columns) -> Line<'static> {
-    let order = state.job_order;
+    let order = state.jobs.order;
     let name = |title: &str, by: JobOrder| {
         let rises = (by == JobOrder::Number || by == JobOrder::Status) != order.reversed;
         let mark = if order.by != by {
@@ -191,7 +191,7 @@ fn log_lines(state: &State, width: usize, room: usize) -> Vec<Line<'static>> {
         .take(room.saturating_sub(1))
         .collect();
     let log: Vec<&LogLine> = detail.log.iter().filter(|line| line.text != error).collect();
-    let end = log.len().saturating_sub(state.log_up);
+    let end = log.len().saturating_sub(state.jobs.log_up);
     let shown = &log[end.saturating_sub(room - lines.len())..end];
     lines.extend(shown.iter().map(|line| log_line(state, line, width)));
     if detail.log.is_empty() && lines.is_empty() {
@@ -203,7 +203,7 @@ fn log_lines(state: &State, width: usize, room: usize) -> Vec<Line<'static>> {
 /// The jobs in the fewest columns, where there is no room for the table.
 fn list(state: &State, area: Rect) -> Vec<Line<'static>> {
     let jobs = state.jobs();
-    let at = jobs.iter().position(|job| Some(job.id) == state.focus.job).unwrap_or(0);
+    let at = jobs.iter().position(|job| Some(job.id) == state.cells.focus.job).unwrap_or(0);
     let height = usize::from(area.height);
     let first = first_shown(at, jobs.len(), height);
     let id = longest_id(&jobs);

@@ -44,7 +44,7 @@ const WIDE: u16 = 120;
 pub fn draw(frame: &mut Frame<'_>, state: &State) {
     let [top, body, bottom] = rows(frame.area());
     frame.render_widget(tabs(state, top.width), top);
-    match state.screen {
+    match state.nav.screen {
         _ if state.data.is_none() => frame.render_widget(Paragraph::new(" reading the database…"), body),
         Screen::Subjects => subjects::draw(frame, body, state),
         Screen::Fabrics => fabrics::draw(frame, body, state),
@@ -118,8 +118,8 @@ fn scrolled(mut table: Vec<Line<'static>>, down: usize, inner: Rect) -> Vec<Line
 /// Lines that the table of the selected subject or fabric can be scrolled down.
 #[must_use]
 pub fn table_hidden(state: &State) -> usize {
-    let [_, body, _] = rows(Rect::from((Position::ORIGIN, state.size)));
-    match state.screen {
+    let [_, body, _] = rows(Rect::from((Position::ORIGIN, state.terminal.size)));
+    match state.nav.screen {
         Screen::Subjects => MEASUREMENTS.len().saturating_sub(subjects::table_rows(body)),
         Screen::Fabrics => fabrics::TABLE_LINES.saturating_sub(fabrics::table_rows(body)),
         _ => 0,
@@ -132,8 +132,8 @@ fn tab_texts(state: &State, width: u16) -> Vec<(Screen, String)> {
         let [name, short] = screen.names();
         let text = match width {
             WIDE.. => format!(" {} {name} ", k + 1),
-            SHORT.. => format!(" {} {}", k + 1, if screen == state.screen { name } else { short }),
-            _ if screen == state.screen => format!(" {} {name}", k + 1),
+            SHORT.. => format!(" {} {}", k + 1, if screen == state.nav.screen { name } else { short }),
+            _ if screen == state.nav.screen => format!(" {} {name}", k + 1),
             _ => format!(" {}", k + 1),
         };
         (screen, text)
@@ -145,7 +145,7 @@ fn tab_texts(state: &State, width: u16) -> Vec<(Screen, String)> {
 #[must_use]
 pub fn tab_at(state: &State, column: u16) -> Option<Screen> {
     let mut end = 0;
-    tab_texts(state, state.size.width).into_iter().find_map(|(screen, text)| {
+    tab_texts(state, state.terminal.size.width).into_iter().find_map(|(screen, text)| {
         end += text::width(&text);
         (usize::from(column) < end).then_some(screen)
     })
@@ -154,7 +154,7 @@ pub fn tab_at(state: &State, column: u16) -> Option<Screen> {
 fn tabs(state: &State, width: u16) -> Line<'static> {
     let mut spans = vec![];
     for (screen, text) in tab_texts(state, width) {
-        let style = if screen == state.screen { state.theme.selected() } else { Style::new() };
+        let style = if screen == state.nav.screen { state.theme.selected() } else { Style::new() };
         spans.push(Span::styled(text, style));
     }
     let used: usize = spans.iter().map(Span::width).sum();
@@ -177,7 +177,7 @@ fn summary(state: &State, width: u16) -> Vec<(u8, Span<'static>)> {
     if study.paused {
         spans.push((9, Span::styled(" paused", state.theme.warn())));
     }
-    if state.run.is_some() {
+    if state.running.target.is_some() {
         let text = if width >= WIDE { " run here" } else { " run" };
         spans.push((5, Span::styled(text, state.theme.busy())));
     }
@@ -213,7 +213,7 @@ fn status_line(state: &State, width: u16) -> Line<'static> {
         spans.push(Span::styled(text, state.theme.warn()));
     }
     // What matters most stands first in the table, but help and palette must always be found.
-    let hinted = state.bindings.iter().filter(|b| !b.hint.is_empty() && b.is_on(state.screen_shown()));
+    let hinted = state.setup.bindings.iter().filter(|b| !b.hint.is_empty() && b.is_on(state.screen_shown()));
     let is_start = state.is_first_start() && state.screen_shown() == Screen::Study;
     let hinted = hinted.filter(|b| !is_start || matches!(b.name, "open" | "run" | "new-study" | "help" | "palette"));
     let (last, first): (Vec<&Binding>, Vec<&Binding>) = hinted.partition(|b| matches!(b.name, "help" | "palette"));

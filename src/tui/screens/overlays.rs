@@ -55,7 +55,7 @@ fn draw_list(frame: &mut Frame<'_>, area: Rect, title: &str, list: &List, state:
 
 /// Keys, name and help of an action; dim where it does nothing on this screen.
 fn line(state: &State, binding: &Binding, columns: usize) -> Line<'static> {
-    let longest = |field: fn(&Binding) -> usize| state.bindings.iter().map(field).max().unwrap_or(0);
+    let longest = |field: fn(&Binding) -> usize| state.setup.bindings.iter().map(field).max().unwrap_or(0);
     let keys = longest(|b| super::super::text::width(&b.keys_text())) + 1;
     let name = longest(|b| b.name.len()) + 1;
     let help = super::super::text::shortened(binding.help, columns.saturating_sub(keys + name));
@@ -64,7 +64,7 @@ fn line(state: &State, binding: &Binding, columns: usize) -> Line<'static> {
         Span::raw(left(binding.name, name)),
         Span::raw(help),
     ]);
-    if binding.is_on(state.screen) { line } else { line.patch_style(state.theme.dim()) }
+    if binding.is_on(state.nav.screen) { line } else { line.patch_style(state.theme.dim()) }
 }
 
 fn draw_question(frame: &mut Frame<'_>, area: Rect, text: &str, theme: Theme) {

@@ -19,11 +19,11 @@ struct Panes {
 
 fn panes(area: Rect, state: &State) -> Panes {
     if is_narrow(area) {
-        let shows_picture = state.enlarged || state.in_second_pane();
+        let shows_picture = state.drapes.enlarged || state.in_second_pane();
         let (table, picture) = if shows_picture { (None, Some(area)) } else { (Some(area), None) };
         return Panes { table, numbers: None, picture };
     }
-    if state.enlarged {
+    if state.drapes.enlarged {
         return Panes { table: None, numbers: None, picture: Some(area) };
     }
     let table_width = if area.width >= WIDE { area.width * 9 / 20 } else { area.width * 5 / 8 };
@@ -51,7 +51,7 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
         frame.render_widget(Paragraph::new(lines).block(block), area);
     }
     if let Some(area) = panes.picture {
-        let focused = state.in_second_pane() || state.enlarged;
+        let focused = state.in_second_pane() || state.drapes.enlarged;
         let keys = if area.width > 44 {
             " v h l turn  + - zoom  m colours  ↵ size "
         } else {

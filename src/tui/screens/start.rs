@@ -15,8 +15,8 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
         Line::raw("This database has no study yet."),
         Line::raw(""),
     ];
-    let can_run = state.abilities.run;
-    lines.extend(match (&state.run, can_run && state.abilities.quickstart) {
+    let can_run = state.setup.abilities.run;
+    lines.extend(match (&state.running.target, can_run && state.setup.abilities.quickstart) {
         (Some(_), _) => vec![Line::styled("▶ The quickstart is being made ready…", state.theme.busy())],
         (None, true) => vec![
             Line::styled("Enter  run the quickstart", bold),

@@ -71,14 +71,14 @@ fn draw_grid(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
         .title_bottom(Line::styled(FIT_LEGEND, state.theme.legend()).right_aligned());
     let inner = block.inner(area);
     let shown = (usize::from(inner.width).saturating_sub(label_width(grid)) / cell_width(grid)).max(1);
-    let first = first_shown(state.place.subject, grid.subjects.len(), shown);
+    let first = first_shown(state.cells.place.subject, grid.subjects.len(), shown);
     let subjects = first..(first + shown).min(grid.subjects.len());
 
     // Each size has a line a simulator and one of its ease.
     let of_size = grid.simulators.len() + 1;
     let all = grid.sizes.len() * of_size;
     let height = usize::from(inner.height).saturating_sub(1);
-    let from = first_shown(state.place.size * of_size + state.place.simulator, all, height);
+    let from = first_shown(state.cells.place.size * of_size + state.cells.place.simulator, all, height);
     let mut lines = vec![header(state, grid, subjects.clone())];
     lines.extend((from..all).take(height).map(|line| match (line / of_size, line % of_size) {
         (size, simulator) if simulator + 1 < of_size => row(state, grid, subjects.clone(), size, simulator),
@@ -115,7 +115,7 @@ fn header(state: &State, grid: &Grid, subjects: std::ops::Range<usize>) -> Line<
     let mut spans = vec![Span::styled(left("EI", label_width(grid) - 1) + more, state.theme.dim())];
     let last = subjects.end;
     for subject in subjects {
-        let style = if subject == state.place.subject { state.theme.bold() } else { state.theme.dim() };
+        let style = if subject == state.cells.place.subject { state.theme.bold() } else { state.theme.dim() };
         spans.push(Span::styled(left(&grid.subjects[subject], cell_width(grid)), style));
     }
     if last < grid.subjects.len() {
@@ -126,7 +126,7 @@ fn header(state: &State, grid: &Grid, subjects: std::ops::Range<usize>) -> Line<
 
 fn row(state: &State, grid: &Grid, subjects: std::ops::Range<usize>, size: usize, simulator: usize) -> Line<'static> {
     let name = if simulator == 0 { grid.sizes[size].as_str() } else { "" };
-    let is_selected = (size, simulator) == (state.place.size, state.place.simulator);
+    let is_selected = (size, simulator) == (state.cells.place.size, state.cells.place.simulator);
     let label = format!("{} {} ", left(name, size_width(grid)), text::sim(grid.simulators[simulator]));
     let mut spans = vec![Span::styled(label, if is_selected { state.theme.bold() } else { Style::new() })];
     for subject in subjects {
@@ -136,7 +136,7 @@ fn row(state: &State, grid: &Grid, subjects: std::ops::Range<usize>, size: usize
         if !state.is_match(place) {
             style = style.add_modifier(Modifier::DIM);
         }
-        if place == state.place {
+        if place == state.cells.place {
             style = style.patch(state.theme.selection(!state.in_second_pane()));
         }
         let width = cell_width(grid);
@@ -168,8 +168,8 @@ fn fit_row(state: &State, grid: &Grid, subjects: std::ops::Range<usize>, size: u
 }
 
 fn draw_detail(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
-    let place = state.place;
-    let job = state.focus.job.map_or(String::new(), |id| format!(" · job {id}"));
+    let place = state.cells.place;
+    let job = state.cells.focus.job.map_or(String::new(), |id| format!(" · job {id}"));
     let simulator = grid.simulators.get(place.simulator).map_or("", |sim| text::sim(*sim));
     let title = format!("{} · {} · {simulator}{job}", grid.sizes[place.size], grid.subjects[place.subject]);
     let block = pane(state.theme, title, state.in_second_pane())
@@ -209,14 +209,14 @@ fn draw_detail(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
 /// The cells one below the other, where there is no room for the grid.
 fn draw_list(frame: &mut Frame<'_>, area: Rect, state: &State, grid: &Grid) {
     let places = state.places();
-    let selected = places.iter().position(|place| *place == state.place).unwrap_or(0);
+    let selected = places.iter().position(|place| *place == state.cells.place).unwrap_or(0);
     let first = first_shown(selected, places.len(), usize::from(area.height));
     let line = |place: &Place| {
         let cell = &grid.cells[place.size][place.subject][place.simulator];
         let fit =
             state.fit_at(*place).map_or(String::new(), |fit| format!("{} {}", fit_glyph(&fit), ease_mm(fit.ease_m)));
         let style = cell.status.map_or(state.theme.dim(), |status| state.theme.status(status));
-        let style = if *place == state.place { style.patch(state.theme.selected()) } else { style };
+        let style = if *place == state.cells.place { style.patch(state.theme.selected()) } else { style };
         let simulator = text::sim(grid.simulators[place.simulator]);
         let (size, subject) = (left(&grid.sizes[place.size], 4), left(&grid.subjects[place.subject], 9));
         Line::styled(format!("{size} {subject} {simulator} {} {fit}", left(&cell_text(cell), 9)), style)

@@ -95,7 +95,7 @@ fn columns(width: usize) -> (usize, usize) {
 }
 
 fn header(state: &State, name: usize, shown: usize) -> Line<'static> {
-    let order = state.subject_order;
+    let order = state.subjects.order;
     let titled = |title: &str, by: SubjectOrder| match (order.by == by, order.reversed) {
         (false, _) => title.to_owned(),
         (true, false) => format!("{title}▲"),
@@ -137,7 +137,7 @@ fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State, subject: &Subjec
 
 /// Asked and measured values with the percentile of the sex; the body's own measurements after them.
 fn table(state: &State, subject: &SubjectRow, columns: usize) -> Vec<Line<'static>> {
-    let measured = state.measured.get(&subject.id);
+    let measured = state.subjects.measured.get(&subject.id);
     let girths = measured.and_then(|measured| measured.as_ref().ok());
     let wait = if measured.is_none() { "…" } else { "—" };
     let bar = columns.saturating_sub(17 + 9 + 10 + 8).min(20);

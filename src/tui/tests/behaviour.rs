@@ -8,7 +8,7 @@ use super::{Bench, fixture};
 use study::{JobId, Map, Status};
 
 fn selected(bench: &Bench) -> i64 {
-    bench.state.focus.job.map_or(0, |id| id.0)
+    bench.state.cells.focus.job.map_or(0, |id| id.0)
 }
 
 #[test]
@@ -32,7 +32,7 @@ fn the_selected_job_is_one_on_all_screens() {
     let mut bench = Bench::example(80, 24);
     bench.press("lj4j1");
     assert_eq!(selected(&bench), 5);
-    assert_eq!((bench.state.place.subject, bench.state.place.simulator), (2, 0));
+    assert_eq!((bench.state.cells.place.subject, bench.state.cells.place.simulator), (2, 0));
     bench.press("5");
     assert!(bench.screen().contains("tshirt S · iii · FEM"));
 }
@@ -41,11 +41,11 @@ fn the_selected_job_is_one_on_all_screens() {
 fn screens_are_gone_back_to_and_q_quits_at_the_top_only() {
     let mut bench = Bench::example(80, 24);
     bench.press("4<Enter>");
-    assert_eq!(bench.state.screen, Screen::Results);
+    assert_eq!(bench.state.nav.screen, Screen::Results);
     bench.press("q");
-    assert_eq!(bench.state.screen, Screen::Jobs);
+    assert_eq!(bench.state.nav.screen, Screen::Jobs);
     bench.press("<Esc>");
-    assert_eq!(bench.state.screen, Screen::Study);
+    assert_eq!(bench.state.nav.screen, Screen::Study);
     bench.press("<Esc>");
     assert_eq!(bench.asked(), [], "Escape never quits");
     bench.press("q");
@@ -112,7 +112,7 @@ fn a_lost_terminal_ends_the_workbench_but_not_its_run() {
     let mut bench = Bench::example(80, 24);
     bench.press("R").asked();
     bench.send(Message::Hangup);
-    assert!(bench.asked().is_empty() && bench.state.detached);
+    assert!(bench.asked().is_empty() && bench.state.terminal.detached);
     bench.send(Message::RunEnded(Err("the disk is full".into())));
     assert_eq!(bench.asked(), [Effect::Quit]);
 
@@ -127,7 +127,7 @@ fn enter_runs_the_quickstart_where_there_is_no_study() {
     assert!(bench.screen().contains("is being made ready"));
 
     let mut bench = Bench::new(80, 24, fixture::empty());
-    bench.state.abilities.quickstart = false;
+    bench.state.setup.abilities.quickstart = false;
     assert_eq!(bench.press("<Enter>").asked(), []);
     assert!(bench.status().contains("not installed"));
 }
@@ -201,9 +201,9 @@ fn pictures_are_asked_for_when_seen_and_only_then() {
 fn late_pictures_of_something_else_are_dropped() {
     let mut bench = Bench::example(80, 24);
     bench.press("5");
-    let wanted = *bench.state.shots.first().expect("asked for");
+    let wanted = *bench.state.drapes.shots.first().expect("asked for");
     bench.send(Message::Picture(Shot { map: Map::Gap, ..wanted }, Err("late".into())));
-    assert!(bench.state.pictures.is_empty());
+    assert!(bench.state.drapes.pictures.is_empty());
     bench.send(Message::Picture(wanted, Err("artefact is gone".into())));
     assert!(bench.screen().contains("no picture: artefact"));
 }

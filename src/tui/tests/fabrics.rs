@@ -51,7 +51,7 @@ fn a_new_fabric_starts_as_the_selected_one_and_is_checked() {
     assert!(bench.screen().contains("✗ fabric poplin: `stretch_pct` is missing"), "{}", bench.screen());
     bench.press("<Enter>").asked();
     bench.send(Message::Saved(Ok("fabric poplin is added".into())));
-    assert!(bench.state.overlay.is_none() && bench.state.fabric.as_deref() == Some("poplin"));
+    assert!(bench.state.overlay.is_none() && bench.state.fabrics.chosen.as_deref() == Some("poplin"));
 }
 
 #[test]
@@ -66,8 +66,8 @@ fn fabrics_are_edited_imported_and_removed() {
     bench.press("<Esc>dy");
     assert_eq!(bench.asked(), [Effect::Do(Act::Remove(Part::Fabric, "stiff".into()))]);
     bench.press("4:delete-fabric<Enter>");
-    assert!(bench.state.screen == Screen::Fabrics && matches!(bench.state.overlay, Some(Overlay::Question { .. })));
-    bench.press("<Esc>").state.abilities.run = false;
+    assert!(bench.state.nav.screen == Screen::Fabrics && matches!(bench.state.overlay, Some(Overlay::Question { .. })));
+    bench.press("<Esc>").state.setup.abilities.run = false;
     for keys in ["a", "e", "i", "d"] {
         assert!(bench.press(keys).status().contains("read-only") && bench.state.overlay.is_none(), "{keys}");
     }

@@ -92,7 +92,7 @@ impl Bench {
 
     /// The screen as text.
     fn screen(&self) -> String {
-        let Size { width, height } = self.state.size;
+        let Size { width, height } = self.state.terminal.size;
         let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("a test backend never fails");
         terminal.draw(|frame| screens::draw(frame, &self.state)).expect("a test backend never fails");
         terminal.backend().to_string()

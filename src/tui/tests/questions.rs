@@ -118,8 +118,8 @@ fn an_empty_editor_lets_commands_through() {
     let mut bench = Bench::example(80, 24);
     bench.press("7");
     assert!(bench.press("?").screen().contains("keys:"));
-    assert_eq!(bench.press("<Esc>4").state.screen, Screen::Jobs);
-    assert_eq!(bench.press("7x4").state.screen, Screen::Sql, "now it is text");
+    assert_eq!(bench.press("<Esc>4").state.nav.screen, Screen::Jobs);
+    assert_eq!(bench.press("7x4").state.nav.screen, Screen::Sql, "now it is text");
     assert_eq!(bench.press("<Esc>:run<Enter>").asked().last(), Some(&Effect::Ask(Question::Rows("x4".into()))));
 }
 
@@ -128,14 +128,14 @@ fn fem_and_hybrid_are_compared_unless_runs_are_selected() {
     for (width, height) in [(80, 24), (160, 50)] {
         let mut bench = Bench::example(width, height);
         bench.press("c");
-        assert_eq!(bench.state.focus.compare, [JobId(1), JobId(2)]);
+        assert_eq!(bench.state.cells.focus.compare, [JobId(1), JobId(2)]);
         assert_snapshot!(format!("compare_{width}x{height}"), bench.screen());
     }
     let mut bench = Bench::example(80, 24);
     bench.press(" l ");
     assert_eq!(bench.status(), "2 runs are selected; c compares, u takes all back");
     bench.press("cd");
-    assert_eq!(bench.state.focus.compare, [JobId(1), JobId(3)]);
+    assert_eq!(bench.state.cells.focus.compare, [JobId(1), JobId(3)]);
     assert!(bench.screen().contains("no measurement differs"), "the fixture's results by FEM are all the same");
     assert!(bench.screen().contains("FEM") || bench.screen().contains(" ii "), "{}", bench.screen());
     bench.press("du<Esc>c");
@@ -150,15 +150,15 @@ fn fem_and_hybrid_are_compared_unless_runs_are_selected() {
 fn compared_drapes_stand_side_by_side_where_there_is_room() {
     let mut bench = Bench::example(160, 50);
     bench.press("c");
-    assert_eq!(bench.state.shots.len(), 2);
-    let before = bench.state.shots.clone();
+    assert_eq!(bench.state.drapes.shots.len(), 2);
+    let before = bench.state.drapes.shots.clone();
     bench.press("v");
-    assert!(bench.state.shots.iter().zip(&before).all(|(now, then)| now.of == then.of && now.look != then.look));
+    assert!(bench.state.drapes.shots.iter().zip(&before).all(|(now, then)| now.of == then.of && now.look != then.look));
     let mut bench = Bench::example(80, 24);
     bench.press("c");
-    assert!(bench.state.shots.is_empty());
+    assert!(bench.state.drapes.shots.is_empty());
     bench.press("z");
-    assert_eq!(bench.state.shots.len(), 2);
+    assert_eq!(bench.state.drapes.shots.len(), 2);
 }
 
 #[test]
@@ -209,7 +209,7 @@ fn a_new_study_is_chosen_from_the_catalogue() {
         bench.send(Message::StudyCreated("study-1".into(), Err("the folder is there".into())));
         assert!(bench.screen().contains("✗ the folder is there"));
         bench.state.update(Message::StudyCreated("study-1".into(), Ok("studies/study-1/study.toml".into())));
-        assert!(bench.state.overlay.is_none() && bench.state.focus.study.as_deref() == Some("study-1"));
+        assert!(bench.state.overlay.is_none() && bench.state.cells.focus.study.as_deref() == Some("study-1"));
     }
 }
 
@@ -234,12 +234,18 @@ fn what_was_looked_at_is_remembered() {
     let mut bench = Bench::example(80, 24);
     bench.press("4/hyb<Enter>sjj 7select 1<Esc>3");
     let memory = Memory::of(&bench.state);
-    let abilities = bench.state.abilities;
-    let mut state = State::new(bench.state.theme, abilities, bench.state.size);
-    let focus = bench.state.focus.clone();
+    let abilities = bench.state.setup.abilities;
+    let mut state = State::new(bench.state.theme, abilities, bench.state.terminal.size);
+    let focus = bench.state.cells.focus.clone();
     memory.clone().recall(&mut state);
-    assert_eq!((state.screen, &state.focus.job, &state.filters), (Screen::Styles, &focus.job, &bench.state.filters));
-    assert_eq!((state.job_order, state.marks.len(), state.sql.editor.text()), (bench.state.job_order, 1, "select 1"));
+    assert_eq!(
+        (state.nav.screen, &state.cells.focus.job, &state.nav.filters),
+        (Screen::Styles, &focus.job, &bench.state.nav.filters)
+    );
+    assert_eq!(
+        (state.jobs.order, state.compare.marks.len(), state.sql.editor.text()),
+        (bench.state.jobs.order, 1, "select 1")
+    );
     state.update(Message::Data(Box::new(fixture::snapshot())));
     assert_eq!(Memory::of(&state), memory, "and still is once the database was read");
 }

@@ -196,7 +196,7 @@ fn removing_asks_and_readonly_changes_nothing() {
     let mut bench = Bench::new(80, 24, fixture::empty());
     assert!(bench.press("3").screen().contains("no styles yet: i imports one"), "{}", bench.screen());
     assert!(bench.press("x").status().contains("no size is selected"));
-    bench.state.abilities.run = false;
+    bench.state.setup.abilities.run = false;
     for keys in ["a", "x", "f", "p", "w", "i", "d", " "] {
         assert!(bench.press(keys).status().contains("read-only") && bench.state.overlay.is_none(), "{keys}");
     }
@@ -206,7 +206,7 @@ fn removing_asks_and_readonly_changes_nothing() {
 fn the_palette_reaches_seams_from_anywhere_and_glyphs_need_no_colour() {
     let mut bench = Bench::example(80, 24);
     bench.press("4:save-seams<Enter>");
-    assert!(bench.state.screen == Screen::Styles && bench.status().contains("nothing to save"));
+    assert!(bench.state.nav.screen == Screen::Styles && bench.status().contains("nothing to save"));
     bench.state.theme.colours = Colours::None;
     bench.press("<Enter> l");
     let screen = bench.screen();

@@ -116,14 +116,14 @@ fn removing_asks() {
 fn the_palette_reaches_subjects_from_anywhere_and_jobs_are_left_alone() {
     let mut bench = Bench::example(80, 24);
     bench.press("4:add-subject<Enter>");
-    assert!(bench.state.screen == Screen::Subjects && matches!(bench.state.overlay, Some(Overlay::Form(_))));
+    assert!(bench.state.nav.screen == Screen::Subjects && matches!(bench.state.overlay, Some(Overlay::Form(_))));
     bench.press("<Esc>xr");
     assert!(bench.asked().is_empty() && bench.state.overlay.is_none(), "no job is cancelled from here");
 
     let mut bench = Bench::new(80, 24, fixture::empty());
     assert!(bench.press("2").screen().contains("no subjects yet: a adds one"), "{}", bench.screen());
     assert!(bench.press("e").status().contains("no subject is selected"));
-    bench.state.abilities.run = false;
+    bench.state.setup.abilities.run = false;
     for keys in ["a", "e", "i", "d"] {
         assert!(bench.press(keys).status().contains("read-only") && bench.state.overlay.is_none(), "{keys}");
     }
@@ -145,7 +145,7 @@ fn bodies_are_built_when_seen_and_measured_without_pictures_too() {
     assert_eq!(asked.iter().map(|shot| shot.of).collect::<Vec<_>>(), [3, 1].map(|id| Sitter::Body(SubjectId(id))));
     assert!(asked[0].columns >= 24 && asked[0].rows >= 18);
     assert!(bench.screen().contains("931.3"));
-    bench.state.abilities.pictures = false;
+    bench.state.setup.abilities.pictures = false;
     bench.press("j");
     assert_eq!(shots(&mut bench)[0].columns, 0);
     assert!(bench.screen().contains("pictures are off"));

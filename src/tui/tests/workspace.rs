@@ -36,15 +36,15 @@ fn follows_a_run_and_acts_on_it() {
     assert!(jobs > 0 && data.jobs.iter().all(|job| job.status == Status::Failed));
     let first = data.grid.as_ref().and_then(|grid| grid.cells[0][0][0].job).expect("queued");
     bench.state.update(Message::Data(Box::new(data)));
-    assert_eq!(bench.state.focus.job, Some(first));
-    bench.state.update(Message::Data(Box::new(read(&workspace, &bench.state.focus.clone()))));
+    assert_eq!(bench.state.cells.focus.job, Some(first));
+    bench.state.update(Message::Data(Box::new(read(&workspace, &bench.state.cells.focus.clone()))));
     assert!(bench.screen().contains("does not go over"), "{}", bench.screen());
 
     assert!(do_act(&mut workspace, &Act::Retry(first)).expect("allowed").contains("is queued again"));
     assert!(do_act(&mut workspace, &Act::Retry(first)).expect("allowed").contains("is not run again"));
     assert!(do_act(&mut workspace, &Act::Pause(study.name.clone())).expect("allowed").contains("is paused"));
     assert!(do_act(&mut workspace, &Act::Pause("none".into())).is_err());
-    bench.state.update(Message::Data(Box::new(read(&workspace, &bench.state.focus.clone()))));
+    bench.state.update(Message::Data(Box::new(read(&workspace, &bench.state.cells.focus.clone()))));
     let screen = bench.screen();
     assert!(screen.contains(" paused ") && screen.contains(&format!("…1 ✗{}", jobs - 1)), "{screen}");
 }
