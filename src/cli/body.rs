@@ -13,7 +13,7 @@ use study::bodies;
 use study::bodies::{Lens, Measurements};
 use study::evaluate::{self, Accuracy};
 use study::files;
-use study::{Table, Value};
+use study::{Given, MEASUREMENTS, Table, Value};
 
 /// Size of the picture of a body, pixels.
 const PICTURE: (u32, u32) = (700, 1200);
@@ -71,6 +71,7 @@ fn evaluate(context: &Context, folder: &Path) -> Result<(), CliError> {
 /// Builds a body and writes its mesh, picture and measurements.
 fn build(context: &Context, arguments: &BodyBuild) -> Result<(), CliError> {
     if let Some(file) = &arguments.scan {
+        refuse_beside_scan(&arguments.measured.0)?;
         let source = files::SourceFile::read(file)?;
         let scan = read_scan(context, &source, arguments.unit, arguments.sex)?;
         return write(context, &bodies::scanned_body(&source, scan)?, &arguments.output);
@@ -124,49 +125,46 @@ fn read_scan(
     Ok(scan)
 }
 
+/// A scan is the body itself, so measurements beside it could not be honoured.
+fn refuse_beside_scan(given: &[Given]) -> Result<(), CliError> {
+    let Some((key, _)) = given.first() else { return Ok(()) };
+    Err(CliError::Usage(format!(
+        "--{} does not go with --scan, which is the body itself; accepted with it: --sex, --unit, --output",
+        key.replace('_', "-")
+    )))
+}
+
 /// The measurements of a catalogue entry or a file, with those of the command line over them.
 fn measurements(context: &Context, arguments: &BodyBuild) -> Result<Measurements, CliError> {
     let mut known = match (&arguments.subject, &arguments.measurements) {
         (Some(name), _) => context.workspace()?.subject(name)?,
         (None, Some(file)) => study::read_measurements(file)?,
         (None, None) => {
-            let (Some(sex), Some(stature_mm)) = (arguments.sex, arguments.stature_mm) else {
-                return Err(CliError::Usage(
-                    "say --sex and --stature-mm, or a --subject, or --measurements FILE".into(),
-                ));
-            };
-            let (sex, stature_m) = (of(sex), from_mm(stature_mm));
+            let missing = "say --sex and --stature-mm, or a --subject, or --measurements FILE";
+            let sex = arguments.sex.map(of).ok_or_else(|| CliError::Usage(missing.into()))?;
+            let mut asked = Measurements::of(sex, f64::NAN);
+            lay_over(&mut asked, &arguments.measured.0)?;
+            if asked.stature_m.is_nan() {
+                return Err(CliError::Usage(missing.into()));
+            }
             match (&arguments.front, &arguments.side) {
-                (Some(front), Some(side)) => pictured(context, arguments, [front, side], sex, stature_m)?,
-                _ => Measurements::of(sex, stature_m),
+                (Some(front), Some(side)) => pictured(context, arguments, [front, side], sex, asked.stature_m)?,
+                _ => asked,
             }
         }
     };
     known.sex = arguments.sex.map_or(known.sex, of);
-    known.stature_m = arguments.stature_mm.map_or(known.stature_m, from_mm);
-    known.weight_kg = arguments.weight_kg.or(known.weight_kg);
-    let lengths = [
-        (&mut known.chest_girth_m, arguments.chest_girth_mm),
-        (&mut known.waist_girth_m, arguments.waist_girth_mm),
-        (&mut known.hip_girth_m, arguments.hip_girth_mm),
-        (&mut known.neck_girth_m, arguments.neck_girth_mm),
-        (&mut known.across_shoulder_m, arguments.across_shoulder_mm),
-        (&mut known.underbust_girth_m, arguments.underbust_girth_mm),
-        (&mut known.thigh_girth_m, arguments.thigh_girth_mm),
-        (&mut known.knee_girth_m, arguments.knee_girth_mm),
-        (&mut known.calf_girth_m, arguments.calf_girth_mm),
-        (&mut known.ankle_girth_m, arguments.ankle_girth_mm),
-        (&mut known.upper_arm_girth_m, arguments.upper_arm_girth_mm),
-        (&mut known.forearm_girth_m, arguments.forearm_girth_mm),
-        (&mut known.wrist_girth_m, arguments.wrist_girth_mm),
-        (&mut known.inseam_m, arguments.inseam_mm),
-        (&mut known.arm_length_m, arguments.arm_length_mm),
-        (&mut known.foot_length_m, arguments.foot_length_mm),
-    ];
-    for (length, given_mm) in lengths {
-        *length = given_mm.map(from_mm).or(*length);
-    }
+    lay_over(&mut known, &arguments.measured.0)?;
     Ok(known)
+}
+
+/// Lays values that were given over measurements.
+fn lay_over(known: &mut Measurements, given: &[Given]) -> Result<(), CliError> {
+    for (key, text) in given {
+        let Some(field) = MEASUREMENTS.iter().find(|field| field.key == key) else { continue };
+        field.set(known, field.read(text).map_err(CliError::Usage)?);
+    }
+    Ok(())
 }
 
 /// Measurements read from a front and a side picture.

@@ -13,6 +13,7 @@ use crate::patterns;
 use crate::patterns::Unit;
 use crate::run::pipeline::{distorted, ease_on};
 use crate::seams;
+use crate::spec::file::{read_fabric, read_measurements};
 use crate::spec::versions::FIELD_SPACING_M;
 use body::Body;
 use fit::{Simulator, measure};
@@ -265,9 +266,7 @@ impl Monitor for Told<'_> {
 fn fabric(name: &str) -> Result<Fabric> {
     let path = Path::new(name);
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
-        let text = std::fs::read_to_string(path).map_err(StudyError::io(path))?;
-        return toml::from_str(&text)
-            .map_err(|error| StudyError::Stage { stage: "fabric", message: format!("{name}: {error}") });
+        return read_fabric(path);
     }
     let library = sim::fabric::library();
     let known = library.iter().map(|fabric| fabric.name.clone()).collect();
@@ -277,7 +276,7 @@ fn fabric(name: &str) -> Result<Fabric> {
 
 fn body(asked: &Attempt, notes: &mut Vec<String>) -> Result<Body> {
     if asked.body.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
-        return bodies::build_body(&crate::spec::file::read_measurements(&asked.body)?);
+        return bodies::build_body(&read_measurements(&asked.body)?);
     }
     let source = SourceFile::read(&asked.body)?;
     let scan = bodies::read_scan(&source, asked.body_unit, asked.sex)?;

@@ -162,7 +162,10 @@ fn wrong_usage_ends_with_2_and_says_what_would_be_right() {
     check("style add tee --seams patterns/tshirt.seams.toml", "at least one pattern");
     check("size rm tee/S", "no size `tee/S`");
     check("fabric show cotton_shirting_ligth", "did you mean `cotton_shirting_light`?");
-    check("body build --sex m --stature-mm 200 -o out", "body");
+    check("body build --sex m --stature-mm 200 -o out", "`stature_mm` is 200; accepted: 1300 to 2200");
+    check("body build --sex m -o out", "say --sex and --stature-mm");
+    check("body build --scan body.obj --knee-girth-mm 380 -o out", "--knee-girth-mm does not go with --scan");
+    check("body build --scan body.obj --inseam-mm 780 -o out", "--inseam-mm does not go with --scan");
     check("pattern mesh patterns/tshirt-m.dxf --seams patterns/tshirt.seams.toml --edge-length-mm -3", "-3");
     check("run . --readonly", "the workspace is open read-only");
 }

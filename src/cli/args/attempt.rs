@@ -42,7 +42,7 @@ pub struct Try {
     /// Simulator.
     #[arg(long, value_enum, default_value_t = TrySimulator::Fem)]
     pub sim: TrySimulator,
-    /// Fabric of the library, or a TOML file of one.
+    /// Fabric of the library, or a TOML file with what stands under a study's [[fabric]].
     #[arg(long, value_name = "NAME", default_value = "cotton_shirting_light")]
     pub fabric: String,
     /// Edge length of the mesh, mm.

@@ -1,5 +1,6 @@
 //! Arguments of `toile body`.
 
+use super::catalogue::MeasuredValues;
 use std::path::PathBuf;
 use study::bodies;
 
@@ -90,60 +91,8 @@ pub struct BodyBuild {
     /// TOML file with the measurements of a study's [[subject]].
     #[arg(long, value_name = "FILE", conflicts_with = "subject")]
     pub measurements: Option<PathBuf>,
-    /// Stature.
-    #[arg(long, value_name = "N", required_unless_present_any = ["subject", "measurements", "scan"])]
-    pub stature_mm: Option<f64>,
-    /// Body mass.
-    #[arg(long, value_name = "N")]
-    pub weight_kg: Option<f64>,
-    /// Chest or bust girth.
-    #[arg(long, value_name = "N")]
-    pub chest_girth_mm: Option<f64>,
-    /// Waist girth.
-    #[arg(long, value_name = "N")]
-    pub waist_girth_mm: Option<f64>,
-    /// Hip girth.
-    #[arg(long, value_name = "N")]
-    pub hip_girth_mm: Option<f64>,
-    /// Neck girth.
-    #[arg(long, value_name = "N")]
-    pub neck_girth_mm: Option<f64>,
-    /// Width across the shoulders.
-    #[arg(long, value_name = "N")]
-    pub across_shoulder_mm: Option<f64>,
-    /// Under-bust girth.
-    #[arg(long, value_name = "N")]
-    pub underbust_girth_mm: Option<f64>,
-    /// Thigh girth, just below the crotch.
-    #[arg(long, value_name = "N")]
-    pub thigh_girth_mm: Option<f64>,
-    /// Knee girth.
-    #[arg(long, value_name = "N")]
-    pub knee_girth_mm: Option<f64>,
-    /// Calf girth.
-    #[arg(long, value_name = "N")]
-    pub calf_girth_mm: Option<f64>,
-    /// Ankle girth.
-    #[arg(long, value_name = "N")]
-    pub ankle_girth_mm: Option<f64>,
-    /// Upper arm girth, relaxed.
-    #[arg(long, value_name = "N")]
-    pub upper_arm_girth_mm: Option<f64>,
-    /// Forearm girth, relaxed.
-    #[arg(long, value_name = "N")]
-    pub forearm_girth_mm: Option<f64>,
-    /// Wrist girth.
-    #[arg(long, value_name = "N")]
-    pub wrist_girth_mm: Option<f64>,
-    /// Inside leg height.
-    #[arg(long, value_name = "N")]
-    pub inseam_mm: Option<f64>,
-    /// Shoulder point over the elbow to the wrist.
-    #[arg(long, value_name = "N")]
-    pub arm_length_mm: Option<f64>,
-    /// Foot length.
-    #[arg(long, value_name = "N")]
-    pub foot_length_mm: Option<f64>,
+    #[command(flatten)]
+    pub measured: MeasuredValues,
     /// Front picture (PNG or JPEG): a photograph against a plain background, or a mask.
     #[arg(long, value_name = "IMAGE", requires = "side", conflicts_with_all = ["subject", "measurements"])]
     pub front: Option<PathBuf>,
@@ -151,8 +100,7 @@ pub struct BodyBuild {
     #[arg(long, value_name = "IMAGE", requires = "front")]
     pub side: Option<PathBuf>,
     /// Scan (OBJ, PLY, STL): cleaned, it becomes the body itself.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["subject", "measurements", "front", "stature_mm", "weight_kg",
-        "chest_girth_mm", "waist_girth_mm", "hip_girth_mm", "neck_girth_mm", "across_shoulder_mm"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["subject", "measurements", "front"])]
     pub scan: Option<PathBuf>,
     /// Unit of the scan; by default told from its height.
     #[arg(long, value_enum, requires = "scan")]

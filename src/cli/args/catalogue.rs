@@ -53,6 +53,10 @@ pub enum Catalogue<V: Args> {
 #[derive(Debug)]
 pub struct SubjectValues(pub Vec<Given>);
 
+/// Measurements of a body, by key.
+#[derive(Debug)]
+pub struct MeasuredValues(pub Vec<Given>);
+
 /// Values of a fabric, by key.
 #[derive(Debug)]
 pub struct FabricValues {
@@ -116,6 +120,27 @@ impl Args for SubjectValues {
     fn augment_args(command: Command) -> Command {
         let sex = Arg::new("sex").long("sex").value_name("m|f").help("Sex");
         flags(command.arg(sex), &MEASUREMENTS)
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for MeasuredValues {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        Ok(Self(given(matches, MEASUREMENTS.iter().map(|field| field.key))))
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+impl Args for MeasuredValues {
+    fn augment_args(command: Command) -> Command {
+        flags(command, &MEASUREMENTS)
     }
 
     fn augment_args_for_update(command: Command) -> Command {

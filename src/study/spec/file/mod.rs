@@ -273,3 +273,12 @@ pub fn read_measurements(path: &Path) -> Result<Measurements> {
     let text = std::fs::read_to_string(path).map_err(StudyError::io(path))?;
     measurements(path, &text)
 }
+
+/// A fabric from a TOML file with what stands under a study's `[[fabric]]`.
+///
+/// # Errors
+/// Everything that is wrong with the file, at once.
+pub fn read_fabric(path: &Path) -> Result<Fabric> {
+    let text = std::fs::read_to_string(path).map_err(StudyError::io(path))?;
+    parse::fabric_file(path, &text).map_err(StudyError::File)
+}

@@ -84,15 +84,48 @@ pub(super) fn entries<T>(
     reader.end(entries)
 }
 
-/// Checks the text of a file with one subject's measurements.
-pub(super) fn measurements_file(path: &Path, text: &str) -> Result<Measurements, Vec<Problem>> {
+/// Reads a file with one entry: what stands under `[[key]]`, or the file itself where it has no such header.
+fn sole<'t, T>(
+    path: &'t Path,
+    text: &'t str,
+    key: &str,
+    read: impl FnOnce(&mut Reader<'_>, Place<'_>) -> Option<T>,
+) -> Result<T, Vec<Problem>> {
     let (mut reader, document) = open(path, text)?;
-    let top = Place { name: "measurements".into(), span: 0..0, table: document.get_ref() };
-    reader.only(&top, &keys::<Measurements>());
-    match measurements(&mut reader, &top, "") {
-        Some(measurements) if reader.problems.is_empty() => Ok(measurements),
+    let top = Place { name: key.to_owned(), span: 0..0, table: document.get_ref() };
+    let place = if top.table.contains_key(key) {
+        reader.only(&top, &STUDY_KEYS);
+        let places = reader.tables(&top, key, key);
+        match <[Place<'_>; 1]>::try_from(places) {
+            Ok([place]) => Some(place),
+            Err(places) => {
+                let problem = format!("{} entries of [[{key}]]; accepted: one", places.len());
+                reader.problem(&places.get(1).map_or(0..0, |place| place.span.clone()), problem);
+                None
+            }
+        }
+    } else {
+        Some(top)
+    };
+    match place.and_then(|place| read(&mut reader, place)) {
+        Some(entry) if reader.problems.is_empty() => Ok(entry),
         _ => Err(reader.problems),
     }
+}
+
+/// Checks the text of a file with one subject's measurements.
+pub(super) fn measurements_file(path: &Path, text: &str) -> Result<Measurements, Vec<Problem>> {
+    sole(path, text, "subject", |reader, place| {
+        reader.only(&place, &[&["id"], &keys::<Measurements>()[..]].concat());
+        measurements(reader, &place, "")
+    })
+}
+
+/// Checks the text of a file with one fabric.
+pub(super) fn fabric_file(path: &Path, text: &str) -> Result<Fabric, Vec<Problem>> {
+    sole(path, text, "fabric", |reader, place| {
+        own_fabric(reader, place, &mut BTreeSet::new()).map(|placed| placed.entry)
+    })
 }
 
 /// Parses TOML; where it is broken only that is told, since all else would follow from it.
@@ -158,18 +191,23 @@ fn fabrics(reader: &mut Reader<'_>, top: &Place<'_>, known: &BTreeMap<String, Fa
 
 /// The fabrics of the file itself.
 pub(super) fn own_fabrics(reader: &mut Reader<'_>, top: &Place<'_>) -> Vec<Placed<Fabric>> {
-    let accepted = [&["name"], &keys::<Fabric>()[..]].concat();
-    let mut fabrics = Vec::new();
     let mut names = BTreeSet::new();
-    for mut place in reader.tables(top, "fabric", "fabric") {
-        reader.only(&place, &accepted);
-        let Some(name) = reader.need_text(&place, "name", "its name") else { continue };
-        unique(reader, &mut names, &name, "fabric");
-        place.name = format!("fabric {}", name.get_ref());
-        let source = reader.text(&place, "source").map_or("study file", Spanned::into_inner).to_owned();
-        let blank = Fabric { source, ..Fabric::blank(name.get_ref()) };
-        let fabric = numbers(reader, &place, blank, "a number, SI units as in the library (`toile fabric ls`)");
-        fabrics.extend(fabric.map(|fabric| reader.placed(&name.span(), name.get_ref(), fabric)));
-    }
-    fabrics
+    let places = reader.tables(top, "fabric", "fabric");
+    places.into_iter().filter_map(|place| own_fabric(reader, place, &mut names)).collect()
+}
+
+/// One of them, its name told from those before it.
+fn own_fabric<'t>(
+    reader: &mut Reader<'_>,
+    mut place: Place<'t>,
+    names: &mut BTreeSet<&'t str>,
+) -> Option<Placed<Fabric>> {
+    reader.only(&place, &[&["name"], &keys::<Fabric>()[..]].concat());
+    let name = reader.need_text(&place, "name", "its name")?;
+    unique(reader, names, &name, "fabric");
+    place.name = format!("fabric {}", name.get_ref());
+    let source = reader.text(&place, "source").map_or("study file", Spanned::into_inner).to_owned();
+    let blank = Fabric { source, ..Fabric::blank(name.get_ref()) };
+    let fabric = numbers(reader, &place, blank, "a number, SI units as in the library (`toile fabric ls`)")?;
+    Some(reader.placed(&name.span(), name.get_ref(), fabric))
 }

@@ -101,6 +101,33 @@ fn only_a_studys_subject_may_be_named() {
 }
 
 #[test]
+fn a_file_of_one_entry_needs_no_header() {
+    let anna = "id = \"anna\"\nsex = \"female\"\nstature_mm = 1650\n";
+    let knit = "name = \"knit\"\ndensity_kg_m2 = 0.2\nthickness_mm = 0.6\nmembrane_warp_n_m = 100\nmembrane_weft_n_m = 60\n\
+                shear_n_m = 30\nbending_warp_nm = 1e-6\nbending_weft_nm = 1e-6\nfriction_body = 0.3\nfriction_self = 0.5\n";
+    let path = Path::new("one.toml");
+    for text in [anna.to_owned(), format!("[[subject]]\n{anna}")] {
+        let found = measurements(path, &text).expect("a good subject");
+        assert_eq!((found.sex, found.stature_m), (Sex::Female, geom::units::from_mm(1650.0)));
+    }
+    for text in [knit.to_owned(), format!("[[fabric]]\n{knit}"), format!("{knit}source = \"own\"\n")] {
+        let found = parse::fabric_file(path, &text).expect("a good fabric");
+        assert_eq!((found.name.as_str(), found.thickness_m), ("knit", geom::units::from_mm(0.6)));
+    }
+    let check = |text: &str, says: &str| {
+        let told = Problem::listing(&parse::fabric_file(path, text).expect_err("wrong"));
+        assert!(told.contains(says), "{told}");
+    };
+    check(&knit.replace("thickness_mm", "thickness_m"), "thickness_mm");
+    check(
+        &format!("[[fabric]]\n{knit}[[fabric]]\n{}", knit.replace("knit", "other")),
+        "2 entries of [[fabric]]; accepted: one",
+    );
+    check("fabric = []\n", "0 entries of [[fabric]]; accepted: one");
+    check("", "name");
+}
+
+#[test]
 fn a_subject_may_be_a_scan() {
     let folder = tempfile::tempdir().expect("a folder");
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("writable");
