@@ -6,6 +6,7 @@
 use std::sync::LazyLock;
 
 use divan::Bencher;
+use toile::body::Dimension;
 use toile::body::{self, Body, Measurements, Sex};
 use toile::geom::DistanceField;
 use toile::pattern::draft::Model;
@@ -21,12 +22,10 @@ fn main() {
 }
 
 static BODY: LazyLock<Body> = LazyLock::new(|| {
-    let measurements = Measurements {
-        chest_girth_m: Some(0.863),
-        waist_girth_m: Some(0.782),
-        hip_girth_m: Some(0.914),
-        ..Measurements::of(Sex::Male, 1.690)
-    };
+    let measurements = Measurements::of(Sex::Male, 1.690)
+        .with(Dimension::ChestGirth, 0.863)
+        .with(Dimension::WaistGirth, 0.782)
+        .with(Dimension::HipGirth, 0.914);
     body::build(&measurements).expect("a person that can be")
 });
 static FIELD: LazyLock<DistanceField> =

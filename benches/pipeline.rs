@@ -5,6 +5,7 @@
 use std::sync::LazyLock;
 
 use divan::Bencher;
+use toile::body::Dimension;
 use toile::body::{self, Body, Measurements, Sex};
 use toile::geom::{DistanceField, TriMesh, shapes};
 use toile::measure;
@@ -29,15 +30,13 @@ const DRESS_M: f64 = 0.0065;
 const SPACING_M: f64 = 0.005;
 
 fn subject() -> Measurements {
-    Measurements {
-        weight_kg: Some(53.0),
-        chest_girth_m: Some(0.863),
-        waist_girth_m: Some(0.782),
-        hip_girth_m: Some(0.914),
-        neck_girth_m: Some(0.378),
-        across_shoulder_m: Some(0.429),
-        ..Measurements::of(Sex::Male, 1.690)
-    }
+    Measurements::of(Sex::Male, 1.690)
+        .with(Dimension::Weight, 53.0)
+        .with(Dimension::ChestGirth, 0.863)
+        .with(Dimension::WaistGirth, 0.782)
+        .with(Dimension::HipGirth, 0.914)
+        .with(Dimension::NeckGirth, 0.378)
+        .with(Dimension::AcrossShoulder, 0.429)
 }
 
 static BODY: LazyLock<Body> = LazyLock::new(|| body::build(&subject()).expect("a person that can be"));
@@ -168,13 +167,11 @@ fn fem_drape_growth(bencher: Bencher, edge_mm: u32) {
 /// A dress of about 20 thousand sewn vertices, from five such starts: `cargo bench -- --ignored`.
 #[divan::bench(sample_count = 5, sample_size = 1, ignore)]
 fn fem_drape_dress(bencher: Bencher) {
-    let wearer = Measurements {
-        weight_kg: Some(54.0),
-        chest_girth_m: Some(0.919),
-        waist_girth_m: Some(0.779),
-        hip_girth_m: Some(0.973),
-        ..Measurements::of(Sex::Female, 1.650)
-    };
+    let wearer = Measurements::of(Sex::Female, 1.650)
+        .with(Dimension::Weight, 54.0)
+        .with(Dimension::ChestGirth, 0.919)
+        .with(Dimension::WaistGirth, 0.779)
+        .with(Dimension::HipGirth, 0.973);
     let body = body::build(&wearer).expect("a person that can be");
     let field = DistanceField::build(&body.mesh, SPACING_M).expect("a closed mesh");
     let dress = style(&drafted(draft::Model::Dress, ["dress-one.dxf", "dress.seams.toml"]));

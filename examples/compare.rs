@@ -6,6 +6,7 @@
 
 use std::error::Error;
 
+use toile::body::Dimension;
 use toile::body::{self, Measurements, Sex};
 use toile::fit::{self, Cuts};
 use toile::geom::DistanceField;
@@ -22,7 +23,7 @@ const SPACING_M: f64 = 0.005;
 const CHEST_M: f64 = 0.98;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let measurements = Measurements { chest_girth_m: Some(CHEST_M), ..Measurements::of(Sex::Male, 1.76) };
+    let measurements = Measurements::of(Sex::Male, 1.76).with(Dimension::ChestGirth, CHEST_M);
     let body = body::build(&measurements)?;
     let field = DistanceField::build(&body.mesh, SPACING_M)?;
     let cotton = &fabric::library()[0];

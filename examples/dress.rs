@@ -6,6 +6,7 @@
 
 use std::error::Error;
 
+use toile::body::Dimension;
 use toile::body::{self, Measurements, Sex};
 use toile::geom::{DistanceField, TriMesh};
 use toile::measure;
@@ -25,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).unwrap_or_else(|| "drape.glb".to_owned());
 
     // The body. What is not given is estimated.
-    let measurements = Measurements { chest_girth_m: Some(0.98), ..Measurements::of(Sex::Male, 1.76) };
+    let measurements = Measurements::of(Sex::Male, 1.76).with(Dimension::ChestGirth, 0.98);
     let body = body::build(&measurements)?;
     let field = DistanceField::build(&body.mesh, SPACING_M)?;
 

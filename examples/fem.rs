@@ -9,6 +9,7 @@
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
+use toile::body::Dimension;
 use toile::body::{self, Body, Measurements, Sex};
 use toile::geom::DistanceField;
 use toile::measure;
@@ -53,15 +54,13 @@ impl Dressed {
     }
 
     fn slim() -> Outcome<Self> {
-        let measurements = Measurements {
-            weight_kg: Some(53.0),
-            chest_girth_m: Some(0.863),
-            waist_girth_m: Some(0.782),
-            hip_girth_m: Some(0.914),
-            neck_girth_m: Some(0.378),
-            across_shoulder_m: Some(0.429),
-            ..Measurements::of(Sex::Male, 1.690)
-        };
+        let measurements = Measurements::of(Sex::Male, 1.690)
+            .with(Dimension::Weight, 53.0)
+            .with(Dimension::ChestGirth, 0.863)
+            .with(Dimension::WaistGirth, 0.782)
+            .with(Dimension::HipGirth, 0.914)
+            .with(Dimension::NeckGirth, 0.378)
+            .with(Dimension::AcrossShoulder, 0.429);
         Self::new(body::build(&measurements)?)
     }
 

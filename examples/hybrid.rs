@@ -10,6 +10,7 @@
 use std::collections::BTreeMap;
 use std::error::Error;
 
+use toile::body::Dimension;
 use toile::body::{self, Body, Measurements, Region, Sex};
 use toile::geom::{DistanceField, Surface, V3};
 use toile::pattern::draft::Model;
@@ -76,15 +77,13 @@ impl Bodies {
             let number = |k: usize| row[k].parse::<f64>();
             let length = |k: usize| number(k).map(|mm| Some(mm / 1e3));
             let sex = if row[1] == "male" { Sex::Male } else { Sex::Female };
-            let measurements = Measurements {
-                weight_kg: Some(number(3)?),
-                chest_girth_m: length(4)?,
-                waist_girth_m: length(5)?,
-                hip_girth_m: length(6)?,
-                neck_girth_m: length(7)?,
-                across_shoulder_m: length(8)?,
-                ..Measurements::of(sex, number(2)? / 1e3)
-            };
+            let measurements = Measurements::of(sex, number(2)? / 1e3)
+                .with(Dimension::Weight, number(3)?)
+                .with(Dimension::ChestGirth, length(4)?)
+                .with(Dimension::WaistGirth, length(5)?)
+                .with(Dimension::HipGirth, length(6)?)
+                .with(Dimension::NeckGirth, length(7)?)
+                .with(Dimension::AcrossShoulder, length(8)?);
             let body = body::build(&measurements)?;
             let field = DistanceField::build(&body.mesh, SPACING_M)?;
             self.0.insert(row[0].to_owned(), (body, field));

@@ -64,7 +64,7 @@ fn check_ranges(known: &Measurements) -> Result<(), BodyError> {
 /// Refuses measurements of which two do not go together at this stature, or one with the stature itself.
 fn check_pairs(known: &Measurements) -> Result<(), BodyError> {
     let survey = Survey::of(known.sex);
-    let stature = (Dimension::Stature, known.stature_m);
+    let stature = (Dimension::Stature, known.stature_m());
     let others: Vec<(Dimension, f64)> = known.known().filter(|(dimension, _)| *dimension != stature.0).collect();
     let mut worst: Option<(f64, Dimension, Dimension, Expected)> = None;
     for &(dimension, value) in &others {
@@ -135,7 +135,7 @@ pub fn plausibility(known: &Measurements) -> Vec<Doubt> {
         return Vec::new();
     }
     let doubt = |(dimension, value): (Dimension, f64)| {
-        let expected = alike(known.sex, dimension, Some(known.stature_m), known.weight_kg);
+        let expected = alike(known.sex, dimension, Some(known.stature_m()), known.get(Dimension::Weight));
         let score = expected.score(value);
         (score.abs() > DOUBTFUL).then(|| Doubt {
             measurement: dimension.key(),
@@ -226,7 +226,7 @@ mod tests {
     #[test]
     fn the_mean_soldier_is_found_again() {
         let check = |sex, stature_m, weight_kg, chest: f64, hip: f64| {
-            let known = Measurements { weight_kg: Some(weight_kg), ..Measurements::of(sex, stature_m) };
+            let known = Measurements::of(sex, stature_m).with(Dimension::Weight, weight_kg);
             let profile = Profile::new(&known).expect("an ordinary person");
             let [found_chest, found_hip] = [Dimension::ChestGirth, Dimension::HipGirth].map(|d| profile.at(d));
             assert!((found_chest - chest).abs() < 5e-3, "{sex:?} chest {found_chest}");
@@ -238,8 +238,8 @@ mod tests {
 
     #[test]
     fn what_is_given_stays_and_moves_the_rest() {
-        let plain = Measurements { weight_kg: Some(80.0), ..Measurements::of(Sex::Male, 1.75) };
-        let given = Measurements { thigh_girth_m: Some(0.66), inseam_m: Some(0.88), ..plain.clone() };
+        let plain = Measurements::of(Sex::Male, 1.75).with(Dimension::Weight, 80.0);
+        let given = plain.clone().with(Dimension::ThighGirth, 0.66).with(Dimension::Inseam, 0.88);
         let [plain, given] = [plain, given].map(|known| Profile::new(&known).expect("a person"));
         assert_eq!((given.at(Dimension::ThighGirth), given.at(Dimension::Inseam)), (0.66, 0.88));
         assert!(given.at(Dimension::KneeGirth) > plain.at(Dimension::KneeGirth) + 5e-3);
@@ -253,21 +253,21 @@ mod tests {
             assert!(words.iter().all(|word| error.contains(word)), "{error}");
         };
         let person = Measurements::of(Sex::Male, 1.7);
-        refused(&Measurements { waist_girth_m: Some(89.0), ..person.clone() }, &["waist_girth_mm", "89000", "1700"]);
+        refused(&person.clone().with(Dimension::WaistGirth, 89.0), &["waist_girth_mm", "89000", "1700"]);
         refused(&Measurements::of(Sex::Female, f64::NAN), &["stature"]);
         refused(&Measurements::of(Sex::Female, 0.0), &["stature", "1300"]);
-        let odd = Measurements { waist_girth_m: Some(0.58), hip_girth_m: Some(1.5), ..person.clone() };
+        let odd = person.clone().with(Dimension::WaistGirth, 0.58).with(Dimension::HipGirth, 1.5);
         refused(&odd, &["waist girth 580 mm", "hip girth 1500 mm", "stature 1700 mm"]);
-        let long_legs = Measurements { inseam_m: Some(1.05), ..person };
+        let long_legs = person.with(Dimension::Inseam, 1.05);
         refused(&long_legs, &["inseam 1050 mm", "stature 1700 mm"]);
     }
 
     #[test]
     fn doubts_name_their_percentile() {
         let ordinary =
-            Measurements { weight_kg: Some(70.0), waist_girth_m: Some(0.84), ..Measurements::of(Sex::Male, 1.75) };
+            Measurements::of(Sex::Male, 1.75).with(Dimension::Weight, 70.0).with(Dimension::WaistGirth, 0.84);
         assert_eq!(plausibility(&ordinary), []);
-        let odd = Measurements { neck_girth_m: Some(0.46), ..ordinary };
+        let odd = ordinary.with(Dimension::NeckGirth, 0.46);
         let doubts = plausibility(&odd);
         assert_eq!(doubts.len(), 1);
         assert_eq!(doubts[0].measurement, "neck_girth_mm");

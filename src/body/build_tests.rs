@@ -23,15 +23,13 @@ const SUBJECTS: [(Sex, [f64; 7]); 12] = [
 
 fn subject(sex: Sex, [stature, mass, chest, waist, hip, across, neck]: [f64; 7]) -> Measurements {
     let metres = |cm: f64| Some(cm / 100.0);
-    Measurements {
-        weight_kg: Some(mass),
-        chest_girth_m: metres(chest),
-        waist_girth_m: metres(waist),
-        hip_girth_m: metres(hip),
-        neck_girth_m: metres(neck),
-        across_shoulder_m: metres(across),
-        ..Measurements::of(sex, stature / 100.0)
-    }
+    Measurements::of(sex, stature / 100.0)
+        .with(Dimension::Weight, mass)
+        .with(Dimension::ChestGirth, metres(chest))
+        .with(Dimension::WaistGirth, metres(waist))
+        .with(Dimension::HipGirth, metres(hip))
+        .with(Dimension::NeckGirth, metres(neck))
+        .with(Dimension::AcrossShoulder, metres(across))
 }
 
 #[test]
@@ -69,7 +67,7 @@ fn anybody(state: &mut u64) -> Measurements {
     let sex = if share() < 0.5 { Sex::Male } else { Sex::Female };
     let stature_m = 1.45 + 0.6 * share();
     let weight_kg = (16.5 + 23.5 * share()) * stature_m * stature_m;
-    let mut known = Measurements { weight_kg: Some(weight_kg), ..Measurements::of(sex, stature_m) };
+    let mut known = Measurements::of(sex, stature_m).with(Dimension::Weight, weight_kg);
     let chance = [0.0, 0.3, 0.9][(3.0 * share()) as usize];
     for dimension in Dimension::ALL.into_iter().skip(2) {
         let (wanted, score) = (share() < chance, 4.0 * share() - 2.0);
@@ -97,7 +95,7 @@ fn an_odd_body(state: &mut u64) -> Measurements {
         let mut known = Measurements::of(sex, 1.45 + 0.6 * share(state));
         for _ in 0..2 {
             let dimension = GIRTHS[(6.0 * share(state)) as usize];
-            let alike = Survey::of(sex).expect(&[dimension], &[(Dimension::Stature, known.stature_m)])[0];
+            let alike = Survey::of(sex).expect(&[dimension], &[(Dimension::Stature, known.stature_m())])[0];
             known.set(dimension, alike.at(8.0 * share(state) - 4.0));
         }
         if Profile::new(&known).is_ok() {
@@ -173,7 +171,7 @@ fn faults(asked: &Measurements, body: &Body) -> Vec<String> {
         faults.push(format!("{} crossings, one at {place:.3?}", crossings.len()));
     }
     let (low, high) = mesh.bounds().expect("vertices");
-    if low.z.abs() > 1e-6 || (high.z - asked.stature_m).abs() > 1e-6 {
+    if low.z.abs() > 1e-6 || (high.z - asked.stature_m()).abs() > 1e-6 {
         faults.push(format!("reaches from {} to {} m", low.z, high.z));
     }
     for (number, joint) in body.skeleton.joints.iter().enumerate() {

@@ -1,6 +1,8 @@
 //! The measurements by which a subject is known, named after ISO 8559-1.
 
-use super::Measurements;
+use std::collections::BTreeMap;
+
+use super::Sex;
 
 /// A body dimension. The order is that of the tables of the survey.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
@@ -131,64 +133,84 @@ impl Dimension {
     }
 }
 
+/// What is known of a subject: the sex, and the dimensions that were measured, m or kg.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(into = "Written", try_from = "Written")]
+pub struct Measurements {
+    /// Sex.
+    pub sex: Sex,
+    values: [Option<f64>; COUNT],
+}
+
 impl Measurements {
+    /// A subject of whom only sex and stature (m) are known.
+    #[must_use]
+    pub fn of(sex: Sex, stature_m: f64) -> Self {
+        Self { sex, values: [None; COUNT] }.with(Dimension::Stature, stature_m)
+    }
+
+    /// The same subject with a dimension known, m or kg, or not known.
+    #[must_use]
+    pub fn with(mut self, dimension: Dimension, value: impl Into<Option<f64>>) -> Self {
+        self.set(dimension, value);
+        self
+    }
+
     /// A dimension where it is known, m or kg.
     #[must_use]
     pub fn get(&self, dimension: Dimension) -> Option<f64> {
-        match dimension {
-            Dimension::Stature => Some(self.stature_m),
-            Dimension::Weight => self.weight_kg,
-            Dimension::ChestGirth => self.chest_girth_m,
-            Dimension::UnderbustGirth => self.underbust_girth_m,
-            Dimension::WaistGirth => self.waist_girth_m,
-            Dimension::HipGirth => self.hip_girth_m,
-            Dimension::NeckGirth => self.neck_girth_m,
-            Dimension::AcrossShoulder => self.across_shoulder_m,
-            Dimension::ThighGirth => self.thigh_girth_m,
-            Dimension::KneeGirth => self.knee_girth_m,
-            Dimension::CalfGirth => self.calf_girth_m,
-            Dimension::AnkleGirth => self.ankle_girth_m,
-            Dimension::UpperArmGirth => self.upper_arm_girth_m,
-            Dimension::ForearmGirth => self.forearm_girth_m,
-            Dimension::WristGirth => self.wrist_girth_m,
-            Dimension::Inseam => self.inseam_m,
-            Dimension::ArmLength => self.arm_length_m,
-            Dimension::FootLength => self.foot_length_m,
-            Dimension::ShoulderBreadth => None,
+        self.values[dimension as usize]
+    }
+
+    /// Makes a dimension known, m or kg, or not known. The breadth over the upper arms cannot be given and is left out.
+    pub fn set(&mut self, dimension: Dimension, value: impl Into<Option<f64>>) {
+        if dimension != Dimension::ShoulderBreadth {
+            self.values[dimension as usize] = value.into();
         }
     }
 
-    /// Makes a dimension known, m or kg. The breadth over the upper arms cannot be given and is left out.
-    pub fn set(&mut self, dimension: Dimension, value: f64) {
-        let slot = match dimension {
-            Dimension::Stature => {
-                self.stature_m = value;
-                return;
-            }
-            Dimension::ShoulderBreadth => return,
-            Dimension::Weight => &mut self.weight_kg,
-            Dimension::ChestGirth => &mut self.chest_girth_m,
-            Dimension::UnderbustGirth => &mut self.underbust_girth_m,
-            Dimension::WaistGirth => &mut self.waist_girth_m,
-            Dimension::HipGirth => &mut self.hip_girth_m,
-            Dimension::NeckGirth => &mut self.neck_girth_m,
-            Dimension::AcrossShoulder => &mut self.across_shoulder_m,
-            Dimension::ThighGirth => &mut self.thigh_girth_m,
-            Dimension::KneeGirth => &mut self.knee_girth_m,
-            Dimension::CalfGirth => &mut self.calf_girth_m,
-            Dimension::AnkleGirth => &mut self.ankle_girth_m,
-            Dimension::UpperArmGirth => &mut self.upper_arm_girth_m,
-            Dimension::ForearmGirth => &mut self.forearm_girth_m,
-            Dimension::WristGirth => &mut self.wrist_girth_m,
-            Dimension::Inseam => &mut self.inseam_m,
-            Dimension::ArmLength => &mut self.arm_length_m,
-            Dimension::FootLength => &mut self.foot_length_m,
-        };
-        *slot = Some(value);
+    /// Stature, m; not a number where it is not known.
+    #[must_use]
+    pub fn stature_m(&self) -> f64 {
+        self.get(Dimension::Stature).unwrap_or(f64::NAN)
     }
 
     /// Every known dimension with its value, m or kg.
     pub fn known(&self) -> impl Iterator<Item = (Dimension, f64)> + '_ {
         Dimension::ALL.into_iter().filter_map(|dimension| self.get(dimension).map(|value| (dimension, value)))
+    }
+}
+
+/// [`Measurements`] in files of jobs: SI values by key, such as `chest_girth_m`.
+#[derive(serde::Serialize, serde::Deserialize)]
+struct Written {
+    sex: Sex,
+    #[serde(flatten)]
+    values: BTreeMap<String, Option<f64>>,
+}
+
+/// Key of a dimension in SI units.
+fn si_key(dimension: Dimension) -> String {
+    let key = dimension.key();
+    key.strip_suffix("_mm").map_or_else(|| key.to_owned(), |stem| format!("{stem}_m"))
+}
+
+impl From<Measurements> for Written {
+    fn from(known: Measurements) -> Self {
+        let values = Dimension::ALL.map(|dimension| (si_key(dimension), known.get(dimension)));
+        Self { sex: known.sex, values: values.into() }
+    }
+}
+
+impl TryFrom<Written> for Measurements {
+    type Error = String;
+
+    fn try_from(written: Written) -> Result<Self, String> {
+        let mut known = Self { sex: written.sex, values: [None; COUNT] };
+        for (key, value) in written.values {
+            let dimension = Dimension::ALL.into_iter().find(|dimension| si_key(*dimension) == key);
+            known.set(dimension.ok_or_else(|| format!("no measurement `{key}`"))?, value);
+        }
+        Ok(known)
     }
 }

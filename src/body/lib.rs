@@ -45,7 +45,7 @@ pub use anthropometry::{Doubt, Mass, percentile, plausibility};
 pub use build::build;
 pub use control::{ControlMesh, Layer, RING, Region};
 pub use control_file::{ControlFile, read_control, write_control};
-pub use dimension::Dimension;
+pub use dimension::{Dimension, Measurements};
 pub use draw::{person, scores};
 pub use import::{Imported, LengthUnit, import, write_obj};
 pub use lengths::{Lengths, Measured, lengths};
@@ -166,88 +166,6 @@ pub enum Sex {
     /// Female.
     #[serde(alias = "f", alias = "F")]
     Female,
-}
-
-/// What is known of a subject, SI units; names after ISO 8559-1. Absent values are estimated.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Measurements {
-    /// Sex.
-    pub sex: Sex,
-    /// Stature, m.
-    pub stature_m: f64,
-    /// Body mass, kg.
-    pub weight_kg: Option<f64>,
-    /// Chest (men) or bust (women) girth, m.
-    pub chest_girth_m: Option<f64>,
-    /// Waist girth (ISO 8559-1 level), m.
-    pub waist_girth_m: Option<f64>,
-    /// Hip girth, m.
-    pub hip_girth_m: Option<f64>,
-    /// Neck girth, m.
-    pub neck_girth_m: Option<f64>,
-    /// Across-shoulder width over the back neck point, m.
-    pub across_shoulder_m: Option<f64>,
-    /// Under-bust girth, m.
-    #[serde(default)]
-    pub underbust_girth_m: Option<f64>,
-    /// Thigh girth just below the crotch, m.
-    #[serde(default)]
-    pub thigh_girth_m: Option<f64>,
-    /// Knee girth, m.
-    #[serde(default)]
-    pub knee_girth_m: Option<f64>,
-    /// Calf girth, m.
-    #[serde(default)]
-    pub calf_girth_m: Option<f64>,
-    /// Ankle girth, m.
-    #[serde(default)]
-    pub ankle_girth_m: Option<f64>,
-    /// Upper arm girth, relaxed, m.
-    #[serde(default)]
-    pub upper_arm_girth_m: Option<f64>,
-    /// Forearm girth, relaxed, m.
-    #[serde(default)]
-    pub forearm_girth_m: Option<f64>,
-    /// Wrist girth, m.
-    #[serde(default)]
-    pub wrist_girth_m: Option<f64>,
-    /// Inside leg height, m.
-    #[serde(default)]
-    pub inseam_m: Option<f64>,
-    /// Shoulder point over the elbow to the wrist, m.
-    #[serde(default)]
-    pub arm_length_m: Option<f64>,
-    /// Foot length, m.
-    #[serde(default)]
-    pub foot_length_m: Option<f64>,
-}
-
-impl Measurements {
-    /// A subject of whom only sex and stature (m) are known.
-    #[must_use]
-    pub fn of(sex: Sex, stature_m: f64) -> Self {
-        Self {
-            sex,
-            stature_m,
-            weight_kg: None,
-            chest_girth_m: None,
-            waist_girth_m: None,
-            hip_girth_m: None,
-            neck_girth_m: None,
-            across_shoulder_m: None,
-            underbust_girth_m: None,
-            thigh_girth_m: None,
-            knee_girth_m: None,
-            calf_girth_m: None,
-            ankle_girth_m: None,
-            upper_arm_girth_m: None,
-            forearm_girth_m: None,
-            wrist_girth_m: None,
-            inseam_m: None,
-            arm_length_m: None,
-            foot_length_m: None,
-        }
-    }
 }
 
 /// The 17 joints (thesis 3.1, figure 3-11).

@@ -4,6 +4,7 @@ use super::landmarks::{Side, crotch, median_point, shoulder_top};
 use super::slices::{Sliced, Slices};
 use super::tape::{self, Neck};
 use super::{BodyError, Levels, Measurements, Sex};
+use crate::Dimension;
 use geom::section::{Plane, section};
 use geom::units::{from_mm, mm};
 use geom::{TriMesh, V2, V3};
@@ -53,14 +54,12 @@ impl Girths {
     #[must_use]
     pub fn measurements(&self, sex: Sex) -> Measurements {
         let girth = |mm: f64| Some(from_mm(mm));
-        Measurements {
-            chest_girth_m: girth(self.chest_girth_mm),
-            waist_girth_m: girth(self.waist_girth_mm),
-            hip_girth_m: girth(self.hip_girth_mm),
-            neck_girth_m: girth(self.neck_girth_mm),
-            across_shoulder_m: girth(self.across_shoulder_mm),
-            ..Measurements::of(sex, from_mm(self.stature_mm))
-        }
+        Measurements::of(sex, from_mm(self.stature_mm))
+            .with(Dimension::ChestGirth, girth(self.chest_girth_mm))
+            .with(Dimension::WaistGirth, girth(self.waist_girth_mm))
+            .with(Dimension::HipGirth, girth(self.hip_girth_mm))
+            .with(Dimension::NeckGirth, girth(self.neck_girth_mm))
+            .with(Dimension::AcrossShoulder, girth(self.across_shoulder_mm))
     }
 }
 

@@ -1,4 +1,5 @@
 use super::*;
+use crate::Dimension;
 use crate::{Measurements, build, import, write_obj};
 
 /// The reference bodies beside the project, where they are.
@@ -78,7 +79,7 @@ fn the_reference_bodies_measure_as_known() {
 
 #[test]
 fn a_built_body_is_measured_alike_through_any_file() {
-    let asked = Measurements { weight_kg: Some(68.0), ..Measurements::of(Sex::Male, 1.76) };
+    let asked = Measurements::of(Sex::Male, 1.76).with(Dimension::Weight, 68.0);
     let body = build(&asked).expect("an ordinary man");
     let straight = measure(&body.mesh, Some(Sex::Male)).expect("a standing body");
     let mut turned = body.mesh.clone();

@@ -4,6 +4,7 @@ use super::outline::{Outlines, View};
 use super::segment;
 use super::silhouette::Mask;
 use super::{BodyError, Measurements, Sex};
+use crate::Dimension;
 use geom::units::mm;
 use image::DynamicImage;
 use std::io::Cursor;
@@ -99,13 +100,11 @@ pub fn from_pictures(
     });
     let levels = levels.collect();
     let [neck, chest, waist, hip] = girths.map(Some);
-    let measurements = Measurements {
-        chest_girth_m: chest,
-        waist_girth_m: waist,
-        hip_girth_m: hip,
-        neck_girth_m: neck,
-        ..Measurements::of(sex, stature_m)
-    };
+    let measurements = Measurements::of(sex, stature_m)
+        .with(Dimension::ChestGirth, chest)
+        .with(Dimension::WaistGirth, waist)
+        .with(Dimension::HipGirth, hip)
+        .with(Dimension::NeckGirth, neck);
     Ok(Pictured { measurements, levels, crotch_level_mm: mm(outlines.crotch), notes })
 }
 

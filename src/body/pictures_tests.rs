@@ -1,4 +1,5 @@
 use super::*;
+use crate::Dimension;
 use crate::testing::{Taken, placed, png, silhouette};
 use geom::V3;
 
@@ -101,7 +102,7 @@ fn silhouettes_of_built_bodies_give_their_girths() {
 }
 
 fn measured(sex: Sex, stature_m: f64, weight_kg: f64) -> Measurements {
-    Measurements { weight_kg: Some(weight_kg), ..Measurements::of(sex, stature_m) }
+    Measurements::of(sex, stature_m).with(Dimension::Weight, weight_kg)
 }
 
 #[test]

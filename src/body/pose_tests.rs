@@ -1,9 +1,9 @@
 use super::*;
+use crate::Dimension;
 use crate::{Measurements, Sex, build, tape};
 
 fn bodies() -> Vec<Body> {
-    let asked =
-        |sex, stature_m, weight_kg| Measurements { weight_kg: Some(weight_kg), ..Measurements::of(sex, stature_m) };
+    let asked = |sex, stature_m, weight_kg| Measurements::of(sex, stature_m).with(Dimension::Weight, weight_kg);
     let all = [asked(Sex::Male, 1.78, 75.0), asked(Sex::Female, 1.62, 82.0)];
     all.iter().map(|known| build(known).expect("an ordinary body")).collect()
 }

@@ -1,10 +1,11 @@
 use super::*;
+use crate::Dimension;
 use crate::testing::{Noise, ascii_ply, binary_ply, binary_stl, pierce, placed, roughen};
 use crate::{Joint, Measurements, build, write_obj};
 use geom::{Surface, TriMesh};
 
 fn built(sex: Sex, stature_m: f64, weight_kg: f64) -> Body {
-    let asked = Measurements { weight_kg: Some(weight_kg), ..Measurements::of(sex, stature_m) };
+    let asked = Measurements::of(sex, stature_m).with(Dimension::Weight, weight_kg);
     build(&asked).expect("an ordinary body")
 }
 

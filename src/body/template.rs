@@ -9,6 +9,7 @@ use super::figure::Figure;
 use super::loft::{Loft, Part, Ring, column};
 use super::surface::Skin;
 use super::{Measurements, Sex, anthropometry::Profile};
+use crate::Dimension;
 use geom::contour::Grid;
 use geom::{TriMesh, V2, V3, smooth_step};
 use std::sync::LazyLock;
@@ -96,7 +97,7 @@ impl Template {
     pub fn person(sex: Sex) -> Profile {
         let [stature, mass_index] = FIGURE;
         let weight_kg = Some(mass_index * stature * stature);
-        let known = Measurements { weight_kg, ..Measurements::of(sex, stature) };
+        let known = Measurements::of(sex, stature).with(Dimension::Weight, weight_kg);
         Profile::new(&known).expect("an ordinary person is in range")
     }
 

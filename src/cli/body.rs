@@ -144,11 +144,11 @@ fn measurements(context: &Context, arguments: &BodyBuild) -> Result<Measurements
             let sex = arguments.sex.map(of).ok_or_else(|| CliError::Usage(missing.into()))?;
             let mut asked = Measurements::of(sex, f64::NAN);
             lay_over(&mut asked, &arguments.measured.0)?;
-            if asked.stature_m.is_nan() {
+            if asked.stature_m().is_nan() {
                 return Err(CliError::Usage(missing.into()));
             }
             match (&arguments.front, &arguments.side) {
-                (Some(front), Some(side)) => pictured(context, arguments, [front, side], sex, asked.stature_m)?,
+                (Some(front), Some(side)) => pictured(context, arguments, [front, side], sex, asked.stature_m())?,
                 _ => asked,
             }
         }

@@ -1,5 +1,6 @@
 //! Bodies without a study: built, scanned, seen in pictures, posed, measured, drawn.
 
+use body::Dimension;
 use std::path::Path;
 
 use crate::error::{Result, StudyError};
@@ -37,7 +38,7 @@ pub fn judge_body<'a>(measurements: &Measurements, body: &'a Body) -> Judgement<
     Judgement {
         girths: &body.girths,
         doubts: body::plausibility(measurements),
-        mass: Mass::of(body.girths.volume_l, measurements.weight_kg),
+        mass: Mass::of(body.girths.volume_l, measurements.get(Dimension::Weight)),
     }
 }
 

@@ -11,6 +11,7 @@ use crate::spec::file::{GarmentEntry, SizeFile, SourceFile, Subject};
 use crate::store::queue::{self, Event};
 use crate::store::{self, Access};
 use crate::*;
+use body::Dimension;
 use body::{Measurements, Sex};
 use fit::measure::{Chi, metrics};
 use fit::{Cuts, Ease};
@@ -56,7 +57,7 @@ fn source(name: &str, text: &str) -> SourceFile {
 fn study(density_kg_m2: f64) -> Study {
     let subject = |id: &str, stature_m: f64| Subject {
         id: id.to_owned(),
-        measurements: Measurements { chest_girth_m: Some(0.9), ..Measurements::of(Sex::Male, stature_m) },
+        measurements: Measurements::of(Sex::Male, stature_m).with(Dimension::ChestGirth, 0.9),
         scan: None,
     };
     let size = |name: &str| SizeFile { name: name.to_owned(), pattern: source(&format!("tee-{name}.dxf"), name) };
@@ -100,7 +101,7 @@ fn study(density_kg_m2: f64) -> Study {
 
 /// A result that depends on the inputs alone.
 fn outcome(spec: &JobSpec) -> Outcome {
-    let stretch = 1.0 + spec.measurements.stature_m / 100.0;
+    let stretch = 1.0 + spec.measurements.stature_m() / 100.0;
     let chis = vec![Chi { no: 1, l2d_m: 1.0, l3d_m: stretch }, Chi { no: 2, l2d_m: 0.5, l3d_m: 0.5 }];
     let measured = |chi: &Chi| Measured {
         stage: Stage::Drape,

@@ -30,7 +30,7 @@ const LOOPING: [&str; 1] = ["tui"];
 const FIELDS: usize = 20;
 
 /// Structs that still have more.
-const WIDE: [&str; 2] = ["body::measure::Girths", "cli::args::body::BodyBuild"];
+const WIDE: [&str; 1] = ["body::measure::Girths"];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))

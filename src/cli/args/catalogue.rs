@@ -94,7 +94,7 @@ pub struct SizeValues {
 /// A flag for every number.
 fn flags<T>(command: Command, fields: &'static [Field<T>]) -> Command {
     command.args(fields.iter().map(|field| {
-        let flag = Arg::new(field.key).long(field.flag).value_name("N").help(field.label);
+        let flag = Arg::new(field.key).long(field.flag()).value_name("N").help(field.label);
         flag.allow_hyphen_values(true).help_heading("Values (an empty one takes a value away)")
     }))
 }

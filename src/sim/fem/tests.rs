@@ -3,6 +3,7 @@
 use super::*;
 use crate::testing::lapelled;
 use crate::{Silent, fabric};
+use body::Dimension;
 use body::{self, Joint, Landmarks, Measurements, Sex, Skeleton};
 use geom::TriMesh;
 use pattern::draft::Model;
@@ -120,8 +121,7 @@ fn mirrored_input_gives_the_mirrored_result_and_the_same_input_the_same_bits() {
 
 #[test]
 fn a_garment_stretched_too_far_is_told_or_ends_the_simulation() {
-    let big =
-        Measurements { chest_girth_m: Some(1.30), waist_girth_m: Some(1.25), ..Measurements::of(Sex::Male, 1.75) };
+    let big = Measurements::of(Sex::Male, 1.75).with(Dimension::ChestGirth, 1.30).with(Dimension::WaistGirth, 1.25);
     let cotton = fabric::library().into_iter().find(|f| f.name == "cotton_shirting_light").expect("in the library");
     let garments = levels(Model::Tshirt, 0.06);
     let drape = |measurements: &Measurements, params: &Params| {
@@ -143,8 +143,7 @@ fn a_garment_stretched_too_far_is_told_or_ends_the_simulation() {
 
 #[test]
 fn what_cannot_be_drawn_on_is_given_up() {
-    let big =
-        Measurements { chest_girth_m: Some(1.30), waist_girth_m: Some(1.25), ..Measurements::of(Sex::Male, 1.75) };
+    let big = Measurements::of(Sex::Male, 1.75).with(Dimension::ChestGirth, 1.30).with(Dimension::WaistGirth, 1.25);
     let body = body::build(&big).expect("a body");
     let field = DistanceField::build(&body.mesh, 0.012).expect("a closed body");
     let cotton = fabric::library().into_iter().find(|f| f.name == "cotton_shirting_light").expect("in the library");
@@ -163,12 +162,10 @@ fn what_cannot_be_drawn_on_is_given_up() {
 
 /// Trousers of a soft, slippery knit, with more at the end of their seam file.
 fn slippery_trousers(more: &str) -> Result<Drape, SimError> {
-    let measurements = Measurements {
-        chest_girth_m: Some(0.94),
-        waist_girth_m: Some(0.8),
-        hip_girth_m: Some(0.95),
-        ..Measurements::of(Sex::Male, 1.75)
-    };
+    let measurements = Measurements::of(Sex::Male, 1.75)
+        .with(Dimension::ChestGirth, 0.94)
+        .with(Dimension::WaistGirth, 0.8)
+        .with(Dimension::HipGirth, 0.95);
     let body = body::build(&measurements).expect("a body");
     let field = DistanceField::build(&body.mesh, 0.012).expect("a closed body");
     let seams = Model::Trousers.seams().to_vec();
@@ -196,7 +193,7 @@ fn what_nothing_holds_up_is_given_up_and_a_waistband_holds_it() {
 
 #[test]
 fn a_garment_that_its_seams_squeeze_off_the_body_is_sewn_again_with_friction_or_given_up() {
-    let measurements = Measurements { weight_kg: Some(150.0), ..Measurements::of(Sex::Female, 1.95) };
+    let measurements = Measurements::of(Sex::Female, 1.95).with(Dimension::Weight, 150.0);
     let body = body::build(&measurements).expect("a body");
     let field = DistanceField::build(&body.mesh, 0.01).expect("a closed body");
     let cotton = fabric::library().into_iter().find(|f| f.name == "cotton_shirting_light").expect("in the library");

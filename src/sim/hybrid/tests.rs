@@ -10,6 +10,7 @@ use super::path::{PathGraph, Taken};
 use super::*;
 use crate::laboratory::sheets::{hexagonal_sheet, noise};
 use crate::{Silent, fabric};
+use body::Dimension;
 use body::{self, Measurements, Region, Sex};
 use geom::V2;
 use pattern::draft::Model;
@@ -18,12 +19,10 @@ use pattern::{Role, SeamMesh, Style, garmentcode};
 
 /// The thesis's men ii and vi: the slimmest and the largest.
 fn man(stature_m: f64, chest_m: f64, waist_m: f64, hip_m: f64) -> Body {
-    let measurements = Measurements {
-        chest_girth_m: Some(chest_m),
-        waist_girth_m: Some(waist_m),
-        hip_girth_m: Some(hip_m),
-        ..Measurements::of(Sex::Male, stature_m)
-    };
+    let measurements = Measurements::of(Sex::Male, stature_m)
+        .with(Dimension::ChestGirth, chest_m)
+        .with(Dimension::WaistGirth, waist_m)
+        .with(Dimension::HipGirth, hip_m);
     body::build(&measurements).expect("a body")
 }
 

@@ -10,6 +10,7 @@ use crate::rows::Value;
 use crate::run::outcome::machine;
 
 use crate::store::{Store, sql};
+use body::Dimension;
 use body::{Measurements, Sex};
 use geom::units::mm;
 
@@ -51,7 +52,7 @@ fn database_check(path: &Path, readonly: bool) -> Result<String> {
 
 /// Builds a body and lays the tape on it.
 fn body_check() -> Result<String> {
-    let known = Measurements { weight_kg: Some(60.0), chest_girth_m: Some(0.9), ..Measurements::of(Sex::Female, 1.65) };
+    let known = Measurements::of(Sex::Female, 1.65).with(Dimension::Weight, 60.0).with(Dimension::ChestGirth, 0.9);
     let body = bodies::build_body(&known)?;
     Ok(format!(
         "{} triangles; chest asked 900 mm, measured {:.0} mm",

@@ -89,7 +89,7 @@ pub fn subjects_text(representatives: &[Representative]) -> String {
         // Writing into a text does not fail, here and below.
         let _ = writeln!(text, "[[subject]] # {:.2} % of {sex}s", one.share * 100.0);
         let _ = writeln!(text, "id = \"{}{:03}\"\nsex = \"{sex}\"", &sex[..1], number + 1);
-        for field in &MEASUREMENTS {
+        for field in MEASUREMENTS.iter() {
             if let Some(value) = field.get(&one.measurements) {
                 let _ = writeln!(text, "{} = {value}", field.key);
             }
@@ -300,7 +300,7 @@ mod tests {
 
     #[test]
     fn the_nearest_is_of_the_same_sex_and_alike() {
-        let of = |sex, chest| Measurements { chest_girth_m: Some(chest), ..Measurements::of(sex, 1.75) };
+        let of = |sex, chest| Measurements::of(sex, 1.75).with(Dimension::ChestGirth, chest);
         assert_eq!(distance(&of(Sex::Male, 1.0), &of(Sex::Female, 1.0)), None);
         let (same, _) = distance(&of(Sex::Male, 1.0), &of(Sex::Male, 1.0)).expect("alike");
         let (far, widest) = distance(&of(Sex::Male, 1.0), &of(Sex::Male, 1.2)).expect("alike");

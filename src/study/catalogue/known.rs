@@ -152,7 +152,7 @@ fn select_subject() -> String {
 fn subject_row(row: &Row<'_>) -> rusqlite::Result<SubjectRow> {
     let sex: String = row.get(3)?;
     let sex = if sex == "male" { Sex::Male } else { Sex::Female };
-    let mut measurements = Measurements { sex, ..Measurements::blank("") };
+    let mut measurements = Measurements::of(sex, f64::NAN);
     read_numbers(row, 4, &MEASUREMENTS, &mut measurements)?;
     Ok(SubjectRow { id: SubjectId(row.get(0)?), name: row.get(1)?, revision: row.get(2)?, measurements })
 }

@@ -58,9 +58,9 @@ mod tests {
 
     #[test]
     fn the_rare_is_doubted_and_the_ordinary_is_not() {
-        let ordinary = Measurements { weight_kg: Some(60.0), ..Measurements::of(Sex::Female, 1.63) };
+        let ordinary = Measurements::of(Sex::Female, 1.63).with(Dimension::Weight, 60.0);
         assert_eq!(doubts(&ordinary), [""; 0]);
-        let rare = Measurements { chest_girth_m: Some(1.5), ..ordinary };
+        let rare = ordinary.with(Dimension::ChestGirth, 1.5);
         let told = doubts(&rare);
         assert_eq!(told.len(), 1);
         assert!(told[0].starts_with("chest_girth_mm = 1500 is doubtful"), "{told:?}");

@@ -3,6 +3,7 @@
 use crate::Workspace;
 use crate::files;
 use crate::patterns;
+use body::Dimension;
 use std::path::PathBuf;
 
 use crate::catalogue::*;
@@ -66,7 +67,7 @@ fn an_edit_is_a_revision_and_known_content_is_current_again() {
     assert_eq!(bench.subject(Mode::Edit, "anna", &[("waist_girth_mm", "720")]), Ok(Deed::Unchanged));
     assert_eq!(bench.one("SELECT waist_girth_mm FROM v_subjects WHERE subject = 'anna' ORDER BY revision"), "700,720");
     assert_eq!(bench.subject(Mode::Edit, "anna", &[("waist_girth_mm", "700")]), Ok(Deed::Restored));
-    assert_eq!(bench.workspace.subject("anna").expect("there").waist_girth_m, Some(from_mm(700.0)));
+    assert_eq!(bench.workspace.subject("anna").expect("there").get(Dimension::WaistGirth), Some(from_mm(700.0)));
     assert_eq!(bench.one("SELECT revision FROM v_subjects WHERE subject = 'anna' AND is_latest"), "1");
 }
 
@@ -108,7 +109,7 @@ fn what_is_built_in_gives_way_to_edits_for_good() {
     assert_eq!(removed.to_string(), "subject male-iv is hidden; it is built in");
     drop(bench.workspace);
     let workspace = Workspace::open(&path, false).expect("there");
-    assert_eq!(workspace.subject("male-ii").expect("there").stature_m, 1.7);
+    assert_eq!(workspace.subject("male-ii").expect("there").stature_m(), 1.7);
     let names: Vec<String> = workspace.subjects().expect("readable").into_iter().map(|row| row.name).collect();
     assert_eq!(names.len(), 11);
     assert!(!names.contains(&"male-iv".to_owned()));

@@ -44,7 +44,7 @@ pub fn export_study(study: &Study) -> Vec<(String, Vec<u8>)> {
     }
     for fabric in fabrics.into_values() {
         let _ = writeln!(text, "\n[[fabric]]\nname = {}\nsource = {}", quoted(&fabric.name), quoted(&fabric.source));
-        for field in &FABRIC_NUMBERS {
+        for field in FABRIC_NUMBERS.iter() {
             if let Some(number) = field.get(fabric) {
                 let _ = writeln!(text, "{} = {number:?}", field.key);
             }
@@ -67,7 +67,7 @@ fn write_subject(text: &mut String, files: &mut Files, subject: &Subject) {
         }
         return;
     }
-    for field in &MEASUREMENTS {
+    for field in MEASUREMENTS.iter() {
         if let Some(value) = field.get(&subject.measurements) {
             let _ = writeln!(text, "{} = {value:?}", field.key);
         }

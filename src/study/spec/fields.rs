@@ -2,6 +2,7 @@
 //! imported tables, flags and forms all go through these lists, so that a value is accepted everywhere or nowhere.
 
 use std::ops::RangeInclusive;
+use std::sync::LazyLock;
 
 use crate::error::nearest;
 use crate::spec::millimetres;
@@ -14,18 +15,25 @@ use sim::fabric::Stretched;
 pub struct Field<T: 'static> {
     /// Key in study files, tables and SQL (`waist_girth_mm`).
     pub key: &'static str,
-    /// Flag of the command line (`waist-girth-mm`).
-    pub flag: &'static str,
     /// Name on screens and in help.
     pub label: &'static str,
     /// Whether no entry is without it.
     pub is_required: bool,
-    range: fn() -> RangeInclusive<f64>,
-    get: fn(&T) -> Option<f64>,
-    set: fn(&mut T, Option<f64>),
+    range: RangeInclusive<f64>,
+    get: Box<Get<T>>,
+    set: Box<Set<T>>,
 }
 
+type Get<T> = dyn Fn(&T) -> Option<f64> + Send + Sync;
+type Set<T> = dyn Fn(&mut T, Option<f64>) + Send + Sync;
+
 impl<T> Field<T> {
+    /// Flag of the command line (`waist-girth-mm`).
+    #[must_use]
+    pub fn flag(&self) -> String {
+        self.key.replace('_', "-")
+    }
+
     /// Its value in an entry.
     #[must_use]
     pub fn get(&self, entry: &T) -> Option<f64> {
@@ -42,7 +50,7 @@ impl<T> Field<T> {
     /// # Errors
     /// What was found and what would be accepted.
     pub fn check(&self, number: f64) -> Result<f64, String> {
-        let range = (self.range)();
+        let range = &self.range;
         if range.contains(&number) {
             return Ok(number);
         }
@@ -54,7 +62,7 @@ impl<T> Field<T> {
     /// # Errors
     /// What was found and what would be accepted.
     pub fn read(&self, text: &str) -> Result<Option<f64>, String> {
-        let range = (self.range)();
+        let range = &self.range;
         let accepted = format!("accepted: {} to {}", range.start(), range.end());
         match text.trim() {
             "" if self.is_required => Err(format!("`{}` is missing; {accepted}", self.key)),
@@ -67,58 +75,25 @@ impl<T> Field<T> {
     }
 }
 
-/// A measurement that need not be known, its value in the unit of its key.
-macro_rules! measurement {
-    ($dimension:ident, $field:ident, $flag:literal) => {
-        Field {
-            key: Dimension::$dimension.key(),
-            flag: $flag,
-            label: Dimension::$dimension.name(),
-            is_required: false,
-            range: || body_range(Dimension::$dimension),
-            get: |subject| subject.$field.map(millimetres),
-            set: |subject, value| subject.$field = value.map(from_mm),
-        }
-    };
-}
+/// The measurements of a subject: every [`Dimension`] that may be known; names after ISO 8559-1.
+pub static MEASUREMENTS: LazyLock<Vec<Field<Measurements>>> =
+    LazyLock::new(|| Dimension::ALL.into_iter().map(measurement).collect());
 
-/// The measurements of a subject, the most asked for first; names after ISO 8559-1.
-pub static MEASUREMENTS: [Field<Measurements>; Dimension::ALL.len()] = [
+fn measurement(dimension: Dimension) -> Field<Measurements> {
+    let is_length = dimension.unit() == "mm";
     Field {
-        key: Dimension::Stature.key(),
-        flag: "stature-mm",
-        label: Dimension::Stature.name(),
-        is_required: true,
-        range: || body_range(Dimension::Stature),
-        get: |subject| Some(millimetres(subject.stature_m)),
-        set: |subject, value| subject.stature_m = from_mm(value.unwrap_or(f64::NAN)),
-    },
-    Field {
-        key: Dimension::Weight.key(),
-        flag: "weight-kg",
-        label: Dimension::Weight.name(),
-        is_required: false,
-        range: || body_range(Dimension::Weight),
-        get: |subject| subject.weight_kg,
-        set: |subject, value| subject.weight_kg = value,
-    },
-    measurement!(ChestGirth, chest_girth_m, "chest-girth-mm"),
-    measurement!(WaistGirth, waist_girth_m, "waist-girth-mm"),
-    measurement!(HipGirth, hip_girth_m, "hip-girth-mm"),
-    measurement!(NeckGirth, neck_girth_m, "neck-girth-mm"),
-    measurement!(AcrossShoulder, across_shoulder_m, "across-shoulder-mm"),
-    measurement!(UnderbustGirth, underbust_girth_m, "underbust-girth-mm"),
-    measurement!(ThighGirth, thigh_girth_m, "thigh-girth-mm"),
-    measurement!(KneeGirth, knee_girth_m, "knee-girth-mm"),
-    measurement!(CalfGirth, calf_girth_m, "calf-girth-mm"),
-    measurement!(AnkleGirth, ankle_girth_m, "ankle-girth-mm"),
-    measurement!(UpperArmGirth, upper_arm_girth_m, "upper-arm-girth-mm"),
-    measurement!(ForearmGirth, forearm_girth_m, "forearm-girth-mm"),
-    measurement!(WristGirth, wrist_girth_m, "wrist-girth-mm"),
-    measurement!(Inseam, inseam_m, "inseam-mm"),
-    measurement!(ArmLength, arm_length_m, "arm-length-mm"),
-    measurement!(FootLength, foot_length_m, "foot-length-mm"),
-];
+        key: dimension.key(),
+        label: dimension.name(),
+        is_required: dimension == Dimension::Stature,
+        range: body_range(dimension),
+        get: Box::new(move |subject: &Measurements| {
+            subject.get(dimension).map(|value| if is_length { millimetres(value) } else { value })
+        }),
+        set: Box::new(move |subject: &mut Measurements, value| {
+            subject.set(dimension, value.map(|value| if is_length { from_mm(value) } else { value }));
+        }),
+    }
+}
 
 /// The values of a measurement that a body can be built with, in the unit of its key.
 fn body_range(dimension: Dimension) -> RangeInclusive<f64> {
@@ -128,75 +103,77 @@ fn body_range(dimension: Dimension) -> RangeInclusive<f64> {
 
 /// A number of [`Fabric`] in SI units.
 macro_rules! number {
-    ($field:ident, $flag:literal, $label:literal, $range:expr) => {
+    ($field:ident, $label:literal, $range:expr) => {
         Field {
             key: stringify!($field),
-            flag: $flag,
             label: $label,
             is_required: true,
-            range: || $range,
-            get: |fabric| Some(fabric.$field),
-            set: |fabric, value| fabric.$field = value.unwrap_or(f64::NAN),
+            range: $range,
+            get: Box::new(|fabric: &Fabric| Some(fabric.$field)),
+            set: Box::new(|fabric: &mut Fabric, value| fabric.$field = value.unwrap_or(f64::NAN)),
         }
     };
 }
 
 /// The numbers of a fabric.
-pub static FABRIC_NUMBERS: [Field<Fabric>; 13] = [
-    number!(density_kg_m2, "density-kg-m2", "areal density", 0.005..=5.0),
-    Field {
-        key: "thickness_mm",
-        flag: "thickness-mm",
-        label: "thickness",
-        is_required: true,
-        range: || 0.01..=20.0,
-        get: |fabric| Some(millimetres(fabric.thickness_m)),
-        set: |fabric, value| fabric.thickness_m = from_mm(value.unwrap_or(f64::NAN)),
-    },
-    number!(membrane_warp_n_m, "membrane-warp-n-m", "strip modulus along the grain", 1.0..=1e6),
-    number!(membrane_weft_n_m, "membrane-weft-n-m", "strip modulus across the grain", 1.0..=1e6),
-    Field {
-        key: "membrane_coupling_n_m",
-        flag: "membrane-coupling-n-m",
-        label: "coupling of the two [default: 0]",
-        is_required: false,
-        range: || 0.0..=1e6,
-        get: |fabric| Some(fabric.membrane_coupling_n_m),
-        set: |fabric, value| fabric.membrane_coupling_n_m = value.unwrap_or(0.0),
-    },
-    number!(shear_n_m, "shear-n-m", "shear modulus", 0.1..=1e6),
-    number!(bending_warp_nm, "bending-warp-nm", "bending rigidity, warp", 1e-9..=1e-1),
-    number!(bending_weft_nm, "bending-weft-nm", "bending rigidity, weft", 1e-9..=1e-1),
-    number!(friction_body, "friction-body", "friction on the body", 0.0..=5.0),
-    number!(friction_self, "friction-self", "friction on itself", 0.0..=5.0),
-    Field {
-        key: "stretch_pct",
-        flag: "stretch-pct",
-        label: "stretch of a knit's second moduli [default: none]",
-        is_required: false,
-        range: || 1.0..=200.0,
-        get: |fabric| fabric.stretched.map(|law| (law.stretch * 1e10).round() / 1e8),
-        set: |fabric, value| set_stretched(fabric, value, |law, value| law.stretch = value / 100.0),
-    },
-    Field {
-        key: "stretched_warp_n_m",
-        flag: "stretched-warp-n-m",
-        label: "secant modulus there, warp",
-        is_required: false,
-        range: || 1.0..=1e6,
-        get: |fabric| fabric.stretched.map(|law| law.membrane_warp_n_m),
-        set: |fabric, value| set_stretched(fabric, value, |law, value| law.membrane_warp_n_m = value),
-    },
-    Field {
-        key: "stretched_weft_n_m",
-        flag: "stretched-weft-n-m",
-        label: "secant modulus there, weft",
-        is_required: false,
-        range: || 1.0..=1e6,
-        get: |fabric| fabric.stretched.map(|law| law.membrane_weft_n_m),
-        set: |fabric, value| set_stretched(fabric, value, |law, value| law.membrane_weft_n_m = value),
-    },
-];
+pub static FABRIC_NUMBERS: LazyLock<Vec<Field<Fabric>>> = LazyLock::new(|| {
+    vec![
+        number!(density_kg_m2, "areal density", 0.005..=5.0),
+        Field {
+            key: "thickness_mm",
+            label: "thickness",
+            is_required: true,
+            range: 0.01..=20.0,
+            get: Box::new(|fabric: &Fabric| Some(millimetres(fabric.thickness_m))),
+            set: Box::new(|fabric: &mut Fabric, value| fabric.thickness_m = from_mm(value.unwrap_or(f64::NAN))),
+        },
+        number!(membrane_warp_n_m, "strip modulus along the grain", 1.0..=1e6),
+        number!(membrane_weft_n_m, "strip modulus across the grain", 1.0..=1e6),
+        Field {
+            key: "membrane_coupling_n_m",
+            label: "coupling of the two [default: 0]",
+            is_required: false,
+            range: 0.0..=1e6,
+            get: Box::new(|fabric: &Fabric| Some(fabric.membrane_coupling_n_m)),
+            set: Box::new(|fabric: &mut Fabric, value| fabric.membrane_coupling_n_m = value.unwrap_or(0.0)),
+        },
+        number!(shear_n_m, "shear modulus", 0.1..=1e6),
+        number!(bending_warp_nm, "bending rigidity, warp", 1e-9..=1e-1),
+        number!(bending_weft_nm, "bending rigidity, weft", 1e-9..=1e-1),
+        number!(friction_body, "friction on the body", 0.0..=5.0),
+        number!(friction_self, "friction on itself", 0.0..=5.0),
+        Field {
+            key: "stretch_pct",
+            label: "stretch of a knit's second moduli [default: none]",
+            is_required: false,
+            range: 1.0..=200.0,
+            get: Box::new(|fabric: &Fabric| fabric.stretched.map(|law| (law.stretch * 1e10).round() / 1e8)),
+            set: Box::new(|fabric: &mut Fabric, value| {
+                set_stretched(fabric, value, |law, value| law.stretch = value / 100.0)
+            }),
+        },
+        Field {
+            key: "stretched_warp_n_m",
+            label: "secant modulus there, warp",
+            is_required: false,
+            range: 1.0..=1e6,
+            get: Box::new(|fabric: &Fabric| fabric.stretched.map(|law| law.membrane_warp_n_m)),
+            set: Box::new(|fabric: &mut Fabric, value| {
+                set_stretched(fabric, value, |law, value| law.membrane_warp_n_m = value)
+            }),
+        },
+        Field {
+            key: "stretched_weft_n_m",
+            label: "secant modulus there, weft",
+            is_required: false,
+            range: 1.0..=1e6,
+            get: Box::new(|fabric: &Fabric| fabric.stretched.map(|law| law.membrane_weft_n_m)),
+            set: Box::new(|fabric: &mut Fabric, value| {
+                set_stretched(fabric, value, |law, value| law.membrane_weft_n_m = value)
+            }),
+        },
+    ]
+});
 
 /// Sets one of the three numbers of a law that stiffens; one that is taken away takes the law with it.
 fn set_stretched(fabric: &mut Fabric, value: Option<f64>, set: fn(&mut Stretched, f64)) {
@@ -350,24 +327,15 @@ mod tests {
     #[test]
     fn every_field_keeps_what_it_is_given() {
         let mut subject = Measurements::blank("");
-        for field in &MEASUREMENTS {
-            let value = *(field.range)().start();
+        for field in MEASUREMENTS.iter() {
+            let value = *field.range.start();
             field.set(&mut subject, Some(value));
             assert_eq!(field.get(&subject), Some(value), "{}", field.key);
         }
         let mut fabric = Fabric::blank("");
-        for field in &FABRIC_NUMBERS {
+        for field in FABRIC_NUMBERS.iter() {
             field.set(&mut fabric, Some(0.31));
             assert_eq!(field.get(&fabric), Some(0.31), "{}", field.key);
-        }
-    }
-
-    #[test]
-    fn flags_are_keys_with_dashes() {
-        for (key, flag) in
-            MEASUREMENTS.iter().map(|f| (f.key, f.flag)).chain(FABRIC_NUMBERS.iter().map(|f| (f.key, f.flag)))
-        {
-            assert_eq!(key.replace('_', "-"), flag);
         }
     }
 
@@ -395,11 +363,11 @@ mod tests {
         let anna = given(&[("sex", "f"), ("stature_mm", "1650"), ("waist_girth_mm", "700")]);
         let anna = filled::<Measurements>(None, "anna", &anna).expect("right");
         assert_eq!(
-            (anna.sex, anna.stature_m, anna.waist_girth_m),
+            (anna.sex, anna.stature_m(), anna.get(Dimension::WaistGirth)),
             (Sex::Female, from_mm(1650.0), Some(from_mm(700.0)))
         );
         let edited =
             filled(Some(&anna), "anna", &given(&[("waist_girth_mm", ""), ("weight_kg", " 60 ")])).expect("right");
-        assert_eq!(edited, Measurements { waist_girth_m: None, weight_kg: Some(60.0), ..anna });
+        assert_eq!(edited, anna.with(Dimension::WaistGirth, None).with(Dimension::Weight, 60.0));
     }
 }

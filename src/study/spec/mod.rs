@@ -196,7 +196,7 @@ impl JobSpec {
 /// A subject's measurements as inputs; absent ones are left out.
 pub(crate) fn subject_inputs(inputs: &mut Inputs, id: &str, m: &Measurements) {
     inputs.set(format!("subject.{id}.sex"), sex_name(m));
-    for field in &MEASUREMENTS {
+    for field in MEASUREMENTS.iter() {
         if let Some(value) = field.get(m) {
             inputs.set(format!("subject.{id}.{}", field.key), value);
         }
@@ -205,7 +205,7 @@ pub(crate) fn subject_inputs(inputs: &mut Inputs, id: &str, m: &Measurements) {
 
 /// A fabric's numbers as inputs; where they are from does not matter to a result.
 pub(crate) fn fabric_inputs(inputs: &mut Inputs, fabric: &Fabric) {
-    for field in &FABRIC_NUMBERS {
+    for field in FABRIC_NUMBERS.iter() {
         if let Some(number) = field.get(fabric) {
             inputs.set(format!("fabric.{}.{}", fabric.name, field.key), number);
         }

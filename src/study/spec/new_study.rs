@@ -9,6 +9,7 @@ use crate::spec::export::{list, quoted};
 use crate::spec::fields::MEASUREMENTS;
 use crate::spec::sex_name;
 use crate::spec::versions::SIMULATORS;
+use body::Dimension;
 use body::{Measurements, Sex};
 use fit::Simulator;
 use geom::units::from_mm;
@@ -93,7 +94,7 @@ edge_length_mm = 15         # of the finest cloth mesh: 25 is quick, 10 is fine
                  unit = \"mm\".\n[[subject]]\nid = {}\nsex = \"{sex}\"",
                 quoted(name)
             );
-            for field in &MEASUREMENTS {
+            for field in MEASUREMENTS.iter() {
                 if let Some(value) = field.get(measurements) {
                     let _ = writeln!(text, "{} = {value}", field.key);
                 }
@@ -135,12 +136,10 @@ pub fn new_study(folder: &Path, model: Model) -> Result<Vec<(String, Vec<u8>)>> 
     let (sex, known) = if is_mens { (Sex::Male, "male-ii") } else { (Sex::Female, "female-ii") };
     let [stature, chest, waist, hip] =
         if is_mens { [1780.0, 980.0, 850.0, 1000.0] } else { [1660.0, 900.0, 720.0, 970.0] };
-    let me = Measurements {
-        chest_girth_m: Some(from_mm(chest)),
-        waist_girth_m: Some(from_mm(waist)),
-        hip_girth_m: Some(from_mm(hip)),
-        ..Measurements::of(sex, from_mm(stature))
-    };
+    let me = Measurements::of(sex, from_mm(stature))
+        .with(Dimension::ChestGirth, from_mm(chest))
+        .with(Dimension::WaistGirth, from_mm(waist))
+        .with(Dimension::HipGirth, from_mm(hip));
     let mut garment = Worn { style: model.as_str(), ..Worn::default() };
     let mut files = Vec::new();
     for (name, bytes) in model.files() {

@@ -31,7 +31,9 @@ const LEAST_NAME: usize = 14;
 const LEGEND: &str = "warp weft shear N/m, bending µN m  + own  s stiffens  c coupled";
 
 /// Lines of the table of a fabric: its numbers, and two bending lengths.
-pub(super) const TABLE_LINES: usize = FABRIC_NUMBERS.len() + 2;
+pub(super) fn table_lines() -> usize {
+    FABRIC_NUMBERS.len() + 2
+}
 /// Columns of a value in the table.
 const VALUE: usize = 10;
 /// Lines of the pane with the source, without the curves.
@@ -44,7 +46,7 @@ const BEYOND: f64 = 1.25;
 
 /// The panes: list, table of the selected fabric, source and curves.
 fn panes(area: Rect) -> [Rect; 3] {
-    let lines = (TABLE_LINES + 3) as u16;
+    let lines = (table_lines() + 3) as u16;
     let below = lines.min(area.height.saturating_sub(10)).max(area.height / 2);
     let [list, below] = Layout::vertical([Constraint::Fill(1), Constraint::Length(below)]).areas(area);
     let table = if area.width >= WIDE { area.width / 2 } else { area.width * 3 / 5 };

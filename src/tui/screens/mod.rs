@@ -121,7 +121,7 @@ pub fn table_hidden(state: &State) -> usize {
     let [_, body, _] = rows(Rect::from((Position::ORIGIN, state.terminal.size)));
     match state.nav.screen {
         Screen::Subjects => MEASUREMENTS.len().saturating_sub(subjects::table_rows(body)),
-        Screen::Fabrics => fabrics::TABLE_LINES.saturating_sub(fabrics::table_rows(body)),
+        Screen::Fabrics => fabrics::table_lines().saturating_sub(fabrics::table_rows(body)),
         _ => 0,
     }
 }

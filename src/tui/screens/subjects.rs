@@ -147,7 +147,7 @@ fn table(state: &State, subject: &SubjectRow, columns: usize) -> Vec<Line<'stati
         let wrapped = super::chi::wrapped(error, columns);
         lines.extend(wrapped.into_iter().map(|line| Line::styled(line, state.theme.bad())));
     }
-    for field in &MEASUREMENTS {
+    for field in MEASUREMENTS.iter() {
         let asked = field.get(&subject.measurements);
         let read = girths.and_then(|girths| Figure::reading(girths, field.key));
         let stands = asked.or(read).and_then(|value| percentile(subject.measurements.sex, field.key, value));

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::answers::picture::*;
+use body::Dimension;
 use body::{self, Measurements, Sex};
 use geom::{DistanceField, V2, V3};
 use pattern::Style;
@@ -18,12 +19,10 @@ const SQUARE: f64 = 0.5;
 /// in L by Hybrid-GS, which draws a garment that does not reach round the body within it.
 fn dressed(simulator: Simulator) -> Dressed {
     let size = if simulator == Simulator::Fem { 0 } else { 2 };
-    let measurements = Measurements {
-        chest_girth_m: Some(1.02),
-        waist_girth_m: Some(0.873),
-        hip_girth_m: Some(1.032),
-        ..Measurements::of(Sex::Male, 1.85)
-    };
+    let measurements = Measurements::of(Sex::Male, 1.85)
+        .with(Dimension::ChestGirth, 1.02)
+        .with(Dimension::WaistGirth, 0.873)
+        .with(Dimension::HipGirth, 1.032);
     let body = body::build(&measurements).unwrap();
     let field = DistanceField::build(&body.mesh, 0.012).unwrap();
     let style = Style::read(&Model::Tshirt.drafts()[size].pieces, Model::Tshirt.seams(), "seams").unwrap();

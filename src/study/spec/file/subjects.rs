@@ -88,7 +88,9 @@ pub(super) fn measurements(reader: &mut Reader<'_>, place: &Place<'_>, or: &str)
     let word = reader.need_text(place, "sex", &format!("\"male\" or \"female\"{or}"));
     let sex = word.and_then(|word| sex_of(reader, place, &word));
     let measurements = numbers(reader, place, Measurements::blank(""), "millimetres, as in `toile subject ls`");
-    Some(Measurements { sex: sex?, ..measurements? })
+    let mut measurements = measurements?;
+    measurements.sex = sex?;
+    Some(measurements)
 }
 
 fn sex_of(reader: &mut Reader<'_>, place: &Place<'_>, word: &Spanned<&str>) -> Option<Sex> {

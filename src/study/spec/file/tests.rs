@@ -1,9 +1,9 @@
 use crate::spec::file::*;
+use body::Dimension;
 use body::Sex;
 
 fn known() -> Known {
-    let male_ii =
-        Measurements { weight_kg: Some(53.0), chest_girth_m: Some(0.863), ..Measurements::of(Sex::Male, 1.69) };
+    let male_ii = Measurements::of(Sex::Male, 1.69).with(Dimension::Weight, 53.0).with(Dimension::ChestGirth, 0.863);
     let cotton = Fabric {
         name: "cotton_shirting_light".into(),
         density_kg_m2: 0.1036,
@@ -108,7 +108,7 @@ fn a_file_of_one_entry_needs_no_header() {
     let path = Path::new("one.toml");
     for text in [anna.to_owned(), format!("[[subject]]\n{anna}")] {
         let found = measurements(path, &text).expect("a good subject");
-        assert_eq!((found.sex, found.stature_m), (Sex::Female, geom::units::from_mm(1650.0)));
+        assert_eq!((found.sex, found.stature_m()), (Sex::Female, geom::units::from_mm(1650.0)));
     }
     for text in [knit.to_owned(), format!("[[fabric]]\n{knit}"), format!("{knit}source = \"own\"\n")] {
         let found = parse::fabric_file(path, &text).expect("a good fabric");
@@ -144,8 +144,8 @@ fn a_subject_may_be_a_scan() {
     };
     let study = load("scan = \"ii.obj\"\nsex = \"male\"").expect("a scan of a man");
     let subject = &study.subjects[0];
-    assert!((subject.measurements.stature_m - asked.stature_m).abs() < 2e-3, "{subject:?}");
-    let chest = subject.measurements.chest_girth_m.expect("measured");
+    assert!((subject.measurements.stature_m() - asked.stature_m()).abs() < 2e-3, "{subject:?}");
+    let chest = subject.measurements.get(Dimension::ChestGirth).expect("measured");
     assert!((chest - 0.863).abs() < 3e-3, "{chest}");
     let jobs = crate::spec::jobs(&study);
     let hash = |name: &str| jobs[0].inputs.iter().find(|(key, _)| *key == name).map(|(_, value)| value.to_owned());
