@@ -52,18 +52,18 @@ pub enum Dimension {
 pub(super) const COUNT: usize = 19;
 
 impl Dimension {
-    /// Every dimension that a subject may be known by.
+    /// Every dimension that a subject may be known by, the most asked for first.
     pub const ALL: [Self; COUNT - 1] = {
         use Dimension::*;
         [
             Stature,
             Weight,
             ChestGirth,
-            UnderbustGirth,
             WaistGirth,
             HipGirth,
             NeckGirth,
             AcrossShoulder,
+            UnderbustGirth,
             ThighGirth,
             KneeGirth,
             CalfGirth,
