@@ -8,7 +8,7 @@ use crossterm::event::KeyCode;
 use divan::Bencher;
 use rusqlite::Connection;
 use toile::study::Workspace;
-use toile::tui::Rehearsal;
+use toile::tui::Headless;
 
 fn main() {
     divan::main();
@@ -51,8 +51,8 @@ static GREAT: LazyLock<(tempfile::TempDir, std::path::PathBuf)> = LazyLock::new(
 });
 
 /// The workbench on one of its screens.
-fn on_screen(keys: &str) -> Rehearsal {
-    let mut workbench = Rehearsal::new(&GREAT.1, 160, 50).expect("readable");
+fn on_screen(keys: &str) -> Headless {
+    let mut workbench = Headless::new(&GREAT.1, 160, 50).expect("readable");
     for key in keys.chars() {
         workbench.press(KeyCode::Char(key));
     }
@@ -95,5 +95,5 @@ fn read(bencher: Bencher) {
 #[divan::bench(sample_count = 10)]
 fn start(bencher: Bencher) {
     LazyLock::force(&GREAT);
-    bencher.bench_local(|| Rehearsal::new(&GREAT.1, 160, 50).map(|mut workbench| workbench.draw()));
+    bencher.bench_local(|| Headless::new(&GREAT.1, 160, 50).map(|mut workbench| workbench.draw()));
 }

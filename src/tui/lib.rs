@@ -2,68 +2,39 @@
 //!
 //! One event loop takes [`Message`]s one at a time, lets [`State::update`] turn them into a new state and [`Effect`]s,
 //! and draws when the state has changed. Everything that may take time (database, pictures, runs) is done by threads
-//! of `worker` that answer with messages; the loop itself only waits for the next one.
+//! of `threads` that answer with messages; the loop itself only waits for the next one.
 //!
 //! *Invariant*: this module knows of the rest of the program only what [`study`] shows; no SQL, no simulator.
 
-mod act;
-mod action;
-mod ascii;
-mod asker;
-mod bindings;
-mod clerk;
-mod compare;
-mod copy;
-mod editor;
-mod entries;
-mod feed;
-mod form;
-mod go;
+mod app;
 mod keys;
-mod line;
-mod live;
-mod memory;
-mod message;
-mod mosaic;
-mod overlay;
-mod painter;
-mod picture;
-mod rehearsal;
-mod reports;
+mod messages;
+mod overlays;
 mod screens;
-mod sheet;
-mod sql;
-mod state;
-mod study_form;
-mod style_form;
-mod styles;
-mod tailor;
 mod terminal;
 #[cfg(test)]
 mod tests;
-mod text;
-mod theme;
-mod update;
-mod worker;
+mod threads;
+mod widgets;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::RecvTimeoutError;
 
-pub use action::{Action, Binding, Screen};
-pub use bindings::BINDINGS;
-pub use feed::{Focus, Snapshot};
-pub use message::{Act, Effect, Message, Target};
-pub use picture::{Images, Shot};
-pub use rehearsal::Rehearsal;
-pub use state::State;
+pub use app::headless::Headless;
+pub use widgets::picture::Images;
 
-use memory::Memory;
-use picture::Canvas;
-use state::{Abilities, Places};
+use app::session::{self, Session};
+use keys::file::{self as keys_file, KeysError};
+use messages::effect::Effect;
+use messages::message::Message;
+use screens::state::{Abilities, Folders, State};
 use study::{StudyError, Workspace, study_file};
-use theme::{Colours, Theme};
-use worker::Workers;
+use terminal::Display;
+use terminal::clipboard::osc52;
+use threads::Threads;
+use widgets::picture::Canvas;
+use widgets::theme::{self, Colours, Theme};
 
 /// How the workbench is started.
 pub struct Options {
@@ -87,7 +58,7 @@ pub enum TuiError {
     Study(#[from] StudyError),
     /// The file with keys of one's own is wrong.
     #[error(transparent)]
-    Keys(#[from] keys::KeysError),
+    Keys(#[from] KeysError),
     /// The terminal refused.
     #[error("the workbench needs a terminal: {0}; `toile --help` lists commands that do not")]
     Terminal(#[from] io::Error),
@@ -100,47 +71,47 @@ pub enum TuiError {
 /// When the database cannot be opened, the file of keys is wrong, or there is no terminal.
 pub fn run(options: Options) -> Result<(), TuiError> {
     let env = |name: &str| std::env::var(name).ok();
-    let bindings = keys::read(keys::place(&env).as_deref())?;
+    let bindings = keys_file::read(keys_file::place(&env).as_deref())?;
     let workspace = Workspace::open(&options.database, options.readonly)?;
     let theme = Theme { colours: Colours::detect(options.no_color, &env), ascii: theme::wants_ascii(&env) };
     let canvas = Canvas::new(options.images, theme.colours, &env);
-    let places = places(&options);
+    let folders = folders(&options);
     let quickstart = options.quickstart.filter(|path| study_file(path).exists());
     let abilities = Abilities { run: !options.readonly, pictures: canvas.is_some(), quickstart: quickstart.is_some() };
 
-    let mut screen = terminal::Screen::enter()?;
+    let mut screen = Display::enter()?;
     let size = screen.size()?;
     let mut state = State::new(theme, abilities, size);
-    (state.setup.bindings, state.setup.places) = (bindings, places);
-    let memory = memory::place(&options.database, &env);
-    memory.as_deref().map(Memory::read).unwrap_or_default().recall(&mut state);
-    let workers = Workers::start(workspace, canvas, quickstart, state.setup.places.reports.clone());
-    let outcome = event_loop(&mut screen, &mut state, &workers);
+    (state.setup.bindings, state.setup.folders) = (bindings, folders);
+    let session = session::place(&options.database, &env);
+    session.as_deref().map(Session::read).unwrap_or_default().restore(&mut state);
+    let threads = Threads::start(workspace, canvas, quickstart, state.setup.folders.reports.clone());
+    let outcome = event_loop(&mut screen, &mut state, &threads);
     drop(screen);
-    if let Some(path) = memory {
-        Memory::of(&state).write(&path);
+    if let Some(path) = session {
+        Session::of(&state).write(&path);
     }
-    workers.finish();
+    threads.finish();
     Ok(outcome?)
 }
 
 /// Where new studies and reports go: beside the studies that come with the program, else beside the database.
-fn places(options: &Options) -> Places {
+fn folders(options: &Options) -> Folders {
     let project = options.quickstart.as_deref().and_then(Path::parent).and_then(Path::parent);
     let home = project.or(options.database.parent()).unwrap_or(Path::new(""));
-    Places { studies: home.join("studies"), reports: home.join("reports") }
+    Folders { studies: home.join("studies"), reports: home.join("reports") }
 }
 
 /// Takes messages, changes the state, draws, until it is time to leave.
-fn event_loop(screen: &mut terminal::Screen, state: &mut State, workers: &Workers) -> io::Result<()> {
+fn event_loop(screen: &mut Display, state: &mut State, threads: &Threads) -> io::Result<()> {
     let mut silence = None;
-    workers.read(state.cells.focus.clone());
+    threads.read(state.focus.clone());
     terminal::take_mouse(state.terminal.has_mouse)?;
     screen.show(state)?;
     loop {
         let message = match screen.pause().filter(|_| !state.terminal.detached) {
-            None => workers.messages.recv().ok(),
-            Some(pause) => match workers.messages.recv_timeout(pause) {
+            None => threads.messages.recv().ok(),
+            Some(pause) => match threads.messages.recv_timeout(pause) {
                 Err(RecvTimeoutError::Timeout) => {
                     // A terminal that is gone is noticed at the next message.
                     let _ = screen.go_on(state);
@@ -151,7 +122,7 @@ fn event_loop(screen: &mut terminal::Screen, state: &mut State, workers: &Worker
         };
         let Some(message) = message else { return Ok(()) };
         // All that waits is taken in before the next frame, so that a flood of keys or progress costs one frame.
-        for message in std::iter::once(message).chain(workers.messages.try_iter()) {
+        for message in std::iter::once(message).chain(threads.messages.try_iter()) {
             if matches!(message, Message::Key(_)) {
                 screen.key_pressed();
             }
@@ -162,10 +133,10 @@ fn event_loop(screen: &mut terminal::Screen, state: &mut State, workers: &Worker
             for effect in state.update(message) {
                 match effect {
                     Effect::Quit => return Ok(()),
-                    Effect::Copy(text) => print_raw(&copy::osc52(&text))?,
+                    Effect::Copy(text) => print_raw(&osc52(&text))?,
                     Effect::Clear => screen.clear()?,
                     Effect::Mouse(is_taken) => terminal::take_mouse(is_taken)?,
-                    other => workers.carry_out(other),
+                    other => threads.carry_out(other),
                 }
             }
         }

@@ -1,14 +1,18 @@
 //! What keys do.
 
-use super::super::action::Screen;
-use super::super::message::{Act, Effect, Message, Target};
-use super::super::overlay::Overlay;
-use super::super::picture::{self, FRONT, Shot, Sitter};
 use super::{Bench, fixture};
+use crate::keys::screen::Screen;
+use crate::messages::{
+    effect::Effect,
+    message::Message,
+    requests::{Act, Target},
+};
+use crate::overlays::Overlay;
+use crate::widgets::picture::{self, FRONT, Shot, Sitter};
 use study::{JobId, Map, Status};
 
 fn selected(bench: &Bench) -> i64 {
-    bench.state.cells.focus.job.map_or(0, |id| id.0)
+    bench.state.focus.job.map_or(0, |id| id.0)
 }
 
 #[test]
@@ -32,7 +36,7 @@ fn the_selected_job_is_one_on_all_screens() {
     let mut bench = Bench::example(80, 24);
     bench.press("lj4j1");
     assert_eq!(selected(&bench), 5);
-    assert_eq!((bench.state.cells.place.subject, bench.state.cells.place.simulator), (2, 0));
+    assert_eq!((bench.state.study.place.subject, bench.state.study.place.simulator), (2, 0));
     bench.press("5");
     assert!(bench.screen().contains("tshirt S · iii · FEM"));
 }
@@ -201,9 +205,9 @@ fn pictures_are_asked_for_when_seen_and_only_then() {
 fn late_pictures_of_something_else_are_dropped() {
     let mut bench = Bench::example(80, 24);
     bench.press("5");
-    let wanted = *bench.state.drapes.shots.first().expect("asked for");
+    let wanted = *bench.state.pictures.shots.first().expect("asked for");
     bench.send(Message::Picture(Shot { map: Map::Gap, ..wanted }, Err("late".into())));
-    assert!(bench.state.drapes.pictures.is_empty());
+    assert!(bench.state.pictures.drawn.is_empty());
     bench.send(Message::Picture(wanted, Err("artefact is gone".into())));
     assert!(bench.screen().contains("no picture: artefact"));
 }

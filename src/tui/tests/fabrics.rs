@@ -1,9 +1,9 @@
 //! What keys do on the Fabrics screen.
 
-use super::super::action::Screen;
-use super::super::message::{Act, Effect, Message};
-use super::super::overlay::Overlay;
 use super::Bench;
+use crate::keys::screen::Screen;
+use crate::messages::{effect::Effect, message::Message, requests::Act};
+use crate::overlays::Overlay;
 use study::{Mode, Part};
 
 fn selected(bench: &Bench) -> &str {

@@ -1,8 +1,8 @@
 //! An example study: two sizes of a T-shirt on three subjects by both simulators, in all states a job can have.
 
-use super::super::feed::{Compared, Detail, Snapshot};
-use super::super::message::Message;
-use super::super::tailor::{Laid, Task};
+use crate::messages::message::Message;
+use crate::messages::seams::{Laid, Task};
+use crate::messages::snapshot::{Compared, Detail, Snapshot};
 use study::bodies::{Girths, Measurements, Sex};
 use study::files::SourceFile;
 use study::patterns::{Model, drafted};

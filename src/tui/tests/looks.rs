@@ -3,11 +3,11 @@
 use image::{Rgba, RgbaImage};
 use insta::assert_snapshot;
 
-use super::super::ascii::stand_in;
-use super::super::message::{Effect, Message};
-use super::super::picture::{Canvas, Images};
-use super::super::theme::Colours;
 use super::{Bench, fixture};
+use crate::messages::{effect::Effect, message::Message};
+use crate::widgets::ascii::stand_in;
+use crate::widgets::picture::{Canvas, Images};
+use crate::widgets::theme::Colours;
 
 /// Compares the screen after some keys with the one kept, in both sizes.
 macro_rules! looks_like {

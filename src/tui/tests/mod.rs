@@ -14,11 +14,12 @@ use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::layout::Size;
 
-use super::message::{Effect, Message};
-use super::picture::{Shot, Sitter};
-use super::state::{Abilities, State};
-use super::theme::{Colours, Theme};
-use super::{Snapshot, screens};
+use crate::app::frame;
+use crate::messages::snapshot::Snapshot;
+use crate::messages::{effect::Effect, message::Message};
+use crate::screens::state::{Abilities, State};
+use crate::widgets::picture::{Shot, Sitter};
+use crate::widgets::theme::{Colours, Theme};
 
 /// A workbench without a terminal.
 struct Bench {
@@ -94,7 +95,7 @@ impl Bench {
     fn screen(&self) -> String {
         let Size { width, height } = self.state.terminal.size;
         let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("a test backend never fails");
-        terminal.draw(|frame| screens::draw(frame, &self.state)).expect("a test backend never fails");
+        terminal.draw(|frame| frame::draw(frame, &self.state)).expect("a test backend never fails");
         terminal.backend().to_string()
     }
 

@@ -6,15 +6,18 @@ use std::time::Duration;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use insta::assert_snapshot;
 
-use super::super::Screen;
-use super::super::asker::{self, Brake, Question};
-use super::super::clerk::Errand;
-use super::super::memory::Memory;
-use super::super::message::{Effect, Message};
-use super::super::overlay::Overlay;
-use super::super::sheet::Sheet;
-use super::super::state::State;
 use super::{Bench, fixture};
+use crate::app::session::Session;
+use crate::keys::screen::Screen;
+use crate::messages::requests::Errand;
+use crate::messages::{effect::Effect, message::Message};
+use crate::overlays::Overlay;
+use crate::screens::state::State;
+use crate::widgets::result_table::Sheet;
+use crate::{
+    messages::requests::Question,
+    threads::queries::{self, Brake},
+};
 use study::{JobId, LiveFrame, Relation, ReportRow, SqlAnswer, Table, Value, Workspace, saved_queries};
 
 /// An answer with a name, two numbers and a long text a row.
@@ -128,14 +131,14 @@ fn fem_and_hybrid_are_compared_unless_runs_are_selected() {
     for (width, height) in [(80, 24), (160, 50)] {
         let mut bench = Bench::example(width, height);
         bench.press("c");
-        assert_eq!(bench.state.cells.focus.compare, [JobId(1), JobId(2)]);
+        assert_eq!(bench.state.focus.compare, [JobId(1), JobId(2)]);
         assert_snapshot!(format!("compare_{width}x{height}"), bench.screen());
     }
     let mut bench = Bench::example(80, 24);
     bench.press(" l ");
     assert_eq!(bench.status(), "2 runs are selected; c compares, u takes all back");
     bench.press("cd");
-    assert_eq!(bench.state.cells.focus.compare, [JobId(1), JobId(3)]);
+    assert_eq!(bench.state.focus.compare, [JobId(1), JobId(3)]);
     assert!(bench.screen().contains("no measurement differs"), "the fixture's results by FEM are all the same");
     assert!(bench.screen().contains("FEM") || bench.screen().contains(" ii "), "{}", bench.screen());
     bench.press("du<Esc>c");
@@ -150,15 +153,17 @@ fn fem_and_hybrid_are_compared_unless_runs_are_selected() {
 fn compared_drapes_stand_side_by_side_where_there_is_room() {
     let mut bench = Bench::example(160, 50);
     bench.press("c");
-    assert_eq!(bench.state.drapes.shots.len(), 2);
-    let before = bench.state.drapes.shots.clone();
+    assert_eq!(bench.state.pictures.shots.len(), 2);
+    let before = bench.state.pictures.shots.clone();
     bench.press("v");
-    assert!(bench.state.drapes.shots.iter().zip(&before).all(|(now, then)| now.of == then.of && now.look != then.look));
+    assert!(
+        bench.state.pictures.shots.iter().zip(&before).all(|(now, then)| now.of == then.of && now.look != then.look)
+    );
     let mut bench = Bench::example(80, 24);
     bench.press("c");
-    assert!(bench.state.drapes.shots.is_empty());
+    assert!(bench.state.pictures.shots.is_empty());
     bench.press("z");
-    assert_eq!(bench.state.drapes.shots.len(), 2);
+    assert_eq!(bench.state.pictures.shots.len(), 2);
 }
 
 #[test]
@@ -189,7 +194,7 @@ fn a_new_study_is_chosen_from_the_catalogue() {
         let mut bench = Bench::new(
             width,
             height,
-            super::super::Snapshot {
+            crate::messages::snapshot::Snapshot {
                 subjects: fixture::snapshot().subjects,
                 fabrics: fixture::snapshot().fabrics,
                 ..fixture::empty()
@@ -209,7 +214,7 @@ fn a_new_study_is_chosen_from_the_catalogue() {
         bench.send(Message::StudyCreated("study-1".into(), Err("the folder is there".into())));
         assert!(bench.screen().contains("✗ the folder is there"));
         bench.state.update(Message::StudyCreated("study-1".into(), Ok("studies/study-1/study.toml".into())));
-        assert!(bench.state.overlay.is_none() && bench.state.cells.focus.study.as_deref() == Some("study-1"));
+        assert!(bench.state.overlay.is_none() && bench.state.focus.study.as_deref() == Some("study-1"));
     }
 }
 
@@ -233,13 +238,13 @@ fn a_run_here_is_watched_and_one_elsewhere_is_not() {
 fn what_was_looked_at_is_remembered() {
     let mut bench = Bench::example(80, 24);
     bench.press("4/hyb<Enter>sjj 7select 1<Esc>3");
-    let memory = Memory::of(&bench.state);
+    let memory = Session::of(&bench.state);
     let abilities = bench.state.setup.abilities;
     let mut state = State::new(bench.state.theme, abilities, bench.state.terminal.size);
-    let focus = bench.state.cells.focus.clone();
-    memory.clone().recall(&mut state);
+    let focus = bench.state.focus.clone();
+    memory.clone().restore(&mut state);
     assert_eq!(
-        (state.nav.screen, &state.cells.focus.job, &state.nav.filters),
+        (state.nav.screen, &state.focus.job, &state.nav.filters),
         (Screen::Styles, &focus.job, &bench.state.nav.filters)
     );
     assert_eq!(
@@ -247,7 +252,7 @@ fn what_was_looked_at_is_remembered() {
         (bench.state.jobs.order, 1, "select 1")
     );
     state.update(Message::Data(Box::new(fixture::snapshot())));
-    assert_eq!(Memory::of(&state), memory, "and still is once the database was read");
+    assert_eq!(Session::of(&state), memory, "and still is once the database was read");
 }
 
 #[test]
@@ -274,7 +279,7 @@ fn the_brake_stops_a_query_that_would_never_end() {
     let brake = Brake::default();
     std::thread::scope(|scope| {
         let (path, own_brake) = (path.clone(), brake.clone());
-        scope.spawn(move || asker::serve(&path, &own_brake, &wanted, &sender));
+        scope.spawn(move || queries::serve(&path, &own_brake, &wanted, &sender));
         let endless = "WITH RECURSIVE n(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM n) SELECT count(*) FROM n";
         let ask = |sql: &str| questions.send(Question::Rows(sql.into())).expect("it listens");
         ask(endless);

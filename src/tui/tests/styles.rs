@@ -1,11 +1,11 @@
 //! What keys do on the Styles screen.
 
-use super::super::action::Screen;
-use super::super::message::{Act, Effect, Message};
-use super::super::overlay::Overlay;
-use super::super::styles::DeskLine;
-use super::super::theme::Colours;
 use super::{Bench, fixture};
+use crate::keys::screen::Screen;
+use crate::messages::{effect::Effect, message::Message, requests::Act};
+use crate::overlays::Overlay;
+use crate::screens::styles::state::DeskLine;
+use crate::widgets::theme::Colours;
 use study::files::SourceFile;
 use study::seams::DeskSeam;
 use study::{Part, StyleGiven};

@@ -1,10 +1,10 @@
 //! What keys do on the Subjects screen.
 
-use super::super::action::Screen;
-use super::super::message::{Act, Effect, Message};
-use super::super::overlay::Overlay;
-use super::super::picture::{Shot, Sitter};
 use super::{Bench, fixture};
+use crate::keys::screen::Screen;
+use crate::messages::{effect::Effect, message::Message, requests::Act};
+use crate::overlays::Overlay;
+use crate::widgets::picture::{Shot, Sitter};
 use study::{Mode, Part, SubjectId};
 
 fn selected(bench: &Bench) -> &str {

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use super::super::feed::{self, Focus};
-use super::super::message::{Act, Message};
-use super::super::worker::do_act;
 use super::Bench;
+use crate::messages::{message::Message, requests::Act};
+use crate::threads::database::do_act;
+use crate::{messages::snapshot::Focus, threads::reading};
 use study::{Executor, JobSpec, Monitor, Outcome, RunOptions, Status, StudyError, Workspace};
 
 /// Refuses every job.
@@ -22,7 +22,7 @@ impl Executor for Refusing {
 fn follows_a_run_and_acts_on_it() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut workspace = Workspace::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
-    let read = |workspace: &Workspace, focus: &Focus| feed::snapshot(workspace, focus).expect("readable");
+    let read = |workspace: &Workspace, focus: &Focus| reading::snapshot(workspace, focus).expect("readable");
     let mut bench = Bench::new(80, 24, read(&workspace, &Focus::default()));
     assert!(bench.state.is_first_start());
 
@@ -36,15 +36,15 @@ fn follows_a_run_and_acts_on_it() {
     assert!(jobs > 0 && data.jobs.iter().all(|job| job.status == Status::Failed));
     let first = data.grid.as_ref().and_then(|grid| grid.cells[0][0][0].job).expect("queued");
     bench.state.update(Message::Data(Box::new(data)));
-    assert_eq!(bench.state.cells.focus.job, Some(first));
-    bench.state.update(Message::Data(Box::new(read(&workspace, &bench.state.cells.focus.clone()))));
+    assert_eq!(bench.state.focus.job, Some(first));
+    bench.state.update(Message::Data(Box::new(read(&workspace, &bench.state.focus.clone()))));
     assert!(bench.screen().contains("does not go over"), "{}", bench.screen());
 
     assert!(do_act(&mut workspace, &Act::Retry(first)).expect("allowed").contains("is queued again"));
     assert!(do_act(&mut workspace, &Act::Retry(first)).expect("allowed").contains("is not run again"));
     assert!(do_act(&mut workspace, &Act::Pause(study.name.clone())).expect("allowed").contains("is paused"));
     assert!(do_act(&mut workspace, &Act::Pause("none".into())).is_err());
-    bench.state.update(Message::Data(Box::new(read(&workspace, &bench.state.cells.focus.clone()))));
+    bench.state.update(Message::Data(Box::new(read(&workspace, &bench.state.focus.clone()))));
     let screen = bench.screen();
     assert!(screen.contains(" paused ") && screen.contains(&format!("…1 ✗{}", jobs - 1)), "{screen}");
 }

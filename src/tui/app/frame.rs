@@ -1,0 +1,155 @@
+//! The frame that all screens share: tabs, body, status line, overlays.
+
+use ratatui::Frame;
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::Paragraph;
+
+use crate::keys::binding::Binding;
+use crate::keys::screen::Screen;
+use crate::overlays::Overlay;
+use crate::screens;
+use crate::screens::start;
+use crate::screens::state::State;
+use crate::widgets::layout::{WIDE, rows};
+use crate::widgets::theme::{Theme, glyph};
+use crate::widgets::{ascii, text};
+use study::Status;
+
+/// Terminals with at least so many columns have the names of all screens in the first line, if short ones.
+const SHORT: u16 = 66;
+
+/// Draws the workbench.
+pub fn draw(frame: &mut Frame<'_>, state: &State) {
+    let [top, body, bottom] = rows(frame.area());
+    frame.render_widget(tabs(state, top.width), top);
+    let page = screens::page(state.nav.screen);
+    if state.data.is_none() {
+        frame.render_widget(Paragraph::new(" reading the database…"), body);
+    } else if page.needs_study() && state.is_first_start() {
+        start::draw(frame, body, state);
+    } else {
+        page.draw(frame, body, state);
+    }
+    frame.render_widget(status_line(state, bottom.width), bottom);
+    if let Some(overlay) = &state.overlay {
+        overlay.draw(frame, body, state.theme, state.nav.screen);
+    }
+    if state.theme.ascii {
+        ascii::translate(frame.buffer_mut());
+    }
+}
+
+/// The tabs with their texts: whole names where there is room, short ones, or, but for the screen shown, numbers.
+fn tab_texts(state: &State, width: u16) -> Vec<(Screen, String)> {
+    let text = |(k, screen): (usize, Screen)| {
+        let [name, short] = screen.names();
+        let text = match width {
+            WIDE.. => format!(" {} {name} ", k + 1),
+            SHORT.. => format!(" {} {}", k + 1, if screen == state.nav.screen { name } else { short }),
+            _ if screen == state.nav.screen => format!(" {} {name}", k + 1),
+            _ => format!(" {}", k + 1),
+        };
+        (screen, text)
+    };
+    Screen::ALL.into_iter().enumerate().map(text).collect()
+}
+
+/// The screen whose tab is at a column.
+#[must_use]
+pub fn tab_at(state: &State, column: u16) -> Option<Screen> {
+    let mut end = 0;
+    tab_texts(state, state.terminal.size.width).into_iter().find_map(|(screen, text)| {
+        end += text::width(&text);
+        (usize::from(column) < end).then_some(screen)
+    })
+}
+
+fn tabs(state: &State, width: u16) -> Line<'static> {
+    let mut spans = vec![];
+    for (screen, text) in tab_texts(state, width) {
+        let style = if screen == state.nav.screen { state.theme.selected() } else { Style::new() };
+        spans.push(Span::styled(text, style));
+    }
+    let used: usize = spans.iter().map(Span::width).sum();
+    let room = usize::from(width).saturating_sub(used);
+    let columns = |spans: &[(u8, Span<'_>)]| spans.iter().map(|(_, span)| span.width()).sum::<usize>();
+    let mut summary = summary(state, width);
+    while columns(&summary) >= room && !summary.is_empty() {
+        let least = (0..summary.len()).min_by_key(|k| summary[*k].0).unwrap_or(0);
+        summary.remove(least);
+    }
+    spans.push(Span::raw(" ".repeat(room - columns(&summary).min(room))));
+    spans.extend(summary.into_iter().map(|(_, span)| span));
+    Line::from(spans)
+}
+
+/// The study and how far it has come, each part with its weight: the least is left out first where there is no room.
+fn summary(state: &State, width: u16) -> Vec<(u8, Span<'static>)> {
+    let Some(study) = state.data.as_ref().and_then(|data| data.study()) else { return vec![] };
+    let mut spans = vec![(1, Span::styled(study.name.clone(), state.theme.bold()))];
+    if study.paused {
+        spans.push((9, Span::styled(" paused", state.theme.warn())));
+    }
+    if state.running.target.is_some() {
+        let text = if width >= WIDE { " run here" } else { " run" };
+        spans.push((5, Span::styled(text, state.theme.busy())));
+    }
+    spans.push((0, Span::raw(format!(" {} jobs", study.total()))));
+    for status in Status::ALL.into_iter().filter(|status| study.count(*status) > 0) {
+        let text = format!(" {}{}", glyph(status), study.count(status));
+        spans.push((if status == Status::Cancelled { 6 } else { 7 }, Span::styled(text, state.theme.status(status))));
+    }
+    spans.push((10, Span::raw(" ")));
+    spans
+}
+
+/// The filter while it is typed, a message, or the keys that matter here.
+fn status_line(state: &State, width: u16) -> Line<'static> {
+    if matches!(state.overlay, Some(Overlay::Filter(_))) {
+        let hint = Span::styled("  ↵ keep  Esc undo", state.theme.dim());
+        return Line::from(vec![Span::raw(format!("/{}▏", state.filter())), hint]);
+    }
+    if let Some(notice) = &state.notice {
+        let (mark, style) = if notice.is_error { ("✗ ", state.theme.bad()) } else { ("", Style::new()) };
+        let line = notice.text.lines().collect::<Vec<_>>().join("; ");
+        return Line::styled(text::shortened(&format!(" {mark}{line}"), usize::from(width)), style);
+    }
+    if let Some(hints) = screens::page(state.nav.screen).hints(state) {
+        return hint_line(hints, state.theme);
+    }
+    let filter = state.filter();
+    let mut spans = vec![];
+    let mut used = 0;
+    if !filter.is_empty() {
+        let text = format!(" filter /{filter}/ Esc clears");
+        used += text::width(&text);
+        spans.push(Span::styled(text, state.theme.warn()));
+    }
+    // What matters most stands first in the table, but help and palette must always be found.
+    let hinted = state.setup.bindings.iter().filter(|b| !b.hint.is_empty() && b.is_on(state.screen_shown()));
+    let is_start = state.is_first_start() && state.screen_shown() == Screen::Study;
+    let hinted = hinted.filter(|b| !is_start || matches!(b.name, "open" | "run" | "new-study" | "help" | "palette"));
+    let (last, first): (Vec<&Binding>, Vec<&Binding>) = hinted.partition(|b| matches!(b.name, "help" | "palette"));
+    let columns = |b: &Binding| text::width(&b.keys[0].to_string()) + text::width(b.hint) + 3;
+    let reserved: usize = last.iter().map(|b| columns(b)).sum();
+    for binding in first.into_iter().chain(last) {
+        let is_last = matches!(binding.name, "help" | "palette");
+        let keep = if is_last { 0 } else { reserved };
+        if used + columns(binding) + keep > usize::from(width) {
+            continue;
+        }
+        used += columns(binding);
+        spans.push(Span::styled(format!(" {}", binding.keys[0]), state.theme.bold()));
+        spans.push(Span::raw(format!(" {} ", binding.hint)));
+    }
+    Line::from(spans)
+}
+
+/// Keys and what they do, in a line.
+fn hint_line(hints: &[(&'static str, &'static str)], theme: Theme) -> Line<'static> {
+    let spans = hints
+        .iter()
+        .flat_map(|(key, hint)| [Span::styled(format!(" {key}"), theme.bold()), Span::raw(format!(" {hint} "))]);
+    Line::from(spans.collect::<Vec<_>>())
+}

@@ -1,0 +1,87 @@
+//! The workbench without a terminal or threads, as benchmarks press its keys: every answer is waited for.
+
+use std::cell::Cell;
+use std::io;
+use std::path::Path;
+use std::rc::Rc;
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use ratatui::layout::{Rect, Size};
+use ratatui::{Terminal, TerminalOptions, Viewport};
+
+use crate::app::frame;
+use crate::messages::effect::Effect;
+use crate::messages::message::Message;
+use crate::screens::state::{Abilities, State};
+use crate::terminal::framed::Framed;
+use crate::threads::reading;
+use crate::widgets::theme::{Colours, Theme};
+use study::{Result, Workspace};
+
+/// Counts what is written to it.
+struct Counter(Rc<Cell<usize>>);
+
+impl io::Write for Counter {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.set(self.0.get() + bytes.len());
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// A workbench on a database whose screen goes nowhere.
+pub struct Headless {
+    workspace: Workspace,
+    state: State,
+    sent: Rc<Cell<usize>>,
+    terminal: Terminal<Framed<Counter>>,
+}
+
+impl Headless {
+    /// Opens a database and reads what the first screen shows.
+    ///
+    /// # Errors
+    /// When the database cannot be read.
+    pub fn new(database: &Path, width: u16, height: u16) -> Result<Self> {
+        let workspace = Workspace::open(database, true)?;
+        let abilities = Abilities { run: false, pictures: false, quickstart: false };
+        let state = State::new(Theme { colours: Colours::Indexed, ascii: false }, abilities, Size::new(width, height));
+        let options = TerminalOptions { viewport: Viewport::Fixed(Rect::new(0, 0, width, height)) };
+        let sent = Rc::new(Cell::new(0));
+        let line = Framed::new(Counter(sent.clone()), Some(Size::new(width, height)));
+        let terminal = line
+            .and_then(|line| Terminal::with_options(line, options))
+            .map_err(study::StudyError::io("a screen in memory"))?;
+        let mut headless = Self { workspace, state, sent, terminal };
+        headless.read()?;
+        Ok(headless)
+    }
+
+    /// Reads all that the screens show.
+    ///
+    /// # Errors
+    /// When the database cannot be read.
+    pub fn read(&mut self) -> Result<()> {
+        let data = reading::snapshot(&self.workspace, &self.state.focus)?;
+        self.state.update(Message::Data(Box::new(data)));
+        Ok(())
+    }
+
+    /// Presses a key; returns whether something has to be read for it.
+    pub fn press(&mut self, code: KeyCode) -> bool {
+        let effects = self.state.update(Message::Key(KeyEvent::new(code, KeyModifiers::NONE)));
+        effects.iter().any(|effect| matches!(effect, Effect::Read(_)))
+    }
+
+    /// Draws; returns the bytes a terminal is sent in the first frame.
+    pub fn draw(&mut self) -> usize {
+        let Self { terminal, state, sent, .. } = self;
+        // A screen in memory refuses nothing.
+        let _ = terminal.draw(|frame| frame::draw(frame, state));
+        let _ = terminal.backend_mut().send(true);
+        sent.take()
+    }
+}

@@ -1,0 +1,145 @@
+//! What the workbench remembers from one start to the next: the screen, what is selected, filters, orders, queries. One
+//! small file a database, in the state folder; one that cannot be read means a fresh start, never an error.
+
+use std::path::{Path, PathBuf};
+
+use crate::keys::screen::Screen;
+use crate::screens::fabrics::state::FabricOrder;
+use crate::screens::jobs::state::JobOrder;
+use crate::screens::order::Order;
+use crate::screens::results::state::ChiOrder;
+use crate::screens::state::State;
+use crate::screens::subjects::state::SubjectOrder;
+use study::JobId;
+
+/// The longest name of a file.
+const LONGEST: usize = 200;
+
+/// What is remembered.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub struct Session {
+    screen: usize,
+    study: Option<String>,
+    garment: Option<String>,
+    job: Option<i64>,
+    subject: Option<String>,
+    fabric: Option<String>,
+    size: Option<(String, String)>,
+    marks: Vec<i64>,
+    filters: Vec<String>,
+    subject_order: Order<SubjectOrder>,
+    fabric_order: Order<FabricOrder>,
+    job_order: Order<JobOrder>,
+    chi_order: Order<ChiOrder>,
+    reports_by_time: bool,
+    sorts_contrasts: bool,
+    differences_only: bool,
+    is_ascii: Option<bool>,
+    has_mouse: Option<bool>,
+    query: String,
+    history: Vec<String>,
+}
+
+impl Session {
+    /// What a state leaves behind.
+    #[must_use]
+    pub fn of(state: &State) -> Self {
+        Self {
+            screen: state.nav.screen as usize,
+            study: state.focus.study.clone(),
+            garment: state.focus.garment.clone(),
+            job: state.focus.job.map(|job| job.0),
+            subject: state.subjects.chosen.clone(),
+            fabric: state.fabrics.chosen.clone(),
+            size: state.styles.selected.clone(),
+            marks: state.compare.marks.iter().map(|job| job.0).collect(),
+            filters: state.nav.filters.to_vec(),
+            subject_order: state.subjects.order,
+            fabric_order: state.fabrics.order,
+            job_order: state.jobs.order,
+            chi_order: state.results.order,
+            reports_by_time: state.reports.by_time,
+            sorts_contrasts: state.compare.sorts_by_difference,
+            differences_only: state.compare.differences_only,
+            is_ascii: Some(state.theme.ascii),
+            has_mouse: Some(state.terminal.has_mouse),
+            query: state.sql.editor.text().to_owned(),
+            history: state.sql.history.clone(),
+        }
+    }
+
+    /// Puts it into a new state. `ascii` and the mouse stay as they are where the environment asks for them.
+    pub fn restore(self, state: &mut State) {
+        state.nav.screen = Screen::ALL.get(self.screen).copied().unwrap_or(Screen::Study);
+        (state.focus.study, state.focus.garment, state.focus.job) = (self.study, self.garment, self.job.map(JobId));
+        (state.subjects.chosen, state.fabrics.chosen, state.styles.selected) = (self.subject, self.fabric, self.size);
+        state.compare.marks = self.marks.into_iter().map(JobId).collect();
+        for (filter, kept) in state.nav.filters.iter_mut().zip(self.filters) {
+            *filter = kept;
+        }
+        (state.subjects.order, state.jobs.order, state.results.order) =
+            (self.subject_order, self.job_order, self.chi_order);
+        state.fabrics.order = self.fabric_order;
+        (state.reports.by_time, state.compare.sorts_by_difference) = (self.reports_by_time, self.sorts_contrasts);
+        state.compare.differences_only = self.differences_only;
+        state.theme.ascii |= self.is_ascii == Some(true);
+        state.terminal.has_mouse = self.has_mouse.unwrap_or(state.terminal.has_mouse);
+        state.sql.editor.set(&self.query);
+        state.sql.history = self.history;
+    }
+
+    /// What was kept in a file; nothing where there is none.
+    #[must_use]
+    pub fn read(path: &Path) -> Self {
+        std::fs::read(path).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok()).unwrap_or_default()
+    }
+
+    /// Keeps it in a file, as far as that can be written: what is lost is a convenience.
+    pub fn write(&self, path: &Path) {
+        let Some(folder) = path.parent() else { return };
+        let Ok(bytes) = serde_json::to_vec_pretty(self) else { return };
+        let aside = path.with_extension(format!("{}.tmp", std::process::id()));
+        let written = std::fs::create_dir_all(folder).and_then(|()| std::fs::write(&aside, bytes));
+        let _ = written.and_then(|()| std::fs::rename(&aside, path));
+    }
+}
+
+/// Where it is kept for a database: `toile` in the state folder.
+#[must_use]
+pub fn place(database: &Path, env: &dyn Fn(&str) -> Option<String>) -> Option<PathBuf> {
+    let set = |name: &str| env(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+    let folder = set("XDG_STATE_HOME").or_else(|| set("HOME").map(|home| home.join(".local").join("state")))?;
+    let path = std::path::absolute(database).unwrap_or_else(|_| database.to_owned());
+    let name: Vec<char> = path.display().to_string().replace(['/', '\\'], "%").chars().collect();
+    // The end of a long path tells databases apart.
+    let name: String = name[name.len().saturating_sub(LONGEST)..].iter().collect();
+    Some(folder.join("toile").join(format!("{name}.json")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_read_is_forgotten() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("state/x.json");
+        assert_eq!(Session::read(&path), Session::default());
+        let memory = Session { screen: 3, query: "SELECT 1".into(), ..Session::default() };
+        memory.write(&path);
+        assert_eq!(Session::read(&path), memory);
+        std::fs::write(&path, "{\"screen\": 2, \"new\": []").expect("writable");
+        assert_eq!(Session::read(&path), Session::default());
+        std::fs::write(&path, "{\"screen\": 2, \"of a newer program\": []}").expect("writable");
+        assert_eq!(Session::read(&path).screen, 2);
+    }
+
+    #[test]
+    fn databases_have_files_of_their_own() {
+        let env = |name: &str| (name == "XDG_STATE_HOME").then(|| "/state".to_owned());
+        let of = |database: &str| place(Path::new(database), &env).expect("a place").display().to_string();
+        assert_eq!(of("/data/a.sqlite"), "/state/toile/%data%a.sqlite.json");
+        assert_ne!(of(&format!("/{}/a.sqlite", "long".repeat(80))), of(&format!("/{}/b.sqlite", "long".repeat(80))));
+    }
+}

@@ -1,0 +1,270 @@
+//! The one place where messages change the state: `(state, message) -> (state, effects)`, without waiting for anything.
+
+use crossterm::event::{KeyEvent, KeyEventKind, MouseButton, MouseEvent, MouseEventKind};
+use ratatui::layout::Size;
+
+use crate::app::frame::tab_at;
+use crate::keys::action::Action;
+use crate::keys::binding::{Key, action_of};
+use crate::keys::screen::Screen;
+use crate::messages::effect::Effect;
+use crate::messages::message::Message;
+use crate::messages::snapshot::{Focus, Snapshot};
+use crate::overlays::Overlay;
+use crate::overlays::outcome::Outcome;
+use crate::screens;
+use crate::screens::state::State;
+use study::{Part, Status};
+
+/// Steps of a running job that are kept for its curves.
+const MAX_TRACE: usize = 4096;
+
+impl State {
+    /// Takes in a message; returns what others have to do.
+    pub fn update(&mut self, message: Message) -> Vec<Effect> {
+        let before = self.focus.clone();
+        let filter = self.nav.filters[Screen::Sql as usize].clone();
+        let mut effects = match message {
+            Message::Key(event) => self.key(&event),
+            Message::Resize(width, height) => {
+                self.terminal.size = Size::new(width, height);
+                vec![]
+            }
+            Message::Data(snapshot) => {
+                self.receive(snapshot);
+                vec![]
+            }
+            Message::Acted(text) => {
+                self.say(text);
+                vec![]
+            }
+            Message::Saved(outcome) => {
+                self.saved(outcome);
+                vec![]
+            }
+            Message::LaidOut(laying, outcome) => {
+                self.laid_out(*laying, outcome);
+                vec![]
+            }
+            Message::Sewn(style, outcome) => {
+                self.sewn(style, outcome);
+                vec![]
+            }
+            Message::SeamsSaved(style, seams, outcome) => {
+                self.seams_saved(&style, &seams, outcome);
+                vec![]
+            }
+            Message::Measured(id, outcome) => {
+                self.subjects.measured.insert(id, outcome);
+                vec![]
+            }
+            Message::Failed(text) => {
+                self.complain(text);
+                vec![]
+            }
+            Message::Picture(shot, drawn) => {
+                self.take_picture(shot, drawn);
+                vec![]
+            }
+            Message::Names(relations, saved) => {
+                (self.sql.relations, self.sql.saved) = (Some(relations), saved);
+                vec![]
+            }
+            Message::Answered(ms, outcome) => {
+                self.answered(ms, outcome);
+                vec![]
+            }
+            Message::Reports(rows) => {
+                self.reports.rows = Some(rows);
+                vec![]
+            }
+            Message::ReportBuilt(page, rows) => {
+                self.report_built(page, rows);
+                vec![]
+            }
+            Message::StudyCreated(name, outcome) => {
+                self.study_created(&name, outcome);
+                vec![]
+            }
+            Message::Live(frame) => {
+                if self.running.watched == Some(frame.job) {
+                    self.running.live = Some(frame);
+                }
+                vec![]
+            }
+            Message::Mouse(event) => self.mouse(&event),
+            Message::RunEnded(outcome) => self.run_ended(outcome),
+            Message::Hangup if self.running.target.is_some() => {
+                self.terminal.detached = true;
+                vec![]
+            }
+            Message::Hangup => vec![Effect::Quit],
+            Message::Terminate => vec![Effect::StopRun, Effect::Quit],
+        };
+        if self.nav.filters[Screen::Sql as usize] != filter {
+            self.arrange_sheet();
+        }
+        self.arrange_jobs();
+        self.focus.compare = if self.nav.screen == Screen::Compare { self.to_compare() } else { vec![] };
+        if self.focus != before {
+            self.moved(&before);
+            effects.push(Effect::Read(self.focus.clone()));
+        }
+        let page = screens::page(self.nav.screen);
+        effects.extend(self.ask_for_pictures(page.pictures(self, self.body())));
+        effects.extend(page.wanted(self));
+        effects.extend(self.ask_to_watch());
+        effects
+    }
+
+    fn key(&mut self, event: &KeyEvent) -> Vec<Effect> {
+        if event.kind == KeyEventKind::Release {
+            return vec![];
+        }
+        let Some(mut overlay) = self.overlay.take() else {
+            self.notice = None;
+            if screens::page(self.nav.screen).take_key(self, event) {
+                return vec![];
+            }
+            return action_of(self.setup.bindings, Key::of(event), self.screen_shown())
+                .map_or(vec![], |action| self.act(action));
+        };
+        match overlay.key(event, &mut self.nav.filters[self.nav.screen as usize]) {
+            Outcome::Open => {
+                self.overlay = Some(overlay);
+                self.keep_selection_visible();
+                vec![]
+            }
+            Outcome::Closed => vec![],
+            Outcome::Act(action) => self.act(action),
+            Outcome::Effects(effects) => effects,
+            Outcome::Query(text) => {
+                self.take_query(&text);
+                vec![]
+            }
+            Outcome::Sent(effects) => {
+                self.overlay = Some(overlay);
+                effects
+            }
+        }
+    }
+
+    /// Takes in what was read of the database.
+    fn receive(&mut self, snapshot: Box<Snapshot>) {
+        for job in snapshot.jobs.iter().filter(|job| job.status == Status::Running) {
+            let Some(progress) = &job.progress else { continue };
+            let trace = self.jobs.traces.entry(job.id).or_default();
+            if trace.last().is_some_and(|last| last.iteration > progress.step.iteration) {
+                trace.clear();
+            }
+            if trace.last() != Some(&progress.step) && trace.len() < MAX_TRACE {
+                trace.push(progress.step);
+            }
+        }
+        let had_grid = self.grid().is_some();
+        self.focus.study = snapshot.study().map(|study| study.name.clone());
+        self.focus.garment = snapshot.grid.as_ref().map(|grid| grid.garment.clone());
+        self.data = Some(snapshot);
+        self.jobs.reads += 1;
+        self.arrange_jobs();
+        self.subjects.chosen = self.subject().map(|row| row.name.clone());
+        self.fabrics.chosen = self.fabric().map(|row| row.fabric.name.clone());
+        self.clamp_place();
+        self.results.row = self.results.row.min(self.chi().len().saturating_sub(1));
+        let known = self.focus.job.filter(|id| self.data.as_ref().is_some_and(|data| data.job(*id).is_some()));
+        match known.and_then(|id| self.place_of(id)) {
+            Some(place) => self.study.place = place,
+            None if !had_grid || known.is_none() => {
+                self.focus.job = self.cell_at(self.study.place).and_then(|cell| cell.job)
+            }
+            None => {}
+        }
+    }
+
+    /// Resets what belongs to the job looked at before.
+    fn moved(&mut self, before: &Focus) {
+        if self.focus.job == before.job {
+            return;
+        }
+        self.jobs.log_up = 0;
+        let garment = self.job().map(|job| job.garment.clone());
+        if garment.is_some() {
+            self.focus.garment = garment;
+        }
+        if let Some(place) = self.focus.job.and_then(|id| self.place_of(id)) {
+            self.study.place = place;
+        }
+    }
+
+    /// Moves the selection to a row that the filter still shows.
+    fn keep_selection_visible(&mut self) {
+        self.arrange_jobs();
+        if self.nav.screen == Screen::Jobs {
+            let jobs = self.jobs();
+            let is_hidden = !jobs.iter().any(|job| Some(job.id) == self.focus.job);
+            if let Some(first) = jobs.first().filter(|_| is_hidden).map(|job| job.id) {
+                self.select(first);
+            }
+        }
+        self.results.row = self.results.row.min(self.chi().len().saturating_sub(1));
+    }
+
+    fn run_ended(&mut self, outcome: Result<String, String>) -> Vec<Effect> {
+        self.running.target = None;
+        match outcome {
+            Ok(text) => self.say(text),
+            Err(text) => self.complain(text),
+        }
+        if self.terminal.detached { vec![Effect::Quit] } else { vec![] }
+    }
+
+    /// What the mouse does: tabs show screens, the wheel scrolls.
+    fn mouse(&mut self, event: &MouseEvent) -> Vec<Effect> {
+        match event.kind {
+            _ if self.overlay.is_some() => vec![],
+            MouseEventKind::ScrollUp => self.act(Action::Up),
+            MouseEventKind::ScrollDown => self.act(Action::Down),
+            MouseEventKind::Down(MouseButton::Left) if event.row == 0 => {
+                tab_at(self, event.column).map_or(vec![], |screen| self.act(Action::Show(screen)))
+            }
+            _ => vec![],
+        }
+    }
+
+    /// Closes what was filled in once it is saved, or says in it why it is not.
+    pub fn saved(&mut self, outcome: Result<String, String>) {
+        let waits = match &mut self.overlay {
+            Some(Overlay::Form(form)) if form.is_busy => Some((&mut form.is_busy, &mut form.problem)),
+            Some(Overlay::StyleForm(form)) if form.is_busy => {
+                match outcome {
+                    Err(text) => form.refused(text),
+                    Ok(text) => {
+                        self.styles.selected = Some((form.style(), form.size()));
+                        self.overlay = None;
+                        self.say(text);
+                    }
+                }
+                return;
+            }
+            Some(Overlay::Path(prompt)) if prompt.is_busy => Some((&mut prompt.is_busy, &mut prompt.problem)),
+            _ => None,
+        };
+        match (outcome, waits) {
+            (Err(text), Some((is_busy, problem))) => {
+                *is_busy = false;
+                *problem = Some(text);
+            }
+            (Err(text), None) => self.complain(text),
+            (Ok(text), waits) => {
+                if waits.is_some()
+                    && let Some(Overlay::Form(form)) = self.overlay.take()
+                {
+                    let selected =
+                        if form.part == Part::Fabric { &mut self.fabrics.chosen } else { &mut self.subjects.chosen };
+                    *selected = Some(form.name().to_owned());
+                }
+                self.say(text);
+            }
+        }
+    }
+}

@@ -1,0 +1,201 @@
+//! Keys of one's own: `keys.toml` in the config folder gives actions, by their names in the palette, other keys.
+//!
+//! ```toml
+//! cancel = "D"
+//! down = ["j", "Down", "C-e"]
+//! ```
+
+use std::path::{Path, PathBuf};
+
+use crossterm::event::KeyCode;
+use toml::de::{DeTable, DeValue};
+
+use crate::keys::binding::{Binding, Key};
+use crate::keys::screen::Screen;
+use crate::keys::table::BINDINGS;
+
+/// Names of keys that are no single character.
+const NAMES: [(&str, KeyCode); 15] = [
+    ("Enter", KeyCode::Enter),
+    ("Esc", KeyCode::Esc),
+    ("Tab", KeyCode::Tab),
+    ("S-Tab", KeyCode::BackTab),
+    ("Space", KeyCode::Char(' ')),
+    ("Up", KeyCode::Up),
+    ("Down", KeyCode::Down),
+    ("Left", KeyCode::Left),
+    ("Right", KeyCode::Right),
+    ("Home", KeyCode::Home),
+    ("End", KeyCode::End),
+    ("PgUp", KeyCode::PageUp),
+    ("PgDn", KeyCode::PageDown),
+    ("Backspace", KeyCode::Backspace),
+    ("Delete", KeyCode::Delete),
+];
+
+/// Letters that terminals, tmux and screen use with Ctrl.
+const TAKEN: &str = "absqhijm";
+
+/// Everything that is wrong with a file of keys.
+#[derive(Debug, thiserror::Error)]
+#[error("{}", .0.join("\n"))]
+pub struct KeysError(Vec<String>);
+
+/// Where the file of keys is looked for: `toile/keys.toml` in the config folder.
+#[must_use]
+pub fn place(env: &dyn Fn(&str) -> Option<String>) -> Option<PathBuf> {
+    let set = |name: &str| env(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+    let folder = set("XDG_CONFIG_HOME").or_else(|| set("HOME").map(|home| home.join(".config")))?;
+    Some(folder.join("toile").join("keys.toml"))
+}
+
+/// The table of keys with those of a file over it; the table itself where there is no such file.
+///
+/// # Errors
+/// Everything that is wrong with the file, each with its line.
+pub fn read(path: Option<&Path>) -> Result<&'static [Binding], KeysError> {
+    let Some(path) = path.filter(|path| path.exists()) else { return Ok(BINDINGS) };
+    let text =
+        std::fs::read_to_string(path).map_err(|error| KeysError(vec![format!("{}: {error}", path.display())]))?;
+    parse(&path.display().to_string(), &text)
+}
+
+/// The table of keys with those of a text over it. It lives as long as the program does.
+fn parse(name: &str, text: &str) -> Result<&'static [Binding], KeysError> {
+    let line = |at: usize| 1 + text.as_bytes()[..at.min(text.len())].iter().filter(|&&byte| byte == b'\n').count();
+    let mut problems = Vec::new();
+    let (document, errors) = DeTable::parse_recoverable(text);
+    for error in errors {
+        problems.push((line(error.span().unwrap_or_default().start), error.message().to_owned()));
+    }
+    let mut bindings = BINDINGS.to_vec();
+    let mut changed = Vec::new();
+    for (action, value) in document.get_ref() {
+        let at = line(action.span().start);
+        let Some(k) = bindings.iter().position(|binding| binding.name == action.get_ref().as_ref()) else {
+            problems.push((at, format!("no action `{}`; ? and : list all by name", action.get_ref())));
+            continue;
+        };
+        match keys(value.get_ref()) {
+            Ok(keys) => {
+                bindings[k].keys = keys.leak();
+                changed.push((k, at));
+            }
+            Err(problem) => problems.push((at, format!("{}: {problem}", action.get_ref()))),
+        }
+    }
+    for (k, at) in changed {
+        problems.extend(clash(&bindings, k).map(|problem| (at, problem)));
+    }
+    if problems.is_empty() {
+        return Ok(bindings.leak());
+    }
+    problems.sort();
+    problems.dedup();
+    Err(KeysError(problems.into_iter().map(|(line, problem)| format!("{name}:{line}: {problem}")).collect()))
+}
+
+/// The other action that a key of a binding means on one of its screens, in words.
+fn clash(bindings: &[Binding], k: usize) -> Option<String> {
+    let own = &bindings[k];
+    let meets = |other: &&Binding| {
+        other.name != own.name && Screen::ALL.iter().any(|screen| own.is_on(*screen) && other.is_on(*screen))
+    };
+    let (key, other) = bindings.iter().filter(meets).find_map(|other| {
+        let key = own.keys.iter().find(|key| other.keys.contains(key))?;
+        Some((key, other.name))
+    })?;
+    Some(format!("{}: key `{key}` already means {other}; give that one another key too", own.name))
+}
+
+/// The keys of a value: one, or a list.
+fn keys(value: &DeValue<'_>) -> Result<Vec<Key>, String> {
+    let wanted = "accepted: a key in quotes, or a list of keys";
+    let one = |value: &DeValue<'_>| key(value.as_str().ok_or_else(|| format!("{}; {wanted}", value.type_str()))?);
+    match value.as_array() {
+        Some(list) if list.is_empty() => Err(format!("no key; {wanted}")),
+        Some(list) => list.iter().map(|item| one(item.get_ref())).collect(),
+        None => Ok(vec![one(value)?]),
+    }
+}
+
+/// A key by its name.
+fn key(name: &str) -> Result<Key, String> {
+    let single = |text: &str| {
+        let mut letters = text.chars();
+        letters.next().filter(|letter| letters.next().is_none() && !letter.is_control() && *letter != ' ')
+    };
+    if let Some(letter) = name.strip_prefix("C-").and_then(single) {
+        let letter = letter.to_ascii_lowercase();
+        if TAKEN.contains(letter) {
+            return Err(format!("`{name}` never arrives, or means something else: terminals and tmux use it"));
+        }
+        return Ok(Key::new(KeyCode::Char(letter), true));
+    }
+    let (plain, has_alt) = name.strip_prefix("A-").map_or((name, false), |plain| (plain, true));
+    let named = NAMES.iter().find(|(known, _)| known.eq_ignore_ascii_case(plain)).map(|(_, code)| *code);
+    let function = plain.strip_prefix(['F', 'f']).and_then(|n| n.parse().ok()).filter(|n| (1..=12).contains(n));
+    let code = named.or(function.map(KeyCode::F)).or(single(plain).map(KeyCode::Char));
+    code.map(|code| if has_alt { Key::alt(code) } else { Key::new(code, false) }).ok_or_else(|| {
+        let names: Vec<&str> = NAMES.iter().map(|(name, _)| *name).collect();
+        format!(
+            "no key `{name}`; accepted: a character, C- and a letter, A- and a key, F1 to F12, {}",
+            names.join(", ")
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::keys::action::Action;
+    use crate::keys::binding::action_of;
+
+    fn told(text: &str) -> String {
+        parse("keys.toml", text).expect_err("wrong").to_string()
+    }
+
+    #[test]
+    fn actions_get_other_keys_and_the_rest_stays() {
+        let text = "# mine\ncancel = \"D\"\ndown = [\"Down\", \"C-e\", \"A-x\", \"F7\"]\nnext-match = \"j\"\n";
+        let bindings = parse("keys.toml", text).expect("right");
+        let check = |name: &str, expect: Option<Action>| {
+            assert_eq!(action_of(bindings, key(name).expect("a key"), Screen::Jobs), expect, "{name}");
+        };
+        check("D", Some(Action::Cancel));
+        check("x", None);
+        check("C-e", Some(Action::Down));
+        check("A-x", Some(Action::Down));
+        check("f7", Some(Action::Down));
+        check("j", Some(Action::NextMatch));
+        check("k", Some(Action::Up));
+        assert_eq!(bindings.len(), BINDINGS.len());
+    }
+
+    #[test]
+    fn problems_name_their_line_and_what_would_be_accepted() {
+        let check = |text: &str, expect: &str| {
+            let said = told(text);
+            assert!(said.contains(expect), "{said}");
+        };
+        check("down = \"j\"\ncansel = \"D\"\n", "keys.toml:2: no action `cansel`; ? and : list all by name");
+        check("down = \"Dwon\"", "keys.toml:1: down: no key `Dwon`; accepted: a character, C- and a letter");
+        check("\n\ncancel = \"C-s\"", "keys.toml:3: cancel: `C-s` never arrives");
+        check("cancel = 3", "keys.toml:1: cancel: integer; accepted: a key in quotes");
+        check("cancel = []", "no key; accepted");
+        check("cancel = \"r\"", "keys.toml:1: cancel: key `r` already means retry; give that one another key too");
+        check("cancel = ", "keys.toml:1: ");
+        assert_eq!(told("a = \"x\"\nb = \"y\"").lines().count(), 2, "all are told at once");
+    }
+
+    #[test]
+    fn no_file_means_the_keys_of_the_table() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let env = |name: &str| (name == "XDG_CONFIG_HOME").then(|| folder.path().display().to_string());
+        let path = place(&env).expect("a place");
+        assert_eq!(read(Some(&path)).expect("none"), BINDINGS);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("writable");
+        std::fs::write(&path, "cancel = \"D\"").expect("writable");
+        assert!(read(Some(&path)).is_ok());
+    }
+}

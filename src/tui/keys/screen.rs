@@ -1,0 +1,55 @@
+//! The screens by their numbers.
+
+/// A screen of the workbench; its number is its key.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Screen {
+    /// The study as a grid of sizes by subjects.
+    Study,
+    /// The subjects of the catalogue.
+    Subjects,
+    /// The styles and sizes of the catalogue, and the seams of one.
+    Styles,
+    /// The queue.
+    Jobs,
+    /// One result: its measurements and its picture.
+    Results,
+    /// Several results side by side.
+    Compare,
+    /// Questions in SQL.
+    Sql,
+    /// Reports that were built.
+    Reports,
+    /// The fabrics of the catalogue.
+    Fabrics,
+}
+
+impl Screen {
+    /// All screens, in order of their numbers.
+    pub const ALL: [Self; 9] = [
+        Self::Study,
+        Self::Subjects,
+        Self::Styles,
+        Self::Jobs,
+        Self::Results,
+        Self::Compare,
+        Self::Sql,
+        Self::Reports,
+        Self::Fabrics,
+    ];
+
+    /// Name, and a short one for tabs with little room.
+    #[must_use]
+    pub fn names(self) -> [&'static str; 2] {
+        match self {
+            Self::Study => ["Study", "Study"],
+            Self::Subjects => ["Subjects", "Subj"],
+            Self::Styles => ["Styles", "Style"],
+            Self::Jobs => ["Jobs", "Jobs"],
+            Self::Results => ["Results", "Res"],
+            Self::Compare => ["Compare", "Cmp"],
+            Self::Sql => ["SQL", "SQL"],
+            Self::Reports => ["Reports", "Rep"],
+            Self::Fabrics => ["Fabrics", "Fab"],
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! What arrives at the event loop.
+
+use std::path::PathBuf;
+
+use crossterm::event::{KeyEvent, MouseEvent};
+
+use crate::messages::seams::{Laid, Laying};
+use crate::messages::snapshot::Snapshot;
+use crate::widgets::picture::{Drawn, Shot};
+use crate::widgets::result_table::Sheet;
+use study::bodies::Girths;
+use study::files::SourceFile;
+use study::{LiveFrame, Relation, ReportRow, SavedQuery, SubjectId};
+
+/// Something that happened.
+#[derive(Debug)]
+pub enum Message {
+    /// A key was pressed.
+    Key(KeyEvent),
+    /// The terminal has a new size, columns by rows.
+    Resize(u16, u16),
+    /// The database was read.
+    Data(Box<Snapshot>),
+    /// Something could not be read or done.
+    Failed(String),
+    /// An action on the queue is done.
+    Acted(String),
+    /// What was filled in is saved, or why not.
+    Saved(Result<String, String>),
+    /// A subject's body is built and measured, or could not be.
+    Measured(SubjectId, Result<Box<Girths>, String>),
+    /// A size is laid out, or could not be.
+    LaidOut(Box<Laying>, Result<Box<Laid>, String>),
+    /// The seam file of a style after a step of work, or why there is none.
+    Sewn(String, Result<SourceFile, String>),
+    /// The seams of a style are saved, or why not.
+    SeamsSaved(String, SourceFile, Result<String, String>),
+    /// A picture is drawn, or could not be.
+    Picture(Shot, Result<Drawn, String>),
+    /// What a query may name, and the saved queries.
+    Names(Vec<Relation>, Vec<SavedQuery>),
+    /// A query is answered after so many ms, or refused.
+    Answered(u64, Result<Box<Sheet>, String>),
+    /// The reports there are.
+    Reports(Vec<ReportRow>),
+    /// A report is built, its page here, or could not be; and the reports there are now.
+    ReportBuilt(Result<PathBuf, String>, Vec<ReportRow>),
+    /// A new study of a name is written, its file here, or could not be.
+    StudyCreated(String, Result<PathBuf, String>),
+    /// The garment of the watched job as it is now.
+    Live(LiveFrame),
+    /// The mouse did something.
+    Mouse(MouseEvent),
+    /// The run started here has ended.
+    RunEnded(Result<String, String>),
+    /// The terminal is gone.
+    Hangup,
+    /// The process is asked to end.
+    Terminate,
+}

@@ -1,0 +1,72 @@
+//! What is asked of the threads.
+
+use std::path::PathBuf;
+
+use study::files::SourceFile;
+use study::{Given, JobId, Mode, NewStudy, Part, StyleGiven};
+
+/// An action on the queue or the catalogue.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Act {
+    /// Add or edit a subject or a fabric.
+    Save(Part, Mode, String, Vec<Given>),
+    /// Import the subjects or fabrics of a file.
+    Import(Part, PathBuf),
+    /// Remove an entry.
+    Remove(Part, String),
+    /// Add a style or sizes of it, or the styles of a study file.
+    ImportStyle(String, StyleGiven),
+    /// Save the seams of a style.
+    SaveSeams(String, SourceFile),
+    /// Write seams over a file that still says what it said before.
+    WriteSeams(PathBuf, SourceFile, SourceFile),
+    /// Cancel a job.
+    Cancel(JobId),
+    /// Queue a job again.
+    Retry(JobId),
+    /// Change a job's priority by a step.
+    Prioritise(JobId, i64),
+    /// Pause a study.
+    Pause(String),
+    /// Resume a study.
+    Resume(String),
+}
+
+impl Act {
+    /// Whether a form waits for the answer.
+    #[must_use]
+    pub fn is_filled_in(&self) -> bool {
+        matches!(self, Self::Save(..) | Self::Import(..) | Self::ImportStyle(..))
+    }
+}
+
+/// What to run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// The study that comes with the program.
+    Quickstart,
+    /// A study file.
+    Study(PathBuf),
+}
+
+/// What the thread is asked for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Question {
+    /// What a query may name, and the saved queries.
+    Names,
+    /// The rows of a query.
+    Rows(String),
+    /// The rows of a query in a file.
+    Export(String, PathBuf),
+}
+
+/// What the thread is asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Errand {
+    /// List the reports there are.
+    ListReports,
+    /// Build the report of a study.
+    BuildReport(String),
+    /// Write a new study.
+    CreateStudy(NewStudy),
+}

@@ -1,0 +1,40 @@
+//! What is asked of the thread that works on seams, and what it answers.
+
+use std::path::PathBuf;
+
+use study::SizeKey;
+use study::files::SourceFile;
+use study::seams::{LaidOut, SeamStep};
+
+/// What is wanted on the desk.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Laying {
+    /// Style.
+    pub style: String,
+    /// Its revision and the size.
+    pub key: SizeKey,
+    /// The seam file as edited and not saved; `None` where it is as stored.
+    pub seams: Option<SourceFile>,
+    /// File of the study that wears the style.
+    pub study: Option<PathBuf>,
+}
+
+/// What the thread is asked for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Task {
+    /// Lay a size out.
+    LayOut(Laying),
+    /// Do a step of work on its seams.
+    Sew(Laying, SeamStep),
+}
+
+/// A size on the desk.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Laid {
+    /// Pieces, seams, measurements, questions.
+    pub out: LaidOut,
+    /// The seam file as stored.
+    pub stored: Option<SourceFile>,
+    /// Where it lies in the folder of the study, if it says the same there.
+    pub home: Option<PathBuf>,
+}

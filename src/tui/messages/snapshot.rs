@@ -1,0 +1,94 @@
+//! What the screens show of the database at one moment.
+
+use study::{
+    ChiRow, EaseRow, FabricRow, Grid, Inputs, JobId, JobRow, LogLine, MetricsRow, RecommendationRow, SizeRow, StageRow,
+    Step, StudyRow, SubjectRow, Why,
+};
+
+/// What the user looks at; whatever is `None` or gone is chosen by [`snapshot`].
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Focus {
+    /// Study.
+    pub study: Option<String>,
+    /// Garment.
+    pub garment: Option<String>,
+    /// Job whose details are wanted.
+    pub job: Option<JobId>,
+    /// Jobs to compare.
+    pub compare: Vec<JobId>,
+}
+
+/// Everything the screens show of the database at one moment.
+#[derive(Clone, Debug)]
+pub struct Snapshot {
+    /// When it was read, ms since 1970 (UTC).
+    pub now_ms: i64,
+    /// The subjects of the catalogue, by name.
+    pub subjects: Vec<SubjectRow>,
+    /// The fabrics of the catalogue, by name.
+    pub fabrics: Vec<FabricRow>,
+    /// The sizes of the styles of the catalogue.
+    pub sizes: Vec<SizeRow>,
+    /// All studies.
+    pub studies: Vec<StudyRow>,
+    /// The study looked at, an index into `studies`.
+    pub study: usize,
+    /// The garment looked at as a grid.
+    pub grid: Option<Grid>,
+    /// All current jobs of the study.
+    pub jobs: Vec<JobRow>,
+    /// Ease of all sizes on all subjects of the study.
+    pub ease: Vec<EaseRow>,
+    /// The job looked at.
+    pub detail: Option<Detail>,
+    /// The jobs compared, those that are gone left out.
+    pub compared: Vec<Compared>,
+    /// Which simulator the study's garments are to be trusted to; read for comparisons only.
+    pub recommendations: Vec<RecommendationRow>,
+}
+
+impl Snapshot {
+    /// The study looked at; `None` where the database has none.
+    #[must_use]
+    pub fn study(&self) -> Option<&StudyRow> {
+        self.studies.get(self.study)
+    }
+
+    /// A job by its number.
+    #[must_use]
+    pub fn job(&self, id: JobId) -> Option<&JobRow> {
+        self.jobs.iter().find(|job| job.id == id)
+    }
+}
+
+/// What is stored of one job.
+#[derive(Clone, Debug)]
+pub struct Detail {
+    /// Its number.
+    pub job: JobId,
+    /// Measurements of all stages.
+    pub chi: Vec<ChiRow>,
+    /// Numbers of its result.
+    pub metrics: Option<MetricsRow>,
+    /// Steps of its simulation.
+    pub history: Vec<Step>,
+    /// Its log, oldest line first.
+    pub log: Vec<LogLine>,
+    /// Why the cache did not have it.
+    pub why: Why,
+    /// Where its inputs came from.
+    pub stages: Vec<StageRow>,
+}
+
+/// A run as it is compared.
+#[derive(Clone, Debug)]
+pub struct Compared {
+    /// The job.
+    pub job: JobRow,
+    /// Measurements of all stages.
+    pub chi: Vec<ChiRow>,
+    /// Numbers of its result.
+    pub metrics: Option<MetricsRow>,
+    /// What it was made of.
+    pub inputs: Inputs,
+}

@@ -1,0 +1,91 @@
+//! The list of actions that what is typed narrows: help and palette.
+
+use crossterm::event::{KeyCode, KeyEvent};
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Clear, Paragraph};
+
+use crate::keys::binding::{Binding, search};
+use crate::keys::screen::Screen;
+use crate::widgets::layout::middle;
+use crate::widgets::lists::{first_shown, pane};
+use crate::widgets::text;
+use crate::widgets::text::left;
+use crate::widgets::theme::Theme;
+use crate::widgets::typing::edit;
+
+/// A list that what is typed narrows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct List {
+    /// All that can be in it.
+    pub bindings: &'static [Binding],
+    /// What is typed.
+    pub text: String,
+    /// Row selected.
+    pub row: usize,
+}
+
+impl List {
+    /// All of a table of keys.
+    #[must_use]
+    pub fn of(bindings: &'static [Binding]) -> Self {
+        Self { bindings, text: String::new(), row: 0 }
+    }
+
+    /// Its rows: the keys of the table order where nothing is typed, the best match first otherwise.
+    #[must_use]
+    pub fn rows(&self) -> Vec<&'static Binding> {
+        if self.text.is_empty() { self.bindings.iter().collect() } else { search(self.bindings, &self.text) }
+    }
+
+    pub fn edit(&mut self, event: &KeyEvent) {
+        match event.code {
+            KeyCode::Up => self.row = self.row.saturating_sub(1),
+            KeyCode::Down => self.row += 1,
+            KeyCode::PageUp => self.row = self.row.saturating_sub(10),
+            KeyCode::PageDown => self.row += 10,
+            _ => {
+                if edit(&mut self.text, event) {
+                    self.row = 0;
+                }
+            }
+        }
+        self.row = self.row.min(self.rows().len().saturating_sub(1));
+    }
+}
+
+pub fn draw_list(frame: &mut Frame<'_>, area: Rect, title: &str, list: &List, theme: Theme, screen: Screen) {
+    let rows = list.rows();
+    let height = (rows.len() as u16 + 2).max(3).min(area.height);
+    let place = middle(area, area.width.min(100), height);
+    let place_of_keys = " other keys: toile/keys.toml in the config folder, like cancel = \"D\" ";
+    let block = pane(theme, title, true).title_bottom(Line::styled(place_of_keys, theme.legend()));
+    let inner = block.inner(place);
+    let first = first_shown(list.row, rows.len(), usize::from(inner.height));
+    let line = |(k, binding): (usize, &&Binding)| {
+        let line = line(list, theme, screen, binding, usize::from(inner.width));
+        if k == list.row { line.patch_style(theme.selected()) } else { line }
+    };
+    let mut lines: Vec<Line<'_>> =
+        rows.iter().enumerate().skip(first).take(usize::from(inner.height)).map(line).collect();
+    if lines.is_empty() {
+        lines.push(Line::raw("no action of that name or key"));
+    }
+    frame.render_widget(Clear, place);
+    frame.render_widget(Paragraph::new(lines).block(block), place);
+}
+
+/// Keys, name and help of an action; dim where it does nothing on this screen.
+fn line(list: &List, theme: Theme, screen: Screen, binding: &Binding, columns: usize) -> Line<'static> {
+    let longest = |field: fn(&Binding) -> usize| list.bindings.iter().map(field).max().unwrap_or(0);
+    let keys = longest(|b| text::width(&b.keys_text())) + 1;
+    let name = longest(|b| b.name.len()) + 1;
+    let help = text::shortened(binding.help, columns.saturating_sub(keys + name));
+    let line = Line::from(vec![
+        Span::styled(left(&binding.keys_text(), keys), theme.bold()),
+        Span::raw(left(binding.name, name)),
+        Span::raw(help),
+    ]);
+    if binding.is_on(screen) { line } else { line.patch_style(theme.dim()) }
+}

@@ -1,0 +1,315 @@
+//! The values of a subject or a fabric, each checked while it is typed.
+
+use crossterm::event::{KeyCode, KeyEvent};
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+
+use crate::messages::effect::Effect;
+use crate::messages::requests::Act;
+use crate::overlays::form_frame::{draw_frame, end, ended};
+use crate::overlays::outcome::Outcome;
+use crate::widgets::lists::first_shown;
+use crate::widgets::text;
+use crate::widgets::text::{left, right, shortened};
+use crate::widgets::theme::Theme;
+use crate::widgets::typing::edit;
+use geom::units::significant;
+use study::bodies::Sex;
+use study::{
+    FABRIC_NUMBERS, FabricRow, Given, MEASUREMENTS, Mode, Part, SubjectRow, is_doubtful, percentile, percentile_text,
+    sex,
+};
+
+/// Lines of a form before its numbers: the name, and the sex of a subject or the source of a fabric's numbers.
+const NAME: usize = 0;
+
+const WORD: usize = 1;
+
+const FIRST_NUMBER: usize = 2;
+
+/// A number beyond the least or greatest of the catalogue by such a factor is doubtful.
+const FAR: f64 = 3.0;
+
+/// Columns of values in a form.
+const VALUE: usize = 12;
+
+/// What stands beside a value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Note {
+    /// Nothing.
+    None,
+    /// Where it stands among adults of the sex, or among the fabrics of the catalogue.
+    Place(String),
+    /// It is possible but rare.
+    Doubt(String),
+    /// It cannot be.
+    Problem(String),
+}
+
+/// The values of a subject or a fabric, as typed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Form {
+    /// What is filled in: a subject or a fabric.
+    pub part: Part,
+    /// Whether the entry is new.
+    pub mode: Mode,
+    /// The entry whose values a new one starts with.
+    pub like: Option<String>,
+    /// Name, sex or source, and the numbers.
+    pub texts: Vec<String>,
+    /// The least and the greatest of each number in the catalogue; none for subjects, who have percentiles.
+    known: Vec<[f64; 2]>,
+    /// Line that is typed in.
+    pub at: usize,
+    /// Whether all problems are told, also those of empty lines.
+    is_tried: bool,
+    /// Whether it is being saved.
+    pub is_busy: bool,
+    /// Why it could not be saved.
+    pub problem: Option<String>,
+}
+
+impl Form {
+    fn new(part: Part, mode: Mode, texts: Vec<String>) -> Self {
+        let at = if mode == Mode::Add { NAME } else { FIRST_NUMBER };
+        Self { part, mode, like: None, texts, known: vec![], at, is_tried: false, is_busy: false, problem: None }
+    }
+
+    /// The form of a new subject.
+    #[must_use]
+    pub fn new_subject() -> Self {
+        let mut texts = vec![String::new(); FIRST_NUMBER + MEASUREMENTS.len()];
+        texts[WORD] = "female".to_owned();
+        Self::new(Part::Subject, Mode::Add, texts)
+    }
+
+    /// The form of a subject that is there.
+    #[must_use]
+    pub fn of_subject(subject: &SubjectRow) -> Self {
+        let value = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
+        let mut texts = vec![subject.name.clone(), text::sex(subject).to_owned()];
+        texts.extend(MEASUREMENTS.iter().map(|field| value(field.get(&subject.measurements))));
+        Self::new(Part::Subject, Mode::Edit, texts)
+    }
+
+    /// The form of a fabric that is there, or of a new one that starts with its numbers; `all` tells which are usual.
+    #[must_use]
+    pub fn of_fabric(row: &FabricRow, mode: Mode, all: &[FabricRow]) -> Self {
+        let is_new = mode == Mode::Add;
+        let fabric = &row.fabric;
+        let head = if is_new {
+            [String::new(), format!("like {}", fabric.name)]
+        } else {
+            [&fabric.name, &fabric.source].map(Clone::clone)
+        };
+        let mut texts = head.to_vec();
+        texts.extend(FABRIC_NUMBERS.iter().map(|field| field.get(fabric).map_or(String::new(), text::exact)));
+        let known = FABRIC_NUMBERS.iter().map(|field| {
+            let values = all.iter().filter_map(|row| field.get(&row.fabric));
+            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
+        });
+        let known = known.collect();
+        Self { like: is_new.then(|| fabric.name.clone()), known, ..Self::new(Part::Fabric, mode, texts) }
+    }
+
+    /// Name of the entry.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        self.texts[NAME].trim()
+    }
+
+    /// Whether a line can be typed in: the name of an entry stays.
+    fn is_open(&self, line: usize) -> bool {
+        line != NAME || self.mode == Mode::Add
+    }
+
+    /// Whether a line holds a number.
+    #[must_use]
+    pub fn is_number(line: usize) -> bool {
+        line >= FIRST_NUMBER
+    }
+
+    /// Key and name of a number.
+    fn number(&self, line: usize) -> (&'static str, &'static str) {
+        let k = line - FIRST_NUMBER;
+        match self.part {
+            Part::Fabric => (FABRIC_NUMBERS[k].key, fabric_label(k)),
+            _ => (MEASUREMENTS[k].key, MEASUREMENTS[k].label),
+        }
+    }
+
+    /// Name of a line.
+    #[must_use]
+    pub fn label(&self, line: usize) -> &'static str {
+        match line {
+            NAME => "name",
+            WORD if self.part == Part::Fabric => "source of the numbers",
+            WORD => "sex",
+            number => self.number(number).1,
+        }
+    }
+
+    /// Unit of a line.
+    #[must_use]
+    pub fn unit(&self, line: usize) -> &'static str {
+        if Self::is_number(line) { unit_of(self.number(line).0) } else { "" }
+    }
+
+    /// What stands beside a line.
+    #[must_use]
+    pub fn note(&self, line: usize) -> Note {
+        let text = self.texts[line].as_str();
+        if text.trim().is_empty() && !self.is_tried {
+            return Note::None;
+        }
+        let noted = match line {
+            NAME if text.trim().is_empty() => Err(format!("a {} needs a name", self.part)),
+            NAME => Ok(Note::None),
+            WORD if self.part == Part::Fabric => Ok(Note::None),
+            WORD => sex(text).map(|_| Note::None),
+            number if self.part == Part::Fabric => self.fabric_note(number - FIRST_NUMBER, text),
+            number => self.subject_note(number - FIRST_NUMBER, text),
+        };
+        noted.unwrap_or_else(Note::Problem)
+    }
+
+    /// Where a measurement stands among adults.
+    fn subject_note(&self, k: usize, text: &str) -> Result<Note, String> {
+        let field = &MEASUREMENTS[k];
+        let stands = |value: f64| percentile(self.sex()?, field.key, value);
+        Ok(match field.read(text)?.and_then(stands) {
+            None => Note::None,
+            Some(percentile) if is_doubtful(percentile) => {
+                Note::Doubt(format!("{} ! doubtful", percentile_text(percentile)))
+            }
+            Some(percentile) => Note::Place(percentile_text(percentile)),
+        })
+    }
+
+    /// Where a number stands among the fabrics of the catalogue: far from all of them it is in another unit, perhaps.
+    fn fabric_note(&self, k: usize, text: &str) -> Result<Note, String> {
+        let value = FABRIC_NUMBERS[k].read(text)?;
+        let Some((value, [low, high])) =
+            value.zip(self.known.get(k).copied()).filter(|(_, [low, high])| low <= high && *high > 0.0)
+        else {
+            return Ok(Note::None);
+        };
+        let words = format!("known {} to {}", significant(low, 2), significant(high, 2));
+        let is_far = value > FAR * high || value < low / FAR;
+        Ok(if is_far { Note::Doubt(format!("! {words}")) } else { Note::Place(words) })
+    }
+
+    fn sex(&self) -> Option<Sex> {
+        sex(&self.texts[WORD]).ok()
+    }
+
+    /// Handles a key.
+    pub fn key(&mut self, event: &KeyEvent) -> Outcome {
+        if self.is_busy {
+            return Outcome::Open;
+        }
+        match event.code {
+            KeyCode::Enter => return self.save(),
+            KeyCode::Tab | KeyCode::Down => self.step(1),
+            KeyCode::BackTab | KeyCode::Up => self.step(self.texts.len() - 1),
+            KeyCode::Left | KeyCode::Right | KeyCode::Char(' ') if self.at == WORD && self.part == Part::Subject => {
+                let other = if self.sex() == Some(Sex::Female) { "male" } else { "female" };
+                self.texts[WORD] = other.to_owned();
+            }
+            _ => {
+                edit(&mut self.texts[self.at], event);
+            }
+        }
+        Outcome::Open
+    }
+
+    /// Goes on by some lines, round about, past a line that cannot be typed in.
+    fn step(&mut self, lines: usize) {
+        self.at = (self.at + lines) % self.texts.len();
+        if !self.is_open(self.at) {
+            self.at = (self.at + lines) % self.texts.len();
+        }
+    }
+
+    /// Saves what was typed, or goes to the first line that cannot be right.
+    fn save(&mut self) -> Outcome {
+        self.is_tried = true;
+        if let Some(line) = (0..self.texts.len()).find(|line| matches!(self.note(*line), Note::Problem(_))) {
+            self.at = line;
+            return Outcome::Open;
+        }
+        (self.is_busy, self.problem) = (true, None);
+        let word = if self.part == Part::Fabric { "source" } else { "sex" };
+        let mut given: Vec<Given> = vec![(word.to_owned(), self.texts[WORD].clone())];
+        let numbers = (FIRST_NUMBER..self.texts.len()).map(|line| (self.number(line).0, &self.texts[line]));
+        given.extend(numbers.map(|(key, text)| (key.to_owned(), text.clone())));
+        Outcome::Sent(vec![Effect::Do(Act::Save(self.part, self.mode, self.name().to_owned(), given))])
+    }
+}
+
+/// Name of a number of fabrics, without what the command line adds to it.
+#[must_use]
+pub fn fabric_label(k: usize) -> &'static str {
+    let label = FABRIC_NUMBERS[k].label;
+    label.split_once(" [").map_or(label, |(name, _)| name)
+}
+
+/// The unit that the end of a key names.
+#[must_use]
+pub fn unit_of(key: &str) -> &'static str {
+    const UNITS: [(&str, &str); 6] =
+        [("_kg_m2", "kg/m²"), ("_n_m", "N/m"), ("_nm", "N m"), ("_pct", "%"), ("_kg", "kg"), ("_mm", "mm")];
+    UNITS.iter().find(|(end, _)| key.ends_with(end)).map_or("", |(_, unit)| *unit)
+}
+
+/// Draws the values of a subject or a fabric.
+pub fn draw_form(frame: &mut Frame<'_>, area: Rect, form: &Form, theme: Theme) {
+    let title = match form.mode {
+        Mode::Edit => format!("edit {}: a new revision, results keep theirs", form.name()),
+        _ => format!("new {}{}", form.part, form.like.as_ref().map_or(String::new(), |name| format!(", like {name}"))),
+    };
+    let width = area.width.min(if form.part == Part::Fabric { 100 } else { 76 });
+    let columns = usize::from(width.saturating_sub(2));
+    // The line has little room for what is wrong with its value.
+    let wrong = match form.note(form.at) {
+        Note::Problem(problem) => Some(problem),
+        _ => form.problem.clone(),
+    };
+    let busy = if form.part == Part::Fabric { "saving…" } else { "building the body…" };
+    let end = end(form.is_busy.then_some(busy), wrong.as_deref(), columns, theme);
+    let room = usize::from(area.height.saturating_sub(2)).saturating_sub(end.len());
+    let first = first_shown(form.at, form.texts.len(), room);
+    let shown = (first..form.texts.len()).take(room);
+    let mut lines: Vec<Line<'_>> = shown.map(|k| line(form, k, columns, theme)).collect();
+    lines.extend(end);
+    let keys = match form.part {
+        Part::Fabric => " Tab ↑↓ line  C-u empties it  ↵ save  Esc cancel ",
+        _ => " Tab ↑↓ line  ↵ save  Esc cancel  empty = not known ",
+    };
+    draw_frame(frame, area, width, title, keys, lines, theme);
+}
+
+/// A line of a form: name, value, and what there is to say of it.
+pub fn line(form: &Form, k: usize, columns: usize, theme: Theme) -> Line<'static> {
+    let is_focused = k == form.at && !form.is_busy;
+    let mark = if is_focused { "▸" } else { " " };
+    let value = if is_focused { format!("{}▏", form.texts[k]) } else { form.texts[k].clone() };
+    let (note, style) = match form.note(k) {
+        Note::None => (String::new(), theme.dim()),
+        Note::Place(words) => (words, theme.dim()),
+        Note::Doubt(words) => (words, theme.warn()),
+        Note::Problem(problem) => (format!("✗ {problem}"), theme.bad()),
+    };
+    let lines = 0..form.texts.len();
+    let widest = |of: &dyn Fn(usize) -> &'static str| lines.clone().map(|k| text::width(of(k))).max().unwrap_or(0);
+    let head = format!("{mark} {} ", left(form.label(k), widest(&|k| form.label(k))));
+    let typed = match Form::is_number(k) {
+        true => format!("{head}{} {} ", right(&value, VALUE), left(form.unit(k), widest(&|k| form.unit(k)))),
+        // A long word takes the room of its note; its end is what is being typed.
+        false => format!("{head}{} ", ended(&value, columns.saturating_sub(text::width(&head) + 1), is_focused)),
+    };
+    let room = columns.saturating_sub(text::width(&typed));
+    let style_of_text = if is_focused { theme.bold() } else { ratatui::style::Style::new() };
+    Line::from(vec![Span::styled(typed, style_of_text), Span::styled(shortened(&note, room), style)])
+}

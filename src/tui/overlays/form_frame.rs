@@ -1,0 +1,44 @@
+//! The frame that all forms have.
+
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::text::Line;
+use ratatui::widgets::{Clear, Paragraph};
+
+use crate::widgets::layout::middle;
+use crate::widgets::lists::pane;
+use crate::widgets::text::{shortened, wrapped};
+use crate::widgets::theme::Theme;
+
+pub fn draw_frame(
+    frame: &mut Frame<'_>,
+    area: Rect,
+    width: u16,
+    title: String,
+    keys: &'static str,
+    lines: Vec<Line<'_>>,
+    theme: Theme,
+) {
+    let place = middle(area, width, (lines.len() as u16 + 2).min(area.height));
+    let block = pane(theme, title, true).title_bottom(Line::styled(keys, theme.legend()));
+    frame.render_widget(Clear, place);
+    frame.render_widget(Paragraph::new(lines).block(block), place);
+}
+
+/// What goes on, or what went wrong.
+pub fn end(busy: Option<&str>, problem: Option<&str>, columns: usize, theme: Theme) -> Vec<Line<'static>> {
+    let mut lines: Vec<Line<'static>> =
+        busy.iter().map(|text| Line::styled(format!(" {text}"), theme.busy())).collect();
+    let problem = wrapped(problem.unwrap_or_default(), columns.saturating_sub(3));
+    let mark = |k| if k == 0 { "✗" } else { " " };
+    lines.extend(
+        problem.into_iter().enumerate().map(|(k, text)| Line::styled(format!(" {} {text}", mark(k)), theme.bad())),
+    );
+    lines
+}
+
+/// A text in at most so many columns: its end while it is typed, its beginning else.
+pub fn ended(text: &str, columns: usize, is_typed: bool) -> String {
+    let letters: Vec<char> = text.chars().collect();
+    if is_typed { letters[letters.len().saturating_sub(columns)..].iter().collect() } else { shortened(text, columns) }
+}

@@ -1,0 +1,189 @@
+//! What opens above a screen: help, the palette, the filter line, questions. Each owns the keyboard while it is open.
+
+pub mod action_list;
+pub mod entry_form;
+mod form_frame;
+pub mod outcome;
+pub mod path_prompt;
+pub mod saved_queries;
+pub mod study_form;
+pub mod style_form;
+
+use crossterm::event::{KeyCode, KeyEvent};
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Clear, Paragraph, Wrap};
+
+use crate::keys::screen::Screen;
+use crate::messages::effect::Effect;
+use crate::overlays::action_list::List;
+use crate::overlays::entry_form::Form;
+use crate::overlays::outcome::Outcome;
+use crate::overlays::path_prompt::PathPrompt;
+use crate::overlays::saved_queries::QueryList;
+use crate::overlays::study_form::StudyForm;
+use crate::overlays::style_form::StyleForm;
+use crate::widgets::layout::middle;
+use crate::widgets::lists::pane;
+use crate::widgets::theme::Theme;
+use crate::widgets::typing::{edit, is_ctrl_c};
+
+/// What is open.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Overlay {
+    /// The list of keys.
+    Help(List),
+    /// The list of actions.
+    Palette(List),
+    /// The filter line, with the filter to go back to.
+    Filter(String),
+    /// The values of a subject.
+    Form(Box<Form>),
+    /// The path of a file to import.
+    Path(PathPrompt),
+    /// The files of a style.
+    StyleForm(Box<StyleForm>),
+    /// What a new study is made of.
+    StudyForm(Box<StudyForm>),
+    /// Saved queries.
+    Queries(QueryList),
+    /// A question; `y` has the effects happen.
+    Question {
+        /// What is asked.
+        text: String,
+        /// What happens on yes.
+        effects: Vec<Effect>,
+    },
+}
+
+impl Overlay {
+    /// Draws it over a screen.
+    pub fn draw(&self, frame: &mut Frame<'_>, area: Rect, theme: Theme, screen: Screen) {
+        match self {
+            Self::Help(list) => {
+                let title = format!("keys: /{}▏  type to filter, ↵ does it, Esc closes", list.text);
+                action_list::draw_list(frame, area, &title, list, theme, screen);
+            }
+            Self::Palette(list) => {
+                let title = format!(":{}▏  ↑↓ choose, ↵ does it, Esc closes", list.text);
+                action_list::draw_list(frame, area, &title, list, theme, screen);
+            }
+            Self::Form(form) => entry_form::draw_form(frame, area, form, theme),
+            Self::Path(prompt) => path_prompt::draw_path(frame, area, prompt, theme),
+            Self::StyleForm(form) => style_form::draw_style(frame, area, form, theme),
+            Self::StudyForm(form) => study_form::draw(frame, area, form, theme),
+            Self::Queries(list) => saved_queries::draw_queries(frame, area, list, theme),
+            Self::Question { text, .. } => draw_question(frame, area, text, theme),
+            Self::Filter(_) => {}
+        }
+    }
+
+    /// Handles a key; `filter` is the screen's filter.
+    pub fn key(&mut self, event: &KeyEvent, filter: &mut String) -> Outcome {
+        let leaves = event.code == KeyCode::Esc || is_ctrl_c(event);
+        match self {
+            Self::Help(_) | Self::Palette(_) if leaves => Outcome::Closed,
+            Self::Help(list) | Self::Palette(list) if event.code == KeyCode::Enter => {
+                list.rows().get(list.row).map_or(Outcome::Open, |binding| Outcome::Act(binding.action))
+            }
+            Self::Help(list) | Self::Palette(list) => {
+                list.edit(event);
+                Outcome::Open
+            }
+            Self::Form(_) | Self::Path(_) | Self::StyleForm(_) | Self::StudyForm(_) | Self::Queries(_) if leaves => {
+                Outcome::Closed
+            }
+            Self::StudyForm(form) => form.key(event),
+            Self::Queries(list) => list.key(event).map_or(Outcome::Open, Outcome::Query),
+            Self::Form(form) => form.key(event),
+            Self::Path(prompt) => prompt.key(event),
+            Self::StyleForm(form) => form.key(event),
+            Self::Filter(before) if leaves => {
+                filter.clone_from(before);
+                Outcome::Closed
+            }
+            Self::Filter(_) if event.code == KeyCode::Enter => Outcome::Closed,
+            Self::Filter(_) => {
+                edit(filter, event);
+                Outcome::Open
+            }
+            Self::Question { effects, .. } => match event.code {
+                KeyCode::Char('y' | 'Y') => Outcome::Effects(std::mem::take(effects)),
+                _ => Outcome::Closed,
+            },
+        }
+    }
+}
+
+fn draw_question(frame: &mut Frame<'_>, area: Rect, text: &str, theme: Theme) {
+    let width = area.width.min(60);
+    let rows = text.chars().count() as u16 / width.saturating_sub(4).max(1) + 5;
+    let place = middle(area, width, rows.min(area.height));
+    let lines = vec![
+        Line::raw(text.to_owned()),
+        Line::raw(""),
+        Line::from(vec![Span::styled("y", theme.bold()), Span::raw(" yes    any other key: no")]),
+    ];
+    let block = pane(theme, "sure?", true).border_style(theme.warn());
+    frame.render_widget(Clear, place);
+    frame.render_widget(Paragraph::new(lines).wrap(Wrap { trim: true }).block(block), place);
+}
+
+#[cfg(test)]
+mod tests {
+    use crossterm::event::KeyModifiers;
+
+    use super::*;
+    use crate::keys::action::Action;
+    use crate::keys::table::BINDINGS;
+
+    fn press(code: KeyCode) -> KeyEvent {
+        KeyEvent::new(code, KeyModifiers::NONE)
+    }
+
+    fn typed(overlay: &mut Overlay, filter: &mut String, text: &str) {
+        for letter in text.chars() {
+            assert_eq!(overlay.key(&press(KeyCode::Char(letter)), filter), Outcome::Open);
+        }
+    }
+
+    #[test]
+    fn the_palette_runs_what_is_typed() {
+        let (mut palette, mut filter) = (Overlay::Palette(List::of(BINDINGS)), String::new());
+        typed(&mut palette, &mut filter, "canx");
+        palette.key(&press(KeyCode::Backspace), &mut filter);
+        assert_eq!(palette.key(&press(KeyCode::Enter), &mut filter), Outcome::Act(Action::Cancel));
+        typed(&mut palette, &mut filter, "zzz");
+        assert_eq!(palette.key(&press(KeyCode::Enter), &mut filter), Outcome::Open, "nothing matches");
+    }
+
+    #[test]
+    fn every_action_can_be_reached_from_the_palette() {
+        for binding in BINDINGS {
+            let (mut palette, mut filter) = (Overlay::Palette(List::of(BINDINGS)), String::new());
+            typed(&mut palette, &mut filter, binding.name);
+            assert_eq!(palette.key(&press(KeyCode::Enter), &mut filter), Outcome::Act(binding.action));
+        }
+    }
+
+    #[test]
+    fn the_filter_line_edits_and_gives_back() {
+        let (mut line, mut filter) = (Overlay::Filter("old".into()), String::new());
+        typed(&mut line, &mut filter, "tee fem");
+        line.key(&KeyEvent::new(KeyCode::Char('w'), KeyModifiers::CONTROL), &mut filter);
+        assert_eq!(filter, "tee ");
+        assert_eq!(line.key(&press(KeyCode::Esc), &mut filter), Outcome::Closed);
+        assert_eq!(filter, "old");
+    }
+
+    #[test]
+    fn only_yes_is_yes() {
+        let question = || Overlay::Question { text: "?".into(), effects: vec![Effect::Quit] };
+        for code in [KeyCode::Enter, KeyCode::Esc, KeyCode::Char('n'), KeyCode::Char(' ')] {
+            assert_eq!(question().key(&press(code), &mut String::new()), Outcome::Closed);
+        }
+        let yes = question().key(&press(KeyCode::Char('y')), &mut String::new());
+        assert_eq!(yes, Outcome::Effects(vec![Effect::Quit]));
+    }
+}

@@ -1,0 +1,21 @@
+//! What a key does to what is open above a screen.
+
+use crate::keys::action::Action;
+use crate::messages::effect::Effect;
+
+/// What a key did to an overlay.
+#[derive(Debug, PartialEq)]
+pub enum Outcome {
+    /// It stays open.
+    Open,
+    /// It closes.
+    Closed,
+    /// It closes and an action follows.
+    Act(Action),
+    /// It closes and a query goes into the editor.
+    Query(String),
+    /// It closes and effects follow.
+    Effects(Vec<Effect>),
+    /// It stays open until what it asked for is done.
+    Sent(Vec<Effect>),
+}

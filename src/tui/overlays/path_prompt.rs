@@ -1,0 +1,133 @@
+//! The path of a file to read or write.
+
+use std::path::PathBuf;
+
+use crossterm::event::{KeyCode, KeyEvent};
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::text::Line;
+
+use crate::messages::effect::Effect;
+use crate::messages::requests::{Act, Question};
+use crate::overlays::form_frame::{draw_frame, end, ended};
+use crate::overlays::outcome::Outcome;
+use crate::widgets::theme::Theme;
+use crate::widgets::typing::edit;
+use study::Part;
+
+/// What a path is asked for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// Subjects or fabrics to import.
+    Import(Part),
+    /// The rows of a query to write.
+    Export(String),
+}
+
+impl Purpose {
+    /// Title of the prompt.
+    #[must_use]
+    pub fn title(&self) -> &'static str {
+        match self {
+            Self::Import(Part::Fabric) => "import fabrics from",
+            Self::Import(_) => "import subjects from",
+            Self::Export(_) => "write all rows of the query into",
+        }
+    }
+
+    /// What a path may be.
+    #[must_use]
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Import(Part::Fabric) => "TOML with [[fabric]] tables, or CSV with columns name, density_kg_m2, …",
+            Self::Import(_) => "CSV with columns name, sex, stature_mm, …, or a study.toml",
+            Self::Export(_) => "a new file: NAME.csv or NAME.json",
+        }
+    }
+
+    /// What goes on after Enter.
+    #[must_use]
+    pub fn busy(&self) -> &'static str {
+        match self {
+            Self::Import(Part::Fabric) => "reading…",
+            Self::Import(_) => "reading, and building each body…",
+            Self::Export(_) => "writing…",
+        }
+    }
+
+    /// What the keys do.
+    #[must_use]
+    pub fn keys(&self) -> &'static str {
+        match self {
+            Self::Import(_) => " ↵ import all or none  Esc cancel ",
+            Self::Export(_) => " ↵ write  Esc cancel ",
+        }
+    }
+}
+
+/// The path of a file to read or write.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PathPrompt {
+    /// What it is for.
+    pub purpose: Purpose,
+    /// What is typed.
+    pub text: String,
+    /// Whether the file is being read or written.
+    pub is_busy: bool,
+    /// Why it could not be.
+    pub problem: Option<String>,
+}
+
+impl PathPrompt {
+    /// Asks for a file with subjects or fabrics.
+    #[must_use]
+    pub fn import(part: Part) -> Self {
+        Self { purpose: Purpose::Import(part), text: String::new(), is_busy: false, problem: None }
+    }
+
+    /// Asks for the file that the rows of a query go into.
+    #[must_use]
+    pub fn export(query: String) -> Self {
+        Self { purpose: Purpose::Export(query), text: "query.csv".to_owned(), is_busy: false, problem: None }
+    }
+
+    /// Handles a key.
+    pub fn key(&mut self, event: &KeyEvent) -> Outcome {
+        if self.is_busy {
+            return Outcome::Open;
+        }
+        if event.code != KeyCode::Enter {
+            edit(&mut self.text, event);
+            return Outcome::Open;
+        }
+        let path = self.text.trim();
+        if path.is_empty() {
+            return Outcome::Closed;
+        }
+        (self.is_busy, self.problem) = (true, None);
+        let path = path_of(path);
+        Outcome::Sent(vec![match &self.purpose {
+            Purpose::Import(part) => Effect::Do(Act::Import(*part, path)),
+            Purpose::Export(query) => Effect::Ask(Question::Export(query.clone(), path)),
+        }])
+    }
+}
+
+/// The path that was typed; `~/` is home.
+pub fn path_of(text: &str) -> PathBuf {
+    let home = text.strip_prefix("~/").zip(std::env::home_dir());
+    home.map_or_else(|| PathBuf::from(text), |(rest, home)| home.join(rest))
+}
+
+/// Draws the prompt for a file.
+pub fn draw_path(frame: &mut Frame<'_>, area: Rect, prompt: &PathPrompt, theme: Theme) {
+    let width = area.width.min(100);
+    let columns = usize::from(width.saturating_sub(2));
+    // The end of a long path is what is being typed.
+    let mut lines = vec![Line::styled(ended(&format!(" {}▏", prompt.text), columns, true), theme.bold())];
+    lines.extend(end(prompt.is_busy.then_some(prompt.purpose.busy()), prompt.problem.as_deref(), columns, theme));
+    if lines.len() == 1 {
+        lines.push(Line::styled(format!(" {}; ~/ is home", prompt.purpose.hint()), theme.dim()));
+    }
+    draw_frame(frame, area, width, prompt.purpose.title().to_owned(), prompt.purpose.keys(), lines, theme);
+}

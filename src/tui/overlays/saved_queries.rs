@@ -1,0 +1,77 @@
+//! The list of saved queries.
+
+use crossterm::event::{KeyCode, KeyEvent};
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+use ratatui::text::Line;
+use ratatui::widgets::{Clear, Paragraph};
+
+use crate::widgets::layout::middle;
+use crate::widgets::lists::{first_shown, pane};
+use crate::widgets::text::{left, shortened};
+use crate::widgets::theme::Theme;
+use crate::widgets::typing::edit;
+use study::SavedQuery;
+
+/// A list of queries that what is typed narrows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct QueryList {
+    /// All of them.
+    pub queries: Vec<SavedQuery>,
+    /// What is typed.
+    pub text: String,
+    /// Row selected.
+    pub row: usize,
+}
+
+impl QueryList {
+    /// Those that contain what is typed.
+    #[must_use]
+    pub fn rows(&self) -> Vec<&SavedQuery> {
+        let text = self.text.to_lowercase();
+        self.queries
+            .iter()
+            .filter(|query| format!("{} {}", query.name, query.sql).to_lowercase().contains(&text))
+            .collect()
+    }
+
+    /// Handles a key; returns the query that was chosen.
+    pub fn key(&mut self, event: &KeyEvent) -> Option<String> {
+        match event.code {
+            KeyCode::Enter => return self.rows().get(self.row).map(|query| query.sql.clone()),
+            KeyCode::Up => self.row = self.row.saturating_sub(1),
+            KeyCode::Down => self.row += 1,
+            _ => {
+                if edit(&mut self.text, event) {
+                    self.row = 0;
+                }
+            }
+        }
+        self.row = self.row.min(self.rows().len().saturating_sub(1));
+        None
+    }
+}
+
+/// Draws the list of saved queries.
+pub fn draw_queries(frame: &mut Frame<'_>, area: Rect, list: &QueryList, theme: Theme) {
+    let rows = list.rows();
+    let place = middle(area, area.width.min(100), (rows.len() as u16 + 2).max(3).min(area.height));
+    let title = format!("saved queries: /{}▏  ↵ takes it, Esc closes", list.text);
+    let legend = Line::styled(" .sql files of the folder queries beside the database ", theme.legend());
+    let block = pane(theme, title, true).title_bottom(legend);
+    let inner = block.inner(place);
+    let first = first_shown(list.row, rows.len(), usize::from(inner.height));
+    let line = |(k, query): (usize, &&SavedQuery)| {
+        let text = format!("{} {}", left(&query.name, 18), query.about);
+        let style = if k == list.row { theme.selected() } else { Style::new() };
+        Line::styled(shortened(&text, usize::from(inner.width)), style)
+    };
+    let mut lines: Vec<Line<'_>> =
+        rows.iter().enumerate().skip(first).take(usize::from(inner.height)).map(line).collect();
+    if lines.is_empty() {
+        lines.push(Line::raw("no query of that name"));
+    }
+    frame.render_widget(Clear, place);
+    frame.render_widget(Paragraph::new(lines).block(block), place);
+}

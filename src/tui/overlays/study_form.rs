@@ -1,0 +1,278 @@
+//! What is filled in for a new study: its name, and what of the catalogue it is made of.
+
+use std::path::PathBuf;
+
+use crossterm::event::{KeyCode, KeyEvent};
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+
+use crate::messages::effect::Effect;
+use crate::messages::requests::Errand;
+use crate::overlays::form_frame::{draw_frame, end};
+use crate::overlays::outcome::Outcome;
+use crate::widgets::lists::first_shown;
+use crate::widgets::text;
+use crate::widgets::text::{left, shortened};
+use crate::widgets::theme::Theme;
+use crate::widgets::typing::edit;
+use study::{NewStudy, PatternSource, Simulator, Wearable};
+
+/// Lines of a page.
+const PAGE: usize = 10;
+
+/// Columns of the names of the parts.
+const SECTION: usize = 17;
+
+/// A line of the form.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FormLine {
+    /// The name.
+    Name,
+    /// The fabric, one of a list.
+    Fabric,
+    /// A simulator, chosen or not.
+    Simulator(usize),
+    /// A size of a style, chosen or not.
+    Size(usize),
+    /// A subject, chosen or not.
+    Subject(usize),
+}
+
+impl FormLine {
+    /// The part of the form it belongs to.
+    #[must_use]
+    pub fn section(self) -> &'static str {
+        match self {
+            Self::Name => "name",
+            Self::Fabric => "fabric",
+            Self::Simulator(_) => "simulators",
+            Self::Size(_) => "styles and sizes",
+            Self::Subject(_) => "subjects",
+        }
+    }
+}
+
+/// A new study as it is filled in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StudyForm {
+    /// Name.
+    pub name: String,
+    /// Folder of all studies.
+    pub folder: PathBuf,
+    /// Fabrics there are.
+    pub fabrics: Vec<String>,
+    /// The one chosen.
+    pub fabric: usize,
+    /// Simulators, each chosen or not.
+    pub simulators: Vec<(Simulator, bool)>,
+    /// Sizes, each chosen or not.
+    pub sizes: Vec<(Wearable, bool)>,
+    /// Subjects, each chosen or not.
+    pub subjects: Vec<(String, bool)>,
+    /// Line selected.
+    pub at: usize,
+    /// Whether it is being written.
+    pub is_busy: bool,
+    /// Why it could not be, or what is missing.
+    pub problem: Option<String>,
+}
+
+impl StudyForm {
+    /// Its lines, in order.
+    #[must_use]
+    pub fn lines(&self) -> Vec<FormLine> {
+        let mut lines = vec![FormLine::Name];
+        lines.extend((0..self.sizes.len()).map(FormLine::Size));
+        lines.extend((0..self.subjects.len()).map(FormLine::Subject));
+        lines.extend((0..self.simulators.len()).map(FormLine::Simulator));
+        lines.push(FormLine::Fabric);
+        lines
+    }
+
+    /// The line selected.
+    #[must_use]
+    pub fn line(&self) -> FormLine {
+        self.lines().get(self.at).copied().unwrap_or(FormLine::Name)
+    }
+
+    /// Simulations that the study will have.
+    #[must_use]
+    pub fn jobs(&self) -> [usize; 3] {
+        let sizes = self.sizes.iter().filter(|(_, is_chosen)| *is_chosen).count();
+        let subjects = self.subjects.iter().filter(|(_, is_chosen)| *is_chosen).count();
+        let simulators = self.simulators.iter().filter(|(_, is_chosen)| *is_chosen).count();
+        [subjects, sizes, simulators]
+    }
+
+    /// Whether a line is chosen; `None` for those that are not chosen but filled in.
+    #[must_use]
+    pub fn choice(&self, line: FormLine) -> Option<bool> {
+        match line {
+            FormLine::Name | FormLine::Fabric => None,
+            FormLine::Simulator(k) => Some(self.simulators[k].1),
+            FormLine::Size(k) => Some(self.sizes[k].1),
+            FormLine::Subject(k) => Some(self.subjects[k].1),
+        }
+    }
+
+    fn choose(&mut self, line: FormLine, is_chosen: bool) {
+        match line {
+            FormLine::Name | FormLine::Fabric => {}
+            FormLine::Simulator(k) => self.simulators[k].1 = is_chosen,
+            FormLine::Size(k) => self.sizes[k].1 = is_chosen,
+            FormLine::Subject(k) => self.subjects[k].1 = is_chosen,
+        }
+    }
+
+    /// Handles a key.
+    pub fn key(&mut self, event: &KeyEvent) -> Outcome {
+        if self.is_busy {
+            return Outcome::Open;
+        }
+        let (line, last) = (self.line(), self.lines().len() - 1);
+        if event.code != KeyCode::Enter {
+            self.problem = None;
+        }
+        match event.code {
+            KeyCode::Enter => return self.save(),
+            KeyCode::Down => self.at = (self.at + 1).min(last),
+            KeyCode::Up => self.at = self.at.saturating_sub(1),
+            KeyCode::PageDown => self.at = (self.at + PAGE).min(last),
+            KeyCode::PageUp => self.at = self.at.saturating_sub(PAGE),
+            KeyCode::Tab => self.go_to_section(1),
+            KeyCode::BackTab => self.go_to_section(-1),
+            KeyCode::Left if line == FormLine::Fabric => self.next_fabric(-1),
+            KeyCode::Right | KeyCode::Char(' ') if line == FormLine::Fabric => self.next_fabric(1),
+            _ if line == FormLine::Name => {
+                edit(&mut self.name, event);
+            }
+            KeyCode::Char(' ' | 'x') => {
+                if let Some(is_chosen) = self.choice(line) {
+                    self.choose(line, !is_chosen);
+                }
+            }
+            KeyCode::Char('a') => self.choose_section(line),
+            _ => {}
+        }
+        Outcome::Open
+    }
+
+    /// Goes to the first line of the next part or the one before.
+    fn go_to_section(&mut self, step: isize) {
+        let lines = self.lines();
+        let starts: Vec<usize> =
+            (0..lines.len()).filter(|k| *k == 0 || lines[*k].section() != lines[*k - 1].section()).collect();
+        let at = starts.iter().rposition(|start| *start <= self.at).unwrap_or(0);
+        self.at = starts[(at as isize + step).rem_euclid(starts.len() as isize) as usize];
+    }
+
+    fn next_fabric(&mut self, step: isize) {
+        let len = self.fabrics.len().max(1) as isize;
+        self.fabric = (self.fabric as isize + step).rem_euclid(len) as usize;
+    }
+
+    /// Chooses the whole part of a line, or, where all of it is chosen, none.
+    fn choose_section(&mut self, line: FormLine) {
+        let lines: Vec<FormLine> = self.lines().into_iter().filter(|other| other.section() == line.section()).collect();
+        let all = lines.iter().all(|other| self.choice(*other) != Some(false));
+        for other in lines {
+            self.choose(other, !all);
+        }
+    }
+
+    /// Sends it off, or goes to what is missing.
+    fn save(&mut self) -> Outcome {
+        let [subjects, sizes, simulators] = self.jobs();
+        let missing = [
+            (self.name.trim().is_empty(), "name", "a study needs a name"),
+            (sizes == 0, "styles and sizes", "choose a size of a style with Space; a chooses all"),
+            (subjects == 0, "subjects", "choose a subject with Space; a chooses all"),
+            (simulators == 0, "simulators", "choose a simulator with Space"),
+            (self.fabrics.is_empty(), "fabric", "the catalogue has no fabric: screen 9 imports some"),
+        ];
+        if let Some((_, section, problem)) = missing.into_iter().find(|(is_missing, ..)| *is_missing) {
+            self.at = self.lines().iter().position(|line| line.section() == section).unwrap_or(0);
+            self.problem = Some(problem.to_owned());
+            return Outcome::Open;
+        }
+        fn chosen<T: Clone>(all: &[(T, bool)]) -> Vec<T> {
+            all.iter().filter(|(_, is_chosen)| *is_chosen).map(|(one, _)| one.clone()).collect()
+        }
+        let new = NewStudy {
+            name: self.name.trim().to_owned(),
+            folder: self.folder.clone(),
+            subjects: chosen(&self.subjects),
+            sizes: chosen(&self.sizes),
+            fabric: self.fabrics[self.fabric].clone(),
+            simulators: chosen(&self.simulators),
+        };
+        (self.is_busy, self.problem) = (true, None);
+        Outcome::Sent(vec![Effect::Errand(Errand::CreateStudy(new))])
+    }
+}
+
+/// Draws the form.
+pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StudyForm, theme: Theme) {
+    let width = area.width.min(90);
+    let columns = usize::from(width.saturating_sub(2));
+    let [subjects, sizes, simulators] = form.jobs();
+    let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    let count = format!(
+        " {} × {} × {} = {}",
+        counted(subjects, "subject"),
+        counted(sizes, "size"),
+        counted(simulators, "simulator"),
+        counted(subjects * sizes * simulators, "simulation")
+    );
+    let folder = format!(" into {}", form.folder.join(form.name.trim()).display());
+    let mut below = vec![
+        Line::styled(shortened(&count, columns), theme.bold()),
+        Line::styled(shortened(&folder, columns), theme.dim()),
+    ];
+    below.extend(end(form.is_busy.then_some("writing and checking…"), form.problem.as_deref(), columns, theme));
+    let lines = form.lines();
+    let room = usize::from(area.height.saturating_sub(2)).saturating_sub(below.len());
+    let first = first_shown(form.at, lines.len(), room);
+    let mut shown: Vec<Line<'_>> =
+        (first..lines.len()).take(room).map(|k| line(form, k, k == first, columns, theme)).collect();
+    shown.extend(below);
+    let keys = " Space choose  a all  Tab next part  ↵ make it  Esc cancel ";
+    draw_frame(frame, area, width, "new study".to_owned(), keys, shown, theme);
+}
+
+/// A line: the part where one begins, and the choice.
+fn line(form: &StudyForm, k: usize, is_first_shown: bool, columns: usize, theme: Theme) -> Line<'static> {
+    let lines = form.lines();
+    let line = lines[k];
+    let is_focused = k == form.at && !form.is_busy;
+    let begins = k == 0 || is_first_shown || lines[k - 1].section() != line.section();
+    let section = if begins { line.section() } else { "" };
+    let mark = match form.choice(line) {
+        Some(true) => "[x] ",
+        Some(false) => "[ ] ",
+        None => "",
+    };
+    let value = match line {
+        FormLine::Name => format!("{}{}", form.name, if is_focused { "▏" } else { "" }),
+        FormLine::Fabric => match form.fabrics.get(form.fabric) {
+            Some(name) => format!("◂ {name} ▸  {} of {}", form.fabric + 1, form.fabrics.len()),
+            None => "none".to_owned(),
+        },
+        FormLine::Simulator(k) => text::sim(form.simulators[k].0).to_owned(),
+        FormLine::Size(k) => {
+            let wearable = &form.sizes[k].0;
+            let origin =
+                if matches!(wearable.source, PatternSource::Drafted(_)) { "  drafted by the program" } else { "" };
+            format!("{} {}{origin}", wearable.style, wearable.size)
+        }
+        FormLine::Subject(k) => form.subjects[k].0.clone(),
+    };
+    let text = shortened(&format!("{mark}{value}"), columns.saturating_sub(SECTION + 2));
+    let style = if is_focused { theme.selected() } else { ratatui::style::Style::new() };
+    let pointer = if is_focused { "▸ " } else { "  " };
+    Line::from(vec![
+        Span::styled(format!("{pointer}{}", left(section, SECTION)), theme.dim()),
+        Span::styled(text, style),
+    ])
+}

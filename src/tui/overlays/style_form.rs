@@ -1,0 +1,154 @@
+//! What is filled in to import a style: its pattern, and what the pattern's file does not say.
+
+use crossterm::event::{KeyCode, KeyEvent};
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::text::{Line, Span};
+
+use crate::messages::effect::Effect;
+use crate::messages::requests::Act;
+use crate::overlays::form_frame::{draw_frame, end, ended};
+use crate::overlays::outcome::Outcome;
+use crate::overlays::path_prompt::path_of;
+use crate::widgets::text;
+use crate::widgets::text::{left, shortened};
+use crate::widgets::theme::Theme;
+use crate::widgets::typing::edit;
+use study::StyleGiven;
+
+/// Lines of the form.
+const PATTERN: usize = 0;
+
+const STYLE: usize = 1;
+
+const SIZE: usize = 2;
+
+const UNIT: usize = 3;
+
+/// Letters of what is said of many sizes: the first tells enough.
+const LONGEST: usize = 400;
+
+/// Names of the lines.
+pub const LABELS: [&str; 5] = ["pattern", "style", "size", "unit", "seam file"];
+
+/// Units a pattern may be drawn in.
+const UNITS: [&str; 3] = ["mm", "cm", "in"];
+
+/// The files of a style, as typed.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct StyleForm {
+    /// Pattern, style, size, unit, seam file.
+    pub texts: [String; 5],
+    /// Line that is typed in.
+    pub at: usize,
+    /// Whether the files are being read.
+    pub is_busy: bool,
+    /// Why they could not be, or what is to be filled in.
+    pub problem: Option<String>,
+}
+
+impl StyleForm {
+    /// What an empty line means.
+    #[must_use]
+    pub fn hint(&self, line: usize) -> String {
+        match line {
+            PATTERN => "a DXF file or a folder of them, GarmentCode JSON, or a study.toml".to_owned(),
+            STYLE if !self.style().is_empty() => format!("empty = {}", self.style()),
+            STYLE => "empty = as the pattern's file is called".to_owned(),
+            SIZE => "empty = all sizes that the file names".to_owned(),
+            UNIT => "mm, cm or in; empty = as the file says".to_owned(),
+            _ => "empty = the pattern's own seams, or proposed ones".to_owned(),
+        }
+    }
+
+    /// Name of the style: as typed, or that of the pattern's file.
+    #[must_use]
+    pub fn style(&self) -> String {
+        let typed = self.texts[STYLE].trim();
+        if !typed.is_empty() {
+            return typed.to_owned();
+        }
+        let path = path_of(self.texts[PATTERN].trim());
+        path.file_stem().unwrap_or_default().to_string_lossy().trim().to_owned()
+    }
+
+    /// Name of the size as typed.
+    #[must_use]
+    pub fn size(&self) -> String {
+        self.texts[SIZE].trim().to_owned()
+    }
+
+    /// Handles a key.
+    pub fn key(&mut self, event: &KeyEvent) -> Outcome {
+        if self.is_busy {
+            return Outcome::Open;
+        }
+        let lines = self.texts.len();
+        match event.code {
+            KeyCode::Enter => return self.save(),
+            KeyCode::Tab | KeyCode::Down => self.at = (self.at + 1) % lines,
+            KeyCode::BackTab | KeyCode::Up => self.at = (self.at + lines - 1) % lines,
+            _ => {
+                edit(&mut self.texts[self.at], event);
+            }
+        }
+        Outcome::Open
+    }
+
+    /// Sends what was typed off, or says what cannot be right.
+    fn save(&mut self) -> Outcome {
+        let [pattern, _, size, unit, seams] = self.texts.each_ref().map(|text| text.trim());
+        if pattern.is_empty() {
+            return Outcome::Closed;
+        }
+        if !unit.is_empty() && !UNITS.contains(&unit) {
+            let problem = format!("unit `{unit}`; accepted: {}, or empty where the file names it", UNITS.join(", "));
+            (self.at, self.problem) = (UNIT, Some(problem));
+            return Outcome::Open;
+        }
+        let given = StyleGiven {
+            seams: (!seams.is_empty()).then(|| path_of(seams)),
+            is_proposed: true,
+            unit: (!unit.is_empty()).then(|| unit.to_owned()),
+            patterns: vec![((!size.is_empty()).then(|| size.to_owned()), path_of(pattern))],
+        };
+        (self.is_busy, self.problem) = (true, None);
+        Outcome::Sent(vec![Effect::Do(Act::ImportStyle(self.style(), given))])
+    }
+
+    /// Takes in why the files were refused, and goes to the line that answers it.
+    pub fn refused(&mut self, problem: String) {
+        self.is_busy = false;
+        if problem.contains("no unit") {
+            self.at = UNIT;
+        } else if problem.contains("names no size") {
+            self.at = SIZE;
+        }
+        let is_nest = self.size().is_empty() && problem.matches("size ").count() > 1;
+        let hint = "; a size above imports that one alone";
+        self.problem = Some(if is_nest { shortened(&problem, LONGEST) + hint } else { problem });
+    }
+}
+
+/// Draws the files of a style.
+pub fn draw_style(frame: &mut Frame<'_>, area: Rect, form: &StyleForm, theme: Theme) {
+    let width = area.width.min(100);
+    let columns = usize::from(width.saturating_sub(2));
+    let line = |(k, text): (usize, &String)| {
+        let is_focused = k == form.at && !form.is_busy;
+        let (mark, end) = if is_focused { ("▸", "▏") } else { (" ", "") };
+        let head = format!("{mark} {}", left(LABELS[k], 11));
+        let room = columns.saturating_sub(text::width(&head));
+        // The end of a long path is what tells it from others.
+        let shown = ended(&format!("{text}{end}"), room, true);
+        let style = if is_focused { theme.bold() } else { ratatui::style::Style::new() };
+        let hint = if text.is_empty() { format!(" {}", form.hint(k)) } else { String::new() };
+        let hint = shortened(&hint, room.saturating_sub(text::width(&shown)));
+        Line::from(vec![Span::styled(head + &shown, style), Span::styled(hint, theme.dim())])
+    };
+    let mut lines: Vec<Line<'_>> = form.texts.iter().enumerate().map(line).collect();
+    let busy = form.is_busy.then_some("reading, and sewing each size…");
+    lines.extend(end(busy, form.problem.as_deref(), columns, theme));
+    let keys = " Tab ↑↓ line  ↵ import all or none  Esc cancel  ~/ is home ";
+    draw_frame(frame, area, width, "import a style or sizes".to_owned(), keys, lines, theme);
+}

@@ -1,0 +1,183 @@
+//! Runs measurement by measurement, and what that says.
+
+use crate::messages::snapshot::Compared;
+use crate::widgets::text;
+use study::{ChiRow, JobRow, RecommendationRow};
+
+/// Runs that are compared at most.
+pub const MOST: usize = 6;
+
+/// chi of two runs differ where the third decimal does.
+const DIFFERS: f64 = 0.0005;
+
+/// EI that are nearer than this make no practical difference (the margin of the recommendation).
+const MARGIN: f64 = 0.01;
+
+/// One measurement over all runs compared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contrast {
+    /// Number in the style.
+    pub no: u32,
+    /// Name.
+    pub name: String,
+    /// Pattern length of the first run that has it, m.
+    pub l2d_m: f64,
+    /// chi of each run; `None` where it has no such measurement.
+    pub chi: Vec<Option<f64>>,
+}
+
+impl Contrast {
+    /// Whether the runs differ.
+    #[must_use]
+    pub fn differs(&self) -> bool {
+        let first = self.chi[0];
+        self.chi.iter().any(|chi| match (first, chi) {
+            (Some(a), Some(b)) => (a - b).abs() >= DIFFERS,
+            (a, b) => a.is_some() != b.is_some(),
+        })
+    }
+
+    /// The run nearest to 1, where one alone is.
+    #[must_use]
+    pub fn nearest(&self) -> Option<usize> {
+        let error = |k: usize| self.chi[k].map_or(f64::INFINITY, |chi| (chi - 1.0).abs());
+        let best = (0..self.chi.len()).min_by(|a, b| error(*a).total_cmp(&error(*b)))?;
+        let is_alone = (0..self.chi.len()).all(|k| k == best || error(k) - error(best) >= DIFFERS);
+        (is_alone && self.chi.len() > 1).then_some(best)
+    }
+}
+
+/// What tells runs apart: the parts of their names that are not the same in all.
+#[must_use]
+pub fn labels(jobs: &[&JobRow]) -> Vec<String> {
+    let parts: [fn(&JobRow) -> String; 5] = [
+        |job| job.study.clone(),
+        |job| job.garment.clone(),
+        |job| job.size.clone(),
+        |job| job.subject.clone(),
+        |job| text::sim(job.simulator).to_owned(),
+    ];
+    let telling: Vec<_> = parts.iter().filter(|part| jobs.iter().any(|job| part(job) != part(jobs[0]))).collect();
+    let label = |job: &&JobRow| {
+        let words: Vec<String> = telling.iter().map(|part| part(job)).collect();
+        if words.is_empty() { format!("#{}", job.id) } else { words.join(" ") }
+    };
+    let labels: Vec<String> = jobs.iter().map(label).collect();
+    let is_twice = |label: &String| labels.iter().filter(|other| *other == label).count() > 1;
+    labels
+        .iter()
+        .zip(jobs)
+        .map(|(label, job)| if is_twice(label) { format!("{label} #{}", job.id) } else { label.clone() })
+        .collect()
+}
+
+/// The measurements of all runs, by the numbers and names of their last stage.
+#[must_use]
+pub fn contrasts(runs: &[Compared]) -> Vec<Contrast> {
+    let mut found: Vec<Contrast> = Vec::new();
+    for (k, run) in runs.iter().enumerate() {
+        for row in last_stage(&run.chi) {
+            let at = found.iter().position(|one| one.no == row.no && one.name == row.name).unwrap_or_else(|| {
+                found.push(Contrast {
+                    no: row.no,
+                    name: row.name.clone(),
+                    l2d_m: row.l2d_m,
+                    chi: vec![None; runs.len()],
+                });
+                found.len() - 1
+            });
+            found[at].chi[k] = Some(row.chi());
+        }
+    }
+    found
+}
+
+fn last_stage(chi: &[ChiRow]) -> impl Iterator<Item = &ChiRow> {
+    let last = ["drape", "popup", "sewn"].into_iter().find(|stage| chi.iter().any(|row| row.stage == *stage));
+    chi.iter().filter(move |row| Some(row.stage.as_str()) == last)
+}
+
+/// What the comparison says, in sentences, the most important first.
+#[must_use]
+pub fn verdict(runs: &[Compared], recommended: Option<&RecommendationRow>) -> Vec<String> {
+    let jobs: Vec<&JobRow> = runs.iter().map(|run| &run.job).collect();
+    let names = labels(&jobs);
+    let mut said = Vec::new();
+    said.push(truest(runs, &names));
+    let rows = contrasts(runs);
+    let won = |k: usize| rows.iter().filter(|row| row.nearest() == Some(k)).count();
+    let wins: Vec<String> = names.iter().enumerate().map(|(k, name)| format!("{name} {}", won(k))).collect();
+    let ties = rows.iter().filter(|row| row.nearest().is_none()).count();
+    if !rows.is_empty() {
+        said.push(format!("nearest to 1, of {} measurements: {}, even {ties}", rows.len(), wins.join(", ")));
+    }
+    let restored = runs.iter().zip(&names).filter(|(run, _)| run.chi.iter().any(|row| row.is_controlled));
+    let restored: Vec<&str> = restored.map(|(_, name)| name.as_str()).collect();
+    if !restored.is_empty() && restored.len() < runs.len() {
+        said.push(format!("{} restores these lengths by construction: its EI flatters it", restored.join(", ")));
+    }
+    if let Some(row) = recommended {
+        let class = row.class.as_str();
+        said.push(format!(
+            "for {class} fits of {}: {}, by {} ({})",
+            row.garment,
+            row.recommended.as_str(),
+            row.basis,
+            row.reason
+        ));
+    }
+    said
+}
+
+/// Which run has the least EI, or which of them nothing tells apart in practice.
+fn truest(runs: &[Compared], names: &[String]) -> String {
+    let mut ranked: Vec<(&str, f64)> =
+        runs.iter().zip(names).filter_map(|(run, name)| Some((name.as_str(), run.metrics.as_ref()?.ei))).collect();
+    ranked.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let list = |runs: &[(&str, f64)]| {
+        let words: Vec<String> = runs.iter().map(|(name, ei)| format!("{name} {ei:.4}")).collect();
+        words.join(", ")
+    };
+    let [(best, least), (_, next), ..] = ranked[..] else {
+        return "fewer than two of these runs have a result yet".to_owned();
+    };
+    let (near, far) = ranked.split_at(ranked.partition_point(|(_, ei)| ei - least < MARGIN));
+    match (near, far) {
+        (_, []) => format!("no practical difference: EI {}, less than {MARGIN} apart", list(near)),
+        ([_], _) => format!("{best} is truest: EI {least:.4}, {:.4} less than the next; {}", next - least, list(far)),
+        _ => format!("truest, less than {MARGIN} apart: EI {}; then {}", list(near), list(far)),
+    }
+}
+
+/// Names of the inputs in which the runs differ from the first, without those of the same cell's other simulator.
+#[must_use]
+pub fn differing_inputs(runs: &[Compared]) -> Vec<String> {
+    let Some((first, rest)) = runs.split_first() else { return vec![] };
+    let mut names: Vec<String> = rest
+        .iter()
+        .flat_map(|run| run.inputs.changes_since(&first.inputs))
+        .map(|change| change.name)
+        .filter(|name| name != "sim.parameters")
+        .collect();
+    names.sort();
+    names.dedup();
+    names
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_is_alone_or_nobody() {
+        let row = |chi: &[Option<f64>]| Contrast { no: 1, name: "Hem".into(), l2d_m: 1.0, chi: chi.to_vec() };
+        let check = |chi: &[Option<f64>], nearest, differs| {
+            assert_eq!((row(chi).nearest(), row(chi).differs()), (nearest, differs), "{chi:?}");
+        };
+        check(&[Some(1.02), Some(0.99)], Some(1), true);
+        check(&[Some(1.01), Some(0.99)], None, true);
+        check(&[Some(1.0), Some(1.0001)], None, false);
+        check(&[Some(1.2), None], Some(0), true);
+        check(&[Some(1.2)], None, false);
+    }
+}

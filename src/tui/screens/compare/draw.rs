@@ -1,0 +1,228 @@
+//! Drawing a comparison.
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::Paragraph;
+
+use crate::messages::snapshot::Compared;
+use crate::screens::compare::comparison::{Contrast, differing_inputs, labels, verdict};
+use crate::screens::picture_pane::draw::{draw_legend, draw_shot, parts};
+use crate::screens::state::State;
+use crate::widgets::layout::{WIDE, is_narrow};
+use crate::widgets::lists::{first_shown, pane, selected_line};
+use crate::widgets::picture::Sitter;
+use crate::widgets::text;
+use crate::widgets::text::{left, mm, right, shortened, wrapped};
+use crate::widgets::theme::glyph;
+use study::{JobRow, MetricsRow};
+
+/// Columns of one run.
+const RUN: usize = 12;
+
+/// Columns of number and pattern length.
+const FIXED: usize = 3 + 8;
+
+/// The fewest columns of a name.
+const LEAST_NAME: usize = 12;
+
+/// Columns of the difference of two.
+const DELTA: usize = 9;
+
+/// The panes: table, verdict, and one picture a run.
+struct Panes {
+    table: Option<Rect>,
+    verdict: Option<Rect>,
+    pictures: Vec<Rect>,
+}
+
+fn panes(area: Rect, state: &State) -> Panes {
+    let runs = state.compared().len();
+    let pictures = |area: Rect, most: usize| {
+        let n = runs.min(most);
+        Layout::horizontal(vec![Constraint::Fill(1); n]).split(area).to_vec()
+    };
+    if state.pictures.enlarged {
+        return Panes { table: None, verdict: None, pictures: pictures(area, (usize::from(area.width) / 24).max(1)) };
+    }
+    if is_narrow(area) {
+        return Panes { table: Some(area), verdict: None, pictures: vec![] };
+    }
+    let wide = area.width >= WIDE;
+    let [left, right] = if wide {
+        Layout::horizontal([Constraint::Length(area.width * 9 / 20), Constraint::Fill(1)]).areas(area)
+    } else {
+        [area, Rect::ZERO]
+    };
+    let height = if area.height >= 30 { 10 } else { 8 };
+    let [table, verdict] = Layout::vertical([Constraint::Fill(1), Constraint::Length(height)]).areas(left);
+    let pictures = if wide { pictures(right, 3) } else { vec![] };
+    Panes { table: Some(table), verdict: Some(verdict), pictures }
+}
+
+/// The panes of the pictures, one a run as far as there is room.
+pub fn picture_panes(area: Rect, state: &State) -> Vec<(Sitter, Rect)> {
+    let sitters = state.compared().iter().map(|run| Sitter::Drape(run.job.id));
+    sitters.zip(panes(area, state).pictures).collect()
+}
+
+pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
+    let runs = state.compared();
+    if runs.is_empty() {
+        let text = if state.to_compare().is_empty() {
+            " Nothing to compare: select a job on screen 1 or 4, or several with Space, and press c."
+        } else {
+            " reading…"
+        };
+        frame.render_widget(Paragraph::new(text), area);
+        return;
+    }
+    let panes = panes(area, state);
+    if let Some(area) = panes.table {
+        draw_table(frame, area, state, runs);
+    }
+    if let Some(area) = panes.verdict {
+        let block = pane(state.theme, "verdict", false);
+        let inner = block.inner(area);
+        let lines = said(state, runs, usize::from(inner.width));
+        frame.render_widget(Paragraph::new(lines).block(block), area);
+    }
+    let jobs: Vec<&JobRow> = runs.iter().map(|run| &run.job).collect();
+    for ((run, name), area) in runs.iter().zip(labels(&jobs)).zip(panes.pictures) {
+        draw_picture(frame, area, state, &run.job, &name);
+    }
+}
+
+/// Who is truest, what differs, then the rest of the verdict: a small pane cuts what comes last.
+fn said(state: &State, runs: &[Compared], width: usize) -> Vec<Line<'static>> {
+    let inputs = differing_inputs(runs).join(", ");
+    let inputs = if inputs.is_empty() { "all inputs are the same".to_owned() } else { format!("differ in: {inputs}") };
+    let mut lines = vec![];
+    for (k, sentence) in verdict(runs, state.recommended()).into_iter().enumerate() {
+        let style = if k == 0 { state.theme.bold() } else { Style::new() };
+        lines.extend(wrapped(&sentence, width).into_iter().map(|line| Line::styled(line, style)));
+        if k == 0 {
+            lines.push(Line::styled(shortened(&inputs, width), state.theme.dim()));
+        }
+    }
+    lines
+}
+
+fn draw_picture(frame: &mut Frame<'_>, area: Rect, state: &State, job: &JobRow, name: &str) {
+    let ei = job.ei.map_or(String::new(), |ei| format!(" · EI {ei:.4}"));
+    let block = pane(state.theme, format!("{name}{ei}"), state.in_second_pane() || state.pictures.enlarged);
+    let (inner, legend) = parts(block.inner(area));
+    frame.render_widget(block, area);
+    if let Some(legend) = legend {
+        draw_legend(frame, legend, state);
+    }
+    let otherwise = format!("{} {}", glyph(job.status), text::status(job.status));
+    let of = job.status.has_result().then_some(Sitter::Drape(job.id));
+    draw_shot(frame, inner, state, of, &otherwise);
+}
+
+/// What all runs share: the title of the table.
+fn title(runs: &[Compared]) -> String {
+    let first = &runs[0].job;
+    let parts: [fn(&JobRow) -> &str; 3] = [|job| &job.garment, |job| &job.size, |job| &job.subject];
+    let shared: Vec<&str> = parts
+        .iter()
+        .filter(|part| runs.iter().all(|run| part(&run.job) == part(first)))
+        .map(|part| part(first))
+        .collect();
+    format!("{} runs{}{}", runs.len(), if shared.is_empty() { "" } else { " · " }, shared.join(" "))
+}
+
+fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State, runs: &[Compared]) {
+    let rows = state.contrasts();
+    let legend = if state.compare.differences_only {
+        " differences only, d shows all "
+    } else {
+        " d differences only  ◂ nearest to 1 "
+    };
+    let block = pane(state.theme, title(runs), !state.in_second_pane())
+        .title_bottom(Line::styled(legend, state.theme.legend()).right_aligned());
+    let inner = block.inner(area);
+    let columns = Columns::new(&rows, runs.len(), usize::from(inner.width));
+    let mut lines = header(state, runs, &columns);
+    let room = usize::from(inner.height).saturating_sub(lines.len());
+    let first = first_shown(state.compare.row, rows.len(), room);
+    for (k, row) in rows.iter().enumerate().skip(first).take(room) {
+        let line = line(state, row, &columns);
+        let is_selected = k == state.compare.row;
+        lines.push(if is_selected {
+            selected_line(line, state.theme.selection(!state.in_second_pane()))
+        } else {
+            line
+        });
+    }
+    if rows.is_empty() {
+        let is_cut = state.compare.differences_only || !state.filter().is_empty();
+        let text = if is_cut { "no measurement differs or matches the filter" } else { "no measurements yet" };
+        lines.push(Line::raw(text));
+    }
+    frame.render_widget(Paragraph::new(lines).block(block), area);
+}
+
+/// Widths: the name takes what the runs leave.
+struct Columns {
+    name: usize,
+    /// Runs there is room for.
+    runs: usize,
+    delta: bool,
+}
+
+impl Columns {
+    fn new(rows: &[Contrast], runs: usize, width: usize) -> Self {
+        let longest = rows.iter().map(|row| text::width(&row.name)).max().unwrap_or(0).max(11) + 1;
+        // The runs matter more than their difference, which is left out first.
+        let delta = runs == 2 && width >= FIXED + LEAST_NAME + 2 * RUN + DELTA;
+        let taken = FIXED + if delta { DELTA } else { 0 };
+        let runs = runs.min((width.saturating_sub(taken + LEAST_NAME) / RUN).max(1));
+        Self { name: width.saturating_sub(taken + runs * RUN).clamp(6, longest), runs, delta }
+    }
+}
+
+/// Names of the runs, and below them E and EI.
+fn header(state: &State, runs: &[Compared], columns: &Columns) -> Vec<Line<'static>> {
+    let jobs: Vec<&JobRow> = runs.iter().map(|run| &run.job).collect();
+    let names = labels(&jobs);
+    let start = format!("{} {}{}", right("#", 2), left("measurement", columns.name), right("L2D mm", 8));
+    let over = |cells: Vec<String>| cells.iter().map(|cell| right(cell, RUN)).collect::<String>();
+    let names = names.iter().take(columns.runs).map(|name| format!("{name}  ")).collect();
+    let mark = if state.compare.sorts_by_difference { "▼" } else { "" };
+    let delta = if columns.delta { right(&format!("diff{mark}"), DELTA - 2) } else { String::new() };
+    let head = format!("{start}{}{delta}", over(names));
+    let number = |of: fn(&MetricsRow) -> f64| -> Vec<String> {
+        let value =
+            |run: &Compared| run.metrics.as_ref().map_or("—  ".to_owned(), |metrics| format!("{:.4}  ", of(metrics)));
+        runs.iter().take(columns.runs).map(value).collect()
+    };
+    let blank = 3 + columns.name + 8;
+    vec![
+        Line::styled(head, state.theme.dim()),
+        Line::styled(format!("{}{}", left("   E(chi)", blank), over(number(|m| m.e_chi))), state.theme.bold()),
+        Line::styled(format!("{}{}", left("   EI", blank), over(number(|m| m.ei))), state.theme.bold()),
+    ]
+}
+
+fn line(state: &State, row: &Contrast, columns: &Columns) -> Line<'static> {
+    let start =
+        format!("{} {}{}", right(&row.no.to_string(), 2), left(&row.name, columns.name), right(&mm(row.l2d_m), 8));
+    let mut spans = vec![Span::raw(start)];
+    for (k, chi) in row.chi.iter().enumerate().take(columns.runs) {
+        let mark = if row.nearest() == Some(k) { " ◂" } else { "  " };
+        let (text, style) = match chi {
+            Some(chi) => (format!("{chi:.3}{mark}"), state.theme.chi(*chi)),
+            None => ("—  ".to_owned(), state.theme.dim()),
+        };
+        spans.push(Span::styled(right(&text, RUN), style));
+    }
+    if let ([Some(a), Some(b)], true) = (row.chi.as_slice(), columns.delta) {
+        // Adding nothing to a difference that rounds to nothing takes its sign away.
+        let difference = ((b - a) * 1e3).round() / 1e3 + 0.0;
+        spans.push(Span::raw(right(&format!("{difference:+.3}").replace('-', "−"), DELTA - 2)));
+    }
+    Line::from(spans)
+}

@@ -1,0 +1,250 @@
+//! Drawing the fabrics.
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::symbols::Marker;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Axis, Chart, Dataset, GraphType, Paragraph};
+
+use crate::overlays::entry_form::{fabric_label, unit_of};
+use crate::screens::fabrics::state::{FABRIC_SHOWN, FabricOrder};
+use crate::screens::state::State;
+use crate::widgets::layout::{WIDE, is_narrow};
+use crate::widgets::lists::{first_shown, pane, scrolled, selected_line};
+use crate::widgets::text;
+use crate::widgets::text::{left, place_bar, right, shortened, wrapped};
+use study::{FABRIC_NUMBERS, FabricRow};
+
+/// Headings of the numbers in the list, their columns, and what a number is multiplied by to be read with ease.
+const HEADINGS: [(&str, usize, f64); FABRIC_SHOWN.len()] = [
+    ("g/m²", 6, 1e3),
+    ("mm", 6, 1.0),
+    ("warp", 7, 1.0),
+    ("weft", 7, 1.0),
+    ("shear", 7, 1.0),
+    ("b.warp", 7, 1e6),
+    ("b.weft", 7, 1e6),
+];
+
+/// Columns of the marks after a name, and the fewest of a name.
+const MARKS: usize = 4;
+
+const LEAST_NAME: usize = 14;
+
+/// What the columns of the list mean.
+const LEGEND: &str = "warp weft shear N/m, bending µN m  + own  s stiffens  c coupled";
+
+/// Lines of the table of a fabric: its numbers, and two bending lengths.
+pub fn table_lines() -> usize {
+    FABRIC_NUMBERS.len() + 2
+}
+
+/// Columns of a value in the table.
+const VALUE: usize = 10;
+
+/// Lines of the pane with the source, without the curves.
+const FACTS: u16 = 8;
+
+/// Most columns of the bar that shows where a number stands among all fabrics.
+const BAR: usize = 20;
+
+/// Stretches up to which the curves go: that of a woven, and how far beyond its law that of a knit.
+const WOVEN: f64 = 0.05;
+
+const BEYOND: f64 = 1.25;
+
+/// The panes: list, table of the selected fabric, source and curves.
+fn panes(area: Rect) -> [Rect; 3] {
+    let lines = (table_lines() + 3) as u16;
+    let below = lines.min(area.height.saturating_sub(10)).max(area.height / 2);
+    let [list, below] = Layout::vertical([Constraint::Fill(1), Constraint::Length(below)]).areas(area);
+    let table = if area.width >= WIDE { area.width / 2 } else { area.width * 3 / 5 };
+    let [table, facts] = Layout::horizontal([Constraint::Length(table), Constraint::Fill(1)]).areas(below);
+    [list, table, facts]
+}
+
+/// Lines of the table that are shown at a time.
+pub fn table_rows(area: Rect) -> usize {
+    usize::from(panes(area)[1].height).saturating_sub(3)
+}
+
+pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
+    if is_narrow(area) {
+        frame.render_widget(Paragraph::new(list(state, area.width, area.height, true)), area);
+        return;
+    }
+    let [list_area, table_area, facts_area] = panes(area);
+    let (shown, all) = (state.fabrics().len(), state.data.as_ref().map_or(0, |data| data.fabrics.len()));
+    let title = if shown == all { format!("{all} fabrics") } else { format!("{shown} of {all} fabrics") };
+    let focused = !state.in_second_pane();
+    let block = pane(state.theme, title, focused);
+    let block = block.title_bottom(Line::styled(LEGEND, state.theme.legend()).right_aligned());
+    let inner = block.inner(list_area);
+    frame.render_widget(Paragraph::new(list(state, inner.width, inner.height, focused)).block(block), list_area);
+    let fabric = state.fabric();
+    let name = fabric.map_or(String::new(), |row| row.fabric.name.clone());
+    let title = fabric.map_or(String::new(), |row| format!("{name} · revision {}", row.revision));
+    let block = pane(state.theme, title, !focused);
+    let inner = block.inner(table_area);
+    let lines = fabric.map_or_else(Vec::new, |row| table(state, row, usize::from(inner.width)));
+    let lines = scrolled(lines, state.nav.table_down, inner);
+    frame.render_widget(Paragraph::new(lines).block(block), table_area);
+    draw_facts(frame, facts_area, state, fabric);
+}
+
+/// The list with its header; the name takes what the numbers leave.
+fn list(state: &State, width: u16, height: u16, focused: bool) -> Vec<Line<'static>> {
+    let fabrics = state.fabrics();
+    let width = usize::from(width);
+    let numbers = |shown: usize| HEADINGS.iter().take(shown).map(|(_, columns, _)| columns).sum::<usize>();
+    let shown = (0..=HEADINGS.len()).rev().find(|n| LEAST_NAME + MARKS + numbers(*n) <= width).unwrap_or(0);
+    let longest = fabrics.iter().map(|row| text::width(&row.fabric.name)).max().unwrap_or(0);
+    let name = width.saturating_sub(MARKS + numbers(shown)).min(longest.max(LEAST_NAME));
+    let selected = state.fabric().map(|row| &row.fabric.name);
+    let at = fabrics.iter().position(|row| Some(&row.fabric.name) == selected).unwrap_or(0);
+    let height = usize::from(height).saturating_sub(1);
+    let first = first_shown(at, fabrics.len(), height);
+    let mut lines = vec![Line::styled(shortened(&header(state, name, shown), width), state.theme.dim())];
+    for (k, row) in fabrics.iter().enumerate().skip(first).take(height) {
+        let line = Line::raw(shortened(&list_line(row, name, shown), width));
+        lines.push(if k == at { selected_line(line, state.theme.selection(focused)) } else { line });
+    }
+    if fabrics.is_empty() {
+        lines.push(Line::raw("no fabric matches the filter"));
+    }
+    lines
+}
+
+fn header(state: &State, name: usize, shown: usize) -> String {
+    let order = state.fabrics.order;
+    let titled = |title: &str, by: FabricOrder| match (order.by == by, order.reversed) {
+        (false, _) => title.to_owned(),
+        (true, false) => format!("{title}▲"),
+        (true, true) => format!("{title}▼"),
+    };
+    let mut text = left(&titled("fabric", FabricOrder::Name), name + MARKS);
+    for (k, (title, columns, _)) in HEADINGS.iter().take(shown).enumerate() {
+        text += &right(&titled(title, FabricOrder::Number(k)), *columns);
+    }
+    text
+}
+
+fn list_line(row: &FabricRow, name: usize, shown: usize) -> String {
+    let mark = |is_on: bool, mark: char| if is_on { mark } else { ' ' };
+    let marks: String = [
+        mark(row.is_own, '+'),
+        mark(row.fabric.stretched.is_some(), 's'),
+        mark(row.fabric.membrane_coupling_n_m != 0.0, 'c'),
+    ]
+    .iter()
+    .collect();
+    let mut text = format!("{} {marks}", left(&row.fabric.name, name));
+    for (k, (_, columns, factor)) in FABRIC_SHOWN.iter().zip(HEADINGS).take(shown) {
+        let value = FABRIC_NUMBERS[*k].get(&row.fabric);
+        text += &right(&value.map_or("—".to_owned(), |value| in_four(value * factor)), columns);
+    }
+    text
+}
+
+/// A number in at most six columns.
+fn in_four(value: f64) -> String {
+    match value.abs() {
+        v if v >= 100.0 => format!("{value:.0}"),
+        v if v >= 1.0 => format!("{value:.1}"),
+        _ => format!("{value:.2}"),
+    }
+}
+
+/// All numbers with their units, and where each stands among the fabrics of the catalogue; what follows from them.
+fn table(state: &State, row: &FabricRow, columns: usize) -> Vec<Line<'static>> {
+    let all = state.data.as_ref().map_or(&[][..], |data| &data.fabrics);
+    let label = columns.saturating_sub(VALUE + 7).min(34);
+    let bar = columns.saturating_sub(label + VALUE + 7 + 1).min(BAR);
+    let head = format!("{}{}  {}", left("", label), right("value", VALUE), left("unit", 5));
+    let among = if bar >= 5 { format!(" among {}", all.len()) } else { String::new() };
+    let mut lines = vec![Line::styled(shortened(&(head + &among), columns), state.theme.dim())];
+    for (k, field) in FABRIC_NUMBERS.iter().enumerate() {
+        let value = field.get(&row.fabric);
+        let shown = value.map_or("—".to_owned(), text::exact);
+        let text = format!("{}{}  {}", left(fabric_label(k), label), right(&shown, VALUE), left(unit_of(field.key), 5));
+        let stands = value.and_then(|value| rank(value, all.iter().filter_map(|row| field.get(&row.fabric))));
+        let place = stands.map_or(String::new(), |share| place_bar(share, bar));
+        lines.push(Line::from(vec![Span::raw(text), Span::styled(format!(" {place}"), state.theme.dim())]));
+    }
+    for (name, length) in ["along", "across"].into_iter().zip(row.bending_lengths_m()) {
+        let name = format!("bending length {name} the grain");
+        let text = format!("{}{}  {}", left(&name, label), right(&text::mm(length), VALUE), left("mm", 5));
+        lines.push(Line::styled(text, state.theme.dim()));
+    }
+    lines
+}
+
+/// The share of other values that are less than a value, percent; `None` where all are the same.
+fn rank(value: f64, all: impl Iterator<Item = f64>) -> Option<f64> {
+    let (mut below, mut above) = (0, 0);
+    for other in all {
+        below += usize::from(other < value);
+        above += usize::from(other > value);
+    }
+    (below + above > 0).then(|| 100.0 * below as f64 / (below + above) as f64)
+}
+
+/// Where the numbers are from, who uses the fabric, and, where there is room, how it stretches.
+fn draw_facts(frame: &mut Frame<'_>, area: Rect, state: &State, fabric: Option<&FabricRow>) {
+    let block = pane(state.theme, "source", false);
+    let inner = block.inner(area);
+    frame.render_widget(block, area);
+    let Some(row) = fabric else { return };
+    let columns = usize::from(inner.width);
+    let origin = if row.is_own { "your own: added or changed here" } else { "of the library" };
+    let used = match row.jobs {
+        0 => "no job uses it".to_owned(),
+        1 => "1 job uses it".to_owned(),
+        n => format!("{n} jobs use it"),
+    };
+    let mut lines = vec![Line::styled(shortened(&format!("{origin}; {used}"), columns), state.theme.bold())];
+    lines.extend(wrapped(&row.fabric.source, columns).into_iter().map(Line::raw));
+    let height = (lines.len() as u16).max(FACTS).min(inner.height);
+    let [words, curves] = Layout::vertical([Constraint::Length(height), Constraint::Fill(1)]).areas(inner);
+    frame.render_widget(Paragraph::new(lines), words);
+    if curves.height >= 9 && curves.width >= 30 {
+        draw_curves(frame, curves, state, row);
+    }
+}
+
+/// Force per width of a strip along the grain and of one across it over its stretch.
+fn draw_curves(frame: &mut Frame<'_>, area: Rect, state: &State, row: &FabricRow) {
+    const POINTS: usize = 40;
+    let most = row.fabric.stretched.map_or(WOVEN, |law| law.stretch * BEYOND);
+    let at = |k: usize| most * k as f64 / POINTS as f64;
+    let curve = |side: usize| -> Vec<(f64, f64)> {
+        (0..=POINTS).map(|k| (100.0 * at(k), row.tensions_n_m(at(k))[side])).collect()
+    };
+    let (warp, weft) = (curve(0), curve(1));
+    let top = warp.iter().chain(&weft).map(|(_, force)| *force).fold(0.0, f64::max);
+    let along = Dataset::default().marker(Marker::Braille).graph_type(GraphType::Line).style(state.theme.good());
+    let across = Dataset::default().marker(Marker::Dot).graph_type(GraphType::Scatter).style(state.theme.warn());
+    let labels = |top: f64, unit: &str| vec![Line::raw("0"), Line::raw(format!("{} {unit}", in_four(top)))];
+    let chart = Chart::new(vec![along.data(&warp), across.data(&weft)]);
+    let x = Axis::default().bounds([0.0, 100.0 * most]).labels(labels(100.0 * most, "%")).title("stretch");
+    let y = Axis::default().bounds([0.0, top]).labels(labels(top, "N/m"));
+    let (x, y) = (x.style(state.theme.dim()), y.style(state.theme.dim()));
+    let [caption, area] = Layout::vertical([Constraint::Length(1), Constraint::Fill(1)]).areas(area);
+    let words = "force per width: a line along the grain, dots across it";
+    frame.render_widget(Line::styled(shortened(words, usize::from(area.width)), state.theme.dim()), caption);
+    frame.render_widget(chart.x_axis(x).y_axis(y), area);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranks_are_shares_of_the_others() {
+        let check = |value, expect| assert_eq!(rank(value, [1.0, 2.0, 2.0, 4.0].into_iter()), expect, "{value}");
+        check(1.0, Some(0.0));
+        check(2.0, Some(50.0));
+        check(4.0, Some(100.0));
+        assert_eq!(rank(3.0, [3.0, 3.0].into_iter()), None);
+    }
+}

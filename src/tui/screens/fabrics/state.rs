@@ -1,0 +1,37 @@
+//! Where the user is among fabrics.
+
+use crate::screens::order::Order;
+
+/// Numbers in the list of fabrics, by their places in [`FABRIC_NUMBERS`].
+pub const FABRIC_SHOWN: [usize; 7] = [0, 1, 2, 3, 5, 6, 7];
+
+/// How fabrics are ordered.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub enum FabricOrder {
+    /// By name.
+    #[default]
+    Name,
+    /// By a number of [`FABRIC_SHOWN`], the smallest first.
+    Number(usize),
+}
+
+impl FabricOrder {
+    /// The next one.
+    #[must_use]
+    pub fn next(self) -> Self {
+        match self {
+            Self::Name => Self::Number(0),
+            Self::Number(k) if k + 1 < FABRIC_SHOWN.len() => Self::Number(k + 1),
+            Self::Number(_) => Self::Name,
+        }
+    }
+}
+
+/// Where the user is among fabrics.
+#[derive(Debug, Default)]
+pub struct Fabrics {
+    /// Fabric selected.
+    pub chosen: Option<String>,
+    /// Order of fabrics.
+    pub order: Order<FabricOrder>,
+}

@@ -1,0 +1,42 @@
+//! Starting and stopping a run.
+
+use crate::messages::effect::Effect;
+use crate::messages::requests::Target;
+use crate::screens::state::State;
+
+impl State {
+    pub fn start_run(&mut self) -> Vec<Effect> {
+        if self.is_first_start() {
+            return self.run(Target::Quickstart);
+        }
+        let Some(study) = self.data.as_ref().and_then(|data| data.study()) else { return vec![] };
+        let target = Target::Study(study.path.clone());
+        self.run(target)
+    }
+
+    pub fn run(&mut self, target: Target) -> Vec<Effect> {
+        if target == Target::Quickstart && !self.setup.abilities.quickstart {
+            self.complain("the quickstart study is not installed here: give `toile run` a folder with a study.toml");
+            return vec![];
+        }
+        if !self.setup.abilities.run {
+            self.complain("this workbench is read-only: start it without --readonly to run a study");
+            return vec![];
+        }
+        if self.running.target.is_some() {
+            self.say("a run goes on here already; X stops it");
+            return vec![];
+        }
+        self.running.target = Some(target.clone());
+        self.say("run started; it goes on in the background");
+        vec![Effect::Run(target)]
+    }
+
+    pub fn stop_run(&mut self) {
+        if self.running.target.is_none() {
+            self.say("no run goes on here");
+            return;
+        }
+        self.ask("Stop the run? Unfinished jobs go back to the queue.", vec![Effect::StopRun]);
+    }
+}

@@ -1,0 +1,17 @@
+//! How rows are ordered.
+
+/// An order and whether it is reversed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct Order<T> {
+    /// By what.
+    pub by: T,
+    /// Whether it is reversed.
+    pub reversed: bool,
+}
+
+impl<T> Order<T> {
+    /// Reverses it.
+    pub fn reverse(&mut self) {
+        self.reversed = !self.reversed;
+    }
+}

@@ -1,0 +1,100 @@
+//! Looking at a drape from elsewhere; asking for pictures.
+
+use ratatui::layout::{Rect, Size};
+
+use crate::keys::action::Action;
+use crate::keys::screen::Screen;
+use crate::messages::effect::Effect;
+use crate::screens::movement::Movement;
+use crate::screens::picture_pane::draw::cells;
+use crate::screens::picture_pane::state::Pictures;
+use crate::screens::state::State;
+use crate::widgets::picture;
+use crate::widgets::picture::{Drawn, FRONT, Shot, Sitter};
+use study::{Map, Status};
+
+impl Pictures {
+    /// Does an action on pictures; returns whether it is one.
+    pub fn act(&mut self, action: Action) -> bool {
+        match action {
+            Action::NextView => self.look = picture::next_view(self.look),
+            Action::ZoomIn => self.look = picture::zoomed(self.look, 1),
+            Action::ZoomOut => self.look = picture::zoomed(self.look, -1),
+            Action::NextMap => self.map = picture::next_map(self.map),
+            Action::Enlarge => self.enlarged = !self.enlarged,
+            _ => return false,
+        }
+        true
+    }
+
+    /// Turns drapes round.
+    pub fn turn(&mut self, step: isize) {
+        self.look = picture::turned(self.look, step);
+    }
+
+    /// A picture of a sitter as it is seen now.
+    fn shot(&self, of: Sitter, Size { width: columns, height: rows }: Size) -> Shot {
+        match of {
+            Sitter::Drape(_) => Shot { of, look: self.look, map: self.map, columns, rows },
+            // Bodies have one view and no maps.
+            Sitter::Body(_) => Shot { of, look: FRONT, map: Map::Plain, columns, rows },
+        }
+    }
+}
+
+impl State {
+    /// Moves an enlarged picture that has the focus up or down; returns whether there is one.
+    pub fn raise_picture(&mut self, movement: Movement) -> bool {
+        let is_near = self.in_second_pane() && self.pictures.look.zoom_pct > FRONT.zoom_pct;
+        if let (true, Movement::By(step)) = (is_near, movement) {
+            self.pictures.look = picture::raised(self.pictures.look, -step.signum() as i32);
+        }
+        is_near
+    }
+
+    /// The drape of the selected job in a pane, where there are both.
+    #[must_use]
+    pub fn drape_in(&self, pane: Option<Rect>) -> Vec<(Sitter, Rect)> {
+        let job = self.job().filter(|job| job.status.has_result()).map(|job| Sitter::Drape(job.id));
+        job.zip(pane).into_iter().collect()
+    }
+
+    /// Asks for the pictures of panes, where they are not those asked for already.
+    pub fn ask_for_pictures(&mut self, panes: Vec<(Sitter, Rect)>) -> Option<Effect> {
+        let sized = panes.into_iter().map(|(of, pane)| (of, cells(pane)));
+        let sized = sized.filter(|(_, size)| self.setup.abilities.pictures && size.width >= 4 && size.height >= 3);
+        let mut wanted: Vec<Shot> = sized.map(|(of, size)| self.pictures.shot(of, size)).collect();
+        if let (true, true, Some(row)) = (self.nav.screen == Screen::Subjects, wanted.is_empty(), self.subject()) {
+            // A body is measured where there is no room for its picture, too.
+            wanted = vec![self.pictures.shot(Sitter::Body(row.id), Size::ZERO)];
+        }
+        if wanted == self.pictures.shots {
+            return None;
+        }
+        self.pictures.shots.clone_from(&wanted);
+        (!wanted.is_empty()).then_some(Effect::Paint(wanted))
+    }
+}
+
+impl State {
+    /// Takes in a picture that is still wanted, in the place of the one before of the same sitter.
+    pub fn take_picture(&mut self, shot: Shot, drawn: Result<Drawn, String>) {
+        if self.pictures.shots.contains(&shot) {
+            let shots = &self.pictures.shots;
+            self.pictures.drawn.retain(|(old, _)| old.of != shot.of && shots.iter().any(|one| one.of == old.of));
+            self.pictures.drawn.push((shot, drawn));
+        }
+    }
+
+    /// Watches the selected job while it runs here and is looked at.
+    pub fn ask_to_watch(&mut self) -> Option<Effect> {
+        let is_shown =
+            matches!(self.nav.screen, Screen::Study | Screen::Jobs | Screen::Results) && self.running.target.is_some();
+        let running = self.job().filter(|job| is_shown && job.status == Status::Running).map(|job| job.id);
+        if running == self.running.watched {
+            return None;
+        }
+        (self.running.watched, self.running.live) = (running, None);
+        Some(Effect::Watch(running))
+    }
+}

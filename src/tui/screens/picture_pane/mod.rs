@@ -1,0 +1,5 @@
+//! The pane with the picture of a drape or a body, which four screens have.
+
+pub mod actions;
+pub mod draw;
+pub mod state;

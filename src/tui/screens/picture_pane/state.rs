@@ -1,0 +1,24 @@
+//! How drapes are seen.
+
+use crate::widgets::picture::{Drawn, FRONT, Shot};
+use study::{Look, Map};
+
+/// How drapes are seen, and the pictures there are.
+pub struct Pictures {
+    /// From where drapes are seen.
+    pub look: Look,
+    /// In which colours.
+    pub map: Map,
+    /// Whether the picture has all the room.
+    pub enlarged: bool,
+    /// The pictures asked for.
+    pub shots: Vec<Shot>,
+    /// The picture of each that came last.
+    pub drawn: Vec<(Shot, Result<Drawn, String>)>,
+}
+
+impl Default for Pictures {
+    fn default() -> Self {
+        Self { look: FRONT, map: Map::Plain, enlarged: false, shots: vec![], drawn: vec![] }
+    }
+}

@@ -1,0 +1,180 @@
+//! The table of measurements and the numbers of a result, as Study and Results show them.
+
+use ratatui::text::{Line, Span};
+
+use crate::screens::results::state::ChiOrder;
+use crate::screens::state::State;
+use crate::widgets::lists::{first_shown, selected_line};
+use crate::widgets::text;
+use crate::widgets::text::{chi_bar, chi_mark, ease_mm, left, mm, right, wrapped};
+use crate::widgets::theme::glyph;
+use study::{ChiRow, FitCell, MetricsRow};
+
+/// What the marks after names mean.
+pub const LEGEND: &str = "○ girth  ~ free edge  = controlled";
+
+/// Columns of number, two lengths, chi, and the gaps between them.
+const FIXED: usize = 3 + 7 + 7 + 6 + 1;
+
+/// Widths of the columns that depend on the room and on what is in them.
+struct Columns {
+    name: usize,
+    marks: usize,
+    /// Columns of the bar on each side of its middle; 0 for a mark instead.
+    side: usize,
+}
+
+impl Columns {
+    fn new(rows: &[&ChiRow], columns: usize) -> Self {
+        let side = match columns {
+            70.. => 8,
+            56.. => 4,
+            _ => 0,
+        };
+        let widest = |of: &dyn Fn(&ChiRow) -> usize| rows.iter().map(|row| of(row)).max().unwrap_or(0);
+        let marks = widest(&|row| marks(row).chars().count());
+        let name = widest(&|row| text::width(&row.name)).max(14) + 2;
+        Self { name: columns.saturating_sub(FIXED + marks + 2 * side + 1).min(name).max(6), marks, side }
+    }
+}
+
+/// The table of measurements in so many columns and lines, with the selected row marked where there is one.
+pub fn table(state: &State, columns: usize, lines: usize, selected: Option<bool>) -> Vec<Line<'static>> {
+    let rows = state.chi();
+    let columns = Columns::new(&rows, columns);
+    let mut table = vec![header(state, &columns)];
+    let height = lines.saturating_sub(1);
+    let first = first_shown(state.results.row, rows.len(), height);
+    for (k, row) in rows.iter().enumerate().skip(first).take(height) {
+        let line = line(state, row, &columns);
+        let style = selected.filter(|_| k == state.results.row).map(|focused| state.theme.selection(focused));
+        table.push(match style {
+            Some(style) => selected_line(line, style),
+            None => line,
+        });
+    }
+    table
+}
+
+fn header(state: &State, columns: &Columns) -> Line<'static> {
+    let (by_number, by_error) = match (state.results.order.by, state.results.order.reversed) {
+        (ChiOrder::Number, false) => ("▲", ""),
+        (ChiOrder::Number, true) => ("▼", ""),
+        (ChiOrder::Error, false) => ("", "▼"),
+        (ChiOrder::Error, true) => ("", "▲"),
+    };
+    let scale = if columns.side > 0 {
+        format!("{}1{}", left("−5%", columns.side), right("+5%", columns.side))
+    } else {
+        String::new()
+    };
+    let text = format!(
+        "{} {}{}{}{} {scale}",
+        right(&format!("#{by_number}"), 2),
+        left("measurement", columns.name + columns.marks),
+        right("L2D mm", 7),
+        right("L3D mm", 7),
+        right(&format!("chi{by_error}"), 6),
+    );
+    Line::styled(text, state.theme.dim())
+}
+
+/// What kind of measurement it is, in marks; [`LEGEND`] says what they mean.
+fn marks(row: &ChiRow) -> String {
+    let marks = [(row.is_girth, '○'), (row.is_free_edge, '~'), (row.is_controlled, '=')];
+    marks.iter().filter(|(is_set, _)| *is_set).map(|(_, mark)| *mark).collect()
+}
+
+fn line(state: &State, row: &ChiRow, columns: &Columns) -> Line<'static> {
+    let chi = row.chi();
+    let bar = if columns.side > 0 { chi_bar(chi, columns.side) } else { chi_mark(chi).to_owned() };
+    Line::from(vec![
+        Span::raw(format!(
+            "{} {}{}{}{}",
+            right(&row.no.to_string(), 2),
+            left(&row.name, columns.name),
+            left(&marks(row), columns.marks),
+            right(&mm(row.l2d_m), 7),
+            right(&mm(row.l3d_m), 7)
+        )),
+        Span::styled(format!("{} {bar}", right(&format!("{chi:.3}"), 6)), state.theme.chi(chi)),
+    ])
+}
+
+/// The state of the selected job and the numbers of its result, the most important first, side by side where there is
+/// room.
+pub fn numbers(state: &State, columns: usize) -> Vec<Line<'static>> {
+    let Some(job) = state.job() else { return vec![] };
+    let wall = job.wall_ms.map_or(String::new(), |ms| format!(" in {}", text::duration(ms)));
+    let share = job.progress.as_ref().map_or(String::new(), |p| format!(" {} {:.0}%", p.phase, p.fraction * 100.0));
+    let status = format!("{} {}{share}{wall}", glyph(job.status), text::status(job.status));
+    let mut lines = vec![Line::styled(text::shortened(&status, columns), state.theme.status(job.status))];
+    if let Some(ease) = state.ease(job) {
+        lines.push(fact(
+            "ease mm",
+            &format!("{} {} {}", ease.level, ease_mm(ease.fit.ease_m), fit_words(&ease.fit)),
+            columns,
+        ));
+    }
+    let error = job.error.as_deref().unwrap_or_default();
+    lines.extend(wrapped(error, columns).into_iter().map(|line| Line::styled(line, state.theme.bad())));
+    let Some(detail) = state.detail() else { return lines };
+    let facts: Vec<_> = detail.metrics.as_ref().map_or(vec![], facts);
+    let across = (columns / FACT_COLUMNS).max(1);
+    let down = facts.len().div_ceil(across);
+    for row in 0..down {
+        let text: String = (row..facts.len())
+            .step_by(down)
+            .map(|k| format!("{}{}", left(facts[k].0, NAME_COLUMNS), left(&facts[k].1, FACT_COLUMNS - NAME_COLUMNS)))
+            .collect();
+        lines.push(Line::raw(text.trim_end().to_owned()));
+    }
+    lines
+}
+
+/// Why the cache did not have the selected job, and which of its stages it had.
+pub fn provenance(state: &State) -> Vec<(&'static str, String)> {
+    let Some(detail) = state.detail() else { return vec![] };
+    let stages = |is_cached: bool| {
+        let stages = detail.stages.iter().filter(|stage| stage.was_cached == is_cached);
+        stages.map(|stage| stage.stage.as_str()).collect::<Vec<_>>().join(", ")
+    };
+    let facts = [("why", detail.why.to_string()), ("cached", stages(true)), ("made", stages(false))];
+    facts.into_iter().filter(|(_, value)| !value.is_empty()).collect()
+}
+
+/// Columns of the name of a fact, and of the fact with its name.
+const NAME_COLUMNS: usize = 9;
+
+const FACT_COLUMNS: usize = 21;
+
+/// The numbers of a result with their names.
+fn facts(m: &MetricsRow) -> Vec<(&'static str, String)> {
+    vec![
+        ("EI", format!("{:.4}", m.ei)),
+        ("E(chi)", format!("{:.4}", m.e_chi)),
+        ("SD(chi)", format!("{:.4}", m.sd_chi)),
+        ("max err", format!("{:.4}", m.max_abs_error)),
+        ("n", m.n.to_string()),
+        ("seam gap", format!("{} mm", mm(m.seam_gap_max_m))),
+        ("in body", format!("{} mm", mm(m.penetration_max_m))),
+        ("residual", format!("{:.1e}", m.residual)),
+        ("steps", m.iterations.to_string()),
+        ("vertices", m.vertices.to_string()),
+        ("faces", m.faces.to_string()),
+    ]
+}
+
+pub fn fact(name: &str, value: &str, columns: usize) -> Line<'static> {
+    Line::raw(text::shortened(&format!("{}{value}", left(name, NAME_COLUMNS)), columns))
+}
+
+/// A fit in words; `!` and `~` as in the grid.
+fn fit_words(fit: &FitCell) -> String {
+    let mark = match (fit.undersized, fit.borderline) {
+        (true, _) => "!",
+        (_, true) => "~",
+        _ => "",
+    };
+    format!("{}{mark}", fit.class.as_str())
+}

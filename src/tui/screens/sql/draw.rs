@@ -1,0 +1,232 @@
+//! Drawing a query and its rows.
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::{Modifier, Style};
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Clear, Paragraph};
+
+use crate::screens::state::State;
+use crate::widgets::editor::Offer;
+use crate::widgets::lists::{first_shown, pane};
+use crate::widgets::result_table::{Sheet, cell_text};
+use crate::widgets::text;
+use crate::widgets::text::{left, right, shortened, wrapped};
+
+/// Words that the editor sets off.
+const KEYWORDS: [&str; 34] = [
+    "select", "from", "where", "join", "left", "using", "on", "group", "by", "order", "having", "limit", "as", "and",
+    "or", "not", "in", "is", "null", "distinct", "case", "when", "then", "else", "end", "with", "union", "all", "desc",
+    "asc", "like", "glob", "between", "over",
+];
+
+/// Words offered at once.
+const OFFERED: usize = 6;
+
+pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
+    let lines = state.sql.editor.text().matches('\n').count() as u16 + 1;
+    let height = (lines + 2).clamp(if area.height < 16 { 3 } else { 6 }, (area.height / 2).max(3));
+    let [editor, result] = Layout::vertical([Constraint::Length(height), Constraint::Fill(1)]).areas(area);
+    draw_result(frame, result, state);
+    draw_editor(frame, editor, area, state);
+}
+
+fn draw_editor(frame: &mut Frame<'_>, area: Rect, screen: Rect, state: &State) {
+    let focused = state.is_editing();
+    let title = if focused { "query: F5 runs, Tab completes, Esc leaves" } else { "query: e edits, F5 runs" };
+    let block = pane(state.theme, title, focused);
+    let inner = block.inner(area);
+    let editor = &state.sql.editor;
+    let (line, column) = editor.place();
+    let room = usize::from(inner.height);
+    let first = first_shown(line, editor.text().split('\n').count(), room);
+    let from = (column + 1).saturating_sub(usize::from(inner.width));
+    let mut lines: Vec<Line<'_>> = editor
+        .text()
+        .split('\n')
+        .enumerate()
+        .skip(first)
+        .take(room)
+        .map(|(k, text)| query_line(state, text, from, (focused && k == line).then_some(column)))
+        .collect();
+    if editor.text().is_empty() {
+        let hint = "SELECT study, garment, size, subject, simulator, ei FROM v_metrics ORDER BY ei DESC";
+        let cursor = Span::styled(" ", if focused { state.theme.selected() } else { Style::new() });
+        lines = vec![Line::from(vec![cursor, Span::styled(format!(" like {hint}"), state.theme.dim())])];
+    }
+    frame.render_widget(Paragraph::new(lines).block(block), area);
+    if let Some(offer) = editor.offer().filter(|_| focused) {
+        let x = inner.x + ((column.saturating_sub(from)) as u16).min(inner.width.saturating_sub(24));
+        let y = inner.y + (line - first) as u16 + 1;
+        draw_offer(frame, Rect::new(x, y, 24, OFFERED as u16).intersection(screen), offer, state);
+    }
+}
+
+/// A line of the query from a column on, words of SQL set off, the cursor where it is.
+fn query_line(state: &State, text: &str, from: usize, cursor: Option<usize>) -> Line<'static> {
+    let letters: Vec<char> = text.chars().chain(cursor.map(|_| ' ')).collect();
+    let is_comment = text.trim_start().starts_with("--");
+    let mut spans: Vec<Span<'static>> = vec![];
+    let mut k = 0;
+    while k < letters.len() {
+        let is_word = |c: char| c.is_alphanumeric() || c == '_';
+        let end = (k..letters.len()).find(|j| is_word(letters[*j]) != is_word(letters[k])).unwrap_or(letters.len());
+        let word: String = letters[k..end].iter().collect();
+        let style = match () {
+            () if is_comment => state.theme.dim(),
+            () if KEYWORDS.contains(&word.to_lowercase().as_str()) => state.theme.bold(),
+            () => Style::new(),
+        };
+        for (at, letter) in (k..end).zip(word.chars()) {
+            let style = if cursor == Some(at) { style.patch(state.theme.selected()) } else { style };
+            match spans.last_mut().filter(|last| at > from && last.style == style) {
+                Some(last) => last.content.to_mut().push(letter),
+                None if at >= from => spans.push(Span::styled(letter.to_string(), style)),
+                None => {}
+            }
+        }
+        k = end;
+    }
+    Line::from(spans)
+}
+
+/// The words offered, the one taken set off.
+fn draw_offer(frame: &mut Frame<'_>, area: Rect, offer: &Offer, state: &State) {
+    let taken = offer.taken.unwrap_or(0);
+    let first = first_shown(taken, offer.words.len(), OFFERED);
+    let shown: Vec<&String> = offer.words.iter().skip(first).take(OFFERED).collect();
+    let width = shown.iter().map(|word| text::width(word)).max().unwrap_or(0).min(22) + 2;
+    let place = Rect::new(area.x, area.y, width as u16, shown.len() as u16).intersection(area);
+    let line = |(k, word): (usize, &&String)| {
+        let is_taken = offer.taken == Some(first + k);
+        let style =
+            if is_taken { state.theme.selected() } else { state.theme.busy().add_modifier(Modifier::UNDERLINED) };
+        Line::styled(format!(" {} ", left(word, width - 2)), style)
+    };
+    frame.render_widget(Clear, place);
+    frame.render_widget(Paragraph::new(shown.iter().enumerate().map(line).collect::<Vec<_>>()), place);
+}
+
+fn draw_result(frame: &mut Frame<'_>, area: Rect, state: &State) {
+    let sql = &state.sql;
+    let title = match (&sql.asked, &sql.told) {
+        (Some(_), _) => "asking… C-c cancels".to_owned(),
+        (None, Some(Ok(told))) => told.clone(),
+        (None, Some(Err(_))) => "the query was refused".to_owned(),
+        (None, None) => "rows".to_owned(),
+    };
+    let legend = match &sql.sheet {
+        Some(sheet) if !sheet.names().is_empty() => {
+            let row = if sheet.len() == 0 { 0 } else { sheet.row + 1 };
+            format!(" row {row} of {}, column {} of {} ", sheet.len(), sheet.column + 1, sheet.names().len())
+        }
+        _ => " o saved queries  C-p history ".to_owned(),
+    };
+    let block = pane(state.theme, title, !state.is_editing())
+        .title_bottom(Line::styled(legend, state.theme.legend()).right_aligned());
+    let inner = block.inner(area);
+    let mut lines: Vec<Line<'static>> = vec![];
+    if let Some(Err(error)) = &sql.told {
+        let wrapped = wrapped(error, usize::from(inner.width).saturating_sub(2));
+        lines.extend(wrapped.into_iter().map(|line| Line::styled(format!("✗ {line}"), state.theme.bad())));
+    }
+    let room = usize::from(inner.height).saturating_sub(lines.len());
+    match &sql.sheet {
+        Some(sheet) if !sheet.names().is_empty() => lines.extend(rows(state, sheet, usize::from(inner.width), room)),
+        Some(_) => lines.push(Line::raw("nothing was asked")),
+        None if lines.is_empty() => lines.extend(names(state, usize::from(inner.width))),
+        None => {}
+    }
+    frame.render_widget(Paragraph::new(lines).block(block), area);
+}
+
+/// The views there are, before anything was asked.
+fn names(state: &State, width: usize) -> Vec<Line<'static>> {
+    let relations = state.sql.relations.as_deref().unwrap_or_default();
+    let views = relations.iter().filter(|relation| relation.name.starts_with("v_"));
+    let longest = relations.iter().map(|relation| text::width(&relation.name)).max().unwrap_or(0) + 2;
+    let line = |relation: &study::Relation| {
+        let columns = shortened(&relation.columns.join(", "), width.saturating_sub(longest));
+        let name = Span::styled(left(&relation.name, longest), state.theme.bold());
+        Line::from(vec![name, Span::styled(columns, state.theme.dim())])
+    };
+    views.map(line).collect()
+}
+
+/// The head and the rows around the selected one.
+pub fn rows(state: &State, sheet: &Sheet, width: usize, height: usize) -> Vec<Line<'static>> {
+    let shown = sheet.columns_shown(width);
+    let head = |k: usize| {
+        let mark = match sheet.order {
+            Some((by, falls)) if by == k => {
+                if falls {
+                    "▼"
+                } else {
+                    "▲"
+                }
+            }
+            _ => "",
+        };
+        let (room, is_number) = sheet.column_of(k);
+        let name = format!("{}{mark}", shortened(&sheet.names()[k], room - text::width(mark)));
+        if is_number { right(&name, room) } else { left(&name, room) }
+    };
+    let mut spans = vec![];
+    let mut used = 0;
+    for (n, &k) in shown.iter().enumerate() {
+        // The frozen column and what follows it are apart where columns lie between.
+        let gap = if n == 0 {
+            ""
+        } else if n == 1 && k > 1 {
+            "┊ "
+        } else {
+            "  "
+        };
+        let style = if k == sheet.column { state.theme.bold() } else { state.theme.dim() };
+        spans.push(Span::styled(gap, state.theme.dim()));
+        let name = head(k);
+        used += text::width(&name) + gap.chars().count();
+        spans.push(Span::styled(name, style));
+    }
+    if shown.last().is_some_and(|last| last + 1 < sheet.names().len()) && used < width {
+        spans.push(Span::styled("▸", state.theme.dim()));
+    }
+    let mut lines = vec![Line::from(spans)];
+    let room = height.saturating_sub(1);
+    let first = first_shown(sheet.row, sheet.len(), room);
+    for row in (first..sheet.len()).take(room) {
+        lines.push(row_line(state, sheet, row, &shown));
+    }
+    if sheet.len() == 0 {
+        let none = if state.filter().is_empty() { "no rows" } else { "no row matches the filter" };
+        lines.push(Line::styled(none, state.theme.dim()));
+    }
+    lines
+}
+
+fn row_line(state: &State, sheet: &Sheet, row: usize, shown: &[usize]) -> Line<'static> {
+    let Some(values) = sheet.values(row) else { return Line::default() };
+    let is_selected = row == sheet.row;
+    let selection = state.theme.selection(!state.is_editing());
+    let mut spans = vec![];
+    for (n, &k) in shown.iter().enumerate() {
+        let (room, is_number) = sheet.column_of(k);
+        let cell = cell_text(&values[k]);
+        let cell = if is_number { right(&cell, room) } else { left(&cell, room) };
+        let gap = if n == 0 {
+            ""
+        } else if n == 1 && k > 1 {
+            "┊ "
+        } else {
+            "  "
+        };
+        let style = match (is_selected, k == sheet.column) {
+            (true, true) => selection.add_modifier(Modifier::BOLD | Modifier::UNDERLINED),
+            (true, false) => selection,
+            (false, _) => Style::new(),
+        };
+        spans.push(Span::styled(gap, if is_selected { selection } else { state.theme.dim() }));
+        spans.push(Span::styled(cell, style));
+    }
+    Line::from(spans)
+}

@@ -1,0 +1,85 @@
+//! Screen 7: a query and its answer.
+
+mod actions;
+pub mod draw;
+pub mod state;
+
+use crossterm::event::KeyEvent;
+use ratatui::Frame;
+use ratatui::layout::Rect;
+
+use crate::keys::action::Action;
+use crate::keys::screen::Screen;
+use crate::messages::effect::Effect;
+use crate::screens::movement::{Movement, stepped};
+use crate::screens::page::Page;
+use crate::screens::state::State;
+
+/// The screen of queries.
+pub struct SqlPage;
+
+/// The keys that matter while a query is typed.
+const EDITOR_HINTS: [(&str, &str); 5] =
+    [("F5", "run"), ("Tab", "complete, or rows"), ("C-p", "history"), ("Esc", "rows and commands"), ("C-c", "cancel")];
+
+impl Page for SqlPage {
+    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+        draw::draw(frame, area, state);
+    }
+
+    fn go(&self, state: &mut State, movement: Movement) {
+        if let Some(sheet) = &mut state.sql.sheet {
+            sheet.row = movement.from(sheet.row, sheet.len());
+        }
+    }
+
+    fn sideways(&self, state: &mut State, step: isize) {
+        state.sql.sheet.iter_mut().for_each(|sheet| sheet.sideways(step));
+    }
+
+    fn go_to_match(&self, state: &mut State, step: isize) {
+        if let Some(sheet) = &mut state.sql.sheet {
+            sheet.row = stepped(sheet.row, step, sheet.len()).unwrap_or(0);
+        }
+    }
+
+    fn sort(&self, state: &mut State) {
+        let filter = state.filter().to_owned();
+        state.sql.sheet.iter_mut().for_each(|sheet| sheet.sort(&filter));
+    }
+
+    fn reverse(&self, state: &mut State) {
+        let filter = state.filter().to_owned();
+        state.sql.sheet.iter_mut().for_each(|sheet| sheet.reverse(&filter));
+    }
+
+    fn copied(&self, state: &State) -> Option<(String, &'static str)> {
+        actions::sheet_row(state).map(|rows| (rows, "the row"))
+    }
+
+    fn act(&self, state: &mut State, action: Action) -> Option<Vec<Effect>> {
+        match action {
+            Action::Run if state.nav.screen == Screen::Sql => return Some(state.run_query()),
+            Action::Quit if state.sql.asked.is_some() => return Some(vec![Effect::StopAsking]),
+            Action::EditQuery => state.nav.second_pane[Screen::Sql as usize] = false,
+            Action::SavedQueries => state.offer_queries(),
+            Action::OlderQuery => state.recall(-1),
+            Action::NewerQuery => state.recall(1),
+            Action::ExportQuery => state.export_query(),
+            _ => return None,
+        }
+        Some(vec![])
+    }
+
+    fn take_key(&self, state: &mut State, event: &KeyEvent) -> bool {
+        state.is_editing() && state.edit_query(event)
+    }
+
+    fn wanted(&self, state: &mut State) -> Option<Effect> {
+        state.ask_for_names()
+    }
+
+    fn hints(&self, state: &State) -> Option<&'static [(&'static str, &'static str)]> {
+        state.is_editing().then_some(&EDITOR_HINTS)
+    }
+}

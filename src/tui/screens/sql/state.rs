@@ -1,0 +1,28 @@
+//! Where the user is among queries.
+
+use crate::widgets::editor::Editor;
+use crate::widgets::result_table::Sheet;
+use study::{Relation, SavedQuery};
+
+/// Where the user is among questions.
+#[derive(Debug, Default)]
+pub struct Sql {
+    /// The query as it is typed.
+    pub editor: Editor,
+    /// Queries that were run, the oldest first.
+    pub history: Vec<String>,
+    /// The one of the history that is shown, and what was typed before it.
+    pub recalled: Option<(usize, String)>,
+    /// What a query may name; `None` until it was read.
+    pub relations: Option<Vec<Relation>>,
+    /// Queries kept in files.
+    pub saved: Vec<SavedQuery>,
+    /// The query that is being answered.
+    pub asked: Option<String>,
+    /// The query that was answered last: that of the sheet.
+    pub answered: String,
+    /// The answer.
+    pub sheet: Option<Sheet>,
+    /// How it went: rows and time, or what was wrong.
+    pub told: Option<Result<String, String>>,
+}

@@ -1,0 +1,184 @@
+//! Choosing a size and what lies of it on the table of seams; importing and removing.
+
+use crate::keys::screen::Screen;
+use crate::messages::effect::Effect;
+use crate::messages::requests::Act;
+use crate::messages::seams::{Laid, Laying, Task};
+use crate::overlays::Overlay;
+use crate::screens::movement::{Movement, stepped};
+use crate::screens::state::State;
+use crate::screens::styles::state::DeskLine;
+use study::{Part, SizeRow};
+
+impl State {
+    /// Sizes that pass the filter of the Styles screen.
+    #[must_use]
+    pub fn sizes(&self) -> Vec<&SizeRow> {
+        let Some(data) = &self.data else { return vec![] };
+        let filter = self.nav.filters[Screen::Styles as usize].to_lowercase();
+        let words = |row: &SizeRow| format!("{} {} {}", row.style, row.size, row.pattern_file).to_lowercase();
+        data.sizes.iter().filter(|row| words(row).contains(&filter)).collect()
+    }
+
+    /// The selected size: another of its style, or the first, where the one wanted is not shown.
+    #[must_use]
+    pub fn size_row(&self) -> Option<&SizeRow> {
+        let sizes = self.sizes();
+        let (style, size) = self.styles.selected.as_ref().map_or(("", ""), |(style, size)| (style, size));
+        let found = sizes.iter().find(|row| row.style == style && row.size == size);
+        found.or_else(|| sizes.iter().find(|row| row.style == style)).or(sizes.first()).copied()
+    }
+
+    /// What lies on the desk of the selected size, or why it does not; `None` while it is read.
+    #[must_use]
+    pub fn laid(&self) -> Option<Result<&Laid, &str>> {
+        let row = self.size_row()?;
+        let (laying, laid) = self.styles.desk.as_ref()?;
+        let is_shown = laying.style == row.style && laying.key.size == row.key.size;
+        is_shown.then(|| laid.as_deref().map_err(String::as_str))
+    }
+
+    /// The line of the table that is selected.
+    #[must_use]
+    pub fn desk_line(&self) -> Option<DeskLine> {
+        let lines = self.laid()?.ok()?.lines();
+        lines.get(self.styles.line).or(lines.last()).copied()
+    }
+
+    /// Has the selected size laid out, where it is not what the desk was asked for already.
+    pub fn ask_for_desk(&mut self) -> Option<Effect> {
+        if self.nav.screen != Screen::Styles {
+            return None;
+        }
+        let wanted = self.laying();
+        if wanted == self.styles.asked {
+            return None;
+        }
+        self.styles.asked.clone_from(&wanted);
+        wanted.map(|laying| Effect::Desk(Task::LayOut(laying)))
+    }
+
+    pub fn laying(&self) -> Option<Laying> {
+        let row = self.size_row()?;
+        let study = self.data.as_ref().and_then(|data| data.study());
+        let study = study.filter(|study| study.garments.contains(&row.style)).map(|study| study.path.clone());
+        let seams = self.styles.edits.get(&row.style).and_then(|edits| edits.last()).cloned();
+        Some(Laying { style: row.style.clone(), key: row.key, seams, study })
+    }
+
+    /// Takes in what was laid out.
+    pub fn laid_out(&mut self, laying: Laying, outcome: Result<Box<Laid>, String>) {
+        if self.styles.asked.as_ref() != Some(&laying) {
+            return;
+        }
+        let is_other = self.styles.desk.as_ref().is_none_or(|(before, _)| before.key.size != laying.key.size);
+        self.styles.desk = Some((laying, outcome));
+        self.styles.marks.clear();
+        if is_other {
+            (self.styles.line, self.styles.edge) = (0, (0, 0));
+        }
+        let Some(Ok(laid)) = self.laid() else { return };
+        let (lines, pieces) = (laid.lines().len(), &laid.out.desk.pieces);
+        let piece = self.styles.edge.0.min(pieces.len().saturating_sub(1));
+        let edges = pieces.get(piece).map_or(0, |piece| piece.edges.len());
+        let edge = self.styles.edge.1.min(edges.saturating_sub(1));
+        self.styles.edge = (piece, edge);
+        self.styles.line = self.styles.line.min(lines.saturating_sub(1));
+        if is_other {
+            self.select_line(0);
+        }
+    }
+
+    /// Selects a line of the table, and an edge of its seam.
+    pub fn select_line(&mut self, line: usize) {
+        let Some(Ok(laid)) = self.laid() else { return };
+        let edge = match laid.lines().get(line) {
+            Some(DeskLine::Seam(k)) => laid.out.desk.seams[*k].a.first().copied(),
+            _ => None,
+        };
+        self.styles.line = line;
+        self.styles.edge = edge.unwrap_or(self.styles.edge);
+    }
+
+    /// Selects the next edge, and the seam that holds it.
+    pub fn step_edge(&mut self, step: isize) {
+        let Some(Ok(laid)) = self.laid() else { return };
+        let edges = laid.edges();
+        let at = edges.iter().position(|edge| *edge == self.styles.edge).unwrap_or(0);
+        let Some(next) = stepped(at, step, edges.len()) else { return };
+        let line = laid.seam_at(edges[next]).unwrap_or(self.styles.line);
+        (self.styles.edge, self.styles.line) = (edges[next], line);
+    }
+
+    /// Gives the pieces all the room, or less again.
+    pub fn enlarge_pieces(&mut self) {
+        self.show(Screen::Styles);
+        self.styles.enlarged = !self.styles.enlarged;
+    }
+
+    /// Asks for the files of a style.
+    pub fn import_style(&mut self) {
+        if self.may_change(Part::Style) {
+            self.overlay = Some(Overlay::StyleForm(Box::default()));
+        }
+    }
+
+    /// Removes the selected size, with its style where it is the last, once that is confirmed.
+    pub fn remove_size(&mut self) {
+        if !self.may_change(Part::Style) {
+            return;
+        }
+        let Some(row) = self.size_row() else { return self.say("no size is selected") };
+        let is_last =
+            self.data.iter().flat_map(|data| &data.sizes).filter(|other| other.style == row.style).count() < 2;
+        let (part, name) = match is_last {
+            true => (Part::Style, row.style.clone()),
+            false => (Part::Size, format!("{}/{}", row.style, row.size)),
+        };
+        let text = format!("Remove {part} {name}? Results that use it stay as they are.");
+        self.ask(text, vec![Effect::Do(Act::Remove(part, name))]);
+    }
+
+    pub fn go_in_sizes(&mut self, movement: Movement) {
+        let selected = self.size_row().map(|row| row.key);
+        let sizes = self.sizes();
+        let at = sizes.iter().position(|row| Some(row.key) == selected).unwrap_or(0);
+        let next = sizes.get(movement.from(at, sizes.len()));
+        self.styles.selected = next.map(|row| (row.style.clone(), row.size.clone()));
+    }
+
+    pub fn go_in_desk(&mut self, movement: Movement) {
+        let lines = self.laid().and_then(Result::ok).map_or(0, |laid| laid.lines().len());
+        self.select_line(movement.from(self.styles.line, lines));
+    }
+}
+
+impl State {
+    /// Goes to the next size that the filter shows, or back.
+    pub fn next_size(&mut self, step: isize) {
+        let selected = self.size_row().map(|row| row.key);
+        let sizes = self.sizes();
+        let at = sizes.iter().position(|row| Some(row.key) == selected).unwrap_or(0);
+        let next = stepped(at, step, sizes.len()).map(|next| sizes[next]);
+        self.styles.selected = next.map(|row| (row.style.clone(), row.size.clone()));
+    }
+}
+
+pub fn seam_table(state: &State) -> Option<String> {
+    let desk = &state.laid()?.ok()?.out.desk;
+    let names = |chain: &[(usize, usize)]| {
+        let name = |(piece, edge): &(usize, usize)| {
+            let piece = &desk.pieces[*piece];
+            let edge = &piece.edges[*edge];
+            format!("{}.{}", piece.id, edge.name.clone().unwrap_or_else(|| edge.number.to_string()))
+        };
+        chain.iter().map(name).collect::<Vec<_>>().join("+")
+    };
+    let mut table = String::from("seam\ta\tb\ta_mm\tb_mm\tconfidence\n");
+    for seam in &desk.seams {
+        let confidence = seam.confidence.map_or(String::new(), |confidence| confidence.to_string());
+        let (a, b) = (names(&seam.a), names(&seam.b));
+        table += &format!("{}\t{a}\t{b}\t{:.1}\t{:.1}\t{confidence}\n", seam.name, seam.a_mm, seam.b_mm);
+    }
+    Some(table)
+}

@@ -1,0 +1,275 @@
+//! Drawing the list of sizes and the table of the selected one.
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::Style;
+use ratatui::text::Line;
+use ratatui::widgets::{Block, Paragraph};
+
+use crate::messages::seams::Laid;
+use crate::screens::state::State;
+use crate::screens::styles::pieces;
+use crate::screens::styles::state::{DeskLine, EdgeAt};
+use crate::widgets::layout::{WIDE, is_narrow};
+use crate::widgets::lists::{first_shown, pane, selected_line};
+use crate::widgets::text;
+use crate::widgets::text::{left, right, shortened, whole, width, wrapped};
+use study::SizeRow;
+use study::seams::{Desk, DeskSeam};
+
+/// Columns of the table from which it has names of seams and both lengths.
+const FULL: usize = 66;
+
+/// Columns of the name of a seam there, and of all but its edges.
+const NAME: usize = 14;
+
+const FIXED: usize = 3 + NAME + 1 + 2 * 8 + 2 * 6 + 5;
+
+/// The panes: list, table of the selected size, pieces.
+fn panes(area: Rect, sizes: usize) -> [Rect; 3] {
+    let share = if area.width >= WIDE { area.width * 9 / 20 } else { area.width / 2 };
+    let [left, pieces] = Layout::horizontal([Constraint::Length(share), Constraint::Fill(1)]).areas(area);
+    let list = (sizes.max(1) as u16).saturating_add(3).min((area.height / 3).max(5));
+    let [list, table] = Layout::vertical([Constraint::Length(list), Constraint::Fill(1)]).areas(left);
+    [list, table, pieces]
+}
+
+pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
+    let on_desk = state.in_second_pane();
+    if is_narrow(area) {
+        let lines = match (on_desk, state.laid()) {
+            (true, Some(Ok(laid))) => table(state, laid, area.width, area.height),
+            _ => list(state, area.width, area.height),
+        };
+        frame.render_widget(Paragraph::new(lines), area);
+        return;
+    }
+    let sizes = state.sizes();
+    let [list_area, table_area, pieces_area] = panes(area, sizes.len());
+    if state.styles.enlarged {
+        pieces::draw(frame, area, state, true);
+        return;
+    }
+    let mut styles: Vec<&str> = sizes.iter().map(|row| row.style.as_str()).collect();
+    styles.dedup();
+    let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    let title = format!("{}, {}", counted(styles.len(), "style"), counted(sizes.len(), "size"));
+    let block = pane(state.theme, title, !on_desk);
+    let legend = "• study  * not saved  ? proposed";
+    let block = block.title_bottom(Line::styled(legend, state.theme.legend()));
+    let inner = block.inner(list_area);
+    frame.render_widget(Paragraph::new(list(state, inner.width, inner.height)).block(block), list_area);
+    draw_table(frame, table_area, state, on_desk);
+    pieces::draw(frame, pieces_area, state, on_desk);
+}
+
+/// The list of sizes with its header.
+fn list(state: &State, width: u16, height: u16) -> Vec<Line<'static>> {
+    let sizes = state.sizes();
+    let (width, height) = (usize::from(width), usize::from(height).saturating_sub(1));
+    let key = state.size_row().map(|row| row.key);
+    let at = sizes.iter().position(|row| Some(row.key) == key).unwrap_or(0);
+    let first = first_shown(at, sizes.len(), height);
+    let head = format!("  {} {} {} {}", left("style", 14), left("size", 6), left("rev", 4), "pattern");
+    let mut lines = vec![Line::styled(shortened(&head, width), state.theme.dim())];
+    for (k, row) in sizes.iter().enumerate().skip(first).take(height) {
+        let line = Line::raw(list_line(state, row, width));
+        let style = state.theme.selection(!state.in_second_pane());
+        lines.push(if k == at { selected_line(line, style) } else { line });
+    }
+    if sizes.is_empty() {
+        let is_filtered = !state.filter().is_empty();
+        lines.push(Line::raw(if is_filtered { "no size matches the filter" } else { "no styles yet: i imports one" }));
+    }
+    lines
+}
+
+fn list_line(state: &State, row: &SizeRow, width: usize) -> String {
+    let study = state.data.as_ref().and_then(|data| data.study());
+    let used = if study.is_some_and(|study| study.garments.contains(&row.style)) { "•" } else { " " };
+    let edited = if state.styles.edits.contains_key(&row.style) { "*" } else { " " };
+    let unsure = if row.unconfirmed > 0 { format!("?{} ", row.unconfirmed) } else { String::new() };
+    let revisions = format!("{}/{}", row.style_revision, row.revision);
+    let (style, size) = (left(&row.style, 14), left(&row.size, 6));
+    let start = format!("{used}{edited}{style} {size} {} {unsure}", left(&revisions, 4));
+    let file = shortened(&row.pattern_file, width.saturating_sub(text::width(&start)));
+    shortened(&format!("{start}{file}"), width)
+}
+
+fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
+    let Some(row) = state.size_row() else {
+        frame.render_widget(Block::bordered().border_style(state.theme.dim()), area);
+        return;
+    };
+    let name = format!("{} {}", row.style, row.size);
+    let columns = usize::from(area.width.saturating_sub(2));
+    match state.laid() {
+        None => {
+            let block = pane(state.theme, name, focused);
+            frame.render_widget(Paragraph::new("reading the pattern…").block(block), area);
+        }
+        Some(Err(error)) => {
+            let lines = wrapped(&format!("✗ {error}"), columns);
+            let lines: Vec<Line<'_>> = lines.into_iter().map(|line| Line::styled(line, state.theme.bad())).collect();
+            frame.render_widget(Paragraph::new(lines).block(pane(state.theme, name, focused)), area);
+        }
+        Some(Ok(laid)) => {
+            let title = {
+                let counts = format!(" · {} seams, {} to decide", laid.out.desk.seams.len(), to_decide(laid));
+                // Four columns are the border's and the mark of the focus.
+                let room = columns.saturating_sub(width(&counts) + 4);
+                shortened(&name, room) + &counts
+            };
+            let below = shortened(&selection(state, laid), columns);
+            let block = pane(state.theme, title, focused).title_bottom(Line::styled(below, state.theme.legend()));
+            let inner = block.inner(area);
+            frame.render_widget(Paragraph::new(table(state, laid, inner.width, inner.height)).block(block), area);
+        }
+    }
+}
+
+/// Number of things a person must decide.
+fn to_decide(laid: &Laid) -> usize {
+    let unsure = laid.out.desk.seams.iter().filter(|seam| seam.confidence.is_some()).count();
+    unsure + laid.out.questions.len()
+}
+
+/// The selected edge, and its seam with everything about it.
+fn selection(state: &State, laid: &Laid) -> String {
+    let (piece, edge) = state.styles.edge;
+    let Some(piece) = laid.out.desk.pieces.get(piece) else { return String::new() };
+    let Some(edge) = piece.edges.get(edge) else { return String::new() };
+    let edge = format!("{}.{} {:.1} mm", piece.id, edge.number, edge.length_mm);
+    match laid.seam_at(state.styles.edge) {
+        Some(k) => {
+            let seam = &laid.out.desk.seams[k];
+            let turned = if seam.same_direction { ", turned" } else { "" };
+            format!("{} {} · {edge}{turned}", letter(k), seam.name)
+        }
+        None => format!("in no seam · {edge}"),
+    }
+}
+
+/// Seams, questions and measurements, the selected line among them.
+fn table(state: &State, laid: &Laid, width: u16, height: u16) -> Vec<Line<'static>> {
+    let (width, height) = (usize::from(width), usize::from(height).saturating_sub(1));
+    let items = laid.lines();
+    let at = state.styles.line.min(items.len().saturating_sub(1));
+    let first = first_shown(at, items.len(), height);
+    let mut lines = vec![Line::styled(head(width), state.theme.dim())];
+    for (k, item) in items.iter().enumerate().skip(first) {
+        // An edge in no seam is selected beside the line of another one.
+        let is_selected = k == at
+            && match item {
+                DeskLine::Seam(seam) => laid.seam_at(state.styles.edge) == Some(*seam),
+                _ => true,
+            };
+        let (texts, style) = item_lines(state, laid, *item, width, is_selected);
+        for text in texts {
+            let line = Line::styled(text, style);
+            lines.push(if is_selected {
+                selected_line(line, state.theme.selection(state.in_second_pane()))
+            } else {
+                line
+            });
+        }
+    }
+    lines.truncate(height + 1);
+    lines
+}
+
+/// A line of the table; a selected question at its full length.
+fn item_lines(state: &State, laid: &Laid, item: DeskLine, width: usize, is_selected: bool) -> (Vec<String>, Style) {
+    match item {
+        DeskLine::Seam(k) => {
+            let seam = &laid.out.desk.seams[k];
+            let colour = Style::new().fg(state.theme.seam(k));
+            (vec![seam_line(&laid.out.desk, k, seam, width)], colour)
+        }
+        DeskLine::Question(k) => {
+            let text = format!("? {}", laid.out.questions[k]);
+            let texts = if is_selected { wrapped(&text, width) } else { vec![shortened(&text, width)] };
+            (texts, state.theme.warn())
+        }
+        DeskLine::Length(k) => {
+            let length = &laid.out.lengths[k];
+            let value = format!("{:.1}", length.l2d_mm);
+            let name = left(&format!("#{} {}", length.no, length.name), width.saturating_sub(9));
+            (vec![shortened(&format!("{name} {}", right(&value, 7)), width)], Style::new())
+        }
+    }
+}
+
+fn head(width: usize) -> String {
+    let text = if width >= FULL {
+        let edges = left("edges", width - FIXED);
+        let columns = [("a mm", 8), ("b mm", 8), ("ratio", 6), ("ease", 6), ("sure", 5)];
+        let columns = columns.map(|(title, columns)| right(title, columns)).concat();
+        format!("   {} {edges}{columns}", left("seam", NAME))
+    } else {
+        let edges = left("edges", width.saturating_sub(3 + 7 + 6 + 5));
+        format!("   {edges}{}{}{}", right("a mm", 7), right("ease", 6), right("sure", 5))
+    };
+    shortened(&text, width)
+}
+
+/// A seam: letter, edges by number, lengths, and how sure it is where it was proposed.
+fn seam_line(desk: &Desk, k: usize, seam: &DeskSeam, width: usize) -> String {
+    let (mark, sure) = match seam.confidence {
+        Some(confidence) => ("?", format!("{:.0}%", confidence * 100.0)),
+        None => (" ", "✓".to_owned()),
+    };
+    let turned = if seam.same_direction { "↻" } else { "" };
+    // Names of pieces give way before numbers of edges do.
+    let fitted = |columns: usize| {
+        let edges = |letters| format!("{}={}{turned}", chain(desk, &seam.a, letters), chain(desk, &seam.b, letters));
+        let fits = |edges: &String| text::width(edges) <= columns;
+        left(&(1..=12).rev().map(edges).find(fits).unwrap_or_else(|| edges(1)), columns)
+    };
+    let ease = seam.a_mm - seam.b_mm;
+    let ease = if ease.abs() < 0.05 { "0".to_owned() } else { whole_or_tenth(ease) };
+    let start = format!("{}{mark} ", letter(k));
+    let text = if width >= FULL {
+        let numbers = [seam.a_mm, seam.b_mm].map(|mm| right(&format!("{mm:.1}"), 8)).concat();
+        let ratio = right(&format!("{:.3}", seam.a_mm / seam.b_mm), 6);
+        let edges = fitted(width - FIXED);
+        format!("{start}{} {edges}{numbers}{ratio}{}{}", left(&seam.name, NAME), right(&ease, 6), right(&sure, 5))
+    } else {
+        let edges = fitted(width.saturating_sub(3 + 7 + 6 + 5));
+        format!("{start}{edges}{}{}{}", right(&format!("{:.1}", seam.a_mm), 7), right(&ease, 6), right(&sure, 5))
+    };
+    shortened(&text, width)
+}
+
+/// An ease with its sign: tenths of a millimetre where it is small.
+fn whole_or_tenth(ease: f64) -> String {
+    let sign = if ease > 0.0 { "+" } else { "" };
+    if ease.abs() < 10.0 { format!("{sign}{ease:.1}").replace('-', "−") } else { format!("{sign}{}", whole(ease)) }
+}
+
+/// The edges of one side of a seam by their numbers: `front.3`, `sleeve.2+3`; so many letters of each word of a piece.
+fn chain(desk: &Desk, edges: &[EdgeAt], letters: usize) -> String {
+    let short = |id: &str| {
+        let words = id.split('_').map(|word| word.chars().take(letters).collect::<String>());
+        words.collect::<Vec<_>>().join("_")
+    };
+    let mut text = String::new();
+    let mut before = None;
+    for (piece, edge) in edges {
+        let drawn = &desk.pieces[*piece];
+        let number = drawn.edges[*edge].number;
+        text += &match before {
+            Some(same) if same == piece => format!("+{number}"),
+            Some(_) => format!("+{}.{number}", short(&drawn.id)),
+            None => format!("{}.{number}", short(&drawn.id)),
+        };
+        before = Some(piece);
+    }
+    text
+}
+
+/// The letter of a seam, in the table and in the picture.
+pub fn letter(seam: usize) -> char {
+    let small = || ('a'..='z').nth(seam.saturating_sub(26));
+    ('A'..='Z').nth(seam).or_else(small).unwrap_or('+')
+}

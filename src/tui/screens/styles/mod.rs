@@ -1,0 +1,85 @@
+//! Screen 3: the styles and sizes of the catalogue, and of the selected one its seams, measurements and pieces.
+
+mod actions;
+mod draw;
+mod pieces;
+mod seams;
+pub mod state;
+
+use ratatui::Frame;
+use ratatui::layout::Rect;
+
+use crate::keys::action::Action;
+use crate::messages::effect::Effect;
+use crate::screens::movement::Movement;
+use crate::screens::page::Page;
+use crate::screens::state::State;
+use study::Part;
+
+/// The screen of styles.
+pub struct StylesPage;
+
+/// What is said of the order.
+const ORDER: &str = "styles are listed by name, sizes as they came";
+
+impl Page for StylesPage {
+    fn draw(&self, frame: &mut Frame<'_>, area: Rect, state: &State) {
+        draw::draw(frame, area, state);
+    }
+
+    fn go(&self, state: &mut State, movement: Movement) {
+        if state.in_second_pane() {
+            state.go_in_desk(movement);
+        } else {
+            state.go_in_sizes(movement);
+        }
+    }
+
+    fn sideways(&self, state: &mut State, step: isize) {
+        if state.in_second_pane() {
+            state.step_edge(step);
+        }
+    }
+
+    fn go_to_match(&self, state: &mut State, step: isize) {
+        state.next_size(step);
+    }
+
+    fn sort(&self, state: &mut State) {
+        state.say(ORDER);
+    }
+
+    fn reverse(&self, state: &mut State) {
+        state.say(ORDER);
+    }
+
+    fn copied(&self, state: &State) -> Option<(String, &'static str)> {
+        actions::seam_table(state).map(|table| (table, "the table of seams"))
+    }
+
+    fn act(&self, state: &mut State, action: Action) -> Option<Vec<Effect>> {
+        match action {
+            Action::Import(Part::Style | Part::Size) => state.import_style(),
+            Action::Remove(Part::Style | Part::Size) => state.remove_size(),
+            Action::EnlargePieces => state.enlarge_pieces(),
+            Action::MarkEdge => state.mark_edge(),
+            Action::UndoEdit => state.undo_edit(),
+            Action::AddSeam => return Some(state.add_seam()),
+            Action::RemoveSeam => return Some(state.remove_seam()),
+            Action::FlipSeam => return Some(state.flip_seam()),
+            Action::ConfirmSeam => return Some(state.confirm_seam()),
+            Action::ProposeSeams => return Some(state.propose_seams()),
+            Action::SaveSeams => return Some(state.save_seams()),
+            _ => return None,
+        }
+        Some(vec![])
+    }
+
+    fn shrink(&self, state: &mut State) -> bool {
+        std::mem::take(&mut state.styles.enlarged)
+    }
+
+    fn wanted(&self, state: &mut State) -> Option<Effect> {
+        state.ask_for_desk()
+    }
+}

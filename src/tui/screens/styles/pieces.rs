@@ -1,0 +1,223 @@
+//! The pieces of a size as they lie about the head, their edges numbered, the seams lettered: braille dots and text, so
+//! that every terminal can show them.
+
+use ratatui::Frame;
+use ratatui::layout::{Position, Rect};
+use ratatui::style::{Color, Modifier, Style};
+use ratatui::symbols::Marker;
+use ratatui::text::Line;
+use ratatui::widgets::canvas::{Canvas, Line as Stroke};
+
+use crate::messages::seams::Laid;
+use crate::screens::state::State;
+use crate::screens::styles::draw::letter;
+use crate::screens::styles::state::EdgeAt;
+use crate::widgets::lists::pane;
+use crate::widgets::text::{shortened, width};
+use study::seams::{DeskEdge, DeskPiece};
+
+/// How far labels stand off their edge, in dots of braille: inside the piece first.
+const OFFSETS: [f64; 6] = [6.0, 9.0, 3.0, 13.0, -6.0, -9.0];
+
+/// Draws the pane.
+pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
+    let title = state.size_row().map_or("pieces".to_owned(), |row| format!("{} {}", row.style, row.size));
+    let room = usize::from(area.width).saturating_sub(26);
+    let legend = " ● edge  ○ sewn to it  ◆ marked ";
+    let block = pane(state.theme, format!("{} · fronts up, right →", shortened(&title, room)), focused)
+        .title_bottom(Line::styled(legend, state.theme.legend()));
+    let inner = block.inner(area);
+    frame.render_widget(block, area);
+    let Some(Ok(laid)) = state.laid() else { return };
+    let Some(view) = View::of(inner, laid) else { return };
+    let drawing = Drawing { state, laid, view };
+    drawing.outlines(frame);
+    drawing.selection(frame);
+    drawing.labels(frame);
+}
+
+/// How millimetres become dots of braille, two by four a cell.
+struct View {
+    area: Rect,
+    /// Left and upper end of the pane, mm.
+    corner: [f64; 2],
+    /// Millimetres a dot.
+    scale: f64,
+}
+
+impl View {
+    /// All pieces in a pane; `None` where there is nothing to see or no room.
+    fn of(area: Rect, laid: &Laid) -> Option<Self> {
+        let edges = laid.out.desk.pieces.iter().flat_map(|piece| &piece.edges);
+        let points = edges.flat_map(|edge| &edge.line_mm);
+        let bounds = points.fold(None, |bounds: Option<[f64; 4]>, [x, y]| {
+            let [left, low, right, high] = bounds.unwrap_or([*x, *y, *x, *y]);
+            Some([left.min(*x), low.min(*y), right.max(*x), high.max(*y)])
+        });
+        let [left, low, right, high] = bounds?;
+        if area.width < 4 || area.height < 3 {
+            return None;
+        }
+        let dots = [f64::from(area.width) * 2.0, f64::from(area.height) * 4.0];
+        // A dot stays free on each side.
+        let scale = ((right - left) / (dots[0] - 2.0)).max((high - low) / (dots[1] - 2.0)).max(1e-6);
+        let corner = [(left + right - scale * dots[0]) / 2.0, (low + high + scale * dots[1]) / 2.0];
+        Some(Self { area, corner, scale })
+    }
+
+    /// The cell of a place; `None` outside the pane.
+    fn cell(&self, [x, y]: [f64; 2]) -> Option<Position> {
+        let column = ((x - self.corner[0]) / self.scale / 2.0).floor();
+        let row = ((self.corner[1] - y) / self.scale / 4.0).floor();
+        let is_inside =
+            column >= 0.0 && row >= 0.0 && column < f64::from(self.area.width) && row < f64::from(self.area.height);
+        is_inside.then(|| Position::new(self.area.x + column as u16, self.area.y + row as u16))
+    }
+}
+
+struct Drawing<'a> {
+    state: &'a State,
+    laid: &'a Laid,
+    view: View,
+}
+
+impl Drawing<'_> {
+    /// The colour of an edge: that of its seam.
+    fn colour(&self, edge: EdgeAt) -> Color {
+        self.laid.seam_at(edge).map_or(Color::Reset, |seam| self.state.theme.seam(seam))
+    }
+
+    /// All edges with their places.
+    fn edges(&self) -> impl Iterator<Item = (EdgeAt, &DeskPiece, &DeskEdge)> {
+        let pieces = self.laid.out.desk.pieces.iter().enumerate();
+        pieces.flat_map(|(k, piece)| piece.edges.iter().enumerate().map(move |(n, edge)| ((k, n), piece, edge)))
+    }
+
+    fn outlines(&self, frame: &mut Frame<'_>) {
+        let View { area, corner, scale } = &self.view;
+        // The canvas puts its bounds on the middles of its outermost dots.
+        let (dx, dy) = (f64::from(area.width) * 2.0 - 1.0, f64::from(area.height) * 4.0 - 1.0);
+        let (x, y) = (corner[0] + scale / 2.0, corner[1] - scale / 2.0);
+        let canvas = Canvas::default()
+            .marker(Marker::Braille)
+            .x_bounds([x, x + dx * scale])
+            .y_bounds([y - dy * scale, y])
+            .paint(|context| {
+                for (at, _, edge) in self.edges() {
+                    let colour = self.colour(at);
+                    for pair in edge.line_mm.windows(2) {
+                        let [[x1, y1], [x2, y2]] = [pair[0], pair[1]];
+                        context.draw(&Stroke { x1, y1, x2, y2, color: colour });
+                    }
+                }
+            });
+        frame.render_widget(canvas, *area);
+    }
+
+    /// The selected edge and what is sewn to it, in glyphs that need no colour.
+    fn selection(&self, frame: &mut Frame<'_>) {
+        let chosen = self.state.styles.edge;
+        let seam = self.laid.seam_at(chosen).map(|k| &self.laid.out.desk.seams[k]);
+        let others = seam.map_or(&[][..], |seam| if seam.a.contains(&chosen) { &seam.b } else { &seam.a });
+        for (at, _, edge) in self.edges() {
+            let glyph = match at {
+                at if at == chosen => "●",
+                at if self.state.styles.marks.contains(&at) => "◆",
+                at if others.contains(&at) => "○",
+                _ => continue,
+            };
+            let style = Style::new().fg(self.colour(at)).add_modifier(Modifier::BOLD);
+            for cell in walked(edge, self.view.scale * 1.5).into_iter().filter_map(|place| self.view.cell(place)) {
+                frame.buffer_mut()[cell].set_symbol(glyph).set_style(style);
+            }
+        }
+    }
+
+    /// Numbers of edges with the letters of their seams, and names of pieces, as far as there is room: what is selected
+    /// first, then long edges before short ones.
+    fn labels(&self, frame: &mut Frame<'_>) {
+        let styles = &self.state.styles;
+        let mut edges: Vec<_> = self.edges().collect();
+        let rank = |at: EdgeAt| match at {
+            at if at == styles.edge => 0,
+            at if styles.marks.contains(&at) => 1,
+            _ => 2,
+        };
+        edges.sort_by(|(a, _, one), (b, _, two)| {
+            rank(*a).cmp(&rank(*b)).then(two.length_mm.total_cmp(&one.length_mm)).then(a.cmp(b))
+        });
+        let mut taken: Vec<Rect> = vec![];
+        for (at, _, edge) in edges {
+            let seam = self.laid.seam_at(at);
+            let label = format!("{}{}", edge.number, seam.map_or(String::new(), |seam| letter(seam).to_string()));
+            let style = match rank(at) {
+                0 => Style::new().add_modifier(Modifier::REVERSED | Modifier::BOLD),
+                _ => Style::new().fg(self.colour(at)).add_modifier(Modifier::BOLD),
+            };
+            let [middle, inwards] = middle(edge);
+            let places = OFFSETS.map(|dots| [0, 1].map(|k| middle[k] + inwards[k] * dots * self.view.scale));
+            self.put(frame, &mut taken, &label, style, &places);
+        }
+        for piece in &self.laid.out.desk.pieces {
+            let places = [0.0, 7.0, -7.0, 14.0, -14.0].map(|dots| {
+                let [x, y] = centre(piece);
+                [x, y + dots * self.view.scale]
+            });
+            self.put(frame, &mut taken, &piece.id, self.state.theme.dim(), &places);
+        }
+    }
+
+    /// Writes a label at the first place where it touches no other.
+    fn put(&self, frame: &mut Frame<'_>, taken: &mut Vec<Rect>, label: &str, style: Style, places: &[[f64; 2]]) {
+        let columns = width(label) as u16;
+        for cell in places.iter().filter_map(|place| self.view.cell(*place)) {
+            let last = self.view.area.right().saturating_sub(columns).max(self.view.area.x);
+            let x = cell.x.saturating_sub(columns / 2).clamp(self.view.area.x, last);
+            let room = Rect::new(x, cell.y, columns, 1).intersection(self.view.area);
+            let apart = Rect::new(x.saturating_sub(1), cell.y, columns + 2, 1);
+            if room.width == columns && !taken.iter().any(|other| other.intersects(apart)) {
+                frame.buffer_mut().set_string(x, cell.y, label, Style::reset().patch(style));
+                taken.push(room);
+                return;
+            }
+        }
+    }
+}
+
+/// Places along an edge, at most so many mm apart.
+fn walked(edge: &DeskEdge, apart_mm: f64) -> Vec<[f64; 2]> {
+    let mut places = vec![];
+    for pair in edge.line_mm.windows(2) {
+        let [a, b] = [pair[0], pair[1]];
+        let steps = ((b[0] - a[0]).hypot(b[1] - a[1]) / apart_mm).ceil().clamp(1.0, 1e4) as usize;
+        let at = |t: f64| [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])];
+        places.extend((0..=steps).map(|k| at(k as f64 / steps as f64)));
+    }
+    places
+}
+
+/// The middle of an edge, and the unit vector from there into the piece: to the left, for edges run counter-clockwise.
+fn middle(edge: &DeskEdge) -> [[f64; 2]; 2] {
+    let mut left_mm = edge.length_mm / 2.0;
+    for pair in edge.line_mm.windows(2) {
+        let [a, b] = [pair[0], pair[1]];
+        let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+        if length > 0.0 && length >= left_mm {
+            let t = left_mm / length;
+            let along = [(b[0] - a[0]) / length, (b[1] - a[1]) / length];
+            return [[a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])], [-along[1], along[0]]];
+        }
+        left_mm -= length;
+    }
+    [edge.line_mm.last().copied().unwrap_or_default(), [0.0, 0.0]]
+}
+
+/// The middle of a piece's extent.
+fn centre(piece: &DeskPiece) -> [f64; 2] {
+    let points = || piece.edges.iter().flat_map(|edge| &edge.line_mm);
+    [0, 1].map(|k| {
+        let low = points().map(|p| p[k]).fold(f64::INFINITY, f64::min);
+        let high = points().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
+        (low + high) / 2.0
+    })
+}

@@ -1,0 +1,221 @@
+//! What is done to the seams of a style.
+
+use crate::keys::screen::Screen;
+use crate::messages::effect::Effect;
+use crate::messages::requests::Act;
+use crate::messages::seams::Task;
+use crate::screens::state::State;
+use crate::screens::styles::state::{DeskLine, EdgeAt};
+use study::Part;
+use study::files::SourceFile;
+use study::seams::{DeskSeam, SeamEdit, SeamStep};
+
+impl State {
+    /// Gives the desk the focus; whether what lies on it can be worked on now.
+    fn may_sew(&mut self) -> bool {
+        if !self.may_change(Part::Style) {
+            return false;
+        }
+        self.nav.second_pane[Screen::Styles as usize] = true;
+        let is_current =
+            matches!(&self.styles.desk, Some((laying, Ok(_))) if Some(laying) == self.styles.asked.as_ref());
+        let is_ready = is_current && self.laid().is_some() && !self.styles.is_busy;
+        if !is_ready && self.size_row().is_none() {
+            self.say("no size is selected: i imports one");
+        } else if !is_ready {
+            self.say("the pieces are not laid out yet");
+        }
+        is_ready
+    }
+
+    /// Marks the selected edge, or takes its mark away.
+    pub fn mark_edge(&mut self) {
+        if !self.may_sew() {
+            return;
+        }
+        let (edge, marks) = (self.styles.edge, &mut self.styles.marks);
+        match marks.iter().position(|mark| *mark == edge) {
+            Some(at) => drop(marks.remove(at)),
+            None => marks.push(edge),
+        }
+    }
+
+    /// Sews the edge marked first to the others marked, or to the selected one.
+    pub fn add_seam(&mut self) -> Vec<Effect> {
+        if !self.may_sew() {
+            return vec![];
+        }
+        let mut sides = self.styles.marks.clone();
+        if sides.len() < 2 && !sides.contains(&self.styles.edge) {
+            sides.push(self.styles.edge);
+        }
+        let Some(Ok(laid)) = self.laid() else { return vec![] };
+        let [first, others @ ..] = sides.as_slice() else { return vec![] };
+        if others.is_empty() {
+            self.say("m marks an edge; then go to the edge it is sewn to, and a sews them");
+            return vec![];
+        }
+        let length = |(piece, edge): &EdgeAt| laid.out.desk.pieces[*piece].edges[*edge].length_mm;
+        let (a_mm, b_mm) = (length(first), others.iter().map(length).sum::<f64>());
+        let a = laid.edge_name(*first);
+        let b = others.iter().map(|edge| laid.edge_name(*edge)).collect::<Vec<_>>().join("+");
+        let is_eased = (a_mm - b_mm).abs() > laid.out.tolerance_mm;
+        let text = format!(
+            "{a} is {a_mm:.1} mm, {b} is {b_mm:.1} mm. Sew them with {:+.1} mm of ease (ratio {:.3})?",
+            a_mm - b_mm,
+            a_mm / b_mm
+        );
+        let effects = self.step_of_work(SeamStep::Edit(SeamEdit::Add { a, b, name: None, is_eased }));
+        if is_eased {
+            self.styles.is_busy = false;
+            self.ask(text, effects);
+            return vec![];
+        }
+        effects
+    }
+
+    /// The seam that holds the selected edge.
+    fn selected_seam(&mut self) -> Option<DeskSeam> {
+        if !self.may_sew() {
+            return None;
+        }
+        let laid = self.laid()?.ok()?;
+        let found = laid.seam_at(self.styles.edge).map(|k| laid.out.desk.seams[k].clone());
+        if found.is_none() {
+            self.say("no seam holds the selected edge");
+        }
+        found
+    }
+
+    /// Two edges that name a seam: one of each side.
+    fn between(&self, seam: &DeskSeam) -> Option<(String, String)> {
+        let laid = self.laid()?.ok()?;
+        Some((laid.edge_name(*seam.a.first()?), laid.edge_name(*seam.b.first()?)))
+    }
+
+    /// Opens the selected seam.
+    pub fn remove_seam(&mut self) -> Vec<Effect> {
+        let edges = self.selected_seam().and_then(|seam| self.between(&seam));
+        edges.map_or(vec![], |(a, b)| self.step_of_work(SeamStep::Edit(SeamEdit::Remove { a, b })))
+    }
+
+    /// Turns one side of the selected seam round.
+    pub fn flip_seam(&mut self) -> Vec<Effect> {
+        let edges = self.selected_seam().and_then(|seam| self.between(&seam));
+        edges.map_or(vec![], |(a, b)| self.step_of_work(SeamStep::Edit(SeamEdit::Flip { a, b })))
+    }
+
+    /// Takes the selected proposed seam for right, or the selected question for answered; gives the desk the focus first where the list has it.
+    pub fn confirm_seam(&mut self) -> Vec<Effect> {
+        if self.nav.screen == Screen::Styles && !self.in_second_pane() {
+            self.nav.second_pane[Screen::Styles as usize] = true;
+            return vec![];
+        }
+        if let (true, Some(DeskLine::Question(k))) = (self.nav.screen == Screen::Styles, self.desk_line()) {
+            if !self.may_sew() {
+                return vec![];
+            }
+            let question = self.laid().and_then(Result::ok).and_then(|laid| laid.out.questions.get(k).cloned());
+            return question.map_or(vec![], |question| self.step_of_work(SeamStep::Decide(question)));
+        }
+        match self.selected_seam() {
+            Some(seam) if seam.confidence.is_some() => self.step_of_work(SeamStep::Confirm(seam.name)),
+            Some(seam) => {
+                self.say(format!("{} is no proposal: nothing to confirm", seam.name));
+                vec![]
+            }
+            None => vec![],
+        }
+    }
+
+    /// Proposes the seams of the selected style; asks where that replaces seams that somebody has made or confirmed.
+    pub fn propose_seams(&mut self) -> Vec<Effect> {
+        // What cannot be laid out with the seams it has may get others.
+        if !self.may_change(Part::Style) || self.styles.is_busy {
+            return vec![];
+        }
+        let Some(style) = self.size_row().map(|row| row.style.clone()) else { return vec![] };
+        let replaced = self.laid().and_then(Result::ok).map_or(0, |laid| {
+            laid.out.desk.seams.iter().filter(|seam| seam.confidence.is_none()).count() + laid.out.lengths.len()
+        });
+        let effects = self.step_of_work(SeamStep::Propose(style.clone()));
+        if replaced > 0 {
+            self.styles.is_busy = false;
+            let text = format!("Propose all seams of {style} anew? Its seams and measurements go; u brings them back.");
+            self.ask(text, effects);
+            return vec![];
+        }
+        effects
+    }
+
+    fn step_of_work(&mut self, step: SeamStep) -> Vec<Effect> {
+        let Some(laying) = self.laying() else { return vec![] };
+        self.styles.is_busy = true;
+        vec![Effect::Desk(Task::Sew(laying, step))]
+    }
+
+    /// Takes in a seam file after a step of work.
+    pub fn sewn(&mut self, style: String, outcome: Result<SourceFile, String>) {
+        self.styles.is_busy = false;
+        match outcome {
+            Ok(seams) => {
+                self.styles.edits.entry(style).or_default().push(seams);
+                self.say("done; w saves it, u takes it back");
+            }
+            Err(text) => self.complain(text),
+        }
+    }
+
+    /// Takes the last edit of the selected style back.
+    pub fn undo_edit(&mut self) {
+        self.show(Screen::Styles);
+        let Some(style) = self.size_row().map(|row| row.style.clone()) else { return };
+        let Some(edits) = self.styles.edits.get_mut(&style) else {
+            return self.say(format!("{style} is as saved: nothing to take back"));
+        };
+        edits.pop();
+        let left = edits.len();
+        if left == 0 {
+            self.styles.edits.remove(&style);
+        }
+        self.say(format!("taken back; {left} edits of {style} are left"));
+    }
+
+    /// Saves the edited seams of the selected style.
+    pub fn save_seams(&mut self) -> Vec<Effect> {
+        if !self.may_change(Part::Style) {
+            return vec![];
+        }
+        let Some(style) = self.size_row().map(|row| row.style.clone()) else { return vec![] };
+        let Some(seams) = self.styles.edits.get(&style).and_then(|edits| edits.last()).cloned() else {
+            self.say(format!("{style} is as saved: nothing to save"));
+            return vec![];
+        };
+        vec![Effect::Do(Act::SaveSeams(style, seams))]
+    }
+
+    /// Forgets edits that are saved, and asks whether the file of the study is to say the same.
+    pub fn seams_saved(&mut self, style: &str, seams: &SourceFile, outcome: Result<String, String>) {
+        let text = match outcome {
+            Ok(text) => text,
+            Err(text) => return self.complain(text),
+        };
+        if self.styles.edits.get(style).and_then(|edits| edits.last()) == Some(seams) {
+            self.styles.edits.remove(style);
+        }
+        let desk = self.styles.desk.as_ref().filter(|(laying, _)| laying.style == style);
+        let home =
+            desk.and_then(|(_, laid)| laid.as_ref().ok()).and_then(|laid| laid.home.clone().zip(laid.stored.clone()));
+        self.say(text);
+        if let Some((path, before)) = home.filter(|_| self.overlay.is_none()) {
+            let text = format!("Write {} of the study too? Its comments stay; the next run uses it.", path.display());
+            self.ask(text, vec![Effect::Do(Act::WriteSeams(path, before, seams.clone()))]);
+        }
+    }
+
+    /// Styles with edits that are not saved.
+    #[must_use]
+    pub fn unsaved(&self) -> String {
+        self.styles.edits.keys().cloned().collect::<Vec<_>>().join(", ")
+    }
+}

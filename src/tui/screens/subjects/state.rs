@@ -1,0 +1,46 @@
+//! Where the user is among subjects.
+
+use std::collections::BTreeMap;
+
+use crate::screens::order::Order;
+use study::SubjectId;
+use study::bodies::Girths;
+
+/// Measurements in the list of subjects: stature, weight, chest, waist, hip.
+pub const SHOWN: usize = 5;
+
+/// How subjects are ordered: by name, or by the measurement of a number in [`MEASUREMENTS`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub enum SubjectOrder {
+    /// By name.
+    #[default]
+    Name,
+    /// By sex.
+    Sex,
+    /// By a measurement, the smallest first.
+    Measurement(usize),
+}
+
+impl SubjectOrder {
+    /// The next one, of so many measurements.
+    #[must_use]
+    pub fn next(self, measurements: usize) -> Self {
+        match self {
+            Self::Name => Self::Sex,
+            Self::Sex => Self::Measurement(0),
+            Self::Measurement(k) if k + 1 < measurements => Self::Measurement(k + 1),
+            Self::Measurement(_) => Self::Name,
+        }
+    }
+}
+
+/// Where the user is among subjects.
+#[derive(Debug, Default)]
+pub struct Subjects {
+    /// Subject selected.
+    pub chosen: Option<String>,
+    /// Order of subjects.
+    pub order: Order<SubjectOrder>,
+    /// What was read on bodies that were built.
+    pub measured: BTreeMap<SubjectId, Result<Box<Girths>, String>>,
+}

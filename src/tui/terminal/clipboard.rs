@@ -1,0 +1,20 @@
+//! The clipboard of the user's terminal.
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+
+/// The control sequence that puts a text on the clipboard of the terminal, wherever that runs (OSC 52).
+#[must_use]
+pub fn osc52(text: &str) -> String {
+    format!("\x1b]52;c;{}\x07", STANDARD.encode(text))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn clipboard_sequence() {
+        assert_eq!(osc52("toile"), "\x1b]52;c;dG9pbGU=\x07");
+    }
+}

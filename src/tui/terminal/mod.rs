@@ -1,0 +1,172 @@
+//! The terminal: taken at the start, given back at the end, however that comes.
+
+pub mod clipboard;
+pub mod framed;
+
+use std::io::{IsTerminal, Stdout};
+use std::os::unix::net::UnixStream;
+use std::sync::Once;
+use std::time::{Duration, Instant};
+use std::{io, panic, thread};
+
+use crossterm::event::{DisableMouseCapture, EnableMouseCapture};
+use crossterm::{cursor, execute, terminal};
+use ratatui::Terminal;
+use ratatui::layout::Size;
+
+use crate::app::frame;
+use crate::screens::state::State;
+use crate::terminal::framed::{Framed, Late};
+
+/// Least time between two frames: keys that come faster share one, and a slow line gets no more than it can take.
+const PAUSE: Duration = Duration::from_millis(20);
+
+/// Time without a key after which pictures are sent: longer than between two repeats of a key that is held.
+const REST: Duration = Duration::from_millis(80);
+
+/// The terminal while the workbench has it; dropping it gives it back.
+pub struct Display {
+    terminal: Terminal<Framed<Stdout>>,
+    /// When a key was pressed last.
+    last_key: Option<Instant>,
+    /// When a frame was sent last.
+    last_frame: Option<Instant>,
+    /// Whether the state has changed since it was drawn.
+    is_stale: bool,
+}
+
+impl Display {
+    /// Takes the terminal: raw keys, the alternate screen, no cursor. A panic gives it back before it is reported.
+    ///
+    /// # Errors
+    /// When standard input or output is no terminal.
+    pub fn enter() -> io::Result<Self> {
+        if !(io::stdin().is_terminal() && io::stdout().is_terminal()) {
+            return Err(io::Error::other("standard input or output is none"));
+        }
+        static HOOK: Once = Once::new();
+        HOOK.call_once(|| {
+            let before = panic::take_hook();
+            let screen_thread = thread::current().id();
+            panic::set_hook(Box::new(move |info| {
+                // A panic of another thread is told on the screen, which goes on; here it would be written over it.
+                if thread::current().id() == screen_thread {
+                    restore();
+                    before(info);
+                }
+            }));
+        });
+        terminal::enable_raw_mode()?;
+        let entered = execute!(io::stdout(), terminal::EnterAlternateScreen, cursor::Hide)
+            .and_then(|()| Terminal::new(Framed::new(io::stdout(), None)?));
+        match entered {
+            Ok(terminal) => Ok(Self { terminal, last_key: None, last_frame: None, is_stale: false }),
+            Err(error) => {
+                restore();
+                Err(error)
+            }
+        }
+    }
+
+    /// Size of the terminal.
+    ///
+    /// # Errors
+    /// When the terminal is gone.
+    pub fn size(&self) -> io::Result<Size> {
+        self.terminal.size()
+    }
+
+    /// Has the state drawn, now or when the frame before is old enough.
+    ///
+    /// # Errors
+    /// When the terminal is gone.
+    pub fn show(&mut self, state: &State) -> io::Result<()> {
+        self.is_stale = true;
+        self.go_on(state)
+    }
+
+    /// Draws the state where it has changed and sends the next frame, pictures too once the keys rest; nothing where the
+    /// frame before is too young.
+    ///
+    /// # Errors
+    /// When the terminal is gone.
+    pub fn go_on(&mut self, state: &State) -> io::Result<()> {
+        if !self.age_left().is_zero() {
+            return Ok(());
+        }
+        if std::mem::take(&mut self.is_stale) {
+            self.terminal.draw(|frame| frame::draw(frame, state))?;
+        }
+        let is_at_rest = self.rest_left().is_zero();
+        if self.terminal.backend_mut().send(is_at_rest)? > 0 {
+            self.last_frame = Some(Instant::now());
+        }
+        Ok(())
+    }
+
+    /// Time until the next frame is due; `None` where nothing is left to send.
+    #[must_use]
+    pub fn pause(&self) -> Option<Duration> {
+        match self.terminal.backend().late() {
+            Late::Nothing if !self.is_stale => None,
+            Late::Pictures if !self.is_stale => Some(self.age_left().max(self.rest_left())),
+            _ => Some(self.age_left()),
+        }
+    }
+
+    /// Time until the last frame is old enough for another.
+    fn age_left(&self) -> Duration {
+        self.last_frame.map_or(Duration::ZERO, |frame| PAUSE.saturating_sub(frame.elapsed()))
+    }
+
+    /// Time until the keys rest.
+    fn rest_left(&self) -> Duration {
+        self.last_key.map_or(Duration::ZERO, |key| REST.saturating_sub(key.elapsed()))
+    }
+
+    /// Takes note that a key was pressed.
+    pub fn key_pressed(&mut self) {
+        self.last_key = Some(Instant::now());
+    }
+
+    /// Has everything drawn anew.
+    ///
+    /// # Errors
+    /// When the terminal is gone.
+    pub fn clear(&mut self) -> io::Result<()> {
+        self.terminal.clear()
+    }
+}
+
+impl Drop for Display {
+    fn drop(&mut self) {
+        restore();
+    }
+}
+
+/// Takes the mouse, or leaves it to the terminal.
+///
+/// # Errors
+/// When the terminal is gone.
+pub fn take_mouse(is_taken: bool) -> io::Result<()> {
+    if is_taken { execute!(io::stdout(), EnableMouseCapture) } else { execute!(io::stdout(), DisableMouseCapture) }
+}
+
+/// Puts a silent socket in the place of standard input once its terminal is gone: crossterm's reader would otherwise read
+/// the end of it over and over, a whole core's worth. Silence lasts as long as the returned end lives.
+///
+/// # Errors
+/// When the system has no sockets or descriptors left.
+pub fn silence_input() -> io::Result<UnixStream> {
+    let (ours, silent) = UnixStream::pair()?;
+    silent.set_nonblocking(true)?;
+    rustix::stdio::dup2_stdin(&silent)?;
+    Ok(ours)
+}
+
+/// Gives the terminal back, as far as it is still there.
+fn restore() {
+    // Errors have nowhere to go: the terminal that would show them is what failed.
+    let _ = execute!(io::stdout(), DisableMouseCapture, terminal::LeaveAlternateScreen, cursor::Show);
+    let _ = terminal::disable_raw_mode();
+}

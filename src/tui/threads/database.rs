@@ -1,0 +1,174 @@
+//! The thread that reads the database, when asked to and when it has changed, and acts on the queue and the catalogue.
+
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
+use std::time::{Duration, Instant};
+
+use crate::messages::message::Message;
+use crate::messages::requests::Act;
+use crate::messages::snapshot::{Focus, Snapshot};
+use crate::threads::reading;
+use study::seams::write_seams;
+use study::{Deed, Mode, Part, Saved, StudyError, StyleGiven, Workspace};
+
+/// Time between two looks at whether the database has changed; a look costs microseconds.
+const LOOK: Duration = Duration::from_millis(250);
+
+/// What the thread of the database is asked for.
+/// What is asked of it.
+pub enum Request {
+    Read(Focus),
+    Do(Act),
+}
+
+/// Reads what the screens show when asked to and whenever the database has changed, and acts on the queue.
+pub fn serve(workspace: Workspace, asked: &Receiver<Request>, sender: &Sender<Message>) {
+    let mut reader = Reader { workspace, focus: Focus::default(), last: None, rest: LOOK };
+    loop {
+        let first = match asked.recv_timeout(reader.rest) {
+            Ok(request) => Some(request),
+            Err(RecvTimeoutError::Timeout) => None,
+            Err(RecvTimeoutError::Disconnected) => return,
+        };
+        let is_wanted = first.is_some();
+        // Of what was looked at meanwhile, only the latest is read.
+        for request in first.into_iter().chain(asked.try_iter()) {
+            match request {
+                Request::Read(wanted) => reader.focus = wanted,
+                Request::Do(act) => {
+                    if sender.send(reader.do_act(act)).is_err() {
+                        return;
+                    }
+                }
+            }
+        }
+        let message = match reader.read(is_wanted) {
+            Ok(None) => continue,
+            Ok(Some(data)) => Message::Data(Box::new(data)),
+            Err(error) => Message::Failed(error.to_string()),
+        };
+        if sender.send(message).is_err() {
+            return;
+        }
+    }
+}
+
+/// What the thread of the database keeps.
+struct Reader {
+    workspace: Workspace,
+    focus: Focus,
+    /// What was read last: of which version of the database, and of which focus.
+    last: Option<(i64, Focus, Snapshot)>,
+    /// Time to the next look.
+    rest: Duration,
+}
+
+impl Reader {
+    /// Reads what is shown, where it is wanted or anything was written; after a long read the next look comes later.
+    fn read(&mut self, is_wanted: bool) -> Result<Option<Snapshot>, StudyError> {
+        let version = self.workspace.version()?;
+        if !is_wanted && self.last.as_ref().is_some_and(|(of, ..)| *of == version) {
+            return Ok(None);
+        }
+        let known = self.last.take().filter(|(of, ..)| *of == version);
+        let start = Instant::now();
+        let is_same = |focus: &Focus| (&focus.study, &focus.garment) == (&self.focus.study, &self.focus.garment);
+        let data = match known.filter(|(_, focus, _)| is_same(focus)) {
+            Some((.., before)) => reading::refocused(&self.workspace, before, &self.focus)?,
+            None => reading::snapshot(&self.workspace, &self.focus)?,
+        };
+        self.rest = LOOK.max(2 * start.elapsed());
+        let shown = Focus {
+            study: data.study().map(|study| study.name.clone()),
+            garment: data.grid.as_ref().map(|grid| grid.garment.clone()),
+            ..self.focus.clone()
+        };
+        self.last = Some((version, shown, data.clone()));
+        Ok(Some(data))
+    }
+
+    /// Acts, and says what came of it.
+    fn do_act(&mut self, act: Act) -> Message {
+        let done = do_act(&mut self.workspace, &act).map_err(|error| error.to_string());
+        match (act, done) {
+            (Act::SaveSeams(style, seams), done) => Message::SeamsSaved(style, seams, done),
+            (act, done) if act.is_filled_in() => Message::Saved(done),
+            (_, Ok(text)) => Message::Acted(text),
+            (_, Err(text)) => Message::Failed(text),
+        }
+    }
+}
+
+/// Acts on the queue or the catalogue; says what was done.
+pub fn do_act(workspace: &mut Workspace, act: &Act) -> Result<String, StudyError> {
+    match act {
+        Act::Save(part, mode, name, given) => {
+            let saved = match part {
+                Part::Fabric => workspace.save_fabric(*mode, name, None, given)?,
+                _ => workspace.save_subject(*mode, name, given)?,
+            };
+            Ok(format!("{saved}{}", saved.doubts.iter().map(|doubt| format!("; {doubt}")).collect::<String>()))
+        }
+        Act::Import(part, path) => {
+            let saved = workspace.import(*part, std::slice::from_ref(path))?;
+            let count = |deed: Deed| saved.iter().filter(|saved| saved.deed == deed).count();
+            let changed = count(Deed::Revised) + count(Deed::Restored);
+            let doubts = saved.iter().filter(|saved| !saved.doubts.is_empty()).count();
+            let doubts = if doubts > 0 { format!("; {doubts} with doubtful values (!)") } else { String::new() };
+            Ok(format!(
+                "{} {part}s: {} added, {changed} changed, {} as before{doubts}",
+                saved.len(),
+                count(Deed::Added),
+                count(Deed::Unchanged)
+            ))
+        }
+        Act::Remove(part, name) => Ok(workspace.remove(*part, name)?.to_string()),
+        Act::ImportStyle(name, given) => import_style(workspace, name, given),
+        Act::SaveSeams(style, seams) => Ok(said(&workspace.save_seams(style, seams)?)),
+        Act::WriteSeams(path, before, after) => {
+            write_seams(path, before, after)?;
+            Ok(format!("{} is written", path.display()))
+        }
+        Act::Cancel(id) => match workspace.cancel(&[*id])? {
+            0 => Ok(format!("job {id} had ended already")),
+            _ => Ok(format!("job {id} is cancelled; r queues it again")),
+        },
+        Act::Retry(id) => match workspace.retry(&[*id])? {
+            0 => Ok(format!("job {id} is not run again")),
+            _ => Ok(format!("job {id} is queued again")),
+        },
+        Act::Prioritise(id, priority) => {
+            workspace.set_priority(&[*id], *priority)?;
+            Ok(format!("job {id} has priority {priority}"))
+        }
+        Act::Pause(study) => {
+            workspace.pause(study)?;
+            Ok(format!("{study} is paused: no new jobs start, running ones go on"))
+        }
+        Act::Resume(study) => {
+            workspace.resume(study)?;
+            Ok(format!("{study} goes on"))
+        }
+    }
+}
+
+/// Adds the styles of a study file; or a style, whose seams are proposed where none are given; or sizes to one.
+fn import_style(workspace: &mut Workspace, name: &str, given: &StyleGiven) -> Result<String, StudyError> {
+    if let [(_, path)] = given.patterns.as_slice()
+        && path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
+    {
+        return Ok(said(&workspace.import(Part::Style, std::slice::from_ref(path))?));
+    }
+    let is_known = workspace.sizes()?.iter().any(|row| row.style == name);
+    let saved = workspace.save_style(if is_known { Mode::Edit } else { Mode::Add }, name, given)?;
+    let unsure = workspace.sizes()?.iter().find(|row| row.style == name).map_or(0, |row| row.unconfirmed);
+    let proposed = if unsure > 0 { format!("; {unsure} seams are proposed: confirm them") } else { String::new() };
+    Ok(said(&saved) + &proposed)
+}
+
+/// What was saved, in a line.
+fn said(saved: &[Saved]) -> String {
+    match saved {
+        [first, _, _, _, ..] => format!("{first}, and {} more", saved.len() - 1),
+        _ => saved.iter().map(Saved::to_string).collect::<Vec<_>>().join(", "),
+    }
+}

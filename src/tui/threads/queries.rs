@@ -1,0 +1,86 @@
+//! The thread that asks the database what users ask in SQL. It has a connection of its own, so that the screens go on
+//! while a long query runs.
+
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, Sender};
+use std::sync::{Arc, OnceLock};
+use std::time::Instant;
+
+use crate::messages::message::Message;
+use crate::messages::requests::Question;
+use crate::widgets::result_table::Sheet;
+use study::{Interrupter, StudyError, Workspace, saved_queries};
+
+/// Rows that are shown of an answer; a file gets all.
+const MOST_ROWS: usize = 20_000;
+
+/// Stops what the thread works on.
+#[derive(Clone, Default)]
+pub struct Brake {
+    is_on: Arc<AtomicBool>,
+    interrupter: Arc<OnceLock<Interrupter>>,
+}
+
+impl Brake {
+    /// Ends the query that runs now.
+    pub fn pull(&self) {
+        self.is_on.store(true, Ordering::Relaxed);
+        if let Some(interrupter) = self.interrupter.get() {
+            interrupter.interrupt();
+        }
+    }
+
+    /// Lets the next query run.
+    pub fn release(&self) {
+        self.is_on.store(false, Ordering::Relaxed);
+    }
+}
+
+/// Answers until nobody asks or listens any more.
+pub fn serve(database: &Path, brake: &Brake, wanted: &Receiver<Question>, sender: &Sender<Message>) {
+    // Whatever a query says, it cannot write.
+    let workspace = Workspace::open(database, true).map_err(|error| error.to_string());
+    if let Ok(workspace) = &workspace {
+        // The thread is started once, and so is its interrupter set.
+        let _ = brake.interrupter.set(workspace.interrupter());
+    }
+    while let Ok(question) = wanted.recv() {
+        let workspace = workspace.as_ref().map_err(Clone::clone);
+        let start = Instant::now();
+        let message = match question {
+            Question::Names => {
+                let folder = database.parent().map(|folder| folder.join("queries"));
+                let names = workspace.and_then(|it| {
+                    let names = it.relations().and_then(|known| Ok((known, saved_queries(folder.as_deref())?)));
+                    names.map_err(|error| error.to_string())
+                });
+                names.map_or_else(Message::Failed, |(relations, queries)| Message::Names(relations, queries))
+            }
+            Question::Rows(text) => {
+                let answer =
+                    workspace.and_then(|it| it.answer(&text, MOST_ROWS, &brake.is_on).map_err(|error| said(&error)));
+                let sheet = answer.map(|answer| Box::new(Sheet::of(answer)));
+                Message::Answered(start.elapsed().as_millis() as u64, sheet)
+            }
+            Question::Export(text, path) => {
+                let rows =
+                    workspace.and_then(|it| it.export_query(&text, &path, &brake.is_on).map_err(|error| said(&error)));
+                Message::Saved(rows.map(|rows| format!("{rows} rows are in {}", path.display())))
+            }
+        };
+        if sender.send(message).is_err() {
+            return;
+        }
+    }
+}
+
+/// An error of a query; one that was stopped says so.
+fn said(error: &StudyError) -> String {
+    match error {
+        StudyError::Interrupted => "cancelled".to_owned(),
+        StudyError::Database(inner) if inner.to_string().contains("interrupted") => "cancelled".to_owned(),
+        StudyError::Database(inner) => inner.to_string(),
+        other => other.to_string(),
+    }
+}

@@ -1,0 +1,48 @@
+//! Panes and the lists in them.
+
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+use ratatui::widgets::Block;
+
+use crate::widgets::text;
+use crate::widgets::theme::Theme;
+
+/// A pane; the one with the focus stands out by colour, weight and a mark in its title.
+pub fn pane<'a>(theme: Theme, title: impl Into<String>, focused: bool) -> Block<'a> {
+    let title = title.into();
+    let title = if focused { format!(" ▸{title} ") } else { format!(" {title} ") };
+    let style = if focused { theme.bold() } else { Style::new() };
+    Block::bordered().border_style(theme.border(focused)).title(Span::styled(title, style))
+}
+
+/// A line as the selected one: one colour all along, so that it reads as one row.
+pub fn selected_line(line: Line<'static>, style: Style) -> Line<'static> {
+    let text: String = line.spans.iter().map(|span| span.content.as_ref()).collect();
+    Line::styled(text, style)
+}
+
+/// The first line shown of a list, such that the selected one is near the middle.
+pub fn first_shown(selected: usize, lines: usize, height: usize) -> usize {
+    selected.saturating_sub(height / 2).min(lines.saturating_sub(height))
+}
+
+/// A table of which there is no room for all lines: its header stays, the lines below it are scrolled; a mark at the end of
+/// the header says that there is more.
+pub fn scrolled(mut table: Vec<Line<'static>>, down: usize, inner: Rect) -> Vec<Line<'static>> {
+    let hidden = table.len().saturating_sub(usize::from(inner.height));
+    if hidden == 0 || table.is_empty() {
+        return table;
+    }
+    let down = down.min(hidden);
+    table.drain(1..=down);
+    let mark = match (down > 0, down < hidden) {
+        (true, true) => "↕",
+        (true, false) => "↑",
+        _ => "↓",
+    };
+    let style = table[0].style;
+    let head: String = table[0].spans.iter().map(|span| span.content.as_ref()).collect();
+    table[0] = Line::styled(text::left(head.trim_end(), usize::from(inner.width).saturating_sub(1)) + mark, style);
+    table
+}

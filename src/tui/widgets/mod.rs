@@ -1,0 +1,13 @@
+//! What screens are drawn and typed with: they know nothing of the state.
+
+pub mod ascii;
+pub mod braille;
+pub mod editor;
+pub mod half_blocks;
+pub mod layout;
+pub mod lists;
+pub mod picture;
+pub mod result_table;
+pub mod text;
+pub mod theme;
+pub mod typing;

@@ -1,0 +1,241 @@
+//! The rows of an answer as they are looked at: sorted by a column, narrowed by a filter, the selected column in sight.
+
+use std::cmp::Ordering;
+
+use crate::widgets::text;
+use geom::units::significant;
+use study::{SqlAnswer, Value};
+
+/// Rows whose values say how wide a column is and whether it holds numbers.
+const LOOKED_AT: usize = 300;
+
+/// The widest a column becomes.
+const WIDEST: usize = 40;
+
+/// An answer, and where the user is in it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sheet {
+    answer: SqlAnswer,
+    /// Each row in small letters, for the filter.
+    words: Vec<String>,
+    /// Width of each column, and whether it is of numbers.
+    columns: Vec<(usize, bool)>,
+    /// Rows shown, in order.
+    shown: Vec<usize>,
+    /// Row selected, one of those shown.
+    pub row: usize,
+    /// Column selected.
+    pub column: usize,
+    /// Column that sorts and whether it falls; the query's own order otherwise.
+    pub order: Option<(usize, bool)>,
+}
+
+impl Sheet {
+    /// The sheet of an answer. Costs time in proportion to it: for threads that nobody waits for.
+    #[must_use]
+    pub fn of(answer: SqlAnswer) -> Self {
+        let words = answer.table.rows.iter().map(|row| {
+            let cells: Vec<String> = row.iter().map(Value::to_string).collect();
+            cells.join("\t").to_lowercase()
+        });
+        let columns = (0..answer.table.columns.len()).map(|k| {
+            let values = || answer.table.rows.iter().take(LOOKED_AT).map(|row| &row[k]);
+            let widest = values().map(|value| text::width(&cell_text(value))).max().unwrap_or(0);
+            let is_number = values().all(|value| !matches!(value, Value::Text(_) | Value::Blob(_)));
+            (widest.max(text::width(&answer.table.columns[k]) + 1).min(WIDEST), is_number)
+        });
+        let (words, columns) = (words.collect(), columns.collect());
+        Self { shown: (0..answer.table.rows.len()).collect(), words, columns, answer, ..Self::default() }
+    }
+
+    /// Names of the columns.
+    #[must_use]
+    pub fn names(&self) -> &[String] {
+        &self.answer.table.columns
+    }
+
+    /// Width of a column and whether it is of numbers.
+    #[must_use]
+    pub fn column_of(&self, k: usize) -> (usize, bool) {
+        self.columns[k]
+    }
+
+    /// Number of rows shown.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.shown.len()
+    }
+
+    /// Number of all rows.
+    #[must_use]
+    pub fn total(&self) -> usize {
+        self.answer.table.rows.len()
+    }
+
+    /// Whether the query has more rows than are here.
+    #[must_use]
+    pub fn is_cut(&self) -> bool {
+        self.answer.is_cut
+    }
+
+    /// A row of those shown.
+    #[must_use]
+    pub fn values(&self, row: usize) -> Option<&[Value]> {
+        self.shown.get(row).map(|at| self.answer.table.rows[*at].as_slice())
+    }
+
+    /// Shows the rows that contain a text, in the order wanted.
+    pub fn arrange(&mut self, filter: &str) {
+        let filter = filter.to_lowercase();
+        self.shown = (0..self.words.len()).filter(|row| self.words[*row].contains(&filter)).collect();
+        if let Some((column, falls)) = self.order {
+            let rows = &self.answer.table.rows;
+            self.shown.sort_by(|a, b| {
+                let order = compared(&rows[*a][column], &rows[*b][column]);
+                if falls { order.reverse() } else { order }
+            });
+        }
+        self.row = self.row.min(self.shown.len().saturating_sub(1));
+    }
+
+    /// Sorts by the selected column; a second time in the query's own order again.
+    pub fn sort(&mut self, filter: &str) {
+        self.order =
+            if self.order.is_some_and(|(by, _)| by == self.column) { None } else { Some((self.column, false)) };
+        self.arrange(filter);
+    }
+
+    /// Reverses the order, by the selected column where there is none yet.
+    pub fn reverse(&mut self, filter: &str) {
+        let (by, falls) = self.order.unwrap_or((self.column, false));
+        self.order = Some((by, !falls));
+        self.arrange(filter);
+    }
+
+    /// Goes some columns on.
+    pub fn sideways(&mut self, step: isize) {
+        let last = self.columns.len().saturating_sub(1);
+        self.column = self.column.saturating_add_signed(step).min(last);
+    }
+
+    /// The columns shown in so many columns of the terminal: the first, which stays, then those up to the selected one and
+    /// as many after it as there is room for.
+    #[must_use]
+    pub fn columns_shown(&self, room: usize) -> Vec<usize> {
+        let Some((first, rest)) = self.columns.split_first() else { return vec![] };
+        let widths: Vec<usize> = rest.iter().map(|(width, _)| width + 2).collect();
+        let mut left = room.saturating_sub(first.0);
+        let mut from = 1;
+        // The selected column must fit; what lies before it scrolls away.
+        while from < self.column && widths[from - 1..self.column].iter().sum::<usize>() > left {
+            from += 1;
+        }
+        let mut shown = vec![0];
+        for k in from..self.columns.len() {
+            if widths[k - 1] > left && shown.len() > 1 {
+                break;
+            }
+            left = left.saturating_sub(widths[k - 1]);
+            shown.push(k);
+        }
+        shown
+    }
+
+    /// The rows shown, tab-separated under the names of the columns.
+    #[must_use]
+    pub fn copied(&self, rows: impl Iterator<Item = usize>) -> String {
+        let line = |values: &[Value]| values.iter().map(Value::to_string).collect::<Vec<_>>().join("\t");
+        let lines = rows.filter_map(|row| self.values(row).map(line));
+        std::iter::once(self.names().join("\t")).chain(lines).collect::<Vec<_>>().join("\n") + "\n"
+    }
+}
+
+/// A value in a line: numbers with at most six significant digits, texts without line ends.
+#[must_use]
+pub fn cell_text(value: &Value) -> String {
+    match value {
+        Value::Null => "—".to_owned(),
+        Value::Real(number) => significant(*number, 6),
+        other => other.to_string().split_whitespace().collect::<Vec<_>>().join(" "),
+    }
+}
+
+/// The order of two values as SQLite has it: nothing, numbers, texts, bytes.
+fn compared(a: &Value, b: &Value) -> Ordering {
+    let rank = |value: &Value| match value {
+        Value::Null => 0,
+        Value::Integer(_) | Value::Real(_) => 1,
+        Value::Text(_) => 2,
+        Value::Blob(_) => 3,
+    };
+    let number = |value: &Value| match value {
+        Value::Integer(number) => *number as f64,
+        Value::Real(number) => *number,
+        _ => 0.0,
+    };
+    match (a, b) {
+        (Value::Text(a), Value::Text(b)) => a.cmp(b),
+        (Value::Blob(a), Value::Blob(b)) => a.cmp(b),
+        _ => rank(a).cmp(&rank(b)).then(number(a).total_cmp(&number(b))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use study::Table;
+
+    fn sheet() -> Sheet {
+        let row = |name: &str, value: Value| vec![Value::Text(name.to_owned()), value, Value::Text("x".repeat(30))];
+        let rows = vec![
+            row("beta", Value::Real(0.5)),
+            row("alpha", Value::Null),
+            row("gamma", Value::Integer(-2)),
+            row("delta", Value::Real(12.345_678_9)),
+        ];
+        let columns = ["name", "n", "long"].map(str::to_owned).to_vec();
+        Sheet::of(SqlAnswer { table: Table { columns, rows }, is_cut: false })
+    }
+
+    fn names(sheet: &Sheet) -> Vec<String> {
+        (0..sheet.len()).filter_map(|row| sheet.values(row)).map(|values| values[0].to_string()).collect()
+    }
+
+    #[test]
+    fn rows_are_sorted_by_value_and_narrowed() {
+        let mut sheet = sheet();
+        sheet.sort("");
+        assert_eq!(names(&sheet), ["alpha", "beta", "delta", "gamma"]);
+        sheet.sideways(1);
+        sheet.sort("");
+        assert_eq!(names(&sheet), ["alpha", "gamma", "beta", "delta"], "nothing first, then numbers by size");
+        sheet.reverse("");
+        assert_eq!(names(&sheet), ["delta", "beta", "gamma", "alpha"]);
+        sheet.arrange("ALPHA");
+        assert_eq!(names(&sheet), ["alpha"]);
+        sheet.sort("");
+        assert_eq!(names(&sheet), ["beta", "alpha", "gamma", "delta"], "a second time: as the query has them");
+    }
+
+    #[test]
+    fn the_first_column_stays_and_the_selected_is_in_sight() {
+        let mut sheet = sheet();
+        assert_eq!(sheet.columns_shown(80), [0, 1, 2]);
+        assert_eq!(sheet.columns_shown(20), [0, 1]);
+        sheet.sideways(9);
+        assert_eq!(sheet.column, 2);
+        assert_eq!(sheet.columns_shown(38), [0, 2]);
+        assert_eq!(sheet.columns_shown(5), [0, 2]);
+        assert!(Sheet::default().columns_shown(80).is_empty());
+    }
+
+    #[test]
+    fn numbers_are_short_and_texts_one_line() {
+        let check = |value: Value, expect: &str| assert_eq!(cell_text(&value), expect);
+        check(Value::Real(12.345_678_9), "12.3457");
+        check(Value::Real(0.000_001), "1.00000e-6");
+        check(Value::Real(-0.25), "-0.25");
+        check(Value::Text("a\n  b".to_owned()), "a b");
+        check(Value::Null, "—");
+    }
+}
