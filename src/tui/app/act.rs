@@ -97,7 +97,7 @@ impl State {
         if !filter.is_empty() {
             filter.clear();
         } else if screens::page(self.nav.screen).shrink(self) {
-            return true;
+            // The pane has less room again.
         } else if let Some(screen) = self.nav.trail.pop() {
             self.nav.screen = screen;
         } else {

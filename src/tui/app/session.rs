@@ -107,7 +107,7 @@ impl Session {
 
 /// Where it is kept for a database: `toile` in the state folder.
 #[must_use]
-pub fn place(database: &Path, env: &dyn Fn(&str) -> Option<String>) -> Option<PathBuf> {
+pub fn path(database: &Path, env: &dyn Fn(&str) -> Option<String>) -> Option<PathBuf> {
     let set = |name: &str| env(name).filter(|value| !value.is_empty()).map(PathBuf::from);
     let folder = set("XDG_STATE_HOME").or_else(|| set("HOME").map(|home| home.join(".local").join("state")))?;
     let path = std::path::absolute(database).unwrap_or_else(|_| database.to_owned());
@@ -138,7 +138,7 @@ mod tests {
     #[test]
     fn databases_have_files_of_their_own() {
         let env = |name: &str| (name == "XDG_STATE_HOME").then(|| "/state".to_owned());
-        let of = |database: &str| place(Path::new(database), &env).expect("a place").display().to_string();
+        let of = |database: &str| path(Path::new(database), &env).expect("a place").display().to_string();
         assert_eq!(of("/data/a.sqlite"), "/state/toile/%data%a.sqlite.json");
         assert_ne!(of(&format!("/{}/a.sqlite", "long".repeat(80))), of(&format!("/{}/b.sqlite", "long".repeat(80))));
     }

@@ -6,7 +6,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
 use crate::messages::effect::Effect;
-use crate::messages::requests::Act;
+use crate::messages::requests::Command;
 use crate::overlays::form_frame::{draw_frame, end, ended};
 use crate::overlays::outcome::Outcome;
 use crate::widgets::lists::first_shown;
@@ -244,7 +244,7 @@ impl Form {
         let mut given: Vec<Given> = vec![(word.to_owned(), self.texts[WORD].clone())];
         let numbers = (FIRST_NUMBER..self.texts.len()).map(|line| (self.number(line).0, &self.texts[line]));
         given.extend(numbers.map(|(key, text)| (key.to_owned(), text.clone())));
-        Outcome::Sent(vec![Effect::Do(Act::Save(self.part, self.mode, self.name().to_owned(), given))])
+        Outcome::Sent(vec![Effect::Do(Command::Save(self.part, self.mode, self.name().to_owned(), given))])
     }
 }
 

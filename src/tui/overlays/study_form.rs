@@ -8,7 +8,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
 use crate::messages::effect::Effect;
-use crate::messages::requests::Errand;
+use crate::messages::requests::FileTask;
 use crate::overlays::form_frame::{draw_frame, end};
 use crate::overlays::outcome::Outcome;
 use crate::widgets::lists::first_shown;
@@ -208,7 +208,7 @@ impl StudyForm {
             simulators: chosen(&self.simulators),
         };
         (self.is_busy, self.problem) = (true, None);
-        Outcome::Sent(vec![Effect::Errand(Errand::CreateStudy(new))])
+        Outcome::Sent(vec![Effect::Files(FileTask::CreateStudy(new))])
     }
 }
 

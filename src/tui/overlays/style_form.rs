@@ -6,7 +6,7 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
 use crate::messages::effect::Effect;
-use crate::messages::requests::Act;
+use crate::messages::requests::Command;
 use crate::overlays::form_frame::{draw_frame, end, ended};
 use crate::overlays::outcome::Outcome;
 use crate::overlays::path_prompt::path_of;
@@ -113,7 +113,7 @@ impl StyleForm {
             patterns: vec![((!size.is_empty()).then(|| size.to_owned()), path_of(pattern))],
         };
         (self.is_busy, self.problem) = (true, None);
-        Outcome::Sent(vec![Effect::Do(Act::ImportStyle(self.style(), given))])
+        Outcome::Sent(vec![Effect::Do(Command::ImportStyle(self.style(), given))])
     }
 
     /// Takes in why the files were refused, and goes to the line that answers it.

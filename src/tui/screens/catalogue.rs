@@ -3,7 +3,7 @@
 use crate::keys::action::Action;
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
-use crate::messages::requests::Act;
+use crate::messages::requests::Command;
 use crate::overlays::Overlay;
 use crate::overlays::entry_form::Form;
 use crate::overlays::path_prompt::PathPrompt;
@@ -82,7 +82,7 @@ impl State {
         };
         let Some(name) = name else { return self.say(format!("no {part} is selected")) };
         let text = format!("Remove {part} {name}? Results that use it stay as they are.");
-        self.ask(text, vec![Effect::Do(Act::Remove(part, name))]);
+        self.ask(text, vec![Effect::Do(Command::Remove(part, name))]);
     }
 
     /// Goes to the screen of a part; says why where nothing may be changed.

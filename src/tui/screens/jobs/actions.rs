@@ -2,7 +2,7 @@
 
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
-use crate::messages::requests::Act;
+use crate::messages::requests::Command;
 use crate::screens::jobs::state::{Arranged, JobOrder};
 use crate::screens::movement::{Movement, stepped};
 use crate::screens::state::State;
@@ -81,7 +81,7 @@ impl State {
     pub fn pause(&mut self) -> Vec<Effect> {
         let Some(study) = self.data.as_ref().and_then(|data| data.study()) else { return vec![] };
         let name = study.name.clone();
-        vec![Effect::Do(if study.paused { Act::Resume(name) } else { Act::Pause(name) })]
+        vec![Effect::Do(if study.paused { Command::Resume(name) } else { Command::Pause(name) })]
     }
 
     pub fn cancel(&mut self) -> Vec<Effect> {
@@ -99,7 +99,7 @@ impl State {
             job.subject,
             text::sim(job.simulator)
         );
-        let effects = vec![Effect::Do(Act::Cancel(job.id))];
+        let effects = vec![Effect::Do(Command::Cancel(job.id))];
         self.ask(text, effects);
         vec![]
     }
@@ -111,12 +111,12 @@ impl State {
             self.say(format!("job {id} is not run again: {reason}"));
             return vec![];
         }
-        vec![Effect::Do(Act::Retry(id))]
+        vec![Effect::Do(Command::Retry(id))]
     }
 
     pub fn prioritise(&mut self, step: i64) -> Vec<Effect> {
         let Some(job) = self.job() else { return self.no_job() };
-        vec![Effect::Do(Act::Prioritise(job.id, job.priority + step))]
+        vec![Effect::Do(Command::Prioritise(job.id, job.priority + step))]
     }
 
     fn no_job(&mut self) -> Vec<Effect> {

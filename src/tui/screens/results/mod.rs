@@ -13,7 +13,7 @@ use crate::messages::effect::Effect;
 use crate::screens::movement::{Movement, stepped};
 use crate::screens::page::Page;
 use crate::screens::state::State;
-use crate::widgets::picture::Sitter;
+use crate::widgets::picture::Pictured;
 
 /// The screen of a result.
 pub struct ResultsPage;
@@ -66,7 +66,7 @@ impl Page for ResultsPage {
         std::mem::take(&mut state.pictures.enlarged)
     }
 
-    fn pictures(&self, state: &State, area: Rect) -> Vec<(Sitter, Rect)> {
+    fn pictures(&self, state: &State, area: Rect) -> Vec<(Pictured, Rect)> {
         state.drape_in(draw::picture_pane(area, state))
     }
 
