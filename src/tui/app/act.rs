@@ -88,9 +88,7 @@ impl State {
         self.say(if is_taken { "the mouse is taken: tabs, wheel" } else { "the mouse is the terminal's" });
         vec![Effect::Mouse(is_taken)]
     }
-}
 
-impl State {
     /// Takes back the latest of filter, enlargement and screen; returns whether there was any.
     fn back(&mut self) -> bool {
         let filter = &mut self.nav.filters[self.nav.screen as usize];

@@ -126,9 +126,9 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("state/x.json");
         assert_eq!(Session::read(&path), Session::default());
-        let memory = Session { screen: 3, query: "SELECT 1".into(), ..Session::default() };
-        memory.write(&path);
-        assert_eq!(Session::read(&path), memory);
+        let session = Session { screen: 3, query: "SELECT 1".into(), ..Session::default() };
+        session.write(&path);
+        assert_eq!(Session::read(&path), session);
         std::fs::write(&path, "{\"screen\": 2, \"new\": []").expect("writable");
         assert_eq!(Session::read(&path), Session::default());
         std::fs::write(&path, "{\"screen\": 2, \"of a newer program\": []}").expect("writable");

@@ -49,7 +49,7 @@ pub enum Target {
     Study(PathBuf),
 }
 
-/// What the thread is asked for.
+/// What the thread of queries is asked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum QueryRequest {
     /// What a query may name, and the saved queries.
@@ -60,7 +60,7 @@ pub enum QueryRequest {
     Export(String, PathBuf),
 }
 
-/// What the thread is asked for.
+/// What the thread of files is asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FileTask {
     /// List the reports there are.

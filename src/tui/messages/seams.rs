@@ -6,7 +6,7 @@ use study::SizeKey;
 use study::files::SourceFile;
 use study::seams::{LaidOut, SeamStep};
 
-/// What is wanted on the desk.
+/// A size to lay out.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LayoutRequest {
     /// Style.
@@ -28,7 +28,7 @@ pub enum SeamTask {
     Sew(LayoutRequest, SeamStep),
 }
 
-/// A size on the desk.
+/// A size laid out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SizeLayout {
     /// Pieces, seams, measurements, questions.

@@ -39,6 +39,7 @@ impl List {
         if self.text.is_empty() { self.bindings.iter().collect() } else { search(self.bindings, &self.text) }
     }
 
+    /// Edits what is typed, or goes through the rows.
     pub fn edit(&mut self, event: &KeyEvent) {
         match event.code {
             KeyCode::Up => self.row = self.row.saturating_sub(1),
@@ -55,6 +56,7 @@ impl List {
     }
 }
 
+/// Draws it over a screen.
 pub fn draw_list(frame: &mut Frame<'_>, area: Rect, title: &str, list: &List, theme: Theme, screen: Screen) {
     let rows = list.rows();
     let height = (rows.len() as u16 + 2).max(3).min(area.height);

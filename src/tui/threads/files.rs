@@ -16,9 +16,9 @@ pub fn serve(
     sender: &Sender<Message>,
 ) {
     let mut workspace = Workspace::open(database, readonly).map_err(|error| error.to_string());
-    while let Ok(errand) = wanted.recv() {
+    while let Ok(task) = wanted.recv() {
         let workspace = workspace.as_mut().map_err(|error| error.clone());
-        let done = match errand {
+        let done = match task {
             FileTask::ListReports => Ok(Message::Reports(reports(reports_folder))),
             FileTask::BuildReport(study) => {
                 let page =

@@ -45,10 +45,10 @@ pub fn serve(database: &Path, canceller: &Canceller, wanted: &Receiver<QueryRequ
         // The thread is started once, and so is its interrupter set.
         let _ = canceller.interrupter.set(workspace.interrupter());
     }
-    while let Ok(question) = wanted.recv() {
+    while let Ok(request) = wanted.recv() {
         let workspace = workspace.as_ref().map_err(Clone::clone);
         let start = Instant::now();
-        let message = match question {
+        let message = match request {
             QueryRequest::Names => {
                 let folder = database.parent().map(|folder| folder.join("queries"));
                 let names = workspace.and_then(|it| {

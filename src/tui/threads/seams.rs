@@ -42,6 +42,7 @@ fn workpiece(workspace: &Workspace, request: &LayoutRequest) -> Result<(Workpiec
     Ok((Workpiece { seams, ..stored.clone() }, stored.seams))
 }
 
+/// Lays a size out.
 pub fn lay_out(workspace: &Workspace, request: &LayoutRequest) -> Result<SizeLayout, StudyError> {
     let (piece, stored) = workpiece(workspace, request)?;
     let study = request.study.as_deref();
@@ -49,6 +50,7 @@ pub fn lay_out(workspace: &Workspace, request: &LayoutRequest) -> Result<SizeLay
     Ok(SizeLayout { out: piece.laid_out()?, stored, home })
 }
 
+/// The seam file of a size after a step of work.
 pub fn sew(workspace: &Workspace, request: &LayoutRequest, step: &SeamStep) -> Result<SourceFile, StudyError> {
     workpiece(workspace, request)?.0.after(step)
 }

@@ -31,7 +31,7 @@ pub struct ResultTable {
 }
 
 impl ResultTable {
-    /// The sheet of an answer. Costs time in proportion to it: for threads that nobody waits for.
+    /// The table of an answer. Costs time in proportion to it: for threads that nobody waits for.
     #[must_use]
     pub fn of(answer: SqlAnswer) -> Self {
         let words = answer.table.rows.iter().map(|row| {

@@ -3,6 +3,7 @@
 use crate::keys::screen::Screen;
 use crate::messages::snapshot::Compared;
 use crate::screens::compare::comparison::{ComparisonRow, MOST, comparison_rows, labels};
+use crate::screens::movement::Movement;
 use crate::screens::state::State;
 use crate::widgets::text;
 use study::{JobId, JobRow, RecommendationRow};
@@ -53,6 +54,11 @@ impl State {
         self.data.as_ref()?.recommendations.iter().find(of_class)
     }
 
+    /// Moves in the table of the comparison.
+    pub fn go_in_comparison(&mut self, movement: Movement) {
+        self.compare.row = movement.from(self.compare.row, self.comparison_rows().len());
+    }
+
     /// Selects a run for a comparison, or no longer.
     pub fn mark_run(&mut self) {
         let Some(job) = self.job() else {
@@ -81,6 +87,7 @@ impl State {
     }
 }
 
+/// The comparison, tab-separated.
 pub fn comparison_table(state: &State) -> Option<String> {
     let jobs: Vec<&JobRow> = state.compared().iter().map(|run| &run.job).collect();
     if jobs.is_empty() {

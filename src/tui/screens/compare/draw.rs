@@ -63,10 +63,11 @@ fn panes(area: Rect, state: &State) -> Panes {
 
 /// The panes of the pictures, one a run as far as there is room.
 pub fn picture_panes(area: Rect, state: &State) -> Vec<(Pictured, Rect)> {
-    let sitters = state.compared().iter().map(|run| Pictured::Drape(run.job.id));
-    sitters.zip(panes(area, state).pictures).collect()
+    let drapes = state.compared().iter().map(|run| Pictured::Drape(run.job.id));
+    drapes.zip(panes(area, state).pictures).collect()
 }
 
+/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let runs = state.compared();
     if runs.is_empty() {

@@ -10,7 +10,7 @@ use ratatui::layout::Rect;
 
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
-use crate::screens::movement::{Movement, stepped};
+use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
 use crate::widgets::picture::Pictured;
@@ -25,7 +25,7 @@ impl Page for ComparePage {
 
     fn go(&self, state: &mut State, movement: Movement) {
         if !state.raise_picture(movement) {
-            state.compare.row = movement.from(state.compare.row, state.comparison_rows().len());
+            state.go_in_comparison(movement);
         }
     }
 
@@ -36,7 +36,7 @@ impl Page for ComparePage {
     }
 
     fn go_to_match(&self, state: &mut State, step: isize) {
-        state.compare.row = stepped(state.compare.row, step, state.comparison_rows().len()).unwrap_or(0);
+        state.go_in_comparison(Movement::Round(step));
     }
 
     fn sort(&self, state: &mut State) {

@@ -4,7 +4,7 @@ use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::messages::requests::Command;
 use crate::screens::jobs::state::{Arranged, JobOrder};
-use crate::screens::movement::{Movement, stepped};
+use crate::screens::movement::Movement;
 use crate::screens::state::State;
 use crate::widgets::text;
 use study::{JobId, JobRow, Status, Step, why_no_retry};
@@ -50,6 +50,7 @@ impl State {
         stored.or_else(seen).unwrap_or_default()
     }
 
+    /// Moves in the list of jobs.
     pub fn go_in_jobs(&mut self, movement: Movement) {
         let jobs: Vec<JobId> = self.jobs().iter().map(|job| job.id).collect();
         let at = jobs.iter().position(|id| Some(*id) == self.focus.job);
@@ -59,31 +60,21 @@ impl State {
         }
     }
 
+    /// Scrolls the log.
     pub fn go_in_log(&mut self, movement: Movement) {
         let lines = self.detail().map_or(0, |detail| detail.log.len());
         let from_top = lines.saturating_sub(1 + self.jobs.log_up);
         self.jobs.log_up = lines.saturating_sub(1 + movement.from(from_top, lines));
     }
-}
 
-impl State {
-    /// Goes to the next job that the filter shows, or back.
-    pub fn next_job(&mut self, step: isize) {
-        let jobs: Vec<JobId> = self.jobs().iter().map(|job| job.id).collect();
-        let at = jobs.iter().position(|id| Some(*id) == self.focus.job).unwrap_or(0);
-        if let Some(next) = stepped(at, step, jobs.len()) {
-            self.select(jobs[next]);
-        }
-    }
-}
-
-impl State {
+    /// Pauses the study, or has it go on.
     pub fn pause(&mut self) -> Vec<Effect> {
         let Some(study) = self.data.as_ref().and_then(|data| data.study()) else { return vec![] };
         let name = study.name.clone();
         vec![Effect::Do(if study.paused { Command::Resume(name) } else { Command::Pause(name) })]
     }
 
+    /// Asks whether the selected job is to be cancelled.
     pub fn cancel(&mut self) -> Vec<Effect> {
         let Some(job) = self.job() else { return self.no_job() };
         if job.status.is_final() {
@@ -104,6 +95,7 @@ impl State {
         vec![]
     }
 
+    /// Queues the selected job again.
     pub fn retry(&mut self) -> Vec<Effect> {
         let Some(job) = self.job() else { return self.no_job() };
         let id = job.id;
@@ -114,9 +106,28 @@ impl State {
         vec![Effect::Do(Command::Retry(id))]
     }
 
+    /// Runs the selected job so much earlier.
     pub fn prioritise(&mut self, step: i64) -> Vec<Effect> {
         let Some(job) = self.job() else { return self.no_job() };
         vec![Effect::Do(Command::Prioritise(job.id, job.priority + step))]
+    }
+
+    /// The selected job, tab-separated.
+    #[must_use]
+    pub fn job_line(&self) -> Option<String> {
+        let job = self.job()?;
+        let ei = job.ei.map_or(String::new(), |ei| format!("{ei:.6}"));
+        Some(format!(
+            "{}\t{}\t{}\t{}\t{}\t{}\t{}\t{ei}\t{}",
+            job.id,
+            job.study,
+            job.garment,
+            job.size,
+            job.subject,
+            job.simulator.as_str(),
+            job.status.as_str(),
+            job.error.as_deref().unwrap_or_default()
+        ))
     }
 
     fn no_job(&mut self) -> Vec<Effect> {
@@ -150,24 +161,4 @@ fn words(job: &JobRow) -> String {
         text::sim(job.simulator)
     )
     .to_lowercase()
-}
-
-impl State {
-    /// The selected job, tab-separated.
-    #[must_use]
-    pub fn job_line(&self) -> Option<String> {
-        let job = self.job()?;
-        let ei = job.ei.map_or(String::new(), |ei| format!("{ei:.6}"));
-        Some(format!(
-            "{}\t{}\t{}\t{}\t{}\t{}\t{}\t{ei}\t{}",
-            job.id,
-            job.study,
-            job.garment,
-            job.size,
-            job.subject,
-            job.simulator.as_str(),
-            job.status.as_str(),
-            job.error.as_deref().unwrap_or_default()
-        ))
-    }
 }

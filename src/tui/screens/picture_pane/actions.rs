@@ -32,7 +32,7 @@ impl Pictures {
         self.look = picture::turned(self.look, step);
     }
 
-    /// A picture of a sitter as it is seen now.
+    /// A request for a picture as things are seen now.
     fn request(&self, of: Pictured, Size { width: columns, height: rows }: Size) -> PictureRequest {
         match of {
             Pictured::Drape(_) => PictureRequest { of, look: self.look, map: self.map, columns, rows },
@@ -74,10 +74,8 @@ impl State {
         self.pictures.requests.clone_from(&wanted);
         (!wanted.is_empty()).then_some(Effect::Draw(wanted))
     }
-}
 
-impl State {
-    /// Takes in a picture that is still wanted, in the place of the one before of the same sitter.
+    /// Takes in a picture that is still wanted, in the place of the one before of the same.
     pub fn take_picture(&mut self, request: PictureRequest, drawn: Result<Drawn, String>) {
         if self.pictures.requests.contains(&request) {
             let requests = &self.pictures.requests;

@@ -68,7 +68,7 @@ pub fn draw_live(frame: &mut Frame<'_>, area: Rect, state: &State) {
     }
 }
 
-/// Draws the picture of a sitter, or why there is none.
+/// Draws a picture, or why there is none.
 pub fn draw_shot(frame: &mut Frame<'_>, area: Rect, state: &State, of: Option<Pictured>, otherwise: &str) {
     let fits = |(request, _): &&(PictureRequest, _)| {
         Some(request.of) == of && request.columns == area.width && request.rows == area.height

@@ -31,7 +31,7 @@ impl State {
 
     /// Has the reports listed when the screen is first shown.
     pub fn ask_for_reports(&mut self) -> Option<Effect> {
-        if self.nav.screen != Screen::Reports || self.reports.rows.is_some() {
+        if self.reports.rows.is_some() {
             return None;
         }
         self.reports.rows = Some(vec![]);

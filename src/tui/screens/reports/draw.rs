@@ -13,6 +13,7 @@ use crate::widgets::text;
 use crate::widgets::text::{left, right, shortened};
 use study::ReportRow;
 
+/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let [list, facts] =
         Layout::vertical([Constraint::Fill(1), Constraint::Length(area.height.min(9) / 2 + 3)]).areas(area);

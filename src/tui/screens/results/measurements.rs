@@ -165,6 +165,7 @@ fn facts(m: &MetricsRow) -> Vec<(&'static str, String)> {
     ]
 }
 
+/// A name and a value in a line.
 pub fn fact(name: &str, value: &str, columns: usize) -> Line<'static> {
     Line::raw(text::shortened(&format!("{}{value}", left(name, NAME_COLUMNS)), columns))
 }

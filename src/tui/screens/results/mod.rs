@@ -10,7 +10,7 @@ use ratatui::layout::Rect;
 
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
-use crate::screens::movement::{Movement, stepped};
+use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
 use crate::widgets::picture::Pictured;
@@ -38,7 +38,7 @@ impl Page for ResultsPage {
     }
 
     fn go_to_match(&self, state: &mut State, step: isize) {
-        state.results.row = stepped(state.results.row, step, state.chi().len()).unwrap_or(0);
+        state.go_in_measurements(Movement::Round(step));
     }
 
     fn sort(&self, state: &mut State) {

@@ -37,7 +37,7 @@ impl State {
 
     /// Has names and saved queries read when the screen is first shown.
     pub fn ask_for_names(&mut self) -> Option<Effect> {
-        if self.nav.screen != Screen::Sql || self.sql.relations.is_some() {
+        if self.sql.relations.is_some() {
             return None;
         }
         self.sql.relations = Some(vec![]);
@@ -130,6 +130,7 @@ impl State {
     }
 }
 
+/// The selected row, tab-separated.
 pub fn selected_row(state: &State) -> Option<String> {
     let table = state.sql.table.as_ref().filter(|table| table.len() > 0)?;
     Some(table.copied(std::iter::once(table.row)))

@@ -23,6 +23,7 @@ const KEYWORDS: [&str; 34] = [
 /// Words offered at once.
 const OFFERED: usize = 6;
 
+/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let lines = state.sql.editor.text().matches('\n').count() as u16 + 1;
     let height = (lines + 2).clamp(if area.height < 16 { 3 } else { 6 }, (area.height / 2).max(3));

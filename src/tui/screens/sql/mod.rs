@@ -11,7 +11,7 @@ use ratatui::layout::Rect;
 use crate::keys::action::Action;
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
-use crate::screens::movement::{Movement, stepped};
+use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
 
@@ -38,9 +38,7 @@ impl Page for SqlPage {
     }
 
     fn go_to_match(&self, state: &mut State, step: isize) {
-        if let Some(table) = &mut state.sql.table {
-            table.row = stepped(table.row, step, table.len()).unwrap_or(0);
-        }
+        self.go(state, Movement::Round(step));
     }
 
     fn sort(&self, state: &mut State) {

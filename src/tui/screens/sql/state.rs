@@ -19,7 +19,7 @@ pub struct Sql {
     pub saved: Vec<SavedQuery>,
     /// The query that is being answered.
     pub running: Option<String>,
-    /// The query that was answered last: that of the sheet.
+    /// The query that was answered last: that of the table.
     pub answered: String,
     /// The answer.
     pub table: Option<ResultTable>,

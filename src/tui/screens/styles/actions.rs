@@ -1,4 +1,4 @@
-//! Choosing a size and what lies of it on the table of seams; importing and removing.
+//! Choosing a size, an edge, a line of its table; importing and removing.
 
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
@@ -29,11 +29,11 @@ impl State {
         found.or_else(|| sizes.iter().find(|row| row.style == style)).or(sizes.first()).copied()
     }
 
-    /// What lies on the desk of the selected size, or why it does not; `None` while it is read.
+    /// The layout of the selected size, or why there is none; `None` while it is read.
     #[must_use]
     pub fn layout(&self) -> Option<Result<&SizeLayout, &str>> {
         let row = self.size_row()?;
-        let (request, layout) = self.styles.desk.as_ref()?;
+        let (request, layout) = self.styles.layout.as_ref()?;
         let is_shown = request.style == row.style && request.key.size == row.key.size;
         is_shown.then(|| layout.as_deref().map_err(String::as_str))
     }
@@ -45,19 +45,17 @@ impl State {
         lines.get(self.styles.line).or(lines.last()).copied()
     }
 
-    /// Has the selected size laid out, where it is not what the desk was asked for already.
-    pub fn ask_for_desk(&mut self) -> Option<Effect> {
-        if self.nav.screen != Screen::Styles {
-            return None;
-        }
+    /// Has the selected size laid out, where that was not asked for already.
+    pub fn ask_for_layout(&mut self) -> Option<Effect> {
         let wanted = self.layout_request();
-        if wanted == self.styles.asked {
+        if wanted == self.styles.requested {
             return None;
         }
-        self.styles.asked.clone_from(&wanted);
+        self.styles.requested.clone_from(&wanted);
         wanted.map(|request| Effect::Seams(SeamTask::LayOut(request)))
     }
 
+    /// What is to be laid out: the selected size as it is edited.
     pub fn layout_request(&self) -> Option<LayoutRequest> {
         let row = self.size_row()?;
         let study = self.data.as_ref().and_then(|data| data.study());
@@ -68,11 +66,11 @@ impl State {
 
     /// Takes in what was laid out.
     pub fn take_layout(&mut self, request: LayoutRequest, outcome: Result<Box<SizeLayout>, String>) {
-        if self.styles.asked.as_ref() != Some(&request) {
+        if self.styles.requested.as_ref() != Some(&request) {
             return;
         }
-        let is_other = self.styles.desk.as_ref().is_none_or(|(before, _)| before.key.size != request.key.size);
-        self.styles.desk = Some((request, outcome));
+        let is_other = self.styles.layout.as_ref().is_none_or(|(before, _)| before.key.size != request.key.size);
+        self.styles.layout = Some((request, outcome));
         self.styles.marks.clear();
         if is_other {
             (self.styles.line, self.styles.edge) = (0, (0, 0));
@@ -139,6 +137,7 @@ impl State {
         self.ask(text, vec![Effect::Do(Command::Remove(part, name))]);
     }
 
+    /// Moves in the list of sizes.
     pub fn go_in_sizes(&mut self, movement: Movement) {
         let selected = self.size_row().map(|row| row.key);
         let sizes = self.sizes();
@@ -147,23 +146,14 @@ impl State {
         self.styles.selected = next.map(|row| (row.style.clone(), row.size.clone()));
     }
 
-    pub fn go_in_desk(&mut self, movement: Movement) {
+    /// Moves in the table of seams.
+    pub fn go_in_seams(&mut self, movement: Movement) {
         let lines = self.layout().and_then(Result::ok).map_or(0, |layout| layout.lines().len());
         self.select_line(movement.from(self.styles.line, lines));
     }
 }
 
-impl State {
-    /// Goes to the next size that the filter shows, or back.
-    pub fn next_size(&mut self, step: isize) {
-        let selected = self.size_row().map(|row| row.key);
-        let sizes = self.sizes();
-        let at = sizes.iter().position(|row| Some(row.key) == selected).unwrap_or(0);
-        let next = stepped(at, step, sizes.len()).map(|next| sizes[next]);
-        self.styles.selected = next.map(|row| (row.style.clone(), row.size.clone()));
-    }
-}
-
+/// The table of seams, tab-separated.
 pub fn seam_table(state: &State) -> Option<String> {
     let desk = &state.layout()?.ok()?.out.desk;
     let names = |chain: &[(usize, usize)]| {

@@ -34,6 +34,7 @@ fn panes(area: Rect, sizes: usize) -> [Rect; 3] {
     [list, table, pieces]
 }
 
+/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let on_desk = state.in_second_pane();
     if is_narrow(area) {

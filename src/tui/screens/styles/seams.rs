@@ -11,14 +11,14 @@ use study::files::SourceFile;
 use study::seams::{DeskSeam, SeamEdit, SeamStep};
 
 impl State {
-    /// Gives the desk the focus; whether what lies on it can be worked on now.
+    /// Gives the seams the focus; whether they can be worked on now.
     fn may_sew(&mut self) -> bool {
         if !self.may_change(Part::Style) {
             return false;
         }
         self.nav.second_pane[Screen::Styles as usize] = true;
         let is_current =
-            matches!(&self.styles.desk, Some((request, Ok(_))) if Some(request) == self.styles.asked.as_ref());
+            matches!(&self.styles.layout, Some((request, Ok(_))) if Some(request) == self.styles.requested.as_ref());
         let is_ready = is_current && self.layout().is_some() && !self.styles.is_busy;
         if !is_ready && self.size_row().is_none() {
             self.say("no size is selected: i imports one");
@@ -105,7 +105,8 @@ impl State {
         edges.map_or(vec![], |(a, b)| self.step_of_work(SeamStep::Edit(SeamEdit::Flip { a, b })))
     }
 
-    /// Takes the selected proposed seam for right, or the selected question for answered; gives the desk the focus first where the list has it.
+    /// Takes the selected proposed seam for right, or the selected question for answered; gives the seams
+    /// the focus first where the list has it.
     pub fn confirm_seam(&mut self) -> Vec<Effect> {
         if self.nav.screen == Screen::Styles && !self.in_second_pane() {
             self.nav.second_pane[Screen::Styles as usize] = true;
@@ -203,7 +204,7 @@ impl State {
         if self.styles.edits.get(style).and_then(|edits| edits.last()) == Some(seams) {
             self.styles.edits.remove(style);
         }
-        let desk = self.styles.desk.as_ref().filter(|(request, _)| request.style == style);
+        let desk = self.styles.layout.as_ref().filter(|(request, _)| request.style == style);
         let home = desk
             .and_then(|(_, layout)| layout.as_ref().ok())
             .and_then(|layout| layout.home.clone().zip(layout.stored.clone()));

@@ -15,10 +15,10 @@ pub struct Styles {
     pub selected: Option<(String, String)>,
     /// Seam files of styles as edited and not saved, the latest last.
     pub edits: BTreeMap<String, Vec<SourceFile>>,
-    /// What the desk was asked for.
-    pub asked: Option<LayoutRequest>,
+    /// The size whose layout was asked for.
+    pub requested: Option<LayoutRequest>,
     /// What lies on it, or why it does not.
-    pub desk: Option<(LayoutRequest, Result<Box<SizeLayout>, String>)>,
+    pub layout: Option<(LayoutRequest, Result<Box<SizeLayout>, String>)>,
     /// Edge selected.
     pub edge: EdgeAt,
     /// Line of the table selected.

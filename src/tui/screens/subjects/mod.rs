@@ -33,7 +33,7 @@ impl Page for SubjectsPage {
     }
 
     fn go_to_match(&self, state: &mut State, step: isize) {
-        state.next_subject(step);
+        state.go_in_subjects(Movement::Round(step));
     }
 
     fn sort(&self, state: &mut State) {
