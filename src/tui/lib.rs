@@ -1,10 +1,20 @@
 //! The workbench: screens over a workspace that changes while one looks.
 //!
-//! One event loop takes [`Message`]s one at a time, lets [`State::update`] turn them into a new state and [`Effect`]s,
-//! and draws when the state has changed. Everything that may take time (database, pictures, runs) is done by threads
-//! of `threads` that answer with messages; the loop itself only waits for the next one.
+//! One event loop takes messages one at a time, lets `State::update` turn them into a new state and effects,
+//! and draws when the state has changed. Everything that may take time (database, pictures, runs) is done by
+//! `threads` that answer with messages; the loop itself only waits for the next one.
 //!
-//! *Invariant*: this module knows of the rest of the program only what [`study`] shows; no SQL, no simulator.
+//! The folders, each of which knows only those after it:
+//!
+//! - `app`: the update loop and the frame around the screens;
+//! - `screens`: a folder a screen, with its state, its actions and its drawing;
+//! - `overlays`: what opens above a screen;
+//! - `threads`, `terminal`: the outside, which knows no screen;
+//! - `messages`: what threads and screens tell each other;
+//! - `keys`: actions and the keys for them;
+//! - `widgets`: what all draw and type with.
+//!
+//! *Invariant*: this crate knows of the rest of the program only what [`study`] shows; no SQL, no simulator.
 
 mod app;
 mod keys;
@@ -34,7 +44,7 @@ use study::{StudyError, Workspace, study_file};
 use terminal::Display;
 use terminal::clipboard::osc52;
 use threads::Threads;
-use widgets::picture::Canvas;
+use widgets::picture::PictureEncoder;
 use widgets::theme::{self, Colours, Theme};
 
 /// How the workbench is started.
@@ -75,10 +85,10 @@ pub fn run(options: Options) -> Result<(), TuiError> {
     let bindings = keys_file::read(keys_file::path(&env).as_deref())?;
     let workspace = Workspace::open(&options.database, options.readonly)?;
     let theme = Theme { colours: Colours::detect(options.no_color, &env), ascii: theme::wants_ascii(&env) };
-    let canvas = Canvas::new(options.images, theme.colours, &env);
+    let encoder = PictureEncoder::new(options.images, theme.colours, &env);
     let folders = folders(&options);
     let quickstart = options.quickstart.filter(|path| study_file(path).exists());
-    let abilities = Abilities { run: !options.readonly, pictures: canvas.is_some(), quickstart: quickstart.is_some() };
+    let abilities = Abilities { run: !options.readonly, pictures: encoder.is_some(), quickstart: quickstart.is_some() };
 
     let mut display = Display::enter()?;
     let size = display.size()?;
@@ -86,7 +96,7 @@ pub fn run(options: Options) -> Result<(), TuiError> {
     (state.setup.bindings, state.setup.folders) = (bindings, folders);
     let session = session::path(&options.database, &env);
     session.as_deref().map(Session::read).unwrap_or_default().restore(&mut state);
-    let threads = Threads::start(workspace, canvas, quickstart, state.setup.folders.reports.clone());
+    let threads = Threads::start(workspace, encoder, quickstart, state.setup.folders.reports.clone());
     let outcome = event_loop(&mut display, &mut state, &threads);
     drop(display);
     if let Some(path) = session {

@@ -10,14 +10,9 @@ use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::messages::message::Message;
 use crate::messages::snapshot::{Focus, Snapshot};
-use crate::overlays::Overlay;
 use crate::overlays::outcome::Outcome;
 use crate::screens;
 use crate::screens::state::State;
-use study::{Part, Status};
-
-/// Steps of a running job that are kept for its curves.
-const MAX_TRACE: usize = 4096;
 
 impl State {
     /// Takes in a message; returns what others have to do.
@@ -100,21 +95,11 @@ impl State {
 
     /// Takes in what was read of the database.
     fn receive(&mut self, snapshot: Box<Snapshot>) {
-        for job in snapshot.jobs.iter().filter(|job| job.status == Status::Running) {
-            let Some(progress) = &job.progress else { continue };
-            let trace = self.jobs.traces.entry(job.id).or_default();
-            if trace.last().is_some_and(|last| last.iteration > progress.step.iteration) {
-                trace.clear();
-            }
-            if trace.last() != Some(&progress.step) && trace.len() < MAX_TRACE {
-                trace.push(progress.step);
-            }
-        }
+        self.jobs.receive(&snapshot.jobs);
         let had_grid = self.grid().is_some();
         self.focus.study = snapshot.study().map(|study| study.name.clone());
         self.focus.garment = snapshot.grid.as_ref().map(|grid| grid.garment.clone());
         self.data = Some(snapshot);
-        self.jobs.reads += 1;
         self.arrange_jobs();
         self.subjects.chosen = self.subject().map(|row| row.name.clone());
         self.fabrics.chosen = self.fabric().map(|row| row.fabric.name.clone());
@@ -177,43 +162,6 @@ impl State {
                 tab_at(self, event.column).map_or(vec![], |screen| self.act(Action::Show(screen)))
             }
             _ => vec![],
-        }
-    }
-
-    /// Closes what was filled in once it is saved, or says in it why it is not.
-    pub fn saved(&mut self, outcome: Result<String, String>) {
-        let waits = match &mut self.overlay {
-            Some(Overlay::Form(form)) if form.is_busy => Some((&mut form.is_busy, &mut form.problem)),
-            Some(Overlay::StyleForm(form)) if form.is_busy => {
-                match outcome {
-                    Err(text) => form.refused(text),
-                    Ok(text) => {
-                        self.styles.selected = Some((form.style(), form.size()));
-                        self.overlay = None;
-                        self.say(text);
-                    }
-                }
-                return;
-            }
-            Some(Overlay::Path(prompt)) if prompt.is_busy => Some((&mut prompt.is_busy, &mut prompt.problem)),
-            _ => None,
-        };
-        match (outcome, waits) {
-            (Err(text), Some((is_busy, problem))) => {
-                *is_busy = false;
-                *problem = Some(text);
-            }
-            (Err(text), None) => self.complain(text),
-            (Ok(text), waits) => {
-                if waits.is_some()
-                    && let Some(Overlay::Form(form)) = self.overlay.take()
-                {
-                    let selected =
-                        if form.part == Part::Fabric { &mut self.fabrics.chosen } else { &mut self.subjects.chosen };
-                    *selected = Some(form.name().to_owned());
-                }
-                self.say(text);
-            }
         }
     }
 }

@@ -10,8 +10,7 @@ use crate::messages::requests::Command;
 use crate::overlays::form_frame::{draw_frame, end, ended};
 use crate::overlays::outcome::Outcome;
 use crate::widgets::lists::first_shown;
-use crate::widgets::text;
-use crate::widgets::text::{left, right, shortened};
+use crate::widgets::text::{self, left, right, shortened};
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::edit;
 use geom::units::significant;
@@ -264,7 +263,7 @@ pub fn unit_of(key: &str) -> &'static str {
 }
 
 /// Draws the values of a subject or a fabric.
-pub fn draw_form(frame: &mut Frame<'_>, area: Rect, form: &Form, theme: Theme) {
+pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &Form, theme: Theme) {
     let title = match form.mode {
         Mode::Edit => format!("edit {}: a new revision, results keep theirs", form.name()),
         _ => format!("new {}{}", form.part, form.like.as_ref().map_or(String::new(), |name| format!(", like {name}"))),

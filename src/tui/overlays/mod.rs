@@ -63,17 +63,17 @@ impl Overlay {
         match self {
             Self::Help(list) => {
                 let title = format!("keys: /{}▏  type to filter, ↵ does it, Esc closes", list.text);
-                action_list::draw_list(frame, area, &title, list, theme, screen);
+                action_list::draw(frame, area, &title, list, theme, screen);
             }
             Self::Palette(list) => {
                 let title = format!(":{}▏  ↑↓ choose, ↵ does it, Esc closes", list.text);
-                action_list::draw_list(frame, area, &title, list, theme, screen);
+                action_list::draw(frame, area, &title, list, theme, screen);
             }
-            Self::Form(form) => entry_form::draw_form(frame, area, form, theme),
-            Self::Path(prompt) => path_prompt::draw_path(frame, area, prompt, theme),
-            Self::StyleForm(form) => style_form::draw_style(frame, area, form, theme),
+            Self::Form(form) => entry_form::draw(frame, area, form, theme),
+            Self::Path(prompt) => path_prompt::draw(frame, area, prompt, theme),
+            Self::StyleForm(form) => style_form::draw(frame, area, form, theme),
             Self::StudyForm(form) => study_form::draw(frame, area, form, theme),
-            Self::Queries(list) => saved_queries::draw_queries(frame, area, list, theme),
+            Self::Queries(list) => saved_queries::draw(frame, area, list, theme),
             Self::Question { text, .. } => draw_question(frame, area, text, theme),
             Self::Filter(_) => {}
         }

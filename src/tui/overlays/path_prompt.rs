@@ -120,7 +120,7 @@ pub fn path_of(text: &str) -> PathBuf {
 }
 
 /// Draws the prompt for a file.
-pub fn draw_path(frame: &mut Frame<'_>, area: Rect, prompt: &PathPrompt, theme: Theme) {
+pub fn draw(frame: &mut Frame<'_>, area: Rect, prompt: &PathPrompt, theme: Theme) {
     let width = area.width.min(100);
     let columns = usize::from(width.saturating_sub(2));
     // The end of a long path is what is being typed.

@@ -24,7 +24,7 @@ use crate::messages::seams::SeamTask;
 use crate::messages::snapshot::Focus;
 use crate::threads::database::Request;
 use crate::threads::queries::Canceller;
-use crate::widgets::picture::{Canvas, PictureRequest};
+use crate::widgets::picture::{PictureEncoder, PictureRequest};
 use study::{Live, Workspace};
 
 /// The threads, and what they say.
@@ -48,7 +48,12 @@ pub struct Threads {
 impl Threads {
     /// Starts all threads but that of runs.
     #[must_use]
-    pub fn start(workspace: Workspace, canvas: Option<Canvas>, quickstart: Option<PathBuf>, reports: PathBuf) -> Self {
+    pub fn start(
+        workspace: Workspace,
+        encoder: Option<PictureEncoder>,
+        quickstart: Option<PathBuf>,
+        reports: PathBuf,
+    ) -> Self {
         let (sender, messages) = mpsc::channel();
         let (path, readonly) = (workspace.path().to_owned(), workspace.is_readonly());
         let canceller = Canceller::default();
@@ -60,7 +65,7 @@ impl Threads {
         Self {
             database: serve(&sender, |asked, sender| database::serve(workspace, asked, sender)),
             pictures: serve(&sender, move |asked, sender| {
-                pictures::serve(&of_pictures, readonly, canvas.as_ref(), asked, sender);
+                pictures::serve(&of_pictures, readonly, encoder.as_ref(), asked, sender);
             }),
             seams: serve(&sender, move |asked, sender| seams::serve(&of_seams, readonly, asked, sender)),
             queries: serve(&sender, move |asked, sender| queries::serve(&of_queries, &cancelled, asked, sender)),

@@ -6,15 +6,15 @@ use std::sync::mpsc::{Receiver, SendError, Sender};
 use image::RgbaImage;
 
 use crate::messages::message::Message;
-use crate::widgets::picture::{Canvas, PictureRequest, Pictured};
+use crate::widgets::picture::{PictureEncoder, PictureRequest, Pictured};
 use study::{Figure, SubjectId, Workspace};
 
 /// Makes the pictures asked for, those of the latest request only, until nobody asks or listens any more. Bodies are
-/// measured where there is no canvas, too.
+/// measured where there is no encoder, too.
 pub fn serve(
     database: &Path,
     readonly: bool,
-    canvas: Option<&Canvas>,
+    encoder: Option<&PictureEncoder>,
     wanted: &Receiver<Vec<PictureRequest>>,
     sender: &Sender<Message>,
 ) {
@@ -23,7 +23,7 @@ pub fn serve(
     while let Ok(first) = wanted.recv() {
         let mut requests = wanted.try_iter().last().unwrap_or(first).into_iter();
         while let Some(request) = requests.next() {
-            if renderer.show(&request, canvas).is_err() {
+            if renderer.show(&request, encoder).is_err() {
                 return;
             }
             // A newer request makes what is left of this one needless.
@@ -43,12 +43,12 @@ struct Renderer<'a> {
 
 impl Renderer<'_> {
     /// Makes a picture and sends it; an error when nobody listens.
-    fn show(&mut self, request: &PictureRequest, canvas: Option<&Canvas>) -> Result<(), SendError<Message>> {
+    fn show(&mut self, request: &PictureRequest, encoder: Option<&PictureEncoder>) -> Result<(), SendError<Message>> {
         if let Pictured::Body(id) = request.of {
             self.measure(id)?;
         }
-        let Some(canvas) = canvas.filter(|_| request.columns > 0 && request.rows > 0) else { return Ok(()) };
-        let drawn = self.picture(request, canvas.pixels(request)).and_then(|picture| canvas.draw(&picture, request));
+        let Some(encoder) = encoder.filter(|_| request.columns > 0 && request.rows > 0) else { return Ok(()) };
+        let drawn = self.picture(request, encoder.pixels(request)).and_then(|picture| encoder.draw(&picture, request));
         self.sender.send(Message::Picture(*request, drawn))
     }
 

@@ -149,7 +149,7 @@ impl std::fmt::Debug for Drawn {
 
 /// Turns pictures into cells.
 #[derive(Clone, Debug)]
-pub struct Canvas {
+pub struct PictureEncoder {
     /// How pixels are sent, where they are.
     picker: Option<Picker>,
     letters: bool,
@@ -157,7 +157,7 @@ pub struct Canvas {
     cell: FontSize,
 }
 
-impl Canvas {
+impl PictureEncoder {
     /// The best way this terminal can show pictures; `None` where they are off.
     #[must_use]
     pub fn new(images: Images, colours: Colours, env: &dyn Fn(&str) -> Option<String>) -> Option<Self> {
@@ -263,16 +263,16 @@ pub mod tests {
 
     #[test]
     fn half_blocks_fill_the_pane_in_one_direction() {
-        let canvas = Canvas::new(Images::Halfblocks, Colours::True, &|_| None).expect("pictures are on");
-        let Ok(Drawn::Blocks(blocks)) = canvas.draw(&shirt(), &request(30, 20)) else { panic!("blocks") };
+        let encoder = PictureEncoder::new(Images::Halfblocks, Colours::True, &|_| None).expect("pictures are on");
+        let Ok(Drawn::Blocks(blocks)) = encoder.draw(&shirt(), &request(30, 20)) else { panic!("blocks") };
         assert_eq!(blocks.size.width, 30);
         assert!(blocks.size.height <= 20);
     }
 
     #[test]
     fn without_colours_letters_show_the_shape() {
-        let canvas = Canvas::new(Images::Auto, Colours::None, &|_| None).expect("pictures are on");
-        let Ok(Drawn::Letters(rows)) = canvas.draw(&shirt(), &request(22, 9)) else { panic!("letters") };
+        let encoder = PictureEncoder::new(Images::Auto, Colours::None, &|_| None).expect("pictures are on");
+        let Ok(Drawn::Letters(rows)) = encoder.draw(&shirt(), &request(22, 9)) else { panic!("letters") };
         let width = |row: usize| rows[row].trim().chars().count();
         assert!((20..=22).contains(&width(1)), "sleeves span the pane: {}", width(1));
         assert!((8..=10).contains(&width(6)), "the trunk is narrower: {}", width(6));

@@ -13,8 +13,7 @@ use crate::screens::state::State;
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane, selected_line};
 use crate::widgets::picture::Pictured;
-use crate::widgets::text;
-use crate::widgets::text::{left, mm, right, shortened, wrapped};
+use crate::widgets::text::{self, left, mm, right, shortened, wrapped};
 use crate::widgets::theme::glyph;
 use study::{JobRow, MetricsRow};
 

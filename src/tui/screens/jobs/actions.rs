@@ -3,43 +3,23 @@
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::messages::requests::Command;
-use crate::screens::jobs::state::{Arranged, JobOrder};
 use crate::screens::movement::Movement;
 use crate::screens::state::State;
 use crate::widgets::text;
-use study::{JobId, JobRow, Status, Step, why_no_retry};
+use study::{JobId, JobRow, Step, why_no_retry};
 
 impl State {
     /// Jobs that pass the filter of the Jobs screen, in its order.
     #[must_use]
     pub fn jobs(&self) -> Vec<&JobRow> {
         let Some(data) = &self.data else { return vec![] };
-        self.jobs.arranged.rows.iter().filter_map(|row| data.jobs.get(*row)).collect()
+        self.jobs.rows().iter().filter_map(|row| data.jobs.get(*row)).collect()
     }
 
-    /// Finds which jobs pass the filter and in which order, where data, filter or order have changed since: with ten
-    /// thousand jobs that takes too long for every frame.
+    /// Finds which jobs are shown.
     pub fn arrange_jobs(&mut self) {
         let Some(data) = &self.data else { return };
-        let filter = self.nav.filters[Screen::Jobs as usize].to_lowercase();
-        let wanted = (self.jobs.reads, filter, self.jobs.order);
-        if self.jobs.arranged.of.as_ref() == Some(&wanted) {
-            return;
-        }
-        let jobs = &data.jobs;
-        let passes = |row: &usize| wanted.1.is_empty() || words(&jobs[*row]).contains(&wanted.1);
-        let mut rows: Vec<usize> = (0..jobs.len()).filter(passes).collect();
-        let falling = |value: Option<f64>| value.map_or(f64::INFINITY, |v| -v);
-        match self.jobs.order.by {
-            JobOrder::Number => {}
-            JobOrder::Status => rows.sort_by_key(|row| attention(jobs[*row].status)),
-            JobOrder::Ei => rows.sort_by(|a, b| falling(jobs[*a].ei).total_cmp(&falling(jobs[*b].ei))),
-            JobOrder::Time => rows.sort_by_key(|row| -jobs[*row].wall_ms.unwrap_or(i64::MIN + 1)),
-        }
-        if self.jobs.order.reversed {
-            rows.reverse();
-        }
-        self.jobs.arranged = Arranged { of: Some(wanted), rows };
+        self.jobs.arrange(&data.jobs, self.nav.filters[Screen::Jobs as usize].to_lowercase());
     }
 
     /// Steps of the selected job: those stored, or those seen while it runs.
@@ -134,31 +114,4 @@ impl State {
         self.say("no job is selected");
         vec![]
     }
-}
-
-/// How soon a user wants to see jobs in a state; the least first.
-fn attention(status: Status) -> u8 {
-    match status {
-        Status::Running => 0,
-        Status::Failed => 1,
-        Status::NotConverged => 2,
-        Status::Queued => 3,
-        Status::Done => 4,
-        Status::Cancelled => 5,
-    }
-}
-
-/// What a filter looks at in a job.
-fn words(job: &JobRow) -> String {
-    let error = job.error.as_deref().unwrap_or_default();
-    format!(
-        "{} {} {} {} {} {} {error}",
-        job.id,
-        text::status(job.status),
-        job.garment,
-        job.size,
-        job.subject,
-        text::sim(job.simulator)
-    )
-    .to_lowercase()
 }

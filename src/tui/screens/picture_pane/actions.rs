@@ -9,8 +9,7 @@ use crate::screens::movement::Movement;
 use crate::screens::picture_pane::draw::cells;
 use crate::screens::picture_pane::state::Pictures;
 use crate::screens::state::State;
-use crate::widgets::picture;
-use crate::widgets::picture::{Drawn, FRONT, PictureRequest, Pictured};
+use crate::widgets::picture::{self, Drawn, FRONT, PictureRequest, Pictured};
 use study::{Map, Status};
 
 impl Pictures {

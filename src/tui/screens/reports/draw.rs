@@ -9,8 +9,7 @@ use ratatui::widgets::{Paragraph, Wrap};
 use crate::screens::reports::actions::address;
 use crate::screens::state::State;
 use crate::widgets::lists::{first_shown, pane};
-use crate::widgets::text;
-use crate::widgets::text::{left, right, shortened};
+use crate::widgets::text::{self, left, right, shortened};
 use study::ReportRow;
 
 /// Draws the screen.

@@ -10,8 +10,7 @@ use crate::screens::state::State;
 use crate::widgets::editor::Offer;
 use crate::widgets::lists::{first_shown, pane};
 use crate::widgets::result_table::{ResultTable, cell_text};
-use crate::widgets::text;
-use crate::widgets::text::{left, right, shortened, wrapped};
+use crate::widgets::text::{self, left, right, shortened, wrapped};
 
 /// Words that the editor sets off.
 const KEYWORDS: [&str; 34] = [

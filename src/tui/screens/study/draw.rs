@@ -12,8 +12,7 @@ use crate::screens::state::State;
 use crate::screens::study::state::Place;
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane};
-use crate::widgets::text;
-use crate::widgets::text::{ease_mm, left, wrapped};
+use crate::widgets::text::{self, ease_mm, left, wrapped};
 use crate::widgets::theme::{fit_glyph, glyph};
 use study::{Cell, Grid, Status};
 

@@ -12,8 +12,7 @@ use crate::screens::styles::pieces::{self, letter};
 use crate::screens::styles::state::{EdgeAt, TableLine};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane, selected_line};
-use crate::widgets::text;
-use crate::widgets::text::{left, right, shortened, whole, width, wrapped};
+use crate::widgets::text::{self, left, right, shortened, whole, width, wrapped};
 use study::SizeRow;
 use study::seams::{Desk, DeskSeam};
 

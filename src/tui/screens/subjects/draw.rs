@@ -11,8 +11,7 @@ use crate::screens::subjects::state::{SHOWN, SubjectOrder};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane, scrolled, selected_line};
 use crate::widgets::picture::Pictured;
-use crate::widgets::text;
-use crate::widgets::text::{left, place_bar, right, shortened, wrapped};
+use crate::widgets::text::{self, left, place_bar, right, shortened, wrapped};
 use study::{Figure, MEASUREMENTS, SubjectRow, is_doubtful, percentile, percentile_text};
 
 /// Headings of the first measurements in the list, and their columns.
