@@ -1,10 +1,20 @@
 //! The workbench: screens over a workspace that changes while one looks.
 //!
-//! One event loop takes [`Message`]s one at a time, lets [`State::update`] turn them into a new state and [`Effect`]s,
-//! and draws when the state has changed. Everything that may take time (database, pictures, runs) is done by threads
-//! of `threads` that answer with messages; the loop itself only waits for the next one.
+//! One event loop takes messages one at a time, lets `State::update` turn them into a new state and effects,
+//! and draws when the state has changed. Everything that may take time (database, pictures, runs) is done by
+//! `threads` that answer with messages; the loop itself only waits for the next one.
 //!
-//! *Invariant*: this module knows of the rest of the program only what [`study`] shows; no SQL, no simulator.
+//! The folders, each of which knows only those after it:
+//!
+//! - `app`: the update loop and the frame around the screens;
+//! - `screens`: a folder a screen, with its state, its actions and its drawing;
+//! - `overlays`: what opens above a screen;
+//! - `threads`, `terminal`: the outside, which knows no screen;
+//! - `messages`: what threads and screens tell each other;
+//! - `keys`: actions and the keys for them;
+//! - `widgets`: what all draw and type with.
+//!
+//! *Invariant*: this crate knows of the rest of the program only what [`study`] shows; no SQL, no simulator.
 
 mod app;
 mod keys;
@@ -24,6 +34,7 @@ use std::sync::mpsc::RecvTimeoutError;
 pub use app::headless::Headless;
 pub use widgets::picture::Images;
 
+use app::frame;
 use app::session::{self, Session};
 use keys::file::{self as keys_file, KeysError};
 use messages::effect::Effect;
@@ -33,7 +44,7 @@ use study::{StudyError, Workspace, study_file};
 use terminal::Display;
 use terminal::clipboard::osc52;
 use threads::Threads;
-use widgets::picture::Canvas;
+use widgets::picture::PictureEncoder;
 use widgets::theme::{self, Colours, Theme};
 
 /// How the workbench is started.
@@ -71,23 +82,23 @@ pub enum TuiError {
 /// When the database cannot be opened, the file of keys is wrong, or there is no terminal.
 pub fn run(options: Options) -> Result<(), TuiError> {
     let env = |name: &str| std::env::var(name).ok();
-    let bindings = keys_file::read(keys_file::place(&env).as_deref())?;
+    let bindings = keys_file::read(keys_file::path(&env).as_deref())?;
     let workspace = Workspace::open(&options.database, options.readonly)?;
     let theme = Theme { colours: Colours::detect(options.no_color, &env), ascii: theme::wants_ascii(&env) };
-    let canvas = Canvas::new(options.images, theme.colours, &env);
+    let encoder = PictureEncoder::new(options.images, theme.colours, &env);
     let folders = folders(&options);
     let quickstart = options.quickstart.filter(|path| study_file(path).exists());
-    let abilities = Abilities { run: !options.readonly, pictures: canvas.is_some(), quickstart: quickstart.is_some() };
+    let abilities = Abilities { run: !options.readonly, pictures: encoder.is_some(), quickstart: quickstart.is_some() };
 
-    let mut screen = Display::enter()?;
-    let size = screen.size()?;
+    let mut display = Display::enter()?;
+    let size = display.size()?;
     let mut state = State::new(theme, abilities, size);
     (state.setup.bindings, state.setup.folders) = (bindings, folders);
-    let session = session::place(&options.database, &env);
+    let session = session::path(&options.database, &env);
     session.as_deref().map(Session::read).unwrap_or_default().restore(&mut state);
-    let threads = Threads::start(workspace, canvas, quickstart, state.setup.folders.reports.clone());
-    let outcome = event_loop(&mut screen, &mut state, &threads);
-    drop(screen);
+    let threads = Threads::start(workspace, encoder, quickstart, state.setup.folders.reports.clone());
+    let outcome = event_loop(&mut display, &mut state, &threads);
+    drop(display);
     if let Some(path) = session {
         Session::of(&state).write(&path);
     }
@@ -103,18 +114,18 @@ fn folders(options: &Options) -> Folders {
 }
 
 /// Takes messages, changes the state, draws, until it is time to leave.
-fn event_loop(screen: &mut Display, state: &mut State, threads: &Threads) -> io::Result<()> {
+fn event_loop(display: &mut Display, state: &mut State, threads: &Threads) -> io::Result<()> {
     let mut silence = None;
     threads.read(state.focus.clone());
     terminal::take_mouse(state.terminal.has_mouse)?;
-    screen.show(state)?;
+    display.show(|frame| frame::draw(frame, state))?;
     loop {
-        let message = match screen.pause().filter(|_| !state.terminal.detached) {
+        let message = match display.pause().filter(|_| !state.terminal.detached) {
             None => threads.messages.recv().ok(),
             Some(pause) => match threads.messages.recv_timeout(pause) {
                 Err(RecvTimeoutError::Timeout) => {
                     // A terminal that is gone is noticed at the next message.
-                    let _ = screen.go_on(state);
+                    let _ = display.go_on(|frame| frame::draw(frame, state));
                     continue;
                 }
                 message => message.ok(),
@@ -124,7 +135,7 @@ fn event_loop(screen: &mut Display, state: &mut State, threads: &Threads) -> io:
         // All that waits is taken in before the next frame, so that a flood of keys or progress costs one frame.
         for message in std::iter::once(message).chain(threads.messages.try_iter()) {
             if matches!(message, Message::Key(_)) {
-                screen.key_pressed();
+                display.key_pressed();
             }
             if cfg!(debug_assertions) && matches!(message, Message::Key(_)) && std::env::var_os("TOILE_BREAK").is_some()
             {
@@ -134,14 +145,14 @@ fn event_loop(screen: &mut Display, state: &mut State, threads: &Threads) -> io:
                 match effect {
                     Effect::Quit => return Ok(()),
                     Effect::Copy(text) => print_raw(&osc52(&text))?,
-                    Effect::Clear => screen.clear()?,
+                    Effect::Clear => display.clear()?,
                     Effect::Mouse(is_taken) => terminal::take_mouse(is_taken)?,
                     other => threads.carry_out(other),
                 }
             }
         }
         if !state.terminal.detached
-            && let Err(error) = screen.show(state)
+            && let Err(error) = display.show(|frame| frame::draw(frame, state))
             && state.update(Message::Hangup).contains(&Effect::Quit)
         {
             return Err(error);

@@ -88,16 +88,14 @@ impl State {
         self.say(if is_taken { "the mouse is taken: tabs, wheel" } else { "the mouse is the terminal's" });
         vec![Effect::Mouse(is_taken)]
     }
-}
 
-impl State {
     /// Takes back the latest of filter, enlargement and screen; returns whether there was any.
     fn back(&mut self) -> bool {
         let filter = &mut self.nav.filters[self.nav.screen as usize];
         if !filter.is_empty() {
             filter.clear();
         } else if screens::page(self.nav.screen).shrink(self) {
-            return true;
+            // The pane has less room again.
         } else if let Some(screen) = self.nav.trail.pop() {
             self.nav.screen = screen;
         } else {

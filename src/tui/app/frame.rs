@@ -23,13 +23,12 @@ const SHORT: u16 = 66;
 pub fn draw(frame: &mut Frame<'_>, state: &State) {
     let [top, body, bottom] = rows(frame.area());
     frame.render_widget(tabs(state, top.width), top);
-    let page = screens::page(state.nav.screen);
     if state.data.is_none() {
         frame.render_widget(Paragraph::new(" reading the database…"), body);
-    } else if page.needs_study() && state.is_first_start() {
+    } else if is_start_shown(state) {
         start::draw(frame, body, state);
     } else {
-        page.draw(frame, body, state);
+        screens::page(state.nav.screen).draw(frame, body, state);
     }
     frame.render_widget(status_line(state, bottom.width), bottom);
     if let Some(overlay) = &state.overlay {
@@ -38,6 +37,17 @@ pub fn draw(frame: &mut Frame<'_>, state: &State) {
     if state.theme.ascii {
         ascii::translate(frame.buffer_mut());
     }
+}
+
+/// Whether the screen shows what may be done first, for there is no study yet.
+fn is_start_shown(state: &State) -> bool {
+    state.is_first_start() && screens::page(state.nav.screen).needs_study()
+}
+
+/// The screen whose keys hold: without a study, Study's for all that need one.
+#[must_use]
+pub fn keys_of(state: &State) -> Screen {
+    if is_start_shown(state) { Screen::Study } else { state.nav.screen }
 }
 
 /// The tabs with their texts: whole names where there is room, short ones, or, but for the screen shown, numbers.
@@ -127,8 +137,8 @@ fn status_line(state: &State, width: u16) -> Line<'static> {
         spans.push(Span::styled(text, state.theme.warn()));
     }
     // What matters most stands first in the table, but help and palette must always be found.
-    let hinted = state.setup.bindings.iter().filter(|b| !b.hint.is_empty() && b.is_on(state.screen_shown()));
-    let is_start = state.is_first_start() && state.screen_shown() == Screen::Study;
+    let hinted = state.setup.bindings.iter().filter(|b| !b.hint.is_empty() && b.is_on(keys_of(state)));
+    let is_start = is_start_shown(state);
     let hinted = hinted.filter(|b| !is_start || matches!(b.name, "open" | "run" | "new-study" | "help" | "palette"));
     let (last, first): (Vec<&Binding>, Vec<&Binding>) = hinted.partition(|b| matches!(b.name, "help" | "palette"));
     let columns = |b: &Binding| text::width(&b.keys[0].to_string()) + text::width(b.hint) + 3;

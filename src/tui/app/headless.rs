@@ -13,7 +13,7 @@ use crate::app::frame;
 use crate::messages::effect::Effect;
 use crate::messages::message::Message;
 use crate::screens::state::{Abilities, State};
-use crate::terminal::framed::Framed;
+use crate::terminal::framed::FramedBackend;
 use crate::threads::reading;
 use crate::widgets::theme::{Colours, Theme};
 use study::{Result, Workspace};
@@ -37,7 +37,7 @@ pub struct Headless {
     workspace: Workspace,
     state: State,
     sent: Rc<Cell<usize>>,
-    terminal: Terminal<Framed<Counter>>,
+    terminal: Terminal<FramedBackend<Counter>>,
 }
 
 impl Headless {
@@ -51,7 +51,7 @@ impl Headless {
         let state = State::new(Theme { colours: Colours::Indexed, ascii: false }, abilities, Size::new(width, height));
         let options = TerminalOptions { viewport: Viewport::Fixed(Rect::new(0, 0, width, height)) };
         let sent = Rc::new(Cell::new(0));
-        let line = Framed::new(Counter(sent.clone()), Some(Size::new(width, height)));
+        let line = FramedBackend::new(Counter(sent.clone()), Some(Size::new(width, height)));
         let terminal = line
             .and_then(|line| Terminal::with_options(line, options))
             .map_err(study::StudyError::io("a screen in memory"))?;

@@ -107,7 +107,7 @@ impl Session {
 
 /// Where it is kept for a database: `toile` in the state folder.
 #[must_use]
-pub fn place(database: &Path, env: &dyn Fn(&str) -> Option<String>) -> Option<PathBuf> {
+pub fn path(database: &Path, env: &dyn Fn(&str) -> Option<String>) -> Option<PathBuf> {
     let set = |name: &str| env(name).filter(|value| !value.is_empty()).map(PathBuf::from);
     let folder = set("XDG_STATE_HOME").or_else(|| set("HOME").map(|home| home.join(".local").join("state")))?;
     let path = std::path::absolute(database).unwrap_or_else(|_| database.to_owned());
@@ -126,9 +126,9 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("state/x.json");
         assert_eq!(Session::read(&path), Session::default());
-        let memory = Session { screen: 3, query: "SELECT 1".into(), ..Session::default() };
-        memory.write(&path);
-        assert_eq!(Session::read(&path), memory);
+        let session = Session { screen: 3, query: "SELECT 1".into(), ..Session::default() };
+        session.write(&path);
+        assert_eq!(Session::read(&path), session);
         std::fs::write(&path, "{\"screen\": 2, \"new\": []").expect("writable");
         assert_eq!(Session::read(&path), Session::default());
         std::fs::write(&path, "{\"screen\": 2, \"of a newer program\": []}").expect("writable");
@@ -138,7 +138,7 @@ mod tests {
     #[test]
     fn databases_have_files_of_their_own() {
         let env = |name: &str| (name == "XDG_STATE_HOME").then(|| "/state".to_owned());
-        let of = |database: &str| place(Path::new(database), &env).expect("a place").display().to_string();
+        let of = |database: &str| path(Path::new(database), &env).expect("a place").display().to_string();
         assert_eq!(of("/data/a.sqlite"), "/state/toile/%data%a.sqlite.json");
         assert_ne!(of(&format!("/{}/a.sqlite", "long".repeat(80))), of(&format!("/{}/b.sqlite", "long".repeat(80))));
     }

@@ -3,106 +3,50 @@
 use crossterm::event::{KeyEvent, KeyEventKind, MouseButton, MouseEvent, MouseEventKind};
 use ratatui::layout::Size;
 
-use crate::app::frame::tab_at;
+use crate::app::frame::{keys_of, tab_at};
 use crate::keys::action::Action;
 use crate::keys::binding::{Key, action_of};
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::messages::message::Message;
 use crate::messages::snapshot::{Focus, Snapshot};
-use crate::overlays::Overlay;
 use crate::overlays::outcome::Outcome;
 use crate::screens;
 use crate::screens::state::State;
-use study::{Part, Status};
-
-/// Steps of a running job that are kept for its curves.
-const MAX_TRACE: usize = 4096;
 
 impl State {
     /// Takes in a message; returns what others have to do.
     pub fn update(&mut self, message: Message) -> Vec<Effect> {
         let before = self.focus.clone();
         let filter = self.nav.filters[Screen::Sql as usize].clone();
-        let mut effects = match message {
-            Message::Key(event) => self.key(&event),
-            Message::Resize(width, height) => {
-                self.terminal.size = Size::new(width, height);
-                vec![]
-            }
-            Message::Data(snapshot) => {
-                self.receive(snapshot);
-                vec![]
-            }
-            Message::Acted(text) => {
-                self.say(text);
-                vec![]
-            }
-            Message::Saved(outcome) => {
-                self.saved(outcome);
-                vec![]
-            }
-            Message::LaidOut(laying, outcome) => {
-                self.laid_out(*laying, outcome);
-                vec![]
-            }
-            Message::Sewn(style, outcome) => {
-                self.sewn(style, outcome);
-                vec![]
-            }
-            Message::SeamsSaved(style, seams, outcome) => {
-                self.seams_saved(&style, &seams, outcome);
-                vec![]
-            }
-            Message::Measured(id, outcome) => {
-                self.subjects.measured.insert(id, outcome);
-                vec![]
-            }
-            Message::Failed(text) => {
-                self.complain(text);
-                vec![]
-            }
-            Message::Picture(shot, drawn) => {
-                self.take_picture(shot, drawn);
-                vec![]
-            }
-            Message::Names(relations, saved) => {
-                (self.sql.relations, self.sql.saved) = (Some(relations), saved);
-                vec![]
-            }
-            Message::Answered(ms, outcome) => {
-                self.answered(ms, outcome);
-                vec![]
-            }
-            Message::Reports(rows) => {
-                self.reports.rows = Some(rows);
-                vec![]
-            }
-            Message::ReportBuilt(page, rows) => {
-                self.report_built(page, rows);
-                vec![]
-            }
-            Message::StudyCreated(name, outcome) => {
-                self.study_created(&name, outcome);
-                vec![]
-            }
-            Message::Live(frame) => {
-                if self.running.watched == Some(frame.job) {
-                    self.running.live = Some(frame);
-                }
-                vec![]
-            }
-            Message::Mouse(event) => self.mouse(&event),
-            Message::RunEnded(outcome) => self.run_ended(outcome),
-            Message::Hangup if self.running.target.is_some() => {
-                self.terminal.detached = true;
-                vec![]
-            }
-            Message::Hangup => vec![Effect::Quit],
-            Message::Terminate => vec![Effect::StopRun, Effect::Quit],
-        };
+        let mut effects = vec![];
+        match message {
+            Message::Key(event) => effects = self.key(&event),
+            Message::Mouse(event) => effects = self.mouse(&event),
+            Message::Resize(width, height) => self.terminal.size = Size::new(width, height),
+            Message::Data(snapshot) => self.receive(snapshot),
+            Message::Done(text) => self.say(text),
+            Message::Failed(text) => self.complain(text),
+            Message::Saved(outcome) => self.saved(outcome),
+            Message::Measured(id, outcome) => drop(self.subjects.measured.insert(id, outcome)),
+            Message::LaidOut(request, outcome) => self.take_layout(*request, outcome),
+            Message::Sewn(style, outcome) => self.sewn(style, outcome),
+            Message::SeamsSaved(style, seams, outcome) => self.seams_saved(&style, &seams, outcome),
+            Message::Picture(request, drawn) => self.take_picture(request, drawn),
+            Message::Names(relations, saved) => (self.sql.relations, self.sql.saved) = (Some(relations), saved),
+            Message::Answered(ms, outcome) => self.answered(ms, outcome),
+            Message::Reports(rows) => self.reports.rows = Some(rows),
+            Message::ReportBuilt(page, rows) => self.report_built(page, rows),
+            Message::StudyCreated(name, outcome) => self.study_created(&name, outcome),
+            Message::Live(frame) if self.running.watched == Some(frame.job) => self.running.live = Some(frame),
+            Message::Live(_) => {}
+            Message::RunEnded(outcome) => effects = self.run_ended(outcome),
+            Message::Hangup if self.running.target.is_some() => self.terminal.detached = true,
+            Message::Hangup => effects = vec![Effect::Quit],
+            Message::Terminate => effects = vec![Effect::StopRun, Effect::Quit],
+        }
         if self.nav.filters[Screen::Sql as usize] != filter {
-            self.arrange_sheet();
+            self.arrange_rows();
         }
         self.arrange_jobs();
         self.focus.compare = if self.nav.screen == Screen::Compare { self.to_compare() } else { vec![] };
@@ -126,7 +70,7 @@ impl State {
             if screens::page(self.nav.screen).take_key(self, event) {
                 return vec![];
             }
-            return action_of(self.setup.bindings, Key::of(event), self.screen_shown())
+            return action_of(self.setup.bindings, Key::of(event), keys_of(self))
                 .map_or(vec![], |action| self.act(action));
         };
         match overlay.key(event, &mut self.nav.filters[self.nav.screen as usize]) {
@@ -136,7 +80,7 @@ impl State {
                 vec![]
             }
             Outcome::Closed => vec![],
-            Outcome::Act(action) => self.act(action),
+            Outcome::Action(action) => self.act(action),
             Outcome::Effects(effects) => effects,
             Outcome::Query(text) => {
                 self.take_query(&text);
@@ -151,21 +95,11 @@ impl State {
 
     /// Takes in what was read of the database.
     fn receive(&mut self, snapshot: Box<Snapshot>) {
-        for job in snapshot.jobs.iter().filter(|job| job.status == Status::Running) {
-            let Some(progress) = &job.progress else { continue };
-            let trace = self.jobs.traces.entry(job.id).or_default();
-            if trace.last().is_some_and(|last| last.iteration > progress.step.iteration) {
-                trace.clear();
-            }
-            if trace.last() != Some(&progress.step) && trace.len() < MAX_TRACE {
-                trace.push(progress.step);
-            }
-        }
+        self.jobs.receive(&snapshot.jobs);
         let had_grid = self.grid().is_some();
         self.focus.study = snapshot.study().map(|study| study.name.clone());
         self.focus.garment = snapshot.grid.as_ref().map(|grid| grid.garment.clone());
         self.data = Some(snapshot);
-        self.jobs.reads += 1;
         self.arrange_jobs();
         self.subjects.chosen = self.subject().map(|row| row.name.clone());
         self.fabrics.chosen = self.fabric().map(|row| row.fabric.name.clone());
@@ -228,43 +162,6 @@ impl State {
                 tab_at(self, event.column).map_or(vec![], |screen| self.act(Action::Show(screen)))
             }
             _ => vec![],
-        }
-    }
-
-    /// Closes what was filled in once it is saved, or says in it why it is not.
-    pub fn saved(&mut self, outcome: Result<String, String>) {
-        let waits = match &mut self.overlay {
-            Some(Overlay::Form(form)) if form.is_busy => Some((&mut form.is_busy, &mut form.problem)),
-            Some(Overlay::StyleForm(form)) if form.is_busy => {
-                match outcome {
-                    Err(text) => form.refused(text),
-                    Ok(text) => {
-                        self.styles.selected = Some((form.style(), form.size()));
-                        self.overlay = None;
-                        self.say(text);
-                    }
-                }
-                return;
-            }
-            Some(Overlay::Path(prompt)) if prompt.is_busy => Some((&mut prompt.is_busy, &mut prompt.problem)),
-            _ => None,
-        };
-        match (outcome, waits) {
-            (Err(text), Some((is_busy, problem))) => {
-                *is_busy = false;
-                *problem = Some(text);
-            }
-            (Err(text), None) => self.complain(text),
-            (Ok(text), waits) => {
-                if waits.is_some()
-                    && let Some(Overlay::Form(form)) = self.overlay.take()
-                {
-                    let selected =
-                        if form.part == Part::Fabric { &mut self.fabrics.chosen } else { &mut self.subjects.chosen };
-                    *selected = Some(form.name().to_owned());
-                }
-                self.say(text);
-            }
         }
     }
 }

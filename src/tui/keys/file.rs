@@ -43,7 +43,7 @@ pub struct KeysError(Vec<String>);
 
 /// Where the file of keys is looked for: `toile/keys.toml` in the config folder.
 #[must_use]
-pub fn place(env: &dyn Fn(&str) -> Option<String>) -> Option<PathBuf> {
+pub fn path(env: &dyn Fn(&str) -> Option<String>) -> Option<PathBuf> {
     let set = |name: &str| env(name).filter(|value| !value.is_empty()).map(PathBuf::from);
     let folder = set("XDG_CONFIG_HOME").or_else(|| set("HOME").map(|home| home.join(".config")))?;
     Some(folder.join("toile").join("keys.toml"))
@@ -192,7 +192,7 @@ mod tests {
     fn no_file_means_the_keys_of_the_table() {
         let folder = tempfile::tempdir().expect("a folder");
         let env = |name: &str| (name == "XDG_CONFIG_HOME").then(|| folder.path().display().to_string());
-        let path = place(&env).expect("a place");
+        let path = path(&env).expect("a place");
         assert_eq!(read(Some(&path)).expect("none"), BINDINGS);
         std::fs::create_dir_all(path.parent().expect("a folder")).expect("writable");
         std::fs::write(&path, "cancel = \"D\"").expect("writable");

@@ -1,9 +1,9 @@
 //! What the event loop has others do.
 
-use crate::messages::requests::{Act, Errand, Question, Target};
-use crate::messages::seams::Task;
+use crate::messages::requests::{Command, FileTask, QueryRequest, Target};
+use crate::messages::seams::SeamTask;
 use crate::messages::snapshot::Focus;
-use crate::widgets::picture::Shot;
+use crate::widgets::picture::PictureRequest;
 use study::JobId;
 
 /// Something the event loop has others do.
@@ -12,21 +12,21 @@ pub enum Effect {
     /// Read what the screens show.
     Read(Focus),
     /// Draw pictures.
-    Paint(Vec<Shot>),
+    Draw(Vec<PictureRequest>),
     /// Ask the database.
-    Ask(Question),
+    Query(QueryRequest),
     /// Stop what it is asked.
-    StopAsking,
+    StopQuery,
     /// Do what takes long and writes files.
-    Errand(Errand),
+    Files(FileTask),
     /// Watch a job of the run, or none.
     Watch(Option<JobId>),
     /// Take the mouse or give it back.
     Mouse(bool),
     /// Work on seams.
-    Desk(Task),
+    Seams(SeamTask),
     /// Act on the queue or the catalogue.
-    Do(Act),
+    Do(Command),
     /// Run a study in the background.
     Run(Target),
     /// Ask the run to stop.

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use crossterm::event::{KeyEvent, MouseEvent};
 
-use crate::messages::seams::{Laid, Laying};
+use crate::messages::seams::{LayoutRequest, SizeLayout};
 use crate::messages::snapshot::Snapshot;
-use crate::widgets::picture::{Drawn, Shot};
-use crate::widgets::result_table::Sheet;
+use crate::widgets::picture::{Drawn, PictureRequest};
+use crate::widgets::result_table::ResultTable;
 use study::bodies::Girths;
 use study::files::SourceFile;
 use study::{LiveFrame, Relation, ReportRow, SavedQuery, SubjectId};
@@ -24,23 +24,23 @@ pub enum Message {
     /// Something could not be read or done.
     Failed(String),
     /// An action on the queue is done.
-    Acted(String),
+    Done(String),
     /// What was filled in is saved, or why not.
     Saved(Result<String, String>),
     /// A subject's body is built and measured, or could not be.
     Measured(SubjectId, Result<Box<Girths>, String>),
     /// A size is laid out, or could not be.
-    LaidOut(Box<Laying>, Result<Box<Laid>, String>),
+    LaidOut(Box<LayoutRequest>, Result<Box<SizeLayout>, String>),
     /// The seam file of a style after a step of work, or why there is none.
     Sewn(String, Result<SourceFile, String>),
     /// The seams of a style are saved, or why not.
     SeamsSaved(String, SourceFile, Result<String, String>),
     /// A picture is drawn, or could not be.
-    Picture(Shot, Result<Drawn, String>),
+    Picture(PictureRequest, Result<Drawn, String>),
     /// What a query may name, and the saved queries.
     Names(Vec<Relation>, Vec<SavedQuery>),
     /// A query is answered after so many ms, or refused.
-    Answered(u64, Result<Box<Sheet>, String>),
+    Answered(u64, Result<Box<ResultTable>, String>),
     /// The reports there are.
     Reports(Vec<ReportRow>),
     /// A report is built, its page here, or could not be; and the reports there are now.

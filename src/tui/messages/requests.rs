@@ -7,7 +7,7 @@ use study::{Given, JobId, Mode, NewStudy, Part, StyleGiven};
 
 /// An action on the queue or the catalogue.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Act {
+pub enum Command {
     /// Add or edit a subject or a fabric.
     Save(Part, Mode, String, Vec<Given>),
     /// Import the subjects or fabrics of a file.
@@ -32,10 +32,10 @@ pub enum Act {
     Resume(String),
 }
 
-impl Act {
+impl Command {
     /// Whether a form waits for the answer.
     #[must_use]
-    pub fn is_filled_in(&self) -> bool {
+    pub fn is_from_form(&self) -> bool {
         matches!(self, Self::Save(..) | Self::Import(..) | Self::ImportStyle(..))
     }
 }
@@ -49,9 +49,9 @@ pub enum Target {
     Study(PathBuf),
 }
 
-/// What the thread is asked for.
+/// What the thread of queries is asked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Question {
+pub enum QueryRequest {
     /// What a query may name, and the saved queries.
     Names,
     /// The rows of a query.
@@ -60,9 +60,9 @@ pub enum Question {
     Export(String, PathBuf),
 }
 
-/// What the thread is asked for.
+/// What the thread of files is asked for.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Errand {
+pub enum FileTask {
     /// List the reports there are.
     ListReports,
     /// Build the report of a study.

@@ -6,9 +6,9 @@ use study::SizeKey;
 use study::files::SourceFile;
 use study::seams::{LaidOut, SeamStep};
 
-/// What is wanted on the desk.
+/// A size to lay out.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Laying {
+pub struct LayoutRequest {
     /// Style.
     pub style: String,
     /// Its revision and the size.
@@ -21,16 +21,16 @@ pub struct Laying {
 
 /// What the thread is asked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Task {
+pub enum SeamTask {
     /// Lay a size out.
-    LayOut(Laying),
+    LayOut(LayoutRequest),
     /// Do a step of work on its seams.
-    Sew(Laying, SeamStep),
+    Sew(LayoutRequest, SeamStep),
 }
 
-/// A size on the desk.
+/// A size laid out.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Laid {
+pub struct SizeLayout {
     /// Pieces, seams, measurements, questions.
     pub out: LaidOut,
     /// The seam file as stored.

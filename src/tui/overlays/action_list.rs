@@ -10,8 +10,7 @@ use crate::keys::binding::{Binding, search};
 use crate::keys::screen::Screen;
 use crate::widgets::layout::middle;
 use crate::widgets::lists::{first_shown, pane};
-use crate::widgets::text;
-use crate::widgets::text::left;
+use crate::widgets::text::{self, left};
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::edit;
 
@@ -39,6 +38,7 @@ impl List {
         if self.text.is_empty() { self.bindings.iter().collect() } else { search(self.bindings, &self.text) }
     }
 
+    /// Edits what is typed, or goes through the rows.
     pub fn edit(&mut self, event: &KeyEvent) {
         match event.code {
             KeyCode::Up => self.row = self.row.saturating_sub(1),
@@ -55,7 +55,8 @@ impl List {
     }
 }
 
-pub fn draw_list(frame: &mut Frame<'_>, area: Rect, title: &str, list: &List, theme: Theme, screen: Screen) {
+/// Draws it over a screen.
+pub fn draw(frame: &mut Frame<'_>, area: Rect, title: &str, list: &List, theme: Theme, screen: Screen) {
     let rows = list.rows();
     let height = (rows.len() as u16 + 2).max(3).min(area.height);
     let place = middle(area, area.width.min(100), height);

@@ -6,12 +6,11 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
 use crate::messages::effect::Effect;
-use crate::messages::requests::Act;
+use crate::messages::requests::Command;
 use crate::overlays::form_frame::{draw_frame, end, ended};
 use crate::overlays::outcome::Outcome;
 use crate::widgets::lists::first_shown;
-use crate::widgets::text;
-use crate::widgets::text::{left, right, shortened};
+use crate::widgets::text::{self, left, right, shortened};
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::edit;
 use geom::units::significant;
@@ -244,7 +243,7 @@ impl Form {
         let mut given: Vec<Given> = vec![(word.to_owned(), self.texts[WORD].clone())];
         let numbers = (FIRST_NUMBER..self.texts.len()).map(|line| (self.number(line).0, &self.texts[line]));
         given.extend(numbers.map(|(key, text)| (key.to_owned(), text.clone())));
-        Outcome::Sent(vec![Effect::Do(Act::Save(self.part, self.mode, self.name().to_owned(), given))])
+        Outcome::Sent(vec![Effect::Do(Command::Save(self.part, self.mode, self.name().to_owned(), given))])
     }
 }
 
@@ -264,7 +263,7 @@ pub fn unit_of(key: &str) -> &'static str {
 }
 
 /// Draws the values of a subject or a fabric.
-pub fn draw_form(frame: &mut Frame<'_>, area: Rect, form: &Form, theme: Theme) {
+pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &Form, theme: Theme) {
     let title = match form.mode {
         Mode::Edit => format!("edit {}: a new revision, results keep theirs", form.name()),
         _ => format!("new {}{}", form.part, form.like.as_ref().map_or(String::new(), |name| format!(", like {name}"))),

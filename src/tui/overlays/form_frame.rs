@@ -10,6 +10,7 @@ use crate::widgets::lists::pane;
 use crate::widgets::text::{shortened, wrapped};
 use crate::widgets::theme::Theme;
 
+/// Draws a form: its title, its lines, and what the keys do.
 pub fn draw_frame(
     frame: &mut Frame<'_>,
     area: Rect,

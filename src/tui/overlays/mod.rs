@@ -63,17 +63,17 @@ impl Overlay {
         match self {
             Self::Help(list) => {
                 let title = format!("keys: /{}▏  type to filter, ↵ does it, Esc closes", list.text);
-                action_list::draw_list(frame, area, &title, list, theme, screen);
+                action_list::draw(frame, area, &title, list, theme, screen);
             }
             Self::Palette(list) => {
                 let title = format!(":{}▏  ↑↓ choose, ↵ does it, Esc closes", list.text);
-                action_list::draw_list(frame, area, &title, list, theme, screen);
+                action_list::draw(frame, area, &title, list, theme, screen);
             }
-            Self::Form(form) => entry_form::draw_form(frame, area, form, theme),
-            Self::Path(prompt) => path_prompt::draw_path(frame, area, prompt, theme),
-            Self::StyleForm(form) => style_form::draw_style(frame, area, form, theme),
+            Self::Form(form) => entry_form::draw(frame, area, form, theme),
+            Self::Path(prompt) => path_prompt::draw(frame, area, prompt, theme),
+            Self::StyleForm(form) => style_form::draw(frame, area, form, theme),
             Self::StudyForm(form) => study_form::draw(frame, area, form, theme),
-            Self::Queries(list) => saved_queries::draw_queries(frame, area, list, theme),
+            Self::Queries(list) => saved_queries::draw(frame, area, list, theme),
             Self::Question { text, .. } => draw_question(frame, area, text, theme),
             Self::Filter(_) => {}
         }
@@ -85,7 +85,7 @@ impl Overlay {
         match self {
             Self::Help(_) | Self::Palette(_) if leaves => Outcome::Closed,
             Self::Help(list) | Self::Palette(list) if event.code == KeyCode::Enter => {
-                list.rows().get(list.row).map_or(Outcome::Open, |binding| Outcome::Act(binding.action))
+                list.rows().get(list.row).map_or(Outcome::Open, |binding| Outcome::Action(binding.action))
             }
             Self::Help(list) | Self::Palette(list) => {
                 list.edit(event);
@@ -153,7 +153,7 @@ mod tests {
         let (mut palette, mut filter) = (Overlay::Palette(List::of(BINDINGS)), String::new());
         typed(&mut palette, &mut filter, "canx");
         palette.key(&press(KeyCode::Backspace), &mut filter);
-        assert_eq!(palette.key(&press(KeyCode::Enter), &mut filter), Outcome::Act(Action::Cancel));
+        assert_eq!(palette.key(&press(KeyCode::Enter), &mut filter), Outcome::Action(Action::Cancel));
         typed(&mut palette, &mut filter, "zzz");
         assert_eq!(palette.key(&press(KeyCode::Enter), &mut filter), Outcome::Open, "nothing matches");
     }
@@ -163,7 +163,7 @@ mod tests {
         for binding in BINDINGS {
             let (mut palette, mut filter) = (Overlay::Palette(List::of(BINDINGS)), String::new());
             typed(&mut palette, &mut filter, binding.name);
-            assert_eq!(palette.key(&press(KeyCode::Enter), &mut filter), Outcome::Act(binding.action));
+            assert_eq!(palette.key(&press(KeyCode::Enter), &mut filter), Outcome::Action(binding.action));
         }
     }
 

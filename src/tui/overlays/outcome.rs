@@ -11,7 +11,7 @@ pub enum Outcome {
     /// It closes.
     Closed,
     /// It closes and an action follows.
-    Act(Action),
+    Action(Action),
     /// It closes and a query goes into the editor.
     Query(String),
     /// It closes and effects follow.

@@ -8,7 +8,7 @@ use ratatui::layout::Rect;
 use ratatui::text::Line;
 
 use crate::messages::effect::Effect;
-use crate::messages::requests::{Act, Question};
+use crate::messages::requests::{Command, QueryRequest};
 use crate::overlays::form_frame::{draw_frame, end, ended};
 use crate::overlays::outcome::Outcome;
 use crate::widgets::theme::Theme;
@@ -107,8 +107,8 @@ impl PathPrompt {
         (self.is_busy, self.problem) = (true, None);
         let path = path_of(path);
         Outcome::Sent(vec![match &self.purpose {
-            Purpose::Import(part) => Effect::Do(Act::Import(*part, path)),
-            Purpose::Export(query) => Effect::Ask(Question::Export(query.clone(), path)),
+            Purpose::Import(part) => Effect::Do(Command::Import(*part, path)),
+            Purpose::Export(query) => Effect::Query(QueryRequest::Export(query.clone(), path)),
         }])
     }
 }
@@ -120,7 +120,7 @@ pub fn path_of(text: &str) -> PathBuf {
 }
 
 /// Draws the prompt for a file.
-pub fn draw_path(frame: &mut Frame<'_>, area: Rect, prompt: &PathPrompt, theme: Theme) {
+pub fn draw(frame: &mut Frame<'_>, area: Rect, prompt: &PathPrompt, theme: Theme) {
     let width = area.width.min(100);
     let columns = usize::from(width.saturating_sub(2));
     // The end of a long path is what is being typed.

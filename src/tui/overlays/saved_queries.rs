@@ -54,7 +54,7 @@ impl QueryList {
 }
 
 /// Draws the list of saved queries.
-pub fn draw_queries(frame: &mut Frame<'_>, area: Rect, list: &QueryList, theme: Theme) {
+pub fn draw(frame: &mut Frame<'_>, area: Rect, list: &QueryList, theme: Theme) {
     let rows = list.rows();
     let place = middle(area, area.width.min(100), (rows.len() as u16 + 2).max(3).min(area.height));
     let title = format!("saved queries: /{}▏  ↵ takes it, Esc closes", list.text);

@@ -8,12 +8,11 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
 use crate::messages::effect::Effect;
-use crate::messages::requests::Errand;
+use crate::messages::requests::FileTask;
 use crate::overlays::form_frame::{draw_frame, end};
 use crate::overlays::outcome::Outcome;
 use crate::widgets::lists::first_shown;
-use crate::widgets::text;
-use crate::widgets::text::{left, shortened};
+use crate::widgets::text::{self, left, shortened};
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::edit;
 use study::{NewStudy, PatternSource, Simulator, Wearable};
@@ -208,7 +207,7 @@ impl StudyForm {
             simulators: chosen(&self.simulators),
         };
         (self.is_busy, self.problem) = (true, None);
-        Outcome::Sent(vec![Effect::Errand(Errand::CreateStudy(new))])
+        Outcome::Sent(vec![Effect::Files(FileTask::CreateStudy(new))])
     }
 }
 

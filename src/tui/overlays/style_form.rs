@@ -6,12 +6,11 @@ use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
 use crate::messages::effect::Effect;
-use crate::messages::requests::Act;
+use crate::messages::requests::Command;
 use crate::overlays::form_frame::{draw_frame, end, ended};
 use crate::overlays::outcome::Outcome;
 use crate::overlays::path_prompt::path_of;
-use crate::widgets::text;
-use crate::widgets::text::{left, shortened};
+use crate::widgets::text::{self, left, shortened};
 use crate::widgets::theme::Theme;
 use crate::widgets::typing::edit;
 use study::StyleGiven;
@@ -113,7 +112,7 @@ impl StyleForm {
             patterns: vec![((!size.is_empty()).then(|| size.to_owned()), path_of(pattern))],
         };
         (self.is_busy, self.problem) = (true, None);
-        Outcome::Sent(vec![Effect::Do(Act::ImportStyle(self.style(), given))])
+        Outcome::Sent(vec![Effect::Do(Command::ImportStyle(self.style(), given))])
     }
 
     /// Takes in why the files were refused, and goes to the line that answers it.
@@ -131,7 +130,7 @@ impl StyleForm {
 }
 
 /// Draws the files of a style.
-pub fn draw_style(frame: &mut Frame<'_>, area: Rect, form: &StyleForm, theme: Theme) {
+pub fn draw(frame: &mut Frame<'_>, area: Rect, form: &StyleForm, theme: Theme) {
     let width = area.width.min(100);
     let columns = usize::from(width.saturating_sub(2));
     let line = |(k, text): (usize, &String)| {

@@ -3,7 +3,7 @@
 use crate::keys::action::Action;
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
-use crate::messages::requests::Act;
+use crate::messages::requests::Command;
 use crate::overlays::Overlay;
 use crate::overlays::entry_form::Form;
 use crate::overlays::path_prompt::PathPrompt;
@@ -82,7 +82,7 @@ impl State {
         };
         let Some(name) = name else { return self.say(format!("no {part} is selected")) };
         let text = format!("Remove {part} {name}? Results that use it stay as they are.");
-        self.ask(text, vec![Effect::Do(Act::Remove(part, name))]);
+        self.ask(text, vec![Effect::Do(Command::Remove(part, name))]);
     }
 
     /// Goes to the screen of a part; says why where nothing may be changed.
@@ -94,5 +94,42 @@ impl State {
             self.complain(format!("this workbench is read-only: start it without --readonly to change {what}"));
         }
         self.setup.abilities.run
+    }
+
+    /// Closes what was filled in once it is saved, or says in it why it is not.
+    pub fn saved(&mut self, outcome: Result<String, String>) {
+        let waits = match &mut self.overlay {
+            Some(Overlay::Form(form)) if form.is_busy => Some((&mut form.is_busy, &mut form.problem)),
+            Some(Overlay::StyleForm(form)) if form.is_busy => {
+                match outcome {
+                    Err(text) => form.refused(text),
+                    Ok(text) => {
+                        self.styles.selected = Some((form.style(), form.size()));
+                        self.overlay = None;
+                        self.say(text);
+                    }
+                }
+                return;
+            }
+            Some(Overlay::Path(prompt)) if prompt.is_busy => Some((&mut prompt.is_busy, &mut prompt.problem)),
+            _ => None,
+        };
+        match (outcome, waits) {
+            (Err(text), Some((is_busy, problem))) => {
+                *is_busy = false;
+                *problem = Some(text);
+            }
+            (Err(text), None) => self.complain(text),
+            (Ok(text), waits) => {
+                if waits.is_some()
+                    && let Some(Overlay::Form(form)) = self.overlay.take()
+                {
+                    let selected =
+                        if form.part == Part::Fabric { &mut self.fabrics.chosen } else { &mut self.subjects.chosen };
+                    *selected = Some(form.name().to_owned());
+                }
+                self.say(text);
+            }
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! The screens, a folder each: its state, what it does, how it is drawn.
 //!
-//! A new screen is a folder, and a line each in [`page`], in [`Screen`] and in [`state::State`]; the compiler asks for them.
+//! A new screen is a folder here. It is entered in [`Screen`], in [`page`] and in [`State`]: the compiler asks for the
+//! last two.
 
 mod catalogue;
 mod compare;

@@ -5,6 +5,8 @@
 pub enum Movement {
     /// So many rows down, or up where it is negative.
     By(isize),
+    /// So many rows down, or up where it is negative, round about.
+    Round(isize),
     /// To the first row.
     First,
     /// To the last row.
@@ -18,6 +20,7 @@ impl Movement {
         let last = rows.saturating_sub(1);
         match self {
             Self::By(step) => row.saturating_add_signed(step).min(last),
+            Self::Round(step) => stepped(row, step, rows).unwrap_or(0),
             Self::First => 0,
             Self::Last => last,
         }

@@ -8,7 +8,7 @@ use crate::keys::action::Action;
 use crate::messages::effect::Effect;
 use crate::screens::movement::Movement;
 use crate::screens::state::State;
-use crate::widgets::picture::Sitter;
+use crate::widgets::picture::Pictured;
 
 /// What a screen does with the state, and how it shows it.
 pub trait Page {
@@ -54,7 +54,7 @@ pub trait Page {
     }
 
     /// The pictures that there is room for, each with its pane.
-    fn pictures(&self, _state: &State, _area: Rect) -> Vec<(Sitter, Rect)> {
+    fn pictures(&self, _state: &State, _area: Rect) -> Vec<(Pictured, Rect)> {
         vec![]
     }
 

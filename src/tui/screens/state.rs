@@ -1,4 +1,4 @@
-//! What the workbench knows and where the user is in it. Screens are pure functions of this.
+//! What the workbench knows and where the user is in it: what screens share, and the state that each keeps.
 
 use std::path::PathBuf;
 
@@ -25,6 +25,26 @@ use crate::screens::subjects::state::Subjects;
 use crate::widgets::layout::rows;
 use crate::widgets::theme::Theme;
 use study::{EaseRow, JobId, JobRow, LiveFrame};
+
+/// A message to the user in the status line.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Notice {
+    /// What it says.
+    pub text: String,
+    /// Whether something went wrong.
+    pub is_error: bool,
+}
+
+/// What this session of the workbench can do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Abilities {
+    /// Studies can be run from here.
+    pub run: bool,
+    /// Pictures can be shown.
+    pub pictures: bool,
+    /// There is a study to start with.
+    pub quickstart: bool,
+}
 
 /// Where new things are put.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -165,40 +185,11 @@ impl State {
     pub fn scroll_table(&mut self, movement: Movement, hidden: usize) {
         self.nav.table_down = movement.from(self.nav.table_down.min(hidden), hidden + 1);
     }
-}
 
-/// A message to the user in the status line.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Notice {
-    /// What it says.
-    pub text: String,
-    /// Whether something went wrong.
-    pub is_error: bool,
-}
-
-/// What this session of the workbench can do.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Abilities {
-    /// Studies can be run from here.
-    pub run: bool,
-    /// Pictures can be shown.
-    pub pictures: bool,
-    /// There is a study to start with.
-    pub quickstart: bool,
-}
-
-impl State {
     /// Whether the database was read and has no study.
     #[must_use]
     pub fn is_first_start(&self) -> bool {
         self.data.as_ref().is_some_and(|data| data.studies.is_empty())
-    }
-
-    /// The screen that is really there: without a study, those of studies show what may be done first.
-    #[must_use]
-    pub fn screen_shown(&self) -> Screen {
-        let needs_study = matches!(self.nav.screen, Screen::Jobs | Screen::Results | Screen::Compare);
-        if needs_study && self.is_first_start() { Screen::Study } else { self.nav.screen }
     }
 
     /// Whether the second pane of the screen has the focus.
@@ -243,6 +234,7 @@ impl State {
         self.notice = Some(Notice { text: text.into(), is_error: true });
     }
 
+    /// Shows a screen; one that was shown before is gone back to.
     pub fn show(&mut self, screen: Screen) {
         if screen == self.nav.screen {
             return;
@@ -254,6 +246,7 @@ impl State {
         self.nav.screen = screen;
     }
 
+    /// Asks; the effects happen on yes.
     pub fn ask(&mut self, text: impl Into<String>, effects: Vec<Effect>) {
         self.overlay = Some(Overlay::Question { text: text.into(), effects });
     }

@@ -49,7 +49,7 @@ pub enum Late {
 }
 
 /// The screen as it is to be, and what the terminal has been told of it.
-pub struct Framed<W: Write> {
+pub struct FramedBackend<W: Write> {
     out: W,
     /// Size of a terminal that is none; a real one is asked.
     fixed: Option<Size>,
@@ -57,7 +57,7 @@ pub struct Framed<W: Write> {
     slots: Vec<Slot>,
 }
 
-impl<W: Write> Framed<W> {
+impl<W: Write> FramedBackend<W> {
     /// A line to the terminal of this process, or to one of a given size.
     ///
     /// # Errors
@@ -251,7 +251,7 @@ fn colour(colour: Color, more: u8) -> String {
     (basic + more).to_string()
 }
 
-impl<W: Write> Backend for Framed<W> {
+impl<W: Write> Backend for FramedBackend<W> {
     type Error = io::Error;
 
     /// Takes in what has changed; [`Line::send`] sends it.
@@ -326,12 +326,12 @@ mod tests {
     }
 
     /// Has a line draw what tells two screens apart.
-    fn draw(line: &mut Framed<Vec<u8>>, before: &Buffer, after: &Buffer) {
+    fn draw(line: &mut FramedBackend<Vec<u8>>, before: &Buffer, after: &Buffer) {
         line.draw(before.diff(after).into_iter()).expect("memory");
     }
 
     /// Sends all there is, frame by frame; returns the longest.
-    fn send_all(line: &mut Framed<Vec<u8>>, terminal: &mut vt100::Parser) -> usize {
+    fn send_all(line: &mut FramedBackend<Vec<u8>>, terminal: &mut vt100::Parser) -> usize {
         let mut longest = 0;
         while line.late() != Late::Nothing {
             longest = longest.max(line.send(true).expect("memory"));
@@ -346,7 +346,7 @@ mod tests {
 
     #[test]
     fn texts_go_before_pictures_and_what_was_changed_again_is_not_sent() {
-        let mut line = Framed::new(vec![], Some(SIZE)).expect("a size");
+        let mut line = FramedBackend::new(vec![], Some(SIZE)).expect("a size");
         let (blank, mut first) = (screen(), screen());
         first[(3, 0)].set_symbol("▀").set_fg(Color::Rgb(1, 2, 3));
         first.set_string(0, 2, "words", ratatui::style::Style::new());
@@ -383,7 +383,7 @@ mod tests {
         /// However screens follow each other and frames are parted, the terminal shows the last one in the end.
         #[test]
         fn the_terminal_shows_what_was_drawn(screens in prop::collection::vec(prop::collection::vec(cell(), 0..120), 1..4)) {
-            let (mut line, mut terminal) = (Framed::new(vec![], Some(SIZE)).expect("a size"), terminal());
+            let (mut line, mut terminal) = (FramedBackend::new(vec![], Some(SIZE)).expect("a size"), terminal());
             let mut before = screen();
             for cells in screens {
                 let mut after = screen();

@@ -11,12 +11,10 @@ use std::{io, panic, thread};
 
 use crossterm::event::{DisableMouseCapture, EnableMouseCapture};
 use crossterm::{cursor, execute, terminal};
-use ratatui::Terminal;
 use ratatui::layout::Size;
+use ratatui::{Frame, Terminal};
 
-use crate::app::frame;
-use crate::screens::state::State;
-use crate::terminal::framed::{Framed, Late};
+use crate::terminal::framed::{FramedBackend, Late};
 
 /// Least time between two frames: keys that come faster share one, and a slow line gets no more than it can take.
 const PAUSE: Duration = Duration::from_millis(20);
@@ -26,7 +24,7 @@ const REST: Duration = Duration::from_millis(80);
 
 /// The terminal while the workbench has it; dropping it gives it back.
 pub struct Display {
-    terminal: Terminal<Framed<Stdout>>,
+    terminal: Terminal<FramedBackend<Stdout>>,
     /// When a key was pressed last.
     last_key: Option<Instant>,
     /// When a frame was sent last.
@@ -58,7 +56,7 @@ impl Display {
         });
         terminal::enable_raw_mode()?;
         let entered = execute!(io::stdout(), terminal::EnterAlternateScreen, cursor::Hide)
-            .and_then(|()| Terminal::new(Framed::new(io::stdout(), None)?));
+            .and_then(|()| Terminal::new(FramedBackend::new(io::stdout(), None)?));
         match entered {
             Ok(terminal) => Ok(Self { terminal, last_key: None, last_frame: None, is_stale: false }),
             Err(error) => {
@@ -76,26 +74,26 @@ impl Display {
         self.terminal.size()
     }
 
-    /// Has the state drawn, now or when the frame before is old enough.
+    /// Has the screen drawn, now or when the frame before is old enough.
     ///
     /// # Errors
     /// When the terminal is gone.
-    pub fn show(&mut self, state: &State) -> io::Result<()> {
+    pub fn show(&mut self, draw: impl FnOnce(&mut Frame<'_>)) -> io::Result<()> {
         self.is_stale = true;
-        self.go_on(state)
+        self.go_on(draw)
     }
 
-    /// Draws the state where it has changed and sends the next frame, pictures too once the keys rest; nothing where the
+    /// Draws the screen where the state has changed and sends the next frame, pictures too once the keys rest; nothing where the
     /// frame before is too young.
     ///
     /// # Errors
     /// When the terminal is gone.
-    pub fn go_on(&mut self, state: &State) -> io::Result<()> {
+    pub fn go_on(&mut self, draw: impl FnOnce(&mut Frame<'_>)) -> io::Result<()> {
         if !self.age_left().is_zero() {
             return Ok(());
         }
         if std::mem::take(&mut self.is_stale) {
-            self.terminal.draw(|frame| frame::draw(frame, state))?;
+            self.terminal.draw(draw)?;
         }
         let is_at_rest = self.rest_left().is_zero();
         if self.terminal.backend_mut().send(is_at_rest)? > 0 {

@@ -5,10 +5,10 @@ use crate::keys::screen::Screen;
 use crate::messages::{
     effect::Effect,
     message::Message,
-    requests::{Act, Target},
+    requests::{Command, Target},
 };
 use crate::overlays::Overlay;
-use crate::widgets::picture::{self, FRONT, Shot, Sitter};
+use crate::widgets::picture::{self, FRONT, PictureRequest, Pictured};
 use study::{JobId, Map, Status};
 
 fn selected(bench: &Bench) -> i64 {
@@ -66,13 +66,13 @@ fn destructive_actions_ask_and_others_act() {
     bench.press("n");
     assert_eq!(bench.asked(), []);
     bench.press("xy");
-    assert_eq!(bench.asked(), [Effect::Do(Act::Cancel(JobId(7)))]);
+    assert_eq!(bench.asked(), [Effect::Do(Command::Cancel(JobId(7)))]);
     bench.press("p");
-    assert_eq!(bench.asked(), [Effect::Do(Act::Pause("men-tops".into()))]);
+    assert_eq!(bench.asked(), [Effect::Do(Command::Pause("men-tops".into()))]);
     bench.press("kkr");
-    assert_eq!(bench.asked(), [Effect::Do(Act::Retry(JobId(5)))]);
+    assert_eq!(bench.asked(), [Effect::Do(Command::Retry(JobId(5)))]);
     bench.press("+");
-    assert_eq!(bench.asked(), [Effect::Do(Act::Prioritise(JobId(5), 1))]);
+    assert_eq!(bench.asked(), [Effect::Do(Command::Prioritise(JobId(5), 1))]);
 }
 
 #[test]
@@ -173,40 +173,43 @@ fn sorting_puts_what_needs_attention_first() {
 #[test]
 fn pictures_are_asked_for_when_seen_and_only_then() {
     let mut bench = Bench::example(80, 24);
-    let shots = |bench: &mut Bench| -> Vec<Shot> {
+    let requests = |bench: &mut Bench| -> Vec<PictureRequest> {
         let effects = std::mem::take(&mut bench.effects);
         effects
             .into_iter()
-            .filter_map(|e| if let Effect::Paint(shots) = e { Some(shots) } else { None })
+            .filter_map(|e| if let Effect::Draw(requests) = e { Some(requests) } else { None })
             .flatten()
             .collect()
     };
-    assert_eq!(shots(&mut bench), []);
+    assert_eq!(requests(&mut bench), []);
     bench.press("5");
-    let first = shots(&mut bench);
-    let expect = Shot { of: Sitter::Drape(JobId(1)), look: FRONT, map: Map::Plain, columns: 28, rows: 19 };
+    let first = requests(&mut bench);
+    let expect = PictureRequest { of: Pictured::Drape(JobId(1)), look: FRONT, map: Map::Plain, columns: 28, rows: 19 };
     assert_eq!(first, [expect]);
     bench.press("j");
-    assert_eq!(shots(&mut bench), []);
+    assert_eq!(requests(&mut bench), []);
     bench.press("v");
-    assert_eq!(shots(&mut bench), [Shot { look: picture::next_view(FRONT), ..expect }]);
+    assert_eq!(requests(&mut bench), [PictureRequest { look: picture::next_view(FRONT), ..expect }]);
     bench.press("<Tab>hhhhhhm");
-    let turned = shots(&mut bench);
-    assert_eq!(turned.last(), Some(&Shot { map: Map::Check, ..expect }));
+    let turned = requests(&mut bench);
+    assert_eq!(turned.last(), Some(&PictureRequest { map: Map::Check, ..expect }));
     bench.press("<Enter>");
-    assert_eq!(shots(&mut bench)[0].columns, 78);
+    assert_eq!(requests(&mut bench)[0].columns, 78);
     bench.send(Message::Resize(100, 30));
-    assert_eq!(shots(&mut bench)[0].columns, 98);
+    assert_eq!(requests(&mut bench)[0].columns, 98);
     bench.press("<Enter><Tab>1GG5");
-    assert!(shots(&mut bench).iter().all(|shot| shot.of != Sitter::Drape(JobId(8))), "a running job has no drape yet");
+    assert!(
+        requests(&mut bench).iter().all(|request| request.of != Pictured::Drape(JobId(8))),
+        "a running job has no drape yet"
+    );
 }
 
 #[test]
 fn late_pictures_of_something_else_are_dropped() {
     let mut bench = Bench::example(80, 24);
     bench.press("5");
-    let wanted = *bench.state.pictures.shots.first().expect("asked for");
-    bench.send(Message::Picture(Shot { map: Map::Gap, ..wanted }, Err("late".into())));
+    let wanted = *bench.state.pictures.requests.first().expect("asked for");
+    bench.send(Message::Picture(PictureRequest { map: Map::Gap, ..wanted }, Err("late".into())));
     assert!(bench.state.pictures.drawn.is_empty());
     bench.send(Message::Picture(wanted, Err("artefact is gone".into())));
     assert!(bench.screen().contains("no picture: artefact"));

@@ -2,7 +2,7 @@
 
 use super::Bench;
 use crate::keys::screen::Screen;
-use crate::messages::{effect::Effect, message::Message, requests::Act};
+use crate::messages::{effect::Effect, message::Message, requests::Command};
 use crate::overlays::Overlay;
 use study::{Mode, Part};
 
@@ -40,7 +40,7 @@ fn a_new_fabric_starts_as_the_selected_one_and_is_checked() {
     assert!(bench.screen().contains("! known 0.1 to 0.1"), "{}", bench.screen());
     bench.press("<C-u>0.12<Enter>");
     let asked = bench.asked();
-    let [Effect::Do(Act::Save(Part::Fabric, Mode::Add, name, given))] = &asked[..] else { panic!("{asked:?}") };
+    let [Effect::Do(Command::Save(Part::Fabric, Mode::Add, name, given))] = &asked[..] else { panic!("{asked:?}") };
     let value = |key: &str| given.iter().find(|(name, _)| name == key).map(|(_, text)| text.as_str());
     assert_eq!(name, "poplin");
     assert_eq!(
@@ -59,12 +59,12 @@ fn fabrics_are_edited_imported_and_removed() {
     let mut bench = Bench::example(80, 24);
     bench.press("9G<Enter><S-Tab><C-u>a test of ours<Enter>");
     let asked = bench.asked();
-    let [Effect::Do(Act::Save(Part::Fabric, Mode::Edit, name, given))] = &asked[..] else { panic!("{asked:?}") };
+    let [Effect::Do(Command::Save(Part::Fabric, Mode::Edit, name, given))] = &asked[..] else { panic!("{asked:?}") };
     assert_eq!((name.as_str(), given[0].1.as_str()), ("stiff", "a test of ours"));
     bench.press("<Esc>i~x<Enter>");
-    assert_eq!(bench.asked(), [Effect::Do(Act::Import(Part::Fabric, "~x".into()))]);
+    assert_eq!(bench.asked(), [Effect::Do(Command::Import(Part::Fabric, "~x".into()))]);
     bench.press("<Esc>dy");
-    assert_eq!(bench.asked(), [Effect::Do(Act::Remove(Part::Fabric, "stiff".into()))]);
+    assert_eq!(bench.asked(), [Effect::Do(Command::Remove(Part::Fabric, "stiff".into()))]);
     bench.press("4:delete-fabric<Enter>");
     assert!(bench.state.nav.screen == Screen::Fabrics && matches!(bench.state.overlay, Some(Overlay::Question { .. })));
     bench.press("<Esc>").state.setup.abilities.run = false;

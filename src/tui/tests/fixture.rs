@@ -1,7 +1,7 @@
 //! An example study: two sizes of a T-shirt on three subjects by both simulators, in all states a job can have.
 
 use crate::messages::message::Message;
-use crate::messages::seams::{Laid, Task};
+use crate::messages::seams::{SeamTask, SizeLayout};
 use crate::messages::snapshot::{Compared, Detail, Snapshot};
 use study::bodies::{Girths, Measurements, Sex};
 use study::files::SourceFile;
@@ -170,23 +170,25 @@ fn tshirt_file(end: &str) -> SourceFile {
 }
 
 /// What the thread that works on seams answers.
-pub fn work(task: Task) -> Message {
-    let (Task::LayOut(laying) | Task::Sew(laying, _)) = &task;
-    let size = SIZES[laying.key.size as usize - 1];
+pub fn work(task: SeamTask) -> Message {
+    let (SeamTask::LayOut(request) | SeamTask::Sew(request, _)) = &task;
+    let size = SIZES[request.key.size as usize - 1];
     let stored = Some(tshirt_file(".toml"));
     let piece = Workpiece {
         pattern: tshirt_file(&format!("-{}.dxf", size.to_lowercase())),
-        seams: laying.seams.clone().or(stored.clone()),
+        seams: request.seams.clone().or(stored.clone()),
         size: size.into(),
         unit: None,
     };
     match task {
-        Task::LayOut(laying) => {
-            let home = laying.study.as_ref().map(|study| study.with_file_name("tshirt.seams.toml"));
-            let laid = piece.laid_out().map(|out| Box::new(Laid { out, stored, home }));
-            Message::LaidOut(Box::new(laying), laid.map_err(|error| error.to_string()))
+        SeamTask::LayOut(request) => {
+            let home = request.study.as_ref().map(|study| study.with_file_name("tshirt.seams.toml"));
+            let layout = piece.laid_out().map(|out| Box::new(SizeLayout { out, stored, home }));
+            Message::LaidOut(Box::new(request), layout.map_err(|error| error.to_string()))
         }
-        Task::Sew(laying, step) => Message::Sewn(laying.style, piece.after(&step).map_err(|error| error.to_string())),
+        SeamTask::Sew(request, step) => {
+            Message::Sewn(request.style, piece.after(&step).map_err(|error| error.to_string()))
+        }
     }
 }
 

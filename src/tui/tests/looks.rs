@@ -6,7 +6,7 @@ use insta::assert_snapshot;
 use super::{Bench, fixture};
 use crate::messages::{effect::Effect, message::Message};
 use crate::widgets::ascii::stand_in;
-use crate::widgets::picture::{Canvas, Images};
+use crate::widgets::picture::{Images, PictureEncoder};
 use crate::widgets::theme::Colours;
 
 /// Compares the screen after some keys with the one kept, in both sizes.
@@ -152,16 +152,17 @@ fn without_colours_glyphs_tell_everything_and_the_shirt_is_seen() {
     let mut bench = Bench::example(80, 24);
     bench.state.theme.colours = Colours::None;
     bench.press("5");
-    let shot = bench.effects.iter().find_map(|e| if let Effect::Paint(shots) = e { Some(shots[0]) } else { None });
-    let shot = shot.expect("the picture was asked for");
-    let canvas = Canvas::new(Images::Auto, Colours::None, &|_| None).expect("pictures are on");
-    let (width, height) = canvas.pixels(&shot);
+    let request =
+        bench.effects.iter().find_map(|e| if let Effect::Draw(requests) = e { Some(requests[0]) } else { None });
+    let request = request.expect("the picture was asked for");
+    let encoder = PictureEncoder::new(Images::Auto, Colours::None, &|_| None).expect("pictures are on");
+    let (width, height) = encoder.pixels(&request);
     let picture = RgbaImage::from_fn(width, height, |x, y| {
         let (x, y) = (f64::from(x) / f64::from(width), f64::from(y) / f64::from(height));
         let is_trunk = (0.3..0.7).contains(&x) && (0.2..0.8).contains(&y);
         let is_sleeves = (0.05..0.95).contains(&x) && (0.2..0.4).contains(&y);
         if is_trunk || is_sleeves { Rgba([60, 150, 110, 255]) } else { Rgba([250, 250, 250, 0]) }
     });
-    bench.send(Message::Picture(shot, canvas.draw(&picture, &shot)));
+    bench.send(Message::Picture(request, encoder.draw(&picture, &request)));
     assert_snapshot!("results_letters_80x24", bench.screen());
 }

@@ -18,7 +18,7 @@ use crate::app::frame;
 use crate::messages::snapshot::Snapshot;
 use crate::messages::{effect::Effect, message::Message};
 use crate::screens::state::{Abilities, State};
-use crate::widgets::picture::{Shot, Sitter};
+use crate::widgets::picture::{PictureRequest, Pictured};
 use crate::widgets::theme::{Colours, Theme};
 
 /// A workbench without a terminal.
@@ -54,14 +54,16 @@ impl Bench {
                 next.recommendations = fixture::recommendations();
                 assert!(self.state.update(Message::Data(next)).iter().all(|e| !matches!(e, Effect::Read(_))));
             }
-            if let Effect::Paint(shots) = effect
-                && let [Shot { of: Sitter::Body(id), .. }] = shots[..]
+            if let Effect::Draw(requests) = effect
+                && let [PictureRequest { of: Pictured::Body(id), .. }] = requests[..]
             {
                 self.state.update(Message::Measured(id, Ok(Box::new(fixture::girths()))));
             }
         }
-        let tasks: Vec<_> =
-            effects.iter().filter_map(|e| if let Effect::Desk(task) = e { Some(task.clone()) } else { None }).collect();
+        let tasks: Vec<_> = effects
+            .iter()
+            .filter_map(|e| if let Effect::Seams(task) = e { Some(task.clone()) } else { None })
+            .collect();
         self.effects.extend(effects);
         for task in tasks {
             self.send(fixture::work(task));
@@ -88,7 +90,7 @@ impl Bench {
     /// What it asked for; reads, pictures and work on seams, which is done, left out.
     fn asked(&mut self) -> Vec<Effect> {
         let effects = std::mem::take(&mut self.effects);
-        effects.into_iter().filter(|e| !matches!(e, Effect::Read(_) | Effect::Paint(_) | Effect::Desk(_))).collect()
+        effects.into_iter().filter(|e| !matches!(e, Effect::Read(_) | Effect::Draw(_) | Effect::Seams(_))).collect()
     }
 
     /// The screen as text.

@@ -9,14 +9,14 @@ use insta::assert_snapshot;
 use super::{Bench, fixture};
 use crate::app::session::Session;
 use crate::keys::screen::Screen;
-use crate::messages::requests::Errand;
+use crate::messages::requests::FileTask;
 use crate::messages::{effect::Effect, message::Message};
 use crate::overlays::Overlay;
 use crate::screens::state::State;
-use crate::widgets::result_table::Sheet;
+use crate::widgets::result_table::ResultTable;
 use crate::{
-    messages::requests::Question,
-    threads::queries::{self, Brake},
+    messages::requests::QueryRequest,
+    threads::queries::{self, Canceller},
 };
 use study::{JobId, LiveFrame, Relation, ReportRow, SqlAnswer, Table, Value, Workspace, saved_queries};
 
@@ -39,18 +39,18 @@ fn answer(rows: i64) -> SqlAnswer {
 fn ask(bench: &mut Bench) {
     for effect in bench.asked() {
         match effect {
-            Effect::Ask(Question::Names) => {
+            Effect::Query(QueryRequest::Names) => {
                 let columns = ["study", "garment", "ei"].map(str::to_owned).to_vec();
                 let relation = |name: &str| Relation { name: name.into(), columns: columns.clone() };
                 let relations = vec![relation("v_metrics"), relation("v_pair"), relation("job")];
                 let queries = saved_queries(None).expect("those of the program");
                 bench.send(Message::Names(relations, queries));
             }
-            Effect::Ask(Question::Rows(text)) => {
+            Effect::Query(QueryRequest::Rows(text)) => {
                 let outcome = if text.contains("wrong") {
                     Err("no such column: wrong in SELECT wrong".to_owned())
                 } else {
-                    Ok(Box::new(Sheet::of(answer(30))))
+                    Ok(Box::new(ResultTable::of(answer(30))))
                 };
                 bench.send(Message::Answered(3, outcome));
             }
@@ -78,10 +78,10 @@ fn a_query_is_typed_completed_run_and_its_rows_sorted() {
         bench.press("<Esc><Right>s");
         assert_snapshot!(format!("sql_rows_{width}x{height}"), bench.screen());
         bench.press("/tshirt 7<Enter>");
-        assert_eq!(bench.state.sql.sheet.as_ref().map(Sheet::len), Some(1));
+        assert_eq!(bench.state.sql.table.as_ref().map(ResultTable::len), Some(1));
         assert_eq!(bench.press("y").asked(), [Effect::Copy("garment\tn\tei\twhy\ntshirt 7\t93\t0.0016714285714285715\trow 7 because of reasons that take some room to tell\n".into())]);
         bench.press("<Esc>");
-        assert_eq!(bench.state.sql.sheet.as_ref().map(Sheet::len), Some(30));
+        assert_eq!(bench.state.sql.table.as_ref().map(ResultTable::len), Some(30));
     }
 }
 
@@ -94,7 +94,7 @@ fn queries_are_refused_cancelled_recalled_and_saved_ones_offered() {
     bench.press("<Esc>e; select 2<F5>");
     bench.asked();
     ctrl(&mut bench, 'c');
-    assert_eq!(bench.asked(), [Effect::StopAsking], "a query is cancelled before anything is left");
+    assert_eq!(bench.asked(), [Effect::StopQuery], "a query is cancelled before anything is left");
     bench.send(Message::Answered(9, Err("cancelled".into())));
     ctrl(&mut bench, 'p');
     ctrl(&mut bench, 'p');
@@ -111,7 +111,7 @@ fn queries_are_refused_cancelled_recalled_and_saved_ones_offered() {
     ctrl(&mut bench, 'u');
     bench.press("rows.json<Enter>");
     let query = bench.state.sql.answered.clone();
-    assert_eq!(bench.asked(), [Effect::Ask(Question::Export(query, "rows.json".into()))]);
+    assert_eq!(bench.asked(), [Effect::Query(QueryRequest::Export(query, "rows.json".into()))]);
     bench.send(Message::Saved(Ok("30 rows are in rows.json".into())));
     assert!(bench.state.overlay.is_none() && bench.status().contains("30 rows"));
 }
@@ -123,7 +123,7 @@ fn an_empty_editor_lets_commands_through() {
     assert!(bench.press("?").screen().contains("keys:"));
     assert_eq!(bench.press("<Esc>4").state.nav.screen, Screen::Jobs);
     assert_eq!(bench.press("7x4").state.nav.screen, Screen::Sql, "now it is text");
-    assert_eq!(bench.press("<Esc>:run<Enter>").asked().last(), Some(&Effect::Ask(Question::Rows("x4".into()))));
+    assert_eq!(bench.press("<Esc>:run<Enter>").asked().last(), Some(&Effect::Query(QueryRequest::Rows("x4".into()))));
 }
 
 #[test]
@@ -153,25 +153,25 @@ fn fem_and_hybrid_are_compared_unless_runs_are_selected() {
 fn compared_drapes_stand_side_by_side_where_there_is_room() {
     let mut bench = Bench::example(160, 50);
     bench.press("c");
-    assert_eq!(bench.state.pictures.shots.len(), 2);
-    let before = bench.state.pictures.shots.clone();
+    assert_eq!(bench.state.pictures.requests.len(), 2);
+    let before = bench.state.pictures.requests.clone();
     bench.press("v");
     assert!(
-        bench.state.pictures.shots.iter().zip(&before).all(|(now, then)| now.of == then.of && now.look != then.look)
+        bench.state.pictures.requests.iter().zip(&before).all(|(now, then)| now.of == then.of && now.look != then.look)
     );
     let mut bench = Bench::example(80, 24);
     bench.press("c");
-    assert!(bench.state.pictures.shots.is_empty());
+    assert!(bench.state.pictures.requests.is_empty());
     bench.press("z");
-    assert_eq!(bench.state.pictures.shots.len(), 2);
+    assert_eq!(bench.state.pictures.requests.len(), 2);
 }
 
 #[test]
 fn reports_are_listed_built_and_opened() {
     let mut bench = Bench::example(80, 24);
     bench.press("8");
-    assert_eq!(bench.asked(), [Effect::Errand(Errand::ListReports)]);
-    assert_eq!(bench.press("b").asked(), [Effect::Errand(Errand::BuildReport("men-tops".into()))]);
+    assert_eq!(bench.asked(), [Effect::Files(FileTask::ListReports)]);
+    assert_eq!(bench.press("b").asked(), [Effect::Files(FileTask::BuildReport("men-tops".into()))]);
     assert_eq!(bench.press("b").asked(), [], "one at a time");
     let row = |name: &str, written_ms| ReportRow {
         name: name.into(),
@@ -205,7 +205,7 @@ fn a_new_study_is_chosen_from_the_catalogue() {
         bench.press(" <Tab>a");
         assert_snapshot!(format!("new_study_{width}x{height}"), bench.screen());
         let asked = bench.press("<Enter>").asked();
-        let [Effect::Errand(Errand::CreateStudy(new))] = &asked[..] else { panic!("{asked:?}") };
+        let [Effect::Files(FileTask::CreateStudy(new))] = &asked[..] else { panic!("{asked:?}") };
         assert_eq!(
             (new.name.as_str(), new.subjects.len(), new.sizes.len(), new.simulators.len()),
             ("study-1", 3, 1, 2)
@@ -276,24 +276,24 @@ fn the_brake_stops_a_query_that_would_never_end() {
     Workspace::open(&path, false).expect("a new database");
     let (questions, wanted) = mpsc::channel();
     let (sender, answers) = mpsc::channel();
-    let brake = Brake::default();
+    let canceller = Canceller::default();
     std::thread::scope(|scope| {
-        let (path, own_brake) = (path.clone(), brake.clone());
-        scope.spawn(move || queries::serve(&path, &own_brake, &wanted, &sender));
+        let (path, own_canceller) = (path.clone(), canceller.clone());
+        scope.spawn(move || queries::serve(&path, &own_canceller, &wanted, &sender));
         let endless = "WITH RECURSIVE n(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM n) SELECT count(*) FROM n";
-        let ask = |sql: &str| questions.send(Question::Rows(sql.into())).expect("it listens");
+        let ask = |sql: &str| questions.send(QueryRequest::Rows(sql.into())).expect("it listens");
         ask(endless);
         let told = loop {
-            brake.pull();
+            canceller.cancel();
             if let Ok(message) = answers.recv_timeout(Duration::from_millis(10)) {
                 break message;
             }
         };
         assert!(matches!(&told, Message::Answered(_, Err(error)) if error == "cancelled"), "{told:?}");
-        brake.release();
+        canceller.reset();
         ask("SELECT 7");
         let told = answers.recv().expect("it goes on");
-        assert!(matches!(&told, Message::Answered(_, Ok(sheet)) if sheet.total() == 1), "{told:?}");
+        assert!(matches!(&told, Message::Answered(_, Ok(table)) if table.total() == 1), "{told:?}");
         drop(questions);
     });
 }

@@ -2,9 +2,9 @@
 
 use super::{Bench, fixture};
 use crate::keys::screen::Screen;
-use crate::messages::{effect::Effect, message::Message, requests::Act};
+use crate::messages::{effect::Effect, message::Message, requests::Command};
 use crate::overlays::Overlay;
-use crate::screens::styles::state::DeskLine;
+use crate::screens::styles::state::TableLine;
 use crate::widgets::theme::Colours;
 use study::files::SourceFile;
 use study::seams::DeskSeam;
@@ -12,19 +12,19 @@ use study::{Part, StyleGiven};
 
 /// Seams on the desk.
 fn seams(bench: &Bench) -> Vec<DeskSeam> {
-    bench.state.laid().expect("laid out").expect("it fits").out.desk.seams.clone()
+    bench.state.layout().expect("laid out").expect("it fits").out.desk.seams.clone()
 }
 
 /// Name of the selected edge's seam.
 fn seam(bench: &Bench) -> String {
-    let laid = bench.state.laid().expect("laid out").expect("it fits");
-    laid.seam_at(bench.state.styles.edge).map_or("none".into(), |k| laid.out.desk.seams[k].name.clone())
+    let layout = bench.state.layout().expect("laid out").expect("it fits");
+    layout.seam_at(bench.state.styles.edge).map_or("none".into(), |k| layout.out.desk.seams[k].name.clone())
 }
 
 /// The seam file that is to be saved.
 fn saved(bench: &mut Bench) -> SourceFile {
     match bench.press("w").asked().pop() {
-        Some(Effect::Do(Act::SaveSeams(style, seams))) if style == "tshirt" => seams,
+        Some(Effect::Do(Command::SaveSeams(style, seams))) if style == "tshirt" => seams,
         other => panic!("{other:?}"),
     }
 }
@@ -36,7 +36,7 @@ fn sizes_are_chosen_and_filtered_and_each_is_laid_out_once() {
     bench.press("3");
     assert_eq!((size(&bench).as_str(), seams(&bench).len()), ("S", 8));
     assert_eq!(size(bench.press("j")), "M");
-    let layings = bench.effects.iter().filter(|effect| matches!(effect, Effect::Desk(_))).count();
+    let layings = bench.effects.iter().filter(|effect| matches!(effect, Effect::Seams(_))).count();
     assert_eq!(layings, 2);
     assert_eq!(size(bench.press("g/-M.dxf<Enter>")), "M");
     assert!(bench.press("/zz<Enter>").screen().contains("no size matches the filter"));
@@ -52,14 +52,14 @@ fn lines_and_edges_are_walked_together() {
     bench.press("j");
     assert_eq!(seam(&bench), seams(&bench)[1].name);
     bench.press("g");
-    let pieces = bench.state.laid().expect("laid out").expect("it fits").out.desk.pieces.clone();
+    let pieces = bench.state.layout().expect("laid out").expect("it fits").out.desk.pieces.clone();
     let edges: usize = pieces.iter().map(|piece| piece.edges.len()).sum();
     let start = bench.state.styles.edge;
     for _ in 0..edges {
         bench.press("l");
-        let line = bench.state.desk_line().expect("a line");
+        let line = bench.state.table_line().expect("a line");
         let name = seam(&bench);
-        assert!(name == "none" || line == DeskLine::Seam(bench.state.styles.line));
+        assert!(name == "none" || line == TableLine::Seam(bench.state.styles.line));
         assert!(bench.screen().contains(&format!(
             "{}.{}",
             pieces[bench.state.styles.edge.0].id,
@@ -68,7 +68,7 @@ fn lines_and_edges_are_walked_together() {
     }
     assert_eq!(bench.state.styles.edge, start, "all the way round");
     bench.press("G");
-    assert!(matches!(bench.state.desk_line(), Some(DeskLine::Length(_))));
+    assert!(matches!(bench.state.table_line(), Some(TableLine::Length(_))));
     assert!(bench.screen().contains("Hem Circumference"));
 }
 
@@ -81,7 +81,7 @@ fn a_seam_is_opened_sewn_again_turned_taken_back_and_saved() {
     bench.press("x");
     assert_eq!(seams(&bench).len(), before.len() - 1);
     assert_eq!(seam(&bench), "none");
-    let questions = bench.state.laid().expect("laid out").expect("it fits").out.questions.len();
+    let questions = bench.state.layout().expect("laid out").expect("it fits").out.questions.len();
     assert!(questions >= 1 && bench.screen().contains("? free edge"), "{}", bench.screen());
     assert!(bench.press("x").status().contains("no seam holds"));
     assert!(bench.press("a").status().contains("m marks an edge"));
@@ -109,7 +109,7 @@ fn a_seam_is_opened_sewn_again_turned_taken_back_and_saved() {
     bench.send(Message::SeamsSaved("tshirt".into(), file.clone(), Ok("style tshirt has revision 2".into())));
     assert!(bench.screen().contains("tshirt.seams.toml of the study too?"), "{}", bench.screen());
     match bench.press("y").asked().pop() {
-        Some(Effect::Do(Act::WriteSeams(path, old, new))) => {
+        Some(Effect::Do(Command::WriteSeams(path, old, new))) => {
             assert!(path.ends_with("studies/men-tops/tshirt.seams.toml") && old != new && new == file);
         }
         other => panic!("{other:?}"),
@@ -124,8 +124,8 @@ fn sides_of_unlike_length_are_sewn_with_ease_only_after_asking() {
     let before = seams(&bench);
     bench.press("xjx");
     let [one, other] = [before[0].a[0], before[2].a[0]];
-    let laid = bench.state.laid().expect("laid out").expect("it fits");
-    let mm = |(piece, edge): (usize, usize)| laid.out.desk.pieces[piece].edges[edge].length_mm;
+    let layout = bench.state.layout().expect("laid out").expect("it fits");
+    let mm = |(piece, edge): (usize, usize)| layout.out.desk.pieces[piece].edges[edge].length_mm;
     assert!((mm(one) - mm(other)).abs() > 1.0, "the example needs unlike edges");
     bench.state.styles.marks = vec![one, other];
     bench.press("a");
@@ -154,7 +154,7 @@ fn proposed_seams_are_confirmed_one_by_one() {
         bench.press("j<Enter>");
     }
     assert_eq!(unsure(&bench), 0);
-    let asked = |bench: &Bench| bench.state.laid().expect("laid out").expect("it fits").out.questions.len();
+    let asked = |bench: &Bench| bench.state.layout().expect("laid out").expect("it fits").out.questions.len();
     let questions = asked(&bench);
     bench.press("j<Enter>");
     assert_eq!((asked(&bench), questions), (questions - 1, questions), "the question is answered");
@@ -168,7 +168,7 @@ fn files_are_imported_and_what_they_do_not_say_is_asked_for() {
     assert!(bench.screen().contains("empty = titan"), "{}", bench.screen());
     bench.press("<Enter>");
     let given = StyleGiven { is_proposed: true, patterns: vec![(None, "titan.dxf".into())], ..Default::default() };
-    assert_eq!(bench.asked(), [Effect::Do(Act::ImportStyle("titan".into(), given.clone()))]);
+    assert_eq!(bench.asked(), [Effect::Do(Command::ImportStyle("titan".into(), given.clone()))]);
     bench.send(Message::Saved(Err("pattern: titan.dxf: no unit; accepted: a file that names its unit".into())));
     let Some(Overlay::StyleForm(form)) = &bench.state.overlay else { panic!("the form stays") };
     assert_eq!(form.at, 3, "the unit is asked for");
@@ -176,7 +176,7 @@ fn files_are_imported_and_what_they_do_not_say_is_asked_for() {
     assert!(bench.asked().is_empty() && bench.screen().contains("unit `yard`; accepted: mm, cm, in"));
     bench.press("<Backspace><Backspace><Backspace><Backspace>mm<Enter>");
     let given = StyleGiven { unit: Some("mm".into()), ..given };
-    assert_eq!(bench.asked(), [Effect::Do(Act::ImportStyle("titan".into(), given))]);
+    assert_eq!(bench.asked(), [Effect::Do(Command::ImportStyle("titan".into(), given))]);
     bench.send(Message::Saved(Ok("style titan is added".into())));
     assert!(bench.state.overlay.is_none() && bench.status().contains("titan is added"));
     assert!(bench.press("i<Enter>").asked().is_empty() && bench.state.overlay.is_none(), "no path, no import");
@@ -187,7 +187,7 @@ fn removing_asks_and_readonly_changes_nothing() {
     let mut bench = Bench::example(80, 24);
     bench.press("3d");
     assert!(bench.screen().contains("Remove size tshirt/S?"));
-    assert_eq!(bench.press("y").asked(), [Effect::Do(Act::Remove(Part::Size, "tshirt/S".into()))]);
+    assert_eq!(bench.press("y").asked(), [Effect::Do(Command::Remove(Part::Size, "tshirt/S".into()))]);
     let mut data = fixture::snapshot();
     data.sizes.truncate(1);
     bench.send(Message::Data(Box::new(data)));

@@ -2,9 +2,9 @@
 
 use super::{Bench, fixture};
 use crate::keys::screen::Screen;
-use crate::messages::{effect::Effect, message::Message, requests::Act};
+use crate::messages::{effect::Effect, message::Message, requests::Command};
 use crate::overlays::Overlay;
-use crate::widgets::picture::{Shot, Sitter};
+use crate::widgets::picture::{PictureRequest, Pictured};
 use study::{Mode, Part, SubjectId};
 
 fn selected(bench: &Bench) -> &str {
@@ -14,7 +14,7 @@ fn selected(bench: &Bench) -> &str {
 /// The last thing that was asked for, when it is a subject to save.
 fn saved(bench: &mut Bench) -> (Mode, String, Vec<(String, String)>) {
     match bench.asked().pop() {
-        Some(Effect::Do(Act::Save(Part::Subject, mode, name, given))) => (mode, name, given),
+        Some(Effect::Do(Command::Save(Part::Subject, mode, name, given))) => (mode, name, given),
         other => panic!("{other:?}"),
     }
 }
@@ -93,7 +93,7 @@ fn an_edit_starts_from_what_is_known_and_keeps_the_name() {
 fn files_are_imported_and_their_errors_read() {
     let mut bench = Bench::example(80, 24);
     bench.press("2ipeople.csv<Enter>");
-    assert_eq!(bench.asked(), [Effect::Do(Act::Import(Part::Subject, "people.csv".into()))]);
+    assert_eq!(bench.asked(), [Effect::Do(Command::Import(Part::Subject, "people.csv".into()))]);
     bench.send(Message::Saved(Err("people.csv:3: no name\npeople.csv:4: no sex".into())));
     let screen = bench.screen();
     assert!(screen.contains("✗ people.csv:3: no name") && screen.contains("  people.csv:4: no sex"), "{screen}");
@@ -109,7 +109,7 @@ fn removing_asks() {
     bench.press("2d");
     assert!(bench.screen().contains("Remove subject anna?") && bench.asked().is_empty());
     bench.press("y");
-    assert_eq!(bench.asked(), [Effect::Do(Act::Remove(Part::Subject, "anna".into()))]);
+    assert_eq!(bench.asked(), [Effect::Do(Command::Remove(Part::Subject, "anna".into()))]);
 }
 
 #[test]
@@ -131,23 +131,26 @@ fn the_palette_reaches_subjects_from_anywhere_and_jobs_are_left_alone() {
 
 #[test]
 fn bodies_are_built_when_seen_and_measured_without_pictures_too() {
-    let shots = |bench: &mut Bench| -> Vec<Shot> {
+    let requests = |bench: &mut Bench| -> Vec<PictureRequest> {
         let effects = std::mem::take(&mut bench.effects);
         effects
             .into_iter()
-            .filter_map(|e| if let Effect::Paint(shots) = e { Some(shots) } else { None })
+            .filter_map(|e| if let Effect::Draw(requests) = e { Some(requests) } else { None })
             .flatten()
             .collect()
     };
     let mut bench = Bench::example(80, 24);
     bench.press("2j");
-    let asked = shots(&mut bench);
-    assert_eq!(asked.iter().map(|shot| shot.of).collect::<Vec<_>>(), [3, 1].map(|id| Sitter::Body(SubjectId(id))));
+    let asked = requests(&mut bench);
+    assert_eq!(
+        asked.iter().map(|request| request.of).collect::<Vec<_>>(),
+        [3, 1].map(|id| Pictured::Body(SubjectId(id)))
+    );
     assert!(asked[0].columns >= 24 && asked[0].rows >= 18);
     assert!(bench.screen().contains("931.3"));
     bench.state.setup.abilities.pictures = false;
     bench.press("j");
-    assert_eq!(shots(&mut bench)[0].columns, 0);
+    assert_eq!(requests(&mut bench)[0].columns, 0);
     assert!(bench.screen().contains("pictures are off"));
     bench.send(Message::Measured(SubjectId(2), Err("body: no such person".into())));
     assert!(bench.screen().contains("body: no such person"));

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::Bench;
-use crate::messages::{message::Message, requests::Act};
-use crate::threads::database::do_act;
+use crate::messages::{message::Message, requests::Command};
+use crate::threads::database::carry_out;
 use crate::{messages::snapshot::Focus, threads::reading};
 use study::{Executor, JobSpec, Monitor, Outcome, RunOptions, Status, StudyError, Workspace};
 
@@ -40,10 +40,10 @@ fn follows_a_run_and_acts_on_it() {
     bench.state.update(Message::Data(Box::new(read(&workspace, &bench.state.focus.clone()))));
     assert!(bench.screen().contains("does not go over"), "{}", bench.screen());
 
-    assert!(do_act(&mut workspace, &Act::Retry(first)).expect("allowed").contains("is queued again"));
-    assert!(do_act(&mut workspace, &Act::Retry(first)).expect("allowed").contains("is not run again"));
-    assert!(do_act(&mut workspace, &Act::Pause(study.name.clone())).expect("allowed").contains("is paused"));
-    assert!(do_act(&mut workspace, &Act::Pause("none".into())).is_err());
+    assert!(carry_out(&mut workspace, &Command::Retry(first)).expect("allowed").contains("is queued again"));
+    assert!(carry_out(&mut workspace, &Command::Retry(first)).expect("allowed").contains("is not run again"));
+    assert!(carry_out(&mut workspace, &Command::Pause(study.name.clone())).expect("allowed").contains("is paused"));
+    assert!(carry_out(&mut workspace, &Command::Pause("none".into())).is_err());
     bench.state.update(Message::Data(Box::new(read(&workspace, &bench.state.focus.clone()))));
     let screen = bench.screen();
     assert!(screen.contains(" paused ") && screen.contains(&format!("…1 ✗{}", jobs - 1)), "{screen}");

@@ -4,25 +4,26 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
 
 use crate::messages::message::Message;
-use crate::messages::requests::Act;
+use crate::messages::requests::Command;
 use crate::messages::snapshot::{Focus, Snapshot};
 use crate::threads::reading;
 use study::seams::write_seams;
 use study::{Deed, Mode, Part, Saved, StudyError, StyleGiven, Workspace};
 
 /// Time between two looks at whether the database has changed; a look costs microseconds.
-const LOOK: Duration = Duration::from_millis(250);
+const POLL: Duration = Duration::from_millis(250);
 
-/// What the thread of the database is asked for.
-/// What is asked of it.
+/// What the thread is asked for.
 pub enum Request {
+    /// Read what the screens show.
     Read(Focus),
-    Do(Act),
+    /// Act on the queue or the catalogue.
+    Do(Command),
 }
 
 /// Reads what the screens show when asked to and whenever the database has changed, and acts on the queue.
 pub fn serve(workspace: Workspace, asked: &Receiver<Request>, sender: &Sender<Message>) {
-    let mut reader = Reader { workspace, focus: Focus::default(), last: None, rest: LOOK };
+    let mut reader = Reader { workspace, focus: Focus::default(), last: None, rest: POLL };
     loop {
         let first = match asked.recv_timeout(reader.rest) {
             Ok(request) => Some(request),
@@ -34,8 +35,8 @@ pub fn serve(workspace: Workspace, asked: &Receiver<Request>, sender: &Sender<Me
         for request in first.into_iter().chain(asked.try_iter()) {
             match request {
                 Request::Read(wanted) => reader.focus = wanted,
-                Request::Do(act) => {
-                    if sender.send(reader.do_act(act)).is_err() {
+                Request::Do(command) => {
+                    if sender.send(reader.carry_out(command)).is_err() {
                         return;
                     }
                 }
@@ -76,7 +77,7 @@ impl Reader {
             Some((.., before)) => reading::refocused(&self.workspace, before, &self.focus)?,
             None => reading::snapshot(&self.workspace, &self.focus)?,
         };
-        self.rest = LOOK.max(2 * start.elapsed());
+        self.rest = POLL.max(2 * start.elapsed());
         let shown = Focus {
             study: data.study().map(|study| study.name.clone()),
             garment: data.grid.as_ref().map(|grid| grid.garment.clone()),
@@ -87,28 +88,28 @@ impl Reader {
     }
 
     /// Acts, and says what came of it.
-    fn do_act(&mut self, act: Act) -> Message {
-        let done = do_act(&mut self.workspace, &act).map_err(|error| error.to_string());
-        match (act, done) {
-            (Act::SaveSeams(style, seams), done) => Message::SeamsSaved(style, seams, done),
-            (act, done) if act.is_filled_in() => Message::Saved(done),
-            (_, Ok(text)) => Message::Acted(text),
+    fn carry_out(&mut self, command: Command) -> Message {
+        let done = carry_out(&mut self.workspace, &command).map_err(|error| error.to_string());
+        match (command, done) {
+            (Command::SaveSeams(style, seams), done) => Message::SeamsSaved(style, seams, done),
+            (command, done) if command.is_from_form() => Message::Saved(done),
+            (_, Ok(text)) => Message::Done(text),
             (_, Err(text)) => Message::Failed(text),
         }
     }
 }
 
 /// Acts on the queue or the catalogue; says what was done.
-pub fn do_act(workspace: &mut Workspace, act: &Act) -> Result<String, StudyError> {
-    match act {
-        Act::Save(part, mode, name, given) => {
+pub fn carry_out(workspace: &mut Workspace, command: &Command) -> Result<String, StudyError> {
+    match command {
+        Command::Save(part, mode, name, given) => {
             let saved = match part {
                 Part::Fabric => workspace.save_fabric(*mode, name, None, given)?,
                 _ => workspace.save_subject(*mode, name, given)?,
             };
             Ok(format!("{saved}{}", saved.doubts.iter().map(|doubt| format!("; {doubt}")).collect::<String>()))
         }
-        Act::Import(part, path) => {
+        Command::Import(part, path) => {
             let saved = workspace.import(*part, std::slice::from_ref(path))?;
             let count = |deed: Deed| saved.iter().filter(|saved| saved.deed == deed).count();
             let changed = count(Deed::Revised) + count(Deed::Restored);
@@ -121,30 +122,30 @@ pub fn do_act(workspace: &mut Workspace, act: &Act) -> Result<String, StudyError
                 count(Deed::Unchanged)
             ))
         }
-        Act::Remove(part, name) => Ok(workspace.remove(*part, name)?.to_string()),
-        Act::ImportStyle(name, given) => import_style(workspace, name, given),
-        Act::SaveSeams(style, seams) => Ok(said(&workspace.save_seams(style, seams)?)),
-        Act::WriteSeams(path, before, after) => {
+        Command::Remove(part, name) => Ok(workspace.remove(*part, name)?.to_string()),
+        Command::ImportStyle(name, given) => import_style(workspace, name, given),
+        Command::SaveSeams(style, seams) => Ok(said(&workspace.save_seams(style, seams)?)),
+        Command::WriteSeams(path, before, after) => {
             write_seams(path, before, after)?;
             Ok(format!("{} is written", path.display()))
         }
-        Act::Cancel(id) => match workspace.cancel(&[*id])? {
+        Command::Cancel(id) => match workspace.cancel(&[*id])? {
             0 => Ok(format!("job {id} had ended already")),
             _ => Ok(format!("job {id} is cancelled; r queues it again")),
         },
-        Act::Retry(id) => match workspace.retry(&[*id])? {
+        Command::Retry(id) => match workspace.retry(&[*id])? {
             0 => Ok(format!("job {id} is not run again")),
             _ => Ok(format!("job {id} is queued again")),
         },
-        Act::Prioritise(id, priority) => {
+        Command::Prioritise(id, priority) => {
             workspace.set_priority(&[*id], *priority)?;
             Ok(format!("job {id} has priority {priority}"))
         }
-        Act::Pause(study) => {
+        Command::Pause(study) => {
             workspace.pause(study)?;
             Ok(format!("{study} is paused: no new jobs start, running ones go on"))
         }
-        Act::Resume(study) => {
+        Command::Resume(study) => {
             workspace.resume(study)?;
             Ok(format!("{study} goes on"))
         }

@@ -9,6 +9,7 @@ use signal_hook::iterator::Signals;
 
 use crate::messages::message::Message;
 
+/// Waits for keys, and tells them.
 pub fn read_keys(sender: &Sender<Message>) {
     loop {
         let message = match event::read() {
@@ -25,6 +26,7 @@ pub fn read_keys(sender: &Sender<Message>) {
     }
 }
 
+/// Waits for signals, and tells them.
 pub fn watch_signals(sender: &Sender<Message>) {
     let mut signals = match Signals::new([SIGTERM, SIGHUP, SIGINT]) {
         Ok(signals) => signals,

@@ -15,17 +15,16 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender};
 use std::sync::{Arc, Mutex, PoisonError, mpsc};
-use std::thread;
-use std::thread::JoinHandle;
+use std::thread::{self, JoinHandle};
 
 use crate::messages::effect::Effect;
 use crate::messages::message::Message;
-use crate::messages::requests::{Errand, Question, Target};
-use crate::messages::seams::Task;
+use crate::messages::requests::{FileTask, QueryRequest, Target};
+use crate::messages::seams::SeamTask;
 use crate::messages::snapshot::Focus;
 use crate::threads::database::Request;
-use crate::threads::queries::Brake;
-use crate::widgets::picture::{Canvas, Shot};
+use crate::threads::queries::Canceller;
+use crate::widgets::picture::{PictureEncoder, PictureRequest};
 use study::{Live, Workspace};
 
 /// The threads, and what they say.
@@ -33,14 +32,14 @@ pub struct Threads {
     /// What they say.
     pub messages: Receiver<Message>,
     sender: Sender<Message>,
-    requests: Sender<Request>,
-    shots: Sender<Vec<Shot>>,
-    tasks: Sender<Task>,
-    questions: Sender<Question>,
-    brake: Brake,
-    errands: Sender<Errand>,
+    database: Sender<Request>,
+    pictures: Sender<Vec<PictureRequest>>,
+    seams: Sender<SeamTask>,
+    queries: Sender<QueryRequest>,
+    canceller: Canceller,
+    files: Sender<FileTask>,
     live: Arc<Live>,
-    database: PathBuf,
+    path: PathBuf,
     quickstart: Option<PathBuf>,
     stop: Arc<AtomicBool>,
     run: Mutex<Option<JoinHandle<()>>>,
@@ -49,42 +48,36 @@ pub struct Threads {
 impl Threads {
     /// Starts all threads but that of runs.
     #[must_use]
-    pub fn start(workspace: Workspace, canvas: Option<Canvas>, quickstart: Option<PathBuf>, reports: PathBuf) -> Self {
+    pub fn start(
+        workspace: Workspace,
+        encoder: Option<PictureEncoder>,
+        quickstart: Option<PathBuf>,
+        reports: PathBuf,
+    ) -> Self {
         let (sender, messages) = mpsc::channel();
-        let (requests, asked) = mpsc::channel();
-        let (shots, wanted) = mpsc::channel();
-        let (tasks, work) = mpsc::channel();
-        let (database, workspace_is_readonly) = (workspace.path().to_owned(), workspace.is_readonly());
+        let (path, readonly) = (workspace.path().to_owned(), workspace.is_readonly());
+        let canceller = Canceller::default();
         spawn(&sender, input::read_keys);
         spawn(&sender, input::watch_signals);
-        spawn(&sender, move |sender| database::serve(workspace, &asked, sender));
-        let (path, readonly) = (database.clone(), workspace_is_readonly);
-        spawn(&sender, move |sender| pictures::serve(&path, readonly, canvas.as_ref(), &wanted, sender));
-        let (path, readonly) = (database.clone(), workspace_is_readonly);
-        spawn(&sender, move |sender| seams::serve(&path, readonly, &work, sender));
-        let (questions, to_ask) = mpsc::channel();
-        let brake = Brake::default();
-        let (path, own_brake) = (database.clone(), brake.clone());
-        spawn(&sender, move |sender| queries::serve(&path, &own_brake, &to_ask, sender));
-        let (errands, to_run) = mpsc::channel();
-        let (path, readonly) = (database.clone(), workspace_is_readonly);
-        spawn(&sender, move |sender| files::serve(&path, readonly, &reports, &to_run, sender));
-        let stop = Arc::new(AtomicBool::new(false));
-        let (live, run) = (Arc::default(), Mutex::new(None));
+        let here = || path.clone();
+        let (of_pictures, of_seams, of_queries, of_files, cancelled) =
+            (here(), here(), here(), here(), canceller.clone());
         Self {
+            database: serve(&sender, |asked, sender| database::serve(workspace, asked, sender)),
+            pictures: serve(&sender, move |asked, sender| {
+                pictures::serve(&of_pictures, readonly, encoder.as_ref(), asked, sender);
+            }),
+            seams: serve(&sender, move |asked, sender| seams::serve(&of_seams, readonly, asked, sender)),
+            queries: serve(&sender, move |asked, sender| queries::serve(&of_queries, &cancelled, asked, sender)),
+            files: serve(&sender, move |asked, sender| files::serve(&of_files, readonly, &reports, asked, sender)),
             messages,
             sender,
-            requests,
-            shots,
-            tasks,
-            questions,
-            brake,
-            errands,
-            live,
-            database,
+            canceller,
+            live: Arc::default(),
+            path,
             quickstart,
-            stop,
-            run,
+            stop: Arc::default(),
+            run: Mutex::default(),
         }
     }
 
@@ -96,16 +89,16 @@ impl Threads {
     /// Hands an effect to the thread it concerns; a thread that has ended has said why.
     pub fn carry_out(&self, effect: Effect) {
         match effect {
-            Effect::Read(focus) => drop(self.requests.send(Request::Read(focus))),
-            Effect::Do(act) => drop(self.requests.send(Request::Do(act))),
-            Effect::Desk(task) => drop(self.tasks.send(task)),
-            Effect::Paint(shots) => drop(self.shots.send(shots)),
-            Effect::Ask(question) => {
-                self.brake.release();
-                drop(self.questions.send(question));
+            Effect::Read(focus) => drop(self.database.send(Request::Read(focus))),
+            Effect::Do(command) => drop(self.database.send(Request::Do(command))),
+            Effect::Seams(task) => drop(self.seams.send(task)),
+            Effect::Draw(requests) => drop(self.pictures.send(requests)),
+            Effect::Query(query) => {
+                self.canceller.reset();
+                drop(self.queries.send(query));
             }
-            Effect::StopAsking => self.brake.pull(),
-            Effect::Errand(errand) => drop(self.errands.send(errand)),
+            Effect::StopQuery => self.canceller.cancel(),
+            Effect::Files(task) => drop(self.files.send(task)),
             Effect::Watch(job) => self.live.watch(job),
             Effect::Run(target) => self.start_run(target),
             Effect::StopRun => self.stop.store(true, Ordering::Relaxed),
@@ -119,9 +112,9 @@ impl Threads {
             Target::Quickstart => self.quickstart.clone().unwrap_or_default(),
         };
         self.stop.store(false, Ordering::Relaxed);
-        let (database, stop, live) = (self.database.clone(), self.stop.clone(), self.live.clone());
+        let (database, stop, live) = (self.path.clone(), self.stop.clone(), self.live.clone());
         let handle = spawn(&self.sender, move |sender| {
-            let outcome = run::follow_run(&database, &path, &stop, &live, sender);
+            let outcome = run::follow(&database, &path, &stop, &live, sender);
             let _ = sender.send(Message::RunEnded(outcome.map_err(|error| error.to_string())));
         });
         *self.run.lock().unwrap_or_else(PoisonError::into_inner) = handle;
@@ -135,6 +128,16 @@ impl Threads {
             let _ = run.join();
         }
     }
+}
+
+/// Starts a thread that answers what it is asked through the returned end.
+fn serve<T: Send + 'static>(
+    sender: &Sender<Message>,
+    work: impl FnOnce(&Receiver<T>, &Sender<Message>) + Send + 'static,
+) -> Sender<T> {
+    let (asks, asked) = mpsc::channel();
+    spawn(sender, move |sender| work(&asked, sender));
+    asks
 }
 
 /// Starts a thread with a way to answer; says so where the system refuses one.

@@ -6,50 +6,50 @@ use std::sync::mpsc::{Receiver, SendError, Sender};
 use image::RgbaImage;
 
 use crate::messages::message::Message;
-use crate::widgets::picture::{Canvas, Shot, Sitter};
+use crate::widgets::picture::{PictureEncoder, PictureRequest, Pictured};
 use study::{Figure, SubjectId, Workspace};
 
 /// Makes the pictures asked for, those of the latest request only, until nobody asks or listens any more. Bodies are
-/// measured where there is no canvas, too.
+/// measured where there is no encoder, too.
 pub fn serve(
     database: &Path,
     readonly: bool,
-    canvas: Option<&Canvas>,
-    wanted: &Receiver<Vec<Shot>>,
+    encoder: Option<&PictureEncoder>,
+    wanted: &Receiver<Vec<PictureRequest>>,
     sender: &Sender<Message>,
 ) {
     let workspace = Workspace::open(database, readonly).map_err(|error| error.to_string());
-    let mut painter = Painter { workspace, ready: None, sender };
-    while let Ok(request) = wanted.recv() {
-        let mut shots = wanted.try_iter().last().unwrap_or(request).into_iter();
-        while let Some(shot) = shots.next() {
-            if painter.show(&shot, canvas).is_err() {
+    let mut renderer = Renderer { workspace, ready: None, sender };
+    while let Ok(first) = wanted.recv() {
+        let mut requests = wanted.try_iter().last().unwrap_or(first).into_iter();
+        while let Some(request) = requests.next() {
+            if renderer.show(&request, encoder).is_err() {
                 return;
             }
             // A newer request makes what is left of this one needless.
             if let Some(newer) = wanted.try_iter().last() {
-                shots = newer.into_iter();
+                requests = newer.into_iter();
             }
         }
     }
 }
 
-struct Painter<'a> {
+struct Renderer<'a> {
     workspace: Result<Workspace, String>,
     /// The body shown last, or why there is none.
     ready: Option<(SubjectId, Result<Figure, String>)>,
     sender: &'a Sender<Message>,
 }
 
-impl Painter<'_> {
+impl Renderer<'_> {
     /// Makes a picture and sends it; an error when nobody listens.
-    fn show(&mut self, shot: &Shot, canvas: Option<&Canvas>) -> Result<(), SendError<Message>> {
-        if let Sitter::Body(id) = shot.of {
+    fn show(&mut self, request: &PictureRequest, encoder: Option<&PictureEncoder>) -> Result<(), SendError<Message>> {
+        if let Pictured::Body(id) = request.of {
             self.measure(id)?;
         }
-        let Some(canvas) = canvas.filter(|_| shot.columns > 0 && shot.rows > 0) else { return Ok(()) };
-        let drawn = self.picture(shot, canvas.pixels(shot)).and_then(|picture| canvas.draw(&picture, shot));
-        self.sender.send(Message::Picture(*shot, drawn))
+        let Some(encoder) = encoder.filter(|_| request.columns > 0 && request.rows > 0) else { return Ok(()) };
+        let drawn = self.picture(request, encoder.pixels(request)).and_then(|picture| encoder.draw(&picture, request));
+        self.sender.send(Message::Picture(*request, drawn))
     }
 
     /// Makes a body ready and tells its measurements, unless it was shown last.
@@ -66,17 +66,17 @@ impl Painter<'_> {
     }
 
     /// The pixels of a picture.
-    fn picture(&self, shot: &Shot, (width, height): (u32, u32)) -> Result<RgbaImage, String> {
-        match (shot.of, &self.ready) {
-            (Sitter::Drape(job), _) => {
+    fn picture(&self, request: &PictureRequest, (width, height): (u32, u32)) -> Result<RgbaImage, String> {
+        match (request.of, &self.ready) {
+            (Pictured::Drape(job), _) => {
                 let workspace = self.workspace.as_ref().map_err(Clone::clone)?;
-                workspace.look(job, shot.look, width, height, shot.map).map_err(|error| error.to_string())
+                workspace.look(job, request.look, width, height, request.map).map_err(|error| error.to_string())
             }
-            (Sitter::Body(_), Some((_, Ok(figure)))) => {
+            (Pictured::Body(_), Some((_, Ok(figure)))) => {
                 figure.picture(width, height).map_err(|error| error.to_string())
             }
-            (Sitter::Body(_), Some((_, Err(error)))) => Err(error.clone()),
-            (Sitter::Body(_), None) => Err("its body is not built yet".to_owned()),
+            (Pictured::Body(_), Some((_, Err(error)))) => Err(error.clone()),
+            (Pictured::Body(_), None) => Err("its body is not built yet".to_owned()),
         }
     }
 }

@@ -8,8 +8,8 @@ use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
 use crate::messages::message::Message;
-use crate::messages::requests::Question;
-use crate::widgets::result_table::Sheet;
+use crate::messages::requests::QueryRequest;
+use crate::widgets::result_table::ResultTable;
 use study::{Interrupter, StudyError, Workspace, saved_queries};
 
 /// Rows that are shown of an answer; a file gets all.
@@ -17,14 +17,14 @@ const MOST_ROWS: usize = 20_000;
 
 /// Stops what the thread works on.
 #[derive(Clone, Default)]
-pub struct Brake {
+pub struct Canceller {
     is_on: Arc<AtomicBool>,
     interrupter: Arc<OnceLock<Interrupter>>,
 }
 
-impl Brake {
+impl Canceller {
     /// Ends the query that runs now.
-    pub fn pull(&self) {
+    pub fn cancel(&self) {
         self.is_on.store(true, Ordering::Relaxed);
         if let Some(interrupter) = self.interrupter.get() {
             interrupter.interrupt();
@@ -32,24 +32,24 @@ impl Brake {
     }
 
     /// Lets the next query run.
-    pub fn release(&self) {
+    pub fn reset(&self) {
         self.is_on.store(false, Ordering::Relaxed);
     }
 }
 
 /// Answers until nobody asks or listens any more.
-pub fn serve(database: &Path, brake: &Brake, wanted: &Receiver<Question>, sender: &Sender<Message>) {
+pub fn serve(database: &Path, canceller: &Canceller, wanted: &Receiver<QueryRequest>, sender: &Sender<Message>) {
     // Whatever a query says, it cannot write.
     let workspace = Workspace::open(database, true).map_err(|error| error.to_string());
     if let Ok(workspace) = &workspace {
         // The thread is started once, and so is its interrupter set.
-        let _ = brake.interrupter.set(workspace.interrupter());
+        let _ = canceller.interrupter.set(workspace.interrupter());
     }
-    while let Ok(question) = wanted.recv() {
+    while let Ok(request) = wanted.recv() {
         let workspace = workspace.as_ref().map_err(Clone::clone);
         let start = Instant::now();
-        let message = match question {
-            Question::Names => {
+        let message = match request {
+            QueryRequest::Names => {
                 let folder = database.parent().map(|folder| folder.join("queries"));
                 let names = workspace.and_then(|it| {
                     let names = it.relations().and_then(|known| Ok((known, saved_queries(folder.as_deref())?)));
@@ -57,15 +57,15 @@ pub fn serve(database: &Path, brake: &Brake, wanted: &Receiver<Question>, sender
                 });
                 names.map_or_else(Message::Failed, |(relations, queries)| Message::Names(relations, queries))
             }
-            Question::Rows(text) => {
-                let answer =
-                    workspace.and_then(|it| it.answer(&text, MOST_ROWS, &brake.is_on).map_err(|error| said(&error)));
-                let sheet = answer.map(|answer| Box::new(Sheet::of(answer)));
-                Message::Answered(start.elapsed().as_millis() as u64, sheet)
+            QueryRequest::Rows(text) => {
+                let answer = workspace
+                    .and_then(|it| it.answer(&text, MOST_ROWS, &canceller.is_on).map_err(|error| said(&error)));
+                let table = answer.map(|answer| Box::new(ResultTable::of(answer)));
+                Message::Answered(start.elapsed().as_millis() as u64, table)
             }
-            Question::Export(text, path) => {
-                let rows =
-                    workspace.and_then(|it| it.export_query(&text, &path, &brake.is_on).map_err(|error| said(&error)));
+            QueryRequest::Export(text, path) => {
+                let rows = workspace
+                    .and_then(|it| it.export_query(&text, &path, &canceller.is_on).map_err(|error| said(&error)));
                 Message::Saved(rows.map(|rows| format!("{rows} rows are in {}", path.display())))
             }
         };

@@ -11,10 +11,10 @@ use crate::messages::message::Message;
 use study::{Live, RunOptions, StudyError, Workspace};
 
 /// Time between two looks at whether a run has ended or is to stop, and at the garment that is watched.
-const RUN_LOOK: Duration = Duration::from_millis(200);
+const POLL: Duration = Duration::from_millis(200);
 
 /// Starts a run and waits for its end or for the order to stop it; says how it ended.
-pub fn follow_run(
+pub fn follow(
     database: &Path,
     study: &Path,
     stop: &AtomicBool,
@@ -33,7 +33,7 @@ pub fn follow_run(
             // Nobody listens any more when the terminal is gone; the run goes on.
             let _ = sender.send(Message::Live(frame));
         }
-        thread::sleep(RUN_LOOK);
+        thread::sleep(POLL);
     }
     let is_stopped = stop.load(Ordering::Relaxed);
     run.join()?;

@@ -105,7 +105,7 @@ pub fn next_map(map: Map) -> Map {
 
 /// What a picture is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sitter {
+pub enum Pictured {
     /// The drape of a job.
     Drape(JobId),
     /// The body of a subject, from the front and from the side.
@@ -114,9 +114,9 @@ pub enum Sitter {
 
 /// A picture that is wanted; one without cells has the body measured only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shot {
+pub struct PictureRequest {
     /// What is shown.
-    pub of: Sitter,
+    pub of: Pictured,
     /// From where.
     pub look: Look,
     /// In which colours.
@@ -149,7 +149,7 @@ impl std::fmt::Debug for Drawn {
 
 /// Turns pictures into cells.
 #[derive(Clone, Debug)]
-pub struct Canvas {
+pub struct PictureEncoder {
     /// How pixels are sent, where they are.
     picker: Option<Picker>,
     letters: bool,
@@ -157,7 +157,7 @@ pub struct Canvas {
     cell: FontSize,
 }
 
-impl Canvas {
+impl PictureEncoder {
     /// The best way this terminal can show pictures; `None` where they are off.
     #[must_use]
     pub fn new(images: Images, colours: Colours, env: &dyn Fn(&str) -> Option<String>) -> Option<Self> {
@@ -173,18 +173,18 @@ impl Canvas {
 
     /// Pixels to render for a picture, width by height.
     #[must_use]
-    pub fn pixels(&self, shot: &Shot) -> (u32, u32) {
-        (u32::from(shot.columns) * u32::from(self.cell.width), u32::from(shot.rows) * u32::from(self.cell.height))
+    pub fn pixels(&self, request: &PictureRequest) -> (u32, u32) {
+        (u32::from(request.columns) * u32::from(self.cell.width), u32::from(request.rows) * u32::from(self.cell.height))
     }
 
     /// Crops a picture to what it shows and fits it into its pane.
     ///
     /// # Errors
     /// When the picture cannot be encoded for this terminal.
-    pub fn draw(&self, picture: &RgbaImage, shot: &Shot) -> Result<Drawn, String> {
+    pub fn draw(&self, picture: &RgbaImage, request: &PictureRequest) -> Result<Drawn, String> {
         let picture = cropped(picture);
         let cell = self.cell;
-        let size = fitted(&picture, Size::new(shot.columns, shot.rows), cell);
+        let size = fitted(&picture, Size::new(request.columns, request.rows), cell);
         if self.letters {
             return Ok(Drawn::Letters(letters(&picture, size)));
         }
@@ -257,22 +257,22 @@ pub mod tests {
         })
     }
 
-    fn shot(columns: u16, rows: u16) -> Shot {
-        Shot { of: Sitter::Drape(JobId(1)), look: FRONT, map: Map::Plain, columns, rows }
+    fn request(columns: u16, rows: u16) -> PictureRequest {
+        PictureRequest { of: Pictured::Drape(JobId(1)), look: FRONT, map: Map::Plain, columns, rows }
     }
 
     #[test]
     fn half_blocks_fill_the_pane_in_one_direction() {
-        let canvas = Canvas::new(Images::Halfblocks, Colours::True, &|_| None).expect("pictures are on");
-        let Ok(Drawn::Blocks(blocks)) = canvas.draw(&shirt(), &shot(30, 20)) else { panic!("blocks") };
+        let encoder = PictureEncoder::new(Images::Halfblocks, Colours::True, &|_| None).expect("pictures are on");
+        let Ok(Drawn::Blocks(blocks)) = encoder.draw(&shirt(), &request(30, 20)) else { panic!("blocks") };
         assert_eq!(blocks.size.width, 30);
         assert!(blocks.size.height <= 20);
     }
 
     #[test]
     fn without_colours_letters_show_the_shape() {
-        let canvas = Canvas::new(Images::Auto, Colours::None, &|_| None).expect("pictures are on");
-        let Ok(Drawn::Letters(rows)) = canvas.draw(&shirt(), &shot(22, 9)) else { panic!("letters") };
+        let encoder = PictureEncoder::new(Images::Auto, Colours::None, &|_| None).expect("pictures are on");
+        let Ok(Drawn::Letters(rows)) = encoder.draw(&shirt(), &request(22, 9)) else { panic!("letters") };
         let width = |row: usize| rows[row].trim().chars().count();
         assert!((20..=22).contains(&width(1)), "sleeves span the pane: {}", width(1));
         assert!((8..=10).contains(&width(6)), "the trunk is narrower: {}", width(6));

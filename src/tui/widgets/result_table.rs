@@ -14,7 +14,7 @@ const WIDEST: usize = 40;
 
 /// An answer, and where the user is in it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Sheet {
+pub struct ResultTable {
     answer: SqlAnswer,
     /// Each row in small letters, for the filter.
     words: Vec<String>,
@@ -30,8 +30,8 @@ pub struct Sheet {
     pub order: Option<(usize, bool)>,
 }
 
-impl Sheet {
-    /// The sheet of an answer. Costs time in proportion to it: for threads that nobody waits for.
+impl ResultTable {
+    /// The table of an answer. Costs time in proportion to it: for threads that nobody waits for.
     #[must_use]
     pub fn of(answer: SqlAnswer) -> Self {
         let words = answer.table.rows.iter().map(|row| {
@@ -185,7 +185,7 @@ mod tests {
     use super::*;
     use study::Table;
 
-    fn sheet() -> Sheet {
+    fn table() -> ResultTable {
         let row = |name: &str, value: Value| vec![Value::Text(name.to_owned()), value, Value::Text("x".repeat(30))];
         let rows = vec![
             row("beta", Value::Real(0.5)),
@@ -194,39 +194,39 @@ mod tests {
             row("delta", Value::Real(12.345_678_9)),
         ];
         let columns = ["name", "n", "long"].map(str::to_owned).to_vec();
-        Sheet::of(SqlAnswer { table: Table { columns, rows }, is_cut: false })
+        ResultTable::of(SqlAnswer { table: Table { columns, rows }, is_cut: false })
     }
 
-    fn names(sheet: &Sheet) -> Vec<String> {
-        (0..sheet.len()).filter_map(|row| sheet.values(row)).map(|values| values[0].to_string()).collect()
+    fn names(table: &ResultTable) -> Vec<String> {
+        (0..table.len()).filter_map(|row| table.values(row)).map(|values| values[0].to_string()).collect()
     }
 
     #[test]
     fn rows_are_sorted_by_value_and_narrowed() {
-        let mut sheet = sheet();
-        sheet.sort("");
-        assert_eq!(names(&sheet), ["alpha", "beta", "delta", "gamma"]);
-        sheet.sideways(1);
-        sheet.sort("");
-        assert_eq!(names(&sheet), ["alpha", "gamma", "beta", "delta"], "nothing first, then numbers by size");
-        sheet.reverse("");
-        assert_eq!(names(&sheet), ["delta", "beta", "gamma", "alpha"]);
-        sheet.arrange("ALPHA");
-        assert_eq!(names(&sheet), ["alpha"]);
-        sheet.sort("");
-        assert_eq!(names(&sheet), ["beta", "alpha", "gamma", "delta"], "a second time: as the query has them");
+        let mut table = table();
+        table.sort("");
+        assert_eq!(names(&table), ["alpha", "beta", "delta", "gamma"]);
+        table.sideways(1);
+        table.sort("");
+        assert_eq!(names(&table), ["alpha", "gamma", "beta", "delta"], "nothing first, then numbers by size");
+        table.reverse("");
+        assert_eq!(names(&table), ["delta", "beta", "gamma", "alpha"]);
+        table.arrange("ALPHA");
+        assert_eq!(names(&table), ["alpha"]);
+        table.sort("");
+        assert_eq!(names(&table), ["beta", "alpha", "gamma", "delta"], "a second time: as the query has them");
     }
 
     #[test]
     fn the_first_column_stays_and_the_selected_is_in_sight() {
-        let mut sheet = sheet();
-        assert_eq!(sheet.columns_shown(80), [0, 1, 2]);
-        assert_eq!(sheet.columns_shown(20), [0, 1]);
-        sheet.sideways(9);
-        assert_eq!(sheet.column, 2);
-        assert_eq!(sheet.columns_shown(38), [0, 2]);
-        assert_eq!(sheet.columns_shown(5), [0, 2]);
-        assert!(Sheet::default().columns_shown(80).is_empty());
+        let mut table = table();
+        assert_eq!(table.columns_shown(80), [0, 1, 2]);
+        assert_eq!(table.columns_shown(20), [0, 1]);
+        table.sideways(9);
+        assert_eq!(table.column, 2);
+        assert_eq!(table.columns_shown(38), [0, 2]);
+        assert_eq!(table.columns_shown(5), [0, 2]);
+        assert!(ResultTable::default().columns_shown(80).is_empty());
     }
 
     #[test]

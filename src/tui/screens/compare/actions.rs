@@ -2,7 +2,8 @@
 
 use crate::keys::screen::Screen;
 use crate::messages::snapshot::Compared;
-use crate::screens::compare::comparison::{Contrast, MOST, contrasts, labels};
+use crate::screens::compare::comparison::{ComparisonRow, MOST, comparison_rows, labels};
+use crate::screens::movement::Movement;
 use crate::screens::state::State;
 use crate::widgets::text;
 use study::{JobId, JobRow, RecommendationRow};
@@ -29,13 +30,13 @@ impl State {
 
     /// The measurements shown: all, or those in which the runs differ.
     #[must_use]
-    pub fn contrasts(&self) -> Vec<Contrast> {
+    pub fn comparison_rows(&self) -> Vec<ComparisonRow> {
         let filter = self.nav.filters[Screen::Compare as usize].to_lowercase();
-        let mut rows = contrasts(self.compared());
+        let mut rows = comparison_rows(self.compared());
         rows.retain(|row| !self.compare.differences_only || row.differs());
         rows.retain(|row| format!("#{} {}", row.no, row.name).to_lowercase().contains(&filter));
         if self.compare.sorts_by_difference {
-            let spread = |row: &Contrast| {
+            let spread = |row: &ComparisonRow| {
                 let known = || row.chi.iter().flatten();
                 known().fold(f64::MIN, |a, b| a.max(*b)) - known().fold(f64::MAX, |a, b| a.min(*b))
             };
@@ -51,6 +52,11 @@ impl State {
         let class = self.ease(job)?.fit.class;
         let of_class = |row: &&RecommendationRow| row.garment == job.garment && row.class == class;
         self.data.as_ref()?.recommendations.iter().find(of_class)
+    }
+
+    /// Moves in the table of the comparison.
+    pub fn go_in_comparison(&mut self, movement: Movement) {
+        self.compare.row = movement.from(self.compare.row, self.comparison_rows().len());
     }
 
     /// Selects a run for a comparison, or no longer.
@@ -81,13 +87,14 @@ impl State {
     }
 }
 
-pub fn contrast_table(state: &State) -> Option<String> {
+/// The comparison, tab-separated.
+pub fn comparison_table(state: &State) -> Option<String> {
     let jobs: Vec<&JobRow> = state.compared().iter().map(|run| &run.job).collect();
     if jobs.is_empty() {
         return None;
     }
     let mut table = format!("no\tmeasurement\tl2d_mm\t{}\n", labels(&jobs).join("\t"));
-    for row in state.contrasts() {
+    for row in state.comparison_rows() {
         let chi = row.chi.iter().map(|chi| chi.map_or(String::new(), |chi| format!("{chi:.6}"))).collect::<Vec<_>>();
         table += &format!("{}\t{}\t{}\t{}\n", row.no, row.name, text::mm(row.l2d_m), chi.join("\t"));
     }

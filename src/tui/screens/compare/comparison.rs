@@ -15,7 +15,7 @@ const MARGIN: f64 = 0.01;
 
 /// One measurement over all runs compared.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Contrast {
+pub struct ComparisonRow {
     /// Number in the style.
     pub no: u32,
     /// Name.
@@ -26,7 +26,7 @@ pub struct Contrast {
     pub chi: Vec<Option<f64>>,
 }
 
-impl Contrast {
+impl ComparisonRow {
     /// Whether the runs differ.
     #[must_use]
     pub fn differs(&self) -> bool {
@@ -73,12 +73,12 @@ pub fn labels(jobs: &[&JobRow]) -> Vec<String> {
 
 /// The measurements of all runs, by the numbers and names of their last stage.
 #[must_use]
-pub fn contrasts(runs: &[Compared]) -> Vec<Contrast> {
-    let mut found: Vec<Contrast> = Vec::new();
+pub fn comparison_rows(runs: &[Compared]) -> Vec<ComparisonRow> {
+    let mut found: Vec<ComparisonRow> = Vec::new();
     for (k, run) in runs.iter().enumerate() {
         for row in last_stage(&run.chi) {
             let at = found.iter().position(|one| one.no == row.no && one.name == row.name).unwrap_or_else(|| {
-                found.push(Contrast {
+                found.push(ComparisonRow {
                     no: row.no,
                     name: row.name.clone(),
                     l2d_m: row.l2d_m,
@@ -104,7 +104,7 @@ pub fn verdict(runs: &[Compared], recommended: Option<&RecommendationRow>) -> Ve
     let names = labels(&jobs);
     let mut said = Vec::new();
     said.push(truest(runs, &names));
-    let rows = contrasts(runs);
+    let rows = comparison_rows(runs);
     let won = |k: usize| rows.iter().filter(|row| row.nearest() == Some(k)).count();
     let wins: Vec<String> = names.iter().enumerate().map(|(k, name)| format!("{name} {}", won(k))).collect();
     let ties = rows.iter().filter(|row| row.nearest().is_none()).count();
@@ -170,7 +170,7 @@ mod tests {
 
     #[test]
     fn the_nearest_is_alone_or_nobody() {
-        let row = |chi: &[Option<f64>]| Contrast { no: 1, name: "Hem".into(), l2d_m: 1.0, chi: chi.to_vec() };
+        let row = |chi: &[Option<f64>]| ComparisonRow { no: 1, name: "Hem".into(), l2d_m: 1.0, chi: chi.to_vec() };
         let check = |chi: &[Option<f64>], nearest, differs| {
             assert_eq!((row(chi).nearest(), row(chi).differs()), (nearest, differs), "{chi:?}");
         };

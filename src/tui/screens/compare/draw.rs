@@ -7,14 +7,13 @@ use ratatui::text::{Line, Span};
 use ratatui::widgets::Paragraph;
 
 use crate::messages::snapshot::Compared;
-use crate::screens::compare::comparison::{Contrast, differing_inputs, labels, verdict};
+use crate::screens::compare::comparison::{ComparisonRow, differing_inputs, labels, verdict};
 use crate::screens::picture_pane::draw::{draw_legend, draw_shot, parts};
 use crate::screens::state::State;
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane, selected_line};
-use crate::widgets::picture::Sitter;
-use crate::widgets::text;
-use crate::widgets::text::{left, mm, right, shortened, wrapped};
+use crate::widgets::picture::Pictured;
+use crate::widgets::text::{self, left, mm, right, shortened, wrapped};
 use crate::widgets::theme::glyph;
 use study::{JobRow, MetricsRow};
 
@@ -62,11 +61,12 @@ fn panes(area: Rect, state: &State) -> Panes {
 }
 
 /// The panes of the pictures, one a run as far as there is room.
-pub fn picture_panes(area: Rect, state: &State) -> Vec<(Sitter, Rect)> {
-    let sitters = state.compared().iter().map(|run| Sitter::Drape(run.job.id));
-    sitters.zip(panes(area, state).pictures).collect()
+pub fn picture_panes(area: Rect, state: &State) -> Vec<(Pictured, Rect)> {
+    let drapes = state.compared().iter().map(|run| Pictured::Drape(run.job.id));
+    drapes.zip(panes(area, state).pictures).collect()
 }
 
+/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let runs = state.compared();
     if runs.is_empty() {
@@ -118,7 +118,7 @@ fn draw_picture(frame: &mut Frame<'_>, area: Rect, state: &State, job: &JobRow, 
         draw_legend(frame, legend, state);
     }
     let otherwise = format!("{} {}", glyph(job.status), text::status(job.status));
-    let of = job.status.has_result().then_some(Sitter::Drape(job.id));
+    let of = job.status.has_result().then_some(Pictured::Drape(job.id));
     draw_shot(frame, inner, state, of, &otherwise);
 }
 
@@ -135,7 +135,7 @@ fn title(runs: &[Compared]) -> String {
 }
 
 fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State, runs: &[Compared]) {
-    let rows = state.contrasts();
+    let rows = state.comparison_rows();
     let legend = if state.compare.differences_only {
         " differences only, d shows all "
     } else {
@@ -174,7 +174,7 @@ struct Columns {
 }
 
 impl Columns {
-    fn new(rows: &[Contrast], runs: usize, width: usize) -> Self {
+    fn new(rows: &[ComparisonRow], runs: usize, width: usize) -> Self {
         let longest = rows.iter().map(|row| text::width(&row.name)).max().unwrap_or(0).max(11) + 1;
         // The runs matter more than their difference, which is left out first.
         let delta = runs == 2 && width >= FIXED + LEAST_NAME + 2 * RUN + DELTA;
@@ -207,7 +207,7 @@ fn header(state: &State, runs: &[Compared], columns: &Columns) -> Vec<Line<'stat
     ]
 }
 
-fn line(state: &State, row: &Contrast, columns: &Columns) -> Line<'static> {
+fn line(state: &State, row: &ComparisonRow, columns: &Columns) -> Line<'static> {
     let start =
         format!("{} {}{}", right(&row.no.to_string(), 2), left(&row.name, columns.name), right(&mm(row.l2d_m), 8));
     let mut spans = vec![Span::raw(start)];

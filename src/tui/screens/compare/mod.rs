@@ -10,10 +10,10 @@ use ratatui::layout::Rect;
 
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
-use crate::screens::movement::{Movement, stepped};
+use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
-use crate::widgets::picture::Sitter;
+use crate::widgets::picture::Pictured;
 
 /// The screen of a comparison.
 pub struct ComparePage;
@@ -25,7 +25,7 @@ impl Page for ComparePage {
 
     fn go(&self, state: &mut State, movement: Movement) {
         if !state.raise_picture(movement) {
-            state.compare.row = movement.from(state.compare.row, state.contrasts().len());
+            state.go_in_comparison(movement);
         }
     }
 
@@ -36,7 +36,7 @@ impl Page for ComparePage {
     }
 
     fn go_to_match(&self, state: &mut State, step: isize) {
-        state.compare.row = stepped(state.compare.row, step, state.contrasts().len()).unwrap_or(0);
+        state.go_in_comparison(Movement::Round(step));
     }
 
     fn sort(&self, state: &mut State) {
@@ -48,7 +48,7 @@ impl Page for ComparePage {
     }
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
-        actions::contrast_table(state).map(|table| (table, "the comparison"))
+        actions::comparison_table(state).map(|table| (table, "the comparison"))
     }
 
     fn act(&self, state: &mut State, action: Action) -> Option<Vec<Effect>> {
@@ -67,7 +67,7 @@ impl Page for ComparePage {
         std::mem::take(&mut state.pictures.enlarged)
     }
 
-    fn pictures(&self, state: &State, area: Rect) -> Vec<(Sitter, Rect)> {
+    fn pictures(&self, state: &State, area: Rect) -> Vec<(Pictured, Rect)> {
         draw::picture_panes(area, state)
     }
 

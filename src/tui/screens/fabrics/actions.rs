@@ -2,7 +2,7 @@
 
 use crate::keys::screen::Screen;
 use crate::screens::fabrics::state::{FABRIC_SHOWN, FabricOrder};
-use crate::screens::movement::{Movement, stepped};
+use crate::screens::movement::Movement;
 use crate::screens::state::State;
 use study::{FABRIC_NUMBERS, FabricRow};
 
@@ -32,6 +32,7 @@ impl State {
         fabrics.iter().find(|row| Some(&row.fabric.name) == self.fabrics.chosen.as_ref()).or(fabrics.first()).copied()
     }
 
+    /// Moves in the list of fabrics.
     pub fn go_in_fabrics(&mut self, movement: Movement) {
         let selected = self.fabric().map(|row| row.fabric.name.clone());
         let fabrics = self.fabrics();
@@ -40,16 +41,7 @@ impl State {
     }
 }
 
-impl State {
-    /// Goes to the next fabric that the filter shows, or back.
-    pub fn next_fabric(&mut self, step: isize) {
-        let selected = self.fabric().map(|row| row.fabric.name.clone());
-        let fabrics = self.fabrics();
-        let at = fabrics.iter().position(|row| Some(&row.fabric.name) == selected.as_ref()).unwrap_or(0);
-        self.fabrics.chosen = stepped(at, step, fabrics.len()).map(|next| fabrics[next].fabric.name.clone());
-    }
-}
-
+/// The selected fabric, tab-separated.
 pub fn fabric_line(state: &State) -> Option<String> {
     let fabric = &state.fabric()?.fabric;
     let values = FABRIC_NUMBERS.iter().map(|field| field.get(fabric).map_or(String::new(), |value| value.to_string()));

@@ -11,8 +11,7 @@ use crate::screens::fabrics::state::{FABRIC_SHOWN, FabricOrder};
 use crate::screens::state::State;
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane, scrolled, selected_line};
-use crate::widgets::text;
-use crate::widgets::text::{left, place_bar, right, shortened, wrapped};
+use crate::widgets::text::{self, left, place_bar, right, shortened, wrapped};
 use study::{FABRIC_NUMBERS, FabricRow};
 
 /// Headings of the numbers in the list, their columns, and what a number is multiplied by to be read with ease.
@@ -68,6 +67,7 @@ pub fn table_rows(area: Rect) -> usize {
     usize::from(panes(area)[1].height).saturating_sub(3)
 }
 
+/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     if is_narrow(area) {
         frame.render_widget(Paragraph::new(list(state, area.width, area.height, true)), area);

@@ -32,7 +32,7 @@ impl Page for FabricsPage {
     }
 
     fn go_to_match(&self, state: &mut State, step: isize) {
-        state.next_fabric(step);
+        state.go_in_fabrics(Movement::Round(step));
     }
 
     fn sort(&self, state: &mut State) {

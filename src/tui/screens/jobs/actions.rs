@@ -2,44 +2,24 @@
 
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
-use crate::messages::requests::Act;
-use crate::screens::jobs::state::{Arranged, JobOrder};
-use crate::screens::movement::{Movement, stepped};
+use crate::messages::requests::Command;
+use crate::screens::movement::Movement;
 use crate::screens::state::State;
 use crate::widgets::text;
-use study::{JobId, JobRow, Status, Step, why_no_retry};
+use study::{JobId, JobRow, Step, why_no_retry};
 
 impl State {
     /// Jobs that pass the filter of the Jobs screen, in its order.
     #[must_use]
     pub fn jobs(&self) -> Vec<&JobRow> {
         let Some(data) = &self.data else { return vec![] };
-        self.jobs.arranged.rows.iter().filter_map(|row| data.jobs.get(*row)).collect()
+        self.jobs.rows().iter().filter_map(|row| data.jobs.get(*row)).collect()
     }
 
-    /// Finds which jobs pass the filter and in which order, where data, filter or order have changed since: with ten
-    /// thousand jobs that takes too long for every frame.
+    /// Finds which jobs are shown.
     pub fn arrange_jobs(&mut self) {
         let Some(data) = &self.data else { return };
-        let filter = self.nav.filters[Screen::Jobs as usize].to_lowercase();
-        let wanted = (self.jobs.reads, filter, self.jobs.order);
-        if self.jobs.arranged.of.as_ref() == Some(&wanted) {
-            return;
-        }
-        let jobs = &data.jobs;
-        let passes = |row: &usize| wanted.1.is_empty() || words(&jobs[*row]).contains(&wanted.1);
-        let mut rows: Vec<usize> = (0..jobs.len()).filter(passes).collect();
-        let falling = |value: Option<f64>| value.map_or(f64::INFINITY, |v| -v);
-        match self.jobs.order.by {
-            JobOrder::Number => {}
-            JobOrder::Status => rows.sort_by_key(|row| attention(jobs[*row].status)),
-            JobOrder::Ei => rows.sort_by(|a, b| falling(jobs[*a].ei).total_cmp(&falling(jobs[*b].ei))),
-            JobOrder::Time => rows.sort_by_key(|row| -jobs[*row].wall_ms.unwrap_or(i64::MIN + 1)),
-        }
-        if self.jobs.order.reversed {
-            rows.reverse();
-        }
-        self.jobs.arranged = Arranged { of: Some(wanted), rows };
+        self.jobs.arrange(&data.jobs, self.nav.filters[Screen::Jobs as usize].to_lowercase());
     }
 
     /// Steps of the selected job: those stored, or those seen while it runs.
@@ -50,6 +30,7 @@ impl State {
         stored.or_else(seen).unwrap_or_default()
     }
 
+    /// Moves in the list of jobs.
     pub fn go_in_jobs(&mut self, movement: Movement) {
         let jobs: Vec<JobId> = self.jobs().iter().map(|job| job.id).collect();
         let at = jobs.iter().position(|id| Some(*id) == self.focus.job);
@@ -59,31 +40,21 @@ impl State {
         }
     }
 
+    /// Scrolls the log.
     pub fn go_in_log(&mut self, movement: Movement) {
         let lines = self.detail().map_or(0, |detail| detail.log.len());
         let from_top = lines.saturating_sub(1 + self.jobs.log_up);
         self.jobs.log_up = lines.saturating_sub(1 + movement.from(from_top, lines));
     }
-}
 
-impl State {
-    /// Goes to the next job that the filter shows, or back.
-    pub fn next_job(&mut self, step: isize) {
-        let jobs: Vec<JobId> = self.jobs().iter().map(|job| job.id).collect();
-        let at = jobs.iter().position(|id| Some(*id) == self.focus.job).unwrap_or(0);
-        if let Some(next) = stepped(at, step, jobs.len()) {
-            self.select(jobs[next]);
-        }
-    }
-}
-
-impl State {
+    /// Pauses the study, or has it go on.
     pub fn pause(&mut self) -> Vec<Effect> {
         let Some(study) = self.data.as_ref().and_then(|data| data.study()) else { return vec![] };
         let name = study.name.clone();
-        vec![Effect::Do(if study.paused { Act::Resume(name) } else { Act::Pause(name) })]
+        vec![Effect::Do(if study.paused { Command::Resume(name) } else { Command::Pause(name) })]
     }
 
+    /// Asks whether the selected job is to be cancelled.
     pub fn cancel(&mut self) -> Vec<Effect> {
         let Some(job) = self.job() else { return self.no_job() };
         if job.status.is_final() {
@@ -99,11 +70,12 @@ impl State {
             job.subject,
             text::sim(job.simulator)
         );
-        let effects = vec![Effect::Do(Act::Cancel(job.id))];
+        let effects = vec![Effect::Do(Command::Cancel(job.id))];
         self.ask(text, effects);
         vec![]
     }
 
+    /// Queues the selected job again.
     pub fn retry(&mut self) -> Vec<Effect> {
         let Some(job) = self.job() else { return self.no_job() };
         let id = job.id;
@@ -111,48 +83,15 @@ impl State {
             self.say(format!("job {id} is not run again: {reason}"));
             return vec![];
         }
-        vec![Effect::Do(Act::Retry(id))]
+        vec![Effect::Do(Command::Retry(id))]
     }
 
+    /// Runs the selected job so much earlier.
     pub fn prioritise(&mut self, step: i64) -> Vec<Effect> {
         let Some(job) = self.job() else { return self.no_job() };
-        vec![Effect::Do(Act::Prioritise(job.id, job.priority + step))]
+        vec![Effect::Do(Command::Prioritise(job.id, job.priority + step))]
     }
 
-    fn no_job(&mut self) -> Vec<Effect> {
-        self.say("no job is selected");
-        vec![]
-    }
-}
-
-/// How soon a user wants to see jobs in a state; the least first.
-fn attention(status: Status) -> u8 {
-    match status {
-        Status::Running => 0,
-        Status::Failed => 1,
-        Status::NotConverged => 2,
-        Status::Queued => 3,
-        Status::Done => 4,
-        Status::Cancelled => 5,
-    }
-}
-
-/// What a filter looks at in a job.
-fn words(job: &JobRow) -> String {
-    let error = job.error.as_deref().unwrap_or_default();
-    format!(
-        "{} {} {} {} {} {} {error}",
-        job.id,
-        text::status(job.status),
-        job.garment,
-        job.size,
-        job.subject,
-        text::sim(job.simulator)
-    )
-    .to_lowercase()
-}
-
-impl State {
     /// The selected job, tab-separated.
     #[must_use]
     pub fn job_line(&self) -> Option<String> {
@@ -169,5 +108,10 @@ impl State {
             job.status.as_str(),
             job.error.as_deref().unwrap_or_default()
         ))
+    }
+
+    fn no_job(&mut self) -> Vec<Effect> {
+        self.say("no job is selected");
+        vec![]
     }
 }

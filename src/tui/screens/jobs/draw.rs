@@ -9,11 +9,11 @@ use crate::screens::jobs::state::JobOrder;
 use crate::screens::state::State;
 use crate::widgets::layout::is_narrow;
 use crate::widgets::lists::{first_shown, pane, selected_line};
-use crate::widgets::text;
-use crate::widgets::text::{left, right, sparkline, wrapped};
+use crate::widgets::text::{self, left, right, sparkline, wrapped};
 use crate::widgets::theme::glyph;
 use study::{JobRow, LogLine, Status};
 
+/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     if is_narrow(area) {
         frame.render_widget(Paragraph::new(list(state, area)), area);

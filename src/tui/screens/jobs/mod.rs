@@ -31,7 +31,7 @@ impl Page for JobsPage {
     }
 
     fn go_to_match(&self, state: &mut State, step: isize) {
-        state.next_job(step);
+        state.go_in_jobs(Movement::Round(step));
     }
 
     fn sort(&self, state: &mut State) {

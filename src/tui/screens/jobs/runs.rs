@@ -5,6 +5,7 @@ use crate::messages::requests::Target;
 use crate::screens::state::State;
 
 impl State {
+    /// Runs the study, or the quickstart where there is none.
     pub fn start_run(&mut self) -> Vec<Effect> {
         if self.is_first_start() {
             return self.run(Target::Quickstart);
@@ -14,6 +15,7 @@ impl State {
         self.run(target)
     }
 
+    /// Runs what is wanted, where that can be.
     pub fn run(&mut self, target: Target) -> Vec<Effect> {
         if target == Target::Quickstart && !self.setup.abilities.quickstart {
             self.complain("the quickstart study is not installed here: give `toile run` a folder with a study.toml");
@@ -32,6 +34,7 @@ impl State {
         vec![Effect::Run(target)]
     }
 
+    /// Asks whether the run is to stop.
     pub fn stop_run(&mut self) {
         if self.running.target.is_none() {
             self.say("no run goes on here");

@@ -9,8 +9,7 @@ use crate::screens::movement::Movement;
 use crate::screens::picture_pane::draw::cells;
 use crate::screens::picture_pane::state::Pictures;
 use crate::screens::state::State;
-use crate::widgets::picture;
-use crate::widgets::picture::{Drawn, FRONT, Shot, Sitter};
+use crate::widgets::picture::{self, Drawn, FRONT, PictureRequest, Pictured};
 use study::{Map, Status};
 
 impl Pictures {
@@ -32,12 +31,12 @@ impl Pictures {
         self.look = picture::turned(self.look, step);
     }
 
-    /// A picture of a sitter as it is seen now.
-    fn shot(&self, of: Sitter, Size { width: columns, height: rows }: Size) -> Shot {
+    /// A request for a picture as things are seen now.
+    fn request(&self, of: Pictured, Size { width: columns, height: rows }: Size) -> PictureRequest {
         match of {
-            Sitter::Drape(_) => Shot { of, look: self.look, map: self.map, columns, rows },
+            Pictured::Drape(_) => PictureRequest { of, look: self.look, map: self.map, columns, rows },
             // Bodies have one view and no maps.
-            Sitter::Body(_) => Shot { of, look: FRONT, map: Map::Plain, columns, rows },
+            Pictured::Body(_) => PictureRequest { of, look: FRONT, map: Map::Plain, columns, rows },
         }
     }
 }
@@ -54,35 +53,33 @@ impl State {
 
     /// The drape of the selected job in a pane, where there are both.
     #[must_use]
-    pub fn drape_in(&self, pane: Option<Rect>) -> Vec<(Sitter, Rect)> {
-        let job = self.job().filter(|job| job.status.has_result()).map(|job| Sitter::Drape(job.id));
+    pub fn drape_in(&self, pane: Option<Rect>) -> Vec<(Pictured, Rect)> {
+        let job = self.job().filter(|job| job.status.has_result()).map(|job| Pictured::Drape(job.id));
         job.zip(pane).into_iter().collect()
     }
 
     /// Asks for the pictures of panes, where they are not those asked for already.
-    pub fn ask_for_pictures(&mut self, panes: Vec<(Sitter, Rect)>) -> Option<Effect> {
+    pub fn ask_for_pictures(&mut self, panes: Vec<(Pictured, Rect)>) -> Option<Effect> {
         let sized = panes.into_iter().map(|(of, pane)| (of, cells(pane)));
         let sized = sized.filter(|(_, size)| self.setup.abilities.pictures && size.width >= 4 && size.height >= 3);
-        let mut wanted: Vec<Shot> = sized.map(|(of, size)| self.pictures.shot(of, size)).collect();
+        let mut wanted: Vec<PictureRequest> = sized.map(|(of, size)| self.pictures.request(of, size)).collect();
         if let (true, true, Some(row)) = (self.nav.screen == Screen::Subjects, wanted.is_empty(), self.subject()) {
             // A body is measured where there is no room for its picture, too.
-            wanted = vec![self.pictures.shot(Sitter::Body(row.id), Size::ZERO)];
+            wanted = vec![self.pictures.request(Pictured::Body(row.id), Size::ZERO)];
         }
-        if wanted == self.pictures.shots {
+        if wanted == self.pictures.requests {
             return None;
         }
-        self.pictures.shots.clone_from(&wanted);
-        (!wanted.is_empty()).then_some(Effect::Paint(wanted))
+        self.pictures.requests.clone_from(&wanted);
+        (!wanted.is_empty()).then_some(Effect::Draw(wanted))
     }
-}
 
-impl State {
-    /// Takes in a picture that is still wanted, in the place of the one before of the same sitter.
-    pub fn take_picture(&mut self, shot: Shot, drawn: Result<Drawn, String>) {
-        if self.pictures.shots.contains(&shot) {
-            let shots = &self.pictures.shots;
-            self.pictures.drawn.retain(|(old, _)| old.of != shot.of && shots.iter().any(|one| one.of == old.of));
-            self.pictures.drawn.push((shot, drawn));
+    /// Takes in a picture that is still wanted, in the place of the one before of the same.
+    pub fn take_picture(&mut self, request: PictureRequest, drawn: Result<Drawn, String>) {
+        if self.pictures.requests.contains(&request) {
+            let requests = &self.pictures.requests;
+            self.pictures.drawn.retain(|(old, _)| old.of != request.of && requests.iter().any(|one| one.of == old.of));
+            self.pictures.drawn.push((request, drawn));
         }
     }
 

@@ -10,7 +10,7 @@ use ratatui_image::Image;
 use crate::screens::state::State;
 use crate::widgets::braille::braille;
 use crate::widgets::lists::pane;
-use crate::widgets::picture::{Drawn, Shot, Sitter, look_name};
+use crate::widgets::picture::{Drawn, PictureRequest, Pictured, look_name};
 use crate::widgets::text;
 use study::Status;
 
@@ -38,7 +38,7 @@ pub fn draw_drape(frame: &mut Frame<'_>, area: Rect, state: &State, focused: boo
         draw_legend(frame, legend, state);
     }
     // While a picture is drawn anew, the one before stays, so that turning does not flicker.
-    draw_shot(frame, inner, state, state.focus.job.map(Sitter::Drape), "");
+    draw_shot(frame, inner, state, state.focus.job.map(Pictured::Drape), "");
 }
 
 /// Draws the garment of the selected running job as it is now, below it how far it has come.
@@ -68,15 +68,17 @@ pub fn draw_live(frame: &mut Frame<'_>, area: Rect, state: &State) {
     }
 }
 
-/// Draws the picture of a sitter, or why there is none.
-pub fn draw_shot(frame: &mut Frame<'_>, area: Rect, state: &State, of: Option<Sitter>, otherwise: &str) {
-    let fits = |(shot, _): &&(Shot, _)| Some(shot.of) == of && shot.columns == area.width && shot.rows == area.height;
+/// Draws a picture, or why there is none.
+pub fn draw_shot(frame: &mut Frame<'_>, area: Rect, state: &State, of: Option<Pictured>, otherwise: &str) {
+    let fits = |(request, _): &&(PictureRequest, _)| {
+        Some(request.of) == of && request.columns == area.width && request.rows == area.height
+    };
     let drawn = state.pictures.drawn.iter().find(fits);
     let text = match drawn {
         Some((_, Ok(drawn))) => return draw_cells(frame, area, drawn, state),
         Some((_, Err(error))) => format!("no picture: {error}"),
         None if !state.setup.abilities.pictures => "pictures are off (--images off)".into(),
-        None if state.pictures.shots.iter().any(|shot| Some(shot.of) == of) => "drawing…".into(),
+        None if state.pictures.requests.iter().any(|request| Some(request.of) == of) => "drawing…".into(),
         None => otherwise.to_owned(),
     };
     frame.render_widget(Paragraph::new(text).wrap(Wrap { trim: true }), area);

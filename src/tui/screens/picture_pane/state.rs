@@ -1,6 +1,6 @@
 //! How drapes are seen.
 
-use crate::widgets::picture::{Drawn, FRONT, Shot};
+use crate::widgets::picture::{Drawn, FRONT, PictureRequest};
 use study::{Look, Map};
 
 /// How drapes are seen, and the pictures there are.
@@ -12,13 +12,13 @@ pub struct Pictures {
     /// Whether the picture has all the room.
     pub enlarged: bool,
     /// The pictures asked for.
-    pub shots: Vec<Shot>,
+    pub requests: Vec<PictureRequest>,
     /// The picture of each that came last.
-    pub drawn: Vec<(Shot, Result<Drawn, String>)>,
+    pub drawn: Vec<(PictureRequest, Result<Drawn, String>)>,
 }
 
 impl Default for Pictures {
     fn default() -> Self {
-        Self { look: FRONT, map: Map::Plain, enlarged: false, shots: vec![], drawn: vec![] }
+        Self { look: FRONT, map: Map::Plain, enlarged: false, requests: vec![], drawn: vec![] }
     }
 }

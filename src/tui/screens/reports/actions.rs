@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
-use crate::messages::requests::Errand;
+use crate::messages::requests::FileTask;
 use crate::screens::state::State;
 use study::ReportRow;
 
@@ -31,11 +31,11 @@ impl State {
 
     /// Has the reports listed when the screen is first shown.
     pub fn ask_for_reports(&mut self) -> Option<Effect> {
-        if self.nav.screen != Screen::Reports || self.reports.rows.is_some() {
+        if self.reports.rows.is_some() {
             return None;
         }
         self.reports.rows = Some(vec![]);
-        Some(Effect::Errand(Errand::ListReports))
+        Some(Effect::Files(FileTask::ListReports))
     }
 
     /// Builds the report of the study.
@@ -57,7 +57,7 @@ impl State {
         self.show(Screen::Reports);
         self.say(format!("the report of {name} is being built in the background"));
         self.reports.building = Some(name.clone());
-        vec![Effect::Errand(Errand::BuildReport(name))]
+        vec![Effect::Files(FileTask::BuildReport(name))]
     }
 
     /// Takes in that a report was built.

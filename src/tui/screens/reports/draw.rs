@@ -9,10 +9,10 @@ use ratatui::widgets::{Paragraph, Wrap};
 use crate::screens::reports::actions::address;
 use crate::screens::state::State;
 use crate::widgets::lists::{first_shown, pane};
-use crate::widgets::text;
-use crate::widgets::text::{left, right, shortened};
+use crate::widgets::text::{self, left, right, shortened};
 use study::ReportRow;
 
+/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let [list, facts] =
         Layout::vertical([Constraint::Fill(1), Constraint::Length(area.height.min(9) / 2 + 3)]).areas(area);

@@ -9,7 +9,7 @@ use ratatui::layout::Rect;
 
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
-use crate::screens::movement::{Movement, stepped};
+use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
 
@@ -26,7 +26,7 @@ impl Page for ReportsPage {
     }
 
     fn go_to_match(&self, state: &mut State, step: isize) {
-        state.reports.row = stepped(state.reports.row, step, state.reports().len()).unwrap_or(0);
+        self.go(state, Movement::Round(step));
     }
 
     fn sort(&self, state: &mut State) {

@@ -53,6 +53,7 @@ impl State {
         }
     }
 
+    /// Goes to the same size and subject by the other simulator.
     pub fn other_simulator(&mut self) {
         let Some(job) = self.job() else { return };
         match self.same_by_other(job).map(|other| other.id) {
@@ -61,6 +62,7 @@ impl State {
         }
     }
 
+    /// Shows the measurements of the next stage.
     pub fn next_stage(&mut self) {
         let stages = self.stages();
         let at = stages.iter().position(|stage| Some(*stage) == self.stage()).unwrap_or(0);
@@ -71,15 +73,14 @@ impl State {
             self.say("this result was measured at one stage only");
         }
     }
-}
 
-impl State {
     /// Moves in the table of measurements.
     pub fn go_in_measurements(&mut self, movement: Movement) {
         self.results.row = movement.from(self.results.row, self.chi().len());
     }
 }
 
+/// The table of measurements, tab-separated.
 pub fn chi_table(state: &State) -> Option<String> {
     let rows = state.chi();
     if rows.is_empty() {

@@ -41,6 +41,7 @@ pub fn picture_pane(area: Rect, state: &State) -> Option<Rect> {
     panes(area, state).picture
 }
 
+/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let panes = panes(area, state);
     if let Some(area) = panes.table {

@@ -5,8 +5,7 @@ use ratatui::text::{Line, Span};
 use crate::screens::results::state::ChiOrder;
 use crate::screens::state::State;
 use crate::widgets::lists::{first_shown, selected_line};
-use crate::widgets::text;
-use crate::widgets::text::{chi_bar, chi_mark, ease_mm, left, mm, right, wrapped};
+use crate::widgets::text::{self, chi_bar, chi_mark, ease_mm, left, mm, right, wrapped};
 use crate::widgets::theme::glyph;
 use study::{ChiRow, FitCell, MetricsRow};
 
@@ -165,6 +164,7 @@ fn facts(m: &MetricsRow) -> Vec<(&'static str, String)> {
     ]
 }
 
+/// A name and a value in a line.
 pub fn fact(name: &str, value: &str, columns: usize) -> Line<'static> {
     Line::raw(text::shortened(&format!("{}{value}", left(name, NAME_COLUMNS)), columns))
 }

@@ -10,10 +10,10 @@ use ratatui::layout::Rect;
 
 use crate::keys::action::Action;
 use crate::messages::effect::Effect;
-use crate::screens::movement::{Movement, stepped};
+use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
-use crate::widgets::picture::Sitter;
+use crate::widgets::picture::Pictured;
 
 /// The screen of a result.
 pub struct ResultsPage;
@@ -38,7 +38,7 @@ impl Page for ResultsPage {
     }
 
     fn go_to_match(&self, state: &mut State, step: isize) {
-        state.results.row = stepped(state.results.row, step, state.chi().len()).unwrap_or(0);
+        state.go_in_measurements(Movement::Round(step));
     }
 
     fn sort(&self, state: &mut State) {
@@ -66,7 +66,7 @@ impl Page for ResultsPage {
         std::mem::take(&mut state.pictures.enlarged)
     }
 
-    fn pictures(&self, state: &State, area: Rect) -> Vec<(Sitter, Rect)> {
+    fn pictures(&self, state: &State, area: Rect) -> Vec<(Pictured, Rect)> {
         state.drape_in(draw::picture_pane(area, state))
     }
 

@@ -4,12 +4,12 @@ use crossterm::event::{KeyCode, KeyEvent};
 
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
-use crate::messages::requests::Question;
+use crate::messages::requests::QueryRequest;
 use crate::overlays::Overlay;
 use crate::overlays::path_prompt::PathPrompt;
 use crate::overlays::saved_queries::QueryList;
 use crate::screens::state::State;
-use crate::widgets::result_table::Sheet;
+use crate::widgets::result_table::ResultTable;
 
 /// Queries that the history keeps.
 const MOST_KEPT: usize = 200;
@@ -37,11 +37,11 @@ impl State {
 
     /// Has names and saved queries read when the screen is first shown.
     pub fn ask_for_names(&mut self) -> Option<Effect> {
-        if self.nav.screen != Screen::Sql || self.sql.relations.is_some() {
+        if self.sql.relations.is_some() {
             return None;
         }
         self.sql.relations = Some(vec![]);
-        Some(Effect::Ask(Question::Names))
+        Some(Effect::Query(QueryRequest::Names))
     }
 
     /// Runs the query.
@@ -51,7 +51,7 @@ impl State {
             self.say("no query is typed yet; o offers saved ones");
             return vec![];
         }
-        if self.sql.asked.is_some() {
+        if self.sql.running.is_some() {
             self.say("a query is being answered; C-c cancels it");
             return vec![];
         }
@@ -61,23 +61,23 @@ impl State {
         self.sql.history.drain(..surplus);
         self.sql.recalled = None;
         self.sql.editor.decline();
-        self.sql.asked = Some(text.clone());
-        self.sql.told = None;
-        vec![Effect::Ask(Question::Rows(text))]
+        self.sql.running = Some(text.clone());
+        self.sql.outcome = None;
+        vec![Effect::Query(QueryRequest::Rows(text))]
     }
 
     /// Takes in an answer.
-    pub fn answered(&mut self, ms: u64, outcome: Result<Box<Sheet>, String>) {
-        let Some(text) = self.sql.asked.take() else { return };
+    pub fn answered(&mut self, ms: u64, outcome: Result<Box<ResultTable>, String>) {
+        let Some(text) = self.sql.running.take() else { return };
         match outcome {
-            Ok(sheet) => {
-                let more = if sheet.is_cut() { "the first " } else { "" };
-                let rows = if sheet.total() == 1 { "row" } else { "rows" };
-                self.sql.told = Some(Ok(format!("{more}{} {rows} in {ms} ms", sheet.total())));
+            Ok(table) => {
+                let more = if table.is_cut() { "the first " } else { "" };
+                let rows = if table.total() == 1 { "row" } else { "rows" };
+                self.sql.outcome = Some(Ok(format!("{more}{} {rows} in {ms} ms", table.total())));
                 self.nav.filters[Screen::Sql as usize].clear();
-                (self.sql.sheet, self.sql.answered) = (Some(*sheet), text);
+                (self.sql.table, self.sql.answered) = (Some(*table), text);
             }
-            Err(error) => self.sql.told = Some(Err(error)),
+            Err(error) => self.sql.outcome = Some(Err(error)),
         }
     }
 
@@ -114,7 +114,7 @@ impl State {
 
     /// Asks for the file that the rows go into.
     pub fn export_query(&mut self) {
-        if self.sql.sheet.is_none() {
+        if self.sql.table.is_none() {
             self.say("nothing to export yet: F5 runs the query");
             return;
         }
@@ -122,15 +122,16 @@ impl State {
     }
 
     /// Goes on in the rows of the answer.
-    pub fn arrange_sheet(&mut self) {
+    pub fn arrange_rows(&mut self) {
         let filter = self.nav.filters[Screen::Sql as usize].clone();
-        if let Some(sheet) = &mut self.sql.sheet {
-            sheet.arrange(&filter);
+        if let Some(table) = &mut self.sql.table {
+            table.arrange(&filter);
         }
     }
 }
 
-pub fn sheet_row(state: &State) -> Option<String> {
-    let sheet = state.sql.sheet.as_ref().filter(|sheet| sheet.len() > 0)?;
-    Some(sheet.copied(std::iter::once(sheet.row)))
+/// The selected row, tab-separated.
+pub fn selected_row(state: &State) -> Option<String> {
+    let table = state.sql.table.as_ref().filter(|table| table.len() > 0)?;
+    Some(table.copied(std::iter::once(table.row)))
 }

@@ -9,9 +9,8 @@ use ratatui::widgets::{Clear, Paragraph};
 use crate::screens::state::State;
 use crate::widgets::editor::Offer;
 use crate::widgets::lists::{first_shown, pane};
-use crate::widgets::result_table::{Sheet, cell_text};
-use crate::widgets::text;
-use crate::widgets::text::{left, right, shortened, wrapped};
+use crate::widgets::result_table::{ResultTable, cell_text};
+use crate::widgets::text::{self, left, right, shortened, wrapped};
 
 /// Words that the editor sets off.
 const KEYWORDS: [&str; 34] = [
@@ -23,6 +22,7 @@ const KEYWORDS: [&str; 34] = [
 /// Words offered at once.
 const OFFERED: usize = 6;
 
+/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let lines = state.sql.editor.text().matches('\n').count() as u16 + 1;
     let height = (lines + 2).clamp(if area.height < 16 { 3 } else { 6 }, (area.height / 2).max(3));
@@ -109,16 +109,16 @@ fn draw_offer(frame: &mut Frame<'_>, area: Rect, offer: &Offer, state: &State) {
 
 fn draw_result(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let sql = &state.sql;
-    let title = match (&sql.asked, &sql.told) {
+    let title = match (&sql.running, &sql.outcome) {
         (Some(_), _) => "asking… C-c cancels".to_owned(),
         (None, Some(Ok(told))) => told.clone(),
         (None, Some(Err(_))) => "the query was refused".to_owned(),
         (None, None) => "rows".to_owned(),
     };
-    let legend = match &sql.sheet {
-        Some(sheet) if !sheet.names().is_empty() => {
-            let row = if sheet.len() == 0 { 0 } else { sheet.row + 1 };
-            format!(" row {row} of {}, column {} of {} ", sheet.len(), sheet.column + 1, sheet.names().len())
+    let legend = match &sql.table {
+        Some(table) if !table.names().is_empty() => {
+            let row = if table.len() == 0 { 0 } else { table.row + 1 };
+            format!(" row {row} of {}, column {} of {} ", table.len(), table.column + 1, table.names().len())
         }
         _ => " o saved queries  C-p history ".to_owned(),
     };
@@ -126,13 +126,13 @@ fn draw_result(frame: &mut Frame<'_>, area: Rect, state: &State) {
         .title_bottom(Line::styled(legend, state.theme.legend()).right_aligned());
     let inner = block.inner(area);
     let mut lines: Vec<Line<'static>> = vec![];
-    if let Some(Err(error)) = &sql.told {
+    if let Some(Err(error)) = &sql.outcome {
         let wrapped = wrapped(error, usize::from(inner.width).saturating_sub(2));
         lines.extend(wrapped.into_iter().map(|line| Line::styled(format!("✗ {line}"), state.theme.bad())));
     }
     let room = usize::from(inner.height).saturating_sub(lines.len());
-    match &sql.sheet {
-        Some(sheet) if !sheet.names().is_empty() => lines.extend(rows(state, sheet, usize::from(inner.width), room)),
+    match &sql.table {
+        Some(table) if !table.names().is_empty() => lines.extend(rows(state, table, usize::from(inner.width), room)),
         Some(_) => lines.push(Line::raw("nothing was asked")),
         None if lines.is_empty() => lines.extend(names(state, usize::from(inner.width))),
         None => {}
@@ -154,10 +154,10 @@ fn names(state: &State, width: usize) -> Vec<Line<'static>> {
 }
 
 /// The head and the rows around the selected one.
-pub fn rows(state: &State, sheet: &Sheet, width: usize, height: usize) -> Vec<Line<'static>> {
-    let shown = sheet.columns_shown(width);
+pub fn rows(state: &State, table: &ResultTable, width: usize, height: usize) -> Vec<Line<'static>> {
+    let shown = table.columns_shown(width);
     let head = |k: usize| {
-        let mark = match sheet.order {
+        let mark = match table.order {
             Some((by, falls)) if by == k => {
                 if falls {
                     "▼"
@@ -167,8 +167,8 @@ pub fn rows(state: &State, sheet: &Sheet, width: usize, height: usize) -> Vec<Li
             }
             _ => "",
         };
-        let (room, is_number) = sheet.column_of(k);
-        let name = format!("{}{mark}", shortened(&sheet.names()[k], room - text::width(mark)));
+        let (room, is_number) = table.column_of(k);
+        let name = format!("{}{mark}", shortened(&table.names()[k], room - text::width(mark)));
         if is_number { right(&name, room) } else { left(&name, room) }
     };
     let mut spans = vec![];
@@ -182,35 +182,35 @@ pub fn rows(state: &State, sheet: &Sheet, width: usize, height: usize) -> Vec<Li
         } else {
             "  "
         };
-        let style = if k == sheet.column { state.theme.bold() } else { state.theme.dim() };
+        let style = if k == table.column { state.theme.bold() } else { state.theme.dim() };
         spans.push(Span::styled(gap, state.theme.dim()));
         let name = head(k);
         used += text::width(&name) + gap.chars().count();
         spans.push(Span::styled(name, style));
     }
-    if shown.last().is_some_and(|last| last + 1 < sheet.names().len()) && used < width {
+    if shown.last().is_some_and(|last| last + 1 < table.names().len()) && used < width {
         spans.push(Span::styled("▸", state.theme.dim()));
     }
     let mut lines = vec![Line::from(spans)];
     let room = height.saturating_sub(1);
-    let first = first_shown(sheet.row, sheet.len(), room);
-    for row in (first..sheet.len()).take(room) {
-        lines.push(row_line(state, sheet, row, &shown));
+    let first = first_shown(table.row, table.len(), room);
+    for row in (first..table.len()).take(room) {
+        lines.push(row_line(state, table, row, &shown));
     }
-    if sheet.len() == 0 {
+    if table.len() == 0 {
         let none = if state.filter().is_empty() { "no rows" } else { "no row matches the filter" };
         lines.push(Line::styled(none, state.theme.dim()));
     }
     lines
 }
 
-fn row_line(state: &State, sheet: &Sheet, row: usize, shown: &[usize]) -> Line<'static> {
-    let Some(values) = sheet.values(row) else { return Line::default() };
-    let is_selected = row == sheet.row;
+fn row_line(state: &State, table: &ResultTable, row: usize, shown: &[usize]) -> Line<'static> {
+    let Some(values) = table.values(row) else { return Line::default() };
+    let is_selected = row == table.row;
     let selection = state.theme.selection(!state.is_editing());
     let mut spans = vec![];
     for (n, &k) in shown.iter().enumerate() {
-        let (room, is_number) = sheet.column_of(k);
+        let (room, is_number) = table.column_of(k);
         let cell = cell_text(&values[k]);
         let cell = if is_number { right(&cell, room) } else { left(&cell, room) };
         let gap = if n == 0 {
@@ -220,7 +220,7 @@ fn row_line(state: &State, sheet: &Sheet, row: usize, shown: &[usize]) -> Line<'
         } else {
             "  "
         };
-        let style = match (is_selected, k == sheet.column) {
+        let style = match (is_selected, k == table.column) {
             (true, true) => selection.add_modifier(Modifier::BOLD | Modifier::UNDERLINED),
             (true, false) => selection,
             (false, _) => Style::new(),

@@ -11,7 +11,7 @@ use ratatui::layout::Rect;
 use crate::keys::action::Action;
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
-use crate::screens::movement::{Movement, stepped};
+use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
 
@@ -28,39 +28,37 @@ impl Page for SqlPage {
     }
 
     fn go(&self, state: &mut State, movement: Movement) {
-        if let Some(sheet) = &mut state.sql.sheet {
-            sheet.row = movement.from(sheet.row, sheet.len());
+        if let Some(table) = &mut state.sql.table {
+            table.row = movement.from(table.row, table.len());
         }
     }
 
     fn sideways(&self, state: &mut State, step: isize) {
-        state.sql.sheet.iter_mut().for_each(|sheet| sheet.sideways(step));
+        state.sql.table.iter_mut().for_each(|table| table.sideways(step));
     }
 
     fn go_to_match(&self, state: &mut State, step: isize) {
-        if let Some(sheet) = &mut state.sql.sheet {
-            sheet.row = stepped(sheet.row, step, sheet.len()).unwrap_or(0);
-        }
+        self.go(state, Movement::Round(step));
     }
 
     fn sort(&self, state: &mut State) {
         let filter = state.filter().to_owned();
-        state.sql.sheet.iter_mut().for_each(|sheet| sheet.sort(&filter));
+        state.sql.table.iter_mut().for_each(|table| table.sort(&filter));
     }
 
     fn reverse(&self, state: &mut State) {
         let filter = state.filter().to_owned();
-        state.sql.sheet.iter_mut().for_each(|sheet| sheet.reverse(&filter));
+        state.sql.table.iter_mut().for_each(|table| table.reverse(&filter));
     }
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
-        actions::sheet_row(state).map(|rows| (rows, "the row"))
+        actions::selected_row(state).map(|rows| (rows, "the row"))
     }
 
     fn act(&self, state: &mut State, action: Action) -> Option<Vec<Effect>> {
         match action {
             Action::Run if state.nav.screen == Screen::Sql => return Some(state.run_query()),
-            Action::Quit if state.sql.asked.is_some() => return Some(vec![Effect::StopAsking]),
+            Action::Quit if state.sql.running.is_some() => return Some(vec![Effect::StopQuery]),
             Action::EditQuery => state.nav.second_pane[Screen::Sql as usize] = false,
             Action::SavedQueries => state.offer_queries(),
             Action::OlderQuery => state.recall(-1),

@@ -1,7 +1,7 @@
 //! Where the user is among queries.
 
 use crate::widgets::editor::Editor;
-use crate::widgets::result_table::Sheet;
+use crate::widgets::result_table::ResultTable;
 use study::{Relation, SavedQuery};
 
 /// Where the user is among questions.
@@ -18,11 +18,11 @@ pub struct Sql {
     /// Queries kept in files.
     pub saved: Vec<SavedQuery>,
     /// The query that is being answered.
-    pub asked: Option<String>,
-    /// The query that was answered last: that of the sheet.
+    pub running: Option<String>,
+    /// The query that was answered last: that of the table.
     pub answered: String,
     /// The answer.
-    pub sheet: Option<Sheet>,
+    pub table: Option<ResultTable>,
     /// How it went: rows and time, or what was wrong.
-    pub told: Option<Result<String, String>>,
+    pub outcome: Option<Result<String, String>>,
 }

@@ -7,6 +7,7 @@ use ratatui::widgets::{Paragraph, Wrap};
 
 use crate::screens::state::State;
 
+/// Draws what may be done first.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let bold = state.theme.bold();
     let mut lines = vec![

@@ -80,6 +80,7 @@ impl State {
         };
     }
 
+    /// Moves up or down in the grid.
     pub fn go_in_grid(&mut self, movement: Movement) {
         let Some(grid) = self.grid() else { return };
         let simulators = grid.simulators.len().max(1);
@@ -94,6 +95,7 @@ impl State {
         self.focus.job = self.cell_at(place).and_then(|cell| cell.job);
     }
 
+    /// Goes to the next cell that matches the filter, or back.
     pub fn go_to_matching_cell(&mut self, step: isize) {
         let places = self.places();
         let at = places.iter().position(|place| *place == self.study.place).unwrap_or(0);
@@ -106,9 +108,7 @@ impl State {
             None => self.say("no cell matches the filter"),
         }
     }
-}
 
-impl State {
     /// Goes so many subjects to the right, or to the left.
     pub fn go_to_subject(&mut self, step: isize) {
         let Some(grid) = self.grid() else { return };
@@ -116,9 +116,8 @@ impl State {
         let subject = self.study.place.subject.saturating_add_signed(step).min(last);
         self.go_to(Place { subject, ..self.study.place });
     }
-}
 
-impl State {
+    /// Opens the result of the selected job; the quickstart where there is no study.
     pub fn open(&mut self) -> Vec<Effect> {
         if self.is_first_start() {
             return self.run(Target::Quickstart);
@@ -131,6 +130,7 @@ impl State {
         vec![]
     }
 
+    /// Shows the next garment of the study, or the one before.
     pub fn step_garment(&mut self, step: isize) {
         let Some(garments) = self.data.as_ref().and_then(|data| data.study()).map(|study| &study.garments) else {
             return;
@@ -143,6 +143,7 @@ impl State {
         }
     }
 
+    /// Shows the next study.
     pub fn next_study(&mut self) {
         let Some(data) = &self.data else { return };
         let Some(next) = stepped(data.study, 1, data.studies.len()) else { return };

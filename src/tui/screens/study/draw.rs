@@ -12,8 +12,7 @@ use crate::screens::state::State;
 use crate::screens::study::state::Place;
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane};
-use crate::widgets::text;
-use crate::widgets::text::{ease_mm, left, wrapped};
+use crate::widgets::text::{self, ease_mm, left, wrapped};
 use crate::widgets::theme::{fit_glyph, glyph};
 use study::{Cell, Grid, Status};
 
@@ -23,6 +22,7 @@ const LEAST_PICTURE: u16 = 14;
 /// What the marks of fits mean.
 const FIT_LEGEND: &str = "T tight  J just  L loose  ~ borderline  ! undersized";
 
+/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let Some(grid) = state.grid() else {
         let text = " this study has no sizes or subjects yet: R runs it, which queues its jobs";

@@ -12,7 +12,7 @@ use crate::messages::effect::Effect;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
-use crate::widgets::picture::Sitter;
+use crate::widgets::picture::Pictured;
 
 /// The screen of the study.
 pub struct StudyPage;
@@ -62,7 +62,7 @@ impl Page for StudyPage {
         Some(vec![])
     }
 
-    fn pictures(&self, state: &State, area: Rect) -> Vec<(Sitter, Rect)> {
+    fn pictures(&self, state: &State, area: Rect) -> Vec<(Pictured, Rect)> {
         state.drape_in(draw::picture_pane(area, state))
     }
 

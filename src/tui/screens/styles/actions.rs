@@ -1,13 +1,13 @@
-//! Choosing a size and what lies of it on the table of seams; importing and removing.
+//! Choosing a size, an edge, a line of its table; importing and removing.
 
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
-use crate::messages::requests::Act;
-use crate::messages::seams::{Laid, Laying, Task};
+use crate::messages::requests::Command;
+use crate::messages::seams::{LayoutRequest, SeamTask, SizeLayout};
 use crate::overlays::Overlay;
 use crate::screens::movement::{Movement, stepped};
 use crate::screens::state::State;
-use crate::screens::styles::state::DeskLine;
+use crate::screens::styles::state::TableLine;
 use study::{Part, SizeRow};
 
 impl State {
@@ -29,56 +29,54 @@ impl State {
         found.or_else(|| sizes.iter().find(|row| row.style == style)).or(sizes.first()).copied()
     }
 
-    /// What lies on the desk of the selected size, or why it does not; `None` while it is read.
+    /// The layout of the selected size, or why there is none; `None` while it is read.
     #[must_use]
-    pub fn laid(&self) -> Option<Result<&Laid, &str>> {
+    pub fn layout(&self) -> Option<Result<&SizeLayout, &str>> {
         let row = self.size_row()?;
-        let (laying, laid) = self.styles.desk.as_ref()?;
-        let is_shown = laying.style == row.style && laying.key.size == row.key.size;
-        is_shown.then(|| laid.as_deref().map_err(String::as_str))
+        let (request, layout) = self.styles.layout.as_ref()?;
+        let is_shown = request.style == row.style && request.key.size == row.key.size;
+        is_shown.then(|| layout.as_deref().map_err(String::as_str))
     }
 
     /// The line of the table that is selected.
     #[must_use]
-    pub fn desk_line(&self) -> Option<DeskLine> {
-        let lines = self.laid()?.ok()?.lines();
+    pub fn table_line(&self) -> Option<TableLine> {
+        let lines = self.layout()?.ok()?.lines();
         lines.get(self.styles.line).or(lines.last()).copied()
     }
 
-    /// Has the selected size laid out, where it is not what the desk was asked for already.
-    pub fn ask_for_desk(&mut self) -> Option<Effect> {
-        if self.nav.screen != Screen::Styles {
+    /// Has the selected size laid out, where that was not asked for already.
+    pub fn ask_for_layout(&mut self) -> Option<Effect> {
+        let wanted = self.layout_request();
+        if wanted == self.styles.requested {
             return None;
         }
-        let wanted = self.laying();
-        if wanted == self.styles.asked {
-            return None;
-        }
-        self.styles.asked.clone_from(&wanted);
-        wanted.map(|laying| Effect::Desk(Task::LayOut(laying)))
+        self.styles.requested.clone_from(&wanted);
+        wanted.map(|request| Effect::Seams(SeamTask::LayOut(request)))
     }
 
-    pub fn laying(&self) -> Option<Laying> {
+    /// What is to be laid out: the selected size as it is edited.
+    pub fn layout_request(&self) -> Option<LayoutRequest> {
         let row = self.size_row()?;
         let study = self.data.as_ref().and_then(|data| data.study());
         let study = study.filter(|study| study.garments.contains(&row.style)).map(|study| study.path.clone());
         let seams = self.styles.edits.get(&row.style).and_then(|edits| edits.last()).cloned();
-        Some(Laying { style: row.style.clone(), key: row.key, seams, study })
+        Some(LayoutRequest { style: row.style.clone(), key: row.key, seams, study })
     }
 
     /// Takes in what was laid out.
-    pub fn laid_out(&mut self, laying: Laying, outcome: Result<Box<Laid>, String>) {
-        if self.styles.asked.as_ref() != Some(&laying) {
+    pub fn take_layout(&mut self, request: LayoutRequest, outcome: Result<Box<SizeLayout>, String>) {
+        if self.styles.requested.as_ref() != Some(&request) {
             return;
         }
-        let is_other = self.styles.desk.as_ref().is_none_or(|(before, _)| before.key.size != laying.key.size);
-        self.styles.desk = Some((laying, outcome));
+        let is_other = self.styles.layout.as_ref().is_none_or(|(before, _)| before.key.size != request.key.size);
+        self.styles.layout = Some((request, outcome));
         self.styles.marks.clear();
         if is_other {
             (self.styles.line, self.styles.edge) = (0, (0, 0));
         }
-        let Some(Ok(laid)) = self.laid() else { return };
-        let (lines, pieces) = (laid.lines().len(), &laid.out.desk.pieces);
+        let Some(Ok(layout)) = self.layout() else { return };
+        let (lines, pieces) = (layout.lines().len(), &layout.out.desk.pieces);
         let piece = self.styles.edge.0.min(pieces.len().saturating_sub(1));
         let edges = pieces.get(piece).map_or(0, |piece| piece.edges.len());
         let edge = self.styles.edge.1.min(edges.saturating_sub(1));
@@ -91,9 +89,9 @@ impl State {
 
     /// Selects a line of the table, and an edge of its seam.
     pub fn select_line(&mut self, line: usize) {
-        let Some(Ok(laid)) = self.laid() else { return };
-        let edge = match laid.lines().get(line) {
-            Some(DeskLine::Seam(k)) => laid.out.desk.seams[*k].a.first().copied(),
+        let Some(Ok(layout)) = self.layout() else { return };
+        let edge = match layout.lines().get(line) {
+            Some(TableLine::Seam(k)) => layout.out.desk.seams[*k].a.first().copied(),
             _ => None,
         };
         self.styles.line = line;
@@ -102,11 +100,11 @@ impl State {
 
     /// Selects the next edge, and the seam that holds it.
     pub fn step_edge(&mut self, step: isize) {
-        let Some(Ok(laid)) = self.laid() else { return };
-        let edges = laid.edges();
+        let Some(Ok(layout)) = self.layout() else { return };
+        let edges = layout.edges();
         let at = edges.iter().position(|edge| *edge == self.styles.edge).unwrap_or(0);
         let Some(next) = stepped(at, step, edges.len()) else { return };
-        let line = laid.seam_at(edges[next]).unwrap_or(self.styles.line);
+        let line = layout.seam_at(edges[next]).unwrap_or(self.styles.line);
         (self.styles.edge, self.styles.line) = (edges[next], line);
     }
 
@@ -136,9 +134,10 @@ impl State {
             false => (Part::Size, format!("{}/{}", row.style, row.size)),
         };
         let text = format!("Remove {part} {name}? Results that use it stay as they are.");
-        self.ask(text, vec![Effect::Do(Act::Remove(part, name))]);
+        self.ask(text, vec![Effect::Do(Command::Remove(part, name))]);
     }
 
+    /// Moves in the list of sizes.
     pub fn go_in_sizes(&mut self, movement: Movement) {
         let selected = self.size_row().map(|row| row.key);
         let sizes = self.sizes();
@@ -147,25 +146,16 @@ impl State {
         self.styles.selected = next.map(|row| (row.style.clone(), row.size.clone()));
     }
 
-    pub fn go_in_desk(&mut self, movement: Movement) {
-        let lines = self.laid().and_then(Result::ok).map_or(0, |laid| laid.lines().len());
+    /// Moves in the table of seams.
+    pub fn go_in_seams(&mut self, movement: Movement) {
+        let lines = self.layout().and_then(Result::ok).map_or(0, |layout| layout.lines().len());
         self.select_line(movement.from(self.styles.line, lines));
     }
 }
 
-impl State {
-    /// Goes to the next size that the filter shows, or back.
-    pub fn next_size(&mut self, step: isize) {
-        let selected = self.size_row().map(|row| row.key);
-        let sizes = self.sizes();
-        let at = sizes.iter().position(|row| Some(row.key) == selected).unwrap_or(0);
-        let next = stepped(at, step, sizes.len()).map(|next| sizes[next]);
-        self.styles.selected = next.map(|row| (row.style.clone(), row.size.clone()));
-    }
-}
-
+/// The table of seams, tab-separated.
 pub fn seam_table(state: &State) -> Option<String> {
-    let desk = &state.laid()?.ok()?.out.desk;
+    let desk = &state.layout()?.ok()?.out.desk;
     let names = |chain: &[(usize, usize)]| {
         let name = |(piece, edge): &(usize, usize)| {
             let piece = &desk.pieces[*piece];

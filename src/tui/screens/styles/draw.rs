@@ -6,14 +6,13 @@ use ratatui::style::Style;
 use ratatui::text::Line;
 use ratatui::widgets::{Block, Paragraph};
 
-use crate::messages::seams::Laid;
+use crate::messages::seams::SizeLayout;
 use crate::screens::state::State;
-use crate::screens::styles::pieces;
-use crate::screens::styles::state::{DeskLine, EdgeAt};
+use crate::screens::styles::pieces::{self, letter};
+use crate::screens::styles::state::{EdgeAt, TableLine};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane, selected_line};
-use crate::widgets::text;
-use crate::widgets::text::{left, right, shortened, whole, width, wrapped};
+use crate::widgets::text::{self, left, right, shortened, whole, width, wrapped};
 use study::SizeRow;
 use study::seams::{Desk, DeskSeam};
 
@@ -34,11 +33,12 @@ fn panes(area: Rect, sizes: usize) -> [Rect; 3] {
     [list, table, pieces]
 }
 
+/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let on_desk = state.in_second_pane();
     if is_narrow(area) {
-        let lines = match (on_desk, state.laid()) {
-            (true, Some(Ok(laid))) => table(state, laid, area.width, area.height),
+        let lines = match (on_desk, state.layout()) {
+            (true, Some(Ok(layout))) => table(state, layout, area.width, area.height),
             _ => list(state, area.width, area.height),
         };
         frame.render_widget(Paragraph::new(lines), area);
@@ -103,7 +103,7 @@ fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
     };
     let name = format!("{} {}", row.style, row.size);
     let columns = usize::from(area.width.saturating_sub(2));
-    match state.laid() {
+    match state.layout() {
         None => {
             let block = pane(state.theme, name, focused);
             frame.render_widget(Paragraph::new("reading the pattern…").block(block), area);
@@ -113,36 +113,36 @@ fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
             let lines: Vec<Line<'_>> = lines.into_iter().map(|line| Line::styled(line, state.theme.bad())).collect();
             frame.render_widget(Paragraph::new(lines).block(pane(state.theme, name, focused)), area);
         }
-        Some(Ok(laid)) => {
+        Some(Ok(layout)) => {
             let title = {
-                let counts = format!(" · {} seams, {} to decide", laid.out.desk.seams.len(), to_decide(laid));
+                let counts = format!(" · {} seams, {} to decide", layout.out.desk.seams.len(), to_decide(layout));
                 // Four columns are the border's and the mark of the focus.
                 let room = columns.saturating_sub(width(&counts) + 4);
                 shortened(&name, room) + &counts
             };
-            let below = shortened(&selection(state, laid), columns);
+            let below = shortened(&selection(state, layout), columns);
             let block = pane(state.theme, title, focused).title_bottom(Line::styled(below, state.theme.legend()));
             let inner = block.inner(area);
-            frame.render_widget(Paragraph::new(table(state, laid, inner.width, inner.height)).block(block), area);
+            frame.render_widget(Paragraph::new(table(state, layout, inner.width, inner.height)).block(block), area);
         }
     }
 }
 
 /// Number of things a person must decide.
-fn to_decide(laid: &Laid) -> usize {
-    let unsure = laid.out.desk.seams.iter().filter(|seam| seam.confidence.is_some()).count();
-    unsure + laid.out.questions.len()
+fn to_decide(layout: &SizeLayout) -> usize {
+    let unsure = layout.out.desk.seams.iter().filter(|seam| seam.confidence.is_some()).count();
+    unsure + layout.out.questions.len()
 }
 
 /// The selected edge, and its seam with everything about it.
-fn selection(state: &State, laid: &Laid) -> String {
+fn selection(state: &State, layout: &SizeLayout) -> String {
     let (piece, edge) = state.styles.edge;
-    let Some(piece) = laid.out.desk.pieces.get(piece) else { return String::new() };
+    let Some(piece) = layout.out.desk.pieces.get(piece) else { return String::new() };
     let Some(edge) = piece.edges.get(edge) else { return String::new() };
     let edge = format!("{}.{} {:.1} mm", piece.id, edge.number, edge.length_mm);
-    match laid.seam_at(state.styles.edge) {
+    match layout.seam_at(state.styles.edge) {
         Some(k) => {
-            let seam = &laid.out.desk.seams[k];
+            let seam = &layout.out.desk.seams[k];
             let turned = if seam.same_direction { ", turned" } else { "" };
             format!("{} {} · {edge}{turned}", letter(k), seam.name)
         }
@@ -151,9 +151,9 @@ fn selection(state: &State, laid: &Laid) -> String {
 }
 
 /// Seams, questions and measurements, the selected line among them.
-fn table(state: &State, laid: &Laid, width: u16, height: u16) -> Vec<Line<'static>> {
+fn table(state: &State, layout: &SizeLayout, width: u16, height: u16) -> Vec<Line<'static>> {
     let (width, height) = (usize::from(width), usize::from(height).saturating_sub(1));
-    let items = laid.lines();
+    let items = layout.lines();
     let at = state.styles.line.min(items.len().saturating_sub(1));
     let first = first_shown(at, items.len(), height);
     let mut lines = vec![Line::styled(head(width), state.theme.dim())];
@@ -161,10 +161,10 @@ fn table(state: &State, laid: &Laid, width: u16, height: u16) -> Vec<Line<'stati
         // An edge in no seam is selected beside the line of another one.
         let is_selected = k == at
             && match item {
-                DeskLine::Seam(seam) => laid.seam_at(state.styles.edge) == Some(*seam),
+                TableLine::Seam(seam) => layout.seam_at(state.styles.edge) == Some(*seam),
                 _ => true,
             };
-        let (texts, style) = item_lines(state, laid, *item, width, is_selected);
+        let (texts, style) = item_lines(state, layout, *item, width, is_selected);
         for text in texts {
             let line = Line::styled(text, style);
             lines.push(if is_selected {
@@ -179,20 +179,26 @@ fn table(state: &State, laid: &Laid, width: u16, height: u16) -> Vec<Line<'stati
 }
 
 /// A line of the table; a selected question at its full length.
-fn item_lines(state: &State, laid: &Laid, item: DeskLine, width: usize, is_selected: bool) -> (Vec<String>, Style) {
+fn item_lines(
+    state: &State,
+    layout: &SizeLayout,
+    item: TableLine,
+    width: usize,
+    is_selected: bool,
+) -> (Vec<String>, Style) {
     match item {
-        DeskLine::Seam(k) => {
-            let seam = &laid.out.desk.seams[k];
+        TableLine::Seam(k) => {
+            let seam = &layout.out.desk.seams[k];
             let colour = Style::new().fg(state.theme.seam(k));
-            (vec![seam_line(&laid.out.desk, k, seam, width)], colour)
+            (vec![seam_line(&layout.out.desk, k, seam, width)], colour)
         }
-        DeskLine::Question(k) => {
-            let text = format!("? {}", laid.out.questions[k]);
+        TableLine::Question(k) => {
+            let text = format!("? {}", layout.out.questions[k]);
             let texts = if is_selected { wrapped(&text, width) } else { vec![shortened(&text, width)] };
             (texts, state.theme.warn())
         }
-        DeskLine::Length(k) => {
-            let length = &laid.out.lengths[k];
+        TableLine::Length(k) => {
+            let length = &layout.out.lengths[k];
             let value = format!("{:.1}", length.l2d_mm);
             let name = left(&format!("#{} {}", length.no, length.name), width.saturating_sub(9));
             (vec![shortened(&format!("{name} {}", right(&value, 7)), width)], Style::new())
@@ -266,10 +272,4 @@ fn chain(desk: &Desk, edges: &[EdgeAt], letters: usize) -> String {
         before = Some(piece);
     }
     text
-}
-
-/// The letter of a seam, in the table and in the picture.
-pub fn letter(seam: usize) -> char {
-    let small = || ('a'..='z').nth(seam.saturating_sub(26));
-    ('A'..='Z').nth(seam).or_else(small).unwrap_or('+')
 }

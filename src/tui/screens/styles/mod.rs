@@ -29,7 +29,7 @@ impl Page for StylesPage {
 
     fn go(&self, state: &mut State, movement: Movement) {
         if state.in_second_pane() {
-            state.go_in_desk(movement);
+            state.go_in_seams(movement);
         } else {
             state.go_in_sizes(movement);
         }
@@ -42,7 +42,7 @@ impl Page for StylesPage {
     }
 
     fn go_to_match(&self, state: &mut State, step: isize) {
-        state.next_size(step);
+        state.go_in_sizes(Movement::Round(step));
     }
 
     fn sort(&self, state: &mut State) {
@@ -80,6 +80,6 @@ impl Page for StylesPage {
     }
 
     fn wanted(&self, state: &mut State) -> Option<Effect> {
-        state.ask_for_desk()
+        state.ask_for_layout()
     }
 }

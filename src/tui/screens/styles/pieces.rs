@@ -8,9 +8,8 @@ use ratatui::symbols::Marker;
 use ratatui::text::Line;
 use ratatui::widgets::canvas::{Canvas, Line as Stroke};
 
-use crate::messages::seams::Laid;
+use crate::messages::seams::SizeLayout;
 use crate::screens::state::State;
-use crate::screens::styles::draw::letter;
 use crate::screens::styles::state::EdgeAt;
 use crate::widgets::lists::pane;
 use crate::widgets::text::{shortened, width};
@@ -18,6 +17,12 @@ use study::seams::{DeskEdge, DeskPiece};
 
 /// How far labels stand off their edge, in dots of braille: inside the piece first.
 const OFFSETS: [f64; 6] = [6.0, 9.0, 3.0, 13.0, -6.0, -9.0];
+
+/// The letter of a seam, in the table and in the picture.
+pub fn letter(seam: usize) -> char {
+    let small = || ('a'..='z').nth(seam.saturating_sub(26));
+    ('A'..='Z').nth(seam).or_else(small).unwrap_or('+')
+}
 
 /// Draws the pane.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
@@ -28,9 +33,9 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
         .title_bottom(Line::styled(legend, state.theme.legend()));
     let inner = block.inner(area);
     frame.render_widget(block, area);
-    let Some(Ok(laid)) = state.laid() else { return };
-    let Some(view) = View::of(inner, laid) else { return };
-    let drawing = Drawing { state, laid, view };
+    let Some(Ok(layout)) = state.layout() else { return };
+    let Some(view) = View::of(inner, layout) else { return };
+    let drawing = Drawing { state, layout, view };
     drawing.outlines(frame);
     drawing.selection(frame);
     drawing.labels(frame);
@@ -47,8 +52,8 @@ struct View {
 
 impl View {
     /// All pieces in a pane; `None` where there is nothing to see or no room.
-    fn of(area: Rect, laid: &Laid) -> Option<Self> {
-        let edges = laid.out.desk.pieces.iter().flat_map(|piece| &piece.edges);
+    fn of(area: Rect, layout: &SizeLayout) -> Option<Self> {
+        let edges = layout.out.desk.pieces.iter().flat_map(|piece| &piece.edges);
         let points = edges.flat_map(|edge| &edge.line_mm);
         let bounds = points.fold(None, |bounds: Option<[f64; 4]>, [x, y]| {
             let [left, low, right, high] = bounds.unwrap_or([*x, *y, *x, *y]);
@@ -77,19 +82,19 @@ impl View {
 
 struct Drawing<'a> {
     state: &'a State,
-    laid: &'a Laid,
+    layout: &'a SizeLayout,
     view: View,
 }
 
 impl Drawing<'_> {
     /// The colour of an edge: that of its seam.
     fn colour(&self, edge: EdgeAt) -> Color {
-        self.laid.seam_at(edge).map_or(Color::Reset, |seam| self.state.theme.seam(seam))
+        self.layout.seam_at(edge).map_or(Color::Reset, |seam| self.state.theme.seam(seam))
     }
 
     /// All edges with their places.
     fn edges(&self) -> impl Iterator<Item = (EdgeAt, &DeskPiece, &DeskEdge)> {
-        let pieces = self.laid.out.desk.pieces.iter().enumerate();
+        let pieces = self.layout.out.desk.pieces.iter().enumerate();
         pieces.flat_map(|(k, piece)| piece.edges.iter().enumerate().map(move |(n, edge)| ((k, n), piece, edge)))
     }
 
@@ -117,7 +122,7 @@ impl Drawing<'_> {
     /// The selected edge and what is sewn to it, in glyphs that need no colour.
     fn selection(&self, frame: &mut Frame<'_>) {
         let chosen = self.state.styles.edge;
-        let seam = self.laid.seam_at(chosen).map(|k| &self.laid.out.desk.seams[k]);
+        let seam = self.layout.seam_at(chosen).map(|k| &self.layout.out.desk.seams[k]);
         let others = seam.map_or(&[][..], |seam| if seam.a.contains(&chosen) { &seam.b } else { &seam.a });
         for (at, _, edge) in self.edges() {
             let glyph = match at {
@@ -148,7 +153,7 @@ impl Drawing<'_> {
         });
         let mut taken: Vec<Rect> = vec![];
         for (at, _, edge) in edges {
-            let seam = self.laid.seam_at(at);
+            let seam = self.layout.seam_at(at);
             let label = format!("{}{}", edge.number, seam.map_or(String::new(), |seam| letter(seam).to_string()));
             let style = match rank(at) {
                 0 => Style::new().add_modifier(Modifier::REVERSED | Modifier::BOLD),
@@ -158,7 +163,7 @@ impl Drawing<'_> {
             let places = OFFSETS.map(|dots| [0, 1].map(|k| middle[k] + inwards[k] * dots * self.view.scale));
             self.put(frame, &mut taken, &label, style, &places);
         }
-        for piece in &self.laid.out.desk.pieces {
+        for piece in &self.layout.out.desk.pieces {
             let places = [0.0, 7.0, -7.0, 14.0, -14.0].map(|dots| {
                 let [x, y] = centre(piece);
                 [x, y + dots * self.view.scale]

@@ -2,24 +2,24 @@
 
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
-use crate::messages::requests::Act;
-use crate::messages::seams::Task;
+use crate::messages::requests::Command;
+use crate::messages::seams::SeamTask;
 use crate::screens::state::State;
-use crate::screens::styles::state::{DeskLine, EdgeAt};
+use crate::screens::styles::state::{EdgeAt, TableLine};
 use study::Part;
 use study::files::SourceFile;
 use study::seams::{DeskSeam, SeamEdit, SeamStep};
 
 impl State {
-    /// Gives the desk the focus; whether what lies on it can be worked on now.
+    /// Gives the seams the focus; whether they can be worked on now.
     fn may_sew(&mut self) -> bool {
         if !self.may_change(Part::Style) {
             return false;
         }
         self.nav.second_pane[Screen::Styles as usize] = true;
         let is_current =
-            matches!(&self.styles.desk, Some((laying, Ok(_))) if Some(laying) == self.styles.asked.as_ref());
-        let is_ready = is_current && self.laid().is_some() && !self.styles.is_busy;
+            matches!(&self.styles.layout, Some((request, Ok(_))) if Some(request) == self.styles.requested.as_ref());
+        let is_ready = is_current && self.layout().is_some() && !self.styles.is_busy;
         if !is_ready && self.size_row().is_none() {
             self.say("no size is selected: i imports one");
         } else if !is_ready {
@@ -49,17 +49,17 @@ impl State {
         if sides.len() < 2 && !sides.contains(&self.styles.edge) {
             sides.push(self.styles.edge);
         }
-        let Some(Ok(laid)) = self.laid() else { return vec![] };
+        let Some(Ok(layout)) = self.layout() else { return vec![] };
         let [first, others @ ..] = sides.as_slice() else { return vec![] };
         if others.is_empty() {
             self.say("m marks an edge; then go to the edge it is sewn to, and a sews them");
             return vec![];
         }
-        let length = |(piece, edge): &EdgeAt| laid.out.desk.pieces[*piece].edges[*edge].length_mm;
+        let length = |(piece, edge): &EdgeAt| layout.out.desk.pieces[*piece].edges[*edge].length_mm;
         let (a_mm, b_mm) = (length(first), others.iter().map(length).sum::<f64>());
-        let a = laid.edge_name(*first);
-        let b = others.iter().map(|edge| laid.edge_name(*edge)).collect::<Vec<_>>().join("+");
-        let is_eased = (a_mm - b_mm).abs() > laid.out.tolerance_mm;
+        let a = layout.edge_name(*first);
+        let b = others.iter().map(|edge| layout.edge_name(*edge)).collect::<Vec<_>>().join("+");
+        let is_eased = (a_mm - b_mm).abs() > layout.out.tolerance_mm;
         let text = format!(
             "{a} is {a_mm:.1} mm, {b} is {b_mm:.1} mm. Sew them with {:+.1} mm of ease (ratio {:.3})?",
             a_mm - b_mm,
@@ -79,8 +79,8 @@ impl State {
         if !self.may_sew() {
             return None;
         }
-        let laid = self.laid()?.ok()?;
-        let found = laid.seam_at(self.styles.edge).map(|k| laid.out.desk.seams[k].clone());
+        let layout = self.layout()?.ok()?;
+        let found = layout.seam_at(self.styles.edge).map(|k| layout.out.desk.seams[k].clone());
         if found.is_none() {
             self.say("no seam holds the selected edge");
         }
@@ -89,8 +89,8 @@ impl State {
 
     /// Two edges that name a seam: one of each side.
     fn between(&self, seam: &DeskSeam) -> Option<(String, String)> {
-        let laid = self.laid()?.ok()?;
-        Some((laid.edge_name(*seam.a.first()?), laid.edge_name(*seam.b.first()?)))
+        let layout = self.layout()?.ok()?;
+        Some((layout.edge_name(*seam.a.first()?), layout.edge_name(*seam.b.first()?)))
     }
 
     /// Opens the selected seam.
@@ -105,17 +105,18 @@ impl State {
         edges.map_or(vec![], |(a, b)| self.step_of_work(SeamStep::Edit(SeamEdit::Flip { a, b })))
     }
 
-    /// Takes the selected proposed seam for right, or the selected question for answered; gives the desk the focus first where the list has it.
+    /// Takes the selected proposed seam for right, or the selected question for answered; gives the seams
+    /// the focus first where the list has it.
     pub fn confirm_seam(&mut self) -> Vec<Effect> {
         if self.nav.screen == Screen::Styles && !self.in_second_pane() {
             self.nav.second_pane[Screen::Styles as usize] = true;
             return vec![];
         }
-        if let (true, Some(DeskLine::Question(k))) = (self.nav.screen == Screen::Styles, self.desk_line()) {
+        if let (true, Some(TableLine::Question(k))) = (self.nav.screen == Screen::Styles, self.table_line()) {
             if !self.may_sew() {
                 return vec![];
             }
-            let question = self.laid().and_then(Result::ok).and_then(|laid| laid.out.questions.get(k).cloned());
+            let question = self.layout().and_then(Result::ok).and_then(|layout| layout.out.questions.get(k).cloned());
             return question.map_or(vec![], |question| self.step_of_work(SeamStep::Decide(question)));
         }
         match self.selected_seam() {
@@ -135,8 +136,8 @@ impl State {
             return vec![];
         }
         let Some(style) = self.size_row().map(|row| row.style.clone()) else { return vec![] };
-        let replaced = self.laid().and_then(Result::ok).map_or(0, |laid| {
-            laid.out.desk.seams.iter().filter(|seam| seam.confidence.is_none()).count() + laid.out.lengths.len()
+        let replaced = self.layout().and_then(Result::ok).map_or(0, |layout| {
+            layout.out.desk.seams.iter().filter(|seam| seam.confidence.is_none()).count() + layout.out.lengths.len()
         });
         let effects = self.step_of_work(SeamStep::Propose(style.clone()));
         if replaced > 0 {
@@ -149,9 +150,9 @@ impl State {
     }
 
     fn step_of_work(&mut self, step: SeamStep) -> Vec<Effect> {
-        let Some(laying) = self.laying() else { return vec![] };
+        let Some(request) = self.layout_request() else { return vec![] };
         self.styles.is_busy = true;
-        vec![Effect::Desk(Task::Sew(laying, step))]
+        vec![Effect::Seams(SeamTask::Sew(request, step))]
     }
 
     /// Takes in a seam file after a step of work.
@@ -191,7 +192,7 @@ impl State {
             self.say(format!("{style} is as saved: nothing to save"));
             return vec![];
         };
-        vec![Effect::Do(Act::SaveSeams(style, seams))]
+        vec![Effect::Do(Command::SaveSeams(style, seams))]
     }
 
     /// Forgets edits that are saved, and asks whether the file of the study is to say the same.
@@ -203,13 +204,14 @@ impl State {
         if self.styles.edits.get(style).and_then(|edits| edits.last()) == Some(seams) {
             self.styles.edits.remove(style);
         }
-        let desk = self.styles.desk.as_ref().filter(|(laying, _)| laying.style == style);
-        let home =
-            desk.and_then(|(_, laid)| laid.as_ref().ok()).and_then(|laid| laid.home.clone().zip(laid.stored.clone()));
+        let desk = self.styles.layout.as_ref().filter(|(request, _)| request.style == style);
+        let home = desk
+            .and_then(|(_, layout)| layout.as_ref().ok())
+            .and_then(|layout| layout.home.clone().zip(layout.stored.clone()));
         self.say(text);
         if let Some((path, before)) = home.filter(|_| self.overlay.is_none()) {
             let text = format!("Write {} of the study too? Its comments stay; the next run uses it.", path.display());
-            self.ask(text, vec![Effect::Do(Act::WriteSeams(path, before, seams.clone()))]);
+            self.ask(text, vec![Effect::Do(Command::WriteSeams(path, before, seams.clone()))]);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::messages::seams::{Laid, Laying};
+use crate::messages::seams::{LayoutRequest, SizeLayout};
 use study::files::SourceFile;
 
 /// An edge by its piece and its place on it.
@@ -15,10 +15,10 @@ pub struct Styles {
     pub selected: Option<(String, String)>,
     /// Seam files of styles as edited and not saved, the latest last.
     pub edits: BTreeMap<String, Vec<SourceFile>>,
-    /// What the desk was asked for.
-    pub asked: Option<Laying>,
+    /// The size whose layout was asked for.
+    pub requested: Option<LayoutRequest>,
     /// What lies on it, or why it does not.
-    pub desk: Option<(Laying, Result<Box<Laid>, String>)>,
+    pub layout: Option<(LayoutRequest, Result<Box<SizeLayout>, String>)>,
     /// Edge selected.
     pub edge: EdgeAt,
     /// Line of the table selected.
@@ -33,7 +33,7 @@ pub struct Styles {
 
 /// A line of the table beside the pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DeskLine {
+pub enum TableLine {
     /// A seam.
     Seam(usize),
     /// What a person must decide.
@@ -42,13 +42,13 @@ pub enum DeskLine {
     Length(usize),
 }
 
-impl Laid {
+impl SizeLayout {
     /// The lines of the table: seams, questions, measurements.
     #[must_use]
-    pub fn lines(&self) -> Vec<DeskLine> {
-        let seams = (0..self.out.desk.seams.len()).map(DeskLine::Seam);
-        let questions = (0..self.out.questions.len()).map(DeskLine::Question);
-        seams.chain(questions).chain((0..self.out.lengths.len()).map(DeskLine::Length)).collect()
+    pub fn lines(&self) -> Vec<TableLine> {
+        let seams = (0..self.out.desk.seams.len()).map(TableLine::Seam);
+        let questions = (0..self.out.questions.len()).map(TableLine::Question);
+        seams.chain(questions).chain((0..self.out.lengths.len()).map(TableLine::Length)).collect()
     }
 
     /// The seam that holds an edge.

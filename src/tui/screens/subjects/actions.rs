@@ -1,7 +1,7 @@
 //! Choosing a subject.
 
 use crate::keys::screen::Screen;
-use crate::screens::movement::{Movement, stepped};
+use crate::screens::movement::Movement;
 use crate::screens::state::State;
 use crate::screens::subjects::state::SubjectOrder;
 use crate::widgets::text;
@@ -37,6 +37,7 @@ impl State {
         subjects.iter().find(|row| Some(&row.name) == self.subjects.chosen.as_ref()).or(subjects.first()).copied()
     }
 
+    /// Moves in the list of subjects.
     pub fn go_in_subjects(&mut self, movement: Movement) {
         let selected = self.subject().map(|row| row.id);
         let subjects = self.subjects();
@@ -45,16 +46,7 @@ impl State {
     }
 }
 
-impl State {
-    /// Goes to the next subject that the filter shows, or back.
-    pub fn next_subject(&mut self, step: isize) {
-        let selected = self.subject().map(|row| row.id);
-        let subjects = self.subjects();
-        let at = subjects.iter().position(|row| Some(row.id) == selected).unwrap_or(0);
-        self.subjects.chosen = stepped(at, step, subjects.len()).map(|next| subjects[next].name.clone());
-    }
-}
-
+/// The selected subject, tab-separated.
 pub fn subject_line(state: &State) -> Option<String> {
     let subject = state.subject()?;
     let value = |field: &Field<Measurements>| field.get(&subject.measurements).map_or(String::new(), |v| v.to_string());

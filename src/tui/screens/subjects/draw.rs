@@ -10,9 +10,8 @@ use crate::screens::state::State;
 use crate::screens::subjects::state::{SHOWN, SubjectOrder};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane, scrolled, selected_line};
-use crate::widgets::picture::Sitter;
-use crate::widgets::text;
-use crate::widgets::text::{left, place_bar, right, shortened, wrapped};
+use crate::widgets::picture::Pictured;
+use crate::widgets::text::{self, left, place_bar, right, shortened, wrapped};
 use study::{Figure, MEASUREMENTS, SubjectRow, is_doubtful, percentile, percentile_text};
 
 /// Headings of the first measurements in the list, and their columns.
@@ -43,6 +42,7 @@ pub fn table_rows(area: Rect) -> usize {
     usize::from(panes(area)[1].height).saturating_sub(3)
 }
 
+/// Draws the screen.
 pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     if is_narrow(area) {
         frame.render_widget(Paragraph::new(list(state, area.width, area.height, true)), area);
@@ -172,5 +172,5 @@ fn draw_picture(frame: &mut Frame<'_>, area: Rect, state: &State, subject: &Subj
     let block = pane(state.theme, format!("{} · front and side", subject.name), false);
     let (inner, _) = parts(block.inner(area));
     frame.render_widget(block, area);
-    draw_shot(frame, inner, state, Some(Sitter::Body(subject.id)), "");
+    draw_shot(frame, inner, state, Some(Pictured::Body(subject.id)), "");
 }

@@ -13,7 +13,7 @@ use crate::screens::catalogue;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
-use crate::widgets::picture::Sitter;
+use crate::widgets::picture::Pictured;
 use study::{MEASUREMENTS, Part};
 
 /// The screen of subjects.
@@ -33,7 +33,7 @@ impl Page for SubjectsPage {
     }
 
     fn go_to_match(&self, state: &mut State, step: isize) {
-        state.next_subject(step);
+        state.go_in_subjects(Movement::Round(step));
     }
 
     fn sort(&self, state: &mut State) {
@@ -52,8 +52,8 @@ impl Page for SubjectsPage {
         catalogue::act(state, Part::Subject, action)
     }
 
-    fn pictures(&self, state: &State, area: Rect) -> Vec<(Sitter, Rect)> {
-        let body = state.subject().map(|row| Sitter::Body(row.id));
+    fn pictures(&self, state: &State, area: Rect) -> Vec<(Pictured, Rect)> {
+        let body = state.subject().map(|row| Pictured::Body(row.id));
         body.zip(draw::picture_pane(area)).into_iter().collect()
     }
 }
