@@ -33,6 +33,7 @@ const LEGEND: &str = "warp weft shear N/m, bending µN m  + own  s stiffens  c c
 
 /// Lines of the table of a fabric: its numbers, and two bending lengths.
 pub const TABLE_LINES: usize = FABRIC_NUMBERS.len() + 2;
+
 /// Columns of a value in the table.
 const VALUE: usize = 10;
 /// Lines of the pane with the source, without the curves.
