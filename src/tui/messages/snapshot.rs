@@ -5,7 +5,7 @@ use study::{
     Step, StudyRow, SubjectRow, Why,
 };
 
-/// What the user looks at; whatever is `None` or gone is chosen by [`snapshot`].
+/// What the user looks at; whatever is `None` or gone is chosen when it is read.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Focus {
     /// Study.

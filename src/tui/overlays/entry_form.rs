@@ -22,14 +22,11 @@ use study::{
 
 /// Lines of a form before its numbers: the name, and the sex of a subject or the source of a fabric's numbers.
 const NAME: usize = 0;
-
 const WORD: usize = 1;
-
 const FIRST_NUMBER: usize = 2;
 
 /// A number beyond the least or greatest of the catalogue by such a factor is doubtful.
 const FAR: f64 = 3.0;
-
 /// Columns of values in a form.
 const VALUE: usize = 12;
 

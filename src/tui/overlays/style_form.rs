@@ -17,16 +17,12 @@ use study::StyleGiven;
 
 /// Lines of the form.
 const PATTERN: usize = 0;
-
 const STYLE: usize = 1;
-
 const SIZE: usize = 2;
-
 const UNIT: usize = 3;
 
 /// Letters of what is said of many sizes: the first tells enough.
 const LONGEST: usize = 400;
-
 /// Names of the lines.
 pub const LABELS: [&str; 5] = ["pattern", "style", "size", "unit", "seam file"];
 

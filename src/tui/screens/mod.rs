@@ -1,6 +1,6 @@
 //! The screens, a folder each: its state, what it does, how it is drawn.
 //!
-//! A new screen is a folder here. It is entered in [`Screen`], in [`page`] and in [`State`]: the compiler asks for the
+//! A new screen is a folder here. It is entered in [`Screen`], in [`page()`] and in [`State`]: the compiler asks for the
 //! last two.
 
 mod catalogue;

@@ -18,13 +18,10 @@ use crate::widgets::text;
 
 /// Most bytes of a frame. Only a picture of pixels, which cannot be parted, is longer.
 pub const FRAME: usize = 4000;
-
 /// Bytes that end a frame.
 const END: usize = 4;
-
 /// Blanks from which on erasing them is shorter than writing them.
 const ERASED: usize = 8;
-
 /// Symbols with more bytes than any letter has are sequences that show pixels.
 const LETTER: usize = 16;
 
@@ -254,7 +251,7 @@ fn colour(colour: Color, more: u8) -> String {
 impl<W: Write> Backend for FramedBackend<W> {
     type Error = io::Error;
 
-    /// Takes in what has changed; [`Line::send`] sends it.
+    /// Takes in what has changed; [`FramedBackend::send`] sends it.
     fn draw<'a, I>(&mut self, content: I) -> io::Result<()>
     where
         I: Iterator<Item = (u16, u16, &'a Cell)>,

@@ -18,7 +18,6 @@ use crate::terminal::framed::{FramedBackend, Late};
 
 /// Least time between two frames: keys that come faster share one, and a slow line gets no more than it can take.
 const PAUSE: Duration = Duration::from_millis(20);
-
 /// Time without a key after which pictures are sent: longer than between two repeats of a key that is held.
 const REST: Duration = Duration::from_millis(80);
 

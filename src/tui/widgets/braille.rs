@@ -4,10 +4,8 @@ use study::{LiveFrame, Look};
 
 /// World lengths of a picture change in such steps, m, so that it does not tremble.
 const STEP_M: f64 = 0.1;
-
 /// Room around the garment, as a share.
 const MARGIN: f64 = 1.05;
-
 /// Bits of the dots of a braille letter, by column and row.
 const DOTS: [[u32; 4]; 2] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
 

@@ -4,7 +4,6 @@ use ratatui::layout::{Constraint, Layout, Rect};
 
 /// Terminals with fewer columns or rows than this get lists instead of grids and panes.
 const NARROW: (u16, u16) = (60, 16);
-
 /// Terminals with at least so many columns get panes side by side.
 pub const WIDE: u16 = 120;
 

@@ -40,10 +40,8 @@ impl std::str::FromStr for Images {
 
 /// Pixels that are drawn of a cell that shows two of them or a letter.
 const SMALL: FontSize = FontSize::new(6, 12);
-
 /// Degrees of one turn.
 const TURN_DEG: i32 = 15;
-
 /// Least and greatest enlargement, percent; one step multiplies or divides by 5/4.
 const ZOOM_PCT: [u32; 2] = [100, 800];
 

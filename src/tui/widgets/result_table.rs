@@ -8,7 +8,6 @@ use study::{SqlAnswer, Value};
 
 /// Rows whose values say how wide a column is and whether it holds numbers.
 const LOOKED_AT: usize = 300;
-
 /// The widest a column becomes.
 const WIDEST: usize = 40;
 

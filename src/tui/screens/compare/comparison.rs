@@ -6,10 +6,8 @@ use study::{ChiRow, JobRow, RecommendationRow};
 
 /// Runs that are compared at most.
 pub const MOST: usize = 6;
-
 /// chi of two runs differ where the third decimal does.
 const DIFFERS: f64 = 0.0005;
-
 /// EI that are nearer than this make no practical difference (the margin of the recommendation).
 const MARGIN: f64 = 0.01;
 

@@ -19,13 +19,10 @@ use study::{JobRow, MetricsRow};
 
 /// Columns of one run.
 const RUN: usize = 12;
-
 /// Columns of number and pattern length.
 const FIXED: usize = 3 + 8;
-
 /// The fewest columns of a name.
 const LEAST_NAME: usize = 12;
-
 /// Columns of the difference of two.
 const DELTA: usize = 9;
 

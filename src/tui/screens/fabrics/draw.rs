@@ -27,9 +27,7 @@ const HEADINGS: [(&str, usize, f64); FABRIC_SHOWN.len()] = [
 
 /// Columns of the marks after a name, and the fewest of a name.
 const MARKS: usize = 4;
-
 const LEAST_NAME: usize = 14;
-
 /// What the columns of the list mean.
 const LEGEND: &str = "warp weft shear N/m, bending µN m  + own  s stiffens  c coupled";
 
@@ -40,16 +38,12 @@ pub fn table_lines() -> usize {
 
 /// Columns of a value in the table.
 const VALUE: usize = 10;
-
 /// Lines of the pane with the source, without the curves.
 const FACTS: u16 = 8;
-
 /// Most columns of the bar that shows where a number stands among all fabrics.
 const BAR: usize = 20;
-
 /// Stretches up to which the curves go: that of a woven, and how far beyond its law that of a knit.
 const WOVEN: f64 = 0.05;
-
 const BEYOND: f64 = 1.25;
 
 /// The panes: list, table of the selected fabric, source and curves.

@@ -11,7 +11,6 @@ use study::{ChiRow, FitCell, MetricsRow};
 
 /// What the marks after names mean.
 pub const LEGEND: &str = "○ girth  ~ free edge  = controlled";
-
 /// Columns of number, two lengths, chi, and the gaps between them.
 const FIXED: usize = 3 + 7 + 7 + 6 + 1;
 
@@ -144,7 +143,6 @@ pub fn provenance(state: &State) -> Vec<(&'static str, String)> {
 
 /// Columns of the name of a fact, and of the fact with its name.
 const NAME_COLUMNS: usize = 9;
-
 const FACT_COLUMNS: usize = 21;
 
 /// The numbers of a result with their names.

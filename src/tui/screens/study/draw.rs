@@ -18,7 +18,6 @@ use study::{Cell, Grid, Status};
 
 /// Lines that make a picture below the grid worth while.
 const LEAST_PICTURE: u16 = 14;
-
 /// What the marks of fits mean.
 const FIT_LEGEND: &str = "T tight  J just  L loose  ~ borderline  ! undersized";
 

@@ -18,10 +18,8 @@ use study::seams::{Desk, DeskSeam};
 
 /// Columns of the table from which it has names of seams and both lengths.
 const FULL: usize = 66;
-
 /// Columns of the name of a seam there, and of all but its edges.
 const NAME: usize = 14;
-
 const FIXED: usize = 3 + NAME + 1 + 2 * 8 + 2 * 6 + 5;
 
 /// The panes: list, table of the selected size, pieces.

@@ -17,7 +17,7 @@ pub struct Styles {
     pub edits: BTreeMap<String, Vec<SourceFile>>,
     /// The size whose layout was asked for.
     pub requested: Option<LayoutRequest>,
-    /// What lies on it, or why it does not.
+    /// What was laid out last, or why it could not be.
     pub layout: Option<(LayoutRequest, Result<Box<SizeLayout>, String>)>,
     /// Edge selected.
     pub edge: EdgeAt,

@@ -9,7 +9,7 @@ use study::bodies::Girths;
 /// Measurements in the list of subjects: stature, weight, chest, waist, hip.
 pub const SHOWN: usize = 5;
 
-/// How subjects are ordered: by name, or by the measurement of a number in [`MEASUREMENTS`].
+/// How subjects are ordered: by name, or by the measurement of a number in [`study::MEASUREMENTS`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum SubjectOrder {
     /// By name.
