@@ -10,6 +10,7 @@ use super::measure::{self, Sites};
 use super::tape::{self, Neck};
 use super::{Body, BodyError, Dimension, Landmarks, Measurements};
 use geom::section::Plane;
+use geom::units::mm;
 use geom::{TriMesh, V3};
 
 /// Builds a closed, measured mannequin.
@@ -32,8 +33,8 @@ use geom::{TriMesh, V3};
 pub fn build(known: &Measurements) -> Result<Body, BodyError> {
     let profile = Profile::new(known)?;
     fit::fit(&profile).and_then(describe).map_err(|error| match error {
-        BodyError::MissingPart { part, height_mm } => {
-            BodyError::Inconsistent { reason: format!("no {part} can be formed at a height of {height_mm:.0} mm") }
+        BodyError::MissingPart { part, height_m } => {
+            BodyError::Inconsistent { reason: format!("no {part} can be formed at a height of {:.0} mm", mm(height_m)) }
         }
         other => other,
     })
@@ -80,7 +81,7 @@ fn underbust(trunk: &TriMesh, chest: f64, figure: &Figure) -> f64 {
 }
 
 fn missing(part: &'static str, height: f64) -> BodyError {
-    BodyError::MissingPart { part, height_mm: height * 1e3 }
+    BodyError::MissingPart { part, height_m: height }
 }
 
 /// Height of the crotch, near where the figure has it.
@@ -124,7 +125,7 @@ fn describe(fit: Fit<'_>) -> Result<Body, BodyError> {
 
 fn find_landmarks(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Landmarks, BodyError> {
     let h = figure.stature();
-    let missing = |part: &'static str, z: f64| BodyError::MissingPart { part, height_mm: z * 1e3 };
+    let missing = |part: &'static str, z: f64| BodyError::MissingPart { part, height_m: z };
     let front_height = figure.front_neck_height();
     let side_height = figure.side_neck_height();
     let base = tape::trunk_outline(mesh, side_height, 0.0).ok_or_else(|| missing("neck base", side_height))?;

@@ -1,6 +1,6 @@
 use super::*;
-use crate::measure::Girths;
 use crate::survey::Survey;
+use crate::testing::in_mm;
 use crate::{ControlMesh, Dimension, Joint, Layer, RING, Sex};
 use geom::{V2, crossing};
 use std::sync::LazyLock;
@@ -39,15 +39,15 @@ fn the_study_subjects_measure_as_asked() {
         let girths = &body.girths;
         let [stature, _, chest, waist, hip, across, neck] = numbers.map(|cm| cm * 10.0);
         let pairs = [
-            ("stature", stature, girths.stature_mm, 2.0),
-            ("chest", chest, girths.chest_girth_mm, 2.0),
-            ("waist", waist, girths.waist_girth_mm, 2.0),
-            ("hip", hip, girths.hip_girth_mm, 2.0),
-            ("neck", neck, girths.neck_girth_mm, 2.0),
-            ("across shoulder", across, girths.across_shoulder_mm, 5.0),
+            ("stature", stature, in_mm(girths, "stature_mm"), 2.0),
+            ("chest", chest, in_mm(girths, "chest_girth_mm"), 2.0),
+            ("waist", waist, in_mm(girths, "waist_girth_mm"), 2.0),
+            ("hip", hip, in_mm(girths, "hip_girth_mm"), 2.0),
+            ("neck", neck, in_mm(girths, "neck_girth_mm"), 2.0),
+            ("across shoulder", across, in_mm(girths, "across_shoulder_mm"), 5.0),
         ];
         let errors = pairs.map(|(_, asked, read, _)| read - asked);
-        eprintln!("subject {i} {} triangles {:.1} l: {errors:.2?}", body.mesh.triangles.len(), girths.volume_l);
+        eprintln!("subject {i} {} triangles {:.1} l: {errors:.2?}", body.mesh.triangles.len(), girths.volume_l());
         for (name, asked, read, tolerance) in pairs {
             assert!((read - asked).abs() <= tolerance, "subject {i} {name}: asked {asked}, tape reads {read:.2} mm");
         }
@@ -179,20 +179,14 @@ fn faults(asked: &Measurements, body: &Body) -> Vec<String> {
             faults.push(format!("joint {number} at {joint:.3?} is not inside"));
         }
     }
-    for (dimension, asked_m, read_mm) in readings(asked, &body.girths) {
-        let off_mm = read_mm - asked_m * 1e3;
+    for (dimension, asked) in asked.known() {
+        let Some(read) = body.girths.get(dimension) else { continue };
+        let off_mm = (read - asked) * 1e3;
         if off_mm.abs() > if dimension == Dimension::AcrossShoulder { 5.0 } else { 2.0 } {
             faults.push(format!("{dimension:?} is off by {off_mm:.1} mm"));
         }
     }
     faults
-}
-
-/// The given dimensions with what the tape reads.
-fn readings(asked: &Measurements, read: &Girths) -> Vec<(Dimension, f64, f64)> {
-    let document = serde_json::to_value(read).expect("numbers");
-    let read = |dimension: Dimension| document.get(dimension.key()).and_then(serde_json::Value::as_f64);
-    asked.known().filter_map(|(dimension, value)| Some((dimension, value, read(dimension)?))).collect()
 }
 
 #[test]
@@ -230,11 +224,9 @@ fn meshes_are_closed_and_landmarks_lie_on_the_skin() {
         let body = build(&subject(sex, numbers)).expect("a subject");
         check_meshes(&body);
         let tapes = body.tapes();
-        for (z, girth_mm) in
-            [(body.levels.waist_m, body.girths.waist_girth_mm), (body.levels.hip_m, body.girths.hip_girth_mm)]
-        {
+        for (z, girth) in [(body.levels.waist_m, Dimension::WaistGirth), (body.levels.hip_m, Dimension::HipGirth)] {
             let band: Vec<V2> = tapes.positions.iter().filter(|p| (p.z - z).abs() < 5e-3).map(|p| p.xy()).collect();
-            let off_mm = geom::hull::tape_girth(&band) * 1e3 - girth_mm;
+            let off_mm = (geom::hull::tape_girth(&band) - body.girths.get(girth).expect("read")) * 1e3;
             assert!((10.0..25.0).contains(&off_mm), "a tape 3 mm off the skin is {off_mm:.1} mm longer");
         }
         let marks = &body.landmarks;

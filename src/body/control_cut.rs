@@ -4,7 +4,6 @@ use super::BodyError;
 use super::control::{ControlMesh, Layer, RING, Region, YOKE, YOKE_ROWS, YOKE_START};
 use super::tape;
 use geom::section::{Outline, Plane, section};
-use geom::units::mm;
 use geom::{TriMesh, V2, V3, hull};
 
 /// Heights and frames at which the rings are cut, metres.
@@ -67,7 +66,7 @@ fn ring(mesh: &TriMesh, plane: &Plane, start: f64, part: &'static str) -> Result
     let round =
         |outline: &&Outline| Outline { points: hull::convex_hull(&outline.points), closed: true }.contains(V2::zeros());
     let outline = outlines.iter().filter(round).max_by(|a, b| tape::girth(a).total_cmp(&tape::girth(b)));
-    let outline = outline.ok_or(BodyError::MissingPart { part, height_mm: mm(plane.origin.z) })?;
+    let outline = outline.ok_or(BodyError::MissingPart { part, height_m: plane.origin.z })?;
     Ok(spokes(outline, start).into_iter().map(|p| plane.lift(p)).collect())
 }
 
@@ -84,7 +83,7 @@ fn trunk_plane(mesh: &TriMesh, z: f64) -> Plane {
 fn leg_ring(mesh: &TriMesh, z: f64) -> Result<Vec<V3>, BodyError> {
     let legs = tape::right_limbs(mesh, z, 0.0);
     let leg = legs.iter().min_by(|a, b| a.bounds().0.x.total_cmp(&b.bounds().0.x));
-    let (low, high) = leg.ok_or(BodyError::MissingPart { part: "leg", height_mm: mm(z) })?.bounds();
+    let (low, high) = leg.ok_or(BodyError::MissingPart { part: "leg", height_m: z })?.bounds();
     let centre = V3::new((low.x + high.x) / 2.0, (low.y + high.y) / 2.0, z);
     ring(mesh, &Plane { origin: centre, ..Plane::horizontal(z) }, 0.0, "leg")
 }

@@ -3,13 +3,13 @@
 use super::anthropometry::Profile;
 use super::dimension::{COUNT, Dimension};
 use super::figure::{Factors, Figure};
+use super::girths::Girths;
 use super::limb_tape::LimbSites;
-use super::measure::{self, Girths, Sites};
+use super::measure::{self, Sites};
 use super::tape::Neck;
 use super::template::Template;
 use super::{BodyError, Sex, build};
 use geom::TriMesh;
-use geom::units::from_mm;
 use std::sync::LazyLock;
 
 /// Most rounds of the fit, and corrections in each. The levels of the tape are held in a round and found anew after it.
@@ -180,30 +180,31 @@ impl Fitted {
     }
 }
 
+/// What a figure is corrected by, in the order in which what is not reached is told.
+const CORRECTED_BY: [Dimension; 15] = {
+    use Dimension::*;
+    [
+        NeckGirth,
+        ChestGirth,
+        UnderbustGirth,
+        WaistGirth,
+        HipGirth,
+        AcrossShoulder,
+        ThighGirth,
+        KneeGirth,
+        CalfGirth,
+        AnkleGirth,
+        UpperArmGirth,
+        ForearmGirth,
+        WristGirth,
+        Inseam,
+        ArmLength,
+    ]
+};
+
 /// Every dimension that the tape reads, but for an under-bust girth that nobody asked for.
 fn errors(profile: &Profile, read: &Girths) -> Vec<Fitted> {
-    let readings = [
-        (Dimension::NeckGirth, Some(read.neck_girth_mm)),
-        (Dimension::ChestGirth, Some(read.chest_girth_mm)),
-        (
-            Dimension::UnderbustGirth,
-            Some(read.underbust_girth_mm).filter(|_| profile.is_given(Dimension::UnderbustGirth)),
-        ),
-        (Dimension::WaistGirth, Some(read.waist_girth_mm)),
-        (Dimension::HipGirth, Some(read.hip_girth_mm)),
-        (Dimension::AcrossShoulder, Some(read.across_shoulder_mm)),
-        (Dimension::ThighGirth, Some(read.thigh_girth_mm)),
-        (Dimension::KneeGirth, read.knee_girth_mm),
-        (Dimension::CalfGirth, read.calf_girth_mm),
-        (Dimension::AnkleGirth, read.ankle_girth_mm),
-        (Dimension::UpperArmGirth, read.upper_arm_girth_mm),
-        (Dimension::ForearmGirth, read.forearm_girth_mm),
-        (Dimension::WristGirth, read.wrist_girth_mm),
-        (Dimension::Inseam, Some(read.inseam_mm)),
-        (Dimension::ArmLength, read.arm_length_mm),
-    ];
-    let fitted = |(dimension, read): (Dimension, Option<f64>)| {
-        Some(Fitted { dimension, asked: profile.at(dimension), read: from_mm(read?) })
-    };
-    readings.into_iter().filter_map(fitted).collect()
+    let counts = |dimension: &Dimension| *dimension != Dimension::UnderbustGirth || profile.is_given(*dimension);
+    let fitted = |dimension| Some(Fitted { dimension, asked: profile.at(dimension), read: read.get(dimension)? });
+    CORRECTED_BY.into_iter().filter(counts).filter_map(fitted).collect()
 }

@@ -4,54 +4,59 @@ use super::arm::Arm;
 use super::landmarks;
 use super::measure::{self, Sites, steps};
 use super::slices::Slices;
-use super::{BodyError, Girths, Sex, tape};
+use super::{BodyError, Dimension, Girths, Sex, tape};
 use geom::section::{Plane, section};
 use geom::units::mm;
 use geom::{TriMesh, V2, V3, hull};
 
-/// What `body measure` says beyond [`Girths`], millimetres; absent where the body does not show it.
-#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
+/// What `body measure` says beyond [`Girths`], metres; absent where the body does not show it.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Lengths {
     /// Height of the back neck point.
-    pub cervicale_height_mm: f64,
+    pub cervicale_height_m: f64,
     /// From the back neck point down the centre back to the waist level.
-    pub back_waist_length_mm: Option<f64>,
+    pub back_waist_length_m: Option<f64>,
     /// From the front neck point down the centre front to the waist level.
-    pub front_waist_length_mm: Option<f64>,
+    pub front_waist_length_m: Option<f64>,
     /// From the waist level at the centre front through the crotch to the waist level at the centre back.
-    pub total_crotch_length_mm: Option<f64>,
-    /// From the right shoulder point over the elbow to the wrist.
-    pub arm_length_mm: Option<f64>,
-    /// Narrowest girth of the right wrist, across the arm.
-    pub wrist_girth_mm: Option<f64>,
-    /// Greatest girth of the right calf, and its height.
-    pub calf_girth_mm: Option<f64>,
-    /// Height of that girth.
-    pub calf_level_mm: Option<f64>,
-    /// Narrowest girth of the right ankle.
-    pub ankle_girth_mm: Option<f64>,
+    pub total_crotch_length_m: Option<f64>,
+    /// Height of the greatest girth of the right calf.
+    pub calf_level_m: Option<f64>,
 }
 
-/// Girths and lengths together: one flat set of names.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+/// Girths and lengths together: one flat set of names, written in millimetres and litres.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
-    /// Girths and their levels.
-    #[serde(flatten)]
+    /// Girths and their levels, those of the limbs among them.
     pub girths: Girths,
-    /// Lengths and limbs.
-    #[serde(flatten)]
+    /// Lengths.
     pub lengths: Lengths,
+}
+
+impl serde::Serialize for Measured {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let lengths = &self.lengths;
+        let lengths = [
+            ("cervicale_height_mm", Some(lengths.cervicale_height_m)),
+            ("back_waist_length_mm", lengths.back_waist_length_m),
+            ("front_waist_length_mm", lengths.front_waist_length_m),
+            ("total_crotch_length_mm", lengths.total_crotch_length_m),
+            ("calf_level_mm", lengths.calf_level_m),
+        ];
+        let lengths = lengths.into_iter().map(|(key, length)| (key, length.map(mm)));
+        serializer.collect_map(self.girths.entries().chain(lengths))
+    }
 }
 
 /// Heights between which calf and ankle are sought, over the height of the crotch.
 const CALF: [f64; 2] = [0.38, 0.60];
 const ANKLE: [f64; 2] = [0.10, 0.30];
 
-/// Measures the lengths of an upright body mesh in the world frame.
+/// Measures the lengths of an upright body mesh in the world frame, beside its girths: those of the limbs are added to them.
 ///
 /// # Errors
 /// Those of [`super::measure`].
-pub fn lengths(mesh: &TriMesh, sex: Option<Sex>) -> Result<Lengths, BodyError> {
+pub fn lengths(mesh: &TriMesh, sex: Option<Sex>, mut girths: Girths) -> Result<Measured, BodyError> {
     let (sites, _) = measure::find_sites(mesh, sex)?;
     let median = median_section(mesh, &sites);
     let front_neck = landmarks::front_neck(mesh, &sites);
@@ -64,17 +69,18 @@ pub fn lengths(mesh: &TriMesh, sex: Option<Sex>) -> Result<Lengths, BodyError> {
         let plane = arm.across(arm.wrist());
         tape::girth_round(mesh, plane.origin, plane.normal())
     });
-    Ok(Lengths {
-        cervicale_height_mm: mm(sites.back_neck.z - sites.floor),
-        back_waist_length_mm: taut(&median, sites.back_neck, sites.waist, -1.0).map(mm),
-        front_waist_length_mm: front_neck.and_then(|top| taut(&median, top, sites.waist, 1.0)).map(mm),
-        total_crotch_length_mm: crotch_length(&median, sites.waist).map(mm),
-        arm_length_mm: arm.as_ref().map(|arm| mm(arm_length(arm, sites.shoulder[0]))),
-        wrist_girth_mm: wrist.map(mm),
-        calf_girth_mm: calf.map(|(_, girth)| mm(girth)),
-        calf_level_mm: calf.map(|(z, _)| mm(z - sites.floor)),
-        ankle_girth_mm: ankle.map(|(_, girth)| mm(girth)),
-    })
+    girths.set(Dimension::CalfGirth, calf.map(|(_, girth)| girth));
+    girths.set(Dimension::AnkleGirth, ankle.map(|(_, girth)| girth));
+    girths.set(Dimension::WristGirth, wrist);
+    girths.set(Dimension::ArmLength, arm.as_ref().map(|arm| arm_length(arm, sites.shoulder[0])));
+    let lengths = Lengths {
+        cervicale_height_m: sites.back_neck.z - sites.floor,
+        back_waist_length_m: taut(&median, sites.back_neck, sites.waist, -1.0),
+        front_waist_length_m: front_neck.and_then(|top| taut(&median, top, sites.waist, 1.0)),
+        total_crotch_length_m: crotch_length(&median, sites.waist),
+        calf_level_m: calf.map(|(z, _)| z - sites.floor),
+    };
+    Ok(Measured { girths, lengths })
 }
 
 /// The points of the median section of the trunk: forward and up.

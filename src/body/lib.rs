@@ -14,6 +14,7 @@ mod draw;
 mod field;
 mod figure;
 mod fit;
+mod girths;
 mod import;
 mod interpolate;
 mod landmarks;
@@ -47,13 +48,15 @@ pub use control::{ControlMesh, Layer, RING, Region};
 pub use control_file::{ControlFile, read_control, write_control};
 pub use dimension::{Dimension, Measurements};
 pub use draw::{person, scores};
+pub use girths::Girths;
 pub use import::{Imported, LengthUnit, import, write_obj};
 pub use lengths::{Lengths, Measured, lengths};
-pub use measure::{Girths, measure};
+pub use measure::measure;
 pub use pictures::{Camera, Pictured, PicturedLevel, from_pictures, picture_height};
 pub use pose::{Pose, pose};
 pub use scan::{Scan, from_scan};
 
+use geom::units::mm;
 use geom::{TriMesh, V3};
 
 /// Why no body could be made or measured.
@@ -75,13 +78,14 @@ pub enum BodyError {
     },
     /// The mesh has no section where the body part should be.
     #[error(
-        "no {part} found at a height of {height_mm:.0} mm: is this a standing person, z up, with the feet on z = 0?"
+        "no {part} found at a height of {:.0} mm: is this a standing person, z up, with the feet on z = 0?",
+        mm(*height_m)
     )]
     MissingPart {
         /// Body part.
         part: &'static str,
-        /// Height of the search, mm.
-        height_mm: f64,
+        /// Height of the search, m.
+        height_m: f64,
     },
     /// Two measurements that no adult has together.
     #[error("{found} does not go with {with}: no adult has both; accepted with it: {least:.0} to {greatest:.0} {unit}")]

@@ -1,10 +1,9 @@
 //! The tape on limbs whose axes are known.
 
 use super::figure::Figure;
-use super::measure::{Girths, Sites, steps};
-use super::tape;
+use super::measure::{Sites, steps};
+use super::{Dimension, Girths, tape};
 use geom::section::{Outline, Plane, section};
-use geom::units::mm;
 use geom::{TriMesh, V2, V3};
 
 /// Half of the heights over stature among which the greatest calf and the smallest ankle are looked for.
@@ -46,16 +45,16 @@ impl LimbSites {
         let h = self.stature;
         let shank = mesh.part(|p| p.z < self.knee + 0.03 * h && p.x > 0.0);
         let leg = |z: f64| leg_girth(&shank, z);
-        girths.knee_girth_mm = leg(self.knee).map(mm);
+        girths.set(Dimension::KneeGirth, leg(self.knee));
         let calf = steps(self.calf - CALF_REACH * h, self.calf + CALF_REACH * h, 6).filter_map(leg);
-        girths.calf_girth_mm = calf.max_by(f64::total_cmp).map(mm);
+        girths.set(Dimension::CalfGirth, calf.max_by(f64::total_cmp));
         let ankle = steps((ANKLE - ANKLE_REACH) * h, (ANKLE + ANKLE_REACH) * h, 4).filter_map(leg);
-        girths.ankle_girth_mm = ankle.min_by(f64::total_cmp).map(mm);
+        girths.set(Dimension::AnkleGirth, ankle.min_by(f64::total_cmp));
         let arm = mesh.part(|p| (p - self.forearm).norm() < 0.2 * h);
-        let round = |centre: V3| tape::girth_round(&arm, centre, self.axes[2]).map(mm);
-        girths.forearm_girth_mm = round(self.forearm);
-        girths.wrist_girth_mm = round(self.wrist);
-        girths.arm_length_mm = self.arm_length(&arm).map(mm);
+        let round = |centre: V3| tape::girth_round(&arm, centre, self.axes[2]);
+        girths.set(Dimension::ForearmGirth, round(self.forearm));
+        girths.set(Dimension::WristGirth, round(self.wrist));
+        girths.set(Dimension::ArmLength, self.arm_length(&arm));
     }
 
     /// From the shoulder point over the outside of the elbow to that of the wrist, metres.

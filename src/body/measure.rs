@@ -3,84 +3,9 @@
 use super::landmarks::{Side, crotch, median_point, shoulder_top};
 use super::slices::{Sliced, Slices};
 use super::tape::{self, Neck};
-use super::{BodyError, Levels, Measurements, Sex};
-use crate::Dimension;
+use super::{BodyError, Dimension, Girths, Levels, Sex};
 use geom::section::{Plane, section};
-use geom::units::{from_mm, mm};
 use geom::{TriMesh, V2, V3};
-
-/// Measurements of a body as a tape takes them; the keys of `body measure`. Millimetres and litres.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[allow(missing_docs)]
-pub struct Girths {
-    pub stature_mm: f64,
-    pub neck_girth_mm: f64,
-    pub chest_girth_mm: f64,
-    pub underbust_girth_mm: f64,
-    pub waist_girth_mm: f64,
-    pub hip_girth_mm: f64,
-    pub thigh_girth_mm: f64,
-    /// Absent where the arm cannot be told from the trunk.
-    pub upper_arm_girth_mm: Option<f64>,
-    /// The following five and the arm's length are read where the limbs' axes are known: on bodies built from measurements.
-    #[serde(default)]
-    pub knee_girth_mm: Option<f64>,
-    #[serde(default)]
-    pub calf_girth_mm: Option<f64>,
-    #[serde(default)]
-    pub ankle_girth_mm: Option<f64>,
-    #[serde(default)]
-    pub forearm_girth_mm: Option<f64>,
-    #[serde(default)]
-    pub wrist_girth_mm: Option<f64>,
-    #[serde(default)]
-    pub arm_length_mm: Option<f64>,
-    pub across_shoulder_mm: f64,
-    pub inseam_mm: f64,
-    pub volume_l: f64,
-    pub neck_level_mm: f64,
-    pub chest_level_mm: f64,
-    pub underbust_level_mm: f64,
-    pub waist_level_mm: f64,
-    pub hip_level_mm: f64,
-    pub thigh_level_mm: f64,
-    pub upper_arm_level_mm: Option<f64>,
-    pub shoulder_level_mm: f64,
-    pub crotch_level_mm: f64,
-}
-
-impl Girths {
-    /// The measurements of a subject with these girths, as a study holds them.
-    #[must_use]
-    pub fn measurements(&self, sex: Sex) -> Measurements {
-        let girth = |mm: f64| Some(from_mm(mm));
-        Measurements::of(sex, from_mm(self.stature_mm))
-            .with(Dimension::ChestGirth, girth(self.chest_girth_mm))
-            .with(Dimension::WaistGirth, girth(self.waist_girth_mm))
-            .with(Dimension::HipGirth, girth(self.hip_girth_mm))
-            .with(Dimension::NeckGirth, girth(self.neck_girth_mm))
-            .with(Dimension::AcrossShoulder, girth(self.across_shoulder_mm))
-    }
-}
-
-impl Girths {
-    /// The same girths on a body moved down by some metres; stature and inseam are those of the body standing upright.
-    pub(super) fn lower(&mut self, down_m: f64) {
-        let upper_arm = self.upper_arm_level_mm.iter_mut();
-        for level in upper_arm.chain([
-            &mut self.neck_level_mm,
-            &mut self.chest_level_mm,
-            &mut self.underbust_level_mm,
-            &mut self.waist_level_mm,
-            &mut self.hip_level_mm,
-            &mut self.thigh_level_mm,
-            &mut self.shoulder_level_mm,
-            &mut self.crotch_level_mm,
-        ]) {
-            *level -= mm(down_m);
-        }
-    }
-}
 
 /// Where on a mesh the tape is laid, metres.
 #[derive(Clone, Debug, PartialEq)]
@@ -135,8 +60,7 @@ pub fn measure(mesh: &TriMesh, sex: Option<Sex>) -> Result<Girths, BodyError> {
 
 /// Lays the tape at given sites.
 pub(super) fn girths_at(mesh: &TriMesh, sites: &Sites) -> Result<Girths, BodyError> {
-    let trunk = |part, z| tape::trunk_girth(mesh, z, sites.middle).map(mm).ok_or_else(|| missing(part, z));
-    let level = |z: f64| mm(z - sites.floor);
+    let trunk = |part, z| tape::trunk_girth(mesh, z, sites.middle).ok_or_else(|| missing(part, z));
     let thigh_level = sites.crotch - THIGH_BELOW_CROTCH;
     let thighs = tape::right_limbs(mesh, thigh_level, sites.middle);
     let thigh = thighs
@@ -147,41 +71,29 @@ pub(super) fn girths_at(mesh: &TriMesh, sites: &Sites) -> Result<Girths, BodyErr
     let across_shoulder =
         tape::tape_over(mesh, right, sites.back_neck, left).ok_or_else(|| missing("shoulder", right.z))?;
     let upper_arm = sites.upper_arm.and_then(|(point, along)| Some((tape::girth_round(mesh, point, along)?, point.z)));
-    Ok(Girths {
-        stature_mm: mm(sites.crown - sites.floor),
-        neck_girth_mm: mm(sites.neck.girth),
-        chest_girth_mm: trunk("chest", sites.chest)?,
-        underbust_girth_mm: trunk("underbust", sites.underbust)?,
-        waist_girth_mm: trunk("waist", sites.waist)?,
-        hip_girth_mm: trunk("hip", sites.hip)?,
-        thigh_girth_mm: mm(tape::girth(thigh)),
-        upper_arm_girth_mm: upper_arm.map(|(girth, _)| mm(girth)),
-        knee_girth_mm: None,
-        calf_girth_mm: None,
-        ankle_girth_mm: None,
-        forearm_girth_mm: None,
-        wrist_girth_mm: None,
-        arm_length_mm: None,
-        across_shoulder_mm: mm(across_shoulder),
-        inseam_mm: level(sites.crotch),
-        volume_l: mesh.volume() * 1e3,
-        neck_level_mm: level(sites.neck.height),
-        chest_level_mm: level(sites.chest),
-        underbust_level_mm: level(sites.underbust),
-        waist_level_mm: level(sites.waist),
-        hip_level_mm: level(sites.hip),
-        thigh_level_mm: level(thigh_level),
-        upper_arm_level_mm: upper_arm.map(|(_, z)| level(z)),
-        shoulder_level_mm: level((right.z + left.z) / 2.0),
-        crotch_level_mm: level(sites.crotch),
-    })
+    let mut girths = Girths::of(mesh.volume());
+    let mut note = |dimension, value: Option<f64>, z: Option<f64>| {
+        girths.set(dimension, value);
+        girths.set_level(dimension, z.map(|z| z - sites.floor));
+    };
+    note(Dimension::Stature, Some(sites.crown - sites.floor), None);
+    note(Dimension::NeckGirth, Some(sites.neck.girth), Some(sites.neck.height));
+    note(Dimension::ChestGirth, Some(trunk("chest", sites.chest)?), Some(sites.chest));
+    note(Dimension::UnderbustGirth, Some(trunk("underbust", sites.underbust)?), Some(sites.underbust));
+    note(Dimension::WaistGirth, Some(trunk("waist", sites.waist)?), Some(sites.waist));
+    note(Dimension::HipGirth, Some(trunk("hip", sites.hip)?), Some(sites.hip));
+    note(Dimension::ThighGirth, Some(tape::girth(thigh)), Some(thigh_level));
+    note(Dimension::UpperArmGirth, upper_arm.map(|(girth, _)| girth), upper_arm.map(|(_, z)| z));
+    note(Dimension::AcrossShoulder, Some(across_shoulder), Some((right.z + left.z) / 2.0));
+    note(Dimension::Inseam, Some(sites.crotch - sites.floor), Some(sites.crotch));
+    Ok(girths)
 }
 
 /// The thigh is measured this far below the crotch, metres.
 const THIGH_BELOW_CROTCH: f64 = 0.02;
 
 fn missing(part: &'static str, z: f64) -> BodyError {
-    BodyError::MissingPart { part, height_mm: mm(z) }
+    BodyError::MissingPart { part, height_m: z }
 }
 
 /// Finds the places to measure on the mesh itself, and the sex where it is not given.

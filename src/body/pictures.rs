@@ -5,7 +5,6 @@ use super::segment;
 use super::silhouette::Mask;
 use super::{BodyError, Measurements, Sex};
 use crate::Dimension;
-use geom::units::mm;
 use image::DynamicImage;
 use std::io::Cursor;
 
@@ -46,27 +45,27 @@ impl Camera {
 }
 
 /// What two pictures tell of a body: heights, widths and depths of its girth levels, and its girths.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Pictured {
     /// Sex, stature and the girths found, ready for [`super::build`].
     pub measurements: Measurements,
-    /// Neck, chest, waist and hip: height, width, depth and girth, millimetres.
+    /// Neck, chest, waist and hip: height, width, depth and girth.
     pub levels: Vec<PicturedLevel>,
-    /// Height of the crotch, mm.
-    pub crotch_level_mm: f64,
+    /// Height of the crotch, m.
+    pub crotch_level_m: f64,
     /// What had to be assumed, as sentences for the user.
     pub notes: Vec<String>,
 }
 
-/// One girth level read from two pictures, millimetres.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+/// One girth level read from two pictures, metres.
+#[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub struct PicturedLevel {
     pub name: &'static str,
-    pub level_mm: f64,
-    pub width_mm: f64,
-    pub depth_mm: f64,
-    pub girth_mm: f64,
+    pub level_m: f64,
+    pub width_m: f64,
+    pub depth_m: f64,
+    pub girth_m: f64,
 }
 
 /// Reads a body from a front and a side picture (PNG or JPEG: photographs against a plain background, or black and
@@ -93,10 +92,10 @@ pub fn from_pictures(
     let girths = found.map(|section| section.girth(sex));
     let levels = found.iter().zip(girths).map(|(section, girth)| PicturedLevel {
         name: section.level.name(),
-        level_mm: mm(section.height),
-        width_mm: mm(section.width),
-        depth_mm: mm(section.depth),
-        girth_mm: mm(girth),
+        level_m: section.height,
+        width_m: section.width,
+        depth_m: section.depth,
+        girth_m: girth,
     });
     let levels = levels.collect();
     let [neck, chest, waist, hip] = girths.map(Some);
@@ -105,7 +104,7 @@ pub fn from_pictures(
         .with(Dimension::WaistGirth, waist)
         .with(Dimension::HipGirth, hip)
         .with(Dimension::NeckGirth, neck);
-    Ok(Pictured { measurements, levels, crotch_level_mm: mm(outlines.crotch), notes })
+    Ok(Pictured { measurements, levels, crotch_level_m: outlines.crotch, notes })
 }
 
 pub(super) fn refused(view: &'static str, problem: impl Into<String>) -> BodyError {

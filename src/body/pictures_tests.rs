@@ -1,6 +1,6 @@
 use super::*;
 use crate::Dimension;
-use crate::testing::{Taken, placed, png, silhouette};
+use crate::testing::{Taken, in_mm, placed, png, silhouette};
 use geom::V3;
 
 /// The reference bodies beside the project, where they are.
@@ -89,9 +89,9 @@ fn silhouettes_of_built_bodies_give_their_girths() {
             let [front, side] = silhouettes(&body.mesh, taken, size);
             let found = from_pictures(&png(&front), &png(&side), camera.as_ref(), sex, stature_m).expect("a person");
             let g = &body.girths;
-            let truth = [g.neck_girth_mm, g.chest_girth_mm, g.waist_girth_mm, g.hip_girth_mm];
+            let truth = ["neck", "chest", "waist", "hip"].map(|level| in_mm(g, &format!("{level}_girth_mm")));
             for (level, truth) in found.levels.iter().zip(truth) {
-                off.entry(level.name).or_default().push(level.girth_mm - truth);
+                off.entry(level.name).or_default().push(level.girth_m * 1e3 - truth);
             }
         }
         for (name, errors) in off {

@@ -1,7 +1,7 @@
 //! Bodies from scans: aligned, cleaned, repaired and measured.
 
-use super::measure::{self, Girths};
-use super::{Body, BodyError, Imported, LengthUnit, Sex, import, repair, scanned};
+use super::measure;
+use super::{Body, BodyError, Girths, Imported, LengthUnit, Sex, import, repair, scanned};
 use geom::V3;
 
 /// A trunk farther before or behind the origin than this is moved over it, metres.

@@ -11,7 +11,6 @@ use super::measure::{self, Sites};
 use super::tape;
 use super::{Body, BodyError, Landmarks, Sex};
 use geom::section::Plane;
-use geom::units::mm;
 use geom::{TriMesh, V3};
 
 /// Everything of a measured, closed scan in the world frame that a [`Body`] holds.
@@ -56,7 +55,7 @@ impl Half {
 }
 
 fn missing(part: &'static str, z: f64) -> BodyError {
-    BodyError::MissingPart { part, height_mm: mm(z) }
+    BodyError::MissingPart { part, height_m: z }
 }
 
 fn mirror(p: V3) -> V3 {
