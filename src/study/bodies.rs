@@ -1,6 +1,5 @@
 //! Bodies without a study: built, scanned, seen in pictures, posed, measured, drawn.
 
-use body::Dimension;
 use std::path::Path;
 
 use crate::error::{Result, StudyError};
@@ -8,7 +7,8 @@ use crate::files::SourceFile;
 use render::{self, Camera, Frame, Layer, Material, Scene, View};
 
 pub use body::{
-    Body, Doubt, Girths, LengthUnit, Mass, Measured, Measurements, Pictured, PicturedLevel, Pose, Scan, Sex, write_obj,
+    Body, Dimension, Doubt, Girths, LengthUnit, Mass, Measured, Measurements, Pictured, PicturedLevel, Pose, Scan, Sex,
+    write_obj,
 };
 
 /// A body built from measurements.

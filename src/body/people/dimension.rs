@@ -89,10 +89,16 @@ impl Dimension {
         self.facts().1
     }
 
+    /// What is measured, in words, where the name alone would not do.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        self.facts().2
+    }
+
     /// Least and greatest accepted value, m or kg: wider than the range of the adults of the survey.
     #[must_use]
     pub fn range(self) -> [f64; 2] {
-        self.facts().2
+        self.facts().3
     }
 
     /// How many of the unit of the key make one SI unit.
@@ -107,28 +113,34 @@ impl Dimension {
         if self == Self::Weight { "kg" } else { "mm" }
     }
 
-    /// Key, name and accepted range.
-    const fn facts(self) -> (&'static str, &'static str, [f64; 2]) {
+    /// Key, name, what it is in words, and accepted range.
+    const fn facts(self) -> (&'static str, &'static str, &'static str, [f64; 2]) {
         match self {
-            Self::Stature => ("stature_mm", "stature", [1.30, 2.20]),
-            Self::Weight => ("weight_kg", "weight", [30.0, 220.0]),
-            Self::ChestGirth => ("chest_girth_mm", "chest girth", [0.60, 1.70]),
-            Self::WaistGirth => ("waist_girth_mm", "waist girth", [0.45, 1.70]),
-            Self::HipGirth => ("hip_girth_mm", "hip girth", [0.65, 1.75]),
-            Self::NeckGirth => ("neck_girth_mm", "neck girth", [0.25, 0.58]),
-            Self::AcrossShoulder => ("across_shoulder_mm", "across shoulder", [0.30, 0.60]),
-            Self::ThighGirth => ("thigh_girth_mm", "thigh girth", [0.32, 1.05]),
-            Self::KneeGirth => ("knee_girth_mm", "knee girth", [0.22, 0.66]),
-            Self::CalfGirth => ("calf_girth_mm", "calf girth", [0.22, 0.62]),
-            Self::AnkleGirth => ("ankle_girth_mm", "ankle girth", [0.15, 0.38]),
-            Self::UpperArmGirth => ("upper_arm_girth_mm", "upper arm girth", [0.16, 0.60]),
-            Self::ForearmGirth => ("forearm_girth_mm", "forearm girth", [0.16, 0.45]),
-            Self::WristGirth => ("wrist_girth_mm", "wrist girth", [0.11, 0.25]),
-            Self::Inseam => ("inseam_mm", "inseam", [0.50, 1.10]),
-            Self::ArmLength => ("arm_length_mm", "arm length", [0.38, 0.80]),
-            Self::FootLength => ("foot_length_mm", "foot length", [0.18, 0.36]),
-            Self::ShoulderBreadth => ("shoulder_breadth_mm", "shoulder breadth", [0.30, 0.80]),
-            Self::UnderbustGirth => ("underbust_girth_mm", "under-bust girth", [0.50, 1.60]),
+            Self::Stature => ("stature_mm", "stature", "Stature", [1.30, 2.20]),
+            Self::Weight => ("weight_kg", "weight", "Body mass", [30.0, 220.0]),
+            Self::ChestGirth => ("chest_girth_mm", "chest girth", "Chest or bust girth", [0.60, 1.70]),
+            Self::WaistGirth => ("waist_girth_mm", "waist girth", "Waist girth", [0.45, 1.70]),
+            Self::HipGirth => ("hip_girth_mm", "hip girth", "Hip girth", [0.65, 1.75]),
+            Self::NeckGirth => ("neck_girth_mm", "neck girth", "Neck girth", [0.25, 0.58]),
+            Self::AcrossShoulder => {
+                ("across_shoulder_mm", "across shoulder", "Width across the shoulders", [0.30, 0.60])
+            }
+            Self::ThighGirth => ("thigh_girth_mm", "thigh girth", "Thigh girth, just below the crotch", [0.32, 1.05]),
+            Self::KneeGirth => ("knee_girth_mm", "knee girth", "Knee girth", [0.22, 0.66]),
+            Self::CalfGirth => ("calf_girth_mm", "calf girth", "Calf girth", [0.22, 0.62]),
+            Self::AnkleGirth => ("ankle_girth_mm", "ankle girth", "Ankle girth", [0.15, 0.38]),
+            Self::UpperArmGirth => ("upper_arm_girth_mm", "upper arm girth", "Upper arm girth, relaxed", [0.16, 0.60]),
+            Self::ForearmGirth => ("forearm_girth_mm", "forearm girth", "Forearm girth, relaxed", [0.16, 0.45]),
+            Self::WristGirth => ("wrist_girth_mm", "wrist girth", "Wrist girth", [0.11, 0.25]),
+            Self::Inseam => ("inseam_mm", "inseam", "Inside leg height", [0.50, 1.10]),
+            Self::ArmLength => {
+                ("arm_length_mm", "arm length", "Shoulder point over the elbow to the wrist", [0.38, 0.80])
+            }
+            Self::FootLength => ("foot_length_mm", "foot length", "Foot length", [0.18, 0.36]),
+            Self::ShoulderBreadth => {
+                ("shoulder_breadth_mm", "shoulder breadth", "Breadth over the upper arms", [0.30, 0.80])
+            }
+            Self::UnderbustGirth => ("underbust_girth_mm", "under-bust girth", "Under-bust girth", [0.50, 1.60]),
         }
     }
 }
