@@ -55,11 +55,36 @@ fn broken_files_are_refused_with_their_place() {
     check(write_obj(&scaled(&block(), 9.0)).as_bytes(), "no adult");
 }
 
+#[test]
+fn stl_is_told_from_its_bytes_and_damage_has_its_place() {
+    let good = binary_stl(&scaled(&block(), 1000.0));
+    let named = |bytes: &[u8]| [b"solid made by a scanner ", &bytes[24..]].concat();
+    let check = |bytes: &[u8], places: &[&str]| {
+        let error = import(bytes, None).expect_err("damaged").to_string();
+        assert!(places.iter().all(|place| error.contains(place)), "{error}");
+    };
+    assert_eq!(import(&named(&good), None).expect("a good file").mesh.triangles.len(), 4);
+    for bytes in [good.clone(), named(&good)] {
+        check(&bytes[..bytes.len() - 60], &["STL, facet 3", "4 facets are announced, the file has 2"]);
+        check(&[&bytes[..], &[0; 60]].concat(), &["STL, facet 5", "the file has 5"]);
+        check(&bytes[..84], &["STL, facet 1", "the file has 0"]);
+    }
+    let text = ascii_stl(&block());
+    let twice = [&text[..], &ascii_stl(&scaled(&block(), 1.1))].concat();
+    assert_eq!(read(&twice).expect("two solids").triangles.len(), 8);
+    let half = String::from_utf8(text).expect("text").replacen("endloop", "", 1);
+    let cut = &half[..half.rfind("vertex").expect("a vertex")];
+    check(cut.as_bytes(), &["STL, end of file", "fewer than three vertices"]);
+}
+
 proptest! {
     #[test]
     fn no_bytes_make_an_importer_fail(head in "(ply\nformat ascii 1.0\n|solid |v 1 2 3\nf |)", tail in proptest::collection::vec(any::<u8>(), 0..400)) {
         let mut bytes = head.into_bytes();
         bytes.extend(tail);
+        let _ = import(&bytes, None);
+        bytes.resize(bytes.len().max(84), 0);
+        bytes[83] = 0;
         let _ = import(&bytes, None);
     }
 

@@ -1,4 +1,5 @@
-//! STL, ASCII and binary.
+//! STL, ASCII and binary, by our own reader: the crate `stl_io` names no line, drops every solid but the first, and rounds ASCII
+//! numbers to single precision.
 
 use super::import::{file_error, merge_equal_vertices};
 use crate::BodyError;
@@ -8,33 +9,34 @@ use geom::{TriMesh, V3};
 const HEADER: usize = 84;
 const FACET: usize = 50;
 
-/// Whether these bytes are STL: the length fits a binary file's count, or the text begins like an ASCII file.
+/// Whether these bytes are STL.
 pub(super) fn is_stl(bytes: &[u8]) -> bool {
-    fits_binary(bytes) || bytes.trim_ascii_start().starts_with(b"solid")
+    is_binary(bytes) || bytes.trim_ascii_start().starts_with(b"solid")
 }
 
-/// Facets of a binary file by its count, of an ASCII file by its length.
+/// Facets that a binary file announces, and that an ASCII file of its length may have.
 pub(super) fn announced_faces(bytes: &[u8]) -> usize {
     /// Fewest bytes that a facet of an ASCII file takes.
     const ASCII_FACET: usize = 100;
-    if fits_binary(bytes) { (bytes.len() - HEADER) / FACET } else { bytes.len() / (4 * ASCII_FACET) }
+    if is_binary(bytes) { count(bytes) } else { bytes.len() / (4 * ASCII_FACET) }
 }
 
-fn fits_binary(bytes: &[u8]) -> bool {
-    count(bytes).is_some_and(|count| count.checked_mul(FACET).and_then(|n| n.checked_add(HEADER)) == Some(bytes.len()))
+/// Whether the count of facets ends in a zero byte, as any below 16 million does and no text: a header may begin with `solid` too.
+fn is_binary(bytes: &[u8]) -> bool {
+    bytes.get(HEADER - 1) == Some(&0)
 }
 
-fn count(bytes: &[u8]) -> Option<usize> {
-    let number = bytes.get(HEADER - 4..HEADER)?;
-    Some(u32::from_le_bytes(number.try_into().ok()?) as usize)
+/// Facets by the header of a binary file.
+fn count(bytes: &[u8]) -> usize {
+    bytes[HEADER - 4..HEADER].iter().rev().fold(0, |count, byte| count << 8 | usize::from(*byte))
 }
 
 /// Reads a file and joins the corners of its facets.
 ///
 /// # Errors
-/// [`BodyError::File`] with the line of an ASCII file.
+/// [`BodyError::File`] with the line of an ASCII file, the facet of a binary one.
 pub(super) fn read(bytes: &[u8]) -> Result<TriMesh, BodyError> {
-    let corners = if fits_binary(bytes) { binary_corners(bytes) } else { ascii_corners(bytes)? };
+    let corners = if is_binary(bytes) { binary_corners(bytes)? } else { ascii_corners(bytes)? };
     if corners.len() % 3 != 0 {
         return Err(file_error("STL", "end of file", "the last facet has fewer than three vertices"));
     }
@@ -42,17 +44,16 @@ pub(super) fn read(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     Ok(merge_equal_vertices(&TriMesh { positions: corners, triangles }))
 }
 
-fn binary_corners(bytes: &[u8]) -> Vec<V3> {
-    let facets = bytes[HEADER..].chunks_exact(FACET);
+fn binary_corners(bytes: &[u8]) -> Result<Vec<V3>, BodyError> {
+    let (announced, facets) = (count(bytes), bytes[HEADER..].chunks(FACET));
+    if bytes.len() != HEADER + announced * FACET {
+        let whole = (bytes.len() - HEADER) / FACET;
+        let problem = format!("{announced} facets are announced, the file has {whole}");
+        return Err(file_error("STL", &format!("facet {}", announced.min(whole) + 1), &problem));
+    }
     let number = |b: &[u8]| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]));
-    facets
-        .flat_map(|facet| {
-            facet[12..48]
-                .chunks_exact(12)
-                .map(|c| V3::new(number(c), number(&c[4..]), number(&c[8..])))
-                .collect::<Vec<_>>()
-        })
-        .collect()
+    let corner = |c: &[u8]| V3::new(number(c), number(&c[4..]), number(&c[8..]));
+    Ok(facets.flat_map(|facet| facet[12..48].chunks_exact(12).map(corner)).collect())
 }
 
 fn ascii_corners(bytes: &[u8]) -> Result<Vec<V3>, BodyError> {
