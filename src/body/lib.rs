@@ -1,160 +1,46 @@
 //! The human model (HMM, thesis 3.2): from measurements to a measured, featured, closed mannequin.
+//!
+//! Rooms, from the ground up; each uses only those before it:
+//!
+//! | room | holds |
+//! |---|---|
+//! | `people` | dimensions, the survey of adults, the person behind some measurements |
+//! | `repair` | surfaces made whole: strays, floor, holes, branches |
+//! | `measure` | the tape: features, levels, girths, lengths |
+//! | `shape` | sections, limbs and trunk lofted through them, the skin over all |
+//! | `model` | the mannequin: built, fitted to the tape, its control mesh |
+//! | `files`, `photo` | bodies from files, and from pictures |
+//! | `scan`, `pose` | a scan that wears garments; another pose |
 
-mod align;
-mod anthropometry;
-mod arm;
-mod atlas;
-mod build;
-mod clean;
-mod control;
-mod control_cut;
-mod control_file;
-mod dimension;
-mod draw;
-mod field;
-mod figure;
-mod fit;
-mod import;
-mod interpolate;
-mod landmarks;
-mod lengths;
-mod limb_tape;
-mod limbs;
-mod loft;
-mod manifold;
+mod error;
+mod files;
 mod measure;
-mod outline;
-mod pictures;
+mod model;
+mod people;
+mod photo;
 mod pose;
 mod repair;
 mod scan;
-mod scanned;
-mod sections;
-mod segment;
-mod silhouette;
-mod slices;
-mod stl;
-mod surface;
-mod survey;
-mod tape;
-mod template;
+mod shape;
 #[cfg(test)]
 mod testing;
 
-pub use anthropometry::{Doubt, Mass, percentile, plausibility};
-pub use build::build;
-pub use control::{ControlMesh, Layer, RING, Region};
-pub use control_file::{ControlFile, read_control, write_control};
-pub use dimension::{Dimension, Measurements};
-pub use draw::{person, scores};
-pub use import::{Imported, LengthUnit, import, write_obj};
-pub use lengths::{Lengths, Measured, lengths};
-pub use measure::{Girths, measure};
-pub use pictures::{Camera, Pictured, PicturedLevel, from_pictures, picture_height};
+pub use error::BodyError;
+pub use files::import::{Imported, LengthUnit, import, write_obj};
+pub use measure::girths::Girths;
+pub use measure::lengths::{Lengths, Measured, lengths};
+pub use measure::sites::measure;
+pub use model::build::build;
+pub use model::control::{ControlMesh, Layer, RING, Region};
+pub use model::control_file::{ControlFile, read_control, write_control};
+pub use people::dimension::{Dimension, Measurements};
+pub use people::draw::{person, scores};
+pub use people::profile::{Doubt, Mass, percentile, plausibility};
+pub use photo::pictures::{Camera, Pictured, PicturedLevel, from_pictures, picture_height};
 pub use pose::{Pose, pose};
 pub use scan::{Scan, from_scan};
 
 use geom::{TriMesh, V3};
-
-/// Why no body could be made or measured.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum BodyError {
-    /// A measurement that no adult has.
-    #[error("{name} = {value} {unit} is impossible; accepted: {least} to {greatest} {unit}")]
-    OutOfRange {
-        /// Key of the measurement.
-        name: &'static str,
-        /// What was given.
-        value: f64,
-        /// Least accepted value.
-        least: f64,
-        /// Greatest accepted value.
-        greatest: f64,
-        /// Unit of the numbers.
-        unit: &'static str,
-    },
-    /// The mesh has no section where the body part should be.
-    #[error(
-        "no {part} found at a height of {height_mm:.0} mm: is this a standing person, z up, with the feet on z = 0?"
-    )]
-    MissingPart {
-        /// Body part.
-        part: &'static str,
-        /// Height of the search, mm.
-        height_mm: f64,
-    },
-    /// Two measurements that no adult has together.
-    #[error("{found} does not go with {with}: no adult has both; accepted with it: {least:.0} to {greatest:.0} {unit}")]
-    Contradiction {
-        /// The measurement with its value.
-        found: String,
-        /// The other one, with its value.
-        with: String,
-        /// Least accepted value.
-        least: f64,
-        /// Greatest accepted value.
-        greatest: f64,
-        /// Unit of the numbers.
-        unit: &'static str,
-    },
-    /// Measurements that are possible each, but not of one body.
-    #[error("these measurements do not make one body ({reason}); accepted: girths that one adult has together")]
-    Inconsistent {
-        /// What cannot be formed, or which measurement is not reached.
-        reason: String,
-    },
-    /// A mesh file that cannot be read.
-    #[error("{format}, {place}: {problem}; accepted: OBJ, PLY or STL with triangles or polygons")]
-    File {
-        /// Format of the file.
-        format: &'static str,
-        /// Line, vertex or face.
-        place: String,
-        /// What is wrong there.
-        problem: String,
-    },
-    /// A picture that no body can be read from.
-    #[error(
-        "the {view} picture cannot be used: {problem}; accepted: one standing person, arms off the trunk, wholly seen before a plain background"
-    )]
-    Picture {
-        /// Front or side.
-        view: &'static str,
-        /// What is wrong.
-        problem: String,
-    },
-    /// Limbs that cannot be brought where they were asked.
-    #[error("no such pose: {problem}")]
-    Pose {
-        /// What cannot be done, and what can.
-        problem: String,
-    },
-    /// A surface that cannot bound a solid body.
-    #[error("the surface does not close: {problem}; accepted: one whole body, its holes under 0.9 m round")]
-    Open {
-        /// What is open.
-        problem: String,
-    },
-    /// More than one body.
-    #[error(
-        "two pieces of a like size: several bodies, or halves that are not joined; accepted: one body in one piece"
-    )]
-    Several,
-    /// A mesh that is no adult in the unit given.
-    #[error("the body is {extent:.4} {unit} high, which is no adult; accepted: 1.2 to 2.4 m; is the unit right?")]
-    WrongUnit {
-        /// Height in the unit given.
-        extent: f64,
-        /// The unit.
-        unit: &'static str,
-    },
-    /// A mesh whose size fits a standing adult in no unit.
-    #[error("the body is {extent} high, which is no adult in mm, cm or m; accepted: 1.2 to 2.4 m, or say the unit")]
-    Unit {
-        /// Height in the file's unit.
-        extent: f64,
-    },
-}
 
 /// Sex of the subject, as far as body shape and sizing tables distinguish it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -266,6 +152,6 @@ impl Body {
     #[must_use]
     pub fn tapes(&self) -> TriMesh {
         let Levels { chest_m, underbust_m, waist_m, hip_m, .. } = self.levels;
-        tape::bands(&self.mesh, &[chest_m, underbust_m, waist_m, hip_m], 0.0)
+        measure::tape::bands(&self.mesh, &[chest_m, underbust_m, waist_m, hip_m], 0.0)
     }
 }

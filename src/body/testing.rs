@@ -1,7 +1,13 @@
 //! What tests do to bodies: spoil them as scanners do, write them in every format, take their silhouettes.
 
+use crate::Girths;
 use geom::{TriMesh, V3};
 use std::fmt::Write as _;
+
+/// What is written of girths under a key.
+pub fn in_mm(girths: &Girths, key: &str) -> f64 {
+    girths.written(key).unwrap_or_else(|| panic!("{key} is not read"))
+}
 
 /// Repeatable numbers, evenly spread over -0.5 to 0.5.
 pub struct Noise(pub u64);

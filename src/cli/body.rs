@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 use super::args::{Body, BodyBuild, MeshUnit, Sex};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
-use geom::units::from_mm;
+use geom::units::{from_mm, mm};
 use study::View;
 use study::bodies;
 use study::bodies::{Lens, Measurements};
@@ -186,10 +186,10 @@ fn pictured(
         context.say(format_args!("{note}"));
     }
     for level in &found.levels {
-        let bodies::PicturedLevel { name, level_mm, width_mm, depth_mm, girth_mm } = level;
-        context.say(format_args!(
-            "{name}: {width_mm:.0} mm wide, {depth_mm:.0} mm deep at {level_mm:.0} mm, girth {girth_mm:.0} mm"
-        ));
+        let name = level.name;
+        let [width, depth, height, girth] = [level.width_m, level.depth_m, level.level_m, level.girth_m].map(mm);
+        context
+            .say(format_args!("{name}: {width:.0} mm wide, {depth:.0} mm deep at {height:.0} mm, girth {girth:.0} mm"));
     }
     Ok(found.measurements)
 }

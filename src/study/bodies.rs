@@ -1,6 +1,5 @@
 //! Bodies without a study: built, scanned, seen in pictures, posed, measured, drawn.
 
-use body::Dimension;
 use std::path::Path;
 
 use crate::error::{Result, StudyError};
@@ -8,7 +7,8 @@ use crate::files::SourceFile;
 use render::{self, Camera, Frame, Layer, Material, Scene, View};
 
 pub use body::{
-    Body, Doubt, Girths, LengthUnit, Mass, Measured, Measurements, Pictured, PicturedLevel, Pose, Scan, Sex, write_obj,
+    Body, Dimension, Doubt, Girths, LengthUnit, Mass, Measured, Measurements, Pictured, PicturedLevel, Pose, Scan, Sex,
+    write_obj,
 };
 
 /// A body built from measurements.
@@ -38,7 +38,7 @@ pub fn judge_body<'a>(measurements: &Measurements, body: &'a Body) -> Judgement<
     Judgement {
         girths: &body.girths,
         doubts: body::plausibility(measurements),
-        mass: Mass::of(body.girths.volume_l, measurements.get(Dimension::Weight)),
+        mass: Mass::of(body.girths.volume_l(), measurements.get(Dimension::Weight)),
     }
 }
 
@@ -55,8 +55,7 @@ pub fn read_scan(scan: &SourceFile, unit: Option<LengthUnit>, sex: Option<Sex>) 
 /// # Errors
 /// When a part of the body is not found.
 pub fn measured(scan: &Scan) -> Result<Measured> {
-    let lengths = body::lengths(&scan.imported.mesh, Some(scan.sex)).map_err(StudyError::stage("body"))?;
-    Ok(Measured { girths: scan.girths.clone(), lengths })
+    body::lengths(&scan.imported.mesh, Some(scan.sex), scan.girths.clone()).map_err(StudyError::stage("body"))
 }
 
 /// A scan as a body that wears garments.

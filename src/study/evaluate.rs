@@ -8,6 +8,7 @@ use std::path::Path;
 
 use crate::error::{Result, StudyError};
 use body::{Camera, Girths, Sex, from_pictures, from_scan};
+use geom::units::mm;
 
 /// A row of a table: values by column.
 type Row = BTreeMap<String, String>;
@@ -150,23 +151,8 @@ fn from_mesh(folder: &Path, row: &Row, sex: Sex, known: &Row) -> Evaluated {
 }
 
 fn scan_values(girths: &Girths) -> Vec<(&'static str, f64)> {
-    let mut values = vec![
-        ("stature", girths.stature_mm),
-        ("neck_girth", girths.neck_girth_mm),
-        ("chest_girth", girths.chest_girth_mm),
-        ("underbust_girth", girths.underbust_girth_mm),
-        ("waist_girth", girths.waist_girth_mm),
-        ("hip_girth", girths.hip_girth_mm),
-        ("thigh_girth", girths.thigh_girth_mm),
-        ("across_shoulder", girths.across_shoulder_mm),
-        ("chest_level", girths.chest_level_mm),
-        ("waist_level", girths.waist_level_mm),
-        ("hip_level", girths.hip_level_mm),
-        ("neck_level", girths.neck_level_mm),
-        ("crotch_level", girths.crotch_level_mm),
-    ];
-    values.extend(girths.upper_arm_girth_mm.map(|girth| ("upper_arm_girth", girth)));
-    values
+    let read = |(name, _): Known| Some((name, girths.written(&format!("{name}_mm"))?));
+    OF_SCANS.into_iter().filter_map(read).collect()
 }
 
 /// Front and side picture of one body and kind.
@@ -220,8 +206,8 @@ fn from_pair(folder: &Path, id: String, source: &'static str, pair: Pair<'_>, se
         let both = names
             .iter()
             .zip(&pictured.levels)
-            .flat_map(|((girth, level), l)| [(*girth, l.girth_mm), (*level, l.level_mm)]);
-        both.chain([("crotch_level", pictured.crotch_level_mm)]).collect()
+            .flat_map(|((girth, level), l)| [(*girth, mm(l.girth_m)), (*level, mm(l.level_m))]);
+        both.chain([("crotch_level", mm(pictured.crotch_level_m))]).collect()
     });
     compared(id, source, files, &OF_PICTURES, found, known)
 }

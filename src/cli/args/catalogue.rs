@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, Subcommand};
 
 use super::PatternUnit;
+use study::bodies::Dimension;
 use study::{FABRIC_NUMBERS, Field, Given, MEASUREMENTS};
 
 /// Commands on one part of the catalogue.
@@ -91,12 +92,14 @@ pub struct SizeValues {
     pub unit: Option<PatternUnit>,
 }
 
-/// A flag for every number.
+/// A flag for every number of an entry.
 fn flags<T>(command: Command, fields: &'static [Field<T>]) -> Command {
-    command.args(fields.iter().map(|field| {
-        let flag = Arg::new(field.key).long(field.flag()).value_name("N").help(field.label);
-        flag.allow_hyphen_values(true).help_heading("Values (an empty one takes a value away)")
-    }))
+    let heading = "Values (an empty one takes a value away)";
+    command.args(fields.iter().map(|field| flag(field, field.label).help_heading(heading)))
+}
+
+fn flag<T>(field: &Field<T>, help: &'static str) -> Arg {
+    Arg::new(field.key).long(field.flag()).value_name("N").help(help).allow_hyphen_values(true)
 }
 
 /// The values that were given of some keys.
@@ -140,7 +143,7 @@ impl FromArgMatches for MeasuredValues {
 
 impl Args for MeasuredValues {
     fn augment_args(command: Command) -> Command {
-        flags(command, &MEASUREMENTS)
+        command.args(MEASUREMENTS.iter().zip(Dimension::ALL).map(|(field, dimension)| flag(field, dimension.words())))
     }
 
     fn augment_args_for_update(command: Command) -> Command {

@@ -300,9 +300,10 @@ impl Specification {
             b: vec![stitch.sides[1]],
             b_forwards: stitch.same_direction,
         };
-        let stem = std::path::Path::new(&self.file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let name = self.file.rsplit('/').next().unwrap_or_default();
+        let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
         Style {
-            name: stem.strip_suffix("_specification").unwrap_or(&stem).to_owned(),
+            name: stem.strip_suffix("_specification").unwrap_or(stem).to_owned(),
             size: String::new(),
             pieces: self.pieces.iter().zip(&self.edges).zip(roles).map(style_piece).collect(),
             seams: self.stitches.iter().enumerate().map(seam).collect(),

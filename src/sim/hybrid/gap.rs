@@ -2,10 +2,9 @@
 
 use super::features::face;
 use crate::sewing;
-use body::Body;
+use body::{Body, Dimension};
 use geom::hull::tape_girth;
 use geom::section::{Outline, Plane, section};
-use geom::units::from_mm;
 use geom::{TriMesh, V3};
 use pattern::garment::SeamMesh;
 use pattern::{Garment, PieceMesh, Role};
@@ -41,15 +40,15 @@ pub fn closures(body: &Body, garment: &Garment, positions: &[V3]) -> Vec<Closure
     let trunk = trunk(garment, positions);
     let (levels, girths) = (&body.levels, &body.girths);
     let at = |z: f64| Some((z, girth_at(&trunk, z)?));
-    let closure = |(name, found, girth_mm): (&str, Option<(f64, f64)>, f64)| {
+    let closure = |(name, found, around): (&str, Option<(f64, f64)>, Dimension)| {
         let (height_m, garment_girth_m) = along_fit_line(garment, name, positions).or(found)?;
-        Some(Closure { level: name.to_owned(), height_m, body_girth_m: from_mm(girth_mm), garment_girth_m })
+        Some(Closure { level: name.to_owned(), height_m, body_girth_m: girths.get(around)?, garment_girth_m })
     };
     let levels = [
-        ("chest", at_underarm(garment, positions), girths.chest_girth_mm),
-        ("underbust", at(levels.underbust_m), girths.underbust_girth_mm),
-        ("waist", at(levels.waist_m), girths.waist_girth_mm),
-        ("hip", at(levels.hip_m), girths.hip_girth_mm),
+        ("chest", at_underarm(garment, positions), Dimension::ChestGirth),
+        ("underbust", at(levels.underbust_m), Dimension::UnderbustGirth),
+        ("waist", at(levels.waist_m), Dimension::WaistGirth),
+        ("hip", at(levels.hip_m), Dimension::HipGirth),
     ];
     levels.into_iter().filter_map(closure).collect()
 }

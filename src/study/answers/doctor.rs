@@ -10,8 +10,7 @@ use crate::rows::Value;
 use crate::run::outcome::machine;
 
 use crate::store::{Store, sql};
-use body::Dimension;
-use body::{Measurements, Sex};
+use body::{Dimension, Measurements, Sex};
 use geom::units::mm;
 
 /// One check and what it found.
@@ -57,7 +56,7 @@ fn body_check() -> Result<String> {
     Ok(format!(
         "{} triangles; chest asked 900 mm, measured {:.0} mm",
         body.mesh.triangles.len(),
-        body.girths.chest_girth_mm
+        body.girths.get(Dimension::ChestGirth).map_or(f64::NAN, mm)
     ))
 }
 

@@ -14,7 +14,7 @@ use crate::run::pipeline::{self, Model};
 use crate::store::Store;
 use crate::store::cache::{self, Cache};
 
-use body::{Girths, Mass};
+use body::{Dimension, Girths, Mass};
 use render::{self, Camera, Frame, Layer, Material, Scene, View};
 
 /// Room around a body in its picture, m.
@@ -55,26 +55,10 @@ impl Figure {
     /// What is read on the body for a key of a subject: the tape, or the weight of its volume.
     #[must_use]
     pub fn reading(girths: &Girths, key: &str) -> Option<f64> {
-        Some(match key {
-            "stature_mm" => girths.stature_mm,
-            "weight_kg" => Mass::of(girths.volume_l, None).mass_from_volume_kg,
-            "chest_girth_mm" => girths.chest_girth_mm,
-            "waist_girth_mm" => girths.waist_girth_mm,
-            "hip_girth_mm" => girths.hip_girth_mm,
-            "neck_girth_mm" => girths.neck_girth_mm,
-            "across_shoulder_mm" => girths.across_shoulder_mm,
-            "underbust_girth_mm" => girths.underbust_girth_mm,
-            "thigh_girth_mm" => girths.thigh_girth_mm,
-            "inseam_mm" => girths.inseam_mm,
-            "knee_girth_mm" => return girths.knee_girth_mm,
-            "calf_girth_mm" => return girths.calf_girth_mm,
-            "ankle_girth_mm" => return girths.ankle_girth_mm,
-            "upper_arm_girth_mm" => return girths.upper_arm_girth_mm,
-            "forearm_girth_mm" => return girths.forearm_girth_mm,
-            "wrist_girth_mm" => return girths.wrist_girth_mm,
-            "arm_length_mm" => return girths.arm_length_mm,
-            _ => return None,
-        })
+        if key == Dimension::Weight.key() {
+            return Some(Mass::of(girths.volume_l(), None).mass_from_volume_kg);
+        }
+        girths.written(key)
     }
 
     /// The body from the front and from the side, at one scale, side by side; transparent around it.

@@ -13,10 +13,9 @@ use crate::spec::versions;
 use crate::spec::{JobSpec, subject_inputs};
 use crate::store::cache::{Artefact, Cache, Used};
 
-use body::{Body, Measurements};
+use body::{Body, Dimension, Measurements};
 use fit::{self, Cuts, Ease, Simulator, measure};
 use geom::DistanceField;
-use geom::units::from_mm;
 use pattern::{Garment, Style};
 use sim::{self, Distortion, Drape, Monitor, SimError};
 
@@ -39,18 +38,17 @@ pub(crate) struct Model {
 
 /// Girth of a body at a level named in a style's fit references, m.
 fn girth_m(body: &Body, level: &str) -> Option<f64> {
-    let girths = &body.girths;
-    let mm = match level {
-        "neck" => girths.neck_girth_mm,
-        "chest" | "bust" => girths.chest_girth_mm,
-        "underbust" => girths.underbust_girth_mm,
-        "waist" => girths.waist_girth_mm,
-        "hip" => girths.hip_girth_mm,
-        "thigh" => girths.thigh_girth_mm,
-        "upper_arm" => girths.upper_arm_girth_mm?,
+    let dimension = match level {
+        "neck" => Dimension::NeckGirth,
+        "chest" | "bust" => Dimension::ChestGirth,
+        "underbust" => Dimension::UnderbustGirth,
+        "waist" => Dimension::WaistGirth,
+        "hip" => Dimension::HipGirth,
+        "thigh" => Dimension::ThighGirth,
+        "upper_arm" => Dimension::UpperArmGirth,
         _ => return None,
     };
-    Some(from_mm(mm))
+    body.girths.get(dimension)
 }
 
 /// Meshes of one garment, coarse to fine.

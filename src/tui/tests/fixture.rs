@@ -240,34 +240,28 @@ fn subjects() -> Vec<SubjectRow> {
 
 /// What the tape reads on the body of any subject of the example.
 pub fn girths() -> Girths {
-    Girths {
-        stature_mm: 1690.2,
-        neck_girth_mm: 382.4,
-        chest_girth_mm: 931.3,
-        underbust_girth_mm: 880.0,
-        waist_girth_mm: 890.1,
-        hip_girth_mm: 974.8,
-        thigh_girth_mm: 541.6,
-        upper_arm_girth_mm: None,
-        knee_girth_mm: None,
-        calf_girth_mm: Some(365.2),
-        ankle_girth_mm: None,
-        forearm_girth_mm: None,
-        wrist_girth_mm: None,
-        arm_length_mm: None,
-        across_shoulder_mm: 424.9,
-        inseam_mm: 765.3,
-        volume_l: 60.0,
-        neck_level_mm: 1440.0,
-        chest_level_mm: 1230.0,
-        underbust_level_mm: 1160.0,
-        waist_level_mm: 1050.0,
-        hip_level_mm: 860.0,
-        thigh_level_mm: 715.0,
-        upper_arm_level_mm: None,
-        shoulder_level_mm: 1380.0,
-        crotch_level_mm: 765.0,
-    }
+    let read = serde_json::json!({
+        "stature_mm": 1690.2,
+        "neck_girth_mm": 382.4,
+        "chest_girth_mm": 931.3,
+        "underbust_girth_mm": 880.0,
+        "waist_girth_mm": 890.1,
+        "hip_girth_mm": 974.8,
+        "thigh_girth_mm": 541.6,
+        "calf_girth_mm": 365.2,
+        "across_shoulder_mm": 424.9,
+        "inseam_mm": 765.3,
+        "volume_l": 60.0,
+        "neck_level_mm": 1440.0,
+        "chest_level_mm": 1230.0,
+        "underbust_level_mm": 1160.0,
+        "waist_level_mm": 1050.0,
+        "hip_level_mm": 860.0,
+        "thigh_level_mm": 715.0,
+        "shoulder_level_mm": 1380.0,
+        "crotch_level_mm": 765.0,
+    });
+    serde_json::from_value(read).expect("the keys of `body measure`")
 }
 
 /// A database without studies.

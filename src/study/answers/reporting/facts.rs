@@ -44,15 +44,7 @@ pub(super) struct BodyFacts {
 
 /// What a tape reads on a body, in order of [`MEASUREMENTS`]; mass cannot be read.
 fn readings(girths: &Girths) -> Vec<Option<f64>> {
-    vec![
-        Some(girths.stature_mm),
-        None,
-        Some(girths.chest_girth_mm),
-        Some(girths.waist_girth_mm),
-        Some(girths.hip_girth_mm),
-        Some(girths.neck_girth_mm),
-        Some(girths.across_shoulder_mm),
-    ]
+    MEASUREMENTS.iter().map(|(key, ..)| girths.written(key)).collect()
 }
 
 /// The subjects as their bodies were dressed; as asked where none was.

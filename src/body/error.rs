@@ -1,0 +1,104 @@
+//! What goes wrong.
+
+use geom::units::mm;
+
+/// Why no body could be made or measured.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BodyError {
+    /// A measurement that no adult has.
+    #[error("{name} = {value} {unit} is impossible; accepted: {least} to {greatest} {unit}")]
+    OutOfRange {
+        /// Key of the measurement.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+        /// Least accepted value.
+        least: f64,
+        /// Greatest accepted value.
+        greatest: f64,
+        /// Unit of the numbers.
+        unit: &'static str,
+    },
+    /// The mesh has no section where the body part should be.
+    #[error(
+        "no {part} found at a height of {:.0} mm: is this a standing person, z up, with the feet on z = 0?",
+        mm(*height_m)
+    )]
+    MissingPart {
+        /// Body part.
+        part: &'static str,
+        /// Height of the search, m.
+        height_m: f64,
+    },
+    /// Two measurements that no adult has together.
+    #[error("{found} does not go with {with}: no adult has both; accepted with it: {least:.0} to {greatest:.0} {unit}")]
+    Contradiction {
+        /// The measurement with its value.
+        found: String,
+        /// The other one, with its value.
+        with: String,
+        /// Least accepted value.
+        least: f64,
+        /// Greatest accepted value.
+        greatest: f64,
+        /// Unit of the numbers.
+        unit: &'static str,
+    },
+    /// Measurements that are possible each, but not of one body.
+    #[error("these measurements do not make one body ({reason}); accepted: girths that one adult has together")]
+    Inconsistent {
+        /// What cannot be formed, or which measurement is not reached.
+        reason: String,
+    },
+    /// A mesh file that cannot be read.
+    #[error("{format}, {place}: {problem}; accepted: OBJ, PLY or STL with triangles or polygons")]
+    File {
+        /// Format of the file.
+        format: &'static str,
+        /// Line, vertex or face.
+        place: String,
+        /// What is wrong there.
+        problem: String,
+    },
+    /// A picture that no body can be read from.
+    #[error(
+        "the {view} picture cannot be used: {problem}; accepted: one standing person, arms off the trunk, wholly seen before a plain background"
+    )]
+    Picture {
+        /// Front or side.
+        view: &'static str,
+        /// What is wrong.
+        problem: String,
+    },
+    /// Limbs that cannot be brought where they were asked.
+    #[error("no such pose: {problem}")]
+    Pose {
+        /// What cannot be done, and what can.
+        problem: String,
+    },
+    /// A surface that cannot bound a solid body.
+    #[error("the surface does not close: {problem}; accepted: one whole body, its holes under 0.9 m round")]
+    Open {
+        /// What is open.
+        problem: String,
+    },
+    /// More than one body.
+    #[error(
+        "two pieces of a like size: several bodies, or halves that are not joined; accepted: one body in one piece"
+    )]
+    Several,
+    /// A mesh that is no adult in the unit given.
+    #[error("the body is {extent:.4} {unit} high, which is no adult; accepted: 1.2 to 2.4 m; is the unit right?")]
+    WrongUnit {
+        /// Height in the unit given.
+        extent: f64,
+        /// The unit.
+        unit: &'static str,
+    },
+    /// A mesh whose size fits a standing adult in no unit.
+    #[error("the body is {extent} high, which is no adult in mm, cm or m; accepted: 1.2 to 2.4 m, or say the unit")]
+    Unit {
+        /// Height in the file's unit.
+        extent: f64,
+    },
+}

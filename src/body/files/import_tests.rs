@@ -1,0 +1,105 @@
+use super::*;
+use crate::testing::{ascii_ply, ascii_stl, binary_ply, binary_stl};
+use proptest::prelude::*;
+
+/// A four-sided prism 1.7 m high, in metres, z up.
+fn block() -> TriMesh {
+    let positions = vec![V3::zeros(), V3::new(0.3, 0.0, 0.0), V3::new(0.0, 0.2, 0.0), V3::new(0.1, 0.1, 1.7)];
+    TriMesh { positions, triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]] }
+}
+
+fn scaled(mesh: &TriMesh, factor: f64) -> TriMesh {
+    TriMesh { positions: mesh.positions.iter().map(|p| p * factor).collect(), triangles: mesh.triangles.clone() }
+}
+
+#[test]
+fn every_format_and_unit_gives_the_same_body() {
+    let check = |bytes: &[u8], unit| {
+        let imported = import(bytes, None).expect("a good file");
+        assert_eq!(imported.unit, unit);
+        assert_eq!(imported.mesh.triangles.len(), 4);
+        assert_eq!(imported.mesh.positions.len(), 4);
+        assert!((imported.mesh.volume() - block().volume()).abs() < 1e-7);
+    };
+    check(write_obj(&scaled(&block(), 1000.0)).as_bytes(), LengthUnit::Millimetre);
+    check(write_obj(&scaled(&block(), 100.0)).as_bytes(), LengthUnit::Centimetre);
+    check(&ascii_stl(&block()), LengthUnit::Metre);
+    check(&binary_stl(&scaled(&block(), 1000.0)), LengthUnit::Millimetre);
+    check(&ascii_ply(&block()), LengthUnit::Metre);
+    check(&binary_ply(&scaled(&block(), 100.0)), LengthUnit::Centimetre);
+}
+
+#[test]
+fn turned_and_inverted_bodies_are_righted_and_said() {
+    let mut mesh = block();
+    for p in &mut mesh.positions {
+        *p = V3::new(-p.x, p.z, p.y);
+    }
+    mesh.triangles.iter_mut().for_each(|triangle| triangle.reverse());
+    let imported = import(write_obj(&mesh).as_bytes(), Some(LengthUnit::Metre)).expect("a good file");
+    assert!(imported.mesh.volume() > 0.0);
+    assert!((imported.mesh.bounds().expect("vertices").1.z - 1.7).abs() < 1e-6);
+    assert_eq!(imported.notes.len(), 2, "{:?}", imported.notes);
+}
+
+#[test]
+fn broken_files_are_refused_with_their_place() {
+    let check = |bytes: &[u8], needle: &str| {
+        let error = import(bytes, None).expect_err("a broken file").to_string();
+        assert!(error.contains(needle), "{error}");
+    };
+    check(b"v 0 0 0\nv 1 zero 0\nf 1 2 1\n", "line 2");
+    check(b"solid x\nfacet\nouter loop\nvertex 1 2\nendloop\n", "line 4");
+    check(b"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n", "vertex 1");
+    check(b"", "no faces");
+    check(write_obj(&scaled(&block(), 9.0)).as_bytes(), "no adult");
+}
+
+#[test]
+fn stl_is_told_from_its_bytes_and_damage_has_its_place() {
+    let good = binary_stl(&scaled(&block(), 1000.0));
+    let named = |bytes: &[u8]| [b"solid made by a scanner ", &bytes[24..]].concat();
+    let check = |bytes: &[u8], places: &[&str]| {
+        let error = import(bytes, None).expect_err("damaged").to_string();
+        assert!(places.iter().all(|place| error.contains(place)), "{error}");
+    };
+    assert_eq!(import(&named(&good), None).expect("a good file").mesh.triangles.len(), 4);
+    for bytes in [good.clone(), named(&good)] {
+        check(&bytes[..bytes.len() - 60], &["STL, facet 3", "4 facets are announced, the file has 2"]);
+        check(&[&bytes[..], &[0; 60]].concat(), &["STL, facet 5", "the file has 5"]);
+        check(&bytes[..84], &["STL, facet 1", "the file has 0"]);
+    }
+    let text = ascii_stl(&block());
+    let twice = [&text[..], &ascii_stl(&scaled(&block(), 1.1))].concat();
+    assert_eq!(read(&twice).expect("two solids").triangles.len(), 8);
+    let half = String::from_utf8(text).expect("text").replacen("endloop", "", 1);
+    let cut = &half[..half.rfind("vertex").expect("a vertex")];
+    check(cut.as_bytes(), &["STL, end of file", "fewer than three vertices"]);
+}
+
+proptest! {
+    #[test]
+    fn no_bytes_make_an_importer_fail(head in "(ply\nformat ascii 1.0\n|solid |v 1 2 3\nf |)", tail in proptest::collection::vec(any::<u8>(), 0..400)) {
+        let mut bytes = head.into_bytes();
+        bytes.extend(tail);
+        let _ = import(&bytes, None);
+        bytes.resize(bytes.len().max(84), 0);
+        bytes[83] = 0;
+        let _ = import(&bytes, None);
+    }
+
+    #[test]
+    fn obj_round_trip(numbers in proptest::collection::vec(-2.0..2.0_f64, 12)) {
+        let mut mesh = block();
+        for (i, (p, n)) in mesh.positions.iter_mut().zip(numbers.chunks_exact(3)).enumerate() {
+            // Apart by more than their spread, so that no two vertices become one.
+            *p = V3::new(n[0] + 5.0 * i as f64, n[1], n[2]);
+        }
+        let back = read(write_obj(&mesh).as_bytes()).expect("our own file");
+        // Vertices may come in another order: the triangles' corners are compared.
+        let corners = |mesh: &TriMesh| mesh.triangles.iter().flatten().map(|&i| mesh.positions[i]).collect::<Vec<_>>();
+        for (a, b) in corners(&mesh).iter().zip(corners(&back)) {
+            prop_assert!((a - b).norm() < 5e-6);
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! What a tape reads on a body.
+
+use crate::people::dimension::{COUNT, Dimension};
+use crate::{Measurements, Sex};
+use geom::units::{from_mm, mm};
+use serde::de::Error as _;
+use std::collections::BTreeMap;
+
+/// What the tape reads, in the order in which it is written.
+const READ: [Dimension; 16] = {
+    use Dimension::*;
+    [
+        Stature,
+        NeckGirth,
+        ChestGirth,
+        UnderbustGirth,
+        WaistGirth,
+        HipGirth,
+        ThighGirth,
+        UpperArmGirth,
+        KneeGirth,
+        CalfGirth,
+        AnkleGirth,
+        ForearmGirth,
+        WristGirth,
+        ArmLength,
+        AcrossShoulder,
+        Inseam,
+    ]
+};
+
+/// Heights at which something is read, with their keys.
+const LEVELS: [(Dimension, &str); 9] = [
+    (Dimension::NeckGirth, "neck_level_mm"),
+    (Dimension::ChestGirth, "chest_level_mm"),
+    (Dimension::UnderbustGirth, "underbust_level_mm"),
+    (Dimension::WaistGirth, "waist_level_mm"),
+    (Dimension::HipGirth, "hip_level_mm"),
+    (Dimension::ThighGirth, "thigh_level_mm"),
+    (Dimension::UpperArmGirth, "upper_arm_level_mm"),
+    (Dimension::AcrossShoulder, "shoulder_level_mm"),
+    (Dimension::Inseam, "crotch_level_mm"),
+];
+
+/// Key of the volume.
+const VOLUME: &str = "volume_l";
+
+/// What the tape reads on a body, and its volume. Limbs below the upper arm and the thigh are read where their axes are known.
+///
+/// Written as the keys of `body measure`. The numbers are held as they are written, so that a stored body equals the one that was
+/// stored to the last bit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Girths {
+    /// Millimetres.
+    values: [Option<f64>; COUNT],
+    /// Heights above the floor, millimetres.
+    levels: [Option<f64>; COUNT],
+    volume_l: f64,
+}
+
+impl Girths {
+    /// Of a body of a volume (m3) on which nothing is read yet.
+    pub(super) fn of(volume_m3: f64) -> Self {
+        Self { values: [None; COUNT], levels: [None; COUNT], volume_l: volume_m3 * 1e3 }
+    }
+
+    /// Notes what is read, m; nothing where the tape cannot be laid.
+    pub(crate) fn set(&mut self, dimension: Dimension, value: impl Into<Option<f64>>) {
+        self.values[dimension as usize] = value.into().map(mm);
+    }
+
+    /// Notes the height above the floor at which a dimension is read, m.
+    pub(super) fn set_level(&mut self, dimension: Dimension, height: impl Into<Option<f64>>) {
+        self.levels[dimension as usize] = height.into().map(mm);
+    }
+
+    /// The same girths on a body moved down by some metres; stature and inseam are those of the body standing upright.
+    pub(crate) fn lower(&mut self, down: f64) {
+        self.levels.iter_mut().flatten().for_each(|level| *level -= mm(down));
+    }
+
+    /// What the tape reads of a dimension, m.
+    #[must_use]
+    pub fn get(&self, dimension: Dimension) -> Option<f64> {
+        self.values[dimension as usize].map(from_mm)
+    }
+
+    /// Volume, litres.
+    #[must_use]
+    pub fn volume_l(&self) -> f64 {
+        self.volume_l
+    }
+
+    /// What stands under a key where these girths are written: millimetres, litres.
+    #[must_use]
+    pub fn written(&self, key: &str) -> Option<f64> {
+        self.entries().find(|(other, _)| *other == key)?.1
+    }
+
+    /// Every key with its value.
+    pub(super) fn entries(&self) -> impl Iterator<Item = (&'static str, Option<f64>)> {
+        let values = READ.map(|dimension| (dimension.key(), self.values[dimension as usize]));
+        let levels = LEVELS.map(|(dimension, key)| (key, self.levels[dimension as usize]));
+        values.into_iter().chain([(VOLUME, Some(self.volume_l))]).chain(levels)
+    }
+
+    /// The measurements of a subject with these girths, as a study holds them.
+    #[must_use]
+    pub fn measurements(&self, sex: Sex) -> Measurements {
+        let mut known = Measurements::of(sex, f64::NAN);
+        for dimension in [
+            Dimension::Stature,
+            Dimension::ChestGirth,
+            Dimension::WaistGirth,
+            Dimension::HipGirth,
+            Dimension::NeckGirth,
+            Dimension::AcrossShoulder,
+        ] {
+            known.set(dimension, self.get(dimension));
+        }
+        known
+    }
+}
+
+impl serde::Serialize for Girths {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.entries())
+    }
+}
+
+impl<'de> serde::Deserialize<'de> for Girths {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let written = BTreeMap::<String, Option<f64>>::deserialize(deserializer)?;
+        let at = |key: &str| written.get(key).copied().flatten();
+        let volume_l = at(VOLUME).ok_or_else(|| D::Error::missing_field(VOLUME))?;
+        let mut girths = Self { values: [None; COUNT], levels: [None; COUNT], volume_l };
+        READ.into_iter().for_each(|dimension| girths.values[dimension as usize] = at(dimension.key()));
+        LEVELS.into_iter().for_each(|(dimension, key)| girths.levels[dimension as usize] = at(key));
+        Ok(girths)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stored_body_equals_the_one_that_was_stored() {
+        let mut girths = Girths::of(0.0612345678901234);
+        for (i, dimension) in READ.into_iter().enumerate().filter(|(i, _)| i % 3 > 0) {
+            girths.set(dimension, 0.1 + 0.123_456_789_012_345_67 * i as f64);
+        }
+        girths.set_level(Dimension::Inseam, 0.797_687_976_754_969);
+        let text = serde_json::to_string(&girths).expect("numbers");
+        assert!(text.contains("\"stature_mm\":null") && text.contains("\"crotch_level_mm\":797.68797"), "{text}");
+        let read: Girths = serde_json::from_str(&text).expect("what was written");
+        assert_eq!(read, girths);
+        assert_eq!(read.written("crotch_level_mm"), girths.written("crotch_level_mm"));
+        let cut = text.replace("volume_l", "volume");
+        assert!(serde_json::from_str::<Girths>(&cut).is_err_and(|error| error.to_string().contains("volume_l")));
+    }
+}

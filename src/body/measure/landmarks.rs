@@ -1,0 +1,148 @@
+//! Points of a body mesh that can be told from its sections alone.
+
+use super::sites::{Sites, steps};
+use super::slices::{Sliced, Slices};
+use super::tape;
+use geom::section::{Plane, section};
+use geom::{TriMesh, V3};
+
+/// Least girth of an outline between the legs that belongs to the trunk, metres.
+const LEAST_TRUNK: f64 = 0.03;
+
+/// Where the trunk ends: the lowest height at which an outline crosses the median plane, by bisection.
+pub(crate) fn crotch(mesh: &TriMesh, mut below: f64, mut above: f64, middle: f64) -> Option<f64> {
+    let lower = Slices::new(mesh, below, above);
+    let joined =
+        |z: f64| tape::trunk_outline(&lower, z, middle).is_some_and(|outline| tape::girth(&outline) > LEAST_TRUNK);
+    if joined(below) || !joined(above) {
+        return None;
+    }
+    while above - below > 1e-4 {
+        let z = (below + above) / 2.0;
+        if joined(z) { above = z } else { below = z }
+    }
+    Some(above)
+}
+
+/// Front or back of the body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Side {
+    Front,
+    Back,
+}
+
+/// The point of the trunk's outline in the median plane at height `z`.
+pub(crate) fn median_point(mesh: &impl Sliced, z: f64, middle: f64, side: Side) -> Option<V3> {
+    let outline = tape::trunk_outline(mesh, z, middle)?;
+    let next = outline.points.iter().cycle().skip(1);
+    let crossings = outline.points.iter().zip(next).filter(|(a, b)| (a.x > middle) != (b.x > middle));
+    let places = crossings.map(|(a, b)| a.y + (b.y - a.y) * (middle - a.x) / (b.x - a.x));
+    let y = match side {
+        Side::Front => places.max_by(f64::total_cmp),
+        Side::Back => places.min_by(f64::total_cmp),
+    };
+    y.map(|y| V3::new(middle, y, z))
+}
+
+/// The highest point of the shoulder at the distance `x` from the median plane (signed), below the height `ceiling`.
+pub(crate) fn shoulder_top(mesh: &TriMesh, x: f64, ceiling: f64) -> Option<V3> {
+    let plane = Plane { origin: V3::new(x, 0.0, 0.0), u: V3::y(), v: V3::z() };
+    let points = section(mesh, &plane).into_iter().flat_map(|outline| outline.points).filter(|p| p.y < ceiling);
+    points.max_by(|a, b| a.y.total_cmp(&b.y)).map(|p| plane.lift(p))
+}
+
+/// The highest point of the gap between trunk and right arm.
+///
+/// Searched by bisection between a height where the arm is free and one where it is joined to the trunk.
+pub(crate) fn armpit(mesh: &TriMesh, mut free: f64, mut joined: f64, middle: f64) -> Option<V3> {
+    let around = Slices::new(mesh, free, joined);
+    let gap = |z: f64| {
+        let trunk = tape::trunk_outline(&around, z, middle)?;
+        let limbs = tape::right_limbs(&around, z, middle);
+        let arm = limbs.iter().max_by(|a, b| a.bounds().1.x.total_cmp(&b.bounds().1.x))?;
+        let outermost = trunk.points.iter().max_by(|a, b| a.x.total_cmp(&b.x))?;
+        let innermost = arm.points.iter().min_by(|a, b| a.x.total_cmp(&b.x))?;
+        Some((outermost + innermost) / 2.0)
+    };
+    let mut apex = gap(free).map(|p| V3::new(p.x, p.y, free))?;
+    while joined - free > 1e-5 {
+        let z = (free + joined) / 2.0;
+        match gap(z) {
+            Some(p) => {
+                free = z;
+                apex = V3::new(p.x, p.y, z);
+            }
+            None => joined = z,
+        }
+    }
+    Some(apex)
+}
+
+/// Greatest height of an arm's section along the body, over stature.
+const SPREAD_ARM: f64 = 0.10;
+
+/// The armpit of a right arm that is spread so wide that no level passes between it and the trunk: its underside where, from the
+/// free arm inwards, sections along the body reach farther down than an arm's.
+pub(crate) fn armpit_of_spread(mesh: &TriMesh, shoulder: V3, stature: f64) -> Option<V3> {
+    let underside = |x: f64| {
+        let plane = Plane { origin: V3::new(x, 0.0, 0.0), u: V3::y(), v: V3::z() };
+        let outlines = section(mesh, &plane);
+        let arm = outlines.iter().max_by(|a, b| a.bounds().1.y.total_cmp(&b.bounds().1.y))?;
+        let lowest = arm.points.iter().min_by(|a, b| a.y.total_cmp(&b.y))?;
+        (arm.bounds().1.y - lowest.y < SPREAD_ARM * stature).then(|| plane.lift(*lowest))
+    };
+    let (mut free, mut joined) = (shoulder.x + 0.08 * stature, shoulder.x - 0.06 * stature);
+    let mut apex = underside(free)?;
+    while free - joined > 1e-4 {
+        let x = (free + joined) / 2.0;
+        match underside(x) {
+            Some(point) => (free, apex) = (x, point),
+            None => joined = x,
+        }
+    }
+    Some(apex)
+}
+
+/// The lowest point of the skin between the thighs, in the median plane just above the crotch's height.
+pub(crate) fn crotch_point(mesh: &TriMesh, crotch: f64) -> Option<V3> {
+    let outline = tape::trunk_outline(mesh, crotch, 0.0)?;
+    let next = outline.points.iter().cycle().skip(1);
+    let crossings = outline.points.iter().zip(next).filter(|(a, b)| (a.x > 0.0) != (b.x > 0.0));
+    let places: Vec<f64> = crossings.map(|(a, b)| a.y + (b.y - a.y) * (-a.x) / (b.x - a.x)).collect();
+    (!places.is_empty()).then(|| V3::new(0.0, places.iter().sum::<f64>() / places.len() as f64, crotch))
+}
+
+/// The foremost point of one side of the chest at height `z`; where the chest is flat, the usual place of the nipple.
+pub(crate) fn bust_point(mesh: &TriMesh, z: f64, sign: f64, stature: f64) -> Option<V3> {
+    /// Usual distance of the nipple from the median plane over stature, and the range searched.
+    const USUAL: f64 = 0.054;
+    const RANGE: [f64; 2] = [0.040, 0.075];
+    let outline = tape::trunk_outline(mesh, z, 0.0)?;
+    let front = |x: f64| {
+        let next = outline.points.iter().cycle().skip(1);
+        let crossings = outline.points.iter().zip(next).filter(|(a, b)| (a.x > x) != (b.x > x));
+        crossings
+            .map(|(a, b)| a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x))
+            .max_by(f64::total_cmp)
+            .map(|y| V3::new(x, y, z))
+    };
+    let candidates = steps(sign * RANGE[0] * stature, sign * RANGE[1] * stature, 35).filter_map(front);
+    let foremost = candidates.max_by(|a, b| a.y.total_cmp(&b.y))?;
+    let at_edge = (foremost.x.abs() - RANGE[0] * stature).abs() < 1e-9;
+    if at_edge { front(sign * USUAL * stature) } else { Some(foremost) }
+}
+
+/// Heights over stature between which the front neck point is searched.
+const FRONT_NECK: [f64; 2] = [0.775, 0.855];
+
+/// The front neck point: where the front bends from the chest into the neck, farthest behind the chord between both.
+pub(crate) fn front_neck(mesh: &TriMesh, sites: &Sites) -> Option<V3> {
+    let at = |share: f64| sites.floor + share * (sites.crown - sites.floor);
+    let upper = tape::above(mesh, at(FRONT_NECK[0] - 0.05));
+    let heights = steps(at(FRONT_NECK[0]), at(FRONT_NECK[1]).min(sites.neck.height), 32);
+    let line: Vec<V3> = heights.filter_map(|z| median_point(&upper, z, sites.middle, Side::Front)).collect();
+    let (first, last) = (line.first()?, line.last()?);
+    let slope = (last.y - first.y) / (last.z - first.z);
+    let behind = |p: &V3| first.y + slope * (p.z - first.z) - p.y;
+    line.iter().max_by(|a, b| behind(a).total_cmp(&behind(b))).copied()
+}

@@ -1,0 +1,143 @@
+//! Lengths along the surface and girths of the limbs, names after ISO 8559-1; the tape is taut and spans hollows.
+
+use super::arm::Arm;
+use super::landmarks;
+use super::sites::{self, Sites, steps};
+use super::slices::Slices;
+use super::tape;
+use crate::{BodyError, Dimension, Girths, Sex};
+use geom::section::{Plane, section};
+use geom::units::mm;
+use geom::{TriMesh, V2, V3, hull};
+
+/// What `body measure` says beyond [`Girths`], metres; absent where the body does not show it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Lengths {
+    /// Height of the back neck point.
+    pub cervicale_height_m: f64,
+    /// From the back neck point down the centre back to the waist level.
+    pub back_waist_length_m: Option<f64>,
+    /// From the front neck point down the centre front to the waist level.
+    pub front_waist_length_m: Option<f64>,
+    /// From the waist level at the centre front through the crotch to the waist level at the centre back.
+    pub total_crotch_length_m: Option<f64>,
+    /// Height of the greatest girth of the right calf.
+    pub calf_level_m: Option<f64>,
+}
+
+/// Girths and lengths together: one flat set of names, written in millimetres and litres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// Girths and their levels, those of the limbs among them.
+    pub girths: Girths,
+    /// Lengths.
+    pub lengths: Lengths,
+}
+
+impl serde::Serialize for Measured {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let lengths = &self.lengths;
+        let lengths = [
+            ("cervicale_height_mm", Some(lengths.cervicale_height_m)),
+            ("back_waist_length_mm", lengths.back_waist_length_m),
+            ("front_waist_length_mm", lengths.front_waist_length_m),
+            ("total_crotch_length_mm", lengths.total_crotch_length_m),
+            ("calf_level_mm", lengths.calf_level_m),
+        ];
+        let lengths = lengths.into_iter().map(|(key, length)| (key, length.map(mm)));
+        serializer.collect_map(self.girths.entries().chain(lengths))
+    }
+}
+
+/// Heights between which calf and ankle are sought, over the height of the crotch.
+const CALF: [f64; 2] = [0.38, 0.60];
+const ANKLE: [f64; 2] = [0.10, 0.30];
+
+/// Measures the lengths of an upright body mesh in the world frame, beside its girths: those of the limbs are added to them.
+///
+/// # Errors
+/// Those of [`crate::measure()`].
+pub fn lengths(mesh: &TriMesh, sex: Option<Sex>, mut girths: Girths) -> Result<Measured, BodyError> {
+    let (sites, _) = sites::find_sites(mesh, sex)?;
+    let median = median_section(mesh, &sites);
+    let front_neck = landmarks::front_neck(mesh, &sites);
+    let arm = landmarks::armpit(mesh, sites.waist, sites.shoulder[0].z, sites.middle)
+        .and_then(|armpit| Arm::trace(mesh, sites.shoulder[0], armpit, sites.crown - sites.floor));
+    let leg = |range: [f64; 2]| leg_girths(mesh, &sites, range);
+    let calf = leg(CALF).into_iter().max_by(|a, b| a.1.total_cmp(&b.1));
+    let ankle = leg(ANKLE).into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
+    let wrist = arm.as_ref().and_then(|arm| {
+        let plane = arm.across(arm.wrist());
+        tape::girth_round(mesh, plane.origin, plane.normal())
+    });
+    girths.set(Dimension::CalfGirth, calf.map(|(_, girth)| girth));
+    girths.set(Dimension::AnkleGirth, ankle.map(|(_, girth)| girth));
+    girths.set(Dimension::WristGirth, wrist);
+    girths.set(Dimension::ArmLength, arm.as_ref().map(|arm| arm_length(arm, sites.shoulder[0])));
+    let lengths = Lengths {
+        cervicale_height_m: sites.back_neck.z - sites.floor,
+        back_waist_length_m: taut(&median, sites.back_neck, sites.waist, -1.0),
+        front_waist_length_m: front_neck.and_then(|top| taut(&median, top, sites.waist, 1.0)),
+        total_crotch_length_m: crotch_length(&median, sites.waist),
+        calf_level_m: calf.map(|(z, _)| z - sites.floor),
+    };
+    Ok(Measured { girths, lengths })
+}
+
+/// The points of the median section of the trunk: forward and up.
+fn median_section(mesh: &TriMesh, sites: &Sites) -> Vec<V2> {
+    let origin = V3::new(sites.middle, 0.0, 0.0);
+    let outlines = section(mesh, &Plane { origin, u: V3::y(), v: V3::z() });
+    let longest = outlines.into_iter().max_by(|a, b| tape::girth(a).total_cmp(&tape::girth(b)));
+    longest.map_or_else(Vec::new, |outline| outline.points)
+}
+
+/// The taut tape from a point of the median section down to a height, along the front (`side` 1) or the back (-1).
+fn taut(median: &[V2], top: V3, bottom: f64, side: f64) -> Option<f64> {
+    let ends = |z: f64| crossing(median, z, side).map(|y| V2::new(y, z));
+    let (from, to) = (V2::new(top.y, top.z), ends(bottom)?);
+    let chord = to - from;
+    let outside = |p: &&V2| p.y < from.y && p.y > to.y && side * chord.perp(&(*p - from)) > 0.0;
+    let mut points: Vec<V2> = median.iter().filter(outside).copied().collect();
+    points.extend([from, to]);
+    Some(hull::tape_girth(&points) - chord.norm())
+}
+
+/// The foremost (`side` 1) or hindmost (-1) place of the median section at a height.
+fn crossing(median: &[V2], z: f64, side: f64) -> Option<f64> {
+    let next = median.iter().cycle().skip(1);
+    let crossings = median.iter().zip(next).filter(|(a, b)| (a.y > z) != (b.y > z));
+    let places = crossings.map(|(a, b)| a.x + (b.x - a.x) * (z - a.y) / (b.y - a.y));
+    places.max_by(|a, b| (side * a).total_cmp(&(side * b)))
+}
+
+/// Round the lower end of the median section below a height.
+fn crotch_length(median: &[V2], waist: f64) -> Option<f64> {
+    let ends = [1.0, -1.0].map(|side| crossing(median, waist, side).map(|y| V2::new(y, waist)));
+    let [Some(front), Some(back)] = ends else { return None };
+    let mut points: Vec<V2> = median.iter().filter(|p| p.y < waist).copied().collect();
+    points.extend([front, back]);
+    Some(hull::tape_girth(&points) - (front - back).norm())
+}
+
+fn arm_length(arm: &Arm, shoulder: V3) -> f64 {
+    let (elbow, wrist) = (arm.at(arm.elbow()).0, arm.at(arm.wrist()).0);
+    (elbow - shoulder).norm() + (wrist - elbow).norm()
+}
+
+/// Heights and girths of the right leg within a range over the crotch's height.
+fn leg_girths(mesh: &TriMesh, sites: &Sites, range: [f64; 2]) -> Vec<(f64, f64)> {
+    let inseam = sites.crotch - sites.floor;
+    let [low, high] = range.map(|share| sites.floor + share * inseam);
+    let leg = Slices::new(mesh, low, high);
+    let girth = |z: f64| {
+        let legs = tape::right_limbs(&leg, z, sites.middle);
+        let inner = legs.iter().min_by(|a, b| a.bounds().0.x.total_cmp(&b.bounds().0.x))?;
+        Some((z, tape::girth(inner)))
+    };
+    steps(low, high, 40).filter_map(girth).collect()
+}
+
+#[cfg(test)]
+#[path = "lengths_tests.rs"]
+mod tests;

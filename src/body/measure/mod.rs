@@ -1,0 +1,9 @@
+//! The tape: features and levels found on a mesh, girths and lengths read there.
+
+pub mod arm;
+pub mod girths;
+pub mod landmarks;
+pub mod lengths;
+pub mod sites;
+mod slices;
+pub mod tape;

@@ -1,0 +1,223 @@
+//! From measurements to a mannequin: figure, skin, the fit of its girths, and what is known of it.
+
+use super::control_cut::{Cuts, control_mesh};
+use super::fit::{self, Fit};
+use crate::measure::landmarks::{self, Side};
+use crate::measure::sites::{self, Sites};
+use crate::measure::tape::{self, Neck};
+use crate::people::profile::Profile;
+use crate::shape::figure::Figure;
+use crate::shape::limbs::UPPER_ARM;
+use crate::{Body, BodyError, Dimension, Landmarks, Measurements};
+use geom::section::Plane;
+use geom::units::mm;
+use geom::{TriMesh, V3};
+
+/// Builds a closed, measured mannequin.
+///
+/// Missing measurements are estimated from the ANSUR II survey [Gordon 2014]. The figure is fitted until the tape reads every
+/// given measurement on the fine mesh, which has the same topology for everybody of a sex.
+///
+/// # Errors
+/// [`BodyError::OutOfRange`] for measurements that no adult has, [`BodyError::Contradiction`] and [`BodyError::Inconsistent`]
+/// for those that are not of one body.
+///
+/// # Examples
+/// ```
+/// use body::{Measurements, Sex};
+///
+/// let body = body::build(&Measurements::of(Sex::Female, 1.65))?;
+/// assert!(body.levels.hip_m < body.levels.waist_m && body.levels.waist_m < body.levels.chest_m);
+/// # Ok::<(), body::BodyError>(())
+/// ```
+pub fn build(known: &Measurements) -> Result<Body, BodyError> {
+    let profile = Profile::new(known)?;
+    fit::fit(&profile).and_then(describe).map_err(|error| match error {
+        BodyError::MissingPart { part, height_m } => {
+            BodyError::Inconsistent { reason: format!("no {part} can be formed at a height of {:.0} mm", mm(height_m)) }
+        }
+        other => other,
+    })
+}
+
+/// Where the tape is laid on a figure's skin. Chest, hip and neck are found on the mesh, as on anybody's, so that whoever
+/// measures the mesh reads what was fitted; shoulder and waist are known from the figure.
+pub(super) fn sites(mesh: &TriMesh, figure: &Figure) -> Result<Sites, BodyError> {
+    let (atlas, h) = (figure.atlas, figure.stature());
+    let crotch = crotch(mesh, figure)?;
+    let trunk = mesh.part(|p| p.z > 0.63 * h && p.z < 0.82 * h);
+    let chest = sites::chest_level(&trunk, 0.0, h, crotch, 0.0).unwrap_or(atlas.chest * h);
+    let pelvis = mesh.part(|p| p.z > crotch && p.z < crotch + 0.11 * h);
+    let upper = mesh.part(|p| p.z > 0.75 * h);
+    let neck = tape::neck(&upper, 0.83 * h, 0.90 * h, 0.0).ok_or_else(|| missing("neck", 0.87 * h))?;
+    let level = Sites {
+        floor: 0.0,
+        crown: h,
+        middle: 0.0,
+        crotch,
+        hip: sites::hip_level(&pelvis, crotch, h, 0.0).unwrap_or_else(|| figure.hip()),
+        waist: atlas.waist * h,
+        underbust: underbust(&trunk, chest, figure),
+        chest,
+        neck,
+        shoulder: [V3::zeros(); 2],
+        back_neck: V3::zeros(),
+        upper_arm: None,
+    };
+    held_sites(mesh, figure, &level)
+}
+
+/// How far off the section of the figure that makes room for it the under-bust level lies at most, over stature.
+const UNDERBUST_OFF: f64 = 0.012;
+
+/// The level under the bust; where its girth is given, near the section that is fitted to it.
+fn underbust(trunk: &TriMesh, chest: f64, figure: &Figure) -> f64 {
+    let found = sites::underbust_level(trunk, chest, figure.stature(), 0.0);
+    if !figure.profile.is_given(Dimension::UnderbustGirth) {
+        return found;
+    }
+    let (meant, off) = (figure.underbust(), UNDERBUST_OFF * figure.stature());
+    found.clamp(meant - off, meant + off)
+}
+
+fn missing(part: &'static str, height: f64) -> BodyError {
+    BodyError::MissingPart { part, height_m: height }
+}
+
+/// Height of the crotch, near where the figure has it.
+fn crotch(mesh: &TriMesh, figure: &Figure) -> Result<f64, BodyError> {
+    let (meant, h) = (figure.crotch(), figure.stature());
+    let (low, high) = (meant - 0.06 * h, meant + 0.06 * h);
+    let groin = mesh.part(|p| p.z > low && p.z < high);
+    landmarks::crotch(&groin, low, high, 0.0).ok_or_else(|| missing("crotch", meant))
+}
+
+/// The sites on a changed skin: the levels of chest, hip and neck as they were, the rest found anew.
+pub(super) fn held_sites(mesh: &TriMesh, figure: &Figure, before: &Sites) -> Result<Sites, BodyError> {
+    let h = figure.stature();
+    let upper = mesh.part(|p| p.z > 0.75 * h && p.z < 0.95 * h);
+    let back_neck = landmarks::median_point(&upper, figure.back_neck_height(), 0.0, Side::Back);
+    let shoulder = |sign: f64| {
+        landmarks::shoulder_top(&upper, sign * figure.shoulder_x(), 0.86 * h)
+            .ok_or_else(|| missing("shoulder", figure.atlas.shoulder * h))
+    };
+    let girth = tape::girth_round(&upper, before.neck.centre, before.neck.along());
+    Ok(Sites {
+        crotch: crotch(mesh, figure)?,
+        neck: Neck { girth: girth.ok_or_else(|| missing("neck", before.neck.height))?, ..before.neck },
+        shoulder: [shoulder(1.0)?, shoulder(-1.0)?],
+        back_neck: back_neck.ok_or_else(|| missing("nape", figure.back_neck_height()))?,
+        upper_arm: Some(figure.upper_arm()),
+        ..before.clone()
+    })
+}
+
+/// Puts together what is known of a finished skin.
+fn describe(fit: Fit<'_>) -> Result<Body, BodyError> {
+    let Fit { figure, mesh, sites, girths } = fit;
+    let landmarks = find_landmarks(&mesh, &figure, &sites)?;
+    let mut control = control_mesh(&mesh, &cuts(&mesh, &figure, &sites, &landmarks))?;
+    control.snap(&landmarks);
+    let levels = sites.levels();
+    let skeleton = control.skeleton();
+    Ok(Body { sex: figure.profile.sex, mesh, skeleton, landmarks, levels, control, girths })
+}
+
+fn find_landmarks(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Landmarks, BodyError> {
+    let h = figure.stature();
+    let missing = |part: &'static str, z: f64| BodyError::MissingPart { part, height_m: z };
+    let front_height = figure.front_neck_height();
+    let side_height = figure.side_neck_height();
+    let base = tape::trunk_outline(mesh, side_height, 0.0).ok_or_else(|| missing("neck base", side_height))?;
+    let side = |sign: f64| base.points.iter().max_by(|a, b| (sign * a.x).total_cmp(&(sign * b.x)));
+    let side_neck = [1.0, -1.0].map(|sign| side(sign).map_or_else(V3::zeros, |p| V3::new(p.x, p.y, side_height)));
+    let armpit =
+        landmarks::armpit(mesh, sites.waist, sites.shoulder[0].z, 0.0).ok_or_else(|| missing("armpit", sites.chest))?;
+    let bust =
+        |sign: f64| landmarks::bust_point(mesh, sites.chest, sign, h).ok_or_else(|| missing("bust", sites.chest));
+    Ok(Landmarks {
+        side_neck,
+        shoulder: sites.shoulder,
+        back_neck: sites.back_neck,
+        front_neck: landmarks::median_point(mesh, front_height, 0.0, Side::Front)
+            .ok_or_else(|| missing("front neck", front_height))?,
+        armpit: [armpit, V3::new(-armpit.x, armpit.y, armpit.z)],
+        bust: [bust(1.0)?, bust(-1.0)?],
+        crotch: landmarks::crotch_point(mesh, sites.crotch).ok_or_else(|| missing("crotch", sites.crotch))?,
+    })
+}
+
+/// The planes of the control mesh.
+fn cuts(mesh: &TriMesh, figure: &Figure, sites: &Sites, landmarks: &Landmarks) -> Cuts {
+    let (atlas, h) = (figure.atlas, figure.stature());
+    let [elbow, wrist, tip] = figure.arm_lengths();
+    let [outward, forward, along] = figure.arm_axes();
+    let joint = figure.shoulder_joint();
+    let [knee, calf] = figure.knee_and_calf();
+    let across_arm = |t: f64| Plane { origin: joint + along * t, u: forward, v: outward };
+    let (shoulder, armpit) = (landmarks.shoulder[0], landmarks.armpit[0]);
+    // The armscye: through the shoulder point, passing outside the armpit.
+    let up = V3::new(shoulder.x - armpit.x - 0.012, 0.0, shoulder.z - armpit.z).normalize();
+    let armscye = Plane {
+        origin: V3::new((shoulder.x + armpit.x) / 2.0 + 0.006, joint.y, (shoulder.z + armpit.z) / 2.0),
+        u: V3::y(),
+        v: up,
+    };
+    let (front, back) = (landmarks.front_neck, landmarks.back_neck);
+    let base = (back - front).normalize();
+    let middle_of = |z: f64| {
+        tape::trunk_outline(mesh, z, 0.0).map_or(0.0, |outline| {
+            let (front, back) = tape::depth_range(&outline);
+            (front + back) / 2.0
+        })
+    };
+    Cuts {
+        leg: [0.012 * h, 0.072 * h, calf, knee, 0.80 * sites.crotch, sites.crotch - 0.02],
+        trunk: [
+            sites.hip,
+            (sites.hip + sites.waist) / 2.0,
+            sites.waist,
+            sites.underbust,
+            sites.chest,
+            armpit.z - 0.008,
+        ],
+        neck: [
+            Plane { origin: (front + back) / 2.0, u: V3::x(), v: -base },
+            Plane::normal_to(V3::new(0.0, middle_of(sites.neck.height), sites.neck.height), sites.neck.along()),
+        ],
+        head: [h * (1.0 - 0.76 * atlas.head_height), h * (1.0 - 0.35 * atlas.head_height)],
+        arm: [
+            armscye,
+            across_arm(UPPER_ARM * elbow),
+            across_arm(elbow),
+            across_arm(elbow + 0.2 * (wrist - elbow)),
+            across_arm(wrist),
+        ],
+        crown: highest(mesh),
+        hand: farthest_along(mesh, joint, along, tip),
+    }
+}
+
+/// The highest vertex.
+fn highest(mesh: &TriMesh) -> V3 {
+    mesh.positions.iter().copied().max_by(|a, b| a.z.total_cmp(&b.z)).unwrap_or_else(V3::zeros)
+}
+
+/// The vertex of the right hand that reaches farthest along the arm.
+fn farthest_along(mesh: &TriMesh, joint: V3, along: V3, tip: f64) -> V3 {
+    let near_axis = |p: &&V3| {
+        let t = (*p - joint).dot(&along);
+        t > 0.8 * tip && (*p - joint - along * t).norm() < 0.06
+    };
+    let reach = |p: &V3| (p - joint).dot(&along);
+    mesh.positions
+        .iter()
+        .filter(near_axis)
+        .copied()
+        .max_by(|a, b| reach(a).total_cmp(&reach(b)))
+        .unwrap_or(joint + along * tip)
+}
+
+#[cfg(test)]
+#[path = "build_tests.rs"]
+mod tests;

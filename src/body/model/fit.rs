@@ -1,0 +1,211 @@
+//! Fitting a figure until the tape reads on its skin what was asked.
+
+use super::build;
+use super::limb_tape::LimbSites;
+use super::template::Template;
+use crate::measure::girths::Girths;
+use crate::measure::sites::{self, Sites};
+use crate::measure::tape::Neck;
+use crate::people::dimension::{COUNT, Dimension};
+use crate::people::profile::Profile;
+use crate::shape::figure::{Factors, Figure};
+use crate::{BodyError, Sex};
+use geom::TriMesh;
+use std::sync::LazyLock;
+
+/// Most rounds of the fit, and corrections in each. The levels of the tape are held in a round and found anew after it.
+const ROUNDS: usize = 6;
+const CORRECTIONS: usize = 6;
+
+/// Error at which the corrections of a round stop, and error with levels found anew at which the fit does, metres.
+const CORRECTED: f64 = 3e-4;
+const FITTED: f64 = 8e-4;
+
+/// Greatest accepted difference of a girth, and of a length, from what was asked, metres.
+const GIRTH_TOLERANCE: f64 = 2e-3;
+const LENGTH_TOLERANCE: f64 = 5e-3;
+
+/// A skin with what the tape reads on it.
+#[derive(Clone)]
+pub(super) struct Fit<'a> {
+    pub figure: Figure<'a>,
+    pub mesh: TriMesh,
+    pub sites: Sites,
+    pub girths: Girths,
+}
+
+/// Makes the skin of a profile and fits it to the tape.
+///
+/// # Errors
+/// [`BodyError::MissingPart`] where the skin has no such part, [`BodyError::Inconsistent`] for a given measurement that is not
+/// reached.
+pub(super) fn fit(profile: &Profile) -> Result<Fit<'_>, BodyError> {
+    static MALE: LazyLock<Factors> = LazyLock::new(|| start(Sex::Male));
+    static FEMALE: LazyLock<Factors> = LazyLock::new(|| start(Sex::Female));
+    let factors = match profile.sex {
+        Sex::Male => &MALE,
+        Sex::Female => &FEMALE,
+    };
+    fit_from(profile, **factors)
+}
+
+/// Factors with which the template's own person measures as asked: what the skin adds to a figure differs little between people.
+fn start(sex: Sex) -> Factors {
+    let person = Template::person(sex);
+    fit_from(&person, [1.0; COUNT]).map_or([1.0; COUNT], |fit| fit.figure.factors)
+}
+
+fn fit_from(profile: &Profile, factors: Factors) -> Result<Fit<'_>, BodyError> {
+    let template = Template::of(profile.sex);
+    let figure = Figure { factors, ..Figure::new(profile) };
+    let mesh = template.dress(&figure);
+    let sites = build::sites(&mesh, &figure)?;
+    let girths = read(&mesh, &figure, &sites)?;
+    let mut fit = Fit { figure, mesh, sites, girths };
+    for round in 0..ROUNDS {
+        for _ in 0..CORRECTIONS {
+            if fit.worst(profile).is_none_or(|worst| worst.off().abs() < CORRECTED) {
+                break;
+            }
+            fit.correct(profile, template)?;
+        }
+        let found = build::sites(&fit.mesh, &fit.figure)?;
+        let girths = read(&fit.mesh, &fit.figure, &found)?;
+        let anew = Fit { sites: found, girths, ..fit.clone() };
+        if anew.worst(profile).is_none_or(|worst| worst.off().abs() < FITTED) {
+            return Ok(anew);
+        }
+        // Levels that swing with what they are corrected by come to rest half way.
+        let sites = if round == 0 { anew.sites } else { half_way(&fit.sites, anew.sites) };
+        fit.hold(sites)?;
+    }
+    for _ in 0..CORRECTIONS {
+        fit.correct(profile, template)?;
+    }
+    let unmet =
+        errors(profile, &fit.girths).into_iter().find(|error| profile.is_given(error.dimension) && error.is_unmet());
+    unmet.map_or(Ok(fit), |error| Err(error.refusal()))
+}
+
+impl Fit<'_> {
+    /// The asked measurement that is farthest off.
+    fn worst(&self, profile: &Profile) -> Option<Fitted> {
+        let asked = errors(profile, &self.girths).into_iter().filter(|error| error.is_asked(profile));
+        asked.max_by(|a, b| a.off().abs().total_cmp(&b.off().abs()))
+    }
+
+    /// Corrects every dimension by what the tape reads, the levels held.
+    fn correct(&mut self, profile: &Profile, template: &Template) -> Result<(), BodyError> {
+        for error in errors(profile, &self.girths) {
+            self.figure.adjust(error.dimension, error.asked / error.read);
+        }
+        self.mesh = template.dress(&self.figure);
+        self.hold(self.sites.clone())
+    }
+
+    /// Lays the tape at levels.
+    fn hold(&mut self, levels: Sites) -> Result<(), BodyError> {
+        self.sites = build::held_sites(&self.mesh, &self.figure, &levels)?;
+        self.girths = read(&self.mesh, &self.figure, &self.sites)?;
+        Ok(())
+    }
+}
+
+/// Sites with levels in the middle between those of two.
+fn half_way(a: &Sites, b: Sites) -> Sites {
+    let middle = |a: f64, b: f64| (a + b) / 2.0;
+    Sites {
+        chest: middle(a.chest, b.chest),
+        underbust: middle(a.underbust, b.underbust),
+        hip: middle(a.hip, b.hip),
+        neck: Neck {
+            centre: a.neck.centre.lerp(&b.neck.centre, 0.5),
+            height: middle(a.neck.height, b.neck.height),
+            lean: middle(a.neck.lean, b.neck.lean),
+            ..b.neck
+        },
+        ..b
+    }
+}
+
+/// What is fitted whether given or not.
+const MAIN: [Dimension; 5] = [
+    Dimension::NeckGirth,
+    Dimension::ChestGirth,
+    Dimension::WaistGirth,
+    Dimension::HipGirth,
+    Dimension::AcrossShoulder,
+];
+
+/// What the tape reads, limbs included.
+fn read(mesh: &TriMesh, figure: &Figure, sites: &Sites) -> Result<Girths, BodyError> {
+    let mut girths = sites::girths_at(mesh, sites)?;
+    LimbSites::of(figure, sites).read(mesh, &mut girths);
+    Ok(girths)
+}
+
+/// A fitted measurement: asked for, and read by the tape; metres.
+struct Fitted {
+    dimension: Dimension,
+    asked: f64,
+    read: f64,
+}
+
+impl Fitted {
+    fn off(&self) -> f64 {
+        self.read - self.asked
+    }
+
+    /// Whether it has to be met: it is given, or one of the main ones.
+    fn is_asked(&self, profile: &Profile) -> bool {
+        profile.is_given(self.dimension) || MAIN.contains(&self.dimension)
+    }
+
+    fn is_unmet(&self) -> bool {
+        self.off().abs() > self.tolerance()
+    }
+
+    fn tolerance(&self) -> f64 {
+        match self.dimension {
+            Dimension::AcrossShoulder | Dimension::Inseam | Dimension::ArmLength => LENGTH_TOLERANCE,
+            _ => GIRTH_TOLERANCE,
+        }
+    }
+
+    fn refusal(&self) -> BodyError {
+        let Self { dimension, asked, read } = self;
+        let [asked, read] = [asked, read].map(|metres| metres * 1e3);
+        BodyError::Inconsistent {
+            reason: format!("{} of {asked:.0} mm was asked, {read:.0} mm is reached", dimension.name()),
+        }
+    }
+}
+
+/// What a figure is corrected by, in the order in which what is not reached is told.
+const CORRECTED_BY: [Dimension; 15] = {
+    use Dimension::*;
+    [
+        NeckGirth,
+        ChestGirth,
+        UnderbustGirth,
+        WaistGirth,
+        HipGirth,
+        AcrossShoulder,
+        ThighGirth,
+        KneeGirth,
+        CalfGirth,
+        AnkleGirth,
+        UpperArmGirth,
+        ForearmGirth,
+        WristGirth,
+        Inseam,
+        ArmLength,
+    ]
+};
+
+/// Every dimension that the tape reads, but for an under-bust girth that nobody asked for.
+fn errors(profile: &Profile, read: &Girths) -> Vec<Fitted> {
+    let counts = |dimension: &Dimension| *dimension != Dimension::UnderbustGirth || profile.is_given(*dimension);
+    let fitted = |dimension| Some(Fitted { dimension, asked: profile.at(dimension), read: read.get(dimension)? });
+    CORRECTED_BY.into_iter().filter(counts).filter_map(fitted).collect()
+}

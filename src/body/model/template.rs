@@ -1,0 +1,262 @@
+//! One skin for everybody of a sex: polygonised once on an average figure, then carried over to any other.
+//!
+//! Every vertex is tied to the body parts near it by its place in them (share of the way between two sections, direction,
+//! distance off the outline). On another figure the same places give it another position; where parts meet, the positions
+//! that they give are mixed. Topology and vertex order are thus the same for all bodies of a sex.
+
+use crate::people::profile::Profile;
+use crate::shape::field::{NEAR, Parts};
+use crate::shape::figure::Figure;
+use crate::shape::loft::{Loft, Part, Ring, column};
+use crate::shape::surface::Skin;
+use crate::{Dimension, Measurements, Sex};
+use geom::contour::Grid;
+use geom::{TriMesh, V2, V3, smooth_step};
+use std::sync::LazyLock;
+
+/// Stature and body mass index of the figure whose skin it is, m and kg/m^2: amid the adults it is carried to.
+const FIGURE: [f64; 2] = [1.70, 24.0];
+
+/// Grid spacing of the skin, as a share of stature: of the body, and of arms (sideways) and feet (in height).
+const SPACING: f64 = 0.0095;
+const FINE_SPACING: f64 = 0.0070;
+
+/// Height of the ankles over stature.
+const ANKLE: f64 = 0.045;
+
+/// Difference of the distances of two parts up to which a vertex belongs to both, metres.
+const MIXING: f64 = 0.08;
+
+/// Passes of the evening out where trunk and limbs meet, and its step.
+const EVENING_PASSES: usize = 30;
+const EVENING_STEP: f64 = 0.6;
+
+/// Vertices nearer to the floor than this are the sole, and nearer to the median plane lie on it, metres.
+const SOLE: f64 = 1.5e-3;
+const MEDIAN: f64 = 1e-3;
+
+/// Greatest difference in height of a vertex and its mirror image, metres: rounding, carried on by the fairing.
+const PAIRED: f64 = 5e-3;
+
+/// A vertex's place in one part.
+#[derive(Clone, Debug)]
+struct Tie {
+    /// Number of the part, and whether it is the one of the left side.
+    part: usize,
+    left: bool,
+    weight: f64,
+    /// Tabulated section below, and the share of the way to the next.
+    ring: usize,
+    share: f64,
+    /// Direction in the section, as a vector and in units of the tabulated directions.
+    direction: V2,
+    column: f64,
+    /// Distance off the outline, and along the axis past the part's end, metres.
+    off: f64,
+    past: f64,
+}
+
+/// A vertex of the right half or of the median plane.
+#[derive(Clone, Debug)]
+struct Vertex {
+    ties: Vec<Tie>,
+    median: bool,
+    sole: bool,
+    /// Where it is on the template's own figure, metres.
+    home: V3,
+    /// How much what its parts make of it is evened out with its neighbours: 1 where trunk and limb meet, 0 away from there.
+    evened: f64,
+    /// The vertices around it: number, and whether it is the mirror image.
+    around: Vec<(usize, bool)>,
+}
+
+/// The skin of a sex.
+#[derive(Clone, Debug)]
+pub(super) struct Template {
+    stature: f64,
+    parts: [Part; 5],
+    rings: [Vec<Ring>; 5],
+    vertices: Vec<Vertex>,
+    /// For every vertex of the mesh its number in `vertices`, and whether it is the mirror image.
+    images: Vec<(usize, bool)>,
+    triangles: Vec<[usize; 3]>,
+}
+
+impl Template {
+    /// The template of a sex, made on first use.
+    pub fn of(sex: Sex) -> &'static Self {
+        static MALE: LazyLock<Template> = LazyLock::new(|| Template::new(Sex::Male));
+        static FEMALE: LazyLock<Template> = LazyLock::new(|| Template::new(Sex::Female));
+        match sex {
+            Sex::Male => &MALE,
+            Sex::Female => &FEMALE,
+        }
+    }
+
+    /// The person whose skin it is.
+    pub fn person(sex: Sex) -> Profile {
+        let [stature, mass_index] = FIGURE;
+        let weight_kg = Some(mass_index * stature * stature);
+        let known = Measurements::of(sex, stature).with(Dimension::Weight, weight_kg);
+        Profile::new(&known).expect("an ordinary person is in range")
+    }
+
+    fn new(sex: Sex) -> Self {
+        let profile = Self::person(sex);
+        let figure = Figure::new(&profile);
+        let stature = figure.stature();
+        let fields = Parts::new(figure.parts(), figure.hand_start());
+        let mesh = Skin::new(&fields, &grid(&figure)).triangles();
+        let right: Vec<usize> = (0..mesh.positions.len()).filter(|&i| mesh.positions[i].x > -MEDIAN).collect();
+        let mut vertices: Vec<Vertex> = right.iter().map(|&i| Vertex::new(&fields, mesh.positions[i])).collect();
+        let images = images(&mesh.positions, &right);
+        for [a, b] in mesh.edges() {
+            for (from, to) in [(a, b), (b, a)] {
+                if let (from, false) = images[from] {
+                    vertices[from].around.push(images[to]);
+                }
+            }
+        }
+        let rings = fields.lofts().map(|loft| loft.rings().to_vec());
+        Self { stature, parts: figure.parts(), rings, vertices, images, triangles: mesh.triangles }
+    }
+
+    /// The skin on a figure, stretched in height so that it stands on the floor and is as tall as asked.
+    pub fn dress(&self, figure: &Figure) -> TriMesh {
+        let parts = figure.parts();
+        let rings: [Vec<Ring>; 5] = std::array::from_fn(|i| parts[i].like(&self.parts[i], &self.rings[i]));
+        let scale = figure.stature() / self.stature;
+        let at = |tie: &Tie| {
+            let (low, high) = (&rings[tie.part][tie.ring], &rings[tie.part][tie.ring + 1]);
+            let mix = |a: f64, b: f64| a + (b - a) * tie.share;
+            let radius = mix(low.radius(tie.column), high.radius(tie.column)) + tie.off * scale;
+            let local = low.centre.lerp(&high.centre, tie.share) + tie.direction * radius;
+            let point = parts[tie.part].lift(local, mix(low.at, high.at) + tie.past * scale);
+            let side = if tie.left { -1.0 } else { 1.0 };
+            V3::new(side * point.x, point.y, point.z) * tie.weight
+        };
+        let place = |vertex: &Vertex| {
+            let p: V3 = vertex.ties.iter().map(at).sum();
+            V3::new(if vertex.median { 0.0 } else { p.x }, p.y, p.z)
+        };
+        let mut right = self.evened(self.vertices.iter().map(place).collect(), scale);
+        for (p, vertex) in right.iter_mut().zip(&self.vertices) {
+            p.z = if vertex.sole { 0.0 } else { p.z.max(0.0) };
+        }
+        let crown = right.iter().map(|p| p.z).fold(0.0, f64::max);
+        let stretch = figure.stature() / crown;
+        let image = |&(i, mirrored): &(usize, bool)| {
+            let p: V3 = right[i];
+            V3::new(if mirrored { -p.x } else { p.x }, p.y, p.z * stretch)
+        };
+        TriMesh { positions: self.images.iter().map(image).collect(), triangles: self.triangles.clone() }
+    }
+}
+
+impl Template {
+    /// Evens out, where trunk and limbs meet, how far the vertices were moved: what two parts make of neighbours differs there.
+    fn evened(&self, mut right: Vec<V3>, scale: f64) -> Vec<V3> {
+        let mut moved: Vec<V3> = right.iter().zip(&self.vertices).map(|(p, vertex)| p - vertex.home * scale).collect();
+        let joints: Vec<usize> = (0..right.len()).filter(|&i| self.vertices[i].evened > 0.0).collect();
+        for _ in 0..EVENING_PASSES {
+            for &i in &joints {
+                let vertex = &self.vertices[i];
+                let step = |&(j, mirrored): &(usize, bool)| {
+                    let m: V3 = moved[j];
+                    if mirrored { V3::new(-m.x, m.y, m.z) } else { m }
+                };
+                let mean = vertex.around.iter().map(step).sum::<V3>() / vertex.around.len() as f64;
+                moved[i] = moved[i].lerp(&mean, EVENING_STEP * vertex.evened);
+            }
+        }
+        for &i in &joints {
+            right[i] = self.vertices[i].home * scale + moved[i];
+        }
+        right
+    }
+}
+
+impl Vertex {
+    fn new(fields: &Parts, point: V3) -> Self {
+        let left = V3::new(-point.x, point.y, point.z);
+        let lofts = fields.lofts();
+        let candidates = (0..lofts.len()).map(|part| (part, false)).chain([(3, true), (4, true)]);
+        let distance = |&(part, mirrored): &(usize, bool)| {
+            lofts[part].sample(if mirrored { left } else { point }, NEAR).distance.max(0.0)
+        };
+        let distances: Vec<((usize, bool), f64)> = candidates.map(|c| (c, distance(&c))).collect();
+        let least = distances.iter().map(|(_, distance)| *distance).fold(f64::INFINITY, f64::min);
+        let mut ties: Vec<Tie> = distances
+            .into_iter()
+            .filter_map(|((part, mirrored), distance)| {
+                let share = 1.0 - (distance - least) / MIXING;
+                let weight = smooth_step(share) * lofts[part].own(point);
+                let point = if mirrored { left } else { point };
+                (share > 0.0).then(|| Tie::new(lofts[part], part, mirrored, weight, point))
+            })
+            .collect();
+        let sum: f64 = ties.iter().map(|tie| tie.weight).sum();
+        for tie in &mut ties {
+            tie.weight /= sum;
+        }
+        let evened = fields.fairness(point);
+        let (median, sole) = (point.x.abs() < MEDIAN, point.z < SOLE);
+        Self { ties, median, sole, home: point, evened, around: Vec::new() }
+    }
+}
+
+impl Tie {
+    fn new(loft: &Loft, part: usize, left: bool, weight: f64, point: V3) -> Self {
+        let (place, past, local) = loft.locate(point);
+        let rings = loft.rings();
+        let ring = (place as usize).min(rings.len() - 2);
+        let share = place - ring as f64;
+        let (low, high) = (&rings[ring], &rings[ring + 1]);
+        let from_centre = local - low.centre.lerp(&high.centre, share);
+        let column = column(from_centre);
+        let radius = low.radius(column) + (high.radius(column) - low.radius(column)) * share;
+        let direction = from_centre.try_normalize(1e-9).unwrap_or_else(V2::x);
+        Self { part, left, weight, ring, share, direction, column, off: from_centre.norm() - radius, past }
+    }
+}
+
+/// For every vertex its number among the `right` ones, and whether it is the mirror image of that.
+fn images(positions: &[V3], right: &[usize]) -> Vec<(usize, bool)> {
+    let mut by_height: Vec<usize> = (0..right.len()).collect();
+    by_height.sort_by(|&a, &b| positions[right[a]].z.total_cmp(&positions[right[b]].z));
+    let mut images: Vec<Option<(usize, bool)>> = vec![None; positions.len()];
+    for (i, &vertex) in right.iter().enumerate() {
+        images[vertex] = Some((i, false));
+    }
+    let nearest = |p: V3| {
+        let mirrored = V3::new(-p.x, p.y, p.z);
+        let from = by_height.partition_point(|&i| positions[right[i]].z < p.z - PAIRED);
+        let level = by_height[from..].iter().take_while(|&&i| positions[right[i]].z < p.z + PAIRED);
+        let off = |&&i: &&usize| (positions[right[i]] - mirrored).norm_squared();
+        *level.min_by(|a, b| off(a).total_cmp(&off(b))).expect("the grid is its own mirror image, and so is the skin")
+    };
+    let image = |i: usize| images[i].unwrap_or_else(|| (nearest(positions[i]), true));
+    (0..positions.len()).map(image).collect()
+}
+
+/// The grid on which the skin of a figure is polygonised: finer beyond the shoulders and below the ankles.
+fn grid(figure: &Figure) -> Grid {
+    let stature = figure.stature();
+    let walk = |from: f64, to: f64, spacing: &dyn Fn(f64) -> f64| {
+        let mut nodes = vec![from];
+        let mut at = from;
+        while at < to {
+            at += spacing(at) * stature;
+            nodes.push(at);
+        }
+        nodes
+    };
+    let (low, high) = figure.extent();
+    let sideways = |x: f64| if x > figure.shoulder_x() { FINE_SPACING } else { SPACING };
+    let upward = |z: f64| if z < ANKLE * stature { FINE_SPACING } else { SPACING };
+    let right = walk(SPACING * stature / 2.0, high.x, &sideways);
+    let x: Vec<f64> = right.iter().rev().map(|x| -x).chain(right.iter().copied()).collect();
+    let y = walk(low.y, high.y, &|_| SPACING);
+    let z = walk(low.z, high.z, &upward);
+    Grid { axes: [x, y, z] }
+}

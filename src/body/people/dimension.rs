@@ -1,0 +1,228 @@
+//! The measurements by which a subject is known, named after ISO 8559-1.
+
+use std::collections::BTreeMap;
+
+use crate::Sex;
+
+/// A body dimension. The order is that of the tables of the survey.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Dimension {
+    /// Stature.
+    Stature,
+    /// Body mass.
+    Weight,
+    /// Chest (men) or bust (women) girth.
+    ChestGirth,
+    /// Waist girth, at the ISO 8559-1 level.
+    WaistGirth,
+    /// Hip girth.
+    HipGirth,
+    /// Neck girth.
+    NeckGirth,
+    /// Tape over the back neck point from shoulder point to shoulder point.
+    AcrossShoulder,
+    /// Thigh girth.
+    ThighGirth,
+    /// Knee girth, at the middle of the kneecap.
+    KneeGirth,
+    /// Calf girth, the greatest.
+    CalfGirth,
+    /// Ankle girth, the smallest above the ankle.
+    AnkleGirth,
+    /// Upper arm girth, relaxed.
+    UpperArmGirth,
+    /// Forearm girth, relaxed.
+    ForearmGirth,
+    /// Wrist girth.
+    WristGirth,
+    /// Inside leg height: floor to crotch.
+    Inseam,
+    /// Shoulder point over the elbow to the wrist.
+    ArmLength,
+    /// Foot length.
+    FootLength,
+    /// Breadth over the upper arms (bideltoid, ISO 7250-1); always estimated.
+    ShoulderBreadth,
+    /// Under-bust girth.
+    UnderbustGirth,
+}
+
+/// Number of dimensions.
+pub(crate) const COUNT: usize = 19;
+
+impl Dimension {
+    /// Every dimension that a subject may be known by, the most asked for first.
+    pub const ALL: [Self; COUNT - 1] = {
+        use Dimension::*;
+        [
+            Stature,
+            Weight,
+            ChestGirth,
+            WaistGirth,
+            HipGirth,
+            NeckGirth,
+            AcrossShoulder,
+            UnderbustGirth,
+            ThighGirth,
+            KneeGirth,
+            CalfGirth,
+            AnkleGirth,
+            UpperArmGirth,
+            ForearmGirth,
+            WristGirth,
+            Inseam,
+            ArmLength,
+            FootLength,
+        ]
+    };
+
+    /// Key in study files, tables and JSON, with the unit in which it is written there.
+    #[must_use]
+    pub const fn key(self) -> &'static str {
+        self.facts().0
+    }
+
+    /// Name for people to read.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        self.facts().1
+    }
+
+    /// What is measured, in words, where the name alone would not do.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        self.facts().2
+    }
+
+    /// Least and greatest accepted value, m or kg: wider than the range of the adults of the survey.
+    #[must_use]
+    pub fn range(self) -> [f64; 2] {
+        self.facts().3
+    }
+
+    /// How many of the unit of the key make one SI unit.
+    #[must_use]
+    pub fn per_si(self) -> f64 {
+        if self == Self::Weight { 1.0 } else { 1e3 }
+    }
+
+    /// Unit of the key.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        if self == Self::Weight { "kg" } else { "mm" }
+    }
+
+    /// Key, name, what it is in words, and accepted range.
+    const fn facts(self) -> (&'static str, &'static str, &'static str, [f64; 2]) {
+        match self {
+            Self::Stature => ("stature_mm", "stature", "Stature", [1.30, 2.20]),
+            Self::Weight => ("weight_kg", "weight", "Body mass", [30.0, 220.0]),
+            Self::ChestGirth => ("chest_girth_mm", "chest girth", "Chest or bust girth", [0.60, 1.70]),
+            Self::WaistGirth => ("waist_girth_mm", "waist girth", "Waist girth", [0.45, 1.70]),
+            Self::HipGirth => ("hip_girth_mm", "hip girth", "Hip girth", [0.65, 1.75]),
+            Self::NeckGirth => ("neck_girth_mm", "neck girth", "Neck girth", [0.25, 0.58]),
+            Self::AcrossShoulder => {
+                ("across_shoulder_mm", "across shoulder", "Width across the shoulders", [0.30, 0.60])
+            }
+            Self::ThighGirth => ("thigh_girth_mm", "thigh girth", "Thigh girth, just below the crotch", [0.32, 1.05]),
+            Self::KneeGirth => ("knee_girth_mm", "knee girth", "Knee girth", [0.22, 0.66]),
+            Self::CalfGirth => ("calf_girth_mm", "calf girth", "Calf girth", [0.22, 0.62]),
+            Self::AnkleGirth => ("ankle_girth_mm", "ankle girth", "Ankle girth", [0.15, 0.38]),
+            Self::UpperArmGirth => ("upper_arm_girth_mm", "upper arm girth", "Upper arm girth, relaxed", [0.16, 0.60]),
+            Self::ForearmGirth => ("forearm_girth_mm", "forearm girth", "Forearm girth, relaxed", [0.16, 0.45]),
+            Self::WristGirth => ("wrist_girth_mm", "wrist girth", "Wrist girth", [0.11, 0.25]),
+            Self::Inseam => ("inseam_mm", "inseam", "Inside leg height", [0.50, 1.10]),
+            Self::ArmLength => {
+                ("arm_length_mm", "arm length", "Shoulder point over the elbow to the wrist", [0.38, 0.80])
+            }
+            Self::FootLength => ("foot_length_mm", "foot length", "Foot length", [0.18, 0.36]),
+            Self::ShoulderBreadth => {
+                ("shoulder_breadth_mm", "shoulder breadth", "Breadth over the upper arms", [0.30, 0.80])
+            }
+            Self::UnderbustGirth => ("underbust_girth_mm", "under-bust girth", "Under-bust girth", [0.50, 1.60]),
+        }
+    }
+}
+
+/// What is known of a subject: the sex, and the dimensions that were measured, m or kg.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(into = "Written", try_from = "Written")]
+pub struct Measurements {
+    /// Sex.
+    pub sex: Sex,
+    values: [Option<f64>; COUNT],
+}
+
+impl Measurements {
+    /// A subject of whom only sex and stature (m) are known.
+    #[must_use]
+    pub fn of(sex: Sex, stature_m: f64) -> Self {
+        Self { sex, values: [None; COUNT] }.with(Dimension::Stature, stature_m)
+    }
+
+    /// The same subject with a dimension known, m or kg, or not known.
+    #[must_use]
+    pub fn with(mut self, dimension: Dimension, value: impl Into<Option<f64>>) -> Self {
+        self.set(dimension, value);
+        self
+    }
+
+    /// A dimension where it is known, m or kg.
+    #[must_use]
+    pub fn get(&self, dimension: Dimension) -> Option<f64> {
+        self.values[dimension as usize]
+    }
+
+    /// Makes a dimension known, m or kg, or not known. The breadth over the upper arms cannot be given and is left out.
+    pub fn set(&mut self, dimension: Dimension, value: impl Into<Option<f64>>) {
+        if dimension != Dimension::ShoulderBreadth {
+            self.values[dimension as usize] = value.into();
+        }
+    }
+
+    /// Stature, m; not a number where it is not known.
+    #[must_use]
+    pub fn stature_m(&self) -> f64 {
+        self.get(Dimension::Stature).unwrap_or(f64::NAN)
+    }
+
+    /// Every known dimension with its value, m or kg.
+    pub fn known(&self) -> impl Iterator<Item = (Dimension, f64)> + '_ {
+        Dimension::ALL.into_iter().filter_map(|dimension| self.get(dimension).map(|value| (dimension, value)))
+    }
+}
+
+/// [`Measurements`] in files of jobs: SI values by key, such as `chest_girth_m`.
+#[derive(serde::Serialize, serde::Deserialize)]
+struct Written {
+    sex: Sex,
+    #[serde(flatten)]
+    values: BTreeMap<String, Option<f64>>,
+}
+
+/// Key of a dimension in SI units.
+fn si_key(dimension: Dimension) -> String {
+    let key = dimension.key();
+    key.strip_suffix("_mm").map_or_else(|| key.to_owned(), |stem| format!("{stem}_m"))
+}
+
+impl From<Measurements> for Written {
+    fn from(known: Measurements) -> Self {
+        let values = Dimension::ALL.map(|dimension| (si_key(dimension), known.get(dimension)));
+        Self { sex: known.sex, values: values.into() }
+    }
+}
+
+impl TryFrom<Written> for Measurements {
+    type Error = String;
+
+    fn try_from(written: Written) -> Result<Self, String> {
+        let mut known = Self { sex: written.sex, values: [None; COUNT] };
+        for (key, value) in written.values {
+            let dimension = Dimension::ALL.into_iter().find(|dimension| si_key(*dimension) == key);
+            known.set(dimension.ok_or_else(|| format!("no measurement `{key}`"))?, value);
+        }
+        Ok(known)
+    }
+}

@@ -1,0 +1,6 @@
+//! Bodies from pictures: the person in them, silhouettes, and the girths between two views.
+
+mod outline;
+pub mod pictures;
+mod segment;
+mod silhouette;

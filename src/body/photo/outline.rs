@@ -1,0 +1,313 @@
+//! Heights, widths and depths of a body from its front and side silhouettes.
+
+use super::pictures::{Camera, refused};
+use super::silhouette::{Mask, Run};
+use crate::measure::sites::{CHEST, steps, usual_chest};
+use crate::shape::sections::{Level, Section};
+use crate::{BodyError, Sex};
+
+/// Height of the ISO 8559-1 waist over stature, men and women [Gordon 2014].
+const WAIST: [f64; 2] = [0.6212, 0.6299];
+
+/// What bulges towards the camera at chest (breasts) and hip (buttocks) stands nearer to it than the median plane, by this
+/// share of the half width.
+const NEARER: f64 = 0.4;
+
+/// Height of a neck's narrowest place over stature, from and to.
+const NECK: [f64; 2] = [0.83, 0.90];
+
+/// Mean height of that place over stature: of the 160 model bodies of [`crate::shape::sections`].
+const USUAL_NECK: f64 = 0.8714;
+
+/// Radius of the crown over stature: seen from below or above, the head's edge is not its highest point.
+const CROWN: f64 = 0.05;
+
+/// How far before the subject's axis the soles' nearest edge stands, over stature: it is seen below the floor under the axis.
+const SOLES_NEARER: f64 = 0.09;
+
+/// Share by which a person's height in a picture may differ from what stature, distance and focal length say.
+const MISFIT: f64 = 0.03;
+
+/// A silhouette with its scale.
+#[derive(Clone, Debug)]
+pub(super) struct View {
+    mask: Mask,
+    /// First and last row of the person.
+    rows: (usize, usize),
+    /// Focal length in pixels and distance in metres; absent when seen from far away.
+    camera: Option<(f64, f64)>,
+}
+
+impl View {
+    pub fn new(name: &'static str, mask: Mask, camera: Option<&Camera>) -> Result<Self, BodyError> {
+        let rows = mask.rows().ok_or_else(|| refused(name, "no person is seen"))?;
+        let camera = camera.map(|camera| (camera.focal_over_height * mask.height as f64, camera.distance_m));
+        let sound = |(focal, distance): (f64, f64)| (1.0..1e7).contains(&focal) && (0.8..100.0).contains(&distance);
+        if camera.is_some_and(|camera| !sound(camera)) {
+            return Err(refused(name, "the camera given is impossible (distance 0.8 to 100 m)"));
+        }
+        Ok(Self { mask, rows, camera })
+    }
+
+    /// Whether two parts of leg size are seen side by side over most of the height of the legs.
+    fn shows_two_legs(&self) -> bool {
+        let (top, bottom) = self.rows;
+        let height = bottom - top + 1;
+        let rows = (0..20).map(|i| bottom - (height * (12 + i)) / 100);
+        let apart = |row: usize| {
+            let wide = |(start, end): &Run| (end - start) * 25 > height;
+            self.mask.runs(row).iter().filter(|run| wide(run)).count() >= 2
+        };
+        rows.filter(|row| apart(*row)).count() > 10
+    }
+
+    /// The widest run of a row.
+    fn widest(&self, row: usize) -> Option<Run> {
+        self.mask.runs(row).into_iter().max_by_key(|(start, end)| end - start)
+    }
+}
+
+/// Both silhouettes in metres.
+#[derive(Clone, Debug)]
+pub(super) struct Outlines {
+    front: View,
+    side: View,
+    stature: f64,
+    /// Height of the camera in the side view; the same for the front.
+    camera_height: f64,
+    /// Height of the crotch, metres.
+    pub crotch: f64,
+}
+
+impl Outlines {
+    pub fn new(front: View, side: View, stature: f64) -> Result<Self, BodyError> {
+        let camera_height = side.camera.map_or(0.0, |(focal, distance)| {
+            let rise = (side.mask.height as f64 / 2.0 - side.rows.0 as f64) / focal;
+            stature - distance * rise + CROWN * stature * (rise.hypot(1.0) - 1.0)
+        });
+        let mut outlines = Self { front, side, stature, camera_height, crotch: 0.0 };
+        outlines.crotch = outlines
+            .find_crotch()
+            .ok_or_else(|| refused("front", "the legs are not apart, or it is no person seen from the front"))?;
+        Ok(outlines)
+    }
+
+    /// What does not go together in a view: a camera that looked up or down shortens or lengthens the person, as a wrong distance or
+    /// focal length does, and one picture cannot tell which it was.
+    pub fn doubt(&self, name: &str, side: bool) -> Option<String> {
+        let view = if side { &self.side } else { &self.front };
+        let (focal, distance) = view.camera?;
+        let seen = (view.rows.1 + 1 - view.rows.0) as f64 * distance / focal;
+        let nearer = SOLES_NEARER * self.stature;
+        let rise = (self.stature - self.camera_height) / distance;
+        let crown = self.stature * (1.0 - CROWN * (rise.hypot(1.0) - 1.0));
+        let soles = self.camera_height.max(0.0) * nearer / (distance - nearer);
+        let misfit = seen / (crown + soles) - 1.0;
+        (misfit.abs() > MISFIT).then(|| {
+            let than = if misfit > 0.0 { "taller" } else { "smaller" };
+            format!(
+                "in the {name} picture the person is {:.0} % {than} than stature, distance and focal length say: one of them is \
+                 wrong, or the camera looked up or down",
+                100.0 * misfit.abs()
+            )
+        })
+    }
+
+    /// Neck, chest, waist and hip.
+    pub fn sections(&self, sex: Sex, notes: &mut Vec<String>) -> Result<[Section; 4], BodyError> {
+        let waist = WAIST[usize::from(sex == Sex::Female)] * self.stature;
+        self.check_arms(waist)?;
+        if self.side.shows_two_legs() {
+            return Err(refused(
+                "side",
+                "two legs are seen apart: it is no side view, or the legs stand one before the other",
+            ));
+        }
+        let chest = self.chest_level().ok_or_else(|| refused("side", "no chest is found in its outline"))?;
+        let hip = self.hip_level().ok_or_else(|| refused("side", "no buttocks are found in its outline"))?;
+        let trunk = |level, height| self.trunk(level, height, bulges(level));
+        let mut sections =
+            [self.neck()?, trunk(Level::Chest, chest)?, trunk(Level::Waist, waist)?, trunk(Level::Hip, hip)?];
+        if let Some(width) = self.hidden_chest_width(chest) {
+            sections[1].width = width;
+            notes.push("the arms hide the sides of the chest: the width just below is taken".to_owned());
+        }
+        sections[3].fullness = self.fullness(&sections[3]);
+        Ok(sections)
+    }
+
+    /// Depth half way from the hip to the crotch over that of the hip, within what bodies have.
+    fn fullness(&self, hip: &Section) -> f64 {
+        const RANGE: [f64; 2] = [0.88, 1.0];
+        let depth = self.profile((self.crotch + hip.height) / 2.0, [0.0; 2]).map_or(hip.depth, |[a, b]| a - b);
+        (depth / hip.depth).clamp(RANGE[0], RANGE[1])
+    }
+
+    /// Metres of a pixel at a depth towards the camera.
+    fn scale(&self, view: &View, nearer: f64) -> f64 {
+        view.camera.map_or_else(
+            || self.stature / (view.rows.1 + 1 - view.rows.0) as f64,
+            |(focal, distance)| (distance - nearer) / focal,
+        )
+    }
+
+    /// Row of a view in which points at a height are seen that stand `nearer` than the subject's axis.
+    fn row(&self, view: &View, height: f64, nearer: f64) -> Option<usize> {
+        let scale = self.scale(view, nearer);
+        let row = match view.camera {
+            None => (view.rows.1 + 1) as f64 - height / scale,
+            Some(_) => view.mask.height as f64 / 2.0 - (height - self.camera_height) / scale,
+        };
+        (row >= view.rows.0 as f64 - 0.5 && row <= view.rows.1 as f64 + 0.5).then_some(row as usize)
+    }
+
+    /// Front and back of the trunk at a height in the side view, metres from the subject's axis.
+    fn profile(&self, height: f64, nearer: [f64; 2]) -> Option<[f64; 2]> {
+        let middle = self.side.mask.width as f64 / 2.0;
+        let edge = |nearer: f64, front: bool| {
+            let (back_px, front_px) = self.side.widest(self.row(&self.side, height, nearer)?)?;
+            let column = if front { front_px } else { back_px };
+            Some((column as f64 - middle) * self.scale(&self.side, nearer))
+        };
+        Some([edge(nearer[0], true)?, edge(nearer[1], false)?])
+    }
+
+    /// The trunk's run at a height in the front view: the one nearest to the head's middle.
+    fn trunk_run(&self, height: f64, nearer: f64) -> Option<Run> {
+        let middle = self.head_column()?;
+        let off = |&(start, end): &Run| ((start + end) as f64 / 2.0 - middle).abs();
+        let runs = self.front.mask.runs(self.row(&self.front, height, nearer)?);
+        runs.into_iter()
+            .filter(|(start, end)| (*start as f64) < middle && (*end as f64) > middle)
+            .min_by(|a, b| off(a).total_cmp(&off(b)))
+    }
+
+    /// Middle column of the head in the front view.
+    fn head_column(&self) -> Option<f64> {
+        let (start, end) = self.front.widest(self.row(&self.front, 0.94 * self.stature, 0.0)?)?;
+        Some((start + end) as f64 / 2.0)
+    }
+
+    /// Depth of the trunk's middle towards the camera of the front view; unknown without a camera, where nothing depends on it.
+    fn middle_depth(&self, height: f64) -> f64 {
+        let depth = |h: f64| self.profile(h, [0.0; 2]).map(|[front, back]| (front + back) / 2.0);
+        // The subject stands on the ankles' axis, wherever the side picture has it.
+        if self.front.camera.is_none() { 0.0 } else { depth(height).unwrap_or(0.0) }
+    }
+
+    fn width(&self, height: f64) -> Option<f64> {
+        let nearer = self.middle_depth(height);
+        let (start, end) = self.trunk_run(height, nearer)?;
+        Some((end - start) as f64 * self.scale(&self.front, nearer))
+    }
+
+    fn trunk(&self, level: Level, height: f64, bulges: [bool; 2]) -> Result<Section, BodyError> {
+        let missing = |view| refused(view, format!("no {} is found in its outline", level.name()));
+        let width = self.width(height).ok_or_else(|| missing("front"))?;
+        let nearer = bulges.map(|bulges| if bulges { NEARER * width / 2.0 } else { 0.0 });
+        let [front, back] = self.profile(height, nearer).ok_or_else(|| missing("side"))?;
+        Ok(Section { level, height, width, depth: front - back, fullness: 1.0 })
+    }
+
+    /// Where the gap between the legs ends.
+    fn find_crotch(&self) -> Option<f64> {
+        let gap = |height: f64| {
+            let middle = self.head_column()?;
+            let runs = self.front.mask.runs(self.row(&self.front, height, 0.0)?);
+            Some(!runs.iter().any(|(start, end)| (*start as f64) < middle && (*end as f64) > middle))
+        };
+        let heights: Vec<f64> = steps(0.30 * self.stature, 0.60 * self.stature, 300).collect();
+        // The highest gap: below it a shadow may join the legs.
+        let last = heights.iter().rposition(|&height| gap(height) == Some(true))?;
+        heights.get(last + 1).copied()
+    }
+
+    /// The level of the greatest buttock protrusion.
+    fn hip_level(&self) -> Option<f64> {
+        let heights = steps(self.crotch + 0.01 * self.stature, self.crotch + 0.10 * self.stature, 48);
+        let back = |z: f64| Some((z, self.profile(z, [0.0, NEARER * 0.1 * self.stature])?[1]));
+        let lows = heights.filter_map(back).collect::<Vec<_>>();
+        let least = lows.iter().map(|(_, y)| *y).min_by(f64::total_cmp)?;
+        middle_of(lows.iter().filter(|(_, y)| *y < least + 1e-3).map(|(z, _)| *z))
+    }
+
+    /// The level of the nipples: half way between where the front stands out most from the chord between ribs and collar
+    /// bones, and where proportions have them.
+    fn chest_level(&self) -> Option<f64> {
+        let (low, high) = (0.66 * self.stature, 0.80 * self.stature);
+        let front = |z: f64| Some(self.profile(z, [0.0; 2])?[0]);
+        let (y_low, y_high) = (front(low)?, front(high)?);
+        let out = |z: f64| Some((z, front(z)? - y_low - (y_high - y_low) * (z - low) / (high - low)));
+        let [from, to] = CHEST.map(|share| share * self.stature);
+        let outs: Vec<(f64, f64)> = steps(from, to, 40).filter_map(out).collect();
+        let most = outs.iter().map(|(_, y)| *y).max_by(f64::total_cmp)?;
+        let foremost = middle_of(outs.iter().filter(|(_, y)| *y > most - 1e-3).map(|(z, _)| *z))?;
+        Some((foremost + usual_chest(self.stature, self.crotch)) / 2.0)
+    }
+
+    /// The narrowest place of the neck: width seen from the front, depth the shortest way through it seen from the side.
+    fn neck(&self) -> Result<Section, BodyError> {
+        let heights: Vec<f64> = steps(NECK[0] * self.stature, NECK[1] * self.stature, 40).collect();
+        let width = heights.iter().filter_map(|&z| Some((z, self.width(z)?))).min_by(|a, b| a.1.total_cmp(&b.1));
+        let (height, width) = width.ok_or_else(|| refused("front", "no neck is found in its outline"))?;
+        let edges: Vec<(f64, [f64; 2])> =
+            heights.iter().filter_map(|&z| Some((z, self.profile(z, [0.0; 2])?))).collect();
+        let across = edges
+            .iter()
+            .flat_map(|(z, [front, _])| edges.iter().map(move |(other, [_, back])| (front - back).hypot(z - other)));
+        let depth = across.min_by(f64::total_cmp).ok_or_else(|| refused("side", "no neck is found in its outline"))?;
+        // A neck is nearly as narrow over some centimetres: its level is steadied by where necks usually have it.
+        let height = (height + USUAL_NECK * self.stature) / 2.0;
+        Ok(Section { level: Level::Neck, height, width, depth, fullness: 1.0 })
+    }
+
+    /// Whether both arms are seen apart from the trunk at a height, in the front view.
+    fn arms_apart(&self, height: f64) -> bool {
+        let nearer = self.middle_depth(height);
+        let (Some(row), Some((start, end))) = (self.row(&self.front, height, nearer), self.trunk_run(height, nearer))
+        else {
+            return false;
+        };
+        let runs = self.front.mask.runs(row);
+        runs.iter().any(|run| run.1 <= start) && runs.iter().any(|run| run.0 >= end)
+    }
+
+    /// Width of a chest whose sides the arms hide: that of the nearest height below at which they are clear.
+    fn hidden_chest_width(&self, chest: f64) -> Option<f64> {
+        if self.arms_apart(chest) {
+            return None;
+        }
+        let step = 0.002 * self.stature;
+        let clear = (1..40).map(|i| chest - step * f64::from(i)).find(|&z| self.arms_apart(z))?;
+        self.width(clear - 2.0 * step)
+    }
+
+    /// Refuses arms that touch the trunk at the waist: stretched out they are far from it, hanging they are apart.
+    fn check_arms(&self, waist: f64) -> Result<(), BodyError> {
+        let missing = || refused("front", "no waist is found in its outline");
+        let width = self.width(waist).ok_or_else(missing)?;
+        let columns = |row: usize| self.front.mask.runs(row);
+        let rows = self.front.rows.0..=self.front.rows.1;
+        let left = rows.clone().filter_map(|row| columns(row).first().map(|run| run.0)).min();
+        let right = rows.filter_map(|row| columns(row).last().map(|run| run.1)).max();
+        let span = left.zip(right).map_or(0.0, |(left, right)| (right - left) as f64 * self.scale(&self.front, 0.0));
+        if !self.arms_apart(waist) && span < 1.7 * width {
+            return Err(refused(
+                "front",
+                format!("the arms touch the {}", if span < 1.3 * width { "trunk" } else { "waist" }),
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// Whether front and back of a level bulge beside the median plane.
+fn bulges(level: Level) -> [bool; 2] {
+    [level == Level::Chest, level == Level::Hip]
+}
+
+/// Middle between the least and the greatest.
+fn middle_of(values: impl Iterator<Item = f64> + Clone) -> Option<f64> {
+    let (low, high) = (values.clone().min_by(f64::total_cmp)?, values.max_by(f64::total_cmp)?);
+    Some((low + high) / 2.0)
+}

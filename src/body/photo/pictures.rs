@@ -1,0 +1,225 @@
+//! Bodies from a front and a side picture: silhouettes, their camera, widths and depths at the girth levels, girths.
+
+use super::outline::{Outlines, View};
+use super::segment;
+use super::silhouette::Mask;
+use crate::{BodyError, Dimension, Measurements, Sex};
+use image::DynamicImage;
+use std::io::Cursor;
+
+/// Most pixels of a picture, and of the longer side in which it is worked on.
+const MOST_PIXELS: u64 = 120_000_000;
+const WORKING: u32 = 2400;
+
+/// Least height of a person, pixels of the working size.
+const LEAST_HEIGHT: usize = 250;
+
+/// Most lean of the figure in the front and in the side view, where posture leans it too, degrees.
+const MOST_LEAN_DEG: [f64; 2] = [3.0, 6.0];
+
+/// Gray levels up to the first and from the second are those of a mask.
+const MASK_LEVELS: [u8; 2] = [40, 215];
+
+/// A camera at the level of the ground, looking horizontally at the subject; the picture's middle is on its axis.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Camera {
+    /// Focal length over the height of the picture.
+    pub focal_over_height: f64,
+    /// Distance from the vertical axis of the subject, metres.
+    pub distance_m: f64,
+}
+
+impl Camera {
+    /// A camera of a given focal length in pixels of a picture `height_px` high.
+    #[must_use]
+    pub fn of_focal(focal_px: f64, height_px: u32, distance_m: f64) -> Self {
+        Self { focal_over_height: focal_px / f64::from(height_px.max(1)), distance_m }
+    }
+
+    /// A camera of a given vertical field of view.
+    #[must_use]
+    pub fn of_field(field_deg: f64, distance_m: f64) -> Self {
+        Self { focal_over_height: 0.5 / (field_deg.to_radians() / 2.0).tan(), distance_m }
+    }
+}
+
+/// What two pictures tell of a body: heights, widths and depths of its girth levels, and its girths.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pictured {
+    /// Sex, stature and the girths found, ready for [`crate::build`].
+    pub measurements: Measurements,
+    /// Neck, chest, waist and hip: height, width, depth and girth.
+    pub levels: Vec<PicturedLevel>,
+    /// Height of the crotch, m.
+    pub crotch_level_m: f64,
+    /// What had to be assumed, as sentences for the user.
+    pub notes: Vec<String>,
+}
+
+/// One girth level read from two pictures, metres.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs)]
+pub struct PicturedLevel {
+    pub name: &'static str,
+    pub level_m: f64,
+    pub width_m: f64,
+    pub depth_m: f64,
+    pub girth_m: f64,
+}
+
+/// Reads a body from a front and a side picture (PNG or JPEG: photographs against a plain background, or black and
+/// white masks), calibrated by the stature. Without a camera the pictures are taken as seen from far away.
+///
+/// # Errors
+/// [`BodyError::Picture`] says which picture cannot be used, why, and what would be accepted.
+pub fn from_pictures(
+    front: &[u8],
+    side: &[u8],
+    camera: Option<&Camera>,
+    sex: Sex,
+    stature_m: f64,
+) -> Result<Pictured, BodyError> {
+    let front = View::new("front", person("front", front)?, camera)?;
+    let side = View::new("side", person("side", side)?, camera)?;
+    let mut notes = Vec::new();
+    if camera.is_none() {
+        notes.push("no camera given: taken as seen from far away, which reads a near person too large".to_owned());
+    }
+    let outlines = Outlines::new(front, side, stature_m)?;
+    notes.extend([("front", false), ("side", true)].into_iter().filter_map(|(name, side)| outlines.doubt(name, side)));
+    let found = outlines.sections(sex, &mut notes)?;
+    let girths = found.map(|section| section.girth(sex));
+    let levels = found.iter().zip(girths).map(|(section, girth)| PicturedLevel {
+        name: section.level.name(),
+        level_m: section.height,
+        width_m: section.width,
+        depth_m: section.depth,
+        girth_m: girth,
+    });
+    let levels = levels.collect();
+    let [neck, chest, waist, hip] = girths.map(Some);
+    let measurements = Measurements::of(sex, stature_m)
+        .with(Dimension::ChestGirth, chest)
+        .with(Dimension::WaistGirth, waist)
+        .with(Dimension::HipGirth, hip)
+        .with(Dimension::NeckGirth, neck);
+    Ok(Pictured { measurements, levels, crotch_level_m: outlines.crotch, notes })
+}
+
+pub(super) fn refused(view: &'static str, problem: impl Into<String>) -> BodyError {
+    BodyError::Picture { view, problem: problem.into() }
+}
+
+fn unreadable(view: &'static str, error: &dyn std::fmt::Display) -> BodyError {
+    refused(view, format!("it cannot be read ({error})"))
+}
+
+fn reader<'a>(view: &'static str, bytes: &'a [u8]) -> Result<image::ImageReader<Cursor<&'a [u8]>>, BodyError> {
+    image::ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|error| unreadable(view, &error))
+}
+
+/// Width and height of a picture, pixels.
+fn size(view: &'static str, bytes: &[u8]) -> Result<(u32, u32), BodyError> {
+    reader(view, bytes)?.into_dimensions().map_err(|error| unreadable(view, &error))
+}
+
+/// Height of the front picture in pixels, for [`Camera::of_focal`].
+///
+/// # Errors
+/// [`BodyError::Picture`] when it cannot be read.
+pub fn picture_height(front: &[u8]) -> Result<u32, BodyError> {
+    size("front", front).map(|(_, height)| height)
+}
+
+/// The person in a picture: read from a mask, segmented from a photograph.
+fn person(view: &'static str, bytes: &[u8]) -> Result<Mask, BodyError> {
+    let (width, height) = size(view, bytes)?;
+    if u64::from(width) * u64::from(height) > MOST_PIXELS {
+        return Err(refused(view, format!("it has {width} x {height} pixels, at most 120 million are read")));
+    }
+    let picture = reader(view, bytes)?.decode().map_err(|error| unreadable(view, &error))?;
+    let longer = width.max(height);
+    let share = (f64::from(WORKING) / f64::from(longer)).min(1.0);
+    let scaled = |side: u32| ((f64::from(side) * share).round() as u32).max(1);
+    let picture = if share < 1.0 { picture.thumbnail_exact(scaled(width), scaled(height)) } else { picture };
+    let found = match mask(&picture) {
+        Some(mask) => mask,
+        None => segment::segment(&picture).ok_or_else(|| refused(view, "its background is not plain"))?,
+    };
+    check(view, &found)?;
+    Ok(found.cleaned())
+}
+
+/// A black and white picture as a mask; the colour of its border is the background's.
+fn mask(picture: &DynamicImage) -> Option<Mask> {
+    let gray = picture.to_luma8();
+    let (width, height) = (gray.width() as usize, gray.height() as usize);
+    let values: Vec<u8> = gray.into_raw();
+    let clear = values.iter().filter(|v| **v <= MASK_LEVELS[0] || **v >= MASK_LEVELS[1]).count();
+    let both = values.iter().any(|v| *v <= MASK_LEVELS[0]) && values.iter().any(|v| *v >= MASK_LEVELS[1]);
+    if !both || clear * 100 < values.len() * 99 || !is_colourless(picture) {
+        return None;
+    }
+    let border = |i: usize| i.is_multiple_of(width) || i % width + 1 == width || i < width || i + width >= values.len();
+    let (rim, bright) = (0..values.len())
+        .filter(|&i| border(i))
+        .fold((0, 0), |(all, bright), i| (all + 1, bright + usize::from(values[i] > 127)));
+    let inverted = 2 * bright > rim;
+    Some(Mask::new(width, height, values.iter().map(|v| (*v > 127) != inverted).collect()))
+}
+
+fn is_colourless(picture: &DynamicImage) -> bool {
+    let rgb = picture.to_rgb8();
+    rgb.pixels().step_by(97).all(|p| p.0.iter().max().zip(p.0.iter().min()).is_none_or(|(a, b)| a - b < 24))
+}
+
+/// Refuses what is no single standing person, wholly in the picture.
+fn check(view: &'static str, mask: &Mask) -> Result<(), BodyError> {
+    let pieces = mask.pieces();
+    let Some(person) = pieces.first().filter(|piece| piece.len() * 400 > mask.bits.len()) else {
+        return Err(refused(view, "no person is seen before the background"));
+    };
+    if pieces.get(1).is_some_and(|second| second.len() * 4 > person.len()) {
+        return Err(refused(view, "two figures are seen; one person alone is accepted"));
+    }
+    let columns = || person.iter().map(|i| i % mask.width);
+    let (left, right) = (columns().min().unwrap_or(0), columns().max().unwrap_or(0));
+    let rows = || person.iter().map(|i| i / mask.width);
+    let (top, bottom) = (rows().min().unwrap_or(0), rows().max().unwrap_or(0));
+    if top == 0 || bottom + 1 == mask.height || left == 0 || right + 1 == mask.width {
+        return Err(refused(view, "the person is cut off by the border; head, hands and feet must be in the picture"));
+    }
+    let (width, height) = (right - left + 1, bottom - top + 1);
+    if height < LEAST_HEIGHT {
+        return Err(refused(
+            view,
+            format!("the person is only {height} pixels high; at least {LEAST_HEIGHT} are needed"),
+        ));
+    }
+    if height < width || height > 12 * width || person.len() * 12 < width * height {
+        return Err(refused(view, format!("the figure ({width} x {height} pixels) is no standing person")));
+    }
+    let lean = lean_deg(mask, person);
+    let limit = if view == "front" { MOST_LEAN_DEG[0] } else { MOST_LEAN_DEG[1] };
+    if lean.abs() > limit {
+        let problem = format!("the figure leans by {lean:.1} degrees (at most {limit}): the camera was tilted");
+        return Err(refused(view, problem));
+    }
+    Ok(())
+}
+
+/// Angle of the long axis of a figure from the vertical, clockwise positive, degrees.
+fn lean_deg(mask: &Mask, person: &[usize]) -> f64 {
+    let place = |i: &usize| [(i % mask.width) as f64, (i / mask.width) as f64];
+    let count = person.len().max(1) as f64;
+    let sum = |of: &dyn Fn([f64; 2]) -> f64| person.iter().map(|i| of(place(i))).sum::<f64>() / count;
+    let (x, y) = (sum(&|p| p[0]), sum(&|p| p[1]));
+    let (xx, yy) = (sum(&|p| (p[0] - x).powi(2)), sum(&|p| (p[1] - y).powi(2)));
+    let xy = sum(&|p| (p[0] - x) * (p[1] - y));
+    // Principal axis of the second moments; rows run downwards.
+    -((2.0 * xy).atan2(yy - xx) / 2.0).to_degrees()
+}
+
+#[cfg(test)]
+#[path = "pictures_tests.rs"]
+mod tests;

@@ -1,0 +1,155 @@
+use super::*;
+use crate::Dimension;
+use crate::testing::{Taken, in_mm, placed, png, silhouette};
+use geom::V3;
+
+/// The reference bodies beside the project, where they are.
+fn reference() -> Option<std::path::PathBuf> {
+    let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/bodies"));
+    folder.is_dir().then(|| folder.to_path_buf())
+}
+
+#[test]
+fn photographs_are_segmented_as_their_masks() {
+    let Some(folder) = reference() else {
+        eprintln!("skipped: no reference bodies beside the project");
+        return;
+    };
+    let mut overlaps = Vec::new();
+    for id in ["s01", "s02", "s03", "s04", "s05", "s06"] {
+        for view in ["front", "side"] {
+            let read = |end: &str| std::fs::read(folder.join(format!("photos/{id}_{view}{end}"))).expect("a picture");
+            let found = person("front", &read(".jpg")).expect("a person");
+            let truth = person("front", &read("_mask.png")).expect("a mask");
+            let overlap = found.overlap(&truth);
+            eprintln!("{id} {view}: {overlap:.4}");
+            overlaps.push(overlap);
+        }
+    }
+    let mean = overlaps.iter().sum::<f64>() / overlaps.len() as f64;
+    let worst = overlaps.iter().copied().fold(1.0, f64::min);
+    assert!(mean > 0.97 && worst > 0.93, "mean {mean:.4}, worst {worst:.4}");
+}
+
+#[test]
+fn bad_pictures_are_refused_with_the_reason() {
+    let png = |picture: &image::RgbImage| {
+        let mut bytes = Cursor::new(Vec::new());
+        picture.write_to(&mut bytes, image::ImageFormat::Png).expect("a PNG");
+        bytes.into_inner()
+    };
+    let drawn = |boxes: &[[u32; 4]]| {
+        let mut picture = image::RgbImage::from_pixel(600, 900, image::Rgb([90, 140, 200]));
+        for &[x0, y0, x1, y1] in boxes {
+            (y0..y1).flat_map(|y| (x0..x1).map(move |x| (x, y))).for_each(|(x, y)| {
+                picture.put_pixel(x, y, image::Rgb([150, 90, 60]));
+            });
+        }
+        png(&picture)
+    };
+    let check = |bytes: &[u8], needle: &str| {
+        let error = from_pictures(bytes, bytes, None, Sex::Male, 1.75).expect_err(needle).to_string();
+        assert!(error.contains(needle), "{error}");
+    };
+    check(b"", "cannot be read");
+    check(b"\x89PNG\r\n\x1a\n", "cannot be read");
+    check(&png(&image::RgbImage::new(1, 1)), "no person");
+    check(&drawn(&[]), "no person");
+    check(&drawn(&[[250, 500, 350, 900]]), "cut off");
+    check(&drawn(&[[100, 100, 200, 800], [400, 100, 500, 800]]), "two figures");
+    check(&drawn(&[[290, 300, 300, 330]]), "no person");
+    check(&drawn(&[[280, 300, 380, 460]]), "only 160 pixels");
+    check(&drawn(&[[100, 300, 500, 600]]), "no standing person");
+    check(&drawn(&[[220, 100, 380, 800]]), "legs");
+    // One block with a head and two legs: the arms cannot be told from it.
+    check(
+        &drawn(&[[270, 100, 330, 200], [200, 200, 400, 480], [200, 480, 280, 800], [320, 480, 400, 800]]),
+        "arms touch",
+    );
+}
+
+/// Front and side silhouettes of a built body as PNG.
+fn silhouettes(mesh: &geom::TriMesh, taken: Taken, size: [u32; 2]) -> [image::GrayImage; 2] {
+    [false, true].map(|side| silhouette(mesh, side, taken, size))
+}
+
+#[test]
+fn silhouettes_of_built_bodies_give_their_girths() {
+    let people =
+        [(Sex::Male, 1.70, 85.0), (Sex::Male, 1.84, 70.0), (Sex::Female, 1.56, 70.0), (Sex::Female, 1.68, 55.0)];
+    let views = [
+        (Taken::Orthographic(800.0), [1300, 1700], None, 15.0),
+        (Taken::Perspective(2500.0, 3.2), [1200, 1800], Some(Camera::of_focal(2500.0, 1800, 3.2)), 20.0),
+    ];
+    for (taken, size, camera, limit) in views {
+        let mut off: std::collections::BTreeMap<&str, Vec<f64>> = std::collections::BTreeMap::new();
+        for (sex, stature_m, weight_kg) in people {
+            let known = measured(sex, stature_m, weight_kg);
+            let body = crate::build(&known).expect("an ordinary body");
+            let [front, side] = silhouettes(&body.mesh, taken, size);
+            let found = from_pictures(&png(&front), &png(&side), camera.as_ref(), sex, stature_m).expect("a person");
+            let g = &body.girths;
+            let truth = ["neck", "chest", "waist", "hip"].map(|level| in_mm(g, &format!("{level}_girth_mm")));
+            for (level, truth) in found.levels.iter().zip(truth) {
+                off.entry(level.name).or_default().push(level.girth_m * 1e3 - truth);
+            }
+        }
+        for (name, errors) in off {
+            let mean = errors.iter().map(|error| error.abs()).sum::<f64>() / errors.len() as f64;
+            assert!(mean < limit, "{taken:?} {name}: {errors:.1?} mm, limit {limit}");
+        }
+    }
+}
+
+fn measured(sex: Sex, stature_m: f64, weight_kg: f64) -> Measurements {
+    Measurements::of(sex, stature_m).with(Dimension::Weight, weight_kg)
+}
+
+#[test]
+fn tilted_and_mistaken_views_are_refused() {
+    let body = crate::build(&measured(Sex::Male, 1.76, 72.0)).expect("an ordinary man");
+    let [front, side] = silhouettes(&body.mesh, Taken::Orthographic(400.0), [900, 900]);
+    let turned = |picture: &image::GrayImage, degrees: f64| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        image::GrayImage::from_fn(900, 900, |x, y| {
+            let (dx, dy) = (f64::from(x) - 450.0, f64::from(y) - 450.0);
+            let [u, v] = [dx * cos + dy * sin + 450.0, dy * cos - dx * sin + 450.0];
+            let inside = (0.0..900.0).contains(&u) && (0.0..900.0).contains(&v);
+            if inside { *picture.get_pixel(u as u32, v as u32) } else { image::Luma([0]) }
+        })
+    };
+    let check = |front: &image::GrayImage, side: &image::GrayImage, needle: &str| {
+        let error = from_pictures(&png(front), &png(side), None, Sex::Male, 1.76).expect_err(needle).to_string();
+        assert!(error.contains(needle), "{error}");
+    };
+    check(&turned(&front, 5.0), &side, "front picture cannot be used: the figure leans by 5");
+    check(&front, &turned(&side, -9.0), "the camera was tilted");
+    check(&front, &front, "two legs are seen apart");
+    check(&side, &side, "the legs are not apart");
+    check(&turned(&front, 180.0), &side, "front picture");
+}
+
+#[test]
+fn a_camera_that_looks_down_or_stands_elsewhere_is_doubted() {
+    let body = crate::build(&measured(Sex::Male, 1.76, 72.0)).expect("an ordinary man");
+    let (focal, distance, size) = (1900.0, 3.0, [1200, 1800]);
+    // The camera of the silhouettes is 0.9 m high: what it turns by, the body turns about it the other way.
+    let notes = |pitch_deg: f64, higher: f64, said_distance: f64| {
+        let seen = |side: bool| {
+            let eye = if side { V3::new(distance, 0.0, 0.9) } else { V3::new(0.0, distance, 0.9) };
+            let axis = if side { V3::y_axis() } else { -V3::x_axis() };
+            let turn = nalgebra::Rotation3::from_axis_angle(&axis, pitch_deg.to_radians());
+            let mesh = placed(&body.mesh, |p| turn * (p - V3::z() * higher - eye) + eye);
+            png(&silhouette(&mesh, side, Taken::Perspective(focal, distance), size))
+        };
+        let camera = Camera::of_focal(focal, 1800, said_distance);
+        from_pictures(&seen(false), &seen(true), Some(&camera), Sex::Male, 1.76).expect("a person").notes
+    };
+    let doubted = |notes: &[String]| notes.iter().filter(|note| note.contains("looked up or down")).count();
+    assert_eq!(doubted(&notes(0.0, 0.0, distance)), 0);
+    assert_eq!(doubted(&notes(0.0, 0.4, distance)), 0);
+    assert_eq!(doubted(&notes(0.0, 0.0, 1.06 * distance)), 2);
+    // From above the head down at the middle of the body.
+    let down = notes(16.0, 0.9, distance);
+    assert_eq!(doubted(&down), 2, "{down:?}");
+}

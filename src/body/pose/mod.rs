@@ -1,0 +1,320 @@
+//! Another pose of a body: arms raised or lowered, legs spread, about their joints in the frontal plane.
+//!
+//! Every vertex turns about the joint by its own share of the limb's angle. For one joint that is dual quaternion skinning
+//! [Kavan 2008]: no point comes nearer to the axis, so that nothing collapses as under linear blending. The shares rise
+//! smoothly from the trunk into the limb, and are nought at the girth levels of the trunk.
+
+use crate::{Body, BodyError, Joint, Landmarks};
+use geom::section::{Outline, Plane, section};
+use geom::{TriMesh, V3, hull};
+
+/// Angles of the limbs from the vertical, degrees; `None` leaves them as they are.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pose {
+    /// Of both arms, shoulder to elbow.
+    pub arm_deg: Option<f64>,
+    /// Of both legs, hip to knee.
+    pub leg_deg: Option<f64>,
+}
+
+/// Accepted angles of arms and legs, degrees.
+const ARM_DEG: [f64; 2] = [5.0, 90.0];
+const LEG_DEG: [f64; 2] = [0.0, 30.0];
+
+/// How far the arm's turn reaches from the armscye into the shoulder and into the arm, over stature.
+const ARM_REACH: [f64; 2] = [0.030, 0.085];
+
+/// Where the leg's turn begins below the hip level, is complete below the crotch, and how far from the crotch's lowest point
+/// the skin keeps between the legs, over stature.
+const LEG_BEGINS: f64 = 0.006;
+const LEG_COMPLETE: f64 = 0.10;
+const BETWEEN_LEGS: f64 = 0.075;
+
+/// How far beyond the armscye skin must lie to be the arm's own: nearer skin may be the trunk's below the armpit, metres.
+const APART: f64 = 0.008;
+
+/// Over how much more of the distance the arm's skin below the armpit comes to move as the arm does, metres.
+const PARTING: f64 = 0.03;
+
+/// Room between the trunk's girth levels and the skin that moves, metres.
+const KEPT: f64 = 0.004;
+
+/// A body in another pose: fine mesh, control mesh, joints and feature points moved alike, its feet on the floor.
+///
+/// # Errors
+/// [`BodyError::Pose`] for angles beyond what the limbs reach, or at which they would run into the trunk or each other.
+pub fn pose(body: &Body, pose: Pose) -> Result<Body, BodyError> {
+    let mut posed = body.clone();
+    for side in [1.0, -1.0] {
+        if let Some(asked) = pose.arm_deg {
+            let turn = turn("arms", asked, ARM_DEG, arm_angle(body, side))?;
+            let arm = Arm::new(body, side);
+            apply(body, &mut posed, arm.joint, -side * turn, |mesh| arm.shares(mesh));
+        }
+        if let Some(asked) = pose.leg_deg {
+            let turn = turn("legs", asked, LEG_DEG, leg_angle(body, side))?;
+            let leg = Leg::new(body, side);
+            apply(body, &mut posed, leg.joint, -side * turn, |mesh| {
+                mesh.positions.iter().map(|p| leg.share(p)).collect()
+            });
+        }
+    }
+    check(&posed)?;
+    stand(&mut posed);
+    posed.skeleton = posed.control.skeleton();
+    Ok(posed)
+}
+
+/// From the angle a limb has to the one asked for, radians.
+fn turn(limb: &'static str, asked: f64, [least, greatest]: [f64; 2], has: f64) -> Result<f64, BodyError> {
+    if (least..=greatest).contains(&asked) {
+        return Ok(asked.to_radians() - has);
+    }
+    let problem = format!("{limb} at {asked} degrees from the vertical; accepted: {least} to {greatest}");
+    Err(BodyError::Pose { problem })
+}
+
+/// Angle of a bone from the vertical in the frontal plane, outwards positive, radians.
+fn angle(from: V3, to: V3, side: f64) -> f64 {
+    (side * (to.x - from.x)).atan2(from.z - to.z)
+}
+
+fn joints(side: f64, right: [Joint; 2], left: [Joint; 2]) -> [Joint; 2] {
+    if side > 0.0 { right } else { left }
+}
+
+fn arm_angle(body: &Body, side: f64) -> f64 {
+    let joints = joints(side, [Joint::ShoulderRight, Joint::ElbowRight], [Joint::ShoulderLeft, Joint::ElbowLeft]);
+    let [shoulder, elbow] = joints.map(|joint| body.skeleton.at(joint));
+    angle(shoulder, elbow, side)
+}
+
+fn leg_angle(body: &Body, side: f64) -> f64 {
+    let joints = joints(side, [Joint::HipRight, Joint::KneeRight], [Joint::HipLeft, Joint::KneeLeft]);
+    let [hip, knee] = joints.map(|joint| body.skeleton.at(joint));
+    angle(hip, knee, side)
+}
+
+/// Five-fold smooth step from 0 to 1.
+fn smooth(t: f64) -> f64 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * t * (t * (6.0 * t - 15.0) + 10.0)
+}
+
+/// One arm: what of the body it moves, and how much.
+struct Arm {
+    joint: V3,
+    /// The armscye: shoulder joint and unit normal outwards.
+    outward: V3,
+    hand: V3,
+    reach: [f64; 2],
+    /// Heights between which the skin beside the arm begins to move.
+    skin: [f64; 2],
+}
+
+impl Arm {
+    fn new(body: &Body, side: f64) -> Self {
+        let i = usize::from(side < 0.0);
+        let (shoulder, armpit) = (body.landmarks.shoulder[i], body.landmarks.armpit[i]);
+        let [joint, wrist] =
+            joints(side, [Joint::ShoulderRight, Joint::WristRight], [Joint::ShoulderLeft, Joint::WristLeft])
+                .map(|joint| body.skeleton.at(joint));
+        let stature = crown(body);
+        let up = V3::new(shoulder.x - armpit.x, 0.0, shoulder.z - armpit.z).normalize();
+        Self {
+            joint,
+            outward: V3::new(up.z, 0.0, -up.x) * side,
+            hand: wrist,
+            reach: ARM_REACH.map(|share| share * stature),
+            skin: [body.levels.chest_m + KEPT, armpit.z - KEPT],
+        }
+    }
+
+    /// Distance beyond the armscye, metres.
+    fn beyond(&self, p: &V3) -> f64 {
+        (p - self.joint).dot(&self.outward)
+    }
+
+    /// The share of the turn of every vertex.
+    fn shares(&self, mesh: &TriMesh) -> Vec<f64> {
+        let own = self.own(mesh);
+        let [inside, outside] = self.reach;
+        let share = |(p, own): (&V3, bool)| {
+            let across = smooth((self.beyond(p) + inside) / (inside + outside));
+            let [from, to] = self.skin;
+            let beside = smooth((p.z - from) / (to - from).max(KEPT));
+            let within = if own { smooth((self.beyond(p) - APART) / PARTING) } else { 0.0 };
+            across * beside.max(within)
+        };
+        mesh.positions.iter().zip(own).map(share).collect()
+    }
+
+    /// The vertices beyond the armscye that are joined to the hand.
+    fn own(&self, mesh: &TriMesh) -> Vec<bool> {
+        let mut around = vec![Vec::new(); mesh.positions.len()];
+        for [a, b] in mesh.edges() {
+            around[a].push(b);
+            around[b].push(a);
+        }
+        let off = |i: &usize| (mesh.positions[*i] - self.hand).norm_squared();
+        let mut own = vec![false; mesh.positions.len()];
+        let Some(first) = (0..own.len()).min_by(|a, b| off(a).total_cmp(&off(b))) else { return own };
+        let mut open = vec![first];
+        own[first] = true;
+        while let Some(vertex) = open.pop() {
+            for &next in &around[vertex] {
+                if !own[next] && self.beyond(&mesh.positions[next]) > APART {
+                    own[next] = true;
+                    open.push(next);
+                }
+            }
+        }
+        own
+    }
+}
+
+/// One leg.
+struct Leg {
+    side: f64,
+    joint: V3,
+    /// Heights between which the turn is complete, and begins.
+    heights: [f64; 2],
+    crotch: f64,
+    between: f64,
+}
+
+impl Leg {
+    fn new(body: &Body, side: f64) -> Self {
+        let stature = crown(body);
+        let joint = if side > 0.0 { Joint::HipRight } else { Joint::HipLeft };
+        let crotch = body.levels.crotch_m;
+        Self {
+            side,
+            joint: body.skeleton.at(joint),
+            heights: [crotch - LEG_COMPLETE * stature, body.levels.hip_m - LEG_BEGINS * stature - KEPT],
+            crotch,
+            between: BETWEEN_LEGS * stature,
+        }
+    }
+
+    /// The share of the turn at a place of the skin.
+    fn share(&self, p: &V3) -> f64 {
+        let [low, high] = self.heights;
+        // Hands hang beside the thighs: they are farther out than any thigh.
+        let out = self.side * p.x;
+        if out <= 0.0 || p.z >= high {
+            return 0.0;
+        }
+        let below = (self.crotch - p.z).max(0.0);
+        smooth((high - p.z) / (high - low)) * smooth(out.hypot(below) / self.between)
+    }
+}
+
+fn crown(body: &Body) -> f64 {
+    body.mesh.bounds().map_or(0.0, |(_, high)| high.z)
+}
+
+/// Turns what belongs to a limb about its joint, in the frontal plane.
+fn apply(from: &Body, posed: &mut Body, joint: V3, angle: f64, shares: impl Fn(&TriMesh) -> Vec<f64>) {
+    let shares = shares(&from.mesh);
+    let turned = |p: V3, share: f64| {
+        let (sin, cos) = (angle * share).sin_cos();
+        let r = p - joint;
+        V3::new(joint.x + r.x * cos + r.z * sin, p.y, joint.z - r.x * sin + r.z * cos)
+    };
+    let volume = posed.mesh.volume();
+    for (p, &share) in posed.mesh.positions.iter_mut().zip(&shares).filter(|(_, share)| **share > 0.0) {
+        *p = turned(*p, share);
+    }
+    keep_volume(&mut posed.mesh, volume, &shares);
+    let nearest = |p: &V3| {
+        let off = |q: &V3| (q - p).norm_squared();
+        let found = from.mesh.positions.iter().zip(&shares).min_by(|a, b| off(a.0).total_cmp(&off(b.0)));
+        found.map_or(0.0, |(_, share)| *share)
+    };
+    for (p, before) in posed.control.positions.iter_mut().zip(&from.control.positions) {
+        *p = turned(*p, nearest(before));
+    }
+    for (p, before) in points(&mut posed.landmarks).into_iter().zip(points(&mut from.landmarks.clone())) {
+        *p = turned(*p, nearest(before));
+    }
+}
+
+/// Gives the flesh back that the turn added or took: the skin that turns in part moves along its normal.
+fn keep_volume(mesh: &mut TriMesh, volume: f64, shares: &[f64]) {
+    let bent: Vec<f64> = shares.iter().map(|share| 4.0 * share * (1.0 - share)).collect();
+    let areas = mesh.triangle_normals();
+    let areas = mesh.triangles.iter().zip(&areas);
+    let area: f64 = areas.map(|(t, n)| n.norm() / 6.0 * t.iter().map(|&v| bent[v]).sum::<f64>()).sum();
+    if area <= 0.0 {
+        return;
+    }
+    let off = (volume - mesh.volume()) / area;
+    let normals = mesh.vertex_normals();
+    for ((p, normal), bent) in mesh.positions.iter_mut().zip(normals).zip(bent).filter(|(_, bent)| *bent > 0.0) {
+        *p += normal * (off * bent);
+    }
+}
+
+/// All feature points.
+fn points(landmarks: &mut Landmarks) -> Vec<&mut V3> {
+    let Landmarks { side_neck, shoulder, back_neck, front_neck, armpit, bust, crotch } = landmarks;
+    let pairs = side_neck.iter_mut().chain(shoulder).chain(armpit).chain(bust);
+    pairs.chain([back_neck, front_neck, crotch]).collect()
+}
+
+/// Refuses limbs that run into the trunk or each other, by horizontal sections.
+fn check(body: &Body) -> Result<(), BodyError> {
+    let levels = &body.levels;
+    let refuse = |what: &str| Err(BodyError::Pose { problem: format!("{what} would touch; accepted: limbs apart") });
+    let outlines = |z: f64| section(&body.mesh, &Plane::horizontal(z));
+    let large = |outline: &Outline| hull::perimeter(&outline.points) > 0.1;
+    for share in [0.15, 0.3, 0.45, 0.6, 0.75] {
+        let z = levels.crotch_m * share;
+        let crosses = |outline: &Outline| outline.bounds().0.x < 0.0 && outline.bounds().1.x > 0.0;
+        if outlines(z).iter().any(|outline| large(outline) && crosses(outline)) {
+            return refuse("the legs");
+        }
+    }
+    for level in [levels.hip_m, levels.waist_m, (levels.waist_m + levels.chest_m) / 2.0] {
+        let all: Vec<Outline> = outlines(level).into_iter().filter(large).collect();
+        let Some(trunk) = all.iter().max_by(|a, b| hull::perimeter(&a.points).total_cmp(&hull::perimeter(&b.points)))
+        else {
+            continue;
+        };
+        let (low, high) = trunk.bounds();
+        let meets = |outline: &Outline| {
+            let (a, b) = outline.bounds();
+            a.x < high.x && b.x > low.x && a.y < high.y && b.y > low.y
+        };
+        if all.iter().filter(|outline| meets(outline)).count() > 1 {
+            return refuse("arms and trunk");
+        }
+    }
+    Ok(())
+}
+
+/// Sets a posed body on the floor.
+fn stand(body: &mut Body) {
+    let Some((low, _)) = body.mesh.bounds() else { return };
+    let down = low.z;
+    let mut lower = |p: &mut V3| p.z -= down;
+    body.mesh.positions.iter_mut().for_each(&mut lower);
+    body.control.positions.iter_mut().for_each(&mut lower);
+    points(&mut body.landmarks).into_iter().for_each(&mut lower);
+    let levels = &mut body.levels;
+    for level in [
+        &mut levels.chest_m,
+        &mut levels.underbust_m,
+        &mut levels.waist_m,
+        &mut levels.hip_m,
+        &mut levels.crotch_m,
+        &mut levels.neck_m,
+    ] {
+        *level -= down;
+    }
+    body.girths.lower(down);
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,65 @@
+use super::*;
+use crate::Dimension;
+use crate::measure::tape;
+use crate::{Measurements, Sex, build};
+
+fn bodies() -> Vec<Body> {
+    let asked = |sex, stature_m, weight_kg| Measurements::of(sex, stature_m).with(Dimension::Weight, weight_kg);
+    let all = [asked(Sex::Male, 1.78, 75.0), asked(Sex::Female, 1.62, 82.0)];
+    all.iter().map(|known| build(known).expect("an ordinary body")).collect()
+}
+
+/// Triangles that face against the mean of the surface around them.
+fn flipped(mesh: &TriMesh) -> usize {
+    let normals = mesh.vertex_normals();
+    let against =
+        |(triangle, normal): (&[usize; 3], &V3)| triangle.iter().map(|&v| normals[v]).sum::<V3>().dot(normal) <= 0.0;
+    mesh.triangles.iter().zip(&mesh.triangle_normals()).filter(|(t, n)| against((t, n))).count()
+}
+
+#[test]
+fn limbs_turn_without_collapse_creases_or_a_changed_trunk() {
+    for body in bodies() {
+        let before = flipped(&body.mesh);
+        let check = |asked: Pose| {
+            let posed = pose(&body, asked).expect("a pose of an ordinary body");
+            let volume = posed.mesh.volume() / body.mesh.volume();
+            assert!((volume - 1.0).abs() < 0.02, "{asked:?}: volume {volume}");
+            // An arm raised beyond what clothes need folds the armpit a little.
+            let folded = if asked.arm_deg.is_some_and(|degrees| degrees > 60.0) { 4 } else { 0 };
+            assert!(flipped(&posed.mesh) <= before + folded, "{asked:?}: {} flipped", flipped(&posed.mesh));
+            let pairs = [
+                (body.levels.chest_m, posed.levels.chest_m),
+                (body.levels.underbust_m, posed.levels.underbust_m),
+                (body.levels.waist_m, posed.levels.waist_m),
+                (body.levels.hip_m, posed.levels.hip_m),
+            ];
+            for (was, is) in pairs {
+                let girth = |mesh: &TriMesh, z| tape::trunk_girth(mesh, z, 0.0).expect("a trunk");
+                let change = girth(&posed.mesh, is) - girth(&body.mesh, was);
+                assert!(change.abs() < 1e-3, "{asked:?}: girth at {was:.3} changed by {change}");
+            }
+            assert!(posed.mesh.bounds().expect("vertices").0.z.abs() < 1e-9);
+            for (angle, asked) in [(arm_angle(&posed, 1.0), asked.arm_deg), (leg_angle(&posed, -1.0), asked.leg_deg)] {
+                if let Some(asked) = asked {
+                    assert!((angle.to_degrees() - asked).abs() < 4.0, "{:.1} for {asked}", angle.to_degrees());
+                }
+            }
+        };
+        check(Pose { arm_deg: Some(25.0), leg_deg: None });
+        check(Pose { arm_deg: Some(60.0), leg_deg: Some(12.0) });
+        check(Pose { arm_deg: Some(85.0), leg_deg: Some(18.0) });
+    }
+}
+
+#[test]
+fn impossible_poses_are_refused() {
+    let body = bodies().swap_remove(1);
+    let check = |asked: Pose, needle: &str| {
+        let error = pose(&body, asked).expect_err("no such pose").to_string();
+        assert!(error.contains(needle), "{error}");
+    };
+    check(Pose { arm_deg: Some(120.0), leg_deg: None }, "5 to 90");
+    check(Pose { arm_deg: None, leg_deg: Some(f64::NAN) }, "0 to 30");
+    check(Pose { arm_deg: Some(5.0), leg_deg: None }, "arms and trunk would touch");
+}

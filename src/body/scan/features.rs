@@ -1,0 +1,167 @@
+//! A dressable body from a scan: features found on the skin alone, the control mesh cut through the scan's own sections.
+//!
+//! Left and right are found each for itself: the left side is that of the mirrored mesh.
+
+use crate::measure::arm::Arm;
+use crate::measure::landmarks;
+use crate::measure::sites::{self, Sites};
+use crate::measure::tape;
+use crate::model::control::{ControlMesh, Layer};
+use crate::model::control_cut::{Cuts, control_mesh};
+use crate::shape::atlas::Atlas;
+use crate::{Body, BodyError, Landmarks, Sex};
+use geom::section::Plane;
+use geom::{TriMesh, V3};
+
+/// Everything of a measured, closed scan in the world frame that a [`Body`] holds.
+///
+/// # Errors
+/// [`BodyError::MissingPart`] names the part that was not found: a body to be dressed needs arms apart from the trunk and legs
+/// apart from each other.
+pub(super) fn describe(sex: Sex, mesh: TriMesh) -> Result<Body, BodyError> {
+    let (sites, _) = sites::find_sites(&mesh, Some(sex))?;
+    let girths = sites::girths_at(&mesh, &sites)?;
+    let right = Half::find(&mesh, &sites, sites.shoulder[0])?;
+    let mirrored = mirrored(&mesh);
+    let left = Half::find(&mirrored, &sites, mirror(sites.shoulder[1]))?;
+    let landmarks = landmarks(&mesh, &sites, &right, &left)?;
+    let mut control = control_mesh(&mesh, &cuts(&mesh, sex, &sites, &landmarks, &right))?;
+    let of_left = control_mesh(&mirrored, &cuts(&mirrored, sex, &sites, &landmarks, &left))?;
+    take_left(&mut control, &of_left);
+    control.snap(&landmarks);
+    let levels = sites.levels();
+    let skeleton = control.skeleton();
+    Ok(Body { sex, mesh, skeleton, landmarks, levels, control, girths })
+}
+
+/// The features of one side, on the right of its mesh.
+struct Half {
+    shoulder: V3,
+    side_neck: V3,
+    armpit: V3,
+    arm: Arm,
+}
+
+impl Half {
+    fn find(mesh: &TriMesh, sites: &Sites, shoulder: V3) -> Result<Self, BodyError> {
+        let stature = sites.crown - sites.floor;
+        let armpit = landmarks::armpit(mesh, sites.waist, shoulder.z, 0.0)
+            .or_else(|| landmarks::armpit_of_spread(mesh, shoulder, stature))
+            .ok_or_else(|| missing("armpit", sites.chest))?;
+        let arm = Arm::trace(mesh, shoulder, armpit, stature).ok_or_else(|| missing("arm", armpit.z))?;
+        let side_neck = side_neck(mesh, sites, shoulder).ok_or_else(|| missing("neck base", shoulder.z))?;
+        Ok(Self { shoulder, side_neck, armpit, arm })
+    }
+}
+
+fn missing(part: &'static str, z: f64) -> BodyError {
+    BodyError::MissingPart { part, height_m: z }
+}
+
+fn mirror(p: V3) -> V3 {
+    V3::new(-p.x, p.y, p.z)
+}
+
+fn mirrored(mesh: &TriMesh) -> TriMesh {
+    let positions = mesh.positions.iter().copied().map(mirror).collect();
+    TriMesh { positions, triangles: mesh.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect() }
+}
+
+/// Gives a control mesh the left limbs of that of the mirrored body (which are its right ones, mirrored back).
+fn take_left(control: &mut ControlMesh, of_left: &ControlMesh) {
+    use Layer::*;
+    let layers = [
+        FootLeft,
+        AnkleLeft,
+        CalfLeft,
+        KneeLeft,
+        MidThighLeft,
+        ThighLeft,
+        ArmscyeLeft,
+        UpperArmLeft,
+        ElbowLeft,
+        ForearmLeft,
+        WristLeft,
+    ];
+    let rings = layers.into_iter().flat_map(|layer| of_left.ring(layer));
+    for vertex in rings.chain([ControlMesh::end(1), ControlMesh::end(4)]) {
+        control.positions[vertex] = of_left.positions[vertex];
+    }
+}
+
+/// Where the line over the shoulder bends from the neck into the shoulder: the point farthest below the chord from the side of
+/// the neck to the shoulder point.
+fn side_neck(mesh: &TriMesh, sites: &Sites, shoulder: V3) -> Option<V3> {
+    let stature = sites.crown - sites.floor;
+    let neck = tape::trunk_outline(mesh, sites.neck.height, 0.0)?;
+    let inner = neck.bounds().1.x;
+    let upper = tape::above(mesh, shoulder.z - 0.05 * stature);
+    let ceiling = sites.neck.height;
+    let line: Vec<V3> = sites::steps(inner * 0.97, shoulder.x, 40)
+        .filter_map(|x| landmarks::shoulder_top(&upper, x, ceiling))
+        .collect();
+    let (first, last) = (line.first()?, line.last()?);
+    let slope = (last.z - first.z) / (last.x - first.x);
+    let below = |p: &V3| first.z + slope * (p.x - first.x) - p.z;
+    line.iter().max_by(|a, b| below(a).total_cmp(&below(b))).copied()
+}
+
+fn landmarks(mesh: &TriMesh, sites: &Sites, right: &Half, left: &Half) -> Result<Landmarks, BodyError> {
+    let stature = sites.crown - sites.floor;
+    let bust =
+        |sign: f64| landmarks::bust_point(mesh, sites.chest, sign, stature).ok_or_else(|| missing("bust", sites.chest));
+    Ok(Landmarks {
+        side_neck: [right.side_neck, mirror(left.side_neck)],
+        shoulder: [right.shoulder, mirror(left.shoulder)],
+        back_neck: sites.back_neck,
+        front_neck: landmarks::front_neck(mesh, sites).ok_or_else(|| missing("front neck", 0.82 * stature))?,
+        armpit: [right.armpit, mirror(left.armpit)],
+        bust: [bust(1.0)?, bust(-1.0)?],
+        crotch: landmarks::crotch_point(mesh, sites.crotch).ok_or_else(|| missing("crotch", sites.crotch))?,
+    })
+}
+
+/// The planes of the control mesh, those of the limbs for the right side.
+fn cuts(mesh: &TriMesh, sex: Sex, sites: &Sites, landmarks: &Landmarks, half: &Half) -> Cuts {
+    let (atlas, h) = (Atlas::of(sex), sites.crown - sites.floor);
+    let (shoulder, armpit, arm) = (half.shoulder, half.armpit, &half.arm);
+    // The armscye: through the shoulder point, passing outside the armpit.
+    let up = V3::new(shoulder.x - armpit.x - 0.012, 0.0, shoulder.z - armpit.z).normalize();
+    let armscye = Plane {
+        origin: V3::new(
+            (shoulder.x + armpit.x) / 2.0 + 0.006,
+            (shoulder.y + armpit.y) / 2.0,
+            (shoulder.z + armpit.z) / 2.0,
+        ),
+        u: V3::y(),
+        v: up,
+    };
+    let (elbow, wrist) = (arm.elbow(), arm.wrist());
+    let base = (landmarks.back_neck - landmarks.front_neck).normalize();
+    let armpits = landmarks.armpit[0].z.min(landmarks.armpit[1].z);
+    Cuts {
+        leg: [0.012 * h, 0.072 * h, atlas.calf * h, atlas.knee * h, 0.80 * sites.crotch, sites.crotch - 0.02],
+        trunk: [
+            sites.hip,
+            (sites.hip + sites.waist) / 2.0,
+            sites.waist,
+            sites.underbust,
+            sites.chest,
+            (armpits - 0.008).max(sites.chest + 0.004),
+        ],
+        neck: [
+            Plane { origin: (landmarks.front_neck + landmarks.back_neck) / 2.0, u: V3::x(), v: -base },
+            Plane::normal_to(sites.neck.centre, sites.neck.along()),
+        ],
+        head: [h * (1.0 - 0.76 * atlas.head_height), h * (1.0 - 0.35 * atlas.head_height)],
+        arm: [
+            armscye,
+            arm.across(0.58 * elbow),
+            arm.across(elbow),
+            arm.across(elbow + 0.2 * (wrist - elbow)),
+            arm.across(wrist),
+        ],
+        crown: mesh.positions.iter().copied().max_by(|a, b| a.z.total_cmp(&b.z)).unwrap_or_else(V3::zeros),
+        hand: arm.tip,
+    }
+}

@@ -1,0 +1,60 @@
+//! Bodies from scans: aligned, cleaned, repaired and measured.
+
+mod features;
+
+use crate::files::import::import;
+use crate::measure::sites;
+use crate::repair;
+use crate::{Body, BodyError, Girths, Imported, LengthUnit, Sex};
+use geom::V3;
+
+/// A trunk farther before or behind the origin than this is moved over it, metres.
+const OFF_AXIS: f64 = 0.04;
+
+/// A body scan in the world frame, with what the tape reads on it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scan {
+    /// The scan: upright, facing `y`, without strays and floor; smoothed where it was rough, its holes closed.
+    pub imported: Imported,
+    /// Sex, given or told from neck, hip and waist girth.
+    pub sex: Sex,
+    /// Measurements.
+    pub girths: Girths,
+}
+
+/// Reads and measures a body scan (OBJ, PLY or STL) of any orientation; the unit is given or told from the height, the
+/// sex places the waist.
+///
+/// # Errors
+/// Those of [`import`], and [`BodyError::MissingPart`] where a part of the body is not found.
+pub fn from_scan(bytes: &[u8], unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<Scan, BodyError> {
+    let mut imported = import(bytes, unit)?;
+    repair::repair(&mut imported.mesh, &mut imported.notes)?;
+    let (low, high) = imported.mesh.bounds().unwrap_or((V3::zeros(), V3::zeros()));
+    let middle = sites::trunk_middle(&imported.mesh, low.z, high.z - low.z);
+    let forward = if middle.y.abs() > OFF_AXIS { middle.y } else { 0.0 };
+    imported.mesh.positions.iter_mut().for_each(|p| *p -= V3::new(middle.x, forward, low.z));
+    let (sites, told) = sites::find_sites(&imported.mesh, sex)?;
+    if sex.is_none() {
+        let name = if told == Sex::Male { "man" } else { "woman" };
+        imported.notes.push(format!("measured as a {name}, by neck, hip and waist girth: the sex was not given"));
+    }
+    let girths = sites::girths_at(&imported.mesh, &sites)?;
+    Ok(Scan { imported, sex: told, girths })
+}
+
+impl Scan {
+    /// The body that wears garments: the cleaned scan as fine mesh, with its features, control mesh and joints.
+    ///
+    /// # Errors
+    /// [`BodyError::MissingPart`] where arms or legs are not apart, [`BodyError::Open`] for a surface that does not close.
+    pub fn into_body(self) -> Result<Body, BodyError> {
+        if !self.imported.mesh.is_closed_manifold() {
+            return Err(BodyError::Open { problem: "parts of it cross or branch".to_owned() });
+        }
+        features::describe(self.sex, self.imported.mesh)
+    }
+}
+
+#[cfg(test)]
+mod tests;

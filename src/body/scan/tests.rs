@@ -1,0 +1,200 @@
+use super::*;
+use crate::Dimension;
+use crate::testing::{Noise, ascii_ply, binary_ply, binary_stl, in_mm, pierce, placed, roughen};
+use crate::{Joint, Measurements, build, measure, write_obj};
+use geom::{Surface, TriMesh};
+
+fn built(sex: Sex, stature_m: f64, weight_kg: f64) -> Body {
+    let asked = Measurements::of(sex, stature_m).with(Dimension::Weight, weight_kg);
+    build(&asked).expect("an ordinary body")
+}
+
+fn ordinary() -> TriMesh {
+    built(Sex::Female, 1.66, 64.0).mesh
+}
+
+/// Noise, a floor, strays and holes in crown and soles, as booth scanners leave them.
+fn spoil(mesh: &mut TriMesh) {
+    let mut state = 7_u64;
+    let mut noise = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as f64 / (1_u64 << 31) as f64 - 0.5
+    };
+    mesh.triangles.retain(|t| {
+        let z = t.iter().map(|&i| mesh.positions[i].z).fold(0.0, f64::max);
+        z > 0.006 && z < 1.655
+    });
+    mesh.positions.iter_mut().for_each(|p| *p += V3::new(noise(), noise(), noise()) * 0.003);
+    let first = mesh.positions.len();
+    let floor = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)];
+    mesh.positions.extend(floor.map(|(x, y)| V3::new(x, y, -0.003)));
+    mesh.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+    mesh.positions.extend([V3::new(0.4, 0.3, 1.2), V3::new(0.41, 0.3, 1.2), V3::new(0.4, 0.31, 1.9)]);
+    mesh.triangles.push([first + 4, first + 5, first + 6]);
+}
+
+#[test]
+fn a_spoilt_turned_scan_measures_as_the_body() {
+    let clean = ordinary();
+    let truth = measure(&clean, Some(Sex::Female)).expect("a standing body");
+    let check = |place: &dyn Fn(V3) -> V3| {
+        let mut mesh = clean.clone();
+        spoil(&mut mesh);
+        mesh.positions.iter_mut().for_each(|p| *p = place(*p));
+        let scan = from_scan(write_obj(&mesh).as_bytes(), None, Some(Sex::Female)).expect("a scan of a body");
+        let found = &scan.girths;
+        // The patches over the holes in the soles bulge: what stands on them reads up to 9 mm high.
+        let pairs = [
+            ("stature", in_mm(&truth, "stature_mm"), in_mm(found, "stature_mm"), 8.0),
+            ("neck", in_mm(&truth, "neck_girth_mm"), in_mm(found, "neck_girth_mm"), 4.0),
+            ("chest", in_mm(&truth, "chest_girth_mm"), in_mm(found, "chest_girth_mm"), 9.0),
+            ("waist", in_mm(&truth, "waist_girth_mm"), in_mm(found, "waist_girth_mm"), 5.0),
+            ("hip", in_mm(&truth, "hip_girth_mm"), in_mm(found, "hip_girth_mm"), 9.0),
+            ("inseam", in_mm(&truth, "inseam_mm"), in_mm(found, "inseam_mm"), 10.0),
+        ];
+        for (name, known, found, tolerance) in pairs {
+            assert!((known - found).abs() < tolerance, "{name}: {found:.1} for {known:.1}; {:?}", scan.imported.notes);
+        }
+        assert!(scan.imported.mesh.is_closed_manifold());
+    };
+    let turned = |degrees: f64, p: V3| nalgebra::Rotation3::from_axis_angle(&V3::z_axis(), degrees.to_radians()) * p;
+    check(&|p| turned(40.0, p) * 1000.0 + V3::new(300.0, -200.0, 50.0));
+    check(&|p| turned(175.0, p) * 100.0);
+    check(&|p| turned(-75.0, p));
+    check(&|p| V3::new(p.y, p.z, p.x) * 1000.0);
+    check(&|p| V3::new(p.z, p.x, p.y) * 100.0);
+    check(&|p| V3::new(p.x, -p.y, -p.z));
+}
+
+#[test]
+fn a_scan_becomes_a_body_with_the_features_of_the_built_one() {
+    let known = built(Sex::Male, 1.78, 76.0);
+    let turned = nalgebra::Rotation3::from_euler_angles(1.1, 0.4, -2.0);
+    let mesh = placed(&known.mesh, |p| turned * p * 1000.0);
+    let scan = from_scan(&binary_ply(&mesh), None, Some(Sex::Male)).expect("a scan of a body");
+    let body = scan.into_body().expect("free arms and legs");
+    assert!(body.control.triangulated().is_closed_manifold());
+    assert_eq!(body.control.faces, known.control.faces);
+    let surface = Surface::new(&body.mesh).expect("a closed scan");
+    assert!(body.skeleton.joints.iter().all(|joint| surface.signed_distance(joint) < 0.0));
+    let pairs = [
+        ("shoulder", body.landmarks.shoulder[0], known.landmarks.shoulder[0]),
+        ("left armpit", body.landmarks.armpit[1], known.landmarks.armpit[1]),
+        ("side neck", body.landmarks.side_neck[0], known.landmarks.side_neck[0]),
+        ("front neck", body.landmarks.front_neck, known.landmarks.front_neck),
+        ("back neck", body.landmarks.back_neck, known.landmarks.back_neck),
+        ("crotch", body.landmarks.crotch, known.landmarks.crotch),
+    ];
+    for (name, found, truth) in pairs {
+        assert!((found - truth).norm() < 0.035, "{name}: {found:?} for {truth:?}");
+    }
+    for (i, (found, truth)) in body.skeleton.joints.iter().zip(&known.skeleton.joints).enumerate() {
+        assert!((found - truth).norm() < 0.04, "joint {i}: {found:?} for {truth:?}");
+    }
+}
+
+#[test]
+fn any_format_unit_turn_noise_and_hole_measures_as_the_body() {
+    let mut noise = Noise(5);
+    let mut off: std::collections::BTreeMap<&str, Vec<f64>> = std::collections::BTreeMap::new();
+    let people =
+        [(Sex::Male, 1.70, 88.0), (Sex::Female, 1.58, 50.0), (Sex::Female, 1.72, 84.0), (Sex::Male, 1.88, 80.0)];
+    for (i, (sex, stature, weight)) in people.into_iter().enumerate() {
+        let known = built(sex, stature, weight);
+        let truth = measure(&known.mesh, Some(sex)).expect("a standing body");
+        let mut mesh = known.mesh.clone();
+        roughen(&mut mesh, 0.002, &mut noise);
+        let at = |x: f64, y: f64, z: f64| V3::new(x, y, z) * stature;
+        pierce(&mut mesh, &[at(0.0, 0.0, 1.0), known.landmarks.armpit[0], at(0.05, -0.03, 0.0)], 0.012 * stature);
+        let turn = nalgebra::Rotation3::from_euler_angles(noise.next() * 6.0, noise.next() * 3.0, noise.next() * 6.0);
+        let unit = [1000.0, 100.0, 1.0, 1000.0][i];
+        let mesh = placed(&mesh, |p| (turn * p + V3::new(0.4, 0.2, -0.6)) * unit);
+        let bytes = match i {
+            0 => ascii_ply(&mesh),
+            1 => binary_ply(&mesh),
+            2 => binary_stl(&mesh),
+            _ => write_obj(&mesh).into_bytes(),
+        };
+        let found = from_scan(&bytes, None, Some(sex)).expect("a scan of a body").girths;
+        let pairs = [
+            ("stature", in_mm(&found, "stature_mm") - in_mm(&truth, "stature_mm")),
+            ("neck", in_mm(&found, "neck_girth_mm") - in_mm(&truth, "neck_girth_mm")),
+            ("chest", in_mm(&found, "chest_girth_mm") - in_mm(&truth, "chest_girth_mm")),
+            ("waist", in_mm(&found, "waist_girth_mm") - in_mm(&truth, "waist_girth_mm")),
+            ("hip", in_mm(&found, "hip_girth_mm") - in_mm(&truth, "hip_girth_mm")),
+            ("chest level", in_mm(&found, "chest_level_mm") - in_mm(&truth, "chest_level_mm")),
+            ("neck level", in_mm(&found, "neck_level_mm") - in_mm(&truth, "neck_level_mm")),
+            ("crotch level", in_mm(&found, "crotch_level_mm") - in_mm(&truth, "crotch_level_mm")),
+        ];
+        pairs.into_iter().for_each(|(name, error)| off.entry(name).or_default().push(error));
+    }
+    for (name, errors) in off {
+        let mean = errors.iter().map(|error| error.abs()).sum::<f64>() / errors.len() as f64;
+        let limit = if ["chest", "waist", "hip"].contains(&name) { 9.0 } else { 4.0 };
+        assert!(mean < limit, "{name}: {errors:.1?} mm");
+    }
+}
+
+#[test]
+fn meshes_that_are_no_body_are_refused_with_the_reason() {
+    let whole = ordinary();
+    let part = |keep: &dyn Fn(&V3) -> bool| {
+        let mut mesh = whole.clone();
+        mesh.triangles.retain(|triangle| triangle.iter().all(|&i| keep(&whole.positions[i])));
+        mesh
+    };
+    let check = |mesh: &TriMesh, unit: Option<LengthUnit>, needle: &str| {
+        let error = from_scan(write_obj(mesh).as_bytes(), unit, None).expect_err(needle).to_string();
+        assert!(error.contains(needle), "{error}");
+    };
+    check(&placed(&whole, |p| p * 1000.0), Some(LengthUnit::Metre), "1660.0000 m high");
+    check(&part(&|p| p.x > 0.0), None, "half a body");
+    check(&part(&|p| p.z > 0.8 && p.x.abs() < 0.3), Some(LengthUnit::Metre), "no adult");
+    let mut two = whole.clone();
+    let count = two.positions.len();
+    two.positions.extend(whole.positions.iter().map(|p| p + V3::new(1.2, 0.3, 0.0)));
+    two.triangles.extend(whole.triangles.iter().map(|triangle| triangle.map(|i| i + count)));
+    check(&two, None, "several bodies");
+    let many = format!("ply\nformat ascii 1.0\nelement vertex 3\nelement face {}\nend_header\n", 5_000_000);
+    let error = from_scan(many.as_bytes(), None, None).expect_err("too many faces").to_string();
+    assert!(error.contains("5000000 faces"), "{error}");
+}
+
+#[test]
+fn doubled_turned_and_branching_triangles_do_not_stop_a_scan() {
+    let whole = ordinary();
+    let truth = measure(&whole, Some(Sex::Female)).expect("a standing body");
+    let mut mesh = whole.clone();
+    for i in (0..mesh.triangles.len()).step_by(61) {
+        let [a, b, c] = mesh.triangles[i];
+        match i % 3 {
+            0 => mesh.triangles[i] = [a, c, b],
+            1 => mesh.triangles.push([b, c, a]),
+            _ => {
+                mesh.positions.push(whole.positions[a] * 1.01);
+                mesh.triangles.push([a, b, mesh.positions.len() - 1]);
+            }
+        }
+    }
+    let scan = from_scan(&ascii_ply(&mesh), None, Some(Sex::Female)).expect("a body");
+    assert!((in_mm(&scan.girths, "waist_girth_mm") - in_mm(&truth, "waist_girth_mm")).abs() < 3.0);
+    assert!((in_mm(&scan.girths, "hip_girth_mm") - in_mm(&truth, "hip_girth_mm")).abs() < 3.0);
+    scan.into_body().expect("a closed surface");
+}
+
+#[test]
+fn arms_spread_to_the_horizontal_find_their_armpits() {
+    let known = built(Sex::Female, 1.68, 62.0);
+    let spread = crate::pose(&known, crate::Pose { arm_deg: Some(85.0), leg_deg: None }).expect("free arms");
+    let scan = from_scan(&binary_ply(&spread.mesh), None, Some(Sex::Female)).expect("a scan of a body");
+    let body = scan.into_body().expect("arms apart from the trunk");
+    for side in [0, 1] {
+        let (found, truth) = (body.landmarks.armpit[side], known.landmarks.armpit[side]);
+        assert!((found - truth).norm() < 0.05, "armpit {side}: {found:?} for {truth:?}");
+    }
+    for joint in [Joint::ElbowRight, Joint::WristLeft] {
+        let (found, truth) = (body.skeleton.at(joint), spread.skeleton.at(joint));
+        assert!((found - truth).norm() < 0.05, "{joint:?}: {found:?} for {truth:?}");
+    }
+    assert!(body.control.triangulated().is_closed_manifold());
+}

@@ -1,0 +1,131 @@
+//! The skin as one implicit surface: body parts joined smoothly.
+
+use super::loft::{Loft, Part, Sample};
+use geom::{V3, smooth_step};
+
+/// Spacing of the tables of the lofts, metres.
+const TABLE_STEP: f64 = 0.004;
+
+/// Distance beyond which a part is not looked at closely, metres.
+pub(crate) const NEAR: f64 = 0.12;
+
+/// Rounding of the edge between skin and floor, metres.
+const SOLE_EDGE: f64 = 0.006;
+
+/// Reach of the smooth joints between parts, metres.
+const ARM_JOINT: f64 = 0.035;
+const LEG_JOINT: f64 = 0.025;
+const BETWEEN_LEGS: f64 = 0.008;
+const FOOT_JOINT: f64 = 0.045;
+const THUMB_JOINT: f64 = 0.030;
+
+/// Difference of the distances of two parts up to which their joint is smoothed, metres.
+const ARM_SEAM: f64 = 0.040;
+const LEG_SEAM: f64 = 0.045;
+
+/// Distance from the arm up to which skin counts as the hand's, metres, and the share of fairing it gets.
+const HAND_SKIN: f64 = 0.04;
+const HAND_FAIRING: f64 = 0.04;
+
+/// The lofts of a body; limbs are those of the right side and are mirrored.
+#[derive(Clone, Debug)]
+pub(crate) struct Parts {
+    pub trunk: Loft,
+    pub arm: Loft,
+    pub thumb: Loft,
+    /// Where along the arm the hand begins, metres from the shoulder joint.
+    pub hand_start: f64,
+    pub leg: Loft,
+    pub foot: Loft,
+}
+
+impl Parts {
+    /// The fields of the parts of a figure.
+    pub fn new([trunk, arm, thumb, leg, foot]: [Part; 5], hand_start: f64) -> Self {
+        let loft = |part| Loft::new(part, TABLE_STEP);
+        Self { trunk: loft(trunk), arm: loft(arm), thumb: loft(thumb), hand_start, leg: loft(leg), foot: loft(foot) }
+    }
+
+    /// The lofts in the order in which a figure gives its parts.
+    pub fn lofts(&self) -> [&Loft; 5] {
+        [&self.trunk, &self.arm, &self.thumb, &self.leg, &self.foot]
+    }
+
+    /// The field at a point: about the distance from the skin (negative inside) with its outward direction.
+    pub fn sample(&self, point: V3) -> Sample {
+        let right = V3::new(point.x.abs(), point.y, point.z);
+        let left = V3::new(-right.x, point.y, point.z);
+        let arm = join(self.arm.sample(right, NEAR), self.thumb.sample(right, NEAR), THUMB_JOINT);
+        let near_leg = join(self.leg.sample(right, NEAR), self.foot.sample(right, NEAR), FOOT_JOINT);
+        let far_leg = mirrored(join(self.leg.sample(left, NEAR), self.foot.sample(left, NEAR), FOOT_JOINT));
+        let legs = join(near_leg, far_leg, BETWEEN_LEGS);
+        let lower = join(self.trunk.sample(right, NEAR), legs, LEG_JOINT);
+        let skin = cut_at_floor(join(lower, arm, ARM_JOINT), point.z);
+        if point.x < 0.0 { mirrored(skin) } else { skin }
+    }
+
+    /// How much the skin at a point is to be faired: 1 where trunk and limb meet, 0 away from there, little on the hands.
+    pub fn fairness(&self, point: V3) -> f64 {
+        let right = V3::new(point.x.abs(), point.y, point.z);
+        let trunk = self.trunk.sample(right, NEAR).distance;
+        let arm = self.arm.sample(right, NEAR).distance;
+        let leg = self.leg.sample(right, NEAR).distance;
+        let closeness = |limb: f64, reach: f64| (1.0 - (limb - trunk).abs() / reach).clamp(0.0, 1.0);
+        let share = closeness(arm, ARM_SEAM).max(closeness(leg, LEG_SEAM));
+        let on_hand =
+            if arm < HAND_SKIN { ((self.arm.along(right) - self.hand_start) / HAND_SKIN).clamp(0.0, 1.0) } else { 0.0 };
+        smooth_step(share).max(HAND_FAIRING * on_hand)
+    }
+
+    /// The field alone.
+    pub fn distance(&self, point: V3) -> f64 {
+        self.sample(point).distance
+    }
+
+    /// A point of the skin near to `point`: steps against the outward direction until the skin is met.
+    pub fn project(&self, mut point: V3) -> V3 {
+        const STEPS: usize = 6;
+        const MET: f64 = 1e-5;
+        for _ in 0..STEPS {
+            let here = self.sample(point);
+            if here.distance.abs() < MET {
+                break;
+            }
+            point -= here.outward * here.distance;
+        }
+        point
+    }
+}
+
+fn mirrored(sample: Sample) -> Sample {
+    let outward = V3::new(-sample.outward.x, sample.outward.y, sample.outward.z);
+    Sample { outward, ..sample }
+}
+
+/// Smooth union [Quilez, polynomial smooth minimum] whose reach fades where both surfaces face the same way: limbs that
+/// continue the trunk's outline do not swell it, opposed surfaces (armpit, crotch) get the full fillet.
+fn join(a: Sample, b: Sample, reach: f64) -> Sample {
+    let gap = (a.distance - b.distance).abs();
+    let nearer = if a.distance < b.distance { a } else { b };
+    if gap >= reach {
+        return nearer;
+    }
+    let opposed = (1.0 - a.outward.dot(&b.outward)).clamp(0.0, 1.0);
+    let reach = reach * opposed;
+    if gap >= reach {
+        return nearer;
+    }
+    let share = (reach - gap) / reach;
+    let farther = if a.distance < b.distance { b } else { a };
+    let outward = nearer.outward.lerp(&farther.outward, share / 2.0);
+    let outward = outward.try_normalize(1e-9).unwrap_or(nearer.outward);
+    Sample { distance: nearer.distance - share * share * reach / 4.0, outward }
+}
+
+/// Keeps what is above the floor, with a rounded edge.
+fn cut_at_floor(skin: Sample, z: f64) -> Sample {
+    let share = (SOLE_EDGE - (skin.distance + z).abs()).max(0.0) / SOLE_EDGE;
+    let distance = skin.distance.max(-z) + share * share * SOLE_EDGE / 4.0;
+    let outward = if -z > skin.distance { -V3::z() } else { skin.outward };
+    Sample { distance, outward }
+}

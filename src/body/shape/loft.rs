@@ -1,0 +1,360 @@
+//! Lofted body parts: star-shaped cross-sections on parallel planes along an axis, and the distance-like field of the
+//! surface through them.
+
+use super::interpolate::Monotone;
+use geom::{V2, V3, hull, smooth_step};
+use std::f64::consts::{FRAC_PI_2, TAU};
+use std::sync::LazyLock;
+
+/// Cosine coefficients of a section's shape, harmonics 0 to 8.
+pub(super) type Shape = [f64; 9];
+
+/// Directions in which a section is tabulated.
+pub(super) const DIRECTIONS: usize = 96;
+
+/// Steepest outline slope along the axis that the field still divides by.
+const MAX_SLOPE: f64 = 4.0;
+
+/// Greatest relative change of the radius with the angle that the field still divides by.
+const MAX_TURN: f64 = 2.0;
+
+/// A tabulated direction: its cosine and sine, and the cosines of the harmonics of the angle from the front.
+struct Direction {
+    along: V2,
+    harmonics: Shape,
+}
+
+static COMPASS: LazyLock<Vec<Direction>> = LazyLock::new(|| {
+    let direction = |i: usize| {
+        let angle = i as f64 / DIRECTIONS as f64 * TAU;
+        let harmonics = std::array::from_fn(|k| (k as f64 * (angle - FRAC_PI_2)).cos());
+        Direction { along: V2::new(angle.cos(), angle.sin()), harmonics }
+    };
+    (0..DIRECTIONS).map(direction).collect()
+});
+
+/// One cross-section: an ellipse whose radius is multiplied by `1 + sum shape[k] cos(k phi)`, `phi` from the front.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Station {
+    /// Place along the axis, metres.
+    pub at: f64,
+    /// Centre in the section plane, metres.
+    pub centre: V2,
+    /// Half of the extent along the first axis of the section plane, metres.
+    pub half_width: f64,
+    /// Half of the extent along the second axis, metres.
+    pub half_depth: f64,
+    /// Departure from the ellipse.
+    pub shape: Shape,
+}
+
+impl Station {
+    /// Distances from the centre to the outline in the tabulated directions, metres.
+    pub fn radii(&self) -> Vec<f64> {
+        let radius = |direction: &Direction| {
+            let (cos, sin) = (direction.along.x, direction.along.y);
+            let across = (self.half_depth * cos).powi(2) + (self.half_width * sin).powi(2);
+            let ellipse = self.half_width * self.half_depth / across.sqrt().max(1e-12);
+            let departure: f64 = self.shape.iter().zip(&direction.harmonics).map(|(c, cosine)| c * cosine).sum();
+            ellipse * (1.0 + departure)
+        };
+        // The shape is its own mirror image: directions from the front round the left to the back, the others from them.
+        let [front, back] = [DIRECTIONS / 4, 3 * DIRECTIONS / 4];
+        let half: Vec<f64> = COMPASS[front..=back].iter().map(radius).collect();
+        let mirrored = |i: usize| (DIRECTIONS + DIRECTIONS / 2 - i) % DIRECTIONS;
+        let place = |i: usize| if (front..=back).contains(&i) { i } else { mirrored(i) };
+        (0..DIRECTIONS).map(|i| half[place(i) - front]).collect()
+    }
+
+    /// Tape girth of the section, metres.
+    pub fn girth(&self) -> f64 {
+        let point = |(direction, radius): (&Direction, f64)| direction.along * radius;
+        hull::tape_girth(&COMPASS.iter().zip(self.radii()).map(point).collect::<Vec<_>>())
+    }
+
+    /// The same shape enlarged about its centre to a tape girth in metres.
+    pub fn with_girth(mut self, girth: f64) -> Self {
+        let factor = girth / self.girth();
+        self.half_width *= factor;
+        self.half_depth *= factor;
+        self
+    }
+}
+
+/// Value of a part's field with the direction in which it grows.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sample {
+    /// About the distance from the surface, metres; negative inside.
+    pub distance: f64,
+    /// Unit outward direction.
+    pub outward: V3,
+}
+
+/// A body part: sections in order along an axis, in the frame `axes = [u, v, along]` at `origin`.
+#[derive(Clone, Debug)]
+pub(crate) struct Part {
+    pub origin: V3,
+    pub axes: [V3; 3],
+    pub stations: Vec<Station>,
+    /// Places along the axis between which the part takes over from its neighbours (none of it at the first, all at the second):
+    /// its end inside them is no skin.
+    pub root: Option<[f64; 2]>,
+}
+
+impl Part {
+    /// How far a place is the part's own, more than 0 to 1.
+    pub fn own(&self, at: f64) -> f64 {
+        self.root.map_or(1.0, |[none, all]| smooth_step(((at - none) / (all - none)).max(1e-3)))
+    }
+
+    /// Sections at the given places along the axis, tabulated.
+    fn rings(&self, places: impl Iterator<Item = f64>) -> Vec<Ring> {
+        let curves = Curves::new(&self.stations);
+        places.map(|place| Ring::new(&curves.at(place))).collect()
+    }
+
+    /// The part tabulated where `rings` of the same part of another figure are: at the same share of the way between its
+    /// sections.
+    pub fn like(&self, other: &Self, rings: &[Ring]) -> Vec<Ring> {
+        let places = |part: &Self| part.stations.iter().map(|station| station.at).collect::<Vec<_>>();
+        let course = Monotone::new(&places(other), &places(self));
+        self.rings(rings.iter().map(|ring| course.at(ring.at)))
+    }
+
+    /// The point at `local` coordinates of the section at the place `along`.
+    pub fn lift(&self, local: V2, along: f64) -> V3 {
+        let [u, v, w] = self.axes;
+        self.origin + u * local.x + v * local.y + w * along
+    }
+}
+
+/// One tabulated section.
+#[derive(Clone, Debug)]
+pub(crate) struct Ring {
+    /// Place along the axis, metres.
+    pub at: f64,
+    pub centre: V2,
+    /// Radius in each of the tabulated directions.
+    pub radii: Vec<f64>,
+}
+
+impl Ring {
+    fn new(section: &Station) -> Self {
+        Self { at: section.at, centre: section.centre, radii: section.radii() }
+    }
+
+    /// Radius at a place between the tabulated directions: `column` in units of their spacing.
+    pub fn radius(&self, column: f64) -> f64 {
+        let left = column as usize % DIRECTIONS;
+        let across = column - column.floor();
+        self.radii[left] + (self.radii[(left + 1) % DIRECTIONS] - self.radii[left]) * across
+    }
+}
+
+/// Slope of the outline along the axis (the drift of the centre included) and its relative change with the angle, in each
+/// direction.
+type Slopes = Vec<[f64; 2]>;
+
+/// The field of a body part, tabulated.
+#[derive(Clone, Debug)]
+pub(crate) struct Loft {
+    part: Part,
+    start: f64,
+    step: f64,
+    rings: Vec<Ring>,
+    slopes: Vec<Slopes>,
+    greatest_radius: f64,
+}
+
+impl Loft {
+    /// The field of a part, tabulated about every `step` metres.
+    pub fn new(part: Part, step: f64) -> Self {
+        let stations = &part.stations;
+        let (start, end) = (stations[0].at, stations[stations.len() - 1].at);
+        let count = ((end - start) / step).ceil().max(2.0) as usize;
+        let step = (end - start) / count as f64;
+        let rings = part.rings((0..=count).map(|i| start + step * i as f64));
+        let slopes = (0..=count).map(|i| slopes(&rings[i.saturating_sub(1)..=(i + 1).min(count)], &rings[i])).collect();
+        let reach = |ring: &Ring| ring.centre.norm() + ring.radii.iter().copied().fold(0.0, f64::max);
+        let greatest_radius = rings.iter().map(reach).fold(0.0, f64::max);
+        Self { part, start, step, rings, slopes, greatest_radius }
+    }
+
+    /// How far a point is the part's own, by its place along the axis: more than 0 to 1.
+    pub fn own(&self, point: V3) -> f64 {
+        self.part.own(self.along(point))
+    }
+
+    /// The tabulated sections.
+    pub fn rings(&self) -> &[Ring] {
+        &self.rings
+    }
+
+    /// Coordinates of a point in the part: place in units of the sections tabulated, within them; how far beyond them it lies along the
+    /// axis; and its coordinates in the section.
+    pub fn locate(&self, point: V3) -> (f64, f64, V2) {
+        let offset = point - self.part.origin;
+        let [u, v, along] = self.part.axes;
+        let place = (offset.dot(&along) - self.start) / self.step;
+        let within = place.clamp(0.0, (self.rings.len() - 1) as f64);
+        (within, (place - within) * self.step, V2::new(offset.dot(&u), offset.dot(&v)))
+    }
+
+    /// Place of a point along the axis, metres.
+    pub fn along(&self, point: V3) -> f64 {
+        (point - self.part.origin).dot(&self.part.axes[2])
+    }
+
+    /// Field at a point of space.
+    ///
+    /// Far from the part, where only the order of magnitude matters, the distance of a bounding cylinder stands in.
+    pub fn sample(&self, point: V3, near: f64) -> Sample {
+        let [u, v, along] = self.part.axes;
+        let (place, past, local) = self.locate(point);
+        let beyond = past.abs();
+        let clearance = beyond.max(local.norm() - self.greatest_radius);
+        if clearance > near {
+            let offset = point - self.part.origin;
+            return Sample { distance: clearance, outward: offset.try_normalize(1e-12).unwrap_or(along) };
+        }
+        let (radial, normal, slope) = self.radial(local, place);
+        let side = u * normal.x + v * normal.y;
+        if beyond <= 0.0 {
+            let gradient = side - along * slope;
+            let steepness = gradient.norm();
+            return Sample { distance: radial / steepness, outward: gradient / steepness };
+        }
+        let (side, radial) = (side / normal.norm(), radial / normal.norm());
+        let end = if past < 0.0 { -along } else { along };
+        if radial <= 0.0 {
+            return Sample { distance: beyond, outward: end };
+        }
+        let distance = beyond.hypot(radial);
+        Sample { distance, outward: (side * radial + end * beyond) / distance }
+    }
+
+    /// Distance beyond the outline along the ray from the centre, its gradient within the section plane, and the outline's
+    /// slope along the axis.
+    fn radial(&self, local: V2, place: f64) -> (f64, V2, f64) {
+        let row = (place as usize).min(self.rings.len() - 2);
+        let share = place - row as f64;
+        let (low, high) = (&self.rings[row], &self.rings[row + 1]);
+        let from_centre = local - low.centre.lerp(&high.centre, share);
+        let distance = from_centre.norm();
+        let direction = if distance > 1e-9 { from_centre / distance } else { V2::x() };
+        let column = column(from_centre);
+        let (left, across) = (column as usize % DIRECTIONS, column - column.floor());
+        let right = (left + 1) % DIRECTIONS;
+        let radius = low.radius(column) + (high.radius(column) - low.radius(column)) * share;
+        let [slope, turn] = std::array::from_fn(|i| {
+            let at = |slopes: &Slopes| slopes[left][i] + (slopes[right][i] - slopes[left][i]) * across;
+            let (low, high) = (at(&self.slopes[row]), at(&self.slopes[row + 1]));
+            low + (high - low) * share
+        });
+        let sideways = V2::new(-direction.y, direction.x);
+        let gradient = direction - sideways * turn.clamp(-MAX_TURN, MAX_TURN);
+        (distance - radius, gradient, slope.clamp(-MAX_SLOPE, MAX_SLOPE))
+    }
+}
+
+/// Direction of a vector of the section plane in units of the spacing of the tabulated directions.
+pub(crate) fn column(vector: V2) -> f64 {
+    vector.y.atan2(vector.x).rem_euclid(TAU) / TAU * DIRECTIONS as f64
+}
+
+/// Slopes of a section from its neighbours (first and last of `around`).
+fn slopes(around: &[Ring], ring: &Ring) -> Slopes {
+    let (before, after) = (&around[0], &around[around.len() - 1]);
+    let length = (after.at - before.at).max(1e-12);
+    let drift = (after.centre - before.centre) / length;
+    let spacing = TAU / DIRECTIONS as f64;
+    let slope = |i: usize| {
+        let (left, right) = ((i + DIRECTIONS - 1) % DIRECTIONS, (i + 1) % DIRECTIONS);
+        let turn = (ring.radii[right] - ring.radii[left]) / (2.0 * spacing * ring.radii[i]);
+        [(after.radii[i] - before.radii[i]) / length + drift.dot(&COMPASS[i].along), turn]
+    };
+    (0..DIRECTIONS).map(slope).collect()
+}
+
+/// Every number of a station as a smooth function of the place along the axis.
+struct Curves {
+    numbers: [Monotone; 13],
+}
+
+impl Curves {
+    fn new(stations: &[Station]) -> Self {
+        let at: Vec<f64> = stations.iter().map(|s| s.at).collect();
+        let number = |s: &Station, i: usize| match i {
+            0 => s.centre.x,
+            1 => s.centre.y,
+            2 => s.half_width,
+            3 => s.half_depth,
+            k => s.shape[k - 4],
+        };
+        Self {
+            numbers: std::array::from_fn(|i| {
+                Monotone::new(&at, &stations.iter().map(|s| number(s, i)).collect::<Vec<_>>())
+            }),
+        }
+    }
+
+    fn at(&self, at: f64) -> Station {
+        let n = |i: usize| self.numbers[i].at(at);
+        Station {
+            at,
+            centre: V2::new(n(0), n(1)),
+            half_width: n(2),
+            half_depth: n(3),
+            shape: std::array::from_fn(|k| n(k + 4)),
+        }
+    }
+}
+
+/// Stations that close a part with a dome of the given `length` beyond `end`, in the direction of `sign`.
+///
+/// They stand in order of increasing distance from `end`; the last has (almost) no extent.
+pub(super) fn dome(end: &Station, length: f64, sign: f64) -> Vec<Station> {
+    let ring = |share: &f64| {
+        let factor = (1.0 - share * share).sqrt().max(0.01);
+        Station {
+            at: end.at + sign * length * share,
+            half_width: end.half_width * factor,
+            half_depth: end.half_depth * factor,
+            ..*end
+        }
+    };
+    [0.2, 0.4, 0.6, 0.75, 0.87, 0.94, 0.98, 1.0].iter().map(ring).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ball() -> Loft {
+        let equator = Station { at: 0.0, centre: V2::zeros(), half_width: 0.1, half_depth: 0.1, shape: [0.0; 9] };
+        let mut stations = dome(&equator, 0.1, -1.0);
+        stations.reverse();
+        stations.push(equator);
+        stations.extend(dome(&equator, 0.1, 1.0));
+        Loft::new(Part { origin: V3::zeros(), axes: [V3::x(), V3::y(), V3::z()], stations, root: None }, 0.001)
+    }
+
+    #[test]
+    fn two_domes_make_a_ball() {
+        let ball = ball();
+        for direction in [V3::x(), V3::y(), V3::new(1.0, 1.0, 1.0), V3::new(0.3, -0.2, -0.8)] {
+            let on_surface = direction.normalize() * 0.1;
+            let sample = ball.sample(on_surface, 1.0);
+            assert!(sample.distance.abs() < 1.5e-3, "{direction:?}: {}", sample.distance);
+            assert!(ball.sample(on_surface * 0.8, 1.0).distance < 0.0);
+            assert!(sample.outward.dot(&on_surface) > 0.09);
+        }
+    }
+
+    #[test]
+    fn a_station_takes_the_girth_asked_for() {
+        let shape = [0.03, -0.01, -0.01, 0.0, -0.07, -0.01, 0.0, 0.0, 0.0];
+        let station = Station { at: 0.0, centre: V2::zeros(), half_width: 0.17, half_depth: 0.12, shape };
+        assert!((station.with_girth(0.93).girth() - 0.93).abs() < 1e-12);
+    }
+}

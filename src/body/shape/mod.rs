@@ -1,0 +1,10 @@
+//! The shape of a person: sections, limbs and trunk lofted through them, and the skin over all.
+
+pub mod atlas;
+pub mod field;
+pub mod figure;
+mod interpolate;
+pub mod limbs;
+pub mod loft;
+pub mod sections;
+pub mod surface;

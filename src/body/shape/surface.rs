@@ -1,0 +1,134 @@
+//! From the implicit skin to a near-uniform, closed triangle mesh.
+
+use super::field::Parts;
+use geom::contour::{Grid, QuadMesh, contour};
+use geom::{TriMesh, V3};
+
+/// Passes of tangential smoothing.
+const PASSES: usize = 8;
+
+/// Passes of the fairing of joints and of the whole skin, and its step: stable up to 0.5 where four edges meet, to less
+/// elsewhere.
+const JOINT_PASSES: usize = 170;
+const BASE_PASSES: usize = 9;
+const FAIRING_STEP: f64 = 0.25;
+
+/// Step at which vertices spread evenly within the skin while it is faired.
+const SPREADING_STEP: f64 = 0.3;
+
+/// Share of the fairing that the whole skin gets.
+const BASE_FAIRING: f64 = 0.4;
+
+/// A quadrilateral skin with its vertex neighbours.
+#[derive(Clone, Debug)]
+pub(crate) struct Skin {
+    mesh: QuadMesh,
+    neighbours: Vec<Vec<usize>>,
+}
+
+impl Skin {
+    /// Polygonises the skin of `parts` on a grid that is its own mirror image in x (and so is the mesh), and evens it out.
+    pub fn new(parts: &Parts, grid: &Grid) -> Self {
+        let mut skin = Self::polygonise(parts, grid);
+        for _ in 0..PASSES {
+            skin.even_out(parts);
+        }
+        skin.fair(parts);
+        skin
+    }
+
+    fn polygonise(parts: &Parts, grid: &Grid) -> Self {
+        let [nx, ny, nz] = grid.counts();
+        let mut values = vec![0.0; nx * ny * nz];
+        for k in 0..nz {
+            for j in 0..ny {
+                for i in nx / 2..nx {
+                    let value = parts.distance(grid.node([i, j, k]));
+                    values[grid.index([i, j, k])] = value;
+                    values[grid.index([nx - 1 - i, j, k])] = value;
+                }
+            }
+        }
+        let mesh = contour(grid, &values);
+        let mut neighbours = vec![Vec::with_capacity(4); mesh.positions.len()];
+        for quad in &mesh.quads {
+            for i in 0..4 {
+                neighbours[quad[i]].push(quad[(i + 1) % 4]);
+            }
+        }
+        Self { mesh, neighbours }
+    }
+
+    /// One pass: every vertex moves to the mean of its neighbours and back onto the skin.
+    fn even_out(&mut self, parts: &Parts) {
+        let targets: Vec<V3> = (0..self.neighbours.len())
+            .map(|i| self.mesh.positions[i] + self.to_mean(&self.mesh.positions, i))
+            .collect();
+        self.mesh.positions = targets.into_iter().map(|target| parts.project(target)).collect();
+    }
+
+    /// Fairs the skin as a thin plate: a little everywhere, against facets, and much at the joints between trunk and limbs,
+    /// so that no crease is left there.
+    fn fair(&mut self, parts: &Parts) {
+        let everywhere = vec![BASE_FAIRING; self.mesh.positions.len()];
+        self.fair_weighted(&everywhere, BASE_PASSES);
+        let joints: Vec<f64> = self.mesh.positions.iter().map(|&p| parts.fairness(p)).collect();
+        self.fair_weighted(&joints, JOINT_PASSES);
+    }
+
+    /// Thin-plate fairing of the vertices of positive weight, which also spread evenly within the skin.
+    fn fair_weighted(&mut self, weights: &[f64], passes: usize) {
+        let moving: Vec<usize> = (0..weights.len()).filter(|&i| weights[i] > 0.0).collect();
+        let mut around = moving.clone();
+        around.extend(moving.iter().flat_map(|&i| &self.neighbours[i]));
+        around.sort_unstable();
+        around.dedup();
+        let mut to_mean = vec![V3::zeros(); weights.len()];
+        let mut normals = Vec::new();
+        for pass in 0..passes {
+            if pass % 20 == 0 {
+                normals = self.normals();
+            }
+            for &i in &around {
+                to_mean[i] = self.to_mean(&self.mesh.positions, i);
+            }
+            for &i in &moving {
+                let sideways = to_mean[i] - normals[i] * to_mean[i].dot(&normals[i]);
+                let bend = self.to_mean(&to_mean, i);
+                self.mesh.positions[i] += (sideways * SPREADING_STEP - bend * FAIRING_STEP) * weights[i];
+            }
+        }
+    }
+
+    /// From a vertex's value to the mean of its neighbours'.
+    fn to_mean(&self, of: &[V3], i: usize) -> V3 {
+        let around = &self.neighbours[i];
+        around.iter().map(|&j| of[j]).sum::<V3>() / around.len() as f64 - of[i]
+    }
+
+    /// Unit normals of the vertices.
+    fn normals(&self) -> Vec<V3> {
+        let mut normals = vec![V3::zeros(); self.mesh.positions.len()];
+        for &[a, b, c, d] in &self.mesh.quads {
+            let at = |i: usize| self.mesh.positions[i];
+            let normal = (at(c) - at(a)).cross(&(at(d) - at(b)));
+            for vertex in [a, b, c, d] {
+                normals[vertex] += normal;
+            }
+        }
+        normals.into_iter().map(|n| n.try_normalize(0.0).unwrap_or_else(V3::zeros)).collect()
+    }
+
+    /// The skin as triangles, every quadrilateral split along its shorter diagonal.
+    pub fn triangles(self) -> TriMesh {
+        let positions = self.mesh.positions;
+        let triangles = self.mesh.quads.iter().flat_map(|quad| split(quad, &positions)).collect();
+        TriMesh { positions, triangles }
+    }
+}
+
+/// Splits a quadrilateral along its shorter diagonal.
+fn split(&[a, b, c, d]: &[usize; 4], positions: &[V3]) -> [[usize; 3]; 2] {
+    let length = |i: usize, j: usize| (positions[i] - positions[j]).norm();
+    if length(a, c) <= length(b, d) { [[a, b, c], [a, c, d]] } else { [[b, c, d], [b, d, a]] }
+}
