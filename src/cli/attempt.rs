@@ -4,10 +4,8 @@ use super::args::{PatternUnit, Sex, Try, TrySimulator};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
 use geom::units::from_mm;
-use study::bodies;
-use study::files;
 use study::patterns::Unit;
-use study::{self, Attempt, Simulator, Table, Tried, Value};
+use study::{self, Attempt, Simulator, Table, Tried, Value, bodies, files};
 
 /// Runs a trial; writes its picture and meshes, prints what was measured.
 pub fn run(context: &Context, arguments: &Try) -> Outcome {

@@ -8,12 +8,9 @@ use super::args::{Body, BodyBuild, MeshUnit, Sex};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
 use geom::units::{from_mm, mm};
-use study::View;
-use study::bodies;
-use study::bodies::{Lens, Measurements};
+use study::bodies::{self, Lens, Measurements};
 use study::evaluate::{self, Accuracy};
-use study::files;
-use study::{Given, MEASUREMENTS, Table, Value};
+use study::{Given, MEASUREMENTS, Table, Value, View, files};
 
 /// Size of the picture of a body, pixels.
 const PICTURE: (u32, u32) = (700, 1200);

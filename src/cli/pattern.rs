@@ -7,13 +7,10 @@ use super::args::{DraftStyle, Pattern, PatternUnit, SeamCommand, StyleFiles};
 use super::context::Context;
 use super::{CliError, End, Outcome, output, pattern_files};
 use geom::units::{from_mm, mm};
-use study::files;
-use study::patterns;
-use study::patterns::{FileReport, Finding, Model, Unit};
-use study::seams;
+use study::patterns::{self, FileReport, Finding, Model, Unit};
 use study::seams::pattern_files::inspect as inspect_files;
-use study::seams::{CHECK_EDGE_MM, SeamEdit, SizeCheck};
-use study::{Table, Value};
+use study::seams::{self, CHECK_EDGE_MM, SeamEdit, SizeCheck};
+use study::{Table, Value, files};
 
 /// Runs a pattern command.
 pub fn run(context: &Context, command: &Pattern) -> Outcome {

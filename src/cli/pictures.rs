@@ -9,8 +9,7 @@ use super::args::{
 };
 use super::context::{Context, project_folder};
 use super::{CliError, End, Outcome, output};
-use study::files;
-use study::{Cloth, JobId, Map, MeshFormat, Order, Rgb, Shot, Stage, Study, View, Workspace, Zoom};
+use study::{Cloth, JobId, Map, MeshFormat, Order, Rgb, Shot, Stage, Study, View, Workspace, Zoom, files};
 
 /// `toile render`.
 pub fn render(context: &Context, arguments: &Render) -> Outcome {

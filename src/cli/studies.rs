@@ -7,8 +7,7 @@ use super::context::Context;
 use super::pattern::model;
 use super::pictures::write;
 use super::{End, Outcome, body, output};
-use study::files;
-use study::{PopulationOptions, export_study, new_study, representatives, subjects_text};
+use study::{PopulationOptions, export_study, files, new_study, representatives, subjects_text};
 
 /// Runs a study command.
 pub fn run(context: &Context, command: &StudyCommand) -> Outcome {

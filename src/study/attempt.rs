@@ -5,12 +5,10 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-use crate::bodies;
-use crate::bodies::{LengthUnit, Sex};
+use crate::bodies::{self, LengthUnit, Sex};
 use crate::error::{Result, StudyError};
 use crate::files::SourceFile;
-use crate::patterns;
-use crate::patterns::Unit;
+use crate::patterns::{self, Unit};
 use crate::run::pipeline::{distorted, ease_on};
 use crate::seams;
 use crate::spec::file::{read_fabric, read_measurements};

@@ -7,36 +7,37 @@ use std::sync::atomic::AtomicBool;
 
 use image::RgbaImage;
 
-use crate::answers::advice::SizeAnswer;
-use crate::answers::audit::Audit;
-use crate::answers::figure::Figure;
-use crate::answers::picture::{Look, Map, Order, Scenes};
-use crate::answers::population::Nearest;
-use crate::answers::record::{Comparison, Record, Rerun};
-use crate::answers::{advice, audit, figure, picture, population, record, reporting, reports, size_map};
-use crate::catalogue::{self, FabricRow, Mode, Part, Removed, Saved, SizeRow, StyleGiven, SubjectRow};
-use crate::catalogue::{fabrics, import, known, sizes, style};
+use crate::answers::advice::{self, SizeAnswer};
+use crate::answers::audit::{self, Audit};
+use crate::answers::figure::{self, Figure};
+use crate::answers::picture::{self, Look, Map, Order, Scenes};
+use crate::answers::population::{self, Nearest};
+use crate::answers::record::{self, Comparison, Record, Rerun};
+use crate::answers::{reporting, reports, size_map};
+use crate::catalogue::{
+    self, FabricRow, Mode, Part, Removed, Saved, SizeRow, StyleGiven, SubjectRow, fabrics, import, known, sizes, style,
+};
 use crate::error::Result;
 use crate::files::SourceFile;
 use crate::rows::{
     ChiRow, EaseRow, Grid, JobId, JobRow, LogLine, MetricsRow, RecommendationRow, SizeKey, StageRow, StudyRow,
     SubjectId, Table,
 };
-use crate::run::compose::NewStudy;
-use crate::run::enqueue::{Planned, Why};
-use crate::run::handout::{HandedOut, Merged};
+use crate::run::compose::{self, NewStudy};
+use crate::run::enqueue::{self, Planned, Why};
+use crate::run::handout::{self, HandedOut, Merged};
 use crate::run::outcome::Executor;
-use crate::run::slurm::{SlurmOptions, SlurmRun};
-use crate::run::{self, Run, RunOptions, actions, compose, enqueue, handout, slurm};
+use crate::run::slurm::{self, SlurmOptions, SlurmRun};
+use crate::run::{self, Run, RunOptions, actions};
 use crate::seams::workpiece::Workpiece;
 use crate::spec::Selection;
 use crate::spec::fields::Given;
 use crate::spec::file::Study;
 use crate::spec::inputs::Inputs;
-use crate::store::browse::{Relation, SqlAnswer};
-use crate::store::read::JobFilter;
-use crate::store::sql::Interrupter;
-use crate::store::{Store, browse, evidence, read, sql};
+use crate::store::browse::{self, Relation, SqlAnswer};
+use crate::store::read::{self, JobFilter};
+use crate::store::sql::{self, Interrupter};
+use crate::store::{Store, evidence};
 use body::Measurements;
 use fit::{Evidence, Pair, RuleScore};
 use render::View;

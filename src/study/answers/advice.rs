@@ -1,13 +1,11 @@
 //! Which size a subject should wear: ease at every level, and how hard the cloth is pulled there.
 
-use crate::answers::picture;
-use crate::answers::picture::tension_near;
+use crate::answers::picture::{self, tension_near};
 use crate::error::{Result, StudyError};
 use crate::rows::{EaseRow, JobId, JobRow, RecommendationRow};
 use crate::store::Store;
 use crate::store::evidence::PUBLISHED;
-use crate::store::read;
-use crate::store::read::JobFilter;
+use crate::store::read::{self, JobFilter};
 use fit::{self, Ease, Simulator, SizeAdvice, SizeFit};
 
 /// Every size of a garment on a subject, and the one to wear.

@@ -2,14 +2,11 @@
 
 use std::path::Path;
 
-use crate::bodies;
 use crate::error::Result;
-use crate::files;
-use crate::patterns;
 use crate::rows::Value;
 use crate::run::outcome::machine;
-
 use crate::store::{Store, sql};
+use crate::{bodies, files, patterns};
 use body::{Dimension, Measurements, Sex};
 use geom::units::mm;
 

@@ -5,15 +5,12 @@ use std::sync::Arc;
 use image::{GenericImage, RgbaImage};
 
 use crate::bodies;
-use crate::catalogue::SubjectRow;
-use crate::catalogue::known;
+use crate::catalogue::{SubjectRow, known};
 use crate::error::{Result, StudyError};
-use crate::rows::StageKind;
-use crate::rows::SubjectId;
+use crate::rows::{StageKind, SubjectId};
 use crate::run::pipeline::{self, Model};
 use crate::store::Store;
 use crate::store::cache::{self, Cache};
-
 use body::{Dimension, Girths, Mass};
 use render::{self, Camera, Frame, Layer, Material, Scene, View};
 

@@ -9,8 +9,7 @@ use crate::error::{Result, StudyError};
 use crate::rows::{JobId, SubjectId};
 use crate::spec::fields::{Given, MEASUREMENTS, filled};
 use crate::spec::sex_name;
-use crate::store::Store;
-use crate::store::read;
+use crate::store::{Store, read};
 use body::{self, Dimension, Measurements, Sex};
 use fit::Draw;
 

@@ -5,8 +5,7 @@ use std::path::Path;
 
 use rusqlite::{OptionalExtension, Row};
 
-use crate::catalogue::known;
-use crate::catalogue::{read_fabric, read_style};
+use crate::catalogue::{known, read_fabric, read_style};
 use crate::error::{Result, StudyError};
 use crate::rows::{ChiRow, JobId, JobRow, MetricsRow, StageRow, SubjectId};
 use crate::run::enqueue;
@@ -16,10 +15,8 @@ use crate::run::pipeline::Pipeline;
 use crate::spec::inputs::{Change, Inputs};
 use crate::spec::parameters::Parameters;
 use crate::spec::{JobSpec, Schedule};
-use crate::store::Store;
 use crate::store::cache::Cache;
-use crate::store::read;
-use crate::store::{self, Access};
+use crate::store::{self, Access, Store, read};
 use geom::units::{from_mm, mm};
 
 /// Where a result was made.

@@ -3,8 +3,7 @@
 use std::fmt::Write;
 
 use crate::error::Result;
-use crate::store::Store;
-use crate::store::read;
+use crate::store::{Store, read};
 
 /// Colours that differ in lightness too [Okabe & Ito 2008].
 const COLOURS: [&str; 7] = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442"];

@@ -3,13 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use crate::catalogue::format::{Format, format_of, text_of, unknown_format};
-use crate::catalogue::style;
-use crate::catalogue::{Mode, Part, Saved, Stored, check_name, known, save, sheet};
-use crate::error::Problem;
-use crate::error::{Result, StudyError};
+use crate::catalogue::{Mode, Part, Saved, Stored, check_name, known, save, sheet, style};
+use crate::error::{Problem, Result, StudyError};
 use crate::spec::file::{self, Placed};
-use crate::store;
-use crate::store::Store;
+use crate::store::{self, Store};
 
 /// Brings all entries of some files into the catalogue, or none where anything is wrong with one of them: TOML with
 /// the tables of a study file (a study file itself will do), or, for subjects and fabrics, CSV with the same keys.

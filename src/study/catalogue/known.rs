@@ -10,8 +10,7 @@ use crate::error::{Result, StudyError};
 use crate::rows::SubjectId;
 use crate::spec::fields::{Entry, FABRIC_NUMBERS, Field, MEASUREMENTS};
 use crate::spec::file::{Known, KnownStyle, SizeFile, SourceFile};
-use crate::store;
-use crate::store::Store;
+use crate::store::{self, Store};
 use body::{Measurements, Sex};
 use sim::{self, Fabric};
 

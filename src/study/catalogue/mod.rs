@@ -20,8 +20,7 @@ use rusqlite::Transaction;
 use crate::bodies;
 use crate::error::{Result, StudyError};
 use crate::spec::fields::{Entry, Given, filled};
-use crate::store;
-use crate::store::Store;
+use crate::store::{self, Store};
 use body::Measurements;
 use sim::Fabric;
 

@@ -7,8 +7,7 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 
 use crate::catalogue::format::text_of;
 use crate::catalogue::{Part, check_name};
-use crate::error::Problem;
-use crate::error::nearest;
+use crate::error::{Problem, nearest};
 use crate::spec::fields::{Entry, Given, filled, keys};
 use crate::spec::file::Placed;
 

@@ -7,14 +7,12 @@ use rusqlite::{OptionalExtension, Row, Transaction};
 use crate::catalogue::format::{Format, format_of, text_of, unknown_format};
 use crate::catalogue::revision::{self, By};
 use crate::catalogue::{Mode, Part, Saved, check_name, refused, save};
-use crate::error::Problem;
-use crate::error::{Result, StudyError};
+use crate::error::{Problem, Result, StudyError};
 use crate::patterns;
 use crate::rows::JobId;
 use crate::seams::workpiece::Workpiece;
 use crate::spec::file::{self, Placed, Sewn, SizeFile, SourceFile};
-use crate::store;
-use crate::store::Store;
+use crate::store::{self, Store};
 use pattern::{Style, source};
 
 /// What is given of a style or a size; an edit keeps what is not.

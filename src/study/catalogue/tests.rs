@@ -1,8 +1,6 @@
 //! The catalogue as a user changes it, on a real database.
 
-use crate::Workspace;
-use crate::files;
-use crate::patterns;
+use crate::{Workspace, files, patterns};
 use body::Dimension;
 use std::path::PathBuf;
 

@@ -2,10 +2,8 @@
 
 use crate::error::Result;
 use crate::rows::{JobId, Status};
-use crate::store;
-use crate::store::Store;
 use crate::store::queue::{self, Event};
-use crate::store::read;
+use crate::store::{self, Store, read};
 
 /// Cancels queued or running jobs; returns how many were.
 ///

@@ -3,21 +3,17 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use crate::catalogue::SizeRow;
-use crate::catalogue::sizes;
+use crate::catalogue::{SizeRow, sizes};
 use crate::error::{Result, StudyError};
-use crate::files;
-use crate::patterns;
-use crate::patterns::Model;
+use crate::patterns::{self, Model};
 use crate::rows::SizeKey;
-use crate::run;
 use crate::run::enqueue::{self, Planned};
 use crate::spec::Selection;
 use crate::spec::export::{Files, place};
 use crate::spec::file::{SourceFile, Study};
 use crate::spec::new_study::{Outline, Worn, drafted_size};
-use crate::store;
-use crate::store::Store;
+use crate::store::{self, Store};
+use crate::{files, run};
 use fit::Simulator;
 
 /// Where the pattern of a size comes from.

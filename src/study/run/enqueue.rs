@@ -10,10 +10,9 @@ use crate::rows::{JobId, Status};
 use crate::spec::file::Study;
 use crate::spec::inputs::{Change, Inputs};
 use crate::spec::{self, JobSpec, Limits, Selection};
-use crate::store::Store;
 use crate::store::owner::Watch;
 use crate::store::queue::{self, Event};
-use crate::store::{now_ms, read};
+use crate::store::{Store, now_ms, read};
 use fit::Simulator;
 use geom::units::mm;
 

@@ -20,12 +20,10 @@ use crate::run::outcome::{self, Executor, Outcome, Provenance};
 use crate::run::pipeline::Pipeline;
 use crate::spec::file::Study;
 use crate::spec::{JobSpec, Selection};
-use crate::store::Store;
 use crate::store::cache::Cache;
-use crate::store::evidence;
 use crate::store::owner::Owner;
 use crate::store::queue::{self, Event};
-use crate::store::{self, Access, now_ms, read};
+use crate::store::{self, Access, Store, evidence, now_ms, read};
 use sim::{Monitor, Progress};
 
 /// Layout of the files; raised when it changes.

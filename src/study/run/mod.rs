@@ -15,19 +15,16 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, JoinHandle};
 
-use crate::catalogue;
-use crate::error::Problem;
-use crate::error::{Result, StudyError};
-use crate::patterns;
+use crate::error::{Problem, Result, StudyError};
 use crate::run::enqueue::Planned;
 use crate::run::isolated::Isolated;
 use crate::run::outcome::{Executor, Provenance};
 use crate::run::pipeline::Pipeline;
 use crate::spec::file::Study;
 use crate::spec::{self, Selection};
-use crate::store::Store;
 use crate::store::live::Live;
-use crate::store::{self, Access, evidence};
+use crate::store::{self, Access, Store, evidence};
+use crate::{catalogue, patterns};
 
 /// What to run, and how.
 #[derive(Clone, Debug, Default)]

@@ -3,16 +3,13 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::bodies;
 use crate::error::{Result, StudyError};
-use crate::patterns;
 use crate::rows::StageKind;
 use crate::run::outcome::{Executor, Measured, Outcome};
 use crate::spec::inputs::Inputs;
-use crate::spec::versions;
-use crate::spec::{JobSpec, subject_inputs};
+use crate::spec::{JobSpec, subject_inputs, versions};
 use crate::store::cache::{Artefact, Cache, Used};
-
+use crate::{bodies, patterns};
 use body::{Body, Dimension, Measurements};
 use fit::{self, Cuts, Ease, Simulator, measure};
 use geom::DistanceField;

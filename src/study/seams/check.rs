@@ -4,8 +4,7 @@ use std::path::Path;
 
 use crate::catalogue;
 use crate::error::{Result, StudyError};
-use crate::patterns;
-use crate::patterns::Unit;
+use crate::patterns::{self, Unit};
 use crate::spec::file::{GarmentEntry, SizeFile, SourceFile, Study};
 use crate::store::{self, Access};
 use geom::units::{from_mm, mm};

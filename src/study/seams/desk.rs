@@ -6,8 +6,7 @@ use toml_edit::{DocumentMut, Item};
 
 use crate::error::{Result, StudyError};
 use crate::files::SourceFile;
-use crate::patterns;
-use crate::patterns::Unit;
+use crate::patterns::{self, Unit};
 use geom::units::mm;
 use pattern::propose::{self, Proposal};
 use pattern::seam_edit::{Edit, edited};

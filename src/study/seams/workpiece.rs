@@ -2,10 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::error::Problem;
-use crate::error::{Result, StudyError};
-use crate::patterns;
-use crate::patterns::Unit;
+use crate::error::{Problem, Result, StudyError};
+use crate::patterns::{self, Unit};
 use crate::seams::desk::{Desk, confidences, confirmed};
 use crate::spec::file::SourceFile;
 use geom::units::mm;

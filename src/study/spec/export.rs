@@ -146,10 +146,9 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::catalogue;
-    use crate::files;
     use crate::patterns::Model;
     use crate::spec::new_study::new_study;
+    use crate::{catalogue, files};
 
     fn hashes(study: &Study) -> Vec<String> {
         spec::jobs(study).into_iter().map(|job| job.inputs.hash()).collect()

@@ -9,8 +9,7 @@ use crate::spec::export::{list, quoted};
 use crate::spec::fields::MEASUREMENTS;
 use crate::spec::sex_name;
 use crate::spec::versions::SIMULATORS;
-use body::Dimension;
-use body::{Measurements, Sex};
+use body::{Dimension, Measurements, Sex};
 use fit::Simulator;
 use geom::units::from_mm;
 

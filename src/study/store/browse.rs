@@ -10,8 +10,7 @@ use rusqlite::fallible_iterator::FallibleIterator;
 
 use crate::error::{Result, StudyError};
 use crate::rows::{Table, Value};
-use crate::store::Store;
-use crate::store::sql;
+use crate::store::{Store, sql};
 
 /// The rows of a query, as far as they were wanted.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -10,8 +10,7 @@ use rusqlite::{Connection, Error};
 
 use crate::error::{Result, StudyError};
 use crate::rows::{Table, Value};
-use crate::store::Store;
-use crate::store::browse;
+use crate::store::{Store, browse};
 
 /// Queries that come with the program.
 const SAVED: [(&str, &str); 8] = [

@@ -15,13 +15,9 @@ use image::RgbaImage;
 
 use crate::catalogue::read_fabric;
 use crate::error::{Result, StudyError};
-use crate::rows::StageKind;
-use crate::rows::{JobId, Value};
+use crate::rows::{JobId, StageKind, Value};
 use crate::run::pipeline::{Meshes, Model};
-use crate::store::Store;
-use crate::store::cache;
-use crate::store::read;
-use crate::store::sql;
+use crate::store::{Store, cache, read, sql};
 use fit::Simulator;
 use geom::units::mm;
 use geom::{Surface, TriMesh};

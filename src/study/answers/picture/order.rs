@@ -2,12 +2,10 @@
 
 use image::RgbaImage;
 
-use crate::answers::picture;
-use crate::answers::picture::{Cloth, Dressed, Map};
+use crate::answers::picture::{self, Cloth, Dressed, Map};
 use crate::error::{Result, StudyError};
 use crate::rows::JobId;
-use crate::store::Store;
-use crate::store::read;
+use crate::store::{Store, read};
 use geom::TriMesh;
 use render::{self, Camera, Cell, Frame, Rgb, Scene, View};
 use sim::Stage;

@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::answers::picture::*;
-use body::Dimension;
-use body::{self, Measurements, Sex};
+use body::{self, Dimension, Measurements, Sex};
 use geom::{DistanceField, V2, V3};
 use pattern::Style;
 use pattern::draft::Model;

@@ -1,18 +1,13 @@
 //! What a report says besides its runs: verdicts, audit, subjects, fabrics, patterns, ease.
 
-use crate::answers::advice;
-use crate::answers::picture;
 use crate::answers::reporting::quoted;
+use crate::answers::{advice, picture};
 use crate::catalogue::style;
 use crate::error::Result;
 use crate::patterns;
-use crate::rows::StageKind;
-use crate::rows::{EaseRow, JobRow, RecommendationRow, Status, Value};
+use crate::rows::{EaseRow, JobRow, RecommendationRow, StageKind, Status, Value};
 use crate::run::pipeline::Model;
-use crate::store::Store;
-use crate::store::read;
-use crate::store::sql;
-
+use crate::store::{Store, read, sql};
 use body::Girths;
 use fit::{Basis, Ease, Finding, Simulator};
 use report::data::{

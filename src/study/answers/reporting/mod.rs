@@ -7,12 +7,9 @@ mod sheets;
 
 use crate::error::{Result, StudyError};
 use crate::rows::{Table, Value};
-use crate::store::Store;
-use crate::store::evidence;
-use crate::store::evidence::PUBLISHED;
-use crate::store::read;
-use crate::store::read::JobFilter;
-use crate::store::sql;
+use crate::store::evidence::{self, PUBLISHED};
+use crate::store::read::{self, JobFilter};
+use crate::store::{Store, sql};
 use report::data::{Fact, RawLink};
 use report::{self, ReportData};
 

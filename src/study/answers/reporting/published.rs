@@ -2,17 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use crate::answers::audit;
-use crate::answers::audit::Finding;
-use crate::answers::reporting;
+use crate::answers::audit::{self, Finding};
 use crate::answers::reporting::facts::{self, number};
-use crate::answers::reporting::{csv_of, mm_value};
+use crate::answers::reporting::{self, csv_of, mm_value};
 use crate::error::{Result, StudyError};
 use crate::rows::Value;
-use crate::store::Store;
-use crate::store::evidence;
-use crate::store::evidence::PUBLISHED;
-use crate::store::sql;
+use crate::store::evidence::{self, PUBLISHED};
+use crate::store::{Store, sql};
 use fit::measure::Chi;
 use fit::{Answer, Cuts, Ease, Simulator};
 use report::data::{AuditNote, EaseMatrix, Fact, Measured, Outcome, RawLink, Severity, TryOn, Verdict};

@@ -4,17 +4,12 @@ use std::thread;
 
 use image::{RgbaImage, imageops};
 
-use crate::answers::picture;
-use crate::answers::picture::{Dressed, Map};
-use crate::answers::reporting;
-use crate::answers::reporting::facts;
-use crate::answers::reporting::quoted;
+use crate::answers::picture::{self, Dressed, Map};
 use crate::answers::reporting::sheets::Sheets;
+use crate::answers::reporting::{self, facts, quoted};
 use crate::error::{Result, StudyError};
 use crate::rows::{JobId, JobRow, MetricsRow, Status, Value};
-use crate::store::Store;
-use crate::store::read;
-use crate::store::sql;
+use crate::store::{Store, read, sql};
 use fit::measure::Chi;
 use geom::units::mm;
 use render::{self, Camera, Cell, Frame, Scale, Scene, View};

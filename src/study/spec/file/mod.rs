@@ -59,8 +59,7 @@ mod values;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::error::Problem;
-use crate::error::{Result, StudyError};
+use crate::error::{Problem, Result, StudyError};
 pub use crate::files::SourceFile;
 use crate::spec::parameters::Parameters;
 use crate::spec::{Limits, Schedule};

@@ -6,8 +6,7 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::error::Problem;
-use crate::error::nearest;
+use crate::error::{Problem, nearest};
 use crate::spec::file::Placed;
 
 /// Collects what is wrong with one file.

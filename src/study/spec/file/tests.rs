@@ -1,6 +1,5 @@
 use crate::spec::file::*;
-use body::Dimension;
-use body::Sex;
+use body::{Dimension, Sex};
 
 fn known() -> Known {
     let male_ii = Measurements::of(Sex::Male, 1.69).with(Dimension::Weight, 53.0).with(Dimension::ChestGirth, 0.863);

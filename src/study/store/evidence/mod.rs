@@ -5,9 +5,8 @@ mod published;
 use rusqlite::{Connection, Row, named_params, params};
 
 use crate::error::Result;
-use crate::store;
-use crate::store::Store;
 use crate::store::read::fit_class;
+use crate::store::{self, Store};
 use fit::{self, Cell, Errors, Evidence, Pair, RuleScore};
 use geom::units::from_mm;
 
