@@ -116,7 +116,7 @@ impl Workspace {
     /// # Errors
     /// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
     pub fn picture(&self, id: JobId, view: View, width: u32, height: u32, map: Map) -> Result<RgbaImage> {
-        picture::picture((&self.store, &self.scenes), id, view, width, height, map)
+        picture::picture(&self.store, &self.scenes, id, view, width, height, map)
     }
 
     /// A result from any side, the garment as large as it can be times the look's own enlargement: the body is cut off
@@ -125,7 +125,7 @@ impl Workspace {
     /// # Errors
     /// As [`Workspace::picture`].
     pub fn look(&self, id: JobId, look: Look, width: u32, height: u32, map: Map) -> Result<RgbaImage> {
-        picture::look((&self.store, &self.scenes), id, look, width, height, map)
+        picture::look(&self.store, &self.scenes, id, look, width, height, map)
     }
 
     /// A result's body and garment as a mesh file. The garment's texture coordinates are its places in the pattern, m; a

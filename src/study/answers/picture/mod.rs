@@ -204,8 +204,16 @@ pub type Scenes = RefCell<Vec<(JobId, Map, Stage)>>;
 ///
 /// # Errors
 /// [`StudyError::NotFound`] while there is no result; [`StudyError::Artefact`] when it is no longer stored.
-pub fn picture(at: (&Store, &Scenes), id: JobId, view: View, width: u32, height: u32, map: Map) -> Result<RgbaImage> {
-    shot(at, id, map, |stage| {
+pub fn picture(
+    store: &Store,
+    scenes: &Scenes,
+    id: JobId,
+    view: View,
+    width: u32,
+    height: u32,
+    map: Map,
+) -> Result<RgbaImage> {
+    shot(store, scenes, (id, map), |stage| {
         let camera = Camera::new(view, stage.frame(aspect(width, height)));
         render::render(&stage.scene, &camera, width, height)
     })
@@ -216,8 +224,16 @@ pub fn picture(at: (&Store, &Scenes), id: JobId, view: View, width: u32, height:
 ///
 /// # Errors
 /// As [`Workspace::picture`](crate::Workspace::picture).
-pub fn look(at: (&Store, &Scenes), id: JobId, look: Look, width: u32, height: u32, map: Map) -> Result<RgbaImage> {
-    shot(at, id, map, |stage| {
+pub fn look(
+    store: &Store,
+    scenes: &Scenes,
+    id: JobId,
+    look: Look,
+    width: u32,
+    height: u32,
+    map: Map,
+) -> Result<RgbaImage> {
+    shot(store, scenes, (id, map), |stage| {
         let mut frame = Frame::enclosing(&stage.meshes[1..], aspect(width, height));
         frame.centre.z += f64::from(look.rise_pct) / 100.0 * frame.height_m / 2.0;
         frame.height_m *= 100.0 / f64::from(look.zoom_pct.max(1));
@@ -228,9 +244,9 @@ pub fn look(at: (&Store, &Scenes), id: JobId, look: Look, width: u32, height: u3
 
 /// A picture that is taken of a result's stage.
 fn shot(
-    (store, scenes): (&Store, &Scenes),
-    id: JobId,
-    map: Map,
+    store: &Store,
+    scenes: &Scenes,
+    (id, map): (JobId, Map),
     take: impl Fn(&Stage) -> std::result::Result<RgbaImage, render::RenderError>,
 ) -> Result<RgbaImage> {
     let mut kept = scenes.borrow_mut();
