@@ -220,7 +220,7 @@ fn other(body: &Dressed, style: &Style, cotton: &Fabric) -> Outcome<String> {
     let [inside_mm, gap_mm] = [drape.penetration_max_m, drape.seam_gap_max_m].map(|m| 1e3 * m);
     let rests = if drape.converged { "at rest" } else { "NOT at rest" };
     Ok(format!(
-        "EI {ei:.4}, {inside_mm:.2} mm inside, {} crossings, seams {gap_mm:.2} mm open, stretch {stretch:.3}, {} vertices, {} steps, {spent:.1} s, residual {:.4}, {rests}",
+        "EI {ei:.4}, {inside_mm:.2} mm inside, {} intersections, seams {gap_mm:.2} mm open, stretch {stretch:.3}, {} vertices, {} steps, {spent:.1} s, residual {:.4}, {rests}",
         drape.self_crossings, drape.welded_vertices, drape.iterations, drape.residual
     ))
 }

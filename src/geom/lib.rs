@@ -2,6 +2,7 @@
 //!
 //! World frame: metres, origin on the floor between the feet, `x` to the subject's right, `y` to the front, `z` up.
 
+pub mod constants;
 pub mod contour;
 pub mod crossing;
 pub mod field;

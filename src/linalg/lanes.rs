@@ -2,116 +2,116 @@
 
 use std::ops::{Add, Div, Mul, Sub};
 
-use super::machine::Machine;
+use super::simd::Simd;
 
 /// What formulas are written in.
 pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
     /// A constant, beside this.
-    fn same(self, number: f64) -> Self;
+    fn splat(self, number: f64) -> Self;
     /// `self factor + sum`.
-    fn times_plus(self, factor: Self, sum: Self) -> Self;
+    fn mul_add(self, factor: Self, sum: Self) -> Self;
     /// The lesser.
-    fn least(self, other: Self) -> Self;
+    fn min(self, other: Self) -> Self;
     /// The greater.
-    fn most(self, other: Self) -> Self;
+    fn max(self, other: Self) -> Self;
     /// Square root.
-    fn root(self) -> Self;
+    fn sqrt(self) -> Self;
 }
 
 impl Number for f64 {
     #[inline(always)]
-    fn same(self, number: f64) -> f64 {
+    fn splat(self, number: f64) -> f64 {
         number
     }
 
     #[inline(always)]
-    fn times_plus(self, factor: f64, sum: f64) -> f64 {
+    fn mul_add(self, factor: f64, sum: f64) -> f64 {
         self * factor + sum
     }
 
     #[inline(always)]
-    fn least(self, other: f64) -> f64 {
+    fn min(self, other: f64) -> f64 {
         self.min(other)
     }
 
     #[inline(always)]
-    fn most(self, other: f64) -> f64 {
+    fn max(self, other: f64) -> f64 {
         self.max(other)
     }
 
     #[inline(always)]
-    fn root(self) -> f64 {
+    fn sqrt(self) -> f64 {
         self.sqrt()
     }
 }
 
-/// Four numbers on a machine.
+/// Four numbers in a vector register, with what computes on it.
 #[derive(Clone, Copy)]
-pub struct Lanes<M: Machine> {
-    four: M::Four,
-    machine: M,
+pub struct Lanes<S: Simd> {
+    four: S::F64x4,
+    simd: S,
 }
 
-impl<M: Machine> Lanes<M> {
+impl<S: Simd> Lanes<S> {
     /// Four numbers.
     #[inline(always)]
-    pub fn of(machine: M, numbers: [f64; 4]) -> Self {
-        Self { four: machine.four(numbers), machine }
+    pub fn of(simd: S, numbers: [f64; 4]) -> Self {
+        Self { four: simd.f64s(numbers), simd }
     }
 
     /// The numbers in single precision.
     #[inline(always)]
     pub fn single(self) -> [f32; 4] {
-        self.machine.single(self.four)
+        self.simd.to_f32s(self.four)
     }
 
     /// The numbers.
     #[inline(always)]
     pub fn numbers(self) -> [f64; 4] {
-        self.machine.numbers(self.four)
+        self.simd.to_f64s(self.four)
     }
 }
 
 macro_rules! operator {
     ($operator:ident, $method:ident, $on:ident) => {
-        impl<M: Machine> $operator for Lanes<M> {
+        impl<S: Simd> $operator for Lanes<S> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                Self { four: self.machine.$on(self.four, other.four), ..self }
+                Self { four: self.simd.$on(self.four, other.four), ..self }
             }
         }
     };
 }
 
-operator!(Add, add, sum);
-operator!(Sub, sub, difference);
-operator!(Mul, mul, product);
-operator!(Div, div, quotient);
+operator!(Add, add, add_f64s);
+operator!(Sub, sub, sub_f64s);
+operator!(Mul, mul, mul_f64s);
+operator!(Div, div, div_f64s);
 
-impl<M: Machine> Number for Lanes<M> {
+impl<S: Simd> Number for Lanes<S> {
     #[inline(always)]
-    fn same(self, number: f64) -> Self {
-        Self::of(self.machine, [number; 4])
+    fn splat(self, number: f64) -> Self {
+        Self::of(self.simd, [number; 4])
     }
 
     #[inline(always)]
-    fn times_plus(self, factor: Self, sum: Self) -> Self {
-        Self { four: self.machine.fours_plus(self.four, factor.four, sum.four), ..self }
+    fn mul_add(self, factor: Self, sum: Self) -> Self {
+        Self { four: self.simd.mul_add_f64s(self.four, factor.four, sum.four), ..self }
     }
 
     #[inline(always)]
-    fn least(self, other: Self) -> Self {
-        Self { four: self.machine.least(self.four, other.four), ..self }
+    fn min(self, other: Self) -> Self {
+        Self { four: self.simd.min_f64s(self.four, other.four), ..self }
     }
 
     #[inline(always)]
-    fn most(self, other: Self) -> Self {
-        Self { four: self.machine.most(self.four, other.four), ..self }
+    fn max(self, other: Self) -> Self {
+        Self { four: self.simd.max_f64s(self.four, other.four), ..self }
     }
 
     #[inline(always)]
-    fn root(self) -> Self {
-        Self { four: self.machine.root(self.four), ..self }
+    fn sqrt(self) -> Self {
+        Self { four: self.simd.sqrt_f64s(self.four), ..self }
     }
 }

@@ -3,14 +3,14 @@
 use nalgebra::Matrix3;
 use wide::{f32x4, f64x4};
 
-use super::blocks::Row;
-use super::factor::Factor;
-use super::machine::Machine;
+use super::cholesky::Row;
+use super::coarse::{CoarseFactor, CoarseSpace};
+use super::csr::CsrMatrix;
+use super::exact::Factor;
 use super::operator::Operator;
-use super::patches::{Coarse, Patches};
 use super::pcg::{self, PcgParams, Preconditioner};
 use super::quad::{self, Block, Quad};
-use super::rows::Rows;
+use super::simd::Simd;
 use geom::V3;
 
 /// How the linear systems of a cloth are solved.
@@ -21,8 +21,15 @@ pub enum LinearSolver {
     Factor(Option<Box<Factor>>),
 }
 
-/// Iterations with an old factor after which a new one is made: about as many solves as a factorisation costs.
-const PATIENCE: usize = 6;
+geom::constants! {
+    "linalg.linear",
+    /// Iterations with an old factor after which a new one is made: about as many solves as a factorisation costs.
+    const PATIENCE: usize = 6;
+    /// Products that are summed up in single precision.
+    const SUMMED: usize = 256;
+    /// Iterations that a new factor costs.
+    const FACTOR_COST: usize = 12;
+}
 
 impl Default for LinearSolver {
     fn default() -> Self {
@@ -54,7 +61,7 @@ impl LinearSolver {
                 let aged = kept.is_some();
                 let factor = kept.get_or_insert_with(|| Box::new(Factor::new(operator)));
                 let attempt = PcgParams { max_iterations: PATIENCE, ..*params };
-                let rows = Rows::<f64x4>::new(operator);
+                let rows = CsrMatrix::<f64x4>::new(operator);
                 if aged && pcg::solve(&rows, &**factor, b, x, &attempt).is_solved {
                     return;
                 }
@@ -67,14 +74,11 @@ impl LinearSolver {
 
 /// Solves `K x = b` with block-Jacobi in single precision: a direction of descent need not be better.
 pub fn jacobi(operator: &Operator, b: &[V3], x: &mut [V3], params: &PcgParams) {
-    pcg::solve(&Rows::new(operator), Jacobi::new(&operator.diagonal_blocks()), b, x, params);
+    pcg::solve(&CsrMatrix::new(operator), Jacobi::new(&operator.diagonal_blocks()), b, x, params);
 }
 
 /// Inverses of the diagonal blocks.
 struct Jacobi(Vec<Block<f32x4>>);
-
-/// Products that are summed up in single precision.
-const SUMMED: usize = 256;
 
 impl Jacobi {
     fn new(diagonal: &[Matrix3<f64>]) -> Self {
@@ -85,23 +89,23 @@ impl Jacobi {
 
 impl Preconditioner<f32x4> for Jacobi {
     #[inline(always)]
-    fn begin<M: Machine>(&mut self, machine: M, r: &[f32x4], z: &mut [f32x4]) -> f64 {
-        let mut works = 0.0;
+    fn apply<S: Simd>(&mut self, simd: S, r: &[f32x4], z: &mut [f32x4]) -> f64 {
+        let mut r_dot_z = 0.0;
         for ((z, r), blocks) in z.chunks_mut(SUMMED).zip(r.chunks(SUMMED)).zip(self.0.chunks(SUMMED)) {
             let mut sum = f32x4::ZERO;
             for ((z, r), block) in z.iter_mut().zip(r).zip(blocks) {
                 *z = quad::transposed_times(block, *r);
-                sum = machine.plus(*z, *r, sum);
+                sum = simd.mul_add(*z, *r, sum);
             }
-            works += sum.total();
+            r_dot_z += sum.total();
         }
-        works
+        r_dot_z
     }
 }
 
 impl Preconditioner<f64x4> for &Factor {
     #[inline(always)]
-    fn begin<M: Machine>(&mut self, _: M, r: &[f64x4], z: &mut [f64x4]) -> f64 {
+    fn apply<S: Simd>(&mut self, _: S, r: &[f64x4], z: &mut [f64x4]) -> f64 {
         self.solve(r, z);
         pcg::dot(r, z, |r, z| *r * *z)
     }
@@ -109,20 +113,17 @@ impl Preconditioner<f64x4> for &Factor {
 
 /// Block-Jacobi with the rigid motions of patches added, whose stiffness is factorised now and then.
 pub struct TwoLevel {
-    patches: Patches,
-    coarse: Option<Coarse>,
+    patches: CoarseSpace,
+    coarse: Option<CoarseFactor>,
     /// Iterations that the factor took when it was new.
     when_new: usize,
     /// Iterations that its age has cost since.
     lost: usize,
 }
 
-/// Iterations that a new factor costs.
-const FACTOR_COST: usize = 12;
-
 impl TwoLevel {
     fn new(operator: &Operator) -> Self {
-        Self { patches: Patches::new(operator), coarse: None, when_new: 0, lost: 0 }
+        Self { patches: CoarseSpace::new(operator), coarse: None, when_new: 0, lost: 0 }
     }
 
     fn solve(&mut self, operator: &Operator, positions: &[V3], b: &[V3], x: &mut [V3], params: &PcgParams) {
@@ -131,8 +132,9 @@ impl TwoLevel {
         let is_new = kept.is_none();
         let coarse = kept.unwrap_or_else(|| self.patches.factorise(operator, &diagonal, positions));
         let motions = Vec::new();
-        let both = Both { jacobi: Jacobi::new(&diagonal), patches: &self.patches, coarse: &coarse, motions };
-        let iterations = pcg::solve(&Rows::new(operator), both, b, x, params).iterations;
+        let both =
+            TwoLevelPreconditioner { jacobi: Jacobi::new(&diagonal), patches: &self.patches, coarse: &coarse, motions };
+        let iterations = pcg::solve(&CsrMatrix::new(operator), both, b, x, params).iterations;
         if is_new {
             (self.when_new, self.lost) = (iterations, 0);
         } else {
@@ -143,23 +145,23 @@ impl TwoLevel {
 }
 
 /// Vertices one by one, and patches of them.
-struct Both<'a> {
+struct TwoLevelPreconditioner<'a> {
     jacobi: Jacobi,
-    patches: &'a Patches,
-    coarse: &'a Coarse,
+    patches: &'a CoarseSpace,
+    coarse: &'a CoarseFactor,
     /// How the patches answer.
     motions: Vec<Row>,
 }
 
-impl Preconditioner<f32x4> for Both<'_> {
+impl Preconditioner<f32x4> for TwoLevelPreconditioner<'_> {
     #[inline(always)]
-    fn begin<M: Machine>(&mut self, machine: M, r: &[f32x4], z: &mut [f32x4]) -> f64 {
-        let works = self.jacobi.begin(machine, r, z);
-        works + self.patches.answer(machine, self.coarse, r, &mut self.motions)
+    fn apply<S: Simd>(&mut self, simd: S, r: &[f32x4], z: &mut [f32x4]) -> f64 {
+        let r_dot_z = self.jacobi.apply(simd, r, z);
+        r_dot_z + self.patches.restrict_and_solve(simd, self.coarse, r, &mut self.motions)
     }
 
     #[inline(always)]
-    fn turn<M: Machine>(&self, machine: M, z: &[f32x4], beta: f32x4, states: &mut [[f32x4; 2]]) {
-        self.patches.turn(machine, self.coarse, (&self.motions, z), beta, states);
+    fn next_direction<S: Simd>(&self, simd: S, z: &[f32x4], beta: f32x4, states: &mut [[f32x4; 2]]) {
+        self.patches.next_direction(simd, self.coarse, (&self.motions, z), beta, states);
     }
 }

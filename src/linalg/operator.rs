@@ -3,13 +3,13 @@
 //! Membrane and bending stiffness are invariant under translation: the blocks of a row sum to zero. They are therefore
 //! assembled as one block per *pair* of vertices and applied to differences, `y_i += A_ij (x_j - x_i)`: that needs no
 //! diagonal, and a uniform translation is annihilated exactly, however the blocks were rounded. The linear solves take the
-//! pairs by rows ([`super::rows`]).
+//! pairs by rows ([`super::csr`]).
 
 use nalgebra::Matrix3;
 use wide::f32x4;
 
+use super::csr::{Upper, sorted_by_row};
 use super::quad::{self, Block};
-use super::rows::{Upper, by_row};
 use geom::V3;
 
 /// Pairs of vertices `i < j`, sorted, that some element couples.
@@ -28,7 +28,7 @@ impl PairList {
     pub fn new(pairs: impl IntoIterator<Item = [usize; 2]>) -> Self {
         let given: Vec<[usize; 2]> = pairs.into_iter().map(|[i, j]| [i.min(j), i.max(j)]).collect();
         let rows = given.iter().map(|[i, _]| i + 1).max().unwrap_or(0);
-        let (starts, mut others) = by_row(rows, &given, |[i, _]| *i, |[_, j]| *j);
+        let (starts, mut others) = sorted_by_row(rows, &given, |[i, _]| *i, |[_, j]| *j);
         let mut pairs: Vec<[usize; 2]> = Vec::with_capacity(given.len());
         for (i, ends) in starts.windows(2).enumerate() {
             let row = &mut others[ends[0] as usize..ends[1] as usize];
@@ -155,7 +155,7 @@ impl Operator<'_> {
                 blocks[v] += Matrix3::identity() * stiffness;
             }
         }
-        // Rows and columns of couplings summed by themselves: what the diagonal lacks for both to come to nothing. Once a vertex is
+        // CsrMatrix and columns of couplings summed by themselves: what the diagonal lacks for both to come to nothing. Once a vertex is
         // met, all smaller ones have been, and its column is whole.
         let mut columns = vec![[f32x4::ZERO; 3]; blocks.len()];
         let mut alike = vec![0.0; blocks.len()];

@@ -2,8 +2,8 @@
 
 use wide::f32x4;
 
-use super::blocks::{Dense, Row};
-use super::machine::{Machine, each};
+use super::cholesky::{Dense, Row};
+use super::simd::{Simd, each};
 
 /// A block: of each column the first four, two columns side by side; then the last two of each, four columns side by side.
 #[derive(Clone, Copy, Default)]
@@ -37,85 +37,85 @@ pub struct Parts<T> {
     tail: T,
 }
 
-/// Arithmetic with blocks on a machine.
+/// Arithmetic with blocks in vector registers.
 #[derive(Clone, Copy)]
-pub struct Blockwise<M>(pub M);
+pub struct Blockwise<S>(pub S);
 
-impl<M: Machine> Blockwise<M> {
+impl<S: Simd> Blockwise<S> {
     /// Nothing, to sum up entries in.
     #[inline(always)]
-    pub fn nothing(self) -> Entries<M::Twin> {
-        let zero = self.0.twin([f32x4::ZERO; 2]);
+    pub fn nothing(self) -> Entries<S::F32x8> {
+        let zero = self.0.join([f32x4::ZERO; 2]);
         Entries { heads: [zero; 3], tails: [zero; 2] }
     }
 
     /// A row in one part each.
     #[inline(always)]
-    pub fn parts(self, [a, b, c, d, e, f]: Row) -> Parts<M::Twin> {
+    pub fn parts(self, [a, b, c, d, e, f]: Row) -> Parts<S::F32x8> {
         let (head, tail) = (f32x4::from([a, b, c, d]), f32x4::from([e, f, 0.0, 0.0]));
-        Parts { head: self.0.twin([head, f32x4::ZERO]), tail: self.0.twin([tail, f32x4::ZERO]) }
+        Parts { head: self.0.join([head, f32x4::ZERO]), tail: self.0.join([tail, f32x4::ZERO]) }
     }
 
     /// A row that stands whole wherever a part would.
     #[inline(always)]
-    pub fn repeated(self, [a, b, c, d, e, f]: Row) -> Parts<M::Twin> {
+    pub fn repeated(self, [a, b, c, d, e, f]: Row) -> Parts<S::F32x8> {
         let (head, tail) = (f32x4::from([a, b, c, d]), f32x4::from([e, f, e, f]));
-        Parts { head: self.0.twin([head; 2]), tail: self.0.twin([tail; 2]) }
+        Parts { head: self.0.join([head; 2]), tail: self.0.join([tail; 2]) }
     }
 
     /// The row, of its parts.
     #[inline(always)]
-    pub fn row(self, parts: &Parts<M::Twin>) -> Row {
-        let ([a, b], [c, d]) = (self.0.halves(parts.head), self.0.halves(parts.tail));
+    pub fn row(self, parts: &Parts<S::F32x8>) -> Row {
+        let ([a, b], [c, d]) = (self.0.split(parts.head), self.0.split(parts.tail));
         let (head, tail) = ((a + b).to_array(), (c + d).to_array());
         [head[0], head[1], head[2], head[3], tail[0] + tail[2], tail[1] + tail[3]]
     }
 
     /// The row that stands whole in every part.
     #[inline(always)]
-    pub fn first(self, parts: &Parts<M::Twin>) -> Row {
+    pub fn first(self, parts: &Parts<S::F32x8>) -> Row {
         let ([a, b, c, d], [e, f, ..]) =
-            (self.0.halves(parts.head)[0].to_array(), self.0.halves(parts.tail)[0].to_array());
+            (self.0.split(parts.head)[0].to_array(), self.0.split(parts.tail)[0].to_array());
         [a, b, c, d, e, f]
     }
 
     /// What a row multiplies the columns of a block with.
     #[inline(always)]
-    pub fn factors(self, y: Row) -> Entries<M::Twin> {
+    pub fn factors(self, y: Row) -> Entries<S::F32x8> {
         let tails = each!(k of 3 => f32x4::from([y[2 * k], y[2 * k], y[2 * k + 1], y[2 * k + 1]]));
         Entries {
-            heads: each!(k of 3 => self.0.twin([f32x4::splat(y[2 * k]), f32x4::splat(y[2 * k + 1])])),
-            tails: [self.0.twin([tails[0], tails[1]]), self.0.twin([tails[2], f32x4::ZERO])],
+            heads: each!(k of 3 => self.0.join([f32x4::splat(y[2 * k]), f32x4::splat(y[2 * k + 1])])),
+            tails: [self.0.join([tails[0], tails[1]]), self.0.join([tails[2], f32x4::ZERO])],
         }
     }
 
     /// Adds to `parts` a block times the row with these factors.
     #[inline(always)]
-    pub fn add_times(self, parts: &mut Parts<M::Twin>, block: &Packed, factors: &Entries<M::Twin>) {
+    pub fn add_times(self, parts: &mut Parts<S::F32x8>, block: &Packed, factors: &Entries<S::F32x8>) {
         for (head, factor) in block.heads.iter().zip(&factors.heads) {
-            parts.head = self.0.twins_plus(self.0.twin(*head), *factor, parts.head);
+            parts.head = self.0.mul_add_f32x8(self.0.join(*head), *factor, parts.head);
         }
         for (tail, factor) in block.tails.iter().zip(&factors.tails) {
-            parts.tail = self.0.twins_plus(self.0.twin(*tail), *factor, parts.tail);
+            parts.tail = self.0.mul_add_f32x8(self.0.join(*tail), *factor, parts.tail);
         }
     }
 
     /// Adds the products of each column with a repeated row: their totals are the block's transpose times it.
     #[inline(always)]
-    pub fn add_products(self, sums: &mut Entries<M::Twin>, block: &Packed, row: &Parts<M::Twin>) {
+    pub fn add_products(self, sums: &mut Entries<S::F32x8>, block: &Packed, row: &Parts<S::F32x8>) {
         for (sum, head) in sums.heads.iter_mut().zip(&block.heads) {
-            *sum = self.0.twins_plus(self.0.twin(*head), row.head, *sum);
+            *sum = self.0.mul_add_f32x8(self.0.join(*head), row.head, *sum);
         }
         for (sum, tail) in sums.tails.iter_mut().zip(&block.tails) {
-            *sum = self.0.twins_plus(self.0.twin(*tail), row.tail, *sum);
+            *sum = self.0.mul_add_f32x8(self.0.join(*tail), row.tail, *sum);
         }
     }
 
     /// Sums of the columns.
     #[inline(always)]
-    pub fn totals(self, sums: &Entries<M::Twin>) -> Row {
-        let heads = each!(k of 3 => self.0.halves(sums.heads[k]));
-        let tails = each!(k of 2 => self.0.halves(sums.tails[k]));
+    pub fn totals(self, sums: &Entries<S::F32x8>) -> Row {
+        let heads = each!(k of 3 => self.0.split(sums.heads[k]));
+        let tails = each!(k of 2 => self.0.split(sums.tails[k]));
         each!(column of 6 => {
             let [a, b, c, d] = heads[column / 2][column % 2].to_array();
             let tail = &tails[column / 4][column / 2 % 2].to_array()[2 * (column % 2)..];

@@ -1,8 +1,8 @@
 //! Preconditioned conjugate gradients.
 
-use super::machine::{self, Machine, Task};
+use super::csr::CsrMatrix;
 use super::quad::Quad;
-use super::rows::Rows;
+use super::simd::{self, Kernel, Simd};
 use geom::V3;
 
 /// When to stop.
@@ -23,16 +23,16 @@ pub struct Outcome {
     pub iterations: usize,
 }
 
-/// A preconditioner `P`, met in two halves: all that is asked between them is what `r` works along `P r`.
+/// A preconditioner `P`, met in two halves: all that is asked between them is what `r` r_dot_z along `P r`.
 pub trait Preconditioner<Q: Quad> {
     /// The first half of `P r`, in `z`; returns `r . P r`.
-    fn begin<M: Machine>(&mut self, machine: M, r: &[Q], z: &mut [Q]) -> f64;
+    fn apply<S: Simd>(&mut self, simd: S, r: &[Q], z: &mut [Q]) -> f64;
 
     /// The next direction of states `[p, K p]`: `p = P r + beta p`, where the first half came to `z`.
     #[inline(always)]
-    fn turn<M: Machine>(&self, machine: M, z: &[Q], beta: Q, states: &mut [[Q; 2]]) {
+    fn next_direction<S: Simd>(&self, simd: S, z: &[Q], beta: Q, states: &mut [[Q; 2]]) {
         for ([p, _], z) in states.iter_mut().zip(z) {
-            *p = beta.times_plus(*p, *z, machine);
+            *p = beta.mul_add_on(*p, *z, simd);
         }
     }
 }
@@ -41,7 +41,7 @@ pub trait Preconditioner<Q: Quad> {
 ///
 /// Every iterate descends the quadratic `x.K x / 2 - b.x`, so a run cut short still yields a descent direction.
 pub fn solve<Q: Quad>(
-    operator: &Rows<Q>,
+    operator: &CsrMatrix<Q>,
     preconditioner: impl Preconditioner<Q>,
     b: &[V3],
     x: &mut [V3],
@@ -49,7 +49,7 @@ pub fn solve<Q: Quad>(
 ) -> Outcome {
     let mut state: Vec<Q> = x.iter().map(Q::from_vector).collect();
     let b: Vec<Q> = b.iter().map(Q::from_vector).collect();
-    let outcome = machine::on_best(Improvement { operator, preconditioner, b: &b, x: &mut state, params });
+    let outcome = simd::dispatch(Improvement { operator, preconditioner, b: &b, x: &mut state, params });
     for (x, state) in x.iter_mut().zip(state) {
         *x = state.vector();
     }
@@ -57,25 +57,25 @@ pub fn solve<Q: Quad>(
 }
 
 struct Improvement<'a, Q: Quad, P> {
-    operator: &'a Rows<'a, Q>,
+    operator: &'a CsrMatrix<'a, Q>,
     preconditioner: P,
     b: &'a [Q],
     x: &'a mut [Q],
     params: &'a PcgParams,
 }
 
-impl<Q: Quad, P: Preconditioner<Q>> Task for Improvement<'_, Q, P> {
+impl<Q: Quad, P: Preconditioner<Q>> Kernel for Improvement<'_, Q, P> {
     type Output = Outcome;
 
     #[inline(always)]
-    fn run<M: Machine>(self, machine: M) -> Outcome {
+    fn run<S: Simd>(self, simd: S) -> Outcome {
         let Self { operator, mut preconditioner, b, x, params } = self;
         let (alike, within) = (|a: &Q, b: &Q| *a * *b, |[p, kp]: &[Q; 2], _: &[Q; 2]| *p * *kp);
         let mut z = vec![Q::ZERO; b.len()];
-        let goal = preconditioner.begin(machine, b, &mut z) * params.tolerance * params.tolerance;
+        let goal = preconditioner.apply(simd, b, &mut z) * params.tolerance * params.tolerance;
         // The last displacement `p`, and what it is multiplied to.
         let mut states: Vec<[Q; 2]> = x.iter().map(|x| [*x, Q::ZERO]).collect();
-        operator.apply(machine, &mut states);
+        operator.apply(simd, &mut states);
         // Never worse than zero.
         let scale = dot(x, b, alike) / dot(&states, &states, within);
         let mut alpha = if scale.is_finite() { scale.clamp(0.0, 1.0) } else { 0.0 };
@@ -85,10 +85,10 @@ impl<Q: Quad, P: Preconditioner<Q>> Task for Improvement<'_, Q, P> {
         for iterations in 0..=params.max_iterations {
             let share = Q::spread(alpha);
             for ((x, r), [p, kp]) in x.iter_mut().zip(&mut r).zip(&states) {
-                *x = share.times_plus(*p, *x, machine);
-                *r = share.times_from(*kp, *r, machine);
+                *x = share.mul_add_on(*p, *x, simd);
+                *r = share.neg_mul_add_on(*kp, *r, simd);
             }
-            let rz_next = preconditioner.begin(machine, &r, &mut z);
+            let rz_next = preconditioner.apply(simd, &r, &mut z);
             if rz_next <= goal || rz_next <= Q::NEGLIGIBLE {
                 return Outcome { is_solved: true, iterations };
             }
@@ -98,8 +98,8 @@ impl<Q: Quad, P: Preconditioner<Q>> Task for Improvement<'_, Q, P> {
             // The first direction is the residual's own.
             let beta = Q::spread(rz_next / rz);
             rz = rz_next;
-            preconditioner.turn(machine, &z, beta, &mut states);
-            operator.apply(machine, &mut states);
+            preconditioner.next_direction(simd, &z, beta, &mut states);
+            operator.apply(simd, &mut states);
             let curvature = dot(&states, &states, within);
             if curvature <= 0.0 {
                 return Outcome { is_solved: true, iterations };

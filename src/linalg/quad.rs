@@ -8,7 +8,7 @@ use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 use nalgebra::Matrix3;
 use wide::{f32x4, f64x4};
 
-use super::machine::Machine;
+use super::simd::Simd;
 use geom::V3;
 
 /// Four numbers in the precision of a solve.
@@ -43,9 +43,9 @@ pub trait Quad:
     }
 
     /// `self factor + sum`.
-    fn times_plus<M: Machine>(self, factor: Self, sum: Self, machine: M) -> Self;
+    fn mul_add_on<S: Simd>(self, factor: Self, sum: Self, simd: S) -> Self;
     /// `from - self factor`.
-    fn times_from<M: Machine>(self, factor: Self, from: Self, machine: M) -> Self;
+    fn neg_mul_add_on<S: Simd>(self, factor: Self, from: Self, simd: S) -> Self;
 
     /// Blocks in this precision.
     fn blocks(of: &[Block<f32x4>]) -> Cow<'_, [Block<Self>]>;
@@ -58,7 +58,7 @@ pub trait Quad:
 }
 
 macro_rules! quad {
-    ($quad:ty, $scalar:ty, $on:expr, $plus:ident, $minus:ident, $blocks:expr) => {
+    ($quad:ty, $scalar:ty, $on:expr, $mul_add:ident, $neg_mul_add:ident, $blocks:expr) => {
         impl Quad for $quad {
             type Scalar = $scalar;
             const ZERO: Self = <$quad>::ZERO;
@@ -70,12 +70,12 @@ macro_rules! quad {
                 $blocks(of)
             }
             #[inline(always)]
-            fn times_plus<M: Machine>(self, factor: Self, sum: Self, machine: M) -> Self {
-                $on(machine, M::$plus, [self, factor, sum])
+            fn mul_add_on<S: Simd>(self, factor: Self, sum: Self, simd: S) -> Self {
+                $on(simd, S::$mul_add, [self, factor, sum])
             }
             #[inline(always)]
-            fn times_from<M: Machine>(self, factor: Self, from: Self, machine: M) -> Self {
-                $on(machine, M::$minus, [self, factor, from])
+            fn neg_mul_add_on<S: Simd>(self, factor: Self, from: Self, simd: S) -> Self {
+                $on(simd, S::$neg_mul_add, [self, factor, from])
             }
             #[inline(always)]
             fn of(numbers: [f64; 4]) -> Self {
@@ -113,22 +113,18 @@ macro_rules! quad {
 }
 
 #[inline(always)]
-fn in_single<M>(machine: M, of: impl Fn(M, f32x4, f32x4, f32x4) -> f32x4, [a, b, c]: [f32x4; 3]) -> f32x4 {
-    of(machine, a, b, c)
+fn in_single<S>(simd: S, of: impl Fn(S, f32x4, f32x4, f32x4) -> f32x4, [a, b, c]: [f32x4; 3]) -> f32x4 {
+    of(simd, a, b, c)
 }
 
 #[inline(always)]
-fn in_double<M: Machine>(
-    machine: M,
-    of: impl Fn(M, M::Four, M::Four, M::Four) -> M::Four,
-    numbers: [f64x4; 3],
-) -> f64x4 {
-    let [a, b, c] = numbers.map(|quad| machine.four(quad.to_array()));
-    f64x4::from(machine.numbers(of(machine, a, b, c)))
+fn in_double<S: Simd>(simd: S, of: impl Fn(S, S::F64x4, S::F64x4, S::F64x4) -> S::F64x4, numbers: [f64x4; 3]) -> f64x4 {
+    let [a, b, c] = numbers.map(|quad| simd.f64s(quad.to_array()));
+    f64x4::from(simd.to_f64s(of(simd, a, b, c)))
 }
 
-quad!(f32x4, f32, in_single, plus, minus, Cow::Borrowed);
-quad!(f64x4, f64, in_double, fours_plus, fours_minus, |blocks: &[Block<f32x4>]| blocks
+quad!(f32x4, f32, in_single, mul_add, neg_mul_add, Cow::Borrowed);
+quad!(f64x4, f64, in_double, mul_add_f64s, neg_mul_add_f64s, |blocks: &[Block<f32x4>]| blocks
     .iter()
     .map(|block| block.map(|row| f64x4::from(row.to_array().map(f64::from))))
     .collect());

@@ -11,8 +11,11 @@ use super::cloth::membrane::Element;
 use geom::{V2, V3};
 use pattern::{Garment, Spot};
 
-/// Share of the cloth that may be stretched further.
-pub const SHARE: f64 = 0.01;
+geom::constants! {
+    "distortion",
+    /// Share of the cloth that may be stretched further.
+    pub const SHARE: f64 = 0.01;
+}
 
 /// How far a garment is stretched.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,15 +4,18 @@ use nalgebra::Matrix3;
 
 use super::Fabric;
 use super::cloth::Cloth;
-use super::contact::tangle::held_apart;
+use super::contact::intersections::held_apart;
 use geom::triangle::sorted;
 use geom::{V2, V3};
 use linalg::pcg::PcgParams;
 use linalg::{Operator, PairList, linear};
 use pattern::Garment;
 
-/// Wavelength at which rounding takes half the height of a wave, in edges of the coarser mesh.
-const ROUNDED_EDGES: f64 = 3.0;
+geom::constants! {
+    "levels",
+    /// Wavelength at which rounding takes half the height of a wave, in edges of the coarser mesh.
+    const ROUNDED_EDGES: f64 = 3.0;
+}
 
 /// World positions for the vertices of `cloth`, which is `fine` sewn: the drape of `coarse` at their places in the pieces'
 /// planes, its facets rounded where that does not make it pierce itself.

@@ -4,6 +4,7 @@
 //! sewing that are siblings here.
 
 pub mod cloth;
+mod constants;
 pub mod contact;
 pub mod distortion;
 pub mod drape;
@@ -20,6 +21,7 @@ pub mod solver;
 mod testing;
 mod walls;
 
+pub use constants::constants;
 pub use distortion::Distortion;
 pub use drape::{Drape, Monitor, Progress, Silent, Stage, Staged, Step};
 pub use error::SimError;

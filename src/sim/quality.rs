@@ -1,7 +1,7 @@
 //! Checks on a finished drape, made on the meshes themselves and not on what the solver believed.
 
-use crate::contact::tangle::edges_of;
-use crate::contact::{Skin, crossings};
+use crate::contact::intersections::edges_of;
+use crate::contact::{Skin, intersections};
 use crate::sewing;
 use body::Body;
 use geom::{DistanceField, V3};
@@ -37,8 +37,11 @@ pub fn deepest_spot(body: &Body, garment: &Garment, positions: &[V3]) -> Option<
     garment.spot(&vertices)
 }
 
-/// Farthest that a field may lie from the true surface, m: it is blurred, and so short of fingers and creases.
-const CLEAR_M: f64 = 4e-3;
+geom::constants! {
+    "quality",
+    /// Farthest that a field may lie from the true surface, m: it is blurred, and so short of fingers and creases.
+    const CLEAR_M: f64 = 4e-3;
+}
 
 /// Every vertex, edge middle and triangle centre, once.
 fn samples<'a>(garment: &'a Garment, positions: &'a [V3]) -> impl Iterator<Item = Sample> + 'a {
@@ -79,7 +82,7 @@ pub fn widest_seam(garment: &Garment, positions: &[V3]) -> Option<(f64, [usize; 
 #[must_use]
 pub fn self_crossings(x: &[V3], triangles: &[[usize; 3]]) -> usize {
     let edges = edges_of(triangles);
-    crossings(x, edges.pairs(), triangles).len()
+    intersections(x, edges.pairs(), triangles).len()
 }
 
 /// Where on its pieces a sewn garment crosses itself; `None` where it does not.
@@ -91,8 +94,10 @@ pub fn crossed_spot(garment: &Garment, positions: &[V3]) -> Option<Spot> {
         first[group] = v;
     }
     let sewn: Vec<[usize; 3]> = garment.triangles.iter().map(|t| t.map(|v| first[group[v]])).collect();
-    let crossed: Vec<usize> =
-        crossings(positions, edges_of(&sewn).pairs(), &sewn).into_iter().flat_map(|crossing| crossing.edge).collect();
+    let crossed: Vec<usize> = intersections(positions, edges_of(&sewn).pairs(), &sewn)
+        .into_iter()
+        .flat_map(|crossing| crossing.edge)
+        .collect();
     garment.spot(&crossed)
 }
 

@@ -64,8 +64,11 @@ pub struct Springs {
     first_cap_n: f64,
 }
 
-/// Most that springs grow by: garments that are stretched by half took up to 2e4.
-const MOST_GROWTH: f64 = 1e6;
+geom::constants! {
+    "sewing",
+    /// Most that springs grow by: garments that are stretched by half took up to 2e4.
+    const MOST_GROWTH: f64 = 1e6;
+}
 
 impl Springs {
     /// Springs on all seams of a garment that is not welded.

@@ -9,12 +9,15 @@ use crate::bodies::{self, LengthUnit, Sex};
 use crate::error::{Result, StudyError};
 use crate::files::SourceFile;
 use crate::patterns::{self, Unit};
-use crate::run::pipeline::{distorted, ease_on};
+use crate::run::outcome::{Measured, Outcome};
+use crate::run::pipeline::{Fitting, Meshes};
 use crate::seams;
 use crate::spec::file::{read_fabric, read_measurements};
+use crate::spec::parameters::Parameters;
 use crate::spec::versions::FIELD_SPACING_M;
 use body::Body;
-use fit::{Simulator, measure};
+use fit::measure::{self, Metrics};
+use fit::{Ease, Simulator};
 use geom::units::mm;
 use geom::{DistanceField, TriMesh, V3};
 use pattern::{Garment, MeasurementKind, Spot, Style};
@@ -168,60 +171,102 @@ pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<T
     let fabric = fabric(&asked.fabric)?;
     let style = style(asked, &mut notes)?;
     let body = body(asked, &mut notes)?;
-    let mesh = |edge| style.mesh(edge).map_err(StudyError::stage("mesh"));
-    let meshes: Vec<Garment> =
-        sim::fem::level_edges(asked.edge_length_m).into_iter().map(mesh).collect::<Result<_>>()?;
-    let garment = meshes.last().ok_or_else(|| StudyError::stage("mesh")("no mesh"))?;
     let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).map_err(StudyError::stage("field"))?;
+    let meshes = Meshes::of(&style, asked.edge_length_m)?;
+    let fitting = Fitting {
+        body: &body,
+        field: &field,
+        meshes: &meshes,
+        fabric: &fabric,
+        simulator: asked.simulator,
+        parameters: &Parameters::default(),
+    };
     let mut told = Told(progress);
-    let drape = match asked.simulator {
-        Simulator::Fem => sim::fem::simulate(&body, &field, &meshes, &fabric, &sim::fem::Params::default(), &mut told),
-        Simulator::Hybrid => {
-            sim::hybrid::simulate(&body, &field, garment, &fabric, &sim::hybrid::Params::default(), &mut told)
-        }
-    }
-    .map_err(StudyError::stage("sim"))?;
-    let mut tried = measured(asked, &style, garment, &drape, &fabric)?;
-    tried.problems = problems(&body, garment, &drape);
+    let drape = fitting.simulate(&mut told)?;
+    let garment = meshes.finest()?;
+    let outcome = fitting.outcome(&drape)?;
+    notes.extend(outcome.warnings.iter().cloned());
+    let mut tried = Tried::new(asked, &style, &fabric, outcome);
+    tried.problems.splice(0..0, problems(&body, garment, &drape));
+    tried.notes = notes;
     if asked.repeat > 1 {
-        let again = |seed: u64| {
-            let params = sim::fem::Params { seed, ..sim::fem::Params::default() };
-            sim::fem::simulate(&body, &field, &meshes, &fabric, &params, &mut told).map_err(StudyError::stage("sim"))
+        let again = |seed: u32| {
+            let mut parameters = Parameters::default();
+            parameters.set("fem.seed", seed.into()).map_err(StudyError::stage("sim"))?;
+            Fitting { parameters: &parameters, ..fitting }.simulate(&mut told)
         };
-        let drapes = (1..u64::from(asked.repeat)).map(again).collect::<Result<Vec<_>>>()?;
+        let drapes = (1..asked.repeat).map(again).collect::<Result<Vec<_>>>()?;
         spread(&mut tried, garment, &drapes);
     }
-    tried.ease = ease_on(garment, &body)
-        .into_iter()
-        .map(|ease| TriedEase {
-            pattern_girth_mm: mm(ease.pattern_girth_m),
-            body_girth_mm: mm(ease.body_girth_m),
-            ease_mm: mm(ease.ease_m()),
-            level: ease.level,
-        })
-        .collect();
-    if asked.simulator == Simulator::Hybrid {
-        tried.lacks(&sim::hybrid::closures(&body, garment, &drape.positions));
-    }
-    if asked.simulator == Simulator::Fem {
-        let (stretch, told) = distorted(&sim::fem::Params::default(), garment, &drape)?;
-        tried.cloth.distortion = Some(stretch);
-        notes.extend(told);
-    }
-    tried.notes = notes;
     tried.files = files(asked.simulator, &body, garment, &drape)?;
     tried.wall_ms = u64::try_from(started.elapsed().as_millis()).unwrap_or(u64::MAX);
     Ok(tried)
 }
 
 impl Tried {
-    /// Adds what the garment lacks; where it does not close around the body, that is a problem.
-    fn lacks(&mut self, closures: &[Closure]) {
-        self.gap = closures.iter().map(TriedGap::of).collect();
-        let short = self.gap.iter().filter(|gap| gap.shortfall_mm > SHORTFALL_MM);
-        self.problems.extend(
-            short.map(|gap| format!("does not close around the {}: {:.0} mm short", gap.level, gap.shortfall_mm)),
-        );
+    /// What a simulation has measured; without the problems of its drape, notes and files.
+    fn new(asked: &Attempt, style: &Style, fabric: &Fabric, outcome: Outcome) -> Self {
+        let Metrics { n, e_chi, sd_chi, ei, max_abs_error } = outcome.metrics;
+        let gap: Vec<TriedGap> = outcome.closures.iter().map(TriedGap::of).collect();
+        let short = gap.iter().filter(|gap| gap.shortfall_mm > SHORTFALL_MM);
+        let problems =
+            short.map(|gap| format!("does not close around the {}: {:.0} mm short", gap.level, gap.shortfall_mm));
+        Self {
+            garment: style.name.clone(),
+            size: style.size.clone(),
+            subject: asked.body.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+            simulator: asked.simulator.as_str().to_owned(),
+            fabric: fabric.name.clone(),
+            errors: TriedErrors { n, e_chi, sd_chi, ei, max_abs_error },
+            cloth: TriedCloth {
+                vertices: outcome.vertices,
+                faces: outcome.faces,
+                iterations: outcome.iterations,
+                residual: outcome.residual,
+                converged: outcome.converged,
+                penetration_max_mm: mm(outcome.penetration_max_m),
+                seam_gap_max_mm: mm(outcome.seam_gap_max_m),
+                self_crossings: outcome.self_crossings,
+                distortion: outcome.distortion,
+            },
+            wall_ms: 0,
+            chi_spread_max: None,
+            problems: problems.collect(),
+            chi: outcome.measured.into_iter().map(TriedChi::of).collect(),
+            ease: outcome.eases.into_iter().map(TriedEase::of).collect(),
+            gap,
+            notes: Vec::new(),
+            files: Vec::new(),
+        }
+    }
+}
+
+impl TriedChi {
+    fn of(measured: Measured) -> Self {
+        let Measured { stage, name, kind, is_free_edge, is_controlled, chi } = measured;
+        Self {
+            stage,
+            measurement_no: chi.no,
+            measurement: name,
+            kind,
+            is_free_edge,
+            is_controlled,
+            l2d_mm: mm(chi.l2d_m),
+            l3d_mm: mm(chi.l3d_m),
+            chi: chi.chi(),
+            chi_spread: None,
+        }
+    }
+}
+
+impl TriedEase {
+    fn of(ease: Ease) -> Self {
+        Self {
+            pattern_girth_mm: mm(ease.pattern_girth_m),
+            body_girth_mm: mm(ease.body_girth_m),
+            ease_mm: mm(ease.ease_m()),
+            level: ease.level,
+        }
     }
 }
 
@@ -289,12 +334,11 @@ fn style(asked: &Attempt, notes: &mut Vec<String>) -> Result<Style> {
         return patterns::style(&asked.pattern, asked.seams.as_deref(), size, asked.unit);
     }
     let proposal = seams::propose(&asked.pattern, size, asked.unit)?.proposal;
-    let proposal = proposal.to_drape().map_err(|unwearable| StudyError::Stage {
-        stage: "pattern",
-        message: format!(
+    let proposal = proposal.to_drape().map_err(|unwearable| {
+        StudyError::stage("pattern")(format!(
             "{}: {unwearable}; say --seams FILE (`toile pattern propose -o FILE` writes one to edit)",
             asked.pattern.display()
-        ),
+        ))
     })?;
     notes.push("sewn as proposed: no seam file was given".to_owned());
     notes.extend(proposal.questions.iter().cloned());
@@ -325,59 +369,6 @@ fn problems(body: &Body, garment: &Garment, drape: &Drape) -> Vec<String> {
         problems.push(format!("the cloth crosses itself at {} edges{most}", drape.self_crossings));
     }
     problems
-}
-
-fn measured(asked: &Attempt, style: &Style, garment: &Garment, drape: &Drape, fabric: &Fabric) -> Result<Tried> {
-    let chis = measure::measure(garment, &drape.positions);
-    let metrics = measure::metrics(&chis).ok_or_else(|| StudyError::stage("measure")("nothing to measure"))?;
-    let earlier = drape.earlier.iter().map(|staged| (staged.stage, measure::measure(garment, &staged.positions)));
-    let chi = earlier.chain([(drape.stage, chis)]).flat_map(|(stage, chis)| {
-        garment.measurements.iter().zip(chis).map(move |(measurement, chi)| TriedChi {
-            stage,
-            measurement_no: measurement.no,
-            measurement: measurement.name.clone(),
-            kind: measurement.kind,
-            is_free_edge: measurement.is_free_edge,
-            is_controlled: asked.simulator == Simulator::Hybrid,
-            l2d_mm: mm(chi.l2d_m),
-            l3d_mm: mm(chi.l3d_m),
-            chi: chi.chi(),
-            chi_spread: None,
-        })
-    });
-    Ok(Tried {
-        garment: style.name.clone(),
-        size: style.size.clone(),
-        subject: asked.body.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
-        simulator: asked.simulator.as_str().to_owned(),
-        fabric: fabric.name.clone(),
-        errors: TriedErrors {
-            n: metrics.n,
-            e_chi: metrics.e_chi,
-            sd_chi: metrics.sd_chi,
-            ei: metrics.ei,
-            max_abs_error: metrics.max_abs_error,
-        },
-        cloth: TriedCloth {
-            vertices: drape.welded_vertices,
-            faces: garment.triangles.len(),
-            iterations: drape.iterations,
-            residual: drape.residual,
-            converged: drape.converged,
-            penetration_max_mm: mm(drape.penetration_max_m),
-            seam_gap_max_mm: mm(drape.seam_gap_max_m),
-            self_crossings: drape.self_crossings,
-            distortion: None,
-        },
-        wall_ms: 0,
-        chi_spread_max: None,
-        chi: chi.collect(),
-        ease: Vec::new(),
-        gap: Vec::new(),
-        problems: Vec::new(),
-        notes: Vec::new(),
-        files: Vec::new(),
-    })
 }
 
 /// Four views of every stage as one picture each, and body and garment as meshes.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::error::{Result, StudyError};
+use crate::error::{InFile, Result, StudyError};
 use crate::files::SourceFile;
 use render::{self, Camera, Frame, Layer, Material, Scene, View};
 
@@ -75,7 +75,7 @@ pub fn pose_body(body: &Body, pose: Pose) -> Result<Body> {
 }
 
 fn of_scan(scan: &SourceFile) -> impl Fn(body::BodyError) -> StudyError {
-    |error| StudyError::Stage { stage: "body", message: format!("{}: {error}", scan.name) }
+    |source| StudyError::stage("body")(InFile { file: scan.name.clone(), source })
 }
 
 /// Lens of a camera.

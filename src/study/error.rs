@@ -71,12 +71,12 @@ pub enum StudyError {
         known: Vec<String>,
     },
     /// A stage refused its input.
-    #[error("{stage}: {message}")]
+    #[error("{stage}: {source}")]
     Stage {
         /// Stage of the pipeline (`body`, `pattern`, `mesh`, `sim`).
         stage: &'static str,
-        /// What it said.
-        message: String,
+        /// What it said: the stage's own error, such as a [`sim::SimError`].
+        source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// Stored bytes are not what the program wrote.
     #[error("artefact {hash}: {message}")]
@@ -104,10 +104,20 @@ impl StudyError {
         move |source| Self::Io { path, source }
     }
 
-    /// A stage's error as text.
-    pub(crate) fn stage<E: fmt::Display>(stage: &'static str) -> impl FnOnce(E) -> Self {
-        move |error| Self::Stage { stage, message: error.to_string() }
+    /// A stage's error, or a sentence of ours.
+    pub fn stage<E: Into<Box<dyn std::error::Error + Send + Sync>>>(stage: &'static str) -> impl FnOnce(E) -> Self {
+        move |error| Self::Stage { stage, source: error.into() }
     }
+}
+
+/// What a stage said of a file.
+#[derive(Debug, thiserror::Error)]
+#[error("{file}: {source}")]
+pub struct InFile<E: std::error::Error + 'static> {
+    /// The file's name.
+    pub file: String,
+    /// What was said.
+    pub source: E,
 }
 
 /// One thing that is wrong with a study file.

@@ -68,7 +68,7 @@ impl SourceFile {
         if files.is_empty() {
             let message =
                 format!("{}: a folder without a DXF file; accepted: one piece or more a file", path.display());
-            return Err(StudyError::Stage { stage: "pattern", message });
+            return Err(StudyError::stage("pattern")(message));
         }
         let mut bytes = Vec::new();
         for file in files {

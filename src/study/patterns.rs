@@ -77,7 +77,7 @@ pub(crate) fn read_style(
     } else {
         let Some(seams) = seams else {
             let message = format!("{}: holds no seams; give its seam file (`seams`, or --seams FILE)", pattern.name);
-            return Err(StudyError::Stage { stage: "pattern", message });
+            return Err(StudyError::stage("pattern")(message));
         };
         let pieces = pieces(pattern, size, unit)?;
         Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?

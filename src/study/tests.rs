@@ -254,7 +254,7 @@ fn a_failing_job_and_a_panic_are_told_and_can_be_retried() {
     let mut bench = Bench::new();
     let planned =
         bench.run(&study(0.1), 2, |spec: &JobSpec, _: &mut dyn Monitor| match (&*spec.size, &*spec.subject) {
-            ("s", "ii") => Err(StudyError::Stage { stage: "sim", message: "diverged".into() }),
+            ("s", "ii") => Err(StudyError::stage("sim")("diverged")),
             ("s", "v") => panic!("index out of range"),
             _ => Ok(outcome(spec)),
         });
@@ -396,7 +396,7 @@ fn what_waits_for_a_failed_job_is_cancelled_and_retried_with_it() {
     let mut bench = Bench::new();
     let planned =
         bench.run(&chained(), 2, |spec: &JobSpec, _: &mut dyn Monitor| match (&*spec.garment, &*spec.subject) {
-            ("tee", "v") => Err(StudyError::Stage { stage: "sim", message: "diverged".into() }),
+            ("tee", "v") => Err(StudyError::stage("sim")("diverged")),
             _ => Ok(outcome(spec)),
         });
     let status = |bench: &Bench, garment: &str, subject: &str| -> Vec<Status> {

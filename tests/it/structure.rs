@@ -318,6 +318,47 @@ fn fields_are_in_si_units() {
     assert_eq!(found, MILLIMETRES.map(str::to_owned).into());
 }
 
+/// Numbers that decide no result: what an index or a layout is called.
+const NAMED_NUMBERS: [&str; 2] = ["linalg::cholesky::SIZE", "sim::walls::MEDIAN"];
+
+#[test]
+fn constants_of_the_simulators_are_inputs_of_their_results() {
+    let mut plain = Vec::new();
+    let mut written = BTreeSet::new();
+    for (module, item) in ["linalg", "sim"].into_iter().flat_map(items) {
+        match item {
+            Item::Const(item) if is_number(&item.ty) => plain.push(format!("{module}::{}", item.ident)),
+            Item::Macro(item) if item.mac.path.segments.last().is_some_and(|last| last.ident == "constants") => {
+                written.extend(listed(item.mac.tokens));
+            }
+            _ => {}
+        }
+    }
+    plain.retain(|name| !NAMED_NUMBERS.contains(&name.as_str()) && !name.contains("::testing::"));
+    assert!(plain.is_empty(), "not in `geom::constants!`: {plain:?}");
+    let known: BTreeSet<String> = sim::constants().iter().map(|constant| constant.name.to_owned()).collect();
+    assert_eq!(known, written, "`sim::constants` lists each file's");
+}
+
+/// Whether a constant's type is made of numbers.
+fn is_number(of: &syn::Type) -> bool {
+    match of {
+        syn::Type::Path(path) => path.path.segments.last().is_some_and(|last| {
+            ["f64", "f32", "usize", "u64", "u32", "i32", "Range"].iter().any(|name| last.ident == name)
+        }),
+        syn::Type::Array(array) => is_number(&array.elem),
+        syn::Type::Tuple(tuple) => tuple.elems.iter().any(is_number),
+        _ => false,
+    }
+}
+
+/// The constants in the words of a `geom::constants!`, by room and name.
+fn listed(tokens: impl IntoIterator<Item = impl ToString>) -> Vec<String> {
+    let words: Vec<String> = tokens.into_iter().map(|token| token.to_string()).collect();
+    let room = words[0].trim_matches('"');
+    words.windows(2).filter(|two| two[0] == "const").map(|two| format!("{room}.{}", two[1])).collect()
+}
+
 #[test]
 fn the_workspace_is_implemented_in_one_file() {
     let is_workspace = |item: &Item| match item {

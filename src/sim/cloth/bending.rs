@@ -21,8 +21,8 @@ use super::part::Part;
 use crate::Fabric;
 use geom::{V2, V3};
 use linalg::PairList;
+use linalg::csr::sorted_by_row;
 use linalg::quad::{self, Block};
-use linalg::rows::by_row;
 
 /// One interior edge with its two triangles.
 #[derive(Clone, Copy, Debug)]
@@ -148,8 +148,11 @@ pub struct Tangent {
     pub across: Vec<f64>,
 }
 
-/// Rolled up, equilateral triangles of an isotropic plate are by so much stiffer than their hinges one by one.
-const ROLLED: f64 = 1.25;
+geom::constants! {
+    "cloth.bending",
+    /// Rolled up, equilateral triangles of an isotropic plate are by so much stiffer than their hinges one by one.
+    const ROLLED: f64 = 1.25;
+}
 
 impl Tangent {
     /// Adds the entries along sides to the membrane's blocks.
@@ -220,7 +223,7 @@ pub struct Bending {
 /// Distinct pairs with the sums of their terms, in an order that does not depend on that of the terms: rounded alike if mirrored.
 fn summed(terms: &[([usize; 2], f64)]) -> (PairList, Vec<f64>) {
     let rows = terms.iter().map(|([i, _], _)| i + 1).max().unwrap_or(0);
-    let (starts, mut sorted) = by_row(rows, terms, |([i, _], _)| *i, |([_, j], value)| (*j, *value));
+    let (starts, mut sorted) = sorted_by_row(rows, terms, |([i, _], _)| *i, |([_, j], value)| (*j, *value));
     let (mut pairs, mut entries): (Vec<[usize; 2]>, Vec<f64>) = (Vec::new(), Vec::new());
     for (i, ends) in starts.windows(2).enumerate() {
         let row = &mut sorted[ends[0] as usize..ends[1] as usize];

@@ -6,11 +6,11 @@ use super::law::{Orthotropic, Tensor};
 use super::membrane::{Element, Foreseen};
 use geom::V3;
 use linalg::lanes::{Lanes, Number};
-use linalg::machine::{Machine, Task, each};
 use linalg::quad::{self, Block, Quad};
+use linalg::simd::{Kernel, Simd, each};
 
 /// A vector in each lane.
-type Vectors<M> = [Lanes<M>; 3];
+type Vectors<S> = [Lanes<S>; 3];
 
 /// Four triangles; the last of a membrane may be without area, on vertex and pair 0.
 #[derive(Clone, Copy, Debug, Default)]
@@ -43,45 +43,45 @@ impl Four {
 
     /// What has become of a unit length of weft and of warp.
     #[inline(always)]
-    fn fibres<M: Machine>(&self, machine: M, x: &[V3]) -> [Vectors<M>; 2] {
+    fn fibres<S: Simd>(&self, simd: S, x: &[V3]) -> [Vectors<S>; 2] {
         let [a, b, c] = each!(corner of 3 => {
             let at = each!(lane of 4 => &x[self.vertices[corner][lane] as usize]);
-            each!(c of 3 => Lanes::of(machine, each!(lane of 4 => at[lane][c])))
+            each!(c of 3 => Lanes::of(simd, each!(lane of 4 => at[lane][c])))
         });
         let [p, q] = [each!(k of 3 => b[k] - a[k]), each!(k of 3 => c[k] - a[k])];
-        let [g, h] = self.lanes_of_gradients(machine);
+        let [g, h] = self.lanes_of_gradients(simd);
         // Not fused: that would round otherwise where the mirrored garment has these two corners the other way round.
         each!(axis of 2 => each!(c of 3 => p[c] * g[axis] + q[c] * h[axis]))
     }
 
     #[inline(always)]
-    fn lanes_of_gradients<M: Machine>(&self, machine: M) -> [[Lanes<M>; 2]; 2] {
-        each!(corner of 2 => each!(axis of 2 => Lanes::of(machine, self.gradients[corner][axis])))
+    fn lanes_of_gradients<S: Simd>(&self, simd: S) -> [[Lanes<S>; 2]; 2] {
+        each!(corner of 2 => each!(axis of 2 => Lanes::of(simd, self.gradients[corner][axis])))
     }
 
     #[inline(always)]
-    fn lanes_of_areas<M: Machine>(&self, machine: M) -> Lanes<M> {
-        Lanes::of(machine, self.areas)
+    fn lanes_of_areas<S: Simd>(&self, simd: S) -> Lanes<S> {
+        Lanes::of(simd, self.areas)
     }
 
     /// Adds the forces of a stress, N.
     #[inline(always)]
-    fn add_forces<M: Machine>(
+    fn add_forces<S: Simd>(
         &self,
-        machine: M,
-        [weft, warp]: &[Vectors<M>; 2],
-        stress: Tensor<Lanes<M>>,
+        simd: S,
+        [weft, warp]: &[Vectors<S>; 2],
+        stress: Tensor<Lanes<S>>,
         forces: &mut [V3],
     ) {
         // The first Piola-Kirchhoff stress, by columns.
-        let area = self.lanes_of_areas(machine);
-        let s = stress * (area.same(0.0) - area);
-        let p = each!(c of 3 => weft[c].times_plus(s.weft, warp[c] * s.shear));
-        let q = each!(c of 3 => weft[c].times_plus(s.shear, warp[c] * s.warp));
-        let gradients = self.lanes_of_gradients(machine);
+        let area = self.lanes_of_areas(simd);
+        let s = stress * (area.splat(0.0) - area);
+        let p = each!(c of 3 => weft[c].mul_add(s.weft, warp[c] * s.shear));
+        let q = each!(c of 3 => weft[c].mul_add(s.shear, warp[c] * s.warp));
+        let gradients = self.lanes_of_gradients(simd);
         let of = each!(corner of 2 => {
             let [x, y] = gradients[corner];
-            each!(c of 3 => p[c].times_plus(x, q[c] * y).numbers())
+            each!(c of 3 => p[c].mul_add(x, q[c] * y).numbers())
         });
         for lane in 0..4 {
             let [second, third] = each!(k of 2 => V3::new(of[k][0][lane], of[k][1][lane], of[k][2][lane]));
@@ -95,32 +95,32 @@ impl Four {
     /// Adds the off-diagonal stiffness blocks of a law that has these slopes at the fibres' strain, with the geometric part of a stress
     /// that has no compression: with the fibres `f`, `K_ij = sum f_a (m_ab f_b)^T`.
     #[inline(always)]
-    fn add_stiffness<M: Machine>(
+    fn add_stiffness<S: Simd>(
         &self,
-        machine: M,
-        fibres: &[Vectors<M>; 2],
+        simd: S,
+        fibres: &[Vectors<S>; 2],
         law: &Orthotropic,
-        slopes: [Lanes<M>; 2],
-        tension: Option<Tensor<Lanes<M>>>,
+        slopes: [Lanes<S>; 2],
+        tension: Option<Tensor<Lanes<S>>>,
         blocks: &mut [Block<f32x4>],
     ) {
-        let area = self.lanes_of_areas(machine);
+        let area = self.lanes_of_areas(simd);
         let (c11, c22) = (slopes[0] * area, slopes[1] * area);
-        let (c12, shear) = (area * area.same(law.c12), area * area.same(law.shear));
-        let [g, h] = self.lanes_of_gradients(machine);
-        let gradients = [each!(axis of 2 => area.same(0.0) - g[axis] - h[axis]), g, h];
+        let (c12, shear) = (area * area.splat(law.c12), area * area.splat(law.shear));
+        let [g, h] = self.lanes_of_gradients(simd);
+        let gradients = [each!(axis of 2 => area.splat(0.0) - g[axis] - h[axis]), g, h];
         let couplings = each!(k of 3 => {
             let (i, j) = (gradients[k], gradients[(k + 1) % 3]);
             let [xx, xy, yx, yy] = [i[0] * j[0], i[0] * j[1], i[1] * j[0], i[1] * j[1]];
             let geometric = match tension {
-                Some(t) => xx.times_plus(t.weft, (xy + yx).times_plus(t.shear, yy * t.warp)) * area,
-                None => area.same(0.0),
+                Some(t) => xx.mul_add(t.weft, (xy + yx).mul_add(t.shear, yy * t.warp)) * area,
+                None => area.splat(0.0),
             };
             [
-                c11.times_plus(xx, shear * yy).single(),
-                c12.times_plus(xy, shear * yx).single(),
-                c12.times_plus(yx, shear * xy).single(),
-                c22.times_plus(yy, shear * xx).single(),
+                c11.mul_add(xx, shear * yy).single(),
+                c12.mul_add(xy, shear * yx).single(),
+                c12.mul_add(yx, shear * xy).single(),
+                c22.mul_add(yy, shear * xx).single(),
                 geometric.single(),
             ]
         });
@@ -136,14 +136,14 @@ impl Four {
                 if slot & 1 == 1 {
                     (across, back) = (back, across);
                 }
-                let of_weft = weft.times_plus(f32x4::splat(by_weft), warp * f32x4::splat(across), machine);
-                let of_warp = weft.times_plus(f32x4::splat(back), warp * f32x4::splat(by_warp), machine);
+                let of_weft = weft.mul_add_on(f32x4::splat(by_weft), warp * f32x4::splat(across), simd);
+                let of_warp = weft.mul_add_on(f32x4::splat(back), warp * f32x4::splat(by_warp), simd);
                 let block = &mut blocks[(slot >> 1) as usize];
                 let alike = quad::alike(geometric);
                 for row in 0..3 {
                     let [along_weft, along_warp] = each!(axis of 2 => f32x4::splat(fibres[axis][row][lane]));
-                    let sum = along_warp.times_plus(of_warp, block[row] + alike[row], machine);
-                    block[row] = along_weft.times_plus(of_weft, sum, machine);
+                    let sum = along_warp.mul_add_on(of_warp, block[row] + alike[row], simd);
+                    block[row] = along_weft.mul_add_on(of_weft, sum, simd);
                 }
             }
         }
@@ -153,34 +153,34 @@ impl Four {
 /// Green strain of what has become of weft and warp.
 #[inline(always)]
 fn green<N: Number>([weft, warp]: &[[N; 3]; 2]) -> Tensor<N> {
-    let half = weft[0].same(0.5);
-    let one = weft[0].same(1.0);
+    let half = weft[0].splat(0.5);
+    let one = weft[0].splat(1.0);
     Tensor { weft: half * (dot(weft, weft) - one), warp: half * (dot(warp, warp) - one), shear: half * dot(weft, warp) }
 }
 
 #[inline(always)]
 fn dot<N: Number>(a: &[N; 3], b: &[N; 3]) -> N {
-    a[0].times_plus(b[0], a[1].times_plus(b[1], a[2] * b[2]))
+    a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
 }
 
 /// The tensors of up to four triangles, lane by lane; nothing where there are none.
 #[inline(always)]
-fn lanes_of<M: Machine>(machine: M, tensors: &[Tensor]) -> Tensor<Lanes<M>> {
+fn lanes_of<S: Simd>(simd: S, tensors: &[Tensor]) -> Tensor<Lanes<S>> {
     let nothing = Tensor::default();
     let all = each!(lane of 4 => match tensors.get(lane) {
         Some(tensor) => tensor,
         None => &nothing,
     });
     Tensor {
-        weft: Lanes::of(machine, each!(lane of 4 => all[lane].weft)),
-        warp: Lanes::of(machine, each!(lane of 4 => all[lane].warp)),
-        shear: Lanes::of(machine, each!(lane of 4 => all[lane].shear)),
+        weft: Lanes::of(simd, each!(lane of 4 => all[lane].weft)),
+        warp: Lanes::of(simd, each!(lane of 4 => all[lane].warp)),
+        shear: Lanes::of(simd, each!(lane of 4 => all[lane].shear)),
     }
 }
 
 /// The tensors of the lanes.
 #[inline(always)]
-fn apart<M: Machine>(tensor: Tensor<Lanes<M>>) -> [Tensor; 4] {
+fn apart<S: Simd>(tensor: Tensor<Lanes<S>>) -> [Tensor; 4] {
     let (weft, warp, shear) = (tensor.weft.numbers(), tensor.warp.numbers(), tensor.shear.numbers());
     each!(lane of 4 => Tensor { weft: weft[lane], warp: warp[lane], shear: shear[lane] })
 }
@@ -201,27 +201,27 @@ pub struct Assembly<'a> {
     pub predicted: Option<&'a [Tensor]>,
 }
 
-impl Task for Assembly<'_> {
+impl Kernel for Assembly<'_> {
     type Output = f64;
 
     #[inline(always)]
-    fn run<M: Machine>(mut self, machine: M) -> f64 {
-        let mut energy = Lanes::of(machine, [0.0; 4]);
+    fn run<S: Simd>(mut self, simd: S) -> f64 {
+        let mut energy = Lanes::of(simd, [0.0; 4]);
         for (k, four) in self.fours.iter().enumerate() {
-            let fibres = four.fibres(machine, self.x);
+            let fibres = four.fibres(simd, self.x);
             let strain = green(&fibres);
-            energy = four.lanes_of_areas(machine).times_plus(self.law.energy(strain), energy);
+            energy = four.lanes_of_areas(simd).mul_add(self.law.energy(strain), energy);
             let stress = self.law.stress(strain);
             if let Some(forces) = &mut self.forces {
-                four.add_forces(machine, &fibres, stress, forces);
+                four.add_forces(simd, &fibres, stress, forces);
             }
             if let Some(blocks) = &mut self.blocks {
                 let stress = match self.predicted {
-                    Some(all) => lanes_of(machine, &all[4 * k..]),
+                    Some(all) => lanes_of(simd, &all[4 * k..]),
                     None => stress,
                 };
                 let tension = Some(stress.without_compression());
-                four.add_stiffness(machine, &fibres, self.law, self.law.tangents(strain), tension, blocks);
+                four.add_stiffness(simd, &fibres, self.law, self.law.tangents(strain), tension, blocks);
             }
         }
         energy.numbers().iter().sum()
@@ -242,16 +242,16 @@ pub struct Compression<'a> {
     pub forces: &'a mut [V3],
 }
 
-impl Task for Compression<'_> {
+impl Kernel for Compression<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<M: Machine>(self, machine: M) {
+    fn run<S: Simd>(self, simd: S) {
         for (k, four) in self.fours.iter().enumerate() {
-            let stress = lanes_of(machine, &self.stresses[4 * k..]);
+            let stress = lanes_of(simd, &self.stresses[4 * k..]);
             let compression = stress - stress.without_compression();
-            let share = compression.weft.same(self.share);
-            four.add_forces(machine, &four.fibres(machine, self.d), compression * share, self.forces);
+            let share = compression.weft.splat(self.share);
+            four.add_forces(simd, &four.fibres(simd, self.d), compression * share, self.forces);
         }
     }
 }
@@ -275,16 +275,16 @@ pub struct Correction<'a> {
     pub foreseen: &'a mut Vec<Foreseen>,
 }
 
-impl Task for Correction<'_> {
+impl Kernel for Correction<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<M: Machine>(self, machine: M) {
+    fn run<S: Simd>(self, simd: S) {
         for four in self.fours {
-            let (fibres, moved) = (four.fibres(machine, self.x), four.fibres(machine, self.d));
+            let (fibres, moved) = (four.fibres(simd, self.x), four.fibres(simd, self.d));
             let [weft, warp] = &fibres;
             let strain = green(&fibres);
-            let half = strain.weft.same(0.5);
+            let half = strain.weft.splat(0.5);
             let change = Tensor {
                 weft: dot(weft, &moved[0]),
                 warp: dot(warp, &moved[1]),
@@ -294,8 +294,8 @@ impl Task for Correction<'_> {
             let end = each!(axis of 2 => each!(c of 3 => fibres[axis][c] + moved[axis][c]));
             let strain = green(&end);
             let excess = self.law.stress(strain) - (stress + change);
-            four.add_forces(machine, &end, excess, self.forces);
-            four.add_stiffness(machine, &end, self.law, self.law.tangents(strain), None, self.blocks);
+            four.add_forces(simd, &end, excess, self.forces);
+            four.add_stiffness(simd, &end, self.law, self.law.tangents(strain), None, self.blocks);
             let (stress, change) = (apart(stress), apart(change));
             self.foreseen.extend_from_slice(&each!(k of 4 => Foreseen { stress: stress[k], change: change[k] }));
         }

@@ -11,13 +11,16 @@ use geom::V2;
 use geom::polyline::signed_area;
 use pattern::Garment;
 
-/// Rows of vertices over which the cloth goes from drawn together to its full length. Of seams gathered 1.1 to 1.7 times, one
-/// left the shorter side up to 0.6 % too long, two 0.45, three and four 0.35; none 22 %.
-const ROWS: u32 = 2;
-/// Seams whose sides differ by less than this share of the shorter one are taken as drawn: curves sampled to chords do.
-const LEAST_EASE: f64 = 0.01;
-/// Least area of a triangle that is left of what drawing it together evenly leaves.
-const LEAST_AREA: f64 = 0.3;
+geom::constants! {
+    "cloth.gathers",
+    /// Rows of vertices over which the cloth goes from drawn together to its full length. Of seams gathered 1.1 to 1.7 times, one
+    /// left the shorter side up to 0.6 % too long, two 0.45, three and four 0.35; none 22 %.
+    const ROWS: u32 = 2;
+    /// Seams whose sides differ by less than this share of the shorter one are taken as drawn: curves sampled to chords do.
+    const LEAST_EASE: f64 = 0.01;
+    /// Least area of a triangle that is left of what drawing it together evenly leaves.
+    const LEAST_AREA: f64 = 0.3;
+}
 
 /// How the cloth is drawn together at a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -37,13 +37,13 @@ impl<N: Number> Tensor<N> {
     #[must_use]
     #[inline(always)]
     pub fn without_compression(self) -> Self {
-        let (zero, half) = (self.weft.same(0.0), self.weft.same(0.5));
+        let (zero, half) = (self.weft.splat(0.0), self.weft.splat(0.5));
         let mean = half * (self.weft + self.warp);
         let apart = half * (self.weft - self.warp);
-        let radius = self.shear.times_plus(self.shear, apart * apart).root();
-        let (high, low) = ((mean + radius).most(zero), (mean - radius).least(zero));
+        let radius = self.shear.mul_add(self.shear, apart * apart).sqrt();
+        let (high, low) = ((mean + radius).max(zero), (mean - radius).min(zero));
         // Of eigenvalues of either sign, `high (S - low I) / (high - low)` projects onto the positive one.
-        let share = high / (high - low).most(high.same(f64::MIN_POSITIVE));
+        let share = high / (high - low).max(high.splat(f64::MIN_POSITIVE));
         Self { weft: self.weft - low, warp: self.warp - low, ..self } * share
     }
 }
@@ -72,8 +72,11 @@ impl<N: Number> Mul<N> for Tensor<N> {
     }
 }
 
-/// Green strain from which on slackened cloth is no longer slack.
-const SLACK: f64 = 0.01;
+geom::constants! {
+    "cloth.law",
+    /// Green strain from which on slackened cloth is no longer slack.
+    const SLACK: f64 = 0.01;
+}
 
 /// The law of one direction of the grain: stress against Green strain, N/m.
 ///
@@ -118,15 +121,15 @@ impl Fibre {
     #[inline(always)]
     pub fn stress<N: Number>(&self, strain: N) -> N {
         let (within, beyond) = self.parts(strain);
-        let rising = within * beyond.times_plus(strain.same(2.0), within);
-        strain.times_plus(strain.same(self.rest), rising * strain.same(self.rise))
+        let rising = within * beyond.mul_add(strain.splat(2.0), within);
+        strain.mul_add(strain.splat(self.rest), rising * strain.splat(self.rise))
     }
 
     /// Slope of the stress, N/m.
     #[must_use]
     #[inline(always)]
     pub fn tangent<N: Number>(&self, strain: N) -> N {
-        self.parts(strain).0.times_plus(strain.same(2.0 * self.rise), strain.same(self.rest))
+        self.parts(strain).0.mul_add(strain.splat(2.0 * self.rise), strain.splat(self.rest))
     }
 
     /// Energy per area, N/m.
@@ -134,15 +137,15 @@ impl Fibre {
     #[inline(always)]
     pub fn energy<N: Number>(&self, strain: N) -> N {
         let (within, beyond) = self.parts(strain);
-        let rising = within * (within * within * strain.same(1.0 / 3.0) + beyond * (within + beyond));
-        (strain * strain).times_plus(strain.same(0.5 * self.rest), rising * strain.same(self.rise))
+        let rising = within * (within * within * strain.splat(1.0 / 3.0) + beyond * (within + beyond));
+        (strain * strain).mul_add(strain.splat(0.5 * self.rest), rising * strain.splat(self.rise))
     }
 
     /// The stretch within which the modulus rises, and what is beyond.
     #[inline(always)]
     fn parts<N: Number>(&self, strain: N) -> (N, N) {
-        let stretch = strain.most(strain.same(0.0));
-        let within = stretch.least(strain.same(self.until));
+        let stretch = strain.max(strain.splat(0.0));
+        let within = stretch.min(strain.splat(self.until));
         (within, stretch - within)
     }
 }
@@ -187,11 +190,11 @@ impl Orthotropic {
     #[must_use]
     #[inline(always)]
     pub fn stress<N: Number>(&self, strain: Tensor<N>) -> Tensor<N> {
-        let c12 = strain.weft.same(self.c12);
+        let c12 = strain.weft.splat(self.c12);
         Tensor {
-            weft: strain.warp.times_plus(c12, self.weft.stress(strain.weft)),
-            warp: strain.weft.times_plus(c12, self.warp.stress(strain.warp)),
-            shear: strain.shear * strain.shear.same(2.0 * self.shear),
+            weft: strain.warp.mul_add(c12, self.weft.stress(strain.weft)),
+            warp: strain.weft.mul_add(c12, self.warp.stress(strain.warp)),
+            shear: strain.shear * strain.shear.splat(2.0 * self.shear),
         }
     }
 
@@ -206,11 +209,11 @@ impl Orthotropic {
     #[must_use]
     #[inline(always)]
     pub fn tangent<N: Number>(&self, strain: Tensor<N>, change: Tensor<N>) -> Tensor<N> {
-        let ([weft, warp], c12) = (self.tangents(strain), strain.weft.same(self.c12));
+        let ([weft, warp], c12) = (self.tangents(strain), strain.weft.splat(self.c12));
         Tensor {
-            weft: weft.times_plus(change.weft, c12 * change.warp),
-            warp: warp.times_plus(change.warp, c12 * change.weft),
-            shear: change.shear * change.shear.same(2.0 * self.shear),
+            weft: weft.mul_add(change.weft, c12 * change.warp),
+            warp: warp.mul_add(change.warp, c12 * change.weft),
+            shear: change.shear * change.shear.splat(2.0 * self.shear),
         }
     }
 
@@ -219,8 +222,8 @@ impl Orthotropic {
     #[inline(always)]
     pub fn energy<N: Number>(&self, strain: Tensor<N>) -> N {
         let along = self.weft.energy(strain.weft) + self.warp.energy(strain.warp);
-        let across = strain.weft * strain.warp * strain.weft.same(self.c12);
-        along + across + strain.shear * strain.shear * strain.shear.same(2.0 * self.shear)
+        let across = strain.weft * strain.warp * strain.weft.splat(self.c12);
+        along + across + strain.shear * strain.shear * strain.shear.splat(2.0 * self.shear)
     }
 }
 

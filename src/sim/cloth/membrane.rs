@@ -19,8 +19,8 @@ use super::fours::{Assembly, Compression, Correction, Four};
 use super::law::{Orthotropic, Tensor};
 use geom::{V2, V3};
 use linalg::PairList;
-use linalg::machine;
 use linalg::quad::Block;
+use linalg::simd;
 
 /// One triangle.
 #[derive(Clone, Copy, Debug)]
@@ -139,12 +139,12 @@ impl Membrane {
     /// Elastic energy, J.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {
-        machine::on_best(self.assembly(x))
+        simd::dispatch(self.assembly(x))
     }
 
     /// Adds the elastic forces, N.
     pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
-        machine::on_best(Assembly { forces: Some(forces), ..self.assembly(x) });
+        simd::dispatch(Assembly { forces: Some(forces), ..self.assembly(x) });
     }
 
     /// Adds the elastic forces (N) and the off-diagonal stiffness blocks (N/m), and returns the energy, J; the blocks' geometric part is
@@ -157,7 +157,7 @@ impl Membrane {
         blocks: &mut [Block<f32x4>],
     ) -> f64 {
         let all = Assembly { forces: Some(forces), blocks: Some(blocks), predicted, ..self.assembly(x) };
-        machine::on_best(all)
+        simd::dispatch(all)
     }
 
     fn assembly<'a>(&'a self, x: &'a [V3]) -> Assembly<'a> {
@@ -167,7 +167,7 @@ impl Membrane {
     /// Adds a share of the forces (N) that the compressive part of `stresses`, one an element, has in first order along a displacement `d`:
     /// what the stiffness, which leaves that part out, does not know of.
     pub fn add_compression(&self, stresses: &[Tensor], d: &[V3], share: f64, forces: &mut [V3]) {
-        machine::on_best(Compression { fours: &self.fours, stresses, d, share, forces });
+        simd::dispatch(Compression { fours: &self.fours, stresses, d, share, forces });
     }
 
     /// Adds the forces (N) that would bring the stresses at the end of a displacement `d` from `x` to those that a linear solve at `x`
@@ -181,7 +181,7 @@ impl Membrane {
     ) -> Vec<Foreseen> {
         let mut foreseen = Vec::with_capacity(4 * self.fours.len());
         let (law, fours) = (&self.material, &self.fours[..]);
-        machine::on_best(Correction { law, fours, x, d, forces, blocks, foreseen: &mut foreseen });
+        simd::dispatch(Correction { law, fours, x, d, forces, blocks, foreseen: &mut foreseen });
         foreseen.truncate(self.elements.len());
         foreseen
     }
@@ -194,8 +194,8 @@ mod tests {
     use crate::fabric::Stretched;
     use crate::laboratory::sheets::{shaken, sheet};
     use crate::testing::{check_forces, fabric};
-    use linalg::machine::{Machine, Plain};
     use linalg::quad;
+    use linalg::simd::{Plain, Simd};
 
     fn membrane(grain: V2) -> (Membrane, Vec<V3>) {
         membrane_of(&fabric(), grain)
@@ -238,7 +238,7 @@ mod tests {
         let [mut forces, mut best_forces] = [0, 1].map(|_| vec![V3::zeros(); x.len()]);
         let [mut blocks, mut best_blocks] = [0, 1].map(|_| membrane.blocks());
         let parts = Assembly { forces: Some(&mut forces), blocks: Some(&mut blocks), ..membrane.assembly(&x) };
-        let energy = Plain.alone(parts);
+        let energy = Plain.run(parts);
         let best = membrane.assemble(&x, &mut best_forces, None, &mut best_blocks);
         assert!((energy - best).abs() < 1e-12 * best, "{energy} and {best}");
         let size = forces.iter().map(V3::amax).fold(0.0, f64::max);

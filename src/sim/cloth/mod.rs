@@ -8,6 +8,7 @@ pub mod law;
 pub mod membrane;
 pub mod part;
 
+use geom::constants::Constant;
 use std::collections::BTreeMap;
 
 use crate::{Fabric, SimError, sewing};
@@ -154,4 +155,9 @@ impl PlateBuilder {
     fn finish(&self, fabric: &Fabric, sides: &PairList) -> Bending {
         Bending::new(&self.hinges, &self.plates, fabric, sides)
     }
+}
+
+/// Constants of the cloth that decide results.
+pub(crate) fn constants() -> Vec<Constant> {
+    [bending::CONSTANTS, gathers::CONSTANTS, law::CONSTANTS].concat()
 }

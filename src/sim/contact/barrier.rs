@@ -11,12 +11,15 @@ pub struct Push {
     pub stiffness: f64,
 }
 
-/// Share of the thickness below which the barrier rises.
-const FROM: f64 = 0.5;
-/// Share of the thickness down to which it rises as a logarithm; nearer still it runs on as a parabola.
-const TO: f64 = 0.01;
-/// Strength of the barrier over that of the spring.
-const STRENGTH: f64 = 4.0;
+geom::constants! {
+    "contact.barrier",
+    /// Share of the thickness below which the barrier rises.
+    const FROM: f64 = 0.5;
+    /// Share of the thickness down to which it rises as a logarithm; nearer still it runs on as a parabola.
+    const TO: f64 = 0.01;
+    /// Strength of the barrier over that of the spring.
+    const STRENGTH: f64 = 4.0;
+}
 
 /// The push at a distance: a spring over the thickness, and within half of it a barrier `-(d - d0)^2 ln(d / d0)` besides
 /// [Li 2020], whose slope grows ten-thousandfold before it is cut off. `None` beyond the thickness.

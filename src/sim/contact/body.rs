@@ -15,24 +15,27 @@ use std::collections::BTreeMap;
 
 use nalgebra::Matrix3;
 
+use super::intersections::edges_of;
+use super::penalty::{ContactParams, Push};
 use super::point::Point;
-use super::pressure::{ContactParams, Push};
 use super::skin::Skin;
-use super::tangle::edges_of;
 use crate::cloth::part::Part;
 use geom::{DistanceField, V3};
 use linalg::Contact4;
 
-/// Share of the sticking stiffness that a sliding contact keeps in the linear system, so that it stays regular.
-const SLIDING_STIFFNESS_SHARE: f64 = 0.1;
-/// Stiffness that the field's curvature takes, as a share of that along its gradient, which is left out.
-const NEARLY_FLAT: f64 = 0.02;
-/// Most that an offset grows at once, m.
-const MOST_YIELD_M: f64 = 2e-3;
-/// Farthest that the blurred field may lie from the true skin where cloth touches, m.
-const FIELD_ERROR_M: f64 = 4e-3;
-/// The field rises no faster than this; a distance field by 1 a metre, but for rounding.
-const STEEPEST: f64 = 1.05;
+geom::constants! {
+    "contact.body",
+    /// Share of the sticking stiffness that a sliding contact keeps in the linear system, so that it stays regular.
+    const SLIDING_STIFFNESS_SHARE: f64 = 0.1;
+    /// Stiffness that the field's curvature takes, as a share of that along its gradient, which is left out.
+    const NEARLY_FLAT: f64 = 0.02;
+    /// Most that an offset grows at once, m.
+    const MOST_YIELD_M: f64 = 2e-3;
+    /// Farthest that the blurred field may lie from the true skin where cloth touches, m.
+    const FIELD_ERROR_M: f64 = 4e-3;
+    /// The field rises no faster than this; a distance field by 1 a metre, but for rounding.
+    const STEEPEST: f64 = 1.05;
+}
 
 /// A point of the cloth that is kept out of the body.
 #[derive(Clone, Copy, Debug)]

@@ -11,8 +11,11 @@ pub struct Bounds {
     high: f32x4,
 }
 
-/// What boxes are widened by, as a share of where they lie and of what is added: all that rounding can have taken.
-const ROUNDING: f32 = 2.0 * f32::EPSILON;
+geom::constants! {
+    "contact.bounds",
+    /// What boxes are widened by, as a share of where they lie and of what is added: all that rounding can have taken.
+    const ROUNDING: f32 = 2.0 * f32::EPSILON;
+}
 
 /// A point in single precision, as [`Bounds::around`] takes it.
 #[must_use]

@@ -3,22 +3,22 @@
 //! Each pair is pushed apart by the true distance of its two primitives, which runs on smoothly where a nearest point
 //! slides over a rim [Li 2020]: the energy has no steps, and a line search no place to stop at. The push rises steeply
 //! as two layers come near ([`super::barrier`]), so that tension does not draw one through the other, and no step may
-//! take it through: where a pair would meet on the way from the last step ([`super::advance`]) the energy is infinite. All
-//! pairs that share no vertex are watched, but for those within flat cloth ([`super::clusters`]), so what does not cross hardly
+//! take it through: where a pair would meet on the way from the last step ([`super::ccd`]) the energy is infinite. All
+//! pairs that share no vertex are watched, but for those within flat cloth ([`super::normal_cones`]), so what does not cross hardly
 //! ever comes to: only what is pressed to within a thousandth of a millimetre may pass. Pairs are sought within a reach, farther where
 //! clusters of cloth close in on each other faster, and steps go no farther than pairs beyond it need to meet, so none is met unseen;
-//! what many vertices do together brings none nearer ([`super::clusters`]). Cloth that already crosses when it is first seen passes through itself there,
-//! while the line along which it crosses is drawn out of it ([`super::knots`]). There is no friction between layers.
+//! what many vertices do together brings none nearer ([`super::normal_cones`]). Cloth that already crosses when it is first seen passes through itself there,
+//! while the line along which it crosses is drawn out of it ([`super::untangle`]). There is no friction between layers.
 
 use std::borrow::Cow;
 
-use super::advance;
 use super::barrier::{Push, push};
-use super::clusters::{Motion, longest_m};
-use super::knots::Knots;
-use super::nearest::{Nearest, Primitives, spanned_squared};
-use super::search::{Neighbours, Pair, Within};
-use super::tangle::{Crossing, crossings};
+use super::broad_phase::{BroadPhase, Pair, Within};
+use super::ccd;
+use super::distance::{ClosestPoints, Primitives, cross_squared};
+use super::intersections::{Intersection, intersections};
+use super::normal_cones::{Motion, longest_m};
+use super::untangle::Untangling;
 use crate::cloth::part::Part;
 use geom::V3;
 use linalg::Contact4;
@@ -44,24 +44,27 @@ impl Default for ClothContactParams {
     }
 }
 
-/// Squared sine of the angle between two edges below which their contact fades out: parallel edges have no one direction
-/// in which they face each other.
-const PARALLEL: f64 = 0.01;
-/// Steps like the last that pairs are known for at least, and at best.
-const STEPS_AHEAD: [f64; 2] = [1.5, 3.0];
-/// How much nearer a pair is to come at least before it is sought again; and, where it is, until then, m.
-const SLACK_M: [f64; 2] = [1e-3, 4e-3];
-/// Greatest search distance over the size of triangles: about a vertex of a finer mesh lie no more pairs, and a quarter as many
-/// as within twice as far.
-const REACH_SIZES: f64 = 0.7;
-/// Least greatest search distance, m: two vertices go half as far towards each other in a step at most.
-const LEAST_REACH_M: f64 = 8e-3;
-/// Share of the way to what is unknown that a step may take: corrections come on top.
-const FREE_SHARE: f64 = 0.9;
-/// Shells of distance by which pairs are sorted.
-const SHELLS: f64 = 64.0;
-/// Thickness of a contact over the size of triangles, at most: within a flat cloth none pushes its neighbours.
-const THICKNESS_SIZES: f64 = 0.5;
+geom::constants! {
+    "contact.cloth",
+    /// Squared sine of the angle between two edges below which their contact fades out: parallel edges have no one direction
+    /// in which they face each other.
+    const MOLLIFIED_BELOW: f64 = 0.01;
+    /// Steps like the last that pairs are known for at least, and at best.
+    const STEPS_AHEAD: [f64; 2] = [1.5, 3.0];
+    /// How much nearer a pair is to come at least before it is sought again; and, where it is, until then, m.
+    const SLACK_M: [f64; 2] = [1e-3, 4e-3];
+    /// Greatest search distance over the size of triangles: about a vertex of a finer mesh lie no more pairs, and a quarter as many
+    /// as within twice as far.
+    const REACH_SIZES: f64 = 0.7;
+    /// Least greatest search distance, m: two vertices go half as far towards each other in a step at most.
+    const LEAST_REACH_M: f64 = 8e-3;
+    /// Share of the way to what is unknown that a step may take: corrections come on top.
+    const FREE_SHARE: f64 = 0.9;
+    /// Shells of distance by which pairs are sorted.
+    const SHELLS: f64 = 64.0;
+    /// Thickness of a contact over the size of triangles, at most: within a flat cloth none pushes its broad_phase.
+    const THICKNESS_SIZES: f64 = 0.5;
+}
 
 /// How deep a pair is in contact at some positions.
 struct Press {
@@ -72,17 +75,17 @@ struct Press {
     push: Push,
     /// Penalty stiffness: by the smallest rest area among the vertices.
     stiffness_n_m: f64,
-    /// Share of the contact that counts: less than 1 for nearly parallel edges.
-    share: f64,
-    /// Gradient of that share by the first edge and by the second.
-    fading: Option<[V3; 2]>,
+    /// Mollifier [Li 2020]: the share of the contact that counts: less than 1 for nearly parallel edges.
+    mollifier: f64,
+    /// Gradient of the mollifier by the first edge and by the second.
+    mollifier_gradient: Option<[V3; 2]>,
 }
 
 /// Self-contact of one cloth.
 pub struct ClothContact<'a> {
     params: ClothContactParams,
     /// `None` in a part of the cloth.
-    neighbours: Option<Neighbours<'a>>,
+    broad_phase: Option<BroadPhase<'a>>,
     areas: Cow<'a, [f64]>,
     /// Nearest first, as far as shells tell.
     pairs: Vec<Pair>,
@@ -93,7 +96,7 @@ pub struct ClothContact<'a> {
     made: Option<Motion>,
     /// How much nearer than there unknown pairs may come before they could meet, m.
     room_m: f64,
-    knots: Knots,
+    untangling: Untangling,
 }
 
 impl<'a> ClothContact<'a> {
@@ -104,36 +107,36 @@ impl<'a> ClothContact<'a> {
         let reach_m = params.reach_m.min((REACH_SIZES * size).max(LEAST_REACH_M));
         Self {
             params: ClothContactParams { reach_m, ..params },
-            neighbours: Some(Neighbours::new(triangles, areas.len())),
+            broad_phase: Some(BroadPhase::new(triangles, areas.len())),
             areas: Cow::Borrowed(areas),
             pairs: Vec::new(),
             found_at: Vec::new(),
             last: Vec::new(),
             made: None,
             room_m: 0.0,
-            knots: Knots::new(params.release_n, params.release_steps),
+            untangling: Untangling::new(params.release_n, params.release_steps),
         }
     }
 
     /// Takes `sewn` pairs for one vertex each, and leaves alone what crosses: for cloth that is being sewn.
     #[must_use]
     pub fn but_near(mut self, sewn: impl Iterator<Item = [usize; 2]>) -> Self {
-        if let Some(neighbours) = &mut self.neighbours {
-            neighbours.join(sewn);
+        if let Some(broad_phase) = &mut self.broad_phase {
+            broad_phase.join(sewn);
         }
-        self.knots.leave();
+        self.untangling.leave();
         self
     }
 
     /// Whether nothing crosses, nor did so of late.
     #[must_use]
     pub fn is_untangled(&self) -> bool {
-        self.knots.is_empty() && !self.knots.is_fresh()
+        self.untangling.is_empty() && !self.untangling.is_fresh()
     }
 
     /// Gives contacts the thickness that they are still growing to, and says whether there were any: cloth is not at rest before.
     pub fn ripen(&mut self) -> bool {
-        self.knots.ripen()
+        self.untangling.ripen()
     }
 
     /// Vertices of pairs of which one is `free`.
@@ -150,69 +153,69 @@ impl<'a> ClothContact<'a> {
             |pair: &Pair| Some(Pair { primitives: pair.primitives.renamed(|vertices| part.names(vertices))?, ..*pair });
         ClothContact {
             params: self.params,
-            neighbours: None,
+            broad_phase: None,
             areas: Cow::Owned(part.of(&self.areas)),
             pairs: self.pairs.iter().filter_map(renamed).collect(),
             found_at: part.of(&self.found_at),
             last: x.to_vec(),
             made: None,
             room_m: self.room_m,
-            knots: Knots::new(0.0, 0),
+            untangling: Untangling::new(0.0, 0),
         }
     }
 
     /// Looks at where the cloth has come in a step: seeks near pairs anew where it has moved so far, or folded so sharply, that one
     /// could be missed in the next, and finds the way out of crossings.
     pub fn update(&mut self, x: &[V3]) {
-        self.knots.grow();
-        let Some(mut neighbours) = self.neighbours.take() else {
+        self.untangling.grow();
+        let Some(mut broad_phase) = self.broad_phase.take() else {
             self.room_m -= 2.0 * farthest(x, &self.last);
             self.last = x.to_vec();
             return;
         };
-        let made = (self.found_at.len() == x.len()).then(|| neighbours.motion(&differences(x, &self.found_at)));
-        let mut may_cross = self.may_cross(&neighbours, x, made.as_ref());
+        let made = (self.found_at.len() == x.len()).then(|| broad_phase.motion(&differences(x, &self.found_at)));
+        let mut may_cross = self.may_cross(&broad_phase, x, made.as_ref());
         let last = std::mem::replace(&mut self.last, x.to_vec());
-        let step = (last.len() == x.len()).then(|| neighbours.motion(&differences(x, &last)));
-        let stays_flat = neighbours.stay_flat(x);
+        let step = (last.len() == x.len()).then(|| broad_phase.motion(&differences(x, &last)));
+        let stays_flat = broad_phase.stay_flat(x);
         let lasts = match (&made, &step) {
-            (Some(made), Some(step)) => self.lasts(&neighbours, made, step),
+            (Some(made), Some(step)) => self.lasts(&broad_phase, made, step),
             _ => false,
         };
         self.made = made;
         if !stays_flat || !lasts {
-            self.seek(&mut neighbours, x, step.as_ref());
+            self.seek(&mut broad_phase, x, step.as_ref());
         }
         may_cross |= !stays_flat;
         if may_cross {
             // What is about to be one vertex does not cross; taken for a crossing, it would let all else about it pass.
-            let are_apart = |crossing: &Crossing| neighbours.are_apart(&crossing.edge, &crossing.triangle);
-            let mut found = crossings(x, neighbours.edges(), neighbours.triangles());
+            let are_apart = |crossing: &Intersection| broad_phase.are_apart(&crossing.edge, &crossing.triangle);
+            let mut found = intersections(x, broad_phase.edges(), broad_phase.triangles());
             found.retain(are_apart);
-            self.knots.see(x, neighbours.triangles(), &found);
+            self.untangling.see(x, broad_phase.triangles(), &found);
         }
-        self.neighbours = Some(neighbours);
+        self.broad_phase = Some(broad_phase);
     }
 
     /// Whether what is known of near pairs, since when the cloth has `made` a motion, does for more steps like the last; finds how much
     /// room is left.
-    fn lasts(&mut self, neighbours: &Neighbours, made: &Motion, step: &Motion) -> bool {
-        self.room_m = neighbours.room_m([(made, 1.0)]);
-        neighbours.room_m([(made, 1.0), (step, STEPS_AHEAD[0])]) >= self.params.thickness_m
+    fn lasts(&mut self, broad_phase: &BroadPhase, made: &Motion, step: &Motion) -> bool {
+        self.room_m = broad_phase.room_m([(made, 1.0)]);
+        broad_phase.room_m([(made, 1.0), (step, STEPS_AHEAD[0])]) >= self.params.thickness_m
     }
 
     /// Whether the cloth, which has `made` a motion to `x` since pairs were found, may have come to cross itself: it did already, or touched
     /// at the last step and may have passed since, or was moved by others. What is near, and does not touch, is kept from it.
-    fn may_cross(&self, neighbours: &Neighbours, x: &[V3], made: Option<&Motion>) -> bool {
-        let is_known = |made| 2.0 * farthest(x, &self.last) < self.room_m || neighbours.room_m([(made, 1.0)]) > 0.0;
-        !made.is_some_and(is_known) || !self.knots.is_empty() || self.touches()
+    fn may_cross(&self, broad_phase: &BroadPhase, x: &[V3], made: Option<&Motion>) -> bool {
+        let is_known = |made| 2.0 * farthest(x, &self.last) < self.room_m || broad_phase.room_m([(made, 1.0)]) > 0.0;
+        !made.is_some_and(is_known) || !self.untangling.is_empty() || self.touches()
     }
 
     /// Whether parts of the cloth touched at the last [`ClothContact::update`], and so may pass each other in the next step.
     #[must_use]
     pub fn touches(&self) -> bool {
-        let touches = |primitives| Nearest::of(&self.last, primitives).gap.norm() < advance::TOUCHING_M;
-        self.near([&self.last], advance::TOUCHING_M).any(touches)
+        let touches = |primitives| ClosestPoints::of(&self.last, primitives).gap.norm() < ccd::TOUCHING_M;
+        self.near([&self.last], ccd::TOUCHING_M).any(touches)
     }
 
     /// How far vertices may go, each its own way, from where the cloth was at the last [`ClothContact::update`], m: farther, near
@@ -226,9 +229,9 @@ impl<'a> ClothContact<'a> {
     #[must_use]
     pub fn free_share(&self, displacements: &[V3]) -> f64 {
         let share = self.free_path_m() / longest_m(displacements);
-        match (&self.neighbours, &self.made) {
-            (Some(neighbours), Some(made)) if share < 1.0 => {
-                FREE_SHARE * neighbours.free_share(made, &neighbours.motion(displacements))
+        match (&self.broad_phase, &self.made) {
+            (Some(broad_phase), Some(made)) if share < 1.0 => {
+                FREE_SHARE * broad_phase.free_share(made, &broad_phase.motion(displacements))
             }
             _ => share,
         }
@@ -237,14 +240,14 @@ impl<'a> ClothContact<'a> {
     /// Whether no unknown pair can meet at `x`.
     fn is_known(&self, x: &[V3]) -> bool {
         2.0 * farthest(x, &self.last) < self.room_m
-            || self.neighbours.as_ref().is_some_and(|neighbours| {
-                let made = neighbours.motion(&differences(x, &self.found_at));
-                neighbours.room_m([(&made, 1.0)]) > 0.0
+            || self.broad_phase.as_ref().is_some_and(|broad_phase| {
+                let made = broad_phase.motion(&differences(x, &self.found_at));
+                broad_phase.room_m([(&made, 1.0)]) > 0.0
             })
     }
 
     /// Seeks near pairs at `x`, for steps like the last.
-    fn seek(&mut self, neighbours: &mut Neighbours, x: &[V3], step: Option<&Motion>) {
+    fn seek(&mut self, broad_phase: &mut BroadPhase, x: &[V3], step: Option<&Motion>) {
         let ClothContactParams { thickness_m, reach_m: most_m, .. } = self.params;
         let [least_steps, steps] = STEPS_AHEAD;
         let horizon_m = step.map_or(2.0 * most_m, |step| (2.0 * steps * step.farthest_m).max(most_m));
@@ -256,7 +259,7 @@ impl<'a> ClothContact<'a> {
             });
             Within { at_least_m, at_best_m }
         };
-        let found = neighbours.seek(x, horizon_m, self.made.as_ref(), within);
+        let found = broad_phase.find_pairs(x, horizon_m, self.made.as_ref(), within);
         let mut ends = [0; SHELLS as usize + 1];
         for pair in found {
             ends[usize::from(shell(pair.distance_m, most_m)) + 1] += 1;
@@ -273,8 +276,8 @@ impl<'a> ClothContact<'a> {
             *at += 1;
         }
         self.found_at = x.to_vec();
-        self.made = Some(neighbours.rest());
-        self.room_m = neighbours.room_m([]);
+        self.made = Some(broad_phase.rest());
+        self.room_m = broad_phase.room_m([]);
     }
 
     /// Pairs that can be nearer than `within_m` at any of some places, or on the way between them.
@@ -286,36 +289,43 @@ impl<'a> ClothContact<'a> {
         let is_near = move |pair: &&Pair| {
             let spare_m = pair.distance_m - within_m;
             let closes = |[a, b]: [usize; 2]| moved.iter().any(|d| (d[a] - d[b]).norm_squared() > spare_m * spare_m);
-            (spare_m < 0.0 || pair.primitives.across().any(closes)) && !self.knots.pass(pair.primitives)
+            (spare_m < 0.0 || pair.primitives.across().any(closes)) && !self.untangling.pass(pair.primitives)
         };
         self.pairs[..nearest].iter().filter(is_near).map(|pair| pair.primitives)
     }
 
     /// Whether cloth would go through itself on the straight way from the last step to `x`.
     fn is_barred(&self, x: &[V3]) -> bool {
-        !self.is_known(x) || self.near([x, &self.last], 0.0).any(|primitives| advance::meets(&self.last, x, primitives))
+        !self.is_known(x) || self.near([x, &self.last], 0.0).any(|primitives| ccd::collides(&self.last, x, primitives))
     }
 
     fn press(&self, x: &[V3], primitives: Primitives) -> Option<Press> {
         let vertices = primitives.vertices();
-        let nearest = Nearest::of(x, primitives);
+        let nearest = ClosestPoints::of(x, primitives);
         let normal = nearest.gap.try_normalize(0.0)?;
         let area = vertices.iter().map(|&v| self.areas[v]).fold(f64::MAX, f64::min);
         let grown_m = self.params.thickness_m.min(THICKNESS_SIZES * area.sqrt());
-        let push = push(nearest.gap.norm(), grown_m * self.knots.thickness_share(primitives))?;
+        let push = push(nearest.gap.norm(), grown_m * self.untangling.thickness_share(primitives))?;
         let stiffness_n_m = self.params.stiffness_n_m3 * area;
-        let mut press =
-            Press { vertices, weights: nearest.weights, normal, push, stiffness_n_m, share: 1.0, fading: None };
+        let mut press = Press {
+            vertices,
+            weights: nearest.weights,
+            normal,
+            push,
+            stiffness_n_m,
+            mollifier: 1.0,
+            mollifier_gradient: None,
+        };
         if let Primitives::EdgeEdge([a, b, c, d]) = primitives {
             let edges_at = |x: &[V3]| [x[b] - x[a], x[d] - x[c]];
             let [u, w] = edges_at(&self.found_at);
-            let full = PARALLEL * u.norm_squared() * w.norm_squared();
+            let full = MOLLIFIED_BELOW * u.norm_squared() * w.norm_squared();
             let [u, w] = edges_at(x);
-            let (area, slopes) = spanned_squared(&u, &w);
+            let (area, slopes) = cross_squared(&u, &w);
             if area < full {
                 let part = area / full;
-                press.share = part * (2.0 - part);
-                press.fading = Some(slopes.map(|slope| slope * ((2.0 - 2.0 * part) / full)));
+                press.mollifier = part * (2.0 - part);
+                press.mollifier_gradient = Some(slopes.map(|slope| slope * ((2.0 - 2.0 * part) / full)));
             }
         }
         Some(press)
@@ -335,28 +345,28 @@ impl<'a> ClothContact<'a> {
     /// Contact energy, J, wherever that leads.
     #[must_use]
     pub fn pressed_energy(&self, x: &[V3]) -> f64 {
-        let pressed = |press: Press| press.stiffness_n_m * press.share * press.push.energy;
-        self.presses(x).map(pressed).sum::<f64>() + self.knots.energy(x)
+        let pressed = |press: Press| press.stiffness_n_m * press.mollifier * press.push.energy;
+        self.presses(x).map(pressed).sum::<f64>() + self.untangling.energy(x)
     }
 
     /// Adds the contact forces and returns the stiffness.
     pub fn assemble(&self, x: &[V3], forces: &mut [V3]) -> Vec<Contact4> {
         let mut contacts = Vec::new();
         for press in self.presses(x) {
-            let Press { vertices, weights, normal, push, stiffness_n_m: k, share, fading } = press;
+            let Press { vertices, weights, normal, push, stiffness_n_m: k, mollifier, mollifier_gradient } = press;
             for i in 0..4 {
-                forces[vertices[i]] += normal * (share * k * push.force * weights[i]);
+                forces[vertices[i]] += normal * (mollifier * k * push.force * weights[i]);
             }
-            if let Some(slopes) = fading {
+            if let Some(slopes) = mollifier_gradient {
                 for (slope, ends) in slopes.iter().zip([[0, 1], [2, 3]]) {
                     let force = slope * (k * push.energy);
                     forces[vertices[ends[0]]] += force;
                     forces[vertices[ends[1]]] -= force;
                 }
             }
-            contacts.push(Contact4 { vertices, weights, normal, stiffness: share * k * push.stiffness });
+            contacts.push(Contact4 { vertices, weights, normal, stiffness: mollifier * k * push.stiffness });
         }
-        self.knots.assemble(forces, &mut contacts);
+        self.untangling.assemble(forces, &mut contacts);
         contacts
     }
 }

@@ -2,7 +2,7 @@
 
 use super::bounds::Bounds;
 use geom::V3;
-use linalg::rows::by_row;
+use linalg::csr::sorted_by_row;
 
 /// Boxes by the grid cell that their middle lies in.
 pub struct BoxGrid {
@@ -17,10 +17,13 @@ pub struct BoxGrid {
     boxes: Vec<(Bounds, u32)>,
 }
 
-/// Most cells: beyond that they grow.
-const MOST_CELLS: f64 = 1e6;
-/// What is granted to rounding, as a share of [`BoxGrid::half_m`].
-const ROUNDED: f64 = 1.0 + 1e-5;
+geom::constants! {
+    "contact.grid",
+    /// Most cells: beyond that they grow.
+    const MOST_CELLS: f64 = 1e6;
+    /// What is granted to rounding, as a share of [`BoxGrid::half_m`].
+    const ROUNDED: f64 = 1.0 + 1e-5;
+}
 
 impl BoxGrid {
     /// Sorts the boxes of point sets, each widened by `reach_m`, into cells of `cell_m` or more.
@@ -42,7 +45,7 @@ impl BoxGrid {
         let size = [0, 1, 2].map(|k| ((high - low)[k] / cell_m) as usize + 1);
         let mut grid = Self { cell_m, low, size, half_m, starts: Vec::new(), boxes: Vec::new() };
         let cells: Vec<(usize, u32)> = middles.iter().map(|m| grid.number(grid.cell(m))).zip(0..).collect();
-        let (starts, order) = by_row(size.iter().product(), &cells, |(cell, _)| *cell, |(_, which)| *which);
+        let (starts, order) = sorted_by_row(size.iter().product(), &cells, |(cell, _)| *cell, |(_, which)| *which);
         grid.starts = starts;
         grid.boxes =
             order.into_iter().map(|k| (Bounds::new(&corners[k as usize].0, &corners[k as usize].1), k)).collect();

@@ -1,27 +1,47 @@
 //! Contact: cloth with body, cloth with itself.
 
-mod advance;
 mod areas;
 mod barrier;
 pub mod body;
 mod bounds;
+pub mod broad_phase;
+mod ccd;
 pub mod cloth;
-mod clusters;
+pub mod distance;
 pub mod grid;
-mod knots;
-pub mod nearest;
+pub mod intersections;
+mod normal_cones;
+mod penalty;
 mod point;
-mod pressure;
-pub mod search;
 pub mod skin;
-pub mod tangle;
+mod untangle;
 
 pub use areas::contact_areas;
 pub use body::BodyContact;
 pub use cloth::{ClothContact, ClothContactParams};
-pub use pressure::ContactParams;
+pub use intersections::{Intersection, intersections};
+pub use penalty::ContactParams;
 pub use skin::Skin;
-pub use tangle::{Crossing, crossings};
+
+/// Constants of contact that decide results.
+pub(crate) fn constants() -> Vec<Constant> {
+    [
+        barrier::CONSTANTS,
+        body::CONSTANTS,
+        bounds::CONSTANTS,
+        broad_phase::CONSTANTS,
+        ccd::CONSTANTS,
+        cloth::CONSTANTS,
+        grid::CONSTANTS,
+        intersections::CONSTANTS,
+        normal_cones::CONSTANTS,
+        skin::CONSTANTS,
+        untangle::CONSTANTS,
+    ]
+    .concat()
+}
 
 #[cfg(test)]
 mod tests;
+
+use geom::constants::Constant;

@@ -10,8 +10,11 @@ pub struct Skin<'a> {
     surface: Surface,
 }
 
-/// Depth up to which the sign of the nearest distance is believed, m: a wrong one does no harm.
-const SHALLOW_M: f64 = 2e-4;
+geom::constants! {
+    "contact.skin",
+    /// Depth up to which the sign of the nearest distance is believed, m: a wrong one does no harm.
+    const SHALLOW_M: f64 = 2e-4;
+}
 
 impl<'a> Skin<'a> {
     /// Prepares a body's mesh.

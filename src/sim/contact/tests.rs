@@ -1,7 +1,7 @@
 //! What contact does with single triangles.
 
 use super::grid::BoxGrid;
-use super::tangle::{Release, Wings, crossings, edges_of, held_apart};
+use super::intersections::{Release, Wings, edges_of, held_apart, intersections};
 use super::{BodyContact, ClothContact, ClothContactParams, ContactParams, Skin};
 use crate::cloth::Cloth;
 use crate::laboratory::{self, settle, sheets::sheet};
@@ -81,7 +81,7 @@ fn a_corner_that_pokes_through_cloth_is_drawn_back() {
     let edges = edges_of(&triangles);
     let mut forces = vec![V3::zeros(); x.len()];
     let mut potential = 0.0;
-    for crossing in crossings(&x, edges.pairs(), &triangles) {
+    for crossing in intersections(&x, edges.pairs(), &triangles) {
         let release = Release::of(&x, &wings, &crossing).expect("the line ends at a rim");
         release.add_force(1.0, &mut forces);
         potential += release.potential(&x);
@@ -188,7 +188,7 @@ fn triangles_side_by_side_do_not_fold_through_each_other() {
     };
     let areas = vec![1e-4; rest.len()];
     let edges = edges_of(&triangles);
-    let count = |x: &[V3]| crossings(x, edges.pairs(), &triangles).len();
+    let count = |x: &[V3]| intersections(x, edges.pairs(), &triangles).len();
     // 120 degrees closes the strip to a triangle; 128 takes its end through its beginning.
     assert_eq!((count(&turned(112.0)), count(&turned(128.0)) > 0), (0, true));
     let mut contact = ClothContact::new(ClothContactParams::default(), &triangles, &areas);
@@ -301,7 +301,7 @@ fn a_move_is_held_back_only_where_cloth_would_pierce_itself() {
         x
     };
     let edges = edges_of(&triangles);
-    let count = |x: &[V3]| crossings(x, edges.pairs(), &triangles).len();
+    let count = |x: &[V3]| intersections(x, edges.pairs(), &triangles).len();
     let (from, to) = (at(1e-3, 0.0), at(-2e-4, 5e-3));
     assert!(count(&from) == 0 && count(&to) > 0);
     let reached = held_apart(&from, &to, &triangles);
@@ -320,7 +320,7 @@ fn what_is_about_to_be_sewn_does_not_let_the_rest_of_its_cloth_pass() {
         vec![corners[0], corners[1], corners[2], corners[0] + below, corners[1] + below, V3::new(0.03, 0.03, 1.5e-3)];
     let triangles = [[0, 1, 2], [4, 3, 5]];
     let areas = [1e-4; 6];
-    assert!(!crossings(&x, edges_of(&triangles).pairs(), &triangles).is_empty(), "nothing pierces the triangle");
+    assert!(!intersections(&x, edges_of(&triangles).pairs(), &triangles).is_empty(), "nothing pierces the triangle");
     let through = |contact: &mut ClothContact| {
         contact.update(&x);
         let mut moved = x.clone();

@@ -2,8 +2,8 @@
 
 use super::hands::Hands;
 use super::params::Params;
-use super::preposition::Folded;
-use super::run::{OPEN_M, Run};
+use super::placement::Folded;
+use super::run::{OPEN_M, Simulation};
 use super::settle::{Around, Grip, Settled, Settling};
 use crate::cloth::Cloth;
 use crate::contact::{BodyContact, ClothContact, Skin};
@@ -17,27 +17,29 @@ use body::Body;
 use geom::{DistanceField, V3};
 use pattern::Garment;
 
-/// A sewn garment that yields this much has been drawn into the body, m.
-const SEWN_INTO_M: f64 = 4e-3;
-/// Gap of seams that a body which does not give way may leave where one that does leaves less, m.
-const CLOSED_M: f64 = 1e-2;
-/// Principal stretch beyond 1 that 1 % of the cloth may exceed on any mesh, unless more is allowed: what is drawn on all the same
-/// ends inside the body. Coarse meshes are stretched more than fine ones (1.06 where the drape has 0.54).
-const TORN: f64 = 1.25;
-/// A garment that yields this much on a coarse mesh is tight, m: it is about to leave the offset that keeps it outside.
-const TIGHT_M: f64 = 8e-4;
-
-/// Share of its stiffness in the plane that cloth keeps on a mesh for each finer one to come.
-///
-/// A fold stretches the triangles that it does not run along, by the square of their size: coarse cloth folds less than fine cloth, which
-/// then has far to go. Slackened, it folds as the fine cloth will.
-const SLACKENED: f64 = 0.2;
-/// Vertices of the finest mesh from which on that is done. Smaller cloth gains less, and keeps by friction what its coarse meshes find:
-/// the neck of a loose T-shirt opens by 2 % where they are slack, without by 1.7.
-const LARGE: usize = 12_000;
-/// Principal stretch beyond 1 that 1 % of the sewn cloth exceeds where it is drawn tight: there are no folds then, and slack cloth is
-/// drawn out of shape.
-const DRAWN: f64 = 0.1;
+geom::constants! {
+    "fem.dress",
+    /// A sewn garment that yields this much has been drawn into the body, m.
+    const SEWN_INTO_M: f64 = 4e-3;
+    /// Gap of seams that a body which does not give way may leave where one that does leaves less, m.
+    const CLOSED_M: f64 = 1e-2;
+    /// Principal stretch beyond 1 that 1 % of the cloth may exceed on any mesh, unless more is allowed: what is drawn on all the same
+    /// ends inside the body. Coarse meshes are stretched more than fine ones (1.06 where the drape has 0.54).
+    const TORN: f64 = 1.25;
+    /// A garment that yields this much on a coarse mesh is tight, m: it is about to leave the offset that keeps it outside.
+    const TIGHT_M: f64 = 8e-4;
+    /// Share of its stiffness in the plane that cloth keeps on a mesh for each finer one to come.
+    ///
+    /// A fold stretches the triangles that it does not run along, by the square of their size: coarse cloth folds less than fine cloth, which
+    /// then has far to go. Slackened, it folds as the fine cloth will.
+    const SLACKENED: f64 = 0.2;
+    /// Vertices of the finest mesh from which on that is done. Smaller cloth gains less, and keeps by friction what its coarse meshes find:
+    /// the neck of a loose T-shirt opens by 2 % where they are slack, without by 1.7.
+    const LARGE: usize = 12_000;
+    /// Principal stretch beyond 1 that 1 % of the sewn cloth exceeds where it is drawn tight: there are no folds then, and slack cloth is
+    /// drawn out of shape.
+    const DRAWN: f64 = 0.1;
+}
 
 /// A garment, placed, and the body that is to wear it.
 pub struct Dressing<'a> {
@@ -66,7 +68,7 @@ impl Dressing<'_> {
     /// # Errors
     /// When its seams stay open, it diverges, slides off, is stretched beyond what cloth can be or a limit that is to end it, or the
     /// monitor cancels.
-    pub fn dress(&self, grip: Grip, run: &mut Run) -> Result<Settled, SimError> {
+    pub fn dress(&self, grip: Grip, run: &mut Simulation) -> Result<Settled, SimError> {
         let Some(coarsest) = self.garments.first() else { return Err(SimError::NoMesh) };
         let Params { contact, self_contact, .. } = *run.params();
         let soft = Around { skin: self.skin, field: self.field, hands: self.hands, contact, self_contact };
@@ -94,7 +96,7 @@ impl Dressing<'_> {
     }
 
     /// The same with friction throughout, after it failed without: where that fails as well, the first error tells.
-    pub fn dress_or(&self, first: SimError, run: &mut Run) -> Result<Settled, SimError> {
+    pub fn dress_or(&self, first: SimError, run: &mut Simulation) -> Result<Settled, SimError> {
         self.dress(Grip::Throughout, run).map_err(|error| match error {
             SimError::Cancelled => error,
             _ => first,
@@ -103,7 +105,7 @@ impl Dressing<'_> {
 
     /// The same with other sewing forces, after it was torn with its own, as a ruffle is by chance: where it is with all of them, or
     /// tight, the first error tells.
-    pub fn resewn_or(&self, first: SimError, factors: &[f64], run: &mut Run) -> Result<Settled, SimError> {
+    pub fn resewn_or(&self, first: SimError, factors: &[f64], run: &mut Simulation) -> Result<Settled, SimError> {
         let limit = run.params().distortion_limit;
         for factor in factors {
             match (Dressing { force: factor * self.force, ..*self }).dress(Grip::AtTheEnd, run) {
@@ -122,7 +124,13 @@ impl Dressing<'_> {
 
     /// Draws the seams of the garment together, those of what is folded onto it once all others are closed; returns garment
     /// positions with all seams (nearly) closed, and how far the contact with the body yields there, m.
-    fn sew(&self, garment: &Garment, around: Around, grip: Grip, run: &mut Run) -> Result<(Vec<V3>, f64), SimError> {
+    fn sew(
+        &self,
+        garment: &Garment,
+        around: Around,
+        grip: Grip,
+        run: &mut Simulation,
+    ) -> Result<(Vec<V3>, f64), SimError> {
         let params = run.params();
         let mut x = self.placed.to_vec();
         if let Some(folded) = Folded::of(garment) {
@@ -178,7 +186,7 @@ impl Dressing<'_> {
     }
 
     /// Settles the sewn garment on the coarsest mesh, and on each finer one from the one before.
-    fn refine(&self, mut around: Around, sewn: &[V3], grip: Grip, run: &mut Run) -> Result<Settled, SimError> {
+    fn refine(&self, mut around: Around, sewn: &[V3], grip: Grip, run: &mut Simulation) -> Result<Settled, SimError> {
         let is_slack = self.is_slack(sewn)?;
         let mut last: Option<(&Garment, Settled)> = None;
         for (level, garment) in self.garments.iter().enumerate() {

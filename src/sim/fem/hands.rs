@@ -14,30 +14,33 @@ use std::collections::BTreeSet;
 use body::{Body, Joint};
 use geom::{DistanceField, V3};
 
-/// Farthest that a hand reaches from the wrist, m.
-const REACH_M: f64 = 0.25;
-/// Farthest from its own axis that skin beyond the wrist is taken for a hand's, m: else a scan's hand has grown together
-/// with the thigh.
-const WIDEST_M: f64 = 0.15;
-/// Share of the hand's length, at its end, whose middle says where it points.
-const END: f64 = 0.4;
-/// Length of the wrist whose half width a folded hand is measured by, m.
-const WRIST_M: f64 = 0.02;
-/// Half width of a folded hand over that of the wrist: a narrow hem on the coarsest mesh has four corners or three, and closes only
-/// about what is so much thinner than a wrist (the circle in a triangle is 0.6 of the triangle's girth).
-const FOLDED: f64 = 0.65;
-/// Half width of a folded hand's end over that where it begins.
-const NARROWING: f64 = 0.5;
-/// Cloth nearer than this to a hand meets the solid, m.
-const NEAR_M: f64 = 0.08;
-/// Farther from the solid than this the field is left alone, m: what a field tells of its outside ends there.
-const SHELL_M: f64 = 0.0125;
-/// Room that the open solid leaves about the hand, m: triangles of 15 mm cut its corners.
-const ROOM_M: f64 = 4e-3;
-/// Steps in which a hand opens.
-const OPENINGS: u32 = 4;
-/// Steps in which the solid shrinks to the hand itself.
-const BARINGS: u32 = 4;
+geom::constants! {
+    "fem.hands",
+    /// Farthest that a hand reaches from the wrist, m.
+    const REACH_M: f64 = 0.25;
+    /// Farthest from its own axis that skin beyond the wrist is taken for a hand's, m: else a scan's hand has grown together
+    /// with the thigh.
+    const WIDEST_M: f64 = 0.15;
+    /// Share of the hand's length, at its end, whose middle says where it points.
+    const END: f64 = 0.4;
+    /// Length of the wrist whose half width a folded hand is measured by, m.
+    const WRIST_M: f64 = 0.02;
+    /// Half width of a folded hand over that of the wrist: a narrow hem on the coarsest mesh has four corners or three, and closes only
+    /// about what is so much thinner than a wrist (the circle in a triangle is 0.6 of the triangle's girth).
+    const FOLDED: f64 = 0.65;
+    /// Half width of a folded hand's end over that where it begins.
+    const NARROWING: f64 = 0.5;
+    /// Cloth nearer than this to a hand meets the solid, m.
+    const NEAR_M: f64 = 0.08;
+    /// Farther from the solid than this the field is left alone, m: what a field tells of its outside ends there.
+    const SHELL_M: f64 = 0.0125;
+    /// Room that the open solid leaves about the hand, m: triangles of 15 mm cut its corners.
+    const ROOM_M: f64 = 4e-3;
+    /// Steps in which a hand opens.
+    const OPENINGS: u32 = 4;
+    /// Steps in which the solid shrinks to the hand itself.
+    const BARINGS: u32 = 4;
+}
 
 /// A hand on its own.
 pub struct Hand {

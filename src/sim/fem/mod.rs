@@ -1,9 +1,9 @@
-//! FEM-GS (chapter 4): preposition, sewing and draping by physics alone.
+//! FEM-GS (chapter 4): placement, sewing and draping by physics alone.
 
 mod dress;
 mod hands;
 pub mod params;
-pub mod preposition;
+pub mod placement;
 mod run;
 mod settle;
 mod start;
@@ -14,23 +14,27 @@ use crate::contact::Skin;
 use crate::quality;
 use crate::{Distortion, Drape, Fabric, Monitor, SimError, Stage};
 use body::Body;
+use geom::constants::Constant;
 use geom::{DistanceField, V3};
 use pattern::Garment;
 
 use dress::Dressing;
 use hands::Hands;
-use run::{Run, top_m};
+use run::{Simulation, top_m};
 use settle::{Grip, Settled};
 
-/// Deepest point inside the body of a drape without fault, m.
-const FAULTLESS_DEPTH_M: f64 = 5e-4;
-/// A garment whose top has come this far up from where it was placed has been squeezed off the body, m.
-const MOST_RISE_M: f64 = 0.25;
-/// Factors on the sewing force with which what ends with a fault, or is torn as it is sewn, is sewn again: whether a
-/// fold that is drawn tight goes through another is chance, and so is how a ruffle is drawn out; these keep what is mirrored so.
-const RESEWN: [f64; 2] = [1.5, 0.67];
-/// Steps times vertices (3 to 5 microseconds each) after which a fault is no longer tried to be put right: who waits has waited.
-const MOST_TRIED: u64 = 40_000_000;
+geom::constants! {
+    "fem",
+    /// Deepest point inside the body of a drape without fault, m.
+    const FAULTLESS_DEPTH_M: f64 = 5e-4;
+    /// A garment whose top has come this far up from where it was placed has been squeezed off the body, m.
+    const MOST_RISE_M: f64 = 0.25;
+    /// Factors on the sewing force with which what ends with a fault, or is torn as it is sewn, is sewn again: whether a
+    /// fold that is drawn tight goes through another is chance, and so is how a ruffle is drawn out; these keep what is mirrored so.
+    const RESEWN: [f64; 2] = [1.5, 0.67];
+    /// Steps times vertices (3 to 5 microseconds each) after which a fault is no longer tried to be put right: who waits has waited.
+    const MOST_TRIED: u64 = 40_000_000;
+}
 
 /// Dresses a body in a garment.
 ///
@@ -79,7 +83,7 @@ pub fn simulate(
     let (Some(coarsest), Some(finest)) = (garments.first(), garments.last()) else {
         return Err(SimError::NoMesh);
     };
-    let mut run = Run::new(params, monitor, garments.len() - 1);
+    let mut run = Simulation::new(params, monitor, garments.len() - 1);
     let (placed, force) = placed_at_start(body, coarsest, params)?;
     let hands = Hands::near(body, field, &placed);
     let skin = Skin::new(&body.mesh).ok();
@@ -172,7 +176,7 @@ fn other_starts(
 
 /// Where a garment starts, as perturbed, m, and the factor on its sewing force.
 fn placed_at_start(body: &Body, garment: &Garment, params: &Params) -> Result<(Vec<V3>, f64), SimError> {
-    let mut placed = preposition::place(body, garment, params)?;
+    let mut placed = placement::place(body, garment, params)?;
     let force = start::perturb(params.seed, &mut placed);
     Ok((placed, force))
 }
@@ -188,6 +192,20 @@ fn is_better(one: &Drape, other: &Drape) -> bool {
         |drape: &Drape| (!drape.converged, drape.self_crossings, drape.penetration_max_m.max(FAULTLESS_DEPTH_M));
     let ((moves, crossings, depth_m), (others, other_crossings, other_m)) = (faults(one), faults(other));
     moves <= others && crossings <= other_crossings && depth_m <= other_m && faults(one) != faults(other)
+}
+
+/// Constants of FEM-GS that decide results.
+pub(crate) fn constants() -> Vec<Constant> {
+    [
+        dress::CONSTANTS,
+        hands::CONSTANTS,
+        CONSTANTS,
+        params::CONSTANTS,
+        run::CONSTANTS,
+        settle::CONSTANTS,
+        start::CONSTANTS,
+    ]
+    .concat()
 }
 
 #[cfg(test)]

@@ -3,10 +3,15 @@
 use crate::contact::{ClothContactParams, ContactParams};
 use crate::solver::StepParams;
 
-/// Coarsest mesh that still wraps an arm: triangles of longer edges pass through it, m.
-const COARSEST_EDGE_M: f64 = 0.065;
-/// Most meshes that are worth going through.
-const MOST_LEVELS: u32 = 3;
+geom::constants! {
+    "fem.params",
+    /// Coarsest mesh that still wraps an arm: triangles of longer edges pass through it, m.
+    const COARSEST_EDGE_M: f64 = 0.065;
+    /// Most meshes that are worth going through.
+    const MOST_LEVELS: u32 = 3;
+    /// Angle, rad, of pieces that are bent otherwise than by the body: that of [T] for the slim.
+    const OTHER_BEND_RAD: f64 = 2.0 * std::f64::consts::PI / 3.0;
+}
 
 /// Edge lengths (m) of the meshes that FEM-GS goes through, coarse to fine: each half the one before, the last `finest_m`.
 #[must_use]
@@ -113,9 +118,6 @@ impl Default for Params {
         }
     }
 }
-
-/// Angle, rad, of pieces that are bent otherwise than by the body: that of [T] for the slim.
-const OTHER_BEND_RAD: f64 = 2.0 * std::f64::consts::PI / 3.0;
 
 impl Params {
     /// The same with pieces of the trunk bent to the arc of [T]; `None` where an offset or an angle was asked for.

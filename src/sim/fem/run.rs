@@ -22,8 +22,18 @@ pub struct Phase {
     h_start_s: f64,
 }
 
-/// First step size of the end of a drape, s: it goes on with cloth that has lain down already.
-const LAIN_DOWN_S: f64 = 0.5;
+geom::constants! {
+    "fem.run",
+    /// First step size of the end of a drape, s: it goes on with cloth that has lain down already.
+    const LAIN_DOWN_S: f64 = 0.5;
+    /// Gap of seams from which on they count as open, m: what welding them would make of a garment is no garment.
+    pub const OPEN_M: f64 = 8e-2;
+    /// Steps of sewing at most over those that nearly closed seams get: these have met what holds them up, and are drawn through it.
+    const PATIENCE: u32 = 3;
+    /// How far the top of a garment may come down from where it was sewn, m: trousers and skirts that do not hold at the waist
+    /// hold at the hips, a fifth of a metre lower, or not at all.
+    const MOST_DESCENT_M: f64 = 0.25;
+}
 
 impl Phase {
     /// Coming to rest without friction on level `level` of `last`.
@@ -54,17 +64,8 @@ impl Phase {
     }
 }
 
-/// Gap of seams from which on they count as open, m: what welding them would make of a garment is no garment.
-pub const OPEN_M: f64 = 8e-2;
-/// Steps of sewing at most over those that nearly closed seams get: these have met what holds them up, and are drawn through it.
-const PATIENCE: u32 = 3;
-
-/// How far the top of a garment may come down from where it was sewn, m: trousers and skirts that do not hold at the waist
-/// hold at the hips, a fifth of a metre lower, or not at all.
-const MOST_DESCENT_M: f64 = 0.25;
-
 /// A simulation under way.
-pub struct Run<'a> {
+pub struct Simulation<'a> {
     params: &'a Params,
     monitor: &'a mut dyn Monitor,
     levels: usize,
@@ -76,7 +77,7 @@ pub struct Run<'a> {
     history: Vec<Step>,
 }
 
-impl<'a> Run<'a> {
+impl<'a> Simulation<'a> {
     /// Starts a run over levels 0 to `levels`.
     pub fn new(params: &'a Params, monitor: &'a mut dyn Monitor, levels: usize) -> Self {
         let history = Vec::new();
@@ -147,7 +148,7 @@ impl<'a> Run<'a> {
             } else {
                 stalled += 1;
             }
-            if stalled >= params.sewing.sewing_patience && info.share >= 0.25 {
+            if stalled >= params.sewing.sewing_patience && info.alpha >= 0.25 {
                 stalled = 0;
                 if !system.springs.as_mut().is_some_and(|springs| springs.tighten(params.sewing.seam_growth)) {
                     break;

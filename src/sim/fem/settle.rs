@@ -1,7 +1,7 @@
 //! One level of a sewn garment comes to rest: without friction, and on the finest mesh with it and held outside the body.
 
 use super::hands::{Hands, Shape};
-use super::run::{Phase, Run};
+use super::run::{Phase, Simulation};
 use crate::cloth::Cloth;
 use crate::contact::{BodyContact, ClothContact, ClothContactParams, ContactParams, Skin, contact_areas};
 use crate::solver::System;
@@ -9,16 +9,19 @@ use crate::{Fabric, SimError};
 use geom::{DistanceField, V3};
 use pattern::Garment;
 
-/// Deepest point of a drape that is good, m.
-const DEEPEST_M: f64 = 3e-4;
-/// Times at most that a drape is taken up again, because it is not at rest yet or to hold out points inside the body.
-const HOLDING_ROUNDS: usize = 8;
-/// Penalty of the contact with the body where cloth is drawn tight or over a hand, N/m3: fingertips press through a softer one.
-const HARD_N_M3: f64 = 1e9;
-/// Penalty of the cloth's contact with itself there, N/m3: where a seat is drawn tight, a softer one lets layers through.
-const HARD_LAYERS_N_M3: f64 = 1e7;
-/// Steps on each shape that a hand passes through.
-const PASSING_STEPS: u32 = 12;
+geom::constants! {
+    "fem.settle",
+    /// Deepest point of a drape that is good, m.
+    const DEEPEST_M: f64 = 3e-4;
+    /// Times at most that a drape is taken up again, because it is not at rest yet or to hold out points inside the body.
+    const HOLDING_ROUNDS: usize = 8;
+    /// Penalty of the contact with the body where cloth is drawn tight or over a hand, N/m3: fingertips press through a softer one.
+    const HARD_N_M3: f64 = 1e9;
+    /// Penalty of the cloth's contact with itself there, N/m3: where a seat is drawn tight, a softer one lets layers through.
+    const HARD_LAYERS_N_M3: f64 = 1e7;
+    /// Steps on each shape that a hand passes through.
+    const PASSING_STEPS: u32 = 12;
+}
 
 /// From when on friction holds a garment.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -88,7 +91,7 @@ impl Settling<'_> {
     ///
     /// # Errors
     /// When they diverge or slide off the body, or the monitor cancels.
-    pub fn settle(&self, mut x: Vec<V3>, run: &mut Run) -> Result<Settled, SimError> {
+    pub fn settle(&self, mut x: Vec<V3>, run: &mut Simulation) -> Result<Settled, SimError> {
         let Self { around, cloth, level, .. } = *self;
         let params = run.params();
         let (hands, finest) = (around.hands.into_iter(), run.levels());
@@ -130,7 +133,7 @@ impl Settling<'_> {
         system: &mut System,
         x: &mut Vec<V3>,
         is_passing: bool,
-        run: &mut Run,
+        run: &mut Simulation,
     ) -> Result<f64, SimError> {
         let mut params = *run.params();
         if is_passing {
@@ -140,7 +143,7 @@ impl Settling<'_> {
     }
 
     /// Contact in a field of cloth that begins at `x`.
-    fn contact<'f>(&self, field: &'f DistanceField, x: &[V3], run: &Run) -> BodyContact<'f> {
+    fn contact<'f>(&self, field: &'f DistanceField, x: &[V3], run: &Simulation) -> BodyContact<'f> {
         let triangles = &self.cloth.triangles;
         let mut contact = BodyContact::new(field, self.around.contact, &self.cloth.areas);
         if self.level < run.levels() {
@@ -165,7 +168,7 @@ impl Settling<'_> {
     }
 
     /// The end of the drape, with friction, until no point lies inside the body; returns the residual.
-    fn hold(&self, system: &mut System, x: &mut Vec<V3>, run: &mut Run) -> Result<f64, SimError> {
+    fn hold(&self, system: &mut System, x: &mut Vec<V3>, run: &mut Simulation) -> Result<f64, SimError> {
         let params = run.params();
         system.contact.set_friction(Some(self.fabric.friction_body));
         let mut residual = f64::MAX;

@@ -3,16 +3,19 @@
 use crate::laboratory::sheets::{noise, shaken};
 use geom::V3;
 
-/// Greatest shift each way, m.
-const SHIFT_M: f64 = 5e-3;
-/// Greatest turn about the vertical, rad: one degree.
-const TURN_RAD: f64 = 0.0175;
-/// Greatest widening: pieces start that share further from the garment's middle.
-const WIDENING: f64 = 0.05;
-/// Greatest displacement of single vertices each way, m.
-const JITTER_M: f64 = 1e-3;
-/// Greatest factor on the force of the seam springs, and its inverse the least.
-const FORCE: f64 = 1.5;
+geom::constants! {
+    "fem.start",
+    /// Greatest shift each way, m.
+    const SHIFT_M: f64 = 5e-3;
+    /// Greatest turn about the vertical, rad: one degree.
+    const TURN_RAD: f64 = 0.0175;
+    /// Greatest widening: pieces start that share further from the garment's middle.
+    const WIDENING: f64 = 0.05;
+    /// Greatest displacement of single vertices each way, m.
+    const JITTER_M: f64 = 1e-3;
+    /// Greatest factor on the force of the seam springs, and its inverse the least.
+    const FORCE: f64 = 1.5;
+}
 
 /// Moves a placed garment as the seed says: shifted, turned about the vertical, further from the body, each vertex
 /// shaken; returns the factor on the sewing force. Seed 0 leaves all as it is.

@@ -199,10 +199,10 @@ fn a_garment_that_its_seams_squeeze_off_the_body_is_sewn_again_with_friction_or_
     let cotton = fabric::library().into_iter().find(|f| f.name == "cotton_shirting_light").expect("in the library");
     let garments = levels(Model::Teetop, 0.06);
     let params = Params::default();
-    let placed = preposition::place(&body, &garments[0], &params).expect("all roles are known");
+    let placed = placement::place(&body, &garments[0], &params).expect("all roles are known");
     let skin = Skin::new(&body.mesh).expect("a closed body");
     let dressing = Dressing { skin: Some(&skin), ..dressing(&body, &field, &garments, &cotton, &placed) };
-    let once = dressing.dress(Grip::AtTheEnd, &mut Run::new(&params, &mut Silent, 0)).expect("it comes to rest");
+    let once = dressing.dress(Grip::AtTheEnd, &mut Simulation::new(&params, &mut Silent, 0)).expect("it comes to rest");
     let rise_m = |worn: &[V3]| top_m(&garments[0], worn) - top_m(&garments[0], &placed);
     assert!(rise_m(&once.positions) > MOST_RISE_M, "without friction it stays on, and shows nothing");
     let worn = |fabric: &Fabric| simulate(&body, &field, &garments, fabric, &params, &mut Silent);
@@ -257,7 +257,7 @@ fn what_is_better_in_one_thing_must_not_be_worse_in_another() {
     // Both are as good as outside.
     check((true, 1e-4, 5), (true, 3e-4, 5), false);
     check((true, 3e-4, 3), (true, 1e-4, 5), true);
-    // Fewer crossings, but deeper or not at rest.
+    // Fewer intersections, but deeper or not at rest.
     check((true, 4e-3, 3), (true, 1e-4, 5), false);
     check((false, 1e-4, 0), (true, 1e-4, 5), false);
 }
@@ -268,7 +268,7 @@ fn what_ends_with_a_fault_is_put_on_otherwise() {
     let field = DistanceField::build(&body.mesh, 0.01).expect("a closed body");
     let cotton = fabric::library().into_iter().find(|f| f.name == "cotton_shirting_light").expect("in the library");
     let (garments, params) = (levels(Model::Tshirt, 0.06), Params::default());
-    let placed = preposition::place(&body, &garments[0], &params).expect("all roles are known");
+    let placed = placement::place(&body, &garments[0], &params).expect("all roles are known");
     let dressing = dressing(&body, &field, &garments, &cotton, &placed);
     let flat =
         |stretch: f64| -> Vec<V3> { garments[0].rest.iter().map(|p| V3::new(p.x, stretch * p.y, 0.0)).collect() };

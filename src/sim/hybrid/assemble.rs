@@ -12,8 +12,11 @@ use crate::sewing;
 use geom::{V2, V3};
 use pattern::{Garment, PieceMesh, Role, SeamMesh};
 
-/// Steps in which pieces sewn together are laid flat.
-const FLATTENING: u32 = 12;
+geom::constants! {
+    "hybrid.assemble",
+    /// Steps in which pieces sewn together are laid flat.
+    const FLATTENING: u32 = 12;
+}
 
 /// A garment in as few pieces as the body needs.
 #[derive(Clone, Debug)]

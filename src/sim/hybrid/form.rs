@@ -8,10 +8,13 @@
 use body::{Body, ControlMesh, Layer, RING, Region};
 use geom::{TriMesh, V3};
 
-/// Height between the rings below the hip, m.
-const SKIRT_STEP_M: f64 = 0.06;
-/// The form's tube ends here, m above the floor.
-const SKIRT_END_M: f64 = 0.03;
+geom::constants! {
+    "hybrid.form",
+    /// Height between the rings below the hip, m.
+    const SKIRT_STEP_M: f64 = 0.06;
+    /// The form's tube ends here, m above the floor.
+    const SKIRT_END_M: f64 = 0.03;
+}
 
 /// Rings one below the other (or one further out on a limb than the other), with the same number of vertices.
 #[derive(Clone, Debug)]

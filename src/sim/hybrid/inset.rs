@@ -10,25 +10,28 @@ use geom::hull::tape_girth;
 use geom::section::{Outline, section};
 use geom::{TriMesh, V2, V3};
 
-/// Share of what the stretch of a ring says that its inset is corrected by at once.
-const GAIN: f64 = 0.3;
-/// Inset that a ring may come to need besides the judged one, m: a tape is straighter than the body, the cloth beside a ring
-/// pulls at it, and over a bust the front is tight before the back is.
-const DOUBT_M: f64 = 20e-3;
-/// Inset that a ring keeps that was too small once, m: it may become so again.
-const LEAST_INSET_M: f64 = 1e-6;
-/// Inset that a ring may come to need besides what it has where it is worn, m, until it is judged again. What hangs from the
-/// shoulders does not slide.
-const SLIP_M: f64 = 4e-3;
-/// The same for what is held up by its rings alone, m: one that could yield more would slide over what is wider.
-const SLIP_ON_HIPS_M: f64 = 1e-3;
-/// By how much an inset is less per length of the cloth away from its ring: over a slope of 0.1 the cloth is longer by 0.5 %.
-const FADE: f64 = 0.1;
-/// By how much an inset may be greater from one ring to the next, m.
-const STEEPEST_M: f64 = 6e-3;
-/// A ring is not too small by more than this share: what it is compared with is another part of the body, as the trunk
-/// with an arm.
-const MOST_LACK: f64 = 0.5;
+geom::constants! {
+    "hybrid.inset",
+    /// Share of what the stretch of a ring says that its inset is corrected by at once.
+    const GAIN: f64 = 0.3;
+    /// Inset that a ring may come to need besides the judged one, m: a tape is straighter than the body, the cloth beside a ring
+    /// pulls at it, and over a bust the front is tight before the back is.
+    const DOUBT_M: f64 = 20e-3;
+    /// Inset that a ring keeps that was too small once, m: it may become so again.
+    const LEAST_INSET_M: f64 = 1e-6;
+    /// Inset that a ring may come to need besides what it has where it is worn, m, until it is judged again. What hangs from the
+    /// shoulders does not slide.
+    const SLIP_M: f64 = 4e-3;
+    /// The same for what is held up by its rings alone, m: one that could yield more would slide over what is wider.
+    const SLIP_ON_HIPS_M: f64 = 1e-3;
+    /// By how much an inset is less per length of the cloth away from its ring: over a slope of 0.1 the cloth is longer by 0.5 %.
+    const FADE: f64 = 0.1;
+    /// By how much an inset may be greater from one ring to the next, m.
+    const STEEPEST_M: f64 = 6e-3;
+    /// A ring is not too small by more than this share: what it is compared with is another part of the body, as the trunk
+    /// with an arm.
+    const MOST_LACK: f64 = 0.5;
+}
 
 /// The insets of a garment's rings.
 #[derive(Default)]

@@ -2,20 +2,22 @@
 
 use std::collections::BTreeMap;
 
-use crate::contact::tangle::{Release, Wings};
-use crate::contact::{Crossing, crossings};
+use crate::contact::intersections::{Release, Wings};
+use crate::contact::{Intersection, intersections};
 use geom::V3;
 use linalg::PairList;
 
-/// Layers are this far apart afterwards, m.
-const APART_M: f64 = 5e-4;
-/// A vertex is moved by this at most in a round, m.
-const STRIDE_M: f64 = 3e-3;
-/// Rounds without fewer crossings after which it is given up.
-const PATIENCE: u32 = 24;
-
-/// Cloth within this distance of a crossing is looked at again, m.
-const NEAR_M: f64 = 0.05;
+geom::constants! {
+    "hybrid.layers",
+    /// Layers are this far apart afterwards, m.
+    const APART_M: f64 = 5e-4;
+    /// A vertex is moved by this at most in a round, m.
+    const STRIDE_M: f64 = 3e-3;
+    /// Rounds without fewer crossings after which it is given up.
+    const PATIENCE: u32 = 24;
+    /// Cloth within this distance of a crossing is looked at again, m.
+    const NEAR_M: f64 = 0.05;
+}
 
 /// The cloth as a mesh that may meet itself.
 pub struct Layers {
@@ -45,7 +47,7 @@ impl Layers {
     /// The end of an edge that has come through least goes back, and the triangle meets it half way: while cloth moves
     /// little between two looks, that is the end which should not have come through.
     pub fn part(&self, x: &mut [V3], rounds: u32) -> Parted {
-        let mut pierced = crossings(x, self.edges.pairs(), &self.triangles);
+        let mut pierced = intersections(x, self.edges.pairs(), &self.triangles);
         if pierced.is_empty() {
             return Parted { found: 0, left: 0 };
         }
@@ -60,7 +62,7 @@ impl Layers {
             } else {
                 release(&pierced, &wings, x);
             }
-            pierced = crossings(x, near.edges.pairs(), &near.triangles);
+            pierced = intersections(x, near.edges.pairs(), &near.triangles);
             waited += 1;
             if pierced.len() < least {
                 (least, waited) = (pierced.len(), 0);
@@ -75,8 +77,8 @@ impl Layers {
     }
 
     /// The cloth round crossings.
-    fn near(&self, pierced: &[Crossing], x: &[V3]) -> Self {
-        let places: Vec<V3> = pierced.iter().map(|Crossing { edge, .. }| (x[edge[0]] + x[edge[1]]) / 2.0).collect();
+    fn near(&self, pierced: &[Intersection], x: &[V3]) -> Self {
+        let places: Vec<V3> = pierced.iter().map(|Intersection { edge, .. }| (x[edge[0]] + x[edge[1]]) / 2.0).collect();
         let is_near = |v: usize| places.iter().any(|p| (x[v] - p).norm_squared() < NEAR_M * NEAR_M);
         let near: Vec<bool> = (0..x.len()).map(is_near).collect();
         let triangles: Vec<[usize; 3]> =
@@ -86,9 +88,9 @@ impl Layers {
 }
 
 /// One round: every crossing asks for its way out, every vertex takes the mean of what it is asked for.
-fn apart(pierced: &[Crossing], x: &mut [V3]) {
+fn apart(pierced: &[Intersection], x: &mut [V3]) {
     let mut moves: BTreeMap<usize, (V3, f64)> = BTreeMap::new();
-    for Crossing { edge, triangle } in pierced {
+    for Intersection { edge, triangle } in pierced {
         let [a, b, c] = triangle.map(|v| x[v]);
         let Some(normal) = (b - a).cross(&(c - a)).try_normalize(0.0) else { continue };
         let heights = edge.map(|v| (x[v] - a).dot(&normal));
@@ -105,7 +107,7 @@ fn apart(pierced: &[Crossing], x: &mut [V3]) {
 }
 
 /// One round along the way in which the lines of the crossings grow shorter.
-fn release(pierced: &[Crossing], wings: &Wings, x: &mut [V3]) {
+fn release(pierced: &[Intersection], wings: &Wings, x: &mut [V3]) {
     let mut moves: BTreeMap<usize, (V3, f64)> = BTreeMap::new();
     for release in pierced.iter().filter_map(|crossing| Release::of(x, wings, crossing)) {
         for (v, weight) in release.vertices.into_iter().zip(release.weights) {

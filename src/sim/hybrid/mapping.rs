@@ -21,11 +21,13 @@ use body::{Body, Region};
 use geom::{TriMesh, V2, V3};
 use pattern::{Garment, PieceMesh, Role};
 
-/// Points on each edge of the control mesh in path searches. Odd, so that an edge across the median plane has its middle.
-pub const PATH_POINTS: usize = 9;
-
-/// A piece does not run over faces that look the other way by more than this cosine.
-const AWAY: f64 = 0.4;
+geom::constants! {
+    "hybrid.mapping",
+    /// Points on each edge of the control mesh in path searches. Odd, so that an edge across the median plane has its middle.
+    pub const PATH_POINTS: usize = 9;
+    /// A piece does not run over faces that look the other way by more than this cosine.
+    const AWAY: f64 = 0.4;
+}
 
 /// A garment on the surface of a form.
 #[derive(Clone, Debug)]

@@ -31,6 +31,7 @@ use crate::contact::Skin;
 use crate::walls::Walls;
 use crate::{Drape, Fabric, Monitor, Progress, SimError, Stage, Staged, Step, quality};
 use body::{Body, Layer};
+use geom::constants::Constant;
 use geom::{DistanceField, V3};
 use pattern::{Garment, Measurement};
 
@@ -70,18 +71,20 @@ impl Default for Params {
     }
 }
 
-/// Rms movement in a step below which a drape counts as come to rest, m.
-const AT_REST_M: f64 = 1e-3;
-
-/// Steps of the drape after which it is judged anew where the garment is too small: it slides.
-const JUDGE_EVERY: u32 = 20;
-/// Last steps after each of which cloth that is large enough is lifted out of the body.
-const LIFTS: u32 = 3;
-/// Steps that the drape goes on after cloth was pulled apart, and how often it does at most.
-const AGAIN: u32 = 6;
-const MOST_AGAIN: u32 = 2;
-/// Rounds in which cloth that runs through itself is pulled apart in the end.
-const PARTINGS: u32 = 80;
+geom::constants! {
+    "hybrid",
+    /// Rms movement in a step below which a drape counts as come to rest, m.
+    const AT_REST_M: f64 = 1e-3;
+    /// Steps of the drape after which it is judged anew where the garment is too small: it slides.
+    const JUDGE_EVERY: u32 = 20;
+    /// Last steps after each of which cloth that is large enough is lifted out of the body.
+    const LIFTS: u32 = 3;
+    /// Steps that the drape goes on after cloth was pulled apart, and how often it does at most.
+    const AGAIN: u32 = 6;
+    const MOST_AGAIN: u32 = 2;
+    /// Rounds in which cloth that runs through itself is pulled apart in the end.
+    const PARTINGS: u32 = 80;
+}
 
 /// What each phase left, positions of the garment's vertices in metres.
 #[derive(Clone, Debug)]
@@ -137,7 +140,7 @@ pub fn phases(
     params: &Params,
     monitor: &mut dyn Monitor,
 ) -> Result<Phases, SimError> {
-    let mut run = Run { garment, monitor, history: Vec::new() };
+    let mut run = Simulation { garment, monitor, history: Vec::new() };
     let controls: Vec<&Measurement> =
         garment.measurements.iter().filter(|m| !params.uncontrolled.contains(&m.no)).collect();
     let mapped = mapping::map(body, garment)?;
@@ -192,13 +195,13 @@ fn mean_chi(garment: &Garment, positions: &[V3]) -> f64 {
 }
 
 /// A run under way: what is recorded and reported of each step.
-struct Run<'a> {
+struct Simulation<'a> {
     garment: &'a Garment,
     monitor: &'a mut dyn Monitor,
     history: Vec<Step>,
 }
 
-impl Run<'_> {
+impl Simulation<'_> {
     /// Phase 4; returns the rms movement of the last step, m, and how many edges still pierce the cloth.
     fn drape(
         &mut self,
@@ -253,6 +256,25 @@ impl Run<'_> {
         }
         if self.monitor.cancelled() { Err(SimError::Cancelled) } else { Ok(()) }
     }
+}
+
+/// Constants of Hybrid-GS that decide results.
+pub(crate) fn constants() -> Vec<Constant> {
+    [
+        assemble::CONSTANTS,
+        form::CONSTANTS,
+        inset::CONSTANTS,
+        layers::CONSTANTS,
+        mapping::CONSTANTS,
+        CONSTANTS,
+        popup::CONSTANTS,
+        relax::CONSTANTS,
+        ring::CONSTANTS,
+        sewn::CONSTANTS,
+        silhouette::CONSTANTS,
+        untangle::CONSTANTS,
+    ]
+    .concat()
 }
 
 #[cfg(test)]

@@ -10,19 +10,23 @@ use body::Body;
 use geom::V3;
 use pattern::Garment;
 
-/// Steps in which it grows, and in which it then comes to rest.
-const STEPS: [u32; 2] = [12, 16];
+geom::constants! {
+    "hybrid.popup",
+    /// Steps in which it grows, and in which it then comes to rest.
+    const STEPS: [u32; 2] = [12, 16];
+    /// Times that the controls are set anew in a step, at most.
+    const CORRECTIONS: u32 = 2;
+    /// What a change of all controls' lengths changes their mean by, at first guess.
+    const RESPONSE: f64 = 0.7;
+    /// Error that counts as none.
+    const NONE: f64 = 2e-5;
+}
 
 /// Number of steps of the pop-up.
 #[must_use]
 pub fn steps() -> u32 {
     STEPS[0] + STEPS[1]
 }
-
-/// Times that the controls are set anew in a step, at most.
-const CORRECTIONS: u32 = 2;
-/// What a change of all controls' lengths changes their mean by, at first guess.
-const RESPONSE: f64 = 0.7;
 
 /// How the size comes back.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -116,9 +120,6 @@ fn rigid<E>(
     }
     Ok(())
 }
-
-/// Error that counts as none.
-const NONE: f64 = 2e-5;
 
 /// Whether an error is smaller than the last and has not changed sides, or is none.
 fn is_nearer(now: f64, last: f64) -> bool {

@@ -271,14 +271,17 @@ impl<'a> Relaxation<'a> {
     }
 }
 
-/// Share of the vertices whose contact may have changed before the system is factorised again.
-const SAME_CONTACTS: f64 = 0.01;
-/// Cloth that contact held firmly is let go of when it is further out than it is pushed by this, m.
-const LET_GO_M: f64 = 1e-3;
-/// Cloth that is large enough is this far from the skin in the end at least, m.
-const LEAST_CLEARANCE_M: f64 = 1e-3;
-/// Cloth is lifted out by this at most, m.
-const MOST_LIFT_M: f64 = 3e-3;
+geom::constants! {
+    "hybrid.relax",
+    /// Share of the vertices whose contact may have changed before the system is factorised again.
+    const SAME_CONTACTS: f64 = 0.01;
+    /// Cloth that contact held firmly is let go of when it is further out than it is pushed by this, m.
+    const LET_GO_M: f64 = 1e-3;
+    /// Cloth that is large enough is this far from the skin in the end at least, m.
+    const LEAST_CLEARANCE_M: f64 = 1e-3;
+    /// Cloth is lifted out by this at most, m.
+    const MOST_LIFT_M: f64 = 3e-3;
+}
 
 /// Sides of all triangles, as sewn, with their lengths in the pattern, m.
 fn sides(garment: &Garment, sewn: &Sewn) -> Vec<([usize; 2], f64)> {

@@ -9,10 +9,13 @@ use geom::section::Plane;
 use geom::{V2, V3};
 use pattern::{Garment, Role};
 
-/// Distance between the planes, m.
-const STEP_M: f64 = 0.02;
-/// How far below the underarms the last line round the trunk runs, in edges: where both sides cross one edge of the seam.
-const BELOW_UNDERARM: f64 = 0.3;
+geom::constants! {
+    "hybrid.ring",
+    /// Distance between the planes, m.
+    const STEP_M: f64 = 0.02;
+    /// How far below the underarms the last line round the trunk runs, in edges: where both sides cross one edge of the seam.
+    const BELOW_UNDERARM: f64 = 0.3;
+}
 
 /// Where a ring crosses an edge of the cloth: sewn vertices, and the share of the way from the first to the second.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,10 +7,13 @@ use crate::sewing;
 use geom::V3;
 use pattern::Garment;
 
-/// Share of the way to the middle of its neighbours that a vertex goes each time [T 5.3.3].
-const SMOOTHING: f64 = 0.1;
-/// Times [T 5.3.3].
-const TIMES: u32 = 100;
+geom::constants! {
+    "hybrid.sewn",
+    /// Share of the way to the middle of its neighbours that a vertex goes each time [T 5.3.3].
+    const SMOOTHING: f64 = 0.1;
+    /// Times [T 5.3.3].
+    const TIMES: u32 = 100;
+}
 
 /// A garment as one mesh.
 #[derive(Clone, Debug)]

@@ -5,8 +5,11 @@ use super::sewn::Sewn;
 use geom::{V2, V3};
 use pattern::Garment;
 
-/// Rounds of the reconstruction in a step.
-const ROUNDS: u32 = 10;
+geom::constants! {
+    "hybrid.silhouette",
+    /// Rounds of the reconstruction in a step.
+    const ROUNDS: u32 = 10;
+}
 
 /// A sewn garment that takes its pattern's size from its free edges inwards.
 pub struct Silhouette {

@@ -4,14 +4,17 @@ use std::collections::BTreeSet;
 
 use geom::V3;
 
-/// Rounds at most.
-const ROUNDS: usize = 120;
-/// Every so many rounds, neighbours move towards each other instead: a kernel may be empty.
-const SMOOTH_EVERY: usize = 4;
-/// Corrections of a vertex in a round at most.
-const CORRECTIONS: usize = 20;
-/// Height of a triangle over its base that counts as not flipped.
-const LEAST_HEIGHT: f64 = 0.1;
+geom::constants! {
+    "hybrid.untangle",
+    /// Rounds at most.
+    const ROUNDS: usize = 120;
+    /// Every so many rounds, neighbours move towards each other instead: a kernel may be empty.
+    const SMOOTH_EVERY: usize = 4;
+    /// Corrections of a vertex in a round at most.
+    const CORRECTIONS: usize = 20;
+    /// Height of a triangle over its base that counts as not flipped.
+    const LEAST_HEIGHT: f64 = 0.1;
+}
 
 /// Turns flipped triangles of a sheet back; returns how many are left.
 ///

@@ -7,15 +7,17 @@ use crate::solver::{StepParams, Stepper, System};
 use crate::{Fabric, SimError};
 use geom::{DistanceField, V2, V3};
 
-/// Radius of the specimen, m.
-const SPECIMEN_M: f64 = 0.15;
-/// Radius of the disc that carries it, m.
-const DISC_M: f64 = 0.09;
-
-/// Times that the specimen is bounced, as in the test on the bench, so that it leaves folds it merely got stuck in.
-const BOUNCES: u64 = 3;
-/// Greatest displacement of a point by that, m.
-const BOUNCE_M: f64 = 3e-3;
+geom::constants! {
+    "laboratory.drape",
+    /// Radius of the specimen, m.
+    const SPECIMEN_M: f64 = 0.15;
+    /// Radius of the disc that carries it, m.
+    const DISC_M: f64 = 0.09;
+    /// Times that the specimen is bounced, as in the test on the bench, so that it leaves folds it merely got stuck in.
+    const BOUNCES: u64 = 3;
+    /// Greatest displacement of a point by that, m.
+    const BOUNCE_M: f64 = 3e-3;
+}
 
 /// A draped specimen.
 pub struct Draped {

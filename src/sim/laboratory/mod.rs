@@ -12,6 +12,7 @@ use crate::contact::{BodyContact, ContactParams};
 use crate::sewing::unsewn;
 use crate::solver::{StepParams, Stepper, System};
 use crate::{Fabric, SimError};
+use geom::constants::Constant;
 use geom::{DistanceField, V2, V3, shapes};
 use linalg::LinearSolver;
 use pattern::{Garment, PieceMesh, Role};
@@ -133,4 +134,9 @@ pub fn isotropic(density_kg_m2: f64, stiffness_n_m: f64, rigidity_nm: f64) -> Fa
         source: "made up".into(),
         stretched: None,
     }
+}
+
+/// Constants of the laboratory that decide results.
+pub(crate) fn constants() -> Vec<Constant> {
+    [drape::CONSTANTS].concat()
 }

@@ -1,11 +1,19 @@
 //! The solver: one proximal Newton step at a time towards static equilibrium.
 
-pub mod part;
+pub mod active_set;
+pub mod line_search;
 pub mod proximal;
 pub mod system;
 
 pub use proximal::{StepInfo, StepParams, Stepper};
 pub use system::System;
 
+/// Constants of the solver that decide results.
+pub(crate) fn constants() -> Vec<Constant> {
+    [active_set::CONSTANTS, line_search::CONSTANTS, proximal::CONSTANTS, system::CONSTANTS].concat()
+}
+
 #[cfg(test)]
 mod tests;
+
+use geom::constants::Constant;

@@ -7,14 +7,15 @@
 //! second order, stretches them; on its own it could go only a fraction of a millimetre. Each step is therefore corrected:
 //! at its end the stretch that the linear solve did not foresee is taken out again by the least movement that does
 //! it, as inextensible cloth is projected onto its constraints [Goldenthal 2007], and the step runs along
-//! `x + t d + t^2 b`.
+//! `x + alpha d + alpha^2 c`.
 //!
 //! Its stiffness leaves compression out, which would make it indefinite: folds move by a part of the way, in the same direction for
-//! many steps. So a step runs on with a part of what compression would have added to the last (`Stepper::pull`).
+//! many steps. So a step runs on with a part of what compression would have added to the last (`Stepper::rhs`).
 
 use nalgebra::Matrix3;
 
-use super::part;
+use super::active_set;
+use super::line_search::Line;
 use super::system::{Assembled, Excess, System};
 use crate::cloth::law::Tensor;
 use crate::cloth::membrane::Foreseen;
@@ -73,7 +74,7 @@ pub struct StepInfo {
     /// Rms force over mean vertex weight *before* the step.
     pub residual: f64,
     /// Share of the full step that was taken; more than 1 where it was lengthened, 0 where no share was good.
-    pub share: f64,
+    pub alpha: f64,
 }
 
 /// The state that outlives a step.
@@ -86,25 +87,19 @@ pub struct Stepper {
     predicted: Option<Vec<Tensor>>,
 }
 
-/// Armijo's constant.
-const SUFFICIENT_DECREASE: f64 = 1e-4;
-const MOST_HALVINGS: usize = 12;
-/// The stiffness leaves compression out and so is too stiff where cloth buckles: a full step is lengthened by this factor
-/// for as long as the energy falls.
-const LENGTHENING: f64 = 1.5;
-const MOST_LENGTHENINGS: usize = 6;
-/// Share of the compression along the last step that the next one makes up for.
-const RUNS_ON: f64 = 0.5;
-/// Step size from which on that is done, s: the first steps of a finer mesh take out what prolongation left, and say nothing of
-/// the next.
-const RUNS_ON_FROM_S: f64 = 0.5;
-/// Forces left by a full step that is not lengthened, over those asked for at the end: what the linear solve leaves of them, the next
-/// step takes.
-const ENOUGH: f64 = 2.0;
-/// Share of the forces that a step leaves at best, as far as it is worth looking.
-const GREATEST_FALL: f64 = 0.02;
-/// Step size from which on that is done, s: cloth that has only begun to settle is thrown off the body by it.
-const LENGTHENED_FROM_S: f64 = 0.2;
+geom::constants! {
+    "solver.proximal",
+    /// Share of the compression along the last step that the next one makes up for.
+    const RUNS_ON: f64 = 0.5;
+    /// Step size from which on that is done, s: the first steps of a finer mesh take out what prolongation left, and say nothing of
+    /// the next.
+    const RUNS_ON_FROM_S: f64 = 0.5;
+    /// Forces left by a full step that is not lengthened, over those asked for at the end: what the linear solve leaves of them, the next
+    /// step takes.
+    const ENOUGH: f64 = 2.0;
+    /// Step size from which on that is done, s: cloth that has only begun to settle is thrown off the body by it.
+    const LENGTHENED_FROM_S: f64 = 0.2;
+}
 
 impl Stepper {
     /// Starts at the smallest step.
@@ -130,9 +125,9 @@ impl Stepper {
     pub fn step(&mut self, system: &mut System, x: &mut Vec<V3>, tolerance: f64) -> StepInfo {
         let info = self.step_whole(system, x, tolerance);
         let has_settled = info.residual > tolerance && self.h_s >= self.params.h_max_s;
-        let moving = self.last.as_ref().filter(|_| has_settled).and_then(|moved| part::moving(system, moved));
+        let moving = self.last.as_ref().filter(|_| has_settled).and_then(|moved| active_set::moving(system, moved));
         if let (Some(moving), Some(predicted)) = (moving, &mut self.predicted) {
-            part::relax(system, x, &moving, predicted, self.params, tolerance);
+            active_set::relax(system, x, &moving, predicted, self.params, tolerance);
             self.last = None;
         }
         info
@@ -147,49 +142,50 @@ impl Stepper {
             residual = rms(&start.forces) / system.mean_weight();
         }
         if residual <= tolerance {
-            return StepInfo { residual, share: 1.0 };
+            return StepInfo { residual, alpha: 1.0 };
         }
         let without_inertia = start.operator.diagonal.clone();
         let inertia: Vec<f64> = system.cloth.masses.iter().map(|m| m / (self.h_s * self.h_s)).collect();
         add_inertia(&mut start.operator.diagonal, &inertia);
         let linear =
             PcgParams { tolerance: self.params.linear_tolerance, max_iterations: self.params.linear_iterations };
-        let pull = self.pull(system, &start.forces);
+        let rhs = self.rhs(system, &start.forces);
         let mut direction = self.last.take().unwrap_or_else(|| vec![V3::zeros(); x.len()]);
-        system.linear.solve(&start.operator, x, &pull, &mut direction, &linear);
+        system.linear.solve(&start.operator, x, &rhs, &mut direction, &linear);
         shorten(&mut direction, self.params.clamp_m);
         let free_share = system.free_share(&direction).min(1.0);
         direction.iter_mut().for_each(|d| *d *= free_share);
         start.operator.diagonal = without_inertia;
-        let (bend, foreseen) = self.correction(system, &start, x, &direction);
+        let (correction, foreseen) = self.correction(system, &start, x, &direction);
         let enough_n = (self.h_s >= LENGTHENED_FROM_S).then(|| ENOUGH * tolerance * system.mean_weight());
-        let (share, next) = search(system, x, [&direction, &bend], &start, &inertia, enough_n);
-        self.predicted = Some(foreseen.iter().map(|f| f.after(share)).collect());
+        let line = Line { system, x, start: &start, direction: &direction, correction: &correction, inertia: &inertia };
+        let (alpha, next) = line.search(enough_n);
+        self.predicted = Some(foreseen.iter().map(|f| f.after(alpha)).collect());
         self.last = Some(next.iter().zip(x.iter()).map(|(p, q)| p - q).collect());
         *x = next;
         system.contact.drag_anchors(x);
-        self.h_s = if share >= 1.0 {
+        self.h_s = if alpha >= 1.0 {
             (self.h_s * self.params.growth).min(self.params.h_max_s)
-        } else if share < 0.25 {
+        } else if alpha < 0.25 {
             (self.h_s * 0.5).max(self.params.h_min_s)
         } else {
             self.h_s
         };
-        StepInfo { residual, share }
+        StepInfo { residual, alpha }
     }
 
     /// What the linear solve is to balance where `forces` act: those, and a part of what compression would add to them along the step.
     ///
     /// The stiffness `K` leaves compression `C` out (`K - C` is the true one), and is so the more too stiff the softer a fold is: of
     /// `K d = f + C d` it solves `K d = f`. The step before was much like this one, so half of the `C d` of that one is put there.
-    fn pull(&self, system: &System, forces: &[V3]) -> Vec<V3> {
-        let mut pull = forces.to_vec();
+    fn rhs(&self, system: &System, forces: &[V3]) -> Vec<V3> {
+        let mut rhs = forces.to_vec();
         if let (Some(last), Some(stresses)) = (&self.last, &self.predicted)
             && self.h_s >= RUNS_ON_FROM_S
         {
-            system.cloth.membrane.add_compression(stresses, last, RUNS_ON, &mut pull);
+            system.cloth.membrane.add_compression(stresses, last, RUNS_ON, &mut rhs);
         }
-        pull
+        rhs
     }
 
     /// Second-order correction of a step from `x`, where `start` acts, without inertia; and the stresses foreseen at its end.
@@ -202,10 +198,10 @@ impl Stepper {
             tolerance: self.params.correction_tolerance,
             max_iterations: self.params.correction_iterations,
         };
-        let mut bend = vec![V3::zeros(); x.len()];
-        linear::jacobi(&operator, &forces, &mut bend, &params);
-        shorten(&mut bend, self.params.clamp_m);
-        (bend, foreseen)
+        let mut correction = vec![V3::zeros(); x.len()];
+        linear::jacobi(&operator, &forces, &mut correction, &params);
+        shorten(&mut correction, self.params.clamp_m);
+        (correction, foreseen)
     }
 }
 
@@ -221,65 +217,6 @@ fn add_inertia(diagonal: &mut [Matrix3<f64>], inertia: &[f64]) {
     for (block, m) in diagonal.iter_mut().zip(inertia) {
         *block += Matrix3::identity() * *m;
     }
-}
-
-/// The longest share of a step that decreases the proximal energy enough, corrected where that does, else along the
-/// direction alone, and where it leads; 0 where no share does. A full step is lengthened while the energy falls, but for one
-/// that leaves rms forces of `enough_n` or less (it would call the stiff forces back that it has just balanced), or without that.
-fn search(
-    system: &System,
-    x: &[V3],
-    [direction, bend]: [&[V3]; 2],
-    start: &Assembled,
-    inertia: &[f64],
-    enough_n: Option<f64>,
-) -> (f64, Vec<V3>) {
-    let slope: f64 = start.forces.iter().zip(direction).map(|(f, d)| f.dot(d)).sum();
-    let energy = |trial: &[V3]| {
-        let moved = trial.iter().zip(x).zip(inertia).map(|((p, q), m)| 0.5 * m * (p - q).norm_squared());
-        system.energy(trial) + moved.sum::<f64>()
-    };
-    // x + t direction + t^2 bend: the correction is of second order.
-    let at = |share: f64, bent: f64| -> Vec<V3> {
-        let point = |((p, d), b): ((&V3, &V3), &V3)| p + d * share + b * (bent * share * share);
-        x.iter().zip(direction).zip(bend).map(point).collect()
-    };
-    let mut share = 1.0;
-    for _ in 0..MOST_HALVINGS {
-        for bent in [1.0, 0.0] {
-            let positions = at(share, bent);
-            let reached = energy(&positions);
-            if reached <= start.energy - SUFFICIENT_DECREASE * share * slope.max(0.0) {
-                let is_enough = |enough_n| {
-                    enough_n > GREATEST_FALL * rms(&start.forces) && rms(&system.forces(&positions)) <= enough_n
-                };
-                let goes_on = share == 1.0 && enough_n.is_some_and(|enough_n| !is_enough(enough_n));
-                let further = |share: f64| at(share, bent);
-                return if goes_on { lengthen(energy, further, reached, positions) } else { (share, positions) };
-            }
-        }
-        share *= 0.5;
-    }
-    (0.0, x.to_vec())
-}
-
-/// Goes on beyond a full step, which reached some energy, while that falls.
-fn lengthen(
-    energy: impl Fn(&[V3]) -> f64,
-    at: impl Fn(f64) -> Vec<V3>,
-    mut least: f64,
-    mut positions: Vec<V3>,
-) -> (f64, Vec<V3>) {
-    let mut share = 1.0;
-    for _ in 0..MOST_LENGTHENINGS {
-        let further = at(LENGTHENING * share);
-        let reached = energy(&further);
-        if reached >= least {
-            break;
-        }
-        (share, least, positions) = (LENGTHENING * share, reached, further);
-    }
-    (share, positions)
 }
 
 /// Root mean square length of the vectors.

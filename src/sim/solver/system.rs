@@ -16,11 +16,13 @@ use linalg::linear::LinearSolver;
 use linalg::operator::{Operator, PairList};
 use linalg::quad::Block;
 
-/// Stiffness that holds a vertex, N/m: beyond that of any fabric by six orders.
-const HELD_STIFFNESS: f64 = 1e10;
-
-/// Penalty of walls, N/m3.
-const WALL_STIFFNESS: f64 = 1e5;
+geom::constants! {
+    "solver.system",
+    /// Stiffness that holds a vertex, N/m: beyond that of any fabric by six orders.
+    const HELD_STIFFNESS: f64 = 1e10;
+    /// Penalty of walls, N/m3.
+    const WALL_STIFFNESS: f64 = 1e5;
+}
 
 /// What acts on a cloth somewhere.
 pub struct Assembled<'a> {

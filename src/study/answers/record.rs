@@ -185,7 +185,7 @@ pub fn remember_report(store: &mut Store, study: &str, page: &Path, written_ms: 
 pub(crate) fn stored_spec(store: &Store, id: JobId) -> Result<JobSpec> {
     let job = read::job(store, id)?;
     let inputs = enqueue::inputs(store, id)?;
-    let refuse = |message: String| StudyError::Stage { stage: "rerun", message };
+    let refuse = |message: String| StudyError::stage("rerun")(message);
     if inputs.iter().any(|(name, _)| name.starts_with("subject.") && name.ends_with(".scan")) {
         return Err(refuse("its body is a scan, which is not stored; run its study again".into()));
     }

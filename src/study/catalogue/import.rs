@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::catalogue::format::{Format, format_of, text_of, unknown_format};
-use crate::catalogue::{Mode, Part, Saved, Stored, check_name, known, save, sheet, style};
+use crate::catalogue::{Mode, Part, Saved, Stored, check_name, known, save, style, table};
 use crate::error::{Problem, Result, StudyError};
 use crate::spec::file::{self, Placed};
 use crate::store::{self, Store};
@@ -37,7 +37,7 @@ fn import_entries<T: Stored>(
     for path in files {
         let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
         let read = match format_of(path) {
-            Some(Format::Csv) => sheet::read::<T>(path, T::PART, &bytes),
+            Some(Format::Csv) => table::read::<T>(path, T::PART, &bytes),
             Some(Format::Toml) => text_of(path, &bytes).and_then(|text| of_toml(path, text)),
             None => Err(vec![unknown_format(path, "CSV (.csv) or TOML (.toml)")]),
         };

@@ -159,7 +159,7 @@ fn subject_row(row: &Row<'_>) -> rusqlite::Result<SubjectRow> {
 /// The built-in subjects, by name.
 pub(super) fn thesis_subjects() -> Result<Vec<(String, Measurements)>> {
     let path = std::path::Path::new("db/subjects.csv");
-    let read = crate::catalogue::sheet::read::<Measurements>(path, Part::Subject, THESIS_SUBJECTS.as_bytes());
+    let read = crate::catalogue::table::read::<Measurements>(path, Part::Subject, THESIS_SUBJECTS.as_bytes());
     Ok(read.map_err(StudyError::File)?.into_iter().map(|placed| (placed.name, placed.entry)).collect())
 }
 

@@ -7,9 +7,9 @@ pub mod import;
 pub mod known;
 mod norms;
 mod revision;
-mod sheet;
 pub mod sizes;
 pub mod style;
+mod table;
 #[cfg(test)]
 mod tests;
 

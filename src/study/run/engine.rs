@@ -145,7 +145,7 @@ impl Run<'_> {
         let mut reporter = Reporter { id, live: &live, view: self.view, stop: self.stop };
         let spec = self.specs[&id];
         let result = catch_unwind(AssertUnwindSafe(|| self.executor.execute(spec, &mut reporter)))
-            .unwrap_or_else(|panic| Err(StudyError::Stage { stage: "panic", message: panic_text(&*panic) }));
+            .unwrap_or_else(|panic| Err(StudyError::stage("panic")(panic_text(&*panic))));
         let written = match result {
             Err(error @ (StudyError::Database(_) | StudyError::Open { .. })) => {
                 // Where it cannot be written, the end of this process puts the job back.
@@ -165,7 +165,7 @@ impl Run<'_> {
         match outcome::finish(connection, id, spec, owner, result, &self.provenance) {
             Err(StudyError::Database(error)) if result.is_ok() && is_constraint(&error) => {
                 let message = format!("the result cannot be stored: {error}");
-                let failure = Err(StudyError::Stage { stage: "store", message });
+                let failure = Err(StudyError::stage("store")(message));
                 outcome::finish(connection, id, spec, owner, &failure, &self.provenance).map(drop)
             }
             written => written.map(drop),

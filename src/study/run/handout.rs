@@ -231,8 +231,7 @@ fn products(connection: &Connection) -> Result<Vec<Product>> {
 fn merge_one(transaction: &Transaction<'_>, path: &Path, owner: &Owner, merged: &mut Merged) -> Result<String> {
     let result: ResultFile = read_json(path, "result")?;
     let spec = &result.spec;
-    let refuse =
-        |message: String| StudyError::Stage { stage: "merge", message: format!("{}: {message}", path.display()) };
+    let refuse = |message: String| StudyError::stage("merge")(format!("{}: {message}", path.display()));
     if spec.inputs.hash() != result.input_hash {
         return Err(refuse("its inputs are not those it was made from".into()));
     }
@@ -298,7 +297,7 @@ fn read_json<T: for<'de> Deserialize<'de>>(path: &Path, what: &'static str) -> R
         format: u32,
     }
     let bytes = std::fs::read(path).map_err(StudyError::io(path))?;
-    let refuse = |found: String| StudyError::Stage { stage: what, message: format!("{}: {found}", path.display()) };
+    let refuse = |found: String| StudyError::stage(what)(format!("{}: {found}", path.display()));
     let head: Head =
         serde_json::from_slice(&bytes).map_err(|error| refuse(format!("this is no {what} file: {error}")))?;
     if head.format != FORMAT {

@@ -7,6 +7,7 @@ use crate::error::{Result, StudyError};
 use crate::rows::StageKind;
 use crate::run::outcome::{Executor, Measured, Outcome};
 use crate::spec::inputs::Inputs;
+use crate::spec::parameters::Parameters;
 use crate::spec::{JobSpec, subject_inputs, versions};
 use crate::store::cache::{Artefact, Cache, Used};
 use crate::{bodies, patterns};
@@ -14,7 +15,7 @@ use body::{Body, Dimension, Measurements};
 use fit::{self, Cuts, Ease, Simulator, measure};
 use geom::DistanceField;
 use pattern::{Garment, Style};
-use sim::{self, Distortion, Drape, Monitor, SimError};
+use sim::{self, Distortion, Drape, Fabric, Monitor, SimError};
 
 /// The inputs of a subject's body, the same as among those of any job on it.
 pub(crate) fn body_inputs(name: &str, measurements: &Measurements) -> Inputs {
@@ -53,6 +54,16 @@ fn girth_m(body: &Body, level: &str) -> Option<f64> {
 pub(crate) struct Meshes(pub Vec<Garment>);
 
 impl Meshes {
+    /// Meshes of a style, the finest with edges of this length, m.
+    ///
+    /// # Errors
+    /// When a piece cannot be meshed.
+    pub fn of(style: &Style, edge_length_m: f64) -> Result<Self> {
+        let edges = sim::fem::level_edges(edge_length_m).into_iter();
+        let meshes = edges.map(|edge| style.mesh(edge).map_err(StudyError::stage("mesh")));
+        Ok(Self(meshes.collect::<Result<_>>()?))
+    }
+
     /// The mesh that results are on.
     pub fn finest(&self) -> Result<&Garment> {
         self.0.last().ok_or_else(|| StudyError::stage("mesh")("no mesh"))
@@ -138,7 +149,7 @@ impl Pipeline {
 }
 
 /// Ease at each fit level; a study's own cuts classify it when it is read.
-pub(crate) fn ease_on(garment: &Garment, body: &Body) -> Vec<Ease> {
+fn ease_on(garment: &Garment, body: &Body) -> Vec<Ease> {
     let levels = garment.fit_levels.iter().map(|level| (level.level.as_str(), level.girth_m));
     fit::ease(levels, |level| girth_m(body, level), &Cuts::default())
 }
@@ -152,9 +163,7 @@ pub(crate) fn style(spec: &JobSpec) -> Result<Style> {
 /// Meshes of a job's garment, coarse to fine.
 fn mesh(spec: &JobSpec) -> Result<Meshes> {
     let style = style(spec)?;
-    let edges = sim::fem::level_edges(spec.edge_length_m).into_iter();
-    let meshes = edges.map(|edge| style.mesh(edge).map_err(StudyError::stage("mesh")));
-    Ok(Meshes(meshes.collect::<Result<_>>()?))
+    Meshes::of(&style, spec.edge_length_m)
 }
 
 impl Executor for Pipeline {
@@ -162,23 +171,60 @@ impl Executor for Pipeline {
         let (model, used_body) = self.model(spec)?;
         let (meshes, used_mesh) = self.meshes(spec)?;
         let (field, used_field) = self.field(spec, &model)?;
-        let garment = meshes.finest()?;
-        let (drape, used_drape) =
-            self.cache.get(StageKind::Drape, &spec.inputs.stage_hash(StageKind::Drape), || match spec.simulator {
-                Simulator::Fem => {
-                    let params = spec.parameters.fem()?;
-                    sim::fem::simulate(&model.body, &field, &meshes.0, &spec.fabric, &params, monitor)
-                        .map_err(sim_error)
-                }
-                Simulator::Hybrid => {
-                    let params = spec.parameters.hybrid()?;
-                    sim::hybrid::simulate(&model.body, &field, garment, &spec.fabric, &params, monitor)
-                        .map_err(sim_error)
-                }
-            })?;
+        let fitting = Fitting {
+            body: &model.body,
+            field: &field,
+            meshes: &meshes,
+            fabric: &spec.fabric,
+            simulator: spec.simulator,
+            parameters: &spec.parameters,
+        };
+        let drape_hash = spec.inputs.stage_hash(StageKind::Drape);
+        let (drape, used_drape) = self.cache.get(StageKind::Drape, &drape_hash, || fitting.simulate(monitor))?;
+        Ok(Outcome { used: vec![used_body, used_field, used_mesh, used_drape], ..fitting.outcome(&drape)? })
+    }
+}
+
+/// A garment and the body that is to wear it.
+pub(crate) struct Fitting<'a> {
+    /// The body.
+    pub body: &'a Body,
+    /// Distance from its skin.
+    pub field: &'a DistanceField,
+    /// The garment.
+    pub meshes: &'a Meshes,
+    /// What it is cut from.
+    pub fabric: &'a Fabric,
+    /// How it is draped.
+    pub simulator: Simulator,
+    /// The simulator's parameters that are not the default ones.
+    pub parameters: &'a Parameters,
+}
+
+impl Fitting<'_> {
+    /// Drapes the garment.
+    ///
+    /// # Errors
+    /// What the simulator refuses; [`StudyError::Interrupted`] when the monitor cancels.
+    pub fn simulate(&self, monitor: &mut dyn Monitor) -> Result<Drape> {
+        let Self { body, field, meshes, fabric, parameters, .. } = self;
+        let drape = match self.simulator {
+            Simulator::Fem => sim::fem::simulate(body, field, &meshes.0, fabric, &parameters.fem()?, monitor),
+            Simulator::Hybrid => {
+                sim::hybrid::simulate(body, field, meshes.finest()?, fabric, &parameters.hybrid()?, monitor)
+            }
+        };
+        drape.map_err(sim_error)
+    }
+
+    /// What a drape measures; no artefact is named as used.
+    ///
+    /// # Errors
+    /// When the garment has no measurement.
+    pub fn outcome(&self, drape: &Drape) -> Result<Outcome> {
+        let garment = self.meshes.finest()?;
         let chis = measure::measure(garment, &drape.positions);
-        let metrics = measure::metrics(&chis)
-            .ok_or_else(|| StudyError::stage("measure")(format!("{} has no measurement", spec.garment)))?;
+        let metrics = measure::metrics(&chis).ok_or_else(|| StudyError::stage("measure")("nothing to measure"))?;
         let earlier = drape.earlier.iter().map(|staged| (staged.stage, measure::measure(garment, &staged.positions)));
         let measured = earlier.chain([(drape.stage, chis)]).flat_map(|(stage, chis)| {
             garment.measurements.iter().zip(chis).map(move |(m, chi)| Measured {
@@ -186,13 +232,13 @@ impl Executor for Pipeline {
                 name: m.name.clone(),
                 kind: m.kind,
                 is_free_edge: m.is_free_edge,
-                is_controlled: spec.simulator == Simulator::Hybrid,
+                is_controlled: self.simulator == Simulator::Hybrid,
                 chi,
             })
         });
-        let distorted = match spec.simulator {
-            Simulator::Fem => Some(distorted(&spec.parameters.fem()?, garment, &drape)?),
-            Simulator::Hybrid => None,
+        let (distorted, closures) = match self.simulator {
+            Simulator::Fem => (Some(distorted(&self.parameters.fem()?, garment, drape)?), Vec::new()),
+            Simulator::Hybrid => (None, sim::hybrid::closures(self.body, garment, &drape.positions)),
         };
         Ok(Outcome {
             converged: drape.converged,
@@ -206,20 +252,17 @@ impl Executor for Pipeline {
             seam_gap_max_m: drape.seam_gap_max_m,
             self_crossings: drape.self_crossings,
             history: drape.history.clone(),
-            eases: ease_on(garment, &model.body),
-            closures: match spec.simulator {
-                Simulator::Fem => Vec::new(),
-                Simulator::Hybrid => sim::hybrid::closures(&model.body, garment, &drape.positions),
-            },
+            eases: ease_on(garment, self.body),
+            closures,
             distortion: distorted.as_ref().map(|(stretch, _)| *stretch),
             warnings: distorted.and_then(|(_, told)| told).into_iter().collect(),
-            used: vec![used_body, used_field, used_mesh, used_drape],
+            used: Vec::new(),
         })
     }
 }
 
 /// How far FEM-GS stretched a garment, and what is to be said of it where that is too far.
-pub(crate) fn distorted(params: &sim::fem::Params, garment: &Garment, drape: &Drape) -> Result<(f64, Option<String>)> {
+fn distorted(params: &sim::fem::Params, garment: &Garment, drape: &Drape) -> Result<(f64, Option<String>)> {
     let distortion = Distortion::of(garment, &drape.positions).map_err(StudyError::stage("sim"))?;
     let limit = params.distortion_limit;
     let told = (distortion.stretch > limit)

@@ -161,7 +161,7 @@ impl SlurmRun {
         if let Some((file, _)) = self.open.values().find(|(_, tries)| *tries >= TRIES) {
             let why = self.arrays.last().map(|array| last_words(array)).unwrap_or_default();
             let message = format!("{} was submitted {TRIES} times and has no result; {why}", file.display());
-            return Err(StudyError::Stage { stage: "slurm", message });
+            return Err(StudyError::stage("slurm")(message));
         }
         self.arrays.clear();
         let program = std::env::current_exe().map_err(StudyError::io("toile"))?;
@@ -214,7 +214,7 @@ fn last_words(array: &str) -> String {
 
 /// Runs one of Slurm's programs.
 fn slurm(program: &'static str, arguments: &[String], input: Option<&str>) -> Result<String> {
-    let fail = |message: String| StudyError::Stage { stage: "slurm", message: format!("{program}: {message}") };
+    let fail = |message: String| StudyError::stage("slurm")(format!("{program}: {message}"));
     let stdin = if input.is_some() { Stdio::piped() } else { Stdio::null() };
     let mut child = Command::new(program)
         .args(arguments)

@@ -130,7 +130,7 @@ pub fn convert_to_garmentcode(path: &Path, seams: Option<&Path>, beside: &Beside
         }
         (None, _) => {
             let message = format!("{}: GarmentCode JSON holds seams: name a seam file (--seams FILE)", source.name);
-            return Err(StudyError::Stage { stage: "pattern", message });
+            return Err(StudyError::stage("pattern")(message));
         }
     };
     serde_json::to_string_pretty(&garmentcode::document(&style)).map_err(StudyError::stage("pattern"))

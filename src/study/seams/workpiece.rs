@@ -98,7 +98,7 @@ impl Workpiece {
     /// # Errors
     /// When the pattern holds its own seams, or the step cannot be done.
     pub fn after(&self, step: &SeamStep) -> Result<SourceFile> {
-        let refused = |message: String| StudyError::Stage { stage: "pattern", message };
+        let refused = |message: String| StudyError::stage("pattern")(message);
         if self.pattern.holds_seams() {
             let message = format!("{}: holds its own seams; they are edited where it was drawn", self.pattern.name);
             return Err(refused(message));
@@ -140,7 +140,7 @@ impl Workpiece {
         let proposal = propose::propose(&pieces);
         if proposal.is_empty() {
             let message = format!("{}: no piece was recognised; give its seam file", self.pattern.name);
-            return Err(StudyError::Stage { stage: "pattern", message });
+            return Err(StudyError::stage("pattern")(message));
         }
         let name = self.seams.as_ref().map_or_else(|| format!("{style}.seams.toml"), |file| file.name.clone());
         let text = proposal.toml(style);

@@ -9,6 +9,7 @@ use serde_json::Value;
 
 use crate::error::{Result, StudyError, nearest};
 use crate::spec::inputs::Inputs;
+use crate::spec::versions::SIMULATORS;
 use fit::Simulator;
 use sim::{fem, hybrid};
 
@@ -153,14 +154,22 @@ fn defaults() -> BTreeMap<String, Value> {
     found
 }
 
-/// Hash of a simulator's default parameters by name and value, hex: a changed number changes it, a renamed type does not.
+/// Hash of what decides a simulator's results besides the study: its default parameters and its constants, by name and value, hex.
+/// A changed number changes it, a renamed type does not.
 pub(crate) fn default_hash(simulator: Simulator) -> String {
-    let prefix = format!("{}.", simulator.as_str());
-    let mut inputs = Inputs::default();
-    for (name, value) in defaults().into_iter().filter(|(name, _)| name.starts_with(&prefix)) {
-        inputs.set(name, value);
-    }
-    inputs.hash()
+    deciding(simulator).into_iter().collect::<Inputs>().hash()
+}
+
+/// A simulator's default parameters and the constants that it runs with, by name.
+fn deciding(simulator: Simulator) -> BTreeMap<String, String> {
+    let own = format!("{}.", simulator.as_str());
+    let parameters = defaults().into_iter().filter(|(name, _)| name.starts_with(&own));
+    let others = SIMULATORS.iter().filter(|other| **other != simulator).map(|other| other.as_str());
+    let foreign: Vec<&str> = others.chain(["laboratory"]).collect();
+    let is_own = |name: &str| !foreign.iter().any(|room| name.split('.').next() == Some(room));
+    let constants = sim::constants().into_iter().filter(|constant| is_own(constant.name));
+    let constants = constants.map(|constant| (format!("constant.{}", constant.name), (constant.value)()));
+    parameters.map(|(name, value)| (name, value.to_string())).chain(constants).collect()
 }
 
 fn flatten(prefix: &str, tree: Value, found: &mut BTreeMap<String, Value>) {
@@ -242,19 +251,17 @@ mod tests {
 
     #[test]
     fn default_parameters_are_keyed_by_names_and_values() {
-        let [fem, hybrid] = [Simulator::Fem, Simulator::Hybrid].map(default_hash);
+        let [fem, hybrid] = SIMULATORS.map(default_hash);
         assert_ne!(fem, hybrid);
-        let of = |pairs: &[(&str, &str)]| {
-            let pairs = pairs.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
-            pairs.collect::<Inputs>().hash()
+        let check = |name: &str, value: &str| {
+            let mut changed = deciding(Simulator::Fem);
+            assert!(changed.insert(name.to_owned(), value.to_owned()).is_some(), "no {name}");
+            assert_ne!(changed.into_iter().collect::<Inputs>().hash(), fem, "{name}");
         };
-        let known: Vec<(String, String)> =
-            defaults().into_iter().map(|(name, value)| (name, value.to_string())).collect();
-        let known: Vec<(&str, &str)> = known.iter().map(|(name, value)| (name.as_str(), value.as_str())).collect();
-        let known: Vec<_> = known.into_iter().filter(|(name, _)| name.starts_with("fem.")).collect();
-        assert_eq!(fem, of(&known));
-        let changed: Vec<_> =
-            known.iter().map(|&(name, value)| (name, if name == "fem.tolerance" { "0.02" } else { value })).collect();
-        assert_ne!(fem, of(&changed));
+        check("fem.tolerance", "0.02");
+        check("constant.fem.dress.TORN", "1.3");
+        check("constant.linalg.linear.FACTOR_COST", "13");
+        let foreign = |name: &&String| name.contains("hybrid.") || name.contains("laboratory.");
+        assert_eq!(deciding(Simulator::Fem).keys().find(foreign), None);
     }
 }

@@ -14,7 +14,7 @@ struct Refusing;
 impl Executor for Refusing {
     fn execute(&self, spec: &JobSpec, _monitor: &mut dyn Monitor) -> Result<Outcome, StudyError> {
         let message = format!("size {} does not go over the head", spec.size);
-        Err(StudyError::Stage { stage: "sim", message })
+        Err(StudyError::stage("sim")(message))
     }
 }
 

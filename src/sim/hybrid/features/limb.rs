@@ -7,13 +7,16 @@ use body::RING;
 use geom::V3;
 use pattern::Role;
 
-/// Line of an arm that runs along its top, and along its underside.
-pub(super) const TOP_OF_ARM: i32 = 16;
-const UNDER_ARM: i32 = 4;
-/// Line of the trunk down the centre of the back.
-const CENTRE_BACK: i32 = 18;
-/// A sleeve reaches onto the arm by this at least, m.
-const LEAST_SLEEVE_M: f64 = 0.02;
+geom::constants! {
+    "hybrid.features.limb",
+    /// Line of an arm that runs along its top, and along its underside.
+    pub(super) const TOP_OF_ARM: i32 = 16;
+    const UNDER_ARM: i32 = 4;
+    /// Line of the trunk down the centre of the back.
+    const CENTRE_BACK: i32 = 18;
+    /// A sleeve reaches onto the arm by this at least, m.
+    const LEAST_SLEEVE_M: f64 = 0.02;
+}
 
 impl Mapper<'_> {
     /// A sleeve in one piece: its opening round the arm at the length of the underarm seam.

@@ -9,6 +9,7 @@ mod limb;
 mod line;
 mod trunk;
 
+use geom::constants::Constant;
 use std::collections::BTreeMap;
 
 use super::form::{Form, Tube};
@@ -18,8 +19,11 @@ use body::Body;
 use geom::V3;
 use pattern::{Garment, Role};
 
-/// Auxiliary points on a hem, waist or opening: it is a curve round the body, which three points keep level.
-const AUXILIARY: usize = 3;
+geom::constants! {
+    "hybrid.features",
+    /// Auxiliary points on a hem, waist or opening: it is a curve round the body, which three points keep level.
+    const AUXILIARY: usize = 3;
+}
 
 /// A corner or auxiliary point of a piece: a boundary vertex and its place on the form, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -217,4 +221,9 @@ impl Mapper<'_> {
             }
         }
     }
+}
+
+/// Constants of features that decide results.
+pub(crate) fn constants() -> Vec<Constant> {
+    [limb::CONSTANTS, CONSTANTS, trunk::CONSTANTS].concat()
 }

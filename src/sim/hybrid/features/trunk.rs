@@ -8,12 +8,15 @@ use body::Layer;
 use geom::V3;
 use pattern::Role;
 
-/// A shoulder seam that is longer than the shoulder reaches onto the arm, at most by this share of the way from armscye to
-/// the middle of the upper arm: what is longer still the pop-up gives back.
-const MOST_DROP: f64 = 0.25;
-/// An underarm point lies at most this far below the armpit, m: deeper armholes leave no arm for the sleeve, and the
-/// pop-up gives them their depth.
-const MOST_DEPTH_M: f64 = 0.005;
+geom::constants! {
+    "hybrid.features.trunk",
+    /// A shoulder seam that is longer than the shoulder reaches onto the arm, at most by this share of the way from armscye to
+    /// the middle of the upper arm: what is longer still the pop-up gives back.
+    const MOST_DROP: f64 = 0.25;
+    /// An underarm point lies at most this far below the armpit, m: deeper armholes leave no arm for the sleeve, and the
+    /// pop-up gives them their depth.
+    const MOST_DEPTH_M: f64 = 0.005;
+}
 
 /// A seam of a trunk piece with a piece of the other face, or with its other half.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

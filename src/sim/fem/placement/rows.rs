@@ -5,14 +5,17 @@
 
 use nalgebra::Rotation2;
 
+use super::layout::Joins;
 use super::ring::{self, bounds};
-use super::sheet::Joins;
 use geom::V2;
 
-/// Least width of a piece over its height.
-const LONG: f64 = 4.0;
-/// Greatest height of a piece over that of its sides.
-const STRAIGHT: f64 = 1.25;
+geom::constants! {
+    "fem.placement.rows",
+    /// Least width of a piece over its height.
+    const LONG: f64 = 4.0;
+    /// Greatest height of a piece over that of its sides.
+    const STRAIGHT: f64 = 1.25;
+}
 
 /// A vertex in its row.
 #[derive(Clone, Copy, Debug, PartialEq)]

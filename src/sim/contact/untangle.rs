@@ -1,20 +1,23 @@
 //! Cloth that crosses itself, and how it is drawn apart.
 
-use super::nearest::Primitives;
-use super::tangle::{Crossing, Release, Wings};
+use super::distance::Primitives;
+use super::intersections::{Intersection, Release, Wings};
 use geom::V3;
 use linalg::Contact4;
 
-/// Steps without fewer crossings after which they are drawn out harder.
-const PATIENCE: u32 = 4;
-/// Factor by which the force then grows.
-const GROWTH: f64 = 1.5;
-/// Most that it grows by in all.
-const MOST_GROWTH: f64 = 100.0;
-/// Steps over which the contact of what has come free grows to its thickness.
-const FRESH_STEPS: u32 = 20;
-/// How far a step against a releasing force goes at most, m.
-const STEP_M: f64 = 2e-3;
+geom::constants! {
+    "contact.untangle",
+    /// Steps without fewer crossings after which they are drawn out harder.
+    const PATIENCE: u32 = 4;
+    /// Factor by which the force then grows.
+    const GROWTH: f64 = 1.5;
+    /// Most that it grows by in all.
+    const MOST_GROWTH: f64 = 100.0;
+    /// Steps over which the contact of what has come free grows to its thickness.
+    const FRESH_STEPS: u32 = 20;
+    /// How far a step against a releasing force goes at most, m.
+    const STEP_M: f64 = 2e-3;
+}
 
 /// What crosses at a step. It has no right side: its edges and triangles let each other pass until they have come free, and
 /// forces draw them out. These grow for as long as the crossings do not get fewer, as cloth may be drawn tight there.
@@ -24,7 +27,7 @@ const STEP_M: f64 = 2e-3;
 ///
 /// What still crosses when it has been drawn for long enough is left: from then on all that crosses may pass for good. At the edge of
 /// such a knot pairs would come free, be pushed back into it as soon as their contact has grown, and come free again for ever.
-pub struct Knots {
+pub struct Untangling {
     /// Once there is a crossing.
     wings: Option<Wings>,
     /// Pairs of vertices, one of an edge and one of a triangle that it pierces, both ways round, sorted.
@@ -42,7 +45,7 @@ pub struct Knots {
     least: (usize, u32),
 }
 
-impl Knots {
+impl Untangling {
     /// None yet. Those to come are drawn out by `force_n` newtons at first, for `steps` steps in all.
     #[must_use]
     pub fn new(force_n: f64, steps: u32) -> Self {
@@ -87,9 +90,9 @@ impl Knots {
     }
 
     /// Takes up what crosses of these triangles at `x`.
-    pub fn see(&mut self, x: &[V3], triangles: &[[usize; 3]], found: &[Crossing]) {
+    pub fn see(&mut self, x: &[V3], triangles: &[[usize; 3]], found: &[Intersection]) {
         let before = std::mem::take(&mut self.passing);
-        for Crossing { edge, triangle } in found {
+        for Intersection { edge, triangle } in found {
             let each = edge.iter().flat_map(|&v| triangle.map(|w| [[v, w], [w, v]]));
             self.passing.extend(each.flatten());
         }

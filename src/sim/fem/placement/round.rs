@@ -13,22 +13,25 @@ use super::ring::{Flat, bounds};
 use super::rows::InRow;
 use geom::{V2, V3};
 
-/// Share of a turn that a ring takes: its last seam starts open.
-pub const ROUND: f64 = 0.95;
-/// Least distance from the skin, m.
-const CLEARANCE_M: f64 = 0.02;
-/// Half height of the band of the body that a point keeps clear of, m.
-const BAND_M: f64 = 0.02;
-/// Least angle that a sector is taken to span, rad.
-const LEAST_SPAN_RAD: f64 = 0.1;
-/// Greatest and least sine of the angle between a cone and its axis, where a wide skirt would take more, and the steps between.
-const SPREADS: (f64, f64, u32) = (0.35, 0.2, 5);
-/// Sine of the steepest cone that a sector starts on over that of the one on which it closes without waves: from there its hem would turn in.
-const STEEPER: f64 = 0.7;
-/// Waves of a skirt that is wider than its cone.
-const WAVES: f64 = 8.0;
-/// Directions in which the length of a wave is taken.
-const SAMPLES: u32 = 32;
+geom::constants! {
+    "fem.placement.round",
+    /// Share of a turn that a ring takes: its last seam starts open.
+    pub const ROUND: f64 = 0.95;
+    /// Least distance from the skin, m.
+    const CLEARANCE_M: f64 = 0.02;
+    /// Half height of the band of the body that a point keeps clear of, m.
+    const BAND_M: f64 = 0.02;
+    /// Least angle that a sector is taken to span, rad.
+    const LEAST_SPAN_RAD: f64 = 0.1;
+    /// Greatest and least sine of the angle between a cone and its axis, where a wide skirt would take more, and the steps between.
+    const SPREADS: (f64, f64, u32) = (0.35, 0.2, 5);
+    /// Sine of the steepest cone that a sector starts on over that of the one on which it closes without waves: from there its hem would turn in.
+    const STEEPER: f64 = 0.7;
+    /// Waves of a skirt that is wider than its cone.
+    const WAVES: f64 = 8.0;
+    /// Directions in which the length of a wave is taken.
+    const SAMPLES: u32 = 32;
+}
 
 /// Vertices of a ring with their places, its upper edge at the height `top` and no further from the axis than `within`.
 pub fn place(form: &Form, flat: &Flat, top: f64, within: Option<f64>) -> Vec<(usize, V3)> {
@@ -168,7 +171,7 @@ fn arm_radius(form: &Form, axis: &Axis, height: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fem::{Params, preposition};
+    use crate::fem::{Params, placement};
     use crate::laboratory::{self, sheets::sheet};
     use body::{self, Measurements, Sex};
     use geom::Surface;
@@ -189,7 +192,7 @@ mod tests {
             garment.pieces[0].role = Role::Other;
             let pairs = (0..=rows).map(|row| [row * (columns + 1), row * (columns + 1) + columns]).collect();
             garment.seams = vec![SeamMesh { name: "side".to_owned(), pairs }];
-            let x = preposition::place(&body, &garment, &Params::default()).expect("it goes round");
+            let x = placement::place(&body, &garment, &Params::default()).expect("it goes round");
             let inside = x.iter().filter(|p| surface.signed_distance(p) < 0.0).count();
             assert_eq!(inside, 0, "of {} inside the body", x.len());
             let gap = garment.seams[0].pairs.iter().map(|[a, b]| (x[*a] - x[*b]).norm()).fold(0.0, f64::max);

@@ -8,31 +8,33 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::form::{Form, Hand};
-use super::sheet::{Joins, Sheet};
+use super::layout::{Joins, Sheet};
 use super::trunk::CLEARANCE_M;
 use geom::{V2, V3, smooth_step};
 use pattern::{Garment, Role};
 
-/// How far below the body's crotch the garment's starts, m.
-const BELOW_CROTCH_M: f64 = 0.02;
-/// Distance from the median plane of what lies between the legs, m.
-const BESIDE_MEDIAN_M: f64 = 4e-3;
-/// Height over which rows pass from the leg to the body, m.
-const PASSAGE_M: f64 = 0.12;
-/// Height of the ankles: what hangs lower at the sides and behind is placed as if the foot were not there, m.
-const ANKLE_M: f64 = 0.09;
-/// Height of the instep, m: the front of a leg that began lower would have the foot through it.
-const INSTEP_M: f64 = 0.11;
-/// Sine of the angle from the side of a leg from which on all of it lies above the foot.
-const FRONT: f64 = 0.7;
-/// Where the fork is sought in a leg without a centre seam: share of its height.
-const USUAL_FORK: f64 = 0.75;
-
-/// A row counts as full with this share of the width of the row [`INNER_M`] further in.
-const FULL: f64 = 0.9;
-const INNER_M: f64 = 0.04;
-/// Distance of the rows that are tried, m.
-const ROW_M: f64 = 5e-3;
+geom::constants! {
+    "fem.placement.leg",
+    /// How far below the body's crotch the garment's starts, m.
+    const BELOW_CROTCH_M: f64 = 0.02;
+    /// Distance from the median plane of what lies between the legs, m.
+    const BESIDE_MEDIAN_M: f64 = 4e-3;
+    /// Height over which rows pass from the leg to the body, m.
+    const PASSAGE_M: f64 = 0.12;
+    /// Height of the ankles: what hangs lower at the sides and behind is placed as if the foot were not there, m.
+    const ANKLE_M: f64 = 0.09;
+    /// Height of the instep, m: the front of a leg that began lower would have the foot through it.
+    const INSTEP_M: f64 = 0.11;
+    /// Sine of the angle from the side of a leg from which on all of it lies above the foot.
+    const FRONT: f64 = 0.7;
+    /// Where the fork is sought in a leg without a centre seam: share of its height.
+    const USUAL_FORK: f64 = 0.75;
+    /// A row counts as full with this share of the width of the row [`INNER_M`] further in.
+    const FULL: f64 = 0.9;
+    const INNER_M: f64 = 0.04;
+    /// Distance of the rows that are tried, m.
+    const ROW_M: f64 = 5e-3;
+}
 
 /// Roles of one leg, front and back.
 pub fn roles(hand: Hand) -> [Role; 2] {

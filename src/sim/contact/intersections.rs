@@ -9,12 +9,17 @@ use geom::V3;
 use geom::triangle::sorted;
 use linalg::{Contact4, PairList};
 
-/// Sine between edge and pierced triangle below which the way out along the normal is not taken longer still.
-const LEAST_SLOPE: f64 = 0.2;
+geom::constants! {
+    "contact.intersections",
+    /// Sine between edge and pierced triangle below which the way out along the normal is not taken longer still.
+    const LEAST_SLOPE: f64 = 0.2;
+    /// Times that what crosses is held back.
+    const HALVINGS: usize = 6;
+}
 
 /// An edge that pierces a triangle.
 #[derive(Clone, Copy, Debug)]
-pub struct Crossing {
+pub struct Intersection {
     /// Ends of the edge.
     pub edge: [usize; 2],
     /// Corners of the triangle.
@@ -23,7 +28,7 @@ pub struct Crossing {
 
 /// Edges that pierce a triangle with which they share no vertex.
 #[must_use]
-pub fn crossings(x: &[V3], edges: &[[usize; 2]], triangles: &[[usize; 3]]) -> Vec<Crossing> {
+pub fn intersections(x: &[V3], edges: &[[usize; 2]], triangles: &[[usize; 3]]) -> Vec<Intersection> {
     let length = edges.iter().map(|&[a, b]| (x[a] - x[b]).norm()).fold(0.0, f64::max);
     let grid = BoxGrid::new(x, triangles, 0.0, length.max(1e-6));
     let mut found = Vec::new();
@@ -33,13 +38,10 @@ pub fn crossings(x: &[V3], edges: &[[usize; 2]], triangles: &[[usize; 3]]) -> Ve
             !triangle.contains(&a) && !triangle.contains(&b) && segment_hits(x[a], x[b], triangle.map(|v| x[v]))
         };
         let pierced = grid.near([&x[a], &x[b]], &mut near).iter().map(|t| triangles[*t]).filter(hits);
-        found.extend(pierced.map(|triangle| Crossing { edge: [a, b], triangle: sorted(triangle) }));
+        found.extend(pierced.map(|triangle| Intersection { edge: [a, b], triangle: sorted(triangle) }));
     }
     found
 }
-
-/// Times that what crosses is held back.
-const HALVINGS: usize = 6;
 
 /// As far on the way from `x` to `y` as a cloth goes without piercing itself, each part for itself: what would, is held
 /// back by half, and again. Of all that is tried, what has fewest crossings.
@@ -50,7 +52,7 @@ pub fn held_apart(x: &[V3], y: &[V3], triangles: &[[usize; 3]]) -> Vec<V3> {
     let mut reached = y.to_vec();
     let mut best = (usize::MAX, Vec::new());
     for _ in 0..=HALVINGS {
-        let found = crossings(&reached, edges.pairs(), triangles);
+        let found = intersections(&reached, edges.pairs(), triangles);
         if found.len() < best.0 {
             best = (found.len(), reached.clone());
         }
@@ -116,7 +118,7 @@ pub struct Release {
 impl Release {
     /// The way out of one crossing; `None` where the line runs straight on.
     #[must_use]
-    pub fn of(x: &[V3], wings: &Wings, crossing: &Crossing) -> Option<Self> {
+    pub fn of(x: &[V3], wings: &Wings, crossing: &Intersection) -> Option<Self> {
         let ([p, q], [a, b, c]) = (crossing.edge, crossing.triangle);
         let along = (x[q] - x[p]).try_normalize(0.0)?;
         let face = (x[b] - x[a]).cross(&(x[c] - x[a]));

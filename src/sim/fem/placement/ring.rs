@@ -10,23 +10,26 @@ use std::f64::consts::TAU;
 use nalgebra::{Isometry2, Matrix2, Point2, Rotation2};
 
 use super::follow::Similarity;
+use super::layout::Joins;
 use super::rows::{self, InRow};
-use super::sheet::Joins;
 use geom::V2;
 
-/// Sides of a ring lie on each other when laid out flat, up to this, rms m.
-const FLAT_M: f64 = 0.03;
-/// A turn by less than this is a shift, rad.
-const SHIFT_RAD: f64 = 0.05;
-/// Shift of a ring's middle by the motion of its ends, over the rms distance of its points from there, below which it goes all
-/// round: along a strip it is 1.5 or more.
-const CLOSED: f64 = 0.5;
-/// What a motion moves its points apart by, over their distance, below which it does not say where it turns about.
-const SURE: f64 = 0.15;
-/// Weight of the ring's middle against that of a side's line, in where the lines meet.
-const UNSURE: f64 = 1e-3;
-/// Mean direction from the tip, of unit vectors, below which a piece goes all round it.
-const ALL_ROUND: f64 = 0.01;
+geom::constants! {
+    "fem.placement.ring",
+    /// Sides of a ring lie on each other when laid out flat, up to this, rms m.
+    const FLAT_M: f64 = 0.03;
+    /// A turn by less than this is a shift, rad.
+    const SHIFT_RAD: f64 = 0.05;
+    /// Shift of a ring's middle by the motion of its ends, over the rms distance of its points from there, below which it goes all
+    /// round: along a strip it is 1.5 or more.
+    const CLOSED: f64 = 0.5;
+    /// What a motion moves its points apart by, over their distance, below which it does not say where it turns about.
+    const SURE: f64 = 0.15;
+    /// Weight of the ring's middle against that of a side's line, in where the lines meet.
+    const UNSURE: f64 = 1e-3;
+    /// Mean direction from the tip, of unit vectors, below which a piece goes all round it.
+    const ALL_ROUND: f64 = 0.01;
+}
 
 /// Pieces each of which is sewn to the next, and the last to the first; or one piece sewn to itself.
 pub struct Ring {

@@ -5,16 +5,16 @@ use std::ops::Range;
 use wide::f32x4;
 
 use super::bounds::{Bounds, rounded};
-use super::clusters::{Clusters, Motion};
+use super::distance::{ClosestPoints, Primitives};
 use super::grid::BoxGrid;
-use super::nearest::{Nearest, Primitives};
-use super::tangle::edges_of;
+use super::intersections::edges_of;
+use super::normal_cones::{Clusters, Motion};
 use geom::V3;
 use geom::triangle::sorted;
 use linalg::PairList;
 
 /// The cloth as the search sees it.
-pub struct Neighbours<'a> {
+pub struct BroadPhase<'a> {
     triangles: &'a [[usize; 3]],
     edges: PairList,
     clusters: Clusters,
@@ -67,7 +67,7 @@ impl Near {
     }
 }
 
-impl<'a> Neighbours<'a> {
+impl<'a> BroadPhase<'a> {
     /// Of `vertices` vertices.
     #[must_use]
     pub fn new(triangles: &'a [[usize; 3]], vertices: usize) -> Self {
@@ -128,7 +128,7 @@ impl<'a> Neighbours<'a> {
     /// Looks at the cloth at `x`, where it has `made` a motion since it was last looked at, and finds the pairs of its parts that are
     /// as near as `within` asks for their two clusters. If that is within `horizon_m`, all pairs so near are among them, but for those
     /// within flat cloth.
-    pub fn seek(
+    pub fn find_pairs(
         &mut self,
         x: &[V3],
         horizon_m: f64,
@@ -146,7 +146,7 @@ impl<'a> Neighbours<'a> {
             let is_known = near.known_m >= at_least_m;
             near.known_m = if is_known { near.known_m } else { at_best_m };
             let mut take = |primitives| {
-                let distance_m = Nearest::of(x, primitives).gap.norm();
+                let distance_m = ClosestPoints::of(x, primitives).gap.norm();
                 if distance_m < near.known_m {
                     pairs.push(Pair { primitives, distance_m });
                 }
@@ -265,8 +265,11 @@ impl<'a> Neighbours<'a> {
     }
 }
 
-/// Least cell of the grid, m: smaller ones hold each cluster many times.
-const CELL_M: f64 = 0.02;
+geom::constants! {
+    "contact.broad_phase",
+    /// Least cell of the grid, m: smaller ones hold each cluster many times.
+    const CELL_M: f64 = 0.02;
+}
 
 /// A vertex, triangle or edge with the box about it.
 type Boxed = (u32, Bounds);
@@ -280,17 +283,17 @@ struct Boxes {
 }
 
 impl Boxes {
-    fn new(neighbours: &Neighbours, cluster: usize) -> Self {
-        let seen = &neighbours.seen;
-        let members = &neighbours.clusters.members[cluster];
+    fn new(broad_phase: &BroadPhase, cluster: usize) -> Self {
+        let seen = &broad_phase.seen;
+        let members = &broad_phase.clusters.members[cluster];
         let vertex = |&v: &usize| (v as u32, Bounds::around([seen[v]], 0.0));
-        let triangle = |&t: &usize| (t as u32, Bounds::around(neighbours.triangles[t].map(|v| seen[v]), 0.0));
-        let edge = |&e: &usize| (e as u32, Bounds::around(neighbours.edges()[e].map(|v| seen[v]), 0.0));
+        let triangle = |&t: &usize| (t as u32, Bounds::around(broad_phase.triangles[t].map(|v| seen[v]), 0.0));
+        let edge = |&e: &usize| (e as u32, Bounds::around(broad_phase.edges()[e].map(|v| seen[v]), 0.0));
         Self {
             vertices: members.vertices.iter().map(vertex).collect(),
             triangles: members.triangles.iter().map(triangle).collect(),
             edges: members.edges.iter().map(edge).collect(),
-            all: neighbours.extents[cluster],
+            all: broad_phase.extents[cluster],
         }
     }
 }
@@ -307,7 +310,7 @@ fn near<'s>(boxed: &[Boxed], into: &Bounds, half_m: f32, scratch: &'s mut Vec<Bo
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::nearest::Nearest;
+    use crate::contact::distance::ClosestPoints;
     use crate::laboratory::sheets::{shaken, sheet};
     use geom::V2;
 
@@ -332,7 +335,7 @@ mod tests {
             [a, b, c, d] if matches!(p, Primitives::EdgeEdge(_)) => a != c && a != d && b != c && b != d,
             [v, a, b, c] => v != a && v != b && v != c,
         };
-        let with_distance = |p: Primitives| (tagged(p), Nearest::of(x, p).gap.norm());
+        let with_distance = |p: Primitives| (tagged(p), ClosestPoints::of(x, p).gap.norm());
         pairs.filter(apart).map(with_distance).filter(|(_, distance)| *distance < reach).collect()
     }
 
@@ -348,14 +351,14 @@ mod tests {
         let creased = |p: &V2| V3::new((p.x - 0.12).abs(), p.y, if p.x > 0.12 { 2e-3 } else { 0.0 });
         let check = |place: &dyn Fn(&V2) -> V3, reach_m: &dyn Fn([usize; 2]) -> f64, must_find: bool| {
             let mut x = shaken(&rest.iter().map(place).collect::<Vec<_>>(), 2e-4, 3);
-            let mut neighbours = Neighbours::new(&triangles, x.len());
+            let mut broad_phase = BroadPhase::new(&triangles, x.len());
             let mut made = None;
             // Sought everywhere, then only where too much has become unknown.
             for at_least_m in [reach, 0.8 * reach] {
                 let within = |clusters| Within { at_least_m, at_best_m: reach_m(clusters) };
-                let pairs = neighbours.seek(&x, 2.0 * reach, made.as_ref(), within);
+                let pairs = broad_phase.find_pairs(&x, 2.0 * reach, made.as_ref(), within);
                 let mut found: Vec<Tagged> = pairs.iter().map(|pair| tagged(pair.primitives)).collect();
-                let room = neighbours.room_m([]);
+                let room = broad_phase.room_m([]);
                 assert!(room >= 0.6 * reach, "{room}");
                 found.sort_unstable();
                 assert!(found.windows(2).all(|two| two[0] != two[1]), "a pair is found twice");
@@ -372,7 +375,7 @@ mod tests {
                 assert_eq!(layers > 0, must_find);
                 let next = shaken(&x, 4e-4, 5);
                 let displacements: Vec<V3> = next.iter().zip(&x).map(|(p, q)| p - q).collect();
-                (made, x) = (Some(neighbours.motion(&displacements)), next);
+                (made, x) = (Some(broad_phase.motion(&displacements)), next);
             }
         };
         // Pairs of clusters that go by themselves are sought less far than others.
@@ -396,9 +399,9 @@ mod tests {
             *triangle = triangle.map(|v| cut.iter().position(|&w| w == v).map_or(v, |k| first + k));
         }
         let x: Vec<V3> = rest.iter().map(|p| V3::new(p.x, p.y, 0.0)).collect();
-        let mut neighbours = Neighbours::new(&triangles, x.len());
-        let pairs =
-            neighbours.seek(&x, 2.0 * EDGE_M, None, |_| Within { at_least_m: 0.5 * EDGE_M, at_best_m: 0.5 * EDGE_M });
+        let mut broad_phase = BroadPhase::new(&triangles, x.len());
+        let pairs = broad_phase
+            .find_pairs(&x, 2.0 * EDGE_M, None, |_| Within { at_least_m: 0.5 * EDGE_M, at_best_m: 0.5 * EDGE_M });
         let found: Vec<[usize; 2]> = pairs.iter().flat_map(|pair| pair.primitives.across()).collect();
         assert_eq!(cut.len(), 5);
         for (k, &v) in cut.iter().enumerate() {
@@ -410,10 +413,10 @@ mod tests {
     fn cloth_that_folds_is_searched_again() {
         let (rest, triangles) = sheet(24, 24, EDGE_M);
         let flat: Vec<V3> = rest.iter().map(|p| V3::new(p.x, p.y, 0.0)).collect();
-        let mut neighbours = Neighbours::new(&triangles, flat.len());
-        neighbours.look(&flat, EDGE_M, None);
-        assert!(neighbours.stay_flat(&shaken(&flat, 5e-4, 1)));
+        let mut broad_phase = BroadPhase::new(&triangles, flat.len());
+        broad_phase.look(&flat, EDGE_M, None);
+        assert!(broad_phase.stay_flat(&shaken(&flat, 5e-4, 1)));
         let folded: Vec<V3> = flat.iter().map(|p| V3::new((p.x - 0.12).abs(), p.y, p.z)).collect();
-        assert!(!neighbours.stay_flat(&folded));
+        assert!(!broad_phase.stay_flat(&folded));
     }
 }

@@ -8,11 +8,14 @@
 use geom::V3;
 use linalg::PairList;
 
-/// Least distance, in edges, between the middles of clusters.
-const APART: usize = 3;
-/// Half the angle of the cone within which normals of flat cloth lie when it is searched, rad; and until it is searched again.
-const FLAT_RAD: f64 = 0.8;
-const STILL_FLAT_RAD: f64 = 1.2;
+geom::constants! {
+    "contact.normal_cones",
+    /// Least distance, in edges, between the middles of clusters.
+    const APART: usize = 3;
+    /// Half the angle of the cone within which normals of flat cloth lie when it is searched, rad; and until it is searched again.
+    const FLAT_RAD: f64 = 0.8;
+    const STILL_FLAT_RAD: f64 = 1.2;
+}
 
 /// The clusters of a cloth.
 pub struct Clusters {

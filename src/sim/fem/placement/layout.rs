@@ -5,8 +5,13 @@ use std::collections::BTreeMap;
 use geom::V2;
 use pattern::{Garment, Role};
 
-/// Space between parts of a sheet that no seam joins, m.
-const BESIDE_M: f64 = 0.01;
+geom::constants! {
+    "fem.placement.layout",
+    /// Space between parts of a sheet that no seam joins, m.
+    const BESIDE_M: f64 = 0.01;
+    /// Cosine of the angle, 30 degrees, within which a direction of the grain counts as up.
+    const NEAR_COSINE: f64 = 0.866;
+}
 
 /// A garment with its seams sorted by the pieces they join.
 pub struct Joins<'a> {
@@ -74,13 +79,11 @@ impl<'a> Joins<'a> {
     /// Which of the grain's four directions is up on the piece, the nearest to `hint`; `hint` itself where the grain
     /// lies aslant.
     pub fn up(&self, piece: usize, hint: V2) -> V2 {
-        /// Cosine of 30 degrees.
-        const NEAR: f64 = 0.866;
         let hint = hint.try_normalize(0.0).unwrap_or_else(V2::y);
         let grain = self.garment.pieces[piece].grain;
         let weft = V2::new(grain.y, -grain.x);
         let nearest = [grain, -grain, weft, -weft].into_iter().max_by(|a, b| a.dot(&hint).total_cmp(&b.dot(&hint)));
-        nearest.filter(|up| up.dot(&hint) >= NEAR).unwrap_or(hint)
+        nearest.filter(|up| up.dot(&hint) >= NEAR_COSINE).unwrap_or(hint)
     }
 }
 

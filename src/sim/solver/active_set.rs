@@ -11,20 +11,23 @@ use crate::cloth::law::Tensor;
 use crate::cloth::part::Part;
 use geom::V3;
 
-/// Share of the farthest movement from which on a vertex counts as moving.
-const MOVING_SHARE: f64 = 0.1;
-/// Edges that a part reaches beyond what moves.
-const MARGIN_EDGES: usize = 4;
-/// Greatest part that is stepped by itself.
-const MOST_SHARE: f64 = 0.25;
-/// Least cloth that is worth taking apart.
-const LEAST_VERTICES: usize = 1000;
-/// Most steps of a part before the whole cloth steps again.
-const MOST_STEPS: usize = 6;
-/// Free path below which a part stops, m: near pairs have to be sought in the whole cloth.
-const LEAST_PATH_M: f64 = 1e-3;
-/// Residual that ends the steps of a part, over that which ends the drape.
-const TOLERANCE_SHARE: f64 = 0.5;
+geom::constants! {
+    "solver.active_set",
+    /// Share of the farthest movement from which on a vertex counts as moving.
+    const MOVING_SHARE: f64 = 0.1;
+    /// Edges that a part reaches beyond what moves.
+    const MARGIN_EDGES: usize = 4;
+    /// Greatest part that is stepped by itself.
+    const MOST_SHARE: f64 = 0.25;
+    /// Least cloth that is worth taking apart.
+    const LEAST_VERTICES: usize = 1000;
+    /// Most steps of a part before the whole cloth steps again.
+    const MOST_STEPS: usize = 6;
+    /// Free path below which a part stops, m: near pairs have to be sought in the whole cloth.
+    const LEAST_PATH_M: f64 = 1e-3;
+    /// Residual that ends the steps of a part, over that which ends the drape.
+    const TOLERANCE_SHARE: f64 = 0.5;
+}
 
 /// The vertices that `moved` in a step, and some about them, if they are few and can be stepped by themselves.
 #[must_use]
@@ -79,7 +82,7 @@ pub fn relax(
             contact.update(&own);
             contact.touches() || contact.free_path_m() < LEAST_PATH_M
         });
-        if info.residual <= enough || info.share == 0.0 || must_be_seen {
+        if info.residual <= enough || info.alpha == 0.0 || must_be_seen {
             break;
         }
     }

@@ -7,9 +7,9 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use super::machine::{Machine, Task};
 use super::operator::{Contact4, Operator};
 use super::quad::{self, Block, Quad};
+use super::simd::{Kernel, Simd};
 
 /// Couplings by their smaller vertex.
 #[derive(Clone, Debug, Default)]
@@ -28,7 +28,7 @@ impl Upper {
     #[must_use]
     pub fn new(pairs: &[[usize; 2]]) -> Self {
         let count = pairs.last().map_or(0, |pair| pair[0] + 1);
-        let (starts, others) = by_row(count, pairs, |pair| pair[0], |pair| pair[1] as u32);
+        let (starts, others) = sorted_by_row(count, pairs, |pair| pair[0], |pair| pair[1] as u32);
         Self { starts, others }
     }
 
@@ -59,7 +59,7 @@ impl Upper {
 
 /// Where each of `rows` rows begins, and one more, and what is `kept` of each item: sorted by its row by counting, within a row in the
 /// order of the items.
-pub fn by_row<I, T: Copy + Default>(
+pub fn sorted_by_row<I, T: Copy + Default>(
     rows: usize,
     items: &[I],
     row: impl Fn(&I) -> usize,
@@ -81,13 +81,13 @@ pub fn by_row<I, T: Copy + Default>(
 }
 
 /// Couplings that are met vertex by vertex, with what is kept of each.
-struct Along<'a, T> {
+struct RowCursor<'a, T> {
     starts: &'a [u32],
     others: &'a [u32],
     kept: &'a [T],
 }
 
-impl<'a, T> Along<'a, T> {
+impl<'a, T> RowCursor<'a, T> {
     #[inline(always)]
     fn new(upper: &'a Upper, kept: &'a [T]) -> Self {
         Self { starts: &upper.starts, others: &upper.others, kept }
@@ -109,7 +109,7 @@ impl<'a, T> Along<'a, T> {
 }
 
 /// An [`Operator`] in rows.
-pub struct Rows<'a, Q: Quad> {
+pub struct CsrMatrix<'a, Q: Quad> {
     diagonal: Vec<Block<Q>>,
     membrane: &'a Upper,
     blocks: Cow<'a, [Block<Q>]>,
@@ -126,7 +126,7 @@ struct Contact<Q> {
     along: Q,
 }
 
-impl<'a, Q: Quad> Rows<'a, Q> {
+impl<'a, Q: Quad> CsrMatrix<'a, Q> {
     /// Writes an operator into rows.
     #[must_use]
     pub fn new(operator: &'a Operator) -> Self {
@@ -148,15 +148,15 @@ impl<'a, Q: Quad> Rows<'a, Q> {
 
     /// `y = K x` of states `[x, y]`, which lie side by side since they are met side by side.
     #[inline(always)]
-    pub fn apply<M: Machine>(&self, machine: M, states: &mut [[Q; 2]]) {
-        machine.alone(Product { rows: self, states });
+    pub fn apply<S: Simd>(&self, simd: S, states: &mut [[Q; 2]]) {
+        simd.run(Product { rows: self, states });
     }
 
     #[inline(always)]
-    fn product<M: Machine>(&self, machine: M, states: &mut [[Q; 2]]) {
+    fn product<S: Simd>(&self, simd: S, states: &mut [[Q; 2]]) {
         states.iter_mut().for_each(|[_, y]| *y = Q::ZERO);
-        let mut membrane = Along::new(self.membrane, &self.blocks);
-        let mut bending = Along::new(self.bending, &self.entries);
+        let mut membrane = RowCursor::new(self.membrane, &self.blocks);
+        let mut bending = RowCursor::new(self.bending, &self.entries);
         for (i, diagonal) in self.diagonal.iter().enumerate() {
             let [here, mut force] = states[i];
             let mut rows = diagonal.map(|row| row * here);
@@ -164,17 +164,17 @@ impl<'a, Q: Quad> Rows<'a, Q> {
                 let [x, y] = &mut states[j];
                 let difference = *x - here;
                 for (row, entries) in rows.iter_mut().zip(block) {
-                    *row = entries.times_plus(difference, *row, machine);
+                    *row = entries.mul_add_on(difference, *row, simd);
                 }
                 for (row, along) in block.iter().zip(quad::spread_out(difference)) {
-                    *y = row.times_from(along, *y, machine);
+                    *y = row.neg_mul_add_on(along, *y, simd);
                 }
             }
             for (j, entry) in bending.next_row() {
                 let [x, y] = &mut states[j];
                 let (difference, entry) = (*x - here, Q::splat(*entry));
-                force = difference.times_plus(entry, force, machine);
-                *y = difference.times_from(entry, *y, machine);
+                force = difference.mul_add_on(entry, force, simd);
+                *y = difference.neg_mul_add_on(entry, *y, simd);
             }
             states[i][1] = force + Q::totals(rows);
         }
@@ -190,16 +190,16 @@ impl<'a, Q: Quad> Rows<'a, Q> {
 }
 
 struct Product<'a, 'b, Q: Quad> {
-    rows: &'a Rows<'b, Q>,
+    rows: &'a CsrMatrix<'b, Q>,
     states: &'a mut [[Q; 2]],
 }
 
-impl<Q: Quad> Task for Product<'_, '_, Q> {
+impl<Q: Quad> Kernel for Product<'_, '_, Q> {
     type Output = ();
 
     #[inline(always)]
-    fn run<M: Machine>(self, machine: M) {
-        self.rows.product(machine, self.states);
+    fn run<S: Simd>(self, simd: S) {
+        self.rows.product(simd, self.states);
     }
 }
 
@@ -224,7 +224,7 @@ mod tests {
 
     use super::*;
     use crate::PairList;
-    use crate::machine::{self, Plain};
+    use crate::simd::{self, Plain};
     use geom::V3;
 
     /// Products as they stand in the definition: pairs on differences, one by one.
@@ -249,9 +249,9 @@ mod tests {
     fn check<Q: Quad>(operator: &Operator, x: &[V3], tolerance: f64) {
         let start: Vec<[Q; 2]> = x.iter().map(|p| [Q::from_vector(p), Q::spread(7.0)]).collect();
         let (mut plain, mut best) = (start.clone(), start);
-        let rows = Rows::<Q>::new(operator);
+        let rows = CsrMatrix::<Q>::new(operator);
         rows.apply(Plain, &mut plain);
-        machine::on_best(Product { rows: &rows, states: &mut best });
+        simd::dispatch(Product { rows: &rows, states: &mut best });
         for ((plain, best), expect) in plain.iter().zip(&best).zip(expected(operator, x)) {
             for found in [plain[1], best[1]] {
                 assert!((found.vector() - expect).amax() < tolerance, "{} for {expect}", found.vector());

@@ -3,7 +3,7 @@
 //! What block-Jacobi is slow at are motions of many vertices together: a sleeve that swings, a fold that travels. Cloth
 //! resists those hardly at all where each patch of it moves rigidly, so rigid motions of patches, six degrees of freedom each,
 //! span them well (smoothed aggregation's near null space [Vanek 1996]), without smoothing: what remains at the borders of
-//! patches is local, and block-Jacobi's. The stiffness between patches is small enough to be factorised ([`super::blocks`]), and a
+//! patches is local, and block-Jacobi's. The stiffness between patches is small enough to be factorised ([`super::cholesky`]), and a
 //! factor serves for several steps.
 
 use std::cmp::Ordering;
@@ -11,24 +11,27 @@ use std::cmp::Ordering;
 use nalgebra::{Matrix3, Matrix6, Vector6};
 use wide::f32x4;
 
-use super::blocks::{Dense, Numeric, Row, Symbolic};
-use super::machine::Machine;
+use super::cholesky::{Dense, Numeric, Row, Symbolic};
 use super::operator::{Operator, PairList};
 use super::quad;
+use super::simd::Simd;
 use geom::V3;
 
-/// Least distance, in edges, between the middles of patches.
-const APART: usize = 4;
-/// The same in large cloth, where the factor between patches would outgrow the rest.
-const APART_IN_LARGE: usize = 5;
-/// Vertices of large cloth: from there on solves between patches of four edges cost more than the iterations that they save.
-const LARGE: usize = 12_000;
-/// What is added to the stiffness of a patch against rotation, as a share of that against translation times its radius
-/// squared: the vertices of a patch may lie on a line.
-const REGULARISATION: f64 = 1e-6;
+geom::constants! {
+    "linalg.coarse",
+    /// Least distance, in edges, between the middles of patches.
+    const APART: usize = 4;
+    /// The same in large cloth, where the factor between patches would outgrow the rest.
+    const APART_IN_LARGE: usize = 5;
+    /// Vertices of large cloth: from there on solves between patches of four edges cost more than the iterations that they save.
+    const LARGE: usize = 12_000;
+    /// What is added to the stiffness of a patch against rotation, as a share of that against translation times its radius
+    /// squared: the vertices of a patch may lie on a line.
+    const REGULARISATION: f64 = 1e-6;
+}
 
 /// The patches of a cloth and how they couple.
-pub struct Patches {
+pub struct CoarseSpace {
     /// Patch of each vertex.
     of: Vec<usize>,
     count: usize,
@@ -43,7 +46,7 @@ pub struct Patches {
     symbolic: Symbolic,
 }
 
-impl Patches {
+impl CoarseSpace {
     /// Divides a cloth into patches.
     #[must_use]
     pub fn new(operator: &Operator) -> Self {
@@ -69,7 +72,7 @@ impl Patches {
 
     /// The stiffness between the patches, factorised, with the cloth at `x`; `diagonal` are the diagonal blocks of the operator.
     #[must_use]
-    pub fn factorise(&self, operator: &Operator, diagonal: &[Matrix3<f64>], x: &[V3]) -> Coarse {
+    pub fn factorise(&self, operator: &Operator, diagonal: &[Matrix3<f64>], x: &[V3]) -> CoarseFactor {
         let arms = self.arms(x);
         let mut blocks = vec![Matrix6::zeros(); self.pairs.pairs().len()];
         let mut add = |slot: usize, [i, j]: [usize; 2], block: Matrix6<f64>| match self.of[i].cmp(&self.of[j]) {
@@ -100,7 +103,7 @@ impl Patches {
         }
         let blocks: Vec<Dense> = blocks.into_iter().map(Into::into).collect();
         let arms = self.members.iter().map(|v| Arm::new(&arms[*v as usize])).collect();
-        Coarse { arms, factor: self.symbolic.factorise(&blocks) }
+        CoarseFactor { arms, factor: self.symbolic.factorise(&blocks) }
     }
 
     /// From the middle of its patch to each vertex.
@@ -137,7 +140,13 @@ impl Patches {
 
     /// The rigid motions of the patches that the forces `r` cause, in `motions`; returns what the forces work along them.
     #[inline(always)]
-    pub fn answer<M: Machine>(&self, machine: M, coarse: &Coarse, r: &[f32x4], motions: &mut Vec<Row>) -> f64 {
+    pub fn restrict_and_solve<S: Simd>(
+        &self,
+        simd: S,
+        coarse: &CoarseFactor,
+        r: &[f32x4],
+        motions: &mut Vec<Row>,
+    ) -> f64 {
         motions.clear();
         motions.resize(self.count, Row::default());
         let Some(factor) = &coarse.factor else { return 0.0 };
@@ -146,22 +155,22 @@ impl Patches {
             for (v, arm) in members.iter().zip(arms) {
                 let r = r[*v as usize];
                 force += r;
-                moment = arm.add_moment(machine, r, moment);
+                moment = arm.add_moment(simd, r, moment);
             }
             *row = six([force, moment[0] - moment[1]].map(f32x4::to_array));
         }
         let forces = motions.clone();
-        self.symbolic.solve(machine, factor, motions);
+        self.symbolic.solve(simd, factor, motions);
         let work = |(force, motion): (&Row, &Row)| -> f32 { force.iter().zip(motion).map(|(f, m)| f * m).sum() };
         forces.iter().zip(motions.iter()).map(|pair| f64::from(work(pair))).sum()
     }
 
     /// The next direction `p = z + beta p` of states `[p, K p]`, with these `motions` of the patches in `z`.
     #[inline(always)]
-    pub fn turn<M: Machine>(
+    pub fn next_direction<S: Simd>(
         &self,
-        machine: M,
-        coarse: &Coarse,
+        simd: S,
+        coarse: &CoarseFactor,
         (motions, z): (&[Row], &[f32x4]),
         beta: f32x4,
         states: &mut [[f32x4; 2]],
@@ -172,14 +181,14 @@ impl Patches {
             for (v, arm) in members.iter().zip(arms) {
                 let v = *v as usize;
                 let p = &mut states[v][0];
-                *p = machine.plus(beta, *p, arm.add_motion(machine, turn, z[v] + shift));
+                *p = simd.mul_add(beta, *p, arm.add_motion(simd, turn, z[v] + shift));
             }
         }
     }
 
     /// The vertices of each patch, with their arms.
     #[inline(always)]
-    fn members<'a>(&'a self, coarse: &'a Coarse) -> impl Iterator<Item = (&'a [u32], &'a [Arm])> {
+    fn members<'a>(&'a self, coarse: &'a CoarseFactor) -> impl Iterator<Item = (&'a [u32], &'a [Arm])> {
         self.ends.windows(2).map(|ends| (&self.members[ends[0]..ends[1]], &coarse.arms[ends[0]..ends[1]]))
     }
 }
@@ -196,21 +205,21 @@ impl Arm {
 
     /// Adds what this arm makes of a force to the two terms of a moment, of which the second counts against the first.
     #[inline(always)]
-    fn add_moment<M: Machine>(&self, machine: M, force: f32x4, [one, other]: [f32x4; 2]) -> [f32x4; 2] {
+    fn add_moment<S: Simd>(&self, simd: S, force: f32x4, [one, other]: [f32x4; 2]) -> [f32x4; 2] {
         let [x, y, z, _] = force.to_array();
         let (from_y, from_z) = (f32x4::from([y, z, x, 0.0]), f32x4::from([z, x, y, 0.0]));
-        [machine.plus(self.0[0], from_z, one), machine.plus(self.0[1], from_y, other)]
+        [simd.mul_add(self.0[0], from_z, one), simd.mul_add(self.0[1], from_y, other)]
     }
 
     /// Adds how this arm's end moves by a turn, taken from y on and from z on.
     #[inline(always)]
-    fn add_motion<M: Machine>(&self, machine: M, [from_y, from_z]: [f32x4; 2], to: f32x4) -> f32x4 {
-        machine.minus(from_z, self.0[0], machine.plus(from_y, self.0[1], to))
+    fn add_motion<S: Simd>(&self, simd: S, [from_y, from_z]: [f32x4; 2], to: f32x4) -> f32x4 {
+        simd.neg_mul_add(from_z, self.0[0], simd.mul_add(from_y, self.0[1], to))
     }
 }
 
 /// A factorised stiffness between patches.
-pub struct Coarse {
+pub struct CoarseFactor {
     /// From the middle of its patch to each vertex, patch by patch.
     arms: Vec<Arm>,
     /// `None` where the stiffness was not positive definite.
@@ -260,10 +269,10 @@ fn regularise(block: &mut Matrix6<f64>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::machine::{self, Plain, Task};
+    use crate::csr::CsrMatrix;
     use crate::operator::Contact4;
     use crate::quad::Quad;
-    use crate::rows::Rows;
+    use crate::simd::{self, Kernel, Plain};
     use wide::f64x4;
 
     /// A sheet of `w` by `h` vertices, bent, 20 mm apart.
@@ -300,7 +309,7 @@ mod tests {
                 stiffness: 40.0,
             }],
         };
-        let patches = Patches::new(&operator);
+        let patches = CoarseSpace::new(&operator);
         let coarse = patches.factorise(&operator, &operator.diagonal_blocks(), &x);
         // Rigid motions q give forces K P q; of these, the patches must find q again.
         let q = |a: usize, k: usize| (1.0 + (7 * a + 3 * k) as f64).sin() * if k < 3 { 1.0 } else { 20.0 };
@@ -314,10 +323,9 @@ mod tests {
             })
             .collect();
         let mut states: Vec<[f64x4; 2]> = moved.iter().map(|p| [f64x4::from_vector(p), f64x4::ZERO]).collect();
-        Rows::new(&operator).apply(Plain, &mut states);
+        CsrMatrix::new(&operator).apply(Plain, &mut states);
         let forces: Vec<f32x4> = states.iter().map(|[_, f]| f32x4::from_vector(&f.vector())).collect();
-        for found in
-            [machine::on_best(Answer(&patches, &coarse, &forces)), Plain.alone(Answer(&patches, &coarse, &forces))]
+        for found in [simd::dispatch(Answer(&patches, &coarse, &forces)), Plain.run(Answer(&patches, &coarse, &forces))]
         {
             for (found, moved) in found.iter().zip(&moved) {
                 assert!((found.vector() - moved).amax() < 0.01, "{found:?} for {moved:?}");
@@ -326,21 +334,21 @@ mod tests {
     }
 
     /// What patches make of forces.
-    struct Answer<'a>(&'a Patches, &'a Coarse, &'a [f32x4]);
+    struct Answer<'a>(&'a CoarseSpace, &'a CoarseFactor, &'a [f32x4]);
 
-    impl Task for Answer<'_> {
+    impl Kernel for Answer<'_> {
         type Output = Vec<f32x4>;
 
-        fn run<M: Machine>(self, machine: M) -> Vec<f32x4> {
+        fn run<S: Simd>(self, simd: S) -> Vec<f32x4> {
             let Self(patches, coarse, forces) = self;
             let (z, mut motions) = (vec![f32x4::ZERO; forces.len()], Vec::new());
-            let works = patches.answer(machine, coarse, forces, &mut motions);
+            let r_dot_z = patches.restrict_and_solve(simd, coarse, forces, &mut motions);
             let mut states = vec![[f32x4::ONE; 2]; forces.len()];
-            patches.turn(machine, coarse, (&motions, &z), f32x4::ZERO, &mut states);
+            patches.next_direction(simd, coarse, (&motions, &z), f32x4::ZERO, &mut states);
             let found: Vec<f32x4> = states.iter().map(|[p, _]| *p).collect();
             let work = |(p, f): (&f32x4, &f32x4)| p.vector().dot(&f.vector());
             let expect: f64 = found.iter().zip(forces).map(work).sum();
-            assert!((works / expect - 1.0).abs() < 1e-4, "{works} for {expect}");
+            assert!((r_dot_z / expect - 1.0).abs() < 1e-4, "{r_dot_z} for {expect}");
             found
         }
     }

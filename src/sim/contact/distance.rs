@@ -41,14 +41,14 @@ impl Primitives {
 
 /// Nearest points of a pair: the vector from the second to the first is `sum w_k x_k`.
 #[derive(Clone, Copy, Debug)]
-pub struct Nearest {
+pub struct ClosestPoints {
     /// Weights of the vertices; they sum to zero.
     pub weights: [f64; 4],
     /// From the nearest point of the second primitive to that of the first, m.
     pub gap: V3,
 }
 
-impl Nearest {
+impl ClosestPoints {
     /// Nearest points at `x`.
     #[must_use]
     pub fn of(x: &[V3], primitives: Primitives) -> Self {
@@ -89,7 +89,7 @@ fn edge_edge([a, b, c, d]: &[V3; 4]) -> [f64; 4] {
 /// Twice the area that two edges span, squared, and its gradient by the first edge and by the second: it vanishes where
 /// they are parallel.
 #[must_use]
-pub fn spanned_squared(u: &V3, w: &V3) -> (f64, [V3; 2]) {
+pub fn cross_squared(u: &V3, w: &V3) -> (f64, [V3; 2]) {
     let (uu, ww, uw) = (u.norm_squared(), w.norm_squared(), u.dot(w));
     (u.cross(w).norm_squared(), [(u * ww - w * uw) * 2.0, (w * uu - u * uw) * 2.0])
 }
@@ -113,7 +113,7 @@ mod tests {
             let edges = on_edges.map(|(s, t)| x[0].lerp(&x[1], s) - x[2].lerp(&x[3], t));
             let least = |gaps: &mut dyn Iterator<Item = V3>| gaps.map(|g| g.norm()).fold(f64::MAX, f64::min);
             let check = |primitives, sampled: f64| {
-                let nearest = Nearest::of(&x, primitives);
+                let nearest = ClosestPoints::of(&x, primitives);
                 let gap = nearest.gap.norm();
                 assert!(gap <= sampled + 1e-12 && gap > sampled - 0.1, "{primitives:?} of {seed}: {gap} for {sampled}");
                 assert!(nearest.weights.iter().sum::<f64>().abs() < 1e-12);

@@ -4,24 +4,26 @@ use std::f64::consts::PI;
 
 use super::ellipse::Ellipse;
 use super::form::Form;
-use super::sheet::{Joins, Sheet};
+use super::layout::{Joins, Sheet};
 use crate::fem::params::Params;
 use geom::{V2, V3};
 use pattern::Role;
 
-/// Least distance of a piece from the skin before sewing, m.
-pub const CLEARANCE_M: f64 = 0.02;
-/// Room between the ends of front and back, m.
-const BETWEEN_M: f64 = 0.01;
-/// Share of a turn that a piece takes which goes round the body alone.
-const ROUND: f64 = 0.95;
-/// Seams wider than this share of their height join shoulders, steeper ones sides.
-const SHOULDER_SLOPE: f64 = 1.0;
-/// The offset and the angle of [T], where only one of them is asked for.
-const USUAL: (f64, f64) = (2.1, PI);
-
-/// Angle up to which a piece counts as flat, rad: one that is not bent at all has no radius.
-const FLAT_RAD: f64 = 0.01;
+geom::constants! {
+    "fem.placement.trunk",
+    /// Least distance of a piece from the skin before sewing, m.
+    pub const CLEARANCE_M: f64 = 0.02;
+    /// Room between the ends of front and back, m.
+    const BETWEEN_M: f64 = 0.01;
+    /// Share of a turn that a piece takes which goes round the body alone.
+    const ROUND: f64 = 0.95;
+    /// Seams wider than this share of their height join shoulders, steeper ones sides.
+    const SHOULDER_SLOPE: f64 = 1.0;
+    /// The offset and the angle of [T], where only one of them is asked for.
+    const USUAL: (f64, f64) = (2.1, PI);
+    /// Angle up to which a piece counts as flat, rad: one that is not bent at all has no radius.
+    const FLAT_RAD: f64 = 0.01;
+}
 
 /// Roles that hang from the shoulders.
 pub const TOPS: [Role; 4] = [Role::Front, Role::Back, Role::BodiceFront, Role::BodiceBack];

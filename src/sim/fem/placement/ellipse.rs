@@ -4,10 +4,13 @@ use std::f64::consts::PI;
 
 use geom::V2;
 
-/// Steps in which half the ellipse is measured.
-const STEPS: usize = 128;
-/// Deepest ellipse that is tried, m.
-const DEEPEST_M: f64 = 3.0;
+geom::constants! {
+    "fem.placement.ellipse",
+    /// Steps in which half the ellipse is measured.
+    const STEPS: usize = 128;
+    /// Deepest ellipse that is tried, m.
+    const DEEPEST_M: f64 = 3.0;
+}
 
 /// An ellipse with half axes across and ahead, walked from its apex ahead to both sides.
 pub struct Ellipse {

@@ -3,26 +3,29 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::form::{Axis, Form, Hand, arm_bones};
+use super::layout::{Joins, Part, Sheet};
 use super::limb::{Limb, Station};
-use super::sheet::{Joins, Part, Sheet};
 use super::trunk::{BACKS, FRONTS};
 use geom::{V2, V3};
 use pattern::Role;
 
-/// Least clearance of a sleeve from the arm before sewing, m.
-const SLEEVE_CLEARANCE_M: f64 = 0.012;
-/// Most of a full turn that a sleeve is bent over: its underarm seam starts open.
-const SLEEVE_TURN: f64 = 0.95;
-/// A sleeve piece with less than this share of its cap on one side of the trunk belongs to the other side.
-const HALF_SLEEVE: f64 = 0.2;
-/// One in so many vertices of a sleeve counts as its far end.
-const FAR_SHARE: usize = 10;
-/// A joint less than this below the one before is not followed, m.
-const BENT_BACK_M: f64 = 0.05;
-/// Where along the arm its girth is read, from the shoulder joint, m: well below the armpit.
-const UPPER_ARM_M: std::ops::Range<f64> = 0.15..0.25;
-/// How far on either side of the wrist its girth is read, m.
-const WRIST_M: f64 = 0.02;
+geom::constants! {
+    "fem.placement.arm",
+    /// Least clearance of a sleeve from the arm before sewing, m.
+    const SLEEVE_CLEARANCE_M: f64 = 0.012;
+    /// Most of a full turn that a sleeve is bent over: its underarm seam starts open.
+    const SLEEVE_TURN: f64 = 0.95;
+    /// A sleeve piece with less than this share of its cap on one side of the trunk belongs to the other side.
+    const HALF_SLEEVE: f64 = 0.2;
+    /// One in so many vertices of a sleeve counts as its far end.
+    const FAR_SHARE: usize = 10;
+    /// A joint less than this below the one before is not followed, m.
+    const BENT_BACK_M: f64 = 0.05;
+    /// Where along the arm its girth is read, from the shoulder joint, m: well below the armpit.
+    const UPPER_ARM_M: std::ops::Range<f64> = 0.15..0.25;
+    /// How far on either side of the wrist its girth is read, m.
+    const WRIST_M: f64 = 0.02;
+}
 
 /// Sleeve pieces of one arm, placed: where the points of each go.
 pub struct Sleeve {

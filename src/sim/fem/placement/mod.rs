@@ -1,4 +1,4 @@
-//! Automatic preposition (4.2): every piece before, behind or about the limb it is worn on.
+//! Automatic placement, the preposition of 4.2: every piece before, behind or about the limb it is worn on.
 //!
 //! Pieces of one side of the trunk or of a leg are laid out flat as they are sewn ([`sheet`]), then bent as one; sleeves
 //! go about the arms; circle skirts, their tiers, gores and what is sewn to itself go round the trunk ([`tiers`], [`ring`],
@@ -9,20 +9,40 @@ mod ellipse;
 mod folded;
 mod follow;
 mod form;
+mod layout;
 mod leg;
 mod limb;
 mod ring;
 mod round;
 mod rows;
-mod sheet;
 mod tiers;
 mod trunk;
+
+/// Constants of placement that decide results.
+pub(crate) fn constants() -> Vec<Constant> {
+    [
+        arm::CONSTANTS,
+        ellipse::CONSTANTS,
+        folded::CONSTANTS,
+        follow::CONSTANTS,
+        form::CONSTANTS,
+        layout::CONSTANTS,
+        leg::CONSTANTS,
+        ring::CONSTANTS,
+        round::CONSTANTS,
+        rows::CONSTANTS,
+        tiers::CONSTANTS,
+        trunk::CONSTANTS,
+    ]
+    .concat()
+}
 
 #[cfg(test)]
 mod tests;
 
 use crate::SimError;
 use body::Body;
+use geom::constants::Constant;
 use geom::{V2, V3};
 use pattern::{Garment, Role};
 
@@ -31,9 +51,9 @@ use super::params::Params;
 use arm::Sleeve;
 use follow::Follower;
 use form::Form;
+use layout::{Joins, Part, Sheet};
 use leg::Leg;
 use limb::Limb;
-use sheet::{Joins, Part, Sheet};
 use tiers::Round;
 use trunk::Bent;
 

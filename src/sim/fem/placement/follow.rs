@@ -7,24 +7,28 @@
 use std::f64::consts::{PI, TAU};
 
 use super::form::Form;
+use super::layout::Joins;
 use super::limb::Limb;
-use super::sheet::Joins;
 use geom::{V2, V3};
 
-/// Least distance from the skin, m.
-const CLEARANCE_M: f64 = 0.012;
-
-/// Share of the room round a limb that a piece takes.
-const ROUND: f64 = 0.97;
-/// Sideways scale from a piece's seams to its partners', over that upwards, below which they are the two sides of a slit.
-const SLIT: f64 = 0.4;
-/// Least mean square of the height of such seams over that of their breadth, and where the slit is taller than it is broad.
-const UPRIGHT: [f64; 2] = [0.1, 0.01];
-/// Greatest mean square by which partners miss the mirror image of a piece's seams, over that by which they miss the seams as they are,
-/// where the piece is their other half.
-const OTHER_HALF: f64 = 0.5;
-/// Least share of its width that a piece in a slit takes up sideways.
-const OPEN: f64 = 0.2;
+geom::constants! {
+    "fem.placement.follow",
+    /// Least distance from the skin, m.
+    const CLEARANCE_M: f64 = 0.012;
+    /// Share of the room round a limb that a piece takes.
+    const ROUND: f64 = 0.97;
+    /// Sideways scale from a piece's seams to its partners', over that upwards, below which they are the two sides of a slit.
+    const SLIT: f64 = 0.4;
+    /// Least mean square of the height of such seams over that of their breadth, and where the slit is taller than it is broad.
+    const UPRIGHT: [f64; 2] = [0.1, 0.01];
+    /// Greatest mean square by which partners miss the mirror image of a piece's seams, over that by which they miss the seams as they are,
+    /// where the piece is their other half.
+    const OTHER_HALF: f64 = 0.5;
+    /// Least share of its width that a piece in a slit takes up sideways.
+    const OPEN: f64 = 0.2;
+    /// Least and greatest scale of a fit: a seam is not gathered more.
+    const SCALE: [f64; 2] = [0.3, 4.0];
+}
 
 /// A piece that is to follow others.
 pub struct Follower {
@@ -166,9 +170,6 @@ fn unwrapped(own: &[V2], angles: &[f64]) -> Vec<f64> {
     }
     result
 }
-
-/// Least and greatest scale of a fit: a seam is not gathered more.
-const SCALE: [f64; 2] = [0.3, 4.0];
 
 /// A rotation about a centre, and the scale that goes with it.
 pub struct Similarity {

@@ -1,17 +1,20 @@
-//! What preposition needs to know of the body: its trunk and legs without the arms, and cylinders about its limbs.
+//! What placement needs to know of the body: its trunk and legs without the arms, and cylinders about its limbs.
 
 use crate::fem::hands;
 use body::{Body, Joint};
 use geom::{V2, V3};
 
-/// Half height of the band of the body in which its depth is read, m.
-const LEVEL_BAND_M: f64 = 0.02;
-/// Farthest skin of an arm from its bone, m.
-const ARM_REACH_M: f64 = 0.1;
-/// Distance below the shoulder joint from which skin near the bone is the arm's, not the shoulder's, m.
-const SHOULDER_M: f64 = 0.1;
-/// How far a hand reaches beyond the wrist, m.
-const HAND_M: f64 = 0.25;
+geom::constants! {
+    "fem.placement.form",
+    /// Half height of the band of the body in which its depth is read, m.
+    const LEVEL_BAND_M: f64 = 0.02;
+    /// Farthest skin of an arm from its bone, m.
+    const ARM_REACH_M: f64 = 0.1;
+    /// Distance below the shoulder joint from which skin near the bone is the arm's, not the shoulder's, m.
+    const SHOULDER_M: f64 = 0.1;
+    /// How far a hand reaches beyond the wrist, m.
+    const HAND_M: f64 = 0.25;
+}
 
 /// Right (`1.0`) or left (`-1.0`) of the body.
 pub type Hand = f64;
@@ -45,7 +48,7 @@ impl Axis {
     }
 }
 
-/// The body as preposition sees it.
+/// The body as placement sees it.
 pub struct Form<'a> {
     pub body: &'a Body,
     /// Skin that is no arm's.

@@ -9,12 +9,15 @@ use std::collections::BTreeSet;
 use nalgebra::Point2;
 
 use super::follow::Similarity;
-use super::sheet::Joins;
+use super::layout::Joins;
 use geom::{V2, V3, triangle};
 use pattern::{Garment, Role};
 
-/// How far outside the cloth that it continues a piece begins, m.
-const ABOVE_M: f64 = 0.01;
+geom::constants! {
+    "fem.placement.folded",
+    /// How far outside the cloth that it continues a piece begins, m.
+    const ABOVE_M: f64 = 0.01;
+}
 
 /// Pieces of a garment that are folded onto others.
 pub struct Folded {

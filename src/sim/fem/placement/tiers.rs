@@ -3,22 +3,25 @@
 use std::cmp::Reverse;
 use std::f64::consts::TAU;
 
+use super::layout::Joins;
 use super::limb::Limb;
 use super::ring::{Flat, Ring};
 use super::round::{self, Held};
-use super::sheet::Joins;
 use super::{Placing, follow, trunk};
 use pattern::{Role, SeamMesh};
 
-/// Turn of a ring from which on it goes round as one, rad: as two sheets it comes to rest as a tent, not in folds.
-const WIDE_RAD: f64 = 0.35 * TAU;
-/// Turn of two halves sewn to each other from which on they go round a limb as one, rad: cuffs and peplums of half circles.
-const FLARED_RAD: f64 = 1.0;
-/// What is this many times as long as the narrowest that a skirt is gathered into goes round as one: as two sheets, strips gathered
-/// four times cannot be sewn, nor three tiers each gathered by half.
-const GATHERED: f64 = 1.8;
-/// Longest inner edge of a wide ring that hangs from the neck, as a cape does, m.
-const NECK_M: f64 = 0.55;
+geom::constants! {
+    "fem.placement.tiers",
+    /// Turn of a ring from which on it goes round as one, rad: as two sheets it comes to rest as a tent, not in folds.
+    const WIDE_RAD: f64 = 0.35 * TAU;
+    /// Turn of two halves sewn to each other from which on they go round a limb as one, rad: cuffs and peplums of half circles.
+    const FLARED_RAD: f64 = 1.0;
+    /// What is this many times as long as the narrowest that a skirt is gathered into goes round as one: as two sheets, strips gathered
+    /// four times cannot be sewn, nor three tiers each gathered by half.
+    const GATHERED: f64 = 1.8;
+    /// Longest inner edge of a wide ring that hangs from the neck, as a cape does, m.
+    const NECK_M: f64 = 0.55;
+}
 
 /// Pieces that go round a limb, laid out flat.
 pub struct Round {

@@ -9,9 +9,9 @@ use std::collections::BTreeSet;
 
 use wide::f64x4;
 
-use super::machine::{self, Machine, Task, each};
 use super::packed::{Blockwise, Packed};
 use super::quad::Quad;
+use super::simd::{self, Kernel, Simd, each};
 
 /// Degrees of freedom of a block.
 pub const SIZE: usize = 6;
@@ -81,13 +81,13 @@ impl Symbolic {
     /// definite.
     #[must_use]
     pub fn factorise(&self, blocks: &[Dense]) -> Option<Numeric> {
-        machine::on_best(Factorisation { symbolic: self, blocks })
+        simd::dispatch(Factorisation { symbolic: self, blocks })
     }
 
     /// Solves in place, `x` by block rows of the matrix.
     #[inline(always)]
-    pub fn solve<M: Machine>(&self, machine: M, numeric: &Numeric, x: &mut [Row]) {
-        let blockwise = Blockwise(machine);
+    pub fn solve<S: Simd>(&self, simd: S, numeric: &Numeric, x: &mut [Row]) {
+        let blockwise = Blockwise(simd);
         let mut solved = vec![blockwise.parts(Row::default()); x.len()];
         for (row, place) in x.iter().zip(&self.place) {
             solved[*place] = blockwise.parts(*row);
@@ -123,11 +123,11 @@ struct Factorisation<'a> {
     blocks: &'a [Dense],
 }
 
-impl Task for Factorisation<'_> {
+impl Kernel for Factorisation<'_> {
     type Output = Option<Numeric>;
 
     #[inline(always)]
-    fn run<M: Machine>(self, machine: M) -> Option<Numeric> {
+    fn run<S: Simd>(self, simd: S) -> Option<Numeric> {
         let symbolic = self.symbolic;
         let mut diagonal = vec![Padded::default(); symbolic.place.len()];
         let mut below = vec![Padded::default(); symbolic.rows.len()];
@@ -143,26 +143,26 @@ impl Task for Factorisation<'_> {
             diagonal[column] = root;
             let (known, rest) = below.split_at_mut(own.end);
             for block in &mut known[own.clone()] {
-                *block = product(machine, block, &root);
+                *block = product(simd, block, &root);
             }
             for k in own.clone() {
                 let (row, factor) = (symbolic.rows[k], &known[k]);
-                diagonal[row].subtract_product(machine, factor, factor);
+                diagonal[row].subtract_product(simd, factor, factor);
                 let mut target = symbolic.starts[row];
                 for l in k + 1..own.end {
                     while symbolic.rows[target] < symbolic.rows[l] {
                         target += 1;
                     }
-                    rest[target - own.end].subtract_product(machine, &known[l], factor);
+                    rest[target - own.end].subtract_product(simd, &known[l], factor);
                 }
             }
         }
         for (column, own) in symbolic.columns() {
             let root = Padded::new(&transposed(&diagonal[column].dense()));
             for block in &mut below[own] {
-                *block = product(machine, block, &root);
+                *block = product(simd, block, &root);
             }
-            diagonal[column] = product(machine, &root, &root);
+            diagonal[column] = product(simd, &root, &root);
         }
         let packed = |block: &Padded| Packed::new(&block.dense());
         Some(Numeric { pivots: diagonal.iter().map(packed).collect(), below: below.iter().map(packed).collect() })
@@ -193,14 +193,14 @@ impl Padded {
 
     /// Takes `a b^T` away.
     #[inline(always)]
-    fn subtract_product<M: Machine>(&mut self, machine: M, a: &Self, b: &Self) {
+    fn subtract_product<S: Simd>(&mut self, simd: S, a: &Self, b: &Self) {
         let columns = each!(k of 6 => a.column(k));
         for c in 0..SIZE {
             let [mut head, mut tail] = self.column(c);
             for (k, column) in columns.iter().enumerate() {
                 let factor = f64x4::splat(b.0[k][c]);
-                head = column[0].times_from(factor, head, machine);
-                tail = column[1].times_from(factor, tail, machine);
+                head = column[0].neg_mul_add_on(factor, head, simd);
+                tail = column[1].neg_mul_add_on(factor, tail, simd);
             }
             self.set_column(c, [head, tail]);
         }
@@ -215,9 +215,9 @@ impl Padded {
 
 /// `a b^T`.
 #[inline(always)]
-fn product<M: Machine>(machine: M, a: &Padded, b: &Padded) -> Padded {
+fn product<S: Simd>(simd: S, a: &Padded, b: &Padded) -> Padded {
     let mut negative = Padded::default();
-    negative.subtract_product(machine, a, b);
+    negative.subtract_product(simd, a, b);
     for c in 0..SIZE {
         let [head, tail] = negative.column(c);
         negative.set_column(c, [-head, -tail]);
@@ -279,7 +279,7 @@ fn inverse_root(a: &Dense) -> Option<Dense> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::machine::Plain;
+    use crate::simd::Plain;
 
     /// A positive definite matrix over pairs.
     fn matrix(pairs: &[[usize; 2]]) -> Vec<Dense> {
@@ -323,8 +323,8 @@ mod tests {
         pairs.extend((0..count).map(|a| [a, a]));
         pairs.sort_unstable();
         let solves = Solves { count, blocks: matrix(&pairs), pairs };
-        machine::on_best(&solves);
-        Plain.alone(&solves);
+        simd::dispatch(&solves);
+        Plain.run(&solves);
     }
 
     struct Solves {
@@ -333,17 +333,17 @@ mod tests {
         blocks: Vec<Dense>,
     }
 
-    impl Task for &Solves {
+    impl Kernel for &Solves {
         type Output = ();
 
-        fn run<M: Machine>(self, machine: M) {
+        fn run<S: Simd>(self, simd: S) {
             let Solves { count, pairs, blocks } = self;
             let symbolic = Symbolic::new(*count, pairs);
-            let numeric = Factorisation { symbolic: &symbolic, blocks }.run(machine).expect("positive definite");
+            let numeric = Factorisation { symbolic: &symbolic, blocks }.run(simd).expect("positive definite");
             let expect: Vec<Row> = (0..*count).map(|a| std::array::from_fn(|k| ((7 * a + k) as f32).sin())).collect();
             let forces = times(pairs, blocks, &expect);
             let mut x: Vec<Row> = forces.iter().map(|f| f.map(|f| f as f32)).collect();
-            symbolic.solve(machine, &numeric, &mut x);
+            symbolic.solve(simd, &numeric, &mut x);
             for (found, expect) in x.iter().flatten().zip(expect.iter().flatten()) {
                 assert!((found - expect).abs() < 1e-4, "{found} for {expect}");
             }

@@ -1,22 +1,25 @@
 //! Whether two parts of the cloth meet on the straight way from one place to another.
 
-use super::nearest::{Nearest, Primitives};
+use super::distance::{ClosestPoints, Primitives};
 use geom::V3;
 
-/// Share of its distance that a pair keeps on its way at least.
-const KEPT: f64 = 0.1;
-/// Share of the distance that is gone at once.
-const ADVANCE: f64 = 0.9;
-/// Distance below which two parts touch, m: a twentieth of what layers are pressed to by the strongest push.
-pub const TOUCHING_M: f64 = 1e-6;
-/// Most advances: a pair that takes more glides along so near that it may as well be said to meet.
-const MOST_ADVANCES: usize = 40;
+geom::constants! {
+    "contact.ccd",
+    /// Share of its distance that a pair keeps on its way at least.
+    const KEPT_SHARE: f64 = 0.1;
+    /// Share of the distance that is gone at once.
+    const ADVANCE_SHARE: f64 = 0.9;
+    /// Distance below which two parts touch, m: a twentieth of what layers are pressed to by the strongest push.
+    pub const TOUCHING_M: f64 = 1e-6;
+    /// Most advances: a pair that takes more glides along so near that it may as well be said to meet.
+    const MAX_ITERATIONS: usize = 40;
+}
 
 /// Whether a pair comes nearer than a tenth of its distance on the way from `x` to `y`, its vertices moving evenly: by
 /// conservative advancement, which goes on by as much as cannot use the distance up [Li, Kaufman, Jiang 2021]. A pair that touches already
 /// has nothing to keep: it would bar every step of the whole cloth, and what then comes to cross is drawn out again.
 #[must_use]
-pub fn meets(x: &[V3], y: &[V3], primitives: Primitives) -> bool {
+pub fn collides(x: &[V3], y: &[V3], primitives: Primitives) -> bool {
     let vertices = primitives.vertices();
     let mut at = vertices.map(|v| x[v]);
     let mut moves = vertices.map(|v| y[v] - x[v]);
@@ -28,21 +31,21 @@ pub fn meets(x: &[V3], y: &[V3], primitives: Primitives) -> bool {
         Primitives::VertexTriangle(_) => a + b.max(c).max(d),
         Primitives::EdgeEdge(_) => a.max(b) + c.max(d),
     };
-    let mut distance = Nearest::at(&at, primitives).gap.norm();
-    let least = KEPT * distance;
+    let mut distance = ClosestPoints::at(&at, primitives).gap.norm();
+    let least = KEPT_SHARE * distance;
     if distance - least > closing || distance < TOUCHING_M {
         return false;
     }
     let mut time = 0.0;
-    for _ in 0..MOST_ADVANCES {
-        let advance = ADVANCE * (distance - least) / closing;
+    for _ in 0..MAX_ITERATIONS {
+        let advance = ADVANCE_SHARE * (distance - least) / closing;
         time += advance;
         if time >= 1.0 {
             return false;
         }
         at.iter_mut().zip(&moves).for_each(|(p, d)| *p += d * advance);
-        distance = Nearest::at(&at, primitives).gap.norm();
-        if distance <= least + KEPT * least {
+        distance = ClosestPoints::at(&at, primitives).gap.norm();
+        if distance <= least + KEPT_SHARE * least {
             return true;
         }
     }
@@ -59,11 +62,11 @@ mod tests {
         let check = |from: [f64; 3], to: [f64; 3], expect: bool| {
             let with = |p: [f64; 3]| [vec![V3::from(p)], triangle.to_vec()].concat();
             let pair = Primitives::VertexTriangle([0, 1, 2, 3]);
-            assert_eq!(meets(&with(from), &with(to), pair), expect, "{from:?} to {to:?}");
+            assert_eq!(collides(&with(from), &with(to), pair), expect, "{from:?} to {to:?}");
             // Together with the triangle it may go wherever it likes.
             let [x, mut y] = [from, from].map(with);
             y.iter_mut().for_each(|p| *p += V3::new(0.3, -0.2, 1.0));
-            assert!(!meets(&x, &y, pair));
+            assert!(!collides(&x, &y, pair));
         };
         check([0.005, 0.005, 1e-3], [0.005, 0.005, -1e-3], true);
         check([0.005, 0.005, 1e-3], [0.005, 0.005, 5e-5], true);
@@ -76,7 +79,7 @@ mod tests {
             [a, b, V3::new(0.0, -0.01, 0.0), V3::new(0.0, 0.01, 0.0)]
         };
         let edges = Primitives::EdgeEdge([0, 1, 2, 3]);
-        assert!(meets(&crossed(1e-3), &crossed(-2e-3), edges));
-        assert!(!meets(&crossed(1e-3), &crossed(4e-4), edges));
+        assert!(collides(&crossed(1e-3), &crossed(-2e-3), edges));
+        assert!(!collides(&crossed(1e-3), &crossed(4e-4), edges));
     }
 }

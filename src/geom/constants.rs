@@ -1,0 +1,44 @@
+//! Constants that decide results: kept by name and value, so that what is stored knows which it was made with.
+
+/// A constant that decides results.
+#[derive(Clone, Copy, Debug)]
+pub struct Constant {
+    /// Its room and its name, such as `contact.ccd.KEPT_SHARE`.
+    pub name: &'static str,
+    /// Its value as text.
+    pub value: fn() -> String,
+}
+
+/// Defines the constants of a file that decide results, and the list `CONSTANTS` of them.
+///
+/// The room is part of their names. It is written out, so that a file may move and stored results stay good.
+#[macro_export]
+macro_rules! constants {
+    ($room:literal, $($(#[$meta:meta])* $vis:vis const $name:ident: $type:ty = $value:expr;)+) => {
+        $($(#[$meta])* $vis const $name: $type = $value;)+
+
+        /// The constants of this file.
+        pub(crate) const CONSTANTS: &[$crate::constants::Constant] = &[$($crate::constants::Constant {
+            name: concat!($room, ".", stringify!($name)),
+            value: || format!("{:?}", $name),
+        }),+];
+    };
+}
+
+#[cfg(test)]
+mod tests {
+    constants! {
+        "room",
+        /// A number.
+        const SHARE: f64 = 0.1;
+        /// Two.
+        const SPAN_M: [f64; 2] = [1e-3, 4.0];
+    }
+
+    #[test]
+    fn a_constant_is_known_by_name_and_value() {
+        assert_eq!((SHARE, SPAN_M), (0.1, [1e-3, 4.0]));
+        let known: Vec<(&str, String)> = CONSTANTS.iter().map(|c| (c.name, (c.value)())).collect();
+        assert_eq!(known, [("room.SHARE", "0.1".to_owned()), ("room.SPAN_M", "[0.001, 4.0]".to_owned())]);
+    }
+}

@@ -1,0 +1,303 @@
+//! SIMD: fused products and sums, and eight numbers in single precision at once.
+//!
+//! Every x86-64 has registers of four such numbers; nearly all since 2013 have such of eight, and products that are summed up without
+//! rounding in between. The loops of the linear solves are written once, for a [`Simd`]; [`dispatch`] runs them on the best that is
+//! there. Another processor may so round otherwise; the same rounds the same.
+
+use wide::{f32x4, f64x4};
+
+/// Arithmetic that not every processor does in one go.
+pub trait Simd: Copy {
+    /// Runs a kernel in a function of its own, compiled with these instructions.
+    fn run<K: Kernel>(self, kernel: K) -> K::Output;
+
+    /// Two quads in single precision.
+    type F32x8: Copy;
+    /// Four numbers in double precision.
+    type F64x4: Copy;
+    /// `a b + c`.
+    fn mul_add(self, a: f32x4, b: f32x4, c: f32x4) -> f32x4;
+    /// `c - a b`.
+    fn neg_mul_add(self, a: f32x4, b: f32x4, c: f32x4) -> f32x4;
+    /// Loads four numbers in double precision.
+    fn f64s(self, numbers: [f64; 4]) -> Self::F64x4;
+    /// Stores the numbers.
+    fn to_f64s(self, four: Self::F64x4) -> [f64; 4];
+    /// `a + b`.
+    fn add_f64s(self, a: Self::F64x4, b: Self::F64x4) -> Self::F64x4;
+    /// `a - b`.
+    fn sub_f64s(self, a: Self::F64x4, b: Self::F64x4) -> Self::F64x4;
+    /// `a b`.
+    fn mul_f64s(self, a: Self::F64x4, b: Self::F64x4) -> Self::F64x4;
+    /// `a / b`.
+    fn div_f64s(self, a: Self::F64x4, b: Self::F64x4) -> Self::F64x4;
+    /// `a b + c`.
+    fn mul_add_f64s(self, a: Self::F64x4, b: Self::F64x4, c: Self::F64x4) -> Self::F64x4;
+    /// `c - a b`.
+    fn neg_mul_add_f64s(self, a: Self::F64x4, b: Self::F64x4, c: Self::F64x4) -> Self::F64x4;
+    /// The numbers in single precision.
+    fn to_f32s(self, four: Self::F64x4) -> [f32; 4];
+    /// The square roots.
+    fn sqrt_f64s(self, a: Self::F64x4) -> Self::F64x4;
+    /// The lesser of each two; the second where one is not a number.
+    fn min_f64s(self, a: Self::F64x4, b: Self::F64x4) -> Self::F64x4;
+    /// The greater of each two; the second where one is not a number.
+    fn max_f64s(self, a: Self::F64x4, b: Self::F64x4) -> Self::F64x4;
+    /// Two quads side by side.
+    fn join(self, halves: [f32x4; 2]) -> Self::F32x8;
+    /// The two.
+    fn split(self, twin: Self::F32x8) -> [f32x4; 2];
+    /// `a b + c`.
+    fn mul_add_f32x8(self, a: Self::F32x8, b: Self::F32x8, c: Self::F32x8) -> Self::F32x8;
+}
+
+/// An array of what an expression makes of each index, written out: maps over arrays are not inlined into tasks, in which then each
+/// instruction is called as a function.
+#[macro_export]
+macro_rules! each {
+    ($k:ident of 2 => $made:expr) => { $crate::each!([0, 1] $k $made) };
+    ($k:ident of 3 => $made:expr) => { $crate::each!([0, 1, 2] $k $made) };
+    ($k:ident of 4 => $made:expr) => { $crate::each!([0, 1, 2, 3] $k $made) };
+    ($k:ident of 5 => $made:expr) => { $crate::each!([0, 1, 2, 3, 4] $k $made) };
+    ($k:ident of 6 => $made:expr) => { $crate::each!([0, 1, 2, 3, 4, 5] $k $made) };
+    ([$($index:literal),*] $k:ident $made:expr) => { [$({ let $k: usize = $index; $made }),*] };
+}
+pub use each;
+
+/// A loop that is compiled for every instruction set; to be inlined, with all that it calls.
+pub trait Kernel {
+    /// What comes of it.
+    type Output;
+    /// Does it.
+    fn run<S: Simd>(self, simd: S) -> Self::Output;
+}
+
+/// Runs a kernel with the widest instructions that the processor has.
+pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(simd) = pulp::x86::V3::try_new() {
+        return simd.run(kernel);
+    }
+    Plain.run(kernel)
+}
+
+/// What every processor has.
+#[derive(Clone, Copy)]
+pub struct Plain;
+
+impl Simd for Plain {
+    type F32x8 = [f32x4; 2];
+    type F64x4 = f64x4;
+
+    #[inline(never)]
+    fn run<K: Kernel>(self, kernel: K) -> K::Output {
+        kernel.run(self)
+    }
+
+    #[inline(always)]
+    fn mul_add(self, a: f32x4, b: f32x4, c: f32x4) -> f32x4 {
+        a * b + c
+    }
+
+    #[inline(always)]
+    fn neg_mul_add(self, a: f32x4, b: f32x4, c: f32x4) -> f32x4 {
+        c - a * b
+    }
+
+    #[inline(always)]
+    fn f64s(self, numbers: [f64; 4]) -> f64x4 {
+        f64x4::from(numbers)
+    }
+
+    #[inline(always)]
+    fn to_f64s(self, four: f64x4) -> [f64; 4] {
+        four.to_array()
+    }
+
+    #[inline(always)]
+    fn add_f64s(self, a: f64x4, b: f64x4) -> f64x4 {
+        a + b
+    }
+
+    #[inline(always)]
+    fn sub_f64s(self, a: f64x4, b: f64x4) -> f64x4 {
+        a - b
+    }
+
+    #[inline(always)]
+    fn mul_f64s(self, a: f64x4, b: f64x4) -> f64x4 {
+        a * b
+    }
+
+    #[inline(always)]
+    fn div_f64s(self, a: f64x4, b: f64x4) -> f64x4 {
+        a / b
+    }
+
+    #[inline(always)]
+    fn mul_add_f64s(self, a: f64x4, b: f64x4, c: f64x4) -> f64x4 {
+        a * b + c
+    }
+
+    #[inline(always)]
+    fn neg_mul_add_f64s(self, a: f64x4, b: f64x4, c: f64x4) -> f64x4 {
+        c - a * b
+    }
+
+    #[inline(always)]
+    fn to_f32s(self, four: f64x4) -> [f32; 4] {
+        let [a, b, c, d] = four.to_array();
+        [a as f32, b as f32, c as f32, d as f32]
+    }
+
+    #[inline(always)]
+    fn sqrt_f64s(self, a: f64x4) -> f64x4 {
+        a.sqrt()
+    }
+
+    #[inline(always)]
+    fn min_f64s(self, a: f64x4, b: f64x4) -> f64x4 {
+        a.fast_min(b)
+    }
+
+    #[inline(always)]
+    fn max_f64s(self, a: f64x4, b: f64x4) -> f64x4 {
+        a.fast_max(b)
+    }
+
+    #[inline(always)]
+    fn join(self, halves: [f32x4; 2]) -> [f32x4; 2] {
+        halves
+    }
+
+    #[inline(always)]
+    fn split(self, twin: [f32x4; 2]) -> [f32x4; 2] {
+        twin
+    }
+
+    #[inline(always)]
+    fn mul_add_f32x8(self, a: [f32x4; 2], b: [f32x4; 2], c: [f32x4; 2]) -> [f32x4; 2] {
+        [a[0] * b[0] + c[0], a[1] * b[1] + c[1]]
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+mod x86 {
+    use std::arch::x86_64::{__m128, __m256, __m256d};
+
+    use pulp::cast;
+    use pulp::x86::V3;
+    use wide::f32x4;
+
+    use super::{Kernel, Simd};
+
+    /// A kernel for these instructions.
+    struct On<K> {
+        simd: V3,
+        kernel: K,
+    }
+
+    impl<K: Kernel> pulp::NullaryFnOnce for On<K> {
+        type Output = K::Output;
+
+        #[inline(always)]
+        fn call(self) -> K::Output {
+            self.kernel.run(self.simd)
+        }
+    }
+
+    impl Simd for V3 {
+        type F32x8 = __m256;
+        type F64x4 = __m256d;
+
+        #[inline(always)]
+        fn run<K: Kernel>(self, kernel: K) -> K::Output {
+            self.vectorize(On { simd: self, kernel })
+        }
+
+        #[inline(always)]
+        fn mul_add(self, a: f32x4, b: f32x4, c: f32x4) -> f32x4 {
+            cast(self.fma._mm_fmadd_ps(cast(a), cast(b), cast(c)))
+        }
+
+        #[inline(always)]
+        fn neg_mul_add(self, a: f32x4, b: f32x4, c: f32x4) -> f32x4 {
+            cast(self.fma._mm_fnmadd_ps(cast(a), cast(b), cast(c)))
+        }
+
+        #[inline(always)]
+        fn f64s(self, numbers: [f64; 4]) -> __m256d {
+            cast(numbers)
+        }
+
+        #[inline(always)]
+        fn to_f64s(self, four: __m256d) -> [f64; 4] {
+            cast(four)
+        }
+
+        #[inline(always)]
+        fn add_f64s(self, a: __m256d, b: __m256d) -> __m256d {
+            self.avx._mm256_add_pd(a, b)
+        }
+
+        #[inline(always)]
+        fn sub_f64s(self, a: __m256d, b: __m256d) -> __m256d {
+            self.avx._mm256_sub_pd(a, b)
+        }
+
+        #[inline(always)]
+        fn mul_f64s(self, a: __m256d, b: __m256d) -> __m256d {
+            self.avx._mm256_mul_pd(a, b)
+        }
+
+        #[inline(always)]
+        fn div_f64s(self, a: __m256d, b: __m256d) -> __m256d {
+            self.avx._mm256_div_pd(a, b)
+        }
+
+        #[inline(always)]
+        fn mul_add_f64s(self, a: __m256d, b: __m256d, c: __m256d) -> __m256d {
+            self.fma._mm256_fmadd_pd(a, b, c)
+        }
+
+        #[inline(always)]
+        fn neg_mul_add_f64s(self, a: __m256d, b: __m256d, c: __m256d) -> __m256d {
+            self.fma._mm256_fnmadd_pd(a, b, c)
+        }
+
+        #[inline(always)]
+        fn to_f32s(self, four: __m256d) -> [f32; 4] {
+            cast(self.avx._mm256_cvtpd_ps(four))
+        }
+
+        #[inline(always)]
+        fn sqrt_f64s(self, a: __m256d) -> __m256d {
+            self.avx._mm256_sqrt_pd(a)
+        }
+
+        #[inline(always)]
+        fn min_f64s(self, a: __m256d, b: __m256d) -> __m256d {
+            self.avx._mm256_min_pd(a, b)
+        }
+
+        #[inline(always)]
+        fn max_f64s(self, a: __m256d, b: __m256d) -> __m256d {
+            self.avx._mm256_max_pd(a, b)
+        }
+
+        #[inline(always)]
+        fn join(self, [one, other]: [f32x4; 2]) -> __m256 {
+            self.avx._mm256_set_m128(cast::<_, __m128>(other), cast::<_, __m128>(one))
+        }
+
+        #[inline(always)]
+        fn split(self, twin: __m256) -> [f32x4; 2] {
+            [cast(self.avx._mm256_castps256_ps128(twin)), cast(self.avx._mm256_extractf128_ps::<1>(twin))]
+        }
+
+        #[inline(always)]
+        fn mul_add_f32x8(self, a: __m256, b: __m256, c: __m256) -> __m256 {
+            self.fma._mm256_fmadd_ps(a, b, c)
+        }
+    }
+}

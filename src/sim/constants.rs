@@ -1,0 +1,25 @@
+//! All constants of the simulators that decide results.
+
+use geom::constants::Constant;
+
+use crate::{cloth, contact, fem, hybrid, laboratory, solver};
+use crate::{distortion, levels, quality, sewing};
+
+/// All of them, in one order. A result stored with other ones is stale.
+#[must_use]
+pub fn constants() -> Vec<Constant> {
+    let own = [distortion::CONSTANTS, levels::CONSTANTS, quality::CONSTANTS, sewing::CONSTANTS].concat();
+    let rooms = [
+        linalg::constants(),
+        own,
+        cloth::constants(),
+        contact::constants(),
+        solver::constants(),
+        fem::constants(),
+        fem::placement::constants(),
+        hybrid::constants(),
+        hybrid::features::constants(),
+        laboratory::constants(),
+    ];
+    rooms.concat()
+}
