@@ -1,7 +1,6 @@
 //! Backtracking line search along a step and its second-order correction, with Armijo's condition.
 
-use super::proximal::rms;
-use super::system::{Assembled, System};
+use super::system::{Assembled, System, rms};
 use geom::V3;
 
 geom::constants! {

@@ -16,7 +16,7 @@ use nalgebra::Matrix3;
 
 use super::active_set;
 use super::line_search::Line;
-use super::system::{Assembled, Excess, System};
+use super::system::{Assembled, Excess, System, rms};
 use crate::cloth::law::Tensor;
 use crate::cloth::membrane::Foreseen;
 use crate::contact::ClothContact;
@@ -217,12 +217,6 @@ fn add_inertia(diagonal: &mut [Matrix3<f64>], inertia: &[f64]) {
     for (block, m) in diagonal.iter_mut().zip(inertia) {
         *block += Matrix3::identity() * *m;
     }
-}
-
-/// Root mean square length of the vectors.
-#[must_use]
-pub fn rms(vectors: &[V3]) -> f64 {
-    (vectors.iter().map(V3::norm_squared).sum::<f64>() / vectors.len().max(1) as f64).sqrt()
 }
 
 #[cfg(test)]

@@ -225,3 +225,9 @@ impl<'a> System<'a> {
         walls.flat_map(|walls| x.iter().enumerate().filter_map(|(v, p)| walls.trespass(v, p).map(|(d, n)| (v, d, n))))
     }
 }
+
+/// Root mean square length of the vectors.
+#[must_use]
+pub fn rms(vectors: &[V3]) -> f64 {
+    (vectors.iter().map(V3::norm_squared).sum::<f64>() / vectors.len().max(1) as f64).sqrt()
+}

@@ -28,6 +28,7 @@ pub(crate) fn constants() -> Vec<Constant> {
         form::CONSTANTS,
         layout::CONSTANTS,
         leg::CONSTANTS,
+        CONSTANTS,
         ring::CONSTANTS,
         round::CONSTANTS,
         rows::CONSTANTS,
@@ -77,8 +78,11 @@ pub fn place(body: &Body, garment: &Garment, params: &Params) -> Result<Vec<V3>,
     Ok(placing.positions)
 }
 
-/// Share of its seams to what has a place that another piece sewn to it has, where the two are halves of one thing.
-const TWIN: f64 = 0.75;
+geom::constants! {
+    "fem.placement",
+    /// Share of its seams to what has a place that another piece sewn to it has, where the two are halves of one thing.
+    const TWIN: f64 = 0.75;
+}
 
 /// A garment half placed.
 struct Placing<'a> {
