@@ -96,7 +96,9 @@ pub enum BodyError {
         unit: &'static str,
     },
     /// A mesh whose size fits a standing adult in no unit.
-    #[error("the body is {extent} high, which is no adult in mm, cm or m; accepted: 1.2 to 2.4 m, or say the unit")]
+    #[error(
+        "the body is {extent} high, which is no adult in mm, cm, dm, m or inches; accepted: 1.2 to 2.4 m, or say the unit"
+    )]
     Unit {
         /// Height in the file's unit.
         extent: f64,

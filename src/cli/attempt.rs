@@ -1,6 +1,6 @@
 //! `toile try`: one garment on one body.
 
-use super::args::{PatternUnit, Sex, Try, TrySimulator};
+use super::args::{Sex, Try, TrySimulator};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
 use geom::units::from_mm;
@@ -19,11 +19,7 @@ pub fn run(context: &Context, arguments: &Try) -> Outcome {
         pattern: arguments.pattern.clone(),
         seams: arguments.seams.clone(),
         size: arguments.size.clone(),
-        unit: arguments.unit.map(|unit| match unit {
-            PatternUnit::Mm => Unit::Mm,
-            PatternUnit::Cm => Unit::Cm,
-            PatternUnit::In => Unit::In,
-        }),
+        unit: arguments.unit.map(Unit::from),
         simulator: match arguments.sim {
             TrySimulator::Fem => Simulator::Fem,
             TrySimulator::Hybrid => Simulator::Hybrid,
@@ -46,7 +42,7 @@ pub fn run(context: &Context, arguments: &Try) -> Outcome {
         context.say(note);
     }
     for problem in &tried.problems {
-        eprintln!("toile: {problem}");
+        output::tell(problem);
     }
     show(context, &tried)?;
     Ok(if tried.problems.is_empty() { End::Done } else { End::CheckFailed })

@@ -48,7 +48,7 @@ impl Context {
     /// Says something on standard error, unless asked to be quiet.
     pub fn say(&self, message: impl std::fmt::Display) {
         if !self.quiet {
-            eprintln!("{message}");
+            super::output::note(&message);
         }
     }
 

@@ -23,7 +23,7 @@ pub fn run(context: &Context, command: &Job) -> Outcome {
             let ran = run_job(file, output.as_deref(), database.as_deref())?;
             output::text(&format!("{}\n", ran.file.display()))?;
             if let Some(error) = ran.error {
-                eprintln!("toile: {error}");
+                output::tell(&error);
                 return Ok(End::JobFailed);
             }
         }

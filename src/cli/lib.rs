@@ -106,7 +106,7 @@ pub fn main(
         }
     };
     let end = execute(arguments, workbench).unwrap_or_else(|error| {
-        eprintln!("toile: {error}");
+        output::tell(&error);
         error.end()
     });
     ExitCode::from(end as u8)

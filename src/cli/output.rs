@@ -9,6 +9,22 @@ use super::args::Format;
 use geom::units::significant;
 use study::{Table, Value};
 
+/// Says what went wrong, on standard error.
+pub fn tell(message: &impl std::fmt::Display) {
+    note(&format!("toile: {message}"));
+}
+
+/// Says something on standard error. What a name or a file brings along cannot steer the terminal.
+pub fn note(text: &impl std::fmt::Display) {
+    eprintln!("{}", printable(&text.to_string()));
+}
+
+/// A text whose control characters, but for ends of lines and tabulators, are written out.
+fn printable(text: &str) -> String {
+    let is_plain = |c: char| !c.is_control() || matches!(c, '\n' | '\t');
+    text.chars().map(|c| if is_plain(c) { c.to_string() } else { c.escape_default().to_string() }).collect()
+}
+
 /// Writes text to standard output; a closed pipe (`| head`) is no error.
 pub fn text(text: &str) -> io::Result<()> {
     bytes(text.as_bytes())

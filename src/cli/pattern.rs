@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::args::{DraftStyle, Pattern, PatternUnit, SeamCommand, StyleFiles};
+use super::args::{DraftStyle, Pattern, SeamCommand, StyleFiles};
 use super::context::Context;
 use super::{CliError, End, Outcome, output, pattern_files};
 use geom::units::{from_mm, mm};
@@ -20,7 +20,7 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
             inspect(context, &reports, if *by_file { outcomes } else { pieces })
         }
         Pattern::Propose { path, size, unit, output } => {
-            propose(context, path, &seams::propose(path, size.as_deref(), unit.map(of))?, output.as_deref())
+            propose(context, path, &seams::propose(path, size.as_deref(), unit.map(Unit::from))?, output.as_deref())
         }
         Pattern::Check(files) => check(context, files),
         Pattern::Seam(edit) => seam(context, edit),
@@ -69,6 +69,9 @@ fn propose(context: &Context, path: &Path, proposed: &seams::Proposed, output: O
     } else {
         context.print(&seams(proposal))?;
     }
+    for note in &proposal.notes {
+        context.say(note);
+    }
     for question in &proposal.questions {
         context.say(format_args!("{}: {question}", path.display()));
     }
@@ -89,7 +92,7 @@ fn seam(context: &Context, command: &SeamCommand) -> Outcome {
         SeamCommand::Rm { files } => (files.clone(), SeamEdit::Remove { a: files.a, b: files.b }),
         SeamCommand::Flip { files } => (files.clone(), SeamEdit::Flip { a: files.a, b: files.b }),
     };
-    let unit = files.unit.map(of);
+    let unit = files.unit.map(Unit::from);
     let text = seams::edit_seams(&files.pattern, &files.seams, files.size.as_deref(), unit, &edit)?;
     write(context, &files.seams, text)?;
     Ok(End::Done)
@@ -112,16 +115,8 @@ fn seams(proposal: &seams::Proposal) -> Table {
     Table { columns: columns.map(str::to_owned).to_vec(), rows: rows.collect() }
 }
 
-fn of(unit: PatternUnit) -> Unit {
-    match unit {
-        PatternUnit::Mm => Unit::Mm,
-        PatternUnit::Cm => Unit::Cm,
-        PatternUnit::In => Unit::In,
-    }
-}
-
 fn style(files: &StyleFiles) -> Result<patterns::Style, CliError> {
-    Ok(patterns::style(&files.file, files.seams.as_deref(), files.size.as_deref(), files.unit.map(of))?)
+    Ok(patterns::style(&files.file, files.seams.as_deref(), files.size.as_deref(), files.unit.map(Unit::from))?)
 }
 
 /// Prints reports, as JSON or as the table that is made of them; a file that cannot be read, or a refused piece, makes the whole unusable.
@@ -137,10 +132,10 @@ fn inspect(context: &Context, reports: &[FileReport], table: fn(&[FileReport]) -
         }
         for refused in &report.refused {
             let line = refused.line.map(|line| format!(", line {line}")).unwrap_or_default();
-            eprintln!("{}{line}, block `{}`: found {}", report.file, refused.block, refused.reason);
+            output::note(&format!("{}{line}, block `{}`: found {}", report.file, refused.block, refused.reason));
         }
         if let Some(error) = &report.error {
-            eprintln!("{error}");
+            output::note(error);
         }
     }
     let unusable = reports.iter().any(|report| report.error.is_some() || !report.refused.is_empty());
@@ -206,7 +201,7 @@ fn check(context: &Context, files: &StyleFiles) -> Outcome {
     let ((garment, quality), style) = match checked {
         Ok(checked) => checked,
         Err(CliError::Study(error @ study::StudyError::Stage { .. })) => {
-            eprintln!("toile: {error}");
+            output::tell(&error);
             return Ok(End::CheckFailed);
         }
         Err(error) => return Err(error),
@@ -220,9 +215,9 @@ fn check(context: &Context, files: &StyleFiles) -> Outcome {
     context.print(&Table { columns, rows: rows.collect() })?;
     let mut findings = patterns::garment_findings(&garment);
     if let Some(seams) = &files.seams {
-        findings.extend(seams::findings(&files.file, seams, files.size.as_deref(), files.unit.map(of))?);
+        findings.extend(seams::findings(&files.file, seams, files.size.as_deref(), files.unit.map(Unit::from))?);
     }
-    findings.iter().for_each(|finding| eprintln!("{}", told(finding)));
+    findings.iter().for_each(|finding| output::note(&told(finding)));
     context.say(format_args!(
         "{}: {} pieces, {} seams, {} measurements; at {CHECK_EDGE_MM} mm {} vertices, least angle {:.0} degrees",
         files.file.display(),
@@ -254,7 +249,7 @@ fn check_study(context: &Context, path: &Path) -> Outcome {
     for check in &checks {
         let whole = check.error.iter().cloned();
         for line in whole.chain(check.findings.iter().map(told)) {
-            eprintln!("{} {}: {line}", check.garment, check.size);
+            output::note(&format!("{} {}: {line}", check.garment, check.size));
         }
     }
     Ok(if checks.iter().any(SizeCheck::is_bad) { End::CheckFailed } else { End::Done })

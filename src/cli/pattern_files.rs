@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::args::{BesideFiles, PatternUnit};
+use super::args::BesideFiles;
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
 use study::files;
@@ -11,14 +11,9 @@ use study::seams::pattern_files::{self, Beside};
 
 /// What the arguments say about a pattern beside its file.
 pub fn beside(files: &BesideFiles) -> Beside<'_> {
-    let unit = |unit: PatternUnit| match unit {
-        PatternUnit::Mm => Unit::Mm,
-        PatternUnit::Cm => Unit::Cm,
-        PatternUnit::In => Unit::In,
-    };
     Beside {
         size: files.size.as_deref(),
-        unit: files.unit.map(unit),
+        unit: files.unit.map(Unit::from),
         rules: files.rul.as_deref(),
         info: files.info.as_deref(),
     }

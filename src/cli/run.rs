@@ -72,7 +72,7 @@ pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
     }
     let failed: Vec<&JobRow> = jobs.iter().filter(|job| job.status == Status::Failed).collect();
     for job in &failed {
-        eprintln!("job {} failed: {}", job.id, job.error.as_deref().unwrap_or("no reason given"));
+        output::note(&format!("job {} failed: {}", job.id, job.error.as_deref().unwrap_or("no reason given")));
     }
     Ok(if failed.is_empty() { End::Done } else { End::JobFailed })
 }

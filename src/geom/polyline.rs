@@ -27,6 +27,13 @@ impl Polyline {
         Some(Self { points, arcs })
     }
 
+    /// The same line with each point moved.
+    #[must_use]
+    pub fn mapped(&self, at: impl Fn(V2) -> V2) -> Self {
+        let points: Vec<V2> = self.points.iter().map(|&p| at(p)).collect();
+        Self::new(points).unwrap_or_else(|| self.clone())
+    }
+
     /// Its points.
     #[must_use]
     pub fn points(&self) -> &[V2] {

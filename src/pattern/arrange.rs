@@ -9,7 +9,6 @@ use super::garment::Role;
 use super::propose::{self, Face, Hand, Pose};
 use super::style::{Style, StylePiece};
 use geom::V2;
-use geom::polyline::Polyline;
 
 /// Room between pieces, and round the head, m.
 const GAP_M: f64 = 0.06;
@@ -163,23 +162,12 @@ pub fn arrange(style: &Style) -> Vec<Placed> {
 }
 
 /// A style with every piece moved to where it lies.
-///
-/// # Panics
-/// Never: a moved line has as many points as before.
 #[must_use]
 pub fn arranged(style: &Style) -> Style {
     let mut moved = style.clone();
     for (piece, placed) in moved.pieces.iter_mut().zip(arrange(style)) {
-        for edge in &mut piece.edges {
-            let points = edge.line.points().iter().map(|&p| placed.at(p)).collect();
-            edge.line = Polyline::new(points).expect("as many points as before");
-        }
-        for notch in &mut piece.notches {
-            notch.at = placed.at(notch.at);
-            notch.angle_deg = notch.angle_deg.map(|angle| (angle + placed.turn.to_degrees()).rem_euclid(360.0));
-        }
-        piece.corners.iter_mut().for_each(|corner| *corner = placed.at(*corner));
-        piece.grain = turned(piece.grain, placed.turn);
+        piece.turn(placed.turn);
+        piece.shift(placed.shift);
     }
     moved
 }

@@ -17,6 +17,7 @@ pub mod inspect;
 pub mod mesh;
 pub mod piece;
 pub mod propose;
+pub mod scale;
 pub mod seam_edit;
 pub mod seams;
 pub mod source;

@@ -21,6 +21,8 @@ pub struct GradePoint {
     pub at: V2,
     /// Number of the rule.
     pub rule: u32,
+    /// Whether it is a point of an inner line, cut-out or drill hole, however near the outline it lies.
+    pub is_inner: bool,
 }
 
 /// One piece of one size.
@@ -30,6 +32,8 @@ pub struct Piece {
     pub block: String,
     /// `Piece Name`, or the block's name where none is given.
     pub name: String,
+    /// What the file says that it is, in words; empty where its name is all that is known.
+    pub told: String,
     /// Size, where the piece or the file names one.
     pub size: Option<String>,
     /// How many are cut, as written (`2`, or `1,1` for left and right).
@@ -67,6 +71,12 @@ pub struct Piece {
 }
 
 impl Piece {
+    /// The words that say what it is: its name, where nothing says more.
+    #[must_use]
+    pub fn words(&self) -> &str {
+        if self.told.is_empty() { &self.name } else { &self.told }
+    }
+
     /// Length of the outline, m.
     #[must_use]
     pub fn perimeter_m(&self) -> f64 {

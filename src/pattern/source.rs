@@ -1,6 +1,6 @@
 //! A pattern file of any kind that is read: DXF, GarmentCode JSON, pattern features as JSON.
 
-use super::dxf::{self, DxfError, PatternFile, Unit, UnitSource};
+use super::dxf::{self, CodePage, DxfError, PatternFile, Unit, UnitSource};
 use super::features::{self, FeaturesError};
 use super::garmentcode::{self, GarmentCodeError, Specification};
 
@@ -40,6 +40,23 @@ pub fn kind(bytes: &[u8]) -> Kind {
     }
 }
 
+/// Whether a JSON file is a pattern: features, or panels as GarmentCode writes them. Other JSON lies beside patterns too.
+#[must_use]
+pub fn is_json_pattern(bytes: &[u8]) -> bool {
+    #[derive(serde::Deserialize)]
+    struct Head {
+        pattern: Option<Panels>,
+    }
+    #[derive(serde::Deserialize)]
+    struct Panels {
+        panels: Option<serde::de::IgnoredAny>,
+    }
+    let text = without_mark(bytes);
+    let has_panels =
+        || serde_json::from_slice::<Head>(text).is_ok_and(|h| h.pattern.is_some_and(|p| p.panels.is_some()));
+    features::is_features(text) || has_panels()
+}
+
 /// A text without the mark of UTF-8 and blanks before it.
 fn without_mark(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes).trim_ascii_start()
@@ -71,7 +88,7 @@ impl From<Specification> for PatternFile {
             refused: Vec::new(),
             warnings: Vec::new(),
             unused: Default::default(),
-            encoding: encoding_rs::UTF_8,
+            encoding: CodePage::Web(encoding_rs::UTF_8),
         }
     }
 }

@@ -341,7 +341,7 @@ fn style(asked: &Attempt, notes: &mut Vec<String>) -> Result<Style> {
         ))
     })?;
     notes.push("sewn as proposed: no seam file was given".to_owned());
-    notes.extend(proposal.questions.iter().cloned());
+    notes.extend(proposal.questions.iter().chain(&proposal.notes).cloned());
     let name = asked.pattern.file_stem().unwrap_or_default().to_string_lossy();
     let pieces = patterns::pieces(&SourceFile::read_pattern(&asked.pattern)?, size, asked.unit)?;
     let text = proposal.toml(&name);

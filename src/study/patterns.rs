@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Result, StudyError};
 use crate::files::SourceFile;
-use pattern::{Garment, Piece, drawing, garmentcode, source};
+use pattern::{Garment, Piece, drawing, garmentcode, scale, source};
 
 pub use pattern::check::{Finding, of_garment as garment_findings};
 pub use pattern::draft::Model;
@@ -12,26 +12,45 @@ pub use pattern::dxf::Unit;
 pub use pattern::inspect::{FileReport, PieceReport};
 pub use pattern::{MeshQuality, Style};
 
-/// The DXF files and GarmentCode specifications below a folder, by path.
+/// The patterns below a folder, by path: DXF files, and what JSON files are patterns.
+///
+/// # Errors
+/// When a folder or file cannot be read, or there is no pattern.
 pub(crate) fn drawings(folder: &Path) -> Result<Vec<PathBuf>> {
-    let mut found = Vec::new();
+    let (mut found, mut others) = (Vec::new(), 0);
+    let top = folder;
     let mut folders = vec![folder.to_owned()];
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(&folder).map_err(StudyError::io(&folder))? {
             let entry = entry.map_err(StudyError::io(&folder))?;
             let kind = entry.file_type().map_err(StudyError::io(entry.path()))?;
-            let is_dxf = entry.path().extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf"));
-            // Other JSON lies beside patterns too; specifications are named so by the program that writes them.
-            let is_drawing = is_dxf || entry.path().to_string_lossy().ends_with("_specification.json");
-            match kind {
-                kind if kind.is_dir() => folders.push(entry.path()),
-                _ if is_drawing => found.push(entry.path()),
-                _ => {}
+            if kind.is_dir() {
+                folders.push(entry.path());
+            } else if is_drawing(&entry.path())? {
+                found.push(entry.path());
+            } else {
+                others += 1;
             }
         }
     }
+    if found.is_empty() {
+        let message = format!(
+            "{}: found {others} files, none of them a pattern; accepted: DXF, GarmentCode JSON, features as JSON",
+            top.display()
+        );
+        return Err(StudyError::stage("pattern")(message));
+    }
     found.sort();
     Ok(found)
+}
+
+/// Whether a file of a folder is a pattern, by its ending, and JSON by its contents.
+fn is_drawing(path: &Path) -> Result<bool> {
+    let ends_in = |ending: &str| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(ending));
+    if ends_in("json") {
+        return Ok(source::is_json_pattern(&std::fs::read(path).map_err(StudyError::io(path))?));
+    }
+    Ok(ends_in("dxf"))
 }
 
 /// A style from the files of a pattern and its seams; `size` picks one where the pattern holds several.
@@ -57,7 +76,7 @@ pub(crate) fn pieces(pattern: &SourceFile, size: Option<&str>, unit: Option<Unit
 
 /// The unit of a name in a study file.
 pub(crate) fn unit_of(name: &str) -> Option<Unit> {
-    [Unit::Mm, Unit::Cm, Unit::In].into_iter().find(|unit| unit.as_str() == name)
+    Unit::ALL.into_iter().find(|unit| unit.as_str() == name)
 }
 
 /// [`style`] from files already read.
@@ -82,10 +101,22 @@ pub(crate) fn read_style(
         let pieces = pieces(pattern, size, unit)?;
         Style::read(&pieces, &seams.bytes, &seams.name).map_err(StudyError::stage("pattern"))?
     };
+    check_scale(&style, &pattern.name)?;
     if style.measurements.is_empty() {
         style.measure_openings_and_seams();
     }
     Ok(style)
+}
+
+/// Refuses a style whose pieces nobody could wear: its file is in another unit than it says.
+fn check_scale(style: &Style, file: &str) -> Result<()> {
+    let longest_m = style.pieces.iter().map(|piece| scale::extent_m(&piece.outline())).fold(0.0, f64::max);
+    match scale::doubt(longest_m, Unit::M) {
+        Some(_) => Err(StudyError::stage("pattern")(format!(
+            "{file}: found a longest piece of {longest_m:.2} m; accepted: 0.08 to 6 m for a person; the unit of the file is wrong"
+        ))),
+        None => Ok(()),
+    }
 }
 
 /// A style's mesh at an edge length, m, and how good its triangles are.

@@ -23,11 +23,15 @@ pub enum LengthUnit {
     Centimetre,
     #[serde(rename = "m")]
     Metre,
+    #[serde(rename = "dm")]
+    Decimetre,
+    #[serde(rename = "in")]
+    Inch,
 }
 
 impl LengthUnit {
-    /// Every unit.
-    pub const ALL: [Self; 3] = [Self::Millimetre, Self::Centimetre, Self::Metre];
+    /// Every unit; a standing adult is so high in one of them only.
+    pub const ALL: [Self; 5] = [Self::Millimetre, Self::Centimetre, Self::Metre, Self::Decimetre, Self::Inch];
 
     /// Metres in one unit.
     #[must_use]
@@ -36,6 +40,8 @@ impl LengthUnit {
             Self::Millimetre => 1e-3,
             Self::Centimetre => 1e-2,
             Self::Metre => 1.0,
+            Self::Decimetre => 0.1,
+            Self::Inch => 0.0254,
         }
     }
 
@@ -46,6 +52,8 @@ impl LengthUnit {
             Self::Millimetre => "mm",
             Self::Centimetre => "cm",
             Self::Metre => "m",
+            Self::Decimetre => "dm",
+            Self::Inch => "in",
         }
     }
 }

@@ -24,6 +24,10 @@ pub enum MeshUnit {
     Cm,
     /// Metre.
     M,
+    /// Decimetre.
+    Dm,
+    /// Inch.
+    In,
 }
 
 impl From<MeshUnit> for bodies::LengthUnit {
@@ -32,6 +36,8 @@ impl From<MeshUnit> for bodies::LengthUnit {
             MeshUnit::Mm => Self::Millimetre,
             MeshUnit::Cm => Self::Centimetre,
             MeshUnit::M => Self::Metre,
+            MeshUnit::Dm => Self::Decimetre,
+            MeshUnit::In => Self::Inch,
         }
     }
 }

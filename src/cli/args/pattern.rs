@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
+use study::patterns::Unit;
 
 /// Unit of a pattern whose file names none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -13,6 +14,19 @@ pub enum PatternUnit {
     Cm,
     /// Inch.
     In,
+    /// Metre.
+    M,
+}
+
+impl From<PatternUnit> for Unit {
+    fn from(unit: PatternUnit) -> Self {
+        match unit {
+            PatternUnit::Mm => Self::Mm,
+            PatternUnit::Cm => Self::Cm,
+            PatternUnit::In => Self::In,
+            PatternUnit::M => Self::M,
+        }
+    }
 }
 
 /// Style that can be drafted.

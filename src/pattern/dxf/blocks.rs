@@ -8,9 +8,10 @@ use dxf::entities::{Entity, EntityType};
 use super::figures::{Figure, Placement, figure};
 use super::guard::Foreign;
 use super::outline::{
-    Line, MOST_LINES, check_simple, counter_clockwise, cut_loops, cut_spikes, joined, part_touching, sew_line, text_mm,
+    LOOPS_SHARE, Line, MOST_LINES, TRIFLE_M2, counter_clockwise, cut_loops, cut_spikes, joined, part_touching, text_mm,
     without_copies,
 };
+use super::sew_line::sew_line;
 use crate::piece::{GradePoint, Notch, Piece};
 use geom::V2;
 use geom::polyline::{perimeter, signed_area};
@@ -37,15 +38,27 @@ impl<'d> Library<'d> {
         Self(by_name)
     }
 
-    fn find(&self, name: &str) -> Result<&'d Block, String> {
+    /// A block by its name; `None` where the file has none of it.
+    fn find(&self, name: &str) -> Result<Option<&'d Block>, String> {
         match self.0.get(&name.to_ascii_uppercase()).map(Vec::as_slice) {
-            Some([block]) => Ok(block),
+            Some([block]) => Ok(Some(block)),
             Some(several) => {
                 Err(format!("block `{name}` inserted, of which there are {}; accepted: one", several.len()))
             }
-            None => Err(format!("block `{name}` inserted but not there; accepted: blocks of the file")),
+            None => Ok(None),
         }
     }
+}
+
+/// A text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Text {
+    /// Its place.
+    pub at: V2,
+    /// What it says.
+    pub value: String,
+    /// Whether it is on a layer of inner lines, cut-outs or drill holes.
+    is_inner: bool,
 }
 
 /// What a block draws, by AAMA layer, in metres.
@@ -64,7 +77,9 @@ pub struct Drawn {
     curve_points: Vec<V2>,
     notches: Vec<Notch>,
     /// Texts with their places.
-    pub texts: Vec<(V2, String)>,
+    pub texts: Vec<Text>,
+    /// Blocks that are inserted and not there.
+    missing: Vec<String>,
     /// What cannot be read on layers 1 and 14, and why.
     pub unreadable: Vec<String>,
     /// Curves that were flattened, by kind.
@@ -72,7 +87,7 @@ pub struct Drawn {
     /// Entities that are not used, by layer.
     pub unused: BTreeMap<String, usize>,
     /// Lines on the boundary drawn a second time.
-    pub copies: usize,
+    copies: Vec<Line>,
     /// Number of entities that are used, texts aside.
     used: usize,
     /// Points and entities so far.
@@ -128,7 +143,13 @@ impl Drawn {
                 self.add(entity, layer, placement);
                 continue;
             };
-            let inner = library.find(&insert.name).and_then(|block| {
+            let found = library.find(&insert.name);
+            if matches!(found, Ok(None)) {
+                self.missing.push(insert.name.clone());
+                continue;
+            }
+            let inner = found.and_then(|block| {
+                let block = block.ok_or_else(|| format!("block `{}` is not there", insert.name))?;
                 if depth == 0 {
                     return Err(format!(
                         "blocks inserted in each other more than {DEEPEST_INSERT} deep; accepted: fewer"
@@ -145,7 +166,9 @@ impl Drawn {
 
     fn add(&mut self, entity: &Entity, layer: &str, placement: &Placement) {
         let figure = match figure(entity, placement) {
-            Ok(Figure::Text { at, value }) => return self.texts.push((at, value)),
+            Ok(Figure::Text { at, value }) => {
+                return self.texts.push(Text { at, value, is_inner: matches!(layer, "8" | "11" | "13") });
+            }
             Ok(Figure::Label) => return,
             Ok(_) if !is_used(layer) => return self.leave_out(layer),
             Ok(figure) => figure,
@@ -228,15 +251,40 @@ impl Drawn {
         }
     }
 
+    /// The boundary, joined. A line that is drawn twice counts once, unless the outline closes only over both: then they are the two
+    /// sides of a slit.
+    fn outline(&self, block: &str, remarks: &mut Vec<String>) -> Result<Vec<V2>, String> {
+        let once = joined(&self.boundary, "outline (layer 1)");
+        if self.copies.is_empty() {
+            return once;
+        }
+        let what = "outline (layer 1)";
+        let both = || joined(&[&self.boundary[..], &self.copies[..]].concat(), what);
+        // A slit of one line, drawn there and back, ends where it begins: the outline goes on without it.
+        let neither = || {
+            let is_single = |line: &&Line| !self.copies.iter().any(|copy| copy.is_drawn_again_by(line));
+            joined(&self.boundary.iter().filter(is_single).cloned().collect::<Vec<_>>(), what)
+        };
+        let (outline, said) = match once {
+            Ok(outline) => (outline, "drawn twice and taken once"),
+            Err(reason) => {
+                let slit = both().or_else(|_| neither()).map_err(|_| reason)?;
+                (slit, "drawn twice, as the sides of a slit")
+            }
+        };
+        remarks.push(format!("block `{block}`: {} boundary lines are {said}", self.copies.len()));
+        Ok(outline)
+    }
+
     /// The piece that the block draws; what a user should know of it is added to `remarks`.
     ///
     /// # Errors
     /// A sentence that says why it is no usable piece, with the place in millimetres.
     pub fn into_piece(mut self, block: &str, remarks: &mut Vec<String>) -> Result<Piece, String> {
-        if let Some(reason) = self.unreadable.into_iter().next() {
+        if let Some(reason) = std::mem::take(&mut self.unreadable).into_iter().next() {
             return Err(reason);
         }
-        let mut outline = joined(&self.boundary, "outline (layer 1)")?;
+        let mut outline = self.outline(block, remarks)?;
         let places = |points: &[V2]| points.iter().map(text_mm).collect::<Vec<_>>().join(", ");
         let drawn = outline.clone();
         let spikes = cut_spikes(&mut outline);
@@ -250,16 +298,15 @@ impl Drawn {
             remarks
                 .push(format!("block `{block}`: its outline touches itself at {places}: parted by a hair's breadth"));
         }
-        if self.sew_lines.is_empty() {
-            check_simple(&outline, "outline")?;
+        let loops = if self.sew_lines.is_empty() {
+            cut_loops(&mut outline, "outline", TRIFLE_M2)?
         } else {
-            let loops = cut_loops(&mut outline)?;
-            if !loops.is_empty() {
-                let places = places(&loops);
-                remarks.push(format!(
-                    "block `{block}`: its cut line crosses itself at {places}: loops cut away, the sew line is as drawn"
-                ));
-            }
+            let trifle_m2 = LOOPS_SHARE * signed_area(&outline).abs();
+            cut_loops(&mut outline, "cut line", trifle_m2)?
+        };
+        if !loops.is_empty() {
+            let (places, line) = (places(&loops), if self.sew_lines.is_empty() { "outline" } else { "cut line" });
+            remarks.push(format!("block `{block}`: its {line} crosses itself at {places}: loops cut away"));
         }
         let area = signed_area(&outline);
         if area.abs() < LEAST_AREA_M2 {
@@ -270,7 +317,7 @@ impl Drawn {
         let sew_line = sew_line(self.sew_lines, &mut self.internal, &outline)?;
         let grade_points = self.texts.iter().filter_map(grade_point).collect();
         let others = self.texts.iter().filter(|text| grade_point(text).is_none());
-        let mut texts: Vec<(String, String)> = others.map(|(_, text)| key_and_value(text)).collect();
+        let mut texts: Vec<(String, String)> = others.map(|text| key_and_value(&text.value)).collect();
         let take = |texts: &mut Vec<(String, String)>, key: &str| {
             let index = texts.iter().position(|(found, value)| found.eq_ignore_ascii_case(key) && !value.is_empty());
             index.map(|index| texts.remove(index).1)
@@ -280,6 +327,7 @@ impl Drawn {
         Ok(Piece {
             block: block.to_owned(),
             name: take(&mut texts, "piece name").unwrap_or_else(|| block.to_owned()),
+            told: String::new(),
             size: take(&mut texts, "size"),
             quantity: take(&mut texts, "quantity"),
             texts,
@@ -300,6 +348,15 @@ impl Drawn {
         })
     }
 
+    /// The size that its texts name.
+    pub fn size(&self) -> Option<String> {
+        let texts = self.texts.iter().map(|text| key_and_value(&text.value));
+        texts
+            .filter(|(key, value)| key.eq_ignore_ascii_case("size") && !value.is_empty())
+            .map(|(_, value)| value)
+            .next()
+    }
+
     /// A place of what is drawn; of its first entity where there are several.
     pub fn place(&self) -> Option<V2> {
         let lines = [&self.boundary, &self.sew_lines, &self.internal, &self.cut_outs];
@@ -311,7 +368,7 @@ impl Drawn {
             .chain(on_line)
             .chain(points)
             .chain(self.notches.iter().map(|notch| notch.at))
-            .chain(self.texts.iter().map(|(at, _)| *at))
+            .chain(self.texts.iter().map(|text| text.at))
             .next()
     }
 
@@ -325,8 +382,8 @@ impl Drawn {
             let counts: Vec<String> = self.flattened.iter().map(count).collect();
             remarks.push(format!("block `{block}`: {} flattened, chords within {error_mm} mm", counts.join(", ")));
         }
-        if self.copies > 0 {
-            remarks.push(format!("block `{block}`: {} boundary lines are drawn twice and taken once", self.copies));
+        for missing in &self.missing {
+            remarks.push(format!("block `{block}`: inserts block `{missing}`, which the file does not hold: left out"));
         }
         remarks
     }
@@ -353,9 +410,9 @@ fn middle(points: &[V2]) -> V2 {
 }
 
 /// The point that a text `# n` gives grade rule `n`.
-fn grade_point((at, text): &(V2, String)) -> Option<GradePoint> {
-    let rule = text.trim().strip_prefix('#')?.trim().parse().ok()?;
-    Some(GradePoint { at: *at, rule })
+fn grade_point(text: &Text) -> Option<GradePoint> {
+    let rule = text.value.trim().strip_prefix('#')?.trim().parse().ok()?;
+    Some(GradePoint { at: text.at, rule, is_inner: text.is_inner })
 }
 
 /// `(key, value)` texts of a set of entities.

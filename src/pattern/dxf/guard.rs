@@ -132,13 +132,21 @@ pub fn take_inventory<'a>(tags: &[Tag<'a>], file: &str) -> Result<Inventory<'a>,
             "a DXF file with pattern pieces in BLOCKS, or an outline in ENTITIES",
         ));
     }
-    let names: BTreeSet<Vec<u8>> = walk.inventory.blocks.iter().map(|block| block.name.to_ascii_uppercase()).collect();
-    let is_there = |name: &[u8]| names.contains(&name.to_ascii_uppercase());
-    if let Some(&(name, line)) = walk.inventory.inserted.iter().find(|(name, _)| !is_there(name)) {
-        let found = format!("block `{}` inserted but not there", clipped(&String::from_utf8_lossy(name)));
-        return Err(DxfError::new(file, Some(line), found, "blocks that the file holds"));
-    }
     Ok(walk.inventory)
+}
+
+impl Inventory<'_> {
+    /// Names and texts, as bytes.
+    pub fn words(&self) -> impl Iterator<Item = &[u8]> {
+        self.texts.iter().map(|(bytes, _)| *bytes).chain(self.blocks.iter().map(|block| block.name))
+    }
+
+    /// Blocks that the file inserts and does not hold, each once, with the line that says so.
+    pub fn missing_blocks(&self) -> Vec<(String, usize)> {
+        let mut known: BTreeSet<Vec<u8>> = self.blocks.iter().map(|block| block.name.to_ascii_uppercase()).collect();
+        let missing = self.inserted.iter().filter(|(name, _)| known.insert(name.to_ascii_uppercase()));
+        missing.map(|(name, line)| (clipped(&String::from_utf8_lossy(name)), *line)).collect()
+    }
 }
 
 struct Walk<'a, 'f> {

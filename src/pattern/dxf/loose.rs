@@ -2,7 +2,7 @@
 
 use dxf::entities::{Entity, EntityType};
 
-use super::blocks::{Drawn, Library, key_and_value};
+use super::blocks::{Drawn, Library, Text, key_and_value};
 use super::figures::Placement;
 use super::outline::{Line, chains};
 use super::{NO_BLOCK, Refused};
@@ -80,8 +80,8 @@ fn is_of(outline: &Line, place: &V2) -> bool {
 impl Loose {
     /// A piece is called by its `Piece Name`, else by its first text that is no `key: value` and no rule number.
     fn add(&mut self, drawn: Drawn) {
-        let keyless = |(_, text): &(V2, String)| {
-            let (key, value) = key_and_value(text);
+        let keyless = |text: &Text| {
+            let (key, value) = key_and_value(&text.value);
             (key.is_empty() && !value.is_empty() && !value.starts_with('#')).then_some(value)
         };
         let label = drawn.texts.iter().find_map(keyless);
@@ -93,7 +93,7 @@ impl Loose {
                 }
                 self.pieces.push(piece);
             }
-            Err(reason) => self.refused.push(Refused { block: NO_BLOCK.to_owned(), line: None, reason }),
+            Err(reason) => self.refused.push(Refused { block: NO_BLOCK.to_owned(), line: None, size: None, reason }),
         }
     }
 }

@@ -5,11 +5,13 @@
 //! crate reads them, and its entities are counted against the tags; then each block becomes a piece or is refused.
 
 mod blocks;
+mod code_page;
 mod curves;
 mod figures;
 mod guard;
 mod loose;
 mod outline;
+mod sew_line;
 mod tags;
 mod units;
 mod write;
@@ -20,11 +22,13 @@ use dxf::entities::{Entity, EntityType};
 use dxf::{Block, Drawing};
 
 use self::blocks::{Drawn, Library};
+pub use self::code_page::CodePage;
 use self::figures::Placement;
 use self::guard::{BlockCount, Counts, Inventory, take_inventory};
 pub use self::units::{Unit, UnitSource};
 pub use self::write::{write, write_pieces};
 use super::piece::Piece;
+use super::scale;
 
 /// Name given to the outline of a file that has no blocks.
 pub const NO_BLOCK: &str = "(no block)";
@@ -64,6 +68,9 @@ pub struct Refused {
     pub block: String,
     /// Line at which the block begins; `None` for a file without blocks.
     pub line: Option<usize>,
+    /// Size of the piece that it would have been, where one is named.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub size: Option<String>,
     /// Why, with the place in millimetres.
     pub reason: String,
 }
@@ -90,7 +97,7 @@ pub struct PatternFile {
     /// Number of entities that are not used, by layer.
     pub unused: BTreeMap<String, usize>,
     /// Encoding of the texts.
-    pub encoding: &'static encoding_rs::Encoding,
+    pub encoding: CodePage,
 }
 
 impl PatternFile {
@@ -98,10 +105,16 @@ impl PatternFile {
     /// name itself in a UTF-8 file. It names the block whatever code page a reader believes in.
     #[must_use]
     pub fn as_written(&self, block: &str) -> String {
-        if block == NO_BLOCK || self.encoding == encoding_rs::UTF_8 {
+        if block == NO_BLOCK || self.encoding.is_utf8() {
             return block.to_owned();
         }
-        self.encoding.encode(block).0.iter().map(|&byte| char::from(byte)).collect()
+        self.encoding.encoded(block).into_iter().map(char::from).collect()
+    }
+
+    /// Doubt about the unit, from the longest piece.
+    fn doubt(&self) -> Option<String> {
+        let longest_m = self.pieces.iter().map(|piece| scale::extent_m(&piece.outline)).fold(0.0, f64::max);
+        if longest_m > 0.0 { scale::doubt(longest_m, self.unit) } else { None }
     }
 
     /// Sizes in the order in which they first appear; pieces without one count as the size `""`.
@@ -124,18 +137,14 @@ impl PatternFile {
     /// [`DxfError`] when the file names no unit and none was said, a block was refused (a garment without one of its
     /// pieces is another garment), or the size is not there or not said.
     pub fn to_sew(&self, size: Option<&str>) -> Result<Vec<Piece>, DxfError> {
+        let doubt = self.doubt();
         if self.unit_source == UnitSource::Assumed {
-            let accepted = "a `Units:` text or $INSUNITS in the file, or --unit mm, cm or in";
-            return Err(DxfError::new(&self.file, None, "no unit".to_owned(), accepted));
+            let accepted = "a `Units:` text or $INSUNITS in the file, or --unit mm, cm, in or m";
+            let hint = doubt.map_or_else(String::new, |doubt| format!(" ({doubt})"));
+            return Err(DxfError::new(&self.file, None, format!("no unit{hint}"), accepted));
         }
-        if let Some(refused) = self.refused.first() {
-            return Err(DxfError {
-                file: self.file.clone(),
-                line: refused.line,
-                block: Some(refused.block.clone()),
-                found: refused.reason.clone(),
-                accepted: "pieces with one closed outline of straight sides that does not cross itself".to_owned(),
-            });
+        if let Some(doubt) = doubt {
+            return Err(DxfError::new(&self.file, None, doubt, scale::ACCEPTED));
         }
         let sizes = self.sizes();
         let wanted = match (size, sizes.as_slice()) {
@@ -150,6 +159,17 @@ impl PatternFile {
                 ));
             }
         };
+        // What is broken of another size is no part of this one.
+        let is_part = |refused: &&Refused| refused.size.as_ref().is_none_or(|size| size.eq_ignore_ascii_case(wanted));
+        if let Some(refused) = self.refused.iter().find(is_part) {
+            return Err(DxfError {
+                file: self.file.clone(),
+                line: refused.line,
+                block: Some(refused.block.clone()),
+                found: refused.reason.clone(),
+                accepted: "pieces with one closed outline of straight sides that does not cross itself".to_owned(),
+            });
+        }
         let is_of = |piece: &&Piece| piece.size.as_deref().unwrap_or_default().eq_ignore_ascii_case(wanted);
         let pieces: Vec<Piece> =
             self.pieces.iter().filter(is_of).map(|piece| piece.unfolded().unwrap_or_else(|| piece.clone())).collect();
@@ -174,7 +194,7 @@ impl PatternFile {
 pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<PatternFile, DxfError> {
     let tags = tags::scan(bytes, file_name)?;
     let inventory = take_inventory(&tags, file_name)?;
-    let encoding = units::encoding_of(&inventory, file_name)?;
+    let encoding = units::code_page(&inventory, file_name)?;
     let claims = match unit {
         Some(_) => Vec::new(),
         None => units::claims(&inventory, file_name)?,
@@ -199,10 +219,14 @@ pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<Pattern
         encoding,
     };
     file.warnings.extend(drawing.entities().filter_map(scaled_insert));
+    file.warnings.extend(inventory.missing_blocks().into_iter().map(|(name, line)| {
+        format!("block `{name}` is inserted (line {line}) but not in the file: what it draws is missing")
+    }));
     if unit_source == UnitSource::Assumed {
         file.warnings.push(format!("{file_name} names no unit: millimetres are assumed; say the unit to sew from it"));
     }
     file.add_all(&drawing, &inventory);
+    file.warnings.extend(file.doubt());
     let sample_size =
         file.texts.iter().find(|(key, _)| key.eq_ignore_ascii_case("size")).map(|(_, value)| value.clone());
     for piece in &mut file.pieces {
@@ -266,9 +290,10 @@ impl PatternFile {
     }
 
     fn add(&mut self, block: &str, line: Option<usize>, drawn: Drawn) {
+        let size = drawn.size();
         match drawn.into_piece(block, &mut self.warnings) {
             Ok(piece) => self.pieces.push(piece),
-            Err(reason) => self.refused.push(Refused { block: block.to_owned(), line, reason }),
+            Err(reason) => self.refused.push(Refused { block: block.to_owned(), line, size, reason }),
         }
     }
 
@@ -303,17 +328,25 @@ fn scaled_insert(entity: &Entity) -> Option<String> {
 }
 
 /// Has the crate read the clean tags, and compares what it found with what is there.
-fn load(inventory: &Inventory<'_>, encoding: &'static encoding_rs::Encoding, file: &str) -> Result<Drawing, DxfError> {
+fn load(inventory: &Inventory<'_>, code_page: CodePage, file: &str) -> Result<Drawing, DxfError> {
     let mut clean = Vec::new();
     if let Some(version) = inventory.header.get("$ACADVER") {
         clean.extend(format!("0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\n{}\n0\nENDSEC\n", version.value).into_bytes());
     }
     for tag in &inventory.clean {
         clean.extend(format!("{}\n", tag.code).into_bytes());
-        clean.extend(tag.value);
+        match code_page {
+            // The crate knows no code pages of DOS.
+            CodePage::Dos(_) if !tag.value.is_ascii() => clean.extend(code_page.decoded(tag.value).into_bytes()),
+            _ => clean.extend(tag.value),
+        }
         clean.push(b'\n');
     }
     clean.extend(b"0\nEOF\n");
+    let encoding = match code_page {
+        CodePage::Web(encoding) => encoding,
+        CodePage::Dos(_) => encoding_rs::UTF_8,
+    };
     let drawing = Drawing::load_with_encoding(&mut clean.as_slice(), encoding).map_err(|error| {
         DxfError::new(file, None, format!("a file that the DXF reader refuses: {error}"), "a DXF file of R12 or later")
     })?;

@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashMap};
 
 use geom::V2;
-use geom::polyline::{contains, crossing_sides, self_crossing, signed_area};
+use geom::polyline::{crossing_sides, self_crossing, signed_area};
 use geom::units::mm;
 
 /// Greatest gap between the ends of boundary lines that join, m.
@@ -14,18 +14,22 @@ const SAME_M: f64 = 1e-6;
 const MOST_VERTICES: usize = 20_000;
 /// Most lines that an outline is joined from; drawn side by side it has some hundreds.
 pub const MOST_LINES: usize = 5_000;
-/// Least share of the outline's area that a closed line on layer 8 must enclose to be an old Valentina sew line.
-const SEW_LINE_SHARE: f64 = 0.5;
 /// Greatest share of a piece that loops of its cut line may enclose; those of trousers with pockets enclose a thousandth.
-const LOOPS_SHARE: f64 = 0.01;
+pub const LOOPS_SHARE: f64 = 0.01;
+/// Greatest area of loops of an outline that is sewn itself, m2: a knot of grading that no scissors could follow.
+pub const TRIFLE_M2: f64 = 1e-5;
 /// Most loops of a cut line; there are some at each inner corner at most.
 const MOST_LOOPS: usize = 200;
 
-/// Greatest width of a spike, m: what runs out and back over itself to within rounding.
-const SPIKE_M: f64 = 0.01e-3;
+/// Greatest width of a spike, m: what runs out and back over itself to within the coarsest grid that programs write on, a thousandth
+/// of an inch, which either side may be off by half.
+const SPIKE_M: f64 = 0.026e-3;
 
 /// Greatest slope of one side of a spike against the other: a short one is no corner that happens to be sharp.
 const SPIKE_SLOPE: f64 = 1e-3;
+
+/// Distance below which an outline touches itself, m.
+const TOUCHING_M: f64 = 0.01e-3;
 
 /// How far the corners of an outline that touches itself go inwards there, m.
 const PARTED_M: f64 = 0.02e-3;
@@ -51,18 +55,24 @@ impl Line {
         [self.points[0], self.points[self.points.len() - 1]]
     }
 
-    fn gap(&self) -> f64 {
+    pub fn gap(&self) -> f64 {
         let [start, end] = self.ends();
         (end - start).norm()
     }
 
     /// Whether it closes by its flag, or by ending where it begins.
     pub fn closes(&self) -> bool {
-        self.is_closed || (self.points.len() > 2 && self.gap() < JOIN_M)
+        self.is_closed || (self.points.len() > 2 && self.gap() < JOIN_M && !self.is_slit())
+    }
+
+    /// Whether it only runs out and back: the sides of a slit end where they begin, and the outline goes on.
+    fn is_slit(&self) -> bool {
+        let length: f64 = self.points.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum();
+        signed_area(&self.points).abs() < JOIN_M * length
     }
 
     /// Whether another line has the same points, in this or the other direction.
-    fn is_drawn_again_by(&self, other: &Self) -> bool {
+    pub fn is_drawn_again_by(&self, other: &Self) -> bool {
         let near = |(a, b): (&V2, &V2)| (a - b).norm() < SAME_M;
         self.points.len() == other.points.len()
             && (self.points.iter().zip(&other.points).all(near)
@@ -70,10 +80,9 @@ impl Line {
     }
 }
 
-/// Lines without those that are drawn a second time, and the number of those.
-pub fn without_copies(lines: Vec<Line>) -> (Vec<Line>, usize) {
-    let count = lines.len();
-    let mut kept: Vec<Line> = Vec::new();
+/// Lines without those that are drawn a second time, and those.
+pub fn without_copies(lines: Vec<Line>) -> (Vec<Line>, Vec<Line>) {
+    let (mut kept, mut copies): (Vec<Line>, Vec<Line>) = (Vec::new(), Vec::new());
     let mut seen: HashMap<[i64; 2], Vec<usize>> = HashMap::new();
     for line in lines {
         // Copies have the same sum of ends, up to rounding to the next cell.
@@ -83,12 +92,13 @@ pub fn without_copies(lines: Vec<Line>) -> (Vec<Line>, usize) {
             .filter_map(|key| seen.get(&key))
             .flatten()
             .any(|&other: &usize| kept[other].is_drawn_again_by(&line));
-        if !is_copy {
+        if is_copy {
+            copies.push(line);
+        } else {
             seen.entry(key).or_default().push(kept.len());
             kept.push(line);
         }
     }
-    let copies = count - kept.len();
     (kept, copies)
 }
 
@@ -208,13 +218,12 @@ pub fn check_simple(outline: &[V2], what: &str) -> Result<(), String> {
     }
 }
 
-/// Cuts away the loops that a cut line makes where it was drawn at a distance from the sew line and runs over itself
-/// (at inner corners, pocket mouths); the place of each.
+/// Cuts away the loops of a line that runs over itself, as a cut line does that is drawn at a distance from the sew line (at inner
+/// corners, pocket mouths); the place of each.
 ///
 /// # Errors
-/// A sentence with the place of a crossing where the loops are no trifle of the piece.
-pub fn cut_loops(outline: &mut Vec<V2>) -> Result<Vec<V2>, String> {
-    let trifle = LOOPS_SHARE * signed_area(outline).abs();
+/// A sentence with the place of a crossing where the loops enclose more than `trifle_m2`.
+pub fn cut_loops(outline: &mut Vec<V2>, what: &str, trifle_m2: f64) -> Result<Vec<V2>, String> {
     let (mut places, mut cut) = (Vec::new(), 0.0);
     while let Some(([first, second], at)) = crossing_sides(outline) {
         let between: Vec<V2> = outline.splice(first + 1..=second, [at]).chain([at]).collect();
@@ -224,8 +233,8 @@ pub fn cut_loops(outline: &mut Vec<V2>) -> Result<Vec<V2>, String> {
             (std::mem::take(outline), between)
         };
         cut += signed_area(&small).abs();
-        if cut > trifle || places.len() == MOST_LOOPS {
-            return Err(format!("the cut line crosses itself at {}", text_mm(&at)));
+        if cut > trifle_m2 || places.len() == MOST_LOOPS {
+            return Err(format!("the {what} crosses itself at {}", text_mm(&at)));
         }
         *outline = large;
         places.push(at);
@@ -278,9 +287,9 @@ pub fn part_touching(outline: &mut [V2]) -> Vec<V2> {
     order.sort_by(|&i, &j| outline[i].x.total_cmp(&outline[j].x));
     let mut touches = vec![false; n];
     for (k, &i) in order.iter().enumerate() {
-        for &j in order[k + 1..].iter().take_while(|&&j| outline[j].x - outline[i].x < SPIKE_M) {
+        for &j in order[k + 1..].iter().take_while(|&&j| outline[j].x - outline[i].x < TOUCHING_M) {
             let are_neighbours = (i + 1) % n == j || (j + 1) % n == i;
-            if !are_neighbours && (outline[i] - outline[j]).norm() < SPIKE_M {
+            if !are_neighbours && (outline[i] - outline[j]).norm() < TOUCHING_M {
                 (touches[i], touches[j]) = (true, true);
             }
         }
@@ -308,27 +317,6 @@ pub fn counter_clockwise(polygon: &mut [V2]) -> bool {
     is_clockwise
 }
 
-/// The sew line: layer 14, or in files of old Valentina a closed line on layer 8 that holds most of the piece.
-///
-/// # Errors
-/// A sentence where layer 14 does not hold one closed line.
-pub fn sew_line(on_14: Vec<Line>, internal: &mut Vec<Line>, outline: &[V2]) -> Result<Option<Vec<V2>>, String> {
-    let mut line = if on_14.is_empty() {
-        let is_sew_line = |line: &Line| {
-            (line.is_closed || line.gap() < JOIN_M)
-                && signed_area(&line.points).abs() > SEW_LINE_SHARE * signed_area(outline)
-                && line.points.iter().all(|p| contains(outline, p))
-        };
-        let Some(index) = internal.iter().position(is_sew_line) else { return Ok(None) };
-        let found = internal.remove(index);
-        closed(Line { is_closed: true, ..found }, "sew line (layer 8)")?
-    } else {
-        joined(&without_copies(on_14).0, "sew line (layer 14)")?
-    };
-    counter_clockwise(&mut line);
-    Ok(Some(line))
-}
-
 /// A place for messages.
 pub fn text_mm(point: &V2) -> String {
     format!("({:.2}, {:.2}) mm", mm(point.x), mm(point.y))
@@ -354,7 +342,7 @@ mod tests {
             line(&[(100.0, 100.01), (50.0, 100.0), (50.0, 100.0), (0.0, 100.0)]),
         ];
         let (sides, copies) = without_copies(sides);
-        assert_eq!((sides.len(), copies), (4, 1));
+        assert_eq!((sides.len(), copies.len()), (4, 1));
         let mut outline = joined(&sides, "outline").expect("it closes");
         assert_eq!(outline.len(), 5);
         assert!((signed_area(&outline) - 0.01).abs() < 1e-6, "{}", signed_area(&outline));
@@ -391,14 +379,14 @@ mod tests {
         };
         for first in 0..8 {
             let mut cut = outline(first);
-            let places = cut_loops(&mut cut).expect("a trifle");
+            let places = cut_loops(&mut cut, "cut line", 1e-4).expect("a trifle");
             assert_eq!(places.len(), 1, "{first}");
             assert!((places[0] - V2::new(0.044, -0.002)).norm() < 1e-9, "{first}: {:?}", places[0]);
             assert_eq!((cut.len(), self_crossing(&cut)), (7, None), "{first}");
             assert!((signed_area(&cut) - 0.01).abs() < 1e-5, "{first}: {}", signed_area(&cut));
         }
         let mut bow = line(&[(0.0, 0.0), (100.0, 100.0), (100.0, 0.0), (0.0, 80.0)]).points;
-        let reason = cut_loops(&mut bow).expect_err("two halves");
+        let reason = cut_loops(&mut bow, "cut line", 1e-4).expect_err("two halves");
         assert_eq!(reason, "the cut line crosses itself at (44.44, 44.44) mm");
     }
 

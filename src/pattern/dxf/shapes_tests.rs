@@ -265,3 +265,82 @@ fn versions_from_r12_to_2013_read_the_same() {
         }
     }
 }
+
+/// Lines through points, closed where told.
+fn path(layer: &str, points: &[(f64, f64)]) -> String {
+    points.windows(2).map(|ends| line(layer, [ends[0].0, ends[0].1, ends[1].0, ends[1].1])).collect()
+}
+
+#[test]
+fn what_programs_of_the_trade_write_is_mended_and_it_is_said() {
+    let square = lwpolyline("1", &SQUARE);
+    let check = |what: &str, entities: &str, sew_mm2: Option<f64>, area_mm2: f64, says: &str| {
+        let (piece, warnings) = only(entities);
+        assert!((piece.area_m2() * 1e6 - area_mm2).abs() < 1.0, "{what}: {}", piece.area_m2() * 1e6);
+        let sew = piece.sew_line.as_deref().map(|line| geom::polyline::signed_area(line) * 1e6);
+        assert_eq!(sew.map(f64::round), sew_mm2, "{what}");
+        let told = warnings.join("; ");
+        assert!(if says.is_empty() { told.is_empty() } else { told.contains(says) }, "{what}: {told}");
+    };
+    // The sew line of a half piece ends at the fold, or is left out where there is no allowance.
+    let fold = line("6", [0.0, 0.0, 0.0, 100.0]);
+    let open = path("14", &[(0.0, 10.0), (90.0, 10.0), (90.0, 90.0), (0.0, 90.0)]);
+    check("a sew line to the fold", &format!("{square}{fold}{open}"), Some(7200.0), 10_000.0, "");
+    let two = path("14", &[(10.0, 0.0), (10.0, 100.0)]) + &path("14", &[(80.0, 100.0), (80.0, 0.0)]);
+    check("two strips", &format!("{square}{two}"), Some(7000.0), 10_000.0, "");
+    // A slit is drawn out and back.
+    let slit = |off: f64| {
+        let (out, back) = ([(50.0, 0.0), (50.0, 40.0)], [(50.0, 40.0), (50.0 + off, 0.0)]);
+        let rest = [(50.0 + off, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0), (0.0, 0.0), (50.0, 0.0)];
+        [path("1", &out), path("1", &back), path("1", &rest)].concat()
+    };
+    check("a slit", &slit(0.0), None, 10_000.0, "as the sides of a slit");
+    check("a slit of a grid step", &slit(0.0254), None, 10_000.0, "cut away");
+    let missing = "0 INSERT; 8 1; 2 Q; 10 0; 20 0;";
+    check("a block that is not there", &format!("{square}{missing}"), None, 10_000.0, "block `Q` is inserted");
+}
+
+#[test]
+fn a_broken_size_leaves_the_others_alone() {
+    let sized = |name: &str, size: &str, outline: &str| {
+        block(name, &format!("0 TEXT; 8 1; 10 0; 20 0; 40 3; 1 Size: {size}; {outline}"))
+    };
+    let bow = lwpolyline("1", &[(0.0, 0.0, 0.0), (100.0, 100.0, 0.0), (100.0, 0.0, 0.0), (0.0, 80.0, 0.0)]);
+    let file = read_all(&sections(&(sized("A_36", "36", &lwpolyline("1", &SQUARE)) + &sized("A_50", "50", &bow)), ""));
+    assert_eq!(file.to_sew(Some("36")).expect("a whole one").len(), 1);
+    let error = file.to_sew(Some("50")).expect_err("it crosses itself").to_string();
+    assert!(error.contains("crosses itself"), "{error}");
+}
+
+#[test]
+fn texts_are_read_in_what_they_are_written_in() {
+    let named = |header: &str, name: &[u8]| {
+        let text = String::from_utf8(sections(&block("NAME", &lwpolyline("1", &SQUARE)), "")).expect("ASCII");
+        let head = tags(&format!("0 SECTION; 2 HEADER; {header} 0 ENDSEC;"));
+        let parts: Vec<&str> = text.split("NAME").collect();
+        read_all(&[head.as_bytes(), parts[0].as_bytes(), name, parts[1].as_bytes()].concat())
+    };
+    let check = |header: &str, bytes: &[u8], expect: &str| {
+        let file = named(header, bytes);
+        assert_eq!(file.pieces[0].block, expect, "{header}");
+    };
+    check("", b"\xC4rmel", "\u{c4}rmel");
+    check("9 $ACADVER; 1 AC1009;", "\u{c4}rmel".as_bytes(), "\u{c4}rmel");
+    check("9 $DWGCODEPAGE; 3 dos850;", b"\x8Ermel", "\u{c4}rmel");
+    check("9 $DWGCODEPAGE; 3 nobody knows;", b"FRONT", "FRONT");
+    assert_eq!(named("9 $DWGCODEPAGE; 3 dos850;", b"\x8Ermel").as_written("\u{c4}rmel"), "\u{8e}rmel");
+}
+
+#[test]
+fn a_unit_that_nobody_could_wear_is_not_sewn() {
+    let with = |units: &str, size: f64| {
+        let outline = SQUARE.map(|(x, y, bulge)| (x * size, y * size, bulge));
+        let text = String::from_utf8(sections(&block("P", &lwpolyline("1", &outline)), "")).expect("ASCII");
+        let head = tags(units);
+        read_all(&[head.as_bytes(), text.replace("Units: METRIC", "Nothing").as_bytes()].concat())
+    };
+    let metres = "0 SECTION; 2 HEADER; 9 $INSUNITS; 70 6; 0 ENDSEC;";
+    let error = with(metres, 7.0).to_sew(None).expect_err("a giant's").to_string();
+    assert!(error.contains("700 m long in m; it would be 0.70 m in mm") && error.contains("--unit mm"), "{error}");
+    assert_eq!(with(metres, 0.007).to_sew(None).expect("0.7 m").len(), 1);
+}

@@ -1,8 +1,7 @@
 //! Units and code page of a DXF file.
 
-use encoding_rs::Encoding;
-
 use super::DxfError;
+use super::code_page::CodePage;
 use super::guard::Inventory;
 use super::tags::clipped;
 
@@ -16,9 +15,14 @@ pub enum Unit {
     Cm,
     /// Inch (`Units: ENGLISH`).
     In,
+    /// Metre.
+    M,
 }
 
 impl Unit {
+    /// All that are read.
+    pub const ALL: [Self; 4] = [Self::Mm, Self::Cm, Self::In, Self::M];
+
     /// Millimetres in one unit.
     #[must_use]
     pub fn mm_per_unit(self) -> f64 {
@@ -26,6 +30,7 @@ impl Unit {
             Self::Mm => 1.0,
             Self::Cm => 10.0,
             Self::In => 25.4,
+            Self::M => 1000.0,
         }
     }
 
@@ -36,6 +41,7 @@ impl Unit {
             Self::Mm => "mm",
             Self::Cm => "cm",
             Self::In => "in",
+            Self::M => "m",
         }
     }
 }
@@ -77,17 +83,28 @@ pub fn claims(inventory: &Inventory<'_>, file: &str) -> Result<Vec<Claim>, DxfEr
                 "METRIC" | "MM" | "MILLIMETERS" | "MILLIMETRES" => Unit::Mm,
                 "ENGLISH" | "IMPERIAL" | "INCH" | "INCHES" | "IN" => Unit::In,
                 "CM" | "CENTIMETERS" | "CENTIMETRES" => Unit::Cm,
+                "M" | "METERS" | "METRES" => Unit::M,
                 _ => {
                     let found = format!("unit `{}`", clipped(value.trim()));
-                    return Err(DxfError::new(file, Some(line), found, "METRIC, MM, CM, ENGLISH, INCH"));
+                    let accepted =
+                        "METRIC, MM, CM, M, ENGLISH, INCH; or --unit mm, cm, in or m, which goes before the file";
+                    return Err(DxfError::new(file, Some(line), found, accepted));
                 }
             };
             claims.push(Claim { unit, by: "Units text", line });
         }
     }
     let header = [
-        ("$INSUNITS", &[("1", Unit::In), ("4", Unit::Mm), ("5", Unit::Cm)][..], "0 (none), 1 (inches), 4 (mm), 5 (cm)"),
-        ("$MEASUREMENT", &[("0", Unit::In), ("1", Unit::Mm)][..], "0 (English), 1 (metric)"),
+        (
+            "$INSUNITS",
+            &[("1", Unit::In), ("4", Unit::Mm), ("5", Unit::Cm), ("6", Unit::M)][..],
+            "0 (none), 1 (inches), 4 (mm), 5 (cm), 6 (m); or --unit mm, cm, in or m, which goes before the file",
+        ),
+        (
+            "$MEASUREMENT",
+            &[("0", Unit::In), ("1", Unit::Mm)][..],
+            "0 (English), 1 (metric); or --unit mm, cm, in or m, which goes before the file",
+        ),
     ];
     for (by, units, accepted) in header {
         let Some(entry) = inventory.header.get(by).filter(|entry| by != "$INSUNITS" || entry.value != "0") else {
@@ -95,6 +112,8 @@ pub fn claims(inventory: &Inventory<'_>, file: &str) -> Result<Vec<Claim>, DxfEr
         };
         match units.iter().find(|(value, _)| *value == entry.value) {
             Some(&(_, unit)) => claims.push(Claim { unit, by, line: entry.line }),
+            // A text of the pattern itself is worth more than what a drawing program writes into every header.
+            None if !claims.is_empty() => {}
             None => {
                 return Err(DxfError::new(file, Some(entry.line), format!("{by} {}", clipped(entry.value)), accepted));
             }
@@ -121,34 +140,27 @@ pub fn contradictions(claims: &[Claim]) -> Vec<String> {
     claims.iter().filter(|claim| claim.unit != first.unit).map(warning).collect()
 }
 
-/// Encoding of the texts: UTF-8 from AutoCAD 2007 on, else `$DWGCODEPAGE`, else Windows-1252.
+/// Encoding of the texts: UTF-8 from AutoCAD 2007 on, and where texts are written so, whatever the header says; else
+/// `$DWGCODEPAGE`, else Windows-1252.
 ///
 /// # Errors
-/// [`DxfError`] for a code page that is not known.
-pub fn encoding_of(inventory: &Inventory<'_>, file: &str) -> Result<&'static Encoding, DxfError> {
-    if inventory
-        .header
-        .get("$ACADVER")
-        .is_some_and(|version| version.value >= "AC1021" && version.value.starts_with("AC"))
-    {
-        return Ok(encoding_rs::UTF_8);
+/// [`DxfError`] for a code page that is not known, where a text has other characters than ASCII.
+pub fn code_page(inventory: &Inventory<'_>, file: &str) -> Result<CodePage, DxfError> {
+    let version = inventory.header.get("$ACADVER").map_or("", |entry| entry.value);
+    let is_ascii = inventory.words().all(<[u8]>::is_ascii);
+    // Text in another encoding is hardly ever valid UTF-8.
+    let is_utf8 = !is_ascii && inventory.words().all(|bytes| std::str::from_utf8(bytes).is_ok());
+    if (version >= "AC1021" && version.starts_with("AC")) || is_utf8 {
+        return Ok(CodePage::Web(encoding_rs::UTF_8));
     }
-    let Some(entry) = inventory.header.get("$DWGCODEPAGE") else { return Ok(encoding_rs::WINDOWS_1252) };
-    let name = entry.value.to_ascii_uppercase();
-    let number = name.trim_start_matches("ANSI_").trim_start_matches("CP");
-    let label = match number {
-        "932" => "shift_jis".to_owned(),
-        "936" => "gbk".to_owned(),
-        "949" | "1361" => "euc-kr".to_owned(),
-        "950" => "big5".to_owned(),
-        "874" => "windows-874".to_owned(),
-        "866" => "ibm866".to_owned(),
-        "ASCII" | "US-ASCII" => "windows-1252".to_owned(),
-        "UTF-8" | "UTF8" | "65001" => "utf-8".to_owned(),
-        _ => format!("windows-{number}"),
-    };
-    Encoding::for_label(label.as_bytes()).ok_or_else(|| {
-        let found = format!("$DWGCODEPAGE {}", clipped(entry.value));
-        DxfError::new(file, Some(entry.line), found, "ANSI_1250 to ANSI_1258, 866, 874, 932, 936, 949, 950, UTF-8")
-    })
+    let Some(entry) = inventory.header.get("$DWGCODEPAGE") else { return Ok(CodePage::Web(encoding_rs::WINDOWS_1252)) };
+    match CodePage::named(entry.value) {
+        Some(page) => Ok(page),
+        None if is_ascii => Ok(CodePage::Web(encoding_rs::WINDOWS_1252)),
+        None => {
+            let found = format!("$DWGCODEPAGE {}", clipped(entry.value));
+            let accepted = "ANSI_1250 to ANSI_1258, ISO 8859, KOI8, 437, 850, 852, 866, 874, 932, 936, 949, 950, UTF-8";
+            Err(DxfError::new(file, Some(entry.line), found, accepted))
+        }
+    }
 }

@@ -145,7 +145,7 @@ impl Out {
             }
         }
         for graded in &piece.grade_points {
-            self.entity("TEXT", "2");
+            self.entity("TEXT", if graded.is_inner { "8" } else { "2" });
             self.point(10, &graded.at);
             self.number(40, 3.0);
             self.tag(1, &format!("# {}", graded.rule));

@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::dxf::{PatternFile, Unit, UnitSource};
+use super::dxf::{CodePage, PatternFile, Unit, UnitSource};
 use super::piece::{GradePoint, Notch, Piece};
 use super::style::corners::corner_vertices;
 use geom::V2;
@@ -115,6 +115,9 @@ struct ReferencePoints {
     /// Points with the number of their grade rule.
     #[serde(default)]
     grade_points: Vec<(Place, u32)>,
+    /// Those of inner lines, cut-outs and drill holes.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    inner_grade_points: Vec<(Place, u32)>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -205,7 +208,8 @@ impl PieceFeatures {
                 turn_points: places(&piece.turn_points),
                 curve_points: places(&piece.curve_points),
                 drill_holes: places(&piece.drill_holes),
-                grade_points: piece.grade_points.iter().map(|graded| (place(&graded.at), graded.rule)).collect(),
+                grade_points: graded_places(piece, false),
+                inner_grade_points: graded_places(piece, true),
             },
             notches: piece.notches.iter().map(NotchFeature::of).collect(),
             reference_lines: ReferenceLines {
@@ -221,10 +225,15 @@ impl PieceFeatures {
         let texts = self.information.texts.into_iter().map(|[key, value]| (key, value)).collect();
         let line = |ends: Option<[Place; 2]>| ends.map(|ends| ends.map(point));
         let lines = |lines: &[Vec<Place>]| lines.iter().map(|line| points(line)).collect();
-        let graded = |&(at, rule): &(Place, u32)| GradePoint { at: point(at), rule };
+        let marks = &self.reference_points;
+        let graded = [(&marks.grade_points, false), (&marks.inner_grade_points, true)];
+        let graded = graded.into_iter().flat_map(|(points, is_inner)| {
+            points.iter().map(move |&(at, rule)| GradePoint { at: point(at), rule, is_inner })
+        });
         Piece {
             block: self.information.block,
             name: self.information.name,
+            told: String::new(),
             size: self.information.size,
             quantity: self.information.quantity,
             texts,
@@ -237,7 +246,7 @@ impl PieceFeatures {
             grain: line(self.grain),
             mirror_line: line(self.reference_lines.mirror),
             grade_reference: line(self.reference_lines.grade_reference),
-            grade_points: self.reference_points.grade_points.iter().map(graded).collect(),
+            grade_points: graded.collect(),
             internal_lines: lines(&self.reference_lines.internal),
             cut_outs: lines(&self.reference_lines.cut_outs),
             drill_holes: points(&self.reference_points.drill_holes),
@@ -257,10 +266,16 @@ impl PieceFeatures {
             .chain(&marks.turn_points)
             .chain(&marks.curve_points)
             .chain(&marks.drill_holes)
-            .chain(marks.grade_points.iter().map(|(at, _)| at))
+            .chain(marks.grade_points.iter().chain(&marks.inner_grade_points).map(|(at, _)| at))
             .chain(self.notches.iter().map(|notch| &notch.at))
             .chain(lines.internal.iter().chain(&lines.cut_outs).flatten())
     }
+}
+
+/// Graded points of the outline, or inside, with their rules.
+fn graded_places(piece: &Piece, is_inner: bool) -> Vec<(Place, u32)> {
+    let graded = piece.grade_points.iter().filter(|graded| graded.is_inner == is_inner);
+    graded.map(|graded| (place(&graded.at), graded.rule)).collect()
 }
 
 impl NotchFeature {
@@ -347,7 +362,7 @@ pub fn read(bytes: &[u8], file: &str) -> Result<PatternFile, FeaturesError> {
         refused: Vec::new(),
         warnings: Vec::new(),
         unused: Default::default(),
-        encoding: encoding_rs::UTF_8,
+        encoding: CodePage::Web(encoding_rs::UTF_8),
     })
 }
 

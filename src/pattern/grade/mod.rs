@@ -48,7 +48,8 @@ pub fn grade(file: &PatternFile, table: &GradeTable) -> Result<PatternFile, Grad
                 Ok(sized) => graded.pieces.push(Piece { size: Some(size.clone()), ..sized }),
                 Err(reason) => {
                     let reason = format!("size {size}: {reason}");
-                    graded.refused.push(Refused { block: piece.block.clone(), line: None, reason });
+                    let size = Some(size.clone());
+                    graded.refused.push(Refused { block: piece.block.clone(), line: None, size, reason });
                 }
             }
         }
@@ -71,7 +72,9 @@ fn graded_piece(piece: &Piece, table: &GradeTable, size: usize) -> Result<Piece,
     let field = Field::of(piece, table, size)?;
     let moved = |point: &V2| point + field.at(point);
     let moved_all = |points: &[V2]| -> Vec<V2> { points.iter().map(moved).collect() };
-    let moved_lines = |lines: &[Vec<V2>]| -> Vec<Vec<V2>> { lines.iter().map(|line| moved_all(line)).collect() };
+    let inner = |point: &V2| point + field.at_inner(point);
+    let inner_all = |points: &[V2]| -> Vec<V2> { points.iter().map(inner).collect() };
+    let moved_lines = |lines: &[Vec<V2>]| -> Vec<Vec<V2>> { lines.iter().map(|line| inner_all(line)).collect() };
     let moved_ends = |ends: Option<[V2; 2]>| ends.map(|ends| ends.map(|end| moved(&end)));
     let outline: Vec<V2> = piece.outline.iter().zip(&field.steps).map(|(point, step)| point + step).collect();
     if let Some(place) = self_crossing(&outline) {
@@ -92,7 +95,7 @@ fn graded_piece(piece: &Piece, table: &GradeTable, size: usize) -> Result<Piece,
         grade_points: Vec::new(),
         internal_lines: moved_lines(&piece.internal_lines),
         cut_outs: moved_lines(&piece.cut_outs),
-        drill_holes: moved_all(&piece.drill_holes),
+        drill_holes: inner_all(&piece.drill_holes),
         sew_line: piece.sew_line.as_deref().map(moved_all),
         ..piece.clone()
     })
@@ -119,7 +122,8 @@ impl<'a> Field<'a> {
             };
             let distance = |k: &usize| (outline[*k] - point.at).norm();
             let nearest = (0..outline.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-            let Some(vertex) = nearest.filter(|vertex| distance(vertex) < ON_OUTLINE_M) else {
+            let on_outline = nearest.filter(|vertex| !point.is_inner && distance(vertex) < ON_OUTLINE_M);
+            let Some(vertex) = on_outline else {
                 own.push((point.at, steps[size]));
                 continue;
             };
@@ -139,11 +143,15 @@ impl<'a> Field<'a> {
         Ok(Self { outline, steps: between(outline, &known), own })
     }
 
-    /// How far a point moves: as its own rule says, or as the nearest place of the outline does.
+    /// How far a point inside moves: as its own rule says, or else as the nearest place of the outline does.
+    fn at_inner(&self, point: &V2) -> V2 {
+        let near = self.own.iter().filter(|(at, _)| (at - point).norm() < ON_OUTLINE_M);
+        let own = near.min_by(|(a, _), (b, _)| (a - point).norm().total_cmp(&(b - point).norm()));
+        own.map_or_else(|| self.at(point), |(_, step)| *step)
+    }
+
+    /// How far a point moves with the nearest place of the outline.
     fn at(&self, point: &V2) -> V2 {
-        if let Some((_, step)) = self.own.iter().find(|(at, _)| (at - point).norm() < ON_OUTLINE_M) {
-            return *step;
-        }
         let n = self.outline.len();
         let distance = |k: &usize| segment_distance(&self.outline[*k], &self.outline[(*k + 1) % n], point);
         let Some(k) = (0..n).min_by(|a, b| distance(a).total_cmp(&distance(b))) else { return V2::zeros() };

@@ -138,7 +138,7 @@ fn a_nest_is_what_its_own_rules_make_of_its_sample_size() {
         piece.grade_points.clear();
         for (vertex, &at) in piece.outline.iter().enumerate() {
             let rule = 1 + (rules.len() as u32);
-            piece.grade_points.push(GradePoint { at, rule });
+            piece.grade_points.push(GradePoint { at, rule, is_inner: false });
             rules.insert(rule, SIZES.iter().map(|size| drawn(size)[index].outline[vertex] - at).collect());
         }
     }

@@ -9,12 +9,17 @@ use std::ops::Range;
 use self::sampling::{EdgeSamples, sample};
 use self::triangulate::{Triangulation, triangulate};
 use super::garment::{FitLevel, Garment, Measurement, PieceMesh, Reinforcement, SeamMesh};
-use super::style::{EdgeRef, PathPart, Style};
+use super::scale;
+use super::style::{EdgeRef, PathPart, Style, StylePiece};
 use geom::V2;
+use geom::polyline::signed_area;
 use geom::units::mm;
 
 /// Least and greatest edge length that can be asked for, m.
 pub const EDGE_LENGTH_RANGE_M: Range<f64> = 1e-3..0.2;
+
+/// Most triangles of a mesh: a coat at 5 mm has a quarter of them, and no drape of so many ends in a day.
+const MOST_TRIANGLES: f64 = 400_000.0;
 
 /// Why a style cannot be meshed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -28,6 +33,21 @@ pub enum MeshError {
         least_mm: f64,
         /// Greatest accepted, mm.
         greatest_mm: f64,
+    },
+    /// A mesh of more triangles than can be draped.
+    #[error(
+        "about {thousands} thousand triangles at edge length {edge_length_mm} mm (pieces of {area_m2:.1} m2, the longest {longest_m:.1} m \
+         long); accepted: at most 400 thousand; is the unit of the pattern right?"
+    )]
+    TooFine {
+        /// Edge length asked for, mm.
+        edge_length_mm: f64,
+        /// Triangles, thousands.
+        thousands: u64,
+        /// Area of all pieces, m2.
+        area_m2: f64,
+        /// Length of the longest piece, m.
+        longest_m: f64,
     },
     /// The outline, sampled at the edge length, is no simple polygon or could not be filled.
     #[error(
@@ -91,6 +111,23 @@ impl MeshQuality {
 }
 
 impl Style {
+    /// Refuses what nothing could be done with, before anything is done.
+    fn check_bounds(&self, edge_length_m: f64) -> Result<(), MeshError> {
+        let outlines: Vec<Vec<V2>> = self.pieces.iter().map(StylePiece::outline).collect();
+        let area_m2: f64 = outlines.iter().map(|outline| signed_area(outline).abs()).sum();
+        // Equilateral triangles of that edge.
+        let triangles = area_m2 / (0.25 * 3.0_f64.sqrt() * edge_length_m * edge_length_m);
+        if triangles <= MOST_TRIANGLES {
+            return Ok(());
+        }
+        Err(MeshError::TooFine {
+            edge_length_mm: mm(edge_length_m),
+            thousands: (1e-3 * triangles) as u64,
+            area_m2,
+            longest_m: outlines.iter().map(|outline| scale::extent_m(outline)).fold(0.0, f64::max),
+        })
+    }
+
     /// Meshes the style with edges of about `edge_length_m`.
     ///
     /// # Errors
@@ -104,6 +141,7 @@ impl Style {
                 greatest_mm: mm(EDGE_LENGTH_RANGE_M.end),
             });
         }
+        self.check_bounds(edge_length_m)?;
         let samples = sample(self, edge_length_m);
         let mut assembly = Assembly::default();
         for piece in 0..self.pieces.len() {

@@ -235,3 +235,13 @@ fn a_garment_without_some_pieces_is_the_rest_of_it() {
     let is_pair = |[a, b]: &[usize; 2]| garment.seams.iter().any(|seam| seam.pairs.contains(&[kept[*a], kept[*b]]));
     assert!(rest.seams.iter().flat_map(|seam| &seam.pairs).all(is_pair));
 }
+
+#[test]
+fn a_mesh_that_nothing_could_be_done_with_is_not_begun() {
+    let mut style = style(TshirtSize::S);
+    for edge in style.pieces.iter_mut().flat_map(|piece| &mut piece.edges) {
+        edge.line = edge.line.mapped(|p| p * 100.0);
+    }
+    let error = style.mesh(0.015).expect_err("a giant's").to_string();
+    assert!(error.contains("thousand triangles") && error.contains("is the unit of the pattern right?"), "{error}");
+}

@@ -95,7 +95,7 @@ pub fn align<'t>(
 }
 
 /// The parts of a template, mirrored left to right where asked, counter-clockwise again.
-fn parts_of(template: &Template, is_mirrored: bool) -> Vec<Part> {
+pub fn parts_of(template: &Template, is_mirrored: bool) -> Vec<Part> {
     let mut parts = template.parts.to_vec();
     if is_mirrored {
         parts.reverse();

@@ -18,6 +18,7 @@ const HALF: std::ops::RangeInclusive<f64> = 0.42..=0.68;
 /// over have a question each.
 pub fn choose(pieces: &[Piece], mut recognised: Vec<Recognised>, questions: &mut Vec<String>) -> Vec<Recognised> {
     leave_out_sleeves_in_two(pieces, &mut recognised, questions);
+    leave_out_half_sleeves(pieces, &mut recognised, questions);
     let mut places: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (index, one) in recognised.iter().enumerate().filter(|(_, one)| !is_round_band(one) && one.gore.is_none()) {
         places.entry(id_of(one, one.hand)).or_default().push(index);
@@ -71,6 +72,19 @@ fn leave_out_sleeves_in_two(pieces: &[Piece], recognised: &mut Vec<Recognised>, 
             "left out: {names}: a sleeve in two pieces; at which place of the armhole do its seams begin?"
         ));
         recognised.retain(|one| !is_whole_sleeve(&one));
+    }
+}
+
+/// Takes out sleeves in halves where there is a whole one: they are another way to cut it.
+fn leave_out_half_sleeves(pieces: &[Piece], recognised: &mut Vec<Recognised>, questions: &mut Vec<String>) {
+    let is_half = |one: &Recognised| one.class == Class::Sleeve && one.face.is_some();
+    let has_whole = recognised.iter().any(|one| one.class == Class::Sleeve && !is_half(one));
+    let halves: Vec<String> =
+        recognised.iter().filter(|one| is_half(one)).map(|one| format!("`{}`", pieces[one.piece].name)).collect();
+    if has_whole && !halves.is_empty() {
+        let halves = halves.join(", ");
+        questions.push(format!("a sleeve in one piece, or in halves ({halves})? The one in one piece is taken"));
+        recognised.retain(|one| !is_half(one));
     }
 }
 

@@ -51,7 +51,7 @@ impl Cut {
 /// How each piece is cut as a gore; `None` of what is none.
 pub fn gores(pieces: &[Piece]) -> Vec<Option<Cut>> {
     let is_plain = |piece: &Piece| {
-        let named = names::read(&piece.name);
+        let named = names::read(piece.words());
         match named.class {
             Some(Class::Waistband | Class::Other) => true,
             Some(Class::Skirt) | None => named.face.is_none(),
@@ -62,7 +62,7 @@ pub fn gores(pieces: &[Piece]) -> Vec<Option<Cut>> {
     // A panel may be anything: its name alone says less than that there are others like it.
     let are_alike = alike(pieces.iter().filter(|piece| names::is_panel(&piece.name)));
     let is_gore = |piece: &Piece| {
-        let named = names::read(&piece.name);
+        let named = names::read(piece.words());
         let is_called = named.class == Some(Class::Skirt)
             || named.class.is_none() && names::is_gore(&piece.name)
             || named.class.is_none() && names::is_panel(&piece.name) && are_alike;

@@ -7,10 +7,12 @@
 
 mod agree;
 mod align;
+mod cap;
 mod choose;
 #[cfg(test)]
 mod garment_tests;
 mod gore;
+mod lengths;
 mod names;
 mod notched;
 mod panels;
@@ -24,8 +26,10 @@ mod shape;
 mod templates;
 #[cfg(test)]
 mod tests;
+mod told;
 mod waist;
 mod wear;
+mod words;
 mod worn;
 mod write;
 
@@ -300,6 +304,8 @@ pub struct Proposal {
     pub open: Vec<String>,
     /// What a person must decide.
     pub questions: Vec<String>,
+    /// What was left out or taken without asking.
+    pub notes: Vec<String>,
     /// Pieces of the seam file.
     #[serde(skip)]
     worn: Vec<Worn>,
@@ -316,18 +322,27 @@ impl Proposal {
 /// Proposes a seam file for the pieces of one size, half pieces opened ([`super::dxf::PatternFile::to_sew`]).
 #[must_use]
 pub fn propose(pieces: &[Piece]) -> Proposal {
-    let mut questions = Vec::new();
-    let is_detail = |piece: &&Piece| names::read(&piece.name).class == Some(Class::Other);
-    let mut details: Vec<String> = pieces.iter().filter(is_detail).map(|piece| format!("`{}`", piece.name)).collect();
+    let told = told::told(pieces);
+    let pieces = told.as_slice();
+    let (mut questions, mut notes) = (Vec::new(), Vec::new());
+    let largest_m2 = pieces.iter().map(Piece::area_m2).fold(0.0, f64::max);
+    let is_detail = |piece: &Piece| recognise::is_detail(piece, largest_m2);
+    let listed = pieces.iter().filter(|piece| is_detail(piece)).map(|piece| format!("`{}`", piece.name));
+    let mut details: Vec<String> = listed.collect();
     details.dedup();
     if !details.is_empty() {
-        questions.push(format!("left out: {}: by their names details that a drape does without", details.join(", ")));
+        notes.push(format!(
+            "left out: {}: by their names or their size details that a drape does without",
+            details.join(", ")
+        ));
     }
-    let recognised = recognise::recognise(pieces, &mut questions);
-    let recognised = choose::choose(pieces, recognised, &mut questions);
+    let recognised = recognise::recognise(pieces, is_detail, &mut questions);
+    let mut recognised = choose::choose(pieces, recognised, &mut questions);
+    lengths::settle(pieces, &mut recognised);
     // Which sleeve is drawn shows only once its notches are laid beside those of the armhole.
     let first = worn::worn(pieces, &recognised, None, &mut Vec::new());
-    let worn = worn::worn(pieces, &recognised, notched::drawn_sleeve(&first), &mut questions);
+    let drawn = notched::drawn_sleeve(&first).or_else(|| cap::drawn_sleeve(&recognised, &mut notes));
+    let worn = worn::worn(pieces, &recognised, drawn, &mut questions);
     let fitted = sew::sew(&worn, &mut Vec::new());
     let worn = agree::assured(worn, &fitted);
     let seams = sew::sew(&worn, &mut questions);
@@ -354,5 +369,5 @@ pub fn propose(pieces: &[Piece]) -> Proposal {
         }));
     }
     let open = sew::open(&worn, &seams);
-    Proposal { pieces: listed, seams, open, questions, worn }
+    Proposal { pieces: listed, seams, open, questions, notes, worn }
 }

@@ -1,5 +1,6 @@
-//! What a piece's name says: English, German, French, Spanish, Italian, Dutch, Portuguese, Polish, Russian, Ukrainian.
+//! What a piece's name says, in the languages of [`super::words`].
 
+use super::words::{CLASSES, FACES, HANDS};
 use super::{Class, Face, Hand};
 
 /// What is read from a name.
@@ -12,175 +13,6 @@ pub struct Named {
     /// Side of the wearer.
     pub hand: Option<Hand>,
 }
-
-/// Parts of words that name a kind of piece; the first that is found counts, so small parts stand before what they are
-/// sewn to (`front pocket bag` is a pocket, `sleeve cuff` a cuff).
-const CLASSES: [(Class, &[&str]); 7] = [
-    (
-        Class::Other,
-        &[
-            "pocket",
-            "tasche",
-            "poche",
-            "bolsillo",
-            "tasca",
-            "bolso",
-            "kiesze",
-            "карман",
-            "кишен",
-            "facing",
-            "beleg",
-            "parementure",
-            "vista",
-            "belegsel",
-            "подборт",
-            "підборт",
-            "interface",
-            "interfacing",
-            "lining",
-            "futter",
-            "placket",
-            "fly",
-            "collar",
-            "kragen",
-            "collo",
-            "cuello",
-            "kraag",
-            "colarinho",
-            "gola",
-            "воротник",
-            "комір",
-            "комир",
-            "hood",
-            "kapuze",
-            "capuche",
-            "капюшон",
-            "neckband",
-            "binding",
-            "gusset",
-            "loop",
-            "interlin",
-            "einlage",
-            "entoilage",
-            "entretela",
-            "flap",
-            "patka",
-            "клапан",
-            "welt",
-            "paspel",
-            "passepoil",
-            "stay",
-            "tab",
-            "zip",
-            "zipper",
-            "reißverschluss",
-            "reissverschluss",
-            "fermeture",
-            "cremallera",
-            "cerniera",
-            "ritssluiting",
-            "молни",
-            "блискавк",
-        ],
-    ),
-    (
-        Class::Yoke,
-        &[
-            "yoke",
-            "passe",
-            "sattel",
-            "empiec",
-            "canesú",
-            "canesu",
-            "sprone",
-            "schouderstuk",
-            "pala",
-            "karczek",
-            "кокетк",
-        ],
-    ),
-    (
-        Class::Waistband,
-        &["waistband", "bund", "ceinture", "cinturilla", "pretina", "cintura", "tailleband", "pasek", "пояс", "wb"],
-    ),
-    (Class::Cuff, &["cuff", "manschette", "poignet", "puño", "polsino", "manchet", "punho", "mankiet", "манжет"]),
-    (Class::Sleeve, &["sleeve", "ärmel", "aermel", "manche", "manga", "manica", "mouw", "rękaw", "rekaw", "рукав"]),
-    (
-        Class::Leg,
-        &[
-            "trouser",
-            "pant",
-            "hose",
-            "pantalon",
-            "pantalón",
-            "pantaloni",
-            "broek",
-            "spodni",
-            "брюк",
-            "штан",
-            "leg",
-            "jean",
-            "short",
-        ],
-    ),
-    (Class::Skirt, &["skirt", "rock", "jupe", "falda", "gonna", "saia", "spódnic", "spodnic", "юбк", "спідниц"]),
-];
-
-/// Parts of words that say front or back.
-const FACES: [(Face, &[&str]); 2] = [
-    (
-        Face::Front,
-        &[
-            "front",
-            "vorder",
-            "vorne",
-            "devant",
-            "avant",
-            "delantero",
-            "delanter",
-            "davanti",
-            "voorpand",
-            "voor",
-            "frente",
-            "przód",
-            "przod",
-            "перед",
-            "пілочк",
-            "полочк",
-            "пилочк",
-            "ftorso",
-        ],
-    ),
-    (
-        Face::Back,
-        &[
-            "back",
-            "rücken",
-            "ruecken",
-            "hinter",
-            "dos",
-            "derrière",
-            "espalda",
-            "trasero",
-            "dietro",
-            "achterpand",
-            "achter",
-            "rug",
-            "costas",
-            "tył",
-            "tyl",
-            "зад",
-            "спинк",
-            "btorso",
-        ],
-    ),
-];
-
-/// Words that say left or right.
-const HANDS: [(Hand, &[&str]); 2] = [
-    (Hand::Right, &["right", "rechts", "droite", "derecha", "destra", "prawy", "правый", "права", "r"]),
-    (Hand::Left, &["left", "links", "gauche", "izquierda", "sinistra", "lewy", "левый", "ліва", "l"]),
-];
 
 /// Parts of words that say the lower piece of a sleeve in two.
 const UNDER: [&str; 8] = ["under", "lower", "unter", "dessous", "inferior", "onder", "spodni", "нижн"];
@@ -198,8 +30,9 @@ pub fn read(name: &str) -> Named {
         .filter(|word| !word.is_empty())
         .take_while(|word| !DETAILS.contains(word))
         .collect();
-    // A part of up to three letters must be a whole word.
-    let has = |part: &&str| words.iter().any(|word| word == part || (part.chars().count() > 3 && word.contains(*part)));
+    // A part of up to three letters must be a whole word, but for scripts that put a word or a syllable in a sign.
+    let is_long = |part: &str| part.chars().count() > 3 || part.chars().all(|c| c >= '\u{900}');
+    let has = |part: &&str| words.iter().any(|word| word == part || (is_long(part) && word.contains(*part)));
     let has_any = |parts: &&[&str]| parts.iter().any(has);
     let class = CLASSES.iter().find(|(_, parts)| has_any(parts)).map(|(class, _)| *class);
     let is_initial = |initial: &str| class.is_some() && words.contains(&initial);
@@ -211,7 +44,8 @@ pub fn read(name: &str) -> Named {
     } else {
         None
     });
-    let hand = HANDS.iter().find(|(_, parts)| parts.iter().any(|part| words.contains(part))).map(|(hand, _)| *hand);
+    let is_hand = |part: &&str| words.contains(part) || (part.chars().all(|c| c >= '\u{900}') && has(part));
+    let hand = HANDS.iter().find(|(_, parts)| parts.iter().any(is_hand)).map(|(hand, _)| *hand);
     Named { class, face, hand }
 }
 
@@ -279,6 +113,17 @@ mod tests {
         check("Кокетка спинки", Some(Yoke), Some(Back), None);
         check("CUFFINTERFACE", Some(Other), None, None);
         check("Pattentasche", Some(Other), None, None);
+        check("\u{524d}\u{7247}", None, Some(Front), None);
+        check("\u{5f8c}\u{8eab}\u{9803}", None, Some(Back), None);
+        check("\u{5de6}\u{8896}", Some(Sleeve), None, Some(Hand::Left));
+        check("\u{c18c}\u{b9e4}", Some(Sleeve), None, None);
+        check("Ön beden", None, Some(Front), None);
+        check("Arka etek", Some(Skirt), Some(Back), None);
+        check("sağ kol", Some(Sleeve), None, Some(Hand::Right));
+        check("Framstycke", None, Some(Front), None);
+        check("zadní díl", None, Some(Back), None);
+        check("Μανίκι", Some(Sleeve), None, None);
+        check("tay áo", Some(Sleeve), None, None);
         check("?????", None, None, None);
         check("DETAIL", None, None, None);
         for (name, expect) in [("UNDERSLEEVE", true), ("Unterärmel", true), ("TOPSLEEVE", false), ("Sleeve", false)] {

@@ -35,7 +35,7 @@ pub fn panels(pieces: &[Piece]) -> Vec<Option<Panel>> {
     let mut found = vec![None; pieces.len()];
     for face in Face::BOTH {
         let is_of = |piece: &Piece| {
-            let named = names::read(&piece.name);
+            let named = names::read(piece.words());
             named.class.is_none() && named.face == Some(face)
         };
         let of_face = (0..pieces.len()).filter(|&k| is_of(&pieces[k]));

@@ -1,15 +1,16 @@
 //! How a piece of a known role is drawn: which side is up, and which half it is.
 
-use super::align::{TURNED, align};
+use super::align::{TURNED, align, parts_of};
 use super::names;
 use super::shape::Shape;
 use super::templates::{TEMPLATES, Template};
 use super::{Class, Face, Hand, Label};
 use crate::garment::Role;
-use crate::style::StylePiece;
+use crate::style::{Edge, StylePiece};
+use geom::V2;
 
 /// How a piece is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
     /// Quarter turns, counter-clockwise, that set it upright.
     pub quarter_turns: usize,
@@ -17,6 +18,8 @@ pub struct Pose {
     pub is_whole: bool,
     /// Whether its outer side is to the left of the upright drawing; says nothing of a whole piece.
     is_mirrored: bool,
+    /// How well the template fits, at most 1, less what a grain across costs.
+    pub score: f64,
 }
 
 impl Pose {
@@ -47,7 +50,7 @@ pub fn pose(piece: &StylePiece) -> Option<Pose> {
         Role::Other => return None,
     };
     let outline = piece.outline();
-    let nearest = |corner: &geom::V2| {
+    let nearest = |corner: &V2| {
         let distance = |i: &usize| (outline[*i] - corner).norm();
         (0..outline.len()).min_by(|i, j| distance(i).total_cmp(&distance(j)))
     };
@@ -75,6 +78,9 @@ pub fn pose(piece: &StylePiece) -> Option<Pose> {
         Class::Yoke => template.class == class && template.has_shoulder(),
         _ => template.class == class,
     };
+    if let Some(pose) = by_edges(piece, TEMPLATES.iter().filter(fits)) {
+        return Some(pose);
+    }
     // The grain runs up and down, except along a band.
     let is_along =
         |quarter_turns: usize| (piece.grain.x.abs() > piece.grain.y.abs()) == quarter_turns.is_multiple_of(2);
@@ -84,7 +90,71 @@ pub fn pose(piece: &StylePiece) -> Option<Pose> {
         quarter_turns: alignment.quarter_turns,
         is_whole: alignment.template.is_whole,
         is_mirrored: alignment.is_mirrored,
+        score: alignment.score,
     })
+}
+
+/// How a piece is drawn by the names of its edges, where at least two kinds of them are called as templates call theirs: a hem lies below, a
+/// cap above, whatever the outline looks like.
+fn by_edges<'t>(piece: &StylePiece, templates: impl Iterator<Item = &'t Template>) -> Option<Pose> {
+    let named: Vec<(Label, V2)> =
+        piece.edges.iter().filter_map(|edge| Some((label_of(edge.name.as_deref()?)?, middle(edge)))).collect();
+    if named.iter().all(|(label, _)| *label == named[0].0) {
+        return None;
+    }
+    let outline = piece.outline();
+    let templates: Vec<&Template> = templates.collect();
+    let mut best: Option<Pose> = None;
+    for quarter_turns in 0..4 {
+        let turned = |p: &V2| match quarter_turns {
+            0 => *p,
+            1 => V2::new(-p.y, p.x),
+            2 => -*p,
+            _ => V2::new(p.y, -p.x),
+        };
+        let points = outline.iter().map(turned);
+        let (low, high) = points.fold((V2::repeat(f64::MAX), V2::repeat(f64::MIN)), |(l, h), p| (l.inf(&p), h.sup(&p)));
+        let scale = (high - low).max().max(f64::MIN_POSITIVE);
+        let size = (high - low) / scale;
+        for template in &templates {
+            for is_mirrored in if template.is_whole { &[false][..] } else { &[false, true] } {
+                let parts = parts_of(template, *is_mirrored);
+                let away = |(label, at): &(Label, V2)| {
+                    let at = (turned(at) - low) / scale;
+                    let of_label = parts.iter().filter(|part| part.label == *label);
+                    of_label
+                        .map(|part| (at - V2::new(part.at[0] * size.x, part.at[1] * size.y)).norm_squared())
+                        .reduce(f64::min)
+                };
+                let Some(sum) = named.iter().map(away).sum::<Option<f64>>() else { continue };
+                let score = 1.0 - sum / named.len() as f64;
+                if best.as_ref().is_none_or(|best| score > best.score) {
+                    best = Some(Pose { quarter_turns, is_whole: template.is_whole, is_mirrored: *is_mirrored, score });
+                }
+            }
+        }
+    }
+    best
+}
+
+/// The kind of edge that a name begins with, before its side or number.
+fn label_of(name: &str) -> Option<Label> {
+    use Label::{
+        Armhole, Cap, Centre, Crotch, End, Hem, Inseam, Lower, Neck, Outseam, Princess, Shoulder, Side, Top, Underarm,
+        Waist,
+    };
+    let word = name.split('_').next()?;
+    let body = [Armhole, Centre, Hem, Neck, Princess, Shoulder, Side, Top, Waist];
+    let limbs = [Cap, Crotch, End, Inseam, Lower, Outseam, Underarm];
+    body.into_iter().chain(limbs).find(|label| label.as_str() == word)
+}
+
+/// The point of an edge at half its length.
+fn middle(edge: &Edge) -> V2 {
+    let half = 0.5 * edge.line.length();
+    let k = edge.line.arcs().partition_point(|&arc| arc < half).clamp(1, edge.line.points().len() - 1);
+    let (from, to) = (edge.line.arcs()[k - 1], edge.line.arcs()[k]);
+    edge.line.points()[k - 1].lerp(&edge.line.points()[k], (half - from) / (to - from).max(f64::MIN_POSITIVE))
 }
 
 /// What a name says of front or back and the side of the wearer.

@@ -11,7 +11,7 @@ pub fn is_raglan(pieces: &[Piece]) -> bool {
     let mut gain = 0.0;
     let mut has_sleeve = false;
     for piece in pieces {
-        let named = names::read(&piece.name);
+        let named = names::read(piece.words());
         let class = match (named.class, named.face) {
             (Some(Class::Sleeve), None) => Class::Sleeve,
             (None, Some(_)) => Class::Body,

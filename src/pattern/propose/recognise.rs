@@ -27,6 +27,10 @@ const COMPARED: f64 = 0.75;
 /// Least difference of two outlines that tells front from back, in units of the piece's longer side.
 const LEAST_DIFFERENCE: f64 = 0.01;
 
+/// Area of a piece over that of the largest below which a nameless one is a detail: the sleeve of a T-shirt has a fifth, half of a child's
+/// one a tenth.
+const DETAIL_SHARE: f64 = 0.08;
+
 /// How much better the outline must fit another kind of piece before a name is doubted.
 const CONTRADICTED: f64 = 0.25;
 /// Confidence in a name that the outline contradicts, and in a kind that another fits nearly as well.
@@ -77,21 +81,32 @@ struct Around {
 struct Among {
     gore: Option<Cut>,
     panel: Option<Panel>,
+    /// The kind of a front and a back whose names say no more.
+    pair: Option<Class>,
+}
+
+/// Whether a drape does without a piece: its name says so, or it has none and is small.
+pub fn is_detail(piece: &Piece, largest_m2: f64) -> bool {
+    let named = names::read(piece.words());
+    named.class == Some(Class::Other)
+        || (named == names::Named::default() && piece.area_m2() < DETAIL_SHARE * largest_m2)
 }
 
 /// Recognises pieces; those that are left out have a question each, except what needs no seam of ours.
-pub fn recognise(pieces: &[Piece], questions: &mut Vec<String>) -> Vec<Recognised> {
+pub fn recognise(pieces: &[Piece], is_detail: impl Fn(&Piece) -> bool, questions: &mut Vec<String>) -> Vec<Recognised> {
     let mut found: Vec<Recognised> = Vec::new();
-    let is_called = |piece: &Piece, class: Class| names::read(&piece.name).class == Some(class);
+    let is_called = |piece: &Piece, class: Class| names::read(piece.words()).class == Some(class);
     let [has_sleeve, has_yoke] =
         [Class::Sleeve, Class::Yoke].map(|class| pieces.iter().any(|piece| is_called(piece, class)));
     let (gores, panels, is_raglan) = (gore::gores(pieces), panels::panels(pieces), raglan::is_raglan(pieces));
+    let pair = class_of_pair(pieces, has_sleeve, is_raglan);
     for are_yokes in [false, true] {
         let has_trunk = found.iter().any(|one| one.class == Class::Body);
         let around = Around { has_sleeve, has_yoke, has_trunk, is_raglan };
         for (index, piece) in pieces.iter().enumerate() {
-            if is_called(piece, Class::Yoke) == are_yokes && !is_called(piece, Class::Other) {
-                let among = Among { gore: gores[index], panel: panels[index] };
+            if is_called(piece, Class::Yoke) == are_yokes && !is_detail(piece) {
+                let pair = pair.filter(|_| is_nameless_face(piece));
+                let among = Among { gore: gores[index], panel: panels[index], pair };
                 match recognise_one(index, piece, around, among, questions) {
                     Ok(recognised) => found.push(recognised),
                     Err(question) => questions.push(question),
@@ -119,20 +134,49 @@ pub fn recognise(pieces: &[Piece], questions: &mut Vec<String>) -> Vec<Recognise
     found
 }
 
+/// Whether a name says front or back, and nothing else.
+fn is_nameless_face(piece: &Piece) -> bool {
+    let named = names::read(piece.words());
+    named.class.is_none() && named.face.is_some()
+}
+
+/// The kind of one front and one back whose names say no more: they are of one garment, so what fits both best.
+fn class_of_pair(pieces: &[Piece], has_sleeve: bool, is_raglan: bool) -> Option<Class> {
+    let pair: Vec<&Piece> = pieces.iter().filter(|piece| is_nameless_face(piece)).collect();
+    let [one, other] = pair[..] else { return None };
+    if names::read(one.words()).face == names::read(other.words()).face {
+        return None;
+    }
+    let fit = |piece: &Piece, class: Class| {
+        let is_one = |template: &Template| {
+            let is_trunk =
+                !template.is_panel() && template.is_raglan() == is_raglan && (is_raglan || template.has_shoulder());
+            template.class == class && (class != Class::Body || is_trunk)
+        };
+        Some(upright(&Shape::of(piece)?, is_one)?.score)
+    };
+    // A sleeve is worn with a trunk.
+    let kinds: &[Class] = if has_sleeve { &[Class::Body] } else { &[Class::Body, Class::Leg, Class::Skirt] };
+    let sums = kinds.iter().filter_map(|&class| Some((fit(one, class)? + fit(other, class)?, class)));
+    let (sum, class) = sums.reduce(|best, found| if found.0 > best.0 { found } else { best })?;
+    (sum >= 2.0 * LEAST_FIT).then_some(class)
+}
+
 fn recognise_one(
     index: usize,
     piece: &Piece,
     around: Around,
-    Among { gore, panel }: Among,
+    Among { gore, panel, pair }: Among,
     questions: &mut Vec<String>,
 ) -> Result<Recognised, String> {
-    let named = names::read(&piece.name);
+    let named = names::read(piece.words());
     let ask = |what: &str| format!("piece `{}`: {what}; it is in no proposed seam", piece.name);
     let shape = Shape::of(piece).ok_or_else(|| ask("its corners cannot be told"))?;
     let is_candidate = |class: Class| match (named.class, named.face) {
         _ if gore.is_some() => class == Class::Skirt,
         _ if panel.is_some() => panel.is_some_and(|panel| class == panel.class),
         (Some(named), _) => class == named,
+        _ if pair.is_some() => pair == Some(class),
         (None, _) if around.has_sleeve && class == Class::Leg => false,
         (None, _) if around.has_sleeve && around.has_yoke && class == Class::Skirt => false,
         (None, Some(_)) => matches!(class, Class::Body | Class::Leg | Class::Skirt),

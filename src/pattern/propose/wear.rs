@@ -32,7 +32,7 @@ impl Proposal {
         if missing.is_empty() {
             return Ok(left);
         }
-        let reason = missing.into_iter().chain(left.questions).collect::<Vec<_>>().join("; ");
+        let reason = missing.into_iter().chain(left.questions).chain(left.notes).collect::<Vec<_>>().join("; ");
         Err(Unwearable { reason })
     }
 
@@ -75,7 +75,7 @@ impl Proposal {
             .map(|p| format!("`{}`", p.name))
             .collect();
         names.dedup();
-        self.questions.push(format!("left out: {}: {reason}", names.join(", ")));
+        self.notes.push(format!("left out: {}: {reason}", names.join(", ")));
         let is_gone = |id: &str| ids_gone.iter().any(|gone| gone == id);
         self.seams.retain(|seam| !ids(seam).any(is_gone));
         self.worn.retain(|one| !is_gone(&one.id));

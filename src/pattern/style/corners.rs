@@ -13,6 +13,8 @@ const ON_OUTLINE_M: f64 = 0.5e-3;
 const CORNER_TURN_DEG: f64 = 30.0;
 /// Turn at which a vertex is a corner beside those that the file marks, degrees: no sample of a curve turns as much.
 const SHARP_TURN_DEG: f64 = 45.0;
+/// Turn below which a mark may be that of an inner line, degrees.
+const SLIGHT_TURN_DEG: f64 = 20.0;
 /// Least distance along the outline of such a vertex from the next corner, m: nearer ones are a notch or a step.
 const APART_M: f64 = 15e-3;
 
@@ -24,7 +26,11 @@ pub(crate) fn corner_vertices(piece: &Piece) -> Vec<usize> {
         let distance = |i: &usize| (outline[*i] - point).norm();
         (0..outline.len()).min_by(|i, j| distance(i).total_cmp(&distance(j))).filter(|i| distance(i) < ON_OUTLINE_M)
     };
-    let marked: Vec<usize> = piece.turn_points.iter().filter_map(nearest).collect();
+    // Programs mark the turn points of inner lines on the same layer: where such a line meets the outline, that need not turn.
+    let ends_inner_line = |point: &V2| piece.internal_lines.iter().flatten().any(|p| (p - point).norm() < ON_OUTLINE_M);
+    let is_inner = |point: &V2, i: usize| turn_deg(outline, i) < SLIGHT_TURN_DEG && ends_inner_line(point);
+    let marked = piece.turn_points.iter().filter_map(|point| nearest(point).filter(|&i| !is_inner(point, i)));
+    let marked: Vec<usize> = marked.collect();
     let distinct: BTreeSet<usize> = marked.iter().copied().collect();
     // Some writers mark every vertex as a turn point; then the marks say nothing.
     if distinct.len() >= 2 && (distinct.len() < outline.len() || outline.len() <= 8) {

@@ -2,54 +2,16 @@
 
 pub(super) mod corners;
 mod openings;
+mod pieces;
 mod read;
+mod upright;
 
+pub use self::pieces::{Edge, StylePiece};
 use self::read::Reader;
-use super::garment::{Band, MeasurementKind, Role};
-use super::piece::{Notch, Piece};
+use super::garment::{Band, MeasurementKind};
+use super::piece::Piece;
 use super::seams::{SeamFile, StyleError};
 use geom::V2;
-use geom::polyline::Polyline;
-
-/// An edge of a piece, counter-clockwise as worn.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Edge {
-    /// Name, unique within the piece; `None` for a stretch of outline that the seam file does not name.
-    pub name: Option<String>,
-    /// The drawn curve.
-    pub line: Polyline,
-    /// Arc lengths of the corners passed between its ends.
-    pub corners: Vec<f64>,
-}
-
-/// A piece as worn.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StylePiece {
-    /// Identifier.
-    pub id: String,
-    /// How it is worn.
-    pub role: Role,
-    /// Its edges in counter-clockwise order; together they are the closed outline.
-    pub edges: Vec<Edge>,
-    /// Unit vector of the grain.
-    pub grain: V2,
-    /// Notches.
-    pub notches: Vec<Notch>,
-    /// Corners as worn, by their number in the seam file.
-    pub corners: Vec<V2>,
-}
-
-impl StylePiece {
-    /// Closed outline, counter-clockwise.
-    #[must_use]
-    pub fn outline(&self) -> Vec<V2> {
-        self.edges
-            .iter()
-            .flat_map(|edge| edge.line.points().split_last().map_or(&[][..], |(_, rest)| rest))
-            .copied()
-            .collect()
-    }
-}
 
 /// Reference to an edge: piece index, edge index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::corners::{corner_vertices, cut_edge, mirror_edge, mirrored};
+use super::upright;
 use super::{Edge, EdgePoint, EdgeRef, PathPart, Seam, Style, StyleMeasurement, StylePiece, StyleReinforcement};
 use crate::piece::Piece;
 use crate::seams::{PieceEntry, SeamEntry, SeamFile, Stretch, StyleError};
@@ -51,6 +52,7 @@ impl Reader<'_> {
             }
             style.seams.push(seam);
         }
+        style.pieces.iter_mut().for_each(upright::set_upright);
         self.measure(&mut style)?;
         Ok(style)
     }

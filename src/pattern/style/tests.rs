@@ -1,6 +1,7 @@
 use super::corners::{corner_vertices, mirrored};
 use super::*;
 use crate::draft::{TSHIRT_SEAMS, TshirtSize, tshirt};
+use crate::piece::Notch;
 use crate::seams::SeamFile;
 
 fn read(seams: &str) -> Result<Style, StyleError> {
@@ -136,4 +137,36 @@ fn reinforced_edges_reach_the_mesh() {
     check("edges = [\"front.neck_left\"]\nkind = \"rib\"\nstiffness_n = -1.0", "reinforce 1");
     check("edges = [\"front.nick\"]\nkind = \"rib\"\nstiffness_n = 20.0", "front.nick");
     check("edges = [\"front.neck_left\"]\nkind = \"lace\"\nstiffness_n = 20.0", "lace");
+}
+
+/// A piece as a program may draw it: turned about the origin.
+fn turned(piece: &Piece, degrees: f64) -> Piece {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let at = |p: &V2| V2::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y);
+    let all = |points: &[V2]| points.iter().map(at).collect();
+    Piece {
+        outline: all(&piece.outline),
+        turn_points: all(&piece.turn_points),
+        notches: piece.notches.iter().map(|notch| Notch { at: at(&notch.at), ..*notch }).collect(),
+        grain: piece.grain.map(|ends| ends.map(|end| at(&end))),
+        ..piece.clone()
+    }
+}
+
+#[test]
+fn pieces_are_set_upright_however_they_lie_in_the_file() {
+    let draft = tshirt(TshirtSize::M).pieces;
+    let upright = Style::read(&draft, TSHIRT_SEAMS, "a.toml").expect("drafted upright");
+    for degrees in [90.0, 180.0, 270.0, 37.0, -20.0] {
+        let turned: Vec<Piece> = draft.iter().map(|piece| turned(piece, degrees)).collect();
+        let style = Style::read(&turned, TSHIRT_SEAMS, "a.toml").expect("the same pieces");
+        for (drawn, found) in upright.pieces.iter().zip(&style.pieces) {
+            let outlines = [drawn.outline(), found.outline()];
+            let from_first = |outline: &[V2]| outline.iter().map(|p| p - outline[0]).collect::<Vec<_>>();
+            let pairs = from_first(&outlines[0]).into_iter().zip(from_first(&outlines[1]));
+            let off = pairs.map(|(p, q)| (p - q).norm()).fold(0.0, f64::max);
+            assert!(off < 1e-9, "{} turned by {degrees}: {off}", drawn.id);
+            assert!(found.grain.dot(&drawn.grain) > 1.0 - 1e-9, "{}", drawn.id);
+        }
+    }
 }

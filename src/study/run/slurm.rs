@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 use crate::error::{Result, StudyError};
 use crate::rows::JobId;
@@ -21,6 +22,11 @@ const ARRAY: usize = 1000;
 const TRIES: u32 = 3;
 /// File with the numbers of the arrays that were submitted.
 const SUBMITTED: &str = "submitted";
+
+/// How long a cluster may keep silent before a run gives up waiting: its controller is restarted in less.
+const SILENCE: Duration = Duration::from_secs(600);
+/// What Slurm says of jobs that ended long ago.
+const FORGOTTEN: &str = "Invalid job id";
 
 /// States of a task that Slurm still works on.
 const ACTIVE: [&str; 9] = [
@@ -56,6 +62,27 @@ pub struct SlurmRun {
     open: BTreeMap<JobId, (PathBuf, u32)>,
     /// Arrays that were submitted.
     arrays: Vec<String>,
+    /// Since when Slurm has not said what it does with them.
+    silent_since: Option<Instant>,
+}
+
+/// What Slurm does with the arrays.
+#[derive(Debug, PartialEq, Eq)]
+enum Activity {
+    /// It works on one of them.
+    Active,
+    /// It works on none.
+    Ended,
+    /// It does not say, and why.
+    Unknown(String),
+}
+
+impl Activity {
+    /// Of states as Slurm prints them, one a line: `RUNNING`, `CANCELLED by 1000`.
+    fn of(states: &str) -> Self {
+        let is_active = |line: &str| line.split_whitespace().next().is_some_and(|state| ACTIVE.contains(&state));
+        if states.lines().any(is_active) { Self::Active } else { Self::Ended }
+    }
 }
 
 /// Hands the jobs of a study to Slurm; [`Workspace::step_slurm`](crate::Workspace::step_slurm) does the rest.
@@ -81,6 +108,7 @@ pub fn start_slurm(
         name: study.name.clone(),
         open,
         arrays: arrays.lines().map(str::to_owned).collect(),
+        silent_since: None,
     })
 }
 
@@ -92,16 +120,31 @@ impl SlurmRun {
     /// When Slurm cannot be asked, or a job was given up.
     pub fn step(&mut self, store: &mut Store) -> Result<bool> {
         // Asked before the results are looked for: a task that ends in between is then found in the next step.
-        let is_active = self.is_active()?;
+        let activity = self.activity();
         self.merge(store)?;
         if self.open.is_empty() {
             self.forget()?;
             return Ok(true);
         }
-        if !is_active {
-            self.submit()?;
+        match activity {
+            Activity::Ended => self.submit()?,
+            Activity::Active => self.silent_since = None,
+            Activity::Unknown(why) => self.wait_for_an_answer(&why)?,
         }
         Ok(false)
+    }
+
+    /// Goes on waiting while Slurm does not say what it does, for some time.
+    fn wait_for_an_answer(&mut self, why: &str) -> Result<()> {
+        let since = self.silent_since.get_or_insert_with(Instant::now);
+        if since.elapsed() < SILENCE {
+            return Ok(());
+        }
+        let arrays = self.arrays.join(", ");
+        Err(StudyError::stage("slurm")(format!(
+            "{why}; arrays {arrays} were submitted, and neither squeue, sacct nor scontrol says what became of them; \
+             start again to go on waiting, nothing is submitted twice"
+        )))
     }
 
     /// Takes the arrays out of Slurm.
@@ -138,23 +181,31 @@ impl SlurmRun {
         Ok(())
     }
 
-    /// Whether Slurm still works on one of the arrays.
-    fn is_active(&self) -> Result<bool> {
+    /// What Slurm does with the arrays: asked of the queue, else of the accounts, else of each array. A queue that does not answer says
+    /// nothing of them: to submit them again would run them twice.
+    fn activity(&self) -> Activity {
         if self.arrays.is_empty() {
-            return Ok(false);
+            return Activity::Ended;
         }
         let jobs = format!("--jobs={}", self.arrays.join(","));
-        let text = match slurm("squeue", &["--json".to_owned(), jobs], None) {
-            Ok(text) => text,
-            // Ended jobs are forgotten after some minutes; a cluster that is away is told where jobs are submitted.
-            Err(_) => return Ok(false),
+        let queue = slurm("squeue", &["--noheader".to_owned(), "--format=%T".to_owned(), jobs.clone()], None);
+        let silent = match queue {
+            Ok(states) => return Activity::of(&states),
+            Err(error) => error.to_string(),
         };
-        let answer: serde_json::Value = serde_json::from_str(&text).map_err(StudyError::stage("slurm"))?;
-        let states = answer["jobs"].as_array().into_iter().flatten().flat_map(|job| match &job["job_state"] {
-            serde_json::Value::Array(states) => states.iter().filter_map(|s| s.as_str()).collect::<Vec<_>>(),
-            state => state.as_str().into_iter().collect(),
-        });
-        Ok(states.into_iter().any(|state| ACTIVE.contains(&state)))
+        let accounts =
+            ["--noheader", "--parsable2", "--allocations", "--format=State", jobs.as_str()].map(str::to_owned);
+        if let Ok(states) = slurm("sacct", &accounts, None)
+            && !states.trim().is_empty()
+        {
+            return Activity::of(&states);
+        }
+        let shown: Vec<String> = self.arrays.iter().filter_map(|array| states_of(array)).collect();
+        if !shown.is_empty() {
+            return Activity::of(&shown.join("\n"));
+        }
+        // Ended jobs are forgotten after some minutes.
+        if silent.contains(FORGOTTEN) { Activity::Ended } else { Activity::Unknown(silent) }
     }
 
     fn submit(&mut self) -> Result<()> {
@@ -212,6 +263,14 @@ fn last_words(array: &str) -> String {
     words.join(" ")
 }
 
+/// States of the tasks of an array, one a line, as `scontrol` shows them.
+fn states_of(array: &str) -> Option<String> {
+    let text =
+        slurm("scontrol", &["show".to_owned(), "job".to_owned(), "-o".to_owned(), array.to_owned()], None).ok()?;
+    let states: Vec<&str> = text.split_whitespace().filter_map(|word| word.strip_prefix("JobState=")).collect();
+    (!states.is_empty()).then(|| states.join("\n"))
+}
+
 /// Runs one of Slurm's programs.
 fn slurm(program: &'static str, arguments: &[String], input: Option<&str>) -> Result<String> {
     let fail = |message: String| StudyError::stage("slurm")(format!("{program}: {message}"));
@@ -247,6 +306,15 @@ mod tests {
         let path = Path::new("/my disk/Anna's $HOME");
         let output = Command::new("sh").arg("-c").arg(format!("printf %s {}", quoted(path))).output();
         assert_eq!(String::from_utf8_lossy(&output.expect("a shell").stdout), path.to_string_lossy());
+    }
+
+    #[test]
+    fn what_slurm_says_of_tasks_is_understood() {
+        let check = |states: &str, expect: Activity| assert_eq!(Activity::of(states), expect, "{states:?}");
+        check("", Activity::Ended);
+        check("COMPLETED\nCANCELLED by 1000\n", Activity::Ended);
+        check("COMPLETED\nRUNNING\n", Activity::Active);
+        check("PENDING", Activity::Active);
     }
 
     #[test]

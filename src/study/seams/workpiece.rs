@@ -224,12 +224,6 @@ mod tests {
         let changed = before.lines().zip(after.lines()).filter(|(before, after)| before != after).count();
         assert_eq!((before.lines().count(), changed), (after.lines().count(), 1));
         assert!(piece.after(&SeamStep::Confirm("none".into())).is_err());
-
-        let question = laid.questions.first().expect("which sleeve is drawn").clone();
-        piece.seams = Some(piece.after(&SeamStep::Decide(question.clone())).expect("it is asked"));
-        let laid = piece.laid_out().expect("it fits");
-        assert!(!laid.questions.contains(&question));
-        assert!(piece.after(&SeamStep::Decide(question)).is_err());
     }
 
     #[test]
@@ -238,7 +232,8 @@ mod tests {
         let edit = Edit::Remove { a: "front.side_right".into(), b: "back.side_right".into() };
         piece.seams = Some(piece.after(&SeamStep::Edit(edit)).expect("it is there"));
         let questions = piece.laid_out().expect("it fits").questions;
-        assert!(questions.iter().any(|text| text.contains("back.side_right")), "{questions:?}");
+        let free = questions.iter().find(|text| text.contains("back.side_right")).expect("it is said").clone();
+        assert!(piece.after(&SeamStep::Decide(free)).is_err(), "the check finds it, nobody asks it");
     }
 
     #[test]

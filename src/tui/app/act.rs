@@ -41,7 +41,10 @@ impl State {
             Action::Sort => page.sort(self),
             Action::Reverse => page.reverse(self),
             Action::Copy => return self.copy(),
-            Action::Ascii => self.theme.ascii = !self.theme.ascii,
+            Action::Ascii => {
+                self.theme.ascii = !self.theme.ascii;
+                self.terminal.chosen_ascii = Some(self.theme.ascii);
+            }
             Action::Mouse => return self.take_mouse(),
             Action::Help => self.overlay = Some(Overlay::Help(List::of(self.setup.bindings))),
             Action::Palette => self.overlay = Some(Overlay::Palette(List::of(self.setup.bindings))),

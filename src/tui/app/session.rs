@@ -35,7 +35,7 @@ pub struct Session {
     reports_by_time: bool,
     sorts_contrasts: bool,
     differences_only: bool,
-    is_ascii: Option<bool>,
+    chosen_ascii: Option<bool>,
     has_mouse: Option<bool>,
     query: String,
     history: Vec<String>,
@@ -62,7 +62,7 @@ impl Session {
             reports_by_time: state.reports.by_time,
             sorts_contrasts: state.compare.sorts_by_difference,
             differences_only: state.compare.differences_only,
-            is_ascii: Some(state.theme.ascii),
+            chosen_ascii: state.terminal.chosen_ascii,
             has_mouse: Some(state.terminal.has_mouse),
             query: state.sql.editor.text().to_owned(),
             history: state.sql.history.clone(),
@@ -83,7 +83,8 @@ impl Session {
         state.fabrics.order = self.fabric_order;
         (state.reports.by_time, state.compare.sorts_by_difference) = (self.reports_by_time, self.sorts_contrasts);
         state.compare.differences_only = self.differences_only;
-        state.theme.ascii |= self.is_ascii == Some(true);
+        state.terminal.chosen_ascii = self.chosen_ascii;
+        state.theme.ascii |= self.chosen_ascii == Some(true);
         state.terminal.has_mouse = self.has_mouse.unwrap_or(state.terminal.has_mouse);
         state.sql.editor.set(&self.query);
         state.sql.history = self.history;

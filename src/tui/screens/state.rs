@@ -71,6 +71,8 @@ pub struct Terminal {
     pub size: Size,
     /// Whether the mouse is taken.
     pub has_mouse: bool,
+    /// Plain ASCII or not, where somebody has chosen.
+    pub chosen_ascii: Option<bool>,
     /// Whether it is gone and only the run is waited for.
     pub detached: bool,
 }
@@ -149,7 +151,7 @@ impl State {
         Self {
             theme,
             setup: Setup { bindings: BINDINGS, abilities, folders: Folders::default() },
-            terminal: Terminal { size, has_mouse: false, detached: false },
+            terminal: Terminal { size, has_mouse: false, chosen_ascii: None, detached: false },
             data: None,
             focus: Focus::default(),
             nav: Navigation {

@@ -155,9 +155,7 @@ fn proposed_seams_are_confirmed_one_by_one() {
     }
     assert_eq!(unsure(&bench), 0);
     let asked = |bench: &Bench| bench.state.layout().expect("laid out").expect("it fits").out.questions.len();
-    let questions = asked(&bench);
-    bench.press("j<Enter>");
-    assert_eq!((asked(&bench), questions), (questions - 1, questions), "the question is answered");
+    assert_eq!(asked(&bench), 0, "nothing is left to ask");
     assert!(!String::from_utf8_lossy(&saved(&mut bench).bytes).contains("[[seam]]  # confidence"));
 }
 

@@ -1,0 +1,127 @@
+//! What a file says of its pieces beside their names: categories and other texts, and the letters that a style number ends in.
+//!
+//! A CAD program calls the pieces of style `GMH1006` `GMH1006FR`, `GMH1006BK`, `GMH1006SL`. What all names have in common tells nothing of
+//! any piece; what is left is a word, or one of the trade's abbreviations.
+
+use super::names;
+use crate::piece::Piece;
+
+/// Keys of texts that say what a piece is, in lower case.
+const KEYS: [&str; 9] = [
+    "category",
+    "annotation",
+    "description",
+    "piece description",
+    "piece_name",
+    "piece_id",
+    "piece id",
+    "type",
+    "part",
+];
+
+/// Abbreviations of the trade, whole words in lower case, and what they are written out to.
+const ABBREVIATIONS: [(&str, &[&str]); 12] = [
+    ("front", &["f", "fr", "frt", "frnt", "fa", "vt"]),
+    ("back", &["b", "bk", "bck", "ba"]),
+    ("sleeve", &["sl", "slv", "sle", "ss", "ls"]),
+    ("waistband", &["wb", "wstb"]),
+    ("yoke", &["yk", "yo"]),
+    ("cuff", &["cu", "cuf", "cff"]),
+    ("collar", &["co", "clr", "col", "clst", "cs", "vco", "sfco", "nr", "rn", "nb", "nrib"]),
+    ("leg", &["ll", "leg"]),
+    ("hood", &["ho", "hd"]),
+    ("pocket", &["pk", "pkt", "pkb"]),
+    ("placket", &["pl", "plkt", "plk", "yp", "yl"]),
+    ("interlining", &["int", "intl", "ix", "iy", "lin", "lng", "bin", "bia", "ab", "bnd"]),
+];
+
+/// Letters that a word of several runs into its style's name with (`RACERBK`), longest first.
+const ENDINGS: [(&str, &[&str]); 3] = [("front", &["frt", "fr"]), ("back", &["bck", "bk"]), ("sleeve", &["slv", "sl"])];
+
+/// Pieces with what the file says of each.
+pub fn told(pieces: &[Piece]) -> Vec<Piece> {
+    let common = common_start(pieces);
+    let said = |piece: &Piece| -> String {
+        let texts = piece.texts.iter().filter(|(key, _)| KEYS.contains(&key.to_lowercase().as_str()));
+        let own: Vec<&str> = texts.map(|(_, value)| value.as_str()).collect();
+        let tells = |text: &str| {
+            let named = names::read(text);
+            named.class.is_some() || named.face.is_some()
+        };
+        let own = own.into_iter().find(|text| tells(text));
+        // A name that says the kind says it best; a category may be that of a library.
+        match own {
+            _ if names::read(&piece.name).class.is_some() => piece.name.clone(),
+            Some(text) => completed(text, &piece.name),
+            None if tells(&piece.name) => piece.name.clone(),
+            None => written_out(piece.name.get(common..).unwrap_or_default()).unwrap_or_else(|| piece.name.clone()),
+        }
+    };
+    pieces.iter().map(|piece| Piece { told: said(piece), ..piece.clone() }).collect()
+}
+
+/// A text, with front or back and the side of the wearer where only the name gives them.
+fn completed(text: &str, name: &str) -> String {
+    let (said, named) = (names::read(text), names::read(name));
+    let face = named.face.filter(|_| said.face.is_none()).map(|face| face.to_string());
+    let hand = named.hand.filter(|_| said.hand.is_none()).map(|hand| hand.to_string());
+    [Some(text.to_owned()), face, hand].into_iter().flatten().collect::<Vec<_>>().join(" ")
+}
+
+/// Bytes that all names begin with.
+fn common_start(pieces: &[Piece]) -> usize {
+    let mut names = pieces.iter().map(|piece| piece.name.as_str());
+    let Some(first) = names.next().filter(|_| pieces.len() > 1) else { return 0 };
+    let shared = |name: &str| -> usize {
+        let same = first.char_indices().zip(name.chars()).take_while(|((_, a), b)| a.eq_ignore_ascii_case(b));
+        same.map(|((at, a), _)| at + a.len_utf8()).last().unwrap_or(0)
+    };
+    names.map(shared).min().unwrap_or(0)
+}
+
+/// What is left of a name with its abbreviations written out; `None` where it has none.
+fn written_out(rest: &str) -> Option<String> {
+    let lower = rest.to_lowercase();
+    let words = || lower.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty());
+    let whole = |word: &str| ABBREVIATIONS.iter().find(|(_, short)| short.contains(&word)).map(|(long, _)| *long);
+    let ending = |word: &str| {
+        ENDINGS.iter().find(|(_, endings)| endings.iter().any(|ending| word.ends_with(ending))).map(|(long, _)| *long)
+    };
+    let exact: Vec<&str> = words().filter_map(whole).collect();
+    let found: Vec<&str> = if exact.is_empty() { words().filter_map(ending).take(1).collect() } else { exact };
+    (!found.is_empty()).then(|| found.join(" "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn letters_after_a_style_number_say_what_a_piece_is() {
+        let check = |names: &[&str], expect: &[&str]| {
+            let pieces: Vec<Piece> =
+                names.iter().map(|name| Piece { name: (*name).to_owned(), ..Piece::default() }).collect();
+            let found: Vec<String> = told(&pieces).into_iter().map(|piece| piece.told).collect();
+            assert_eq!(found, expect);
+        };
+        check(&["AB12XFR", "AB12XBK", "AB12XSL"], &["front", "back", "sleeve"]);
+        check(&["Z-1 FRT", "Z-1 BCK V2", "Z-1 WB"], &["front", "back", "Z-1 WB"]);
+        check(&["SLEEK RUN FR", "SLEEK RUNNERBK"], &["front", "back"]);
+        check(&["VORDERTEIL", "RUECKENTEIL"], &["VORDERTEIL", "RUECKENTEIL"]);
+        check(&["X9-1", "X9-2"], &["X9-1", "X9-2"]);
+        check(&["FRONT"], &["FRONT"]);
+    }
+
+    #[test]
+    fn a_category_says_what_a_name_does_not() {
+        let check = |name: &str, category: &str, expect: &str| {
+            let texts = vec![("Category".to_owned(), category.to_owned())];
+            let piece = Piece { name: name.to_owned(), texts, ..Piece::default() };
+            assert_eq!(told(&[piece])[0].told, expect);
+        };
+        check("A1_LEFT", "SLEEVE SHORT", "SLEEVE SHORT left");
+        check("BACK 2", "SLEEVE", "SLEEVE back");
+        check("skirt_back", "leg", "skirt_back");
+        check("wb_back", "body", "wb_back");
+    }
+}
