@@ -2,7 +2,7 @@
 
 use super::align::{TURNED, align, parts_of};
 use super::names;
-use super::shape::Shape;
+use super::shape::{Shape, quarter_turned};
 use super::templates::{TEMPLATES, Template};
 use super::{Class, Face, Hand, Label};
 use crate::garment::Role;
@@ -106,12 +106,7 @@ fn by_edges<'t>(piece: &StylePiece, templates: impl Iterator<Item = &'t Template
     let templates: Vec<&Template> = templates.collect();
     let mut best: Option<Pose> = None;
     for quarter_turns in 0..4 {
-        let turned = |p: &V2| match quarter_turns {
-            0 => *p,
-            1 => V2::new(-p.y, p.x),
-            2 => -*p,
-            _ => V2::new(p.y, -p.x),
-        };
+        let turned = |p: &V2| quarter_turned(p, quarter_turns);
         let points = outline.iter().map(turned);
         let (low, high) = points.fold((V2::repeat(f64::MAX), V2::repeat(f64::MIN)), |(l, h), p| (l.inf(&p), h.sup(&p)));
         let scale = (high - low).max().max(f64::MIN_POSITIVE);

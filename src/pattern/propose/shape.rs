@@ -54,6 +54,17 @@ pub struct Stretch {
     pub turn: f64,
 }
 
+/// A point turned about the origin by quarter turns, counter-clockwise.
+#[must_use]
+pub fn quarter_turned(p: &V2, quarter_turns: usize) -> V2 {
+    match quarter_turns % 4 {
+        0 => *p,
+        1 => V2::new(-p.y, p.x),
+        2 => -*p,
+        _ => V2::new(p.y, -p.x),
+    }
+}
+
 impl Shape {
     /// The shape of a piece; `None` where it has fewer than three corners or more than any pattern.
     #[must_use]
@@ -173,13 +184,7 @@ impl Shape {
     /// longer side, so that angles stay), with the box's width and height.
     #[must_use]
     pub fn framed(&self, quarter_turns: usize) -> (Self, V2) {
-        let turned = |p: &V2| match quarter_turns % 4 {
-            0 => *p,
-            1 => V2::new(-p.y, p.x),
-            2 => -*p,
-            _ => V2::new(p.y, -p.x),
-        };
-        let points: Vec<V2> = self.outline.iter().map(turned).collect();
+        let points: Vec<V2> = self.outline.iter().map(|p| quarter_turned(p, quarter_turns)).collect();
         let low = points.iter().fold(V2::repeat(f64::MAX), |low, p| low.inf(p));
         let high = points.iter().fold(V2::repeat(f64::MIN), |high, p| high.sup(p));
         let scale = (high - low).max().max(f64::MIN_POSITIVE);

@@ -1,7 +1,7 @@
 //! What a file says of its pieces beside their names: categories and other texts, and the letters that a style number ends in.
 //!
-//! A CAD program calls the pieces of style `GMH1006` `GMH1006FR`, `GMH1006BK`, `GMH1006SL`. What all names have in common tells nothing of
-//! any piece; what is left is a word, or one of the trade's abbreviations.
+//! A CAD program calls the pieces of style `AB12` `AB12FR`, `AB12BK`, `AB12SL`. What all names have in common tells nothing of any piece.
+//! What is left is a word, or one of the trade's abbreviations.
 
 use super::names;
 use crate::piece::Piece;
@@ -27,15 +27,15 @@ const ABBREVIATIONS: [(&str, &[&str]); 12] = [
     ("waistband", &["wb", "wstb"]),
     ("yoke", &["yk", "yo"]),
     ("cuff", &["cu", "cuf", "cff"]),
-    ("collar", &["co", "clr", "col", "clst", "cs", "vco", "sfco", "nr", "rn", "nb", "nrib"]),
+    ("collar", &["co", "clr", "col", "clst", "cs"]),
     ("leg", &["ll", "leg"]),
     ("hood", &["ho", "hd"]),
     ("pocket", &["pk", "pkt", "pkb"]),
-    ("placket", &["pl", "plkt", "plk", "yp", "yl"]),
-    ("interlining", &["int", "intl", "ix", "iy", "lin", "lng", "bin", "bia", "ab", "bnd"]),
+    ("placket", &["pl", "plkt", "plk"]),
+    ("interlining", &["int", "intl", "lin", "lng"]),
 ];
 
-/// Letters that a word of several runs into its style's name with (`RACERBK`), longest first.
+/// Letters that a word of several runs into its style's name with (`RUNNERBK`), longest first.
 const ENDINGS: [(&str, &[&str]); 3] = [("front", &["frt", "fr"]), ("back", &["bck", "bk"]), ("sleeve", &["slv", "sl"])];
 
 /// Pieces with what the file says of each.
