@@ -197,6 +197,12 @@ fn check(context: &Context, files: &StyleFiles) -> Outcome {
     if is_study(&files.file) {
         return check_study(context, &files.file);
     }
+    if files.size.is_none() {
+        let checks = seams::check_sizes(&files.file, files.seams.as_deref(), files.unit.map(Unit::from))?;
+        if checks.len() > 1 {
+            return show_sizes(context, &checks, SizeCheck::is_faulty);
+        }
+    }
     let checked = style(files).and_then(|style| Ok((patterns::mesh(&style, from_mm(CHECK_EDGE_MM))?, style)));
     let ((garment, quality), style) = match checked {
         Ok(checked) => checked,
@@ -240,19 +246,23 @@ fn check_study(context: &Context, path: &Path) -> Outcome {
         // A study names entries of the catalogue: a database of an earlier version is brought up to date first.
         context.workspace()?;
     }
-    let checks = seams::check_study(path, &context.db)?;
+    show_sizes(context, &seams::check_study(path, &context.db)?, SizeCheck::is_bad)
+}
+
+/// One row for each size; `is_bad` says which make the whole fail.
+fn show_sizes(context: &Context, checks: &[SizeCheck], is_bad: fn(&SizeCheck) -> bool) -> Outcome {
     if context.json {
         output::json(&checks)?;
     } else {
-        context.print(&sizes(&checks))?;
+        context.print(&sizes(checks))?;
     }
-    for check in &checks {
+    for check in checks {
         let whole = check.error.iter().cloned();
         for line in whole.chain(check.findings.iter().map(told)) {
             output::note(&format!("{} {}: {line}", check.garment, check.size));
         }
     }
-    Ok(if checks.iter().any(SizeCheck::is_bad) { End::CheckFailed } else { End::Done })
+    Ok(if checks.iter().any(is_bad) { End::CheckFailed } else { End::Done })
 }
 
 fn sizes(checks: &[SizeCheck]) -> Table {

@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::garment::{Garment, MeasurementKind};
 use super::piece::{Notch, Piece};
 use super::seams::SeamFile;
+use super::style::named::called;
 use super::style::{EdgeRef, PathPart, Seam, Style};
 use geom::polyline::Polyline;
 use geom::units::mm;
@@ -149,13 +150,10 @@ fn welded(garment: &Garment) -> Vec<usize> {
 }
 
 fn unused(pieces: &[Piece], entries: &SeamFile) -> Vec<Finding> {
-    let names: BTreeSet<&str> = entries.piece.values().map(|entry| entry.block.as_str()).collect();
-    let is_used = |index: usize, piece: &Piece| {
-        let number = pieces[..=index].iter().filter(|other| other.block == piece.block).count();
-        let numbered = format!("{}#{number}", piece.block);
-        [piece.block.as_str(), &piece.name, &numbered].iter().any(|name| names.contains(name))
-    };
-    let unused = pieces.iter().enumerate().filter(|(index, piece)| !is_used(*index, piece));
+    let made_on = entries.size.as_deref();
+    let used: BTreeSet<usize> =
+        entries.piece.values().flat_map(|entry| called(pieces, &entry.block, made_on)).collect();
+    let unused = pieces.iter().enumerate().filter(|(index, _)| !used.contains(index));
     unused
         .map(|(_, piece)| Finding {
             kind: FindingKind::UnusedPiece,

@@ -2,6 +2,7 @@
 //!
 //! ```toml
 //! name = "T-shirt"                          # style name
+//! size = "M"                                # size that the file was made on (optional)
 //! length_tolerance_mm = 1.0                 # greatest difference between the two sides of a seam (optional)
 //! open = ["back.neck"]                      # edges that stay free besides those that are measured along (optional)
 //!
@@ -9,6 +10,7 @@
 //! block = "FRONT"                           # block (or piece name) in the DXF file; NAME#2 is the second of that name
 //! role = "front"                            # front, back, sleeve_right, leg_front_left, bodice_front, other ...
 //! mirror = false                            # true: worn as the mirror image of what is drawn (optional)
+//! corners_at = [[0, 0], [1, 0.02], ...]      # where the corners lie, shares of width and height (optional)
 //! edges.hem = [0, 1]                        # an edge: from corner to corner, counter-clockwise as drawn
 //! edges.side_left = [1, 2]
 //!
@@ -17,7 +19,7 @@
 //! a = ["front.side_left"]                   # an edge or a chain of edges, in order along the seam
 //! b = ["back.side_left"]
 //! same_direction = false                    # true: both sides run counter-clockwise (optional)
-//! ease_mm = 0.0                             # length of a less length of b (optional)
+//! ease_mm = 0.0                             # length of a less length of b; by size: { S = 4.0, M = 5.0 } (optional)
 //!
 //! [[measurement]]
 //! no = 3
@@ -37,7 +39,9 @@
 //!
 //! **Corners** are the turn points of the piece, numbered from 0 counter-clockwise along the outline as drawn, starting
 //! at the first turn point in the file. Where a file has no usable turn points, corners are the vertices at which the
-//! outline turns by 30 degrees or more, starting at its first vertex.
+//! outline turns by 30 degrees or more, starting at its first vertex. Sizes may differ in what is marked and in what turns
+//! enough: where the entry has `corners_at`, edges count its corners, and each is found on the outline of a size by its
+//! place beside the others.
 //!
 //! **Directions.** Pieces are drawn seen from outside, so every edge runs counter-clockwise round its piece *as worn*
 //! (a mirrored piece's edges are turned round). The two sides of a seam therefore run against each other: `a` is walked
@@ -45,6 +49,7 @@
 //! and `end`, in the direction of the edge as worn.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
@@ -98,6 +103,9 @@ pub const DEFAULT_LENGTH_TOLERANCE_MM: f64 = 1.0;
 pub struct SeamFile {
     /// Style name.
     pub name: String,
+    /// Size that it was made on, where it holds for several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size: Option<String>,
     /// Greatest difference of length between the two sides of a seam, mm.
     #[serde(default = "default_tolerance")]
     pub length_tolerance_mm: f64,
@@ -148,6 +156,10 @@ pub struct PieceEntry {
     /// Worn as the mirror image of what is drawn.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub mirror: bool,
+    /// Corners that the edges count, counter-clockwise, as shares of the width and the height of the piece as drawn, on
+    /// the size that the file was made on; where there are none, the corners of each size count.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub corners_at: Vec<[f64; 2]>,
     /// Edges by name: first and last corner, counter-clockwise as drawn.
     pub edges: BTreeMap<String, [usize; 2]>,
 }
@@ -165,14 +177,56 @@ pub struct SeamEntry {
     /// Both sides run counter-clockwise round their pieces.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub same_direction: bool,
-    /// Length of `a` less length of `b`, mm.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub ease_mm: f64,
+    /// Length of `a` less length of `b`.
+    #[serde(default, skip_serializing_if = "Ease::is_none")]
+    pub ease_mm: Ease,
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
+/// Length of one side of a seam less that of the other, mm.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Ease {
+    /// The same in every size.
+    Same(f64),
+    /// By the name of the size.
+    BySize(BTreeMap<String, f64>),
+}
+
+impl Default for Ease {
+    fn default() -> Self {
+        Self::Same(0.0)
+    }
+}
+
+impl Ease {
+    /// Whether the sides are equally long in every size.
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// The ease of a size, mm, whose name counts in upper and lower case alike; `None` of a size that is not named.
+    #[must_use]
+    pub fn of_size(&self, size: &str) -> Option<f64> {
+        match self {
+            Self::Same(ease) => Some(*ease),
+            Self::BySize(eases) => {
+                eases.iter().find(|(name, _)| name.eq_ignore_ascii_case(size)).map(|(_, &ease)| ease)
+            }
+        }
+    }
+}
+
+impl fmt::Display for Ease {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Same(ease) => write!(f, "{ease}"),
+            Self::BySize(eases) => {
+                let each: Vec<String> = eases.iter().map(|(size, ease)| format!("{size} = {ease}")).collect();
+                write!(f, "{{ {} }}", each.join(", "))
+            }
+        }
+    }
 }
 
 /// A measurement of the style.

@@ -87,6 +87,7 @@ impl From<Specification> for PatternFile {
             pieces: specification.pieces,
             refused: Vec::new(),
             warnings: Vec::new(),
+            unit_remark: None,
             unused: Default::default(),
             encoding: CodePage::Web(encoding_rs::UTF_8),
         }

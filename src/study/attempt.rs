@@ -333,7 +333,7 @@ fn style(asked: &Attempt, notes: &mut Vec<String>) -> Result<Style> {
     if asked.seams.is_some() || SourceFile::read_pattern(&asked.pattern)?.holds_seams() {
         return patterns::style(&asked.pattern, asked.seams.as_deref(), size, asked.unit);
     }
-    let proposal = seams::propose(&asked.pattern, size, asked.unit)?.proposal;
+    let (proposal, pieces) = seams::proposal(&SourceFile::read_pattern(&asked.pattern)?, size, asked.unit)?;
     let proposal = proposal.to_drape().map_err(|unwearable| {
         StudyError::stage("pattern")(format!(
             "{}: {unwearable}; say --seams FILE (`toile pattern propose -o FILE` writes one to edit)",
@@ -343,7 +343,6 @@ fn style(asked: &Attempt, notes: &mut Vec<String>) -> Result<Style> {
     notes.push("sewn as proposed: no seam file was given".to_owned());
     notes.extend(proposal.questions.iter().chain(&proposal.notes).cloned());
     let name = asked.pattern.file_stem().unwrap_or_default().to_string_lossy();
-    let pieces = patterns::pieces(&SourceFile::read_pattern(&asked.pattern)?, size, asked.unit)?;
     let text = proposal.toml(&name);
     let mut style = Style::read(&pieces, text.as_bytes(), "the proposal").map_err(StudyError::stage("pattern"))?;
     if style.measurements.is_empty() {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Result, StudyError};
 use crate::files::SourceFile;
+use pattern::dxf::PatternFile;
 use pattern::{Garment, Piece, drawing, garmentcode, scale, source};
 
 pub use pattern::check::{Finding, of_garment as garment_findings};
@@ -62,16 +63,61 @@ pub fn style(pattern: &Path, seams: Option<&Path>, size: Option<&str>, unit: Opt
     read_style(&SourceFile::read_pattern(pattern)?, seams.as_ref(), size, unit)
 }
 
-/// The pieces of one size of a pattern file, or of all of a folder.
+/// The pieces of one size of a pattern file, or of all of a folder; without a size those of the sample size.
 pub(crate) fn pieces(pattern: &SourceFile, size: Option<&str>, unit: Option<Unit>) -> Result<Vec<Piece>> {
-    let mut pieces = Vec::new();
-    for part in pattern.parts() {
-        let file = source::read(&part.bytes, &part.name, unit).map_err(StudyError::stage("pattern"))?;
-        // A file of one size need not name it as the study does.
-        let size = size.filter(|_| file.sizes().len() > 1);
-        pieces.extend(file.to_sew(size).map_err(StudyError::stage("pattern"))?);
+    let nest = Nest::read(pattern, unit)?;
+    nest.pieces(size.unwrap_or(nest.sample_size()))
+}
+
+/// The files of a pattern, which may hold several sizes.
+pub(crate) struct Nest(Vec<PatternFile>);
+
+impl Nest {
+    /// Reads a file, or all of a folder.
+    pub(crate) fn read(pattern: &SourceFile, unit: Option<Unit>) -> Result<Self> {
+        let read =
+            |part: &SourceFile| source::read(&part.bytes, &part.name, unit).map_err(StudyError::stage("pattern"));
+        Ok(Self(pattern.parts().iter().map(read).collect::<Result<_>>()?))
     }
-    Ok(pieces)
+
+    /// The file whose sizes are those of the garment: a file of one size goes with any.
+    fn graded(&self) -> Option<&PatternFile> {
+        self.0.iter().find(|file| file.sizes().len() > 1).or(self.0.first())
+    }
+
+    /// Names of the sizes, in the order of the file; `""` where none is named.
+    pub(crate) fn sizes(&self) -> Vec<&str> {
+        self.graded().map_or(vec![], PatternFile::sizes)
+    }
+
+    /// The size that stands for the others.
+    pub(crate) fn sample_size(&self) -> &str {
+        self.graded().map_or("", PatternFile::sample_size)
+    }
+
+    /// What a person should know of the unit.
+    pub(crate) fn unit_remarks(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().filter_map(|file| file.unit_remark.as_deref())
+    }
+
+    /// The pieces of a size. A file of one size need not call it so: its pieces are of the size that is asked for.
+    pub(crate) fn pieces(&self, size: &str) -> Result<Vec<Piece>> {
+        let mut pieces = Vec::new();
+        for file in &self.0 {
+            let own = Some(size).filter(|_| file.sizes().len() > 1);
+            pieces.extend(file.to_sew(own).map_err(StudyError::stage("pattern"))?);
+        }
+        if !size.is_empty() {
+            pieces.iter_mut().for_each(|piece| piece.size = Some(size.to_owned()));
+        }
+        Ok(pieces)
+    }
+
+    /// The pieces of all sizes but one; a size that cannot be sewn has its reason instead.
+    pub(crate) fn others(&self, size: &str) -> Vec<(String, Result<Vec<Piece>>)> {
+        let others = self.sizes().into_iter().filter(|other| !other.eq_ignore_ascii_case(size));
+        others.map(|other| (other.to_owned(), self.pieces(other))).collect()
+    }
 }
 
 /// The unit of a name in a study file.
@@ -108,8 +154,12 @@ pub(crate) fn read_style(
     Ok(style)
 }
 
-/// Refuses a style whose pieces nobody could wear: its file is in another unit than it says.
+/// Refuses a style without pieces, or with pieces that nobody could wear: then its file is in another unit than it says.
 fn check_scale(style: &Style, file: &str) -> Result<()> {
+    if style.pieces.is_empty() {
+        let accepted = "at least one piece (`toile pattern propose` proposes what it recognises)";
+        return Err(StudyError::stage("pattern")(format!("{file}: found no piece to sew; accepted: {accepted}")));
+    }
     let longest_m = style.pieces.iter().map(|piece| scale::extent_m(&piece.outline())).fold(0.0, f64::max);
     match scale::doubt(longest_m, Unit::M) {
         Some(_) => Err(StudyError::stage("pattern")(format!(

@@ -28,7 +28,7 @@ use self::guard::{BlockCount, Counts, Inventory, take_inventory};
 pub use self::units::{Unit, UnitSource};
 pub use self::write::{write, write_pieces};
 use super::piece::Piece;
-use super::scale;
+use super::{scale, size_order};
 
 /// Name given to the outline of a file that has no blocks.
 pub const NO_BLOCK: &str = "(no block)";
@@ -94,6 +94,8 @@ pub struct PatternFile {
     pub refused: Vec<Refused>,
     /// Things the user should know.
     pub warnings: Vec<String>,
+    /// What the file says against the unit that it is read in, one of the warnings.
+    pub unit_remark: Option<String>,
     /// Number of entities that are not used, by layer.
     pub unused: BTreeMap<String, usize>,
     /// Encoding of the texts.
@@ -130,6 +132,16 @@ impl PatternFile {
         sizes
     }
 
+    /// The size that stands for the others: the one that the file calls its sample size, else the middle one.
+    #[must_use]
+    pub fn sample_size(&self) -> &str {
+        let sizes = self.sizes();
+        let is_called = |key: &str| key.to_ascii_lowercase().replace(['_', ' '], "") == "samplesize";
+        let said = self.texts.iter().filter(|(key, _)| is_called(key)).map(|(_, value)| value.as_str());
+        let sample = said.filter_map(|said| sizes.iter().find(|size| size.eq_ignore_ascii_case(said))).next();
+        sample.copied().unwrap_or_else(|| size_order::sorted(&sizes).get(sizes.len() / 2).copied().unwrap_or_default())
+    }
+
     /// The pieces of one size, half pieces opened, ready for a seam file. Without a `size` the file must hold only one;
     /// upper and lower case count the same.
     ///
@@ -144,7 +156,8 @@ impl PatternFile {
             return Err(DxfError::new(&self.file, None, format!("no unit{hint}"), accepted));
         }
         if let Some(doubt) = doubt {
-            return Err(DxfError::new(&self.file, None, doubt, scale::ACCEPTED));
+            let remark = self.unit_remark.as_ref().map_or_else(String::new, |remark| format!("{remark}; "));
+            return Err(DxfError::new(&self.file, None, format!("{remark}{doubt}"), scale::ACCEPTED));
         }
         let sizes = self.sizes();
         let wanted = match (size, sizes.as_slice()) {
@@ -195,9 +208,11 @@ pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<Pattern
     let tags = tags::scan(bytes, file_name)?;
     let inventory = take_inventory(&tags, file_name)?;
     let encoding = units::code_page(&inventory, file_name)?;
-    let claims = match unit {
-        Some(_) => Vec::new(),
-        None => units::claims(&inventory, file_name)?,
+    let (claims, unit_remark) = match unit {
+        Some(given) => {
+            (Vec::new(), units::claims(&inventory, file_name).ok().and_then(|c| units::overruled(&c, given)))
+        }
+        None => (units::claims(&inventory, file_name)?, None),
     };
     let (unit, unit_source) = match (unit, claims.first()) {
         (Some(unit), _) => (unit, UnitSource::Given),
@@ -214,7 +229,8 @@ pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<Pattern
         texts: blocks::texts(drawing.entities()),
         pieces: Vec::new(),
         refused: Vec::new(),
-        warnings: units::contradictions(&claims),
+        warnings: units::contradictions(&claims).into_iter().chain(unit_remark.clone()).collect(),
+        unit_remark,
         unused: BTreeMap::new(),
         encoding,
     };

@@ -140,6 +140,13 @@ pub fn contradictions(claims: &[Claim]) -> Vec<String> {
     claims.iter().filter(|claim| claim.unit != first.unit).map(warning).collect()
 }
 
+/// What a file says against the unit that the user gives it.
+pub fn overruled(claims: &[Claim], given: Unit) -> Option<String> {
+    let claim = claims.first().filter(|claim| claim.unit != given)?;
+    let Claim { unit, by, line } = claim;
+    Some(format!("{by} (line {line}) says {}: --unit {} is taken instead", unit.as_str(), given.as_str()))
+}
+
 /// Encoding of the texts: UTF-8 from AutoCAD 2007 on, and where texts are written so, whatever the header says; else
 /// `$DWGCODEPAGE`, else Windows-1252.
 ///

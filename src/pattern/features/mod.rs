@@ -361,6 +361,7 @@ pub fn read(bytes: &[u8], file: &str) -> Result<PatternFile, FeaturesError> {
         pieces,
         refused: Vec::new(),
         warnings: Vec::new(),
+        unit_remark: None,
         unused: Default::default(),
         encoding: CodePage::Web(encoding_rs::UTF_8),
     })

@@ -14,6 +14,7 @@ mod garment_tests;
 mod gore;
 mod lengths;
 mod names;
+mod nest;
 mod notched;
 mod panels;
 mod pose;
@@ -306,6 +307,9 @@ pub struct Proposal {
     pub questions: Vec<String>,
     /// What was left out or taken without asking.
     pub notes: Vec<String>,
+    /// Size that it was made on, where it was held to others.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub size: Option<String>,
     /// Pieces of the seam file.
     #[serde(skip)]
     worn: Vec<Worn>,
@@ -369,5 +373,5 @@ pub fn propose(pieces: &[Piece]) -> Proposal {
         }));
     }
     let open = sew::open(&worn, &seams);
-    Proposal { pieces: listed, seams, open, questions, notes, worn }
+    Proposal { pieces: listed, seams, open, questions, notes, size: None, worn }
 }

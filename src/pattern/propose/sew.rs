@@ -6,7 +6,7 @@
 use super::notched::{self, Evidence};
 use super::worn::{Along, Worn};
 use super::{Class, Face, Hand, Label, ProposedSeam, SeamKind};
-use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamEntry};
+use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, Ease, SeamEntry};
 use geom::units::mm;
 
 /// Difference of length, share of the longer side, at which a seam of straight edges is not believed.
@@ -105,7 +105,7 @@ impl<'w> Tailor<'w, '_> {
         }
         let names = |chain: Chain<'_>| chain.iter().map(Along::to_string).collect();
         let excess = ((a_mm - b_mm) * 10.0).round() / 10.0;
-        let ease_mm = if excess.abs() > 0.5 * DEFAULT_LENGTH_TOLERANCE_MM { excess } else { 0.0 };
+        let ease_mm = Ease::Same(if excess.abs() > 0.5 * DEFAULT_LENGTH_TOLERANCE_MM { excess } else { 0.0 });
         let entry = SeamEntry { name: kind.to_string(), a: names(a), b: names(b), same_direction: false, ease_mm };
         self.seams.push(ProposedSeam { entry, kind, a_mm, b_mm, confidence });
     }

@@ -10,6 +10,8 @@ use super::{Class, Face, Hand, Label, pose, role_of};
 use crate::Role;
 use crate::piece::Piece;
 use crate::seams::PieceEntry;
+use crate::style::corners::corner_vertices;
+use crate::style::correspond::shares;
 use geom::V2;
 use geom::polyline::Polyline;
 
@@ -173,17 +175,20 @@ pub fn id_of(one: &Recognised, hand: Option<Hand>) -> String {
     parts.into_iter().flatten().collect::<Vec<_>>().join("_")
 }
 
-/// A name that finds this piece alone: its piece name if nothing else has it, then its block's, then with its number.
+/// A name that finds this piece alone: its piece name if nothing else has it, then its block's, then with its number. Blocks of
+/// a nest hold the size in their names, so there the number among those of its name comes first.
 fn reference(pieces: &[Piece], index: usize) -> String {
     let piece = &pieces[index];
     let is_only = |name: &str| pieces.iter().filter(|p| p.name == name || p.block == name).count() == 1;
+    let number = |is: fn(&Piece) -> &str| pieces[..=index].iter().filter(|p| is(p) == is(piece)).count();
     if is_only(&piece.name) {
         piece.name.clone()
+    } else if piece.size.is_some() && piece.name != piece.block {
+        format!("{}#{}", piece.name, number(|piece| &piece.name))
     } else if is_only(&piece.block) {
         piece.block.clone()
     } else {
-        let number = pieces[..=index].iter().filter(|p| p.block == piece.block).count();
-        format!("{}#{number}", piece.block)
+        format!("{}#{}", piece.block, number(|piece| &piece.block))
     }
 }
 
@@ -240,7 +245,13 @@ fn wear(pieces: &[Piece], one: &Recognised, id: String, hand: Option<Hand>, is_m
         is_whole: one.alignment.template.is_whole,
         is_gore: one.gore.is_some(),
         darts: shape.darts().iter().filter_map(dart).collect(),
-        entry: PieceEntry { block: reference(pieces, one.piece), role, mirror: is_mirror, edges: corners },
+        entry: PieceEntry {
+            block: reference(pieces, one.piece),
+            role,
+            mirror: is_mirror,
+            corners_at: shares(pieces[one.piece].seam_outline(), &corner_vertices(&pieces[one.piece])),
+            edges: corners,
+        },
         edges,
         confidence: one.confidence,
     }

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use super::worn::Worn;
 use super::{Proposal, ProposedSeam};
-use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamFile};
+use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, Ease, SeamFile};
 
 /// Ratio of the sides from which a seam is called eased or gathered.
 const EASED_RATIO: f64 = 1.01;
@@ -16,6 +16,7 @@ impl Proposal {
     pub fn seam_file(&self, name: &str) -> SeamFile {
         SeamFile {
             name: name.to_owned(),
+            size: self.size.clone(),
             length_tolerance_mm: DEFAULT_LENGTH_TOLERANCE_MM,
             open: self.open.clone(),
             piece: self.worn.iter().map(|one| (one.id.clone(), one.entry.clone())).collect(),
@@ -35,7 +36,11 @@ impl Proposal {
         for question in &self.questions {
             let _ = writeln!(text, "# ASK: {}", question.replace(['\n', '\r'], " "));
         }
-        let _ = writeln!(text, "name = {}\nlength_tolerance_mm = {DEFAULT_LENGTH_TOLERANCE_MM:.1}", quoted(name));
+        let _ = writeln!(text, "name = {}", quoted(name));
+        if let Some(size) = &self.size {
+            let _ = writeln!(text, "size = {}", quoted(size));
+        }
+        let _ = writeln!(text, "length_tolerance_mm = {DEFAULT_LENGTH_TOLERANCE_MM:.1}");
         if !self.open.is_empty() {
             let _ = writeln!(text, "open = [{}]", list(&self.open));
         }
@@ -46,6 +51,8 @@ impl Proposal {
             if entry.mirror {
                 text.push_str("mirror = true\n");
             }
+            let corners: Vec<String> = entry.corners_at.iter().map(|[x, y]| format!("[{x}, {y}]")).collect();
+            let _ = writeln!(text, "corners_at = [{}]", corners.join(", "));
             let _ = writeln!(text, "[piece.{id}.edges]");
             let mut edges: Vec<_> = entry.edges.iter().collect();
             edges.sort_by_key(|(_, corners)| corners[0]);
@@ -58,11 +65,22 @@ impl Proposal {
             let _ = writeln!(text, "\n[[seam]]  # {}", remark(seam));
             let _ =
                 writeln!(text, "name = {}\na = [{}]\nb = [{}]", quoted(&entry.name), list(&entry.a), list(&entry.b));
-            if entry.ease_mm != 0.0 {
-                let _ = writeln!(text, "ease_mm = {:.1}", entry.ease_mm);
+            if !entry.ease_mm.is_none() {
+                let _ = writeln!(text, "ease_mm = {}", ease(&entry.ease_mm));
             }
         }
         text
+    }
+}
+
+fn ease(ease: &Ease) -> String {
+    match ease {
+        Ease::Same(ease) => format!("{ease:.1}"),
+        Ease::BySize(eases) => {
+            let key = |size: &String| toml::Value::String(size.clone());
+            let each: Vec<String> = eases.iter().map(|(size, ease)| format!("{} = {ease:.1}", key(size))).collect();
+            format!("{{ {} }}", each.join(", "))
+        }
     }
 }
 

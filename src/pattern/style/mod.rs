@@ -1,6 +1,8 @@
 //! A style: the pieces of one size, named, sewn and measured as its seam file says.
 
 pub(super) mod corners;
+pub(super) mod correspond;
+pub(super) mod named;
 mod openings;
 mod pieces;
 mod read;
@@ -123,8 +125,12 @@ impl Style {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn read(pieces: &[Piece], seam_bytes: &[u8], file: &str) -> Result<Self, StyleError> {
-        let entries = SeamFile::parse(seam_bytes, file)?;
-        Reader { file, entries: &entries }.style(pieces)
+        Self::of(pieces, &SeamFile::parse(seam_bytes, file)?, file)
+    }
+
+    /// [`Style::read`] from entries that were parsed.
+    pub(super) fn of(pieces: &[Piece], entries: &SeamFile, file: &str) -> Result<Self, StyleError> {
+        Reader { file, entries }.style(pieces)
     }
 
     /// Replaces measurements and fit levels by those of a seam file that names no piece: for a style whose pieces and

@@ -3,6 +3,8 @@
 use std::collections::BTreeSet;
 
 use super::corners::{corner_vertices, cut_edge, mirror_edge, mirrored};
+use super::correspond::corresponding;
+use super::named::called;
 use super::upright;
 use super::{Edge, EdgePoint, EdgeRef, PathPart, Seam, Style, StyleMeasurement, StylePiece, StyleReinforcement};
 use crate::piece::Piece;
@@ -115,16 +117,9 @@ impl Reader<'_> {
     /// The drawn piece that an entry names by its block, or else by its piece name.
     fn drawn<'p>(&self, id: &str, entry: &PieceEntry, pieces: &'p [Piece]) -> Result<&'p Piece, StyleError> {
         let place = format!("piece `{id}`");
-        let named = |is: fn(&Piece) -> &str| pieces.iter().filter(|piece| is(piece) == entry.block).collect::<Vec<_>>();
-        let by_block = named(|piece| &piece.block);
-        let mut found = if by_block.is_empty() { named(|piece| &piece.name) } else { by_block };
-        if let Some((name, number)) = entry.block.rsplit_once('#').filter(|_| found.is_empty()) {
-            let number = number.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
-            let of_name = pieces.iter().filter(|piece| piece.block == name);
-            found.extend(number.and_then(|number| of_name.clone().nth(number)));
-        }
+        let found = called(pieces, &entry.block, self.entries.size.as_deref());
         match found.as_slice() {
-            [only] => Ok(only),
+            &[only] => Ok(&pieces[only]),
             [] => {
                 let blocks: Vec<&str> = pieces.iter().map(|piece| piece.block.as_str()).collect();
                 Err(self.unknown(place, "block", &entry.block, &blocks))
@@ -139,8 +134,8 @@ impl Reader<'_> {
 
     fn piece(&self, id: &str, entry: &PieceEntry, drawn: &Piece) -> Result<StylePiece, StyleError> {
         let outline = drawn.seam_outline();
-        let corners = corner_vertices(drawn);
         let place = format!("piece `{id}`");
+        let corners = self.corners(&place, entry, drawn)?;
         // Corner ranges sorted by their first corner; gaps between them become unnamed edges.
         let mut ranges: Vec<(usize, usize, String)> = Vec::new();
         for (name, &[from, to]) in &entry.edges {
@@ -171,6 +166,21 @@ impl Reader<'_> {
             }
         }
         Ok(StylePiece { id: id.to_owned(), role: entry.role, edges, grain, notches, corners: corner_places })
+    }
+
+    /// Outline vertices of the corners that the edges of an entry count.
+    fn corners(&self, place: &str, entry: &PieceEntry, drawn: &Piece) -> Result<Vec<usize>, StyleError> {
+        if entry.corners_at.is_empty() {
+            return Ok(corner_vertices(drawn));
+        }
+        corresponding(drawn, &entry.corners_at).map_err(|(corner, away_m)| {
+            let found = format!(
+                "no corner {corner} of corners_at in block `{}`: the nearest is {:.0} mm away",
+                drawn.block,
+                mm(away_m)
+            );
+            self.contradiction(place.to_owned(), found, "a size of the same piece, turned as it is".to_owned())
+        })
     }
 
     /// Fills the gaps between corner ranges `(from, span, name)` that are sorted by their first corner.
@@ -220,14 +230,18 @@ impl Reader<'_> {
                 "at least one edge a side".to_owned(),
             ));
         }
-        let excess = length_a - length_b - from_mm(entry.ease_mm);
+        let Some(ease_mm) = entry.ease_mm.of_size(&style.size) else {
+            let accepted = format!("a size of ease_mm = {}", entry.ease_mm);
+            return Err(self.contradiction(place, format!("no ease of size `{}`", style.size), accepted));
+        };
+        let excess = length_a - length_b - from_mm(ease_mm);
         if excess.abs() > from_mm(self.entries.length_tolerance_mm) {
             return Err(self.contradiction(
                 place,
                 format!("a is {:.1} mm long and b {:.1} mm", mm(length_a), mm(length_b)),
                 format!(
                     "a longer than b by ease_mm = {} within length_tolerance_mm = {}",
-                    entry.ease_mm, self.entries.length_tolerance_mm
+                    ease_mm, self.entries.length_tolerance_mm
                 ),
             ));
         }

@@ -8,7 +8,7 @@ use crate::catalogue::format::{Format, format_of, text_of, unknown_format};
 use crate::catalogue::revision::{self, By};
 use crate::catalogue::{Mode, Part, Saved, check_name, refused, save};
 use crate::error::{Problem, Result, StudyError};
-use crate::patterns;
+use crate::patterns::{self, Nest};
 use crate::rows::JobId;
 use crate::seams::workpiece::Workpiece;
 use crate::spec::file::{self, Placed, Sewn, SizeFile, SourceFile};
@@ -57,11 +57,7 @@ pub fn save_style(store: &mut Store, mode: Mode, name: &str, given: &StyleGiven)
         (Some(path), first) if mode != Mode::Add || first.is_some() => Seams::Given(Some(SourceFile::read(path)?)),
         (None, _) if mode != Mode::Add => Seams::Kept,
         (None, Some(_)) if sizes.iter().all(|(size, _)| size.pattern.holds_seams()) => Seams::Given(None),
-        (None, Some((size, unit))) if given.is_proposed => {
-            let unit = unit.as_deref().and_then(patterns::unit_of);
-            let workpiece = Workpiece { pattern: size.pattern.clone(), seams: None, size: size.name.clone(), unit };
-            Seams::Given(Some(workpiece.proposed(name)?))
-        }
+        (None, Some(_)) if given.is_proposed => Seams::Given(Some(proposed(name, &sizes)?)),
         _ => {
             let problem = "a new style needs at least one pattern, and a seam file unless its patterns are \
                 GarmentCode JSON";
@@ -69,6 +65,25 @@ pub fn save_style(store: &mut Store, mode: Mode, name: &str, given: &StyleGiven)
         }
     };
     store_style(store, mode, Draft { name: name.to_owned(), seams, sizes })
+}
+
+/// The seam file proposed for all sizes of a style, made on the sample size of the first pattern that holds several, or
+/// else on the middle size.
+fn proposed(style: &str, sizes: &[Sized]) -> Result<SourceFile> {
+    let unit_of = |unit: &Option<String>| unit.as_deref().and_then(patterns::unit_of);
+    let mut made_on = &sizes[sizes.len() / 2];
+    let mut drawn = Vec::new();
+    for sized in sizes {
+        let nest = Nest::read(&sized.0.pattern, unit_of(&sized.1))?;
+        if nest.sizes().len() > 1 && nest.sample_size().eq_ignore_ascii_case(&sized.0.name) {
+            made_on = sized;
+        }
+        drawn.push((sized.0.name.clone(), nest.pieces(&sized.0.name)));
+    }
+    let (size, unit) = made_on;
+    drawn.retain(|(name, _)| *name != size.name);
+    let pattern = size.pattern.clone();
+    Workpiece { pattern, seams: None, size: size.name.clone(), unit: unit_of(unit) }.proposed_for(style, drawn)
 }
 
 /// Saves other seams of a style that is there. Every size must be sewable by them.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::catalogue;
 use crate::error::{Result, StudyError};
-use crate::patterns::{self, Unit};
+use crate::patterns::{self, Nest, Unit};
 use crate::spec::file::{GarmentEntry, SizeFile, SourceFile, Study};
 use crate::store::{self, Access};
 use geom::units::{from_mm, mm};
@@ -40,11 +40,16 @@ pub struct SizeCheck {
 }
 
 impl SizeCheck {
-    /// Whether something is wrong with it.
+    /// Whether something is wrong with how it is sewn.
+    #[must_use]
+    pub fn is_faulty(&self) -> bool {
+        self.error.is_some() || self.findings.iter().any(|finding| finding.kind.is_problem())
+    }
+
+    /// Whether something is wrong with it in a study, which needs a girth for the fit.
     #[must_use]
     pub fn is_bad(&self) -> bool {
-        let is_bad = |finding: &Finding| finding.kind.is_problem() || finding.kind == FindingKind::FitLevel;
-        self.error.is_some() || self.findings.iter().any(is_bad)
+        self.is_faulty() || self.findings.iter().any(|finding| finding.kind == FindingKind::FitLevel)
     }
 }
 
@@ -56,13 +61,40 @@ impl SizeCheck {
 pub fn check_study(path: &Path, database: &Path) -> Result<Vec<SizeCheck>> {
     let connection = if database.exists() { Some(store::open(database, Access::Read)?) } else { None };
     let study = Study::load(path, &catalogue::known(connection.as_ref())?)?;
-    let sizes = study.garments.iter().flat_map(|garment| garment.sizes.iter().map(move |size| (garment, size)));
-    Ok(sizes.map(|(garment, size)| check_size(garment, size)).collect())
+    let of = |garment: &GarmentEntry| {
+        let unit = garment.unit.as_deref().and_then(patterns::unit_of);
+        let sewn = Sewn { garment: garment.name.clone(), seams: garment.seams.clone(), unit };
+        garment.sizes.iter().map(|size| check_size(&sewn, size)).collect::<Vec<_>>()
+    };
+    Ok(study.garments.iter().flat_map(of).collect())
 }
 
-fn check_size(garment: &GarmentEntry, size: &SizeFile) -> SizeCheck {
+/// Checks every size of a pattern with its seam file.
+///
+/// # Errors
+/// When a file cannot be read; what is wrong with a size is told in its row.
+pub fn check_sizes(pattern: &Path, seams: Option<&Path>, unit: Option<Unit>) -> Result<Vec<SizeCheck>> {
+    let source = SourceFile::read_pattern(pattern)?;
+    let seams = seams.map(SourceFile::read).transpose()?;
+    let sizes: Vec<String> = match source.holds_seams() {
+        true => vec![String::new()],
+        false => Nest::read(&source, unit)?.sizes().into_iter().map(str::to_owned).collect(),
+    };
+    let garment = pattern.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let sewn = Sewn { garment, seams, unit };
+    Ok(sizes.into_iter().map(|name| check_size(&sewn, &SizeFile { name, pattern: source.clone() })).collect())
+}
+
+/// A garment whose sizes are checked.
+struct Sewn {
+    garment: String,
+    seams: Option<SourceFile>,
+    unit: Option<Unit>,
+}
+
+fn check_size(sewn: &Sewn, size: &SizeFile) -> SizeCheck {
     let mut row = SizeCheck {
-        garment: garment.name.clone(),
+        garment: sewn.garment.clone(),
         size: size.name.clone(),
         pieces: 0,
         seams: 0,
@@ -73,18 +105,17 @@ fn check_size(garment: &GarmentEntry, size: &SizeFile) -> SizeCheck {
         findings: Vec::new(),
         error: None,
     };
-    row.error = fill(&mut row, garment, size).err().map(|error| error.to_string());
+    row.error = fill(&mut row, sewn, size).err().map(|error| error.to_string());
     row
 }
 
-fn fill(row: &mut SizeCheck, garment: &GarmentEntry, size: &SizeFile) -> Result<()> {
-    let unit = garment.unit.as_deref().and_then(patterns::unit_of);
-    let style = patterns::read_style(&size.pattern, garment.seams.as_ref(), Some(&size.name), unit)?;
+fn fill(row: &mut SizeCheck, sewn: &Sewn, size: &SizeFile) -> Result<()> {
+    let style = patterns::read_style(&size.pattern, sewn.seams.as_ref(), Some(&size.name), sewn.unit)?;
     (row.pieces, row.seams, row.measurements) = (style.pieces.len(), style.seams.len(), style.measurements.len());
     let level = |(level, path): &(String, Vec<_>)| (level.clone(), mm(style.path_length_m(path)));
     row.fit_mm = style.fit_levels.iter().map(level).collect();
-    if let Some(seams) = &garment.seams {
-        row.findings = of_files(&size.pattern, seams, Some(&size.name), unit)?;
+    if let Some(seams) = &sewn.seams {
+        row.findings = of_files(&size.pattern, seams, Some(&size.name), sewn.unit)?;
     }
     let (mesh, quality) = patterns::mesh(&style, from_mm(CHECK_EDGE_MM))?;
     (row.vertices, row.min_angle_deg) = (mesh.rest.len(), quality.min_angle_deg);

@@ -6,13 +6,13 @@ use toml_edit::{DocumentMut, Item};
 
 use crate::error::{Result, StudyError};
 use crate::files::SourceFile;
-use crate::patterns::{self, Unit};
+use crate::patterns::{self, Nest, Unit};
 use geom::units::mm;
 use pattern::propose::{self, Proposal};
 use pattern::seam_edit::{Edit, edited};
 use pattern::seams::SeamFile;
 use pattern::style::{EdgeRef, Style};
-use pattern::{Role, arrange};
+use pattern::{Piece, Role, arrange};
 
 /// An edge of a piece where it lies in the arrangement.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -119,13 +119,13 @@ pub struct Proposed {
     pub desk: Desk,
 }
 
-/// A seam file proposed for the pieces of a DXF file, or of all DXF files in a folder together.
+/// A seam file proposed for the pieces of a DXF file, or of all DXF files in a folder together: on one size, by default the
+/// sample size, and held to the others.
 ///
 /// # Errors
-/// When a file cannot be read, or holds several sizes while none is named.
+/// When a file cannot be read, or has no such size.
 pub fn propose(path: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Proposed> {
-    let pieces = patterns::pieces(&SourceFile::read_pattern(path)?, size, unit)?;
-    let proposal = propose::propose(&pieces);
+    let (proposal, pieces) = proposal(&SourceFile::read_pattern(path)?, size, unit)?;
     if proposal.is_empty() {
         return Ok(Proposed { proposal, desk: Desk { pieces: Vec::new(), seams: Vec::new() } });
     }
@@ -136,6 +136,31 @@ pub fn propose(path: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Pr
         seam.confidence = Some(proposed.confidence);
     }
     Ok(Proposed { proposal, desk })
+}
+
+/// What is proposed for a pattern, and the pieces of the size that it is made on.
+pub(crate) fn proposal(pattern: &SourceFile, size: Option<&str>, unit: Option<Unit>) -> Result<(Proposal, Vec<Piece>)> {
+    let nest = Nest::read(pattern, unit)?;
+    let size = size.unwrap_or(nest.sample_size());
+    let pieces = nest.pieces(size)?;
+    let mut proposal = propose::propose(&pieces);
+    proposal.notes.extend(nest.unit_remarks().map(str::to_owned));
+    hold_for(&mut proposal, size, nest.others(size));
+    Ok((proposal, pieces))
+}
+
+/// Holds a proposal to the sizes that it was not made on.
+pub(crate) fn hold_for(proposal: &mut Proposal, made_on: &str, others: Vec<(String, Result<Vec<Piece>>)>) {
+    let mut sound = Vec::new();
+    for (size, pieces) in others {
+        match pieces {
+            Ok(pieces) => sound.push((size, pieces)),
+            Err(error) => proposal.notes.push(format!("size {size} cannot be sewn: {error}")),
+        }
+    }
+    if !sound.is_empty() {
+        proposal.hold_for(made_on, &sound);
+    }
 }
 
 /// The pieces and seams of a pattern with its seam file.

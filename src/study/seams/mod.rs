@@ -5,7 +5,8 @@ pub mod desk;
 pub mod pattern_files;
 pub mod workpiece;
 
-pub use check::{CHECK_EDGE_MM, SizeCheck, check_study, findings};
+pub use check::{CHECK_EDGE_MM, SizeCheck, check_sizes, check_study, findings};
+pub(crate) use desk::proposal;
 pub use desk::{Desk, DeskEdge, DeskPiece, DeskSeam, Proposed, desk, edit_seams, propose};
 pub use pattern::propose::Proposal;
 pub use pattern::seam_edit::Edit as SeamEdit;

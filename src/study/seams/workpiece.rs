@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use crate::error::{Problem, Result, StudyError};
-use crate::patterns::{self, Unit};
-use crate::seams::desk::{Desk, confidences, confirmed};
+use crate::patterns::{self, Nest, Unit};
+use crate::seams::desk::{Desk, confidences, confirmed, hold_for};
 use crate::spec::file::SourceFile;
 use geom::units::mm;
 use pattern::seam_edit::{Edit, edited};
 use pattern::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamFile};
 use pattern::style::Style;
-use pattern::{check, propose};
+use pattern::{Piece, check, propose};
 
 /// Begins a line of a proposed seam file that a person must answer.
 const QUESTION: &str = "# ASK: ";
@@ -131,17 +131,23 @@ impl Workpiece {
         Ok(SourceFile { name: file.name.clone(), bytes: text.into_bytes().into() })
     }
 
-    /// A seam file proposed for the pieces.
+    /// A seam file proposed for the pieces, which holds for all sizes of the pattern.
     ///
     /// # Errors
     /// When the pattern cannot be read, or no piece of it is recognised.
     pub fn proposed(&self, style: &str) -> Result<SourceFile> {
+        self.proposed_for(style, Nest::read(&self.pattern, self.unit)?.others(&self.size))
+    }
+
+    /// [`Workpiece::proposed`], held to other sizes.
+    pub(crate) fn proposed_for(&self, style: &str, others: Vec<(String, Result<Vec<Piece>>)>) -> Result<SourceFile> {
         let pieces = patterns::pieces(&self.pattern, Some(&self.size), self.unit)?;
-        let proposal = propose::propose(&pieces);
+        let mut proposal = propose::propose(&pieces);
         if proposal.is_empty() {
             let message = format!("{}: no piece was recognised; give its seam file", self.pattern.name);
             return Err(StudyError::stage("pattern")(message));
         }
+        hold_for(&mut proposal, &self.size, others);
         let name = self.seams.as_ref().map_or_else(|| format!("{style}.seams.toml"), |file| file.name.clone());
         let text = proposal.toml(style);
         Style::read(&pieces, text.as_bytes(), &name).map_err(StudyError::stage("pattern"))?;
