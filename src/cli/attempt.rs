@@ -20,6 +20,7 @@ pub fn run(context: &Context, arguments: &Try) -> Outcome {
         seams: arguments.seams.clone(),
         size: arguments.size.clone(),
         unit: arguments.unit.map(Unit::from),
+        answers: arguments.answer.clone(),
         simulator: match arguments.sim {
             TrySimulator::Fem => Simulator::Fem,
             TrySimulator::Hybrid => Simulator::Hybrid,

@@ -18,6 +18,7 @@ mod pattern;
 mod pattern_files;
 mod pictures;
 mod progress;
+mod questions;
 mod queue;
 mod recommend;
 mod run;

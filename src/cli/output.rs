@@ -20,7 +20,7 @@ pub fn note(text: &impl std::fmt::Display) {
 }
 
 /// A text whose control characters, but for ends of lines and tabulators, are written out.
-fn printable(text: &str) -> String {
+pub fn printable(text: &str) -> String {
     let is_plain = |c: char| !c.is_control() || matches!(c, '\n' | '\t');
     text.chars().map(|c| if is_plain(c) { c.to_string() } else { c.escape_default().to_string() }).collect()
 }

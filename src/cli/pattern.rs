@@ -5,6 +5,7 @@ use std::path::Path;
 
 use super::args::{DraftStyle, Pattern, SeamCommand, StyleFiles};
 use super::context::Context;
+use super::questions;
 use super::{CliError, End, Outcome, output, pattern_files};
 use geom::units::{from_mm, mm};
 use study::patterns::{self, FileReport, Finding, Model, Unit};
@@ -19,8 +20,12 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
             let reports = inspect_files(path, &pattern_files::beside(files))?;
             inspect(context, &reports, if *by_file { outcomes } else { pieces })
         }
-        Pattern::Propose { path, size, unit, output } => {
-            propose(context, path, &seams::propose(path, size.as_deref(), unit.map(Unit::from))?, output.as_deref())
+        Pattern::Propose { path, size, unit, answer, ask, output } => {
+            let proposed = |answers: &[(usize, char)]| {
+                seams::propose(path, size.as_deref(), unit.map(Unit::from), answers).map_err(CliError::from)
+            };
+            let proposed = if *ask { questions::ask(answer.clone(), proposed)? } else { proposed(answer)? };
+            propose(context, path, &proposed, output.as_deref())
         }
         Pattern::Check(files) => check(context, files),
         Pattern::Seam(edit) => seam(context, edit),
@@ -73,7 +78,7 @@ fn propose(context: &Context, path: &Path, proposed: &seams::Proposed, output: O
         context.say(note);
     }
     for question in &proposal.questions {
-        context.say(format_args!("{}: {question}", path.display()));
+        context.say(format_args!("{}: {}. {question}", path.display(), question.number));
     }
     if let Some(output) = output {
         let name = path.file_stem().unwrap_or_default().to_string_lossy();

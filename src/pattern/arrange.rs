@@ -101,8 +101,8 @@ fn face_and_hand(piece: &StylePiece, pose: Option<&Pose>) -> (Option<Face>, Opti
         _ => named_face,
     };
     let hand = match piece.role {
-        Role::SleeveRight | Role::LegFrontRight | Role::LegBackRight => Some(Hand::Right),
-        Role::SleeveLeft | Role::LegFrontLeft | Role::LegBackLeft => Some(Hand::Left),
+        Role::SleeveRight | Role::LegFrontRight | Role::LegBackRight | Role::LegRight => Some(Hand::Right),
+        Role::SleeveLeft | Role::LegFrontLeft | Role::LegBackLeft | Role::LegLeft => Some(Hand::Left),
         _ => named_hand.or_else(|| pose.and_then(|pose| pose.hand(face?))),
     };
     (face, hand)

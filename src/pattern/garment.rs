@@ -28,6 +28,10 @@ pub enum Role {
     LegBackRight,
     /// Back of the left leg.
     LegBackLeft,
+    /// Right leg in one piece.
+    LegRight,
+    /// Left leg in one piece.
+    LegLeft,
     /// Front of a bodice that ends in a seam.
     BodiceFront,
     /// Back of a bodice that ends in a seam.

@@ -85,8 +85,8 @@ const MEDIAN: usize = 0;
 /// Wall and side that a piece of a role keeps to, at a place on the body.
 fn side_of(role: Role, at: &V3) -> Option<(usize, f64)> {
     match role {
-        Role::LegFrontRight | Role::LegBackRight => Some((MEDIAN, 1.0)),
-        Role::LegFrontLeft | Role::LegBackLeft => Some((MEDIAN, -1.0)),
+        Role::LegFrontRight | Role::LegBackRight | Role::LegRight => Some((MEDIAN, 1.0)),
+        Role::LegFrontLeft | Role::LegBackLeft | Role::LegLeft => Some((MEDIAN, -1.0)),
         Role::SleeveRight => Some((1, 1.0)),
         Role::SleeveLeft => Some((2, 1.0)),
         Role::Waistband | Role::Other => None,

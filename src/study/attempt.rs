@@ -11,7 +11,7 @@ use crate::files::SourceFile;
 use crate::patterns::{self, Unit};
 use crate::run::outcome::{Measured, Outcome};
 use crate::run::pipeline::{Fitting, Meshes};
-use crate::seams;
+use crate::seams::{self, Question};
 use crate::spec::file::{read_fabric, read_measurements};
 use crate::spec::parameters::Parameters;
 use crate::spec::versions::FIELD_SPACING_M;
@@ -50,6 +50,8 @@ pub struct Attempt {
     pub size: Option<String>,
     /// Unit of the pattern, where its file names none.
     pub unit: Option<Unit>,
+    /// Answers to the questions of a proposal: number and letter.
+    pub answers: Vec<(usize, char)>,
     /// Simulator.
     pub simulator: Simulator,
     /// Fabric of the library, or a TOML file of one.
@@ -333,7 +335,8 @@ fn style(asked: &Attempt, notes: &mut Vec<String>) -> Result<Style> {
     if asked.seams.is_some() || SourceFile::read_pattern(&asked.pattern)?.holds_seams() {
         return patterns::style(&asked.pattern, asked.seams.as_deref(), size, asked.unit);
     }
-    let (proposal, pieces) = seams::proposal(&SourceFile::read_pattern(&asked.pattern)?, size, asked.unit)?;
+    let pattern = SourceFile::read_pattern(&asked.pattern)?;
+    let (proposal, pieces) = seams::proposal(&pattern, size, asked.unit, &asked.answers)?;
     let proposal = proposal.to_drape().map_err(|unwearable| {
         StudyError::stage("pattern")(format!(
             "{}: {unwearable}; say --seams FILE (`toile pattern propose -o FILE` writes one to edit)",
@@ -341,7 +344,7 @@ fn style(asked: &Attempt, notes: &mut Vec<String>) -> Result<Style> {
         ))
     })?;
     notes.push("sewn as proposed: no seam file was given".to_owned());
-    notes.extend(proposal.questions.iter().chain(&proposal.notes).cloned());
+    notes.extend(proposal.questions.iter().map(Question::to_string).chain(proposal.notes.iter().cloned()));
     let name = asked.pattern.file_stem().unwrap_or_default().to_string_lossy();
     let text = proposal.toml(&name);
     let mut style = Style::read(&pieces, text.as_bytes(), "the proposal").map_err(StudyError::stage("pattern"))?;

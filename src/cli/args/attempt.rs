@@ -39,6 +39,9 @@ pub struct Try {
     /// Unit of the pattern, where its file names none.
     #[arg(long, value_enum)]
     pub unit: Option<PatternUnit>,
+    /// Answer to a question of the proposal, by its number and the letter of the choice; may be given several times.
+    #[arg(long, value_name = "N=x", value_parser = super::pattern::answer, conflicts_with = "seams")]
+    pub answer: Vec<(usize, char)>,
     /// Simulator.
     #[arg(long, value_enum, default_value_t = TrySimulator::Fem)]
     pub sim: TrySimulator,

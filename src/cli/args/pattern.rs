@@ -42,6 +42,20 @@ pub enum DraftStyle {
     Dress,
 }
 
+/// An answer: the number of the question and the letter of the choice.
+///
+/// # Errors
+/// What is accepted.
+pub fn answer(text: &str) -> Result<(usize, char), String> {
+    let accepted = || "accepted: the number of a question and the letter of a choice, such as 2=b".to_owned();
+    let (number, letter) = text.split_once('=').ok_or_else(accepted)?;
+    let mut letters = letter.trim().chars();
+    match (number.trim().parse(), letters.next(), letters.next()) {
+        (Ok(number), Some(letter), None) if letter.is_ascii_alphabetic() => Ok((number, letter.to_ascii_lowercase())),
+        _ => Err(accepted()),
+    }
+}
+
 /// A pattern with its seam file.
 #[derive(Debug, Args)]
 pub struct StyleFiles {
@@ -129,6 +143,12 @@ pub enum Pattern {
         /// Unit of the files, where they name none.
         #[arg(long, value_enum)]
         unit: Option<PatternUnit>,
+        /// Answer to a question, by its number and the letter of the choice; may be given several times.
+        #[arg(long, value_name = "N=x", value_parser = answer)]
+        answer: Vec<(usize, char)>,
+        /// Ask at the terminal what has choices.
+        #[arg(long)]
+        ask: bool,
         /// Seam file to write, to be read and edited.
         #[arg(long, short, value_name = "FILE")]
         output: Option<PathBuf>,

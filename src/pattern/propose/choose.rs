@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::recognise::Recognised;
+use super::ask::Asker;
+use super::recognise::{Recognised, is_whole_leg};
 use super::worn::{self, id_of};
 use super::{Class, Face, Hand, Label, names, sew};
 use crate::piece::Piece;
@@ -14,61 +15,86 @@ const ROUND: std::ops::RangeInclusive<f64> = 0.8..=1.35;
 /// The same of half a waistband.
 const HALF: std::ops::RangeInclusive<f64> = 0.42..=0.68;
 
-/// The pieces that make a garment, one for each place: of several those whose edges fit their neighbours' best. Those left
-/// over have a question each.
-pub fn choose(pieces: &[Piece], mut recognised: Vec<Recognised>, questions: &mut Vec<String>) -> Vec<Recognised> {
-    leave_out_sleeves_in_two(pieces, &mut recognised, questions);
-    leave_out_half_sleeves(pieces, &mut recognised, questions);
+/// The pieces that make a garment, one for each place: of several the one that the person names, or else
+/// those whose edges fit their neighbours' best.
+pub fn choose(pieces: &[Piece], mut recognised: Vec<Recognised>, asker: &mut Asker<'_>) -> Vec<Recognised> {
+    leave_out_sleeves_in_two(pieces, &mut recognised, asker);
+    leave_out_half_sleeves(pieces, &mut recognised, asker);
     let mut places: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (index, one) in recognised.iter().enumerate().filter(|(_, one)| !is_round_band(one) && one.gore.is_none()) {
         places.entry(id_of(one, one.hand)).or_default().push(index);
     }
-    let contested: Vec<&Vec<usize>> = places.values().filter(|rivals| rivals.len() > 1).collect();
+    places.retain(|_, rivals| rivals.len() > 1);
+    let contested: Vec<&Vec<usize>> = places.values().collect();
+    let mut taken = best_of(pieces, &recognised, &contested, asker);
+    for (k, (place, rivals)) in places.iter().enumerate() {
+        let names: Vec<&str> = rivals.iter().map(|&rival| pieces[recognised[rival].piece].name.as_str()).collect();
+        let text = format!("which piece is the {}?", place.replace('_', " "));
+        taken[k] = asker.ask(text, names, Some(taken[k])).unwrap_or(taken[k]);
+    }
+    let mut left = kept(&recognised, &contested, &taken);
+    ask_band(pieces, &recognised, &mut left, asker);
+    left
+}
+
+/// Asks which waistband is worn where there are more than go round.
+fn ask_band(pieces: &[Piece], all: &[Recognised], left: &mut Vec<Recognised>, asker: &mut Asker<'_>) {
+    let bands: Vec<&Recognised> = all.iter().filter(|one| is_round_band(one)).collect();
+    let is_left = |band: &&Recognised| left.iter().any(|one| one.piece == band.piece);
+    let Some(stands) = bands.iter().position(is_left).filter(|_| !bands.iter().all(is_left)) else { return };
+    let names: Vec<&str> = bands.iter().map(|band| pieces[band.piece].name.as_str()).collect();
+    let taken = asker.ask("which piece is the waistband?".to_owned(), names, Some(stands));
+    if let Some(taken) = taken.filter(|&taken| taken != stands) {
+        left.retain(|one| one.class != Class::Waistband);
+        left.push(bands[taken].clone());
+        go_round(left);
+    }
+}
+
+/// For each contested place which of its rivals is taken: those whose edges fit their neighbours' best; of equals the first.
+fn best_of(pieces: &[Piece], all: &[Recognised], contested: &[&Vec<usize>], asker: &Asker<'_>) -> Vec<usize> {
     let count = contested.iter().fold(1_usize, |count, rivals| count.saturating_mul(rivals.len()));
-    let mut best: Option<(f64, Vec<Recognised>)> = None;
+    let mut best = (f64::NEG_INFINITY, vec![0; contested.len()]);
+    if count == 1 {
+        return best.1;
+    }
     for number in 0..count.min(MOST_COMBINATIONS) {
         let mut rest = number;
-        let mut dropped: Vec<usize> = Vec::new();
-        for rivals in &contested {
-            let kept = rivals[rest % rivals.len()];
+        let digit = |rivals: &&Vec<usize>| {
+            let digit = rest % rivals.len();
             rest /= rivals.len();
-            dropped.extend(rivals.iter().filter(|&&rival| rival != kept));
-        }
-        let kept = recognised.iter().enumerate().filter(|(index, _)| !dropped.contains(index));
-        let mut chosen: Vec<Recognised> = kept.map(|(_, one)| one.clone()).collect();
-        go_round(&mut chosen);
-        if count == 1 {
-            best = Some((0.0, chosen));
-            break;
-        }
-        let sewn = sew::sew(&worn::worn(pieces, &chosen, None, &mut Vec::new()), &mut Vec::new());
-        let sum: f64 = sewn.iter().map(|seam| seam.confidence).sum();
-        // Of equals the first counts.
-        if best.as_ref().is_none_or(|(found, _)| sum > found + 1e-9) {
-            best = Some((sum, chosen));
+            digit
+        };
+        let taken: Vec<usize> = contested.iter().map(digit).collect();
+        let worn = worn::worn(pieces, &kept(all, contested, &taken), None, &mut asker.aside());
+        let sum: f64 = sew::sew(&worn, &mut asker.aside()).iter().map(|seam| seam.confidence).sum();
+        if sum > best.0 + 1e-9 {
+            best = (sum, taken);
         }
     }
-    let Some((_, chosen)) = best else { return recognised };
-    let name = |one: &Recognised| &pieces[one.piece].name;
-    for one in recognised.iter().filter(|one| !chosen.iter().any(|kept| kept.piece == one.piece)) {
-        let place = id_of(one, None);
-        if let Some(kept) = chosen.iter().find(|kept| id_of(kept, None) == place) {
-            questions.push(format!("`{0}` and `{1}` are both {place}: `{0}` is taken", name(kept), name(one)));
-        }
-    }
-    chosen
+    best.1
+}
+
+/// What is left when each contested place has one of its rivals; waistbands go round.
+fn kept(all: &[Recognised], contested: &[&Vec<usize>], taken: &[usize]) -> Vec<Recognised> {
+    let chosen =
+        |index: usize| contested.iter().zip(taken).all(|(rivals, &k)| !rivals.contains(&index) || rivals[k] == index);
+    let left = all.iter().enumerate().filter(|(index, _)| chosen(*index));
+    let mut left: Vec<Recognised> = left.map(|(_, one)| one.clone()).collect();
+    go_round(&mut left);
+    left
 }
 
 /// Takes out an upper and an under sleeve: where their seams meet the armhole no outline says, and one of them alone is no
 /// sleeve.
-fn leave_out_sleeves_in_two(pieces: &[Piece], recognised: &mut Vec<Recognised>, questions: &mut Vec<String>) {
+fn leave_out_sleeves_in_two(pieces: &[Piece], recognised: &mut Vec<Recognised>, asker: &mut Asker<'_>) {
     let is_whole_sleeve = |one: &&Recognised| one.class == Class::Sleeve && one.face.is_none();
     let names: Vec<&str> =
         recognised.iter().filter(is_whole_sleeve).map(|one| pieces[one.piece].name.as_str()).collect();
     let unders = names.iter().filter(|name| names::is_under_sleeve(name)).count();
     if unders > 0 && unders < names.len() {
         let names = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-        questions.push(format!(
+        asker.tell(format!(
             "left out: {names}: a sleeve in two pieces; at which place of the armhole do its seams begin?"
         ));
         recognised.retain(|one| !is_whole_sleeve(&one));
@@ -76,15 +102,16 @@ fn leave_out_sleeves_in_two(pieces: &[Piece], recognised: &mut Vec<Recognised>, 
 }
 
 /// Takes out sleeves in halves where there is a whole one: they are another way to cut it.
-fn leave_out_half_sleeves(pieces: &[Piece], recognised: &mut Vec<Recognised>, questions: &mut Vec<String>) {
+fn leave_out_half_sleeves(pieces: &[Piece], recognised: &mut Vec<Recognised>, asker: &mut Asker<'_>) {
     let is_half = |one: &Recognised| one.class == Class::Sleeve && one.face.is_some();
     let has_whole = recognised.iter().any(|one| one.class == Class::Sleeve && !is_half(one));
     let halves: Vec<String> =
         recognised.iter().filter(|one| is_half(one)).map(|one| format!("`{}`", pieces[one.piece].name)).collect();
     if has_whole && !halves.is_empty() {
-        let halves = halves.join(", ");
-        questions.push(format!("a sleeve in one piece, or in halves ({halves})? The one in one piece is taken"));
-        recognised.retain(|one| !is_half(one));
+        let text = "a sleeve in one piece, or in halves?".to_owned();
+        let in_halves = Some(1) == asker.ask(text, ["in one piece".to_owned(), halves.join(", ")], Some(0));
+        let is_whole = |one: &Recognised| one.class == Class::Sleeve && !is_half(one);
+        recognised.retain(|one| if in_halves { !is_whole(one) } else { !is_half(one) });
     }
 }
 
@@ -129,7 +156,7 @@ fn waist_m(chosen: &[Recognised]) -> f64 {
     let of = |class: Class, label: Label| -> f64 {
         let copies = |one: &Recognised| match one.gore {
             Some(cut) => f64::from(cut.times()),
-            None if one.alignment.template.is_whole || one.hand.is_some() => 1.0,
+            None if (one.alignment.template.is_whole && !is_whole_leg(one)) || one.hand.is_some() => 1.0,
             None => 2.0,
         };
         // A yoke stands for what it lies on.

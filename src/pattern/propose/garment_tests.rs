@@ -165,7 +165,7 @@ fn waistbands_go_round_however_they_are_cut() {
         draped(&with(&[strip("WAISTBAND OUTER", 1000.0, 40.0), strip("WAISTBAND INNER", 850.0, 40.0)]), &["waistband"]);
     assert!((seam(&outer, "waist").a_mm - 850.0).abs() < 1e-6);
     assert!(
-        outer.questions.iter().any(|question| question.contains("`WAISTBAND INNER` is taken")),
+        outer.questions.iter().any(|question| question.to_string().contains("b: WAISTBAND INNER (b is taken)")),
         "{:?}",
         outer.questions
     );
@@ -195,7 +195,7 @@ fn of_several_pieces_for_one_place_the_one_that_fits_is_taken() {
         proposal.worn.iter().filter(|one| one.id.contains("front")).map(|one| one.entry.block.as_str()).collect();
     assert_eq!(fronts, ["TROUSER FRONT"; 2]);
     assert!(
-        proposal.questions.iter().any(|question| question.contains("`TROUSER FRONT` is taken")),
+        proposal.questions.iter().any(|question| question.to_string().contains("b: TROUSER FRONT (b is taken)")),
         "{:?}",
         proposal.questions
     );
@@ -208,7 +208,7 @@ fn half_of_a_sleeve_in_two_is_not_taken_for_a_sleeve() {
     pieces.splice(3..4, [named("TOPSLEEVE"), named("UNDERSLEEVE")]);
     let proposal = draped(&pieces, &[]);
     assert!(proposal.worn.iter().all(|one| !one.id.contains("sleeve")), "{:?}", proposal.worn);
-    let said = proposal.questions.join("\n");
+    let said: String = proposal.questions.iter().map(Question::to_string).collect();
     assert!(said.contains("left out: `TOPSLEEVE`, `UNDERSLEEVE`: a sleeve in two pieces"), "{said}");
 }
 
@@ -429,4 +429,41 @@ fn a_front_and_a_back_are_of_one_kind_and_a_sleeve_is_worn_with_a_trunk() {
     let mut expect: Vec<String> = expect.map(str::to_owned).to_vec();
     expect.sort();
     assert_eq!(found, expect);
+}
+
+#[test]
+fn an_answer_decides_what_was_asked() {
+    let mut pieces = legs(1000.0);
+    let mut short = pieces[0].clone();
+    short.name = "TROUSER FRONT SHORT".to_owned();
+    short.block = short.name.clone();
+    short.outline.iter_mut().chain(&mut short.turn_points).for_each(|p| p.y *= 0.99);
+    pieces.insert(0, short);
+    let front = |given: &[(usize, char)]| {
+        let proposal = propose_answered(&pieces, given).expect("it is asked");
+        let asked: Vec<(usize, bool)> = proposal.questions.iter().map(|q| (q.number, q.is_answered)).collect();
+        let one = proposal.worn.iter().find(|one| one.id.contains("front")).expect("a front");
+        (one.entry.block.clone(), asked)
+    };
+    let (stands, asked) = front(&[]);
+    assert_eq!((stands.as_str(), asked.as_slice()), ("TROUSER FRONT", &[(1, false)][..]));
+    let (taken, asked) = front(&[(1, 'a')]);
+    assert_eq!((taken.as_str(), asked.as_slice()), ("TROUSER FRONT SHORT", &[(1, true)][..]));
+    for (number, letter, accepted) in [(7, 'a', "a question of 1"), (1, 'z', "b: TROUSER FRONT")] {
+        let told = propose_answered(&pieces, &[(number, letter)]).expect_err("nothing of the kind").to_string();
+        assert!(told.contains(accepted), "{told}");
+    }
+}
+
+#[test]
+fn what_nothing_tells_is_what_a_person_says() {
+    let mut pieces = shirt();
+    pieces.push(strip("X", 450.0, 45.0));
+    let proposal = propose(&pieces);
+    let question = proposal.questions.iter().find(|question| question.text.contains("`X`")).expect("it is asked");
+    let band = question.choices.iter().position(|choice| choice == "waistband").expect("it is a choice");
+    let answered = propose_answered(&pieces, &[(question.number, Question::letter(band))]).expect("it is asked");
+    let class =
+        |proposal: &Proposal| proposal.pieces.iter().find(|piece| piece.name == "X").and_then(|piece| piece.class);
+    assert_eq!((class(&proposal), class(&answered)), (None, Some(Class::Waistband)));
 }

@@ -3,6 +3,7 @@
 //! A vent, a step at a hem or a shift of a seam puts corners near each other, and an outline alone does not say at which of them the side
 //! ends and the armhole begins. The other piece does: sides that are sewn are as long as each other.
 
+use super::ask::Asker;
 use super::recognise::Recognised;
 use super::{sew, worn};
 use crate::piece::Piece;
@@ -17,14 +18,14 @@ const MOST_CORNERS: usize = 3;
 const MOST_CHANGES: usize = 16;
 
 /// Moves ends of edges to other corners while the seams of the whole garment agree better for it.
-pub fn settle(pieces: &[Piece], recognised: &mut [Recognised]) {
-    let mut sum = agreement(pieces, recognised);
+pub fn settle(pieces: &[Piece], recognised: &mut [Recognised], asker: &Asker<'_>) {
+    let mut sum = agreement(pieces, recognised, asker);
     for _ in 0..MOST_CHANGES {
         let mut best: Option<(f64, usize, Recognised)> = None;
         for index in 0..recognised.len() {
             for changed in changes(&recognised[index]) {
                 let kept = std::mem::replace(&mut recognised[index], changed);
-                let found = agreement(pieces, recognised);
+                let found = agreement(pieces, recognised, asker);
                 let changed = std::mem::replace(&mut recognised[index], kept);
                 if found > best.as_ref().map_or(sum + GAIN, |best| best.0) {
                     best = Some((found, index, changed));
@@ -37,9 +38,9 @@ pub fn settle(pieces: &[Piece], recognised: &mut [Recognised]) {
 }
 
 /// Sum of the confidences of the seams that are found.
-fn agreement(pieces: &[Piece], recognised: &[Recognised]) -> f64 {
-    let worn = worn::worn(pieces, recognised, None, &mut Vec::new());
-    sew::sew(&worn, &mut Vec::new()).iter().map(|seam| seam.confidence).sum()
+fn agreement(pieces: &[Piece], recognised: &[Recognised], asker: &Asker<'_>) -> f64 {
+    let worn = worn::worn(pieces, recognised, None, &mut asker.aside());
+    sew::sew(&worn, &mut asker.aside()).iter().map(|seam| seam.confidence).sum()
 }
 
 /// A piece with the end of one edge, or of both alike edges of its two sides, at another corner.

@@ -7,6 +7,7 @@
 
 mod agree;
 mod align;
+mod ask;
 mod cap;
 mod choose;
 #[cfg(test)]
@@ -36,6 +37,9 @@ mod write;
 
 use std::fmt;
 
+use self::ask::Answers;
+use self::ask::Asker;
+pub use self::ask::{Question, UnknownAnswer};
 pub(super) use self::pose::{Pose, named_face_and_hand, pose};
 pub use self::seam_kind::SeamKind;
 pub use self::wear::Unwearable;
@@ -237,6 +241,8 @@ fn role_of(class: Option<Class>, face: Option<Face>, hand: Option<Hand>, is_bodi
         (Some(Class::Leg), Some(Face::Front), Some(Hand::Left)) => Role::LegFrontLeft,
         (Some(Class::Leg), Some(Face::Back), Some(Hand::Right)) => Role::LegBackRight,
         (Some(Class::Leg), Some(Face::Back), Some(Hand::Left)) => Role::LegBackLeft,
+        (Some(Class::Leg), None, Some(Hand::Right)) => Role::LegRight,
+        (Some(Class::Leg), None, Some(Hand::Left)) => Role::LegLeft,
         (Some(Class::Skirt), Some(Face::Front), _) => Role::SkirtFront,
         (Some(Class::Skirt), Some(Face::Back), _) => Role::SkirtBack,
         (Some(Class::Waistband), ..) => Role::Waistband,
@@ -304,7 +310,7 @@ pub struct Proposal {
     /// Edges that are taken to stay free: hems, necklines, armholes without a sleeve, waists without a band.
     pub open: Vec<String>,
     /// What a person must decide.
-    pub questions: Vec<String>,
+    pub questions: Vec<Question>,
     /// What was left out or taken without asking.
     pub notes: Vec<String>,
     /// Size that it was made on, where it was held to others.
@@ -326,9 +332,40 @@ impl Proposal {
 /// Proposes a seam file for the pieces of one size, half pieces opened ([`super::dxf::PatternFile::to_sew`]).
 #[must_use]
 pub fn propose(pieces: &[Piece]) -> Proposal {
+    let mut proposal = with_answers(pieces, &Answers::new());
+    ask::number(&mut proposal.questions, &mut Vec::new());
+    proposal
+}
+
+/// [`propose`] with answers of a person, as number of the question and letter of the choice, in the order given: a question that
+/// an answer brings up comes after those that were asked before.
+///
+/// # Errors
+/// [`UnknownAnswer`] where there is no such question or choice.
+pub fn propose_answered(pieces: &[Piece], given: &[(usize, char)]) -> Result<Proposal, UnknownAnswer> {
+    let (mut answers, mut known) = (Answers::new(), Vec::new());
+    let mut proposal = with_answers(pieces, &answers);
+    ask::number(&mut proposal.questions, &mut known);
+    for &(number, letter) in given {
+        let unknown = |accepted: String| UnknownAnswer { number, letter, accepted };
+        let of_number = |question: &&Question| question.number == number;
+        let Some(question) = proposal.questions.iter().find(of_number) else {
+            let numbers: Vec<String> = proposal.questions.iter().map(|question| question.number.to_string()).collect();
+            return Err(unknown(format!("a question of {}", numbers.join(", "))));
+        };
+        let choice = (0..question.choices.len()).find(|&choice| Question::letter(choice) == letter);
+        let choice = choice.ok_or_else(|| unknown(question.to_string()))?;
+        answers.insert(question.text.clone(), choice);
+        proposal = with_answers(pieces, &answers);
+        ask::number(&mut proposal.questions, &mut known);
+    }
+    Ok(proposal)
+}
+
+fn with_answers(pieces: &[Piece], answers: &Answers) -> Proposal {
     let told = told::told(pieces);
     let pieces = told.as_slice();
-    let (mut questions, mut notes) = (Vec::new(), Vec::new());
+    let (mut asker, mut notes) = (Asker::new(answers), Vec::new());
     let largest_m2 = pieces.iter().map(Piece::area_m2).fold(0.0, f64::max);
     let is_detail = |piece: &Piece| recognise::is_detail(piece, largest_m2);
     let listed = pieces.iter().filter(|piece| is_detail(piece)).map(|piece| format!("`{}`", piece.name));
@@ -340,16 +377,18 @@ pub fn propose(pieces: &[Piece]) -> Proposal {
             details.join(", ")
         ));
     }
-    let recognised = recognise::recognise(pieces, is_detail, &mut questions);
-    let mut recognised = choose::choose(pieces, recognised, &mut questions);
-    lengths::settle(pieces, &mut recognised);
+    let recognised = recognise::recognise(pieces, is_detail, &mut asker);
+    let mut recognised = choose::choose(pieces, recognised, &mut asker);
+    lengths::settle(pieces, &mut recognised, &asker);
     // Which sleeve is drawn shows only once its notches are laid beside those of the armhole.
-    let first = worn::worn(pieces, &recognised, None, &mut Vec::new());
+    let first = worn::worn(pieces, &recognised, None, &mut asker.aside());
     let drawn = notched::drawn_sleeve(&first).or_else(|| cap::drawn_sleeve(&recognised, &mut notes));
-    let worn = worn::worn(pieces, &recognised, drawn, &mut questions);
-    let fitted = sew::sew(&worn, &mut Vec::new());
+    let drawn = drawn.or_else(|| worn::ask_drawn_sleeve(pieces, &recognised, &mut asker));
+    let worn = worn::worn(pieces, &recognised, drawn, &mut asker);
+    let fitted = sew::sew(&worn, &mut asker.aside());
     let worn = agree::assured(worn, &fitted);
-    let seams = sew::sew(&worn, &mut questions);
+    let seams = sew::sew(&worn, &mut asker);
+    let questions = asker.into_questions();
     let mut listed: Vec<ProposedPiece> = Vec::new();
     for (index, piece) in pieces.iter().enumerate() {
         let recognised = recognised.iter().find(|found| found.piece == index);

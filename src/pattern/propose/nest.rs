@@ -1,6 +1,6 @@
 //! A proposal made on one size held to the others: the corners are found on each, and the ease of each is written down.
 
-use super::{Proposal, ProposedSeam};
+use super::{Proposal, ProposedSeam, Question};
 use crate::piece::Piece;
 use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, Ease, StyleError};
 use crate::style::{Seam, Style};
@@ -28,10 +28,12 @@ impl Proposal {
         }
         if let Some((_, error)) = failed.first() {
             let sizes: Vec<&str> = failed.iter().map(|(size, _)| *size).collect();
-            self.questions.push(format!("it does not hold for size {}: {error}", sizes.join(", ")));
+            self.tell(format!("it does not hold for size {}: {error}", sizes.join(", ")));
         }
+        let doubts: Vec<String> =
+            self.seams.iter().zip(&sides_mm).filter_map(|(seam, sides_mm)| doubt(seam, made_on, sides_mm)).collect();
+        doubts.into_iter().for_each(|doubt| self.tell(doubt));
         for (seam, sides_mm) in self.seams.iter_mut().zip(sides_mm) {
-            self.questions.extend(doubt(seam, made_on, &sides_mm));
             let Ease::Same(own) = seam.entry.ease_mm else { continue };
             let tolerance_mm = SAME_EASE * DEFAULT_LENGTH_TOLERANCE_MM;
             if sides_mm.iter().any(|(_, [a_mm, b_mm])| (a_mm - b_mm - own).abs() > tolerance_mm) {
@@ -40,6 +42,12 @@ impl Proposal {
                 seam.entry.ease_mm = Ease::BySize(eases.collect());
             }
         }
+    }
+
+    /// Adds what has no choices.
+    fn tell(&mut self, text: String) {
+        let number = self.questions.iter().map(|question| question.number).max().unwrap_or(0) + 1;
+        self.questions.push(Question { number, ..Question::told(text) });
     }
 
     /// The style that another size makes, however long its seams are.

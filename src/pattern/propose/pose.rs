@@ -45,6 +45,7 @@ pub fn pose(piece: &StylePiece) -> Option<Pose> {
         Role::Front | Role::Back | Role::BodiceFront | Role::BodiceBack => Class::Body,
         Role::SleeveRight | Role::SleeveLeft => Class::Sleeve,
         Role::LegFrontRight | Role::LegFrontLeft | Role::LegBackRight | Role::LegBackLeft => Class::Leg,
+        Role::LegRight | Role::LegLeft => Class::Leg,
         Role::SkirtFront | Role::SkirtBack => Class::Skirt,
         Role::Waistband => Class::Waistband,
         Role::Other => return None,
@@ -76,6 +77,10 @@ pub fn pose(piece: &StylePiece) -> Option<Pose> {
             template.class == class && is_it
         }
         Class::Yoke => template.class == class && template.has_shoulder(),
+        Class::Leg => {
+            let is_whole = matches!(piece.role, Role::LegRight | Role::LegLeft);
+            template.class == class && template.is_whole == is_whole
+        }
         _ => template.class == class,
     };
     if let Some(pose) = by_edges(piece, TEMPLATES.iter().filter(fits)) {

@@ -1,10 +1,12 @@
 //! What each piece is: from its name first, then from its outline, then from the other pieces.
 
 use super::align::{Alignment, LEAST_FIT, upright};
+use super::ask::Asker;
 use super::gore::{self, Cut};
 use super::panels::{self, Panel};
 use super::shape::Shape;
 use super::templates::Template;
+use super::worn::reference;
 use super::{Class, Face, Hand, Label, ring};
 use super::{names, raglan};
 use crate::piece::Piece;
@@ -31,6 +33,8 @@ const LEAST_DIFFERENCE: f64 = 0.01;
 /// one a tenth.
 const DETAIL_SHARE: f64 = 0.08;
 
+/// Difference of the two inseams of a leg in one piece, share of the longer.
+const SAME_INSEAM: f64 = 0.03;
 /// How much better the outline must fit another kind of piece before a name is doubted.
 const CONTRADICTED: f64 = 0.25;
 /// Confidence in a name that the outline contradicts, and in a kind that another fits nearly as well.
@@ -74,6 +78,8 @@ struct Around {
     has_trunk: bool,
     /// Sleeves go up to the neck.
     is_raglan: bool,
+    /// No piece is called the front or the back of a leg.
+    has_lone_leg: bool,
 }
 
 /// What a piece is taken for before its outline is read, because of others.
@@ -85,50 +91,60 @@ struct Among {
     pair: Option<Class>,
 }
 
-/// Whether a drape does without a piece: its name says so, or it has none and is small.
+/// Whether a drape does without a piece: its name or its material says so (a lining), or it has no name and is small.
 pub fn is_detail(piece: &Piece, largest_m2: f64) -> bool {
     let named = names::read(piece.words());
+    let is_material = |(key, value): &(String, String)| {
+        key.eq_ignore_ascii_case("material") && names::read(value).class == Some(Class::Other)
+    };
     named.class == Some(Class::Other)
+        || piece.texts.iter().any(is_material)
         || (named == names::Named::default() && piece.area_m2() < DETAIL_SHARE * largest_m2)
 }
 
 /// Recognises pieces; those that are left out have a question each, except what needs no seam of ours.
-pub fn recognise(pieces: &[Piece], is_detail: impl Fn(&Piece) -> bool, questions: &mut Vec<String>) -> Vec<Recognised> {
+pub fn recognise(pieces: &[Piece], is_detail: impl Fn(&Piece) -> bool, asker: &mut Asker<'_>) -> Vec<Recognised> {
     let mut found: Vec<Recognised> = Vec::new();
     let is_called = |piece: &Piece, class: Class| names::read(piece.words()).class == Some(class);
     let [has_sleeve, has_yoke] =
         [Class::Sleeve, Class::Yoke].map(|class| pieces.iter().any(|piece| is_called(piece, class)));
     let (gores, panels, is_raglan) = (gore::gores(pieces), panels::panels(pieces), raglan::is_raglan(pieces));
     let pair = class_of_pair(pieces, has_sleeve, is_raglan);
+    let is_leg_face = |piece: &Piece| is_called(piece, Class::Leg) && names::read(piece.words()).face.is_some();
+    let has_lone_leg = !pieces.iter().any(is_leg_face);
     for are_yokes in [false, true] {
         let has_trunk = found.iter().any(|one| one.class == Class::Body);
-        let around = Around { has_sleeve, has_yoke, has_trunk, is_raglan };
+        let around = Around { has_sleeve, has_yoke, has_trunk, is_raglan, has_lone_leg };
         for (index, piece) in pieces.iter().enumerate() {
             if is_called(piece, Class::Yoke) == are_yokes && !is_detail(piece) {
                 let pair = pair.filter(|_| is_nameless_face(piece));
                 let among = Among { gore: gores[index], panel: panels[index], pair };
-                match recognise_one(index, piece, around, among, questions) {
-                    Ok(recognised) => found.push(recognised),
-                    Err(question) => questions.push(question),
-                }
+                let named = names::read(piece.words());
+                let name = &reference(pieces, index);
+                found.extend(match recognise_one((index, name), piece, named, around, among, asker) {
+                    Ok(recognised) => Some(recognised),
+                    Err(doubt) => ask_kind((index, name), piece, &doubt, around, among, asker),
+                });
             }
         }
     }
     found.sort_by_key(|one| one.piece);
-    reread_lone_legs(pieces, &mut found, questions);
+    reread_lone_legs(pieces, &mut found, asker);
     for class in [Class::Body, Class::Leg] {
         tell_faces(class, &mut found);
     }
     tell_yoke_faces(&mut found);
     let skirts = found.iter().filter(|one| one.class == Class::Skirt).count();
-    for one in &found {
+    for one in &mut found {
         // A single piece may go all round, as gores do.
         if one.class == Class::Skirt && (skirts == 1 || one.gore.is_some()) {
             continue;
         }
-        let needs_face = matches!(one.class, Class::Body | Class::Leg | Class::Skirt);
-        if needs_face && one.face.is_none() {
-            questions.push(format!("is piece `{}` a front or a back?", pieces[one.piece].name));
+        let is_faced =
+            matches!(one.class, Class::Body | Class::Leg | Class::Skirt) && !one.alignment.template.is_limb();
+        if is_faced && one.face.is_none() {
+            let text = format!("is piece `{}` a front or a back?", reference(pieces, one.piece));
+            one.face = asker.ask(text, ["a front", "a back"], None).map(|choice| Face::BOTH[choice]);
         }
     }
     found
@@ -162,15 +178,60 @@ fn class_of_pair(pieces: &[Piece], has_sleeve: bool, is_raglan: bool) -> Option<
     (sum >= 2.0 * LEAST_FIT).then_some(class)
 }
 
-fn recognise_one(
-    index: usize,
+/// What may be answered of a piece that neither its name nor its outline tells.
+const KINDS: [(Class, Option<Face>); 9] = [
+    (Class::Body, Some(Face::Front)),
+    (Class::Body, Some(Face::Back)),
+    (Class::Sleeve, None),
+    (Class::Leg, Some(Face::Front)),
+    (Class::Leg, Some(Face::Back)),
+    (Class::Skirt, Some(Face::Front)),
+    (Class::Skirt, Some(Face::Back)),
+    (Class::Waistband, None),
+    (Class::Cuff, None),
+];
+/// Kinds that are offered: those whose templates fit best.
+const OFFERED: usize = 3;
+
+/// What a person says that a piece is which neither its name nor its outline tells; left out while nobody answers.
+fn ask_kind(
+    (index, name): (usize, &str),
     piece: &Piece,
+    doubt: &str,
+    around: Around,
+    among: Among,
+    asker: &mut Asker<'_>,
+) -> Option<Recognised> {
+    let as_kind = |(class, face): (Class, Option<Face>)| {
+        let named = names::Named { class: Some(class), face, ..names::read(piece.words()) };
+        let read = recognise_one((index, name), piece, named, around, among, &mut asker.aside()).ok()?;
+        let face = face.map_or_else(String::new, |face| format!("{face} of the "));
+        Some((format!("{face}{}", class.as_str()), read))
+    };
+    let mut kinds: Vec<(String, Recognised)> = KINDS.into_iter().filter_map(as_kind).collect();
+    kinds.sort_by(|a, b| b.1.alignment.score.total_cmp(&a.1.alignment.score));
+    kinds.truncate(OFFERED);
+    if kinds.is_empty() {
+        asker.tell(format!("piece `{name}`: {doubt}; it is in no proposed seam"));
+        return None;
+    }
+    let text = format!("piece `{name}`: {doubt}; what is it?");
+    let nothing = "nothing that is draped".to_owned();
+    let choices = std::iter::once(nothing).chain(kinds.iter().map(|(kind, _)| kind.clone()));
+    let choice = asker.ask(text, choices, Some(0))?.checked_sub(1)?;
+    Some(kinds.swap_remove(choice).1)
+}
+
+/// What a piece is, that is `named` so; or why it is not told.
+fn recognise_one(
+    (index, name): (usize, &str),
+    piece: &Piece,
+    named: names::Named,
     around: Around,
     Among { gore, panel, pair }: Among,
-    questions: &mut Vec<String>,
+    asker: &mut Asker<'_>,
 ) -> Result<Recognised, String> {
-    let named = names::read(piece.words());
-    let ask = |what: &str| format!("piece `{}`: {what}; it is in no proposed seam", piece.name);
+    let ask = str::to_owned;
     let shape = Shape::of(piece).ok_or_else(|| ask("its corners cannot be told"))?;
     let is_candidate = |class: Class| match (named.class, named.face) {
         _ if gore.is_some() => class == Class::Skirt,
@@ -191,6 +252,7 @@ fn recognise_one(
                 Class::Sleeve if is_half_sleeve => !template.is_whole,
                 Class::Sleeve => template.is_whole && template.is_raglan() == around.is_raglan,
                 Class::Skirt if gore.is_some() => template.is_whole,
+                Class::Leg => !template.is_whole,
                 Class::Yoke => template.has_shoulder() == around.has_trunk,
                 _ if panel.is_some() || template.is_panel() => panel.is_some_and(|panel| panel.fits(template)),
                 Class::Body if around.is_raglan || template.is_raglan() => around.is_raglan == template.is_raglan(),
@@ -215,8 +277,12 @@ fn recognise_one(
             gore,
         });
     }
-    let mut readings: Vec<Alignment> =
-        CLASSES.into_iter().filter(|&class| is_candidate(class)).filter_map(as_class).collect();
+    // Front and back of a leg in one are called neither.
+    let may_be_whole_leg = named.class == Some(Class::Leg) && named.face.is_none() && around.has_lone_leg;
+    let mut readings: Vec<Alignment> = match whole_leg(&shape).filter(|_| may_be_whole_leg) {
+        Some(whole) => vec![whole],
+        None => CLASSES.into_iter().filter(|&class| is_candidate(class)).filter_map(as_class).collect(),
+    };
     readings.sort_by(|a, b| b.score.total_cmp(&a.score));
     let mut readings = readings.into_iter();
     let alignment = readings.next().ok_or_else(|| ask("it has too few corners for what it is called"))?;
@@ -239,10 +305,13 @@ fn recognise_one(
         if let Some(other) = others.max_by(|a, b| a.score.total_cmp(&b.score))
             && other.score > alignment.score + CONTRADICTED
         {
-            confidence *= DOUBTED;
             let (says, looks) = (alignment.template.class.as_str(), other.template.class.as_str());
-            questions
-                .push(format!("piece `{}`: its name says a {says}, its outline a {looks}; which is it?", piece.name));
+            let text = format!("piece `{name}`: its name says a {says}, its outline a {looks}; which is it?");
+            if asker.ask(text, [says, looks].map(|class| format!("a {class}")), Some(0)) == Some(1) {
+                let named = names::Named { class: Some(other.template.class), ..named };
+                return recognise_one((index, name), piece, named, around, Among { gore, panel, pair }, asker);
+            }
+            confidence *= DOUBTED;
         }
     }
     Ok(Recognised {
@@ -259,19 +328,34 @@ fn recognise_one(
     })
 }
 
+/// An outline as a leg in one piece: the edges that would be sewn to each other inside the leg are as long as each other.
+fn whole_leg(shape: &Shape) -> Option<Alignment> {
+    let whole = upright(shape, |template| template.class == Class::Leg && template.is_limb())?;
+    let inseams = whole.parts.iter().filter(|part| part.label == Label::Inseam);
+    let lengths: Vec<f64> = inseams.map(|part| shape.sewn_length(part.from, part.span)).collect();
+    let [one, other] = lengths[..] else { return None };
+    (whole.score >= LEAST_FIT && (one - other).abs() < SAME_INSEAM * one.max(other)).then_some(whole)
+}
+
 /// Legs have a front and a back: what only looks like a leg, without its other half, is read as what else it may be.
-fn reread_lone_legs(pieces: &[Piece], found: &mut [Recognised], questions: &mut Vec<String>) {
+fn reread_lone_legs(pieces: &[Piece], found: &mut [Recognised], asker: &mut Asker<'_>) {
     let has_leg = |face: Face| found.iter().any(|one| one.class == Class::Leg && one.face != Some(face.other()));
+    if found.iter().any(is_whole_leg) {
+        return;
+    }
     if Face::BOTH.into_iter().all(has_leg) {
         return;
     }
     for one in found.iter_mut().filter(|one| one.class == Class::Leg) {
         let Some(rival) = one.rival.take() else { continue };
-        questions.push(format!(
-            "piece `{}`: its outline looks like a leg, but no other piece is its other half; it is taken for a {}",
-            pieces[one.piece].name,
-            rival.template.class.as_str()
-        ));
+        let text = format!(
+            "piece `{}`: its outline looks like a leg, but no other piece is its other half; what is it?",
+            pieces[one.piece].name
+        );
+        let choices = [rival.template.class, Class::Leg].map(|class| format!("a {}", class.as_str()));
+        if asker.ask(text, choices, Some(0)) == Some(1) {
+            continue;
+        }
         one.class = rival.template.class;
         let fit = ((rival.score - LEAST_FIT) / (0.85 - LEAST_FIT)).clamp(0.0, 1.0);
         one.confidence = DOUBTED * (0.3 + 0.5 * fit);
@@ -279,11 +363,17 @@ fn reread_lone_legs(pieces: &[Piece], found: &mut [Recognised], questions: &mut 
     }
 }
 
+/// Whether it is the front and the back of a leg in one piece.
+pub fn is_whole_leg(one: &Recognised) -> bool {
+    one.class == Class::Leg && one.alignment.template.is_limb()
+}
+
 /// Tells front from back where exactly two pieces of a kind are told by nothing else: the front neck is cut deeper, and
 /// the back seat seam reaches further out.
 fn tell_faces(class: Class, found: &mut [Recognised]) {
-    let unknown: Vec<usize> =
-        (0..found.len()).filter(|&i| found[i].class == class && found[i].face.is_none()).collect();
+    let unknown: Vec<usize> = (0..found.len())
+        .filter(|&i| found[i].class == class && found[i].face.is_none() && !is_whole_leg(&found[i]))
+        .collect();
     let known: Vec<Face> = found.iter().filter(|one| one.class == class).filter_map(|one| one.face).collect();
     match (unknown.as_slice(), known.as_slice()) {
         (&[only], [face]) => {

@@ -74,6 +74,12 @@ pub enum SeamKind {
 }
 
 impl SeamKind {
+    /// What it joins, on whichever side of the wearer.
+    pub(super) fn on_either_side(&self) -> String {
+        let name = self.to_string();
+        ["_right", "_left"].into_iter().fold(name, |name, side| name.replace(side, ""))
+    }
+
     /// Whether it closes two halves in the middle: a seam, an opening or a fold.
     #[must_use]
     pub fn is_centre(&self) -> bool {

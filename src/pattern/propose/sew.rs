@@ -3,6 +3,7 @@
 //! Every piece is seen from outside, so both sides of a seam run against each other: `a` is walked counter-clockwise
 //! round its piece, `b` clockwise, and a chain over several pieces is written in the order of the walk.
 
+use super::ask::Asker;
 use super::notched::{self, Evidence};
 use super::worn::{Along, Worn};
 use super::{Class, Face, Hand, Label, ProposedSeam, SeamKind};
@@ -20,6 +21,8 @@ pub(super) const CENTRE_CONFIDENCE: f64 = 0.7;
 /// Least confidence of a seam that is proposed; less sure ones are asked about.
 const LEAST_CONFIDENCE: f64 = 0.25;
 
+/// Confidence in a seam that a person has said to be one.
+const ANSWERED: f64 = 0.9;
 /// Share of the remaining doubt that matching notches take away.
 const NOTCHED_GAIN: f64 = 0.4;
 /// Confidence in a seam whose notches match better the other way round.
@@ -31,8 +34,8 @@ pub(super) type Chain<'w> = Vec<Along<'w>>;
 type Joined<Place> = (Class, Label, fn(Place) -> SeamKind);
 
 /// Proposes the seams of a garment.
-pub fn sew(worn: &[Worn], questions: &mut Vec<String>) -> Vec<ProposedSeam> {
-    let mut tailor = Tailor { worn, seams: Vec::new(), questions };
+pub fn sew(worn: &[Worn], asker: &mut Asker<'_>) -> Vec<ProposedSeam> {
+    let mut tailor = Tailor { worn, seams: Vec::new(), asker };
     tailor.darts();
     for hand in Hand::BOTH {
         tailor.princess(hand);
@@ -40,6 +43,7 @@ pub fn sew(worn: &[Worn], questions: &mut Vec<String>) -> Vec<ProposedSeam> {
         tailor.sleeve(hand);
         tailor.cuff(hand);
     }
+    tailor.whole_legs();
     for face in Face::BOTH {
         tailor.centre(face);
         tailor.yoke(face);
@@ -63,13 +67,13 @@ pub fn open(worn: &[Worn], seams: &[ProposedSeam]) -> Vec<String> {
     edges.filter(|name| !is_sewn(name)).collect()
 }
 
-pub(super) struct Tailor<'w, 'q> {
+pub(super) struct Tailor<'w, 'q, 'a> {
     pub worn: &'w [Worn],
     seams: Vec<ProposedSeam>,
-    pub questions: &'q mut Vec<String>,
+    pub asker: &'q mut Asker<'a>,
 }
 
-impl<'w> Tailor<'w, '_> {
+impl<'w> Tailor<'w, '_, '_> {
     /// The piece of a kind for a side; a whole piece is for both.
     pub fn find(&self, class: Class, face: Option<Face>, hand: Hand) -> Option<&'w Worn> {
         self.worn
@@ -88,25 +92,37 @@ impl<'w> Tailor<'w, '_> {
         // Half pieces say nothing of how they are joined in the middle.
         let known = if kind.is_centre() { CENTRE_CONFIDENCE } else { 1.0 };
         let mut confidence = known * sure / (1.0 + (difference / doubt).powi(2));
+        let mut is_turned = false;
         match notched::evidence(&a, &b) {
             Evidence::For => confidence += NOTCHED_GAIN * (1.0 - confidence),
             Evidence::Turned => {
+                let text = format!(
+                    "{}: its notches match better with one side turned round; which is it?",
+                    kind.on_either_side()
+                );
+                let choices = ["as the outlines lie", "with one side turned round"];
+                is_turned = self.asker.ask(text, choices, Some(0)) == Some(1);
                 confidence *= NOTCHED_DOUBT;
-                self.questions
-                    .push(format!("{kind}: its notches match better with one side turned round; which is it?"));
             }
             Evidence::None => {}
         }
         if confidence < LEAST_CONFIDENCE {
-            self.questions.push(format!(
-                "{kind}: sides of {a_mm:.0} and {b_mm:.0} mm look as if they do not belong together; what is sewn there?"
-            ));
-            return;
+            let text = format!(
+                "{}: sides of {:.0} and {:.0} mm look as if they do not belong together; what is sewn there?",
+                kind.on_either_side(),
+                a_mm.min(b_mm),
+                a_mm.max(b_mm)
+            );
+            let eased = format!("one to the other, {:.0} mm eased in", (a_mm - b_mm).abs());
+            if self.asker.ask(text, ["nothing".to_owned(), eased], Some(0)) != Some(1) {
+                return;
+            }
+            confidence = ANSWERED;
         }
         let names = |chain: Chain<'_>| chain.iter().map(Along::to_string).collect();
         let excess = ((a_mm - b_mm) * 10.0).round() / 10.0;
         let ease_mm = Ease::Same(if excess.abs() > 0.5 * DEFAULT_LENGTH_TOLERANCE_MM { excess } else { 0.0 });
-        let entry = SeamEntry { name: kind.to_string(), a: names(a), b: names(b), same_direction: false, ease_mm };
+        let entry = SeamEntry { name: kind.to_string(), a: names(a), b: names(b), same_direction: is_turned, ease_mm };
         self.seams.push(ProposedSeam { entry, kind, a_mm, b_mm, confidence });
     }
 
@@ -234,6 +250,28 @@ impl<'w> Tailor<'w, '_> {
         self.add(SeamKind::Armhole(hand), cap, armhole, &pieces, EASED_DOUBT);
     }
 
+    /// Legs in one piece to themselves and to each other.
+    fn whole_legs(&mut self) {
+        let legs = Hand::BOTH.map(|hand| self.whole_leg(hand));
+        for (hand, leg) in Hand::BOTH.into_iter().zip(legs) {
+            let Some(leg) = leg else { continue };
+            let (a, b) = (leg.chain(Label::Inseam, Some(Hand::Right)), leg.chain_back(Label::Inseam, Some(Hand::Left)));
+            self.add(SeamKind::Inseam(hand), a, b, &[leg], PLAIN_DOUBT);
+        }
+        let [Some(right), Some(left)] = legs else { return };
+        // Seen from outside the front of a right leg is to the right, that of a left one to the left.
+        for (face, side) in Face::BOTH.into_iter().zip(Hand::BOTH) {
+            let a = right.chain(Label::Crotch, Some(side));
+            let b = left.chain_back(Label::Crotch, Some(side.other()));
+            self.add(SeamKind::Crotch(face), a, b, &[right, left], PLAIN_DOUBT);
+        }
+    }
+
+    /// A leg in one piece.
+    pub fn whole_leg(&self, hand: Hand) -> Option<&'w Worn> {
+        self.worn.iter().find(|one| one.class == Class::Leg && one.is_whole && one.hand == Some(hand))
+    }
+
     /// Cuffs in halves to half sleeves, and to each other.
     fn cuff(&mut self, hand: Hand) {
         let halves = Face::BOTH
@@ -280,10 +318,12 @@ impl<'w> Tailor<'w, '_> {
             let b = left.iter().flat_map(|(one, label)| one.chain_back(*label, None)).collect();
             let pieces: Vec<&Worn> = right.iter().chain(&left).map(|(one, _)| *one).collect();
             let kind = kind(face);
-            if kind.is_centre() {
-                self.questions.push(format!("{kind}: a seam, a fold, or an opening? A seam is proposed"));
+            let choices = ["a seam or a fold", "an opening"];
+            let is_open = kind.is_centre()
+                && self.asker.ask(format!("{kind}: a seam, a fold, or an opening?"), choices, Some(0)) == Some(1);
+            if !is_open {
+                self.add(kind, a, b, &pieces, PLAIN_DOUBT);
             }
-            self.add(kind, a, b, &pieces, PLAIN_DOUBT);
         }
     }
 }

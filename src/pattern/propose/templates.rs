@@ -49,6 +49,12 @@ impl Template {
         matches!(self.class, Class::Body | Class::Sleeve) && self.has(Neck) && !self.has(Shoulder)
     }
 
+    /// Whether it is a whole limb that is sewn to itself: a sleeve, or a leg in one piece.
+    #[must_use]
+    pub fn is_limb(&self) -> bool {
+        self.is_whole && matches!(self.class, Class::Sleeve | Class::Leg)
+    }
+
     /// Whether it is a part of a front or back that is cut lengthwise.
     #[must_use]
     pub fn is_panel(&self) -> bool {
@@ -66,7 +72,7 @@ use Label::{
 };
 
 /// All templates. Halves are aligned as their mirror images too.
-pub const TEMPLATES: [Template; 24] = [
+pub const TEMPLATES: [Template; 25] = [
     Template {
         class: Class::Body,
         is_whole: true,
@@ -268,6 +274,19 @@ pub const TEMPLATES: [Template; 24] = [
             part(Waist, 180.0, 0.0, [0.55, 1.0], 0.1),
             part(Crotch, 245.0, -1.0, [0.15, 0.82], 0.13),
             part(Inseam, 272.0, 0.0, [0.1, 0.35], 0.28),
+        ],
+    },
+    // In one piece, without an outseam.
+    Template {
+        class: Class::Leg,
+        is_whole: true,
+        parts: &[
+            part(Hem, 0.0, 0.0, [0.5, 0.0], 0.11),
+            part(Inseam, 80.0, 0.0, [0.87, 0.35], 0.26),
+            part(Crotch, 115.0, -1.0, [0.9, 0.85], 0.11),
+            part(Waist, 180.0, 0.0, [0.5, 1.0], 0.15),
+            part(Crotch, 245.0, -1.0, [0.1, 0.85], 0.11),
+            part(Inseam, 280.0, 0.0, [0.13, 0.35], 0.26),
         ],
     },
     Template {

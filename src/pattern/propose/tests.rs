@@ -95,7 +95,7 @@ fn a_leg_without_its_other_half_is_doubted() {
     let of = |name: &str| proposal.pieces.iter().find(|piece| piece.name == name).expect("it is there");
     let doubted = of("BACKPANEL1");
     assert!(doubted.class != Some(Class::Leg) && doubted.confidence < 0.5, "{doubted:?}");
-    assert!(proposal.questions.iter().any(|question| question.contains("BACKPANEL1")), "{:?}", proposal.questions);
+    assert!(proposal.questions.iter().any(|question| question.text.contains("BACKPANEL1")), "{:?}", proposal.questions);
 }
 
 #[test]

@@ -3,21 +3,13 @@
 //! A CAD program calls the pieces of style `AB12` `AB12FR`, `AB12BK`, `AB12SL`. What all names have in common tells nothing of any piece.
 //! What is left is a word, or one of the trade's abbreviations.
 
-use super::names;
+use super::{Class, names};
 use crate::piece::Piece;
 
 /// Keys of texts that say what a piece is, in lower case.
-const KEYS: [&str; 9] = [
-    "category",
-    "annotation",
-    "description",
-    "piece description",
-    "piece_name",
-    "piece_id",
-    "piece id",
-    "type",
-    "part",
-];
+const KEYS: [&str; 7] = ["category", "piece description", "piece_name", "piece_id", "piece id", "type", "part"];
+/// Keys of texts that also tell how to cut it: `CUT 2 FABRIC, 2 LINING` makes no lining of a front.
+const REMARKS: [&str; 2] = ["annotation", "description"];
 
 /// Abbreviations of the trade, whole words in lower case, and what they are written out to.
 const ABBREVIATIONS: [(&str, &[&str]); 12] = [
@@ -41,20 +33,30 @@ const ENDINGS: [(&str, &[&str]); 3] = [("front", &["frt", "fr"]), ("back", &["bc
 /// Pieces with what the file says of each.
 pub fn told(pieces: &[Piece]) -> Vec<Piece> {
     let common = common_start(pieces);
+    let rest = |piece: &Piece| piece.name.get(common..).unwrap_or_default().to_owned();
+    let is_kind = |name: &str| names::read(name).class.is_some();
+    let tells_kind = |rest: &str| is_kind(rest) || written_out(rest).is_some_and(|words| is_kind(&words));
+    // A word that all names begin with, as a style called by its waistband has it, tells nothing where the rest of a name does.
+    let is_of_style = pieces.first().is_some_and(|piece| is_kind(piece.name.get(..common).unwrap_or_default()))
+        && pieces.iter().any(|piece| tells_kind(&rest(piece)));
     let said = |piece: &Piece| -> String {
-        let texts = piece.texts.iter().filter(|(key, _)| KEYS.contains(&key.to_lowercase().as_str()));
-        let own: Vec<&str> = texts.map(|(_, value)| value.as_str()).collect();
-        let tells = |text: &str| {
+        let texts = |keys: &'static [&str]| {
+            let of_keys = piece.texts.iter().filter(move |(key, _)| keys.contains(&key.to_lowercase().as_str()));
+            of_keys.map(|(_, value)| value.as_str())
+        };
+        let tells = |text: &&str| {
             let named = names::read(text);
             named.class.is_some() || named.face.is_some()
         };
-        let own = own.into_iter().find(|text| tells(text));
+        let is_plain = |text: &&str| tells(text) && names::read(text).class != Some(Class::Other);
+        let own = texts(&KEYS).find(tells).or_else(|| texts(&REMARKS).find(is_plain));
         // A name that says the kind says it best; a category may be that of a library.
         match own {
-            _ if names::read(&piece.name).class.is_some() => piece.name.clone(),
+            _ if is_of_style && is_kind(&rest(piece)) => rest(piece),
+            _ if !is_of_style && is_kind(&piece.name) => piece.name.clone(),
             Some(text) => completed(text, &piece.name),
-            None if tells(&piece.name) => piece.name.clone(),
-            None => written_out(piece.name.get(common..).unwrap_or_default()).unwrap_or_else(|| piece.name.clone()),
+            None if !is_of_style && tells(&piece.name.as_str()) => piece.name.clone(),
+            None => written_out(&rest(piece)).unwrap_or_else(|| piece.name.clone()),
         }
     };
     pieces.iter().map(|piece| Piece { told: said(piece), ..piece.clone() }).collect()
@@ -109,6 +111,8 @@ mod tests {
         check(&["SLEEK RUN FR", "SLEEK RUNNERBK"], &["front", "back"]);
         check(&["VORDERTEIL", "RUECKENTEIL"], &["VORDERTEIL", "RUECKENTEIL"]);
         check(&["X9-1", "X9-2"], &["X9-1", "X9-2"]);
+        check(&["LEGGING WB WB", "LEGGING WB LL"], &["WB", "leg"]);
+        check(&["SLEEVE F", "SLEEVE B"], &["SLEEVE F", "SLEEVE B"]);
         check(&["FRONT"], &["FRONT"]);
     }
 
@@ -123,5 +127,17 @@ mod tests {
         check("BACK 2", "SLEEVE", "SLEEVE back");
         check("skirt_back", "leg", "skirt_back");
         check("wb_back", "body", "wb_back");
+    }
+
+    #[test]
+    fn how_to_cut_a_piece_makes_no_lining_of_it() {
+        let text = |key: &str, value: &str| (key.to_owned(), value.to_owned());
+        let texts = vec![text("Annotation", "CUT 2 FABRIC, CUT 2 LINING"), text("Category", "FRONT")];
+        let piece = Piece { name: "A1".to_owned(), texts, ..Piece::default() };
+        assert_eq!(told(&[piece])[0].told, "FRONT");
+        let piece =
+            |remark: &str| Piece { name: "A1".to_owned(), texts: vec![text("Annotation", remark)], ..Piece::default() };
+        assert_eq!(told(&[piece("SLEEVE X2")])[0].told, "SLEEVE X2");
+        assert_eq!(told(&[piece("cut 1 lining")])[0].told, "A1");
     }
 }

@@ -4,7 +4,7 @@ use super::sew::{Chain, EASED_DOUBT, PLAIN_DOUBT, Tailor};
 use super::worn::Worn;
 use super::{Class, Face, Hand, Label, SeamKind};
 
-impl<'w> Tailor<'w, '_> {
+impl<'w> Tailor<'w, '_, '_> {
     /// Pieces of a kind and face, as their lower edges follow one another counter-clockwise.
     pub fn row(&self, class: Class, face: Face) -> Vec<&'w Worn> {
         let order = if face == Face::Front { Hand::BOTH } else { [Hand::Left, Hand::Right] };
@@ -89,7 +89,7 @@ impl<'w> Tailor<'w, '_> {
         let bands = self.bands_round();
         let side = |hand: Hand| bands.iter().copied().find(|band| band.hand == Some(hand));
         if let Some(band) = bands.iter().copied().find(|band| band.hand.is_none()) {
-            self.questions.push(format!("where does `{}` open, and at which seam does it begin?", band.id));
+            self.asker.tell(format!("where does `{}` open, and at which seam does it begin?", band.id));
             self.band(band, None);
             // On a skirt of one piece the waist is closed by the skirt; the band may well lap over there.
             if self.skirt_round().is_empty() {
@@ -97,8 +97,7 @@ impl<'w> Tailor<'w, '_> {
                 self.add(SeamKind::Waistband, a, b, &[band], PLAIN_DOUBT);
             }
         } else if let [Some(right), Some(left)] = Hand::BOTH.map(side) {
-            self.questions
-                .push("where do the waistbands open? They are taken to meet at centre front and back".to_owned());
+            self.asker.tell("where do the waistbands open? They are taken to meet at centre front and back".to_owned());
             for band in [right, left] {
                 self.band(band, band.hand);
             }
@@ -132,6 +131,11 @@ impl<'w> Tailor<'w, '_> {
             let has_yoke = class != Class::Body && yokes.iter().any(|one| one.has(Label::Waist));
             if has_yoke && !self.row(class, face).is_empty() { yokes } else { self.row(class, face) }
         };
+        let of_hands = |hands: &[Hand]| hands.iter().filter_map(|&hand| self.whole_leg(hand)).collect::<Vec<_>>();
+        if class == Class::Leg && self.whole_leg(Hand::Right).is_some() {
+            // From centre front to the wearer's left.
+            return hand.map_or_else(|| of_hands(&[Hand::Left, Hand::Right]), |hand| of_hands(&[hand]));
+        }
         let [fronts, backs] = Face::BOTH.map(of_face);
         if class == Class::Skirt && fronts.is_empty() && backs.is_empty() {
             return self.skirt_round();

@@ -1,7 +1,7 @@
 //! What of a proposal can be draped with nobody to ask: pieces that are not sewn for sure are left out, and what is left must
 //! be closed on the body.
 
-use super::{Class, Face, Hand, Label, Proposal, ProposedPiece, ProposedSeam, SeamKind, sew};
+use super::{Class, Face, Hand, Label, Proposal, ProposedPiece, ProposedSeam, Question, SeamKind, sew};
 
 /// Least confidence of a seam that is sewn with nobody to ask.
 const SURE: f64 = 0.4;
@@ -32,7 +32,12 @@ impl Proposal {
         if missing.is_empty() {
             return Ok(left);
         }
-        let reason = missing.into_iter().chain(left.questions).chain(left.notes).collect::<Vec<_>>().join("; ");
+        let reason = missing
+            .into_iter()
+            .chain(left.questions.iter().map(Question::to_string))
+            .chain(left.notes)
+            .collect::<Vec<_>>()
+            .join("; ");
         Err(Unwearable { reason })
     }
 
@@ -125,7 +130,10 @@ impl Proposal {
                 }
             }
             if has(Class::Leg) {
-                needed.extend([SeamKind::Inseam(hand), SeamKind::Outseam(hand)]);
+                needed.push(SeamKind::Inseam(hand));
+            }
+            if has_edge(Label::Outseam) {
+                needed.push(SeamKind::Outseam(hand));
             }
             if has(Class::Skirt) && skirts_round == 0 {
                 needed.push(SeamKind::SkirtSide(hand));
@@ -147,7 +155,7 @@ impl Proposal {
         if of(Class::Body).any(|one| one.has(Label::Top)) {
             needed.push(SeamKind::Yoke(face));
         }
-        if of(Class::Leg).count() > 0 {
+        if of(Class::Leg).count() > 0 || self.worn.iter().any(|one| one.class == Class::Leg && one.is_whole) {
             needed.push(SeamKind::Crotch(face));
         }
         if of(Class::SidePanel).count() > 0 {

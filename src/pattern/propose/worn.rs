@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use super::ask::Asker;
 use super::gore::Cut;
-use super::recognise::Recognised;
+use super::recognise::{Recognised, is_whole_leg};
 use super::shape::Dart;
 use super::{Class, Face, Hand, Label, pose, role_of};
 use crate::Role;
@@ -78,12 +79,7 @@ const ON_EDGE_M: f64 = 12e-3;
 
 /// The pieces as worn. A second piece for the same place is left out and asked about. `drawn` is the sleeve that a whole
 /// sleeve is drawn as, where that is known.
-pub fn worn(
-    pieces: &[Piece],
-    recognised: &[Recognised],
-    drawn: Option<Hand>,
-    questions: &mut Vec<String>,
-) -> Vec<Worn> {
+pub fn worn(pieces: &[Piece], recognised: &[Recognised], drawn: Option<Hand>, asker: &mut Asker<'_>) -> Vec<Worn> {
     let backs_face_inwards = recognised.iter().any(|one| {
         one.face == Some(Face::Back) && one.hand.is_some_and(|hand| natural_hand(one).is_some_and(|n| n != hand))
     });
@@ -101,14 +97,14 @@ pub fn worn(
         }
         let needs_face = matches!(one.class, Class::Body | Class::SidePanel | Class::Leg | Class::Yoke)
             || (one.class == Class::Skirt && skirts > 1);
-        if needs_face && one.face.is_none() {
+        if needs_face && one.face.is_none() && !is_whole_leg(one) {
             continue;
         }
         for (hand, is_mirror) in copies(one, backs_face_inwards, drawn) {
             let id = id_of(one, hand);
             if let Some(other) = all.iter().find(|worn| worn.id == id) {
                 if other.piece != one.piece {
-                    questions.push(format!(
+                    asker.tell(format!(
                         "`{}` and `{}` are both {id}: the first is taken",
                         pieces[other.piece].name, pieces[one.piece].name
                     ));
@@ -121,14 +117,17 @@ pub fn worn(
             let role = role_of(Some(class), one.face, hand, is_bodice);
             all.push(wear(pieces, one, id, hand, is_mirror, role));
         }
-        if one.class == Class::Sleeve && one.alignment.template.is_whole && one.hand.is_none() && drawn.is_none() {
-            questions.push(format!(
-                "is piece `{}` as drawn the right sleeve? The front of the cap is taken to be on the right",
-                pieces[one.piece].name
-            ));
-        }
     }
     all
+}
+
+/// Asks whether a whole sleeve is drawn as the right or the left one.
+pub fn ask_drawn_sleeve(pieces: &[Piece], recognised: &[Recognised], asker: &mut Asker<'_>) -> Option<Hand> {
+    let is_it = |one: &&Recognised| one.class == Class::Sleeve && one.alignment.template.is_whole && one.hand.is_none();
+    let sleeve = recognised.iter().find(is_it)?;
+    let text = format!("is piece `{}` as drawn the right or the left sleeve?", pieces[sleeve.piece].name);
+    let choices = ["the right one: the front of its cap is on the right", "the left one"];
+    asker.ask(text, choices, Some(0)).map(|choice| Hand::BOTH[choice])
 }
 
 /// Side of the wearer for which half a piece is drawn, seen from outside.
@@ -142,6 +141,8 @@ fn copies(one: &Recognised, backs_face_inwards: bool, drawn: Option<Hand>) -> Ve
     let drawn = drawn.unwrap_or(Hand::Right);
     if one.alignment.template.is_whole {
         return match (one.class, one.hand) {
+            (Class::Leg, None) => vec![(Some(drawn_leg(one)), false), (Some(drawn_leg(one).other()), true)],
+            (Class::Leg, Some(hand)) => vec![(Some(hand), hand != drawn_leg(one))],
             (Class::Sleeve, None) => vec![(Some(drawn), false), (Some(drawn.other()), true)],
             (Class::Sleeve | Class::Cuff, Some(hand)) => {
                 vec![(Some(hand), backs_face_inwards && one.face == Some(Face::Back))]
@@ -157,6 +158,16 @@ fn copies(one: &Recognised, backs_face_inwards: bool, drawn: Option<Hand>) -> Ve
         Some(hand) => vec![(Some(hand), hand != natural)],
         None => vec![(Some(natural), false), (Some(natural.other()), true)],
     }
+}
+
+/// The leg that a leg in one piece is drawn as, seen from outside: its back reaches further in under the seat than its front.
+fn drawn_leg(one: &Recognised) -> Hand {
+    let (framed, _) = one.shape.framed(one.alignment.quarter_turns);
+    let reach = |is_right: bool| {
+        let crotch = one.alignment.parts.iter().find(|part| part.label == Label::Crotch && part.is_right == is_right);
+        crotch.map_or(0.0, |crotch| framed.stretch(crotch.from, crotch.span).chord.x.abs())
+    };
+    if reach(true) <= reach(false) { Hand::Right } else { Hand::Left }
 }
 
 /// What a piece is called in the seam file, of one side of the wearer or of both.
@@ -177,7 +188,7 @@ pub fn id_of(one: &Recognised, hand: Option<Hand>) -> String {
 
 /// A name that finds this piece alone: its piece name if nothing else has it, then its block's, then with its number. Blocks of
 /// a nest hold the size in their names, so there the number among those of its name comes first.
-fn reference(pieces: &[Piece], index: usize) -> String {
+pub fn reference(pieces: &[Piece], index: usize) -> String {
     let piece = &pieces[index];
     let is_only = |name: &str| pieces.iter().filter(|p| p.name == name || p.block == name).count() == 1;
     let number = |is: fn(&Piece) -> &str| pieces[..=index].iter().filter(|p| is(p) == is(piece)).count();
@@ -281,7 +292,7 @@ fn side_of(one: &Recognised, is_right: bool, hand: Option<Hand>, is_mirror: bool
     let is_back = one.face == Some(Face::Back);
     // Seen from outside the right of a front is the wearer's left; a sleeve's or band's is named as it lies.
     match (one.class, hand) {
-        (Class::Sleeve | Class::Cuff, _) => {
+        (Class::Sleeve | Class::Cuff | Class::Leg, _) => {
             if is_right_as_worn {
                 Hand::Right
             } else {

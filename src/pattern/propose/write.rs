@@ -34,7 +34,8 @@ impl Proposal {
         let list = |names: &[String]| names.iter().map(|name| quoted(name)).collect::<Vec<_>>().join(", ");
         let mut text = String::from("# Proposed from names, outlines and lengths: read it before you sew from it.\n");
         for question in &self.questions {
-            let _ = writeln!(text, "# ASK: {}", question.replace(['\n', '\r'], " "));
+            let mark = if question.is_answered { "ANSWERED" } else { "ASK" };
+            let _ = writeln!(text, "# {mark}: {}", question.to_string().replace(['\n', '\r'], " "));
         }
         let _ = writeln!(text, "name = {}", quoted(name));
         if let Some(size) = &self.size {

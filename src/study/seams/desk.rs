@@ -123,9 +123,10 @@ pub struct Proposed {
 /// sample size, and held to the others.
 ///
 /// # Errors
-/// When a file cannot be read, or has no such size.
-pub fn propose(path: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Proposed> {
-    let (proposal, pieces) = proposal(&SourceFile::read_pattern(path)?, size, unit)?;
+/// When a file cannot be read, or has no such size; or an answer, by the number of its question and the letter of the choice,
+/// is to nothing that is asked.
+pub fn propose(path: &Path, size: Option<&str>, unit: Option<Unit>, answers: &[(usize, char)]) -> Result<Proposed> {
+    let (proposal, pieces) = proposal(&SourceFile::read_pattern(path)?, size, unit, answers)?;
     if proposal.is_empty() {
         return Ok(Proposed { proposal, desk: Desk { pieces: Vec::new(), seams: Vec::new() } });
     }
@@ -139,11 +140,16 @@ pub fn propose(path: &Path, size: Option<&str>, unit: Option<Unit>) -> Result<Pr
 }
 
 /// What is proposed for a pattern, and the pieces of the size that it is made on.
-pub(crate) fn proposal(pattern: &SourceFile, size: Option<&str>, unit: Option<Unit>) -> Result<(Proposal, Vec<Piece>)> {
+pub(crate) fn proposal(
+    pattern: &SourceFile,
+    size: Option<&str>,
+    unit: Option<Unit>,
+    answers: &[(usize, char)],
+) -> Result<(Proposal, Vec<Piece>)> {
     let nest = Nest::read(pattern, unit)?;
     let size = size.unwrap_or(nest.sample_size());
     let pieces = nest.pieces(size)?;
-    let mut proposal = propose::propose(&pieces);
+    let mut proposal = propose::propose_answered(&pieces, answers).map_err(StudyError::stage("pattern"))?;
     proposal.notes.extend(nest.unit_remarks().map(str::to_owned));
     hold_for(&mut proposal, size, nest.others(size));
     Ok((proposal, pieces))

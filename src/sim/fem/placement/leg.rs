@@ -36,10 +36,17 @@ geom::constants! {
     const ROW_M: f64 = 5e-3;
 }
 
-/// Roles of one leg, front and back.
-pub fn roles(hand: Hand) -> [Role; 2] {
-    if hand > 0.0 { [Role::LegFrontRight, Role::LegBackRight] } else { [Role::LegFrontLeft, Role::LegBackLeft] }
+/// Roles of one leg: front, back, and both in one piece.
+pub fn roles(hand: Hand) -> [Role; 3] {
+    if hand > 0.0 {
+        [Role::LegFrontRight, Role::LegBackRight, Role::LegRight]
+    } else {
+        [Role::LegFrontLeft, Role::LegBackLeft, Role::LegLeft]
+    }
 }
+
+/// What of a leg a sheet is: its front, its back, or both in one piece, in the order of [`roles`].
+pub const FACES: [Option<f64>; 3] = [Some(1.0), Some(-1.0), None];
 
 /// Front and back of a leg.
 pub struct Leg<'a> {
@@ -52,8 +59,8 @@ pub struct Leg<'a> {
 /// One side of a leg.
 struct LegFace {
     sheet: Sheet,
-    /// 1 in front, -1 behind.
-    side: f64,
+    /// 1 in front, -1 behind; `None` for both in one piece, whose middle lies outside.
+    side: Option<f64>,
     /// Height in the sheet of the fork.
     fork: f64,
     /// Height in the sheet of its lowest point.
@@ -87,15 +94,15 @@ struct Ring {
 }
 
 impl<'a> Leg<'a> {
-    /// Sheets of one leg with their sides (1 in front, -1 behind); `others` are the pieces of the other leg.
+    /// Sheets of one leg with their sides, as in [`FACES`]; `others` are the pieces of the other leg.
     pub fn new(
         form: &'a Form,
         joins: &'a Joins,
         hand: Hand,
-        sheets: impl IntoIterator<Item = (Sheet, f64)>,
+        sheets: impl IntoIterator<Item = (Sheet, Option<f64>)>,
         others: &[usize],
     ) -> Self {
-        let face = |(sheet, side): (Sheet, f64)| {
+        let face = |(sheet, side): (Sheet, Option<f64>)| {
             let centre: Vec<usize> =
                 sheet.pieces().iter().flat_map(|&p| joins.to_any(p, others)).map(|pair| pair[0]).collect();
             let seam = sheet.points(joins.garment).filter(|(v, _)| centre.contains(v)).map(|(_, p)| p.y);
@@ -118,31 +125,42 @@ impl<'a> Leg<'a> {
     fn at(&self, face: &LegFace, p: V2) -> V3 {
         let above = p.y - face.fork;
         let height = self.crotch_m() + above;
-        // Outwards is to the right on the back of the right leg and on the front of the left one.
-        let outward = -self.hand * face.side;
-        let (low, high) = face.row(self.joins.garment, p.y).unwrap_or((p.x, p.x));
-        let from_outside = if outward > 0.0 { high - p.x } else { p.x - low };
-        let inwards = if high > low { (from_outside / (high - low)).clamp(0.0, 1.0) } else { 0.5 };
+        let (side, inwards) = self.from_outside(face, p);
         let girth: f64 = self.faces.iter().filter_map(|other| self.width(other, above)).sum();
         let on = |ring: Ring, angle: f64, full: f64| {
             let size = (girth / (full * 0.5 * (ring.half.x + ring.half.y))).max(1.0);
             let (sin, cos) = (angle * inwards).sin_cos();
-            ring.centre + V2::new(self.hand * ring.half.x * cos, face.side * ring.half.y * sin) * size
+            ring.centre + V2::new(self.hand * ring.half.x * cos, side * ring.half.y * sin) * size
         };
-        let height = self.above_instep(face, height, (PI * inwards).sin());
+        let height = self.above_instep(face, side, height, (PI * inwards).sin());
         let about_leg = on(self.leg_ring(height), PI, 2.0 * PI);
         let about_body = on(self.body_ring(height), FRAC_PI_2, PI);
         let place = about_leg.lerp(&about_body, smooth_step(above / PASSAGE_M));
         V3::new(self.hand * (self.hand * place.x).max(BESIDE_MEDIAN_M), place.y, height)
     }
 
+    /// Whether a point of a sheet lies in front (1) or behind (-1), and its share of the way from the outside of the leg to its inside.
+    fn from_outside(&self, face: &LegFace, p: V2) -> (f64, f64) {
+        let (low, high) = face.row(self.joins.garment, p.y).unwrap_or((p.x, p.x));
+        let share = if high > low { ((p.x - low) / (high - low)).clamp(0.0, 1.0) } else { 0.5 };
+        match face.side {
+            // Outwards is to the right on the back of the right leg and on the front of the left one.
+            Some(side) => (side, if self.hand * side < 0.0 { 1.0 - share } else { share }),
+            // Seen from outside the front of the right leg is to the right.
+            None => {
+                let across = 2.0 * share - 1.0;
+                (if self.hand * across < 0.0 { -1.0 } else { 1.0 }, across.abs())
+            }
+        }
+    }
+
     /// Where a point begins that would lie at `height` if its leg hung straight, `sin` the sine of its angle from the side: the front of
     /// a leg that is too long is drawn up over the instep, all from half way down.
-    fn above_instep(&self, face: &LegFace, height: f64, sin: f64) -> f64 {
+    fn above_instep(&self, face: &LegFace, side: f64, height: f64, sin: f64) -> f64 {
         let instep = INSTEP_M.min(self.crotch_m());
         let hem = self.crotch_m() + face.hem - face.fork;
         let half_way = 0.5 * (self.crotch_m() + instep);
-        if face.side < 0.0 || height >= half_way || hem >= instep {
+        if side < 0.0 || height >= half_way || hem >= instep {
             return height;
         }
         let drawn_up = half_way - (half_way - height) * (half_way - instep) / (half_way - hem);

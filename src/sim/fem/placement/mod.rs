@@ -137,7 +137,7 @@ impl Placing<'_> {
                 let parts = self.joins.worn_as(&[role]).into_iter().map(|p| Part::new(p, self.joins.up(p, V2::y())));
                 (Sheet::beside(Sheet::lay(&self.joins, parts.collect()), self.joins.garment), side)
             };
-            let sheets = leg::roles(hand).into_iter().zip([1.0, -1.0]).map(sheet);
+            let sheets = leg::roles(hand).into_iter().zip(leg::FACES).map(sheet);
             let sheets = sheets.filter(|(sheet, _)| !sheet.parts.is_empty());
             let leg = Leg::new(&self.form, &self.joins, hand, sheets, &others);
             let limb = Limb::straight(self.form.leg_axis(hand));
