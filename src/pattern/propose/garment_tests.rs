@@ -467,3 +467,37 @@ fn what_nothing_tells_is_what_a_person_says() {
         |proposal: &Proposal| proposal.pieces.iter().find(|piece| piece.name == "X").and_then(|piece| piece.class);
     assert_eq!((class(&proposal), class(&answered)), (None, Some(Class::Waistband)));
 }
+
+#[test]
+fn a_leg_in_one_piece_is_sewn_to_itself_and_to_the_other() {
+    let outline = [
+        (90.0, 0.0, 1),
+        (310.0, 0.0, 1),
+        (420.0, 700.0, 1),
+        (345.0, 760.0, 0),
+        (330.0, 900.0, 1),
+        (60.0, 930.0, 1),
+        (30.0, 770.0, 0),
+        (-60.0, 700.0, 1),
+    ];
+    let check = |name: &str, mirrored: bool, front: &str| {
+        let width = 400.0;
+        let turned = |&(x, y, c): &(f64, f64, u8)| if mirrored { (width - x, y, c) } else { (x, y, c) };
+        let mut vertices: Vec<(f64, f64, u8)> = outline.iter().map(turned).collect();
+        if mirrored {
+            vertices.reverse();
+        }
+        let pieces = [piece(name, &vertices), strip("WAISTBAND", 543.3, 50.0)];
+        let proposal = draped(&pieces, &["waistband", "leg"]);
+        let edges = |kind: &str| (seam(&proposal, kind).entry.a.clone(), seam(&proposal, kind).entry.b.clone());
+        let text = |names: [&str; 2]| names.map(|name| vec![name.to_owned()]);
+        assert_eq!(<[_; 2]>::from(edges("inseam_right")), text(["leg_right.inseam_right", "leg_right.inseam_left"]));
+        assert_eq!(<[_; 2]>::from(edges("crotch_front")), text(["leg_right.crotch_right", "leg_left.crotch_left"]));
+        assert_eq!(<[_; 2]>::from(edges("crotch_back")), text(["leg_right.crotch_left", "leg_left.crotch_right"]));
+        assert_eq!(edges("waist").1, ["leg_left.waist", "leg_right.waist"]);
+        let is_drawn = |id: &str| proposal.worn.iter().any(|one| one.id == id && !one.entry.mirror);
+        assert!(is_drawn(front), "{name}: drawn as the {front}");
+    };
+    check("LEGGING", false, "leg_right");
+    check("LEG", true, "leg_left");
+}

@@ -37,7 +37,7 @@ pub const CLASSES: [(Class, &[&str]); 7] = [
         "スリーブ", "소매", "tay", "ärm", "ærme", "mânec", "manec", "rukáv", "rukav", "μανίκ", "μανικ", "आस्तीन", "बाजू",
     ]),
     (Class::Leg, &[
-        "trouser", "pant", "hose", "pantalon", "pantalón", "pantaloni", "broek", "spodni", "брюк", "штан", "leg",
+        "trouser", "pant", "hose", "pantalon", "pantalón", "pantaloni", "broek", "spodni", "брюк", "штан", "leg", "legging",
         "jean", "short", "pantolon", "裤", "褲", "パンツ", "ズボン", "바지", "quần", "byxa", "byxben", "buks", "kalhot",
         "παντελ", "पतलून", "पैंट",
     ]),

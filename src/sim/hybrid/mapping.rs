@@ -225,8 +225,8 @@ fn touches(role: Role, region: Region) -> bool {
     match role {
         Role::SleeveRight => arm(true),
         Role::SleeveLeft => arm(false),
-        Role::LegFrontRight | Role::LegBackRight => leg(true),
-        Role::LegFrontLeft | Role::LegBackLeft => leg(false),
+        Role::LegFrontRight | Role::LegBackRight | Role::LegRight => leg(true),
+        Role::LegFrontLeft | Role::LegBackLeft | Role::LegLeft => leg(false),
         _ => arm(true) || arm(false),
     }
 }

@@ -93,6 +93,54 @@ impl Mapper<'_> {
         Ok(())
     }
 
+    /// A leg in one piece: its inseam down the inside, its waist from centre front to centre back.
+    pub(super) fn whole_leg(&mut self, piece: usize, chains: &[Chain], side: usize) -> Found {
+        let [a, b] = own_seam(piece, chains)?;
+        let up = |i: usize| chains[i].chord(self.garment).y > 0.0;
+        let (rising, falling) = match (up(a), up(b)) {
+            (true, false) => (a, b),
+            (false, true) => (b, a),
+            _ => return Err("its inseam does not run along both sides of it"),
+        };
+        let other =
+            |c: &Chain| matches!(c.partner, Partner::Piece(p) if p != piece && is_leg(self.garment.pieces[p].role));
+        let crotches: Vec<usize> = (0..chains.len()).filter(|&i| other(&chains[i])).collect();
+        let after = crotches.iter().copied().find(|&i| i == (rising + 1) % chains.len());
+        let before = crotches.iter().copied().find(|&i| (i + 1) % chains.len() == falling);
+        let (Some(after), Some(before)) = (after, before) else {
+            return Err("it has no crotch seam before and behind");
+        };
+        let (hem, waist) = (joined(run(falling, rising, chains)), joined(run(after, before, chains)));
+        if hem.len() < 2 || waist.len() < 2 {
+            return Err("it has no hem or no waist line");
+        }
+        let mesh = &self.form.mesh;
+        let (trunk, tube) = (self.form.trunk.clone(), self.form.legs[side].clone());
+        let fork = self.fork_place();
+        // Counter-clockwise the right leg has its front first, the left one its back; either passes the outside.
+        let (first, last, inner) = if side == 0 { (6.0, -6.0, 12) } else { (18.0, 6.0, 0) };
+        let forks = [chains[rising].last(), chains[falling].first()];
+        let ends = [(first, waist[0], forks[0]), (last, waist[waist.len() - 1], forks[1])].map(|(line, end, own)| {
+            let z = self.place(end).map_or(fork.z + self.v(end) - self.v(own), |p| p.z);
+            OnTube { line, along: trunk.at_height(mesh, (line as i32).rem_euclid(RING as i32), z) }
+        });
+        let reach = (fork - tube.at(mesh, inner, 0.0)).norm();
+        let along = tube.further(mesh, inner, 0.0, chains[rising].length_m(self.garment) - reach);
+        forks.into_iter().for_each(|own| self.set(own, fork));
+        self.round(&trunk, &waist, &between(ends));
+        let start = f64::from(inner);
+        let hem_ends = [OnTube { line: start, along }, OnTube { line: start + RING as f64, along }];
+        self.round(&tube, &hem, &between(hem_ends));
+        Ok(())
+    }
+
+    /// Where the legs meet on the form.
+    fn fork_place(&self) -> V3 {
+        let mesh = &self.form.mesh;
+        let sides = [self.form.legs[0].at(mesh, 12, 0.0), self.form.legs[1].at(mesh, 0, 0.0)];
+        sides[0].lerp(&sides[1], 0.5)
+    }
+
     /// A front or back of one leg.
     pub(super) fn leg(&mut self, piece: usize, chains: &[Chain], side: usize) -> Found {
         let own = face(self.garment.pieces[piece].role);
@@ -127,10 +175,7 @@ impl Mapper<'_> {
         let mesh = &self.form.mesh;
         let tube = self.form.legs[side].clone();
         let inner_line = if side == 0 { 12 } else { 0 };
-        let fork_place = {
-            let sides = [self.form.legs[0].at(mesh, 12, 0.0), self.form.legs[1].at(mesh, 0, 0.0)];
-            sides[0].lerp(&sides[1], 0.5)
-        };
+        let fork_place = self.fork_place();
         // Waist: as high above the fork as the pattern has it.
         let rise = self.v(centre) - self.v(fork);
         let trunk = self.form.trunk.clone();

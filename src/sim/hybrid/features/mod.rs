@@ -57,7 +57,13 @@ pub enum Kind {
 /// Whether pieces of a role are worn on a leg.
 #[must_use]
 pub fn is_leg(role: Role) -> bool {
-    matches!(role, Role::LegFrontRight | Role::LegFrontLeft | Role::LegBackRight | Role::LegBackLeft)
+    is_whole_leg(role)
+        || matches!(role, Role::LegFrontRight | Role::LegFrontLeft | Role::LegBackRight | Role::LegBackLeft)
+}
+
+/// Whether pieces of a role are a leg in one piece.
+fn is_whole_leg(role: Role) -> bool {
+    matches!(role, Role::LegRight | Role::LegLeft)
 }
 
 /// Kind of a garment.
@@ -143,6 +149,8 @@ pub fn features(body: &Body, form: &Form, garment: &Garment) -> Result<Vec<Mappe
             Role::SleeveLeft => mapper.sleeve(p, &pieces[p].1, 1),
             Role::LegFrontRight | Role::LegBackRight => mapper.leg(p, &pieces[p].1, 0),
             Role::LegFrontLeft | Role::LegBackLeft => mapper.leg(p, &pieces[p].1, 1),
+            Role::LegRight => mapper.whole_leg(p, &pieces[p].1, 0),
+            Role::LegLeft => mapper.whole_leg(p, &pieces[p].1, 1),
             Role::Other | Role::Waistband => mapper.wrap(p, &pieces[p].1),
             _ => mapper.trunk(p, &pieces[p].1),
         };
