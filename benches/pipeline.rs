@@ -118,7 +118,7 @@ fn nest() -> Vec<u8> {
             piece
         })
     };
-    dxf::write_pieces(&(0..15).flat_map(size).collect::<Vec<_>>(), &file.texts)
+    dxf::write_pieces(&(0..15).flat_map(size).collect::<Vec<_>>(), &file.texts, dxf::Standard::Aama)
 }
 
 /// Opening one size of a nest of 15; to take less than 100 ms.

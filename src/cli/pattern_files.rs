@@ -7,7 +7,7 @@ use super::context::Context;
 use super::{CliError, End, Outcome, output};
 use study::files;
 use study::patterns::Unit;
-use study::seams::pattern_files::{self, Beside};
+use study::seams::pattern_files::{self, Beside, Standard};
 
 /// What the arguments say about a pattern beside its file.
 pub fn beside(files: &BesideFiles) -> Beside<'_> {
@@ -29,14 +29,36 @@ pub fn features(context: &Context, path: &Path, files: &BesideFiles, output: Opt
     Ok(End::Done)
 }
 
+/// How a pattern is written.
+pub struct Written<'a> {
+    /// Seam file, for a kind of file that holds seams.
+    pub seams: Option<&'a Path>,
+    /// Standard of a DXF file.
+    pub standard: Standard,
+    /// Whether the sample size is written alone, with a grade rule table beside it.
+    pub with_rul: bool,
+}
+
 /// Writes a pattern as the kind of file that the output's name says.
-pub fn convert(context: &Context, path: &Path, seams: Option<&Path>, files: &BesideFiles, output: &Path) -> Outcome {
+pub fn convert(
+    context: &Context,
+    path: &Path,
+    files: &BesideFiles,
+    Written { seams, standard, with_rul }: &Written<'_>,
+    output: &Path,
+) -> Outcome {
     let extension = output.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     let bytes = match extension.as_str() {
-        "dxf" => pattern_files::convert_to_dxf(path, &beside(files))?,
-        "json" => (pattern_files::convert_to_garmentcode(path, seams, &beside(files))? + "\n").into_bytes(),
+        "dxf" if *with_rul => {
+            let graded = pattern_files::convert_to_graded(path, &beside(files), *standard)?;
+            graded.notes.iter().for_each(|note| context.say(note));
+            write(context, &output.with_extension("rul"), graded.rules.into_bytes())?;
+            graded.dxf
+        }
+        "dxf" => pattern_files::convert_to_dxf(path, &beside(files), *standard)?,
+        "json" => (pattern_files::convert_to_garmentcode(path, *seams, &beside(files))? + "\n").into_bytes(),
         _ => {
-            let accepted = "X.dxf (AAMA DXF) or X.json (GarmentCode); SVG is written by `toile pattern sheet`";
+            let accepted = "X.dxf (AAMA or ASTM DXF) or X.json (GarmentCode); SVG is written by `toile pattern sheet`";
             return Err(CliError::Usage(format!("{}: found `.{extension}`; accepted: {accepted}", output.display())));
         }
     };

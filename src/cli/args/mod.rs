@@ -13,7 +13,7 @@ mod pattern;
 pub use attempt::{Try, TrySimulator};
 pub use body::{Body, BodyBuild, MeshUnit, Sex};
 pub use catalogue::{Catalogue, FabricValues, SizeValues, StyleValues, SubjectValues};
-pub use pattern::{BesideFiles, DraftStyle, Pattern, PatternUnit, SeamCommand, StyleFiles};
+pub use pattern::{BesideFiles, DraftStyle, DxfStandard, Pattern, PatternUnit, SeamCommand, StyleFiles};
 
 /// A fit-study workbench: dress bodies in sewing patterns, measure the drape, say which simulator to trust.
 #[derive(Debug, Parser)]

@@ -29,6 +29,15 @@ impl From<PatternUnit> for Unit {
     }
 }
 
+/// Standard by which a DXF file is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum DxfStandard {
+    /// ANSI/AAMA-292.
+    Aama,
+    /// ASTM D6673.
+    Astm,
+}
+
 /// Style that can be drafted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum DraftStyle {
@@ -193,7 +202,7 @@ pub enum Pattern {
         #[arg(long, short, value_name = "FILE")]
         output: Option<PathBuf>,
     },
-    /// Write a pattern as AAMA DXF (X.dxf) or, with its seams, as GarmentCode (X.json).
+    /// Write a pattern as AAMA or ASTM DXF (X.dxf) or, with its seams, as GarmentCode (X.json).
     Convert {
         /// DXF file, GarmentCode JSON, or features.
         path: PathBuf,
@@ -202,6 +211,12 @@ pub enum Pattern {
         /// Seam file; GarmentCode needs one unless the pattern holds its seams.
         #[arg(long, value_name = "FILE")]
         seams: Option<PathBuf>,
+        /// Standard of a DXF file.
+        #[arg(long, value_enum, default_value_t = DxfStandard::Aama)]
+        standard: DxfStandard,
+        /// Write the sample size (or --size) alone, and beside it X.rul with the rules that make the other sizes.
+        #[arg(long)]
+        with_rul: bool,
         /// File to write.
         #[arg(long, short, value_name = "FILE")]
         output: PathBuf,

@@ -26,7 +26,7 @@ pub use self::code_page::CodePage;
 use self::figures::Placement;
 use self::guard::{BlockCount, Counts, Inventory, take_inventory};
 pub use self::units::{Unit, UnitSource};
-pub use self::write::{write, write_pieces};
+pub use self::write::{Standard, write, write_pieces};
 use super::piece::Piece;
 use super::{scale, size_order};
 
@@ -136,8 +136,7 @@ impl PatternFile {
     #[must_use]
     pub fn sample_size(&self) -> &str {
         let sizes = self.sizes();
-        let is_called = |key: &str| key.to_ascii_lowercase().replace(['_', ' '], "") == "samplesize";
-        let said = self.texts.iter().filter(|(key, _)| is_called(key)).map(|(_, value)| value.as_str());
+        let said = self.texts.iter().filter(|(key, _)| is_sample_size(key)).map(|(_, value)| value.as_str());
         let sample = said.filter_map(|said| sizes.iter().find(|size| size.eq_ignore_ascii_case(said))).next();
         sample.copied().unwrap_or_else(|| size_order::sorted(&sizes).get(sizes.len() / 2).copied().unwrap_or_default())
     }
@@ -196,6 +195,12 @@ impl PatternFile {
         }
         Ok(pieces)
     }
+}
+
+/// Whether a text of a file says its sample size.
+#[must_use]
+pub fn is_sample_size(key: &str) -> bool {
+    key.to_ascii_lowercase().replace(['_', ' '], "") == "samplesize"
 }
 
 /// Reads a DXF file. `unit` says the unit, whatever the file says; `file_name` is used in messages.

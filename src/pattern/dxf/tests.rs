@@ -225,7 +225,11 @@ fn units_come_from_the_user_the_texts_or_the_header() {
         assert_eq!((file.unit, file.unit_source), expect);
         assert_eq!(FileReport::from(&file).units, report);
         let told = file.warnings.iter().filter(|said| !said.starts_with("the longest piece")).count();
-        assert_eq!(told == 0, expect.1 != UnitSource::Assumed);
+        assert_eq!(told, usize::from(expect.1 == UnitSource::Assumed || file.unit_remark.is_some()));
+        // The file is contradicted where the user gives another unit than it names.
+        let own =
+            read(bytes, "a.dxf", None).is_ok_and(|own| own.unit_source == UnitSource::File && own.unit != expect.0);
+        assert_eq!(file.unit_remark.is_some(), given.is_some() && own, "{:?}", file.unit_remark);
         let front = file.pieces[0].perimeter_m() / expect.0.mm_per_unit();
         assert!(
             (front - read(&write(&tshirt(TshirtSize::S)), "a.dxf", None).expect("it reads").pieces[0].perimeter_m())

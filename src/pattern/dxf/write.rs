@@ -1,4 +1,4 @@
-//! Writing AAMA DXF (R12): one block a piece, millimetres, one closed polyline on layer 1.
+//! Writing AAMA and ASTM DXF (R12): one block a piece, millimetres, one closed polyline on layer 1.
 
 use std::fmt::Write as _;
 
@@ -21,16 +21,27 @@ const CODE_PAGES: [(&str, &encoding_rs::Encoding); 4] = [
 #[must_use]
 pub fn write(draft: &Draft) -> Vec<u8> {
     let texts = [("Author", "Toile"), ("Style Name", &draft.style), ("Sample Size", &draft.size)];
-    write_pieces(&draft.pieces, &texts.map(|(key, value)| (key.to_owned(), value.to_owned())))
+    let texts = texts.map(|(key, value)| (key.to_owned(), value.to_owned()));
+    write_pieces(&draft.pieces, &texts, Standard::Aama)
 }
 
-/// Writes pieces as AAMA DXF in millimetres, with the style's texts outside the blocks.
+/// Which standard a file is written by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Standard {
+    /// ANSI/AAMA-292: grade rules stand on the layer of their point.
+    #[default]
+    Aama,
+    /// ASTM D6673: grade rules stand on layer 1, quantities count the left and the right.
+    Astm,
+}
+
+/// Writes pieces as DXF in millimetres by a standard, with the style's texts outside the blocks.
 ///
 /// A file of ASCII texts is plain R12; others name the first code page that has all their letters, or are of the
 /// version of AutoCAD 2007 and in UTF-8 where none has.
 #[must_use]
-pub fn write_pieces(pieces: &[Piece], style: &[(String, String)]) -> Vec<u8> {
-    let body = body(pieces, style);
+pub fn write_pieces(pieces: &[Piece], style: &[(String, String)], standard: Standard) -> Vec<u8> {
+    let body = body(pieces, style, standard);
     let encoded = CODE_PAGES.iter().find_map(|(page, encoding)| {
         let (bytes, _, has_unknown) = encoding.encode(&body);
         (!has_unknown).then(|| (*page, bytes.into_owned()))
@@ -40,8 +51,8 @@ pub fn write_pieces(pieces: &[Piece], style: &[(String, String)]) -> Vec<u8> {
         Some((page, bytes)) => ("AC1009", Some(page), bytes),
         None => ("AC1021", None, body.into_bytes()),
     };
-    let mut head = Out(String::new());
-    head.tag(999, "ANSI/AAMA");
+    let mut head = Out { text: String::new(), standard };
+    head.tag(999, if standard == Standard::Aama { "ANSI/AAMA" } else { "ASTM D6673" });
     head.section("HEADER", |out| {
         out.tag(9, "$ACADVER");
         out.tag(1, version);
@@ -50,17 +61,20 @@ pub fn write_pieces(pieces: &[Piece], style: &[(String, String)]) -> Vec<u8> {
             out.tag(3, page);
         }
     });
-    [head.0.into_bytes(), bytes].concat()
+    [head.text.into_bytes(), bytes].concat()
 }
 
 /// Blocks and entities.
-fn body(pieces: &[Piece], style: &[(String, String)]) -> String {
-    let mut out = Out(String::new());
+fn body(pieces: &[Piece], style: &[(String, String)], standard: Standard) -> String {
+    let mut out = Out { text: String::new(), standard };
     out.section("BLOCKS", |out| pieces.iter().for_each(|piece| out.block(piece)));
+    let version = (String::new(), D6673.to_owned());
     out.section("ENTITIES", |out| {
         let units = ("Units".to_owned(), "METRIC".to_owned());
         let style = style.iter().filter(|(key, _)| !key.eq_ignore_ascii_case("units")).chain([&units]);
-        for (line, (key, value)) in style.enumerate() {
+        let version = (standard == Standard::Astm).then_some(&version);
+        let of_version = |(key, value): &&(String, String)| format!("{key}: {value}").contains("D13Proposal");
+        for (line, (key, value)) in style.filter(|text| !of_version(text)).chain(version).enumerate() {
             out.text(V2::new(0.0, -0.02 - 0.005 * line as f64), key, value);
         }
         for piece in pieces {
@@ -70,16 +84,25 @@ fn body(pieces: &[Piece], style: &[(String, String)]) -> String {
         }
     });
     out.tag(0, "EOF");
-    out.0
+    out.text
 }
 
-struct Out(String);
+/// How a file says that it is by ASTM D6673.
+const D6673: &str = "ASTM/D13Proposal 1 Version: D 6673-04";
+
+/// Distance within which a grade point is a turn point, m.
+const ON_POINT_M: f64 = 0.1e-3;
+
+struct Out {
+    text: String,
+    standard: Standard,
+}
 
 impl Out {
     fn tag(&mut self, code: i32, value: &str) {
         // A line break would end the value. Writing to a string cannot fail.
         let value = value.replace(|c: char| c.is_control(), " ");
-        let _ = write!(self.0, "{code:3}\r\n{value}\r\n");
+        let _ = write!(self.text, "{code:3}\r\n{value}\r\n");
     }
 
     fn section(&mut self, name: &str, content: impl FnOnce(&mut Self)) {
@@ -115,6 +138,16 @@ impl Out {
         }
     }
 
+    /// A quantity as the standard writes it: AAMA counts the pieces, ASTM those of the left and of the right.
+    fn quantity(&self, written: &str) -> String {
+        let parts: Option<Vec<u32>> = written.split(',').map(|part| part.trim().parse().ok()).collect();
+        match (self.standard, parts.as_deref()) {
+            (Standard::Aama, Some(&[left, right])) => (left + right).to_string(),
+            (Standard::Astm, Some(&[count])) => format!("{},{}", count.div_ceil(2), count / 2),
+            _ => written.to_owned(),
+        }
+    }
+
     fn block(&mut self, piece: &Piece) {
         self.tag(0, "BLOCK");
         self.tag(8, "0");
@@ -123,7 +156,8 @@ impl Out {
         self.point(10, &V2::zeros());
         let mut texts = vec![("Piece Name", piece.name.as_str())];
         texts.extend(piece.size.as_deref().map(|size| ("Size", size)));
-        texts.extend(piece.quantity.as_deref().map(|quantity| ("Quantity", quantity)));
+        let quantity = piece.quantity.as_deref().map(|quantity| self.quantity(quantity));
+        texts.extend(quantity.as_deref().map(|quantity| ("Quantity", quantity)));
         texts.extend(piece.texts.iter().map(|(key, value)| (key.as_str(), value.as_str())));
         for (line, (key, value)) in texts.into_iter().enumerate() {
             self.text(V2::new(0.02, 0.1 - 0.005 * line as f64), key, value);
@@ -145,7 +179,14 @@ impl Out {
             }
         }
         for graded in &piece.grade_points {
-            self.entity("TEXT", if graded.is_inner { "8" } else { "2" });
+            let is_turn = || piece.turn_points.iter().any(|turn| (turn - graded.at).norm() < ON_POINT_M);
+            let layer = match self.standard {
+                _ if graded.is_inner => "8",
+                Standard::Astm => "1",
+                Standard::Aama if is_turn() => "2",
+                Standard::Aama => "3",
+            };
+            self.entity("TEXT", layer);
             self.point(10, &graded.at);
             self.number(40, 3.0);
             self.tag(1, &format!("# {}", graded.rule));

@@ -5,8 +5,10 @@
 //! has rules of its own.
 
 mod table;
+mod ungrade;
 
-pub use self::table::{GradeError, GradeTable, read};
+pub use self::table::{GradeError, GradeTable, read, write};
+pub use self::ungrade::{Ungraded, ungrade};
 use super::dxf::{PatternFile, Refused};
 use super::piece::{Notch, Piece};
 use geom::V2;
@@ -88,15 +90,15 @@ fn graded_piece(piece: &Piece, table: &GradeTable, size: usize) -> Result<Piece,
         drawn_perimeter_m: None,
         turn_points: moved_all(&piece.turn_points),
         curve_points: moved_all(&piece.curve_points),
-        notches: piece.notches.iter().map(|notch| Notch { at: moved(&notch.at), ..*notch }).collect(),
-        grain: moved_ends(piece.grain),
+        notches: piece.notches.iter().map(|notch| Notch { at: inner(&notch.at), ..*notch }).collect(),
+        grain: piece.grain.map(|ends| ends.map(|end| inner(&end))),
         mirror_line: moved_ends(piece.mirror_line),
         grade_reference: moved_ends(piece.grade_reference),
         grade_points: Vec::new(),
         internal_lines: moved_lines(&piece.internal_lines),
         cut_outs: moved_lines(&piece.cut_outs),
         drill_holes: inner_all(&piece.drill_holes),
-        sew_line: piece.sew_line.as_deref().map(moved_all),
+        sew_line: piece.sew_line.as_deref().map(inner_all),
         ..piece.clone()
     })
 }

@@ -15,10 +15,11 @@
 //! likes; the pair of the sample size is zero.
 
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 
 use crate::dxf::Unit;
 use geom::V2;
-use geom::units::from_mm;
+use geom::units::{from_mm, mm};
 
 /// Most bytes of a table that is read; a large one has some hundred thousand.
 const MOST_BYTES: usize = 8 << 20;
@@ -26,6 +27,9 @@ const MOST_BYTES: usize = 8 << 20;
 const GREATEST_M: f64 = 2.0;
 /// Greatest step of the sample size that is rounding, m.
 const ZERO_M: f64 = 1e-6;
+
+/// Pairs of x and y in a line that is written.
+const PAIRS_A_LINE: usize = 4;
 
 /// Why a grade rule table cannot be read, or not be applied.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -100,6 +104,26 @@ pub fn read(bytes: &[u8], file: &str) -> Result<GradeTable, GradeError> {
         }
     }
     reader.table(head, rules)
+}
+
+/// Writes a table in millimetres.
+#[must_use]
+pub fn write(table: &GradeTable, style: &str) -> String {
+    let mut text = String::from("ANSI/AAMA VERSION: 1.0.0\r\nAUTHOR: Toile\r\nUNITS: METRIC\r\n");
+    let style = style.replace(char::is_control, " ");
+    let (sizes, count) = (table.sizes.join(" "), table.sizes.len());
+    let _ = write!(text, "GRADE RULE TABLE: {style}\r\nNUMBER OF SIZES: {count}\r\nSIZE LIST: {sizes}\r\n");
+    let _ = write!(text, "SAMPLE SIZE: {}\r\n", table.sizes[table.sample]);
+    for (number, steps) in &table.rules {
+        let _ = write!(text, "RULE: DELTA {number}\r\n");
+        for line in steps.chunks(PAIRS_A_LINE) {
+            let pair = |step: &V2| format!("{:.4}, {:.4}", mm(step.x) + 0.0, mm(step.y) + 0.0);
+            let pairs: Vec<String> = line.iter().map(pair).collect();
+            let _ = write!(text, "   {}\r\n", pairs.join("    ").replace("-0.0000", "0.0000"));
+        }
+    }
+    text.push_str("END\r\n");
+    text
 }
 
 /// What a line without a key goes on with.

@@ -183,3 +183,62 @@ proptest::proptest! {
         proptest::prop_assert!((corner - V2::new(x, y)).norm() < 1e-3);
     }
 }
+
+/// The nest that the sample size and its table make, read again from what is written.
+fn regraded(nest: &PatternFile, sample: &str, standard: dxf::Standard) -> PatternFile {
+    let Ungraded { pieces, table, .. } = ungrade(nest, sample).expect("one pattern");
+    let written = dxf::write_pieces(&pieces, &[("Sample Size".to_owned(), sample.to_owned())], standard);
+    let file = dxf::read(&written, "a.dxf", None).expect("our own file");
+    let table = read(write(&table, "a").as_bytes(), "a.rul").expect("our own table");
+    let graded = grade(&file, &table).expect("it grades");
+    assert!(graded.refused.is_empty(), "{:?}", graded.refused);
+    graded
+}
+
+/// Greatest distance of the vertices of one line from the other line, m.
+fn away(vertices: &[V2], line: &[V2]) -> f64 {
+    let sides = || (0..line.len()).map(|k| (line[k], line[(k + 1) % line.len()]));
+    let nearest = |p: &V2| sides().map(|(a, b)| segment_distance(&a, &b, p)).fold(f64::INFINITY, f64::min);
+    vertices.iter().map(nearest).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_nest_written_as_rules_is_the_same_nest_again() {
+    for model in crate::draft::Model::ALL {
+        let mut nest = dxf::read(&dxf::write(&model.drafts()[0]), "a.dxf", None).expect("our own file");
+        nest.pieces = model.drafts().into_iter().flat_map(|draft| draft.pieces).collect();
+        // One size has a curve with fewer vertices, as a size of its own drawing has.
+        let turns: Vec<V2> = nest.pieces[0].turn_points.clone();
+        let thinned = &mut nest.pieces[0].outline;
+        let mut count = 0;
+        thinned.retain(|at| {
+            count += 1;
+            count % 3 != 0 || turns.iter().any(|turn| (turn - at).norm() < 1e-4)
+        });
+        nest.pieces[0].curve_points.clear();
+        let sizes: Vec<String> = nest.sizes().into_iter().map(str::to_owned).collect();
+        for standard in [dxf::Standard::Aama, dxf::Standard::Astm] {
+            let again = regraded(&nest, &sizes[sizes.len() / 2], standard);
+            assert_eq!(again.sizes(), sizes);
+            for piece in &nest.pieces {
+                let is_it = |other: &&Piece| other.name == piece.name && other.size == piece.size;
+                let other = again.pieces.iter().find(is_it).expect("every piece in every size");
+                let apart = away(&piece.outline, &other.outline).max(away(&other.outline, &piece.outline));
+                assert!(apart < 0.01e-3, "{model:?} {} {:?}: {} mm", piece.name, piece.size, mm(apart));
+                for (notch, again) in piece.notches.iter().zip(&other.notches) {
+                    assert!((notch.at - again.at).norm() < 0.01e-3, "{model:?} {}", piece.name);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_no_nest_is_not_written_as_rules() {
+    let draft = crate::draft::Model::Tshirt.drafts();
+    let mut nest = dxf::read(&dxf::write(&draft[0]), "a.dxf", None).expect("our own file");
+    nest.pieces.extend(draft[1].pieces.iter().skip(1).cloned());
+    let told = ungrade(&nest, "S").expect_err("a piece is missing").to_string();
+    assert!(told.contains("no piece `BACK` in size M") || told.contains("no piece `FRONT` in size M"), "{told}");
+    assert!(ungrade(&nest, "XXL").expect_err("no such size").to_string().contains("one of S, M"));
+}

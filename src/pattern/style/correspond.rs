@@ -32,7 +32,7 @@ pub(crate) fn shares(outline: &[V2], vertices: &[usize]) -> Vec<[f64; 2]> {
 ///
 /// # Errors
 /// The number of the corner that has no like, and how far away the nearest is, m.
-pub(super) fn corresponding(piece: &Piece, shares: &[[f64; 2]]) -> Result<Vec<usize>, (usize, f64)> {
+pub(crate) fn corresponding(piece: &Piece, shares: &[[f64; 2]]) -> Result<Vec<usize>, (usize, f64)> {
     let outline = piece.seam_outline();
     let [low, high] = extent(outline);
     let size = (high - low).norm();

@@ -6,8 +6,10 @@ use std::path::Path;
 use crate::error::{Result, StudyError};
 use crate::files::SourceFile;
 use crate::patterns::drawings;
+pub use pattern::dxf::Standard;
 use pattern::dxf::{self, PatternFile, Unit};
 use pattern::features::Features;
+use pattern::grade::Ungraded;
 use pattern::inspect::FileReport;
 use pattern::source::{self, Kind};
 use pattern::{Style, garmentcode, grade, info};
@@ -101,13 +103,40 @@ pub fn features(path: &Path, beside: &Beside<'_>) -> Result<String> {
     serde_json::to_string_pretty(&features).map_err(StudyError::stage("pattern"))
 }
 
-/// A pattern as AAMA DXF: all its sizes, half pieces as halves.
+/// A pattern as DXF by a standard, half pieces as halves: all its sizes as a nest.
 ///
 /// # Errors
 /// As [`features`].
-pub fn convert_to_dxf(path: &Path, beside: &Beside<'_>) -> Result<Vec<u8>> {
+pub fn convert_to_dxf(path: &Path, beside: &Beside<'_>, standard: Standard) -> Result<Vec<u8>> {
     let pattern = beside.usable_pattern(&SourceFile::read(path)?)?;
-    Ok(dxf::write_pieces(&pattern.pieces, &pattern.texts))
+    Ok(dxf::write_pieces(&pattern.pieces, &pattern.texts, standard))
+}
+
+/// A pattern as its sample size and a grade rule table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Graded {
+    /// The sample size.
+    pub dxf: Vec<u8>,
+    /// The table.
+    pub rules: String,
+    /// What has no rules of its own.
+    pub notes: Vec<String>,
+}
+
+/// The sample size of a pattern as DXF by a standard, and the grade rule table that makes all sizes of it.
+///
+/// # Errors
+/// As [`features`]; and where a piece is not the same in every size.
+pub fn convert_to_graded(path: &Path, beside: &Beside<'_>, standard: Standard) -> Result<Graded> {
+    let all = Beside { size: None, ..*beside };
+    let pattern = all.usable_pattern(&SourceFile::read(path)?)?;
+    let sample = beside.size.unwrap_or(pattern.sample_size());
+    let Ungraded { pieces, table, notes } = grade::ungrade(&pattern, sample).map_err(StudyError::stage("pattern"))?;
+    let is_other = |(key, _): &&(String, String)| !dxf::is_sample_size(key);
+    let sample = ("Sample Size".to_owned(), table.sizes[table.sample].clone());
+    let texts: Vec<_> = pattern.texts.iter().filter(is_other).cloned().chain([sample]).collect();
+    let style = path.file_stem().unwrap_or_default().to_string_lossy();
+    Ok(Graded { dxf: dxf::write_pieces(&pieces, &texts, standard), rules: grade::write(&table, &style), notes })
 }
 
 /// A pattern and its seams as GarmentCode JSON.

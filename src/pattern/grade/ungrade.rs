@@ -1,0 +1,222 @@
+//! The other way round: from a nest the sample size with grade points, and the rule table that makes the other sizes of it.
+//!
+//! Corners correspond from size to size as those of a seam file do. Between two of them the outlines of all sizes are cut
+//! at the same shares of their length, wherever one of them has a vertex: each size keeps its own vertices, and every
+//! vertex has a rule.
+
+use std::collections::BTreeMap;
+
+use super::{GradeError, GradeTable};
+use crate::dxf::PatternFile;
+use crate::piece::{GradePoint, Piece};
+use crate::style::corners::corner_vertices;
+use crate::style::correspond::{corresponding, shares};
+use geom::V2;
+use geom::polyline::Polyline;
+
+/// Distance along a line within which vertices of two sizes are one, m.
+const SAME_PLACE_M: f64 = 0.2e-3;
+/// Steps that differ by less are one rule, m: the last digit of a table.
+const SAME_STEP_M: f64 = 1e-7;
+
+/// A nest as its sample size and rules.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ungraded {
+    /// Pieces of the sample size with grade points.
+    pub pieces: Vec<Piece>,
+    /// Rules of all sizes.
+    pub table: GradeTable,
+    /// What has no rules of its own, since not every size has it: it moves with the outline.
+    pub notes: Vec<String>,
+}
+
+/// The sample size of a nest with grade points, and the table that makes all sizes of it.
+///
+/// # Errors
+/// [`GradeError`] where the file has no such size, a piece is not there in every size, or is another piece in one.
+pub fn ungrade(file: &PatternFile, sample: &str) -> Result<Ungraded, GradeError> {
+    let fail = |found: String, accepted: &str| GradeError {
+        file: file.file.clone(),
+        line: None,
+        found,
+        accepted: accepted.to_owned(),
+    };
+    let sizes: Vec<String> = file.sizes().into_iter().map(str::to_owned).collect();
+    if let Some(unnamed) = sizes.iter().find(|size| size.is_empty() || size.contains(char::is_whitespace)) {
+        return Err(fail(format!("size `{unnamed}`"), "sizes with names of one word"));
+    }
+    let of = |size: &str| -> Vec<&Piece> {
+        file.pieces.iter().filter(|piece| piece.size.as_deref() == Some(size)).collect()
+    };
+    let index = sizes.iter().position(|size| size.eq_ignore_ascii_case(sample));
+    let index = index.ok_or_else(|| fail(format!("no size `{sample}`"), &format!("one of {}", sizes.join(", "))))?;
+    let nest: Vec<Vec<&Piece>> = sizes.iter().map(|size| of(size)).collect();
+    let mut rules = Rules { sizes: sizes.len(), steps: Vec::new() };
+    let (mut pieces, mut notes) = (Vec::new(), Vec::new());
+    for (k, piece) in nest[index].iter().enumerate() {
+        let number = nest[index][..k].iter().filter(|other| other.name == piece.name).count();
+        let all = nest.iter().zip(&sizes).map(|(pieces, size)| {
+            let found = pieces.iter().filter(|other| other.name == piece.name).nth(number).copied();
+            found.ok_or_else(|| fail(format!("no piece `{}` in size {size}", piece.name), "every piece in every size"))
+        });
+        let all = all.collect::<Result<Vec<&Piece>, GradeError>>()?;
+        let graded = graded(&all, index, &mut rules, &mut notes);
+        pieces.push(
+            graded.map_err(|found| fail(format!("piece `{}`: {found}", piece.name), "the same piece in every size"))?,
+        );
+    }
+    let steps = rules.steps.into_iter().enumerate().map(|(number, steps)| (number as u32 + 1, steps));
+    let rules: BTreeMap<u32, Vec<V2>> = steps.collect();
+    let table = GradeTable { file: file.file.clone(), sizes, sample: index, rules };
+    Ok(Ungraded { pieces, table, notes })
+}
+
+/// Rules in the order of their numbers.
+struct Rules {
+    sizes: usize,
+    steps: Vec<Vec<V2>>,
+}
+
+impl Rules {
+    /// Number of the rule that moves a point of the sample size to its places in all sizes.
+    fn number(&mut self, places: &[V2], sample: usize) -> u32 {
+        debug_assert_eq!(places.len(), self.sizes);
+        let steps: Vec<V2> = places.iter().map(|place| place - places[sample]).collect();
+        let is_same = |other: &Vec<V2>| other.iter().zip(&steps).all(|(a, b)| (a - b).amax() < SAME_STEP_M);
+        let found = self.steps.iter().position(is_same);
+        let index = found.unwrap_or_else(|| {
+            self.steps.push(steps);
+            self.steps.len() - 1
+        });
+        index as u32 + 1
+    }
+}
+
+/// The piece of the sample size with a grade point at every vertex.
+fn graded(all: &[&Piece], sample: usize, rules: &mut Rules, notes: &mut Vec<String>) -> Result<Piece, String> {
+    let mut piece = all[sample].clone();
+    let outlines = ring(all, sample, |piece| piece.outline.clone())?;
+    let mut points = Vec::new();
+    let mut mark = |places: Vec<V2>, is_inner: bool| {
+        points.push(GradePoint { at: places[sample], rule: rules.number(&places, sample), is_inner });
+    };
+    let across = |lines: &[Vec<V2>], k: usize| -> Vec<V2> { lines.iter().map(|line| line[k]).collect() };
+    (0..outlines[0].len()).for_each(|k| mark(across(&outlines, k), false));
+    piece.outline.clone_from(&outlines[sample]);
+    if all.iter().all(|piece| piece.sew_line.is_some()) {
+        let lines = ring(all, sample, |piece| piece.sew_line.clone().unwrap_or_default())?;
+        (0..lines[0].len()).for_each(|k| mark(across(&lines, k), true));
+        piece.sew_line = Some(lines[sample].clone());
+    }
+    for (what, of) in [
+        ("internal lines", (|piece: &Piece| piece.internal_lines.clone()) as fn(&Piece) -> Vec<Vec<V2>>),
+        ("cut-outs", |piece| piece.cut_outs.clone()),
+    ] {
+        let lines: Vec<Vec<Vec<V2>>> = all.iter().map(|piece| of(piece)).collect();
+        if !is_in_all(&piece.name, what, &lines, notes) {
+            continue;
+        }
+        let mut own = Vec::new();
+        for k in 0..lines[sample].len() {
+            let one: Vec<Vec<V2>> = lines.iter().map(|lines| lines[k].clone()).collect();
+            let one = if one.iter().any(|line| line.len() < 2) { one } else { cut_alike(&one) };
+            (0..one[sample].len()).for_each(|k| mark(across(&one, k), true));
+            own.push(one[sample].clone());
+        }
+        if what == "cut-outs" { piece.cut_outs = own } else { piece.internal_lines = own }
+    }
+    for (what, of) in [
+        ("drill holes", (|piece: &Piece| piece.drill_holes.clone()) as fn(&Piece) -> Vec<V2>),
+        ("notches", |piece| piece.notches.iter().map(|notch| notch.at).collect()),
+    ] {
+        let places: Vec<Vec<V2>> = all.iter().map(|piece| of(piece)).collect();
+        if !is_in_all(&piece.name, what, &places, notes) {
+            continue;
+        }
+        (0..places[sample].len()).for_each(|k| mark(across(&places, k), true));
+    }
+    let grains: Vec<[V2; 2]> = all.iter().filter_map(|piece| piece.grain).collect();
+    if grains.len() == all.len() {
+        [0, 1].into_iter().for_each(|end| mark(grains.iter().map(|grain| grain[end]).collect(), true));
+    }
+    let is_turn = |at: &V2| piece.turn_points.iter().any(|turn| (turn - at).norm() < SAME_PLACE_M);
+    piece.curve_points = piece.outline.iter().filter(|at| !is_turn(at)).copied().collect();
+    piece.grade_points = points;
+    // The rules are written along the axes of the file.
+    piece.grade_reference = None;
+    Ok(piece)
+}
+
+/// Whether all sizes have as many of something; a note where not.
+fn is_in_all<T>(piece: &str, what: &str, all: &[Vec<T>], notes: &mut Vec<String>) -> bool {
+    let is_same = all.iter().all(|one| one.len() == all[0].len());
+    if !is_same {
+        notes.push(format!("piece `{piece}`: not every size has its {what}: they move with the outline"));
+    }
+    is_same
+}
+
+/// A closed line of all sizes, with as many vertices in each, the corners of the sample size among them.
+fn ring(all: &[&Piece], sample: usize, of: impl Fn(&Piece) -> Vec<V2>) -> Result<Vec<Vec<V2>>, String> {
+    let pieces: Vec<Piece> =
+        all.iter().map(|piece| Piece { outline: of(piece), sew_line: None, ..(*piece).clone() }).collect();
+    let own = corner_vertices(&pieces[sample]);
+    // A line without corners begins where the sample size does.
+    let own = if own.is_empty() { vec![0] } else { own };
+    let places = shares(&pieces[sample].outline, &own);
+    let corners = pieces.iter().enumerate().map(|(k, piece)| match k == sample {
+        true => Ok(own.clone()),
+        false => corresponding(piece, &places).map_err(|_| format!("another outline in size {:?}", piece.size)),
+    });
+    let corners = corners.collect::<Result<Vec<_>, String>>()?;
+    let mut rings = vec![Vec::new(); all.len()];
+    for k in 0..own.len() {
+        let stretch = |(piece, corners): (&Piece, &Vec<usize>)| -> Vec<V2> {
+            let n = piece.outline.len();
+            let (from, to) = (corners[k], corners[(k + 1) % corners.len()]);
+            let steps = if to == from { n } else { (to + n - from) % n };
+            (0..=steps).map(|step| piece.outline[(from + step) % n]).collect()
+        };
+        let stretches: Vec<Vec<V2>> = pieces.iter().zip(&corners).map(stretch).collect();
+        for (ring, stretch) in rings.iter_mut().zip(cut_alike(&stretches)) {
+            ring.extend_from_slice(&stretch[..stretch.len() - 1]);
+        }
+    }
+    Ok(rings)
+}
+
+/// Open lines of all sizes with a vertex at every share of their length at which one of them has one.
+fn cut_alike(lines: &[Vec<V2>]) -> Vec<Vec<V2>> {
+    if lines.iter().all(|line| line.len() == lines[0].len()) {
+        return lines.to_vec();
+    }
+    let Some(curves) = lines.iter().map(|line| Polyline::new(line.clone())).collect::<Option<Vec<_>>>() else {
+        return lines.to_vec();
+    };
+    let inner = curves.iter().enumerate().flat_map(|(size, curve)| {
+        let arcs = curve.arcs();
+        arcs[1..arcs.len() - 1].iter().map(move |arc| (arc / curve.length(), size))
+    });
+    let mut all: Vec<(f64, usize)> = inner.collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let same = SAME_PLACE_M / curves.iter().map(Polyline::length).fold(SAME_PLACE_M, f64::max);
+    let mut groups: Vec<Vec<(f64, usize)>> = Vec::new();
+    for vertex in all {
+        let is_near =
+            |group: &Vec<(f64, usize)>| vertex.0 - group[0].0 < same && group.iter().all(|(_, size)| *size != vertex.1);
+        match groups.last_mut().filter(|group| is_near(group)) {
+            Some(group) => group.push(vertex),
+            None => groups.push(vec![vertex]),
+        }
+    }
+    let cut = |(size, curve): (usize, &Polyline)| {
+        let ends = [curve.points()[0], curve.points()[curve.points().len() - 1]];
+        let place = |group: &Vec<(f64, usize)>| {
+            let own = group.iter().find(|(_, of)| *of == size).unwrap_or(&group[0]);
+            curve.at(own.0 * curve.length())
+        };
+        let between = groups.iter().map(place);
+        [ends[0]].into_iter().chain(between).chain([ends[1]]).collect()
+    };
+    curves.iter().enumerate().map(cut).collect()
+}
