@@ -50,8 +50,16 @@ pub enum BodyError {
         /// What cannot be formed, or which measurement is not reached.
         reason: String,
     },
+    /// A file of measurements that cannot be used.
+    #[error("found {found}; accepted: {accepted}")]
+    Measurements {
+        /// What was found.
+        found: String,
+        /// What would be accepted.
+        accepted: String,
+    },
     /// A mesh file that cannot be read.
-    #[error("{format}, {place}: {problem}; accepted: OBJ, PLY or STL with triangles or polygons")]
+    #[error("{format}, {place}: {problem}; accepted: OBJ, PLY, STL or GLB with triangles or polygons")]
     File {
         /// Format of the file.
         format: &'static str,

@@ -35,6 +35,7 @@ pub use model::control::{ControlMesh, Layer, RING, Region};
 pub use model::control_file::{ControlFile, read_control, write_control};
 pub use people::dimension::{Dimension, Measurements};
 pub use people::draw::{person, scores};
+pub use people::foreign::read_foreign;
 pub use people::profile::{Doubt, Mass, percentile, plausibility};
 pub use photo::pictures::{Camera, Pictured, PicturedLevel, from_pictures, picture_height};
 pub use pose::{Pose, pose};

@@ -29,6 +29,7 @@ pub fn run(context: &Context, arguments: &Try) -> Outcome {
         edge_length_m: from_mm(arguments.edge_mm),
         repeat: arguments.repeat,
     };
+    files::make_folder(&arguments.output)?;
     let mut phase_before = String::new();
     let tried = study::attempt(&asked, &mut |phase, share| {
         if phase != phase_before {

@@ -135,7 +135,7 @@ fn refuse_beside_scan(given: &[Given]) -> Result<(), CliError> {
 fn measurements(context: &Context, arguments: &BodyBuild) -> Result<Measurements, CliError> {
     let mut known = match (&arguments.subject, &arguments.measurements) {
         (Some(name), _) => context.workspace()?.subject(name)?,
-        (None, Some(file)) => study::read_measurements(file)?,
+        (None, Some(file)) => study::read_measurements(file, arguments.sex.map(of))?,
         (None, None) => {
             let missing = "say --sex and --stature-mm, or a --subject, or --measurements FILE";
             let sex = arguments.sex.map(of).ok_or_else(|| CliError::Usage(missing.into()))?;

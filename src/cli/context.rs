@@ -42,7 +42,12 @@ impl Context {
 
     /// Opens the workspace.
     pub fn workspace(&self) -> Result<Workspace, CliError> {
-        Ok(Workspace::open(&self.db, self.readonly)?)
+        let is_new = !self.db.exists();
+        let workspace = Workspace::open(&self.db, self.readonly)?;
+        if is_new && self.db.exists() {
+            self.say(format_args!("made a new database: {}", self.db.display()));
+        }
+        Ok(workspace)
     }
 
     /// Says something on standard error, unless asked to be quiet.

@@ -152,7 +152,7 @@ fn tell_report(context: &Context, page: &Path) -> Result<(), CliError> {
 }
 
 /// `reports/STUDY` of the project; without a project, beside the database.
-fn default_folder(context: &Context, study: &str) -> PathBuf {
+pub fn default_folder(context: &Context, study: &str) -> PathBuf {
     let beside = || context.db.parent().map(Path::to_owned).unwrap_or_default();
     project_folder().unwrap_or_else(beside).join("reports").join(study)
 }

@@ -14,7 +14,7 @@ use super::progress::{Progress, label};
 use super::{CliError, End, Outcome, detached, output, pictures, runs};
 use study::{
     JobFilter, JobId, JobRow, JobSpec, Limits, Planned, RunOptions, Selection, SlurmOptions, Stage, Status, Study,
-    StudyError, Table, Value, Workspace,
+    StudyError, Table, Value, Workspace, files,
 };
 
 /// Time between two looks at the running jobs.
@@ -37,10 +37,16 @@ pub fn run(context: &Context, arguments: &Arguments) -> Outcome {
     let mut study = context.study(&workspace, path)?;
     study.limit(Limits { time_s: arguments.limits.time_limit, memory_mb: arguments.limits.memory_limit });
     let selection = selection(&arguments.part);
+    if arguments.moved {
+        workspace.move_study(&study)?;
+    }
     if arguments.dry_run {
         let planned = workspace.plan(&study, &selection)?;
         context.print(&plan_table(&planned))?;
         return Ok(End::Done);
+    }
+    if !arguments.no_report {
+        files::make_folder(&pictures::default_folder(context, &study.name))?;
     }
     let workers = arguments.workers.map(usize::from);
     if arguments.detach {

@@ -12,7 +12,7 @@ use crate::patterns::{self, Unit};
 use crate::run::outcome::{Measured, Outcome};
 use crate::run::pipeline::{Fitting, Meshes};
 use crate::seams::{self, Question};
-use crate::spec::file::{read_fabric, read_measurements};
+use crate::spec::file::{holds_measurements, read_fabric, read_measurements};
 use crate::spec::parameters::Parameters;
 use crate::spec::versions::FIELD_SPACING_M;
 use body::Body;
@@ -36,7 +36,7 @@ const PICTURE: [u32; 2] = [480, 800];
 /// What is to be tried on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attempt {
-    /// A mesh (OBJ, PLY, STL) or measurements (TOML).
+    /// A mesh (OBJ, PLY, STL, GLB) or measurements (TOML, SeamlyMe, Valentina, GarmentCode).
     pub body: PathBuf,
     /// Unit of the mesh, where it cannot be told from its height.
     pub body_unit: Option<LengthUnit>,
@@ -320,8 +320,8 @@ fn fabric(name: &str) -> Result<Fabric> {
 }
 
 fn body(asked: &Attempt, notes: &mut Vec<String>) -> Result<Body> {
-    if asked.body.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
-        return bodies::build_body(&read_measurements(&asked.body)?);
+    if holds_measurements(&asked.body) {
+        return bodies::build_body(&read_measurements(&asked.body, asked.sex)?);
     }
     let source = SourceFile::read(&asked.body)?;
     let scan = bodies::read_scan(&source, asked.body_unit, asked.sex)?;

@@ -52,6 +52,21 @@ pub enum StudyError {
         /// What is wrong with each value.
         problems: Vec<String>,
     },
+    /// A study whose name is that of one in another folder.
+    #[error(
+        "study `{name}`: found in {}, and its results are kept for {}; accepted: another name in the study file, a database \
+         of its own (--db PATH), or --moved where it is the same study in a new place",
+        found.display(),
+        stored.display()
+    )]
+    HomeTaken {
+        /// Name of the study.
+        name: String,
+        /// The study file that the results are kept for.
+        stored: PathBuf,
+        /// The study file that was found.
+        found: PathBuf,
+    },
     /// A new entry of a name that is taken.
     #[error("there is a {what} `{name}` already; edit it, or take another name")]
     Exists {

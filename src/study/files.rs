@@ -49,25 +49,38 @@ impl SourceFile {
         Ok(Self { name: name_of(path), bytes: bytes.into() })
     }
 
-    /// Reads a pattern: a file, or all DXF files that lie in a folder, by name.
+    /// Reads a pattern: a file, or all DXF files that lie in a folder, by name; of a folder without any the one JSON file that
+    /// is a pattern, whatever it is called.
     ///
     /// # Errors
-    /// When it cannot be read, or the folder has no DXF file.
+    /// When it cannot be read, or the folder has no DXF file and not just one pattern as JSON.
     pub fn read_pattern(path: &Path) -> Result<Self> {
         if !path.is_dir() {
             return Self::read(path);
         }
-        let mut files: Vec<PathBuf> = Vec::new();
+        let ends_in = |file: &Path, ending: &str| {
+            file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(ending))
+        };
+        let (mut files, mut json): (Vec<PathBuf>, Vec<Self>) = (Vec::new(), Vec::new());
         for entry in std::fs::read_dir(path).map_err(StudyError::io(path))? {
             let file = entry.map_err(StudyError::io(path))?.path();
-            if file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("dxf")) {
+            if ends_in(&file, "dxf") {
                 files.push(file);
+            } else if ends_in(&file, "json") {
+                let read = Self::read(&file)?;
+                json.extend(source::is_json_pattern(&read.bytes).then_some(read));
             }
         }
         files.sort();
         if files.is_empty() {
-            let message =
-                format!("{}: a folder without a DXF file; accepted: one piece or more a file", path.display());
+            if json.len() == 1 {
+                return Ok(json.swap_remove(0));
+            }
+            let message = format!(
+                "{}: a folder with no DXF file and {} patterns as JSON; accepted: DXF files, or one pattern as JSON",
+                path.display(),
+                json.len()
+            );
             return Err(StudyError::stage("pattern")(message));
         }
         let mut bytes = Vec::new();
@@ -117,6 +130,17 @@ fn split_zero(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     Some((&bytes[..at], &bytes[at + 1..]))
 }
 
+/// Makes a folder, or finds out that it cannot be written, before hours are spent on what goes there.
+///
+/// # Errors
+/// When it cannot be made, or no file can be made in it.
+pub fn make_folder(folder: &Path) -> Result<()> {
+    std::fs::create_dir_all(folder).map_err(StudyError::io(folder))?;
+    let probe = folder.join(format!(".toile-{}", std::process::id()));
+    std::fs::write(&probe, []).map_err(StudyError::io(folder))?;
+    std::fs::remove_file(&probe).map_err(StudyError::io(&probe))
+}
+
 /// Writes files into a folder, which is made where it is missing; returns their paths.
 ///
 /// # Errors
@@ -136,6 +160,19 @@ pub fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<Vec<Pat
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_folder_of_another_program_is_its_one_pattern() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("writable");
+        write("anything.json", "{\"pattern\": {\"panels\": {}}}");
+        write("design.json", "{\"design\": 1}");
+        write("body.yaml", "body:");
+        assert_eq!(SourceFile::read_pattern(folder.path()).expect("one pattern").name, "anything.json");
+        write("another.json", "{\"pattern\": {\"panels\": {}}}");
+        let told = SourceFile::read_pattern(folder.path()).expect_err("two").to_string();
+        assert!(told.contains("2 patterns as JSON"), "{told}");
+    }
 
     #[test]
     fn a_folder_is_its_dxf_files_by_name() {

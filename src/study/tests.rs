@@ -172,6 +172,27 @@ fn patient(open: Arc<AtomicBool>) -> impl Executor + Send {
 }
 
 #[test]
+fn a_study_of_the_same_name_in_another_folder_is_refused_until_it_is_said_to_have_moved() {
+    let mut bench = Bench::new();
+    let folders = [tempfile::tempdir().expect("a folder"), tempfile::tempdir().expect("a folder")];
+    let of = |k: usize| {
+        let path = folders[k].path().join("study.toml");
+        std::fs::write(&path, "").expect("writable");
+        Study { path, ..study(0.1) }
+    };
+    let all = Selection::default();
+    bench.workspace.queue(&of(0), &all).expect("the first of its name");
+    bench.workspace.queue(&of(0), &all).expect("the same again");
+    let told = bench.workspace.queue(&of(1), &all).expect_err("another folder").to_string();
+    assert!(told.contains("study `tops`") && told.contains("--moved"), "{told}");
+    bench.workspace.move_study(&of(1)).expect("writable");
+    bench.workspace.queue(&of(1), &all).expect("it has moved");
+    // A folder that is gone has moved, too.
+    std::fs::remove_file(folders[1].path().join("study.toml")).expect("writable");
+    bench.workspace.queue(&of(0), &all).expect("nothing is there any more");
+}
+
+#[test]
 fn a_run_finishes_every_job_once_whatever_the_number_of_workers() {
     let results = [1, 3].map(|workers| {
         let mut bench = Bench::new();

@@ -353,6 +353,14 @@ impl Workspace {
         compose::queue(&mut self.store, study, selection)
     }
 
+    /// Keeps the results of a study for its file in a new place from now on.
+    ///
+    /// # Errors
+    /// When the workspace is read-only.
+    pub fn move_study(&mut self, study: &Study) -> Result<()> {
+        enqueue::move_home(&mut self.store, study)
+    }
+
     /// Why a job was not found in the cache: what differs from the latest earlier job of the same cell.
     ///
     /// # Errors

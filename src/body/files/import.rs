@@ -1,8 +1,8 @@
-//! Bodies from files: OBJ, PLY and STL in any unit and with any axis up, and OBJ back out.
+//! Bodies from files: OBJ, PLY, STL and GLB in any unit and with any axis up, and OBJ back out.
 //!
 //! Importers take bytes. The unit and the upright axis are given, or guessed from the extents and said in the result.
 
-use super::{align, stl};
+use super::{align, glb, stl};
 use crate::BodyError;
 use crate::repair::clean;
 use geom::{TriMesh, V3};
@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 use std::io::Cursor;
 
 /// Most triangles of a mesh: more tell nothing of a body that a tape could read.
-const MOST_TRIANGLES: usize = 1_000_000;
+pub(super) const MOST_TRIANGLES: usize = 1_000_000;
 
 /// Unit of the coordinates of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -86,6 +86,8 @@ fn read(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     }
     let mesh = if bytes.starts_with(b"ply") {
         read_ply(bytes)?
+    } else if bytes.starts_with(glb::MAGIC) {
+        glb::read(bytes)?
     } else if stl::is_stl(bytes) {
         stl::read(bytes)?
     } else {
@@ -104,7 +106,7 @@ fn read(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     Ok(mesh)
 }
 
-fn too_many(count: usize) -> BodyError {
+pub(super) fn too_many(count: usize) -> BodyError {
     let problem = format!("{count} faces, at most {MOST_TRIANGLES} are taken: thin the scan out");
     file_error("mesh", "whole file", &problem)
 }

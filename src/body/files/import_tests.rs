@@ -31,6 +31,59 @@ fn every_format_and_unit_gives_the_same_body() {
     check(write_obj(&scaled(&block(), 1.0 / 0.0254)).as_bytes(), LengthUnit::Inch);
 }
 
+/// The block as a GLB with y up, hung from a node that scales it.
+fn glb() -> Vec<u8> {
+    let mesh = block();
+    let mut data: Vec<u8> = Vec::new();
+    for p in &mesh.positions {
+        [p.x, p.z, -p.y].into_iter().for_each(|c| data.extend((c as f32 / 2.0).to_le_bytes()));
+    }
+    let places = data.len();
+    mesh.triangles.iter().flatten().for_each(|index| data.extend((*index as u16).to_le_bytes()));
+    let json = serde_json::json!({
+        "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0] }],
+        "nodes": [{ "scale": [2.0, 2.0, 2.0], "children": [1] }, { "mesh": 0 }],
+        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "indices": 1 }] }],
+        "accessors": [
+            { "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, -1], "max": [1, 1, 1] },
+            { "bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR" }
+        ],
+        "bufferViews": [
+            { "buffer": 0, "byteLength": places }, { "buffer": 0, "byteOffset": places, "byteLength": 24 }
+        ],
+        "buffers": [{ "byteLength": data.len() }]
+    });
+    let mut json = json.to_string().into_bytes();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    data.resize(data.len().next_multiple_of(4), 0);
+    let chunk = |kind: &[u8], bytes: &[u8]| [&(bytes.len() as u32).to_le_bytes()[..], kind, bytes].concat();
+    let body = [chunk(b"JSON", &json), chunk(b"BIN\0", &data)].concat();
+    [b"glTF", &2u32.to_le_bytes()[..], &(body.len() as u32 + 12).to_le_bytes()[..], &body].concat()
+}
+
+#[test]
+fn a_glb_is_read_where_its_nodes_put_it() {
+    let imported = import(&glb(), None).expect("a good file");
+    assert_eq!((imported.unit, imported.mesh.triangles.len()), (LengthUnit::Metre, 4));
+    assert!((imported.mesh.volume() - block().volume()).abs() < 1e-6);
+    assert!(imported.notes.iter().any(|note| note.contains("y up")), "{:?}", imported.notes);
+}
+
+#[test]
+fn a_damaged_glb_is_refused_without_a_panic() {
+    let whole = glb();
+    for end in 0..whole.len() {
+        let _ = import(&whole[..end], None);
+    }
+    for at in 12..whole.len() {
+        for byte in [0, 0x30, 0x39, 0x7f, 0xff] {
+            let mut damaged = whole.clone();
+            damaged[at] = byte;
+            let _ = import(&damaged, None);
+        }
+    }
+}
+
 #[test]
 fn turned_and_inverted_bodies_are_righted_and_said() {
     let mut mesh = block();

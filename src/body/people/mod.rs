@@ -2,5 +2,6 @@
 
 pub mod dimension;
 pub mod draw;
+pub mod foreign;
 pub mod profile;
 pub mod survey;

@@ -22,7 +22,7 @@ pub struct Scan {
     pub girths: Girths,
 }
 
-/// Reads and measures a body scan (OBJ, PLY or STL) of any orientation; the unit is given or told from the height, the
+/// Reads and measures a body scan (OBJ, PLY, STL or GLB) of any orientation; the unit is given or told from the height, the
 /// sex places the waist.
 ///
 /// # Errors

@@ -18,7 +18,7 @@ pub enum TrySimulator {
 /// Arguments of `try`.
 #[derive(Debug, Args)]
 pub struct Try {
-    /// Body: a mesh or scan (OBJ, PLY, STL), or TOML with the measurements of a study's [[subject]].
+    /// Body: a mesh or scan (OBJ, PLY, STL, GLB), or measurements (TOML as of a [[subject]], .smis, .vit, GarmentCode .yaml).
     #[arg(long, value_name = "FILE")]
     pub body: PathBuf,
     /// Unit of the mesh; by default told from its height.

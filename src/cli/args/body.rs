@@ -45,7 +45,7 @@ impl From<MeshUnit> for bodies::LengthUnit {
 /// Commands on bodies.
 #[derive(Debug, Subcommand)]
 pub enum Body {
-    /// Measure any upright body mesh (OBJ, PLY, STL).
+    /// Measure any upright body mesh (OBJ, PLY, STL, GLB).
     Measure {
         /// Mesh file.
         file: PathBuf,
@@ -60,7 +60,7 @@ pub enum Body {
     Build(Box<BodyBuild>),
     /// Put a body into another pose: arms raised or lowered, legs spread.
     Pose {
-        /// Scan or mesh (OBJ, PLY, STL), also body.obj of `body build`.
+        /// Scan or mesh (OBJ, PLY, STL, GLB), also body.obj of `body build`.
         file: PathBuf,
         /// Angle of the upper arms from the vertical, degrees.
         #[arg(long, value_name = "N", required_unless_present = "leg_deg")]
@@ -94,7 +94,7 @@ pub struct BodyBuild {
     /// Sex.
     #[arg(long, value_enum, required_unless_present_any = ["subject", "measurements", "scan"])]
     pub sex: Option<Sex>,
-    /// TOML file with the measurements of a study's [[subject]].
+    /// Measurements: TOML as of a study's [[subject]], SeamlyMe (.smis), Valentina (.vit) or GarmentCode (.yaml, .json).
     #[arg(long, value_name = "FILE", conflicts_with = "subject")]
     pub measurements: Option<PathBuf>,
     #[command(flatten)]
@@ -105,7 +105,7 @@ pub struct BodyBuild {
     /// Side picture, the subject facing its right.
     #[arg(long, value_name = "IMAGE", requires = "front")]
     pub side: Option<PathBuf>,
-    /// Scan (OBJ, PLY, STL): cleaned, it becomes the body itself.
+    /// Scan (OBJ, PLY, STL, GLB): cleaned, it becomes the body itself.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["subject", "measurements", "front"])]
     pub scan: Option<PathBuf>,
     /// Unit of the scan; by default told from its height.

@@ -156,6 +156,9 @@ pub struct Run {
     /// Write no report.
     #[arg(long)]
     pub no_report: bool,
+    /// The study is the same as the one of its name in another folder: it has moved here.
+    #[arg(long)]
+    pub moved: bool,
     /// Run in the background; a lost connection does not end it.
     #[arg(long, conflicts_with_all = ["dry_run", "attach"])]
     pub detach: bool,

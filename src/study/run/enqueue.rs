@@ -1,11 +1,12 @@
 //! Bringing the queue in line with a study: a job for every cell whose inputs are new, and the reason for each.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
 
-use rusqlite::{OptionalExtension, Transaction, params};
+use rusqlite::{Connection, OptionalExtension, Transaction, params};
 
 use crate::catalogue::{self, By};
-use crate::error::Result;
+use crate::error::{Result, StudyError};
 use crate::rows::{JobId, Status};
 use crate::spec::file::Study;
 use crate::spec::inputs::{Change, Inputs};
@@ -116,9 +117,30 @@ fn chain(transaction: &Transaction<'_>, planned: &[Planned]) -> Result<()> {
     Ok(())
 }
 
+/// Where a study file lies.
+fn home_of(study: &Study) -> PathBuf {
+    study.path.canonicalize().unwrap_or_else(|_| study.path.clone())
+}
+
+/// The study file that the results of a study are kept for.
+fn stored_home(connection: &Connection, name: &str) -> Result<Option<PathBuf>> {
+    let path = connection.query_row("SELECT path FROM study WHERE name = ?", [name], |row| row.get::<_, String>(0));
+    Ok(path.optional()?.map(PathBuf::from))
+}
+
+/// Keeps the results of a study for its file in a new place from now on.
+pub(crate) fn move_home(store: &mut Store, study: &Study) -> Result<()> {
+    let path = home_of(study);
+    store.writer()?.execute("UPDATE study SET path = ? WHERE name = ?", params![path.to_string_lossy(), study.name])?;
+    Ok(())
+}
+
 /// Brings the study's own row and the order of its axes up to date.
 pub(crate) fn store_study(transaction: &Transaction<'_>, study: &Study) -> Result<i64> {
-    let path = study.path.canonicalize().unwrap_or_else(|_| study.path.clone());
+    let path = home_of(study);
+    if let Some(stored) = stored_home(transaction, &study.name)?.filter(|stored| *stored != path && stored.exists()) {
+        return Err(StudyError::HomeTaken { name: study.name.clone(), stored, found: path });
+    }
     let study_id = transaction.query_row(
         "INSERT INTO study (name, path, tight_below_mm, loose_above_mm, updated_at) VALUES (?, ?, ?, ?, ?)
             ON CONFLICT (name) DO UPDATE SET path = excluded.path, tight_below_mm = excluded.tight_below_mm,
@@ -326,7 +348,7 @@ pub fn inputs(store: &Store, id: JobId) -> Result<Inputs> {
 }
 
 /// The stored inputs of a job.
-pub(crate) fn inputs_of(connection: &rusqlite::Connection, id: JobId) -> Result<Inputs> {
+pub(crate) fn inputs_of(connection: &Connection, id: JobId) -> Result<Inputs> {
     let mut statement = connection.prepare_cached("SELECT name, value FROM job_input WHERE job_id = ?")?;
     let inputs = statement.query_map([id.0], |row| Ok((row.get(0)?, row.get(1)?)))?;
     Ok(inputs.collect::<rusqlite::Result<_>>()?)

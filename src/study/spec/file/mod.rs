@@ -14,7 +14,7 @@
 //! like = "male-ii"                  # an entry of the catalogue, or its own measurements:
 //! # sex = "male", stature_mm = 1690, weight_kg = 53, chest_girth_mm = 863, waist_girth_mm = 782,
 //! # hip_girth_mm = 914, neck_girth_mm = 378, across_shoulder_mm = 429
-//! # or a scan (OBJ, PLY, STL) that is the body: scan = "scans/ii.ply", sex = "male", unit = "mm"
+//! # or a scan (OBJ, PLY, STL, GLB) that is the body: scan = "scans/ii.ply", sex = "male", unit = "mm"
 //!
 //! [[garment]]
 //! name = "tshirt"
@@ -59,11 +59,11 @@ mod values;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::error::{Problem, Result, StudyError};
+use crate::error::{InFile, Problem, Result, StudyError};
 pub use crate::files::SourceFile;
 use crate::spec::parameters::Parameters;
 use crate::spec::{Limits, Schedule};
-use body::{LengthUnit, Measurements};
+use body::{LengthUnit, Measurements, Sex};
 use fit::{Cuts, Simulator};
 use sim::Fabric;
 
@@ -81,7 +81,7 @@ pub struct Subject {
 /// A body scan of a study.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct ScanFile {
-    /// OBJ, PLY or STL.
+    /// OBJ, PLY, STL or GLB.
     pub file: SourceFile,
     /// Unit of the file; told from its height where it is not given.
     pub unit: Option<LengthUnit>,
@@ -264,13 +264,26 @@ pub(crate) fn measurements(path: &Path, text: &str) -> Result<Measurements> {
     parse::measurements_file(path, text).map_err(StudyError::File)
 }
 
-/// Measurements from a TOML file with those of a study's `[[subject]]`.
+/// Whether a file holds measurements by its ending, and no mesh.
+pub(crate) fn holds_measurements(path: &Path) -> bool {
+    ["toml", "smis", "vit", "yaml", "yml", "json"]
+        .iter()
+        .any(|ending| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(ending)))
+}
+
+/// Measurements from a TOML file with those of a study's `[[subject]]`, or as SeamlyMe, Valentina and GarmentCode keep them;
+/// `sex` where such a file does not say.
 ///
 /// # Errors
 /// Everything that is wrong with the file, at once.
-pub fn read_measurements(path: &Path) -> Result<Measurements> {
-    let text = std::fs::read_to_string(path).map_err(StudyError::io(path))?;
-    measurements(path, &text)
+pub fn read_measurements(path: &Path, sex: Option<Sex>) -> Result<Measurements> {
+    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
+        let text = std::fs::read_to_string(path).map_err(StudyError::io(path))?;
+        return measurements(path, &text);
+    }
+    let source = SourceFile::read(path)?;
+    let in_file = |error| StudyError::stage("body")(InFile { file: source.name.clone(), source: error });
+    body::read_foreign(&source.bytes, sex).map_err(in_file)
 }
 
 /// A fabric from a TOML file with what stands under a study's `[[fabric]]`.
