@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::ask::Asker;
-use super::recognise::{Recognised, is_whole_leg};
+use super::recognise::{Recognised, is_whole_leg, length_m};
 use super::worn::{self, id_of};
 use super::{Class, Face, Hand, Label, names, sew};
 use crate::piece::Piece;
@@ -175,10 +175,4 @@ fn waist_m(chosen: &[Recognised]) -> f64 {
         .into_iter()
         .find(|(class, _)| chosen.iter().any(|one| one.class == *class))
         .map_or(0.0, |(class, label)| of(class, label))
-}
-
-/// Length of what a piece calls so, darts closed, m.
-fn length_m(one: &Recognised, label: Label) -> f64 {
-    let parts = one.alignment.parts.iter().filter(|part| part.label == label);
-    parts.map(|part| one.shape.sewn_length(part.from, part.span)).sum()
 }

@@ -48,6 +48,9 @@ use super::garment::Role;
 use super::piece::Piece;
 use super::seams::SeamEntry;
 
+/// Gain in the sum of confidences for which pieces without a name are read in an unusual way: about one seam.
+const SURER: f64 = 1.0;
+
 /// Kind of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -362,6 +365,23 @@ pub fn propose_answered(pieces: &[Piece], given: &[(usize, char)]) -> Result<Pro
     Ok(proposal)
 }
 
+/// What pieces without a name may be: that under which most seams are sure.
+fn kinds_of_nameless(pieces: &[Piece], is_detail: impl Fn(&Piece) -> bool, asker: &Asker<'_>) -> &'static [Class] {
+    let sum = |kinds: &'static [Class]| -> f64 {
+        let recognised = recognise::recognise(pieces, &is_detail, kinds, &mut asker.aside());
+        let chosen = choose::choose(pieces, recognised, &mut asker.aside());
+        let worn = worn::worn(pieces, &chosen, None, &mut asker.aside());
+        sew::sew(&worn, &mut asker.aside()).iter().map(|seam| seam.confidence).sum()
+    };
+    let is_nameless = |piece: &Piece| names::read(piece.words()) == names::Named::default() && !is_detail(piece);
+    if !pieces.iter().any(is_nameless) {
+        return recognise::NAMELESS[0];
+    }
+    let sums = recognise::NAMELESS.map(|kinds| (sum(kinds), kinds));
+    let [first, rest @ ..] = sums;
+    rest.into_iter().fold(first, |best, other| if other.0 > best.0 + SURER { other } else { best }).1
+}
+
 fn with_answers(pieces: &[Piece], answers: &Answers) -> Proposal {
     let told = told::told(pieces);
     let pieces = told.as_slice();
@@ -377,7 +397,8 @@ fn with_answers(pieces: &[Piece], answers: &Answers) -> Proposal {
             details.join(", ")
         ));
     }
-    let recognised = recognise::recognise(pieces, is_detail, &mut asker);
+    let nameless = kinds_of_nameless(pieces, is_detail, &asker);
+    let recognised = recognise::recognise(pieces, is_detail, nameless, &mut asker);
     let mut recognised = choose::choose(pieces, recognised, &mut asker);
     lengths::settle(pieces, &mut recognised, &asker);
     // Which sleeve is drawn shows only once its notches are laid beside those of the armhole.

@@ -80,7 +80,14 @@ struct Around {
     is_raglan: bool,
     /// No piece is called the front or the back of a leg.
     has_lone_leg: bool,
+    /// What pieces may be whose names say nothing.
+    nameless: &'static [Class],
 }
+
+/// What pieces may be whose names say nothing, in the order in which equals count. Bands and skirts are rectangles, and so is
+/// anything: skirts are tried where sleeves leave something over.
+pub const NAMELESS: [&[Class]; 2] =
+    [&[Class::Body, Class::Leg, Class::Sleeve], &[Class::Body, Class::Leg, Class::Skirt]];
 
 /// What a piece is taken for before its outline is read, because of others.
 #[derive(Clone, Copy)]
@@ -103,7 +110,12 @@ pub fn is_detail(piece: &Piece, largest_m2: f64) -> bool {
 }
 
 /// Recognises pieces; those that are left out have a question each, except what needs no seam of ours.
-pub fn recognise(pieces: &[Piece], is_detail: impl Fn(&Piece) -> bool, asker: &mut Asker<'_>) -> Vec<Recognised> {
+pub fn recognise(
+    pieces: &[Piece],
+    is_detail: impl Fn(&Piece) -> bool,
+    nameless: &'static [Class],
+    asker: &mut Asker<'_>,
+) -> Vec<Recognised> {
     let mut found: Vec<Recognised> = Vec::new();
     let is_called = |piece: &Piece, class: Class| names::read(piece.words()).class == Some(class);
     let [has_sleeve, has_yoke] =
@@ -114,7 +126,7 @@ pub fn recognise(pieces: &[Piece], is_detail: impl Fn(&Piece) -> bool, asker: &m
     let has_lone_leg = !pieces.iter().any(is_leg_face);
     for are_yokes in [false, true] {
         let has_trunk = found.iter().any(|one| one.class == Class::Body);
-        let around = Around { has_sleeve, has_yoke, has_trunk, is_raglan, has_lone_leg };
+        let around = Around { has_sleeve, has_yoke, has_trunk, is_raglan, has_lone_leg, nameless };
         for (index, piece) in pieces.iter().enumerate() {
             if is_called(piece, Class::Yoke) == are_yokes && !is_detail(piece) {
                 let pair = pair.filter(|_| is_nameless_face(piece));
@@ -134,6 +146,7 @@ pub fn recognise(pieces: &[Piece], is_detail: impl Fn(&Piece) -> bool, asker: &m
         tell_faces(class, &mut found);
     }
     tell_yoke_faces(&mut found);
+    tell_skirt_faces(&mut found);
     let skirts = found.iter().filter(|one| one.class == Class::Skirt).count();
     for one in &mut found {
         // A single piece may go all round, as gores do.
@@ -241,8 +254,7 @@ fn recognise_one(
         (None, _) if around.has_sleeve && class == Class::Leg => false,
         (None, _) if around.has_sleeve && around.has_yoke && class == Class::Skirt => false,
         (None, Some(_)) => matches!(class, Class::Body | Class::Leg | Class::Skirt),
-        // Bands and skirts are rectangles: so is anything.
-        (None, None) => matches!(class, Class::Body | Class::Leg | Class::Sleeve),
+        (None, None) => around.nameless.contains(&class),
     };
     // A sleeve that is called front or back is half of one.
     let is_half_sleeve = named.face.is_some();
@@ -401,6 +413,34 @@ fn tell_faces(class: Class, found: &mut [Recognised]) {
         }
         _ => {}
     }
+}
+
+/// Tells the front of a skirt from its back, where nothing else does, by the waists of what they hang from.
+fn tell_skirt_faces(found: &mut [Recognised]) {
+    let of = |face: Face| {
+        let is_it = |one: &&Recognised| one.class == Class::Body && one.face == Some(face);
+        Some(length_m(found.iter().find(is_it)?, Label::Hem))
+    };
+    let skirts: Vec<usize> =
+        (0..found.len()).filter(|&i| found[i].class == Class::Skirt && found[i].gore.is_none()).collect();
+    let &[one, other] = skirts.as_slice() else { return };
+    let (Some(front), Some(back)) = (of(Face::Front), of(Face::Back)) else { return };
+    if found[one].face.is_some() || found[other].face.is_some() {
+        return;
+    }
+    let waist = |i: usize| length_m(&found[i], Label::Waist);
+    let apart = |a: usize, b: usize| (waist(a) - front).abs() + (waist(b) - back).abs();
+    let order = if apart(other, one) < apart(one, other) { [other, one] } else { [one, other] };
+    for (index, face) in order.into_iter().zip(Face::BOTH) {
+        found[index].face = Some(face);
+        found[index].confidence *= COMPARED;
+    }
+}
+
+/// Length of what a piece calls so, darts closed, m.
+pub fn length_m(one: &Recognised, label: Label) -> f64 {
+    let parts = one.alignment.parts.iter().filter(|part| part.label == label);
+    parts.map(|part| one.shape.sewn_length(part.from, part.span)).sum()
 }
 
 /// A yoke that its name does not place is sewn to what has no shoulders, the back first.
