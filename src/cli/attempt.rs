@@ -20,6 +20,7 @@ pub fn run(context: &Context, arguments: &Try) -> Outcome {
         seams: arguments.seams.clone(),
         size: arguments.size.clone(),
         unit: arguments.unit.map(Unit::from),
+        allowance_m: from_mm(arguments.allowance_mm),
         answers: arguments.answer.clone(),
         simulator: match arguments.sim {
             TrySimulator::Fem => Simulator::Fem,

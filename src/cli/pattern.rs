@@ -10,7 +10,7 @@ use super::{CliError, End, Outcome, output, pattern_files};
 use geom::units::{from_mm, mm};
 use study::patterns::{self, FileReport, Finding, Model, Unit};
 use study::seams::pattern_files::{Standard, inspect as inspect_files};
-use study::seams::{self, CHECK_EDGE_MM, SeamEdit, SizeCheck};
+use study::seams::{self, Asking, CHECK_EDGE_MM, SeamEdit, SizeCheck};
 use study::{Table, Value, files};
 
 /// Runs a pattern command.
@@ -20,9 +20,10 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
             let reports = inspect_files(path, &pattern_files::beside(files))?;
             inspect(context, &reports, if *by_file { outcomes } else { pieces })
         }
-        Pattern::Propose { path, size, unit, answer, ask, output } => {
+        Pattern::Propose { path, size, unit, allowance_mm, answer, ask, output } => {
             let proposed = |answers: &[(usize, char)]| {
-                seams::propose(path, size.as_deref(), unit.map(Unit::from), answers).map_err(CliError::from)
+                let (size, unit, allowance_m) = (size.as_deref(), unit.map(Unit::from), from_mm(*allowance_mm));
+                seams::propose(path, &Asking { size, unit, allowance_m, answers }).map_err(CliError::from)
             };
             let proposed = if *ask { questions::ask(answer.clone(), proposed)? } else { proposed(answer)? };
             propose(context, path, &proposed, output.as_deref())

@@ -1,5 +1,6 @@
 //! The pattern (PDM, thesis 3.3): from DXF and a seam file to a sewable garment mesh and its pattern lengths.
 
+pub mod allowance;
 pub mod arrange;
 pub mod check;
 mod curve;

@@ -4,6 +4,7 @@
 //! name = "T-shirt"                          # style name
 //! size = "M"                                # size that the file was made on (optional)
 //! length_tolerance_mm = 1.0                 # greatest difference between the two sides of a seam (optional)
+//! allowance_mm = 10.0                       # how far inside the cut line is sewn, where the pieces have no sew line (optional)
 //! open = ["back.neck"]                      # edges that stay free besides those that are measured along (optional)
 //!
 //! [piece.front]                             # pieces by the id used below
@@ -11,6 +12,7 @@
 //! role = "front"                            # front, back, sleeve_right, leg_front_left, bodice_front, other ...
 //! mirror = false                            # true: worn as the mirror image of what is drawn (optional)
 //! corners_at = [[0, 0], [1, 0.02], ...]      # where the corners lie, shares of width and height (optional)
+//! allowance_mm = { hem = 30.0 }             # allowances of edges that have another (optional)
 //! edges.hem = [0, 1]                        # an edge: from corner to corner, counter-clockwise as drawn
 //! edges.side_left = [1, 2]
 //!
@@ -109,6 +111,9 @@ pub struct SeamFile {
     /// Greatest difference of length between the two sides of a seam, mm.
     #[serde(default = "default_tolerance")]
     pub length_tolerance_mm: f64,
+    /// Seam allowance of pieces whose file has only the cut line, mm.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub allowance_mm: f64,
     /// Edges, `piece.edge`, that are meant to be in no seam; those that a measurement runs along need not be named.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub open: Vec<String>,
@@ -141,6 +146,11 @@ impl SeamFile {
     }
 }
 
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
 fn default_tolerance() -> f64 {
     DEFAULT_LENGTH_TOLERANCE_MM
 }
@@ -160,6 +170,9 @@ pub struct PieceEntry {
     /// the size that the file was made on; where there are none, the corners of each size count.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub corners_at: Vec<[f64; 2]>,
+    /// Seam allowance of edges by name, mm, where it is not that of the file.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub allowance_mm: BTreeMap<String, f64>,
     /// Edges by name: first and last corner, counter-clockwise as drawn.
     pub edges: BTreeMap<String, [usize; 2]>,
 }

@@ -50,6 +50,8 @@ pub struct Attempt {
     pub size: Option<String>,
     /// Unit of the pattern, where its file names none.
     pub unit: Option<Unit>,
+    /// Seam allowance of pieces without a sew line, m, where there is no seam file.
+    pub allowance_m: f64,
     /// Answers to the questions of a proposal: number and letter.
     pub answers: Vec<(usize, char)>,
     /// Simulator.
@@ -336,7 +338,9 @@ fn style(asked: &Attempt, notes: &mut Vec<String>) -> Result<Style> {
         return patterns::style(&asked.pattern, asked.seams.as_deref(), size, asked.unit);
     }
     let pattern = SourceFile::read_pattern(&asked.pattern)?;
-    let (proposal, pieces) = seams::proposal(&pattern, size, asked.unit, &asked.answers)?;
+    let (unit, allowance_m) = (asked.unit, asked.allowance_m);
+    let how = seams::Asking { size, unit, allowance_m, answers: &asked.answers };
+    let (proposal, pieces) = seams::proposal(&pattern, &how)?;
     let proposal = proposal.to_drape().map_err(|unwearable| {
         StudyError::stage("pattern")(format!(
             "{}: {unwearable}; say --seams FILE (`toile pattern propose -o FILE` writes one to edit)",

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Result, StudyError};
 use crate::files::SourceFile;
+use geom::units::mm;
 use pattern::dxf::PatternFile;
 use pattern::{Garment, Piece, drawing, garmentcode, scale, source};
 
@@ -70,19 +71,44 @@ pub(crate) fn pieces(pattern: &SourceFile, size: Option<&str>, unit: Option<Unit
 }
 
 /// The files of a pattern, which may hold several sizes.
-pub(crate) struct Nest(Vec<PatternFile>);
+pub(crate) struct Nest {
+    files: Vec<PatternFile>,
+    /// Seam allowance of pieces without a sew line, m.
+    allowance_m: f64,
+}
 
 impl Nest {
     /// Reads a file, or all of a folder.
     pub(crate) fn read(pattern: &SourceFile, unit: Option<Unit>) -> Result<Self> {
         let read =
             |part: &SourceFile| source::read(&part.bytes, &part.name, unit).map_err(StudyError::stage("pattern"));
-        Ok(Self(pattern.parts().iter().map(read).collect::<Result<_>>()?))
+        Ok(Self { files: pattern.parts().iter().map(read).collect::<Result<_>>()?, allowance_m: 0.0 })
+    }
+
+    /// The same pattern, sewn so far inside its cut line where it has no sew line.
+    pub(crate) fn with_allowance(self, allowance_m: f64) -> Self {
+        Self { allowance_m, ..self }
+    }
+
+    /// Where its pieces are sewn, in words.
+    pub(crate) fn sewn_along(&self) -> String {
+        let pieces = || self.files.iter().flat_map(|file| &file.pieces);
+        let lined = pieces().filter(|piece| piece.sew_line.is_some()).count();
+        match (lined, self.allowance_m) {
+            (0, 0.0) => "the cut line is sewn: the file has no sew line, and no allowance was said".to_owned(),
+            (0, m) => format!("sewn {} mm inside the cut line", mm(m)),
+            (lined, _) if lined == pieces().count() => "the sew line of the file is sewn".to_owned(),
+            (lined, m) => format!(
+                "{lined} of {} pieces have a sew line; the others are sewn {} mm inside their cut line",
+                pieces().count(),
+                mm(m)
+            ),
+        }
     }
 
     /// The file whose sizes are those of the garment: a file of one size goes with any.
     fn graded(&self) -> Option<&PatternFile> {
-        self.0.iter().find(|file| file.sizes().len() > 1).or(self.0.first())
+        self.files.iter().find(|file| file.sizes().len() > 1).or(self.files.first())
     }
 
     /// Names of the sizes, in the order of the file; `""` where none is named.
@@ -97,15 +123,19 @@ impl Nest {
 
     /// What a person should know of the unit.
     pub(crate) fn unit_remarks(&self) -> impl Iterator<Item = &str> {
-        self.0.iter().filter_map(|file| file.unit_remark.as_deref())
+        self.files.iter().filter_map(|file| file.unit_remark.as_deref())
     }
 
     /// The pieces of a size. A file of one size need not call it so: its pieces are of the size that is asked for.
     pub(crate) fn pieces(&self, size: &str) -> Result<Vec<Piece>> {
         let mut pieces = Vec::new();
-        for file in &self.0 {
+        for file in &self.files {
             let own = Some(size).filter(|_| file.sizes().len() > 1);
             pieces.extend(file.to_sew(own).map_err(StudyError::stage("pattern"))?);
+        }
+        if self.allowance_m != 0.0 {
+            let with = |piece: Piece| piece.with_allowance(self.allowance_m).map_err(StudyError::stage("pattern"));
+            pieces = pieces.into_iter().map(with).collect::<Result<_>>()?;
         }
         if !size.is_empty() {
             pieces.iter_mut().for_each(|piece| piece.size = Some(size.to_owned()));

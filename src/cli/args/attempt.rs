@@ -39,6 +39,9 @@ pub struct Try {
     /// Unit of the pattern, where its file names none.
     #[arg(long, value_enum)]
     pub unit: Option<PatternUnit>,
+    /// Seam allowance of pieces that have no sew line; a seam file says its own.
+    #[arg(long, value_name = "MM", default_value_t = 0.0, conflicts_with = "seams")]
+    pub allowance_mm: f64,
     /// Answer to a question of the proposal, by its number and the letter of the choice; may be given several times.
     #[arg(long, value_name = "N=x", value_parser = super::pattern::answer, conflicts_with = "seams")]
     pub answer: Vec<(usize, char)>,

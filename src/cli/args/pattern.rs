@@ -152,6 +152,9 @@ pub enum Pattern {
         /// Unit of the files, where they name none.
         #[arg(long, value_enum)]
         unit: Option<PatternUnit>,
+        /// Seam allowance of pieces that have no sew line.
+        #[arg(long, value_name = "MM", default_value_t = 0.0)]
+        allowance_mm: f64,
         /// Answer to a question, by its number and the letter of the choice; may be given several times.
         #[arg(long, value_name = "N=x", value_parser = answer)]
         answer: Vec<(usize, char)>,

@@ -261,6 +261,7 @@ fn wear(pieces: &[Piece], one: &Recognised, id: String, hand: Option<Hand>, is_m
             role,
             mirror: is_mirror,
             corners_at: shares(pieces[one.piece].seam_outline(), &corner_vertices(&pieces[one.piece])),
+            allowance_mm: BTreeMap::new(),
             edges: corners,
         },
         edges,

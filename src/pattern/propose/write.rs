@@ -18,6 +18,7 @@ impl Proposal {
             name: name.to_owned(),
             size: self.size.clone(),
             length_tolerance_mm: DEFAULT_LENGTH_TOLERANCE_MM,
+            allowance_mm: self.allowance_mm,
             open: self.open.clone(),
             piece: self.worn.iter().map(|one| (one.id.clone(), one.entry.clone())).collect(),
             seam: self.seams.iter().map(|seam| seam.entry.clone()).collect(),
@@ -42,6 +43,9 @@ impl Proposal {
             let _ = writeln!(text, "size = {}", quoted(size));
         }
         let _ = writeln!(text, "length_tolerance_mm = {DEFAULT_LENGTH_TOLERANCE_MM:.1}");
+        if self.allowance_mm != 0.0 {
+            let _ = writeln!(text, "allowance_mm = {:?}", self.allowance_mm);
+        }
         if !self.open.is_empty() {
             let _ = writeln!(text, "open = [{}]", list(&self.open));
         }

@@ -119,14 +119,27 @@ pub struct Proposed {
     pub desk: Desk,
 }
 
+/// For what a proposal is asked.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Asking<'a> {
+    /// Size that it is made on; by default the sample size.
+    pub size: Option<&'a str>,
+    /// Unit of the files, where they name none.
+    pub unit: Option<Unit>,
+    /// Seam allowance of pieces without a sew line, m.
+    pub allowance_m: f64,
+    /// Answers: number of the question and letter of the choice.
+    pub answers: &'a [(usize, char)],
+}
+
 /// A seam file proposed for the pieces of a DXF file, or of all DXF files in a folder together: on one size, by default the
 /// sample size, and held to the others.
 ///
 /// # Errors
 /// When a file cannot be read, or has no such size; or an answer, by the number of its question and the letter of the choice,
 /// is to nothing that is asked.
-pub fn propose(path: &Path, size: Option<&str>, unit: Option<Unit>, answers: &[(usize, char)]) -> Result<Proposed> {
-    let (proposal, pieces) = proposal(&SourceFile::read_pattern(path)?, size, unit, answers)?;
+pub fn propose(path: &Path, how: &Asking<'_>) -> Result<Proposed> {
+    let (proposal, pieces) = proposal(&SourceFile::read_pattern(path)?, how)?;
     if proposal.is_empty() {
         return Ok(Proposed { proposal, desk: Desk { pieces: Vec::new(), seams: Vec::new() } });
     }
@@ -140,17 +153,14 @@ pub fn propose(path: &Path, size: Option<&str>, unit: Option<Unit>, answers: &[(
 }
 
 /// What is proposed for a pattern, and the pieces of the size that it is made on.
-pub(crate) fn proposal(
-    pattern: &SourceFile,
-    size: Option<&str>,
-    unit: Option<Unit>,
-    answers: &[(usize, char)],
-) -> Result<(Proposal, Vec<Piece>)> {
-    let nest = Nest::read(pattern, unit)?;
-    let size = size.unwrap_or(nest.sample_size());
+pub(crate) fn proposal(pattern: &SourceFile, how: &Asking<'_>) -> Result<(Proposal, Vec<Piece>)> {
+    let nest = Nest::read(pattern, how.unit)?.with_allowance(how.allowance_m);
+    let size = how.size.unwrap_or(nest.sample_size());
     let pieces = nest.pieces(size)?;
-    let mut proposal = propose::propose_answered(&pieces, answers).map_err(StudyError::stage("pattern"))?;
+    let mut proposal = propose::propose_answered(&pieces, how.answers).map_err(StudyError::stage("pattern"))?;
+    proposal.allowance_mm = mm(how.allowance_m);
     proposal.notes.extend(nest.unit_remarks().map(str::to_owned));
+    proposal.notes.push(nest.sewn_along());
     hold_for(&mut proposal, size, nest.others(size));
     Ok((proposal, pieces))
 }

@@ -7,7 +7,7 @@ pub mod workpiece;
 
 pub use check::{CHECK_EDGE_MM, SizeCheck, check_sizes, check_study, findings};
 pub(crate) use desk::proposal;
-pub use desk::{Desk, DeskEdge, DeskPiece, DeskSeam, Proposed, desk, edit_seams, propose};
+pub use desk::{Asking, Desk, DeskEdge, DeskPiece, DeskSeam, Proposed, desk, edit_seams, propose};
 pub use pattern::propose::{Proposal, Question};
 pub use pattern::seam_edit::Edit as SeamEdit;
 pub use workpiece::{DeskLength, LaidOut, SeamStep, Workpiece, seam_home, write_seams};
