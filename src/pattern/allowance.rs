@@ -7,13 +7,13 @@ use geom::polyline::{self_crossing, signed_area};
 use geom::units::mm;
 
 /// Greatest allowance, m: more is a facing.
-pub const GREATEST_M: f64 = 0.1;
+const GREATEST_M: f64 = 0.1;
 /// How far the moved edges are carried on to meet each other, in allowances: a corner of 20 degrees.
 const CARRIED_ON: f64 = 6.0;
 
 /// A closed counter-clockwise line moved inwards, each stretch between two of its vertices `corners` by its own distance, m,
 /// with the places of the corners on it. `None` where it would cross itself or turn inside out.
-pub(crate) fn inset(ring: &[V2], corners: &[usize], distance_m: &[f64]) -> Option<(Vec<V2>, Vec<V2>)> {
+fn inset(ring: &[V2], corners: &[usize], distance_m: &[f64]) -> Option<(Vec<V2>, Vec<V2>)> {
     let (n, count) = (ring.len(), corners.len());
     let carried_m = CARRIED_ON * distance_m.iter().map(|d| d.abs()).fold(0.0, f64::max);
     let moved = |edge: usize| {
@@ -113,7 +113,7 @@ fn crossing([a, b]: [V2; 2], [c, d]: [V2; 2]) -> Option<(f64, f64)> {
 }
 
 /// The place of a closed line that is nearest to a point.
-pub(crate) fn nearest(ring: &[V2], point: V2) -> V2 {
+fn nearest(ring: &[V2], point: V2) -> V2 {
     let on_side = |k: usize| {
         let (a, along) = (ring[k], ring[(k + 1) % ring.len()] - ring[k]);
         a + along * ((point - a).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0)
@@ -129,22 +129,31 @@ impl Piece {
     /// # Errors
     /// A sentence where the piece is too narrow for it, or the allowance is none.
     pub fn with_allowance(mut self, allowance_m: f64) -> Result<Self, String> {
-        if !(0.0..=GREATEST_M).contains(&allowance_m) {
-            return Err(format!("found an allowance of {} mm; accepted: 0 to {} mm", mm(allowance_m), mm(GREATEST_M)));
-        }
         if self.sew_line.is_some() || allowance_m == 0.0 {
             return Ok(self);
         }
         let corners = corner_vertices(&self);
         let corners = if corners.is_empty() { vec![0] } else { corners };
-        let Some((line, places)) = inset(&self.outline, &corners, &vec![allowance_m; corners.len()]) else {
-            let found = format!("found piece `{}` too narrow for an allowance of {} mm", self.name, mm(allowance_m));
+        let distances_m = vec![allowance_m; corners.len()];
+        self.cut_at(&corners, &distances_m)?;
+        Ok(self)
+    }
+
+    /// Gives a piece without one a sew line: so far inside its cut line, m, between each of its vertices `corners` and the next.
+    /// The corners on it are its turn points then, and its notches lie on it.
+    pub(crate) fn cut_at(&mut self, corners: &[usize], distances_m: &[f64]) -> Result<(), String> {
+        if let Some(other) = distances_m.iter().find(|distance| !(0.0..=GREATEST_M).contains(*distance)) {
+            return Err(format!("found an allowance of {} mm; accepted: 0 to {} mm", mm(*other), mm(GREATEST_M)));
+        }
+        let Some((line, places)) = inset(&self.outline, corners, distances_m) else {
+            let most_mm = mm(distances_m.iter().copied().fold(0.0, f64::max));
+            let found = format!("found piece `{}` too narrow for an allowance of {most_mm} mm", self.name);
             return Err(format!("{found}; accepted: less"));
         };
         self.notches.iter_mut().for_each(|notch| notch.at = nearest(&line, notch.at));
         self.turn_points = places;
         self.sew_line = Some(line);
-        Ok(self)
+        Ok(())
     }
 }
 

@@ -130,15 +130,14 @@ impl Nest {
     pub(crate) fn pieces(&self, size: &str) -> Result<Vec<Piece>> {
         let mut pieces = Vec::new();
         for file in &self.files {
-            let own = Some(size).filter(|_| file.sizes().len() > 1);
-            pieces.extend(file.to_sew(own).map_err(StudyError::stage("pattern"))?);
-        }
-        if self.allowance_m != 0.0 {
-            let with = |piece: Piece| piece.with_allowance(self.allowance_m).map_err(StudyError::stage("pattern"));
-            pieces = pieces.into_iter().map(with).collect::<Result<_>>()?;
-        }
-        if !size.is_empty() {
-            pieces.iter_mut().for_each(|piece| piece.size = Some(size.to_owned()));
+            let is_nest = file.sizes().len() > 1;
+            for piece in file.to_sew(is_nest.then_some(size)).map_err(StudyError::stage("pattern"))? {
+                let mut piece = piece.with_allowance(self.allowance_m).map_err(StudyError::stage("pattern"))?;
+                if !is_nest && !size.is_empty() {
+                    piece.size = Some(size.to_owned());
+                }
+                pieces.push(piece);
+            }
         }
         Ok(pieces)
     }

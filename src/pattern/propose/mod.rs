@@ -37,8 +37,7 @@ mod write;
 
 use std::fmt;
 
-use self::ask::Answers;
-use self::ask::Asker;
+use self::ask::{Answers, Asker};
 pub use self::ask::{Question, UnknownAnswer};
 pub(super) use self::pose::{Pose, named_face_and_hand, pose};
 pub use self::seam_kind::SeamKind;

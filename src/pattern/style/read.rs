@@ -1,5 +1,6 @@
 //! Resolving the names of a seam file against the pieces.
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use super::corners::{corner_vertices, cut_edge, mirror_edge, mirrored};
@@ -7,7 +8,6 @@ use super::correspond::corresponding;
 use super::named::called;
 use super::upright;
 use super::{Edge, EdgePoint, EdgeRef, PathPart, Seam, Style, StyleMeasurement, StylePiece, StyleReinforcement};
-use crate::allowance;
 use crate::piece::Piece;
 use crate::seams::{PieceEntry, SeamEntry, SeamFile, Stretch, StyleError};
 use geom::V2;
@@ -136,8 +136,8 @@ impl Reader<'_> {
     fn piece(&self, id: &str, entry: &PieceEntry, drawn: &Piece) -> Result<StylePiece, StyleError> {
         let place = format!("piece `{id}`");
         let corners = self.corners(&place, entry, drawn)?;
-        let (outline, corners) = self.sewn(&place, entry, drawn, corners)?;
-        let outline = outline.as_slice();
+        let (drawn, corners) = self.sewn(&place, entry, drawn, corners)?;
+        let outline = drawn.seam_outline();
         // Corner ranges sorted by their first corner; gaps between them become unnamed edges.
         let mut ranges: Vec<(usize, usize, String)> = Vec::new();
         for (name, &[from, to]) in &entry.edges {
@@ -157,9 +157,6 @@ impl Reader<'_> {
         let mut corner_places: Vec<V2> = corners.iter().map(|&vertex| outline[vertex]).collect();
         let mut grain = drawn.grain.and_then(|[from, to]| (to - from).try_normalize(0.0)).unwrap_or_else(V2::y);
         let mut notches = drawn.notches.clone();
-        if outline.len() != drawn.seam_outline().len() {
-            notches.iter_mut().for_each(|notch| notch.at = allowance::nearest(outline, notch.at));
-        }
         if entry.mirror {
             edges.reverse();
             edges.iter_mut().for_each(mirror_edge);
@@ -188,43 +185,36 @@ impl Reader<'_> {
         })
     }
 
-    /// The line that is sewn and the vertices of its corners: inside the cut line where that is all a piece has and the file says
-    /// an allowance.
-    fn sewn(
+    /// The piece with the line that is sewn, and the vertices of its corners there: inside the cut line where that is all a piece
+    /// has and the file says an allowance.
+    fn sewn<'p>(
         &self,
         place: &str,
         entry: &PieceEntry,
-        drawn: &Piece,
+        drawn: &'p Piece,
         corners: Vec<usize>,
-    ) -> Result<(Vec<V2>, Vec<usize>), StyleError> {
-        let outline = drawn.seam_outline().to_vec();
+    ) -> Result<(Cow<'p, Piece>, Vec<usize>), StyleError> {
         let is_net = self.entries.allowance_mm == 0.0 && entry.allowance_mm.is_empty();
         if is_net || drawn.sew_line.is_some() {
-            return Ok((outline, corners));
+            return Ok((Cow::Borrowed(drawn), corners));
         }
-        let mut distances = vec![from_mm(self.entries.allowance_mm); corners.len()];
+        let mut distances_m = vec![from_mm(self.entries.allowance_mm); corners.len()];
         for (name, &allowance_mm) in &entry.allowance_mm {
             let Some(&[from, to]) = entry.edges.get(name) else {
                 let names: Vec<&String> = entry.edges.keys().collect();
                 return Err(self.unknown(format!("{place}, allowance_mm"), "edge", name, &names));
             };
             let span = (to + corners.len() - from) % corners.len();
-            (0..span).for_each(|k| distances[(from + k) % corners.len()] = from_mm(allowance_mm));
+            (0..span).for_each(|k| distances_m[(from + k) % corners.len()] = from_mm(allowance_mm));
         }
-        let is_allowed = distances.iter().all(|distance| (0.0..=allowance::GREATEST_M).contains(distance));
-        let inset = is_allowed.then(|| allowance::inset(&outline, &corners, &distances)).flatten();
-        let Some((line, places)) = inset else {
-            let found =
-                format!("no room for its allowance, {} mm and {:?}", self.entries.allowance_mm, entry.allowance_mm);
-            return Err(self.contradiction(
-                place.to_owned(),
-                found,
-                "0 to 100 mm, less than half the width".to_owned(),
-            ));
-        };
+        let mut piece = drawn.clone();
+        piece.cut_at(&corners, &distances_m).map_err(|found| {
+            self.contradiction(place.to_owned(), found, "an allowance that the piece has room for".to_owned())
+        })?;
+        let line = piece.seam_outline();
         let vertex = |place: &V2| line.iter().position(|p| (p - place).norm() < 1e-6).unwrap_or(0);
-        let corners = places.iter().map(vertex).collect();
-        Ok((line, corners))
+        let corners = piece.turn_points.iter().map(vertex).collect();
+        Ok((Cow::Owned(piece), corners))
     }
 
     /// Fills the gaps between corner ranges `(from, span, name)` that are sorted by their first corner.

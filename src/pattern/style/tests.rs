@@ -170,3 +170,28 @@ fn pieces_are_set_upright_however_they_lie_in_the_file() {
         }
     }
 }
+
+#[test]
+fn an_allowance_lies_between_the_cut_line_and_what_is_sewn() {
+    let height_mm = |text: &str| {
+        let style = read(text).unwrap_or_else(|error| panic!("{error}"));
+        let front = style.pieces.iter().find(|piece| piece.id == "front").expect("a front").outline();
+        let heights = || front.iter().map(|p| p.y * 1e3);
+        heights().fold(f64::MIN, f64::max) - heights().fold(f64::MAX, f64::min)
+    };
+    let tolerant = seams().replacen("length_tolerance_mm = 0.5", "length_tolerance_mm = 30.0", 1);
+    assert_ne!(tolerant, seams());
+    let net = height_mm(&tolerant);
+    let cut = tolerant.replacen("length_tolerance_mm", "allowance_mm = 5.0\nlength_tolerance_mm", 1);
+    let with_hem = cut.replacen("role = \"front\"\n", "role = \"front\"\nallowance_mm = { hem = 20.0 }\n", 1);
+    assert_ne!(cut, with_hem);
+    // 5 mm above as below, and 15 mm more at the hem.
+    assert!((height_mm(&cut) - height_mm(&with_hem) - 15.0).abs() < 0.1, "{}", height_mm(&with_hem));
+    assert!((5.0..15.0).contains(&(net - height_mm(&cut))), "{net} {}", height_mm(&cut));
+    let refused = |text: &str, expect: &str| {
+        let told = read(text).expect_err(expect).to_string();
+        assert!(told.contains(expect), "{told}");
+    };
+    refused(&with_hem.replacen("hem = 20.0", "him = 20.0", 1), "no edge `him`");
+    refused(&with_hem.replacen("hem = 20.0", "hem = 200.0", 1), "0 to 100 mm");
+}

@@ -125,7 +125,7 @@ impl<'a> Leg<'a> {
     fn at(&self, face: &LegFace, p: V2) -> V3 {
         let above = p.y - face.fork;
         let height = self.crotch_m() + above;
-        let (side, inwards) = self.from_outside(face, p);
+        let (side, inwards) = self.side_and_inwards(face, p);
         let girth: f64 = self.faces.iter().filter_map(|other| self.width(other, above)).sum();
         let on = |ring: Ring, angle: f64, full: f64| {
             let size = (girth / (full * 0.5 * (ring.half.x + ring.half.y))).max(1.0);
@@ -140,15 +140,15 @@ impl<'a> Leg<'a> {
     }
 
     /// Whether a point of a sheet lies in front (1) or behind (-1), and its share of the way from the outside of the leg to its inside.
-    fn from_outside(&self, face: &LegFace, p: V2) -> (f64, f64) {
+    fn side_and_inwards(&self, face: &LegFace, p: V2) -> (f64, f64) {
         let (low, high) = face.row(self.joins.garment, p.y).unwrap_or((p.x, p.x));
-        let share = if high > low { ((p.x - low) / (high - low)).clamp(0.0, 1.0) } else { 0.5 };
+        let share = |from: f64| if high > low { (from / (high - low)).clamp(0.0, 1.0) } else { 0.5 };
         match face.side {
             // Outwards is to the right on the back of the right leg and on the front of the left one.
-            Some(side) => (side, if self.hand * side < 0.0 { 1.0 - share } else { share }),
+            Some(side) => (side, share(if self.hand * side < 0.0 { high - p.x } else { p.x - low })),
             // Seen from outside the front of the right leg is to the right.
             None => {
-                let across = 2.0 * share - 1.0;
+                let across = 2.0 * share(p.x - low) - 1.0;
                 (if self.hand * across < 0.0 { -1.0 } else { 1.0 }, across.abs())
             }
         }

@@ -21,13 +21,7 @@ geom::constants! {
 impl Mapper<'_> {
     /// A sleeve in one piece: its opening round the arm at the length of the underarm seam.
     pub(super) fn sleeve(&mut self, piece: usize, chains: &[Chain], side: usize) -> Found {
-        let [a, b] = own_seam(piece, chains)?;
-        let up = |i: usize| chains[i].chord(self.garment).y > 0.0;
-        let (rising, falling) = match (up(a), up(b)) {
-            (true, false) => (a, b),
-            (false, true) => (b, a),
-            _ => return Err("its underarm seam does not run along both sides of it"),
-        };
+        let [rising, falling] = self.lengthwise(piece, chains)?;
         let opening = joined(run(falling, rising, chains));
         let cap = joined(run(rising, falling, chains));
         let underarm = self.underarm(&cap).ok_or("its underarm is not sewn to the trunk")?;
@@ -51,6 +45,17 @@ impl Mapper<'_> {
             along: below + (above - below) * 0.5 * (1.0 - (share * std::f64::consts::TAU).cos()),
         });
         Ok(())
+    }
+
+    /// The rising and the falling side of the seam that makes a tube about a limb of a piece.
+    fn lengthwise(&self, piece: usize, chains: &[Chain]) -> Result<[usize; 2], &'static str> {
+        let [a, b] = own_seam(piece, chains)?;
+        let up = |i: usize| chains[i].chord(self.garment).y > 0.0;
+        match (up(a), up(b)) {
+            (true, false) => Ok([a, b]),
+            (false, true) => Ok([b, a]),
+            _ => Err("its seam does not run along both sides of it"),
+        }
     }
 
     /// Where the underarm seam of a sleeve meets the trunk, whose line along the armhole begins and ends there: at a side, or on the way
@@ -95,13 +100,7 @@ impl Mapper<'_> {
 
     /// A leg in one piece: its inseam down the inside, its waist from centre front to centre back.
     pub(super) fn whole_leg(&mut self, piece: usize, chains: &[Chain], side: usize) -> Found {
-        let [a, b] = own_seam(piece, chains)?;
-        let up = |i: usize| chains[i].chord(self.garment).y > 0.0;
-        let (rising, falling) = match (up(a), up(b)) {
-            (true, false) => (a, b),
-            (false, true) => (b, a),
-            _ => return Err("its inseam does not run along both sides of it"),
-        };
+        let [rising, falling] = self.lengthwise(piece, chains)?;
         let other =
             |c: &Chain| matches!(c.partner, Partner::Piece(p) if p != piece && is_leg(self.garment.pieces[p].role));
         let crotches: Vec<usize> = (0..chains.len()).filter(|&i| other(&chains[i])).collect();
