@@ -253,6 +253,7 @@ pub fn read(bytes: &[u8], file_name: &str, unit: Option<Unit>) -> Result<Pattern
     for piece in &mut file.pieces {
         piece.size = piece.size.take().or_else(|| sample_size.clone());
     }
+    file.share_texts();
     Ok(file)
 }
 
@@ -315,6 +316,24 @@ impl PatternFile {
         match drawn.into_piece(block, &mut self.warnings) {
             Ok(piece) => self.pieces.push(piece),
             Err(reason) => self.refused.push(Refused { block: block.to_owned(), line, size, reason }),
+        }
+    }
+
+    /// Gives pieces without texts those of the piece of their name in another size: CAD programs write them to the sample size
+    /// alone.
+    fn share_texts(&mut self) {
+        let told: BTreeMap<String, (Option<String>, Vec<(String, String)>)> = self
+            .pieces
+            .iter()
+            .rev()
+            .filter(|piece| !piece.texts.is_empty())
+            .map(|piece| (piece.name.clone(), (piece.quantity.clone(), piece.texts.clone())))
+            .collect();
+        for piece in self.pieces.iter_mut().filter(|piece| piece.texts.is_empty()) {
+            if let Some((quantity, texts)) = told.get(&piece.name) {
+                piece.quantity = piece.quantity.take().or_else(|| quantity.clone());
+                piece.texts.clone_from(texts);
+            }
         }
     }
 

@@ -328,6 +328,22 @@ fn graded_half_pieces_open_for_sewing() {
 }
 
 #[test]
+fn what_the_sample_size_says_of_a_piece_holds_for_every_size() {
+    let drafts = crate::draft::Model::Tshirt.drafts();
+    let mut pieces: Vec<Piece> = drafts.into_iter().flat_map(|draft| draft.pieces).collect();
+    for piece in &mut pieces {
+        let is_sample = piece.size.as_deref() == Some("M");
+        piece.quantity = is_sample.then(|| "2".to_owned());
+        piece.texts = if is_sample { vec![("Category".to_owned(), "top".to_owned())] } else { Vec::new() };
+    }
+    let file = read(&write_pieces(&pieces, &[], Standard::Aama), "a.dxf", None).expect("our own file");
+    assert_eq!(file.sizes().len(), 3);
+    for piece in &file.pieces {
+        assert_eq!((piece.quantity.as_deref(), piece.texts.len()), (Some("2"), 1), "{} {:?}", piece.name, piece.size);
+    }
+}
+
+#[test]
 fn names_follow_the_code_page() {
     let text = String::from_utf8(edited("AC1009\r\n", "AC1009\r\n  9\r\n$DWGCODEPAGE\r\n  3\r\nANSI_1251\r\n"))
         .expect("ASCII");

@@ -29,7 +29,9 @@ pub fn choose(pieces: &[Piece], mut recognised: Vec<Recognised>, asker: &mut Ask
     let mut taken = best_of(pieces, &recognised, &contested, asker);
     for (k, (place, rivals)) in places.iter().enumerate() {
         let names: Vec<&str> = rivals.iter().map(|&rival| pieces[recognised[rival].piece].name.as_str()).collect();
-        let text = format!("which piece is the {}?", place.replace('_', " "));
+        // The trunk has no word in identifiers.
+        let place = if place.is_empty() { Class::Body.as_str().to_owned() } else { place.replace('_', " ") };
+        let text = format!("which piece is the {place}?");
         taken[k] = asker.ask(text, names, Some(taken[k])).unwrap_or(taken[k]);
     }
     let mut left = kept(&recognised, &contested, &taken);
