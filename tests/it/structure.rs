@@ -28,12 +28,14 @@ const FIELDS: usize = 20;
 
 /// Public fields in millimetres below `study`, where all else is in SI units: they are written so, in seam files and in what
 /// `pattern inspect` and `pattern propose` answer.
-const MILLIMETRES: [&str; 6] = [
+const MILLIMETRES: [&str; 8] = [
     "pattern::inspect::PieceReport.grain_mm",
     "pattern::inspect::PieceReport.perimeter_mm",
     "pattern::propose::ProposedSeam.a_mm",
     "pattern::propose::ProposedSeam.b_mm",
+    "pattern::seams::PieceEntry.allowance_mm",
     "pattern::seams::SeamEntry.ease_mm",
+    "pattern::seams::SeamFile.allowance_mm",
     "pattern::seams::SeamFile.length_tolerance_mm",
 ];
 

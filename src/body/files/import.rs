@@ -2,16 +2,13 @@
 //!
 //! Importers take bytes. The unit and the upright axis are given, or guessed from the extents and said in the result.
 
-use super::{align, glb, stl};
+use super::{MOST_TRIANGLES, align, file_error, glb, stl, too_many};
 use crate::BodyError;
 use crate::repair::clean;
 use geom::{TriMesh, V3};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::Cursor;
-
-/// Most triangles of a mesh: more tell nothing of a body that a tape could read.
-pub(super) const MOST_TRIANGLES: usize = 1_000_000;
 
 /// Unit of the coordinates of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -106,11 +103,6 @@ fn read(bytes: &[u8]) -> Result<TriMesh, BodyError> {
     Ok(mesh)
 }
 
-pub(super) fn too_many(count: usize) -> BodyError {
-    let problem = format!("{count} faces, at most {MOST_TRIANGLES} are taken: thin the scan out");
-    file_error("mesh", "whole file", &problem)
-}
-
 /// Faces that a file says or shows to have, counted without reading them.
 fn announced_faces(bytes: &[u8]) -> usize {
     if bytes.starts_with(b"ply") {
@@ -123,10 +115,6 @@ fn announced_faces(bytes: &[u8]) -> usize {
         return stl::announced_faces(bytes);
     }
     bytes.split(|byte| *byte == b'\n').filter(|line| line.starts_with(b"f ")).count()
-}
-
-pub(super) fn file_error(format: &'static str, place: &str, problem: &str) -> BodyError {
-    BodyError::File { format, place: place.to_owned(), problem: problem.to_owned() }
 }
 
 fn read_obj(bytes: &[u8]) -> Result<TriMesh, BodyError> {

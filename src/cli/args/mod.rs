@@ -156,7 +156,7 @@ pub struct Run {
     /// Write no report.
     #[arg(long)]
     pub no_report: bool,
-    /// The study is the same as the one of its name in another folder: it has moved here.
+    /// The study of this name has moved here from another folder.
     #[arg(long)]
     pub moved: bool,
     /// Run in the background; a lost connection does not end it.

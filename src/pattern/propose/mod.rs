@@ -318,9 +318,9 @@ pub struct Proposal {
     /// Size that it was made on, where it was held to others.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub size: Option<String>,
-    /// Seam allowance that the pieces were given, mm.
+    /// Seam allowance that the pieces were given, m.
     #[serde(skip)]
-    pub allowance_mm: f64,
+    pub allowance_m: f64,
     /// Pieces of the seam file.
     #[serde(skip)]
     worn: Vec<Worn>,
@@ -435,5 +435,5 @@ fn with_answers(pieces: &[Piece], answers: &Answers) -> Proposal {
         }));
     }
     let open = sew::open(&worn, &seams);
-    Proposal { pieces: listed, seams, open, questions, notes, size: None, allowance_mm: 0.0, worn }
+    Proposal { pieces: listed, seams, open, questions, notes, size: None, allowance_m: 0.0, worn }
 }

@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use super::worn::Worn;
 use super::{Proposal, ProposedSeam};
 use crate::seams::{DEFAULT_LENGTH_TOLERANCE_MM, Ease, SeamFile};
+use geom::units::mm;
 
 /// Ratio of the sides from which a seam is called eased or gathered.
 const EASED_RATIO: f64 = 1.01;
@@ -18,7 +19,7 @@ impl Proposal {
             name: name.to_owned(),
             size: self.size.clone(),
             length_tolerance_mm: DEFAULT_LENGTH_TOLERANCE_MM,
-            allowance_mm: self.allowance_mm,
+            allowance_mm: mm(self.allowance_m),
             open: self.open.clone(),
             piece: self.worn.iter().map(|one| (one.id.clone(), one.entry.clone())).collect(),
             seam: self.seams.iter().map(|seam| seam.entry.clone()).collect(),
@@ -43,8 +44,8 @@ impl Proposal {
             let _ = writeln!(text, "size = {}", quoted(size));
         }
         let _ = writeln!(text, "length_tolerance_mm = {DEFAULT_LENGTH_TOLERANCE_MM:.1}");
-        if self.allowance_mm != 0.0 {
-            let _ = writeln!(text, "allowance_mm = {:?}", self.allowance_mm);
+        if self.allowance_m != 0.0 {
+            let _ = writeln!(text, "allowance_mm = {:?}", mm(self.allowance_m));
         }
         if !self.open.is_empty() {
             let _ = writeln!(text, "open = [{}]", list(&self.open));

@@ -158,7 +158,7 @@ pub(crate) fn proposal(pattern: &SourceFile, how: &Asking<'_>) -> Result<(Propos
     let size = how.size.unwrap_or(nest.sample_size());
     let pieces = nest.pieces(size)?;
     let mut proposal = propose::propose_answered(&pieces, how.answers).map_err(StudyError::stage("pattern"))?;
-    proposal.allowance_mm = mm(how.allowance_m);
+    proposal.allowance_m = how.allowance_m;
     proposal.notes.extend(nest.unit_remarks().map(str::to_owned));
     proposal.notes.push(nest.sewn_along());
     hold_for(&mut proposal, size, nest.others(size));
