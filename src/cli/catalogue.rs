@@ -44,7 +44,7 @@ impl Values for StyleValues {
         };
         let given = StyleGiven {
             seams: self.seams.clone(),
-            is_proposed: false,
+            is_proposed: self.propose,
             unit: self.unit.and_then(unit_name),
             patterns: self.patterns.iter().map(pattern).collect(),
         };

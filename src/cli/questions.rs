@@ -32,7 +32,8 @@ pub fn ask(
             let mark = if question.taken == Some(index) { "*" } else { " " };
             writeln!(terminal, " {mark}{}: {}", Question::letter(index), printable(choice))?;
         }
-        write!(terminal, "letter (Enter takes *): ")?;
+        let enter = if question.taken.is_some() { "takes *" } else { "leaves it open" };
+        write!(terminal, "letter (Enter {enter}): ")?;
         terminal.flush()?;
         let Some(line) = lines.next().transpose()? else { return Ok(proposal) };
         let letter = line.trim().to_ascii_lowercase().chars().next();

@@ -73,6 +73,9 @@ pub struct StyleValues {
     /// Seam file; GarmentCode JSON needs none.
     #[arg(long, value_name = "FILE")]
     pub seams: Option<PathBuf>,
+    /// Propose the seams of a new style that has none, on its sample size and held to the others.
+    #[arg(long, conflicts_with = "seams")]
+    pub propose: bool,
     /// Patterns (DXF, GarmentCode JSON); without SIZE= all sizes that a file names.
     #[arg(long = "pattern", value_name = "[SIZE=]FILE", num_args = 1..)]
     pub patterns: Vec<String>,

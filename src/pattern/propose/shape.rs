@@ -12,6 +12,10 @@ const LEG_DIFFERENCE: f64 = 0.04;
 const WIDEST_MOUTH: f64 = 0.7;
 /// Least leg of a dart, m.
 const LEAST_LEG_M: f64 = 20e-3;
+/// Turn from which a marked point is a corner whatever its neighbours do, degrees.
+const CLEAR_TURN_DEG: f64 = 20.0;
+/// Share of its turn that a neighbour has along a curve.
+const SAME_CURVE: f64 = 0.5;
 /// Growth of a mouth that is none, m.
 const LEAST_STEP_M: f64 = 1e-3;
 /// Greatest distance of corners from the images of others in an outline that is its own mirror image, share of its size.
@@ -24,7 +28,7 @@ const MOST_CORNERS: usize = 100;
 pub struct Shape {
     /// Outline, counter-clockwise.
     outline: Vec<V2>,
-    /// Corners, as [`corner_vertices`] numbers them.
+    /// Corners, counter-clockwise: those of [`corner_vertices`] that lie on no curve.
     corners: Vec<usize>,
     /// Darts.
     darts: Vec<Dart>,
@@ -65,11 +69,28 @@ pub fn quarter_turned(p: &V2, quarter_turns: usize) -> V2 {
     }
 }
 
+/// Whether an outline turns at a vertex no more than a curve does that goes on at a neighbour: programs mark graded points
+/// along an edge as they mark corners.
+fn is_on_curve(outline: &[V2], vertex: usize) -> bool {
+    let n = outline.len();
+    let turn = |i: usize| {
+        let (u, v) = (outline[i] - outline[(i + n - 1) % n], outline[(i + 1) % n] - outline[i]);
+        u.perp(&v).atan2(u.dot(&v)).to_degrees()
+    };
+    let own = turn(vertex);
+    let goes_on = |other: f64| other * own > 0.0 && (SAME_CURVE * own.abs()..CLEAR_TURN_DEG).contains(&other.abs());
+    own.abs() < CLEAR_TURN_DEG && [vertex + n - 1, vertex + 1].into_iter().any(|other| goes_on(turn(other % n)))
+}
+
 impl Shape {
     /// The shape of a piece; `None` where it has fewer than three corners or more than any pattern.
     #[must_use]
     pub fn of(piece: &Piece) -> Option<Self> {
-        Self::new(piece.seam_outline().to_vec(), corner_vertices(piece))
+        let outline = piece.seam_outline();
+        let marked = Self::new(outline.to_vec(), corner_vertices(piece))?;
+        let ends_edge = |k: &usize| !is_on_curve(outline, marked.corners[*k]) || marked.is_in_dart(*k);
+        let corners = (0..marked.len()).filter(ends_edge).map(|k| marked.corners[k]).collect();
+        Self::new(outline.to_vec(), corners)
     }
 
     /// The shape of an outline, counter-clockwise, with the indices of its corners; `None` as [`Shape::of`].
@@ -82,6 +103,12 @@ impl Shape {
         let apexes = (0..shape.corners.len()).filter(|&corner| shape.is_apex(corner));
         shape.darts = apexes.map(|apex| Dart { apex, span: shape.leg_span(apex) }).collect();
         Some(shape)
+    }
+
+    /// Vertices of the corners on the outline.
+    #[must_use]
+    pub fn corners(&self) -> &[usize] {
+        &self.corners
     }
 
     /// Number of corners, which is the number of edges: edge `k` runs from corner `k` to the next.

@@ -3,7 +3,7 @@
 //! A CAD program calls the pieces of style `AB12` `AB12FR`, `AB12BK`, `AB12SL`. What all names have in common tells nothing of any piece.
 //! What is left is a word, or one of the trade's abbreviations.
 
-use super::{Class, names};
+use super::{Class, Face, names};
 use crate::piece::Piece;
 
 /// Keys of texts that say what a piece is, in lower case.
@@ -54,12 +54,28 @@ pub fn told(pieces: &[Piece]) -> Vec<Piece> {
         match own {
             _ if is_of_style && is_kind(&rest(piece)) => rest(piece),
             _ if !is_of_style && is_kind(&piece.name) => piece.name.clone(),
+            // The same text beside fronts and backs was copied: the letters of the name go before it.
+            Some(text) if is_copied(pieces, text, &|other| face_of(&rest(other))) => {
+                written_out(&rest(piece)).unwrap_or_else(|| completed(text, &piece.name))
+            }
             Some(text) => completed(text, &piece.name),
             None if !is_of_style && tells(&piece.name.as_str()) => piece.name.clone(),
             None => written_out(&rest(piece)).unwrap_or_else(|| piece.name.clone()),
         }
     };
     pieces.iter().map(|piece| Piece { told: said(piece), ..piece.clone() }).collect()
+}
+
+/// Front or back, as what is left of a name says.
+fn face_of(rest: &str) -> Option<Face> {
+    names::read(&written_out(rest).unwrap_or_else(|| rest.to_owned())).face
+}
+
+/// Whether pieces whose names say front and back have the same text, which says one of them.
+fn is_copied(pieces: &[Piece], text: &str, face: &dyn Fn(&Piece) -> Option<Face>) -> bool {
+    let has = |piece: &&Piece| piece.texts.iter().any(|(_, value)| value == text);
+    let says = |wanted: Face| pieces.iter().filter(has).any(|piece| face(piece) == Some(wanted));
+    names::read(text).face.is_some() && Face::BOTH.into_iter().all(says)
 }
 
 /// A text, with front or back and the side of the wearer where only the name gives them.
@@ -127,6 +143,21 @@ mod tests {
         check("BACK 2", "SLEEVE", "SLEEVE back");
         check("skirt_back", "leg", "skirt_back");
         check("wb_back", "body", "wb_back");
+    }
+
+    #[test]
+    fn a_category_that_was_copied_goes_behind_the_names() {
+        let piece = |name: &str| Piece {
+            name: name.to_owned(),
+            texts: vec![("CATEGORY".to_owned(), "FRONT".to_owned())],
+            ..Piece::default()
+        };
+        let check = |names: [&str; 2], expect: [&str; 2]| {
+            let found: Vec<String> = told(&names.map(piece)).into_iter().map(|piece| piece.told).collect();
+            assert_eq!(found, expect);
+        };
+        check(["AB12_FR", "AB12_BK"], ["front", "back"]);
+        check(["AB12_1", "AB12_2"], ["FRONT", "FRONT"]);
     }
 
     #[test]

@@ -11,7 +11,6 @@ use super::{Class, Face, Hand, Label, pose, role_of};
 use crate::Role;
 use crate::piece::Piece;
 use crate::seams::PieceEntry;
-use crate::style::corners::corner_vertices;
 use crate::style::correspond::shares;
 use geom::V2;
 use geom::polyline::Polyline;
@@ -260,7 +259,7 @@ fn wear(pieces: &[Piece], one: &Recognised, id: String, hand: Option<Hand>, is_m
             block: reference(pieces, one.piece),
             role,
             mirror: is_mirror,
-            corners_at: shares(pieces[one.piece].seam_outline(), &corner_vertices(&pieces[one.piece])),
+            corners_at: shares(pieces[one.piece].seam_outline(), shape.corners()),
             allowance_mm: BTreeMap::new(),
             edges: corners,
         },

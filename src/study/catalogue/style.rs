@@ -59,8 +59,8 @@ pub fn save_style(store: &mut Store, mode: Mode, name: &str, given: &StyleGiven)
         (None, Some(_)) if sizes.iter().all(|(size, _)| size.pattern.holds_seams()) => Seams::Given(None),
         (None, Some(_)) if given.is_proposed => Seams::Given(Some(proposed(name, &sizes)?)),
         _ => {
-            let problem = "a new style needs at least one pattern, and a seam file unless its patterns are \
-                GarmentCode JSON";
+            let problem = "a new style needs at least one pattern, and a seam file (or --propose) unless its patterns \
+                are GarmentCode JSON";
             return Err(refused(Part::Style, name, vec![problem.to_owned()]));
         }
     };
