@@ -322,17 +322,14 @@ impl PatternFile {
     /// Gives pieces without texts those of the piece of their name in another size: CAD programs write them to the sample size
     /// alone.
     fn share_texts(&mut self) {
-        let told: BTreeMap<String, (Option<String>, Vec<(String, String)>)> = self
-            .pieces
-            .iter()
-            .rev()
-            .filter(|piece| !piece.texts.is_empty())
-            .map(|piece| (piece.name.clone(), (piece.quantity.clone(), piece.texts.clone())))
-            .collect();
+        let has_texts = |piece: &&Piece| !piece.texts.is_empty();
+        // Of several the first counts.
+        let told: BTreeMap<String, Piece> =
+            self.pieces.iter().filter(has_texts).rev().map(|piece| (piece.name.clone(), piece.clone())).collect();
         for piece in self.pieces.iter_mut().filter(|piece| piece.texts.is_empty()) {
-            if let Some((quantity, texts)) = told.get(&piece.name) {
-                piece.quantity = piece.quantity.take().or_else(|| quantity.clone());
-                piece.texts.clone_from(texts);
+            if let Some(told) = told.get(&piece.name) {
+                piece.quantity = piece.quantity.take().or_else(|| told.quantity.clone());
+                piece.texts.clone_from(&told.texts);
             }
         }
     }
