@@ -40,6 +40,7 @@ use std::fmt;
 use self::ask::{Answers, Asker};
 pub use self::ask::{Question, UnknownAnswer};
 pub(super) use self::pose::{Pose, named_face_and_hand, pose};
+use self::recognise::Reading;
 pub use self::seam_kind::SeamKind;
 pub use self::wear::Unwearable;
 use self::worn::Worn;
@@ -47,7 +48,7 @@ use super::garment::Role;
 use super::piece::Piece;
 use super::seams::SeamEntry;
 
-/// Gain in the sum of confidences for which pieces without a name are read in an unusual way: about one seam.
+/// Gain in the sum of confidences for which pieces are read in a less likely way: about one seam.
 const SURER: f64 = 1.0;
 
 /// Kind of a piece.
@@ -367,21 +368,24 @@ pub fn propose_answered(pieces: &[Piece], given: &[(usize, char)]) -> Result<Pro
     Ok(proposal)
 }
 
-/// What pieces without a name may be: that under which most seams are sure.
-fn kinds_of_nameless(pieces: &[Piece], is_detail: impl Fn(&Piece) -> bool, asker: &Asker<'_>) -> &'static [Class] {
-    let sum = |kinds: &'static [Class]| -> f64 {
-        let recognised = recognise::recognise(pieces, &is_detail, kinds, &mut asker.aside());
+/// The way to read the pieces under which most seams are sure.
+fn best_reading(pieces: &[Piece], is_detail: impl Fn(&Piece) -> bool, asker: &Asker<'_>) -> Reading {
+    let ways = Reading::ways(pieces, &is_detail);
+    let sum = |way: Reading| -> f64 {
+        let recognised = recognise::recognise(pieces, &is_detail, way, &mut asker.aside());
         let chosen = choose::choose(pieces, recognised, &mut asker.aside());
         let worn = worn::worn(pieces, &chosen, None, &mut asker.aside());
         sew::sew(&worn, &mut asker.aside()).iter().map(|seam| seam.confidence).sum()
     };
-    let is_nameless = |piece: &Piece| names::read(piece.words()) == names::Named::default() && !is_detail(piece);
-    if !pieces.iter().any(is_nameless) {
-        return recognise::NAMELESS[0];
+    let (first, rest) = ways.split_first().expect("there is always one way");
+    if rest.is_empty() {
+        return *first;
     }
-    let sums = recognise::NAMELESS.map(|kinds| (sum(kinds), kinds));
-    let [first, rest @ ..] = sums;
-    rest.into_iter().fold(first, |best, other| if other.0 > best.0 + SURER { other } else { best }).1
+    let surer = |best: (f64, Reading), &way: &Reading| {
+        let sum = sum(way);
+        if sum > best.0 + SURER { (sum, way) } else { best }
+    };
+    rest.iter().fold((sum(*first), *first), surer).1
 }
 
 fn with_answers(pieces: &[Piece], answers: &Answers) -> Proposal {
@@ -399,8 +403,8 @@ fn with_answers(pieces: &[Piece], answers: &Answers) -> Proposal {
             details.join(", ")
         ));
     }
-    let nameless = kinds_of_nameless(pieces, is_detail, &asker);
-    let recognised = recognise::recognise(pieces, is_detail, nameless, &mut asker);
+    let reading = best_reading(pieces, is_detail, &asker);
+    let recognised = recognise::recognise(pieces, is_detail, reading, &mut asker);
     let mut recognised = choose::choose(pieces, recognised, &mut asker);
     lengths::settle(pieces, &mut recognised, &asker);
     // Which sleeve is drawn shows only once its notches are laid beside those of the armhole.

@@ -6,8 +6,9 @@ use super::templates::Template;
 use super::{Class, names};
 use crate::piece::Piece;
 
-/// Whether fronts, backs and sleeves fit raglan templates better, all in all, than plain ones.
-pub fn is_raglan(pieces: &[Piece]) -> bool {
+/// Whether the sleeves may go up to the neck, the likelier first: fronts, backs and sleeves fit raglan templates better, all in
+/// all, than plain ones. Only plain ones where no sleeve fits a raglan one.
+pub fn ways(pieces: &[Piece]) -> &'static [bool] {
     let mut gain = 0.0;
     let mut has_sleeve = false;
     for piece in pieces {
@@ -27,5 +28,9 @@ pub fn is_raglan(pieces: &[Piece]) -> bool {
         has_sleeve |= class == Class::Sleeve && raglan >= LEAST_FIT;
         gain += raglan - plain;
     }
-    has_sleeve && gain > 0.0
+    match (has_sleeve, gain > 0.0) {
+        (false, _) => &[false],
+        (true, true) => &[true, false],
+        (true, false) => &[false, true],
+    }
 }

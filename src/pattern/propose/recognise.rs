@@ -84,10 +84,27 @@ struct Around {
     nameless: &'static [Class],
 }
 
-/// What pieces may be whose names say nothing, in the order in which equals count. Bands and skirts are rectangles, and so is
-/// anything: skirts are tried where sleeves leave something over.
-pub const NAMELESS: [&[Class]; 2] =
-    [&[Class::Body, Class::Leg, Class::Sleeve], &[Class::Body, Class::Leg, Class::Skirt]];
+/// How the pieces of a file are read, all of them alike.
+#[derive(Clone, Copy)]
+pub struct Reading {
+    /// What pieces may be whose names say nothing, in the order in which equals count.
+    pub nameless: &'static [Class],
+    /// Whether sleeves go up to the neck.
+    pub is_raglan: bool,
+}
+
+impl Reading {
+    /// The ways to read some pieces, the likeliest first. Bands and skirts are rectangles, and so is anything: without a name
+    /// they are tried where sleeves leave something over.
+    pub fn ways(pieces: &[Piece], is_detail: impl Fn(&Piece) -> bool) -> Vec<Self> {
+        let kinds: [&[Class]; 2] =
+            [&[Class::Body, Class::Leg, Class::Sleeve], &[Class::Body, Class::Leg, Class::Skirt]];
+        let is_nameless = |piece: &Piece| names::read(piece.words()) == names::Named::default() && !is_detail(piece);
+        let kinds = if pieces.iter().any(is_nameless) { &kinds[..] } else { &kinds[..1] };
+        let raglan = raglan::ways(pieces).iter();
+        raglan.flat_map(|&is_raglan| kinds.iter().map(move |&nameless| Self { nameless, is_raglan })).collect()
+    }
+}
 
 /// What a piece is taken for before its outline is read, because of others.
 #[derive(Clone, Copy)]
@@ -113,14 +130,14 @@ pub fn is_detail(piece: &Piece, largest_m2: f64) -> bool {
 pub fn recognise(
     pieces: &[Piece],
     is_detail: impl Fn(&Piece) -> bool,
-    nameless: &'static [Class],
+    Reading { nameless, is_raglan }: Reading,
     asker: &mut Asker<'_>,
 ) -> Vec<Recognised> {
     let mut found: Vec<Recognised> = Vec::new();
     let is_called = |piece: &Piece, class: Class| names::read(piece.words()).class == Some(class);
     let [has_sleeve, has_yoke] =
         [Class::Sleeve, Class::Yoke].map(|class| pieces.iter().any(|piece| is_called(piece, class)));
-    let (gores, panels, is_raglan) = (gore::gores(pieces), panels::panels(pieces), raglan::is_raglan(pieces));
+    let (gores, panels) = (gore::gores(pieces), panels::panels(pieces));
     let pair = class_of_pair(pieces, has_sleeve, is_raglan);
     let is_leg_face = |piece: &Piece| is_called(piece, Class::Leg) && names::read(piece.words()).face.is_some();
     let has_lone_leg = !pieces.iter().any(is_leg_face);
