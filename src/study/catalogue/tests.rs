@@ -224,7 +224,7 @@ fn styles_without_a_seam_file_hold_their_seams_or_have_them_proposed() {
         ..StyleGiven::default()
     };
     let refused = bench.workspace.save_style(Mode::Add, "tee", &given("S", dxf)).expect_err("no seams");
-    assert!(refused.to_string().contains("a seam file unless"), "{refused}");
+    assert!(refused.to_string().contains("a seam file (or --propose) unless"), "{refused}");
     let proposed = StyleGiven { is_proposed: true, ..given("S", dxf) };
     bench.workspace.save_style(Mode::Add, "tee", &proposed).expect("its pieces are known");
     let sizes = bench.workspace.sizes().expect("readable");
