@@ -322,14 +322,16 @@ impl PatternFile {
     /// Gives pieces without texts those of the piece of their name in another size: CAD programs write them to the sample size
     /// alone.
     fn share_texts(&mut self) {
-        let has_texts = |piece: &&Piece| !piece.texts.is_empty();
+        let has_texts = |(_, piece): &(usize, &Piece)| !piece.texts.is_empty();
         // Of several the first counts.
-        let told: BTreeMap<String, Piece> =
-            self.pieces.iter().filter(has_texts).rev().map(|piece| (piece.name.clone(), piece.clone())).collect();
-        for piece in self.pieces.iter_mut().filter(|piece| piece.texts.is_empty()) {
-            if let Some(told) = told.get(&piece.name) {
-                piece.quantity = piece.quantity.take().or_else(|| told.quantity.clone());
-                piece.texts.clone_from(&told.texts);
+        let told: BTreeMap<String, usize> =
+            self.pieces.iter().enumerate().filter(has_texts).rev().map(|(k, piece)| (piece.name.clone(), k)).collect();
+        for k in 0..self.pieces.len() {
+            if let Some(&from) = told.get(&self.pieces[k].name).filter(|_| self.pieces[k].texts.is_empty()) {
+                let (quantity, texts) = (self.pieces[from].quantity.clone(), self.pieces[from].texts.clone());
+                let piece = &mut self.pieces[k];
+                piece.quantity = piece.quantity.take().or(quantity);
+                piece.texts = texts;
             }
         }
     }

@@ -12,7 +12,8 @@ const LEG_DIFFERENCE: f64 = 0.04;
 const WIDEST_MOUTH: f64 = 0.7;
 /// Least leg of a dart, m.
 const LEAST_LEG_M: f64 = 20e-3;
-/// Turn from which a marked point is a corner whatever its neighbours do, degrees.
+/// Turn from which a marked point is a corner whatever its neighbours do, degrees: a curve of 30 mm radius, the narrowest of an
+/// armhole or a neck, turns by 19 a centimetre.
 const CLEAR_TURN_DEG: f64 = 20.0;
 /// Share of its turn that a neighbour has along a curve.
 const SAME_CURVE: f64 = 0.5;
@@ -259,5 +260,30 @@ impl Shape {
         let half = arcs.partition_point(|&arc| arc < 0.5 * length).min(points.len() - 1);
         let area = geom::polyline::signed_area(&points);
         Stretch { chord, middle: points[half], length, bow: area / chord.norm_squared().max(1e-12), turn }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mark_along_a_curve_is_no_corner_and_one_at_the_end_of_an_edge_is() {
+        // A quarter of a circle in steps of a centimetre, between two straight sides.
+        let on_arc = |k: u32| {
+            let angle = std::f64::consts::FRAC_PI_2 * f64::from(k) / 20.0;
+            V2::new(0.13 * angle.cos(), 0.13 * angle.sin())
+        };
+        let outline: Vec<V2> = std::iter::once(V2::zeros()).chain((0..=20).map(on_arc)).collect();
+        let check = |vertex: usize, expect: bool| assert_eq!(is_on_curve(&outline, vertex), expect, "{vertex}");
+        check(0, false);
+        check(1, false);
+        check(2, true);
+        check(11, true);
+        check(20, true);
+        check(21, false);
+        // A hip point between straight sides, shallow as it is.
+        let hip: Vec<V2> = [[0.0, 0.0], [0.3, 0.0], [0.32, 0.2], [0.3, 0.4], [0.0, 0.4]].map(V2::from).to_vec();
+        assert!(!is_on_curve(&hip, 2));
     }
 }
