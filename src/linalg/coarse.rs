@@ -308,6 +308,7 @@ mod tests {
                 normal: V3::z(),
                 stiffness: 40.0,
             }],
+            arcs: None,
         };
         let patches = CoarseSpace::new(&operator);
         let coarse = patches.factorise(&operator, &operator.diagonal_blocks(), &x);

@@ -7,7 +7,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use super::operator::{Contact4, Operator};
+use super::operator::{ArcStiffness, Contact4, Operator};
 use super::quad::{self, Block, Quad};
 use super::simd::{Kernel, Simd};
 
@@ -117,6 +117,16 @@ pub struct CsrMatrix<'a, Q: Quad> {
     entries: Vec<Q::Scalar>,
     springs: Vec<([usize; 2], Q)>,
     contacts: Vec<Contact<Q>>,
+    arcs: Option<Arcs<'a, Q>>,
+}
+
+/// An [`ArcStiffness`] in the precision of a solve.
+struct Arcs<'a, Q: Quad> {
+    of: &'a ArcStiffness<'a>,
+    weights: Vec<Q::Scalar>,
+    chords: Vec<Q>,
+    slopes: Vec<Q>,
+    drawn: Vec<Q::Scalar>,
 }
 
 /// A [`Contact4`] with its stiffness worked into its direction.
@@ -143,6 +153,7 @@ impl<'a, Q: Quad> CsrMatrix<'a, Q> {
             entries: operator.bending.iter().map(|q| Q::scalar(*q)).collect(),
             springs: operator.springs.iter().map(|(pair, k)| (*pair, Q::spread(*k))).collect(),
             contacts: operator.contacts.iter().map(contact).collect(),
+            arcs: operator.arcs.as_ref().map(Arcs::new),
         }
     }
 
@@ -185,6 +196,63 @@ impl<'a, Q: Quad> CsrMatrix<'a, Q> {
         }
         for contact in &self.contacts {
             contact.apply(states);
+        }
+        if let Some(arcs) = &self.arcs {
+            arcs.apply(simd, states);
+        }
+    }
+}
+
+impl<'a, Q: Quad> Arcs<'a, Q> {
+    fn new(of: &'a ArcStiffness<'a>) -> Self {
+        Self {
+            of,
+            weights: of.weights.iter().map(|w| Q::scalar(*w)).collect(),
+            chords: of.chords.iter().map(Q::from_vector).collect(),
+            slopes: of.slopes.iter().map(Q::from_vector).collect(),
+            drawn: of.drawn.iter().map(|k| Q::scalar(*k)).collect(),
+        }
+    }
+
+    #[inline(always)]
+    fn apply<S: Simd>(&self, simd: S, states: &mut [[Q; 2]]) {
+        let count = self.slopes.len();
+        let mut bends = vec![Q::ZERO; count];
+        // Of half of each squared side, what curvature adds and what all adds; then the tensions of either.
+        let mut grown = vec![[0.0_f32; 2]; count];
+        let mut tensions = vec![[0.0_f32; 2]; count];
+        for (side, &[i, j]) in self.of.pairs.pairs().iter().enumerate() {
+            let range = self.of.starts[side] as usize..self.of.starts[side + 1] as usize;
+            let mut bend = Q::ZERO;
+            for (v, weight) in self.of.vertices[range.clone()].iter().zip(&self.weights[range]) {
+                bend = states[*v as usize][0].mul_add_on(Q::splat(*weight), bend, simd);
+            }
+            bends[side] = bend;
+            let by_bend = (self.slopes[side] * bend).total() as f32;
+            let by_chord = (self.chords[side] * (states[j][0] - states[i][0])).total() as f32;
+            grown[side] = [by_bend, by_bend + by_chord];
+        }
+        for (sides, couplings) in self.of.triangles.iter().zip(&self.of.couplings) {
+            let [a, b, c] = sides.map(|side| side as usize);
+            let [aa, bb, cc, ab, bc, ca] = *couplings;
+            for k in 0..2 {
+                let (x, y, z) = (grown[a][k], grown[b][k], grown[c][k]);
+                tensions[a][k] += aa * x + ab * y + ca * z;
+                tensions[b][k] += ab * x + bb * y + bc * z;
+                tensions[c][k] += ca * x + bc * y + cc * z;
+            }
+        }
+        for (side, &[i, j]) in self.of.pairs.pairs().iter().enumerate() {
+            let [by_bend, by_all] = tensions[side];
+            let pull = self.chords[side] * Q::spread(f64::from(by_bend));
+            states[i][1] -= pull;
+            states[j][1] += pull;
+            let push = self.slopes[side].mul_add_on(Q::spread(f64::from(by_all)), bends[side] * Q::splat(self.drawn[side]), simd);
+            let range = self.of.starts[side] as usize..self.of.starts[side + 1] as usize;
+            for (v, weight) in self.of.vertices[range.clone()].iter().zip(&self.weights[range]) {
+                let force = &mut states[*v as usize][1];
+                *force = push.mul_add_on(Q::splat(*weight), *force, simd);
+            }
         }
     }
 }
@@ -279,6 +347,7 @@ mod tests {
             bending: &[-0.7, 0.4],
             springs: vec![([1, 4], 3.0)],
             contacts: vec![contact(0), contact(1)],
+            arcs: None,
         };
         let x: Vec<V3> = (0..5).map(|v| V3::new(number(v), number(v + 20), number(v + 40))).collect();
         check::<f32x4>(&operator, &x, 1e-5);

@@ -117,6 +117,29 @@ impl Contact4 {
     }
 }
 
+/// Stiffness of triangles' sides that are arcs, beyond that of their chords, which the membrane's blocks hold.
+#[derive(Clone, Debug)]
+pub struct ArcStiffness<'a> {
+    /// Pairs of vertices that are sides.
+    pub pairs: &'a PairList,
+    /// Where the weights of each side begin, and one more.
+    pub starts: &'a [u32],
+    /// Vertices that its curvature is told by.
+    pub vertices: &'a [u32],
+    /// Their weights.
+    pub weights: &'a [f64],
+    /// Sides of each triangle.
+    pub triangles: &'a [[u32; 3]],
+    /// From the first vertex of each side to the second, m.
+    pub chords: Vec<V3>,
+    /// What a unit of curvature along each side adds to half of its square, m.
+    pub slopes: Vec<V3>,
+    /// Stiffness against curvature itself of sides that are drawn, N/m.
+    pub drawn: Vec<f64>,
+    /// Of each triangle, what half of a squared side adds to the tension of a side, N/m3: of each with itself, and of (0, 1), (1, 2), (2, 0).
+    pub couplings: Vec<[f32; 6]>,
+}
+
 /// A symmetric positive semidefinite stiffness, assembled anew each step.
 pub struct Operator<'a> {
     /// Diagonal blocks: inertia, body contact, friction. N/m.
@@ -133,6 +156,8 @@ pub struct Operator<'a> {
     pub springs: Vec<([usize; 2], f64)>,
     /// Contacts of the cloth with itself, and of points between vertices with the body.
     pub contacts: Vec<Contact4>,
+    /// Sides that are arcs, where any are.
+    pub arcs: Option<ArcStiffness<'a>>,
 }
 
 impl Operator<'_> {
@@ -174,6 +199,9 @@ impl Operator<'_> {
             let lacking = quad::matrix(&rows) + quad::matrix(&columns[i]).transpose();
             *block -= lacking + Matrix3::from_diagonal_element(alike[i]);
         }
+        if let Some(arcs) = &self.arcs {
+            arcs.add_diagonal(&mut blocks);
+        }
         blocks
     }
 
@@ -188,6 +216,24 @@ impl Operator<'_> {
             }
         }
         blocks
+    }
+}
+
+impl ArcStiffness<'_> {
+    /// Adds what curvature alone has on the diagonal.
+    fn add_diagonal(&self, blocks: &mut [Matrix3<f64>]) {
+        let mut own = vec![0.0; self.slopes.len()];
+        for (sides, couplings) in self.triangles.iter().zip(&self.couplings) {
+            for k in 0..3 {
+                own[sides[k] as usize] += f64::from(couplings[k]);
+            }
+        }
+        for (side, slope) in self.slopes.iter().enumerate() {
+            let block = slope * slope.transpose() * own[side] + Matrix3::identity() * self.drawn[side];
+            for k in self.starts[side] as usize..self.starts[side + 1] as usize {
+                blocks[self.vertices[k] as usize] += block * (self.weights[k] * self.weights[k]);
+            }
+        }
     }
 }
 

@@ -41,6 +41,7 @@ fn round_off(cloth: &Cloth, fabric: &Fabric, wave_m: f64, x: &mut [V3]) {
         bending: &cloth.bending.entries,
         springs: Vec::new(),
         contacts: Vec::new(),
+        arcs: None,
     };
     let mut forces = vec![V3::zeros(); x.len()];
     cloth.bending.add_forces(x, &mut forces);

@@ -15,6 +15,7 @@
 //! Linear solves take hinges that know nothing of each other ([`Tangent`]): half of the couplings, and half of those lie
 //! along sides of triangles, which stretching couples anyway. The direction of a step need not be more exact.
 
+use nalgebra::{Matrix3, Vector3};
 use wide::f32x4;
 
 use super::part::Part;
@@ -102,6 +103,22 @@ impl Plate {
             form.iter_mut().for_each(|r| r[free] = 0.0);
         }
         form
+    }
+
+    /// What the curvature across each side adds to the triangle's tensor `k11, k22, k12`, that across free sides being the one that
+    /// makes it least.
+    #[must_use]
+    pub fn curvature_tensor(&self) -> [Vector3<f64>; 3] {
+        let n = &self.normals;
+        let is_free = |side: usize| self.hinges[side].is_none();
+        let known = Matrix3::from_fn(|e, f| match is_free(e) {
+            true => n[e].dot(&n[f]).powi(2),
+            false => f64::from(u8::from(e == f)),
+        });
+        let all = known.try_inverse().unwrap_or_else(Matrix3::zeros);
+        let outer = Matrix3::from_columns(&[0, 1, 2].map(|e| Vector3::new(n[e].x * n[e].x, n[e].y * n[e].y, n[e].x * n[e].y)));
+        let tensors = outer * all;
+        [0, 1, 2].map(|e| tensors.column(e).into_owned())
     }
 
     /// Entries of the stiffness above its diagonal: its hinges', each with each. Corners sewn into one vertex couple it to

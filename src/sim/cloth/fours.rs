@@ -64,6 +64,73 @@ impl Four {
         Lanes::of(simd, self.areas)
     }
 
+    /// Gradients of all three shape functions in weft and warp, 1/m.
+    #[inline(always)]
+    fn all_gradients<S: Simd>(&self, simd: S) -> [[Lanes<S>; 2]; 3] {
+        let [g, h] = self.lanes_of_gradients(simd);
+        let zero = g[0].splat(0.0);
+        [each!(axis of 2 => zero - g[axis] - h[axis]), g, h]
+    }
+
+    /// Strain of a unit of half of each squared side.
+    #[inline(always)]
+    fn of_sides<S: Simd>(&self, simd: S) -> [Tensor<Lanes<S>>; 3] {
+        let gradients = self.all_gradients(simd);
+        let (zero, half) = (gradients[0][0].splat(0.0), gradients[0][0].splat(0.5));
+        each!(k of 3 => {
+            let (i, j) = (gradients[k], gradients[(k + 1) % 3]);
+            Tensor {
+                weft: zero - i[0] * j[0],
+                warp: zero - i[1] * j[1],
+                shear: (zero - half) * (i[0] * j[1] + i[1] * j[0]),
+            }
+        })
+    }
+
+    /// Numbers of the sides, or nothing where there are none.
+    #[inline(always)]
+    fn sides<S: Simd>(&self, simd: S, of: &[f64]) -> [Lanes<S>; 3] {
+        each!(k of 3 => Lanes::of(simd, each!(lane of 4 => of[(self.slots[k][lane] >> 1) as usize])))
+    }
+
+    /// Strain that squared sides make which are longer by so much.
+    #[inline(always)]
+    fn strain_of<S: Simd>(&self, simd: S, excess: &[f64]) -> Tensor<Lanes<S>> {
+        let (shapes, sides) = (self.of_sides(simd), self.sides(simd, excess));
+        let half = sides[0].splat(0.5);
+        shapes[0] * (half * sides[0]) + shapes[1] * (half * sides[1]) + shapes[2] * (half * sides[2])
+    }
+
+    /// Adds what a stress makes of half of each squared side, N/m.
+    #[inline(always)]
+    fn add_tensions<S: Simd>(&self, simd: S, stress: Tensor<Lanes<S>>, tensions: &mut [f64]) {
+        let (shapes, area) = (self.of_sides(simd), self.lanes_of_areas(simd));
+        for k in 0..3 {
+            let all = (product(&shapes[k], &stress) * area).numbers();
+            for lane in 0..4 {
+                tensions[(self.slots[k][lane] >> 1) as usize] += all[lane];
+            }
+        }
+    }
+
+    /// What half of a squared side adds to the tension of a side: of each with itself, and of (0, 1), (1, 2), (2, 0).
+    #[inline(always)]
+    fn push_couplings<S: Simd>(
+        &self,
+        simd: S,
+        law: &Orthotropic,
+        strain: Tensor<Lanes<S>>,
+        couplings: &mut Vec<[f32; 6]>,
+    ) {
+        let (shapes, area) = (self.of_sides(simd), self.lanes_of_areas(simd));
+        let stresses = each!(k of 3 => law.tangent(strain, shapes[k]) * area);
+        let own = each!(k of 3 => product(&shapes[k], &stresses[k]).single());
+        let other = each!(k of 3 => product(&shapes[k], &stresses[(k + 1) % 3]).single());
+        for lane in 0..4 {
+            couplings.push([own[0][lane], own[1][lane], own[2][lane], other[0][lane], other[1][lane], other[2][lane]]);
+        }
+    }
+
     /// Adds the forces of a stress, N.
     #[inline(always)]
     fn add_forces<S: Simd>(
@@ -158,6 +225,13 @@ fn green<N: Number>([weft, warp]: &[[N; 3]; 2]) -> Tensor<N> {
     Tensor { weft: half * (dot(weft, weft) - one), warp: half * (dot(warp, warp) - one), shear: half * dot(weft, warp) }
 }
 
+/// What a stress does along a strain.
+#[inline(always)]
+fn product<N: Number>(strain: &Tensor<N>, stress: &Tensor<N>) -> N {
+    let twice = strain.shear.splat(2.0) * strain.shear;
+    strain.weft.mul_add(stress.weft, strain.warp.mul_add(stress.warp, twice * stress.shear))
+}
+
 #[inline(always)]
 fn dot<N: Number>(a: &[N; 3], b: &[N; 3]) -> N {
     a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
@@ -193,10 +267,18 @@ pub struct Assembly<'a> {
     pub fours: &'a [Four],
     /// Places of the vertices, m.
     pub x: &'a [V3],
+    /// By how much squared sides exceed their chords', m2; none where there are chords.
+    pub excess: &'a [f64],
     /// To add the forces to, N.
     pub forces: Option<&'a mut [V3]>,
+    /// To add what half of each squared side makes of the energy to, N/m.
+    pub tensions: Option<&'a mut [f64]>,
+    /// To add the same of the stresses that make the geometric part.
+    pub pulls: Option<&'a mut [f64]>,
     /// To add the off-diagonal stiffness blocks to, N/m.
     pub blocks: Option<&'a mut [Block<f32x4>]>,
+    /// To add the couplings of sides to.
+    pub couplings: Option<&'a mut Vec<[f32; 6]>>,
     /// Stresses that make the blocks' geometric part, one a triangle, N/m; without them those at `x`.
     pub predicted: Option<&'a [Tensor]>,
 }
@@ -209,18 +291,38 @@ impl Kernel for Assembly<'_> {
         let mut energy = Lanes::of(simd, [0.0; 4]);
         for (k, four) in self.fours.iter().enumerate() {
             let fibres = four.fibres(simd, self.x);
-            let strain = green(&fibres);
+            let has_arcs = !self.excess.is_empty();
+            let mut strain = green(&fibres);
+            if has_arcs {
+                strain = strain + four.strain_of(simd, self.excess);
+            }
             energy = four.lanes_of_areas(simd).mul_add(self.law.energy(strain), energy);
             let stress = self.law.stress(strain);
             if let Some(forces) = &mut self.forces {
                 four.add_forces(simd, &fibres, stress, forces);
+            }
+            if let Some(tensions) = &mut self.tensions
+                && has_arcs
+            {
+                four.add_tensions(simd, stress, tensions);
+            }
+            if let Some(couplings) = &mut self.couplings
+                && has_arcs
+            {
+                four.push_couplings(simd, self.law, strain, couplings);
             }
             if let Some(blocks) = &mut self.blocks {
                 let stress = match self.predicted {
                     Some(all) => lanes_of(simd, &all[4 * k..]),
                     None => stress,
                 };
-                let tension = Some(stress.without_compression());
+                let tension = stress.without_compression();
+                if let Some(pulls) = &mut self.pulls
+                    && has_arcs
+                {
+                    four.add_tensions(simd, tension, pulls);
+                }
+                let tension = Some(tension);
                 four.add_stiffness(simd, &fibres, self.law, self.law.tangents(strain), tension, blocks);
             }
         }
@@ -267,10 +369,17 @@ pub struct Correction<'a> {
     pub x: &'a [V3],
     /// Where they go, m.
     pub d: &'a [V3],
+    /// By how much squared sides exceed their chords' before, what the displacement adds in first order, and the excess at its end, m2;
+    /// none where there are chords.
+    pub excess: [&'a [f64]; 3],
     /// To add the forces to.
     pub forces: &'a mut [V3],
+    /// To add what half of each squared side makes of the energy to, N/m.
+    pub tensions: &'a mut [f64],
     /// To add the off-diagonal stiffness blocks to, N/m.
     pub blocks: &'a mut [Block<f32x4>],
+    /// To add the couplings of sides to.
+    pub couplings: &'a mut Vec<[f32; 6]>,
     /// To add to what is foreseen, one a triangle and some more where fours are not full.
     pub foreseen: &'a mut Vec<Foreseen>,
 }
@@ -283,18 +392,30 @@ impl Kernel for Correction<'_> {
         for four in self.fours {
             let (fibres, moved) = (four.fibres(simd, self.x), four.fibres(simd, self.d));
             let [weft, warp] = &fibres;
-            let strain = green(&fibres);
+            let has_arcs = !self.excess[0].is_empty();
+            let mut strain = green(&fibres);
             let half = strain.weft.splat(0.5);
-            let change = Tensor {
+            let mut change = Tensor {
                 weft: dot(weft, &moved[0]),
                 warp: dot(warp, &moved[1]),
                 shear: half * (dot(weft, &moved[1]) + dot(warp, &moved[0])),
             };
+            if has_arcs {
+                strain = strain + four.strain_of(simd, self.excess[0]);
+                change = change + four.strain_of(simd, self.excess[1]);
+            }
             let (stress, change) = (self.law.stress(strain), self.law.tangent(strain, change));
             let end = each!(axis of 2 => each!(c of 3 => fibres[axis][c] + moved[axis][c]));
-            let strain = green(&end);
+            let mut strain = green(&end);
+            if has_arcs {
+                strain = strain + four.strain_of(simd, self.excess[2]);
+            }
             let excess = self.law.stress(strain) - (stress + change);
             four.add_forces(simd, &end, excess, self.forces);
+            if has_arcs {
+                four.add_tensions(simd, excess, self.tensions);
+                four.push_couplings(simd, self.law, strain, self.couplings);
+            }
             four.add_stiffness(simd, &end, self.law, self.law.tangents(strain), None, self.blocks);
             let (stress, change) = (apart(stress), apart(change));
             self.foreseen.extend_from_slice(&each!(k of 4 => Foreseen { stress: stress[k], change: change[k] }));

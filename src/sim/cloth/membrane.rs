@@ -15,6 +15,7 @@
 use nalgebra::{Matrix2, Matrix3x2};
 use wide::f32x4;
 
+use super::arcs::{Arcs, Bent};
 use super::fours::{Assembly, Compression, Correction, Four};
 use super::law::{Orthotropic, Tensor};
 use geom::{V2, V3};
@@ -108,6 +109,21 @@ pub struct Membrane {
     fours: Vec<Four>,
     /// Pairs of vertices that share a triangle.
     pub pairs: PairList,
+    /// Pairs of the sides of each triangle.
+    pub sides: Vec<[u32; 3]>,
+    /// The sides as arcs; none where there are chords.
+    pub arcs: Arcs,
+}
+
+/// Stiffness that arcs have, with what is assembled for it.
+#[derive(Clone, Debug, Default)]
+pub struct Bowed {
+    /// The arcs.
+    pub bent: Bent,
+    /// Tensions of the sides, N/m, without compression.
+    pub tensions: Vec<f64>,
+    /// Of each triangle, what half of a squared side adds to the tension of a side, N/m3: of each with itself, and of (0, 1), (1, 2), (2, 0).
+    pub couplings: Vec<[f32; 6]>,
 }
 
 impl Membrane {
@@ -127,7 +143,14 @@ impl Membrane {
         };
         let with_slots: Vec<(Element, [u32; 3])> = elements.iter().map(with_slots).collect();
         let fours = with_slots.chunks(4).map(Four::new).collect();
-        Self { material, elements, fours, pairs }
+        let sides = with_slots.iter().map(|(_, slots)| slots.map(|slot| slot >> 1)).collect();
+        Self { material, elements, fours, pairs, sides, arcs: Arcs::default() }
+    }
+
+    /// The same with its sides as arcs.
+    #[must_use]
+    pub fn with_arcs(self, arcs: Arcs) -> Self {
+        Self { arcs, ..self }
     }
 
     /// Stiffness blocks, one a pair, with nothing in them yet.
@@ -139,29 +162,60 @@ impl Membrane {
     /// Elastic energy, J.
     #[must_use]
     pub fn energy(&self, x: &[V3]) -> f64 {
-        simd::dispatch(self.assembly(x))
+        let bent = self.arcs.bent(x);
+        simd::dispatch(self.assembly(x, &bent))
     }
 
     /// Adds the elastic forces, N.
     pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
-        simd::dispatch(Assembly { forces: Some(forces), ..self.assembly(x) });
+        let bent = self.arcs.bent(x);
+        let mut tensions = vec![0.0; bent.excess.len()];
+        simd::dispatch(Assembly { forces: Some(forces), tensions: Some(&mut tensions), ..self.assembly(x, &bent) });
+        self.arcs.add_forces(&bent, &tensions, forces);
     }
 
-    /// Adds the elastic forces (N) and the off-diagonal stiffness blocks (N/m), and returns the energy, J; the blocks' geometric part is
-    /// that of the stresses `predicted`, one an element, or without them of the stresses at `x`.
+    /// Adds the elastic forces (N) and the off-diagonal stiffness blocks (N/m), and returns the energy, J, and what arcs add; the blocks'
+    /// geometric part is that of the stresses `predicted`, one an element, or without them of the stresses at `x`.
     pub fn assemble(
         &self,
         x: &[V3],
         forces: &mut [V3],
         predicted: Option<&[Tensor]>,
         blocks: &mut [Block<f32x4>],
-    ) -> f64 {
-        let all = Assembly { forces: Some(forces), blocks: Some(blocks), predicted, ..self.assembly(x) };
-        simd::dispatch(all)
+    ) -> (f64, Bowed) {
+        let bent = self.arcs.bent(x);
+        let none = vec![0.0; bent.excess.len()];
+        let (mut tensions, mut pulls) = (none.clone(), none);
+        let mut couplings = Vec::with_capacity(4 * self.fours.len());
+        let all = Assembly {
+            forces: Some(forces),
+            tensions: Some(&mut tensions),
+            pulls: Some(&mut pulls),
+            blocks: Some(blocks),
+            couplings: Some(&mut couplings),
+            predicted,
+            ..self.assembly(x, &bent)
+        };
+        let energy = simd::dispatch(all);
+        couplings.truncate(self.elements.len());
+        self.arcs.add_forces(&bent, &tensions, forces);
+        pulls.iter_mut().for_each(|pull| *pull = pull.max(0.0));
+        (energy, Bowed { bent, tensions: pulls, couplings })
     }
 
-    fn assembly<'a>(&'a self, x: &'a [V3]) -> Assembly<'a> {
-        Assembly { law: &self.material, fours: &self.fours, x, forces: None, blocks: None, predicted: None }
+    fn assembly<'a>(&'a self, x: &'a [V3], bent: &'a Bent) -> Assembly<'a> {
+        Assembly {
+            law: &self.material,
+            fours: &self.fours,
+            x,
+            excess: &bent.excess,
+            forces: None,
+            tensions: None,
+            pulls: None,
+            blocks: None,
+            couplings: None,
+            predicted: None,
+        }
     }
 
     /// Adds a share of the forces (N) that the compressive part of `stresses`, one an element, has in first order along a displacement `d`:
@@ -171,19 +225,40 @@ impl Membrane {
     }
 
     /// Adds the forces (N) that would bring the stresses at the end of a displacement `d` from `x` to those that a linear solve at `x`
-    /// foresees there, which it returns, and the off-diagonal blocks of the stiffness that stretching alone has at that end, N/m.
+    /// foresees there, which it returns, and the off-diagonal blocks of the stiffness that stretching alone has at that end, N/m, with what
+    /// arcs add to it.
     pub fn assemble_towards(
         &self,
         x: &[V3],
         d: &[V3],
         forces: &mut [V3],
         blocks: &mut [Block<f32x4>],
-    ) -> Vec<Foreseen> {
+    ) -> (Vec<Foreseen>, Bowed) {
         let mut foreseen = Vec::with_capacity(4 * self.fours.len());
+        let mut couplings = Vec::with_capacity(4 * self.fours.len());
         let (law, fours) = (&self.material, &self.fours[..]);
-        simd::dispatch(Correction { law, fours, x, d, forces, blocks, foreseen: &mut foreseen });
+        let start = self.arcs.bent(x);
+        let end: Vec<V3> = x.iter().zip(d).map(|(p, d)| p + d).collect();
+        let bent = self.arcs.bent(&end);
+        let changes: Vec<f64> = self.arcs.changes(&start, d).iter().map(|half| 2.0 * half).collect();
+        let mut tensions = vec![0.0; changes.len()];
+        simd::dispatch(Correction {
+            law,
+            fours,
+            x,
+            d,
+            excess: [&start.excess, &changes, &bent.excess],
+            forces,
+            tensions: &mut tensions,
+            blocks,
+            couplings: &mut couplings,
+            foreseen: &mut foreseen,
+        });
         foreseen.truncate(self.elements.len());
-        foreseen
+        couplings.truncate(self.elements.len());
+        self.arcs.add_forces(&bent, &tensions, forces);
+        tensions.fill(0.0);
+        (foreseen, Bowed { bent, tensions, couplings })
     }
 }
 

@@ -1,5 +1,6 @@
 //! Cloth: a garment mesh with elastic energies, at whatever state of sewing.
 
+pub mod arcs;
 pub mod band;
 pub mod bending;
 mod fours;
@@ -16,6 +17,7 @@ use geom::{V2, V3};
 use linalg::PairList;
 use pattern::Garment;
 
+use arcs::{Arcs, Laid};
 use band::Bands;
 use bending::{Bending, Flap, Hinge, Plate};
 use gathers::Gathers;
@@ -70,6 +72,8 @@ impl Cloth {
             }
         }
         let membrane = Membrane::new(Orthotropic::of(fabric), elements);
+        let arcs = Arcs::new(&plates.laid, &plates.plates, &plates.hinges, &membrane.pairs);
+        let membrane = if std::env::var("CHORDS").is_ok() { membrane } else { membrane.with_arcs(arcs) };
         Ok(Self {
             triangles: membrane.elements.iter().map(Element::vertices).collect(),
             masses: areas.iter().map(|a| a * fabric.density_kg_m2).collect(),
@@ -120,6 +124,7 @@ struct PlateBuilder {
     open: BTreeMap<[usize; 2], (usize, Flap, [usize; 2])>,
     hinges: Vec<Hinge>,
     plates: Vec<Plate>,
+    laid: Vec<Laid>,
 }
 
 impl PlateBuilder {
@@ -133,6 +138,8 @@ impl PlateBuilder {
             V2::new(outward.dot(&weft), outward.dot(&grain))
         };
         let area = 0.5 * (rest[1] - rest[0]).perp(&(rest[2] - rest[0]));
+        let local = rest.map(|p| V2::new(p.dot(&weft), p.dot(&grain)));
+        self.laid.push(Laid { vertices, rest: local, across: [None; 3] });
         self.plates.push(Plate { area, normals: [normal(0), normal(1), normal(2)], hinges: [None; 3] });
         for k in 0..3 {
             let order = [k, (k + 1) % 3, (k + 2) % 3];
@@ -141,6 +148,8 @@ impl PlateBuilder {
             match self.open.remove(&[b, a]) {
                 // The neighbour runs along the shared edge the other way.
                 Some((other, flap, [neighbour, side])) => {
+                    self.laid[neighbour].across[side] = Some([plate, k]);
+                    self.laid[plate].across[k] = Some([neighbour, side]);
                     self.plates[neighbour].hinges[side] = Some(self.hinges.len());
                     self.plates[plate].hinges[k] = Some(self.hinges.len());
                     self.hinges.push(Hinge::new([b, a, other, opposite], [flap, Flap { rest: [rb, ra, rc] }]));
@@ -159,5 +168,5 @@ impl PlateBuilder {
 
 /// Constants of the cloth that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
-    [bending::CONSTANTS, gathers::CONSTANTS, law::CONSTANTS].concat()
+    [arcs::CONSTANTS, bending::CONSTANTS, gathers::CONSTANTS, law::CONSTANTS].concat()
 }

@@ -11,6 +11,8 @@ pub struct Part {
     pub is_free: Vec<bool>,
     /// Name in the part of each of the cloth's vertices.
     names: Vec<Option<usize>>,
+    /// Triangles whose energies change when free vertices move.
+    triangles: Vec<usize>,
 }
 
 impl Part {
@@ -23,10 +25,23 @@ impl Part {
             is_in[j] |= free[i];
         }
         others.iter().for_each(|&v| is_in[v] = true);
+        let Membrane { arcs, pairs, sides, .. } = &cloth.membrane;
+        let changes = |side: usize| arcs.most.get(side).is_some_and(|_| arcs.of(side).any(|(v, _)| free[v]));
+        let bends: Vec<bool> = (0..pairs.pairs().len()).map(changes).collect();
+        let changes = |t: &usize| {
+            cloth.triangles[*t].iter().any(|&v| free[v]) || sides[*t].iter().any(|&side| bends[side as usize])
+        };
+        let triangles: Vec<usize> = (0..cloth.triangles.len()).filter(changes).collect();
+        for &t in &triangles {
+            cloth.triangles[t].iter().for_each(|&v| is_in[v] = true);
+            for &side in sides[t].iter().filter(|_| !arcs.most.is_empty()) {
+                arcs.of(side as usize).for_each(|(v, _)| is_in[v] = true);
+            }
+        }
         let vertices: Vec<usize> = (0..free.len()).filter(|&v| is_in[v]).collect();
         let mut names = vec![None; free.len()];
         vertices.iter().enumerate().for_each(|(name, &v)| names[v] = Some(name));
-        Self { is_free: vertices.iter().map(|&v| free[v]).collect(), vertices, names }
+        Self { is_free: vertices.iter().map(|&v| free[v]).collect(), vertices, names, triangles }
     }
 
     /// Names of vertices in the part, if all are in it and one of them may move.
@@ -48,10 +63,15 @@ impl Cloth {
     /// A part by itself, with the energies that change when its free vertices move, and the triangles that these belong to.
     #[must_use]
     pub fn part(&self, part: &Part) -> (Self, Vec<usize>) {
-        let renamed = |(t, e): (usize, &Element)| Some((t, e.renamed(part.names(e.vertices())?)));
-        let (numbers, elements): (Vec<usize>, Vec<Element>) =
-            self.membrane.elements.iter().enumerate().filter_map(renamed).unzip();
-        let membrane = Membrane::new(self.membrane.material, elements);
+        let name = |v: usize| part.names[v].unwrap_or_default();
+        let renamed = |t: &usize| {
+            let element = &self.membrane.elements[*t];
+            element.renamed(element.vertices().map(name))
+        };
+        let membrane = Membrane::new(self.membrane.material, part.triangles.iter().map(renamed).collect());
+        let arcs = self.membrane.arcs.part(&self.membrane.pairs, &membrane.pairs, &part.vertices, name);
+        let membrane = membrane.with_arcs(arcs);
+        let numbers = part.triangles.clone();
         let cloth = Self {
             vertex_of: (0..part.vertices.len()).collect(),
             triangles: membrane.elements.iter().map(Element::vertices).collect(),

@@ -191,12 +191,26 @@ impl Dressing<'_> {
         let mut last: Option<(&Garment, Settled)> = None;
         for (level, garment) in self.garments.iter().enumerate() {
             let cloth = Cloth::new(garment, self.fabric, sewing::welded(garment))?;
-            let x = match &last {
+            let mut x = match &last {
                 None => cloth.weld(sewn),
                 Some((coarser, drape)) => prolong(coarser, &drape.positions, garment, &cloth, self.fabric),
             };
             let finer = (self.garments.len() - 1 - level) as i32;
-            let cloth = if is_slack && finer > 0 { cloth.slackened(SLACKENED.powi(finer)) } else { cloth };
+            let env = |n: &str| std::env::var(n).ok();
+            let drawn = Distortion::of(&self.garments[0], sewn)?.stretch;
+            let _ = is_slack;
+            let mut cloth = cloth;
+            if drawn <= DRAWN {
+                let spec = env(&format!("ST{finer}")).unwrap_or_default();
+                for st in spec.split(',').filter(|s| !s.is_empty()) {
+                    let (share, tol) = st.split_once(':').unwrap();
+                    let slack = cloth.clone().slackened(share.parse().unwrap());
+                    let n0 = run.iterations();
+                    Settling { around, garment, cloth: &slack, fabric: self.fabric, level, grip }.ease(&mut x, tol.parse().unwrap(), run)?;
+                    print!("[{finer} {share}: {}] ", run.iterations() - n0);
+                }
+                if finer > 0 && let Some(last) = env(&format!("CS{finer}")) { cloth = cloth.slackened(last.parse().unwrap()); }
+            }
             let settled =
                 Settling { around, garment, cloth: &cloth, fabric: self.fabric, level, grip }.settle(x, run)?;
             control(garment, &settled.positions, run.params())?;

@@ -51,6 +51,11 @@ impl Phase {
         }
     }
 
+    /// Coming to rest of slack cloth.
+    pub fn slack(params: &Params, level: usize, last: usize, tolerance: f64) -> Self {
+        Self { tolerance, max_steps: params.coarse_steps, ..Self::frictionless(params, level, last) }
+    }
+
     /// The end of the drape, with friction.
     pub fn final_drape(params: &Params, level: usize) -> Self {
         Self {

@@ -120,6 +120,19 @@ impl Settling<'_> {
         Ok(Settled { positions: cloth.unweld(&x), residual, yields_m, sewn: x, triangles: cloth.triangles.clone() })
     }
 
+    /// Lets the sewn vertices come nearly to rest from `x`, without friction: where slack cloth lies, that of more stiffness begins.
+    ///
+    /// # Errors
+    /// When they diverge or slide off the body, or the monitor cancels.
+    pub fn ease(&self, x: &mut Vec<V3>, tolerance: f64, run: &mut Simulation) -> Result<(), SimError> {
+        let cloth = self.cloth;
+        let areas = contact_areas(self.garment, &cloth.vertex_of, &cloth.areas, 2.0 * self.around.self_contact.thickness_m);
+        let mut system = self.system(cloth, &areas, self.contact(self.around.field, x, run));
+        let phase = Phase::slack(run.params(), self.level, run.levels(), tolerance);
+        run.drape(self.garment, &mut system, x, phase)?;
+        Ok(())
+    }
+
     /// A cloth of this mesh in contact with the body and with itself; `areas` are those of the latter.
     fn system<'c>(&self, cloth: &'c Cloth, areas: &'c [f64], contact: BodyContact<'c>) -> System<'c> {
         let mut system = System::new(cloth, contact, None);

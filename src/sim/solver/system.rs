@@ -6,14 +6,14 @@ use wide::f32x4;
 use crate::cloth::Cloth;
 use crate::cloth::bending::Bending;
 use crate::cloth::law::Tensor;
-use crate::cloth::membrane::Foreseen;
+use crate::cloth::membrane::{Bowed, Foreseen, Membrane};
 use crate::contact::{BodyContact, ClothContact};
 use crate::sewing::Springs;
 use crate::walls::Walls;
 use geom::V3;
 use geom::units::GRAVITY;
 use linalg::linear::LinearSolver;
-use linalg::operator::{Operator, PairList};
+use linalg::operator::{ArcStiffness, Operator, PairList};
 use linalg::quad::Block;
 
 geom::constants! {
@@ -148,7 +148,7 @@ impl<'a> System<'a> {
         let mut forces = contact_forces.clone();
         forces.iter_mut().zip(&self.weights).for_each(|(f, w)| f.z -= w);
         let mut membrane = cloth.membrane.blocks();
-        let stretched_j = cloth.membrane.assemble(x, &mut forces, predicted, &mut membrane);
+        let (stretched_j, bowed) = cloth.membrane.assemble(x, &mut forces, predicted, &mut membrane);
         let bent_j = cloth.bending.assemble(x, &mut forces);
         let (bending_pairs, bending) = self.bending(&mut membrane);
         cloth.bands.add_forces(x, &mut forces);
@@ -167,6 +167,7 @@ impl<'a> System<'a> {
             bending,
             springs,
             contacts,
+            arcs: stiffness(cloth, x, bowed),
         };
         Assembled { energy, forces, contact_forces, operator }
     }
@@ -185,13 +186,15 @@ impl<'a> System<'a> {
         contacts.extend(self.self_contact.iter().flat_map(|contact| contact.assemble(&end, &mut forces)));
         self.add_walls(&end, &mut forces);
         let mut membrane = self.cloth.membrane.blocks();
-        let foreseen = self.cloth.membrane.assemble_towards(x, d, &mut forces, &mut membrane);
+        let (foreseen, bowed) = self.cloth.membrane.assemble_towards(x, d, &mut forces, &mut membrane);
         self.cloth.bands.assemble_towards(x, &end, operator.membrane_pairs, &mut forces, &mut membrane);
         self.bending(&mut membrane);
         for &v in &self.held {
             forces[v] = V3::zeros();
         }
-        let operator = Operator { diagonal, contacts, membrane, springs: operator.springs.clone(), ..*operator };
+        let arcs = stiffness(self.cloth, &end, bowed);
+        let springs = operator.springs.clone();
+        let operator = Operator { diagonal, contacts, membrane, springs, arcs, ..*operator };
         Excess { forces, operator, foreseen }
     }
 
@@ -224,6 +227,23 @@ impl<'a> System<'a> {
         let walls = self.walls.iter();
         walls.flat_map(|walls| x.iter().enumerate().filter_map(|(v, p)| walls.trespass(v, p).map(|(d, n)| (v, d, n))))
     }
+}
+
+/// Stiffness of arcs at `x`.
+fn stiffness<'a>(cloth: &'a Cloth, x: &[V3], bowed: Bowed) -> Option<ArcStiffness<'a>> {
+    let Membrane { arcs, pairs, sides, .. } = &cloth.membrane;
+    let Bowed { bent, tensions, couplings } = bowed;
+    (!arcs.most.is_empty() && std::env::var("NOGN").is_err()).then(|| ArcStiffness {
+        pairs,
+        starts: &arcs.starts,
+        vertices: &arcs.vertices,
+        weights: &arcs.weights,
+        triangles: sides,
+        chords: pairs.pairs().iter().map(|&[i, j]| x[j] - x[i]).collect(),
+        drawn: tensions.iter().zip(&bent.rates).map(|(tension, rate)| 0.5 * tension * rate).collect(),
+        slopes: bent.slopes,
+        couplings,
+    })
 }
 
 /// Root mean square length of the vectors.
