@@ -123,7 +123,6 @@ pub struct CsrMatrix<'a, Q: Quad> {
 /// An [`ArcStiffness`] in the precision of a solve.
 struct Arcs<'a, Q: Quad> {
     of: &'a ArcStiffness<'a>,
-    weights: Vec<Q::Scalar>,
     chords: Vec<Q>,
     slopes: Vec<Q>,
     drawn: Vec<Q::Scalar>,
@@ -207,7 +206,6 @@ impl<'a, Q: Quad> Arcs<'a, Q> {
     fn new(of: &'a ArcStiffness<'a>) -> Self {
         Self {
             of,
-            weights: of.weights.iter().map(|w| Q::scalar(*w)).collect(),
             chords: of.chords.iter().map(Q::from_vector).collect(),
             slopes: of.slopes.iter().map(Q::from_vector).collect(),
             drawn: of.drawn.iter().map(|k| Q::scalar(*k)).collect(),
@@ -222,11 +220,7 @@ impl<'a, Q: Quad> Arcs<'a, Q> {
         let mut grown = vec![[0.0_f32; 2]; count];
         let mut tensions = vec![[0.0_f32; 2]; count];
         for (side, &[i, j]) in self.of.pairs.pairs().iter().enumerate() {
-            let range = self.of.starts[side] as usize..self.of.starts[side + 1] as usize;
-            let mut bend = Q::ZERO;
-            for (v, weight) in self.of.vertices[range.clone()].iter().zip(&self.weights[range]) {
-                bend = states[*v as usize][0].mul_add_on(Q::splat(*weight), bend, simd);
-            }
+            let bend = self.of.stencils.sum_of(simd, side, states);
             bends[side] = bend;
             let by_bend = (self.slopes[side] * bend).total() as f32;
             let by_chord = (self.chords[side] * (states[j][0] - states[i][0])).total() as f32;
@@ -244,15 +238,14 @@ impl<'a, Q: Quad> Arcs<'a, Q> {
         }
         for (side, &[i, j]) in self.of.pairs.pairs().iter().enumerate() {
             let [by_bend, by_all] = tensions[side];
-            let pull = self.chords[side] * Q::spread(f64::from(by_bend));
+            let pull = self.chords[side] * Q::spread_single(by_bend);
             states[i][1] -= pull;
             states[j][1] += pull;
-            let push = self.slopes[side].mul_add_on(Q::spread(f64::from(by_all)), bends[side] * Q::splat(self.drawn[side]), simd);
-            let range = self.of.starts[side] as usize..self.of.starts[side + 1] as usize;
-            for (v, weight) in self.of.vertices[range.clone()].iter().zip(&self.weights[range]) {
-                let force = &mut states[*v as usize][1];
-                *force = push.mul_add_on(Q::splat(*weight), *force, simd);
-            }
+            let push = self.slopes[side] * Q::spread_single(by_all);
+            bends[side] = bends[side].mul_add_on(Q::splat(self.drawn[side]), push, simd);
+        }
+        for (v, [_, force]) in states.iter_mut().enumerate() {
+            *force += self.of.stencils.column_sum(simd, v, &bends);
         }
     }
 }

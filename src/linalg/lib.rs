@@ -16,6 +16,7 @@ mod packed;
 pub mod pcg;
 pub mod quad;
 pub mod simd;
+pub mod stencil;
 
 use geom::constants::Constant;
 

@@ -10,6 +10,7 @@ use wide::f32x4;
 
 use super::csr::{Upper, sorted_by_row};
 use super::quad::{self, Block};
+use super::stencil::Stencils;
 use geom::V3;
 
 /// Pairs of vertices `i < j`, sorted, that some element couples.
@@ -122,12 +123,8 @@ impl Contact4 {
 pub struct ArcStiffness<'a> {
     /// Pairs of vertices that are sides.
     pub pairs: &'a PairList,
-    /// Where the weights of each side begin, and one more.
-    pub starts: &'a [u32],
-    /// Vertices that its curvature is told by.
-    pub vertices: &'a [u32],
-    /// Their weights.
-    pub weights: &'a [f64],
+    /// What the curvature along each side is told by.
+    pub stencils: &'a Stencils,
     /// Sides of each triangle.
     pub triangles: &'a [[u32; 3]],
     /// From the first vertex of each side to the second, m.
@@ -230,8 +227,8 @@ impl ArcStiffness<'_> {
         }
         for (side, slope) in self.slopes.iter().enumerate() {
             let block = slope * slope.transpose() * own[side] + Matrix3::identity() * self.drawn[side];
-            for k in self.starts[side] as usize..self.starts[side + 1] as usize {
-                blocks[self.vertices[k] as usize] += block * (self.weights[k] * self.weights[k]);
+            for (v, weight) in self.stencils.row(side) {
+                blocks[v] += block * (weight * weight);
             }
         }
     }

@@ -42,6 +42,9 @@ pub trait Quad:
         Self::splat(Self::scalar(number))
     }
 
+    /// The same number four times, of single precision.
+    fn spread_single(number: f32) -> Self;
+
     /// `self factor + sum`.
     fn mul_add_on<S: Simd>(self, factor: Self, sum: Self, simd: S) -> Self;
     /// `from - self factor`.
@@ -80,6 +83,11 @@ macro_rules! quad {
             #[inline(always)]
             fn of(numbers: [f64; 4]) -> Self {
                 Self::from(numbers.map(Self::scalar))
+            }
+            #[inline(always)]
+            #[allow(clippy::unnecessary_cast, reason = "not in double precision")]
+            fn spread_single(number: f32) -> Self {
+                <$quad>::splat(number as $scalar)
             }
             #[inline(always)]
             fn scalar(number: f64) -> $scalar {

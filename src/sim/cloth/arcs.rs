@@ -15,6 +15,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::bending::{Hinge, Plate};
 use geom::{V2, V3};
 use linalg::PairList;
+use linalg::stencil::Stencils;
 
 geom::constants! {
     "cloth.arcs",
@@ -29,12 +30,8 @@ geom::constants! {
 /// The sides of a membrane's triangles as arcs, in the order of its pairs.
 #[derive(Clone, Debug, Default)]
 pub struct Arcs {
-    /// Where the weights of each side begin, and one more.
-    pub starts: Vec<u32>,
-    /// Vertices that a side's curvature is told by.
-    pub vertices: Vec<u32>,
-    /// Their weights: `k = sum weight_j x_j`, m.
-    pub weights: Vec<f64>,
+    /// What the curvature along each side is told by: `k = sum weight_j x_j`, m.
+    pub stencils: Stencils,
     /// Bound on the excess of the squared arc, m2.
     pub most: Vec<f64>,
 }
@@ -64,7 +61,7 @@ pub struct Laid {
 impl Arcs {
     /// Weights of the curvature along each of the `pairs`, which are the sides of the triangles.
     #[must_use]
-    pub fn new(laid: &[Laid], plates: &[Plate], hinges: &[Hinge], pairs: &PairList) -> Self {
+    pub fn new(laid: &[Laid], plates: &[Plate], hinges: &[Hinge], pairs: &PairList, vertices: usize) -> Self {
         let count = pairs.pairs().len();
         let mut sides: Vec<Vec<(usize, f64)>> = vec![Vec::new(); count];
         let mut most = vec![0.0; count];
@@ -88,42 +85,33 @@ impl Arcs {
                 sides[slot].extend(curvature.iter().map(|(v, k)| (*v, k.dot(&along) / shares[slot])));
             }
         }
-        let (mut starts, mut vertices, mut weights) = (vec![0], Vec::new(), Vec::new());
-        for mut side in sides {
+        for side in &mut sides {
             side.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-            for run in side.chunk_by(|a, b| a.0 == b.0) {
-                vertices.push(run[0].0 as u32);
-                weights.push(run.iter().map(|(_, weight)| weight).sum());
-            }
-            starts.push(vertices.len() as u32);
+            let sums = side.chunk_by(|a, b| a.0 == b.0).map(|run| (run[0].0, run.iter().map(|(_, w)| w).sum()));
+            *side = sums.collect();
         }
-        Self { starts, vertices, weights, most }
+        Self { stencils: Stencils::new(&sides, vertices), most }
     }
 
     /// Those of a part with `pairs` of its own, whose vertices the cloth calls `vertices`, and which calls the cloth's by `name`.
     #[must_use]
     pub fn part(&self, all: &PairList, pairs: &PairList, vertices: &[usize], name: impl Fn(usize) -> usize) -> Self {
-        let mut part = Self { starts: vec![0], ..Self::default() };
-        if self.most.is_empty() {
-            return Self::default();
+        let side = |&[i, j]: &[usize; 2]| all.slot(vertices[i], vertices[j]).expect("a side of the whole");
+        let sides: Vec<usize> = match self.most.is_empty() {
+            true => Vec::new(),
+            false => pairs.pairs().iter().map(side).collect(),
+        };
+        let rows: Vec<Vec<(usize, f64)>> =
+            sides.iter().map(|&side| self.of(side).map(|(v, weight)| (name(v), weight)).collect()).collect();
+        Self {
+            stencils: Stencils::new(&rows, vertices.len()),
+            most: sides.iter().map(|&side| self.most[side]).collect(),
         }
-        for &[i, j] in pairs.pairs() {
-            let side = all.slot(vertices[i], vertices[j]).expect("a side of the whole");
-            for (v, weight) in self.of(side) {
-                part.vertices.push(name(v) as u32);
-                part.weights.push(weight);
-            }
-            part.starts.push(part.vertices.len() as u32);
-            part.most.push(self.most[side]);
-        }
-        part
     }
 
     /// The vertices and weights of a side.
-    #[inline(always)]
     pub fn of(&self, side: usize) -> impl Iterator<Item = (usize, f64)> {
-        let range = self.starts[side] as usize..self.starts[side + 1] as usize;
-        self.vertices[range.clone()].iter().map(|v| *v as usize).zip(self.weights[range].iter().copied())
+        self.stencils.row(side)
     }
 
     /// The arcs of cloth at `x`.
@@ -131,7 +119,7 @@ impl Arcs {
     pub fn bent(&self, x: &[V3]) -> Bent {
         let mut bent = Bent::default();
         for side in 0..self.most.len() {
-            let k: V3 = self.of(side).map(|(v, weight)| x[v] * weight).sum();
+            let k = self.stencils.sum(side, x);
             let q = k.norm_squared() / 12.0;
             let share = 1.0 / (1.0 + q / self.most[side].max(f64::MIN_POSITIVE));
             bent.excess.push(q * share);
@@ -145,7 +133,7 @@ impl Arcs {
     /// Half of what a displacement adds to the squared arcs' excess in first order, m2.
     #[must_use]
     pub fn changes(&self, bent: &Bent, d: &[V3]) -> Vec<f64> {
-        let change = |(side, slope): (usize, &V3)| slope.dot(&self.of(side).map(|(v, w)| d[v] * w).sum::<V3>());
+        let change = |(side, slope): (usize, &V3)| slope.dot(&self.stencils.sum(side, d));
         bent.slopes.iter().enumerate().map(change).collect()
     }
 

@@ -72,7 +72,7 @@ impl Cloth {
             }
         }
         let membrane = Membrane::new(Orthotropic::of(fabric), elements);
-        let arcs = Arcs::new(&plates.laid, &plates.plates, &plates.hinges, &membrane.pairs);
+        let arcs = Arcs::new(&plates.laid, &plates.plates, &plates.hinges, &membrane.pairs, count);
         let membrane = if std::env::var("CHORDS").is_ok() { membrane } else { membrane.with_arcs(arcs) };
         Ok(Self {
             triangles: membrane.elements.iter().map(Element::vertices).collect(),

@@ -197,6 +197,8 @@ impl Dressing<'_> {
             };
             let finer = (self.garments.len() - 1 - level) as i32;
             let env = |n: &str| std::env::var(n).ok();
+            let mut cloth = cloth;
+            if finer > 0 && env("AF").is_some() { cloth.membrane.arcs = Default::default(); }
             let drawn = Distortion::of(&self.garments[0], sewn)?.stretch;
             let _ = is_slack;
             let mut cloth = cloth;
@@ -204,7 +206,8 @@ impl Dressing<'_> {
                 let spec = env(&format!("ST{finer}")).unwrap_or_default();
                 for st in spec.split(',').filter(|s| !s.is_empty()) {
                     let (share, tol) = st.split_once(':').unwrap();
-                    let slack = cloth.clone().slackened(share.parse().unwrap());
+                    let mut slack = cloth.clone().slackened(share.parse().unwrap());
+                    if share.parse::<f64>().unwrap() < 0.05 && env("AF").is_some() { slack.membrane.arcs = Default::default(); }
                     let n0 = run.iterations();
                     Settling { around, garment, cloth: &slack, fabric: self.fabric, level, grip }.ease(&mut x, tol.parse().unwrap(), run)?;
                     print!("[{finer} {share}: {}] ", run.iterations() - n0);

@@ -235,9 +235,7 @@ fn stiffness<'a>(cloth: &'a Cloth, x: &[V3], bowed: Bowed) -> Option<ArcStiffnes
     let Bowed { bent, tensions, couplings } = bowed;
     (!arcs.most.is_empty() && std::env::var("NOGN").is_err()).then(|| ArcStiffness {
         pairs,
-        starts: &arcs.starts,
-        vertices: &arcs.vertices,
-        weights: &arcs.weights,
+        stencils: &arcs.stencils,
         triangles: sides,
         chords: pairs.pairs().iter().map(|&[i, j]| x[j] - x[i]).collect(),
         drawn: tensions.iter().zip(&bent.rates).map(|(tension, rate)| 0.5 * tension * rate).collect(),
