@@ -37,9 +37,6 @@ impl Default for LinearSolver {
     }
 }
 
-pub static COUNT: std::sync::atomic::AtomicUsize = std::sync::atomic::AtomicUsize::new(0);
-pub static SOLVES: std::sync::atomic::AtomicUsize = std::sync::atomic::AtomicUsize::new(0);
-pub static FACTORS: std::sync::atomic::AtomicUsize = std::sync::atomic::AtomicUsize::new(0);
 impl LinearSolver {
     /// The solver that factorises.
     #[must_use]
@@ -138,9 +135,6 @@ impl TwoLevel {
         let both =
             TwoLevelPreconditioner { jacobi: Jacobi::new(&diagonal), patches: &self.patches, coarse: &coarse, motions };
         let iterations = pcg::solve(&CsrMatrix::new(operator), both, b, x, params).iterations;
-        COUNT.fetch_add(iterations, std::sync::atomic::Ordering::Relaxed);
-        SOLVES.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-        FACTORS.fetch_add(usize::from(is_new), std::sync::atomic::Ordering::Relaxed);
         if is_new {
             (self.when_new, self.lost) = (iterations, 0);
         } else {

@@ -312,9 +312,10 @@ mod tests {
         let x = shaken(&flat, 4e-3, 1);
         let [mut forces, mut best_forces] = [0, 1].map(|_| vec![V3::zeros(); x.len()]);
         let [mut blocks, mut best_blocks] = [0, 1].map(|_| membrane.blocks());
-        let parts = Assembly { forces: Some(&mut forces), blocks: Some(&mut blocks), ..membrane.assembly(&x) };
+        let bent = membrane.arcs.bent(&x);
+        let parts = Assembly { forces: Some(&mut forces), blocks: Some(&mut blocks), ..membrane.assembly(&x, &bent) };
         let energy = Plain.run(parts);
-        let best = membrane.assemble(&x, &mut best_forces, None, &mut best_blocks);
+        let (best, _) = membrane.assemble(&x, &mut best_forces, None, &mut best_blocks);
         assert!((energy - best).abs() < 1e-12 * best, "{energy} and {best}");
         let size = forces.iter().map(V3::amax).fold(0.0, f64::max);
         for (plain, best) in forces.iter().zip(&best_forces) {
@@ -341,7 +342,7 @@ mod tests {
         let (membrane, flat) = membrane_of(fabric, V2::new(0.0, 1.0));
         let x: Vec<V3> = shaken(&flat, 2e-4, 2).iter().map(|p| V3::new(stretch * p.x, stretch * p.y, p.z)).collect();
         let mut blocks = membrane.blocks();
-        let energy = membrane.assemble(&x, &mut vec![V3::zeros(); x.len()], None, &mut blocks);
+        let (energy, _) = membrane.assemble(&x, &mut vec![V3::zeros(); x.len()], None, &mut blocks);
         assert_eq!(energy.to_bits(), membrane.energy(&x).to_bits());
         let h = 1e-6;
         for (&[i, j], block) in membrane.pairs.pairs().iter().zip(&blocks) {
@@ -404,7 +405,7 @@ mod tests {
                 let end = shaken(&x, size, 6);
                 let d: Vec<V3> = end.iter().zip(&x).map(|(p, q)| p - q).collect();
                 let (mut forces, mut blocks) = (vec![V3::zeros(); x.len()], membrane.blocks());
-                let predicted = membrane.assemble_towards(&x, &d, &mut forces, &mut blocks);
+                let (predicted, _) = membrane.assemble_towards(&x, &d, &mut forces, &mut blocks);
                 let off = |(e, p): (&Element, &Foreseen)| {
                     (membrane.material.stress(strain(e, &end)) - p.after(1.0)).matrix().norm()
                 };

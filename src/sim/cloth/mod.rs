@@ -24,6 +24,12 @@ use gathers::Gathers;
 use law::Orthotropic;
 use membrane::{Element, Membrane};
 
+geom::constants! {
+    "cloth",
+    /// Share of its stiffness in the plane up to which cloth is of chords: constant strain makes folds up to eleven times too stiff.
+    const CHORDS_DO: f64 = 0.03;
+}
+
 /// A garment as the solver sees it. *Simulated* vertices are groups of garment vertices that are sewn together.
 #[derive(Clone, Debug)]
 pub struct Cloth {
@@ -73,7 +79,7 @@ impl Cloth {
         }
         let membrane = Membrane::new(Orthotropic::of(fabric), elements);
         let arcs = Arcs::new(&plates.laid, &plates.plates, &plates.hinges, &membrane.pairs, count);
-        let membrane = if std::env::var("CHORDS").is_ok() { membrane } else { membrane.with_arcs(arcs) };
+        let membrane = membrane.with_arcs(arcs);
         Ok(Self {
             triangles: membrane.elements.iter().map(Element::vertices).collect(),
             masses: areas.iter().map(|a| a * fabric.density_kg_m2).collect(),
@@ -85,10 +91,14 @@ impl Cloth {
         })
     }
 
-    /// The same cloth with a share of its stiffness in its plane ([`Orthotropic::slackened`]); it bends as before.
+    /// The same cloth with a share of its stiffness in its plane ([`Orthotropic::slackened`]); it bends as before. With a small share
+    /// chords do for arcs: what folds lock is small as well.
     #[must_use]
     pub fn slackened(mut self, share: f64) -> Self {
         self.membrane.material = self.membrane.material.slackened(share);
+        if share <= CHORDS_DO {
+            self.membrane.arcs = Arcs::default();
+        }
         self
     }
 
@@ -168,5 +178,5 @@ impl PlateBuilder {
 
 /// Constants of the cloth that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
-    [arcs::CONSTANTS, bending::CONSTANTS, gathers::CONSTANTS, law::CONSTANTS].concat()
+    [CONSTANTS, arcs::CONSTANTS, bending::CONSTANTS, gathers::CONSTANTS, law::CONSTANTS].concat()
 }

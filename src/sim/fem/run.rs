@@ -51,8 +51,8 @@ impl Phase {
         }
     }
 
-    /// Coming to rest of slack cloth.
-    pub fn slack(params: &Params, level: usize, last: usize, tolerance: f64) -> Self {
+    /// Coming nearly to rest on a level, before it does so with more stiffness.
+    pub fn easing(params: &Params, level: usize, last: usize, tolerance: f64) -> Self {
         Self { tolerance, max_steps: params.coarse_steps, ..Self::frictionless(params, level, last) }
     }
 

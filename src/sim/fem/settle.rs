@@ -71,6 +71,7 @@ pub struct Settled {
 }
 
 /// A level that is to settle.
+#[derive(Clone, Copy)]
 pub struct Settling<'a> {
     /// What it lies on.
     pub around: Around<'a>,
@@ -97,8 +98,7 @@ impl Settling<'_> {
         let (hands, finest) = (around.hands.into_iter(), run.levels());
         let shapes: Vec<(Shape, DistanceField)> = hands.flat_map(|hands| hands.of_level(level, finest)).collect();
         let begin = shapes.first().map_or(around.field, |(_, field)| field);
-        let thickness_m = around.self_contact.thickness_m;
-        let areas = contact_areas(self.garment, &cloth.vertex_of, &cloth.areas, 2.0 * thickness_m);
+        let areas = self.contact_areas();
         let mut system = self.system(cloth, &areas, self.contact(begin, &x, run));
         let mut residual = f64::MAX;
         for (shape, field) in &shapes {
@@ -120,17 +120,24 @@ impl Settling<'_> {
         Ok(Settled { positions: cloth.unweld(&x), residual, yields_m, sewn: x, triangles: cloth.triangles.clone() })
     }
 
-    /// Lets the sewn vertices come nearly to rest from `x`, without friction: where slack cloth lies, that of more stiffness begins.
+    /// Lets the sewn vertices come nearly to rest from `x`, to some residual and without friction that is not there throughout.
     ///
     /// # Errors
     /// When they diverge or slide off the body, or the monitor cancels.
     pub fn ease(&self, x: &mut Vec<V3>, tolerance: f64, run: &mut Simulation) -> Result<(), SimError> {
-        let cloth = self.cloth;
-        let areas = contact_areas(self.garment, &cloth.vertex_of, &cloth.areas, 2.0 * self.around.self_contact.thickness_m);
-        let mut system = self.system(cloth, &areas, self.contact(self.around.field, x, run));
-        let phase = Phase::slack(run.params(), self.level, run.levels(), tolerance);
-        run.drape(self.garment, &mut system, x, phase)?;
+        let Self { around, cloth, level, .. } = *self;
+        let areas = self.contact_areas();
+        let shape = around.hands.and_then(|hands| hands.of_level(level, run.levels()).next());
+        let field = shape.as_ref().map_or(around.field, |(_, field)| field);
+        let mut system = self.system(cloth, &areas, self.contact(field, x, run));
+        run.drape(self.garment, &mut system, x, Phase::easing(run.params(), level, run.levels(), tolerance))?;
         Ok(())
+    }
+
+    /// Areas of the sewn vertices as the cloth's contact with itself takes them, m2.
+    fn contact_areas(&self) -> Vec<f64> {
+        let Cloth { vertex_of, areas, .. } = self.cloth;
+        contact_areas(self.garment, vertex_of, areas, 2.0 * self.around.self_contact.thickness_m)
     }
 
     /// A cloth of this mesh in contact with the body and with itself; `areas` are those of the latter.
