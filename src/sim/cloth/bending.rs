@@ -116,7 +116,8 @@ impl Plate {
             false => f64::from(u8::from(e == f)),
         });
         let all = known.try_inverse().unwrap_or_else(Matrix3::zeros);
-        let outer = Matrix3::from_columns(&[0, 1, 2].map(|e| Vector3::new(n[e].x * n[e].x, n[e].y * n[e].y, n[e].x * n[e].y)));
+        let outer =
+            Matrix3::from_columns(&[0, 1, 2].map(|e| Vector3::new(n[e].x * n[e].x, n[e].y * n[e].y, n[e].x * n[e].y)));
         let tensors = outer * all;
         [0, 1, 2].map(|e| tensors.column(e).into_owned())
     }

@@ -182,7 +182,7 @@ pub fn rolled(radius_edges: f64, turned_rad: f64) -> Result<f64, SimError> {
         ..isotropic(0.1, 1.0, rigidity)
     };
     let turn = Rotation2::new(turned_rad);
-    let (rest, triangles) = jittered(hexagonal_sheet(8, 14, edge), 0.2 * edge, |_| false);
+    let (rest, triangles) = jittered(hexagonal_sheet(8, 14, edge), 0.1 * edge, |_| false);
     let reach = rest.iter().map(|p| p.y).fold(0.0, f64::max);
     let flat = (rest.iter().map(|p| turn * p).collect(), triangles);
     let sheet = Specimen::new(flat, &cotton, |p| {
