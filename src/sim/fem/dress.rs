@@ -14,8 +14,9 @@ use crate::solver::System;
 use crate::walls::Walls;
 use crate::{Distortion, Fabric, SimError};
 use body::Body;
+use geom::units::GRAVITY;
 use geom::{DistanceField, V3};
-use pattern::Garment;
+use pattern::{Garment, PieceMesh};
 
 geom::constants! {
     "fem.dress",
@@ -28,14 +29,16 @@ geom::constants! {
     const TORN: f64 = 1.25;
     /// A garment that yields this much on a coarse mesh is tight, m: it is about to leave the offset that keeps it outside.
     const TIGHT_M: f64 = 8e-4;
-    /// Shares of its stiffness in the plane with which cloth comes to rest on the finest mesh one after the other, before all of it; coarser
-    /// meshes have the first.
+    /// By how much slack cloth is stretched by the weight that hangs from it, as it comes to rest on the finest mesh with one share of its
+    /// stiffness in the plane after the other, before all of it; coarser meshes have the first.
     ///
     /// Cloth that stretches as easily as it bends has one way to lie, or few, and wherever it begins it finds that; stiffened by and by
     /// it goes on from there. Stiff from the start it stays in the folds that it happened to be sewn into.
-    const SHARES: [f64; 3] = [0.01, 0.03, 0.2];
+    const STRETCHES: [f64; 3] = [0.025, 0.008, 0.0012];
     /// Residual with which the next share begins.
     const EASED: f64 = 0.1;
+    /// Residual without friction of all the stiffness, from which on friction holds.
+    const RESTED: f64 = 0.02;
     /// Principal stretch beyond 1 that 1 % of the sewn cloth exceeds where it is drawn tight: there are no folds then, and slack cloth is
     /// drawn out of shape.
     const DRAWN: f64 = 0.1;
@@ -179,14 +182,23 @@ impl Dressing<'_> {
         Ok(system.contact.yields_m(x))
     }
 
-    /// Whether the sewn garment comes to rest slack first: where it is not drawn tight.
-    fn is_slack(&self, sewn: &[V3]) -> Result<bool, SimError> {
-        Ok(Distortion::of(&self.garments[0], sewn)?.stretch <= DRAWN)
+    /// Shares of its stiffness in the plane with which the sewn garment comes to rest first: none where it is drawn tight, or of cloth that
+    /// stretches as easily as it is.
+    fn shares(&self, sewn: &[V3]) -> Result<Vec<f64>, SimError> {
+        let coarsest = &self.garments[0];
+        if Distortion::of(coarsest, sewn)?.stretch > DRAWN {
+            return Ok(Vec::new());
+        }
+        let Fabric { density_kg_m2, membrane_warp_n_m, membrane_weft_n_m, .. } = *self.fabric;
+        let hanging_n_m = density_kg_m2 * GRAVITY * length_m(coarsest);
+        let stiffness_n_m = (membrane_warp_n_m * membrane_weft_n_m).sqrt();
+        let shares = STRETCHES.map(|stretch| hanging_n_m / (stretch * stiffness_n_m));
+        Ok(shares.into_iter().filter(|share| *share < 1.0).collect())
     }
 
     /// Settles the sewn garment on the coarsest mesh, and on each finer one from the one before.
     fn refine(&self, mut around: Around, sewn: &[V3], grip: Grip, run: &mut Simulation) -> Result<Settled, SimError> {
-        let is_slack = self.is_slack(sewn)?;
+        let shares = self.shares(sewn)?;
         let mut last: Option<(&Garment, Settled)> = None;
         for (level, garment) in self.garments.iter().enumerate() {
             let cloth = Cloth::new(garment, self.fabric, sewing::welded(garment))?;
@@ -194,15 +206,21 @@ impl Dressing<'_> {
                 None => cloth.weld(sewn),
                 Some((coarser, drape)) => prolong(coarser, &drape.positions, garment, &cloth, self.fabric),
             };
-            let shares = if is_slack { &SHARES[..] } else { &[] };
-            let is_finest = level + 1 == self.garments.len();
             let settling = Settling { around, garment, cloth: &cloth, fabric: self.fabric, level, grip };
+            let is_finest = level + 1 == self.garments.len();
             for share in shares.iter().filter(|_| is_finest) {
                 let slack = cloth.clone().slackened(*share);
                 Settling { cloth: &slack, ..settling }.ease(&mut x, EASED, run)?;
             }
-            let settled = match shares.first().filter(|_| !is_finest) {
-                Some(share) => Settling { cloth: &cloth.clone().slackened(*share), ..settling }.settle(x, run)?,
+            let settled = match shares.first() {
+                Some(share) if !is_finest => {
+                    let slack = cloth.clone().slackened(*share);
+                    Settling { cloth: &slack, ..settling }.settle(x, run)?
+                }
+                Some(_) => {
+                    settling.ease(&mut x, RESTED, run)?;
+                    settling.settle(x, run)?
+                }
                 None => settling.settle(x, run)?,
             };
             control(garment, &settled.positions, run.params())?;
@@ -213,6 +231,16 @@ impl Dressing<'_> {
         }
         last.map(|(_, settled)| settled).ok_or(SimError::NoMesh)
     }
+}
+
+/// Length of the longest piece along its grain, m.
+fn length_m(garment: &Garment) -> f64 {
+    let length = |piece: &PieceMesh| {
+        let along = garment.rest[piece.vertices.clone()].iter().map(|p| p.dot(&piece.grain));
+        let (low, high) = along.fold((f64::MAX, f64::MIN), |(low, high), at| (low.min(at), high.max(at)));
+        high - low
+    };
+    garment.pieces.iter().map(length).fold(0.0, f64::max)
 }
 
 /// Ends a simulation whose seams stay open.
@@ -245,19 +273,28 @@ mod tests {
     use body::{self, Measurements, Sex};
 
     #[test]
-    fn a_garment_comes_to_rest_slack_first_where_it_is_not_drawn_tight() {
+    fn a_garment_comes_to_rest_slack_first_where_it_is_neither_drawn_tight_nor_stretches_anyway() {
         let body = body::build(&Measurements::of(Sex::Male, 1.75)).expect("a body");
-        let (field, fabric) = (laboratory::nowhere(), fabric());
-        let garments = [laboratory::garment(sheet(20, 20, 0.01))];
-        let check = |stretch: f64, expect: bool| {
+        let field = laboratory::nowhere();
+        let garments = [laboratory::garment(sheet(20, 50, 0.01))];
+        let check = |stretch: f64, softer: f64, expect: usize| {
+            let stiff = fabric();
+            let soft = Fabric {
+                membrane_warp_n_m: stiff.membrane_warp_n_m / softer,
+                membrane_weft_n_m: stiff.membrane_weft_n_m / softer,
+                ..stiff
+            };
             let sewn: Vec<V3> = garments[0].rest.iter().map(|p| V3::new(stretch * p.x, p.y, 0.0)).collect();
-            let (body, field, fabric, garments) = (&body, &field, &fabric, &garments[..]);
+            let (body, field, fabric, garments) = (&body, &field, &soft, &garments[..]);
             let dressing =
                 Dressing { body, skin: None, field, hands: None, garments, fabric, placed: &sewn, force: 1.0 };
-            assert_eq!(dressing.is_slack(&sewn).expect("sound"), expect, "{stretch}");
+            let shares = dressing.shares(&sewn).expect("sound");
+            assert!(shares.len() == expect && shares.is_sorted(), "{stretch}, {softer}: {shares:?}");
         };
-        check(1.0, true);
-        check(1.08, true);
-        check(1.12, false);
+        check(1.0, 1.0, 3);
+        check(1.08, 1.0, 3);
+        check(1.12, 1.0, 0);
+        check(1.0, 10.0, 2);
+        check(1.0, 1000.0, 0);
     }
 }
