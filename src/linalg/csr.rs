@@ -231,9 +231,10 @@ impl<'a, Q: Quad> Arcs<'a, Q> {
             let [aa, bb, cc, ab, bc, ca] = *couplings;
             for k in 0..2 {
                 let (x, y, z) = (grown[a][k], grown[b][k], grown[c][k]);
-                tensions[a][k] += aa * x + ab * y + ca * z;
-                tensions[b][k] += ab * x + bb * y + bc * z;
-                tensions[c][k] += ca * x + bc * y + cc * z;
+                // Summed up so that a mirrored triangle, whose sides come the other way round, has the same.
+                tensions[a][k] += (aa * x + ca * z) + ab * y;
+                tensions[b][k] += (ab * x + bc * z) + bb * y;
+                tensions[c][k] += (cc * z + ca * x) + bc * y;
             }
         }
         for (side, &[i, j]) in self.of.pairs.pairs().iter().enumerate() {

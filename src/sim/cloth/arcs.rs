@@ -58,6 +58,18 @@ pub struct Laid {
     pub across: [Option<[usize; 2]>; 3],
 }
 
+impl Laid {
+    /// Its sides by the numbers of their ends: in the same order whichever way round it is.
+    fn sides(&self) -> [usize; 3] {
+        let mut order = [0, 1, 2];
+        order.sort_unstable_by_key(|&side| {
+            let [a, b] = [side, (side + 1) % 3].map(|k| self.vertices[k]);
+            [a.min(b), a.max(b)]
+        });
+        order
+    }
+}
+
 impl Arcs {
     /// Weights of the curvature along each of the `pairs`, which are the sides of the triangles.
     #[must_use]
@@ -150,7 +162,10 @@ impl Arcs {
 
 /// Curvature tensor of a triangle: of each vertex, what it has of `k11`, `k22` and `k12`, 1 along the weft and 2 along the warp, 1/m2.
 fn curvature(laid: &[Laid], t: usize, plate: &Plate, hinges: &[Hinge]) -> Vec<(usize, Vector3<f64>)> {
-    let corners = laid[t].rest;
+    // Corners by their numbers, and what lies about them: a mirrored garment has the mirrored weights to the bit.
+    let mut order = [0, 1, 2];
+    order.sort_unstable_by_key(|&k| laid[t].vertices[k]);
+    let (vertices, corners) = (order.map(|k| laid[t].vertices[k]), order.map(|k| laid[t].rest[k]));
     let twice = (corners[1] - corners[0]).perp(&(corners[2] - corners[0]));
     let half = |p: V2| Vector3::new(0.5 * p.x * p.x, 0.5 * p.y * p.y, p.x * p.y);
     let regular = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 2.0)) * HINGES;
@@ -166,19 +181,19 @@ fn curvature(laid: &[Laid], t: usize, plate: &Plate, hinges: &[Hinge]) -> Vec<(u
         normal += row * row.transpose() * weight;
         let term = row * (weight / twice);
         terms.push((v, term));
-        terms.extend((0..3).map(|k| (laid[t].vertices[k], -term * lambda[k])));
+        terms.extend((0..3).map(|k| (vertices[k], -term * lambda[k])));
     }
-    let tensor = plate.curvature_tensor();
-    for (side, hinge) in plate.hinges.iter().enumerate() {
-        let Some(hinge) = hinge.map(|h| &hinges[h]) else { continue };
-        let of = regular * tensor[side];
+    let order = laid[t].sides();
+    for (side, tensor) in order.into_iter().zip(plate.curvature_tensor(order)) {
+        let Some(hinge) = plate.hinges[side].map(|h| &hinges[h]) else { continue };
+        let of = regular * tensor;
         terms.extend(hinge.vertices.into_iter().zip(hinge.coefficients).map(|(v, c)| (v, of * c)));
     }
     let inverse = normal.try_inverse().unwrap_or_else(Matrix3::zeros);
     terms.into_iter().map(|(v, term)| (v, inverse * term)).collect()
 }
 
-/// The vertices about the corners of a triangle, unfolded into its plane, with their weights.
+/// The vertices about the corners of a triangle, ascending, unfolded into its plane, with their weights.
 fn around(laid: &[Laid], t: usize) -> Vec<(usize, (V2, f64))> {
     let corners = laid[t].vertices;
     let mut placed = vec![(t, laid[t].rest)];
@@ -186,7 +201,7 @@ fn around(laid: &[Laid], t: usize) -> Vec<(usize, (V2, f64))> {
     let mut found: Vec<(usize, (V2, f64))> = Vec::new();
     while let Some(at) = queue.pop_front() {
         let (from, rest) = placed[at];
-        for side in 0..3 {
+        for side in laid[from].sides() {
             let Some([next, back]) = laid[from].across[side] else { continue };
             let touches = laid[next].vertices.iter().any(|v| corners.contains(v));
             if !touches || placed.iter().any(|(other, _)| *other == next) {
@@ -202,12 +217,16 @@ fn around(laid: &[Laid], t: usize) -> Vec<(usize, (V2, f64))> {
             placed.push((next, shape));
         }
     }
+    found.sort_unstable_by_key(|(v, _)| *v);
     found
 }
 
 /// A triangle laid beside a side from `a` to `b`, along which its own side `back` runs the other way.
 fn unfolded([a, b]: [V2; 2], rest: [V2; 3], back: usize) -> [V2; 3] {
     let (from, to) = (rest[back], rest[(back + 1) % 3]);
+    if (from, to) == (b, a) {
+        return rest;
+    }
     let own = (to - from).try_normalize(0.0).unwrap_or_else(V2::x);
     let wanted = (a - b).try_normalize(0.0).unwrap_or_else(V2::x);
     let (cos, sin) = (own.dot(&wanted), own.perp(&wanted));

@@ -105,20 +105,18 @@ impl Plate {
         form
     }
 
-    /// What the curvature across each side adds to the triangle's tensor `k11, k22, k12`, that across free sides being the one that
-    /// makes it least.
+    /// What the curvature across each side, in this order, adds to the triangle's tensor `k11, k22, k12`, that across free sides being
+    /// the one that makes it least.
     #[must_use]
-    pub fn curvature_tensor(&self) -> [Vector3<f64>; 3] {
-        let n = &self.normals;
-        let is_free = |side: usize| self.hinges[side].is_none();
-        let known = Matrix3::from_fn(|e, f| match is_free(e) {
-            true => n[e].dot(&n[f]).powi(2),
-            false => f64::from(u8::from(e == f)),
+    pub fn curvature_tensor(&self, order: [usize; 3]) -> [Vector3<f64>; 3] {
+        let n = order.map(|side| self.normals[side]);
+        let known = Matrix3::from_fn(|e, f| match self.hinges[order[e]] {
+            None => n[e].dot(&n[f]).powi(2),
+            Some(_) => f64::from(u8::from(e == f)),
         });
         let all = known.try_inverse().unwrap_or_else(Matrix3::zeros);
-        let outer =
-            Matrix3::from_columns(&[0, 1, 2].map(|e| Vector3::new(n[e].x * n[e].x, n[e].y * n[e].y, n[e].x * n[e].y)));
-        let tensors = outer * all;
+        let outer = n.map(|n| Vector3::new(n.x * n.x, n.y * n.y, n.x * n.y));
+        let tensors = Matrix3::from_columns(&outer) * all;
         [0, 1, 2].map(|e| tensors.column(e).into_owned())
     }
 

@@ -98,7 +98,7 @@ impl Four {
     fn strain_of<S: Simd>(&self, simd: S, excess: &[f64]) -> Tensor<Lanes<S>> {
         let (shapes, sides) = (self.of_sides(simd), self.sides(simd, excess));
         let half = sides[0].splat(0.5);
-        shapes[0] * (half * sides[0]) + shapes[1] * (half * sides[1]) + shapes[2] * (half * sides[2])
+        (shapes[0] * (half * sides[0]) + shapes[2] * (half * sides[2])) + shapes[1] * (half * sides[1])
     }
 
     /// Adds what a stress makes of half of each squared side, N/m.
@@ -125,7 +125,12 @@ impl Four {
         let (shapes, area) = (self.of_sides(simd), self.lanes_of_areas(simd));
         let stresses = each!(k of 3 => law.tangent(strain, shapes[k]) * area);
         let own = each!(k of 3 => product(&shapes[k], &stresses[k]).single());
-        let other = each!(k of 3 => product(&shapes[k], &stresses[(k + 1) % 3]).single());
+        // Either way round, so that it does not matter which side comes first.
+        let half = area.splat(0.5);
+        let other = each!(k of 3 => {
+            let next = (k + 1) % 3;
+            ((product(&shapes[k], &stresses[next]) + product(&shapes[next], &stresses[k])) * half).single()
+        });
         for lane in 0..4 {
             couplings.push([own[0][lane], own[1][lane], own[2][lane], other[0][lane], other[1][lane], other[2][lane]]);
         }
