@@ -230,7 +230,7 @@ mod tests {
     fn a_cantilever_bends_as_the_elastica() {
         let gammas = [0.1, 1.0, 10.0, 100.0, 1000.0];
         for mesh in [Mesh::Squares, Mesh::Hexagons, Mesh::Irregular] {
-            let results = cantilever(mesh, 64, &gammas).expect("a sound mesh");
+            let results = cantilever(mesh, 96, &gammas).expect("a sound mesh");
             for (gamma, (drop, residual)) in gammas.iter().zip(results) {
                 let expect = elastica(*gamma);
                 assert!(residual <= 1e-3, "{mesh:?} {gamma}: residual {residual}");
