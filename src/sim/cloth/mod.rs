@@ -24,12 +24,6 @@ use gathers::Gathers;
 use law::Orthotropic;
 use membrane::{Element, Membrane};
 
-geom::constants! {
-    "cloth",
-    /// Share of its stiffness in the plane up to which cloth is of chords: constant strain makes folds up to eleven times too stiff.
-    const CHORDS_DO: f64 = 0.03;
-}
-
 /// A garment as the solver sees it. *Simulated* vertices are groups of garment vertices that are sewn together.
 #[derive(Clone, Debug)]
 pub struct Cloth {
@@ -91,14 +85,10 @@ impl Cloth {
         })
     }
 
-    /// The same cloth with a share of its stiffness in its plane ([`Orthotropic::slackened`]); it bends as before. With a small share
-    /// chords do for arcs: what folds lock is small as well.
+    /// The same cloth with a share of its stiffness in its plane ([`Orthotropic::slackened`]); it bends as before.
     #[must_use]
     pub fn slackened(mut self, share: f64) -> Self {
         self.membrane.material = self.membrane.material.slackened(share);
-        if share <= CHORDS_DO {
-            self.membrane.arcs = Arcs::default();
-        }
         self
     }
 
@@ -178,5 +168,5 @@ impl PlateBuilder {
 
 /// Constants of the cloth that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
-    [CONSTANTS, arcs::CONSTANTS, bending::CONSTANTS, gathers::CONSTANTS, law::CONSTANTS].concat()
+    [arcs::CONSTANTS, bending::CONSTANTS, gathers::CONSTANTS, law::CONSTANTS].concat()
 }
