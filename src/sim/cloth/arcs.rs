@@ -3,12 +3,10 @@
 //! A triangle of constant strain on a cylinder shortens each side to its chord, by the fourth power of the side's share along the
 //! bend; the three shortenings do not add up to a strain that a motion in the plane takes back, and at the stiffness of cloth in its
 //! plane that outweighs bending: folds of few edges lock. So strains are taken of arcs, whose squared length is
-//! `|x_b - x_a|^2 + q / (1 + q / q_max)` with `q = |k|^2 / 12` and the curvature along the side `k = d^T (k_s + k_t) / 2 d`, `d` the
-//! side at rest, `s` and `t` its triangles. The curvature tensor of a triangle is the quadratic that fits, by least squares, how far
-//! the vertices about its corners lie from its plane, with a little of the tensor of its hinges [Onate & Zarate 2000] where these do
-//! not tell. It is linear in the positions, and so is `k`: a few weights a side, known once the cloth is cut.
-
-use std::collections::VecDeque;
+//! `|x_b - x_a|^2 + q / (1 + q / q_max)` with `q = |k|^2 / 12` and the curvature along the side `k = d^T k_ab d`, `d` the side at rest.
+//! The curvature tensor at a side is the quadratic that fits, by least squares, how far the vertices about its ends lie from the planes
+//! of its triangles, with a little of the tensor of their hinges [Onate & Zarate 2000] where these do not tell. It is linear in the
+//! positions, and so is `k`: ten weights a side or so, known once the cloth is cut.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -19,9 +17,7 @@ use linalg::stencil::Stencils;
 
 geom::constants! {
     "cloth.arcs",
-    /// Weight of vertices about the corners that do not face the triangle across a side: those do with 1.
-    const AROUND: f64 = 0.3;
-    /// Weight of the hinges' tensor.
+    /// Weight of the hinges' tensor beside that of a vertex.
     const HINGES: f64 = 0.02;
     /// Greatest excess of a squared arc over a share of the squared side: crumpled folds would grow without limit.
     const MOST: f64 = 0.1;
@@ -59,11 +55,16 @@ pub struct Laid {
 }
 
 impl Laid {
+    /// The vertices at the ends of a side.
+    fn ends(&self, side: usize) -> [usize; 2] {
+        [self.vertices[side], self.vertices[(side + 1) % 3]]
+    }
+
     /// Its sides by the numbers of their ends: in the same order whichever way round it is.
     fn sides(&self) -> [usize; 3] {
         let mut order = [0, 1, 2];
         order.sort_unstable_by_key(|&side| {
-            let [a, b] = [side, (side + 1) % 3].map(|k| self.vertices[k]);
+            let [a, b] = self.ends(side);
             [a.min(b), a.max(b)]
         });
         order
@@ -75,34 +76,30 @@ impl Arcs {
     #[must_use]
     pub fn new(laid: &[Laid], plates: &[Plate], hinges: &[Hinge], pairs: &PairList, vertices: usize) -> Self {
         let count = pairs.pairs().len();
-        let mut sides: Vec<Vec<(usize, f64)>> = vec![Vec::new(); count];
-        let mut most = vec![0.0; count];
-        let mut shares = vec![0.0; count];
-        for triangle in laid {
-            for k in 0..3 {
-                let (a, b) = (triangle.vertices[k], triangle.vertices[(k + 1) % 3]);
-                if let Some(slot) = pairs.slot(a, b).filter(|_| a != b) {
-                    shares[slot] += 1.0;
+        let mut found: Vec<Vec<Side>> = vec![Vec::new(); count];
+        for (t, triangle) in laid.iter().enumerate() {
+            for side in 0..3 {
+                let [a, b] = triangle.ends(side);
+                let is_others = triangle.across[side].is_some_and(|[other, _]| other < t);
+                if let Some(slot) = pairs.slot(a, b).filter(|_| a != b && !is_others) {
+                    found[slot].push(Side { laid, plates, hinges, t, side });
                 }
             }
         }
-        for (t, triangle) in laid.iter().enumerate() {
-            let curvature = curvature(laid, t, &plates[t], hinges);
-            for k in 0..3 {
-                let (a, b) = (triangle.vertices[k], triangle.vertices[(k + 1) % 3]);
-                let Some(slot) = pairs.slot(a, b).filter(|_| a != b) else { continue };
-                let d = triangle.rest[(k + 1) % 3] - triangle.rest[k];
-                let along = Vector3::new(d.x * d.x, d.y * d.y, 2.0 * d.x * d.y);
-                most[slot] += MOST * d.norm_squared() / shares[slot];
-                sides[slot].extend(curvature.iter().map(|(v, k)| (*v, k.dot(&along) / shares[slot])));
-            }
-        }
-        for side in &mut sides {
-            side.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-            let sums = side.chunk_by(|a, b| a.0 == b.0).map(|run| (run[0].0, run.iter().map(|(_, w)| w).sum()));
-            *side = sums.collect();
-        }
-        Self { stencils: Stencils::new(&sides, vertices), most }
+        // Where more than two triangles meet, the mean of what they tell.
+        let mean = |sides: &Vec<Side>, of: &dyn Fn(&Side) -> f64| {
+            sides.iter().map(of).sum::<f64>() / sides.len().max(1) as f64
+        };
+        let most = found.iter().map(|sides| mean(sides, &|side| MOST * side.along().norm_squared())).collect();
+        let weights = |sides: &Vec<Side>| {
+            let share = 1.0 / sides.len().max(1) as f64;
+            let mut all: Vec<(usize, f64)> =
+                sides.iter().flat_map(Side::weights).map(|(v, w)| (v, w * share)).collect();
+            all.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+            all.chunk_by(|a, b| a.0 == b.0).map(|run| (run[0].0, run.iter().map(|(_, w)| w).sum())).collect()
+        };
+        let rows: Vec<Vec<(usize, f64)>> = found.iter().map(weights).collect();
+        Self { stencils: Stencils::new(&rows, vertices), most }
     }
 
     /// Those of a part with `pairs` of its own, whose vertices the cloth calls `vertices`, and which calls the cloth's by `name`.
@@ -160,65 +157,103 @@ impl Arcs {
     }
 }
 
-/// Curvature tensor of a triangle: of each vertex, what it has of `k11`, `k22` and `k12`, 1 along the weft and 2 along the warp, 1/m2.
-fn curvature(laid: &[Laid], t: usize, plate: &Plate, hinges: &[Hinge]) -> Vec<(usize, Vector3<f64>)> {
-    // Corners by their numbers, and what lies about them: a mirrored garment has the mirrored weights to the bit.
-    let mut order = [0, 1, 2];
-    order.sort_unstable_by_key(|&k| laid[t].vertices[k]);
-    let (vertices, corners) = (order.map(|k| laid[t].vertices[k]), order.map(|k| laid[t].rest[k]));
-    let twice = (corners[1] - corners[0]).perp(&(corners[2] - corners[0]));
-    let half = |p: V2| Vector3::new(0.5 * p.x * p.x, 0.5 * p.y * p.y, p.x * p.y);
-    let regular = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 2.0)) * HINGES;
-    let mut normal = regular;
-    let mut terms: Vec<(usize, Vector3<f64>)> = Vec::new();
-    for (v, (p, weight)) in around(laid, t) {
-        let lambda = [0, 1, 2].map(|k| {
-            let (b, c) = (corners[(k + 1) % 3], corners[(k + 2) % 3]);
-            (b - p).perp(&(c - p)) / twice
-        });
-        let flat: Vector3<f64> = (0..3).map(|k| half(corners[k]) * lambda[k]).sum();
-        let row = (half(p) - flat) / twice;
-        normal += row * row.transpose() * weight;
-        let term = row * (weight / twice);
-        terms.push((v, term));
-        terms.extend((0..3).map(|k| (vertices[k], -term * lambda[k])));
-    }
-    let order = laid[t].sides();
-    for (side, tensor) in order.into_iter().zip(plate.curvature_tensor(order)) {
-        let Some(hinge) = plate.hinges[side].map(|h| &hinges[h]) else { continue };
-        let of = regular * tensor;
-        terms.extend(hinge.vertices.into_iter().zip(hinge.coefficients).map(|(v, c)| (v, of * c)));
-    }
-    let inverse = normal.try_inverse().unwrap_or_else(Matrix3::zeros);
-    terms.into_iter().map(|(v, term)| (v, inverse * term)).collect()
+/// A side of a triangle, with all the triangles.
+#[derive(Clone, Copy)]
+struct Side<'a> {
+    laid: &'a [Laid],
+    plates: &'a [Plate],
+    hinges: &'a [Hinge],
+    t: usize,
+    side: usize,
 }
 
-/// The vertices about the corners of a triangle, ascending, unfolded into its plane, with their weights.
-fn around(laid: &[Laid], t: usize) -> Vec<(usize, (V2, f64))> {
-    let corners = laid[t].vertices;
-    let mut placed = vec![(t, laid[t].rest)];
-    let mut queue = VecDeque::from([0]);
-    let mut found: Vec<(usize, (V2, f64))> = Vec::new();
-    while let Some(at) = queue.pop_front() {
-        let (from, rest) = placed[at];
-        for side in laid[from].sides() {
-            let Some([next, back]) = laid[from].across[side] else { continue };
-            let touches = laid[next].vertices.iter().any(|v| corners.contains(v));
-            if !touches || placed.iter().any(|(other, _)| *other == next) {
-                continue;
-            }
-            let shape = unfolded([rest[side], rest[(side + 1) % 3]], laid[next].rest, back);
-            let facing = (back + 2) % 3;
-            let v = laid[next].vertices[facing];
-            if !corners.contains(&v) && found.iter().all(|(other, _)| *other != v) {
-                found.push((v, (shape[facing], if at == 0 { 1.0 } else { AROUND })));
-            }
-            queue.push_back(placed.len());
-            placed.push((next, shape));
-        }
+impl Side<'_> {
+    /// The side at rest, m.
+    fn along(&self) -> V2 {
+        let rest = self.laid[self.t].rest;
+        rest[(self.side + 1) % 3] - rest[self.side]
     }
-    found.sort_unstable_by_key(|(v, _)| *v);
-    found
+
+    /// Its triangles in the plane of the first.
+    fn triangles(&self) -> Vec<(usize, [V2; 3])> {
+        let first = &self.laid[self.t];
+        let ends = [first.rest[self.side], first.rest[(self.side + 1) % 3]];
+        let other = first.across[self.side].map(|[other, back]| (other, unfolded(ends, self.laid[other].rest, back)));
+        [Some((self.t, first.rest)), other].into_iter().flatten().collect()
+    }
+
+    /// What each vertex has of the curvature along the side, m2 of each metre.
+    fn weights(&self) -> Vec<(usize, f64)> {
+        let triangles = self.triangles();
+        let regular = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 2.0)) * (HINGES / triangles.len() as f64);
+        let mut normal = Matrix3::zeros();
+        let mut terms: Vec<(usize, Vector3<f64>)> = Vec::new();
+        for (t, rest) in triangles {
+            // Corners by their numbers, and what lies about them: a mirrored garment has the mirrored weights to the bit.
+            let mut order = [0, 1, 2];
+            order.sort_unstable_by_key(|&k| self.laid[t].vertices[k]);
+            let (vertices, corners) = (order.map(|k| self.laid[t].vertices[k]), order.map(|k| rest[k]));
+            for (v, p) in self.around(t, rest) {
+                let (row, lambda) = departure(corners, p);
+                normal += row * row.transpose();
+                let term = row / (corners[1] - corners[0]).perp(&(corners[2] - corners[0]));
+                terms.push((v, term));
+                terms.extend((0..3).map(|k| (vertices[k], -term * lambda[k])));
+            }
+            normal += regular;
+            let order = self.laid[t].sides();
+            for (side, tensor) in order.into_iter().zip(self.plates[t].curvature_tensor(order)) {
+                let Some(hinge) = self.plates[t].hinges[side].map(|h| &self.hinges[h]) else { continue };
+                let of = regular * tensor;
+                terms.extend(hinge.vertices.into_iter().zip(hinge.coefficients).map(|(v, c)| (v, of * c)));
+            }
+        }
+        let d = self.along();
+        let inverse = normal.try_inverse().unwrap_or_else(Matrix3::zeros);
+        let along = inverse * Vector3::new(d.x * d.x, d.y * d.y, 2.0 * d.x * d.y);
+        terms.into_iter().map(|(v, term)| (v, along.dot(&term))).collect()
+    }
+
+    /// The vertices about the side's ends that are not a triangle's own, ascending, unfolded into its plane.
+    fn around(&self, t: usize, rest: [V2; 3]) -> Vec<(usize, V2)> {
+        let ends = self.laid[self.t].ends(self.side);
+        let mut placed = vec![(t, rest)];
+        let mut found: Vec<(usize, V2)> = Vec::new();
+        let mut at = 0;
+        while at < placed.len() {
+            let (from, rest) = placed[at];
+            at += 1;
+            for side in self.laid[from].sides() {
+                let Some([next, back]) = self.laid[from].across[side] else { continue };
+                let touches = self.laid[next].vertices.iter().any(|v| ends.contains(v));
+                if !touches || placed.iter().any(|(other, _)| *other == next) {
+                    continue;
+                }
+                let shape = unfolded([rest[side], rest[(side + 1) % 3]], self.laid[next].rest, back);
+                let facing = (back + 2) % 3;
+                let v = self.laid[next].vertices[facing];
+                if !self.laid[t].vertices.contains(&v) && found.iter().all(|(other, _)| *other != v) {
+                    found.push((v, shape[facing]));
+                }
+                placed.push((next, shape));
+            }
+        }
+        found.sort_unstable_by_key(|(v, _)| *v);
+        found
+    }
+}
+
+/// How far a point departs from the plane of three corners by each component of the curvature tensor, over twice their area, and the
+/// corners' shares in what lies in that plane there.
+fn departure(corners: [V2; 3], p: V2) -> (Vector3<f64>, [f64; 3]) {
+    let half = |p: V2| Vector3::new(0.5 * p.x * p.x, 0.5 * p.y * p.y, p.x * p.y);
+    let twice = (corners[1] - corners[0]).perp(&(corners[2] - corners[0]));
+    let shares = [0, 1, 2].map(|k| {
+        let (b, c) = (corners[(k + 1) % 3], corners[(k + 2) % 3]);
+        (b - p).perp(&(c - p)) / twice
+    });
+    let flat: Vector3<f64> = (0..3).map(|k| half(corners[k]) * shares[k]).sum();
+    ((half(p) - flat) / twice, shares)
 }
 
 /// A triangle laid beside a side from `a` to `b`, along which its own side `back` runs the other way.
