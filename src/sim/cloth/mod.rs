@@ -8,6 +8,7 @@ pub mod gathers;
 pub mod law;
 pub mod membrane;
 pub mod part;
+pub mod slack;
 
 use geom::constants::Constant;
 use std::collections::BTreeMap;
@@ -168,5 +169,5 @@ impl PlateBuilder {
 
 /// Constants of the cloth that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
-    [arcs::CONSTANTS, bending::CONSTANTS, gathers::CONSTANTS, law::CONSTANTS].concat()
+    [arcs::CONSTANTS, bending::CONSTANTS, gathers::CONSTANTS, law::CONSTANTS, slack::CONSTANTS].concat()
 }

@@ -5,7 +5,7 @@ use super::params::Params;
 use super::placement::Folded;
 use super::run::{OPEN_M, Simulation};
 use super::settle::{Around, Grip, Settled, Settling};
-use crate::cloth::Cloth;
+use crate::cloth::{Cloth, slack};
 use crate::contact::{BodyContact, ClothContact, Skin};
 use crate::levels::prolong;
 use crate::quality;
@@ -14,7 +14,6 @@ use crate::solver::System;
 use crate::walls::Walls;
 use crate::{Distortion, Fabric, SimError};
 use body::Body;
-use geom::units::GRAVITY;
 use geom::{DistanceField, V3};
 use pattern::{Garment, PieceMesh};
 
@@ -29,12 +28,6 @@ geom::constants! {
     const TORN: f64 = 1.25;
     /// A garment that yields this much on a coarse mesh is tight, m: it is about to leave the offset that keeps it outside.
     const TIGHT_M: f64 = 8e-4;
-    /// By how much slack cloth is stretched by the weight that hangs from it, as it comes to rest on the finest mesh with one share of its
-    /// stiffness in the plane after the other, before all of it; coarser meshes have the first.
-    ///
-    /// Cloth that stretches as easily as it bends has one way to lie, or few, and wherever it begins it finds that; stiffened by and by
-    /// it goes on from there. Stiff from the start it stays in the folds that it happened to be sewn into.
-    const STRETCHES: [f64; 3] = [0.025, 0.008, 0.0012];
     /// Residual with which the next share begins.
     const EASED: f64 = 0.1;
     /// Residual without friction of all the stiffness, from which on friction holds.
@@ -189,11 +182,7 @@ impl Dressing<'_> {
         if Distortion::of(coarsest, sewn)?.stretch > DRAWN {
             return Ok(Vec::new());
         }
-        let Fabric { density_kg_m2, membrane_warp_n_m, membrane_weft_n_m, .. } = *self.fabric;
-        let hanging_n_m = density_kg_m2 * GRAVITY * length_m(coarsest);
-        let stiffness_n_m = (membrane_warp_n_m * membrane_weft_n_m).sqrt();
-        let shares = STRETCHES.map(|stretch| hanging_n_m / (stretch * stiffness_n_m));
-        Ok(shares.into_iter().filter(|share| *share < 1.0).collect())
+        Ok(slack::shares(self.fabric, length_m(coarsest)))
     }
 
     /// Settles the sewn garment on the coarsest mesh, and on each finer one from the one before.

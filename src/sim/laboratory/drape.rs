@@ -2,6 +2,7 @@
 
 use super::Specimen;
 use super::sheets::{disc, shaken, sheet};
+use crate::cloth::slack;
 use crate::contact::{BodyContact, ClothContact, ClothContactParams, ContactParams};
 use crate::solver::{StepParams, Stepper, System};
 use crate::{Fabric, SimError};
@@ -13,10 +14,6 @@ geom::constants! {
     const SPECIMEN_M: f64 = 0.15;
     /// Radius of the disc that carries it, m.
     const DISC_M: f64 = 0.09;
-    /// Times that the specimen is bounced, as in the test on the bench, so that it leaves folds it merely got stuck in.
-    const BOUNCES: u64 = 3;
-    /// Greatest displacement of a point by that, m.
-    const BOUNCE_M: f64 = 3e-3;
 }
 
 /// A draped specimen.
@@ -45,14 +42,13 @@ pub fn cusick(fabric: &Fabric, rings: usize, number: u64) -> Result<Draped, SimE
     for v in (0..start.len()).filter(|v| !specimen.held.contains(v)) {
         specimen.positions[v].z = start[v].z;
     }
-    let mut residual = specimen.rest(1.0, 0.02, 400);
-    for bounce in 1..=BOUNCES {
-        let bounced = shaken(&specimen.positions, BOUNCE_M, seed + bounce);
-        for v in (0..start.len()).filter(|v| !specimen.held.contains(v)) {
-            specimen.positions[v] = bounced[v];
-        }
-        residual = specimen.rest(1.0, 0.02, 400);
+    let stiff = specimen.cloth.clone();
+    for share in slack::shares(fabric, SPECIMEN_M - DISC_M) {
+        specimen.cloth = stiff.clone().slackened(share);
+        specimen.rest(1.0, 0.1, 400);
     }
+    specimen.cloth = stiff;
+    let residual = specimen.rest(1.0, 0.02, 400);
     let rim: Vec<V3> = specimen.positions[specimen.positions.len() - 6 * rings..].to_vec();
     let shadow = 0.5 * (0..rim.len()).map(|i| cross(&rim[i].xy(), &rim[(i + 1) % rim.len()].xy())).sum::<f64>();
     let area = |radius: f64| std::f64::consts::PI * radius * radius;
