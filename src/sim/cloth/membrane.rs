@@ -166,6 +166,25 @@ impl Membrane {
         simd::dispatch(self.assembly(x, &bent))
     }
 
+    /// Green strains, one an element, weft first.
+    #[must_use]
+    pub fn strains(&self, x: &[V3]) -> Vec<Matrix2<f64>> {
+        let bent = self.arcs.bent(x);
+        let strain = |(element, sides): (&Element, &[u32; 3])| {
+            let f = element.deformation_gradient(x);
+            let chords = 0.5 * (f.transpose() * f - Matrix2::identity());
+            let [g, h] = element.gradients;
+            let gradients = [-g - h, g, h];
+            let of_side = |k: usize| {
+                let (i, j) = (gradients[k], gradients[(k + 1) % 3]);
+                let excess = bent.excess.get(sides[k] as usize).copied().unwrap_or(0.0);
+                (i * j.transpose() + j * i.transpose()) * (-0.25 * excess)
+            };
+            chords + (0..3).map(of_side).sum::<Matrix2<f64>>()
+        };
+        self.elements.iter().zip(&self.sides).map(strain).collect()
+    }
+
     /// Adds the elastic forces, N.
     pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
         let bent = self.arcs.bent(x);
