@@ -60,6 +60,8 @@ pub struct Drape {
     pub seam_gap_max_m: f64,
     /// Edges that pierce the garment's own cloth.
     pub self_crossings: usize,
+    /// Force that holds it up by its top edge, N, where it would slide off by itself.
+    pub braced_n: Option<f64>,
     /// Vertices once sewn (each welded group counts once).
     pub welded_vertices: usize,
     /// The run, step by step.

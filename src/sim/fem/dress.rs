@@ -58,8 +58,8 @@ pub struct Dressing<'a> {
 }
 
 impl Dressing<'_> {
-    /// Sews the garment and lets it come to rest. What slides off without friction is settled again with friction
-    /// throughout; `Grip::Throughout` has friction hold it from the first seam on.
+    /// Sews the garment and lets it come to rest. What slides off without friction is settled again with friction throughout, and what slides
+    /// off with it hangs from its top edge; `Grip::Throughout` has friction hold it from the first seam on.
     ///
     /// # Errors
     /// When its seams stay open, it diverges, slides off, is stretched beyond what cloth can be or a limit that is to end it, or the
@@ -68,7 +68,7 @@ impl Dressing<'_> {
         let Some(coarsest) = self.garments.first() else { return Err(SimError::NoMesh) };
         let Params { contact, self_contact, .. } = *run.params();
         let soft = Around { skin: self.skin, field: self.field, hands: self.hands, contact, self_contact };
-        if grip == Grip::Throughout {
+        if grip != Grip::AtTheEnd {
             run.keep_up(coarsest, self.placed);
         }
         let (mut sewn, yields_m) = self.sew(coarsest, soft, grip, run)?;
@@ -82,13 +82,16 @@ impl Dressing<'_> {
         }
         closed(coarsest, &sewn)?;
         run.keep_up(coarsest, &sewn);
-        match self.refine(around, &sewn, grip, run) {
-            // Nothing but friction may hold it up.
-            Err(SimError::SlidOff { .. }) if grip == Grip::AtTheEnd => {
-                self.refine(around, &sewn, Grip::Throughout, run)
+        // Nothing but friction may hold it up, or nothing at all.
+        let grips = [Grip::AtTheEnd, Grip::Throughout, Grip::Braced];
+        let mut slid = None;
+        for grip in grips.into_iter().skip_while(|first| *first != grip) {
+            match self.refine(around, &sewn, grip, run) {
+                Err(error @ SimError::SlidOff { .. }) => slid = Some(error),
+                other => return other,
             }
-            other => other,
         }
+        Err(slid.unwrap_or(SimError::NoMesh))
     }
 
     /// The same with friction throughout, after it failed without: where that fails as well, the first error tells.
@@ -160,7 +163,7 @@ impl Dressing<'_> {
         let folded = self.hands.map(Hands::folded);
         let field = folded.as_ref().unwrap_or(around.field);
         let mut contact = BodyContact::new(field, around.contact, &cloth.areas).with_points_between(&cloth.triangles);
-        if grip == Grip::Throughout {
+        if grip != Grip::AtTheEnd {
             contact.set_friction(Some(self.fabric.friction_body));
         }
         let springs = Springs::new(garment, params.sewing.seam_stiffness_n_m, self.force * params.sewing.seam_cap_n);
@@ -187,7 +190,8 @@ impl Dressing<'_> {
 
     /// Settles the sewn garment on the coarsest mesh, and on each finer one from the one before.
     fn refine(&self, mut around: Around, sewn: &[V3], grip: Grip, run: &mut Simulation) -> Result<Settled, SimError> {
-        let shares = self.shares(sewn)?;
+        // What friction has to hold is not let slip.
+        let shares = if grip == Grip::Throughout { Vec::new() } else { self.shares(sewn)? };
         let mut last: Option<(&Garment, Settled)> = None;
         for (level, garment) in self.garments.iter().enumerate() {
             let cloth = Cloth::new(garment, self.fabric, sewing::welded(garment))?;

@@ -98,6 +98,7 @@ pub fn simulate(
         seam_gap_max_m: quality::seam_gap_m(finest, &settled.positions),
         self_crossings: quality::self_crossings(&settled.sewn, &settled.triangles),
         welded_vertices: settled.sewn.len(),
+        braced_n: settled.braced_n,
         positions: settled.positions,
         history: Vec::new(),
         earlier: Vec::new(),

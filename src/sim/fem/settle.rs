@@ -5,6 +5,7 @@ use super::run::{Phase, Simulation};
 use crate::cloth::Cloth;
 use crate::contact::{BodyContact, ClothContact, ClothContactParams, ContactParams, Skin, contact_areas};
 use crate::solver::System;
+use crate::solver::braces::Braces;
 use crate::{Fabric, SimError};
 use geom::{DistanceField, V3};
 use pattern::Garment;
@@ -30,6 +31,8 @@ pub enum Grip {
     AtTheEnd,
     /// From the sewing on: for what would slide off the body without.
     Throughout,
+    /// Likewise, and its top edge keeps its height: for what would slide off with friction as well.
+    Braced,
 }
 
 /// The body as contact sees it: exactly, and as a field.
@@ -64,6 +67,8 @@ pub struct Settled {
     pub residual: f64,
     /// How far the contact with the body yields, m.
     pub yields_m: f64,
+    /// What its top edge had to be held up with, N.
+    pub braced_n: Option<f64>,
     /// Positions of the sewn vertices, m.
     pub sewn: Vec<V3>,
     /// Triangles of the sewn vertices.
@@ -99,7 +104,7 @@ impl Settling<'_> {
         let shapes: Vec<(Shape, DistanceField)> = hands.flat_map(|hands| hands.of_level(level, finest)).collect();
         let begin = shapes.first().map_or(around.field, |(_, field)| field);
         let areas = self.contact_areas();
-        let mut system = self.system(cloth, &areas, self.contact(begin, &x, run));
+        let mut system = self.system(cloth, &areas, self.contact(begin, &x, run), &x);
         let mut residual = f64::MAX;
         for (shape, field) in &shapes {
             system.contact = self.contact(field, &x, run);
@@ -117,7 +122,9 @@ impl Settling<'_> {
             }
             residual = self.hold(&mut system, &mut x, run)?;
         }
-        Ok(Settled { positions: cloth.unweld(&x), residual, yields_m, sewn: x, triangles: cloth.triangles.clone() })
+        let braced_n = system.braces.as_ref().map(|braces| braces.carry_n(&x));
+        let (positions, triangles) = (cloth.unweld(&x), cloth.triangles.clone());
+        Ok(Settled { positions, residual, yields_m, braced_n, sewn: x, triangles })
     }
 
     /// Lets the sewn vertices come nearly to rest from `x`, to some residual and without friction that is not there throughout.
@@ -129,7 +136,7 @@ impl Settling<'_> {
         let areas = self.contact_areas();
         let shape = around.hands.and_then(|hands| hands.of_level(level, run.levels()).next());
         let field = shape.as_ref().map_or(around.field, |(_, field)| field);
-        let mut system = self.system(cloth, &areas, self.contact(field, x, run));
+        let mut system = self.system(cloth, &areas, self.contact(field, x, run), x);
         run.drape(self.garment, &mut system, x, Phase::easing(run.params(), level, run.levels(), tolerance))?;
         Ok(())
     }
@@ -140,9 +147,10 @@ impl Settling<'_> {
         contact_areas(self.garment, vertex_of, areas, 2.0 * self.around.self_contact.thickness_m)
     }
 
-    /// A cloth of this mesh in contact with the body and with itself; `areas` are those of the latter.
-    fn system<'c>(&self, cloth: &'c Cloth, areas: &'c [f64], contact: BodyContact<'c>) -> System<'c> {
+    /// A cloth of this mesh at `x` in contact with the body and with itself; `areas` are those of the latter.
+    fn system<'c>(&self, cloth: &'c Cloth, areas: &'c [f64], contact: BodyContact<'c>, x: &[V3]) -> System<'c> {
         let mut system = System::new(cloth, contact, None);
+        system.braces = (self.grip == Grip::Braced).then(|| Braces::new(cloth, x));
         system.self_contact = Some(ClothContact::new(self.around.self_contact, &cloth.triangles, areas));
         system
     }
@@ -174,7 +182,7 @@ impl Settling<'_> {
             }
             self.hold_out(&mut contact, x, false);
         }
-        if self.grip == Grip::Throughout {
+        if self.grip != Grip::AtTheEnd {
             contact.set_friction(Some(self.fabric.friction_body));
         }
         contact

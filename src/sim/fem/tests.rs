@@ -236,6 +236,7 @@ fn ended(converged: bool, (depth_m, crossings): (f64, usize)) -> Drape {
         penetration_max_m: depth_m,
         seam_gap_max_m: 0.0,
         self_crossings: crossings,
+        braced_n: None,
         welded_vertices: 1,
         positions: Vec::new(),
         history: Vec::new(),

@@ -177,6 +177,7 @@ pub fn phases(
         ),
         seam_gap_max_m: quality::seam_gap_m(garment, &positions),
         self_crossings,
+        braced_n: None,
         welded_vertices: x.len(),
         positions,
         history: run.history,

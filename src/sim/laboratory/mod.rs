@@ -6,6 +6,7 @@ pub mod bending;
 pub mod drape;
 pub mod sheets;
 pub mod stretch;
+pub mod touch;
 
 use crate::cloth::Cloth;
 use crate::contact::{BodyContact, ContactParams};

@@ -35,6 +35,7 @@ pub fn moving(system: &System, moved: &[V3]) -> Option<Vec<bool>> {
     let is_whole = moved.len() < LEAST_VERTICES
         || system.springs.is_some()
         || system.walls.is_some()
+        || system.braces.is_some()
         || !system.held.is_empty()
         || system.linear.is_exact()
         || system.self_contact.as_ref().is_some_and(|contact| !contact.is_untangled());

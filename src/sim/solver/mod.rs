@@ -1,6 +1,7 @@
 //! The solver: one proximal Newton step at a time towards static equilibrium.
 
 pub mod active_set;
+pub mod braces;
 pub mod line_search;
 pub mod proximal;
 pub mod system;
@@ -10,7 +11,7 @@ pub use system::System;
 
 /// Constants of the solver that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
-    [active_set::CONSTANTS, line_search::CONSTANTS, proximal::CONSTANTS, system::CONSTANTS].concat()
+    [active_set::CONSTANTS, braces::CONSTANTS, line_search::CONSTANTS, proximal::CONSTANTS, system::CONSTANTS].concat()
 }
 
 #[cfg(test)]

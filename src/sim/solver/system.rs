@@ -3,6 +3,7 @@
 use nalgebra::Matrix3;
 use wide::f32x4;
 
+use super::braces::Braces;
 use crate::cloth::Cloth;
 use crate::cloth::bending::Bending;
 use crate::cloth::law::Tensor;
@@ -60,6 +61,8 @@ pub struct System<'a> {
     pub springs: Option<Springs>,
     /// Walls between the cloth of limbs, until the seams are welded.
     pub walls: Option<Walls>,
+    /// What holds the cloth up by its top edge.
+    pub braces: Option<Braces>,
     /// Vertices that do not move.
     pub held: Vec<usize>,
     /// Solver of the linear systems; remembers factors from step to step.
@@ -80,6 +83,7 @@ impl<'a> System<'a> {
             self_contact: None,
             springs,
             walls: None,
+            braces: None,
             held: Vec::new(),
             linear: LinearSolver::default(),
         }
@@ -105,7 +109,16 @@ impl<'a> System<'a> {
         let trespass = |(v, depth, _): (usize, f64, V3)| 0.5 * WALL_STIFFNESS * self.cloth.areas[v] * depth * depth;
         let sewn_j = self.springs.as_ref().map_or(0.0, |s| s.energy(x));
         let walls_j: f64 = self.trespasses(x).map(trespass).sum();
-        height + stretched_j + bent_j + self.cloth.bands.energy(x) + touching_j + pressed_j + sewn_j + walls_j
+        let braced_j = self.braces.as_ref().map_or(0.0, |b| b.energy(x));
+        height
+            + stretched_j
+            + bent_j
+            + self.cloth.bands.energy(x)
+            + touching_j
+            + pressed_j
+            + sewn_j
+            + walls_j
+            + braced_j
     }
 
     /// Forces at `x`, N, with the contacts found at the last [`System::assemble`].
@@ -117,6 +130,7 @@ impl<'a> System<'a> {
             contact.assemble(x, &mut forces);
         }
         self.add_walls(x, &mut forces);
+        self.braces.iter().for_each(|b| b.add_forces(x, &mut forces));
         forces.iter_mut().zip(&self.weights).for_each(|(f, w)| f.z -= w);
         self.cloth.membrane.add_forces(x, &mut forces);
         self.cloth.bending.add_forces(x, &mut forces);
@@ -144,6 +158,10 @@ impl<'a> System<'a> {
             let stiffness = WALL_STIFFNESS * cloth.areas[v];
             contact_forces[v] += back * (stiffness * depth);
             diagonal[v] += back * back.transpose() * stiffness;
+        }
+        if let Some(braces) = &self.braces {
+            braces.add_forces(x, &mut contact_forces);
+            braces.add_stiffness(&mut diagonal);
         }
         let mut forces = contact_forces.clone();
         forces.iter_mut().zip(&self.weights).for_each(|(f, w)| f.z -= w);
@@ -185,6 +203,7 @@ impl<'a> System<'a> {
         contacts.extend(self.contact.meet(&end, &mut forces, &mut diagonal));
         contacts.extend(self.self_contact.iter().flat_map(|contact| contact.assemble(&end, &mut forces)));
         self.add_walls(&end, &mut forces);
+        self.braces.iter().for_each(|b| b.add_forces(&end, &mut forces));
         let mut membrane = self.cloth.membrane.blocks();
         let (foreseen, bowed) = self.cloth.membrane.assemble_towards(x, d, &mut forces, &mut membrane);
         self.cloth.bands.assemble_towards(x, &end, operator.membrane_pairs, &mut forces, &mut membrane);

@@ -255,7 +255,7 @@ impl Fitting<'_> {
             eases: ease_on(garment, self.body),
             closures,
             distortion: distorted.as_ref().map(|(stretch, _)| *stretch),
-            warnings: distorted.and_then(|(_, told)| told).into_iter().collect(),
+            warnings: distorted.and_then(|(_, told)| told).into_iter().chain(drape.braced_n.map(braced)).collect(),
             used: Vec::new(),
         })
     }
@@ -268,6 +268,14 @@ fn distorted(params: &sim::fem::Params, garment: &Garment, drape: &Drape) -> Res
     let told = (distortion.stretch > limit)
         .then(|| format!("distorted: {distortion}; the limit is {:.1} % (`fem.distortion_limit`)", 100.0 * limit));
     Ok((distortion.stretch, told))
+}
+
+/// What is to be said of a garment that would slide off.
+fn braced(force_n: f64) -> String {
+    format!(
+        "braced: it would slide off by itself, friction and all, and hangs from its top edge, which is held up with {force_n:.1} N; \
+         a smaller size, a stiffer fabric or a waistband ([[reinforce]] in the seam file) may hold it"
+    )
 }
 
 /// A simulator's error; being told to stop is an interruption.

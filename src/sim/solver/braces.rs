@@ -1,0 +1,122 @@
+//! Braces: what would slide off hangs from its top edge, whose vertices keep their height and move freely to every side.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Matrix3;
+
+use crate::cloth::Cloth;
+use geom::V3;
+use geom::units::GRAVITY;
+
+geom::constants! {
+    "solver.braces",
+    /// Share of the cloth's height below its highest edge in which edges are held: a waist is lower in front, and the front of a coat
+    /// that is open all the way down is not held below.
+    const TOP_SHARE: f64 = 0.1;
+    /// How far the whole weight draws them down, m.
+    const YIELD_M: f64 = 1e-4;
+}
+
+/// Vertices that are held at their height.
+#[derive(Clone, Debug)]
+pub struct Braces {
+    /// Vertex and height, m.
+    held: Vec<(usize, f64)>,
+    /// Of each, N/m.
+    stiffness_n_m: f64,
+}
+
+impl Braces {
+    /// Those of cloth whose vertices are at `x`.
+    #[must_use]
+    pub fn new(cloth: &Cloth, x: &[V3]) -> Self {
+        let mut uses: BTreeMap<[usize; 2], u32> = BTreeMap::new();
+        for t in &cloth.triangles {
+            for k in 0..3 {
+                let (a, b) = (t[k], t[(k + 1) % 3]);
+                *uses.entry([a.min(b), a.max(b)]).or_default() += 1;
+            }
+        }
+        let mut edge: Vec<usize> =
+            uses.into_iter().filter(|(_, count)| *count == 1).flat_map(|(ends, _)| ends).collect();
+        edge.sort_unstable();
+        edge.dedup();
+        let top = edge.iter().map(|v| x[*v].z).fold(f64::MIN, f64::max);
+        let low = x.iter().map(|p| p.z).fold(f64::MAX, f64::min);
+        let is_top = |v: &usize| x[*v].z >= top - TOP_SHARE * (top - low);
+        let held: Vec<(usize, f64)> = edge.into_iter().filter(is_top).map(|v| (v, x[v].z)).collect();
+        let weight = cloth.masses.iter().sum::<f64>() * GRAVITY;
+        Self { stiffness_n_m: weight / (YIELD_M * held.len().max(1) as f64), held }
+    }
+
+    /// Their energy, J.
+    #[must_use]
+    pub fn energy(&self, x: &[V3]) -> f64 {
+        self.held.iter().map(|(v, z)| 0.5 * self.stiffness_n_m * (x[*v].z - z).powi(2)).sum()
+    }
+
+    /// Adds their forces, N.
+    pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
+        for (v, z) in &self.held {
+            forces[*v].z -= self.stiffness_n_m * (x[*v].z - z);
+        }
+    }
+
+    /// Adds their stiffness, N/m.
+    pub fn add_stiffness(&self, diagonal: &mut [Matrix3<f64>]) {
+        for (v, _) in &self.held {
+            diagonal[*v][(2, 2)] += self.stiffness_n_m;
+        }
+    }
+
+    /// What they carry at `x`, N.
+    #[must_use]
+    pub fn carry_n(&self, x: &[V3]) -> f64 {
+        self.held.iter().map(|(v, z)| self.stiffness_n_m * (z - x[*v].z)).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::laboratory::sheets::{shaken, sheet};
+    use crate::laboratory::{self, Specimen};
+    use crate::testing::{check_forces, fabric};
+    use geom::V2;
+
+    fn hanging(columns: usize, rows: usize) -> (Specimen, Braces) {
+        let upright = |p: &V2| V3::new(p.x, 0.0, p.y);
+        let cloth = Specimen::new(sheet(columns, rows, 0.02), &fabric(), upright).expect("a sound mesh");
+        let braces = Braces::new(&cloth.cloth, &cloth.positions);
+        (cloth, braces)
+    }
+
+    #[test]
+    fn the_upper_edge_is_held_and_no_more() {
+        let check = |columns: usize, rows: usize, expect: usize| {
+            let (_, braces) = hanging(columns, rows);
+            assert_eq!(braces.held.len(), expect, "{columns} x {rows}");
+        };
+        check(5, 5, 6);
+        check(3, 12, 6);
+        check(3, 30, 10);
+    }
+
+    #[test]
+    fn they_carry_what_hangs_from_them() {
+        let (cloth, braces) = hanging(6, 6);
+        let x = shaken(&cloth.positions, 1e-3, 3);
+        let mut forces = vec![V3::zeros(); x.len()];
+        braces.add_forces(&x, &mut forces);
+        check_forces(|x| braces.energy(x), &forces, &x, 1e-7, 1e-6);
+        let field = laboratory::nowhere();
+        let Specimen { cloth, mut positions, .. } = cloth;
+        let contact = crate::contact::BodyContact::new(&field, crate::contact::ContactParams::default(), &cloth.areas);
+        let mut system = crate::solver::System::new(&cloth, contact, None);
+        system.braces = Some(braces);
+        laboratory::settle(&mut system, &mut positions, 1e-3, 200);
+        let weight = cloth.masses.iter().sum::<f64>() * GRAVITY;
+        let carried = system.braces.as_ref().map_or(0.0, |b| b.carry_n(&positions));
+        assert!((carried / weight - 1.0).abs() < 1e-2, "{carried} N of {weight}");
+    }
+}
