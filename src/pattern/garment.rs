@@ -119,10 +119,11 @@ impl MaterialLine {
     /// unstretched garment has its pattern length exactly, however coarse its mesh.
     #[must_use]
     pub fn length_m(&self, rest: &[V2], positions: &[V3]) -> f64 {
-        let flat: Vec<V3> = self.points.iter().map(|p| p.at_rest(rest).push(0.0)).collect();
-        let draped: Vec<V3> = self.points.iter().map(|p| p.at(positions)).collect();
-        let steps: Vec<f64> = flat.windows(2).map(|ends| (ends[1] - ends[0]).norm()).collect();
-        let [flat, draped] = [flat, draped].map(|points| arcs(&points, &steps));
+        let ways = |points: &[V3]| -> Vec<V3> { points.windows(2).map(|ends| ends[1] - ends[0]).collect() };
+        let flat = ways(&self.points.iter().map(|p| p.at_rest(rest).push(0.0)).collect::<Vec<_>>());
+        let draped = ways(&self.points.iter().map(|p| p.at(positions)).collect::<Vec<_>>());
+        let steps: Vec<f64> = flat.iter().map(V3::norm).collect();
+        let [flat, draped] = [flat, draped].map(|ways| arcs(&ways, &steps));
         self.arc_m.iter().zip(flat.iter().zip(&draped)).map(|(arc, (flat, draped))| arc * draped / flat).sum()
     }
 }
@@ -130,27 +131,33 @@ impl MaterialLine {
 /// Greatest excess of a squared arc over a share of the squared step.
 const MOST_EXCESS: f64 = 0.1;
 
-/// Lengths of the arcs between points of a smooth line, which is `steps` long between them where it is not stretched.
+/// Lengths of the arcs along a smooth line that goes these `ways` from point to point, and is `steps` long between them where it is not
+/// stretched, m.
+fn arcs(ways: &[V3], steps: &[f64]) -> Vec<f64> {
+    ways.iter().zip(excesses(ways, steps)).map(|(way, excess)| (way.norm_squared() + excess).sqrt()).collect()
+}
+
+/// By how much the squared arcs between points of a smooth line exceed the squared chords, m2: the line goes these `ways` from point to
+/// point, and is `steps` long between them where it is not stretched.
 ///
 /// A chord of a circle is shorter than its arc: squared, by the fourth power of the step times the squared curvature over 12. Curvature at
-/// a point is told by it and its neighbours, along a step by the mean of its ends.
-fn arcs(points: &[V3], steps: &[f64]) -> Vec<f64> {
-    let last = steps.len();
+/// a point is told by the ways to its neighbours, along a step by the mean of its ends.
+#[must_use]
+pub fn excesses(ways: &[V3], steps: &[f64]) -> Vec<f64> {
     let bend = |i: usize| {
-        let [before, after] = [i - 1, i].map(|k| (points[k + 1] - points[k]) / steps[k].max(f64::MIN_POSITIVE));
+        let [before, after] = [i - 1, i].map(|k| ways[k] / steps[k].max(f64::MIN_POSITIVE));
         (after - before) * (2.0 / (steps[i - 1] + steps[i]).max(f64::MIN_POSITIVE))
     };
-    let bends: Vec<V3> = (1..last).map(bend).collect();
-    let arc = |i: usize| {
+    let bends: Vec<V3> = (1..steps.len()).map(bend).collect();
+    let excess = |i: usize| {
         let ends = [i.checked_sub(1), Some(i)].map(|k| k.and_then(|k| bends.get(k)));
         let known = ends.iter().flatten().count().max(1) as f64;
         let curvature = ends.into_iter().flatten().sum::<V3>() / known;
         let squared = steps[i].powi(2);
         let excess = squared * squared * curvature.norm_squared() / 12.0;
-        let most = (MOST_EXCESS * squared).max(f64::MIN_POSITIVE);
-        ((points[i + 1] - points[i]).norm_squared() + excess / (1.0 + excess / most)).sqrt()
+        excess / (1.0 + excess / (MOST_EXCESS * squared).max(f64::MIN_POSITIVE))
     };
-    (0..last).map(arc).collect()
+    (0..steps.len()).map(excess).collect()
 }
 
 /// Whether a measurement goes once round or from one end to another.

@@ -9,7 +9,8 @@ use nalgebra::{Matrix2, Matrix3x2};
 
 use super::sparse::Factor;
 use geom::{V2, V3};
-use pattern::{Garment, Measurement};
+use pattern::garment::excesses;
+use pattern::{Garment, MaterialLine, Measurement};
 
 /// A triangle: sewn vertices, gradients of their hat functions in the pattern, area.
 #[derive(Clone, Copy, Debug)]
@@ -25,6 +26,16 @@ struct Control {
     /// Sewn vertices and weights; their sum is the way from one point to the other.
     terms: Vec<(usize, f64)>,
     rest_m: f64,
+}
+
+/// A run of a controlled measurement: stretches one after the other. Their arcs have the pattern's length, as they are measured.
+#[derive(Clone, Debug)]
+struct Run {
+    controls: Vec<Control>,
+    /// Arcs of the stretches in the pattern, m.
+    rest_m: Vec<f64>,
+    /// Those when the energy was set up, m.
+    first_m: Vec<f64>,
 }
 
 /// What acts on the cloth besides its own size, for one step.
@@ -44,11 +55,9 @@ pub struct Pull<'a> {
 pub struct Elastic {
     count: usize,
     triangles: Vec<Triangle>,
-    controls: Vec<Control>,
+    runs: Vec<Run>,
     /// Stretch of each triangle when it was set up: the root of `F^T F`.
     first_stretch: Vec<Matrix2<f64>>,
-    /// Length of each control then, m.
-    first_m: Vec<f64>,
     control_weight: f64,
     /// Weight of each vertex's target.
     weights: Vec<f64>,
@@ -78,8 +87,8 @@ impl Elastic {
             .iter()
             .map(|t| Triangle::new(t.map(|v| vertex_of[v]), t.map(|v| garment.rest[v])))
             .collect::<Option<Vec<_>>>()?;
-        let controls: Vec<Control> =
-            controls.iter().flat_map(|m| m.runs.iter()).flat_map(|run| Control::of(garment, vertex_of, run)).collect();
+        let runs: Vec<Run> =
+            controls.iter().flat_map(|m| &m.runs).map(|run| Run::of(garment, vertex_of, run, x)).collect();
         let mut entries = Vec::new();
         let mut add = |i: usize, j: usize, value: f64| {
             if i >= j {
@@ -97,7 +106,7 @@ impl Elastic {
                 }
             }
         }
-        for control in &controls {
+        for control in runs.iter().flat_map(|run| &run.controls) {
             let weight = control_weight / control.rest_m;
             for &(i, a) in &control.terms {
                 for &(j, b) in &control.terms {
@@ -111,20 +120,9 @@ impl Elastic {
             add(j, j, -value);
         }
         let first_stretch = triangles.iter().map(|t| t.polar(x).1).collect();
-        let first_m = controls.iter().map(|c| c.way(x).norm()).collect();
         entries.extend(weights.iter().enumerate().map(|(v, w)| (v, v, *w)));
         let factor = Factor::new(x.len(), &entries)?;
-        Some(Self {
-            count: x.len(),
-            triangles,
-            controls,
-            first_stretch,
-            first_m,
-            control_weight,
-            weights,
-            held,
-            factor,
-        })
+        Some(Self { count: x.len(), triangles, runs, first_stretch, control_weight, weights, held, factor })
     }
 
     /// Gives the targets other weights.
@@ -154,9 +152,7 @@ impl Elastic {
                 rhs[v] += turn * g;
             }
         }
-        for (control, first) in self.controls.iter().zip(&self.first_m) {
-            let length = pull.control * (first + (control.rest_m - first) * pull.share);
-            let way = control.way(x);
+        for (control, way, length) in self.runs.iter().flat_map(|run| run.wanted(x, pull)) {
             let wanted = way * (length / way.norm().max(1e-9) * self.control_weight / control.rest_m);
             for &(v, weight) in &control.terms {
                 rhs[v] += wanted * weight;
@@ -197,25 +193,54 @@ impl Triangle {
     }
 }
 
-impl Control {
-    /// The segments of a run of a measurement.
-    fn of(garment: &Garment, vertex_of: &[usize], run: &pattern::MaterialLine) -> Vec<Self> {
-        run.points
-            .windows(2)
-            .map(|ends| {
-                let mut terms: std::collections::BTreeMap<usize, f64> = std::collections::BTreeMap::new();
-                for (point, sign) in [(&ends[0], -1.0), (&ends[1], 1.0)] {
-                    for k in 0..3 {
-                        *terms.entry(vertex_of[point.vertices[k]]).or_default() += sign * point.weights[k];
-                    }
+impl Run {
+    /// A run of a measurement of cloth whose sewn vertices are at `x`.
+    fn of(garment: &Garment, vertex_of: &[usize], run: &MaterialLine, x: &[V3]) -> Self {
+        let flat: Vec<V3> = run.points.iter().map(|p| p.at_rest(&garment.rest).push(0.0)).collect();
+        let (mut controls, mut ways) = (Vec::new(), Vec::new());
+        for (ends, flat) in run.points.windows(2).zip(flat.windows(2)) {
+            let way = flat[1] - flat[0];
+            let mut terms: std::collections::BTreeMap<usize, f64> = std::collections::BTreeMap::new();
+            for (point, sign) in [(&ends[0], -1.0), (&ends[1], 1.0)] {
+                for k in 0..3 {
+                    *terms.entry(vertex_of[point.vertices[k]]).or_default() += sign * point.weights[k];
                 }
-                let rest_m = (ends[1].at_rest(&garment.rest) - ends[0].at_rest(&garment.rest)).norm();
-                Self { terms: terms.into_iter().filter(|(_, w)| *w != 0.0).collect(), rest_m }
-            })
-            .filter(|control| control.rest_m > 1e-6)
-            .collect()
+            }
+            if way.norm() > 1e-6 {
+                let terms = terms.into_iter().filter(|(_, w)| *w != 0.0).collect();
+                controls.push(Control { terms, rest_m: way.norm() });
+                ways.push(way);
+            }
+        }
+        let run = Self { controls, rest_m: Vec::new(), first_m: Vec::new() };
+        let arcs = |ways: &[V3]| -> Vec<f64> {
+            ways.iter().zip(run.excesses(ways)).map(|(way, excess)| (way.norm_squared() + excess).sqrt()).collect()
+        };
+        Self { rest_m: arcs(&ways), first_m: arcs(&run.ways(x)), ..run }
     }
 
+    /// Its stretches with the way each goes at `x`, and how long a chord its arc wants there, m.
+    fn wanted<'a>(&'a self, x: &[V3], pull: &Pull) -> impl Iterator<Item = (&'a Control, V3, f64)> {
+        let ways = self.ways(x);
+        let excesses = self.excesses(&ways);
+        let lengths = self.first_m.iter().zip(&self.rest_m).map(|(first, rest)| first + (rest - first) * pull.share);
+        // Less than half of an arc no chord is.
+        let chord = |(length, excess): (f64, f64)| (length * length - excess).max(0.25 * length * length).sqrt();
+        let chords: Vec<f64> = lengths.map(|length| pull.control * length).zip(excesses).map(chord).collect();
+        self.controls.iter().zip(ways).zip(chords).map(|((control, way), chord)| (control, way, chord))
+    }
+
+    fn ways(&self, x: &[V3]) -> Vec<V3> {
+        self.controls.iter().map(|control| control.way(x)).collect()
+    }
+
+    /// By how much the squared arcs of these ways exceed their squared chords, m2.
+    fn excesses(&self, ways: &[V3]) -> Vec<f64> {
+        excesses(ways, &self.controls.iter().map(|control| control.rest_m).collect::<Vec<_>>())
+    }
+}
+
+impl Control {
     fn way(&self, x: &[V3]) -> V3 {
         self.terms.iter().map(|&(v, weight)| x[v] * weight).sum()
     }

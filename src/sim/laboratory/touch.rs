@@ -101,9 +101,8 @@ pub fn pressed_tube(fabric: &Fabric, radius_m: f64, share: f64, edge_m: f64) -> 
     let girth = std::f64::consts::TAU * radius / girth_m;
     let strain = Tensor { weft: 0.5 * (girth * girth - 1.0), warp: along, shear: 0.0 };
     let tension = cloth.membrane.material.stress(strain).weft * girth / (1.0 + 2.0 * along).sqrt();
-    // Of a hexagonal mesh each inner vertex has the same share of the cloth: at rest edge^2 root(3)/2.
-    let area = edge * edge * 0.75_f64.sqrt() * girth * (1.0 + 2.0 * along).sqrt();
-    let pressing = mean(&|v| forces[v].xy().dot(&x[v].xy().normalize())) / area;
+    let grown = girth * (1.0 + 2.0 * along).sqrt();
+    let pressing = mean(&|v| forces[v].xy().dot(&x[v].xy().normalize())) / (mean(&|v| cloth.areas[v]) * grown);
     Ok(Pressed { pressure_pa: pressing, tension_over_radius_pa: tension / radius, radius_m: radius })
 }
 

@@ -9,7 +9,7 @@ use crate::solver::System;
 use crate::solver::system::Assembled;
 use crate::testing::{check_forces, fabric};
 use crate::{Fabric, quality};
-use geom::{DistanceField, TriMesh, V2, V3, shapes};
+use geom::{DistanceField, V2, V3, shapes};
 use linalg::linear;
 use linalg::pcg::PcgParams;
 use nalgebra::Matrix3;
