@@ -12,6 +12,7 @@ mod context;
 mod detached;
 mod health;
 mod jobs;
+mod lab;
 mod output;
 mod parquet;
 mod pattern;
@@ -146,6 +147,7 @@ fn execute(arguments: Arguments, workbench: impl FnOnce(Workbench) -> Result<(),
         Some(Command::Style(command)) => catalogue::run(&context, command),
         Some(Command::Size(command)) => catalogue::run(&context, command),
         Some(Command::Fabric(command)) => catalogue::run(&context, command),
+        Some(Command::Lab(arguments)) => lab::lab(&context, &arguments),
         Some(Command::Doctor) => health::doctor(&context),
         Some(Command::Info) => health::info(&context),
         Some(Command::Completions { shell }) => {

@@ -24,6 +24,7 @@ pub use answers::advice::{LevelFit, SizeAnswer, SizeOn};
 pub use answers::audit::{Audit, Finding};
 pub use answers::doctor::{Check, checks};
 pub use answers::figure::Figure;
+pub use answers::laboratory::laboratory;
 pub use answers::picture::{Cloth, Look, Map, Order, Shot, Zoom};
 pub use answers::population::{Nearest, PopulationOptions, Representative, representatives, subjects_text};
 pub use answers::record::{ChiPair, Comparison, ProvenanceRow, Record, Rerun};
@@ -68,4 +69,5 @@ pub use fit::{
 pub use render::export::MeshFormat;
 pub use render::{Rgb, View};
 pub use sim::fabric::Stretched;
+pub use sim::laboratory::bench as lab;
 pub use sim::{Fabric, Monitor, Stage, Step};

@@ -102,6 +102,8 @@ pub enum Command {
     /// Fabrics of the catalogue.
     #[command(subcommand)]
     Fabric(Catalogue<FabricValues>),
+    /// The simulator's mechanics beside theory and published measurements.
+    Lab(Lab),
     /// Check that everything toile needs is in order.
     Doctor,
     /// Version, database, studies.
@@ -120,6 +122,14 @@ pub enum Command {
 pub struct StudyPath {
     /// Folder of the study, or its study.toml.
     pub study: PathBuf,
+}
+
+/// Arguments of `lab`.
+#[derive(Debug, Args)]
+pub struct Lab {
+    /// Experiments; by default all.
+    #[arg(value_parser = study::lab::Experiment::ALL.map(study::lab::Experiment::as_str), value_name = "EXPERIMENT")]
+    pub experiment: Vec<String>,
 }
 
 /// Arguments of `run`.

@@ -271,3 +271,128 @@ fn unfolded([a, b]: [V2; 2], rest: [V2; 3], back: usize) -> [V2; 3] {
         place + V2::new(cos * d.x - sin * d.y, sin * d.x + cos * d.y)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cloth::Cloth;
+    use crate::cloth::membrane::Membrane;
+    use crate::laboratory::Specimen;
+    use crate::laboratory::sheets::{hexagonal_sheet, jittered, noise, shaken};
+    use crate::testing::{check_forces, fabric};
+    use nalgebra::DMatrix;
+
+    /// Edge of the sheets, m.
+    const EDGE: f64 = 0.015;
+
+    fn sheet(place: impl Fn(&V2) -> V3) -> Specimen {
+        let flat = jittered(hexagonal_sheet(6, 6, EDGE), 0.15 * EDGE, |_| false);
+        Specimen::new(flat, &fabric(), place).expect("a sound mesh")
+    }
+
+    fn on_cylinder(radius: f64) -> impl Fn(&V2) -> V3 {
+        move |p| V3::new(p.x, radius * (p.y / radius).sin(), radius * (1.0 - (p.y / radius).cos()))
+    }
+
+    #[test]
+    fn curvature_along_a_side_is_that_of_a_quadratic_and_none_of_a_plane() {
+        let check = |form: [f64; 3], slope: V2| {
+            let height =
+                |p: &V2| 0.5 * (form[0] * p.x * p.x + form[1] * p.y * p.y) + form[2] * p.x * p.y + slope.dot(p);
+            let Specimen { cloth, positions, garment, .. } = sheet(|p| V3::new(p.x, p.y, height(p)));
+            let Membrane { arcs, pairs, .. } = &cloth.membrane;
+            let inside = |p: &V2| p.x.min(p.y) > 1.5 * EDGE && p.x.max(p.y) < 4.0 * EDGE;
+            for (side, &[a, b]) in pairs.pairs().iter().enumerate() {
+                let d = garment.rest[b] - garment.rest[a];
+                let known = form[0] * d.x * d.x + form[1] * d.y * d.y + 2.0 * form[2] * d.x * d.y;
+                let found = arcs.stencils.sum(side, &positions);
+                assert!(found.xy().norm() < 1e-12, "{found}");
+                // Hinges share curvature out by area, and have a little weight.
+                if inside(&garment.rest[a]) && inside(&garment.rest[b]) {
+                    assert!((found.z - known).abs() < 0.02 * EDGE * EDGE, "{} for {known}", found.z);
+                }
+            }
+        };
+        check([0.0; 3], V2::new(0.3, -0.8));
+        check([1.0, 0.0, 0.0], V2::zeros());
+        check([0.0, 1.0, 0.0], V2::new(0.2, 0.1));
+        check([0.5, -0.3, 0.4], V2::zeros());
+    }
+
+    #[test]
+    fn forces_and_stiffness_are_the_energys() {
+        let Specimen { cloth, positions, .. } = sheet(on_cylinder(4.0 * EDGE));
+        let membrane = &cloth.membrane;
+        let x = shaken(&positions, 5e-4, 3);
+        let mut forces = vec![V3::zeros(); x.len()];
+        membrane.add_forces(&x, &mut forces);
+        check_forces(|x| membrane.energy(x), &forces, &x, 1e-7, 1e-6);
+        let bent = membrane.arcs.bent(&x);
+        let d: Vec<V3> = noise(3 * x.len(), 5).chunks(3).map(|c| V3::new(c[0], c[1], c[2])).collect();
+        let step = 1e-6;
+        let [low, high] = [-step, step].map(|by| {
+            let moved: Vec<V3> = x.iter().zip(&d).map(|(p, d)| p + d * by).collect();
+            membrane.arcs.bent(&moved).excess
+        });
+        for (change, (low, high)) in membrane.arcs.changes(&bent, &d).iter().zip(low.iter().zip(&high)) {
+            let known = 0.5 * (high - low) / (2.0 * step);
+            assert!((change - known).abs() < 1e-4 * known.abs() + 1e-9, "{change} for {known}");
+        }
+    }
+
+    #[test]
+    fn no_mode_of_a_sheet_held_all_round_is_softer_than_with_chords() {
+        let softest = |place: &dyn Fn(&V2) -> V3, has_arcs: bool| {
+            let Specimen { mut cloth, positions, garment, .. } = sheet(place);
+            if !has_arcs {
+                cloth.membrane = cloth.membrane.with_arcs(Arcs::default());
+            }
+            let forces = |x: &[V3]| {
+                let mut f = vec![V3::zeros(); x.len()];
+                cloth.membrane.add_forces(x, &mut f);
+                cloth.bending.add_forces(x, &mut f);
+                f
+            };
+            let high = garment.rest.iter().fold(V2::zeros(), |high, p| high.sup(p));
+            let is_inside = |p: &V2| p.x.min(p.y) > 1e-9 && p.x < high.x - 1e-9 && p.y < high.y - 1e-9;
+            let inner: Vec<usize> = (0..positions.len()).filter(|v| is_inside(&garment.rest[*v])).collect();
+            let step = 1e-7;
+            let mut stiffness = DMatrix::<f64>::zeros(3 * inner.len(), 3 * inner.len());
+            for column in 0..3 * inner.len() {
+                let [low, high] = [-step, step].map(|by| {
+                    let mut x = positions.clone();
+                    x[inner[column / 3]][column % 3] += by;
+                    forces(&x)
+                });
+                for (row, &v) in inner.iter().enumerate() {
+                    let change = (low[v] - high[v]) / (2.0 * step);
+                    (0..3).for_each(|k| stiffness[(3 * row + k, column)] = change[k]);
+                }
+            }
+            ((&stiffness + stiffness.transpose()) * 0.5).symmetric_eigenvalues().min()
+        };
+        let check = |place: &dyn Fn(&V2) -> V3, share: f64| {
+            let [arcs, chords] = [true, false].map(|has_arcs| softest(place, has_arcs));
+            assert!(arcs > share * chords && arcs > 0.0, "{arcs} with arcs, {chords} with chords");
+        };
+        check(&|p| V3::new(p.x, p.y, 0.0), 0.999);
+        check(&|p| V3::new(1.01 * p.x, 1.01 * p.y, 0.0), 0.999);
+        // Chords are drawn in a bent sheet, and that alone is stiff.
+        check(&on_cylinder(6.0 * EDGE), 0.2);
+    }
+
+    #[test]
+    fn a_part_has_the_arcs_of_the_whole() {
+        let Specimen { cloth, positions, .. } = sheet(on_cylinder(3.0 * EDGE));
+        let free: Vec<bool> = (0..cloth.len()).map(|v| v % 9 == 4).collect();
+        let part = crate::cloth::part::Part::new(&cloth, &free, &[]);
+        let (alone, _): (Cloth, _) = cloth.part(&part);
+        let x: Vec<V3> = part.vertices.iter().map(|v| positions[*v]).collect();
+        let [mut whole, mut own] = [vec![V3::zeros(); cloth.len()], vec![V3::zeros(); x.len()]];
+        cloth.membrane.add_forces(&positions, &mut whole);
+        alone.membrane.add_forces(&x, &mut own);
+        for (name, &v) in part.vertices.iter().enumerate().filter(|(_, v)| free[**v]) {
+            assert!((whole[v] - own[name]).norm() < 1e-12, "{v}: {} and {}", whole[v], own[name]);
+        }
+    }
+}

@@ -2,6 +2,7 @@
 //!
 //! Each experiment is run by the solver that drapes garments, with linear systems solved by a factor.
 
+pub mod bench;
 pub mod bending;
 pub mod drape;
 pub mod sheets;

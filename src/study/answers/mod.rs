@@ -4,6 +4,7 @@ pub mod advice;
 pub mod audit;
 pub mod doctor;
 pub mod figure;
+pub mod laboratory;
 pub mod picture;
 pub mod population;
 pub mod record;

@@ -1,0 +1,34 @@
+//! `toile lab`: the laboratory's experiments beside what is known of them.
+
+use super::args::Lab;
+use super::context::Context;
+use super::{End, Outcome};
+use study::lab::Experiment;
+use study::{Table, Value};
+
+/// `toile lab`.
+pub fn lab(context: &Context, arguments: &Lab) -> Outcome {
+    let is_asked = |experiment: &Experiment| {
+        arguments.experiment.is_empty() || arguments.experiment.iter().any(|name| name == experiment.as_str())
+    };
+    let mut rows = Vec::new();
+    for experiment in Experiment::ALL.into_iter().filter(is_asked) {
+        context.say(format_args!("{}: {}", experiment.as_str(), experiment.about()));
+        for finding in study::laboratory(experiment)? {
+            let (error, unit) = finding.error();
+            rows.push(vec![
+                Value::Text(experiment.as_str().to_owned()),
+                Value::Text(finding.case),
+                Value::Text(finding.quantity.to_owned()),
+                Value::Real(finding.known),
+                Value::Real(finding.found),
+                Value::Real(error),
+                Value::Text(unit.to_owned()),
+                Value::Text(finding.source),
+            ]);
+        }
+    }
+    let columns = ["experiment", "case", "quantity", "known", "found", "error", "of", "source"];
+    context.print(&Table { columns: columns.map(str::to_owned).to_vec(), rows })?;
+    Ok(End::Done)
+}

@@ -1,0 +1,219 @@
+//! The reality bench: the laboratory's experiments beside what is known of them, by theory or from a published measurement.
+
+use super::bending::{Bent, Mesh, bent, cantilever, elastica, lateral_buckling};
+use super::drape::cusick;
+use super::isotropic;
+use super::stretch::{hanging_strip, hanging_thread};
+use super::touch::{on_incline, pressed_tube};
+use crate::fabric::library;
+use crate::{Fabric, SimError};
+
+/// Rings of a specimen of Cusick's test.
+const RINGS: usize = 24;
+
+/// An experiment with a known answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Experiment {
+    /// A strip that hangs by its own weight.
+    Strip,
+    /// A strip clamped level at one end.
+    Cantilever,
+    /// A strip clamped on edge.
+    Buckling,
+    /// A sheet bent about a cylinder or a cone.
+    Bending,
+    /// A sheet on an incline.
+    Incline,
+    /// A tube drawn over a cylinder.
+    Tube,
+    /// Cusick's drape test.
+    Drape,
+}
+
+/// What an experiment found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// Experiment.
+    pub experiment: Experiment,
+    /// Specimen.
+    pub case: String,
+    /// What is compared, with its unit.
+    pub quantity: &'static str,
+    /// What is known of it.
+    pub known: f64,
+    /// What the solver finds.
+    pub found: f64,
+    /// Where what is known is from.
+    pub source: String,
+}
+
+impl Experiment {
+    /// All experiments.
+    pub const ALL: [Self; 7] =
+        [Self::Strip, Self::Cantilever, Self::Buckling, Self::Bending, Self::Incline, Self::Tube, Self::Drape];
+
+    /// Name in the command line.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Strip => "strip",
+            Self::Cantilever => "cantilever",
+            Self::Buckling => "buckling",
+            Self::Bending => "bending",
+            Self::Incline => "incline",
+            Self::Tube => "tube",
+            Self::Drape => "drape",
+        }
+    }
+
+    /// What it is, in a line.
+    #[must_use]
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::Strip => "a strip of each fabric hangs by its own weight",
+            Self::Cantilever => "a strip is clamped level and bends by its own weight",
+            Self::Buckling => "a strip is clamped on edge and buckles sideways",
+            Self::Bending => "a sheet is bent about few edges of its mesh",
+            Self::Incline => "a sheet lies on a slope",
+            Self::Tube => "a tube is drawn over a cylinder",
+            Self::Drape => "a disc of 30 cm hangs over one of 18 cm; no parameter is fitted",
+        }
+    }
+
+    /// Runs it.
+    ///
+    /// # Errors
+    /// When a mesh is degenerate.
+    pub fn run(self) -> Result<Vec<Finding>, SimError> {
+        match self {
+            Self::Strip => strips(),
+            Self::Cantilever => cantilevers(),
+            Self::Buckling => buckling(),
+            Self::Bending => bending(),
+            Self::Incline => inclines(),
+            Self::Tube => tubes(),
+            Self::Drape => drapes(),
+        }
+    }
+
+    fn finding(self, case: String, quantity: &'static str, [known, found]: [f64; 2], source: &str) -> Finding {
+        Finding { experiment: self, case, quantity, known, found, source: source.to_owned() }
+    }
+}
+
+impl Finding {
+    /// By how much what is found exceeds what is known: points of a percentage, degrees of an angle, else percent.
+    #[must_use]
+    pub fn error(&self) -> (f64, &'static str) {
+        match self.experiment {
+            Experiment::Drape => (self.found - self.known, "points"),
+            Experiment::Incline => (self.found - self.known, "degrees"),
+            _ => (100.0 * (self.found / self.known - 1.0), "%"),
+        }
+    }
+}
+
+fn strips() -> Result<Vec<Finding>, SimError> {
+    let grown = |fabric: &Fabric| {
+        // A strip narrows freely, a thread has nothing to narrow.
+        let strip = Fabric { membrane_coupling_n_m: 0.0, ..fabric.clone() };
+        let lengths_mm = [hanging_thread(&strip, 1.5), hanging_strip(&strip, 1.5, 40)?].map(|m| 1e3 * m);
+        let quantity = "growth of 1.5 m, mm";
+        Ok(Experiment::Strip.finding(fabric.name.clone(), quantity, lengths_mm, "integral of the law over a thread"))
+    };
+    library().iter().map(grown).collect()
+}
+
+fn cantilevers() -> Result<Vec<Finding>, SimError> {
+    let gammas = [0.1, 1.0, 10.0, 100.0, 1000.0];
+    let mut findings = Vec::new();
+    for mesh in [Mesh::Squares, Mesh::Hexagons, Mesh::Irregular] {
+        for (gamma, (drop, _)) in gammas.iter().zip(cantilever(mesh, 96, &gammas)?) {
+            let case = format!("{mesh:?}, w g L^3 / B = {gamma}").to_lowercase();
+            let both = [elastica(*gamma), drop];
+            findings.push(Experiment::Cantilever.finding(case, "drop over reach", both, "elastica"));
+        }
+    }
+    Ok(findings)
+}
+
+fn buckling() -> Result<Vec<Finding>, SimError> {
+    let both = [12.854 * 2.0_f64.sqrt(), lateral_buckling(3)?];
+    Ok(vec![Experiment::Buckling.finding("strip of L / 20".into(), "critical w g L^3 / B", both, "beam theory")])
+}
+
+fn bending() -> Result<Vec<Finding>, SimError> {
+    let shapes = [2.0, 3.0, 4.0, 8.0].map(Bent::Cylinder).into_iter().chain([Bent::Cone(4.0)]);
+    let turned = |shape: Bent| {
+        [0.0_f64, 45.0, 90.0].map(|degrees| {
+            let energy = bent(shape, degrees.to_radians())?;
+            let case = format!("{shape}, {degrees} degrees from the weft");
+            Ok(Experiment::Bending.finding(case, "energy over the plate's", [1.0, energy], "thin plate"))
+        })
+    };
+    shapes.flat_map(turned).collect()
+}
+
+fn inclines() -> Result<Vec<Finding>, SimError> {
+    let sheet = isotropic(0.15, 1000.0, 1e-5);
+    let steepest = |friction: f64| {
+        let known = friction.atan().to_degrees();
+        let mut held = 0.0;
+        for tenths in -20..=20 {
+            let degrees = known + 0.1 * f64::from(tenths);
+            if on_incline(&sheet, friction, degrees.to_radians())?.0 > 1e-3 {
+                break;
+            }
+            held = degrees;
+        }
+        let case = format!("friction {friction}");
+        Ok(Experiment::Incline.finding(case, "steepest slope that holds, degrees", [known, held], "Coulomb"))
+    };
+    [0.2, 0.3, 0.5].into_iter().map(steepest).collect()
+}
+
+fn tubes() -> Result<Vec<Finding>, SimError> {
+    let library = library();
+    let mut findings = Vec::new();
+    for name in ["interlock_tshirt", "rib_knit", "swim_knit", "cotton_shirting_light"] {
+        for fabric in library.iter().filter(|f| f.name == name) {
+            let shares = if fabric.stretched.is_some() { [0.9, 0.8] } else { [0.99, 0.98] };
+            for share in shares {
+                let tube = pressed_tube(fabric, 0.05, share, 0.015)?;
+                let case = format!("{name}, {share} of a girth of 314 mm");
+                let both = [tube.tension_over_radius_pa, tube.pressure_pa];
+                findings.push(Experiment::Tube.finding(case, "pressure, Pa", both, "tension over radius [Laplace]"));
+            }
+        }
+    }
+    Ok(findings)
+}
+
+/// A fabric whose drape was measured along with its bending.
+#[derive(serde::Deserialize)]
+struct Measured {
+    name: String,
+    density_kg_m2: f64,
+    bending_warp_nm: f64,
+    bending_weft_nm: f64,
+    drape_pct: f64,
+    source: String,
+}
+
+fn drapes() -> Result<Vec<Finding>, SimError> {
+    #[derive(serde::Deserialize)]
+    struct Published {
+        fabric: Vec<Measured>,
+    }
+    let published: Published = toml::from_str(include_str!("published.toml")).expect("a test reads it");
+    let library = library();
+    // What a row does not tell is that of a light cotton: what hangs freely is hardly stretched.
+    let cotton = library.iter().find(|f| f.name == "cotton_shirting_light").ok_or(SimError::NoMesh)?;
+    let draped = |row: Measured| {
+        let Measured { name, density_kg_m2, bending_warp_nm, bending_weft_nm, drape_pct, source } = row;
+        let fabric = Fabric { name, density_kg_m2, bending_warp_nm, bending_weft_nm, ..cotton.clone() };
+        let found = 100.0 * cusick(&fabric, RINGS, 0)?.coefficient;
+        Ok(Experiment::Drape.finding(fabric.name, "drape coefficient, %", [drape_pct, found], &source))
+    };
+    published.fabric.into_iter().map(draped).collect()
+}
