@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 86] = [
+const COMMANDS: [&str; 87] = [
     "",
     "run",
     "run show",
@@ -87,6 +87,7 @@ const COMMANDS: [&str; 86] = [
     "fabric edit",
     "fabric import",
     "fabric rm",
+    "lab",
     "doctor",
     "info",
     "completions",
@@ -111,6 +112,22 @@ fn every_command_explains_itself_and_touches_nothing() {
         assert!(!said.out.is_empty() && said.err.is_empty(), "{command}: {}", said.err);
         assert!(command == "--version" || said.out.contains("Usage: toile"), "{command}: {}", said.out);
     }
+    assert!(!place.path("toile.sqlite").exists());
+}
+
+#[test]
+fn the_laboratory_says_what_is_known_and_what_it_finds() {
+    let place = Place::new();
+    let found = place.toile("lab incline buckling --quiet --json").ends_with(0).json();
+    let rows = found.as_array().expect("rows");
+    assert_eq!(rows.iter().map(|row| row["experiment"].as_str()).collect::<BTreeSet<_>>().len(), 2);
+    for row in rows {
+        has_keys(row, &["experiment", "case", "quantity", "known", "found", "error", "of", "source"]);
+        let most = if row["experiment"] == "incline" { 1.0 } else { 5.0 };
+        assert!(row["error"].as_f64().is_some_and(|error| error.abs() <= most), "{row}");
+    }
+    let said = place.toile("lab levitation").ends_with(2);
+    assert!(said.err.contains("levitation") && said.err.contains("cantilever"), "{}", said.err);
     assert!(!place.path("toile.sqlite").exists());
 }
 

@@ -6,6 +6,7 @@ use std::sync::LazyLock;
 
 use crate::error::nearest;
 use crate::spec::millimetres;
+use crate::spec::sheets::FABRIC_SHEETS;
 use body::{Dimension, Measurements, Sex};
 use geom::units::from_mm;
 use sim::Fabric;
@@ -19,9 +20,43 @@ pub struct Field<T: 'static> {
     pub label: &'static str,
     /// Whether no entry is without it.
     pub is_required: bool,
-    range: RangeInclusive<f64>,
-    get: Box<Get<T>>,
-    set: Box<Set<T>>,
+    pub(super) range: RangeInclusive<f64>,
+    pub(super) get: Box<Get<T>>,
+    pub(super) set: Box<Set<T>>,
+}
+
+/// A number in another unit or by another test, and the key of the [`Field`] that it stands for.
+pub struct Sheet<T: 'static> {
+    /// How it is given.
+    pub field: Field<T>,
+    /// What it stands for.
+    pub key: &'static str,
+}
+
+impl<T: Entry> Sheet<T> {
+    /// Gives an entry what a number stands for.
+    ///
+    /// # Errors
+    /// When that is nothing that it can have.
+    pub(crate) fn apply(&self, entry: &mut T, number: f64) -> Result<(), String> {
+        self.field.set(entry, Some(number));
+        let stands_for = T::fields().iter().find(|field| field.key == self.key);
+        let problem = stands_for.and_then(|field| field.check(field.get(entry)?).err());
+        problem.map_or(Ok(()), |problem| Err(format!("`{}` is {number}: {problem}", self.field.key)))
+    }
+
+    /// What is wrong where a number is given twice: `is_given` tells of a key.
+    pub(crate) fn doubled(&self, is_given: impl Fn(&str) -> bool) -> Option<String> {
+        let others = T::sheets().iter().filter(|other| other.key == self.key && other.field.key != self.field.key);
+        let other = std::iter::once(self.key).chain(others.map(|other| other.field.key)).find(|key| is_given(key))?;
+        Some(format!("`{}` and `{other}` are one number; give one of them", self.field.key))
+    }
+}
+
+/// Whether a required field has none of the ways in which it can be given.
+pub(crate) fn is_absent<T: Entry>(field: &Field<T>, is_given: impl Fn(&str) -> bool) -> bool {
+    let stand_ins = T::sheets().iter().filter(|sheet| sheet.key == field.key);
+    field.is_required && !is_given(field.key) && !stand_ins.map(|sheet| sheet.field.key).any(is_given)
 }
 
 type Get<T> = dyn Fn(&T) -> Option<f64> + Send + Sync;
@@ -204,6 +239,11 @@ pub(crate) trait Entry: Clone + 'static {
     /// Its numbers.
     fn fields() -> &'static [Field<Self>];
 
+    /// Other ways to give its numbers; a later one may depend on an earlier one.
+    fn sheets() -> &'static [Sheet<Self>] {
+        &[]
+    }
+
     /// Its texts besides the name, and whether it must have them.
     const TEXTS: &'static [(&'static str, bool)];
 
@@ -239,6 +279,10 @@ impl Entry for Measurements {
 impl Entry for Fabric {
     fn fields() -> &'static [Field<Self>] {
         &FABRIC_NUMBERS
+    }
+
+    fn sheets() -> &'static [Sheet<Self>] {
+        &FABRIC_SHEETS
     }
 
     const TEXTS: &'static [(&'static str, bool)] = &[("source", false)];
@@ -283,7 +327,8 @@ impl Entry for Fabric {
 
 /// All keys of an entry.
 pub(crate) fn keys<T: Entry>() -> Vec<&'static str> {
-    T::TEXTS.iter().map(|(key, _)| *key).chain(T::fields().iter().map(|field| field.key)).collect()
+    let sheets = T::sheets().iter().map(|sheet| sheet.field.key);
+    T::TEXTS.iter().map(|(key, _)| *key).chain(T::fields().iter().map(|field| field.key)).chain(sheets).collect()
 }
 
 /// Lays given values over an entry, or over a blank one, which then needs all that is required.
@@ -293,7 +338,9 @@ pub(crate) fn keys<T: Entry>() -> Vec<&'static str> {
 pub(crate) fn filled<T: Entry>(base: Option<&T>, name: &str, given: &[Given]) -> Result<T, Vec<Given>> {
     let mut entry = base.cloned().unwrap_or_else(|| T::blank(name));
     let mut problems = Vec::new();
-    for (key, text) in given {
+    let is_given = |key: &str| given.iter().any(|(given, _)| given == key);
+    let is_sheet = |key: &str| T::sheets().iter().any(|sheet| sheet.field.key == key);
+    for (key, text) in given.iter().filter(|(key, _)| !is_sheet(key)) {
         let done = if T::TEXTS.iter().any(|(name, _)| name == key) {
             entry.set_text(key, text)
         } else if let Some(field) = T::fields().iter().find(|field| field.key == key) {
@@ -307,10 +354,18 @@ pub(crate) fn filled<T: Entry>(base: Option<&T>, name: &str, given: &[Given]) ->
         };
         problems.extend(done.err().map(|problem| (key.clone(), problem)));
     }
+    for sheet in T::sheets() {
+        let key = sheet.field.key;
+        let Some((_, text)) = given.iter().find(|(given, _)| given == key) else { continue };
+        let number = sheet.field.read(text).and_then(|number| number.ok_or_else(|| format!("`{key}` has no value")));
+        let applied = number.and_then(|number| sheet.apply(&mut entry, number));
+        let problem = sheet.doubled(is_given).map_or(applied, Err);
+        problems.extend(problem.err().map(|problem| (key.to_owned(), problem)));
+    }
     if base.is_none() {
-        let required = T::TEXTS.iter().copied().chain(T::fields().iter().map(|field| (field.key, field.is_required)));
-        let absent = required.filter(|(key, is_required)| *is_required && !given.iter().any(|(given, _)| given == key));
-        problems.extend(absent.map(|(key, _)| (key.to_owned(), format!("`{key}` is missing"))));
+        let texts = T::TEXTS.iter().filter(|(key, is_required)| *is_required && !is_given(key)).map(|(key, _)| *key);
+        let numbers = T::fields().iter().filter(|field| is_absent(*field, is_given)).map(|field| field.key);
+        problems.extend(texts.chain(numbers).map(|key| (key.to_owned(), format!("`{key}` is missing"))));
     }
     problems.extend(entry.check().err());
     if problems.is_empty() { Ok(entry) } else { Err(problems) }

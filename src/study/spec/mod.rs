@@ -6,6 +6,7 @@ pub mod file;
 pub mod inputs;
 pub mod new_study;
 pub mod parameters;
+pub mod sheets;
 pub mod versions;
 
 use crate::rows::JobRow;

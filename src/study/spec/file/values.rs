@@ -7,7 +7,7 @@ use toml::Spanned;
 
 use crate::error::{StudyError, nearest};
 use crate::files::SourceFile;
-use crate::spec::fields::Entry;
+use crate::spec::fields::{Entry, is_absent};
 use crate::spec::file::reader::{Place, Reader};
 
 /// Reads the numbers of an entry over a blank one; `None` where one is wrong or missing.
@@ -18,8 +18,16 @@ pub(super) fn numbers<T: Entry>(reader: &mut Reader<'_>, place: &Place<'_>, mut 
             if let Some(number) = reader.checked(place, field.key, |number| field.check(number)) {
                 field.set(&mut entry, Some(number));
             }
-        } else if field.is_required {
+        } else if is_absent(field, |key| place.table.contains_key(key)) {
             reader.missing(place, field.key, wanted);
+        }
+    }
+    for sheet in T::sheets() {
+        let key = sheet.field.key;
+        let Some(number) = reader.checked(place, key, |number| sheet.field.check(number)) else { continue };
+        let applied = sheet.apply(&mut entry, number);
+        if let Err(problem) = sheet.doubled(|key| place.table.contains_key(key)).map_or(applied, Err) {
+            reader.problem(&place.span, format!("{}: {problem}", place.name));
         }
     }
     if let Err((_, problem)) = entry.check() {
