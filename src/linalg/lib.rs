@@ -15,6 +15,7 @@ pub mod operator;
 mod packed;
 pub mod pcg;
 pub mod quad;
+pub mod rows;
 pub mod simd;
 pub mod stencil;
 

@@ -8,8 +8,9 @@
 use nalgebra::Matrix3;
 use wide::f32x4;
 
-use super::csr::{Upper, sorted_by_row};
+use super::csr::Upper;
 use super::quad::{self, Block};
+use super::rows::sorted_by_row;
 use super::stencil::Stencils;
 use geom::V3;
 

@@ -1,7 +1,7 @@
 //! Many short weighted sums of the same numbers, one a row, and the same turned about.
 
-use super::csr::sorted_by_row;
 use super::quad::Quad;
+use super::rows::sorted_by_row;
 use super::simd::Simd;
 use geom::V3;
 

@@ -18,12 +18,11 @@
 use nalgebra::{Matrix3, Vector3};
 use wide::f32x4;
 
-use super::part::Part;
 use crate::Fabric;
 use geom::{V2, V3};
 use linalg::PairList;
-use linalg::csr::sorted_by_row;
 use linalg::quad::{self, Block};
+use linalg::rows::sorted_by_row;
 
 /// One interior edge with its two triangles.
 #[derive(Clone, Copy, Debug)]
@@ -211,18 +210,6 @@ impl Tangent {
         let (pairs, across) = summed(&across);
         Self { along: entries, pairs, across }
     }
-
-    /// That of the pairs of which one may move in a part; `sides` are the cloth's and then the part's.
-    fn part(&self, part: &Part, sides: [&PairList; 2]) -> Self {
-        let mut along = vec![0.0; sides[1].pairs().len()];
-        for (&pair, entry) in sides[0].pairs().iter().zip(&self.along) {
-            if let Some(slot) = part.names(pair).and_then(|[i, j]| sides[1].slot(i, j)) {
-                along[slot] = *entry;
-            }
-        }
-        let (pairs, across) = renamed(part, &self.pairs, &self.across);
-        Self { along, pairs, across }
-    }
 }
 
 /// The bending of a garment.
@@ -257,14 +244,6 @@ fn summed(terms: &[([usize; 2], f64)]) -> (PairList, Vec<f64>) {
     (PairList::new(pairs), entries)
 }
 
-/// The pairs of which one may move in a part, as they are called there, with their entries. Their order stays: that of the vertices
-/// does.
-fn renamed(part: &Part, pairs: &PairList, entries: &[f64]) -> (PairList, Vec<f64>) {
-    let renamed = |(pair, entry): (&[usize; 2], &f64)| Some((part.names(*pair)?, *entry));
-    let (pairs, entries): (Vec<[usize; 2]>, _) = pairs.pairs().iter().zip(entries).filter_map(renamed).unzip();
-    (PairList::new(pairs), entries)
-}
-
 impl Bending {
     /// Adds up the triangles, whose sides are `sides`.
     #[must_use]
@@ -275,13 +254,6 @@ impl Bending {
         }
         let (pairs, entries) = summed(&terms);
         Self { pairs, entries, tangent: Tangent::new(hinges, plates, fabric, sides) }
-    }
-
-    /// That of the pairs of which one may move in a part; `sides` are those of the cloth's triangles and then of the part's.
-    #[must_use]
-    pub fn part(&self, part: &Part, sides: [&PairList; 2]) -> Self {
-        let (pairs, entries) = renamed(part, &self.pairs, &self.entries);
-        Self { pairs, entries, tangent: self.tangent.part(part, sides) }
     }
 
     /// Bending energy, J.

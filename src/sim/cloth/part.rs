@@ -1,7 +1,9 @@
 //! A part of a cloth by itself: the vertices that may move, and those around them that hold them.
 
 use super::Cloth;
+use super::bending::{Bending, Tangent};
 use super::membrane::{Element, Membrane};
+use linalg::PairList;
 
 /// Which vertices make a part, and what they are called there: their order stays.
 pub struct Part {
@@ -83,4 +85,35 @@ impl Cloth {
         };
         (cloth, numbers)
     }
+}
+
+impl Bending {
+    /// That of the pairs of which one may move in a part; `sides` are those of the cloth's triangles and then of the part's.
+    #[must_use]
+    pub fn part(&self, part: &Part, sides: [&PairList; 2]) -> Self {
+        let (pairs, entries) = renamed(part, &self.pairs, &self.entries);
+        Self { pairs, entries, tangent: self.tangent.part(part, sides) }
+    }
+}
+
+impl Tangent {
+    /// That of the pairs of which one may move in a part; `sides` are the cloth's and then the part's.
+    fn part(&self, part: &Part, sides: [&PairList; 2]) -> Self {
+        let mut along = vec![0.0; sides[1].pairs().len()];
+        for (&pair, entry) in sides[0].pairs().iter().zip(&self.along) {
+            if let Some(slot) = part.names(pair).and_then(|[i, j]| sides[1].slot(i, j)) {
+                along[slot] = *entry;
+            }
+        }
+        let (pairs, across) = renamed(part, &self.pairs, &self.across);
+        Self { along, pairs, across }
+    }
+}
+
+/// The pairs of which one may move in a part, as they are called there, with their entries. Their order stays: that of the vertices
+/// does.
+fn renamed(part: &Part, pairs: &PairList, entries: &[f64]) -> (PairList, Vec<f64>) {
+    let renamed = |(pair, entry): (&[usize; 2], &f64)| Some((part.names(*pair)?, *entry));
+    let (pairs, entries): (Vec<[usize; 2]>, _) = pairs.pairs().iter().zip(entries).filter_map(renamed).unzip();
+    (PairList::new(pairs), entries)
 }

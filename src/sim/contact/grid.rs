@@ -2,7 +2,7 @@
 
 use super::bounds::Bounds;
 use geom::V3;
-use linalg::csr::sorted_by_row;
+use linalg::rows::sorted_by_row;
 
 /// Boxes by the grid cell that their middle lies in.
 pub struct BoxGrid {

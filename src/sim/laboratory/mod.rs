@@ -140,5 +140,5 @@ pub fn isotropic(density_kg_m2: f64, stiffness_n_m: f64, rigidity_nm: f64) -> Fa
 
 /// Constants of the laboratory that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
-    [drape::CONSTANTS].concat()
+    [bench::CONSTANTS, drape::CONSTANTS].concat()
 }
