@@ -186,7 +186,7 @@ fn a_killed_run_goes_on_where_it_stopped() {
     let mut command = place.command("run . --workers 1 --no-report");
     let mut run = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts");
     let state = "SELECT status || ' ' || attempts FROM v_jobs ORDER BY job_id";
-    let end = Instant::now() + Duration::from_secs(60);
+    let end = Instant::now() + Duration::from_secs(300);
     // The study's first moments come before there is a job to see.
     while !place.path("toile.sqlite").exists() || place.sql(state) != ["done 1", "running 1", "queued 0"] {
         assert!(Instant::now() < end && run.try_wait().expect("ours").is_none(), "{:?}", place.sql(state));
