@@ -33,18 +33,6 @@ impl Stencils {
         Self { single: single(&terms), columns: single(&turned), starts, terms, column_starts }
     }
 
-    /// Number of rows.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.starts.len().saturating_sub(1)
-    }
-
-    /// Whether there are no rows.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
     /// The terms of a row.
     pub fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
         let terms = &self.terms[self.starts[row] as usize..self.starts[row + 1] as usize];
