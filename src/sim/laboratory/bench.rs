@@ -212,16 +212,21 @@ fn published() -> Vec<Measured> {
     toml::from_str::<Published>(include_str!("published.toml")).expect("the published numbers are valid").fabric
 }
 
+impl Measured {
+    /// As a fabric: what the row does not tell is that of a light cotton, since what hangs freely is hardly stretched.
+    fn fabric(&self) -> Option<Fabric> {
+        let cotton = library().into_iter().find(|f| f.name == "cotton_shirting_light")?;
+        let Self { density_kg_m2, bending_warp_nm, bending_weft_nm, .. } = *self;
+        let shear_n_m = self.shear_n_m.unwrap_or(cotton.shear_n_m);
+        Some(Fabric { name: self.name.clone(), density_kg_m2, bending_warp_nm, bending_weft_nm, shear_n_m, ..cotton })
+    }
+}
+
 fn drapes() -> Result<Vec<Finding>, SimError> {
-    let library = library();
-    // What a row does not tell is that of a light cotton: what hangs freely is hardly stretched.
-    let cotton = library.iter().find(|f| f.name == "cotton_shirting_light").ok_or(SimError::NoMesh)?;
     let draped = |row: Measured| {
-        let Measured { name, density_kg_m2, bending_warp_nm, bending_weft_nm, shear_n_m, drape_pct, source } = row;
-        let shear_n_m = shear_n_m.unwrap_or(cotton.shear_n_m);
-        let fabric = Fabric { name, density_kg_m2, bending_warp_nm, bending_weft_nm, shear_n_m, ..cotton.clone() };
+        let fabric = row.fabric().ok_or(SimError::NoMesh)?;
         let found = 100.0 * cusick(&fabric, RINGS, 0)?.coefficient;
-        Ok(Experiment::Drape.finding(fabric.name, "drape coefficient, %", [drape_pct, found], &source))
+        Ok(Experiment::Drape.finding(row.name, "drape coefficient, %", [row.drape_pct, found], &row.source))
     };
     published().into_iter().map(draped).collect()
 }
@@ -237,6 +242,20 @@ mod tests {
         assert!(published.iter().all(|row| bends(row) > 0.0 && (0.0..100.0).contains(&row.drape_pct)));
         let stiffest = published.iter().max_by(|a, b| bends(a).total_cmp(&bends(b))).expect("some");
         assert!(published.iter().all(|row| row.drape_pct <= stiffest.drape_pct));
+    }
+
+    #[test]
+    fn drape_coefficients_rank_as_they_were_measured() {
+        let mut rows: Vec<Measured> = published().into_iter().filter(|row| row.source.contains("Matsudaira")).collect();
+        rows.sort_by(|a, b| a.drape_pct.total_cmp(&b.drape_pct));
+        let mut last = 0.0;
+        for row in rows {
+            let fabric = row.fabric().expect("in the library");
+            let found = 100.0 * cusick(&fabric, 18, 0).expect("a sound mesh").coefficient;
+            assert!(found > last, "{}: {found} after {last}", row.name);
+            assert!((found - row.drape_pct).abs() < 15.0, "{}: {found} for {}", row.name, row.drape_pct);
+            last = found;
+        }
     }
 
     #[test]
