@@ -38,7 +38,8 @@ static SHIRT: LazyLock<Garment> = LazyLock::new(|| {
 /// All phases, with so many steps of the drape.
 fn dress(push_steps: u32, firm_steps: u32) -> Drape {
     let params = Params { push_steps, firm_steps, ..Params::default() };
-    hybrid::simulate(&BODY, &FIELD, &SHIRT, &fabric::library()[0], &params, &mut Silent).expect("it can be dressed")
+    hybrid::simulate(&BODY, &FIELD, std::slice::from_ref(&*SHIRT), &fabric::library()[0], &params, &mut Silent)
+        .expect("it can be dressed")
 }
 
 /// Features, segmentation and cross-parameterisation (table 5-3 and on).

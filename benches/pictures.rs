@@ -31,7 +31,14 @@ static SHIRT: LazyLock<Garment> = LazyLock::new(|| {
 });
 static CLOTH: LazyLock<TriMesh> = LazyLock::new(|| {
     let field = DistanceField::build(&BODY.mesh, 0.005).expect("a closed mesh");
-    let drape = hybrid::simulate(&BODY, &field, &SHIRT, &fabric::library()[0], &Params::default(), &mut Silent);
+    let drape = hybrid::simulate(
+        &BODY,
+        &field,
+        std::slice::from_ref(&*SHIRT),
+        &fabric::library()[0],
+        &Params::default(),
+        &mut Silent,
+    );
     TriMesh { positions: drape.expect("it can be dressed").positions, triangles: SHIRT.triangles.clone() }
 });
 

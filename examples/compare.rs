@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let meshes = meshes.collect::<Result<Vec<_>, _>>()?;
         let garment = meshes.last().ok_or("no mesh")?;
         let by_fem = fem::simulate(&body, &field, &meshes, cotton, &fem::Params::default(), &mut Silent)?;
-        let by_hybrid = hybrid::simulate(&body, &field, garment, cotton, &hybrid::Params::default(), &mut Silent)?;
+        let by_hybrid = hybrid::simulate(&body, &field, &meshes, cotton, &hybrid::Params::default(), &mut Silent)?;
 
         // The least ease decides the fit class; the thesis's rule names a simulator for it.
         let levels = garment.fit_levels.iter().map(|fit| (fit.level.as_str(), fit.girth_m));

@@ -116,7 +116,7 @@ fn dress(
     params: &Params,
     watch: &mut Watch,
 ) -> Result<Phases, Box<dyn Error>> {
-    Ok(hybrid::phases(body, field, garment, &fabric::library()[0], params, watch)?)
+    Ok(hybrid::phases(body, field, std::slice::from_ref(garment), &fabric::library()[0], params, watch)?)
 }
 
 /// One line: EI, mean error of all edges and crossings after pop-up and drape; how far E ever goes back; flips; the deepest
@@ -145,7 +145,7 @@ fn pair(name: &str, dressed: &(Body, DistanceField), garment: &Garment, popup: B
         ei(garment, &drape.positions),
         edges_off(garment, &drape.positions),
         drape.self_crossings,
-        phases.mapped.flips,
+        phases.mapped.as_ref().map_or(0, |mapped| mapped.flips),
         back.fold(0.0, f64::max),
         drape.penetration_max_m * 1e3,
         deepest(&dressed.0, garment, &drape.positions),
@@ -291,7 +291,14 @@ fn side_by_side(dressed: &(Body, DistanceField)) -> Result<(), Box<dyn Error>> {
     let fine = style.mesh(0.014)?;
     let (mut steps, start) = (Steps::default(), cpu_s());
     let params = Params::default();
-    let phases = hybrid::phases(&dressed.0, &dressed.1, &fine, &fabric::library()[0], &params, &mut steps)?;
+    let phases = hybrid::phases(
+        &dressed.0,
+        &dressed.1,
+        std::slice::from_ref(&fine),
+        &fabric::library()[0],
+        &params,
+        &mut steps,
+    )?;
     let since = |at: f64| 1e3 * (at - start);
     let last = |phase: &str| steps.0.iter().rfind(|(p, _)| *p == phase).map_or(start, |(_, at)| *at);
     let popup: Vec<f64> = steps.0.iter().filter(|(p, _)| *p == "popup").map(|(_, at)| at - last("sew")).collect();

@@ -2,13 +2,14 @@
 
 use geom::constants::Constant;
 
-use crate::{cloth, contact, fem, hybrid, laboratory, solver};
-use crate::{distortion, levels, quality, sewing};
+use crate::{cloth, contact, fem, hybrid, laboratory, placement, solver};
+use crate::{distortion, hands, levels, quality, sewing};
 
 /// All of them, in one order. A result stored with other ones is stale.
 #[must_use]
 pub fn constants() -> Vec<Constant> {
-    let own = [distortion::CONSTANTS, levels::CONSTANTS, quality::CONSTANTS, sewing::CONSTANTS].concat();
+    let own =
+        [distortion::CONSTANTS, hands::CONSTANTS, levels::CONSTANTS, quality::CONSTANTS, sewing::CONSTANTS].concat();
     let rooms = [
         linalg::constants(),
         own,
@@ -16,7 +17,7 @@ pub fn constants() -> Vec<Constant> {
         contact::constants(),
         solver::constants(),
         fem::constants(),
-        fem::placement::constants(),
+        placement::constants(),
         hybrid::constants(),
         hybrid::features::constants(),
         laboratory::constants(),

@@ -1,5 +1,6 @@
 //! Sewing: capped springs that draw the two sides of a seam together, then welding.
 
+use crate::{SimError, quality};
 use geom::V3;
 use pattern::Garment;
 
@@ -51,6 +52,21 @@ pub fn unsewn(garment: &Garment) -> Vec<usize> {
     (0..garment.rest.len()).collect()
 }
 
+/// Ends a simulation whose seams stay open, the vertices of its garment at `positions`, m.
+///
+/// # Errors
+/// [`SimError::Open`].
+pub fn closed(garment: &Garment, positions: &[V3]) -> Result<(), SimError> {
+    let piece_of = |v: usize| garment.pieces.iter().find(|piece| piece.vertices.contains(&v));
+    let name = |v: usize| piece_of(v).map_or_else(String::new, |piece| piece.id.clone());
+    match quality::widest_seam(garment, positions) {
+        Some((gap_m, pair)) if gap_m > OPEN_M => {
+            Err(SimError::Open { garment: garment.name.clone(), pieces: pair.map(name), gap_m })
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Springs between the vertices of seam pairs: `f = k d` up to a cap (4.15, with the cap trials asked for).
 #[derive(Clone, Debug)]
 pub struct Springs {
@@ -68,6 +84,8 @@ geom::constants! {
     "sewing",
     /// Most that springs grow by: garments that are stretched by half took up to 2e4.
     const MOST_GROWTH: f64 = 1e6;
+    /// Gap of seams from which on they count as open, m: what welding them would make of a garment is no garment.
+    pub const OPEN_M: f64 = 8e-2;
 }
 
 impl Springs {

@@ -9,17 +9,25 @@ geom::constants! {
     const KEPT_SHARE: f64 = 0.1;
     /// Share of the distance that is gone at once.
     const ADVANCE_SHARE: f64 = 0.9;
+    /// Share of its distance that a pair keeps which must come no nearer: what rounding leaves of it.
+    const NEARLY: f64 = 0.999;
     /// Distance below which two parts touch, m: a twentieth of what layers are pressed to by the strongest push.
     pub const TOUCHING_M: f64 = 1e-6;
     /// Most advances: a pair that takes more glides along so near that it may as well be said to meet.
     const MAX_ITERATIONS: usize = 40;
 }
 
-/// Whether a pair comes nearer than a tenth of its distance on the way from `x` to `y`, its vertices moving evenly: by
-/// conservative advancement, which goes on by as much as cannot use the distance up [Li, Kaufman, Jiang 2021]. A pair that touches already
-/// has nothing to keep: it would bar every step of the whole cloth, and what then comes to cross is drawn out again.
+/// Whether a pair comes nearer than a tenth of its distance on the way from `x` to `y`.
 #[must_use]
 pub fn collides(x: &[V3], y: &[V3], primitives: Primitives) -> bool {
+    free_share(x, y, primitives, 0.0) < 1.0
+}
+
+/// Share of the way from `x` to `y`, its vertices moving evenly, that a pair can go until it has come nearer than about a tenth of its
+/// distance, or than `least_m`, or, where it is that near already, nearer than it is: by conservative advancement, which goes on by as much as cannot use the distance up [Li, Kaufman, Jiang 2021]. A pair that
+/// touches already has nothing to keep: it would bar every step of the whole cloth, and what then comes to cross is drawn out again.
+#[must_use]
+pub fn free_share(x: &[V3], y: &[V3], primitives: Primitives, least_m: f64) -> f64 {
     let vertices = primitives.vertices();
     let mut at = vertices.map(|v| x[v]);
     let mut moves = vertices.map(|v| y[v] - x[v]);
@@ -32,24 +40,24 @@ pub fn collides(x: &[V3], y: &[V3], primitives: Primitives) -> bool {
         Primitives::EdgeEdge(_) => a.max(b) + c.max(d),
     };
     let mut distance = ClosestPoints::at(&at, primitives).gap.norm();
-    let least = KEPT_SHARE * distance;
+    let least = (KEPT_SHARE * distance).max(least_m.min(NEARLY * distance));
     if distance - least > closing || distance < TOUCHING_M {
-        return false;
+        return 1.0;
     }
     let mut time = 0.0;
     for _ in 0..MAX_ITERATIONS {
         let advance = ADVANCE_SHARE * (distance - least) / closing;
-        time += advance;
-        if time >= 1.0 {
-            return false;
+        if time + advance >= 1.0 {
+            return 1.0;
         }
+        time += advance;
         at.iter_mut().zip(&moves).for_each(|(p, d)| *p += d * advance);
         distance = ClosestPoints::at(&at, primitives).gap.norm();
         if distance <= least + KEPT_SHARE * least {
-            return true;
+            break;
         }
     }
-    true
+    time
 }
 
 #[cfg(test)]

@@ -62,6 +62,15 @@ geom::constants! {
     const FREE_SHARE: f64 = 0.9;
     /// Shells of distance by which pairs are sorted.
     const SHELLS: f64 = 64.0;
+    /// Rounds in which what would meet goes a part of its way, and in which it then stays where it is.
+    const SHARED_STOPS: usize = 6;
+    const MOST_STOPS: usize = 60;
+    /// Rounds in which what is near is kept apart.
+    const APART_ROUNDS: usize = 6;
+    /// Share of the thickness by which a pair is brought apart at once.
+    const GROWN_SHARE: f64 = 0.25;
+    /// Distance below which nothing comes nearer that is moved without regard to energy, m.
+    const NEAREST_M: f64 = 1e-4;
     /// Thickness of a contact over the size of triangles, at most: within a flat cloth none pushes its broad_phase.
     const THICKNESS_SIZES: f64 = 0.5;
 }
@@ -73,6 +82,8 @@ struct Press {
     /// Direction away from the second primitive.
     normal: V3,
     push: Push,
+    /// How much nearer than the thickness the pair is, m.
+    depth_m: f64,
     /// Penalty stiffness: by the smallest rest area among the vertices.
     stiffness_n_m: f64,
     /// Mollifier [Li 2020]: the share of the contact that counts: less than 1 for nearly parallel edges.
@@ -102,13 +113,14 @@ pub struct ClothContact<'a> {
 impl<'a> ClothContact<'a> {
     /// Self-contact over the triangles of a cloth; `areas` are the vertices' rest areas, m2.
     #[must_use]
-    pub fn new(params: ClothContactParams, triangles: &'a [[usize; 3]], areas: &'a [f64]) -> Self {
+    pub fn new(params: ClothContactParams, triangles: &'a [[usize; 3]], areas: impl Into<Cow<'a, [f64]>>) -> Self {
+        let areas = areas.into();
         let size = (areas.iter().sum::<f64>() / areas.len().max(1) as f64).sqrt();
         let reach_m = params.reach_m.min((REACH_SIZES * size).max(LEAST_REACH_M));
         Self {
             params: ClothContactParams { reach_m, ..params },
             broad_phase: Some(BroadPhase::new(triangles, areas.len())),
-            areas: Cow::Borrowed(areas),
+            areas,
             pairs: Vec::new(),
             found_at: Vec::new(),
             last: Vec::new(),
@@ -299,19 +311,100 @@ impl<'a> ClothContact<'a> {
         !self.is_known(x) || self.near([x, &self.last], 0.0).any(|primitives| ccd::collides(&self.last, x, primitives))
     }
 
+    /// Where vertices come to that go from where the cloth was at the last [`ClothContact::update`] to `x` each for itself, and stop before
+    /// they meet what is near: for cloth that is moved without regard to energy. Says how many had to stop.
+    pub fn stop(&self, x: &mut [V3]) -> usize {
+        let mut shares = vec![1.0_f64; x.len()];
+        let goals = x.to_vec();
+        for round in 0..MOST_STOPS {
+            let mut stopped = Vec::new();
+            for primitives in self.near([x, &self.last], 0.0) {
+                let share = ccd::free_share(&self.last, x, primitives, NEAREST_M);
+                if share < 1.0 {
+                    let share = if round < SHARED_STOPS { share } else { 0.0 };
+                    stopped.extend(primitives.vertices().map(|v| (v, share)));
+                }
+            }
+            if stopped.is_empty() {
+                break;
+            }
+            let before = shares.clone();
+            for (v, share) in stopped {
+                shares[v] = shares[v].min(before[v] * share);
+                x[v] = self.last[v] + (goals[v] - self.last[v]) * shares[v];
+            }
+        }
+        shares.iter().filter(|share| **share < 1.0).count()
+    }
+
+    /// Moves vertices at `x` so that what is near keeps to the side, and comes to the distance, that it had at the last
+    /// [`ClothContact::update`], or a little more of it up to the thickness: the mean of what all pairs ask for, some times over.
+    pub fn keep_apart(&self, x: &mut [V3]) {
+        let sided = |primitives: Primitives| {
+            let ClosestPoints { weights, gap } = ClosestPoints::of(&self.last, primitives);
+            let norm = weights.iter().map(|w| w * w).sum::<f64>();
+            let vertices = primitives.vertices();
+            let area = vertices.iter().map(|&v| self.areas[v]).fold(f64::MAX, f64::min);
+            let thickness_m = self.params.thickness_m.min(THICKNESS_SIZES * area.sqrt());
+            let wanted_m = thickness_m.min(gap.norm() + GROWN_SHARE * thickness_m);
+            Some((vertices, weights, gap.try_normalize(0.0)?, wanted_m, norm))
+        };
+        let pairs: Vec<_> = self.near([x, &self.last], self.params.thickness_m).filter_map(sided).collect();
+        let mut sums = vec![(V3::zeros(), 0.0); x.len()];
+        for _ in 0..APART_ROUNDS {
+            let mut any = false;
+            for (vertices, weights, normal, wanted_m, norm) in &pairs {
+                let distance_m: f64 = (0..4).map(|k| x[vertices[k]].dot(normal) * weights[k]).sum();
+                let lack_m = wanted_m - distance_m;
+                if lack_m > 0.0 {
+                    any = true;
+                    for (v, weight) in vertices.iter().zip(weights).filter(|(_, w)| **w != 0.0) {
+                        sums[*v].0 += normal * (weight / norm * lack_m);
+                        sums[*v].1 += 1.0;
+                    }
+                }
+            }
+            if !any {
+                break;
+            }
+            for (p, sum) in x.iter_mut().zip(&mut sums).filter(|(_, sum)| sum.1 > 0.0) {
+                *p += sum.0 / sum.1;
+                *sum = (V3::zeros(), 0.0);
+            }
+        }
+    }
+
+    /// The displacement of each vertex at `x` that would bring it out of what it presses on, the mean where there is more; none where it
+    /// presses on nothing.
+    #[must_use]
+    pub fn ways_out(&self, x: &[V3]) -> Vec<Option<V3>> {
+        let mut sums = vec![(V3::zeros(), 0.0); x.len()];
+        for Press { vertices, weights, normal, depth_m, mollifier, .. } in self.presses(x) {
+            let depth_m = depth_m * mollifier;
+            let norm = weights.iter().map(|w| w * w).sum::<f64>();
+            for (v, weight) in vertices.into_iter().zip(weights).filter(|(_, w)| *w != 0.0) {
+                sums[v].0 += normal * (weight / norm * depth_m);
+                sums[v].1 += 1.0;
+            }
+        }
+        sums.into_iter().map(|(sum, n)| (n > 0.0).then(|| sum / n)).collect()
+    }
+
     fn press(&self, x: &[V3], primitives: Primitives) -> Option<Press> {
         let vertices = primitives.vertices();
         let nearest = ClosestPoints::of(x, primitives);
         let normal = nearest.gap.try_normalize(0.0)?;
         let area = vertices.iter().map(|&v| self.areas[v]).fold(f64::MAX, f64::min);
         let grown_m = self.params.thickness_m.min(THICKNESS_SIZES * area.sqrt());
-        let push = push(nearest.gap.norm(), grown_m * self.untangling.thickness_share(primitives))?;
+        let thickness_m = grown_m * self.untangling.thickness_share(primitives);
+        let push = push(nearest.gap.norm(), thickness_m)?;
         let stiffness_n_m = self.params.stiffness_n_m3 * area;
         let mut press = Press {
             vertices,
             weights: nearest.weights,
             normal,
             push,
+            depth_m: thickness_m - nearest.gap.norm(),
             stiffness_n_m,
             mollifier: 1.0,
             mollifier_gradient: None,
@@ -353,7 +446,7 @@ impl<'a> ClothContact<'a> {
     pub fn assemble(&self, x: &[V3], forces: &mut [V3]) -> Vec<Contact4> {
         let mut contacts = Vec::new();
         for press in self.presses(x) {
-            let Press { vertices, weights, normal, push, stiffness_n_m: k, mollifier, mollifier_gradient } = press;
+            let Press { vertices, weights, normal, push, stiffness_n_m: k, mollifier, mollifier_gradient, .. } = press;
             for i in 0..4 {
                 forces[vertices[i]] += normal * (mollifier * k * push.force * weights[i]);
             }

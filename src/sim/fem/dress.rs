@@ -1,13 +1,13 @@
 //! A garment put on once: sewn as it was placed, then settled mesh by mesh.
 
-use super::hands::Hands;
 use super::params::Params;
-use super::placement::Folded;
-use super::run::{OPEN_M, Simulation};
+use super::run::Simulation;
 use super::settle::{Around, Grip, Settled, Settling};
 use crate::cloth::{Cloth, slack};
 use crate::contact::{BodyContact, ClothContact, Skin};
+use crate::hands::Hands;
 use crate::levels::prolong;
+use crate::placement::Folded;
 use crate::quality;
 use crate::sewing::{self, Springs};
 use crate::solver::System;
@@ -80,7 +80,7 @@ impl Dressing<'_> {
                 sewn = again;
             }
         }
-        closed(coarsest, &sewn)?;
+        sewing::closed(coarsest, &sewn)?;
         run.keep_up(coarsest, &sewn);
         // Nothing but friction may hold it up, or nothing at all.
         let grips = [Grip::AtTheEnd, Grip::Throughout, Grip::Braced];
@@ -234,18 +234,6 @@ fn length_m(garment: &Garment) -> f64 {
         high - low
     };
     garment.pieces.iter().map(length).fold(0.0, f64::max)
-}
-
-/// Ends a simulation whose seams stay open.
-fn closed(garment: &Garment, positions: &[V3]) -> Result<(), SimError> {
-    let piece_of = |v: usize| garment.pieces.iter().find(|piece| piece.vertices.contains(&v));
-    let name = |v: usize| piece_of(v).map_or_else(String::new, |piece| piece.id.clone());
-    match quality::widest_seam(garment, positions) {
-        Some((gap_m, pair)) if gap_m > OPEN_M => {
-            Err(SimError::Open { garment: garment.name.clone(), pieces: pair.map(name), gap_m })
-        }
-        _ => Ok(()),
-    }
 }
 
 /// Ends a simulation whose cloth is stretched farther than cloth can be, or, where that is asked for, than it should.

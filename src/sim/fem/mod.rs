@@ -1,9 +1,7 @@
 //! FEM-GS (chapter 4): placement, sewing and draping by physics alone.
 
 mod dress;
-mod hands;
 pub mod params;
-pub mod placement;
 mod run;
 mod settle;
 mod start;
@@ -11,6 +9,7 @@ mod start;
 pub use params::{Params, Sewing, level_edges};
 
 use crate::contact::Skin;
+use crate::placement::{self, Bend};
 use crate::quality;
 use crate::{Distortion, Drape, Fabric, Monitor, SimError, Stage};
 use body::Body;
@@ -18,9 +17,10 @@ use geom::constants::Constant;
 use geom::{DistanceField, V3};
 use pattern::Garment;
 
+use crate::hands::Hands;
 use dress::Dressing;
-use hands::Hands;
-use run::{Simulation, top_m};
+use run::Simulation;
+pub(crate) use run::top_m;
 use settle::{Grip, Settled};
 
 geom::constants! {
@@ -84,7 +84,7 @@ pub fn simulate(
         return Err(SimError::NoMesh);
     };
     let mut run = Simulation::new(params, monitor, garments.len() - 1);
-    let (placed, force) = placed_at_start(body, coarsest, params)?;
+    let (placed, force) = placed_at_start(body, coarsest, &params.bend, params.seed)?;
     let hands = Hands::near(body, field, &placed);
     let skin = Skin::new(&body.mesh).ok();
     let (hands, skin) = (hands.as_ref(), skin.as_ref());
@@ -163,8 +163,8 @@ fn other_starts(
     if grip == Grip::AtTheEnd {
         if came_off || Distortion::of(finest, &drape.positions)?.stretch > params.distortion_limit {
             starts.push(Start { placed: placed.clone(), force, grip: Grip::Throughout });
-        } else if let Some(bent) = params.otherwise_bent() {
-            let (elsewhere, force) = placed_at_start(dressing.body, coarsest, &bent)?;
+        } else if let Some(bend) = params.bend.otherwise() {
+            let (elsewhere, force) = placed_at_start(dressing.body, coarsest, &bend, params.seed)?;
             // Trousers and what goes round alone are not bent: from the same start comes the same drape.
             starts.extend((elsewhere != placed).then_some(Start { placed: elsewhere, force, grip }));
         }
@@ -176,9 +176,9 @@ fn other_starts(
 }
 
 /// Where a garment starts, as perturbed, m, and the factor on its sewing force.
-fn placed_at_start(body: &Body, garment: &Garment, params: &Params) -> Result<(Vec<V3>, f64), SimError> {
-    let mut placed = placement::place(body, garment, params)?;
-    let force = start::perturb(params.seed, &mut placed);
+fn placed_at_start(body: &Body, garment: &Garment, bend: &Bend, seed: u64) -> Result<(Vec<V3>, f64), SimError> {
+    let mut placed = placement::place(body, garment, bend)?;
+    let force = start::perturb(seed, &mut placed);
     Ok((placed, force))
 }
 
@@ -197,16 +197,7 @@ fn is_better(one: &Drape, other: &Drape) -> bool {
 
 /// Constants of FEM-GS that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
-    [
-        dress::CONSTANTS,
-        hands::CONSTANTS,
-        CONSTANTS,
-        params::CONSTANTS,
-        run::CONSTANTS,
-        settle::CONSTANTS,
-        start::CONSTANTS,
-    ]
-    .concat()
+    [dress::CONSTANTS, CONSTANTS, params::CONSTANTS, run::CONSTANTS, settle::CONSTANTS, start::CONSTANTS].concat()
 }
 
 #[cfg(test)]

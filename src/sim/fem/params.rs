@@ -1,6 +1,7 @@
 //! Parameters of FEM-GS.
 
 use crate::contact::{ClothContactParams, ContactParams};
+use crate::placement::Bend;
 use crate::solver::StepParams;
 
 geom::constants! {
@@ -9,8 +10,6 @@ geom::constants! {
     const COARSEST_EDGE_M: f64 = 0.065;
     /// Most meshes that are worth going through.
     const MOST_LEVELS: u32 = 3;
-    /// Angle, rad, of pieces that are bent otherwise than by the body: that of [T] for the slim.
-    const OTHER_BEND_RAD: f64 = 2.0 * std::f64::consts::PI / 3.0;
 }
 
 /// Edge lengths (m) of the meshes that FEM-GS goes through, coarse to fine: each half the one before, the last `finest_m`.
@@ -65,11 +64,9 @@ impl Default for Sewing {
 /// How FEM-GS places, sews and drapes.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Params {
-    /// Offset `mu`: the middle of a trunk piece starts `mu H / 2` before the trunk's centre, `H` the body depth (4.18).
-    /// `None`: the least that clears the body all along the piece and brings its sides to the body's sides.
-    pub offset_mu: Option<f64>,
-    /// Angle over which trunk pieces are bent before sewing, rad (4.6). `None`: bent to half an ellipse as wide as the body.
-    pub bend_angle_rad: Option<f64>,
+    /// How pieces of the trunk are bent before they are sewn.
+    #[serde(flatten)]
+    pub bend: Bend,
     /// Draws a start that differs a little from the placed one, to measure what the drape owes to it; 0 for the placed one.
     pub seed: u64,
     /// How seams are closed.
@@ -101,8 +98,7 @@ pub struct Params {
 impl Default for Params {
     fn default() -> Self {
         Self {
-            offset_mu: None,
-            bend_angle_rad: None,
+            bend: Bend::default(),
             seed: 0,
             sewing: Sewing::default(),
             coarse_tolerance: 1.0,
@@ -119,26 +115,9 @@ impl Default for Params {
     }
 }
 
-impl Params {
-    /// The same with pieces of the trunk bent to the arc of [T]; `None` where an offset or an angle was asked for.
-    #[must_use]
-    pub fn otherwise_bent(&self) -> Option<Self> {
-        let follow_body = self.offset_mu.is_none() && self.bend_angle_rad.is_none();
-        follow_body.then_some(Self { bend_angle_rad: Some(OTHER_BEND_RAD), ..*self })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn what_was_asked_for_is_not_bent_otherwise() {
-        let own = Params::default();
-        let bent = own.otherwise_bent().expect("nothing was asked for");
-        assert!(bent.bend_angle_rad.is_some() && bent.otherwise_bent().is_none());
-        assert!(Params { offset_mu: Some(1.0), ..own }.otherwise_bent().is_none());
-    }
 
     #[test]
     fn levels_halve_and_stay_fine_enough() {

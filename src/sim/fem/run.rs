@@ -1,5 +1,6 @@
 //! The loop that both phases of FEM-GS share: step, record, report, stop.
 
+use crate::sewing::OPEN_M;
 use crate::solver::{StepInfo, StepParams, Stepper, System};
 use crate::{Monitor, Progress, SimError, Step};
 use geom::V3;
@@ -26,8 +27,6 @@ geom::constants! {
     "fem.run",
     /// First step size of the end of a drape, s: it goes on with cloth that has lain down already.
     const LAIN_DOWN_S: f64 = 0.5;
-    /// Gap of seams from which on they count as open, m: what welding them would make of a garment is no garment.
-    pub const OPEN_M: f64 = 8e-2;
     /// Steps of sewing at most over those that nearly closed seams get: these have met what holds them up, and are drawn through it.
     const PATIENCE: u32 = 3;
     /// How far the top of a garment may come down from where it was sewn, m: trousers and skirts that do not hold at the waist

@@ -1,9 +1,9 @@
 //! One level of a sewn garment comes to rest: without friction, and on the finest mesh with it and held outside the body.
 
-use super::hands::{Hands, Shape};
 use super::run::{Phase, Simulation};
 use crate::cloth::Cloth;
 use crate::contact::{BodyContact, ClothContact, ClothContactParams, ContactParams, Skin, contact_areas};
+use crate::hands::{Hands, Shape};
 use crate::solver::System;
 use crate::solver::braces::Braces;
 use crate::{Fabric, SimError};

@@ -210,7 +210,7 @@ fn a_garment_that_its_seams_squeeze_off_the_body_is_sewn_again_with_friction_or_
     let cotton = fabric::library().into_iter().find(|f| f.name == "cotton_shirting_light").expect("in the library");
     let garments = levels(Model::Teetop, 0.06);
     let params = Params::default();
-    let placed = placement::place(&body, &garments[0], &params).expect("all roles are known");
+    let placed = placement::place(&body, &garments[0], &params.bend).expect("all roles are known");
     let skin = Skin::new(&body.mesh).expect("a closed body");
     let dressing = Dressing { skin: Some(&skin), ..dressing(&body, &field, &garments, &cotton, &placed) };
     let once = dressing.dress(Grip::AtTheEnd, &mut Simulation::new(&params, &mut Silent, 0)).expect("it comes to rest");
@@ -280,7 +280,7 @@ fn what_ends_with_a_fault_is_put_on_otherwise() {
     let field = DistanceField::build(&body.mesh, 0.01).expect("a closed body");
     let cotton = fabric::library().into_iter().find(|f| f.name == "cotton_shirting_light").expect("in the library");
     let (garments, params) = (levels(Model::Tshirt, 0.06), Params::default());
-    let placed = placement::place(&body, &garments[0], &params).expect("all roles are known");
+    let placed = placement::place(&body, &garments[0], &params.bend).expect("all roles are known");
     let dressing = dressing(&body, &field, &garments, &cotton, &placed);
     let flat =
         |stretch: f64| -> Vec<V3> { garments[0].rest.iter().map(|p| V3::new(p.x, stretch * p.y, 0.0)).collect() };

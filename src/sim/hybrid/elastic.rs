@@ -38,6 +38,12 @@ struct Run {
     first_m: Vec<f64>,
 }
 
+geom::constants! {
+    "hybrid.elastic",
+    /// Weight of a pair of an open seam, in that of a side of a triangle.
+    const SEAM_WEIGHT: f64 = 1.0;
+}
+
 /// What acts on the cloth besides its own size, for one step.
 #[derive(Clone, Copy, Debug)]
 pub struct Pull<'a> {
@@ -49,6 +55,8 @@ pub struct Pull<'a> {
     pub share: f64,
     /// What lengths of controls are multiplied by: takes back what they are stretched by for their softness.
     pub control: f64,
+    /// By how much the two sides of open seams want to come nearer, m.
+    pub closer_m: f64,
 }
 
 /// The energy of a sewn garment, ready to be lowered.
@@ -59,6 +67,8 @@ pub struct Elastic {
     /// Stretch of each triangle when it was set up: the root of `F^T F`.
     first_stretch: Vec<Matrix2<f64>>,
     control_weight: f64,
+    /// Pairs of vertices of seams that are still open.
+    open: Vec<[usize; 2]>,
     /// Weight of each vertex's target.
     weights: Vec<f64>,
     /// Stiffness with which each vertex is held by its neighbours: the diagonal of the membrane's matrix.
@@ -68,8 +78,8 @@ pub struct Elastic {
 
 impl Elastic {
     /// Sets up a garment whose vertices are sewn together as `vertex_of` says. `controls` are the measurements to be kept,
-    /// `bending` pairs of sewn vertices with their entry of the bending matrix over the membrane's stiffness, `weights`
-    /// those of the vertices' targets.
+    /// `bending` pairs of sewn vertices with their entry of the bending matrix over the membrane's stiffness, `open` pairs of seams that
+    /// are still to be closed, `weights` those of the vertices' targets.
     ///
     /// `None` when a triangle of the pattern has no area or the weights do not hold the garment anywhere.
     #[must_use]
@@ -80,6 +90,7 @@ impl Elastic {
         controls: &[&Measurement],
         control_weight: f64,
         bending: &[([usize; 2], f64)],
+        open: Vec<[usize; 2]>,
         weights: Vec<f64>,
     ) -> Option<Self> {
         let triangles = garment
@@ -114,7 +125,8 @@ impl Elastic {
                 }
             }
         }
-        for &([i, j], value) in bending {
+        let drawn = open.iter().map(|pair| (*pair, -SEAM_WEIGHT));
+        for ([i, j], value) in bending.iter().copied().chain(drawn) {
             add(i.max(j), i.min(j), value);
             add(i, i, -value);
             add(j, j, -value);
@@ -122,7 +134,7 @@ impl Elastic {
         let first_stretch = triangles.iter().map(|t| t.polar(x).1).collect();
         entries.extend(weights.iter().enumerate().map(|(v, w)| (v, v, *w)));
         let factor = Factor::new(x.len(), &entries)?;
-        Some(Self { count: x.len(), triangles, runs, first_stretch, control_weight, weights, held, factor })
+        Some(Self { count: x.len(), triangles, runs, first_stretch, control_weight, open, weights, held, factor })
     }
 
     /// Gives the targets other weights.
@@ -141,6 +153,12 @@ impl Elastic {
         &self.held
     }
 
+    /// Pairs of vertices of seams that are still open.
+    #[must_use]
+    pub fn open(&self) -> &[[usize; 2]] {
+        &self.open
+    }
+
     /// One local and one global step from `x`; returns the new positions.
     #[must_use]
     pub fn step(&mut self, x: &[V3], pull: &Pull) -> Vec<V3> {
@@ -157,6 +175,12 @@ impl Elastic {
             for &(v, weight) in &control.terms {
                 rhs[v] += wanted * weight;
             }
+        }
+        for &[a, b] in &self.open {
+            let way = x[b] - x[a];
+            let wanted = way * (SEAM_WEIGHT * (1.0 - pull.closer_m / way.norm().max(1e-9)).max(0.0));
+            rhs[a] -= wanted;
+            rhs[b] += wanted;
         }
         for v in 0..self.count {
             rhs[v] += pull.targets[v] * self.weights[v] + pull.loads[v];

@@ -4,6 +4,7 @@
 //! them back their size, and a short drape lets them come to rest on the fine mesh.
 
 mod assemble;
+mod draw;
 mod elastic;
 pub mod features;
 mod follow;
@@ -27,7 +28,9 @@ mod silhouette;
 pub mod sparse;
 mod untangle;
 
+use crate::cloth::Cloth;
 use crate::contact::Skin;
+use crate::levels::prolong;
 use crate::walls::Walls;
 use crate::{Drape, Fabric, Monitor, Progress, SimError, Stage, Staged, Step, quality};
 use body::{Body, Layer};
@@ -42,7 +45,7 @@ pub use relax::RelaxParams;
 pub use sewn::Sewn;
 
 use layers::Parted;
-use relax::{Push, Relaxation};
+use relax::{Place, Push, Relaxation};
 
 /// Parameters of Hybrid-GS.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -82,6 +85,8 @@ geom::constants! {
     /// Steps that the drape goes on after cloth was pulled apart, and how often it does at most.
     const AGAIN: u32 = 6;
     const MOST_AGAIN: u32 = 2;
+    /// How far the top of a garment may slide down, m: trousers and skirts that do not hold at the waist hold at the hips.
+    const MOST_DESCENT_M: f64 = 0.25;
     /// Rounds in which cloth that runs through itself is pulled apart in the end.
     const PARTINGS: u32 = 80;
 }
@@ -89,16 +94,19 @@ geom::constants! {
 /// What each phase left, positions of the garment's vertices in metres.
 #[derive(Clone, Debug)]
 pub struct Phases {
-    /// On the form, piece by piece.
-    pub mapped: OnForm,
+    /// On the form, piece by piece; `None` where it cannot be mapped.
+    pub mapped: Option<OnForm>,
     /// Draped; its earlier stages are those sewn, smoothed and lifted onto the fine mesh, and popped up.
     pub drape: Drape,
 }
 
 /// Dresses a body in a garment.
 ///
+/// `garments` are meshes of the same garment, coarse to fine; the drape is on the last. What has features on the body is mapped onto it by
+/// them; all else, and what ends with a fault, is drawn together about the body from the mesh before the last ([`draw`]).
+///
 /// # Errors
-/// When a piece cannot be placed or mapped, is degenerate, the positions diverge, or the monitor cancels.
+/// When a piece cannot be placed, is degenerate, its seams stay open, the positions diverge, or the monitor cancels.
 ///
 /// # Examples
 /// ```
@@ -113,19 +121,19 @@ pub struct Phases {
 /// let garment = Style::read(&medium.pieces, Model::Tshirt.seams(), "tshirt.seams.toml")?.mesh(0.05)?;
 ///
 /// let cotton = &fabric::library()[0];
-/// let drape = hybrid::simulate(&body, &field, &garment, cotton, &hybrid::Params::default(), &mut Silent)?;
+/// let drape = hybrid::simulate(&body, &field, &[garment], cotton, &hybrid::Params::default(), &mut Silent)?;
 /// assert!(drape.converged && drape.seam_gap_max_m == 0.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn simulate(
     body: &Body,
     field: &DistanceField,
-    garment: &Garment,
+    garments: &[Garment],
     fabric: &Fabric,
     params: &Params,
     monitor: &mut dyn Monitor,
 ) -> Result<Drape, SimError> {
-    phases(body, field, garment, fabric, params, monitor).map(|phases| phases.drape)
+    phases(body, field, garments, fabric, params, monitor).map(|phases| phases.drape)
 }
 
 /// [`simulate`] with what each phase left.
@@ -135,64 +143,154 @@ pub fn simulate(
 pub fn phases(
     body: &Body,
     field: &DistanceField,
-    garment: &Garment,
+    garments: &[Garment],
     fabric: &Fabric,
     params: &Params,
     monitor: &mut dyn Monitor,
 ) -> Result<Phases, SimError> {
+    let Some(garment) = garments.last() else { return Err(SimError::NoMesh) };
+    let skin = Skin::new(&body.mesh).ok();
+    let dressing = Dressing { body, skin: skin.as_ref(), field, garments, garment, fabric, params };
     let mut run = Simulation { garment, monitor, history: Vec::new() };
-    let controls: Vec<&Measurement> =
-        garment.measurements.iter().filter(|m| !params.uncontrolled.contains(&m.no)).collect();
-    let mapped = mapping::map(body, garment)?;
-    let sewn = Sewn::new(garment, &mapped.positions);
-    let walls = Walls::new(body, garment, &sewn.vertex_of, &sewn.x);
-    let mut relaxation = Relaxation::new(field, garment, &sewn, fabric, &controls, walls, params.relax)?
-        .over_feet(body.control.ring_centre(Layer::AnkleRight).z);
-    relaxation.part_layers(PARTINGS);
-    let on_skin = sewn.unsewn(&relaxation.x);
-    let lift: f64 = relaxation.x.iter().zip(&sewn.x).map(|(a, b)| (a - b).norm_squared()).sum();
-    run.record("sew", 0.2, 0, &on_skin, (lift / sewn.x.len() as f64).sqrt() / AT_REST_M)?;
-    let mut done = 0.0;
-    let error = |x: &[V3]| mean_chi(garment, &sewn.unsewn(x)) - 1.0;
-    let cloth = popup::Cloth { garment, sewn: &sewn };
-    popup::reconstruct(params.popup, cloth, &mut relaxation, body, error, |now, moved| {
-        done += 1.0;
-        run.record("popup", 0.2 + 0.4 * done / f64::from(popup::steps()), 1, &sewn.unsewn(&now.x), moved / AT_REST_M)
-    })?;
-    relaxation.part_layers(PARTINGS);
-    let popped = sewn.unsewn(&relaxation.x);
-    let (last, self_crossings) = run.drape(&mut relaxation, body, &sewn, params)?;
-    let x = relaxation.x;
-    let positions = sewn.unsewn(&x);
-    let drape = Drape {
-        stage: Stage::Drape,
-        converged: last <= AT_REST_M,
-        iterations: run.history.len() as u32,
-        residual: last / AT_REST_M,
-        penetration_max_m: quality::penetration_by_field_m(
-            Skin::new(&body.mesh).ok().as_ref(),
-            field,
-            garment,
-            &positions,
-        ),
-        seam_gap_max_m: quality::seam_gap_m(garment, &positions),
-        self_crossings,
-        braced_n: None,
-        welded_vertices: x.len(),
-        positions,
-        history: run.history,
-        earlier: vec![
-            Staged { stage: Stage::Sewn, positions: on_skin },
-            Staged { stage: Stage::Popup, positions: popped },
-        ],
+    let mapped = match mapping::map(body, garment) {
+        Err(error @ (SimError::CannotMap { .. } | SimError::CannotPlace { .. })) => Err(error),
+        mapped => Ok(mapped?),
     };
-    Ok(Phases { mapped, drape })
+    let (mut best, mut failed): (Option<Drape>, _) = (None, None);
+    for start in mapped.as_ref().map_or(&[Start::Drawn][..], |_| &Start::ALL) {
+        let sewn = match (start, &mapped) {
+            (Start::Drawn, _) | (_, Err(_)) => dressing.drawn(&mut run),
+            (_, Ok(mapped)) => Ok(Sewn::new(garment, &mapped.positions)),
+        };
+        match sewn.and_then(|sewn| dressing.dress(&sewn, *start != Start::Mapped, &mut run)) {
+            Ok(drape) if best.as_ref().is_none_or(|best| faults(&drape) < faults(best)) => best = Some(drape),
+            Err(SimError::Cancelled) => return Err(SimError::Cancelled),
+            Err(error) => failed = failed.or(Some(error)),
+            Ok(_) => {}
+        }
+        if best.as_ref().is_some_and(|best| faults(best) == (false, 0)) {
+            break;
+        }
+    }
+    match (best, mapped) {
+        (Some(drape), mapped) => Ok(Phases { mapped: mapped.ok(), drape: Drape { history: run.history, ..drape } }),
+        // What it could not be mapped for says more than what it could not be drawn together for.
+        (None, Err(refused)) => Err(refused),
+        (None, Ok(_)) => Err(failed.unwrap_or(SimError::NoMesh)),
+    }
+}
+
+/// How a garment begins.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Start {
+    /// Mapped onto the body.
+    Mapped,
+    /// Likewise, and no cloth goes through other cloth.
+    Apart,
+    /// Drawn together about the body.
+    Drawn,
+}
+
+impl Start {
+    /// In the order in which they are tried, until one ends without a fault.
+    const ALL: [Self; 3] = [Self::Mapped, Self::Apart, Self::Drawn];
+}
+
+/// What tells a worse drape from a better one, worst first: it moves, it crosses itself.
+fn faults(drape: &Drape) -> (bool, usize) {
+    (!drape.converged, drape.self_crossings)
+}
+
+/// A garment and the body that is to wear it.
+#[derive(Clone, Copy)]
+struct Dressing<'a> {
+    body: &'a Body,
+    /// Its exact surface, where it bounds a solid.
+    skin: Option<&'a Skin<'a>>,
+    field: &'a DistanceField,
+    /// Meshes of the garment, coarse to fine.
+    garments: &'a [Garment],
+    /// The last of them.
+    garment: &'a Garment,
+    fabric: &'a Fabric,
+    params: &'a Params,
+}
+
+impl Dressing<'_> {
+    /// Draws the pieces together about the body, on the mesh before the last, or, where their seams stay open on it, on the coarsest: fewer
+    /// vertices have less to be caught by.
+    fn drawn(&self, run: &mut Simulation) -> Result<Sewn, SimError> {
+        let Self { body, field, garments, garment, fabric, .. } = *self;
+        let finer = garments.iter().rev().nth(1).unwrap_or(garment);
+        let mut together = |coarse: &Garment| {
+            let places = draw::together(body, field, coarse, fabric, |x| run.drawing(coarse, x))?;
+            let mut sewn = Sewn::at(garment, &vec![V3::zeros(); garment.rest.len()]);
+            let cloth = Cloth::new(garment, fabric, sewn.vertex_of.clone())?;
+            sewn.x = prolong(coarse, &places, garment, &cloth, fabric);
+            Ok(sewn)
+        };
+        match (together(finer), garments.first()) {
+            (Err(SimError::Open { .. }), Some(coarsest)) if garments.len() > 2 => together(coarsest),
+            (drawn, _) => drawn,
+        }
+    }
+
+    /// Pop-up and drape of a sewn garment; says whether cloth is kept from going through cloth.
+    fn dress(&self, sewn: &Sewn, is_kept_apart: bool, run: &mut Simulation) -> Result<Drape, SimError> {
+        let Self { body, field, garment, fabric, params, .. } = *self;
+        let controls: Vec<&Measurement> =
+            garment.measurements.iter().filter(|m| !params.uncontrolled.contains(&m.no)).collect();
+        let walls = Walls::new(body, garment, &sewn.vertex_of, &sewn.x);
+        let mut relaxation = Relaxation::new(field, garment, sewn, fabric, &controls, walls, params.relax)?
+            .over_feet(body.control.ring_centre(Layer::AnkleRight).z);
+        if is_kept_apart {
+            relaxation = relaxation.kept_apart(garment, sewn);
+        }
+        relaxation.part_layers(PARTINGS);
+        let on_skin = sewn.unsewn(&relaxation.x);
+        let lift: f64 = relaxation.x.iter().zip(&sewn.x).map(|(a, b)| (a - b).norm_squared()).sum();
+        run.record("sew", 0.2, 0, &on_skin, (lift / sewn.x.len() as f64).sqrt() / AT_REST_M)?;
+        let mut done = 0.0;
+        let error = |x: &[V3]| mean_chi(garment, &sewn.unsewn(x)) - 1.0;
+        let cloth = popup::Cloth { garment, sewn };
+        popup::reconstruct(params.popup, cloth, &mut relaxation, body, error, |now, moved| {
+            done += 1.0;
+            let fraction = 0.2 + 0.4 * done / f64::from(popup::steps());
+            run.record("popup", fraction, 1, &sewn.unsewn(&now.x), moved / AT_REST_M)
+        })?;
+        relaxation.part_layers(PARTINGS);
+        let popped = sewn.unsewn(&relaxation.x);
+        let (last, self_crossings) = run.drape(&mut relaxation, body, sewn, params)?;
+        let positions = sewn.unsewn(&relaxation.x);
+        Ok(Drape {
+            stage: Stage::Drape,
+            converged: last <= AT_REST_M,
+            iterations: run.history.len() as u32,
+            residual: last / AT_REST_M,
+            penetration_max_m: quality::penetration_by_field_m(self.skin, field, garment, &positions),
+            seam_gap_max_m: quality::seam_gap_m(garment, &positions),
+            self_crossings,
+            braced_n: None,
+            welded_vertices: sewn.x.len(),
+            positions,
+            history: Vec::new(),
+            earlier: vec![
+                Staged { stage: Stage::Sewn, positions: on_skin },
+                Staged { stage: Stage::Popup, positions: popped },
+            ],
+        })
+    }
 }
 
 /// E: mean chi over the measurements; positions of the garment's vertices in m.
 fn mean_chi(garment: &Garment, positions: &[V3]) -> f64 {
     let chi = |m: &Measurement| m.length_m(&garment.rest, positions) / m.l2d_m;
     garment.measurements.iter().map(chi).sum::<f64>() / garment.measurements.len() as f64
+}
+
+/// Height of the highest vertex of what is worn on trunk or limbs, m.
+fn top_m(place: &Place, garment: &Garment, sewn: &Sewn) -> f64 {
+    crate::fem::top_m(garment, &sewn.unsewn(place.x()))
 }
 
 /// A run under way: what is recorded and reported of each step.
@@ -203,13 +301,32 @@ struct Simulation<'a> {
 }
 
 impl Simulation<'_> {
-    /// Phase 4; returns the rms movement of the last step, m, and how many edges still pierce the cloth.
+    /// Phase 4; returns the rms movement of the last step, m, and how many edges still pierce the cloth. What slides off the body by its
+    /// weight is laid on it without.
     fn drape(
         &mut self,
         relaxation: &mut Relaxation,
         body: &Body,
         sewn: &Sewn,
         params: &Params,
+    ) -> Result<(f64, usize), SimError> {
+        let popped = relaxation.place();
+        let fallen = self.lay(relaxation, body, sewn, params, 1.0)?;
+        if top_m(&popped, self.garment, sewn) - top_m(&relaxation.place(), self.garment, sewn) <= MOST_DESCENT_M {
+            return Ok(fallen);
+        }
+        relaxation.go_back(&popped);
+        self.lay(relaxation, body, sewn, params, 0.0)
+    }
+
+    /// Lets the cloth slide over the body with a share of its weight, and then lie.
+    fn lay(
+        &mut self,
+        relaxation: &mut Relaxation,
+        body: &Body,
+        sewn: &Sewn,
+        params: &Params,
+        gravity: f64,
     ) -> Result<(f64, usize), SimError> {
         let steps = params.push_steps + params.firm_steps;
         let (mut step, mut end) = (0, steps);
@@ -220,7 +337,8 @@ impl Simulation<'_> {
             } else {
                 relaxation.correct();
             }
-            let last = relaxation.step(Push { firm: step > params.push_steps, gravity: 1.0, share: 1.0 });
+            let push = Push { firm: step > params.push_steps, gravity, share: 1.0, closer_m: 0.0 };
+            let last = relaxation.step(push);
             if step + LIFTS > end {
                 relaxation.lift_out();
             }
@@ -234,6 +352,15 @@ impl Simulation<'_> {
                 None => {}
             }
         }
+    }
+
+    /// Reports pieces that are being drawn together: `x` are the places of a coarser mesh's vertices, m.
+    fn drawing(&mut self, coarse: &Garment, x: &[V3]) -> Result<(), SimError> {
+        let iteration = self.history.len() as u32 + 1;
+        let seam_gap_m = quality::seam_gap_m(coarse, x);
+        let step = Step { iteration, level: 0, residual: 0.0, seam_gap_m, e_chi: mean_chi(coarse, x) };
+        self.monitor.progress(&Progress { phase: "sew", fraction: 0.1, step });
+        if self.monitor.cancelled() { Err(SimError::Cancelled) } else { Ok(()) }
     }
 
     fn record(
@@ -263,6 +390,8 @@ impl Simulation<'_> {
 pub(crate) fn constants() -> Vec<Constant> {
     [
         assemble::CONSTANTS,
+        draw::CONSTANTS,
+        elastic::CONSTANTS,
         form::CONSTANTS,
         inset::CONSTANTS,
         layers::CONSTANTS,

@@ -95,7 +95,7 @@ fn rigid<E>(
     let mut last = error(&relaxation.x);
     for step in 1..=steps() {
         let share = f64::from(step) / f64::from(STEPS[0]);
-        let push = Push { firm: false, gravity: 0.0, share: share.min(1.0) };
+        let push = Push { firm: false, gravity: 0.0, share: share.min(1.0), closer_m: 0.0 };
         match step.cmp(&STEPS[0]) {
             Ordering::Less => {}
             Ordering::Equal => relaxation.judge(body, cloth.garment, cloth.sewn),

@@ -11,6 +11,7 @@ use super::obstacle::Obstacle;
 use super::ring::rings;
 use super::sewn::Sewn;
 use crate::cloth::Cloth;
+use crate::contact::{ClothContact, ClothContactParams, contact_areas};
 use crate::walls::Walls;
 use crate::{Fabric, SimError};
 use body::Body;
@@ -43,6 +44,8 @@ pub struct RelaxParams {
     pub momentum: f64,
     /// Steps between two looks at who is in contact.
     pub refresh: u32,
+    /// How far a vertex goes in a step at most, m.
+    pub stride_m: f64,
 }
 
 impl Default for RelaxParams {
@@ -58,6 +61,7 @@ impl Default for RelaxParams {
             least_bending_nm: 5e-5,
             momentum: 0.85,
             refresh: 5,
+            stride_m: 0.1,
         }
     }
 }
@@ -67,6 +71,8 @@ pub struct Relaxation<'a> {
     params: RelaxParams,
     obstacle: Obstacle<'a>,
     elastic: Elastic,
+    /// `None` where cloth may go through cloth.
+    self_contact: Option<ClothContact<'a>>,
     /// Rest areas of the sewn vertices, m2.
     areas: Vec<f64>,
     /// Weight of each sewn vertex over the membrane's stiffness, m.
@@ -99,6 +105,14 @@ pub struct Place {
     steps: u32,
 }
 
+impl Place {
+    /// Position of each sewn vertex, m.
+    #[must_use]
+    pub fn x(&self) -> &[V3] {
+        &self.x
+    }
+}
+
 /// What a step does besides keeping size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Push {
@@ -108,6 +122,8 @@ pub struct Push {
     pub gravity: f64,
     /// Size that it wants: 0 as it was sewn, 1 the pattern's.
     pub share: f64,
+    /// By how much the sides of open seams want to come nearer, m.
+    pub closer_m: f64,
 }
 
 impl<'a> Relaxation<'a> {
@@ -118,7 +134,7 @@ impl<'a> Relaxation<'a> {
     pub fn new(
         field: &'a DistanceField,
         garment: &Garment,
-        sewn: &Sewn,
+        sewn: &'a Sewn,
         fabric: &Fabric,
         controls: &[&Measurement],
         walls: Walls,
@@ -137,13 +153,22 @@ impl<'a> Relaxation<'a> {
         let x = lifted(&mut obstacle, &sewn.x);
         let touching = touching(&mut obstacle, &walls, params.offset_m, &x);
         let weights = soft_weights(&params, &cloth.areas, &touching);
-        let elastic = Elastic::new(garment, &sewn.vertex_of, &x, controls, params.control_width_m, &bending, weights)
+        let open: Vec<[usize; 2]> = garment
+            .seams
+            .iter()
+            .flat_map(|seam| &seam.pairs)
+            .map(|pair| pair.map(|v| sewn.vertex_of[v]))
+            .filter(|[a, b]| a != b)
+            .collect();
+        let width_m = params.control_width_m;
+        let elastic = Elastic::new(garment, &sewn.vertex_of, &x, controls, width_m, &bending, open, weights)
             .ok_or_else(|| SimError::Degenerate { piece: garment.name.clone(), at: garment.rest[0] })?;
         let weight = cloth.masses.iter().map(|m| m * GRAVITY / params.stiffness_n_m).collect();
         Ok(Self {
             params,
             obstacle,
             elastic,
+            self_contact: None,
             areas: cloth.areas,
             weight,
             insets: Insets::default(),
@@ -160,6 +185,17 @@ impl<'a> Relaxation<'a> {
         })
     }
 
+    /// Has no cloth go through other cloth from here on, but for the two sides of seams that are still open.
+    #[must_use]
+    pub fn kept_apart(mut self, garment: &Garment, sewn: &'a Sewn) -> Self {
+        let layers = ClothContactParams::default();
+        let areas = contact_areas(garment, &sewn.vertex_of, &self.areas, 2.0 * layers.thickness_m);
+        let contact = ClothContact::new(layers, &sewn.triangles, areas);
+        let open = self.elastic.open();
+        self.self_contact = Some(if open.is_empty() { contact } else { contact.but_near(open.iter().copied()) });
+        self
+    }
+
     /// Says how high the ankles are, m: below them the body stays as it is.
     #[must_use]
     pub fn over_feet(self, ankles_m: f64) -> Self {
@@ -168,10 +204,15 @@ impl<'a> Relaxation<'a> {
 
     /// Lifts out what contact, which is soft, left inside. What lies deeper would lose its size.
     pub fn lift_out(&mut self) {
-        for (v, p) in self.x.iter_mut().enumerate() {
+        let mut lifted = |(v, p): (usize, &V3)| {
             let (depth, out) = self.obstacle.contact_at(LEAST_CLEARANCE_M, v, p);
-            *p += out * if depth < MOST_LIFT_M { depth } else { 0.0 };
+            p + out * if depth < MOST_LIFT_M { depth } else { 0.0 }
+        };
+        let goal: Vec<V3> = self.x.iter().enumerate().map(&mut lifted).collect();
+        if let Some(contact) = &mut self.self_contact {
+            contact.update(&self.x);
         }
+        self.go_to(&goal);
     }
 
     /// Puts the cloth somewhere else, m, from where the body pushes it out; returns the rms movement of the vertices, m.
@@ -231,29 +272,59 @@ impl<'a> Relaxation<'a> {
 
     /// Takes one step; returns the rms movement of the vertices, m.
     pub fn step(&mut self, push: Push) -> f64 {
+        let ways_out = self.self_contact.as_mut().map_or_else(Vec::new, |contact| {
+            contact.update(&self.x);
+            contact.ways_out(&self.x)
+        });
         if push.firm || (self.steps > 0 && self.steps.is_multiple_of(self.params.refresh)) {
-            self.look_for_contacts(push.firm);
+            self.look_for_contacts(push.firm, &ways_out);
         }
         self.steps += 1;
         let from: Vec<V3> = self.x.iter().zip(&self.last).map(|(p, d)| p + d * self.params.momentum).collect();
         let mut target = |(v, p): (usize, &V3)| {
             let (depth, out) = self.obstacle.contact(v, p);
-            let target = p + out * depth;
+            let apart = ways_out.get(v).copied().flatten().map_or(*p, |way| self.x[v] + way);
+            let target = apart + out * depth;
             self.walls.back(v, &target, self.params.offset_m).unwrap_or(target)
         };
         let targets: Vec<V3> = from.iter().enumerate().map(&mut target).collect();
         let loads: Vec<V3> = self.weight.iter().map(|w| V3::new(0.0, 0.0, -w * push.gravity)).collect();
-        let next = self
-            .elastic
-            .step(&from, &Pull { targets: &targets, loads: &loads, share: push.share, control: self.control });
-        self.last = next.iter().zip(&self.x).map(|(a, b)| a - b).collect();
-        self.x = next;
+        let Push { share, closer_m, .. } = push;
+        let pull = Pull { targets: &targets, loads: &loads, share, control: self.control, closer_m };
+        let mut next = self.elastic.step(&from, &pull);
+        for (to, from) in next.iter_mut().zip(&self.x) {
+            let way = *to - from;
+            *to = from + way * (self.params.stride_m / way.norm()).min(1.0);
+        }
+        let before = self.x.clone();
+        self.go_to(&next);
+        self.last = self.x.iter().zip(&before).map(|(a, b)| a - b).collect();
         (self.last.iter().map(V3::norm_squared).sum::<f64>() / self.x.len() as f64).sqrt()
     }
 
+    /// Goes on from where the contact of the cloth with itself saw it last, as far as nothing meets.
+    fn go_to(&mut self, goal: &[V3]) {
+        let Some(contact) = &mut self.self_contact else {
+            self.x.copy_from_slice(goal);
+            return;
+        };
+        for _ in 0..MOST_LEGS {
+            let way: Vec<V3> = goal.iter().zip(&self.x).map(|(to, from)| to - from).collect();
+            let share = contact.free_share(&way).clamp(0.0, 1.0);
+            self.x.iter_mut().zip(&way).for_each(|(p, d)| *p += d * share);
+            contact.keep_apart(&mut self.x);
+            contact.stop(&mut self.x);
+            if share == 1.0 {
+                break;
+            }
+            contact.update(&self.x);
+        }
+    }
+
     /// Gives the vertices their weights anew, where enough of them have come into contact or left it.
-    fn look_for_contacts(&mut self, firm: bool) {
+    fn look_for_contacts(&mut self, firm: bool, ways_out: &[Option<V3>]) {
         let mut now = touching(&mut self.obstacle, &self.walls, self.params.offset_m, &self.x);
+        now.iter_mut().zip(ways_out).for_each(|(touches, way)| *touches |= way.is_some());
         // Firm contact brings cloth to where it is pushed no more: it must go on being held there.
         for (v, touches) in now.iter_mut().enumerate().filter(|(v, _)| firm && self.touching[*v]) {
             *touches |= self.obstacle.contact_at(self.params.offset_m + LET_GO_M, v, &self.x[v]).0 > 0.0;
@@ -281,6 +352,8 @@ geom::constants! {
     const LEAST_CLEARANCE_M: f64 = 1e-3;
     /// Cloth is lifted out by this at most, m.
     const MOST_LIFT_M: f64 = 3e-3;
+    /// Legs of a way at most, after each of which cloth is sought that may come near in the next.
+    const MOST_LEGS: usize = 4;
 }
 
 /// Sides of all triangles, as sewn, with their lengths in the pattern, m.

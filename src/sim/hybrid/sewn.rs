@@ -32,18 +32,25 @@ impl Sewn {
     /// Merges the vertices of every seam pair, at their mean place, and smooths the free edges.
     #[must_use]
     pub fn new(garment: &Garment, positions: &[V3]) -> Self {
-        let vertex_of = sewing::welded(garment);
-        let count = vertex_of.iter().max().map_or(0, |m| m + 1);
-        let mut sums = vec![(V3::zeros(), 0.0); count];
-        for (&v, p) in vertex_of.iter().zip(positions) {
-            sums[v].0 += p;
-            sums[v].1 += 1.0;
-        }
-        let triangles: Vec<[usize; 3]> = garment.triangles.iter().map(|t| t.map(|v| vertex_of[v])).collect();
-        let loops = free_edges(&triangles);
-        let mut sewn = Self { vertex_of, triangles, x: sums.into_iter().map(|(sum, n)| sum / n).collect(), loops };
+        let mut sewn = Self::at(garment, positions);
         sewn.smooth(TIMES);
         sewn
+    }
+
+    /// The same without smoothing.
+    #[must_use]
+    pub fn at(garment: &Garment, positions: &[V3]) -> Self {
+        let vertex_of = sewing::welded(garment);
+        let triangles: Vec<[usize; 3]> = garment.triangles.iter().map(|t| t.map(|v| vertex_of[v])).collect();
+        let loops = free_edges(&triangles);
+        Self { x: sewing::merged(&vertex_of, positions), vertex_of, triangles, loops }
+    }
+
+    /// Its pieces before they are sewn.
+    #[must_use]
+    pub fn pieces(garment: &Garment, positions: &[V3]) -> Self {
+        let (vertex_of, triangles) = (sewing::unsewn(garment), garment.triangles.clone());
+        Self { vertex_of, triangles, x: positions.to_vec(), loops: Vec::new() }
     }
 
     /// Positions of the garment's vertices from those of the sewn ones.

@@ -36,7 +36,8 @@ fn garment(model: Model, size: usize, edge_m: f64) -> Garment {
 
 fn dressed(body: &Body, garment: &Garment, params: &Params) -> Phases {
     let field = DistanceField::build(&body.mesh, 0.012).expect("a field");
-    phases(body, &field, garment, &fabric::library()[0], params, &mut Silent).expect("it can be dressed")
+    phases(body, &field, std::slice::from_ref(garment), &fabric::library()[0], params, &mut Silent)
+        .expect("it can be dressed")
 }
 
 /// L3D over L2D of every measurement.

@@ -210,9 +210,7 @@ impl Fitting<'_> {
         let Self { body, field, meshes, fabric, parameters, .. } = self;
         let drape = match self.simulator {
             Simulator::Fem => sim::fem::simulate(body, field, &meshes.0, fabric, &parameters.fem()?, monitor),
-            Simulator::Hybrid => {
-                sim::hybrid::simulate(body, field, meshes.finest()?, fabric, &parameters.hybrid()?, monitor)
-            }
+            Simulator::Hybrid => sim::hybrid::simulate(body, field, &meshes.0, fabric, &parameters.hybrid()?, monitor),
         };
         drape.map_err(sim_error)
     }

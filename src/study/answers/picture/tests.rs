@@ -32,9 +32,14 @@ fn dressed(simulator: Simulator) -> Dressed {
             let meshes = std::slice::from_ref(&garment);
             fem::simulate(&body, &field, meshes, &fabric, &fem::Params::default(), &mut Silent)
         }
-        Simulator::Hybrid => {
-            hybrid::simulate(&body, &field, &garment, &fabric, &hybrid::Params::default(), &mut Silent)
-        }
+        Simulator::Hybrid => hybrid::simulate(
+            &body,
+            &field,
+            std::slice::from_ref(&garment),
+            &fabric,
+            &hybrid::Params::default(),
+            &mut Silent,
+        ),
     };
     let drape = drape.unwrap();
     let cloth = TriMesh { positions: drape.positions, triangles: garment.triangles.clone() };

@@ -10,7 +10,7 @@ use geom::{V2, V3};
 use pattern::Role;
 
 geom::constants! {
-    "fem.placement.arm",
+    "placement.arm",
     /// Least clearance of a sleeve from the arm before sewing, m.
     const SLEEVE_CLEARANCE_M: f64 = 0.012;
     /// Most of a full turn that a sleeve is bent over: its underarm seam starts open.

@@ -48,7 +48,6 @@ use geom::{V2, V3};
 use pattern::{Garment, Role};
 
 pub use self::folded::Folded;
-use super::params::Params;
 use arm::Sleeve;
 use follow::Follower;
 use form::Form;
@@ -58,11 +57,30 @@ use limb::Limb;
 use tiers::Round;
 use trunk::Bent;
 
+/// How pieces of the trunk are bent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Bend {
+    /// Offset `mu`: the middle of a trunk piece starts `mu H / 2` before the trunk's centre, `H` the body depth (4.18).
+    /// `None`: the least that clears the body all along the piece and brings its sides to the body's sides.
+    pub offset_mu: Option<f64>,
+    /// Angle over which trunk pieces are bent before sewing, rad (4.6). `None`: bent to half an ellipse as wide as the body.
+    pub bend_angle_rad: Option<f64>,
+}
+
+impl Bend {
+    /// The arc of [T] for the slim; `None` where an offset or an angle was asked for.
+    #[must_use]
+    pub fn otherwise(&self) -> Option<Self> {
+        let follows_body = self.offset_mu.is_none() && self.bend_angle_rad.is_none();
+        follows_body.then_some(Self { bend_angle_rad: Some(OTHER_BEND_RAD), ..*self })
+    }
+}
+
 /// World positions of all garment vertices before sewing, m.
 ///
 /// # Errors
 /// [`SimError::CannotPlace`] for a piece without a role that is sewn to no piece with one.
-pub fn place(body: &Body, garment: &Garment, params: &Params) -> Result<Vec<V3>, SimError> {
+pub fn place(body: &Body, garment: &Garment, bend: &Bend) -> Result<Vec<V3>, SimError> {
     let mut placing = Placing {
         form: Form::of(body),
         joins: Joins::of(garment),
@@ -70,7 +88,7 @@ pub fn place(body: &Body, garment: &Garment, params: &Params) -> Result<Vec<V3>,
         limb: vec![None; garment.pieces.len()],
     };
     let wide = placing.wide_rings();
-    placing.trunk(&wide, params);
+    placing.trunk(&wide, bend);
     placing.legs();
     placing.arms();
     placing.rings(wide);
@@ -79,9 +97,11 @@ pub fn place(body: &Body, garment: &Garment, params: &Params) -> Result<Vec<V3>,
 }
 
 geom::constants! {
-    "fem.placement",
+    "placement",
     /// Share of its seams to what has a place that another piece sewn to it has, where the two are halves of one thing.
     const TWIN: f64 = 0.75;
+    /// Angle, rad, of pieces that are bent otherwise than by the body: that of [T] for the slim.
+    const OTHER_BEND_RAD: f64 = 2.0 * std::f64::consts::PI / 3.0;
 }
 
 /// A garment half placed.
@@ -118,14 +138,14 @@ impl Placing<'_> {
         Limb::straight(self.form.trunk_axis())
     }
 
-    fn trunk(&mut self, wide: &[Round], params: &Params) {
+    fn trunk(&mut self, wide: &[Round], bend: &Bend) {
         let sheets = trunk_sheets(&self.joins, &wide.iter().flat_map(|ring| ring.pieces.clone()).collect::<Vec<_>>());
         for (k, side) in [1.0, -1.0].into_iter().enumerate() {
             if sheets[k].parts.is_empty() {
                 continue;
             }
             let is_alone = sheets[1 - k].parts.is_empty();
-            let bent = Bent::new(&self.form, &self.joins, &sheets[k], side, is_alone, params);
+            let bent = Bent::new(&self.form, &self.joins, &sheets[k], side, is_alone, bend);
             self.put(&sheets[k], &self.about_trunk(), |p| bent.at(p));
         }
     }

@@ -26,7 +26,7 @@ fn drafted_garments_start_outside_the_body_with_near_seams() {
     // Greatest share of vertices inside, and greatest mean gap of the seams.
     let check = |model: Model, inside: f64, gap_m: f64| {
         let garment = garment(model);
-        let x = place(&body, &garment, &Params::default()).expect("all roles are known");
+        let x = place(&body, &garment, &Bend::default()).expect("all roles are known");
         let count = x.iter().filter(|p| surface.signed_distance(p) < 0.0).count();
         assert!((count as f64) <= inside * x.len() as f64, "{}: {count} of {} inside", garment.name, x.len());
         let pairs: Vec<_> = garment.seams.iter().flat_map(|seam| &seam.pairs).collect();
@@ -42,8 +42,8 @@ fn drafted_garments_start_outside_the_body_with_near_seams() {
 #[test]
 fn an_angle_of_nothing_leaves_the_trunk_flat() {
     let (body, garment) = (body(), garment(Model::Tshirt));
-    let params = Params { bend_angle_rad: Some(0.0), ..Params::default() };
-    let x = place(&body, &garment, &params).expect("all roles are known");
+    let bend = Bend { bend_angle_rad: Some(0.0), ..Bend::default() };
+    let x = place(&body, &garment, &bend).expect("all roles are known");
     for piece in garment.pieces.iter().filter(|piece| [Role::Front, Role::Back].contains(&piece.role)) {
         let depths = || piece.vertices.clone().map(|v| x[v].y);
         let [near, far] = [depths().fold(f64::MAX, f64::min), depths().fold(f64::MIN, f64::max)];
@@ -54,7 +54,7 @@ fn an_angle_of_nothing_leaves_the_trunk_flat() {
 #[test]
 fn legs_start_on_their_own_side() {
     let garment = garment(Model::Trousers);
-    let x = place(&body(), &garment, &Params::default()).expect("all roles are known");
+    let x = place(&body(), &garment, &Bend::default()).expect("all roles are known");
     for piece in &garment.pieces {
         let side = if piece.id.ends_with("right") { 1.0 } else { -1.0 };
         assert!(piece.vertices.clone().all(|v| x[v].x * side > 0.0), "{}", piece.id);
@@ -66,7 +66,7 @@ fn legs_that_are_too_long_begin_clear_of_the_feet() {
     let short = body::build(&Measurements::of(Sex::Male, 1.5)).expect("a body");
     let surface = Surface::new(&short.mesh).expect("a closed body");
     let garment = garment(Model::Trousers);
-    let x = place(&short, &garment, &Params::default()).expect("all roles are known");
+    let x = place(&short, &garment, &Bend::default()).expect("all roles are known");
     let lowest = x.iter().map(|p| p.z).fold(f64::MAX, f64::min);
     assert!(lowest < 0.02, "they reach down to {lowest} m");
     let middles = garment.triangles.iter().map(|t| t.iter().map(|v| x[*v]).sum::<V3>() / 3.0);
@@ -134,7 +134,7 @@ fn gored_dress([front, back, gores]: [Role; 3]) -> Garment {
 fn gores_go_round_as_one() {
     let check = |roles: [Role; 3]| {
         let garment = gored_dress(roles);
-        let x = place(&body(), &garment, &Params::default()).expect("it goes round");
+        let x = place(&body(), &garment, &Bend::default()).expect("it goes round");
         let gap = |seam: &SeamMesh| gaps(seam, &x).into_iter().fold(0.0, f64::max);
         let piece = |v: usize| garment.pieces.iter().find(|piece| piece.vertices.contains(&v)).expect("a piece's");
         let is_gore = |v: &usize| piece(*v).role == roles[2];
@@ -196,7 +196,7 @@ fn what_is_gathered_often_goes_round_as_one() {
         let stitches = [around("front", "back"), around("waist_front", "waist_back"), gathered].concat();
         let role = |id: &str| if id.starts_with("waist") { Role::Waistband } else { skirt_role(id) };
         let garment = sewn(&panels, &stitches, role);
-        let x = place(&body(), &garment, &Params::default()).expect("a skirt");
+        let x = place(&body(), &garment, &Bend::default()).expect("a skirt");
         let axis = Form::of(&body()).trunk_axis();
         let skirt =
             garment.pieces.iter().filter(|piece| piece.role != Role::Waistband).flat_map(|p| p.vertices.clone());
@@ -237,7 +237,7 @@ fn a_flounce_of_half_circles_goes_round_as_one() {
     let role = |id: &str| if id.starts_with("flounce") { Role::Other } else { skirt_role(id) };
     let garment = sewn(&panels, &stitches, role);
     let body = body();
-    let x = place(&body, &garment, &Params::default()).expect("it goes round");
+    let x = place(&body, &garment, &Bend::default()).expect("it goes round");
     let surface = Surface::new(&body.mesh).expect("a closed body");
     let of_flounce = |v: usize| {
         let piece = garment.pieces.iter().find(|piece| piece.vertices.contains(&v)).expect("a piece's");
@@ -282,7 +282,7 @@ fn check_godet(half_width: f64, height: f64) {
         ["front", "back", "front_godet"].map(|name| follow::is_in_a_slit(&joins, piece(name))).to_vec();
     assert_eq!(in_slits, [false, false, true]);
     let body = body();
-    let x = place(&body, &garment, &Params::default()).expect("a skirt");
+    let x = place(&body, &garment, &Bend::default()).expect("a skirt");
     let is_godet = |v: usize| joins.piece_of[v] == piece("front_godet");
     let sides: Vec<[usize; 2]> = garment.seams.iter().flat_map(|seam| seam.pairs.clone()).collect();
     let own = sides.iter().filter(|pair| pair.iter().any(|&v| is_godet(v)));
@@ -306,7 +306,7 @@ fn the_halves_of_a_skirt_are_no_godets() {
         let garment = sewn(&panels, &stitches, skirt_role);
         let joins = Joins::of(&garment);
         assert_eq!([0, 1].map(|piece| follow::is_in_a_slit(&joins, piece)), [false, false], "{half_width}");
-        let x = place(&body(), &garment, &Params::default()).expect("a skirt");
+        let x = place(&body(), &garment, &Bend::default()).expect("a skirt");
         let gap = garment.seams.iter().flat_map(|seam| gaps(seam, &x)).fold(0.0, f64::max);
         assert!(gap < 0.3, "{half_width}: its sides begin {gap} m open");
     }
@@ -335,7 +335,7 @@ fn halves_that_follow_stay_beside_each_other() {
     let role = |id: &str| if id.starts_with("flap") { Role::Other } else { skirt_role(id) };
     let garment = sewn(&panels, &stitches, role);
     let body = body();
-    let x = place(&body, &garment, &Params::default()).expect("a skirt with flaps");
+    let x = place(&body, &garment, &Bend::default()).expect("a skirt with flaps");
     let axis = Form::of(&body).trunk_axis();
     for (id, side) in [("flap_left", 1.0), ("flap_right", -1.0)] {
         let flap = garment.pieces.iter().find(|piece| piece.id == id).expect("a piece");
@@ -350,7 +350,7 @@ fn tiers_of_circles_hang_within_each_other() {
     let surface = Surface::new(&body.mesh).expect("a closed body");
     let check = |radii: &[f64]| {
         let garment = tiered(radii);
-        let x = place(&body, &garment, &Params::default()).expect("it goes round");
+        let x = place(&body, &garment, &Bend::default()).expect("it goes round");
         assert!(x.iter().all(|p| surface.signed_distance(p) > 0.0), "{radii:?}: inside the body");
         let tier = |v: usize| {
             let piece = garment.pieces.iter().find(|piece| piece.vertices.contains(&v)).expect("a piece's");
@@ -373,15 +373,15 @@ fn tiers_of_circles_hang_within_each_other() {
 fn a_piece_without_a_role_follows_its_seams() {
     let body = body();
     let mut garment = garment(Model::Teetop);
-    let known = place(&body, &garment, &Params::default()).expect("all roles are known");
+    let known = place(&body, &garment, &Bend::default()).expect("all roles are known");
     let sleeve = garment.pieces.iter().position(|piece| piece.id == "sleeve_right").expect("it has sleeves");
     garment.pieces[sleeve].role = Role::Other;
-    let followed = place(&body, &garment, &Params::default()).expect("it is sewn to known ones");
+    let followed = place(&body, &garment, &Bend::default()).expect("it is sewn to known ones");
     let vertices = garment.pieces[sleeve].vertices.clone();
     let mean = |x: &[V3]| x[vertices.clone()].iter().sum::<V3>() / vertices.len() as f64;
     assert!((mean(&known) - mean(&followed)).norm() < 0.25, "{} {}", mean(&known), mean(&followed));
     garment.seams.retain(|seam| !seam.pairs.iter().flatten().any(|v| vertices.contains(v)));
-    let error = place(&body, &garment, &Params::default()).expect_err("nothing holds it").to_string();
+    let error = place(&body, &garment, &Bend::default()).expect_err("nothing holds it").to_string();
     assert!(error.contains("sleeve_right") && error.contains("cannot place role"), "{error}");
 }
 
@@ -394,7 +394,7 @@ fn what_is_folded_begins_turned_up_and_nothing_else_does() {
     let ids: Vec<&str> = folded.pieces.iter().map(|&piece| garment.pieces[piece].id.as_str()).collect();
     assert_eq!(ids, ["collar", "lapel_left", "lapel_right"]);
 
-    let mut x = place(&body(), &garment, &Params::default()).expect("all are placed");
+    let mut x = place(&body(), &garment, &Bend::default()).expect("all are placed");
     let before = x.clone();
     folded.turn_up(&garment, &mut x);
     let piece = |id: &str| garment.pieces.iter().find(|piece| piece.id == id).expect("it has one");
@@ -411,4 +411,11 @@ fn what_is_folded_begins_turned_up_and_nothing_else_does() {
         assert!(gaps(seam, &x).into_iter().fold(0.0, f64::max) < 0.04, "{}", seam.name);
     }
     assert!(piece("front").vertices.clone().all(|v| x[v] == before[v]));
+}
+
+#[test]
+fn what_was_asked_for_is_not_bent_otherwise() {
+    let bent = Bend::default().otherwise().expect("nothing was asked for");
+    assert!(bent.bend_angle_rad.is_some() && bent.otherwise().is_none());
+    assert!(Bend { offset_mu: Some(1.0), ..Bend::default() }.otherwise().is_none());
 }

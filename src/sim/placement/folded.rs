@@ -14,7 +14,7 @@ use geom::{V2, V3, triangle};
 use pattern::{Garment, Role};
 
 geom::constants! {
-    "fem.placement.folded",
+    "placement.folded",
     /// How far outside the cloth that it continues a piece begins, m.
     const ABOVE_M: f64 = 0.01;
 }

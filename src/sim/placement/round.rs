@@ -14,7 +14,7 @@ use super::rows::InRow;
 use geom::{V2, V3};
 
 geom::constants! {
-    "fem.placement.round",
+    "placement.round",
     /// Share of a turn that a ring takes: its last seam starts open.
     pub const ROUND: f64 = 0.95;
     /// Least distance from the skin, m.
@@ -171,8 +171,8 @@ fn arm_radius(form: &Form, axis: &Axis, height: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fem::{Params, placement};
     use crate::laboratory::{self, sheets::sheet};
+    use crate::placement::{self, Bend};
     use body::{self, Measurements, Sex};
     use geom::Surface;
     use pattern::Role;
@@ -192,7 +192,7 @@ mod tests {
             garment.pieces[0].role = Role::Other;
             let pairs = (0..=rows).map(|row| [row * (columns + 1), row * (columns + 1) + columns]).collect();
             garment.seams = vec![SeamMesh { name: "side".to_owned(), pairs }];
-            let x = placement::place(&body, &garment, &Params::default()).expect("it goes round");
+            let x = placement::place(&body, &garment, &Bend::default()).expect("it goes round");
             let inside = x.iter().filter(|p| surface.signed_distance(p) < 0.0).count();
             assert_eq!(inside, 0, "of {} inside the body", x.len());
             let gap = garment.seams[0].pairs.iter().map(|[a, b]| (x[*a] - x[*b]).norm()).fold(0.0, f64::max);

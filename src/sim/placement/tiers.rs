@@ -11,7 +11,7 @@ use super::{Placing, follow, trunk};
 use pattern::{Role, SeamMesh};
 
 geom::constants! {
-    "fem.placement.tiers",
+    "placement.tiers",
     /// Turn of a ring from which on it goes round as one, rad: as two sheets it comes to rest as a tent, not in folds.
     const WIDE_RAD: f64 = 0.35 * TAU;
     /// Turn of two halves sewn to each other from which on they go round a limb as one, rad: cuffs and peplums of half circles.

@@ -14,7 +14,7 @@ use geom::{V2, V3, smooth_step};
 use pattern::{Garment, Role};
 
 geom::constants! {
-    "fem.placement.leg",
+    "placement.leg",
     /// How far below the body's crotch the garment's starts, m.
     const BELOW_CROTCH_M: f64 = 0.02;
     /// Distance from the median plane of what lies between the legs, m.

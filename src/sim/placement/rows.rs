@@ -10,7 +10,7 @@ use super::ring::{self, bounds};
 use geom::V2;
 
 geom::constants! {
-    "fem.placement.rows",
+    "placement.rows",
     /// Least width of a piece over its height.
     const LONG: f64 = 4.0;
     /// Greatest height of a piece over that of its sides.

@@ -2,15 +2,15 @@
 
 use std::f64::consts::PI;
 
+use super::Bend;
 use super::ellipse::Ellipse;
 use super::form::Form;
 use super::layout::{Joins, Sheet};
-use crate::fem::params::Params;
 use geom::{V2, V3};
 use pattern::Role;
 
 geom::constants! {
-    "fem.placement.trunk",
+    "placement.trunk",
     /// Least distance of a piece from the skin before sewing, m.
     pub const CLEARANCE_M: f64 = 0.02;
     /// Room between the ends of front and back, m.
@@ -48,18 +48,18 @@ impl Bent {
     ///
     /// By default it follows half an ellipse that clears the body by [`CLEARANCE_M`], as wide as the trunk and as deep as
     /// the piece needs to reach from side to side; with an offset or an angle given, the arc of [T].
-    pub fn new(form: &Form, joins: &Joins, sheet: &Sheet, side: f64, is_alone: bool, params: &Params) -> Self {
+    pub fn new(form: &Form, joins: &Joins, sheet: &Sheet, side: f64, is_alone: bool, bend: &Bend) -> Self {
         let (low, high) = sheet.bounds(joins.garment);
         let lift = lift(form, joins, sheet);
         let width = high.x - low.x;
         let (bottom, top) = (low.y + lift, high.y + lift);
         let axis = form.trunk_axis().origin.y;
         let armpit = form.body.landmarks.armpit[0].z.min(form.body.landmarks.armpit[1].z);
-        if params.offset_mu.is_some() || params.bend_angle_rad.is_some() {
+        if bend.offset_mu.is_some() || bend.bend_angle_rad.is_some() {
             let level = if has_tops(joins, sheet) { form.body.levels.chest_m } else { form.body.levels.hip_m };
             let depth = form.depth(level);
-            let radius = width / params.bend_angle_rad.unwrap_or(USUAL.1).max(FLAT_RAD);
-            let apex = 0.5 * params.offset_mu.unwrap_or(USUAL.0) * (depth.y - depth.x);
+            let radius = width / bend.bend_angle_rad.unwrap_or(USUAL.1).max(FLAT_RAD);
+            let apex = 0.5 * bend.offset_mu.unwrap_or(USUAL.0) * (depth.y - depth.x);
             let centre_y = axis + side * (apex - radius);
             return Self { side, curve: Ellipse::new(radius, radius), centre_y, lift };
         }

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use geom::V2;
 
 geom::constants! {
-    "fem.placement.ellipse",
+    "placement.ellipse",
     /// Steps in which half the ellipse is measured.
     const STEPS: usize = 128;
     /// Deepest ellipse that is tried, m.

@@ -6,7 +6,7 @@ use geom::V2;
 use pattern::{Garment, Role};
 
 geom::constants! {
-    "fem.placement.layout",
+    "placement.layout",
     /// Space between parts of a sheet that no seam joins, m.
     const BESIDE_M: f64 = 0.01;
     /// Cosine of the angle, 30 degrees, within which a direction of the grain counts as up.

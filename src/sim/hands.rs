@@ -15,7 +15,7 @@ use body::{Body, Joint};
 use geom::{DistanceField, V3};
 
 geom::constants! {
-    "fem.hands",
+    "hands",
     /// Farthest that a hand reaches from the wrist, m.
     const REACH_M: f64 = 0.25;
     /// Farthest from its own axis that skin beyond the wrist is taken for a hand's, m: else a scan's hand has grown together

@@ -12,7 +12,7 @@ use super::limb::Limb;
 use geom::{V2, V3};
 
 geom::constants! {
-    "fem.placement.follow",
+    "placement.follow",
     /// Least distance from the skin, m.
     const CLEARANCE_M: f64 = 0.012;
     /// Share of the room round a limb that a piece takes.

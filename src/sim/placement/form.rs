@@ -1,11 +1,11 @@
 //! What placement needs to know of the body: its trunk and legs without the arms, and cylinders about its limbs.
 
-use crate::fem::hands;
+use crate::hands;
 use body::{Body, Joint};
 use geom::{V2, V3};
 
 geom::constants! {
-    "fem.placement.form",
+    "placement.form",
     /// Half height of the band of the body in which its depth is read, m.
     const LEVEL_BAND_M: f64 = 0.02;
     /// Farthest skin of an arm from its bone, m.

@@ -15,7 +15,7 @@ use super::rows::{self, InRow};
 use geom::V2;
 
 geom::constants! {
-    "fem.placement.ring",
+    "placement.ring",
     /// Sides of a ring lie on each other when laid out flat, up to this, rms m.
     const FLAT_M: f64 = 0.03;
     /// A turn by less than this is a shift, rad.
