@@ -165,10 +165,12 @@ fn table(state: &State, row: &FabricRow, columns: usize) -> Vec<Line<'static>> {
         let place = stands.map_or(String::new(), |share| place_bar(share, bar));
         lines.push(Line::from(vec![Span::raw(text), Span::styled(format!(" {place}"), state.theme.dim())]));
     }
-    for (name, length) in ["along", "across"].into_iter().zip(row.bending_lengths_m()) {
+    let bends = row.fabric.bending_lengths_m().into_iter().zip(row.fabric.standings());
+    for (name, (length, standing)) in ["along", "across"].into_iter().zip(bends) {
         let name = format!("bending length {name} the grain");
         let text = format!("{}{}  {}", left(&name, label), right(&text::mm(length), VALUE), left("mm", 5));
-        lines.push(Line::styled(text, state.theme.dim()));
+        let among = if bar >= BAR { format!(" {standing} of its weight") } else { format!(" {standing}") };
+        lines.push(Line::styled(shortened(&(text + &among), columns), state.theme.dim()));
     }
     lines
 }
@@ -197,6 +199,11 @@ fn draw_facts(frame: &mut Frame<'_>, area: Rect, state: &State, fabric: Option<&
         n => format!("{n} jobs use it"),
     };
     let mut lines = vec![Line::styled(shortened(&format!("{origin}; {used}"), columns), state.theme.bold())];
+    lines.extend(row.stands_for().into_iter().flat_map(|text| wrapped(&text, columns)).map(Line::raw));
+    let [along, across] = row.fabric.bending_lengths_m().map(text::mm);
+    let [rank_along, rank_across] = row.fabric.standings();
+    let bends = format!("bends at {along} mm, {rank_along}; across {across} mm, {rank_across} of its weight");
+    lines.extend(wrapped(&bends, columns).into_iter().map(|line| Line::styled(line, state.theme.dim())));
     lines.extend(wrapped(&row.fabric.source, columns).into_iter().map(Line::raw));
     let height = (lines.len() as u16).max(FACTS).min(inner.height);
     let [words, curves] = Layout::vertical([Constraint::Length(height), Constraint::Fill(1)]).areas(inner);
