@@ -82,8 +82,16 @@ fn view(part: Part) -> (&'static str, &'static str) {
 }
 
 /// Columns that are of no use in a list.
-const HIDDEN: [&str; 8] =
-    ["hash", "is_latest", "is_retired", "source", "entry", "of_another", "class_length_warp_mm", "class_length_weft_mm"];
+const HIDDEN: [&str; 8] = [
+    "hash",
+    "is_latest",
+    "is_retired",
+    "source",
+    "entry",
+    "of_another",
+    "class_length_warp_mm",
+    "class_length_weft_mm",
+];
 
 /// Runs a catalogue command.
 pub fn run<V: Values>(context: &Context, command: Catalogue<V>) -> Outcome {

@@ -28,6 +28,8 @@ const HEADINGS: [(&str, usize, f64); FABRIC_SHOWN.len()] = [
 /// Columns of the marks after a name, and the fewest of a name.
 const MARKS: usize = 4;
 const LEAST_NAME: usize = 14;
+/// Headings of what follows from the numbers, where there is room, and their columns.
+const FOLLOWS: [(&str, usize); 5] = [("bends", 7), ("across", 7), ("rank", 6), ("across", 7), ("  stands for", 12)];
 /// What the columns of the list mean.
 const LEGEND: &str = "warp weft shear N/m, bending µN m  + own  s stiffens  c coupled";
 
@@ -98,9 +100,16 @@ fn list(state: &State, width: u16, height: u16, focused: bool) -> Vec<Line<'stat
     let at = fabrics.iter().position(|row| Some(&row.fabric.name) == selected).unwrap_or(0);
     let height = usize::from(height).saturating_sub(1);
     let first = first_shown(at, fabrics.len(), height);
-    let mut lines = vec![Line::styled(shortened(&header(state, name, shown), width), state.theme.dim())];
+    let left_over = width.saturating_sub(name + MARKS + numbers(HEADINGS.len()));
+    let follows = FOLLOWS.iter().map(|(_, columns)| columns).sum::<usize>() <= left_over;
+    let mut head = header(state, name, shown);
+    if follows {
+        head.extend(FOLLOWS.iter().map(|(title, columns)| right(title, *columns)));
+    }
+    let mut lines = vec![Line::styled(shortened(&head, width), state.theme.dim())];
     for (k, row) in fabrics.iter().enumerate().skip(first).take(height) {
-        let line = Line::raw(shortened(&list_line(row, name, shown), width));
+        let tail = if follows { tail(row) } else { String::new() };
+        let line = Line::raw(shortened(&(list_line(row, name, shown) + &tail), width));
         lines.push(if k == at { selected_line(line, state.theme.selection(focused)) } else { line });
     }
     if fabrics.is_empty() {
@@ -138,6 +147,16 @@ fn list_line(row: &FabricRow, name: usize, shown: usize) -> String {
         text += &right(&value.map_or("—".to_owned(), |value| in_four(value * factor)), columns);
     }
     text
+}
+
+/// What follows from the numbers of a fabric: bending lengths, mm, where its bending stands among the known cloths of its
+/// weight, and what it stands for.
+fn tail(row: &FabricRow) -> String {
+    let lengths = row.fabric.bending_lengths_m().map(text::mm);
+    let ranks = row.fabric.standings().map(|standing| standing.to_string());
+    let values = lengths.iter().chain(&ranks).zip(FOLLOWS).map(|(value, (_, columns))| right(value, columns));
+    let kind = row.fabric.known().map_or(String::new(), |known| known.kind.to_string());
+    format!("{}  {kind}", values.collect::<String>())
 }
 
 /// A number in at most six columns.
