@@ -294,7 +294,7 @@ mod tests {
         ] {
             assert!(rising.windows(2).all(|two| along(two[0]) < along(two[1])), "{rising:?}: {:?}", rising.map(along));
         }
-        // Of a class nothing lies beyond what nine tenths of all known cloths have.
+        // Classes bend as eight tenths of all known cloths do.
         for known in known().iter().filter(|known| known.kind == Kind::Class) {
             assert!((12.0..31.0).contains(&along(&known.fabric.name)), "{}", known.fabric.name);
         }

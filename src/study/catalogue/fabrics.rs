@@ -25,7 +25,7 @@ pub struct FabricRow {
 }
 
 impl FabricRow {
-    /// What it stands for, in words: one cloth, with the parts that are of another, or a class, with the bending lengths of nine
+    /// What it stands for, in words: one cloth, with the parts that are of another, or a class, with the bending lengths of eight
     /// tenths of its cloths; nothing where somebody here made it.
     #[must_use]
     pub fn stands_for(&self) -> Option<String> {
