@@ -25,6 +25,12 @@ pub struct FabricRow {
 }
 
 impl FabricRow {
+    /// Whether it stands for a class of cloths.
+    #[must_use]
+    pub fn is_class(&self) -> bool {
+        self.fabric.known().is_some_and(|known| known.kind == Kind::Class)
+    }
+
     /// What it stands for, in words: one cloth, with the parts that are of another, or a class, with the bending lengths of eight
     /// tenths of its cloths; nothing where somebody here made it.
     #[must_use]

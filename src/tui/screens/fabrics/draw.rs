@@ -26,12 +26,12 @@ const HEADINGS: [(&str, usize, f64); FABRIC_SHOWN.len()] = [
 ];
 
 /// Columns of the marks after a name, and the fewest of a name.
-const MARKS: usize = 4;
+const MARKS: usize = 5;
 const LEAST_NAME: usize = 14;
 /// Headings of what follows from the numbers, where there is room, and their columns.
-const FOLLOWS: [(&str, usize); 5] = [("bends", 7), ("across", 7), ("rank", 6), ("across", 7), ("  stands for", 12)];
+const FOLLOWS: [(&str, usize); 2] = [("bends mm", 12), ("of weight", 11)];
 /// What the columns of the list mean.
-const LEGEND: &str = "warp weft shear N/m, bending µN m  + own  s stiffens  c coupled";
+const LEGEND: &str = "warp weft shear N/m, bending µN m  + own  s stiffens  c coupled  ~ class";
 
 /// Lines of the table of a fabric: its numbers, and two bending lengths.
 pub fn table_lines() -> usize {
@@ -43,7 +43,7 @@ const VALUE: usize = 10;
 /// Lines of the pane with the source, without the curves.
 const FACTS: u16 = 8;
 /// Most columns of the bar that shows where a number stands among all fabrics.
-const BAR: usize = 20;
+const BAR: usize = 12;
 /// Stretches up to which the curves go: that of a woven, and how far beyond its law that of a knit.
 const WOVEN: f64 = 0.05;
 const BEYOND: f64 = 1.25;
@@ -138,6 +138,7 @@ fn list_line(row: &FabricRow, name: usize, shown: usize) -> String {
         mark(row.is_own, '+'),
         mark(row.fabric.stretched.is_some(), 's'),
         mark(row.fabric.membrane_coupling_n_m != 0.0, 'c'),
+        mark(row.is_class(), '~'),
     ]
     .iter()
     .collect();
@@ -149,14 +150,13 @@ fn list_line(row: &FabricRow, name: usize, shown: usize) -> String {
     text
 }
 
-/// What follows from the numbers of a fabric: bending lengths, mm, where its bending stands among the known cloths of its
-/// weight, and what it stands for.
+/// What follows from the numbers of a fabric, along and across the grain, once where both are the same: bending lengths, and
+/// where its bending stands among the known cloths of its weight.
 fn tail(row: &FabricRow) -> String {
     let lengths = row.fabric.bending_lengths_m().map(text::mm);
     let ranks = row.fabric.standings().map(|standing| standing.to_string());
-    let values = lengths.iter().chain(&ranks).zip(FOLLOWS).map(|(value, (_, columns))| right(value, columns));
-    let kind = row.fabric.known().map_or(String::new(), |known| known.kind.to_string());
-    format!("{}  {kind}", values.collect::<String>())
+    let both = |[along, across]: [String; 2]| if along == across { along } else { format!("{along}/{across}") };
+    [lengths, ranks].into_iter().zip(FOLLOWS).map(|(values, (_, columns))| right(&both(values), columns)).collect()
 }
 
 /// A number in at most six columns.
@@ -219,10 +219,13 @@ fn draw_facts(frame: &mut Frame<'_>, area: Rect, state: &State, fabric: Option<&
     };
     let mut lines = vec![Line::styled(shortened(&format!("{origin}; {used}"), columns), state.theme.bold())];
     lines.extend(row.stands_for().into_iter().flat_map(|text| wrapped(&text, columns)).map(Line::raw));
-    let [along, across] = row.fabric.bending_lengths_m().map(text::mm);
-    let [rank_along, rank_across] = row.fabric.standings();
-    let bends = format!("bends at {along} mm, {rank_along}; across {across} mm, {rank_across} of its weight");
-    lines.extend(wrapped(&bends, columns).into_iter().map(|line| Line::styled(line, state.theme.dim())));
+    // Where there is room for the whole table, it tells that.
+    if usize::from(area.height) < table_lines() + 3 {
+        let [along, across] = row.fabric.bending_lengths_m().map(text::mm);
+        let [rank_along, rank_across] = row.fabric.standings();
+        let bends = format!("bends at {along} mm, {rank_along}; across {across} mm, {rank_across} of its weight");
+        lines.extend(wrapped(&bends, columns).into_iter().map(|line| Line::styled(line, state.theme.dim())));
+    }
     lines.extend(wrapped(&row.fabric.source, columns).into_iter().map(Line::raw));
     let height = (lines.len() as u16).max(FACTS).min(inner.height);
     let [words, curves] = Layout::vertical([Constraint::Length(height), Constraint::Fill(1)]).areas(inner);
