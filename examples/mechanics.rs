@@ -12,10 +12,10 @@ use plotters::style::register_font;
 use toile::geom::{DistanceField, shapes};
 use toile::sim::Fabric;
 use toile::sim::fabric;
+use toile::sim::laboratory::bench::measured_drape;
 use toile::sim::laboratory::bending::{Mesh, cantilever, elastica, lateral_buckling};
 use toile::sim::laboratory::drape::{cusick, over_sphere};
 use toile::sim::laboratory::isotropic;
-use toile::units::GRAVITY;
 
 type Outcome = Result<(), Box<dyn Error>>;
 
@@ -104,23 +104,17 @@ fn knits(folder: Option<&Path>) -> Outcome {
 }
 
 fn drape(folder: Option<&Path>) -> Outcome {
-    let measured = [
-        ("polyester_faille", 28.3),
-        ("wool_tropical_suiting", 49.8),
-        ("polyester_tropical", 50.7),
-        ("cotton_broad", 82.9),
-    ];
     println!("\nCusick, 30 cm over 18 cm: bending length mm, coefficient % (measured), nodes, residual");
     let library = fabric::library();
     let length_mm = |f: &Fabric| {
-        let rigidity = (f.bending_warp_nm * f.bending_weft_nm).sqrt();
-        1e3 * (rigidity / (f.density_kg_m2 * GRAVITY)).cbrt()
+        let [warp, weft] = f.bending_lengths_m();
+        1e3 * (warp * weft).sqrt()
     };
     let mut points = Vec::new();
     let mut published = Vec::new();
     for f in &library {
         let draped = cusick(f, 24, 0)?;
-        let known = measured.iter().find(|m| m.0 == f.name).map(|m| m.1);
+        let known = measured_drape(&f.name);
         let known_text = known.map_or(String::new(), |k| format!("({k})"));
         let (length, percent) = (length_mm(f), 100.0 * draped.coefficient);
         println!("{:22} {length:6.1} {percent:6.1} {known_text:7} {:3} {:.3}", f.name, draped.nodes, draped.residual);
@@ -131,7 +125,7 @@ fn drape(folder: Option<&Path>) -> Outcome {
     }
     let series = [
         Series { name: "simulated, library".to_owned(), points, is_line: false },
-        Series { name: "measured, Matsudaira et al. 2015".to_owned(), points: published, is_line: false },
+        Series { name: "measured".to_owned(), points: published, is_line: false },
     ];
     draw(folder, "mechanics-cusick.png", "bending length, mm", "drape coefficient, %", &series, false)
 }

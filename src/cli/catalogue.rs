@@ -82,7 +82,16 @@ fn view(part: Part) -> (&'static str, &'static str) {
 }
 
 /// Columns that are of no use in a list.
-const HIDDEN: [&str; 5] = ["hash", "is_latest", "is_retired", "source", "entry"];
+const HIDDEN: [&str; 8] = [
+    "hash",
+    "is_latest",
+    "is_retired",
+    "source",
+    "entry",
+    "of_another",
+    "class_length_warp_mm",
+    "class_length_weft_mm",
+];
 
 /// Runs a catalogue command.
 pub fn run<V: Values>(context: &Context, command: Catalogue<V>) -> Outcome {
@@ -116,7 +125,7 @@ fn list(context: &Context, part: Part, all: bool) -> Result<(), CliError> {
     let (view, key) = view(part);
     let shown = if all { "" } else { "AND NOT is_retired" };
     let sql = format!("SELECT *, {key} AS entry FROM {view} WHERE is_latest {shown} ORDER BY entry");
-    let entries = context.workspace()?.query(&sql)?;
+    let entries = described(part, context.workspace()?.query(&sql)?);
     context.print(&if context.json { entries } else { without(entries, &HIDDEN) })
 }
 
@@ -131,8 +140,13 @@ fn show(context: &Context, part: Part, name: &str) -> Result<(), CliError> {
         known.dedup();
         return Err(StudyError::NotFound { what: part.as_str(), name: name.to_owned(), known }.into());
     }
-    let found = Table { columns: all.columns, rows };
+    let found = described(part, Table { columns: all.columns, rows });
     context.print(&if context.json { found } else { sideways(&without(found, &["entry"])) })
+}
+
+/// A table of entries with what follows from them.
+fn described(part: Part, entries: Table) -> Table {
+    if part == Part::Fabric { study::with_bending(entries) } else { entries }
 }
 
 /// A table without some columns.

@@ -1,6 +1,13 @@
-//! Fabrics: areal density, orthotropic membrane, bending, friction.
+//! Fabrics: areal density, orthotropic membrane, bending, friction; the library, and what each of its fabrics stands for.
+
+pub mod weights;
+
+use std::fmt;
+use std::sync::LazyLock;
 
 use super::cloth::law::Fibre;
+use geom::units::GRAVITY;
+use weights::Standing;
 
 /// Moduli of a knit under stretch, where they differ from those at rest.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -62,6 +69,152 @@ impl Fabric {
         let rest = self.membrane_weft_n_m;
         self.stretched.map_or(Fibre::linear(rest), |s| Fibre::stiffening(rest, s.membrane_weft_n_m, s.stretch))
     }
+
+    /// Bending lengths along and across the grain line, m: `(B / (w g))^(1/3)`, half the length of a strip that a cantilever
+    /// test bends by its own weight to a chord of 41.5 degrees [Peirce 1930].
+    #[must_use]
+    pub fn bending_lengths_m(&self) -> [f64; 2] {
+        [self.bending_warp_nm, self.bending_weft_nm].map(|rigidity| self.bending_length_m(rigidity))
+    }
+
+    /// Where its bending along and across the grain line stands among the known cloths of its weight.
+    #[must_use]
+    pub fn standings(&self) -> [Standing; 2] {
+        weights::standings(self.density_kg_m2, [self.bending_warp_nm, self.bending_weft_nm])
+    }
+
+    /// Scatter of the known cloths of its weight: bending lengths along the grain line, from the lowest to the highest of
+    /// [`weights::ends`], and those across it, m.
+    #[must_use]
+    pub fn scatter_m(&self) -> [[f64; 2]; 2] {
+        let [least, most] = weights::ends().map(|end| weights::rigidities(self.density_kg_m2, end));
+        [0, 1].map(|side| [least[side], most[side]].map(|rigidity| self.bending_length_m(rigidity)))
+    }
+
+    /// The bending length of a cloth of its weight.
+    fn bending_length_m(&self, rigidity_nm: f64) -> f64 {
+        (rigidity_nm / (self.density_kg_m2 * GRAVITY)).cbrt()
+    }
+
+    /// The numbers of its weight, stretch and bending; two fabrics that share them are one cloth.
+    fn numbers(&self) -> [f64; 7] {
+        [
+            self.density_kg_m2,
+            self.membrane_warp_n_m,
+            self.membrane_weft_n_m,
+            self.membrane_coupling_n_m,
+            self.shear_n_m,
+            self.bending_warp_nm,
+            self.bending_weft_nm,
+        ]
+    }
+
+    /// What the library says of it; nothing where it is not of the library, or was changed since.
+    #[must_use]
+    pub fn known(&self) -> Option<&'static Known> {
+        KNOWN.iter().find(|known| known.fabric.name == self.name && known.fabric.numbers() == self.numbers())
+    }
+}
+
+/// What a fabric of the library stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// One cloth, whose bending was measured.
+    Cloth,
+    /// Cloths of a sort: the bending is a quantile of the known cloths of the weight.
+    Class,
+    /// None: numbers that somebody computes with.
+    Model,
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Cloth => "one cloth",
+            Self::Class => "class",
+            Self::Model => "model",
+        })
+    }
+}
+
+/// A part of what is known of a cloth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Part {
+    /// Its moduli along and across the grain line.
+    Membrane,
+    /// Its shear modulus.
+    Shear,
+}
+
+impl fmt::Display for Part {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Membrane => "membrane",
+            Self::Shear => "shear",
+        })
+    }
+}
+
+/// A fabric of the library.
+#[derive(Clone, Debug)]
+pub struct Known {
+    /// Its numbers.
+    pub fabric: Fabric,
+    /// What it stands for.
+    pub kind: Kind,
+    /// The parts that were measured on another cloth than its bending and weight.
+    pub of_another: Vec<Part>,
+}
+
+static KNOWN: LazyLock<Vec<Known>> = LazyLock::new(|| {
+    #[derive(serde::Deserialize)]
+    struct Library {
+        fabric: Vec<Row>,
+    }
+    let library: Library = toml::from_str(include_str!("fabrics.toml")).expect("the built-in library is valid");
+    library.fabric.into_iter().flat_map(Row::read).collect()
+});
+
+/// A fabric as the library's file has it.
+#[derive(serde::Deserialize)]
+struct Row {
+    kind: Kind,
+    #[serde(default)]
+    of_another: Vec<Part>,
+    /// Of a class: the quantile of its weight that its bending is.
+    bending_percentile: Option<f64>,
+    /// Another name that it goes by.
+    also: Option<String>,
+    /// The numbers of the [`Fabric`].
+    #[serde(flatten)]
+    numbers: toml::Table,
+}
+
+impl Row {
+    /// The fabric, once for each name.
+    fn read(self) -> Vec<Known> {
+        let Self { kind, of_another, bending_percentile, also, mut numbers } = self;
+        if let Some(percentile) = bending_percentile {
+            let density = numbers.get("density_kg_m2").and_then(toml::Value::as_float).unwrap_or_default();
+            let keys = ["bending_warp_nm", "bending_weft_nm"].into_iter();
+            for (key, rigidity) in keys.zip(weights::rigidities(density, percentile)) {
+                numbers.insert(key.to_owned(), toml::Value::Float(rigidity));
+            }
+        }
+        let fabric: Fabric = numbers.try_into().expect("the built-in library is valid");
+        let renamed = |name| Fabric { source: format!("another name of {}", fabric.name), name, ..fabric.clone() };
+        let other = also.map(renamed);
+        let known = |fabric| Known { fabric, kind, of_another: of_another.clone() };
+        [Some(fabric), other].into_iter().flatten().map(known).collect()
+    }
+}
+
+/// The fabrics known by name, with what each stands for.
+#[must_use]
+pub fn known() -> &'static [Known] {
+    &KNOWN
 }
 
 /// The fabrics known by name.
@@ -70,16 +223,16 @@ impl Fabric {
 /// Never: the library is part of the program, and a test reads it.
 #[must_use]
 pub fn library() -> Vec<Fabric> {
-    #[derive(serde::Deserialize)]
-    struct Library {
-        fabric: Vec<Fabric>,
-    }
-    toml::from_str::<Library>(include_str!("fabrics.toml")).expect("the built-in library is valid").fabric
+    KNOWN.iter().map(|known| known.fabric.clone()).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn of(name: &str) -> &'static Known {
+        known().iter().find(|known| known.fabric.name == name).unwrap_or_else(|| panic!("{name} is not in the library"))
+    }
 
     #[test]
     fn the_library_is_sound() {
@@ -91,6 +244,59 @@ mod tests {
             let numbers = [f.density_kg_m2, f.thickness_m, f.membrane_warp_n_m, f.membrane_weft_n_m, f.shear_n_m];
             assert!(numbers.iter().all(|n| *n > 0.0), "{}", f.name);
             assert!(f.membrane_coupling_n_m.powi(2) < f.membrane_warp_n_m * f.membrane_weft_n_m, "{}", f.name);
+            assert!(!f.source.is_empty(), "{} has no source", f.name);
+            assert_eq!(library.iter().filter(|other| other.name == f.name).count(), 1, "{} is there twice", f.name);
+        }
+    }
+
+    #[test]
+    fn a_class_bends_within_its_scatter_and_says_what_it_is() {
+        for Known { fabric, kind, of_another } in known() {
+            let name = &fabric.name;
+            assert_eq!(fabric.known().map(|known| known.kind), Some(*kind), "{name}");
+            let changed = Fabric { shear_n_m: 1.5 * fabric.shear_n_m, ..fabric.clone() };
+            assert!(changed.known().is_none(), "{name} changed is not of the library");
+            if *kind == Kind::Class {
+                assert!(of_another.is_empty(), "{name}: a class is of many cloths anyway");
+                for (length, [least, most]) in fabric.bending_lengths_m().into_iter().zip(fabric.scatter_m()) {
+                    assert!(least < length && length < most, "{name}: {length} between {least} and {most}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_a_source_says_of_the_quantile_is_so() {
+        let check = |name: &str, warp: &str, weft: &str| {
+            assert_eq!(of(name).fabric.standings().map(|s| s.to_string()), [warp, weft], "{name}");
+        };
+        check("cotton_shirting_light", "p50", "p50");
+        check("denim_raw", "p75", "p75");
+        check("denim_rigid", "p75", "p75");
+        check("denim_washed", "p50", "p50");
+        check("poplin", "p75", "p75");
+        check("viscose", "p25", "p25");
+        check("jersey", "p25", "p25");
+        check("chiffon", "p25", "p25");
+        // What the rules of poplin and jersey rest on.
+        check("cotton_broad", "p81", ">p90");
+        check("interlock_tshirt", "p21", "p17");
+    }
+
+    #[test]
+    fn cloths_are_as_limp_and_as_stiff_as_each_other_as_they_should_be() {
+        let along = |name: &str| 1e3 * of(name).fabric.bending_lengths_m()[0];
+        for rising in [
+            ["viscose", "cotton_shirting_light", "poplin"],
+            ["jersey", "cotton_shirting_light", "denim_washed"],
+            ["cotton_shirting_light", "denim_washed", "denim_raw"],
+            ["silk", "canvas", "wool_coating"],
+        ] {
+            assert!(rising.windows(2).all(|two| along(two[0]) < along(two[1])), "{rising:?}: {:?}", rising.map(along));
+        }
+        // Classes bend as eight tenths of all known cloths do.
+        for known in known().iter().filter(|known| known.kind == Kind::Class) {
+            assert!((12.0..31.0).contains(&along(&known.fabric.name)), "{}", known.fabric.name);
         }
     }
 }

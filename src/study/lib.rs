@@ -32,7 +32,7 @@ pub use answers::reports::{ReportRow, reports};
 pub use attempt::{Attempt, Tried, TriedChi, TriedCloth, TriedEase, TriedErrors, TriedGap, attempt};
 pub use catalogue::{
     Deed, FabricRow, Mode, Part, Removed, Saved, SizeRow, StyleGiven, SubjectRow, doubts, is_doubtful, percentile,
-    percentile_text,
+    percentile_text, with_bending,
 };
 pub use error::{Problem, Result, StudyError};
 pub use rows::{

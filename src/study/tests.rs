@@ -61,7 +61,7 @@ fn study(density_kg_m2: f64) -> Study {
     };
     let size = |name: &str| SizeFile { name: name.to_owned(), pattern: source(&format!("tee-{name}.dxf"), name) };
     let fabric = Fabric {
-        name: "poplin".into(),
+        name: "voile".into(),
         density_kg_m2,
         thickness_m: 2e-4,
         membrane_warp_n_m: 3000.0,
@@ -230,7 +230,7 @@ fn a_second_run_has_nothing_to_do_and_a_change_is_named() {
     assert_eq!(again[2].why.to_string(), "up to date (not converged)");
 
     let heavier = bench.run(&study(0.2), 2, quick);
-    assert_eq!(heavier[0].why.to_string(), "changed since job 1: fabric.poplin.density_kg_m2: 0.1 -> 0.2");
+    assert_eq!(heavier[0].why.to_string(), "changed since job 1: fabric.voile.density_kg_m2: 0.1 -> 0.2");
     assert_eq!(bench.workspace.why(heavier[0].id).expect("there"), heavier[0].why);
     assert_eq!(bench.workspace.why(again[0].id).expect("there"), Why::New);
     let count = |sql| match bench.workspace.query(sql).expect("valid").rows[0][0] {
@@ -239,7 +239,7 @@ fn a_second_run_has_nothing_to_do_and_a_change_is_named() {
     };
     assert_eq!(count("SELECT count(*) FROM v_metrics"), 4, "current results only");
     assert_eq!(count("SELECT count(*) FROM metrics"), 8, "old results are kept");
-    assert_eq!(count("SELECT count(*) FROM v_fabrics WHERE fabric = 'poplin'"), 2);
+    assert_eq!(count("SELECT count(*) FROM v_fabrics WHERE fabric = 'voile'"), 2);
 
     let back = bench.run(&study(0.1), 2, |_: &JobSpec, _: &mut dyn Monitor| panic!("nothing may run"));
     assert_eq!(back[0].id, again[0].id, "the old result is current again");

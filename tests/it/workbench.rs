@@ -206,13 +206,13 @@ fn a_held_key_does_not_queue_up() {
     let Some(mut seat) = Seat::take(&workbench(&place), 160, 50) else { return };
     seat.wait_for("no study yet");
     seat.press("9");
-    seat.wait_for("17 fabrics");
+    seat.wait_for("30 fabrics");
     seat.settle();
     let before = seat.bytes();
     seat.press(&"<Down>".repeat(900));
     seat.press(&"<Up>".repeat(400));
     seat.press("<Down>");
-    seat.wait_for("cotton_broad · revision");
+    seat.wait_for("chiffon · revision");
     seat.settle();
     let sent = seat.bytes() - before;
     assert!(sent < 1301 * 20, "{sent} bytes for 1301 keys");

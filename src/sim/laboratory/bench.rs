@@ -5,7 +5,7 @@ use super::drape::cusick;
 use super::isotropic;
 use super::stretch::{hanging_strip, hanging_thread};
 use super::touch::{on_incline, pressed_tube};
-use crate::fabric::library;
+use crate::fabric::{Part, known, library};
 use crate::{Fabric, SimError};
 
 geom::constants! {
@@ -194,12 +194,12 @@ fn tubes() -> Result<Vec<Finding>, SimError> {
 
 /// A fabric whose drape was measured along with its bending.
 #[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Measured {
+    /// Name in the table.
     name: String,
-    density_kg_m2: f64,
-    bending_warp_nm: f64,
-    bending_weft_nm: f64,
-    shear_n_m: Option<f64>,
+    /// Name in the library.
+    fabric: String,
     drape_pct: f64,
     source: String,
 }
@@ -207,18 +207,27 @@ struct Measured {
 fn published() -> Vec<Measured> {
     #[derive(serde::Deserialize)]
     struct Published {
-        fabric: Vec<Measured>,
+        drape: Vec<Measured>,
     }
-    toml::from_str::<Published>(include_str!("published.toml")).expect("the published numbers are valid").fabric
+    toml::from_str::<Published>(include_str!("published.toml")).expect("the published numbers are valid").drape
+}
+
+/// Drape coefficient that was measured on a fabric of the library, percent.
+#[must_use]
+pub fn measured_drape(name: &str) -> Option<f64> {
+    published().into_iter().find(|row| row.fabric == name).map(|row| row.drape_pct)
 }
 
 impl Measured {
-    /// As a fabric: what the row does not tell is that of a light cotton, since what hangs freely is hardly stretched.
+    /// The fabric: what was not measured on this cloth is that of a light cotton, since what hangs freely is hardly stretched.
     fn fabric(&self) -> Option<Fabric> {
-        let cotton = library().into_iter().find(|f| f.name == "cotton_shirting_light")?;
-        let Self { density_kg_m2, bending_warp_nm, bending_weft_nm, .. } = *self;
-        let shear_n_m = self.shear_n_m.unwrap_or(cotton.shear_n_m);
-        Some(Fabric { name: self.name.clone(), density_kg_m2, bending_warp_nm, bending_weft_nm, shear_n_m, ..cotton })
+        let of = |name: &str| known().iter().find(|known| known.fabric.name == name);
+        let (cloth, cotton) = (of(&self.fabric)?, of("cotton_shirting_light")?);
+        let Fabric { density_kg_m2, bending_warp_nm, bending_weft_nm, .. } = cloth.fabric;
+        let is_own = !cloth.of_another.contains(&Part::Shear);
+        let shear_n_m = if is_own { cloth.fabric.shear_n_m } else { cotton.fabric.shear_n_m };
+        let name = self.name.clone();
+        Some(Fabric { name, density_kg_m2, bending_warp_nm, bending_weft_nm, shear_n_m, ..cotton.fabric.clone() })
     }
 }
 
@@ -238,7 +247,10 @@ mod tests {
     #[test]
     fn what_was_published_is_sound_and_soft_cloth_drapes_least() {
         let published = published();
-        let bends = |row: &Measured| (row.bending_warp_nm + row.bending_weft_nm) / row.density_kg_m2;
+        let bends = |row: &Measured| {
+            let fabric = row.fabric().unwrap_or_else(|| panic!("{} is not in the library", row.fabric));
+            (fabric.bending_warp_nm + fabric.bending_weft_nm) / fabric.density_kg_m2
+        };
         assert!(published.iter().all(|row| bends(row) > 0.0 && (0.0..100.0).contains(&row.drape_pct)));
         let stiffest = published.iter().max_by(|a, b| bends(a).total_cmp(&bends(b))).expect("some");
         assert!(published.iter().all(|row| row.drape_pct <= stiffest.drape_pct));

@@ -4,10 +4,12 @@ use rusqlite::{Connection, Row};
 
 use crate::catalogue::known::{columns, read_numbers};
 use crate::error::Result;
+use crate::rows::{Table, Value};
 use crate::spec::fields::{Entry, FABRIC_NUMBERS};
 use crate::store::Store;
-use geom::units::GRAVITY;
+use geom::units::mm;
 use sim::Fabric;
+use sim::fabric::Kind;
 
 /// A fabric of the catalogue.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,12 +25,29 @@ pub struct FabricRow {
 }
 
 impl FabricRow {
-    /// Length of a strip, along the grain and across it, that bends under its own weight as Peirce's test has it:
-    /// `(B / (w g))^(1/3)`, m [Peirce 1930].
+    /// Whether it stands for a class of cloths.
     #[must_use]
-    pub fn bending_lengths_m(&self) -> [f64; 2] {
-        let Fabric { bending_warp_nm, bending_weft_nm, density_kg_m2, .. } = self.fabric;
-        [bending_warp_nm, bending_weft_nm].map(|rigidity| (rigidity / (density_kg_m2 * GRAVITY)).cbrt())
+    pub fn is_class(&self) -> bool {
+        self.fabric.known().is_some_and(|known| known.kind == Kind::Class)
+    }
+
+    /// What it stands for, in words: one cloth, with the parts that are of another, or a class, with the bending lengths of eight
+    /// tenths of its cloths; nothing where somebody here made it.
+    #[must_use]
+    pub fn stands_for(&self) -> Option<String> {
+        let known = self.fabric.known()?;
+        let [least, most] = sim::fabric::weights::ends();
+        let told = match known.kind {
+            Kind::Class => {
+                let [warp, weft] = self.fabric.scatter_m().map(|ends| ends.map(|length| format!("{:.0}", mm(length))));
+                let [warp, weft] = [warp, weft].map(|ends| ends.join(" to "));
+                let cloths = sim::fabric::weights::count(self.fabric.density_kg_m2);
+                format!("; {cloths} of its weight bend at {warp} mm, across at {weft} (p{least:.0} to p{most:.0})")
+            }
+            _ if known.of_another.is_empty() => String::new(),
+            _ => format!("; {} of another", parts(&known.of_another)),
+        };
+        Some(format!("{}{told}", known.kind))
     }
 
     /// Force that stretches a strip along the grain and across it by a share of its length, per width, N/m; the strip may
@@ -56,6 +75,66 @@ pub(super) fn stored_fabrics(connection: &Connection) -> Result<Vec<FabricRow>> 
     let mut statement = connection.prepare_cached(&sql)?;
     let rows = statement.query_map([], row)?.collect::<rusqlite::Result<_>>()?;
     Ok(rows)
+}
+
+/// What follows from a fabric's numbers, as columns of [`with_bending`].
+const BENDING: [&str; 8] = [
+    "stands_for",
+    "of_another",
+    "bending_length_warp_mm",
+    "bending_length_weft_mm",
+    "bending_rank_warp",
+    "bending_rank_weft",
+    "class_length_warp_mm",
+    "class_length_weft_mm",
+];
+
+/// A table of fabrics, its columns those of `v_fabrics`, with columns of what follows from their numbers: what a fabric of the
+/// library stands for and which of its parts are of another cloth, its bending lengths, where its bending stands among the
+/// known cloths of its weight, and from where to where those of a class lie.
+#[must_use]
+pub fn with_bending(mut table: Table) -> Table {
+    let place = |key: &str| table.columns.iter().position(|column| column == key);
+    let name = place("fabric");
+    let places: Vec<_> = FABRIC_NUMBERS.iter().map(|field| place(field.key)).collect();
+    for row in &mut table.rows {
+        let mut fabric = Fabric::blank(&name.map_or_else(String::new, |k| row[k].to_string()));
+        for (field, place) in FABRIC_NUMBERS.iter().zip(&places) {
+            field.set(&mut fabric, place.and_then(|k| number(&row[k])));
+        }
+        row.extend(bending(&fabric));
+    }
+    table.columns.extend(BENDING.map(str::to_owned));
+    table
+}
+
+/// A number of a table.
+fn number(value: &Value) -> Option<f64> {
+    match value {
+        Value::Real(number) => Some(*number),
+        Value::Integer(number) => Some(*number as f64),
+        _ => None,
+    }
+}
+
+/// The values of [`BENDING`].
+fn bending(fabric: &Fabric) -> [Value; 8] {
+    let tenths = |length_m: f64| (mm(length_m) * 10.0).round() / 10.0;
+    let known = fabric.known();
+    let borrowed = known.filter(|known| !known.of_another.is_empty()).map(|known| parts(&known.of_another));
+    let text = |text: Option<String>| text.map_or(Value::Null, Value::Text);
+    let [along, across] = fabric.bending_lengths_m().map(|length| Value::Real(tenths(length)));
+    let [rank_along, rank_across] = fabric.standings().map(|standing| Value::Text(standing.to_string()));
+    let is_class = known.is_some_and(|known| known.kind == Kind::Class);
+    let ends = |[least, most]: [f64; 2]| is_class.then(|| format!("{} to {}", tenths(least), tenths(most)));
+    let [class_along, class_across] = fabric.scatter_m().map(|scatter| text(ends(scatter)));
+    let kind = text(known.map(|known| known.kind.to_string()));
+    [kind, text(borrowed), along, across, rank_along, rank_across, class_along, class_across]
+}
+
+/// Parts of a cloth as words.
+fn parts(parts: &[sim::fabric::Part]) -> String {
+    parts.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
 
 /// The fabrics of the catalogue, by name.

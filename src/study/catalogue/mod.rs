@@ -24,7 +24,7 @@ use crate::store::{self, Store};
 use body::Measurements;
 use sim::Fabric;
 
-pub use fabrics::FabricRow;
+pub use fabrics::{FabricRow, with_bending};
 pub use known::SubjectRow;
 pub(crate) use known::{add_builtin, known, read_fabric, read_style};
 pub use norms::{doubts, is_doubtful, percentile, percentile_text};

@@ -166,6 +166,26 @@ fn study_files_are_imported_and_their_lines_told() {
 }
 
 #[test]
+fn what_follows_from_the_numbers_of_a_fabric_is_told_beside_them() {
+    let mut bench = Bench::new();
+    let told = |bench: &Bench, name: &str| {
+        let sql = format!("SELECT * FROM v_fabrics WHERE fabric = '{name}' AND is_latest");
+        let table = with_bending(bench.workspace.query(&sql).expect("valid"));
+        let first = table.columns.iter().position(|column| column == "stands_for").expect("there");
+        table.rows[0][first..].iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+    };
+    let check = |bench: &Bench, name: &str, expect: &str| assert_eq!(told(bench, name), expect, "{name}");
+    check(&bench, "denim_raw", "class; ; 25.4; 21.2; p75; p75; 14.9 to 30.3; 12.2 to 22.3");
+    check(&bench, "cotton_broad", "one cloth; membrane, shear; 21.2; 21.2; p81; >p90; ; ");
+    check(&bench, "interlock_tshirt", "one cloth; ; 14.7; 12.5; p21; p17; ; ");
+    check(&bench, "thesis_10", "model; ; 1.7; 1.7; <p10; <p10; ; ");
+    // One that somebody changed is theirs, whatever its name.
+    let given = [("bending_warp_nm".to_owned(), "1e-4".to_owned())];
+    bench.workspace.save_fabric(Mode::Edit, "denim_raw", None, &given).expect("possible");
+    check(&bench, "denim_raw", "; ; 29.4; 21.2; p88; p75; ; ");
+}
+
+#[test]
 fn a_style_is_stored_with_sizes_that_can_be_sewn() {
     let mut bench = Bench::new();
     let folder = bench.folder.path().to_owned();

@@ -39,7 +39,7 @@ const METHODS: [&str; 5] = [
 
 const LIMITS: [&str; 2] = [
     "Bodies are shaped from a few measurements: where they differ from the person, so does the drape.",
-    "A fabric of the library stands for a class of cloth; several of its numbers are estimates.",
+    "A fabric of the library is one measured cloth or stands for a class of cloths; its source tells which of its numbers are of another cloth. Friction is an estimate throughout.",
 ];
 
 /// The files of a study's report by their relative paths: `index.html`, pictures, charts, drawings, CSV.

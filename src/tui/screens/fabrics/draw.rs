@@ -26,10 +26,12 @@ const HEADINGS: [(&str, usize, f64); FABRIC_SHOWN.len()] = [
 ];
 
 /// Columns of the marks after a name, and the fewest of a name.
-const MARKS: usize = 4;
+const MARKS: usize = 5;
 const LEAST_NAME: usize = 14;
+/// Headings of what follows from the numbers, where there is room, and their columns.
+const FOLLOWS: [(&str, usize); 2] = [("bends mm", 12), ("of weight", 11)];
 /// What the columns of the list mean.
-const LEGEND: &str = "warp weft shear N/m, bending µN m  + own  s stiffens  c coupled";
+const LEGEND: &str = "warp weft shear N/m, bending µN m  + own  s stiffens  c coupled  ~ class";
 
 /// Lines of the table of a fabric: its numbers, and two bending lengths.
 pub fn table_lines() -> usize {
@@ -41,7 +43,7 @@ const VALUE: usize = 10;
 /// Lines of the pane with the source, without the curves.
 const FACTS: u16 = 8;
 /// Most columns of the bar that shows where a number stands among all fabrics.
-const BAR: usize = 20;
+const BAR: usize = 12;
 /// Stretches up to which the curves go: that of a woven, and how far beyond its law that of a knit.
 const WOVEN: f64 = 0.05;
 const BEYOND: f64 = 1.25;
@@ -98,9 +100,16 @@ fn list(state: &State, width: u16, height: u16, focused: bool) -> Vec<Line<'stat
     let at = fabrics.iter().position(|row| Some(&row.fabric.name) == selected).unwrap_or(0);
     let height = usize::from(height).saturating_sub(1);
     let first = first_shown(at, fabrics.len(), height);
-    let mut lines = vec![Line::styled(shortened(&header(state, name, shown), width), state.theme.dim())];
+    let left_over = width.saturating_sub(name + MARKS + numbers(HEADINGS.len()));
+    let follows = FOLLOWS.iter().map(|(_, columns)| columns).sum::<usize>() <= left_over;
+    let mut head = header(state, name, shown);
+    if follows {
+        head.extend(FOLLOWS.iter().map(|(title, columns)| right(title, *columns)));
+    }
+    let mut lines = vec![Line::styled(shortened(&head, width), state.theme.dim())];
     for (k, row) in fabrics.iter().enumerate().skip(first).take(height) {
-        let line = Line::raw(shortened(&list_line(row, name, shown), width));
+        let tail = if follows { tail(row) } else { String::new() };
+        let line = Line::raw(shortened(&(list_line(row, name, shown) + &tail), width));
         lines.push(if k == at { selected_line(line, state.theme.selection(focused)) } else { line });
     }
     if fabrics.is_empty() {
@@ -129,6 +138,7 @@ fn list_line(row: &FabricRow, name: usize, shown: usize) -> String {
         mark(row.is_own, '+'),
         mark(row.fabric.stretched.is_some(), 's'),
         mark(row.fabric.membrane_coupling_n_m != 0.0, 'c'),
+        mark(row.is_class(), '~'),
     ]
     .iter()
     .collect();
@@ -138,6 +148,15 @@ fn list_line(row: &FabricRow, name: usize, shown: usize) -> String {
         text += &right(&value.map_or("—".to_owned(), |value| in_four(value * factor)), columns);
     }
     text
+}
+
+/// What follows from the numbers of a fabric, along and across the grain, once where both are the same: bending lengths, and
+/// where its bending stands among the known cloths of its weight.
+fn tail(row: &FabricRow) -> String {
+    let lengths = row.fabric.bending_lengths_m().map(text::mm);
+    let ranks = row.fabric.standings().map(|standing| standing.to_string());
+    let both = |[along, across]: [String; 2]| if along == across { along } else { format!("{along}/{across}") };
+    [lengths, ranks].into_iter().zip(FOLLOWS).map(|(values, (_, columns))| right(&both(values), columns)).collect()
 }
 
 /// A number in at most six columns.
@@ -165,10 +184,12 @@ fn table(state: &State, row: &FabricRow, columns: usize) -> Vec<Line<'static>> {
         let place = stands.map_or(String::new(), |share| place_bar(share, bar));
         lines.push(Line::from(vec![Span::raw(text), Span::styled(format!(" {place}"), state.theme.dim())]));
     }
-    for (name, length) in ["along", "across"].into_iter().zip(row.bending_lengths_m()) {
+    let bends = row.fabric.bending_lengths_m().into_iter().zip(row.fabric.standings());
+    for (name, (length, standing)) in ["along", "across"].into_iter().zip(bends) {
         let name = format!("bending length {name} the grain");
         let text = format!("{}{}  {}", left(&name, label), right(&text::mm(length), VALUE), left("mm", 5));
-        lines.push(Line::styled(text, state.theme.dim()));
+        let among = if bar >= BAR { format!(" {standing} of its weight") } else { format!(" {standing}") };
+        lines.push(Line::styled(shortened(&(text + &among), columns), state.theme.dim()));
     }
     lines
 }
@@ -197,6 +218,14 @@ fn draw_facts(frame: &mut Frame<'_>, area: Rect, state: &State, fabric: Option<&
         n => format!("{n} jobs use it"),
     };
     let mut lines = vec![Line::styled(shortened(&format!("{origin}; {used}"), columns), state.theme.bold())];
+    lines.extend(row.stands_for().into_iter().flat_map(|text| wrapped(&text, columns)).map(Line::raw));
+    // Where there is room for the whole table, it tells that.
+    if usize::from(area.height) < table_lines() + 3 {
+        let [along, across] = row.fabric.bending_lengths_m().map(text::mm);
+        let [rank_along, rank_across] = row.fabric.standings();
+        let bends = format!("bends at {along} mm, {rank_along}; across {across} mm, {rank_across} of its weight");
+        lines.extend(wrapped(&bends, columns).into_iter().map(|line| Line::styled(line, state.theme.dim())));
+    }
     lines.extend(wrapped(&row.fabric.source, columns).into_iter().map(Line::raw));
     let height = (lines.len() as u16).max(FACTS).min(inner.height);
     let [words, curves] = Layout::vertical([Constraint::Length(height), Constraint::Fill(1)]).areas(inner);
