@@ -1,11 +1,13 @@
-//! Helpers for the tests of the simulators: finite differences, and a garment with lapels.
+//! Helpers for the tests of the simulators: finite differences, a garment with lapels, panels by their corners.
+
+use serde_json::{Value, json};
 
 use crate::Fabric;
 use geom::{V2, V3};
 use pattern::draft::Model;
 use pattern::piece::Piece;
 use pattern::style::EdgeRef;
-use pattern::{Garment, Style};
+use pattern::{Garment, Role, Style, garmentcode};
 
 /// A fabric with different numbers everywhere, so that a mix-up shows.
 pub fn fabric() -> Fabric {
@@ -84,4 +86,62 @@ pub fn lapelled(edge_m: f64, is_folded: bool) -> Garment {
     ];
     let style = Style::read(&pieces, &[Model::Tshirt.seams(), more.concat().as_bytes()].concat(), "seams");
     style.expect("a style").mesh(edge_m).expect("a mesh")
+}
+
+/// A panel of straight edges, or of those that say otherwise, cm.
+pub fn panel(corners: &[[f64; 2]], [x, z]: [f64; 2], curved: &[(usize, Value)]) -> Value {
+    let edge = |k: usize| {
+        let mut edge = json!({ "endpoints": [k, (k + 1) % corners.len()] });
+        if let Some((_, curvature)) = curved.iter().find(|(at, _)| *at == k) {
+            edge["curvature"] = curvature.clone();
+        }
+        edge
+    };
+    let edges: Vec<Value> = (0..corners.len()).map(edge).collect();
+    json!({ "translation": [x, 0, z], "rotation": [0, 0, 0], "vertices": corners, "edges": edges })
+}
+
+pub fn stitch(one: (&str, usize), other: (&str, usize)) -> Value {
+    let side = |(panel, edge): (&str, usize)| json!({ "panel": panel, "edge": edge });
+    json!([side(one), side(other)])
+}
+
+/// A mesh of panels and stitches; `role` says what each piece is.
+pub fn sewn(panels: &Value, stitches: &[Value], role: impl Fn(&str) -> Role) -> Garment {
+    let document = json!({
+        "pattern": { "panels": panels, "stitches": stitches },
+        "properties": { "curvature_coords": "relative", "units_in_meter": 100 }
+    });
+    let read = garmentcode::read(document.to_string().as_bytes(), "garment").expect("a specification");
+    let mut garment = read.style().mesh(0.04).expect("a mesh");
+    for piece in &mut garment.pieces {
+        piece.role = role(&piece.id);
+    }
+    garment
+}
+
+/// Front or back of a skirt, by name.
+pub fn skirt_role(id: &str) -> Role {
+    if id.starts_with("back") { Role::SkirtBack } else { Role::SkirtFront }
+}
+
+/// A skirt of half circles: tiers each of a front and a back of some inner radius, cm, 30 cm long.
+pub fn tiered(radii: &[f64]) -> Garment {
+    let (mut panels, mut stitches) = (json!({}), Vec::new());
+    let arc = |radius: f64, sweep: u8| json!({ "type": "circle", "params": [radius, 0, sweep] });
+    for (tier, &inner) in radii.iter().enumerate() {
+        let outer = inner + 30.0;
+        let corners = [[-outer, 0.0], [outer, 0.0], [inner, 0.0], [-inner, 0.0]];
+        let [front, back] = ["front", "back"].map(|side| format!("{side}_{tier}"));
+        for side in [&front, &back] {
+            panels[side] = panel(&corners, [0.0, 0.0], &[(0, arc(outer, 1)), (2, arc(inner, 0))]);
+        }
+        if tier + 1 < radii.len() {
+            stitches.push(stitch((&front, 0), (&format!("front_{}", tier + 1), 2)));
+            stitches.push(stitch((&back, 0), (&format!("back_{}", tier + 1), 2)));
+        }
+        stitches.push(stitch((&front, 1), (&back, 3)));
+        stitches.push(stitch((&front, 3), (&back, 1)));
+    }
+    sewn(&panels, &stitches, skirt_role)
 }

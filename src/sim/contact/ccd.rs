@@ -90,4 +90,21 @@ mod tests {
         assert!(collides(&crossed(1e-3), &crossed(-2e-3), edges));
         assert!(!collides(&crossed(1e-3), &crossed(4e-4), edges));
     }
+
+    #[test]
+    fn a_pair_comes_no_nearer_than_asked_for_and_what_is_nearer_may_leave() {
+        let triangle = [V3::zeros(), V3::new(0.02, 0.0, 0.0), V3::new(0.0, 0.02, 0.0)];
+        let share = |from: f64, to: f64| {
+            let with = |height: f64| [vec![V3::new(0.005, 0.005, height)], triangle.to_vec()].concat();
+            free_share(&with(from), &with(to), Primitives::VertexTriangle([0, 1, 2, 3]), 1e-4)
+        };
+        let check = |from: f64, to: f64, low: f64, high: f64| {
+            let share = share(from, to);
+            assert!((low..=high).contains(&share), "{from} to {to}: {share}");
+        };
+        check(5e-4, -5e-4, 0.3, 0.4);
+        check(5e-5, -5e-5, 0.0, 1e-3);
+        check(5e-5, 1e-3, 1.0, 1.0);
+        check(1e-3, 5e-4, 1.0, 1.0);
+    }
 }

@@ -332,3 +332,34 @@ fn what_is_about_to_be_sewn_does_not_let_the_rest_of_its_cloth_pass() {
     // What crosses cloth that it is not sewn to comes free as it likes.
     assert!(through(&mut contact()).is_finite());
 }
+
+#[test]
+fn what_is_moved_without_regard_to_energy_is_kept_apart_and_stops_before_it_meets() {
+    let (large, small, triangles) = two_sheets();
+    let edges = edges_of(&triangles);
+    let at = |height: f64| -> Vec<V3> {
+        let upper = small.iter().map(|p| V3::new(p.x + 0.033, p.y + 0.0305, height));
+        large.iter().map(|p| V3::new(p.x, p.y, 0.0)).chain(upper).collect()
+    };
+    let areas = vec![1e-4; large.len() + small.len()];
+    let check = |from: f64, to: f64, stops: bool| {
+        let mut contact = ClothContact::new(ClothContactParams::default(), &triangles, &areas);
+        contact.update(&at(from));
+        let mut stopped = at(to);
+        assert_eq!(contact.stop(&mut stopped) > 0, stops, "from {from} to {to}");
+        assert!(intersections(&stopped, edges.pairs(), &triangles).is_empty(), "from {from} to {to}");
+        // Kept apart first, both give way, and the small sheet stays on its side.
+        let mut apart = at(to);
+        contact.keep_apart(&mut apart);
+        let mean = |x: &[V3], range: std::ops::Range<usize>| {
+            let count = range.len() as f64;
+            x[range].iter().map(|p| p.z).sum::<f64>() / count
+        };
+        let (below, above) = (mean(&at(to), 0..large.len()), mean(&apart, large.len()..apart.len()));
+        assert_eq!(above > to + 1e-9, stops, "from {from} to {to}: {above} over {below}");
+    };
+    check(1e-3, -1e-3, true);
+    check(1e-3, 5e-5, true);
+    check(1e-3, 3e-3, false);
+    check(4e-3, 3e-3, false);
+}

@@ -1,6 +1,8 @@
 //! How much a garment lacks where it does not close around the body: the message of Hybrid-GS to its user.
 
 use super::features::face;
+use super::ring;
+use super::sewn::Sewn;
 use crate::sewing;
 use body::{Body, Dimension};
 use geom::hull::tape_girth;
@@ -45,7 +47,7 @@ pub fn closures(body: &Body, garment: &Garment, positions: &[V3]) -> Vec<Closure
         Some(Closure { level: name.to_owned(), height_m, body_girth_m: girths.get(around)?, garment_girth_m })
     };
     let levels = [
-        ("chest", at_underarm(garment, positions), Dimension::ChestGirth),
+        ("chest", at_underarm(garment, positions).or_else(|| at(levels.chest_m)), Dimension::ChestGirth),
         ("underbust", at(levels.underbust_m), Dimension::UnderbustGirth),
         ("waist", at(levels.waist_m), Dimension::WaistGirth),
         ("hip", at(levels.hip_m), Dimension::HipGirth),
@@ -61,8 +63,10 @@ fn along_fit_line(garment: &Garment, level: &str, positions: &[V3]) -> Option<(f
     (!heights.is_empty()).then(|| (heights.iter().sum::<f64>() / heights.len() as f64, length_m))
 }
 
-/// Height of the underarms and length of the cloth between them, front and back, m; `None` for garments without.
+/// Height of the underarms and length of the cloth between them, front and back, m; `None` for garments without, and where the line does
+/// not go all the way round, as below the neckline of a top without straps.
 fn at_underarm(garment: &Garment, positions: &[V3]) -> Option<(f64, f64)> {
+    ring::at_underarm(garment, &Sewn::at(garment, positions)).first()?;
     let underarms = underarms(garment);
     let length = |(piece, v): &(&PieceMesh, usize)| across_m(garment, piece, garment.rest[*v].y, positions);
     let length_m = underarms.iter().map(length).sum();

@@ -85,6 +85,8 @@ geom::constants! {
     /// Steps that the drape goes on after cloth was pulled apart, and how often it does at most.
     const AGAIN: u32 = 6;
     const MOST_AGAIN: u32 = 2;
+    /// Mean error of the measurements above which a garment has not got its size.
+    const OFF: f64 = 0.02;
     /// How far the top of a garment may slide down, m: trousers and skirts that do not hold at the waist hold at the hips.
     const MOST_DESCENT_M: f64 = 0.25;
     /// Rounds in which cloth that runs through itself is pulled apart in the end.
@@ -156,24 +158,30 @@ pub fn phases(
         Err(error @ (SimError::CannotMap { .. } | SimError::CannotPlace { .. })) => Err(error),
         mapped => Ok(mapped?),
     };
-    let (mut best, mut failed): (Option<Drape>, _) = (None, None);
+    let (mut best, mut failed): (Option<(Faults, Drape)>, _) = (None, None);
     for start in mapped.as_ref().map_or(&[Start::Drawn][..], |_| &Start::ALL) {
         let sewn = match (start, &mapped) {
             (Start::Drawn, _) | (_, Err(_)) => dressing.drawn(&mut run),
             (_, Ok(mapped)) => Ok(Sewn::new(garment, &mapped.positions)),
         };
         match sewn.and_then(|sewn| dressing.dress(&sewn, *start != Start::Mapped, &mut run)) {
-            Ok(drape) if best.as_ref().is_none_or(|best| faults(&drape) < faults(best)) => best = Some(drape),
+            Ok(drape) => {
+                let faults = Faults::of(garment, &drape);
+                if best.as_ref().is_none_or(|(least, _)| faults.is_less(least)) {
+                    best = Some((faults, drape));
+                }
+            }
             Err(SimError::Cancelled) => return Err(SimError::Cancelled),
             Err(error) => failed = failed.or(Some(error)),
-            Ok(_) => {}
         }
-        if best.as_ref().is_some_and(|best| faults(best) == (false, 0)) {
+        if best.as_ref().is_some_and(|(faults, _)| faults.is_none()) {
             break;
         }
     }
     match (best, mapped) {
-        (Some(drape), mapped) => Ok(Phases { mapped: mapped.ok(), drape: Drape { history: run.history, ..drape } }),
+        (Some((_, drape)), mapped) => {
+            Ok(Phases { mapped: mapped.ok(), drape: Drape { history: run.history, ..drape } })
+        }
         // What it could not be mapped for says more than what it could not be drawn together for.
         (None, Err(refused)) => Err(refused),
         (None, Ok(_)) => Err(failed.unwrap_or(SimError::NoMesh)),
@@ -196,9 +204,30 @@ impl Start {
     const ALL: [Self; 3] = [Self::Mapped, Self::Apart, Self::Drawn];
 }
 
-/// What tells a worse drape from a better one, worst first: it moves, it crosses itself.
-fn faults(drape: &Drape) -> (bool, usize) {
-    (!drape.converged, drape.self_crossings)
+/// What tells a worse drape from a better one.
+#[derive(Clone, Copy)]
+struct Faults {
+    moves: bool,
+    self_crossings: usize,
+    /// Mean error of the measurements.
+    off: f64,
+}
+
+impl Faults {
+    fn of(garment: &Garment, drape: &Drape) -> Self {
+        let error = |m: &Measurement| (m.length_m(&garment.rest, &drape.positions) / m.l2d_m - 1.0).abs();
+        let off = garment.measurements.iter().map(error).sum::<f64>() / garment.measurements.len().max(1) as f64;
+        Self { moves: !drape.converged, self_crossings: drape.self_crossings, off }
+    }
+
+    fn is_none(&self) -> bool {
+        !self.moves && self.self_crossings == 0 && self.off <= OFF
+    }
+
+    fn is_less(&self, other: &Self) -> bool {
+        let crossings = (self.moves, self.self_crossings).cmp(&(other.moves, other.self_crossings));
+        crossings.then(self.off.total_cmp(&other.off)).is_lt()
+    }
 }
 
 /// A garment and the body that is to wear it.

@@ -108,7 +108,8 @@ fn cut(garment: &Garment, sewn: &Sewn, x: &[V3], limb: &Limb) -> Vec<Ring> {
 }
 
 /// The closed line round the trunk just below the underarms, level in each piece; none where it does not close.
-fn at_underarm(garment: &Garment, sewn: &Sewn) -> Vec<Ring> {
+#[must_use]
+pub fn at_underarm(garment: &Garment, sewn: &Sewn) -> Vec<Ring> {
     let below_m = garment.edge_length_m * BELOW_UNDERARM;
     let mut segments = Vec::new();
     for (piece, underarm) in underarms(garment) {

@@ -320,13 +320,14 @@ fn a_tube_gets_its_length_and_girth_back() {
         reinforcements: vec![],
     };
     let own: Vec<usize> = (0..x.len()).collect();
-    let mut elastic = Elastic::new(&garment, &own, &x, &[], 0.0, &[], vec![1e-6; x.len()]).expect("sound triangles");
+    let mut elastic =
+        Elastic::new(&garment, &own, &x, &[], 0.0, &[], vec![], vec![1e-6; x.len()]).expect("sound triangles");
     let none = vec![V3::zeros(); x.len()];
     let mut now = x.clone();
     let mut last = mean_edge_error(&garment, &now);
     assert!((last - 0.1).abs() < 2e-3, "{last}");
     for _ in 0..30 {
-        now = elastic.step(&now, &Pull { targets: &now, loads: &none, share: 1.0, control: 1.0 });
+        now = elastic.step(&now, &Pull { targets: &now, loads: &none, share: 1.0, control: 1.0, closer_m: 0.0 });
         let error = mean_edge_error(&garment, &now);
         assert!(error <= last + 1e-5, "{error} after {last}");
         last = error;
@@ -335,4 +336,37 @@ fn a_tube_gets_its_length_and_girth_back() {
     // Rolled still, not flat: its ends face each other.
     let flat = garment.rest.iter().map(|p| p.x).fold(0.0, f64::max);
     assert!((now[24] - now[0]).norm() < 0.6 * flat);
+}
+
+#[test]
+fn pieces_are_drawn_together_at_their_size_and_go_through_nothing() {
+    let field = DistanceField::build(&SLIM.mesh, 0.012).expect("a field");
+    for model in [Model::Tshirt, Model::Trousers] {
+        let garment = garment(model, 1, 0.04);
+        let cotton = &fabric::library()[0];
+        let mut steps = 0;
+        let x = draw::together(&SLIM, &field, &garment, cotton, |_| {
+            steps += 1;
+            Ok(())
+        });
+        let x = x.expect("it can be drawn together");
+        let gap_m = quality::seam_gap_m(&garment, &x);
+        assert!(gap_m < 0.02 && steps > 5, "{}: seams {gap_m} m open after {steps} steps", model.as_str());
+        let sewn = Sewn::at(&garment, &x);
+        assert_eq!(quality::self_crossings(&sewn.x, &sewn.triangles), 0, "{}", model.as_str());
+        let error = mean_edge_error(&garment, &x);
+        assert!(error < 0.03, "{}: edges are off by {error}", model.as_str());
+    }
+}
+
+#[test]
+fn a_circle_skirt_in_tiers_is_drawn_together_where_it_cannot_be_mapped() {
+    let skirt = crate::testing::tiered(&[13.0, 43.0]);
+    assert!(mapping::map(&SLIM, &skirt).is_err());
+    let phases = dressed(&SLIM, &skirt, &Params::default());
+    let drape = &phases.drape;
+    assert!(phases.mapped.is_none() && drape.converged && drape.self_crossings == 0, "{}", drape.self_crossings);
+    assert_eq!(drape.seam_gap_max_m, 0.0);
+    let error = mean_edge_error(&skirt, &drape.positions);
+    assert!(error < 0.02, "edges are off by {error}");
 }

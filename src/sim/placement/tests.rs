@@ -1,14 +1,14 @@
 use std::f64::consts::PI;
 
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::*;
-use crate::testing::lapelled;
+use crate::testing::{lapelled, panel, sewn, skirt_role, stitch, tiered};
 use body::{self, Measurements, Sex};
 use geom::Surface;
+use pattern::Style;
 use pattern::draft::Model;
 use pattern::garment::SeamMesh;
-use pattern::{Style, garmentcode};
 
 fn body() -> Body {
     body::build(&Measurements::of(Sex::Male, 1.75)).expect("a body")
@@ -74,38 +74,6 @@ fn legs_that_are_too_long_begin_clear_of_the_feet() {
     assert!(deepest > 0.0, "a triangle lies {deepest} m within a foot");
 }
 
-/// A panel of straight edges, or of those that say otherwise, cm.
-fn panel(corners: &[[f64; 2]], [x, z]: [f64; 2], curved: &[(usize, Value)]) -> Value {
-    let edge = |k: usize| {
-        let mut edge = json!({ "endpoints": [k, (k + 1) % corners.len()] });
-        if let Some((_, curvature)) = curved.iter().find(|(at, _)| *at == k) {
-            edge["curvature"] = curvature.clone();
-        }
-        edge
-    };
-    let edges: Vec<Value> = (0..corners.len()).map(edge).collect();
-    json!({ "translation": [x, 0, z], "rotation": [0, 0, 0], "vertices": corners, "edges": edges })
-}
-
-fn stitch(one: (&str, usize), other: (&str, usize)) -> Value {
-    let side = |(panel, edge): (&str, usize)| json!({ "panel": panel, "edge": edge });
-    json!([side(one), side(other)])
-}
-
-/// A mesh of panels and stitches; `role` says what each piece is.
-fn sewn(panels: &Value, stitches: &[Value], role: impl Fn(&str) -> Role) -> Garment {
-    let document = json!({
-        "pattern": { "panels": panels, "stitches": stitches },
-        "properties": { "curvature_coords": "relative", "units_in_meter": 100 }
-    });
-    let read = garmentcode::read(document.to_string().as_bytes(), "garment").expect("a specification");
-    let mut garment = read.style().mesh(0.04).expect("a mesh");
-    for piece in &mut garment.pieces {
-        piece.role = role(&piece.id);
-    }
-    garment
-}
-
 /// A front and a back of some roles with six gores of another below, three sewn to each.
 fn gored_dress([front, back, gores]: [Role; 3]) -> Garment {
     let top = [[-24.0, 0.0], [-8.0, 0.0], [8.0, 0.0], [24.0, 0.0], [24.0, 40.0], [-24.0, 40.0]];
@@ -147,32 +115,6 @@ fn gores_go_round_as_one() {
     };
     check([Role::BodiceFront, Role::BodiceBack, Role::Other]);
     check([Role::Waistband, Role::Waistband, Role::BodiceFront]);
-}
-
-/// Front or back of a skirt, by name.
-fn skirt_role(id: &str) -> Role {
-    if id.starts_with("back") { Role::SkirtBack } else { Role::SkirtFront }
-}
-
-/// A skirt of half circles: tiers each of a front and a back of some inner radius, cm, 30 cm long.
-fn tiered(radii: &[f64]) -> Garment {
-    let (mut panels, mut stitches) = (json!({}), Vec::new());
-    let arc = |radius: f64, sweep: u8| json!({ "type": "circle", "params": [radius, 0, sweep] });
-    for (tier, &inner) in radii.iter().enumerate() {
-        let outer = inner + 30.0;
-        let corners = [[-outer, 0.0], [outer, 0.0], [inner, 0.0], [-inner, 0.0]];
-        let [front, back] = ["front", "back"].map(|side| format!("{side}_{tier}"));
-        for side in [&front, &back] {
-            panels[side] = panel(&corners, [0.0, 0.0], &[(0, arc(outer, 1)), (2, arc(inner, 0))]);
-        }
-        if tier + 1 < radii.len() {
-            stitches.push(stitch((&front, 0), (&format!("front_{}", tier + 1), 2)));
-            stitches.push(stitch((&back, 0), (&format!("back_{}", tier + 1), 2)));
-        }
-        stitches.push(stitch((&front, 1), (&back, 3)));
-        stitches.push(stitch((&front, 3), (&back, 1)));
-    }
-    sewn(&panels, &stitches, skirt_role)
 }
 
 /// Distances of the sides of a seam, m.
