@@ -5,7 +5,7 @@ use crate::contact::{Skin, intersections};
 use crate::sewing;
 use body::Body;
 use geom::{DistanceField, V3};
-use pattern::{Garment, Spot};
+use pattern::{Garment, Role, Spot};
 
 /// A vertex, an edge middle or a triangle centre: the vertices that it lies between, some of them more than once, and its place.
 type Sample = ([usize; 3], V3);
@@ -101,12 +101,21 @@ pub fn crossed_spot(garment: &Garment, positions: &[V3]) -> Option<Spot> {
     garment.spot(&crossed)
 }
 
+/// Height of the highest vertex of what is worn on trunk or limbs, m: what flares comes down, but its top does not; a hood falls back.
+pub fn top_m(garment: &Garment, positions: &[V3]) -> f64 {
+    let height_m = |vertices: &[V3]| vertices.iter().map(|p| p.z).fold(f64::MIN, f64::max);
+    let worn = garment.pieces.iter().filter(|piece| piece.role != Role::Other);
+    let tops_m = worn.map(|piece| height_m(&positions[piece.vertices.clone()]));
+    tops_m.reduce(f64::max).unwrap_or_else(|| height_m(positions))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::laboratory::{self, sheets::sheet};
     use body::{self, Measurements, Sex};
     use geom::V2;
+    use pattern::PieceMesh;
 
     #[test]
     fn what_is_inside_is_told_with_its_place_on_the_piece() {
@@ -139,5 +148,26 @@ mod tests {
         let spot = crossed_spot(&garment, &folded).expect("crossed");
         assert_eq!(spot.piece, garment.pieces[0].id);
         assert!((0.1..0.19).contains(&spot.at.y), "{spot}");
+    }
+
+    #[test]
+    fn a_hood_that_falls_back_takes_no_garment_down() {
+        let mut garment = laboratory::garment(sheets::sheet(1, 2, 0.1));
+        let whole = garment.pieces[0].clone();
+        let at = |heights_m: [f64; 6]| heights_m.map(|z| V3::new(0.0, 0.0, z));
+        let check = |garment: &Garment, expect: f64| {
+            assert_eq!(top_m(garment, &at([1.1, 1.4, 1.2, 1.3, 1.6, 1.7])), expect);
+        };
+        let trunk_and = |role: Role| {
+            let trunk = PieceMesh { role: Role::Front, vertices: 0..4, ..whole.clone() };
+            vec![trunk, PieceMesh { role, vertices: 4..6, ..whole.clone() }]
+        };
+        garment.pieces = trunk_and(Role::Other);
+        check(&garment, 1.4);
+        garment.pieces = trunk_and(Role::Back);
+        check(&garment, 1.7);
+        // Where it is not known what anything is worn as, all counts.
+        garment.pieces.iter_mut().for_each(|piece| piece.role = Role::Other);
+        check(&garment, 1.7);
     }
 }

@@ -10,7 +10,7 @@ pub use params::{Params, Sewing, level_edges};
 
 use crate::contact::Skin;
 use crate::placement::{self, Bend};
-use crate::quality;
+use crate::quality::{self, top_m};
 use crate::{Distortion, Drape, Fabric, Monitor, SimError, Stage};
 use body::Body;
 use geom::constants::Constant;
@@ -20,7 +20,6 @@ use pattern::Garment;
 use crate::hands::Hands;
 use dress::Dressing;
 use run::Simulation;
-pub(crate) use run::top_m;
 use settle::{Grip, Settled};
 
 geom::constants! {

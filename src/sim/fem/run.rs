@@ -1,10 +1,11 @@
 //! The loop that both phases of FEM-GS share: step, record, report, stop.
 
+use crate::quality::top_m;
 use crate::sewing::OPEN_M;
 use crate::solver::{StepInfo, StepParams, Stepper, System};
 use crate::{Monitor, Progress, SimError, Step};
 use geom::V3;
-use pattern::{Garment, Measurement, Role};
+use pattern::{Garment, Measurement};
 
 use super::params::Params;
 
@@ -228,44 +229,8 @@ impl<'a> Simulation<'a> {
     }
 }
 
-/// Height of the highest vertex of what is worn on trunk or limbs, m: what flares comes down, but its top does not; a hood falls back.
-pub fn top_m(garment: &Garment, positions: &[V3]) -> f64 {
-    let height_m = |vertices: &[V3]| vertices.iter().map(|p| p.z).fold(f64::MIN, f64::max);
-    let worn = garment.pieces.iter().filter(|piece| piece.role != Role::Other);
-    let tops_m = worn.map(|piece| height_m(&positions[piece.vertices.clone()]));
-    tops_m.reduce(f64::max).unwrap_or_else(|| height_m(positions))
-}
-
 /// E of the moment: the mean of L3D / L2D over the garment's measurements; not a number when it has none.
 fn mean_chi(garment: &Garment, positions: &[V3]) -> f64 {
     let chi = |m: &Measurement| m.length_m(&garment.rest, positions) / m.l2d_m;
     garment.measurements.iter().map(chi).sum::<f64>() / garment.measurements.len() as f64
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::laboratory::{self, sheets};
-    use pattern::PieceMesh;
-
-    #[test]
-    fn a_hood_that_falls_back_takes_no_garment_down() {
-        let mut garment = laboratory::garment(sheets::sheet(1, 2, 0.1));
-        let whole = garment.pieces[0].clone();
-        let at = |heights_m: [f64; 6]| heights_m.map(|z| V3::new(0.0, 0.0, z));
-        let check = |garment: &Garment, expect: f64| {
-            assert_eq!(top_m(garment, &at([1.1, 1.4, 1.2, 1.3, 1.6, 1.7])), expect);
-        };
-        let trunk_and = |role: Role| {
-            let trunk = PieceMesh { role: Role::Front, vertices: 0..4, ..whole.clone() };
-            vec![trunk, PieceMesh { role, vertices: 4..6, ..whole.clone() }]
-        };
-        garment.pieces = trunk_and(Role::Other);
-        check(&garment, 1.4);
-        garment.pieces = trunk_and(Role::Back);
-        check(&garment, 1.7);
-        // Where it is not known what anything is worn as, all counts.
-        garment.pieces.iter_mut().for_each(|piece| piece.role = Role::Other);
-        check(&garment, 1.7);
-    }
 }

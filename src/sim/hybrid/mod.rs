@@ -45,7 +45,7 @@ pub use relax::RelaxParams;
 pub use sewn::Sewn;
 
 use layers::Parted;
-use relax::{Place, Push, Relaxation};
+use relax::{Push, Relaxation};
 
 /// Parameters of Hybrid-GS.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -317,11 +317,6 @@ fn mean_chi(garment: &Garment, positions: &[V3]) -> f64 {
     garment.measurements.iter().map(chi).sum::<f64>() / garment.measurements.len() as f64
 }
 
-/// Height of the highest vertex of what is worn on trunk or limbs, m.
-fn top_m(place: &Place, garment: &Garment, sewn: &Sewn) -> f64 {
-    crate::fem::top_m(garment, &sewn.unsewn(place.x()))
-}
-
 /// A run under way: what is recorded and reported of each step.
 struct Simulation<'a> {
     garment: &'a Garment,
@@ -340,8 +335,10 @@ impl Simulation<'_> {
         params: &Params,
     ) -> Result<(f64, usize), SimError> {
         let popped = relaxation.place();
+        let top_m = |x: &[V3]| quality::top_m(self.garment, &sewn.unsewn(x));
+        let top_before_m = top_m(&relaxation.x);
         let fallen = self.lay(relaxation, body, sewn, params, 1.0)?;
-        if top_m(&popped, self.garment, sewn) - top_m(&relaxation.place(), self.garment, sewn) <= MOST_DESCENT_M {
+        if top_before_m - top_m(&relaxation.x) <= MOST_DESCENT_M {
             return Ok(fallen);
         }
         relaxation.go_back(&popped);

@@ -105,14 +105,6 @@ pub struct Place {
     steps: u32,
 }
 
-impl Place {
-    /// Position of each sewn vertex, m.
-    #[must_use]
-    pub fn x(&self) -> &[V3] {
-        &self.x
-    }
-}
-
 /// What a step does besides keeping size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Push {
