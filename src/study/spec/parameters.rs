@@ -224,8 +224,8 @@ mod tests {
             ("hybrid.uncontrolled", vec![1, 2].into()),
         ]);
         let fem = parameters.fem().expect("they fit");
-        assert_eq!(fem.offset_mu, Some(0.4));
-        assert_eq!(fem.bend_angle_rad, Some(120f64.to_radians()));
+        assert_eq!(fem.bend.offset_mu, Some(0.4));
+        assert_eq!(fem.bend.bend_angle_rad, Some(120f64.to_radians()));
         assert_eq!((fem.sewing.weld_gap_m, fem.contact.offset_m, fem.max_iterations), (3e-3, 1.5e-3, 7));
         assert_eq!(fem.sewing.seam_stiffness_n_m, fem::Params::default().sewing.seam_stiffness_n_m);
         assert_eq!(parameters.hybrid().expect("they fit").uncontrolled, [1, 2]);
