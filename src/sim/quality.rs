@@ -152,7 +152,7 @@ mod tests {
 
     #[test]
     fn a_hood_that_falls_back_takes_no_garment_down() {
-        let mut garment = laboratory::garment(sheets::sheet(1, 2, 0.1));
+        let mut garment = laboratory::garment(sheet(1, 2, 0.1));
         let whole = garment.pieces[0].clone();
         let at = |heights_m: [f64; 6]| heights_m.map(|z| V3::new(0.0, 0.0, z));
         let check = |garment: &Garment, expect: f64| {

@@ -223,7 +223,7 @@ fn flat(garment: &Garment, sewn: &[usize], groups: &[Vec<usize>], inner: &[Stret
     if !inner.is_empty() {
         let hold = vec![1e-6; count];
         let none = vec![V3::zeros(); count];
-        if let Some(mut elastic) = Elastic::new(garment, sewn, &x, &[], 0.0, &[], vec![], hold) {
+        if let Some(mut elastic) = Elastic::new(garment, sewn, &x, (&[], 0.0), &[], vec![], hold) {
             for _ in 0..FLATTENING {
                 x = elastic.step(&x, &Pull { targets: &x, loads: &none, share: 1.0, control: 1.0, closer_m: 0.0 });
             }

@@ -77,7 +77,7 @@ pub struct Elastic {
 }
 
 impl Elastic {
-    /// Sets up a garment whose vertices are sewn together as `vertex_of` says. `controls` are the measurements to be kept,
+    /// Sets up a garment whose vertices are sewn together as `vertex_of` says. `controls` are the measurements to be kept, and their weight,
     /// `bending` pairs of sewn vertices with their entry of the bending matrix over the membrane's stiffness, `open` pairs of seams that
     /// are still to be closed, `weights` those of the vertices' targets.
     ///
@@ -87,8 +87,7 @@ impl Elastic {
         garment: &Garment,
         vertex_of: &[usize],
         x: &[V3],
-        controls: &[&Measurement],
-        control_weight: f64,
+        (controls, control_weight): (&[&Measurement], f64),
         bending: &[([usize; 2], f64)],
         open: Vec<[usize; 2]>,
         weights: Vec<f64>,

@@ -153,7 +153,7 @@ impl<'a> Relaxation<'a> {
             .filter(|[a, b]| a != b)
             .collect();
         let width_m = params.control_width_m;
-        let elastic = Elastic::new(garment, &sewn.vertex_of, &x, controls, width_m, &bending, open, weights)
+        let elastic = Elastic::new(garment, &sewn.vertex_of, &x, (controls, width_m), &bending, open, weights)
             .ok_or_else(|| SimError::Degenerate { piece: garment.name.clone(), at: garment.rest[0] })?;
         let weight = cloth.masses.iter().map(|m| m * GRAVITY / params.stiffness_n_m).collect();
         Ok(Self {

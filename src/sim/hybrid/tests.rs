@@ -321,7 +321,7 @@ fn a_tube_gets_its_length_and_girth_back() {
     };
     let own: Vec<usize> = (0..x.len()).collect();
     let mut elastic =
-        Elastic::new(&garment, &own, &x, &[], 0.0, &[], vec![], vec![1e-6; x.len()]).expect("sound triangles");
+        Elastic::new(&garment, &own, &x, (&[], 0.0), &[], vec![], vec![1e-6; x.len()]).expect("sound triangles");
     let none = vec![V3::zeros(); x.len()];
     let mut now = x.clone();
     let mut last = mean_edge_error(&garment, &now);
