@@ -52,8 +52,8 @@ pub fn free_share(x: &[V3], y: &[V3], primitives: Primitives, least_m: f64) -> f
         }
         time += advance;
         at.iter_mut().zip(&moves).for_each(|(p, d)| *p += d * advance);
-        distance = ClosestPoints::at(&at, primitives).gap.norm();
-        if distance <= least + KEPT_SHARE * least {
+        let before = std::mem::replace(&mut distance, ClosestPoints::at(&at, primitives).gap.norm());
+        if distance <= before && distance <= least + KEPT_SHARE * least {
             break;
         }
     }

@@ -318,7 +318,7 @@ impl<'a> ClothContact<'a> {
         let goals = x.to_vec();
         for round in 0..MOST_STOPS {
             let mut stopped = Vec::new();
-            for primitives in self.near([x, &self.last], 0.0) {
+            for primitives in self.near([x, &self.last], NEAREST_M) {
                 let share = ccd::free_share(&self.last, x, primitives, NEAREST_M);
                 if share < 1.0 {
                     let share = if round < SHARED_STOPS { share } else { 0.0 };
