@@ -2,7 +2,8 @@
 //!
 //! The form is what the pattern's own pieces roll up to: sheets bent about the trunk, cones and rings round it, tubes about limbs
 //! ([`crate::placement`]). From there the seams draw them together a little at a time. The pieces keep their size, as rigid as possible; the
-//! body pushes them out, and no cloth goes through other cloth. Nothing of the fabric enters.
+//! body pushes them out, and no cloth goes through other cloth. Of the fabric only its bending enters, where that is stiffer than the least that
+//! folds need.
 
 use super::relax::{Push, RelaxParams, Relaxation};
 use super::sewn::Sewn;
@@ -19,10 +20,11 @@ geom::constants! {
     const STRIDE_M: f64 = 8e-3;
     /// By how much the sides of a seam want to come nearer at first, m.
     const CLOSER_M: f64 = 5e-3;
-    /// By how much more where they do not, and how often that is looked at, in steps.
+    /// Factor by which they want to come nearer where they do not.
     const GROWTH: f64 = 1.5;
+    /// Steps without progress after which they do.
     const PATIENCE: u32 = 4;
-    /// Where that ends, m: what still holds it up is no friend of the seam.
+    /// Where that ends, m: something else holds the seam open.
     const MOST_CLOSER_M: f64 = 1.0;
     /// Share of the least mean gap so far that a smaller one has to be.
     const PROGRESS: f64 = 0.98;

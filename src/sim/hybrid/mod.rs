@@ -96,7 +96,7 @@ geom::constants! {
 /// What each phase left, positions of the garment's vertices in metres.
 #[derive(Clone, Debug)]
 pub struct Phases {
-    /// On the form, piece by piece; `None` where it cannot be mapped.
+    /// On the form, piece by piece; `None` where it cannot be mapped. The drape may have been drawn together all the same.
     pub mapped: Option<OnForm>,
     /// Draped; its earlier stages are those sewn, smoothed and lifted onto the fine mesh, and popped up.
     pub drape: Drape,
@@ -264,7 +264,7 @@ impl Dressing<'_> {
         }
     }
 
-    /// Pop-up and drape of a sewn garment; says whether cloth is kept from going through cloth.
+    /// Pop-up and drape of a sewn garment, kept from going through itself or not.
     fn dress(&self, sewn: &Sewn, is_kept_apart: bool, run: &mut Simulation) -> Result<Drape, SimError> {
         let Self { body, field, garment, fabric, params, .. } = *self;
         let controls: Vec<&Measurement> =
