@@ -5,9 +5,9 @@ use std::io::{IsTerminal, Read};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 
-use super::args::{Audit as AuditArguments, Format, Sql, StudyPath};
+use super::args::{Audit as AuditArguments, AuditCommand, Format, Sql, StudyPath};
 use super::context::{Context, project_folder};
-use super::{CliError, End, Outcome, output};
+use super::{CliError, End, Outcome, output, wardrobe};
 use geom::units::mm;
 use study::{Finding, StudyError, Table, Value, saved_queries, saved_query};
 
@@ -64,14 +64,19 @@ fn is_name(query: &str) -> bool {
 /// `toile audit`: what does not add up; exit code 3 when that is anything in results of ours. The errors of the thesis are
 /// known and no failure.
 pub fn audit(context: &Context, arguments: &AuditArguments) -> Outcome {
+    let path = match (&arguments.command, &arguments.study) {
+        (Some(AuditCommand::Garments(arguments)), _) => return wardrobe::audit(context, arguments),
+        (None, Some(path)) => path,
+        (None, None) => return Err(CliError::Usage("no study; give its name".into())),
+    };
     let workspace = context.workspace()?;
-    let name = arguments.study.to_string_lossy();
+    let name = path.to_string_lossy();
     let is_study = workspace.studies()?.iter().any(|study| study.name == name);
     let of_thesis = name == "thesis-published" || (name == "thesis" && !is_study);
     let audit = if of_thesis {
         workspace.audit_thesis()?
     } else {
-        workspace.audit_study(&context.study_name(&workspace, &arguments.study)?)?
+        workspace.audit_study(&context.study_name(&workspace, path)?)?
     };
     context.print(&Finding::table(&audit.findings))?;
     let found = audit.findings.len();

@@ -27,6 +27,7 @@ mod runs;
 mod studies;
 #[cfg(test)]
 mod tests;
+mod wardrobe;
 
 use std::error::Error;
 use std::ffi::OsString;

@@ -151,7 +151,7 @@ fn slurm(
 }
 
 /// Starts the run and shows how it fares until it ends; says whether it was interrupted.
-fn work(
+pub fn work(
     context: &Context,
     workspace: &mut Workspace,
     study: &Study,

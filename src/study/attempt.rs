@@ -358,23 +358,47 @@ fn style(asked: &Attempt, notes: &mut Vec<String>) -> Result<Style> {
     Ok(style)
 }
 
+/// What can be wrong with a drape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Fault {
+    Moves,
+    Inside,
+    Crosses,
+}
+
+/// What is wrong with a drape, in words.
+pub(crate) fn drape_faults(
+    converged: bool,
+    residual: f64,
+    penetration_mm: f64,
+    self_crossings: i64,
+) -> Vec<(String, Fault)> {
+    let mut faults = Vec::new();
+    if !converged {
+        faults.push((format!("not converged: residual {residual:.4}"), Fault::Moves));
+    }
+    if penetration_mm > PENETRATION_MM {
+        faults.push((format!("{penetration_mm:.1} mm inside the body"), Fault::Inside));
+    }
+    if self_crossings > 0 {
+        faults.push((format!("the cloth crosses itself at {self_crossings} edges"), Fault::Crosses));
+    }
+    faults
+}
+
 /// What is wrong with a drape, and where; the numbers alone do not say.
 fn problems(body: &Body, garment: &Garment, drape: &Drape) -> Vec<String> {
-    let at = |spot: Option<Spot>| spot.map_or_else(String::new, |spot| format!(", in {spot}"));
-    let mut problems = Vec::new();
-    if !drape.converged {
-        problems.push(format!("not converged: residual {:.4}", drape.residual));
-    }
-    let depth_mm = mm(drape.penetration_max_m);
-    if depth_mm > PENETRATION_MM {
-        let deepest = at(quality::deepest_spot(body, garment, &drape.positions));
-        problems.push(format!("{depth_mm:.1} mm inside the body{deepest}"));
-    }
-    if drape.self_crossings > 0 {
-        let most = at(quality::crossed_spot(garment, &drape.positions));
-        problems.push(format!("the cloth crosses itself at {} edges{most}", drape.self_crossings));
-    }
-    problems
+    let Drape { converged, residual, penetration_max_m, self_crossings, .. } = *drape;
+    let faults = drape_faults(converged, residual, mm(penetration_max_m), self_crossings as i64);
+    let told = |(says, fault): (String, Fault)| {
+        let spot: Option<Spot> = match fault {
+            Fault::Moves => None,
+            Fault::Inside => quality::deepest_spot(body, garment, &drape.positions),
+            Fault::Crosses => quality::crossed_spot(garment, &drape.positions),
+        };
+        says + &spot.map_or_else(String::new, |spot| format!(", in {spot}"))
+    };
+    faults.into_iter().map(told).collect()
 }
 
 /// Four views of every stage as one picture each, and body and garment as meshes.

@@ -9,6 +9,7 @@ use image::RgbaImage;
 
 use crate::answers::advice::{self, SizeAnswer};
 use crate::answers::audit::{self, Audit};
+use crate::answers::dressed::{self, Dressed};
 use crate::answers::figure::{self, Figure};
 use crate::answers::picture::{self, Look, Map, Order, Scenes};
 use crate::answers::population::{self, Nearest};
@@ -504,6 +505,11 @@ impl Workspace {
     /// Judges a study's results again and keeps that for `v_recommendation`; nothing happens in a read-only workspace.
     pub fn update_evidence(&mut self, study: &str) -> Result<()> {
         evidence::update_evidence(&mut self.store, study)
+    }
+
+    /// How the current jobs of a study ended.
+    pub fn dressed(&self, study: &str) -> Result<Vec<Dressed>> {
+        dressed::dressed(&self.store, study)
     }
 
     /// All studies, by name.

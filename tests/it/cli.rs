@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 87] = [
+const COMMANDS: [&str; 88] = [
     "",
     "run",
     "run show",
@@ -30,6 +30,7 @@ const COMMANDS: [&str; 87] = [
     "ease",
     "recommend",
     "audit",
+    "audit garments",
     "export",
     "man",
     "pattern",

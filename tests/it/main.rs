@@ -18,4 +18,5 @@ mod seat;
 mod structure;
 mod tidy;
 mod together;
+mod wardrobe;
 mod workbench;

@@ -1,10 +1,10 @@
-//! Arguments of `toile try`.
+//! Arguments of `toile try`, and of `toile audit garments`, which tries many.
 
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{MeshUnit, PatternUnit, Sex};
+use super::{JobLimits, MeshUnit, PatternUnit, Sex};
 
 /// Simulator of a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -59,5 +59,39 @@ pub struct Try {
     pub repeat: u32,
     /// Folder for picture and meshes.
     #[arg(long, short, value_name = "DIR", default_value = "try")]
+    pub output: PathBuf,
+}
+
+/// Arguments of `audit garments`.
+#[derive(Debug, Args)]
+pub struct AuditGarments {
+    /// Folder of patterns: DXF, sewn as `pattern propose` says; GarmentCode specifications (JSON).
+    pub garments: PathBuf,
+    /// Folder of bodies: meshes and scans, or measurements.
+    #[arg(long, value_name = "DIR")]
+    pub bodies: PathBuf,
+    /// Which garment goes with which body: CSV with the columns garment and body, file names without endings; by default all
+    /// with all.
+    #[arg(long, value_name = "FILE")]
+    pub pairs: Option<PathBuf>,
+    /// Simulators.
+    #[arg(long, value_enum, value_delimiter = ',', default_values_t = [TrySimulator::Fem, TrySimulator::Hybrid])]
+    pub sim: Vec<TrySimulator>,
+    /// Fabric of the catalogue.
+    #[arg(long, value_name = "NAME", default_value = "cotton_shirting_light")]
+    pub fabric: String,
+    /// Unit of the patterns, where their files name none.
+    #[arg(long, value_enum)]
+    pub unit: Option<PatternUnit>,
+    /// Seam allowance of pieces that have no sew line.
+    #[arg(long, value_name = "MM", default_value_t = 0.0)]
+    pub allowance_mm: f64,
+    /// Simulations at once [default: number of cores].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub workers: Option<u16>,
+    #[command(flatten)]
+    pub limits: JobLimits,
+    /// Folder for the study and audit.json; its name is the study's.
+    #[arg(long, short, value_name = "DIR", default_value = "garments-audit")]
     pub output: PathBuf,
 }

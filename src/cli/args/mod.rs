@@ -10,7 +10,7 @@ mod body;
 mod catalogue;
 mod pattern;
 
-pub use attempt::{Try, TrySimulator};
+pub use attempt::{AuditGarments, Try, TrySimulator};
 pub use body::{Body, BodyBuild, MeshUnit, Sex};
 pub use catalogue::{Catalogue, FabricValues, SizeValues, StyleValues, SubjectValues};
 pub use pattern::{BesideFiles, DraftStyle, DxfStandard, Pattern, PatternUnit, SeamCommand, StyleFiles};
@@ -376,10 +376,23 @@ pub enum Format {
 
 /// Arguments of `audit`.
 #[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub struct Audit {
+    #[command(subcommand)]
+    pub command: Option<AuditCommand>,
     /// Name of the study, its folder, or its study.toml; `thesis-published` (or `thesis`, where there is no study of that
     /// name) audits the printed tables.
-    pub study: PathBuf,
+    #[arg(required = true)]
+    pub study: Option<PathBuf>,
+}
+
+/// What else is audited.
+#[derive(Debug, Subcommand)]
+pub enum AuditCommand {
+    /// Dress every body of a folder in every garment of another, by both simulators; say what drapes, and what not.
+    ///
+    /// It becomes a study in the folder of --output: run again, it goes on where it stopped.
+    Garments(Box<AuditGarments>),
 }
 
 /// Arguments of `recommend`.

@@ -203,7 +203,10 @@ impl Dressing<'_> {
             let is_finest = level + 1 == self.garments.len();
             for share in shares.iter().filter(|_| is_finest) {
                 let slack = cloth.clone().slackened(*share);
-                Settling { cloth: &slack, ..settling }.ease(&mut x, EASED, run)?;
+                // What does not has more ways to lie than easing could tell apart, as ruffles do.
+                if !(Settling { cloth: &slack, ..settling }.ease(&mut x, EASED, run)?) {
+                    break;
+                }
             }
             let settled = match shares.first() {
                 Some(share) if !is_finest => {

@@ -28,6 +28,8 @@ geom::constants! {
     "fem.run",
     /// First step size of the end of a drape, s: it goes on with cloth that has lain down already.
     const LAIN_DOWN_S: f64 = 0.5;
+    /// Steps of easing at most: T-shirts and dresses take 10 to 33.
+    const EASING_STEPS: u32 = 50;
     /// Steps of sewing at most over those that nearly closed seams get: these have met what holds them up, and are drawn through it.
     const PATIENCE: u32 = 3;
     /// How far the top of a garment may come down from where it was sewn, m: trousers and skirts that do not hold at the waist
@@ -53,15 +55,15 @@ impl Phase {
 
     /// Coming nearly to rest on a level, before it does so with more stiffness.
     pub fn easing(params: &Params, level: usize, last: usize, tolerance: f64) -> Self {
-        Self { tolerance, max_steps: params.coarse_steps, ..Self::frictionless(params, level, last) }
+        Self { tolerance, max_steps: EASING_STEPS, ..Self::frictionless(params, level, last) }
     }
 
     /// The end of the drape, with friction.
-    pub fn final_drape(params: &Params, level: usize) -> Self {
+    pub fn final_drape(params: &Params, level: usize, tolerance: f64) -> Self {
         Self {
             name: "drape",
             level,
-            tolerance: params.tolerance,
+            tolerance,
             max_steps: params.max_iterations,
             share: [0.8, 1.0],
             h_start_s: LAIN_DOWN_S.min(params.step.h_max_s),

@@ -16,6 +16,8 @@ geom::constants! {
     const DEEPEST_M: f64 = 3e-4;
     /// Times at most that a drape is taken up again, because it is not at rest yet or to hold out points inside the body.
     const HOLDING_ROUNDS: usize = 8;
+    /// Residual at which it is seen which points still lie inside the body: what presses them in is out of balance by hundreds.
+    const HELD: f64 = 1.0;
     /// Penalty of the contact with the body where cloth is drawn tight or over a hand, N/m3: fingertips press through a softer one.
     const HARD_N_M3: f64 = 1e9;
     /// Penalty of the cloth's contact with itself there, N/m3: where a seat is drawn tight, a softer one lets layers through.
@@ -127,18 +129,19 @@ impl Settling<'_> {
         Ok(Settled { positions, residual, yields_m, braced_n, sewn: x, triangles })
     }
 
-    /// Lets the sewn vertices come nearly to rest from `x`, to some residual and without friction that is not there throughout.
+    /// Lets the sewn vertices come nearly to rest from `x`, to some residual and without friction that is not there throughout; says whether
+    /// they do.
     ///
     /// # Errors
     /// When they diverge or slide off the body, or the monitor cancels.
-    pub fn ease(&self, x: &mut Vec<V3>, tolerance: f64, run: &mut Simulation) -> Result<(), SimError> {
+    pub fn ease(&self, x: &mut Vec<V3>, tolerance: f64, run: &mut Simulation) -> Result<bool, SimError> {
         let Self { around, cloth, level, .. } = *self;
         let areas = self.contact_areas();
         let shape = around.hands.and_then(|hands| hands.of_level(level, run.levels()).next());
         let field = shape.as_ref().map_or(around.field, |(_, field)| field);
         let mut system = self.system(cloth, &areas, self.contact(field, x, run), x);
-        run.drape(self.garment, &mut system, x, Phase::easing(run.params(), level, run.levels(), tolerance))?;
-        Ok(())
+        let phase = Phase::easing(run.params(), level, run.levels(), tolerance);
+        Ok(run.drape(self.garment, &mut system, x, phase)? <= tolerance)
     }
 
     /// Areas of the sewn vertices as the cloth's contact with itself takes them, m2.
@@ -195,21 +198,27 @@ impl Settling<'_> {
         self.around.skin.map_or(0.0, deepest)
     }
 
-    /// The end of the drape, with friction, until no point lies inside the body; returns the residual.
+    /// The end of the drape, with friction, until no point lies inside the body; returns the residual. Until then it comes to rest no
+    /// further than what presses points in is out of balance: the next round moves it again.
     fn hold(&self, system: &mut System, x: &mut Vec<V3>, run: &mut Simulation) -> Result<f64, SimError> {
         let params = run.params();
         system.contact.set_friction(Some(self.fabric.friction_body));
-        let mut residual = f64::MAX;
+        let (mut residual, mut tolerance) = (f64::MAX, params.tolerance.max(HELD));
         for round in 0..HOLDING_ROUNDS {
-            residual = run.drape(self.garment, system, x, Phase::final_drape(params, self.level))?;
-            let is_at_rest = residual <= params.tolerance;
+            residual = run.drape(self.garment, system, x, Phase::final_drape(params, self.level, tolerance))?;
+            let is_at_rest = residual <= tolerance;
             let deepest_m = self.hold_out(&mut system.contact, x, is_at_rest);
             if deepest_m <= DEEPEST_M && is_at_rest {
-                break;
-            }
-            if deepest_m > DEEPEST_M && round > 0 {
+                if tolerance <= params.tolerance {
+                    return Ok(residual);
+                }
+                tolerance = params.tolerance;
+            } else if deepest_m > DEEPEST_M && round > 0 {
                 system.contact.set_stiffness(self.around.hardened().contact.stiffness_n_m3);
             }
+        }
+        if tolerance > params.tolerance {
+            residual = run.drape(self.garment, system, x, Phase::final_drape(params, self.level, params.tolerance))?;
         }
         Ok(residual)
     }

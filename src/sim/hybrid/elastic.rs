@@ -152,6 +152,23 @@ impl Elastic {
         &self.held
     }
 
+    /// By how much the cloth about each vertex is stretched where it is stretched most: the greatest principal stretch less 1, the mean of its
+    /// triangles by area.
+    #[must_use]
+    pub fn stretches(&self, x: &[V3]) -> Vec<f64> {
+        let (mut sums, mut areas) = (vec![0.0; x.len()], vec![0.0; x.len()]);
+        for triangle in &self.triangles {
+            let root = triangle.polar(x).1;
+            let half = 0.5 * root.trace();
+            let greatest = half + (half * half - root.determinant()).max(0.0).sqrt();
+            for v in triangle.vertices {
+                sums[v] += triangle.area_m2 * (greatest - 1.0);
+                areas[v] += triangle.area_m2;
+            }
+        }
+        sums.iter().zip(&areas).map(|(sum, area)| sum / area.max(f64::MIN_POSITIVE)).collect()
+    }
+
     /// Pairs of vertices of seams that are still open.
     #[must_use]
     pub fn open(&self) -> &[[usize; 2]] {

@@ -113,11 +113,11 @@ impl Insets {
         }
     }
 
-    /// Inset for each sewn vertex, m: that of its ring, the greatest where it has several, and about rings less and less with
+    /// Inset for each sewn vertex, m: its own or that of its ring, the greatest where it has several, and about it less and less with
     /// the distance over the cloth. `sides` are the lengths of the cloth's edges in the pattern, m.
     #[must_use]
-    pub fn of_vertices(&self, count: usize, sides: &[([usize; 2], f64)]) -> Vec<f64> {
-        let mut insets = vec![0.0_f64; count];
+    pub fn of_vertices(&self, own_m: Vec<f64>, sides: &[([usize; 2], f64)]) -> Vec<f64> {
+        let mut insets = own_m;
         for (ring, now) in self.rings.iter().zip(&self.now_m) {
             ring.vertices().for_each(|v| insets[v] = insets[v].max(*now));
         }

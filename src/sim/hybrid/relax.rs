@@ -5,6 +5,7 @@
 
 use super::elastic::{Elastic, Pull};
 use super::gap::underarms;
+use super::give::{Give, Lying};
 use super::inset::Insets;
 use super::layers::{Layers, Parted};
 use super::obstacle::Obstacle;
@@ -78,6 +79,8 @@ pub struct Relaxation<'a> {
     /// Weight of each sewn vertex over the membrane's stiffness, m.
     weight: Vec<f64>,
     insets: Insets,
+    /// Where the body gives way besides; `None` where it does so to rings alone.
+    give: Option<Give>,
     /// Edges of the cloth with their lengths in the pattern, m.
     sides: Vec<([usize; 2], f64)>,
     walls: Walls,
@@ -164,6 +167,7 @@ impl<'a> Relaxation<'a> {
             areas: cloth.areas,
             weight,
             insets: Insets::default(),
+            give: None,
             sides: sides(garment, sewn),
             walls,
             touching,
@@ -186,6 +190,12 @@ impl<'a> Relaxation<'a> {
         let open = self.elastic.open();
         self.self_contact = Some(if open.is_empty() { contact } else { contact.but_near(open.iter().copied()) });
         self
+    }
+
+    /// Has the body give way to whatever lies on it stretched, and not to rings alone.
+    #[must_use]
+    pub fn giving_way(self) -> Self {
+        Self { give: Some(Give::new(self.x.len())), ..self }
     }
 
     /// Says how high the ankles are, m: below them the body stays as it is.
@@ -229,17 +239,34 @@ impl<'a> Relaxation<'a> {
     /// Judges again where the garment is still too small.
     pub fn judge_again(&mut self, body: &TriMesh) {
         self.insets.judge_again(body, &self.x, self.params.offset_m, self.params.yield_stretch);
+        self.give_way(true);
         self.shrink();
     }
 
     /// Corrects by how much the body counts as smaller.
     pub fn correct(&mut self) {
         self.insets.correct(&self.x, self.params.yield_stretch);
+        self.give_way(false);
         self.shrink();
     }
 
+    /// Has the body give way to what lies on it stretched; `is_judged` says whether that is judged anew.
+    fn give_way(&mut self, is_judged: bool) {
+        let Some(give) = &mut self.give else { return };
+        let stretches = self.elastic.stretches(&self.x);
+        let reach_m = self.params.offset_m + LET_GO_M;
+        let mut touches = |(v, p): (usize, &V3)| self.obstacle.contact_at(reach_m, v, p).0 > 0.0;
+        let touches: Vec<bool> = self.x.iter().enumerate().map(&mut touches).collect();
+        let lying = Lying { stretches: &stretches, touches: &touches, sides: &self.sides };
+        if is_judged {
+            give.judge(&lying);
+        }
+        give.correct(&lying, self.params.yield_stretch);
+    }
+
     fn shrink(&mut self) {
-        let mut insets = self.insets.of_vertices(self.x.len(), &self.sides);
+        let own = self.give.as_ref().map_or_else(|| vec![0.0; self.x.len()], |give| give.now_m.clone());
+        let mut insets = self.insets.of_vertices(own, &self.sides);
         insets.iter_mut().zip(&self.x).filter(|(_, p)| p.z < self.feet_m).for_each(|(inset, _)| *inset = 0.0);
         self.obstacle.shrink(insets);
     }

@@ -252,7 +252,7 @@ mod tests {
 
     /// Inset at the first vertex, m.
     fn inset(insets: &Insets) -> f64 {
-        insets.of_vertices(COUNT, &[])[0]
+        insets.of_vertices(vec![0.0; COUNT], &[])[0]
     }
 
     #[test]

@@ -3,6 +3,7 @@
 pub mod advice;
 pub mod audit;
 pub mod doctor;
+pub mod dressed;
 pub mod figure;
 pub mod laboratory;
 pub mod picture;

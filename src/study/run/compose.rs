@@ -119,6 +119,7 @@ fn files_of(store: &Store, new: &NewStudy) -> Result<Vec<(String, Vec<u8>)>> {
         simulators: &new.simulators,
         known: new.subjects.iter().map(String::as_str).collect(),
         measured: vec![],
+        scanned: vec![],
         garments,
         fabric: &new.fabric,
     };

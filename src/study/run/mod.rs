@@ -9,6 +9,7 @@ pub mod isolated;
 pub mod outcome;
 pub mod pipeline;
 pub mod slurm;
+pub mod wardrobe;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

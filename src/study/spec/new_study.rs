@@ -23,6 +23,8 @@ pub(crate) struct Outline<'a> {
     pub known: Vec<&'a str>,
     /// Subjects with their measurements.
     pub measured: Vec<(&'a str, Measurements)>,
+    /// Subjects with the paths of their scans.
+    pub scanned: Vec<(&'a str, String)>,
     /// Garments.
     pub garments: Vec<Worn<'a>>,
     /// Fabric of all garments.
@@ -38,6 +40,8 @@ pub(crate) struct Worn<'a> {
     pub seams: Option<String>,
     /// Unit of the patterns, where their files name none.
     pub unit: Option<String>,
+    /// Who wears it; all where that is not said.
+    pub subjects: Option<Vec<String>>,
     /// Sizes with the paths of their patterns.
     pub sizes: Vec<(String, String)>,
 }
@@ -45,15 +49,16 @@ pub(crate) struct Worn<'a> {
 impl Outline<'_> {
     /// The text of `study.toml`.
     pub fn text(&self) -> String {
-        let sizes: usize = self.garments.iter().map(|garment| garment.sizes.len()).sum();
-        let subjects = self.known.len() + self.measured.len();
+        let subjects = self.known.len() + self.measured.len() + self.scanned.len();
+        let wearers = |garment: &Worn<'_>| garment.subjects.as_ref().map_or(subjects, Vec::len);
+        let worn: usize = self.garments.iter().map(|garment| garment.sizes.len() * wearers(garment)).sum();
         let simulators: Vec<&str> = self.simulators.iter().map(|simulator| simulator.as_str()).collect();
         let name = self.name.map_or("# name = \"...\"              # default: the folder's name".to_owned(), |name| {
             format!("name = {}", quoted(name))
         });
         let mut text = format!(
             r#"# A study: who wears what, by which simulators. `toile study check` checks it, `toile run` runs it.
-# Subjects, sizes, simulators: {subjects} x {sizes} x {} = {} simulations.
+# Sizes on subjects, simulators: {worn} x {} = {} simulations.
 
 {name}
 simulators = {}
@@ -63,7 +68,7 @@ edge_length_mm = 15         # of the finest cloth mesh: 25 is quick, 10 is fine
 # time_limit_s = 600          # also of one garment, as memory_limit_mb, priority and after = ["..."]
 "#,
             simulators.len(),
-            subjects * sizes * simulators.len(),
+            worn * simulators.len(),
             list(&simulators)
         );
         self.write_subjects(&mut text);
@@ -99,6 +104,9 @@ edge_length_mm = 15         # of the finest cloth mesh: 25 is quick, 10 is fine
                 }
             }
         }
+        for (name, scan) in &self.scanned {
+            let _ = writeln!(text, "\n[[subject]]\nid = {}\nscan = {}", quoted(name), quoted(scan));
+        }
     }
 
     fn write_garment(&self, text: &mut String, garment: &Worn<'_>) {
@@ -108,7 +116,13 @@ edge_length_mm = 15         # of the finest cloth mesh: 25 is quick, 10 is fine
         }
         let _ =
             writeln!(text, "fabric = {}   # of `toile fabric ls`, or a [[fabric]] of this file", quoted(self.fabric));
-        text.push_str("# subjects = [\"...\"]         # default: all\n");
+        match &garment.subjects {
+            Some(names) => {
+                let names: Vec<&str> = names.iter().map(String::as_str).collect();
+                let _ = writeln!(text, "subjects = {}", list(&names));
+            }
+            None => text.push_str("# subjects = [\"...\"]         # default: all\n"),
+        }
         match &garment.unit {
             Some(unit) => drop(writeln!(text, "unit = {}", quoted(unit))),
             None => text.push_str("# unit = \"mm\"              # only where the DXF files name none\n"),
@@ -154,6 +168,7 @@ pub fn new_study(folder: &Path, model: Model) -> Result<Vec<(String, Vec<u8>)>> 
         simulators: &SIMULATORS,
         known: vec![known],
         measured: vec![("me", me)],
+        scanned: vec![],
         garments: vec![garment],
         fabric: "cotton_shirting_light",
     };

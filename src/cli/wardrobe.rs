@@ -1,0 +1,119 @@
+//! `toile audit garments`: every garment of a folder on every body of another.
+
+use serde_json::json;
+
+use super::args::{AuditGarments, TrySimulator};
+use super::context::Context;
+use super::{CliError, End, Outcome, output, run};
+use geom::units::from_mm;
+use study::patterns::Unit;
+use study::{Dressed, Limits, Opened, RunOptions, Simulator, Table, Tally, Value, Wardrobe, files, tally};
+
+/// Name of the document beside the study.
+const DOCUMENT: &str = "audit.json";
+
+/// Makes the study, runs what of it has not been run, and says how it ended; exit code 3 where a drape has a fault.
+pub fn audit(context: &Context, arguments: &AuditGarments) -> Outcome {
+    let folder = &arguments.output;
+    let wardrobe = wardrobe(arguments)?;
+    let Opened { files, refused } = wardrobe.open()?;
+    files::make_folder(folder)?;
+    files::write_files(folder, &files)?;
+    for (path, why) in &refused {
+        output::tell(&format!("{}: left out: {why}", path.display()));
+    }
+    let mut workspace = context.workspace()?;
+    let mut study = context.study(&workspace, folder)?;
+    study.limit(Limits { time_s: arguments.limits.time_limit, memory_mb: arguments.limits.memory_limit });
+    let options = RunOptions { workers: arguments.workers.map(usize::from), ..RunOptions::default() };
+    let interrupted = run::work(context, &mut workspace, &study, &options, false)?;
+    let all = workspace.dressed(&study.name)?;
+    let tallies = tally(&all);
+    let refused: Vec<_> =
+        refused.iter().map(|(path, why)| json!({ "file": path.to_string_lossy(), "why": why })).collect();
+    let document = json!({ "study": study.name, "simulators": tallies, "jobs": all, "left_out": refused });
+    let text = serde_json::to_vec_pretty(&document).map_err(std::io::Error::from)?;
+    files::write_files(folder, &[(DOCUMENT.to_owned(), text)])?;
+    if context.json {
+        output::json(&document)?;
+    } else {
+        context.print(&jobs_table(&all))?;
+        context.print(&tally_table(&tallies))?;
+    }
+    context.say(format_args!("wrote {}", folder.join(DOCUMENT).display()));
+    if interrupted {
+        context.say("interrupted; the same command goes on where this stopped");
+        return Ok(End::Interrupted);
+    }
+    Ok(if all.iter().any(|one| !one.faults.is_empty()) { End::CheckFailed } else { End::Done })
+}
+
+fn wardrobe(arguments: &AuditGarments) -> Result<Wardrobe, CliError> {
+    let simulator = |sim: &TrySimulator| match sim {
+        TrySimulator::Fem => Simulator::Fem,
+        TrySimulator::Hybrid => Simulator::Hybrid,
+    };
+    let name = arguments.output.file_name().ok_or_else(|| CliError::Usage("--output names no folder".into()))?;
+    Ok(Wardrobe {
+        name: name.to_string_lossy().into_owned(),
+        garments: arguments.garments.clone(),
+        bodies: arguments.bodies.clone(),
+        pairs: arguments.pairs.clone(),
+        unit: arguments.unit.map(Unit::from),
+        allowance_m: from_mm(arguments.allowance_mm),
+        fabric: arguments.fabric.clone(),
+        simulators: arguments.sim.iter().map(simulator).collect(),
+    })
+}
+
+/// A row a job: how it ended first, as that is what is looked for.
+fn jobs_table(all: &[Dressed]) -> Table {
+    let columns = ["garment", "body", "sim", "outcome", "short mm", "EI", "vertices", "s"];
+    let real = |number: Option<f64>, unit: f64| number.map_or(Value::Null, |n| Value::Real((n / unit).round() * unit));
+    let row = |one: &Dressed| {
+        let text = |text: &str| Value::Text(text.to_owned());
+        vec![
+            text(&one.garment),
+            text(&one.subject),
+            text(&one.simulator),
+            Value::Text(outcome(one)),
+            real(one.shortfall_mm, 1.0),
+            real(one.ei, 1e-4),
+            one.vertices.map_or(Value::Null, Value::Integer),
+            real(one.wall_ms.map(|ms| ms as f64 / 1e3), 0.1),
+        ]
+    };
+    Table { columns: columns.map(str::to_owned).to_vec(), rows: all.iter().map(row).collect() }
+}
+
+/// How a job ended, in words.
+fn outcome(one: &Dressed) -> String {
+    match (&one.refused, &one.faults[..]) {
+        (Some(why), _) => format!("refused: {why}"),
+        (None, []) if one.ei.is_some() => "good".to_owned(),
+        (None, []) => one.status.as_str().to_owned(),
+        (None, faults) => faults.join("; "),
+    }
+}
+
+fn tally_table(tallies: &[Tally]) -> Table {
+    let columns = ["sim", "ended", "good", "at fault", "refused", "mean EI", "median s", "slowest s"];
+    let count = |n: usize| Value::Integer(n as i64);
+    let real = |number: Option<f64>, digits: i32| {
+        let unit = 10_f64.powi(-digits);
+        number.map_or(Value::Null, |n| Value::Real((n / unit).round() * unit))
+    };
+    let row = |of: &Tally| {
+        vec![
+            Value::Text(of.simulator.clone()),
+            count(of.ended),
+            count(of.good),
+            count(of.faulty),
+            count(of.refused),
+            real(of.mean_ei, 4),
+            real(of.median_s, 1),
+            real(of.slowest_s, 1),
+        ]
+    };
+    Table { columns: columns.map(str::to_owned).to_vec(), rows: tallies.iter().map(row).collect() }
+}
