@@ -68,7 +68,7 @@ fn wardrobe(arguments: &AuditGarments) -> Result<Wardrobe, CliError> {
 
 /// A row a job: how it ended first, as that is what is looked for.
 fn jobs_table(all: &[Dressed]) -> Table {
-    let columns = ["garment", "body", "sim", "outcome", "short mm", "EI", "vertices", "s"];
+    let columns = ["garment", "body", "sim", "outcome", "inside mm", "short mm", "EI", "vertices", "s"];
     let real = |number: Option<f64>, unit: f64| number.map_or(Value::Null, |n| Value::Real((n / unit).round() * unit));
     let row = |one: &Dressed| {
         let text = |text: &str| Value::Text(text.to_owned());
@@ -77,6 +77,7 @@ fn jobs_table(all: &[Dressed]) -> Table {
             text(&one.subject),
             text(&one.simulator),
             Value::Text(outcome(one)),
+            real(one.inside_mm, 0.1),
             real(one.shortfall_mm, 1.0),
             real(one.ei, 1e-4),
             one.vertices.map_or(Value::Null, Value::Integer),

@@ -33,7 +33,7 @@ geom::constants! {
     const RESEWN: [f64; 2] = [1.5, 0.67];
     /// Steps times vertices (5 to 20 microseconds each) after which a fault is no longer tried to be put right: who waits has waited. A
     /// T-shirt takes 0.7 million.
-    const MOST_TRIED: u64 = 4_000_000;
+    const MOST_TRIED: u64 = 12_000_000;
 }
 
 /// Dresses a body in a garment.

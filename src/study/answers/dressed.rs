@@ -7,6 +7,7 @@ use crate::attempt::drape_faults;
 use crate::error::Result;
 use crate::rows::Status;
 use crate::store::Store;
+use fit::Simulator;
 
 /// How one job of a study ended.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -29,6 +30,8 @@ pub struct Dressed {
     pub ei: Option<f64>,
     /// Vertices of its mesh.
     pub vertices: Option<i64>,
+    /// How deep it lies inside the body, mm. By Hybrid-GS that is no fault: what is too small lies inside by design.
+    pub inside_mm: Option<f64>,
     /// What it lacks most about the body, mm.
     pub shortfall_mm: Option<f64>,
     /// Time of its job, ms.
@@ -75,8 +78,11 @@ pub(crate) fn dressed(store: &Store, study: &str) -> Result<Vec<Dressed>> {
 fn dressed_row(row: &Row<'_>) -> rusqlite::Result<Dressed> {
     let status: String = row.get(4)?;
     let ei: Option<f64> = row.get(7)?;
+    let simulator: String = row.get(3)?;
+    let inside_mm: Option<f64> = row.get(11)?;
+    let depth_mm = inside_mm.filter(|_| simulator == Simulator::Fem.as_str()).unwrap_or(0.0);
     let faults = match ei {
-        Some(_) => drape_faults(row.get(9)?, row.get(10)?, row.get(11)?, row.get(12)?),
+        Some(_) => drape_faults(row.get(9)?, row.get(10)?, depth_mm, row.get(12)?),
         None => Vec::new(),
     };
     let shortfall_mm: Option<f64> = row.get(13)?;
@@ -84,12 +90,13 @@ fn dressed_row(row: &Row<'_>) -> rusqlite::Result<Dressed> {
         garment: row.get(0)?,
         size: row.get(1)?,
         subject: row.get(2)?,
-        simulator: row.get(3)?,
+        simulator,
         status: Status::from_name(&status).unwrap_or(Status::Failed),
         faults: faults.into_iter().map(|(fault, _)| fault).collect(),
         refused: row.get(5)?,
         ei,
         vertices: row.get(8)?,
+        inside_mm,
         shortfall_mm: shortfall_mm.filter(|mm| *mm > 0.0),
         wall_ms: row.get(6)?,
     })
@@ -139,6 +146,7 @@ mod tests {
             refused: None,
             ei,
             vertices: None,
+            inside_mm: None,
             shortfall_mm: None,
             wall_ms,
         };
