@@ -1,11 +1,11 @@
 //! `toile try`: one garment on one body.
 
-use super::args::{Sex, Try, TrySimulator};
+use super::args::{Sex, Try};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
 use geom::units::from_mm;
 use study::patterns::Unit;
-use study::{self, Attempt, Simulator, Table, Tried, Value, bodies, files};
+use study::{self, Attempt, Table, Tried, Value, bodies, files};
 
 /// Runs a trial; writes its picture and meshes, prints what was measured.
 pub fn run(context: &Context, arguments: &Try) -> Outcome {
@@ -22,10 +22,7 @@ pub fn run(context: &Context, arguments: &Try) -> Outcome {
         unit: arguments.unit.map(Unit::from),
         allowance_m: from_mm(arguments.allowance_mm),
         answers: arguments.answer.clone(),
-        simulator: match arguments.sim {
-            TrySimulator::Fem => Simulator::Fem,
-            TrySimulator::Hybrid => Simulator::Hybrid,
-        },
+        simulator: arguments.sim.into(),
         fabric: arguments.fabric.clone(),
         edge_length_m: from_mm(arguments.edge_mm),
         repeat: arguments.repeat,

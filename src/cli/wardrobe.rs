@@ -2,12 +2,12 @@
 
 use serde_json::json;
 
-use super::args::{AuditGarments, TrySimulator};
+use super::args::AuditGarments;
 use super::context::Context;
 use super::{CliError, End, Outcome, output, run};
 use geom::units::from_mm;
 use study::patterns::Unit;
-use study::{Dressed, Limits, Opened, RunOptions, Simulator, Table, Tally, Value, Wardrobe, files, tally};
+use study::{Dressed, Limits, Opened, RunOptions, Table, Tally, Value, Wardrobe, files, tally};
 
 /// Name of the document beside the study.
 const DOCUMENT: &str = "audit.json";
@@ -49,10 +49,6 @@ pub fn audit(context: &Context, arguments: &AuditGarments) -> Outcome {
 }
 
 fn wardrobe(arguments: &AuditGarments) -> Result<Wardrobe, CliError> {
-    let simulator = |sim: &TrySimulator| match sim {
-        TrySimulator::Fem => Simulator::Fem,
-        TrySimulator::Hybrid => Simulator::Hybrid,
-    };
     let name = arguments.output.file_name().ok_or_else(|| CliError::Usage("--output names no folder".into()))?;
     Ok(Wardrobe {
         name: name.to_string_lossy().into_owned(),
@@ -62,14 +58,13 @@ fn wardrobe(arguments: &AuditGarments) -> Result<Wardrobe, CliError> {
         unit: arguments.unit.map(Unit::from),
         allowance_m: from_mm(arguments.allowance_mm),
         fabric: arguments.fabric.clone(),
-        simulators: arguments.sim.iter().map(simulator).collect(),
+        simulators: arguments.sim.iter().map(|sim| (*sim).into()).collect(),
     })
 }
 
 /// A row a job: how it ended first, as that is what is looked for.
 fn jobs_table(all: &[Dressed]) -> Table {
     let columns = ["garment", "body", "sim", "outcome", "inside mm", "short mm", "EI", "vertices", "s"];
-    let real = |number: Option<f64>, unit: f64| number.map_or(Value::Null, |n| Value::Real((n / unit).round() * unit));
     let row = |one: &Dressed| {
         let text = |text: &str| Value::Text(text.to_owned());
         vec![
@@ -77,14 +72,20 @@ fn jobs_table(all: &[Dressed]) -> Table {
             text(&one.subject),
             text(&one.simulator),
             Value::Text(outcome(one)),
-            real(one.inside_mm, 0.1),
-            real(one.shortfall_mm, 1.0),
-            real(one.ei, 1e-4),
+            real(one.inside_mm, 1),
+            real(one.shortfall_mm, 0),
+            real(one.ei, 4),
             one.vertices.map_or(Value::Null, Value::Integer),
-            real(one.wall_ms.map(|ms| ms as f64 / 1e3), 0.1),
+            real(one.wall_ms.map(|ms| ms as f64 / 1e3), 1),
         ]
     };
     Table { columns: columns.map(str::to_owned).to_vec(), rows: all.iter().map(row).collect() }
+}
+
+/// A number with so many decimals, or nothing.
+fn real(number: Option<f64>, decimals: i32) -> Value {
+    let scale = 10_f64.powi(decimals);
+    number.map_or(Value::Null, |number| Value::Real((number * scale).round() / scale))
 }
 
 /// How a job ended, in words.
@@ -100,10 +101,6 @@ fn outcome(one: &Dressed) -> String {
 fn tally_table(tallies: &[Tally]) -> Table {
     let columns = ["sim", "ended", "good", "at fault", "refused", "mean EI", "median s", "slowest s"];
     let count = |n: usize| Value::Integer(n as i64);
-    let real = |number: Option<f64>, digits: i32| {
-        let unit = 10_f64.powi(-digits);
-        number.map_or(Value::Null, |n| Value::Real((n / unit).round() * unit))
-    };
     let row = |of: &Tally| {
         vec![
             Value::Text(of.simulator.clone()),

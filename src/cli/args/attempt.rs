@@ -15,6 +15,15 @@ pub enum TrySimulator {
     Hybrid,
 }
 
+impl From<TrySimulator> for study::Simulator {
+    fn from(simulator: TrySimulator) -> Self {
+        match simulator {
+            TrySimulator::Fem => Self::Fem,
+            TrySimulator::Hybrid => Self::Hybrid,
+        }
+    }
+}
+
 /// Arguments of `try`.
 #[derive(Debug, Args)]
 pub struct Try {

@@ -10,7 +10,7 @@ mod body;
 mod catalogue;
 mod pattern;
 
-pub use attempt::{AuditGarments, Try, TrySimulator};
+pub use attempt::{AuditGarments, Try};
 pub use body::{Body, BodyBuild, MeshUnit, Sex};
 pub use catalogue::{Catalogue, FabricValues, SizeValues, StyleValues, SubjectValues};
 pub use pattern::{BesideFiles, DraftStyle, DxfStandard, Pattern, PatternUnit, SeamCommand, StyleFiles};

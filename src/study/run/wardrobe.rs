@@ -71,6 +71,7 @@ impl Wardrobe {
         let bodies = self.wearers(&mut opened)?;
         let mut garments = named(patterns::drawings(&self.garments)?);
         let wearers = self.couples(&garments, &bodies)?;
+        garments.retain(|name, _| wearers.contains_key(name));
         garments.retain(|name, path| match self.sewn(name, path, &mut opened.files) {
             Ok(()) => true,
             Err(error) => {
