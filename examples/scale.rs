@@ -181,6 +181,7 @@ fn quick(spec: &JobSpec, _: &mut dyn Monitor) -> Result<Outcome> {
         seam_gap_max_m: 0.0,
         self_crossings: 0,
         history: history.collect(),
+        points: Vec::new(),
         closures: Vec::new(),
         eases: vec![ease],
         distortion: None,

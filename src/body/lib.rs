@@ -149,6 +149,12 @@ pub struct Body {
 }
 
 impl Body {
+    /// What a tape reads round the trunk at a height above the floor, m; `None` where there is no trunk.
+    #[must_use]
+    pub fn trunk_girth_at(&self, height_m: f64) -> Option<f64> {
+        measure::tape::trunk_girth(&self.mesh, height_m, self.skeleton.at(Joint::Waist).x)
+    }
+
     /// The tapes round chest, underbust, waist and hip, as bands on the skin to be drawn; metres.
     #[must_use]
     pub fn tapes(&self) -> TriMesh {

@@ -86,14 +86,7 @@ pub fn audit(context: &Context, arguments: &AuditArguments) -> Outcome {
 
 /// `toile ease`.
 pub fn ease(context: &Context, arguments: &StudyPath) -> Outcome {
-    let mut workspace = context.workspace()?;
-    let name = if arguments.study.exists() && !context.readonly {
-        let study = context.study(&workspace, &arguments.study)?;
-        workspace.update_ease(&study)?;
-        study.name
-    } else {
-        context.study_name(&workspace, &arguments.study)?
-    };
+    let (workspace, name) = context.eased(&arguments.study)?;
     let columns = [
         "garment",
         "size",
@@ -130,5 +123,13 @@ pub fn ease(context: &Context, arguments: &StudyPath) -> Outcome {
     } else {
         context.print(&table)?;
     }
+    if table.rows.is_empty() {
+        context.say(NO_EASE);
+        return Ok(End::CheckFailed);
+    }
     Ok(End::Done)
 }
+
+/// What is said where no level of a garment was found.
+pub const NO_EASE: &str =
+    "no ease is known: no piece has a role by which levels are found, and the seam file names none ([fit.*])";

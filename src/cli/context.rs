@@ -70,6 +70,18 @@ impl Context {
         Ok(workspace.load_study(&path)?)
     }
 
+    /// A study with the ease of its sizes as its file has them now, where there is a file and the database may be written.
+    pub fn eased(&self, path: &Path) -> Result<(Workspace, String), CliError> {
+        let mut workspace = self.workspace()?;
+        if !path.exists() || self.readonly {
+            let name = self.study_name(&workspace, path)?;
+            return Ok((workspace, name));
+        }
+        let study = self.study(&workspace, path)?;
+        workspace.update_ease(&study)?;
+        Ok((workspace, study.name))
+    }
+
     /// Name of a study given by its folder, its file, or its name itself.
     pub fn study_name(&self, workspace: &Workspace, path: &Path) -> Result<String, CliError> {
         let name = path.to_string_lossy();

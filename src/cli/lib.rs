@@ -10,6 +10,7 @@ mod body;
 mod catalogue;
 mod context;
 mod detached;
+mod fit;
 mod health;
 mod jobs;
 mod lab;
@@ -28,6 +29,7 @@ mod studies;
 #[cfg(test)]
 mod tests;
 mod wardrobe;
+mod xlsx;
 
 use std::error::Error;
 use std::ffi::OsString;
@@ -136,6 +138,7 @@ fn execute(arguments: Arguments, workbench: impl FnOnce(Workbench) -> Result<(),
         Some(Command::Sql(arguments)) => answers::sql(&context, &arguments),
         Some(Command::Audit(arguments)) => answers::audit(&context, &arguments),
         Some(Command::Ease(arguments)) => answers::ease(&context, &arguments),
+        Some(Command::Fit(arguments)) => fit::fit(&context, &arguments),
         Some(Command::Recommend(arguments)) => recommend::recommend(&context, &arguments),
         Some(Command::Pattern(command)) => pattern::run(&context, &command),
         Some(Command::Body(command)) => body::run(&context, &command),

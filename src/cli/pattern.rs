@@ -42,6 +42,11 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
             write(context, output, sheet)?;
             Ok(End::Done)
         }
+        Pattern::Pom { path, seams, size, unit, allowance_mm, output } => {
+            let (size, unit, allowance_m) = (size.as_deref(), unit.map(Unit::from), from_mm(*allowance_mm));
+            let how = Asking { size, unit, allowance_m, answers: &[] };
+            pattern_files::points_of_measure(context, path, seams.as_deref(), &how, output.as_deref())
+        }
         Pattern::Features { path, files, output } => pattern_files::features(context, path, files, output.as_deref()),
         Pattern::Convert { path, files, seams, standard, with_rul, output } => {
             let standard = match standard {
@@ -230,7 +235,7 @@ fn check(context: &Context, files: &StyleFiles) -> Outcome {
         vec![Value::Integer(i64::from(m.no)), Value::Text(m.name.clone()), length, Value::Text(free.to_owned())]
     });
     context.print(&Table { columns, rows: rows.collect() })?;
-    let mut findings = patterns::garment_findings(&garment);
+    let mut findings = patterns::garment_findings(&style, &garment);
     if let Some(seams) = &files.seams {
         findings.extend(seams::findings(&files.file, seams, files.size.as_deref(), files.unit.map(Unit::from))?);
     }

@@ -1,13 +1,14 @@
-//! `toile pattern features` and `convert`: patterns as other kinds of file.
+//! `toile pattern features`, `convert` and `pom`: patterns as other kinds of file.
 
 use std::path::Path;
 
-use super::args::BesideFiles;
+use super::args::{BesideFiles, Format};
 use super::context::Context;
-use super::{CliError, End, Outcome, output};
+use super::{CliError, End, Outcome, output, xlsx};
 use study::files;
 use study::patterns::Unit;
 use study::seams::pattern_files::{self, Beside, Standard};
+use study::seams::{Asking, specification};
 
 /// What the arguments say about a pattern beside its file.
 pub fn beside(files: &BesideFiles) -> Beside<'_> {
@@ -26,6 +27,36 @@ pub fn features(context: &Context, path: &Path, files: &BesideFiles, output: Opt
         Some(output) => write(context, output, json.into_bytes())?,
         None => output::text(&json)?,
     }
+    Ok(End::Done)
+}
+
+/// Prints the points of measure of a pattern, or writes them as a sheet.
+pub fn points_of_measure(
+    context: &Context,
+    path: &Path,
+    seams: Option<&Path>,
+    how: &Asking<'_>,
+    output: Option<&Path>,
+) -> Outcome {
+    let specified = specification(path, seams, how)?;
+    specified.notes.iter().for_each(|note| context.say(note));
+    let Some(output) = output else {
+        match context.json {
+            true => output::json(&specified)?,
+            false => context.print(&specified.table())?,
+        }
+        return Ok(End::Done);
+    };
+    let extension = output.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    let bytes = match extension.as_str() {
+        "csv" => output::encoded(&specified.table(), Format::Csv)?,
+        "xlsx" => xlsx::bytes(&specified.garment, &specified.table())?,
+        _ => {
+            let found = format!("{}: found `.{extension}`; accepted: X.csv or X.xlsx", output.display());
+            return Err(CliError::Usage(found));
+        }
+    };
+    write(context, output, bytes)?;
     Ok(End::Done)
 }
 

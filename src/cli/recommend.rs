@@ -1,20 +1,16 @@
-//! `toile recommend`: which simulator for which fit, how strong the evidence is, and which size for whom.
+//! `toile recommend`: which simulator for which fit, and how strong the evidence is.
 
 use std::fmt::Write as _;
 
 use super::args::Recommend;
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
-use geom::units::mm;
-use study::{Analysis, Answer, Estimate, PUBLISHED, Simulator, SizeAnswer, Table, Value, Without, Workspace};
+use study::{Analysis, Answer, Estimate, PUBLISHED, Simulator, Table, Value, Without, Workspace};
 
 /// `toile recommend`.
 pub fn recommend(context: &Context, arguments: &Recommend) -> Outcome {
     let mut workspace = context.workspace()?;
     let name = context.study_name(&workspace, &arguments.study)?;
-    if let Some(subject) = &arguments.size_for {
-        return sizes(context, &workspace.size_advice(&name, subject, arguments.garment.as_deref())?);
-    }
     if name != PUBLISHED {
         workspace.update_evidence(&name)?;
     }
@@ -152,35 +148,4 @@ fn simulator_name(simulator: Simulator) -> &'static str {
         Simulator::Fem => "FEM-GS",
         Simulator::Hybrid => "Hybrid-GS",
     }
-}
-
-/// The sizes of every garment on one subject, the one to wear marked.
-fn sizes(context: &Context, answers: &[SizeAnswer]) -> Outcome {
-    let columns =
-        ["garment", "subject", "size", "wear", "level", "ease_mm", "fit_class", "tension_n_m", "show", "reason"];
-    let mut rows = Vec::new();
-    for answer in answers {
-        for size in &answer.sizes {
-            let is_it = size.size == answer.advice.size;
-            for level in &size.levels {
-                let text = |text: &str| Value::Text(text.to_owned());
-                let tenth = |value: f64| Value::Real((value * 10.0).round() / 10.0);
-                let reason = if is_it && level.ease.decides { answer.advice.reason.as_str() } else { "" };
-                rows.push(vec![
-                    text(&answer.garment),
-                    text(&answer.subject),
-                    text(&size.size),
-                    text(if is_it { "yes" } else { "" }),
-                    text(&level.ease.level),
-                    tenth(mm(level.ease.fit.ease_m)),
-                    text(level.ease.fit.class.as_str()),
-                    level.tension_n_m.map_or(Value::Null, tenth),
-                    text(size.shown),
-                    text(reason),
-                ]);
-            }
-        }
-    }
-    context.print(&Table { columns: columns.map(str::to_owned).to_vec(), rows })?;
-    Ok(End::Done)
 }

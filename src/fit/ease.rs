@@ -91,10 +91,16 @@ pub fn ease<'l>(
         .collect()
 }
 
-/// The ease that decides the fit class: the least one.
+/// Levels whose ease decides the fit class: the cuts of [T 6.2.3] are made for them. A collar or a cuff has a hundredth of the ease.
+pub const DECIDING: [&str; 3] = ["chest", "bust", "hip"];
+
+/// The ease that decides the fit class: the least one at chest and hip, and of a garment that has neither, the least one.
 #[must_use]
 pub fn deciding(eases: &[Ease]) -> Option<&Ease> {
-    eases.iter().min_by(|a, b| a.ease_m().total_cmp(&b.ease_m()))
+    let decides = |ease: &&Ease| DECIDING.contains(&ease.level.as_str());
+    let has_any = eases.iter().any(|ease| decides(&ease));
+    let asked = eases.iter().filter(|ease| !has_any || decides(ease));
+    asked.min_by(|a, b| a.ease_m().total_cmp(&b.ease_m()))
 }
 
 #[cfg(test)]
@@ -120,8 +126,9 @@ mod tests {
     #[test]
     fn the_least_ease_decides() {
         let body = |level: &str| Some(if level == "hip" { 1.02 } else { 0.9 });
-        let eases = ease([("chest", 1.0), ("hip", 1.0)], body, &Cuts::default());
-        let least = deciding(&eases).expect("two levels");
+        let eases = ease([("neck", 0.2), ("chest", 1.0), ("hip", 1.0)], body, &Cuts::default());
+        let least = deciding(&eases).expect("three levels");
         assert_eq!((least.level.as_str(), least.class, least.is_undersized()), ("hip", FitClass::Tight, true));
+        assert_eq!(deciding(&eases[..1]).map(|ease| ease.level.as_str()), Some("neck"));
     }
 }

@@ -15,13 +15,14 @@ pub mod measure;
 mod pair;
 mod resample;
 mod statistics;
+pub mod target;
 mod threshold;
 mod weigh;
 
-pub use advice::{Shown, SizeAdvice, SizeFit, advise, shown};
+pub use advice::{Shown, shown};
 pub use analysis::{Analysis, Estimate, Without};
 pub use class::{FitClass, Simulator};
-pub use ease::{Cuts, Ease, deciding, ease};
+pub use ease::{Cuts, DECIDING, Ease, deciding, ease};
 pub use judge::{Answer, Basis, Cell, Evidence, Finding, judge};
 pub use pair::{Errors, Pair, RuleScore, rule_score, wins};
 pub use resample::{Draw, interval, sign_flip};

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::garment::{Garment, MeasurementKind};
 use super::piece::{Notch, Piece};
+use super::pom::Point;
 use super::seams::SeamFile;
 use super::style::named::called;
 use super::style::{EdgeRef, PathPart, Seam, Style};
@@ -101,7 +102,7 @@ fn edges_of(path: &[PathPart]) -> impl Iterator<Item = EdgeRef> {
 
 /// Findings of a meshed garment: girths that do not close once sewn, and a missing girth for the fit.
 #[must_use]
-pub fn of_garment(garment: &Garment) -> Vec<Finding> {
+pub fn of_garment(style: &Style, garment: &Garment) -> Vec<Finding> {
     let welded = welded(garment);
     let mut findings = Vec::new();
     for measurement in &garment.measurements {
@@ -125,8 +126,13 @@ pub fn of_garment(garment: &Garment) -> Vec<Finding> {
             });
         }
     }
-    if !garment.fit_levels.iter().any(|level| ["chest", "hip"].contains(&level.level.as_str())) {
-        let found = "neither [fit.chest] nor [fit.hip] says its girth".to_owned();
+    let is_stated = style.fit_levels.iter().any(|(level, _)| ["chest", "hip"].contains(&level.as_str()));
+    let is_found =
+        || style.points_of_measure().iter().any(|one| matches!(one.point, Point::HalfChest | Point::HalfHip));
+    if !is_stated && !is_found() {
+        let found =
+            "no girth at chest or hip: its pieces' roles show none, and neither [fit.chest] nor [fit.hip] says it"
+                .to_owned();
         findings.push(Finding { kind: FindingKind::FitLevel, place: garment.name.clone(), found });
     }
     findings
@@ -249,13 +255,15 @@ mod tests {
         for model in crate::draft::Model::ALL {
             for draft in model.drafts() {
                 let style = Style::read(&draft.pieces, model.seams(), "a.toml").expect("it is a style");
-                assert_eq!(of_garment(&style.mesh(30e-3).expect("it meshes")), [], "{model:?}");
+                assert_eq!(of_garment(&style, &style.mesh(30e-3).expect("it meshes")), [], "{model:?}");
             }
         }
         let text = std::str::from_utf8(TSHIRT_SEAMS).expect("it is UTF-8").replacen("closed_girth", "open_length", 1);
         let text = text.replacen("[fit.chest]", "[fit.waist]", 1).replace(", \"back.neck\"]", "]");
+        // Without its role, nothing tells where the chest is.
+        let text = text.replace("role = \"front\"", "role = \"other\"");
         let style = Style::read(&tshirt(TshirtSize::S).pieces, text.as_bytes(), "a.toml").expect("it is a style");
-        let found = of_garment(&style.mesh(30e-3).expect("it meshes"));
+        let found = of_garment(&style, &style.mesh(30e-3).expect("it meshes"));
         let told: Vec<(FindingKind, &str)> = found.iter().map(|f| (f.kind, f.place.as_str())).collect();
         let expect = [
             (FindingKind::Loop, "measurement 1"),

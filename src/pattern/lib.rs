@@ -17,6 +17,7 @@ pub mod info;
 pub mod inspect;
 pub mod mesh;
 pub mod piece;
+pub mod pom;
 pub mod propose;
 pub mod scale;
 pub mod seam_edit;

@@ -180,6 +180,7 @@ pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<T
     let fitting = Fitting {
         body: &body,
         field: &field,
+        style: &style,
         meshes: &meshes,
         fabric: &fabric,
         simulator: asked.simulator,

@@ -20,11 +20,11 @@ mod store;
 mod tests;
 mod workspace;
 
-pub use answers::advice::{LevelFit, SizeAnswer, SizeOn};
 pub use answers::audit::{Audit, Finding};
 pub use answers::doctor::{Check, checks};
 pub use answers::dressed::{Dressed, Tally, tally};
 pub use answers::figure::Figure;
+pub use answers::fit_card::{FitCard, LevelSits, SizeSits};
 pub use answers::laboratory::laboratory;
 pub use answers::picture::{Cloth, Look, Map, Order, Shot, Zoom};
 pub use answers::population::{Nearest, PopulationOptions, Representative, representatives, subjects_text};
@@ -65,9 +65,7 @@ pub use store::read::JobFilter;
 pub use store::sql::{Interrupter, SavedQuery, saved_queries, saved_query};
 pub use workspace::Workspace;
 
-pub use fit::{
-    Analysis, Answer, Estimate, Evidence, Finding as Verdict, FitClass, Simulator, SizeAdvice, SizeFit, Without,
-};
+pub use fit::{Analysis, Answer, Estimate, Evidence, Finding as Verdict, FitClass, Simulator, Without};
 pub use render::export::MeshFormat;
 pub use render::{Rgb, View};
 pub use sim::fabric::Stretched;

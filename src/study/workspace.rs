@@ -7,10 +7,10 @@ use std::sync::atomic::AtomicBool;
 
 use image::RgbaImage;
 
-use crate::answers::advice::{self, SizeAnswer};
 use crate::answers::audit::{self, Audit};
 use crate::answers::dressed::{self, Dressed};
 use crate::answers::figure::{self, Figure};
+use crate::answers::fit_card::{self, FitCard};
 use crate::answers::picture::{self, Look, Map, Order, Scenes};
 use crate::answers::population::{self, Nearest};
 use crate::answers::record::{self, Comparison, Record, Rerun};
@@ -80,14 +80,6 @@ impl Workspace {
     /// A number that changes whenever anything was written by any process; costs microseconds.
     pub fn version(&self) -> Result<i64> {
         self.store.version()
-    }
-
-    /// Which size a subject should wear, for every garment of a study (or one) whose ease on it is known.
-    ///
-    /// # Errors
-    /// [`StudyError::NotFound`] when the study has no such subject or garment; when the database cannot be read.
-    pub fn size_advice(&self, study: &str, subject: &str, garment: Option<&str>) -> Result<Vec<SizeAnswer>> {
-        advice::size_advice(&self.store, study, subject, garment)
     }
 
     /// Recomputes the thesis's printed tables.
@@ -213,8 +205,8 @@ impl Workspace {
         reports::build_report(&self.store, study, folder)
     }
 
-    /// An SVG picture of a study: one panel a garment, a dot a subject, in the colour of the size whose ease is nearest the
-    /// middle of a just fit; hollow where even that is not a just fit.
+    /// An SVG picture of a study: one panel a garment, a dot a subject, in the colour of the size to wear; hollow where even that is
+    /// tight or loose somewhere.
     ///
     /// # Errors
     /// When there is no such study.
@@ -574,6 +566,14 @@ impl Workspace {
     /// Ease and fit class of every size on every subject of a study.
     pub fn ease(&self, study: &str) -> Result<Vec<EaseRow>> {
         read::ease(&self.store, study)
+    }
+
+    /// How the garments of a study sit on its subjects, and in which size; only a garment or a subject where one is asked for.
+    ///
+    /// # Errors
+    /// [`StudyError::NotFound`] when the study has no ease of what is asked for.
+    pub fn fit_cards(&self, study: &str, garment: Option<&str>, subject: Option<&str>) -> Result<Vec<FitCard>> {
+        fit_card::asked(fit_card::fit_cards(&self.store, study)?, garment, subject)
     }
 
     /// Which simulator to use, for every garment and fit class of a study.

@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 88] = [
+const COMMANDS: [&str; 90] = [
     "",
     "run",
     "run show",
@@ -20,6 +20,8 @@ const COMMANDS: [&str; 88] = [
     "study population",
     "study nearest",
     "study sizes",
+    "fit",
+    "pattern pom",
     "job",
     "job handout",
     "job run",
@@ -332,7 +334,7 @@ fn every_question_in_the_documentation_is_answered() {
     let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/sql.md")).expect("in the repository");
     let queries: Vec<&str> =
         text.split("```sql\n").skip(1).filter_map(|rest| Some(rest.split_once("```")?.0)).collect();
-    assert_eq!(queries.len(), 20);
+    assert_eq!(queries.len(), 23);
     for query in queries {
         let output = place.command("sql").arg(query).output().expect("it starts");
         assert!(output.status.success(), "{query}: {}", String::from_utf8_lossy(&output.stderr));

@@ -9,6 +9,7 @@ mod cli;
 mod durability;
 mod engine;
 mod figures;
+mod fit;
 mod pattern_files;
 mod pictures;
 mod program;

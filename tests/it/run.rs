@@ -103,14 +103,19 @@ fn report_is_self_contained(place: &Place, out: &str) {
     numbers_are_those_of_the_views(place, &page);
 }
 
-/// The one size there is, with the pull of its cloth; nobody else's.
+/// The one size there is, and how it sits at every level that it covers; nobody else's.
 fn a_size_is_advised(place: &Place) {
-    let rows = place.toile("recommend . --size-for ii --json").ends_with(0).json();
-    let rows = rows.as_array().expect("rows");
-    assert!(!rows.is_empty() && rows.iter().all(|row| row["wear"] == "yes" && row["size"] == "m"), "{rows:?}");
-    assert!(rows.iter().any(|row| row["tension_n_m"].as_f64().is_some_and(|pull| pull > 0.0)), "{rows:?}");
-    assert!(rows.iter().any(|row| row["reason"].as_str().is_some_and(|why| why.contains("the level that decides"))));
-    assert!(place.toile("recommend . --size-for vii").ends_with(2).err.contains("no subject `vii`"));
+    let cards = place.toile("fit . --subject ii --json").ends_with(0).json();
+    let cards = cards.as_array().expect("cards");
+    assert!(!cards.is_empty() && cards.iter().all(|card| card["subject"] == "ii"), "{cards:?}");
+    let size = &cards[0]["sizes"][0];
+    assert!(size["size"] == "m" && size["place"] == 1, "{size:?}");
+    let levels: Vec<&str> =
+        size["levels"].as_array().expect("levels").iter().filter_map(|l| l["level"].as_str()).collect();
+    assert!(["across_shoulder", "chest", "waist", "hip"].iter().all(|level| levels.contains(level)), "{levels:?}");
+    let told = place.toile("fit . --subject ii").ends_with(0).out;
+    assert!(told.contains(" on ii (regular fit): wear m: "), "{told}");
+    assert!(place.toile("fit . --subject vii").ends_with(2).err.contains("no subject `vii`"));
     let explained = place.toile("recommend . --explain").ends_with(0).out;
     assert!(explained.contains("by the rule") && explained.contains("6 subjects with this fit"), "{explained}");
 }

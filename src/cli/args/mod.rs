@@ -69,6 +69,8 @@ pub enum Command {
     Audit(Audit),
     /// Ease and fit class of every size on every subject; needs no simulation.
     Ease(StudyPath),
+    /// Which size to wear, and where it and the two beside it are tight or loose; needs no simulation.
+    Fit(Fit),
     /// Which simulator to use for which fit.
     Recommend(Recommend),
     /// Sewing patterns: inspect, check, draft, mesh, draw.
@@ -125,6 +127,19 @@ pub enum Command {
 pub struct StudyPath {
     /// Folder of the study, or its study.toml.
     pub study: PathBuf,
+}
+
+/// Arguments of `fit`.
+#[derive(Debug, Args)]
+pub struct Fit {
+    /// Folder of the study, its study.toml, or its name.
+    pub study: PathBuf,
+    /// Only this garment.
+    #[arg(long, value_name = "NAME")]
+    pub garment: Option<String>,
+    /// Only this subject.
+    #[arg(long, value_name = "ID")]
+    pub subject: Option<String>,
 }
 
 /// Arguments of `lab`.
@@ -403,9 +418,6 @@ pub struct Recommend {
     /// Give the reasons and the numbers behind them.
     #[arg(long)]
     pub explain: bool,
-    /// Say which size this subject should wear, and why.
-    #[arg(long, value_name = "SUBJECT")]
-    pub size_for: Option<String>,
     /// Only this garment.
     #[arg(long, value_name = "NAME")]
     pub garment: Option<String>,

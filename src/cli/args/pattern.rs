@@ -195,6 +195,26 @@ pub enum Pattern {
         #[arg(long, short, value_name = "FILE")]
         output: PathBuf,
     },
+    /// Points of measure in all sizes with their grade steps: the specification sheet.
+    Pom {
+        /// DXF file, folder of them, or GarmentCode JSON.
+        path: PathBuf,
+        /// Seam file; without it the pattern is sewn as `propose` says.
+        #[arg(long, value_name = "FILE")]
+        seams: Option<PathBuf>,
+        /// Only this size.
+        #[arg(long, value_name = "NAME")]
+        size: Option<String>,
+        /// Unit of the file, where it names none.
+        #[arg(long, value_enum)]
+        unit: Option<PatternUnit>,
+        /// Seam allowance of pieces that have no sew line, where no seam file says it.
+        #[arg(long, value_name = "MM", default_value_t = 0.0)]
+        allowance_mm: f64,
+        /// Sheet to write (X.csv or X.xlsx); standard output without it.
+        #[arg(long, short, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
     /// The features of the pieces as JSON: outline, corners, edges, grain, notches, points, lines, information.
     Features {
         /// DXF file, GarmentCode JSON, or features.

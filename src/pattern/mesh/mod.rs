@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use self::sampling::{EdgeSamples, sample};
 use self::triangulate::{Triangulation, triangulate};
-use super::garment::{FitLevel, Garment, Measurement, PieceMesh, Reinforcement, SeamMesh};
+use super::garment::{FitLevel, Garment, MaterialLine, Measurement, PieceMesh, Reinforcement, SeamMesh};
 use super::scale;
 use super::style::{EdgeRef, PathPart, Style, StylePiece};
 use geom::V2;
@@ -201,6 +201,20 @@ impl Style {
         Ok(garment)
     }
 
+    /// Paths across the pieces, laid on one of the style's meshes; `None` of one that leaves the cloth.
+    #[must_use]
+    pub fn laid(&self, garment: &Garment, paths: &[&[PathPart]]) -> Vec<Option<Vec<MaterialLine>>> {
+        let samples = sample(self, garment.edge_length_m);
+        let boundary: Vec<Vec<Vec<usize>>> = garment
+            .pieces
+            .iter()
+            .zip(&samples.edges)
+            .map(|(piece, edges)| boundary(piece.vertices.start, edges))
+            .collect();
+        let layer = paths::Layer::new(self, &samples.edges, &boundary, garment);
+        paths.iter().map(|path| layer.near_runs(path)).collect()
+    }
+
     fn add_piece(
         &self,
         piece: usize,
@@ -210,21 +224,12 @@ impl Style {
     ) -> Result<(), MeshError> {
         let drawn = &self.pieces[piece];
         let first_vertex = all.rest.len();
-        let mut boundary: Vec<V2> = Vec::new();
-        let mut starts = Vec::new();
+        let mut outline: Vec<V2> = Vec::new();
         for (edge, samples) in drawn.edges.iter().zip(edges) {
-            starts.push(boundary.len());
-            boundary.extend(samples.arcs.iter().take(samples.arcs.len() - 1).map(|&arc| edge.line.at(arc)));
+            outline.extend(samples.arcs.iter().take(samples.arcs.len() - 1).map(|&arc| edge.line.at(arc)));
         }
-        // The last vertex of an edge is the first of the next.
-        let vertices: Vec<Vec<usize>> = edges
-            .iter()
-            .zip(&starts)
-            .map(|(samples, start)| {
-                (0..samples.arcs.len()).map(|k| first_vertex + (start + k) % boundary.len()).collect()
-            })
-            .collect();
-        let Triangulation { points, triangles } = triangulate(&boundary, edge_length_m).map_err(|reason| {
+        let vertices = boundary(first_vertex, edges);
+        let Triangulation { points, triangles } = triangulate(&outline, edge_length_m).map_err(|reason| {
             MeshError::Piece { piece: drawn.id.clone(), edge_length_mm: mm(edge_length_m), reason }
         })?;
         let first_triangle = all.triangles.len();
@@ -242,6 +247,19 @@ impl Style {
         all.boundary.push(vertices);
         Ok(())
     }
+}
+
+/// Garment vertices of every edge of a piece whose first vertex this is: they come first, and the last of an edge is the first of the
+/// next.
+fn boundary(first_vertex: usize, edges: &[EdgeSamples]) -> Vec<Vec<usize>> {
+    let around: usize = edges.iter().map(|samples| samples.arcs.len() - 1).sum();
+    let mut start = 0;
+    let mut found = Vec::new();
+    for samples in edges {
+        found.push((0..samples.arcs.len()).map(|k| first_vertex + (start + k) % around).collect());
+        start += samples.arcs.len() - 1;
+    }
+    found
 }
 
 /// A garment under construction.

@@ -9,6 +9,8 @@ use geom::polyline::segment_meeting;
 
 /// Points of a straight path closer than this share of its length are one.
 const SAME_SHARE: f64 = 1e-6;
+/// Farthest that a drawn curve lies from the sides of the mesh along it, m, where no vertex was asked for.
+const OFF_CURVE_M: f64 = 3e-3;
 
 /// Lays paths on the mesh of a style.
 pub struct Layer<'a> {
@@ -65,18 +67,42 @@ impl<'a> Layer<'a> {
         MaterialPoint { vertices, weights: vertices.map(|v| if v == vertex { 1.0 } else { 0.0 }) }
     }
 
-    /// Straight across a piece, from mesh edge to mesh edge.
-    fn line_run(&self, place: &str, ends: [EdgePoint; 2]) -> Result<MaterialLine, MeshError> {
-        let piece = &self.garment.pieces[ends[0].edge.piece];
+    /// The runs of a path for whose ends no vertex was asked, so that they lie a little off the mesh: on it as far as it goes, with
+    /// the lengths of the pattern. `None` where a line leaves the cloth between its ends.
+    pub fn near_runs(&self, path: &[PathPart]) -> Option<Vec<MaterialLine>> {
+        let run = |part: &PathPart| match *part {
+            PathPart::Edge(edge) => Some(self.edge_run(edge)),
+            PathPart::Line(ends) => self.near_line_run(ends),
+        };
+        path.iter().map(run).collect()
+    }
+
+    fn near_line_run(&self, ends: [EdgePoint; 2]) -> Option<MaterialLine> {
         let [from, to] = ends.map(|end| self.style.place(end));
         let length = (to - from).norm();
+        let reach = (to - from) * (OFF_CURVE_M / length);
+        let triangles = self.garment.pieces[ends[0].edge.piece].triangles.clone();
+        let crossings = self.crossings(triangles.clone(), (from - reach, to + reach));
+        let places: Vec<V2> = crossings.iter().map(|(_, point)| point.at_rest(&self.garment.rest)).collect();
+        let is_near = |place: Option<&V2>, end: V2| place.is_some_and(|p| (p - end).norm() <= OFF_CURVE_M);
+        let is_whole = is_near(places.first(), from)
+            && is_near(places.last(), to)
+            && places.windows(2).all(|ends| self.is_on_cloth(triangles.clone(), &ends[0].lerp(&ends[1], 0.5)));
+        let chords: Vec<f64> = places.windows(2).map(|ends| (ends[1] - ends[0]).norm()).collect();
+        let found: f64 = chords.iter().sum();
+        (is_whole && found > 0.0).then(|| MaterialLine {
+            arc_m: chords.into_iter().map(|chord| chord * length / found).collect(),
+            points: crossings.into_iter().map(|(_, point)| point).collect(),
+        })
+    }
+
+    /// Where a segment crosses the sides of some triangles, by share of its length.
+    fn crossings(&self, triangles: std::ops::Range<usize>, segment: (V2, V2)) -> Vec<(f64, MaterialPoint)> {
         let mut crossings: Vec<(f64, MaterialPoint)> = Vec::new();
-        for &triangle in &self.garment.triangles[piece.triangles.clone()] {
+        for &triangle in &self.garment.triangles[triangles] {
             for k in 0..3 {
                 let side = (self.garment.rest[triangle[k]], self.garment.rest[triangle[(k + 1) % 3]]);
-                // A little longer than it is, so that its own end points are found in spite of rounding.
-                let reach = (to - from) * (0.5 * SAME_SHARE);
-                if let Some((share, along)) = segment_meeting((from - reach, to + reach), side) {
+                if let Some((share, along)) = segment_meeting(segment, side) {
                     let mut weights = [0.0; 3];
                     weights[k] = 1.0 - along;
                     weights[(k + 1) % 3] = along;
@@ -86,6 +112,17 @@ impl<'a> Layer<'a> {
         }
         crossings.sort_by(|p, q| p.0.total_cmp(&q.0));
         crossings.dedup_by(|later, earlier| later.0 - earlier.0 < SAME_SHARE);
+        crossings
+    }
+
+    /// Straight across a piece, from mesh edge to mesh edge.
+    fn line_run(&self, place: &str, ends: [EdgePoint; 2]) -> Result<MaterialLine, MeshError> {
+        let piece = &self.garment.pieces[ends[0].edge.piece];
+        let [from, to] = ends.map(|end| self.style.place(end));
+        let length = (to - from).norm();
+        // A little longer than it is, so that its own end points are found in spite of rounding.
+        let reach = (to - from) * (0.5 * SAME_SHARE);
+        let crossings = self.crossings(piece.triangles.clone(), (from - reach, to + reach));
         let places: Vec<V2> = crossings.iter().map(|(_, point)| point.at_rest(&self.garment.rest)).collect();
         let is_whole = places.first().is_some_and(|p| (p - from).norm() < 10.0 * SAME_SHARE * length)
             && places.last().is_some_and(|p| (p - to).norm() < 10.0 * SAME_SHARE * length)

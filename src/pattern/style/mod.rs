@@ -3,7 +3,7 @@
 pub(super) mod corners;
 pub(super) mod correspond;
 pub(super) mod named;
-mod openings;
+pub(super) mod openings;
 mod pieces;
 mod read;
 mod upright;

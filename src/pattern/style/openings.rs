@@ -9,14 +9,14 @@ use crate::garment::MeasurementKind;
 const EASED_M: f64 = 1e-3;
 
 /// One end of an edge: `true` for its last point.
-type EdgeEnd = (EdgeRef, bool);
+pub(crate) type EdgeEnd = (EdgeRef, bool);
 
 impl Style {
     /// Replaces the measurements by one for each opening (a loop of edges that no seam holds, such as a hem, a neckline or
     /// a sleeve opening) and one for each seam: along its side `a`, or `b` where `a` is longer, and so eased or gathered into it.
     pub fn measure_openings_and_seams(&mut self) {
         let mut found: Vec<(String, MeasurementKind, Vec<EdgeRef>)> = Vec::new();
-        for opening in self.openings() {
+        for opening in self.openings(&|_| true) {
             let name = match opening.as_slice() {
                 &[only] => self.edge_name(only),
                 &[first, second] => format!("{} + {}", self.edge_name(first), self.edge_name(second)),
@@ -44,11 +44,12 @@ impl Style {
         self.measurements = measured.collect();
     }
 
-    /// Loops of free edges, in the order in which the sewn garment has them; free edges that end in no loop are left out.
-    fn openings(&self) -> Vec<Vec<EdgeRef>> {
-        let partners = self.partners();
+    /// Loops of edges that are free where only some pieces are there, in the order in which the sewn garment has them; edges that
+    /// end in no loop are left out.
+    pub(crate) fn openings(&self, is_there: &dyn Fn(usize) -> bool) -> Vec<Vec<EdgeRef>> {
+        let partners = self.partners(is_there);
         let mut openings: Vec<Vec<EdgeRef>> = Vec::new();
-        for piece in 0..self.pieces.len() {
+        for piece in (0..self.pieces.len()).filter(|piece| is_there(*piece)) {
             for edge in 0..self.pieces[piece].edges.len() {
                 let first = EdgeRef { piece, edge };
                 let is_new = !openings.iter().any(|opening| opening.contains(&first));
@@ -81,17 +82,17 @@ impl Style {
     }
 
     /// The end of the neighbouring edge of the same piece that is the same corner.
-    fn over_corner(&self, (EdgeRef { piece, edge }, is_last): EdgeEnd) -> EdgeEnd {
+    pub(crate) fn over_corner(&self, (EdgeRef { piece, edge }, is_last): EdgeEnd) -> EdgeEnd {
         let n = self.pieces[piece].edges.len();
         let edge = if is_last { (edge + 1) % n } else { (edge + n - 1) % n };
         (EdgeRef { piece, edge }, !is_last)
     }
 
-    /// Both ends of every sewn edge, with the end that they meet: across the seam, or in the middle of a chain the
+    /// Both ends of every edge sewn among some pieces, with the end that they meet: across the seam, or in the middle of a chain the
     /// neighbour in the chain.
-    fn partners(&self) -> BTreeMap<EdgeEnd, EdgeEnd> {
+    fn partners(&self, is_there: &dyn Fn(usize) -> bool) -> BTreeMap<EdgeEnd, EdgeEnd> {
         let mut partners = BTreeMap::new();
-        for seam in &self.seams {
+        for seam in self.seams.iter().filter(|seam| seam.a.iter().chain(&seam.b).all(|edge| is_there(edge.piece))) {
             // Ends in the order of sewing.
             let ends = |chain: &[EdgeRef], is_forwards: bool| -> Vec<[EdgeEnd; 2]> {
                 chain.iter().map(|&edge| [(edge, !is_forwards), (edge, is_forwards)]).collect()

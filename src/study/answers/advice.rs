@@ -1,12 +1,13 @@
 //! Which size a subject should wear: ease at every level, and how hard the cloth is pulled there.
 
+use crate::answers::fit_card::{FitCard, fit_cards};
 use crate::answers::picture::{self, tension_near};
 use crate::error::{Result, StudyError};
 use crate::rows::{EaseRow, JobId, JobRow, RecommendationRow};
 use crate::store::Store;
 use crate::store::evidence::PUBLISHED;
 use crate::store::read::{self, JobFilter};
-use fit::{self, Ease, Simulator, SizeAdvice, SizeFit};
+use fit::{self, Simulator};
 
 /// Every size of a garment on a subject, and the one to wear.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,7 +17,9 @@ pub struct SizeAnswer {
     /// Subject.
     pub subject: String,
     /// The size to wear.
-    pub advice: SizeAdvice,
+    pub wear: String,
+    /// Why this one and not the others.
+    pub reason: String,
     /// All sizes, in order of the study file.
     pub sizes: Vec<SizeOn>,
 }
@@ -66,10 +69,11 @@ pub fn size_advice(store: &Store, study: &str, subject: &str, garment: Option<&s
     }
     let jobs = read::jobs(store, &JobFilter { study: Some(study.to_owned()), ..JobFilter::default() })?;
     let recommended = read::recommendations(store, study)?;
+    let cards = fit_cards(store, study)?;
     let mut answers = Vec::new();
     for name in garments.iter().filter(|name| garment.is_none_or(|garment| garment == *name)) {
         let of: Vec<&EaseRow> = eases.iter().filter(|e| e.subject == subject && e.garment == *name).collect();
-        answers.extend(size_answer(store, study, &of, &jobs, &recommended)?);
+        answers.extend(size_answer(store, &of, &jobs, &recommended, &cards)?);
     }
     Ok(answers)
 }
@@ -77,10 +81,10 @@ pub fn size_advice(store: &Store, study: &str, subject: &str, garment: Option<&s
 /// The answer for one garment and subject, given its eases; `None` where there are none.
 fn size_answer(
     store: &Store,
-    study: &str,
     eases: &[&EaseRow],
     jobs: &[JobRow],
     answers: &[RecommendationRow],
+    cards: &[FitCard],
 ) -> Result<Option<SizeAnswer>> {
     let Some(first) = eases.first() else { return Ok(None) };
     let mut sizes: Vec<SizeOn> = Vec::new();
@@ -96,10 +100,10 @@ fn size_answer(
         }
         sizes.push(SizeOn { size: of_size[0].size.clone(), levels, shown: shown(of_size, answers) });
     }
-    let fits: Vec<SizeFit> = sizes.iter().map(fit_of).collect();
-    let advice = fit::advise(&fits, &read::cuts(store, study)?);
     let (garment, subject) = (first.garment.clone(), first.subject.clone());
-    Ok(advice.map(|advice| SizeAnswer { garment, subject, advice, sizes }))
+    let card = cards.iter().find(|card| card.garment == garment && card.subject == subject);
+    let worn = card.and_then(|card| Some((card.to_wear()?.size.clone(), card.reasons())));
+    Ok(worn.map(|(wear, reason)| SizeAnswer { garment, subject, wear, reason, sizes }))
 }
 
 /// Which picture of a size a customer should see, given the eases of that size.
@@ -118,15 +122,4 @@ fn drape_of(ease: &EaseRow, jobs: &[JobRow]) -> Option<JobId> {
             && job.status.has_result()
     };
     jobs.iter().find(is_it).map(|job| job.id)
-}
-
-fn fit_of(row: &SizeOn) -> SizeFit {
-    let level = |level: &LevelFit| Ease {
-        level: level.ease.level.clone(),
-        pattern_girth_m: level.ease.pattern_girth_m,
-        body_girth_m: level.ease.body_girth_m,
-        class: level.ease.fit.class,
-        borderline: level.ease.fit.borderline,
-    };
-    SizeFit { size: row.size.clone(), levels: row.levels.iter().map(level).collect() }
 }

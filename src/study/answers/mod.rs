@@ -5,6 +5,7 @@ pub mod audit;
 pub mod doctor;
 pub mod dressed;
 pub mod figure;
+pub mod fit_card;
 pub mod laboratory;
 pub mod picture;
 pub mod population;

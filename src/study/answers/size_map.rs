@@ -10,8 +10,6 @@ const COLOURS: [&str; 7] = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9
 /// Side of a panel, and its margins, px.
 const PANEL: f64 = 420.0;
 const MARGIN: f64 = 56.0;
-/// Ease in the middle of a just fit, mm.
-const JUST_MM: f64 = 75.0;
 
 /// A subject in one garment.
 struct Dot {
@@ -24,8 +22,8 @@ struct Dot {
     fit: String,
 }
 
-/// An SVG picture of a study: one panel a garment, a dot a subject, in the colour of the size whose ease is nearest the
-/// middle of a just fit; hollow where even that is not a just fit.
+/// An SVG picture of a study: one panel a garment, a dot a subject, in the colour of the size to wear; hollow where even that is tight or
+/// loose somewhere.
 ///
 /// # Errors
 /// When there is no such study.
@@ -51,19 +49,15 @@ pub fn size_map(store: &Store, study: &str) -> Result<String> {
 
 /// Every subject in every garment with its best size, by garment.
 fn dots(store: &Store, study: &str) -> Result<Vec<Dot>> {
-    let sql = "WITH best AS (
-            SELECT *, row_number() OVER (
-                PARTITION BY garment, subject ORDER BY undersized, abs(ease_mm - :just), size) AS place
-            FROM v_ease WHERE study = :study AND decides
-        ),
-        known AS (
+    let sql = "WITH known AS (
             SELECT DISTINCT job.subject, stature_mm FROM job JOIN subject USING (subject_id) JOIN study USING (study_id)
             WHERE study.name = :study AND is_current
         )
-        SELECT garment, best.subject, stature_mm, body_girth_mm, level, size, fit_class
-        FROM best JOIN known USING (subject) WHERE place = 1 ORDER BY garment, subject";
+        SELECT garment, best.subject, stature_mm, body_girth_mm, level, size, verdict
+        FROM v_size AS best JOIN known USING (subject) JOIN v_ease USING (study, garment, size, subject)
+        WHERE study = :study AND place = 1 AND decides ORDER BY garment, subject";
     let mut statement = store.reader.prepare_cached(sql)?;
-    let dots = statement.query_map(rusqlite::named_params! { ":study": study, ":just": JUST_MM }, |row| {
+    let dots = statement.query_map(rusqlite::named_params! { ":study": study }, |row| {
         Ok(Dot {
             garment: row.get(0)?,
             subject: row.get(1)?,
@@ -113,7 +107,7 @@ fn panel(svg: &mut String, garment: &str, dots: &[&Dot], left: f64) {
     let _ = writeln!(svg, "<text x=\"{left}\" y=\"{}\">{} girth, mm</text>", MARGIN - 8.0, escaped(level));
     for dot in dots {
         let (x, y, colour) = (across(dot.stature_mm), up(dot.girth_mm), colour(&dot.size));
-        let fill = if dot.fit == "just" { colour } else { "white" };
+        let fill = if dot.fit == "as_meant" { colour } else { "white" };
         let _ = writeln!(
             svg,
             "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"6\" fill=\"{fill}\" stroke=\"{colour}\" stroke-width=\"2\"><title>{}: {} \
@@ -125,11 +119,11 @@ fn panel(svg: &mut String, garment: &str, dots: &[&Dot], left: f64) {
     }
     for (k, size) in sizes.iter().enumerate() {
         let count = dots.iter().filter(|dot| dot.size == *size).count();
-        let just = dots.iter().filter(|dot| dot.size == *size && dot.fit == "just").count();
+        let meant = dots.iter().filter(|dot| dot.size == *size && dot.fit == "as_meant").count();
         let at = MARGIN + 18.0 + 18.0 * k as f64;
         let colour = colour(size);
         let _ = writeln!(svg, "<circle cx=\"{}\" cy=\"{}\" r=\"5\" fill=\"{colour}\"/>", left + 14.0, at - 4.0);
-        let text = format!("{}: {count}, a just fit for {just}", escaped(size));
+        let text = format!("{}: {count}, as meant for {meant}", escaped(size));
         let _ = writeln!(svg, "<text x=\"{}\" y=\"{at}\">{text}</text>", left + 24.0);
     }
 }

@@ -15,6 +15,7 @@ use crate::store::owner::Watch;
 use crate::store::queue::{self, Event};
 use crate::store::{Store, now_ms, read};
 use fit::Simulator;
+use fit::target::TARGETS;
 use geom::units::mm;
 
 /// Why a job runs, or why it need not.
@@ -174,7 +175,26 @@ pub(crate) fn store_study(transaction: &Transaction<'_>, study: &Study) -> Resul
                 .execute(params![study_id, garment.name, garment.style, name, value])?;
         }
     }
+    store_targets(transaction, study_id, study)?;
     Ok(study_id)
+}
+
+/// Stores what ease each garment of a study is to have.
+fn store_targets(transaction: &Transaction<'_>, study_id: i64, study: &Study) -> Result<()> {
+    transaction.execute("DELETE FROM fit_target WHERE study_id = ?", [study_id])?;
+    let mut statement = transaction.prepare_cached(
+        "INSERT INTO fit_target (study_id, garment, level, is_top, intended, least_mm, most_mm) VALUES (?, ?, ?, ?, ?, ?, ?)",
+    )?;
+    for garment in &study.garments {
+        let own = garment.target.own_m.keys().map(String::as_str);
+        let levels: BTreeSet<&str> = TARGETS.iter().map(|row| row.level).chain(own).collect();
+        for (level, is_top) in levels.into_iter().flat_map(|level| [(level, false), (level, true)]) {
+            let Some([least, most]) = garment.target.band_m(level, is_top).map(|band| band.map(mm)) else { continue };
+            let intended = garment.target.intended.as_str();
+            statement.execute(params![study_id, garment.name, level, is_top, intended, least, most])?;
+        }
+    }
+    Ok(())
 }
 
 /// Takes jobs and eases of cells that a study no longer has out of it; their results stay in the database.

@@ -2,6 +2,7 @@
 
 pub mod actions;
 pub mod compose;
+pub(crate) mod ease;
 pub mod engine;
 pub mod enqueue;
 pub mod handout;

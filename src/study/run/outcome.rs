@@ -33,6 +33,17 @@ pub struct Measured {
     pub chi: Chi,
 }
 
+/// A point of measure of a result.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct MeasuredPoint {
+    /// Its name.
+    pub point: String,
+    /// Flat on the pieces, m.
+    pub flat_m: f64,
+    /// On the drape, m: of a half that half. `None` of a distance across no cloth.
+    pub draped_m: Option<f64>,
+}
+
 /// The result of a simulation, measured.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Outcome {
@@ -60,6 +71,9 @@ pub struct Outcome {
     pub history: Vec<Step>,
     /// Ease at each fit level.
     pub eases: Vec<Ease>,
+    /// Its points of measure.
+    #[serde(default)]
+    pub points: Vec<MeasuredPoint>,
     /// Hybrid-GS: girths of garment and body at each fit level.
     pub closures: Vec<Closure>,
     /// FEM-GS: principal stretch beyond 1 that 1 % of the cloth exceeds.
@@ -174,6 +188,7 @@ fn write_result(
 ) -> Result<()> {
     write_measured(transaction, id, outcome)?;
     write_closures(transaction, id, &outcome.closures)?;
+    write_points(transaction, id, &outcome.points)?;
     let mut statement = transaction.prepare_cached(
         "INSERT INTO history (job_id, step, iteration, level, residual, seam_gap_mm, e_chi) VALUES (?, ?, ?, ?, ?, ?, ?)",
     )?;
@@ -240,6 +255,16 @@ fn write_measured(transaction: &Transaction<'_>, id: JobId, outcome: &Outcome) -
     Ok(())
 }
 
+fn write_points(transaction: &Transaction<'_>, id: JobId, points: &[MeasuredPoint]) -> Result<()> {
+    let sql = "INSERT INTO pom (job_id, position, point, flat_mm, draped_mm) VALUES (?, ?, ?, ?, ?)";
+    let mut statement = transaction.prepare_cached(sql)?;
+    for (position, measured) in (1_i64..).zip(points) {
+        let (flat_mm, draped_mm) = (mm(measured.flat_m), measured.draped_m.map(mm));
+        statement.execute(params![id.0, position, measured.point, flat_mm, draped_mm])?;
+    }
+    Ok(())
+}
+
 /// The gap map in numbers: what a garment of Hybrid-GS lacks at each level.
 fn write_closures(transaction: &Transaction<'_>, id: JobId, closures: &[Closure]) -> Result<()> {
     let mut statement = transaction.prepare_cached(
@@ -255,8 +280,12 @@ fn write_closures(transaction: &Transaction<'_>, id: JobId, closures: &[Closure]
 
 /// Ease of a specification's size on its subject, for a study.
 pub(crate) fn write_ease(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec, eases: &[Ease]) -> Result<()> {
+    // A level that an earlier version found, or another seam file stated, is gone.
+    transaction
+        .prepare_cached("DELETE FROM ease WHERE study_id = ? AND garment = ? AND size = ? AND subject = ?")?
+        .execute(params![study_id, spec.garment, spec.size, spec.subject])?;
     let mut statement = transaction.prepare_cached(
-        "INSERT OR REPLACE INTO ease (study_id, garment, size, subject, level, pattern_girth_mm, body_girth_mm)
+        "INSERT INTO ease (study_id, garment, size, subject, level, pattern_girth_mm, body_girth_mm)
         VALUES (?, ?, ?, ?, ?, ?, ?)",
     )?;
     for ease in eases {

@@ -5,16 +5,19 @@ use std::sync::Arc;
 
 use crate::error::{Result, StudyError};
 use crate::rows::StageKind;
-use crate::run::outcome::{Executor, Measured, Outcome};
+use crate::run::ease;
+use crate::run::outcome::{Executor, Measured, MeasuredPoint, Outcome};
 use crate::spec::inputs::Inputs;
 use crate::spec::parameters::Parameters;
 use crate::spec::{JobSpec, subject_inputs, versions};
 use crate::store::cache::{Artefact, Cache, Used};
 use crate::{bodies, patterns};
-use body::{Body, Dimension, Measurements};
-use fit::{self, Cuts, Ease, Simulator, measure};
+use body::{Body, Measurements};
+use fit::{self, Ease, Simulator, measure};
 use geom::DistanceField;
-use pattern::{Garment, Style};
+use pattern::pom::PointOfMeasure;
+use pattern::style::PathPart;
+use pattern::{Garment, MaterialLine, Style};
 use sim::{self, Distortion, Drape, Fabric, Monitor, SimError};
 
 /// The inputs of a subject's body, the same as among those of any job on it.
@@ -32,21 +35,6 @@ pub(crate) fn body_inputs(name: &str, measurements: &Measurements) -> Inputs {
 pub(crate) struct Model {
     /// The human model.
     pub body: Body,
-}
-
-/// Girth of a body at a level named in a style's fit references, m.
-fn girth_m(body: &Body, level: &str) -> Option<f64> {
-    let dimension = match level {
-        "neck" => Dimension::NeckGirth,
-        "chest" | "bust" => Dimension::ChestGirth,
-        "underbust" => Dimension::UnderbustGirth,
-        "waist" => Dimension::WaistGirth,
-        "hip" => Dimension::HipGirth,
-        "thigh" => Dimension::ThighGirth,
-        "upper_arm" => Dimension::UpperArmGirth,
-        _ => return None,
-    };
-    body.girths.get(dimension)
 }
 
 /// Meshes of one garment, coarse to fine.
@@ -143,15 +131,8 @@ impl Pipeline {
     /// Those of body and pattern.
     pub(crate) fn ease(&self, spec: &JobSpec) -> Result<Vec<Ease>> {
         let (model, _) = self.model(spec)?;
-        let (meshes, _) = self.meshes(spec)?;
-        Ok(ease_on(meshes.finest()?, &model.body))
+        Ok(ease::on(&style(spec)?, &model.body))
     }
-}
-
-/// Ease at each fit level; a study's own cuts classify it when it is read.
-fn ease_on(garment: &Garment, body: &Body) -> Vec<Ease> {
-    let levels = garment.fit_levels.iter().map(|level| (level.level.as_str(), level.girth_m));
-    fit::ease(levels, |level| girth_m(body, level), &Cuts::default())
 }
 
 /// The style of a job's size.
@@ -171,9 +152,11 @@ impl Executor for Pipeline {
         let (model, used_body) = self.model(spec)?;
         let (meshes, used_mesh) = self.meshes(spec)?;
         let (field, used_field) = self.field(spec, &model)?;
+        let style = style(spec)?;
         let fitting = Fitting {
             body: &model.body,
             field: &field,
+            style: &style,
             meshes: &meshes,
             fabric: &spec.fabric,
             simulator: spec.simulator,
@@ -191,7 +174,9 @@ pub(crate) struct Fitting<'a> {
     pub body: &'a Body,
     /// Distance from its skin.
     pub field: &'a DistanceField,
-    /// The garment.
+    /// The garment's pieces.
+    pub style: &'a Style,
+    /// Their meshes.
     pub meshes: &'a Meshes,
     /// What it is cut from.
     pub fabric: &'a Fabric,
@@ -250,12 +235,35 @@ impl Fitting<'_> {
             seam_gap_max_m: drape.seam_gap_max_m,
             self_crossings: drape.self_crossings,
             history: drape.history.clone(),
-            eases: ease_on(garment, self.body),
+            eases: ease::on(self.style, self.body),
+            points: self.points(garment, drape),
             closures,
             distortion: distorted.as_ref().map(|(stretch, _)| *stretch),
             warnings: distorted.and_then(|(_, told)| told).into_iter().chain(drape.braced_n.map(braced)).collect(),
             used: Vec::new(),
         })
+    }
+}
+
+impl Fitting<'_> {
+    /// Points of measure flat and on a drape, where a length is stretched as the path that it is taken along.
+    fn points(&self, garment: &Garment, drape: &Drape) -> Vec<MeasuredPoint> {
+        let points = self.style.points_of_measure();
+        let paths: Vec<&[PathPart]> = points.iter().map(|one| one.path.as_slice()).collect();
+        let laid = self.style.laid(garment, &paths);
+        let measured = |(one, runs): (&PointOfMeasure, Option<Vec<MaterialLine>>)| {
+            let draped = |runs: &Vec<MaterialLine>| -> f64 {
+                runs.iter().map(|run| run.length_m(&garment.rest, &drape.positions)).sum()
+            };
+            let flat_m = self.style.path_length_m(&one.path);
+            let stretch = runs.filter(|_| flat_m > 0.0).map(|runs| draped(&runs) / flat_m);
+            MeasuredPoint {
+                point: one.point.as_str().to_owned(),
+                flat_m: one.length_m,
+                draped_m: stretch.map(|stretch| stretch * one.length_m),
+            }
+        };
+        points.iter().zip(laid).map(measured).collect()
     }
 }
 

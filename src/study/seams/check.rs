@@ -119,7 +119,7 @@ fn fill(row: &mut SizeCheck, sewn: &Sewn, size: &SizeFile) -> Result<()> {
     }
     let (mesh, quality) = patterns::mesh(&style, from_mm(CHECK_EDGE_MM))?;
     (row.vertices, row.min_angle_deg) = (mesh.rest.len(), quality.min_angle_deg);
-    row.findings.extend(check::of_garment(&mesh));
+    row.findings.extend(check::of_garment(&style, &mesh));
     Ok(())
 }
 

@@ -3,6 +3,7 @@
 pub mod check;
 pub mod desk;
 pub mod pattern_files;
+pub mod specification;
 pub mod workpiece;
 
 pub use check::{CHECK_EDGE_MM, SizeCheck, check_sizes, check_study, findings};
@@ -10,4 +11,5 @@ pub(crate) use desk::proposal;
 pub use desk::{Asking, Desk, DeskEdge, DeskPiece, DeskSeam, Proposed, desk, edit_seams, propose};
 pub use pattern::propose::{Proposal, Question};
 pub use pattern::seam_edit::Edit as SeamEdit;
+pub use specification::{Specification, SpecifiedPoint, specification};
 pub use workpiece::{DeskLength, LaidOut, SeamStep, Workpiece, seam_home, write_seams};

@@ -6,6 +6,7 @@ use std::fmt::Write;
 use crate::spec::fields::{FABRIC_NUMBERS, MEASUREMENTS};
 use crate::spec::file::{GarmentEntry, ScanFile, SourceFile, Study, Subject};
 use crate::spec::{self, Schedule, millimetres, sex_name};
+use fit::target::{Intended, Target};
 use geom::units::mm;
 use sim::Fabric;
 
@@ -96,6 +97,13 @@ fn write_garment(text: &mut String, files: &mut Files, garment: &GarmentEntry) {
     text.push_str("]\n");
     for (name, value) in garment.parameters.iter() {
         let _ = writeln!(text, "parameters.{name} = {value}");
+    }
+    let Target { intended, own_m } = &garment.target;
+    if *intended != Intended::default() {
+        let _ = writeln!(text, "intended_fit = \"{}\"", intended.as_str());
+    }
+    for (level, [least, most]) in own_m {
+        let _ = writeln!(text, "target_ease_mm.{level} = [{:?}, {:?}]", millimetres(*least), millimetres(*most));
     }
     let Schedule { priority, after, limits } = &garment.schedule;
     if *priority != 0 {

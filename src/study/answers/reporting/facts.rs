@@ -101,7 +101,7 @@ pub(super) fn size_tips(store: &Store, study: &str, bodies: &[BodyFacts]) -> Res
     let eased = read::ease(store, study)?;
     for body in bodies.iter().filter(|body| eased.iter().any(|ease| ease.subject == body.name)) {
         for answer in advice::size_advice(store, study, &body.name, None)? {
-            let Some(size) = answer.sizes.iter().find(|size| size.size == answer.advice.size) else { continue };
+            let Some(size) = answer.sizes.iter().find(|size| size.size == answer.wear) else { continue };
             let pulls = size
                 .levels
                 .iter()
@@ -111,7 +111,7 @@ pub(super) fn size_tips(store: &Store, study: &str, bodies: &[BodyFacts]) -> Res
                 garment: answer.garment,
                 subject: answer.subject,
                 size: size.size.clone(),
-                reason: answer.advice.reason,
+                reason: answer.reason,
                 tension: if tension.is_empty() { "no FEM-GS drape yet".into() } else { tension },
                 shown: size.shown.to_owned(),
             });

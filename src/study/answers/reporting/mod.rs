@@ -14,11 +14,12 @@ use report::data::{Fact, RawLink};
 use report::{self, ReportData};
 
 /// Views of the raw data, their files, and what they hold.
-const RAW: [(&str, &str, &str); 5] = [
+const RAW: [(&str, &str, &str); 6] = [
     ("v_chi", "chi.csv", "L2D, L3D and chi of every measurement at every stage"),
     ("v_gap", "gap.csv", "girths of garment and body where Hybrid-GS does not close"),
     ("v_metrics", "metrics.csv", "E, SD, EI and the state of every drape"),
     ("v_ease", "ease.csv", "ease and fit class of every size and subject"),
+    ("v_pom", "pom.csv", "points of measure of every drape, flat and on the body, with their grade steps"),
     ("v_provenance", "provenance.csv", "hashes, versions and machine of every result"),
 ];
 
@@ -28,8 +29,8 @@ const METHODS: [&str; 5] = [
      the residual force is a small share of the weight.",
     "L2D is the length of a measurement on the pattern, L3D the length of the same line on the drape, chi = L3D / L2D. E is \
      the mean of chi over the measurements, SD its sample standard deviation (n - 1), EI the mean of |chi - 1|.",
-    "Ease is the girth of the pattern at a level less the girth of the body there; the least ease of a garment decides its \
-     fit class.",
+    "Ease is the girth of the pattern at a level less the girth of the body there; the least ease at chest and hip decides the \
+     fit class of a garment.",
     "Maps show values averaged at the vertices of the mesh. Stretch is the greatest principal stretch beyond the pattern's own \
      size, which shear raises too; tension the greatest principal force in the cloth per metre of width, from that strain and \
      the fabric's stiffness: 100 N/m is a strip 1 cm wide that carries about 100 g. Gap is the distance to the body.",

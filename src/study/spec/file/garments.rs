@@ -9,12 +9,12 @@ use crate::spec::Limits;
 use crate::spec::file::reader::{Place, Reader};
 use crate::spec::file::sweep::{self, EDGE_MM};
 use crate::spec::file::values::{lookup, source, unique};
-use crate::spec::file::{GarmentEntry, KnownStyle, Placed, Sewn, SizeFile, SourceFile, Subject, schedule};
+use crate::spec::file::{GarmentEntry, KnownStyle, Placed, Sewn, SizeFile, SourceFile, Subject, schedule, target};
 use crate::spec::parameters::Parameters;
 use geom::units::from_mm;
 use sim::Fabric;
 
-const GARMENT_KEYS: [&str; 13] = [
+const GARMENT_KEYS: [&str; 15] = [
     "name",
     "subjects",
     "seams",
@@ -24,6 +24,8 @@ const GARMENT_KEYS: [&str; 13] = [
     "style",
     "edge_length_mm",
     "parameters",
+    "intended_fit",
+    "target_ease_mm",
     "priority",
     "after",
     "time_limit_s",
@@ -83,6 +85,7 @@ pub(super) fn garments(
             // It was accepted when it was read.
             let _ = parameters.set(name, value.clone());
         }
+        let target = target::target(reader, &place);
         let fabric = reader.need_text(&place, "fabric", "the name of a fabric");
         let fabric = fabric.and_then(|name| lookup(reader, common.fabrics, &name, "fabric").cloned());
         if let (Some(name), Some(fabric)) = (name, fabric) {
@@ -99,6 +102,7 @@ pub(super) fn garments(
                 style,
                 edge_length_m,
                 parameters,
+                target,
                 swept,
                 schedule,
             });

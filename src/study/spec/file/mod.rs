@@ -52,6 +52,7 @@ mod reader;
 mod schedule;
 mod subjects;
 mod sweep;
+mod target;
 #[cfg(test)]
 mod tests;
 mod values;
@@ -64,6 +65,7 @@ pub use crate::files::SourceFile;
 use crate::spec::parameters::Parameters;
 use crate::spec::{Limits, Schedule};
 use body::{LengthUnit, Measurements, Sex};
+use fit::target::Target;
 use fit::{Cuts, Simulator};
 use sim::Fabric;
 
@@ -117,6 +119,8 @@ pub struct GarmentEntry {
     pub edge_length_m: f64,
     /// Values of the simulators' parameters that are not the default ones.
     pub parameters: Parameters,
+    /// What ease it is to have; no input of a result.
+    pub target: Target,
     /// Names and values that a sweep gave it.
     pub swept: Vec<(String, String)>,
     /// When its jobs are started, and what each may take.

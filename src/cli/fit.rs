@@ -1,0 +1,54 @@
+//! `toile fit`: which size to wear, and how it sits.
+
+use super::answers::NO_EASE;
+use super::args::Fit;
+use super::context::Context;
+use super::{End, Outcome, output};
+use study::{FitCard, SizeSits, Table, Value};
+
+/// Prints the fit cards of a study.
+pub fn fit(context: &Context, arguments: &Fit) -> Outcome {
+    let (workspace, study) = context.eased(&arguments.study)?;
+    let cards = workspace.fit_cards(&study, arguments.garment.as_deref(), arguments.subject.as_deref())?;
+    if context.json {
+        output::json(&cards)?;
+        return Ok(if cards.is_empty() { End::CheckFailed } else { End::Done });
+    }
+    for (number, card) in cards.iter().enumerate() {
+        let gap = if number == 0 { "" } else { "\n" };
+        let intended = card.intended.as_deref().map_or(String::new(), |fit| format!(" ({fit} fit)"));
+        output::text(&format!("{gap}{} on {}{intended}: {}\n", card.garment, card.subject, card.verdict()))?;
+        context.print(&table(card))?;
+    }
+    if cards.is_empty() {
+        context.say(NO_EASE);
+        return Ok(End::CheckFailed);
+    }
+    Ok(End::Done)
+}
+
+/// Rows of levels, columns of sizes.
+fn table(card: &FitCard) -> Table {
+    let sizes = card.beside();
+    let mut columns = vec!["level".to_owned(), "body_mm".to_owned(), "target_mm".to_owned()];
+    for size in sizes {
+        let mark = if size.place == Some(1) { " (wear)" } else { "" };
+        columns.extend([format!("{}_ease_mm{mark}", size.size), String::new()]);
+    }
+    let row = |level: &str| {
+        let of = |size: &SizeSits| size.levels.iter().find(|one| one.level == level).cloned();
+        let all: Vec<_> = sizes.iter().map(of).collect();
+        let known = all.iter().flatten().next();
+        let target = known
+            .and_then(|one| one.target_mm)
+            .map_or(Value::Null, |[least, most]| Value::Text(format!("{least:.0} to {most:.0}")));
+        let body = known.map_or(Value::Null, |one| Value::Integer(one.body_girth_mm.round() as i64));
+        let mut row = vec![Value::Text(level.replace('_', " ")), body, target];
+        for one in &all {
+            row.push(one.as_ref().map_or(Value::Null, |one| Value::Text(format!("{:+.0}", one.ease_mm))));
+            row.push(one.as_ref().map_or(Value::Null, |one| Value::Text(one.words())));
+        }
+        row
+    };
+    Table { columns, rows: card.levels().into_iter().map(row).collect() }
+}

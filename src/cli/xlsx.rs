@@ -1,0 +1,39 @@
+//! Tables as XLSX workbooks.
+
+use std::io;
+
+use rust_xlsxwriter::{Format, Workbook, XlsxError};
+use study::{Table, Value};
+
+/// A workbook of one sheet: the table with its names in bold, kept in view.
+///
+/// # Errors
+/// When it has more rows or longer texts than a sheet can hold.
+pub fn bytes(name: &str, table: &Table) -> io::Result<Vec<u8>> {
+    written(name, table).map_err(io::Error::other)
+}
+
+fn written(name: &str, table: &Table) -> Result<Vec<u8>, XlsxError> {
+    let mut workbook = Workbook::new();
+    let sheet = workbook.add_worksheet();
+    // What a sheet may not be called by is no loss: the file has the name.
+    let _ = sheet.set_name(name);
+    let bold = Format::new().set_bold();
+    for (column, name) in (0..).zip(&table.columns) {
+        sheet.write_with_format(0, column, name, &bold)?;
+    }
+    for (row, values) in (1..).zip(&table.rows) {
+        for (column, value) in (0..).zip(values) {
+            match value {
+                Value::Null => sheet.write_blank(row, column, &Format::new())?,
+                Value::Integer(number) => sheet.write(row, column, *number as f64)?,
+                Value::Real(number) => sheet.write(row, column, *number)?,
+                Value::Text(text) => sheet.write(row, column, text)?,
+                Value::Blob(bytes) => sheet.write(row, column, *bytes as f64)?,
+            };
+        }
+    }
+    sheet.set_freeze_panes(1, 1)?;
+    sheet.autofit();
+    workbook.save_to_buffer()
+}

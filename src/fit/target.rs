@@ -1,0 +1,147 @@
+//! The ease that an intended fit asks for at each level, and how far a garment is from it.
+
+use std::collections::BTreeMap;
+
+/// How a garment is meant to sit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Intended {
+    /// Smaller than the body, of cloth that stretches.
+    Compression,
+    /// Close to the body.
+    Slim,
+    /// With room to move.
+    #[default]
+    Regular,
+    /// Away from the body.
+    Loose,
+}
+
+impl Intended {
+    /// All, the closest first.
+    pub const ALL: [Self; 4] = [Self::Compression, Self::Slim, Self::Regular, Self::Loose];
+
+    /// Name in study files and SQL.
+    #[must_use]
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Compression => "compression",
+            Self::Slim => "slim",
+            Self::Regular => "regular",
+            Self::Loose => "loose",
+        }
+    }
+
+    /// The fit of that name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|fit| fit.as_str() == name)
+    }
+}
+
+/// A level of the body at which a garment may have a target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TargetLevel {
+    /// Name of the level.
+    pub level: &'static str,
+    /// Whether the row is for garments that cover the chest; `None`: for all.
+    pub of_top: Option<bool>,
+    /// Least and greatest ease of each intended fit, in the order of [`Intended::ALL`], mm.
+    pub eases_mm: [[i32; 2]; 4],
+}
+
+/// Least and greatest ease by level and fit. Chest and hip begin and end where the fit classes do [T 6.2.3]; the others have the
+/// share of a girth that those have, and what a limb needs to bend (docs/fit.md).
+pub const TARGETS: [TargetLevel; 12] = [
+    of("across_shoulder", None, [[-20, 5], [-10, 20], [0, 50], [20, 140]]),
+    of("chest", None, [[-150, -30], [20, 60], [50, 120], [100, 300]]),
+    of("underbust", None, [[-150, -20], [20, 110], [50, 200], [100, 380]]),
+    of("waist", Some(true), [[-150, -20], [20, 130], [50, 230], [100, 420]]),
+    of("waist", Some(false), [[-80, -10], [0, 20], [0, 40], [20, 80]]),
+    of("hip", None, [[-150, -30], [10, 60], [40, 120], [100, 320]]),
+    of("thigh", None, [[-90, -15], [15, 60], [40, 120], [100, 280]]),
+    of("knee", None, [[-60, -10], [20, 80], [50, 160], [120, 340]]),
+    of("upper_arm", None, [[-60, -10], [20, 80], [40, 180], [140, 340]]),
+    of("forearm", None, [[-50, -10], [20, 80], [40, 160], [110, 320]]),
+    of("wrist", None, [[-25, 0], [10, 50], [20, 100], [40, 200]]),
+    of("bust", None, [[-150, -30], [20, 60], [50, 120], [100, 300]]),
+];
+
+const fn of(level: &'static str, of_top: Option<bool>, eases_mm: [[i32; 2]; 4]) -> TargetLevel {
+    TargetLevel { level, of_top, eases_mm }
+}
+
+/// What ease a garment is to have.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Target {
+    /// Intended fit.
+    pub intended: Intended,
+    /// Least and greatest ease of levels at which the garment has others, m.
+    pub own_m: BTreeMap<String, [f64; 2]>,
+}
+
+impl Target {
+    /// Least and greatest ease at a level, m; `None` where none is meant, as at the neckline of a garment without a collar.
+    /// `is_top` tells whether the garment covers the chest.
+    #[must_use]
+    pub fn band_m(&self, level: &str, is_top: bool) -> Option<[f64; 2]> {
+        let is_it = |row: &&TargetLevel| row.level == level && row.of_top.is_none_or(|of_top| of_top == is_top);
+        let table = || {
+            TARGETS.iter().find(is_it).map(|row| row.eases_mm[self.intended as usize].map(|mm| 1e-3 * f64::from(mm)))
+        };
+        self.own_m.get(level).copied().or_else(table)
+    }
+}
+
+/// By how much an ease lies outside its band, m: negative where it is too tight, positive where it is too loose, 0 inside.
+#[must_use]
+pub fn off_m(ease_m: f64, [least_m, most_m]: [f64; 2]) -> f64 {
+    if ease_m < least_m { ease_m - least_m } else { (ease_m - most_m).max(0.0) }
+}
+
+/// How much a level that is off counts, m: what is too tight cannot be worn, what is too loose can, so it counts double.
+#[must_use]
+pub fn weight_m(off_m: f64) -> f64 {
+    if off_m < 0.0 { -2.0 * off_m } else { off_m }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bands_are_those_of_the_fit_and_of_the_garment() {
+        let check = |intended, level: &str, is_top, expect_mm: Option<[f64; 2]>| {
+            let target = Target { intended, ..Target::default() };
+            let found = target.band_m(level, is_top).map(|band| band.map(|m| (1e3 * m).round()));
+            assert_eq!(found, expect_mm, "{level}");
+        };
+        check(Intended::Regular, "chest", true, Some([50.0, 120.0]));
+        check(Intended::Regular, "waist", true, Some([50.0, 230.0]));
+        check(Intended::Regular, "waist", false, Some([0.0, 40.0]));
+        check(Intended::Slim, "hip", true, Some([10.0, 60.0]));
+        check(Intended::Regular, "neck", true, None);
+        let own = Target { own_m: [("neck".to_owned(), [0.01, 0.03])].into(), ..Target::default() };
+        assert_eq!(own.band_m("neck", true), Some([0.01, 0.03]));
+    }
+
+    #[test]
+    fn closer_fits_have_less_ease_and_no_band_is_empty() {
+        for row in TARGETS {
+            assert!(row.eases_mm.iter().all(|[least, most]| least < most), "{}", row.level);
+            let rises = |pair: &[[i32; 2]]| pair[0][0] <= pair[1][0] && pair[0][1] <= pair[1][1];
+            assert!(row.eases_mm.windows(2).all(rises), "{}", row.level);
+        }
+    }
+
+    #[test]
+    fn what_is_too_tight_counts_double() {
+        let check = |ease_mm: f64, off_mm: f64, weight_mm: f64| {
+            let off = off_m(1e-3 * ease_mm, [0.05, 0.12]);
+            assert!((1e3 * off - off_mm).abs() < 1e-9 && (1e3 * weight_m(off) - weight_mm).abs() < 1e-9, "{ease_mm}");
+        };
+        check(10.0, -40.0, 80.0);
+        check(80.0, 0.0, 0.0);
+        check(150.0, 30.0, 30.0);
+    }
+}

@@ -1,0 +1,276 @@
+//! What the seams and openings of a style are, by the roles of its pieces.
+
+use super::ways::{Heading, Ways};
+use super::{Point, PointOfMeasure};
+use crate::garment::Role;
+use crate::propose::{Face, Hand};
+use crate::style::openings::EdgeEnd;
+use crate::style::{EdgePoint, EdgeRef, PathPart, Style};
+use geom::V2;
+
+/// Distance from a corner at which it is asked what is sewn on there, m: the pieces there may end at the corner.
+pub const BESIDE_M: f64 = 1e-3;
+
+/// Part of a garment that a piece belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Front or back of the trunk.
+    Trunk(Face),
+    /// Sleeve of an arm.
+    Sleeve(Hand),
+    /// Leg: its side, and its face unless it is in one piece.
+    Leg(Hand, Option<Face>),
+    /// Skirt.
+    Skirt(Face),
+    /// Anything else, waistbands too.
+    Other,
+}
+
+impl Part {
+    fn of(role: Role) -> Self {
+        match role {
+            Role::Front | Role::BodiceFront => Self::Trunk(Face::Front),
+            Role::Back | Role::BodiceBack => Self::Trunk(Face::Back),
+            Role::SleeveRight => Self::Sleeve(Hand::Right),
+            Role::SleeveLeft => Self::Sleeve(Hand::Left),
+            Role::LegFrontRight => Self::Leg(Hand::Right, Some(Face::Front)),
+            Role::LegFrontLeft => Self::Leg(Hand::Left, Some(Face::Front)),
+            Role::LegBackRight => Self::Leg(Hand::Right, Some(Face::Back)),
+            Role::LegBackLeft => Self::Leg(Hand::Left, Some(Face::Back)),
+            Role::LegRight => Self::Leg(Hand::Right, None),
+            Role::LegLeft => Self::Leg(Hand::Left, None),
+            Role::SkirtFront => Self::Skirt(Face::Front),
+            Role::SkirtBack => Self::Skirt(Face::Back),
+            Role::Waistband | Role::Other => Self::Other,
+        }
+    }
+}
+
+/// Edges walked one after the other; `true` of one that is walked from its start to its end.
+pub type Chain = Vec<(EdgeRef, bool)>;
+
+/// A style with what its pieces are.
+pub struct Anatomy<'a> {
+    /// Ways across its cloth.
+    pub ways: Ways<'a>,
+    /// Part of each piece.
+    pub parts: Vec<Part>,
+}
+
+impl<'a> Anatomy<'a> {
+    /// Of a style, whose pieces stand upright.
+    pub fn of(style: &'a Style) -> Self {
+        let parts: Vec<Part> = style.pieces.iter().map(|piece| Part::of(piece.role)).collect();
+        let down = parts.iter().map(|part| (*part != Part::Other).then(|| -V2::y())).collect();
+        let mut anatomy = Self { ways: Ways::new(style, down), parts };
+        let down = (0..anatomy.parts.len()).map(|piece| anatomy.down(piece)).collect();
+        anatomy.ways = Ways::new(style, down);
+        anatomy
+    }
+
+    /// The style.
+    pub fn style(&self) -> &'a Style {
+        self.ways.style
+    }
+
+    /// Away from the neck in a piece: downwards, and in a sleeve, which may be drawn along the arm, away from the trunk.
+    fn down(&self, piece: usize) -> Option<V2> {
+        match self.parts[piece] {
+            Part::Other => None,
+            Part::Sleeve(_) => {
+                let edges = (0..self.style().pieces[piece].edges.len()).map(|edge| EdgeRef { piece, edge });
+                let (caps, others): (Vec<EdgeRef>, Vec<EdgeRef>) = edges.partition(|edge| {
+                    self.ways.partners(*edge).iter().any(|other| matches!(self.parts[other.piece], Part::Trunk(_)))
+                });
+                let is_lower = |edge: &EdgeRef| {
+                    !self.ways.partners(*edge).iter().any(|other| self.parts[other.piece] == self.parts[piece])
+                };
+                let lower: Vec<EdgeRef> = others.into_iter().filter(is_lower).collect();
+                let way = self.middle(&lower)? - self.middle(&caps)?;
+                Some(if way.x.abs() > way.y.abs() { V2::x() * way.x.signum() } else { V2::y() * way.y.signum() })
+            }
+            _ => Some(-V2::y()),
+        }
+    }
+
+    /// Mean of the middles of some edges' chords; `None` of no edges.
+    fn middle(&self, edges: &[EdgeRef]) -> Option<V2> {
+        let middles = edges.iter().map(|edge| {
+            let points = self.style().edge(*edge).line.points();
+            points[0].lerp(&points[points.len() - 1], 0.5)
+        });
+        (!edges.is_empty()).then(|| middles.sum::<V2>() / edges.len() as f64)
+    }
+
+    /// Place of an end of an edge.
+    pub fn place(&self, (edge, is_last): EdgeEnd) -> V2 {
+        let points = self.style().edge(edge).line.points();
+        if is_last { points[points.len() - 1] } else { points[0] }
+    }
+
+    /// An end of an edge as a point of it.
+    pub fn point(&self, (edge, is_last): EdgeEnd) -> EdgePoint {
+        EdgePoint { edge, arc_m: if is_last { self.length_m(&[edge]) } else { 0.0 } }
+    }
+
+    /// Length of some edges, m.
+    pub fn length_m(&self, edges: &[EdgeRef]) -> f64 {
+        edges.iter().map(|edge| self.style().edge(*edge).line.length()).sum()
+    }
+
+    /// A seam whose sides lie in two kinds of pieces: the side of the first kind and that of the second, as they are sewn.
+    pub fn between(&self, seam: usize, one: impl Fn(Part) -> bool, other: impl Fn(Part) -> bool) -> Option<[Chain; 2]> {
+        let seam = &self.style().seams[seam];
+        let a: Chain = seam.a.iter().map(|edge| (*edge, true)).collect();
+        let b: Chain = seam.b.iter().map(|edge| (*edge, seam.b_forwards)).collect();
+        let all = |chain: &Chain, is: &dyn Fn(Part) -> bool| chain.iter().all(|(edge, _)| is(self.parts[edge.piece]));
+        if all(&a, &one) && all(&b, &other) {
+            Some([a, b])
+        } else {
+            (all(&b, &one) && all(&a, &other)).then_some([b, a])
+        }
+    }
+
+    /// Whether the edges of a chain run rather up and down than across.
+    pub fn is_upright(&self, chain: &Chain) -> bool {
+        let chord = |(edge, is_forwards): &(EdgeRef, bool)| {
+            self.place((*edge, *is_forwards)) - self.place((*edge, !is_forwards))
+        };
+        let way: V2 = chain.iter().map(chord).sum();
+        way.y.abs() > way.x.abs()
+    }
+
+    /// Both sides of a seam turned so that the first one runs downwards.
+    pub fn turned_down(&self, sides: [Chain; 2]) -> [Chain; 2] {
+        let runs_down = match (sides[0].first(), sides[0].last()) {
+            (Some((first, ahead)), Some((last, on))) => self.place((*first, !ahead)).y >= self.place((*last, *on)).y,
+            _ => true,
+        };
+        if runs_down {
+            sides
+        } else {
+            sides.map(|chain| chain.into_iter().rev().map(|(edge, on)| (edge, !on)).collect())
+        }
+    }
+
+    /// The point of a chain at a distance from its beginning, m; `None` beyond its end.
+    pub fn along(&self, chain: &Chain, distance_m: f64) -> Option<EdgePoint> {
+        let mut rest_m = distance_m;
+        for &(edge, is_forwards) in chain {
+            let length_m = self.length_m(&[edge]);
+            if rest_m <= length_m {
+                return Some(EdgePoint { edge, arc_m: if is_forwards { rest_m } else { length_m - rest_m } });
+            }
+            rest_m -= length_m;
+        }
+        None
+    }
+
+    /// The opening, of several, that the outline of a piece goes on along at the end of an edge.
+    pub fn opening_at(&self, openings: &[Vec<EdgeRef>], end: EdgeEnd) -> Option<usize> {
+        let next = self.style().over_corner(end).0;
+        openings.iter().position(|opening| opening.contains(&next))
+    }
+
+    /// Where an opening of some pieces ends when all is sewn on: itself where nothing is sewn to it, else the one free edge of
+    /// what is sewn on there (a cuff, a waistband, a skirt). `None` where there is not just one.
+    pub fn beyond(&self, opening: &[EdgeRef], is_there: impl Fn(usize) -> bool) -> Option<Vec<EdgeRef>> {
+        if opening.iter().all(|edge| self.ways.is_free(*edge)) {
+            return Some(opening.to_vec());
+        }
+        let mut attached: Vec<usize> = Vec::new();
+        let mut ahead: Vec<EdgeRef> = opening.to_vec();
+        while let Some(edge) = ahead.pop() {
+            for other in self.ways.partners(edge).iter().filter(|other| !is_there(other.piece)) {
+                if !attached.contains(&other.piece) {
+                    attached.push(other.piece);
+                    let edges = 0..self.style().pieces[other.piece].edges.len();
+                    ahead.extend(edges.map(|edge| EdgeRef { piece: other.piece, edge }));
+                }
+            }
+        }
+        let ends = self.style().openings(&|_| true);
+        let mut ends = ends.into_iter().filter(|end| end.iter().all(|edge| attached.contains(&edge.piece)));
+        let end = ends.next()?;
+        ends.next().is_none().then_some(end)
+    }
+
+    /// Where a line first meets some edges of a piece, in their order: `value` of a place is 0 on the line.
+    pub fn meeting(&self, edges: &[EdgeRef], value: impl Fn(V2) -> f64) -> Option<EdgePoint> {
+        self.meetings(edges, value).into_iter().next()
+    }
+
+    /// The lowest place where a line meets some edges of a piece.
+    pub fn lowest_meeting(&self, edges: &[EdgeRef], value: impl Fn(V2) -> f64) -> Option<EdgePoint> {
+        let height = |at: &EdgePoint| self.style().place(*at).y;
+        self.meetings(edges, value).into_iter().min_by(|one, other| height(one).total_cmp(&height(other)))
+    }
+
+    fn meetings(&self, edges: &[EdgeRef], value: impl Fn(V2) -> f64) -> Vec<EdgePoint> {
+        let mut found = Vec::new();
+        for &edge in edges {
+            let line = &self.style().edge(edge).line;
+            for (ends, arcs) in line.points().windows(2).zip(line.arcs().windows(2)) {
+                let [from, to] = [value(ends[0]), value(ends[1])];
+                if (from <= 0.0) != (to <= 0.0) {
+                    found.push(EdgePoint { edge, arc_m: arcs[0] + (arcs[1] - arcs[0]) * from / (from - to) });
+                }
+            }
+        }
+        found
+    }
+
+    /// A point of measure along a path.
+    pub fn along_path(&self, point: Point, path: Vec<PathPart>, share: f64) -> PointOfMeasure {
+        PointOfMeasure { point, length_m: share * self.style().path_length_m(&path), path, share }
+    }
+
+    /// A point of measure along whole edges.
+    pub fn along_edges(&self, point: Point, edges: &[EdgeRef], share: f64) -> PointOfMeasure {
+        self.along_path(point, edges.iter().copied().map(PathPart::Edge).collect(), share)
+    }
+
+    /// The way down the centre of halves of a front or a back, from the end of an edge that runs across the top: along the outline while
+    /// it runs upright, and on over what is sewn to its lower end.
+    pub fn down_centre(&self, end: EdgeEnd) -> Vec<PathPart> {
+        let mut path = Vec::new();
+        let mut at = end;
+        loop {
+            let next = self.style().over_corner(at);
+            if !self.is_upright(&vec![(next.0, true)]) || path.contains(&PathPart::Edge(next.0)) {
+                break;
+            }
+            path.push(PathPart::Edge(next.0));
+            at = (next.0, !next.1);
+        }
+        let (lower, is_last) = self.style().over_corner(at);
+        let beside_m = if is_last { self.length_m(&[lower]) - BESIDE_M } else { BESIDE_M };
+        let below = self.ways.across(EdgePoint { edge: lower, arc_m: beside_m }).filter(|_| !path.is_empty());
+        let on = below.map(|below| {
+            let ends = [false, true].map(|is_last| (below.edge, is_last));
+            let corner = ends.into_iter().find(|end| (self.point(*end).arc_m - below.arc_m).abs() < 2.0 * BESIDE_M);
+            // Halves below too, or one piece from side to side.
+            let halves = corner.map(|corner| self.down_centre(corner)).unwrap_or_default();
+            let whole = || self.ways.walk(below, Heading::Down, |_| false).map(|way| way.parts).unwrap_or_default();
+            if halves.is_empty() { whole() } else { halves }
+        });
+        path.extend(on.into_iter().flatten());
+        path
+    }
+
+    /// Whether skirt or legs hang from some edges, with a waistband between or not.
+    pub fn has_below(&self, edges: &[EdgeRef]) -> bool {
+        let is_below = |piece: usize| matches!(self.parts[piece], Part::Skirt(_) | Part::Leg(..));
+        let partners = |edge: EdgeRef| self.ways.partners(edge).iter().map(|other| other.piece);
+        let edges_of =
+            |piece: usize| (0..self.style().pieces[piece].edges.len()).map(move |edge| EdgeRef { piece, edge });
+        let is_band =
+            |piece: usize| self.parts[piece] == Part::Other && edges_of(piece).flat_map(partners).any(is_below);
+        edges.iter().flat_map(|edge| partners(*edge)).any(|piece| is_below(piece) || is_band(piece))
+    }
+}
+
+/// A distance across no cloth.
+pub fn distance(point: Point, length_m: f64) -> PointOfMeasure {
+    PointOfMeasure { point, length_m, path: Vec::new(), share: 1.0 }
+}

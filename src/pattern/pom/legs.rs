@@ -1,0 +1,230 @@
+//! Points of measure of legs.
+
+use super::anatomy::{Anatomy, BESIDE_M, Chain, Part};
+use super::ways::Heading;
+use super::{Point, PointOfMeasure, worn};
+use crate::propose::{Face, Hand};
+use crate::style::openings::EdgeEnd;
+use crate::style::{EdgePoint, EdgeRef, PathPart};
+use geom::V2;
+
+/// Distance below the fork at which the thigh is measured, m.
+const THIGH_BELOW_FORK_M: f64 = 0.025;
+/// Height above the fork at which the hip is measured, m: that of a person of 1.7 m.
+const HIP_ABOVE_FORK_M: f64 = 0.080;
+/// Distance of the knee above the middle of the inseam, m.
+const KNEE_ABOVE_MIDDLE_M: f64 = 0.050;
+/// Inseam from which on a leg has a knee, m.
+const LONG_M: f64 = 0.500;
+
+/// Points of measure of a style's legs; none where the fork is not found.
+pub fn points(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
+    Legs::of_either(anatomy).map_or_else(Vec::new, |legs| legs.points())
+}
+
+/// The run of a leg's outline from the waist down to the hem.
+struct Run {
+    /// What is sewn to the other leg, or stays open at a fly, from the waist to the fork.
+    crotch: Chain,
+    /// The rest of it.
+    seam: Chain,
+}
+
+/// One of two legs that are sewn to each other.
+pub struct Legs<'a> {
+    anatomy: &'a Anatomy<'a>,
+    waist: Vec<EdgeRef>,
+    hem: Vec<EdgeRef>,
+    /// Inner runs, front before back.
+    inner: [Run; 2],
+    /// Outer run of the front; none of a leg in one piece.
+    outer: Option<Chain>,
+}
+
+impl<'a> Legs<'a> {
+    /// The right leg of a style, or the left one where it has no other; `None` where the fork is not found.
+    pub fn of_either(anatomy: &'a Anatomy<'a>) -> Option<Self> {
+        let is_there = |hand: &Hand| anatomy.parts.iter().any(|part| matches!(part, Part::Leg(of, _) if of == hand));
+        Hand::BOTH.into_iter().find(is_there).and_then(|hand| Self::of(anatomy, hand))
+    }
+
+    fn of(anatomy: &'a Anatomy<'a>, hand: Hand) -> Option<Self> {
+        let is_leg = |piece: usize| matches!(anatomy.parts[piece], Part::Leg(..));
+        let openings = anatomy.style().openings(&is_leg);
+        let waist = openings.iter().find(|opening| is_upper(anatomy, opening))?.clone();
+        let own = |opening: &&Vec<EdgeRef>| {
+            !is_upper(anatomy, opening)
+                && opening.iter().all(|edge| matches!(anatomy.parts[edge.piece], Part::Leg(of, _) if of == hand))
+        };
+        let hem = openings.iter().find(own)?.clone();
+        let pieces = |face: Option<Face>| (0..anatomy.parts.len()).find(|p| anatomy.parts[*p] == Part::Leg(hand, face));
+        let runs = |piece: usize| runs(anatomy, piece, &waist, &hem);
+        let (inner, outer) = if let Some(whole) = pieces(None) {
+            let [one, other] = runs(whole)?;
+            // Seen from outside, the front of a right leg is on the right, that of a left one on the left.
+            let is_first_front = (mean_u(anatomy, &one) > mean_u(anatomy, &other)) == (hand == Hand::Right);
+            let [front, back] = if is_first_front { [one, other] } else { [other, one] };
+            ([split(anatomy, front), split(anatomy, back)], None)
+        } else {
+            let [front, back] = [pieces(Some(Face::Front))?, pieces(Some(Face::Back))?].map(runs);
+            let [front, back] = [inner_first(anatomy, front?)?, inner_first(anatomy, back?)?];
+            let [[front, outer], [back, _]] = [front, back];
+            ([split(anatomy, front), split(anatomy, back)], Some(outer))
+        };
+        inner.iter().all(|run| !run.crotch.is_empty() && !run.seam.is_empty()).then_some(Self {
+            anatomy,
+            waist,
+            hem,
+            inner,
+            outer,
+        })
+    }
+
+    fn points(&self) -> Vec<PointOfMeasure> {
+        let anatomy = self.anatomy;
+        let is_leg = |piece: usize| matches!(anatomy.parts[piece], Part::Leg(..));
+        let mut found = Vec::new();
+        let ends = [(Point::HalfWaist, &self.waist), (Point::HalfLegOpening, &self.hem)];
+        for (point, opening) in ends {
+            let end = anatomy.beyond(opening, is_leg);
+            found.extend(end.map(|edges| anatomy.along_edges(point, &edges, 0.5)));
+        }
+        let [front, back] = &self.inner;
+        for (point, run) in [(Point::FrontRise, front), (Point::BackRise, back)] {
+            found.push(anatomy.along_path(point, self.up_to_edge(&run.crotch), 1.0));
+        }
+        found.push(anatomy.along_path(Point::Inseam, edges(&front.seam), 1.0));
+        if let Some(outer) = &self.outer {
+            found.push(anatomy.along_path(Point::Outseam, self.up_to_edge(outer), 1.0));
+        }
+        let inseam_m: f64 = front.seam.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum();
+        let round = |below_m: f64| anatomy.along(&front.seam, below_m).and_then(|at| anatomy.ways.round(at));
+        found.extend(round(THIGH_BELOW_FORK_M).map(|path| anatomy.along_path(Point::HalfThigh, path, 0.5)));
+        if inseam_m >= LONG_M {
+            let knee = round(0.5 * inseam_m - KNEE_ABOVE_MIDDLE_M);
+            found.extend(knee.map(|path| anatomy.along_path(Point::HalfKnee, path, 0.5)));
+        }
+        found.extend(self.hip());
+        found
+    }
+
+    /// The fork of the front.
+    fn fork(&self) -> (usize, V2) {
+        let (edge, is_forwards) = self.inner[0].seam[0];
+        (edge.piece, self.anatomy.place((edge, !is_forwards)))
+    }
+
+    /// The way down the front from its upper edge, half-way between fork and outseam, and the height of its beginning above the fork, m.
+    pub fn way_down(&self) -> Option<(Vec<PathPart>, f64)> {
+        let anatomy = self.anatomy;
+        let (piece, fork) = self.fork();
+        let outline = anatomy.style().pieces[piece].outline();
+        let farthest = outline.iter().map(|p| p.x).max_by(|a, b| (a - fork.x).abs().total_cmp(&(b - fork.x).abs()))?;
+        let waist: Vec<EdgeRef> = self.waist.iter().copied().filter(|edge| edge.piece == piece).collect();
+        let top = anatomy.meeting(&waist, |p| p.x - 0.5 * (fork.x + farthest))?;
+        let way = anatomy.ways.walk(top, Heading::Down, |_| false)?;
+        Some((way.parts, anatomy.style().place(top).y - fork.y))
+    }
+
+    /// Height of the upper edge above the fork in front, m, with yoke and waistband.
+    pub fn top_above_fork_m(&self) -> f64 {
+        let anatomy = self.anatomy;
+        let crotch = &self.inner[0].crotch;
+        let on_leg_m: f64 = crotch.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum();
+        let above_m = anatomy.style().path_length_m(&self.up_to_edge(crotch)) - on_leg_m;
+        let (edge, is_forwards) = crotch[0];
+        anatomy.place((edge, !is_forwards)).y - self.fork().1.y + above_m
+    }
+
+    /// Girth of a leg at a height over the fork, m, below 0 under it; `None` where it does not reach.
+    pub fn girth_m(&self, above_fork_m: f64) -> Option<f64> {
+        let (path, top_m) = self.way_down()?;
+        let (piece, place) = worn::along(self.anatomy.style(), &path, top_m - above_fork_m)?;
+        self.anatomy.ways.round_through(piece, place).map(|path| self.anatomy.style().path_length_m(&path))
+    }
+
+    /// The girth of one leg's half of the hip.
+    fn hip(&self) -> Option<PointOfMeasure> {
+        let anatomy = self.anatomy;
+        let [front, back] = &self.inner;
+        let crotch: Vec<EdgeRef> = front.crotch.iter().map(|(edge, _)| *edge).collect();
+        let (_, fork) = self.fork();
+        let from = anatomy.meeting(&crotch, |p| p.y - fork.y - HIP_ABOVE_FORK_M)?;
+        let is_back = |at: EdgePoint| back.crotch.iter().any(|(edge, _)| *edge == at.edge);
+        let way = anatomy.ways.walk(from, Heading::Level, is_back)?;
+        is_back(way.end).then(|| anatomy.along_path(Point::HalfHip, way.parts, 1.0))
+    }
+
+    /// Along a chain that begins at the waist, and on above it over yoke and waistband.
+    fn up_to_edge(&self, chain: &Chain) -> Vec<PathPart> {
+        let anatomy = self.anatomy;
+        let mut path = edges(chain);
+        let Some(&(edge, is_forwards)) = chain.first() else { return path };
+        let (top, is_last) = anatomy.style().over_corner((edge, !is_forwards));
+        let beside_m = if is_last { anatomy.length_m(&[top]) - BESIDE_M } else { BESIDE_M };
+        let above = anatomy.ways.across(EdgePoint { edge: top, arc_m: beside_m });
+        let above = above.filter(|above| !matches!(anatomy.parts[above.edge.piece], Part::Leg(..) | Part::Trunk(_)));
+        path.extend(
+            above.and_then(|at| anatomy.ways.walk(at, Heading::Down, |_| false)).into_iter().flat_map(|way| way.parts),
+        );
+        path
+    }
+}
+
+fn edges(chain: &Chain) -> Vec<PathPart> {
+    chain.iter().map(|(edge, _)| PathPart::Edge(*edge)).collect()
+}
+
+/// Whether an opening of legs lies in the upper halves of their pieces.
+fn is_upper(anatomy: &Anatomy<'_>, opening: &[EdgeRef]) -> bool {
+    let above = |edge: &EdgeRef| {
+        let outline = anatomy.style().pieces[edge.piece].outline();
+        let (low, high) = outline.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p.y), high.max(p.y)));
+        let [from, to] = [false, true].map(|is_last| anatomy.place((*edge, is_last)).y);
+        0.5 * (from + to) - 0.5 * (low + high)
+    };
+    opening.iter().map(above).sum::<f64>() > 0.0
+}
+
+/// Both runs of a piece's outline from its waist to its hem, each from the waist down: first the one that the outline passes first.
+fn runs(anatomy: &Anatomy<'_>, piece: usize, waist: &[EdgeRef], hem: &[EdgeRef]) -> Option<[Chain; 2]> {
+    let n = anatomy.style().pieces[piece].edges.len();
+    let edge = |k: usize| EdgeRef { piece, edge: k % n };
+    // A fly is part of the opening, but no part of the waist's edge.
+    let is_waist = |e: EdgeRef| waist.contains(&e) && !anatomy.is_upright(&vec![(e, true)]);
+    let first_hem = (0..n).find(|k| hem.contains(&edge(*k)) && !hem.contains(&edge(k + n - 1)))?;
+    let all: Vec<EdgeRef> = (0..n).map(|k| edge(first_hem + k)).filter(|e| !hem.contains(e)).collect();
+    let first = all.iter().position(|e| is_waist(*e))?;
+    let last = all.iter().rposition(|e| is_waist(*e))?;
+    let up: Chain = all[..first].iter().rev().map(|e| (*e, false)).collect();
+    let down: Chain = all[last + 1..].iter().map(|e| (*e, true)).collect();
+    Some([up, down])
+}
+
+/// Whether an edge of a leg is sewn to the other leg.
+fn is_crotch(anatomy: &Anatomy<'_>, edge: EdgeRef) -> bool {
+    let Part::Leg(hand, _) = anatomy.parts[edge.piece] else { return false };
+    let is_other = |other: &EdgeRef| matches!(anatomy.parts[other.piece], Part::Leg(of, _) if of != hand);
+    anatomy.ways.partners(edge).iter().any(is_other)
+}
+
+/// The inner of two runs, then the outer one; `None` where none or both are sewn to the other leg.
+fn inner_first(anatomy: &Anatomy<'_>, [one, other]: [Chain; 2]) -> Option<[Chain; 2]> {
+    let is_inner = |run: &Chain| run.iter().any(|(edge, _)| is_crotch(anatomy, *edge));
+    match (is_inner(&one), is_inner(&other)) {
+        (true, false) => Some([one, other]),
+        (false, true) => Some([other, one]),
+        _ => None,
+    }
+}
+
+/// An inner run parted at the fork: behind the last edge that is sewn to the other leg.
+fn split(anatomy: &Anatomy<'_>, run: Chain) -> Run {
+    let fork = run.iter().rposition(|(edge, _)| is_crotch(anatomy, *edge)).map_or(0, |last| last + 1);
+    let (crotch, seam) = run.split_at(fork);
+    Run { crotch: crotch.to_vec(), seam: seam.to_vec() }
+}
+
+fn mean_u(anatomy: &Anatomy<'_>, run: &Chain) -> f64 {
+    run.iter().map(|end: &EdgeEnd| anatomy.place(*end).x).sum::<f64>() / run.len().max(1) as f64
+}

@@ -1,0 +1,212 @@
+//! Points of measure: the lengths by which a garment is specified and checked, found on the pieces by what they are.
+//!
+//! They are measured flat on the pieces as they are sewn [ISO 18890]. No seam file has to name them: `anatomy` tells what each
+//! seam and opening is by the roles of the pieces, `top`, `legs` and `skirt` lay each point along them, and `ways` goes straight across
+//! pieces and through their seams.
+
+mod anatomy;
+mod legs;
+mod skirt;
+#[cfg(test)]
+mod tests;
+mod top;
+mod ways;
+mod worn;
+
+use self::anatomy::Anatomy;
+pub use self::worn::{Stand, WornLength};
+use super::style::{PathPart, Style};
+
+/// A point of measure by its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Point {
+    /// Half of the girth below the armhole.
+    HalfChest,
+    /// Half of the girth at the waist.
+    HalfWaist,
+    /// Half of the girth at the hip.
+    HalfHip,
+    /// Half of the lower edge.
+    HalfHem,
+    /// Length of the front from the high point of the shoulder.
+    FrontLength,
+    /// Length of the back from the high point of the shoulder.
+    BackLength,
+    /// Length of the front along its centre.
+    CentreFrontLength,
+    /// Length of the back along its centre.
+    CentreBackLength,
+    /// Width of the front between the armholes.
+    AcrossFront,
+    /// Width of the back between the armholes.
+    AcrossBack,
+    /// Width between the shoulder points.
+    AcrossShoulder,
+    /// Length of the shoulder seam.
+    Shoulder,
+    /// Length of the armhole.
+    Armhole,
+    /// Length of the sleeve.
+    SleeveLength,
+    /// Half of the sleeve's girth below the armhole.
+    HalfBicep,
+    /// Half of the sleeve's lower edge.
+    HalfCuff,
+    /// Width of the neck.
+    NeckWidth,
+    /// Depth of the neck in front.
+    FrontNeckDrop,
+    /// Depth of the neck behind.
+    BackNeckDrop,
+    /// Length of the neckline.
+    Neck,
+    /// Length of the seat seam in front.
+    FrontRise,
+    /// Length of the seat seam behind.
+    BackRise,
+    /// Length of the inseam.
+    Inseam,
+    /// Length of the outseam.
+    Outseam,
+    /// Half of the leg's girth below the fork.
+    HalfThigh,
+    /// Half of the leg's girth at the knee.
+    HalfKnee,
+    /// Half of the leg's lower edge.
+    HalfLegOpening,
+}
+
+impl Point {
+    /// All, in the order of a specification sheet.
+    pub const ALL: [Self; 27] = [
+        Self::HalfChest,
+        Self::HalfWaist,
+        Self::HalfHip,
+        Self::HalfHem,
+        Self::FrontLength,
+        Self::BackLength,
+        Self::CentreFrontLength,
+        Self::CentreBackLength,
+        Self::AcrossFront,
+        Self::AcrossBack,
+        Self::AcrossShoulder,
+        Self::Shoulder,
+        Self::Armhole,
+        Self::SleeveLength,
+        Self::HalfBicep,
+        Self::HalfCuff,
+        Self::NeckWidth,
+        Self::FrontNeckDrop,
+        Self::BackNeckDrop,
+        Self::Neck,
+        Self::FrontRise,
+        Self::BackRise,
+        Self::Inseam,
+        Self::Outseam,
+        Self::HalfThigh,
+        Self::HalfKnee,
+        Self::HalfLegOpening,
+    ];
+
+    /// Name in tables and SQL, and how it is measured.
+    const fn words(self) -> (&'static str, &'static str) {
+        match self {
+            Self::HalfChest => ("half_chest", "half of the girth 25 mm below the armhole, along the side seam"),
+            Self::HalfWaist => (
+                "half_waist",
+                "half of the waist: the upper edge of trousers and skirts, relaxed; the waist seam; of other tops the narrowest \
+                 girth below the armhole, or 180 mm below it where the sides are straight",
+            ),
+            Self::HalfHip => (
+                "half_hip",
+                "half of the girth 80 mm above the fork of trousers, 200 mm below the waist of skirts and dresses",
+            ),
+            Self::HalfHem => ("half_hem", "half of the lower edge, along the edge"),
+            Self::FrontLength => {
+                ("front_length", "from the high point of the shoulder straight down the front to the hem")
+            }
+            Self::BackLength => {
+                ("back_length", "from the high point of the shoulder straight down the back to the hem")
+            }
+            Self::CentreFrontLength => (
+                "centre_front_length",
+                "along the centre of the front from the neck to the hem; of skirts from the waist, without a waistband",
+            ),
+            Self::CentreBackLength => (
+                "centre_back_length",
+                "along the centre of the back from the neck to the hem; of skirts from the waist, without a waistband",
+            ),
+            Self::AcrossFront => ("across_front", "from armhole to armhole across the front, half-way up the armhole"),
+            Self::AcrossBack => ("across_back", "from armhole to armhole across the back, half-way up the armhole"),
+            Self::AcrossShoulder => ("across_shoulder", "from shoulder point to shoulder point across the back"),
+            Self::Shoulder => ("shoulder", "along the shoulder seam from the neck to the armhole"),
+            Self::Armhole => ("armhole", "all round the armhole, along its seam"),
+            Self::SleeveLength => {
+                ("sleeve_length", "from the shoulder point straight down the sleeve to its lower edge")
+            }
+            Self::HalfBicep => {
+                ("half_bicep", "half of the sleeve's girth 25 mm below the armhole, along the underarm seam")
+            }
+            Self::HalfCuff => ("half_cuff", "half of the sleeve's lower edge, along the edge"),
+            Self::NeckWidth => ("neck_width", "between the high points of the shoulder, straight"),
+            Self::FrontNeckDrop => (
+                "front_neck_drop",
+                "from the level of the high point of the shoulder down to the neckline at centre front",
+            ),
+            Self::BackNeckDrop => (
+                "back_neck_drop",
+                "from the level of the high point of the shoulder down to the neckline at centre back",
+            ),
+            Self::Neck => ("neck", "all round the neckline, along its edge or seam"),
+            Self::FrontRise => ("front_rise", "along the front seat seam from the fork to the upper edge"),
+            Self::BackRise => ("back_rise", "along the back seat seam from the fork to the upper edge"),
+            Self::Inseam => ("inseam", "along the inseam of the front from the fork to the hem"),
+            Self::Outseam => ("outseam", "along the outseam of the front from the upper edge to the hem"),
+            Self::HalfThigh => ("half_thigh", "half of the leg's girth 25 mm below the fork, along the inseam"),
+            Self::HalfKnee => {
+                ("half_knee", "half of the leg's girth 50 mm above the middle of the inseam; of long legs only")
+            }
+            Self::HalfLegOpening => ("half_leg_opening", "half of the leg's lower edge, along the edge"),
+        }
+    }
+
+    /// Name in tables and SQL.
+    #[must_use]
+    pub const fn as_str(self) -> &'static str {
+        self.words().0
+    }
+
+    /// How it is measured.
+    #[must_use]
+    pub const fn definition(self) -> &'static str {
+        self.words().1
+    }
+}
+
+/// A point of measure of a garment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointOfMeasure {
+    /// Which.
+    pub point: Point,
+    /// Its length, m: of a path `share` of that of the path, and of a length from the high point of the shoulder what lies above the
+    /// path besides.
+    pub length_m: f64,
+    /// Where it lies on the cloth; empty of a distance across no cloth, as the width of a neck.
+    pub path: Vec<PathPart>,
+    /// Part of the path's length that counts: half of a girth, as it is measured flat.
+    pub share: f64,
+}
+
+impl Style {
+    /// The points of measure that the style has, in the order of [`Point::ALL`]. What cannot be told by the roles of its pieces is
+    /// left out.
+    #[must_use]
+    pub fn points_of_measure(&self) -> Vec<PointOfMeasure> {
+        let anatomy = Anatomy::of(self);
+        let mut found = [top::points(&anatomy), legs::points(&anatomy), skirt::points(&anatomy)].concat();
+        found.sort_by_key(|one| one.point);
+        // A jumpsuit's waist is that of its top.
+        found.dedup_by_key(|one| one.point);
+        found
+    }
+}

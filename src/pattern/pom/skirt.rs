@@ -1,0 +1,95 @@
+//! Points of measure of skirts, and of what hangs from a bodice.
+
+use super::anatomy::{Anatomy, Chain, Part};
+use super::ways::Heading;
+use super::{Point, PointOfMeasure};
+use crate::propose::Face;
+use crate::style::openings::EdgeEnd;
+use crate::style::{EdgeRef, PathPart};
+
+/// Distance below the waist at which the hip is measured, m: that of a person of 1.7 m.
+const HIP_BELOW_WAIST_M: f64 = 0.200;
+/// Least ratio of the chord of a waist to its length: rounder ones are those of circle skirts, whose hip is no straight line.
+const STRAIGHT: f64 = 0.9;
+
+/// Points of measure of a style's skirt; none without a side seam.
+pub fn points(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
+    let is_skirt = |piece: usize| matches!(anatomy.parts[piece], Part::Skirt(_));
+    let openings = anatomy.style().openings(&is_skirt);
+    let is = |face: Face| move |part: Part| part == Part::Skirt(face);
+    let seams = 0..anatomy.style().seams.len();
+    let joins = seams.filter_map(|seam| anatomy.between(seam, is(Face::Front), is(Face::Back)));
+    let sides = joins.filter(|[front, _]| anatomy.is_upright(front)).map(|sides| anatomy.turned_down(sides));
+    let top_of = |chain: &Chain| anatomy.opening_at(&openings, (chain[0].0, !chain[0].1));
+    let Some((side, waist)) = sides.into_iter().find_map(|[front, _]| top_of(&front).map(|top| (front, top))) else {
+        return Vec::new();
+    };
+    let waist = &openings[waist];
+    let mut found = Vec::new();
+    // A dress has its waist and its lengths from the bodice.
+    if !anatomy.parts.iter().any(|part| matches!(part, Part::Trunk(_))) {
+        let edge = anatomy.beyond(waist, is_skirt);
+        found.extend(edge.map(|edges| anatomy.along_edges(Point::HalfWaist, &edges, 0.5)));
+        found.extend(Face::BOTH.into_iter().filter_map(|face| centre(anatomy, waist, face)));
+    }
+    let hems: Vec<&Vec<EdgeRef>> = openings.iter().filter(|opening| *opening != waist).collect();
+    if let [hem] = hems.as_slice() {
+        let edge = anatomy.beyond(hem, is_skirt);
+        found.extend(edge.map(|edges| anatomy.along_edges(Point::HalfHem, &edges, 0.5)));
+    }
+    if waist.iter().all(|edge| is_straight(anatomy, *edge)) {
+        let round = anatomy.along(&side, HIP_BELOW_WAIST_M).and_then(|at| anatomy.ways.round(at));
+        found.extend(round.map(|path| anatomy.along_path(Point::HalfHip, path, 0.5)));
+    }
+    found
+}
+
+/// The way down the front from its upper edge, half-way between its middle and its side.
+pub fn way_down(anatomy: &Anatomy<'_>) -> Option<Vec<PathPart>> {
+    let is_skirt = |piece: usize| matches!(anatomy.parts[piece], Part::Skirt(_));
+    let is_front = |edge: &EdgeRef| anatomy.parts[edge.piece] == Part::Skirt(Face::Front);
+    let openings = anatomy.style().openings(&is_skirt);
+    let height = |opening: &Vec<EdgeRef>| {
+        let ends = opening.iter().filter(|edge| is_front(edge)).map(|edge| anatomy.place((*edge, false)).y);
+        ends.fold(f64::MIN, f64::max)
+    };
+    let waist = openings.iter().max_by(|one, other| height(one).total_cmp(&height(other)))?;
+    let piece = waist.iter().find(|edge| is_front(edge))?.piece;
+    let own: Vec<EdgeRef> = waist.iter().copied().filter(|edge| edge.piece == piece).collect();
+    let ends = own.iter().flat_map(|edge| [false, true].map(|is_last| anatomy.place((*edge, is_last)).x));
+    let (low, high) = ends.fold((f64::MAX, f64::MIN), |(low, high), u| (low.min(u), high.max(u)));
+    let top = anatomy.meeting(&own, |p| p.x - (0.25 * low + 0.75 * high))?;
+    anatomy.ways.walk(top, Heading::Down, |_| false).map(|way| way.parts)
+}
+
+fn is_straight(anatomy: &Anatomy<'_>, edge: EdgeRef) -> bool {
+    let [from, to] = [false, true].map(|is_last| anatomy.place((edge, is_last)));
+    (to - from).norm() > STRAIGHT * anatomy.length_m(&[edge])
+}
+
+/// Length of a skirt along the centre of a face.
+fn centre(anatomy: &Anatomy<'_>, waist: &[EdgeRef], face: Face) -> Option<PointOfMeasure> {
+    let point = if face == Face::Front { Point::CentreFrontLength } else { Point::CentreBackLength };
+    let own: Vec<EdgeRef> =
+        waist.iter().copied().filter(|edge| anatomy.parts[edge.piece] == Part::Skirt(face)).collect();
+    let piece = own.first()?.piece;
+    // Half a skirt has a seam to the other half at one end of its waist.
+    let ends = own.iter().flat_map(|edge| [(*edge, false), (*edge, true)]);
+    let is_centre = |end: &EdgeEnd| {
+        let next = anatomy.style().over_corner(*end).0;
+        let is_half = |other: &EdgeRef| other.piece != next.piece && anatomy.parts[other.piece] == Part::Skirt(face);
+        anatomy.ways.partners(next).iter().any(is_half)
+    };
+    if let Some(end) = ends.into_iter().find(is_centre) {
+        let path = anatomy.down_centre(end);
+        return (!path.is_empty()).then(|| anatomy.along_path(point, path, 1.0));
+    }
+    if own.iter().any(|edge| edge.piece != piece) {
+        return None;
+    }
+    let corners = own.iter().flat_map(|edge| [false, true].map(|is_last| anatomy.place((*edge, is_last)).x));
+    let (low, high) = corners.fold((f64::MAX, f64::MIN), |(low, high), u| (low.min(u), high.max(u)));
+    let at = anatomy.meeting(&own, |p| p.x - 0.5 * (low + high))?;
+    let way = anatomy.ways.walk(at, Heading::Down, |_| false)?;
+    Some(anatomy.along_path(point, way.parts, 1.0))
+}

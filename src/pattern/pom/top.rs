@@ -1,0 +1,449 @@
+//! Points of measure of what is worn on the trunk, and of its sleeves.
+
+use super::anatomy::{Anatomy, BESIDE_M, Chain, Part, distance};
+use super::ways::Heading;
+use super::{Point, PointOfMeasure, worn};
+use crate::propose::{Face, Hand};
+use crate::style::openings::EdgeEnd;
+use crate::style::{EdgePoint, EdgeRef, PathPart};
+
+/// Distance below the armhole at which chest and bicep are measured, m.
+const BELOW_ARMHOLE_M: f64 = 0.025;
+/// Distance of the waist below the armhole where the sides do not show it, m: that of the waist below the chest of a person of 1.7 m.
+const WAIST_BELOW_ARMHOLE_M: f64 = 0.180;
+/// Distance from armhole and hem from which on the narrowest girth is looked for, m, and between the places tried.
+const FROM_ENDS_M: f64 = 0.060;
+const STEP_M: f64 = 0.005;
+/// How much narrower than at both ends the narrowest girth is for it to be a waist, m.
+const SHAPED_M: f64 = 0.008;
+/// Greatest slant of the front edge of an open garment from the vertical, as the ratio of its sides.
+const FRONT_EDGE_SLANT: f64 = 0.14;
+/// Greatest distance of such an edge from the side of its piece, as a share of the piece's width.
+const FRONT_EDGE_INSET: f64 = 0.1;
+
+/// Points of measure of a style's trunk and sleeves; none without side seams between a front and a back.
+pub fn points(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
+    let Some(trunk) = Trunk::of(anatomy) else { return Vec::new() };
+    let mut found = trunk.girths();
+    for face in Face::BOTH {
+        found.extend(trunk.lengths(face));
+        found.extend(trunk.across(face));
+    }
+    found.extend(trunk.shoulders());
+    found.extend(trunk.neck());
+    found.extend(trunk.sleeve());
+    found
+}
+
+fn is_face(face: Face) -> impl Fn(Part) -> bool {
+    move |part| part == Part::Trunk(face)
+}
+
+/// The trunk of a garment: its pieces alone, sewn to each other.
+pub struct Trunk<'a> {
+    anatomy: &'a Anatomy<'a>,
+    openings: Vec<Vec<EdgeRef>>,
+    /// Both sides of each side seam that ends at an armhole, or at the top edge: front and back, from there down.
+    sides: Vec<[Chain; 2]>,
+    /// Both sides of each shoulder seam, front and back, from the neck outwards.
+    shoulders: Vec<[Chain; 2]>,
+    /// Openings that are armholes.
+    armholes: Vec<usize>,
+    /// Edges of the neckline.
+    neck: Vec<EdgeRef>,
+    /// Edges of the lower end.
+    bottom: Vec<EdgeRef>,
+}
+
+impl<'a> Trunk<'a> {
+    /// Of a style; `None` of one without side seams between a front and a back.
+    pub fn of(anatomy: &'a Anatomy<'a>) -> Option<Self> {
+        let openings = anatomy.style().openings(&|piece| matches!(anatomy.parts[piece], Part::Trunk(_)));
+        let seams = 0..anatomy.style().seams.len();
+        let joins = seams.filter_map(|seam| anatomy.between(seam, is_face(Face::Front), is_face(Face::Back)));
+        let (upright, across): (Vec<_>, Vec<_>) = joins.partition(|[front, _]| anatomy.is_upright(front));
+        let start = |chain: &Chain| -> EdgeEnd { (chain[0].0, !chain[0].1) };
+        let end = |chain: &Chain| -> EdgeEnd { chain[chain.len() - 1] };
+        let all_sides: Vec<[Chain; 2]> = upright.into_iter().map(|sides| anatomy.turned_down(sides)).collect();
+        let opening = |at: EdgeEnd| anatomy.opening_at(&openings, at);
+        let sides: Vec<[Chain; 2]> =
+            all_sides.iter().filter(|[front, _]| opening(start(front)).is_some()).cloned().collect();
+        let tops: Vec<usize> = sides.iter().filter_map(|[front, _]| opening(start(front))).collect();
+        // An opening at two sides is the top edge of a garment without shoulders.
+        let armholes: Vec<usize> =
+            tops.iter().copied().filter(|top| tops.iter().filter(|other| *other == top).count() == 1).collect();
+        let shoulder = |sides: [Chain; 2]| -> Option<[Chain; 2]> {
+            let ends = [opening(start(&sides[0])), opening(end(&sides[0]))];
+            let is_outer = ends.map(|end| end.is_some_and(|end| armholes.contains(&end)));
+            match is_outer {
+                [false, true] => Some(sides),
+                [true, false] => Some(sides.map(|chain| chain.into_iter().rev().map(|(e, on)| (e, !on)).collect())),
+                _ => None,
+            }
+        };
+        let shoulders: Vec<[Chain; 2]> = across.into_iter().filter_map(shoulder).collect();
+        let neck = shoulders.first().and_then(|[front, _]| opening(start(front)));
+        let bottom = all_sides.iter().filter_map(|[front, _]| opening(end(front))).find(|k| !armholes.contains(k));
+        let mut trunk = Self {
+            anatomy,
+            neck: neck.map_or_else(Vec::new, |k| openings[k].clone()),
+            bottom: bottom.map_or_else(Vec::new, |k| openings[k].clone()),
+            openings,
+            sides,
+            shoulders,
+            armholes,
+        };
+        if neck.is_some() && neck == bottom {
+            trunk.part_neck_from_hem();
+        }
+        (!trunk.sides.is_empty()).then_some(trunk)
+    }
+
+    /// Of a garment that is open in front, whose neck and hem are one opening: what lies on either side of the front edges.
+    fn part_neck_from_hem(&mut self) {
+        let opening = std::mem::take(&mut self.neck);
+        let Some(first) = opening.iter().position(|edge| self.is_front_edge(*edge)) else {
+            self.bottom.clear();
+            return;
+        };
+        let ring = || opening[first..].iter().chain(&opening[..first]).copied();
+        let is_front_edge = |edge: &EdgeRef| self.is_front_edge(*edge);
+        let stretches: Vec<Vec<EdgeRef>> = ring()
+            .collect::<Vec<_>>()
+            .split(is_front_edge)
+            .filter(|part| !part.is_empty())
+            .map(<[_]>::to_vec)
+            .collect();
+        let touches = |part: &Vec<EdgeRef>, ends: &[EdgeEnd]| {
+            ends.iter().any(|end| part.contains(&self.anatomy.style().over_corner(*end).0))
+        };
+        let high: Vec<EdgeEnd> = self.shoulders.iter().map(|[front, _]| (front[0].0, !front[0].1)).collect();
+        let neck = stretches.iter().find(|part| touches(part, &high)).cloned();
+        let bottom = stretches.into_iter().filter(|part| Some(part) != neck.as_ref()).max_by_key(Vec::len);
+        self.neck = neck.unwrap_or_default();
+        self.bottom = bottom.unwrap_or_default();
+    }
+
+    /// Whether an edge is the upright one in the middle of half a front.
+    fn is_front_edge(&self, edge: EdgeRef) -> bool {
+        if self.anatomy.parts[edge.piece] != Part::Trunk(Face::Front) {
+            return false;
+        }
+        let [from, to] = [false, true].map(|is_last| self.anatomy.place((edge, is_last)));
+        let outline = self.anatomy.style().pieces[edge.piece].outline();
+        let (low, high) = outline.iter().fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p.x), high.max(p.x)));
+        let middle = 0.5 * (from.x + to.x);
+        let is_outer = (middle - low).min(high - middle) < FRONT_EDGE_INSET * (high - low);
+        is_outer && (to.x - from.x).abs() < FRONT_EDGE_SLANT * (to.y - from.y).abs()
+    }
+
+    /// Girths at chest, waist and hem.
+    fn girths(&self) -> Vec<PointOfMeasure> {
+        let anatomy = self.anatomy;
+        let mut found = Vec::new();
+        let side = &self.sides[0][0];
+        let round = |below_m: f64| anatomy.along(side, below_m).and_then(|at| anatomy.ways.round(at));
+        found.extend(round(BELOW_ARMHOLE_M).map(|path| anatomy.along_path(Point::HalfChest, path, 0.5)));
+        let is_trunk = |piece: usize| matches!(anatomy.parts[piece], Part::Trunk(_));
+        if anatomy.has_below(&self.bottom) {
+            found.push(anatomy.along_edges(Point::HalfWaist, &self.bottom, 0.5));
+        } else {
+            let length_m: f64 = side.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum();
+            let places =
+                (0..).map(|k| FROM_ENDS_M + STEP_M * f64::from(k)).take_while(|at| *at < length_m - FROM_ENDS_M);
+            let girths = places.filter_map(|at| Some((at, anatomy.style().path_length_m(&round(at)?))));
+            found.extend(
+                round(waist(&girths.collect::<Vec<_>>())).map(|path| anatomy.along_path(Point::HalfWaist, path, 0.5)),
+            );
+        }
+        let hem = Some(&self.bottom).filter(|bottom| !bottom.is_empty()).and_then(|b| anatomy.beyond(b, is_trunk));
+        found.extend(hem.map(|hem| anatomy.along_edges(Point::HalfHem, &hem, 0.5)));
+        found
+    }
+
+    /// High points of the shoulder on a face.
+    fn high_points(&self, face: Face) -> Vec<EdgeEnd> {
+        self.shoulders.iter().map(|sides| sides[usize::from(face == Face::Back)][0]).map(|(e, on)| (e, !on)).collect()
+    }
+
+    /// Lengths down a face: from the high point of the shoulder, and along the centre.
+    fn lengths(&self, face: Face) -> Vec<PointOfMeasure> {
+        let anatomy = self.anatomy;
+        let (from_shoulder, centre) = match face {
+            Face::Front => (Point::FrontLength, Point::CentreFrontLength),
+            Face::Back => (Point::BackLength, Point::CentreBackLength),
+        };
+        let mut found = Vec::new();
+        let high = self.high_points(face);
+        let down = |at: EdgePoint| anatomy.ways.walk(at, Heading::Down, |_| false).map(|way| way.parts);
+        found.extend(high.first().and_then(|end| self.length_from_neck(from_shoulder, *end)));
+        match self.neck_centre(face) {
+            Some(Centre::Within(at)) => found.extend(down(at).map(|path| anatomy.along_path(centre, path, 1.0))),
+            Some(Centre::Corner(end)) => {
+                let path = anatomy.down_centre(end);
+                found.extend((!path.is_empty()).then(|| anatomy.along_path(centre, path, 1.0)));
+            }
+            None => {}
+        }
+        found
+    }
+
+    /// Length from a high point of the shoulder straight down. Where the neckline goes under the shoulder first, the tape lies over
+    /// the neck until the cloth begins: the way starts there, and what lies higher counts too.
+    fn length_from_neck(&self, point: Point, high: EdgeEnd) -> Option<PointOfMeasure> {
+        let (path, higher_m) = self.down_from(high)?;
+        let along = self.anatomy.along_path(point, path, 1.0);
+        Some(PointOfMeasure { length_m: along.length_m + higher_m, ..along })
+    }
+
+    /// The way straight down from a high point of the shoulder, and how far below that it begins, m.
+    fn down_from(&self, high: EdgeEnd) -> Option<(Vec<PathPart>, f64)> {
+        let anatomy = self.anatomy;
+        let top = anatomy.place(high);
+        let own: Vec<EdgeRef> = self.neck.iter().copied().filter(|edge| edge.piece == high.0.piece).collect();
+        let below =
+            anatomy.lowest_meeting(&own, |p| p.x - top.x).filter(|at| top.y - anatomy.style().place(*at).y > BESIDE_M);
+        let from = below.unwrap_or_else(|| anatomy.point(high));
+        let way = anatomy.ways.walk(from, Heading::Down, |_| false)?;
+        Some((way.parts, top.y - anatomy.style().place(from).y))
+    }
+
+    /// The way down the front from the high point of the shoulder, and how far below that it begins, m.
+    pub fn way_down(&self) -> Option<(Vec<PathPart>, f64)> {
+        self.down_from(*self.high_points(Face::Front).first()?)
+    }
+
+    /// How far the underarm lies below the high point of the shoulder where one piece has both, m.
+    fn underarm_below_neck_m(&self) -> Option<f64> {
+        let underarms = self.sides.iter().flatten().map(|chain| (chain[0].0, !chain[0].1));
+        let high = Face::BOTH.into_iter().flat_map(|face| self.high_points(face)).collect::<Vec<_>>();
+        underarms.into_iter().find_map(|underarm| {
+            let high = high.iter().find(|high| high.0.piece == underarm.0.piece)?;
+            Some(self.anatomy.place(*high).y - self.anatomy.place(underarm).y)
+        })
+    }
+
+    /// How far below the high point of the shoulder the chest is measured, m.
+    pub fn chest_below_neck_m(&self) -> Option<f64> {
+        self.underarm_below_neck_m().map(|m| m + BELOW_ARMHOLE_M)
+    }
+
+    /// How far below the high point of the shoulder what hangs from the trunk is sewn to it at the side, m; `None` where nothing is.
+    pub fn waist_below_neck_m(&self) -> Option<f64> {
+        let side_m: f64 = self.sides[0][0].iter().map(|(edge, _)| self.anatomy.length_m(&[*edge])).sum();
+        self.underarm_below_neck_m().filter(|_| self.anatomy.has_below(&self.bottom)).map(|m| m + side_m)
+    }
+
+    /// Girth of a sleeve at a distance from the shoulder point along the arm, m; `None` beyond its end.
+    pub fn sleeve_girth_m(&self, along_m: f64) -> Option<f64> {
+        let anatomy = self.anatomy;
+        let way = self.sleeve_way()?;
+        let (piece, place) = worn::along(anatomy.style(), &way, along_m)?;
+        anatomy.ways.round_through(piece, place).map(|path| anatomy.style().path_length_m(&path))
+    }
+
+    /// The way down a sleeve from the shoulder point.
+    fn sleeve_way(&self) -> Option<Vec<PathPart>> {
+        let anatomy = self.anatomy;
+        let is_sleeve = |piece: usize| matches!(anatomy.parts[piece], Part::Sleeve(_));
+        let on_cap = self.shoulders.iter().find_map(|[front, _]| {
+            let outer = anatomy.point(anatomy.style().over_corner(front[front.len() - 1]));
+            anatomy.ways.across(outer).filter(|at| is_sleeve(at.edge.piece))
+        });
+        anatomy.ways.walk(on_cap?, Heading::Down, |_| false).map(|way| way.parts)
+    }
+
+    /// Where the neckline meets the centre of a face.
+    fn neck_centre(&self, face: Face) -> Option<Centre> {
+        let anatomy = self.anatomy;
+        let high = self.high_points(face);
+        let first = high.first()?;
+        let own: Vec<EdgeRef> = self.neck.iter().copied().filter(|edge| edge.piece == first.0.piece).collect();
+        if let Some(other) = high.iter().skip(1).find(|end| end.0.piece == first.0.piece) {
+            let middle = 0.5 * (anatomy.place(*first).x + anatomy.place(*other).x);
+            return anatomy.meeting(&own, |p| p.x - middle).map(Centre::Within);
+        }
+        // Along the neckline of half a face to where it ends.
+        let mut at = *first;
+        loop {
+            let next = anatomy.style().over_corner(at);
+            if !own.contains(&next.0) {
+                return (at != *first).then_some(Centre::Corner(at));
+            }
+            at = (next.0, !next.1);
+        }
+    }
+
+    /// Width, depths and length of the neck.
+    fn neck(&self) -> Vec<PointOfMeasure> {
+        let anatomy = self.anatomy;
+        let mut found = Vec::new();
+        for face in [Face::Back, Face::Front] {
+            let (Some(centre), Some(high)) = (self.neck_centre(face), self.high_points(face).first().copied()) else {
+                continue;
+            };
+            let (at, half_m) = match centre {
+                Centre::Within(at) => {
+                    let at = anatomy.style().place(at);
+                    (at, (anatomy.place(high).x - at.x).abs())
+                }
+                Centre::Corner(end) => (anatomy.place(end), (anatomy.place(high).x - anatomy.place(end).x).abs()),
+            };
+            // The back tells the width: fronts may overlap.
+            if found.is_empty() {
+                found.push(distance(Point::NeckWidth, 2.0 * half_m));
+            }
+            let drop = if face == Face::Back { Point::BackNeckDrop } else { Point::FrontNeckDrop };
+            found.push(distance(drop, anatomy.place(high).y - at.y));
+        }
+        if !self.neck.is_empty() {
+            found.push(anatomy.along_edges(Point::Neck, &self.neck, 1.0));
+        }
+        found
+    }
+
+    /// Lengths of shoulder and armhole, and the width between the shoulders.
+    fn shoulders(&self) -> Vec<PointOfMeasure> {
+        let anatomy = self.anatomy;
+        let mut found = Vec::new();
+        if let Some([front, _]) = self.shoulders.first() {
+            let edges: Vec<EdgeRef> = front.iter().map(|(edge, _)| *edge).collect();
+            found.push(anatomy.along_edges(Point::Shoulder, &edges, 1.0));
+        }
+        let outer: Vec<EdgeEnd> = self.shoulders.iter().map(|[_, back]| back[back.len() - 1]).collect();
+        let halves = || {
+            let Some(Centre::Corner(centre)) = self.neck_centre(Face::Back) else { return None };
+            let end = outer.first().filter(|end| end.0.piece == centre.0.piece)?;
+            Some(2.0 * (anatomy.place(*end).x - anatomy.place(centre).x).abs())
+        };
+        let width_m = match outer.as_slice() {
+            [one, other, ..] if one.0.piece == other.0.piece => {
+                Some((anatomy.place(*one) - anatomy.place(*other)).norm())
+            }
+            _ => halves(),
+        };
+        found.extend(width_m.map(|m| distance(Point::AcrossShoulder, m)));
+        if let Some(armhole) = self.armholes.first() {
+            found.push(anatomy.along_edges(Point::Armhole, &self.openings[*armhole], 1.0));
+        }
+        found
+    }
+
+    /// Width of a face half-way up the armhole.
+    fn across(&self, face: Face) -> Option<PointOfMeasure> {
+        let anatomy = self.anatomy;
+        let point = if face == Face::Front { Point::AcrossFront } else { Point::AcrossBack };
+        let is_armhole = |edge: EdgeRef| self.armholes.iter().any(|k| self.openings[*k].contains(&edge));
+        let starts: Vec<EdgePoint> = self.armholes.iter().filter_map(|k| self.half_way_up(*k, face)).collect();
+        let first = *starts.first()?;
+        let ahead = anatomy.ways.walk(first, Heading::Level, |at| is_armhole(at.edge))?;
+        if is_armhole(ahead.end.edge) {
+            return Some(anatomy.along_path(point, ahead.parts, 1.0));
+        }
+        let place = |at: EdgePoint| anatomy.style().place(at);
+        if !self.neck.contains(&ahead.end.edge) {
+            // Open there: the other half likewise.
+            let behind = anatomy.ways.walk(*starts.get(1)?, Heading::Level, |at| is_armhole(at.edge))?;
+            return Some(anatomy.along_path(point, [ahead.parts, behind.parts].concat(), 1.0));
+        }
+        // Over a low neckline.
+        let other = starts.get(1).filter(|other| other.edge.piece == first.edge.piece);
+        let halves = || match self.neck_centre(face) {
+            Some(Centre::Corner(end)) if end.0.piece == first.edge.piece => {
+                Some(2.0 * (place(first).x - anatomy.place(end).x).abs())
+            }
+            _ => None,
+        };
+        let width_m = other.map(|other| (place(*other) - place(first)).norm()).or_else(halves);
+        width_m.map(|m| distance(point, m))
+    }
+
+    /// The point of an armhole on a face half-way between underarm and shoulder: in height where one piece has both, else along it.
+    fn half_way_up(&self, armhole: usize, face: Face) -> Option<EdgePoint> {
+        let anatomy = self.anatomy;
+        let on_face = |edge: &&EdgeRef| anatomy.parts[edge.piece] == Part::Trunk(face);
+        let edges: Vec<EdgeRef> = self.openings[armhole].iter().filter(on_face).copied().collect();
+        let first = *edges.first()?;
+        if edges.iter().all(|edge| edge.piece == first.piece) {
+            let points = || edges.iter().flat_map(|edge| anatomy.style().edge(*edge).line.points());
+            let ends = edges.iter().flat_map(|edge| [false, true].map(|is_last| anatomy.place((*edge, is_last)).y));
+            let low = points().map(|p| p.y).fold(f64::MAX, f64::min);
+            let high = ends.fold(f64::MIN, f64::max);
+            return anatomy.meeting(&edges, |p| p.y - 0.5 * (low + high));
+        }
+        let mut rest_m = 0.5 * anatomy.length_m(&edges);
+        for edge in edges {
+            let length_m = anatomy.length_m(&[edge]);
+            if rest_m <= length_m {
+                return Some(EdgePoint { edge, arc_m: rest_m });
+            }
+            rest_m -= length_m;
+        }
+        None
+    }
+
+    /// Length, bicep and cuff of a sleeve: the right one where there are two.
+    fn sleeve(&self) -> Vec<PointOfMeasure> {
+        let anatomy = self.anatomy;
+        let is_there = |hand: &Hand| anatomy.parts.contains(&Part::Sleeve(*hand));
+        let Some(hand) = Hand::BOTH.into_iter().find(is_there) else { return Vec::new() };
+        let is_sleeve = |piece: usize| anatomy.parts[piece] == Part::Sleeve(hand);
+        let openings = anatomy.style().openings(&is_sleeve);
+        let is_sewn_to_trunk = |edge: &EdgeRef| {
+            anatomy.ways.partners(*edge).iter().any(|other| matches!(anatomy.parts[other.piece], Part::Trunk(_)))
+        };
+        let (caps, lower): (Vec<&Vec<EdgeRef>>, Vec<&Vec<EdgeRef>>) =
+            openings.iter().partition(|opening| opening.iter().any(is_sewn_to_trunk));
+        let mut found = Vec::new();
+        if let [end] = lower.as_slice() {
+            let cuff = anatomy.beyond(end, is_sleeve);
+            found.extend(cuff.map(|cuff| anatomy.along_edges(Point::HalfCuff, &cuff, 0.5)));
+        }
+        let Some(cap) = caps.first() else { return found };
+        found.extend(self.sleeve_way().map(|way| anatomy.along_path(Point::SleeveLength, way, 1.0)));
+        let path =
+            self.underarm(cap, is_sleeve).and_then(|seam| anatomy.ways.round(anatomy.along(&seam, BELOW_ARMHOLE_M)?));
+        found.extend(path.map(|path: Vec<PathPart>| anatomy.along_path(Point::HalfBicep, path, 0.5)));
+        found
+    }
+
+    /// The seam of a sleeve that begins lowest on its cap, from there down.
+    fn underarm(&self, cap: &[EdgeRef], is_sleeve: impl Fn(usize) -> bool) -> Option<Chain> {
+        let anatomy = self.anatomy;
+        let mut found: Vec<(f64, Chain)> = Vec::new();
+        for seam in &anatomy.style().seams {
+            if !seam.a.iter().chain(&seam.b).all(|edge| is_sleeve(edge.piece)) {
+                continue;
+            }
+            let chain: Chain = seam.a.iter().map(|edge| (*edge, true)).collect();
+            let back: Chain = chain.iter().rev().map(|(edge, on)| (*edge, !on)).collect();
+            for chain in [chain, back] {
+                let top = (chain[0].0, !chain[0].1);
+                let next = anatomy.style().over_corner(top).0;
+                if cap.contains(&next) {
+                    // As far along the arm as the cap's end lies.
+                    let down = anatomy.ways.down(top.0.piece)?;
+                    found.push((anatomy.place(top).dot(&down), chain));
+                }
+            }
+        }
+        found.into_iter().max_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, chain)| chain)
+    }
+}
+
+/// Where the neckline meets the centre of a front or a back.
+enum Centre {
+    /// On the neckline of a whole piece.
+    Within(EdgePoint),
+    /// At the end of that of half a piece.
+    Corner(EdgeEnd),
+}
+
+/// Distance below the armhole at which a top has its waist, of girths with their distances, m.
+fn waist(girths: &[(f64, f64)]) -> f64 {
+    let narrowest = girths.iter().min_by(|one, other| one.1.total_cmp(&other.1));
+    match (girths, narrowest) {
+        ([first, .., last], Some(least)) if least.1 + SHAPED_M < first.1.min(last.1) => least.0,
+        _ => WAIST_BELOW_ARMHOLE_M,
+    }
+}

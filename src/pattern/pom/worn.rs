@@ -1,0 +1,141 @@
+//! Girths of a garment where the body that is to wear it has its levels: all that its ease needs, before anything is draped.
+//!
+//! A top hangs from the side neck points, a skirt from the waist; the fork of trousers lies at the crotch.
+
+use super::anatomy::Anatomy;
+use super::legs::Legs;
+use super::top::Trunk;
+use super::{Point, PointOfMeasure};
+use crate::style::{EdgeRef, PathPart, Style};
+use geom::V2;
+
+/// Heights of a standing body's levels above the floor, and distances along its arm from the shoulder point; m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stand {
+    /// Side neck points.
+    pub side_neck_m: f64,
+    /// Under the bust.
+    pub underbust_m: f64,
+    /// Waist.
+    pub waist_m: f64,
+    /// Hip.
+    pub hip_m: f64,
+    /// Crotch.
+    pub crotch_m: f64,
+    /// Knee.
+    pub knee_m: f64,
+    /// Forearm, along the arm.
+    pub forearm_along_m: f64,
+    /// Wrist, along the arm.
+    pub wrist_along_m: f64,
+}
+
+/// What a garment has at a level of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WornLength {
+    /// Level: `neck`, `across_shoulder`, `chest`, `underbust`, `waist`, `hip`, `thigh`, `knee`, `upper_arm`, `forearm`, `wrist`.
+    pub level: &'static str,
+    /// Girth of the cloth there, or its width across the shoulders, m.
+    pub length_m: f64,
+    /// Height above the floor at which the body is measured, m, where that is not where its level lies: the upper edge of trousers.
+    pub height_m: Option<f64>,
+}
+
+/// How much shorter than the arm a sleeve may be that still goes round the wrist, m.
+const SHORT_OF_WRIST_M: f64 = 0.040;
+/// Distance within which a waist seam lies at the waist, m.
+const AT_WAIST_M: f64 = 0.060;
+
+impl Style {
+    /// What the style has at the levels of a body that it covers, from the neck down.
+    #[must_use]
+    pub fn worn_lengths(&self, stand: &Stand) -> Vec<WornLength> {
+        let anatomy = Anatomy::of(self);
+        let points = self.points_of_measure();
+        let of = |point: Point| points.iter().find(|one| one.point == point).map(|one: &PointOfMeasure| one.length_m);
+        let mut found = Vec::new();
+        let mut add = |level, length_m: Option<f64>, height_m| {
+            found.extend(length_m.map(|length_m| WornLength { level, length_m, height_m }));
+        };
+        let both = |half_m: f64| 2.0 * half_m;
+        add("neck", of(Point::Neck), None);
+        add("across_shoulder", of(Point::AcrossShoulder), None);
+        add("chest", of(Point::HalfChest).map(both), None);
+        let trunk = Trunk::of(&anatomy);
+        let legs = Legs::of_either(&anatomy);
+        let hangs = Hangs::of(&anatomy, trunk.as_ref(), legs.as_ref(), stand);
+        let at = |height_m: f64| hangs.as_ref().and_then(|hangs| hangs.girth_m(&anatomy, height_m));
+        add("underbust", at(stand.underbust_m), None);
+        match (&trunk, &legs) {
+            (Some(trunk), _) => {
+                let seam = trunk.waist_below_neck_m().map(|m| stand.side_neck_m - m);
+                let is_seam = seam.is_some_and(|height_m| (height_m - stand.waist_m).abs() < AT_WAIST_M);
+                add("waist", if is_seam { of(Point::HalfWaist).map(both) } else { at(stand.waist_m) }, None);
+            }
+            (None, Some(legs)) => {
+                let top_m = stand.crotch_m + legs.top_above_fork_m();
+                add("waist", of(Point::HalfWaist).map(both), Some(top_m));
+            }
+            (None, None) => add("waist", of(Point::HalfWaist).map(both), None),
+        }
+        add("hip", at(stand.hip_m), None);
+        add("thigh", of(Point::HalfThigh).map(both), None);
+        let knee = legs.as_ref().and_then(|legs| legs.girth_m(stand.knee_m - stand.crotch_m));
+        add("knee", knee, None);
+        add("upper_arm", of(Point::HalfBicep).map(both), None);
+        if let (Some(trunk), Some(sleeve_m)) = (&trunk, of(Point::SleeveLength)) {
+            add("forearm", trunk.sleeve_girth_m(stand.forearm_along_m), None);
+            let reaches = sleeve_m > stand.wrist_along_m - SHORT_OF_WRIST_M;
+            add("wrist", of(Point::HalfCuff).filter(|_| reaches).map(both), None);
+        }
+        found
+    }
+}
+
+/// A way down the front of a garment with the height of its beginning.
+struct Hangs {
+    path: Vec<PathPart>,
+    top_m: f64,
+    /// Height below which the cloth goes all round.
+    round_m: f64,
+}
+
+impl Hangs {
+    fn of(anatomy: &Anatomy<'_>, trunk: Option<&Trunk<'_>>, legs: Option<&Legs<'_>>, stand: &Stand) -> Option<Self> {
+        if let Some(trunk) = trunk {
+            let (path, below_neck_m) = trunk.way_down()?;
+            let top_m = stand.side_neck_m - below_neck_m;
+            return Some(Self { path, top_m, round_m: stand.side_neck_m - trunk.chest_below_neck_m()? });
+        }
+        if let Some(legs) = legs {
+            let (path, above_fork_m) = legs.way_down()?;
+            let top_m = stand.crotch_m + above_fork_m;
+            return Some(Self { path, top_m, round_m: top_m });
+        }
+        let path = super::skirt::way_down(anatomy)?;
+        Some(Self { path, top_m: stand.waist_m, round_m: stand.waist_m })
+    }
+
+    /// Girth of the cloth at a height above the floor, m; `None` where it does not go round there.
+    fn girth_m(&self, anatomy: &Anatomy<'_>, height_m: f64) -> Option<f64> {
+        let (piece, place) =
+            along(anatomy.style(), &self.path, self.top_m - height_m).filter(|_| height_m <= self.round_m)?;
+        anatomy.ways.round_through(piece, place).map(|path| anatomy.style().path_length_m(&path))
+    }
+}
+
+/// The point at a distance along a path of straight parts, m, and its piece; `None` beyond its ends.
+pub fn along(style: &Style, path: &[PathPart], distance_m: f64) -> Option<(usize, V2)> {
+    let mut rest_m = (distance_m >= 0.0).then_some(distance_m)?;
+    for part in path {
+        let PathPart::Line([from, to]) = part else { return None };
+        let (start, end) = (style.place(*from), style.place(*to));
+        let length_m = (end - start).norm();
+        if rest_m <= length_m {
+            let EdgeRef { piece, .. } = from.edge;
+            return Some((piece, start.lerp(&end, rest_m / length_m)));
+        }
+        rest_m -= length_m;
+    }
+    None
+}

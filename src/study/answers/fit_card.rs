@@ -1,0 +1,276 @@
+//! Fit cards: which size a subject wears of a garment, and how it and the two beside it sit at every level.
+
+use rusqlite::Row;
+use serde::Serialize;
+
+use crate::error::{Result, StudyError};
+use crate::store::Store;
+
+/// How one size sits at one level.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LevelSits {
+    /// Body level.
+    pub level: String,
+    /// Length of the pattern there, mm.
+    pub pattern_girth_mm: f64,
+    /// Length of the body there, mm.
+    pub body_girth_mm: f64,
+    /// Pattern less body, mm.
+    pub ease_mm: f64,
+    /// Least and greatest ease that is meant, mm; `None` where none is.
+    pub target_mm: Option<[f64; 2]>,
+    /// How far outside that the ease lies, mm: negative where too tight.
+    pub off_mm: Option<f64>,
+}
+
+impl LevelSits {
+    /// What is to be said of it.
+    #[must_use]
+    pub fn words(&self) -> String {
+        match self.off_mm {
+            None => "as designed".to_owned(),
+            Some(off) if off <= -0.5 && self.ease_mm < 0.0 => format!("tight by {:.0} mm, smaller than the body", -off),
+            Some(off) if off <= -0.5 => format!("tight by {:.0} mm", -off),
+            Some(off) if off >= 0.5 => format!("loose by {off:.0} mm"),
+            Some(_) => "as meant".to_owned(),
+        }
+    }
+}
+
+/// How one size sits.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SizeSits {
+    /// Size.
+    pub size: String,
+    /// 1 of the size to wear, 2 of the next best.
+    pub place: Option<i64>,
+    /// Every level that it covers, from the neck down.
+    pub levels: Vec<LevelSits>,
+}
+
+impl SizeSits {
+    /// The level that is worst, where any has a target.
+    #[must_use]
+    pub fn worst(&self) -> Option<&LevelSits> {
+        let weight = |level: &&LevelSits| fit::target::weight_m(level.off_mm.unwrap_or(0.0));
+        let aimed = self.levels.iter().filter(|level| level.off_mm.is_some());
+        // The first of those that are alike.
+        aimed.rev().max_by(|one, other| weight(one).total_cmp(&weight(other)))
+    }
+
+    /// What is worst with it.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let worst = self.worst().filter(|level| level.off_mm.is_some_and(|off| off.abs() >= 0.5));
+        worst.map_or("every level as meant".to_owned(), |level| {
+            format!("{} {}", level.level.replace('_', " "), level.words())
+        })
+    }
+}
+
+/// How a garment sits on a subject.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FitCard {
+    /// Garment.
+    pub garment: String,
+    /// Who wears it.
+    pub subject: String,
+    /// Intended fit.
+    pub intended: Option<String>,
+    /// Its sizes, in order.
+    pub sizes: Vec<SizeSits>,
+}
+
+impl FitCard {
+    /// The size to wear; `None` where no level has a target.
+    #[must_use]
+    pub fn to_wear(&self) -> Option<&SizeSits> {
+        self.sizes.iter().find(|size| size.place == Some(1))
+    }
+
+    /// The size to wear and the two beside it; all of them where none is to wear.
+    #[must_use]
+    pub fn beside(&self) -> &[SizeSits] {
+        match self.sizes.iter().position(|size| size.place == Some(1)) {
+            Some(at) => &self.sizes[at.saturating_sub(1)..(at + 2).min(self.sizes.len())],
+            None => &self.sizes,
+        }
+    }
+
+    /// The levels that any size covers, from the neck down.
+    #[must_use]
+    pub fn levels(&self) -> Vec<&str> {
+        let mut found: Vec<&str> =
+            self.sizes.iter().flat_map(|size| &size.levels).map(|one| one.level.as_str()).collect();
+        found.sort_by_key(|level| (order(level), *level));
+        found.dedup();
+        found
+    }
+
+    /// What to wear, and what is worst with it.
+    #[must_use]
+    pub fn verdict(&self) -> String {
+        let size = self.to_wear();
+        size.map_or("no level has a target".to_owned(), |size| format!("wear {}: {}", size.size, size.words()))
+    }
+
+    /// Why the size to wear is the one: what is worst with it, and with those beside it.
+    #[must_use]
+    pub fn reasons(&self) -> String {
+        let own = self.to_wear().map(SizeSits::words);
+        let others = self.beside().iter().filter(|size| size.place != Some(1));
+        let others = others.map(|size| format!("{}: {}", size.size, size.words()));
+        own.into_iter().chain(others).collect::<Vec<_>>().join("; ")
+    }
+}
+
+/// Levels from the neck down, arms after the trunk.
+const ORDER: [&str; 13] = [
+    "neck",
+    "across_shoulder",
+    "bust",
+    "chest",
+    "underbust",
+    "waist",
+    "hip",
+    "thigh",
+    "knee",
+    "calf",
+    "upper_arm",
+    "forearm",
+    "wrist",
+];
+
+fn order(level: &str) -> usize {
+    ORDER.iter().position(|known| *known == level).unwrap_or(ORDER.len())
+}
+
+/// The fit cards of a study, garments and subjects in its order.
+///
+/// # Errors
+/// When the database cannot be read.
+pub(crate) fn fit_cards(store: &Store, study: &str) -> Result<Vec<FitCard>> {
+    let sql = "SELECT v_fit.garment, v_fit.subject, v_fit.size, place, v_fit.intended, level, pattern_girth_mm, body_girth_mm,
+            ease_mm, least_mm, most_mm, off_mm
+        FROM v_fit LEFT JOIN v_size USING (study, garment, size, subject)
+        WHERE study = :study
+        ORDER BY
+            (SELECT position FROM study_axis JOIN study USING (study_id)
+                WHERE study.name = :study AND axis = 'garment' AND study_axis.name = v_fit.garment),
+            (SELECT position FROM study_axis JOIN study USING (study_id)
+                WHERE study.name = :study AND axis = 'subject' AND study_axis.name = v_fit.subject),
+            (SELECT position FROM study_axis JOIN study USING (study_id)
+                WHERE study.name = :study AND axis = 'size' AND study_axis.name = v_fit.size)";
+    let mut statement = store.reader.prepare_cached(sql)?;
+    let rows = statement.query_map(rusqlite::named_params! { ":study": study }, read)?;
+    let mut cards: Vec<FitCard> = Vec::new();
+    for row in rows {
+        let Found { garment, subject, size, place, intended, level } = row?;
+        if cards.last().is_none_or(|card| card.garment != garment || card.subject != subject) {
+            cards.push(FitCard { garment, subject, intended: None, sizes: Vec::new() });
+        }
+        let Some(card) = cards.last_mut() else { continue };
+        card.intended = card.intended.take().or(intended);
+        if card.sizes.last().is_none_or(|last| last.size != size) {
+            card.sizes.push(SizeSits { size, place, levels: Vec::new() });
+        }
+        if let Some(last) = card.sizes.last_mut() {
+            last.levels.push(level);
+            last.levels.sort_by_key(|level| order(&level.level));
+        }
+    }
+    Ok(cards)
+}
+
+/// Those of a garment and a subject, where one is asked for.
+///
+/// # Errors
+/// [`StudyError::NotFound`] when there is none.
+pub(crate) fn asked(mut cards: Vec<FitCard>, garment: Option<&str>, subject: Option<&str>) -> Result<Vec<FitCard>> {
+    keep(&mut cards, "garment", garment, |card| &card.garment)?;
+    keep(&mut cards, "subject", subject, |card| &card.subject)?;
+    Ok(cards)
+}
+
+/// Keeps the cards of a name, where one is asked for.
+fn keep(cards: &mut Vec<FitCard>, what: &'static str, name: Option<&str>, of: fn(&FitCard) -> &String) -> Result<()> {
+    let Some(name) = name else { return Ok(()) };
+    let mut known: Vec<String> = cards.iter().map(|card| of(card).clone()).collect();
+    known.sort();
+    known.dedup();
+    if !known.iter().any(|known| known == name) {
+        return Err(StudyError::NotFound { what, name: name.to_owned(), known });
+    }
+    cards.retain(|card| of(card) == name);
+    Ok(())
+}
+
+/// A row of the view.
+struct Found {
+    garment: String,
+    subject: String,
+    size: String,
+    place: Option<i64>,
+    intended: Option<String>,
+    level: LevelSits,
+}
+
+fn read(row: &Row<'_>) -> rusqlite::Result<Found> {
+    let target: [Option<f64>; 2] = [row.get(9)?, row.get(10)?];
+    Ok(Found {
+        garment: row.get(0)?,
+        subject: row.get(1)?,
+        size: row.get(2)?,
+        place: row.get(3)?,
+        intended: row.get(4)?,
+        level: LevelSits {
+            level: row.get(5)?,
+            pattern_girth_mm: row.get(6)?,
+            body_girth_mm: row.get(7)?,
+            ease_mm: row.get(8)?,
+            target_mm: target[0].zip(target[1]).map(|(least, most)| [least, most]),
+            off_mm: row.get(11)?,
+        },
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn size(size: &str, place: i64, eases_mm: &[(&str, f64, f64)]) -> SizeSits {
+        let level = |(level, ease_mm, off_mm): &(&str, f64, f64)| LevelSits {
+            level: (*level).to_owned(),
+            pattern_girth_mm: 900.0 + ease_mm,
+            body_girth_mm: 900.0,
+            ease_mm: *ease_mm,
+            target_mm: Some([ease_mm - off_mm, ease_mm - off_mm + 50.0]),
+            off_mm: Some(*off_mm),
+        };
+        SizeSits { size: size.to_owned(), place: Some(place), levels: eases_mm.iter().map(level).collect() }
+    }
+
+    #[test]
+    fn a_card_says_what_to_wear_and_what_is_worst() {
+        let card = FitCard {
+            garment: "tshirt".into(),
+            subject: "v".into(),
+            intended: Some("regular".into()),
+            sizes: vec![
+                size("S", 3, &[("chest", 18.0, -32.0), ("hip", -50.0, -90.0)]),
+                size("M", 2, &[("chest", 78.0, 0.0), ("hip", 10.0, -30.0)]),
+                size("L", 1, &[("chest", 138.0, 18.0), ("hip", 70.0, 0.0)]),
+                size("XL", 4, &[("chest", 198.0, 78.0), ("hip", 130.0, 10.0)]),
+                size("XXL", 5, &[("chest", 258.0, 138.0), ("hip", 190.0, 70.0)]),
+            ],
+        };
+        assert_eq!(card.verdict(), "wear L: chest loose by 18 mm");
+        let reasons = "chest loose by 18 mm; M: hip tight by 30 mm; XL: chest loose by 78 mm";
+        assert_eq!(card.reasons(), reasons);
+        assert_eq!(card.beside().iter().map(|size| size.size.as_str()).collect::<Vec<_>>(), ["M", "L", "XL"]);
+        assert_eq!(card.levels(), ["chest", "hip"]);
+        let worst = |at: usize| card.sizes[at].worst().map(|level| (level.level.as_str(), level.words()));
+        assert_eq!(worst(0), Some(("hip", "tight by 90 mm, smaller than the body".to_owned())));
+        assert_eq!(worst(1), Some(("hip", "tight by 30 mm".to_owned())));
+    }
+}

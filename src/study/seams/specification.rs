@@ -1,0 +1,127 @@
+//! The points of measure of a pattern in all its sizes: what a specification sheet says.
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::desk::{Asking, proposal};
+use crate::error::{Result, StudyError};
+use crate::files::SourceFile;
+use crate::patterns::{self, Nest};
+use crate::rows::{Table, Value};
+use geom::units::mm;
+use pattern::Style;
+use pattern::pom::Point;
+
+/// A point of measure of one size.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SpecifiedPoint {
+    /// Its name.
+    pub point: &'static str,
+    /// Size.
+    pub size: String,
+    /// Its length, mm.
+    pub length_mm: f64,
+    /// Length less that of the size before, mm; none of the first.
+    pub step_mm: Option<f64>,
+    /// How it is measured.
+    pub definition: &'static str,
+}
+
+/// The points of measure of a pattern.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Specification {
+    /// The pattern's name.
+    pub garment: String,
+    /// Its sizes, smallest first as the file has them.
+    pub sizes: Vec<String>,
+    /// Every point of every size, by point.
+    pub points: Vec<SpecifiedPoint>,
+    /// What a reader should know, as sentences.
+    pub notes: Vec<String>,
+}
+
+/// Measures every size of a pattern at its points of measure. Without a seam file it is sewn as proposed.
+///
+/// # Errors
+/// When a file cannot be read, a size does not fit the seams, or no piece has a role that points are found by.
+pub fn specification(pattern: &Path, seams: Option<&Path>, how: &Asking<'_>) -> Result<Specification> {
+    let source = SourceFile::read_pattern(pattern)?;
+    let garment = pattern.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let mut notes = Vec::new();
+    let seams = match seams {
+        Some(path) => Some(SourceFile::read(path)?),
+        None if source.holds_seams() => None,
+        None => {
+            let (proposal, _) = proposal(&source, how)?;
+            notes.push("sewn as proposed: no seam file was given".to_owned());
+            notes.extend(proposal.notes.iter().cloned());
+            Some(SourceFile { name: "the proposal".to_owned(), bytes: proposal.toml(&garment).into_bytes().into() })
+        }
+    };
+    let sizes: Vec<String> = match (source.holds_seams(), how.size) {
+        (_, Some(size)) => vec![size.to_owned()],
+        (true, None) => vec![String::new()],
+        (false, None) => Nest::read(&source, how.unit)?.sizes().into_iter().map(str::to_owned).collect(),
+    };
+    let read = |size: &String| patterns::read_style(&source, seams.as_ref(), Some(size), how.unit);
+    let styles = sizes.iter().map(read).collect::<Result<Vec<Style>>>()?;
+    let points = points(&sizes, &styles);
+    if points.is_empty() {
+        let message =
+            format!("{}: no point of measure was found; accepted: pieces with roles, sewn together", pattern.display());
+        return Err(StudyError::stage("pattern")(message));
+    }
+    Ok(Specification { garment, sizes, points, notes })
+}
+
+/// Every point of every size, by point.
+fn points(sizes: &[String], styles: &[Style]) -> Vec<SpecifiedPoint> {
+    let measured: Vec<Vec<_>> = styles.iter().map(Style::points_of_measure).collect();
+    let mut found = Vec::new();
+    for point in Point::ALL {
+        let mut before: Option<f64> = None;
+        for (size, points) in sizes.iter().zip(&measured) {
+            let length_mm = points.iter().find(|one| one.point == point).map(|one| mm(one.length_m));
+            found.extend(length_mm.map(|length_mm| SpecifiedPoint {
+                point: point.as_str(),
+                size: size.clone(),
+                length_mm,
+                step_mm: before.map(|before| length_mm - before),
+                definition: point.definition(),
+            }));
+            before = length_mm;
+        }
+    }
+    found
+}
+
+impl Specification {
+    /// The sheet: a row a point, a column a size, mm, and the steps from size to size.
+    #[must_use]
+    pub fn table(&self) -> Table {
+        let name = |size: &String| if size.is_empty() { "mm".to_owned() } else { format!("{size}_mm") };
+        let mut columns = vec!["point".to_owned()];
+        columns.extend(self.sizes.iter().map(name));
+        if self.sizes.len() > 1 {
+            columns.push("steps_mm".to_owned());
+        }
+        columns.push("definition".to_owned());
+        let row = |point: Point| -> Option<Vec<Value>> {
+            let of = |size: &String| self.points.iter().find(|one| one.point == point.as_str() && one.size == *size);
+            let all: Vec<Option<&SpecifiedPoint>> = self.sizes.iter().map(of).collect();
+            all.iter().any(Option::is_some).then_some(())?;
+            let rounded = |mm: f64| Value::Real((mm * 10.0).round() / 10.0);
+            let mut row = vec![Value::Text(point.as_str().to_owned())];
+            row.extend(all.iter().map(|one| one.map_or(Value::Null, |one| rounded(one.length_mm))));
+            if self.sizes.len() > 1 {
+                let steps = all.iter().skip(1).map(|one| one.and_then(|one| one.step_mm));
+                let words: Vec<String> = steps.map(|mm| mm.map_or("-".to_owned(), |mm| format!("{mm:+.1}"))).collect();
+                row.push(Value::Text(words.join(" ")));
+            }
+            row.push(Value::Text(point.definition().to_owned()));
+            Some(row)
+        };
+        Table { columns, rows: Point::ALL.into_iter().filter_map(row).collect() }
+    }
+}
