@@ -46,8 +46,16 @@ pub struct TargetLevel {
     pub level: &'static str,
     /// Whether the row is for garments that cover the chest; `None`: for all.
     pub of_top: Option<bool>,
+    /// Least and greatest ease of each intended fit, mm.
+    eases_mm: [[i32; 2]; 4],
+}
+
+impl TargetLevel {
     /// Least and greatest ease of each intended fit, in the order of [`Intended::ALL`], mm.
-    pub eases_mm: [[i32; 2]; 4],
+    #[must_use]
+    pub const fn eases_mm(&self) -> [[i32; 2]; 4] {
+        self.eases_mm
+    }
 }
 
 /// Least and greatest ease by level and fit. Chest and hip begin and end where the fit classes do [T 6.2.3]; the others have the

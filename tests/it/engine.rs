@@ -156,7 +156,7 @@ fn a_population_stands_for_somebody_new() {
     assert!(none.err.contains("no subject of the study who is `female`"), "{}", none.err);
     place.toile("study sizes coarse -o sizes.svg").ends_with(0);
     let svg = std::fs::read_to_string(place.path("sizes.svg")).expect("written");
-    assert!(svg.contains("m: 2, a just fit for") && svg.matches("<title>").count() == 2, "{svg}");
+    assert!(svg.contains("m: 2, as meant for") && svg.matches("<title>").count() == 2, "{svg}");
 }
 
 #[test]

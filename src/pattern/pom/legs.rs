@@ -2,7 +2,7 @@
 
 use super::anatomy::{Anatomy, BESIDE_M, Chain, Part};
 use super::ways::Heading;
-use super::{Point, PointOfMeasure, worn};
+use super::{Point, PointOfMeasure};
 use crate::propose::{Face, Hand};
 use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef, PathPart};
@@ -139,7 +139,7 @@ impl<'a> Legs<'a> {
     /// Girth of a leg at a height over the fork, m, below 0 under it; `None` where it does not reach.
     pub fn girth_m(&self, above_fork_m: f64) -> Option<f64> {
         let (path, top_m) = self.way_down()?;
-        let (piece, place) = worn::along(self.anatomy.style(), &path, top_m - above_fork_m)?;
+        let (piece, place) = self.anatomy.ways.along(&path, top_m - above_fork_m)?;
         self.anatomy.ways.round_through(piece, place).map(|path| self.anatomy.style().path_length_m(&path))
     }
 

@@ -5,8 +5,8 @@ use crate::draft::Model;
 use crate::dxf::Unit;
 use crate::source::{self, Kind};
 use crate::{Style, garmentcode, propose};
+use geom::V2;
 use geom::units::mm;
-use geom::{V2, polyline};
 
 /// Checks points of measure against lengths in mm.
 fn check(what: &str, style: &Style, within_mm: f64, expect: &[(Point, f64)]) {

@@ -2,7 +2,7 @@
 
 use super::anatomy::{Anatomy, BESIDE_M, Chain, Part, distance};
 use super::ways::Heading;
-use super::{Point, PointOfMeasure, worn};
+use super::{Point, PointOfMeasure};
 use crate::propose::{Face, Hand};
 use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef, PathPart};
@@ -238,7 +238,7 @@ impl<'a> Trunk<'a> {
     pub fn sleeve_girth_m(&self, along_m: f64) -> Option<f64> {
         let anatomy = self.anatomy;
         let way = self.sleeve_way()?;
-        let (piece, place) = worn::along(anatomy.style(), &way, along_m)?;
+        let (piece, place) = anatomy.ways.along(&way, along_m)?;
         anatomy.ways.round_through(piece, place).map(|path| anatomy.style().path_length_m(&path))
     }
 

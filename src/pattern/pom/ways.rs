@@ -120,7 +120,7 @@ impl<'a> Ways<'a> {
     }
 
     /// Direction in which a seam is sewn at a point of one of its edges; of a free edge its own.
-    fn along(&self, point: EdgePoint) -> V2 {
+    fn sewn_along(&self, point: EdgePoint) -> V2 {
         let line = &self.style.edge(point.edge).line;
         let ahead = line.at(point.arc_m + LEAST_M) - line.at(point.arc_m - LEAST_M);
         let forwards = self.sewn.get(&point.edge).is_none_or(|sewn| self.is_forwards(sewn));
@@ -178,7 +178,7 @@ impl<'a> Ways<'a> {
             parts.push(PathPart::Line([at, end]));
             match self.across(end) {
                 Some(next) if !is_end(end) => {
-                    let [u, v] = [self.along(end), self.along(next)];
+                    let [u, v] = [self.sewn_along(end), self.sewn_along(next)];
                     let turn = u.perp(&v).atan2(u.dot(&v));
                     let (sin, cos) = turn.sin_cos();
                     came = Some(V2::new(cos * direction.x - sin * direction.y, sin * direction.x + cos * direction.y));
@@ -186,6 +186,21 @@ impl<'a> Ways<'a> {
                 }
                 _ => return Some(Way { parts, end }),
             }
+        }
+        None
+    }
+
+    /// The point at a distance along a path of straight parts, m, and its piece; `None` beyond its ends.
+    pub fn along(&self, path: &[PathPart], distance_m: f64) -> Option<(usize, V2)> {
+        let mut rest_m = (distance_m >= 0.0).then_some(distance_m)?;
+        for part in path {
+            let PathPart::Line([from, to]) = part else { return None };
+            let (start, end) = (self.style.place(*from), self.style.place(*to));
+            let length_m = (end - start).norm();
+            if rest_m <= length_m {
+                return Some((from.edge.piece, start.lerp(&end, rest_m / length_m)));
+            }
+            rest_m -= length_m;
         }
         None
     }

@@ -6,8 +6,7 @@ use super::anatomy::Anatomy;
 use super::legs::Legs;
 use super::top::Trunk;
 use super::{Point, PointOfMeasure};
-use crate::style::{EdgeRef, PathPart, Style};
-use geom::V2;
+use crate::style::{PathPart, Style};
 
 /// Heights of a standing body's levels above the floor, and distances along its arm from the shoulder point; m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -119,23 +118,7 @@ impl Hangs {
     /// Girth of the cloth at a height above the floor, m; `None` where it does not go round there.
     fn girth_m(&self, anatomy: &Anatomy<'_>, height_m: f64) -> Option<f64> {
         let (piece, place) =
-            along(anatomy.style(), &self.path, self.top_m - height_m).filter(|_| height_m <= self.round_m)?;
+            anatomy.ways.along(&self.path, self.top_m - height_m).filter(|_| height_m <= self.round_m)?;
         anatomy.ways.round_through(piece, place).map(|path| anatomy.style().path_length_m(&path))
     }
-}
-
-/// The point at a distance along a path of straight parts, m, and its piece; `None` beyond its ends.
-pub fn along(style: &Style, path: &[PathPart], distance_m: f64) -> Option<(usize, V2)> {
-    let mut rest_m = (distance_m >= 0.0).then_some(distance_m)?;
-    for part in path {
-        let PathPart::Line([from, to]) = part else { return None };
-        let (start, end) = (style.place(*from), style.place(*to));
-        let length_m = (end - start).norm();
-        if rest_m <= length_m {
-            let EdgeRef { piece, .. } = from.edge;
-            return Some((piece, start.lerp(&end, rest_m / length_m)));
-        }
-        rest_m -= length_m;
-    }
-    None
 }
