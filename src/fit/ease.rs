@@ -91,18 +91,6 @@ pub fn ease<'l>(
         .collect()
 }
 
-/// Levels whose ease decides the fit class: the cuts of [T 6.2.3] are made for them. A collar or a cuff has a hundredth of the ease.
-pub const DECIDING: [&str; 3] = ["chest", "bust", "hip"];
-
-/// The ease that decides the fit class: the least one at chest and hip, and of a garment that has neither, the least one.
-#[must_use]
-pub fn deciding(eases: &[Ease]) -> Option<&Ease> {
-    let decides = |ease: &&Ease| DECIDING.contains(&ease.level.as_str());
-    let has_any = eases.iter().any(|ease| decides(&ease));
-    let asked = eases.iter().filter(|ease| !has_any || decides(ease));
-    asked.min_by(|a, b| a.ease_m().total_cmp(&b.ease_m()))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -121,14 +109,5 @@ mod tests {
         check(100.0, FitClass::Just, false);
         check(111.1, FitClass::Loose, true);
         check(121.0, FitClass::Loose, false);
-    }
-
-    #[test]
-    fn the_least_ease_decides() {
-        let body = |level: &str| Some(if level == "hip" { 1.02 } else { 0.9 });
-        let eases = ease([("neck", 0.2), ("chest", 1.0), ("hip", 1.0)], body, &Cuts::default());
-        let least = deciding(&eases).expect("three levels");
-        assert_eq!((least.level.as_str(), least.class, least.is_undersized()), ("hip", FitClass::Tight, true));
-        assert_eq!(deciding(&eases[..1]).map(|ease| ease.level.as_str()), Some("neck"));
     }
 }

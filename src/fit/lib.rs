@@ -22,7 +22,7 @@ mod weigh;
 pub use advice::{Shown, shown};
 pub use analysis::{Analysis, Estimate, Without};
 pub use class::{FitClass, Simulator};
-pub use ease::{Cuts, DECIDING, Ease, deciding, ease};
+pub use ease::{Cuts, Ease, ease};
 pub use judge::{Answer, Basis, Cell, Evidence, Finding, judge};
 pub use pair::{Errors, Pair, RuleScore, rule_score, wins};
 pub use resample::{Draw, interval, sign_flip};

@@ -1,4 +1,4 @@
-//! The ease that an intended fit asks for at each level, and how far a garment is from it.
+//! The ease that an intended fit asks for at each level.
 
 use std::collections::BTreeMap;
 
@@ -101,18 +101,6 @@ impl Target {
     }
 }
 
-/// By how much an ease lies outside its band, m: negative where it is too tight, positive where it is too loose, 0 inside.
-#[must_use]
-pub fn off_m(ease_m: f64, [least_m, most_m]: [f64; 2]) -> f64 {
-    if ease_m < least_m { ease_m - least_m } else { (ease_m - most_m).max(0.0) }
-}
-
-/// How much a level that is off counts, m: what is too tight cannot be worn, what is too loose can, so it counts double.
-#[must_use]
-pub fn weight_m(off_m: f64) -> f64 {
-    if off_m < 0.0 { -2.0 * off_m } else { off_m }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -140,16 +128,5 @@ mod tests {
             let rises = |pair: &[[i32; 2]]| pair[0][0] <= pair[1][0] && pair[0][1] <= pair[1][1];
             assert!(row.eases_mm.windows(2).all(rises), "{}", row.level);
         }
-    }
-
-    #[test]
-    fn what_is_too_tight_counts_double() {
-        let check = |ease_mm: f64, off_mm: f64, weight_mm: f64| {
-            let off = off_m(1e-3 * ease_mm, [0.05, 0.12]);
-            assert!((1e3 * off - off_mm).abs() < 1e-9 && (1e3 * weight_m(off) - weight_mm).abs() < 1e-9, "{ease_mm}");
-        };
-        check(10.0, -40.0, 80.0);
-        check(80.0, 0.0, 0.0);
-        check(150.0, 30.0, 30.0);
     }
 }

@@ -44,6 +44,8 @@ pub struct SizeSits {
     pub size: String,
     /// 1 of the size to wear, 2 of the next best.
     pub place: Option<i64>,
+    /// The level that lies farthest from its target, what is too tight counting double.
+    pub worst_level: Option<String>,
     /// Every level that it covers, from the neck down.
     pub levels: Vec<LevelSits>,
 }
@@ -52,10 +54,7 @@ impl SizeSits {
     /// The level that is worst, where any has a target.
     #[must_use]
     pub fn worst(&self) -> Option<&LevelSits> {
-        let weight = |level: &&LevelSits| fit::target::weight_m(level.off_mm.unwrap_or(0.0));
-        let aimed = self.levels.iter().filter(|level| level.off_mm.is_some());
-        // The first of those that are alike.
-        aimed.rev().max_by(|one, other| weight(one).total_cmp(&weight(other)))
+        self.levels.iter().find(|level| self.worst_level.as_ref() == Some(&level.level))
     }
 
     /// What is worst with it.
@@ -151,7 +150,7 @@ fn order(level: &str) -> usize {
 /// When the database cannot be read.
 pub(crate) fn fit_cards(store: &Store, study: &str) -> Result<Vec<FitCard>> {
     let sql = "SELECT v_fit.garment, v_fit.subject, v_fit.size, place, v_fit.intended, level, pattern_girth_mm, body_girth_mm,
-            ease_mm, least_mm, most_mm, off_mm
+            ease_mm, least_mm, most_mm, off_mm, worst_level
         FROM v_fit LEFT JOIN v_size USING (study, garment, size, subject)
         WHERE study = :study
         ORDER BY
@@ -165,14 +164,14 @@ pub(crate) fn fit_cards(store: &Store, study: &str) -> Result<Vec<FitCard>> {
     let rows = statement.query_map(rusqlite::named_params! { ":study": study }, read)?;
     let mut cards: Vec<FitCard> = Vec::new();
     for row in rows {
-        let Found { garment, subject, size, place, intended, level } = row?;
+        let Found { garment, subject, size, place, intended, level, worst_level } = row?;
         if cards.last().is_none_or(|card| card.garment != garment || card.subject != subject) {
             cards.push(FitCard { garment, subject, intended: None, sizes: Vec::new() });
         }
         let Some(card) = cards.last_mut() else { continue };
         card.intended = card.intended.take().or(intended);
         if card.sizes.last().is_none_or(|last| last.size != size) {
-            card.sizes.push(SizeSits { size, place, levels: Vec::new() });
+            card.sizes.push(SizeSits { size, place, worst_level, levels: Vec::new() });
         }
         if let Some(last) = card.sizes.last_mut() {
             last.levels.push(level);
@@ -213,6 +212,7 @@ struct Found {
     place: Option<i64>,
     intended: Option<String>,
     level: LevelSits,
+    worst_level: Option<String>,
 }
 
 fn read(row: &Row<'_>) -> rusqlite::Result<Found> {
@@ -231,6 +231,7 @@ fn read(row: &Row<'_>) -> rusqlite::Result<Found> {
             target_mm: target[0].zip(target[1]).map(|(least, most)| [least, most]),
             off_mm: row.get(11)?,
         },
+        worst_level: row.get(12)?,
     })
 }
 
@@ -238,7 +239,7 @@ fn read(row: &Row<'_>) -> rusqlite::Result<Found> {
 mod tests {
     use super::*;
 
-    fn size(size: &str, place: i64, eases_mm: &[(&str, f64, f64)]) -> SizeSits {
+    fn size(size: &str, place: i64, worst: &str, eases_mm: &[(&str, f64, f64)]) -> SizeSits {
         let level = |(level, ease_mm, off_mm): &(&str, f64, f64)| LevelSits {
             level: (*level).to_owned(),
             pattern_girth_mm: 900.0 + ease_mm,
@@ -247,7 +248,8 @@ mod tests {
             target_mm: Some([ease_mm - off_mm, ease_mm - off_mm + 50.0]),
             off_mm: Some(*off_mm),
         };
-        SizeSits { size: size.to_owned(), place: Some(place), levels: eases_mm.iter().map(level).collect() }
+        let levels = eases_mm.iter().map(level).collect();
+        SizeSits { size: size.to_owned(), place: Some(place), worst_level: Some(worst.to_owned()), levels }
     }
 
     #[test]
@@ -257,11 +259,11 @@ mod tests {
             subject: "v".into(),
             intended: Some("regular".into()),
             sizes: vec![
-                size("S", 3, &[("chest", 18.0, -32.0), ("hip", -50.0, -90.0)]),
-                size("M", 2, &[("chest", 78.0, 0.0), ("hip", 10.0, -30.0)]),
-                size("L", 1, &[("chest", 138.0, 18.0), ("hip", 70.0, 0.0)]),
-                size("XL", 4, &[("chest", 198.0, 78.0), ("hip", 130.0, 10.0)]),
-                size("XXL", 5, &[("chest", 258.0, 138.0), ("hip", 190.0, 70.0)]),
+                size("S", 3, "hip", &[("chest", 18.0, -32.0), ("hip", -50.0, -90.0)]),
+                size("M", 2, "hip", &[("chest", 78.0, 0.0), ("hip", 10.0, -30.0)]),
+                size("L", 1, "chest", &[("chest", 138.0, 18.0), ("hip", 70.0, 0.0)]),
+                size("XL", 4, "chest", &[("chest", 198.0, 78.0), ("hip", 130.0, 10.0)]),
+                size("XXL", 5, "chest", &[("chest", 258.0, 138.0), ("hip", 190.0, 70.0)]),
             ],
         };
         assert_eq!(card.verdict(), "wear L: chest loose by 18 mm");
