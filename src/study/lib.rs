@@ -44,7 +44,7 @@ pub use run::actions::why_no_retry;
 pub use run::compose::{NewStudy, PatternSource, Wearable, wearables};
 pub use run::enqueue::{Planned, Why};
 pub use run::handout::{HandedOut, Merged, Ran, run_job};
-pub use run::outcome::{Executor, Measured, Outcome};
+pub use run::outcome::{Executor, Measured, MeasuredPoint, Outcome};
 pub use run::pipeline::Pipeline;
 pub use run::slurm::{SlurmOptions, SlurmRun};
 pub use run::wardrobe::{Opened, Wardrobe};
