@@ -80,7 +80,7 @@ fn a_damaged_pattern_is_refused_and_the_database_stays_as_it_is() {
         }
         assert_eq!(database(&place), before, "{what}");
     }
-    assert_eq!(place.sql("SELECT study, size, pattern_girth_mm FROM v_ease"), rows);
+    assert_eq!(place.sql("SELECT study, size, pattern_girth_mm FROM v_ease WHERE decides"), rows);
     assert_eq!(place.one("SELECT count(*) FROM v_jobs"), "0");
 }
 
