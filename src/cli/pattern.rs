@@ -10,7 +10,7 @@ use super::{CliError, End, Outcome, output, pattern_files};
 use geom::units::{from_mm, mm};
 use study::patterns::{self, FileReport, Finding, Model, Unit};
 use study::seams::pattern_files::{Standard, inspect as inspect_files};
-use study::seams::{self, Asking, CHECK_EDGE_MM, SeamEdit, SizeCheck};
+use study::seams::{self, CHECK_EDGE_MM, SeamEdit, SizeCheck};
 use study::{Table, Value, files};
 
 /// Runs a pattern command.
@@ -20,11 +20,9 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
             let reports = inspect_files(path, &pattern_files::beside(files))?;
             inspect(context, &reports, if *by_file { outcomes } else { pieces })
         }
-        Pattern::Propose { path, size, unit, allowance_mm, answer, ask, output } => {
-            let proposed = |answers: &[(usize, char)]| {
-                let (size, unit, allowance_m) = (size.as_deref(), unit.map(Unit::from), from_mm(*allowance_mm));
-                seams::propose(path, &Asking { size, unit, allowance_m, answers }).map_err(CliError::from)
-            };
+        Pattern::Propose { path, cut, answer, ask, output } => {
+            let proposed =
+                |answers: &[(usize, char)]| seams::propose(path, &cut.asking(answers)).map_err(CliError::from);
             let proposed = if *ask { questions::ask(answer.clone(), proposed)? } else { proposed(answer)? };
             propose(context, path, &proposed, output.as_deref())
         }
@@ -42,10 +40,8 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
             write(context, output, sheet)?;
             Ok(End::Done)
         }
-        Pattern::Pom { path, seams, size, unit, allowance_mm, output } => {
-            let (size, unit, allowance_m) = (size.as_deref(), unit.map(Unit::from), from_mm(*allowance_mm));
-            let how = Asking { size, unit, allowance_m, answers: &[] };
-            pattern_files::points_of_measure(context, path, seams.as_deref(), &how, output.as_deref())
+        Pattern::Pom { path, seams, cut, output } => {
+            pattern_files::points_of_measure(context, path, seams.as_deref(), &cut.asking(&[]), output.as_deref())
         }
         Pattern::Features { path, files, output } => pattern_files::features(context, path, files, output.as_deref()),
         Pattern::Convert { path, files, seams, standard, with_rul, output } => {

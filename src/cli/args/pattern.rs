@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
+use geom::units::from_mm;
 use study::patterns::Unit;
+use study::seams::Asking;
 
 /// Unit of a pattern whose file names none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -146,15 +148,8 @@ pub enum Pattern {
     Propose {
         /// DXF file, or a folder of them.
         path: PathBuf,
-        /// Size, where a file holds several.
-        #[arg(long, value_name = "NAME")]
-        size: Option<String>,
-        /// Unit of the files, where they name none.
-        #[arg(long, value_enum)]
-        unit: Option<PatternUnit>,
-        /// Seam allowance of pieces that have no sew line.
-        #[arg(long, value_name = "MM", default_value_t = 0.0)]
-        allowance_mm: f64,
+        #[command(flatten)]
+        cut: CutFiles,
         /// Answer to a question, by its number and the letter of the choice; may be given several times.
         #[arg(long, value_name = "N=x", value_parser = answer)]
         answer: Vec<(usize, char)>,
@@ -202,15 +197,8 @@ pub enum Pattern {
         /// Seam file; without it the pattern is sewn as `propose` says.
         #[arg(long, value_name = "FILE")]
         seams: Option<PathBuf>,
-        /// Only this size.
-        #[arg(long, value_name = "NAME")]
-        size: Option<String>,
-        /// Unit of the file, where it names none.
-        #[arg(long, value_enum)]
-        unit: Option<PatternUnit>,
-        /// Seam allowance of pieces that have no sew line, where no seam file says it.
-        #[arg(long, value_name = "MM", default_value_t = 0.0)]
-        allowance_mm: f64,
+        #[command(flatten)]
+        cut: CutFiles,
         /// Sheet to write (X.csv or X.xlsx); standard output without it.
         #[arg(long, short, value_name = "FILE")]
         output: Option<PathBuf>,
@@ -244,6 +232,28 @@ pub enum Pattern {
         #[arg(long, short, value_name = "FILE")]
         output: PathBuf,
     },
+}
+
+/// What is said about a pattern that is to be sewn as proposed.
+#[derive(Debug, Args)]
+pub struct CutFiles {
+    /// Size, where a file holds several.
+    #[arg(long, value_name = "NAME")]
+    pub size: Option<String>,
+    /// Unit of the files, where they name none.
+    #[arg(long, value_enum)]
+    pub unit: Option<PatternUnit>,
+    /// Seam allowance of pieces that have no sew line.
+    #[arg(long, value_name = "MM", default_value_t = 0.0)]
+    pub allowance_mm: f64,
+}
+
+impl CutFiles {
+    /// What a proposal is asked for, with these answers to its questions.
+    pub fn asking<'a>(&'a self, answers: &'a [(usize, char)]) -> Asking<'a> {
+        let (size, unit) = (self.size.as_deref(), self.unit.map(Unit::from));
+        Asking { size, unit, allowance_m: from_mm(self.allowance_mm), answers }
+    }
 }
 
 /// What is said about a pattern beside its file.

@@ -8,6 +8,9 @@ use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef, PathPart, Style};
 use geom::V2;
 
+/// Distance below the armhole at which chest and bicep are measured, m.
+pub const BELOW_ARMHOLE_M: f64 = 0.025;
+
 /// Distance from a corner at which it is asked what is sewn on there, m: the pieces there may end at the corner.
 pub const BESIDE_M: f64 = 1e-3;
 

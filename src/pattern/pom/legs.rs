@@ -17,11 +17,6 @@ const KNEE_ABOVE_MIDDLE_M: f64 = 0.050;
 /// Inseam from which on a leg has a knee, m.
 const LONG_M: f64 = 0.500;
 
-/// Points of measure of a style's legs; none where the fork is not found.
-pub fn points(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
-    Legs::of_either(anatomy).map_or_else(Vec::new, |legs| legs.points())
-}
-
 /// The run of a leg's outline from the waist down to the hem.
 struct Run {
     /// What is sewn to the other leg, or stays open at a fly, from the waist to the fork.
@@ -80,7 +75,8 @@ impl<'a> Legs<'a> {
         })
     }
 
-    fn points(&self) -> Vec<PointOfMeasure> {
+    /// Their points of measure.
+    pub fn points(&self) -> Vec<PointOfMeasure> {
         let anatomy = self.anatomy;
         let is_leg = |piece: usize| matches!(anatomy.parts[piece], Part::Leg(..));
         let mut found = Vec::new();

@@ -1,12 +1,13 @@
 //! Points of measure: the lengths by which a garment is specified and checked, found on the pieces by what they are.
 //!
 //! They are measured flat on the pieces as they are sewn [ISO 18890]. No seam file has to name them: `anatomy` tells what each
-//! seam and opening is by the roles of the pieces, `top`, `legs` and `skirt` lay each point along them, and `ways` goes straight across
+//! seam and opening is by the roles of the pieces, `top`, `sleeve`, `legs` and `skirt` lay each point along them, and `ways` goes straight across
 //! pieces and through their seams.
 
 mod anatomy;
 mod legs;
 mod skirt;
+mod sleeve;
 #[cfg(test)]
 mod tests;
 mod top;
@@ -14,6 +15,9 @@ mod ways;
 mod worn;
 
 use self::anatomy::Anatomy;
+use self::legs::Legs;
+use self::sleeve::Sleeve;
+use self::top::Trunk;
 pub use self::worn::{Stand, WornLength};
 use super::style::{PathPart, Style};
 
@@ -203,7 +207,31 @@ impl Style {
     #[must_use]
     pub fn points_of_measure(&self) -> Vec<PointOfMeasure> {
         let anatomy = Anatomy::of(self);
-        let mut found = [top::points(&anatomy), legs::points(&anatomy), skirt::points(&anatomy)].concat();
+        Garb::of(&anatomy).points()
+    }
+}
+
+/// The parts of a garment that have points of measure.
+struct Garb<'a> {
+    anatomy: &'a Anatomy<'a>,
+    trunk: Option<Trunk<'a>>,
+    sleeve: Option<Sleeve<'a>>,
+    legs: Option<Legs<'a>>,
+}
+
+impl<'a> Garb<'a> {
+    fn of(anatomy: &'a Anatomy<'a>) -> Self {
+        let trunk = Trunk::of(anatomy);
+        let sleeve = trunk.as_ref().and_then(|trunk| Sleeve::of(anatomy, &trunk.shoulder_points()));
+        Self { anatomy, trunk, sleeve, legs: Legs::of_either(anatomy) }
+    }
+
+    /// All points of measure, in the order of [`Point::ALL`].
+    fn points(&self) -> Vec<PointOfMeasure> {
+        let mut found = self.trunk.as_ref().map_or_else(Vec::new, Trunk::points);
+        found.extend(self.sleeve.iter().flat_map(Sleeve::points));
+        found.extend(self.legs.iter().flat_map(Legs::points));
+        found.extend(skirt::points(self.anatomy));
         found.sort_by_key(|one| one.point);
         // A jumpsuit's waist is that of its top.
         found.dedup_by_key(|one| one.point);

@@ -1,14 +1,12 @@
-//! Points of measure of what is worn on the trunk, and of its sleeves.
+//! Points of measure of what is worn on the trunk.
 
-use super::anatomy::{Anatomy, BESIDE_M, Chain, Part, distance};
+use super::anatomy::{Anatomy, BELOW_ARMHOLE_M, BESIDE_M, Chain, Part, distance};
 use super::ways::Heading;
 use super::{Point, PointOfMeasure};
-use crate::propose::{Face, Hand};
+use crate::propose::Face;
 use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef, PathPart};
 
-/// Distance below the armhole at which chest and bicep are measured, m.
-const BELOW_ARMHOLE_M: f64 = 0.025;
 /// Distance of the waist below the armhole where the sides do not show it, m: that of the waist below the chest of a person of 1.7 m.
 const WAIST_BELOW_ARMHOLE_M: f64 = 0.180;
 /// Distance from armhole and hem from which on the narrowest girth is looked for, m, and between the places tried.
@@ -20,20 +18,6 @@ const SHAPED_M: f64 = 0.008;
 const FRONT_EDGE_SLANT: f64 = 0.14;
 /// Greatest distance of such an edge from the side of its piece, as a share of the piece's width.
 const FRONT_EDGE_INSET: f64 = 0.1;
-
-/// Points of measure of a style's trunk and sleeves; none without side seams between a front and a back.
-pub fn points(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
-    let Some(trunk) = Trunk::of(anatomy) else { return Vec::new() };
-    let mut found = trunk.girths();
-    for face in Face::BOTH {
-        found.extend(trunk.lengths(face));
-        found.extend(trunk.across(face));
-    }
-    found.extend(trunk.shoulders());
-    found.extend(trunk.neck());
-    found.extend(trunk.sleeve());
-    found
-}
 
 fn is_face(face: Face) -> impl Fn(Part) -> bool {
     move |part| part == Part::Trunk(face)
@@ -97,6 +81,18 @@ impl<'a> Trunk<'a> {
             trunk.part_neck_from_hem();
         }
         (!trunk.sides.is_empty()).then_some(trunk)
+    }
+
+    /// Its points of measure.
+    pub fn points(&self) -> Vec<PointOfMeasure> {
+        let mut found = self.girths();
+        for face in Face::BOTH {
+            found.extend(self.lengths(face));
+            found.extend(self.across(face));
+        }
+        found.extend(self.shoulders());
+        found.extend(self.neck());
+        found
     }
 
     /// Of a garment that is open in front, whose neck and hem are one opening: what lies on either side of the front edges.
@@ -234,23 +230,10 @@ impl<'a> Trunk<'a> {
         self.underarm_below_neck_m().filter(|_| self.anatomy.has_below(&self.bottom)).map(|m| m + side_m)
     }
 
-    /// Girth of a sleeve at a distance from the shoulder point along the arm, m; `None` beyond its end.
-    pub fn sleeve_girth_m(&self, along_m: f64) -> Option<f64> {
-        let anatomy = self.anatomy;
-        let way = self.sleeve_way()?;
-        let (piece, place) = anatomy.ways.along(&way, along_m)?;
-        anatomy.ways.round_through(piece, place).map(|path| anatomy.style().path_length_m(&path))
-    }
-
-    /// The way down a sleeve from the shoulder point.
-    fn sleeve_way(&self) -> Option<Vec<PathPart>> {
-        let anatomy = self.anatomy;
-        let is_sleeve = |piece: usize| matches!(anatomy.parts[piece], Part::Sleeve(_));
-        let on_cap = self.shoulders.iter().find_map(|[front, _]| {
-            let outer = anatomy.point(anatomy.style().over_corner(front[front.len() - 1]));
-            anatomy.ways.across(outer).filter(|at| is_sleeve(at.edge.piece))
-        });
-        anatomy.ways.walk(on_cap?, Heading::Down, |_| false).map(|way| way.parts)
+    /// The points of the armholes' seams at the outer ends of the shoulders.
+    pub fn shoulder_points(&self) -> Vec<EdgePoint> {
+        let outer = self.shoulders.iter().map(|[front, _]| front[front.len() - 1]);
+        outer.map(|end| self.anatomy.point(self.anatomy.style().over_corner(end))).collect()
     }
 
     /// Where the neckline meets the centre of a face.
@@ -380,54 +363,6 @@ impl<'a> Trunk<'a> {
             rest_m -= length_m;
         }
         None
-    }
-
-    /// Length, bicep and cuff of a sleeve: the right one where there are two.
-    fn sleeve(&self) -> Vec<PointOfMeasure> {
-        let anatomy = self.anatomy;
-        let is_there = |hand: &Hand| anatomy.parts.contains(&Part::Sleeve(*hand));
-        let Some(hand) = Hand::BOTH.into_iter().find(is_there) else { return Vec::new() };
-        let is_sleeve = |piece: usize| anatomy.parts[piece] == Part::Sleeve(hand);
-        let openings = anatomy.style().openings(&is_sleeve);
-        let is_sewn_to_trunk = |edge: &EdgeRef| {
-            anatomy.ways.partners(*edge).iter().any(|other| matches!(anatomy.parts[other.piece], Part::Trunk(_)))
-        };
-        let (caps, lower): (Vec<&Vec<EdgeRef>>, Vec<&Vec<EdgeRef>>) =
-            openings.iter().partition(|opening| opening.iter().any(is_sewn_to_trunk));
-        let mut found = Vec::new();
-        if let [end] = lower.as_slice() {
-            let cuff = anatomy.beyond(end, is_sleeve);
-            found.extend(cuff.map(|cuff| anatomy.along_edges(Point::HalfCuff, &cuff, 0.5)));
-        }
-        let Some(cap) = caps.first() else { return found };
-        found.extend(self.sleeve_way().map(|way| anatomy.along_path(Point::SleeveLength, way, 1.0)));
-        let path =
-            self.underarm(cap, is_sleeve).and_then(|seam| anatomy.ways.round(anatomy.along(&seam, BELOW_ARMHOLE_M)?));
-        found.extend(path.map(|path: Vec<PathPart>| anatomy.along_path(Point::HalfBicep, path, 0.5)));
-        found
-    }
-
-    /// The seam of a sleeve that begins lowest on its cap, from there down.
-    fn underarm(&self, cap: &[EdgeRef], is_sleeve: impl Fn(usize) -> bool) -> Option<Chain> {
-        let anatomy = self.anatomy;
-        let mut found: Vec<(f64, Chain)> = Vec::new();
-        for seam in &anatomy.style().seams {
-            if !seam.a.iter().chain(&seam.b).all(|edge| is_sleeve(edge.piece)) {
-                continue;
-            }
-            let chain: Chain = seam.a.iter().map(|edge| (*edge, true)).collect();
-            let back: Chain = chain.iter().rev().map(|(edge, on)| (*edge, !on)).collect();
-            for chain in [chain, back] {
-                let top = (chain[0].0, !chain[0].1);
-                let next = anatomy.style().over_corner(top).0;
-                if cap.contains(&next) {
-                    // As far along the arm as the cap's end lies.
-                    let down = anatomy.ways.down(top.0.piece)?;
-                    found.push((anatomy.place(top).dot(&down), chain));
-                }
-            }
-        }
-        found.into_iter().max_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, chain)| chain)
     }
 }
 

@@ -5,7 +5,7 @@
 use super::anatomy::Anatomy;
 use super::legs::Legs;
 use super::top::Trunk;
-use super::{Point, PointOfMeasure};
+use super::{Garb, Point, PointOfMeasure};
 use crate::style::{PathPart, Style};
 
 /// Heights of a standing body's levels above the floor, and distances along its arm from the shoulder point; m.
@@ -50,7 +50,9 @@ impl Style {
     #[must_use]
     pub fn worn_lengths(&self, stand: &Stand) -> Vec<WornLength> {
         let anatomy = Anatomy::of(self);
-        let points = self.points_of_measure();
+        let garb = Garb::of(&anatomy);
+        let points = garb.points();
+        let Garb { trunk, sleeve, legs, .. } = &garb;
         let of = |point: Point| points.iter().find(|one| one.point == point).map(|one: &PointOfMeasure| one.length_m);
         let mut found = Vec::new();
         let mut add = |level, length_m: Option<f64>, height_m| {
@@ -60,12 +62,10 @@ impl Style {
         add("neck", of(Point::Neck), None);
         add("across_shoulder", of(Point::AcrossShoulder), None);
         add("chest", of(Point::HalfChest).map(both), None);
-        let trunk = Trunk::of(&anatomy);
-        let legs = Legs::of_either(&anatomy);
         let hangs = Hangs::of(&anatomy, trunk.as_ref(), legs.as_ref(), stand);
         let at = |height_m: f64| hangs.as_ref().and_then(|hangs| hangs.girth_m(&anatomy, height_m));
         add("underbust", at(stand.underbust_m), None);
-        match (&trunk, &legs) {
+        match (trunk, legs) {
             (Some(trunk), _) => {
                 let seam = trunk.waist_below_neck_m().map(|m| stand.side_neck_m - m);
                 let is_seam = seam.is_some_and(|height_m| (height_m - stand.waist_m).abs() < AT_WAIST_M);
@@ -82,8 +82,8 @@ impl Style {
         let knee = legs.as_ref().and_then(|legs| legs.girth_m(stand.knee_m - stand.crotch_m));
         add("knee", knee, None);
         add("upper_arm", of(Point::HalfBicep).map(both), None);
-        if let (Some(trunk), Some(sleeve_m)) = (&trunk, of(Point::SleeveLength)) {
-            add("forearm", trunk.sleeve_girth_m(stand.forearm_along_m), None);
+        if let (Some(sleeve), Some(sleeve_m)) = (sleeve, of(Point::SleeveLength)) {
+            add("forearm", sleeve.girth_m(stand.forearm_along_m), None);
             let reaches = sleeve_m > stand.wrist_along_m - SHORT_OF_WRIST_M;
             add("wrist", of(Point::HalfCuff).filter(|_| reaches).map(both), None);
         }

@@ -1,0 +1,81 @@
+//! Points of measure of a sleeve.
+
+use super::anatomy::{Anatomy, BELOW_ARMHOLE_M, Chain, Part};
+use super::ways::Heading;
+use super::{Point, PointOfMeasure};
+use crate::propose::Hand;
+use crate::style::{EdgePoint, EdgeRef, PathPart};
+
+/// A sleeve: the right one where there are two.
+pub struct Sleeve<'a> {
+    anatomy: &'a Anatomy<'a>,
+    hand: Hand,
+    /// The way down it from the shoulder point.
+    way: Option<Vec<PathPart>>,
+}
+
+impl<'a> Sleeve<'a> {
+    /// The sleeve of a style; `None` of one without. `shoulder_points` lie on the seams of its armholes.
+    pub fn of(anatomy: &'a Anatomy<'a>, shoulder_points: &[EdgePoint]) -> Option<Self> {
+        let hand = Hand::BOTH.into_iter().find(|hand| anatomy.parts.contains(&Part::Sleeve(*hand)))?;
+        let on_cap = shoulder_points.iter().find_map(|point| {
+            anatomy.ways.across(*point).filter(|at| anatomy.parts[at.edge.piece] == Part::Sleeve(hand))
+        });
+        let down = on_cap.and_then(|at| anatomy.ways.walk(at, Heading::Down, |_| false));
+        Some(Self { anatomy, hand, way: down.map(|way| way.parts) })
+    }
+
+    fn holds(&self, piece: usize) -> bool {
+        self.anatomy.parts[piece] == Part::Sleeve(self.hand)
+    }
+
+    /// Length, bicep and cuff.
+    pub fn points(&self) -> Vec<PointOfMeasure> {
+        let anatomy = self.anatomy;
+        let openings = anatomy.style().openings(&|piece| self.holds(piece));
+        let is_sewn_to_trunk = |edge: &EdgeRef| {
+            anatomy.ways.partners(*edge).iter().any(|other| matches!(anatomy.parts[other.piece], Part::Trunk(_)))
+        };
+        let (caps, lower): (Vec<&Vec<EdgeRef>>, Vec<&Vec<EdgeRef>>) =
+            openings.iter().partition(|opening| opening.iter().any(is_sewn_to_trunk));
+        let mut found = Vec::new();
+        if let [end] = lower.as_slice() {
+            let cuff = anatomy.beyond(end, |piece| self.holds(piece));
+            found.extend(cuff.map(|cuff| anatomy.along_edges(Point::HalfCuff, &cuff, 0.5)));
+        }
+        let Some(cap) = caps.first() else { return found };
+        found.extend(self.way.clone().map(|way| anatomy.along_path(Point::SleeveLength, way, 1.0)));
+        let below = self.underarm(cap).and_then(|seam| anatomy.along(&seam, BELOW_ARMHOLE_M));
+        let path = below.and_then(|at| anatomy.ways.round(at));
+        found.extend(path.map(|path| anatomy.along_path(Point::HalfBicep, path, 0.5)));
+        found
+    }
+
+    /// Girth at a distance from the shoulder point along the arm, m; `None` beyond its end.
+    pub fn girth_m(&self, along_m: f64) -> Option<f64> {
+        let (piece, place) = self.anatomy.ways.along(self.way.as_ref()?, along_m)?;
+        self.anatomy.ways.round_through(piece, place).map(|path| self.anatomy.style().path_length_m(&path))
+    }
+
+    /// The seam that begins lowest on the cap, from there down.
+    fn underarm(&self, cap: &[EdgeRef]) -> Option<Chain> {
+        let anatomy = self.anatomy;
+        let mut found: Vec<(f64, Chain)> = Vec::new();
+        for seam in &anatomy.style().seams {
+            if !seam.a.iter().chain(&seam.b).all(|edge| self.holds(edge.piece)) {
+                continue;
+            }
+            let chain: Chain = seam.a.iter().map(|edge| (*edge, true)).collect();
+            let back: Chain = chain.iter().rev().map(|(edge, on)| (*edge, !on)).collect();
+            for chain in [chain, back] {
+                let top = (chain[0].0, !chain[0].1);
+                if cap.contains(&anatomy.style().over_corner(top).0) {
+                    // As far along the arm as the cap's end lies.
+                    let down = anatomy.ways.down(top.0.piece)?;
+                    found.push((anatomy.place(top).dot(&down), chain));
+                }
+            }
+        }
+        found.into_iter().max_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, chain)| chain)
+    }
+}
