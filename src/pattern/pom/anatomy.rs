@@ -234,31 +234,38 @@ impl<'a> Anatomy<'a> {
     }
 
     /// The way down the centre of halves of a front or a back, from the end of an edge that runs across the top: along the outline while
-    /// it runs upright, and on over what is sewn to its lower end.
+    /// it runs upright, and on over what is sewn to its lower end, halves again or one piece from side to side.
     pub fn down_centre(&self, end: EdgeEnd) -> Vec<PathPart> {
         let mut path = Vec::new();
         let mut at = end;
         loop {
-            let next = self.style().over_corner(at);
-            if !self.is_upright(&vec![(next.0, true)]) || path.contains(&PathPart::Edge(next.0)) {
-                break;
+            let before = path.len();
+            let mut next = self.style().over_corner(at);
+            while self.is_centre(next.0) && !path.contains(&PathPart::Edge(next.0)) {
+                path.push(PathPart::Edge(next.0));
+                at = (next.0, !next.1);
+                next = self.style().over_corner(at);
             }
-            path.push(PathPart::Edge(next.0));
-            at = (next.0, !next.1);
-        }
-        let (lower, is_last) = self.style().over_corner(at);
-        let beside_m = if is_last { self.length_m(&[lower]) - BESIDE_M } else { BESIDE_M };
-        let below = self.ways.across(EdgePoint { edge: lower, arc_m: beside_m }).filter(|_| !path.is_empty());
-        let on = below.map(|below| {
+            let length_m = self.length_m(&[next.0]);
+            let beside = EdgePoint { edge: next.0, arc_m: if next.1 { length_m - BESIDE_M } else { BESIDE_M } };
+            let Some(below) = self.ways.across(beside).filter(|_| path.len() > before) else { return path };
             let ends = [false, true].map(|is_last| (below.edge, is_last));
             let corner = ends.into_iter().find(|end| (self.point(*end).arc_m - below.arc_m).abs() < 2.0 * BESIDE_M);
-            // Halves below too, or one piece from side to side.
-            let halves = corner.map(|corner| self.down_centre(corner)).unwrap_or_default();
-            let whole = || self.ways.walk(below, Heading::Down, |_| false).map(|way| way.parts).unwrap_or_default();
-            if halves.is_empty() { whole() } else { halves }
-        });
-        path.extend(on.into_iter().flatten());
-        path
+            match corner.filter(|corner| self.is_centre(self.style().over_corner(*corner).0)) {
+                Some(corner) => at = corner,
+                None => {
+                    let way = self.ways.walk(below, Heading::Down, |_| false);
+                    path.extend(way.into_iter().flat_map(|way| way.parts));
+                    return path;
+                }
+            }
+        }
+    }
+
+    /// Whether an edge may be the centre of half a piece: it runs upright, and is free or sewn to the other half.
+    fn is_centre(&self, edge: EdgeRef) -> bool {
+        let is_half = |other: &EdgeRef| other.piece != edge.piece && self.parts[other.piece] == self.parts[edge.piece];
+        self.is_upright(&vec![(edge, true)]) && self.ways.partners(edge).iter().all(is_half)
     }
 
     /// Whether skirt or legs hang from some edges, with a waistband between or not.

@@ -162,6 +162,42 @@ fn a_girth_taken_through_a_dart_leaves_the_dart_out() {
 }
 
 #[test]
+fn the_centre_of_halves_goes_on_over_a_whole_skirt_with_a_round_waist() {
+    let seams = r#"
+        name = "dress"
+        piece.front_left = { block = "FL", role = "bodice_front", edges = { waist = [0, 1], side = [1, 2], armhole = [2, 3], shoulder = [3, 4], neck = [4, 5], centre = [5, 0] } }
+        piece.front_right = { block = "FL", role = "bodice_front", mirror = true, edges = { waist = [0, 1], side = [1, 2], armhole = [2, 3], shoulder = [3, 4], neck = [4, 5], centre = [5, 0] } }
+        piece.back_right = { block = "FL", role = "bodice_back", edges = { waist = [0, 1], side = [1, 2], armhole = [2, 3], shoulder = [3, 4], neck = [4, 5], centre = [5, 0] } }
+        piece.back_left = { block = "FL", role = "bodice_back", mirror = true, edges = { waist = [0, 1], side = [1, 2], armhole = [2, 3], shoulder = [3, 4], neck = [4, 5], centre = [5, 0] } }
+        piece.skirt_front = { block = "S", role = "skirt_front", edges = { hem = [0, 1], side_right = [1, 2], waist_right = [2, 3], waist_left = [3, 4], side_left = [4, 0] } }
+        seam = [
+            { name = "cf", a = ["front_left.centre"], b = ["front_right.centre"] },
+            { name = "cb", a = ["back_left.centre"], b = ["back_right.centre"] },
+            { name = "sl", a = ["front_left.side"], b = ["back_left.side"] },
+            { name = "sr", a = ["front_right.side"], b = ["back_right.side"] },
+            { name = "hl", a = ["front_left.shoulder"], b = ["back_left.shoulder"] },
+            { name = "hr", a = ["front_right.shoulder"], b = ["back_right.shoulder"] },
+            { name = "wl", a = ["front_left.waist"], b = ["skirt_front.waist_right"] },
+            { name = "wr", a = ["front_right.waist"], b = ["skirt_front.waist_left"] },
+        ]
+    "#;
+    let piece = |block: &str, outline: &[[f64; 2]]| crate::Piece {
+        block: block.to_owned(),
+        name: block.to_owned(),
+        outline: outline.iter().map(|[u, v]| V2::new(*u, *v)).collect(),
+        turn_points: outline.iter().map(|[u, v]| V2::new(*u, *v)).collect(),
+        ..crate::Piece::default()
+    };
+    let half = [[0.0, 0.0], [0.2, 0.0], [0.22, 0.2], [0.18, 0.38], [0.08, 0.42], [0.0, 0.34]];
+    // The waist falls steeply to its middle, as that of a circle skirt does.
+    let (up, out) = (0.2 * 0.8, 0.2 * 0.6);
+    let skirt = [[-0.6, 0.0], [0.6, 0.0], [out, 0.5 + up], [0.0, 0.5], [-out, 0.5 + up]];
+    let style = Style::read(&[piece("FL", &half), piece("S", &skirt)], seams.as_bytes(), "dress").expect("it is sewn");
+    // 340 mm of the bodice, 500 of the skirt; 1 mm beside its middle the waist is a little higher.
+    check("dress", &style, 2.0, &[(Point::CentreFrontLength, 840.0), (Point::CentreBackLength, 340.0)]);
+}
+
+#[test]
 fn paths_have_the_lengths_that_are_told_and_lie_on_the_mesh() {
     for model in [Model::Tshirt, Model::Trousers, Model::Teetop, Model::Dress] {
         let style = drafted(model, 0);
