@@ -156,6 +156,27 @@ impl<'a> Anatomy<'a> {
         }
     }
 
+    /// Both sides of a seam that runs down, with those of `others` that it goes on as below darts.
+    pub fn over_darts(&self, sides: &[Chain; 2], others: &[[Chain; 2]]) -> [Chain; 2] {
+        let [mut front, mut back] = sides.clone();
+        while let Some(&last) = front.last() {
+            let mut next = self.style().over_corner(last);
+            let is_dart = |edge: EdgeRef| self.ways.partners(edge).iter().any(|other| other.piece == edge.piece);
+            while is_dart(next.0) && next.0 != last.0 {
+                next = self.style().over_corner((next.0, !next.1));
+            }
+            let goes_on = |other: &&[Chain; 2]| other[0].first().is_some_and(|first| *first == (next.0, !next.1));
+            let Some([below, behind]) =
+                others.iter().find(goes_on).filter(|_| !front.iter().any(|(edge, _)| *edge == next.0))
+            else {
+                break;
+            };
+            front.extend(below);
+            back.extend(behind);
+        }
+        [front, back]
+    }
+
     /// The point of a chain at a distance from its beginning, m; `None` beyond its end.
     pub fn along(&self, chain: &Chain, distance_m: f64) -> Option<EdgePoint> {
         let mut rest_m = distance_m;

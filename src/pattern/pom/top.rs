@@ -6,6 +6,7 @@ use super::{Point, PointOfMeasure};
 use crate::propose::Face;
 use crate::style::openings::EdgeEnd;
 use crate::style::{EdgePoint, EdgeRef, PathPart};
+use geom::V2;
 
 /// Distance of the waist below the armhole where the sides do not show it, m: that of the waist below the chest of a person of 1.7 m.
 const WAIST_BELOW_ARMHOLE_M: f64 = 0.180;
@@ -50,8 +51,11 @@ impl<'a> Trunk<'a> {
         let end = |chain: &Chain| -> EdgeEnd { chain[chain.len() - 1] };
         let all_sides: Vec<[Chain; 2]> = upright.into_iter().map(|sides| anatomy.turned_down(sides)).collect();
         let opening = |at: EdgeEnd| anatomy.opening_at(&openings, at);
-        let sides: Vec<[Chain; 2]> =
-            all_sides.iter().filter(|[front, _]| opening(start(front)).is_some()).cloned().collect();
+        let sides: Vec<[Chain; 2]> = all_sides
+            .iter()
+            .filter(|[front, _]| opening(start(front)).is_some())
+            .map(|side| anatomy.over_darts(side, &all_sides))
+            .collect();
         let tops: Vec<usize> = sides.iter().filter_map(|[front, _]| opening(start(front))).collect();
         // An opening at two sides is the top edge of a garment without shoulders.
         let armholes: Vec<usize> =
@@ -197,11 +201,15 @@ impl<'a> Trunk<'a> {
         let anatomy = self.anatomy;
         let top = anatomy.place(high);
         let own: Vec<EdgeRef> = self.neck.iter().copied().filter(|edge| edge.piece == high.0.piece).collect();
-        let below =
-            anatomy.lowest_meeting(&own, |p| p.x - top.x).filter(|at| top.y - anatomy.style().place(*at).y > BESIDE_M);
-        let from = below.unwrap_or_else(|| anatomy.point(high));
+        // A little way out along the shoulder: a square neckline falls straight down from the high point itself.
+        let outwards = (anatomy.place((high.0, !high.1)).x - top.x).signum();
+        let beside = |p: V2| p.x - top.x - outwards * BESIDE_M;
+        let start = anatomy.meeting(&[high.0], beside).unwrap_or_else(|| anatomy.point(high));
+        let height = |at: EdgePoint| anatomy.style().place(at).y;
+        let below = anatomy.lowest_meeting(&own, beside).filter(|at| height(start) - height(*at) > BESIDE_M);
+        let from = below.unwrap_or(start);
         let way = anatomy.ways.walk(from, Heading::Down, |_| false)?;
-        Some((way.parts, top.y - anatomy.style().place(from).y))
+        Some((way.parts, top.y - height(from)))
     }
 
     /// The way down the front from the high point of the shoulder, and how far below that it begins, m.
