@@ -18,6 +18,7 @@ mod statistics;
 pub mod target;
 mod threshold;
 mod weigh;
+pub mod worn;
 
 pub use advice::{Shown, shown};
 pub use analysis::{Analysis, Estimate, Without};

@@ -18,6 +18,7 @@ pub mod levels;
 pub mod placement;
 pub mod quality;
 pub mod sewing;
+pub mod sewn;
 pub mod solver;
 #[cfg(test)]
 mod testing;

@@ -30,6 +30,8 @@ pub use answers::picture::{Cloth, Look, Map, Order, Shot, Zoom};
 pub use answers::population::{Nearest, PopulationOptions, Representative, representatives, subjects_text};
 pub use answers::record::{ChiPair, Comparison, ProvenanceRow, Record, Rerun};
 pub use answers::reports::{ReportRow, reports};
+pub use answers::section::{CrossSection, CutAt, CutCloth, CutLine};
+pub use answers::worn::{Balance, FoldLine, GarmentWorn, LevelGap, RegionPressure, SizeWorn, WornPoint};
 pub use attempt::{Attempt, Tried, TriedChi, TriedCloth, TriedEase, TriedErrors, TriedGap, attempt};
 pub use catalogue::{
     Deed, FabricRow, Mode, Part, Removed, Saved, SizeRow, StyleGiven, SubjectRow, doubts, is_doubtful, percentile,
@@ -48,6 +50,7 @@ pub use run::outcome::{Executor, Measured, MeasuredPoint, Outcome};
 pub use run::pipeline::Pipeline;
 pub use run::slurm::{SlurmOptions, SlurmRun};
 pub use run::wardrobe::{Opened, Wardrobe};
+pub use run::worn::{Level, Pressing, WornOn};
 pub use run::{Run, RunOptions};
 pub use spec::export::export_study;
 pub use spec::fields::{FABRIC_NUMBERS, Field, Given, MEASUREMENTS, sex};

@@ -1,11 +1,14 @@
 //! The queue and its workers from outside: runs with a small executor, crashes, take-overs, cancelling, explanations.
 
+mod sits;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
+use crate::run::worn::WornOn;
 use crate::spec::Schedule;
 use crate::spec::file::{GarmentEntry, SizeFile, SourceFile, Subject};
 use crate::store::queue::{self, Event};
@@ -133,6 +136,7 @@ fn outcome(spec: &JobSpec) -> Outcome {
         history: vec![step],
         eases: vec![ease],
         points: Vec::new(),
+        worn: WornOn::default(),
         closures: (spec.size == "m").then(gap).into_iter().collect(),
         distortion: None,
         warnings: vec![],
@@ -482,60 +486,6 @@ fn a_query_can_be_stopped() {
 }
 
 /// Eases of the sizes on everybody, mm: S is tight at the hip, M loose at the chest by less.
-fn worn(spec: &JobSpec, _monitor: &mut dyn Monitor) -> Result<Outcome> {
-    let eases_mm: &[(&str, f64)] = match spec.size.as_str() {
-        "s" => &[("chest", 80.0), ("hip", 10.0), ("neck", 5.0), ("wrist", -30.0)],
-        _ => &[("chest", 150.0), ("hip", 70.0), ("neck", 15.0), ("wrist", 30.0)],
-    };
-    let ease = |(level, mm): &(&str, f64)| Ease {
-        level: (*level).to_owned(),
-        pattern_girth_m: 0.9 + 1e-3 * mm,
-        body_girth_m: 0.9,
-        class: FitClass::Just,
-        borderline: false,
-    };
-    let length_m = if spec.size == "s" { 0.50 } else { 0.53 };
-    let point =
-        |point: &str, draped_m: Option<f64>| MeasuredPoint { point: point.to_owned(), flat_m: length_m, draped_m };
-    let points = vec![point("half_chest", Some(1.01 * length_m)), point("neck_width", None)];
-    Ok(Outcome { eases: eases_mm.iter().map(ease).collect(), points, ..outcome(spec) })
-}
-
-#[test]
-fn the_size_to_wear_is_the_one_whose_worst_level_is_nearest_to_its_target() {
-    let mut bench = Bench::new();
-    bench.run(&study(0.1), 1, worn);
-    let ask = |sql: &str| -> Vec<String> {
-        let rows = bench.workspace.query(sql).expect("valid").rows;
-        rows.iter().map(|row| row.iter().map(Value::to_string).collect::<Vec<_>>().join(" ")).collect()
-    };
-    let off = "SELECT size, level, round(off_mm), verdict FROM v_fit WHERE subject = 'v' AND off_mm <> 0 ORDER BY 1, 2";
-    assert_eq!(ask(off), ["m chest 30 loose", "s hip -30 tight", "s wrist -50 tight"]);
-    let places = "SELECT size, worst_level, round(worst_off_mm), place FROM v_size WHERE subject = 'v' ORDER BY place";
-    assert_eq!(ask(places), ["m chest 30 1", "s wrist -50 2"]);
-    // Neither a wrist nor a neck decides the class.
-    let decides = "SELECT size, level, fit_class FROM v_ease WHERE subject = 'v' AND decides ORDER BY 1";
-    assert_eq!(ask(decides), ["m hip just", "s hip tight"]);
-    let points = "SELECT size, point, round(flat_mm), round(step_mm), round(draped_mm) FROM v_pom WHERE subject = 'v' ORDER BY 2, 1";
-    let expect = [
-        "m half_chest 530 30 535",
-        "s half_chest 500 NULL 505",
-        "m neck_width 530 30 NULL",
-        "s neck_width 500 NULL NULL",
-    ];
-    let told = ask(points).into_iter().map(|row| row.replace("  ", " ")).collect::<Vec<_>>();
-    assert_eq!(told.len(), expect.len(), "{told:?}");
-    for (told, expect) in told.iter().zip(expect) {
-        let words =
-            |text: &str| text.split_whitespace().filter(|word| *word != "NULL").map(str::to_owned).collect::<Vec<_>>();
-        assert_eq!(words(told), words(expect));
-    }
-    let cards = bench.workspace.fit_cards("tops", None, Some("v")).expect("known");
-    assert_eq!((cards.len(), cards[0].verdict().as_str()), (1, "wear m: chest loose by 30 mm"));
-    assert_eq!(cards[0].levels(), ["neck", "chest", "hip", "wrist"]);
-    assert!(bench.workspace.fit_cards("tops", None, Some("vi")).is_err());
-}
-
 #[test]
 fn every_contract_view_answers() {
     let mut bench = Bench::new();

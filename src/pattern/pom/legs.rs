@@ -1,6 +1,7 @@
 //! Points of measure of legs.
 
 use super::anatomy::{Anatomy, BESIDE_M, Chain, Part};
+use super::hang::along;
 use super::ways::Heading;
 use super::{Point, PointOfMeasure};
 use crate::propose::{Face, Hand};
@@ -43,7 +44,8 @@ impl<'a> Legs<'a> {
         Hand::BOTH.into_iter().find(is_there).and_then(|hand| Self::of(anatomy, hand))
     }
 
-    fn of(anatomy: &'a Anatomy<'a>, hand: Hand) -> Option<Self> {
+    /// The leg of a hand; `None` where the fork is not found.
+    pub fn of(anatomy: &'a Anatomy<'a>, hand: Hand) -> Option<Self> {
         let is_leg = |piece: usize| matches!(anatomy.parts[piece], Part::Leg(..));
         let openings = anatomy.style().openings(&is_leg);
         let waist = openings.iter().find(|opening| is_upper(anatomy, opening))?.clone();
@@ -89,7 +91,7 @@ impl<'a> Legs<'a> {
         for (point, run) in [(Point::FrontRise, front), (Point::BackRise, back)] {
             found.push(anatomy.along_path(point, self.up_to_edge(&run.crotch), 1.0));
         }
-        found.push(anatomy.along_path(Point::Inseam, edges(&front.seam), 1.0));
+        found.push(anatomy.along_path(Point::Inseam, along(&front.seam), 1.0));
         if let Some(outer) = &self.outer {
             found.push(anatomy.along_path(Point::Outseam, self.up_to_edge(outer), 1.0));
         }
@@ -102,6 +104,11 @@ impl<'a> Legs<'a> {
         }
         found.extend(self.hip());
         found
+    }
+
+    /// The outseam of the front from its upper end; none of a leg in one piece.
+    pub fn side_seam(&self) -> Option<Chain> {
+        self.outer.clone()
     }
 
     /// The fork of the front.
@@ -154,7 +161,7 @@ impl<'a> Legs<'a> {
     /// Along a chain that begins at the waist, and on above it over yoke and waistband.
     fn up_to_edge(&self, chain: &Chain) -> Vec<PathPart> {
         let anatomy = self.anatomy;
-        let mut path = edges(chain);
+        let mut path = along(chain);
         let Some(&(edge, is_forwards)) = chain.first() else { return path };
         let (top, is_last) = anatomy.style().over_corner((edge, !is_forwards));
         let beside_m = if is_last { anatomy.length_m(&[top]) - BESIDE_M } else { BESIDE_M };
@@ -165,10 +172,6 @@ impl<'a> Legs<'a> {
         );
         path
     }
-}
-
-fn edges(chain: &Chain) -> Vec<PathPart> {
-    chain.iter().map(|(edge, _)| PathPart::Edge(*edge)).collect()
 }
 
 /// Whether an opening of legs lies in the upper halves of their pieces.

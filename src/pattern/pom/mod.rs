@@ -5,6 +5,7 @@
 //! pieces and through their seams.
 
 mod anatomy;
+mod hang;
 mod legs;
 mod skirt;
 mod sleeve;
@@ -15,6 +16,7 @@ mod ways;
 mod worn;
 
 use self::anatomy::Anatomy;
+pub use self::hang::HangLines;
 use self::legs::Legs;
 use self::sleeve::Sleeve;
 use self::top::Trunk;

@@ -16,12 +16,9 @@ const STRAIGHT: f64 = 0.9;
 pub fn points(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
     let is_skirt = |piece: usize| matches!(anatomy.parts[piece], Part::Skirt(_));
     let openings = anatomy.style().openings(&is_skirt);
-    let is = |face: Face| move |part: Part| part == Part::Skirt(face);
-    let seams = 0..anatomy.style().seams.len();
-    let joins = seams.filter_map(|seam| anatomy.between(seam, is(Face::Front), is(Face::Back)));
-    let sides = joins.filter(|[front, _]| anatomy.is_upright(front)).map(|sides| anatomy.turned_down(sides));
     let top_of = |chain: &Chain| anatomy.opening_at(&openings, (chain[0].0, !chain[0].1));
-    let Some((side, waist)) = sides.into_iter().find_map(|[front, _]| top_of(&front).map(|top| (front, top))) else {
+    let sides = side_seams(anatomy);
+    let Some((side, waist)) = sides.into_iter().find_map(|front| top_of(&front).map(|top| (front, top))) else {
         return Vec::new();
     };
     let waist = &openings[waist];
@@ -42,6 +39,20 @@ pub fn points(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
         found.extend(round.map(|path| anatomy.along_path(Point::HalfHip, path, 0.5)));
     }
     found
+}
+
+/// The fronts of a skirt's side seams, from above.
+pub fn side_seams(anatomy: &Anatomy<'_>) -> Vec<Chain> {
+    let is = |face: Face| move |part: Part| part == Part::Skirt(face);
+    let seams = 0..anatomy.style().seams.len();
+    let joins = seams.filter_map(|seam| anatomy.between(seam, is(Face::Front), is(Face::Back)));
+    joins
+        .filter(|[front, _]| anatomy.is_upright(front))
+        .map(|sides| {
+            let [front, _] = anatomy.turned_down(sides);
+            front
+        })
+        .collect()
 }
 
 /// The way down the front from its upper edge, half-way between its middle and its side.

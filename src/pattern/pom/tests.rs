@@ -339,3 +339,22 @@ fn foreign_patterns_have_the_lengths_of_their_outlines() {
         eprintln!("skipped {missing} patterns of ../shared that are not there");
     }
 }
+
+#[test]
+fn drafted_styles_have_their_hem_and_both_side_seams() {
+    let check = |model: Model, side_seams: usize, has_waist: bool| {
+        let style = drafted(model, 0);
+        let lines = style.hang_lines();
+        assert!(!lines.hem.is_empty(), "{model:?}");
+        assert_eq!(lines.waist.is_empty(), !has_waist, "{model:?}");
+        let lengths: Vec<f64> = lines.side_seams.iter().map(|seam| style.path_length_m(seam)).collect();
+        assert_eq!(lengths.len(), side_seams, "{model:?}: {lengths:?}");
+        // Right and left are alike.
+        let pairs =
+            lengths.iter().filter(|one| lengths.iter().filter(|other| (*one - *other).abs() < 1e-6).count() == 2);
+        assert_eq!(pairs.count(), side_seams, "{model:?}: {lengths:?}");
+    };
+    check(Model::Tshirt, 2, false);
+    check(Model::Trousers, 2, true);
+    check(Model::Dress, 4, false);
+}

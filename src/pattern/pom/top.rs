@@ -238,6 +238,11 @@ impl<'a> Trunk<'a> {
         self.underarm_below_neck_m().filter(|_| self.anatomy.has_below(&self.bottom)).map(|m| m + side_m)
     }
 
+    /// The fronts of the side seams, from above.
+    pub fn side_seams(&self) -> Vec<Chain> {
+        self.sides.iter().map(|[front, _]| front.clone()).collect()
+    }
+
     /// The points of the armholes' seams at the outer ends of the shoulders.
     pub fn shoulder_points(&self) -> Vec<EdgePoint> {
         let outer = self.shoulders.iter().map(|[front, _]| front[front.len() - 1]);

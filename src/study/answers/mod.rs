@@ -12,4 +12,6 @@ pub mod population;
 pub mod record;
 pub mod reporting;
 pub mod reports;
+pub mod section;
 pub mod size_map;
+pub mod worn;

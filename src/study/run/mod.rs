@@ -11,6 +11,7 @@ pub mod outcome;
 pub mod pipeline;
 pub mod slurm;
 pub mod wardrobe;
+pub mod worn;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -4,6 +4,7 @@ use rusqlite::{Connection, OptionalExtension, Transaction, params};
 
 use crate::error::{Result, StudyError};
 use crate::rows::{JobId, Status};
+use crate::run::worn::{self, WornOn};
 use crate::spec::JobSpec;
 use crate::store;
 use crate::store::cache::Used;
@@ -74,6 +75,9 @@ pub struct Outcome {
     /// Its points of measure.
     #[serde(default)]
     pub points: Vec<MeasuredPoint>,
+    /// How it sits on its body.
+    #[serde(default)]
+    pub worn: WornOn,
     /// Hybrid-GS: girths of garment and body at each fit level.
     pub closures: Vec<Closure>,
     /// FEM-GS: principal stretch beyond 1 that 1 % of the cloth exceeds.
@@ -189,6 +193,7 @@ fn write_result(
     write_measured(transaction, id, outcome)?;
     write_closures(transaction, id, &outcome.closures)?;
     write_points(transaction, id, &outcome.points)?;
+    worn::write(transaction, id, &outcome.worn)?;
     let mut statement = transaction.prepare_cached(
         "INSERT INTO history (job_id, step, iteration, level, residual, seam_gap_mm, e_chi) VALUES (?, ?, ?, ?, ?, ?, ?)",
     )?;

@@ -7,6 +7,7 @@ use crate::error::{Result, StudyError};
 use crate::rows::StageKind;
 use crate::run::ease;
 use crate::run::outcome::{Executor, Measured, MeasuredPoint, Outcome};
+use crate::run::worn::WornOn;
 use crate::spec::inputs::Inputs;
 use crate::spec::parameters::Parameters;
 use crate::spec::{JobSpec, subject_inputs, versions};
@@ -237,6 +238,7 @@ impl Fitting<'_> {
             history: drape.history.clone(),
             eases: ease::on(self.style, self.body),
             points: self.points(garment, drape),
+            worn: WornOn::of(self.body, self.style, (garment, self.fabric), drape, self.simulator)?,
             closures,
             distortion: distorted.as_ref().map(|(stretch, _)| *stretch),
             warnings: distorted.and_then(|(_, told)| told).into_iter().chain(drape.braced_n.map(braced)).collect(),

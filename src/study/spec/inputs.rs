@@ -17,7 +17,7 @@ fn depends_on(stage: StageKind, name: &str) -> bool {
         StageKind::Body => matches!(group, "subject" | "body"),
         StageKind::Field => matches!(group, "subject" | "body" | "field"),
         StageKind::Mesh => matches!(group, "pattern" | "seams" | "mesh"),
-        StageKind::Drape => true,
+        StageKind::Drape => group != "measure",
     }
 }
 
@@ -132,6 +132,7 @@ mod tests {
         check("subject.ii.stature_mm", &[StageKind::Body, StageKind::Field, StageKind::Drape]);
         check("fabric.c.shear_n_m", &[StageKind::Drape]);
         check("seams.tee", &[StageKind::Mesh, StageKind::Drape]);
+        check("measure.version", &[]);
     }
 
     #[test]

@@ -8,7 +8,9 @@ pub const SIMULATORS: [Simulator; 2] = [Simulator::Fem, Simulator::Hybrid];
 
 /// Versions of the stages, raised whenever one may give other numbers for the same inputs.
 pub(crate) const VERSIONS: [(&str, u32); 3] = [("body.version", 6), ("field.version", 4), ("mesh.version", 7)];
-/// Version of the simulators, likewise; their default parameters count as inputs by themselves.
+/// Version of what is measured on a drape: a job is measured anew, its drape is taken as it is stored.
+const MEASURE_VERSION: u32 = 1;
+/// Version of the simulators, raised as those of the stages; their default parameters count as inputs by themselves.
 const SIM_VERSION: u32 = 45;
 
 /// Spacing of the distance field's nodes, m: the 99th percentile of its error is then about 0.1 mm.
@@ -18,6 +20,7 @@ pub(crate) const FIELD_SPACING_M: f64 = 0.005;
 pub(crate) fn versions(simulator: Simulator) -> Vec<(&'static str, String)> {
     let mut versions: Vec<_> = VERSIONS.iter().map(|(name, version)| (*name, version.to_string())).collect();
     versions.push(("field.spacing_mm", (FIELD_SPACING_M * 1e3).to_string()));
+    versions.push(("measure.version", MEASURE_VERSION.to_string()));
     versions.push(("sim.version", SIM_VERSION.to_string()));
     versions.push(("sim.parameters", parameters::default_hash(simulator)));
     versions

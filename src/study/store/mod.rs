@@ -18,7 +18,7 @@ use rusqlite::{Connection, ErrorCode, OpenFlags, Transaction, TransactionBehavio
 use crate::error::{Result, StudyError, database_error};
 
 /// Schema changes in order, never edited once released: `user_version` counts how many a database has.
-const MIGRATIONS: [&str; 12] = [
+const MIGRATIONS: [&str; 13] = [
     include_str!("../../../db/migrations/0001_store.sql"),
     include_str!("../../../db/migrations/0002_views.sql"),
     include_str!("../../../db/migrations/0003_published.sql"),
@@ -31,6 +31,7 @@ const MIGRATIONS: [&str; 12] = [
     include_str!("../../../db/migrations/0010_queue.sql"),
     include_str!("../../../db/migrations/0011_distortion.sql"),
     include_str!("../../../db/migrations/0012_levels.sql"),
+    include_str!("../../../db/migrations/0013_worn.sql"),
 ];
 
 /// An open database. Reading and acting use separate connections, so that [`Store::version`] also notices this process's

@@ -20,12 +20,12 @@ use crate::run::pipeline::{Meshes, Model};
 use crate::store::{Store, cache, read, sql};
 use fit::Simulator;
 use geom::units::mm;
-use geom::{Surface, TriMesh, V3};
+use geom::{Surface, TriMesh};
 use pattern::Garment;
 use pattern::garment::Role;
 use render::export::{MeshFormat, Part};
 use render::{self, Camera, Frame, Layer, Material, Paint, Rgb, Scene, Values, View};
-use sim::cloth::Cloth as Sewn;
+use sim::sewn::Sewn;
 use sim::{self, Drape, Fabric};
 
 /// How far from a level of the body cloth still counts as at it, m.
@@ -114,9 +114,9 @@ impl Dressed {
         if map.scale().is_some() { Material { back: Rgb(0x6c, 0x70, 0x76), ..own } } else { own }
     }
 
-    /// The sewn cloth and where it is.
-    fn sewn(&self) -> Result<(Sewn, Vec<V3>)> {
-        maps::sewn(&self.garment, &self.fabric, &self.cloth.positions).map_err(StudyError::stage("render"))
+    /// The sewn cloth.
+    fn sewn(&self) -> Result<Sewn<'_>> {
+        Sewn::new(&self.garment, &self.fabric, &self.cloth.positions).map_err(StudyError::stage("render"))
     }
 
     /// A map's value at each vertex of the cloth, in the unit of its scale; none where it has none.
@@ -124,14 +124,14 @@ impl Dressed {
         let positions = &self.cloth.positions;
         Ok(match map {
             Map::Plain | Map::Check => vec![],
-            Map::Stretch => maps::stretches(&self.garment, &self.sewn()?),
-            Map::Tension => maps::tensions(&self.garment, &self.sewn()?),
+            Map::Stretch => self.sewn()?.stretches_pct(),
+            Map::Tension => self.sewn()?.tensions_n_m(),
             Map::Chi => maps::chis(&self.garment, positions),
             // Only FEM-GS brings cloth and body into balance.
             Map::Pressure if (self.simulator, self.stage) != (Simulator::Fem, sim::Stage::Drape) => {
                 vec![f64::NAN; positions.len()]
             }
-            Map::Pressure => maps::pressures(&self.sewn()?),
+            Map::Pressure => self.sewn()?.pressures_kpa(),
             Map::Gap => {
                 // The field that contact asks ends a few centimetres off the body; a gap may be wider.
                 let surface = Surface::new(&self.body).map_err(StudyError::stage("render"))?;
@@ -323,7 +323,7 @@ pub(crate) fn dressed(store: &Store, id: JobId) -> Result<Dressed> {
 }
 
 /// The fabric a job was simulated in.
-fn fabric_of(store: &Store, id: JobId) -> Result<Fabric> {
+pub(crate) fn fabric_of(store: &Store, id: JobId) -> Result<Fabric> {
     let table = sql::query(store, &format!("SELECT fabric_id FROM job WHERE job_id = {id}"))?;
     match table.rows.first().and_then(|row| row.first()) {
         Some(Value::Integer(fabric)) => read_fabric(&store.reader, *fabric),

@@ -1,6 +1,8 @@
 //! A workspace: one database and what screens and commands may ask of it. Each question is answered by the room of its
 //! subject; this is the door.
 
+mod sits;
+
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -10,7 +12,6 @@ use image::RgbaImage;
 use crate::answers::audit::{self, Audit};
 use crate::answers::dressed::{self, Dressed};
 use crate::answers::figure::{self, Figure};
-use crate::answers::fit_card::{self, FitCard};
 use crate::answers::picture::{self, Look, Map, Order, Scenes};
 use crate::answers::population::{self, Nearest};
 use crate::answers::record::{self, Comparison, Record, Rerun};
@@ -20,10 +21,7 @@ use crate::catalogue::{
 };
 use crate::error::Result;
 use crate::files::SourceFile;
-use crate::rows::{
-    ChiRow, EaseRow, Grid, JobId, JobRow, LogLine, MetricsRow, RecommendationRow, SizeKey, StageRow, StudyRow,
-    SubjectId, Table,
-};
+use crate::rows::{ChiRow, Grid, JobId, JobRow, LogLine, MetricsRow, SizeKey, StageRow, StudyRow, SubjectId, Table};
 use crate::run::compose::{self, NewStudy};
 use crate::run::enqueue::{self, Planned, Why};
 use crate::run::handout::{self, HandedOut, Merged};
@@ -561,24 +559,6 @@ impl Workspace {
     /// The stages of a job with their content hashes.
     pub fn stages(&self, id: JobId) -> Result<Vec<StageRow>> {
         read::stages(&self.store, id)
-    }
-
-    /// Ease and fit class of every size on every subject of a study.
-    pub fn ease(&self, study: &str) -> Result<Vec<EaseRow>> {
-        read::ease(&self.store, study)
-    }
-
-    /// How the garments of a study sit on its subjects, and in which size; only a garment or a subject where one is asked for.
-    ///
-    /// # Errors
-    /// [`StudyError::NotFound`] when the study has no ease of what is asked for.
-    pub fn fit_cards(&self, study: &str, garment: Option<&str>, subject: Option<&str>) -> Result<Vec<FitCard>> {
-        fit_card::asked(fit_card::fit_cards(&self.store, study)?, garment, subject)
-    }
-
-    /// Which simulator to use, for every garment and fit class of a study.
-    pub fn recommendations(&self, study: &str) -> Result<Vec<RecommendationRow>> {
-        read::recommendations(&self.store, study)
     }
 
     /// A handle that stops a running [`Workspace::query`] from another thread.

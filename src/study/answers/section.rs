@@ -1,0 +1,193 @@
+//! Cross sections of stored results: the body and the cloth of several sizes over each other.
+
+use serde::Serialize;
+
+use crate::answers::picture;
+use crate::error::{Result, StudyError};
+use crate::rows::{JobId, StageKind};
+use crate::run::pipeline::{Meshes, Model};
+use crate::run::worn::DIRECTIONS;
+use crate::store::{Store, read};
+use body::Body;
+use fit::worn::{Angle, Section, Site, sites};
+use geom::section::Outline;
+use geom::units::{from_mm, mm};
+use geom::{TriMesh, V2};
+use sim::Drape;
+use sim::sewn::Sewn;
+
+/// Where a body is cut.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CutAt {
+    /// All levels that the garment covers.
+    Levels,
+    /// One level by its name.
+    Level(String),
+    /// A height above the floor, mm; below the crotch the right leg is cut.
+    HeightMm(f64),
+}
+
+/// A line of a section, mm from the axis of trunk or limb: towards the subject's right, and to the front.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CutLine {
+    /// Its points.
+    pub points: Vec<[f64; 2]>,
+    /// Whether the last point goes on to the first.
+    pub closed: bool,
+}
+
+/// The cloth of one result in a section.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CutCloth {
+    /// Result.
+    pub job: i64,
+    /// Size.
+    pub size: String,
+    /// `fem` or `hybrid`.
+    pub simulator: String,
+    /// Its outlines.
+    pub lines: Vec<CutLine>,
+    /// Gap from the skin by direction, from the front towards the subject's right: degrees, mm; below 0 inside the body.
+    pub gaps: Vec<(f64, Option<f64>)>,
+}
+
+impl CutCloth {
+    /// Least, mean and greatest gap, mm; `None` where no direction has cloth.
+    #[must_use]
+    pub fn gap_mm(&self) -> Option<[f64; 3]> {
+        let known: Vec<f64> = self.gaps.iter().filter_map(|(_, gap)| *gap).collect();
+        let mean = known.iter().sum::<f64>() / known.len() as f64;
+        let least = known.iter().copied().reduce(f64::min)?;
+        let greatest = known.iter().copied().reduce(f64::max)?;
+        Some([least, mean, greatest])
+    }
+}
+
+/// A body in a plane, with the cloth of one or more results.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CrossSection {
+    /// Level, or the height in words.
+    pub level: String,
+    /// Height above the floor, mm.
+    pub height_mm: f64,
+    /// Middle of the trunk's or limb's outline, where directions begin, mm.
+    pub centre: [f64; 2],
+    /// Outline of trunk or limb.
+    pub skin: CutLine,
+    /// The other limbs in the plane.
+    pub others: Vec<CutLine>,
+    /// The cloth, result by result.
+    pub cloth: Vec<CutCloth>,
+}
+
+/// Sections of some results on one body; levels that none of them covers are left out.
+///
+/// # Errors
+/// [`StudyError::NotFound`] while there is no result, or for a level that bodies do not have; [`StudyError::Refused`] for a height
+/// at which there is no body, or results on different bodies.
+pub(crate) fn sections(store: &Store, jobs: &[JobId], at: &CutAt) -> Result<Vec<CrossSection>> {
+    let Some(first) = jobs.first() else { return Ok(Vec::new()) };
+    let subject = read::job(store, *first)?.subject;
+    let Model { body } = picture::product(store, *first, StageKind::Body)?;
+    let wanted = wanted(&body, at)?;
+    let mut found: Vec<CrossSection> = Vec::new();
+    for job in jobs {
+        let row = read::job(store, *job)?;
+        if row.subject != subject {
+            let problem = format!(
+                "job {} is on {}, job {first} on {subject}; accepted: results on one subject",
+                row.id, row.subject
+            );
+            return Err(StudyError::Refused { what: "section", name: at.words(), problems: vec![problem] });
+        }
+        let cloth = sewn(store, *job)?;
+        for site in &wanted {
+            let Some(section) = Section::cut(site.clone(), &body.mesh, &cloth) else { continue };
+            let own = CutCloth {
+                job: job.0,
+                size: row.size.clone(),
+                simulator: row.simulator.as_str().to_owned(),
+                lines: section.cloth.iter().map(line).collect(),
+                gaps: section.gaps(DIRECTIONS).into_iter().map(|Angle { deg, gap_m }| (deg, gap_m.map(mm))).collect(),
+            };
+            match found.iter_mut().find(|known| known.level == site.level) {
+                Some(known) => known.cloth.push(own),
+                None => found.push(CrossSection { cloth: vec![own], ..bare(&section) }),
+            }
+        }
+    }
+    if found.is_empty() {
+        return Err(refused(at, &body));
+    }
+    if *at == CutAt::Levels {
+        found.retain(|section| section.cloth.iter().any(|cloth| !cloth.lines.is_empty()));
+    }
+    Ok(found)
+}
+
+impl CutAt {
+    fn words(&self) -> String {
+        match self {
+            Self::Levels => "levels".to_owned(),
+            Self::Level(level) => level.clone(),
+            Self::HeightMm(height_mm) => format!("{height_mm:.0} mm"),
+        }
+    }
+}
+
+/// The planes that are asked for.
+fn wanted(body: &Body, at: &CutAt) -> Result<Vec<Site>> {
+    match at {
+        CutAt::Levels => Ok(sites(body)),
+        CutAt::HeightMm(height_mm) => Ok(vec![Site::at(&at.words(), body, from_mm(*height_mm))]),
+        CutAt::Level(level) => {
+            let mut known = sites(body);
+            match known.iter().position(|site| site.level == *level) {
+                Some(at) => Ok(vec![known.swap_remove(at)]),
+                None => {
+                    let known = known.into_iter().map(|site| site.level).collect();
+                    Err(StudyError::NotFound { what: "level", name: level.clone(), known })
+                }
+            }
+        }
+    }
+}
+
+fn refused(at: &CutAt, body: &Body) -> StudyError {
+    let top_mm = body.mesh.bounds().map_or(0.0, |(_, high)| mm(high.z));
+    let problems = vec![format!("no body there; accepted: heights from 0 to {top_mm:.0} mm")];
+    StudyError::Refused { what: "section", name: at.words(), problems }
+}
+
+/// The sewn cloth of a result.
+fn sewn(store: &Store, job: JobId) -> Result<TriMesh> {
+    let Meshes(mut meshes) = picture::product(store, job, StageKind::Mesh)?;
+    let drape: Drape = picture::product(store, job, StageKind::Drape)?;
+    let fits = |garment: &pattern::Garment| garment.rest.len() == drape.positions.len();
+    let garment = meshes
+        .pop()
+        .filter(fits)
+        .ok_or_else(|| StudyError::stage("store")(format!("the mesh of job {job} does not fit its drape")))?;
+    let fabric = picture::fabric_of(store, job)?;
+    Ok(Sewn::new(&garment, &fabric, &drape.positions).map_err(StudyError::stage("measure"))?.mesh)
+}
+
+/// A section without cloth.
+fn bare(section: &Section) -> CrossSection {
+    CrossSection {
+        level: section.site.level.clone(),
+        height_mm: mm(section.site.height_m()),
+        centre: place(&section.centre),
+        skin: line(&section.skin),
+        others: section.others.iter().map(line).collect(),
+        cloth: Vec::new(),
+    }
+}
+
+fn line(outline: &Outline) -> CutLine {
+    CutLine { points: outline.points.iter().map(place).collect(), closed: outline.closed }
+}
+
+fn place(point: &V2) -> [f64; 2] {
+    [mm(point.x), mm(point.y)]
+}
