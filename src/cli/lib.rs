@@ -25,6 +25,7 @@ mod queue;
 mod recommend;
 mod run;
 mod runs;
+mod section;
 mod studies;
 #[cfg(test)]
 mod tests;
@@ -139,6 +140,7 @@ fn execute(arguments: Arguments, workbench: impl FnOnce(Workbench) -> Result<(),
         Some(Command::Audit(arguments)) => answers::audit(&context, &arguments),
         Some(Command::Ease(arguments)) => answers::ease(&context, &arguments),
         Some(Command::Fit(arguments)) => fit::fit(&context, &arguments),
+        Some(Command::Section(arguments)) => section::section(&context, &arguments),
         Some(Command::Recommend(arguments)) => recommend::recommend(&context, &arguments),
         Some(Command::Pattern(command)) => pattern::run(&context, &command),
         Some(Command::Body(command)) => body::run(&context, &command),

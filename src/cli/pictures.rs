@@ -1,15 +1,16 @@
 //! `toile render`, `toile export` and `toile report`: what a run looks like.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::time::UNIX_EPOCH;
 
 use super::args::{
-    Export, Map as MapArgument, MeshFormat as FormatArgument, Render, Report, Stage as StageArgument,
-    View as ViewArgument,
+    Export, Map as MapArgument, MeshFormat as FormatArgument, Purpose as PurposeArgument, Render, Report,
+    Stage as StageArgument, View as ViewArgument,
 };
 use super::context::{Context, project_folder};
 use super::{CliError, End, Outcome, output};
-use study::{Cloth, JobId, Map, MeshFormat, Order, Rgb, Shot, Stage, Study, View, Workspace, Zoom, files};
+use study::{Cloth, JobId, Map, MeshFormat, Order, Purpose, Rgb, Shot, Stage, Study, View, Workspace, Zoom, files};
 
 /// `toile render`.
 pub fn render(context: &Context, arguments: &Render) -> Outcome {
@@ -89,7 +90,42 @@ pub fn write(context: &Context, path: &Path, bytes: Vec<u8>) -> Outcome {
 pub fn report(context: &Context, arguments: &Report) -> Outcome {
     let workspace = context.workspace()?;
     let name = context.study_name(&workspace, &arguments.study)?;
-    write_report(context, &workspace, &name, arguments.output.as_deref())?;
+    let purpose = arguments.purpose.map(|purpose| match purpose {
+        PurposeArgument::Fit => Purpose::Fit,
+        PurposeArgument::Compare => Purpose::Compare,
+    });
+    let folder = arguments.output.clone().unwrap_or_else(|| default_folder(context, &name));
+    write_report(context, &workspace, &name, (&folder, purpose))?;
+    if arguments.pdf { print_page(context, &folder) } else { Ok(End::Done) }
+}
+
+/// Programs that print a page, by their names on different systems.
+const BROWSERS: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
+
+/// Prints a report's page to a PDF file beside it, by the first browser that is installed.
+fn print_page(context: &Context, folder: &Path) -> Outcome {
+    let missing = || {
+        let names = BROWSERS.join(", ");
+        CliError::Usage(format!(
+            "--pdf: no Chromium is installed; accepted: {names}. The page prints from any browser."
+        ))
+    };
+    let page = std::path::absolute(folder.join(PAGE))?;
+    let pdf = page.with_extension("pdf");
+    let print = |browser: &&str| {
+        Command::new(browser)
+            .args(["--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer"])
+            .arg(format!("--print-to-pdf={}", pdf.display()))
+            .arg(format!("file://{}", page.display()))
+            .output()
+            .ok()
+    };
+    let output = BROWSERS.iter().find_map(print).ok_or_else(missing)?;
+    if !output.status.success() || !pdf.is_file() {
+        let said = String::from_utf8_lossy(&output.stderr);
+        return Err(CliError::Usage(format!("--pdf: {}", said.lines().last().unwrap_or("the browser wrote no file"))));
+    }
+    context.say(format_args!("wrote {}", pdf.display()));
     Ok(End::Done)
 }
 
@@ -98,11 +134,10 @@ pub fn write_report(
     context: &Context,
     workspace: &Workspace,
     study: &str,
-    folder: Option<&Path>,
+    (folder, purpose): (&Path, Option<Purpose>),
 ) -> Result<(), CliError> {
-    let folder = folder.map_or_else(|| default_folder(context, study), Path::to_owned);
-    let files: Vec<(String, Vec<u8>)> = workspace.report(study)?;
-    files::write_files(&folder, &files)?;
+    let files: Vec<(String, Vec<u8>)> = workspace.report(study, purpose)?;
+    files::write_files(folder, &files)?;
     tell_report(context, &folder.join(PAGE))
 }
 
@@ -126,7 +161,7 @@ pub fn bring_report(
     {
         return tell_report(context, &page);
     }
-    write_report(context, workspace, &study.name, None)?;
+    write_report(context, workspace, &study.name, (&default_folder(context, &study.name), None))?;
     if let Some(written) = modified_ms(&page).filter(|_| !workspace.is_readonly()) {
         workspace.remember_report(&study.name, &page, written)?;
     }

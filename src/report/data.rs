@@ -4,6 +4,9 @@ use fit::measure::{Chi, Metrics, metrics};
 use fit::{Basis, Cuts, Ease, Evidence, Finding, FitClass, Pair, Simulator};
 use render::Scale;
 
+use super::chart::Chart;
+use super::viewer::Drapes;
+
 /// Everything one report shows.
 #[derive(Clone, Debug, Default)]
 pub struct ReportData {
@@ -33,6 +36,10 @@ pub struct ReportData {
     pub ease: Vec<EaseMatrix>,
     /// Which size each subject should wear.
     pub sizes: Vec<SizeTip>,
+    /// How each garment fits each subject.
+    pub fit: Vec<FitSheet>,
+    /// Drapes to turn in the page.
+    pub drapes: Drapes,
     /// All runs, failed ones too.
     pub runs: Vec<TryOn>,
     /// The cases that both simulators drew.
@@ -206,6 +213,80 @@ pub struct SizeTip {
     pub tension: String,
     /// Which picture of it a customer should see.
     pub shown: String,
+}
+
+/// How a garment fits a subject, in the size to wear and those beside it.
+#[derive(Clone, Debug)]
+pub struct FitSheet {
+    /// Garment.
+    pub garment: String,
+    /// Subject.
+    pub subject: String,
+    /// Intended fit; empty where none is meant.
+    pub intended: String,
+    /// Which size to wear, and what is worst with it.
+    pub verdict: String,
+    /// The sizes.
+    pub sizes: Vec<FitSize>,
+    /// Whose drapes are measured, where there are any.
+    pub simulator: Option<Simulator>,
+    /// Ease by level, what hangs and presses, points of measure.
+    pub tables: Vec<FitTable>,
+    /// Cross sections of all sizes that have a drape.
+    pub sections: Vec<Chart>,
+}
+
+/// A size of a fit sheet.
+#[derive(Clone, Debug)]
+pub struct FitSize {
+    /// Its name.
+    pub size: String,
+    /// Whether it is the one to wear.
+    pub is_to_wear: bool,
+    /// What is worst with it.
+    pub words: String,
+}
+
+/// A table of a fit sheet.
+#[derive(Clone, Debug)]
+pub struct FitTable {
+    /// What it holds, and in which unit.
+    pub caption: String,
+    /// Heads of its columns besides the names of its rows.
+    pub columns: Vec<String>,
+    /// Its rows.
+    pub rows: Vec<FitRow>,
+}
+
+/// A row of a fit sheet's table.
+#[derive(Clone, Debug)]
+pub struct FitRow {
+    /// Name.
+    pub name: String,
+    /// A cell a column.
+    pub cells: Vec<FitCell>,
+}
+
+/// A number of a fit sheet in words.
+#[derive(Clone, Debug, Default)]
+pub struct FitCell {
+    /// The number.
+    pub text: String,
+    /// What is to be said of it.
+    pub note: String,
+    /// Where it lies beside its target, where it has one.
+    pub verdict: Option<FitVerdict>,
+}
+
+/// Where an ease lies beside its target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FitVerdict {
+    /// Below it.
+    Tight,
+    /// Within it.
+    AsMeant,
+    /// Above it.
+    Loose,
 }
 
 /// How a run ended.

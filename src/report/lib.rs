@@ -1,7 +1,7 @@
 //! The report of a study: one HTML page that needs nothing else, and its charts.
 //!
-//! [`ReportData`] holds plain values; [`html`] turns them into a page without scripts or addresses of other machines:
-//! pictures and pattern drawings are inside it. Pictures are best JPEG ([`render::jpeg`]): six runs of five stay
+//! [`ReportData`] holds plain values; [`files`] turns them into pages without addresses of other machines: pictures and pattern
+//! drawings are inside. The fit report has one script, that of its viewer; the page that compares simulators has none. Pictures are best JPEG ([`render::jpeg`]): six runs of five stay
 //! under 3 MB. Charts are SVG in the page; [`Chart::png`] gives the same as a file.
 
 pub mod chart;
@@ -10,8 +10,10 @@ mod evidence;
 mod page;
 mod repeats;
 mod runs;
+mod sheet;
 mod text;
 mod theme;
+pub mod viewer;
 
 pub use chart::Chart;
 pub use data::ReportData;
@@ -30,6 +32,9 @@ pub enum ReportError {
     /// The page could not be filled in.
     #[error("page: {0}")]
     Page(#[from] askama::Error),
+    /// The drapes could not be written.
+    #[error("drapes: {0}")]
+    Drapes(#[from] serde_json::Error),
     /// A picture is neither PNG nor JPEG.
     #[error("picture \"{0}\" is neither PNG nor JPEG")]
     PictureFormat(String),
@@ -38,21 +43,43 @@ pub enum ReportError {
     Link(String),
 }
 
-/// The page of a report.
+/// What a report is for; it opens with that, and the other page lies beside it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// Whether garments fit, where not, and by how much.
+    Fit,
+    /// How true each simulator stays to the pattern.
+    Compare,
+}
+
+/// The page that compares the simulators.
 ///
 /// # Errors
 /// A link that is not relative, a picture that is neither PNG nor JPEG, or a chart that cannot be drawn.
 pub fn html(data: &ReportData) -> Result<String, ReportError> {
-    Ok(page::Page::new(data)?.render()?)
+    Ok(page::Page::new(data, None)?.render()?)
 }
 
-/// The files of a report by their relative paths: `index.html` and its charts as SVG and PNG.
+/// The files of a report by their relative paths: `index.html` for its purpose, the other page beside it where garments are fitted,
+/// and charts as SVG and PNG.
 ///
 /// # Errors
 /// As [`html`], and where a chart cannot be turned into pixels.
-pub fn files(data: &ReportData) -> Result<Vec<(String, Vec<u8>)>, ReportError> {
-    let page = page::Page::new(data)?;
-    let mut files = vec![("index.html".to_owned(), page.render()?.into_bytes())];
+pub fn files(data: &ReportData, purpose: Purpose) -> Result<Vec<(String, Vec<u8>)>, ReportError> {
+    let [compare, fit] = match purpose {
+        Purpose::Compare => ["index.html", "fit.html"],
+        Purpose::Fit => ["compare.html", "index.html"],
+    };
+    let is_fitted = !data.fit.is_empty();
+    let compare = if is_fitted { compare } else { "index.html" };
+    let page = page::Page::new(data, is_fitted.then_some(fit))?;
+    let mut files = vec![(compare.to_owned(), page.render()?.into_bytes())];
+    if is_fitted {
+        files.push((fit.to_owned(), sheet::FitPage::new(data, compare)?.render()?.into_bytes()));
+    }
+    for chart in data.fit.iter().flat_map(|sheet| &sheet.sections) {
+        files.push((chart.address("svg"), chart.svg().as_bytes().to_vec()));
+    }
     for chart in page.charts() {
         files.push((chart.address("svg"), chart.svg().as_bytes().to_vec()));
         files.push((chart.address("png"), chart.png()?));

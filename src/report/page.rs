@@ -34,6 +34,8 @@ pub(super) struct Page<'a> {
     ease_chart: Option<Chart>,
     time_chart: Option<Chart>,
     repeats: Option<RepeatPart>,
+    /// Address of the fit report, where there is one.
+    fit: Option<&'a str>,
 }
 
 /// A number worth seeing first.
@@ -158,7 +160,7 @@ impl MapImage {
     }
 }
 
-fn address(kind: &str, bytes: &[u8]) -> String {
+pub(super) fn address(kind: &str, bytes: &[u8]) -> String {
     format!("data:{kind};base64,{}", base64::engine::general_purpose::STANDARD.encode(bytes))
 }
 
@@ -171,7 +173,7 @@ impl<'a> Page<'a> {
         of_groups.chain(of_evidence).chain(&self.ease_chart).chain(&self.time_chart).chain(of_repeats)
     }
 
-    pub fn new(data: &'a ReportData) -> Result<Self, ReportError> {
+    pub fn new(data: &'a ReportData, fit: Option<&'a str>) -> Result<Self, ReportError> {
         let pictures = data.runs.iter().flat_map(|r| r.views.iter().chain(r.maps.iter().map(|m| &m.picture)));
         let links = data.raw.iter().map(|l| &l.href).chain(pictures.map(|p| &p.file));
         if let Some(link) = links.into_iter().find(|l| l.contains(':') || l.starts_with('/')) {
@@ -199,6 +201,7 @@ impl<'a> Page<'a> {
             ease_chart: ease_chart(&data.runs, &data.cuts)?,
             time_chart: time_chart(&data.runs)?,
             repeats: RepeatPart::new(&data.runs)?,
+            fit,
         })
     }
 }

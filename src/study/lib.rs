@@ -71,6 +71,7 @@ pub use workspace::Workspace;
 pub use fit::{Analysis, Answer, Estimate, Evidence, Finding as Verdict, FitClass, Simulator, Without};
 pub use render::export::MeshFormat;
 pub use render::{Rgb, View};
+pub use report::{Chart, Purpose};
 pub use sim::fabric::Stretched;
 pub use sim::laboratory::bench as lab;
 pub use sim::{Fabric, Monitor, Stage, Step};

@@ -8,11 +8,13 @@ use clap_complete::Shell;
 mod attempt;
 mod body;
 mod catalogue;
+mod fit;
 mod pattern;
 
 pub use attempt::{AuditGarments, Try};
 pub use body::{Body, BodyBuild, MeshUnit, Sex};
 pub use catalogue::{Catalogue, FabricValues, SizeValues, StyleValues, SubjectValues};
+pub use fit::{Fit, Section};
 pub use pattern::{BesideFiles, DraftStyle, DxfStandard, Pattern, PatternUnit, SeamCommand, StyleFiles};
 
 /// A fit-study workbench: dress bodies in sewing patterns, measure the drape, say which simulator to trust.
@@ -71,6 +73,8 @@ pub enum Command {
     Ease(StudyPath),
     /// Which size to wear, and where it and the two beside it are tight or loose; needs no simulation.
     Fit(Fit),
+    /// Cross sections: the air between body and cloth at a level, all sizes over each other.
+    Section(Section),
     /// Which simulator to use for which fit.
     Recommend(Recommend),
     /// Sewing patterns: inspect, check, draft, mesh, draw.
@@ -127,19 +131,6 @@ pub enum Command {
 pub struct StudyPath {
     /// Folder of the study, or its study.toml.
     pub study: PathBuf,
-}
-
-/// Arguments of `fit`.
-#[derive(Debug, Args)]
-pub struct Fit {
-    /// Folder of the study, its study.toml, or its name.
-    pub study: PathBuf,
-    /// Only this garment.
-    #[arg(long, value_name = "NAME")]
-    pub garment: Option<String>,
-    /// Only this subject.
-    #[arg(long, value_name = "ID")]
-    pub subject: Option<String>,
 }
 
 /// Arguments of `lab`.
@@ -353,6 +344,21 @@ pub struct Report {
     /// Folder to write to [default: reports/STUDY].
     #[arg(long, short, value_name = "DIR")]
     pub output: Option<PathBuf>,
+    /// What index.html shows; the other page lies beside it [default: compare where both simulators ran, else fit].
+    #[arg(long = "for", value_enum, value_name = "PURPOSE")]
+    pub purpose: Option<Purpose>,
+    /// Print index.html to index.pdf as well, by a Chromium that is installed.
+    #[arg(long)]
+    pub pdf: bool,
+}
+
+/// What a report is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Purpose {
+    /// Which size to wear, where it is tight or loose, how it hangs.
+    Fit,
+    /// Which simulator to trust, with the evidence.
+    Compare,
 }
 
 /// Arguments of `sql`.

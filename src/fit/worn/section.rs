@@ -33,6 +33,12 @@ impl Site {
         Self { level: level.to_owned(), plane }
     }
 
+    /// Whether the plane is level.
+    #[must_use]
+    pub fn is_level(&self) -> bool {
+        self.plane.normal().z.abs() > 1.0 - 1e-9
+    }
+
     /// Height above the floor of the point where the limb's or the trunk's axis passes, m.
     #[must_use]
     pub fn height_m(&self) -> f64 {
@@ -72,6 +78,8 @@ fn upper_arm(body: &Body) -> Option<Site> {
 pub struct Angle {
     /// From the front towards the subject's right, degrees.
     pub deg: f64,
+    /// From the middle of the outline to the skin, m.
+    pub skin_m: f64,
     /// From the skin outwards to the first cloth, m; below 0 where cloth lies inside the body. `None` where there is no cloth.
     pub gap_m: Option<f64>,
 }
@@ -130,8 +138,12 @@ impl Section {
     /// The air in `count` directions, the front first, on towards the subject's right.
     #[must_use]
     pub fn gaps(&self, count: usize) -> Vec<Angle> {
-        let all = (0..count).map(|k| k as f64 / count as f64 * 360.0);
-        all.map(|deg| Angle { deg, gap_m: self.ray(deg).and_then(|(skin, cloth)| Some(cloth? - skin)) }).collect()
+        let angle = |k: usize| {
+            let deg = k as f64 / count as f64 * 360.0;
+            let (skin_m, cloth_m) = self.ray(deg).unwrap_or((0.0, None));
+            Angle { deg, skin_m, gap_m: cloth_m.map(|cloth_m| cloth_m - skin_m) }
+        };
+        (0..count).map(angle).collect()
     }
 
     /// Area between skin and the first cloth, where there is cloth, m2; cloth inside the body takes away.
@@ -250,7 +262,7 @@ mod tests {
         let outer = |angle: f64| 0.17 + 0.01 * (8.0 * angle).cos();
         let (body, cloth) = (tube(0.0, |_| 0.15, 720, true), tube(0.0, outer, 720, false));
         let cut = Section::cut(site(0.0), &body, &cloth).expect("it is cut");
-        for Angle { deg, gap_m } in cut.gaps(36) {
+        for Angle { deg, gap_m, .. } in cut.gaps(36) {
             let expected = outer(deg.to_radians()) - 0.15;
             let found = gap_m.expect("cloth all round");
             assert!((found - expected).abs() < 0.2e-3, "{deg} degrees: {found}, not {expected}");
@@ -269,7 +281,7 @@ mod tests {
         let check = |cloth: TriMesh, gap_mm: [Option<f64>; 4]| {
             let cut = Section::cut(site(0.1), &body, &cloth).expect("it is cut");
             let found = cut.gaps(4);
-            for (Angle { deg, gap_m }, expected) in found.iter().zip(gap_mm) {
+            for (Angle { deg, gap_m, .. }, expected) in found.iter().zip(gap_mm) {
                 let same = gap_m.zip(expected).is_some_and(|(gap, mm)| (gap - 1e-3 * mm).abs() < 0.3e-3);
                 assert!(
                     same || (gap_m.is_none() && expected.is_none()),

@@ -95,6 +95,11 @@ impl Canvas<'_> {
         self.area.draw(&Rectangle::new([from, to], colour(fill).filled())).map_err(refused)
     }
 
+    /// Filled polygon.
+    pub fn area(&self, corners: Vec<(i32, i32)>, fill: Rgb) -> Result<(), ReportError> {
+        self.area.draw(&Polygon::new(corners, colour(fill).filled())).map_err(refused)
+    }
+
     /// Line through points.
     pub fn line(&self, points: Vec<(i32, i32)>, ink: Rgb, width: u32) -> Result<(), ReportError> {
         self.area.draw(&PathElement::new(points, colour(ink).stroke_width(width))).map_err(refused)

@@ -7,6 +7,7 @@ mod metric;
 mod repeat;
 mod residual;
 mod scatter;
+mod section;
 
 pub use chi::{chi_chart, mean_sd_chart};
 pub use difference::{Difference, crossover_chart, difference_chart};
@@ -14,6 +15,7 @@ pub use metric::{Metric, metric_chart};
 pub(super) use repeat::repeat_chart;
 pub use residual::residual_chart;
 pub use scatter::{ease_chart, time_chart};
+pub use section::{Worn, section_chart};
 
 use super::{ReportError, theme};
 use image::imageops;

@@ -58,7 +58,7 @@ fn count(folder: &Path) -> usize {
 /// When there is no such study, a stored result cannot be read, or a file cannot be written.
 pub fn build_report(store: &Store, study: &str, folder: &Path) -> Result<PathBuf> {
     let folder = folder.join(study);
-    files::write_files(&folder, &reporting::report(store, study)?)?;
+    files::write_files(&folder, &reporting::report(store, study, None)?)?;
     Ok(folder.join("index.html"))
 }
 

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::answers::picture;
 use crate::error::{Result, StudyError};
-use crate::rows::{JobId, StageKind};
+use crate::rows::{JobId, JobRow, StageKind};
 use crate::run::pipeline::{Meshes, Model};
 use crate::run::worn::DIRECTIONS;
 use crate::store::{Store, read};
@@ -13,6 +13,8 @@ use fit::worn::{Angle, Section, Site, sites};
 use geom::section::Outline;
 use geom::units::{from_mm, mm};
 use geom::{TriMesh, V2};
+use report::Chart;
+use report::chart::{Worn, section_chart};
 use sim::Drape;
 use sim::sewn::Sewn;
 
@@ -80,17 +82,25 @@ pub struct CrossSection {
     pub cloth: Vec<CutCloth>,
 }
 
-/// Sections of some results on one body; levels that none of them covers are left out.
+/// A level of one body with the cloth of several results.
+pub(crate) struct LevelCuts {
+    /// Level, or the height in words.
+    pub level: String,
+    /// Each result and its section.
+    pub cuts: Vec<(JobRow, Section)>,
+}
+
+/// Sections of some results on one body; of all levels those that none of them covers are left out.
 ///
 /// # Errors
 /// [`StudyError::NotFound`] while there is no result, or for a level that bodies do not have; [`StudyError::Refused`] for a height
 /// at which there is no body, or results on different bodies.
-pub(crate) fn sections(store: &Store, jobs: &[JobId], at: &CutAt) -> Result<Vec<CrossSection>> {
+pub(crate) fn cuts(store: &Store, jobs: &[JobId], at: &CutAt) -> Result<Vec<LevelCuts>> {
     let Some(first) = jobs.first() else { return Ok(Vec::new()) };
     let subject = read::job(store, *first)?.subject;
     let Model { body } = picture::product(store, *first, StageKind::Body)?;
     let wanted = wanted(&body, at)?;
-    let mut found: Vec<CrossSection> = Vec::new();
+    let mut found: Vec<LevelCuts> = Vec::new();
     for job in jobs {
         let row = read::job(store, *job)?;
         if row.subject != subject {
@@ -103,16 +113,9 @@ pub(crate) fn sections(store: &Store, jobs: &[JobId], at: &CutAt) -> Result<Vec<
         let cloth = sewn(store, *job)?;
         for site in &wanted {
             let Some(section) = Section::cut(site.clone(), &body.mesh, &cloth) else { continue };
-            let own = CutCloth {
-                job: job.0,
-                size: row.size.clone(),
-                simulator: row.simulator.as_str().to_owned(),
-                lines: section.cloth.iter().map(line).collect(),
-                gaps: section.gaps(DIRECTIONS).into_iter().map(|Angle { deg, gap_m }| (deg, gap_m.map(mm))).collect(),
-            };
             match found.iter_mut().find(|known| known.level == site.level) {
-                Some(known) => known.cloth.push(own),
-                None => found.push(CrossSection { cloth: vec![own], ..bare(&section) }),
+                Some(known) => known.cuts.push((row.clone(), section)),
+                None => found.push(LevelCuts { level: site.level.clone(), cuts: vec![(row.clone(), section)] }),
             }
         }
     }
@@ -120,9 +123,61 @@ pub(crate) fn sections(store: &Store, jobs: &[JobId], at: &CutAt) -> Result<Vec<
         return Err(refused(at, &body));
     }
     if *at == CutAt::Levels {
-        found.retain(|section| section.cloth.iter().any(|cloth| !cloth.lines.is_empty()));
+        found.retain(|level| level.cuts.iter().any(|(_, section)| !section.cloth.is_empty()));
     }
     Ok(found)
+}
+
+/// Sections of some results as plain values.
+///
+/// # Errors
+/// As [`cuts`].
+pub(crate) fn sections(store: &Store, jobs: &[JobId], at: &CutAt) -> Result<Vec<CrossSection>> {
+    Ok(cuts(store, jobs, at)?.iter().filter_map(plain).collect())
+}
+
+/// Sections of some results, drawn level by level; the gaps of one size are written beside it.
+///
+/// # Errors
+/// As [`cuts`], and where a chart cannot be drawn.
+pub(crate) fn drawn(store: &Store, jobs: &[JobId], at: &CutAt, written: Option<&str>) -> Result<Vec<(String, Chart)>> {
+    let cuts = cuts(store, jobs, at)?;
+    let chart = |level: &LevelCuts| {
+        let mut sizes: Vec<Worn<'_>> = Vec::new();
+        for (job, section) in &level.cuts {
+            let label = format!("{}, {}", job.size, job.simulator.as_str());
+            sizes.push(Worn { label, is_written: written == Some(job.size.as_str()), section });
+        }
+        let (job, section) = level.cuts.first()?;
+        let height_mm = mm(section.site.height_m());
+        let level_name = level.level.replace('_', " ");
+        let title = format!("{} on {}: {level_name}, {height_mm:.0} mm above the floor", job.garment, job.subject);
+        Some(
+            section_chart(&title, &sizes)
+                .map(|chart| (level.level.clone(), chart))
+                .map_err(StudyError::stage("report")),
+        )
+    };
+    cuts.iter().filter_map(chart).collect()
+}
+
+fn plain(level: &LevelCuts) -> Option<CrossSection> {
+    let (_, first) = level.cuts.first()?;
+    let cloth = |(job, section): &(JobRow, Section)| CutCloth {
+        job: job.id.0,
+        size: job.size.clone(),
+        simulator: job.simulator.as_str().to_owned(),
+        lines: section.cloth.iter().map(line).collect(),
+        gaps: section.gaps(DIRECTIONS).into_iter().map(|Angle { deg, gap_m, .. }| (deg, gap_m.map(mm))).collect(),
+    };
+    Some(CrossSection {
+        level: level.level.clone(),
+        height_mm: mm(first.site.height_m()),
+        centre: place(&first.centre),
+        skin: line(&first.skin),
+        others: first.others.iter().map(line).collect(),
+        cloth: level.cuts.iter().map(cloth).collect(),
+    })
 }
 
 impl CutAt {
@@ -170,18 +225,6 @@ fn sewn(store: &Store, job: JobId) -> Result<TriMesh> {
         .ok_or_else(|| StudyError::stage("store")(format!("the mesh of job {job} does not fit its drape")))?;
     let fabric = picture::fabric_of(store, job)?;
     Ok(Sewn::new(&garment, &fabric, &drape.positions).map_err(StudyError::stage("measure"))?.mesh)
-}
-
-/// A section without cloth.
-fn bare(section: &Section) -> CrossSection {
-    CrossSection {
-        level: section.site.level.clone(),
-        height_mm: mm(section.site.height_m()),
-        centre: place(&section.centre),
-        skin: line(&section.skin),
-        others: section.others.iter().map(line).collect(),
-        cloth: Vec::new(),
-    }
 }
 
 fn line(outline: &Outline) -> CutLine {

@@ -171,17 +171,26 @@ pub(crate) fn worn(store: &Store, study: &str, cards: Vec<FitCard>) -> Result<Ve
 
 fn one(store: &Store, study: &str, card: FitCard) -> Result<GarmentWorn> {
     for simulator in [Simulator::Fem, Simulator::Hybrid] {
-        let mut sizes = Vec::new();
-        for size in &card.sizes {
-            if let Some(job) = drape_of(store, study, &card, &size.size, simulator)? {
-                sizes.push(size_worn(store, size.size.clone(), job)?);
-            }
-        }
+        let drapes = drapes(store, study, &card, simulator)?.into_iter();
+        let sizes = drapes.map(|(size, job)| size_worn(store, size, job)).collect::<Result<Vec<_>>>()?;
         if !sizes.is_empty() {
             return Ok(GarmentWorn { card, simulator: Some(simulator), sizes });
         }
     }
     Ok(GarmentWorn { card, simulator: None, sizes: Vec::new() })
+}
+
+/// The sizes of a card that a simulator has draped, in order.
+///
+/// # Errors
+/// When the database cannot be read.
+pub(crate) fn drapes(store: &Store, study: &str, card: &FitCard, simulator: Simulator) -> Result<Vec<(String, JobId)>> {
+    let mut found = Vec::new();
+    for size in &card.sizes {
+        let job = drape_of(store, study, card, &size.size, simulator)?;
+        found.extend(job.map(|job| (size.size.clone(), job)));
+    }
+    Ok(found)
 }
 
 /// The current result of a size; of several repeats the first.

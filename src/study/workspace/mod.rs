@@ -41,6 +41,7 @@ use body::Measurements;
 use fit::{Evidence, Pair, RuleScore};
 use render::View;
 use render::export::MeshFormat;
+use report::Purpose;
 use sim::Step;
 /// An open database with its studies, jobs and results. `Send`, not `Sync`: one a thread.
 ///
@@ -187,12 +188,13 @@ impl Workspace {
         record::remember_report(&mut self.store, study, page, written_ms)
     }
 
-    /// The files of a study's report by their relative paths: `index.html`, pictures, charts, drawings, CSV.
+    /// The files of a study's report by their relative paths: `index.html` for its purpose, pictures, charts, drawings, CSV. Without a
+    /// purpose a study of both simulators opens with their comparison, of one with the fit.
     ///
     /// # Errors
     /// When there is no such study, or a stored result cannot be read.
-    pub fn report(&self, study: &str) -> Result<Vec<(String, Vec<u8>)>> {
-        reporting::report(&self.store, study)
+    pub fn report(&self, study: &str, purpose: Option<Purpose>) -> Result<Vec<(String, Vec<u8>)>> {
+        reporting::report(&self.store, study, purpose)
     }
 
     /// Builds the report of a study in a folder of its own below `folder`; returns its page.

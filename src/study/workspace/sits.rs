@@ -7,6 +7,8 @@ use crate::answers::worn::{self, GarmentWorn};
 use crate::error::Result;
 use crate::rows::{EaseRow, JobId, RecommendationRow};
 use crate::store::read;
+use fit::Simulator;
+use report::Chart;
 
 impl Workspace {
     /// Ease and fit class of every size on every subject of a study.
@@ -33,6 +35,19 @@ impl Workspace {
     /// As [`Workspace::fit_cards`].
     pub fn worn(&self, study: &str, garment: Option<&str>, subject: Option<&str>) -> Result<Vec<GarmentWorn>> {
         worn::worn(&self.store, study, self.fit_cards(study, garment, subject)?)
+    }
+
+    /// The sizes of a fit card that a simulator has draped, in order, each with its result.
+    pub fn worn_by(&self, study: &str, card: &FitCard, simulator: Simulator) -> Result<Vec<(String, JobId)>> {
+        worn::drapes(&self.store, study, card, simulator)
+    }
+
+    /// Cross sections of results on one body, drawn level by level, with the gaps of one size written beside it.
+    ///
+    /// # Errors
+    /// As [`Workspace::sections`], and where a chart cannot be drawn.
+    pub fn section_charts(&self, jobs: &[JobId], at: &CutAt, written: Option<&str>) -> Result<Vec<(String, Chart)>> {
+        section::drawn(&self.store, jobs, at, written)
     }
 
     /// Cross sections of results on one body, the cloth of all over each other.

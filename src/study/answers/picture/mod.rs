@@ -70,7 +70,7 @@ pub(crate) struct Dressed {
     simulator: Simulator,
     /// How far the garment shown has come.
     stage: sim::Stage,
-    garment: Garment,
+    pub garment: Garment,
     fabric: Fabric,
     /// Heights of the body's levels, m.
     levels: BTreeMap<&'static str, f64>,
@@ -115,12 +115,12 @@ impl Dressed {
     }
 
     /// The sewn cloth.
-    fn sewn(&self) -> Result<Sewn<'_>> {
+    pub fn sewn(&self) -> Result<Sewn<'_>> {
         Sewn::new(&self.garment, &self.fabric, &self.cloth.positions).map_err(StudyError::stage("render"))
     }
 
     /// A map's value at each vertex of the cloth, in the unit of its scale; none where it has none.
-    fn values(&self, map: Map) -> Result<Vec<f64>> {
+    pub fn values(&self, map: Map) -> Result<Vec<f64>> {
         let positions = &self.cloth.positions;
         Ok(match map {
             Map::Plain | Map::Check => vec![],

@@ -1,25 +1,35 @@
 //! The report of a study: gathering what the page shows, and the raw files beside it.
 
+mod drapes;
 mod facts;
+mod fit_sheets;
 mod published;
 mod runs;
 mod sheets;
 
+use crate::answers::{fit_card, worn};
 use crate::error::{Result, StudyError};
 use crate::rows::{Table, Value};
 use crate::store::evidence::{self, PUBLISHED};
 use crate::store::read::{self, JobFilter};
 use crate::store::{Store, sql};
+use fit::Simulator;
 use report::data::{Fact, RawLink};
-use report::{self, ReportData};
+use report::{self, Purpose, ReportData};
 
 /// Views of the raw data, their files, and what they hold.
-const RAW: [(&str, &str, &str); 6] = [
+const RAW: [(&str, &str, &str); 12] = [
     ("v_chi", "chi.csv", "L2D, L3D and chi of every measurement at every stage"),
     ("v_gap", "gap.csv", "girths of garment and body where Hybrid-GS does not close"),
     ("v_metrics", "metrics.csv", "E, SD, EI and the state of every drape"),
     ("v_ease", "ease.csv", "ease and fit class of every size and subject"),
     ("v_pom", "pom.csv", "points of measure of every drape, flat and on the body, with their grade steps"),
+    ("v_fit", "fit.csv", "ease of every size at every level beside what is meant"),
+    ("v_section", "section.csv", "gap from skin to cloth all round, at the levels of the body"),
+    ("v_section_level", "section-level.csv", "girth, cloth, areas and gaps at the levels of the body"),
+    ("v_balance", "balance.csv", "heights of hem and waist edge, lean of side seams"),
+    ("v_fold", "fold.csv", "folds and drag lines"),
+    ("v_pressure", "pressure.csv", "pressure by region of the body"),
     ("v_provenance", "provenance.csv", "hashes, versions and machine of every result"),
 ];
 
@@ -43,11 +53,12 @@ const LIMITS: [&str; 2] = [
     "A fabric of the library is one measured cloth or stands for a class of cloths; its source tells which of its numbers are of another cloth. Friction is an estimate throughout.",
 ];
 
-/// The files of a study's report by their relative paths: `index.html`, pictures, charts, drawings, CSV.
+/// The files of a study's report by their relative paths: `index.html`, the other page, pictures, charts, drawings, CSV. Without a
+/// purpose a study of both simulators opens with their comparison, of one with the fit.
 ///
 /// # Errors
 /// When there is no such study, or a stored result cannot be read.
-pub fn report(store: &Store, study: &str) -> Result<Vec<(String, Vec<u8>)>> {
+pub fn report(store: &Store, study: &str, purpose: Option<Purpose>) -> Result<Vec<(String, Vec<u8>)>> {
     if study == PUBLISHED {
         return published::report_published(store);
     }
@@ -57,7 +68,10 @@ pub fn report(store: &Store, study: &str) -> Result<Vec<(String, Vec<u8>)>> {
     for (view, file, _) in RAW {
         files.push((file.to_owned(), csv_of(&of_study(store, view, study)?)?));
     }
-    files.extend(report::files(&data).map_err(StudyError::stage("report"))?);
+    let simulators = data.runs.iter().map(|run| run.simulator);
+    let compares = Simulator::ALL.iter().all(|one| simulators.clone().any(|other| other == *one));
+    let by_default = if compares { Purpose::Compare } else { Purpose::Fit };
+    files.extend(report::files(&data, purpose.unwrap_or(by_default)).map_err(StudyError::stage("report"))?);
     Ok(files)
 }
 
@@ -72,6 +86,7 @@ fn report_data(store: &Store, study: &str, files: &mut Vec<(String, Vec<u8>)>) -
     let runs = runs::report_runs(store, study, &jobs, files)?;
     let link = |(href, label): (&str, &str)| RawLink { href: href.to_owned(), label: label.to_owned() };
     let raw = RAW.iter().map(|(_, href, label)| link((href, &format!("{href}: {label}"))));
+    let worn = worn::worn(store, study, fit_card::fit_cards(store, study)?)?;
     let sheet = |(path, _): &(String, Vec<u8>)| {
         let name = path.strip_prefix(sheets::SHEETS)?.strip_suffix(".png")?;
         Some(link((path, &format!("all try-ons of {name} on one sheet"))))
@@ -106,6 +121,8 @@ fn report_data(store: &Store, study: &str, files: &mut Vec<(String, Vec<u8>)>) -
         cuts: read::cuts(store, study)?,
         ease: facts::ease_matrices(store, study)?,
         sizes: facts::size_tips(store, study, &bodies)?,
+        fit: fit_sheets::sheets(store, &worn)?,
+        drapes: drapes::drapes(store, &jobs, &worn)?,
         runs,
         pairs: evidence::pairs(store, study)?,
         evidence: Some(evidence::evidence(store, study)?),

@@ -12,7 +12,7 @@ use crate::store::{Store, sql};
 use fit::measure::Chi;
 use fit::{Answer, Cuts, Ease, Simulator};
 use report::data::{AuditNote, EaseMatrix, Fact, Measured, Outcome, RawLink, Severity, TryOn, Verdict};
-use report::{self, ReportData};
+use report::{self, Purpose, ReportData};
 
 /// Tables of the raw data, their files, and what they hold.
 const RAW: [(&str, &str, &str); 2] = [
@@ -62,7 +62,7 @@ pub(super) fn report_published(store: &Store) -> Result<Vec<(String, Vec<u8>)>> 
         raw: RAW.map(|(_, href, label)| RawLink { href: href.into(), label: format!("{href}: {label}") }).to_vec(),
         ..ReportData::default()
     };
-    let mut files = report::files(&data).map_err(StudyError::stage("report"))?;
+    let mut files = report::files(&data, Purpose::Compare).map_err(StudyError::stage("report"))?;
     for (view, file, _) in RAW {
         files.push((file.to_owned(), csv_of(&sql::query(store, &format!("SELECT * FROM {view}"))?)?));
     }

@@ -1,0 +1,104 @@
+//! `toile section`: the air between body and cloth.
+
+use std::path::Path;
+
+use super::args::Section;
+use super::context::Context;
+use super::{CliError, End, Outcome, output, pictures};
+use study::{CrossSection, CutAt, CutCloth, GarmentWorn, JobId, Simulator, Table, Value, Workspace};
+
+/// Prints cross sections, or draws one.
+pub fn section(context: &Context, arguments: &Section) -> Outcome {
+    let workspace = context.workspace()?;
+    let study = context.study_name(&workspace, &arguments.study)?;
+    let at = match (&arguments.level, arguments.at_mm) {
+        (Some(level), _) => CutAt::Level(level.clone()),
+        (None, Some(height_mm)) => CutAt::HeightMm(height_mm),
+        (None, None) => CutAt::Levels,
+    };
+    let worn = workspace.worn(&study, arguments.garment.as_deref(), arguments.subject.as_deref())?;
+    let mut cut: Vec<(&GarmentWorn, Vec<JobId>)> = Vec::new();
+    for one in &worn {
+        let jobs = jobs(&workspace, &study, one, arguments)?;
+        if !jobs.is_empty() {
+            cut.push((one, jobs));
+        }
+    }
+    if cut.is_empty() {
+        return Err(CliError::Usage(format!(
+            "{study} has no drape of what is asked for; toile run {study} makes them"
+        )));
+    }
+    if let Some(file) = &arguments.output {
+        return draw(context, &workspace, &cut, &at, file);
+    }
+    let mut found = Vec::new();
+    for (one, jobs) in &cut {
+        found.push((*one, workspace.sections(jobs, &at)?));
+    }
+    if context.json {
+        output::json(&found.into_iter().flat_map(|(_, sections)| sections).collect::<Vec<_>>())?;
+        return Ok(End::Done);
+    }
+    for (number, (one, sections)) in found.iter().enumerate() {
+        let gap = if number == 0 { "" } else { "\n" };
+        output::text(&format!("{gap}{} on {}: gap from skin to cloth\n", one.card.garment, one.card.subject))?;
+        context.print(&table(sections))?;
+    }
+    Ok(End::Done)
+}
+
+/// The results that are asked for of a garment on a subject, in the order of their sizes.
+fn jobs(workspace: &Workspace, study: &str, one: &GarmentWorn, arguments: &Section) -> Result<Vec<JobId>, CliError> {
+    let simulator = arguments.sim.map(Simulator::from).or(one.simulator);
+    let Some(simulator) = simulator else { return Ok(Vec::new()) };
+    let is_wanted = |size: &str| arguments.size.is_empty() || arguments.size.iter().any(|wanted| wanted == size);
+    let sizes = workspace.worn_by(study, &one.card, simulator)?;
+    Ok(sizes.into_iter().filter(|(size, _)| is_wanted(size)).map(|(_, job)| job).collect())
+}
+
+/// Draws the one section that is asked for.
+fn draw(
+    context: &Context,
+    workspace: &Workspace,
+    cut: &[(&GarmentWorn, Vec<JobId>)],
+    at: &CutAt,
+    file: &Path,
+) -> Outcome {
+    let mut drawn = Vec::new();
+    for (one, jobs) in cut {
+        let wear = one.card.to_wear().map(|size| size.size.as_str());
+        drawn.extend(workspace.section_charts(jobs, at, wear)?);
+    }
+    let [(_, chart)] = drawn.as_slice() else {
+        let asked = format!("{} sections are asked for; a drawing is of one", drawn.len());
+        return Err(CliError::Usage(format!("{asked}: name --garment, --subject and --level or --at-mm")));
+    };
+    match file.extension().and_then(|extension| extension.to_str()) {
+        Some("svg") => pictures::write(context, file, chart.svg().as_bytes().to_vec()),
+        Some("png") => pictures::write(context, file, chart.png().map_err(|error| CliError::Usage(error.to_string()))?),
+        _ => Err(CliError::Usage(format!("{} is neither .svg nor .png", file.display()))),
+    }
+}
+
+/// A row for each level and size.
+fn table(sections: &[CrossSection]) -> Table {
+    let columns = ["level", "height_mm", "size", "simulator", "least_mm", "mean_mm", "greatest_mm"];
+    let row = |section: &CrossSection, cloth: &CutCloth| {
+        let gaps = cloth.gap_mm().map(|gaps| gaps.map(|gap| Value::Real((10.0 * gap).round() / 10.0)));
+        let [least, mean, greatest] = gaps.unwrap_or([Value::Null, Value::Null, Value::Null]);
+        let level = Value::Text(section.level.replace('_', " "));
+        let height = Value::Integer(section.height_mm.round() as i64);
+        vec![
+            level,
+            height,
+            Value::Text(cloth.size.clone()),
+            Value::Text(cloth.simulator.clone()),
+            least,
+            mean,
+            greatest,
+        ]
+    };
+    let rows = sections.iter().flat_map(|section| section.cloth.iter().map(move |cloth| row(section, cloth))).collect();
+    Table { columns: columns.map(str::to_owned).to_vec(), rows }
+}

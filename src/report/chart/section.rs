@@ -1,0 +1,147 @@
+//! Cross sections: the body and the cloth of all sizes over each other, and the gap round it.
+
+use super::super::text::number;
+use super::super::{ReportError, theme};
+use super::Chart;
+use super::canvas::{Align, Axis, Canvas, TYPE, draw};
+use fit::worn::Section;
+use geom::V2;
+use geom::units::mm;
+use render::Rgb;
+
+/// Directions of the curves.
+const FINE: usize = 120;
+/// Directions whose gaps are written beside the section.
+const WRITTEN: usize = 8;
+/// How far from the cloth.
+const WRITTEN_OFF: f64 = 34.0;
+/// The square in which the section is drawn, and where the curves begin.
+const SQUARE: (i32, i32) = (40, 700);
+const CURVES_LEFT: i32 = 880;
+
+/// A size in a section.
+#[derive(Clone, Debug)]
+pub struct Worn<'a> {
+    /// Its name in the key.
+    pub label: String,
+    /// Whether its gaps are written beside the section: of the size to wear.
+    pub is_written: bool,
+    /// Body and cloth.
+    pub section: &'a Section,
+}
+
+/// Sizes of one garment on one body, cut at one level.
+///
+/// # Errors
+/// [`ReportError::Chart`] where plotters refuses to draw.
+pub fn section_chart(title: &str, sizes: &[Worn<'_>]) -> Result<Chart, ReportError> {
+    let (top, key) = (90, sizes.len() as i32 * (TYPE + 14));
+    let bottom = top + SQUARE.1 - SQUARE.0;
+    let svg = draw(bottom + 60 + key, |canvas| {
+        canvas.text((SQUARE.0, 36), title, theme::INK, Align::Left, true)?;
+        plan(canvas, sizes, top)?;
+        curves(canvas, sizes, top + 30, bottom - 40)?;
+        for (series, size) in sizes.iter().enumerate() {
+            let y = bottom + 50 + series as i32 * (TYPE + 14);
+            let ink = colour(series);
+            canvas.line(vec![(SQUARE.0, y), (SQUARE.0 + 50, y)], ink, 6)?;
+            let text = format!("{}: {}", size.label, gaps_in_words(size.section));
+            canvas.text((SQUARE.0 + 70, y), &text, theme::INK, Align::Left, false)?;
+        }
+        Ok(())
+    })?;
+    let words: Vec<String> =
+        sizes.iter().map(|size| format!("{}: {}", size.label, gaps_in_words(size.section))).collect();
+    Ok(Chart::new("section", title, svg, format!("{title}. {}.", words.join("; "))))
+}
+
+fn colour(series: usize) -> Rgb {
+    theme::SUBJECTS[series % theme::SUBJECTS.len()]
+}
+
+/// Least, mean and greatest gap.
+fn gaps_in_words(section: &Section) -> String {
+    let gaps: Vec<f64> = section.gaps(FINE).into_iter().filter_map(|angle| angle.gap_m).map(mm).collect();
+    let (Some(least), Some(greatest)) = (gaps.iter().copied().reduce(f64::min), gaps.iter().copied().reduce(f64::max))
+    else {
+        return "no cloth here".to_owned();
+    };
+    let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
+    format!("gap {} mm on average, from {} to {}", number(mean, 0), number(least, 0), number(greatest, 0))
+}
+
+/// The section from above, the front upwards.
+fn plan(canvas: &Canvas<'_>, sizes: &[Worn<'_>], top: i32) -> Result<(), ReportError> {
+    let Some(first) = sizes.first() else { return Ok(()) };
+    let centre = first.section.centre;
+    let angles = || sizes.iter().flat_map(|size| size.section.gaps(FINE));
+    let reach = angles().map(|angle| angle.skin_m + angle.gap_m.unwrap_or(0.0)).fold(0.05, f64::max);
+    let half = f64::from(SQUARE.1 - SQUARE.0) / 2.0;
+    let (scale, middle) = (0.86 * half / reach, (f64::from(SQUARE.0) + half, f64::from(top) + half));
+    let at = |p: &V2| {
+        let away = (p - centre) * scale;
+        ((middle.0 + away.x).round() as i32, (middle.1 - away.y).round() as i32)
+    };
+    let is_within = |p: &V2| ((p - centre) * scale).amax() < half;
+    for limb in first.section.others.iter().chain([&first.section.skin]) {
+        if limb.points.iter().all(is_within) {
+            canvas.area(limb.points.iter().map(at).collect(), theme::GRID)?;
+        }
+    }
+    for (series, size) in sizes.iter().enumerate() {
+        for one in &size.section.cloth {
+            let ring: Vec<&V2> = one.points.iter().chain(one.points.first().filter(|_| one.closed)).collect();
+            for run in ring.split(|p| !is_within(p)).filter(|run| run.len() > 1) {
+                canvas.line(run.iter().map(|p| at(p)).collect(), colour(series), 4)?;
+            }
+        }
+    }
+    for size in sizes.iter().filter(|size| size.is_written) {
+        for angle in size.section.gaps(WRITTEN) {
+            let Some(gap_m) = angle.gap_m else { continue };
+            let (sin, cos) = angle.deg.to_radians().sin_cos();
+            let away = V2::new(sin, cos) * (angle.skin_m + gap_m.max(0.0) + WRITTEN_OFF / scale);
+            canvas.text(at(&(centre + away)), &number(mm(gap_m), 0), theme::INK, Align::Middle, true)?;
+        }
+    }
+    let (left, low) = (SQUARE.0, top + SQUARE.1 - SQUARE.0);
+    canvas.text((left, top + TYPE), "front", theme::MUTED, Align::Left, false)?;
+    canvas.text((left, low - TYPE), "back", theme::MUTED, Align::Left, false)?;
+    let bar = (0.1 * scale).round() as i32;
+    canvas.line(vec![(SQUARE.1 - bar, low - 12), (SQUARE.1, low - 12)], theme::MUTED, 3)?;
+    canvas.text((SQUARE.1, low - 12 - TYPE), "100 mm", theme::MUTED, Align::Right, false)
+}
+
+/// The gap round the body, from the front over the subject's right.
+fn curves(canvas: &Canvas<'_>, sizes: &[Worn<'_>], top: i32, bottom: i32) -> Result<(), ReportError> {
+    let rounds: Vec<Vec<(f64, Option<f64>)>> = sizes
+        .iter()
+        .map(|size| size.section.gaps(FINE).into_iter().map(|angle| (angle.deg, angle.gap_m.map(mm))).collect())
+        .collect();
+    let all = || rounds.iter().flatten().filter_map(|(_, gap)| *gap);
+    let (low, high) = all().fold((0.0_f64, 20.0_f64), |(low, high), gap| (low.min(gap), high.max(gap)));
+    let axis = Axis { low: 0.0, high: 360.0, left: CURVES_LEFT, right: super::canvas::WIDTH - 60 };
+    let (ticks, _) = Axis { low, high, left: 0, right: 1 }.ticks();
+    let height = |gap: f64| bottom - ((gap - low) / (high - low) * f64::from(bottom - top)).round() as i32;
+    canvas.text((axis.left - 90, top - 54), "gap, mm", theme::MUTED, Align::Left, false)?;
+    for tick in ticks {
+        let y = height(tick);
+        let ink = if tick == 0.0 { theme::MUTED } else { theme::GRID };
+        canvas.line(vec![(axis.left, y), (axis.right, y)], ink, 2)?;
+        canvas.text((axis.left - 16, y), &number(tick, 0), theme::MUTED, Align::Right, false)?;
+    }
+    for (deg, side) in [(0.0, "front"), (90.0, "right"), (180.0, "back"), (270.0, "left"), (360.0, "front")] {
+        let x = axis.at(deg);
+        canvas.line(vec![(x, top), (x, bottom)], theme::GRID, 2)?;
+        canvas.text((x, bottom + TYPE), side, theme::MUTED, Align::Middle, false)?;
+    }
+    for (series, round) in rounds.iter().enumerate() {
+        let closed: Vec<(f64, Option<f64>)> =
+            round.iter().copied().chain(round.first().map(|(_, gap)| (360.0, *gap))).collect();
+        for run in closed.split(|(_, gap)| gap.is_none()).filter(|run| run.len() > 1) {
+            let line = run.iter().filter_map(|(deg, gap)| Some((axis.at(*deg), height((*gap)?)))).collect();
+            canvas.line(line, colour(series), 4)?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,158 @@
+//! The fit report: which size to wear, where it is tight or loose, how it hangs and what it presses; the comparison of the
+//! simulators stands behind it.
+
+use base64::Engine;
+use sha2::{Digest, Sha256};
+
+use super::ReportError;
+use super::data::{FitSheet, FitVerdict, Outcome, Picture, ReportData, TryOn};
+use super::page::{Image, MapImage};
+use super::text::{count, simulator_name};
+use super::viewer;
+use fit::Simulator;
+
+/// What `fit.html` is filled from.
+#[derive(askama::Template)]
+#[template(path = "fit.html")]
+pub(super) struct FitPage<'a> {
+    data: &'a ReportData,
+    /// Address of the page that compares the simulators.
+    other: &'a str,
+    sheets: Vec<Sheet<'a>>,
+    drawings: Vec<(String, String)>,
+    /// Data of the viewer, and its script with the hash by which the page allows it; empty without drapes.
+    drapes: String,
+    script: &'static str,
+    script_hash: String,
+}
+
+/// A garment on a subject.
+struct Sheet<'a> {
+    id: String,
+    sheet: &'a FitSheet,
+    /// A column of pictures a size.
+    columns: Vec<Column>,
+    /// Inline drawings of the sections.
+    sections: Vec<String>,
+    /// Whose drape is shown and measured, in words.
+    source: String,
+}
+
+/// The pictures of a size, all from one camera.
+struct Column {
+    size: String,
+    is_to_wear: bool,
+    words: String,
+    views: Vec<Image>,
+    maps: Vec<MapImage>,
+}
+
+impl<'a> FitPage<'a> {
+    pub fn new(data: &'a ReportData, other: &'a str) -> Result<Self, ReportError> {
+        let sheets = data.fit.iter().enumerate().map(|(number, sheet)| Sheet::new(number, sheet, data));
+        let drawing = |drawing: &super::data::Drawing| {
+            let name = format!("{}, size {}", drawing.garment, drawing.size);
+            (name, super::page::address("image/svg+xml", drawing.svg.as_bytes()))
+        };
+        let drapes = if data.drapes.is_empty() { String::new() } else { data.drapes.json()? };
+        let digest = Sha256::digest(viewer::SCRIPT.as_bytes());
+        Ok(Self {
+            data,
+            other,
+            sheets: sheets.collect::<Result<_, _>>()?,
+            drawings: data.drawings.iter().map(drawing).collect(),
+            drapes,
+            script: viewer::SCRIPT,
+            script_hash: base64::engine::general_purpose::STANDARD.encode(digest),
+        })
+    }
+
+    fn style(&self) -> &'static str {
+        viewer::STYLE
+    }
+
+    fn fragment(&self) -> &'static str {
+        viewer::FRAGMENT
+    }
+}
+
+impl<'a> Sheet<'a> {
+    fn new(number: usize, sheet: &'a FitSheet, data: &ReportData) -> Result<Self, ReportError> {
+        let own = |run: &&TryOn| run.garment == sheet.garment && run.subject == sheet.subject && run.repeat == 1;
+        let runs: Vec<&TryOn> =
+            data.runs.iter().filter(own).filter(|run| !matches!(run.outcome, Outcome::Failed(_))).collect();
+        let columns = sheet.sizes.iter().map(|size| {
+            let of = |simulator: Simulator| {
+                runs.iter().find(|run| run.size == size.size && run.simulator == simulator).copied()
+            };
+            let shown = sheet.simulator.and_then(of);
+            let beside = of(Simulator::Hybrid).filter(|_| sheet.simulator == Some(Simulator::Fem));
+            Column::new(size.size.clone(), size.is_to_wear, size.words.clone(), shown, beside)
+        });
+        let source = sheet.simulator.map_or("no drape yet".to_owned(), |simulator| {
+            format!(
+                "{} of {}",
+                count(runs.iter().filter(|run| run.simulator == simulator).count(), "drape"),
+                simulator_name(simulator)
+            )
+        });
+        Ok(Self {
+            id: format!("fit-{}", number + 1),
+            sheet,
+            columns: columns.collect::<Result<_, _>>()?,
+            sections: sheet.sections.iter().map(super::Chart::inline).collect(),
+            source,
+        })
+    }
+}
+
+impl Column {
+    /// Front, side and back and the stretch of the drape that is measured; of a garment that is smaller than the body besides the gap
+    /// map of Hybrid-GS, which says where it does not close.
+    fn new(
+        size: String,
+        is_to_wear: bool,
+        words: String,
+        shown: Option<&TryOn>,
+        beside: Option<&TryOn>,
+    ) -> Result<Self, ReportError> {
+        let is = |picture: &&Picture, name: &str| picture.file.contains(name);
+        let views = shown.into_iter().flat_map(|run| &run.views);
+        let views = ["front-plain", "side-plain", "back-plain"]
+            .into_iter()
+            .filter_map(|name| views.clone().find(|picture| is(picture, name)));
+        let map = |run: Option<&'_ TryOn>, name: &str| {
+            run.and_then(|run| run.maps.iter().find(|map| map.picture.file.contains(name))).map(MapImage::new)
+        };
+        let is_small = shown.and_then(|run| run.ease.as_ref()).is_some_and(fit::Ease::is_undersized);
+        let gap_of = if is_small && beside.is_some() { beside } else { shown };
+        let maps = [map(shown, "front-stretch"), map(gap_of, "front-gap")].into_iter().flatten();
+        Ok(Self {
+            size,
+            is_to_wear,
+            words,
+            views: views.map(Image::new).collect::<Result<_, _>>()?,
+            maps: maps.collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+impl FitVerdict {
+    /// Style class of a cell.
+    fn class(self) -> &'static str {
+        match self {
+            Self::Tight => "tight",
+            Self::AsMeant => "just",
+            Self::Loose => "loose",
+        }
+    }
+
+    /// Sign before its words.
+    fn glyph(self) -> &'static str {
+        match self {
+            Self::Tight => "\u{25bc}",
+            Self::AsMeant => "\u{25cf}",
+            Self::Loose => "\u{25b2}",
+        }
+    }
+}

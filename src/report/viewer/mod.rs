@@ -1,0 +1,206 @@
+//! Drapes to turn in the page: what `viewer.js` draws, as JSON.
+
+mod pack;
+
+pub use pack::{STEP_MM, Topology, line};
+
+use std::collections::BTreeMap;
+
+use geom::V3;
+use render::Scale;
+use serde::Serialize;
+
+/// The script, which asks nothing of the network.
+pub(super) const SCRIPT: &str = include_str!("viewer.js");
+/// Its style sheet.
+pub(super) const STYLE: &str = include_str!("viewer.css");
+/// Its element in the page, hidden until the script can draw.
+pub(super) const FRAGMENT: &str = include_str!("viewer.html");
+
+/// Colours of a ramp.
+const COLOURS: usize = 13;
+
+/// All drapes of a page, their bodies, and what is shown on them.
+#[derive(Clone, Debug, Serialize)]
+pub struct Drapes {
+    /// Unit vector out of the chest.
+    front: [f64; 3],
+    meshes: Vec<PackedMesh>,
+    bodies: Vec<PackedBody>,
+    drapes: Vec<PackedDrape>,
+    scales: BTreeMap<String, PackedScale>,
+    levels: BTreeMap<String, Vec<LevelMark>>,
+    #[serde(skip)]
+    known: Vec<Topology>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct PackedMesh {
+    vertices: usize,
+    triangles: usize,
+    indices: String,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct PackedBody {
+    subject: String,
+    mesh: usize,
+    positions: String,
+    origin_mm: [f64; 3],
+    step_mm: f64,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct PackedDrape {
+    garment: String,
+    size: String,
+    subject: String,
+    simulator: String,
+    /// Whether it is of the size to wear.
+    wear: bool,
+    mesh: usize,
+    positions: String,
+    origin_mm: [f64; 3],
+    step_mm: f64,
+    maps: BTreeMap<String, String>,
+    lines: Vec<PackedLine>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct PackedLine {
+    name: String,
+    text: String,
+    points: String,
+    count: usize,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct PackedScale {
+    label: String,
+    unit: String,
+    low: f64,
+    high: f64,
+    ramp: Vec<String>,
+}
+
+/// A level of a body.
+#[derive(Clone, Debug, Serialize)]
+pub struct LevelMark {
+    /// Its name.
+    pub name: String,
+    /// Its height above the floor, mm.
+    pub height_mm: f64,
+}
+
+/// A drape as it is handed in: of the sewn cloth.
+pub struct Drape<'a> {
+    /// Garment, size, subject and simulator.
+    pub names: [&'a str; 4],
+    /// Whether it is of the size to wear.
+    pub is_to_wear: bool,
+    /// Vertices, m.
+    pub positions: &'a [V3],
+    /// Triangles.
+    pub triangles: &'a [[usize; 3]],
+    /// Values of the vertices by the name of their map, with its scale.
+    pub maps: Vec<(&'static str, Scale, Vec<f64>)>,
+    /// Measurements: name, words, points along each stretch, m.
+    pub lines: Vec<(String, String, Vec<V3>)>,
+}
+
+impl Default for Drapes {
+    fn default() -> Self {
+        Self {
+            front: [0.0, 1.0, 0.0],
+            meshes: Vec::new(),
+            bodies: Vec::new(),
+            drapes: Vec::new(),
+            scales: BTreeMap::new(),
+            levels: BTreeMap::new(),
+            known: Vec::new(),
+        }
+    }
+}
+
+impl Drapes {
+    /// Whether there is nothing to show.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.drapes.is_empty()
+    }
+
+    /// Whether a subject's body is there.
+    #[must_use]
+    pub fn has_body(&self, subject: &str) -> bool {
+        self.bodies.iter().any(|body| body.subject == subject)
+    }
+
+    /// Adds a body with its levels; nothing where its mesh is too large for a page.
+    pub fn add_body(&mut self, subject: &str, positions: &[V3], triangles: &[[usize; 3]], levels: Vec<LevelMark>) {
+        let Some((mesh, topology)) = self.mesh(triangles) else { return };
+        let (origin_mm, positions) = topology.places(positions);
+        self.bodies.push(PackedBody { subject: subject.to_owned(), mesh, positions, origin_mm, step_mm: STEP_MM });
+        self.levels.insert(subject.to_owned(), levels);
+    }
+
+    /// Adds a drape; nothing where its mesh is too large for a page.
+    pub fn add(&mut self, drape: &Drape<'_>) {
+        let Some((mesh, topology)) = self.mesh(drape.triangles) else { return };
+        let (origin_mm, positions) = topology.places(drape.positions);
+        let mut maps = BTreeMap::new();
+        for (name, scale, values) in &drape.maps {
+            maps.insert((*name).to_owned(), topology.values(values, scale.low, scale.high));
+            self.scales.entry((*name).to_owned()).or_insert_with(|| PackedScale::of(scale));
+        }
+        let packed = |(name, text, points): &(String, String, Vec<V3>)| PackedLine {
+            name: name.clone(),
+            text: text.clone(),
+            points: line(points, origin_mm),
+            count: points.len(),
+        };
+        let [garment, size, subject, simulator] = drape.names.map(str::to_owned);
+        let lines = drape.lines.iter().map(packed).collect();
+        let wear = drape.is_to_wear;
+        let step_mm = STEP_MM;
+        self.drapes.push(PackedDrape {
+            garment,
+            size,
+            subject,
+            simulator,
+            wear,
+            mesh,
+            positions,
+            origin_mm,
+            step_mm,
+            maps,
+            lines,
+        });
+    }
+
+    /// The mesh of some triangles, which drapes of one size share.
+    fn mesh(&mut self, triangles: &[[usize; 3]]) -> Option<(usize, Topology)> {
+        let topology = Topology::of(triangles)?;
+        let number = self.known.iter().position(|known| *known == topology).unwrap_or_else(|| {
+            let (vertices, triangles) = (topology.vertices.len(), topology.count());
+            self.meshes.push(PackedMesh { vertices, triangles, indices: topology.packed() });
+            self.known.push(topology.clone());
+            self.known.len() - 1
+        });
+        Some((number, topology))
+    }
+
+    /// As JSON that may stand within a script element of a page.
+    ///
+    /// # Errors
+    /// What serde says of a number that is none.
+    pub(super) fn json(&self) -> Result<String, serde_json::Error> {
+        Ok(serde_json::to_string(self)?.replace('<', "\\u003c"))
+    }
+}
+
+impl PackedScale {
+    fn of(scale: &Scale) -> Self {
+        let ramp = (0..COLOURS).map(|k| scale.map.at(k as f64 / (COLOURS - 1) as f64).hex()).collect();
+        Self { label: scale.label.clone(), unit: scale.unit.clone(), low: scale.low, high: scale.high, ramp }
+    }
+}

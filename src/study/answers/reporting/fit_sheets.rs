@@ -1,0 +1,170 @@
+//! Fit sheets: how a garment sits on a subject in its sizes, for the fit report.
+
+use crate::answers::fit_card::{FitCard, LevelSits, SizeSits};
+use crate::answers::section::{self, CutAt};
+use crate::answers::worn::{GarmentWorn, SizeWorn};
+use crate::error::Result;
+use crate::store::Store;
+use pattern::pom::Point;
+use report::data::{FitCell, FitRow, FitSheet, FitSize, FitTable, FitVerdict};
+
+/// A kilopascal in millimetres of mercury.
+const MMHG: f64 = 7.500_616_827;
+/// A difference of an ease from its target below which it is as meant, mm.
+const AS_MEANT_MM: f64 = 0.5;
+
+/// The fit sheets of a study.
+pub(super) fn sheets(store: &Store, worn: &[GarmentWorn]) -> Result<Vec<FitSheet>> {
+    worn.iter().map(|one| sheet(store, one)).collect()
+}
+
+fn sheet(store: &Store, one: &GarmentWorn) -> Result<FitSheet> {
+    let card = &one.card;
+    let beside = card.beside();
+    let worn = |size: &SizeSits| one.sizes.iter().find(|worn| worn.size == size.size);
+    let drapes: Vec<Option<&SizeWorn>> = beside.iter().map(worn).collect();
+    let jobs: Vec<_> = one.sizes.iter().map(|size| size.job).collect();
+    let wear = card.to_wear().map(|size| size.size.as_str());
+    let charts = section::drawn(store, &jobs, &CutAt::Levels, wear)?;
+    let size =
+        |size: &SizeSits| FitSize { size: size.size.clone(), is_to_wear: size.place == Some(1), words: size.words() };
+    let names: Vec<String> = beside.iter().map(|size| size.size.clone()).collect();
+    let mut tables = vec![ease(card, beside, &names)];
+    if drapes.iter().any(Option::is_some) {
+        tables.push(hang(&drapes, &names));
+        tables.push(points(&drapes, &names));
+    }
+    Ok(FitSheet {
+        garment: card.garment.clone(),
+        subject: card.subject.clone(),
+        intended: card.intended.clone().unwrap_or_default(),
+        verdict: card.verdict(),
+        sizes: beside.iter().map(size).collect(),
+        simulator: one.simulator,
+        tables: tables.into_iter().filter(|table| !table.rows.is_empty()).collect(),
+        sections: charts.into_iter().map(|(_, chart)| chart).collect(),
+    })
+}
+
+fn plain(text: impl Into<String>) -> FitCell {
+    FitCell { text: text.into(), ..FitCell::default() }
+}
+
+/// A whole number with its sign.
+fn signed(value: f64) -> String {
+    if value < -0.5 { format!("\u{2212}{:.0}", -value) } else { format!("+{:.0}", value.abs()) }
+}
+
+/// Ease at every level beside what is meant.
+fn ease(card: &FitCard, sizes: &[SizeSits], names: &[String]) -> FitTable {
+    let row = |level: &str| {
+        let of = |size: &SizeSits| size.levels.iter().find(|one| one.level == level).cloned();
+        let all: Vec<Option<LevelSits>> = sizes.iter().map(of).collect();
+        let known = all.iter().flatten().next();
+        let target = known.and_then(|one| one.target_mm);
+        let body = known.map_or(String::new(), |one| format!("{:.0}", one.body_girth_mm));
+        let target =
+            target.map_or(String::new(), |[least, most]| format!("{least:.0} to {most:.0}").replace('-', "\u{2212}"));
+        let cell = |one: &Option<LevelSits>| {
+            one.as_ref().map_or_else(FitCell::default, |one| FitCell {
+                text: signed(one.ease_mm),
+                note: one.words(),
+                verdict: one.off_mm.map(|off| match off {
+                    off if off <= -AS_MEANT_MM => FitVerdict::Tight,
+                    off if off >= AS_MEANT_MM => FitVerdict::Loose,
+                    _ => FitVerdict::AsMeant,
+                }),
+            })
+        };
+        let cells = [plain(body), plain(target)].into_iter().chain(all.iter().map(cell)).collect();
+        FitRow { name: level.replace('_', " "), cells }
+    };
+    FitTable {
+        caption: "Ease: garment less body, mm".to_owned(),
+        columns: ["body", "target"].map(str::to_owned).into_iter().chain(names.iter().cloned()).collect(),
+        rows: card.levels().into_iter().map(row).collect(),
+    }
+}
+
+/// Balance, pressure, folds and gaps of the drapes.
+fn hang(sizes: &[Option<&SizeWorn>], names: &[String]) -> FitTable {
+    let mut rows = Vec::new();
+    let mut add = |name: &str, of: &dyn Fn(&SizeWorn) -> Option<(String, String)>| {
+        let cell = |size: &Option<&SizeWorn>| {
+            let told = size.and_then(of);
+            told.map_or_else(FitCell::default, |(text, note)| FitCell { text, note, verdict: None })
+        };
+        let cells: Vec<FitCell> = sizes.iter().map(cell).collect();
+        if cells.iter().any(|cell| !cell.text.is_empty()) {
+            rows.push(FitRow { name: name.to_owned(), cells });
+        }
+    };
+    let height = |quantity: &'static str| {
+        move |size: &SizeWorn| size.balance_of(quantity).map(|mm| (format!("{mm:.0}"), String::new()))
+    };
+    add("hem above the floor, in front, mm", &height("hem_front"));
+    add("hem above the floor, behind, mm", &height("hem_back"));
+    add("hem, front over back, mm", &|size| {
+        let off = size.balance_of("hem_front_over_back")?;
+        let words = match off {
+            off if off.abs() < 5.0 => "level",
+            off if off > 0.0 => "higher in front",
+            _ => "lower in front",
+        };
+        Some((signed(off), words.to_owned()))
+    });
+    add("hem, right over left, mm", &|size| Some((signed(size.balance_of("hem_right_over_left")?), String::new())));
+    add("waist edge, front over back, mm", &|size| {
+        Some((signed(size.balance_of("waist_front_over_back")?), String::new()))
+    });
+    add("side seam lean, right and left, degrees", &|size| {
+        let [right, left] = ["side_seam_lean_right", "side_seam_lean_left"].map(|quantity| size.balance_of(quantity));
+        let words = if right? + left? > 0.0 { "forwards going down" } else { "backwards going down" };
+        Some((format!("{:.1}, {:.1}", right?.abs(), left?.abs()), words.to_owned()))
+    });
+    add("greatest pressure, kPa", &|size| {
+        let most = size.pressure.first()?;
+        let (region, mmhg) = (most.region.replace('_', " "), most.most_kpa * MMHG);
+        Some((
+            format!("{:.2}", most.most_kpa),
+            format!("{region}, {mmhg:.1} mmHg; mean there {:.2} kPa", most.mean_kpa),
+        ))
+    });
+    add("folds and drag lines", &|size| Some((size.folds.len().to_string(), size.fold_words())));
+    let mut levels: Vec<&str> = Vec::new();
+    for gap in sizes.iter().flatten().flat_map(|size| &size.gaps) {
+        if !levels.contains(&gap.level.as_str()) {
+            levels.push(&gap.level);
+        }
+    }
+    for level in levels {
+        add(&format!("mean gap at the {}, mm", level.replace('_', " ")), &|size| {
+            let gap = size.gaps.iter().find(|gap| gap.level == level)?;
+            let words = gap.least_gap_mm.zip(gap.greatest_gap_mm);
+            let words = words.map_or(String::new(), |(least, greatest)| {
+                format!("{least:.0} to {greatest:.0}").replace('-', "\u{2212}")
+            });
+            Some((format!("{:.0}", gap.mean_gap_mm?).replace('-', "\u{2212}"), words))
+        });
+    }
+    FitTable { caption: "How it hangs and what it presses".to_owned(), columns: names.to_vec(), rows }
+}
+
+/// Points of measure, flat and worn.
+fn points(sizes: &[Option<&SizeWorn>], names: &[String]) -> FitTable {
+    let row = |point: Point| {
+        let name = point.as_str();
+        let cell = |size: &Option<&SizeWorn>| {
+            let found = size.and_then(|size| size.points.iter().find(|one| one.point == name));
+            found.map_or_else(FitCell::default, |one| {
+                let worn = one.draped_mm.map(|mm| format!("worn {mm:.1}"));
+                let step = one.step_mm.map(|mm| format!("step {mm:+.1}").replace('-', "\u{2212}"));
+                let note = worn.into_iter().chain(step).collect::<Vec<_>>().join(", ");
+                FitCell { text: format!("{:.1}", one.flat_mm), note, verdict: None }
+            })
+        };
+        FitRow { name: name.replace('_', " "), cells: sizes.iter().map(cell).collect() }
+    };
+    let rows = Point::ALL.into_iter().map(row).filter(|row| row.cells.iter().any(|cell| !cell.text.is_empty()));
+    FitTable { caption: "Points of measure, flat, mm".to_owned(), columns: names.to_vec(), rows: rows.collect() }
+}
