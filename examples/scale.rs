@@ -17,8 +17,8 @@ use toile::sim::{Monitor, Stage, Step};
 use toile::study::files;
 use toile::study::patterns;
 use toile::study::{
-    JobFilter, JobId, JobSpec, Measured, Outcome, Result, RunOptions, Selection, Status, StudyError, Workspace,
-    new_study,
+    JobFilter, JobId, JobSpec, Measured, Outcome, Result, RunOptions, Selection, Status, StudyError, WornOn,
+    Workspace, new_study,
 };
 
 /// Measurements of a result.
@@ -182,6 +182,7 @@ fn quick(spec: &JobSpec, _: &mut dyn Monitor) -> Result<Outcome> {
         self_crossings: 0,
         history: history.collect(),
         points: Vec::new(),
+        worn: WornOn::default(),
         closures: Vec::new(),
         eases: vec![ease],
         distortion: None,

@@ -50,9 +50,10 @@ pub fn points_of_measure(
     let extension = output.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     let bytes = match extension.as_str() {
         "csv" => output::encoded(&specified.table(), Format::Csv)?,
+        "svg" => specified.drawing.clone().into_bytes(),
         "xlsx" => xlsx::bytes(&specified.garment, &specified.table())?,
         _ => {
-            let found = format!("{}: found `.{extension}`; accepted: X.csv or X.xlsx", output.display());
+            let found = format!("{}: found `.{extension}`; accepted: X.csv, X.xlsx or X.svg", output.display());
             return Err(CliError::Usage(found));
         }
     };

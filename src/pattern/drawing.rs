@@ -3,8 +3,10 @@
 
 use std::fmt::Write as _;
 
+use super::MeasurementKind;
 use super::arrange::arranged;
-use super::style::{PathPart, Style, StylePiece};
+use super::pom::PointOfMeasure;
+use super::style::{PathPart, Style, StyleMeasurement, StylePiece};
 use geom::V2;
 use geom::polyline::Polyline;
 use geom::units::{from_mm, mm};
@@ -57,6 +59,21 @@ pub fn svg(style: &Style) -> String {
     legend(&mut out, style, sheet, rows);
     out.push_str("</svg>\n");
     out
+}
+
+/// As [`svg`], with the points of measure numbered in place of the style's own measurements.
+#[must_use]
+pub fn points_svg(style: &Style) -> String {
+    let points = style.points_of_measure().into_iter().zip(1..);
+    let measurement = |(one, no): (PointOfMeasure, u32)| StyleMeasurement {
+        no,
+        name: one.point.as_str().replace('_', " "),
+        kind: MeasurementKind::OpenLength,
+        path: one.path,
+        l2d_m: one.length_m,
+        is_free_edge: false,
+    };
+    svg(&Style { measurements: points.map(measurement).collect(), ..style.clone() })
 }
 
 fn bounds_mm(points: &[V2]) -> (V2, V2) {
@@ -231,5 +248,7 @@ mod tests {
         assert_eq!(count("class=\"no\""), 9 + style.measurements.iter().map(|m| m.path.len()).sum::<usize>());
         assert!(sheet.contains("back &lt;&amp;&gt; M") && sheet.contains("Sleeve Length 130.7 mm"));
         assert!(!sheet.contains("NaN"));
+        let points = points_svg(&style);
+        assert!(points.contains("half chest 517.0 mm") && points.contains("centre back length 720.0 mm"), "{points}");
     }
 }

@@ -27,7 +27,8 @@ pub use svg::rasterise_svg;
 pub use texture::{Mapping, Texture, texture_coordinates};
 pub use weave::Weave;
 
-use image::RgbaImage;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{DynamicImage, RgbaImage};
 
 /// Why a picture could not be made.
 #[derive(Debug, thiserror::Error)]
@@ -105,7 +106,13 @@ pub enum RenderError {
 /// [`RenderError::Encode`] for an empty picture.
 pub fn png(picture: &RgbaImage) -> Result<Vec<u8>, RenderError> {
     let mut bytes = Vec::new();
-    picture.write_to(&mut std::io::Cursor::new(&mut bytes), image::ImageFormat::Png)?;
+    let encoder = PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive);
+    if picture.pixels().all(|pixel| pixel[3] == u8::MAX) {
+        let opaque = DynamicImage::ImageRgba8(picture.clone()).to_rgb8();
+        opaque.write_with_encoder(encoder)?;
+    } else {
+        picture.write_with_encoder(encoder)?;
+    }
     Ok(bytes)
 }
 

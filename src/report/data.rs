@@ -38,6 +38,10 @@ pub struct ReportData {
     pub sizes: Vec<SizeTip>,
     /// How each garment fits each subject.
     pub fit: Vec<FitSheet>,
+    /// Pattern drawings with numbered points of measure.
+    pub points: Vec<Drawing>,
+    /// Each point of measure that any of them has, and how it is measured.
+    pub definitions: Vec<Fact>,
     /// Drapes to turn in the page.
     pub drapes: Drapes,
     /// All runs, failed ones too.

@@ -60,7 +60,7 @@ impl<'a> FitPage<'a> {
             data,
             other,
             sheets: sheets.collect::<Result<_, _>>()?,
-            drawings: data.drawings.iter().map(drawing).collect(),
+            drawings: data.points.iter().map(drawing).collect(),
             drapes,
             script: viewer::SCRIPT,
             script_hash: base64::engine::general_purpose::STANDARD.encode(digest),

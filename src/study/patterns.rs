@@ -214,6 +214,12 @@ pub fn sheet(style: &Style) -> String {
     drawing::svg(style)
 }
 
+/// The style's pieces on a sheet, as SVG with its points of measure numbered.
+#[must_use]
+pub fn points_sheet(style: &Style) -> String {
+    drawing::points_svg(style)
+}
+
 /// The files of a drafted style: a DXF a size and the seam file.
 #[must_use]
 pub fn drafted(model: Model) -> Vec<(String, Vec<u8>)> {

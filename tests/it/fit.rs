@@ -26,14 +26,14 @@ fn a_sheet_is_written_with_its_steps() {
     let points = rows["points"].as_array().expect("points");
     let chest = points.iter().find(|point| point["point"] == "half_chest").expect("a chest");
     assert!((chest["length_mm"].as_f64().expect("a number") - 487.05).abs() < 0.1, "{chest}");
-    for (file, starts) in [("sheet.csv", &b"point,"[..]), ("sheet.xlsx", &b"PK"[..])] {
+    for (file, starts) in [("sheet.csv", &b"point,"[..]), ("sheet.xlsx", &b"PK"[..]), ("sheet.svg", &b"<svg"[..])] {
         let command = format!("pattern pom patterns/tshirt-s.dxf --seams patterns/tshirt.seams.toml -o {file}");
         place.toile(&command).ends_with(0);
         let bytes = std::fs::read(place.path(file)).expect("it is written");
         assert!(bytes.starts_with(starts), "{file}");
     }
     let wrong = place.toile("pattern pom patterns/tshirt-s.dxf --seams patterns/tshirt.seams.toml -o sheet.pdf");
-    assert!(wrong.ends_with(2).err.contains("accepted: X.csv or X.xlsx"));
+    assert!(wrong.ends_with(2).err.contains("accepted: X.csv, X.xlsx or X.svg"));
     let Some(nest) = shared("patterns/freesewing/teagan_nest_aama-inch.dxf") else {
         eprintln!("skipped: no ../shared");
         return;

@@ -199,7 +199,7 @@ pub enum Pattern {
         seams: Option<PathBuf>,
         #[command(flatten)]
         cut: CutFiles,
-        /// Sheet to write (X.csv or X.xlsx); standard output without it.
+        /// Sheet to write (X.csv or X.xlsx), or a drawing of where the points lie (X.svg); standard output without it.
         #[arg(long, short, value_name = "FILE")]
         output: Option<PathBuf>,
     },

@@ -319,7 +319,8 @@ function offer(name, values, texts = values, useful = values.length > 1) {
 }
 
 function set(name, value) {
-	if (name === 'cut' && state.cut === null) camera.pitch = max(camera.pitch, .45);
+	const off = value === null;
+	if (name === 'cut' && off !== (state.cut === null)) camera.pitch = off ? .05 : .45;
 	state[name] = value;
 	if (name === 'cut') section(); else refresh();
 }
@@ -426,7 +427,7 @@ function drawInsets() {
 	}
 }
 
-// ---- Camera, pointers and keys
+// ---- Input
 
 function aim(changes) {
 	Object.assign(camera, changes);

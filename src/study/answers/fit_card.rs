@@ -87,11 +87,15 @@ impl FitCard {
         self.sizes.iter().find(|size| size.place == Some(1))
     }
 
-    /// The size to wear and the two beside it; all of them where none is to wear.
+    /// The size to wear and the two beside it, at an end of the range the next two; all of them where none is to wear.
     #[must_use]
     pub fn beside(&self) -> &[SizeSits] {
+        let last = self.sizes.len().saturating_sub(BESIDE);
         match self.sizes.iter().position(|size| size.place == Some(1)) {
-            Some(at) => &self.sizes[at.saturating_sub(1)..(at + 2).min(self.sizes.len())],
+            Some(at) => {
+                let first = at.saturating_sub(1).min(last);
+                &self.sizes[first..(first + BESIDE).min(self.sizes.len())]
+            }
             None => &self.sizes,
         }
     }
@@ -122,6 +126,9 @@ impl FitCard {
         own.into_iter().chain(others).collect::<Vec<_>>().join("; ")
     }
 }
+
+/// Sizes that stand side by side on a card.
+const BESIDE: usize = 3;
 
 /// Levels from the neck down, arms after the trunk.
 const ORDER: [&str; 13] = [
@@ -270,6 +277,8 @@ mod tests {
         let reasons = "chest loose by 18 mm; M: hip tight by 30 mm; XL: chest loose by 78 mm";
         assert_eq!(card.reasons(), reasons);
         assert_eq!(card.beside().iter().map(|size| size.size.as_str()).collect::<Vec<_>>(), ["M", "L", "XL"]);
+        let at_end = FitCard { sizes: card.sizes[..3].to_vec(), ..card.clone() };
+        assert_eq!(at_end.beside().len(), 3, "at an end the next two");
         assert_eq!(card.levels(), ["chest", "hip"]);
         let worst = |at: usize| card.sizes[at].worst().map(|level| (level.level.as_str(), level.words()));
         assert_eq!(worst(0), Some(("hip", "tight by 90 mm, smaller than the body".to_owned())));

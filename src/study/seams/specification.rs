@@ -39,6 +39,9 @@ pub struct Specification {
     pub points: Vec<SpecifiedPoint>,
     /// What a reader should know, as sentences.
     pub notes: Vec<String>,
+    /// The pieces of the first size with the points numbered, as SVG.
+    #[serde(skip)]
+    pub drawing: String,
 }
 
 /// Measures every size of a pattern at its points of measure. Without a seam file it is sewn as proposed.
@@ -72,7 +75,8 @@ pub fn specification(pattern: &Path, seams: Option<&Path>, how: &Asking<'_>) -> 
             format!("{}: no point of measure was found; accepted: pieces with roles, sewn together", pattern.display());
         return Err(StudyError::stage("pattern")(message));
     }
-    Ok(Specification { garment, sizes, points, notes })
+    let drawing = styles.first().map_or_else(String::new, patterns::points_sheet);
+    Ok(Specification { garment, sizes, points, notes, drawing })
 }
 
 /// Every point of every size, by point.

@@ -4,12 +4,12 @@ use crate::answers::reporting::quoted;
 use crate::answers::{advice, picture};
 use crate::catalogue::style;
 use crate::error::Result;
-use crate::patterns;
 use crate::rows::{EaseRow, JobRow, RecommendationRow, StageKind, Status, Value};
 use crate::run::pipeline::Model;
 use crate::store::{Store, read, sql};
 use body::Girths;
 use fit::{Basis, Ease, Finding, Simulator};
+use pattern::Style;
 use report::data::{
     AuditNote, Column, Drawing, EaseMatrix, FabricFacts, Fact, Severity, SizeTip, Subject, SubjectTable, Verdict,
 };
@@ -222,14 +222,14 @@ pub(super) fn fabric_facts(store: &Store, study: &str) -> Result<Vec<FabricFacts
 }
 
 /// The first size of each garment, drawn from what its job was made from.
-pub(super) fn drawings(store: &Store, jobs: &[JobRow]) -> Result<Vec<Drawing>> {
+pub(super) fn drawings(store: &Store, jobs: &[JobRow], draw: fn(&Style) -> String) -> Result<Vec<Drawing>> {
     let mut drawings: Vec<Drawing> = Vec::new();
     for job in jobs {
         if drawings.iter().any(|drawing| drawing.garment == job.garment) {
             continue;
         }
         let style = style::style_of(store, job.id)?;
-        let svg = patterns::sheet(&style);
+        let svg = draw(&style);
         drawings.push(Drawing { garment: job.garment.clone(), size: job.size.clone(), svg });
     }
     Ok(drawings)

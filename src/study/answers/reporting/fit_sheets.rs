@@ -6,7 +6,7 @@ use crate::answers::worn::{GarmentWorn, SizeWorn};
 use crate::error::Result;
 use crate::store::Store;
 use pattern::pom::Point;
-use report::data::{FitCell, FitRow, FitSheet, FitSize, FitTable, FitVerdict};
+use report::data::{Fact, FitCell, FitRow, FitSheet, FitSize, FitTable, FitVerdict};
 
 /// A kilopascal in millimetres of mercury.
 const MMHG: f64 = 7.500_616_827;
@@ -44,6 +44,16 @@ fn sheet(store: &Store, one: &GarmentWorn) -> Result<FitSheet> {
         tables: tables.into_iter().filter(|table| !table.rows.is_empty()).collect(),
         sections: charts.into_iter().map(|(_, chart)| chart).collect(),
     })
+}
+
+/// The points of measure that any drape has, and how each is measured.
+pub(super) fn definitions(worn: &[GarmentWorn]) -> Vec<Fact> {
+    let has = |point: &Point| {
+        let mut points = worn.iter().flat_map(|one| &one.sizes).flat_map(|size| &size.points);
+        points.any(|one| one.point == point.as_str())
+    };
+    let fact = |point: Point| Fact { name: point.as_str().replace('_', " "), value: point.definition().to_owned() };
+    Point::ALL.into_iter().filter(has).map(fact).collect()
 }
 
 fn plain(text: impl Into<String>) -> FitCell {

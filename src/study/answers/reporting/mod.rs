@@ -9,6 +9,7 @@ mod sheets;
 
 use crate::answers::{fit_card, worn};
 use crate::error::{Result, StudyError};
+use crate::patterns;
 use crate::rows::{Table, Value};
 use crate::store::evidence::{self, PUBLISHED};
 use crate::store::read::{self, JobFilter};
@@ -78,7 +79,7 @@ pub fn report(store: &Store, study: &str, purpose: Option<Purpose>) -> Result<Ve
 fn report_data(store: &Store, study: &str, files: &mut Vec<(String, Vec<u8>)>) -> Result<ReportData> {
     let jobs = read::jobs(store, &JobFilter { study: Some(study.to_owned()), ..JobFilter::default() })?;
     let bodies = facts::bodies(store, study, &jobs)?;
-    let drawings = facts::drawings(store, &jobs)?;
+    let drawings = facts::drawings(store, &jobs, patterns::sheet)?;
     for drawing in &drawings {
         let name = format!("pattern-{}-{}.svg", drawing.garment, drawing.size);
         files.push((name, drawing.svg.clone().into_bytes()));
@@ -88,7 +89,7 @@ fn report_data(store: &Store, study: &str, files: &mut Vec<(String, Vec<u8>)>) -
     let raw = RAW.iter().map(|(_, href, label)| link((href, &format!("{href}: {label}"))));
     let worn = worn::worn(store, study, fit_card::fit_cards(store, study)?)?;
     let sheet = |(path, _): &(String, Vec<u8>)| {
-        let name = path.strip_prefix(sheets::SHEETS)?.strip_suffix(".png")?;
+        let name = path.strip_prefix(sheets::SHEETS)?.strip_suffix(".jpg")?;
         Some(link((path, &format!("all try-ons of {name} on one sheet"))))
     };
     let sheets: Vec<RawLink> = files.iter().filter_map(sheet).collect();
@@ -121,6 +122,8 @@ fn report_data(store: &Store, study: &str, files: &mut Vec<(String, Vec<u8>)>) -
         cuts: read::cuts(store, study)?,
         ease: facts::ease_matrices(store, study)?,
         sizes: facts::size_tips(store, study, &bodies)?,
+        points: facts::drawings(store, &jobs, patterns::points_sheet)?,
+        definitions: fit_sheets::definitions(&worn),
         fit: fit_sheets::sheets(store, &worn)?,
         drapes: drapes::drapes(store, &jobs, &worn)?,
         runs,

@@ -204,7 +204,7 @@ fn photograph(jobs: &[JobRow], dressed: &[Option<Dressed>], look: (Frame, f64)) 
     })
 }
 
-/// Takes the pictures of a run: as JPEG on the page, shrunk, as PNG among the files beside it.
+/// Takes the pictures of a run: on the page shrunk, among the files beside it at full size.
 struct Photographer<'a> {
     job: &'a JobRow,
     frame: Frame,
@@ -227,8 +227,8 @@ impl Photographer<'_> {
             render::draw_legend(&mut full, scale).map_err(StudyError::stage("render"))?;
         }
         let job = self.job;
-        let file = format!("pictures/job-{}-{name}.png", job.id);
-        self.files.push((file.clone(), render::png(&full).map_err(StudyError::stage("render"))?));
+        let file = format!("pictures/job-{}-{name}.jpg", job.id);
+        self.files.push((file.clone(), render::jpeg(&full).map_err(StudyError::stage("render"))?));
         let alt = format!("{} {} on {}, {}, {caption}", job.garment, job.size, job.subject, job.simulator.as_str());
         Ok(Picture { bytes, file, alt, caption })
     }

@@ -77,10 +77,10 @@ impl<'a> Sheets<'a> {
             return Ok(None);
         }
         let title = format!("{}: {garment}, size {size}", self.study);
-        let picture = render::contact_sheet(&title, &sheet.cells, sheet.columns).and_then(|sheet| render::png(&sheet));
+        let picture = render::contact_sheet(&title, &sheet.cells, sheet.columns).and_then(|sheet| render::jpeg(&sheet));
         self.open.remove(&(garment, size));
         match picture {
-            Ok(picture) => Ok(Some((format!("{SHEETS}{garment}-{size}.png"), picture))),
+            Ok(picture) => Ok(Some((format!("{SHEETS}{garment}-{size}.jpg"), picture))),
             // Thousands of runs fit on no sheet; each has its own pictures.
             Err(RenderError::Size { .. }) => Ok(None),
             Err(error) => Err(StudyError::stage("render")(error)),
