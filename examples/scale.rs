@@ -17,8 +17,8 @@ use toile::sim::{Monitor, Stage, Step};
 use toile::study::files;
 use toile::study::patterns;
 use toile::study::{
-    JobFilter, JobId, JobSpec, Measured, Outcome, Result, RunOptions, Selection, Status, StudyError, WornOn,
-    Workspace, new_study,
+    JobFilter, JobId, JobSpec, Measured, Outcome, Result, RunOptions, Selection, Status, StudyError, Workspace, WornOn,
+    new_study,
 };
 
 /// Measurements of a result.

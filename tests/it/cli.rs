@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 90] = [
+const COMMANDS: [&str; 91] = [
     "",
     "run",
     "run show",
@@ -21,6 +21,7 @@ const COMMANDS: [&str; 90] = [
     "study nearest",
     "study sizes",
     "fit",
+    "section",
     "pattern pom",
     "job",
     "job handout",

@@ -10,6 +10,7 @@ mod durability;
 mod engine;
 mod figures;
 mod fit;
+mod fit_report;
 mod pattern_files;
 mod pictures;
 mod program;

@@ -6,28 +6,28 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::program::Place;
 
 /// A table of a page.
-struct Table {
-    caption: String,
+pub struct Table {
+    pub caption: String,
     /// Names over groups of columns.
     groups: Vec<String>,
     /// Names over the columns of the last row of the head.
-    columns: Vec<String>,
+    pub columns: Vec<String>,
     /// Cells of each row of the body.
-    rows: Vec<Vec<String>>,
+    pub rows: Vec<Vec<String>>,
     /// Which of them have been compared, by row and column.
     compared: RefCell<BTreeSet<(usize, usize)>>,
 }
 
 impl Table {
     /// A cell, which counts as compared from now on.
-    fn cell(&self, row: usize, column: usize) -> &str {
+    pub fn cell(&self, row: usize, column: usize) -> &str {
         self.compared.borrow_mut().insert((row, column));
         &self.rows[row][column]
     }
 
     /// The row that begins with a text.
     #[track_caller]
-    fn row(&self, head: &str) -> usize {
+    pub fn row(&self, head: &str) -> usize {
         let found = self.rows.iter().position(|row| row.first().is_some_and(|cell| cell.starts_with(head)));
         found.unwrap_or_else(|| panic!("{}: no row {head} in {:?}", self.caption, self.rows))
     }
@@ -37,7 +37,7 @@ impl Table {
 const OF_NO_VIEW: [&str; 4] = ["Program and parameters", "Inputs", "Subjects and their measurements", "Size to wear"];
 
 /// No table but those of [`OF_NO_VIEW`] and of fabrics has a number that was not compared.
-fn all_are_compared(tables: &[Table], fabrics: &[String]) {
+pub fn all_are_compared(tables: &[Table], fabrics: &[String]) {
     let is_of_view =
         |table: &&Table| !OF_NO_VIEW.contains(&table.caption.as_str()) && !fabrics.contains(&table.caption);
     for table in tables.iter().filter(is_of_view) {
@@ -52,12 +52,12 @@ fn all_are_compared(tables: &[Table], fabrics: &[String]) {
 }
 
 /// What lies between two marks, again and again.
-fn between<'a>(text: &'a str, open: &'a str, close: &'a str) -> impl Iterator<Item = &'a str> {
+pub fn between<'a>(text: &'a str, open: &'a str, close: &'a str) -> impl Iterator<Item = &'a str> {
     text.split(open).skip(1).filter_map(move |rest| rest.split_once(close).map(|(inside, _)| inside))
 }
 
 /// Text without tags; small print and marks are left out.
-fn plain(html: &str) -> String {
+pub fn plain(html: &str) -> String {
     let mut kept = html.to_owned();
     for (open, close) in [("<small", "</small>"), ("<span", "</span>")] {
         while let Some((before, rest)) = kept.split_once(open) {
@@ -68,7 +68,7 @@ fn plain(html: &str) -> String {
     text.replace("\u{2212}", "-").replace("&#39;", "'").trim().to_owned()
 }
 
-fn tables(page: &str) -> Vec<Table> {
+pub fn tables(page: &str) -> Vec<Table> {
     let table = |html: &str| {
         let caption = plain(between(html, "<caption>", "</caption>").next().unwrap_or_default());
         let groups = between(html, "<th scope=\"colgroup\" colspan=\"2\">", "</th>").map(plain).collect();
@@ -117,7 +117,7 @@ fn name(simulator: &str) -> &'static str {
 }
 
 /// Whether a page shows a number: rounded to so many decimals, halves either way.
-fn is_shown(shown: &str, value: &str, decimals: usize) -> bool {
+pub fn is_shown(shown: &str, value: &str, decimals: usize) -> bool {
     let is_rounded = shown.split_once('.').map_or(0, |(_, rest)| rest.len()) == decimals;
     let (Ok(number), Ok(value)) = (shown.parse::<f64>(), value.parse::<f64>()) else { return false };
     is_rounded && (number - value).abs() <= 0.5 * 0.1f64.powi(decimals as i32) * (1.0 + 1e-6)
@@ -125,7 +125,7 @@ fn is_shown(shown: &str, value: &str, decimals: usize) -> bool {
 
 /// Checks cells of a row: column, the view's value, its decimals. No value is a dash.
 #[track_caller]
-fn are_shown(table: &Table, row: usize, numbers: &[(usize, &str, usize)]) {
+pub fn are_shown(table: &Table, row: usize, numbers: &[(usize, &str, usize)]) {
     for (column, value, decimals) in numbers {
         let shown = table.cell(row, *column).trim_start_matches('+');
         let place = format!("{}, {}", table.caption, table.rows[row][0]);

@@ -3,6 +3,7 @@
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
+use super::fit_report;
 use super::program::Place;
 use super::report::numbers_are_those_of_the_views;
 
@@ -52,6 +53,7 @@ fn a_study_is_run_cached_changed_and_reported() {
     results_keep_the_contract(&place);
     report_is_self_contained(&place, &first.out);
     a_size_is_advised(&place);
+    sections_are_cut(&place);
     pictures_are_made_to_order(&place);
 
     let lengths = place.sql(LENGTHS);
@@ -93,6 +95,8 @@ fn results_keep_the_contract(place: &Place) {
 /// The report stands alone: pictures in it, no script, nothing loaded.
 fn report_is_self_contained(place: &Place, out: &str) {
     let path = out.lines().find_map(|line| line.strip_prefix("report: ")).expect("the report's path");
+    // Of one simulator the report opens with the fit; the comparison lies beside it.
+    let path = &path.replace("index.html", "compare.html");
     let page = std::fs::read_to_string(place.path(path)).expect("the page is there");
     assert!(page.trim_end().ends_with("</html>") && page.contains("coarse"), "a whole page");
     assert!(page.contains("data:image/"), "pictures are in the page");
@@ -101,6 +105,9 @@ fn report_is_self_contained(place: &Place, out: &str) {
         assert!(!without_names.contains(forbidden), "the report holds {forbidden}");
     }
     numbers_are_those_of_the_views(place, &page);
+    let fit = path.replace("compare.html", "index.html");
+    let fit = std::fs::read_to_string(place.path(&fit)).expect("the fit report is there");
+    fit_report::numbers_are_those_of_the_views(place, &fit);
 }
 
 /// The one size there is, and how it sits at every level that it covers; nobody else's.
@@ -214,4 +221,39 @@ fn a_killed_run_goes_on_where_it_stopped() {
     assert_eq!(place.one("SELECT count(*) FROM artefact WHERE kind = 'drape'"), "3", "each computed once");
     let log = place.toile("queue log 2").ends_with(0).out;
     assert!(log.contains("queued again"), "{log}");
+}
+
+/// Sections of the results: by level and height, as a table, as JSON and drawn.
+fn sections_are_cut(place: &Place) {
+    let told = place.toile("section . --garment light --json").ends_with(0).json();
+    let levels: Vec<&str> = told.as_array().expect("sections").iter().filter_map(|one| one["level"].as_str()).collect();
+    assert!(["chest", "waist", "hip"].iter().all(|level| levels.contains(level)), "{levels:?}");
+    let chest = &told[levels.iter().position(|level| *level == "chest").expect("a chest")]["cloth"][0];
+    assert_eq!((chest["size"].as_str(), chest["simulator"].as_str()), (Some("m"), Some("fem")));
+    for (angle, gap) in place
+        .sql("SELECT angle_deg, gap_mm FROM v_section WHERE garment = 'light' AND level = 'chest'")
+        .iter()
+        .filter_map(|line| line.split_once(','))
+    {
+        let number = (angle.parse::<f64>().expect("degrees") / 10.0).round() as usize;
+        let cut = chest["gaps"][number][1].as_f64();
+        assert_eq!(
+            cut.map(|gap| (1e3 * gap).round()),
+            gap.parse::<f64>().ok().map(|gap| (1e3 * gap).round()),
+            "{angle}"
+        );
+    }
+    let table = place.toile("section . --at-mm 1000").ends_with(0).out;
+    assert!(table.contains("light on ii: gap from skin to cloth") && table.contains("1000 mm"), "{table}");
+    place.toile("section . --garment light --level waist -o waist.svg").ends_with(0);
+    assert!(std::fs::read_to_string(place.path("waist.svg")).expect("drawn").contains("light on ii: waist"));
+    let check = |arguments: &str, says: &str| {
+        let err = place.toile(arguments).ends_with(2).err;
+        assert!(err.contains(says), "{arguments}: {err}");
+    };
+    check("section . --level ankle", "no level `ankle`; there are: chest, underbust");
+    check("section . --at-mm 2500", "accepted: heights from 0 to 1690 mm");
+    check("section . --level waist -o waist.svg", "2 sections are asked for");
+    check("section . --garment light --level waist -o waist.gif", "neither .svg nor .png");
+    check("section . --sim hybrid", "has no drape of what is asked for");
 }

@@ -18,6 +18,8 @@ const WRITTEN_OFF: f64 = 34.0;
 /// The square in which the section is drawn, and where the curves begin.
 const SQUARE: (i32, i32) = (40, 700);
 const CURVES_LEFT: i32 = 880;
+/// Where the key begins.
+const KEY_LEFT: i32 = 790;
 
 /// A size in a section.
 #[derive(Clone, Debug)]
@@ -35,18 +37,17 @@ pub struct Worn<'a> {
 /// # Errors
 /// [`ReportError::Chart`] where plotters refuses to draw.
 pub fn section_chart(title: &str, sizes: &[Worn<'_>]) -> Result<Chart, ReportError> {
-    let (top, key) = (90, sizes.len() as i32 * (TYPE + 14));
+    let (top, key) = (70, sizes.len() as i32 * (TYPE + 14));
     let bottom = top + SQUARE.1 - SQUARE.0;
-    let svg = draw(bottom + 60 + key, |canvas| {
+    let svg = draw(bottom + 10, |canvas| {
         canvas.text((SQUARE.0, 36), title, theme::INK, Align::Left, true)?;
         plan(canvas, sizes, top)?;
-        curves(canvas, sizes, top + 30, bottom - 40)?;
+        curves(canvas, sizes, top + 30, bottom - 70 - key)?;
         for (series, size) in sizes.iter().enumerate() {
-            let y = bottom + 50 + series as i32 * (TYPE + 14);
-            let ink = colour(series);
-            canvas.line(vec![(SQUARE.0, y), (SQUARE.0 + 50, y)], ink, 6)?;
+            let y = bottom + 16 - key + series as i32 * (TYPE + 14);
+            canvas.line(vec![(KEY_LEFT, y), (KEY_LEFT + 50, y)], colour(series), 6)?;
             let text = format!("{}: {}", size.label, gaps_in_words(size.section));
-            canvas.text((SQUARE.0 + 70, y), &text, theme::INK, Align::Left, false)?;
+            canvas.text((KEY_LEFT + 70, y), &text, theme::INK, Align::Left, false)?;
         }
         Ok(())
     })?;
