@@ -140,7 +140,7 @@ pub fn animated_png(pictures: &[RgbaImage], each_ms: u32) -> Result<Vec<u8>, Ren
     Ok(bytes)
 }
 
-/// The picture as a JPEG file of quality 88, a quarter of the size of its PNG; transparency turns white.
+/// The picture as a JPEG file of quality 85, a quarter of the size of its PNG; transparency turns white.
 ///
 /// # Errors
 /// [`RenderError::Encode`] for an empty picture.
@@ -151,7 +151,7 @@ pub fn jpeg(picture: &RgbaImage) -> Result<Vec<u8>, RenderError> {
         to.0 = [0, 1, 2].map(|k| ((u32::from(from[k]) * alpha + 255 * (255 - alpha)) / 255) as u8);
     }
     let mut bytes = Vec::new();
-    rgb.write_with_encoder(image::codecs::jpeg::JpegEncoder::new_with_quality(&mut bytes, 88))?;
+    rgb.write_with_encoder(image::codecs::jpeg::JpegEncoder::new_with_quality(&mut bytes, 85))?;
     Ok(bytes)
 }
 

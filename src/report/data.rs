@@ -37,13 +37,7 @@ pub struct ReportData {
     /// Which size each subject should wear.
     pub sizes: Vec<SizeTip>,
     /// How each garment fits each subject.
-    pub fit: Vec<FitSheet>,
-    /// Pattern drawings with numbered points of measure.
-    pub points: Vec<Drawing>,
-    /// Each point of measure that any of them has, and how it is measured.
-    pub definitions: Vec<Fact>,
-    /// Drapes to turn in the page.
-    pub drapes: Drapes,
+    pub fit: FitData,
     /// All runs, failed ones too.
     pub runs: Vec<TryOn>,
     /// The cases that both simulators drew.
@@ -217,6 +211,19 @@ pub struct SizeTip {
     pub tension: String,
     /// Which picture of it a customer should see.
     pub shown: String,
+}
+
+/// What the fit report shows besides the runs.
+#[derive(Clone, Debug, Default)]
+pub struct FitData {
+    /// How each garment fits each subject.
+    pub sheets: Vec<FitSheet>,
+    /// Pattern drawings with numbered points of measure.
+    pub points: Vec<Drawing>,
+    /// Each point of measure that any of them has, and how it is measured.
+    pub definitions: Vec<Fact>,
+    /// Drapes to turn in the page.
+    pub drapes: Drapes,
 }
 
 /// How a garment fits a subject, in the size to wear and those beside it.

@@ -70,14 +70,14 @@ pub fn files(data: &ReportData, purpose: Purpose) -> Result<Vec<(String, Vec<u8>
         Purpose::Compare => ["index.html", "fit.html"],
         Purpose::Fit => ["compare.html", "index.html"],
     };
-    let is_fitted = !data.fit.is_empty();
+    let is_fitted = !data.fit.sheets.is_empty();
     let compare = if is_fitted { compare } else { "index.html" };
     let page = page::Page::new(data, is_fitted.then_some(fit))?;
     let mut files = vec![(compare.to_owned(), page.render()?.into_bytes())];
     if is_fitted {
         files.push((fit.to_owned(), sheet::FitPage::new(data, compare)?.render()?.into_bytes()));
     }
-    for chart in data.fit.iter().flat_map(|sheet| &sheet.sections) {
+    for chart in data.fit.sheets.iter().flat_map(|sheet| &sheet.sections) {
         files.push((chart.address("svg"), chart.svg().as_bytes().to_vec()));
     }
     for chart in page.charts() {

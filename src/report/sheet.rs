@@ -49,18 +49,18 @@ struct Column {
 
 impl<'a> FitPage<'a> {
     pub fn new(data: &'a ReportData, other: &'a str) -> Result<Self, ReportError> {
-        let sheets = data.fit.iter().enumerate().map(|(number, sheet)| Sheet::new(number, sheet, data));
+        let sheets = data.fit.sheets.iter().enumerate().map(|(number, sheet)| Sheet::new(number, sheet, data));
         let drawing = |drawing: &super::data::Drawing| {
             let name = format!("{}, size {}", drawing.garment, drawing.size);
             (name, super::page::address("image/svg+xml", drawing.svg.as_bytes()))
         };
-        let drapes = if data.drapes.is_empty() { String::new() } else { data.drapes.json()? };
+        let drapes = if data.fit.drapes.is_empty() { String::new() } else { data.fit.drapes.json()? };
         let digest = Sha256::digest(viewer::SCRIPT.as_bytes());
         Ok(Self {
             data,
             other,
             sheets: sheets.collect::<Result<_, _>>()?,
-            drawings: data.points.iter().map(drawing).collect(),
+            drawings: data.fit.points.iter().map(drawing).collect(),
             drapes,
             script: viewer::SCRIPT,
             script_hash: base64::engine::general_purpose::STANDARD.encode(digest),

@@ -362,7 +362,7 @@ fn listed(tokens: impl IntoIterator<Item = impl ToString>) -> Vec<String> {
 }
 
 #[test]
-fn the_workspace_is_implemented_in_one_file() {
+fn the_workspace_is_implemented_in_one_folder() {
     let is_workspace = |item: &Item| match item {
         Item::Impl(item) => {
             matches!(&*item.self_ty, syn::Type::Path(path) if path.path.is_ident("Workspace")) && item.trait_.is_none()
@@ -371,7 +371,7 @@ fn the_workspace_is_implemented_in_one_file() {
     };
     let found: BTreeSet<String> =
         items("study").into_iter().filter(|(_, item)| is_workspace(item)).map(|(module, _)| module).collect();
-    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(!found.is_empty() && found.iter().all(|module| module.starts_with("study::workspace")), "{found:?}");
 }
 
 #[test]

@@ -10,12 +10,14 @@ mod body;
 mod catalogue;
 mod fit;
 mod pattern;
+mod report;
 
 pub use attempt::{AuditGarments, Try};
 pub use body::{Body, BodyBuild, MeshUnit, Sex};
 pub use catalogue::{Catalogue, FabricValues, SizeValues, StyleValues, SubjectValues};
 pub use fit::{Fit, Section};
 pub use pattern::{BesideFiles, DraftStyle, DxfStandard, Pattern, PatternUnit, SeamCommand, StyleFiles};
+pub use report::{Purpose, Report};
 
 /// A fit-study workbench: dress bodies in sewing patterns, measure the drape, say which simulator to trust.
 #[derive(Debug, Parser)]
@@ -334,31 +336,6 @@ pub enum StudyCommand {
         #[arg(long, short, value_name = "DIR")]
         output: PathBuf,
     },
-}
-
-/// Arguments of `report`.
-#[derive(Debug, Args)]
-pub struct Report {
-    /// Name of the study, its folder, or its study.toml.
-    pub study: PathBuf,
-    /// Folder to write to [default: reports/STUDY].
-    #[arg(long, short, value_name = "DIR")]
-    pub output: Option<PathBuf>,
-    /// What index.html shows; the other page lies beside it [default: compare where both simulators ran, else fit].
-    #[arg(long = "for", value_enum, value_name = "PURPOSE")]
-    pub purpose: Option<Purpose>,
-    /// Print index.html to index.pdf as well, by a Chromium that is installed.
-    #[arg(long)]
-    pub pdf: bool,
-}
-
-/// What a report is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Purpose {
-    /// Which size to wear, where it is tight or loose, how it hangs.
-    Fit,
-    /// Which simulator to trust, with the evidence.
-    Compare,
 }
 
 /// Arguments of `sql`.

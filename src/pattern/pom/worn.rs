@@ -60,7 +60,8 @@ impl Style {
         };
         let both = |half_m: f64| 2.0 * half_m;
         add("neck", of(Point::Neck), None);
-        add("across_shoulder", of(Point::AcrossShoulder), None);
+        // How wide the shoulders of a garment without sleeves are is its design.
+        add("across_shoulder", of(Point::AcrossShoulder).filter(|_| sleeve.is_some()), None);
         add("chest", of(Point::HalfChest).map(both), None);
         let hangs = Hangs::of(&anatomy, trunk.as_ref(), legs.as_ref(), stand);
         let at = |height_m: f64| hangs.as_ref().and_then(|hangs| hangs.girth_m(&anatomy, height_m));

@@ -7,6 +7,7 @@ pub use pack::{STEP_MM, Topology, line};
 use std::collections::BTreeMap;
 
 use geom::V3;
+use geom::units::mm;
 use render::Scale;
 use serde::Serialize;
 
@@ -85,11 +86,9 @@ struct PackedScale {
 
 /// A level of a body.
 #[derive(Clone, Debug, Serialize)]
-pub struct LevelMark {
-    /// Its name.
-    pub name: String,
-    /// Its height above the floor, mm.
-    pub height_mm: f64,
+struct LevelMark {
+    name: String,
+    height_mm: f64,
 }
 
 /// A drape as it is handed in: of the sewn cloth.
@@ -135,12 +134,13 @@ impl Drapes {
         self.bodies.iter().any(|body| body.subject == subject)
     }
 
-    /// Adds a body with its levels; nothing where its mesh is too large for a page.
-    pub fn add_body(&mut self, subject: &str, positions: &[V3], triangles: &[[usize; 3]], levels: Vec<LevelMark>) {
+    /// Adds a body with its levels, by name their heights above the floor in metres; nothing where its mesh is too large for a page.
+    pub fn add_body(&mut self, subject: &str, positions: &[V3], triangles: &[[usize; 3]], levels: Vec<(String, f64)>) {
         let Some((mesh, topology)) = self.mesh(triangles) else { return };
         let (origin_mm, positions) = topology.places(positions);
         self.bodies.push(PackedBody { subject: subject.to_owned(), mesh, positions, origin_mm, step_mm: STEP_MM });
-        self.levels.insert(subject.to_owned(), levels);
+        let mark = |(name, height_m): (String, f64)| LevelMark { name, height_mm: mm(height_m) };
+        self.levels.insert(subject.to_owned(), levels.into_iter().map(mark).collect());
     }
 
     /// Adds a drape; nothing where its mesh is too large for a page.

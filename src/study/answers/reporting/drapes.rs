@@ -10,11 +10,10 @@ use crate::run::pipeline::Model;
 use crate::store::{Store, sql};
 use fit::worn::sites;
 use geom::V3;
-use geom::units::mm;
 use pattern::pom::PointOfMeasure;
 use pattern::style::PathPart;
 use pattern::{Garment, MaterialLine, Style};
-use report::viewer::{Drape, Drapes, LevelMark};
+use report::viewer::{Drape, Drapes};
 
 /// The maps that a reader may choose.
 const MAPS: [Map; 4] = [Map::Stretch, Map::Tension, Map::Pressure, Map::Gap];
@@ -36,7 +35,7 @@ pub(super) fn drapes(store: &Store, jobs: &[JobRow], worn: &[GarmentWorn]) -> Re
 fn add_body(store: &Store, job: &JobRow, all: &mut Drapes) -> Result<()> {
     let Model { body } = picture::product(store, job.id, StageKind::Body)?;
     let level = sites(&body).into_iter().filter(|site| site.is_level());
-    let level = level.map(|site| LevelMark { height_mm: mm(site.height_m()), name: site.level });
+    let level = level.map(|site| (site.level.clone(), site.height_m()));
     all.add_body(&job.subject, &body.mesh.positions, &body.mesh.triangles, level.collect());
     Ok(())
 }

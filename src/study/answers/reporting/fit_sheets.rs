@@ -60,6 +60,11 @@ fn plain(text: impl Into<String>) -> FitCell {
     FitCell { text: text.into(), ..FitCell::default() }
 }
 
+/// A whole number with a true minus, never before 0.
+fn whole(value: f64) -> String {
+    format!("{:.0}", value.round() + 0.0).replace('-', "\u{2212}")
+}
+
 /// A whole number with its sign.
 fn signed(value: f64) -> String {
     if value < -0.5 { format!("\u{2212}{:.0}", -value) } else { format!("+{:.0}", value.abs()) }
@@ -73,8 +78,7 @@ fn ease(card: &FitCard, sizes: &[SizeSits], names: &[String]) -> FitTable {
         let known = all.iter().flatten().next();
         let target = known.and_then(|one| one.target_mm);
         let body = known.map_or(String::new(), |one| format!("{:.0}", one.body_girth_mm));
-        let target =
-            target.map_or(String::new(), |[least, most]| format!("{least:.0} to {most:.0}").replace('-', "\u{2212}"));
+        let target = target.map_or(String::new(), |[least, most]| format!("{} to {}", whole(least), whole(most)));
         let cell = |one: &Option<LevelSits>| {
             one.as_ref().map_or_else(FitCell::default, |one| FitCell {
                 text: signed(one.ease_mm),
@@ -109,9 +113,8 @@ fn hang(sizes: &[Option<&SizeWorn>], names: &[String]) -> FitTable {
             rows.push(FitRow { name: name.to_owned(), cells });
         }
     };
-    let height = |quantity: &'static str| {
-        move |size: &SizeWorn| size.balance_of(quantity).map(|mm| (format!("{mm:.0}"), String::new()))
-    };
+    let height =
+        |quantity: &'static str| move |size: &SizeWorn| size.balance_of(quantity).map(|mm| (whole(mm), String::new()));
     add("hem above the floor, in front, mm", &height("hem_front"));
     add("hem above the floor, behind, mm", &height("hem_back"));
     add("hem, front over back, mm", &|size| {
@@ -151,10 +154,9 @@ fn hang(sizes: &[Option<&SizeWorn>], names: &[String]) -> FitTable {
         add(&format!("mean gap at the {}, mm", level.replace('_', " ")), &|size| {
             let gap = size.gaps.iter().find(|gap| gap.level == level)?;
             let words = gap.least_gap_mm.zip(gap.greatest_gap_mm);
-            let words = words.map_or(String::new(), |(least, greatest)| {
-                format!("{least:.0} to {greatest:.0}").replace('-', "\u{2212}")
-            });
-            Some((format!("{:.0}", gap.mean_gap_mm?).replace('-', "\u{2212}"), words))
+            let words =
+                words.map_or(String::new(), |(least, greatest)| format!("{} to {}", whole(least), whole(greatest)));
+            Some((whole(gap.mean_gap_mm?), words))
         });
     }
     FitTable { caption: "How it hangs and what it presses".to_owned(), columns: names.to_vec(), rows }

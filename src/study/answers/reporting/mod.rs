@@ -15,7 +15,7 @@ use crate::store::evidence::{self, PUBLISHED};
 use crate::store::read::{self, JobFilter};
 use crate::store::{Store, sql};
 use fit::Simulator;
-use report::data::{Fact, RawLink};
+use report::data::{Fact, FitData, RawLink};
 use report::{self, Purpose, ReportData};
 
 /// Views of the raw data, their files, and what they hold.
@@ -122,10 +122,12 @@ fn report_data(store: &Store, study: &str, files: &mut Vec<(String, Vec<u8>)>) -
         cuts: read::cuts(store, study)?,
         ease: facts::ease_matrices(store, study)?,
         sizes: facts::size_tips(store, study, &bodies)?,
-        points: facts::drawings(store, &jobs, patterns::points_sheet)?,
-        definitions: fit_sheets::definitions(&worn),
-        fit: fit_sheets::sheets(store, &worn)?,
-        drapes: drapes::drapes(store, &jobs, &worn)?,
+        fit: FitData {
+            sheets: fit_sheets::sheets(store, &worn)?,
+            points: facts::drawings(store, &jobs, patterns::points_sheet)?,
+            definitions: fit_sheets::definitions(&worn),
+            drapes: drapes::drapes(store, &jobs, &worn)?,
+        },
         runs,
         pairs: evidence::pairs(store, study)?,
         evidence: Some(evidence::evidence(store, study)?),
