@@ -222,7 +222,7 @@ pub const BINDINGS: &[Binding] = &[
         "level",
         "Cut at the next level: chest, underbust, waist, ...",
     ),
-    bind(Action::PreviousLevel, "level-before", &[ch('V')], &[Fit], "", "Cut them at the level before"),
+    bind(Action::PreviousLevel, "level-before", &[ch('V')], &[Fit], "", "Cut at the level before"),
     bind(Action::Unmark, "unselect", &[ch('u')], &[Study, Jobs, Results, Compare], "", "Take all selections back"),
     bind(
         Action::Differences,
@@ -266,11 +266,11 @@ pub const BINDINGS: &[Binding] = &[
         "Nearer; ↑↓ move in the focused picture",
     ),
     bind(Action::ZoomOut, "zoom-out", &[ch('-')], &[Results, Compare], "", "Farther"),
-    bind(Action::Show(Fit), "fit", &[ch('F'), ch('0')], &[], "fit", "Screen 0: which size to wear, and how all sit"),
     bind(Action::NextStage, "stage", &[ch('t')], &[Results], "stage", "Measurements of the next stage: popup, drape"),
     bind(Action::Filter, "filter", &[ch('/')], &[], "filter", "Show only what contains a text"),
     bind(Action::Sort, "sort", &[ch('s')], SORTED, "sort", "Sort by the next column, on SQL by the selected one"),
     bind(Action::Reverse, "reverse", &[ch('S')], SORTED, "", "Reverse the order"),
+    bind(Action::Show(Fit), "fit", &[ch('F'), ch('0')], &[], "fit", "Screen 0: which size to wear, and how all sit"),
     bind(
         Action::Help,
         "help",

@@ -15,7 +15,9 @@ use study::{
 const SIZES: [&str; 3] = ["S", "M", "L"];
 
 /// Level, body, target, ease of each size, mm.
-const LEVELS: [(&str, f64, Option<[f64; 2]>, [f64; 3]); 6] = [
+type LevelMm = (&'static str, f64, Option<[f64; 2]>, [f64; 3]);
+
+const LEVELS: [LevelMm; 6] = [
     ("neck", 381.0, None, [180.0, 189.0, 198.0]),
     ("across_shoulder", 458.0, Some([0.0, 50.0]), [-4.0, 14.0, 32.0]),
     ("chest", 936.0, Some([50.0, 120.0]), [38.0, 98.0, 158.0]),

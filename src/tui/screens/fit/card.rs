@@ -17,8 +17,8 @@ const BODY: usize = 6;
 const TARGET: usize = 10;
 /// Columns of a size with words in full and in short; of its ease and sign alone.
 const LONG: usize = 20;
-const SHORT: usize = 16;
-const SIGNS: usize = 7;
+const SHORT: usize = 18;
+const SIGNS: usize = 9;
 
 /// Garment, subject, intended fit, and which of how many.
 pub fn title(state: &State) -> String {
@@ -92,9 +92,10 @@ struct Columns<'a> {
 
 impl<'a> Columns<'a> {
     fn new(card: &'a FitCard, columns: usize) -> Self {
-        let level = card.levels().iter().map(|level| text::width(level)).max().unwrap_or(0).max(5);
+        let longest = |is_short: bool| card.levels().iter().map(|level| text::width(&name(level, is_short))).max();
+        let level = |size: usize| longest(size < LONG).unwrap_or(0).max(5);
         let mut sizes: Vec<&SizeSits> = card.beside().iter().collect();
-        let left_over = |size: usize, sizes: &[&SizeSits]| columns.checked_sub(level + size * sizes.len());
+        let left_over = |size: usize, sizes: &[&SizeSits]| columns.checked_sub(level(size) + size * sizes.len());
         let size = [LONG, SHORT].into_iter().find(|size| left_over(*size, &sizes) >= Some(BODY + TARGET - 1));
         let size = size.or_else(|| left_over(SHORT, &sizes).map(|_| SHORT)).unwrap_or(SIGNS);
         while sizes.len() > 1 && left_over(size, &sizes).is_none() {
@@ -103,8 +104,14 @@ impl<'a> Columns<'a> {
             sizes.remove(if sizes[last].place == Some(1) { 0 } else { last });
         }
         let room = left_over(size, &sizes).unwrap_or(0);
-        Self { level, sizes, size, body: room >= BODY, target: room >= BODY + TARGET - 1 }
+        Self { level: level(size), sizes, size, body: room >= BODY, target: room >= BODY + TARGET - 1 }
     }
+}
+
+/// A level in words, or in fewer.
+fn name(level: &str, is_short: bool) -> String {
+    let name = words(level);
+    if is_short { name.replace("across ", "") } else { name }
 }
 
 fn header(theme: Theme, card: &FitCard, columns: &Columns<'_>) -> Line<'static> {
@@ -143,7 +150,7 @@ fn row(theme: Theme, columns: &Columns<'_>, level: &str, selection: Style) -> Li
     let of_sizes: Vec<Option<&LevelSits>> =
         columns.sizes.iter().map(|size| size.levels.iter().find(|one| one.level == level)).collect();
     let known = of_sizes.iter().flatten().next();
-    let mut spans = vec![Span::styled(left(&words(level), columns.level), selection)];
+    let mut spans = vec![Span::styled(left(&name(level, columns.size < LONG), columns.level), selection)];
     if columns.body {
         spans.push(Span::raw(right(&known.map_or(String::new(), |one| whole(one.body_girth_mm)), BODY)));
     }
@@ -173,7 +180,7 @@ fn cell(theme: Theme, one: &LevelSits, columns: usize) -> Span<'static> {
         _ => String::new(),
     };
     let mark = if is_undersized(one) { "!" } else { "" };
-    Span::styled(left(&format!("{} {sign} {told}{mark}", right(&ease, 5)), columns), style)
+    Span::styled(left(format!("{} {sign} {told}{mark}", right(&ease, 5)).trim_end(), columns), style)
 }
 
 /// The sign and the colour of how a size sits at a level.

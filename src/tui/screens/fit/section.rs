@@ -13,8 +13,8 @@ use crate::widgets::lists::pane;
 use crate::widgets::text::{left, right, whole, words};
 use study::{CrossSection, CutCloth, CutLine, FitCard};
 
-/// Where one looks from.
-const LEGEND: &str = " front up, the subject's right on the right ";
+/// Where one looks from, and in a few words.
+const LEGEND: [&str; 2] = [" front up, the subject's right on the right ", " front up, right on the right "];
 /// Columns of the legend, and of its parts: a piece of the line, the name, least, mean and greatest gap.
 const KEY: u16 = 33;
 const SAMPLE: usize = 4;
@@ -38,8 +38,9 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
         (Some(section), _) => format!("{} · {:.0} mm above the floor", words(&section.level), section.height_mm),
         (None, level) => format!("section · {}", words(level.unwrap_or_default())),
     };
+    let legend = LEGEND[usize::from(area.width < 50)];
     let block =
-        pane(state.theme, title, focused).title_bottom(Line::styled(LEGEND, state.theme.legend()).right_aligned());
+        pane(state.theme, title, focused).title_bottom(Line::styled(legend, state.theme.legend()).right_aligned());
     let inner = block.inner(area);
     frame.render_widget(block, area);
     let (Some(section), Some(worn)) = (section, state.worn()) else {
