@@ -134,10 +134,16 @@ fn header(theme: Theme, card: &FitCard, columns: &Columns<'_>) -> Line<'static> 
 /// The title of a size's column, in the colour of its line in sections.
 pub fn headed(theme: Theme, card: &FitCard, size: &str) -> (String, Style) {
     let style = colour(theme, card, size);
-    match card.to_wear().is_some_and(|wear| wear.size == size) {
-        true => (format!("▸{size} wear"), style.patch(theme.bold())),
-        false => (size.to_owned(), style),
+    if is_to_wear(card, size) {
+        (format!("▸{size} wear"), style.patch(theme.bold()))
+    } else {
+        (size.to_owned(), style)
     }
+}
+
+/// Whether a size is the one to wear.
+pub fn is_to_wear(card: &FitCard, size: &str) -> bool {
+    card.to_wear().is_some_and(|wear| wear.size == size)
 }
 
 /// The colour of a size.

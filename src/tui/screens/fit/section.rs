@@ -6,7 +6,7 @@ use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Paragraph, Wrap};
 
-use crate::screens::fit::card::{colour, headed};
+use crate::screens::fit::card::{colour, is_to_wear};
 use crate::screens::state::State;
 use crate::widgets::dots::{Dash, Dots};
 use crate::widgets::lists::pane;
@@ -74,9 +74,8 @@ fn why_empty(state: &State) -> String {
 
 /// How a size is drawn.
 fn pen(state: &State, card: &FitCard, size: &str) -> (Dash, Style) {
-    let is_worn = card.to_wear().is_some_and(|wear| wear.size == size);
     let number = card.sizes.iter().position(|one| one.size == size).unwrap_or(0);
-    let dash = if is_worn { WHOLE } else { DASHES[number % DASHES.len()] };
+    let dash = if is_to_wear(card, size) { WHOLE } else { DASHES[number % DASHES.len()] };
     (dash, colour(state.theme, card, size))
 }
 
@@ -91,8 +90,11 @@ fn key(state: &State, section: &CrossSection, card: &FitCard) -> Vec<Line<'stati
             .iter()
             .enumerate()
             .map(|(k, (_, columns))| right(gaps.as_ref().map_or("—", |gaps| gaps[k].as_str()), *columns));
-        let (title, bold) = headed(state.theme, card, &cloth.size);
-        let name = Span::styled(format!(" {}", left(&title, NAME)), bold);
+        let name = if is_to_wear(card, &cloth.size) {
+            Span::styled(left(&format!("▸{}", cloth.size), NAME + 1), style.patch(state.theme.bold()))
+        } else {
+            Span::styled(left(&format!(" {}", cloth.size), NAME + 1), style)
+        };
         told.push(Line::from(vec![sample(dash, style), name, Span::raw(cells.collect::<String>())]));
     }
     told.push(Line::from(vec![sample(WHOLE, Style::new()), Span::raw(" body")]));
@@ -118,7 +120,7 @@ fn outlines(state: &State, section: &CrossSection, card: &FitCard, area: Rect) -
         dots.line(&scale.places(other), WHOLE, dim);
     }
     dots.line(&skin, WHOLE, Style::new());
-    let is_worn = |cloth: &&CutCloth| card.to_wear().is_some_and(|wear| wear.size == cloth.size);
+    let is_worn = |cloth: &&CutCloth| is_to_wear(card, &cloth.size);
     let (worn, others): (Vec<_>, Vec<_>) = section.cloth.iter().partition(is_worn);
     for cloth in others.into_iter().chain(worn) {
         let (dash, style) = pen(state, card, &cloth.size);
