@@ -185,7 +185,8 @@ fn parts_are_gone_through_and_subjects_stepped() {
     bench.press("l");
     assert!(bench.screen().contains("tshirt on ii · FEM"), "{}", bench.screen());
     assert_eq!(bench.state.focus.job, Some(JobId(3)), "the selected job goes with the subject");
-    bench.press("l");
+    bench.press("lv");
+    assert!(bench.status().contains("sections need a drape: R runs"), "{}", bench.status());
     assert!(bench.screen().contains("no drape yet") && bench.screen().contains("tshirt on iii"), "{}", bench.screen());
     bench.press("hhjj5<Esc>");
     assert_eq!((bench.state.nav.screen, bench.state.fit.row), (Screen::Fit, 2));

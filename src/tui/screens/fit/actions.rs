@@ -84,7 +84,22 @@ impl State {
         };
         match next.map(|next| sections[next].level.clone()) {
             Some(level) => self.fit.level = Some(level),
-            None => self.say("no sections yet: they need a drape, R runs the study"),
+            None => self.say(self.why_no_section()),
+        }
+    }
+
+    /// Why there is no section at the level looked at.
+    #[must_use]
+    pub fn why_no_section(&self) -> String {
+        match (self.worn(), self.sections()) {
+            (None, _) => "reading…".to_owned(),
+            (Some(worn), _) if worn.sizes.is_empty() => "sections need a drape: R runs the study".to_owned(),
+            (Some(_), None) => "cutting body and cloth…".to_owned(),
+            (Some(_), Some(Err(error))) => format!("no section: {error}"),
+            (Some(_), Some(Ok(sections))) => {
+                let levels: Vec<String> = sections.iter().map(|section| words(&section.level)).collect();
+                format!("not cut at this level; v goes to {}", levels.join(", "))
+            }
         }
     }
 

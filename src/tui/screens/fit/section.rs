@@ -44,7 +44,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
     let inner = block.inner(area);
     frame.render_widget(block, area);
     let (Some(section), Some(worn)) = (section, state.worn()) else {
-        frame.render_widget(Paragraph::new(why_empty(state)).wrap(Wrap { trim: true }), inner);
+        frame.render_widget(Paragraph::new(state.why_no_section()).wrap(Wrap { trim: true }), inner);
         return;
     };
     let key = key(state, section, &worn.card);
@@ -57,19 +57,6 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
     };
     frame.render_widget(Paragraph::new(key), key_area);
     frame.render_widget(Paragraph::new(outlines(state, section, &worn.card, picture)), picture);
-}
-
-/// Why there is no section.
-fn why_empty(state: &State) -> String {
-    match (state.worn(), state.sections()) {
-        (None, _) => "reading…".to_owned(),
-        (Some(_), None) => "cutting body and cloth…".to_owned(),
-        (Some(_), Some(Err(error))) => format!("no section: {error}"),
-        (Some(_), Some(Ok(sections))) => {
-            let levels: Vec<String> = sections.iter().map(|section| words(&section.level)).collect();
-            format!("not cut at this level; v goes to {}", levels.join(", "))
-        }
-    }
 }
 
 /// How a size is drawn.
