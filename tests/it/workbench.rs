@@ -110,9 +110,9 @@ fn a_session_from_first_start_to_report_at_160_by_50() {
 fn the_screen_follows_the_size_of_the_terminal() {
     let place = Place::new();
     let Some(mut seat) = Seat::take(&workbench(&place), 80, 24) else { return };
-    seat.wait_for("1 Study 2 Subj");
+    seat.wait_for("1 Study 2 Sub");
     for (columns, rows, text) in
-        [(160, 50, "2 Subjects  3 Styles"), (40, 10, " 1 Study 2 3 4 5 6 7 8"), (80, 24, "2 Subj 3 Style")]
+        [(160, 50, "2 Subjects  3 Styles"), (40, 10, " 1 Study 2 3 4 5 6 7 8"), (80, 24, "2 Sub 3 Sty")]
     {
         seat.resize(columns, rows);
         seat.wait_for(text);

@@ -52,17 +52,17 @@ pub fn keys_of(state: &State) -> Screen {
 
 /// The tabs with their texts: whole names where there is room, short ones, or, but for the screen shown, numbers.
 fn tab_texts(state: &State, width: u16) -> Vec<(Screen, String)> {
-    let text = |(k, screen): (usize, Screen)| {
-        let [name, short] = screen.names();
+    let text = |screen: Screen| {
+        let ([name, short], number) = (screen.names(), screen.number());
         let text = match width {
-            WIDE.. => format!(" {} {name} ", k + 1),
-            SHORT.. => format!(" {} {}", k + 1, if screen == state.nav.screen { name } else { short }),
-            _ if screen == state.nav.screen => format!(" {} {name}", k + 1),
-            _ => format!(" {}", k + 1),
+            WIDE.. => format!(" {number} {name} "),
+            SHORT.. => format!(" {number} {}", if screen == state.nav.screen { name } else { short }),
+            _ if screen == state.nav.screen => format!(" {number} {name}"),
+            _ => format!(" {number}"),
         };
         (screen, text)
     };
-    Screen::ALL.into_iter().enumerate().map(text).collect()
+    Screen::ALL.into_iter().map(text).collect()
 }
 
 /// The screen whose tab is at a column.

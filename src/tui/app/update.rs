@@ -33,6 +33,7 @@ impl State {
             Message::Sewn(style, outcome) => self.sewn(style, outcome),
             Message::SeamsSaved(style, seams, outcome) => self.seams_saved(&style, &seams, outcome),
             Message::Picture(request, drawn) => self.take_picture(request, drawn),
+            Message::Cut(jobs, sections) => self.take_sections(jobs, sections),
             Message::Names(relations, saved) => (self.sql.relations, self.sql.saved) = (Some(relations), saved),
             Message::Answered(ms, outcome) => self.answered(ms, outcome),
             Message::Reports(rows) => self.reports.rows = Some(rows),
@@ -50,6 +51,7 @@ impl State {
         }
         self.arrange_jobs();
         self.focus.compare = if self.nav.screen == Screen::Compare { self.to_compare() } else { vec![] };
+        self.focus.wearer = self.wearer().filter(|_| self.nav.screen == Screen::Fit);
         if self.focus != before {
             self.moved(&before);
             effects.push(Effect::Read(self.focus.clone()));

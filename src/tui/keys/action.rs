@@ -70,6 +70,10 @@ pub enum Action {
     Mark,
     /// Takes all selections back.
     Unmark,
+    /// Cuts the body at the next level.
+    NextLevel,
+    /// Cuts the body at the level before.
+    PreviousLevel,
     /// Shows only the measurements in which compared runs differ, or all.
     Differences,
     /// Asks what a new study is made of.

@@ -1,6 +1,6 @@
 //! The screens by their numbers.
 
-/// A screen of the workbench; its number is its key.
+/// A screen of the workbench; its number is its key, and 0 that of the tenth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Screen {
     /// The study as a grid of sizes by subjects.
@@ -21,11 +21,13 @@ pub enum Screen {
     Reports,
     /// The fabrics of the catalogue.
     Fabrics,
+    /// How a garment sits on a subject, size by size.
+    Fit,
 }
 
 impl Screen {
     /// All screens, in order of their numbers.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Study,
         Self::Subjects,
         Self::Styles,
@@ -35,21 +37,29 @@ impl Screen {
         Self::Sql,
         Self::Reports,
         Self::Fabrics,
+        Self::Fit,
     ];
+
+    /// Its number, which is its key.
+    #[must_use]
+    pub fn number(self) -> usize {
+        (self as usize + 1) % Self::ALL.len()
+    }
 
     /// Name, and a short one for tabs with little room.
     #[must_use]
     pub fn names(self) -> [&'static str; 2] {
         match self {
-            Self::Study => ["Study", "Study"],
-            Self::Subjects => ["Subjects", "Subj"],
-            Self::Styles => ["Styles", "Style"],
-            Self::Jobs => ["Jobs", "Jobs"],
+            Self::Study => ["Study", "Stu"],
+            Self::Subjects => ["Subjects", "Sub"],
+            Self::Styles => ["Styles", "Sty"],
+            Self::Jobs => ["Jobs", "Job"],
             Self::Results => ["Results", "Res"],
             Self::Compare => ["Compare", "Cmp"],
             Self::Sql => ["SQL", "SQL"],
             Self::Reports => ["Reports", "Rep"],
             Self::Fabrics => ["Fabrics", "Fab"],
+            Self::Fit => ["Fit", "Fit"],
         }
     }
 }

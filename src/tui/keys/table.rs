@@ -5,7 +5,7 @@ use crossterm::event::KeyCode;
 use crate::keys::action::Action;
 use crate::keys::binding::{Binding, Key};
 use crate::keys::screen::Screen;
-use crate::keys::screen::Screen::{Compare, Fabrics, Jobs, Reports, Results, Sql, Study, Styles, Subjects};
+use crate::keys::screen::Screen::{Compare, Fabrics, Fit, Jobs, Reports, Results, Sql, Study, Styles, Subjects};
 use study::Part;
 
 const fn ch(letter: char) -> Key {
@@ -214,6 +214,15 @@ pub const BINDINGS: &[Binding] = &[
         "compare",
         "Screen 6: selected runs, or FEM and Hybrid",
     ),
+    bind(
+        Action::NextLevel,
+        "level",
+        &[ch('v')],
+        &[Fit],
+        "level",
+        "Cut at the next level: chest, underbust, waist, ...",
+    ),
+    bind(Action::PreviousLevel, "level-before", &[ch('V')], &[Fit], "", "Cut at the level before"),
     bind(Action::Unmark, "unselect", &[ch('u')], &[Study, Jobs, Results, Compare], "", "Take all selections back"),
     bind(
         Action::Differences,
@@ -261,6 +270,7 @@ pub const BINDINGS: &[Binding] = &[
     bind(Action::Filter, "filter", &[ch('/')], &[], "filter", "Show only what contains a text"),
     bind(Action::Sort, "sort", &[ch('s')], SORTED, "sort", "Sort by the next column, on SQL by the selected one"),
     bind(Action::Reverse, "reverse", &[ch('S')], SORTED, "", "Reverse the order"),
+    bind(Action::Show(Fit), "fit", &[ch('F'), ch('0')], &[], "fit", "Screen 0: which size to wear, and how all sit"),
     bind(
         Action::Help,
         "help",

@@ -13,6 +13,8 @@ pub enum Effect {
     Read(Focus),
     /// Draw pictures.
     Draw(Vec<PictureRequest>),
+    /// Cut the bodies and the cloth of results.
+    Cut(Vec<JobId>),
     /// Ask the database.
     Query(QueryRequest),
     /// Stop what it is asked.

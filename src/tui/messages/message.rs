@@ -10,7 +10,7 @@ use crate::widgets::picture::{Drawn, PictureRequest};
 use crate::widgets::result_table::ResultTable;
 use study::bodies::Girths;
 use study::files::SourceFile;
-use study::{LiveFrame, Relation, ReportRow, SavedQuery, SubjectId};
+use study::{CrossSection, JobId, LiveFrame, Relation, ReportRow, SavedQuery, SubjectId};
 
 /// Something that happened.
 #[derive(Debug)]
@@ -37,6 +37,8 @@ pub enum Message {
     SeamsSaved(String, SourceFile, Result<String, String>),
     /// A picture is drawn, or could not be.
     Picture(PictureRequest, Result<Drawn, String>),
+    /// Body and cloth of some results are cut at all levels, or could not be.
+    Cut(Vec<JobId>, Result<Vec<CrossSection>, String>),
     /// What a query may name, and the saved queries.
     Names(Vec<Relation>, Vec<SavedQuery>),
     /// A query is answered after so many ms, or refused.

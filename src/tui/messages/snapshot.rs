@@ -1,8 +1,8 @@
 //! What the screens show of the database at one moment.
 
 use study::{
-    ChiRow, EaseRow, FabricRow, Grid, Inputs, JobId, JobRow, LogLine, MetricsRow, RecommendationRow, SizeRow, StageRow,
-    Step, StudyRow, SubjectRow, Why,
+    ChiRow, EaseRow, FabricRow, GarmentWorn, Grid, Inputs, JobId, JobRow, LogLine, MetricsRow, RecommendationRow,
+    SizeRow, StageRow, Step, StudyRow, SubjectRow, Why,
 };
 
 /// What the user looks at; whatever is `None` or gone is chosen when it is read.
@@ -16,6 +16,8 @@ pub struct Focus {
     pub job: Option<JobId>,
     /// Jobs to compare.
     pub compare: Vec<JobId>,
+    /// Subject on whom it is told how the garment sits.
+    pub wearer: Option<String>,
 }
 
 /// Everything the screens show of the database at one moment.
@@ -45,6 +47,8 @@ pub struct Snapshot {
     pub compared: Vec<Compared>,
     /// Which simulator the study's garments are to be trusted to; read for comparisons only.
     pub recommendations: Vec<RecommendationRow>,
+    /// How the garment sits on the wearer.
+    pub worn: Option<GarmentWorn>,
 }
 
 impl Snapshot {

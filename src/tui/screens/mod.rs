@@ -6,6 +6,7 @@
 mod catalogue;
 mod compare;
 pub mod fabrics;
+pub mod fit;
 pub mod jobs;
 pub mod movement;
 pub mod order;
@@ -39,6 +40,7 @@ pub fn page(screen: Screen) -> &'static dyn Page {
         Screen::Sql => &sql::SqlPage,
         Screen::Reports => &reports::ReportsPage,
         Screen::Fabrics => &fabrics::FabricsPage,
+        Screen::Fit => &fit::FitPage,
     }
 }
 

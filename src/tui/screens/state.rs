@@ -13,6 +13,7 @@ use crate::messages::snapshot::{Detail, Focus, Snapshot};
 use crate::overlays::Overlay;
 use crate::screens::compare::state::Compare;
 use crate::screens::fabrics::state::Fabrics;
+use crate::screens::fit::state::Fit;
 use crate::screens::jobs::state::Jobs;
 use crate::screens::movement::Movement;
 use crate::screens::picture_pane::state::Pictures;
@@ -142,6 +143,8 @@ pub struct State {
     pub reports: Reports,
     /// Fabrics.
     pub fabrics: Fabrics,
+    /// Fit.
+    pub fit: Fit,
 }
 
 impl State {
@@ -174,6 +177,7 @@ impl State {
             sql: Sql::default(),
             reports: Reports::default(),
             fabrics: Fabrics::default(),
+            fit: Fit::default(),
         }
     }
 

@@ -143,6 +143,7 @@ pub fn snapshot() -> Snapshot {
         detail: None,
         compared: vec![],
         recommendations: vec![],
+        worn: None,
     }
 }
 
@@ -279,6 +280,7 @@ pub fn empty() -> Snapshot {
         detail: None,
         compared: vec![],
         recommendations: vec![],
+        worn: None,
     }
 }
 

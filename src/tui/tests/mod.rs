@@ -2,6 +2,7 @@
 
 mod behaviour;
 mod fabrics;
+mod fit;
 mod fixture;
 mod looks;
 mod questions;
@@ -45,19 +46,28 @@ impl Bench {
 
     /// Sends a message; readers answer at once.
     fn send(&mut self, message: Message) {
-        let effects = self.state.update(message);
+        let mut effects = self.state.update(message);
+        let mut further = vec![];
         for effect in &effects {
             if let (Effect::Read(focus), Some(data)) = (effect, &self.state.data) {
                 let mut next = data.clone();
                 next.detail = focus.job.map(fixture::detail);
                 next.compared = focus.compare.iter().map(|id| fixture::compared(*id)).collect();
                 next.recommendations = fixture::recommendations();
-                assert!(self.state.update(Message::Data(next)).iter().all(|e| !matches!(e, Effect::Read(_))));
+                next.worn = focus.wearer.as_deref().map(fit::worn);
+                further = self.state.update(Message::Data(next));
+                assert!(further.iter().all(|e| !matches!(e, Effect::Read(_))));
             }
             if let Effect::Draw(requests) = effect
                 && let [PictureRequest { of: Pictured::Body(id), .. }] = requests[..]
             {
                 self.state.update(Message::Measured(id, Ok(Box::new(fixture::girths()))));
+            }
+        }
+        effects.extend(further.into_iter().filter(|e| matches!(e, Effect::Cut(_))));
+        for effect in &effects {
+            if let Effect::Cut(jobs) = effect {
+                self.state.update(Message::Cut(jobs.clone(), Ok(fit::sections(jobs))));
             }
         }
         let tasks: Vec<_> = effects
@@ -87,18 +97,24 @@ impl Bench {
         self
     }
 
-    /// What it asked for; reads, pictures and work on seams, which is done, left out.
+    /// What it asked for; reads, pictures, sections and work on seams, which is done, left out.
     fn asked(&mut self) -> Vec<Effect> {
         let effects = std::mem::take(&mut self.effects);
-        effects.into_iter().filter(|e| !matches!(e, Effect::Read(_) | Effect::Draw(_) | Effect::Seams(_))).collect()
+        let is_done = |e: &Effect| matches!(e, Effect::Read(_) | Effect::Draw(_) | Effect::Cut(_) | Effect::Seams(_));
+        effects.into_iter().filter(|e| !is_done(e)).collect()
+    }
+
+    /// The screen.
+    fn drawn(&self) -> TestBackend {
+        let Size { width, height } = self.state.terminal.size;
+        let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("a test backend never fails");
+        terminal.draw(|frame| frame::draw(frame, &self.state)).expect("a test backend never fails");
+        terminal.backend().clone()
     }
 
     /// The screen as text.
     fn screen(&self) -> String {
-        let Size { width, height } = self.state.terminal.size;
-        let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("a test backend never fails");
-        terminal.draw(|frame| frame::draw(frame, &self.state)).expect("a test backend never fails");
-        terminal.backend().to_string()
+        self.drawn().to_string()
     }
 
     /// The last line of the screen.

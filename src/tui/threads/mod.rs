@@ -9,6 +9,7 @@ pub mod queries;
 pub mod reading;
 mod run;
 mod seams;
+mod sections;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
@@ -25,7 +26,7 @@ use crate::messages::snapshot::Focus;
 use crate::threads::database::Request;
 use crate::threads::queries::Canceller;
 use crate::widgets::picture::{PictureEncoder, PictureRequest};
-use study::{Live, Workspace};
+use study::{JobId, Live, Workspace};
 
 /// The threads, and what they say.
 pub struct Threads {
@@ -34,6 +35,7 @@ pub struct Threads {
     sender: Sender<Message>,
     database: Sender<Request>,
     pictures: Sender<Vec<PictureRequest>>,
+    sections: Sender<Vec<JobId>>,
     seams: Sender<SeamTask>,
     queries: Sender<QueryRequest>,
     canceller: Canceller,
@@ -60,13 +62,14 @@ impl Threads {
         spawn(&sender, input::read_keys);
         spawn(&sender, input::watch_signals);
         let here = || path.clone();
-        let (of_pictures, of_seams, of_queries, of_files, cancelled) =
-            (here(), here(), here(), here(), canceller.clone());
+        let (of_pictures, of_sections, of_seams, of_queries, of_files, cancelled) =
+            (here(), here(), here(), here(), here(), canceller.clone());
         Self {
             database: serve(&sender, |asked, sender| database::serve(workspace, asked, sender)),
             pictures: serve(&sender, move |asked, sender| {
                 pictures::serve(&of_pictures, readonly, encoder.as_ref(), asked, sender);
             }),
+            sections: serve(&sender, move |asked, sender| sections::serve(&of_sections, readonly, asked, sender)),
             seams: serve(&sender, move |asked, sender| seams::serve(&of_seams, readonly, asked, sender)),
             queries: serve(&sender, move |asked, sender| queries::serve(&of_queries, &cancelled, asked, sender)),
             files: serve(&sender, move |asked, sender| files::serve(&of_files, readonly, &reports, asked, sender)),
@@ -92,6 +95,7 @@ impl Threads {
             Effect::Read(focus) => drop(self.database.send(Request::Read(focus))),
             Effect::Do(command) => drop(self.database.send(Request::Do(command))),
             Effect::Seams(task) => drop(self.seams.send(task)),
+            Effect::Cut(jobs) => drop(self.sections.send(jobs)),
             Effect::Draw(requests) => drop(self.pictures.send(requests)),
             Effect::Query(query) => {
                 self.canceller.reset();

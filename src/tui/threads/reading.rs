@@ -1,7 +1,7 @@
 //! Reading what the screens show, in one go.
 
 use crate::messages::snapshot::{Compared, Detail, Focus, Snapshot};
-use study::{JobFilter, JobId, Result, StudyError, Workspace, now_ms};
+use study::{FitCard, GarmentWorn, JobFilter, JobId, Result, StudyError, Workspace, now_ms};
 
 /// Reads what a focus needs.
 ///
@@ -27,6 +27,7 @@ pub fn snapshot(workspace: &Workspace, focus: &Focus) -> Result<Snapshot> {
         detail: None,
         compared: vec![],
         recommendations: vec![],
+        worn: None,
     };
     let Some(row) = snapshot.studies.get(study) else { return Ok(snapshot) };
     let garment = row.garments.iter().find(|name| Some(*name) == focus.garment.as_ref()).or(row.garments.first());
@@ -38,6 +39,7 @@ pub fn snapshot(workspace: &Workspace, focus: &Focus) -> Result<Snapshot> {
         snapshot.detail = Some(detail(workspace, job)?);
     }
     add_compared(workspace, &mut snapshot, focus)?;
+    snapshot.worn = worn(workspace, &snapshot, focus)?;
     Ok(snapshot)
 }
 
@@ -49,6 +51,7 @@ pub fn refocused(workspace: &Workspace, mut before: Snapshot, focus: &Focus) -> 
     before.now_ms = now_ms();
     before.detail = focus.job.filter(|id| before.job(*id).is_some()).map(|job| detail(workspace, job)).transpose()?;
     add_compared(workspace, &mut before, focus)?;
+    before.worn = worn(workspace, &before, focus)?;
     Ok(before)
 }
 
@@ -62,6 +65,19 @@ fn add_compared(workspace: &Workspace, snapshot: &mut Snapshot, focus: &Focus) -
         snapshot.recommendations = workspace.recommendations(&study.name)?;
     }
     Ok(())
+}
+
+/// How the garment looked at sits on the wearer; a card without sizes where no ease is known of them.
+fn worn(workspace: &Workspace, snapshot: &Snapshot, focus: &Focus) -> Result<Option<GarmentWorn>> {
+    let (Some(grid), Some(subject)) = (&snapshot.grid, &focus.wearer) else { return Ok(None) };
+    match workspace.worn(&grid.study, Some(&grid.garment), Some(subject)) {
+        Err(StudyError::NotFound { .. }) => {
+            let (garment, subject) = (grid.garment.clone(), subject.clone());
+            let card = FitCard { garment, subject, intended: None, sizes: vec![] };
+            Ok(Some(GarmentWorn { card, simulator: None, sizes: vec![] }))
+        }
+        found => Ok(found?.pop()),
+    }
 }
 
 /// A run to compare; `None` where there is no such job any more.

@@ -1,17 +1,19 @@
 //! The garment of a running simulation in dots of braille: its vertices as they are, seen from where drapes are seen.
 
+use ratatui::style::Style;
+use ratatui::text::Line;
+
+use crate::widgets::dots::Dots;
 use study::{LiveFrame, Look};
 
 /// World lengths of a picture change in such steps, m, so that it does not tremble.
 const STEP_M: f64 = 0.1;
 /// Room around the garment, as a share.
 const MARGIN: f64 = 1.05;
-/// Bits of the dots of a braille letter, by column and row.
-const DOTS: [[u32; 4]; 2] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
 
 /// A frame as lines of braille, so many columns by so many rows.
 #[must_use]
-pub fn braille(frame: &LiveFrame, look: Look, columns: usize, rows: usize) -> Vec<String> {
+pub fn braille(frame: &LiveFrame, look: Look, columns: usize, rows: usize, style: Style) -> Vec<Line<'static>> {
     let (sin, cos) = f64::from(look.azimuth_deg).to_radians().sin_cos();
     let seen: Vec<[f64; 2]> = frame.positions.iter().map(|p| [p.y * sin - p.x * cos, p.z]).collect();
     let bounds = |k: usize| {
@@ -19,23 +21,18 @@ pub fn braille(frame: &LiveFrame, look: Look, columns: usize, rows: usize) -> Ve
         let high = seen.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
         ((low / STEP_M).floor() * STEP_M, (high / STEP_M).ceil() * STEP_M)
     };
-    let mut cells = vec![0u32; columns * rows];
-    let (width, height) = (2 * columns, 4 * rows);
+    let mut dots = Dots::new(columns, rows);
+    let [width, height] = dots.size().map(|size| size as f64);
     let (across, up) = (bounds(0), bounds(1));
-    let per_m = (width as f64 / (across.1 - across.0)).min(height as f64 / (up.1 - up.0)) / MARGIN;
+    let per_m = (width / (across.1 - across.0)).min(height / (up.1 - up.0)) / MARGIN;
     if !(per_m > 0.0 && per_m.is_finite()) {
         return vec![];
     }
-    let dot = |value: f64, (low, high): (f64, f64), dots: usize| {
-        let at = (value - (low + high) / 2.0) * per_m + dots as f64 / 2.0;
-        (at >= 0.0 && at < dots as f64).then_some(at as usize)
-    };
+    let dot = |value: f64, (low, high): (f64, f64), dots: f64| (value - (low + high) / 2.0) * per_m + dots / 2.0;
     for p in &seen {
-        let (Some(x), Some(y)) = (dot(p[0], across, width), dot(-p[1], (-up.1, -up.0), height)) else { continue };
-        cells[y / 4 * columns + x / 2] |= DOTS[x % 2][y % 4];
+        dots.draw([dot(p[0], across, width), dot(-p[1], (-up.1, -up.0), height)], style);
     }
-    let letter = |bits: &u32| if *bits == 0 { ' ' } else { char::from_u32(0x2800 + bits).unwrap_or(' ') };
-    cells.chunks(columns.max(1)).map(|row| row.iter().map(letter).collect()).collect()
+    dots.lines()
 }
 
 #[cfg(test)]
@@ -49,7 +46,10 @@ mod tests {
     fn the_subjects_right_is_at_the_pictures_left() {
         let points = [[0.3, 0.0, 1.4], [-0.3, 0.0, 1.4], [0.3, 0.0, 1.0], [0.0, 0.2, 1.0]];
         let frame = LiveFrame { job: JobId(1), positions: points.map(|p| V3::new(p[0], p[1], p[2])).to_vec() };
-        let lines = braille(&frame, FRONT, 20, 10);
+        let seen = |look: Look| -> Vec<String> {
+            braille(&frame, look, 20, 10, Style::new()).iter().map(Line::to_string).collect()
+        };
+        let lines = seen(FRONT);
         assert_eq!(lines.len(), 10);
         let shown = |rows: std::ops::Range<usize>, columns: std::ops::Range<usize>| {
             lines[rows]
@@ -60,8 +60,7 @@ mod tests {
         };
         assert_eq!((shown(0..5, 0..10), shown(0..5, 10..20)), (1, 1), "{lines:#?}");
         assert_eq!((shown(5..10, 0..10), shown(5..10, 12..20)), (1, 0), "{lines:#?}");
-        let side = braille(&frame, Look { azimuth_deg: 90, ..FRONT }, 20, 10);
-        assert_ne!(side, lines);
-        assert!(braille(&LiveFrame { positions: vec![], ..frame }, FRONT, 20, 10).is_empty());
+        assert_ne!(seen(Look { azimuth_deg: 90, ..FRONT }), lines);
+        assert!(braille(&LiveFrame { positions: vec![], ..frame.clone() }, FRONT, 20, 10, Style::new()).is_empty());
     }
 }

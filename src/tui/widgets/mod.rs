@@ -2,6 +2,7 @@
 
 pub mod ascii;
 pub mod braille;
+pub mod dots;
 pub mod editor;
 pub mod half_blocks;
 pub mod layout;

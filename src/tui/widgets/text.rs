@@ -64,6 +64,12 @@ pub fn exact(value: f64) -> String {
     if value != 0.0 && value.abs() < 1e-3 { format!("{value:e}") } else { value.to_string() }
 }
 
+/// A name of levels, regions or points in words.
+#[must_use]
+pub fn words(name: &str) -> String {
+    name.replace('_', " ")
+}
+
 /// A whole number with a true minus sign.
 #[must_use]
 pub fn whole(value: f64) -> String {

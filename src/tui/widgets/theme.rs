@@ -152,11 +152,11 @@ impl Theme {
         }
     }
 
-    /// The colour of a seam, which its letter tells as well.
+    /// The colour of a seam or a size, which its letter or line tells as well.
     #[must_use]
-    pub fn seam(self, seam: usize) -> Color {
+    pub fn lettered(self, number: usize) -> Color {
         const COLOURS: [Color; 5] = [Color::Green, Color::Magenta, Color::Cyan, Color::Red, Color::Blue];
-        if self.has_colours() { COLOURS[seam % COLOURS.len()] } else { Color::Reset }
+        if self.has_colours() { COLOURS[number % COLOURS.len()] } else { Color::Reset }
     }
 
     /// Whether there are colours at all.

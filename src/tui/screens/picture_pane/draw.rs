@@ -53,8 +53,8 @@ pub fn draw_live(frame: &mut Frame<'_>, area: Rect, state: &State) {
     frame.render_widget(Paragraph::new(progress).alignment(Alignment::Center), facts);
     match state.running.live.as_ref().filter(|frame| frame.job == job.id) {
         Some(seen) => {
-            let rows = braille(seen, state.pictures.look, usize::from(picture.width), usize::from(picture.height));
-            let lines: Vec<Line<'_>> = rows.into_iter().map(|row| Line::styled(row, state.theme.busy())).collect();
+            let (columns, rows) = (usize::from(picture.width), usize::from(picture.height));
+            let lines = braille(seen, state.pictures.look, columns, rows, state.theme.busy());
             frame.render_widget(Paragraph::new(lines), picture);
         }
         None => {

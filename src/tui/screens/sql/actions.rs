@@ -28,7 +28,7 @@ impl State {
             self.nav.second_pane[Screen::Sql as usize] = true;
             return true;
         }
-        let is_command = matches!(event.code, KeyCode::Char('?' | ':' | '1'..='9'));
+        let is_command = matches!(event.code, KeyCode::Char('?' | ':' | '0'..='9'));
         if is_command && self.sql.editor.text().is_empty() {
             return false;
         }

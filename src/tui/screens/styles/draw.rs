@@ -187,7 +187,7 @@ fn item_lines(
     match item {
         TableLine::Seam(k) => {
             let seam = &layout.out.desk.seams[k];
-            let colour = Style::new().fg(state.theme.seam(k));
+            let colour = Style::new().fg(state.theme.lettered(k));
             (vec![seam_line(&layout.out.desk, k, seam, width)], colour)
         }
         TableLine::Question(k) => {

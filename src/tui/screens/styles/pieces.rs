@@ -89,7 +89,7 @@ struct Drawing<'a> {
 impl Drawing<'_> {
     /// The colour of an edge: that of its seam.
     fn colour(&self, edge: EdgeAt) -> Color {
-        self.layout.seam_at(edge).map_or(Color::Reset, |seam| self.state.theme.seam(seam))
+        self.layout.seam_at(edge).map_or(Color::Reset, |seam| self.state.theme.lettered(seam))
     }
 
     /// All edges with their places.

@@ -1,0 +1,205 @@
+//! The fit card: a row a level, a column a size.
+
+use ratatui::style::Style;
+use ratatui::text::{Line, Span};
+
+use crate::screens::fit::actions::is_same;
+use crate::screens::state::State;
+use crate::widgets::lists::first_shown;
+use crate::widgets::text::{self, left, right, whole, words, wrapped};
+use crate::widgets::theme::Theme;
+use study::{FitCard, LevelSits, SizeSits};
+
+/// What the signs mean.
+pub const LEGEND: &str = " ▼ tight  ▲ loose  ! smaller than the body ";
+/// Columns of body and target.
+const BODY: usize = 6;
+const TARGET: usize = 10;
+/// Columns of a size with words in full and in short; of its ease and sign alone.
+const LONG: usize = 20;
+const SHORT: usize = 18;
+const SIGNS: usize = 9;
+
+/// Garment, subject, intended fit, and which of how many.
+pub fn title(state: &State) -> String {
+    let Some(grid) = state.grid() else { return "fit".to_owned() };
+    let at = state.study.place.subject;
+    let subject = grid.subjects.get(at).map_or("", String::as_str);
+    let intended = state.worn().and_then(|worn| worn.card.intended.as_deref());
+    let intended = intended.map_or(String::new(), |fit| format!(" · {fit} fit"));
+    let which = match grid.subjects.len() {
+        0 | 1 => String::new(),
+        n => format!(" · {} of {n}", at + 1),
+    };
+    format!("{} on {subject}{which}{intended}", grid.garment)
+}
+
+/// The card in so many columns, and at most so many lines.
+pub fn lines(state: &State, columns: usize, lines: usize, focused: bool) -> Vec<Line<'static>> {
+    let Some(worn) = state.worn() else { return vec![Line::raw("reading…")] };
+    let card = &worn.card;
+    if card.sizes.is_empty() {
+        return vec![Line::raw("no ease is known yet: R runs the study, which measures it")];
+    }
+    let levels = state.card_levels();
+    let missing = if worn.sizes.is_empty() {
+        wrapped("no drape yet: sections and the comparison of sizes need one, R runs the study", columns)
+    } else {
+        vec![]
+    };
+    let widths = Columns::new(card, columns);
+    let mut told = vec![verdict(state.theme, card, columns)];
+    let others = others(card, columns);
+    if told.len() + others.len() + 1 + levels.len() + missing.len() <= lines {
+        told.extend(others.into_iter().map(|line| Line::styled(line, state.theme.dim())));
+    }
+    told.push(header(state.theme, card, &widths));
+    let at = state.level().and_then(|level| levels.iter().position(|one| is_same(one, level)));
+    let room = lines.saturating_sub(told.len() + missing.len());
+    let first = first_shown(at.unwrap_or(0), levels.len(), room);
+    for (k, level) in levels.iter().enumerate().skip(first).take(room) {
+        let selection = (Some(k) == at).then(|| state.theme.selection(focused));
+        told.push(row(state.theme, &widths, level, selection.unwrap_or_default()));
+    }
+    if levels.is_empty() {
+        told.push(Line::raw("no level matches the filter"));
+    }
+    told.extend(missing.into_iter().map(|line| Line::styled(line, state.theme.busy())));
+    told
+}
+
+/// What to wear, and what is worst with it.
+fn verdict(theme: Theme, card: &FitCard, columns: usize) -> Line<'static> {
+    let (sign, style) = card.to_wear().and_then(SizeSits::worst).map_or((" ", Style::new()), |one| sign(theme, one));
+    let verdict = text::shortened(&format!("{sign} {}", card.verdict()), columns);
+    Line::styled(verdict, style.patch(theme.bold()))
+}
+
+/// What is worst with the sizes beside the one to wear.
+fn others(card: &FitCard, columns: usize) -> Vec<String> {
+    let others = card.beside().iter().filter(|size| size.place.is_some_and(|place| place != 1));
+    wrapped(&others.map(|size| format!("not {}: {}", size.size, size.words())).collect::<Vec<_>>().join("; "), columns)
+}
+
+/// What there is room for: as many of the sizes to wear and beside it, then target and body.
+struct Columns<'a> {
+    level: usize,
+    sizes: Vec<&'a SizeSits>,
+    size: usize,
+    body: bool,
+    target: bool,
+}
+
+impl<'a> Columns<'a> {
+    fn new(card: &'a FitCard, columns: usize) -> Self {
+        let longest = |is_short: bool| card.levels().iter().map(|level| text::width(&name(level, is_short))).max();
+        let level = |size: usize| longest(size < LONG).unwrap_or(0).max(5);
+        let mut sizes: Vec<&SizeSits> = card.beside().iter().collect();
+        let left_over = |size: usize, sizes: &[&SizeSits]| columns.checked_sub(level(size) + size * sizes.len());
+        let size = [LONG, SHORT].into_iter().find(|size| left_over(*size, &sizes) >= Some(BODY + TARGET - 1));
+        let size = size.or_else(|| left_over(SHORT, &sizes).map(|_| SHORT)).unwrap_or(SIGNS);
+        while sizes.len() > 1 && left_over(size, &sizes).is_none() {
+            // The size to wear stays.
+            let last = sizes.len() - 1;
+            sizes.remove(if sizes[last].place == Some(1) { 0 } else { last });
+        }
+        let room = left_over(size, &sizes).unwrap_or(0);
+        Self { level: level(size), sizes, size, body: room >= BODY, target: room >= BODY + TARGET - 1 }
+    }
+}
+
+/// A level in words, or in fewer.
+fn name(level: &str, is_short: bool) -> String {
+    let name = words(level);
+    if is_short { name.replace("across ", "") } else { name }
+}
+
+fn header(theme: Theme, card: &FitCard, columns: &Columns<'_>) -> Line<'static> {
+    let mut start = left("mm", columns.level);
+    if columns.body {
+        start += &right("body", BODY);
+    }
+    if columns.target {
+        start += &right("target", TARGET - 1);
+    }
+    let mut spans = vec![Span::styled(start, theme.dim())];
+    for size in &columns.sizes {
+        let (title, style) = headed(theme, card, &size.size);
+        spans.push(Span::raw("  "));
+        spans.push(Span::styled(left(&title, columns.size - 2), style));
+    }
+    Line::from(spans)
+}
+
+/// The title of a size's column, in the colour of its line in sections.
+pub fn headed(theme: Theme, card: &FitCard, size: &str) -> (String, Style) {
+    let style = colour(theme, card, size);
+    if is_to_wear(card, size) {
+        (format!("▸{size} wear"), style.patch(theme.bold()))
+    } else {
+        (size.to_owned(), style)
+    }
+}
+
+/// Whether a size is the one to wear.
+pub fn is_to_wear(card: &FitCard, size: &str) -> bool {
+    card.to_wear().is_some_and(|wear| wear.size == size)
+}
+
+/// The colour of a size.
+pub fn colour(theme: Theme, card: &FitCard, size: &str) -> Style {
+    let number = card.sizes.iter().position(|one| one.size == size).unwrap_or(0);
+    Style::new().fg(theme.lettered(number))
+}
+
+fn row(theme: Theme, columns: &Columns<'_>, level: &str, selection: Style) -> Line<'static> {
+    let of_sizes: Vec<Option<&LevelSits>> =
+        columns.sizes.iter().map(|size| size.levels.iter().find(|one| one.level == level)).collect();
+    let known = of_sizes.iter().flatten().next();
+    let mut spans = vec![Span::styled(left(&name(level, columns.size < LONG), columns.level), selection)];
+    if columns.body {
+        spans.push(Span::raw(right(&known.map_or(String::new(), |one| whole(one.body_girth_mm)), BODY)));
+    }
+    if columns.target {
+        let target = known.and_then(|one| one.target_mm);
+        let target = target.map_or("—".to_owned(), |[least, most]| format!("{}…{}", whole(least), whole(most)));
+        spans.push(Span::styled(right(&target, TARGET - 1), theme.dim()));
+    }
+    for one in of_sizes {
+        spans.push(match one {
+            Some(one) => cell(theme, one, columns.size),
+            None => Span::styled(left(" —", columns.size), theme.dim()),
+        });
+    }
+    Line::from(spans)
+}
+
+/// Ease, sign and words of a size at a level.
+fn cell(theme: Theme, one: &LevelSits, columns: usize) -> Span<'static> {
+    let (sign, style) = sign(theme, one);
+    let ease = format!("{:+.0}", one.ease_mm).replace('-', "−");
+    let told = one.words();
+    let told = told.split(" mm").next().unwrap_or_default();
+    let told = match columns {
+        LONG.. => told.to_owned(),
+        SHORT.. => told.replace("by ", "").replace("as designed", "designed"),
+        _ => String::new(),
+    };
+    let mark = if is_undersized(one) { "!" } else { "" };
+    Span::styled(left(format!("{} {sign} {told}{mark}", right(&ease, 5)).trim_end(), columns), style)
+}
+
+/// The sign and the colour of how a size sits at a level.
+fn sign(theme: Theme, one: &LevelSits) -> (&'static str, Style) {
+    match one.off_mm {
+        None => (" ", theme.dim()),
+        Some(off) if off <= -0.5 => ("▼", theme.bad()),
+        Some(off) if off >= 0.5 => ("▲", theme.warn()),
+        Some(_) => ("·", theme.good()),
+    }
+}
+
+/// Whether a level is too tight and smaller than the body.
+fn is_undersized(one: &LevelSits) -> bool {
+    one.ease_mm < 0.0 && one.off_mm.is_some_and(|off| off <= -0.5)
+}

@@ -1,0 +1,67 @@
+//! The sizes side by side: a row a quantity, a column a size.
+
+use ratatui::text::{Line, Span};
+
+use crate::screens::fit::card::headed;
+use crate::screens::state::State;
+use crate::widgets::lists::{first_shown, selected_line};
+use crate::widgets::text::{self, left};
+use study::GarmentWorn;
+
+/// What the numbers are.
+pub const LEGEND: &str = " mm  → from flat to worn ";
+/// Columns of a size.
+const SIZE: usize = 17;
+/// The fewest and the most columns of a quantity's name.
+const NAME: [usize; 2] = [12, 24];
+
+/// Whose sizes, by which simulator.
+pub fn title(state: &State) -> String {
+    let Some(worn) = state.worn() else { return "sizes".to_owned() };
+    let simulator = worn.simulator.map_or(String::new(), |simulator| format!(" · {}", text::sim(simulator)));
+    format!("sizes · {} on {}{simulator}", worn.card.garment, worn.card.subject)
+}
+
+/// The comparison in so many columns and lines.
+pub fn lines(state: &State, columns: usize, lines: usize, focused: bool) -> Vec<Line<'static>> {
+    let Some(worn) = state.worn() else { return vec![Line::raw("reading…")] };
+    let name = columns.saturating_sub(worn.sizes.len() * SIZE).clamp(NAME[0], NAME[1]);
+    let shown = shown(worn, columns.saturating_sub(name) / SIZE);
+    let rows = state.quantities();
+    let mut told = vec![header(state, worn, name, &shown)];
+    let room = lines.saturating_sub(1);
+    let at = state.fit.row.min(rows.len().saturating_sub(1));
+    let first = first_shown(at, rows.len(), room);
+    for (k, row) in rows.iter().enumerate().skip(first).take(room) {
+        let cells: String =
+            shown.clone().map(|size| left(row.cells[size].as_deref().unwrap_or("—"), SIZE - 1) + " ").collect();
+        let line = Line::raw(left(&row.name, name) + &cells);
+        told.push(if k == at { selected_line(line, state.theme.selection(focused)) } else { line });
+    }
+    if rows.is_empty() {
+        told.push(Line::raw("no quantity matches the filter"));
+    }
+    told
+}
+
+/// The sizes that there is room for, the one to wear near their middle.
+fn shown(worn: &GarmentWorn, room: usize) -> std::ops::Range<usize> {
+    let room = room.max(1).min(worn.sizes.len());
+    let to_wear = worn.card.to_wear();
+    let at = to_wear.and_then(|wear| worn.sizes.iter().position(|size| size.size == wear.size)).unwrap_or(0);
+    let first = first_shown(at, worn.sizes.len(), room);
+    first..first + room
+}
+
+fn header(state: &State, worn: &GarmentWorn, name: usize, shown: &std::ops::Range<usize>) -> Line<'static> {
+    let start = match worn.sizes.len() - shown.len() {
+        0 => String::new(),
+        more => format!("+ {more} more"),
+    };
+    let mut spans = vec![Span::styled(left(&start, name), state.theme.dim())];
+    for size in &worn.sizes[shown.clone()] {
+        let (title, style) = headed(state.theme, &worn.card, &size.size);
+        spans.push(Span::styled(left(&title, SIZE), style));
+    }
+    Line::from(spans)
+}
