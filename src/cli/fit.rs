@@ -4,7 +4,7 @@ use super::answers::NO_EASE;
 use super::args::Fit;
 use super::context::Context;
 use super::{End, Outcome, output};
-use study::{FitCard, SizeSits, Table, Value};
+use study::{FitCard, LevelSits, SizeSits, Table, Value};
 
 /// Prints the fit cards of a study.
 pub fn fit(context: &Context, arguments: &Fit) -> Outcome {
@@ -20,6 +20,9 @@ pub fn fit(context: &Context, arguments: &Fit) -> Outcome {
         output::text(&format!("{gap}{} on {}{intended}: {}\n", card.garment, card.subject, card.verdict()))?;
         context.print(&table(card))?;
     }
+    if cards.iter().any(|card| card.beside().iter().flat_map(|size| &size.levels).any(|level| level.ease_mm < 0.0)) {
+        output::text("! smaller than the body\n")?;
+    }
     if cards.is_empty() {
         context.say(NO_EASE);
         return Ok(End::CheckFailed);
@@ -27,14 +30,14 @@ pub fn fit(context: &Context, arguments: &Fit) -> Outcome {
     Ok(End::Done)
 }
 
-/// Rows of levels, columns of sizes.
+/// Rows of levels, columns of sizes: ease in millimetres and what is to be said of it.
 fn table(card: &FitCard) -> Table {
     let sizes = card.beside();
     let mut columns = vec!["level".to_owned(), "body_mm".to_owned(), "target_mm".to_owned()];
-    for size in sizes {
+    columns.extend(sizes.iter().map(|size| {
         let mark = if size.place == Some(1) { " (wear)" } else { "" };
-        columns.extend([format!("{}_ease_mm{mark}", size.size), String::new()]);
-    }
+        format!("{} ease_mm{mark}", size.size)
+    }));
     let row = |level: &str| {
         let of = |size: &SizeSits| size.levels.iter().find(|one| one.level == level).cloned();
         let all: Vec<_> = sizes.iter().map(of).collect();
@@ -44,11 +47,20 @@ fn table(card: &FitCard) -> Table {
             .map_or(Value::Null, |[least, most]| Value::Text(format!("{least:.0} to {most:.0}")));
         let body = known.map_or(Value::Null, |one| Value::Integer(one.body_girth_mm.round() as i64));
         let mut row = vec![Value::Text(level.replace('_', " ")), body, target];
-        for one in &all {
-            row.push(one.as_ref().map_or(Value::Null, |one| Value::Text(format!("{:+.0}", one.ease_mm))));
-            row.push(one.as_ref().map_or(Value::Null, |one| Value::Text(one.words())));
-        }
+        row.extend(all.iter().map(|one| one.as_ref().map_or(Value::Null, |one| Value::Text(short(one)))));
         row
     };
     Table { columns, rows: card.levels().into_iter().map(row).collect() }
+}
+
+/// An ease in few letters: a mark stands for smaller than the body.
+fn short(level: &LevelSits) -> String {
+    let mark = if level.ease_mm < 0.0 { "!" } else { "" };
+    let words = match level.off_mm {
+        Some(off) if off <= -0.5 => format!("tight {:.0}", -off),
+        Some(off) if off >= 0.5 => format!("loose {off:.0}"),
+        Some(_) => "as meant".to_owned(),
+        None => String::new(),
+    };
+    format!("{:+.0}{mark} {words}", level.ease_mm).trim_end().to_owned()
 }

@@ -61,7 +61,7 @@ fn whole_session(columns: u16, rows: u16) {
     seat.press("<Tab>8b");
     seat.wait_for("the report is in");
     let page = fs::read_to_string(place.path("reports/study-1/index.html")).expect("the report was written");
-    assert!(page.contains("study-1") && page.contains("Neck Opening"));
+    assert!(page.contains("study-1") && page.contains("half chest") && page.contains("wear "));
     seat.press(":quit<Enter>");
     assert_eq!(seat.end().code(), Some(0));
     seat.is_sane();

@@ -19,7 +19,7 @@ impl Workspace {
     /// How the garments of a study sit on its subjects, and in which size; only a garment or a subject where one is asked for.
     ///
     /// # Errors
-    /// [`StudyError::NotFound`] when the study has no ease of what is asked for.
+    /// [`StudyError::NotFound`](crate::StudyError::NotFound) when the study has no ease of what is asked for.
     pub fn fit_cards(&self, study: &str, garment: Option<&str>, subject: Option<&str>) -> Result<Vec<FitCard>> {
         fit_card::asked(fit_card::fit_cards(&self.store, study)?, garment, subject)
     }
