@@ -1,0 +1,33 @@
+//! Handles of the seat of trousers: rises and fork.
+
+use super::Handle;
+use super::body::{Body, Limb};
+use super::girths;
+use super::plan::{Condition, Plan, start};
+use crate::propose::Face;
+use geom::V2;
+
+/// The upper edge higher at the seat seam of a face, and as before at the outseam.
+pub fn rise(body: &Body<'_>, face: Face) -> Option<Plan> {
+    let mut plan = Plan::default();
+    for leg in &body.legs {
+        let crotch = &leg.inner[usize::from(face == Face::Back)].crotch;
+        let top = body.point(start(crotch));
+        plan.drive(top, V2::y());
+        plan.give(top, V2::y());
+        plan.conditions.push(Condition::chain(crotch, 1.0));
+    }
+    (!plan.moves.is_empty()).then_some(plan)
+}
+
+/// Forks of front and back outwards, and the inseams at the thigh with them; the inseams keep their lengths.
+pub fn fork(body: &Body<'_>) -> Option<Plan> {
+    let mut plan = Plan::default();
+    for side in body.sides.iter().filter(|side| matches!(side.limb, Limb::Inner(_))) {
+        for level in [Handle::Fork, Handle::Thigh] {
+            girths::drive(body, &mut plan, side, level, 1.0);
+        }
+        girths::keep(body, &mut plan, side);
+    }
+    (!plan.moves.is_empty()).then_some(plan)
+}
