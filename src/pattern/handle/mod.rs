@@ -139,8 +139,8 @@ impl Handle {
                 "half of the leg at the fork wider: forks of front and back out, inseams with them down to the thigh; the seat seams \
                  lengthen by it",
             ),
-            Self::FrontRise => ("front_rise", "front seat seam longer: the upper edge higher there, and as before at the outseams"),
-            Self::BackRise => ("back_rise", "back seat seam longer: the upper edge higher there, and as before at the outseams"),
+            Self::FrontRise => ("front_rise", "front seat seam longer: the upper edge higher there, as before at the outseams, and as long"),
+            Self::BackRise => ("back_rise", "back seat seam longer: the upper edge higher there, as before at the outseams, and as long"),
             Self::LegLength => ("leg_length", "inseam longer: legs lengthen evenly between fork and lower edge, outseams with them"),
             Self::ShoulderSlope => (
                 "shoulder_slope",
@@ -163,7 +163,7 @@ impl Handle {
                 "bicep",
                 "half of the sleeve 25 mm below the armhole wider: its underarm points out, and up until the cap is as long as before",
             ),
-            Self::Cuff => ("cuff", "half of the sleeve's lower edge wider: the underarm seam out there, as long as before"),
+            Self::Cuff => ("cuff", "half of the sleeve's lower edge wider: the underarm seam out there"),
             Self::CapHeight => (
                 "cap_height",
                 "cap higher: the sleeve's underarm points down the arm, and inwards until the cap is as long as before",
@@ -345,7 +345,8 @@ impl Style {
         }
         follow::darts(&body, &mut plan);
         follow::bands(&body, &mut plan);
-        let solved = solve::solved(self, &plan, amount_m);
+        let fine = solve::refined(self, &plan);
+        let solved = solve::solved(&fine, &plan, amount_m);
         let off = |place: String, off_m: f64, what: &str| HandleError::Length {
             handle,
             amount_mm,
@@ -361,7 +362,7 @@ impl Style {
             let edges = plan.conditions[number].spans.iter().map(|(span, _)| self.edge_name(span.edge));
             return Err(off(edges.collect::<Vec<_>>().join(", "), *off_m, "the length cannot be kept: it is off by"));
         }
-        let style = restyle::with_lines(self, solved.lines);
+        let style = restyle::with_lines(&fine, solved.lines);
         if let Some((piece, at)) = restyle::new_crossing(self, &style) {
             return Err(HandleError::Crossing { handle, amount_mm, piece, u_mm: mm(at.x), v_mm: mm(at.y) });
         }

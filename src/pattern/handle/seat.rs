@@ -5,9 +5,10 @@ use super::body::{Body, Limb};
 use super::girths;
 use super::plan::{Condition, Plan, start};
 use crate::propose::Face;
+use crate::style::EdgeRef;
 use geom::V2;
 
-/// The upper edge higher at the seat seam of a face, and as before at the outseam.
+/// The upper edge higher at the seat seam of a face, as before at the outseam, and as long.
 pub fn rise(body: &Body<'_>, face: Face) -> Option<Plan> {
     let mut plan = Plan::default();
     for leg in &body.legs {
@@ -15,7 +16,11 @@ pub fn rise(body: &Body<'_>, face: Face) -> Option<Plan> {
         let top = body.point(start(crotch));
         plan.drive(top, V2::y());
         plan.give(top, V2::y());
+        plan.give(top, V2::x());
         plan.conditions.push(Condition::chain(crotch, 1.0));
+        let piece = crotch[0].0.piece;
+        let waist: Vec<EdgeRef> = leg.waist.iter().copied().filter(|edge| edge.piece == piece).collect();
+        plan.conditions.push(Condition::edges(&waist, 0.0));
     }
     (!plan.moves.is_empty()).then_some(plan)
 }

@@ -35,14 +35,13 @@ pub fn cap_height(body: &Body<'_>) -> Option<Plan> {
     (!plan.moves.is_empty()).then_some(plan)
 }
 
-/// Half of the lower edge wider: lower ends of the underarm seam outwards, which keeps its length.
+/// Half of the lower edge wider: lower ends of the underarm seam out across the arm.
 pub fn cuff(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
     for cap in body.caps() {
         plan.moves.extend(cap.bicep(body.anatomy).map(|at| Move::new(at, V2::zeros())));
         plan.drive(body.point(end(&cap.seam)), cap.out);
         plan.give(body.point(end(&cap.seam)), cap.down);
-        plan.conditions.push(Condition::chain(&cap.seam, 0.0));
     }
     (!plan.moves.is_empty()).then_some(plan)
 }

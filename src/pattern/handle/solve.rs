@@ -1,6 +1,8 @@
 //! How far what gives way must move for lengths to hold: Newton's method, by the least displacement.
 
-use super::plan::{Condition, Plan, Span};
+use std::collections::BTreeMap;
+
+use super::plan::{Condition, Move, Plan, Span};
 use super::rig::{Displacement, Rig};
 use crate::style::{EdgeRef, Style};
 use geom::V2;
@@ -18,11 +20,17 @@ const REGULAR: f64 = 1e-9;
 /// A style whose outlines are displaced.
 pub struct Solved {
     /// Lines of all edges of the pieces that are touched.
-    pub lines: std::collections::BTreeMap<usize, Vec<Polyline>>,
+    pub lines: BTreeMap<usize, Vec<Polyline>>,
     /// By how much each seam's sides differ more than before, m, by the seam's number.
     pub seams_m: Vec<(usize, f64)>,
     /// By how much each of the plan's conditions is missed, m.
     pub conditions_m: Vec<f64>,
+}
+
+/// The style with vertices enough on the edges that a plan bends.
+pub fn refined(style: &Style, plan: &Plan) -> Style {
+    let moves: Vec<Move> = plan.moves.iter().chain(plan.gives.iter().flatten()).copied().collect();
+    Rig::new(style, moves.iter()).refined(&moves)
 }
 
 /// Moves a plan's places by an amount, m, and what gives way as far as its conditions ask.
@@ -81,7 +89,7 @@ struct System<'a> {
 
 impl System<'_> {
     /// The edges of the touched pieces, displaced.
-    fn lines(&self, given: &[f64]) -> std::collections::BTreeMap<usize, Vec<Polyline>> {
+    fn lines(&self, given: &[f64]) -> BTreeMap<usize, Vec<Polyline>> {
         let edges = |piece: usize| (0..self.style.pieces[piece].edges.len()).map(move |edge| EdgeRef { piece, edge });
         let lines = self.drive.keys().map(|piece| (*piece, edges(*piece).map(|edge| self.line(edge, given)).collect()));
         lines.collect()
@@ -102,7 +110,7 @@ impl System<'_> {
 
     /// By how much each condition is missed, m.
     fn missed(&self, given: &[f64]) -> Vec<f64> {
-        let mut kept = std::collections::BTreeMap::new();
+        let mut kept = BTreeMap::new();
         let mut change_m = |span: &Span| {
             let before = &self.style.edge(span.edge).line;
             let after = kept.entry(span.edge).or_insert_with(|| self.line(span.edge, given));

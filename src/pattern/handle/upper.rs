@@ -5,7 +5,7 @@ use super::plan::{Condition, Move, Plan, Span, along, end, start};
 use crate::pom::anatomy::Chain;
 use crate::pom::top::Centre;
 use crate::propose::Face;
-use crate::style::EdgePoint;
+use crate::style::{EdgePoint, EdgeRef};
 use geom::V2;
 
 /// Shoulder points lower, front and back: the shoulder keeps its length, the armhole too and sinks with it.
@@ -30,17 +30,21 @@ pub fn shoulder_length(body: &Body<'_>) -> Option<Plan> {
         plan.give(tip, outwards);
         plan.conditions.push(Condition::chain(&shoulder, 1.0));
     }
+    hold_across(body, &mut plan);
     armholes_keep(body, &mut plan);
     Some(plan)
 }
 
-/// High points of the shoulder outwards along it: the neck becomes wider by twice their way outwards.
+/// High points of the shoulder outwards along it, each by half; the centres of the neck stay.
 pub fn neck_width(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
     for (shoulder, outwards) in shoulders(body)? {
         let high = body.point(start(&shoulder));
         plan.drive(high, outwards * (0.5 / outwards.x.abs()));
         plan.give(high, outwards);
+    }
+    for centre in Face::BOTH.into_iter().filter_map(|face| neck_centres(body, face)).flatten() {
+        plan.drive(centre, V2::zeros());
     }
     Some(plan)
 }
@@ -93,13 +97,20 @@ fn shoulders(body: &Body<'_>) -> Option<Vec<(Chain, V2)>> {
     found.iter().all(|(_, outwards)| outwards.x != 0.0).then_some(found)
 }
 
-/// Every face's part of an armhole keeps its length: its underarm point gives way along the side seam, and the side seam's end to it.
+/// Every armhole keeps its length: its underarm points give way along the side seam, front and back alike, and a free lower end for the
+/// little that both sides differ in.
 fn armholes_keep(body: &Body<'_>, plan: &mut Plan) {
-    for armhole in &body.armholes {
-        let down = along(body.anatomy, &armhole.side);
-        plan.conditions.push(Condition::edges(&armhole.edges, 0.0));
-        plan.give(body.point(armhole.underarm), down);
-        plan.give(body.point(end(&armhole.side)), down);
+    for faces in body.armholes.chunks(Face::BOTH.len()) {
+        let edges: Vec<EdgeRef> = faces.iter().flat_map(|face| face.edges.iter().copied()).collect();
+        plan.conditions.push(Condition::edges(&edges, 0.0));
+        let down = |face: &Armhole| along(body.anatomy, &face.side);
+        plan.gives.push(faces.iter().map(|face| Move::new(body.point(face.underarm), down(face))).collect());
+        for face in faces {
+            let low = end(&face.side);
+            if body.anatomy.ways.is_free(body.anatomy.style().over_corner(low).0) {
+                plan.give(body.point(low), down(face));
+            }
+        }
     }
 }
 

@@ -29,7 +29,8 @@ pub struct Run {
 /// One of two legs that are sewn to each other.
 pub struct Legs<'a> {
     anatomy: &'a Anatomy<'a>,
-    waist: Vec<EdgeRef>,
+    /// Upper edges of both legs.
+    pub waist: Vec<EdgeRef>,
     hem: Vec<EdgeRef>,
     /// Inner runs, front before back.
     pub inner: [Run; 2],
