@@ -123,7 +123,7 @@ impl<'a> Body<'a> {
 }
 
 /// Distance along a chain of the end of a path that lies on it, m.
-fn met(anatomy: &Anatomy<'_>, chain: &Chain, path: &[PathPart]) -> Option<f64> {
+pub fn met(anatomy: &Anatomy<'_>, chain: &Chain, path: &[PathPart]) -> Option<f64> {
     let mut before_m = 0.0;
     for &(edge, is_forwards) in chain {
         let length_m = anatomy.length_m(&[edge]);
@@ -235,10 +235,10 @@ fn half_cap(anatomy: &Anatomy<'_>, armhole: &[EdgeRef], tip: EdgeEnd, underarm: 
         let arc_m = if is_last { anatomy.length_m(&[edge]) - in_m } else { in_m };
         armhole.contains(&edge).then(|| anatomy.ways.across(EdgePoint { edge, arc_m })).flatten()
     };
-    let (low, high) = (inside(underarm, BESIDE_M)?, inside(tip, BESIDE_M)?);
+    let low = inside(underarm, BESIDE_M)?;
     let piece = low.edge.piece;
     let down = anatomy.ways.down(piece)?;
-    if !matches!(anatomy.parts[piece], Part::Sleeve(_)) || high.edge.piece != piece {
+    if !matches!(anatomy.parts[piece], Part::Sleeve(_)) {
         return None;
     }
     let corner_near = |at: EdgePoint| {
@@ -246,9 +246,14 @@ fn half_cap(anatomy: &Anatomy<'_>, armhole: &[EdgeRef], tip: EdgeEnd, underarm: 
         ends.into_iter().find(|end| (anatomy.point(*end).arc_m - at.arc_m).abs() < NEAR_M)
     };
     let corner = corner_near(low)?;
-    let top = match corner_near(high) {
-        Some(corner) => anatomy.point(corner),
-        None => inside(tip, 0.0).filter(|at| at.edge == high.edge).unwrap_or(high),
+    // A sleeve in two panels has its shoulder point at the end of the panel's cap.
+    let high = inside(tip, BESIDE_M).filter(|high| high.edge.piece == piece);
+    let top = match high {
+        Some(high) => match corner_near(high) {
+            Some(corner) => anatomy.point(corner),
+            None => inside(tip, 0.0).filter(|at| at.edge == high.edge).unwrap_or(high),
+        },
+        None => anatomy.point(cap_end(anatomy, corner)?),
     };
     let spans = spans(anatomy, corner, top)?;
     let seam = own_seam(anatomy, style.over_corner(corner))?;
@@ -256,6 +261,22 @@ fn half_cap(anatomy: &Anatomy<'_>, armhole: &[EdgeRef], tip: EdgeEnd, underarm: 
     let across = V2::new(-down.y, down.x);
     let inwards = (style.place(top) - anatomy.place(corner)).dot(&across);
     Some(HalfCap { piece, underarm: corner, spans, top, seam, down, out: across * -inwards.signum() })
+}
+
+/// From the underarm corner of a sleeve along its cap to where the trunk's armhole leaves it.
+fn cap_end(anatomy: &Anatomy<'_>, corner: EdgeEnd) -> Option<EdgeEnd> {
+    let is_cap = |edge: EdgeRef| {
+        anatomy.ways.partners(edge).iter().any(|other| matches!(anatomy.parts[other.piece], Part::Trunk(_)))
+    };
+    let mut at = (corner.0, !corner.1);
+    for _ in 0..anatomy.style().pieces[corner.0.piece].edges.len() {
+        let next = anatomy.style().over_corner(at);
+        if !is_cap(next.0) {
+            return Some(at);
+        }
+        at = (next.0, !next.1);
+    }
+    None
 }
 
 /// Parts of the outline from an end of an edge along it to a point.

@@ -2,10 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::body::Body;
+use super::body::{Body, NEAR_M};
 use super::plan::{Move, Plan, corners};
 use crate::pom::anatomy::Part;
 use crate::style::EdgeRef;
+use crate::style::openings::EdgeEnd;
 use geom::V2;
 
 /// Tips of darts go as far as their mouths do, and give way until both legs are paired.
@@ -57,19 +58,29 @@ pub fn bands(body: &Body<'_>, plan: &mut Plan) {
             break;
         }
     }
-    plan.gives.extend(bands.into_iter().filter_map(|(piece, edge)| stretch(body, piece, edge)));
+    plan.gives.extend(bands.into_iter().flat_map(|(piece, edge)| stretches(body, piece, edge)));
 }
 
-/// A piece stretched by a metre, half to either side, along the chord of one of its edges.
-fn stretch(body: &Body<'_>, piece: usize, edge: EdgeRef) -> Option<Vec<Move>> {
+/// A piece stretched along the chord of one of its edges: each stretch between its corners by an amount of its own, half to either side
+/// of its middle.
+fn stretches(body: &Body<'_>, piece: usize, edge: EdgeRef) -> Vec<Vec<Move>> {
     let anatomy = body.anatomy;
     let chord = anatomy.place((edge, true)) - anatomy.place((edge, false));
-    let along = chord.try_normalize(0.0)?;
-    let at = corners(anatomy, piece).into_iter().map(|corner| (corner, anatomy.place(corner).dot(&along)));
-    let at: Vec<_> = at.collect();
-    let (low, high) = at.iter().fold((f64::MAX, f64::MIN), |(low, high), (_, m)| (low.min(*m), high.max(*m)));
-    (high > low).then(|| {
-        let share = |m: f64| (m - low) / (high - low) - 0.5;
-        at.into_iter().map(|(corner, m)| Move::new(anatomy.point(corner), along * share(m))).collect()
-    })
+    let Some(along) = chord.try_normalize(0.0) else { return Vec::new() };
+    let corners = corners(anatomy, piece);
+    let reach = |corner: &EdgeEnd| anatomy.place(*corner).dot(&along);
+    let mut levels: Vec<f64> = corners.iter().map(reach).collect();
+    levels.sort_by(f64::total_cmp);
+    levels.dedup_by(|later, earlier| *later - *earlier < NEAR_M);
+    let Some(middle) = levels.first().zip(levels.last()).map(|(low, high)| 0.5 * (low + high)) else { return Vec::new() };
+    let stretch = |ends: &[f64]| {
+        let share = |m: f64| share_of(ends, m) - share_of(ends, middle);
+        corners.iter().map(|corner| Move::new(anatomy.point(*corner), along * share(reach(corner)))).collect()
+    };
+    levels.windows(2).map(stretch).collect()
+}
+
+/// How far a place lies along a stretch, from 0 to 1.
+fn share_of(ends: &[f64], m: f64) -> f64 {
+    ((m - ends[0]) / (ends[1] - ends[0])).clamp(0.0, 1.0)
 }

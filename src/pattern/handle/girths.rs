@@ -29,6 +29,7 @@ pub fn plan(body: &Body<'_>, handle: Handle) -> Option<Plan> {
         }
     }
     if handle == Handle::Chest {
+        upper::hold_across(body, &mut plan);
         upper::sleeves_follow(body, &mut plan);
     }
     Some(plan)

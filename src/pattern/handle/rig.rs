@@ -1,12 +1,13 @@
-//! Outlines displaced by knots: places whose displacement is told. Every corner is one, and stays where nothing is told of it.
+//! Outlines displaced by knots: places whose displacement is told. Every sharp corner is one, and stays where nothing is told of it.
 //!
 //! Between two knots the displacement goes from the one to the other: evenly along the edge, smoothly across it. So an edge keeps its
 //! direction at every knot, and with it its right angles and its smooth joints; only a straight edge from corner to corner stays straight.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 use super::plan::Move;
-use crate::style::{Edge, EdgeRef, Style};
+use crate::style::{Edge, Style};
 use geom::V2;
 use geom::polyline::{Polyline, segment_distance};
 
@@ -28,11 +29,20 @@ const BESIDE_M: f64 = 0.5e-3;
 /// Displacement of the vertices of each edge of the pieces that are touched.
 pub type Displacement = BTreeMap<usize, Vec<Vec<V2>>>;
 
-/// Knots of the outlines of a style.
+/// Knots of the outlines of the pieces that are touched.
 pub struct Rig<'a> {
     style: &'a Style,
-    /// Arc lengths of the knots of each edge of the pieces that are touched, both ends among them.
-    knots: BTreeMap<usize, Vec<Vec<f64>>>,
+    rings: BTreeMap<usize, Ring>,
+}
+
+/// The outline of a piece with its knots.
+struct Ring {
+    /// Vertices, the first one again at the end, and their arc lengths.
+    line: Polyline,
+    /// Number of the first vertex of each edge, and of the last one of the last.
+    firsts: Vec<usize>,
+    /// Arc lengths of the knots in rising order.
+    knots: Vec<f64>,
 }
 
 /// What is told of a knot.
@@ -45,34 +55,37 @@ struct Told {
 impl<'a> Rig<'a> {
     /// Knots of all the places that may move.
     pub fn new<'m>(style: &'a Style, moves: impl Iterator<Item = &'m Move>) -> Self {
-        let mut knots: BTreeMap<usize, Vec<Vec<f64>>> = BTreeMap::new();
+        let mut rings: BTreeMap<usize, Ring> = BTreeMap::new();
         for one in moves {
-            let EdgeRef { piece, edge } = one.at.edge;
-            let ends = || style.pieces[piece].edges.iter().map(|edge| vec![0.0, edge.line.length()]).collect();
-            let arcs = &mut knots.entry(piece).or_insert_with(ends)[edge];
-            let at = arcs.partition_point(|arc| *arc < one.at.arc_m - SAME_M);
-            if arcs.get(at).is_none_or(|arc| (arc - one.at.arc_m).abs() > SAME_M) {
-                arcs.insert(at, one.at.arc_m);
-            }
+            let piece = one.at.edge.piece;
+            let ring = match rings.entry(piece) {
+                Entry::Occupied(known) => known.into_mut(),
+                Entry::Vacant(new) => match Ring::new(&style.pieces[piece].edges) {
+                    Some(ring) => new.insert(ring),
+                    None => continue,
+                },
+            };
+            ring.add(ring.arc_m(one));
         }
-        Self { style, knots }
+        Self { style, rings }
     }
 
     /// The pieces that are touched.
     pub fn pieces(&self) -> impl Iterator<Item = usize> + '_ {
-        self.knots.keys().copied()
+        self.rings.keys().copied()
     }
 
     /// The style with vertices enough on the edges that some moves bend.
     pub fn refined(&self, moves: &[Move]) -> Style {
         let mut style = self.style.clone();
-        for (piece, told) in self.told(moves) {
-            for (k, told) in told.iter().enumerate() {
-                let edge = EdgeRef { piece, edge: k };
-                let is_moved = told.iter().any(|told| told.by != V2::zeros() || told.bend != V2::zeros());
-                if is_moved && !self.is_stiff(edge) {
-                    let line = &mut style.pieces[piece].edges[k].line;
-                    *line = refined(line, &self.knots[&piece][k]);
+        for (piece, ring) in &self.rings {
+            let own: Vec<Move> = moves.iter().filter(|m| m.at.edge.piece == *piece).copied().collect();
+            let bent = ring.bent(&own);
+            for (k, edge) in style.pieces[*piece].edges.iter_mut().enumerate() {
+                let ends = [ring.firsts[k], ring.firsts[k + 1]].map(|vertex| ring.line.arcs()[vertex]);
+                if bent.iter().any(|[from, to]| *from < ends[1] - SAME_M && *to > ends[0] + SAME_M) {
+                    let knots: Vec<f64> = ring.knots.iter().map(|arc| arc - ends[0]).collect();
+                    edge.line = refined(&edge.line, &knots);
                 }
             }
         }
@@ -81,87 +94,120 @@ impl<'a> Rig<'a> {
 
     /// Displacement of every vertex by some moves, per metre of amount.
     pub fn displacement(&self, moves: &[Move]) -> Displacement {
-        let edges = |(piece, told): (usize, Vec<Vec<Told>>)| {
-            let moved = told.iter().enumerate().map(|(edge, told)| self.edge(EdgeRef { piece, edge }, told));
-            (piece, moved.collect())
+        let edges = |(piece, ring): (&usize, &Ring)| {
+            let own: Vec<Move> = moves.iter().filter(|m| m.at.edge.piece == *piece).copied().collect();
+            let moved = ring.moved(&own);
+            let n = moved.len();
+            let edge = |ends: &[usize]| (ends[0]..=ends[1]).map(|vertex| moved[vertex % n]).collect();
+            (*piece, ring.firsts.windows(2).map(edge).collect())
         };
-        self.told(moves).into_iter().map(edges).collect()
+        self.rings.iter().map(edges).collect()
+    }
+}
+
+impl Ring {
+    /// Of the edges of a piece, with their sharp corners as knots.
+    fn new(edges: &[Edge]) -> Option<Self> {
+        let mut points = Vec::new();
+        let mut firsts = vec![0];
+        for edge in edges {
+            points.extend(edge.line.points().split_last()?.1);
+            firsts.push(points.len());
+        }
+        points.push(*points.first()?);
+        let mut ring = Self { line: Polyline::new(points)?, firsts, knots: Vec::new() };
+        for k in 0..edges.len() {
+            if ring.is_sharp(ring.firsts[k]) {
+                ring.add(ring.line.arcs()[ring.firsts[k]]);
+            }
+        }
+        Some(ring)
+    }
+
+    fn length_m(&self) -> f64 {
+        self.line.length()
+    }
+
+    /// Whether the outline turns at a vertex.
+    fn is_sharp(&self, vertex: usize) -> bool {
+        let (points, n) = (self.line.points(), self.line.points().len() - 1);
+        let at = points[vertex % n];
+        (at - points[(vertex + n - 1) % n]).angle(&(points[vertex % n + 1] - at)) > SMOOTH_RAD
+    }
+
+    /// Arc length of a place that moves; that of the first vertex for the last.
+    fn arc_m(&self, one: &Move) -> f64 {
+        let arc_m = self.line.arcs()[self.firsts[one.at.edge.edge]] + one.at.arc_m;
+        if arc_m > self.length_m() - SAME_M { 0.0 } else { arc_m }
+    }
+
+    /// Number of the knot at an arc length, or of the place where it would be.
+    fn knot(&self, arc_m: f64) -> usize {
+        self.knots.partition_point(|knot| *knot < arc_m - SAME_M)
+    }
+
+    fn add(&mut self, arc_m: f64) {
+        let at = self.knot(arc_m);
+        if self.knots.get(at).is_none_or(|knot| (knot - arc_m).abs() > SAME_M) {
+            self.knots.insert(at, arc_m);
+        }
     }
 
     /// What some moves tell of each knot.
-    fn told(&self, moves: &[Move]) -> BTreeMap<usize, Vec<Vec<Told>>> {
-        let zero = Told { by: V2::zeros(), bend: V2::zeros() };
-        let each = |edges: &Vec<Vec<f64>>| edges.iter().map(|arcs| vec![zero; arcs.len()]).collect::<Vec<_>>();
-        let mut told: BTreeMap<usize, Vec<Vec<Told>>> =
-            self.knots.iter().map(|(piece, edges)| (*piece, each(edges))).collect();
+    fn told(&self, moves: &[Move]) -> Vec<Told> {
+        let mut told = vec![Told { by: V2::zeros(), bend: V2::zeros() }; self.knots.len()];
         for one in moves {
-            let EdgeRef { piece, edge } = one.at.edge;
-            let (Some(knots), Some(told)) = (self.knots.get(&piece), told.get_mut(&piece)) else { continue };
-            let knot = knots[edge].partition_point(|arc| *arc < one.at.arc_m - SAME_M);
-            let (last, n) = (knots[edge].len() - 1, knots.len());
-            let mut tell = |edge: usize, knot: usize| {
-                told[edge][knot].by += one.by;
-                told[edge][knot].bend += one.bend;
-            };
-            tell(edge, knot);
-            // A corner belongs to both of its edges.
-            if knot == 0 {
-                tell((edge + n - 1) % n, knots[(edge + n - 1) % n].len() - 1);
-            } else if knot == last {
-                tell((edge + 1) % n, 0);
-            }
+            let told = &mut told[self.knot(self.arc_m(one))];
+            told.by += one.by;
+            told.bend += one.bend;
         }
         told
     }
 
-    /// Whether an edge stays straight: from corner to corner, with no knot between.
-    fn is_stiff(&self, edge: EdgeRef) -> bool {
-        let has_no_knot = self.knots[&edge.piece][edge.edge].len() == 2;
-        has_no_knot && is_straight(self.style.edge(edge)) && self.has_corners(edge)
+    /// Stretches between neighbouring knots, the last one over the first vertex.
+    fn stretches(&self) -> impl Iterator<Item = (Stretch, [usize; 2])> + '_ {
+        let n = self.knots.len();
+        (0..n).map(move |k| {
+            let next = (k + 1) % n;
+            let to = if next > k { self.knots[next] } else { self.knots[next] + self.length_m() };
+            (Stretch::new(self, [self.knots[k], to]), [k, next])
+        })
     }
 
-    fn edge(&self, edge: EdgeRef, told: &[Told]) -> Vec<V2> {
-        let arcs = &self.knots[&edge.piece][edge.edge];
-        let line = &self.style.edge(edge).line;
-        let is_stiff = self.is_stiff(edge);
-        let mut moved = vec![V2::zeros(); line.points().len()];
-        for (knots, told) in arcs.windows(2).zip(told.windows(2)) {
-            let stretch = Stretch::new(self.style.edge(edge), [knots[0], knots[1]]);
-            for (k, arc) in line.arcs().iter().enumerate() {
-                if (knots[0] - SAME_M..=knots[1] + SAME_M).contains(arc) {
-                    moved[k] = stretch.between(stretch.share(line.points()[k], *arc), told, is_stiff);
+    /// Arc lengths between which moves bend the outline: where they move it, and it does not stay straight.
+    fn bent(&self, moves: &[Move]) -> Vec<[f64; 2]> {
+        let told = self.told(moves);
+        let is_moved = |knot: usize| told[knot].by != V2::zeros() || told[knot].bend != V2::zeros();
+        let bent = self.stretches().filter(|(stretch, ends)| !stretch.is_stiff && ends.iter().any(|end| is_moved(*end)));
+        let arcs = bent.flat_map(|(stretch, _)| {
+            let [from, to] = stretch.arcs_m;
+            [[from, to], [from - self.length_m(), to - self.length_m()]]
+        });
+        arcs.collect()
+    }
+
+    /// Displacement of each vertex, the first one once.
+    fn moved(&self, moves: &[Move]) -> Vec<V2> {
+        let told = self.told(moves);
+        let n = self.line.points().len() - 1;
+        let mut moved = vec![V2::zeros(); n];
+        for (stretch, [from, to]) in self.stretches() {
+            for (vertex, moved) in moved.iter_mut().enumerate() {
+                let arcs = [0.0, self.length_m()].map(|round_m| self.line.arcs()[vertex] + round_m);
+                let within = arcs.into_iter().find(|arc| (stretch.arcs_m[0] - SAME_M..=stretch.arcs_m[1] + SAME_M).contains(arc));
+                if let Some(arc_m) = within {
+                    *moved = stretch.between(stretch.share(self.line.points()[vertex], arc_m), [told[from], told[to]]);
                 }
             }
         }
         moved
     }
-
-    /// Whether the outline turns at both ends of an edge.
-    fn has_corners(&self, edge: EdgeRef) -> bool {
-        let edges = &self.style.pieces[edge.piece].edges;
-        let n = edges.len();
-        let own = edges[edge.edge].line.points();
-        let (before, after) = (
-            edges[(edge.edge + n - 1) % n].line.points(),
-            edges[(edge.edge + 1) % n].line.points(),
-        );
-        let first = |points: &[V2]| points[1] - points[0];
-        let last = |points: &[V2]| points[points.len() - 1] - points[points.len() - 2];
-        last(before).angle(&first(own)) > SMOOTH_RAD && last(own).angle(&first(after)) > SMOOTH_RAD
-    }
-}
-
-/// Whether an edge is straight.
-fn is_straight(edge: &Edge) -> bool {
-    let points = edge.line.points();
-    let (from, to) = (points[0], points[points.len() - 1]);
-    points.iter().all(|p| segment_distance(&from, &to, p) < STRAIGHT_M)
 }
 
 /// A line with vertices at some of its arc lengths, and no long segment.
 fn refined(line: &Polyline, knots: &[f64]) -> Polyline {
     let mut ends = line.arcs().to_vec();
-    for knot in knots {
+    for knot in knots.iter().filter(|knot| (0.0..line.length()).contains(*knot)) {
         if !ends.iter().any(|arc| (arc - knot).abs() < BESIDE_M) {
             ends.push(*knot);
         }
@@ -175,35 +221,51 @@ fn refined(line: &Polyline, knots: &[f64]) -> Polyline {
     Polyline::new(points).unwrap_or_else(|| line.clone())
 }
 
-/// The part of an edge between two knots.
+/// The part of an outline between two knots.
 struct Stretch {
+    /// Arc lengths of its ends; beyond the outline's length where it goes over the first vertex.
     arcs_m: [f64; 2],
     ends: [V2; 2],
-    /// Unit vectors along the edge at both ends.
+    /// Unit vectors along the outline at both ends.
     along: [V2; 2],
     /// Whether places on it go by its chord; by arc length where it turns back on that.
     by_chord: bool,
+    /// Whether it is straight from corner to corner, and stays so.
+    is_stiff: bool,
 }
 
 impl Stretch {
-    fn new(edge: &Edge, arcs_m: [f64; 2]) -> Self {
-        let line = &edge.line;
-        let ends = arcs_m.map(|arc| line.at(arc));
+    fn new(ring: &Ring, arcs_m: [f64; 2]) -> Self {
+        let length_m = ring.length_m();
+        let at = |arc: f64| ring.line.at(if arc > length_m { arc - length_m } else { arc });
+        let ends = arcs_m.map(at);
         let step = END_SHARE * (arcs_m[1] - arcs_m[0]);
         let unit = |way: V2| way.try_normalize(0.0).unwrap_or_else(V2::zeros);
-        let along = [unit(line.at(arcs_m[0] + step) - ends[0]), unit(ends[1] - line.at(arcs_m[1] - step))];
+        let along = [unit(at(arcs_m[0] + step) - ends[0]), unit(ends[1] - at(arcs_m[1] - step))];
+        let arcs = ring.line.arcs();
+        let rounds = [0.0, length_m].into_iter().flat_map(|round_m| arcs.iter().map(move |arc| arc + round_m));
+        let inner: Vec<V2> = rounds.filter(|arc| (arcs_m[0] + SAME_M..arcs_m[1] - SAME_M).contains(arc)).map(at).collect();
         let chord = ends[1] - ends[0];
         let axis = unit(chord);
-        let inner = line.arcs().iter().zip(line.points()).filter(|(arc, _)| (arcs_m[0]..arcs_m[1]).contains(*arc));
         let mut places = vec![ends[0].dot(&axis)];
-        places.extend(inner.map(|(_, p)| p.dot(&axis)));
+        places.extend(inner.iter().map(|p| p.dot(&axis)));
         places.push(ends[1].dot(&axis));
         let goes_on = places.windows(2).all(|pair| pair[1] >= pair[0] - SAME_M);
-        let is_along = goes_on && chord.norm() > ALONG_CHORD * (arcs_m[1] - arcs_m[0]);
-        Self { arcs_m, ends, along, by_chord: is_along }
+        let is_straight = inner.iter().all(|p| segment_distance(&ends[0], &ends[1], p) < STRAIGHT_M);
+        let is_corner = |arc: f64| {
+            let arc = if arc > length_m - SAME_M { arc - length_m } else { arc };
+            ring.firsts.iter().any(|first| (arcs[*first] - arc).abs() < SAME_M && ring.is_sharp(*first))
+        };
+        Self {
+            arcs_m,
+            ends,
+            along,
+            by_chord: goes_on && chord.norm() > ALONG_CHORD * (arcs_m[1] - arcs_m[0]),
+            is_stiff: is_straight && arcs_m.into_iter().all(is_corner),
+        }
     }
 
-    /// How far a place of the edge lies along the stretch, from 0 to 1.
+    /// How far a place lies along the stretch, from 0 to 1.
     fn share(&self, place: V2, arc_m: f64) -> f64 {
         let chord = self.ends[1] - self.ends[0];
         if self.by_chord {
@@ -214,10 +276,9 @@ impl Stretch {
     }
 
     /// The displacement at a share of the stretch.
-    fn between(&self, t: f64, told: &[Told], is_stiff: bool) -> V2 {
-        let [from, to] = [told[0], told[1]];
+    fn between(&self, t: f64, [from, to]: [Told; 2]) -> V2 {
         let change = to.by - from.by;
-        if is_stiff {
+        if self.is_stiff {
             return from.by + change * t;
         }
         let length_m = self.arcs_m[1] - self.arcs_m[0];

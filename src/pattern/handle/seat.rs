@@ -1,9 +1,10 @@
 //! Handles of the seat of trousers: rises and fork.
 
 use super::Handle;
-use super::body::{Body, Limb};
+use super::body::{Body, Limb, met};
 use super::girths;
-use super::plan::{Condition, Plan, start};
+use super::plan::{Condition, Move, Plan, start};
+use crate::pom::Point;
 use crate::propose::Face;
 use crate::style::EdgeRef;
 use geom::V2;
@@ -25,7 +26,7 @@ pub fn rise(body: &Body<'_>, face: Face) -> Option<Plan> {
     (!plan.moves.is_empty()).then_some(plan)
 }
 
-/// Forks of front and back outwards, and the inseams at the thigh with them; the inseams keep their lengths.
+/// Forks of front and back outwards, and the inseams at the thigh with them; the inseams keep their lengths, and the seat its hip.
 pub fn fork(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
     for side in body.sides.iter().filter(|side| matches!(side.limb, Limb::Inner(_))) {
@@ -33,6 +34,14 @@ pub fn fork(body: &Body<'_>) -> Option<Plan> {
             girths::drive(body, &mut plan, side, level, 1.0);
         }
         girths::keep(body, &mut plan, side);
+    }
+    for leg in &body.legs {
+        let points = leg.points();
+        let hip = points.iter().find(|one| one.point == Point::HalfHip).map_or(&[][..], |one| &one.path);
+        for run in &leg.inner {
+            let at = met(body.anatomy, &run.crotch, hip).and_then(|at_m| body.anatomy.along(&run.crotch, at_m));
+            plan.moves.extend(at.map(|at| Move::new(at, V2::zeros())));
+        }
     }
     (!plan.moves.is_empty()).then_some(plan)
 }

@@ -78,8 +78,9 @@ pub fn armhole_depth(body: &Body<'_>) -> Option<Plan> {
     }
     let mut plan = Plan::default();
     for armhole in &body.armholes {
-        let down = along(body.anatomy, &armhole.side);
+        let down = armhole.down(body);
         plan.drive(body.point(armhole.underarm), down / down.y.abs());
+        plan.give(body.point(armhole.underarm), down);
         if let Some(cap) = &armhole.cap {
             move_underarm(body, &mut plan.moves, cap, cap.down);
         }
@@ -103,7 +104,7 @@ fn armholes_keep(body: &Body<'_>, plan: &mut Plan) {
     for faces in body.armholes.chunks(Face::BOTH.len()) {
         let edges: Vec<EdgeRef> = faces.iter().flat_map(|face| face.edges.iter().copied()).collect();
         plan.conditions.push(Condition::edges(&edges, 0.0));
-        let down = |face: &Armhole| along(body.anatomy, &face.side);
+        let down = |face: &Armhole| face.down(body);
         plan.gives.push(faces.iter().map(|face| Move::new(body.point(face.underarm), down(face))).collect());
         for face in faces {
             let low = end(&face.side);
@@ -111,6 +112,14 @@ fn armholes_keep(body: &Body<'_>, plan: &mut Plan) {
                 plan.give(body.point(low), down(face));
             }
         }
+    }
+    sleeves_follow(body, plan);
+}
+
+impl Armhole {
+    /// Unit vector down the side seam at the underarm.
+    fn down(&self, body: &Body<'_>) -> V2 {
+        along(body.anatomy, &vec![self.side[0]])
     }
 }
 
@@ -127,11 +136,11 @@ fn half_way_up(body: &Body<'_>, armhole: &Armhole) -> Option<EdgePoint> {
 
 /// Half caps become as much longer as the armholes they are sewn to: the sleeve's underarm points give way across the arm.
 pub fn sleeves_follow(body: &Body<'_>, plan: &mut Plan) {
-    hold_across(body, plan);
     for armhole in &body.armholes {
         let Some(cap) = &armhole.cap else { continue };
         let mut spans = cap_spans(cap);
-        spans.extend(armhole.edges.iter().map(|edge| (Span::whole(*edge), -1.0)));
+        let is_sewn_on = |edge: &&EdgeRef| body.anatomy.ways.partners(**edge).iter().any(|other| other.piece == cap.piece);
+        spans.extend(armhole.edges.iter().filter(is_sewn_on).map(|edge| (Span::whole(*edge), -1.0)));
         plan.conditions.push(Condition { spans, change: 0.0 });
         hold_sleeve(body, plan, cap);
         let mut give = Vec::new();
