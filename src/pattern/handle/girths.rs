@@ -3,8 +3,10 @@
 use super::Handle;
 use super::body::{Body, Limb, NEAR_M, Side};
 use super::plan::{Condition, Move, Plan, along, end, start};
-use super::upper;
+use super::{rig, upper};
+use crate::pom::anatomy::Chain;
 use crate::style::EdgePoint;
+use crate::style::openings::EdgeEnd;
 use geom::{V2, smooth_step};
 
 /// What a girth handle does; `None` where no seam has its level.
@@ -65,20 +67,27 @@ pub fn drive(body: &Body<'_>, plan: &mut Plan, side: &Side, handle: Handle, by: 
         else {
             continue;
         };
-        if (before_m - from.0).min(to.0 - before_m) < NEAR_M * 1e-3 {
-            continue;
-        }
-        let (length_m, change) = (to.0 - from.0, value(to.1) - value(from.1));
-        let t = (before_m - from.0) / length_m;
-        let by = side.out * (value(from.1) + change * smooth_step(t));
-        let slope = side.out * (6.0 * t * (1.0 - t) * change / length_m);
-        let bend = if pair[0].1 { slope } else { -slope };
-        plan.moves.push(Move { at: body.point(pair[0]), by, bend });
-        // Below a dart the seam goes on at another corner.
-        if body.anatomy.style().over_corner(pair[0]) != (pair[1].0, !pair[1].1) {
-            plan.moves.push(Move { at: body.point((pair[1].0, !pair[1].1)), by, bend });
+        let corners = ends_between(body, pair);
+        // A smooth joint goes along with the edges on both sides of it.
+        if corners.len() > 1 || rig::is_sharp(body.anatomy.style(), pair[0]) {
+            let t = (before_m - from.0) / (to.0 - from.0);
+            let by = side.out * (value(from.1) + (value(to.1) - value(from.1)) * smooth_step(t));
+            plan.moves.extend(corners.into_iter().map(|at| Move::new(at, by)));
         }
     }
+}
+
+/// The corner between two edges of a chain; both ends where a dart lies between.
+fn ends_between(body: &Body<'_>, pair: &[EdgeEnd]) -> Vec<EdgePoint> {
+    let below = (pair[1].0, !pair[1].1);
+    let is_one = body.anatomy.style().over_corner(pair[0]) == below;
+    [Some(pair[0]), Some(below).filter(|_| !is_one)].into_iter().flatten().map(|end| body.point(end)).collect()
+}
+
+/// The corners between the edges of a side stay where they are.
+pub fn hold(body: &Body<'_>, plan: &mut Plan, chain: &Chain) {
+    let corners = chain.windows(2).flat_map(|pair| ends_between(body, pair));
+    plan.moves.extend(corners.map(|at| Move::new(at, V2::zeros())));
 }
 
 /// The place of a side at a distance from its start; its ends exactly.
@@ -95,15 +104,15 @@ fn place(body: &Body<'_>, side: &Side, at_m: f64) -> Option<EdgePoint> {
 
 /// Every edge of a side keeps its length: its lower end gives way along it.
 pub fn keep(body: &Body<'_>, plan: &mut Plan, side: &Side) {
-    for (k, edge) in side.chain.iter().enumerate() {
-        plan.conditions.push(Condition::chain(&vec![*edge], 0.0));
-        let down: V2 = along(body.anatomy, &vec![*edge]);
-        let mut give = vec![Move::new(body.point(*edge), down)];
-        if let Some(next) = side.chain.get(k + 1)
-            && body.anatomy.style().over_corner(*edge) != (next.0, !next.1)
-        {
-            give.push(Move::new(body.point((next.0, !next.1)), down));
-        }
-        plan.gives.push(give);
+    plan.conditions.extend(side.chain.iter().map(|edge| Condition::chain(&vec![*edge], 0.0)));
+    yield_ends(body, plan, &side.chain);
+}
+
+/// The lower end of every edge of a chain gives way along the edge.
+pub fn yield_ends(body: &Body<'_>, plan: &mut Plan, chain: &Chain) {
+    for (k, edge) in chain.iter().enumerate() {
+        let down = along(body.anatomy, &vec![*edge]);
+        let ends = chain.get(k..k + 2).map_or_else(|| vec![body.point(*edge)], |pair| ends_between(body, pair));
+        plan.gives.push(ends.into_iter().map(|at| Move::new(at, down)).collect());
     }
 }

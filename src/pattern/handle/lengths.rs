@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::body::{Body, Limb, Side};
+use super::girths;
 use super::plan::{Condition, Move, Plan, along, corners, end, start};
 use crate::pom::anatomy::{Anatomy, BELOW_ARMHOLE_M, Part};
 use crate::propose::Face;
@@ -67,7 +68,7 @@ fn slashed(body: &Body<'_>, is_meant: impl Fn(&Side) -> bool, below_m: f64) -> O
                 slash.to_m = ends.fold(slash.to_m.min(reach(low)), f64::min);
             }
         }
-        plan.give(body.point(low), along(anatomy, &side.chain));
+        girths::yield_ends(body, &mut plan, &side.chain);
     }
     if slashes.is_empty() {
         return None;

@@ -12,14 +12,12 @@ pub struct Move {
     pub at: EdgePoint,
     /// Displacement.
     pub by: V2,
-    /// Its change along the outline across the edge there, per metre of edge; zero keeps the direction of the edge.
-    pub bend: V2,
 }
 
 impl Move {
-    /// A displacement that keeps the direction of the edge.
+    /// A displacement of a place.
     pub fn new(at: EdgePoint, by: V2) -> Self {
-        Self { at, by, bend: V2::zeros() }
+        Self { at, by }
     }
 }
 

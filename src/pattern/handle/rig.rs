@@ -7,7 +7,8 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
 use super::plan::Move;
-use crate::style::{Edge, Style};
+use crate::style::openings::EdgeEnd;
+use crate::style::{Edge, EdgeRef, Style};
 use geom::V2;
 use geom::polyline::{Polyline, segment_distance};
 
@@ -45,15 +46,14 @@ struct Ring {
     knots: Vec<f64>,
 }
 
-/// What is told of a knot.
-#[derive(Clone, Copy)]
-struct Told {
-    by: V2,
-    bend: V2,
+/// Whether the outline turns at the end of an edge.
+pub fn is_sharp(style: &Style, (EdgeRef { piece, edge }, is_last): EdgeEnd) -> bool {
+    let vertex = edge + usize::from(is_last);
+    Ring::new(&style.pieces[piece].edges).is_some_and(|ring| ring.is_sharp(ring.firsts[vertex]))
 }
 
 impl<'a> Rig<'a> {
-    /// Knots of all the places that may move.
+    /// Knots of the places that some moves tell.
     pub fn new<'m>(style: &'a Style, moves: impl Iterator<Item = &'m Move>) -> Self {
         let mut rings: BTreeMap<usize, Ring> = BTreeMap::new();
         for one in moves {
@@ -68,11 +68,6 @@ impl<'a> Rig<'a> {
             ring.add(ring.arc_m(one));
         }
         Self { style, rings }
-    }
-
-    /// The pieces that are touched.
-    pub fn pieces(&self) -> impl Iterator<Item = usize> + '_ {
-        self.rings.keys().copied()
     }
 
     /// The style with vertices enough on the edges that some moves bend.
@@ -154,12 +149,10 @@ impl Ring {
     }
 
     /// What some moves tell of each knot.
-    fn told(&self, moves: &[Move]) -> Vec<Told> {
-        let mut told = vec![Told { by: V2::zeros(), bend: V2::zeros() }; self.knots.len()];
+    fn told(&self, moves: &[Move]) -> Vec<V2> {
+        let mut told = vec![V2::zeros(); self.knots.len()];
         for one in moves {
-            let told = &mut told[self.knot(self.arc_m(one))];
-            told.by += one.by;
-            told.bend += one.bend;
+            told[self.knot(self.arc_m(one))] += one.by;
         }
         told
     }
@@ -177,7 +170,7 @@ impl Ring {
     /// Arc lengths between which moves bend the outline: where they move it, and it does not stay straight.
     fn bent(&self, moves: &[Move]) -> Vec<[f64; 2]> {
         let told = self.told(moves);
-        let is_moved = |knot: usize| told[knot].by != V2::zeros() || told[knot].bend != V2::zeros();
+        let is_moved = |knot: usize| told[knot] != V2::zeros();
         let bent = self.stretches().filter(|(stretch, ends)| !stretch.is_stiff && ends.iter().any(|end| is_moved(*end)));
         let arcs = bent.flat_map(|(stretch, _)| {
             let [from, to] = stretch.arcs_m;
@@ -276,17 +269,14 @@ impl Stretch {
     }
 
     /// The displacement at a share of the stretch.
-    fn between(&self, t: f64, [from, to]: [Told; 2]) -> V2 {
-        let change = to.by - from.by;
+    fn between(&self, t: f64, [from, to]: [V2; 2]) -> V2 {
+        let change = to - from;
         if self.is_stiff {
-            return from.by + change * t;
+            return from + change * t;
         }
-        let length_m = self.arcs_m[1] - self.arcs_m[0];
-        let slope = |end: usize, told: Told| self.along[end] * change.dot(&self.along[end]) + told.bend * length_m;
+        let slope = |end: usize| self.along[end] * change.dot(&self.along[end]);
         let (square, cube) = (t * t, t * t * t);
-        from.by
-            + change * (3.0 * square - 2.0 * cube)
-            + slope(0, from) * (cube - 2.0 * square + t)
-            + slope(1, to) * (cube - square)
+        let bent = slope(0) * (cube - 2.0 * square + t) + slope(1) * (cube - square);
+        from + change * (3.0 * square - 2.0 * cube) + bent
     }
 }

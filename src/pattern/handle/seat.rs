@@ -23,7 +23,8 @@ pub fn rise(body: &Body<'_>, face: Face) -> Option<Plan> {
         let waist: Vec<EdgeRef> = leg.waist.iter().copied().filter(|edge| edge.piece == piece).collect();
         plan.conditions.push(Condition::edges(&waist, 0.0));
     }
-    (!plan.moves.is_empty()).then_some(plan)
+    hold_hip(body, &mut plan);
+    (!body.legs.is_empty()).then_some(plan)
 }
 
 /// Forks of front and back outwards, and the inseams at the thigh with them; the inseams keep their lengths, and the seat its hip.
@@ -35,6 +36,12 @@ pub fn fork(body: &Body<'_>) -> Option<Plan> {
         }
         girths::keep(body, &mut plan, side);
     }
+    hold_hip(body, &mut plan);
+    (!body.legs.is_empty()).then_some(plan)
+}
+
+/// The seat seams stay where they are at the hip.
+fn hold_hip(body: &Body<'_>, plan: &mut Plan) {
     for leg in &body.legs {
         let points = leg.points();
         let hip = points.iter().find(|one| one.point == Point::HalfHip).map_or(&[][..], |one| &one.path);
@@ -43,5 +50,4 @@ pub fn fork(body: &Body<'_>) -> Option<Plan> {
             plan.moves.extend(at.map(|at| Move::new(at, V2::zeros())));
         }
     }
-    (!plan.moves.is_empty()).then_some(plan)
 }

@@ -1,6 +1,6 @@
 //! How far what gives way must move for lengths to hold: Newton's method, by the least displacement.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::plan::{Condition, Move, Plan, Span};
 use super::rig::{Displacement, Rig};
@@ -29,20 +29,26 @@ pub struct Solved {
 
 /// The style with vertices enough on the edges that a plan bends.
 pub fn refined(style: &Style, plan: &Plan) -> Style {
-    let moves: Vec<Move> = plan.moves.iter().chain(plan.gives.iter().flatten()).copied().collect();
+    let moves: Vec<Move> = all_moves(plan).copied().collect();
     Rig::new(style, moves.iter()).refined(&moves)
+}
+
+fn all_moves(plan: &Plan) -> impl Iterator<Item = &Move> {
+    plan.moves.iter().chain(plan.gives.iter().flatten())
 }
 
 /// Moves a plan's places by an amount, m, and what gives way as far as its conditions ask.
 pub fn solved(style: &Style, plan: &Plan, amount_m: f64) -> Solved {
-    let rig = Rig::new(style, plan.moves.iter().chain(plan.gives.iter().flatten()));
-    let touched: Vec<usize> = rig.pieces().collect();
+    // What gives way has knots of its own, and does not hold what moves beside it.
+    let displacement = |moves: &[Move]| Rig::new(style, plan.moves.iter().chain(moves)).displacement(moves);
+    let touched: Vec<usize> = all_moves(plan).map(|one| one.at.edge.piece).collect();
     let seams = seam_conditions(style, &touched);
     let conditions: Vec<&Condition> = plan.conditions.iter().chain(seams.iter().map(|(_, c)| c)).collect();
     let system = System {
         style,
-        drive: rig.displacement(&plan.moves),
-        gives: plan.gives.iter().map(|give| rig.displacement(give)).collect(),
+        touched: touched.iter().copied().collect(),
+        drive: Rig::new(style, plan.moves.iter()).displacement(&plan.moves),
+        gives: plan.gives.iter().map(|give| displacement(give)).collect(),
         conditions,
         amount_m,
     };
@@ -81,6 +87,7 @@ fn seam_conditions(style: &Style, touched: &[usize]) -> Vec<(usize, Condition)> 
 
 struct System<'a> {
     style: &'a Style,
+    touched: BTreeSet<usize>,
     drive: Displacement,
     gives: Vec<Displacement>,
     conditions: Vec<&'a Condition>,
@@ -91,18 +98,17 @@ impl System<'_> {
     /// The edges of the touched pieces, displaced.
     fn lines(&self, given: &[f64]) -> BTreeMap<usize, Vec<Polyline>> {
         let edges = |piece: usize| (0..self.style.pieces[piece].edges.len()).map(move |edge| EdgeRef { piece, edge });
-        let lines = self.drive.keys().map(|piece| (*piece, edges(*piece).map(|edge| self.line(edge, given)).collect()));
+        let lines = self.touched.iter().map(|piece| (*piece, edges(*piece).map(|edge| self.line(edge, given)).collect()));
         lines.collect()
     }
 
     fn line(&self, edge: EdgeRef, given: &[f64]) -> Polyline {
         let line = &self.style.edge(edge).line;
-        let Some(drive) = self.drive.get(&edge.piece) else { return line.clone() };
-        let mut points: Vec<V2> =
-            line.points().iter().zip(&drive[edge.edge]).map(|(p, by)| p + by * self.amount_m).collect();
-        for (give, share) in self.gives.iter().zip(given).filter(|(_, share)| **share != 0.0) {
-            if let Some(moved) = give.get(&edge.piece) {
-                points.iter_mut().zip(&moved[edge.edge]).for_each(|(p, by)| *p += by * *share);
+        let mut points = line.points().to_vec();
+        let gives = self.gives.iter().zip(given.iter().copied());
+        for (fields, share) in [(&self.drive, self.amount_m)].into_iter().chain(gives).filter(|(_, share)| *share != 0.0) {
+            if let Some(moved) = fields.get(&edge.piece) {
+                points.iter_mut().zip(&moved[edge.edge]).for_each(|(p, by)| *p += by * share);
             }
         }
         Polyline::new(points).unwrap_or_else(|| line.clone())

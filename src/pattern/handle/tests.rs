@@ -80,6 +80,8 @@ fn probe_foreign() {
         println!("== {file}: {:?}", style.pieces.iter().map(|p| (p.id.as_str(), p.role)).collect::<Vec<_>>());
         let missing: Vec<_> = Handle::ALL.iter().filter(|h| !style.handles().contains(h)).map(|h| h.as_str()).collect();
         println!("   without {missing:?}");
+        if file.contains("pencil") { for seam in &style.seams { println!("   {} {:?} {:?}", seam.name, seam.a.iter().map(|e| style.edge_name(*e)).collect::<Vec<_>>(), seam.b.iter().map(|e| style.edge_name(*e)).collect::<Vec<_>>()); }
+            for p in &style.pieces { for e in &p.edges { println!("  {} {:?} {:?} -> {:?}", p.id, e.name, e.line.points()[0], e.line.points().last()); } } }
         let before = points(&style);
         for handle in style.handles() {
             for amount in [0.005, -0.005] {

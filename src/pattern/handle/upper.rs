@@ -1,6 +1,7 @@
 //! Handles of shoulder, neck and armhole, and of the sleeve sewn to it.
 
 use super::body::{Armhole, Body, HalfCap, NEAR_M};
+use super::girths;
 use super::plan::{Condition, Move, Plan, Span, along, end, start};
 use crate::pom::anatomy::Chain;
 use crate::pom::top::Centre;
@@ -80,10 +81,15 @@ pub fn armhole_depth(body: &Body<'_>) -> Option<Plan> {
     for armhole in &body.armholes {
         let down = armhole.down(body);
         plan.drive(body.point(armhole.underarm), down / down.y.abs());
-        plan.give(body.point(armhole.underarm), down);
+        girths::hold(body, &mut plan, &armhole.side);
         if let Some(cap) = &armhole.cap {
             move_underarm(body, &mut plan.moves, cap, cap.down);
         }
+    }
+    for faces in body.armholes.chunks(Face::BOTH.len()) {
+        // Edges of the side seam that run otherwise than their partners.
+        let apart = faces.iter().zip([0.5, -0.5]);
+        plan.gives.push(apart.map(|(face, by)| Move::new(body.point(face.underarm), face.down(body) * by)).collect());
     }
     hold_across(body, &mut plan);
     sleeves_follow(body, &mut plan);
@@ -107,6 +113,8 @@ fn armholes_keep(body: &Body<'_>, plan: &mut Plan) {
         let down = |face: &Armhole| face.down(body);
         plan.gives.push(faces.iter().map(|face| Move::new(body.point(face.underarm), down(face))).collect());
         for face in faces {
+            girths::hold(body, plan, &face.side);
+            slide_joints(body, plan, face);
             let low = end(&face.side);
             if body.anatomy.ways.is_free(body.anatomy.style().over_corner(low).0) {
                 plan.give(body.point(low), down(face));
@@ -114,6 +122,16 @@ fn armholes_keep(body: &Body<'_>, plan: &mut Plan) {
         }
     }
     sleeves_follow(body, plan);
+}
+
+/// Joints within an armhole slide along it.
+fn slide_joints(body: &Body<'_>, plan: &mut Plan, face: &Armhole) {
+    for edge in &face.edges {
+        let corner = body.anatomy.style().over_corner((*edge, true));
+        if face.edges.contains(&corner.0) {
+            plan.give(body.point(corner), along(body.anatomy, &vec![(*edge, true)]));
+        }
+    }
 }
 
 impl Armhole {
