@@ -14,6 +14,9 @@ use geom::V2;
 /// Distance within which two levels of a seam are one, and a point lies at a corner, m.
 pub const NEAR_M: f64 = 3e-3;
 
+/// Least distance of a waist within a side seam from its ends, m: nearer, the girth is narrowest where the seam ends, and there is no waist.
+const WAIST_FROM_ENDS_M: f64 = 85e-3;
+
 /// What a side seam belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Limb {
@@ -153,6 +156,7 @@ fn sides(
     legs: &[Legs<'_>],
     points: &[PointOfMeasure],
 ) -> Vec<Side> {
+    use Handle::{Chest, Fork, Hem, Hip, Knee, LegOpening, Thigh, Waist};
     let path = |points: &[PointOfMeasure], point: Point| {
         points.iter().find(|one| one.point == point).map(|one| one.path.clone()).unwrap_or_default()
     };
@@ -163,13 +167,13 @@ fn sides(
             .filter_map(|(point, handle)| Some((met(anatomy, chain, &path(own, *point))?, *handle)))
             .filter(|(at, _)| (NEAR_M..length_m - NEAR_M).contains(at))
             .collect();
+        levels.retain(|(at, handle)| *handle != Waist || (WAIST_FROM_ENDS_M..length_m - WAIST_FROM_ENDS_M).contains(at));
         levels.extend(ends[0].map(|handle| (0.0, handle)));
         levels.extend(ends[1].map(|handle| (length_m, handle)));
         levels.sort_by(|one, other| one.0.total_cmp(&other.0));
         levels.dedup_by(|later, earlier| later.0 - earlier.0 < NEAR_M);
         Side { limb, chain: chain.clone(), levels, out: out_of(anatomy, chain) }
     };
-    use Handle::{Chest, Fork, Hem, Hip, Knee, LegOpening, Thigh, Waist};
     let mut found = Vec::new();
     if let Some(trunk) = trunk {
         let has_below = anatomy.has_below(&trunk.bottom);
@@ -178,12 +182,8 @@ fn sides(
         let all = trunk.sides.iter().flatten();
         found.extend(all.map(|chain| side(Limb::Trunk, chain, [Some(Chest), Some(low)], points, &within)));
     }
-    let is = |face: Face| move |part: Part| part == Part::Skirt(face);
-    let joins = (0..anatomy.style().seams.len())
-        .filter_map(|seam| anatomy.between(seam, is(Face::Front), is(Face::Back)))
-        .filter(|[front, _]| anatomy.is_upright(front));
-    for chain in joins.flat_map(|sides| anatomy.turned_down(sides)) {
-        found.push(side(Limb::Skirt, &chain, [Some(Waist), Some(Hem)], points, &[(Point::HalfHip, Hip)]));
+    for chain in skirt_sides(anatomy).iter().flatten() {
+        found.push(side(Limb::Skirt, chain, [Some(Waist), Some(Hem)], points, &[(Point::HalfHip, Hip)]));
     }
     for (leg, hand) in legs.iter().filter_map(|leg| Some((leg, hand_of(anatomy, leg)?))) {
         let own = leg.points();
@@ -196,6 +196,20 @@ fn sides(
         }
     }
     found
+}
+
+/// Both sides of each side seam of a skirt from its upper edge down, front and back.
+fn skirt_sides(anatomy: &Anatomy<'_>) -> Vec<[Chain; 2]> {
+    let is = |face: Face| move |part: Part| part == Part::Skirt(face);
+    let joins = (0..anatomy.style().seams.len()).filter_map(|seam| anatomy.between(seam, is(Face::Front), is(Face::Back)));
+    let all: Vec<[Chain; 2]> =
+        joins.filter(|[front, _]| anatomy.is_upright(front)).map(|sides| anatomy.turned_down(sides)).collect();
+    // A side seam may be sewn in several parts.
+    let begins = |[front, _]: &&[Chain; 2]| {
+        let before = anatomy.style().over_corner(start(front));
+        !all.iter().any(|[other, _]| end(other) == before)
+    };
+    all.iter().filter(begins).map(|sides| anatomy.over_darts(sides, &all)).collect()
 }
 
 fn hand_of(anatomy: &Anatomy<'_>, leg: &Legs<'_>) -> Option<Hand> {

@@ -5,7 +5,7 @@
 //! the outlines along, `solve` finds how far what gives way moves, `follow` takes darts and bands along, and `field` what lies inside.
 
 mod body;
-//mod drawn;
+mod drawn;
 mod field;
 mod follow;
 mod girths;
@@ -20,10 +20,16 @@ mod solve;
 mod tests;
 mod upper;
 
+pub use self::drawn::redrawn;
+
+use std::collections::BTreeMap;
+
 use self::body::Body;
+use self::field::Field;
 use self::plan::Plan;
 use crate::pom::anatomy::Anatomy;
 use crate::propose::Face;
+use crate::seams::StyleError;
 use crate::style::Style;
 use geom::units::mm;
 
@@ -283,16 +289,17 @@ pub enum HandleError {
         /// Where, mm.
         v_mm: f64,
     },
-    /// Pieces as drawn that are no pieces of the style, or would have to change in two ways.
-    #[error("block `{block}`: {found}; accepted: {accepted}")]
+    /// A piece that is drawn once and worn twice, and would have to change in two ways.
+    #[error("block `{block}` is worn in several ways, which change it differently by {apart_mm:.2} mm; accepted: a block each")]
     Drawn {
         /// Block.
         block: String,
-        /// What is wrong.
-        found: String,
-        /// What would be accepted.
-        accepted: &'static str,
+        /// How far apart both changes are, mm.
+        apart_mm: f64,
     },
+    /// Pieces and a seam file that make no style.
+    #[error(transparent)]
+    Style(#[from] StyleError),
 }
 
 impl Style {
@@ -324,12 +331,13 @@ impl Style {
     pub fn moved(&self, handles: &[(Handle, f64)]) -> Result<Self, HandleError> {
         let mut style = self.clone();
         for &(handle, amount_m) in handles {
-            style = style.moved_by(handle, amount_m)?;
+            style = style.moved_by(handle, amount_m)?.0;
         }
         Ok(style)
     }
 
-    fn moved_by(&self, handle: Handle, amount_m: f64) -> Result<Self, HandleError> {
+    /// The style changed by one handle, and how each piece that changed did.
+    fn moved_by(&self, handle: Handle, amount_m: f64) -> Result<(Self, BTreeMap<usize, Field>), HandleError> {
         let amount_mm = mm(amount_m);
         if !(-MOST_M..=MOST_M).contains(&amount_m) {
             return Err(HandleError::Amount { handle, amount_mm, most_mm: mm(MOST_M) });
@@ -341,7 +349,7 @@ impl Style {
             return Err(HandleError::Absent { style: self.name.clone(), handle, accepted: accepted.join(", ") });
         };
         if amount_m == 0.0 {
-            return Ok(self.clone());
+            return Ok((self.clone(), BTreeMap::new()));
         }
         follow::darts(&body, &mut plan);
         follow::bands(&body, &mut plan);
@@ -362,11 +370,11 @@ impl Style {
             let edges = plan.conditions[number].spans.iter().map(|(span, _)| self.edge_name(span.edge));
             return Err(off(edges.collect::<Vec<_>>().join(", "), *off_m, "the length cannot be kept: it is off by"));
         }
-        let style = restyle::with_lines(&fine, solved.lines);
+        let (style, fields) = restyle::with_lines(&fine, solved.lines);
         if let Some((piece, at)) = restyle::new_crossing(self, &style) {
             return Err(HandleError::Crossing { handle, amount_mm, piece, u_mm: mm(at.x), v_mm: mm(at.y) });
         }
-        Ok(style)
+        Ok((style, fields))
     }
 
     /// A seam with its edges, for messages.

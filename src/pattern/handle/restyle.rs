@@ -8,9 +8,9 @@ use crate::style::{EdgePoint, EdgeRef, PathPart, Style};
 use geom::V2;
 use geom::polyline::{Polyline, self_crossing};
 
-/// The style with other lines of the edges of some pieces, each with as many vertices as before.
-pub fn with_lines(style: &Style, lines: BTreeMap<usize, Vec<Polyline>>) -> Style {
-    let mut moved = style.clone();
+/// The style with other lines of the edges of some pieces, each with as many vertices as before; and how each of these pieces changed.
+pub fn with_lines(style: &Style, lines: BTreeMap<usize, Vec<Polyline>>) -> (Style, BTreeMap<usize, Field>) {
+    let (mut moved, mut fields) = (style.clone(), BTreeMap::new());
     for (piece, lines) in lines {
         let outline = style.pieces[piece].outline();
         let changed = &mut moved.pieces[piece];
@@ -21,6 +21,7 @@ pub fn with_lines(style: &Style, lines: BTreeMap<usize, Vec<Polyline>>) -> Style
         let field = Field::new(outline, &changed.outline());
         changed.notches.iter_mut().for_each(|notch| notch.at = field.carried(notch.at));
         changed.corners.iter_mut().for_each(|corner| *corner = field.carried(*corner));
+        fields.insert(piece, field);
     }
     let paths = moved.measurements.iter_mut().map(|m| &mut m.path).chain(moved.fit_levels.iter_mut().map(|(_, path)| path));
     for part in paths.flatten() {
@@ -30,7 +31,7 @@ pub fn with_lines(style: &Style, lines: BTreeMap<usize, Vec<Polyline>>) -> Style
     }
     let lengths_m: Vec<f64> = moved.measurements.iter().map(|m| moved.path_length_m(&m.path)).collect();
     moved.measurements.iter_mut().zip(lengths_m).for_each(|(m, length_m)| m.l2d_m = length_m);
-    moved
+    (moved, fields)
 }
 
 fn carried_point(style: &Style, pieces: &[crate::style::StylePiece], at: EdgePoint) -> EdgePoint {

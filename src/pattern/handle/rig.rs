@@ -22,8 +22,8 @@ const SMOOTH_RAD: f64 = 0.175;
 const END_SHARE: f64 = 0.01;
 /// Least ratio of the chord of a stretch to its length for places on it to go by the chord.
 const ALONG_CHORD: f64 = 0.5;
-/// Greatest length of a segment of what bends, m: a side seam of 200 mm moved by 10 is followed within 0.01 mm.
-const SEGMENT_M: f64 = 10e-3;
+/// Greatest length of a segment of what bends, m: a seam of 100 mm that is moved by 10 turns by less than 2 degrees from one to the next.
+const SEGMENT_M: f64 = 5e-3;
 /// Distance from a vertex within which a knot needs none of its own, m.
 const BESIDE_M: f64 = 0.5e-3;
 

@@ -5,7 +5,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::plan::{Condition, Move, Plan, Span};
 use super::rig::{Displacement, Rig};
 use crate::style::{EdgeRef, Style};
-use geom::V2;
 use geom::polyline::Polyline;
 
 /// Step of the differences by which lengths are differentiated, m.
