@@ -13,6 +13,7 @@ mod fuzz_tests;
 pub mod garment;
 pub mod garmentcode;
 pub mod grade;
+pub mod handle;
 pub mod info;
 pub mod inspect;
 pub mod mesh;
@@ -31,6 +32,7 @@ pub use garment::{
     Band, FitLevel, Garment, MaterialLine, MaterialPoint, Measurement, MeasurementKind, PieceMesh, Reinforcement, Role,
     SeamMesh, Spot,
 };
+pub use handle::{Handle, HandleError};
 pub use mesh::{MeshError, MeshQuality};
 pub use piece::{Notch, Piece};
 pub use seams::StyleError;

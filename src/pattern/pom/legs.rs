@@ -19,22 +19,23 @@ const KNEE_ABOVE_MIDDLE_M: f64 = 0.050;
 const LONG_M: f64 = 0.500;
 
 /// The run of a leg's outline from the waist down to the hem.
-struct Run {
+pub struct Run {
     /// What is sewn to the other leg, or stays open at a fly, from the waist to the fork.
-    crotch: Chain,
+    pub crotch: Chain,
     /// The rest of it.
-    seam: Chain,
+    pub seam: Chain,
 }
 
 /// One of two legs that are sewn to each other.
 pub struct Legs<'a> {
     anatomy: &'a Anatomy<'a>,
-    waist: Vec<EdgeRef>,
+    /// Upper edges of both legs.
+    pub waist: Vec<EdgeRef>,
     hem: Vec<EdgeRef>,
     /// Inner runs, front before back.
-    inner: [Run; 2],
-    /// Outer run of the front; none of a leg in one piece.
-    outer: Option<Chain>,
+    pub inner: [Run; 2],
+    /// Outer runs, front before back; none of a leg in one piece.
+    pub outer: Option<[Chain; 2]>,
 }
 
 impl<'a> Legs<'a> {
@@ -65,8 +66,8 @@ impl<'a> Legs<'a> {
         } else {
             let [front, back] = [pieces(Some(Face::Front))?, pieces(Some(Face::Back))?].map(runs);
             let [front, back] = [inner_first(anatomy, front?)?, inner_first(anatomy, back?)?];
-            let [[front, outer], [back, _]] = [front, back];
-            ([split(anatomy, front), split(anatomy, back)], Some(outer))
+            let [[front, outer_front], [back, outer_back]] = [front, back];
+            ([split(anatomy, front), split(anatomy, back)], Some([outer_front, outer_back]))
         };
         inner.iter().all(|run| !run.crotch.is_empty() && !run.seam.is_empty()).then_some(Self {
             anatomy,
@@ -92,7 +93,7 @@ impl<'a> Legs<'a> {
             found.push(anatomy.along_path(point, self.up_to_edge(&run.crotch), 1.0));
         }
         found.push(anatomy.along_path(Point::Inseam, along(&front.seam), 1.0));
-        if let Some(outer) = &self.outer {
+        if let Some([outer, _]) = &self.outer {
             found.push(anatomy.along_path(Point::Outseam, self.up_to_edge(outer), 1.0));
         }
         let inseam_m: f64 = front.seam.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum();
@@ -108,7 +109,7 @@ impl<'a> Legs<'a> {
 
     /// The outseam of the front from its upper end; none of a leg in one piece.
     pub fn side_seam(&self) -> Option<Chain> {
-        self.outer.clone()
+        self.outer.clone().map(|[front, _]| front)
     }
 
     /// The fork of the front.

@@ -4,15 +4,15 @@
 //! seam and opening is by the roles of the pieces, `top`, `sleeve`, `legs` and `skirt` lay each point along them, and `ways` goes straight across
 //! pieces and through their seams.
 
-mod anatomy;
+pub(crate) mod anatomy;
 mod hang;
-mod legs;
+pub(crate) mod legs;
 mod skirt;
 mod sleeve;
 #[cfg(test)]
 mod tests;
-mod top;
-mod ways;
+pub(crate) mod top;
+pub(crate) mod ways;
 mod worn;
 
 use self::anatomy::Anatomy;

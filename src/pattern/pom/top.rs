@@ -27,17 +27,18 @@ fn is_face(face: Face) -> impl Fn(Part) -> bool {
 /// The trunk of a garment: its pieces alone, sewn to each other.
 pub struct Trunk<'a> {
     anatomy: &'a Anatomy<'a>,
-    openings: Vec<Vec<EdgeRef>>,
+    /// Its openings.
+    pub openings: Vec<Vec<EdgeRef>>,
     /// Both sides of each side seam that ends at an armhole, or at the top edge: front and back, from there down.
-    sides: Vec<[Chain; 2]>,
+    pub sides: Vec<[Chain; 2]>,
     /// Both sides of each shoulder seam, front and back, from the neck outwards.
-    shoulders: Vec<[Chain; 2]>,
+    pub shoulders: Vec<[Chain; 2]>,
     /// Openings that are armholes.
-    armholes: Vec<usize>,
+    pub armholes: Vec<usize>,
     /// Edges of the neckline.
-    neck: Vec<EdgeRef>,
+    pub neck: Vec<EdgeRef>,
     /// Edges of the lower end.
-    bottom: Vec<EdgeRef>,
+    pub bottom: Vec<EdgeRef>,
 }
 
 impl<'a> Trunk<'a> {
@@ -162,7 +163,7 @@ impl<'a> Trunk<'a> {
     }
 
     /// High points of the shoulder on a face.
-    fn high_points(&self, face: Face) -> Vec<EdgeEnd> {
+    pub fn high_points(&self, face: Face) -> Vec<EdgeEnd> {
         self.shoulders.iter().map(|sides| sides[usize::from(face == Face::Back)][0]).map(|(e, on)| (e, !on)).collect()
     }
 
@@ -197,7 +198,7 @@ impl<'a> Trunk<'a> {
     }
 
     /// The way straight down from a high point of the shoulder, and how far below that it begins, m.
-    fn down_from(&self, high: EdgeEnd) -> Option<(Vec<PathPart>, f64)> {
+    pub fn down_from(&self, high: EdgeEnd) -> Option<(Vec<PathPart>, f64)> {
         let anatomy = self.anatomy;
         let top = anatomy.place(high);
         let own: Vec<EdgeRef> = self.neck.iter().copied().filter(|edge| edge.piece == high.0.piece).collect();
@@ -250,7 +251,7 @@ impl<'a> Trunk<'a> {
     }
 
     /// Where the neckline meets the centre of a face.
-    fn neck_centre(&self, face: Face) -> Option<Centre> {
+    pub fn neck_centre(&self, face: Face) -> Option<Centre> {
         let anatomy = self.anatomy;
         let high = self.high_points(face);
         let first = high.first()?;
@@ -259,12 +260,16 @@ impl<'a> Trunk<'a> {
             let middle = 0.5 * (anatomy.place(*first).x + anatomy.place(*other).x);
             return anatomy.meeting(&own, |p| p.x - middle).map(Centre::Within);
         }
-        // Along the neckline of half a face to where it ends.
-        let mut at = *first;
+        self.neck_end(*first).map(Centre::Corner)
+    }
+
+    /// Along the neckline of half a face from its high point to where it ends.
+    pub fn neck_end(&self, high: EdgeEnd) -> Option<EdgeEnd> {
+        let mut at = high;
         loop {
-            let next = anatomy.style().over_corner(at);
-            if !own.contains(&next.0) {
-                return (at != *first).then_some(Centre::Corner(at));
+            let next = self.anatomy.style().over_corner(at);
+            if next.0.piece != high.0.piece || !self.neck.contains(&next.0) {
+                return (at != high).then_some(at);
             }
             at = (next.0, !next.1);
         }
@@ -380,7 +385,7 @@ impl<'a> Trunk<'a> {
 }
 
 /// Where the neckline meets the centre of a front or a back.
-enum Centre {
+pub enum Centre {
     /// On the neckline of a whole piece.
     Within(EdgePoint),
     /// At the end of that of half a piece.

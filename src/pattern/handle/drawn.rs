@@ -1,0 +1,150 @@
+//! Pieces as drawn, changed by handles: so that a changed style can be written, and its seam file holds as before.
+
+use std::collections::BTreeMap;
+
+use super::field::Field;
+use super::{Handle, HandleError};
+use crate::piece::Piece;
+use crate::seams::SeamFile;
+use crate::style::named::called;
+use crate::style::{Style, StylePiece};
+use geom::V2;
+use geom::units::mm;
+
+/// Greatest distance of a line as it is carried from where all its points go, m: a hundredth of a seam's tolerance.
+const CARRIED_M: f64 = 5e-6;
+/// Segments up to this length are not parted for it, m.
+const SHORT_M: f64 = 1e-3;
+/// By how much two uses of one drawn piece may change it differently, m.
+const ALIKE_M: f64 = 0.05e-3;
+
+/// Changes pieces as drawn by handles with their amounts, m, of the style that they make with the bytes of a seam file; `file` is its name
+/// for messages. The same seam file makes the changed style of them.
+///
+/// # Errors
+/// [`HandleError`] where they make no style, a handle cannot be applied, or a piece that is drawn once would change in two ways.
+pub fn redrawn(
+    pieces: &[Piece],
+    seam_bytes: &[u8],
+    file: &str,
+    handles: &[(Handle, f64)],
+) -> Result<Vec<Piece>, HandleError> {
+    let entries = SeamFile::parse(seam_bytes, file)?;
+    let style = Style::of(pieces, &entries, file)?;
+    let (mut after, mut steps) = (style.clone(), Vec::new());
+    for &(handle, amount_m) in handles {
+        let (moved, fields) = after.moved_by(handle, amount_m)?;
+        steps.push(fields);
+        after = moved;
+    }
+    let mut redrawn: BTreeMap<usize, Carrier<'_>> = BTreeMap::new();
+    for (number, (worn, entry)) in style.pieces.iter().zip(entries.piece.values()).enumerate() {
+        let Some(&drawn) = called(pieces, &entry.block, entries.size.as_deref()).first() else { continue };
+        let fields = steps.iter().filter_map(|fields| fields.get(&number)).collect();
+        let carrier = Carrier { pose: Pose::of(&pieces[drawn], worn, entry.mirror), fields };
+        if let Some(other) = redrawn.get(&drawn) {
+            let apart = |p: &V2| (carrier.carried(*p) - other.carried(*p)).norm();
+            let apart_m = pieces[drawn].outline.iter().map(apart).fold(0.0, f64::max);
+            if apart_m > ALIKE_M {
+                return Err(HandleError::Drawn { block: entry.block.clone(), apart_mm: mm(apart_m) });
+            }
+        }
+        redrawn.insert(drawn, carrier);
+    }
+    let piece = |(number, piece): (usize, &Piece)| redrawn.get(&number).map_or_else(|| piece.clone(), |by| by.piece(piece));
+    Ok(pieces.iter().enumerate().map(piece).collect())
+}
+
+/// How a piece is worn: mirrored as a seam file says, then turned upright.
+struct Pose {
+    is_mirrored: bool,
+    /// Cosine and sine of the turn.
+    turn: V2,
+}
+
+impl Pose {
+    /// Of a drawn piece that is worn as a style's piece: the grain tells the turn.
+    fn of(drawn: &Piece, worn: &StylePiece, is_mirrored: bool) -> Self {
+        let grain = drawn.grain.and_then(|[from, to]| (to - from).try_normalize(0.0)).unwrap_or_else(V2::y);
+        let grain = if is_mirrored { V2::new(-grain.x, grain.y) } else { grain };
+        Self { is_mirrored, turn: V2::new(grain.dot(&worn.grain), grain.perp(&worn.grain)) }
+    }
+
+    fn worn(&self, p: V2) -> V2 {
+        let p = if self.is_mirrored { V2::new(-p.x, p.y) } else { p };
+        V2::new(self.turn.x * p.x - self.turn.y * p.y, self.turn.y * p.x + self.turn.x * p.y)
+    }
+
+    fn drawn(&self, p: V2) -> V2 {
+        let p = V2::new(self.turn.x * p.x + self.turn.y * p.y, self.turn.x * p.y - self.turn.y * p.x);
+        if self.is_mirrored { V2::new(-p.x, p.y) } else { p }
+    }
+}
+
+/// Carries what is drawn of a piece along with the piece as worn, one handle after the other.
+struct Carrier<'a> {
+    pose: Pose,
+    fields: Vec<&'a Field>,
+}
+
+impl Carrier<'_> {
+    fn carried(&self, p: V2) -> V2 {
+        if self.fields.is_empty() {
+            return p;
+        }
+        self.pose.drawn(self.fields.iter().fold(self.pose.worn(p), |p, field| field.carried(p)))
+    }
+
+    /// A line with vertices enough to go where all its points go.
+    fn line(&self, points: &[V2], is_closed: bool) -> Vec<V2> {
+        let Some(&first) = points.first() else { return Vec::new() };
+        let mut carried = vec![self.carried(first)];
+        for ends in points.windows(2) {
+            self.segment([ends[0], ends[1]], &mut carried);
+        }
+        if is_closed {
+            self.segment([points[points.len() - 1], first], &mut carried);
+            carried.pop();
+        }
+        carried
+    }
+
+    /// Adds what a segment becomes, without its first point.
+    fn segment(&self, [from, to]: [V2; 2], carried: &mut Vec<V2>) {
+        let middle = from.lerp(&to, 0.5);
+        let bend = self.carried(middle) - self.carried(from).lerp(&self.carried(to), 0.5);
+        let quarter = from.lerp(&to, 0.25);
+        let bend_before = self.carried(quarter) - self.carried(from).lerp(&self.carried(to), 0.25);
+        if bend.norm().max(bend_before.norm()) > CARRIED_M && (to - from).norm() > SHORT_M {
+            self.segment([from, middle], carried);
+            self.segment([middle, to], carried);
+        } else {
+            carried.push(self.carried(to));
+        }
+    }
+
+    fn piece(&self, drawn: &Piece) -> Piece {
+        let mut piece = drawn.clone();
+        piece.outline = self.line(&drawn.outline, true);
+        piece.sew_line = drawn.sew_line.as_ref().map(|line| self.line(line, true));
+        for line in piece.internal_lines.iter_mut().chain(&mut piece.cut_outs) {
+            *line = self.line(line, false);
+        }
+        let points = piece.turn_points.iter_mut().chain(&mut piece.drill_holes);
+        let marks = piece.notches.iter_mut().map(|notch| &mut notch.at);
+        let graded = piece.grade_points.iter_mut().map(|point| &mut point.at);
+        points.chain(marks).chain(graded).for_each(|p| *p = self.carried(*p));
+        if !piece.curve_points.is_empty() {
+            let is_curve = |p: &&V2| !piece.turn_points.contains(p);
+            piece.curve_points = piece.outline.iter().filter(is_curve).copied().collect();
+        }
+        piece.mirror_line = drawn.mirror_line.map(|line| line.map(|p| self.carried(p)));
+        // Grain and reference keep their directions.
+        for line in [&mut piece.grain, &mut piece.grade_reference].into_iter().flatten() {
+            let middle = line[0].lerp(&line[1], 0.5);
+            let by = self.carried(middle) - middle;
+            line.iter_mut().for_each(|p| *p += by);
+        }
+        piece
+    }
+}

@@ -1,0 +1,86 @@
+//! What follows of itself: darts go with their mouths, bands and yokes stretch with what they are sewn to.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::body::{Body, NEAR_M};
+use super::plan::{Move, Plan, corners};
+use crate::pom::anatomy::Part;
+use crate::style::EdgeRef;
+use crate::style::openings::EdgeEnd;
+use geom::V2;
+
+/// Tips of darts go as far as their mouths do, and give way until both legs are paired.
+pub fn darts(body: &Body<'_>, plan: &mut Plan) {
+    let anatomy = body.anatomy;
+    let touched = touched(plan);
+    for [one, other] in body.darts().into_iter().filter(|[one, _]| touched.contains(&one.piece)) {
+        let moved = |place: V2| -> Option<V2> {
+            let at = |m: &&Move| m.at.edge.piece == one.piece && anatomy.style().place(m.at) == place;
+            let moves: Vec<V2> = plan.moves.iter().filter(at).map(|m| m.by).collect();
+            (!moves.is_empty()).then(|| moves.iter().sum())
+        };
+        let mouth = [anatomy.place((one, false)), anatomy.place((other, true))].map(moved);
+        let tip = anatomy.point((one, true));
+        let is_told = moved(anatomy.place((one, true))).is_some();
+        let mean = 0.5 * mouth.iter().map(|by| by.unwrap_or_else(V2::zeros)).sum::<V2>();
+        if !is_told && mean != V2::zeros() {
+            plan.drive(tip, mean);
+        }
+        plan.give(tip, V2::x());
+        plan.give(tip, V2::y());
+    }
+}
+
+fn touched(plan: &Plan) -> BTreeSet<usize> {
+    plan.moves.iter().chain(plan.gives.iter().flatten()).map(|m| m.at.edge.piece).collect()
+}
+
+/// Pieces of no role of their own, as waistbands, cuffs, collars and yokes, stretch along the edge that is sewn to what moves.
+pub fn bands(body: &Body<'_>, plan: &mut Plan) {
+    let anatomy = body.anatomy;
+    let style = anatomy.style();
+    let mut reached = touched(plan);
+    let mut bands: BTreeMap<usize, EdgeRef> = BTreeMap::new();
+    loop {
+        let before = bands.len();
+        for seam in &style.seams {
+            for (own, other) in [(&seam.a, &seam.b), (&seam.b, &seam.a)] {
+                if !other.iter().any(|edge| reached.contains(&edge.piece)) {
+                    continue;
+                }
+                for edge in own.iter().filter(|edge| anatomy.parts[edge.piece] == Part::Other) {
+                    bands.entry(edge.piece).or_insert(*edge);
+                }
+            }
+        }
+        reached.extend(bands.keys().copied());
+        if bands.len() == before {
+            break;
+        }
+    }
+    plan.gives.extend(bands.into_iter().flat_map(|(piece, edge)| stretches(body, piece, edge)));
+}
+
+/// A piece stretched along the chord of one of its edges: each stretch between its corners by an amount of its own, half to either side
+/// of its middle.
+fn stretches(body: &Body<'_>, piece: usize, edge: EdgeRef) -> Vec<Vec<Move>> {
+    let anatomy = body.anatomy;
+    let chord = anatomy.place((edge, true)) - anatomy.place((edge, false));
+    let Some(along) = chord.try_normalize(0.0) else { return Vec::new() };
+    let corners = corners(anatomy, piece);
+    let reach = |corner: &EdgeEnd| anatomy.place(*corner).dot(&along);
+    let mut levels: Vec<f64> = corners.iter().map(reach).collect();
+    levels.sort_by(f64::total_cmp);
+    levels.dedup_by(|later, earlier| *later - *earlier < NEAR_M);
+    let Some(middle) = levels.first().zip(levels.last()).map(|(low, high)| 0.5 * (low + high)) else { return Vec::new() };
+    let stretch = |ends: &[f64]| {
+        let share = |m: f64| share_of(ends, m) - share_of(ends, middle);
+        corners.iter().map(|corner| Move::new(anatomy.point(*corner), along * share(reach(corner)))).collect()
+    };
+    levels.windows(2).map(stretch).collect()
+}
+
+/// How far a place lies along a stretch, from 0 to 1.
+fn share_of(ends: &[f64], m: f64) -> f64 {
+    ((m - ends[0]) / (ends[1] - ends[0])).clamp(0.0, 1.0)
+}

@@ -1,0 +1,137 @@
+//! Handles of lengths: pieces slashed straight across and spread, and lower edges that fall.
+
+use std::collections::BTreeMap;
+
+use super::body::{Body, Limb, Side};
+use super::girths;
+use super::plan::{Condition, Move, Plan, along, corners, end, start};
+use crate::pom::anatomy::{Anatomy, BELOW_ARMHOLE_M, Part};
+use crate::propose::Face;
+use crate::style::openings::EdgeEnd;
+use crate::style::{EdgePoint, PathPart};
+use geom::V2;
+
+/// Part of a piece that is lengthened: from a level down to where all moves as one.
+struct Slash {
+    down: V2,
+    /// Distances along `down`, m.
+    from_m: f64,
+    to_m: f64,
+}
+
+/// Trunk lengthened below the armhole, front and back alike.
+pub fn body_length(body: &Body<'_>) -> Option<Plan> {
+    body.trunk.as_ref()?;
+    slashed(body, |side| side.limb == Limb::Trunk, BELOW_ARMHOLE_M)
+}
+
+/// Skirt lengthened below its waist, or below its hip where it has one.
+pub fn skirt_length(body: &Body<'_>) -> Option<Plan> {
+    let hip = |side: &Side| side.levels.iter().find(|(_, level)| *level == super::Handle::Hip).map_or(0.0, |(m, _)| *m);
+    let from_m = body.sides.iter().filter(|side| side.limb == Limb::Skirt).map(hip).fold(0.0, f64::max);
+    slashed(body, |side| side.limb == Limb::Skirt, from_m)
+}
+
+/// Legs lengthened between fork and lower edge; the inseam by the amount.
+pub fn leg_length(body: &Body<'_>) -> Option<Plan> {
+    let mut plan = slashed(body, |side| matches!(side.limb, Limb::Inner(_)), 0.0)?;
+    for side in &body.sides {
+        match side.limb {
+            Limb::Inner(_) => plan.conditions.push(Condition::chain(&side.chain, 1.0)),
+            Limb::Outer(_) => plan.give(body.point(end(&side.chain)), along(body.anatomy, &side.chain)),
+            _ => {}
+        }
+    }
+    Some(plan)
+}
+
+/// Pieces with some sides slashed below a distance under the sides' upper ends.
+fn slashed(body: &Body<'_>, is_meant: impl Fn(&Side) -> bool, below_m: f64) -> Option<Plan> {
+    let anatomy = body.anatomy;
+    let mut plan = Plan::default();
+    let mut slashes: BTreeMap<usize, Slash> = BTreeMap::new();
+    let pieces: Vec<usize> = body.sides.iter().filter(|side| is_meant(side)).map(|side| side.chain[0].0.piece).collect();
+    let limbs: Vec<Part> = pieces.iter().map(|piece| anatomy.parts[*piece]).collect();
+    let openings = anatomy.style().openings(&|piece| limbs.contains(&anatomy.parts[piece]));
+    for side in body.sides.iter().filter(|side| is_meant(side)) {
+        let down = -V2::y();
+        let [top, low] = [start(&side.chain), end(&side.chain)];
+        let reach = |at: EdgeEnd| anatomy.place(at).dot(&down);
+        for ((edge, _), is_top) in [(top, true), (low, false)] {
+            let slash = slashes.entry(edge.piece).or_insert(Slash { down, from_m: f64::MIN, to_m: f64::MAX });
+            if is_top {
+                slash.from_m = slash.from_m.max(reach(top) + below_m);
+            } else {
+                let opening = openings.iter().find(|opening| opening.contains(&anatomy.style().over_corner(low).0));
+                let own = opening.into_iter().flatten().filter(|own| own.piece == edge.piece);
+                let ends = own.flat_map(|edge| [false, true].map(|is_last| reach((*edge, is_last))));
+                slash.to_m = ends.fold(slash.to_m.min(reach(low)), f64::min);
+            }
+        }
+        girths::yield_ends(body, &mut plan, &side.chain);
+    }
+    if slashes.is_empty() {
+        return None;
+    }
+    for (piece, slash) in slashes {
+        spread(anatomy, &mut plan, piece, &slash);
+    }
+    Some(plan)
+}
+
+/// Moves a piece's corners: not above a slash, alike below it, evenly between.
+fn spread(anatomy: &Anatomy<'_>, plan: &mut Plan, piece: usize, slash: &Slash) {
+    for corner in corners(anatomy, piece) {
+        let at_m = anatomy.place(corner).dot(&slash.down);
+        let share = ((at_m - slash.from_m) / (slash.to_m - slash.from_m).max(BELOW_ARMHOLE_M)).clamp(0.0, 1.0);
+        plan.drive(anatomy.point(corner), slash.down * share);
+    }
+}
+
+/// Sleeves lengthened between underarm and lower edge.
+pub fn sleeve_length(body: &Body<'_>) -> Option<Plan> {
+    let anatomy = body.anatomy;
+    let mut plan = Plan::default();
+    let mut slashes: BTreeMap<usize, Slash> = BTreeMap::new();
+    for cap in body.caps() {
+        let slash =
+            slashes.entry(cap.piece).or_insert(Slash { down: cap.down, from_m: f64::MIN, to_m: f64::MAX });
+        slash.from_m = slash.from_m.max(anatomy.place(cap.underarm).dot(&cap.down));
+        slash.to_m = slash.to_m.min(anatomy.place(end(&cap.seam)).dot(&cap.down));
+        plan.give(body.point(end(&cap.seam)), cap.down);
+    }
+    if slashes.is_empty() {
+        return None;
+    }
+    for (piece, slash) in slashes {
+        spread(anatomy, &mut plan, piece, &slash);
+    }
+    Some(plan)
+}
+
+/// The lower edge of a face lower, from the centre to below the high point of the shoulder, and from there on less and less to the side
+/// seams, which stay.
+pub fn face_length(body: &Body<'_>, face: Face) -> Option<Plan> {
+    let (trunk, anatomy) = (body.trunk.as_ref()?, body.anatomy);
+    let openings = anatomy.style().openings(&|_| true);
+    let sides: Vec<EdgePoint> = body.sides.iter().map(|side| body.point(end(&side.chain))).collect();
+    let mut plan = Plan::default();
+    let mut moved: Vec<EdgePoint> = Vec::new();
+    for high in trunk.high_points(face) {
+        let (path, _) = trunk.down_from(high)?;
+        let Some(PathPart::Line([_, below])) = path.last() else { return None };
+        let hem = openings.iter().find(|opening| opening.contains(&below.edge))?;
+        plan.moves.push(Move::new(*below, -V2::y()));
+        let own = hem.iter().filter(|edge| edge.piece == below.edge.piece);
+        for corner in own.flat_map(|edge| [false, true].map(|is_last| (*edge, is_last))) {
+            let place = anatomy.place(corner);
+            let is_at = |at: &EdgePoint| at.edge.piece == corner.0.piece && anatomy.style().place(*at) == place;
+            if !sides.iter().chain(&moved).any(is_at) {
+                moved.push(anatomy.point(corner));
+            }
+        }
+    }
+    plan.moves.extend(moved.iter().map(|at| Move::new(*at, -V2::y())));
+    let is_face = |m: &Move| matches!(anatomy.parts[m.at.edge.piece], Part::Trunk(of) | Part::Skirt(of) if of == face);
+    (!plan.moves.is_empty() && plan.moves.iter().all(is_face)).then_some(plan)
+}

@@ -1,0 +1,53 @@
+//! Handles of the seat of trousers: rises and fork.
+
+use super::Handle;
+use super::body::{Body, Limb, met};
+use super::girths;
+use super::plan::{Condition, Move, Plan, start};
+use crate::pom::Point;
+use crate::propose::Face;
+use crate::style::EdgeRef;
+use geom::V2;
+
+/// The upper edge higher at the seat seam of a face, as before at the outseam, and as long.
+pub fn rise(body: &Body<'_>, face: Face) -> Option<Plan> {
+    let mut plan = Plan::default();
+    for leg in &body.legs {
+        let crotch = &leg.inner[usize::from(face == Face::Back)].crotch;
+        let top = body.point(start(crotch));
+        plan.drive(top, V2::y());
+        plan.give(top, V2::y());
+        plan.give(top, V2::x());
+        plan.conditions.push(Condition::chain(crotch, 1.0));
+        let piece = crotch[0].0.piece;
+        let waist: Vec<EdgeRef> = leg.waist.iter().copied().filter(|edge| edge.piece == piece).collect();
+        plan.conditions.push(Condition::edges(&waist, 0.0));
+    }
+    hold_hip(body, &mut plan);
+    (!body.legs.is_empty()).then_some(plan)
+}
+
+/// Forks of front and back outwards, and the inseams at the thigh with them; the inseams keep their lengths, and the seat its hip.
+pub fn fork(body: &Body<'_>) -> Option<Plan> {
+    let mut plan = Plan::default();
+    for side in body.sides.iter().filter(|side| matches!(side.limb, Limb::Inner(_))) {
+        for level in [Handle::Fork, Handle::Thigh] {
+            girths::drive(body, &mut plan, side, level, 1.0);
+        }
+        girths::keep(body, &mut plan, side);
+    }
+    hold_hip(body, &mut plan);
+    (!body.legs.is_empty()).then_some(plan)
+}
+
+/// The seat seams stay where they are at the hip.
+fn hold_hip(body: &Body<'_>, plan: &mut Plan) {
+    for leg in &body.legs {
+        let points = leg.points();
+        let hip = points.iter().find(|one| one.point == Point::HalfHip).map_or(&[][..], |one| &one.path);
+        for run in &leg.inner {
+            let at = met(body.anatomy, &run.crotch, hip).and_then(|at_m| body.anatomy.along(&run.crotch, at_m));
+            plan.moves.extend(at.map(|at| Move::new(at, V2::zeros())));
+        }
+    }
+}

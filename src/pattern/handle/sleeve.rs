@@ -1,0 +1,47 @@
+//! Handles of sleeves.
+
+use super::body::Body;
+use super::plan::{Condition, Move, Plan, end};
+use super::upper::{cap_spans, hold_sleeve, move_underarm};
+use geom::V2;
+
+/// Half of the bicep wider: underarm points outwards, and up until the cap is as long as before.
+pub fn bicep(body: &Body<'_>) -> Option<Plan> {
+    let mut plan = Plan::default();
+    for cap in body.caps() {
+        hold_sleeve(body, &mut plan, cap);
+        move_underarm(body, &mut plan.moves, cap, cap.out);
+        let mut give = Vec::new();
+        move_underarm(body, &mut give, cap, -cap.down);
+        plan.gives.push(give);
+        plan.give(body.point(end(&cap.seam)), cap.down);
+        plan.conditions.push(Condition { spans: cap_spans(cap), change: 0.0 });
+    }
+    (!plan.moves.is_empty()).then_some(plan)
+}
+
+/// The cap higher: underarm points down the arm, and inwards until the cap is as long as before.
+pub fn cap_height(body: &Body<'_>) -> Option<Plan> {
+    let mut plan = Plan::default();
+    for cap in body.caps() {
+        hold_sleeve(body, &mut plan, cap);
+        move_underarm(body, &mut plan.moves, cap, cap.down);
+        let mut give = Vec::new();
+        move_underarm(body, &mut give, cap, -cap.out);
+        plan.gives.push(give);
+        plan.give(body.point(end(&cap.seam)), cap.down);
+        plan.conditions.push(Condition { spans: cap_spans(cap), change: 0.0 });
+    }
+    (!plan.moves.is_empty()).then_some(plan)
+}
+
+/// Half of the lower edge wider: lower ends of the underarm seam out across the arm.
+pub fn cuff(body: &Body<'_>) -> Option<Plan> {
+    let mut plan = Plan::default();
+    for cap in body.caps() {
+        plan.moves.extend(cap.bicep(body.anatomy).map(|at| Move::new(at, V2::zeros())));
+        plan.drive(body.point(end(&cap.seam)), cap.out);
+        plan.give(body.point(end(&cap.seam)), cap.down);
+    }
+    (!plan.moves.is_empty()).then_some(plan)
+}

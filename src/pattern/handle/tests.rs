@@ -1,0 +1,395 @@
+use std::path::{Path, PathBuf};
+
+use super::{Handle, HandleError, redrawn};
+use crate::draft::Model;
+use crate::dxf::{self, Unit};
+use crate::piece::Piece;
+use crate::pom::Point;
+use crate::source::{self, Kind};
+use crate::style::{EdgeRef, StylePiece};
+use crate::{Style, garmentcode, propose};
+use geom::V2;
+use geom::polyline::{boundary_distance, self_crossing};
+use geom::units::{from_mm, mm};
+
+fn drafted(model: Model, size: usize) -> Style {
+    let draft = model.drafts().swap_remove(size);
+    Style::read(&draft.pieces, model.seams(), "seams").expect("our own draft")
+}
+
+/// Every drafted style in all its sizes, with its name.
+fn styles() -> Vec<(String, Style)> {
+    let all = Model::ALL.into_iter().flat_map(|model| (0..model.drafts().len()).map(move |size| (model, size)));
+    all.map(|(model, size)| (format!("{} {size}", model.as_str()), drafted(model, size))).collect()
+}
+
+fn points_mm(style: &Style) -> Vec<(Point, f64)> {
+    style.points_of_measure().iter().map(|one| (one.point, mm(one.length_m))).collect()
+}
+
+/// Length of each seam's first side less that of its second, mm.
+fn gaps_mm(style: &Style) -> Vec<f64> {
+    let length = |side: &[EdgeRef]| side.iter().map(|edge| style.edge(*edge).line.length()).sum::<f64>();
+    style.seams.iter().map(|seam| mm(length(&seam.a) - length(&seam.b))).collect()
+}
+
+/// Greatest distance of a vertex of one outline from the other, m.
+fn farthest_m(one: &[V2], other: &[V2]) -> f64 {
+    let off = |from: &[V2], to: &[V2]| from.iter().map(|p| boundary_distance(to, p)).fold(0.0, f64::max);
+    off(one, other).max(off(other, one))
+}
+
+fn styles_apart_mm(one: &Style, other: &Style) -> f64 {
+    let pairs = one.pieces.iter().zip(&other.pieces);
+    mm(pairs.map(|(one, other)| farthest_m(&one.outline(), &other.outline())).fold(0.0, f64::max))
+}
+
+/// Greatest turn within an edge of a piece, degrees.
+fn sharpest_deg(piece: &StylePiece) -> Vec<f64> {
+    let turns = |line: &[V2]| line.windows(3).map(|p| (p[1] - p[0]).angle(&(p[2] - p[1])).to_degrees()).fold(0.0, f64::max);
+    piece.edges.iter().map(|edge| turns(edge.line.points())).collect()
+}
+
+/// Angles at the ends of a piece's edges, degrees.
+fn angles_deg(piece: &StylePiece) -> Vec<f64> {
+    let n = piece.edges.len();
+    let corner = |k: usize| {
+        let (before, after) = (piece.edges[(k + n - 1) % n].line.points(), piece.edges[k].line.points());
+        (before[before.len() - 1] - before[before.len() - 2]).angle(&(after[1] - after[0])).to_degrees()
+    };
+    (0..n).map(corner).collect()
+}
+
+fn mirrored(outline: &[V2], about: f64) -> Vec<V2> {
+    outline.iter().map(|p| V2::new(2.0 * about - p.x, p.y)).collect()
+}
+
+/// What holds of every changed style: seams are paired, outlines free of crossings and new kinks, and it meshes.
+fn sound(what: &str, before: &Style, after: &Style) {
+    for (gap, (was, seam)) in gaps_mm(after).iter().zip(gaps_mm(before).iter().zip(&before.seams)) {
+        assert!((gap - was).abs() < 0.1, "{what}: seam {} is {gap} apart, was {was}", seam.name);
+    }
+    for (was, piece) in before.pieces.iter().zip(&after.pieces) {
+        assert!(self_crossing(&was.outline()).is_some() || self_crossing(&piece.outline()).is_none(), "{what}: {}", piece.id);
+        for ((was_deg, deg), edge) in sharpest_deg(was).iter().zip(sharpest_deg(piece)).zip(&piece.edges) {
+            assert!(deg < was_deg + 2.0, "{what}: {} {:?} turns by {deg}, was {was_deg}", piece.id, edge.name);
+        }
+        for (was_at, at) in was.notches.iter().zip(&piece.notches) {
+            let off = boundary_distance(&piece.outline(), &at.at) - boundary_distance(&was.outline(), &was_at.at);
+            assert!(mm(off).abs() < 1.0, "{what}: a notch of {} leaves the outline by {off}", piece.id);
+        }
+    }
+    after.mesh(0.03).unwrap_or_else(|error| panic!("{what}: {error}"));
+}
+
+/// The points of measure that a handle is about, each with its change for one of the handle; and what geometry changes besides.
+#[rustfmt::skip]
+fn promised(handle: Handle) -> (Vec<(Point, f64)>, &'static [Point]) {
+    use Point::*;
+    match handle {
+        Handle::Chest => (vec![(HalfChest, 1.0)], &[Armhole, HalfBicep]),
+        Handle::Waist => (vec![(HalfWaist, 1.0)], &[]),
+        Handle::Hip => (vec![(HalfHip, 1.0)], &[]),
+        Handle::Hem => (vec![(HalfHem, 1.0)], &[]),
+        Handle::Thigh => (vec![(HalfThigh, 1.0)], &[]),
+        Handle::Knee => (vec![(HalfKnee, 1.0)], &[]),
+        Handle::LegOpening => (vec![(HalfLegOpening, 1.0)], &[]),
+        Handle::Fork => (vec![(HalfThigh, 1.0)], &[FrontRise, BackRise]),
+        Handle::FrontRise => (vec![(FrontRise, 1.0)], &[]),
+        Handle::BackRise => (vec![(BackRise, 1.0)], &[]),
+        Handle::LegLength => (vec![(Inseam, 1.0), (Outseam, 1.0)], &[]),
+        // The widths are measured half-way up an armhole that sinks, and along a shoulder that turns.
+        Handle::ShoulderSlope => (vec![(Shoulder, 0.0), (Armhole, 0.0)], &[AcrossFront, AcrossBack, AcrossShoulder, HalfChest]),
+        Handle::ShoulderLength => (vec![(Shoulder, 1.0), (Armhole, 0.0)], &[AcrossFront, AcrossBack, AcrossShoulder]),
+        Handle::FrontNeckDepth => (vec![(FrontNeckDrop, 1.0), (CentreFrontLength, -1.0)], &[Neck]),
+        Handle::BackNeckDepth => (vec![(BackNeckDrop, 1.0), (CentreBackLength, -1.0)], &[Neck]),
+        // The high point of the shoulder slides down along it.
+        Handle::NeckWidth => (vec![(NeckWidth, 1.0)], &[Shoulder, FrontLength, BackLength, FrontNeckDrop, BackNeckDrop, Neck]),
+        Handle::ArmholeDepth => (vec![], &[Armhole, AcrossFront, AcrossBack, HalfBicep, HalfChest]),
+        Handle::Bicep => (vec![(HalfBicep, 1.0), (Armhole, 0.0), (SleeveLength, 0.0)], &[]),
+        Handle::Cuff => (vec![(HalfCuff, 1.0), (SleeveLength, 0.0)], &[]),
+        Handle::CapHeight => (vec![(Armhole, 0.0), (SleeveLength, 0.0)], &[HalfBicep]),
+        Handle::SleeveLength => (vec![(SleeveLength, 1.0)], &[]),
+        Handle::BodyLength | Handle::SkirtLength => {
+            (vec![(FrontLength, 1.0), (BackLength, 1.0), (CentreFrontLength, 1.0), (CentreBackLength, 1.0)], &[])
+        }
+        Handle::FrontLength => (vec![(FrontLength, 1.0), (CentreFrontLength, 1.0)], &[HalfHem]),
+        Handle::BackLength => (vec![(BackLength, 1.0), (CentreBackLength, 1.0)], &[HalfHem]),
+    }
+}
+
+#[test]
+fn handles_of_drafted_styles_change_what_they_are_about_and_little_else() {
+    for (name, style) in styles() {
+        let before = points_mm(&style);
+        for (handle, amount_mm) in style.handles().into_iter().flat_map(|handle| [(handle, 10.0), (handle, -10.0)]) {
+            let what = format!("{name} {} {amount_mm:+}", handle.as_str());
+            let moved = style.moved(&[(handle, from_mm(amount_mm))]).unwrap_or_else(|error| panic!("{what}: {error}"));
+            sound(&what, &style, &moved);
+            let (about, besides) = promised(handle);
+            for ((point, was), (same, is)) in before.iter().zip(points_mm(&moved)) {
+                assert_eq!(*point, same, "{what}");
+                let change = is - was;
+                match about.iter().find(|(about, _)| about == point) {
+                    Some((_, of_one)) => {
+                        assert!((change - of_one * amount_mm).abs() < 0.2, "{what}: {} by {change}", point.as_str());
+                    }
+                    None if besides.contains(point) => {}
+                    None => assert!(change.abs() < 1.0, "{what}: {} by {change}", point.as_str()),
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn drafted_styles_have_the_handles_of_their_parts() {
+    let check = |model: Model, expect: &[&str]| {
+        let found: Vec<&str> = drafted(model, 0).handles().iter().map(|handle| handle.as_str()).collect();
+        assert_eq!(found, expect, "{model:?}");
+    };
+    let trunk = [
+        "shoulder_slope",
+        "shoulder_length",
+        "front_neck_depth",
+        "back_neck_depth",
+        "neck_width",
+        "armhole_depth",
+    ];
+    let sleeve = ["bicep", "cuff", "cap_height", "sleeve_length"];
+    let lengths = ["body_length", "front_length", "back_length"];
+    let top = [&["chest", "waist", "hem"][..], &trunk, &sleeve, &lengths].concat();
+    check(Model::Tshirt, &top);
+    check(Model::Teetop, &top);
+    let legs = ["waist", "hip", "thigh", "knee", "leg_opening", "fork", "front_rise", "back_rise", "leg_length"];
+    check(Model::Trousers, &legs);
+    // Its skirt ends above the hip.
+    check(Model::Dress, &[&["chest", "waist", "hem"][..], &trunk, &lengths, &["skirt_length"]].concat());
+    for handle in Handle::ALL {
+        assert_eq!(Handle::named(handle.as_str()), Some(handle));
+        assert!(!handle.definition().is_empty());
+    }
+}
+
+#[test]
+fn corners_go_as_far_as_the_handle_says() {
+    // Model, handle, piece, edge, whether its end, displacement for 10 mm; none of a direction that what gives way decides.
+    let check = |model: Model, handle: Handle, piece: &str, edge: &str, is_end: bool, expect_mm: [Option<f64>; 2]| {
+        let style = drafted(model, 0);
+        let moved = style.moved(&[(handle, 0.010)]).expect("it has it");
+        let place = |style: &Style| {
+            let piece = style.pieces.iter().find(|one| one.id == piece).expect("it is drafted");
+            let line = &piece.edges.iter().find(|one| one.name.as_deref() == Some(edge)).expect("it is named").line;
+            if is_end { line.at(line.length()) } else { line.at(0.0) }
+        };
+        let by = place(&moved) - place(&style);
+        for (found, expect) in [by.x, by.y].into_iter().map(mm).zip(expect_mm) {
+            assert!(expect.is_none_or(|expect| (found - expect).abs() < 0.05), "{handle:?} {piece}.{edge}: {found} for {expect:?}");
+        }
+    };
+    let none = [Some(0.0), Some(0.0)];
+    check(Model::Tshirt, Handle::ShoulderSlope, "front", "shoulder_left", false, [None, Some(-10.0)]);
+    check(Model::Tshirt, Handle::ShoulderSlope, "back", "shoulder_left", true, [None, Some(-10.0)]);
+    check(Model::Tshirt, Handle::ShoulderSlope, "front", "shoulder_left", true, none);
+    check(Model::Tshirt, Handle::ArmholeDepth, "front", "side_left", true, [Some(0.0), Some(-10.0)]);
+    check(Model::Tshirt, Handle::ArmholeDepth, "sleeve_right", "cap", false, [None, Some(-10.0)]);
+    check(Model::Tshirt, Handle::CapHeight, "sleeve_right", "cap", true, [None, Some(-10.0)]);
+    check(Model::Tshirt, Handle::Chest, "front", "side_left", true, [Some(5.0), None]);
+    check(Model::Tshirt, Handle::Hem, "back", "side_left", true, [Some(-5.0), None]);
+    check(Model::Tshirt, Handle::Hem, "back", "side_left", false, none);
+    check(Model::Dress, Handle::Waist, "bodice_front", "waist", true, [Some(5.0), None]);
+    check(Model::Trousers, Handle::Fork, "leg_back_left", "crotch_lower", true, [Some(-10.0), Some(0.0)]);
+    check(Model::Trousers, Handle::LegOpening, "leg_front_right", "hem", true, [Some(5.0), None]);
+}
+
+#[test]
+fn right_and_left_stay_alike_and_square_corners_square() {
+    let turned = [
+        Handle::ShoulderSlope,
+        Handle::ShoulderLength,
+        Handle::Fork,
+        Handle::FrontRise,
+        Handle::BackRise,
+    ];
+    for (name, style) in styles() {
+        for (handle, amount_mm) in style.handles().into_iter().flat_map(|handle| [(handle, 10.0), (handle, -10.0)]) {
+            let what = format!("{name} {} {amount_mm:+}", handle.as_str());
+            let moved = style.moved(&[(handle, from_mm(amount_mm))]).unwrap_or_else(|error| panic!("{what}: {error}"));
+            for (was, piece) in style.pieces.iter().zip(&moved.pieces) {
+                let outline = piece.outline();
+                let other = piece.id.strip_suffix("_left").map(|stem| format!("{stem}_right"));
+                let twin = other.and_then(|id| moved.pieces.iter().find(|piece| piece.id == id));
+                let is_half = piece.id.ends_with("_left") || piece.id.ends_with("_right");
+                let image = twin.map(StylePiece::outline).or_else(|| (!is_half).then(|| outline.clone()));
+                let apart = image.map_or(0.0, |image: Vec<V2>| farthest_m(&outline, &mirrored(&image, 0.0)));
+                assert!(mm(apart) < 0.01, "{what}: {} is {apart} from its image", piece.id);
+                if turned.contains(&handle) {
+                    continue;
+                }
+                for (k, (was_deg, deg)) in angles_deg(was).iter().zip(angles_deg(piece)).enumerate() {
+                    let is_square = (was_deg - 90.0).abs() < 1.0;
+                    assert!(!is_square || (deg - was_deg).abs() < 1.0, "{what}: {} corner {k}: {was_deg} to {deg}", piece.id);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn nothing_is_nothing_and_back_is_back() {
+    let check = |model: Model, handle: Handle, within_mm: f64| {
+        let style = drafted(model, 0);
+        assert_eq!(style.moved(&[(handle, 0.0)]), Ok(style.clone()), "{handle:?}");
+        for amount_m in [0.010, -0.010] {
+            let back = style.moved(&[(handle, amount_m), (handle, -amount_m)]).expect("it has it");
+            let apart = styles_apart_mm(&back, &style);
+            assert!(apart < within_mm, "{} {} {amount_m:+}: {apart} mm", model.as_str(), handle.as_str());
+        }
+    };
+    for model in Model::ALL {
+        for handle in drafted(model, 0).handles() {
+            use Handle::*;
+            let is_linear = match handle {
+                BodyLength | SkirtLength | SleeveLength | LegLength | LegOpening => true,
+                Hem | Waist => model != Model::Dress,
+                _ => false,
+            };
+            check(model, handle, if is_linear { 0.01 } else { 0.8 });
+        }
+    }
+}
+
+#[test]
+fn styles_change_smoothly_with_the_amount() {
+    for (model, style) in Model::ALL.map(|model| (model, drafted(model, 0))) {
+        for handle in style.handles() {
+            let at = |amount_mm: f64| {
+                let moved = style.moved(&[(handle, from_mm(amount_mm))]).expect("it has it");
+                moved.pieces.iter().flat_map(StylePiece::outline).collect::<Vec<V2>>()
+            };
+            let [one, two, three] = [0.5, 1.0, 1.5].map(at);
+            assert!(one.len() == two.len() && two.len() == three.len(), "{model:?} {handle:?}");
+            for k in 0..one.len() {
+                let bend_mm = mm((one[k] - two[k] * 2.0 + three[k]).norm());
+                assert!(bend_mm < 0.03, "{model:?} {handle:?}: vertex {k} bends by {bend_mm}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_done_is_refused_with_its_reason() {
+    let style = drafted(Model::Tshirt, 0);
+    let told = |style: &Style, handle: Handle, amount_m: f64| style.moved(&[(handle, amount_m)]).expect_err("it is refused");
+    let absent = told(&style, Handle::LegLength, 0.01);
+    assert!(matches!(absent, HandleError::Absent { .. }) && absent.to_string().contains("chest, waist, hem"), "{absent}");
+    for amount_m in [0.5, f64::NAN] {
+        let much = told(&style, Handle::Waist, amount_m).to_string();
+        assert!(much.contains("accepted: -300 to 300 mm"), "{much}");
+    }
+    let crossed = told(&style, Handle::Cuff, -0.2);
+    assert!(matches!(crossed, HandleError::Crossing { .. }), "{crossed}");
+    // The armhole is sewn to a piece that is no sleeve: it cannot follow.
+    let text = std::str::from_utf8(Model::Tshirt.seams()).expect("text").replace("role = \"sleeve_left\"", "role = \"skirt_back\"");
+    let pieces = Model::Tshirt.drafts().swap_remove(0).pieces;
+    let odd = Style::read(&pieces, text.as_bytes(), "odd").expect("it is sewn");
+    let apart = told(&odd, Handle::ArmholeDepth, 0.01).to_string();
+    assert!(apart.contains("seam `armhole_left` of sleeve_left.cap and back.armhole_left + front.armhole_left"), "{apart}");
+}
+
+#[test]
+fn redrawn_pieces_make_the_changed_style_by_the_same_seam_file() {
+    let check = |model: Model, handles: &[(Handle, f64)]| {
+        let draft = model.drafts().swap_remove(0);
+        let pieces = redrawn(&draft.pieces, model.seams(), "seams", handles).expect("it has them");
+        let bytes = dxf::write_pieces(&pieces, &[], dxf::Standard::Aama);
+        let read = source::read(&bytes, "changed.dxf", None).expect("our own file").to_sew(None).expect("one size");
+        let back = Style::read(&read, model.seams(), "seams").expect("the seams hold");
+        let moved = drafted(model, 0).moved(handles).expect("it has them");
+        let apart = styles_apart_mm(&back, &moved);
+        assert!(apart < 0.05, "{model:?}: {apart} mm");
+        for ((point, is), (_, expect)) in points_mm(&back).into_iter().zip(points_mm(&moved)) {
+            assert!((is - expect).abs() < 0.1, "{model:?}: {} is {is} instead of {expect}", point.as_str());
+        }
+        for (piece, was) in pieces.iter().zip(&draft.pieces) {
+            let direction = |piece: &Piece| piece.grain.map(|[from, to]| (to - from).normalize());
+            assert!(direction(piece).zip(direction(was)).is_some_and(|(is, was)| (is - was).norm() < 1e-9), "{}", piece.name);
+        }
+    };
+    use Handle::*;
+    check(Model::Tshirt, &[(Chest, 0.008), (ArmholeDepth, 0.005), (FrontNeckDepth, -0.004), (SleeveLength, 0.02)]);
+    check(Model::Trousers, &[(Waist, -0.008), (BackRise, 0.006), (Knee, 0.01), (LegLength, 0.01)]);
+    check(Model::Teetop, &[(ShoulderSlope, 0.006), (Bicep, 0.01), (FrontLength, 0.01)]);
+    check(Model::Dress, &[(Waist, -0.01), (NeckWidth, 0.01), (SkirtLength, 0.03)]);
+}
+
+#[test]
+fn what_lies_inside_goes_along() {
+    let mut draft = Model::Tshirt.drafts().swap_remove(0);
+    let front = draft.pieces.iter_mut().find(|piece| piece.block == "FRONT").expect("it is drafted");
+    front.drill_holes = vec![V2::new(0.0, 0.05), V2::new(0.1, 0.2)];
+    front.internal_lines = vec![vec![V2::new(-0.1, 0.05), V2::new(0.1, 0.05)]];
+    let pieces = redrawn(&draft.pieces, Model::Tshirt.seams(), "seams", &[(Handle::BodyLength, 0.02)]).expect("it has it");
+    let moved = pieces.iter().find(|piece| piece.block == "FRONT").expect("it is there");
+    let by: Vec<V2> =
+        moved.drill_holes.iter().zip([V2::new(0.0, 0.05), V2::new(0.1, 0.2)]).map(|(p, was)| p - was).collect();
+    // Near the hem with the hem, half-way up by less.
+    assert!((by[0].y + 0.02).abs() < 0.004 && by[0].x.abs() < 1e-9, "{by:?}");
+    assert!((-0.017..-0.005).contains(&by[1].y), "{by:?}");
+    let line = &moved.internal_lines[0];
+    assert!(line.len() >= 2 && line.iter().all(|p| p.y < 0.05), "{line:?}");
+}
+
+fn shared(file: &str) -> Option<PathBuf> {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/patterns").join(file);
+    path.exists().then_some(path)
+}
+
+/// The style of a file of another program, sewn as proposed where it holds no seams.
+fn foreign(path: &Path) -> Style {
+    let bytes = std::fs::read(path).expect("readable");
+    let name = path.display().to_string();
+    if source::kind(&bytes) == Kind::GarmentCode {
+        return garmentcode::read(&bytes, &name).expect("a specification").style();
+    }
+    let unit = name.contains("valentina").then_some(Unit::Mm);
+    let pieces = source::read(&bytes, &name, unit).expect("a pattern").to_sew(None).expect("a size");
+    Style::read(&pieces, propose::propose(&pieces).toml("foreign").as_bytes(), "foreign").expect("it holds")
+}
+
+#[test]
+fn foreign_patterns_change_by_their_handles() {
+    // File, number of handles, those that are refused.
+    let check = |file: &str, handles: usize, refused: &[Handle]| {
+        let Some(path) = shared(file) else { return eprintln!("skipped: {file} is not there") };
+        let style = foreign(&path);
+        assert_eq!(style.handles().len(), handles, "{file}");
+        for (handle, amount_mm) in style.handles().into_iter().flat_map(|handle| [(handle, 5.0), (handle, -5.0)]) {
+            let what = format!("{file} {} {amount_mm:+}", handle.as_str());
+            match style.moved(&[(handle, from_mm(amount_mm))]) {
+                Ok(moved) => {
+                    assert!(!refused.contains(&handle), "{what} is not refused");
+                    sound(&what, &style, &moved);
+                }
+                Err(error) => assert!(refused.contains(&handle), "{what}: {error}"),
+            }
+        }
+    };
+    let gc = |name: &str| format!("garmentcode/{name}_specification.json");
+    check(&gc("tshirt_mean_female"), 16, &[]);
+    check(&gc("tshirt_mean_all"), 16, &[]);
+    check(&gc("longsleeve_shirt_mean_all"), 16, &[]);
+    check(&gc("fitted_shirt_sleeves_mean_male"), 16, &[]);
+    check(&gc("fitted_bodice_darts_mean_female"), 12, &[]);
+    check(&gc("dress_sheath_mean_female"), 14, &[]);
+    check(&gc("pencil_skirt_mean_female"), 4, &[]);
+    check(&gc("pants_mean_all"), 9, &[]);
+    check(&gc("pants_mean_female"), 9, &[]);
+    check("freesewing/teagan_cisFemaleAdult36_aama.dxf", 16, &[]);
+    check("freesewing/titan_cisFemaleAdult36_aama.dxf", 9, &[]);
+    check("freesewing/bella_cisFemaleAdult36_aama-net.dxf", 15, &[]);
+    check("freesewing/brian_cisMaleAdult40_aama.dxf", 16, &[]);
+    check("freesewing/paco_cisFemaleAdult36_aama.dxf", 9, &[]);
+    check("freesewing/sandy_cisFemaleAdult36_aama.dxf", 0, &[]);
+    check("valentina/pantsM1_52-176.v1.1.1.astm-r12.dxf", 9, &[]);
+}

@@ -1,0 +1,187 @@
+//! Handles of shoulder, neck and armhole, and of the sleeve sewn to it.
+
+use super::body::{Armhole, Body, HalfCap, NEAR_M};
+use super::girths;
+use super::plan::{Condition, Move, Plan, Span, along, end, start};
+use crate::pom::anatomy::Chain;
+use crate::pom::top::Centre;
+use crate::propose::Face;
+use crate::style::{EdgePoint, EdgeRef};
+use geom::V2;
+
+/// Shoulder points lower, front and back: the shoulder keeps its length, the armhole too and sinks with it.
+pub fn shoulder_slope(body: &Body<'_>) -> Option<Plan> {
+    let mut plan = Plan::default();
+    for (shoulder, outwards) in shoulders(body)? {
+        let tip = body.point(end(&shoulder));
+        plan.drive(tip, -V2::y());
+        plan.give(tip, V2::x() * outwards.x.signum());
+        plan.conditions.push(Condition::chain(&shoulder, 0.0));
+    }
+    armholes_keep(body, &mut plan);
+    Some(plan)
+}
+
+/// Shoulder points outwards along the shoulder, front and back; the armhole keeps its length.
+pub fn shoulder_length(body: &Body<'_>) -> Option<Plan> {
+    let mut plan = Plan::default();
+    for (shoulder, outwards) in shoulders(body)? {
+        let tip = body.point(end(&shoulder));
+        plan.drive(tip, outwards);
+        plan.give(tip, outwards);
+        plan.conditions.push(Condition::chain(&shoulder, 1.0));
+    }
+    hold_across(body, &mut plan);
+    armholes_keep(body, &mut plan);
+    Some(plan)
+}
+
+/// High points of the shoulder outwards along it, each by half; the centres of the neck stay.
+pub fn neck_width(body: &Body<'_>) -> Option<Plan> {
+    let mut plan = Plan::default();
+    for (shoulder, outwards) in shoulders(body)? {
+        let high = body.point(start(&shoulder));
+        plan.drive(high, outwards * (0.5 / outwards.x.abs()));
+        plan.give(high, outwards);
+    }
+    for centre in Face::BOTH.into_iter().filter_map(|face| neck_centres(body, face)).flatten() {
+        plan.drive(centre, V2::zeros());
+    }
+    Some(plan)
+}
+
+/// The neckline lower at the centre of a face.
+pub fn neck_depth(body: &Body<'_>, face: Face) -> Option<Plan> {
+    let mut plan = Plan::default();
+    for at in neck_centres(body, face)? {
+        plan.drive(at, -V2::y());
+    }
+    Some(plan)
+}
+
+/// Where the neckline meets the centre of a face: of halves one place each.
+fn neck_centres(body: &Body<'_>, face: Face) -> Option<Vec<EdgePoint>> {
+    let (trunk, anatomy) = (body.trunk.as_ref()?, body.anatomy);
+    if let Centre::Within(at) = trunk.neck_centre(face)? {
+        let ends = [false, true].map(|is_last| anatomy.point((at.edge, is_last)));
+        let corner = ends.into_iter().find(|end| (end.arc_m - at.arc_m).abs() < NEAR_M);
+        return Some(vec![corner.unwrap_or(at)]);
+    }
+    let high = trunk.high_points(face);
+    let centres = high.into_iter().filter_map(|high| trunk.neck_end(high)).map(|end| anatomy.point(end));
+    Some(centres.collect())
+}
+
+/// Underarm points lower along the side seam; the sleeve's underarm points go as far down the arm, and outwards until its cap fits.
+pub fn armhole_depth(body: &Body<'_>) -> Option<Plan> {
+    if body.armholes.is_empty() {
+        return None;
+    }
+    let mut plan = Plan::default();
+    for armhole in &body.armholes {
+        let down = armhole.down(body);
+        plan.drive(body.point(armhole.underarm), down / down.y.abs());
+        girths::hold(body, &mut plan, &armhole.side);
+        if let Some(cap) = &armhole.cap {
+            move_underarm(body, &mut plan.moves, cap, cap.down);
+        }
+    }
+    for faces in body.armholes.chunks(Face::BOTH.len()) {
+        // Edges of the side seam that run otherwise than their partners.
+        let apart = faces.iter().zip([0.5, -0.5]);
+        plan.gives.push(apart.map(|(face, by)| Move::new(body.point(face.underarm), face.down(body) * by)).collect());
+    }
+    hold_across(body, &mut plan);
+    sleeves_follow(body, &mut plan);
+    Some(plan)
+}
+
+/// Shoulder seams' sides from the neck outwards, with their directions at the outer end; `None` of a garment without.
+fn shoulders(body: &Body<'_>) -> Option<Vec<(Chain, V2)>> {
+    let trunk = body.trunk.as_ref().filter(|trunk| !trunk.shoulders.is_empty())?;
+    let sides = trunk.shoulders.iter().flatten();
+    let found: Vec<(Chain, V2)> = sides.map(|chain| (chain.clone(), along(body.anatomy, chain))).collect();
+    found.iter().all(|(_, outwards)| outwards.x != 0.0).then_some(found)
+}
+
+/// Every armhole keeps its length: its underarm points give way along the side seam, front and back alike, and a free lower end for the
+/// little that both sides differ in.
+fn armholes_keep(body: &Body<'_>, plan: &mut Plan) {
+    for faces in body.armholes.chunks(Face::BOTH.len()) {
+        let edges: Vec<EdgeRef> = faces.iter().flat_map(|face| face.edges.iter().copied()).collect();
+        plan.conditions.push(Condition::edges(&edges, 0.0));
+        let down = |face: &Armhole| face.down(body);
+        plan.gives.push(faces.iter().map(|face| Move::new(body.point(face.underarm), down(face))).collect());
+        for face in faces {
+            girths::hold(body, plan, &face.side);
+            slide_joints(body, plan, face);
+            let low = end(&face.side);
+            if body.anatomy.ways.is_free(body.anatomy.style().over_corner(low).0) {
+                plan.give(body.point(low), down(face));
+            }
+        }
+    }
+    sleeves_follow(body, plan);
+}
+
+/// Joints within an armhole slide along it.
+fn slide_joints(body: &Body<'_>, plan: &mut Plan, face: &Armhole) {
+    for edge in &face.edges {
+        let corner = body.anatomy.style().over_corner((*edge, true));
+        if face.edges.contains(&corner.0) {
+            plan.give(body.point(corner), along(body.anatomy, &vec![(*edge, true)]));
+        }
+    }
+}
+
+impl Armhole {
+    /// Unit vector down the side seam at the underarm.
+    fn down(&self, body: &Body<'_>) -> V2 {
+        along(body.anatomy, &vec![self.side[0]])
+    }
+}
+
+/// The armholes stay where they are half-way up, where the widths across front and back are measured.
+pub fn hold_across(body: &Body<'_>, plan: &mut Plan) {
+    plan.moves.extend(body.armholes.iter().filter_map(|armhole| half_way_up(body, armhole)).map(|at| Move::new(at, V2::zeros())));
+}
+
+/// The point of an armhole half-way up.
+fn half_way_up(body: &Body<'_>, armhole: &Armhole) -> Option<EdgePoint> {
+    let (tip, low) = (body.anatomy.place(armhole.tip?).y, body.anatomy.place(armhole.underarm).y);
+    body.anatomy.meeting(&armhole.edges, |p| p.y - 0.5 * (tip + low))
+}
+
+/// Half caps become as much longer as the armholes they are sewn to: the sleeve's underarm points give way across the arm.
+pub fn sleeves_follow(body: &Body<'_>, plan: &mut Plan) {
+    for armhole in &body.armholes {
+        let Some(cap) = &armhole.cap else { continue };
+        let mut spans = cap_spans(cap);
+        let is_sewn_on = |edge: &&EdgeRef| body.anatomy.ways.partners(**edge).iter().any(|other| other.piece == cap.piece);
+        spans.extend(armhole.edges.iter().filter(is_sewn_on).map(|edge| (Span::whole(*edge), -1.0)));
+        plan.conditions.push(Condition { spans, change: 0.0 });
+        hold_sleeve(body, plan, cap);
+        let mut give = Vec::new();
+        move_underarm(body, &mut give, cap, cap.out);
+        plan.gives.push(give);
+        plan.give(body.point(end(&cap.seam)), cap.along(body.anatomy));
+    }
+}
+
+/// The length of a half cap.
+pub fn cap_spans(cap: &HalfCap) -> Vec<(Span, f64)> {
+    cap.spans.iter().map(|(edge, arcs_m)| (Span { edge: *edge, arcs_m: *arcs_m }, 1.0)).collect()
+}
+
+/// The sleeve stays where it is at the top.
+pub fn hold_sleeve(body: &Body<'_>, plan: &mut Plan, cap: &HalfCap) {
+    plan.drive(cap.top, V2::zeros());
+    plan.moves.extend(cap.bicep(body.anatomy).map(|at| Move::new(at, V2::zeros())));
+}
+
+/// Moves a sleeve's underarm point, and the place below it where the bicep is measured.
+pub fn move_underarm(body: &Body<'_>, moves: &mut Vec<Move>, cap: &HalfCap, by: V2) {
+    moves.push(Move::new(body.point(cap.underarm), by));
+    moves.extend(cap.bicep(body.anatomy).map(|at| Move::new(at, by)));
+}
+
