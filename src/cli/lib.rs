@@ -3,6 +3,7 @@
 //! Arguments are parsed once (`args`), resolved once (`context`), and each command is one function that uses
 //! [`study`] only.
 
+mod alter;
 mod answers;
 mod args;
 mod attempt;
@@ -139,6 +140,7 @@ fn execute(arguments: Arguments, workbench: impl FnOnce(Workbench) -> Result<(),
         Some(Command::Sql(arguments)) => answers::sql(&context, &arguments),
         Some(Command::Audit(arguments)) => answers::audit(&context, &arguments),
         Some(Command::Ease(arguments)) => answers::ease(&context, &arguments),
+        Some(Command::Alter(arguments)) => alter::alter(&context, &arguments),
         Some(Command::Fit(arguments)) => fit::fit(&context, &arguments),
         Some(Command::Section(arguments)) => section::section(&context, &arguments),
         Some(Command::Recommend(arguments)) => recommend::recommend(&context, &arguments),

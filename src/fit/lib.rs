@@ -6,6 +6,7 @@
 //! [`crossover`] the ease at which the simulators change places.
 
 mod advice;
+pub mod alter;
 mod analysis;
 mod class;
 mod distribution;

@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 
 use super::MeasurementKind;
-use super::arrange::arranged;
+use super::arrange::{arrange, arranged};
 use super::pom::PointOfMeasure;
 use super::style::{PathPart, Style, StyleMeasurement, StylePiece};
 use geom::V2;
@@ -28,6 +28,7 @@ const CSS: &str = "\
 text{font-family:'DejaVu Sans',sans-serif;fill:#3a3a3a}\
 .piece{fill:#f6f3ec;stroke:#3a3a3a;stroke-width:1.4;stroke-linejoin:round}\
 .free{fill:none;stroke:#3a3a3a;stroke-width:1.4;stroke-dasharray:7 4}\
+.before{fill:none;stroke:#c0392b;stroke-width:1.2;stroke-dasharray:5 4}\
 .thin{fill:none;stroke:#8a8a8a;stroke-width:1}\
 .measured{fill:none;stroke:#0a6a8a;stroke-width:2.6;stroke-linecap:round;opacity:.75}\
 .across{fill:none;stroke:#0a6a8a;stroke-width:1.4;stroke-dasharray:9 5}\
@@ -74,6 +75,21 @@ pub fn points_svg(style: &Style) -> String {
         is_free_edge: false,
     };
     svg(&Style { measurements: points.map(measurement).collect(), ..style.clone() })
+}
+
+/// As [`svg`], of a style that was changed, with its outlines as they were before.
+#[must_use]
+pub fn changed_svg(before: &Style, after: &Style) -> String {
+    let placed = arrange(after);
+    let now = arranged(after);
+    let all: Vec<V2> = now.pieces.iter().flat_map(StylePiece::outline).collect();
+    let (low, high) = bounds_mm(&all);
+    let pen = Pen { origin: V2::new(MARGIN_MM - low.x, MARGIN_MM + TITLE_MM + high.y) };
+    let mut old = String::new();
+    for (piece, place) in before.pieces.iter().zip(&placed) {
+        pen.path(&mut old, "before", piece.outline().into_iter().map(|p| place.at(p)), true);
+    }
+    svg(after).replace("</svg>", &format!("{old}</svg>"))
 }
 
 fn bounds_mm(points: &[V2]) -> (V2, V2) {

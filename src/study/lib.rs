@@ -3,6 +3,7 @@
 //! The only owner of SQL, worker threads, the clock and study files. [`Workspace`] is the door: it reads plain rows
 //! (`read`), acts on the queue and starts runs. SI units in rows, millimetres in SQL.
 
+mod alteration;
 mod answers;
 mod attempt;
 pub mod bodies;
@@ -20,6 +21,7 @@ mod store;
 mod tests;
 mod workspace;
 
+pub use alteration::{Alteration, AlteredLevel, MovedHandle, Redraped, Wish, alter};
 pub use answers::audit::{Audit, Finding};
 pub use answers::doctor::{Check, checks};
 pub use answers::dressed::{Dressed, Tally, tally};
@@ -69,6 +71,7 @@ pub use store::sql::{Interrupter, SavedQuery, saved_queries, saved_query};
 pub use workspace::Workspace;
 
 pub use fit::{Analysis, Answer, Estimate, Evidence, Finding as Verdict, FitClass, Simulator, Without};
+pub use pattern::Handle;
 pub use render::export::MeshFormat;
 pub use render::{Rgb, View};
 pub use report::{Chart, Purpose};

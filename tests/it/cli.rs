@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 91] = [
+const COMMANDS: [&str; 92] = [
     "",
     "run",
     "run show",
@@ -22,6 +22,7 @@ const COMMANDS: [&str; 91] = [
     "study sizes",
     "fit",
     "section",
+    "alter",
     "pattern pom",
     "job",
     "job handout",

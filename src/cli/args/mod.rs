@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
+mod alter;
 mod attempt;
 mod body;
 mod catalogue;
@@ -12,6 +13,7 @@ mod fit;
 mod pattern;
 mod report;
 
+pub use alter::Alter;
 pub use attempt::{AuditGarments, Try};
 pub use body::{Body, BodyBuild, MeshUnit, Sex};
 pub use catalogue::{Catalogue, FabricValues, SizeValues, StyleValues, SubjectValues};
@@ -75,6 +77,8 @@ pub enum Command {
     Ease(StudyPath),
     /// Which size to wear, and where it and the two beside it are tight or loose; needs no simulation.
     Fit(Fit),
+    /// What to change of a size so that it fits somebody: the least change of its handles, as a new DXF.
+    Alter(Alter),
     /// Cross sections: the air between body and cloth at a level, all sizes over each other.
     Section(Section),
     /// Which simulator to use for which fit.

@@ -150,30 +150,28 @@ fn out_of(anatomy: &Anatomy<'_>, chain: &Chain) -> V2 {
     V2::x() * (middle - 0.5 * (low + high)).signum()
 }
 
-fn sides(
-    anatomy: &Anatomy<'_>,
-    trunk: Option<&Trunk<'_>>,
-    legs: &[Legs<'_>],
-    points: &[PointOfMeasure],
-) -> Vec<Side> {
+fn sides(anatomy: &Anatomy<'_>, trunk: Option<&Trunk<'_>>, legs: &[Legs<'_>], points: &[PointOfMeasure]) -> Vec<Side> {
     use Handle::{Chest, Fork, Hem, Hip, Knee, LegOpening, Thigh, Waist};
     let path = |points: &[PointOfMeasure], point: Point| {
         points.iter().find(|one| one.point == point).map(|one| one.path.clone()).unwrap_or_default()
     };
-    let side = |limb: Limb, chain: &Chain, ends: [Option<Handle>; 2], own: &[PointOfMeasure], within: &[(Point, Handle)]| {
-        let length_m: f64 = chain.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum();
-        let mut levels: Vec<(f64, Handle)> = within
-            .iter()
-            .filter_map(|(point, handle)| Some((met(anatomy, chain, &path(own, *point))?, *handle)))
-            .filter(|(at, _)| (NEAR_M..length_m - NEAR_M).contains(at))
-            .collect();
-        levels.retain(|(at, handle)| *handle != Waist || (WAIST_FROM_ENDS_M..length_m - WAIST_FROM_ENDS_M).contains(at));
-        levels.extend(ends[0].map(|handle| (0.0, handle)));
-        levels.extend(ends[1].map(|handle| (length_m, handle)));
-        levels.sort_by(|one, other| one.0.total_cmp(&other.0));
-        levels.dedup_by(|later, earlier| later.0 - earlier.0 < NEAR_M);
-        Side { limb, chain: chain.clone(), levels, out: out_of(anatomy, chain) }
-    };
+    let side =
+        |limb: Limb, chain: &Chain, ends: [Option<Handle>; 2], own: &[PointOfMeasure], within: &[(Point, Handle)]| {
+            let length_m: f64 = chain.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum();
+            let mut levels: Vec<(f64, Handle)> = within
+                .iter()
+                .filter_map(|(point, handle)| Some((met(anatomy, chain, &path(own, *point))?, *handle)))
+                .filter(|(at, _)| (NEAR_M..length_m - NEAR_M).contains(at))
+                .collect();
+            levels.retain(|(at, handle)| {
+                *handle != Waist || (WAIST_FROM_ENDS_M..length_m - WAIST_FROM_ENDS_M).contains(at)
+            });
+            levels.extend(ends[0].map(|handle| (0.0, handle)));
+            levels.extend(ends[1].map(|handle| (length_m, handle)));
+            levels.sort_by(|one, other| one.0.total_cmp(&other.0));
+            levels.dedup_by(|later, earlier| later.0 - earlier.0 < NEAR_M);
+            Side { limb, chain: chain.clone(), levels, out: out_of(anatomy, chain) }
+        };
     let mut found = Vec::new();
     if let Some(trunk) = trunk {
         let has_below = anatomy.has_below(&trunk.bottom);
@@ -201,7 +199,8 @@ fn sides(
 /// Both sides of each side seam of a skirt from its upper edge down, front and back.
 fn skirt_sides(anatomy: &Anatomy<'_>) -> Vec<[Chain; 2]> {
     let is = |face: Face| move |part: Part| part == Part::Skirt(face);
-    let joins = (0..anatomy.style().seams.len()).filter_map(|seam| anatomy.between(seam, is(Face::Front), is(Face::Back)));
+    let joins =
+        (0..anatomy.style().seams.len()).filter_map(|seam| anatomy.between(seam, is(Face::Front), is(Face::Back)));
     let all: Vec<[Chain; 2]> =
         joins.filter(|[front, _]| anatomy.is_upright(front)).map(|sides| anatomy.turned_down(sides)).collect();
     // A side seam may be sewn in several parts.

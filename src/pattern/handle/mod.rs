@@ -145,9 +145,17 @@ impl Handle {
                 "half of the leg at the fork wider: forks of front and back out, inseams with them down to the thigh; the seat seams \
                  lengthen by it",
             ),
-            Self::FrontRise => ("front_rise", "front seat seam longer: the upper edge higher there, as before at the outseams, and as long"),
-            Self::BackRise => ("back_rise", "back seat seam longer: the upper edge higher there, as before at the outseams, and as long"),
-            Self::LegLength => ("leg_length", "inseam longer: legs lengthen evenly between fork and lower edge, outseams with them"),
+            Self::FrontRise => (
+                "front_rise",
+                "front seat seam longer: the upper edge higher there, as before at the outseams, and as long",
+            ),
+            Self::BackRise => (
+                "back_rise",
+                "back seat seam longer: the upper edge higher there, as before at the outseams, and as long",
+            ),
+            Self::LegLength => {
+                ("leg_length", "inseam longer: legs lengthen evenly between fork and lower edge, outseams with them")
+            }
             Self::ShoulderSlope => (
                 "shoulder_slope",
                 "shoulder points lower, front and back: the shoulder keeps its length, the armhole keeps its own and sinks with it",
@@ -157,9 +165,10 @@ impl Handle {
             }
             Self::FrontNeckDepth => ("front_neck_depth", "neckline lower at centre front"),
             Self::BackNeckDepth => ("back_neck_depth", "neckline lower at centre back"),
-            Self::NeckWidth => {
-                ("neck_width", "neck wider: high points of the shoulder outwards along it, each by half; the shoulder shortens")
-            }
+            Self::NeckWidth => (
+                "neck_width",
+                "neck wider: high points of the shoulder outwards along it, each by half; the shoulder shortens",
+            ),
             Self::ArmholeDepth => (
                 "armhole_depth",
                 "underarm points lower along the side seam; the sleeve's underarm points as far down the arm, and across it until the \
@@ -175,7 +184,10 @@ impl Handle {
                 "cap higher: the sleeve's underarm points down the arm, and inwards until the cap is as long as before",
             ),
             Self::SleeveLength => ("sleeve_length", "sleeve longer, evenly between underarm and lower edge"),
-            Self::BodyLength => ("body_length", "front and back longer: slashed straight across below the armhole, side seams with them"),
+            Self::BodyLength => (
+                "body_length",
+                "front and back longer: slashed straight across below the armhole, side seams with them",
+            ),
             Self::FrontLength => (
                 "front_length",
                 "front longer in its middle: the lower edge falls between the high points of the shoulder, and not at the side seams",
@@ -184,7 +196,9 @@ impl Handle {
                 "back_length",
                 "back longer in its middle: the lower edge falls between the high points of the shoulder, and not at the side seams",
             ),
-            Self::SkirtLength => ("skirt_length", "skirt longer: slashed straight across below the hip, side seams with it"),
+            Self::SkirtLength => {
+                ("skirt_length", "skirt longer: slashed straight across below the hip, side seams with it")
+            }
         }
     }
 
@@ -290,7 +304,9 @@ pub enum HandleError {
         v_mm: f64,
     },
     /// A piece that is drawn once and worn twice, and would have to change in two ways.
-    #[error("block `{block}` is worn in several ways, which change it differently by {apart_mm:.2} mm; accepted: a block each")]
+    #[error(
+        "block `{block}` is worn in several ways, which change it differently by {apart_mm:.2} mm; accepted: a block each"
+    )]
     Drawn {
         /// Block.
         block: String,
@@ -364,7 +380,11 @@ impl Style {
         };
         let not_held = |off_m: f64| off_m.is_nan() || off_m.abs() > PAIRED_M;
         if let Some((number, off_m)) = solved.seams_m.iter().find(|(_, off_m)| not_held(*off_m)) {
-            return Err(off(self.seam_words(*number), *off_m, "what is sewn on does not follow: its sides come apart by"));
+            return Err(off(
+                self.seam_words(*number),
+                *off_m,
+                "what is sewn on does not follow: its sides come apart by",
+            ));
         }
         if let Some((number, off_m)) = solved.conditions_m.iter().enumerate().find(|(_, off_m)| not_held(**off_m)) {
             let edges = plan.conditions[number].spans.iter().map(|(span, _)| self.edge_name(span.edge));
@@ -380,7 +400,9 @@ impl Style {
     /// A seam with its edges, for messages.
     fn seam_words(&self, number: usize) -> String {
         let seam = &self.seams[number];
-        let side = |edges: &[crate::style::EdgeRef]| edges.iter().map(|edge| self.edge_name(*edge)).collect::<Vec<_>>().join(" + ");
+        let side = |edges: &[crate::style::EdgeRef]| {
+            edges.iter().map(|edge| self.edge_name(*edge)).collect::<Vec<_>>().join(" + ")
+        };
         format!("seam `{}` of {} and {}", seam.name, side(&seam.a), side(&seam.b))
     }
 }

@@ -1,0 +1,87 @@
+//! `toile alter`: what to change of a pattern.
+
+use super::args::Alter;
+use super::context::Context;
+use super::{End, Outcome, output};
+use study::{Alteration, AlteredLevel, Table, Value, Wish, files};
+
+/// Finds or applies a change of a size for a subject, and prints it.
+pub fn alter(context: &Context, arguments: &Alter) -> Outcome {
+    let workspace = context.workspace()?;
+    let study = context.study(&workspace, &arguments.study)?;
+    let wish = Wish {
+        garment: arguments.garment.clone(),
+        subject: arguments.subject.clone(),
+        size: arguments.size.clone(),
+        targets_mm: arguments.target.iter().cloned().collect(),
+        limit_mm: arguments.limit_mm,
+        without: arguments.without.clone(),
+        moves_mm: arguments.moves.clone(),
+        is_draped: arguments.drape,
+    };
+    let found = study::alter(&study, &wish)?;
+    if let Some(folder) = &arguments.output {
+        files::write_files(folder, &found.files)?;
+        found.files.iter().for_each(|(name, _)| context.say(format_args!("wrote {}", folder.join(name).display())));
+    }
+    match context.json {
+        true => output::json(&found)?,
+        false => print(context, &found)?,
+    }
+    Ok(if found.levels.iter().all(AlteredLevel::is_met) { End::Done } else { End::CheckFailed })
+}
+
+fn print(context: &Context, found: &Alteration) -> Result<(), super::CliError> {
+    let Alteration { garment, subject, size, .. } = found;
+    output::text(&format!("{garment} {size} for {subject}: "))?;
+    match found.moves.as_slice() {
+        [] => output::text("nothing to change\n")?,
+        _ => {
+            output::text("change\n")?;
+            context.print(&moves(found))?;
+        }
+    }
+    output::text("ease\n")?;
+    context.print(&levels(found))?;
+    if let Some(drape) = &found.drape {
+        let rest = if drape.converged { "at rest" } else { "not at rest" };
+        let hem = drape.hem_front_over_back_mm.map_or(String::new(), |mm| format!(", hem {mm:+.0} mm in front"));
+        let most = drape.most_kpa.map_or(String::new(), |kpa| format!(", presses with at most {kpa:.2} kPa"));
+        let depth = drape.penetration_max_mm;
+        output::text(&format!("draped again: {rest}, EI {:.4}, {depth:.2} mm inside{hem}{most}\n", drape.ei))?;
+    }
+    found.left_out.iter().for_each(|reason| context.say(format_args!("left out: {reason}")));
+    Ok(())
+}
+
+fn moves(found: &Alteration) -> Table {
+    let columns = ["handle", "by_mm", "does"].map(str::to_owned).to_vec();
+    let row = |one: &study::MovedHandle| {
+        let by = Value::Text(format!("{:+.1}", one.amount_mm));
+        vec![Value::Text(one.handle.replace('_', " ")), by, Value::Text(one.does.to_owned())]
+    };
+    Table { columns, rows: found.moves.iter().map(row).collect() }
+}
+
+fn levels(found: &Alteration) -> Table {
+    let columns = ["level", "target_mm", "before_mm", "promised_mm", "achieved_mm", ""].map(str::to_owned).to_vec();
+    let row = |one: &AlteredLevel| {
+        let target = one.target_mm.map_or(Value::Null, |[least, most]| Value::Text(format!("{least:.0} to {most:.0}")));
+        let ease = |mm: f64| Value::Text(format!("{mm:+.1}"));
+        let verdict = match (one.target_mm, one.is_met()) {
+            (None, _) => "",
+            (_, true) => "met",
+            (_, false) => "missed",
+        };
+        let level = Value::Text(one.level.replace('_', " "));
+        vec![
+            level,
+            target,
+            ease(one.before_mm),
+            ease(one.promised_mm),
+            ease(one.achieved_mm),
+            Value::Text(verdict.to_owned()),
+        ]
+    };
+    Table { columns, rows: found.levels.iter().map(row).collect() }
+}
