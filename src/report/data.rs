@@ -237,6 +237,8 @@ pub struct FitSheet {
     pub intended: String,
     /// Which size to wear, and what is worst with it.
     pub verdict: String,
+    /// How the size to wear hangs and presses, in words; empty without its drape.
+    pub drape: String,
     /// The sizes.
     pub sizes: Vec<FitSize>,
     /// Whose drapes are measured, where there are any.

@@ -89,9 +89,10 @@ impl<'a> Sheet<'a> {
             let beside = of(Simulator::Hybrid).filter(|_| sheet.simulator == Some(Simulator::Fem));
             Column::new(size.size.clone(), size.is_to_wear, size.words.clone(), shown, beside)
         });
+        let fabric = runs.first().map_or(String::new(), |run| format!(", {}", run.fabric.replace('_', " ")));
         let source = sheet.simulator.map_or("no drape yet".to_owned(), |simulator| {
             format!(
-                "{} of {}",
+                "{} of {}{fabric}",
                 count(runs.iter().filter(|run| run.simulator == simulator).count(), "drape"),
                 simulator_name(simulator)
             )
@@ -126,7 +127,11 @@ impl Column {
         };
         let is_small = shown.and_then(|run| run.ease.as_ref()).is_some_and(fit::Ease::is_undersized);
         let gap_of = if is_small && beside.is_some() { beside } else { shown };
-        let maps = [map(shown, "front-stretch"), map(gap_of, "front-gap")].into_iter().flatten();
+        let mut gap = map(gap_of, "front-gap").transpose()?;
+        if let (Some(gap), true) = (&mut gap, is_small && beside.is_some()) {
+            gap.image.caption = format!("{}: {}", simulator_name(Simulator::Hybrid), gap.image.caption);
+        }
+        let maps = map(shown, "front-stretch").into_iter().chain(gap.map(Ok));
         Ok(Self {
             size,
             is_to_wear,

@@ -73,3 +73,36 @@ fn a_garment_says_its_own_target() {
         assert!(err.contains(says), "{line}: {err}");
     }
 }
+
+#[test]
+fn a_size_is_altered_until_it_fits_and_its_file_is_what_was_promised() {
+    let place = Place::new();
+    place.study(&[("tee", 0.1, &["s"])]);
+    let found =
+        place.toile("alter . --size s --target chest=150..170 --target hip=100..110 -o out --json").ends_with(0).json();
+    let moves = found["moves"].as_array().expect("moves");
+    assert!(moves.iter().any(|one| one["handle"] == "chest" && one["amount_mm"].as_f64() > Some(10.0)), "{moves:?}");
+    for level in found["levels"].as_array().expect("levels") {
+        let ease = |key: &str| level[key].as_f64().expect("an ease");
+        assert!((ease("promised_mm") - ease("achieved_mm")).abs() < 0.1, "{level}");
+        let within = |low: f64, high: f64| (low..=high).contains(&ease("achieved_mm"));
+        match level["level"].as_str() {
+            Some("chest") => assert!(ease("before_mm") < 150.0 && within(150.0, 170.0), "{level}"),
+            Some("hip") => assert!(ease("before_mm") < 100.0 && within(100.0, 110.0), "{level}"),
+            _ => {}
+        }
+    }
+    let checked = place.toile("pattern check out/tee-s-ii.dxf --seams out/tee-s-ii.seams.toml");
+    checked.ends_with(0);
+    let asked = place.toile("alter . --size s --move waist=-5 --json").ends_with(0).json();
+    assert_eq!(asked["moves"].as_array().map(Vec::len), Some(1), "{asked}");
+    let check = |arguments: &str, says: &str| {
+        let err = place.toile(arguments).ends_with(2).err;
+        assert!(err.contains(says), "{arguments}: {err}");
+    };
+    check("alter . --size xl", "no size `xl`; there are: s");
+    check("alter . --size s --move collar=3", "no handle `collar`");
+    check("alter . --size s --move inseam", "accepted: HANDLE=MM");
+    check("alter . --size s --target hip=9", "accepted: LEVEL=LEAST..MOST");
+    assert!(place.toile("alter . --size s --target chest=600..610 --limit-mm 20").ends_with(3).out.contains("missed"));
+}

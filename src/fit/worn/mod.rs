@@ -11,4 +11,4 @@ mod section;
 pub use folds::{Fold, Worn, folds};
 pub use hang::{Hang, Sides, hang};
 pub use region::{Pressed, Region, pressed};
-pub use section::{Angle, Section, Site, sites};
+pub use section::{Angle, DIRECTIONS, Section, Site, sites};

@@ -7,6 +7,8 @@ use geom::{TriMesh, V2, V3};
 
 /// Distance below the armpit or the crotch at which arm and thigh are cut, as their girths are measured, m.
 const BELOW_FOLD_M: f64 = 0.025;
+/// Directions in which the gap is told.
+pub const DIRECTIONS: usize = 36;
 /// Directions over which air is summed up.
 const FINE: usize = 720;
 

@@ -4,14 +4,14 @@ use super::super::text::number;
 use super::super::{ReportError, theme};
 use super::Chart;
 use super::canvas::{Align, Axis, Canvas, TYPE, draw};
-use fit::worn::Section;
+use fit::worn::{Angle, DIRECTIONS, Section};
 use geom::V2;
 use geom::units::mm;
 use render::Rgb;
 
 /// Directions of the curves.
 const FINE: usize = 120;
-/// Directions whose gaps are written beside the section.
+/// Sectors whose greatest gaps are written beside the section.
 const WRITTEN: usize = 8;
 /// How far from the cloth.
 const WRITTEN_OFF: f64 = 34.0;
@@ -62,13 +62,24 @@ fn colour(series: usize) -> Rgb {
 
 /// Least, mean and greatest gap.
 fn gaps_in_words(section: &Section) -> String {
-    let gaps: Vec<f64> = section.gaps(FINE).into_iter().filter_map(|angle| angle.gap_m).map(mm).collect();
+    let gaps: Vec<f64> = section.gaps(DIRECTIONS).into_iter().filter_map(|angle| angle.gap_m).map(mm).collect();
     let (Some(least), Some(greatest)) = (gaps.iter().copied().reduce(f64::min), gaps.iter().copied().reduce(f64::max))
     else {
         return "no cloth here".to_owned();
     };
     let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
     format!("gap {} mm on average, from {} to {}", number(mean, 0), number(least, 0), number(greatest, 0))
+}
+
+/// The direction with the greatest gap in each sector, those round the front, the back and the sides among them.
+fn greatest(section: &Section) -> Vec<Angle> {
+    let of_sector = |angle: &Angle| (angle.deg * WRITTEN as f64 / 360.0).round() as usize % WRITTEN;
+    let angles = section.gaps(FINE);
+    let sectors = (0..WRITTEN).filter_map(|sector| {
+        let own = angles.iter().filter(|angle| of_sector(angle) == sector && angle.gap_m.is_some());
+        own.copied().max_by(|a, b| a.gap_m.unwrap_or(f64::MIN).total_cmp(&b.gap_m.unwrap_or(f64::MIN)))
+    });
+    sectors.collect()
 }
 
 /// The section from above, the front upwards.
@@ -98,7 +109,7 @@ fn plan(canvas: &Canvas<'_>, sizes: &[Worn<'_>], top: i32) -> Result<(), ReportE
         }
     }
     for size in sizes.iter().filter(|size| size.is_written) {
-        for angle in size.section.gaps(WRITTEN) {
+        for angle in greatest(size.section) {
             let Some(gap_m) = angle.gap_m else { continue };
             let (sin, cos) = angle.deg.to_radians().sin_cos();
             let away = V2::new(sin, cos) * (angle.skin_m + gap_m.max(0.0) + WRITTEN_OFF / scale);

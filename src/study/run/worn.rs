@@ -7,7 +7,7 @@ use crate::error::{Result, StudyError};
 use crate::rows::JobId;
 use body::Body;
 use fit::Simulator;
-use fit::worn::{self, Fold, Hang, Section, Sides, Site};
+use fit::worn::{self, DIRECTIONS, Fold, Hang, Section, Sides, Site};
 use geom::units::mm;
 use geom::{Surface, V3, hull};
 use pattern::style::PathPart;
@@ -15,8 +15,6 @@ use pattern::{Garment, MaterialLine, Style};
 use sim::sewn::Sewn;
 use sim::{Drape, Fabric};
 
-/// Directions in which a section's air is kept.
-pub(crate) const DIRECTIONS: usize = 36;
 /// Square centimetres in a square metre.
 pub(crate) const CM2: f64 = 1e4;
 

@@ -39,11 +39,22 @@ fn sheet(store: &Store, one: &GarmentWorn) -> Result<FitSheet> {
         subject: card.subject.clone(),
         intended: card.intended.clone().unwrap_or_default(),
         verdict: card.verdict(),
+        drape: wear.and_then(|wear| one.sizes.iter().find(|size| size.size == wear)).map_or_else(String::new, told),
         sizes: beside.iter().map(size).collect(),
         simulator: one.simulator,
         tables: tables.into_iter().filter(|table| !table.rows.is_empty()).collect(),
         sections: charts.into_iter().map(|(_, chart)| chart).collect(),
     })
+}
+
+/// How a drape hangs and presses, in words.
+fn told(size: &SizeWorn) -> String {
+    let hem = size.hem_words().map(|words| format!("Hem {words}."));
+    let most = size.pressure.first().map(|most| {
+        let region = most.region.replace('_', " ");
+        format!("Presses most at the {region}, {:.2} kPa.", most.most_kpa)
+    });
+    hem.into_iter().chain(most).collect::<Vec<_>>().join(" ")
 }
 
 /// The points of measure that any drape has, and how each is measured.
@@ -143,7 +154,11 @@ fn hang(sizes: &[Option<&SizeWorn>], names: &[String]) -> FitTable {
             format!("{region}, {mmhg:.1} mmHg; mean there {:.2} kPa", most.mean_kpa),
         ))
     });
-    add("folds and drag lines", &|size| Some((size.folds.len().to_string(), size.fold_words())));
+    add("folds and drag lines", &|size| {
+        let longest = size.folds.first();
+        let words = longest.map(|fold| format!("the longest {:.0} mm, {}", fold.length_mm, fold.words()));
+        Some((size.folds.len().to_string(), words.unwrap_or_default()))
+    });
     let mut levels: Vec<&str> = Vec::new();
     for gap in sizes.iter().flatten().flat_map(|size| &size.gaps) {
         if !levels.contains(&gap.level.as_str()) {
