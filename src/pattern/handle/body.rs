@@ -17,6 +17,9 @@ pub const NEAR_M: f64 = 3e-3;
 /// Least distance of a waist within a side seam from its ends, m: nearer, the girth is narrowest where the seam ends, and there is no waist.
 const WAIST_FROM_ENDS_M: f64 = 85e-3;
 
+/// Least length of an underarm seam below the bicep for it to bend there, m: in less, 10 mm more width would be a corner.
+const LEAST_BELOW_BICEP_M: f64 = 60e-3;
+
 /// What a side seam belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Limb {
@@ -150,30 +153,28 @@ fn out_of(anatomy: &Anatomy<'_>, chain: &Chain) -> V2 {
     V2::x() * (middle - 0.5 * (low + high)).signum()
 }
 
-fn sides(
-    anatomy: &Anatomy<'_>,
-    trunk: Option<&Trunk<'_>>,
-    legs: &[Legs<'_>],
-    points: &[PointOfMeasure],
-) -> Vec<Side> {
+fn sides(anatomy: &Anatomy<'_>, trunk: Option<&Trunk<'_>>, legs: &[Legs<'_>], points: &[PointOfMeasure]) -> Vec<Side> {
     use Handle::{Chest, Fork, Hem, Hip, Knee, LegOpening, Thigh, Waist};
     let path = |points: &[PointOfMeasure], point: Point| {
         points.iter().find(|one| one.point == point).map(|one| one.path.clone()).unwrap_or_default()
     };
-    let side = |limb: Limb, chain: &Chain, ends: [Option<Handle>; 2], own: &[PointOfMeasure], within: &[(Point, Handle)]| {
-        let length_m: f64 = chain.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum();
-        let mut levels: Vec<(f64, Handle)> = within
-            .iter()
-            .filter_map(|(point, handle)| Some((met(anatomy, chain, &path(own, *point))?, *handle)))
-            .filter(|(at, _)| (NEAR_M..length_m - NEAR_M).contains(at))
-            .collect();
-        levels.retain(|(at, handle)| *handle != Waist || (WAIST_FROM_ENDS_M..length_m - WAIST_FROM_ENDS_M).contains(at));
-        levels.extend(ends[0].map(|handle| (0.0, handle)));
-        levels.extend(ends[1].map(|handle| (length_m, handle)));
-        levels.sort_by(|one, other| one.0.total_cmp(&other.0));
-        levels.dedup_by(|later, earlier| later.0 - earlier.0 < NEAR_M);
-        Side { limb, chain: chain.clone(), levels, out: out_of(anatomy, chain) }
-    };
+    let side =
+        |limb: Limb, chain: &Chain, ends: [Option<Handle>; 2], own: &[PointOfMeasure], within: &[(Point, Handle)]| {
+            let length_m: f64 = chain.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum();
+            let mut levels: Vec<(f64, Handle)> = within
+                .iter()
+                .filter_map(|(point, handle)| Some((met(anatomy, chain, &path(own, *point))?, *handle)))
+                .filter(|(at, _)| (NEAR_M..length_m - NEAR_M).contains(at))
+                .collect();
+            levels.retain(|(at, handle)| {
+                *handle != Waist || (WAIST_FROM_ENDS_M..length_m - WAIST_FROM_ENDS_M).contains(at)
+            });
+            levels.extend(ends[0].map(|handle| (0.0, handle)));
+            levels.extend(ends[1].map(|handle| (length_m, handle)));
+            levels.sort_by(|one, other| one.0.total_cmp(&other.0));
+            levels.dedup_by(|later, earlier| later.0 - earlier.0 < NEAR_M);
+            Side { limb, chain: chain.clone(), levels, out: out_of(anatomy, chain) }
+        };
     let mut found = Vec::new();
     if let Some(trunk) = trunk {
         let has_below = anatomy.has_below(&trunk.bottom);
@@ -201,7 +202,8 @@ fn sides(
 /// Both sides of each side seam of a skirt from its upper edge down, front and back.
 fn skirt_sides(anatomy: &Anatomy<'_>) -> Vec<[Chain; 2]> {
     let is = |face: Face| move |part: Part| part == Part::Skirt(face);
-    let joins = (0..anatomy.style().seams.len()).filter_map(|seam| anatomy.between(seam, is(Face::Front), is(Face::Back)));
+    let joins =
+        (0..anatomy.style().seams.len()).filter_map(|seam| anatomy.between(seam, is(Face::Front), is(Face::Back)));
     let all: Vec<[Chain; 2]> =
         joins.filter(|[front, _]| anatomy.is_upright(front)).map(|sides| anatomy.turned_down(sides)).collect();
     // A side seam may be sewn in several parts.
@@ -327,10 +329,23 @@ fn own_seam(anatomy: &Anatomy<'_>, (first, is_last): EdgeEnd) -> Option<Chain> {
 }
 
 impl HalfCap {
-    /// The point of the underarm seam where the bicep is measured; none of a shorter seam.
+    fn seam_m(&self, anatomy: &Anatomy<'_>) -> f64 {
+        self.seam.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum()
+    }
+
+    /// The point of the underarm seam where the bicep is measured; none of a short sleeve, whose seam stays straight.
     pub fn bicep(&self, anatomy: &Anatomy<'_>) -> Option<EdgePoint> {
-        let length_m: f64 = self.seam.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum();
-        (length_m > BELOW_ARMHOLE_M + NEAR_M).then(|| anatomy.along(&self.seam, BELOW_ARMHOLE_M)).flatten()
+        let is_long = self.seam_m(anatomy) > BELOW_ARMHOLE_M + LEAST_BELOW_BICEP_M;
+        is_long.then(|| anatomy.along(&self.seam, BELOW_ARMHOLE_M)).flatten()
+    }
+
+    /// How far the underarm point moves for the sleeve to widen by one where the bicep is measured; none of a sleeve that ends above.
+    pub fn widening(&self, anatomy: &Anatomy<'_>) -> Option<f64> {
+        let seam_m = self.seam_m(anatomy);
+        match self.bicep(anatomy) {
+            Some(_) => Some(1.0),
+            None => (seam_m > BELOW_ARMHOLE_M + NEAR_M).then(|| seam_m / (seam_m - BELOW_ARMHOLE_M)),
+        }
     }
 
     /// Unit vector down its underarm seam.

@@ -51,7 +51,8 @@ pub fn redrawn(
         }
         redrawn.insert(drawn, carrier);
     }
-    let piece = |(number, piece): (usize, &Piece)| redrawn.get(&number).map_or_else(|| piece.clone(), |by| by.piece(piece));
+    let piece =
+        |(number, piece): (usize, &Piece)| redrawn.get(&number).map_or_else(|| piece.clone(), |by| by.piece(piece));
     Ok(pieces.iter().enumerate().map(piece).collect())
 }
 

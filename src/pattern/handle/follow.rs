@@ -72,7 +72,9 @@ fn stretches(body: &Body<'_>, piece: usize, edge: EdgeRef) -> Vec<Vec<Move>> {
     let mut levels: Vec<f64> = corners.iter().map(reach).collect();
     levels.sort_by(f64::total_cmp);
     levels.dedup_by(|later, earlier| *later - *earlier < NEAR_M);
-    let Some(middle) = levels.first().zip(levels.last()).map(|(low, high)| 0.5 * (low + high)) else { return Vec::new() };
+    let Some(middle) = levels.first().zip(levels.last()).map(|(low, high)| 0.5 * (low + high)) else {
+        return Vec::new();
+    };
     let stretch = |ends: &[f64]| {
         let share = |m: f64| share_of(ends, m) - share_of(ends, middle);
         corners.iter().map(|corner| Move::new(anatomy.point(*corner), along * share(reach(corner)))).collect()

@@ -63,7 +63,8 @@ pub fn drive(body: &Body<'_>, plan: &mut Plan, side: &Side, handle: Handle, by: 
     let mut before_m = 0.0;
     for pair in side.chain.windows(2) {
         before_m += body.anatomy.length_m(&[pair[0].0]);
-        let Some([from, to]) = side.levels.windows(2).find(|l| (l[0].0..=l[1].0).contains(&before_m)).map(|l| [l[0], l[1]])
+        let Some([from, to]) =
+            side.levels.windows(2).find(|l| (l[0].0..=l[1].0).contains(&before_m)).map(|l| [l[0], l[1]])
         else {
             continue;
         };

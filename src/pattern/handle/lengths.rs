@@ -50,7 +50,8 @@ fn slashed(body: &Body<'_>, is_meant: impl Fn(&Side) -> bool, below_m: f64) -> O
     let anatomy = body.anatomy;
     let mut plan = Plan::default();
     let mut slashes: BTreeMap<usize, Slash> = BTreeMap::new();
-    let pieces: Vec<usize> = body.sides.iter().filter(|side| is_meant(side)).map(|side| side.chain[0].0.piece).collect();
+    let pieces: Vec<usize> =
+        body.sides.iter().filter(|side| is_meant(side)).map(|side| side.chain[0].0.piece).collect();
     let limbs: Vec<Part> = pieces.iter().map(|piece| anatomy.parts[*piece]).collect();
     let openings = anatomy.style().openings(&|piece| limbs.contains(&anatomy.parts[piece]));
     for side in body.sides.iter().filter(|side| is_meant(side)) {
@@ -94,8 +95,7 @@ pub fn sleeve_length(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
     let mut slashes: BTreeMap<usize, Slash> = BTreeMap::new();
     for cap in body.caps() {
-        let slash =
-            slashes.entry(cap.piece).or_insert(Slash { down: cap.down, from_m: f64::MIN, to_m: f64::MAX });
+        let slash = slashes.entry(cap.piece).or_insert(Slash { down: cap.down, from_m: f64::MIN, to_m: f64::MAX });
         slash.from_m = slash.from_m.max(anatomy.place(cap.underarm).dot(&cap.down));
         slash.to_m = slash.to_m.min(anatomy.place(end(&cap.seam)).dot(&cap.down));
         plan.give(body.point(end(&cap.seam)), cap.down);

@@ -23,7 +23,8 @@ pub fn with_lines(style: &Style, lines: BTreeMap<usize, Vec<Polyline>>) -> (Styl
         changed.corners.iter_mut().for_each(|corner| *corner = field.carried(*corner));
         fields.insert(piece, field);
     }
-    let paths = moved.measurements.iter_mut().map(|m| &mut m.path).chain(moved.fit_levels.iter_mut().map(|(_, path)| path));
+    let paths =
+        moved.measurements.iter_mut().map(|m| &mut m.path).chain(moved.fit_levels.iter_mut().map(|(_, path)| path));
     for part in paths.flatten() {
         if let PathPart::Line(ends) = part {
             ends.iter_mut().for_each(|at| *at = carried_point(style, &moved.pieces, *at));

@@ -171,7 +171,8 @@ impl Ring {
     fn bent(&self, moves: &[Move]) -> Vec<[f64; 2]> {
         let told = self.told(moves);
         let is_moved = |knot: usize| told[knot] != V2::zeros();
-        let bent = self.stretches().filter(|(stretch, ends)| !stretch.is_stiff && ends.iter().any(|end| is_moved(*end)));
+        let bent =
+            self.stretches().filter(|(stretch, ends)| !stretch.is_stiff && ends.iter().any(|end| is_moved(*end)));
         let arcs = bent.flat_map(|(stretch, _)| {
             let [from, to] = stretch.arcs_m;
             [[from, to], [from - self.length_m(), to - self.length_m()]]
@@ -187,7 +188,9 @@ impl Ring {
         for (stretch, [from, to]) in self.stretches() {
             for (vertex, moved) in moved.iter_mut().enumerate() {
                 let arcs = [0.0, self.length_m()].map(|round_m| self.line.arcs()[vertex] + round_m);
-                let within = arcs.into_iter().find(|arc| (stretch.arcs_m[0] - SAME_M..=stretch.arcs_m[1] + SAME_M).contains(arc));
+                let within = arcs
+                    .into_iter()
+                    .find(|arc| (stretch.arcs_m[0] - SAME_M..=stretch.arcs_m[1] + SAME_M).contains(arc));
                 if let Some(arc_m) = within {
                     *moved = stretch.between(stretch.share(self.line.points()[vertex], arc_m), [told[from], told[to]]);
                 }
@@ -237,7 +240,8 @@ impl Stretch {
         let along = [unit(at(arcs_m[0] + step) - ends[0]), unit(ends[1] - at(arcs_m[1] - step))];
         let arcs = ring.line.arcs();
         let rounds = [0.0, length_m].into_iter().flat_map(|round_m| arcs.iter().map(move |arc| arc + round_m));
-        let inner: Vec<V2> = rounds.filter(|arc| (arcs_m[0] + SAME_M..arcs_m[1] - SAME_M).contains(arc)).map(at).collect();
+        let inner: Vec<V2> =
+            rounds.filter(|arc| (arcs_m[0] + SAME_M..arcs_m[1] - SAME_M).contains(arc)).map(at).collect();
         let chord = ends[1] - ends[0];
         let axis = unit(chord);
         let mut places = vec![ends[0].dot(&axis)];

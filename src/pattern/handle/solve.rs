@@ -97,7 +97,8 @@ impl System<'_> {
     /// The edges of the touched pieces, displaced.
     fn lines(&self, given: &[f64]) -> BTreeMap<usize, Vec<Polyline>> {
         let edges = |piece: usize| (0..self.style.pieces[piece].edges.len()).map(move |edge| EdgeRef { piece, edge });
-        let lines = self.touched.iter().map(|piece| (*piece, edges(*piece).map(|edge| self.line(edge, given)).collect()));
+        let lines =
+            self.touched.iter().map(|piece| (*piece, edges(*piece).map(|edge| self.line(edge, given)).collect()));
         lines.collect()
     }
 
@@ -105,7 +106,9 @@ impl System<'_> {
         let line = &self.style.edge(edge).line;
         let mut points = line.points().to_vec();
         let gives = self.gives.iter().zip(given.iter().copied());
-        for (fields, share) in [(&self.drive, self.amount_m)].into_iter().chain(gives).filter(|(_, share)| *share != 0.0) {
+        for (fields, share) in
+            [(&self.drive, self.amount_m)].into_iter().chain(gives).filter(|(_, share)| *share != 0.0)
+        {
             if let Some(moved) = fields.get(&edge.piece) {
                 points.iter_mut().zip(&moved[edge.edge]).for_each(|(p, by)| *p += by * share);
             }

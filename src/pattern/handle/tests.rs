@@ -44,10 +44,16 @@ fn styles_apart_mm(one: &Style, other: &Style) -> f64 {
     mm(pairs.map(|(one, other)| farthest_m(&one.outline(), &other.outline())).fold(0.0, f64::max))
 }
 
-/// Greatest turn within an edge of a piece, degrees.
-fn sharpest_deg(piece: &StylePiece) -> Vec<f64> {
-    let turns = |line: &[V2]| line.windows(3).map(|p| (p[1] - p[0]).angle(&(p[2] - p[1])).to_degrees()).fold(0.0, f64::max);
-    piece.edges.iter().map(|edge| turns(edge.line.points())).collect()
+/// Greatest turn within each edge of a piece that is no corner, degrees, and the number of corners within it.
+fn kinks(piece: &StylePiece) -> Vec<(f64, usize)> {
+    const CORNER_DEG: f64 = 20.0;
+    let turns =
+        |line: &[V2]| line.windows(3).map(|p| (p[1] - p[0]).angle(&(p[2] - p[1])).to_degrees()).collect::<Vec<_>>();
+    let of = |turns: Vec<f64>| {
+        let (smooth, corners): (Vec<f64>, Vec<f64>) = turns.into_iter().partition(|turn| *turn < CORNER_DEG);
+        (smooth.into_iter().fold(0.0, f64::max), corners.len())
+    };
+    piece.edges.iter().map(|edge| of(turns(edge.line.points()))).collect()
 }
 
 /// Angles at the ends of a piece's edges, degrees.
@@ -70,13 +76,18 @@ fn sound(what: &str, before: &Style, after: &Style) {
         assert!((gap - was).abs() < 0.1, "{what}: seam {} is {gap} apart, was {was}", seam.name);
     }
     for (was, piece) in before.pieces.iter().zip(&after.pieces) {
-        assert!(self_crossing(&was.outline()).is_some() || self_crossing(&piece.outline()).is_none(), "{what}: {}", piece.id);
-        for ((was_deg, deg), edge) in sharpest_deg(was).iter().zip(sharpest_deg(piece)).zip(&piece.edges) {
-            assert!(deg < was_deg + 2.0, "{what}: {} {:?} turns by {deg}, was {was_deg}", piece.id, edge.name);
+        assert!(
+            self_crossing(&was.outline()).is_some() || self_crossing(&piece.outline()).is_none(),
+            "{what}: {}",
+            piece.id
+        );
+        for ((was_deg, deg), edge) in kinks(was).iter().zip(kinks(piece)).zip(&piece.edges) {
+            let is_smooth = deg.0 < was_deg.0 + 2.0 && deg.1 == was_deg.1;
+            assert!(is_smooth, "{what}: {} {:?} turns by {deg:?}, was {was_deg:?}", piece.id, edge.name);
         }
         for (was_at, at) in was.notches.iter().zip(&piece.notches) {
             let off = boundary_distance(&piece.outline(), &at.at) - boundary_distance(&was.outline(), &was_at.at);
-            assert!(mm(off).abs() < 1.0, "{what}: a notch of {} leaves the outline by {off}", piece.id);
+            assert!(mm(off).abs() < 2.0, "{what}: a notch of {} leaves the outline by {off}", piece.id);
         }
     }
     after.mesh(0.03).unwrap_or_else(|error| panic!("{what}: {error}"));
@@ -107,7 +118,8 @@ fn promised(handle: Handle) -> (Vec<(Point, f64)>, &'static [Point]) {
         Handle::NeckWidth => (vec![(NeckWidth, 1.0)], &[Shoulder, FrontLength, BackLength, FrontNeckDrop, BackNeckDrop, Neck]),
         Handle::ArmholeDepth => (vec![], &[Armhole, AcrossFront, AcrossBack, HalfBicep, HalfChest]),
         Handle::Bicep => (vec![(HalfBicep, 1.0), (Armhole, 0.0), (SleeveLength, 0.0)], &[]),
-        Handle::Cuff => (vec![(HalfCuff, 1.0), (SleeveLength, 0.0)], &[]),
+        // A short sleeve stays straight from the underarm to its edge.
+        Handle::Cuff => (vec![(HalfCuff, 1.0), (SleeveLength, 0.0)], &[HalfBicep]),
         Handle::CapHeight => (vec![(Armhole, 0.0), (SleeveLength, 0.0)], &[HalfBicep]),
         Handle::SleeveLength => (vec![(SleeveLength, 1.0)], &[]),
         Handle::BodyLength | Handle::SkirtLength => {
@@ -148,14 +160,8 @@ fn drafted_styles_have_the_handles_of_their_parts() {
         let found: Vec<&str> = drafted(model, 0).handles().iter().map(|handle| handle.as_str()).collect();
         assert_eq!(found, expect, "{model:?}");
     };
-    let trunk = [
-        "shoulder_slope",
-        "shoulder_length",
-        "front_neck_depth",
-        "back_neck_depth",
-        "neck_width",
-        "armhole_depth",
-    ];
+    let trunk =
+        ["shoulder_slope", "shoulder_length", "front_neck_depth", "back_neck_depth", "neck_width", "armhole_depth"];
     let sleeve = ["bicep", "cuff", "cap_height", "sleeve_length"];
     let lengths = ["body_length", "front_length", "back_length"];
     let top = [&["chest", "waist", "hem"][..], &trunk, &sleeve, &lengths].concat();
@@ -184,7 +190,10 @@ fn corners_go_as_far_as_the_handle_says() {
         };
         let by = place(&moved) - place(&style);
         for (found, expect) in [by.x, by.y].into_iter().map(mm).zip(expect_mm) {
-            assert!(expect.is_none_or(|expect| (found - expect).abs() < 0.05), "{handle:?} {piece}.{edge}: {found} for {expect:?}");
+            assert!(
+                expect.is_none_or(|expect| (found - expect).abs() < 0.05),
+                "{handle:?} {piece}.{edge}: {found} for {expect:?}"
+            );
         }
     };
     let none = [Some(0.0), Some(0.0)];
@@ -198,19 +207,14 @@ fn corners_go_as_far_as_the_handle_says() {
     check(Model::Tshirt, Handle::Hem, "back", "side_left", true, [Some(-5.0), None]);
     check(Model::Tshirt, Handle::Hem, "back", "side_left", false, none);
     check(Model::Dress, Handle::Waist, "bodice_front", "waist", true, [Some(5.0), None]);
-    check(Model::Trousers, Handle::Fork, "leg_back_left", "crotch_lower", true, [Some(-10.0), Some(0.0)]);
+    check(Model::Trousers, Handle::Fork, "leg_back_left", "crotch_lower", false, [Some(10.0), None]);
     check(Model::Trousers, Handle::LegOpening, "leg_front_right", "hem", true, [Some(5.0), None]);
 }
 
 #[test]
 fn right_and_left_stay_alike_and_square_corners_square() {
-    let turned = [
-        Handle::ShoulderSlope,
-        Handle::ShoulderLength,
-        Handle::Fork,
-        Handle::FrontRise,
-        Handle::BackRise,
-    ];
+    // The underarm seam of a short sleeve and the side of a straight skirt stay straight, and so turn.
+    let turned = [Handle::ShoulderSlope, Handle::ShoulderLength, Handle::Fork, Handle::FrontRise, Handle::BackRise];
     for (name, style) in styles() {
         for (handle, amount_mm) in style.handles().into_iter().flat_map(|handle| [(handle, 10.0), (handle, -10.0)]) {
             let what = format!("{name} {} {amount_mm:+}", handle.as_str());
@@ -223,12 +227,18 @@ fn right_and_left_stay_alike_and_square_corners_square() {
                 let image = twin.map(StylePiece::outline).or_else(|| (!is_half).then(|| outline.clone()));
                 let apart = image.map_or(0.0, |image: Vec<V2>| farthest_m(&outline, &mirrored(&image, 0.0)));
                 assert!(mm(apart) < 0.01, "{what}: {} is {apart} from its image", piece.id);
-                if turned.contains(&handle) {
+                let is_short_sleeve = name.starts_with("teetop") && piece.id.starts_with("sleeve");
+                let is_straight_skirt = piece.id.starts_with("skirt") && matches!(handle, Handle::Waist | Handle::Hem);
+                if is_short_sleeve || is_straight_skirt || turned.contains(&handle) {
                     continue;
                 }
                 for (k, (was_deg, deg)) in angles_deg(was).iter().zip(angles_deg(piece)).enumerate() {
                     let is_square = (was_deg - 90.0).abs() < 1.0;
-                    assert!(!is_square || (deg - was_deg).abs() < 1.0, "{what}: {} corner {k}: {was_deg} to {deg}", piece.id);
+                    assert!(
+                        !is_square || (deg - was_deg).abs() < 1.0,
+                        "{what}: {} corner {k}: {was_deg} to {deg}",
+                        piece.id
+                    );
                 }
             }
         }
@@ -280,9 +290,13 @@ fn styles_change_smoothly_with_the_amount() {
 #[test]
 fn what_cannot_be_done_is_refused_with_its_reason() {
     let style = drafted(Model::Tshirt, 0);
-    let told = |style: &Style, handle: Handle, amount_m: f64| style.moved(&[(handle, amount_m)]).expect_err("it is refused");
+    let told =
+        |style: &Style, handle: Handle, amount_m: f64| style.moved(&[(handle, amount_m)]).expect_err("it is refused");
     let absent = told(&style, Handle::LegLength, 0.01);
-    assert!(matches!(absent, HandleError::Absent { .. }) && absent.to_string().contains("chest, waist, hem"), "{absent}");
+    assert!(
+        matches!(absent, HandleError::Absent { .. }) && absent.to_string().contains("chest, waist, hem"),
+        "{absent}"
+    );
     for amount_m in [0.5, f64::NAN] {
         let much = told(&style, Handle::Waist, amount_m).to_string();
         assert!(much.contains("accepted: -300 to 300 mm"), "{much}");
@@ -290,11 +304,16 @@ fn what_cannot_be_done_is_refused_with_its_reason() {
     let crossed = told(&style, Handle::Cuff, -0.2);
     assert!(matches!(crossed, HandleError::Crossing { .. }), "{crossed}");
     // The armhole is sewn to a piece that is no sleeve: it cannot follow.
-    let text = std::str::from_utf8(Model::Tshirt.seams()).expect("text").replace("role = \"sleeve_left\"", "role = \"skirt_back\"");
+    let text = std::str::from_utf8(Model::Tshirt.seams())
+        .expect("text")
+        .replace("role = \"sleeve_left\"", "role = \"skirt_back\"");
     let pieces = Model::Tshirt.drafts().swap_remove(0).pieces;
     let odd = Style::read(&pieces, text.as_bytes(), "odd").expect("it is sewn");
     let apart = told(&odd, Handle::ArmholeDepth, 0.01).to_string();
-    assert!(apart.contains("seam `armhole_left` of sleeve_left.cap and back.armhole_left + front.armhole_left"), "{apart}");
+    assert!(
+        apart.contains("seam `armhole_left` of sleeve_left.cap and back.armhole_left + front.armhole_left"),
+        "{apart}"
+    );
 }
 
 #[test]
@@ -313,7 +332,11 @@ fn redrawn_pieces_make_the_changed_style_by_the_same_seam_file() {
         }
         for (piece, was) in pieces.iter().zip(&draft.pieces) {
             let direction = |piece: &Piece| piece.grain.map(|[from, to]| (to - from).normalize());
-            assert!(direction(piece).zip(direction(was)).is_some_and(|(is, was)| (is - was).norm() < 1e-9), "{}", piece.name);
+            assert!(
+                direction(piece).zip(direction(was)).is_some_and(|(is, was)| (is - was).norm() < 1e-9),
+                "{}",
+                piece.name
+            );
         }
     };
     use Handle::*;
@@ -329,7 +352,8 @@ fn what_lies_inside_goes_along() {
     let front = draft.pieces.iter_mut().find(|piece| piece.block == "FRONT").expect("it is drafted");
     front.drill_holes = vec![V2::new(0.0, 0.05), V2::new(0.1, 0.2)];
     front.internal_lines = vec![vec![V2::new(-0.1, 0.05), V2::new(0.1, 0.05)]];
-    let pieces = redrawn(&draft.pieces, Model::Tshirt.seams(), "seams", &[(Handle::BodyLength, 0.02)]).expect("it has it");
+    let pieces =
+        redrawn(&draft.pieces, Model::Tshirt.seams(), "seams", &[(Handle::BodyLength, 0.02)]).expect("it has it");
     let moved = pieces.iter().find(|piece| piece.block == "FRONT").expect("it is there");
     let by: Vec<V2> =
         moved.drill_holes.iter().zip([V2::new(0.0, 0.05), V2::new(0.1, 0.2)]).map(|(p, was)| p - was).collect();
@@ -379,8 +403,8 @@ fn foreign_patterns_change_by_their_handles() {
     check(&gc("tshirt_mean_female"), 16, &[]);
     check(&gc("tshirt_mean_all"), 16, &[]);
     check(&gc("longsleeve_shirt_mean_all"), 16, &[]);
-    check(&gc("fitted_shirt_sleeves_mean_male"), 16, &[]);
-    check(&gc("fitted_bodice_darts_mean_female"), 12, &[]);
+    check(&gc("fitted_shirt_sleeves_mean_male"), 15, &[]);
+    check(&gc("fitted_bodice_darts_mean_female"), 11, &[]);
     check(&gc("dress_sheath_mean_female"), 14, &[]);
     check(&gc("pencil_skirt_mean_female"), 4, &[]);
     check(&gc("pants_mean_all"), 9, &[]);

@@ -143,7 +143,9 @@ impl Armhole {
 
 /// The armholes stay where they are half-way up, where the widths across front and back are measured.
 pub fn hold_across(body: &Body<'_>, plan: &mut Plan) {
-    plan.moves.extend(body.armholes.iter().filter_map(|armhole| half_way_up(body, armhole)).map(|at| Move::new(at, V2::zeros())));
+    plan.moves.extend(
+        body.armholes.iter().filter_map(|armhole| half_way_up(body, armhole)).map(|at| Move::new(at, V2::zeros())),
+    );
 }
 
 /// The point of an armhole half-way up.
@@ -157,7 +159,8 @@ pub fn sleeves_follow(body: &Body<'_>, plan: &mut Plan) {
     for armhole in &body.armholes {
         let Some(cap) = &armhole.cap else { continue };
         let mut spans = cap_spans(cap);
-        let is_sewn_on = |edge: &&EdgeRef| body.anatomy.ways.partners(**edge).iter().any(|other| other.piece == cap.piece);
+        let is_sewn_on =
+            |edge: &&EdgeRef| body.anatomy.ways.partners(**edge).iter().any(|other| other.piece == cap.piece);
         spans.extend(armhole.edges.iter().filter(is_sewn_on).map(|edge| (Span::whole(*edge), -1.0)));
         plan.conditions.push(Condition { spans, change: 0.0 });
         hold_sleeve(body, plan, cap);
@@ -184,4 +187,3 @@ pub fn move_underarm(body: &Body<'_>, moves: &mut Vec<Move>, cap: &HalfCap, by: 
     moves.push(Move::new(body.point(cap.underarm), by));
     moves.extend(cap.bicep(body.anatomy).map(|at| Move::new(at, by)));
 }
-
