@@ -55,10 +55,10 @@ fn print(context: &Context, found: &Alteration) -> Result<(), super::CliError> {
 }
 
 fn moves(found: &Alteration) -> Table {
-    let columns = ["handle", "by_mm", "does"].map(str::to_owned).to_vec();
+    let columns = ["handle", "by_mm"].map(str::to_owned).to_vec();
     let row = |one: &study::MovedHandle| {
         let by = Value::Text(format!("{:+.1}", one.amount_mm));
-        vec![Value::Text(one.handle.replace('_', " ")), by, Value::Text(one.does.to_owned())]
+        vec![Value::Text(one.handle.replace('_', " ")), by]
     };
     Table { columns, rows: found.moves.iter().map(row).collect() }
 }

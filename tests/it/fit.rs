@@ -2,6 +2,7 @@
 
 use crate::program::{Place, shared};
 use toile::fit::target::TARGETS;
+use toile::pattern::Handle;
 use toile::pattern::pom::Point;
 
 #[test]
@@ -14,6 +15,16 @@ fn the_page_on_fit_has_every_point_and_every_target() {
     for row in TARGETS {
         let eases = row.eases_mm().map(|[least, most]| format!("{least} to {most}")).join(" | ");
         assert!(page.contains(&format!(" | {eases} |")), "docs/fit.md lacks {}: {eases}", row.level);
+    }
+}
+
+#[test]
+fn the_page_on_alterations_has_every_handle() {
+    let page =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/alter.md")).expect("in the repository");
+    for handle in Handle::ALL {
+        let row = format!("| `{}` | {} |", handle.as_str(), handle.definition());
+        assert!(page.contains(&row), "docs/alter.md lacks: {row}");
     }
 }
 

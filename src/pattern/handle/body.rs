@@ -17,6 +17,9 @@ pub const NEAR_M: f64 = 3e-3;
 /// Least distance of a waist within a side seam from its ends, m: nearer, the girth is narrowest where the seam ends, and there is no waist.
 const WAIST_FROM_ENDS_M: f64 = 85e-3;
 
+/// Least length of an underarm seam below the bicep for it to bend there, m: in less, 10 mm more width would be a corner.
+const LEAST_BELOW_BICEP_M: f64 = 60e-3;
+
 /// What a side seam belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Limb {
@@ -326,10 +329,23 @@ fn own_seam(anatomy: &Anatomy<'_>, (first, is_last): EdgeEnd) -> Option<Chain> {
 }
 
 impl HalfCap {
-    /// The point of the underarm seam where the bicep is measured; none of a shorter seam.
+    fn seam_m(&self, anatomy: &Anatomy<'_>) -> f64 {
+        self.seam.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum()
+    }
+
+    /// The point of the underarm seam where the bicep is measured; none of a short sleeve, whose seam stays straight.
     pub fn bicep(&self, anatomy: &Anatomy<'_>) -> Option<EdgePoint> {
-        let length_m: f64 = self.seam.iter().map(|(edge, _)| anatomy.length_m(&[*edge])).sum();
-        (length_m > BELOW_ARMHOLE_M + NEAR_M).then(|| anatomy.along(&self.seam, BELOW_ARMHOLE_M)).flatten()
+        let is_long = self.seam_m(anatomy) > BELOW_ARMHOLE_M + LEAST_BELOW_BICEP_M;
+        is_long.then(|| anatomy.along(&self.seam, BELOW_ARMHOLE_M)).flatten()
+    }
+
+    /// How far the underarm point moves for the sleeve to widen by one where the bicep is measured; none of a sleeve that ends above.
+    pub fn widening(&self, anatomy: &Anatomy<'_>) -> Option<f64> {
+        let seam_m = self.seam_m(anatomy);
+        match self.bicep(anatomy) {
+            Some(_) => Some(1.0),
+            None => (seam_m > BELOW_ARMHOLE_M + NEAR_M).then(|| seam_m / (seam_m - BELOW_ARMHOLE_M)),
+        }
     }
 
     /// Unit vector down its underarm seam.

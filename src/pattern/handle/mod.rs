@@ -23,11 +23,13 @@ mod upper;
 pub use self::drawn::redrawn;
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use self::body::Body;
 use self::field::Field;
 use self::plan::Plan;
 use crate::pom::anatomy::Anatomy;
+use crate::pom::{Point, PointOfMeasure};
 use crate::propose::Face;
 use crate::seams::StyleError;
 use crate::style::Style;
@@ -37,6 +39,15 @@ use geom::units::mm;
 const MOST_M: f64 = 0.3;
 /// By how much more than before the sides of a seam may differ, and a length that holds may change, m.
 const PAIRED_M: f64 = 0.1e-3;
+
+/// How near to its amount a handle changes the point of measure that it aims at, m, and most tries.
+const AIMED_M: f64 = 1e-6;
+const MOST_AIMS: usize = 8;
+/// Ratios of an amount to what it changes within which it is aimed: beyond, the point of measure lies elsewhere after the change.
+const AIM_RATIOS: Range<f64> = 0.5..2.0;
+
+/// A style changed by a handle, and how each piece that changed did.
+type Change = (Style, BTreeMap<usize, Field>);
 
 /// A handle by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -220,6 +231,20 @@ impl Handle {
         Self::ALL.into_iter().find(|handle| handle.as_str() == name)
     }
 
+    /// The point of measure that changes by just the amount, of a handle whose places alone do not tell it.
+    const fn aim(self) -> Option<Point> {
+        match self {
+            Self::Hip => Some(Point::HalfHip),
+            Self::Thigh => Some(Point::HalfThigh),
+            Self::Knee => Some(Point::HalfKnee),
+            Self::LegOpening => Some(Point::HalfLegOpening),
+            Self::NeckWidth => Some(Point::NeckWidth),
+            Self::Bicep => Some(Point::HalfBicep),
+            Self::Cuff => Some(Point::HalfCuff),
+            _ => None,
+        }
+    }
+
     fn plan(self, body: &Body<'_>) -> Option<Plan> {
         match self {
             Self::Chest | Self::Waist | Self::Hip | Self::Hem | Self::Thigh | Self::Knee | Self::LegOpening => {
@@ -353,13 +378,13 @@ impl Style {
     }
 
     /// The style changed by one handle, and how each piece that changed did.
-    fn moved_by(&self, handle: Handle, amount_m: f64) -> Result<(Self, BTreeMap<usize, Field>), HandleError> {
-        let amount_mm = mm(amount_m);
+    fn moved_by(&self, handle: Handle, amount_m: f64) -> Result<Change, HandleError> {
         if !(-MOST_M..=MOST_M).contains(&amount_m) {
-            return Err(HandleError::Amount { handle, amount_mm, most_mm: mm(MOST_M) });
+            return Err(HandleError::Amount { handle, amount_mm: mm(amount_m), most_mm: mm(MOST_M) });
         }
         let anatomy = Anatomy::of(self);
-        let body = Body::of(&anatomy, &self.points_of_measure());
+        let points = self.points_of_measure();
+        let body = Body::of(&anatomy, &points);
         let Some(mut plan) = handle.plan(&body) else {
             let accepted: Vec<&str> = self.handles().iter().map(|handle| handle.as_str()).collect();
             return Err(HandleError::Absent { style: self.name.clone(), handle, accepted: accepted.join(", ") });
@@ -370,7 +395,35 @@ impl Style {
         follow::darts(&body, &mut plan);
         follow::bands(&body, &mut plan);
         let fine = solve::refined(self, &plan);
-        let solved = solve::solved(&fine, &plan, amount_m);
+        let length_m = |points: &[PointOfMeasure]| {
+            handle.aim().and_then(|aim| points.iter().find(|one| one.point == aim)).map(|one| one.length_m)
+        };
+        let before_m = length_m(&points);
+        let mut driven_m = amount_m;
+        let mut change = self.driven(&fine, &plan, handle, [amount_m, driven_m])?;
+        for _ in 0..MOST_AIMS {
+            let after_m = length_m(&change.0.points_of_measure());
+            let Some(changed_m) = after_m.zip(before_m).map(|(after, before)| after - before) else { break };
+            let ratio = amount_m / changed_m;
+            if (changed_m - amount_m).abs() < AIMED_M || !AIM_RATIOS.contains(&ratio) {
+                break;
+            }
+            driven_m *= ratio;
+            change = self.driven(&fine, &plan, handle, [amount_m, driven_m])?;
+        }
+        Ok(change)
+    }
+
+    /// The style changed by a plan that moves its places by `driven_m` for a handle's amount, m.
+    fn driven(
+        &self,
+        fine: &Self,
+        plan: &Plan,
+        handle: Handle,
+        [amount_m, driven_m]: [f64; 2],
+    ) -> Result<Change, HandleError> {
+        let amount_mm = mm(amount_m);
+        let solved = solve::solved(fine, plan, driven_m);
         let off = |place: String, off_m: f64, what: &str| HandleError::Length {
             handle,
             amount_mm,
@@ -379,7 +432,8 @@ impl Style {
             within_mm: mm(PAIRED_M),
         };
         let not_held = |off_m: f64| off_m.is_nan() || off_m.abs() > PAIRED_M;
-        if let Some((number, off_m)) = solved.seams_m.iter().find(|(_, off_m)| not_held(*off_m)) {
+        let worst = solved.seams_m.iter().max_by(|one, other| one.1.abs().total_cmp(&other.1.abs()));
+        if let Some((number, off_m)) = worst.filter(|(_, off_m)| not_held(*off_m)) {
             return Err(off(
                 self.seam_words(*number),
                 *off_m,
@@ -390,7 +444,7 @@ impl Style {
             let edges = plan.conditions[number].spans.iter().map(|(span, _)| self.edge_name(span.edge));
             return Err(off(edges.collect::<Vec<_>>().join(", "), *off_m, "the length cannot be kept: it is off by"));
         }
-        let (style, fields) = restyle::with_lines(&fine, solved.lines);
+        let (style, fields) = restyle::with_lines(fine, solved.lines);
         if let Some((piece, at)) = restyle::new_crossing(self, &style) {
             return Err(HandleError::Crossing { handle, amount_mm, piece, u_mm: mm(at.x), v_mm: mm(at.y) });
         }

@@ -10,7 +10,7 @@ pub fn bicep(body: &Body<'_>) -> Option<Plan> {
     let mut plan = Plan::default();
     for cap in body.caps() {
         hold_sleeve(body, &mut plan, cap);
-        move_underarm(body, &mut plan.moves, cap, cap.out);
+        move_underarm(body, &mut plan.moves, cap, cap.out * cap.widening(body.anatomy)?);
         let mut give = Vec::new();
         move_underarm(body, &mut give, cap, -cap.down);
         plan.gives.push(give);
