@@ -25,7 +25,7 @@ pub fn plan(body: &Body<'_>, handle: Handle) -> Option<Plan> {
         let by = 2.0 / body.sides.iter().filter(in_girth).count() as f64;
         drive(body, &mut plan, side, handle, by);
         keep(body, &mut plan, side);
-        if handle == Handle::Waist && side.limb == Limb::Skirt {
+        if handle == Handle::Waist && side.limb == Limb::Skirt && body.trunk.is_some() {
             // The skirt follows the waist of its bodice.
             plan.give(body.point(start(&side.chain)), side.out);
         }
