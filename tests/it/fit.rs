@@ -19,12 +19,14 @@ fn the_page_on_fit_has_every_point_and_every_target() {
 }
 
 #[test]
-fn the_page_on_alterations_has_every_handle() {
+fn the_page_on_handles_has_them_all() {
     let page =
-        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/alter.md")).expect("in the repository");
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/handles.md")).expect("in the repository");
     for handle in Handle::ALL {
-        let row = format!("| `{}` | {} |", handle.as_str(), handle.definition());
-        assert!(page.contains(&row), "docs/alter.md lacks: {row}");
+        let name = format!("`{}`", handle.as_str());
+        let is_row =
+            |line: &str| line.starts_with('|') && line.split('|').nth(1).is_some_and(|cell| cell.contains(&name));
+        assert!(page.lines().any(is_row), "docs/handles.md lacks {name}");
     }
 }
 

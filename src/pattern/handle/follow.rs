@@ -2,12 +2,15 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::body::{Body, NEAR_M};
+use super::body::Body;
 use super::plan::{Move, Plan, corners};
 use crate::pom::anatomy::Part;
 use crate::style::EdgeRef;
 use crate::style::openings::EdgeEnd;
 use geom::V2;
+
+/// Extent of the end of a shaped band along it, m.
+const END_M: f64 = 20e-3;
 
 /// Tips of darts go as far as their mouths do, and give way until both legs are paired.
 pub fn darts(body: &Body<'_>, plan: &mut Plan) {
@@ -68,10 +71,15 @@ fn stretches(body: &Body<'_>, piece: usize, edge: EdgeRef) -> Vec<Vec<Move>> {
     let chord = anatomy.place((edge, true)) - anatomy.place((edge, false));
     let Some(along) = chord.try_normalize(0.0) else { return Vec::new() };
     let corners = corners(anatomy, piece);
-    let reach = |corner: &EdgeEnd| anatomy.place(*corner).dot(&along);
-    let mut levels: Vec<f64> = corners.iter().map(reach).collect();
+    let place = |corner: &EdgeEnd| anatomy.place(*corner).dot(&along);
+    let mut levels: Vec<f64> = corners.iter().map(place).collect();
     levels.sort_by(f64::total_cmp);
-    levels.dedup_by(|later, earlier| *later - *earlier < NEAR_M);
+    levels.dedup_by(|later, earlier| *later - *earlier < END_M);
+    // Corners of one end move alike.
+    let reach = |corner: &EdgeEnd| {
+        let at_m = place(corner);
+        levels.iter().copied().min_by(|one, other| (one - at_m).abs().total_cmp(&(other - at_m).abs())).unwrap_or(at_m)
+    };
     let Some(middle) = levels.first().zip(levels.last()).map(|(low, high)| 0.5 * (low + high)) else {
         return Vec::new();
     };

@@ -9,6 +9,9 @@ use crate::style::EdgePoint;
 use crate::style::openings::EdgeEnd;
 use geom::{V2, smooth_step};
 
+/// Distance within which a corner of a side lies at one of its levels, m.
+const AT_LEVEL_M: f64 = 1e-6;
+
 /// What a girth handle does; `None` where no seam has its level.
 ///
 /// All sides that have the level move by the same, so that half of the girth changes by the amount. Every side keeps its length: its lower
@@ -25,7 +28,7 @@ pub fn plan(body: &Body<'_>, handle: Handle) -> Option<Plan> {
         let by = 2.0 / body.sides.iter().filter(in_girth).count() as f64;
         drive(body, &mut plan, side, handle, by);
         keep(body, &mut plan, side);
-        if handle == Handle::Waist && side.limb == Limb::Skirt {
+        if handle == Handle::Waist && side.limb == Limb::Skirt && body.trunk.is_some() {
             // The skirt follows the waist of its bodice.
             plan.give(body.point(start(&side.chain)), side.out);
         }
@@ -57,8 +60,11 @@ fn shares_girth(one: Limb, other: Limb, handle: Handle) -> bool {
 /// Moves a side outwards at a level, by nothing at its other levels, and smoothly between.
 pub fn drive(body: &Body<'_>, plan: &mut Plan, side: &Side, handle: Handle, by: f64) {
     let value = |level: Handle| if level == handle { by } else { 0.0 };
+    let mut levels = Vec::new();
     for &(at_m, level) in &side.levels {
-        plan.moves.extend(place(body, side, at_m).map(|at| Move::new(at, side.out * value(level))));
+        let Some(at) = place(body, side, at_m) else { continue };
+        plan.drive(at, side.out * value(level));
+        levels.push(at);
     }
     let mut before_m = 0.0;
     for pair in side.chain.windows(2) {
@@ -73,7 +79,9 @@ pub fn drive(body: &Body<'_>, plan: &mut Plan, side: &Side, handle: Handle, by: 
         if corners.len() > 1 || rig::is_sharp(body.anatomy.style(), pair[0]) {
             let t = (before_m - from.0) / (to.0 - from.0);
             let by = side.out * (value(from.1) + (value(to.1) - value(from.1)) * smooth_step(t));
-            plan.moves.extend(corners.into_iter().map(|at| Move::new(at, by)));
+            let place = |at: EdgePoint| body.anatomy.style().place(at);
+            let is_told = |at: &EdgePoint| levels.iter().any(|level| (place(*level) - place(*at)).norm() < AT_LEVEL_M);
+            plan.moves.extend(corners.into_iter().filter(|at| !is_told(at)).map(|at| Move::new(at, by)));
         }
     }
 }

@@ -232,9 +232,12 @@ impl Handle {
     }
 
     /// The point of measure that changes by just the amount, of a handle whose places alone do not tell it.
-    const fn aim(self) -> Option<Point> {
+    fn aim(self, body: &Body<'_>) -> Option<Point> {
         match self {
+            // The waist of a top is where it is narrowest, and that goes elsewhere.
+            Self::Waist if body.trunk.is_none() => Some(Point::HalfWaist),
             Self::Hip => Some(Point::HalfHip),
+            Self::Hem => Some(Point::HalfHem),
             Self::Thigh => Some(Point::HalfThigh),
             Self::Knee => Some(Point::HalfKnee),
             Self::LegOpening => Some(Point::HalfLegOpening),
@@ -396,7 +399,7 @@ impl Style {
         follow::bands(&body, &mut plan);
         let fine = solve::refined(self, &plan);
         let length_m = |points: &[PointOfMeasure]| {
-            handle.aim().and_then(|aim| points.iter().find(|one| one.point == aim)).map(|one| one.length_m)
+            handle.aim(&body).and_then(|aim| points.iter().find(|one| one.point == aim)).map(|one| one.length_m)
         };
         let before_m = length_m(&points);
         let mut driven_m = amount_m;

@@ -1,6 +1,6 @@
 //! Points of measure of a sleeve.
 
-use super::anatomy::{Anatomy, BELOW_ARMHOLE_M, Chain, Part};
+use super::anatomy::{Anatomy, BELOW_ARMHOLE_M, BESIDE_M, Chain, Part};
 use super::ways::Heading;
 use super::{Point, PointOfMeasure};
 use crate::propose::Hand;
@@ -21,7 +21,13 @@ impl<'a> Sleeve<'a> {
         let on_cap = shoulder_points.iter().find_map(|point| {
             anatomy.ways.across(*point).filter(|at| anatomy.parts[at.edge.piece] == Part::Sleeve(hand))
         });
-        let down = on_cap.and_then(|at| anatomy.ways.walk(at, Heading::Down, |_| false));
+        // The seam on top of a sleeve in two panels may run straight down from there.
+        let beside = |at: EdgePoint| {
+            let length_m = anatomy.length_m(&[at.edge]);
+            [0.0, BESIDE_M, -BESIDE_M].map(|by_m| EdgePoint { arc_m: (at.arc_m + by_m).clamp(0.0, length_m), ..at })
+        };
+        let walk = |at: EdgePoint| anatomy.ways.walk(at, Heading::Down, |_| false);
+        let down = on_cap.and_then(|at| beside(at).into_iter().find_map(walk));
         Some(Self { anatomy, hand, way: down.map(|way| way.parts) })
     }
 
