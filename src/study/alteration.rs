@@ -24,8 +24,12 @@ use sim::Silent;
 
 /// By how much a handle is moved to see what it changes, m.
 const STEP_M: f64 = 0.002;
-/// How often the change is corrected by what it really does.
-const ROUNDS: usize = 4;
+/// How often the change is corrected by what it really does, and its squares weighed anew.
+const ROUNDS: usize = 12;
+/// Amount below which a handle is as dear as one that does not move, m.
+const SMALL_M: f64 = 0.2e-3;
+/// Shares of the greatest amount that are tried in turn, where handles cannot move so far.
+const LIMITS: [f64; 5] = [1.0, 0.7, 0.5, 0.35, 0.25];
 /// Amounts are given in steps of this, as a pattern maker draws them, mm.
 const DRAWN_MM: f64 = 0.5;
 /// How far inside a band a level is aimed, so that drawn amounts keep it there, m.
@@ -220,6 +224,8 @@ struct Bench<'a> {
 
 /// Handles with their amounts, m, and those that cannot be moved.
 type Found = (Vec<(Handle, f64)>, Vec<String>);
+/// What a handle changes of every level, m per m.
+type Sensitivity = BTreeMap<String, f64>;
 
 impl Bench<'_> {
     /// Ease at every level of a style, m.
@@ -234,24 +240,27 @@ impl Bench<'_> {
         own.or_else(|| self.target.band_m(level, is_top))
     }
 
-    /// The least change of handles that brings every level into its band.
+    /// The least change of handles that brings every level into its band. Where a handle cannot move as far as it would, all get
+    /// tighter limits.
     fn found(&self) -> Result<Found> {
-        let before = self.eases(self.style);
         let (handles, changes, left_out) = self.sensitivities();
-        let limits = vec![[-from_mm(self.wish.limit_mm), from_mm(self.wish.limit_mm)]; handles.len()];
+        let mut refused = None;
+        for share in LIMITS {
+            match self.within(&handles, &changes, share * from_mm(self.wish.limit_mm)) {
+                Ok(moves) => return Ok((moves, left_out)),
+                Err(error) => refused = Some(error),
+            }
+        }
+        refused.map_or(Ok((Vec::new(), left_out)), Err)
+    }
+
+    /// The least change within a limit of every handle, m.
+    fn within(&self, handles: &[Handle], changes: &[Sensitivity], limit_m: f64) -> Result<Vec<(Handle, f64)>> {
+        let before = self.eases(self.style);
+        let limits = vec![[-limit_m, limit_m]; handles.len()];
         let mut amounts: Vec<f64> = vec![0.0; handles.len()];
-        let drawn = |amounts: &[f64]| -> Vec<(Handle, f64)> {
-            let drawn = amounts.iter().map(|m| from_mm((mm(*m) / DRAWN_MM).round() * DRAWN_MM));
-            handles.iter().copied().zip(drawn).filter(|(_, amount_m)| *amount_m != 0.0).collect()
-        };
         for _ in 0..ROUNDS {
-            let exact: Vec<(Handle, f64)> = handles
-                .iter()
-                .copied()
-                .zip(amounts.iter().copied())
-                .filter(|(_, amount_m)| amount_m.abs() > 1e-6)
-                .collect();
-            let now = self.eases(&self.style.moved(&exact).map_err(StudyError::stage("alter"))?);
+            let now = self.eases(&self.moved(handles, &amounts)?);
             let goal = |(level, ease_m): (&String, &f64)| {
                 let [least, most] = self.band_m(level, &before)?;
                 let inside = INSIDE_M.min(0.25 * (most - least));
@@ -261,13 +270,24 @@ impl Bench<'_> {
                 Some(Goal { value: ease_m - done, sensitivity, band: [least + inside, most - inside] })
             };
             let goals: Vec<Goal> = now.iter().filter_map(goal).collect();
-            amounts = least_change(&goals, &limits, &vec![1.0; handles.len()]).amounts;
+            // The least sum of amounts, by squares that weigh as the amounts before: few handles move.
+            let scale: Vec<f64> = amounts.iter().map(|amount| (amount.abs() + SMALL_M).sqrt()).collect();
+            amounts = least_change(&goals, &limits, &scale).amounts;
         }
-        Ok((drawn(&amounts), left_out))
+        let drawn: Vec<f64> = amounts.iter().map(|m| from_mm((mm(*m) / DRAWN_MM).round() * DRAWN_MM)).collect();
+        self.moved(handles, &drawn)?;
+        Ok(handles.iter().copied().zip(drawn).filter(|(_, amount_m)| *amount_m != 0.0).collect())
+    }
+
+    /// The style with handles moved by their amounts, m.
+    fn moved(&self, handles: &[Handle], amounts: &[f64]) -> Result<Style> {
+        let all = handles.iter().copied().zip(amounts.iter().copied());
+        let moves: Vec<(Handle, f64)> = all.filter(|(_, amount_m)| amount_m.abs() > 1e-6).collect();
+        self.style.moved(&moves).map_err(StudyError::stage("alter"))
     }
 
     /// The handles that can be moved, what each changes of every level (m per m), and what cannot be moved.
-    fn sensitivities(&self) -> (Vec<Handle>, Vec<BTreeMap<String, f64>>, Vec<String>) {
+    fn sensitivities(&self) -> (Vec<Handle>, Vec<Sensitivity>, Vec<String>) {
         let (mut handles, mut changes, mut left_out) = (Vec::new(), Vec::new(), Vec::new());
         for handle in self.style.handles().into_iter().filter(|handle| !self.wish.without.contains(handle)) {
             let moved = |by_m: f64| self.style.moved(&[(handle, by_m)]).map(|style| self.eases(&style));

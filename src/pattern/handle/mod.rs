@@ -279,7 +279,7 @@ impl Handle {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum HandleError {
     /// An amount that is no such length.
-    #[error("handle `{handle}`: {amount_mm} mm; accepted: -{most_mm} to {most_mm} mm", handle = .handle.as_str())]
+    #[error("handle `{handle}`: {amount_mm:.1} mm; accepted: -{most_mm} to {most_mm} mm", handle = .handle.as_str())]
     Amount {
         /// Handle.
         handle: Handle,
@@ -300,7 +300,7 @@ pub enum HandleError {
     },
     /// A partner that cannot follow, or a length that cannot hold.
     #[error(
-        "handle `{handle}` by {amount_mm} mm: {place}: {found}; accepted: a change within {within_mm} mm", handle = .handle.as_str()
+        "handle `{handle}` by {amount_mm:.1} mm: {place}: {found}; accepted: a change within {within_mm} mm", handle = .handle.as_str()
     )]
     Length {
         /// Handle.
@@ -316,7 +316,7 @@ pub enum HandleError {
     },
     /// An outline that would cross itself.
     #[error(
-        "handle `{handle}` by {amount_mm} mm: the outline of piece `{piece}` crosses itself at ({u_mm:.0}, {v_mm:.0}) mm; accepted: an \
+        "handle `{handle}` by {amount_mm:.1} mm: the outline of piece `{piece}` crosses itself at ({u_mm:.0}, {v_mm:.0}) mm; accepted: an \
          amount that leaves it free of crossings", handle = .handle.as_str()
     )]
     Crossing {
