@@ -4,7 +4,7 @@ use super::answers::NO_EASE;
 use super::args::Fit;
 use super::context::Context;
 use super::{End, Outcome, output};
-use study::{FitCard, LevelSits, SizeSits, Table, Value};
+use study::{FitCard, LevelSits, Sits, SizeSits, Table, Value};
 
 /// Prints the fit cards of a study.
 pub fn fit(context: &Context, arguments: &Fit) -> Outcome {
@@ -56,10 +56,11 @@ fn table(card: &FitCard) -> Table {
 /// An ease in few letters: a mark stands for smaller than the body.
 fn short(level: &LevelSits) -> String {
     let mark = if level.ease_mm < 0.0 { "!" } else { "" };
-    let words = match level.off_mm {
-        Some(off) if off <= -0.5 => format!("tight {:.0}", -off),
-        Some(off) if off >= 0.5 => format!("loose {off:.0}"),
-        Some(_) => "as meant".to_owned(),
+    let by_mm = level.departure_mm();
+    let words = match level.sits() {
+        Some(Sits::Tight) => format!("tight {by_mm:.0}"),
+        Some(Sits::Loose) => format!("loose {by_mm:.0}"),
+        Some(Sits::AsMeant) => "as meant".to_owned(),
         None => String::new(),
     };
     format!("{:+.0}{mark} {words}", level.ease_mm).trim_end().to_owned()

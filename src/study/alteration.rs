@@ -4,12 +4,11 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::bodies;
 use crate::error::{Result, StudyError};
 use crate::files::SourceFile;
 use crate::patterns;
 use crate::run::ease;
-use crate::run::pipeline::{Fitting, Meshes};
+use crate::run::pipeline::{self, Fitting, Meshes};
 use crate::spec::file::Study;
 use crate::spec::versions::FIELD_SPACING_M;
 use crate::spec::{self, JobSpec};
@@ -138,9 +137,9 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
         let message = format!("{}: holds its own seams; accepted: DXF with a seam file", spec.pattern.name);
         StudyError::stage("alter")(message)
     })?;
-    let body = body(&spec)?;
+    let body = pipeline::body(&spec)?;
     let unit = spec.unit.as_deref().and_then(patterns::unit_of);
-    let style = patterns::read_style(&spec.pattern, Some(seams), Some(&spec.size), unit)?;
+    let style = pipeline::style(&spec)?;
     let bench = Bench { style: &style, body: &body, target: &target, wish };
     let (moves, left_out) = if wish.moves_mm.is_empty() {
         bench.found()?
@@ -202,16 +201,6 @@ fn one(what: &'static str, asked: Option<&str>, mut known: Vec<String>) -> Resul
         None => None,
     };
     found.ok_or_else(|| StudyError::NotFound { what, name: asked.unwrap_or_default().to_owned(), known })
-}
-
-fn body(spec: &JobSpec) -> Result<Body> {
-    match &spec.scan {
-        None => bodies::build_body(&spec.measurements),
-        Some(scan) => {
-            let read = bodies::read_scan(&scan.file, scan.unit, Some(spec.measurements.sex))?;
-            bodies::scanned_body(&scan.file, read)
-        }
-    }
 }
 
 /// A style on a body with what is meant.

@@ -26,7 +26,7 @@ pub use answers::audit::{Audit, Finding};
 pub use answers::doctor::{Check, checks};
 pub use answers::dressed::{Dressed, Tally, tally};
 pub use answers::figure::Figure;
-pub use answers::fit_card::{FitCard, LevelSits, SizeSits};
+pub use answers::fit_card::{FitCard, LevelSits, Sits, SizeSits};
 pub use answers::laboratory::laboratory;
 pub use answers::picture::{Cloth, Look, Map, Order, Shot, Zoom};
 pub use answers::population::{Nearest, PopulationOptions, Representative, representatives, subjects_text};

@@ -4,6 +4,7 @@ use super::Handle;
 use super::plan::{along, end, start};
 use crate::pom::anatomy::{Anatomy, BELOW_ARMHOLE_M, BESIDE_M, Chain, Part};
 use crate::pom::legs::Legs;
+use crate::pom::skirt;
 use crate::pom::top::Trunk;
 use crate::pom::{Point, PointOfMeasure};
 use crate::propose::{Face, Hand};
@@ -201,11 +202,7 @@ fn sides(anatomy: &Anatomy<'_>, trunk: Option<&Trunk<'_>>, legs: &[Legs<'_>], po
 
 /// Both sides of each side seam of a skirt from its upper edge down, front and back.
 fn skirt_sides(anatomy: &Anatomy<'_>) -> Vec<[Chain; 2]> {
-    let is = |face: Face| move |part: Part| part == Part::Skirt(face);
-    let joins =
-        (0..anatomy.style().seams.len()).filter_map(|seam| anatomy.between(seam, is(Face::Front), is(Face::Back)));
-    let all: Vec<[Chain; 2]> =
-        joins.filter(|[front, _]| anatomy.is_upright(front)).map(|sides| anatomy.turned_down(sides)).collect();
+    let all = skirt::side_seams(anatomy);
     // A side seam may be sewn in several parts.
     let begins = |[front, _]: &&[Chain; 2]| {
         let before = anatomy.style().over_corner(start(front));

@@ -29,8 +29,11 @@ impl Style {
         let waist = path(Point::HalfWaist).filter(|_| garb.trunk.is_none());
         let of_trunk = garb.trunk.iter().flat_map(|trunk| trunk.side_seams());
         let of_legs = Hand::BOTH.into_iter().filter_map(|hand| Legs::of(&anatomy, hand)?.side_seam());
-        let side_seams =
-            of_trunk.chain(skirt::side_seams(&anatomy)).chain(of_legs).map(|chain| along(&chain)).collect();
+        let side_seams = of_trunk
+            .chain(skirt::side_seams(&anatomy).into_iter().map(|[front, _]| front))
+            .chain(of_legs)
+            .map(|chain| along(&chain))
+            .collect();
         HangLines { hem: hem.unwrap_or_default(), waist: waist.unwrap_or_default(), side_seams }
     }
 }

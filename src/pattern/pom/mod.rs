@@ -7,7 +7,7 @@
 pub(crate) mod anatomy;
 mod hang;
 pub(crate) mod legs;
-mod skirt;
+pub(crate) mod skirt;
 mod sleeve;
 #[cfg(test)]
 mod tests;

@@ -18,7 +18,7 @@ pub fn points(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
     let openings = anatomy.style().openings(&is_skirt);
     let top_of = |chain: &Chain| anatomy.opening_at(&openings, (chain[0].0, !chain[0].1));
     let sides = side_seams(anatomy);
-    let Some((side, waist)) = sides.into_iter().find_map(|front| top_of(&front).map(|top| (front, top))) else {
+    let Some((side, waist)) = sides.into_iter().find_map(|[front, _]| top_of(&front).map(|top| (front, top))) else {
         return Vec::new();
     };
     let waist = &openings[waist];
@@ -41,18 +41,12 @@ pub fn points(anatomy: &Anatomy<'_>) -> Vec<PointOfMeasure> {
     found
 }
 
-/// The fronts of a skirt's side seams, from above.
-pub fn side_seams(anatomy: &Anatomy<'_>) -> Vec<Chain> {
+/// Both sides of each side seam of a skirt, front and back, from above.
+pub fn side_seams(anatomy: &Anatomy<'_>) -> Vec<[Chain; 2]> {
     let is = |face: Face| move |part: Part| part == Part::Skirt(face);
     let seams = 0..anatomy.style().seams.len();
     let joins = seams.filter_map(|seam| anatomy.between(seam, is(Face::Front), is(Face::Back)));
-    joins
-        .filter(|[front, _]| anatomy.is_upright(front))
-        .map(|sides| {
-            let [front, _] = anatomy.turned_down(sides);
-            front
-        })
-        .collect()
+    joins.filter(|[front, _]| anatomy.is_upright(front)).map(|sides| anatomy.turned_down(sides)).collect()
 }
 
 /// The way down the front from its upper edge, half-way between its middle and its side.

@@ -23,16 +23,47 @@ pub struct LevelSits {
     pub off_mm: Option<f64>,
 }
 
+/// Least departure from a target that counts, mm: below it, it is none when it is written.
+const DEPARTURE_MM: f64 = 0.5;
+
+/// Where an ease lies beside its target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sits {
+    /// Below it.
+    Tight,
+    /// Within it.
+    AsMeant,
+    /// Above it.
+    Loose,
+}
+
 impl LevelSits {
+    /// Where its ease lies beside its target; `None` where none is meant.
+    #[must_use]
+    pub fn sits(&self) -> Option<Sits> {
+        self.off_mm.map(|off| match off {
+            off if off <= -DEPARTURE_MM => Sits::Tight,
+            off if off >= DEPARTURE_MM => Sits::Loose,
+            _ => Sits::AsMeant,
+        })
+    }
+
+    /// How far outside its target it lies, mm; never below 0.
+    #[must_use]
+    pub fn departure_mm(&self) -> f64 {
+        self.off_mm.map_or(0.0, f64::abs)
+    }
+
     /// What is to be said of it.
     #[must_use]
     pub fn words(&self) -> String {
-        match self.off_mm {
+        let by_mm = self.departure_mm();
+        match self.sits() {
             None => "as designed".to_owned(),
-            Some(off) if off <= -0.5 && self.ease_mm < 0.0 => format!("tight by {:.0} mm, smaller than the body", -off),
-            Some(off) if off <= -0.5 => format!("tight by {:.0} mm", -off),
-            Some(off) if off >= 0.5 => format!("loose by {off:.0} mm"),
-            Some(_) => "as meant".to_owned(),
+            Some(Sits::Tight) if self.ease_mm < 0.0 => format!("tight by {by_mm:.0} mm, smaller than the body"),
+            Some(Sits::Tight) => format!("tight by {by_mm:.0} mm"),
+            Some(Sits::Loose) => format!("loose by {by_mm:.0} mm"),
+            Some(Sits::AsMeant) => "as meant".to_owned(),
         }
     }
 }
@@ -60,7 +91,7 @@ impl SizeSits {
     /// What is worst with it.
     #[must_use]
     pub fn words(&self) -> String {
-        let worst = self.worst().filter(|level| level.off_mm.is_some_and(|off| off.abs() >= 0.5));
+        let worst = self.worst().filter(|level| level.sits().is_some_and(|sits| sits != Sits::AsMeant));
         worst.map_or("every level as meant".to_owned(), |level| {
             format!("{} {}", level.level.replace('_', " "), level.words())
         })

@@ -5,17 +5,15 @@ use serde::Serialize;
 use crate::answers::picture;
 use crate::error::{Result, StudyError};
 use crate::rows::{JobId, JobRow, StageKind};
-use crate::run::pipeline::{Meshes, Model};
+use crate::run::pipeline::Model;
 use crate::store::{Store, read};
 use body::Body;
 use fit::worn::{Angle, DIRECTIONS, Section, Site, sites};
+use geom::V2;
 use geom::section::Outline;
 use geom::units::{from_mm, mm};
-use geom::{TriMesh, V2};
 use report::Chart;
 use report::chart::{Worn, section_chart};
-use sim::Drape;
-use sim::sewn::Sewn;
 
 /// Where a body is cut.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,7 +107,7 @@ pub(crate) fn cuts(store: &Store, jobs: &[JobId], at: &CutAt) -> Result<Vec<Leve
             );
             return Err(StudyError::Refused { what: "section", name: at.words(), problems: vec![problem] });
         }
-        let cloth = sewn(store, *job)?;
+        let cloth = picture::dressed(store, *job)?.sewn()?.mesh;
         for site in &wanted {
             let Some(section) = Section::cut(site.clone(), &body.mesh, &cloth) else { continue };
             match found.iter_mut().find(|known| known.level == site.level) {
@@ -211,19 +209,6 @@ fn refused(at: &CutAt, body: &Body) -> StudyError {
     let top_mm = body.mesh.bounds().map_or(0.0, |(_, high)| mm(high.z));
     let problems = vec![format!("no body there; accepted: heights from 0 to {top_mm:.0} mm")];
     StudyError::Refused { what: "section", name: at.words(), problems }
-}
-
-/// The sewn cloth of a result.
-fn sewn(store: &Store, job: JobId) -> Result<TriMesh> {
-    let Meshes(mut meshes) = picture::product(store, job, StageKind::Mesh)?;
-    let drape: Drape = picture::product(store, job, StageKind::Drape)?;
-    let fits = |garment: &pattern::Garment| garment.rest.len() == drape.positions.len();
-    let garment = meshes
-        .pop()
-        .filter(fits)
-        .ok_or_else(|| StudyError::stage("store")(format!("the mesh of job {job} does not fit its drape")))?;
-    let fabric = picture::fabric_of(store, job)?;
-    Ok(Sewn::new(&garment, &fabric, &drape.positions).map_err(StudyError::stage("measure"))?.mesh)
 }
 
 fn line(outline: &Outline) -> CutLine {

@@ -8,6 +8,9 @@ use crate::rows::JobId;
 use crate::store::Store;
 use fit::Simulator;
 
+/// Difference of a hem's heights below which it hangs level, mm: what the eye does not see on a moving person.
+const LEVEL_MM: f64 = 5.0;
+
 /// A number of a garment's balance.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Balance {
@@ -30,6 +33,8 @@ pub struct RegionPressure {
     pub mean_kpa: f64,
     /// What 1 % of it exceeds, kPa.
     pub most_kpa: f64,
+    /// The same, mmHg.
+    pub most_mmhg: f64,
 }
 
 /// A line in which cloth stands off the skin.
@@ -99,30 +104,25 @@ impl SizeWorn {
         self.balance.iter().find(|one| one.quantity == quantity).map(|one| one.value)
     }
 
+    /// By how much its hem is higher in front than behind, mm, and that in words; `None` where it is not measured.
+    #[must_use]
+    pub fn hem_tilt(&self) -> Option<(f64, &'static str)> {
+        let off = self.balance_of("hem_front_over_back")?;
+        let words = match off {
+            off if off.abs() < LEVEL_MM => "level",
+            off if off > 0.0 => "higher in front",
+            _ => "lower in front",
+        };
+        Some((off, words))
+    }
+
     /// How its hem hangs, in words; `None` where it is not measured.
     #[must_use]
     pub fn hem_words(&self) -> Option<String> {
-        let difference = self.balance_of("hem_front_over_back")?;
-        let front = self.balance_of("hem_front")?;
-        Some(match difference {
-            d if d.abs() < 5.0 => format!("level, {front:.0} mm above the floor"),
-            d if d > 0.0 => format!("{d:.0} mm higher in front than behind, {front:.0} mm above the floor there"),
-            d => format!("{:.0} mm lower in front than behind, {front:.0} mm above the floor there", -d),
-        })
-    }
-
-    /// Its drag lines and folds in words.
-    #[must_use]
-    pub fn fold_words(&self) -> String {
-        let (drags, folds): (Vec<_>, Vec<_>) = self.folds.iter().partition(|fold| fold.kind == "drag_line");
-        let told = |folds: &[&FoldLine], one: &str, more: &str| {
-            let longest = folds.first()?;
-            let name = if folds.len() == 1 { one } else { more };
-            Some(format!("{} {name}, the longest {:.0} mm, {}", folds.len(), longest.length_mm, longest.words()))
-        };
-        let told = [told(&drags, "drag line", "drag lines"), told(&folds, "fold", "folds")];
-        let told: Vec<String> = told.into_iter().flatten().collect();
-        if told.is_empty() { "smooth".to_owned() } else { told.join("; ") }
+        let ((off, words), front) = (self.hem_tilt()?, self.balance_of("hem_front")?);
+        let tilt =
+            if off.abs() < LEVEL_MM { words.to_owned() } else { format!("{:.0} mm {words} than behind", off.abs()) };
+        Some(format!("{tilt}, {front:.0} mm above the floor in front"))
     }
 }
 
@@ -225,7 +225,7 @@ fn size_worn(store: &Store, size: String, job: JobId) -> Result<SizeWorn> {
         )?,
         pressure: rows(
             store,
-            "SELECT region, area_cm2, mean_kpa, most_kpa FROM pressure WHERE job_id = ? ORDER BY most_kpa DESC",
+            "SELECT region, area_cm2, mean_kpa, most_kpa, most_mmhg FROM v_pressure WHERE job_id = ? ORDER BY most_kpa DESC",
             job,
             |row| {
                 Ok(RegionPressure {
@@ -233,6 +233,7 @@ fn size_worn(store: &Store, size: String, job: JobId) -> Result<SizeWorn> {
                     area_cm2: row.get(1)?,
                     mean_kpa: row.get(2)?,
                     most_kpa: row.get(3)?,
+                    most_mmhg: row.get(4)?,
                 })
             },
         )?,

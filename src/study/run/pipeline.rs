@@ -104,16 +104,7 @@ impl Pipeline {
     }
 
     fn model(&self, spec: &JobSpec) -> Result<(Arc<Model>, Used)> {
-        self.cache.get(StageKind::Body, &spec.inputs.stage_hash(StageKind::Body), || {
-            let body = match &spec.scan {
-                None => bodies::build_body(&spec.measurements)?,
-                Some(scan) => {
-                    let read = bodies::read_scan(&scan.file, scan.unit, Some(spec.measurements.sex))?;
-                    bodies::scanned_body(&scan.file, read)?
-                }
-            };
-            Ok(Model { body })
-        })
+        self.cache.get(StageKind::Body, &spec.inputs.stage_hash(StageKind::Body), || Ok(Model { body: body(spec)? }))
     }
 
     fn field(&self, spec: &JobSpec, model: &Model) -> Result<(Arc<DistanceField>, Used)> {
@@ -133,6 +124,17 @@ impl Pipeline {
     pub(crate) fn ease(&self, spec: &JobSpec) -> Result<Vec<Ease>> {
         let (model, _) = self.model(spec)?;
         Ok(ease::on(&style(spec)?, &model.body))
+    }
+}
+
+/// The body of a job's subject.
+pub(crate) fn body(spec: &JobSpec) -> Result<Body> {
+    match &spec.scan {
+        None => bodies::build_body(&spec.measurements),
+        Some(scan) => {
+            let read = bodies::read_scan(&scan.file, scan.unit, Some(spec.measurements.sex))?;
+            bodies::scanned_body(&scan.file, read)
+        }
     }
 }
 

@@ -77,7 +77,13 @@ fn drape(k: usize, job: i64) -> SizeWorn {
             balance("side_seam_lean_left", 2.0 * more - 1.0, "deg"),
             balance("side_seam_lean_right", 2.0 * more, "deg"),
         ],
-        pressure: vec![RegionPressure { region: "upper_arms".into(), area_cm2: 55.0, mean_kpa: 0.04, most_kpa: 0.19 }],
+        pressure: vec![RegionPressure {
+            region: "upper_arms".into(),
+            area_cm2: 55.0,
+            mean_kpa: 0.04,
+            most_kpa: 0.19,
+            most_mmhg: 1.4,
+        }],
         folds: vec![FoldLine {
             kind: "drag_line".into(),
             length_mm: 133.0,

@@ -83,29 +83,12 @@ pub(super) fn chis(garment: &Garment, positions: &[V3]) -> Vec<f64> {
 mod tests {
     use super::*;
     use geom::V2;
-    use pattern::garment::{MaterialLine, MaterialPoint, Measurement, MeasurementKind, PieceMesh, Role};
+    use pattern::garment::{MaterialLine, MaterialPoint, Measurement, MeasurementKind};
+    use sim::laboratory;
 
-    /// A square metre of cloth, its grain along `y`.
+    /// A square metre of cloth.
     fn square() -> Garment {
-        Garment {
-            name: String::new(),
-            size: String::new(),
-            pieces: vec![PieceMesh {
-                id: "front".into(),
-                role: Role::Front,
-                vertices: 0..4,
-                triangles: 0..2,
-                grain: V2::y(),
-                edges: std::collections::BTreeMap::new(),
-            }],
-            rest: [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(V2::from).to_vec(),
-            triangles: vec![[0, 1, 2], [0, 2, 3]],
-            seams: vec![],
-            measurements: vec![],
-            fit_levels: vec![],
-            reinforcements: vec![],
-            edge_length_m: 1.0,
-        }
+        laboratory::garment(laboratory::sheets::sheet(1, 1, 1.0))
     }
 
     fn deformed(deform: &dyn Fn(V2) -> V3) -> Vec<V3> {

@@ -323,7 +323,7 @@ pub(crate) fn dressed(store: &Store, id: JobId) -> Result<Dressed> {
 }
 
 /// The fabric a job was simulated in.
-pub(crate) fn fabric_of(store: &Store, id: JobId) -> Result<Fabric> {
+fn fabric_of(store: &Store, id: JobId) -> Result<Fabric> {
     let table = sql::query(store, &format!("SELECT fabric_id FROM job WHERE job_id = {id}"))?;
     match table.rows.first().and_then(|row| row.first()) {
         Some(Value::Integer(fabric)) => read_fabric(&store.reader, *fabric),

@@ -1,17 +1,12 @@
 //! Fit sheets: how a garment sits on a subject in its sizes, for the fit report.
 
-use crate::answers::fit_card::{FitCard, LevelSits, SizeSits};
+use crate::answers::fit_card::{FitCard, LevelSits, Sits, SizeSits};
 use crate::answers::section::{self, CutAt};
 use crate::answers::worn::{GarmentWorn, SizeWorn};
 use crate::error::Result;
 use crate::store::Store;
 use pattern::pom::Point;
 use report::data::{Fact, FitCell, FitRow, FitSheet, FitSize, FitTable, FitVerdict};
-
-/// A kilopascal in millimetres of mercury.
-const MMHG: f64 = 7.500_616_827;
-/// A difference of an ease from its target below which it is as meant, mm.
-const AS_MEANT_MM: f64 = 0.5;
 
 /// The fit sheets of a study.
 pub(super) fn sheets(store: &Store, worn: &[GarmentWorn]) -> Result<Vec<FitSheet>> {
@@ -94,10 +89,10 @@ fn ease(card: &FitCard, sizes: &[SizeSits], names: &[String]) -> FitTable {
             one.as_ref().map_or_else(FitCell::default, |one| FitCell {
                 text: signed(one.ease_mm),
                 note: one.words(),
-                verdict: one.off_mm.map(|off| match off {
-                    off if off <= -AS_MEANT_MM => FitVerdict::Tight,
-                    off if off >= AS_MEANT_MM => FitVerdict::Loose,
-                    _ => FitVerdict::AsMeant,
+                verdict: one.sits().map(|sits| match sits {
+                    Sits::Tight => FitVerdict::Tight,
+                    Sits::Loose => FitVerdict::Loose,
+                    Sits::AsMeant => FitVerdict::AsMeant,
                 }),
             })
         };
@@ -129,12 +124,7 @@ fn hang(sizes: &[Option<&SizeWorn>], names: &[String]) -> FitTable {
     add("hem above the floor, in front, mm", &height("hem_front"));
     add("hem above the floor, behind, mm", &height("hem_back"));
     add("hem, front over back, mm", &|size| {
-        let off = size.balance_of("hem_front_over_back")?;
-        let words = match off {
-            off if off.abs() < 5.0 => "level",
-            off if off > 0.0 => "higher in front",
-            _ => "lower in front",
-        };
+        let (off, words) = size.hem_tilt()?;
         Some((signed(off), words.to_owned()))
     });
     add("hem, right over left, mm", &|size| Some((signed(size.balance_of("hem_right_over_left")?), String::new())));
@@ -148,7 +138,7 @@ fn hang(sizes: &[Option<&SizeWorn>], names: &[String]) -> FitTable {
     });
     add("greatest pressure, kPa", &|size| {
         let most = size.pressure.first()?;
-        let (region, mmhg) = (most.region.replace('_', " "), most.most_kpa * MMHG);
+        let (region, mmhg) = (most.region.replace('_', " "), most.most_mmhg);
         Some((
             format!("{:.2}", most.most_kpa),
             format!("{region}, {mmhg:.1} mmHg; mean there {:.2} kPa", most.mean_kpa),

@@ -8,7 +8,7 @@ use crate::screens::state::State;
 use crate::widgets::lists::first_shown;
 use crate::widgets::text::{self, left, right, whole, words, wrapped};
 use crate::widgets::theme::Theme;
-use study::{FitCard, LevelSits, SizeSits};
+use study::{FitCard, LevelSits, Sits, SizeSits};
 
 /// What the signs mean.
 pub const LEGEND: &str = " ▼ tight  ▲ loose  ! smaller than the body ";
@@ -191,15 +191,15 @@ fn cell(theme: Theme, one: &LevelSits, columns: usize) -> Span<'static> {
 
 /// The sign and the colour of how a size sits at a level.
 fn sign(theme: Theme, one: &LevelSits) -> (&'static str, Style) {
-    match one.off_mm {
+    match one.sits() {
         None => (" ", theme.dim()),
-        Some(off) if off <= -0.5 => ("▼", theme.bad()),
-        Some(off) if off >= 0.5 => ("▲", theme.warn()),
-        Some(_) => ("·", theme.good()),
+        Some(Sits::Tight) => ("▼", theme.bad()),
+        Some(Sits::Loose) => ("▲", theme.warn()),
+        Some(Sits::AsMeant) => ("·", theme.good()),
     }
 }
 
 /// Whether a level is too tight and smaller than the body.
 fn is_undersized(one: &LevelSits) -> bool {
-    one.ease_mm < 0.0 && one.off_mm.is_some_and(|off| off <= -0.5)
+    one.ease_mm < 0.0 && one.sits() == Some(Sits::Tight)
 }
