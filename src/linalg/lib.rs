@@ -18,6 +18,7 @@ pub mod quad;
 pub mod rows;
 pub mod simd;
 pub mod stencil;
+pub mod tangent;
 
 use geom::constants::Constant;
 

@@ -128,6 +128,17 @@ impl MaterialLine {
     }
 }
 
+impl MaterialLine {
+    /// The line after its cloth was drawn elsewhere.
+    fn redrawn(&self, before: &[V2], after: &[V2]) -> Self {
+        let chords = |rest: &[V2]| -> Vec<f64> {
+            self.points.windows(2).map(|ends| (ends[1].at_rest(rest) - ends[0].at_rest(rest)).norm()).collect()
+        };
+        let ratios = chords(after).into_iter().zip(chords(before)).map(|(after, before)| after / before);
+        Self { arc_m: self.arc_m.iter().zip(ratios).map(|(arc, ratio)| arc * ratio).collect(), ..self.clone() }
+    }
+}
+
 /// Greatest excess of a squared arc over a share of the squared step.
 const MOST_EXCESS: f64 = 0.1;
 
@@ -285,6 +296,24 @@ impl Garment {
         let held = self.pieces.iter().rev().map(|piece| (piece, of(piece)));
         let (piece, points) = held.filter(|(_, points)| !points.is_empty()).max_by_key(|(_, points)| points.len())?;
         Some(Spot { piece: piece.id.clone(), at: points.iter().sum::<V2>() / points.len() as f64 })
+    }
+
+    /// The garment with its vertices elsewhere in their pieces' planes: arcs of measurements change as their chords do.
+    #[must_use]
+    pub fn with_rest(&self, rest: Vec<V2>) -> Self {
+        let redrawn = |line: &MaterialLine| line.redrawn(&self.rest, &rest);
+        let length = |runs: &[MaterialLine]| runs.iter().flat_map(|run| &run.arc_m).sum::<f64>();
+        let measurements = self.measurements.iter().map(|measurement| {
+            let runs: Vec<MaterialLine> = measurement.runs.iter().map(redrawn).collect();
+            Measurement { l2d_m: length(&runs), runs, ..measurement.clone() }
+        });
+        let fit_levels = self.fit_levels.iter().map(|level| {
+            let runs: Vec<MaterialLine> = level.runs.iter().map(redrawn).collect();
+            let girth_m = if runs.is_empty() { level.girth_m } else { length(&runs) };
+            FitLevel { girth_m, runs, ..level.clone() }
+        });
+        let (measurements, fit_levels) = (measurements.collect(), fit_levels.collect());
+        Self { measurements, fit_levels, rest, ..self.clone() }
     }
 
     /// The garment without some of its pieces, measured nowhere, and for each of its vertices the one that it was.

@@ -18,6 +18,9 @@ pub enum SimError {
         /// Its first corner in the piece's plane, m.
         at: V2,
     },
+    /// A stiffness without an inverse.
+    #[error("the stiffness of the drape is singular: part of the cloth is held by nothing; accepted: a drape at rest")]
+    Singular,
     /// No mesh was given.
     #[error("no garment mesh to simulate")]
     NoMesh,

@@ -67,9 +67,7 @@ impl<'a> Sewn<'a> {
     pub fn welded_pressures_kpa(&self) -> Vec<f64> {
         let (cloth, x) = (&self.cloth, &self.mesh.positions);
         let mut forces: Vec<V3> = cloth.masses.iter().map(|mass| V3::new(0.0, 0.0, -mass * GRAVITY)).collect();
-        cloth.membrane.add_forces(x, &mut forces);
-        cloth.bending.add_forces(x, &mut forces);
-        cloth.bands.add_forces(x, &mut forces);
+        cloth.add_forces(x, &mut forces);
         let normals = self.mesh.vertex_normals();
         let pressing: Vec<f64> = forces.iter().zip(&normals).map(|(force, normal)| -force.dot(normal)).collect();
         let mut areas = vec![0.0; x.len()];

@@ -10,6 +10,7 @@ mod field;
 mod follow;
 mod girths;
 mod lengths;
+mod meshed;
 mod plan;
 mod restyle;
 mod rig;

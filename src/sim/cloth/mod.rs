@@ -93,6 +93,13 @@ impl Cloth {
         self
     }
 
+    /// Adds the forces of membrane, bending and bands at `x`, N.
+    pub fn add_forces(&self, x: &[V3], forces: &mut [V3]) {
+        self.membrane.add_forces(x, forces);
+        self.bending.add_forces(x, forces);
+        self.bands.add_forces(x, forces);
+    }
+
     /// Number of simulated vertices.
     #[must_use]
     pub fn len(&self) -> usize {

@@ -27,7 +27,7 @@ geom::constants! {
     /// ends inside the body. Coarse meshes are stretched more than fine ones (1.06 where the drape has 0.54).
     const TORN: f64 = 1.25;
     /// A garment that yields this much on a coarse mesh is tight, m: it is about to leave the offset that keeps it outside.
-    const TIGHT_M: f64 = 8e-4;
+    pub const TIGHT_M: f64 = 8e-4;
     /// Residual with which the next share begins.
     const EASED: f64 = 0.1;
     /// Residual without friction of all the stiffness, from which on friction holds.

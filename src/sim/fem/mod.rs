@@ -2,6 +2,7 @@
 
 mod dress;
 pub mod params;
+pub mod response;
 mod run;
 mod settle;
 mod start;
@@ -197,7 +198,16 @@ fn is_better(one: &Drape, other: &Drape) -> bool {
 
 /// Constants of FEM-GS that decide results.
 pub(crate) fn constants() -> Vec<Constant> {
-    [dress::CONSTANTS, CONSTANTS, params::CONSTANTS, run::CONSTANTS, settle::CONSTANTS, start::CONSTANTS].concat()
+    [
+        dress::CONSTANTS,
+        CONSTANTS,
+        params::CONSTANTS,
+        response::CONSTANTS,
+        run::CONSTANTS,
+        settle::CONSTANTS,
+        start::CONSTANTS,
+    ]
+    .concat()
 }
 
 #[cfg(test)]

@@ -22,6 +22,9 @@ geom::constants! {
     const HARD_N_M3: f64 = 1e9;
     /// Penalty of the cloth's contact with itself there, N/m3: where a seat is drawn tight, a softer one lets layers through.
     const HARD_LAYERS_N_M3: f64 = 1e7;
+    /// Residual from which a drape that is let go of is brought wholly to rest, and how often points inside the body are held out first.
+    const FREE: f64 = 0.05;
+    const FREE_ROUNDS: usize = 4;
     /// Steps on each shape that a hand passes through.
     const PASSING_STEPS: u32 = 12;
 }
@@ -94,7 +97,7 @@ pub struct Settling<'a> {
     pub grip: Grip,
 }
 
-impl Settling<'_> {
+impl<'a> Settling<'a> {
     /// Lets the sewn vertices come to rest from `x`.
     ///
     /// # Errors
@@ -105,8 +108,7 @@ impl Settling<'_> {
         let (hands, finest) = (around.hands.into_iter(), run.levels());
         let shapes: Vec<(Shape, DistanceField)> = hands.flat_map(|hands| hands.of_level(level, finest)).collect();
         let begin = shapes.first().map_or(around.field, |(_, field)| field);
-        let areas = self.contact_areas();
-        let mut system = self.system(cloth, &areas, self.contact(begin, &x, run), &x);
+        let mut system = self.system(self.contact(begin, &x, run), &x);
         let mut residual = f64::MAX;
         for (shape, field) in &shapes {
             system.contact = self.contact(field, &x, run);
@@ -135,11 +137,10 @@ impl Settling<'_> {
     /// # Errors
     /// When they diverge or slide off the body, or the monitor cancels.
     pub fn ease(&self, x: &mut Vec<V3>, tolerance: f64, run: &mut Simulation) -> Result<bool, SimError> {
-        let Self { around, cloth, level, .. } = *self;
-        let areas = self.contact_areas();
+        let Self { around, level, .. } = *self;
         let shape = around.hands.and_then(|hands| hands.of_level(level, run.levels()).next());
         let field = shape.as_ref().map_or(around.field, |(_, field)| field);
-        let mut system = self.system(cloth, &areas, self.contact(field, x, run), x);
+        let mut system = self.system(self.contact(field, x, run), x);
         let phase = Phase::easing(run.params(), level, run.levels(), tolerance);
         Ok(run.drape(self.garment, &mut system, x, phase)? <= tolerance)
     }
@@ -150,12 +151,37 @@ impl Settling<'_> {
         contact_areas(self.garment, vertex_of, areas, 2.0 * self.around.self_contact.thickness_m)
     }
 
-    /// A cloth of this mesh at `x` in contact with the body and with itself; `areas` are those of the latter.
-    fn system<'c>(&self, cloth: &'c Cloth, areas: &'c [f64], contact: BodyContact<'c>, x: &[V3]) -> System<'c> {
+    /// The cloth at `x` in contact with the body and with itself.
+    fn system<'s>(&self, contact: BodyContact<'s>, x: &[V3]) -> System<'s>
+    where
+        'a: 's,
+    {
+        let cloth: &'a Cloth = self.cloth;
         let mut system = System::new(cloth, contact, None);
         system.braces = (self.grip == Grip::Braced).then(|| Braces::new(cloth, x));
-        system.self_contact = Some(ClothContact::new(self.around.self_contact, &cloth.triangles, areas));
+        let touching = ClothContact::new(self.around.self_contact, &cloth.triangles, self.contact_areas());
+        system.self_contact = Some(touching);
         system
+    }
+
+    /// The system of a finest mesh that lies at `x` already: it comes to rest there as friction holds it, or freely without.
+    ///
+    /// # Errors
+    /// When it diverges or slides off the body, or the monitor cancels.
+    pub fn taken_up(&self, x: &mut Vec<V3>, is_held: bool, run: &mut Simulation) -> Result<System<'a>, SimError> {
+        let mut system = self.system(self.contact(self.around.field, x, run), x);
+        if is_held {
+            self.hold(&mut system, x, run)?;
+        } else {
+            let free = Phase::easing(run.params(), self.level, run.levels(), FREE);
+            for _ in 0..FREE_ROUNDS {
+                run.drape(self.garment, &mut system, x, free)?;
+                if self.hold_out(&mut system.contact, x, true) <= DEEPEST_M {
+                    break;
+                }
+            }
+        }
+        Ok(system)
     }
 
     /// Steps without friction until it is at rest, or a few; returns the residual.

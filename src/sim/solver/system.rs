@@ -125,21 +125,24 @@ impl<'a> System<'a> {
     #[must_use]
     pub fn forces(&self, x: &[V3]) -> Vec<V3> {
         let mut forces = vec![V3::zeros(); x.len()];
-        self.contact.add_forces(x, &mut forces);
-        if let Some(contact) = &self.self_contact {
-            contact.assemble(x, &mut forces);
-        }
-        self.add_walls(x, &mut forces);
-        self.braces.iter().for_each(|b| b.add_forces(x, &mut forces));
+        self.add_outer_forces(x, &mut forces);
         forces.iter_mut().zip(&self.weights).for_each(|(f, w)| f.z -= w);
-        self.cloth.membrane.add_forces(x, &mut forces);
-        self.cloth.bending.add_forces(x, &mut forces);
-        self.cloth.bands.add_forces(x, &mut forces);
+        self.cloth.add_forces(x, &mut forces);
         if let Some(springs) = &self.springs {
             springs.assemble(x, &mut forces);
         }
         self.held.iter().for_each(|&v| forces[v] = V3::zeros());
         forces
+    }
+
+    /// Adds the forces of contacts, walls and braces at `x`, N, with the contacts found at the last [`System::assemble`].
+    pub fn add_outer_forces(&self, x: &[V3], forces: &mut [V3]) {
+        self.contact.add_forces(x, forces);
+        if let Some(contact) = &self.self_contact {
+            contact.assemble(x, forces);
+        }
+        self.add_walls(x, forces);
+        self.braces.iter().for_each(|b| b.add_forces(x, forces));
     }
 
     /// What acts on the cloth at `x`; `predicted` are the membrane stresses that stiffen the cloth geometrically, where they are not

@@ -1,0 +1,223 @@
+//! The stiffness of a cloth as its forces have it: found by differences, factorised, solved with.
+//!
+//! The stiffness of a step is made to be positive definite and cheap: compression is left out, friction slides stiffly, bending is
+//! condensed. What answers to a small change is the true derivative of the forces. Vertices that no force couples are moved at once
+//! [Curtis 1974], so that a cloth of any size takes as many evaluations as its densest place asks for.
+
+use faer::linalg::solvers::Solve;
+use faer::sparse::linalg::solvers::{Llt, Lu, SymbolicLlt, SymbolicLu};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
+use faer::{MatMut, Par, Side};
+use nalgebra::Vector3;
+
+use super::operator::PairList;
+
+/// A symmetric stiffness of three rows and columns a vertex, with its factor.
+pub struct Tangent {
+    /// Both triangles by columns.
+    pattern: SymbolicSparseColMat<usize>,
+    values: Vec<f64>,
+    factor: Factor,
+}
+
+/// Of what a stiffness was factorised into.
+enum Factor {
+    /// Positive definite: what it holds comes back when it is let go.
+    Definite(Llt<usize, f64>),
+    /// Not so, but regular.
+    Indefinite(Lu<usize, f64>),
+    /// Singular.
+    None,
+}
+
+impl Tangent {
+    /// The stiffness `-df/dx` at `x` of forces by which only vertices of a pair, and each with itself, are coupled, by central differences
+    /// of step `step`; its symmetric part.
+    ///
+    /// # Panics
+    /// When the machine's memory is used up.
+    #[must_use]
+    pub fn of(
+        pairs: &PairList,
+        x: &[Vector3<f64>],
+        step: f64,
+        forces: impl Fn(&[Vector3<f64>]) -> Vec<Vector3<f64>>,
+    ) -> Self {
+        faer::set_global_parallelism(Par::Seq);
+        let near = neighbours(pairs, x.len());
+        let (mut columns, mut rows) = (vec![0], Vec::new());
+        for near in &near {
+            for _ in 0..3 {
+                rows.extend(near.iter().flat_map(|&w| (0..3).map(move |k| 3 * w + k)));
+                columns.push(rows.len());
+            }
+        }
+        let mut values = vec![0.0; rows.len()];
+        for moved in groups(&near) {
+            for axis in 0..3 {
+                let at = |by: f64| {
+                    let mut there = x.to_vec();
+                    moved.iter().for_each(|&v| there[v][axis] += by);
+                    forces(&there)
+                };
+                let (after, before) = (at(step), at(-step));
+                for &v in &moved {
+                    let start = columns[3 * v + axis];
+                    for (slot, &w) in near[v].iter().enumerate() {
+                        let falls = (before[w] - after[w]) / (2.0 * step);
+                        (0..3).for_each(|k| values[start + 3 * slot + k] = falls[k]);
+                    }
+                }
+            }
+        }
+        let pattern = SymbolicSparseColMat::new_checked(3 * x.len(), 3 * x.len(), columns, None, rows);
+        let mut tangent = Self { pattern, values, factor: Factor::None };
+        tangent.make_symmetric(&near);
+        tangent.factorise();
+        tangent
+    }
+
+    /// Takes the mean of both triangles.
+    fn make_symmetric(&mut self, near: &[Vec<usize>]) {
+        let starts = self.pattern.col_ptr();
+        for (v, of_v) in near.iter().enumerate() {
+            for (slot, &w) in of_v.iter().enumerate().filter(|(_, w)| **w >= v) {
+                let Ok(back) = near[w].binary_search(&v) else { continue };
+                for r in 0..3 {
+                    for c in 0..3 {
+                        let (one, other) = (starts[3 * v + c] + 3 * slot + r, starts[3 * w + r] + 3 * back + c);
+                        let mean = 0.5 * (self.values[one] + self.values[other]);
+                        (self.values[one], self.values[other]) = (mean, mean);
+                    }
+                }
+            }
+        }
+    }
+
+    fn factorise(&mut self) {
+        let matrix = SparseColMatRef::new(self.pattern.as_ref(), &self.values);
+        let definite = || {
+            let symbolic = SymbolicLlt::try_new(self.pattern.as_ref(), Side::Lower).ok()?;
+            Llt::try_new_with_symbolic(symbolic, matrix, Side::Lower).ok()
+        };
+        let regular = || {
+            let symbolic = SymbolicLu::try_new(self.pattern.as_ref()).ok()?;
+            Lu::try_new_with_symbolic(symbolic, matrix).ok()
+        };
+        self.factor = match definite() {
+            Some(factor) => Factor::Definite(factor),
+            None => regular().map_or(Factor::None, Factor::Indefinite),
+        };
+    }
+
+    /// Whether what it holds is held stably: every displacement costs energy.
+    #[must_use]
+    pub fn is_definite(&self) -> bool {
+        matches!(self.factor, Factor::Definite(_))
+    }
+
+    /// Displacements under these forces; none where the stiffness is singular.
+    #[must_use]
+    pub fn solve(&self, forces: &[Vector3<f64>]) -> Option<Vec<Vector3<f64>>> {
+        let mut flat: Vec<f64> = forces.iter().flat_map(|f| [f.x, f.y, f.z]).collect();
+        let rows = flat.len();
+        let side = MatMut::from_column_major_slice_mut(&mut flat, rows, 1);
+        match &self.factor {
+            Factor::Definite(factor) => factor.solve_in_place(side),
+            Factor::Indefinite(factor) => factor.solve_in_place(side),
+            Factor::None => return None,
+        }
+        Some(flat.chunks_exact(3).map(|d| Vector3::new(d[0], d[1], d[2])).collect())
+    }
+}
+
+/// Each vertex with those that it is coupled to, ascending, itself among them.
+fn neighbours(pairs: &PairList, count: usize) -> Vec<Vec<usize>> {
+    let mut near: Vec<Vec<usize>> = (0..count).map(|v| vec![v]).collect();
+    for &[i, j] in pairs.pairs() {
+        near[i].push(j);
+        near[j].push(i);
+    }
+    near.iter_mut().for_each(|near| near.sort_unstable());
+    near
+}
+
+/// Vertices in groups, of which no two move the same force.
+fn groups(near: &[Vec<usize>]) -> Vec<Vec<usize>> {
+    let mut group_of = vec![usize::MAX; near.len()];
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    let mut taken_by = Vec::new();
+    for v in 0..near.len() {
+        for &w in near[v].iter().flat_map(|&w| &near[w]).filter(|w| group_of[**w] != usize::MAX) {
+            taken_by[group_of[w]] = v;
+        }
+        let free = taken_by.iter().position(|by| *by != v);
+        let group = free.unwrap_or_else(|| {
+            groups.push(Vec::new());
+            taken_by.push(usize::MAX);
+            groups.len() - 1
+        });
+        group_of[v] = group;
+        groups[group].push(v);
+    }
+    groups
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A chain of vertices whose neighbours pull each other by the cube of their distance, and a spring to the floor.
+    fn chain(x: &[Vector3<f64>], floor: f64) -> Vec<Vector3<f64>> {
+        let mut forces: Vec<Vector3<f64>> = x.iter().map(|p| p * -floor).collect();
+        for i in 1..x.len() {
+            let way = x[i] - x[i - 1];
+            let pull = way * way.norm_squared();
+            forces[i] -= pull;
+            forces[i - 1] += pull;
+        }
+        forces
+    }
+
+    fn tangent(x: &[Vector3<f64>], floor: f64) -> Tangent {
+        let pairs = PairList::new((1..x.len()).map(|i| [i - 1, i]));
+        Tangent::of(&pairs, x, 1e-5, |x| chain(x, floor))
+    }
+
+    fn bent(count: usize) -> Vec<Vector3<f64>> {
+        (0..count).map(|k| Vector3::new(k as f64, (k as f64).sin(), 0.1 * (k * k) as f64)).collect()
+    }
+
+    #[test]
+    fn a_solve_gives_the_displacement_that_takes_the_forces_away() {
+        let x = bent(40);
+        let check = |floor: f64, is_definite: bool| {
+            let tangent = tangent(&x, floor);
+            assert_eq!(tangent.is_definite(), is_definite, "{floor}");
+            let push: Vec<Vector3<f64>> = (0..40).map(|k| Vector3::new(1.0, k as f64, -2.0)).collect();
+            let way = tangent.solve(&push).expect("regular");
+            let at = |by: f64| chain(&x.iter().zip(&way).map(|(p, d)| p + d * by).collect::<Vec<_>>(), floor);
+            let (after, before) = (at(1e-6), at(-1e-6));
+            for ((after, before), push) in after.iter().zip(&before).zip(&push) {
+                let gives = (before - after) / 2e-6;
+                assert!((gives - push).norm() < 1e-3 * push.norm(), "{floor}: {gives} not {push}");
+            }
+        };
+        check(0.5, true);
+        check(-0.5, false);
+    }
+
+    #[test]
+    fn no_force_is_moved_by_two_of_a_group() {
+        let near = neighbours(&PairList::new((1..30).flat_map(|i| [[i - 1, i], [i / 2, i]])), 30);
+        let groups = groups(&near);
+        assert_eq!(groups.iter().map(Vec::len).sum::<usize>(), 30);
+        for group in groups {
+            let mut moved: Vec<usize> = group.iter().flat_map(|&v| near[v].iter().copied()).collect();
+            let all = moved.len();
+            moved.sort_unstable();
+            moved.dedup();
+            assert_eq!(moved.len(), all);
+        }
+    }
+}

@@ -1,0 +1,204 @@
+//! How a drape at rest answers to a small change of its pattern.
+//!
+//! At rest the forces vanish, `f(x, X) = 0`, wherever the pattern `X` goes. Its change `dX` so moves the cloth by `dx` with
+//! `K dx = df/dX dX`, where `K = -df/dx` is the stiffness as the forces have it ([`Tangent`]). One factor serves all changes; each takes one
+//! solve, and whatever is measured on the drape follows along `dx`. There are fewer handles of a pattern than measurements of a drape: solving
+//! for each measurement instead (the adjoint) would take more solves, and a derivative of each by hand.
+//!
+//! Contacts stay as they stand: the same layers touch, friction holds by the anchors and up to the limits that it has. A change that slides
+//! further than that or lifts cloth off the body is seen by draping again.
+
+use super::dress::TIGHT_M;
+use super::params::Params;
+use super::run::Simulation;
+use super::settle::{Around, Grip, Settling};
+use crate::cloth::Cloth;
+use crate::contact::Skin;
+use crate::solver::System;
+use crate::solver::system::rms;
+use crate::{Fabric, Silent, SimError, sewing};
+use geom::units::GRAVITY;
+use geom::{DistanceField, V3};
+use linalg::PairList;
+use linalg::tangent::Tangent;
+use pattern::Garment;
+
+geom::constants! {
+    "fem.response",
+    /// Step of the differences by which the stiffness is found, m: contacts stiffen over tenths of a millimetre.
+    const STEP_M: f64 = 1e-7;
+    /// Residual at which a drape counts as wholly at rest.
+    const AT_REST: f64 = 1e-8;
+    /// Newton steps towards it at most, and shares of one that are tried.
+    const NEWTON_STEPS: usize = 30;
+    const SHARES: [f64; 6] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.01];
+}
+
+/// A drape, and what it lies on.
+#[derive(Clone, Copy)]
+pub struct Lying<'a> {
+    /// The body's exact surface, where it bounds a solid.
+    pub skin: Option<&'a Skin<'a>>,
+    /// Distance from the body.
+    pub field: &'a DistanceField,
+    /// The mesh that is draped.
+    pub garment: &'a Garment,
+    /// What it is made of.
+    pub fabric: &'a Fabric,
+    /// How it was draped.
+    pub params: &'a Params,
+    /// Whether friction holds it; without, it lies as it would slide.
+    pub is_held: bool,
+}
+
+/// A drape wholly at rest.
+pub struct Response<'a> {
+    fabric: &'a Fabric,
+    system: System<'a>,
+    tangent: Tangent,
+    x: Vec<V3>,
+    residual: f64,
+}
+
+impl<'a> Response<'a> {
+    /// Takes up a drape where its vertices lie, and brings it wholly to rest. `cloth` is its garment, sewn ([`sewn`]).
+    ///
+    /// # Errors
+    /// When it diverges or slides off the body.
+    pub fn of(lying: Lying<'a>, cloth: &'a Cloth, positions: &[V3]) -> Result<Self, SimError> {
+        let Lying { skin, field, garment, fabric, params, is_held } = lying;
+        let Params { contact, self_contact, .. } = *params;
+        let around = Around { skin, field, hands: None, contact, self_contact };
+        let taken_up = |around| {
+            let settling = Settling { around, garment, cloth, fabric, level: 0, grip: Grip::AtTheEnd };
+            let mut x = cloth.weld(positions);
+            let system = settling.taken_up(&mut x, is_held, &mut Simulation::new(params, &mut Silent, 0))?;
+            Ok((system, x))
+        };
+        let (mut system, mut x) = taken_up(around)?;
+        if system.contact.yields_m(&x) > TIGHT_M {
+            (system, x) = taken_up(around.hardened())?;
+        }
+        let pairs = couplings(&mut system, &x);
+        let (tangent, residual) = rest(&pairs, &mut x, |x| forces(&system, cloth, x), system.mean_weight());
+        Ok(Self { fabric, system, tangent, x, residual })
+    }
+
+    /// Places of the garment's vertices, m.
+    #[must_use]
+    pub fn positions(&self) -> Vec<V3> {
+        self.system.cloth.unweld(&self.x)
+    }
+
+    /// Rms force over mean vertex weight that is left.
+    #[must_use]
+    pub fn residual(&self) -> f64 {
+        self.residual
+    }
+
+    /// Whether every displacement costs energy. A drape that is about to fold otherwise is not stable; what it answers is then no guide.
+    #[must_use]
+    pub fn is_stable(&self) -> bool {
+        self.tangent.is_definite()
+    }
+
+    /// How the garment's vertices move per unit of a change, from its mesh half a `unit` before and after.
+    ///
+    /// # Errors
+    /// When a triangle of either has no area; when the stiffness is singular.
+    pub fn rates(&self, [before, after]: [&Garment; 2], unit: f64) -> Result<Vec<V3>, SimError> {
+        let forces = |garment: &Garment| Ok(pulls(&sewn(garment, self.fabric)?, &self.x));
+        let (before, after) = (forces(before)?, forces(after)?);
+        let pushed: Vec<V3> = after.iter().zip(&before).map(|(after, before)| (after - before) / unit).collect();
+        let moved = self.tangent.solve(&pushed).ok_or(SimError::Singular)?;
+        Ok(self.system.cloth.unweld(&moved))
+    }
+
+    /// Where the vertices of a changed pattern come to rest with the contacts as they stand, and the residual there.
+    ///
+    /// # Errors
+    /// When one of its triangles has no area; when the stiffness is singular.
+    pub fn again(&self, garment: &Garment) -> Result<(Vec<V3>, f64), SimError> {
+        let cloth = sewn(garment, self.fabric)?;
+        let mut x = self.x.clone();
+        let weight = self.system.mean_weight();
+        for _ in 0..NEWTON_STEPS {
+            let forces = forces(&self.system, &cloth, &x);
+            let residual = rms(&forces) / weight;
+            if residual < AT_REST {
+                break;
+            }
+            let step = self.tangent.solve(&forces).ok_or(SimError::Singular)?;
+            x.iter_mut().zip(step).for_each(|(p, d)| *p += d);
+        }
+        let residual = rms(&forces(&self.system, &cloth, &x)) / weight;
+        Ok((self.system.cloth.unweld(&x), residual))
+    }
+}
+
+/// A garment, sewn.
+///
+/// # Errors
+/// When a triangle of the pattern mesh has no area.
+pub fn sewn(garment: &Garment, fabric: &Fabric) -> Result<Cloth, SimError> {
+    Cloth::new(garment, fabric, sewing::welded(garment))
+}
+
+/// Own forces of cloth and its weight, N.
+fn pulls(cloth: &Cloth, x: &[V3]) -> Vec<V3> {
+    let mut forces: Vec<V3> = cloth.masses.iter().map(|mass| V3::new(0.0, 0.0, -mass * GRAVITY)).collect();
+    cloth.add_forces(x, &mut forces);
+    forces
+}
+
+/// Forces on cloth among what acts on it from outside as it stands in `system`, N.
+fn forces(system: &System, cloth: &Cloth, x: &[V3]) -> Vec<V3> {
+    let mut forces = pulls(cloth, x);
+    system.add_outer_forces(x, &mut forces);
+    forces
+}
+
+/// The vertices that forces couple at `x`; contacts are found there.
+fn couplings(system: &mut System, x: &[V3]) -> PairList {
+    let cloth = system.cloth;
+    let contacts = system.assemble(x, None).operator.contacts;
+    let all = |vertices: Vec<usize>| {
+        let of = |i: usize| vertices[i + 1..].iter().map(move |&w| [i, w]).collect::<Vec<_>>();
+        let named = (0..vertices.len()).flat_map(of).collect::<Vec<_>>();
+        named.into_iter().map(|[i, w]| [vertices[i], w]).filter(|[v, w]| v != w).collect::<Vec<_>>()
+    };
+    let arcs = &cloth.membrane.arcs;
+    let patch = |(triangle, sides): (&[usize; 3], &[u32; 3])| {
+        let mut vertices = triangle.to_vec();
+        let bowed = sides.iter().filter(|side| (**side as usize) < arcs.most.len());
+        vertices.extend(bowed.flat_map(|side| arcs.of(*side as usize).map(|(v, _)| v)));
+        vertices.sort_unstable();
+        vertices.dedup();
+        all(vertices)
+    };
+    let patches = cloth.triangles.iter().zip(&cloth.membrane.sides).flat_map(patch);
+    let touching = contacts.iter().flat_map(|contact| all(contact.vertices.to_vec()));
+    PairList::new(patches.chain(cloth.bending.pairs.pairs().iter().copied()).chain(touching))
+}
+
+/// Brings cloth wholly to rest by Newton's method; returns its stiffness there and the residual.
+fn rest(pairs: &PairList, x: &mut Vec<V3>, forces: impl Fn(&[V3]) -> Vec<V3>, weight: f64) -> (Tangent, f64) {
+    let mut pulled = forces(x);
+    let mut residual = rms(&pulled) / weight;
+    let mut tangent = Tangent::of(pairs, x, STEP_M, &forces);
+    for _ in 0..NEWTON_STEPS {
+        let step = tangent.solve(&pulled).filter(|_| residual > AT_REST);
+        let Some(step) = step else { break };
+        let at = |share: f64| x.iter().zip(&step).map(|(p, d)| p + d * share).collect::<Vec<V3>>();
+        let nearer = SHARES.iter().find_map(|share| {
+            let there = at(*share);
+            let left = forces(&there);
+            let residual_there = rms(&left) / weight;
+            (residual_there < residual).then_some((there, left, residual_there))
+        });
+        let Some(nearer) = nearer else { break };
+        (*x, pulled, residual) = nearer;
+        tangent = Tangent::of(pairs, x, STEP_M, &forces);
+    }
+    (tangent, residual)
+}
