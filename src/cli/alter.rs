@@ -3,7 +3,7 @@
 use super::args::Alter;
 use super::context::Context;
 use super::{End, Outcome, output};
-use study::{Alteration, AlteredLevel, Table, Value, Wish, files};
+use study::{Alteration, AlteredLevel, AlteredReading, Table, Value, Wish, files};
 
 /// Finds or applies a change of a size for a subject, and prints it.
 pub fn alter(context: &Context, arguments: &Alter) -> Outcome {
@@ -13,12 +13,21 @@ pub fn alter(context: &Context, arguments: &Alter) -> Outcome {
         garment: arguments.garment.clone(),
         subject: arguments.subject.clone(),
         size: arguments.size.clone(),
-        targets_mm: arguments.target.iter().cloned().collect(),
+        targets: arguments.target.iter().cloned().collect(),
         limit_mm: arguments.limit_mm,
         without: arguments.without.clone(),
         moves_mm: arguments.moves.clone(),
         is_draped: arguments.drape,
+        standard: arguments.standard.into(),
     };
+    if arguments.list {
+        let standing = study::standing(&study, &wish)?;
+        match context.json {
+            true => output::json(&standing)?,
+            false => context.print(&stands(&standing))?,
+        }
+        return Ok(End::Done);
+    }
     let found = study::alter(&study, &wish)?;
     if let Some(folder) = &arguments.output {
         files::write_files(folder, &found.files)?;
@@ -28,7 +37,7 @@ pub fn alter(context: &Context, arguments: &Alter) -> Outcome {
         true => output::json(&found)?,
         false => print(context, &found)?,
     }
-    Ok(if found.levels.iter().all(AlteredLevel::is_met) { End::Done } else { End::CheckFailed })
+    Ok(if found.is_met() { End::Done } else { End::CheckFailed })
 }
 
 fn print(context: &Context, found: &Alteration) -> Result<(), super::CliError> {
@@ -43,12 +52,20 @@ fn print(context: &Context, found: &Alteration) -> Result<(), super::CliError> {
     }
     output::text("ease\n")?;
     context.print(&levels(found))?;
+    if !found.readings.is_empty() {
+        output::text(&format!("on the drape ({} drapes)\n", found.drapes))?;
+        context.print(&readings(found))?;
+    }
     if let Some(drape) = &found.drape {
         let rest = if drape.converged { "at rest" } else { "not at rest" };
         let hem = drape.hem_front_over_back_mm.map_or(String::new(), |mm| format!(", hem {mm:+.0} mm in front"));
         let most = drape.most_kpa.map_or(String::new(), |kpa| format!(", presses with at most {kpa:.2} kPa"));
         let depth = drape.penetration_max_mm;
-        output::text(&format!("draped again: {rest}, EI {:.4}, {depth:.2} mm inside{hem}{most}\n", drape.ei))?;
+        let drag = match drape.drag_lines {
+            0 => ", no drag lines".to_owned(),
+            count => format!(", drag lines: {count}"),
+        };
+        output::text(&format!("draped again: {rest}, EI {:.4}, {depth:.2} mm inside{hem}{most}{drag}\n", drape.ei))?;
     }
     found.left_out.iter().for_each(|reason| context.say(format_args!("left out: {reason}")));
     Ok(())
@@ -84,4 +101,33 @@ fn levels(found: &Alteration) -> Table {
         ]
     };
     Table { columns, rows: found.levels.iter().map(row).collect() }
+}
+
+fn stands(standing: &[study::Standing]) -> Table {
+    let columns = ["target", "what", "value", "unit"].map(str::to_owned).to_vec();
+    let row = |one: &study::Standing| {
+        let what = if one.is_ease { "ease" } else { "drape" };
+        let value = if one.unit == "kPa" { format!("{:.2}", one.value) } else { format!("{:.1}", one.value) };
+        [one.name.clone(), what.to_owned(), value, one.unit.to_owned()].map(Value::Text).to_vec()
+    };
+    Table { columns, rows: standing.iter().map(row).collect() }
+}
+
+fn readings(found: &Alteration) -> Table {
+    let columns = ["reading", "unit", "target", "before", "promised", "achieved", ""].map(str::to_owned).to_vec();
+    let row = |one: &AlteredReading| {
+        let number =
+            |value: f64| Value::Text(if one.unit == "kPa" { format!("{value:.2}") } else { format!("{value:+.1}") });
+        let [least, most] = one.target;
+        vec![
+            Value::Text(one.reading.replace('_', " ")),
+            Value::Text(one.unit.to_owned()),
+            Value::Text(format!("{least} to {most}")),
+            number(one.before),
+            number(one.promised),
+            number(one.achieved),
+            Value::Text(if one.is_met() { "met" } else { "missed" }.to_owned()),
+        ]
+    };
+    Table { columns, rows: found.readings.iter().map(row).collect() }
 }

@@ -3,13 +3,13 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::args::{DraftStyle, DxfStandard, Pattern, SeamCommand, StyleFiles};
+use super::args::{DraftStyle, Pattern, SeamCommand, StyleFiles};
 use super::context::Context;
 use super::questions;
 use super::{CliError, End, Outcome, output, pattern_files};
 use geom::units::{from_mm, mm};
 use study::patterns::{self, FileReport, Finding, Model, Unit};
-use study::seams::pattern_files::{Standard, inspect as inspect_files};
+use study::seams::pattern_files::inspect as inspect_files;
 use study::seams::{self, CHECK_EDGE_MM, SeamEdit, SizeCheck};
 use study::{Table, Value, files};
 
@@ -45,10 +45,7 @@ pub fn run(context: &Context, command: &Pattern) -> Outcome {
         }
         Pattern::Features { path, files, output } => pattern_files::features(context, path, files, output.as_deref()),
         Pattern::Convert { path, files, seams, standard, with_rul, output } => {
-            let standard = match standard {
-                DxfStandard::Aama => Standard::Aama,
-                DxfStandard::Astm => Standard::Astm,
-            };
+            let standard = (*standard).into();
             let kind = pattern_files::Written { seams: seams.as_deref(), standard, with_rul: *with_rul };
             pattern_files::convert(context, path, files, &kind, output)
         }

@@ -9,6 +9,8 @@ pub struct Goal {
     pub sensitivity: Vec<f64>,
     /// Least and greatest value that is wanted.
     pub band: [f64; 2],
+    /// Squared miss for which a unit of change is made, as of what scatters; `None` where the band is met at whatever change.
+    pub gives: Option<f64>,
 }
 
 /// A change of handles.
@@ -31,7 +33,7 @@ const STILL: f64 = 1e-12;
 /// Where limits forbid that, the goals are missed by as little as they allow.
 ///
 /// The constraints are met one by one, again and again (Hildreth's method): each takes the multiplier that meets it exactly, never below
-/// 0. Goals give way by their firmness, limits do not.
+/// 0. Goals give way by their firmness, or as they say, limits do not.
 #[must_use]
 pub fn least_change(goals: &[Goal], limits: &[[f64; 2]], scale: &[f64]) -> Change {
     let rows = constraints(goals, limits, scale);
@@ -78,7 +80,7 @@ fn constraints(goals: &[Goal], limits: &[[f64; 2]], scale: &[f64]) -> Vec<Constr
         let scaled: Vec<f64> = goal.sensitivity.iter().zip(scale).map(|(s, scale)| s * scale).collect();
         for (sign, bound) in [(1.0, goal.band[1]), (-1.0, goal.band[0])] {
             let normal: Vec<f64> = scaled.iter().map(|s| sign * s).collect();
-            let give = dot(&normal, &normal) / FIRMNESS;
+            let give = goal.gives.unwrap_or(dot(&normal, &normal) / FIRMNESS);
             rows.push(Constraint { normal, most: sign * (bound - goal.value), give });
         }
     }
@@ -99,7 +101,7 @@ mod tests {
     const WIDE: [f64; 2] = [-100.0, 100.0];
 
     fn goal(value: f64, sensitivity: &[f64], band: [f64; 2]) -> Goal {
-        Goal { value, sensitivity: sensitivity.to_vec(), band }
+        Goal { value, sensitivity: sensitivity.to_vec(), band, gives: None }
     }
 
     fn check(goals: &[Goal], limits: &[[f64; 2]], amounts: &[f64]) {
@@ -137,6 +139,15 @@ mod tests {
     fn what_limits_forbid_is_missed_by_as_little_as_they_allow() {
         let found = least_change(&[goal(0.0, &[4.0], [100.0, 120.0])], &[[-10.0, 10.0]], &[1.0]);
         assert!((found.amounts[0] - 10.0).abs() < 1e-6 && (found.values[0] - 40.0).abs() < 1e-5, "{found:?}");
+    }
+
+    #[test]
+    fn what_scatters_gives_way_where_the_change_would_be_dear() {
+        // Of a^2 + (10 - a)^2 / give the least, on the lower edge of the band.
+        let soft = |give| Goal { gives: Some(give), ..goal(0.0, &[1.0], [10.0, 20.0]) };
+        for (give, expected) in [(1.0, 5.0), (0.25, 8.0), (9.0, 1.0)] {
+            check(&[soft(give)], &[WIDE], &[expected]);
+        }
     }
 
     #[test]

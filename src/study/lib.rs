@@ -21,7 +21,9 @@ mod store;
 mod tests;
 mod workspace;
 
-pub use alteration::{Alteration, AlteredLevel, MovedHandle, Redraped, Wish, alter};
+pub use alteration::{
+    Alteration, AlteredLevel, AlteredReading, MovedHandle, Redraped, Standing, Wish, alter, standing,
+};
 pub use answers::audit::{Audit, Finding};
 pub use answers::doctor::{Check, checks};
 pub use answers::dressed::{Dressed, Tally, tally};

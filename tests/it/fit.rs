@@ -116,6 +116,6 @@ fn a_size_is_altered_until_it_fits_and_its_file_is_what_was_promised() {
     check("alter . --size xl", "no size `xl`; there are: s");
     check("alter . --size s --move collar=3", "no handle `collar`");
     check("alter . --size s --move inseam", "accepted: HANDLE=MM");
-    check("alter . --size s --target hip=9", "accepted: LEVEL=LEAST..MOST");
+    check("alter . --size s --target hip=9", "accepted: NAME=LEAST..MOST");
     assert!(place.toile("alter . --size s --target chest=600..610 --limit-mm 20").ends_with(3).out.contains("missed"));
 }

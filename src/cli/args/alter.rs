@@ -3,6 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
+
+use super::pattern::DxfStandard;
 use study::Handle;
 
 /// Arguments of `alter`.
@@ -19,8 +21,9 @@ pub struct Alter {
     /// Size that is changed.
     #[arg(long, value_name = "SIZE")]
     pub size: String,
-    /// Ease that a level is to have instead of that of the intended fit, as hip=20..80 in mm; may be given again.
-    #[arg(long, value_name = "LEVEL=LEAST..MOST", value_parser = target, allow_hyphen_values = true)]
+    /// Ease that a level is to have instead of that of the intended fit, as hip=20..80 in mm, or what is to be read off the drape, as
+    /// hem_front_over_back=-5..5; may be given again.
+    #[arg(long, value_name = "NAME=LEAST..MOST", value_parser = target, allow_hyphen_values = true)]
     pub target: Vec<(String, [f64; 2])>,
     /// Greatest amount of a handle either way.
     #[arg(long, value_name = "MM", default_value_t = 60.0)]
@@ -31,9 +34,15 @@ pub struct Alter {
     /// A handle to move, as waist=-8 in mm, instead of finding the change; may be given again.
     #[arg(long = "move", value_name = "HANDLE=MM", value_parser = amount, conflicts_with_all = ["target", "without"], allow_hyphen_values = true)]
     pub moves: Vec<(Handle, f64)>,
-    /// Drape the changed pattern by FEM-GS.
+    /// Drape the changed pattern by FEM-GS; a target of the drape does that anyway.
     #[arg(long)]
     pub drape: bool,
+    /// Show what targets may be set for, and what it is now, and change nothing.
+    #[arg(long, conflicts_with_all = ["target", "moves", "drape", "output"])]
+    pub list: bool,
+    /// Standard of the DXF.
+    #[arg(long, value_enum, default_value_t = DxfStandard::Aama)]
+    pub standard: DxfStandard,
     /// Folder for the changed pattern, its seam file, and a sheet of old and new outlines.
     #[arg(long, short, value_name = "DIR")]
     pub output: Option<PathBuf>,
@@ -52,7 +61,7 @@ fn amount(text: &str) -> Result<(Handle, f64), String> {
 
 fn target(text: &str) -> Result<(String, [f64; 2]), String> {
     let parts = text.split_once('=').and_then(|(level, band)| Some((level, band.split_once("..")?)));
-    let accepted = "accepted: LEVEL=LEAST..MOST in mm, like hip=20..80";
+    let accepted = "accepted: NAME=LEAST..MOST, like hip=20..80 in mm";
     let (level, (least, most)) = parts.ok_or(accepted)?;
     match (least.parse::<f64>(), most.parse::<f64>()) {
         (Ok(least), Ok(most)) if least <= most => Ok((level.to_owned(), [least, most])),

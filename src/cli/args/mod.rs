@@ -18,7 +18,7 @@ pub use attempt::{AuditGarments, Try};
 pub use body::{Body, BodyBuild, MeshUnit, Sex};
 pub use catalogue::{Catalogue, FabricValues, SizeValues, StyleValues, SubjectValues};
 pub use fit::{Fit, Section};
-pub use pattern::{BesideFiles, DraftStyle, DxfStandard, Pattern, PatternUnit, SeamCommand, StyleFiles};
+pub use pattern::{BesideFiles, DraftStyle, Pattern, PatternUnit, SeamCommand, StyleFiles};
 pub use report::{Purpose, Report};
 
 /// A fit-study workbench: dress bodies in sewing patterns, measure the drape, say which simulator to trust.

@@ -6,6 +6,7 @@ use clap::{Args, Subcommand, ValueEnum};
 use geom::units::from_mm;
 use study::patterns::Unit;
 use study::seams::Asking;
+use study::seams::pattern_files::Standard;
 
 /// Unit of a pattern whose file names none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -38,6 +39,15 @@ pub enum DxfStandard {
     Aama,
     /// ASTM D6673.
     Astm,
+}
+
+impl From<DxfStandard> for Standard {
+    fn from(standard: DxfStandard) -> Self {
+        match standard {
+            DxfStandard::Aama => Self::Aama,
+            DxfStandard::Astm => Self::Astm,
+        }
+    }
 }
 
 /// Style that can be drafted.

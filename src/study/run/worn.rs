@@ -116,7 +116,7 @@ impl WornOn {
 }
 
 /// The balance of a drape.
-fn hang(style: &Style, garment: &Garment, positions: &[V3]) -> Hang {
+pub(crate) fn hang(style: &Style, garment: &Garment, positions: &[V3]) -> Hang {
     let lines = style.hang_lines();
     let paths: Vec<&[PathPart]> =
         [&lines.hem, &lines.waist].into_iter().chain(&lines.side_seams).map(Vec::as_slice).collect();
@@ -170,7 +170,7 @@ pub(crate) fn write(transaction: &Transaction<'_>, id: JobId, worn: &WornOn) -> 
 }
 
 /// The numbers of a balance with their units: heights above the floor, differences, angles.
-fn quantities(hang: &Hang) -> Vec<(String, f64, &'static str)> {
+pub(crate) fn quantities(hang: &Hang) -> Vec<(String, f64, &'static str)> {
     let mut found = Vec::new();
     for (edge, sides) in [("hem", hang.hem), ("waist", hang.waist)] {
         let Some(Sides { front_m, back_m, right_m, left_m }) = sides else { continue };

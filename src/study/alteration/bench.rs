@@ -1,0 +1,177 @@
+//! The flat pattern on the bench: what its handles change of the ease, and the least change that gives what is meant.
+
+use std::collections::BTreeMap;
+
+use super::{AlteredLevel, STEP_M, Sensitivity, Wish};
+use crate::error::{Result, StudyError};
+use crate::run::ease;
+use body::Body;
+use fit::alter::{Goal, least_change};
+use fit::target::Target;
+use geom::units::{from_mm, mm};
+use pattern::{Handle, Style};
+
+/// How often the change is corrected by what it really does, and its squares weighed anew.
+const ROUNDS: usize = 12;
+/// Amount below which a handle is as dear as one that does not move, m.
+const SMALL_M: f64 = 0.2e-3;
+/// Shares of the greatest amount that are tried in turn, where handles cannot move so far.
+const LIMITS: [f64; 5] = [1.0, 0.7, 0.5, 0.35, 0.25];
+/// Amounts are given in steps of this, as a pattern maker draws them, mm.
+const DRAWN_MM: f64 = 0.5;
+/// How far inside a band a level is aimed, so that drawn amounts keep it there, m.
+const INSIDE_M: f64 = 0.002;
+/// Least change of an ease per change of a handle for which the handle is taken: one that does less takes more than 5 mm for 1 mm, and
+/// what limits leave of a target would be sought there.
+const LEAST_EFFECT: f64 = 0.2;
+
+/// An amount of each handle of a bench, m.
+pub type Amounts = Vec<f64>;
+
+/// A style with its handles, the body it is for, and what is meant.
+pub struct Bench<'a> {
+    /// The style as it is.
+    pub style: &'a Style,
+    /// The handles that may move, or do.
+    pub handles: Vec<Handle>,
+    /// Handles that cannot be moved, and why.
+    pub left_out: Vec<String>,
+    /// What is asked.
+    pub wish: &'a Wish,
+    body: &'a Body,
+    target: &'a Target,
+    before: BTreeMap<String, f64>,
+    /// What each handle changes of every level, m per m; none where amounts are given.
+    changes: Vec<Sensitivity>,
+}
+
+impl<'a> Bench<'a> {
+    /// Lays a style out, and sees what its handles do.
+    pub fn new(style: &'a Style, body: &'a Body, target: &'a Target, wish: &'a Wish) -> Self {
+        let before = eases(style, body);
+        let (handles, changes, left_out) = (Vec::new(), Vec::new(), Vec::new());
+        let mut bench = Self { style, handles, left_out, wish, body, target, before, changes };
+        if wish.moves_mm.is_empty() {
+            bench.see_handles();
+        } else {
+            bench.handles = wish.moves_mm.iter().map(|(handle, _)| *handle).collect();
+        }
+        bench
+    }
+
+    /// Whether the style has ease at a level.
+    pub fn has_level(&self, level: &str) -> bool {
+        self.before.contains_key(level)
+    }
+
+    /// The levels at which the style has ease.
+    pub fn levels_known(&self) -> impl Iterator<Item = &String> {
+        self.before.keys()
+    }
+
+    /// Least and greatest ease at a level, m.
+    fn band_m(&self, level: &str) -> Option<[f64; 2]> {
+        let is_top = ["chest", "bust"].iter().any(|chest| self.has_level(chest));
+        let own = self.wish.targets.get(level).map(|band| band.map(from_mm));
+        own.or_else(|| self.target.band_m(level, is_top))
+    }
+
+    /// The amounts that are given; else the least change that brings every level into its band, and meets `goals`, which are linear in
+    /// the amounts. Where a handle cannot move as far as it would, all get tighter limits.
+    ///
+    /// # Errors
+    /// When a handle cannot move even by the least of these.
+    pub fn found(&self, goals: &[Goal]) -> Result<Amounts> {
+        if !self.wish.moves_mm.is_empty() {
+            return Ok(self.wish.moves_mm.iter().map(|(_, amount_mm)| from_mm(*amount_mm)).collect());
+        }
+        let mut refused = None;
+        for share in LIMITS {
+            match self.within(share * from_mm(self.wish.limit_mm), goals) {
+                Ok(amounts) => return Ok(amounts),
+                Err(error) => refused = Some(error),
+            }
+        }
+        refused.map_or(Ok(Vec::new()), Err)
+    }
+
+    /// The least change within a limit of every handle, m.
+    fn within(&self, limit_m: f64, others: &[Goal]) -> Result<Amounts> {
+        let limits = vec![[-limit_m, limit_m]; self.handles.len()];
+        let mut amounts: Vec<f64> = vec![0.0; self.handles.len()];
+        for _ in 0..ROUNDS {
+            let now = eases(&self.moved(&amounts)?, self.body);
+            let goal = |(level, ease_m): (&String, &f64)| {
+                let [least, most] = self.band_m(level)?;
+                let inside = INSIDE_M.min(0.25 * (most - least));
+                let sensitivity: Vec<f64> =
+                    self.changes.iter().map(|change| change.get(level).copied().unwrap_or(0.0)).collect();
+                let done: f64 = sensitivity.iter().zip(&amounts).map(|(s, amount)| s * amount).sum();
+                Some(Goal { value: ease_m - done, sensitivity, band: [least + inside, most - inside], gives: None })
+            };
+            let goals: Vec<Goal> = now.iter().filter_map(goal).chain(others.iter().cloned()).collect();
+            // The least sum of amounts, by squares that weigh as the amounts before: few handles move.
+            let scale: Vec<f64> = amounts.iter().map(|amount| (amount.abs() + SMALL_M).sqrt()).collect();
+            amounts = least_change(&goals, &limits, &scale).amounts;
+        }
+        let drawn: Vec<f64> = amounts.iter().map(|m| from_mm((mm(*m) / DRAWN_MM).round() * DRAWN_MM)).collect();
+        self.moved(&drawn)?;
+        Ok(drawn)
+    }
+
+    /// Handles that move, with their amounts, m.
+    pub fn moves(&self, amounts: &[f64]) -> Vec<(Handle, f64)> {
+        let all = self.handles.iter().copied().zip(amounts.iter().copied());
+        all.filter(|(_, amount_m)| amount_m.abs() > 1e-6).collect()
+    }
+
+    /// The style with handles moved by their amounts, m.
+    ///
+    /// # Errors
+    /// When one of them cannot be.
+    pub fn moved(&self, amounts: &[f64]) -> Result<Style> {
+        self.style.moved(&self.moves(amounts)).map_err(StudyError::stage("alter"))
+    }
+
+    /// Finds the handles that can be moved, what each changes of every level, and what cannot be moved.
+    fn see_handles(&mut self) {
+        let asks_else = self.wish.targets.keys().any(|name| !self.has_level(name));
+        for handle in self.style.handles().into_iter().filter(|handle| !self.wish.without.contains(handle)) {
+            let moved = |by_m: f64| self.style.moved(&[(handle, by_m)]).map(|style| eases(&style, self.body));
+            match (moved(STEP_M), moved(-STEP_M)) {
+                (Ok(more), Ok(less)) => {
+                    let change = |(level, more_m): (&String, &f64)| {
+                        Some((level.clone(), (more_m - less.get(level)?) / (2.0 * STEP_M)))
+                    };
+                    let changes: Sensitivity = more.iter().filter_map(change).collect();
+                    let is_meant = |level: &str| self.band_m(level).is_some();
+                    if asks_else || changes.iter().any(|(level, by)| is_meant(level) && by.abs() >= LEAST_EFFECT) {
+                        self.changes.push(changes);
+                        self.handles.push(handle);
+                    }
+                }
+                (Err(error), _) | (_, Err(error)) => self.left_out.push(error.to_string()),
+            }
+        }
+    }
+
+    /// Every level before, as promised, and as achieved by the pattern that is written.
+    pub fn levels(&self, changed: &Style, again: &Style) -> Vec<AlteredLevel> {
+        let (promised, achieved) = (eases(changed, self.body), eases(again, self.body));
+        let level = |(level, before_m): (&String, &f64)| {
+            Some(AlteredLevel {
+                level: level.clone(),
+                target_mm: self.band_m(level).map(|band| band.map(mm)),
+                before_mm: mm(*before_m),
+                promised_mm: mm(*promised.get(level)?),
+                achieved_mm: mm(*achieved.get(level)?),
+            })
+        };
+        self.before.iter().filter_map(level).collect()
+    }
+}
+
+/// Ease at every level of a style on a body, m.
+fn eases(style: &Style, body: &Body) -> BTreeMap<String, f64> {
+    ease::on(style, body).into_iter().map(|ease| (ease.level.clone(), ease.ease_m())).collect()
+}

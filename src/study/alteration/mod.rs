@@ -1,0 +1,275 @@
+//! What to change of a pattern so that a size fits somebody: the least change of its handles, and the changed pattern.
+//!
+//! Ease is told by the flat pattern ([`bench`]). What is asked of a drape, as a level hem or a pressure, is foreseen from how the drape
+//! answers to the handles, and seen by draping again ([`fitting_room`], [`readings`]).
+
+mod bench;
+mod fitting_room;
+mod readings;
+mod tried;
+mod written;
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use self::bench::Bench;
+use self::fitting_room::FittingRoom;
+use self::tried::Tried;
+use crate::error::{Result, StudyError};
+use crate::run::pipeline;
+use crate::spec::file::Study;
+use crate::spec::{self, JobSpec};
+use fit::target::Target;
+use geom::units::mm;
+use pattern::Handle;
+use pattern::dxf::Standard;
+
+/// By how much a handle is moved to see what it changes, m.
+const STEP_M: f64 = 0.002;
+/// Drapes at most that a change is found by, the first of the pattern as it is.
+const MOST_DRAPES: usize = 3;
+
+/// What a handle changes of every level (m per m) or reading (its unit per m).
+type Sensitivity = BTreeMap<String, f64>;
+
+/// What is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wish {
+    /// Garment; needed where the study has several.
+    pub garment: Option<String>,
+    /// Who is to wear it; needed where the study has several.
+    pub subject: Option<String>,
+    /// Size that is changed.
+    pub size: String,
+    /// Least and greatest ease of levels that are not to have that of the intended fit, mm, and of what is read off the drape, in its unit.
+    pub targets: BTreeMap<String, [f64; 2]>,
+    /// Greatest amount of a handle either way, mm.
+    pub limit_mm: f64,
+    /// Handles that stay.
+    pub without: Vec<Handle>,
+    /// Handles with their amounts, mm: then nothing else is changed.
+    pub moves_mm: Vec<(Handle, f64)>,
+    /// Whether the changed pattern is draped, though nothing is asked of the drape.
+    pub is_draped: bool,
+    /// By which standard the changed pattern is written.
+    pub standard: Standard,
+}
+
+/// A handle that moves.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MovedHandle {
+    /// Its name.
+    pub handle: &'static str,
+    /// By how much, mm.
+    pub amount_mm: f64,
+    /// What a positive amount does.
+    pub does: &'static str,
+}
+
+/// A level before and after.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AlteredLevel {
+    /// Level.
+    pub level: String,
+    /// Least and greatest ease that is meant, mm.
+    pub target_mm: Option<[f64; 2]>,
+    /// Ease before, mm.
+    pub before_mm: f64,
+    /// Ease that the change promises, mm.
+    pub promised_mm: f64,
+    /// Ease of the pattern as it is written and read again, mm.
+    pub achieved_mm: f64,
+}
+
+impl AlteredLevel {
+    /// Whether what is achieved lies within what is meant.
+    #[must_use]
+    pub fn is_met(&self) -> bool {
+        self.target_mm.is_none_or(|[least, most]| (least - 0.5..=most + 0.5).contains(&self.achieved_mm))
+    }
+}
+
+/// What may be asked, and what it is.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Standing {
+    /// Level or reading.
+    pub name: String,
+    /// `mm`, `deg` or `kPa`.
+    pub unit: &'static str,
+    /// What it is, in its unit.
+    pub value: f64,
+    /// Whether it is the ease of the flat pattern at a level, or read off the drape.
+    pub is_ease: bool,
+}
+
+/// A quantity of the drape before and after.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AlteredReading {
+    /// Its name.
+    pub reading: String,
+    /// `mm`, `deg` or `kPa`.
+    pub unit: &'static str,
+    /// Least and greatest that is asked for.
+    pub target: [f64; 2],
+    /// Before.
+    pub before: f64,
+    /// What the change promises.
+    pub promised: f64,
+    /// Of the changed pattern, draped.
+    pub achieved: f64,
+}
+
+impl AlteredReading {
+    /// Whether what is achieved lies within what is asked for.
+    #[must_use]
+    pub fn is_met(&self) -> bool {
+        within(self.target, self.achieved)
+    }
+}
+
+/// Whether a value lies in a band, or out of it by less than its twentieth.
+fn within([least, most]: [f64; 2], value: f64) -> bool {
+    let near = 0.05 * (most - least);
+    (least - near..=most + near).contains(&value)
+}
+
+/// The changed pattern on the body.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Redraped {
+    /// Whether it came to rest.
+    pub converged: bool,
+    /// Error indicator of its measurements.
+    pub ei: f64,
+    /// Deepest penetration into the body, mm.
+    pub penetration_max_mm: f64,
+    /// Hem in front less behind, mm.
+    pub hem_front_over_back_mm: Option<f64>,
+    /// Greatest pressure, kPa.
+    pub most_kpa: Option<f64>,
+    /// Folds that cloth under tension makes.
+    pub drag_lines: usize,
+}
+
+/// A change of a pattern.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Alteration {
+    /// Garment.
+    pub garment: String,
+    /// Subject.
+    pub subject: String,
+    /// Size that is changed.
+    pub size: String,
+    /// The handles that move.
+    pub moves: Vec<MovedHandle>,
+    /// Its levels.
+    pub levels: Vec<AlteredLevel>,
+    /// What is asked of the drape.
+    pub readings: Vec<AlteredReading>,
+    /// How many times the garment was draped.
+    pub drapes: usize,
+    /// Handles that cannot be moved here, and why; what else is to be known.
+    pub left_out: Vec<String>,
+    /// The changed pattern on the body, where that is asked.
+    pub drape: Option<Redraped>,
+    /// The changed pattern, its seam file, and a sheet of old and new outlines, by file name.
+    #[serde(skip)]
+    pub files: Vec<(String, Vec<u8>)>,
+}
+
+impl Alteration {
+    /// Whether everything that is meant and asked for is achieved.
+    #[must_use]
+    pub fn is_met(&self) -> bool {
+        self.levels.iter().all(AlteredLevel::is_met) && self.readings.iter().all(AlteredReading::is_met)
+    }
+}
+
+/// Finds the least change that gives every level the ease that is meant and the drape what is asked of it, or applies the one that is
+/// asked for.
+///
+/// # Errors
+/// [`StudyError::NotFound`] for a garment, subject or size that the study does not have, and a target that neither ease nor drape has; what
+/// body, pattern or simulator refuse; a handle that cannot move so far.
+pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
+    let (spec, target) = asked(study, wish)?;
+    let body = pipeline::body(&spec)?;
+    let style = pipeline::style(&spec)?;
+    let bench = Bench::new(&style, &body, &target, wish);
+    let asks_drape = wish.targets.keys().any(|name| !bench.has_level(name));
+    let room = (asks_drape || wish.is_draped).then(|| FittingRoom::new(&spec, &body)).transpose()?;
+    let found = match &room {
+        Some(room) if asks_drape => Tried::on(room, &bench)?,
+        Some(room) => Tried::flat_and_draped(&bench, room)?,
+        None => Tried::flat(&bench)?,
+    };
+    let moves = bench.moves(&found.amounts);
+    let changed = style.moved(&moves).map_err(StudyError::stage("alter"))?;
+    let written = written::written(&spec, &style, &changed, &moves, wish.standard)?;
+    let moved = |(handle, amount_m): &(Handle, f64)| MovedHandle {
+        handle: handle.as_str(),
+        amount_mm: mm(*amount_m),
+        does: handle.definition(),
+    };
+    Ok(Alteration {
+        garment: spec.garment.clone(),
+        subject: spec.subject.clone(),
+        size: spec.size.clone(),
+        moves: moves.iter().map(moved).collect(),
+        levels: bench.levels(&changed, &written.again),
+        readings: found.readings(wish),
+        drapes: found.drapes,
+        left_out: bench.left_out.iter().chain(&found.remarks).cloned().collect(),
+        drape: found.after.map(|(redraped, _)| redraped),
+        files: written.files,
+    })
+}
+
+/// What may be asked of a size on a subject and what it is now: ease at every level, and what is read off the drape.
+///
+/// # Errors
+/// As [`alter`].
+pub fn standing(study: &Study, wish: &Wish) -> Result<Vec<Standing>> {
+    let (spec, target) = asked(study, wish)?;
+    let body = pipeline::body(&spec)?;
+    let style = pipeline::style(&spec)?;
+    let bench = Bench::new(&style, &body, &target, wish);
+    let (_, readings) = FittingRoom::new(&spec, &body)?.drape(&style)?;
+    let eases = bench.levels(&style, &style).into_iter();
+    let ease = |level: AlteredLevel| Standing { name: level.level, unit: "mm", value: level.before_mm, is_ease: true };
+    let read = |(name, reading): (String, readings::Reading)| Standing {
+        name,
+        unit: reading.unit,
+        value: reading.value,
+        is_ease: false,
+    };
+    Ok(eases.map(ease).chain(readings.into_iter().map(read)).collect())
+}
+
+/// The job of what is asked, and the ease that its garment is to have.
+fn asked(study: &Study, wish: &Wish) -> Result<(JobSpec, Target)> {
+    let jobs = spec::jobs(study);
+    let garments: Vec<String> = study.garments.iter().map(|garment| garment.name.clone()).collect();
+    let garment = one("garment", wish.garment.as_deref(), garments)?;
+    let of_garment = || jobs.iter().filter(|job| job.garment == garment);
+    let subject = one("subject", wish.subject.as_deref(), of_garment().map(|job| job.subject.clone()).collect())?;
+    let size = one("size", Some(&wish.size), of_garment().map(|job| job.size.clone()).collect())?;
+    let found = of_garment().find(|job| job.subject == subject && job.size == size).cloned();
+    let entry = study.garments.iter().find(|entry| entry.name == garment);
+    let target = entry.map_or_else(Target::default, |entry| entry.target.clone());
+    let missing =
+        || StudyError::NotFound { what: "job", name: format!("{garment} {size} on {subject}"), known: vec![] };
+    Ok((found.ok_or_else(missing)?, target))
+}
+
+/// The name that is asked for among those known, whatever its case; the only one where none is asked for.
+fn one(what: &'static str, asked: Option<&str>, mut known: Vec<String>) -> Result<String> {
+    let mut seen = std::collections::BTreeSet::new();
+    known.retain(|name| seen.insert(name.clone()));
+    let found = match asked {
+        Some(asked) => known.iter().find(|name| name.eq_ignore_ascii_case(asked)).cloned(),
+        None if known.len() == 1 => known.first().cloned(),
+        None => None,
+    };
+    found.ok_or_else(|| StudyError::NotFound { what, name: asked.unwrap_or_default().to_owned(), known })
+}
