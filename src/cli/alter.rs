@@ -18,6 +18,7 @@ pub fn alter(context: &Context, arguments: &Alter) -> Outcome {
         without: arguments.without.clone(),
         moves_mm: arguments.moves.clone(),
         is_draped: arguments.drape,
+        is_nest: arguments.nest,
         standard: arguments.standard.into(),
     };
     if arguments.list {
@@ -67,7 +68,7 @@ fn print(context: &Context, found: &Alteration) -> Result<(), super::CliError> {
         };
         output::text(&format!("draped again: {rest}, EI {:.4}, {depth:.2} mm inside{hem}{most}{drag}\n", drape.ei))?;
     }
-    found.left_out.iter().for_each(|reason| context.say(format_args!("left out: {reason}")));
+    found.remarks.iter().for_each(|remark| context.say(format_args!("{remark}")));
     Ok(())
 }
 

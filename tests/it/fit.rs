@@ -114,8 +114,38 @@ fn a_size_is_altered_until_it_fits_and_its_file_is_what_was_promised() {
         assert!(err.contains(says), "{arguments}: {err}");
     };
     check("alter . --size xl", "no size `xl`; there are: s");
+    check("alter . --size s --target collar=1..2", "no target `collar`; there are: across_shoulder, chest");
     check("alter . --size s --move collar=3", "no handle `collar`");
     check("alter . --size s --move inseam", "accepted: HANDLE=MM");
     check("alter . --size s --target hip=9", "accepted: NAME=LEAST..MOST");
     assert!(place.toile("alter . --size s --target chest=600..610 --limit-mm 20").ends_with(3).out.contains("missed"));
+}
+
+#[test]
+fn a_drape_is_altered_until_it_hangs_as_asked_and_all_sizes_alike() {
+    let place = Place::new();
+    place.study(&[("tee", 0.1, &["s", "m"])]);
+    let listed = place.toile("alter . --size m --list --json").ends_with(0).json();
+    let stands = |name: &str| {
+        let all = listed.as_array().expect("a list");
+        all.iter().find(|one| one["name"] == name).and_then(|one| one["value"].as_f64()).expect("it stands")
+    };
+    let over = stands("hem_front_over_back");
+    let asked = format!("hem_front_over_back={}..{}", over - 22.0, over - 18.0);
+    let found = place
+        .toile(&format!(
+            "alter . --size m --target {asked} --target chest=0..300 --target hip=0..300 --target waist=0..300 \
+            --target upper_arm=0..300 --nest --standard astm -o out --json"
+        ))
+        .ends_with(0)
+        .json();
+    let reading = &found["readings"][0];
+    let value = |key: &str| reading[key].as_f64().expect("a reading");
+    assert!((value("before") - over).abs() < 1e-9 && value("achieved") < over - 17.8, "{reading}");
+    assert!((value("promised") - value("achieved")).abs() < 6.0, "{reading}");
+    let lengths = ["front_length", "back_length"];
+    let moves = found["moves"].as_array().expect("moves");
+    assert!(moves.iter().any(|one| lengths.iter().any(|name| one["handle"] == *name)), "{moves:?}");
+    let nest = place.toile("pattern check out/tee-nest-ii.dxf --seams out/tee-m-ii.seams.toml").ends_with(0).out;
+    assert!(["s", "m"].iter().all(|size| nest.contains(size)), "{nest}");
 }

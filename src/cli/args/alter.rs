@@ -37,6 +37,9 @@ pub struct Alter {
     /// Drape the changed pattern by FEM-GS; a target of the drape does that anyway.
     #[arg(long)]
     pub drape: bool,
+    /// Change all sizes alike, and write them as a nest beside the changed size: the grade stays.
+    #[arg(long)]
+    pub nest: bool,
     /// Show what targets may be set for, and what it is now, and change nothing.
     #[arg(long, conflicts_with_all = ["target", "moves", "drape", "output"])]
     pub list: bool,

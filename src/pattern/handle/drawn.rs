@@ -2,14 +2,17 @@
 
 use std::collections::BTreeMap;
 
+use super::HALVINGS;
 use super::field::Field;
 use super::{Handle, HandleError};
 use crate::piece::Piece;
-use crate::seams::SeamFile;
+use crate::seams::{SeamFile, StyleError};
+use crate::style::correspond::{corresponding, shares};
 use crate::style::named::called;
 use crate::style::{Style, StylePiece};
 use geom::V2;
 use geom::units::mm;
+use toml_edit::{Array, DocumentMut, Value, value};
 
 /// Greatest distance of a line as it is carried from where all its points go, m: a hundredth of a seam's tolerance.
 const CARRIED_M: f64 = 5e-6;
@@ -18,8 +21,17 @@ const SHORT_M: f64 = 1e-3;
 /// By how much two uses of one drawn piece may change it differently, m.
 const ALIKE_M: f64 = 0.05e-3;
 
+/// Changed pieces, and the seam file that makes the changed style of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Redrawn {
+    /// The pieces.
+    pub pieces: Vec<Piece>,
+    /// Bytes of the seam file: as they were, but for where corners lie on their pieces.
+    pub seams: Vec<u8>,
+}
+
 /// Changes pieces as drawn by handles with their amounts, m, of the style that they make with the bytes of a seam file; `file` is its name
-/// for messages. The same seam file makes the changed style of them.
+/// for messages.
 ///
 /// # Errors
 /// [`HandleError`] where they make no style, a handle cannot be applied, or a piece that is drawn once would change in two ways.
@@ -28,13 +40,13 @@ pub fn redrawn(
     seam_bytes: &[u8],
     file: &str,
     handles: &[(Handle, f64)],
-) -> Result<Vec<Piece>, HandleError> {
+) -> Result<Redrawn, HandleError> {
     let entries = SeamFile::parse(seam_bytes, file)?;
     let style = Style::of(pieces, &entries, file)?;
     let (mut after, mut steps) = (style.clone(), Vec::new());
     for &(handle, amount_m) in handles {
-        let (moved, fields) = after.moved_by(handle, amount_m)?;
-        steps.push(fields);
+        let (moved, fields) = after.moved_in_steps(handle, amount_m, HALVINGS)?;
+        steps.extend(fields);
         after = moved;
     }
     let mut redrawn: BTreeMap<usize, Carrier<'_>> = BTreeMap::new();
@@ -53,7 +65,41 @@ pub fn redrawn(
     }
     let piece =
         |(number, piece): (usize, &Piece)| redrawn.get(&number).map_or_else(|| piece.clone(), |by| by.piece(piece));
-    Ok(pieces.iter().enumerate().map(piece).collect())
+    let changed: Vec<Piece> = pieces.iter().enumerate().map(piece).collect();
+    let mut corners = BTreeMap::new();
+    for (name, entry) in entries.piece.iter().filter(|(_, entry)| !entry.corners_at.is_empty()) {
+        let Some(&drawn) = called(pieces, &entry.block, entries.size.as_deref()).first() else { continue };
+        let (Some(by), Ok(vertices)) = (redrawn.get(&drawn), corresponding(&pieces[drawn], &entry.corners_at)) else {
+            continue;
+        };
+        let (before, after) = (pieces[drawn].seam_outline(), changed[drawn].seam_outline());
+        let nearest = |place: V2| {
+            let away = |k: &usize| (after[*k] - place).norm_squared();
+            (0..after.len()).min_by(|one, other| away(one).total_cmp(&away(other))).unwrap_or(0)
+        };
+        let moved: Vec<usize> = vertices.into_iter().map(|vertex| nearest(by.carried(before[vertex]))).collect();
+        corners.insert(name.clone(), shares(after, &moved));
+    }
+    Ok(Redrawn { pieces: changed, seams: with_corners(seam_bytes, file, &corners)? })
+}
+
+/// The bytes of a seam file with other places of the corners of some pieces, the rest of its text as it is.
+fn with_corners(
+    seam_bytes: &[u8],
+    file: &str,
+    corners: &BTreeMap<String, Vec<[f64; 2]>>,
+) -> Result<Vec<u8>, HandleError> {
+    if corners.is_empty() {
+        return Ok(seam_bytes.to_vec());
+    }
+    let syntax = |reason: String| StyleError::Syntax { file: file.to_owned(), reason };
+    let text = std::str::from_utf8(seam_bytes).map_err(|error| syntax(error.to_string()))?;
+    let mut document: DocumentMut = text.parse().map_err(|error: toml_edit::TomlError| syntax(error.to_string()))?;
+    for (name, places) in corners {
+        let places: Array = places.iter().map(|place| Value::from(place.iter().copied().collect::<Array>())).collect();
+        document["piece"][name]["corners_at"] = value(places);
+    }
+    Ok(document.to_string().into_bytes())
 }
 
 /// How a piece is worn: mirrored as a seam file says, then turned upright.

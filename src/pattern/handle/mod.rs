@@ -21,7 +21,7 @@ mod solve;
 mod tests;
 mod upper;
 
-pub use self::drawn::redrawn;
+pub use self::drawn::{Redrawn, redrawn};
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -47,8 +47,13 @@ const MOST_AIMS: usize = 8;
 /// Ratios of an amount to what it changes within which it is aimed: beyond, the point of measure lies elsewhere after the change.
 const AIM_RATIOS: Range<f64> = 0.5..2.0;
 
-/// A style changed by a handle, and how each piece that changed did.
-type Change = (Style, BTreeMap<usize, Field>);
+/// How often a way is halved at most on which the sides of a seam part.
+const HALVINGS: u32 = 2;
+
+/// How each piece that changed did.
+type Fields = BTreeMap<usize, Field>;
+/// A style changed by a handle, and how.
+type Change = (Style, Fields);
 
 /// A handle by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -347,6 +352,20 @@ pub enum HandleError {
     Style(#[from] StyleError),
 }
 
+impl HandleError {
+    /// The handle that cannot be applied, where it is one.
+    #[must_use]
+    pub const fn handle(&self) -> Option<Handle> {
+        match self {
+            Self::Amount { handle, .. }
+            | Self::Absent { handle, .. }
+            | Self::Length { handle, .. }
+            | Self::Crossing { handle, .. } => Some(*handle),
+            Self::Drawn { .. } | Self::Style(_) => None,
+        }
+    }
+}
+
 impl Style {
     /// The handles that the style has, in the order of [`Handle::ALL`]. What cannot be told by the roles of its pieces is left out.
     #[must_use]
@@ -376,9 +395,24 @@ impl Style {
     pub fn moved(&self, handles: &[(Handle, f64)]) -> Result<Self, HandleError> {
         let mut style = self.clone();
         for &(handle, amount_m) in handles {
-            style = style.moved_by(handle, amount_m)?.0;
+            style = style.moved_in_steps(handle, amount_m, HALVINGS)?.0;
         }
         Ok(style)
+    }
+
+    /// The style changed by one handle, and how each piece that changed did, step by step: where the sides of a seam part over a long way,
+    /// they may not over two halves of it.
+    fn moved_in_steps(&self, handle: Handle, amount_m: f64, halvings: u32) -> Result<(Self, Vec<Fields>), HandleError> {
+        let halves = || -> Result<(Self, Vec<Fields>), HandleError> {
+            let (style, mut fields) = self.moved_in_steps(handle, 0.5 * amount_m, halvings - 1)?;
+            let (style, others) = style.moved_in_steps(handle, 0.5 * amount_m, halvings - 1)?;
+            fields.extend(others);
+            Ok((style, fields))
+        };
+        match self.moved_by(handle, amount_m) {
+            Err(parted @ HandleError::Length { .. }) if halvings > 0 => halves().map_err(|_| parted),
+            other => other.map(|(style, fields)| (style, vec![fields])),
+        }
     }
 
     /// The style changed by one handle, and how each piece that changed did.

@@ -320,7 +320,7 @@ fn what_cannot_be_done_is_refused_with_its_reason() {
 fn redrawn_pieces_make_the_changed_style_by_the_same_seam_file() {
     let check = |model: Model, handles: &[(Handle, f64)]| {
         let draft = model.drafts().swap_remove(0);
-        let pieces = redrawn(&draft.pieces, model.seams(), "seams", handles).expect("it has them");
+        let pieces = redrawn(&draft.pieces, model.seams(), "seams", handles).expect("it has them").pieces;
         let bytes = dxf::write_pieces(&pieces, &[], dxf::Standard::Aama);
         let read = source::read(&bytes, "changed.dxf", None).expect("our own file").to_sew(None).expect("one size");
         let back = Style::read(&read, model.seams(), "seams").expect("the seams hold");
@@ -346,14 +346,55 @@ fn redrawn_pieces_make_the_changed_style_by_the_same_seam_file() {
     check(Model::Dress, &[(Waist, -0.01), (NeckWidth, 0.01), (SkirtLength, 0.03)]);
 }
 
+/// Corners are told as shares of their piece, which a handle changes.
+#[test]
+fn a_seam_file_that_tells_where_corners_lie_tells_where_they_have_gone() {
+    let draft = Model::Tshirt.drafts().swap_remove(0);
+    let seams = propose::propose(&draft.pieces).toml("tee");
+    assert!(seams.contains("corners_at"), "{seams}");
+    let style = Style::read(&draft.pieces, seams.as_bytes(), "tee").expect("it is sewn");
+    for handles in [[(Handle::Chest, 0.025), (Handle::BodyLength, -0.1)], [(Handle::Hem, 0.06), (Handle::Bicep, -0.02)]]
+    {
+        let changed = redrawn(&draft.pieces, seams.as_bytes(), "tee", &handles).expect("it has them");
+        let back = Style::read(&changed.pieces, &changed.seams, "tee").expect("its seam file holds");
+        let moved = style.moved(&handles).expect("it has them");
+        assert!(styles_apart_mm(&back, &moved) < 0.05, "{handles:?}");
+        assert!(changed.seams != seams.as_bytes(), "{handles:?}");
+    }
+}
+
+#[test]
+fn a_mesh_goes_along_with_its_style() {
+    let style = drafted(Model::Tshirt, 1);
+    let mesh = style.mesh(0.04).expect("it meshes");
+    let area = |garment: &crate::Garment| -> f64 {
+        let corners = |t: &[usize; 3]| t.map(|v| garment.rest[v]);
+        garment.triangles.iter().map(corners).map(|[a, b, c]| 0.5 * (b - a).perp(&(c - a))).sum()
+    };
+    for (handle, amount_m) in [(Handle::Hem, 0.01), (Handle::CapHeight, -0.008), (Handle::BodyLength, 0.02)] {
+        let along = style.moved_mesh(&mesh, handle, amount_m).expect("it has it");
+        let anew = style.moved(&[(handle, amount_m)]).expect("it has it").mesh(0.04).expect("it meshes");
+        // Chords on either side of a curve differ by a little.
+        assert!((area(&along) - area(&anew)).abs() < 1e-3 * area(&anew), "{handle:?}");
+        for (is, expect) in along.measurements.iter().zip(&anew.measurements) {
+            assert!((is.l2d_m - expect.l2d_m).abs() < 1e-3, "{handle:?} {}: {} {}", is.name, is.l2d_m, expect.l2d_m);
+        }
+        let flat: Vec<geom::V3> = along.rest.iter().map(|p| p.push(0.0)).collect();
+        for one in &along.measurements {
+            assert!((one.length_m(&along.rest, &flat) - one.l2d_m).abs() < 1e-9, "{handle:?} {}", one.name);
+        }
+    }
+}
+
 #[test]
 fn what_lies_inside_goes_along() {
     let mut draft = Model::Tshirt.drafts().swap_remove(0);
     let front = draft.pieces.iter_mut().find(|piece| piece.block == "FRONT").expect("it is drafted");
     front.drill_holes = vec![V2::new(0.0, 0.05), V2::new(0.1, 0.2)];
     front.internal_lines = vec![vec![V2::new(-0.1, 0.05), V2::new(0.1, 0.05)]];
-    let pieces =
-        redrawn(&draft.pieces, Model::Tshirt.seams(), "seams", &[(Handle::BodyLength, 0.02)]).expect("it has it");
+    let pieces = redrawn(&draft.pieces, Model::Tshirt.seams(), "seams", &[(Handle::BodyLength, 0.02)])
+        .expect("it has it")
+        .pieces;
     let moved = pieces.iter().find(|piece| piece.block == "FRONT").expect("it is there");
     let by: Vec<V2> =
         moved.drill_holes.iter().zip([V2::new(0.0, 0.05), V2::new(0.1, 0.2)]).map(|(p, was)| p - was).collect();

@@ -32,6 +32,8 @@ geom::constants! {
     /// Newton steps towards it at most, and shares of one that are tried.
     const NEWTON_STEPS: usize = 30;
     const SHARES: [f64; 6] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.01];
+    /// Steps of these that leave more force than there was.
+    const SETBACKS: usize = 5;
 }
 
 /// A drape, and what it lies on.
@@ -79,8 +81,8 @@ impl<'a> Response<'a> {
         if system.contact.yields_m(&x) > TIGHT_M {
             (system, x) = taken_up(around.hardened())?;
         }
-        let pairs = couplings(&mut system, &x);
-        let (tangent, residual) = rest(&pairs, &mut x, |x| forces(&system, cloth, x), system.mean_weight());
+        system.assemble(&x, None);
+        let (tangent, residual) = rest(&system, &mut x);
         Ok(Self { fabric, system, tangent, x, residual })
     }
 
@@ -158,14 +160,12 @@ fn forces(system: &System, cloth: &Cloth, x: &[V3]) -> Vec<V3> {
     forces
 }
 
-/// The vertices that forces couple at `x`; contacts are found there.
-fn couplings(system: &mut System, x: &[V3]) -> PairList {
+/// The vertices that forces couple at `x`.
+fn couplings(system: &System, x: &[V3]) -> PairList {
     let cloth = system.cloth;
-    let contacts = system.assemble(x, None).operator.contacts;
-    let all = |vertices: Vec<usize>| {
-        let of = |i: usize| vertices[i + 1..].iter().map(move |&w| [i, w]).collect::<Vec<_>>();
-        let named = (0..vertices.len()).flat_map(of).collect::<Vec<_>>();
-        named.into_iter().map(|[i, w]| [vertices[i], w]).filter(|[v, w]| v != w).collect::<Vec<_>>()
+    let among = |vertices: Vec<usize>| {
+        let after = |i: usize| vertices[i + 1..].iter().map(|w| [vertices[i], *w]).collect::<Vec<_>>();
+        (0..vertices.len()).flat_map(after).filter(|[v, w]| v != w).collect::<Vec<_>>()
     };
     let arcs = &cloth.membrane.arcs;
     let patch = |(triangle, sides): (&[usize; 3], &[u32; 3])| {
@@ -174,31 +174,108 @@ fn couplings(system: &mut System, x: &[V3]) -> PairList {
         vertices.extend(bowed.flat_map(|side| arcs.of(*side as usize).map(|(v, _)| v)));
         vertices.sort_unstable();
         vertices.dedup();
-        all(vertices)
+        among(vertices)
     };
     let patches = cloth.triangles.iter().zip(&cloth.membrane.sides).flat_map(patch);
-    let touching = contacts.iter().flat_map(|contact| all(contact.vertices.to_vec()));
+    // Points of the cloth that touch the body lie within triangles.
+    let mut unused = vec![V3::zeros(); x.len()];
+    let layers = system.self_contact.iter().flat_map(|contact| contact.assemble(x, &mut unused)).collect::<Vec<_>>();
+    let touching = layers.iter().flat_map(|contact| among(contact.vertices.to_vec()));
     PairList::new(patches.chain(cloth.bending.pairs.pairs().iter().copied()).chain(touching))
 }
 
-/// Brings cloth wholly to rest by Newton's method; returns its stiffness there and the residual.
-fn rest(pairs: &PairList, x: &mut Vec<V3>, forces: impl Fn(&[V3]) -> Vec<V3>, weight: f64) -> (Tangent, f64) {
-    let mut pulled = forces(x);
-    let mut residual = rms(&pulled) / weight;
-    let mut tangent = Tangent::of(pairs, x, STEP_M, &forces);
+/// Brings cloth wholly to rest by Newton's method; returns its stiffness there and the residual. Where layers come to touch on the way, a
+/// step may leave more force than there was: a few of these are taken, and the best place is kept.
+fn rest(system: &System, x: &mut Vec<V3>) -> (Tangent, f64) {
+    let acting = |x: &[V3]| forces(system, system.cloth, x);
+    let tangent_at = |x: &[V3]| Tangent::of(&couplings(system, x), x, STEP_M, acting);
+    let residual_of = |forces: &[V3]| rms(forces) / system.mean_weight();
+    let mut now = x.clone();
+    let mut pulled = acting(&now);
+    let mut residual = residual_of(&pulled);
+    let (mut tangent, mut least) = (tangent_at(&now), residual);
+    let mut setbacks = 0;
     for _ in 0..NEWTON_STEPS {
         let step = tangent.solve(&pulled).filter(|_| residual > AT_REST);
         let Some(step) = step else { break };
-        let at = |share: f64| x.iter().zip(&step).map(|(p, d)| p + d * share).collect::<Vec<V3>>();
-        let nearer = SHARES.iter().find_map(|share| {
-            let there = at(*share);
-            let left = forces(&there);
-            let residual_there = rms(&left) / weight;
-            (residual_there < residual).then_some((there, left, residual_there))
+        let tried = SHARES.iter().map(|share| {
+            let there: Vec<V3> = now.iter().zip(&step).map(|(p, d)| p + d * *share).collect();
+            let left = acting(&there);
+            (residual_of(&left), there, left)
         });
-        let Some(nearer) = nearer else { break };
-        (*x, pulled, residual) = nearer;
-        tangent = Tangent::of(pairs, x, STEP_M, &forces);
+        let mut best: Option<(f64, Vec<V3>, Vec<V3>)> = None;
+        for one in tried {
+            let is_nearer = one.0 < residual;
+            if best.as_ref().is_none_or(|best| one.0 < best.0) {
+                best = Some(one);
+            }
+            if is_nearer {
+                break;
+            }
+        }
+        let Some(best) = best.filter(|best| best.0.is_finite()) else { break };
+        setbacks += usize::from(best.0 >= residual);
+        if setbacks > SETBACKS {
+            break;
+        }
+        (residual, now, pulled) = best;
+        tangent = tangent_at(&now);
+        if residual < least {
+            (least, *x) = (residual, now.clone());
+        }
     }
-    (tangent, residual)
+    if now != *x {
+        tangent = tangent_at(x);
+    }
+    (tangent, least)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fabric;
+    use crate::fem::{level_edges, simulate};
+    use body::{Measurements, Sex};
+    use geom::V2;
+    use pattern::draft::Model;
+    use pattern::{Handle, Style};
+
+    /// What a handle does to the vertices, by derivative and by differences of two drapes at rest: how far both are apart over how far
+    /// vertices go.
+    #[test]
+    fn a_drape_answers_as_its_differences_do() {
+        const TAKEN_M: f64 = 1e-4;
+        const STEP: f64 = 1e-6;
+        let body = body::build(&Measurements::of(Sex::Male, 1.76)).expect("a body");
+        let field = DistanceField::build(&body.mesh, 0.01).expect("a solid");
+        let medium = &Model::Tshirt.drafts()[1];
+        let style = Style::read(&medium.pieces, Model::Tshirt.seams(), "tshirt.seams.toml").expect("sound");
+        let meshes: Vec<Garment> =
+            level_edges(0.05).into_iter().map(|edge_m| style.mesh(edge_m).expect("it meshes")).collect();
+        let (cotton, params) = (&fabric::library()[0], Params::default());
+        let drape = simulate(&body, &field, &meshes, cotton, &params, &mut Silent).expect("it drapes");
+        let garment = &meshes[meshes.len() - 1];
+        let cloth = sewn(garment, cotton).expect("sound");
+        let skin = Skin::new(&body.mesh).ok();
+        for is_held in [true, false] {
+            let lying = Lying { skin: skin.as_ref(), field: &field, garment, fabric: cotton, params: &params, is_held };
+            let response = Response::of(lying, &cloth, &drape.positions).expect("it lies");
+            assert!(response.is_stable() && response.residual() < 1e-7, "{is_held}: {}", response.residual());
+            for handle in [Handle::Hem, Handle::FrontLength, Handle::ShoulderSlope] {
+                let taken = |by_m: f64| style.moved_mesh(garment, handle, by_m).expect("it moves").rest;
+                let (more, less) = (taken(TAKEN_M), taken(-TAKEN_M));
+                let at = |by: f64| {
+                    let way = |v: usize| (more[v] - less[v]) / (2.0 * TAKEN_M);
+                    garment.with_rest((0..more.len()).map(|v| garment.rest[v] + way(v) * by).collect::<Vec<V2>>())
+                };
+                let [before, after] = [-STEP, STEP].map(at);
+                let rates = response.rates([&before, &after], 2.0 * STEP).expect("regular");
+                let [(before, _), (after, _)] = [&before, &after].map(|one| response.again(one).expect("regular"));
+                let ways = || after.iter().zip(&before).map(|(after, before)| (after - before) / (2.0 * STEP));
+                let off: Vec<V3> = rates.iter().zip(ways()).map(|(rate, way)| rate - way).collect();
+                let way = rms(&ways().collect::<Vec<V3>>());
+                assert!(rms(&off) < 1e-3 * way && way > 0.02, "{handle:?}, {is_held}: {} of {way}", rms(&off));
+            }
+        }
+    }
 }

@@ -9,14 +9,19 @@ use body::Body;
 use fit::alter::{Goal, least_change};
 use fit::target::Target;
 use geom::units::{from_mm, mm};
+use pattern::handle::HandleError;
 use pattern::{Handle, Style};
 
 /// How often the change is corrected by what it really does, and its squares weighed anew.
 const ROUNDS: usize = 12;
 /// Amount below which a handle is as dear as one that does not move, m.
 const SMALL_M: f64 = 0.2e-3;
-/// Shares of the greatest amount that are tried in turn, where handles cannot move so far.
-const LIMITS: [f64; 5] = [1.0, 0.7, 0.5, 0.35, 0.25];
+/// Least amount of a handle that goals which give way have chosen, m, and by how much firmer they are met by those.
+const CHOSEN_M: f64 = 1e-3;
+const FIRMER: f64 = 30.0;
+/// Share of its limit that a handle gets which cannot move so far, and the least limit that is made tighter, m.
+const TIGHTER: f64 = 0.6;
+const LEAST_LIMIT_M: f64 = 2e-3;
 /// Amounts are given in steps of this, as a pattern maker draws them, mm.
 const DRAWN_MM: f64 = 0.5;
 /// How far inside a band a level is aimed, so that drawn amounts keep it there, m.
@@ -27,6 +32,8 @@ const LEAST_EFFECT: f64 = 0.2;
 
 /// An amount of each handle of a bench, m.
 pub type Amounts = Vec<f64>;
+/// What handles make, or the one that cannot.
+type Moved<T> = std::result::Result<T, HandleError>;
 
 /// A style with its handles, the body it is for, and what is meant.
 pub struct Bench<'a> {
@@ -77,30 +84,53 @@ impl<'a> Bench<'a> {
     }
 
     /// The amounts that are given; else the least change that brings every level into its band, and meets `goals`, which are linear in
-    /// the amounts. Where a handle cannot move as far as it would, all get tighter limits.
+    /// the amounts. A handle that cannot move as far as it would gets a tighter limit, and at last stays.
     ///
     /// # Errors
-    /// When a handle cannot move even by the least of these.
+    /// When what is given cannot be applied.
     pub fn found(&self, goals: &[Goal]) -> Result<Amounts> {
         if !self.wish.moves_mm.is_empty() {
             return Ok(self.wish.moves_mm.iter().map(|(_, amount_mm)| from_mm(*amount_mm)).collect());
         }
-        let mut refused = None;
-        for share in LIMITS {
-            match self.within(share * from_mm(self.wish.limit_mm), goals) {
+        let mut limits_m = vec![from_mm(self.wish.limit_mm); self.handles.len()];
+        loop {
+            let refused = match self.within(&limits_m, goals) {
                 Ok(amounts) => return Ok(amounts),
-                Err(error) => refused = Some(error),
-            }
+                Err(refused) => refused,
+            };
+            let place = self.handles.iter().position(|handle| Some(*handle) == refused.handle());
+            let Some(place) = place.filter(|place| limits_m[*place] > 0.0) else {
+                return Err(StudyError::stage("alter")(refused));
+            };
+            limits_m[place] = if limits_m[place] > LEAST_LIMIT_M { TIGHTER * limits_m[place] } else { 0.0 };
         }
-        refused.map_or(Ok(Vec::new()), Err)
     }
 
-    /// The least change within a limit of every handle, m.
-    fn within(&self, limit_m: f64, others: &[Goal]) -> Result<Amounts> {
-        let limits = vec![[-limit_m, limit_m]; self.handles.len()];
-        let mut amounts: Vec<f64> = vec![0.0; self.handles.len()];
+    /// The least change within a limit of every handle, m. Goals that give way draw all amounts towards nothing; of the handles that they
+    /// have chosen they are then met more firmly.
+    fn within(&self, limits_m: &[f64], others: &[Goal]) -> Moved<Amounts> {
+        let mut limits: Vec<[f64; 2]> = limits_m.iter().map(|limit_m| [-limit_m, *limit_m]).collect();
+        let mut amounts = self.settled(vec![0.0; limits.len()], &limits, others)?;
+        if !others.is_empty() {
+            let chosen = |amount: &f64| amount.abs() >= CHOSEN_M;
+            limits
+                .iter_mut()
+                .zip(&amounts)
+                .filter(|(_, amount)| !chosen(amount))
+                .for_each(|(limit, _)| *limit = [0.0; 2]);
+            let firm = |goal: &Goal| Goal { gives: goal.gives.map(|gives| gives / FIRMER), ..goal.clone() };
+            amounts = self.settled(amounts, &limits, &others.iter().map(firm).collect::<Vec<_>>())?;
+        }
+        let drawn: Vec<f64> = amounts.iter().map(|m| from_mm((mm(*m) / DRAWN_MM).round() * DRAWN_MM)).collect();
+        self.style.moved(&self.moves(&drawn))?;
+        Ok(drawn)
+    }
+
+    /// The least change within limits of each handle, m, from `amounts`: the least sum of them, by squares that weigh as the amounts before,
+    /// so that few handles move.
+    fn settled(&self, mut amounts: Amounts, limits: &[[f64; 2]], others: &[Goal]) -> Moved<Amounts> {
         for _ in 0..ROUNDS {
-            let now = eases(&self.moved(&amounts)?, self.body);
+            let now = eases(&self.style.moved(&self.moves(&amounts))?, self.body);
             let goal = |(level, ease_m): (&String, &f64)| {
                 let [least, most] = self.band_m(level)?;
                 let inside = INSIDE_M.min(0.25 * (most - least));
@@ -110,13 +140,10 @@ impl<'a> Bench<'a> {
                 Some(Goal { value: ease_m - done, sensitivity, band: [least + inside, most - inside], gives: None })
             };
             let goals: Vec<Goal> = now.iter().filter_map(goal).chain(others.iter().cloned()).collect();
-            // The least sum of amounts, by squares that weigh as the amounts before: few handles move.
             let scale: Vec<f64> = amounts.iter().map(|amount| (amount.abs() + SMALL_M).sqrt()).collect();
-            amounts = least_change(&goals, &limits, &scale).amounts;
+            amounts = least_change(&goals, limits, &scale).amounts;
         }
-        let drawn: Vec<f64> = amounts.iter().map(|m| from_mm((mm(*m) / DRAWN_MM).round() * DRAWN_MM)).collect();
-        self.moved(&drawn)?;
-        Ok(drawn)
+        Ok(amounts)
     }
 
     /// Handles that move, with their amounts, m.
@@ -153,6 +180,33 @@ impl<'a> Bench<'a> {
                 (Err(error), _) | (_, Err(error)) => self.left_out.push(error.to_string()),
             }
         }
+    }
+
+    /// Why levels are missed, a sentence each.
+    pub fn reasons(&self, amounts: &[f64], levels: &[AlteredLevel]) -> Vec<String> {
+        let limit_mm = self.wish.limit_mm;
+        let reason = |missed: &AlteredLevel| {
+            let level = missed.level.replace('_', " ");
+            let helps = |change: &Sensitivity| change.get(&missed.level).is_some_and(|by| by.abs() >= LEAST_EFFECT);
+            let own = self.changes.iter().zip(self.handles.iter().zip(amounts)).filter(|(change, _)| helps(change));
+            let own: Vec<(&Handle, f64)> = own.map(|(_, (handle, amount_m))| (handle, mm(*amount_m).abs())).collect();
+            let names = |of: &[(&Handle, f64)]| {
+                of.iter().map(|(handle, _)| format!("`{}`", handle.as_str())).collect::<Vec<_>>().join(", ")
+            };
+            let at_limit: Vec<_> = own.iter().copied().filter(|(_, by_mm)| *by_mm >= limit_mm - DRAWN_MM).collect();
+            match (own.is_empty(), at_limit.is_empty()) {
+                (true, _) => format!("{level} is missed: no handle of this style changes it"),
+                (_, false) => format!(
+                    "{level} is missed: at the limit of {limit_mm} mm: {} (--limit-mm allows more; another size may be nearer)",
+                    names(&at_limit)
+                ),
+                _ => format!(
+                    "{level} is missed: what changes it cannot move further, or takes other levels out of their bands: {}",
+                    names(&own)
+                ),
+            }
+        };
+        levels.iter().filter(|level| !level.is_met()).map(reason).collect()
     }
 
     /// Every level before, as promised, and as achieved by the pattern that is written.

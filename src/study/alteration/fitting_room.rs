@@ -24,7 +24,7 @@ const TAKEN_ALONG_M: f64 = 0.1e-3;
 /// Seeds of the starts by which scatter is told.
 const STARTS: [u64; 4] = [0, 1, 2, 3];
 /// Least scatter that is believed of a few starts, mm and degrees, and kPa.
-const LEAST_SCATTER: f64 = 0.5;
+const LEAST_SCATTER: f64 = 1.0;
 const LEAST_SCATTER_KPA: f64 = 0.02;
 
 /// A body that tries on.

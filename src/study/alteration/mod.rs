@@ -9,7 +9,7 @@ mod readings;
 mod tried;
 mod written;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Serialize;
 
@@ -52,6 +52,8 @@ pub struct Wish {
     pub moves_mm: Vec<(Handle, f64)>,
     /// Whether the changed pattern is draped, though nothing is asked of the drape.
     pub is_draped: bool,
+    /// Whether all sizes of the garment are changed alike and written as a nest: the grade stays.
+    pub is_nest: bool,
     /// By which standard the changed pattern is written.
     pub standard: Standard,
 }
@@ -168,8 +170,8 @@ pub struct Alteration {
     pub readings: Vec<AlteredReading>,
     /// How many times the garment was draped.
     pub drapes: usize,
-    /// Handles that cannot be moved here, and why; what else is to be known.
-    pub left_out: Vec<String>,
+    /// Handles that cannot be moved here, and why; levels that are missed, and why; what else is to be known.
+    pub remarks: Vec<String>,
     /// The changed pattern on the body, where that is asked.
     pub drape: Option<Redraped>,
     /// The changed pattern, its seam file, and a sheet of old and new outlines, by file name.
@@ -192,7 +194,7 @@ impl Alteration {
 /// [`StudyError::NotFound`] for a garment, subject or size that the study does not have, and a target that neither ease nor drape has; what
 /// body, pattern or simulator refuse; a handle that cannot move so far.
 pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
-    let (spec, target) = asked(study, wish)?;
+    let Asked { spec, others, target } = asked(study, wish)?;
     let body = pipeline::body(&spec)?;
     let style = pipeline::style(&spec)?;
     let bench = Bench::new(&style, &body, &target, wish);
@@ -205,7 +207,12 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
     };
     let moves = bench.moves(&found.amounts);
     let changed = style.moved(&moves).map_err(StudyError::stage("alter"))?;
-    let written = written::written(&spec, &style, &changed, &moves, wish.standard)?;
+    let mut written = written::written(&spec, [&style, &changed], &moves, wish.standard)?;
+    if wish.is_nest {
+        written.files.push(written::nest(&spec, &others, &moves, wish.standard)?);
+    }
+    let levels = bench.levels(&changed, &written.again);
+    let reasons = if wish.moves_mm.is_empty() { bench.reasons(&found.amounts, &levels) } else { Vec::new() };
     let moved = |(handle, amount_m): &(Handle, f64)| MovedHandle {
         handle: handle.as_str(),
         amount_mm: mm(*amount_m),
@@ -216,10 +223,10 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
         subject: spec.subject.clone(),
         size: spec.size.clone(),
         moves: moves.iter().map(moved).collect(),
-        levels: bench.levels(&changed, &written.again),
+        levels,
         readings: found.readings(wish),
         drapes: found.drapes,
-        left_out: bench.left_out.iter().chain(&found.remarks).cloned().collect(),
+        remarks: bench.left_out.iter().chain(&found.remarks).chain(&reasons).cloned().collect(),
         drape: found.after.map(|(redraped, _)| redraped),
         files: written.files,
     })
@@ -230,7 +237,7 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
 /// # Errors
 /// As [`alter`].
 pub fn standing(study: &Study, wish: &Wish) -> Result<Vec<Standing>> {
-    let (spec, target) = asked(study, wish)?;
+    let Asked { spec, target, .. } = asked(study, wish)?;
     let body = pipeline::body(&spec)?;
     let style = pipeline::style(&spec)?;
     let bench = Bench::new(&style, &body, &target, wish);
@@ -246,25 +253,43 @@ pub fn standing(study: &Study, wish: &Wish) -> Result<Vec<Standing>> {
     Ok(eases.map(ease).chain(readings.into_iter().map(read)).collect())
 }
 
-/// The job of what is asked, and the ease that its garment is to have.
-fn asked(study: &Study, wish: &Wish) -> Result<(JobSpec, Target)> {
+/// What is asked for.
+struct Asked {
+    /// The job.
+    spec: JobSpec,
+    /// Jobs of the garment's other sizes on the same subject.
+    others: Vec<JobSpec>,
+    /// The ease that the garment is to have.
+    target: Target,
+}
+
+fn asked(study: &Study, wish: &Wish) -> Result<Asked> {
     let jobs = spec::jobs(study);
     let garments: Vec<String> = study.garments.iter().map(|garment| garment.name.clone()).collect();
     let garment = one("garment", wish.garment.as_deref(), garments)?;
     let of_garment = || jobs.iter().filter(|job| job.garment == garment);
     let subject = one("subject", wish.subject.as_deref(), of_garment().map(|job| job.subject.clone()).collect())?;
     let size = one("size", Some(&wish.size), of_garment().map(|job| job.size.clone()).collect())?;
-    let found = of_garment().find(|job| job.subject == subject && job.size == size).cloned();
+    let mut on_subject: Vec<JobSpec> = of_garment().filter(|job| job.subject == subject).cloned().collect();
+    // Of several simulators the first: size by size once.
+    let mut seen = BTreeSet::new();
+    on_subject.retain(|job| seen.insert(job.size.clone()));
+    let Some(place) = on_subject.iter().position(|job| job.size == size) else {
+        return Err(StudyError::NotFound {
+            what: "job",
+            name: format!("{garment} {size} on {subject}"),
+            known: vec![],
+        });
+    };
+    let spec = on_subject.remove(place);
     let entry = study.garments.iter().find(|entry| entry.name == garment);
     let target = entry.map_or_else(Target::default, |entry| entry.target.clone());
-    let missing =
-        || StudyError::NotFound { what: "job", name: format!("{garment} {size} on {subject}"), known: vec![] };
-    Ok((found.ok_or_else(missing)?, target))
+    Ok(Asked { spec, others: on_subject, target })
 }
 
 /// The name that is asked for among those known, whatever its case; the only one where none is asked for.
 fn one(what: &'static str, asked: Option<&str>, mut known: Vec<String>) -> Result<String> {
-    let mut seen = std::collections::BTreeSet::new();
+    let mut seen = BTreeSet::new();
     known.retain(|name| seen.insert(name.clone()));
     let found = match asked {
         Some(asked) => known.iter().find(|name| name.eq_ignore_ascii_case(asked)).cloned(),

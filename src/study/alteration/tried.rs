@@ -8,7 +8,7 @@ use crate::error::{Result, StudyError};
 use fit::alter::Goal;
 
 /// Change that is made for a reading that is off by as much as it scatters, m.
-const WORTH_M: f64 = 1e-3;
+const WORTH_M: f64 = 0.3e-3;
 
 /// A change, and what was seen of it.
 pub struct Tried {
