@@ -8,6 +8,7 @@ use crate::error::{Result, StudyError};
 use crate::files::SourceFile;
 use crate::patterns;
 use crate::run::ease;
+use crate::run::outcome::Outcome;
 use crate::run::pipeline::{self, Fitting, Meshes};
 use crate::spec::file::Study;
 use crate::spec::versions::FIELD_SPACING_M;
@@ -192,7 +193,7 @@ fn asked(study: &Study, wish: &Wish) -> Result<(JobSpec, Target)> {
 }
 
 /// The name that is asked for among those known, whatever its case; the only one where none is asked for.
-fn one(what: &'static str, asked: Option<&str>, mut known: Vec<String>) -> Result<String> {
+pub(crate) fn one(what: &'static str, asked: Option<&str>, mut known: Vec<String>) -> Result<String> {
     let mut seen = std::collections::BTreeSet::new();
     known.retain(|name| seen.insert(name.clone()));
     let found = match asked {
@@ -310,8 +311,8 @@ impl Bench<'_> {
     }
 }
 
-/// The changed pattern, draped by FEM-GS as its study drapes it.
-fn draped(spec: &JobSpec, style: &Style, body: &Body) -> Result<Redraped> {
+/// A style on a body, draped by FEM-GS as its study drapes it.
+pub(crate) fn outcome(spec: &JobSpec, style: &Style, body: &Body) -> Result<Outcome> {
     let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).map_err(StudyError::stage("field"))?;
     let meshes = Meshes::of(style, spec.edge_length_m)?;
     let fitting = Fitting {
@@ -323,7 +324,12 @@ fn draped(spec: &JobSpec, style: &Style, body: &Body) -> Result<Redraped> {
         simulator: Simulator::Fem,
         parameters: &spec.parameters,
     };
-    let outcome = fitting.outcome(&fitting.simulate(&mut Silent)?)?;
+    fitting.outcome(&fitting.simulate(&mut Silent)?)
+}
+
+/// The changed pattern, draped.
+fn draped(spec: &JobSpec, style: &Style, body: &Body) -> Result<Redraped> {
+    let outcome = outcome(spec, style, body)?;
     let hem = outcome.worn.hang.hem.and_then(|hem| Some(mm(hem.front_m? - hem.back_m?)));
     Ok(Redraped {
         converged: outcome.converged,
