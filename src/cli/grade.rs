@@ -17,6 +17,7 @@ pub fn grade(context: &Context, arguments: &Grade) -> Outcome {
         seed: arguments.seed,
         base: arguments.base.clone(),
         is_even: arguments.even,
+        without: arguments.without.clone(),
         draped: arguments.drape,
     };
     if let Some(folder) = &arguments.output {

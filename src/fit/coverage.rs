@@ -3,7 +3,7 @@
 //! A size is a place among knobs: how many steps each of them is turned. Somebody is fitted by a size where all that they ask of it
 //! lies within its band, and by a series where one of its sizes fits. What is asked is linear in the knobs. So the turns of some knobs
 //! along a line that fit somebody are a few stretches, and the best place on a line is found exactly. The search goes along many lines, from
-//! many starts (iterated local search [Lourenço et al. 2003]).
+//! many starts (iterated local search [Lourenco03]).
 
 use crate::Draw;
 
@@ -44,6 +44,10 @@ pub struct Search<'a> {
     pub asks: &'a [Vec<Asks>],
     /// Least and greatest turn of each knob, steps.
     pub limits: &'a [[i32; 2]],
+    /// How far each knob turns with a step of the first where nobody asks for more, steps.
+    pub habits: &'a [f64],
+    /// How many more people a size must fit for each step that a knob is turned away from its habit.
+    pub price: f64,
     /// How the sizes follow each other.
     pub series: Series,
 }
@@ -67,6 +71,17 @@ impl Search<'_> {
     #[must_use]
     pub fn covered(&self, turns: &Turns) -> usize {
         (0..self.people()).filter(|&person| (0..turns.len()).any(|size| self.fits(size, person, &turns[size]))).count()
+    }
+
+    /// People that a series fits, less the price of its departures from habit.
+    fn worth(&self, turns: &Turns) -> f64 {
+        self.covered(turns) as f64 - self.price * turns.iter().map(|size| self.departure(size)).sum::<f64>()
+    }
+
+    /// How far the knobs of a size are turned away from their habits, steps.
+    fn departure(&self, size: &[i32]) -> f64 {
+        let first = size.first().map_or(0.0, |turn| f64::from(*turn));
+        size.iter().zip(self.habits).skip(1).map(|(turn, habit)| (f64::from(*turn) - habit * first).abs()).sum()
     }
 
     /// The best series that is found, of as many sizes as there are asks for.
@@ -159,26 +174,26 @@ impl Search<'_> {
         self.ordered(shaken.collect())
     }
 
-    /// Goes along all lines as long as somebody more is fitted.
-    fn improved(&self, mut turns: Turns) -> (usize, Turns) {
+    /// Goes along all lines as long as that is worth more.
+    fn improved(&self, mut turns: Turns) -> (f64, Turns) {
         let lines = self.lines(turns.len());
-        let mut covered = self.covered(&turns);
+        let mut worth = self.worth(&turns);
         for _ in 0..ROUNDS {
-            let before = covered;
+            let before = worth;
             for line in &lines {
-                let (count, by) = self.along(&turns, line);
-                if count >= covered {
-                    covered = count;
+                let (most, by) = self.along(&turns, line);
+                if most >= worth {
+                    worth = most;
                     let knobs = turns.iter_mut().zip(line).flat_map(|(size, way)| size.iter_mut().zip(way));
                     knobs.for_each(|(turn, way)| *turn += by * way);
                 }
             }
-            if covered == before {
+            if worth <= before {
                 break;
             }
         }
         // Counted anew: at the very end of a stretch a place may fit by rounding only.
-        (self.covered(&turns), turns)
+        (self.worth(&turns), turns)
     }
 
     /// The ways to go: one knob or two of one size, or a knob of all sizes from one on; of an even series all of them, or all
@@ -212,10 +227,10 @@ impl Search<'_> {
         lines
     }
 
-    /// How far to go along a line, and how many people are fitted there: of all best places the middle of the longest stretch.
-    fn along(&self, turns: &Turns, line: &Turns) -> (usize, i32) {
+    /// What is to be had along a line, and how far to go for it: of all best places the middle of the longest stretch.
+    fn along(&self, turns: &Turns, line: &Turns) -> (f64, i32) {
         let [least, most] = self.reach(turns, line);
-        let mut steps = vec![0_i32; (most - least + 2) as usize];
+        let mut steps = vec![0; (most - least + 2) as usize];
         let moves: Vec<bool> = line.iter().map(|way| way.iter().any(|by| *by != 0)).collect();
         let mut always = 0;
         let mut stretches: Vec<[i32; 2]> = Vec::with_capacity(turns.len());
@@ -246,8 +261,17 @@ impl Search<'_> {
                 }
             }
         }
-        let (count, by) = longest_best(&steps[..steps.len() - 1]);
-        (always + count, least + by)
+        let mut people = always;
+        let worths = (least..=most).zip(&steps).map(|(by, step)| {
+            people += step;
+            let at = |(turns, way): (&Vec<i32>, &Vec<i32>)| -> Vec<i32> {
+                turns.iter().zip(way).map(|(turn, way)| turn + by * way).collect()
+            };
+            let departure: f64 = turns.iter().zip(line).map(at).map(|size| self.departure(&size)).sum();
+            f64::from(people) - self.price * departure
+        });
+        let (worth, by) = longest_best(worths);
+        (worth, least + by)
     }
 
     /// How far one may go along a line either way: within the limits, and while no knob turns back from size to size.
@@ -280,7 +304,7 @@ pub fn is_met(asks: &Asks, turns: &[i32]) -> bool {
 }
 
 /// The better of two, the first of equals.
-fn better(one: Option<(usize, Turns)>, other: (usize, Turns)) -> Option<(usize, Turns)> {
+fn better(one: Option<(f64, Turns)>, other: (f64, Turns)) -> Option<(f64, Turns)> {
     one.filter(|one| one.0 >= other.0).or(Some(other))
 }
 
@@ -300,15 +324,14 @@ fn narrow(stretch: &mut [i32; 2], asked: &Asked, turns: &[i32], way: &[i32]) {
     *stretch = [stretch[0].max(from.ceil() as i32), stretch[1].min(to.floor() as i32)];
 }
 
-/// The greatest running sum, and the middle of the longest run that has it.
-fn longest_best(steps: &[i32]) -> (usize, i32) {
-    let (mut sum, mut best, mut run, mut length) = (0, i32::MIN, 0, 0_usize);
-    let mut open = None;
-    for (place, step) in steps.iter().enumerate() {
-        sum += step;
-        if sum > best {
-            (best, run, length, open) = (sum, place, 1, Some(place));
-        } else if sum == best {
+/// The greatest of some values, and the middle of the longest run that has it.
+fn longest_best(values: impl Iterator<Item = f64>) -> (f64, i32) {
+    let (mut best, mut run, mut length) = (f64::NEG_INFINITY, 0, 0);
+    let mut open: Option<usize> = None;
+    for (place, value) in values.enumerate() {
+        if value > best {
+            (best, run, length, open) = (value, place, 1, Some(place));
+        } else if value == best {
             let from = *open.get_or_insert(place);
             if place + 1 - from > length {
                 (run, length) = (from, place + 1 - from);
@@ -317,7 +340,7 @@ fn longest_best(steps: &[i32]) -> (usize, i32) {
             open = None;
         }
     }
-    (best.max(0) as usize, (run + length.saturating_sub(1) / 2) as i32)
+    (best, (run + length.saturating_sub(1) / 2) as i32)
 }
 
 #[cfg(test)]
@@ -361,7 +384,7 @@ mod tests {
                 .map(|middle| [middle - 15.0 - 10.0 * random.share(), middle + 20.0])
                 .collect();
             let asks = vec![on_a_line(&bands); count];
-            let search = Search { asks: &asks, limits: &[[-300, 300]], series: Series::Rising };
+            let search = Search { asks: &asks, limits: &[[-300, 300]], habits: &[1.0], price: 0.0, series: Series::Rising };
             let found = search.best(1);
             assert_eq!(search.covered(&found), most(&bands, count), "{count} sizes: {found:?}");
             assert_eq!(found, search.best(1), "the same seed, the same sizes");
@@ -386,7 +409,7 @@ mod tests {
     fn groups_that_sizes_can_fit_are_all_fitted() {
         let check = |series, middles: &[[f64; 2]], count: usize, expect: usize| {
             let asks = vec![groups(middles, 6.0); count];
-            let search = Search { asks: &asks, limits: &[[-200, 200], [-200, 200]], series };
+            let search = Search { asks: &asks, limits: &[[-200, 200]; 2], habits: &[1.0; 2], price: 0.0, series };
             let found = search.best(5);
             assert_eq!(search.covered(&found), expect, "{series:?}: {found:?}");
             let rises = |pair: &[Vec<i32>]| pair[0].iter().zip(&pair[1]).all(|(a, b)| a <= b);
@@ -404,6 +427,29 @@ mod tests {
     }
 
     #[test]
+    fn a_knob_keeps_its_habit_unless_people_pay() {
+        // The second length may be anything between wide bounds, but for a few people who ask for more.
+        let person = |place: f64, more: f64| -> Asks {
+            vec![
+                Asked { per_step: vec![1.0, 0.0], band: [place - 5.0, place + 5.0] },
+                Asked { per_step: vec![0.0, 1.0], band: [more, 100.0] },
+            ]
+        };
+        let check = |eager: usize, price: f64, expect: i32| {
+            let people = (0..40).map(|k| person(30.0, if k < eager { 40.0 } else { -50.0 })).collect();
+            let asks = vec![people];
+            let search = Search { asks: &asks, limits: &[[-100, 100]; 2], habits: &[1.0, 0.5], price, series: Series::Rising };
+            let found = search.best(1);
+            assert!((25..=35).contains(&found[0][0]), "{found:?}");
+            assert!((found[0][1] - expect).abs() <= 3, "{found:?}, not {expect}");
+        };
+        check(0, 0.1, 15);
+        // 23 steps off its habit cost 2.3 people of those 3, and 23 of them.
+        check(3, 0.1, 40);
+        check(3, 1.0, 15);
+    }
+
+    #[test]
     fn what_no_size_can_have_is_not_counted() {
         let impossible = vec![
             Asked { per_step: vec![1.0], band: [5.0, 6.0] },
@@ -411,7 +457,7 @@ mod tests {
         ];
         let possible = vec![Asked { per_step: vec![1.0], band: [4.0, 9.0] }];
         let asks = vec![vec![impossible, possible]];
-        let search = Search { asks: &asks, limits: &[[0, 8]], series: Series::Rising };
+        let search = Search { asks: &asks, limits: &[[0, 8]], habits: &[1.0], price: 0.0, series: Series::Rising };
         let found = search.best(1);
         // The middle of the stretch that the limit leaves.
         assert_eq!((search.covered(&found), found), (1, vec![vec![6]]));

@@ -311,8 +311,8 @@ impl Bench<'_> {
     }
 }
 
-/// A style on a body, draped by FEM-GS as its study drapes it.
-pub(crate) fn outcome(spec: &JobSpec, style: &Style, body: &Body) -> Result<Outcome> {
+/// A style on a body, draped by FEM-GS as its study drapes it: what it measures, and the ease of the drape at every level, m.
+pub(crate) fn outcome(spec: &JobSpec, style: &Style, body: &Body) -> Result<(Outcome, Vec<(String, f64)>)> {
     let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).map_err(StudyError::stage("field"))?;
     let meshes = Meshes::of(style, spec.edge_length_m)?;
     let fitting = Fitting {
@@ -324,12 +324,13 @@ pub(crate) fn outcome(spec: &JobSpec, style: &Style, body: &Body) -> Result<Outc
         simulator: Simulator::Fem,
         parameters: &spec.parameters,
     };
-    fitting.outcome(&fitting.simulate(&mut Silent)?)
+    let drape = fitting.simulate(&mut Silent)?;
+    Ok((fitting.outcome(&drape)?, fitting.eases_on(&drape)?))
 }
 
 /// The changed pattern, draped.
 fn draped(spec: &JobSpec, style: &Style, body: &Body) -> Result<Redraped> {
-    let outcome = outcome(spec, style, body)?;
+    let (outcome, _) = outcome(spec, style, body)?;
     let hem = outcome.worn.hang.hem.and_then(|hem| Some(mm(hem.front_m? - hem.back_m?)));
     Ok(Redraped {
         converged: outcome.converged,

@@ -30,6 +30,9 @@ pub struct Grade {
     /// The same step between all sizes.
     #[arg(long)]
     pub even: bool,
+    /// A level that is not asked for, such as across_shoulder; may be given again.
+    #[arg(long, value_name = "LEVEL")]
+    pub without: Vec<String>,
     /// Share of the people held out whom a size fits who are draped in it by FEM-GS, such as 0.01.
     #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
     pub drape: f64,

@@ -210,13 +210,35 @@ fn cut_alike(lines: &[Vec<V2>]) -> Vec<Vec<V2>> {
         }
     }
     let cut = |(size, curve): (usize, &Polyline)| {
-        let ends = [curve.points()[0], curve.points()[curve.points().len() - 1]];
+        // Between its own vertices a size has those of others at the shares that lie between as theirs do: never upon its own.
+        let own = |group: &Vec<(f64, usize)>| Some([group[0].0, group.iter().find(|(_, of)| *of == size)?.0]);
+        let known: Vec<[f64; 2]> =
+            [[0.0; 2]].into_iter().chain(groups.iter().filter_map(own)).chain([[1.0; 2]]).collect();
         let place = |group: &Vec<(f64, usize)>| {
-            let own = group.iter().find(|(_, of)| *of == size).unwrap_or(&group[0]);
-            curve.at(own.0 * curve.length())
+            let after = known.iter().position(|[first, _]| *first >= group[0].0).unwrap_or(known.len() - 1).max(1);
+            let ([from, own_from], [to, own_to]) = (known[after - 1], known[after]);
+            curve.at((own_from + (own_to - own_from) * (group[0].0 - from) / (to - from)) * curve.length())
         };
+        let ends = [curve.points()[0], curve.points()[curve.points().len() - 1]];
         let between = groups.iter().map(place);
         [ends[0]].into_iter().chain(between).chain([ends[1]]).collect()
     };
     curves.iter().enumerate().map(cut).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn vertices_of_several_sizes_do_not_fall_upon_each_other() {
+        // 400 mm long; the second size has its vertex just before one that the first size has besides.
+        let line = |places_mm: &[f64]| -> Vec<V2> { places_mm.iter().map(|mm| V2::new(1e-3 * mm, 0.0)).collect() };
+        let lines = [line(&[0.0, 40.0, 40.2, 400.0]), line(&[0.0, 40.199_9, 400.0]), line(&[0.0, 300.0, 400.0])];
+        for cut in cut_alike(&lines) {
+            assert_eq!(cut.len(), 5, "{cut:?}");
+            let nearest = cut.windows(2).map(|pair| pair[1].x - pair[0].x).fold(f64::INFINITY, f64::min);
+            assert!(nearest > 0.05e-3, "{cut:?}");
+        }
+    }
 }

@@ -11,6 +11,8 @@ use crate::spec::JobSpec;
 use geom::units::mm;
 use pattern::Style;
 
+/// How far outside its band an ease on a drape counts as within, m: nothing, when it is written.
+const SLACK_M: f64 = 0.5e-3;
 /// Deepest that cloth may lie inside the body, m.
 const INSIDE_M: f64 = 1e-3;
 
@@ -33,8 +35,8 @@ pub fn agree(
     let dressed = |person: &usize| -> Result<Option<String>> {
         let size = tally.wears(*person);
         let body = people::body(&figures[*person])?;
-        let outcome = alteration::outcome(spec, &styles[size], &body)?;
-        let against = against(&outcome, bands);
+        let (outcome, eases) = alteration::outcome(spec, &styles[size], &body)?;
+        let against = against(&outcome, &eases, bands);
         Ok((!against.is_empty()).then(|| format!("person {} in {}: {}", person + 1, names[size], against.join(", "))))
     };
     let found = people::of_all(&chosen, dressed).into_iter().collect::<Result<Vec<Option<String>>>>()?;
@@ -43,7 +45,7 @@ pub fn agree(
 }
 
 /// What a drape says against a fit.
-fn against(outcome: &Outcome, bands: &[Band]) -> Vec<String> {
+fn against(outcome: &Outcome, eases: &[(String, f64)], bands: &[Band]) -> Vec<String> {
     let mut against = Vec::new();
     if !outcome.converged {
         against.push("not at rest".to_owned());
@@ -52,11 +54,10 @@ fn against(outcome: &Outcome, bands: &[Band]) -> Vec<String> {
         against.push(format!("{:.1} mm inside the body", mm(outcome.penetration_max_m)));
     }
     for band in bands {
-        let Some(level) = outcome.worn.levels.iter().find(|one| one.level == band.level) else { continue };
-        let ease_m = level.cloth_length_m - level.body_girth_m;
+        let Some((_, ease_m)) = eases.iter().find(|(level, _)| *level == band.level) else { continue };
         let [least, most] = band.band_m;
-        if !(least..=most).contains(&ease_m) {
-            let [ease, least, most] = [ease_m, least, most].map(mm);
+        if !(least - SLACK_M..=most + SLACK_M).contains(ease_m) {
+            let [ease, least, most] = [*ease_m, least, most].map(mm);
             let level = band.level.replace('_', " ");
             against.push(format!("{level} {ease:+.0} mm, meant {least:.0} to {most:.0}"));
         }

@@ -15,6 +15,10 @@ const STRONG: f64 = 0.5;
 /// Shares of the greatest turn that are tried in turn, where a handle cannot move so far.
 const LIMITS: [f64; 5] = [1.0, 0.75, 0.5, 0.35, 0.2];
 
+/// Slope below which nothing follows: it would be less than a step over the whole range.
+const SLIGHT: f64 = 0.01;
+/// Girths of the trunk.
+const ALIKE: [Handle; 4] = [Handle::Chest, Handle::Waist, Handle::Hip, Handle::Hem];
 /// Ease that is as good as any, m.
 const ANY_M: f64 = 1e3;
 
@@ -34,6 +38,8 @@ pub struct Knobs<'a> {
     pub handles: Vec<Handle>,
     /// What follows the first of them, m per m.
     pub followers: Vec<(Handle, f64)>,
+    /// How far each is turned with the first in the pattern's own grade, m per m.
+    pub habits: Vec<f64>,
     /// Least and greatest turn of each, steps.
     pub limits: Vec<[i32; 2]>,
 }
@@ -59,8 +65,15 @@ impl<'a> Knobs<'a> {
             let message = format!("{}: no handle changes a level that has a band; there is: {all:?}", style.name);
             return Err(StudyError::stage("grade")(message));
         };
-        let followers = followers(own, *lead, all.iter().filter(|handle| !handles.contains(handle)));
-        let mut knobs = Self { style, handles, followers, limits: Vec::new() };
+        let lead = *lead;
+        let slope = |handle: Handle| slope(own, lead, handle);
+        let others = all.iter().copied().filter(|handle| !handles.contains(handle));
+        let follower = |handle: Handle| Some((handle, slope(handle).filter(|slope| slope.abs() > SLIGHT)?));
+        let followers = others.filter_map(follower).collect();
+        // Where there is no grade to learn from the girths of the trunk go together.
+        let alike = |handle: &Handle| if ALIKE.contains(handle) { 1.0 } else { 0.0 };
+        let habits = handles.iter().map(|handle| slope(*handle).unwrap_or_else(|| alike(handle))).collect();
+        let mut knobs = Self { style, handles, followers, habits, limits: Vec::new() };
         knobs.limits = (0..knobs.handles.len()).map(|knob| knobs.limit(knob, limit_m)).collect();
         Ok(knobs)
     }
@@ -171,27 +184,17 @@ fn changes(style: &Style, handle: Handle, somebody: &Figure, levels: &[String]) 
     }
 }
 
-/// By how much other points of measure change in the pattern's own grade with that of the first handle: least squares over its sizes.
-fn followers<'h>(own: &[Style], lead: Handle, others: impl Iterator<Item = &'h Handle>) -> Vec<(Handle, f64)> {
-    let points: Vec<_> = own.iter().map(Style::points_of_measure).collect();
+/// By how much the point of measure of a handle changes with that of the first, in the pattern's own grade: least squares over its sizes;
+/// `None` where the grade does not tell.
+fn slope(own: &[Style], lead: Handle, handle: Handle) -> Option<f64> {
     let lengths = |handle: Handle| -> Option<Vec<f64>> {
         let point = handle.changes()?;
-        points.iter().map(|all| all.iter().find(|one| one.point == point).map(|one| one.length_m)).collect()
+        let of = |style: &Style| style.points_of_measure().iter().find(|one| one.point == point).map(|one| one.length_m);
+        let lengths = own.iter().map(of).collect::<Option<Vec<f64>>>()?;
+        let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
+        Some(lengths.iter().map(|length| length - mean).collect())
     };
-    let Some(leading) = lengths(lead) else { return Vec::new() };
-    let centred = |values: &[f64]| -> Vec<f64> {
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
-        values.iter().map(|value| value - mean).collect()
-    };
-    let leading = centred(&leading);
+    let (leading, other) = (lengths(lead)?, lengths(handle)?);
     let spread: f64 = leading.iter().map(|x| x * x).sum();
-    let slope = |handle: &Handle| {
-        let other = centred(&lengths(*handle)?);
-        let slope = leading.iter().zip(&other).map(|(x, y)| x * y).sum::<f64>() / spread;
-        (spread > STEP_M * STEP_M && slope.abs() > SLIGHT).then_some((*handle, slope))
-    };
-    others.filter_map(slope).collect()
+    (spread > STEP_M * STEP_M).then(|| leading.iter().zip(&other).map(|(x, y)| x * y).sum::<f64>() / spread)
 }
-
-/// Slope below which nothing follows: it would be less than a step over the whole range.
-const SLIGHT: f64 = 0.01;

@@ -30,6 +30,8 @@ use pattern::Style;
 
 /// Greatest turn of a knob either way, m.
 const LIMIT_M: f64 = 0.150;
+/// Share of the people that must be won for each step that a size departs from the pattern's own way of grading.
+const PRICE: f64 = 2e-4;
 /// How often the sizes are measured again as drawn, and sought anew.
 const ROUNDS: usize = 4;
 /// Accepted counts of sizes and of people.
@@ -53,8 +55,26 @@ pub struct GradeWish {
     pub base: Option<String>,
     /// Whether the steps between sizes are all the same.
     pub is_even: bool,
+    /// Levels that are not asked for.
+    pub without: Vec<String>,
     /// Share of those whom a size fits who are draped.
     pub draped: f64,
+}
+
+impl Default for GradeWish {
+    fn default() -> Self {
+        Self {
+            garment: None,
+            sizes: None,
+            people: 2000,
+            held_out: 2000,
+            seed: 1,
+            base: None,
+            is_even: false,
+            without: Vec::new(),
+            draped: 0.0,
+        }
+    }
 }
 
 /// A handle of a size with its amount.
@@ -187,7 +207,7 @@ pub fn grade(study: &Study, wish: &GradeWish) -> Result<Grading> {
     let first = people::figures(&drawn[0][..1], false);
     let somebody = first.first().ok_or_else(|| refused("the first of the people cannot be built".to_owned()))?;
     let covered = somebody.covered(base);
-    let bands = bands(asked.entry, &covered)?;
+    let bands = bands(asked.entry, &covered, &wish.without)?;
     let has_trunk = covered.iter().any(|(_, has_height)| *has_height);
     let [sought, held_out] = drawn.map(|people| people::figures(&people, has_trunk));
     let middle = in_the_middle(&sought, &bands[0].level).unwrap_or(somebody);
@@ -316,12 +336,17 @@ impl<'a> Asked<'a> {
 }
 
 /// The levels that a base covers and that have a band, girths of the trunk first.
-fn bands(entry: &GarmentEntry, covered: &[(String, bool)]) -> Result<Vec<Band>> {
+fn bands(entry: &GarmentEntry, covered: &[(String, bool)], without: &[String]) -> Result<Vec<Band>> {
+    if let Some(other) = without.iter().find(|level| !covered.iter().any(|(known, _)| known == *level)) {
+        let known = covered.iter().map(|(level, _)| level.clone()).collect();
+        return Err(StudyError::NotFound { what: "level", name: other.clone(), known });
+    }
     let is_top = ["chest", "bust"].iter().any(|chest| covered.iter().any(|(level, _)| level == chest));
     let band = |(level, _): &(String, bool)| {
         entry.target.band_m(level, is_top).map(|band_m| Band { level: level.clone(), band_m })
     };
-    let mut bands: Vec<Band> = covered.iter().filter_map(band).collect();
+    let is_asked = |(level, _): &&(String, bool)| !without.contains(level);
+    let mut bands: Vec<Band> = covered.iter().filter(is_asked).filter_map(band).collect();
     bands.sort_by_key(|band| tally::order(&band.level));
     match bands.is_empty() {
         true => Err(refused(format!("{}: no level has a target; accepted: target_ease_mm of a level", entry.name))),
@@ -347,7 +372,14 @@ fn sizes(
 ) -> Result<Turns> {
     let levels: Vec<String> = bands.iter().map(|band| band.level.clone()).collect();
     let mut asks: Vec<Vec<Asks>> = vec![knobs.asks(figures, bands)?; count];
-    let mut turns = Search { asks: &asks, limits: &knobs.limits, series }.best(seed);
+    let search = Search {
+        asks: &[],
+        limits: &knobs.limits,
+        habits: &knobs.habits,
+        price: PRICE * figures.len() as f64,
+        series,
+    };
+    let mut turns = Search { asks: &asks, ..search.clone() }.best(seed);
     let mut best: Option<(usize, Turns)> = None;
     for _ in 0..ROUNDS {
         let styles = turns.iter().map(|turns| knobs.drawn(turns)).collect::<Result<Vec<Style>>>()?;
@@ -364,7 +396,7 @@ fn sizes(
             break;
         }
         best = Some((covered, turns.clone()));
-        turns = Search { asks: &asks, limits: &knobs.limits, series }.near(&turns);
+        turns = Search { asks: &asks, ..search.clone() }.near(&turns);
     }
     Ok(best.map_or(turns, |(_, turns)| turns))
 }

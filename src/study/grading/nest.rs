@@ -102,3 +102,44 @@ fn away(vertices: &[V2], outline: &[V2]) -> f64 {
     let nearest = |p: &V2| sides().map(|(a, b)| segment_distance(&a, &b, p)).fold(f64::INFINITY, f64::min);
     vertices.iter().map(nearest).fold(0.0, f64::max)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::people::{self, Figure};
+    use super::super::{GradeWish, bands};
+    use super::*;
+    use crate::catalogue;
+    use crate::spec::file::Study;
+    use std::path::Path;
+
+    /// The sizes of a garment of a study by turns of its knobs, and the knobs that it has.
+    fn made(study: &str, garment: &str, turns: &[Vec<i32>]) -> Result<(Nest, Vec<&'static str>)> {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies").join(study);
+        let study = Study::load(&folder, &catalogue::known(None)?)?;
+        let wish = GradeWish { garment: Some(garment.to_owned()), sizes: Some(turns.len()), ..GradeWish::default() };
+        let asked = Asked::of(&study, &wish)?;
+        let own = asked.own()?;
+        let [somebody, _] = people::drawn(asked.sex, [1, 1], 1);
+        let figures: Vec<Figure> = people::figures(&somebody, false);
+        let bands = bands(asked.entry, &figures[0].covered(&own[asked.base]), &[])?;
+        let knobs = Knobs::of(&own[asked.base], &own, &figures[0], &bands, 0.1)?;
+        let seams = asked.spec.seams.clone().expect("a seam file");
+        let nest = drawn(&asked, &seams, &asked.names(), &knobs, &turns.to_vec())?;
+        Ok((nest, knobs.handles.iter().map(|handle| handle.as_str()).collect()))
+    }
+
+    #[test]
+    fn rules_make_the_sizes_again_that_were_drawn() {
+        let tshirt = ["chest", "waist", "hem", "shoulder_length", "bicep"];
+        let turns: [&[Vec<i32>]; 3] = [
+            &[vec![-30, -20, -10, -10, -8], vec![0; 5], vec![40, 45, 50, 6, 10]],
+            &[vec![5, 9, 23, -7, 1], vec![31, 30, 37, -7, 6], vec![60, 70, 75, -7, 10]],
+            &[vec![13, 4, 2, -11, -3], vec![47, 33, 21, -11, 3], vec![79, 73, 57, -3, 19]],
+        ];
+        for turns in turns {
+            let (nest, handles) = made("population", "tshirt", turns).expect("sizes");
+            assert_eq!(handles, tshirt);
+            assert!(nest.apart_m < APART_M && nest.styles.len() == turns.len(), "{}", nest.apart_m);
+        }
+    }
+}

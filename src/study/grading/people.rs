@@ -112,3 +112,35 @@ pub fn of_all<T: Sync, U: Send>(all: &[T], make: impl Fn(&T) -> U + Sync) -> Vec
 pub fn body(figure: &Figure) -> Result<Body> {
     bodies::build_body(&figure.measurements)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pattern::draft::Model;
+
+    #[test]
+    fn a_figure_has_the_ease_of_its_body() {
+        for model in [Model::Tshirt, Model::Trousers] {
+            let draft = &model.drafts()[1];
+            let style = Style::read(&draft.pieces, model.seams(), "drafted.seams.toml").expect("our own");
+            let [people, others] = drawn(Sex::Male, [3, 1], 4);
+            assert_ne!(people[0], others[0], "those held out are others");
+            for (one, figure) in people.iter().zip(figures(&people, true)) {
+                let body = bodies::build_body(one).expect("a person that can be");
+                let eases = ease::on(&style, &body);
+                assert!(eases.len() > 3);
+                for ease in eases {
+                    let found = figure.eases(&style, std::slice::from_ref(&ease.level))[0].expect("covered");
+                    assert!((found - ease.ease_m()).abs() < 0.5e-3, "{}: {found}, not {}", ease.level, ease.ease_m());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn all_are_taken_in_their_order() {
+        let numbers: Vec<usize> = (0..101).collect();
+        assert_eq!(of_all(&numbers, |k| 2 * k), numbers.iter().map(|k| 2 * k).collect::<Vec<_>>());
+        assert_eq!(of_all(&[], |k: &usize| *k), []);
+    }
+}

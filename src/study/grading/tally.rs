@@ -55,34 +55,27 @@ impl Tally {
     pub fn of(styles: &[Style], base: &Style, figures: &[Figure], bands: &[Band]) -> Self {
         let levels: Vec<String> = bands.iter().map(|band| band.level.clone()).collect();
         let asked = people::eases(base, figures, &levels);
-        let weight = |ease_m: Option<f64>, asked: Option<f64>, band: &Band| match (ease_m, asked) {
-            (_, None) => 0.0,
-            (None, Some(_)) => UNCOVERED_M,
-            (Some(ease_m), Some(_)) => {
-                let [least, most] = band.band_m;
-                (TIGHT * (least - ease_m)).max(ease_m - most).max(0.0)
-            }
+        let weights = |style: &Style| -> Vec<Vec<f64>> {
+            let eases = people::eases(style, figures, &levels);
+            let of = |(eases, asked): (&Vec<Option<f64>>, &Vec<Option<f64>>)| -> Vec<f64> {
+                (0..bands.len()).map(|level| weight(eases[level], asked[level], bands[level].band_m)).collect()
+            };
+            eases.iter().zip(&asked).map(of).collect()
         };
-        let weights: Vec<Vec<Vec<f64>>> = styles
-            .iter()
-            .map(|style| {
-                let eases = people::eases(style, figures, &levels);
-                let of = |(eases, asked): (&Vec<Option<f64>>, &Vec<Option<f64>>)| -> Vec<f64> {
-                    (0..bands.len()).map(|level| weight(eases[level], asked[level], &bands[level])).collect()
-                };
-                eases.iter().zip(&asked).map(of).collect()
-            })
-            .collect();
+        Self::of_weights(&styles.iter().map(weights).collect::<Vec<_>>())
+    }
+
+    /// Of weights by size, person and level.
+    fn of_weights(weights: &[Vec<Vec<f64>>]) -> Self {
         let worst = |weights: &Vec<f64>| {
             let all = weights.iter().copied().enumerate();
             Sits { worst: all.fold((0, 0.0), |worst, one| if one.1 > worst.1 { one } else { worst }) }
         };
         let sits: Vec<Vec<Sits>> = weights.iter().map(|people| people.iter().map(worst).collect()).collect();
-        let off = (0..figures.len()).map(|person| {
-            let wear = to_wear(&sits, person);
-            weights[wear][person].iter().map(|weight| *weight > 0.0).collect()
-        });
-        let off = off.collect();
+        let people = sits.first().map_or(0, Vec::len);
+        let off = (0..people)
+            .map(|person| weights[to_wear(&sits, person)][person].iter().map(|weight| *weight > 0.0).collect())
+            .collect();
         Self { sits, off }
     }
 
@@ -142,6 +135,15 @@ impl Tally {
     }
 }
 
+/// How much an ease counts against a size, m; `asked` is that of the base, which tells whether the level is asked for.
+fn weight(ease_m: Option<f64>, asked: Option<f64>, [least, most]: [f64; 2]) -> f64 {
+    match (ease_m, asked) {
+        (_, None) => 0.0,
+        (None, Some(_)) => UNCOVERED_M,
+        (Some(ease_m), Some(_)) => (TIGHT * (least - ease_m)).max(ease_m - most).max(0.0),
+    }
+}
+
 fn to_wear(sits: &[Vec<Sits>], person: usize) -> usize {
     let weight = |size: &usize| sits[*size][person].worst.1;
     (0..sits.len()).min_by(|a, b| weight(a).total_cmp(&weight(b))).unwrap_or(0)
@@ -154,7 +156,8 @@ fn percent(count: usize, of: usize) -> f64 {
 /// Dimensions of those who wear a size.
 fn ranges(figures: &[Figure], wearers: &[usize]) -> Vec<Range> {
     let range = |dimension: Dimension| {
-        let values = wearers.iter().filter_map(|person| figures[*person].measurements.get(dimension));
+        let figures = wearers.iter().filter_map(|person| figures.get(*person));
+        let values = figures.filter_map(|figure| figure.measurements.get(dimension));
         let mut values: Vec<f64> = values.map(|value| value * dimension.per_si()).collect();
         values.sort_by(f64::total_cmp);
         let at = |share: f64| values.get(((values.len() as f64 - 1.0) * share).round() as usize).copied();
@@ -189,4 +192,41 @@ pub fn parts(figures: &[Figure], bands: &[Band], sets: [&Tally; 2]) -> (String, 
     let cut = |number: usize| all.len() * number / PARTS;
     let parts = (0..PARTS).map(|number| part(&all[cut(number)..cut(number + 1)])).collect();
     (level, parts)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_ease_counts_by_how_far_it_is_off_and_double_where_it_is_tight() {
+        let check = |ease_m, asked, expect: f64| {
+            let found = weight(ease_m, asked, [0.04, 0.12]);
+            assert!((found - expect).abs() < 1e-12, "{ease_m:?} {asked:?}: {found}");
+        };
+        check(Some(0.04), Some(0.0), 0.0);
+        check(Some(0.12), Some(0.0), 0.0);
+        check(Some(0.01), Some(0.0), 0.06);
+        check(Some(0.15), Some(0.0), 0.03);
+        check(Some(0.15), None, 0.0);
+        check(None, Some(0.0), UNCOVERED_M);
+        check(None, None, 0.0);
+    }
+
+    #[test]
+    fn the_smaller_of_two_that_fit_is_worn_and_who_is_not_fitted_fails_at_the_worst_level() {
+        // Two sizes, four people, two levels.
+        let small = vec![vec![0.0, 0.0], vec![0.02, 0.0], vec![0.0, 0.01], vec![0.09, 0.03]];
+        let large = vec![vec![0.0, 0.0], vec![0.0, 0.0], vec![0.05, 0.0], vec![0.02, 0.04]];
+        let tally = Tally::of_weights(&[small, large]);
+        assert_eq!((0..4).map(|person| tally.wears(person)).collect::<Vec<_>>(), [0, 1, 0, 1]);
+        assert_eq!((0..4).map(|person| tally.is_fitted(person)).collect::<Vec<_>>(), [true, true, false, false]);
+        let names = ["S", "L"].map(str::to_owned);
+        let set = tally.set("new", &names, &tally, &[]);
+        assert_eq!((set.held_out_percent, set.sizes[0].fits_percent, set.sizes[1].fits_percent), (50.0, 25.0, 50.0));
+        assert_eq!((set.sizes[0].worn_percent, set.sizes[1].worn_percent), (25.0, 25.0));
+        // The third fails by the second level alone, the fourth by both, most by the second.
+        assert_eq!((tally.within_percent(0), tally.within_percent(1)), (75.0, 50.0));
+        assert_eq!((tally.fails_percent(0), tally.fails_percent(1)), (0.0, 100.0));
+    }
 }

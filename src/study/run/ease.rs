@@ -5,6 +5,7 @@ use fit::{Cuts, Ease};
 use geom::V3;
 use pattern::Style;
 use pattern::pom::Stand;
+use pattern::style::PathPart;
 
 /// Distance of the forearm's girth below the elbow, m.
 const FOREARM_BELOW_ELBOW_M: f64 = 0.045;
@@ -66,6 +67,8 @@ pub(crate) struct Length {
     pub length_m: f64,
     /// Height above the floor at which the body is measured, m, where that is not where its level lies.
     pub height_m: Option<f64>,
+    /// Where it lies on the cloth: of a girth that is measured by its half, that half.
+    pub path: Vec<PathPart>,
 }
 
 /// What a style has at every level that it covers of somebody who stands so: along the lines of its seam file first.
@@ -75,12 +78,14 @@ pub(crate) fn lengths(style: &Style, stand: &Stand) -> Vec<Length> {
         level: level.clone(),
         length_m: style.path_length_m(path),
         height_m: None,
+        path: path.clone(),
     });
     let found = style.worn_lengths(stand).into_iter().filter(|worn| !stated(worn.level));
     let found = found.map(|worn| Length {
         level: worn.level.to_owned(),
         length_m: worn.length_m,
         height_m: worn.height_m,
+        path: worn.path,
     });
     of_file.chain(found).collect()
 }
