@@ -379,10 +379,11 @@ mod tests {
     fn on_a_line_no_series_fits_more() {
         let mut random = Draw::new(7);
         for count in 1..=4 {
-            let bands: Vec<[f64; 2]> = (0..150)
-                .map(|_| 80.0 * random.normal())
-                .map(|middle| [middle - 15.0 - 10.0 * random.share(), middle + 20.0])
-                .collect();
+            let mut band = || {
+                let middle = 80.0 * random.normal();
+                [middle - 15.0 - 10.0 * random.share(), middle + 20.0]
+            };
+            let bands: Vec<[f64; 2]> = (0..150).map(|_| band()).collect();
             let asks = vec![on_a_line(&bands); count];
             let search = Search { asks: &asks, limits: &[[-300, 300]], habits: &[1.0], price: 0.0, series: Series::Rising };
             let found = search.best(1);

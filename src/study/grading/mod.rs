@@ -32,6 +32,8 @@ use pattern::Style;
 const LIMIT_M: f64 = 0.150;
 /// Share of the people that must be won for each step that a size departs from the pattern's own way of grading.
 const PRICE: f64 = 2e-4;
+/// Shares of the greatest turns that are tried in turn, where a size cannot be drawn.
+const LIMITS: [f64; 4] = [1.0, 0.75, 0.5, 0.35];
 /// How often the sizes are measured again as drawn, and sought anew.
 const ROUNDS: usize = 4;
 /// Accepted counts of sizes and of people.
@@ -361,7 +363,7 @@ fn in_the_middle<'f>(figures: &'f [Figure], level: &str) -> Option<&'f Figure> {
     all.get(all.len() / 2).copied()
 }
 
-/// Seeks sizes, measures them as they are drawn, and seeks again near them with what was measured; the best as drawn counts.
+/// Seeks sizes. Where one cannot be drawn, since its handles do not go so far together, all get tighter limits.
 fn sizes(
     knobs: &Knobs<'_>,
     figures: &[Figure],
@@ -370,16 +372,26 @@ fn sizes(
     series: Series,
     seed: u64,
 ) -> Result<Turns> {
+    let asks: Vec<Vec<Asks>> = vec![knobs.asks(figures, bands)?; count];
+    let mut refused = None;
+    for share in LIMITS {
+        let limits: Vec<[i32; 2]> =
+            knobs.limits.iter().map(|limit| limit.map(|turn| (f64::from(turn) * share).round() as i32)).collect();
+        let price = PRICE * figures.len() as f64;
+        let search = Search { asks: &asks, limits: &limits, habits: &knobs.habits, price, series };
+        match as_drawn(knobs, figures, bands, &search, seed) {
+            Ok(turns) => return Ok(turns),
+            Err(error) => refused = Some(error),
+        }
+    }
+    refused.map_or(Ok(Vec::new()), Err)
+}
+
+/// Seeks sizes, measures them as they are drawn, and seeks again near them with what was measured; the best as drawn counts.
+fn as_drawn(knobs: &Knobs<'_>, figures: &[Figure], bands: &[Band], search: &Search<'_>, seed: u64) -> Result<Turns> {
     let levels: Vec<String> = bands.iter().map(|band| band.level.clone()).collect();
-    let mut asks: Vec<Vec<Asks>> = vec![knobs.asks(figures, bands)?; count];
-    let search = Search {
-        asks: &[],
-        limits: &knobs.limits,
-        habits: &knobs.habits,
-        price: PRICE * figures.len() as f64,
-        series,
-    };
-    let mut turns = Search { asks: &asks, ..search.clone() }.best(seed);
+    let mut asks = search.asks.to_vec();
+    let mut turns = search.best(seed);
     let mut best: Option<(usize, Turns)> = None;
     for _ in 0..ROUNDS {
         let styles = turns.iter().map(|turns| knobs.drawn(turns)).collect::<Result<Vec<Style>>>()?;
