@@ -164,9 +164,10 @@ fn ring(all: &[&Piece], sample: usize, of: impl Fn(&Piece) -> Vec<V2>) -> Result
     // A line without corners begins where the sample size does.
     let own = if own.is_empty() { vec![0] } else { own };
     let places = shares(&pieces[sample].outline, &own);
-    let corners = pieces.iter().enumerate().map(|(k, piece)| match k == sample {
-        true => Ok(own.clone()),
-        false => corresponding(piece, &places).map_err(|_| format!("another outline in size {:?}", piece.size)),
+    let corners = pieces.iter().enumerate().map(|(k, piece)| match (k == sample, alike(piece, &places)) {
+        (true, _) => Ok(own.clone()),
+        (false, Some(corners)) => Ok(corners),
+        (false, None) => corresponding(piece, &places).map_err(|_| format!("another outline in size {:?}", piece.size)),
     });
     let corners = corners.collect::<Result<Vec<_>, String>>()?;
     let mut rings = vec![Vec::new(); all.len()];
@@ -183,6 +184,20 @@ fn ring(all: &[&Piece], sample: usize, of: impl Fn(&Piece) -> Vec<V2>) -> Result
         }
     }
     Ok(rings)
+}
+
+/// The corners of a size that has as many as the sample size, in their order: however far a size moves one, it stays that corner. They begin
+/// where they lie nearest to the shares of the sample size.
+fn alike(piece: &Piece, places: &[[f64; 2]]) -> Option<Vec<usize>> {
+    let corners = corner_vertices(piece);
+    let found = shares(&piece.outline, &corners);
+    let n = corners.len();
+    let off = |start: &usize| -> f64 {
+        let squares = |k: usize| (V2::from(found[(start + k) % n]) - V2::from(places[k])).norm_squared();
+        (0..n).map(squares).sum()
+    };
+    let start = (0..n).filter(|_| n == places.len()).min_by(|a, b| off(a).total_cmp(&off(b)))?;
+    Some((0..n).map(|k| corners[(start + k) % n]).collect())
 }
 
 /// Open lines of all sizes with a vertex at every share of their length at which one of them has one.
@@ -229,6 +244,28 @@ fn cut_alike(lines: &[Vec<V2>]) -> Vec<Vec<V2>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_corner_stays_that_corner_however_far_it_moves() {
+        // A side whose upper end moves by a tenth of the piece, with a vertex of the curve above it where the end was.
+        let piece = |height: f64, first: usize| {
+            let corners = [V2::zeros(), V2::new(0.5, 0.0), V2::new(0.5, height), V2::new(0.25, 0.5)];
+            let between = |k: usize| -> Vec<V2> {
+                let (from, to) = (corners[k], corners[(k + 1) % 4]);
+                (0..25).map(|step| from.lerp(&to, f64::from(step) / 25.0)).collect()
+            };
+            let turns = (0..4).map(|k| corners[(k + first) % 4]).collect();
+            Piece { outline: (0..4).flat_map(between).collect(), turn_points: turns, ..Piece::default() }
+        };
+        let (sample, moved) = (piece(0.40, 0), piece(0.33, 2));
+        let rings = ring(&[&sample, &moved], 0, |piece| piece.outline.clone()).expect("one pattern");
+        for corner in &sample.turn_points {
+            let at = rings[0].iter().position(|p| (p - corner).norm() < 1e-9).expect("a corner of the sample");
+            let to = rings[1][at];
+            let is_corner = moved.turn_points.iter().any(|turn| (turn - to).norm() < 1e-9);
+            assert!(is_corner && (to - corner).norm() < 0.08, "{corner:?} goes to {to:?}");
+        }
+    }
 
     #[test]
     fn vertices_of_several_sizes_do_not_fall_upon_each_other() {

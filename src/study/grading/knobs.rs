@@ -10,13 +10,26 @@ use pattern::{Handle, Style};
 pub const STEP_M: f64 = 1e-3;
 /// By how much a knob is turned to see what it changes, m.
 const TRIED_M: f64 = 5e-3;
-/// Change of a level, m per m, from which on a handle counts as the one for it.
-const STRONG: f64 = 0.5;
+/// Change of a level, m per m, from which on a handle may be the one for it.
+const STRONG: f64 = 0.3;
 /// Shares of the greatest turn that are tried in turn, where a handle cannot move so far.
 const LIMITS: [f64; 5] = [1.0, 0.75, 0.5, 0.35, 0.2];
 
 /// Slope below which nothing follows: it would be less than a step over the whole range.
 const SLIGHT: f64 = 0.01;
+/// Handles that make something wider: what may be turned for a level. A length is never shortened so that a level is not reached.
+const WIDTHS: [Handle; 10] = [
+    Handle::Chest,
+    Handle::Waist,
+    Handle::Hip,
+    Handle::Hem,
+    Handle::Thigh,
+    Handle::Knee,
+    Handle::LegOpening,
+    Handle::ShoulderLength,
+    Handle::Bicep,
+    Handle::Cuff,
+];
 /// Girths of the trunk.
 const ALIKE: [Handle; 4] = [Handle::Chest, Handle::Waist, Handle::Hip, Handle::Hem];
 /// Ease that is as good as any, m.
@@ -53,14 +66,7 @@ impl<'a> Knobs<'a> {
         let levels: Vec<String> = bands.iter().map(|band| band.level.clone()).collect();
         let all = style.handles();
         let changes: Vec<Vec<f64>> = all.iter().map(|handle| changes(style, *handle, somebody, &levels)).collect();
-        let strongest = |level: usize| {
-            let by = |k: &usize| changes[*k][level].abs();
-            (0..all.len()).filter(|k| by(k) > STRONG).max_by(|a, b| by(a).total_cmp(&by(b)).then(b.cmp(a)))
-        };
-        let mut chosen: Vec<usize> = (0..levels.len()).filter_map(strongest).collect();
-        chosen.sort_unstable();
-        chosen.dedup();
-        let handles: Vec<Handle> = chosen.into_iter().map(|k| all[k]).collect();
+        let handles = chosen(&all, &changes);
         let Some(lead) = handles.first() else {
             let message = format!("{}: no handle changes a level that has a band; there is: {all:?}", style.name);
             return Err(StudyError::stage("grade")(message));
@@ -170,6 +176,24 @@ pub fn correct(asks: &mut [Asks], eases: &[Vec<Option<f64>>], turns: &[i32], ban
     }
 }
 
+/// A handle for each level, as far as there are any: the strongest pairs first, and no handle for two levels.
+fn chosen(all: &[Handle], changes: &[Vec<f64>]) -> Vec<Handle> {
+    let levels = changes.first().map_or(0, Vec::len);
+    let wide = (0..all.len()).filter(|k| WIDTHS.contains(&all[*k]));
+    let mut pairs: Vec<(usize, usize)> = wide.flat_map(|k| (0..levels).map(move |level| (k, level))).collect();
+    let strength = |(k, level): &(usize, usize)| changes[*k][*level].abs();
+    pairs.retain(|pair| strength(pair) > STRONG);
+    pairs.sort_by(|a, b| strength(b).total_cmp(&strength(a)));
+    let mut taken: Vec<(usize, usize)> = Vec::new();
+    for (k, level) in pairs {
+        if taken.iter().all(|(handle, of)| *handle != k && *of != level) {
+            taken.push((k, level));
+        }
+    }
+    taken.sort_unstable();
+    taken.into_iter().map(|(k, _)| all[k]).collect()
+}
+
 /// What a handle changes of each level of somebody, m per m; nothing where it cannot be moved.
 fn changes(style: &Style, handle: Handle, somebody: &Figure, levels: &[String]) -> Vec<f64> {
     let moved = |by_m: f64| style.moved(&[(handle, by_m)]).map(|style| somebody.eases(&style, levels));
@@ -197,4 +221,23 @@ fn slope(own: &[Style], lead: Handle, handle: Handle) -> Option<f64> {
     let (leading, other) = (lengths(lead)?, lengths(handle)?);
     let spread: f64 = leading.iter().map(|x| x * x).sum();
     (spread > STEP_M * STEP_M).then(|| leading.iter().zip(&other).map(|(x, y)| x * y).sum::<f64>() / spread)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_level_has_a_handle_of_its_own_and_no_length_is_one() {
+        let all = [Handle::Chest, Handle::Waist, Handle::Hem, Handle::ArmholeDepth, Handle::BodyLength];
+        let check = |changes: &[[f64; 3]], expect: &[Handle]| {
+            let changes: Vec<Vec<f64>> = changes.iter().map(|levels| levels.to_vec()).collect();
+            assert_eq!(chosen(&all, &changes), expect);
+        };
+        // Chest, waist, and a hip that the waist changes more than the hem does.
+        let tee = [[2.0, 0.3, 0.0], [0.0, 2.0, 1.2], [0.0, 0.1, 0.8], [0.9, 0.0, 0.0], [0.0, 0.5, 2.5]];
+        check(&tee, &[Handle::Chest, Handle::Waist, Handle::Hem]);
+        let weak = [[2.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.2, 0.1], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]];
+        check(&weak, &[Handle::Chest]);
+    }
 }

@@ -31,7 +31,7 @@ use pattern::Style;
 /// Greatest turn of a knob either way, m.
 const LIMIT_M: f64 = 0.150;
 /// Share of the people that must be won for each step that a size departs from the pattern's own way of grading.
-const PRICE: f64 = 2e-4;
+const PRICE: f64 = 5e-5;
 /// Shares of the greatest turns that are tried in turn, where a size cannot be drawn.
 const LIMITS: [f64; 4] = [1.0, 0.75, 0.5, 0.35];
 /// How often the sizes are measured again as drawn, and sought anew.
