@@ -7,6 +7,7 @@ use std::sync::LazyLock;
 use divan::Bencher;
 use toile::body::Dimension;
 use toile::body::{self, Body, Measurements, Sex};
+use toile::fit::coverage::{Asked, Asks, Search, Series};
 use toile::geom::{DistanceField, TriMesh, shapes};
 use toile::measure;
 use toile::pattern::{Garment, Style, draft, dxf};
@@ -141,6 +142,25 @@ fn read_all_samples(bencher: Bencher) {
         // Without the folder there is nothing to time.
         Err(_) => 0,
     });
+}
+
+/// Three sizes of five knobs sought for as many people as `toile grade` draws.
+#[divan::bench(sample_count = 3, sample_size = 1)]
+fn size_search(bencher: Bencher) {
+    let mut random = toile::fit::Draw::new(1);
+    let people = (0..2000).map(|_| -> Asks {
+        let large = 40.0 * random.normal();
+        let asked = |knob: usize| {
+            let middle = large + 15.0 * random.normal();
+            let per_step = (0..5).map(|other| if other == knob { 1.0 } else { 0.05 }).collect();
+            Asked { per_step, band: [middle - 20.0, middle + 20.0] }
+        };
+        (0..5).map(asked).collect()
+    });
+    let asks = vec![people.collect::<Vec<Asks>>(); 3];
+    let search =
+        Search { asks: &asks, limits: &[[-150, 150]; 5], habits: &[1.0; 5], price: 0.2, series: Series::Rising };
+    bencher.bench_local(|| divan::black_box(&search).best(1));
 }
 
 #[divan::bench]

@@ -12,6 +12,7 @@ mod catalogue;
 mod context;
 mod detached;
 mod fit;
+mod grade;
 mod health;
 mod jobs;
 mod lab;
@@ -141,6 +142,7 @@ fn execute(arguments: Arguments, workbench: impl FnOnce(Workbench) -> Result<(),
         Some(Command::Audit(arguments)) => answers::audit(&context, &arguments),
         Some(Command::Ease(arguments)) => answers::ease(&context, &arguments),
         Some(Command::Alter(arguments)) => alter::alter(&context, &arguments),
+        Some(Command::Grade(arguments)) => grade::grade(&context, &arguments),
         Some(Command::Fit(arguments)) => fit::fit(&context, &arguments),
         Some(Command::Section(arguments)) => section::section(&context, &arguments),
         Some(Command::Recommend(arguments)) => recommend::recommend(&context, &arguments),

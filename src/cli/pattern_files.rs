@@ -51,7 +51,7 @@ pub fn points_of_measure(
     let bytes = match extension.as_str() {
         "csv" => output::encoded(&specified.table(), Format::Csv)?,
         "svg" => specified.drawing.clone().into_bytes(),
-        "xlsx" => xlsx::bytes(&specified.garment, &specified.table())?,
+        "xlsx" => xlsx::bytes(&[(&specified.garment, &specified.table())])?,
         _ => {
             let found = format!("{}: found `.{extension}`; accepted: X.csv, X.xlsx or X.svg", output.display());
             return Err(CliError::Usage(found));

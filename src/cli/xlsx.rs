@@ -5,16 +5,23 @@ use std::io;
 use rust_xlsxwriter::{Format, Workbook, XlsxError};
 use study::{Table, Value};
 
-/// A workbook of one sheet: the table with its names in bold, kept in view.
+/// A workbook with a sheet for each table, its names in bold and kept in view.
 ///
 /// # Errors
-/// When it has more rows or longer texts than a sheet can hold.
-pub fn bytes(name: &str, table: &Table) -> io::Result<Vec<u8>> {
-    written(name, table).map_err(io::Error::other)
+/// When one has more rows or longer texts than a sheet can hold.
+pub fn bytes(sheets: &[(&str, &Table)]) -> io::Result<Vec<u8>> {
+    written(sheets).map_err(io::Error::other)
 }
 
-fn written(name: &str, table: &Table) -> Result<Vec<u8>, XlsxError> {
+fn written(sheets: &[(&str, &Table)]) -> Result<Vec<u8>, XlsxError> {
     let mut workbook = Workbook::new();
+    for (name, table) in sheets {
+        add(&mut workbook, name, table)?;
+    }
+    workbook.save_to_buffer()
+}
+
+fn add(workbook: &mut Workbook, name: &str, table: &Table) -> Result<(), XlsxError> {
     let sheet = workbook.add_worksheet();
     // What a sheet may not be called by is no loss: the file has the name.
     let _ = sheet.set_name(name);
@@ -35,5 +42,5 @@ fn written(name: &str, table: &Table) -> Result<Vec<u8>, XlsxError> {
     }
     sheet.set_freeze_panes(1, 1)?;
     sheet.autofit();
-    workbook.save_to_buffer()
+    Ok(())
 }

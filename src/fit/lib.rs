@@ -9,6 +9,7 @@ mod advice;
 pub mod alter;
 mod analysis;
 mod class;
+pub mod coverage;
 mod distribution;
 mod ease;
 mod judge;

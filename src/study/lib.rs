@@ -11,6 +11,7 @@ mod catalogue;
 mod error;
 pub mod evaluate;
 pub mod files;
+mod grading;
 pub mod patterns;
 mod rows;
 mod run;
@@ -42,6 +43,9 @@ pub use catalogue::{
     percentile_text, with_bending,
 };
 pub use error::{Problem, Result, StudyError};
+pub use grading::{
+    DrapedAgain, GradeWish, Grading, LevelShare, PartShare, Range, SizeSet, SizeShare, Turn, grade,
+};
 pub use rows::{
     Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, RecommendationRow, SizeKey,
     StageKind, StageRow, Status, StudyRow, SubjectId, Table, Value,

@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 92] = [
+const COMMANDS: [&str; 93] = [
     "",
     "run",
     "run show",
@@ -23,6 +23,7 @@ const COMMANDS: [&str; 92] = [
     "fit",
     "section",
     "alter",
+    "grade",
     "pattern pom",
     "job",
     "job handout",

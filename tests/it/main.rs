@@ -11,6 +11,7 @@ mod engine;
 mod figures;
 mod fit;
 mod fit_report;
+mod grade;
 mod pattern_files;
 mod pictures;
 mod program;

@@ -10,6 +10,7 @@ mod attempt;
 mod body;
 mod catalogue;
 mod fit;
+mod grade;
 mod pattern;
 mod report;
 
@@ -19,6 +20,7 @@ pub use body::{Body, BodyBuild, MeshUnit, Sex};
 pub use catalogue::{Catalogue, FabricValues, SizeValues, StyleValues, SubjectValues};
 pub use fit::{Fit, Section};
 pub use pattern::{BesideFiles, DraftStyle, Pattern, PatternUnit, SeamCommand, StyleFiles};
+pub use grade::Grade;
 pub use report::{Purpose, Report};
 
 /// A fit-study workbench: dress bodies in sewing patterns, measure the drape, say which simulator to trust.
@@ -79,6 +81,8 @@ pub enum Command {
     Fit(Fit),
     /// What to change of a size so that it fits somebody: the least change of its handles, as a new DXF.
     Alter(Alter),
+    /// Which sizes fit a population: the grade that fits the most people, as DXF with rules, a size chart and a spec sheet.
+    Grade(Grade),
     /// Cross sections: the air between body and cloth at a level, all sizes over each other.
     Section(Section),
     /// Which simulator to use for which fit.

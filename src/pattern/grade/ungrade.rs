@@ -164,9 +164,10 @@ fn ring(all: &[&Piece], sample: usize, of: impl Fn(&Piece) -> Vec<V2>) -> Result
     // A line without corners begins where the sample size does.
     let own = if own.is_empty() { vec![0] } else { own };
     let places = shares(&pieces[sample].outline, &own);
-    let corners = pieces.iter().enumerate().map(|(k, piece)| match k == sample {
-        true => Ok(own.clone()),
-        false => corresponding(piece, &places).map_err(|_| format!("another outline in size {:?}", piece.size)),
+    let corners = pieces.iter().enumerate().map(|(k, piece)| match (k == sample, alike(piece, &places)) {
+        (true, _) => Ok(own.clone()),
+        (false, Some(corners)) => Ok(corners),
+        (false, None) => corresponding(piece, &places).map_err(|_| format!("another outline in size {:?}", piece.size)),
     });
     let corners = corners.collect::<Result<Vec<_>, String>>()?;
     let mut rings = vec![Vec::new(); all.len()];
@@ -183,6 +184,20 @@ fn ring(all: &[&Piece], sample: usize, of: impl Fn(&Piece) -> Vec<V2>) -> Result
         }
     }
     Ok(rings)
+}
+
+/// The corners of a size that has as many as the sample size, in their order: however far a size moves one, it stays that corner. They begin
+/// where they lie nearest to the shares of the sample size.
+fn alike(piece: &Piece, places: &[[f64; 2]]) -> Option<Vec<usize>> {
+    let corners = corner_vertices(piece);
+    let found = shares(&piece.outline, &corners);
+    let n = corners.len();
+    let off = |start: &usize| -> f64 {
+        let squares = |k: usize| (V2::from(found[(start + k) % n]) - V2::from(places[k])).norm_squared();
+        (0..n).map(squares).sum()
+    };
+    let start = (0..n).filter(|_| n == places.len()).min_by(|a, b| off(a).total_cmp(&off(b)))?;
+    Some((0..n).map(|k| corners[(start + k) % n]).collect())
 }
 
 /// Open lines of all sizes with a vertex at every share of their length at which one of them has one.
@@ -210,13 +225,57 @@ fn cut_alike(lines: &[Vec<V2>]) -> Vec<Vec<V2>> {
         }
     }
     let cut = |(size, curve): (usize, &Polyline)| {
-        let ends = [curve.points()[0], curve.points()[curve.points().len() - 1]];
+        // Between its own vertices a size has those of others at the shares that lie between as theirs do: never upon its own.
+        let own = |group: &Vec<(f64, usize)>| Some([group[0].0, group.iter().find(|(_, of)| *of == size)?.0]);
+        let known: Vec<[f64; 2]> =
+            [[0.0; 2]].into_iter().chain(groups.iter().filter_map(own)).chain([[1.0; 2]]).collect();
         let place = |group: &Vec<(f64, usize)>| {
-            let own = group.iter().find(|(_, of)| *of == size).unwrap_or(&group[0]);
-            curve.at(own.0 * curve.length())
+            let after = known.iter().position(|[first, _]| *first >= group[0].0).unwrap_or(known.len() - 1).max(1);
+            let ([from, own_from], [to, own_to]) = (known[after - 1], known[after]);
+            curve.at((own_from + (own_to - own_from) * (group[0].0 - from) / (to - from)) * curve.length())
         };
+        let ends = [curve.points()[0], curve.points()[curve.points().len() - 1]];
         let between = groups.iter().map(place);
         [ends[0]].into_iter().chain(between).chain([ends[1]]).collect()
     };
     curves.iter().enumerate().map(cut).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_corner_stays_that_corner_however_far_it_moves() {
+        // A side whose upper end moves by a tenth of the piece, with a vertex of the curve above it where the end was.
+        let piece = |height: f64, first: usize| {
+            let corners = [V2::zeros(), V2::new(0.5, 0.0), V2::new(0.5, height), V2::new(0.25, 0.5)];
+            let between = |k: usize| -> Vec<V2> {
+                let (from, to) = (corners[k], corners[(k + 1) % 4]);
+                (0..25).map(|step| from.lerp(&to, f64::from(step) / 25.0)).collect()
+            };
+            let turns = (0..4).map(|k| corners[(k + first) % 4]).collect();
+            Piece { outline: (0..4).flat_map(between).collect(), turn_points: turns, ..Piece::default() }
+        };
+        let (sample, moved) = (piece(0.40, 0), piece(0.33, 2));
+        let rings = ring(&[&sample, &moved], 0, |piece| piece.outline.clone()).expect("one pattern");
+        for corner in &sample.turn_points {
+            let at = rings[0].iter().position(|p| (p - corner).norm() < 1e-9).expect("a corner of the sample");
+            let to = rings[1][at];
+            let is_corner = moved.turn_points.iter().any(|turn| (turn - to).norm() < 1e-9);
+            assert!(is_corner && (to - corner).norm() < 0.08, "{corner:?} goes to {to:?}");
+        }
+    }
+
+    #[test]
+    fn vertices_of_several_sizes_do_not_fall_upon_each_other() {
+        // 400 mm long; the second size has its vertex just before one that the first size has besides.
+        let line = |places_mm: &[f64]| -> Vec<V2> { places_mm.iter().map(|mm| V2::new(1e-3 * mm, 0.0)).collect() };
+        let lines = [line(&[0.0, 40.0, 40.2, 400.0]), line(&[0.0, 40.199_9, 400.0]), line(&[0.0, 300.0, 400.0])];
+        for cut in cut_alike(&lines) {
+            assert_eq!(cut.len(), 5, "{cut:?}");
+            let nearest = cut.windows(2).map(|pair| pair[1].x - pair[0].x).fold(f64::INFINITY, f64::min);
+            assert!(nearest > 0.05e-3, "{cut:?}");
+        }
+    }
 }

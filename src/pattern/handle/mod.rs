@@ -254,6 +254,32 @@ impl Handle {
         }
     }
 
+    /// The point of measure that changes by the amount, of a handle that changes one by just that.
+    #[must_use]
+    pub const fn changes(self) -> Option<Point> {
+        Some(match self {
+            Self::Chest => Point::HalfChest,
+            Self::Waist => Point::HalfWaist,
+            Self::Hip => Point::HalfHip,
+            Self::Hem => Point::HalfHem,
+            Self::Thigh => Point::HalfThigh,
+            Self::Knee => Point::HalfKnee,
+            Self::LegOpening => Point::HalfLegOpening,
+            Self::FrontRise => Point::FrontRise,
+            Self::BackRise => Point::BackRise,
+            Self::LegLength => Point::Inseam,
+            Self::ShoulderLength => Point::Shoulder,
+            Self::FrontNeckDepth => Point::FrontNeckDrop,
+            Self::BackNeckDepth => Point::BackNeckDrop,
+            Self::NeckWidth => Point::NeckWidth,
+            Self::Bicep => Point::HalfBicep,
+            Self::Cuff => Point::HalfCuff,
+            Self::SleeveLength => Point::SleeveLength,
+            Self::BodyLength | Self::SkirtLength => Point::CentreBackLength,
+            _ => return None,
+        })
+    }
+
     fn plan(self, body: &Body<'_>) -> Option<Plan> {
         match self {
             Self::Chest | Self::Waist | Self::Hip | Self::Hem | Self::Thigh | Self::Knee | Self::LegOpening => {

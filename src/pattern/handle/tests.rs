@@ -139,6 +139,8 @@ fn handles_of_drafted_styles_change_what_they_are_about_and_little_else() {
             let moved = style.moved(&[(handle, from_mm(amount_mm))]).unwrap_or_else(|error| panic!("{what}: {error}"));
             sound(&what, &style, &moved);
             let (about, besides) = promised(handle);
+            let first = handle.changes().is_none_or(|point| about.contains(&(point, 1.0)));
+            assert!(first, "{what}: {:?} is not among {about:?}", handle.changes());
             for ((point, was), (same, is)) in before.iter().zip(points_mm(&moved)) {
                 assert_eq!(*point, same, "{what}");
                 let change = is - was;

@@ -140,11 +140,11 @@ impl<'a> Legs<'a> {
         anatomy.place((edge, !is_forwards)).y - self.fork().1.y + above_m
     }
 
-    /// Girth of a leg at a height over the fork, m, below 0 under it; `None` where it does not reach.
-    pub fn girth_m(&self, above_fork_m: f64) -> Option<f64> {
+    /// Way round a leg at a height over the fork, m, below 0 under it; `None` where it does not reach.
+    pub fn round(&self, above_fork_m: f64) -> Option<Vec<PathPart>> {
         let (path, top_m) = self.way_down()?;
         let (piece, place) = self.anatomy.ways.along(&path, top_m - above_fork_m)?;
-        self.anatomy.ways.round_through(piece, place).map(|path| self.anatomy.style().path_length_m(&path))
+        self.anatomy.ways.round_through(piece, place)
     }
 
     /// The girth of one leg's half of the hip.

@@ -57,10 +57,10 @@ impl<'a> Sleeve<'a> {
         found
     }
 
-    /// Girth at a distance from the shoulder point along the arm, m; `None` beyond its end.
-    pub fn girth_m(&self, along_m: f64) -> Option<f64> {
+    /// Way round at a distance from the shoulder point along the arm, m; `None` beyond its end.
+    pub fn round(&self, along_m: f64) -> Option<Vec<PathPart>> {
         let (piece, place) = self.anatomy.ways.along(self.way.as_ref()?, along_m)?;
-        self.anatomy.ways.round_through(piece, place).map(|path| self.anatomy.style().path_length_m(&path))
+        self.anatomy.ways.round_through(piece, place)
     }
 
     /// The seam that begins lowest on the cap, from there down.

@@ -30,7 +30,7 @@ pub struct Stand {
 }
 
 /// What a garment has at a level of a body.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct WornLength {
     /// Level: `neck`, `across_shoulder`, `chest`, `underbust`, `waist`, `hip`, `thigh`, `knee`, `upper_arm`, `forearm`, `wrist`.
     pub level: &'static str,
@@ -38,6 +38,8 @@ pub struct WornLength {
     pub length_m: f64,
     /// Height above the floor at which the body is measured, m, where that is not where its level lies: the upper edge of trousers.
     pub height_m: Option<f64>,
+    /// Where it lies on the cloth: of a girth that is measured by its half, that half.
+    pub path: Vec<PathPart>,
 }
 
 /// How much shorter than the arm a sleeve may be that still goes round the wrist, m.
@@ -53,18 +55,22 @@ impl Style {
         let garb = Garb::of(&anatomy);
         let points = garb.points();
         let Garb { trunk, sleeve, legs, .. } = &garb;
-        let of = |point: Point| points.iter().find(|one| one.point == point).map(|one: &PointOfMeasure| one.length_m);
-        let mut found = Vec::new();
-        let mut add = |level, length_m: Option<f64>, height_m| {
-            found.extend(length_m.map(|length_m| WornLength { level, length_m, height_m }));
+        let of = |point: Point| {
+            let one = points.iter().find(|one: &&PointOfMeasure| one.point == point)?;
+            Some((one.length_m, one.path.clone()))
         };
-        let both = |half_m: f64| 2.0 * half_m;
+        let mut found = Vec::new();
+        let mut add = |level, length: Option<(f64, Vec<PathPart>)>, height_m| {
+            found.extend(length.map(|(length_m, path)| WornLength { level, length_m, height_m, path }));
+        };
+        let both = |(half_m, path): (f64, Vec<PathPart>)| (2.0 * half_m, path);
+        let round = |path: Vec<PathPart>| (self.path_length_m(&path), path);
         add("neck", of(Point::Neck), None);
         // How wide the shoulders of a garment without sleeves are is its design.
         add("across_shoulder", of(Point::AcrossShoulder).filter(|_| sleeve.is_some()), None);
         add("chest", of(Point::HalfChest).map(both), None);
         let hangs = Hangs::of(&anatomy, trunk.as_ref(), legs.as_ref(), stand);
-        let at = |height_m: f64| hangs.as_ref().and_then(|hangs| hangs.girth_m(&anatomy, height_m));
+        let at = |height_m: f64| hangs.as_ref().and_then(|hangs| hangs.round(&anatomy, height_m)).map(round);
         add("underbust", at(stand.underbust_m), None);
         match (trunk, legs) {
             (Some(trunk), _) => {
@@ -80,11 +86,11 @@ impl Style {
         }
         add("hip", at(stand.hip_m), None);
         add("thigh", of(Point::HalfThigh).map(both), None);
-        let knee = legs.as_ref().and_then(|legs| legs.girth_m(stand.knee_m - stand.crotch_m));
+        let knee = legs.as_ref().and_then(|legs| legs.round(stand.knee_m - stand.crotch_m)).map(round);
         add("knee", knee, None);
         add("upper_arm", of(Point::HalfBicep).map(both), None);
-        if let (Some(sleeve), Some(sleeve_m)) = (sleeve, of(Point::SleeveLength)) {
-            add("forearm", sleeve.girth_m(stand.forearm_along_m), None);
+        if let (Some(sleeve), Some((sleeve_m, _))) = (sleeve, of(Point::SleeveLength)) {
+            add("forearm", sleeve.round(stand.forearm_along_m).map(round), None);
             let reaches = sleeve_m > stand.wrist_along_m - SHORT_OF_WRIST_M;
             add("wrist", of(Point::HalfCuff).filter(|_| reaches).map(both), None);
         }
@@ -116,10 +122,10 @@ impl Hangs {
         Some(Self { path, top_m: stand.waist_m, round_m: stand.waist_m })
     }
 
-    /// Girth of the cloth at a height above the floor, m; `None` where it does not go round there.
-    fn girth_m(&self, anatomy: &Anatomy<'_>, height_m: f64) -> Option<f64> {
+    /// Way round the cloth at a height above the floor, m; `None` where it does not go round there.
+    fn round(&self, anatomy: &Anatomy<'_>, height_m: f64) -> Option<Vec<PathPart>> {
         let (piece, place) =
             anatomy.ways.along(&self.path, self.top_m - height_m).filter(|_| height_m <= self.round_m)?;
-        anatomy.ways.round_through(piece, place).map(|path| anatomy.style().path_length_m(&path))
+        anatomy.ways.round_through(piece, place)
     }
 }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::readings::{Place, Reading, Readings};
 use super::{Redraped, STEP_M, Sensitivity};
 use crate::error::{Result, StudyError};
+use crate::run::outcome::Outcome;
 use crate::run::pipeline::{Fitting, Meshes};
 use crate::spec::JobSpec;
 use crate::spec::versions::FIELD_SPACING_M;
@@ -42,6 +43,17 @@ impl<'a> FittingRoom<'a> {
     pub fn new(spec: &'a JobSpec, body: &'a Body) -> Result<Self> {
         let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).map_err(StudyError::stage("field"))?;
         Ok(Self { spec, body, field })
+    }
+
+    /// Drapes a style as its study does: what it measures, and the ease of the drape at every level, m.
+    ///
+    /// # Errors
+    /// What meshing or the simulator refuses.
+    pub fn outcome(&self, style: &Style) -> Result<(Outcome, Vec<(String, f64)>)> {
+        let meshes = Meshes::of(style, self.spec.edge_length_m)?;
+        let fitting = self.fitting(style, &meshes);
+        let drape = fitting.simulate(&mut Silent)?;
+        Ok((fitting.outcome(&drape)?, fitting.eases_on(&drape)?))
     }
 
     /// Drapes a style as its study does, and reads the drape.

@@ -17,12 +17,14 @@ use self::bench::Bench;
 use self::fitting_room::FittingRoom;
 use self::tried::Tried;
 use crate::error::{Result, StudyError};
+use crate::run::outcome::Outcome;
 use crate::run::pipeline;
 use crate::spec::file::Study;
 use crate::spec::{self, JobSpec};
+use body::Body;
 use fit::target::Target;
 use geom::units::mm;
-use pattern::Handle;
+use pattern::{Handle, Style};
 use pattern::dxf::Standard;
 
 /// By how much a handle is moved to see what it changes, m.
@@ -232,6 +234,11 @@ pub fn alter(study: &Study, wish: &Wish) -> Result<Alteration> {
     })
 }
 
+/// A style on a body, draped by FEM-GS as its study drapes it: what it measures, and the ease of the drape at every level, m.
+pub(crate) fn outcome(spec: &JobSpec, style: &Style, body: &Body) -> Result<(Outcome, Vec<(String, f64)>)> {
+    FittingRoom::new(spec, body)?.outcome(style)
+}
+
 /// What may be asked of a size on a subject and what it is now: ease at every level, and what is read off the drape.
 ///
 /// # Errors
@@ -288,7 +295,7 @@ fn asked(study: &Study, wish: &Wish) -> Result<Asked> {
 }
 
 /// The name that is asked for among those known, whatever its case; the only one where none is asked for.
-fn one(what: &'static str, asked: Option<&str>, mut known: Vec<String>) -> Result<String> {
+pub(crate) fn one(what: &'static str, asked: Option<&str>, mut known: Vec<String>) -> Result<String> {
     let mut seen = BTreeSet::new();
     known.retain(|name| seen.insert(name.clone()));
     let found = match asked {

@@ -61,11 +61,17 @@ pub struct Nearest {
     pub jobs: Vec<JobId>,
 }
 
+/// People of a sex, as frequent as in the survey.
+#[must_use]
+pub(crate) fn people(sex: Sex, count: usize, random: &mut Draw) -> Vec<Measurements> {
+    (0..count).map(|_| draw(sex, random)).collect()
+}
+
 /// The representatives of a sex, the most frequent first.
 #[must_use]
 pub fn representatives(sex: Sex, options: &PopulationOptions) -> Vec<Representative> {
     let mut random = Draw::new(options.seed ^ if sex == Sex::Male { 0x6d } else { 0x66 });
-    let people: Vec<Measurements> = (0..options.people).map(|_| draw(sex, &mut random)).collect();
+    let people = people(sex, options.people, &mut random);
     let points: Vec<Point> = people.iter().map(point).collect();
     let groups = group(&points, options.bodies, &mut random);
     let mut found: Vec<Representative> = groups

@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::store::{Store, read};
 
 /// Colours that differ in lightness too [Okabe & Ito 2008].
-const COLOURS: [&str; 7] = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442"];
+pub(crate) const COLOURS: [&str; 7] = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442"];
 /// Side of a panel, and its margins, px.
 const PANEL: f64 = 420.0;
 const MARGIN: f64 = 56.0;
@@ -129,7 +129,7 @@ fn panel(svg: &mut String, garment: &str, dots: &[&Dot], left: f64) {
 }
 
 /// Round limits around some values.
-fn axis(values: impl Iterator<Item = f64>) -> (f64, f64) {
+pub(crate) fn axis(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values.fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(value), high.max(value)));
     if low > high {
         return (0.0, 100.0);
@@ -138,6 +138,6 @@ fn axis(values: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 /// Text between tags.
-fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

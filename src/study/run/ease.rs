@@ -1,16 +1,17 @@
 //! Ease of a garment on a body, before anything is draped.
 
-use body::{Body, Dimension, Joint};
+use body::{Body, Dimension, Girths, Joint};
 use fit::{Cuts, Ease};
 use geom::V3;
 use pattern::Style;
 use pattern::pom::Stand;
+use pattern::style::PathPart;
 
 /// Distance of the forearm's girth below the elbow, m.
 const FOREARM_BELOW_ELBOW_M: f64 = 0.045;
 
 /// What a body has at a level of its clothes, m.
-fn body_length_m(body: &Body, level: &str) -> Option<f64> {
+pub(crate) fn body_length_m(girths: &Girths, level: &str) -> Option<f64> {
     let dimension = match level {
         "neck" => Dimension::NeckGirth,
         "across_shoulder" => Dimension::AcrossShoulder,
@@ -25,11 +26,11 @@ fn body_length_m(body: &Body, level: &str) -> Option<f64> {
         "wrist" => Dimension::WristGirth,
         _ => return None,
     };
-    body.girths.get(dimension)
+    girths.get(dimension)
 }
 
 /// Where a body has its levels.
-fn stand(body: &Body) -> Stand {
+pub(crate) fn stand(body: &Body) -> Stand {
     let mean = |pair: [V3; 2]| 0.5 * (pair[0] + pair[1]);
     let levels = &body.levels;
     let at = |joint: Joint| body.skeleton.at(joint);
@@ -50,16 +51,41 @@ fn stand(body: &Body) -> Stand {
 /// Ease at every level that the garment covers, from the neck down: along the lines of its seam file, and where that has none, along
 /// those found by what its pieces are. A study's own cuts classify it when it is read.
 pub(crate) fn on(style: &Style, body: &Body) -> Vec<Ease> {
-    let found = style.worn_lengths(&stand(body));
-    let stated = |level: &str| style.fit_levels.iter().find(|(name, _)| name == level);
-    let mut levels: Vec<(&str, f64, Option<f64>)> = Vec::new();
-    levels.extend(style.fit_levels.iter().map(|(level, path)| (level.as_str(), style.path_length_m(path), None)));
-    let others = found.iter().filter(|worn| stated(worn.level).is_none());
-    levels.extend(others.map(|worn| (worn.level, worn.length_m, worn.height_m)));
-    let pattern = levels.iter().map(|(level, length_m, _)| (*level, *length_m));
+    let levels = lengths(style, &stand(body));
     let of_body = |level: &str| {
-        let height_m = levels.iter().find(|(name, ..)| *name == level).and_then(|(_, _, height_m)| *height_m);
-        height_m.and_then(|height_m| body.trunk_girth_at(height_m)).or_else(|| body_length_m(body, level))
+        let height_m = levels.iter().find(|one| one.level == level).and_then(|one| one.height_m);
+        height_m.and_then(|height_m| body.trunk_girth_at(height_m)).or_else(|| body_length_m(&body.girths, level))
     };
-    fit::ease(pattern, of_body, &Cuts::default())
+    fit::ease(levels.iter().map(|one| (one.level.as_str(), one.length_m)), of_body, &Cuts::default())
+}
+
+/// What a garment has at a level.
+pub(crate) struct Length {
+    /// Level.
+    pub level: String,
+    /// Length of the pattern there, m.
+    pub length_m: f64,
+    /// Height above the floor at which the body is measured, m, where that is not where its level lies.
+    pub height_m: Option<f64>,
+    /// Where it lies on the cloth: of a girth that is measured by its half, that half.
+    pub path: Vec<PathPart>,
+}
+
+/// What a style has at every level that it covers of somebody who stands so: along the lines of its seam file first.
+pub(crate) fn lengths(style: &Style, stand: &Stand) -> Vec<Length> {
+    let stated = |level: &str| style.fit_levels.iter().any(|(name, _)| name == level);
+    let of_file = style.fit_levels.iter().map(|(level, path)| Length {
+        level: level.clone(),
+        length_m: style.path_length_m(path),
+        height_m: None,
+        path: path.clone(),
+    });
+    let found = style.worn_lengths(stand).into_iter().filter(|worn| !stated(worn.level));
+    let found = found.map(|worn| Length {
+        level: worn.level.to_owned(),
+        length_m: worn.length_m,
+        height_m: worn.height_m,
+        path: worn.path,
+    });
+    of_file.chain(found).collect()
 }

@@ -254,20 +254,41 @@ impl Fitting<'_> {
     fn points(&self, garment: &Garment, drape: &Drape) -> Vec<MeasuredPoint> {
         let points = self.style.points_of_measure();
         let paths: Vec<&[PathPart]> = points.iter().map(|one| one.path.as_slice()).collect();
-        let laid = self.style.laid(garment, &paths);
-        let measured = |(one, runs): (&PointOfMeasure, Option<Vec<MaterialLine>>)| {
-            let draped = |runs: &Vec<MaterialLine>| -> f64 {
-                runs.iter().map(|run| run.length_m(&garment.rest, &drape.positions)).sum()
-            };
-            let flat_m = self.style.path_length_m(&one.path);
-            let stretch = runs.filter(|_| flat_m > 0.0).map(|runs| draped(&runs) / flat_m);
-            MeasuredPoint {
-                point: one.point.as_str().to_owned(),
-                flat_m: one.length_m,
-                draped_m: stretch.map(|stretch| stretch * one.length_m),
-            }
+        let measured = |(one, stretch): (&PointOfMeasure, Option<f64>)| MeasuredPoint {
+            point: one.point.as_str().to_owned(),
+            flat_m: one.length_m,
+            draped_m: stretch.map(|stretch| stretch * one.length_m),
         };
-        points.iter().zip(laid).map(measured).collect()
+        points.iter().zip(self.stretches(garment, drape, &paths)).map(measured).collect()
+    }
+
+    /// How long paths of the style are on a drape, over how long they are flat; `None` of what lies on no cloth.
+    fn stretches(&self, garment: &Garment, drape: &Drape, paths: &[&[PathPart]]) -> Vec<Option<f64>> {
+        let draped = |runs: &Vec<MaterialLine>| -> f64 {
+            runs.iter().map(|run| run.length_m(&garment.rest, &drape.positions)).sum()
+        };
+        let stretch = |(path, runs): (&&[PathPart], Option<Vec<MaterialLine>>)| {
+            let flat_m = self.style.path_length_m(path);
+            runs.filter(|_| flat_m > 0.0).map(|runs| draped(&runs) / flat_m)
+        };
+        paths.iter().zip(self.style.laid(garment, paths)).map(stretch).collect()
+    }
+
+    /// Ease of a drape at every level that the style covers, m: as on the flat pattern, each length stretched as the path that it is
+    /// taken along.
+    ///
+    /// # Errors
+    /// When there is no mesh.
+    pub fn eases_on(&self, drape: &Drape) -> Result<Vec<(String, f64)>> {
+        let lengths = ease::lengths(self.style, &ease::stand(self.body));
+        let paths: Vec<&[PathPart]> = lengths.iter().map(|one| one.path.as_slice()).collect();
+        let stretches = self.stretches(self.meshes.finest()?, drape, &paths);
+        let flat = ease::on(self.style, self.body);
+        let of = |ease: &Ease| {
+            let index = lengths.iter().position(|one| one.level == ease.level)?;
+            Some((ease.level.clone(), stretches[index]? * ease.pattern_girth_m - ease.body_girth_m))
+        };
+        Ok(flat.iter().filter_map(of).collect())
     }
 }
 

@@ -69,14 +69,13 @@ pub fn specification(pattern: &Path, seams: Option<&Path>, how: &Asking<'_>) -> 
     };
     let read = |size: &String| patterns::read_style(&source, seams.as_ref(), Some(size), how.unit);
     let styles = sizes.iter().map(read).collect::<Result<Vec<Style>>>()?;
-    let points = points(&sizes, &styles);
-    if points.is_empty() {
+    let found = Specification { notes, ..Specification::of(garment, sizes, &styles) };
+    if found.points.is_empty() {
         let message =
             format!("{}: no point of measure was found; accepted: pieces with roles, sewn together", pattern.display());
         return Err(StudyError::stage("pattern")(message));
     }
-    let drawing = styles.first().map_or_else(String::new, patterns::points_sheet);
-    Ok(Specification { garment, sizes, points, notes, drawing })
+    Ok(found)
 }
 
 /// Every point of every size, by point.
@@ -101,6 +100,14 @@ fn points(sizes: &[String], styles: &[Style]) -> Vec<SpecifiedPoint> {
 }
 
 impl Specification {
+    /// Of styles that are the sizes of one pattern.
+    #[must_use]
+    pub(crate) fn of(garment: String, sizes: Vec<String>, styles: &[Style]) -> Self {
+        let points = points(&sizes, styles);
+        let drawing = styles.first().map_or_else(String::new, patterns::points_sheet);
+        Self { garment, sizes, points, notes: Vec::new(), drawing }
+    }
+
     /// The sheet: a row a point, a column a size, mm, and the steps from size to size.
     #[must_use]
     pub fn table(&self) -> Table {

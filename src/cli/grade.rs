@@ -1,0 +1,171 @@
+//! `toile grade`: which sizes fit a population.
+
+use super::args::Grade;
+use super::context::Context;
+use super::{CliError, End, Outcome, output, xlsx};
+use study::{GradeWish, Grading, SizeSet, SizeShare, Table, Value, files};
+
+/// Finds the sizes that fit the most people, prints and writes them.
+pub fn grade(context: &Context, arguments: &Grade) -> Outcome {
+    let workspace = context.workspace()?;
+    let study = context.study(&workspace, &arguments.study)?;
+    let wish = GradeWish {
+        garment: arguments.garment.clone(),
+        sizes: arguments.sizes,
+        people: arguments.people,
+        held_out: arguments.held_out,
+        seed: arguments.seed,
+        base: arguments.base.clone(),
+        is_even: arguments.even,
+        without: arguments.without.clone(),
+        draped: arguments.drape,
+    };
+    if let Some(folder) = &arguments.output {
+        files::make_folder(folder)?;
+    }
+    let found = study::grade(&study, &wish)?;
+    if let Some(folder) = &arguments.output {
+        let name = format!("{}.xlsx", found.garment);
+        let sheets = sheets(&found);
+        let sheets: Vec<(&str, &Table)> = sheets.iter().map(|(name, table)| (*name, table)).collect();
+        let mut all = found.files.clone();
+        all.push((name, xlsx::bytes(&sheets)?));
+        files::write_files(folder, &all)?;
+        all.iter().for_each(|(name, _)| context.say(format_args!("wrote {}", folder.join(name).display())));
+    }
+    match context.json {
+        true => output::json(&found)?,
+        false => print(context, &found)?,
+    }
+    let disagrees = found.drapes.as_ref().is_some_and(|drapes| drapes.agree < drapes.people);
+    Ok(if disagrees { End::CheckFailed } else { End::Done })
+}
+
+/// All tables with their titles.
+fn sheets(found: &Grading) -> Vec<(&'static str, Table)> {
+    vec![
+        ("coverage", coverage(found)),
+        ("levels", levels(found)),
+        ("parts", parts(found)),
+        ("grade", turns(found)),
+        ("size chart", chart(found)),
+        ("spec sheet", found.sheet.table()),
+    ]
+}
+
+fn print(context: &Context, found: &Grading) -> Result<(), CliError> {
+    let [sought, held_out] = found.people;
+    let Grading { garment, base, intended, apart_mm, .. } = found;
+    let who = if found.sex == study::bodies::Sex::Male { "men" } else { "women" };
+    output::text(&format!(
+        "{garment}, made of {base}, {intended} fit: sought for {sought} {who}, judged on {held_out} others\n"
+    ))?;
+    for (title, table) in sheets(found) {
+        output::text(&format!("{title}\n"))?;
+        context.print(&if title == "spec sheet" { without_last(table) } else { table })?;
+    }
+    output::text(&format!("rules read again: the same sizes within {apart_mm:.3} mm\n"))?;
+    if let Some(drapes) = &found.drapes {
+        output::text(&format!("draped again: {} of {} agree\n", drapes.agree, drapes.people))?;
+        drapes.against.iter().for_each(|one| output::note(one));
+    }
+    Ok(())
+}
+
+/// A table without its last column, which is long.
+fn without_last(mut table: Table) -> Table {
+    table.columns.pop();
+    table.rows.iter_mut().for_each(|row| {
+        row.pop();
+    });
+    table
+}
+
+fn text(text: impl Into<String>) -> Value {
+    Value::Text(text.into())
+}
+
+fn percent(percent: f64) -> Value {
+    Value::Real((10.0 * percent).round() / 10.0)
+}
+
+fn table(columns: &[&str], rows: Vec<Vec<Value>>) -> Table {
+    Table { columns: columns.iter().map(|name| (*name).to_owned()).collect(), rows }
+}
+
+/// Whom each set fits, and each of its sizes.
+fn coverage(found: &Grading) -> Table {
+    let columns = ["sizes", "size", "sought_percent", "held_out_percent", "within", "worn_percent"];
+    let all = |set: &SizeSet| {
+        let [sought, out, within] = [set.sought_percent, set.held_out_percent, set.within_percent].map(percent);
+        vec![text(set.set), text("all"), sought, out, within, Value::Null]
+    };
+    let size = |set: &SizeSet, size: &SizeShare| {
+        let [fits, worn] = [size.fits_percent, size.worn_percent].map(percent);
+        vec![text(set.set), text(&size.size), Value::Null, fits, Value::Null, worn]
+    };
+    let rows = found.sets.iter().flat_map(|set| {
+        std::iter::once(all(set)).chain(set.sizes.iter().map(move |one| size(set, one))).collect::<Vec<_>>()
+    });
+    table(&columns, rows.collect())
+}
+
+/// What both sets do at each level.
+fn levels(found: &Grading) -> Table {
+    let columns = ["level", "target_mm", "own within_percent", "new within_percent", "own fails_percent", "new fails_percent"];
+    let rows = found.levels.iter().map(|level| {
+        let [least, most] = level.target_mm;
+        let shares = level.within_percent.into_iter().chain(level.fails_percent).map(percent);
+        [text(level.level.replace('_', " ")), text(format!("{least:.0} to {most:.0}"))].into_iter().chain(shares).collect()
+    });
+    table(&columns, rows.collect())
+}
+
+/// Whom both sets fit, by a girth.
+fn parts(found: &Grading) -> Table {
+    let (level, parts) = &found.parts;
+    let columns = [format!("{}_mm", level), "own fits_percent".to_owned(), "new fits_percent".to_owned()];
+    let rows = parts.iter().map(|part| {
+        let [from, to] = part.from_to_mm;
+        let [own, new] = part.fits_percent.map(percent);
+        vec![text(format!("{from:.0} to {to:.0}")), own, new]
+    });
+    Table { columns: columns.to_vec(), rows: rows.collect() }
+}
+
+/// The new sizes.
+fn new(found: &Grading) -> &[SizeShare] {
+    found.sets.last().map_or(&[], |set| &set.sizes)
+}
+
+/// What changes of the base in each size, mm.
+fn turns(found: &Grading) -> Table {
+    let columns = std::iter::once("handle".to_owned()).chain(new(found).iter().map(|size| format!("{}_mm", size.size)));
+    let row = |handle: &&'static str| {
+        let of = |size: &SizeShare| {
+            let turn = size.turns.iter().find(|turn| turn.handle == *handle);
+            text(format!("{:+.0}", turn.map_or(0.0, |turn| turn.amount_mm)))
+        };
+        std::iter::once(text(handle.replace('_', " "))).chain(new(found).iter().map(of)).collect()
+    };
+    let [turned, following] = &found.handles;
+    Table { columns: columns.collect(), rows: turned.iter().chain(following).map(row).collect() }
+}
+
+/// Dimensions of those who wear each size.
+fn chart(found: &Grading) -> Table {
+    let sizes = new(found);
+    let columns = std::iter::once("dimension".to_owned()).chain(sizes.iter().map(|size| size.size.clone()));
+    let known = sizes.iter().find(|size| !size.wearers.is_empty()).map_or(&[][..], |size| &size.wearers);
+    let row = |dimension: &'static str| {
+        let of = |size: &SizeShare| {
+            let range = size.wearers.iter().find(|range| range.dimension == dimension);
+            range.map_or(Value::Null, |range| {
+                let [low, middle, high] = range.values;
+                text(format!("{low:.0} to {high:.0}, middle {middle:.0}"))
+            })
+        };
+        std::iter::once(text(dimension)).chain(sizes.iter().map(of)).collect()
+    };
+    Table { columns: columns.collect(), rows: known.iter().map(|range| row(range.dimension)).collect() }
+}

@@ -1,0 +1,466 @@
+//! The sizes that fit the most people.
+//!
+//! A size is a place among knobs: how many steps each of them is turned. Somebody is fitted by a size where all that they ask of it
+//! lies within its band, and by a series where one of its sizes fits. What is asked is linear in the knobs. So the turns of some knobs
+//! along a line that fit somebody are a few stretches, and the best place on a line is found exactly. The search goes along many lines, from
+//! many starts (iterated local search [Lourenco03]).
+
+use crate::Draw;
+
+/// A length of a size that somebody asks to lie in a band.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked {
+    /// How it changes with one step of each knob.
+    pub per_step: Vec<f64>,
+    /// Least and greatest value that it may have where no knob is turned, less what it has there.
+    pub band: [f64; 2],
+}
+
+impl Asked {
+    /// How much it changes from where no knob is turned.
+    #[must_use]
+    pub fn change(&self, turns: &[i32]) -> f64 {
+        self.per_step.iter().zip(turns).map(|(a, turn)| a * f64::from(*turn)).sum()
+    }
+}
+
+/// All that somebody asks of a size.
+pub type Asks = Vec<Asked>;
+
+/// How the sizes of a series follow each other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Series {
+    /// By steps that may differ; no knob turns back.
+    #[default]
+    Rising,
+    /// By the same step between all of them.
+    Even,
+}
+
+/// What is sought.
+#[derive(Clone, Debug)]
+pub struct Search<'a> {
+    /// What each person asks of each size, by size and person.
+    pub asks: &'a [Vec<Asks>],
+    /// Least and greatest turn of each knob, steps.
+    pub limits: &'a [[i32; 2]],
+    /// How far each knob turns with a step of the first where nobody asks for more, steps.
+    pub habits: &'a [f64],
+    /// How many more people a size must fit for each step that a knob is turned away from its habit.
+    pub price: f64,
+    /// How the sizes follow each other.
+    pub series: Series,
+}
+
+/// Turns of the knobs of every size, the smallest first, steps.
+pub type Turns = Vec<Vec<i32>>;
+
+/// Rounds over all lines at most.
+const ROUNDS: usize = 40;
+/// Shares of the people that are left out at both ends of a start, %.
+const TAILS: [usize; 4] = [0, 10, 20, 30];
+/// How often the best is shaken and sought again.
+const SHAKES: usize = 30;
+/// Greatest shake, steps.
+const SHAKE: usize = 25;
+/// Sweeps that find what a person asks for at best.
+const SWEEPS: usize = 60;
+
+impl Search<'_> {
+    /// How many people some size of a series fits.
+    #[must_use]
+    pub fn covered(&self, turns: &Turns) -> usize {
+        (0..self.people()).filter(|&person| (0..turns.len()).any(|size| self.fits(size, person, &turns[size]))).count()
+    }
+
+    /// People that a series fits, less the price of its departures from habit.
+    fn worth(&self, turns: &Turns) -> f64 {
+        self.covered(turns) as f64 - self.price * turns.iter().map(|size| self.departure(size)).sum::<f64>()
+    }
+
+    /// How far the knobs of a size are turned away from their habits, steps.
+    fn departure(&self, size: &[i32]) -> f64 {
+        let first = size.first().map_or(0.0, |turn| f64::from(*turn));
+        size.iter().zip(self.habits).skip(1).map(|(turn, habit)| (f64::from(*turn) - habit * first).abs()).sum()
+    }
+
+    /// The best series that is found, of as many sizes as there are asks for.
+    #[must_use]
+    pub fn best(&self, seed: u64) -> Turns {
+        let mut random = Draw::new(seed);
+        let mut best = self.starts().into_iter().map(|start| self.improved(start)).fold(None, better);
+        for _ in 0..SHAKES {
+            let Some((_, turns)) = &best else { break };
+            best = better(best.clone(), self.improved(self.shaken(turns, &mut random)));
+        }
+        best.map_or_else(Vec::new, |(_, turns)| turns)
+    }
+
+    /// The best near a series.
+    #[must_use]
+    pub fn near(&self, turns: &Turns) -> Turns {
+        self.improved(turns.clone()).1
+    }
+
+    fn people(&self) -> usize {
+        self.asks.first().map_or(0, Vec::len)
+    }
+
+    fn fits(&self, size: usize, person: usize, turns: &[i32]) -> bool {
+        is_met(&self.asks[size][person], turns)
+    }
+
+    /// The turns that a person asks for at best, as far as a size can be all of it: least squares in units of the bands.
+    fn ideal(&self, person: usize) -> Vec<f64> {
+        let mut turns = vec![0.0; self.limits.len()];
+        for _ in 0..SWEEPS {
+            for knob in 0..turns.len() {
+                let (mut slope, mut off) = (1e-9, 0.0);
+                for asked in &self.asks[0][person] {
+                    let weight = (asked.band[1] - asked.band[0]).max(1e-9).powi(-2);
+                    let value: f64 = asked.per_step.iter().zip(&turns).map(|(a, turn)| a * turn).sum();
+                    let by = asked.per_step[knob];
+                    slope += weight * by * by;
+                    off += weight * by * (0.5 * (asked.band[0] + asked.band[1]) - value);
+                }
+                let [least, most] = self.limits[knob].map(f64::from);
+                turns[knob] = (turns[knob] + off / slope).clamp(least, most);
+            }
+        }
+        turns
+    }
+
+    /// Series to begin with: the people in as many groups along the first knob as there are sizes, without those at both ends.
+    fn starts(&self) -> Vec<Turns> {
+        let count = self.asks.len();
+        let mut ideals: Vec<Vec<f64>> = (0..self.people()).map(|person| self.ideal(person)).collect();
+        ideals.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
+        let start = |tail: usize| -> Turns {
+            let cut = ideals.len() * tail / 100;
+            let kept = &ideals[cut..ideals.len() - cut];
+            let group = |size: usize| &kept[kept.len() * size / count..kept.len() * (size + 1) / count];
+            let mean = |group: &[Vec<f64>], knob: usize| {
+                let sum: f64 = group.iter().map(|ideal| ideal[knob]).sum();
+                (sum / group.len().max(1) as f64).round() as i32
+            };
+            (0..count).map(|size| (0..self.limits.len()).map(|knob| mean(group(size), knob)).collect()).collect()
+        };
+        TAILS.into_iter().map(|tail| self.ordered(start(tail))).collect()
+    }
+
+    /// A series in its order, as near as whole steps allow.
+    fn ordered(&self, mut turns: Turns) -> Turns {
+        let count = turns.len();
+        for knob in 0..self.limits.len() {
+            let mut all: Vec<i32> = turns.iter().map(|size| size[knob]).collect();
+            all.sort_unstable();
+            if self.series == Series::Even && count > 1 {
+                let [first, last] = [all[0], all[count - 1]];
+                let step = (last - first) / (count as i32 - 1);
+                all = (0..count as i32).map(|size| first + size * step).collect();
+            }
+            turns.iter_mut().zip(all).for_each(|(size, turn)| size[knob] = turn);
+        }
+        turns
+    }
+
+    /// A series with every turn moved at random.
+    fn shaken(&self, turns: &Turns, random: &mut Draw) -> Turns {
+        let by = |turn: i32, knob: usize, random: &mut Draw| {
+            let [least, most] = self.limits[knob];
+            (turn + random.below(2 * SHAKE + 1) as i32 - SHAKE as i32).clamp(least, most)
+        };
+        let shaken = turns.iter().map(|size| size.iter().enumerate().map(|(k, turn)| by(*turn, k, random)).collect());
+        self.ordered(shaken.collect())
+    }
+
+    /// Goes along all lines as long as that is worth more.
+    fn improved(&self, mut turns: Turns) -> (f64, Turns) {
+        let lines = self.lines(turns.len());
+        let mut worth = self.worth(&turns);
+        for _ in 0..ROUNDS {
+            let before = worth;
+            for line in &lines {
+                let (most, by) = self.along(&turns, line);
+                if most >= worth {
+                    worth = most;
+                    let knobs = turns.iter_mut().zip(line).flat_map(|(size, way)| size.iter_mut().zip(way));
+                    knobs.for_each(|(turn, way)| *turn += by * way);
+                }
+            }
+            if worth <= before {
+                break;
+            }
+        }
+        // Counted anew: at the very end of a stretch a place may fit by rounding only.
+        (self.worth(&turns), turns)
+    }
+
+    /// The ways to go: one knob or two of one size, or a knob of all sizes from one on; of an even series all of them, or all
+    /// about one of them.
+    fn lines(&self, count: usize) -> Vec<Turns> {
+        let knobs = self.limits.len();
+        let still = vec![vec![0; knobs]; count];
+        let mut lines = Vec::new();
+        for knob in 0..knobs {
+            for size in 0..count {
+                let mut line = still.clone();
+                match self.series {
+                    Series::Rising => line[size][knob] = 1,
+                    Series::Even => (0..count).for_each(|k| line[k][knob] = k as i32 - size as i32),
+                }
+                lines.push(line.clone());
+                if self.series == Series::Rising {
+                    for (other, sign) in (0..knob).flat_map(|other| [(other, 1), (other, -1)]) {
+                        let mut both = line.clone();
+                        both[size][other] = sign;
+                        lines.push(both);
+                    }
+                }
+                let mut from = still.clone();
+                let first = if self.series == Series::Rising { size } else { 0 };
+                from[first..].iter_mut().for_each(|size| size[knob] = 1);
+                lines.push(from);
+            }
+        }
+        lines.retain(|line| line.iter().flatten().any(|by| *by != 0));
+        lines
+    }
+
+    /// What is to be had along a line, and how far to go for it: of all best places the middle of the longest stretch.
+    fn along(&self, turns: &Turns, line: &Turns) -> (f64, i32) {
+        let [least, most] = self.reach(turns, line);
+        let mut steps = vec![0; (most - least + 2) as usize];
+        let moves: Vec<bool> = line.iter().map(|way| way.iter().any(|by| *by != 0)).collect();
+        let mut always = 0;
+        let mut stretches: Vec<[i32; 2]> = Vec::with_capacity(turns.len());
+        for person in 0..self.people() {
+            if (0..turns.len()).any(|size| !moves[size] && self.fits(size, person, &turns[size])) {
+                always += 1;
+                continue;
+            }
+            stretches.clear();
+            for size in (0..turns.len()).filter(|size| moves[*size]) {
+                let mut stretch = [least, most];
+                for asked in &self.asks[size][person] {
+                    narrow(&mut stretch, asked, &turns[size], &line[size]);
+                }
+                if stretch[0] <= stretch[1] {
+                    stretches.push(stretch);
+                }
+            }
+            // Each person counts once, whatever of their stretches overlap.
+            stretches.sort_unstable();
+            let mut end = least - 1;
+            for &[from, to] in &stretches {
+                let from = from.max(end + 1);
+                if from <= to {
+                    steps[(from - least) as usize] += 1;
+                    steps[(to - least + 1) as usize] -= 1;
+                    end = to;
+                }
+            }
+        }
+        let mut people = always;
+        let worths = (least..=most).zip(&steps).map(|(by, step)| {
+            people += step;
+            let at = |(turns, way): (&Vec<i32>, &Vec<i32>)| -> Vec<i32> {
+                turns.iter().zip(way).map(|(turn, way)| turn + by * way).collect()
+            };
+            let departure: f64 = turns.iter().zip(line).map(at).map(|size| self.departure(&size)).sum();
+            f64::from(people) - self.price * departure
+        });
+        let (worth, by) = longest_best(worths);
+        (worth, least + by)
+    }
+
+    /// How far one may go along a line either way: within the limits, and while no knob turns back from size to size.
+    fn reach(&self, turns: &Turns, line: &Turns) -> [i32; 2] {
+        let mut reach = [i32::MIN, i32::MAX];
+        let mut keep = |room: i32, way: i32| match way.signum() {
+            // `room + t way` stays at least 0.
+            1 => reach[0] = reach[0].max(-(room.max(0) / way)),
+            -1 => reach[1] = reach[1].min(room.max(0) / -way),
+            _ => {}
+        };
+        for (size, (at, way)) in turns.iter().zip(line).enumerate() {
+            for knob in 0..at.len() {
+                let [least, most] = self.limits[knob];
+                keep(at[knob] - least, way[knob]);
+                keep(most - at[knob], -way[knob]);
+                if size > 0 {
+                    keep(at[knob] - turns[size - 1][knob], way[knob] - line[size - 1][knob]);
+                }
+            }
+        }
+        reach
+    }
+}
+
+/// Whether a size is all that somebody asks of it.
+#[must_use]
+pub fn is_met(asks: &Asks, turns: &[i32]) -> bool {
+    asks.iter().all(|asked| (asked.band[0]..=asked.band[1]).contains(&asked.change(turns)))
+}
+
+/// The better of two, the first of equals.
+fn better(one: Option<(f64, Turns)>, other: (f64, Turns)) -> Option<(f64, Turns)> {
+    one.filter(|one| one.0 >= other.0).or(Some(other))
+}
+
+
+/// Keeps of a stretch along a line what leaves a length in its band.
+fn narrow(stretch: &mut [i32; 2], asked: &Asked, turns: &[i32], way: &[i32]) {
+    let (value, by) = (asked.change(turns), asked.change(way));
+    let [least, most] = asked.band.map(|bound| bound - value);
+    if by == 0.0 {
+        if least > 0.0 || most < 0.0 {
+            *stretch = [1, 0];
+        }
+        return;
+    }
+    let [from, to] = if by > 0.0 { [least / by, most / by] } else { [most / by, least / by] };
+    // Casts saturate, and the stretch has its own ends.
+    *stretch = [stretch[0].max(from.ceil() as i32), stretch[1].min(to.floor() as i32)];
+}
+
+/// The greatest of some values, and the middle of the longest run that has it.
+fn longest_best(values: impl Iterator<Item = f64>) -> (f64, i32) {
+    let (mut best, mut run, mut length) = (f64::NEG_INFINITY, 0, 0);
+    let mut open: Option<usize> = None;
+    for (place, value) in values.enumerate() {
+        if value > best {
+            (best, run, length, open) = (value, place, 1, Some(place));
+        } else if value == best {
+            let from = *open.get_or_insert(place);
+            if place + 1 - from > length {
+                (run, length) = (from, place + 1 - from);
+            }
+        } else {
+            open = None;
+        }
+    }
+    (best, (run + length.saturating_sub(1) / 2) as i32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// People who ask of one length each that it lies between two places.
+    fn on_a_line(bands: &[[f64; 2]]) -> Vec<Asks> {
+        bands.iter().map(|band| vec![Asked { per_step: vec![1.0], band: *band }]).collect()
+    }
+
+    /// The most people that `count` places on a line can stand for, by dynamic programming over the ends of their bands.
+    fn most(bands: &[[f64; 2]], count: usize) -> usize {
+        let mut bands: Vec<[i32; 2]> = bands.iter().map(|[a, b]| [a.ceil() as i32, b.floor() as i32]).collect();
+        bands.sort_unstable();
+        let places: Vec<i32> = bands.iter().map(|band| band[1]).collect();
+        // By the last place chosen: people fitted so far.
+        let fitted = |place: i32, last: Option<i32>| {
+            let is_new = |band: &&[i32; 2]| {
+                (band[0]..=band[1]).contains(&place) && last.is_none_or(|last| !(band[0]..=band[1]).contains(&last))
+            };
+            bands.iter().filter(is_new).count()
+        };
+        let mut best: Vec<usize> = places.iter().map(|place| fitted(*place, None)).collect();
+        for _ in 1..count {
+            let next = |place: &i32| {
+                let before = places.iter().zip(&best).filter(|(last, _)| *last <= place);
+                before.map(|(last, best)| best + fitted(*place, Some(*last))).max().unwrap_or(0)
+            };
+            best = places.iter().map(next).collect();
+        }
+        best.into_iter().max().unwrap_or(0)
+    }
+
+    #[test]
+    fn on_a_line_no_series_fits_more() {
+        let mut random = Draw::new(7);
+        for count in 1..=4 {
+            let mut band = || {
+                let middle = 80.0 * random.normal();
+                [middle - 15.0 - 10.0 * random.share(), middle + 20.0]
+            };
+            let bands: Vec<[f64; 2]> = (0..150).map(|_| band()).collect();
+            let asks = vec![on_a_line(&bands); count];
+            let search = Search { asks: &asks, limits: &[[-300, 300]], habits: &[1.0], price: 0.0, series: Series::Rising };
+            let found = search.best(1);
+            assert_eq!(search.covered(&found), most(&bands, count), "{count} sizes: {found:?}");
+            assert_eq!(found, search.best(1), "the same seed, the same sizes");
+        }
+    }
+
+    /// People in groups, each about its own place among two knobs that both change both lengths.
+    fn groups(middles: &[[f64; 2]], half: f64) -> Vec<Asks> {
+        let mut random = Draw::new(3);
+        let mut person = |middle: &[f64; 2]| -> Asks {
+            let [a, b] = [random.share() - 0.5, random.share() - 0.5].map(|off| 2.0 * off);
+            let asked = |per_step: [f64; 2], off: f64| {
+                let value = per_step[0] * middle[0] + per_step[1] * middle[1] + off;
+                Asked { per_step: per_step.to_vec(), band: [value - half, value + half] }
+            };
+            vec![asked([1.0, 0.2], a), asked([0.1, 1.0], b)]
+        };
+        middles.iter().flat_map(|middle| (0..40).map(|_| person(middle)).collect::<Vec<_>>()).collect()
+    }
+
+    #[test]
+    fn groups_that_sizes_can_fit_are_all_fitted() {
+        let check = |series, middles: &[[f64; 2]], count: usize, expect: usize| {
+            let asks = vec![groups(middles, 6.0); count];
+            let search = Search { asks: &asks, limits: &[[-200, 200]; 2], habits: &[1.0; 2], price: 0.0, series };
+            let found = search.best(5);
+            assert_eq!(search.covered(&found), expect, "{series:?}: {found:?}");
+            let rises = |pair: &[Vec<i32>]| pair[0].iter().zip(&pair[1]).all(|(a, b)| a <= b);
+            assert!(found.windows(2).all(rises), "{found:?}");
+        };
+        let steps_differ = [[-60.0, -50.0], [-10.0, -30.0], [70.0, 20.0]];
+        let steps_alike = [[-60.0, -20.0], [0.0, 10.0], [60.0, 40.0]];
+        check(Series::Rising, &steps_differ, 3, 120);
+        check(Series::Even, &steps_alike, 3, 120);
+        // No even steps meet groups that lie at uneven ones, and two sizes no three groups.
+        check(Series::Even, &steps_differ, 3, 80);
+        check(Series::Rising, &steps_differ, 2, 80);
+        check(Series::Rising, &steps_alike, 1, 40);
+        check(Series::Even, &steps_alike, 1, 40);
+    }
+
+    #[test]
+    fn a_knob_keeps_its_habit_unless_people_pay() {
+        // The second length may be anything between wide bounds, but for a few people who ask for more.
+        let person = |place: f64, more: f64| -> Asks {
+            vec![
+                Asked { per_step: vec![1.0, 0.0], band: [place - 5.0, place + 5.0] },
+                Asked { per_step: vec![0.0, 1.0], band: [more, 100.0] },
+            ]
+        };
+        let check = |eager: usize, price: f64, expect: i32| {
+            let people = (0..40).map(|k| person(30.0, if k < eager { 40.0 } else { -50.0 })).collect();
+            let asks = vec![people];
+            let search = Search { asks: &asks, limits: &[[-100, 100]; 2], habits: &[1.0, 0.5], price, series: Series::Rising };
+            let found = search.best(1);
+            assert!((25..=35).contains(&found[0][0]), "{found:?}");
+            assert!((found[0][1] - expect).abs() <= 3, "{found:?}, not {expect}");
+        };
+        check(0, 0.1, 15);
+        // 23 steps off its habit cost 2.3 people of those 3, and 23 of them.
+        check(3, 0.1, 40);
+        check(3, 1.0, 15);
+    }
+
+    #[test]
+    fn what_no_size_can_have_is_not_counted() {
+        let impossible = vec![
+            Asked { per_step: vec![1.0], band: [5.0, 6.0] },
+            Asked { per_step: vec![0.0], band: [1.0, 2.0] },
+        ];
+        let possible = vec![Asked { per_step: vec![1.0], band: [4.0, 9.0] }];
+        let asks = vec![vec![impossible, possible]];
+        let search = Search { asks: &asks, limits: &[[0, 8]], habits: &[1.0], price: 0.0, series: Series::Rising };
+        let found = search.best(1);
+        // The middle of the stretch that the limit leaves.
+        assert_eq!((search.covered(&found), found), (1, vec![vec![6]]));
+    }
+}
