@@ -8,6 +8,7 @@
 mod advice;
 pub mod alter;
 mod analysis;
+pub mod chance;
 mod class;
 mod distribution;
 mod ease;

@@ -192,7 +192,7 @@ fn asked(study: &Study, wish: &Wish) -> Result<(JobSpec, Target)> {
 }
 
 /// The name that is asked for among those known, whatever its case; the only one where none is asked for.
-fn one(what: &'static str, asked: Option<&str>, mut known: Vec<String>) -> Result<String> {
+pub(crate) fn one(what: &'static str, asked: Option<&str>, mut known: Vec<String>) -> Result<String> {
     let mut seen = std::collections::BTreeSet::new();
     known.retain(|name| seen.insert(name.clone()));
     let found = match asked {

@@ -8,6 +8,7 @@ mod answers;
 mod attempt;
 pub mod bodies;
 mod catalogue;
+mod chance;
 mod error;
 pub mod evaluate;
 pub mod files;
@@ -38,6 +39,9 @@ pub use attempt::{Attempt, Tried, TriedChi, TriedCloth, TriedEase, TriedErrors, 
 pub use catalogue::{
     Deed, FabricRow, Mode, Part, Removed, Saved, SizeRow, StyleGiven, SubjectRow, doubts, is_doubtful, percentile,
     percentile_text, with_bending,
+};
+pub use chance::{
+    Chance, DrapedChance, LevelChance, LikelyDimension, PlantedLevel, PlantedTally, Question, Reliability, SizeChance, chance, planted,
 };
 pub use error::{Problem, Result, StudyError};
 pub use rows::{

@@ -17,7 +17,7 @@ pub use alter::Alter;
 pub use attempt::{AuditGarments, Try};
 pub use body::{Body, BodyBuild, MeshUnit, Sex};
 pub use catalogue::{Catalogue, FabricValues, SizeValues, StyleValues, SubjectValues};
-pub use fit::{Fit, Section};
+pub use fit::{Chance, Fit, Section};
 pub use pattern::{BesideFiles, DraftStyle, DxfStandard, Pattern, PatternUnit, SeamCommand, StyleFiles};
 pub use report::{Purpose, Report};
 
@@ -77,6 +77,8 @@ pub enum Command {
     Ease(StudyPath),
     /// Which size to wear, and where it and the two beside it are tight or loose; needs no simulation.
     Fit(Fit),
+    /// How probable it is that a garment fits, since tapes err and garments are never made exactly; needs no simulation.
+    Chance(Chance),
     /// What to change of a size so that it fits somebody: the least change of its handles, as a new DXF.
     Alter(Alter),
     /// Cross sections: the air between body and cloth at a level, all sizes over each other.
