@@ -3,7 +3,7 @@
 use super::args::Chance as Arguments;
 use super::context::Context;
 use super::{CliError, End, Outcome, output, pictures};
-use study::{Chance, DrapedChance, LevelChance, PlantedLevel, Question, Reliability, SizeChance, Table, Value};
+use study::{Chance, DrapedChance, LevelChance, LikelyDimension, PlantedLevel, Question, Reliability, SizeChance, Table, Value};
 
 /// Shares of the truth that 80 % intervals may hold.
 const CALIBRATED: std::ops::RangeInclusive<f64> = 0.77..=0.83;
@@ -60,6 +60,8 @@ fn print(context: &Context, found: &Chance) -> Result<(), CliError> {
     context.print(&sizes(&found.sizes))?;
     output::text(&format!("{told}\n"))?;
     context.print(&levels(size))?;
+    output::text("body\n")?;
+    context.print(&body(&found.body))?;
     if let Some(drape) = &found.drape {
         output::text(&draped(drape))?;
         drape.refused.iter().for_each(|reason| context.say(format_args!("left out: {reason}")));
@@ -103,6 +105,22 @@ fn levels(size: &SizeChance) -> Table {
     };
     let columns = ["level", "target_mm", "ease_mm", "80 % interval", "as meant %", "tight %", "loose %"];
     table(columns, size.levels.iter().map(row))
+}
+
+/// What was read, beside what it probably is.
+fn body(dimensions: &[LikelyDimension]) -> Table {
+    let row = |one: &LikelyDimension| {
+        let [read, error] = one.read?;
+        let [low, middle, high] = one.likely.map(|value| format!("{value:.0}"));
+        Some([
+            one.dimension.to_owned(),
+            format!("{read:.0}"),
+            format!("{error:.1}"),
+            middle,
+            format!("{low} to {high}"),
+        ])
+    };
+    table(["dimension", "read", "error", "likely", "80 % interval"], dimensions.iter().filter_map(row))
 }
 
 fn draped(drape: &DrapedChance) -> String {

@@ -306,13 +306,13 @@ pub enum StudyCommand {
     Check(StudyPath),
     /// Print [[subject]] tables of people who stand for a population, drawn from a published survey [Gordon 2014].
     Population {
-        /// How many of each sex.
-        #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=500))]
+        /// How many of each sex; more than 500 are people as they are drawn.
+        #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=100_000))]
         bodies: u32,
         /// Only of this sex.
         #[arg(long, value_enum)]
         sex: Option<Sex>,
-        /// People drawn of each sex, of whom they are chosen.
+        /// People drawn of each sex, of whom up to 500 are chosen.
         #[arg(long, default_value_t = 5000, value_parser = clap::value_parser!(u32).range(100..=100_000))]
         people: u32,
         /// Seed of the draw.

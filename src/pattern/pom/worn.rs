@@ -49,47 +49,58 @@ impl Style {
     /// What the style has at the levels of a body that it covers, from the neck down.
     #[must_use]
     pub fn worn_lengths(&self, stand: &Stand) -> Vec<WornLength> {
+        self.worn_lengths_on(std::slice::from_ref(stand)).pop().unwrap_or_default()
+    }
+
+    /// The same for several bodies: what the pieces are is found once.
+    #[must_use]
+    pub fn worn_lengths_on(&self, stands: &[Stand]) -> Vec<Vec<WornLength>> {
         let anatomy = Anatomy::of(self);
         let garb = Garb::of(&anatomy);
         let points = garb.points();
-        let Garb { trunk, sleeve, legs, .. } = &garb;
-        let of = |point: Point| points.iter().find(|one| one.point == point).map(|one: &PointOfMeasure| one.length_m);
-        let mut found = Vec::new();
-        let mut add = |level, length_m: Option<f64>, height_m| {
-            found.extend(length_m.map(|length_m| WornLength { level, length_m, height_m }));
-        };
-        let both = |half_m: f64| 2.0 * half_m;
-        add("neck", of(Point::Neck), None);
-        // How wide the shoulders of a garment without sleeves are is its design.
-        add("across_shoulder", of(Point::AcrossShoulder).filter(|_| sleeve.is_some()), None);
-        add("chest", of(Point::HalfChest).map(both), None);
-        let hangs = Hangs::of(&anatomy, trunk.as_ref(), legs.as_ref(), stand);
-        let at = |height_m: f64| hangs.as_ref().and_then(|hangs| hangs.girth_m(&anatomy, height_m));
-        add("underbust", at(stand.underbust_m), None);
-        match (trunk, legs) {
-            (Some(trunk), _) => {
-                let seam = trunk.waist_below_neck_m().map(|m| stand.side_neck_m - m);
-                let is_seam = seam.is_some_and(|height_m| (height_m - stand.waist_m).abs() < AT_WAIST_M);
-                add("waist", if is_seam { of(Point::HalfWaist).map(both) } else { at(stand.waist_m) }, None);
-            }
-            (None, Some(legs)) => {
-                let top_m = stand.crotch_m + legs.top_above_fork_m();
-                add("waist", of(Point::HalfWaist).map(both), Some(top_m));
-            }
-            (None, None) => add("waist", of(Point::HalfWaist).map(both), None),
-        }
-        add("hip", at(stand.hip_m), None);
-        add("thigh", of(Point::HalfThigh).map(both), None);
-        let knee = legs.as_ref().and_then(|legs| legs.girth_m(stand.knee_m - stand.crotch_m));
-        add("knee", knee, None);
-        add("upper_arm", of(Point::HalfBicep).map(both), None);
-        if let (Some(sleeve), Some(sleeve_m)) = (sleeve, of(Point::SleeveLength)) {
-            add("forearm", sleeve.girth_m(stand.forearm_along_m), None);
-            let reaches = sleeve_m > stand.wrist_along_m - SHORT_OF_WRIST_M;
-            add("wrist", of(Point::HalfCuff).filter(|_| reaches).map(both), None);
-        }
-        found
+        stands.iter().map(|stand| on(&anatomy, &garb, &points, stand)).collect()
     }
+}
+
+/// What a garment has at the levels of one body.
+fn on(anatomy: &Anatomy<'_>, garb: &Garb<'_>, points: &[PointOfMeasure], stand: &Stand) -> Vec<WornLength> {
+    let Garb { trunk, sleeve, legs, .. } = garb;
+    let of = |point: Point| points.iter().find(|one| one.point == point).map(|one: &PointOfMeasure| one.length_m);
+    let mut found = Vec::new();
+    let mut add = |level, length_m: Option<f64>, height_m| {
+        found.extend(length_m.map(|length_m| WornLength { level, length_m, height_m }));
+    };
+    let both = |half_m: f64| 2.0 * half_m;
+    add("neck", of(Point::Neck), None);
+    // How wide the shoulders of a garment without sleeves are is its design.
+    add("across_shoulder", of(Point::AcrossShoulder).filter(|_| sleeve.is_some()), None);
+    add("chest", of(Point::HalfChest).map(both), None);
+    let hangs = Hangs::of(anatomy, trunk.as_ref(), legs.as_ref(), stand);
+    let at = |height_m: f64| hangs.as_ref().and_then(|hangs| hangs.girth_m(anatomy, height_m));
+    add("underbust", at(stand.underbust_m), None);
+    match (trunk, legs) {
+        (Some(trunk), _) => {
+            let seam = trunk.waist_below_neck_m().map(|m| stand.side_neck_m - m);
+            let is_seam = seam.is_some_and(|height_m| (height_m - stand.waist_m).abs() < AT_WAIST_M);
+            add("waist", if is_seam { of(Point::HalfWaist).map(both) } else { at(stand.waist_m) }, None);
+        }
+        (None, Some(legs)) => {
+            let top_m = stand.crotch_m + legs.top_above_fork_m();
+            add("waist", of(Point::HalfWaist).map(both), Some(top_m));
+        }
+        (None, None) => add("waist", of(Point::HalfWaist).map(both), None),
+    }
+    add("hip", at(stand.hip_m), None);
+    add("thigh", of(Point::HalfThigh).map(both), None);
+    let knee = legs.as_ref().and_then(|legs| legs.girth_m(stand.knee_m - stand.crotch_m));
+    add("knee", knee, None);
+    add("upper_arm", of(Point::HalfBicep).map(both), None);
+    if let (Some(sleeve), Some(sleeve_m)) = (sleeve, of(Point::SleeveLength)) {
+        add("forearm", sleeve.girth_m(stand.forearm_along_m), None);
+        let reaches = sleeve_m > stand.wrist_along_m - SHORT_OF_WRIST_M;
+        add("wrist", of(Point::HalfCuff).filter(|_| reaches).map(both), None);
+    }
+    found
 }
 
 /// A way down the front of a garment with the height of its beginning.

@@ -61,6 +61,9 @@ pub(super) struct Bench {
     dimensions: Vec<Dimension>,
 }
 
+/// Ease by level, m.
+type Eases = Vec<(String, f64)>;
+
 /// Parts of a garment that are sewn each by itself: trunk, sleeves, legs, shoulders, neck.
 const PARTS: usize = 5;
 
@@ -152,14 +155,20 @@ impl Bench {
         scanned: Option<&Body>,
         tolerance_m: f64,
     ) -> Vec<Level> {
-        let on = |body: &Body| -> Vec<(String, f64)> {
-            ease::on(style, body).into_iter().map(|ease| (ease.level.clone(), ease.ease_m())).collect()
+        let at = |eases: &Eases, level: &str| eases.iter().find(|(name, _)| name == level).map(|(_, m)| *m);
+        let bodies = [Some(built), scanned].into_iter().chain(moved.iter().flatten().map(Option::as_ref));
+        let all: Vec<&Body> = bodies.clone().flatten().collect();
+        let mut found = ease::on_all(style, &all).into_iter();
+        let mut next = |body: Option<&Body>| -> Option<Eases> {
+            let eases = body.and_then(|_| found.next())?;
+            Some(eases.into_iter().map(|ease| (ease.level.clone(), ease.ease_m())).collect())
         };
-        let at = |eases: &[(String, f64)], level: &str| eases.iter().find(|(name, _)| name == level).map(|(_, m)| *m);
-        let middle = on(built);
-        let moved: Vec<[Option<Vec<(String, f64)>>; 2]> =
-            moved.iter().map(|[less, more]| [less.as_ref().map(on), more.as_ref().map(on)]).collect();
-        let slope = |level: &str, here: f64, (dimension, [less, more]): (&Dimension, &[Option<Vec<(String, f64)>>; 2])| {
+        let mut eases = bodies.map(|body| next(body));
+        let middle = eases.next().flatten().unwrap_or_default();
+        let own = eases.next().flatten();
+        let moved: Vec<[Option<Eases>; 2]> =
+            (0..moved.len()).map(|_| [eases.next().flatten(), eases.next().flatten()]).collect();
+        let slope = |level: &str, here: f64, (dimension, [less, more]): (&Dimension, &[Option<Eases>; 2])| {
             let [less, more] = [less, more].map(|eases| eases.as_ref().and_then(|eases| at(eases, level)));
             let sides = f64::from(u8::from(less.is_some()) + u8::from(more.is_some()));
             let change = more.unwrap_or(here) - less.unwrap_or(here);
@@ -177,7 +186,7 @@ impl Bench {
                 made: (part, share * tolerance_m),
             };
             // A scan has a shape of its own: its ease where it was read, moved to the middle person.
-            let own = scanned.and_then(|body| at(&on(body), name));
+            let own = own.as_ref().and_then(|eases| at(eases, name));
             let middle_m = own.map_or(*here, |own| own + found.on(&self.off(&self.readings, &self.middle)) - *here);
             Level { middle_m, ..found }
         };

@@ -4,7 +4,7 @@ use body::{Body, Dimension, Joint};
 use fit::{Cuts, Ease};
 use geom::V3;
 use pattern::Style;
-use pattern::pom::Stand;
+use pattern::pom::{Stand, WornLength};
 
 /// Distance of the forearm's girth below the elbow, m.
 const FOREARM_BELOW_ELBOW_M: f64 = 0.045;
@@ -50,11 +50,23 @@ fn stand(body: &Body) -> Stand {
 /// Ease at every level that the garment covers, from the neck down: along the lines of its seam file, and where that has none, along
 /// those found by what its pieces are. A study's own cuts classify it when it is read.
 pub(crate) fn on(style: &Style, body: &Body) -> Vec<Ease> {
-    let found = style.worn_lengths(&stand(body));
-    let stated = |level: &str| style.fit_levels.iter().find(|(name, _)| name == level);
+    on_all(style, &[body]).pop().unwrap_or_default()
+}
+
+/// The same for several bodies: what the pieces are is found once.
+pub(crate) fn on_all(style: &Style, bodies: &[&Body]) -> Vec<Vec<Ease>> {
+    let stands: Vec<Stand> = bodies.iter().map(|body| stand(body)).collect();
+    let stated: Vec<(&str, f64)> =
+        style.fit_levels.iter().map(|(level, path)| (level.as_str(), style.path_length_m(path))).collect();
+    let worn = style.worn_lengths_on(&stands);
+    bodies.iter().zip(&worn).map(|(body, found)| of(&stated, found, body)).collect()
+}
+
+fn of(stated: &[(&str, f64)], found: &[WornLength], body: &Body) -> Vec<Ease> {
+    let is_stated = |level: &str| stated.iter().any(|(name, _)| *name == level);
     let mut levels: Vec<(&str, f64, Option<f64>)> = Vec::new();
-    levels.extend(style.fit_levels.iter().map(|(level, path)| (level.as_str(), style.path_length_m(path), None)));
-    let others = found.iter().filter(|worn| stated(worn.level).is_none());
+    levels.extend(stated.iter().map(|(level, length_m)| (*level, *length_m, None)));
+    let others = found.iter().filter(|worn| !is_stated(worn.level));
     levels.extend(others.map(|worn| (worn.level, worn.length_m, worn.height_m)));
     let pattern = levels.iter().map(|(level, length_m, _)| (*level, *length_m));
     let of_body = |level: &str| {

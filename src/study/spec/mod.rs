@@ -196,10 +196,7 @@ impl JobSpec {
         }
         subject_inputs(&mut inputs, &self.subject, &self.measurements);
         if let Some(scan) = &self.scan {
-            inputs.set(format!("subject.{}.scan", self.subject), scan.file.hash());
-            if let Some(unit) = scan.unit {
-                inputs.set(format!("subject.{}.scan_unit", self.subject), unit.name());
-            }
+            scan_inputs(&mut inputs, &self.subject, scan);
         }
         fabric_inputs(&mut inputs, &self.fabric);
         for (name, version) in versions::versions(self.simulator) {
@@ -216,6 +213,14 @@ pub(crate) fn subject_inputs(inputs: &mut Inputs, id: &str, m: &Measurements) {
         if let Some(value) = field.get(m) {
             inputs.set(format!("subject.{id}.{}", field.key), value);
         }
+    }
+}
+
+/// A subject's scan as inputs.
+pub(crate) fn scan_inputs(inputs: &mut Inputs, id: &str, scan: &ScanFile) {
+    inputs.set(format!("subject.{id}.scan"), scan.file.hash());
+    if let Some(unit) = scan.unit {
+        inputs.set(format!("subject.{id}.scan_unit"), unit.name());
     }
 }
 
