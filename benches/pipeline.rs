@@ -14,7 +14,7 @@ use toile::render::{self, Camera, Frame, Layer, Material, Scene, View};
 use toile::sim::fem::{self, Params};
 use toile::sim::{Drape, Fabric, Silent, fabric, laboratory};
 use toile::study::seams::pattern_files::{Beside, inspect};
-use toile::study::{RunOptions, Workspace};
+use toile::study::{Question, RunOptions, Workspace, chance};
 
 fn main() {
     divan::main();
@@ -86,6 +86,26 @@ fn drape_from(params: Params, garments: &[Garment]) -> Drape {
 #[divan::bench]
 fn body_build() -> Body {
     body::build(divan::black_box(&subject())).expect("a person that can be")
+}
+
+/// How probable it is that three sizes fit a subject: 36 bodies and 500 draws.
+#[divan::bench(sample_count = 5)]
+fn chance_of_fit(bencher: Bencher) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let workspace = Workspace::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
+    let quickstart = concat!(env!("CARGO_MANIFEST_DIR"), "/studies/quickstart");
+    let study = workspace.load_study(quickstart.as_ref()).expect("a good study");
+    let question = Question {
+        garment: None,
+        subject: Some("ii".to_owned()),
+        size: None,
+        draws: 500,
+        seed: 1,
+        error_factor: 1.0,
+        tolerance_mm: 6.0,
+        fem: 0,
+    };
+    bencher.bench_local(|| chance(&study, &question).expect("it can be told"));
 }
 
 #[divan::bench]

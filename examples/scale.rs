@@ -20,8 +20,7 @@ use toile::study::files;
 use toile::study::patterns;
 use toile::study::{
     JobFilter, JobId, JobSpec, Measured, Outcome, Result, RunOptions, Selection, Status, Study, StudyError, Workspace,
-    WornOn,
-    new_study,
+    WornOn, new_study,
 };
 
 /// Measurements of a result.

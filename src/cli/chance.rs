@@ -3,7 +3,9 @@
 use super::args::Chance as Arguments;
 use super::context::Context;
 use super::{CliError, End, Outcome, output, pictures};
-use study::{Chance, DrapedChance, LevelChance, LikelyDimension, PlantedLevel, Question, Reliability, SizeChance, Table, Value};
+use study::{
+    Chance, DrapedChance, LevelChance, LikelyDimension, PlantedLevel, Question, Reliability, SizeChance, Table, Value,
+};
 
 /// Shares of the truth that 80 % intervals may hold.
 const CALIBRATED: std::ops::RangeInclusive<f64> = 0.77..=0.83;
@@ -39,14 +41,14 @@ pub fn chance(context: &Context, arguments: &Arguments) -> Outcome {
         return Ok(if CALIBRATED.contains(&tally.held.share) { End::Done } else { End::CheckFailed });
     }
     let found = study::chance(&study, &question)?;
+    if let Some(file) = &arguments.output {
+        pictures::write_chart(context, file, &found.chart()?)?;
+    }
     match context.json {
         true => output::json(&found)?,
         false => print(context, &found)?,
     }
-    match &arguments.output {
-        Some(file) => pictures::write_chart(context, file, &found.chart()?),
-        None => Ok(End::Done),
-    }
+    Ok(End::Done)
 }
 
 fn print(context: &Context, found: &Chance) -> Result<(), CliError> {
@@ -126,9 +128,9 @@ fn body(dimensions: &[LikelyDimension]) -> Table {
 fn draped(drape: &DrapedChance) -> String {
     let [low, high] = drape.fits.interval.map(percent);
     let fits = percent(drape.fits.share);
-    let hem = drape.hem_front_over_back_mm.map_or(String::new(), |[low, _, high]| {
-        format!(", hem {low:+.0} to {high:+.0} mm in front")
-    });
+    let hem = drape
+        .hem_front_over_back_mm
+        .map_or(String::new(), |[low, _, high]| format!(", hem {low:+.0} to {high:+.0} mm in front"));
     let most = drape
         .most_kpa
         .map_or(String::new(), |[low, _, high]| format!(", presses with at most {low:.2} to {high:.2} kPa"));

@@ -10,7 +10,9 @@ use super::args::{
 };
 use super::context::{Context, project_folder};
 use super::{CliError, End, Outcome, output};
-use study::{Chart, Cloth, JobId, Map, MeshFormat, Order, Purpose, Rgb, Shot, Stage, Study, View, Workspace, Zoom, files};
+use study::{
+    Chart, Cloth, JobId, Map, MeshFormat, Order, Purpose, Rgb, Shot, Stage, Study, View, Workspace, Zoom, files,
+};
 
 /// `toile render`.
 pub fn render(context: &Context, arguments: &Render) -> Outcome {

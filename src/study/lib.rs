@@ -41,7 +41,8 @@ pub use catalogue::{
     percentile_text, with_bending,
 };
 pub use chance::{
-    Chance, DrapedChance, LevelChance, LikelyDimension, PlantedLevel, PlantedTally, Question, Reliability, SizeChance, chance, planted,
+    Chance, DrapedChance, LevelChance, LikelyDimension, PlantedLevel, PlantedTally, Question, Reliability, SizeChance,
+    chance, planted,
 };
 pub use error::{Problem, Result, StudyError};
 pub use rows::{

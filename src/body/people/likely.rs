@@ -70,7 +70,8 @@ impl Likely {
             let own = if i == j { (seen[i].2 / seen[i].1).powi(2) } else { 0.0 };
             row(i)[seen[j].0 as usize] + own
         });
-        let solver = of_readings.cholesky().expect("the survey's covariance is positive definite, and each is seen once");
+        let solver =
+            of_readings.cholesky().expect("the survey's covariance is positive definite, and each is seen once");
         let with = DMatrix::from_fn(seen.len(), COUNT, |i, j| row(i)[j]);
         let off = DVector::from_fn(seen.len(), |i, _| seen[i].1.ln() - before[seen[i].0 as usize]);
         let mean = before + with.transpose() * solver.solve(&off);
@@ -113,6 +114,7 @@ fn root(covariance: DMatrix<f64>) -> DMatrix<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::Noise;
     use Dimension::{ChestGirth, HipGirth, Stature, WaistGirth, Weight};
 
     fn man() -> Measurements {
@@ -127,7 +129,11 @@ mod tests {
         for dimension in Dimension::ALL {
             let found = median.get(dimension).expect("every dimension");
             // A thousandth of the survey's variance is nobody's but the dimension's own.
-            assert!((found / profile.at(dimension) - 1.0).abs() < 2e-3, "{dimension:?} {found} {}", profile.at(dimension));
+            assert!(
+                (found / profile.at(dimension) - 1.0).abs() < 2e-3,
+                "{dimension:?} {found} {}",
+                profile.at(dimension)
+            );
         }
         assert!(likely.spread(ChestGirth) < 1e-6 && likely.spread(HipGirth) > 0.01);
     }
@@ -146,6 +152,41 @@ mod tests {
         assert!(taped.0 < 1.145 && taped.0 > 1.10, "{taped:?}");
         assert!((guessed.0 - expected).abs() < 5e-3, "{guessed:?}, {expected}");
         assert!(exact.1 < taped.1 && taped.1 < guessed.1);
+    }
+
+    /// Share of planted people whose hip lies in the 80 % interval that is told from readings, whose errors are so many times what they
+    /// are taken for.
+    fn held(read: &[Dimension], error_factor: f64) -> f64 {
+        let mut noise = Noise(7);
+        let mut normal = || noise.normal();
+        let (mut held, people) = (0, 2000);
+        for number in 0..people {
+            let sex = if number % 2 == 0 { Sex::Female } else { Sex::Male };
+            let person = Likely::anybody(sex).person(&std::array::from_fn(|_| normal()));
+            let value = |dimension: Dimension| person.get(dimension).expect("every dimension");
+            let seen: Vec<_> = read
+                .iter()
+                .map(|&one| {
+                    let error = one.reading_error();
+                    (one, value(one) + error_factor * error * normal(), error)
+                })
+                .collect();
+            let likely = Likely::seen(sex, &seen);
+            let off = (value(HipGirth) / likely.median().get(HipGirth).expect("every dimension")).ln();
+            held += usize::from((off / likely.spread(HipGirth)).abs() < 1.281_55);
+        }
+        held as f64 / f64::from(people)
+    }
+
+    #[test]
+    fn intervals_hold_as_many_people_as_they_say_and_errors_that_are_not_told_break_them() {
+        let girths = [Stature, Weight, ChestGirth, WaistGirth, HipGirth];
+        for read in [&[][..], &[Stature, Weight], &girths] {
+            let share = held(read, 1.0);
+            assert!((0.77..0.83).contains(&share), "{read:?}: {share}");
+        }
+        assert!(held(&girths, 2.0) < 0.70, "{}", held(&girths, 2.0));
+        assert!(held(&girths, 0.0) > 0.85, "{}", held(&girths, 0.0));
     }
 
     #[test]

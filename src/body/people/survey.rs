@@ -78,7 +78,9 @@ impl Survey {
     pub fn expect(&self, wanted: &[Dimension], given: &[(Dimension, f64)]) -> Vec<Expected> {
         let count = given.len();
         let covariance = DMatrix::from_fn(count, count, |i, j| self.ridged(given[i].0, given[j].0));
-        let solver = covariance.cholesky().expect("correlations of a survey are positive definite, and each dimension is given once");
+        let solver = covariance
+            .cholesky()
+            .expect("correlations of a survey are positive definite, and each dimension is given once");
         let off = DVector::from_fn(count, |i, _| given[i].1.ln() - self.mean[given[i].0 as usize]);
         let weights = solver.solve(&off);
         let one = |&dimension: &Dimension| {

@@ -302,8 +302,8 @@ mod tests {
         let found = representatives(Sex::Male, &many);
         assert_eq!(found.len(), GROUPED + 1);
         assert!((found.iter().map(|one| one.share).sum::<f64>() - 1.0).abs() < 1e-9);
-        let mean = found.iter().filter_map(|one| one.measurements.get(Dimension::Stature)).sum::<f64>()
-            / found.len() as f64;
+        let mean =
+            found.iter().filter_map(|one| one.measurements.get(Dimension::Stature)).sum::<f64>() / found.len() as f64;
         assert!((mean - 1.756).abs() < 0.01, "{mean}");
     }
 

@@ -100,9 +100,7 @@ fn one(
     let fabric = drawn_fabric(&job.fabric, draw);
     let [near, far] = OFFSET_MU;
     let mut parameters = job.parameters.clone();
-    parameters
-        .set("fem.offset_mu", json!(near + (far - near) * draw.share()))
-        .map_err(StudyError::stage("chance"))?;
+    parameters.set("fem.offset_mu", json!(near + (far - near) * draw.share())).map_err(StudyError::stage("chance"))?;
     let body = bodies::build_body(&person)?;
     let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).map_err(StudyError::stage("field"))?;
     let simulator = Simulator::Fem;

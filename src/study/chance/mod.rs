@@ -3,6 +3,8 @@
 mod bench;
 mod draped;
 mod planted;
+#[cfg(test)]
+mod tests;
 
 pub use draped::DrapedChance;
 pub use planted::{PlantedLevel, PlantedTally, Reliability, planted};
@@ -136,7 +138,7 @@ impl Chance {
         self.sizes.iter().find(|size| size.size == self.told)
     }
 
-    /// The ease of the told size, level by level, beside its targets.
+    /// The ease of every size, level by level, beside its targets.
     ///
     /// # Errors
     /// When it cannot be drawn.
