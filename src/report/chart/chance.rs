@@ -4,6 +4,7 @@ use super::super::text::number;
 use super::super::{ReportError, theme};
 use super::Chart;
 use super::canvas::{Align, Axis, ROW, TYPE, WIDTH, draw};
+use geom::units::mm;
 
 const LEFT: i32 = 330;
 const TOP: i32 = 110;
@@ -17,10 +18,10 @@ pub struct Probable {
     pub size: String,
     /// Level, in words.
     pub level: String,
-    /// Least and greatest ease that is meant, mm.
-    pub target_mm: Option<[f64; 2]>,
-    /// Lower end, middle and upper end of the 80 % interval of the ease, mm.
-    pub ease_mm: [f64; 3],
+    /// Least and greatest ease that is meant, m.
+    pub target_m: Option<[f64; 2]>,
+    /// Lower end, middle and upper end of the 80 % interval of the ease, m.
+    pub ease_m: [f64; 3],
     /// Probability that it is as meant.
     pub share: Option<f64>,
 }
@@ -33,8 +34,8 @@ pub struct Probable {
 pub fn chance_chart(title: &str, rows: &[Probable]) -> Result<Chart, ReportError> {
     let (sizes, levels) = (names(rows, |row| &row.size), names(rows, |row| &row.level));
     let height = ROW.max((TYPE + 10) * sizes.len() as i32 + 14);
-    let ends = rows.iter().flat_map(|row| row.ease_mm.into_iter().chain(row.target_mm.into_iter().flatten()));
-    let (low, high) = ends.fold((0.0_f64, 0.0_f64), |(low, high), mm| (low.min(mm), high.max(mm)));
+    let ends = rows.iter().flat_map(|row| row.ease_m.into_iter().chain(row.target_m.into_iter().flatten()));
+    let (low, high) = ends.map(mm).fold((0.0_f64, 0.0_f64), |(low, high), end| (low.min(end), high.max(end)));
     let margin = 0.04 * (high - low).max(1.0);
     let axis = Axis { low: low - margin, high: high + margin, left: LEFT, right: WIDTH - SHARES };
     let bottom = TOP + height * levels.len() as i32;
@@ -48,8 +49,8 @@ pub fn chance_chart(title: &str, rows: &[Probable]) -> Result<Chart, ReportError
                 canvas.bar((0, top), (WIDTH, top + height), theme::BAND)?;
             }
             canvas.text((LEFT - 24, top + height / 2), level, theme::INK, Align::Right, false)?;
-            let target = rows.iter().find(|row| row.level == *level).and_then(|row| row.target_mm);
-            if let Some([least, most]) = target {
+            let target = rows.iter().find(|row| row.level == *level).and_then(|row| row.target_m);
+            if let Some([least, most]) = target.map(|band| band.map(mm)) {
                 canvas.bar((axis.at(least), top + 6), (axis.at(most), top + height - 6), theme::GRID)?;
             }
         }
@@ -60,7 +61,7 @@ pub fn chance_chart(title: &str, rows: &[Probable]) -> Result<Chart, ReportError
             let step = height / sizes.len().max(1) as i32;
             let y = TOP + height * level as i32 + step * series as i32 + step / 2;
             let ink = theme::SUBJECTS[series % theme::SUBJECTS.len()];
-            let [low, middle, high] = row.ease_mm.map(|mm| axis.at(mm));
+            let [low, middle, high] = row.ease_m.map(|end| axis.at(mm(end)));
             canvas.line(vec![(low, y), (high, y)], ink, 6)?;
             canvas.mark((middle, y), series, false)?;
             if let Some(share) = row.share {
@@ -76,7 +77,7 @@ pub fn chance_chart(title: &str, rows: &[Probable]) -> Result<Chart, ReportError
 }
 
 fn words(row: &Probable) -> String {
-    let [low, _, high] = row.ease_mm.map(|mm| number(mm, 0));
+    let [low, _, high] = row.ease_m.map(|end| number(mm(end), 0));
     format!("{} {} {low} to {high} mm", row.size, row.level)
 }
 
@@ -100,11 +101,11 @@ mod tests {
         let row = |size: &str, level: &str, middle: f64, share: f64| Probable {
             size: size.to_owned(),
             level: level.to_owned(),
-            target_mm: Some([50.0, 120.0]),
-            ease_mm: [middle - 12.0, middle, middle + 12.0],
+            target_m: Some([0.050, 0.120]),
+            ease_m: [middle - 0.012, middle, middle + 0.012],
             share: Some(share),
         };
-        let rows = [row("S", "chest", 20.0, 0.01), row("M", "chest", 80.0, 0.97), row("M", "hip", 60.0, 0.83)];
+        let rows = [row("S", "chest", 0.020, 0.01), row("M", "chest", 0.080, 0.97), row("M", "hip", 0.060, 0.83)];
         let chart = chance_chart("shirt on her", &rows).expect("it is drawn");
         for text in ["shirt on her", "chest", "hip", "1 %", "97 %", "83 %", "as meant"] {
             assert!(chart.svg().contains(text), "{text}");

@@ -21,7 +21,7 @@ use body::Dimension;
 use fit::Draw;
 use fit::chance::{self, Share, Sitting, Verdict};
 use fit::target::Target;
-use geom::units::mm;
+use geom::units::{from_mm, mm};
 use report::Chart;
 use report::chart::{Probable, chance_chart};
 
@@ -147,8 +147,8 @@ impl Chance {
         let row = |size: &SizeChance, level: &LevelChance| Probable {
             size: size.size.clone(),
             level: level.level.replace('_', " "),
-            target_mm: level.target_mm,
-            ease_mm: level.ease_mm,
+            target_m: level.target_mm.map(|band| band.map(from_mm)),
+            ease_m: level.ease_mm.map(from_mm),
             share: level.target_mm.map(|_| level.as_meant()),
         };
         let rows: Vec<Probable> =
