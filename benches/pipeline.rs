@@ -15,7 +15,7 @@ use toile::render::{self, Camera, Frame, Layer, Material, Scene, View};
 use toile::sim::fem::{self, Params};
 use toile::sim::{Drape, Fabric, Silent, fabric, laboratory};
 use toile::study::seams::pattern_files::{Beside, inspect};
-use toile::study::{RunOptions, Workspace};
+use toile::study::{Question, RunOptions, Workspace, chance};
 
 fn main() {
     divan::main();
@@ -89,6 +89,26 @@ fn body_build() -> Body {
     body::build(divan::black_box(&subject())).expect("a person that can be")
 }
 
+/// How probable it is that three sizes fit a subject: 36 bodies and 500 draws.
+#[divan::bench(sample_count = 5)]
+fn chance_of_fit(bencher: Bencher) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let workspace = Workspace::open(&folder.path().join("toile.sqlite"), false).expect("a new database");
+    let quickstart = concat!(env!("CARGO_MANIFEST_DIR"), "/studies/quickstart");
+    let study = workspace.load_study(quickstart.as_ref()).expect("a good study");
+    let question = Question {
+        garment: None,
+        subject: Some("ii".to_owned()),
+        size: None,
+        draws: 500,
+        seed: 1,
+        error_factor: 1.0,
+        tolerance_mm: 6.0,
+        fem: 0,
+    };
+    bencher.bench_local(|| chance(&study, &question).expect("it can be told"));
+}
+
 #[divan::bench]
 fn body_measure() -> body::Girths {
     body::measure(divan::black_box(&BODY.mesh), Some(Sex::Male)).expect("a standing person")
@@ -147,7 +167,7 @@ fn read_all_samples(bencher: Bencher) {
 /// Three sizes of five knobs sought for as many people as `toile grade` draws.
 #[divan::bench(sample_count = 3, sample_size = 1)]
 fn size_search(bencher: Bencher) {
-    let mut random = toile::fit::Draw::new(1);
+    let mut random = fit::Draw::new(1);
     let people = (0..2000).map(|_| -> Asks {
         let large = 40.0 * random.normal();
         let asked = |knob: usize| {

@@ -1,14 +1,16 @@
 //! A database of 10,000 jobs and 1,000,000 measurements, made through the real queue, and how long it takes to work with.
 //!
 //! `cargo run --release --example scale [STUDIES [SUBJECTS]]` prints the table of docs/studies.md: queue operations, and a
-//! typical question to each view. One study of 1680 subjects has as many jobs as 20 of 84.
+//! typical question to each view. One study of 1680 subjects has as many jobs as 20 of 84. `... scale queue [JOBS]` queues one study
+//! of as many jobs (10^6), works on a few of them, and prints what that takes.
 
 #![allow(clippy::print_stdout, reason = "an example speaks to whoever runs it")]
 
 use std::fmt::Write;
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Instant;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
 
 use toile::fit::{Ease, FitClass, Simulator};
 use toile::measure::{Chi, metrics};
@@ -17,8 +19,8 @@ use toile::sim::{Monitor, Stage, Step};
 use toile::study::files;
 use toile::study::patterns;
 use toile::study::{
-    JobFilter, JobId, JobSpec, Measured, Outcome, Result, RunOptions, Selection, Status, StudyError, Workspace, WornOn,
-    new_study,
+    JobFilter, JobId, JobSpec, Measured, Outcome, Result, RunOptions, Selection, Status, Study, StudyError, Workspace,
+    WornOn, new_study,
 };
 
 /// Measurements of a result.
@@ -63,6 +65,9 @@ const QUESTIONS: [(&str, &str); 14] = [
 ];
 
 fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
+    if std::env::args().nth(1).is_some_and(|word| word == "queue") {
+        return queue(std::env::args().nth(2).map_or(Ok(1_000_000), |text| text.parse())?);
+    }
     let given = |place: usize, usual: usize| std::env::args().nth(place).map_or(Ok(usual), |text| text.parse());
     let (studies, subjects) = (given(1, 20)?, given(2, SUBJECTS)?);
     let folder = tempfile::tempdir()?;
@@ -107,6 +112,76 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
         time(&format!("{question}, {rows} rows"), || workspace.query(sql).map(drop))?;
     }
     Ok(())
+}
+
+/// Jobs of the great queue that are worked on.
+const WORKED: usize = 200;
+
+/// One study of so many jobs: queued, a few of them done, and asked about.
+fn queue(jobs: usize) -> std::result::Result<(), Box<dyn std::error::Error>> {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("toile.sqlite");
+    let mut workspace = Workspace::open(&path, false)?;
+    write_study(folder.path(), jobs / 6)?;
+    let mut start = Instant::now();
+    let mut lap = |what: &str| {
+        println!("{:8.2} s   {what}", start.elapsed().as_secs_f64());
+        start = Instant::now();
+    };
+    let study = workspace.load_study(folder.path())?;
+    lap("read the study file");
+    let done = Arc::new(AtomicUsize::new(0));
+    let counted = done.clone();
+    let work = move |spec: &JobSpec, monitor: &mut dyn Monitor| {
+        let outcome = quick(spec, monitor);
+        counted.fetch_add(1, Ordering::Relaxed);
+        outcome
+    };
+    let until = |count: usize| {
+        while done.load(Ordering::Relaxed) < count {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    };
+    let options = RunOptions { workers: Some(1), ..RunOptions::default() };
+    let run = workspace.start_with(&study, &options, Arc::new(work))?;
+    lap(&format!("queue {} jobs", run.planned.len()));
+    until(1);
+    lap("claim and do the first");
+    let before = Instant::now();
+    until(WORKED);
+    let each = before.elapsed().as_secs_f64() * 1e3 / (WORKED - 1) as f64;
+    run.stop();
+    run.join()?;
+    lap("do some more, stop, and judge");
+    println!("{each:8.2} ms  claim and do one of the {WORKED} thereafter");
+    time("the counts of all studies", || workspace.studies().map(drop))?;
+    let filter = JobFilter { study: Some(study.name.clone()), status: Some(Status::Done), ..JobFilter::default() };
+    time(&format!("list the {WORKED} jobs that are done"), || workspace.jobs(&filter).map(drop))?;
+    time("one job, its log and measurements", || {
+        workspace.log(JobId(7))?;
+        workspace.chi(JobId(7)).map(drop)
+    })?;
+    time("cancel a job", || workspace.cancel(&[JobId(jobs as i64 / 2)]).map(drop))?;
+    start_again(&mut workspace, &study)?;
+    let megabytes = std::fs::metadata(&path)?.len() as f64 / 1e6;
+    println!("{megabytes:8.0} MB  database, {:.0} MB most memory", peak_megabytes());
+    Ok(())
+}
+
+/// Plans a study again, once.
+fn start_again(workspace: &mut Workspace, study: &Study) -> Result<()> {
+    let start = Instant::now();
+    workspace.plan(study, &Selection::default())?;
+    println!("{:8.2} s   plan the study again", start.elapsed().as_secs_f64());
+    Ok(())
+}
+
+/// The most memory that this process had, where the system tells.
+fn peak_megabytes() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kilobytes = line.and_then(|line| line.split_whitespace().next()).and_then(|number| number.parse::<f64>().ok());
+    kilobytes.map_or(f64::NAN, |kilobytes| kilobytes * 1024.0 / 1e6)
 }
 
 /// Prints the least of five times.

@@ -36,6 +36,7 @@ pub use model::control_file::{ControlFile, read_control, write_control};
 pub use people::dimension::{Dimension, Measurements};
 pub use people::draw::{person, scores};
 pub use people::foreign::read_foreign;
+pub use people::likely::Likely;
 pub use people::profile::{Doubt, Mass, percentile, plausibility};
 pub use photo::pictures::{Camera, Pictured, PicturedLevel, from_pictures, picture_height};
 pub use pose::{Pose, pose};

@@ -67,7 +67,7 @@ fn print(context: &Context, found: &Grading) -> Result<(), CliError> {
     output::text(&format!("rules read again: the same sizes within {apart_mm:.3} mm\n"))?;
     if let Some(drapes) = &found.drapes {
         output::text(&format!("draped again: {} of {} agree\n", drapes.agree, drapes.people))?;
-        drapes.against.iter().for_each(|one| output::note(one));
+        drapes.against.iter().for_each(output::note);
     }
     Ok(())
 }
@@ -112,11 +112,15 @@ fn coverage(found: &Grading) -> Table {
 
 /// What both sets do at each level.
 fn levels(found: &Grading) -> Table {
-    let columns = ["level", "target_mm", "own within_percent", "new within_percent", "own fails_percent", "new fails_percent"];
+    let columns =
+        ["level", "target_mm", "own within_percent", "new within_percent", "own fails_percent", "new fails_percent"];
     let rows = found.levels.iter().map(|level| {
         let [least, most] = level.target_mm;
         let shares = level.within_percent.into_iter().chain(level.fails_percent).map(percent);
-        [text(level.level.replace('_', " ")), text(format!("{least:.0} to {most:.0}"))].into_iter().chain(shares).collect()
+        [text(level.level.replace('_', " ")), text(format!("{least:.0} to {most:.0}"))]
+            .into_iter()
+            .chain(shares)
+            .collect()
     });
     table(&columns, rows.collect())
 }

@@ -9,6 +9,7 @@ mod args;
 mod attempt;
 mod body;
 mod catalogue;
+mod chance;
 mod context;
 mod detached;
 mod fit;
@@ -143,6 +144,7 @@ fn execute(arguments: Arguments, workbench: impl FnOnce(Workbench) -> Result<(),
         Some(Command::Ease(arguments)) => answers::ease(&context, &arguments),
         Some(Command::Alter(arguments)) => alter::alter(&context, &arguments),
         Some(Command::Grade(arguments)) => grade::grade(&context, &arguments),
+        Some(Command::Chance(arguments)) => chance::chance(&context, &arguments),
         Some(Command::Fit(arguments)) => fit::fit(&context, &arguments),
         Some(Command::Section(arguments)) => section::section(&context, &arguments),
         Some(Command::Recommend(arguments)) => recommend::recommend(&context, &arguments),

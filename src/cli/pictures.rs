@@ -10,7 +10,9 @@ use super::args::{
 };
 use super::context::{Context, project_folder};
 use super::{CliError, End, Outcome, output};
-use study::{Cloth, JobId, Map, MeshFormat, Order, Purpose, Rgb, Shot, Stage, Study, View, Workspace, Zoom, files};
+use study::{
+    Chart, Cloth, JobId, Map, MeshFormat, Order, Purpose, Rgb, Shot, Stage, Study, View, Workspace, Zoom, files,
+};
 
 /// `toile render`.
 pub fn render(context: &Context, arguments: &Render) -> Outcome {
@@ -84,6 +86,15 @@ pub fn write(context: &Context, path: &Path, bytes: Vec<u8>) -> Outcome {
     files::write_files(path.parent().unwrap_or(Path::new("")), &[(name, bytes)])?;
     context.say(format_args!("wrote {}", path.display()));
     Ok(End::Done)
+}
+
+/// Writes a chart as what the name of its file ends in.
+pub fn write_chart(context: &Context, file: &Path, chart: &Chart) -> Outcome {
+    match file.extension().and_then(|extension| extension.to_str()) {
+        Some("svg") => write(context, file, chart.svg().as_bytes().to_vec()),
+        Some("png") => write(context, file, chart.png().map_err(|error| CliError::Usage(error.to_string()))?),
+        _ => Err(CliError::Usage(format!("{} is neither .svg nor .png", file.display()))),
+    }
 }
 
 /// `toile report`.

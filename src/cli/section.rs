@@ -74,11 +74,7 @@ fn draw(
         let asked = format!("{} sections are asked for; a drawing is of one", drawn.len());
         return Err(CliError::Usage(format!("{asked}: name --garment, --subject and --level or --at-mm")));
     };
-    match file.extension().and_then(|extension| extension.to_str()) {
-        Some("svg") => pictures::write(context, file, chart.svg().as_bytes().to_vec()),
-        Some("png") => pictures::write(context, file, chart.png().map_err(|error| CliError::Usage(error.to_string()))?),
-        _ => Err(CliError::Usage(format!("{} is neither .svg nor .png", file.display()))),
-    }
+    pictures::write_chart(context, file, chart)
 }
 
 /// A row for each level and size.

@@ -8,6 +8,7 @@
 mod advice;
 pub mod alter;
 mod analysis;
+pub mod chance;
 mod class;
 pub mod coverage;
 mod distribution;

@@ -101,6 +101,18 @@ impl Target {
     }
 }
 
+/// How far outside its band an ease lies, m: negative where too tight.
+#[must_use]
+pub fn off_m(ease_m: f64, [least, most]: [f64; 2]) -> f64 {
+    (ease_m - least).min(0.0) + (ease_m - most).max(0.0)
+}
+
+/// What that counts, m: what is too tight double, since it cannot be worn (`v_fit.weight_mm`).
+#[must_use]
+pub fn weight_m(off_m: f64) -> f64 {
+    if off_m < 0.0 { -2.0 * off_m } else { off_m }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -119,6 +131,17 @@ mod tests {
         check(Intended::Regular, "neck", true, None);
         let own = Target { own_m: [("neck".to_owned(), [0.01, 0.03])].into(), ..Target::default() };
         assert_eq!(own.band_m("neck", true), Some([0.01, 0.03]));
+    }
+
+    #[test]
+    fn what_is_too_tight_counts_double() {
+        let check = |ease_m, off: f64, weight: f64| {
+            let found = off_m(ease_m, [0.05, 0.12]);
+            assert!((found - off).abs() < 1e-12 && (weight_m(found) - weight).abs() < 1e-12, "{ease_m}: {found}");
+        };
+        check(0.02, -0.03, 0.06);
+        check(0.05, 0.0, 0.0);
+        check(0.13, 0.01, 0.01);
     }
 
     #[test]

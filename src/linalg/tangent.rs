@@ -23,9 +23,9 @@ pub struct Tangent {
 /// Of what a stiffness was factorised into.
 enum Factor {
     /// Positive definite: what it holds comes back when it is let go.
-    Definite(Llt<usize, f64>),
+    Definite(Box<Llt<usize, f64>>),
     /// Not so, but regular.
-    Indefinite(Lu<usize, f64>),
+    Indefinite(Box<Lu<usize, f64>>),
     /// Singular.
     None,
 }
@@ -105,8 +105,8 @@ impl Tangent {
             Lu::try_new_with_symbolic(symbolic, matrix).ok()
         };
         self.factor = match definite() {
-            Some(factor) => Factor::Definite(factor),
-            None => regular().map_or(Factor::None, Factor::Indefinite),
+            Some(factor) => Factor::Definite(Box::new(factor)),
+            None => regular().map_or(Factor::None, |factor| Factor::Indefinite(Box::new(factor))),
         };
     }
 
@@ -114,6 +114,17 @@ impl Tangent {
     #[must_use]
     pub fn is_definite(&self) -> bool {
         matches!(self.factor, Factor::Definite(_))
+    }
+
+    /// Ties every vertex to where it is by springs of this stiffness besides, N/m.
+    pub fn tie(&mut self, stiffness: f64) {
+        for column in 0..self.pattern.ncols() {
+            let range = self.pattern.col_range(column);
+            if let Some(own) = range.clone().find(|&k| self.pattern.row_idx()[k] == column) {
+                self.values[own] += stiffness;
+            }
+        }
+        self.factorise();
     }
 
     /// Displacements under these forces; none where the stiffness is singular.
@@ -205,6 +216,11 @@ mod tests {
         };
         check(0.5, true);
         check(-0.5, false);
+        let mut tied = tangent(&x, -0.5);
+        tied.tie(1.0);
+        let push = vec![Vector3::new(0.0, 0.0, 1.0); 40];
+        let [tied, floored] = [tied, tangent(&x, 0.5)].map(|tangent| tangent.solve(&push).expect("regular"));
+        assert!(tied.iter().zip(&floored).all(|(one, other)| (one - other).norm() < 1e-3 * other.norm()));
     }
 
     #[test]

@@ -8,6 +8,7 @@ mod answers;
 mod attempt;
 pub mod bodies;
 mod catalogue;
+mod chance;
 mod error;
 pub mod evaluate;
 pub mod files;
@@ -42,10 +43,12 @@ pub use catalogue::{
     Deed, FabricRow, Mode, Part, Removed, Saved, SizeRow, StyleGiven, SubjectRow, doubts, is_doubtful, percentile,
     percentile_text, with_bending,
 };
-pub use error::{Problem, Result, StudyError};
-pub use grading::{
-    DrapedAgain, GradeWish, Grading, LevelShare, PartShare, Range, SizeSet, SizeShare, Turn, grade,
+pub use chance::{
+    Chance, DrapedChance, LevelChance, LikelyDimension, PlantedLevel, PlantedTally, Question, Reliability, SizeChance,
+    chance, planted,
 };
+pub use error::{Problem, Result, StudyError};
+pub use grading::{DrapedAgain, GradeWish, Grading, LevelShare, PartShare, Range, SizeSet, SizeShare, Turn, grade};
 pub use rows::{
     Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, RecommendationRow, SizeKey,
     StageKind, StageRow, Status, StudyRow, SubjectId, Table, Value,

@@ -40,7 +40,7 @@ impl Bench {
     fn run(&mut self, study: &Study, workers: usize, executor: impl Executor + Send + 'static) -> Vec<Planned> {
         let options = RunOptions { workers: Some(workers), ..RunOptions::default() };
         let run = self.workspace.start_with(study, &options, Arc::new(executor)).expect("queued");
-        let planned = run.planned.clone();
+        let planned = run.planned.to_vec();
         run.join().expect("the database works");
         planned
     }

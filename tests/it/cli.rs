@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 93] = [
+const COMMANDS: [&str; 94] = [
     "",
     "run",
     "run show",
@@ -21,6 +21,7 @@ const COMMANDS: [&str; 93] = [
     "study nearest",
     "study sizes",
     "fit",
+    "chance",
     "section",
     "alter",
     "grade",

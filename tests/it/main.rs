@@ -5,6 +5,7 @@
 //! the sample data beside the project say so and pass where it is not there.
 
 mod bad_input;
+mod chance;
 mod cli;
 mod durability;
 mod engine;

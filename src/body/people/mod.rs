@@ -3,5 +3,6 @@
 pub mod dimension;
 pub mod draw;
 pub mod foreign;
+pub mod likely;
 pub mod profile;
 pub mod survey;

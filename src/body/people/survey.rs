@@ -58,17 +58,29 @@ impl Survey {
         correlation * self.sd[low] * self.sd[high]
     }
 
+    /// Means and covariance of the logarithms of all dimensions, in the order of the tables.
+    pub fn logarithms(&self) -> (DVector<f64>, DMatrix<f64>) {
+        let every = || Dimension::ALL.into_iter().chain([Dimension::ShoulderBreadth]);
+        let mut covariance = DMatrix::zeros(COUNT, COUNT);
+        for (a, b) in every().flat_map(|a| every().map(move |b| (a, b))) {
+            covariance[(a as usize, b as usize)] = self.ridged(a, b);
+        }
+        (DVector::from_column_slice(&self.mean), covariance)
+    }
+
+    /// Covariance. Printed to three places the correlations are not quite a covariance any more: a thousandth makes them one.
+    fn ridged(&self, a: Dimension, b: Dimension) -> f64 {
+        let covariance = self.covariance(a, b);
+        covariance * (1.0 - RIDGE) + if a == b { RIDGE * covariance } else { 0.0 }
+    }
+
     /// Distribution of each of the `wanted` dimensions among people with the `given` values (m, kg; each dimension once).
     pub fn expect(&self, wanted: &[Dimension], given: &[(Dimension, f64)]) -> Vec<Expected> {
         let count = given.len();
-        let covariance = DMatrix::from_fn(count, count, |i, j| self.covariance(given[i].0, given[j].0));
-        // Printed to three places the correlations are not quite a covariance any more: a thousandth makes them one.
-        let solver = (covariance * (1.0 - RIDGE)
-            + DMatrix::from_fn(count, count, |i, j| {
-                if i == j { RIDGE * self.covariance(given[i].0, given[i].0) } else { 0.0 }
-            }))
-        .cholesky()
-        .expect("correlations of a survey are positive definite, and each dimension is given once");
+        let covariance = DMatrix::from_fn(count, count, |i, j| self.ridged(given[i].0, given[j].0));
+        let solver = covariance
+            .cholesky()
+            .expect("correlations of a survey are positive definite, and each dimension is given once");
         let off = DVector::from_fn(count, |i, _| given[i].1.ln() - self.mean[given[i].0 as usize]);
         let weights = solver.solve(&off);
         let one = |&dimension: &Dimension| {

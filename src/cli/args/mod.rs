@@ -18,9 +18,9 @@ pub use alter::Alter;
 pub use attempt::{AuditGarments, Try};
 pub use body::{Body, BodyBuild, MeshUnit, Sex};
 pub use catalogue::{Catalogue, FabricValues, SizeValues, StyleValues, SubjectValues};
-pub use fit::{Fit, Section};
-pub use pattern::{BesideFiles, DraftStyle, Pattern, PatternUnit, SeamCommand, StyleFiles};
+pub use fit::{Chance, Fit, Section};
 pub use grade::Grade;
+pub use pattern::{BesideFiles, DraftStyle, Pattern, PatternUnit, SeamCommand, StyleFiles};
 pub use report::{Purpose, Report};
 
 /// A fit-study workbench: dress bodies in sewing patterns, measure the drape, say which simulator to trust.
@@ -79,6 +79,8 @@ pub enum Command {
     Ease(StudyPath),
     /// Which size to wear, and where it and the two beside it are tight or loose; needs no simulation.
     Fit(Fit),
+    /// How probable it is that a garment fits, since tapes err and garments are never made exactly; needs no simulation.
+    Chance(Chance),
     /// What to change of a size so that it fits somebody: the least change of its handles, as a new DXF.
     Alter(Alter),
     /// Which sizes fit a population: the grade that fits the most people, as DXF with rules, a size chart and a spec sheet.
@@ -308,13 +310,13 @@ pub enum StudyCommand {
     Check(StudyPath),
     /// Print [[subject]] tables of people who stand for a population, drawn from a published survey [Gordon 2014].
     Population {
-        /// How many of each sex.
-        #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=500))]
+        /// How many of each sex; more than 500 are people as they are drawn.
+        #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=100_000))]
         bodies: u32,
         /// Only of this sex.
         #[arg(long, value_enum)]
         sex: Option<Sex>,
-        /// People drawn of each sex, of whom they are chosen.
+        /// People drawn of each sex, of whom up to 500 are chosen.
         #[arg(long, default_value_t = 5000, value_parser = clap::value_parser!(u32).range(100..=100_000))]
         people: u32,
         /// Seed of the draw.

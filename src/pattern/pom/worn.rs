@@ -51,51 +51,68 @@ impl Style {
     /// What the style has at the levels of a body that it covers, from the neck down.
     #[must_use]
     pub fn worn_lengths(&self, stand: &Stand) -> Vec<WornLength> {
+        self.worn_lengths_on(std::slice::from_ref(stand)).pop().unwrap_or_default()
+    }
+
+    /// The same for several bodies: what the pieces are is found once.
+    #[must_use]
+    pub fn worn_lengths_on(&self, stands: &[Stand]) -> Vec<Vec<WornLength>> {
         let anatomy = Anatomy::of(self);
         let garb = Garb::of(&anatomy);
         let points = garb.points();
-        let Garb { trunk, sleeve, legs, .. } = &garb;
-        let of = |point: Point| {
-            let one = points.iter().find(|one: &&PointOfMeasure| one.point == point)?;
-            Some((one.length_m, one.path.clone()))
-        };
-        let mut found = Vec::new();
-        let mut add = |level, length: Option<(f64, Vec<PathPart>)>, height_m| {
-            found.extend(length.map(|(length_m, path)| WornLength { level, length_m, height_m, path }));
-        };
-        let both = |(half_m, path): (f64, Vec<PathPart>)| (2.0 * half_m, path);
-        let round = |path: Vec<PathPart>| (self.path_length_m(&path), path);
-        add("neck", of(Point::Neck), None);
-        // How wide the shoulders of a garment without sleeves are is its design.
-        add("across_shoulder", of(Point::AcrossShoulder).filter(|_| sleeve.is_some()), None);
-        add("chest", of(Point::HalfChest).map(both), None);
-        let hangs = Hangs::of(&anatomy, trunk.as_ref(), legs.as_ref(), stand);
-        let at = |height_m: f64| hangs.as_ref().and_then(|hangs| hangs.round(&anatomy, height_m)).map(round);
-        add("underbust", at(stand.underbust_m), None);
-        match (trunk, legs) {
-            (Some(trunk), _) => {
-                let seam = trunk.waist_below_neck_m().map(|m| stand.side_neck_m - m);
-                let is_seam = seam.is_some_and(|height_m| (height_m - stand.waist_m).abs() < AT_WAIST_M);
-                add("waist", if is_seam { of(Point::HalfWaist).map(both) } else { at(stand.waist_m) }, None);
-            }
-            (None, Some(legs)) => {
-                let top_m = stand.crotch_m + legs.top_above_fork_m();
-                add("waist", of(Point::HalfWaist).map(both), Some(top_m));
-            }
-            (None, None) => add("waist", of(Point::HalfWaist).map(both), None),
-        }
-        add("hip", at(stand.hip_m), None);
-        add("thigh", of(Point::HalfThigh).map(both), None);
-        let knee = legs.as_ref().and_then(|legs| legs.round(stand.knee_m - stand.crotch_m)).map(round);
-        add("knee", knee, None);
-        add("upper_arm", of(Point::HalfBicep).map(both), None);
-        if let (Some(sleeve), Some((sleeve_m, _))) = (sleeve, of(Point::SleeveLength)) {
-            add("forearm", sleeve.round(stand.forearm_along_m).map(round), None);
-            let reaches = sleeve_m > stand.wrist_along_m - SHORT_OF_WRIST_M;
-            add("wrist", of(Point::HalfCuff).filter(|_| reaches).map(both), None);
-        }
-        found
+        stands.iter().map(|stand| on(self, &anatomy, &garb, &points, stand)).collect()
     }
+}
+
+/// What a garment has at the levels of one body.
+fn on(
+    style: &Style,
+    anatomy: &Anatomy<'_>,
+    garb: &Garb<'_>,
+    points: &[PointOfMeasure],
+    stand: &Stand,
+) -> Vec<WornLength> {
+    let Garb { trunk, sleeve, legs, .. } = garb;
+    let of = |point: Point| {
+        let one = points.iter().find(|one: &&PointOfMeasure| one.point == point)?;
+        Some((one.length_m, one.path.clone()))
+    };
+    let mut found = Vec::new();
+    let mut add = |level, length: Option<(f64, Vec<PathPart>)>, height_m| {
+        found.extend(length.map(|(length_m, path)| WornLength { level, length_m, height_m, path }));
+    };
+    let both = |(half_m, path): (f64, Vec<PathPart>)| (2.0 * half_m, path);
+    let round = |path: Vec<PathPart>| (style.path_length_m(&path), path);
+    add("neck", of(Point::Neck), None);
+    // How wide the shoulders of a garment without sleeves are is its design.
+    add("across_shoulder", of(Point::AcrossShoulder).filter(|_| sleeve.is_some()), None);
+    add("chest", of(Point::HalfChest).map(both), None);
+    let hangs = Hangs::of(anatomy, trunk.as_ref(), legs.as_ref(), stand);
+    let at = |height_m: f64| hangs.as_ref().and_then(|hangs| hangs.round(anatomy, height_m)).map(round);
+    add("underbust", at(stand.underbust_m), None);
+    match (trunk, legs) {
+        (Some(trunk), _) => {
+            let seam = trunk.waist_below_neck_m().map(|m| stand.side_neck_m - m);
+            let is_seam = seam.is_some_and(|height_m| (height_m - stand.waist_m).abs() < AT_WAIST_M);
+            add("waist", if is_seam { of(Point::HalfWaist).map(both) } else { at(stand.waist_m) }, None);
+        }
+        (None, Some(legs)) => {
+            let top_m = stand.crotch_m + legs.top_above_fork_m();
+            add("waist", of(Point::HalfWaist).map(both), Some(top_m));
+        }
+        (None, None) => add("waist", of(Point::HalfWaist).map(both), None),
+    }
+    add("hip", at(stand.hip_m), None);
+    add("thigh", of(Point::HalfThigh).map(both), None);
+    let knee = legs.as_ref().and_then(|legs| legs.round(stand.knee_m - stand.crotch_m)).map(round);
+    add("knee", knee, None);
+    add("upper_arm", of(Point::HalfBicep).map(both), None);
+    if let (Some(sleeve), Some((sleeve_m, _))) = (sleeve, of(Point::SleeveLength)) {
+        add("forearm", sleeve.round(stand.forearm_along_m).map(round), None);
+        let reaches = sleeve_m > stand.wrist_along_m - SHORT_OF_WRIST_M;
+        add("wrist", of(Point::HalfCuff).filter(|_| reaches).map(both), None);
+    }
+    found
 }
 
 /// A way down the front of a garment with the height of its beginning.

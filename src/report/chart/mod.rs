@@ -1,6 +1,7 @@
 //! Charts: drawn by plotters as SVG with text as text, and as PNG from the same drawing.
 
 mod canvas;
+mod chance;
 mod chi;
 mod difference;
 mod metric;
@@ -9,6 +10,7 @@ mod residual;
 mod scatter;
 mod section;
 
+pub use chance::{Probable, chance_chart};
 pub use chi::{chi_chart, mean_sd_chart};
 pub use difference::{Difference, crossover_chart, difference_chart};
 pub use metric::{Metric, metric_chart};

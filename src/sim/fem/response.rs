@@ -34,6 +34,10 @@ geom::constants! {
     const SHARES: [f64; 6] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.01];
     /// Steps of these that leave more force than there was.
     const SETBACKS: usize = 5;
+    /// Stiffness by which vertices are tied to their places where the cloth would fold otherwise, N/m, from the least on; twice that of the
+    /// stiffest cloth is enough.
+    const LEAST_TIE_N_M: f64 = 0.01;
+    const MOST_TIE_N_M: f64 = 1e5;
 }
 
 /// A drape, and what it lies on.
@@ -184,50 +188,80 @@ fn couplings(system: &System, x: &[V3]) -> PairList {
     PairList::new(patches.chain(cloth.bending.pairs.pairs().iter().copied()).chain(touching))
 }
 
+/// Cloth on its way to rest.
+struct Way {
+    x: Vec<V3>,
+    forces: Vec<V3>,
+    residual: f64,
+    tangent: Tangent,
+}
+
+impl Way {
+    fn at(system: &System, x: Vec<V3>) -> Self {
+        let acting = |x: &[V3]| forces(system, system.cloth, x);
+        let forces = acting(&x);
+        let tangent = Tangent::of(&couplings(system, &x), &x, STEP_M, acting);
+        Self { residual: rms(&forces) / system.mean_weight(), x, forces, tangent }
+    }
+
+    /// What decides between places: a stable one before others, then what is left of the forces.
+    fn rank(&self) -> (bool, f64) {
+        (!self.tangent.is_definite(), self.residual)
+    }
+
+    /// Where the next step of Newton's method leads, and whether that is nearer. Where cloth is about to fold otherwise it is tied to its
+    /// place until it is not, and nearer is what has less energy.
+    fn next(&mut self, system: &System) -> Option<(Vec<V3>, bool)> {
+        let is_stable = self.tangent.is_definite();
+        let mut tie = LEAST_TIE_N_M;
+        while !self.tangent.is_definite() && tie < MOST_TIE_N_M {
+            self.tangent.tie(tie);
+            tie *= 4.0;
+        }
+        let step = self.tangent.solve(&self.forces)?;
+        let energy = system.energy(&self.x);
+        let mut best: Option<(f64, Vec<V3>)> = None;
+        for share in SHARES {
+            let there: Vec<V3> = self.x.iter().zip(&step).map(|(p, d)| p + d * share).collect();
+            let (worth, own) = if is_stable {
+                (rms(&forces(system, system.cloth, &there)) / system.mean_weight(), self.residual)
+            } else {
+                (system.energy(&there), energy)
+            };
+            if worth < own {
+                return Some((there, true));
+            }
+            if worth.is_finite() && best.as_ref().is_none_or(|(least, _)| worth < *least) {
+                best = Some((worth, there));
+            }
+        }
+        best.map(|(_, there)| (there, false))
+    }
+}
+
 /// Brings cloth wholly to rest by Newton's method; returns its stiffness there and the residual. Where layers come to touch on the way, a
 /// step may leave more force than there was: a few of these are taken, and the best place is kept.
 fn rest(system: &System, x: &mut Vec<V3>) -> (Tangent, f64) {
-    let acting = |x: &[V3]| forces(system, system.cloth, x);
-    let tangent_at = |x: &[V3]| Tangent::of(&couplings(system, x), x, STEP_M, acting);
-    let residual_of = |forces: &[V3]| rms(forces) / system.mean_weight();
-    let mut now = x.clone();
-    let mut pulled = acting(&now);
-    let mut residual = residual_of(&pulled);
-    let (mut tangent, mut least) = (tangent_at(&now), residual);
+    let mut now = Way::at(system, x.clone());
+    let mut rank = now.rank();
     let mut setbacks = 0;
     for _ in 0..NEWTON_STEPS {
-        let step = tangent.solve(&pulled).filter(|_| residual > AT_REST);
-        let Some(step) = step else { break };
-        let tried = SHARES.iter().map(|share| {
-            let there: Vec<V3> = now.iter().zip(&step).map(|(p, d)| p + d * *share).collect();
-            let left = acting(&there);
-            (residual_of(&left), there, left)
-        });
-        let mut best: Option<(f64, Vec<V3>, Vec<V3>)> = None;
-        for one in tried {
-            let is_nearer = one.0 < residual;
-            if best.as_ref().is_none_or(|best| one.0 < best.0) {
-                best = Some(one);
-            }
-            if is_nearer {
-                break;
-            }
+        if now.residual <= AT_REST && now.tangent.is_definite() {
+            break;
         }
-        let Some(best) = best.filter(|best| best.0.is_finite()) else { break };
-        setbacks += usize::from(best.0 >= residual);
+        let Some((next, is_nearer)) = now.next(system) else { break };
+        setbacks += usize::from(!is_nearer);
         if setbacks > SETBACKS {
             break;
         }
-        (residual, now, pulled) = best;
-        tangent = tangent_at(&now);
-        if residual < least {
-            (least, *x) = (residual, now.clone());
+        now = Way::at(system, next);
+        if now.rank() < rank {
+            rank = now.rank();
+            x.clone_from(&now.x);
         }
     }
-    if now != *x {
-        tangent = tangent_at(x);
-    }
-    (tangent, least)
+    let best = if now.x == *x { now } else { Way::at(system, x.clone()) };
+    (best.tangent, best.residual)
 }
 
 #[cfg(test)]

@@ -24,8 +24,8 @@ use crate::spec::{self, JobSpec};
 use body::Body;
 use fit::target::Target;
 use geom::units::mm;
-use pattern::{Handle, Style};
 use pattern::dxf::Standard;
+use pattern::{Handle, Style};
 
 /// By how much a handle is moved to see what it changes, m.
 const STEP_M: f64 = 0.002;

@@ -67,10 +67,19 @@ pub(crate) fn people(sex: Sex, count: usize, random: &mut Draw) -> Vec<Measureme
     (0..count).map(|_| draw(sex, random)).collect()
 }
 
+/// Representatives up to which people are grouped: of more, everybody drawn stands for himself, since to group them takes as many
+/// comparisons as people times representatives, again and again.
+const GROUPED: usize = 500;
+
 /// The representatives of a sex, the most frequent first.
 #[must_use]
 pub fn representatives(sex: Sex, options: &PopulationOptions) -> Vec<Representative> {
     let mut random = Draw::new(options.seed ^ if sex == Sex::Male { 0x6d } else { 0x66 });
+    if options.bodies > GROUPED {
+        let share = 1.0 / options.bodies as f64;
+        let one = |_| Representative { measurements: rounded(&draw(sex, &mut random)), share };
+        return (0..options.bodies).map(one).collect();
+    }
     let people = people(sex, options.people, &mut random);
     let points: Vec<Point> = people.iter().map(point).collect();
     let groups = group(&points, options.bodies, &mut random);
@@ -291,6 +300,17 @@ mod tests {
             .collect();
         let mean = far.iter().sum::<f64>() / 500.0;
         assert!(mean < 0.75, "{mean}");
+    }
+
+    #[test]
+    fn of_very_many_everybody_stands_for_himself() {
+        let many = PopulationOptions { bodies: GROUPED + 1, people: 100, seed: 1 };
+        let found = representatives(Sex::Male, &many);
+        assert_eq!(found.len(), GROUPED + 1);
+        assert!((found.iter().map(|one| one.share).sum::<f64>() - 1.0).abs() < 1e-9);
+        let mean =
+            found.iter().filter_map(|one| one.measurements.get(Dimension::Stature)).sum::<f64>() / found.len() as f64;
+        assert!((mean - 1.756).abs() < 0.01, "{mean}");
     }
 
     #[test]

@@ -213,7 +213,8 @@ fn changes(style: &Style, handle: Handle, somebody: &Figure, levels: &[String]) 
 fn slope(own: &[Style], lead: Handle, handle: Handle) -> Option<f64> {
     let lengths = |handle: Handle| -> Option<Vec<f64>> {
         let point = handle.changes()?;
-        let of = |style: &Style| style.points_of_measure().iter().find(|one| one.point == point).map(|one| one.length_m);
+        let of =
+            |style: &Style| style.points_of_measure().iter().find(|one| one.point == point).map(|one| one.length_m);
         let lengths = own.iter().map(of).collect::<Option<Vec<f64>>>()?;
         let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
         Some(lengths.iter().map(|length| length - mean).collect())

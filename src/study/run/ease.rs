@@ -4,7 +4,7 @@ use body::{Body, Dimension, Girths, Joint};
 use fit::{Cuts, Ease};
 use geom::V3;
 use pattern::Style;
-use pattern::pom::Stand;
+use pattern::pom::{Stand, WornLength};
 use pattern::style::PathPart;
 
 /// Distance of the forearm's girth below the elbow, m.
@@ -51,7 +51,16 @@ pub(crate) fn stand(body: &Body) -> Stand {
 /// Ease at every level that the garment covers, from the neck down: along the lines of its seam file, and where that has none, along
 /// those found by what its pieces are. A study's own cuts classify it when it is read.
 pub(crate) fn on(style: &Style, body: &Body) -> Vec<Ease> {
-    let levels = lengths(style, &stand(body));
+    on_all(style, &[body]).pop().unwrap_or_default()
+}
+
+/// The same for several bodies: what the pieces are is found once.
+pub(crate) fn on_all(style: &Style, bodies: &[&Body]) -> Vec<Vec<Ease>> {
+    let stands: Vec<Stand> = bodies.iter().map(|body| stand(body)).collect();
+    bodies.iter().zip(lengths_on(style, &stands)).map(|(body, levels)| of(&levels, body)).collect()
+}
+
+fn of(levels: &[Length], body: &Body) -> Vec<Ease> {
     let of_body = |level: &str| {
         let height_m = levels.iter().find(|one| one.level == level).and_then(|one| one.height_m);
         height_m.and_then(|height_m| body.trunk_girth_at(height_m)).or_else(|| body_length_m(&body.girths, level))
@@ -73,19 +82,27 @@ pub(crate) struct Length {
 
 /// What a style has at every level that it covers of somebody who stands so: along the lines of its seam file first.
 pub(crate) fn lengths(style: &Style, stand: &Stand) -> Vec<Length> {
+    lengths_on(style, std::slice::from_ref(stand)).pop().unwrap_or_default()
+}
+
+fn lengths_on(style: &Style, stands: &[Stand]) -> Vec<Vec<Length>> {
     let stated = |level: &str| style.fit_levels.iter().any(|(name, _)| name == level);
-    let of_file = style.fit_levels.iter().map(|(level, path)| Length {
-        level: level.clone(),
-        length_m: style.path_length_m(path),
-        height_m: None,
-        path: path.clone(),
-    });
-    let found = style.worn_lengths(stand).into_iter().filter(|worn| !stated(worn.level));
-    let found = found.map(|worn| Length {
+    let of_file = || {
+        style.fit_levels.iter().map(|(level, path)| Length {
+            level: level.clone(),
+            length_m: style.path_length_m(path),
+            height_m: None,
+            path: path.clone(),
+        })
+    };
+    let found = |worn: WornLength| Length {
         level: worn.level.to_owned(),
         length_m: worn.length_m,
         height_m: worn.height_m,
         path: worn.path,
-    });
-    of_file.chain(found).collect()
+    };
+    let on = |worn: Vec<WornLength>| {
+        of_file().chain(worn.into_iter().filter(|worn| !stated(worn.level)).map(found)).collect()
+    };
+    style.worn_lengths_on(stands).into_iter().map(on).collect()
 }

@@ -13,6 +13,7 @@ pub mod slurm;
 pub mod wardrobe;
 pub mod worn;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -23,11 +24,13 @@ use crate::run::enqueue::Planned;
 use crate::run::isolated::Isolated;
 use crate::run::outcome::{Executor, Provenance};
 use crate::run::pipeline::Pipeline;
+use crate::spec::Selection;
 use crate::spec::file::Study;
-use crate::spec::{self, Selection};
 use crate::store::live::Live;
 use crate::store::{self, Access, Store, evidence};
 use crate::{catalogue, patterns};
+use body::Body;
+use pattern::Style;
 
 /// What to run, and how.
 #[derive(Clone, Debug, Default)]
@@ -45,7 +48,7 @@ pub struct Run {
     /// Name of the study.
     pub study: String,
     /// Its jobs, with the reason for each.
-    pub planned: Vec<Planned>,
+    pub planned: Arc<Vec<Planned>>,
     stop: Arc<AtomicBool>,
     thread: Option<JoinHandle<Result<()>>>,
 }
@@ -154,7 +157,7 @@ fn launch(
 ) -> Result<Run> {
     check_names(study, &options.selection)?;
     let transaction = store::write(store.writer()?)?;
-    let planned = enqueue::enqueue(&transaction, study, &options.selection)?;
+    let planned = Arc::new(enqueue::enqueue(&transaction, study, &options.selection)?);
     transaction.commit()?;
 
     let stop = Arc::new(AtomicBool::new(false));
@@ -181,23 +184,56 @@ fn launch(
     Ok(Run { study: study.name.clone(), planned, stop, thread: Some(thread) })
 }
 
-/// Finds the ease of every size of a study on every subject, and stores it.
+/// Subjects whose eases are stored together.
+const TOGETHER: usize = 100;
+
+/// Finds the ease of every size of a study on every subject, and stores it. A subject's body is made once for all its garments.
 fn store_ease(database: &Path, study: &Study, pipeline: &Pipeline) -> Result<()> {
-    let mut found = Vec::new();
-    for spec in spec::jobs(study) {
-        if spec.repeat == 1 && study.simulators.first() == Some(&spec.simulator) {
-            let eases = pipeline.ease(&spec)?;
-            found.push((spec, eases));
-        }
-    }
     let mut connection = store::open(database, Access::Write)?;
     let transaction = store::write(&mut connection)?;
     let study_id = enqueue::store_study(&transaction, study)?;
-    for (spec, eases) in &found {
-        outcome::write_ease(&transaction, study_id, spec, eases)?;
+    transaction.commit()?;
+    let worn = worn_styles(study)?;
+    for subjects in study.subjects.chunks(TOGETHER) {
+        let models = subjects.iter().map(|subject| pipeline.worn_body(subject)).collect::<Result<Vec<_>>>()?;
+        let mut found = Vec::new();
+        for worn in &worn {
+            let own = || subjects.iter().zip(&models).filter(|(one, _)| worn.subjects.contains(one.id.as_str()));
+            let bodies: Vec<&Body> = own().map(|(_, model)| &model.body).collect();
+            let eases = ease::on_all(&worn.style, &bodies);
+            found.extend(own().zip(eases).map(|((subject, _), eases)| (worn, subject, eases)));
+        }
+        let transaction = store::write(&mut connection)?;
+        for (worn, subject, eases) in &found {
+            outcome::write_ease(&transaction, study_id, [worn.garment, worn.size, &subject.id], eases)?;
+        }
+        transaction.commit()?;
     }
+    let transaction = store::write(&mut connection)?;
     evidence::refresh(&transaction, &study.name)?;
     Ok(transaction.commit()?)
+}
+
+/// A size with those who wear it.
+struct WornStyle<'a> {
+    garment: &'a str,
+    size: &'a str,
+    style: Style,
+    subjects: BTreeSet<&'a str>,
+}
+
+/// Every size of a study.
+fn worn_styles(study: &Study) -> Result<Vec<WornStyle<'_>>> {
+    let mut worn = Vec::new();
+    for garment in &study.garments {
+        let unit = garment.unit.as_deref().and_then(patterns::unit_of);
+        for size in &garment.sizes {
+            let style = patterns::read_style(&size.pattern, garment.seams.as_ref(), Some(&size.name), unit)?;
+            let subjects = garment.subjects.iter().map(String::as_str).collect();
+            worn.push(WornStyle { garment: &garment.name, size: &size.name, style, subjects });
+        }
+    }
+    Ok(worn)
 }
 
 /// Refuses a study with a pattern that cannot be sewn, before anything is written for it.
@@ -217,22 +253,18 @@ fn check_patterns(study: &Study) -> Result<()> {
 
 /// Refuses a selection with a name that the study does not have.
 pub(crate) fn check_names(study: &Study, selection: &Selection) -> Result<()> {
-    let specs = spec::jobs(study);
-    type Name = fn(&spec::JobSpec) -> String;
-    let axes: [(&'static str, &[String], Name); 4] = [
-        ("simulator", &selection.simulators, |spec| spec.simulator.as_str().to_owned()),
-        ("size", &selection.sizes, |spec| spec.size.clone()),
-        ("subject", &selection.subjects, |spec| spec.subject.clone()),
-        ("garment", &selection.garments, |spec| spec.garment.clone()),
+    let sizes = study.garments.iter().flat_map(|garment| &garment.sizes).map(|size| size.name.as_str());
+    let axes: [(&'static str, &[String], Vec<&str>); 4] = [
+        ("simulator", &selection.simulators, study.simulators.iter().map(|simulator| simulator.as_str()).collect()),
+        ("size", &selection.sizes, sizes.collect()),
+        ("subject", &selection.subjects, study.subjects.iter().map(|subject| subject.id.as_str()).collect()),
+        ("garment", &selection.garments, study.garments.iter().map(|garment| garment.name.as_str()).collect()),
     ];
-    for (what, wanted, name) in axes {
-        let mut known: Vec<String> = Vec::new();
-        for found in specs.iter().map(name) {
-            if !known.contains(&found) {
-                known.push(found);
-            }
-        }
+    for (what, wanted, known) in axes {
+        let mut seen = BTreeSet::new();
+        let known: Vec<&str> = known.into_iter().filter(|name| seen.insert(*name)).collect();
         if let Some(name) = wanted.iter().find(|wanted| !known.iter().any(|k| k.eq_ignore_ascii_case(wanted))) {
+            let known = known.into_iter().map(str::to_owned).collect();
             return Err(StudyError::NotFound { what, name: name.clone(), known });
         }
     }

@@ -210,7 +210,7 @@ fn write_result(
     let is_current = "SELECT study_id FROM job WHERE job_id = ? AND is_current";
     let study_id: Option<i64> = transaction.query_row(is_current, [id.0], |row| row.get(0)).optional()?;
     if let Some(study_id) = study_id {
-        write_ease(transaction, study_id, spec, &outcome.eases)?;
+        write_ease(transaction, study_id, [&spec.garment, &spec.size, &spec.subject], &outcome.eases)?;
     }
     let (commit, dirty) = provenance.git.clone().unzip();
     transaction
@@ -284,18 +284,23 @@ fn write_closures(transaction: &Transaction<'_>, id: JobId, closures: &[Closure]
 }
 
 /// Ease of a specification's size on its subject, for a study.
-pub(crate) fn write_ease(transaction: &Transaction<'_>, study_id: i64, spec: &JobSpec, eases: &[Ease]) -> Result<()> {
+pub(crate) fn write_ease(
+    transaction: &Transaction<'_>,
+    study_id: i64,
+    [garment, size, subject]: [&str; 3],
+    eases: &[Ease],
+) -> Result<()> {
     // A level that an earlier version found, or another seam file stated, is gone.
     transaction
         .prepare_cached("DELETE FROM ease WHERE study_id = ? AND garment = ? AND size = ? AND subject = ?")?
-        .execute(params![study_id, spec.garment, spec.size, spec.subject])?;
+        .execute(params![study_id, garment, size, subject])?;
     let mut statement = transaction.prepare_cached(
         "INSERT INTO ease (study_id, garment, size, subject, level, pattern_girth_mm, body_girth_mm)
         VALUES (?, ?, ?, ?, ?, ?, ?)",
     )?;
     for ease in eases {
         let (pattern_mm, body_mm) = (mm(ease.pattern_girth_m), mm(ease.body_girth_m));
-        statement.execute(params![study_id, spec.garment, spec.size, spec.subject, ease.level, pattern_mm, body_mm])?;
+        statement.execute(params![study_id, garment, size, subject, ease.level, pattern_mm, body_mm])?;
     }
     Ok(())
 }

@@ -9,6 +9,8 @@ pub mod parameters;
 pub mod sheets;
 pub mod versions;
 
+use std::collections::BTreeSet;
+
 use crate::rows::JobRow;
 use crate::spec::fields::{FABRIC_NUMBERS, MEASUREMENTS};
 use crate::spec::file::{GarmentEntry, ScanFile, SizeFile, SourceFile, Study, Subject};
@@ -129,10 +131,23 @@ impl Selection {
 /// All jobs of a study, in the order of its file: garments, sizes, subjects, simulators, repeats.
 #[must_use]
 pub fn jobs(study: &Study) -> Vec<JobSpec> {
+    jobs_where(study, |_, _| true)
+}
+
+/// The jobs of a garment on a subject, in that order.
+#[must_use]
+pub fn jobs_of(study: &Study, garment: &str, subject: &str) -> Vec<JobSpec> {
+    jobs_where(study, |entry, who| entry.name == garment && who.id == subject)
+}
+
+fn jobs_where(study: &Study, is_wanted: impl Fn(&GarmentEntry, &Subject) -> bool) -> Vec<JobSpec> {
     let mut jobs = Vec::new();
     for garment in &study.garments {
+        let wearers: BTreeSet<&str> = garment.subjects.iter().map(String::as_str).collect();
+        let is_worn = |subject: &&Subject| wearers.contains(subject.id.as_str()) && is_wanted(garment, subject);
+        let subjects: Vec<&Subject> = study.subjects.iter().filter(is_worn).collect();
         for size in &garment.sizes {
-            for subject in study.subjects.iter().filter(|subject| garment.subjects.contains(&subject.id)) {
+            for subject in &subjects {
                 for &simulator in &study.simulators {
                     jobs.extend((1..=study.repeats).map(|n| job(garment, size, subject, simulator, n)));
                 }
@@ -181,10 +196,7 @@ impl JobSpec {
         }
         subject_inputs(&mut inputs, &self.subject, &self.measurements);
         if let Some(scan) = &self.scan {
-            inputs.set(format!("subject.{}.scan", self.subject), scan.file.hash());
-            if let Some(unit) = scan.unit {
-                inputs.set(format!("subject.{}.scan_unit", self.subject), unit.name());
-            }
+            scan_inputs(&mut inputs, &self.subject, scan);
         }
         fabric_inputs(&mut inputs, &self.fabric);
         for (name, version) in versions::versions(self.simulator) {
@@ -201,6 +213,14 @@ pub(crate) fn subject_inputs(inputs: &mut Inputs, id: &str, m: &Measurements) {
         if let Some(value) = field.get(m) {
             inputs.set(format!("subject.{id}.{}", field.key), value);
         }
+    }
+}
+
+/// A subject's scan as inputs.
+pub(crate) fn scan_inputs(inputs: &mut Inputs, id: &str, scan: &ScanFile) {
+    inputs.set(format!("subject.{id}.scan"), scan.file.hash());
+    if let Some(unit) = scan.unit {
+        inputs.set(format!("subject.{id}.scan_unit"), unit.name());
     }
 }
 

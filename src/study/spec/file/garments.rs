@@ -151,10 +151,12 @@ fn wearers(reader: &mut Reader<'_>, garment: &Place<'_>, top: &Place<'_>, subjec
         .filter_map(|place| place.table.get("id")?.get_ref().as_str().map(|id| (id.to_owned(), ())))
         .collect();
     let mut wearers: Vec<String> = Vec::new();
+    let mut seen = BTreeSet::new();
     for name in &names {
-        if wearers.iter().any(|wearer| wearer == name.get_ref()) {
+        if seen.contains(name.get_ref()) {
             reader.problem(&name.span(), format!("{}: subject `{}` is named twice", garment.name, name.get_ref()));
         } else if lookup(reader, &known, name, "[[subject]] with the id").is_some() {
+            seen.insert(*name.get_ref());
             wearers.push((*name.get_ref()).to_owned());
         }
     }

@@ -13,6 +13,8 @@ use crate::spec::file::Placed;
 pub(super) struct Reader<'a> {
     path: &'a Path,
     text: &'a str,
+    /// Where its lines end, bytes, rising.
+    ends: Vec<usize>,
     pub problems: Vec<Problem>,
 }
 
@@ -28,7 +30,8 @@ pub(super) struct Place<'t> {
 
 impl<'a> Reader<'a> {
     pub fn new(path: &'a Path, text: &'a str) -> Self {
-        Self { path, text, problems: Vec::new() }
+        let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at).collect();
+        Self { path, text, ends, problems: Vec::new() }
     }
 
     /// Adds a problem at a byte of the text.
@@ -42,7 +45,7 @@ impl<'a> Reader<'a> {
 
     /// The line of a byte of the text, from 1.
     pub fn line(&self, span: &Range<usize>) -> usize {
-        1 + self.before(span).iter().filter(|&&byte| byte == b'\n').count()
+        1 + self.ends.partition_point(|end| *end < span.start)
     }
 
     /// An entry and where it stands.

@@ -1,0 +1,116 @@
+//! What the ease of each size probably is at each level, beside what is meant.
+
+use super::super::text::number;
+use super::super::{ReportError, theme};
+use super::Chart;
+use super::canvas::{Align, Axis, ROW, TYPE, WIDTH, draw};
+use geom::units::mm;
+
+const LEFT: i32 = 330;
+const TOP: i32 = 110;
+/// Where the shares are written.
+const SHARES: i32 = 150;
+
+/// A level of a size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Probable {
+    /// Size.
+    pub size: String,
+    /// Level, in words.
+    pub level: String,
+    /// Least and greatest ease that is meant, m.
+    pub target_m: Option<[f64; 2]>,
+    /// Lower end, middle and upper end of the 80 % interval of the ease, m.
+    pub ease_m: [f64; 3],
+    /// Probability that it is as meant.
+    pub share: Option<f64>,
+}
+
+/// A row for each level, in it a line for each size: a bar for what is meant, a line for the 80 % interval, a mark at its middle, and the
+/// probability that it is as meant.
+///
+/// # Errors
+/// [`ReportError::Chart`] where plotters refuses to draw.
+pub fn chance_chart(title: &str, rows: &[Probable]) -> Result<Chart, ReportError> {
+    let (sizes, levels) = (names(rows, |row| &row.size), names(rows, |row| &row.level));
+    let height = ROW.max((TYPE + 10) * sizes.len() as i32 + 14);
+    let ends = rows.iter().flat_map(|row| row.ease_m.into_iter().chain(row.target_m.into_iter().flatten()));
+    let (low, high) = ends.map(mm).fold((0.0_f64, 0.0_f64), |(low, high), end| (low.min(end), high.max(end)));
+    let margin = 0.04 * (high - low).max(1.0);
+    let axis = Axis { low: low - margin, high: high + margin, left: LEFT, right: WIDTH - SHARES };
+    let bottom = TOP + height * levels.len() as i32;
+    let svg = draw(bottom + 3 * TYPE + 30, |canvas| {
+        canvas.text((30, 28), title, theme::INK, Align::Left, true)?;
+        canvas.key(&sizes, LEFT, 46)?;
+        canvas.text((WIDTH - 20, 74), "as meant", theme::MUTED, Align::Right, false)?;
+        for (k, level) in (0..).zip(&levels) {
+            let top = TOP + height * k;
+            if k % 2 == 0 {
+                canvas.bar((0, top), (WIDTH, top + height), theme::BAND)?;
+            }
+            canvas.text((LEFT - 24, top + height / 2), level, theme::INK, Align::Right, false)?;
+            let target = rows.iter().find(|row| row.level == *level).and_then(|row| row.target_m);
+            if let Some([least, most]) = target.map(|band| band.map(mm)) {
+                canvas.bar((axis.at(least), top + 6), (axis.at(most), top + height - 6), theme::GRID)?;
+            }
+        }
+        axis.grid(canvas, TOP, bottom)?;
+        for row in rows {
+            let at = |names: &[String], name: &str| names.iter().position(|one| one == name).unwrap_or(0);
+            let (series, level) = (at(&sizes, &row.size), at(&levels, &row.level));
+            let step = height / sizes.len().max(1) as i32;
+            let y = TOP + height * level as i32 + step * series as i32 + step / 2;
+            let ink = theme::SUBJECTS[series % theme::SUBJECTS.len()];
+            let [low, middle, high] = row.ease_m.map(|end| axis.at(mm(end)));
+            canvas.line(vec![(low, y), (high, y)], ink, 6)?;
+            canvas.mark((middle, y), series, false)?;
+            if let Some(share) = row.share {
+                let text = format!("{} %", number(100.0 * share, 0));
+                canvas.text((WIDTH - 20, y), &text, theme::INK, Align::Right, false)?;
+            }
+        }
+        let caption = "ease, mm   (grey: meant; line: 80 % interval)";
+        canvas.text((WIDTH / 2, bottom + 2 * TYPE + 18), caption, theme::MUTED, Align::Middle, false)
+    })?;
+    let words: Vec<String> = rows.iter().map(words).collect();
+    Ok(Chart::new("chance", title, svg, format!("{title}: 80 % intervals of the ease. {}.", words.join("; "))))
+}
+
+fn words(row: &Probable) -> String {
+    let [low, _, high] = row.ease_m.map(|end| number(mm(end), 0));
+    format!("{} {} {low} to {high} mm", row.size, row.level)
+}
+
+/// Names in the order in which they first come.
+fn names(rows: &[Probable], of: impl Fn(&Probable) -> &String) -> Vec<String> {
+    let mut found: Vec<String> = Vec::new();
+    for row in rows {
+        if !found.contains(of(row)) {
+            found.push(of(row).clone());
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_level_of_every_size_is_drawn_with_its_share() {
+        let row = |size: &str, level: &str, middle: f64, share: f64| Probable {
+            size: size.to_owned(),
+            level: level.to_owned(),
+            target_m: Some([0.050, 0.120]),
+            ease_m: [middle - 0.012, middle, middle + 0.012],
+            share: Some(share),
+        };
+        let rows = [row("S", "chest", 0.020, 0.01), row("M", "chest", 0.080, 0.97), row("M", "hip", 0.060, 0.83)];
+        let chart = chance_chart("shirt on her", &rows).expect("it is drawn");
+        for text in ["shirt on her", "chest", "hip", "1 %", "97 %", "83 %", "as meant"] {
+            assert!(chart.svg().contains(text), "{text}");
+        }
+        assert!(chart.alt().contains("M hip 48 to 72 mm"), "{}", chart.alt());
+        assert!(chart.png().is_ok());
+    }
+}
