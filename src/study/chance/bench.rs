@@ -159,11 +159,11 @@ impl Bench {
         let bodies = [Some(built), scanned].into_iter().chain(moved.iter().flatten().map(Option::as_ref));
         let all: Vec<&Body> = bodies.clone().flatten().collect();
         let mut found = ease::on_all(style, &all).into_iter();
-        let mut next = |body: Option<&Body>| -> Option<Eases> {
+        let next = |body: Option<&Body>| -> Option<Eases> {
             let eases = body.and_then(|_| found.next())?;
             Some(eases.into_iter().map(|ease| (ease.level.clone(), ease.ease_m())).collect())
         };
-        let mut eases = bodies.map(|body| next(body));
+        let mut eases = bodies.map(next);
         let middle = eases.next().flatten().unwrap_or_default();
         let own = eases.next().flatten();
         let moved: Vec<[Option<Eases>; 2]> =
