@@ -10,8 +10,10 @@ use toile::body::{self, Body, Measurements, Sex};
 use toile::fit::coverage::{Asked, Asks, Search, Series};
 use toile::geom::{DistanceField, TriMesh, shapes};
 use toile::measure;
-use toile::pattern::{Garment, Style, draft, dxf};
+use toile::pattern::{Garment, Handle, Style, draft, dxf};
 use toile::render::{self, Camera, Frame, Layer, Material, Scene, View};
+use toile::sim::contact::Skin;
+use toile::sim::fem::response::{Lying, Response, sewn};
 use toile::sim::fem::{self, Params};
 use toile::sim::{Drape, Fabric, Silent, fabric, laboratory};
 use toile::study::seams::pattern_files::{Beside, inspect};
@@ -193,6 +195,23 @@ fn fem_drape(bencher: Bencher, edge_mm: u32) {
     let garments = meshes(f64::from(edge_mm) * 1e-3);
     LazyLock::force(&FIELD);
     bencher.bench_local(|| drape(divan::black_box(&garments)));
+}
+
+/// A drape brought wholly to rest, and what one handle of its pattern moves.
+#[divan::bench(sample_count = 3, sample_size = 1)]
+fn drape_answers(bencher: Bencher) {
+    const TAKEN_M: f64 = 1e-4;
+    let garments = meshes(0.04);
+    let (garment, positions) = (finest(&garments), drape(&garments).positions);
+    let (skin, params) = (Skin::new(&BODY.mesh).ok(), Params::default());
+    let fabric: &Fabric = &CLOTH;
+    let cloth = sewn(garment, fabric).expect("triangles with areas");
+    let lying = Lying { skin: skin.as_ref(), field: &FIELD, garment, fabric, params: &params, is_held: false };
+    bencher.bench_local(|| {
+        let response = Response::of(lying, &cloth, &positions).expect("it lies");
+        let taken = |by_m: f64| STYLE.moved_mesh(garment, Handle::Hem, by_m).expect("it has a hem");
+        response.rates([&taken(-TAKEN_M), &taken(TAKEN_M)], 2.0 * TAKEN_M).expect("it is held")
+    });
 }
 
 /// T-shirts of about 5, 10, 20 and 40 thousand sewn vertices, each from five starts that differ a little, since the steps that one takes

@@ -632,3 +632,5 @@ SELECT study.name AS study, job.garment, job.size, job.subject, job.simulator, r
     mean_kpa * 7.500616827 AS mean_mmhg, most_kpa * 7.500616827 AS most_mmhg, repeat, job_id
 FROM pressure JOIN job USING (job_id) JOIN study USING (study_id)
 WHERE is_current;
+
+CREATE INDEX job_queued ON job (priority DESC, job_id) WHERE status = 'queued' AND is_current;

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use toile::body::{Dimension, Likely, Measurements, Sex};
+use toile::sim::fabric::library;
 
 use super::program::{Place, shared};
 
@@ -97,7 +98,7 @@ fn drapes_say_what_cloth_and_start_leave_open() {
     let found = place.toile("chance . --draws 20 --fem 1 --json").ends_with(0).json();
     let drape = &found["drape"];
     assert_eq!((drape["draws"].as_i64(), drape["at_rest"].as_i64()), (Some(1), Some(1)), "{drape}");
-    let library = sim::fabric::library();
+    let library = library();
     let poplin = library.iter().find(|fabric| fabric.name == "poplin").expect("in the library");
     let bends_mm = drape["bending_length_mm"][1].as_f64().expect("a number");
     let [least_mm, most_mm] = poplin.scatter_m()[0].map(|m| 1e3 * m);
