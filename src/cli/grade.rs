@@ -112,11 +112,15 @@ fn coverage(found: &Grading) -> Table {
 
 /// What both sets do at each level.
 fn levels(found: &Grading) -> Table {
-    let columns = ["level", "target_mm", "own within_percent", "new within_percent", "own fails_percent", "new fails_percent"];
+    let columns =
+        ["level", "target_mm", "own within_percent", "new within_percent", "own fails_percent", "new fails_percent"];
     let rows = found.levels.iter().map(|level| {
         let [least, most] = level.target_mm;
         let shares = level.within_percent.into_iter().chain(level.fails_percent).map(percent);
-        [text(level.level.replace('_', " ")), text(format!("{least:.0} to {most:.0}"))].into_iter().chain(shares).collect()
+        [text(level.level.replace('_', " ")), text(format!("{least:.0} to {most:.0}"))]
+            .into_iter()
+            .chain(shares)
+            .collect()
     });
     table(&columns, rows.collect())
 }

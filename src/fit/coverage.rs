@@ -308,7 +308,6 @@ fn better(one: Option<(f64, Turns)>, other: (f64, Turns)) -> Option<(f64, Turns)
     one.filter(|one| one.0 >= other.0).or(Some(other))
 }
 
-
 /// Keeps of a stretch along a line what leaves a length in its band.
 fn narrow(stretch: &mut [i32; 2], asked: &Asked, turns: &[i32], way: &[i32]) {
     let (value, by) = (asked.change(turns), asked.change(way));
@@ -385,7 +384,8 @@ mod tests {
             };
             let bands: Vec<[f64; 2]> = (0..150).map(|_| band()).collect();
             let asks = vec![on_a_line(&bands); count];
-            let search = Search { asks: &asks, limits: &[[-300, 300]], habits: &[1.0], price: 0.0, series: Series::Rising };
+            let search =
+                Search { asks: &asks, limits: &[[-300, 300]], habits: &[1.0], price: 0.0, series: Series::Rising };
             let found = search.best(1);
             assert_eq!(search.covered(&found), most(&bands, count), "{count} sizes: {found:?}");
             assert_eq!(found, search.best(1), "the same seed, the same sizes");
@@ -439,7 +439,8 @@ mod tests {
         let check = |eager: usize, price: f64, expect: i32| {
             let people = (0..40).map(|k| person(30.0, if k < eager { 40.0 } else { -50.0 })).collect();
             let asks = vec![people];
-            let search = Search { asks: &asks, limits: &[[-100, 100]; 2], habits: &[1.0, 0.5], price, series: Series::Rising };
+            let search =
+                Search { asks: &asks, limits: &[[-100, 100]; 2], habits: &[1.0, 0.5], price, series: Series::Rising };
             let found = search.best(1);
             assert!((25..=35).contains(&found[0][0]), "{found:?}");
             assert!((found[0][1] - expect).abs() <= 3, "{found:?}, not {expect}");
@@ -452,10 +453,8 @@ mod tests {
 
     #[test]
     fn what_no_size_can_have_is_not_counted() {
-        let impossible = vec![
-            Asked { per_step: vec![1.0], band: [5.0, 6.0] },
-            Asked { per_step: vec![0.0], band: [1.0, 2.0] },
-        ];
+        let impossible =
+            vec![Asked { per_step: vec![1.0], band: [5.0, 6.0] }, Asked { per_step: vec![0.0], band: [1.0, 2.0] }];
         let possible = vec![Asked { per_step: vec![1.0], band: [4.0, 9.0] }];
         let asks = vec![vec![impossible, possible]];
         let search = Search { asks: &asks, limits: &[[0, 8]], habits: &[1.0], price: 0.0, series: Series::Rising };

@@ -41,9 +41,7 @@ pub use catalogue::{
     percentile_text, with_bending,
 };
 pub use error::{Problem, Result, StudyError};
-pub use grading::{
-    DrapedAgain, GradeWish, Grading, LevelShare, PartShare, Range, SizeSet, SizeShare, Turn, grade,
-};
+pub use grading::{DrapedAgain, GradeWish, Grading, LevelShare, PartShare, Range, SizeSet, SizeShare, Turn, grade};
 pub use rows::{
     Cell, ChiRow, EaseRow, FitCell, Grid, JobId, JobProgress, JobRow, LogLine, MetricsRow, RecommendationRow, SizeKey,
     StageKind, StageRow, Status, StudyRow, SubjectId, Table, Value,

@@ -68,7 +68,8 @@ impl<'a> Knobs<'a> {
         let changes: Vec<Vec<f64>> = all.iter().map(|handle| changes(style, *handle, somebody, &levels)).collect();
         let handles = chosen(&all, &changes);
         let Some(lead) = handles.first() else {
-            let message = format!("{}: no handle changes a level that has a band; there is: {all:?}", style.name);
+            let known = all.iter().map(|handle| handle.as_str()).collect::<Vec<_>>().join(", ");
+            let message = format!("{}: no handle widens a level that has a target; there is: {known}", style.name);
             return Err(StudyError::stage("grade")(message));
         };
         let lead = *lead;
@@ -213,7 +214,8 @@ fn changes(style: &Style, handle: Handle, somebody: &Figure, levels: &[String]) 
 fn slope(own: &[Style], lead: Handle, handle: Handle) -> Option<f64> {
     let lengths = |handle: Handle| -> Option<Vec<f64>> {
         let point = handle.changes()?;
-        let of = |style: &Style| style.points_of_measure().iter().find(|one| one.point == point).map(|one| one.length_m);
+        let of =
+            |style: &Style| style.points_of_measure().iter().find(|one| one.point == point).map(|one| one.length_m);
         let lengths = own.iter().map(of).collect::<Option<Vec<f64>>>()?;
         let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
         Some(lengths.iter().map(|length| length - mean).collect())

@@ -219,9 +219,8 @@ pub fn grade(study: &Study, wish: &GradeWish) -> Result<Grading> {
     let names = asked.names();
     let nest = nest::drawn(&asked, seams, &names, &knobs, &turns)?;
     let new: Vec<Style> = nest.styles;
-    let tallies = [&own, &new].map(|styles| {
-        [&sought, &held_out].map(|figures| Tally::of(styles, base, figures, &bands))
-    });
+    let tallies =
+        [&own, &new].map(|styles| [&sought, &held_out].map(|figures| Tally::of(styles, base, figures, &bands)));
     let own_names: Vec<String> = asked.entry.sizes.iter().map(|size| size.name.clone()).collect();
     let set = |which: usize| {
         let (set, names) = if which == 0 { ("own", &own_names) } else { ("new", &names) };
@@ -415,6 +414,9 @@ fn as_drawn(knobs: &Knobs<'_>, figures: &[Figure], bands: &[Band], search: &Sear
 
 /// What changes of the base in a size.
 fn turned(knobs: &Knobs<'_>, turns: &[i32]) -> Vec<Turn> {
-    let turn = |(handle, amount_m): &(pattern::Handle, f64)| Turn { handle: handle.as_str(), amount_mm: mm(*amount_m).round() };
+    let turn = |(handle, amount_m): &(pattern::Handle, f64)| Turn {
+        handle: handle.as_str(),
+        amount_mm: mm(*amount_m).round(),
+    };
     knobs.moves(turns).iter().map(turn).collect()
 }

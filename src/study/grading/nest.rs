@@ -30,7 +30,13 @@ pub struct Nest {
 ///
 /// # Errors
 /// When a handle cannot be moved so far, the sizes are no nest, or the rules do not make them again.
-pub fn drawn(asked: &Asked<'_>, seams: &SourceFile, names: &[String], knobs: &Knobs<'_>, turns: &Turns) -> Result<Nest> {
+pub fn drawn(
+    asked: &Asked<'_>,
+    seams: &SourceFile,
+    names: &[String],
+    knobs: &Knobs<'_>,
+    turns: &Turns,
+) -> Result<Nest> {
     let spec = &asked.spec;
     let garment = &spec.garment;
     let unit = spec.unit.as_deref().and_then(patterns::unit_of);

@@ -34,7 +34,8 @@ impl Figure {
     pub fn of(measurements: &Measurements, body: &Body, has_trunk: bool) -> Self {
         let stand = ease::stand(body);
         let (from_m, to_m) = (stand.hip_m.min(stand.waist_m) - BEYOND_M, stand.hip_m.max(stand.waist_m) + BEYOND_M);
-        let heights = (0..).map(|k| from_m + f64::from(k) * APART_M).take_while(|height_m| has_trunk && *height_m < to_m);
+        let heights =
+            (0..).map(|k| from_m + f64::from(k) * APART_M).take_while(|height_m| has_trunk && *height_m < to_m);
         let girth = |height_m: f64| Some([height_m, body.trunk_girth_at(height_m)?]);
         let trunk = heights.filter_map(girth).collect();
         Self { measurements: measurements.clone(), stand, girths: body.girths.clone(), trunk }

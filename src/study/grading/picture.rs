@@ -155,7 +155,8 @@ impl Panel {
         for (k, (name, of)) in sizes.chain([("none", None)]).enumerate() {
             let at = MARGIN + 18.0 + 18.0 * k as f64;
             let colour = of.map_or("#cccccc", |size| COLOURS[size % COLOURS.len()]);
-            let _ = writeln!(svg, "<circle cx=\"{}\" cy=\"{}\" r=\"5\" fill=\"{colour}\"/>", self.left + 14.0, at - 4.0);
+            let _ =
+                writeln!(svg, "<circle cx=\"{}\" cy=\"{}\" r=\"5\" fill=\"{colour}\"/>", self.left + 14.0, at - 4.0);
             let text = format!("{}: {:.1} %", escaped(name), share(of));
             let _ = writeln!(svg, "<text x=\"{}\" y=\"{at}\">{text}</text>", self.left + 24.0);
         }

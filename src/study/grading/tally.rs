@@ -185,7 +185,8 @@ pub fn parts(figures: &[Figure], bands: &[Band], sets: [&Tally; 2]) -> (String, 
     let mut all: Vec<usize> = (0..figures.len()).collect();
     all.sort_by(|a, b| girth_mm(a).total_cmp(&girth_mm(b)));
     let part = |people: &[usize]| {
-        let fitted = |set: &Tally| percent(people.iter().filter(|person| set.is_fitted(**person)).count(), people.len());
+        let fitted =
+            |set: &Tally| percent(people.iter().filter(|person| set.is_fitted(**person)).count(), people.len());
         let ends = [people.first(), people.last()].map(|person| person.map_or(0.0, girth_mm));
         PartShare { from_to_mm: ends, fits_percent: sets.map(fitted) }
     };
