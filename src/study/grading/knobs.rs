@@ -68,7 +68,8 @@ impl<'a> Knobs<'a> {
         let changes: Vec<Vec<f64>> = all.iter().map(|handle| changes(style, *handle, somebody, &levels)).collect();
         let handles = chosen(&all, &changes);
         let Some(lead) = handles.first() else {
-            let message = format!("{}: no handle changes a level that has a band; there is: {all:?}", style.name);
+            let known = all.iter().map(|handle| handle.as_str()).collect::<Vec<_>>().join(", ");
+            let message = format!("{}: no handle widens a level that has a target; there is: {known}", style.name);
             return Err(StudyError::stage("grade")(message));
         };
         let lead = *lead;
