@@ -32,7 +32,7 @@ struct Fault {
 
 const MAN: &str = "sex = \"male\"\nstature_mm = 1760\nchest_girth_mm = 960\nwaist_girth_mm = 850";
 const LARGE: &str =
-    "sex = \"male\"\nstature_mm = 1790\nchest_girth_mm = 1030\nwaist_girth_mm = 940\nhip_girth_mm = 1020";
+    "sex = \"male\"\nstature_mm = 1790\nchest_girth_mm = 1080\nwaist_girth_mm = 990\nhip_girth_mm = 1050";
 const WOMAN: &str =
     "sex = \"female\"\nstature_mm = 1660\nchest_girth_mm = 890\nwaist_girth_mm = 720\nhip_girth_mm = 960";
 

@@ -16,6 +16,8 @@ use pattern::{Handle, Style};
 const ROUNDS: usize = 12;
 /// Amount below which a handle is as dear as one that does not move, m.
 const SMALL_M: f64 = 0.2e-3;
+/// Squared miss for which a metre of handles is moved, m, of a level that is as meant already: it is not given up for another.
+const KEPT_M: f64 = 1e-9;
 /// Least amount of a handle that goals which give way have chosen, m, and by how much firmer they are met by those.
 const CHOSEN_M: f64 = 1e-3;
 const FIRMER: f64 = 30.0;
@@ -95,7 +97,15 @@ impl<'a> Bench<'a> {
         let mut limits_m = vec![from_mm(self.wish.limit_mm); self.handles.len()];
         loop {
             let refused = match self.within(&limits_m, goals) {
-                Ok(amounts) => return Ok(amounts),
+                Ok(amounts) if self.missed_m(&amounts)? <= self.missed_m(&[])? => return Ok(amounts),
+                Ok(_) => {
+                    // So far a handle is another garment: a level lies elsewhere.
+                    limits_m.iter_mut().for_each(|limit_m| *limit_m *= TIGHTER);
+                    if limits_m.iter().all(|limit_m| *limit_m < LEAST_LIMIT_M) {
+                        return Ok(vec![0.0; limits_m.len()]);
+                    }
+                    continue;
+                }
                 Err(refused) => refused,
             };
             let place = self.handles.iter().position(|handle| Some(*handle) == refused.handle());
@@ -137,13 +147,26 @@ impl<'a> Bench<'a> {
                 let sensitivity: Vec<f64> =
                     self.changes.iter().map(|change| change.get(level).copied().unwrap_or(0.0)).collect();
                 let done: f64 = sensitivity.iter().zip(&amounts).map(|(s, amount)| s * amount).sum();
-                Some(Goal { value: ease_m - done, sensitivity, band: [least + inside, most - inside], gives: None })
+                let is_met = self.before.get(level).is_some_and(|before_m| (least..=most).contains(before_m));
+                let band = [least + inside, most - inside];
+                Some(Goal { value: ease_m - done, sensitivity, band, gives: is_met.then_some(KEPT_M) })
             };
             let goals: Vec<Goal> = now.iter().filter_map(goal).chain(others.iter().cloned()).collect();
             let scale: Vec<f64> = amounts.iter().map(|amount| (amount.abs() + SMALL_M).sqrt()).collect();
             amounts = least_change(&goals, limits, &scale).amounts;
         }
         Ok(amounts)
+    }
+
+    /// By how much all levels together miss their bands once handles have moved, m.
+    fn missed_m(&self, amounts: &[f64]) -> Result<f64> {
+        let now = eases(&self.moved(amounts)?, self.body);
+        let missed = |level: &String| {
+            let [least, most] = self.band_m(level)?;
+            let ease_m = now.get(level).copied().unwrap_or(f64::NEG_INFINITY);
+            Some((least - ease_m).max(ease_m - most).max(0.0))
+        };
+        Ok(self.before.keys().filter_map(missed).sum())
     }
 
     /// Handles that move, with their amounts, m.
