@@ -67,7 +67,7 @@ fn print(context: &Context, found: &Grading) -> Result<(), CliError> {
     output::text(&format!("rules read again: the same sizes within {apart_mm:.3} mm\n"))?;
     if let Some(drapes) = &found.drapes {
         output::text(&format!("draped again: {} of {} agree\n", drapes.agree, drapes.people))?;
-        drapes.against.iter().for_each(|one| output::note(one));
+        drapes.against.iter().for_each(output::note);
     }
     Ok(())
 }
