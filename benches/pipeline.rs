@@ -7,6 +7,7 @@ use std::sync::LazyLock;
 use divan::Bencher;
 use toile::body::Dimension;
 use toile::body::{self, Body, Measurements, Sex};
+use toile::fit::Draw;
 use toile::fit::coverage::{Asked, Asks, Search, Series};
 use toile::geom::{DistanceField, TriMesh, shapes};
 use toile::measure;
@@ -169,7 +170,7 @@ fn read_all_samples(bencher: Bencher) {
 /// Three sizes of five knobs sought for as many people as `toile grade` draws.
 #[divan::bench(sample_count = 3, sample_size = 1)]
 fn size_search(bencher: Bencher) {
-    let mut random = fit::Draw::new(1);
+    let mut random = Draw::new(1);
     let people = (0..2000).map(|_| -> Asks {
         let large = 40.0 * random.normal();
         let asked = |knob: usize| {
