@@ -119,7 +119,7 @@ fn readings(found: &Alteration) -> Table {
     let row = |one: &AlteredReading| {
         let number =
             |value: f64| Value::Text(if one.unit == "kPa" { format!("{value:.2}") } else { format!("{value:+.1}") });
-        let [least, most] = one.target;
+        let [least, most] = one.target.map(|bound| (100.0 * bound).round() / 100.0);
         vec![
             Value::Text(one.reading.replace('_', " ")),
             Value::Text(one.unit.to_owned()),

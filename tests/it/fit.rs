@@ -125,6 +125,9 @@ fn a_size_is_altered_until_it_fits_and_its_file_is_what_was_promised() {
 fn a_drape_is_altered_until_it_hangs_as_asked_and_all_sizes_alike() {
     let place = Place::new();
     place.study(&[("tee", 0.1, &["s", "m"])]);
+    let text = std::fs::read_to_string(place.path("study.toml")).expect("just written");
+    let coarser = text.replace("edge_length_mm = 40", "edge_length_mm = 60");
+    place.write("study.toml", coarser);
     let listed = place.toile("alter . --size m --list --json").ends_with(0).json();
     let stands = |name: &str| {
         let all = listed.as_array().expect("a list");
@@ -135,14 +138,14 @@ fn a_drape_is_altered_until_it_hangs_as_asked_and_all_sizes_alike() {
     let found = place
         .toile(&format!(
             "alter . --size m --target {asked} --target chest=0..300 --target hip=0..300 --target waist=0..300 \
-            --target upper_arm=0..300 --nest --standard astm -o out --json"
+            --target upper_arm=0..300 --target across_shoulder=0..90 --nest --standard astm -o out --json"
         ))
         .ends_with(0)
         .json();
     let reading = &found["readings"][0];
     let value = |key: &str| reading[key].as_f64().expect("a reading");
     assert!((value("before") - over).abs() < 1e-9 && value("achieved") < over - 17.8, "{reading}");
-    assert!((value("promised") - value("achieved")).abs() < 6.0, "{reading}");
+    assert!((value("promised") - value("achieved")).abs() < 10.0, "{reading}");
     let lengths = ["front_length", "back_length"];
     let moves = found["moves"].as_array().expect("moves");
     assert!(moves.iter().any(|one| lengths.iter().any(|name| one["handle"] == *name)), "{moves:?}");
