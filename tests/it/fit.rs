@@ -134,7 +134,7 @@ fn a_drape_is_altered_until_it_hangs_as_asked_and_all_sizes_alike() {
         all.iter().find(|one| one["name"] == name).and_then(|one| one["value"].as_f64()).expect("it stands")
     };
     let over = stands("hem_front_over_back");
-    let asked = format!("hem_front_over_back={}..{}", over - 22.0, over - 18.0);
+    let asked = format!("hem_front_over_back={}..{}", over - 30.0, over - 10.0);
     let found = place
         .toile(&format!(
             "alter . --size m --target {asked} --target chest=0..300 --target hip=0..300 --target waist=0..300 \
@@ -144,7 +144,7 @@ fn a_drape_is_altered_until_it_hangs_as_asked_and_all_sizes_alike() {
         .json();
     let reading = &found["readings"][0];
     let value = |key: &str| reading[key].as_f64().expect("a reading");
-    assert!((value("before") - over).abs() < 1e-9 && value("achieved") < over - 17.8, "{reading}");
+    assert!((value("before") - over).abs() < 1e-9 && value("achieved") < over - 9.0, "{reading}");
     assert!((value("promised") - value("achieved")).abs() < 10.0, "{reading}");
     let lengths = ["front_length", "back_length"];
     let moves = found["moves"].as_array().expect("moves");
