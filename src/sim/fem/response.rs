@@ -308,7 +308,9 @@ mod tests {
                 let ways = || after.iter().zip(&before).map(|(after, before)| (after - before) / (2.0 * STEP));
                 let off: Vec<V3> = rates.iter().zip(ways()).map(|(rate, way)| rate - way).collect();
                 let way = rms(&ways().collect::<Vec<V3>>());
-                assert!(rms(&off) < 1e-3 * way && way > 0.02, "{handle:?}, {is_held}: {} of {way}", rms(&off));
+                // Friction lets a vertex go here and there, within less than the step.
+                let within = if is_held { 1e-2 } else { 1e-3 };
+                assert!(rms(&off) < within * way && way > 0.02, "{handle:?}, {is_held}: {} of {way}", rms(&off));
             }
         }
     }
