@@ -126,9 +126,7 @@ impl MaterialLine {
         let [flat, draped] = [flat, draped].map(|ways| arcs(&ways, &steps));
         self.arc_m.iter().zip(flat.iter().zip(&draped)).map(|(arc, (flat, draped))| arc * draped / flat).sum()
     }
-}
 
-impl MaterialLine {
     /// The line after its cloth was drawn elsewhere.
     fn redrawn(&self, before: &[V2], after: &[V2]) -> Self {
         let chords = |rest: &[V2]| -> Vec<f64> {

@@ -89,6 +89,8 @@ pub struct BodyContact<'a> {
     seen: Vec<Seen>,
     /// Coulomb coefficient; `None` while friction is off.
     friction: Option<f64>,
+    /// Whether friction holds beyond its limit.
+    holds_fast: bool,
     touching: Vec<Touch>,
 }
 
@@ -106,6 +108,7 @@ impl<'a> BodyContact<'a> {
             anchors: vec![None; areas.len()],
             seen: vec![Seen::NEVER; areas.len()],
             friction: None,
+            holds_fast: false,
             touching: Vec::new(),
         }
     }
@@ -125,6 +128,7 @@ impl<'a> BodyContact<'a> {
             anchors: of_whole().map(|&k| self.anchors[k]).collect(),
             seen: of_whole().map(|&k| self.seen[k]).collect(),
             friction: self.friction,
+            holds_fast: self.holds_fast,
             touching: Vec::new(),
         }
     }
@@ -160,6 +164,12 @@ impl<'a> BodyContact<'a> {
     pub fn set_friction(&mut self, coefficient: Option<f64>) {
         self.friction = coefficient;
         self.anchors.fill(None);
+    }
+
+    /// From now on friction holds every sample by its anchor, whatever that takes. A sample that has slid lies just at its limit: a small
+    /// move the one way would be held there, and the other way not.
+    pub fn hold_fast(&mut self) {
+        self.holds_fast = true;
     }
 
     /// Number of samples in contact at the last [`BodyContact::assemble`].
@@ -385,7 +395,7 @@ impl<'a> BodyContact<'a> {
         let stiffest = sample.area_m2 * self.params.stiffness_n_m3 * self.params.tangential_share;
         let k = stiffest.min(limit / self.params.slip_m);
         let length = slip.norm();
-        Some(if k * length <= limit {
+        Some(if self.holds_fast || k * length <= limit {
             Friction { energy: 0.5 * k * length * length, force: slip * -k, stiffness: k, held: slip }
         } else {
             let direction = slip / length;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{AlteredLevel, STEP_M, Sensitivity, Wish};
+use super::{AlteredLevel, SLACK_MM, STEP_M, Sensitivity, Wish};
 use crate::error::{Result, StudyError};
 use crate::run::ease;
 use body::Body;
@@ -16,7 +16,7 @@ use pattern::{Handle, Style};
 const ROUNDS: usize = 12;
 /// Amount below which a handle is as dear as one that does not move, m.
 const SMALL_M: f64 = 0.2e-3;
-/// Squared miss for which a metre of handles is moved, m, of a level that is as meant already: it is not given up for another.
+/// Squared miss of a level that is as meant already for which a metre of handles is moved, m: it is not given up for another.
 const KEPT_M: f64 = 1e-9;
 /// Least amount of a handle that goals which give way have chosen, m, and by how much firmer they are met by those.
 const CHOSEN_M: f64 = 1e-3;
@@ -94,10 +94,11 @@ impl<'a> Bench<'a> {
         if !self.wish.moves_mm.is_empty() {
             return Ok(self.wish.moves_mm.iter().map(|(_, amount_mm)| from_mm(*amount_mm)).collect());
         }
+        let as_it_is_m = self.missed_m(&vec![0.0; self.handles.len()])?;
         let mut limits_m = vec![from_mm(self.wish.limit_mm); self.handles.len()];
         loop {
             let refused = match self.within(&limits_m, goals) {
-                Ok(amounts) if self.missed_m(&amounts)? <= self.missed_m(&[])? => return Ok(amounts),
+                Ok(amounts) if self.missed_m(&amounts)? <= as_it_is_m => return Ok(amounts),
                 Ok(_) => {
                     // So far a handle is another garment: a level lies elsewhere.
                     limits_m.iter_mut().for_each(|limit_m| *limit_m *= TIGHTER);
@@ -158,13 +159,14 @@ impl<'a> Bench<'a> {
         Ok(amounts)
     }
 
-    /// By how much all levels together miss their bands once handles have moved, m.
+    /// By how much all levels together miss their bands once handles have moved, m; what drawn amounts leave does not count.
     fn missed_m(&self, amounts: &[f64]) -> Result<f64> {
         let now = eases(&self.moved(amounts)?, self.body);
         let missed = |level: &String| {
             let [least, most] = self.band_m(level)?;
             let ease_m = now.get(level).copied().unwrap_or(f64::NEG_INFINITY);
-            Some((least - ease_m).max(ease_m - most).max(0.0))
+            let off_m = (least - ease_m).max(ease_m - most);
+            Some(if off_m > from_mm(SLACK_MM) { off_m } else { 0.0 })
         };
         Ok(self.before.keys().filter_map(missed).sum())
     }

@@ -14,10 +14,10 @@ use fit::Simulator;
 use geom::units::mm;
 use geom::{DistanceField, V2, V3};
 use pattern::{Garment, Handle, Style};
-use sim::Silent;
 use sim::contact::Skin;
 use sim::fem::response::{Lying, Response, sewn};
 use sim::fem::{self, Params};
+use sim::{Drape, Silent};
 
 /// By how much a handle is moved to see how a drape answers, m: the mesh is taken along, and no longer made anew.
 const TAKEN_ALONG_M: f64 = 0.1e-3;
@@ -50,10 +50,16 @@ impl<'a> FittingRoom<'a> {
     /// # Errors
     /// What meshing or the simulator refuses.
     pub fn outcome(&self, style: &Style) -> Result<(Outcome, Vec<(String, f64)>)> {
+        let Draped { meshes, drape, outcome } = self.draped(style)?;
+        Ok((outcome, self.fitting(style, &meshes).eases_on(&drape)?))
+    }
+
+    fn draped(&self, style: &Style) -> Result<Draped> {
         let meshes = Meshes::of(style, self.spec.edge_length_m)?;
         let fitting = self.fitting(style, &meshes);
         let drape = fitting.simulate(&mut Silent)?;
-        Ok((fitting.outcome(&drape)?, fitting.eases_on(&drape)?))
+        let outcome = fitting.outcome(&drape)?;
+        Ok(Draped { meshes, drape, outcome })
     }
 
     /// Drapes a style as its study does, and reads the drape.
@@ -61,10 +67,7 @@ impl<'a> FittingRoom<'a> {
     /// # Errors
     /// What meshing or the simulator refuses.
     pub fn drape(&self, style: &Style) -> Result<(Redraped, Readings)> {
-        let meshes = Meshes::of(style, self.spec.edge_length_m)?;
-        let fitting = self.fitting(style, &meshes);
-        let drape = fitting.simulate(&mut Silent)?;
-        let outcome = fitting.outcome(&drape)?;
+        let Draped { meshes, drape, outcome } = self.draped(style)?;
         let garment = meshes.finest()?;
         let place = Place::new(self.body, style, garment, &self.spec.fabric)?;
         let hem = outcome.worn.hang.hem.and_then(|hem| Some(mm(hem.front_m? - hem.back_m?)));
@@ -154,6 +157,13 @@ impl<'a> FittingRoom<'a> {
         let (fabric, parameters) = (&spec.fabric, &spec.parameters);
         Fitting { body, field, style, meshes, fabric, simulator: Simulator::Fem, parameters }
     }
+}
+
+/// A style, draped.
+struct Draped {
+    meshes: Meshes,
+    drape: Drape,
+    outcome: Outcome,
 }
 
 /// How a drape answers.

@@ -29,6 +29,8 @@ use pattern::{Handle, Style};
 
 /// By how much a handle is moved to see what it changes, m.
 const STEP_M: f64 = 0.002;
+/// How far outside its target an ease counts as within, mm: the step of drawn amounts.
+const SLACK_MM: f64 = 0.5;
 /// Drapes at most that a change is found by, the first of the pattern as it is.
 const MOST_DRAPES: usize = 3;
 
@@ -90,7 +92,7 @@ impl AlteredLevel {
     /// Whether what is achieved lies within what is meant.
     #[must_use]
     pub fn is_met(&self) -> bool {
-        self.target_mm.is_none_or(|[least, most]| (least - 0.5..=most + 0.5).contains(&self.achieved_mm))
+        self.target_mm.is_none_or(|[least, most]| (least - SLACK_MM..=most + SLACK_MM).contains(&self.achieved_mm))
     }
 }
 

@@ -135,7 +135,8 @@ fn goals(wish: &Wish, [now, scatter]: [&Readings; 2], answers: &Answers, amounts
         let sensitivity: Vec<f64> = answers.of_handles.iter().map(of).collect();
         let done: f64 = sensitivity.iter().zip(amounts).map(|(s, amount)| s * amount).sum();
         let inside = 0.25 * (most - least);
-        let gives = Some(scatter.get(name)?.value.powi(2) / WORTH_M);
+        // What the coarse drape does not have is answered by no handle, and asked for firmly: it is missed, and said so.
+        let gives = scatter.get(name).map(|scatter| scatter.value.powi(2) / WORTH_M);
         Some(Goal { value: value - done, sensitivity, band: [least + inside, most - inside], gives })
     };
     wish.targets.iter().filter_map(goal).collect()

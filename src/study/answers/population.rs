@@ -14,7 +14,7 @@ use body::{self, Dimension, Measurements, Sex};
 use fit::Draw;
 
 /// Dimensions by which people are drawn and grouped: those that the thesis's subjects are known by.
-const DIMENSIONS: [Dimension; 7] = [
+pub(crate) const DIMENSIONS: [Dimension; 7] = [
     Dimension::Stature,
     Dimension::Weight,
     Dimension::ChestGirth,
@@ -25,6 +25,9 @@ const DIMENSIONS: [Dimension; 7] = [
 ];
 /// Scores beyond which nobody is drawn: one of 16,000.
 const EXTREME: f64 = 4.0;
+/// Representatives up to which people are grouped: of more, everybody drawn stands for himself, since to group them takes as many
+/// comparisons as people times representatives, again and again.
+const GROUPED: usize = 500;
 /// Most rounds of grouping.
 const ROUNDS: usize = 200;
 
@@ -66,10 +69,6 @@ pub struct Nearest {
 pub(crate) fn people(sex: Sex, count: usize, random: &mut Draw) -> Vec<Measurements> {
     (0..count).map(|_| draw(sex, random)).collect()
 }
-
-/// Representatives up to which people are grouped: of more, everybody drawn stands for himself, since to group them takes as many
-/// comparisons as people times representatives, again and again.
-const GROUPED: usize = 500;
 
 /// The representatives of a sex, the most frequent first.
 #[must_use]

@@ -3,6 +3,7 @@
 use super::knobs::Band;
 use super::people::{self, Figure};
 use super::{LevelShare, PartShare, Range, SizeSet, SizeShare};
+use crate::answers::population::DIMENSIONS;
 use body::Dimension;
 use geom::units::mm;
 use pattern::Style;
@@ -17,16 +18,6 @@ const PARTS: usize = 5;
 const NORMAL_95: f64 = 1.96;
 /// Percentiles that a size chart says.
 const PERCENTILES: [f64; 3] = [0.05, 0.5, 0.95];
-/// Dimensions that a size chart says.
-const DIMENSIONS: [Dimension; 7] = [
-    Dimension::Stature,
-    Dimension::Weight,
-    Dimension::ChestGirth,
-    Dimension::WaistGirth,
-    Dimension::HipGirth,
-    Dimension::NeckGirth,
-    Dimension::AcrossShoulder,
-];
 /// Girths of the trunk before others, from the top down.
 const ORDER: [&str; 5] = ["chest", "bust", "underbust", "waist", "hip"];
 
