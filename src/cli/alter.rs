@@ -3,6 +3,7 @@
 use super::args::Alter;
 use super::context::Context;
 use super::{End, Outcome, output};
+use geom::units::signed_tenths;
 use study::{Alteration, AlteredLevel, AlteredReading, Table, Value, Wish, files};
 
 /// Finds or applies a change of a size for a subject, and prints it.
@@ -38,7 +39,8 @@ pub fn alter(context: &Context, arguments: &Alter) -> Outcome {
         true => output::json(&found)?,
         false => print(context, &found)?,
     }
-    Ok(if found.is_met() { End::Done } else { End::CheckFailed })
+    let is_draped = found.drape.is_some() || !arguments.drape;
+    Ok(if found.is_met() && is_draped { End::Done } else { End::CheckFailed })
 }
 
 fn print(context: &Context, found: &Alteration) -> Result<(), super::CliError> {
@@ -85,7 +87,7 @@ fn levels(found: &Alteration) -> Table {
     let columns = ["level", "target_mm", "before_mm", "promised_mm", "achieved_mm", ""].map(str::to_owned).to_vec();
     let row = |one: &AlteredLevel| {
         let target = one.target_mm.map_or(Value::Null, |[least, most]| Value::Text(format!("{least:.0} to {most:.0}")));
-        let ease = |mm: f64| Value::Text(format!("{mm:+.1}"));
+        let ease = |mm: f64| Value::Text(signed_tenths(mm));
         let verdict = match (one.target_mm, one.is_met()) {
             (None, _) => "",
             (_, true) => "met",
@@ -118,7 +120,7 @@ fn readings(found: &Alteration) -> Table {
     let columns = ["reading", "unit", "target", "before", "promised", "achieved", ""].map(str::to_owned).to_vec();
     let row = |one: &AlteredReading| {
         let number =
-            |value: f64| Value::Text(if one.unit == "kPa" { format!("{value:.2}") } else { format!("{value:+.1}") });
+            |value: f64| Value::Text(if one.unit == "kPa" { format!("{value:.2}") } else { signed_tenths(value) });
         let [least, most] = one.target.map(|bound| (100.0 * bound).round() / 100.0);
         vec![
             Value::Text(one.reading.replace('_', " ")),

@@ -29,6 +29,7 @@ mod recommend;
 mod run;
 mod runs;
 mod section;
+mod sew;
 mod studies;
 #[cfg(test)]
 mod tests;

@@ -31,9 +31,24 @@ pub fn significant(number: f64, digits: i32) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
+/// A number with its sign, in tenths; what rounds to 0 is `+0.0`.
+#[must_use]
+pub fn signed_tenths(number: f64) -> String {
+    // -0 and 0 make 0.
+    format!("{:+.1}", (number * 10.0).round() / 10.0 + 0.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn nothing_is_negative_by_less_than_is_shown() {
+        let check = |number: f64, expected: &str| assert_eq!(signed_tenths(number), expected);
+        check(-0.04, "+0.0");
+        check(-0.06, "-0.1");
+        check(12.34, "+12.3");
+    }
 
     #[test]
     fn numbers_are_short_for_reading() {

@@ -46,6 +46,57 @@ pub enum Role {
     Other,
 }
 
+impl Role {
+    /// All, as they are offered.
+    pub const ALL: [Self; 16] = [
+        Self::Front,
+        Self::Back,
+        Self::SleeveRight,
+        Self::SleeveLeft,
+        Self::LegFrontRight,
+        Self::LegFrontLeft,
+        Self::LegBackRight,
+        Self::LegBackLeft,
+        Self::LegRight,
+        Self::LegLeft,
+        Self::BodiceFront,
+        Self::BodiceBack,
+        Self::SkirtFront,
+        Self::SkirtBack,
+        Self::Waistband,
+        Self::Other,
+    ];
+
+    /// Its name in seam files.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Front => "front",
+            Self::Back => "back",
+            Self::SleeveRight => "sleeve_right",
+            Self::SleeveLeft => "sleeve_left",
+            Self::LegFrontRight => "leg_front_right",
+            Self::LegFrontLeft => "leg_front_left",
+            Self::LegBackRight => "leg_back_right",
+            Self::LegBackLeft => "leg_back_left",
+            Self::LegRight => "leg_right",
+            Self::LegLeft => "leg_left",
+            Self::BodiceFront => "bodice_front",
+            Self::BodiceBack => "bodice_back",
+            Self::SkirtFront => "skirt_front",
+            Self::SkirtBack => "skirt_back",
+            Self::Waistband => "waistband",
+            Self::Other => "other",
+        }
+    }
+
+    /// The role of a name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|role| role.as_str() == name)
+    }
+}
+
 /// One triangulated piece: ranges into the garment's arrays.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct PieceMesh {

@@ -4,13 +4,16 @@
 //! corners (`front.3-5`, counter-clockwise as drawn); an edge that has no name yet gets one. A side of several edges is
 //! written with `+`, in order along the seam.
 
-use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, value};
+use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value, value};
 
+use super::garment::Role;
 use super::piece::Piece;
-use super::seams::SeamFile;
-use super::seams::StyleError;
+use super::seams::{SeamEntry, SeamFile, StyleError};
 use super::style::Style;
 use geom::units::mm;
+
+/// Difference of the ratio of two sides between sizes that is asked about.
+const OTHERWISE: f64 = 0.05;
 
 /// What is done to a seam file; sides as `PIECE.EDGE` or `PIECE.EDGE+PIECE.EDGE`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -40,20 +43,49 @@ pub enum Edit {
         /// An edge of the other side.
         b: String,
     },
+    /// Says that an edge is meant to be in no seam.
+    Open {
+        /// The edge.
+        edge: String,
+    },
+    /// Leaves a piece out, with its seams.
+    LeaveOut {
+        /// The piece.
+        piece: String,
+    },
+    /// Says what a piece is worn as.
+    Role {
+        /// The piece.
+        piece: String,
+        /// The role, as the file has it: `front`, `sleeve_right`.
+        role: String,
+    },
 }
 
-/// The text of a seam file after an edit; `file` is its name for messages, `pieces` are those of one size.
+/// The sizes that a seam file is to hold for: the one that is worked on, and the others with their pieces.
+#[derive(Clone, Copy, Debug)]
+pub struct Sizes<'a> {
+    /// The size that is worked on.
+    pub name: &'a str,
+    /// Its pieces.
+    pub pieces: &'a [Piece],
+    /// The others.
+    pub others: &'a [(String, Vec<Piece>)],
+}
+
+/// The text of a seam file after an edit; `file` is its name for messages.
 ///
 /// # Errors
 /// [`StyleError`] when the edit names what is not there, or when what it makes does not fit the pieces.
-pub fn edited(text: &str, file: &str, pieces: &[Piece], edit: &Edit) -> Result<String, StyleError> {
+pub fn edited(text: &str, file: &str, sizes: &Sizes<'_>, edit: &Edit) -> Result<String, StyleError> {
+    let pieces = sizes.pieces;
     let entries = SeamFile::parse(text.as_bytes(), file)?;
     let style = Style::read(pieces, text.as_bytes(), file)?;
     let syntax = |error: toml_edit::TomlError| StyleError::Syntax { file: file.to_owned(), reason: error.to_string() };
     let document: DocumentMut = text.parse().map_err(syntax)?;
     let mut editor = Editor { file, entries, style, document };
     match edit {
-        Edit::Add { a, b, name, is_eased } => editor.add(a, b, name.as_deref(), *is_eased)?,
+        Edit::Add { a, b, name, is_eased } => editor.add([a, b], name.as_deref(), *is_eased, sizes)?,
         Edit::Remove { a, b } => {
             let index = editor.between(a, b)?;
             editor.seams()?.remove(index);
@@ -69,6 +101,9 @@ pub fn edited(text: &str, file: &str, pieces: &[Piece], edit: &Edit) -> Result<S
                 }
             }
         }
+        Edit::Open { edge } => editor.open(edge)?,
+        Edit::LeaveOut { piece } => editor.leave_out(piece)?,
+        Edit::Role { piece, role } => editor.wear(piece, role)?,
     }
     let text = editor.document.to_string();
     Style::read(pieces, text.as_bytes(), file)?;
@@ -95,30 +130,126 @@ impl Editor<'_> {
         seams.as_array_of_tables_mut().ok_or(refused)
     }
 
-    fn add(&mut self, a: &str, b: &str, name: Option<&str>, is_eased: bool) -> Result<(), StyleError> {
+    fn add(
+        &mut self,
+        [a, b]: [&str; 2],
+        name: Option<&str>,
+        is_eased: bool,
+        sizes: &Sizes<'_>,
+    ) -> Result<(), StyleError> {
         let sides = [self.side(a)?, self.side(b)?];
-        let names = sides.clone().map(|side| side.into_iter().map(|(name, _)| name).collect::<Vec<_>>());
-        let [a_mm, b_mm] = sides.map(|side| side.iter().map(|(_, length_mm)| length_mm).sum::<f64>());
-        let name = name.map_or_else(|| self.free_name(&names[0][0]), str::to_owned);
+        let [a, b] = sides.clone().map(|side| side.into_iter().map(|(name, _)| name).collect::<Vec<_>>());
+        let own = sides.map(|side| side.iter().map(|(_, length_mm)| length_mm).sum::<f64>());
+        let name = name.map_or_else(|| self.free_name(&a[0]), str::to_owned);
+        let mut all = vec![(sizes.name.to_owned(), own)];
+        for (size, pieces) in sizes.others {
+            // A size that the file does not fit anyway is told by the check.
+            all.extend(self.sides_in(pieces, [&a, &b]).map(|sides| (size.clone(), sides)));
+        }
+        let ease = self.ease(&name, &all, is_eased)?;
         let mut seam = Table::new();
         seam["name"] = value(&name);
-        for (key, names) in ["a", "b"].into_iter().zip(&names) {
+        for (key, names) in [("a", &a), ("b", &b)] {
             seam[key] = value(names.iter().collect::<Array>());
         }
-        let excess = ((a_mm - b_mm) * 10.0).round() / 10.0;
-        if excess.abs() > self.entries.length_tolerance_mm {
-            if !is_eased {
-                let found = format!("sides of {a_mm:.1} and {b_mm:.1} mm");
-                return Err(self.refused(
-                    &format!("seam `{name}`"),
-                    found,
-                    "sides of one length, or --eased where the difference is meant",
-                ));
-            }
-            seam["ease_mm"] = value(excess);
+        if let Some(ease) = ease {
+            seam["ease_mm"] = Item::Value(ease);
         }
         self.seams()?.push(seam);
         Ok(())
+    }
+
+    /// Lengths of two sides in a size of other pieces, mm; `None` where the file as it is now does not fit them.
+    fn sides_in(&self, pieces: &[Piece], sides: [&[String]; 2]) -> Option<[f64; 2]> {
+        let mut entries = SeamFile::parse(self.document.to_string().as_bytes(), self.file).ok()?;
+        entries.length_tolerance_mm = f64::INFINITY;
+        let style = Style::of(pieces, &entries, self.file).ok()?;
+        let length = |name: &String| {
+            let (piece, edge) = name.split_once('.')?;
+            let drawn = style.pieces.iter().find(|drawn| drawn.id == piece)?;
+            let edge = drawn.edges.iter().find(|drawn| drawn.name.as_deref() == Some(edge))?;
+            Some(mm(edge.line.length()))
+        };
+        let [a, b] = sides.map(|side| side.iter().map(length).sum::<Option<f64>>());
+        Some([a?, b?])
+    }
+
+    /// What stands as the ease of a seam whose sides have these lengths by size, mm, that of the size worked on first; nothing where they
+    /// are alike in all.
+    fn ease(&self, name: &str, all: &[(String, [f64; 2])], is_eased: bool) -> Result<Option<Value>, StyleError> {
+        let tolerance_mm = self.entries.length_tolerance_mm;
+        let own = all.first().map_or(1.0, |(_, [a_mm, b_mm])| a_mm / b_mm);
+        let is_alike = |k: usize, [a_mm, b_mm]: [f64; 2]| match k {
+            0 => (a_mm - b_mm).abs() <= tolerance_mm,
+            _ => (a_mm - b_mm).abs() <= tolerance_mm || (a_mm / b_mm / own - 1.0).abs() <= OTHERWISE,
+        };
+        let odd = all.iter().enumerate().find(|(k, (_, sides))| !is_alike(*k, *sides));
+        if let Some((k, (size, [a_mm, b_mm]))) = odd.filter(|_| !is_eased) {
+            let of_size = if k == 0 { String::new() } else { format!(" in size {size}") };
+            let found = format!("sides of {a_mm:.1} and {b_mm:.1} mm{of_size}");
+            let accepted = "sides of one length, or --eased where the difference is meant";
+            return Err(self.refused(&format!("seam `{name}`"), found, accepted));
+        }
+        let rounded = |[a_mm, b_mm]: [f64; 2]| ((a_mm - b_mm) * 10.0).round() / 10.0;
+        let eases: Vec<(&str, f64)> = all.iter().map(|(size, sides)| (size.as_str(), rounded(*sides))).collect();
+        let first = eases.first().map_or(0.0, |(_, ease)| *ease);
+        if eases.iter().all(|(_, ease)| ease.abs() <= tolerance_mm) {
+            return Ok(None);
+        }
+        if eases.iter().all(|(_, ease)| (ease - first).abs() <= 0.5 * tolerance_mm) {
+            return Ok(Some(first.into()));
+        }
+        Ok(Some(Value::InlineTable(eases.into_iter().map(|(size, ease)| (size, Value::from(ease))).collect())))
+    }
+
+    fn open(&mut self, edge: &str) -> Result<(), StyleError> {
+        let (name, _) = self.edge(edge)?;
+        let holds = |seam: &&SeamEntry| seam.a.contains(&name) || seam.b.contains(&name);
+        if let Some(seam) = self.entries.seam.iter().find(holds) {
+            let accepted = "an edge in no seam; remove that seam first";
+            return Err(self.refused(&format!("edge `{name}`"), format!("it is in seam `{}`", seam.name), accepted));
+        }
+        if !self.entries.open.contains(&name) {
+            let refused = self.refused("open", "no list".to_owned(), "a list of edges");
+            let open = self.document.entry("open").or_insert(value(Array::new()));
+            open.as_array_mut().ok_or(refused)?.push(name);
+        }
+        Ok(())
+    }
+
+    fn leave_out(&mut self, piece: &str) -> Result<(), StyleError> {
+        self.known_piece(piece)?;
+        if let Some(pieces) = self.document["piece"].as_table_like_mut() {
+            pieces.remove(piece);
+        }
+        let is_of = |edge: &str| edge.split_once('.').is_some_and(|(of, _)| of == piece);
+        let touches = |seam: &Table| {
+            let sides = ["a", "b"].into_iter().filter_map(|side| seam.get(side)?.as_array());
+            sides.flatten().filter_map(|edge| edge.as_str()).any(is_of)
+        };
+        self.seams()?.retain(|seam| !touches(seam));
+        if let Some(open) = self.document.get_mut("open").and_then(Item::as_array_mut) {
+            open.retain(|edge| !edge.as_str().is_some_and(is_of));
+        }
+        Ok(())
+    }
+
+    fn wear(&mut self, piece: &str, role: &str) -> Result<(), StyleError> {
+        self.known_piece(piece)?;
+        if Role::from_name(role).is_none() {
+            let names: Vec<&str> = Role::ALL.into_iter().map(Role::as_str).collect();
+            return Err(self.unknown("role", role, &names.join(", ")));
+        }
+        self.document["piece"][piece]["role"] = value(role);
+        Ok(())
+    }
+
+    fn known_piece(&self, piece: &str) -> Result<(), StyleError> {
+        if self.entries.piece.contains_key(piece) {
+            return Ok(());
+        }
+        let ids: Vec<&str> = self.entries.piece.keys().map(String::as_str).collect();
+        Err(self.unknown("piece", piece, &ids.join(", ")))
     }
 
     /// A name for a seam that begins at an edge.
@@ -256,7 +387,8 @@ mod tests {
     }
 
     fn edit(text: &str, edit: &Edit) -> Result<String, StyleError> {
-        edited(text, "a.toml", &tshirt(TshirtSize::S).pieces, edit)
+        let pieces = tshirt(TshirtSize::S).pieces;
+        edited(text, "a.toml", &Sizes { name: "S", pieces: &pieces, others: &[] }, edit)
     }
 
     fn add(a: &str, b: &str) -> Edit {
@@ -304,7 +436,8 @@ mod tests {
             ("leg_front_left.5-6+leg_front_left.6-0", "edge_5_6 = [5, 6]"),
         ] {
             let b = "leg_back_left.outseam_upper+leg_back_left.outseam_lower";
-            let sewn = edited(&without, "a.toml", &pieces, &add(a, b)).unwrap_or_else(|error| panic!("{error}"));
+            let sewn = edited(&without, "a.toml", &Sizes { name: "S", pieces: &pieces, others: &[] }, &add(a, b))
+                .unwrap_or_else(|error| panic!("{error}"));
             assert!(sewn.contains(edge), "{sewn}");
         }
     }
@@ -327,5 +460,45 @@ mod tests {
             is_eased: true,
         };
         assert!(edit(&text(), &eased).expect("it is meant").contains("ease_mm = "));
+        check(Edit::Open { edge: "front.side_right".to_owned() }, "it is in seam `side_right`");
+        check(Edit::LeaveOut { piece: "collar".to_owned() }, "there is: back, front");
+        check(Edit::Role { piece: "front".to_owned(), role: "collar".to_owned() }, "sleeve_left");
+    }
+
+    #[test]
+    fn pieces_are_left_out_edges_left_open_and_roles_said() {
+        let [a, b] = ["front.side_right", "back.side_right"].map(str::to_owned);
+        let opened = edit(&text(), &Edit::Remove { a: a.clone(), b }).expect("it is there");
+        let open = edit(&opened, &Edit::Open { edge: a.clone() }).expect("it is free");
+        let read = |text: &str| SeamFile::parse(text.as_bytes(), "a.toml").expect("it reads");
+        assert_eq!(read(&open).open, [a.clone()]);
+        assert_eq!(edit(&open, &Edit::Open { edge: a }).expect("it is open already"), open);
+        let other = edit(&text(), &Edit::Role { piece: "back".to_owned(), role: "other".to_owned() }).expect("a role");
+        assert_eq!(read(&other).piece["back"].role, Role::Other);
+        // What is measured on a sleeve is measured no more without it.
+        let measured = text().find("[[measurement]]").expect("measurements");
+        let alone = edit(&text()[..measured], &Edit::LeaveOut { piece: "sleeve_left".to_owned() }).expect("a piece");
+        let left = read(&alone);
+        let is_of = |edge: &String| edge.starts_with("sleeve_left.");
+        assert!(!left.piece.contains_key("sleeve_left") && left.seam.len() == read(&text()).seam.len() - 2);
+        assert!(!left.seam.iter().any(|seam| seam.a.iter().chain(&seam.b).any(is_of)));
+    }
+
+    #[test]
+    fn the_ease_of_a_seam_is_that_of_each_size() {
+        let pieces = |size: TshirtSize| tshirt(size).pieces;
+        let (small, others) = (pieces(TshirtSize::S), vec![("L".to_owned(), pieces(TshirtSize::L))]);
+        let sizes = Sizes { name: "S", pieces: &small, others: &others };
+        let [a, b] = ["front.hem", "sleeve_right.opening"].map(str::to_owned);
+        let eased = Edit::Add { a, b, name: Some("x".to_owned()), is_eased: true };
+        let sewn = edited(&text(), "a.toml", &sizes, &eased).expect("it is meant");
+        let entries = SeamFile::parse(sewn.as_bytes(), "a.toml").expect("it reads");
+        let ease = entries.seam.last().map(|seam| seam.ease_mm.clone()).expect("a seam");
+        let of = |size: &str| ease.of_size(size).expect("both sizes");
+        assert!(of("L") > of("S") + 1.0, "{ease}");
+        for (size, pieces) in [("S", &small), ("L", &others[0].1)] {
+            let entries = SeamFile { size: Some(size.to_owned()), ..entries.clone() };
+            Style::of(pieces, &entries, "a.toml").unwrap_or_else(|error| panic!("{size}: {error}"));
+        }
     }
 }

@@ -5,14 +5,14 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-use crate::bodies::{self, LengthUnit, Sex};
+use crate::bodies::{LengthUnit, Sex};
 use crate::error::{Result, StudyError};
 use crate::files::SourceFile;
 use crate::patterns::{self, Unit};
 use crate::run::outcome::{Measured, Outcome};
 use crate::run::pipeline::{Fitting, Meshes};
 use crate::seams::{self, Question};
-use crate::spec::file::{holds_measurements, read_fabric, read_measurements};
+use crate::spec::file::{read_body, read_fabric};
 use crate::spec::parameters::Parameters;
 use crate::spec::versions::FIELD_SPACING_M;
 use body::Body;
@@ -174,7 +174,8 @@ pub fn attempt(asked: &Attempt, progress: &mut dyn FnMut(&str, f64)) -> Result<T
     let mut notes = Vec::new();
     let fabric = fabric(&asked.fabric)?;
     let style = style(asked, &mut notes)?;
-    let body = body(asked, &mut notes)?;
+    let (body, guessed) = read_body(&asked.body, asked.body_unit, asked.sex)?;
+    notes.extend(guessed);
     let field = DistanceField::build(&body.mesh, FIELD_SPACING_M).map_err(StudyError::stage("field"))?;
     let meshes = Meshes::of(&style, asked.edge_length_m)?;
     let fitting = Fitting {
@@ -320,16 +321,6 @@ fn fabric(name: &str) -> Result<Fabric> {
     let known = library.iter().map(|fabric| fabric.name.clone()).collect();
     let missing = || StudyError::NotFound { what: "fabric", name: name.to_owned(), known };
     library.into_iter().find(|fabric| fabric.name == name).ok_or_else(missing)
-}
-
-fn body(asked: &Attempt, notes: &mut Vec<String>) -> Result<Body> {
-    if holds_measurements(&asked.body) {
-        return bodies::build_body(&read_measurements(&asked.body, asked.sex)?);
-    }
-    let source = SourceFile::read(&asked.body)?;
-    let scan = bodies::read_scan(&source, asked.body_unit, asked.sex)?;
-    notes.extend(scan.imported.notes.iter().cloned());
-    bodies::scanned_body(&source, scan)
 }
 
 /// The style: with its seam file, by its own stitches, or as proposed where the proposal is sure.

@@ -20,7 +20,7 @@ pub use body::{Body, BodyBuild, MeshUnit, Sex};
 pub use catalogue::{Catalogue, FabricValues, SizeValues, StyleValues, SubjectValues};
 pub use fit::{Chance, Fit, Section};
 pub use grade::Grade;
-pub use pattern::{BesideFiles, DraftStyle, Pattern, PatternUnit, SeamCommand, StyleFiles};
+pub use pattern::{BesideFiles, DraftStyle, Pattern, PatternUnit, SeamCommand, SeamHome, SewFiles, Sides, StyleFiles};
 pub use report::{Purpose, Report};
 
 /// A fit-study workbench: dress bodies in sewing patterns, measure the drape, say which simulator to trust.

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::{MeshUnit, Sex};
 use clap::{Args, Subcommand, ValueEnum};
 use geom::units::from_mm;
 use study::patterns::Unit;
@@ -93,17 +94,11 @@ pub struct StyleFiles {
     pub unit: Option<PatternUnit>,
 }
 
-/// A seam file, its pattern, and two edges.
+/// A seam file and its pattern.
 #[derive(Clone, Debug, Args)]
-pub struct SeamFiles {
+pub struct SeamHome {
     /// Seam file, changed in its place.
     pub seams: PathBuf,
-    /// One side: PIECE.EDGE by name, by its number in the sheet (front.3) or its corners (front.3-5); chains with `+`.
-    #[arg(value_name = "PIECE.EDGE")]
-    pub a: String,
-    /// The other side.
-    #[arg(value_name = "PIECE.EDGE")]
-    pub b: String,
     /// DXF file, or folder of them, that the seam file belongs to.
     #[arg(long, value_name = "FILE")]
     pub pattern: PathBuf,
@@ -115,13 +110,26 @@ pub struct SeamFiles {
     pub unit: Option<PatternUnit>,
 }
 
+/// Two sides of a seam.
+#[derive(Clone, Debug, Args)]
+pub struct Sides {
+    /// One side: PIECE.EDGE by name, by its number in the sheet (front.3) or its corners (front.3-5); chains with `+`.
+    #[arg(value_name = "PIECE.EDGE")]
+    pub a: String,
+    /// The other side.
+    #[arg(value_name = "PIECE.EDGE")]
+    pub b: String,
+}
+
 /// Edits of a seam file; the result is checked against the pattern, and comments stay.
 #[derive(Clone, Debug, Subcommand)]
 pub enum SeamCommand {
     /// Sew two sides.
     Add {
         #[command(flatten)]
-        files: SeamFiles,
+        home: SeamHome,
+        #[command(flatten)]
+        sides: Sides,
         /// Name of the seam.
         #[arg(long, value_name = "NAME")]
         name: Option<String>,
@@ -132,12 +140,63 @@ pub enum SeamCommand {
     /// Open the seam between two edges.
     Rm {
         #[command(flatten)]
-        files: SeamFiles,
+        home: SeamHome,
+        #[command(flatten)]
+        sides: Sides,
     },
     /// Turn one side of the seam between two edges round.
     Flip {
         #[command(flatten)]
-        files: SeamFiles,
+        home: SeamHome,
+        #[command(flatten)]
+        sides: Sides,
+    },
+    /// Say that an edge is meant to be in no seam.
+    Open {
+        #[command(flatten)]
+        home: SeamHome,
+        /// The edge.
+        #[arg(value_name = "PIECE.EDGE")]
+        edge: String,
+    },
+    /// Leave a piece out, with its seams.
+    LeaveOut {
+        #[command(flatten)]
+        home: SeamHome,
+        /// The piece.
+        piece: String,
+    },
+    /// Say what a piece is worn as.
+    Role {
+        #[command(flatten)]
+        home: SeamHome,
+        /// The piece.
+        piece: String,
+        /// What it is: front, back, sleeve_right, ..., other.
+        role: String,
+    },
+    /// Take a proposed seam for right, or all that are sure.
+    Confirm {
+        #[command(flatten)]
+        home: SeamHome,
+        /// Name of the seam; without it all that are at least 80 % sure.
+        seam: Option<String>,
+    },
+    /// Answer a question of the proposal: it is made anew, and what was confirmed stays so where it is proposed again.
+    Answer {
+        #[command(flatten)]
+        home: SeamHome,
+        /// The question, as it stands in the seam file.
+        question: String,
+        /// Letter of the choice.
+        choice: char,
+    },
+    /// Strike a question out: the file is as it should be.
+    Settle {
+        #[command(flatten)]
+        home: SeamHome,
+        /// The question, as it stands in the seam file.
+        question: String,
     },
 }
 
@@ -172,9 +231,11 @@ pub enum Pattern {
     },
     /// Whether a pattern and its seam file fit together: seams, measurements, meshes; of a study, every size.
     Check(StyleFiles),
-    /// Add, open or turn round a seam of a seam file.
+    /// Work on a seam file: add, open or turn a seam, confirm, answer, leave out.
     #[command(subcommand)]
     Seam(SeamCommand),
+    /// Sew a pattern coarsely on a body while its seam file is edited: a picture from four sides, and what is to be decided.
+    Sew(SewFiles),
     /// Draft a built-in style in all its sizes, with its seam file.
     Draft {
         /// Style.
@@ -242,6 +303,33 @@ pub enum Pattern {
         #[arg(long, short, value_name = "FILE")]
         output: PathBuf,
     },
+}
+
+/// A pattern, its seam file and the body that it is sewn on.
+#[derive(Debug, Args)]
+pub struct SewFiles {
+    /// DXF file, folder of them, or GarmentCode JSON with its seams.
+    pub file: PathBuf,
+    /// Seam file; where there is none yet it is written as `propose` says. By default beside the pattern: X.seams.toml.
+    #[arg(long, value_name = "FILE")]
+    pub seams: Option<PathBuf>,
+    /// Body: a mesh or scan (OBJ, PLY, STL, GLB), or measurements (TOML, .smis, .vit, GarmentCode .yaml).
+    #[arg(long, value_name = "FILE")]
+    pub body: PathBuf,
+    /// Unit of the mesh; by default told from its height.
+    #[arg(long, value_enum)]
+    pub body_unit: Option<MeshUnit>,
+    /// Sex of the body; by default told from its girths.
+    #[arg(long, value_enum)]
+    pub sex: Option<Sex>,
+    #[command(flatten)]
+    pub cut: CutFiles,
+    /// Sew again whenever the seam file has changed, until Ctrl-C.
+    #[arg(long)]
+    pub watch: bool,
+    /// Picture to write.
+    #[arg(long, short, value_name = "FILE", default_value = "sewn.png")]
+    pub output: PathBuf,
 }
 
 /// What is said about a pattern that is to be sewn as proposed.

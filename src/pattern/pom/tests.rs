@@ -4,7 +4,7 @@ use super::{Point, PointOfMeasure, Stand};
 use crate::draft::Model;
 use crate::dxf::Unit;
 use crate::source::{self, Kind};
-use crate::{Style, garmentcode, propose};
+use crate::{Handle, Style, garmentcode, propose};
 use geom::V2;
 use geom::units::mm;
 
@@ -238,6 +238,12 @@ fn worn_lengths_follow_the_levels_of_the_body() {
     let tshirt = drafted(Model::Tshirt, 1);
     check(&tshirt, &[("chest", 1034.1), ("waist", 1034.1), ("hip", 1034.1), ("neck", 569.5)]);
     assert!(!tshirt.worn_lengths(&stand).iter().any(|worn| matches!(worn.level, "wrist" | "forearm" | "thigh")));
+    // A sleeve in one piece goes round the arm once.
+    let long = tshirt.moved(&[(Handle::SleeveLength, 0.3)]).expect("a longer sleeve");
+    let girth =
+        |level: &str| long.worn_lengths(&stand).iter().find(|worn| worn.level == level).map(|worn| worn.length_m);
+    let (upper_arm, forearm) = (girth("upper_arm").expect("sleeves"), girth("forearm").expect("long ones"));
+    assert!((0.7 * upper_arm..upper_arm).contains(&forearm), "{forearm} of {upper_arm}");
     // Its hem ends above a hip that is 80 mm lower.
     let low = Stand { hip_m: 0.70, ..stand };
     assert!(!tshirt.worn_lengths(&low).iter().any(|worn| worn.level == "hip"));

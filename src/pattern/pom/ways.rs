@@ -232,6 +232,10 @@ impl<'a> Ways<'a> {
             next.is_some_and(|next| (self.style.place(next) - start).norm() < BACK_M)
         };
         let mut path = vec![across];
+        // A piece that is sewn to itself goes round by itself.
+        if is_back(one) {
+            return Some(path);
+        }
         let Some(next) = self.across(one) else { return self.open_round(path, other) };
         let ahead = self.walk(next, Heading::Level, is_back)?;
         let came_back = is_back(ahead.end);

@@ -43,12 +43,35 @@ pub(super) fn number(questions: &mut [Question], known: &mut Vec<String>) {
 }
 
 /// Answers by the text of their question: the index of the choice.
-pub(super) type Answers = BTreeMap<String, usize>;
+pub type Answers = BTreeMap<String, usize>;
 
 impl Question {
     /// What has no choices.
     pub(super) fn told(text: String) -> Self {
         Self { number: 0, text, choices: Vec::new(), taken: None, is_answered: false }
+    }
+
+    /// A question as it is written: the reverse of its text form.
+    #[must_use]
+    pub fn parse(written: &str) -> Self {
+        let mut question = Self::told(written.to_owned());
+        let Some((text, mut rest)) = written.split_once(" a: ") else { return question };
+        let taken = [(" (answered: ", ")"), (" (", " is taken)")].into_iter().find_map(|(before, after)| {
+            let (choices, letter) = rest.strip_suffix(after)?.rsplit_once(before)?;
+            let [letter] = letter.as_bytes() else { return None };
+            Some((choices, usize::from(letter.checked_sub(b'a')?), before.contains("answered")))
+        });
+        if let Some((choices, choice, is_answered)) = taken {
+            (rest, question.taken, question.is_answered) = (choices, Some(choice), is_answered);
+        }
+        text.clone_into(&mut question.text);
+        let mark = |index: usize| format!("; {}: ", Self::letter(index));
+        while let Some((choice, others)) = rest.split_once(&mark(question.choices.len() + 1)) {
+            question.choices.push(choice.to_owned());
+            rest = others;
+        }
+        question.choices.push(rest.to_owned());
+        question
     }
 
     /// Letter of a choice.
@@ -120,5 +143,23 @@ impl<'a> Asker<'a> {
         let taken = answer.or(stands);
         self.keep(Question { number: 0, text, choices, taken, is_answered: answer.is_some() });
         taken
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_question_is_read_as_it_is_written() {
+        let check = |text: &str, choices: &[&str], taken: Option<usize>, is_answered: bool| {
+            let choices = choices.iter().map(|&choice| choice.to_owned()).collect();
+            let question = Question { number: 0, text: text.to_owned(), choices, taken, is_answered };
+            assert_eq!(Question::parse(&question.to_string()), question);
+        };
+        check("is it a seam?", &["a seam or a fold", "an opening (a slit); or both"], Some(1), false);
+        check("which piece is the sleeve?", &["STYLE SS", "STYLE SS1"], Some(0), true);
+        check("where does `waistband` open?", &[], None, false);
+        check("which (of these) is it?", &["one"], None, false);
     }
 }

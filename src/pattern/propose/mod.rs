@@ -37,8 +37,8 @@ mod write;
 
 use std::fmt;
 
-use self::ask::{Answers, Asker};
-pub use self::ask::{Question, UnknownAnswer};
+use self::ask::Asker;
+pub use self::ask::{Answers, Question, UnknownAnswer};
 pub(super) use self::pose::{Pose, named_face_and_hand, pose};
 use self::recognise::Reading;
 pub use self::seam_kind::SeamKind;
@@ -338,7 +338,13 @@ impl Proposal {
 /// Proposes a seam file for the pieces of one size, half pieces opened ([`super::dxf::PatternFile::to_sew`]).
 #[must_use]
 pub fn propose(pieces: &[Piece]) -> Proposal {
-    let mut proposal = with_answers(pieces, &Answers::new());
+    propose_told(pieces, &Answers::new())
+}
+
+/// [`propose`] with answers of a person by the text of their question; those to nothing that is asked count for nothing.
+#[must_use]
+pub fn propose_told(pieces: &[Piece], answers: &Answers) -> Proposal {
+    let mut proposal = with_answers(pieces, answers);
     ask::number(&mut proposal.questions, &mut Vec::new());
     proposal
 }

@@ -99,12 +99,12 @@ impl<'a> Bench<'a> {
         loop {
             let refused = match self.within(&limits_m, goals) {
                 Ok(amounts) if self.missed_m(&amounts)? <= as_it_is_m => return Ok(amounts),
-                Ok(_) => {
-                    // So far a handle is another garment: a level lies elsewhere.
-                    limits_m.iter_mut().for_each(|limit_m| *limit_m *= TIGHTER);
-                    if limits_m.iter().all(|limit_m| *limit_m < LEAST_LIMIT_M) {
+                Ok(amounts) => {
+                    // So far that handle is another garment: a level lies elsewhere.
+                    let Some(place) = self.misleading(&amounts, &limits_m, goals)? else {
                         return Ok(vec![0.0; limits_m.len()]);
-                    }
+                    };
+                    limits_m[place] = 0.0;
                     continue;
                 }
                 Err(refused) => refused,
@@ -115,6 +115,21 @@ impl<'a> Bench<'a> {
             };
             limits_m[place] = if limits_m[place] > LEAST_LIMIT_M { TIGHTER * limits_m[place] } else { 0.0 };
         }
+    }
+
+    /// Of the handles that move, the one without which the levels are missed least; `None` where none moves.
+    fn misleading(&self, amounts: &[f64], limits_m: &[f64], goals: &[Goal]) -> Result<Option<usize>> {
+        let mut least: Option<(f64, usize)> = None;
+        for place in (0..amounts.len()).filter(|place| amounts[*place] != 0.0) {
+            let mut without = limits_m.to_vec();
+            without[place] = 0.0;
+            let Ok(amounts) = self.within(&without, goals) else { continue };
+            let missed_m = self.missed_m(&amounts)?;
+            if least.is_none_or(|(least_m, _)| missed_m < least_m) {
+                least = Some((missed_m, place));
+            }
+        }
+        Ok(least.map(|(_, place)| place))
     }
 
     /// The least change within a limit of every handle, m. Goals that give way draw all amounts towards nothing; of the handles that they

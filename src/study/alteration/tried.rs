@@ -37,14 +37,16 @@ impl Tried {
         Ok(Self { amounts, before, promised, after: None, drapes: 0, remarks: Vec::new() })
     }
 
-    /// The same, draped.
+    /// The same, draped; where that fails the change stays, and it is said.
     ///
     /// # Errors
-    /// Likewise; and what the simulator refuses.
+    /// Likewise.
     pub fn flat_and_draped(bench: &Bench, room: &FittingRoom) -> Result<Self> {
         let flat = Self::flat(bench)?;
-        let after = room.drape(&bench.moved(&flat.amounts)?)?;
-        Ok(Self { after: Some(after), drapes: 1, ..flat })
+        match room.drape(&bench.moved(&flat.amounts)?) {
+            Ok(after) => Ok(Self { after: Some(after), drapes: 1, ..flat }),
+            Err(error) => Ok(Self { remarks: vec![format!("the changed pattern is not draped: {error}")], ..flat }),
+        }
     }
 
     /// A change that meets what is asked of the drape: foreseen, draped, and corrected until it does, or it has been draped often enough;
@@ -63,8 +65,13 @@ impl Tried {
         let mut best = Self { amounts: at_start, promised: before.clone(), before, after: None, drapes: 1, remarks };
         best.after = Some((redraped, now.clone()));
         let mut amounts = best.amounts.clone();
+        // What ease asks for is known exactly, what a drape answers is not: ease first, then what that leaves.
+        let mut by_ease = Some(bench.found(&[])?).filter(|found| *found != amounts);
         for drapes in 2..=MOST_DRAPES {
-            let next = bench.found(&goals(bench.wish, [&now, &scatter], &answers, &amounts))?;
+            let next = match by_ease.take() {
+                Some(found) => found,
+                None => bench.found(&goals(bench.wish, [&now, &scatter], &answers, &amounts))?,
+            };
             if next == amounts {
                 break;
             }

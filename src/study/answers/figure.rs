@@ -23,12 +23,22 @@ pub struct Figure {
     scene: Scene,
 }
 
-/// The body of a revision of a subject: from the cache, or built now and kept there unless the workspace is
-/// read-only.
+/// The body of a revision of a subject, to be shown.
 ///
 /// # Errors
 /// When there is none of that number, or no body can be built from its measurements.
 pub fn figure(store: &Store, id: SubjectId) -> Result<Figure> {
+    let (_, model) = model(store, id)?;
+    let scene = Scene::new(vec![Layer::new(&model.body.mesh, Material::form())]);
+    let scene = scene.map_err(StudyError::stage("render"))?;
+    Ok(Figure { model, scene })
+}
+
+/// Name and body of a revision of a subject: from the cache, or built now and kept there unless the workspace is read-only.
+///
+/// # Errors
+/// When there is none of that number, or no body can be built from its measurements.
+pub(crate) fn model(store: &Store, id: SubjectId) -> Result<(String, Arc<Model>)> {
     let SubjectRow { name, measurements, .. } = known::subject_revision(store, id)?;
     let hash = pipeline::body_inputs(&name, &measurements).stage_hash(StageKind::Body);
     let make = || Ok(Model { body: bodies::build_body(&measurements)? });
@@ -37,9 +47,7 @@ pub fn figure(store: &Store, id: SubjectId) -> Result<Figure> {
     } else {
         Cache::new(store.path().to_owned()).get(StageKind::Body, &hash, make)?.0
     };
-    let scene = Scene::new(vec![Layer::new(&model.body.mesh, Material::form())]);
-    let scene = scene.map_err(StudyError::stage("render"))?;
-    Ok(Figure { model, scene })
+    Ok((name, model))
 }
 
 impl Figure {

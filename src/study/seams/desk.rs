@@ -7,12 +7,17 @@ use toml_edit::{DocumentMut, Item};
 use crate::error::{Result, StudyError};
 use crate::files::SourceFile;
 use crate::patterns::{self, Nest, Unit};
+use geom::V2;
+use geom::polyline::segment_distance;
 use geom::units::mm;
 use pattern::propose::{self, Proposal};
-use pattern::seam_edit::{Edit, edited};
-use pattern::seams::SeamFile;
-use pattern::style::{EdgeRef, Style};
+use pattern::style::{EdgeRef, Style, StylePiece};
 use pattern::{Piece, Role, arrange};
+
+/// Distance within which a notch lies at an edge, m.
+const NOTCH_M: f64 = 0.005;
+/// Confidence from which a proposed seam counts as sure.
+pub const SURE: f64 = 0.8;
 
 /// An edge of a piece where it lies in the arrangement.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -27,6 +32,8 @@ pub struct DeskEdge {
     pub length_mm: f64,
     /// Name of the seam that holds it.
     pub seam: Option<String>,
+    /// Notches along it, mm from its start.
+    pub notches_mm: Vec<f64>,
 }
 
 /// A piece where it lies in the arrangement.
@@ -80,12 +87,14 @@ impl Desk {
         };
         let placed = arrange::arrange(style);
         let pieces = style.pieces.iter().zip(&placed).enumerate().map(|(piece, (drawn, placed))| {
+            let drawn_notches = notches(drawn);
             let edges = drawn.edges.iter().enumerate().map(|(edge, drawn)| DeskEdge {
                 number: edge + 1,
                 name: drawn.name.clone(),
                 line_mm: drawn.line.points().iter().map(|&p| <[f64; 2]>::from(placed.at(p).map(mm))).collect(),
                 length_mm: mm(drawn.line.length()),
                 seam: held(EdgeRef { piece, edge }),
+                notches_mm: drawn_notches.iter().filter(|(of, _)| *of == edge).map(|(_, along_mm)| *along_mm).collect(),
             });
             DeskPiece {
                 id: drawn.id.clone(),
@@ -107,6 +116,24 @@ impl Desk {
         });
         Self { pieces: pieces.collect(), seams: seams.collect() }
     }
+}
+
+/// Notches of a piece: the edge that each lies at, and how far along, mm; those away from all edges are left out.
+fn notches(piece: &StylePiece) -> Vec<(usize, f64)> {
+    let nearest = |at: V2| {
+        let mut best = (NOTCH_M, None);
+        for (edge, drawn) in piece.edges.iter().enumerate() {
+            for (pair, arc_m) in drawn.line.points().windows(2).zip(drawn.line.arcs()) {
+                let away_m = segment_distance(&pair[0], &pair[1], &at);
+                if away_m < best.0 {
+                    let along = (pair[1] - pair[0]).normalize();
+                    best = (away_m, Some((edge, mm(arc_m + (at - pair[0]).dot(&along).max(0.0)))));
+                }
+            }
+        }
+        best.1
+    };
+    piece.notches.iter().filter_map(|notch| nearest(notch.at)).collect()
 }
 
 /// A proposal with the pieces as they lie.
@@ -199,23 +226,18 @@ pub(crate) fn confidences(text: &str) -> Vec<Option<f64>> {
     seams.map_or(vec![], |seams| seams.iter().map(sure).collect())
 }
 
-/// The text of a seam file without the doubt about one of its seams; `None` where it has no such seam.
-pub(crate) fn confirmed(text: &str, seam: &str) -> Option<String> {
+/// The text of a seam file without the doubt about those of its seams that `is_sure` by name and confidence; `None` where there is no such
+/// seam.
+pub(crate) fn confirmed(text: &str, is_sure: impl Fn(&str, Option<f64>) -> bool) -> Option<String> {
     let mut document: DocumentMut = text.parse().ok()?;
     let seams = document.get_mut("seam")?.as_array_of_tables_mut()?;
-    let is_named = |table: &&mut toml_edit::Table| table.get("name").and_then(Item::as_str) == Some(seam);
-    seams.iter_mut().find(is_named)?.decor_mut().set_suffix("");
-    Some(document.to_string())
-}
-
-/// The text of a seam file after an edit, checked against the pattern; comments stay.
-///
-/// # Errors
-/// When a file cannot be read, the edit names what is not there, or its result does not fit the pattern.
-pub fn edit_seams(pattern: &Path, seams: &Path, size: Option<&str>, unit: Option<Unit>, edit: &Edit) -> Result<String> {
-    let source = SourceFile::read(seams)?;
-    let pieces = patterns::pieces(&SourceFile::read_pattern(pattern)?, size, unit)?;
-    SeamFile::parse(&source.bytes, &source.name).map_err(StudyError::stage("pattern"))?;
-    let text = String::from_utf8_lossy(&source.bytes);
-    edited(&text, &source.name, &pieces, edit).map_err(StudyError::stage("pattern"))
+    let mut found = false;
+    for (seam, confidence) in seams.iter_mut().zip(confidences(text)) {
+        let name = seam.get("name").and_then(Item::as_str).unwrap_or_default();
+        if is_sure(name, confidence) {
+            seam.decor_mut().set_suffix("");
+            found = true;
+        }
+    }
+    found.then(|| document.to_string())
 }

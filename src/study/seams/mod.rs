@@ -3,13 +3,19 @@
 pub mod check;
 pub mod desk;
 pub mod pattern_files;
+pub mod preview;
 pub mod specification;
+pub mod step;
+pub mod undecided;
 pub mod workpiece;
 
 pub use check::{CHECK_EDGE_MM, SizeCheck, check_sizes, check_study, findings};
 pub(crate) use desk::proposal;
-pub use desk::{Asking, Desk, DeskEdge, DeskPiece, DeskSeam, Proposed, desk, edit_seams, propose};
+pub use desk::{Asking, Desk, DeskEdge, DeskPiece, DeskSeam, Proposed, SURE, desk, propose};
 pub use pattern::propose::{Proposal, Question};
 pub use pattern::seam_edit::Edit as SeamEdit;
+pub use preview::{Hung, Mannequin, Preview};
 pub use specification::{Specification, SpecifiedPoint, specification};
-pub use workpiece::{DeskLength, LaidOut, SeamStep, Workpiece, seam_home, write_seams};
+pub use step::SeamStep;
+pub use undecided::{Choice, Undecided};
+pub use workpiece::{DeskLength, LaidOut, Workpiece, edit_seams, seam_home, write_seams};

@@ -9,7 +9,7 @@ use crate::error::{Result, StudyError};
 use crate::files::SourceFile;
 use crate::patterns::{self, Nest};
 use crate::rows::{Table, Value};
-use geom::units::mm;
+use geom::units::{mm, signed_tenths};
 use pattern::Style;
 use pattern::pom::Point;
 
@@ -127,7 +127,7 @@ impl Specification {
             row.extend(all.iter().map(|one| one.map_or(Value::Null, |one| rounded(one.length_mm))));
             if self.sizes.len() > 1 {
                 let steps = all.iter().skip(1).map(|one| one.and_then(|one| one.step_mm));
-                let words: Vec<String> = steps.map(|mm| mm.map_or("-".to_owned(), |mm| format!("{mm:+.1}"))).collect();
+                let words: Vec<String> = steps.map(|mm| mm.map_or("-".to_owned(), signed_tenths)).collect();
                 row.push(Value::Text(words.join(" ")));
             }
             row.push(Value::Text(point.definition().to_owned()));

@@ -4,16 +4,21 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Problem, Result, StudyError};
 use crate::patterns::{self, Nest, Unit};
-use crate::seams::desk::{Desk, confidences, confirmed, hold_for};
+use crate::seams::desk::{Desk, SURE, confidences, confirmed, hold_for};
+use crate::seams::step::SeamStep;
+use crate::seams::undecided::Undecided;
 use crate::spec::file::SourceFile;
 use geom::units::mm;
-use pattern::seam_edit::{Edit, edited};
+use pattern::propose::{Answers, Question};
+use pattern::seam_edit::{Sizes, edited};
 use pattern::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamFile};
 use pattern::style::Style;
 use pattern::{Piece, check, propose};
 
 /// Begins a line of a proposed seam file that a person must answer.
 const QUESTION: &str = "# ASK: ";
+/// Begins one that somebody has answered.
+const ANSWERED: &str = "# ANSWERED: ";
 
 /// A pattern and the seams of one of its sizes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,19 +31,6 @@ pub struct Workpiece {
     pub size: String,
     /// Unit of the pattern, where its file names none.
     pub unit: Option<Unit>,
-}
-
-/// One step of work on a seam file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum SeamStep {
-    /// Add, remove or turn a seam.
-    Edit(Edit),
-    /// Take a proposed seam, by its name, for right.
-    Confirm(String),
-    /// Strike a question of a proposal out, its answer being in the file.
-    Decide(String),
-    /// Propose all seams anew; the text is the name of the style.
-    Propose(String),
 }
 
 /// A measurement on the pieces.
@@ -59,13 +51,26 @@ pub struct LaidOut {
     pub desk: Desk,
     /// Measurements.
     pub lengths: Vec<DeskLength>,
-    /// What a person must decide: open questions of a proposal, and what a check finds.
-    pub questions: Vec<String>,
+    /// What a person must decide: questions of a proposal, unsure seams, and what a check finds.
+    pub undecided: Vec<Undecided>,
     /// Greatest difference of length between the sides of a seam that needs no word, mm.
     pub tolerance_mm: f64,
 }
 
 impl Workpiece {
+    /// A pattern and its seam file; without a size the sample size.
+    ///
+    /// # Errors
+    /// When a file cannot be read.
+    pub fn open(pattern: &Path, seams: Option<&Path>, size: Option<&str>, unit: Option<Unit>) -> Result<Self> {
+        let (pattern, seams) = (SourceFile::read_pattern(pattern)?, seams.map(SourceFile::read).transpose()?);
+        let size = match size {
+            Some(size) => size.to_owned(),
+            None => Nest::read(&pattern, unit)?.sample_size().to_owned(),
+        };
+        Ok(Self { pattern, seams, size, unit })
+    }
+
     /// Lays the pieces out with their seams.
     ///
     /// # Errors
@@ -73,24 +78,23 @@ impl Workpiece {
     pub fn laid_out(&self) -> Result<LaidOut> {
         let style = patterns::read_style(&self.pattern, self.seams.as_ref(), Some(&self.size), self.unit)?;
         let mut desk = Desk::of(&style);
-        let (mut questions, mut tolerance_mm) = (vec![], DEFAULT_LENGTH_TOLERANCE_MM);
+        let (mut undecided, mut tolerance_mm) = (vec![], DEFAULT_LENGTH_TOLERANCE_MM);
         if let Some((file, text)) = self.seams.as_ref().zip(self.text()).filter(|_| !self.pattern.holds_seams()) {
             for (seam, confidence) in desk.seams.iter_mut().zip(confidences(&text)) {
                 seam.confidence = confidence;
             }
-            questions.extend(text.lines().filter_map(|line| line.strip_prefix(QUESTION)).map(str::to_owned));
+            undecided.extend(marked(&text, QUESTION).map(Undecided::asked));
+            undecided.extend((0..desk.seams.len()).filter_map(|seam| Undecided::unsure(&desk, seam)));
             let entries = SeamFile::parse(&file.bytes, &file.name).map_err(StudyError::stage("pattern"))?;
             tolerance_mm = entries.length_tolerance_mm;
             let pieces = patterns::pieces(&self.pattern, Some(&self.size), self.unit)?;
             let found = check::findings(&pieces, &entries, &style);
             let found = found.iter().filter(|finding| finding.kind.is_problem());
-            questions.extend(
-                found.map(|finding| format!("{}: {}: {}", finding.kind.as_str(), finding.place, finding.found)),
-            );
+            undecided.extend(found.map(|finding| Undecided::found(&desk, finding)));
         }
         let length =
             |m: &pattern::style::StyleMeasurement| DeskLength { no: m.no, name: m.name.clone(), l2d_mm: mm(m.l2d_m) };
-        Ok(LaidOut { desk, lengths: style.measurements.iter().map(length).collect(), questions, tolerance_mm })
+        Ok(LaidOut { desk, lengths: style.measurements.iter().map(length).collect(), undecided, tolerance_mm })
     }
 
     /// The seam file after a step.
@@ -110,12 +114,18 @@ impl Workpiece {
         let (file, text) = self.seams.as_ref().zip(self.text()).ok_or_else(missing)?;
         let text = match step {
             SeamStep::Edit(edit) => {
-                let pieces = patterns::pieces(&self.pattern, Some(&self.size), self.unit)?;
-                edited(&text, &file.name, &pieces, edit).map_err(StudyError::stage("pattern"))?
+                let nest = Nest::read(&self.pattern, self.unit)?;
+                let (pieces, others) = (nest.pieces(&self.size)?, nest.others(&self.size));
+                let sound = |(size, pieces): (String, Result<Vec<Piece>>)| Some((size, pieces.ok()?));
+                let others: Vec<_> = others.into_iter().filter_map(sound).collect();
+                let sizes = Sizes { name: &self.size, pieces: &pieces, others: &others };
+                edited(&text, &file.name, &sizes, edit).map_err(StudyError::stage("pattern"))?
             }
-            SeamStep::Confirm(seam) => {
-                confirmed(&text, seam).ok_or_else(|| refused(format!("{}: there is no seam `{seam}`", file.name)))?
-            }
+            SeamStep::Confirm(seam) => confirmed(&text, |name, _| name == seam)
+                .ok_or_else(|| refused(format!("{}: there is no seam `{seam}`", file.name)))?,
+            SeamStep::ConfirmSure => confirmed(&text, |_, confidence| confidence.is_some_and(|sure| sure >= SURE))
+                .ok_or_else(|| refused(format!("{}: no proposed seam is {:.0} % sure", file.name, 100.0 * SURE)))?,
+            SeamStep::Answer { question, choice } => self.answered(&text, question, *choice)?,
             SeamStep::Decide(question) => {
                 let lines = text.split_inclusive('\n');
                 let kept: String =
@@ -141,8 +151,43 @@ impl Workpiece {
 
     /// [`Workpiece::proposed`], held to other sizes.
     pub(crate) fn proposed_for(&self, style: &str, others: Vec<(String, Result<Vec<Piece>>)>) -> Result<SourceFile> {
+        self.proposed_told(style, others, &Answers::new())
+    }
+
+    /// The text of a proposal once a question is answered. What was confirmed stays so where it is proposed again.
+    fn answered(&self, text: &str, question: &str, choice: usize) -> Result<String> {
+        let asked: Vec<Question> = marked(text, QUESTION).chain(marked(text, ANSWERED)).collect();
+        let known = asked.iter().find(|asked| asked.text == question);
+        if known.is_none_or(|known| choice >= known.choices.len()) {
+            let accepted: Vec<String> = asked.iter().map(Question::to_string).collect();
+            let message =
+                format!("{question}: answer {}: accepted: {}", Question::letter(choice), accepted.join("; or "));
+            return Err(StudyError::stage("pattern")(message));
+        }
+        let before = marked(text, ANSWERED).filter_map(|answered| Some((answered.text, answered.taken?)));
+        let mut answers: Answers = before.collect();
+        answers.insert(question.to_owned(), choice);
+        let file = format!("{}: ", self.pattern.name);
+        let entries = |text: &str| SeamFile::parse(text.as_bytes(), &file).map_err(StudyError::stage("pattern"));
+        let old = entries(text)?;
+        let others = Nest::read(&self.pattern, self.unit)?.others(&self.size);
+        let proposed = self.proposed_told(&old.name, others, &answers)?;
+        let again = String::from_utf8_lossy(&proposed.bytes).into_owned();
+        let new = entries(&again)?;
+        let sure = old.seam.iter().zip(confidences(text)).filter(|(_, confidence)| confidence.is_none());
+        let kept: Vec<&str> =
+            sure.filter(|(seam, _)| new.seam.contains(seam)).map(|(seam, _)| seam.name.as_str()).collect();
+        Ok(confirmed(&again, |name, _| kept.contains(&name)).unwrap_or(again))
+    }
+
+    fn proposed_told(
+        &self,
+        style: &str,
+        others: Vec<(String, Result<Vec<Piece>>)>,
+        answers: &Answers,
+    ) -> Result<SourceFile> {
         let pieces = patterns::pieces(&self.pattern, Some(&self.size), self.unit)?;
-        let mut proposal = propose::propose(&pieces);
+        let mut proposal = propose::propose_told(&pieces, answers);
         if proposal.is_empty() {
             let message = format!("{}: no piece was recognised; give its seam file", self.pattern.name);
             return Err(StudyError::stage("pattern")(message));
@@ -154,9 +199,34 @@ impl Workpiece {
         Ok(SourceFile { name, bytes: text.into_bytes().into() })
     }
 
+    /// Edges that the seam file means to be open, as `PIECE.EDGE`.
+    pub(crate) fn open_edges(&self) -> Vec<String> {
+        let entries = self.seams.as_ref().and_then(|file| SeamFile::parse(&file.bytes, &file.name).ok());
+        entries.map_or_else(Vec::new, |entries| entries.open)
+    }
+
     fn text(&self) -> Option<String> {
         Some(String::from_utf8_lossy(&self.seams.as_ref()?.bytes).into_owned())
     }
+}
+
+/// Questions on lines of a seam file that begin with a mark.
+fn marked<'a>(text: &'a str, mark: &'a str) -> impl Iterator<Item = Question> + 'a {
+    text.lines().filter_map(move |line| line.strip_prefix(mark)).map(|line| Question::parse(line.trim_end()))
+}
+
+/// A seam file after a step of work, checked against the pattern; comments stay.
+///
+/// # Errors
+/// When a file cannot be read, the edit names what is not there, or its result does not fit the pattern.
+pub fn edit_seams(
+    pattern: &Path,
+    seams: &Path,
+    size: Option<&str>,
+    unit: Option<Unit>,
+    step: &SeamStep,
+) -> Result<SourceFile> {
+    Workpiece::open(pattern, Some(seams), size, unit)?.after(step)
 }
 
 /// Where the seam file of a style lies in the folder of a study, if it still says there what it said when it was stored.
@@ -187,6 +257,7 @@ pub fn write_seams(path: &Path, before: &SourceFile, after: &SourceFile) -> Resu
 mod tests {
     use super::*;
     use pattern::draft::Model;
+    use pattern::seam_edit::Edit;
 
     /// The T-shirt, size S, with seams of a text or none.
     fn tshirt(seams: Option<String>) -> Workpiece {
@@ -203,7 +274,7 @@ mod tests {
     #[test]
     fn a_style_is_laid_out_with_its_lengths_and_without_questions() {
         let laid = tshirt(Some(own_seams())).laid_out().expect("it reads");
-        assert!(laid.desk.pieces.len() == 4 && laid.questions.is_empty(), "{:?}", laid.questions);
+        assert!(laid.desk.pieces.len() == 4 && laid.undecided.is_empty(), "{:?}", laid.undecided);
         assert!(laid.desk.seams.iter().all(|seam| seam.confidence.is_none()));
         let hem = laid.lengths.iter().find(|length| length.no == 1).expect("number 1");
         assert!((hem.l2d_mm - 974.0).abs() < 0.2, "{hem:?}");
@@ -230,6 +301,9 @@ mod tests {
         let changed = before.lines().zip(after.lines()).filter(|(before, after)| before != after).count();
         assert_eq!((before.lines().count(), changed), (after.lines().count(), 1));
         assert!(piece.after(&SeamStep::Confirm("none".into())).is_err());
+        piece.seams = Some(piece.after(&SeamStep::ConfirmSure).expect("most are"));
+        let left = piece.laid_out().expect("it fits").desk.seams;
+        assert!(left.iter().all(|seam| seam.confidence.is_none_or(|sure| sure < SURE)), "{left:?}");
     }
 
     #[test]
@@ -237,9 +311,12 @@ mod tests {
         let mut piece = tshirt(Some(own_seams()));
         let edit = Edit::Remove { a: "front.side_right".into(), b: "back.side_right".into() };
         piece.seams = Some(piece.after(&SeamStep::Edit(edit)).expect("it is there"));
-        let questions = piece.laid_out().expect("it fits").questions;
-        let free = questions.iter().find(|text| text.contains("back.side_right")).expect("it is said").clone();
-        assert!(piece.after(&SeamStep::Decide(free)).is_err(), "the check finds it, nobody asks it");
+        let undecided = piece.laid_out().expect("it fits").undecided;
+        let free = undecided.iter().find(|one| one.text.contains("back.side_right")).expect("it is said").clone();
+        assert!(piece.after(&SeamStep::Decide(free.text.clone())).is_err(), "the check finds it, nobody asks it");
+        // Its likeliest answer sews it again.
+        piece.seams = Some(piece.after(&free.choices[0].step).expect("they fit"));
+        assert!(piece.laid_out().expect("it fits").undecided.is_empty());
     }
 
     #[test]

@@ -28,6 +28,7 @@ use crate::run::handout::{self, HandedOut, Merged};
 use crate::run::outcome::Executor;
 use crate::run::slurm::{self, SlurmOptions, SlurmRun};
 use crate::run::{self, Run, RunOptions, actions};
+use crate::seams::preview::{self, Mannequin};
 use crate::seams::workpiece::Workpiece;
 use crate::spec::Selection;
 use crate::spec::fields::Given;
@@ -101,6 +102,14 @@ impl Workspace {
     /// When there is none of that number, or no body can be built from its measurements.
     pub fn figure(&self, id: SubjectId) -> Result<Figure> {
         figure::figure(&self.store, id)
+    }
+
+    /// The same body, ready to be dressed again and again.
+    ///
+    /// # Errors
+    /// Likewise.
+    pub fn mannequin(&self, id: SubjectId) -> Result<Mannequin> {
+        preview::mannequin(&self.store, id)
     }
 
     /// A picture of a result. The result last shown is kept ready, so that other views of it come quickly.

@@ -31,6 +31,7 @@ impl State {
             Message::Measured(id, outcome) => drop(self.subjects.measured.insert(id, outcome)),
             Message::LaidOut(request, outcome) => self.take_layout(*request, outcome),
             Message::Sewn(style, outcome) => self.sewn(style, outcome),
+            Message::Previewed(request, outcome) => self.take_preview(*request, outcome),
             Message::SeamsSaved(style, seams, outcome) => self.seams_saved(&style, &seams, outcome),
             Message::Picture(request, drawn) => self.take_picture(request, drawn),
             Message::Cut(jobs, sections) => self.take_sections(jobs, sections),
@@ -69,8 +70,8 @@ impl State {
         }
         let Some(mut overlay) = self.overlay.take() else {
             self.notice = None;
-            if screens::page(self.nav.screen).take_key(self, event) {
-                return vec![];
+            if let Some(effects) = screens::page(self.nav.screen).take_key(self, event) {
+                return effects;
             }
             return action_of(self.setup.bindings, Key::of(event), keys_of(self))
                 .map_or(vec![], |action| self.act(action));

@@ -114,12 +114,18 @@ pub enum Action {
     RemoveSeam,
     /// Turns one side of the selected seam round.
     FlipSeam,
-    /// Takes the selected proposed seam for right.
-    ConfirmSeam,
+    /// Asks what is to be decided about the seams.
+    Decide,
+    /// Asks what the selected edge is sewn to.
+    AskEdge,
+    /// Asks what the selected piece is worn as.
+    AskPiece,
     /// Proposes the seams of the selected style.
     ProposeSeams,
     /// Takes the last edit of the seams back.
     UndoEdit,
+    /// Does the edit again that was taken back last.
+    RedoEdit,
     /// Saves the edited seams.
     SaveSeams,
     /// Pauses or resumes the study.

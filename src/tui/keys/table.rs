@@ -99,12 +99,28 @@ pub const BINDINGS: &[Binding] = &[
         "Remove the selected fabric; asks",
     ),
     bind(
-        Action::ConfirmSeam,
-        "confirm-seam",
+        Action::Decide,
+        "decide",
         &[key(KeyCode::Enter)],
         &[Styles],
-        "confirm",
-        "Work on the seams; confirm a proposed one (?)",
+        "decide",
+        "Work on the seams: asks what is to be decided",
+    ),
+    bind(
+        Action::AskEdge,
+        "ask-edge",
+        &[ch('e')],
+        &[Styles],
+        "edge",
+        "What the selected edge may be sewn to, likeliest first",
+    ),
+    bind(
+        Action::AskPiece,
+        "ask-piece",
+        &[ch('o')],
+        &[Styles],
+        "piece",
+        "What the selected piece is worn as, or leave it out",
     ),
     bind(
         Action::MarkEdge,
@@ -149,6 +165,7 @@ pub const BINDINGS: &[Binding] = &[
         "Propose all seams of the style; asks",
     ),
     bind(Action::UndoEdit, "undo-edit", &[ch('u')], &[Styles], "undo", "Take the last edit of the seams back"),
+    bind(Action::RedoEdit, "redo-edit", &[ch('U')], &[Styles], "", "Do the edit again that was taken back last"),
     bind(
         Action::EnlargePieces,
         "enlarge-pieces",
@@ -237,7 +254,7 @@ pub const BINDINGS: &[Binding] = &[
         Action::NextView,
         "view",
         &[ch('v')],
-        &[Results, Compare],
+        &[Results, Compare, Styles],
         "view",
         "Turn the picture: front, side, back, quarter",
     ),
@@ -379,7 +396,7 @@ mod tests {
         check(key(KeyCode::Enter), Jobs, Some(Action::Open));
         check(key(KeyCode::Enter), Results, Some(Action::Enlarge));
         check(key(KeyCode::Enter), Subjects, Some(Action::Edit(Part::Subject)));
-        check(key(KeyCode::Enter), Styles, Some(Action::ConfirmSeam));
+        check(key(KeyCode::Enter), Styles, Some(Action::Decide));
         check(ch('x'), Styles, Some(Action::RemoveSeam));
         check(ch('x'), Subjects, None);
         check(ch('v'), Study, None);

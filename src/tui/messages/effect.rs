@@ -1,7 +1,7 @@
 //! What the event loop has others do.
 
 use crate::messages::requests::{Command, FileTask, QueryRequest, Target};
-use crate::messages::seams::SeamTask;
+use crate::messages::seams::{PreviewRequest, SeamTask};
 use crate::messages::snapshot::Focus;
 use crate::widgets::picture::PictureRequest;
 use study::JobId;
@@ -27,6 +27,8 @@ pub enum Effect {
     Mouse(bool),
     /// Work on seams.
     Seams(SeamTask),
+    /// Sew and drape a size coarsely.
+    Preview(PreviewRequest),
     /// Act on the queue or the catalogue.
     Do(Command),
     /// Run a study in the background.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crossterm::event::{KeyEvent, MouseEvent};
 
-use crate::messages::seams::{LayoutRequest, SizeLayout};
+use crate::messages::seams::{LayoutRequest, PreviewRequest, Previewed, SizeLayout};
 use crate::messages::snapshot::Snapshot;
 use crate::widgets::picture::{Drawn, PictureRequest};
 use crate::widgets::result_table::ResultTable;
@@ -33,6 +33,8 @@ pub enum Message {
     LaidOut(Box<LayoutRequest>, Result<Box<SizeLayout>, String>),
     /// The seam file of a style after a step of work, or why there is none.
     Sewn(String, Result<SourceFile, String>),
+    /// A size is sewn and draped coarsely, or could not be.
+    Previewed(Box<PreviewRequest>, Result<Previewed, String>),
     /// The seams of a style are saved, or why not.
     SeamsSaved(String, SourceFile, Result<String, String>),
     /// A picture is drawn, or could not be.

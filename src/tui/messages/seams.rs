@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use study::SizeKey;
 use study::files::SourceFile;
-use study::seams::{LaidOut, SeamStep};
+use study::seams::{Hung, LaidOut, SeamStep};
+use study::{SizeKey, SubjectId};
 
 /// A size to lay out.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,6 +26,30 @@ pub enum SeamTask {
     LayOut(LayoutRequest),
     /// Do a step of work on its seams.
     Sew(LayoutRequest, SeamStep),
+}
+
+/// A size to sew and drape coarsely.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PreviewRequest {
+    /// Its number: later ones are greater.
+    pub number: u64,
+    /// The size, as it is edited.
+    pub size: LayoutRequest,
+    /// Who wears it.
+    pub subject: SubjectId,
+}
+
+/// How a size hangs, coarsely; its picture is asked for by the number of the request.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Previewed {
+    /// Who wears it.
+    pub subject: String,
+    /// How far it came.
+    pub hung: Hung,
+    /// Why no farther, and what is to be seen on it.
+    pub remarks: Vec<String>,
+    /// Time that it took, ms.
+    pub took_ms: u64,
 }
 
 /// A size laid out.

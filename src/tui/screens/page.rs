@@ -38,9 +38,9 @@ pub trait Page {
         None
     }
 
-    /// Takes a key before it becomes an action; returns whether it did.
-    fn take_key(&self, _state: &mut State, _event: &KeyEvent) -> bool {
-        false
+    /// Takes a key before it becomes an action; `None` where it does not.
+    fn take_key(&self, _state: &mut State, _event: &KeyEvent) -> Option<Vec<Effect>> {
+        None
     }
 
     /// Gives a pane that has all the room less again; returns whether there was any.

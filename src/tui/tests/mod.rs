@@ -100,7 +100,9 @@ impl Bench {
     /// What it asked for; reads, pictures, sections and work on seams, which is done, left out.
     fn asked(&mut self) -> Vec<Effect> {
         let effects = std::mem::take(&mut self.effects);
-        let is_done = |e: &Effect| matches!(e, Effect::Read(_) | Effect::Draw(_) | Effect::Cut(_) | Effect::Seams(_));
+        let is_done = |e: &Effect| {
+            matches!(e, Effect::Read(_) | Effect::Draw(_) | Effect::Cut(_) | Effect::Seams(_) | Effect::Preview(_))
+        };
         effects.into_iter().filter(|e| !is_done(e)).collect()
     }
 

@@ -2,12 +2,13 @@
 
 use super::{Bench, fixture};
 use crate::keys::screen::Screen;
+use crate::messages::seams::{PreviewRequest, Previewed};
 use crate::messages::{effect::Effect, message::Message, requests::Command};
 use crate::overlays::Overlay;
 use crate::screens::styles::state::TableLine;
 use crate::widgets::theme::Colours;
 use study::files::SourceFile;
-use study::seams::DeskSeam;
+use study::seams::{DeskSeam, Hung};
 use study::{Part, StyleGiven};
 
 /// Seams on the desk.
@@ -81,8 +82,7 @@ fn a_seam_is_opened_sewn_again_turned_taken_back_and_saved() {
     bench.press("x");
     assert_eq!(seams(&bench).len(), before.len() - 1);
     assert_eq!(seam(&bench), "none");
-    let questions = bench.state.layout().expect("laid out").expect("it fits").out.questions.len();
-    assert!(questions >= 1 && bench.screen().contains("? free edge"), "{}", bench.screen());
+    assert!(undecided(&bench) >= 1 && bench.screen().contains("? What is"), "{}", bench.screen());
     assert!(bench.press("x").status().contains("no seam holds"));
     assert!(bench.press("a").status().contains("m marks an edge"));
 
@@ -137,6 +137,11 @@ fn sides_of_unlike_length_are_sewn_with_ease_only_after_asking() {
     assert!((sewn.a_mm - sewn.b_mm).abs() > 1.0 && seams(&bench).len() == before.len() - 1, "{}", bench.status());
 }
 
+/// Number of things to decide.
+fn undecided(bench: &Bench) -> usize {
+    bench.state.layout().expect("laid out").expect("it fits").out.undecided.len()
+}
+
 #[test]
 fn proposed_seams_are_confirmed_one_by_one() {
     let mut bench = Bench::example(80, 24);
@@ -147,16 +152,74 @@ fn proposed_seams_are_confirmed_one_by_one() {
     let all = seams(&bench).len();
     assert!(all >= 8 && unsure(&bench) == all);
     assert!(bench.screen().contains("A? ") && bench.screen().contains('%'), "{}", bench.screen());
-    bench.press("<Enter>g<Enter>");
+    bench.press("<Enter>");
+    assert!(bench.screen().contains(&format!("question 1 of {all}")) && bench.screen().contains("●1 yes"));
+    bench.press("y");
     assert_eq!(unsure(&bench), all - 1);
-    assert!(bench.press("<Enter>").status().contains("nothing to confirm"));
-    for _ in 1..all {
-        bench.press("j<Enter>");
+    assert!(bench.screen().contains(&format!("question 1 of {}", all - 1)), "{}", bench.screen());
+    assert!(bench.press("jk9").status().contains("no such answer"));
+    // The third answer opens the seam, which leaves two edges to decide on.
+    bench.press("3");
+    assert_eq!((seams(&bench).len(), unsure(&bench)), (all - 1, all - 2));
+    bench.press("uU");
+    assert_eq!(seams(&bench).len(), all - 1);
+    bench.press("u");
+    assert_eq!(seams(&bench).len(), all);
+    bench.press("A");
+    let left = unsure(&bench);
+    assert!(left < all - 1);
+    for _ in 0..left {
+        bench.press("y");
     }
-    assert_eq!(unsure(&bench), 0);
-    let asked = |bench: &Bench| bench.state.layout().expect("laid out").expect("it fits").out.questions.len();
-    assert_eq!(asked(&bench), 0, "nothing is left to ask");
+    assert_eq!((unsure(&bench), undecided(&bench)), (0, 0), "nothing is left to ask");
+    assert!(bench.state.styles.asking.is_none() && bench.status().contains("all is decided"), "{}", bench.status());
     assert!(!String::from_utf8_lossy(&saved(&mut bench).bytes).contains("[[seam]]  # confidence"));
+}
+
+#[test]
+fn an_edge_is_sewn_and_a_piece_said_by_what_is_offered() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("3<Enter>");
+    let before = seams(&bench);
+    bench.press("xe");
+    assert!(bench.screen().contains("What is") && bench.screen().contains("1 sewn to"), "{}", bench.screen());
+    bench.press("1");
+    assert_eq!((seams(&bench).len(), undecided(&bench)), (before.len(), 0), "{}", bench.status());
+    bench.press("o");
+    assert!(bench.screen().contains("1 not at all: leave it out"), "{}", bench.screen());
+    assert!(bench.press("<Esc>").state.styles.asking.is_none() && bench.state.nav.screen == Screen::Styles);
+    assert!(bench.press("<Enter>").status().contains("nothing is left to decide"));
+}
+
+#[test]
+fn a_garment_is_sewn_coarsely_while_its_seams_are_edited() {
+    let mut bench = Bench::example(160, 50);
+    let sewn = |bench: &Bench| -> Vec<PreviewRequest> {
+        let of = |effect: &Effect| if let Effect::Preview(request) = effect { Some(request.clone()) } else { None };
+        bench.effects.iter().filter_map(of).collect()
+    };
+    bench.press("3");
+    let first = sewn(&bench).pop().expect("it is asked for");
+    assert!(bench.screen().contains("sewing it…"), "{}", bench.screen());
+    let seen = |hung: Hung, remark: &str| {
+        let remarks = vec![remark.to_owned()];
+        Ok(Previewed { subject: "male-i".into(), hung, remarks, took_ms: 400 })
+    };
+    bench.send(Message::Previewed(Box::new(first.clone()), seen(Hung::Draped, "red edges are in no seam")));
+    assert!(bench.screen().contains("✓ sewn and draped coarsely; red") && bench.screen().contains("on male-i · front"));
+    bench.press("<Enter>x");
+    let next = sewn(&bench).pop().expect("it is asked for again");
+    assert!(next.number > first.number && next.size.seams.is_some());
+    assert!(bench.screen().contains("sewing it again…"), "{}", bench.screen());
+    bench.send(Message::Previewed(Box::new(next), seen(Hung::Undone, "a seam stays open")));
+    assert!(bench.screen().contains("✗ not sewn up; a seam stays"), "{}", bench.screen());
+    // Where there is no room for both, it takes the place of the pieces.
+    let mut bench = Bench::example(80, 24);
+    bench.press("3");
+    assert!(sewn(&bench).is_empty() && bench.screen().contains("fronts up"));
+    bench.press("v");
+    assert!(sewn(&bench).len() == 1 && !bench.screen().contains("fronts up"), "{}", bench.screen());
+    assert!(bench.press("vvvv").screen().contains("fronts up"));
 }
 
 #[test]
@@ -195,7 +258,7 @@ fn removing_asks_and_readonly_changes_nothing() {
     assert!(bench.press("3").screen().contains("no styles yet: i imports one"), "{}", bench.screen());
     assert!(bench.press("x").status().contains("no size is selected"));
     bench.state.setup.abilities.run = false;
-    for keys in ["a", "x", "f", "p", "w", "i", "d", " "] {
+    for keys in ["a", "x", "f", "p", "w", "i", "d", " ", "e", "o"] {
         assert!(bench.press(keys).status().contains("read-only") && bench.state.overlay.is_none(), "{keys}");
     }
 }

@@ -5,6 +5,7 @@ pub mod database;
 mod files;
 mod input;
 mod pictures;
+mod previews;
 pub mod queries;
 pub mod reading;
 mod run;
@@ -21,9 +22,10 @@ use std::thread::{self, JoinHandle};
 use crate::messages::effect::Effect;
 use crate::messages::message::Message;
 use crate::messages::requests::{FileTask, QueryRequest, Target};
-use crate::messages::seams::SeamTask;
+use crate::messages::seams::{PreviewRequest, SeamTask};
 use crate::messages::snapshot::Focus;
 use crate::threads::database::Request;
+use crate::threads::previews::Slot;
 use crate::threads::queries::Canceller;
 use crate::widgets::picture::{PictureEncoder, PictureRequest};
 use study::{JobId, Live, Workspace};
@@ -37,6 +39,7 @@ pub struct Threads {
     pictures: Sender<Vec<PictureRequest>>,
     sections: Sender<Vec<JobId>>,
     seams: Sender<SeamTask>,
+    previews: Sender<PreviewRequest>,
     queries: Sender<QueryRequest>,
     canceller: Canceller,
     files: Sender<FileTask>,
@@ -62,15 +65,20 @@ impl Threads {
         spawn(&sender, input::read_keys);
         spawn(&sender, input::watch_signals);
         let here = || path.clone();
-        let (of_pictures, of_sections, of_seams, of_queries, of_files, cancelled) =
-            (here(), here(), here(), here(), here(), canceller.clone());
+        let (of_pictures, of_sections, of_seams, of_previews, of_queries, of_files, cancelled) =
+            (here(), here(), here(), here(), here(), here(), canceller.clone());
+        let slot = Slot::default();
+        let shown = slot.clone();
         Self {
             database: serve(&sender, |asked, sender| database::serve(workspace, asked, sender)),
             pictures: serve(&sender, move |asked, sender| {
-                pictures::serve(&of_pictures, readonly, encoder.as_ref(), asked, sender);
+                pictures::serve(&of_pictures, readonly, encoder.as_ref(), asked, &shown, sender);
             }),
             sections: serve(&sender, move |asked, sender| sections::serve(&of_sections, readonly, asked, sender)),
             seams: serve(&sender, move |asked, sender| seams::serve(&of_seams, readonly, asked, sender)),
+            previews: serve(&sender, move |asked, sender| {
+                previews::serve(&of_previews, readonly, asked, &slot, sender)
+            }),
             queries: serve(&sender, move |asked, sender| queries::serve(&of_queries, &cancelled, asked, sender)),
             files: serve(&sender, move |asked, sender| files::serve(&of_files, readonly, &reports, asked, sender)),
             messages,
@@ -95,6 +103,7 @@ impl Threads {
             Effect::Read(focus) => drop(self.database.send(Request::Read(focus))),
             Effect::Do(command) => drop(self.database.send(Request::Do(command))),
             Effect::Seams(task) => drop(self.seams.send(task)),
+            Effect::Preview(request) => drop(self.previews.send(request)),
             Effect::Cut(jobs) => drop(self.sections.send(jobs)),
             Effect::Draw(requests) => drop(self.pictures.send(requests)),
             Effect::Query(query) => {

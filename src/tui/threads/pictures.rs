@@ -1,11 +1,13 @@
 //! The thread that makes pictures: drapes of results, bodies of subjects. The body shown last is kept ready.
 
 use std::path::Path;
+use std::sync::PoisonError;
 use std::sync::mpsc::{Receiver, SendError, Sender};
 
 use image::RgbaImage;
 
 use crate::messages::message::Message;
+use crate::threads::previews::Slot;
 use crate::widgets::picture::{PictureEncoder, PictureRequest, Pictured};
 use study::{Figure, SubjectId, Workspace};
 
@@ -16,10 +18,11 @@ pub fn serve(
     readonly: bool,
     encoder: Option<&PictureEncoder>,
     wanted: &Receiver<Vec<PictureRequest>>,
+    previews: &Slot,
     sender: &Sender<Message>,
 ) {
     let workspace = Workspace::open(database, readonly).map_err(|error| error.to_string());
-    let mut renderer = Renderer { workspace, ready: None, sender };
+    let mut renderer = Renderer { workspace, ready: None, previews, sender };
     while let Ok(first) = wanted.recv() {
         let mut requests = wanted.try_iter().last().unwrap_or(first).into_iter();
         while let Some(request) = requests.next() {
@@ -38,6 +41,7 @@ struct Renderer<'a> {
     workspace: Result<Workspace, String>,
     /// The body shown last, or why there is none.
     ready: Option<(SubjectId, Result<Figure, String>)>,
+    previews: &'a Slot,
     sender: &'a Sender<Message>,
 }
 
@@ -76,6 +80,12 @@ impl Renderer<'_> {
                 figure.picture(width, height).map_err(|error| error.to_string())
             }
             (Pictured::Body(_), Some((_, Err(error)))) => Err(error.clone()),
+            (Pictured::Preview(number), _) => {
+                let slot = self.previews.lock().unwrap_or_else(PoisonError::into_inner);
+                let preview = slot.as_ref().filter(|(shown, _)| *shown == number).map(|(_, preview)| preview);
+                let preview = preview.ok_or_else(|| "it is being sewn".to_owned())?;
+                preview.picture(request.look, width, height).map_err(|error| error.to_string())
+            }
             (Pictured::Body(_), None) => Err("its body is not built yet".to_owned()),
         }
     }

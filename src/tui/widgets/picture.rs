@@ -108,6 +108,8 @@ pub enum Pictured {
     Drape(JobId),
     /// The body of a subject, from the front and from the side.
     Body(SubjectId),
+    /// A garment sewn coarsely, by the number of its request.
+    Preview(u64),
 }
 
 /// A picture that is wanted; one without cells has the body measured only.

@@ -51,6 +51,16 @@ pub struct Look {
     pub rise_pct: i32,
 }
 
+impl Look {
+    /// The camera that has some meshes as large as they can be, times the enlargement.
+    pub(crate) fn camera<'a>(self, of: impl IntoIterator<Item = &'a TriMesh>, width: u32, height: u32) -> Camera {
+        let mut frame = Frame::enclosing(of, aspect(width, height));
+        frame.centre.z += f64::from(self.rise_pct) / 100.0 * frame.height_m / 2.0;
+        frame.height_m *= 100.0 / f64::from(self.zoom_pct.max(1));
+        Camera { azimuth_deg: f64::from(self.azimuth_deg), ..Camera::new(View::Front, frame) }
+    }
+}
+
 /// A result made ready for pictures: lit once, shown from anywhere.
 pub(crate) struct Stage {
     scene: Scene,
@@ -237,11 +247,7 @@ pub fn look(
     map: Map,
 ) -> Result<RgbaImage> {
     shot(store, scenes, (id, map), |stage| {
-        let mut frame = Frame::enclosing(&stage.meshes[1..], aspect(width, height));
-        frame.centre.z += f64::from(look.rise_pct) / 100.0 * frame.height_m / 2.0;
-        frame.height_m *= 100.0 / f64::from(look.zoom_pct.max(1));
-        let camera = Camera { azimuth_deg: f64::from(look.azimuth_deg), ..Camera::new(View::Front, frame) };
-        render::cutout(&stage.scene, &camera, width, height)
+        render::cutout(&stage.scene, &look.camera(&stage.meshes[1..], width, height), width, height)
     })
 }
 

@@ -5,6 +5,7 @@ use crate::answers::section::{self, CutAt};
 use crate::answers::worn::{GarmentWorn, SizeWorn};
 use crate::error::Result;
 use crate::store::Store;
+use geom::units::signed_tenths;
 use pattern::pom::Point;
 use report::data::{Fact, FitCell, FitRow, FitSheet, FitSize, FitTable, FitVerdict};
 
@@ -175,7 +176,7 @@ fn points(sizes: &[Option<&SizeWorn>], names: &[String]) -> FitTable {
             let found = size.and_then(|size| size.points.iter().find(|one| one.point == name));
             found.map_or_else(FitCell::default, |one| {
                 let worn = one.draped_mm.map(|mm| format!("worn {mm:.1}"));
-                let step = one.step_mm.map(|mm| format!("step {mm:+.1}").replace('-', "\u{2212}"));
+                let step = one.step_mm.map(|mm| format!("step {}", signed_tenths(mm)).replace('-', "\u{2212}"));
                 let note = worn.into_iter().chain(step).collect::<Vec<_>>().join(", ");
                 FitCell { text: format!("{:.1}", one.flat_mm), note, verdict: None }
             })

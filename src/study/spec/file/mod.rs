@@ -60,11 +60,12 @@ mod values;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use crate::bodies;
 use crate::error::{InFile, Problem, Result, StudyError};
 pub use crate::files::SourceFile;
 use crate::spec::parameters::Parameters;
 use crate::spec::{Limits, Schedule};
-use body::{LengthUnit, Measurements, Sex};
+use body::{Body, LengthUnit, Measurements, Sex};
 use fit::target::Target;
 use fit::{Cuts, Simulator};
 use sim::Fabric;
@@ -288,6 +289,20 @@ pub fn read_measurements(path: &Path, sex: Option<Sex>) -> Result<Measurements> 
     let source = SourceFile::read(path)?;
     let in_file = |error| StudyError::stage("body")(InFile { file: source.name.clone(), source: error });
     body::read_foreign(&source.bytes, sex).map_err(in_file)
+}
+
+/// The body of a file, measurements or a mesh, in a unit and of a sex where that cannot be told from it; and what had to be guessed.
+///
+/// # Errors
+/// When it cannot be used.
+pub fn read_body(path: &Path, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<(Body, Vec<String>)> {
+    if holds_measurements(path) {
+        return Ok((bodies::build_body(&read_measurements(path, sex)?)?, Vec::new()));
+    }
+    let source = SourceFile::read(path)?;
+    let scan = bodies::read_scan(&source, unit, sex)?;
+    let notes = scan.imported.notes.clone();
+    Ok((bodies::scanned_body(&source, scan)?, notes))
 }
 
 /// A fabric from a TOML file with what stands under a study's `[[fabric]]`.

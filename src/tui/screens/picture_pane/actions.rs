@@ -34,6 +34,7 @@ impl Pictures {
     /// A request for a picture as things are seen now.
     fn request(&self, of: Pictured, Size { width: columns, height: rows }: Size) -> PictureRequest {
         match of {
+            Pictured::Preview(_) => PictureRequest { of, look: self.look, map: Map::Plain, columns, rows },
             Pictured::Drape(_) => PictureRequest { of, look: self.look, map: self.map, columns, rows },
             // Bodies have one view and no maps.
             Pictured::Body(_) => PictureRequest { of, look: FRONT, map: Map::Plain, columns, rows },

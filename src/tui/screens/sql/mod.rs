@@ -69,8 +69,8 @@ impl Page for SqlPage {
         Some(vec![])
     }
 
-    fn take_key(&self, state: &mut State, event: &KeyEvent) -> bool {
-        state.is_editing() && state.edit_query(event)
+    fn take_key(&self, state: &mut State, event: &KeyEvent) -> Option<Vec<Effect>> {
+        (state.is_editing() && state.edit_query(event)).then(Vec::new)
     }
 
     fn wanted(&self, state: &mut State) -> Option<Effect> {

@@ -85,6 +85,7 @@ impl State {
         if is_other {
             self.select_line(0);
         }
+        self.go_on_asking();
     }
 
     /// Selects a line of the table, and an edge of its seam.
@@ -156,14 +157,7 @@ impl State {
 /// The table of seams, tab-separated.
 pub fn seam_table(state: &State) -> Option<String> {
     let desk = &state.layout()?.ok()?.out.desk;
-    let names = |chain: &[(usize, usize)]| {
-        let name = |(piece, edge): &(usize, usize)| {
-            let piece = &desk.pieces[*piece];
-            let edge = &piece.edges[*edge];
-            format!("{}.{}", piece.id, edge.name.clone().unwrap_or_else(|| edge.number.to_string()))
-        };
-        chain.iter().map(name).collect::<Vec<_>>().join("+")
-    };
+    let names = |chain: &[(usize, usize)]| chain.iter().map(|edge| desk.edge_name(*edge)).collect::<Vec<_>>().join("+");
     let mut table = String::from("seam\ta\tb\ta_mm\tb_mm\tconfidence\n");
     for seam in &desk.seams {
         let confidence = seam.confidence.map_or(String::new(), |confidence| confidence.to_string());

@@ -10,6 +10,7 @@ use crate::messages::seams::SizeLayout;
 use crate::screens::state::State;
 use crate::screens::styles::pieces::{self, letter};
 use crate::screens::styles::state::{EdgeAt, TableLine};
+use crate::screens::styles::{preview, question};
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::{first_shown, pane, selected_line};
 use crate::widgets::text::{self, left, right, shortened, whole, width, wrapped};
@@ -36,7 +37,13 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let on_desk = state.in_second_pane();
     if is_narrow(area) {
         let lines = match (on_desk, state.layout()) {
-            (true, Some(Ok(layout))) => table(state, layout, area.width, area.height),
+            (true, Some(Ok(layout))) if state.asked().is_none() => table(state, layout, area.width, area.height),
+            (true, Some(Ok(_))) => {
+                if let Some(asked) = state.asked() {
+                    question::draw(frame, area, state, &asked);
+                }
+                return;
+            }
             _ => list(state, area.width, area.height),
         };
         frame.render_widget(Paragraph::new(lines), area);
@@ -45,7 +52,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let sizes = state.sizes();
     let [list_area, table_area, pieces_area] = panes(area, sizes.len());
     if state.styles.enlarged {
-        pieces::draw(frame, area, state, true);
+        draw_pieces(frame, area, state, true);
         return;
     }
     let mut styles: Vec<&str> = sizes.iter().map(|row| row.style.as_str()).collect();
@@ -57,8 +64,29 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
     let block = block.title_bottom(Line::styled(legend, state.theme.legend()));
     let inner = block.inner(list_area);
     frame.render_widget(Paragraph::new(list(state, inner.width, inner.height)).block(block), list_area);
-    draw_table(frame, table_area, state, on_desk);
-    pieces::draw(frame, pieces_area, state, on_desk);
+    match state.asked() {
+        Some(asked) => question::draw(frame, table_area, state, &asked),
+        None => draw_table(frame, table_area, state, on_desk),
+    }
+    draw_pieces(frame, pieces_area, state, on_desk);
+}
+
+/// Where pieces and the garment sewn of them are drawn; `None` where there is only room for lists.
+pub fn pieces_area(state: &State, area: Rect) -> Option<Rect> {
+    let all = || if state.styles.enlarged { area } else { panes(area, state.sizes().len())[2] };
+    (!is_narrow(area)).then(all)
+}
+
+/// Draws the pieces, and beside them or instead of them the garment.
+fn draw_pieces(frame: &mut Frame<'_>, area: Rect, state: &State, on_desk: bool) {
+    let garment = preview::place(state, area);
+    let left = garment.map_or(area, |garment| Rect { width: area.width - garment.width, ..area });
+    if left.width > 0 {
+        pieces::draw(frame, left, state, on_desk);
+    }
+    if let Some(garment) = garment {
+        preview::draw(frame, garment, state);
+    }
 }
 
 /// The list of sizes with its header.
@@ -128,8 +156,7 @@ fn draw_table(frame: &mut Frame<'_>, area: Rect, state: &State, focused: bool) {
 
 /// Number of things a person must decide.
 fn to_decide(layout: &SizeLayout) -> usize {
-    let unsure = layout.out.desk.seams.iter().filter(|seam| seam.confidence.is_some()).count();
-    unsure + layout.out.questions.len()
+    layout.out.undecided.len()
 }
 
 /// The selected edge, and its seam with everything about it.
@@ -191,7 +218,7 @@ fn item_lines(
             (vec![seam_line(&layout.out.desk, k, seam, width)], colour)
         }
         TableLine::Question(k) => {
-            let text = format!("? {}", layout.out.questions[k]);
+            let text = format!("? {}", layout.out.undecided[k].text);
             let texts = if is_selected { wrapped(&text, width) } else { vec![shortened(&text, width)] };
             (texts, state.theme.warn())
         }

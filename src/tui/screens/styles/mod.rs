@@ -1,11 +1,15 @@
 //! Screen 3: the styles and sizes of the catalogue, and of the selected one its seams, measurements and pieces.
 
 mod actions;
+mod asking;
 mod draw;
 mod pieces;
+mod preview;
+mod question;
 mod seams;
 pub mod state;
 
+use crossterm::event::KeyEvent;
 use ratatui::Frame;
 use ratatui::layout::Rect;
 
@@ -14,6 +18,8 @@ use crate::messages::effect::Effect;
 use crate::screens::movement::Movement;
 use crate::screens::page::Page;
 use crate::screens::state::State;
+use crate::screens::styles::state::Own;
+use crate::widgets::picture::Pictured;
 use study::Part;
 
 /// The screen of styles.
@@ -64,10 +70,14 @@ impl Page for StylesPage {
             Action::EnlargePieces => state.enlarge_pieces(),
             Action::MarkEdge => state.mark_edge(),
             Action::UndoEdit => state.undo_edit(),
+            Action::RedoEdit => state.redo_edit(),
+            Action::AskEdge => state.ask_own(Own::Edge),
+            Action::AskPiece => state.ask_own(|(piece, _)| Own::Piece(piece)),
+            Action::NextView => state.turn_preview(),
             Action::AddSeam => return Some(state.add_seam()),
             Action::RemoveSeam => return Some(state.remove_seam()),
             Action::FlipSeam => return Some(state.flip_seam()),
-            Action::ConfirmSeam => return Some(state.confirm_seam()),
+            Action::Decide => state.decide(),
             Action::ProposeSeams => return Some(state.propose_seams()),
             Action::SaveSeams => return Some(state.save_seams()),
             _ => return None,
@@ -80,6 +90,18 @@ impl Page for StylesPage {
     }
 
     fn wanted(&self, state: &mut State) -> Option<Effect> {
-        state.ask_for_layout()
+        state.ask_for_layout().or_else(|| state.ask_for_preview())
+    }
+
+    fn take_key(&self, state: &mut State, event: &KeyEvent) -> Option<Vec<Effect>> {
+        state.answer(event)
+    }
+
+    fn pictures(&self, state: &State, area: Rect) -> Vec<(Pictured, Rect)> {
+        draw::pieces_area(state, area).map_or(vec![], |area| state.previewed(area))
+    }
+
+    fn hints(&self, state: &State) -> Option<&'static [(&'static str, &'static str)]> {
+        state.is_asking().then_some(asking::HINTS)
     }
 }

@@ -5,14 +5,14 @@ use crate::messages::effect::Effect;
 use crate::messages::requests::Command;
 use crate::messages::seams::SeamTask;
 use crate::screens::state::State;
-use crate::screens::styles::state::{EdgeAt, TableLine};
+use crate::screens::styles::state::EdgeAt;
 use study::Part;
 use study::files::SourceFile;
 use study::seams::{DeskSeam, SeamEdit, SeamStep};
 
 impl State {
     /// Gives the seams the focus; whether they can be worked on now.
-    fn may_sew(&mut self) -> bool {
+    pub fn may_sew(&mut self) -> bool {
         if !self.may_change(Part::Style) {
             return false;
         }
@@ -57,8 +57,8 @@ impl State {
         }
         let length = |(piece, edge): &EdgeAt| layout.out.desk.pieces[*piece].edges[*edge].length_mm;
         let (a_mm, b_mm) = (length(first), others.iter().map(length).sum::<f64>());
-        let a = layout.edge_name(*first);
-        let b = others.iter().map(|edge| layout.edge_name(*edge)).collect::<Vec<_>>().join("+");
+        let a = layout.out.desk.edge_name(*first);
+        let b = others.iter().map(|edge| layout.out.desk.edge_name(*edge)).collect::<Vec<_>>().join("+");
         let is_eased = (a_mm - b_mm).abs() > layout.out.tolerance_mm;
         let text = format!(
             "{a} is {a_mm:.1} mm, {b} is {b_mm:.1} mm. Sew them with {:+.1} mm of ease (ratio {:.3})?",
@@ -90,7 +90,7 @@ impl State {
     /// Two edges that name a seam: one of each side.
     fn between(&self, seam: &DeskSeam) -> Option<(String, String)> {
         let layout = self.layout()?.ok()?;
-        Some((layout.edge_name(*seam.a.first()?), layout.edge_name(*seam.b.first()?)))
+        Some((layout.out.desk.edge_name(*seam.a.first()?), layout.out.desk.edge_name(*seam.b.first()?)))
     }
 
     /// Opens the selected seam.
@@ -105,27 +105,14 @@ impl State {
         edges.map_or(vec![], |(a, b)| self.step_of_work(SeamStep::Edit(SeamEdit::Flip { a, b })))
     }
 
-    /// Takes the selected proposed seam for right, or the selected question for answered; gives the seams
-    /// the focus first where the list has it.
-    pub fn confirm_seam(&mut self) -> Vec<Effect> {
-        if self.nav.screen == Screen::Styles && !self.in_second_pane() {
-            self.nav.second_pane[Screen::Styles as usize] = true;
-            return vec![];
-        }
-        if let (true, Some(TableLine::Question(k))) = (self.nav.screen == Screen::Styles, self.table_line()) {
-            if !self.may_sew() {
-                return vec![];
-            }
-            let question = self.layout().and_then(Result::ok).and_then(|layout| layout.out.questions.get(k).cloned());
-            return question.map_or(vec![], |question| self.step_of_work(SeamStep::Decide(question)));
-        }
-        match self.selected_seam() {
-            Some(seam) if seam.confidence.is_some() => self.step_of_work(SeamStep::Confirm(seam.name)),
-            Some(seam) => {
-                self.say(format!("{} is no proposal: nothing to confirm", seam.name));
-                vec![]
-            }
-            None => vec![],
+    /// Gives the seams the focus, and asks what is to be decided about them.
+    pub fn decide(&mut self) {
+        let had_focus = self.in_second_pane();
+        self.show(Screen::Styles);
+        self.nav.second_pane[Screen::Styles as usize] = true;
+        let is_decided = self.layout().and_then(Result::ok).is_none_or(|layout| layout.out.undecided.is_empty());
+        if had_focus || !is_decided {
+            self.begin_asking();
         }
     }
 
@@ -149,7 +136,7 @@ impl State {
         effects
     }
 
-    fn step_of_work(&mut self, step: SeamStep) -> Vec<Effect> {
+    pub fn step_of_work(&mut self, step: SeamStep) -> Vec<Effect> {
         let Some(request) = self.layout_request() else { return vec![] };
         self.styles.is_busy = true;
         vec![Effect::Seams(SeamTask::Sew(request, step))]
@@ -160,6 +147,7 @@ impl State {
         self.styles.is_busy = false;
         match outcome {
             Ok(seams) => {
+                self.styles.undone.remove(&style);
                 self.styles.edits.entry(style).or_default().push(seams);
                 self.say("done; w saves it, u takes it back");
             }
@@ -174,12 +162,25 @@ impl State {
         let Some(edits) = self.styles.edits.get_mut(&style) else {
             return self.say(format!("{style} is as saved: nothing to take back"));
         };
-        edits.pop();
+        self.styles.undone.entry(style.clone()).or_default().extend(edits.pop());
         let left = edits.len();
         if left == 0 {
             self.styles.edits.remove(&style);
         }
-        self.say(format!("taken back; {left} edits of {style} are left"));
+        self.say(format!("taken back; {left} edits of {style} are left, U does it again"));
+    }
+
+    /// Does the edit of the selected style again that was taken back last.
+    pub fn redo_edit(&mut self) {
+        self.show(Screen::Styles);
+        let Some(style) = self.size_row().map(|row| row.style.clone()) else { return };
+        match self.styles.undone.get_mut(&style).and_then(Vec::pop) {
+            Some(edit) => {
+                self.styles.edits.entry(style).or_default().push(edit);
+                self.say("done again");
+            }
+            None => self.say(format!("no edit of {style} was taken back")),
+        }
     }
 
     /// Saves the edited seams of the selected style.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::messages::seams::{LayoutRequest, SizeLayout};
+use crate::messages::seams::{LayoutRequest, PreviewRequest, Previewed, SizeLayout};
 use study::files::SourceFile;
 
 /// An edge by its piece and its place on it.
@@ -15,6 +15,12 @@ pub struct Styles {
     pub selected: Option<(String, String)>,
     /// Seam files of styles as edited and not saved, the latest last.
     pub edits: BTreeMap<String, Vec<SourceFile>>,
+    /// Edits that were taken back, the latest last.
+    pub undone: BTreeMap<String, Vec<SourceFile>>,
+    /// What is asked, while questions are answered.
+    pub asking: Option<Asking>,
+    /// The garment sewn coarsely.
+    pub preview: Preview,
     /// The size whose layout was asked for.
     pub requested: Option<LayoutRequest>,
     /// What was laid out last, or why it could not be.
@@ -29,6 +35,37 @@ pub struct Styles {
     pub is_busy: bool,
     /// Whether the pieces have all the room.
     pub enlarged: bool,
+}
+
+/// Where the user is among what is to be decided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Asking {
+    /// Place in the list.
+    pub at: usize,
+    /// What is asked instead of that.
+    pub own: Option<Own>,
+    /// Whether the list is gone on with once that is answered.
+    pub goes_on: bool,
+}
+
+/// A question of the user's own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Own {
+    /// What an edge is sewn to.
+    Edge(EdgeAt),
+    /// What a piece is worn as.
+    Piece(usize),
+}
+
+/// The garment sewn coarsely while its seams are edited.
+#[derive(Debug, Default)]
+pub struct Preview {
+    /// What was asked for last.
+    pub asked: Option<PreviewRequest>,
+    /// What was seen last, and of what.
+    pub seen: Option<(PreviewRequest, Result<Previewed, String>)>,
+    /// Whether it is shown instead of the pieces where there is no room for both.
+    pub is_chosen: bool,
 }
 
 /// A line of the table beside the pieces.
@@ -47,7 +84,8 @@ impl SizeLayout {
     #[must_use]
     pub fn lines(&self) -> Vec<TableLine> {
         let seams = (0..self.out.desk.seams.len()).map(TableLine::Seam);
-        let questions = (0..self.out.questions.len()).map(TableLine::Question);
+        let questions = self.out.undecided.iter().enumerate().filter(|(_, one)| one.seam.is_none());
+        let questions = questions.map(|(k, _)| TableLine::Question(k));
         seams.chain(questions).chain((0..self.out.lengths.len()).map(TableLine::Length)).collect()
     }
 
@@ -55,13 +93,6 @@ impl SizeLayout {
     #[must_use]
     pub fn seam_at(&self, edge: EdgeAt) -> Option<usize> {
         self.out.desk.seams.iter().position(|seam| seam.a.contains(&edge) || seam.b.contains(&edge))
-    }
-
-    /// An edge as the command line names it: `front.side_left`, or `front.3` where it has no name.
-    pub fn edge_name(&self, (piece, edge): EdgeAt) -> String {
-        let piece = &self.out.desk.pieces[piece];
-        let edge = &piece.edges[edge];
-        format!("{}.{}", piece.id, edge.name.clone().unwrap_or_else(|| edge.number.to_string()))
     }
 
     /// All edges, piece by piece.

@@ -1,0 +1,118 @@
+//! `toile pattern sew`: a garment seen while its seam file is edited.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use signal_hook::consts::SIGINT;
+
+use super::args::{SewFiles, Sex};
+use super::context::Context;
+use super::{CliError, End, Outcome, output};
+use study::patterns::Unit;
+use study::seams::{self, Hung, Mannequin, Workpiece};
+use study::{StudyError, bodies, files};
+
+/// Time between two looks at the seam file.
+const LOOK: Duration = Duration::from_millis(100);
+
+/// Sews a pattern, once or whenever its seam file has changed.
+pub fn run(context: &Context, arguments: &SewFiles) -> Outcome {
+    let is_left = Arc::new(AtomicBool::new(false));
+    if arguments.watch {
+        signal_hook::flag::register(SIGINT, is_left.clone())?;
+    }
+    let seams = seam_file(context, arguments)?;
+    let sex = arguments.sex.map(|sex| match sex {
+        Sex::M => bodies::Sex::Male,
+        Sex::F => bodies::Sex::Female,
+    });
+    let (mannequin, notes) = Mannequin::read(&arguments.body, arguments.body_unit.map(Into::into), sex)?;
+    notes.iter().for_each(|note| context.say(note));
+    loop {
+        let before = stamp(seams.as_deref());
+        let is_stale = || is_left.load(Ordering::Relaxed) || stamp(seams.as_deref()) != before;
+        let end = match sewn(context, arguments, seams.as_deref(), &mannequin, &is_stale) {
+            Err(CliError::Study(StudyError::Interrupted)) => End::Done,
+            Err(error) if !arguments.watch => return Err(error),
+            Err(error) => {
+                output::tell(&error.to_string());
+                End::CheckFailed
+            }
+            Ok(end) => end,
+        };
+        if !arguments.watch {
+            return Ok(end);
+        }
+        while stamp(seams.as_deref()) == before {
+            if is_left.load(Ordering::Relaxed) {
+                return Ok(end);
+            }
+            std::thread::sleep(LOOK);
+        }
+    }
+}
+
+/// The seam file, proposed where there is none yet; `None` where the pattern holds its seams.
+fn seam_file(context: &Context, arguments: &SewFiles) -> Result<Option<PathBuf>, CliError> {
+    let cut = &arguments.cut;
+    let piece = Workpiece::open(&arguments.file, None, cut.size.as_deref(), cut.unit.map(Unit::from))?;
+    if piece.pattern.holds_seams() {
+        return Ok(None);
+    }
+    let beside = arguments.file.with_extension("seams.toml");
+    let path = arguments.seams.clone().unwrap_or(beside);
+    if !path.exists() {
+        let proposed = seams::propose(&arguments.file, &cut.asking(&[]))?;
+        if proposed.proposal.is_empty() {
+            let told = format!("{}: no piece was recognised; give its seam file", arguments.file.display());
+            return Err(CliError::Usage(told));
+        }
+        let name = arguments.file.file_stem().unwrap_or_default().to_string_lossy();
+        let text = proposed.proposal.toml(&name).into_bytes();
+        let folder = path.parent().unwrap_or(Path::new(""));
+        files::write_files(folder, &[(path.file_name().unwrap_or_default().to_string_lossy().into_owned(), text)])?;
+        context.say(format_args!("wrote {}, as proposed", path.display()));
+    }
+    Ok(Some(path))
+}
+
+/// What tells that the seam file has changed: its bytes.
+fn stamp(seams: Option<&Path>) -> Option<Vec<u8>> {
+    std::fs::read(seams?).ok()
+}
+
+/// Sews it once: writes the picture, prints how far it came and what is to be decided.
+fn sewn(
+    context: &Context,
+    arguments: &SewFiles,
+    seams: Option<&Path>,
+    mannequin: &Mannequin,
+    is_stale: &dyn Fn() -> bool,
+) -> Outcome {
+    let started = Instant::now();
+    let cut = &arguments.cut;
+    let piece = Workpiece::open(&arguments.file, seams, cut.size.as_deref(), cut.unit.map(Unit::from))?;
+    let preview = piece.preview(mannequin, is_stale)?;
+    let took_ms = started.elapsed().as_millis();
+    let (folder, name) = (arguments.output.parent().unwrap_or(Path::new("")), arguments.output.file_name());
+    let name = name.unwrap_or_default().to_string_lossy().into_owned();
+    files::write_files(folder, &[(name, preview.sheet()?)])?;
+    let hung = match preview.hung {
+        Hung::Draped => "sewn and draped coarsely",
+        Hung::Undone => "not sewn up",
+        Hung::Not => "not placed",
+    };
+    output::text(&format!("{hung} on {} in {took_ms} ms: {}\n", mannequin.name, arguments.output.display()))?;
+    preview.remarks.iter().try_for_each(|remark| output::text(&format!("{remark}\n")))?;
+    let undecided = piece.laid_out()?.undecided;
+    for (k, one) in undecided.iter().enumerate() {
+        output::text(&format!("{}. {}\n", k + 1, one.text))?;
+        for choice in &one.choices {
+            output::text(&format!("   {}\n", choice.label))?;
+        }
+    }
+    context.say(format_args!("{} to decide", undecided.len()));
+    Ok(if preview.hung == Hung::Draped { End::Done } else { End::CheckFailed })
+}

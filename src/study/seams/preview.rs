@@ -1,0 +1,282 @@
+//! A garment seen while its seams are edited: sewn and draped coarsely on a body that is kept ready, in colours that tell its pieces and
+//! seams apart.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::sync::Arc;
+
+use image::RgbaImage;
+
+use crate::answers::figure;
+use crate::answers::picture::Look;
+use crate::bodies::{LengthUnit, Sex};
+use crate::error::{Result, StudyError};
+use crate::patterns;
+use crate::rows::SubjectId;
+use crate::run::pipeline::Model;
+use crate::seams::workpiece::Workpiece;
+use crate::spec::file::read_body;
+use crate::spec::versions::FIELD_SPACING_M;
+use crate::store::Store;
+use geom::{DistanceField, TriMesh, V3};
+use pattern::{Garment, Role};
+use render::{self, Cell, Layer, Material, Rgb, Scene, View};
+use sim::fem::{self, Params};
+use sim::placement::{Bend, place};
+use sim::{Monitor, Progress, SimError, fabric};
+
+/// Edge length of the cloth, m.
+const EDGE_M: f64 = 0.030;
+/// Residual at which a drape can be looked at, and steps after the sewing that end it at the latest.
+const SEEN: f64 = 0.5;
+const MOST_STEPS: u32 = 60;
+/// Size of each view on a sheet, pixels.
+const VIEW: [u32; 2] = [480, 640];
+/// Half the width of the lines along seams and along edges that are in none, m.
+const SEAM_M: f64 = 0.004;
+const FREE_M: f64 = 0.007;
+
+/// Cloth of fronts, of backs, and of what is neither.
+const CLOTHS: [Rgb; 3] = [Rgb(0x9c, 0xcf, 0xb5), Rgb(0x58, 0x9a, 0xa8), Rgb(0xd8, 0xc0, 0x8a)];
+/// Seams, over and over, in the order of the workbench's five colours; and edges that are in none.
+const SEAMS: [Rgb; 5] =
+    [Rgb(0x1f, 0x8a, 0x3c), Rgb(0xa8, 0x3a, 0xa8), Rgb(0x12, 0x9c, 0xac), Rgb(0xb8, 0x4a, 0x2a), Rgb(0x2f, 0x55, 0xc8)];
+const FREE: Rgb = Rgb(0xff, 0x20, 0x20);
+
+/// A body ready to be dressed again and again.
+pub struct Mannequin {
+    /// Its subject.
+    pub name: String,
+    model: Arc<Model>,
+    field: DistanceField,
+}
+
+impl Mannequin {
+    /// Of a file: measurements or a mesh, in a unit and of a sex where that cannot be told from it; and what had to be guessed.
+    ///
+    /// # Errors
+    /// When the file cannot be used.
+    pub fn read(file: &Path, unit: Option<LengthUnit>, sex: Option<Sex>) -> Result<(Self, Vec<String>)> {
+        let (body, notes) = read_body(file, unit, sex)?;
+        let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Ok((Self::of((name, Arc::new(Model { body })))?, notes))
+    }
+
+    fn of((name, model): (String, Arc<Model>)) -> Result<Self> {
+        let field = DistanceField::build(&model.body.mesh, FIELD_SPACING_M).map_err(StudyError::stage("field"))?;
+        Ok(Self { name, model, field })
+    }
+}
+
+/// The body of a revision of a subject, ready to be dressed.
+///
+/// # Errors
+/// When there is none of that number, or no body can be built from its measurements.
+pub(crate) fn mannequin(store: &Store, id: SubjectId) -> Result<Mannequin> {
+    Mannequin::of(figure::model(store, id)?)
+}
+
+/// How far a garment came.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hung {
+    /// It hangs on the body, nearly at rest.
+    Draped,
+    /// It could not be sewn up and draped: as it was when that failed.
+    Undone,
+    /// Its pieces could not even be placed round the body.
+    Not,
+}
+
+/// A garment on a body, coarsely.
+pub struct Preview {
+    /// How far it came.
+    pub hung: Hung,
+    /// Why it came no farther, and what is to be seen on it.
+    pub remarks: Vec<String>,
+    shown: Vec<TriMesh>,
+    scene: Scene,
+}
+
+impl Workpiece {
+    /// Sews and drapes the size coarsely on a body; `is_stale` is asked between steps whether nobody wants it any more.
+    ///
+    /// # Errors
+    /// When the files cannot be read or meshed; [`StudyError::Interrupted`] when it is stale. A garment that cannot be draped is no error.
+    pub fn preview(&self, on: &Mannequin, is_stale: &dyn Fn() -> bool) -> Result<Preview> {
+        let style = patterns::read_style(&self.pattern, self.seams.as_ref(), Some(&self.size), self.unit)?;
+        let garment = style.mesh(EDGE_M).map_err(StudyError::stage("mesh"))?;
+        let (hung, positions, mut remarks) = hang(&garment, on, is_stale)?;
+        let free = free_edges(&garment, &self.open_edges());
+        if !free.is_empty() {
+            remarks.push("red edges are in no seam".to_owned());
+        }
+        let positions = positions.unwrap_or_default();
+        let pieces = if hung == Hung::Not { vec![] } else { layers(&garment, &positions, &free) };
+        let mut all = vec![Layer::new(&on.model.body.mesh, Material::form())];
+        all.extend(pieces.iter().map(|(mesh, material)| Layer::new(mesh, *material)));
+        let scene = Scene::new(all).map_err(StudyError::stage("render"))?;
+        let shown = match hung {
+            Hung::Not => vec![on.model.body.mesh.clone()],
+            _ => vec![TriMesh { positions, triangles: garment.triangles.clone() }],
+        };
+        Ok(Preview { hung, remarks, shown, scene })
+    }
+}
+
+impl Preview {
+    /// The garment from four sides, as a PNG file.
+    ///
+    /// # Errors
+    /// When it cannot be drawn.
+    pub fn sheet(&self) -> Result<Vec<u8>> {
+        let shot = |view: View| {
+            let look = Look { azimuth_deg: view.azimuth_deg() as i32, zoom_pct: 100, rise_pct: 0 };
+            let camera = look.camera(&self.shown, VIEW[0], VIEW[1]);
+            let picture =
+                render::render(&self.scene, &camera, VIEW[0], VIEW[1]).map_err(StudyError::stage("render"))?;
+            Ok(Cell { picture, label: view.as_str().to_owned() })
+        };
+        let cells = View::ALL.into_iter().map(shot).collect::<Result<Vec<_>>>()?;
+        let sheet = render::contact_sheet("", &cells, cells.len()).map_err(StudyError::stage("render"))?;
+        render::png(&sheet).map_err(StudyError::stage("render"))
+    }
+
+    /// The garment from any side, as large as it can be.
+    ///
+    /// # Errors
+    /// When the picture is too small or too large.
+    pub fn picture(&self, look: Look, width: u32, height: u32) -> Result<RgbaImage> {
+        let camera = look.camera(&self.shown, width, height);
+        render::cutout(&self.scene, &camera, width, height).map_err(StudyError::stage("render"))
+    }
+}
+
+/// Looks at a simulation until its cloth can be shown.
+struct Glance<'a> {
+    seen: Option<Vec<V3>>,
+    sewn_at: Option<u32>,
+    is_enough: bool,
+    is_stale: &'a dyn Fn() -> bool,
+}
+
+impl Monitor for Glance<'_> {
+    fn progress(&mut self, progress: &Progress) {
+        if progress.phase == "sew" {
+            return;
+        }
+        let step = progress.step;
+        let sewn_at = *self.sewn_at.get_or_insert(step.iteration);
+        self.is_enough = step.residual <= SEEN || step.iteration - sewn_at >= MOST_STEPS;
+    }
+
+    fn cancelled(&self) -> bool {
+        self.is_enough || (self.is_stale)()
+    }
+
+    fn wants_snapshot(&mut self) -> bool {
+        true
+    }
+
+    fn snapshot(&mut self, positions: &[V3]) {
+        self.seen = Some(positions.to_vec());
+    }
+}
+
+/// Positions of a garment on a body, how far it came, and why no farther.
+fn hang(
+    garment: &Garment,
+    on: &Mannequin,
+    is_stale: &dyn Fn() -> bool,
+) -> Result<(Hung, Option<Vec<V3>>, Vec<String>)> {
+    let library = fabric::library();
+    let Some(cloth) = library.first() else { return Ok((Hung::Not, None, vec![])) };
+    let params = Params { distortion_limit: f64::MAX, ..Params::default() };
+    let mut glance = Glance { seen: None, sewn_at: None, is_enough: false, is_stale };
+    let outcome = fem::simulate(&on.model.body, &on.field, std::slice::from_ref(garment), cloth, &params, &mut glance);
+    let placed = || place(&on.model.body, garment, &Bend::default()).ok();
+    match outcome {
+        Ok(drape) => Ok((Hung::Draped, Some(drape.positions), vec![])),
+        Err(SimError::Cancelled) if glance.is_enough => Ok((Hung::Draped, glance.seen, vec![])),
+        Err(SimError::Cancelled) => Err(StudyError::Interrupted),
+        Err(error) => Ok(match glance.seen.or_else(placed) {
+            Some(positions) => (Hung::Undone, Some(positions), vec![error.to_string()]),
+            None => (Hung::Not, None, vec![error.to_string()]),
+        }),
+    }
+}
+
+/// Sides of boundary triangles that are in no seam, and of no edge that is meant to be open.
+fn free_edges(garment: &Garment, open: &[String]) -> Vec<[usize; 2]> {
+    let mut held: BTreeSet<[usize; 2]> = BTreeSet::new();
+    let mut hold = |[a, b]: [usize; 2]| held.insert([a.min(b), a.max(b)]);
+    for side in garment.seams.iter().flat_map(|seam| seam.stitches().flatten().collect::<Vec<_>>()) {
+        hold(side);
+    }
+    for piece in &garment.pieces {
+        let is_open = |name: &String| open.iter().any(|one| *one == format!("{}.{name}", piece.id));
+        for (_, line) in piece.edges.iter().filter(|(name, _)| is_open(name)) {
+            for side in line.windows(2) {
+                hold([side[0], side[1]]);
+            }
+        }
+    }
+    let mesh = TriMesh { positions: vec![], triangles: garment.triangles.clone() };
+    let mut faces: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+    for [a, b, c] in &mesh.triangles {
+        for [p, q] in [[a, b], [b, c], [c, a]] {
+            *faces.entry([*p.min(q), *p.max(q)]).or_default() += 1;
+        }
+    }
+    faces.into_iter().filter(|(side, count)| *count == 1 && !held.contains(side)).map(|(side, _)| side).collect()
+}
+
+/// Cloth by piece, lines along seams and free edges.
+fn layers(garment: &Garment, positions: &[V3], free: &[[usize; 2]]) -> Vec<(TriMesh, Material)> {
+    let mut layers: Vec<(TriMesh, Material)> = Vec::new();
+    for (kind, colour) in CLOTHS.into_iter().enumerate() {
+        let of_kind = garment.pieces.iter().filter(|piece| cloth_of(piece.role) == kind);
+        let triangles: Vec<[usize; 3]> =
+            of_kind.flat_map(|piece| garment.triangles[piece.triangles.clone()].to_vec()).collect();
+        layers.push((TriMesh { positions: positions.to_vec(), triangles }, Material::cloth(colour)));
+    }
+    let line = |colour: Rgb| Material { seams: false, ..Material::cloth(colour) };
+    for (k, colour) in SEAMS.into_iter().enumerate() {
+        let of_colour = garment.seams.iter().skip(k).step_by(SEAMS.len());
+        let sides = of_colour.flat_map(|seam| seam.stitches().flatten().collect::<Vec<_>>());
+        layers.push((rods(positions, sides, SEAM_M), line(colour)));
+    }
+    layers.push((rods(positions, free.iter().copied(), FREE_M), line(FREE)));
+    layers.retain(|(mesh, _)| !mesh.triangles.is_empty());
+    layers
+}
+
+/// Which cloth a piece is shown in.
+fn cloth_of(role: Role) -> usize {
+    use Role::{Back, BodiceBack, BodiceFront, Front, LegBackLeft, LegBackRight, LegFrontLeft, LegFrontRight};
+    match role {
+        Front | BodiceFront | Role::SkirtFront | LegFrontLeft | LegFrontRight => 0,
+        Back | BodiceBack | Role::SkirtBack | LegBackLeft | LegBackRight => 1,
+        _ => 2,
+    }
+}
+
+/// Square rods along sides, half as wide as `half_m`.
+fn rods(positions: &[V3], sides: impl Iterator<Item = [usize; 2]>, half_m: f64) -> TriMesh {
+    let mut mesh = TriMesh { positions: vec![], triangles: vec![] };
+    for [a, b] in sides.map(|side| side.map(|v| positions[v])) {
+        let Some(along) = (b - a).try_normalize(1e-9) else { continue };
+        let across = along.cross(&if along.z.abs() < 0.9 { V3::z() } else { V3::x() }).normalize();
+        let up = along.cross(&across);
+        let first = mesh.positions.len();
+        for end in [a, b] {
+            for [s, t] in [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]] {
+                mesh.positions.push(end + half_m * (s * across + t * up));
+            }
+        }
+        for k in 0..4 {
+            let [p, q, r, s] = [k, (k + 1) % 4, 4 + k, 4 + (k + 1) % 4].map(|v| first + v);
+            mesh.triangles.extend([[p, q, r], [q, s, r]]);
+        }
+    }
+    mesh
+}

@@ -1,0 +1,266 @@
+//! What a person must decide about the seams of a size: one thing at a time, each with its likely answers.
+
+use crate::seams::desk::{Desk, DeskEdge, DeskSeam};
+use crate::seams::step::SeamStep;
+use pattern::Role;
+use pattern::check::{Finding, FindingKind};
+use pattern::propose::Question;
+use pattern::seam_edit::Edit;
+
+/// An edge by its piece and its place on it.
+type EdgeAt = (usize, usize);
+
+/// Partners of an edge that are offered.
+const OFFERED: usize = 4;
+/// What a partner is as unlikely by as by a difference of the whole length: its distance over the size of all pieces, notches that do not
+/// match, and a side of two edges instead of one.
+const FAR: f64 = 0.25;
+const UNNOTCHED: f64 = 0.15;
+const OF_TWO: f64 = 0.05;
+/// Difference of lengths from which two edges are no partners, share of the longer, and of places of notches that match.
+const UNLIKE: f64 = 0.4;
+const SAME_NOTCH: f64 = 0.03;
+
+/// An answer, and the step of work that it asks for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Choice {
+    /// What it says.
+    pub label: String,
+    /// What is done.
+    pub step: SeamStep,
+    /// Edges that it speaks of.
+    pub edges: Vec<EdgeAt>,
+}
+
+/// What a person must decide.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Undecided {
+    /// The question.
+    pub text: String,
+    /// Edges that it is about.
+    pub edges: Vec<EdgeAt>,
+    /// Likely answers; none where only an edit helps.
+    pub choices: Vec<Choice>,
+    /// The answer that stands while nobody gives another.
+    pub stands: Option<usize>,
+    /// The seam that it is about.
+    pub seam: Option<usize>,
+}
+
+impl Undecided {
+    /// A question of a proposal.
+    pub(crate) fn asked(question: Question) -> Self {
+        let written = question.to_string();
+        let answer = |(choice, label): (usize, &String)| Choice {
+            label: label.clone(),
+            step: SeamStep::Answer { question: question.text.clone(), choice },
+            edges: vec![],
+        };
+        let mut choices: Vec<Choice> = question.choices.iter().enumerate().map(answer).collect();
+        if choices.is_empty() {
+            let step = SeamStep::Decide(written);
+            choices.push(Choice { label: "it is as it should be".to_owned(), step, edges: vec![] });
+        }
+        Self { text: question.text.clone(), edges: vec![], choices, stands: question.taken.or(Some(0)), seam: None }
+    }
+
+    /// A proposed seam that nobody has confirmed; `None` of any other.
+    pub(crate) fn unsure(desk: &Desk, seam: usize) -> Option<Self> {
+        let found = &desk.seams[seam];
+        let sure = 100.0 * found.confidence?;
+        let DeskSeam { name, a, b, a_mm, b_mm, .. } = found;
+        let [one, other] = [a, b].map(|chain| names(desk, chain));
+        let ends = || Some((desk.edge_name(*a.first()?), desk.edge_name(*b.first()?)));
+        let edit = |edit: fn(String, String) -> Edit| ends().map(|(a, b)| SeamStep::Edit(edit(a, b)));
+        let choice = |label: &str, step: Option<SeamStep>| {
+            step.map(|step| Choice { label: label.to_owned(), step, edges: vec![] })
+        };
+        let choices = [
+            choice("yes", Some(SeamStep::Confirm(name.clone()))),
+            choice("yes, but the other way round", edit(|a, b| Edit::Flip { a, b })),
+            choice("no", edit(|a, b| Edit::Remove { a, b })),
+        ];
+        Some(Self {
+            text: format!("Is {one} sewn to {other}? {a_mm:.1} to {b_mm:.1} mm, {sure:.0} % sure"),
+            edges: a.iter().chain(b).copied().collect(),
+            choices: choices.into_iter().flatten().collect(),
+            stands: Some(0),
+            seam: Some(seam),
+        })
+    }
+
+    /// What a check finds.
+    pub(crate) fn found(desk: &Desk, finding: &Finding) -> Self {
+        let free = if finding.kind == FindingKind::FreeEdge { desk.edge_of(&finding.place) } else { None };
+        match free {
+            Some(edge) => Self::free(desk, edge),
+            None => {
+                let text = format!("{}: {}: {}", finding.kind.as_str(), finding.place, finding.found);
+                Self { text, edges: vec![], choices: vec![], stands: None, seam: None }
+            }
+        }
+    }
+
+    /// What an edge that is in no seam may be sewn to.
+    #[must_use]
+    pub fn free(desk: &Desk, edge: EdgeAt) -> Self {
+        let (name, length_mm) = (desk.edge_name(edge), desk.edge(edge).length_mm);
+        let sewn = |partner: Vec<EdgeAt>| {
+            let partner_mm: f64 = partner.iter().map(|one| desk.edge(*one).length_mm).sum();
+            let ease_mm = length_mm - partner_mm;
+            let b = partner.iter().map(|one| desk.edge_name(*one)).collect::<Vec<_>>().join("+");
+            Choice {
+                label: format!("sewn to {}, {partner_mm:.1} mm, ease {ease_mm:+.1}", names(desk, &partner)),
+                step: SeamStep::Edit(Edit::Add { a: name.clone(), b, name: None, is_eased: true }),
+                edges: partner,
+            }
+        };
+        let mut choices: Vec<Choice> = partners(desk, edge).into_iter().map(sewn).collect();
+        let open = SeamStep::Edit(Edit::Open { edge: name.clone() });
+        choices.push(Choice { label: "nothing: it stays open".to_owned(), step: open, edges: vec![] });
+        let text = format!("What is {name} sewn to? It is {length_mm:.1} mm long and in no seam");
+        Self { text, edges: vec![edge], choices, stands: None, seam: None }
+    }
+
+    /// What a piece may be worn as, and whether it is worn at all.
+    #[must_use]
+    pub fn piece(desk: &Desk, piece: usize) -> Self {
+        let drawn = &desk.pieces[piece];
+        let role = |role: Role| Choice {
+            label: role.as_str().replace('_', " "),
+            step: SeamStep::Edit(Edit::Role { piece: drawn.id.clone(), role: role.as_str().to_owned() }),
+            edges: vec![],
+        };
+        let out = Choice {
+            label: "not at all: leave it out".to_owned(),
+            step: SeamStep::Edit(Edit::LeaveOut { piece: drawn.id.clone() }),
+            edges: vec![],
+        };
+        let others = Role::ALL.into_iter().filter(|role| *role != drawn.role);
+        Self {
+            text: format!("What is {} worn as? It is {} now", drawn.id, drawn.role.as_str().replace('_', " ")),
+            edges: (0..drawn.edges.len()).map(|edge| (piece, edge)).collect(),
+            choices: std::iter::once(out).chain(others.map(role)).collect(),
+            stands: None,
+            seam: None,
+        }
+    }
+}
+
+impl Desk {
+    /// An edge.
+    #[must_use]
+    pub fn edge(&self, (piece, edge): EdgeAt) -> &DeskEdge {
+        &self.pieces[piece].edges[edge]
+    }
+
+    /// An edge as edits name it: `front.side_left`, or `front.3` where it has no name.
+    #[must_use]
+    pub fn edge_name(&self, (piece, edge): EdgeAt) -> String {
+        let drawn = &self.pieces[piece].edges[edge];
+        format!("{}.{}", self.pieces[piece].id, drawn.name.clone().unwrap_or_else(|| drawn.number.to_string()))
+    }
+
+    /// The edge of a name.
+    fn edge_of(&self, name: &str) -> Option<EdgeAt> {
+        self.all_edges().find(|edge| self.edge_name(*edge) == name)
+    }
+
+    fn all_edges(&self) -> impl Iterator<Item = EdgeAt> + '_ {
+        self.pieces.iter().enumerate().flat_map(|(piece, drawn)| (0..drawn.edges.len()).map(move |edge| (piece, edge)))
+    }
+}
+
+/// A chain of edges in words: `front.side_left`, `front.armhole + back.armhole`.
+fn names(desk: &Desk, chain: &[EdgeAt]) -> String {
+    chain.iter().map(|edge| desk.edge_name(*edge)).collect::<Vec<_>>().join(" + ")
+}
+
+/// Sides in no seam that an edge may be sewn to, the likeliest first: by length, by notches and by where they lie. A side is an edge or two.
+fn partners(desk: &Desk, edge: EdgeAt) -> Vec<Vec<EdgeAt>> {
+    let free: Vec<EdgeAt> = desk.all_edges().filter(|at| *at != edge && desk.edge(*at).seam.is_none()).collect();
+    let extent_mm = extent_mm(desk);
+    let unlikely = |side: &[EdgeAt]| {
+        let lengths: f64 = side.iter().map(|at| desk.edge(*at).length_mm).sum();
+        let own_mm = desk.edge(edge).length_mm;
+        let unlike = (lengths - own_mm).abs() / lengths.max(own_mm).max(1e-6);
+        let away: f64 = side.iter().map(|at| distance_mm(desk.edge(*at), desk.edge(edge))).sum();
+        let away = away / side.len() as f64 / extent_mm;
+        let notched = match side {
+            [one] if !notches_match(desk.edge(edge), desk.edge(*one)) => UNNOTCHED,
+            _ => 0.0,
+        };
+        let two = if side.len() > 1 { OF_TWO } else { 0.0 };
+        (unlike <= UNLIKE).then_some(unlike + FAR * away + notched + two)
+    };
+    let pairs = free.iter().flat_map(|one| {
+        free.iter()
+            .filter(move |other| one.0 < other.0 || (one.0 == other.0 && one.1 + 1 == other.1))
+            .map(move |other| vec![*one, *other])
+    });
+    let sides = free.iter().map(|one| vec![*one]).chain(pairs);
+    let mut found: Vec<(f64, Vec<EdgeAt>)> = sides.filter_map(|side| Some((unlikely(&side)?, side))).collect();
+    found.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+    found.into_iter().take(OFFERED).map(|(_, side)| side).collect()
+}
+
+/// Size of all pieces as they lie, mm.
+fn extent_mm(desk: &Desk) -> f64 {
+    let points = || desk.pieces.iter().flat_map(|piece| &piece.edges).flat_map(|edge| &edge.line_mm);
+    let size = |k: usize| {
+        let (low, high) = points().fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p[k]), high.max(p[k])));
+        high - low
+    };
+    size(0).hypot(size(1)).max(1.0)
+}
+
+/// Distance of the middles of two edges as they lie, mm.
+fn distance_mm(one: &DeskEdge, other: &DeskEdge) -> f64 {
+    let middle = |edge: &DeskEdge| edge.line_mm.get(edge.line_mm.len() / 2).copied().unwrap_or_default();
+    let ([a, b], [c, d]) = (middle(one), middle(other));
+    (a - c).hypot(b - d)
+}
+
+/// Whether two edges have as many notches, at the same shares of their lengths either way round.
+fn notches_match(one: &DeskEdge, other: &DeskEdge) -> bool {
+    let shares = |edge: &DeskEdge| {
+        let mut shares: Vec<f64> = edge.notches_mm.iter().map(|mm| mm / edge.length_mm.max(1e-6)).collect();
+        shares.sort_by(f64::total_cmp);
+        shares
+    };
+    let (one, other) = (shares(one), shares(other));
+    let back: Vec<f64> = other.iter().rev().map(|share| 1.0 - share).collect();
+    let is_same = |other: &[f64]| one.iter().zip(other).all(|(p, q)| (p - q).abs() <= SAME_NOTCH);
+    one.len() == other.len() && (is_same(&other) || is_same(&back))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pattern::Style;
+    use pattern::draft::Model;
+
+    /// The drafted T-shirt, some of its seams opened.
+    fn desk(opened: &[&str]) -> Desk {
+        let mut style = Style::read(&Model::Tshirt.drafts()[0].pieces, Model::Tshirt.seams(), "t").expect("our own");
+        style.seams.retain(|seam| !opened.contains(&seam.name.as_str()));
+        Desk::of(&style)
+    }
+
+    #[test]
+    fn partners_are_offered_by_length_notches_and_place() {
+        let check = |opened: &[&str], edge: &str, expect: &str| {
+            let desk = desk(opened);
+            let at = desk.edge_of(edge).unwrap_or_else(|| panic!("{edge}"));
+            let asked = Undecided::free(&desk, at);
+            assert!(asked.choices[0].label.contains(expect), "{edge}: {:?}", asked.choices);
+            assert!(asked.choices.last().is_some_and(|last| last.label.contains("open")));
+        };
+        let names: Vec<String> = desk(&[]).seams.iter().map(|seam| seam.name.clone()).collect();
+        let all: Vec<&str> = names.iter().map(String::as_str).collect();
+        check(&["side_right"], "front.side_right", "sewn to back.side_right,");
+        check(&all, "front.side_right", "sewn to back.side_right,");
+        check(&all, "front.shoulder_left", "sewn to back.shoulder_left,");
+        check(&all, "sleeve_left.cap", "armhole_left");
+    }
+}

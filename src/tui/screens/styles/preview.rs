@@ -1,0 +1,127 @@
+//! The garment sewn coarsely on the subject in hand, beside its pieces.
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::text::Line;
+use ratatui::widgets::Paragraph;
+
+use crate::messages::effect::Effect;
+use crate::messages::seams::{PreviewRequest, Previewed};
+use crate::screens::picture_pane::draw::draw_shot;
+use crate::screens::state::State;
+use crate::widgets::layout::{WIDE, is_narrow};
+use crate::widgets::lists::pane;
+use crate::widgets::picture::{FRONT, Pictured, look_name, next_view};
+use crate::widgets::text::wrapped;
+use study::seams::Hung;
+
+/// Lines below the picture.
+const TOLD: u16 = 3;
+
+impl State {
+    /// Whether the pane is there: beside the pieces where there is room, else instead of them.
+    fn shows_preview(&self) -> bool {
+        let is_wide = self.body().width >= WIDE;
+        self.setup.abilities.pictures && !is_narrow(self.body()) && (is_wide || self.styles.preview.is_chosen)
+    }
+
+    /// Has the selected size sewn coarsely as it is edited, where that was not asked for already and is to be seen.
+    pub fn ask_for_preview(&mut self) -> Option<Effect> {
+        let is_laid_out =
+            matches!(&self.styles.layout, Some((request, Ok(_))) if Some(request) == self.styles.requested.as_ref());
+        if !self.shows_preview() || !is_laid_out {
+            return None;
+        }
+        let (size, subject) = (self.styles.requested.clone()?, self.subject()?.id);
+        let asked = self.styles.preview.asked.as_ref();
+        if asked.is_some_and(|asked| asked.size == size && asked.subject == subject) {
+            return None;
+        }
+        let number = asked.map_or(1, |asked| asked.number + 1);
+        let request = PreviewRequest { number, size, subject };
+        self.styles.preview.asked = Some(request.clone());
+        Some(Effect::Preview(request))
+    }
+
+    /// Takes in a garment that was sewn coarsely.
+    pub fn take_preview(&mut self, request: PreviewRequest, outcome: Result<Previewed, String>) {
+        self.styles.preview.seen = Some((request, outcome));
+    }
+
+    /// Shows the garment from the next side; where there is no room for both, the pieces come after the last.
+    pub fn turn_preview(&mut self) {
+        if !self.setup.abilities.pictures {
+            return self.say("pictures are off (--images off)");
+        }
+        let is_wide = self.body().width >= WIDE;
+        let (preview, look) = (&mut self.styles.preview, &mut self.pictures.look);
+        if !is_wide && !preview.is_chosen {
+            (preview.is_chosen, *look) = (true, FRONT);
+            return;
+        }
+        *look = next_view(*look);
+        preview.is_chosen = is_wide || *look != FRONT;
+    }
+
+    /// The picture of the pane.
+    #[must_use]
+    pub fn previewed(&self, area: Rect) -> Vec<(Pictured, Rect)> {
+        let number =
+            self.styles.preview.seen.as_ref().filter(|(_, seen)| seen.is_ok()).map(|(request, _)| request.number);
+        let pane =
+            place(self, area).map(|pane| split(Rect::new(pane.x + 1, pane.y + 1, pane.width - 2, pane.height - 2))[0]);
+        number.map(Pictured::Preview).zip(pane).into_iter().collect()
+    }
+}
+
+/// Where the pane lies in the room of the pieces; `None` where it is not shown.
+pub fn place(state: &State, area: Rect) -> Option<Rect> {
+    if !state.shows_preview() {
+        return None;
+    }
+    if area.width < WIDE * 9 / 20 {
+        return Some(area);
+    }
+    Some(Layout::horizontal([Constraint::Fill(3), Constraint::Fill(2)]).areas::<2>(area)[1])
+}
+
+fn split(inner: Rect) -> [Rect; 2] {
+    Layout::vertical([Constraint::Fill(1), Constraint::Length(TOLD)]).areas(inner)
+}
+
+/// Draws the pane.
+pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
+    let view = look_name(state.pictures.look);
+    let seen = state.styles.preview.seen.as_ref();
+    let on = match seen {
+        Some((_, Ok(seen))) => format!("on {} · {view}", seen.subject),
+        _ => "on the body".to_owned(),
+    };
+    let block = pane(state.theme, on, false).title_bottom(Line::styled(" v turns it ", state.theme.legend()));
+    let [picture, told] = split(block.inner(area));
+    frame.render_widget(block, area);
+    let is_current = seen.is_some_and(|(request, _)| Some(request) == state.styles.preview.asked.as_ref());
+    let (text, style) = match seen {
+        _ if state.subject().is_none() => {
+            ("no subject to dress: 2 shows them, a adds one".to_owned(), state.theme.dim())
+        }
+        None => ("sewing it…".to_owned(), state.theme.busy()),
+        Some((_, Err(error))) => (format!("✗ {error}"), state.theme.bad()),
+        Some((_, Ok(seen))) => {
+            let (sign, style) = match seen.hung {
+                Hung::Draped => ("✓ sewn and draped coarsely", state.theme.good()),
+                Hung::Undone => ("✗ not sewn up", state.theme.bad()),
+                Hung::Not => ("✗ not placed", state.theme.bad()),
+            };
+            let again = if is_current { "" } else { ", sewing it again…" };
+            let remarks = seen.remarks.iter().map(|remark| format!("; {remark}")).collect::<String>();
+            (format!("{sign}{remarks}{again}"), style)
+        }
+    };
+    let lines: Vec<Line<'_>> =
+        wrapped(&text, usize::from(told.width)).into_iter().map(|text| Line::styled(text, style)).collect();
+    frame.render_widget(Paragraph::new(lines), told);
+    if let Some((request, Ok(_))) = seen {
+        draw_shot(frame, picture, state, Some(Pictured::Preview(request.number)), "");
+    }
+}

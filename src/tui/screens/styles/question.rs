@@ -1,0 +1,53 @@
+//! Drawing what is asked: the question in full, its answers by digit.
+
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+use ratatui::text::Line;
+use ratatui::widgets::Paragraph;
+
+use crate::screens::state::State;
+use crate::widgets::lists::pane;
+use crate::widgets::text::wrapped;
+use study::seams::Undecided;
+
+/// Draws it in place of the table.
+pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State, asked: &Undecided) {
+    let count = state.layout().and_then(Result::ok).map_or(0, |layout| layout.out.undecided.len());
+    let title = match state.styles.asking {
+        Some(asking) if asking.own.is_none() => {
+            format!("question {} of {count}", asking.at.min(count.saturating_sub(1)) + 1)
+        }
+        _ => "question".to_owned(),
+    };
+    let block = pane(state.theme, title, true)
+        .title_bottom(Line::styled(" y takes ●  A all sure  n next ", state.theme.legend()));
+    let inner = block.inner(area);
+    let lines = lines(state, asked, usize::from(inner.width), usize::from(inner.height));
+    frame.render_widget(Paragraph::new(lines).block(block), area);
+}
+
+/// The question and its answers; where there is no room for all answers, as many as there is room for and how many more there are.
+fn lines(state: &State, asked: &Undecided, width: usize, height: usize) -> Vec<Line<'static>> {
+    let mut lines: Vec<Line<'_>> =
+        wrapped(&asked.text, width).into_iter().map(|text| Line::styled(text, state.theme.bold())).collect();
+    lines.push(Line::raw(""));
+    for (k, choice) in asked.choices.iter().enumerate().take(9) {
+        let mark = if asked.stands == Some(k) { "●" } else { " " };
+        let style = if asked.stands == Some(k) { state.theme.good() } else { Style::new() };
+        let rest = wrapped(&choice.label, width.saturating_sub(4));
+        for (row, text) in rest.into_iter().enumerate() {
+            let start = if row == 0 { format!("{mark}{} ", k + 1) } else { "   ".to_owned() };
+            lines.push(Line::styled(format!("{start}{text}"), style));
+        }
+    }
+    if asked.choices.is_empty() {
+        let told = "only an edit helps: h l select an edge, e asks what it is sewn to, o what its piece is";
+        lines.extend(wrapped(told, width).into_iter().map(|text| Line::styled(text, state.theme.dim())));
+    }
+    if lines.len() > height {
+        lines.truncate(height.saturating_sub(1));
+        lines.push(Line::styled("…", state.theme.dim()));
+    }
+    lines
+}

@@ -1,0 +1,75 @@
+//! The thread that sews a garment coarsely while its seams are edited. The body dressed last is kept ready.
+
+use std::cell::Cell;
+use std::path::Path;
+use std::sync::mpsc::{Receiver, Sender};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
+
+use crate::messages::message::Message;
+use crate::messages::seams::{PreviewRequest, Previewed};
+use study::seams::{Mannequin, Preview, Workpiece};
+use study::{StudyError, SubjectId, Workspace};
+
+/// The garment sewn last with the number of its request, for the thread of pictures.
+pub type Slot = Arc<Mutex<Option<(u64, Preview)>>>;
+
+/// Sews what is asked for, the latest only, until nobody asks or listens any more. A newer request ends the one under way.
+pub fn serve(
+    database: &Path,
+    readonly: bool,
+    wanted: &Receiver<PreviewRequest>,
+    slot: &Slot,
+    sender: &Sender<Message>,
+) {
+    let workspace = Workspace::open(database, readonly).map_err(|error| error.to_string());
+    let mut room = Room { workspace, ready: None };
+    let newer = Cell::new(None);
+    while let Some(request) = newer.take().or_else(|| wanted.recv().ok()) {
+        let started = Instant::now();
+        let is_stale = || {
+            let last = wanted.try_iter().last();
+            let is_stale = last.is_some();
+            if is_stale {
+                newer.set(last);
+            }
+            is_stale
+        };
+        let outcome = match room.dress(&request, &is_stale) {
+            Err(StudyError::Interrupted) => continue,
+            Err(error) => Err(error.to_string()),
+            Ok((subject, preview)) => {
+                let (hung, remarks) = (preview.hung, preview.remarks.clone());
+                *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some((request.number, preview));
+                let took_ms = u64::try_from(started.elapsed().as_millis()).unwrap_or(u64::MAX);
+                Ok(Previewed { subject, hung, remarks, took_ms })
+            }
+        };
+        if sender.send(Message::Previewed(Box::new(request), outcome)).is_err() {
+            return;
+        }
+    }
+}
+
+struct Room {
+    workspace: Result<Workspace, String>,
+    ready: Option<(SubjectId, Mannequin)>,
+}
+
+impl Room {
+    /// The garment of a request on its subject, with the subject's name.
+    fn dress(
+        &mut self,
+        request: &PreviewRequest,
+        is_stale: &dyn Fn() -> bool,
+    ) -> Result<(String, Preview), StudyError> {
+        let workspace = self.workspace.as_ref().map_err(|error| StudyError::stage("store")(error.clone()))?;
+        if self.ready.as_ref().is_none_or(|(subject, _)| *subject != request.subject) {
+            self.ready = Some((request.subject, workspace.mannequin(request.subject)?));
+        }
+        let Some((_, mannequin)) = &self.ready else { return Err(StudyError::Interrupted) };
+        let stored = workspace.workpiece(request.size.key)?;
+        let piece = Workpiece { seams: request.size.seams.clone().or(stored.seams.clone()), ..stored };
+        Ok((mannequin.name.clone(), piece.preview(mannequin, is_stale)?))
+    }
+}
