@@ -1,8 +1,9 @@
 //! The threads behind the screens: keys, signals, the database, pictures and runs, each on its own, all answering with
 //! messages. None of them is waited for while the workbench is used.
 
+pub mod alterations;
 pub mod database;
-mod files;
+pub mod files;
 mod input;
 mod pictures;
 pub mod queries;
@@ -18,6 +19,7 @@ use std::sync::mpsc::{Receiver, Sender};
 use std::sync::{Arc, Mutex, PoisonError, mpsc};
 use std::thread::{self, JoinHandle};
 
+use crate::messages::alterations::AlterRequest;
 use crate::messages::effect::Effect;
 use crate::messages::message::Message;
 use crate::messages::requests::{FileTask, QueryRequest, Target};
@@ -36,6 +38,8 @@ pub struct Threads {
     database: Sender<Request>,
     pictures: Sender<Vec<PictureRequest>>,
     sections: Sender<Vec<JobId>>,
+    alterations: Sender<AlterRequest>,
+    drapes: Sender<AlterRequest>,
     seams: Sender<SeamTask>,
     queries: Sender<QueryRequest>,
     canceller: Canceller,
@@ -64,12 +68,15 @@ impl Threads {
         let here = || path.clone();
         let (of_pictures, of_sections, of_seams, of_queries, of_files, cancelled) =
             (here(), here(), here(), here(), here(), canceller.clone());
+        let (of_alterations, of_drapes) = (here(), here());
         Self {
             database: serve(&sender, |asked, sender| database::serve(workspace, asked, sender)),
             pictures: serve(&sender, move |asked, sender| {
                 pictures::serve(&of_pictures, readonly, encoder.as_ref(), asked, sender);
             }),
             sections: serve(&sender, move |asked, sender| sections::serve(&of_sections, readonly, asked, sender)),
+            alterations: serve(&sender, move |asked, sender| alterations::serve(&of_alterations, asked, sender)),
+            drapes: serve(&sender, move |asked, sender| alterations::serve(&of_drapes, asked, sender)),
             seams: serve(&sender, move |asked, sender| seams::serve(&of_seams, readonly, asked, sender)),
             queries: serve(&sender, move |asked, sender| queries::serve(&of_queries, &cancelled, asked, sender)),
             files: serve(&sender, move |asked, sender| files::serve(&of_files, readonly, &reports, asked, sender)),
@@ -96,6 +103,10 @@ impl Threads {
             Effect::Do(command) => drop(self.database.send(Request::Do(command))),
             Effect::Seams(task) => drop(self.seams.send(task)),
             Effect::Cut(jobs) => drop(self.sections.send(jobs)),
+            Effect::Alter(request) => {
+                let thread = if request.is_draped { &self.drapes } else { &self.alterations };
+                drop(thread.send(request));
+            }
             Effect::Draw(requests) => drop(self.pictures.send(requests)),
             Effect::Query(query) => {
                 self.canceller.reset();

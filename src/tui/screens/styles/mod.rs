@@ -79,7 +79,7 @@ impl Page for StylesPage {
         std::mem::take(&mut state.styles.enlarged)
     }
 
-    fn wanted(&self, state: &mut State) -> Option<Effect> {
-        state.ask_for_layout()
+    fn wanted(&self, state: &mut State) -> Vec<Effect> {
+        state.ask_for_layout().into_iter().collect()
     }
 }
