@@ -7,6 +7,7 @@ fn main() -> std::process::ExitCode {
         let images = workbench.images.parse()?;
         tui::run(tui::Options {
             database: workbench.database,
+            is_database_named: workbench.is_database_named,
             readonly: workbench.readonly,
             no_color: workbench.no_color,
             images,

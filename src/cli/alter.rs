@@ -60,15 +60,7 @@ fn print(context: &Context, found: &Alteration) -> Result<(), super::CliError> {
         context.print(&readings(found))?;
     }
     if let Some(drape) = &found.drape {
-        let rest = if drape.converged { "at rest" } else { "not at rest" };
-        let hem = drape.hem_front_over_back_mm.map_or(String::new(), |mm| format!(", hem {mm:+.0} mm in front"));
-        let most = drape.most_kpa.map_or(String::new(), |kpa| format!(", presses with at most {kpa:.2} kPa"));
-        let depth = drape.penetration_max_mm;
-        let drag = match drape.drag_lines {
-            0 => ", no drag lines".to_owned(),
-            count => format!(", drag lines: {count}"),
-        };
-        output::text(&format!("draped again: {rest}, EI {:.4}, {depth:.2} mm inside{hem}{most}{drag}\n", drape.ei))?;
+        output::text(&format!("draped again: {}\n", drape.words()))?;
     }
     found.remarks.iter().for_each(|remark| context.say(format_args!("{remark}")));
     Ok(())

@@ -10,6 +10,8 @@ use study::{PUBLISHED, Study, Table, Workspace};
 pub struct Context {
     /// Database file.
     pub db: PathBuf,
+    /// Whether it was named, by a flag or the environment.
+    pub is_db_named: bool,
     /// Whether nothing may be changed.
     pub readonly: bool,
     /// Whether JSON was asked for.
@@ -25,6 +27,7 @@ pub struct Context {
 impl Context {
     /// Resolves the global flags.
     pub fn new(global: Global) -> Result<Self, CliError> {
+        let is_db_named = global.db.is_some();
         let db = match global.db {
             Some(path) => path,
             None => default_database()?,
@@ -32,6 +35,7 @@ impl Context {
         let no_color = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
         Ok(Self {
             db,
+            is_db_named,
             readonly: global.readonly,
             json: global.json,
             quiet: global.quiet,

@@ -90,6 +90,8 @@ type Outcome = Result<End, CliError>;
 pub struct Workbench {
     /// The database.
     pub database: PathBuf,
+    /// Whether it was named, so that commands have to name it too.
+    pub is_database_named: bool,
     /// Whether nothing may be changed.
     pub readonly: bool,
     /// Whether colours are off.
@@ -129,6 +131,7 @@ fn execute(arguments: Arguments, workbench: impl FnOnce(Workbench) -> Result<(),
             let quickstart = context::project_folder().map(|project| project.join("studies").join("quickstart"));
             workbench(Workbench {
                 database: context.db,
+                is_database_named: context.is_db_named,
                 readonly: context.readonly,
                 no_color: !context.colour,
                 images: arguments.images,

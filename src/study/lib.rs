@@ -24,7 +24,7 @@ mod tests;
 mod workspace;
 
 pub use alteration::{
-    Alteration, AlteredLevel, AlteredReading, MovedHandle, Redraped, Standing, Wish, alter, standing,
+    ALTER_LIMIT_MM, Alteration, AlteredLevel, AlteredReading, MovedHandle, Redraped, Standing, Wish, alter, standing,
 };
 pub use answers::audit::{Audit, Finding};
 pub use answers::doctor::{Check, checks};

@@ -51,6 +51,8 @@ use widgets::theme::{self, Colours, Theme};
 pub struct Options {
     /// The database.
     pub database: PathBuf,
+    /// Whether it was named, so that commands have to name it too.
+    pub is_database_named: bool,
     /// Whether nothing may be changed.
     pub readonly: bool,
     /// Whether colours are off, whatever the environment says.
@@ -94,6 +96,8 @@ pub fn run(options: Options) -> Result<(), TuiError> {
     let size = display.size()?;
     let mut state = State::new(theme, abilities, size);
     (state.setup.bindings, state.setup.folders) = (bindings, folders);
+    let named = options.is_database_named.then(|| std::path::absolute(&options.database)).transpose()?;
+    state.setup.database = named;
     let session = session::path(&options.database, &env);
     session.as_deref().map(Session::read).unwrap_or_default().restore(&mut state);
     let threads = Threads::start(workspace, encoder, quickstart, state.setup.folders.reports.clone());

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::pattern::DxfStandard;
-use study::Handle;
+use study::{ALTER_LIMIT_MM, Handle};
 
 /// Arguments of `alter`.
 #[derive(Debug, Args)]
@@ -26,7 +26,7 @@ pub struct Alter {
     #[arg(long, value_name = "NAME=LEAST..MOST", value_parser = target, allow_hyphen_values = true)]
     pub target: Vec<(String, [f64; 2])>,
     /// Greatest amount of a handle either way.
-    #[arg(long, value_name = "MM", default_value_t = 60.0)]
+    #[arg(long, value_name = "MM", default_value_t = ALTER_LIMIT_MM)]
     pub limit_mm: f64,
     /// A handle that stays as it is; may be given again.
     #[arg(long, value_name = "HANDLE", value_parser = handle)]

@@ -16,6 +16,7 @@ use serde::Serialize;
 use self::bench::Bench;
 use self::fitting_room::FittingRoom;
 use self::tried::Tried;
+use crate::answers::fit_card::Sits;
 use crate::error::{Result, StudyError};
 use crate::run::outcome::Outcome;
 use crate::run::pipeline;
@@ -36,6 +37,9 @@ const MOST_DRAPES: usize = 3;
 
 /// What a handle changes of every level (m per m) or reading (its unit per m).
 type Sensitivity = BTreeMap<String, f64>;
+
+/// Greatest amount of a handle either way where none is said, mm.
+pub const ALTER_LIMIT_MM: f64 = 60.0;
 
 /// What is asked.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,6 +64,25 @@ pub struct Wish {
     pub is_nest: bool,
     /// By which standard the changed pattern is written.
     pub standard: Standard,
+}
+
+impl Wish {
+    /// The ease of the intended fit for a subject in a size of a garment, by any handle; nothing of the drape.
+    #[must_use]
+    pub fn of(garment: &str, subject: &str, size: &str) -> Self {
+        Self {
+            garment: Some(garment.to_owned()),
+            subject: Some(subject.to_owned()),
+            size: size.to_owned(),
+            targets: BTreeMap::new(),
+            limit_mm: ALTER_LIMIT_MM,
+            without: vec![],
+            moves_mm: vec![],
+            is_draped: false,
+            is_nest: false,
+            standard: Standard::Aama,
+        }
+    }
 }
 
 /// A handle that moves.
@@ -89,10 +112,20 @@ pub struct AlteredLevel {
 }
 
 impl AlteredLevel {
+    /// Where an ease, mm, lies beside what is meant; `None` where nothing is.
+    #[must_use]
+    pub fn sits(&self, ease_mm: f64) -> Option<Sits> {
+        self.target_mm.map(|[least, most]| match ease_mm {
+            ease_mm if ease_mm < least - SLACK_MM => Sits::Tight,
+            ease_mm if ease_mm > most + SLACK_MM => Sits::Loose,
+            _ => Sits::AsMeant,
+        })
+    }
+
     /// Whether what is achieved lies within what is meant.
     #[must_use]
     pub fn is_met(&self) -> bool {
-        self.target_mm.is_none_or(|[least, most]| (least - SLACK_MM..=most + SLACK_MM).contains(&self.achieved_mm))
+        self.sits(self.achieved_mm).is_none_or(|sits| sits == Sits::AsMeant)
     }
 }
 
@@ -155,6 +188,21 @@ pub struct Redraped {
     pub most_kpa: Option<f64>,
     /// Folds that cloth under tension makes.
     pub drag_lines: usize,
+}
+
+impl Redraped {
+    /// What is to be said of it, in a line.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let rest = if self.converged { "at rest" } else { "not at rest" };
+        let hem = self.hem_front_over_back_mm.map_or(String::new(), |mm| format!(", hem {mm:+.0} mm in front"));
+        let most = self.most_kpa.map_or(String::new(), |kpa| format!(", presses with at most {kpa:.2} kPa"));
+        let drag = match self.drag_lines {
+            0 => "no drag lines".to_owned(),
+            count => format!("drag lines: {count}"),
+        };
+        format!("{rest}, EI {:.4}, {:.2} mm inside{hem}{most}, {drag}", self.ei, self.penetration_max_mm)
+    }
 }
 
 /// A change of a pattern.

@@ -35,6 +35,7 @@ impl State {
             Message::SeamsSaved(style, seams, outcome) => self.seams_saved(&style, &seams, outcome),
             Message::Picture(request, drawn) => self.take_picture(request, drawn),
             Message::Cut(jobs, sections) => self.take_sections(jobs, sections),
+            Message::Altered(request, found) => self.take_alteration(&request, found),
             Message::Names(relations, saved) => (self.sql.relations, self.sql.saved) = (Some(relations), saved),
             Message::Answered(ms, outcome) => self.answered(ms, outcome),
             Message::Reports(rows) => self.reports.rows = Some(rows),

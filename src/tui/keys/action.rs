@@ -74,6 +74,16 @@ pub enum Action {
     NextLevel,
     /// Cuts the body at the level before.
     PreviousLevel,
+    /// Finds what to change of a size so that it fits.
+    Alter,
+    /// Drapes the changed pattern.
+    DrapeChange,
+    /// Asks for the folder that the changed pattern goes into.
+    WriteChange,
+    /// Finds what to change of the next larger size.
+    LargerSize,
+    /// Finds what to change of the next smaller size.
+    SmallerSize,
     /// Shows only the measurements in which compared runs differ, or all.
     Differences,
     /// Asks what a new study is made of.

@@ -240,6 +240,11 @@ pub const BINDINGS: &[Binding] = &[
         "Cut at the next level: chest, underbust, waist, ...",
     ),
     bind(Action::PreviousLevel, "level-before", &[ch('V')], &[Fit], "", "Cut at the level before"),
+    bind(Action::Alter, "alter", &[ch('a')], &[Fit], "alter", "Find what to change of the size so that it fits"),
+    bind(Action::DrapeChange, "drape-change", &[ch('d')], &[Fit], "", "Drape the changed pattern, in the background"),
+    bind(Action::WriteChange, "write-change", &[ch('w')], &[Fit], "", "Write the changed pattern, seams and a sheet"),
+    bind(Action::LargerSize, "larger-size", &[ch('+'), ch('=')], &[Fit], "", "Change the next larger size instead"),
+    bind(Action::SmallerSize, "smaller-size", &[ch('-')], &[Fit], "", "Change the next smaller size instead"),
     bind(Action::Unmark, "unselect", &[ch('u')], &[Study, Jobs, Results, Compare], "", "Take all selections back"),
     bind(
         Action::Differences,

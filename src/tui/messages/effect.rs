@@ -1,5 +1,6 @@
 //! What the event loop has others do.
 
+use crate::messages::alterations::AlterRequest;
 use crate::messages::requests::{Command, FileTask, QueryRequest, Target};
 use crate::messages::seams::{PreviewRequest, SeamTask};
 use crate::messages::snapshot::Focus;
@@ -15,6 +16,8 @@ pub enum Effect {
     Draw(Vec<PictureRequest>),
     /// Cut the bodies and the cloth of results.
     Cut(Vec<JobId>),
+    /// Find what to change of a size.
+    Alter(AlterRequest),
     /// Ask the database.
     Query(QueryRequest),
     /// Stop what it is asked.

@@ -4,13 +4,14 @@ use std::path::PathBuf;
 
 use crossterm::event::{KeyEvent, MouseEvent};
 
+use crate::messages::alterations::AlterRequest;
 use crate::messages::seams::{LayoutRequest, PreviewRequest, Previewed, SizeLayout};
 use crate::messages::snapshot::Snapshot;
 use crate::widgets::picture::{Drawn, PictureRequest};
 use crate::widgets::result_table::ResultTable;
 use study::bodies::Girths;
 use study::files::SourceFile;
-use study::{CrossSection, JobId, LiveFrame, Relation, ReportRow, SavedQuery, SubjectId};
+use study::{Alteration, CrossSection, JobId, LiveFrame, Relation, ReportRow, SavedQuery, SubjectId};
 
 /// Something that happened.
 #[derive(Debug)]
@@ -41,6 +42,8 @@ pub enum Message {
     Picture(PictureRequest, Result<Drawn, String>),
     /// Body and cloth of some results are cut at all levels, or could not be.
     Cut(Vec<JobId>, Result<Vec<CrossSection>, String>),
+    /// What to change of a size is found, or could not be.
+    Altered(Box<AlterRequest>, Result<Box<Alteration>, String>),
     /// What a query may name, and the saved queries.
     Names(Vec<Relation>, Vec<SavedQuery>),
     /// A query is answered after so many ms, or refused.

@@ -1,6 +1,7 @@
 //! What arrives at the event loop and what it asks for: closed sets, so that all of the workbench is
 //! `(state, message) -> (state, effects)`. Threads and screens meet here, and only here.
 
+pub mod alterations;
 pub mod effect;
 pub mod message;
 pub mod requests;

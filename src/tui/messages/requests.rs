@@ -69,4 +69,6 @@ pub enum FileTask {
     BuildReport(String),
     /// Write a new study.
     CreateStudy(NewStudy),
+    /// Write files, by their names, into a folder that has none of them.
+    Write(PathBuf, Vec<(String, Vec<u8>)>),
 }

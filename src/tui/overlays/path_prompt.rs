@@ -1,4 +1,4 @@
-//! The path of a file to read or write.
+//! The path of a file or folder to read or write.
 
 use std::path::PathBuf;
 
@@ -8,7 +8,7 @@ use ratatui::layout::Rect;
 use ratatui::text::Line;
 
 use crate::messages::effect::Effect;
-use crate::messages::requests::{Command, QueryRequest};
+use crate::messages::requests::{Command, FileTask, QueryRequest};
 use crate::overlays::form_frame::{draw_frame, end, ended};
 use crate::overlays::outcome::Outcome;
 use crate::widgets::theme::Theme;
@@ -22,6 +22,8 @@ pub enum Purpose {
     Import(Part),
     /// The rows of a query to write.
     Export(String),
+    /// The files of a changed pattern to write, by their names.
+    Write(Vec<(String, Vec<u8>)>),
 }
 
 impl Purpose {
@@ -32,6 +34,7 @@ impl Purpose {
             Self::Import(Part::Fabric) => "import fabrics from",
             Self::Import(_) => "import subjects from",
             Self::Export(_) => "write all rows of the query into",
+            Self::Write(_) => "write the changed pattern, its seam file and a sheet into",
         }
     }
 
@@ -42,6 +45,7 @@ impl Purpose {
             Self::Import(Part::Fabric) => "TOML with [[fabric]] tables, or CSV with columns name, density_kg_m2, …",
             Self::Import(_) => "CSV with columns name, sex, stature_mm, …, or a study.toml",
             Self::Export(_) => "a new file: NAME.csv or NAME.json",
+            Self::Write(_) => "a folder, which is made where it is missing",
         }
     }
 
@@ -51,7 +55,7 @@ impl Purpose {
         match self {
             Self::Import(Part::Fabric) => "reading…",
             Self::Import(_) => "reading, and building each body…",
-            Self::Export(_) => "writing…",
+            Self::Export(_) | Self::Write(_) => "writing…",
         }
     }
 
@@ -60,7 +64,7 @@ impl Purpose {
     pub fn keys(&self) -> &'static str {
         match self {
             Self::Import(_) => " ↵ import all or none  Esc cancel ",
-            Self::Export(_) => " ↵ write  Esc cancel ",
+            Self::Export(_) | Self::Write(_) => " ↵ write  Esc cancel ",
         }
     }
 }
@@ -91,6 +95,12 @@ impl PathPrompt {
         Self { purpose: Purpose::Export(query), text: "query.csv".to_owned(), is_busy: false, problem: None }
     }
 
+    /// Asks for the folder that the files of a changed pattern go into.
+    #[must_use]
+    pub fn write(folder: String, files: Vec<(String, Vec<u8>)>) -> Self {
+        Self { purpose: Purpose::Write(files), text: folder, is_busy: false, problem: None }
+    }
+
     /// Handles a key.
     pub fn key(&mut self, event: &KeyEvent) -> Outcome {
         if self.is_busy {
@@ -109,6 +119,7 @@ impl PathPrompt {
         Outcome::Sent(vec![match &self.purpose {
             Purpose::Import(part) => Effect::Do(Command::Import(*part, path)),
             Purpose::Export(query) => Effect::Query(QueryRequest::Export(query.clone(), path)),
+            Purpose::Write(files) => Effect::Files(FileTask::Write(path, files.clone())),
         }])
     }
 }

@@ -49,8 +49,8 @@ pub trait Page {
     }
 
     /// What it has read while it is shown, where that was not asked for yet.
-    fn wanted(&self, _state: &mut State) -> Option<Effect> {
-        None
+    fn wanted(&self, _state: &mut State) -> Vec<Effect> {
+        vec![]
     }
 
     /// The pictures that there is room for, each with its pane.

@@ -64,6 +64,8 @@ pub struct Setup {
     pub abilities: Abilities,
     /// Where new things are put.
     pub folders: Folders,
+    /// The database, where commands have to name it.
+    pub database: Option<PathBuf>,
 }
 
 /// The terminal.
@@ -153,7 +155,7 @@ impl State {
     pub fn new(theme: Theme, abilities: Abilities, size: Size) -> Self {
         Self {
             theme,
-            setup: Setup { bindings: BINDINGS, abilities, folders: Folders::default() },
+            setup: Setup { bindings: BINDINGS, abilities, folders: Folders::default(), database: None },
             terminal: Terminal { size, has_mouse: false, chosen_ascii: None, detached: false },
             data: None,
             focus: Focus::default(),

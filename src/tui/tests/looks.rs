@@ -90,9 +90,27 @@ fn help() {
 
 #[test]
 fn every_sign_has_a_stand_in_in_ascii() {
-    for keys in
-        ["", "2j", "2a", "3<Enter>pym", "3i", "4jjjj", "5", "c", "7", "8", "9", "9j<Tab>", "9a", "0", "0l", "?", "1a"]
-    {
+    for keys in [
+        "",
+        "2j",
+        "2a",
+        "3<Enter>pym",
+        "3i",
+        "4jjjj",
+        "5",
+        "c",
+        "7",
+        "8",
+        "9",
+        "9j<Tab>",
+        "9a",
+        "0",
+        "0l",
+        "0a",
+        "0lad",
+        "?",
+        "1a",
+    ] {
         let screen = Bench::example(160, 50).press(keys).screen();
         let odd: String = screen.chars().filter(|sign| !sign.is_ascii() && stand_in(*sign) == '?').collect();
         assert!(odd.is_empty(), "{keys}: {odd}");
@@ -126,6 +144,8 @@ fn small_terminals_show_lists_and_none_is_refused() {
             "0",
             "0<Tab>vv",
             "0<S-Tab>G",
+            "0aG",
+            "0adj",
             "3",
             "3<Enter>zl<Tab>",
             "3i",

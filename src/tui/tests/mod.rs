@@ -1,5 +1,6 @@
 //! The workbench from outside: keys go in, screens and effects come out; no terminal, no threads.
 
+mod alter;
 mod behaviour;
 mod fabrics;
 mod fit;
@@ -64,11 +65,17 @@ impl Bench {
                 self.state.update(Message::Measured(id, Ok(Box::new(fixture::girths()))));
             }
         }
-        effects.extend(further.into_iter().filter(|e| matches!(e, Effect::Cut(_))));
+        effects.extend(further.into_iter().filter(|e| matches!(e, Effect::Cut(_) | Effect::Alter(_))));
         for effect in &effects {
             if let Effect::Cut(jobs) = effect {
                 self.state.update(Message::Cut(jobs.clone(), Ok(fit::sections(jobs))));
             }
+        }
+        let asked =
+            effects.iter().filter_map(|e| if let Effect::Alter(request) = e { Some(request.clone()) } else { None });
+        for request in asked.collect::<Vec<_>>() {
+            let found = Ok(Box::new(alter::found(&request)));
+            self.state.update(Message::Altered(Box::new(request), found));
         }
         let tasks: Vec<_> = effects
             .iter()
@@ -97,11 +104,19 @@ impl Bench {
         self
     }
 
-    /// What it asked for; reads, pictures, sections and work on seams, which is done, left out.
+    /// What it asked for; reads, pictures, sections, changes and work on seams, which is done, left out.
     fn asked(&mut self) -> Vec<Effect> {
         let effects = std::mem::take(&mut self.effects);
         let is_done = |e: &Effect| {
-            matches!(e, Effect::Read(_) | Effect::Draw(_) | Effect::Cut(_) | Effect::Seams(_) | Effect::Preview(_))
+            matches!(
+                e,
+                Effect::Read(_)
+                    | Effect::Draw(_)
+                    | Effect::Cut(_)
+                    | Effect::Alter(_)
+                    | Effect::Seams(_)
+                    | Effect::Preview(_)
+            )
         };
         effects.into_iter().filter(|e| !is_done(e)).collect()
     }

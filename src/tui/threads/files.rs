@@ -1,10 +1,11 @@
-//! The thread for what takes long and writes files: reports, new studies.
+//! The thread for what takes long and writes files: reports, new studies, changed patterns.
 
 use std::path::Path;
 use std::sync::mpsc::{Receiver, Sender};
 
 use crate::messages::message::Message;
 use crate::messages::requests::FileTask;
+use study::files::write_files;
 use study::{Workspace, reports};
 
 /// Does what is asked until nobody asks or listens any more; reports lie in folders below `reports_folder`.
@@ -29,9 +30,20 @@ pub fn serve(
                 let path = workspace.and_then(|it| it.create_study(&new).map_err(|error| error.to_string()));
                 Ok(Message::StudyCreated(new.name, path))
             }
+            FileTask::Write(folder, files) => Ok(Message::Saved(write(&folder, &files))),
         };
         if sender.send(done.unwrap_or_else(Message::Failed)).is_err() {
             return;
         }
     }
+}
+
+/// Writes files into a folder, none of them over another; says what was written.
+pub fn write(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<String, String> {
+    if let Some((name, _)) = files.iter().find(|(name, _)| folder.join(name).exists()) {
+        return Err(format!("{} is there already; accepted: a folder without it", folder.join(name).display()));
+    }
+    write_files(folder, files).map_err(|error| error.to_string())?;
+    let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
+    Ok(format!("{} has {}", folder.display(), names.join(", ")))
 }

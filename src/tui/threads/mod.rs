@@ -1,8 +1,9 @@
 //! The threads behind the screens: keys, signals, the database, pictures and runs, each on its own, all answering with
 //! messages. None of them is waited for while the workbench is used.
 
+pub mod alterations;
 pub mod database;
-mod files;
+pub mod files;
 mod input;
 mod pictures;
 mod previews;
@@ -19,6 +20,7 @@ use std::sync::mpsc::{Receiver, Sender};
 use std::sync::{Arc, Mutex, PoisonError, mpsc};
 use std::thread::{self, JoinHandle};
 
+use crate::messages::alterations::AlterRequest;
 use crate::messages::effect::Effect;
 use crate::messages::message::Message;
 use crate::messages::requests::{FileTask, QueryRequest, Target};
@@ -38,6 +40,8 @@ pub struct Threads {
     database: Sender<Request>,
     pictures: Sender<Vec<PictureRequest>>,
     sections: Sender<Vec<JobId>>,
+    alterations: Sender<AlterRequest>,
+    drapes: Sender<AlterRequest>,
     seams: Sender<SeamTask>,
     previews: Sender<PreviewRequest>,
     queries: Sender<QueryRequest>,
@@ -69,12 +73,15 @@ impl Threads {
             (here(), here(), here(), here(), here(), here(), canceller.clone());
         let slot = Slot::default();
         let shown = slot.clone();
+        let (of_alterations, of_drapes) = (here(), here());
         Self {
             database: serve(&sender, |asked, sender| database::serve(workspace, asked, sender)),
             pictures: serve(&sender, move |asked, sender| {
                 pictures::serve(&of_pictures, readonly, encoder.as_ref(), asked, &shown, sender);
             }),
             sections: serve(&sender, move |asked, sender| sections::serve(&of_sections, readonly, asked, sender)),
+            alterations: serve(&sender, move |asked, sender| alterations::serve(&of_alterations, asked, sender)),
+            drapes: serve(&sender, move |asked, sender| alterations::serve(&of_drapes, asked, sender)),
             seams: serve(&sender, move |asked, sender| seams::serve(&of_seams, readonly, asked, sender)),
             previews: serve(&sender, move |asked, sender| {
                 previews::serve(&of_previews, readonly, asked, &slot, sender)
@@ -105,6 +112,10 @@ impl Threads {
             Effect::Seams(task) => drop(self.seams.send(task)),
             Effect::Preview(request) => drop(self.previews.send(request)),
             Effect::Cut(jobs) => drop(self.sections.send(jobs)),
+            Effect::Alter(request) => {
+                let thread = if request.is_draped { &self.drapes } else { &self.alterations };
+                drop(thread.send(request));
+            }
             Effect::Draw(requests) => drop(self.pictures.send(requests)),
             Effect::Query(query) => {
                 self.canceller.reset();

@@ -220,23 +220,48 @@ pub fn why(job: &JobRow, paused: bool) -> String {
     }
 }
 
-/// A text in lines of at most so many columns, broken at spaces where there are any.
+/// A text in lines of at most so many columns, broken at spaces where there are any; longer words in their middle.
 pub fn wrapped(text: &str, columns: usize) -> Vec<String> {
     let mut lines = vec![];
     for paragraph in text.lines() {
         let mut line = String::new();
-        for word in paragraph.split_whitespace() {
-            if !line.is_empty() && width(&line) + 1 + width(word) > columns {
+        for word in paragraph.split_whitespace().flat_map(|word| broken(word, columns)) {
+            if !line.is_empty() && width(&line) + 1 + width(&word) > columns {
                 lines.push(std::mem::take(&mut line));
             }
             if !line.is_empty() {
                 line.push(' ');
             }
-            line.push_str(word);
+            line.push_str(&word);
         }
         lines.push(line);
     }
     lines
+}
+
+/// A word in pieces of at most so many columns.
+fn broken(word: &str, columns: usize) -> Vec<String> {
+    let mut pieces = vec![String::new()];
+    for letter in word.chars() {
+        if let Some(last) = pieces.last_mut() {
+            if width(last) + width(letter.encode_utf8(&mut [0; 4])) <= columns.max(1) {
+                last.push(letter);
+            } else {
+                pieces.push(letter.to_string());
+            }
+        }
+    }
+    pieces
+}
+
+/// A text as one word of a shell's command line.
+#[must_use]
+pub fn quoted(text: &str) -> String {
+    let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "_-./+@%".contains(letter);
+    if !text.is_empty() && text.chars().all(is_plain) {
+        return text.to_owned();
+    }
+    format!("'{}'", text.replace('\'', "'\\''"))
 }
 
 /// A percentile as a mark on a line of so many columns, its middle at the median.
@@ -283,6 +308,24 @@ mod tests {
         check("x", 0, "");
         check("衣服衣服", 5, "衣服…");
         assert_eq!(right("1.5", 5), "  1.5");
+    }
+
+    #[test]
+    fn long_words_are_broken_and_nothing_is_lost() {
+        let check = |text: &str, columns, expect: &[&str]| assert_eq!(wrapped(text, columns), expect, "{text}");
+        check("in a/very/long/path here", 8, &["in", "a/very/l", "ong/path", "here"]);
+        check("衣服衣服", 5, &["衣服", "衣服"]);
+        check("ab", 0, &["a", "b"]);
+        check("one\ntwo", 9, &["one", "two"]);
+    }
+
+    #[test]
+    fn words_of_a_shell_are_quoted() {
+        let check = |text: &str, expect: &str| assert_eq!(quoted(text), expect);
+        check("studies/a-b_1.toml", "studies/a-b_1.toml");
+        check("my shirt", "'my shirt'");
+        check("anna's", "'anna'\\''s'");
+        check("", "''");
     }
 
     #[test]

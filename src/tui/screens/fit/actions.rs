@@ -40,7 +40,8 @@ impl State {
         rows
     }
 
-    fn passes(&self, name: &str) -> bool {
+    /// Whether a name passes the filter.
+    pub fn passes(&self, name: &str) -> bool {
         name.to_lowercase().contains(&self.nav.filters[Screen::Fit as usize].to_lowercase())
     }
 
@@ -122,8 +123,11 @@ impl State {
         }
     }
 
-    /// Gives the focus to the next part, or to the one before.
+    /// Gives the focus to the next part, or to the one before; from what to change, back to the one before that.
     pub fn step_view(&mut self, step: isize) {
+        if std::mem::take(&mut self.fit.alter.is_open) {
+            return;
+        }
         let at = stepped(self.fit.view as usize, step, View::ALL.len());
         self.fit.view = View::ALL[at.unwrap_or(0)];
     }

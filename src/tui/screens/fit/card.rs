@@ -70,7 +70,8 @@ pub fn lines(state: &State, columns: usize, lines: usize, focused: bool) -> Vec<
 
 /// What to wear, and what is worst with it.
 fn verdict(theme: Theme, card: &FitCard, columns: usize) -> Line<'static> {
-    let (sign, style) = card.to_wear().and_then(SizeSits::worst).map_or((" ", Style::new()), |one| sign(theme, one));
+    let (sign, style) =
+        card.to_wear().and_then(SizeSits::worst).map_or((" ", Style::new()), |one| sign(theme, one.sits()));
     let verdict = text::shortened(&format!("{sign} {}", card.verdict()), columns);
     Line::styled(verdict, style.patch(theme.bold()))
 }
@@ -109,7 +110,7 @@ impl<'a> Columns<'a> {
 }
 
 /// A level in words, or in fewer.
-fn name(level: &str, is_short: bool) -> String {
+pub fn name(level: &str, is_short: bool) -> String {
     let name = words(level);
     if is_short { name.replace("across ", "") } else { name }
 }
@@ -161,8 +162,7 @@ fn row(theme: Theme, columns: &Columns<'_>, level: &str, selection: Style) -> Li
         spans.push(Span::raw(right(&known.map_or(String::new(), |one| whole(one.body_girth_mm)), BODY)));
     }
     if columns.target {
-        let target = known.and_then(|one| one.target_mm);
-        let target = target.map_or("—".to_owned(), |[least, most]| format!("{}…{}", whole(least), whole(most)));
+        let target = target(theme, known.and_then(|one| one.target_mm));
         spans.push(Span::styled(right(&target, TARGET - 1), theme.dim()));
     }
     for one in of_sizes {
@@ -174,9 +174,15 @@ fn row(theme: Theme, columns: &Columns<'_>, level: &str, selection: Style) -> Li
     Line::from(spans)
 }
 
+/// The ease that is meant, from where to where; in ASCII with two dots, for one would be that of a decimal.
+pub fn target(theme: Theme, target_mm: Option<[f64; 2]>) -> String {
+    let to = if theme.ascii { ".." } else { "…" };
+    target_mm.map_or("—".to_owned(), |[least, most]| format!("{}{to}{}", whole(least), whole(most)))
+}
+
 /// Ease, sign and words of a size at a level.
 fn cell(theme: Theme, one: &LevelSits, columns: usize) -> Span<'static> {
-    let (sign, style) = sign(theme, one);
+    let (sign, style) = sign(theme, one.sits());
     let ease = format!("{:+.0}", one.ease_mm).replace('-', "−");
     let told = one.words();
     let told = told.split(" mm").next().unwrap_or_default();
@@ -190,8 +196,8 @@ fn cell(theme: Theme, one: &LevelSits, columns: usize) -> Span<'static> {
 }
 
 /// The sign and the colour of how a size sits at a level.
-fn sign(theme: Theme, one: &LevelSits) -> (&'static str, Style) {
-    match one.sits() {
+pub fn sign(theme: Theme, sits: Option<Sits>) -> (&'static str, Style) {
+    match sits {
         None => (" ", theme.dim()),
         Some(Sits::Tight) => ("▼", theme.bad()),
         Some(Sits::Loose) => ("▲", theme.warn()),

@@ -1,6 +1,9 @@
-//! Screen 0: how a garment sits on a subject: its fit card, a cross section of all sizes, the sizes side by side.
+//! Screen 0: how a garment sits on a subject: its fit card, a cross section of all sizes, the sizes side by side, and what
+//! to change of a size so that it fits.
 
 mod actions;
+mod alteration;
+mod altering;
 mod card;
 mod draw;
 mod quantities;
@@ -24,14 +27,26 @@ const fn hints(next: &'static str) -> [(&'static str, &'static str); 8] {
     [
         ("Tab", next),
         ("v", "level"),
+        ("a", "alter"),
         ("h l", "subject"),
-        ("]", "garment"),
         ("y", "copy"),
         ("R", "run"),
         ("?", "help"),
         (":", "command"),
     ]
 }
+
+/// The same where it is shown what to change.
+const ALTER_HINTS: [(&str, &str); 8] = [
+    ("d", "drape"),
+    ("w", "write"),
+    ("+-", "size"),
+    ("h l", "subject"),
+    ("y", "copy"),
+    ("Esc", "back"),
+    ("?", "help"),
+    (":", "command"),
+];
 
 /// The screen of fit.
 pub struct FitPage;
@@ -42,7 +57,11 @@ impl Page for FitPage {
     }
 
     fn go(&self, state: &mut State, movement: Movement) {
-        state.go_in_fit(movement);
+        if state.fit.alter.is_open {
+            state.scroll_alteration(movement, draw::hidden_lines(state));
+        } else {
+            state.go_in_fit(movement);
+        }
     }
 
     fn sideways(&self, state: &mut State, step: isize) {
@@ -50,7 +69,7 @@ impl Page for FitPage {
     }
 
     fn go_to_match(&self, state: &mut State, step: isize) {
-        state.go_in_fit(Movement::Round(step));
+        self.go(state, Movement::Round(step));
     }
 
     /// Levels and quantities have one order.
@@ -60,6 +79,7 @@ impl Page for FitPage {
 
     fn copied(&self, state: &State) -> Option<(String, &'static str)> {
         match state.fit.view {
+            _ if state.fit.alter.is_open => altering::command(state).map(|command| (command, "the command")),
             View::Sizes => actions::size_table(state).map(|table| (table, "the comparison of sizes")),
             View::Card | View::Section => actions::card_table(state).map(|table| (table, "the fit card")),
         }
@@ -72,17 +92,27 @@ impl Page for FitPage {
             Action::PreviousLevel => state.step_level(-1),
             Action::NextPane if is_shown => state.step_view(1),
             Action::PreviousPane if is_shown => state.step_view(-1),
+            Action::Alter => return Some(state.open_alteration()),
+            Action::DrapeChange => return Some(state.drape_alteration()),
+            Action::WriteChange => state.write_alteration(),
+            Action::LargerSize => return Some(state.step_altered_size(1)),
+            Action::SmallerSize => return Some(state.step_altered_size(-1)),
             _ => return None,
         }
         Some(vec![])
     }
 
-    fn wanted(&self, state: &mut State) -> Option<Effect> {
-        state.ask_for_sections()
+    fn shrink(&self, state: &mut State) -> bool {
+        std::mem::take(&mut state.fit.alter.is_open)
+    }
+
+    fn wanted(&self, state: &mut State) -> Vec<Effect> {
+        state.ask_for_sections().into_iter().chain(state.ask_for_alteration()).collect()
     }
 
     fn hints(&self, state: &State) -> Option<&'static [(&'static str, &'static str)]> {
         let hints = match state.fit.view {
+            _ if state.fit.alter.is_open => &ALTER_HINTS,
             View::Card => const { &hints("section") },
             View::Section => const { &hints("sizes") },
             View::Sizes => const { &hints("card") },

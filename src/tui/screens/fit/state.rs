@@ -1,6 +1,7 @@
-//! Where the user is in the fit of a garment, and its cross sections.
+//! Where the user is in the fit of a garment, its cross sections, and what to change of it.
 
-use study::{CrossSection, JobId};
+use crate::messages::alterations::AlterRequest;
+use study::{Alteration, CrossSection, JobId};
 
 /// A part of the screen; with little room it alone is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -22,6 +23,33 @@ impl View {
 /// Cross sections of results at all levels, or why there are none.
 pub type Sections = Result<Vec<CrossSection>, String>;
 
+/// Whether a changed pattern is draped.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Draping {
+    /// Not, or that is over.
+    #[default]
+    No,
+    /// It goes on.
+    GoesOn,
+    /// It failed, and why.
+    Failed(String),
+}
+
+/// What to change of a size.
+#[derive(Debug, Default)]
+pub struct Alter {
+    /// Whether it is shown, over the part that has the focus.
+    pub is_open: bool,
+    /// What is asked for, without a drape.
+    pub asked: Option<AlterRequest>,
+    /// What was found, or why nothing was; `None` while it is sought.
+    pub answer: Option<Result<Box<Alteration>, String>>,
+    /// Whether it is draped.
+    pub draping: Draping,
+    /// Lines that it is scrolled down.
+    pub down: usize,
+}
+
 /// Where the user is in the fit of a garment, and its cross sections.
 #[derive(Debug, Default)]
 pub struct Fit {
@@ -35,4 +63,6 @@ pub struct Fit {
     pub asked: Vec<JobId>,
     /// The sections that came last, with their results.
     pub cut: Option<(Vec<JobId>, Sections)>,
+    /// What to change of a size.
+    pub alter: Alter,
 }

@@ -49,7 +49,7 @@ impl Page for ReportsPage {
         })
     }
 
-    fn wanted(&self, state: &mut State) -> Option<Effect> {
-        state.ask_for_reports()
+    fn wanted(&self, state: &mut State) -> Vec<Effect> {
+        state.ask_for_reports().into_iter().collect()
     }
 }

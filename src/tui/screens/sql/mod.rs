@@ -73,8 +73,8 @@ impl Page for SqlPage {
         (state.is_editing() && state.edit_query(event)).then(Vec::new)
     }
 
-    fn wanted(&self, state: &mut State) -> Option<Effect> {
-        state.ask_for_names()
+    fn wanted(&self, state: &mut State) -> Vec<Effect> {
+        state.ask_for_names().into_iter().collect()
     }
 
     fn hints(&self, state: &State) -> Option<&'static [(&'static str, &'static str)]> {

@@ -89,8 +89,8 @@ impl Page for StylesPage {
         std::mem::take(&mut state.styles.enlarged)
     }
 
-    fn wanted(&self, state: &mut State) -> Option<Effect> {
-        state.ask_for_layout().or_else(|| state.ask_for_preview())
+    fn wanted(&self, state: &mut State) -> Vec<Effect> {
+        state.ask_for_layout().into_iter().chain(state.ask_for_preview()).collect()
     }
 
     fn take_key(&self, state: &mut State, event: &KeyEvent) -> Option<Vec<Effect>> {

@@ -1,0 +1,26 @@
+//! What is asked of the threads that find what to change of a pattern.
+
+use std::path::PathBuf;
+
+/// A size that is to fit a subject.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AlterRequest {
+    /// File of the study.
+    pub study: PathBuf,
+    /// Garment.
+    pub garment: String,
+    /// Who is to wear it.
+    pub subject: String,
+    /// Size that is changed.
+    pub size: String,
+    /// Whether the changed pattern is draped.
+    pub is_draped: bool,
+}
+
+impl AlterRequest {
+    /// Whether it asks for the same garment on the same subject, whatever the size.
+    #[must_use]
+    pub fn is_for_same(&self, other: &Self) -> bool {
+        (&self.study, &self.garment, &self.subject) == (&other.study, &other.garment, &other.subject)
+    }
+}
