@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::args::{Catalogue, FabricValues, PatternUnit, SizeValues, StyleValues, SubjectValues};
+use super::args::{Catalogue, FabricValues, PatternUnit, SizeValues, StyleCommand, StyleValues, SubjectValues};
 use super::context::Context;
 use super::{CliError, End, Outcome};
-use study::{Mode, Part, Saved, StudyError, StyleGiven, Table, Value, Workspace};
+use study::{Mode, Part, Saved, SizeRow, StudyError, StyleGiven, Table, Value, Workspace};
 
 /// The values of one part of the catalogue on the command line.
 pub trait Values: Args {
@@ -108,6 +108,25 @@ pub fn run<V: Values>(context: &Context, command: Catalogue<V>) -> Outcome {
             }
         }
     }
+    Ok(End::Done)
+}
+
+/// Runs a command on styles.
+pub fn style(context: &Context, command: StyleCommand) -> Outcome {
+    let (name, step) = match command {
+        StyleCommand::Of(command) => return run(context, command),
+        StyleCommand::Sew { name, step } => (name, step),
+    };
+    let mut workspace = context.workspace()?;
+    let (style, size) = name.split_once('/').map_or((name.as_str(), None), |(style, size)| (style, Some(size)));
+    let sizes = workspace.sizes()?;
+    let is_asked = |row: &&SizeRow| row.style == style && size.is_none_or(|size| row.size == size);
+    let Some(row) = sizes.iter().find(is_asked) else {
+        let known = sizes.iter().map(|row| format!("{}/{}", row.style, row.size)).collect();
+        return Err(StudyError::NotFound { what: "size", name, known }.into());
+    };
+    let seams = workspace.workpiece(row.key)?.after(&step.step(style))?;
+    say(context, &workspace.save_seams(style, &seams)?);
     Ok(End::Done)
 }
 

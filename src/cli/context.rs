@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::CliError;
 use super::args::{Format, Global};
-use study::{PUBLISHED, Study, Table, Workspace};
+use study::{PUBLISHED, QUICKSTART, Study, Table, Workspace, write_quickstart};
 
 /// The resolved global flags.
 pub struct Context {
@@ -67,10 +67,20 @@ impl Context {
         Ok(super::output::table(table, format)?)
     }
 
-    /// The study of a path, its folder or file; a bare name is also looked for among the project's studies.
+    /// The study of a path, its folder or file; a bare name is also looked for among the project's studies, and is that of the study that
+    /// comes with the program.
     pub fn study(&self, workspace: &Workspace, path: &Path) -> Result<Study, CliError> {
         let in_project = project_folder().map(|project| project.join("studies").join(path));
-        let path = in_project.filter(|folder| !path.exists() && folder.is_dir()).unwrap_or_else(|| path.to_owned());
+        let in_project = in_project.filter(|folder| !path.exists() && folder.is_dir());
+        let path = match in_project {
+            Some(folder) => folder,
+            None if !path.exists() && path == Path::new(QUICKSTART) && !self.readonly => {
+                let folder = quickstart(&self.db);
+                write_quickstart(&folder)?;
+                folder
+            }
+            None => path.to_owned(),
+        };
         Ok(workspace.load_study(&path)?)
     }
 
@@ -100,6 +110,12 @@ impl Context {
         }
         Ok(workspace.study(&name)?.name)
     }
+}
+
+/// Where the study that comes with the program lies, or will once it is run: in the project, else beside the database.
+pub fn quickstart(database: &Path) -> PathBuf {
+    let home = project_folder().or_else(|| database.parent().map(Path::to_owned)).unwrap_or_default();
+    home.join("studies").join(QUICKSTART)
 }
 
 /// The nearest folder upwards with a `studies` folder in it, if any.

@@ -98,8 +98,8 @@ pub struct Workbench {
     pub no_color: bool,
     /// How pictures are shown: `auto`, `halfblocks` or `off`.
     pub images: String,
-    /// A study to offer while the database has none.
-    pub quickstart: Option<PathBuf>,
+    /// Folder of the study that comes with the program, or where it will be written.
+    pub quickstart: PathBuf,
 }
 
 /// Runs the program with its arguments (the first is its own name). Without a command `workbench` is called, which this
@@ -128,7 +128,7 @@ fn execute(arguments: Arguments, workbench: impl FnOnce(Workbench) -> Result<(),
     let context = Context::new(arguments.global)?;
     match arguments.command {
         None => {
-            let quickstart = context::project_folder().map(|project| project.join("studies").join("quickstart"));
+            let quickstart = context::quickstart(&context.db);
             workbench(Workbench {
                 database: context.db,
                 is_database_named: context.is_db_named,
@@ -160,7 +160,7 @@ fn execute(arguments: Arguments, workbench: impl FnOnce(Workbench) -> Result<(),
         Some(Command::Study(command)) => studies::run(&context, &command),
         Some(Command::Job(command)) => jobs::run(&context, &command),
         Some(Command::Subject(command)) => catalogue::run(&context, command),
-        Some(Command::Style(command)) => catalogue::run(&context, command),
+        Some(Command::Style(command)) => catalogue::style(&context, command),
         Some(Command::Size(command)) => catalogue::run(&context, command),
         Some(Command::Fabric(command)) => catalogue::run(&context, command),
         Some(Command::Lab(arguments)) => lab::lab(&context, &arguments),

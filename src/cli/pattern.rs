@@ -3,14 +3,14 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::args::{DraftStyle, Pattern, SeamCommand, SeamHome, Sides, StyleFiles};
+use super::args::{DraftStyle, Pattern, SeamCommand, StyleFiles};
 use super::context::Context;
 use super::{CliError, End, Outcome, output, pattern_files};
 use super::{questions, sew};
 use geom::units::{from_mm, mm};
 use study::patterns::{self, FileReport, Finding, Model, Unit};
 use study::seams::pattern_files::inspect as inspect_files;
-use study::seams::{self, CHECK_EDGE_MM, SeamEdit, SeamStep, SizeCheck};
+use study::seams::{self, CHECK_EDGE_MM, SizeCheck};
 use study::{Table, Value, files};
 
 /// Runs a pattern command.
@@ -94,34 +94,11 @@ fn propose(context: &Context, path: &Path, proposed: &seams::Proposed, output: O
 
 /// Edits a seam file in its place.
 fn seam(context: &Context, command: &SeamCommand) -> Outcome {
-    let (home, step) = step(command.clone())?;
+    let (home, step) = command.clone().step();
     let unit = home.unit.map(Unit::from);
     let file = seams::edit_seams(&home.pattern, &home.seams, home.size.as_deref(), unit, &step)?;
     write(context, &home.seams, String::from_utf8_lossy(&file.bytes).into_owned())?;
     Ok(End::Done)
-}
-
-/// The step of work that a command asks for.
-fn step(command: SeamCommand) -> Result<(SeamHome, SeamStep), CliError> {
-    Ok(match command {
-        SeamCommand::Add { home, sides: Sides { a, b }, name, eased } => {
-            (home, SeamStep::Edit(SeamEdit::Add { a, b, name, is_eased: eased }))
-        }
-        SeamCommand::Rm { home, sides: Sides { a, b } } => (home, SeamStep::Edit(SeamEdit::Remove { a, b })),
-        SeamCommand::Flip { home, sides: Sides { a, b } } => (home, SeamStep::Edit(SeamEdit::Flip { a, b })),
-        SeamCommand::Open { home, edge } => (home, SeamStep::Edit(SeamEdit::Open { edge })),
-        SeamCommand::LeaveOut { home, piece } => (home, SeamStep::Edit(SeamEdit::LeaveOut { piece })),
-        SeamCommand::Role { home, piece, role } => (home, SeamStep::Edit(SeamEdit::Role { piece, role })),
-        SeamCommand::Confirm { home, seam: Some(seam) } => (home, SeamStep::Confirm(seam)),
-        SeamCommand::Confirm { home, seam: None } => (home, SeamStep::ConfirmSure),
-        SeamCommand::Answer { home, question, choice } => {
-            let place = ('a'..='z').position(|letter| letter == choice.to_ascii_lowercase());
-            let place =
-                place.ok_or_else(|| CliError::Usage(format!("choice `{choice}`: accepted: a letter, a to z")))?;
-            (home, SeamStep::Answer { question, choice: place })
-        }
-        SeamCommand::Settle { home, question } => (home, SeamStep::Decide(question)),
-    })
 }
 
 fn seams(proposal: &seams::Proposal) -> Table {

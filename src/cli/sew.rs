@@ -11,7 +11,7 @@ use super::args::{SewFiles, Sex};
 use super::context::Context;
 use super::{CliError, End, Outcome, output};
 use study::patterns::Unit;
-use study::seams::{self, Hung, Mannequin, Workpiece};
+use study::seams::{self, Care, Hung, Mannequin, Workpiece};
 use study::{StudyError, bodies, files};
 
 /// Time between two looks at the seam file.
@@ -94,7 +94,7 @@ fn sewn(
     let started = Instant::now();
     let cut = &arguments.cut;
     let piece = Workpiece::open(&arguments.file, seams, cut.size.as_deref(), cut.unit.map(Unit::from))?;
-    let preview = piece.preview(mannequin, is_stale)?;
+    let preview = piece.preview(mannequin, Care::Glance, is_stale)?;
     let took_ms = started.elapsed().as_millis();
     let (folder, name) = (arguments.output.parent().unwrap_or(Path::new("")), arguments.output.file_name());
     let name = name.unwrap_or_default().to_string_lossy().into_owned();
@@ -107,12 +107,15 @@ fn sewn(
     output::text(&format!("{hung} on {} in {took_ms} ms: {}\n", mannequin.name, arguments.output.display()))?;
     preview.remarks.iter().try_for_each(|remark| output::text(&format!("{remark}\n")))?;
     let undecided = piece.laid_out()?.undecided;
-    for (k, one) in undecided.iter().enumerate() {
+    let (sure, unsure): (Vec<_>, Vec<_>) = undecided.iter().partition(|one| one.is_sure);
+    for (k, one) in unsure.iter().enumerate() {
         output::text(&format!("{}. {}\n", k + 1, one.text))?;
         for choice in &one.choices {
             output::text(&format!("   {}\n", choice.label))?;
         }
     }
-    context.say(format_args!("{} to decide", undecided.len()));
+    if !sure.is_empty() {
+        context.say(format_args!("{} proposed seams are sure: `toile pattern seam confirm` takes them", sure.len()));
+    }
     Ok(if preview.hung == Hung::Draped { End::Done } else { End::CheckFailed })
 }

@@ -7,12 +7,37 @@ use super::context::Context;
 use super::pattern::model;
 use super::pictures::write;
 use super::{End, Outcome, body, output};
-use study::{PopulationOptions, export_study, files, new_study, representatives, subjects_text};
+use study::{
+    NewStudy, PopulationOptions, StudyError, Wearable, export_study, files, new_study, representatives, subjects_text,
+    wearables,
+};
 
 /// Runs a study command.
 pub fn run(context: &Context, command: &StudyCommand) -> Outcome {
     match command {
-        StudyCommand::New { folder, style } => {
+        StudyCommand::New { folder, wear, subject, fabric, sim, .. } if !wear.is_empty() => {
+            let mut workspace = context.workspace()?;
+            let known = wearables(&workspace.sizes()?);
+            let of = |name: &String| {
+                let is_it = |one: &&Wearable| format!("{}/{}", one.style, one.size) == *name;
+                known.iter().find(is_it).cloned().ok_or_else(|| StudyError::NotFound {
+                    what: "size",
+                    name: name.clone(),
+                    known: known.iter().map(|one| format!("{}/{}", one.style, one.size)).collect(),
+                })
+            };
+            let new = NewStudy {
+                name: folder.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+                folder: folder.parent().unwrap_or(Path::new("")).to_owned(),
+                subjects: subject.clone(),
+                sizes: wear.iter().map(of).collect::<Result<_, _>>()?,
+                fabric: fabric.clone(),
+                simulators: sim.iter().map(|&sim| sim.into()).collect(),
+            };
+            let path = workspace.create_study(&new)?;
+            context.say(format_args!("wrote {}; `toile run {}` runs it", path.display(), folder.display()));
+        }
+        StudyCommand::New { folder, style, .. } => {
             for path in files::write_files(folder, &new_study(folder, model(*style))?)? {
                 context.say(format_args!("wrote {}", path.display()));
             }

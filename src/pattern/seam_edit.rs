@@ -471,7 +471,7 @@ mod tests {
         let opened = edit(&text(), &Edit::Remove { a: a.clone(), b }).expect("it is there");
         let open = edit(&opened, &Edit::Open { edge: a.clone() }).expect("it is free");
         let read = |text: &str| SeamFile::parse(text.as_bytes(), "a.toml").expect("it reads");
-        assert_eq!(read(&open).open, [a.clone()]);
+        assert!(read(&open).open.contains(&a) && !read(&text()).open.contains(&a));
         assert_eq!(edit(&open, &Edit::Open { edge: a }).expect("it is open already"), open);
         let other = edit(&text(), &Edit::Role { piece: "back".to_owned(), role: "other".to_owned() }).expect("a role");
         assert_eq!(read(&other).piece["back"].role, Role::Other);

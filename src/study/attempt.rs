@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use crate::bodies::{LengthUnit, Sex};
 use crate::error::{Result, StudyError};
+use crate::faults::{Fault, drape_faults};
 use crate::files::SourceFile;
 use crate::patterns::{self, Unit};
 use crate::run::outcome::{Measured, Outcome};
@@ -26,8 +27,6 @@ use render::{self, Camera, Cell, Frame, Layer, Material, Rgb, Scene, View};
 use sim::hybrid::Closure;
 use sim::{self, Drape, Fabric, Monitor, Progress, quality};
 
-/// Deepest penetration of a drape that is good, mm.
-const PENETRATION_MM: f64 = 0.5;
 /// Least shortfall that is told as a problem, mm.
 const SHORTFALL_MM: f64 = 5.0;
 /// Size of each picture, pixels.
@@ -348,34 +347,6 @@ fn style(asked: &Attempt, notes: &mut Vec<String>) -> Result<Style> {
         style.measure_openings_and_seams();
     }
     Ok(style)
-}
-
-/// What can be wrong with a drape.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Fault {
-    Moves,
-    Inside,
-    Crosses,
-}
-
-/// What is wrong with a drape, in words.
-pub(crate) fn drape_faults(
-    converged: bool,
-    residual: f64,
-    penetration_mm: f64,
-    self_crossings: i64,
-) -> Vec<(String, Fault)> {
-    let mut faults = Vec::new();
-    if !converged {
-        faults.push((format!("not converged: residual {residual:.4}"), Fault::Moves));
-    }
-    if penetration_mm > PENETRATION_MM {
-        faults.push((format!("{penetration_mm:.1} mm inside the body"), Fault::Inside));
-    }
-    if self_crossings > 0 {
-        faults.push((format!("the cloth crosses itself at {self_crossings} edges"), Fault::Crosses));
-    }
-    faults
 }
 
 /// What is wrong with a drape, and where; the numbers alone do not say.

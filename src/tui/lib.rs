@@ -27,6 +27,7 @@ mod tests;
 mod threads;
 mod widgets;
 
+use std::collections::VecDeque;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::RecvTimeoutError;
@@ -40,7 +41,7 @@ use keys::file::{self as keys_file, KeysError};
 use messages::effect::Effect;
 use messages::message::Message;
 use screens::state::{Abilities, Folders, State};
-use study::{StudyError, Workspace, study_file};
+use study::{StudyError, Workspace};
 use terminal::Display;
 use terminal::clipboard::osc52;
 use threads::Threads;
@@ -59,8 +60,8 @@ pub struct Options {
     pub no_color: bool,
     /// How pictures are shown.
     pub images: Images,
-    /// A study to start with, offered while the database has none.
-    pub quickstart: Option<PathBuf>,
+    /// Folder of the study that comes with the program, offered while the database has none, or where it is written then.
+    pub quickstart: PathBuf,
 }
 
 /// Why the workbench ended.
@@ -89,8 +90,7 @@ pub fn run(options: Options) -> Result<(), TuiError> {
     let theme = Theme { colours: Colours::detect(options.no_color, &env), ascii: theme::wants_ascii(&env) };
     let encoder = PictureEncoder::new(options.images, theme.colours, &env);
     let folders = folders(&options);
-    let quickstart = options.quickstart.filter(|path| study_file(path).exists());
-    let abilities = Abilities { run: !options.readonly, pictures: encoder.is_some(), quickstart: quickstart.is_some() };
+    let abilities = Abilities { run: !options.readonly, pictures: encoder.is_some() };
 
     let mut display = Display::enter()?;
     let size = display.size()?;
@@ -100,7 +100,7 @@ pub fn run(options: Options) -> Result<(), TuiError> {
     state.setup.database = named;
     let session = session::path(&options.database, &env);
     session.as_deref().map(Session::read).unwrap_or_default().restore(&mut state);
-    let threads = Threads::start(workspace, encoder, quickstart, state.setup.folders.reports.clone());
+    let threads = Threads::start(workspace, encoder, options.quickstart, state.setup.folders.reports.clone());
     let outcome = event_loop(&mut display, &mut state, &threads);
     drop(display);
     if let Some(path) = session {
@@ -110,10 +110,9 @@ pub fn run(options: Options) -> Result<(), TuiError> {
     Ok(outcome?)
 }
 
-/// Where new studies and reports go: beside the studies that come with the program, else beside the database.
+/// Where new studies and reports go: beside the study that comes with the program.
 fn folders(options: &Options) -> Folders {
-    let project = options.quickstart.as_deref().and_then(Path::parent).and_then(Path::parent);
-    let home = project.or(options.database.parent()).unwrap_or(Path::new(""));
+    let home = options.quickstart.parent().and_then(Path::parent).unwrap_or(Path::new(""));
     Folders { studies: home.join("studies"), reports: home.join("reports") }
 }
 
@@ -137,7 +136,8 @@ fn event_loop(display: &mut Display, state: &mut State, threads: &Threads) -> io
         };
         let Some(message) = message else { return Ok(()) };
         // All that waits is taken in before the next frame, so that a flood of keys or progress costs one frame.
-        for message in std::iter::once(message).chain(threads.messages.try_iter()) {
+        let mut waiting: VecDeque<Message> = std::iter::once(message).chain(threads.messages.try_iter()).collect();
+        while let Some(message) = waiting.pop_front() {
             if matches!(message, Message::Key(_)) {
                 display.key_pressed();
             }
@@ -150,6 +150,11 @@ fn event_loop(display: &mut Display, state: &mut State, threads: &Threads) -> io
                     Effect::Quit => return Ok(()),
                     Effect::Copy(text) => print_raw(&osc52(&text))?,
                     Effect::Clear => display.clear()?,
+                    Effect::Write(what) => {
+                        let text = threads.keyboard.lend(|| display.lend(|| terminal::editor::edit(&what)))?;
+                        terminal::take_mouse(state.terminal.has_mouse)?;
+                        waiting.push_front(Message::Written(Box::new(what), text));
+                    }
                     Effect::Mouse(is_taken) => terminal::take_mouse(is_taken)?,
                     other => threads.carry_out(other),
                 }

@@ -1,13 +1,14 @@
 //! The command line: exit codes, what goes to which stream, keys of the JSON that other programs read.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 
 use serde_json::Value;
 
 use super::program::{Place, shared};
 
 /// Every command that there is, without its arguments.
-const COMMANDS: [&str; 94] = [
+const COMMANDS: [&str; 112] = [
     "",
     "run",
     "run show",
@@ -26,6 +27,24 @@ const COMMANDS: [&str; 94] = [
     "alter",
     "grade",
     "pattern pom",
+    "pattern sew",
+    "style sew",
+    "style sew add",
+    "style sew rm",
+    "style sew flip",
+    "style sew open",
+    "style sew leave-out",
+    "style sew role",
+    "style sew confirm",
+    "style sew answer",
+    "style sew settle",
+    "style sew propose",
+    "pattern seam open",
+    "pattern seam leave-out",
+    "pattern seam role",
+    "pattern seam confirm",
+    "pattern seam answer",
+    "pattern seam settle",
     "job",
     "job handout",
     "job run",
@@ -437,4 +456,20 @@ fn sample_patterns_are_read() {
     let reports: Value = serde_json::from_slice(&output.stdout).expect("JSON");
     let reports = reports.as_array().expect("files");
     assert!(!reports.is_empty() && reports.iter().all(|report| report["error"].is_null()));
+}
+
+#[test]
+fn the_quickstart_is_in_the_program() {
+    let place = Place::new();
+    place.toile("study check quickstart").ends_with(0);
+    let repository = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/quickstart");
+    let written = place.path("studies/quickstart");
+    for file in ["study.toml", "patterns/tshirt-s.dxf", "patterns/tshirt-l.dxf", "patterns/tshirt.seams.toml"] {
+        let [ours, theirs] =
+            [&repository, &written].map(|folder| std::fs::read(folder.join(file)).expect("it is there"));
+        assert!(ours == theirs, "{file}");
+    }
+    // One that is edited stays as it is.
+    std::fs::write(written.join("study.toml"), "name = \"mine\"\n").expect("writable");
+    assert!(place.toile("study check quickstart").ends_with(2).err.contains("study.toml"));
 }

@@ -236,3 +236,53 @@ fn a_run_in_the_background_is_followed_to_its_end() {
         std::thread::sleep(std::time::Duration::from_millis(50));
     }
 }
+
+/// The commands of the log that is shown.
+fn commands(screen: &str) -> Vec<String> {
+    let inside = |line: &str| Some(line.split('│').find(|part| part.trim().starts_with("toile "))?.trim().to_owned());
+    screen.lines().filter_map(inside).collect()
+}
+
+#[test]
+fn what_was_done_is_done_again_by_its_commands() {
+    let place = Place::new();
+    place.draft();
+    let Some(mut seat) = Seat::take(&workbench(&place), 160, 50) else { return };
+    seat.wait_for("make a study of your own");
+    seat.press("3i");
+    seat.wait_for("unit");
+    seat.press("patterns/tshirt-s.dxf<Enter>");
+    seat.wait_for("to decide");
+    seat.press("<Enter>");
+    seat.wait_for("question 1 of");
+    seat.press("A");
+    seat.wait_for("done; w saves it");
+    seat.press("yyyyyyyy<Esc>w");
+    seat.wait_for("has revision 2");
+    seat.press("1a");
+    seat.wait_for("Space choose");
+    seat.press("<Tab> <Tab><Down><Down><Down><Down><Down><Down><Down> <Tab> <Tab>");
+    seat.wait_for("1 subject × 1 size × 1 simulator = 1 simulation");
+    seat.press("<Enter>");
+    seat.wait_for("…1");
+    seat.press("R");
+    seat.wait_for("✓1");
+    seat.press("L");
+    let told = commands(&seat.wait_for("toile run "));
+    seat.press("<Esc>:quit<Enter>");
+    assert_eq!(seat.end().code(), Some(0));
+
+    let again = Place::new();
+    again.draft();
+    for command in &told {
+        again.toile(command.strip_prefix("toile ").expect("a command of the program")).ends_with(0);
+    }
+    let measured = "SELECT measurement_no, stage, l3d_mm, l2d_mm FROM v_chi ORDER BY measurement_no, stage";
+    let rows = |place: &Place| {
+        let output = place.command("sql").arg(measured).arg("--json").output().expect("it starts");
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    let (first, second) = (rows(&place), rows(&again));
+    assert!(first.contains("l3d_mm") && told.len() >= 4, "{told:?}");
+    assert_eq!(first, second, "{told:?}");
+}

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, Subcommand};
 
-use super::PatternUnit;
+use super::{PatternUnit, SewStep};
 use study::bodies::Dimension;
 use study::{FABRIC_NUMBERS, Field, Given, MEASUREMENTS};
 
@@ -47,6 +47,22 @@ pub enum Catalogue<V: Args> {
         /// Names; of sizes STYLE/SIZE.
         #[arg(required = true)]
         names: Vec<String>,
+    },
+}
+
+/// Commands on styles.
+#[derive(Debug, Subcommand)]
+pub enum StyleCommand {
+    /// Commands as on any part of the catalogue.
+    #[command(flatten)]
+    Of(Catalogue<StyleValues>),
+    /// Work on the seams of a style: confirm, answer, add, open or turn seams, leave out. Makes a new revision.
+    Sew {
+        /// Style, or STYLE/SIZE whose pieces are worked on.
+        name: String,
+        /// What is done.
+        #[command(subcommand)]
+        step: SewStep,
     },
 }
 

@@ -13,15 +13,17 @@ mod fit;
 mod grade;
 mod pattern;
 mod report;
+mod seam;
 
 pub use alter::Alter;
-pub use attempt::{AuditGarments, Try};
+pub use attempt::{AuditGarments, Try, TrySimulator};
 pub use body::{Body, BodyBuild, MeshUnit, Sex};
-pub use catalogue::{Catalogue, FabricValues, SizeValues, StyleValues, SubjectValues};
+pub use catalogue::{Catalogue, FabricValues, SizeValues, StyleCommand, StyleValues, SubjectValues};
 pub use fit::{Chance, Fit, Section};
 pub use grade::Grade;
-pub use pattern::{BesideFiles, DraftStyle, Pattern, PatternUnit, SeamCommand, SeamHome, SewFiles, Sides, StyleFiles};
+pub use pattern::{BesideFiles, DraftStyle, Pattern, PatternUnit, SewFiles, StyleFiles};
 pub use report::{Purpose, Report};
+pub use seam::{SeamCommand, SewStep};
 
 /// A fit-study workbench: dress bodies in sewing patterns, measure the drape, say which simulator to trust.
 #[derive(Debug, Parser)]
@@ -113,7 +115,7 @@ pub enum Command {
     Subject(Catalogue<SubjectValues>),
     /// Styles of the catalogue.
     #[command(subcommand)]
-    Style(Catalogue<StyleValues>),
+    Style(StyleCommand),
     /// Sizes of the catalogue.
     #[command(subcommand)]
     Size(Catalogue<SizeValues>),
@@ -298,13 +300,25 @@ pub enum Job {
 /// Commands on study files.
 #[derive(Debug, Subcommand)]
 pub enum StudyCommand {
-    /// Start a study: a folder with a study.toml that says what may be in it, and drafted patterns.
+    /// Start a study: a folder with a study.toml that says what may be in it and drafted patterns, or what the catalogue has.
     New {
         /// Folder to make.
         folder: PathBuf,
         /// Style to draft.
-        #[arg(long, value_enum, default_value_t = DraftStyle::Tshirt)]
+        #[arg(long, value_enum, default_value_t = DraftStyle::Tshirt, conflicts_with_all = ["wear", "subject"])]
         style: DraftStyle,
+        /// Sizes of the catalogue, or of drafted styles, that it wears; its jobs are queued. May be given several times.
+        #[arg(long, value_name = "STYLE/SIZE", requires = "subject")]
+        wear: Vec<String>,
+        /// Who of the catalogue wears them; may be given several times.
+        #[arg(long, value_name = "NAME", requires = "wear")]
+        subject: Vec<String>,
+        /// Fabric of the catalogue.
+        #[arg(long, value_name = "NAME", default_value = "cotton_shirting_light")]
+        fabric: String,
+        /// Simulators; may be given twice.
+        #[arg(long, value_enum, default_values_t = [TrySimulator::Fem, TrySimulator::Hybrid])]
+        sim: Vec<TrySimulator>,
     },
     /// Check a study file and everything it names: every problem at once, with its line.
     Check(StudyPath),

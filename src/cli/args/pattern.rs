@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::{MeshUnit, Sex};
+use super::{MeshUnit, SeamCommand, Sex};
 use clap::{Args, Subcommand, ValueEnum};
 use geom::units::from_mm;
 use study::patterns::Unit;
@@ -92,112 +92,6 @@ pub struct StyleFiles {
     /// Unit of the file, where it names none.
     #[arg(long, value_enum)]
     pub unit: Option<PatternUnit>,
-}
-
-/// A seam file and its pattern.
-#[derive(Clone, Debug, Args)]
-pub struct SeamHome {
-    /// Seam file, changed in its place.
-    pub seams: PathBuf,
-    /// DXF file, or folder of them, that the seam file belongs to.
-    #[arg(long, value_name = "FILE")]
-    pub pattern: PathBuf,
-    /// Size, where the file holds several.
-    #[arg(long, value_name = "NAME")]
-    pub size: Option<String>,
-    /// Unit of the file, where it names none.
-    #[arg(long, value_enum)]
-    pub unit: Option<PatternUnit>,
-}
-
-/// Two sides of a seam.
-#[derive(Clone, Debug, Args)]
-pub struct Sides {
-    /// One side: PIECE.EDGE by name, by its number in the sheet (front.3) or its corners (front.3-5); chains with `+`.
-    #[arg(value_name = "PIECE.EDGE")]
-    pub a: String,
-    /// The other side.
-    #[arg(value_name = "PIECE.EDGE")]
-    pub b: String,
-}
-
-/// Edits of a seam file; the result is checked against the pattern, and comments stay.
-#[derive(Clone, Debug, Subcommand)]
-pub enum SeamCommand {
-    /// Sew two sides.
-    Add {
-        #[command(flatten)]
-        home: SeamHome,
-        #[command(flatten)]
-        sides: Sides,
-        /// Name of the seam.
-        #[arg(long, value_name = "NAME")]
-        name: Option<String>,
-        /// The difference of their lengths is meant: ease or gathers.
-        #[arg(long)]
-        eased: bool,
-    },
-    /// Open the seam between two edges.
-    Rm {
-        #[command(flatten)]
-        home: SeamHome,
-        #[command(flatten)]
-        sides: Sides,
-    },
-    /// Turn one side of the seam between two edges round.
-    Flip {
-        #[command(flatten)]
-        home: SeamHome,
-        #[command(flatten)]
-        sides: Sides,
-    },
-    /// Say that an edge is meant to be in no seam.
-    Open {
-        #[command(flatten)]
-        home: SeamHome,
-        /// The edge.
-        #[arg(value_name = "PIECE.EDGE")]
-        edge: String,
-    },
-    /// Leave a piece out, with its seams.
-    LeaveOut {
-        #[command(flatten)]
-        home: SeamHome,
-        /// The piece.
-        piece: String,
-    },
-    /// Say what a piece is worn as.
-    Role {
-        #[command(flatten)]
-        home: SeamHome,
-        /// The piece.
-        piece: String,
-        /// What it is: front, back, sleeve_right, ..., other.
-        role: String,
-    },
-    /// Take a proposed seam for right, or all that are sure.
-    Confirm {
-        #[command(flatten)]
-        home: SeamHome,
-        /// Name of the seam; without it all that are at least 80 % sure.
-        seam: Option<String>,
-    },
-    /// Answer a question of the proposal: it is made anew, and what was confirmed stays so where it is proposed again.
-    Answer {
-        #[command(flatten)]
-        home: SeamHome,
-        /// The question, as it stands in the seam file.
-        question: String,
-        /// Letter of the choice.
-        choice: char,
-    },
-    /// Strike a question out: the file is as it should be.
-    Settle {
-        #[command(flatten)]
-        home: SeamHome,
-        /// The question, as it stands in the seam file.
-        question: String,
-    },
 }
 
 /// Commands on patterns.

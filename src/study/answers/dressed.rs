@@ -3,8 +3,8 @@
 use rusqlite::Row;
 use serde::Serialize;
 
-use crate::attempt::drape_faults;
 use crate::error::Result;
+use crate::faults::drape_faults;
 use crate::rows::Status;
 use crate::store::Store;
 use fit::Simulator;

@@ -28,6 +28,9 @@ pub struct StyleGiven {
     pub patterns: Vec<(Option<String>, PathBuf)>,
 }
 
+/// The size of a pattern that names none.
+const UNNAMED: &str = "ONE";
+
 /// A size with the unit of its pattern.
 type Sized = (SizeFile, Option<String>);
 
@@ -191,8 +194,9 @@ fn sizes_given(store: &Store, style: &str, given: &StyleGiven) -> Result<Vec<Siz
             None => sizes_in(&pattern, unit.as_deref())?,
         };
         for name in names {
+            let name = if name.is_empty() { UNNAMED.to_owned() } else { name };
             check_name(&name).map_err(|_| {
-                let problem = format!("{}: it names no size; say which it is: SIZE={}", pattern.name, path.display());
+                let problem = format!("{}: `{name}` is no name of a size; say SIZE={}", pattern.name, path.display());
                 refused(Part::Style, style, vec![problem])
             })?;
             sizes.push((SizeFile { name, pattern: pattern.clone() }, unit.clone()));

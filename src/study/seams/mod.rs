@@ -14,7 +14,7 @@ pub(crate) use desk::proposal;
 pub use desk::{Asking, Desk, DeskEdge, DeskPiece, DeskSeam, Proposed, SURE, desk, propose};
 pub use pattern::propose::{Proposal, Question};
 pub use pattern::seam_edit::Edit as SeamEdit;
-pub use preview::{Hung, Mannequin, Preview};
+pub use preview::{Care, Hung, Mannequin, Preview};
 pub use specification::{Specification, SpecifiedPoint, specification};
 pub use step::SeamStep;
 pub use undecided::{Choice, Undecided};

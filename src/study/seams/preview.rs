@@ -11,25 +11,35 @@ use crate::answers::figure;
 use crate::answers::picture::Look;
 use crate::bodies::{LengthUnit, Sex};
 use crate::error::{Result, StudyError};
+use crate::faults::drape_faults;
 use crate::patterns;
 use crate::rows::SubjectId;
-use crate::run::pipeline::Model;
+use crate::run::pipeline::{Meshes, Model};
 use crate::seams::workpiece::Workpiece;
 use crate::spec::file::read_body;
 use crate::spec::versions::FIELD_SPACING_M;
 use crate::store::Store;
+use fit::measure;
+use geom::units::mm;
 use geom::{DistanceField, TriMesh, V3};
+use pattern::check::{Finding, FindingKind};
 use pattern::{Garment, Role};
 use render::{self, Cell, Layer, Material, Rgb, Scene, View};
 use sim::fem::{self, Params};
 use sim::placement::{Bend, place};
-use sim::{Monitor, Progress, SimError, fabric};
+use sim::{Drape, Monitor, Progress, SimError, fabric};
 
-/// Edge length of the cloth, m.
+/// Edge length of the cloth that is looked at, and of cloth that is tried on, m.
 const EDGE_M: f64 = 0.030;
+const FINE_EDGE_M: f64 = 0.015;
 /// Residual at which a drape can be looked at, and steps after the sewing that end it at the latest.
-const SEEN: f64 = 0.5;
-const MOST_STEPS: u32 = 60;
+const SEEN: f64 = 2.0;
+const MOST_STEPS: u32 = 40;
+/// Greatest displacement of a vertex in a step of sewing and gap at which seams are welded, m, and relative tolerance of a linear solve: a
+/// garment that is looked at may be pulled about, and is sewn in half the time.
+const CLAMP_M: f64 = 0.020;
+const WELD_GAP_M: f64 = 0.010;
+const TOLERANCE: f64 = 0.2;
 /// Size of each view on a sheet, pixels.
 const VIEW: [u32; 2] = [480, 640];
 /// Half the width of the lines along seams and along edges that are in none, m.
@@ -76,6 +86,15 @@ pub(crate) fn mannequin(store: &Store, id: SubjectId) -> Result<Mannequin> {
     Mannequin::of(figure::model(store, id)?)
 }
 
+/// How carefully a garment is draped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Care {
+    /// To be looked at: coarsely, and not wholly to rest.
+    Glance,
+    /// To be trusted: as a study does by default.
+    Trial,
+}
+
 /// How far a garment came.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hung {
@@ -98,20 +117,30 @@ pub struct Preview {
 }
 
 impl Workpiece {
-    /// Sews and drapes the size coarsely on a body; `is_stale` is asked between steps whether nobody wants it any more.
+    /// Sews and drapes the size on a body; `is_stale` is asked between steps whether nobody wants it any more.
     ///
     /// # Errors
     /// When the files cannot be read or meshed; [`StudyError::Interrupted`] when it is stale. A garment that cannot be draped is no error.
-    pub fn preview(&self, on: &Mannequin, is_stale: &dyn Fn() -> bool) -> Result<Preview> {
+    pub fn preview(&self, on: &Mannequin, care: Care, is_stale: &dyn Fn() -> bool) -> Result<Preview> {
         let style = patterns::read_style(&self.pattern, self.seams.as_ref(), Some(&self.size), self.unit)?;
-        let garment = style.mesh(EDGE_M).map_err(StudyError::stage("mesh"))?;
-        let (hung, positions, mut remarks) = hang(&garment, on, is_stale)?;
-        let free = free_edges(&garment, &self.open_edges());
+        let meshes = match care {
+            Care::Glance => Meshes(vec![style.mesh(EDGE_M).map_err(StudyError::stage("mesh"))?]),
+            Care::Trial => Meshes::of(&style, FINE_EDGE_M)?,
+        };
+        let garment = meshes.finest()?;
+        let (hung, positions, mut remarks) = hang(&meshes, on, care, is_stale)?;
+        let free = free_edges(garment, &self.open_edges());
         if !free.is_empty() {
             remarks.push("red edges are in no seam".to_owned());
         }
+        let is_left_out = |finding: &Finding| finding.kind == FindingKind::UnusedPiece;
+        let findings = self.findings(&style)?.into_iter();
+        let left_out: Vec<String> = findings.filter(is_left_out).map(|finding| finding.place).collect();
+        if !left_out.is_empty() {
+            remarks.push(format!("not sewn in: {}", left_out.join(", ")));
+        }
         let positions = positions.unwrap_or_default();
-        let pieces = if hung == Hung::Not { vec![] } else { layers(&garment, &positions, &free) };
+        let pieces = if hung == Hung::Not { vec![] } else { layers(garment, &positions, &free) };
         let mut all = vec![Layer::new(&on.model.body.mesh, Material::form())];
         all.extend(pieces.iter().map(|(mesh, material)| Layer::new(mesh, *material)));
         let scene = Scene::new(all).map_err(StudyError::stage("render"))?;
@@ -156,12 +185,13 @@ struct Glance<'a> {
     seen: Option<Vec<V3>>,
     sewn_at: Option<u32>,
     is_enough: bool,
+    care: Care,
     is_stale: &'a dyn Fn() -> bool,
 }
 
 impl Monitor for Glance<'_> {
     fn progress(&mut self, progress: &Progress) {
-        if progress.phase == "sew" {
+        if progress.phase == "sew" || self.care == Care::Trial {
             return;
         }
         let step = progress.step;
@@ -182,27 +212,50 @@ impl Monitor for Glance<'_> {
     }
 }
 
-/// Positions of a garment on a body, how far it came, and why no farther.
+/// Positions of a garment on a body, how far it came, and what is to be said of it.
 fn hang(
-    garment: &Garment,
+    meshes: &Meshes,
     on: &Mannequin,
+    care: Care,
     is_stale: &dyn Fn() -> bool,
 ) -> Result<(Hung, Option<Vec<V3>>, Vec<String>)> {
     let library = fabric::library();
     let Some(cloth) = library.first() else { return Ok((Hung::Not, None, vec![])) };
-    let params = Params { distortion_limit: f64::MAX, ..Params::default() };
-    let mut glance = Glance { seen: None, sewn_at: None, is_enough: false, is_stale };
-    let outcome = fem::simulate(&on.model.body, &on.field, std::slice::from_ref(garment), cloth, &params, &mut glance);
-    let placed = || place(&on.model.body, garment, &Bend::default()).ok();
-    match outcome {
+    let garment = meshes.finest()?;
+    let mut params = Params { distortion_limit: f64::MAX, ..Params::default() };
+    if care == Care::Glance {
+        (params.sewing.sewing_clamp_m, params.sewing.weld_gap_m) = (CLAMP_M, WELD_GAP_M);
+        params.step.linear_tolerance = TOLERANCE;
+    }
+    let mut glance = Glance { seen: None, sewn_at: None, is_enough: false, care, is_stale };
+    let body = &on.model.body;
+    match fem::simulate(body, &on.field, &meshes.0, cloth, &params, &mut glance) {
+        Ok(drape) if care == Care::Trial => Ok((Hung::Draped, Some(drape.positions.clone()), told(garment, &drape))),
         Ok(drape) => Ok((Hung::Draped, Some(drape.positions), vec![])),
         Err(SimError::Cancelled) if glance.is_enough => Ok((Hung::Draped, glance.seen, vec![])),
         Err(SimError::Cancelled) => Err(StudyError::Interrupted),
-        Err(error) => Ok(match glance.seen.or_else(placed) {
-            Some(positions) => (Hung::Undone, Some(positions), vec![error.to_string()]),
-            None => (Hung::Not, None, vec![error.to_string()]),
-        }),
+        Err(error) => {
+            // What was seen of a coarser mesh has other vertices.
+            let seen = glance.seen.filter(|seen| seen.len() == garment.rest.len());
+            let placed = || place(body, garment, &Bend::default()).ok();
+            let positions = seen.or_else(placed);
+            let hung = if positions.is_some() { Hung::Undone } else { Hung::Not };
+            Ok((hung, positions, vec![error.to_string()]))
+        }
     }
+}
+
+/// What a drape that is to be trusted comes to.
+fn told(garment: &Garment, drape: &Drape) -> Vec<String> {
+    let crossings = i64::try_from(drape.self_crossings).unwrap_or(i64::MAX);
+    let faults = drape_faults(drape.converged, drape.residual, mm(drape.penetration_max_m), crossings);
+    let mut told: Vec<String> = faults.into_iter().map(|(fault, _)| fault).collect();
+    if told.is_empty() {
+        told.push("at rest".to_owned());
+    }
+    let metrics = measure::metrics(&measure::measure(garment, &drape.positions));
+    told.extend(metrics.map(|metrics| format!("EI {:.4}", metrics.ei)));
+    told
 }
 
 /// Sides of boundary triangles that are in no seam, and of no edge that is meant to be open.

@@ -1,5 +1,6 @@
 //! Steps of work on a seam file.
 
+use crate::files::SourceFile;
 use pattern::seam_edit::Edit;
 
 /// One step of work on a seam file.
@@ -18,6 +19,8 @@ pub enum SeamStep {
         /// The place of the choice.
         choice: usize,
     },
+    /// Take a seam file that was written by hand.
+    Written(SourceFile),
     /// Strike a question of a proposal out, its answer being in the file.
     Decide(String),
     /// Propose all seams anew; the text is the name of the style.

@@ -1,6 +1,6 @@
 //! What a person must decide about the seams of a size: one thing at a time, each with its likely answers.
 
-use crate::seams::desk::{Desk, DeskEdge, DeskSeam};
+use crate::seams::desk::{Desk, DeskEdge, DeskSeam, SURE};
 use crate::seams::step::SeamStep;
 use pattern::Role;
 use pattern::check::{Finding, FindingKind};
@@ -17,6 +17,8 @@ const OFFERED: usize = 4;
 const FAR: f64 = 0.25;
 const UNNOTCHED: f64 = 0.15;
 const OF_TWO: f64 = 0.05;
+/// What an edge of the same piece is as unlikely by, where the piece does not go round by itself as a sleeve does.
+const OWN: f64 = 0.3;
 /// Difference of lengths from which two edges are no partners, share of the longer, and of places of notches that match.
 const UNLIKE: f64 = 0.4;
 const SAME_NOTCH: f64 = 0.03;
@@ -45,6 +47,8 @@ pub struct Undecided {
     pub stands: Option<usize>,
     /// The seam that it is about.
     pub seam: Option<usize>,
+    /// Whether the answer that stands is sure.
+    pub is_sure: bool,
 }
 
 impl Undecided {
@@ -61,7 +65,14 @@ impl Undecided {
             let step = SeamStep::Decide(written);
             choices.push(Choice { label: "it is as it should be".to_owned(), step, edges: vec![] });
         }
-        Self { text: question.text.clone(), edges: vec![], choices, stands: question.taken.or(Some(0)), seam: None }
+        Self {
+            text: question.text.clone(),
+            edges: vec![],
+            choices,
+            stands: question.taken.or(Some(0)),
+            seam: None,
+            is_sure: false,
+        }
     }
 
     /// A proposed seam that nobody has confirmed; `None` of any other.
@@ -86,6 +97,7 @@ impl Undecided {
             choices: choices.into_iter().flatten().collect(),
             stands: Some(0),
             seam: Some(seam),
+            is_sure: found.confidence.is_some_and(|confidence| confidence >= SURE),
         })
     }
 
@@ -96,7 +108,7 @@ impl Undecided {
             Some(edge) => Self::free(desk, edge),
             None => {
                 let text = format!("{}: {}: {}", finding.kind.as_str(), finding.place, finding.found);
-                Self { text, edges: vec![], choices: vec![], stands: None, seam: None }
+                Self { text, edges: vec![], choices: vec![], stands: None, seam: None, is_sure: false }
             }
         }
     }
@@ -119,7 +131,7 @@ impl Undecided {
         let open = SeamStep::Edit(Edit::Open { edge: name.clone() });
         choices.push(Choice { label: "nothing: it stays open".to_owned(), step: open, edges: vec![] });
         let text = format!("What is {name} sewn to? It is {length_mm:.1} mm long and in no seam");
-        Self { text, edges: vec![edge], choices, stands: None, seam: None }
+        Self { text, edges: vec![edge], choices, stands: None, seam: None, is_sure: false }
     }
 
     /// What a piece may be worn as, and whether it is worn at all.
@@ -143,6 +155,7 @@ impl Undecided {
             choices: std::iter::once(out).chain(others.map(role)).collect(),
             stands: None,
             seam: None,
+            is_sure: false,
         }
     }
 }
@@ -191,7 +204,8 @@ fn partners(desk: &Desk, edge: EdgeAt) -> Vec<Vec<EdgeAt>> {
             _ => 0.0,
         };
         let two = if side.len() > 1 { OF_TWO } else { 0.0 };
-        (unlike <= UNLIKE).then_some(unlike + FAR * away + notched + two)
+        let own = if side.iter().any(|at| at.0 == edge.0) && !goes_round(desk.pieces[edge.0].role) { OWN } else { 0.0 };
+        (unlike <= UNLIKE).then_some(unlike + FAR * away + notched + two + own)
     };
     let pairs = free.iter().flat_map(|one| {
         free.iter()
@@ -202,6 +216,14 @@ fn partners(desk: &Desk, edge: EdgeAt) -> Vec<Vec<EdgeAt>> {
     let mut found: Vec<(f64, Vec<EdgeAt>)> = sides.filter_map(|side| Some((unlikely(&side)?, side))).collect();
     found.sort_by(|(one, _), (other, _)| one.total_cmp(other));
     found.into_iter().take(OFFERED).map(|(_, side)| side).collect()
+}
+
+/// Whether a piece may be sewn to itself: what goes round a limb or the waist in one piece.
+fn goes_round(role: Role) -> bool {
+    matches!(
+        role,
+        Role::SleeveRight | Role::SleeveLeft | Role::LegRight | Role::LegLeft | Role::Waistband | Role::Other
+    )
 }
 
 /// Size of all pieces as they lie, mm.

@@ -9,11 +9,12 @@ use crate::seams::step::SeamStep;
 use crate::seams::undecided::Undecided;
 use crate::spec::file::SourceFile;
 use geom::units::mm;
+use pattern::check::{self, Finding, FindingKind};
 use pattern::propose::{Answers, Question};
 use pattern::seam_edit::{Sizes, edited};
 use pattern::seams::{DEFAULT_LENGTH_TOLERANCE_MM, SeamFile};
 use pattern::style::Style;
-use pattern::{Piece, check, propose};
+use pattern::{Piece, propose};
 
 /// Begins a line of a proposed seam file that a person must answer.
 const QUESTION: &str = "# ASK: ";
@@ -87,9 +88,10 @@ impl Workpiece {
             undecided.extend((0..desk.seams.len()).filter_map(|seam| Undecided::unsure(&desk, seam)));
             let entries = SeamFile::parse(&file.bytes, &file.name).map_err(StudyError::stage("pattern"))?;
             tolerance_mm = entries.length_tolerance_mm;
-            let pieces = patterns::pieces(&self.pattern, Some(&self.size), self.unit)?;
-            let found = check::findings(&pieces, &entries, &style);
-            let found = found.iter().filter(|finding| finding.kind.is_problem());
+            let found = self.findings(&style)?;
+            // A piece that the file does not name is left out on purpose; the garment tells so where it is seen.
+            let is_open = |finding: &&Finding| finding.kind.is_problem() && finding.kind != FindingKind::UnusedPiece;
+            let found = found.iter().filter(is_open);
             undecided.extend(found.map(|finding| Undecided::found(&desk, finding)));
         }
         let length =
@@ -109,6 +111,11 @@ impl Workpiece {
         }
         if let SeamStep::Propose(style) = step {
             return self.proposed(style);
+        }
+        if let SeamStep::Written(file) = step {
+            let pieces = patterns::pieces(&self.pattern, Some(&self.size), self.unit)?;
+            Style::read(&pieces, &file.bytes, &file.name).map_err(StudyError::stage("pattern"))?;
+            return Ok(file.clone());
         }
         let missing = || refused(format!("{}: has no seam file yet; propose one", self.pattern.name));
         let (file, text) = self.seams.as_ref().zip(self.text()).ok_or_else(missing)?;
@@ -136,7 +143,7 @@ impl Workpiece {
                 }
                 kept
             }
-            SeamStep::Propose(_) => text,
+            SeamStep::Propose(_) | SeamStep::Written(_) => text,
         };
         Ok(SourceFile { name: file.name.clone(), bytes: text.into_bytes().into() })
     }
@@ -203,6 +210,17 @@ impl Workpiece {
     pub(crate) fn open_edges(&self) -> Vec<String> {
         let entries = self.seams.as_ref().and_then(|file| SeamFile::parse(&file.bytes, &file.name).ok());
         entries.map_or_else(Vec::new, |entries| entries.open)
+    }
+
+    /// What a check finds of the size as it is sewn; nothing of a pattern that holds its own seams.
+    ///
+    /// # Errors
+    /// When a file cannot be read.
+    pub(crate) fn findings(&self, style: &Style) -> Result<Vec<Finding>> {
+        let Some(file) = self.seams.as_ref().filter(|_| !self.pattern.holds_seams()) else { return Ok(Vec::new()) };
+        let entries = SeamFile::parse(&file.bytes, &file.name).map_err(StudyError::stage("pattern"))?;
+        let pieces = patterns::pieces(&self.pattern, Some(&self.size), self.unit)?;
+        Ok(check::findings(&pieces, &entries, style))
     }
 
     fn text(&self) -> Option<String> {

@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use crate::error::{Result, StudyError};
+use crate::files::write_files;
 use crate::patterns::Model;
 use crate::spec::export::{list, quoted};
 use crate::spec::fields::MEASUREMENTS;
@@ -133,6 +134,24 @@ edge_length_mm = 15         # of the finest cloth mesh: 25 is quick, 10 is fine
         }
         text.push_str("]\n\n");
     }
+}
+
+/// The name of the study that comes with the program.
+pub const QUICKSTART: &str = "quickstart";
+
+/// Writes the study that comes with the program into a folder, unless a study is there already.
+///
+/// # Errors
+/// When a file cannot be written.
+pub fn write_quickstart(folder: &Path) -> Result<()> {
+    if folder.join("study.toml").exists() {
+        return Ok(());
+    }
+    let mut files: Vec<(String, Vec<u8>)> =
+        Model::Tshirt.files().into_iter().map(|(name, bytes)| (format!("patterns/{name}"), bytes)).collect();
+    // Last, so that a folder with a study.toml has all of it.
+    files.push(("study.toml".to_owned(), include_bytes!("../../../studies/quickstart/study.toml").to_vec()));
+    write_files(folder, &files).map(drop)
 }
 
 /// Files of a first study: a `study.toml` to edit, with a drafted style beside it, on somebody of the catalogue and on

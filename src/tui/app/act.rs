@@ -4,6 +4,7 @@ use crate::keys::action::Action;
 use crate::messages::effect::Effect;
 use crate::overlays::Overlay;
 use crate::overlays::action_list::List;
+use crate::overlays::commands::CommandLog;
 use crate::screens;
 use crate::screens::movement::Movement;
 use crate::screens::state::State;
@@ -48,6 +49,8 @@ impl State {
             Action::Mouse => return self.take_mouse(),
             Action::Help => self.overlay = Some(Overlay::Help(List::of(self.setup.bindings))),
             Action::Palette => self.overlay = Some(Overlay::Palette(List::of(self.setup.bindings))),
+            Action::Write => return self.write(),
+            Action::Commands => self.overlay = Some(Overlay::Commands(CommandLog::of(&self.told.commands))),
             Action::Redraw => return vec![Effect::Clear],
             _ => {}
         }

@@ -120,7 +120,7 @@ fn status_line(state: &State, width: u16) -> Line<'static> {
         let hint = Span::styled("  ↵ keep  Esc undo", state.theme.dim());
         return Line::from(vec![Span::raw(format!("/{}▏", state.filter())), hint]);
     }
-    if let Some(notice) = &state.notice {
+    if let Some(notice) = &state.told.notice {
         let (mark, style) = if notice.is_error { ("✗ ", state.theme.bad()) } else { ("", Style::new()) };
         let line = notice.text.lines().collect::<Vec<_>>().join("; ");
         return Line::styled(text::shortened(&format!(" {mark}{line}"), usize::from(width)), style);

@@ -10,6 +10,7 @@ use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::messages::message::Message;
 use crate::messages::snapshot::{Focus, Snapshot};
+use crate::messages::taught;
 use crate::overlays::outcome::Outcome;
 use crate::screens;
 use crate::screens::state::State;
@@ -30,7 +31,8 @@ impl State {
             Message::Saved(outcome) => self.saved(outcome),
             Message::Measured(id, outcome) => drop(self.subjects.measured.insert(id, outcome)),
             Message::LaidOut(request, outcome) => self.take_layout(*request, outcome),
-            Message::Sewn(style, outcome) => self.sewn(style, outcome),
+            Message::Sewn(work, outcome) => self.sewn(*work, outcome),
+            Message::Written(what, text) => effects = self.written(*what, text),
             Message::Previewed(request, outcome) => self.take_preview(*request, outcome),
             Message::SeamsSaved(style, seams, outcome) => self.seams_saved(&style, &seams, outcome),
             Message::Picture(request, drawn) => self.take_picture(request, drawn),
@@ -62,6 +64,7 @@ impl State {
         effects.extend(self.ask_for_pictures(page.pictures(self, self.body())));
         effects.extend(page.wanted(self));
         effects.extend(self.ask_to_watch());
+        self.told.commands.extend(effects.iter().filter_map(taught::command));
         effects
     }
 
@@ -70,7 +73,7 @@ impl State {
             return vec![];
         }
         let Some(mut overlay) = self.overlay.take() else {
-            self.notice = None;
+            self.told.notice = None;
             if let Some(effects) = screens::page(self.nav.screen).take_key(self, event) {
                 return effects;
             }

@@ -126,6 +126,8 @@ pub enum Action {
     FlipSeam,
     /// Asks what is to be decided about the seams.
     Decide,
+    /// Drapes the selected size on the subject in hand.
+    TryOn,
     /// Asks what the selected edge is sewn to.
     AskEdge,
     /// Asks what the selected piece is worn as.
@@ -156,6 +158,10 @@ pub enum Action {
     Help,
     /// Lists the actions.
     Palette,
+    /// Opens the query, seams or study in an editor.
+    Write,
+    /// Lists what was done here, as commands.
+    Commands,
     /// Draws everything anew.
     Redraw,
     /// Leaves the program.

@@ -2,10 +2,24 @@
 
 use crate::messages::alterations::AlterRequest;
 use crate::messages::requests::{Command, FileTask, QueryRequest, Target};
-use crate::messages::seams::{PreviewRequest, SeamTask};
+use std::path::PathBuf;
+
+use crate::messages::seams::{LayoutRequest, PreviewRequest, SeamTask};
 use crate::messages::snapshot::Focus;
 use crate::widgets::picture::PictureRequest;
 use study::JobId;
+use study::files::SourceFile;
+
+/// What is written in an editor of the user's own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Writing {
+    /// The query.
+    Query(String),
+    /// The seam file of a size.
+    Seams(LayoutRequest, SourceFile),
+    /// A file as it lies.
+    File(PathBuf),
+}
 
 /// Something the event loop has others do.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +52,8 @@ pub enum Effect {
     Run(Target),
     /// Ask the run to stop.
     StopRun,
+    /// Have the user write in an editor of their own.
+    Write(Writing),
     /// Put a text on the clipboard.
     Copy(String),
     /// Draw the whole screen anew.

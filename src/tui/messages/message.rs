@@ -5,12 +5,14 @@ use std::path::PathBuf;
 use crossterm::event::{KeyEvent, MouseEvent};
 
 use crate::messages::alterations::AlterRequest;
+use crate::messages::effect::Writing;
 use crate::messages::seams::{LayoutRequest, PreviewRequest, Previewed, SizeLayout};
 use crate::messages::snapshot::Snapshot;
 use crate::widgets::picture::{Drawn, PictureRequest};
 use crate::widgets::result_table::ResultTable;
 use study::bodies::Girths;
 use study::files::SourceFile;
+use study::seams::SeamStep;
 use study::{Alteration, CrossSection, JobId, LiveFrame, Relation, ReportRow, SavedQuery, SubjectId};
 
 /// Something that happened.
@@ -32,8 +34,8 @@ pub enum Message {
     Measured(SubjectId, Result<Box<Girths>, String>),
     /// A size is laid out, or could not be.
     LaidOut(Box<LayoutRequest>, Result<Box<SizeLayout>, String>),
-    /// The seam file of a style after a step of work, or why there is none.
-    Sewn(String, Result<SourceFile, String>),
+    /// The seam file of a size after a step of work, or why there is none.
+    Sewn(Box<(LayoutRequest, SeamStep)>, Result<SourceFile, String>),
     /// A size is sewn and draped coarsely, or could not be.
     Previewed(Box<PreviewRequest>, Result<Previewed, String>),
     /// The seams of a style are saved, or why not.
@@ -56,6 +58,8 @@ pub enum Message {
     StudyCreated(String, Result<PathBuf, String>),
     /// The garment of the watched job as it is now.
     Live(LiveFrame),
+    /// What the user has written in an editor of their own, or why it was not taken.
+    Written(Box<Writing>, Result<String, String>),
     /// The mouse did something.
     Mouse(MouseEvent),
     /// The run started here has ended.

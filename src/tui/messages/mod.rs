@@ -7,3 +7,4 @@ pub mod message;
 pub mod requests;
 pub mod seams;
 pub mod snapshot;
+pub mod taught;

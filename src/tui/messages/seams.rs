@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use study::files::SourceFile;
-use study::seams::{Hung, LaidOut, SeamStep};
+use study::seams::{Care, Hung, LaidOut, SeamStep};
 use study::{SizeKey, SubjectId};
 
 /// A size to lay out.
@@ -28,7 +28,7 @@ pub enum SeamTask {
     Sew(LayoutRequest, SeamStep),
 }
 
-/// A size to sew and drape coarsely.
+/// A size to sew and drape on somebody.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PreviewRequest {
     /// Its number: later ones are greater.
@@ -37,6 +37,8 @@ pub struct PreviewRequest {
     pub size: LayoutRequest,
     /// Who wears it.
     pub subject: SubjectId,
+    /// How carefully it is draped.
+    pub care: Care,
 }
 
 /// How a size hangs, coarsely; its picture is asked for by the number of the request.

@@ -1,6 +1,7 @@
 //! What opens above a screen: help, the palette, the filter line, questions. Each owns the keyboard while it is open.
 
 pub mod action_list;
+pub mod commands;
 pub mod entry_form;
 mod form_frame;
 pub mod outcome;
@@ -18,6 +19,7 @@ use ratatui::widgets::{Clear, Paragraph, Wrap};
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::overlays::action_list::List;
+use crate::overlays::commands::CommandLog;
 use crate::overlays::entry_form::Form;
 use crate::overlays::outcome::Outcome;
 use crate::overlays::path_prompt::PathPrompt;
@@ -48,6 +50,8 @@ pub enum Overlay {
     StudyForm(Box<StudyForm>),
     /// Saved queries.
     Queries(QueryList),
+    /// The log of commands.
+    Commands(CommandLog),
     /// A question; `y` has the effects happen.
     Question {
         /// What is asked.
@@ -74,6 +78,7 @@ impl Overlay {
             Self::StyleForm(form) => style_form::draw(frame, area, form, theme),
             Self::StudyForm(form) => study_form::draw(frame, area, form, theme),
             Self::Queries(list) => saved_queries::draw(frame, area, list, theme),
+            Self::Commands(log) => commands::draw(frame, area, log, theme),
             Self::Question { text, .. } => draw_question(frame, area, text, theme),
             Self::Filter(_) => {}
         }
@@ -94,6 +99,8 @@ impl Overlay {
             Self::Form(_) | Self::Path(_) | Self::StyleForm(_) | Self::StudyForm(_) | Self::Queries(_) if leaves => {
                 Outcome::Closed
             }
+            Self::Commands(_) if leaves => Outcome::Closed,
+            Self::Commands(log) => log.key(event),
             Self::StudyForm(form) => form.key(event),
             Self::Queries(list) => list.key(event).map_or(Outcome::Open, Outcome::Query),
             Self::Form(form) => form.key(event),

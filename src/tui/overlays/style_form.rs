@@ -114,9 +114,9 @@ impl StyleForm {
     /// Takes in why the files were refused, and goes to the line that answers it.
     pub fn refused(&mut self, problem: String) {
         self.is_busy = false;
-        if problem.contains("no unit") {
+        if problem.contains("no unit") || problem.contains("say the unit") {
             self.at = UNIT;
-        } else if problem.contains("names no size") {
+        } else if problem.contains("is no name of a size") {
             self.at = SIZE;
         }
         let is_nest = self.size().is_empty() && problem.matches("size ").count() > 1;

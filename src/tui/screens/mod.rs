@@ -20,6 +20,7 @@ pub mod state;
 mod study;
 pub mod styles;
 pub mod subjects;
+mod writing;
 
 use crate::keys::action::Action;
 use crate::keys::screen::Screen;

@@ -36,6 +36,15 @@ pub struct Notice {
     pub is_error: bool,
 }
 
+/// What the user is told.
+#[derive(Debug, Default)]
+pub struct Told {
+    /// What the status line says.
+    pub notice: Option<Notice>,
+    /// The commands that do what was done here, the latest last.
+    pub commands: Vec<String>,
+}
+
 /// What this session of the workbench can do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Abilities {
@@ -43,8 +52,6 @@ pub struct Abilities {
     pub run: bool,
     /// Pictures can be shown.
     pub pictures: bool,
-    /// There is a study to start with.
-    pub quickstart: bool,
 }
 
 /// Where new things are put.
@@ -121,8 +128,8 @@ pub struct State {
     pub nav: Navigation,
     /// What is open above the screen.
     pub overlay: Option<Overlay>,
-    /// What the status line says.
-    pub notice: Option<Notice>,
+    /// What the user is told.
+    pub told: Told,
     /// The run that was started here.
     pub running: Running,
     /// How drapes are seen.
@@ -167,7 +174,7 @@ impl State {
                 table_down: 0,
             },
             overlay: None,
-            notice: None,
+            told: Told::default(),
             running: Running::default(),
             pictures: Pictures::default(),
             study: Study::default(),
@@ -234,12 +241,12 @@ impl State {
 
     /// Says something in the status line.
     pub fn say(&mut self, text: impl Into<String>) {
-        self.notice = Some(Notice { text: text.into(), is_error: false });
+        self.told.notice = Some(Notice { text: text.into(), is_error: false });
     }
 
     /// Says in the status line that something went wrong.
     pub fn complain(&mut self, text: impl Into<String>) {
-        self.notice = Some(Notice { text: text.into(), is_error: true });
+        self.told.notice = Some(Notice { text: text.into(), is_error: true });
     }
 
     /// Shows a screen; one that was shown before is gone back to.

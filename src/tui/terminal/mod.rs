@@ -1,6 +1,7 @@
 //! The terminal: taken at the start, given back at the end, however that comes.
 
 pub mod clipboard;
+pub mod editor;
 pub mod framed;
 
 use std::io::{IsTerminal, Stdout};
@@ -124,6 +125,19 @@ impl Display {
     /// Takes note that a key was pressed.
     pub fn key_pressed(&mut self) {
         self.last_key = Some(Instant::now());
+    }
+
+    /// Gives the terminal to another program while `work` is done, and takes it again.
+    ///
+    /// # Errors
+    /// When the terminal is gone.
+    pub fn lend<T>(&mut self, work: impl FnOnce() -> T) -> io::Result<T> {
+        restore();
+        let outcome = work();
+        terminal::enable_raw_mode()?;
+        execute!(io::stdout(), terminal::EnterAlternateScreen, cursor::Hide)?;
+        self.terminal.clear()?;
+        Ok(outcome)
     }
 
     /// Has everything drawn anew.

@@ -188,7 +188,8 @@ pub fn work(task: SeamTask) -> Message {
             Message::LaidOut(Box::new(request), layout.map_err(|error| error.to_string()))
         }
         SeamTask::Sew(request, step) => {
-            Message::Sewn(request.style, piece.after(&step).map_err(|error| error.to_string()))
+            let seams = piece.after(&step).map_err(|error| error.to_string());
+            Message::Sewn(Box::new((request, step)), seams)
         }
     }
 }

@@ -2,8 +2,9 @@
 
 use super::{Bench, fixture};
 use crate::keys::screen::Screen;
+use crate::messages::effect::{Effect, Writing};
 use crate::messages::seams::{PreviewRequest, Previewed};
-use crate::messages::{effect::Effect, message::Message, requests::Command};
+use crate::messages::{message::Message, requests::Command};
 use crate::overlays::Overlay;
 use crate::screens::styles::state::TableLine;
 use crate::widgets::theme::Colours;
@@ -210,7 +211,7 @@ fn a_garment_is_sewn_coarsely_while_its_seams_are_edited() {
     bench.press("<Enter>x");
     let next = sewn(&bench).pop().expect("it is asked for again");
     assert!(next.number > first.number && next.size.seams.is_some());
-    assert!(bench.screen().contains("sewing it again…"), "{}", bench.screen());
+    assert!(bench.screen().contains("again…"), "{}", bench.screen());
     bench.send(Message::Previewed(Box::new(next), seen(Hung::Undone, "a seam stays open")));
     assert!(bench.screen().contains("✗ not sewn up; a seam stays"), "{}", bench.screen());
     // Where there is no room for both, it takes the place of the pieces.
@@ -277,4 +278,47 @@ fn the_palette_reaches_seams_from_anywhere_and_glyphs_need_no_colour() {
     let wide = bench.press("z").screen();
     assert!(wide.contains("front") && wide.matches('●').count() > screen.matches('●').count() / 2);
     assert!(!bench.press("<Esc>").state.styles.enlarged);
+}
+
+#[test]
+fn what_was_done_is_told_as_commands() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("3<Enter>xuxe1w");
+    let file = match bench.asked().pop() {
+        Some(Effect::Do(Command::SaveSeams(_, seams))) => seams,
+        other => panic!("{other:?}"),
+    };
+    assert!(bench.press("L").screen().contains("nothing yet"), "{}", bench.screen());
+    bench.press("<Esc>").send(Message::SeamsSaved("tshirt".into(), file, Ok("saved".into())));
+    bench.press("nL");
+    let screen = bench.screen();
+    // What was taken back is not among them.
+    assert_eq!(screen.matches("toile style sew tshirt/S rm").count(), 1, "{screen}");
+    assert!(screen.contains("toile style sew tshirt/S add"), "{screen}");
+    match bench.press("Y").asked().pop() {
+        Some(Effect::Copy(text)) => assert_eq!(text.lines().count(), 2, "{text}"),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn seams_are_written_by_hand_in_an_editor() {
+    let mut bench = Bench::example(80, 24);
+    bench.press("3<Enter>E");
+    let what = match bench.asked().pop() {
+        Some(Effect::Write(what @ Writing::Seams(..))) => what,
+        other => panic!("{other:?}"),
+    };
+    let Writing::Seams(_, file) = &what else { return };
+    let text = String::from_utf8_lossy(&file.bytes).into_owned();
+    bench.send(Message::Written(Box::new(what.clone()), Ok(text.clone())));
+    assert!(bench.status().contains("as they were") && bench.state.styles.edits.is_empty());
+    bench.send(Message::Written(Box::new(what.clone()), Ok(format!("# mine\n{text}"))));
+    assert!(saved(&mut bench).bytes.starts_with(b"# mine\n"), "{}", bench.status());
+    bench.send(Message::Written(Box::new(what.clone()), Ok("name = 1".into())));
+    assert!(bench.state.styles.edits["tshirt"].len() == 1 && !bench.status().contains("done"), "{}", bench.status());
+    bench.send(Message::Written(Box::new(what), Err("vi: not found".into())));
+    assert!(bench.status().contains("not found"));
+    bench.press("7<Esc>E");
+    assert!(bench.asked().iter().any(|effect| matches!(effect, Effect::Write(Writing::Query(_)))));
 }

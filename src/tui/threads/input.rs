@@ -1,6 +1,10 @@
 //! The threads that wait for keys and signals.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::Sender;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+use std::time::Duration;
 
 use crossterm::event;
 use crossterm::event::Event;
@@ -9,10 +13,47 @@ use signal_hook::iterator::Signals;
 
 use crate::messages::message::Message;
 
+/// Longest time for which keys are waited for at once, and pause before they are waited for again where another program has them.
+const WAIT: Duration = Duration::from_millis(200);
+const AWAY: Duration = Duration::from_millis(10);
+
+/// The keyboard, which another program may have for a while.
+#[derive(Clone, Default)]
+pub struct Keyboard {
+    is_lent: Arc<AtomicBool>,
+    reading: Arc<Mutex<()>>,
+}
+
+impl Keyboard {
+    /// Does what takes the keyboard; no key is read meanwhile.
+    pub fn lend<T>(&self, work: impl FnOnce() -> T) -> T {
+        self.is_lent.store(true, Ordering::SeqCst);
+        let reading = self.reading.lock().unwrap_or_else(PoisonError::into_inner);
+        let outcome = work();
+        drop(reading);
+        self.is_lent.store(false, Ordering::SeqCst);
+        outcome
+    }
+
+    /// The next event, or none within a while.
+    fn next(&self) -> std::io::Result<Option<Event>> {
+        if self.is_lent.load(Ordering::SeqCst) {
+            thread::sleep(AWAY);
+            return Ok(None);
+        }
+        let _reading = self.reading.lock().unwrap_or_else(PoisonError::into_inner);
+        if event::poll(WAIT)? { event::read().map(Some) } else { Ok(None) }
+    }
+}
+
 /// Waits for keys, and tells them.
-pub fn read_keys(sender: &Sender<Message>) {
+pub fn read_keys(keyboard: &Keyboard, sender: &Sender<Message>) {
     loop {
-        let message = match event::read() {
+        let event = match keyboard.next().transpose() {
+            Some(event) => event,
+            None => continue,
+        };
+        let message = match event {
             Ok(Event::Key(key)) => Message::Key(key),
             Ok(Event::Resize(width, height)) => Message::Resize(width, height),
             Ok(Event::Mouse(event)) => Message::Mouse(event),

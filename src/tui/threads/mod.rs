@@ -4,7 +4,7 @@
 pub mod alterations;
 pub mod database;
 pub mod files;
-mod input;
+pub mod input;
 mod pictures;
 mod previews;
 pub mod queries;
@@ -27,6 +27,7 @@ use crate::messages::requests::{FileTask, QueryRequest, Target};
 use crate::messages::seams::{PreviewRequest, SeamTask};
 use crate::messages::snapshot::Focus;
 use crate::threads::database::Request;
+use crate::threads::input::Keyboard;
 use crate::threads::previews::Slot;
 use crate::threads::queries::Canceller;
 use crate::widgets::picture::{PictureEncoder, PictureRequest};
@@ -36,6 +37,8 @@ use study::{JobId, Live, Workspace};
 pub struct Threads {
     /// What they say.
     pub messages: Receiver<Message>,
+    /// The keyboard that one of them reads.
+    pub keyboard: Keyboard,
     sender: Sender<Message>,
     database: Sender<Request>,
     pictures: Sender<Vec<PictureRequest>>,
@@ -49,7 +52,7 @@ pub struct Threads {
     files: Sender<FileTask>,
     live: Arc<Live>,
     path: PathBuf,
-    quickstart: Option<PathBuf>,
+    quickstart: PathBuf,
     stop: Arc<AtomicBool>,
     run: Mutex<Option<JoinHandle<()>>>,
 }
@@ -57,16 +60,13 @@ pub struct Threads {
 impl Threads {
     /// Starts all threads but that of runs.
     #[must_use]
-    pub fn start(
-        workspace: Workspace,
-        encoder: Option<PictureEncoder>,
-        quickstart: Option<PathBuf>,
-        reports: PathBuf,
-    ) -> Self {
+    pub fn start(workspace: Workspace, encoder: Option<PictureEncoder>, quickstart: PathBuf, reports: PathBuf) -> Self {
         let (sender, messages) = mpsc::channel();
         let (path, readonly) = (workspace.path().to_owned(), workspace.is_readonly());
         let canceller = Canceller::default();
-        spawn(&sender, input::read_keys);
+        let keyboard = Keyboard::default();
+        let own = keyboard.clone();
+        spawn(&sender, move |sender| input::read_keys(&own, sender));
         spawn(&sender, input::watch_signals);
         let here = || path.clone();
         let (of_pictures, of_sections, of_seams, of_previews, of_queries, of_files, cancelled) =
@@ -89,6 +89,7 @@ impl Threads {
             queries: serve(&sender, move |asked, sender| queries::serve(&of_queries, &cancelled, asked, sender)),
             files: serve(&sender, move |asked, sender| files::serve(&of_files, readonly, &reports, asked, sender)),
             messages,
+            keyboard,
             sender,
             canceller,
             live: Arc::default(),
@@ -126,19 +127,21 @@ impl Threads {
             Effect::Watch(job) => self.live.watch(job),
             Effect::Run(target) => self.start_run(target),
             Effect::StopRun => self.stop.store(true, Ordering::Relaxed),
-            Effect::Copy(_) | Effect::Clear | Effect::Mouse(_) | Effect::Quit => {}
+            Effect::Write(_) | Effect::Copy(_) | Effect::Clear | Effect::Mouse(_) | Effect::Quit => {}
         }
     }
 
     fn start_run(&self, target: Target) {
+        let is_quickstart = target == Target::Quickstart;
         let path = match target {
             Target::Study(path) => path,
-            Target::Quickstart => self.quickstart.clone().unwrap_or_default(),
+            Target::Quickstart => self.quickstart.clone(),
         };
         self.stop.store(false, Ordering::Relaxed);
         let (database, stop, live) = (self.path.clone(), self.stop.clone(), self.live.clone());
         let handle = spawn(&self.sender, move |sender| {
-            let outcome = run::follow(&database, &path, &stop, &live, sender);
+            let made = if is_quickstart { study::write_quickstart(&path) } else { Ok(()) };
+            let outcome = made.and_then(|()| run::follow(&database, &path, &stop, &live, sender));
             let _ = sender.send(Message::RunEnded(outcome.map_err(|error| error.to_string())));
         });
         *self.run.lock().unwrap_or_else(PoisonError::into_inner) = handle;

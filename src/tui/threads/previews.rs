@@ -70,6 +70,6 @@ impl Room {
         let Some((_, mannequin)) = &self.ready else { return Err(StudyError::Interrupted) };
         let stored = workspace.workpiece(request.size.key)?;
         let piece = Workpiece { seams: request.size.seams.clone().or(stored.seams.clone()), ..stored };
-        Ok((mannequin.name.clone(), piece.preview(mannequin, is_stale)?))
+        Ok((mannequin.name.clone(), piece.preview(mannequin, request.care, is_stale)?))
     }
 }

@@ -25,7 +25,7 @@ pub fn serve(database: &Path, readonly: bool, wanted: &Receiver<SeamTask>, sende
                 }
                 SeamTask::Sew(request, step) => {
                     let seams = workspace.and_then(|it| sew(it, &request, &step).map_err(|error| error.to_string()));
-                    Message::Sewn(request.style, seams)
+                    Message::Sewn(Box::new((request, step)), seams)
                 }
             };
             if sender.send(message).is_err() {

@@ -17,10 +17,6 @@ impl State {
 
     /// Runs what is wanted, where that can be.
     pub fn run(&mut self, target: Target) -> Vec<Effect> {
-        if target == Target::Quickstart && !self.setup.abilities.quickstart {
-            self.complain("the quickstart study is not installed here: give `toile run` a folder with a study.toml");
-            return vec![];
-        }
         if !self.setup.abilities.run {
             self.complain("this workbench is read-only: start it without --readonly to run a study");
             return vec![];

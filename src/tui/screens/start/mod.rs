@@ -17,7 +17,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
         Line::raw(""),
     ];
     let can_run = state.setup.abilities.run;
-    lines.extend(match (&state.running.target, can_run && state.setup.abilities.quickstart) {
+    lines.extend(match (&state.running.target, can_run) {
         (Some(_), _) => vec![Line::styled("▶ The quickstart is being made ready…", state.theme.busy())],
         (None, true) => vec![
             Line::styled("Enter  run the quickstart", bold),
@@ -25,10 +25,6 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
             Line::raw(""),
             Line::styled("a      make a study of your own", bold),
             Line::raw("       Choose subjects, styles, fabric, simulators; it writes a study.toml."),
-        ],
-        (None, false) if can_run => vec![
-            Line::styled("a      make a study of your own", bold),
-            Line::raw("       The quickstart study is not installed here."),
         ],
         (None, false) => vec![Line::raw("It is open read-only: start without --readonly to run a study.")],
     });

@@ -60,7 +60,8 @@ impl State {
         let row = self.size_row()?;
         let study = self.data.as_ref().and_then(|data| data.study());
         let study = study.filter(|study| study.garments.contains(&row.style)).map(|study| study.path.clone());
-        let seams = self.styles.edits.get(&row.style).and_then(|edits| edits.last()).cloned();
+        let seams = self.styles.edits.get(&row.style).and_then(|edits| edits.last());
+        let seams = seams.map(|edited| edited.seams.clone());
         Some(LayoutRequest { style: row.style.clone(), key: row.key, seams, study })
     }
 

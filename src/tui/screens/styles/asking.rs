@@ -59,6 +59,13 @@ impl State {
         }
     }
 
+    /// Asks what is to be decided, from a place of the list on.
+    pub fn ask_from(&mut self, at: usize) {
+        if self.may_sew() {
+            self.ask_about(Asking { at, own: None, goes_on: true });
+        }
+    }
+
     /// Asks about the selected edge, or its piece.
     pub fn ask_own(&mut self, own: fn(EdgeAt) -> Own) {
         if self.may_sew() {

@@ -68,7 +68,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
         Some(asked) => question::draw(frame, table_area, state, &asked),
         None => draw_table(frame, table_area, state, on_desk),
     }
-    draw_pieces(frame, pieces_area, state, on_desk);
+    draw_pieces(frame, pieces_area, state, on_desk && state.styles.asking.is_none());
 }
 
 /// Where pieces and the garment sewn of them are drawn; `None` where there is only room for lists.

@@ -78,6 +78,7 @@ impl Page for StylesPage {
             Action::RemoveSeam => return Some(state.remove_seam()),
             Action::FlipSeam => return Some(state.flip_seam()),
             Action::Decide => state.decide(),
+            Action::TryOn => return Some(state.try_on()),
             Action::ProposeSeams => return Some(state.propose_seams()),
             Action::SaveSeams => return Some(state.save_seams()),
             _ => return None,

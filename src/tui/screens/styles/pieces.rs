@@ -13,8 +13,10 @@ use crate::screens::state::State;
 use crate::screens::styles::state::EdgeAt;
 use crate::widgets::lists::pane;
 use crate::widgets::text::{shortened, width};
-use study::seams::{DeskEdge, DeskPiece};
+use study::seams::{DeskEdge, DeskPiece, DeskSeam};
 
+/// Digits of answers.
+const DIGITS: [&str; 9] = ["1", "2", "3", "4", "5", "6", "7", "8", "9"];
 /// How far labels stand off their edge, in dots of braille: inside the piece first.
 const OFFSETS: [f64; 6] = [6.0, 9.0, 3.0, 13.0, -6.0, -9.0];
 
@@ -119,9 +121,14 @@ impl Drawing<'_> {
         frame.render_widget(canvas, *area);
     }
 
-    /// The selected edge and what is sewn to it, in glyphs that need no colour.
+    /// The selected edge and what is sewn to it, in glyphs that need no colour; what may be sewn to it, by the digit of the answer.
     fn selection(&self, frame: &mut Frame<'_>) {
         let chosen = self.state.styles.edge;
+        let asked = self.state.asked();
+        let offered = |at: EdgeAt| {
+            let choices = &asked.as_ref()?.choices;
+            choices.iter().position(|choice| choice.edges.contains(&at)).filter(|place| *place < DIGITS.len())
+        };
         let seam = self.layout.seam_at(chosen).map(|k| &self.layout.out.desk.seams[k]);
         let others = seam.map_or(&[][..], |seam| if seam.a.contains(&chosen) { &seam.b } else { &seam.a });
         for (at, _, edge) in self.edges() {
@@ -129,11 +136,24 @@ impl Drawing<'_> {
                 at if at == chosen => "●",
                 at if self.state.styles.marks.contains(&at) => "◆",
                 at if others.contains(&at) => "○",
-                _ => continue,
+                at => match offered(at) {
+                    Some(place) => DIGITS[place],
+                    None => continue,
+                },
             };
             let style = Style::new().fg(self.colour(at)).add_modifier(Modifier::BOLD);
             for cell in walked(edge, self.view.scale * 1.5).into_iter().filter_map(|place| self.view.cell(place)) {
                 frame.buffer_mut()[cell].set_symbol(glyph).set_style(style);
+            }
+        }
+        for (at, is_forwards) in seam.map_or(vec![], sides) {
+            let edge = &self.layout.out.desk.pieces[at.0].edges[at.1];
+            let [place, inwards] = middle(edge);
+            // Along the edge, a quarter turn back from inwards.
+            let along = [inwards[1], -inwards[0]].map(|x| if is_forwards { x } else { -x });
+            if let Some(cell) = self.view.cell(place) {
+                let style = Style::new().fg(self.colour(at)).add_modifier(Modifier::BOLD | Modifier::REVERSED);
+                frame.buffer_mut()[cell].set_symbol(arrow(along)).set_style(style);
             }
         }
     }
@@ -186,6 +206,22 @@ impl Drawing<'_> {
                 return;
             }
         }
+    }
+}
+
+/// The edges of a seam, each with whether the seam runs along it as it is drawn: both sides then run together.
+fn sides(seam: &DeskSeam) -> Vec<(EdgeAt, bool)> {
+    let forwards = seam.a.iter().map(|edge| (*edge, true));
+    forwards.chain(seam.b.iter().map(|edge| (*edge, seam.same_direction))).collect()
+}
+
+/// The arrow nearest to a direction, `y` up.
+fn arrow([x, y]: [f64; 2]) -> &'static str {
+    match (x.abs() > y.abs(), x > 0.0, y > 0.0) {
+        (true, true, _) => "→",
+        (true, false, _) => "←",
+        (false, _, true) => "↑",
+        (false, _, false) => "↓",
     }
 }
 

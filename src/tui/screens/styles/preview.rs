@@ -5,18 +5,22 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::Line;
 use ratatui::widgets::Paragraph;
 
+use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
-use crate::messages::seams::{PreviewRequest, Previewed};
-use crate::screens::picture_pane::draw::draw_shot;
+use crate::messages::seams::{LayoutRequest, PreviewRequest, Previewed};
+use crate::screens::picture_pane::draw::{draw_shot, parts};
 use crate::screens::state::State;
 use crate::widgets::layout::{WIDE, is_narrow};
 use crate::widgets::lists::pane;
 use crate::widgets::picture::{FRONT, Pictured, look_name, next_view};
-use crate::widgets::text::wrapped;
-use study::seams::Hung;
+use crate::widgets::text::{shortened, wrapped};
+use study::SubjectId;
+use study::seams::{Care, Hung};
 
-/// Lines below the picture.
-const TOLD: u16 = 3;
+/// Lines below the picture, besides that of a legend: in a high pane, and in others.
+const TOLD: [u16; 2] = [5, 2];
+/// Lines of a high pane.
+const HIGH: u16 = 30;
 
 impl State {
     /// Whether the pane is there: beside the pieces where there is room, else instead of them.
@@ -37,10 +41,31 @@ impl State {
         if asked.is_some_and(|asked| asked.size == size && asked.subject == subject) {
             return None;
         }
-        let number = asked.map_or(1, |asked| asked.number + 1);
-        let request = PreviewRequest { number, size, subject };
+        Some(self.dress(size, subject, Care::Glance))
+    }
+
+    fn dress(&mut self, size: LayoutRequest, subject: SubjectId, care: Care) -> Effect {
+        let number = self.styles.preview.asked.as_ref().map_or(1, |asked| asked.number + 1);
+        let request = PreviewRequest { number, size, subject, care };
         self.styles.preview.asked = Some(request.clone());
-        Some(Effect::Preview(request))
+        Effect::Preview(request)
+    }
+
+    /// Drapes the selected size on the subject in hand as a study does.
+    pub fn try_on(&mut self) -> Vec<Effect> {
+        self.show(Screen::Styles);
+        let subject = self.subject().map(|subject| (subject.id, subject.name.clone()));
+        let (Some((subject, name)), Some(size)) = (subject, self.layout_request()) else {
+            self.say("a size and a subject are needed: i imports a style, 2 shows the subjects");
+            return vec![];
+        };
+        if !self.setup.abilities.pictures {
+            self.say("pictures are off (--images off)");
+            return vec![];
+        }
+        self.styles.preview.is_chosen = true;
+        self.say(format!("draping {} {} on {name}…", size.style, self.size_row().map_or("", |row| &row.size)));
+        vec![self.dress(size, subject, Care::Trial)]
     }
 
     /// Takes in a garment that was sewn coarsely.
@@ -68,8 +93,7 @@ impl State {
     pub fn previewed(&self, area: Rect) -> Vec<(Pictured, Rect)> {
         let number =
             self.styles.preview.seen.as_ref().filter(|(_, seen)| seen.is_ok()).map(|(request, _)| request.number);
-        let pane =
-            place(self, area).map(|pane| split(Rect::new(pane.x + 1, pane.y + 1, pane.width - 2, pane.height - 2))[0]);
+        let pane = place(self, area).map(|pane| Rect { height: pane.height.saturating_sub(told_lines(pane)), ..pane });
         number.map(Pictured::Preview).zip(pane).into_iter().collect()
     }
 }
@@ -85,8 +109,15 @@ pub fn place(state: &State, area: Rect) -> Option<Rect> {
     Some(Layout::horizontal([Constraint::Fill(3), Constraint::Fill(2)]).areas::<2>(area)[1])
 }
 
-fn split(inner: Rect) -> [Rect; 2] {
-    Layout::vertical([Constraint::Fill(1), Constraint::Length(TOLD)]).areas(inner)
+fn told_lines(pane: Rect) -> u16 {
+    TOLD[usize::from(pane.height < HIGH)]
+}
+
+/// The picture, as large as it is asked for, and what is told below it.
+fn split(pane: Rect, inner: Rect) -> [Rect; 2] {
+    let (picture, _) = parts(Rect { height: inner.height.saturating_sub(told_lines(pane)), ..inner });
+    let told = Rect { y: picture.bottom(), height: inner.bottom().saturating_sub(picture.bottom()), ..inner };
+    [picture, told]
 }
 
 /// Draws the pane.
@@ -98,7 +129,7 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
         _ => "on the body".to_owned(),
     };
     let block = pane(state.theme, on, false).title_bottom(Line::styled(" v turns it ", state.theme.legend()));
-    let [picture, told] = split(block.inner(area));
+    let [picture, told] = split(area, block.inner(area));
     frame.render_widget(block, area);
     let is_current = seen.is_some_and(|(request, _)| Some(request) == state.styles.preview.asked.as_ref());
     let (text, style) = match seen {
@@ -107,19 +138,30 @@ pub fn draw(frame: &mut Frame<'_>, area: Rect, state: &State) {
         }
         None => ("sewing it…".to_owned(), state.theme.busy()),
         Some((_, Err(error))) => (format!("✗ {error}"), state.theme.bad()),
-        Some((_, Ok(seen))) => {
+        Some((request, Ok(seen))) => {
             let (sign, style) = match seen.hung {
+                Hung::Draped if request.care == Care::Trial => ("✓ draped as a study does", state.theme.good()),
                 Hung::Draped => ("✓ sewn and draped coarsely", state.theme.good()),
                 Hung::Undone => ("✗ not sewn up", state.theme.bad()),
                 Hung::Not => ("✗ not placed", state.theme.bad()),
             };
-            let again = if is_current { "" } else { ", sewing it again…" };
+            let again = match state.styles.preview.asked.as_ref().map(|asked| asked.care) {
+                _ if is_current => "",
+                Some(Care::Trial) => "; draping it…",
+                _ => "; sewing it again…",
+            };
             let remarks = seen.remarks.iter().map(|remark| format!("; {remark}")).collect::<String>();
             (format!("{sign}{remarks}{again}"), style)
         }
     };
-    let lines: Vec<Line<'_>> =
-        wrapped(&text, usize::from(told.width)).into_iter().map(|text| Line::styled(text, style)).collect();
+    let mut texts = wrapped(&text, usize::from(told.width));
+    if texts.len() > usize::from(told.height) {
+        texts.truncate(usize::from(told.height));
+        if let Some(last) = texts.last_mut() {
+            *last = shortened(&format!("{last} …………"), usize::from(told.width));
+        }
+    }
+    let lines: Vec<Line<'_>> = texts.into_iter().map(|text| Line::styled(text, style)).collect();
     frame.render_widget(Paragraph::new(lines), told);
     if let Some((request, Ok(_))) = seen {
         draw_shot(frame, picture, state, Some(Pictured::Preview(request.number)), "");

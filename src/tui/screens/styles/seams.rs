@@ -3,12 +3,13 @@
 use crate::keys::screen::Screen;
 use crate::messages::effect::Effect;
 use crate::messages::requests::Command;
-use crate::messages::seams::SeamTask;
+use crate::messages::seams::{LayoutRequest, SeamTask};
+use crate::messages::taught;
 use crate::screens::state::State;
-use crate::screens::styles::state::EdgeAt;
-use study::Part;
+use crate::screens::styles::state::{EdgeAt, Edited};
 use study::files::SourceFile;
 use study::seams::{DeskSeam, SeamEdit, SeamStep};
+use study::{Part, SizeRow};
 
 impl State {
     /// Gives the seams the focus; whether they can be worked on now.
@@ -111,8 +112,10 @@ impl State {
         self.show(Screen::Styles);
         self.nav.second_pane[Screen::Styles as usize] = true;
         let is_decided = self.layout().and_then(Result::ok).is_none_or(|layout| layout.out.undecided.is_empty());
-        if had_focus || !is_decided {
+        if had_focus {
             self.begin_asking();
+        } else if !is_decided {
+            self.ask_from(0);
         }
     }
 
@@ -143,12 +146,16 @@ impl State {
     }
 
     /// Takes in a seam file after a step of work.
-    pub fn sewn(&mut self, style: String, outcome: Result<SourceFile, String>) {
+    pub fn sewn(&mut self, (request, step): (LayoutRequest, SeamStep), outcome: Result<SourceFile, String>) {
         self.styles.is_busy = false;
+        let of_size = |row: &SizeRow| row.key.size == request.key.size;
+        let size = self.data.iter().flat_map(|data| &data.sizes).find(|row| of_size(row));
+        let size = size.map_or_else(|| request.style.clone(), |row| format!("{}/{}", row.style, row.size));
+        let style = request.style;
         match outcome {
             Ok(seams) => {
                 self.styles.undone.remove(&style);
-                self.styles.edits.entry(style).or_default().push(seams);
+                self.styles.edits.entry(style).or_default().push(Edited { size, step, seams });
                 self.say("done; w saves it, u takes it back");
             }
             Err(text) => self.complain(text),
@@ -189,7 +196,9 @@ impl State {
             return vec![];
         }
         let Some(style) = self.size_row().map(|row| row.style.clone()) else { return vec![] };
-        let Some(seams) = self.styles.edits.get(&style).and_then(|edits| edits.last()).cloned() else {
+        let Some(seams) =
+            self.styles.edits.get(&style).and_then(|edits| edits.last()).map(|edited| edited.seams.clone())
+        else {
             self.say(format!("{style} is as saved: nothing to save"));
             return vec![];
         };
@@ -202,8 +211,10 @@ impl State {
             Ok(text) => text,
             Err(text) => return self.complain(text),
         };
-        if self.styles.edits.get(style).and_then(|edits| edits.last()) == Some(seams) {
-            self.styles.edits.remove(style);
+        let is_last = |edits: &&Vec<Edited>| edits.last().is_some_and(|last| last.seams == *seams);
+        if self.styles.edits.get(style).filter(is_last).is_some() {
+            let edits = self.styles.edits.remove(style).unwrap_or_default();
+            self.told.commands.extend(edits.iter().map(|edited| taught::sewn(&edited.size, &edited.step)));
         }
         let desk = self.styles.layout.as_ref().filter(|(request, _)| request.style == style);
         let home = desk

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::messages::seams::{LayoutRequest, PreviewRequest, Previewed, SizeLayout};
 use study::files::SourceFile;
+use study::seams::SeamStep;
 
 /// An edge by its piece and its place on it.
 pub type EdgeAt = (usize, usize);
@@ -13,10 +14,10 @@ pub type EdgeAt = (usize, usize);
 pub struct Styles {
     /// Style and size selected.
     pub selected: Option<(String, String)>,
-    /// Seam files of styles as edited and not saved, the latest last.
-    pub edits: BTreeMap<String, Vec<SourceFile>>,
+    /// Edits of styles that are not saved, the latest last.
+    pub edits: BTreeMap<String, Vec<Edited>>,
     /// Edits that were taken back, the latest last.
-    pub undone: BTreeMap<String, Vec<SourceFile>>,
+    pub undone: BTreeMap<String, Vec<Edited>>,
     /// What is asked, while questions are answered.
     pub asking: Option<Asking>,
     /// The garment sewn coarsely.
@@ -35,6 +36,17 @@ pub struct Styles {
     pub is_busy: bool,
     /// Whether the pieces have all the room.
     pub enlarged: bool,
+}
+
+/// A seam file after a step of work.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Edited {
+    /// The size that was worked on, `STYLE/SIZE`.
+    pub size: String,
+    /// The step.
+    pub step: SeamStep,
+    /// The seam file then.
+    pub seams: SourceFile,
 }
 
 /// Where the user is among what is to be decided.

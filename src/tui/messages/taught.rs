@@ -1,0 +1,104 @@
+//! The command line that does what an action does: what is done here teaches what to type, and a log of it can be replayed.
+
+use crate::messages::effect::Effect;
+use crate::messages::requests::{Command, FileTask, QueryRequest, Target};
+use crate::widgets::text::quoted;
+use study::seams::{SeamEdit, SeamStep};
+use study::{Mode, NewStudy, Part, StyleGiven};
+
+/// The command of an effect; `None` where it changes nothing and writes nothing.
+#[must_use]
+pub fn command(effect: &Effect) -> Option<String> {
+    match effect {
+        Effect::Do(command) => of_command(command),
+        Effect::Run(Target::Study(path)) => Some(format!("toile run {}", quoted(&path.to_string_lossy()))),
+        Effect::Run(Target::Quickstart) => Some("toile run quickstart".to_owned()),
+        Effect::Files(FileTask::BuildReport(study)) => Some(format!("toile report {}", quoted(study))),
+        Effect::Files(FileTask::CreateStudy(new)) => Some(new_study(new)),
+        Effect::Query(QueryRequest::Rows(sql)) => Some(format!("toile sql {}", quoted(sql))),
+        _ => None,
+    }
+}
+
+fn of_command(command: &Command) -> Option<String> {
+    let part_of = |part: &Part| part.to_string();
+    Some(match command {
+        Command::Save(part, mode, name, given) => {
+            let deed = if *mode == Mode::Add { "add" } else { "edit" };
+            let flags = given.iter().map(|(key, value)| format!(" --{} {}", key.replace('_', "-"), quoted(value)));
+            format!("toile {} {deed} {}{}", part_of(part), quoted(name), flags.collect::<String>())
+        }
+        Command::Import(part, path) => {
+            format!("toile {} import {}", part_of(part), quoted(&path.to_string_lossy()))
+        }
+        Command::Remove(part, name) => format!("toile {} rm {}", part_of(part), quoted(name)),
+        Command::ImportStyle(name, given) => style(name, given),
+        // Their steps are told one by one once they are saved.
+        Command::SaveSeams(..) => return None,
+        Command::WriteSeams(path, ..) => format!("# wrote {}", path.display()),
+        Command::Cancel(job) => format!("toile queue cancel {job}"),
+        Command::Retry(job) => format!("toile queue retry {job}"),
+        Command::Prioritise(job, step) => format!("# priority of {job} by {step:+}"),
+        Command::Pause(study) => format!("toile queue pause {}", quoted(study)),
+        Command::Resume(study) => format!("toile queue resume {}", quoted(study)),
+    })
+}
+
+fn style(name: &str, given: &StyleGiven) -> String {
+    let is_study = |path: &std::path::Path| path.extension().is_some_and(|ending| ending == "toml");
+    if let [(None, path)] = given.patterns.as_slice()
+        && is_study(path)
+    {
+        return format!("toile style import {}", quoted(&path.to_string_lossy()));
+    }
+    let mut text = format!("toile style add {}", quoted(name));
+    for (size, path) in &given.patterns {
+        let path = path.to_string_lossy();
+        let pattern = size.as_ref().map_or_else(|| path.to_string(), |size| format!("{size}={path}"));
+        text += &format!(" --pattern {}", quoted(&pattern));
+    }
+    if let Some(seams) = &given.seams {
+        text += &format!(" --seams {}", quoted(&seams.to_string_lossy()));
+    } else if given.is_proposed {
+        text += " --propose";
+    }
+    text += &given.unit.as_ref().map_or_else(String::new, |unit| format!(" --unit {}", quoted(unit)));
+    text
+}
+
+fn new_study(new: &NewStudy) -> String {
+    let mut text = format!("toile study new {}", quoted(&new.folder.join(&new.name).to_string_lossy()));
+    new.subjects.iter().for_each(|subject| text += &format!(" --subject {}", quoted(subject)));
+    for size in &new.sizes {
+        text += &format!(" --wear {}", quoted(&format!("{}/{}", size.style, size.size)));
+    }
+    new.simulators.iter().for_each(|simulator| text += &format!(" --sim {}", simulator.as_str()));
+    text + &format!(" --fabric {}", quoted(&new.fabric))
+}
+
+/// The command of a step of work on the seams of a size, `STYLE/SIZE`.
+#[must_use]
+pub fn sewn(size: &str, step: &SeamStep) -> String {
+    let told = |words: &[&str]| words.iter().map(|word| format!(" {}", quoted(word))).collect::<String>();
+    let words = match step {
+        SeamStep::Written(_) => return format!("# the seams of {size} were written by hand"),
+        SeamStep::Edit(SeamEdit::Add { a, b, name, is_eased }) => {
+            let name = name.as_ref().map_or_else(String::new, |name| format!(" --name {}", quoted(name)));
+            told(&["add", a, b]) + &name + if *is_eased { " --eased" } else { "" }
+        }
+        SeamStep::Edit(SeamEdit::Remove { a, b }) => told(&["rm", a, b]),
+        SeamStep::Edit(SeamEdit::Flip { a, b }) => told(&["flip", a, b]),
+        SeamStep::Edit(SeamEdit::Open { edge }) => told(&["open", edge]),
+        SeamStep::Edit(SeamEdit::LeaveOut { piece }) => told(&["leave-out", piece]),
+        SeamStep::Edit(SeamEdit::Role { piece, role }) => told(&["role", piece, role]),
+        SeamStep::Confirm(seam) => told(&["confirm", seam]),
+        SeamStep::ConfirmSure => told(&["confirm"]),
+        SeamStep::Answer { question, choice } => {
+            let letter = u8::try_from(*choice).map_or('?', |choice| (b'a' + choice.min(25)) as char);
+            told(&["answer", question, &letter.to_string()])
+        }
+        SeamStep::Decide(question) => told(&["settle", question]),
+        SeamStep::Propose(_) => told(&["propose"]),
+    };
+    format!("toile style sew {}{words}", quoted(size))
+}
